@@ -1,0 +1,22 @@
+# Helpers of this package's CMake files.
+
+# The warnings every target of ours is built with.
+function(nord_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor)
+  if(NORD_DRIVER_STRICT)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(NORD_DRIVER_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+    target_link_libraries(${target} PRIVATE -fsanitize=address,undefined)
+  endif()
+endfunction()
+
+# A unit test: nord_gtest(NAME SOURCES a.cpp ... LIBS lib ...). It runs without a ROS master.
+function(nord_gtest name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  catkin_add_gtest(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
+  target_link_libraries(${name} ${ARG_LIBS} GTest::gmock GTest::gtest GTest::gtest_main Threads::Threads)
+  nord_warnings(${name})
+endfunction()

@@ -1,0 +1,25 @@
+// Types that carry their unit, for the places where two plain doubles could be swapped.
+#pragma once
+
+namespace nord_driver {
+
+/// Angular velocity in rad/s, positive by the right-hand rule about the joint's axis.
+struct RadPerSec {
+  double value = 0.0;
+};
+
+/// Electrical frequency in Hz; the sign is the direction of rotation (positive: right-hand field).
+struct Hertz {
+  double value = 0.0;
+};
+
+/// A share of a nominal size: 1.0 = 100 %.
+struct Ratio {
+  double value = 0.0;
+};
+
+constexpr bool operator==(RadPerSec a, RadPerSec b) noexcept { return a.value == b.value; }
+constexpr bool operator==(Hertz a, Hertz b) noexcept { return a.value == b.value; }
+constexpr bool operator==(Ratio a, Ratio b) noexcept { return a.value == b.value; }
+
+}  // namespace nord_driver

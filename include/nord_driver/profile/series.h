@@ -1,0 +1,22 @@
+// The inverter series this driver knows.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace nord_driver::profile {
+
+enum class Series : std::uint8_t { kSk1x0e, kSk2xxe, kSk300e, kSk5xxe, kSk54xe, kSk700e, kSk750e };
+
+constexpr std::array<Series, 7> kAllSeries{Series::kSk1x0e, Series::kSk2xxe, Series::kSk300e, Series::kSk5xxe,
+                                           Series::kSk54xe, Series::kSk700e, Series::kSk750e};
+
+/// "sk5xxe", as configurations write it.
+const char* toString(Series series) noexcept;
+
+/// The series of a configuration's word; none when the word is unknown.
+std::optional<Series> seriesFrom(const std::string& name);
+
+}  // namespace nord_driver::profile

@@ -1,0 +1,95 @@
+// The plugin interface: one class per way to reach the inverters.
+//
+// A transport moves the process data of a fixed list of drives over one bus, once per bus cycle, and answers parameter
+// requests beside it. It knows nothing of commands, states or stops: it carries words. Whoever owns a bus card with a
+// driver of its own writes one class of these and declares it to pluginlib.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nord_driver/core/time.h"
+#include "nord_driver/profile/parameter_request.h"
+#include "nord_driver/profile/process_data.h"
+#include "nord_driver/profile/series.h"
+#include "nord_driver/transport/settings.h"
+
+namespace nord_driver {
+
+using DriveIndex = std::size_t;
+
+/// What the last cycle brought from one inverter.
+struct DriveExchange {
+  profile::ProcessInput input;
+  bool module_answers = false;    ///< the bus module took part in data exchange in this cycle
+  bool inverter_answers = false;  ///< ... and the inverter behind it is on: `input` is fresh
+};
+
+/// What a transport tells about a drive once it knows it; constant while the drive stays online.
+struct DriveIdentity {
+  std::uint32_t ident = 0;         ///< PROFIBUS ident number, or vendor << 16 | product; 0 = not known
+  std::string address;             ///< "PROFIBUS station 3"
+  std::string parameter_channel;   ///< "PKW", "SDO", "none"
+  std::string protected_by;        ///< what stops the drive when this computer dies, in words
+};
+
+/// Counters since start-up and the state of the bus. Copied once per cycle: no strings of variable length.
+struct BusCounters {
+  std::uint64_t cycles = 0;
+  std::uint64_t telegrams_sent = 0;
+  std::uint64_t telegrams_received = 0;
+  std::uint64_t retries = 0;
+  std::uint64_t timeouts = 0;
+  std::uint64_t checksum_errors = 0;
+  std::uint64_t parity_errors = 0;
+  std::uint64_t discarded_bytes = 0;
+  std::uint64_t unexpected = 0;
+  std::uint64_t stale = 0;  ///< parameter answers that did not match the order
+};
+
+/// Why a drive does not answer, or what it needs: a sentence for a technician. Fixed strings, safe to copy in the cycle.
+struct DriveNote {
+  const char* text = "";
+};
+
+/// Calling order: configure() once, then open() and exchange() for ever, from one thread. After configure() nothing
+/// throws; after the first cycles nothing allocates. A transport whose device is gone keeps answering `exchange()` with
+/// drives that are silent, and tries to reopen by itself at least every 2 s.
+class Transport {
+ public:
+  virtual ~Transport() = default;
+
+  /// Reads the `bus` settings and the drives' own (address, ppo_type, ...). Throws ConfigError naming key and value.
+  virtual void configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) = 0;
+
+  /// Time of this bus (the steady clock, or a simulated one in tests).
+  virtual Instant now() const noexcept = 0;
+  /// Waits without bus traffic.
+  virtual void sleepUntil(Instant when) noexcept = 0;
+
+  /// One bus cycle: sends every drive its output, collects the inputs; both have one element per drive, in the order of
+  /// `configure()`. Returns when all have answered, were given up, or the device is closed.
+  virtual void exchange(const std::vector<profile::ProcessOutput>& outputs,
+                        std::vector<DriveExchange>& inputs) noexcept = 0;
+
+  /// Queues a parameter access; it runs beside the process data. False: the queue of this drive is full.
+  virtual bool submit(DriveIndex drive, const profile::ParameterRequest& request) noexcept = 0;
+  /// The next finished access, whichever drive it was of.
+  virtual std::optional<profile::ParameterResult> pollResult() noexcept = 0;
+
+  /// The bus device is open and at least one station answers.
+  virtual bool connected() const noexcept = 0;
+  virtual BusCounters counters() const noexcept = 0;
+  virtual DriveNote note(DriveIndex drive) const noexcept = 0;
+  /// One sentence on the device itself ("/dev/ttyUSB0: no such file"), empty when it is fine. Not for the cycle thread.
+  virtual std::string busText() const = 0;
+  virtual DriveIdentity identity(DriveIndex drive) const = 0;
+
+  /// Ends the exchange: closes the device. The drives must have been stopped before.
+  virtual void close() noexcept = 0;
+};
+
+}  // namespace nord_driver
