@@ -30,10 +30,10 @@ struct DriveExchange {
 
 /// What a transport tells about a drive once it knows it; constant while the drive stays online.
 struct DriveIdentity {
-  std::uint32_t ident = 0;         ///< PROFIBUS ident number, or vendor << 16 | product; 0 = not known
-  std::string address;             ///< "PROFIBUS station 3"
-  std::string parameter_channel;   ///< "PKW", "SDO", "none"
-  std::string protected_by;        ///< what stops the drive when this computer dies, in words
+  std::uint32_t ident = 0;        ///< PROFIBUS ident number, or vendor << 16 | product; 0 = not known
+  std::string address;            ///< "PROFIBUS station 3"
+  std::string parameter_channel;  ///< "PKW", "SDO", "none"
+  std::string protected_by;       ///< what stops the drive when this computer dies, in words
 };
 
 /// Counters since start-up and the state of the bus. Copied once per cycle: no strings of variable length.
@@ -50,7 +50,8 @@ struct BusCounters {
   std::uint64_t stale = 0;  ///< parameter answers that did not match the order
 };
 
-/// Why a drive does not answer, or what it needs: a sentence for a technician. Fixed strings, safe to copy in the cycle.
+/// Why a drive does not answer, or what it needs: a sentence for a technician. Fixed strings, safe to copy in the
+/// cycle.
 struct DriveNote {
   const char* text = "";
 };
