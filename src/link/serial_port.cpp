@@ -9,21 +9,17 @@
 #include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
-#include <sys/sysmacros.h>
 #include <time.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <utility>
 
+#include "nord_driver/link/serial_devices.h"
+
 namespace nord_driver::link {
 
 namespace {
-
-// Linux' Documentation/admin-guide/devices.txt: majors 136-143 are the slave ends of ptys.
-bool isPtyDevice(const struct stat& status) noexcept {
-  return S_ISCHR(status.st_mode) && major(status.st_rdev) >= 136 && major(status.st_rdev) <= 143;
-}
 
 constexpr double kMaxRateError = 0.005;
 
@@ -44,11 +40,6 @@ LineCounters readCounters(int fd) noexcept {
 }
 
 }  // namespace
-
-bool isPty(const std::string& device) noexcept {
-  struct stat status {};
-  return ::stat(device.c_str(), &status) == 0 && isPtyDevice(status);
-}
 
 SerialPort::SerialPort(SerialSettings settings) : settings_(std::move(settings)) {
   error_.reserve(512);  // so that naming an error in the bus cycle does not allocate
@@ -81,7 +72,7 @@ bool SerialPort::configure() noexcept {
   struct stat status {};
   if (::fstat(fd_, &status) != 0) return fail("cannot be examined", errno);
   if (!S_ISCHR(status.st_mode) || isatty(fd_) == 0) return fail("is no serial device", 0);
-  is_pty_ = isPtyDevice(status);
+  is_pty_ = isPty(settings_.device);
   // A lock and not TIOCEXCL: the exclusive mark would outlive us on a pty whose other end keeps it open.
   if (::flock(fd_, LOCK_EX | LOCK_NB) != 0) return fail("is in use by another process", 0);
   if (!setRateAndFrame()) return false;

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "nord_driver/link/serial_devices.h"
 #include "nord_driver/link/serial_port.h"
 #include "support/pty_pair.h"
 
@@ -42,6 +43,8 @@ TEST(SerialPort, KnowsAPty) {
   EXPECT_TRUE(isPty(pty.path()));
   EXPECT_FALSE(isPty("/dev/null"));
   EXPECT_FALSE(isPty("/nowhere"));
+  EXPECT_FALSE(isNativeUart(pty.path()));
+  EXPECT_FALSE(isNativeUart("/nowhere"));
   SerialPort port{settingsFor(pty)};
   ASSERT_TRUE(port.open());
   EXPECT_FALSE(port.keepsBaudRate());

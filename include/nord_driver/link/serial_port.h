@@ -50,7 +50,4 @@ class SerialPort final : public ByteLink {
   std::string error_;
 };
 
-/// True for a device that moves bytes without any time of its own (a pty): no rate, no parity, no pauses to be seen.
-bool isPty(const std::string& device) noexcept;
-
 }  // namespace nord_driver::link

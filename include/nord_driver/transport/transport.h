@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "nord_driver/core/fixed_text.h"
 #include "nord_driver/core/time.h"
 #include "nord_driver/profile/parameter_request.h"
 #include "nord_driver/profile/process_data.h"
@@ -85,8 +86,8 @@ class Transport {
   virtual bool connected() const noexcept = 0;
   virtual BusCounters counters() const noexcept = 0;
   virtual DriveNote note(DriveIndex drive) const noexcept = 0;
-  /// One sentence on the device itself ("/dev/ttyUSB0: no such file"), empty when it is fine. Not for the cycle thread.
-  virtual std::string busText() const = 0;
+  /// One sentence for a technician on the bus as a whole ("/dev/ttyUSB0: no such file"), empty when it is fine.
+  virtual Sentence busText() const noexcept = 0;
   virtual DriveIdentity identity(DriveIndex drive) const = 0;
 
   /// Ends the exchange: closes the device. The drives must have been stopped before.

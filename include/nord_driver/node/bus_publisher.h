@@ -1,0 +1,27 @@
+// The bus as a whole, once a second.
+#pragma once
+
+#include <ros/ros.h>
+
+#include <string>
+#include <vector>
+
+#include "nord_driver/BusStatus.h"
+#include "nord_driver/cycle/snapshot.h"
+
+namespace nord_driver::node {
+
+class BusPublisher {
+ public:
+  BusPublisher(ros::NodeHandle& private_node, std::vector<std::string> drive_names);
+  void publish(const cycle::CycleSnapshot& snapshot, ros::Time stamp);
+
+ private:
+  std::vector<std::string> names_;
+  ros::Publisher publisher_;
+};
+
+/// One sentence for a technician: what the bus waits for, or that all is well.
+std::string busSentence(const cycle::CycleSnapshot& snapshot, const std::vector<std::string>& drive_names);
+
+}  // namespace nord_driver::node
