@@ -21,19 +21,24 @@ struct Step {
 };
 
 rc::Gen<Step> anyStep() {
-  // Mostly words of real inverters in any set, sometimes any word at all.
-  const auto real =
-      rc::gen::map(rc::gen::pair(rc::gen::element<Word>(0x0B70, 0x0B31, 0x0B31, 0x0B33, 0x0B37, 0x0B37, 0x0B17, 0x0B38,
-                                                        0x0B3F, 0x0931, 0x0937, 0x0000),
-                                 rc::gen::weightedElement<Word>({{12, 0x0000}, {1, 0x4000}, {1, 0x8000}})),
-                   [](const std::pair<Word, Word>& pair) {
-                     return static_cast<Word>(pair.first == 0 ? 0 : pair.first | pair.second);
-                   });
+  // Mostly the words of an inverter on its way up or running, sometimes trouble, another set, or any word at all.
+  const auto real = rc::gen::weightedElement<Word>({{100, 0x0B37},
+                                                    {12, 0x0B31},
+                                                    {3, 0x0B33},
+                                                    {3, 0x0B70},
+                                                    {1, 0x0B17},
+                                                    {1, 0x0B38},
+                                                    {1, 0x0931},
+                                                    {1, 0x0937},
+                                                    {1, 0x8B31},
+                                                    {1, 0x4937},
+                                                    {1, 0x0000}});
   return rc::gen::build<Step>(
-      rc::gen::set(&Step::status_word, rc::gen::weightedOneOf<Word>({{9, real}, {1, rc::gen::arbitrary<Word>()}})),
-      rc::gen::set(&Step::actual_value), rc::gen::set(&Step::fresh, rc::gen::element(true, true, true, true, false)),
-      rc::gen::set(&Step::request, rc::gen::inRange(0, 8)),
-      rc::gen::set(&Step::milliseconds, rc::gen::element(10, 10, 10, 100)),
+      rc::gen::set(&Step::status_word, rc::gen::weightedOneOf<Word>({{100, real}, {1, rc::gen::arbitrary<Word>()}})),
+      rc::gen::set(&Step::actual_value),
+      rc::gen::set(&Step::fresh, rc::gen::weightedElement<bool>({{15, true}, {1, false}})),
+      rc::gen::set(&Step::request, rc::gen::weightedElement<int>({{1, 0}, {1, 1}, {1, 2}, {2, 3}, {60, 5}, {10, 7}})),
+      rc::gen::set(&Step::milliseconds, rc::gen::weightedElement<int>({{20, 10}, {1, 100}})),
       rc::gen::set(&Step::velocity, rc::gen::element(0.0, 3.0, -3.0, 1e9, -1e300, std::nan(""), HUGE_VAL)));
 }
 
@@ -93,7 +98,6 @@ class Universe {
         return drive_.requestSetpointZero(now_);
       case 3:
         return drive_.requestAcknowledge(now_);
-      case 6:
       case 7:
         if (may_enable) drive_.requestEnable(now_);
         return;
@@ -122,18 +126,30 @@ RC_GTEST_PROP(DriveProperty, NeverOperatesWithoutEnable, ()) {
 }
 
 // With enables too: the set is the learned one, the setpoint within 4000h and 0 unless operating, 0000 only while
-// offline.
+// offline. Begins enabled: chance alone gets there too seldom.
 RC_GTEST_PROP(DriveProperty, KeepsItsWordsInBounds, ()) {
   const auto steps = *rc::gen::container<std::vector<Step>>(anyStep());
   Universe universe;
-  bool operated = false;
+  Step up;
+  up.fresh = true;
+  up.milliseconds = 10;
+  up.velocity = 3.0;
+  for (const int status : {0x0B70, 0x0B31, 0x0B31, 0x0B37, 0x0B37}) {
+    up.status_word = static_cast<Word>(status);
+    up.request = status == 0x0B31 ? 7 : 5;
+    universe.step(up, true);
+  }
+  RC_ASSERT(universe.commandsOperation());
+  int operated = 0;
   for (const Step& step : steps) {
     universe.step(step, true);
     universe.checkEverySequence();
-    if (universe.commandsOperation()) RC_ASSERT(universe.wasOnline());
-    operated = operated || universe.commandsOperation();
+    if (universe.commandsOperation()) {
+      RC_ASSERT(universe.wasOnline());
+      ++operated;
+    }
   }
-  RC_CLASSIFY(operated);
+  RC_CLASSIFY(operated > 10);
 }
 
 }  // namespace
