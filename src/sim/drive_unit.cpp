@@ -1,0 +1,52 @@
+#include "nord_driver/sim/drive_unit.h"
+
+namespace nord_driver::sim {
+
+namespace {
+
+constexpr std::int32_t kControlByProfibus = 4;  // P509, BU 0020 6.2.2
+
+/// Commissioned as BU 2700 7.2 asks for before it is switched on, then as the configuration says.
+void commission(const DriveConfig& config, ParameterStore& parameters) {
+  parameters.preset(507, 0, 0, config.slave.ppo_type);
+  parameters.preset(508, 0, 0, config.slave.address);
+  parameters.preset(509, 0, 0, kControlByProfibus);
+  for (const ParameterPreset& preset : config.parameters) {
+    if (!parameters.preset(preset.number, preset.set, preset.element, preset.raw)) {
+      throw ConfigError("drive " + config.name + ": there is no parameter P" + std::to_string(preset.number) +
+                        " with set " + std::to_string(preset.set + 1) + " and element " +
+                        std::to_string(preset.element + 1));
+    }
+  }
+}
+
+}  // namespace
+
+DriveUnit::DriveUnit(const DriveConfig& config, Referee& referee)
+    : config_(config),
+      motor_(config.motor),
+      inverter_(parameters_, motor_, seconds(config.charging_time)),
+      pkw_(parameters_, config.parameter_delay, config.ram_orders),
+      slave_(config.slave, parameters_, inverter_, pkw_, &referee) {
+  commission(config_, parameters_);
+  inverter_.setPowered(true);
+  slave_.setPowered(true);
+}
+
+void DriveUnit::advance(Duration span) noexcept {
+  slave_.advance(span);
+  inverter_.advance(span);
+}
+
+void DriveUnit::setPlugged(bool plugged) noexcept {
+  plugged_ = plugged;
+  setInverterPower(plugged);
+  slave_.setPowered(plugged);
+}
+
+void DriveUnit::setInverterPower(bool on) noexcept {
+  if (on && !inverter_.powered()) pkw_.reset();
+  inverter_.setPowered(on);
+}
+
+}  // namespace nord_driver::sim

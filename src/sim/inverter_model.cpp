@@ -1,0 +1,383 @@
+#include "nord_driver/sim/inverter_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nord_driver::sim {
+
+namespace {
+
+constexpr double kStep = 1e-3;                  // s
+constexpr double kFaultReaction = 5e-3;         // s, until "error reaction active" has become "fault"
+constexpr std::int32_t kControlByProfibus = 4;  // P509, BU 0020 6.2.2
+constexpr std::int32_t kInputAcknowledge = 12;  // P420.., BU 0020 8
+constexpr int kAcknowledgeAlways = 6;           // P506
+
+constexpr Word kEnable = stw::kOn | stw::kNoOff2 | stw::kNoOff3 | stw::kEnableOperation;
+constexpr Word kAllOn = kEnable | stw::kRampEnable | stw::kRampRun | stw::kSetpointEnable;  // X1111111
+
+/// Moves `value` towards `target` by at most `step`.
+double approach(double value, double target, double step) noexcept {
+  return value < target ? std::min(value + step, target) : std::max(value - step, target);
+}
+
+}  // namespace
+
+const char* toString(InverterState state) noexcept {
+  switch (state) {
+    case InverterState::kOff:
+      return "off";
+    case InverterState::kNotReadyToSwitchOn:
+      return "not ready to switch on";
+    case InverterState::kSwitchOnDisabled:
+      return "switch-on disabled";
+    case InverterState::kReadyToSwitchOn:
+      return "ready to switch on";
+    case InverterState::kSwitchedOn:
+      return "switched on";
+    case InverterState::kOperationEnabled:
+      return "operation enabled";
+    case InverterState::kQuickStopActive:
+      return "quick stop active";
+    case InverterState::kFaultReactionActive:
+      return "fault reaction active";
+    case InverterState::kFault:
+      return "fault";
+  }
+  return "?";
+}
+
+InverterModel::InverterModel(ParameterStore& parameters, Motor& motor, Duration charging_time)
+    : parameters_(parameters), motor_(motor), charging_time_(toSeconds(charging_time)) {}
+
+void InverterModel::advance(Duration span) noexcept {
+  double rest = toSeconds(span);
+  while (rest > 0.0) {
+    const double dt = std::min(rest, kStep);
+    step(dt);
+    rest -= dt;
+  }
+}
+
+void InverterModel::step(double dt) noexcept {
+  if (state_ == InverterState::kOff) {
+    motor_.advance(dt, false, 0.0);
+    return;
+  }
+  in_state_ += dt;
+  watchTimeout(dt);
+  acknowledgeByItself();
+  evaluate();
+  follow(dt);
+  const bool voltage = state_ == InverterState::kOperationEnabled || state_ == InverterState::kQuickStopActive;
+  motor_.advance(dt, voltage, frequency_);
+}
+
+void InverterModel::enter(InverterState next) noexcept {
+  state_ = next;
+  in_state_ = 0.0;
+  if (next != InverterState::kOperationEnabled && next != InverterState::kQuickStopActive) {
+    frequency_ = 0.0;  // voltage off: the wheel coasts
+    target_ = 0.0;
+  }
+}
+
+// The transitions, numbered as in BU 2700 6.4.3; the order of the tests is the priority of the commands (6.4.1).
+void InverterModel::evaluate() noexcept {
+  using S = InverterState;
+  const Word word = command();
+  const bool commanded = commanded_ || !busControl();
+  const bool off2 = (word & stw::kNoOff2) == 0;
+  const bool off3 = (word & stw::kNoOff3) == 0;
+  const bool on = (word & stw::kOn) != 0;
+  switch (state_) {
+    case S::kOff:
+      return;
+    case S::kNotReadyToSwitchOn:
+      if (in_state_ >= charging_time_) enter(S::kSwitchOnDisabled);  // 1
+      return;
+    case S::kSwitchOnDisabled:
+      if (commanded && !off2 && !off3 && !on) enter(S::kReadyToSwitchOn);  // 2
+      return;
+    case S::kReadyToSwitchOn:
+      if (off2 || off3) return enter(S::kSwitchOnDisabled);  // 7
+      if (on) enter(S::kSwitchedOn);                         // 3
+      return;
+    case S::kSwitchedOn:
+      if (off2 || off3) return enter(S::kSwitchOnDisabled);        // 10
+      if (!on) return enter(S::kReadyToSwitchOn);                  // 6
+      if ((word & kAllOn) == kAllOn) enter(S::kOperationEnabled);  // 4
+      return;
+    case S::kOperationEnabled:
+      if (off2) return enter(S::kSwitchOnDisabled);  // 9
+      if (off3) return enter(S::kQuickStopActive);   // 11
+      if (!on) {                                     // 8: only at f = 0; until then the command can be taken back
+        if (frequency_ == 0.0) enter(S::kReadyToSwitchOn);
+        return;
+      }
+      if ((word & stw::kEnableOperation) == 0) enter(S::kSwitchedOn);  // 5; the bit table of 6.4.1 says "ready" instead
+      return;
+    case S::kQuickStopActive:
+      if (off2 || frequency_ == 0.0) enter(S::kSwitchOnDisabled);  // 12, or done: 6.4.1 bit 2
+      return;
+    case S::kFaultReactionActive:
+      if (in_state_ >= kFaultReaction) enter(S::kFault);  // 14
+      return;
+    case S::kFault:
+      return;  // left by an acknowledgement only: 15
+  }
+}
+
+void InverterModel::follow(double dt) noexcept {
+  const double maximum = parameters_.scaled(105, set_);
+  const auto ramp = [&](unsigned number) {
+    // Ramp times are from 0 Hz to P105; 0 s is a step.
+    const double time = parameters_.scaled(number, set_);
+    return time > 0.0 ? maximum / time * dt : maximum * 1e6;
+  };
+  if (state_ == InverterState::kQuickStopActive) {
+    target_ = 0.0;
+    frequency_ = approach(frequency_, 0.0, ramp(426));
+    return;
+  }
+  if (state_ != InverterState::kOperationEnabled) return;
+
+  const Word word = command();
+  unsigned braking = 103;
+  if ((word & stw::kOn) == 0) {
+    target_ = 0.0;
+  } else if ((word & stw::kRampEnable) == 0) {
+    target_ = 0.0;  // bit 4 = 0 runs the quick stop ramp and stays in "operation enabled"
+    braking = 426;
+  } else if ((word & stw::kRampRun) == 0) {
+    target_ = setpointFrequency();
+    return;  // bit 5 = 0 holds the frequency
+  } else {
+    target_ = setpointFrequency();
+  }
+  const bool away_from_zero = frequency_ == 0.0 || (frequency_ > 0.0 ? target_ > frequency_ : target_ < frequency_);
+  if (away_from_zero) {
+    frequency_ = approach(frequency_, target_, ramp(102));
+  } else {
+    const double next = (frequency_ > 0.0) == (target_ > 0.0) ? target_ : 0.0;  // a reversal passes zero
+    frequency_ = approach(frequency_, next, ramp(braking));
+  }
+}
+
+double InverterModel::setpointFrequency() const noexcept {
+  const double maximum = parameters_.scaled(105, set_);
+  double share = 0.0;
+  bool left = false;
+  if (!busControl()) {
+    share = maximum > 0.0 ? local_setpoint_ / maximum : 0.0;
+  } else {
+    const bool frequency = parameters_.value(546, set_) == 1;
+    if (frequency && (data_.control & stw::kSetpointEnable) != 0) share = toSigned(data_.setpoints[0]) / kFullScale;
+    // Bit 11 beats bit 12; both 0 is right (6.4.1 note 3).
+    left = (data_.control & stw::kLeft) != 0 && (data_.control & stw::kRight) == 0;
+  }
+  share = std::clamp(left ? -share : share, -1.0, 1.0);
+  const double frequency = share * maximum;
+  const double minimum = parameters_.scaled(104, set_);
+  if (std::fabs(frequency) < minimum) return share < 0.0 || left ? -minimum : minimum;
+  return frequency;
+}
+
+Word InverterModel::command() const noexcept {
+  if (busControl()) return data_.control;
+  return static_cast<Word>(local_setpoint_ != 0.0 ? kAllOn : kAllOn & ~(stw::kOn | stw::kEnableOperation));
+}
+
+bool InverterModel::busControl() const noexcept {
+  return !local_ && parameters_.value(509) == kControlByProfibus;
+}
+
+void InverterModel::setPowered(bool on) noexcept {
+  if (on == powered()) return;
+  if (!on) {
+    enter(InverterState::kOff);
+    return;
+  }
+  parameters_.restoreFromEeprom();
+  commanded_ = false;
+  data_ = ProcessData{};
+  set_ = 0;
+  fault_ = 0;
+  warning_ = 0;
+  tripped_cause_ = master_lost_ = timed_out_ = false;
+  automatic_acknowledgements_ = 0;
+  parameters_.show(700, 0, 0);
+  parameters_.show(700, 1, 0);
+  enter(InverterState::kNotReadyToSwitchOn);
+}
+
+void InverterModel::receive(const ProcessData& data) noexcept {
+  if (!powered() || link_broken_ || (data.control & stw::kDataValid) == 0) return;
+  const Word before = commanded_ ? data_.control : Word{0};
+  data_ = data;
+  commanded_ = true;
+  since_valid_ = 0.0;
+  master_lost_ = timed_out_ = false;
+  if (busControl()) selectParameterSet(data.control >> stw::kParameterSetShift);
+
+  const bool edge = (before & stw::kAcknowledge) == 0 && (data.control & stw::kAcknowledge) != 0;
+  // Taking the enable away acknowledges too, unless an input has the function (BU 0020 8, BU 2700 8.2).
+  const bool enable_dropped = (before & kEnable) == kEnable && (data.control & kEnable) != kEnable;
+  if (edge || (enable_dropped && !inputAcknowledges())) acknowledge();
+}
+
+void InverterModel::selectParameterSet(unsigned set) noexcept {
+  if (set == set_) return;
+  set_ = set;  // at once, turning or not: SW1 and IW1 are shares of the new set's P105 from now on (BU 0020 7.3.5)
+  ++set_switches_;
+}
+
+void InverterModel::masterLost() noexcept {
+  if (!powered() || ignoresBusErrors()) return;
+  master_lost_ = true;
+  trip(fault::kMasterLost, false);
+}
+
+void InverterModel::setModuleLink(bool intact) noexcept {
+  link_broken_ = !intact;
+  if (link_broken_ && powered() && !ignoresBusErrors()) trip(fault::kModuleLink, false);
+}
+
+// P513 > 0: no control word with bit 10 = 1 for that long is E10.3 (BU 2700 7.1.1, 8.3).
+void InverterModel::watchTimeout(double dt) noexcept {
+  since_valid_ += dt;
+  const double limit = parameters_.scaled(513);
+  if (!commanded_ || limit <= 0.0 || timed_out_ || since_valid_ < limit) return;
+  timed_out_ = true;
+  trip(fault::kTimeout, false);
+}
+
+bool InverterModel::ignoresBusErrors() const noexcept {
+  return parameters_.value(513) < 0;
+}
+
+void InverterModel::trip(std::uint16_t number, bool cause_stays) noexcept {
+  if (!powered()) return;
+  tripped_cause_ = tripped_cause_ || cause_stays;
+  if (state_ == InverterState::kFault || state_ == InverterState::kFaultReactionActive) return;
+  fault_ = number;
+  for (unsigned i = 4; i > 0; --i) parameters_.show(701, i, parameters_.value(701, 0, i - 1));
+  parameters_.show(701, 0, number);
+  parameters_.show(700, 0, number);
+  enter(InverterState::kFaultReactionActive);  // 13
+}
+
+void InverterModel::setWarning(std::uint16_t number) noexcept {
+  warning_ = number;
+  parameters_.show(700, 1, number);
+}
+
+bool InverterModel::causeStands() const noexcept {
+  return tripped_cause_ || master_lost_ || timed_out_ || (link_broken_ && !ignoresBusErrors());
+}
+
+bool InverterModel::acknowledge() noexcept {
+  if (state_ != InverterState::kFault || causeStands()) return false;
+  fault_ = 0;
+  parameters_.show(700, 0, 0);
+  enter(InverterState::kSwitchOnDisabled);  // 15
+  return true;
+}
+
+// P506: 1-5 times since mains on, 6 always. The counts are not in the bus manuals; 7 acts like 0 here.
+void InverterModel::acknowledgeByItself() noexcept {
+  const int allowed = parameters_.value(506);
+  if (allowed <= 0 || allowed > kAcknowledgeAlways) return;
+  if (allowed < kAcknowledgeAlways && automatic_acknowledgements_ >= allowed) return;
+  if (acknowledge()) ++automatic_acknowledgements_;
+}
+
+bool InverterModel::inputAcknowledges() const noexcept {
+  for (unsigned number = 420; number <= 425; ++number) {
+    if (parameters_.value(number) == kInputAcknowledge) return true;
+  }
+  return false;
+}
+
+void InverterModel::setLocalControl(bool on, double setpoint_hz) noexcept {
+  local_ = on;
+  local_setpoint_ = on ? setpoint_hz : 0.0;
+}
+
+Word InverterModel::statusWord() const noexcept {
+  using S = InverterState;
+  if (state_ == S::kOff) return 0;
+  Word word = 0;
+  switch (state_) {
+    case S::kOff:
+    case S::kNotReadyToSwitchOn:
+      break;
+    case S::kSwitchOnDisabled:
+      word = zsw::kSwitchOnDisabled;
+      break;
+    case S::kReadyToSwitchOn:
+      word = zsw::kReadyToSwitchOn;
+      break;
+    case S::kSwitchedOn:
+      word = zsw::kReadyToSwitchOn | zsw::kSwitchedOn;
+      break;
+    case S::kOperationEnabled:
+    case S::kQuickStopActive:
+      word = zsw::kReadyToSwitchOn | zsw::kSwitchedOn | zsw::kOperationEnabled;
+      break;
+    case S::kFaultReactionActive:
+      word = zsw::kReadyToSwitchOn | zsw::kSwitchedOn | zsw::kOperationEnabled | zsw::kFault;
+      break;
+    case S::kFault:
+      word = zsw::kFault;
+      break;
+  }
+  const bool commanded = commanded_ || !busControl();
+  const bool off2 = commanded && (command() & stw::kNoOff2) == 0;
+  const bool off3 = (commanded && (command() & stw::kNoOff3) == 0) || state_ == S::kQuickStopActive;
+  if (!off2) word |= zsw::kNoOff2;
+  if (!off3) word |= zsw::kNoOff3;
+  if (warning_ != 0) word |= zsw::kWarning;
+  if (frequency_ == target_) word |= zsw::kSetpointReached;
+  if (busControl()) word |= zsw::kBusControl;
+  word |= frequency_ < 0.0 ? zsw::kLeft : zsw::kRight;  // at rest "right": 0B31
+  return static_cast<Word>(word | set_ << zsw::kParameterSetShift);
+}
+
+Word InverterModel::actualValue(unsigned n) const noexcept {
+  if (state_ == InverterState::kOff || n > 2) return 0;
+  return functionValue(parameters_.value(543 + n, set_));
+}
+
+// BU 0020 6.2.2 (P543) and 7.3.7: shares of the nominal sizes, +-200 %.
+Word InverterModel::functionValue(std::int32_t function) const noexcept {
+  const double maximum = parameters_.scaled(105, set_);
+  double share = 0.0;
+  switch (function) {
+    case 1:
+      share = frequency_ / maximum;
+      break;
+    case 2:   // speed
+    case 22:  // speed encoder
+    case 23:  // actual frequency with slip
+      share = motor_.rotorFrequency() / maximum;
+      break;
+    case 3:
+      share = std::fabs(motor_.torqueShare());
+      break;
+    case 4:
+      share = motor_.torqueShare() * 100.0 / parameters_.scaled(112, set_);
+      break;
+    case 8:
+      share = target_ / maximum;
+      break;
+    case 9:
+      return fault_;
+    default:
+      break;
+  }
+  const double raw = std::round(share * kFullScale);
+  return toWord(static_cast<std::int16_t>(std::clamp(raw, -32768.0, 32767.0)));
+}
+
+}  // namespace nord_driver::sim

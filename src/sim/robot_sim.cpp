@@ -1,0 +1,104 @@
+#include "nord_driver/sim/robot_sim.h"
+
+#include <algorithm>
+
+namespace nord_driver::sim {
+
+namespace {
+
+constexpr Duration kStep = std::chrono::milliseconds(1);
+
+}  // namespace
+
+RobotSim::RobotSim(const SimConfig& config) : config_(config) {
+  for (const DriveConfig& drive : config_.drives) {
+    for (const std::unique_ptr<DriveUnit>& other : drives_) {
+      if (other->config().slave.address == drive.slave.address) {
+        throw ConfigError("drives " + other->name() + " and " + drive.name + " have the same address " +
+                          std::to_string(drive.slave.address) + "; expected one station each");
+      }
+    }
+    drives_.push_back(std::make_unique<DriveUnit>(drive, referee_));
+  }
+  if (config_.body) body_.emplace(config_.body->wheel_radius, config_.body->wheel_separation);
+}
+
+void RobotSim::advance(Instant now) noexcept {
+  if (!now_) {
+    now_ = now;
+    step(Duration::zero());
+  }
+  while (*now_ < now) {
+    const Duration span = std::min(kStep, now - *now_);
+    step(span);
+    *now_ += span;
+  }
+}
+
+void RobotSim::step(Duration span) noexcept {
+  for (const std::unique_ptr<DriveUnit>& drive : drives_) drive->advance(span);
+  if (!body_) return;
+  body_->moveTo(meanOf(config_.body->left, false), meanOf(config_.body->right, false));
+  body_->setSpeeds(meanOf(config_.body->left, true), meanOf(config_.body->right, true));
+}
+
+double RobotSim::meanOf(const std::vector<std::size_t>& group, bool speed) const noexcept {
+  double sum = 0.0;
+  for (const std::size_t index : group) sum += speed ? drives_[index]->wheelSpeed() : drives_[index]->wheelAngle();
+  return group.empty() ? 0.0 : sum / static_cast<double>(group.size());
+}
+
+void RobotSim::receive(ByteView bytes, Instant now, Judge judge, AnswerSink& sink) noexcept {
+  advance(now);
+  bool garbage = false;
+  for (const std::uint8_t byte : bytes) {
+    if (!input_.push_back(byte)) {
+      input_.eraseFront(1);
+      input_.push_back(byte);
+      garbage = true;
+    }
+  }
+  while (!input_.empty()) {
+    const ParseResult parsed = parseTelegram(input_, telegram_);
+    if (parsed.kind == ParseKind::kNeedMore) break;
+    if (parsed.kind == ParseKind::kMalformed) {
+      garbage = true;
+      input_.eraseFront(1);
+      continue;
+    }
+    input_.eraseFront(parsed.length);
+    if (judge == Judge::kYes) referee_.request(telegram_);
+    for (const std::unique_ptr<DriveUnit>& drive : drives_) {
+      const std::optional<WireBytes> reply = drive->slave().handle(telegram_);
+      if (reply) sink.answer(*reply, drive->answerDelay());
+    }
+  }
+  if (garbage && judge == Judge::kYes) referee_.broken(Rule::kNoTelegram);
+}
+
+void RobotSim::judgeOnly(ByteView bytes) noexcept {
+  Telegram telegram;
+  while (!bytes.empty()) {
+    const ParseResult parsed = parseTelegram(bytes, telegram);
+    if (parsed.kind != ParseKind::kTelegram) {
+      referee_.broken(Rule::kNoTelegram);
+      return;
+    }
+    referee_.request(telegram);
+    bytes = bytes.sub(parsed.length);
+  }
+}
+
+void RobotSim::delivered(const WireBytes& bytes) noexcept {
+  Telegram telegram;
+  if (parseTelegram(bytes, telegram).kind == ParseKind::kTelegram) referee_.answer(telegram);
+}
+
+DriveUnit* RobotSim::find(const std::string& name) noexcept {
+  for (const std::unique_ptr<DriveUnit>& drive : drives_) {
+    if (drive->name() == name) return drive.get();
+  }
+  return nullptr;
+}
+
+}  // namespace nord_driver::sim
