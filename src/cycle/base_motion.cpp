@@ -2,11 +2,6 @@
 
 namespace nord_driver::cycle {
 
-bool isStale(const TwistCommand& command, Duration timeout, Instant now) noexcept {
-  if (!command.given) return true;
-  return timeout > Duration::zero() && now - command.received > timeout;
-}
-
 BaseMotion::BaseMotion(const BaseConfig& config, Duration cmd_vel_timeout)
     : kinematics_(config.geometry),
       limiter_(config.limits),

@@ -73,6 +73,8 @@ void refuseJointsUsedTwice(const std::vector<DriveSettings>& sources, const std:
 CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSettings>& drives) {
   CycleConfig config;
   config.cycle_rate = numberOr(node, "cycle_rate", 100.0, kMinCycleRate, kMaxCycleRate, "Hz");
+  config.real_time.priority = static_cast<int>(integerOr(node, "realtime_priority", 0, 0, 99));
+  config.real_time.lock_memory = node.boolean("lock_memory").value_or(false);
   config.service_timeout = seconds(numberOr(node, "service_timeout", 3.0, 0.1, 60.0, "s"));
   config.shutdown_timeout = seconds(numberOr(node, "shutdown_timeout", 10.0, 0.1, 600.0, "s"));
   config.cmd_vel_timeout = seconds(numberOr(node, "cmd_vel_timeout", 0.5, 0.0, 60.0, "s"));

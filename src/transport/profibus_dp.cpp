@@ -183,6 +183,10 @@ DriveNote ProfibusDpTransport::note(DriveIndex drive) const noexcept {
   return {master_->status(config_.drives[drive].slave).note};
 }
 
+std::uint32_t ProfibusDpTransport::identNumber(DriveIndex drive) const noexcept {
+  return master_->status(config_.drives[drive].slave).ident.value_or(0);
+}
+
 Sentence ProfibusDpTransport::busText() const noexcept {
   Sentence text;
   if (!link_->isOpen()) {
@@ -199,7 +203,6 @@ Sentence ProfibusDpTransport::busText() const noexcept {
 DriveIdentity ProfibusDpTransport::identity(DriveIndex drive) const {
   const ProfibusDrive& config = config_.drives[drive];
   DriveIdentity identity;
-  identity.ident = master_->status(config.slave).ident.value_or(0);
   identity.address = "PROFIBUS station " + std::to_string(config_.slaves[config.slave].address.value());
   identity.parameter_channel = config.ppo.has_pkw ? "PKW" : "none";
   identity.protected_by = "PROFIBUS watchdog of " + shortNumber(toSeconds(config_.watchdog)) +

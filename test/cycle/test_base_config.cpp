@@ -1,8 +1,7 @@
-#include "nord_driver/cycle/base_config.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "nord_driver/cycle/base_config.h"
 #include "support/map_settings.h"
 
 namespace nord_driver::cycle {

@@ -1,9 +1,9 @@
-#include "nord_driver/cycle/base_motion.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+#include "nord_driver/cycle/base_motion.h"
 
 namespace nord_driver::cycle {
 namespace {
@@ -64,7 +64,9 @@ TEST_F(BaseMotionTest, ATimeoutOfZeroNeverEnds) {
   EXPECT_NEAR(3.0, patient.pollWheels(command_, true, true, kFastWheels, now_, kCycle).left, 1e-12);
 }
 
-TEST_F(BaseMotionTest, NothingMovesBeforeTheFirstCommand) { EXPECT_EQ((robot::WheelSpeeds{0.0, 0.0}), poll()); }
+TEST_F(BaseMotionTest, NothingMovesBeforeTheFirstCommand) {
+  EXPECT_EQ((robot::WheelSpeeds{0.0, 0.0}), poll());
+}
 
 TEST_F(BaseMotionTest, BrakesAlongTheDecelerationLimitWhenTheCommandMayNotBeFollowed) {
   motion_ = BaseMotion{configWithDeceleration(1.0), kTimeout};

@@ -1,9 +1,9 @@
-#include "nord_driver/cycle/device_reader.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
+
+#include "nord_driver/cycle/device_reader.h"
 
 namespace nord_driver::cycle {
 namespace {

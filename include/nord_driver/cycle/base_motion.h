@@ -3,22 +3,13 @@
 
 #include "nord_driver/core/time.h"
 #include "nord_driver/cycle/base_config.h"
+#include "nord_driver/cycle/commands.h"
 #include "nord_driver/robot/diff_drive_kinematics.h"
 #include "nord_driver/robot/odometry.h"
 #include "nord_driver/robot/twist_limiter.h"
 #include "nord_driver/robot/wheel_speeds.h"
 
 namespace nord_driver::cycle {
-
-/// The newest command of somebody outside, with the time it came.
-struct TwistCommand {
-  robot::Twist2d twist;
-  Instant received{};
-  bool given = false;  ///< false until the first command
-};
-
-/// No longer valid at `now`: never given, or older than `timeout`. A timeout of zero never ends.
-bool isStale(const TwistCommand& command, Duration timeout, Instant now) noexcept;
 
 /// One base. Stale commands and commands that may not be followed are targets of zero; a base that is not driving
 /// forgets its velocity, so that the next start begins from standstill.

@@ -9,18 +9,11 @@
 
 #include "nord_driver/core/event_ring.h"
 #include "nord_driver/core/latest_value.h"
-#include "nord_driver/cycle/base_motion.h"
+#include "nord_driver/cycle/commands.h"
 #include "nord_driver/cycle/request.h"
 #include "nord_driver/cycle/snapshot.h"
 
 namespace nord_driver::cycle {
-
-/// The newest velocity (rad/s at the joint) asked of a single drive.
-struct JointCommand {
-  double velocity = 0.0;
-  Instant received{};
-  bool given = false;
-};
 
 /// Outside threads call `command*`, `submit`, `waitCompletion` and `readSnapshot`; the cycle's thread uses the rest.
 class CyclePorts {

@@ -28,6 +28,7 @@ struct Request {
   DriveIndex drive = kAllDrives;
   Duration patience{};  ///< the longest the asker waits
   profile::ParameterRequest parameter;
+  bool active_set = false;  ///< the parameter's set is the one in force, whichever that is
 };
 
 struct Completion {

@@ -11,17 +11,18 @@
 
 namespace nord_driver::node {
 
+/// One sentence for a technician: what the bus waits for, or that all is well.
+std::string busSentence(const cycle::CycleSnapshot& snapshot, const std::vector<std::string>& drive_names);
+
 class BusPublisher {
  public:
   BusPublisher(ros::NodeHandle& private_node, std::vector<std::string> drive_names);
   void publish(const cycle::CycleSnapshot& snapshot, ros::Time stamp);
+  std::string sentence(const cycle::CycleSnapshot& snapshot) const { return busSentence(snapshot, names_); }
 
  private:
   std::vector<std::string> names_;
   ros::Publisher publisher_;
 };
-
-/// One sentence for a technician: what the bus waits for, or that all is well.
-std::string busSentence(const cycle::CycleSnapshot& snapshot, const std::vector<std::string>& drive_names);
 
 }  // namespace nord_driver::node

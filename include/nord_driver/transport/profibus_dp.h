@@ -37,6 +37,7 @@ class ProfibusDpTransport final : public Transport {
   bool connected() const noexcept override;
   BusCounters counters() const noexcept override;
   DriveNote note(DriveIndex drive) const noexcept override;
+  std::uint32_t identNumber(DriveIndex drive) const noexcept override;
   Sentence busText() const noexcept override;
   DriveIdentity identity(DriveIndex drive) const override;
   void close() noexcept override;

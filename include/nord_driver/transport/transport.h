@@ -29,9 +29,8 @@ struct DriveExchange {
   bool inverter_answers = false;  ///< ... and the inverter behind it is on: `input` is fresh
 };
 
-/// What a transport tells about a drive once it knows it; constant while the drive stays online.
+/// What a transport tells about a drive once it is configured.
 struct DriveIdentity {
-  std::uint32_t ident = 0;        ///< PROFIBUS ident number, or vendor << 16 | product; 0 = not known
   std::string address;            ///< "PROFIBUS station 3"
   std::string parameter_channel;  ///< "PKW", "SDO", "none"
   std::string protected_by;       ///< what stops the drive when this computer dies, in words
@@ -86,6 +85,8 @@ class Transport {
   virtual bool connected() const noexcept = 0;
   virtual BusCounters counters() const noexcept = 0;
   virtual DriveNote note(DriveIndex drive) const noexcept = 0;
+  /// What the bus module says it is: PROFIBUS ident number, or vendor << 16 | product; 0 = not known yet.
+  virtual std::uint32_t identNumber(DriveIndex drive) const noexcept = 0;
   /// One sentence for a technician on the bus as a whole ("/dev/ttyUSB0: no such file"), empty when it is fine.
   virtual Sentence busText() const noexcept = 0;
   virtual DriveIdentity identity(DriveIndex drive) const = 0;
