@@ -36,6 +36,7 @@ const std::map<std::string, Names>& table() {
       {"plugins", {"core", "transport"}},
       {"tools", kTools},
       {"node", kNode},
+      {"system", kNode},  // tests of the whole stack, without ROS
       {"rules", {}},
   };
   return kTable;
