@@ -54,6 +54,13 @@ TEST(SlaveConfig, IsRefusedInWords) {
   EXPECT_EQ("station 8: min T_SDR of 10 bit times: expected 11 to 255, or 0 to leave it",
             refusal([](SlaveConfig& slave) { slave.min_tsdr_bits = 10; }));
   EXPECT_EQ(
+      "station 8: the configuration bytes F3 F1 stand for 12 bytes of outputs and 12 of inputs, not for 12 and 20",
+      refusal([](SlaveConfig& slave) { slave.input_length = 20; }));
+  EXPECT_EQ("station 8: the configuration bytes F3 40 end in the middle of an identifier",
+            refusal([](SlaveConfig& slave) {
+              slave.configuration = {0xF3, 0x40};
+            }));
+  EXPECT_EQ(
       "station 8: a watchdog of 2.57 s cannot be told to a slave: expected 0 (off) or 0.01 to 650 s as a product "
       "f1 * f2 * 0.01 s of two factors up to 255; the next longer one is 2.58 s",
       refusal([](SlaveConfig& slave) { slave.watchdog = 2570ms; }));
