@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "nord_driver/profibus/configuration_bytes.h"
 #include "nord_driver/profibus/watchdog_factors.h"
 
 namespace nord_driver::profibus {
@@ -42,6 +43,16 @@ void requireWatchdog(const SlaveConfig& slave) {
   throw std::invalid_argument(name(slave) + sentence);
 }
 
+void requireMatchingLengths(const SlaveConfig& slave) {
+  const auto lengths = ioLengths(slave.configuration);
+  require(slave, lengths.has_value(),
+          "the configuration bytes " + toHex(slave.configuration) + " end in the middle of an identifier");
+  require(slave, lengths->outputs == slave.output_length && lengths->inputs == slave.input_length,
+          "the configuration bytes " + toHex(slave.configuration) + " stand for " + std::to_string(lengths->outputs) +
+              " bytes of outputs and " + std::to_string(lengths->inputs) + " of inputs, not for " +
+              std::to_string(slave.output_length) + " and " + std::to_string(slave.input_length));
+}
+
 }  // namespace
 
 void validate(const SlaveConfig& slave, const BusParameters& bus) {
@@ -60,6 +71,7 @@ void validate(const SlaveConfig& slave, const BusParameters& bus) {
   require(slave, slave.min_tsdr_bits == 0 || slave.min_tsdr_bits >= 11,
           "min T_SDR of " + std::to_string(slave.min_tsdr_bits) + " bit times: expected 11 to 255, or 0 to leave it");
   requireWatchdog(slave);
+  requireMatchingLengths(slave);
 }
 
 void validate(const std::vector<SlaveConfig>& slaves, const BusParameters& bus) {

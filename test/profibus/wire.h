@@ -37,9 +37,7 @@ inline SlaveConfig nordModule(int address) {
 /// Plays the other end. It is a referee, too: every request must follow at least 33 idle bit times (T_SYN).
 class Wire {
  public:
-  explicit Wire(const BusParameters& bus, const std::vector<SlaveConfig>& slaves) : bus_(bus), master(bus, slaves) {
-    restart();
-  }
+  Wire(const BusParameters& bus, const std::vector<SlaveConfig>& slaves) : bus_(bus), master(bus, slaves) { restart(); }
 
   void restart() {
     master.restart(now);

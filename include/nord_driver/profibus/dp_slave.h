@@ -69,6 +69,7 @@ class DpSlave {
   void startOver(const char* note) noexcept;
   void lose(LossCause cause, const char* text, DpEvents& events) noexcept;
   void backOff(const Fault& fault, Instant now, DpEvents& events) noexcept;
+  void forgetFaults() noexcept;
   DpEvent event(DpEventKind kind, const char* text) const noexcept;
 
   std::size_t index_;

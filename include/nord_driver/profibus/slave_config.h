@@ -22,8 +22,8 @@ struct SlaveConfig {
   std::vector<std::uint8_t>
       configuration;  ///< Chk_Cfg bytes as the slave expects them, 1..244; zeros are never stripped
   std::vector<std::uint8_t> user_parameters;  ///< behind the seven standard bytes of Set_Prm, 0..237
-  std::size_t output_length = 0;              ///< bytes per exchange, to the slave, 0..244
-  std::size_t input_length = 0;               ///< bytes per exchange, from the slave, 0..244
+  std::size_t output_length = 0;              ///< bytes per exchange to the slave, 0..244, as `configuration` says
+  std::size_t input_length = 0;               ///< bytes per exchange from the slave, 0..244, likewise
   Duration watchdog{0};                       ///< 10 ms..650.25 s, a product f1 * f2 * 10 ms; 0 = off
   std::uint8_t min_tsdr_bits = 11;            ///< 11..255; 0 leaves the slave's own value
   std::uint8_t group = 0;                     ///< group bits of Set_Prm
