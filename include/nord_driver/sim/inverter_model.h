@@ -75,9 +75,10 @@ class InverterModel {
   Word actualValue(unsigned n) const noexcept;
 
   InverterState state() const noexcept { return state_; }
-  double frequency() const noexcept { return frequency_; }       ///< output frequency, Hz, signed
-  unsigned parameterSet() const noexcept { return set_; }        ///< 0-3
-  std::uint16_t faultNumber() const noexcept { return fault_; }  ///< 0 = none
+  double frequency() const noexcept { return frequency_; }        ///< output frequency, Hz, signed
+  unsigned parameterSet() const noexcept { return set_; }         ///< 0-3
+  std::uint16_t faultNumber() const noexcept { return fault_; }   ///< 0 = none
+  Word setpoint1() const noexcept { return data_.setpoints[0]; }  ///< the last valid one
   std::uint64_t setSwitches() const noexcept { return set_switches_; }
   bool busControl() const noexcept;
 

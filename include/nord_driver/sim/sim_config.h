@@ -13,6 +13,10 @@
 #include "nord_driver/sim/dp_slave.h"
 #include "nord_driver/sim/motor.h"
 
+namespace YAML {
+class Node;
+}
+
 namespace nord_driver::sim {
 
 /// One sentence naming the key, the value and what was expected.
@@ -55,5 +59,21 @@ struct SimConfig {
   std::optional<BodyConfig> body;
   std::vector<std::string> warnings;  ///< keys nobody knows
 };
+
+/// Reads
+///
+///     bus: {device: /tmp/nord_sim_bus, baud_rate: 500000}
+///     drives:
+///       left: {address: 3, series: sk5xxe, ppo_type: 1, joint: left_wheel_joint, gear_ratio: 20.0, pole_pairs: 2,
+///              inertia: 0.01, slip: 2.0, parameters: {P105: 50.0, P102: [2.0, 2.0, 1.0, 1.0]}}
+///     body: {left: [left], right: [right], wheel_radius: 0.1, wheel_separation: 0.5}
+///
+/// Parameters are in the manual's unit, a list gives the four sets or the array elements. Without `body` the driver's
+/// keys left_wheel, right_wheel (joints), wheel_radius and wheel_separation are taken when all are there; without these
+/// there is no body. Throws ConfigError.
+SimConfig readSimConfig(const YAML::Node& root);
+
+/// `later` laid over `earlier`: maps are merged key by key, everything else is replaced.
+YAML::Node mergeYaml(const YAML::Node& earlier, const YAML::Node& later);
 
 }  // namespace nord_driver::sim

@@ -1,0 +1,265 @@
+#include "nord_driver/sim/sim_config.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <functional>
+
+#include "nord_driver/sim/parameter_store.h"
+
+namespace nord_driver::sim {
+
+namespace {
+
+std::string asText(const YAML::Node& node) {
+  if (node.IsScalar()) return node.Scalar().empty() ? "\"\"" : node.Scalar();
+  YAML::Emitter emitter;
+  emitter << YAML::Flow << node;
+  return emitter.c_str();
+}
+
+[[noreturn]] void refuse(const std::string& key, const YAML::Node& node, const std::string& expected) {
+  throw ConfigError(key + ": " + asText(node) + " is not valid; expected " + expected);
+}
+
+/// One map of the configuration with the name a user knows it by.
+class Group {
+ public:
+  Group(const YAML::Node& node, std::string name) : node_(node), name_(std::move(name)) {
+    if (node_.IsDefined() && !node_.IsNull() && !node_.IsMap()) refuse(name_, node_, "a group of keys");
+  }
+
+  std::string keyName(const std::string& key) const { return name_.empty() ? key : name_ + "/" + key; }
+  bool has(const std::string& key) const { return node_.IsMap() && node_[key].IsDefined() && !node_[key].IsNull(); }
+  YAML::Node operator[](const std::string& key) const { return node_[key]; }
+
+  template <typename T>
+  T get(const std::string& key, T fallback, const std::string& expected,
+        const std::function<bool(const T&)>& good = nullptr) const {
+    if (!has(key)) return fallback;
+    T value{};
+    try {
+      value = node_[key].as<T>();
+    } catch (const YAML::Exception&) {
+      refuse(keyName(key), node_[key], expected);
+    }
+    if (good && !good(value)) refuse(keyName(key), node_[key], expected);
+    return value;
+  }
+  double positive(const std::string& key, double fallback) const {
+    return get<double>(key, fallback, "a number greater than 0",
+                       [](const double& value) { return std::isfinite(value) && value > 0.0; });
+  }
+  double notNegative(const std::string& key, double fallback) const {
+    return get<double>(key, fallback, "a number not less than 0",
+                       [](const double& value) { return std::isfinite(value) && value >= 0.0; });
+  }
+  int integer(const std::string& key, int fallback, int minimum, int maximum) const {
+    return get<int>(key, fallback, "a whole number from " + std::to_string(minimum) + " to " + std::to_string(maximum),
+                    [&](const int& value) { return value >= minimum && value <= maximum; });
+  }
+  /// One text or a list of them.
+  std::vector<std::string> texts(const std::string& key) const {
+    const YAML::Node node = node_[key];
+    try {
+      if (node.IsScalar()) return {node.as<std::string>()};
+      return node.as<std::vector<std::string>>();
+    } catch (const YAML::Exception&) {
+      refuse(keyName(key), node, "a name or a list of names");
+    }
+  }
+
+ private:
+  YAML::Node node_;
+  std::string name_;
+};
+
+// What a drive may be called is what ROS lets a name be.
+bool isName(const std::string& name) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  return !name.empty() && letter(name[0]) &&
+         std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; });
+}
+
+void readParameter(const std::string& key, const std::string& name, const YAML::Node& values, DriveConfig& drive) {
+  static const ParameterStore catalogue;
+  const ParameterDefinition* definition = nullptr;
+  if (name.size() == 4 && name[0] == 'P' &&
+      std::all_of(name.begin() + 1, name.end(), [](unsigned char c) { return std::isdigit(c) != 0; })) {
+    definition = catalogue.find(static_cast<unsigned>(std::stoul(name.substr(1))));
+  }
+  if (definition == nullptr) {
+    throw ConfigError(key + ": " + name + " is no parameter of the simulated inverter; expected P102, P105, P513 ...");
+  }
+  const unsigned sets = definition->per_set ? ParameterStore::kSets : 1;
+  const unsigned places = sets * std::max<unsigned>(definition->elements, 1);
+  if (values.IsSequence() && values.size() != places) {
+    refuse(key, values, places == 1 ? "one number" : "one number or a list of " + std::to_string(places));
+  }
+  for (unsigned i = 0; i < places; ++i) {
+    const YAML::Node node = values.IsSequence() ? values[i] : values;
+    double value = 0.0;
+    try {
+      value = node.as<double>();
+    } catch (const YAML::Exception&) {
+      refuse(key, values, "a number in the unit of the manual");
+    }
+    const double raw = std::round(value * definition->divisor);
+    if (!(raw >= definition->minimum && raw <= definition->maximum)) {
+      const auto scaled = [&](std::int32_t limit) {
+        return YAML::Node(limit / static_cast<double>(definition->divisor));
+      };
+      refuse(key, values,
+             "a number from " + asText(scaled(definition->minimum)) + " to " + asText(scaled(definition->maximum)));
+    }
+    ParameterPreset preset;
+    preset.number = definition->number;
+    preset.set = i % sets;
+    preset.element = i / sets;
+    preset.raw = static_cast<std::int32_t>(raw);
+    drive.parameters.push_back(preset);
+  }
+}
+
+const std::vector<std::string>& driveKeys() {
+  static const std::vector<std::string> keys{
+      // the driver's
+      "address", "series", "ppo_type", "joint", "gear_ratio", "pole_pairs", "inverted", "max_frequency",
+      "rated_current", "inverter", "connection", "profile",
+      // the simulator's
+      "inertia", "rated_torque", "slip", "load", "viscous", "charging_time", "parameter_delay", "ram_orders",
+      "parameters"};
+  return keys;
+}
+
+void readSeries(const Group& group, DriveConfig& drive) {
+  const std::string series = group.get<std::string>("series", "sk5xxe", "a series");
+  if (series == "sk300e" || series == "sk700e" || series == "sk750e") {
+    drive.slave.swap_words_3_4 = true;
+  } else if (series != "sk5xxe" && series != "sk54xe") {
+    refuse(group.keyName("series"), group["series"],
+           "sk300e, sk5xxe, sk54xe, sk700e or sk750e (the series with the bus module that is simulated, 7531h)");
+  }
+}
+
+DriveConfig readDrive(const std::string& name, const YAML::Node& node, std::vector<std::string>& warnings) {
+  const std::string path = "drives/" + name;
+  if (!isName(name)) refuse("drives", YAML::Node(name), "a name of letters, digits and _ that starts with a letter");
+  const Group group(node, path);
+  if (!group.has("address")) throw ConfigError(path + "/address is missing; expected a whole number from 1 to 126");
+
+  DriveConfig drive;
+  drive.name = name;
+  drive.joint = group.get<std::string>("joint", "", "the name of a joint");
+  drive.slave.address = static_cast<std::uint8_t>(group.integer("address", 0, 1, 126));
+  drive.slave.ppo_type = group.integer("ppo_type", 1, 1, 4);
+  readSeries(group, drive);
+  drive.gear_ratio = group.positive("gear_ratio", 1.0);
+  drive.inverted = group.get<bool>("inverted", false, "true or false");
+  drive.motor.pole_pairs = group.integer("pole_pairs", drive.motor.pole_pairs, 1, 24);
+  drive.motor.inertia = group.positive("inertia", drive.motor.inertia);
+  drive.motor.rated_torque = group.positive("rated_torque", drive.motor.rated_torque);
+  drive.motor.slip = group.positive("slip", drive.motor.slip);
+  drive.motor.load = group.notNegative("load", drive.motor.load);
+  drive.motor.viscous = group.notNegative("viscous", drive.motor.viscous);
+  drive.charging_time = group.notNegative("charging_time", drive.charging_time);
+  drive.parameter_delay = static_cast<unsigned>(group.integer("parameter_delay", 1, 0, 1000));
+  drive.ram_orders = group.get<bool>("ram_orders", true, "true or false");
+  if (group.has("max_frequency")) {
+    readParameter(group.keyName("max_frequency"), "P105", group["max_frequency"], drive);
+  }
+  if (group.has("parameters")) {
+    const std::string key = group.keyName("parameters");
+    if (!group["parameters"].IsMap()) refuse(key, group["parameters"], "a group like {P102: 2.0, P105: 50.0}");
+    for (const auto& entry : group["parameters"]) {
+      const std::string parameter = entry.first.as<std::string>();
+      readParameter(key + "/" + parameter, parameter, entry.second, drive);
+    }
+  }
+  for (const auto& entry : node) {
+    const std::string key = entry.first.as<std::string>();
+    if (std::find(driveKeys().begin(), driveKeys().end(), key) == driveKeys().end()) {
+      warnings.push_back(path + "/" + key + " is not known to the simulator and not used");
+    }
+  }
+  return drive;
+}
+
+/// The drives whose name (or joint) is listed.
+std::vector<std::size_t> members(const Group& group, const std::string& key, const std::vector<DriveConfig>& drives,
+                                 bool by_joint) {
+  std::vector<std::size_t> found;
+  for (const std::string& wanted : group.texts(key)) {
+    const auto match = std::find_if(drives.begin(), drives.end(), [&](const DriveConfig& drive) {
+      return (by_joint ? drive.joint : drive.name) == wanted;
+    });
+    if (match == drives.end()) {
+      refuse(group.keyName(key), YAML::Node(wanted), by_joint ? "the joint of a drive" : "the name of a drive");
+    }
+    found.push_back(static_cast<std::size_t>(match - drives.begin()));
+  }
+  if (found.empty()) refuse(group.keyName(key), group[key], "at least one name");
+  return found;
+}
+
+std::optional<BodyConfig> readBody(const Group& root, const YAML::Node& node, const std::vector<DriveConfig>& drives) {
+  const bool own = root.has("body");
+  const Group group = own ? Group(node["body"], "body") : root;
+  const char* left = own ? "left" : "left_wheel";
+  const char* right = own ? "right" : "right_wheel";
+  for (const char* key : {left, right, "wheel_radius", "wheel_separation"}) {
+    if (group.has(key)) continue;
+    if (own)
+      throw ConfigError(group.keyName(key) + " is missing; a body has left, right, wheel_radius, wheel_separation");
+    return std::nullopt;
+  }
+  BodyConfig body;
+  body.left = members(group, left, drives, !own);
+  body.right = members(group, right, drives, !own);
+  body.wheel_radius = group.positive("wheel_radius", 0.0);
+  body.wheel_separation = group.positive("wheel_separation", 0.0);
+  return body;
+}
+
+}  // namespace
+
+SimConfig readSimConfig(const YAML::Node& node) {
+  const Group root(node, "");
+  SimConfig config;
+  if (root.has("bus")) {
+    const Group bus(node["bus"], "bus");
+    config.device = bus.get<std::string>("device", config.device, "the path of the link to create",
+                                         [](const std::string& path) { return !path.empty(); });
+    config.baud_rate =
+        static_cast<std::uint32_t>(bus.integer("baud_rate", static_cast<int>(config.baud_rate), 9600, 12000000));
+  }
+  if (!root.has("drives") || !node["drives"].IsMap() || node["drives"].size() == 0) {
+    throw ConfigError("drives: nothing is configured; expected a group with at least one drive");
+  }
+  for (const auto& entry : node["drives"]) {
+    config.drives.push_back(readDrive(entry.first.as<std::string>(), entry.second, config.warnings));
+    for (std::size_t i = 0; i + 1 < config.drives.size(); ++i) {
+      if (config.drives[i].slave.address == config.drives.back().slave.address) {
+        refuse("drives/" + config.drives.back().name + "/address", entry.second["address"],
+               "an address of its own; drive " + config.drives[i].name + " has it");
+      }
+    }
+  }
+  config.body = readBody(root, node, config.drives);
+  return config;
+}
+
+YAML::Node mergeYaml(const YAML::Node& earlier, const YAML::Node& later) {
+  if (!earlier.IsMap() || !later.IsMap()) return later.IsDefined() && !later.IsNull() ? later : earlier;
+  YAML::Node merged = YAML::Clone(earlier);
+  for (const auto& entry : later) {
+    const std::string key = entry.first.as<std::string>();
+    const YAML::Node before = earlier[key];
+    merged[key] = before.IsDefined() ? mergeYaml(before, entry.second) : entry.second;
+  }
+  return merged;
+}
+
+}  // namespace nord_driver::sim

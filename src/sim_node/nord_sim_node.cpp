@@ -1,0 +1,37 @@
+// nord_sim_node: simulated NORD drives on a pseudo-terminal, with the truth as topics and faults as services.
+
+#include <ros/ros.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+
+#include "nord_driver/sim/pty_bus.h"
+#include "param_yaml.h"
+#include "sim_node.h"
+
+int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "--version") {  // without a ROS master
+    std::printf("nord_sim_node %s\n", NORD_DRIVER_VERSION);
+    return EXIT_SUCCESS;
+  }
+  ros::init(argc, argv, "nord_sim");
+  try {
+    ros::NodeHandle handle("~");
+    const nord_driver::sim::SimConfig config =
+        nord_driver::sim::readSimConfig(nord_driver::sim_node::readParameters(handle));
+    for (const std::string& warning : config.warnings) ROS_WARN("%s", warning.c_str());
+    nord_driver::sim::PtyBus bus(config, config.device);
+    nord_driver::sim_node::SimNode node(handle, bus);
+    ROS_INFO("simulated bus with %zu drives at %s", config.drives.size(), bus.linkPath().c_str());
+    ros::spin();
+    const std::string report =
+        bus.withModel([](nord_driver::sim::RobotSim& robot) { return robot.referee().report(); });
+    std::printf("referee: %s\n", report.c_str());
+    return EXIT_SUCCESS;
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());  // on stderr and, when a master is there, on rosout
+    return EXIT_FAILURE;
+  }
+}

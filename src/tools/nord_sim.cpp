@@ -1,0 +1,88 @@
+// nord_sim: simulated NORD drives on a pseudo-terminal, without ROS.
+
+#include <signal.h>
+#include <yaml-cpp/yaml.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "nord_driver/sim/pty_bus.h"
+
+namespace {
+
+using nord_driver::sim::PtyBus;
+using nord_driver::sim::RobotSim;
+using nord_driver::sim::SimConfig;
+
+SimConfig readConfig(const std::vector<std::string>& files, const std::string& device) {
+  YAML::Node merged;
+  for (const std::string& file : files) {
+    try {
+      merged = nord_driver::sim::mergeYaml(merged, YAML::LoadFile(file));
+    } catch (const YAML::Exception& error) {
+      throw nord_driver::sim::ConfigError("--config " + file + ": " + error.what() + "; expected a readable YAML file");
+    }
+  }
+  SimConfig config = nord_driver::sim::readSimConfig(merged);
+  if (!device.empty()) config.device = device;
+  return config;
+}
+
+/// Waits for SIGINT or SIGTERM, or until `duration` (s) is over; 0 = no limit.
+void waitForEnd(const sigset_t& signals, double duration) {
+  if (duration <= 0.0) {
+    int signal = 0;
+    sigwait(&signals, &signal);
+    return;
+  }
+  timespec limit{};
+  limit.tv_sec = static_cast<time_t>(duration);
+  limit.tv_nsec = static_cast<long>((duration - static_cast<double>(limit.tv_sec)) * 1e9);
+  static_cast<void>(sigtimedwait(&signals, nullptr, &limit));
+}
+
+void report(PtyBus& bus) {
+  const std::string text = bus.withModel([](RobotSim& robot) { return robot.referee().report(); });
+  std::printf("referee: %s\n", text.c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Simulated NORD inverters on a PROFIBUS DP segment, on a pseudo-terminal."};
+  app.set_version_flag("--version", std::string("nord_sim ") + NORD_DRIVER_VERSION);
+  std::vector<std::string> files;
+  std::string device;
+  double duration = 0.0;
+  app.add_option("--config", files, "YAML file with bus, drives and body; a later file is laid over an earlier one")
+      ->required();
+  app.add_option("--device", device, "where to put the link to the pseudo-terminal, instead of bus/device");
+  app.add_option("--duration", duration, "seconds to run; without it until SIGINT or SIGTERM")
+      ->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
+
+  // Blocked before the bus starts its thread, so that only the wait below sees them.
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  try {
+    const SimConfig config = readConfig(files, device);
+    for (const std::string& warning : config.warnings) std::fprintf(stderr, "nord_sim: %s\n", warning.c_str());
+    PtyBus bus(config, config.device);
+    std::printf("%s\n", bus.linkPath().c_str());
+    std::fflush(stdout);
+    waitForEnd(signals, duration);
+    report(bus);
+    return EXIT_SUCCESS;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "nord_sim: %s\n", error.what());
+    return EXIT_FAILURE;
+  }
+}
