@@ -63,7 +63,7 @@ look_into() {
   done
 }
 
-make=(env -C "$workspace" catkin_make -j "$jobs" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_BUILD_TYPE=Debug)
+make=(catkin_make -C "$workspace" -j "$jobs" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_BUILD_TYPE=Debug)
 step "catkin_make" "${make[@]}"
 look_into "$workspace/devel"
 step "catkin_make install" "${make[@]}" install

@@ -36,8 +36,8 @@ std::string problemOf(const SpeedLimits& limits, const std::string& axis) {
     }
   }
   if (limits.has_acceleration_limits) {
-    const std::string problem = problemOfPair(limits.max_acceleration, limits.minAcceleration(),
-                                              axis + "/max_acceleration", axis + "/min_acceleration");
+    std::string problem = problemOfPair(limits.max_acceleration, limits.minAcceleration(), axis + "/max_acceleration",
+                                        axis + "/min_acceleration");
     if (!problem.empty()) return problem;
   }
   if (limits.has_jerk_limits) {
