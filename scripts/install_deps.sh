@@ -23,6 +23,7 @@ packages=(
   libcli11-dev libyaml-cpp-dev
   ros-robot-state-publisher
   librostest-dev python3-rostest
+  python3-rospy python3-geometry-msgs python3-nav-msgs python3-std-srvs
   libgtest-dev libgmock-dev librapidcheck-dev
 )
 test_packages=(clang-format-14 clang-tidy-14)
