@@ -38,7 +38,6 @@ void DpSlave::restart(Instant now, DpEvents& events) noexcept {
 
 void DpSlave::startCycle() noexcept {
   stepped_ = false;
-  diagnosed_ = false;
   status_.exchanged_this_cycle = false;
 }
 
@@ -52,7 +51,7 @@ bool DpSlave::wantsStartUpStep(Instant now) const noexcept {
 }
 
 bool DpSlave::wantsDiagnosis() const noexcept {
-  return status_.phase == SlavePhase::DataExchange && stepped_ && diagnosis_due_ && !diagnosed_;
+  return status_.phase == SlavePhase::DataExchange && stepped_ && diagnosis_due_;
 }
 
 bool DpSlave::wantsProbe(Instant now) const noexcept {
@@ -81,7 +80,6 @@ DpSlave::Service DpSlave::nextService() noexcept {
 
 void DpSlave::prepare(FdlRequest& request, Instant now) noexcept {
   asked_ = nextService();
-  if (stepped_) diagnosed_ = true;
   stepped_ = true;
   switch (asked_) {
     case Service::FdlStatus:

@@ -35,7 +35,6 @@ void DpSlave::handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& event
 }
 
 void DpSlave::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) noexcept {
-  frame_count_.reset();
   if (status_.phase == SlavePhase::Silent) return;
   if (status_.phase != SlavePhase::DataExchange) return fallSilent(now + probe_interval_, kNoAnswer);
 

@@ -195,7 +195,7 @@ TEST(Exchange, TakesNoDataForAnAcknowledge) {
   wire.isFree();
   wire.startCycle();
   wire.sends(kSetPrm5D);
-  wire.receives("68 05 05 68 81 88 08 3D 3E 8C 16");
+  wire.receives("68 05 05 68 81 88 08 3E 3D 8C 16");
   EXPECT_EQ(1u, wire.master.counters().unexpected);
   wire.staysSilent();
   wire.sends(kSetPrm5D);
@@ -260,6 +260,16 @@ TEST(Exchange, FindsTheAnswerBehindNoise) {
   wire.cycleEnds();
   EXPECT_TRUE(wire.status().exchanged_this_cycle);
   EXPECT_EQ(4u, wire.master.counters().discarded_bytes);
+}
+
+// What is left of noise from before the request does not swallow its answer.
+TEST(Exchange, ForgetsNoiseFromBeforeTheRequest) {
+  NordWire wire;
+  wire.startsUp();
+  wire.arrives("68 F9 F9 68 01 08");
+  wire.cycle(kExchange7D, kInputs);
+  EXPECT_TRUE(wire.status().exchanged_this_cycle);
+  EXPECT_EQ(6u, wire.master.counters().discarded_bytes);
 }
 
 TEST(Exchange, RepeatsAfterAChecksumError) {

@@ -99,7 +99,8 @@ TEST(Loss, StartsOverWhenTheSlaveLeftDataExchange) {
 
 // A diagnosis with Prm_Req in data exchange, or one of no owner: from the beginning.
 TEST(Loss, StartsOverWhenTheDiagnosisAsksForParameters) {
-  for (const char* diagnosis : {"68 0B 0B 68 81 88 08 3E 3C 02 05 00 01 75 31 39 16", kWantsPrm}) {
+  for (const char* diagnosis :
+       {"68 0B 0B 68 81 88 08 3E 3C 02 05 00 01 75 31 39 16", "68 0B 0B 68 81 88 08 3E 3C 02 04 00 FF 75 31 36 16"}) {
     NordWire wire;
     wire.startsUp();
     wire.startCycle();
@@ -134,16 +135,21 @@ TEST(Loss, NamesAnotherLength) {
   wire.isFree();
 }
 
-// Silence in the start-up leads back to FDL status; the lost first attempt is no event, and the count starts at 6D.
+// Silence in the start-up leads back to FDL status, and the count starts at 6D. A slave that comes and goes without
+// ever exchanging data is told once.
 TEST(Loss, InTheStartUp) {
   NordWire wire;
   wire.isFound();
+  wire.tells(DpEventKind::SlaveFound);
   wire.isFree();
-  wire.forgetEvents();
   loses(wire, kSetPrm5D);
   EXPECT_EQ(SlavePhase::Silent, wire.status().phase);
   wire.startCycle();
   wire.cycleEnds();
+  wire.advance(250ms);
+  wire.isFound();
+  wire.tellsNothing();
+  loses(wire, kDiag6D);
   wire.advance(250ms);
   wire.startsUp();
   EXPECT_EQ(0u, wire.status().counters.losses);

@@ -30,6 +30,17 @@ TEST(Timing, SendsAtOnceOnAQuietLine) {
   EXPECT_EQ(kDiag6D, toHex(wire.master.pollTransmit(wire.now)));
 }
 
+// A pty has no rate: the answer may be there before our telegram would be over on a wire. The pause counts from its end
+// still.
+TEST(Timing, WaitsTid1AfterItsOwnTelegram) {
+  NordWire wire;
+  wire.startCycle();
+  wire.sends(kFdlStatus8);
+  wire.arrives(kHere8);
+  wire.startCycle();
+  EXPECT_EQ(wire.sentEnd() + kRate.bits(37), *wire.master.nextDeadline());
+}
+
 // A line that was just opened is listened to for T_ID1 first.
 TEST(Timing, WaitsTid1AfterTheLineWasOpened) {
   NordWire wire;

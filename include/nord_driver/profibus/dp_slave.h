@@ -28,7 +28,8 @@ class DpSlave {
   void restart(Instant now, DpEvents& events) noexcept;
   void startCycle() noexcept;
 
-  // What this slave wants of the current cycle. Every request it is given satisfies one of these.
+  // What this slave wants of the current cycle; asked once for each, in this order. A request is prepared where one
+  // says yes.
   bool wantsExchange() const noexcept;
   bool wantsStartUpStep(Instant now) const noexcept;
   bool wantsDiagnosis() const noexcept;
@@ -83,7 +84,6 @@ class DpSlave {
   std::vector<std::uint8_t> outputs_, inputs_;  // sized once, in the constructor
   Service asked_ = Service::FdlStatus;
   bool stepped_ = false;        // had its request of this cycle
-  bool diagnosed_ = false;      // ... and the diagnosis behind its exchange
   bool diagnosis_due_ = false;  // in data exchange: DH was seen
   Instant due_{};               // no request before (probes, back-off, slow polling)
   Instant ready_since_{};       // AwaitReady was entered
