@@ -42,7 +42,8 @@ std::vector<std::uint8_t> fromHex(const std::string& text) {
       continue;
     }
     const int value = digitValue(c);
-    if (value < 0) throw std::invalid_argument("hexadecimal text \"" + text + "\": '" + c + "' is no hexadecimal digit");
+    if (value < 0)
+      throw std::invalid_argument("hexadecimal text \"" + text + "\": '" + c + "' is no hexadecimal digit");
     if (high < 0) {
       high = value;
     } else {

@@ -1,8 +1,8 @@
-#include "nord_driver/core/bytes.h"
-
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+
+#include "nord_driver/core/bytes.h"
 
 namespace nord_driver {
 namespace {

@@ -1,8 +1,8 @@
-#include "nord_driver/core/event_ring.h"
-
 #include <gtest/gtest.h>
 
 #include <thread>
+
+#include "nord_driver/core/event_ring.h"
 
 namespace nord_driver {
 namespace {

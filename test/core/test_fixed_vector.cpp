@@ -1,6 +1,6 @@
-#include "nord_driver/core/fixed_vector.h"
-
 #include <gtest/gtest.h>
+
+#include "nord_driver/core/fixed_vector.h"
 
 namespace nord_driver {
 namespace {

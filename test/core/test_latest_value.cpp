@@ -1,9 +1,9 @@
-#include "nord_driver/core/latest_value.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <thread>
+
+#include "nord_driver/core/latest_value.h"
 
 namespace nord_driver {
 namespace {

@@ -1,8 +1,7 @@
-#include "nord_driver/core/time.h"
-
 #include <gtest/gtest.h>
 
 #include "nord_driver/core/baud_rate.h"
+#include "nord_driver/core/time.h"
 
 namespace nord_driver {
 namespace {

@@ -16,8 +16,12 @@ namespace nord_driver {
 using Word = std::uint16_t;
 
 /// The two's complement value of a word: C000h is -16384 (some manuals print -16385 or -16383).
-constexpr std::int16_t toSigned(Word word) noexcept { return static_cast<std::int16_t>(word); }
-constexpr Word toWord(std::int16_t value) noexcept { return static_cast<Word>(value); }
+constexpr std::int16_t toSigned(Word word) noexcept {
+  return static_cast<std::int16_t>(word);
+}
+constexpr Word toWord(std::int16_t value) noexcept {
+  return static_cast<Word>(value);
+}
 
 /// Read-only bytes owned by somebody else.
 class ByteView {
@@ -60,7 +64,8 @@ class ByteView {
   std::size_t size_ = 0;
 };
 
-/// Takes numbers from the front of a view. Reading past the end gives 0 and is remembered: check `ok()` once, at the end.
+/// Takes numbers from the front of a view. Reading past the end gives 0 and is remembered: check `ok()` once, at the
+/// end.
 class ByteReader {
  public:
   constexpr explicit ByteReader(ByteView bytes) noexcept : bytes_(bytes) {}

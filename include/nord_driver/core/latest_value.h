@@ -1,6 +1,7 @@
 // Hands the newest value of one thread to another without a lock: the writer never waits, the reader never waits.
 //
-// A triple buffer: one slot is being written, one is being read, one lies between. One writer thread, one reader thread.
+// A triple buffer: one slot is being written, one is being read, one lies between. One writer thread, one reader
+// thread.
 #pragma once
 
 #include <array>
@@ -36,9 +37,9 @@ class LatestValue {
   static constexpr std::uint8_t kFresh = 0x04;
 
   std::array<T, 3> slots_{};
-  std::uint8_t back_ = 0;                 // writer's
-  std::uint8_t front_ = 1;                // reader's
-  std::atomic<std::uint8_t> middle_{2};   // slot between them, plus "newer than the reader's"
+  std::uint8_t back_ = 0;                // writer's
+  std::uint8_t front_ = 1;               // reader's
+  std::atomic<std::uint8_t> middle_{2};  // slot between them, plus "newer than the reader's"
 };
 
 }  // namespace nord_driver

@@ -18,8 +18,14 @@ struct Ratio {
   double value = 0.0;
 };
 
-constexpr bool operator==(RadPerSec a, RadPerSec b) noexcept { return a.value == b.value; }
-constexpr bool operator==(Hertz a, Hertz b) noexcept { return a.value == b.value; }
-constexpr bool operator==(Ratio a, Ratio b) noexcept { return a.value == b.value; }
+constexpr bool operator==(RadPerSec a, RadPerSec b) noexcept {
+  return a.value == b.value;
+}
+constexpr bool operator==(Hertz a, Hertz b) noexcept {
+  return a.value == b.value;
+}
+constexpr bool operator==(Ratio a, Ratio b) noexcept {
+  return a.value == b.value;
+}
 
 }  // namespace nord_driver

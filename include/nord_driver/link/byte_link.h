@@ -38,6 +38,8 @@ class ByteLink {
 
   /// Waits until something can be read or `until` has come. True when something can be read.
   virtual bool waitReadable(Instant until) noexcept = 0;
+  /// Waits until `when`, whatever arrives meanwhile.
+  virtual void sleepUntil(Instant when) noexcept = 0;
   virtual Instant now() const noexcept = 0;
 
   /// A real UART at a real rate; false for a pty, which moves bytes without any time of their own.

@@ -15,23 +15,23 @@ enum class ParameterAction : std::uint8_t {
 enum class ParameterShape : std::uint8_t { kPlain, kPerSet, kArray, kArrayPerSet };
 
 struct ParameterRequest {
-  std::uint32_t id = 0;          ///< chosen by the asker, comes back in the result
-  std::uint16_t number = 0;      ///< the manual's: 102 for P102 (0..999)
+  std::uint32_t id = 0;      ///< chosen by the asker, comes back in the result
+  std::uint16_t number = 0;  ///< the manual's: 102 for P102 (0..999)
   ParameterShape shape = ParameterShape::kPlain;
   std::uint8_t parameter_set = 1;  ///< 1..4, used by kPerSet and kArrayPerSet
   std::uint8_t index = 1;          ///< the manual's array index, [-01] = 1; used by kArray and kArrayPerSet
   ParameterAction action = ParameterAction::kRead;
-  bool double_word = false;        ///< 32 bit value (writes only; an answer tells its own width)
-  std::int32_t raw = 0;            ///< value to write
+  bool double_word = false;  ///< 32 bit value (writes only; an answer tells its own width)
+  std::int32_t raw = 0;      ///< value to write
 };
 
 enum class ParameterOutcome : std::uint8_t {
   kDone,
-  kRefused,       ///< the inverter answered with an error number
-  kTimeout,       ///< no matching answer in time
-  kOffline,       ///< the drive answers nothing at the moment
-  kNoChannel,     ///< this process data type carries no parameter channel (PPO 3, PPO 4)
-  kBusy,          ///< too many requests wait already
+  kRefused,    ///< the inverter answered with an error number
+  kTimeout,    ///< no matching answer in time
+  kOffline,    ///< the drive answers nothing at the moment
+  kNoChannel,  ///< this process data type carries no parameter channel (PPO 3, PPO 4)
+  kBusy,       ///< too many requests wait already
 };
 
 struct ParameterResult {

@@ -40,6 +40,7 @@ class SimulatedSegment : public link::ByteLink, private AnswerSink {
   std::size_t read(std::uint8_t* buffer, std::size_t capacity) noexcept override;
   void discardInput() noexcept override;
   bool waitReadable(Instant until) noexcept override;
+  void sleepUntil(Instant when) noexcept override { advanceTo(when); }
   Instant now() const noexcept override { return now_; }
   bool keepsBaudRate() const noexcept override { return true; }
   const std::string& lastError() const noexcept override { return last_error_; }

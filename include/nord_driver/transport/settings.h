@@ -27,6 +27,7 @@ class Settings {
   virtual std::optional<std::int64_t> integer(const std::string& key) const = 0;
   virtual std::optional<bool> boolean(const std::string& key) const = 0;
   virtual std::optional<std::string> text(const std::string& key) const = 0;
+  /// A list of texts; a single text counts as a list of one.
   virtual std::optional<std::vector<std::string>> texts(const std::string& key) const = 0;
 
   /// The full name of a key as a user wrote it ("~bus/baud_rate"), for error sentences.

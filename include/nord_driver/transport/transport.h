@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "nord_driver/core/fixed_text.h"
 #include "nord_driver/core/time.h"
 #include "nord_driver/profile/parameter_request.h"
 #include "nord_driver/profile/process_data.h"
@@ -28,12 +29,11 @@ struct DriveExchange {
   bool inverter_answers = false;  ///< ... and the inverter behind it is on: `input` is fresh
 };
 
-/// What a transport tells about a drive once it knows it; constant while the drive stays online.
+/// What a transport tells about a drive once it is configured.
 struct DriveIdentity {
-  std::uint32_t ident = 0;         ///< PROFIBUS ident number, or vendor << 16 | product; 0 = not known
-  std::string address;             ///< "PROFIBUS station 3"
-  std::string parameter_channel;   ///< "PKW", "SDO", "none"
-  std::string protected_by;        ///< what stops the drive when this computer dies, in words
+  std::string address;            ///< "PROFIBUS station 3"
+  std::string parameter_channel;  ///< "PKW", "SDO", "none"
+  std::string protected_by;       ///< what stops the drive when this computer dies, in words
 };
 
 /// Counters since start-up and the state of the bus. Copied once per cycle: no strings of variable length.
@@ -50,7 +50,8 @@ struct BusCounters {
   std::uint64_t stale = 0;  ///< parameter answers that did not match the order
 };
 
-/// Why a drive does not answer, or what it needs: a sentence for a technician. Fixed strings, safe to copy in the cycle.
+/// Why a drive does not answer, or what it needs: a sentence for a technician. Fixed strings, safe to copy in the
+/// cycle.
 struct DriveNote {
   const char* text = "";
 };
@@ -84,8 +85,10 @@ class Transport {
   virtual bool connected() const noexcept = 0;
   virtual BusCounters counters() const noexcept = 0;
   virtual DriveNote note(DriveIndex drive) const noexcept = 0;
-  /// One sentence on the device itself ("/dev/ttyUSB0: no such file"), empty when it is fine. Not for the cycle thread.
-  virtual std::string busText() const = 0;
+  /// What the bus module says it is: PROFIBUS ident number, or vendor << 16 | product; 0 = not known yet.
+  virtual std::uint32_t identNumber(DriveIndex drive) const noexcept = 0;
+  /// One sentence for a technician on the bus as a whole ("/dev/ttyUSB0: no such file"), empty when it is fine.
+  virtual Sentence busText() const noexcept = 0;
   virtual DriveIdentity identity(DriveIndex drive) const = 0;
 
   /// Ends the exchange: closes the device. The drives must have been stopped before.

@@ -1,0 +1,30 @@
+// The base: which drives carry it, its geometry and limits, by the names diff_drive_controller uses.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "nord_driver/core/time.h"
+#include "nord_driver/robot/diff_drive_kinematics.h"
+#include "nord_driver/robot/twist_limiter.h"
+#include "nord_driver/transport/settings.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver::cycle {
+
+struct BaseConfig {
+  std::vector<DriveIndex> left;
+  std::vector<DriveIndex> right;
+  robot::DiffDriveGeometry geometry;
+  robot::TwistLimits limits;
+  bool open_loop = false;
+  std::size_t velocity_rolling_window_size = 10;
+};
+
+/// Joint of every drive, in the order of the drives; empty where a drive has none.
+using JointNames = std::vector<std::string>;
+
+/// No `left_wheel`: no base (nothing is read). Throws ConfigError.
+std::optional<BaseConfig> readBaseConfig(const Settings& settings, const JointNames& joints);
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,45 @@
+// From the newest velocity command to the speeds of the wheels, and from the wheels' speeds to the pose of the base.
+#pragma once
+
+#include "nord_driver/core/time.h"
+#include "nord_driver/cycle/base_config.h"
+#include "nord_driver/cycle/commands.h"
+#include "nord_driver/robot/diff_drive_kinematics.h"
+#include "nord_driver/robot/odometry.h"
+#include "nord_driver/robot/twist_limiter.h"
+#include "nord_driver/robot/wheel_speeds.h"
+
+namespace nord_driver::cycle {
+
+/// One base. Stale commands and commands that may not be followed are targets of zero; a base that is not driving
+/// forgets its velocity, so that the next start begins from standstill.
+class BaseMotion {
+ public:
+  BaseMotion(const BaseConfig& config, Duration cmd_vel_timeout);
+
+  /// The wheel speeds for this cycle. `driving`: the drives follow setpoints now; `follow`: the command may be followed
+  /// (otherwise the base ramps to zero along the deceleration limit). `max_speeds`: what 100 % of the setpoint means at
+  /// each side, in rad/s: a base that would exceed it is scaled as a whole.
+  robot::WheelSpeeds pollWheels(const TwistCommand& command, bool driving, bool follow,
+                                const robot::WheelSpeeds& max_speeds, Instant now, Duration dt) noexcept;
+  /// The velocity behind the last wheel speeds (what `cmd_vel_out` tells).
+  const robot::Twist2d& limited() const noexcept { return limited_; }
+
+  /// The wheels turn with these speeds now, `dt` after the last call.
+  void handleWheels(const robot::WheelSpeeds& measured, Duration dt) noexcept;
+  /// A drive is away: its way cannot be seen. The pose stays; the next sample starts anew.
+  void handleGap() noexcept { odometry_.rebase(); }
+  void resetOdometry() noexcept { odometry_.reset(); }
+
+  const robot::Odometry& odometry() const noexcept { return odometry_; }
+
+ private:
+  robot::DiffDriveKinematics kinematics_;
+  robot::TwistLimiter limiter_;
+  robot::Odometry odometry_;
+  Duration timeout_;
+  bool open_loop_;
+  robot::Twist2d limited_;
+};
+
+}  // namespace nord_driver::cycle

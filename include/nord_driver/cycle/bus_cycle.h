@@ -1,0 +1,78 @@
+// One bus cycle: newest command in, process data out and back, newest state out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "nord_driver/core/time.h"
+#include "nord_driver/cycle/base_motion.h"
+#include "nord_driver/cycle/cycle_config.h"
+#include "nord_driver/cycle/cycle_ports.h"
+#include "nord_driver/cycle/cycle_statistics.h"
+#include "nord_driver/cycle/device_reader.h"
+#include "nord_driver/cycle/supervisor.h"
+#include "nord_driver/drive/drive.h"
+#include "nord_driver/robot/joint_position.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver::cycle {
+
+/// Owns the drives and runs them over a configured transport. `runOnce` never waits for anybody but the bus, throws
+/// nothing and, once every drive has been in data exchange, allocates nothing.
+class BusCycle {
+ public:
+  BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& ports, bool auto_enable);
+
+  void runOnce() noexcept;
+  Duration period() const noexcept { return period_; }
+  bool inBase(DriveIndex drive) const noexcept { return supervisor_.inBase(drive); }
+
+ private:
+  /// One drive with everything the cycle keeps beside it.
+  struct Axis {
+    explicit Axis(const DriveSetup& setup) : reader(setup.series) {}
+    DeviceReader reader;
+    robot::JointPosition joint;
+    bool known = false;  // has answered at least once
+  };
+  struct ParameterJob {
+    Request request;
+    DriveIndex drive = 0;
+  };
+
+  void takeRequests(Instant now) noexcept;
+  void startParameterJob(const Request& request) noexcept;
+  Sentence movingCommand(Instant now) noexcept;
+  void command(Instant now, Duration dt) noexcept;
+  void commandBase(Instant now, Duration dt) noexcept;
+  void commandSingles(Instant now) noexcept;
+  robot::WheelSpeeds maxWheelSpeeds() const noexcept;
+  void handleInputs(Instant now) noexcept;
+  void readDevices() noexcept;
+  void takeParameterResult(const profile::ParameterResult& result) noexcept;
+  void measure(Duration dt) noexcept;
+  void measureBase(Duration dt) noexcept;
+  void publish(Instant now) noexcept;
+  void fill(DriveSnapshot& to, DriveIndex drive) const noexcept;
+
+  Transport& transport_;
+  CyclePorts& ports_;
+  Duration period_;
+  Duration cmd_vel_timeout_;
+  std::vector<std::string> names_;
+  std::vector<drive::Drive> drives_;
+  std::vector<Axis> axes_;
+  std::optional<BaseConfig> base_config_;
+  std::optional<BaseMotion> base_;
+  Supervisor supervisor_;
+  CycleStatistics statistics_;
+  std::vector<profile::ProcessOutput> outputs_;
+  std::vector<DriveExchange> inputs_;
+  FixedVector<ParameterJob, 16> parameter_jobs_;
+  CycleSnapshot snapshot_;
+  std::optional<Instant> last_command_;
+  std::optional<Instant> last_input_;
+};
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,29 @@
+// The newest velocity commands of those outside, with the time they came.
+#pragma once
+
+#include "nord_driver/core/time.h"
+#include "nord_driver/robot/twist.h"
+
+namespace nord_driver::cycle {
+
+struct TwistCommand {
+  robot::Twist2d twist;
+  Instant received{};
+  bool given = false;  ///< false until the first command
+};
+
+/// For a drive that belongs to no base.
+struct JointCommand {
+  double velocity = 0.0;  ///< rad/s at the joint
+  Instant received{};
+  bool given = false;
+};
+
+/// No longer valid at `now`: never given, or older than `timeout`. A timeout of zero never ends.
+template <typename Command>
+bool isStale(const Command& command, Duration timeout, Instant now) noexcept {
+  if (!command.given) return true;
+  return timeout > Duration::zero() && now - command.received > timeout;
+}
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,45 @@
+// The part of the configuration the bus cycle runs on.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nord_driver/core/time.h"
+#include "nord_driver/cycle/base_config.h"
+#include "nord_driver/drive/drive.h"
+#include "nord_driver/profile/series.h"
+#include "nord_driver/transport/settings.h"
+
+namespace nord_driver::cycle {
+
+struct DriveSetup {
+  std::string name;
+  std::string joint;
+  profile::Series series = profile::Series::kSk5xxe;
+  drive::DriveConfig drive;
+  std::optional<double> typed_max_frequency;  ///< Hz
+  std::optional<double> rated_current;        ///< A
+};
+
+struct RealTimeWish {
+  int priority = 0;          ///< SCHED_FIFO priority 1..99; 0 = the ordinary scheduler
+  bool lock_memory = false;  ///< mlockall
+};
+
+struct CycleConfig {
+  double cycle_rate = 100.0;  ///< Hz
+  RealTimeWish real_time;
+  Duration service_timeout{};
+  Duration shutdown_timeout{};
+  Duration cmd_vel_timeout{};  ///< 0: never
+  std::vector<DriveSetup> drives;
+  std::optional<BaseConfig> base;
+
+  Duration period() const noexcept { return seconds(1.0 / cycle_rate); }
+};
+
+/// Throws ConfigError naming key, value and what was expected.
+CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSettings>& drives);
+
+}  // namespace nord_driver::cycle

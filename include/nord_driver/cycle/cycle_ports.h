@@ -1,0 +1,53 @@
+// Everything that crosses the border of the bus cycle's thread: newest values and bounded queues, no locks.
+#pragma once
+
+#include <semaphore.h>
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "nord_driver/core/event_ring.h"
+#include "nord_driver/core/latest_value.h"
+#include "nord_driver/cycle/commands.h"
+#include "nord_driver/cycle/request.h"
+#include "nord_driver/cycle/snapshot.h"
+
+namespace nord_driver::cycle {
+
+/// Outside threads call `command*`, `submit`, `waitCompletion` and `readSnapshot`; the cycle's thread uses the rest.
+class CyclePorts {
+ public:
+  explicit CyclePorts(std::size_t drive_count);
+  ~CyclePorts();
+  CyclePorts(const CyclePorts&) = delete;
+  CyclePorts& operator=(const CyclePorts&) = delete;
+
+  // Outside.
+  void commandBase(const TwistCommand& command);
+  void commandDrive(DriveIndex drive, const JointCommand& command);
+  /// False when the queue is full.
+  bool submit(const Request& request);
+  /// Waits for a completion, at most `limit`. One thread only.
+  std::optional<Completion> waitCompletion(Duration limit);
+  /// One thread only; the reference holds until the next call.
+  const CycleSnapshot& readSnapshot() { return snapshot_.read(); }
+
+  // The cycle's thread.
+  const TwistCommand& newestBaseCommand() { return base_command_.read(); }
+  const JointCommand& newestDriveCommand(DriveIndex drive) { return drive_commands_[drive]->read(); }
+  std::optional<Request> pollRequest() noexcept { return requests_.pop(); }
+  void complete(const Completion& completion) noexcept;
+  void publish(const CycleSnapshot& snapshot) { snapshot_.write(snapshot); }
+
+ private:
+  std::mutex writers_;  // several ROS threads may write; the cycle never takes it
+  LatestValue<TwistCommand> base_command_;
+  std::vector<std::unique_ptr<LatestValue<JointCommand>>> drive_commands_;
+  EventRing<Request, 32> requests_;
+  EventRing<Completion, 64> completions_;
+  sem_t completed_;
+  LatestValue<CycleSnapshot> snapshot_;
+};
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,23 @@
+// What a drive told about itself in its parameters.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "nord_driver/core/fixed_vector.h"
+
+namespace nord_driver::cycle {
+
+struct DeviceData {
+  std::array<std::optional<double>, 4> max_frequency;    ///< Hz, P105 of parameter sets 1..4
+  std::optional<std::int32_t> software_version;          ///< P707 [-01]: 21 = V2.1
+  std::optional<std::int32_t> software_revision;         ///< P707 [-02]
+  std::optional<double> telegram_timeout;                ///< s, P513; 0 = off, -0.1 = bus errors are ignored
+  FixedVector<std::uint16_t, 3> setpoint_functions;      ///< P546..P548 of parameter set 1
+  FixedVector<std::uint16_t, 3> actual_value_functions;  ///< P543..P545 of parameter set 1
+  std::uint32_t ident = 0;
+  bool complete = false;  ///< everything was asked for; what the drive refused is absent
+};
+
+}  // namespace nord_driver::cycle

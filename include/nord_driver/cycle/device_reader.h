@@ -1,0 +1,50 @@
+// Reads from a drive what scaling and device information need, one parameter at a time, beside the process data.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "nord_driver/core/fixed_vector.h"
+#include "nord_driver/cycle/device_data.h"
+#include "nord_driver/profile/parameter_request.h"
+#include "nord_driver/profile/series.h"
+
+namespace nord_driver::cycle {
+
+/// Begins again whenever the drive has come back: it may have been exchanged. A parameter that times out is asked for
+/// three times, one the drive refuses is left out.
+class DeviceReader {
+ public:
+  explicit DeviceReader(profile::Series series) noexcept;
+
+  /// The drive went away: what was read is kept until it is back.
+  void handleOffline() noexcept;
+  /// The next parameter to ask for, when none is under way; its id is for the caller to choose.
+  std::optional<profile::ParameterRequest> pollRequest() noexcept;
+  /// The result of the request handed out last.
+  void handleResult(const profile::ParameterResult& result) noexcept;
+
+  const DeviceData& data() const noexcept { return data_; }
+
+ private:
+  struct Item {
+    std::uint16_t number = 0;
+    std::uint8_t set = 1;
+    std::uint8_t index = 1;
+  };
+
+  void add(std::uint16_t number, std::uint8_t set, std::uint8_t index) noexcept;
+  void addFunctions(std::uint16_t first_number) noexcept;
+  void store(const Item& item, std::int32_t raw) noexcept;
+
+  profile::Series series_;
+  FixedVector<Item, 16> items_;
+  std::size_t next_ = 0;
+  std::uint8_t attempts_ = 0;
+  bool waiting_ = false;
+  bool restart_ = true;
+  DeviceData data_;
+};
+
+}  // namespace nord_driver::cycle

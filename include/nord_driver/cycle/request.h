@@ -1,0 +1,41 @@
+// What callers ask of the bus cycle, and what it answers: passed through rings, so that neither waits for the other.
+#pragma once
+
+#include <cstdint>
+
+#include "nord_driver/core/fixed_text.h"
+#include "nord_driver/core/time.h"
+#include "nord_driver/profile/parameter_request.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver::cycle {
+
+enum class RequestKind : std::uint8_t {
+  kEnable,
+  kDisable,    ///< ramp to zero, then OFF1 until "ready to switch on"
+  kQuickStop,  ///< OFF3
+  kResetOdometry,
+  kReadParameter,
+  kShutDown,  ///< as kDisable for all drives, and no enable after it
+};
+
+/// All drives of the node.
+constexpr DriveIndex kAllDrives = static_cast<DriveIndex>(-1);
+
+struct Request {
+  std::uint32_t id = 0;  ///< comes back in the completion; 0: nobody waits for one
+  RequestKind kind = RequestKind::kDisable;
+  DriveIndex drive = kAllDrives;
+  Duration patience{};  ///< the longest the asker waits
+  profile::ParameterRequest parameter;
+  bool active_set = false;  ///< the parameter's set is the one in force, whichever that is
+};
+
+struct Completion {
+  std::uint32_t id = 0;
+  bool success = false;
+  Sentence message;
+  profile::ParameterResult parameter;
+};
+
+}  // namespace nord_driver::cycle

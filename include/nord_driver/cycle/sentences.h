@@ -1,0 +1,19 @@
+// What the cycle has to say to people, made without allocating.
+#pragma once
+
+#include "nord_driver/core/fixed_text.h"
+#include "nord_driver/cycle/request.h"
+#include "nord_driver/drive/drive_report.h"
+
+namespace nord_driver::cycle {
+
+/// "drive left: the drive does not answer".
+Sentence refusalSentence(const char* drive, drive::Refusal refusal, const drive::DriveReport& report) noexcept;
+/// "drive left stopped: a fault (status word 0238, fault)"; empty for StopCause::kNone.
+Sentence stopSentence(const char* drive, drive::StopCause cause, const drive::DriveReport& report) noexcept;
+/// "drive left is operation enabled (status word 0B37)".
+Sentence stateSentence(const char* drive, const drive::DriveReport& report) noexcept;
+/// Why a parameter access failed; empty when it did not.
+Sentence parameterSentence(const char* drive, std::uint16_t number, const profile::ParameterResult& result) noexcept;
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,64 @@
+// What the bus cycle tells the rest of the node after every cycle: one copyable picture of everything.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "nord_driver/core/fixed_text.h"
+#include "nord_driver/core/time.h"
+#include "nord_driver/cycle/cycle_statistics.h"
+#include "nord_driver/cycle/device_data.h"
+#include "nord_driver/profile/process_data.h"
+#include "nord_driver/profile/status_word.h"
+#include "nord_driver/robot/odometry.h"
+#include "nord_driver/robot/twist.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver::cycle {
+
+struct DriveSnapshot {
+  bool online = false;          ///< fresh process data from the inverter itself
+  bool module_answers = false;  ///< its bus module answers at least
+  bool enabled = false;         ///< follows velocity commands
+  bool stopped = false;         ///< stopped by a cause that is latched: `text` names it
+  profile::DriveState state = profile::DriveState::kUnknown;
+  std::uint8_t parameter_set = 0;  ///< 0: not known
+  profile::ProcessOutput output;   ///< as sent last
+  profile::ProcessInput input;     ///< as received last
+  double velocity_command = 0.0;   ///< rad/s at the joint
+  double velocity = 0.0;           ///< rad/s at the joint
+  double frequency = 0.0;          ///< Hz
+  double joint_position = 0.0;     ///< rad, continuous
+  std::uint16_t fault_number = 0;
+  Sentence text;  ///< what it waits for or why it stopped; empty when there is nothing to say
+  DeviceData device;
+};
+
+struct BaseSnapshot {
+  bool known = false;  ///< every drive of the base has answered at least once
+  robot::Pose2d pose;
+  robot::Twist2d velocity;  ///< measured
+  robot::Twist2d command;   ///< after limiting
+  bool enabled = false;
+  bool stopped = false;
+  Sentence text;
+};
+
+struct CycleSnapshot {
+  CycleSnapshot() = default;
+  explicit CycleSnapshot(std::size_t drive_count) : drives(drive_count) {}
+
+  Instant time{};
+  bool connected = false;
+  bool settled = false;  ///< no drive is enabled, enabling or on its way to rest
+  std::vector<DriveSnapshot> drives;
+  BaseSnapshot base;
+  CycleTimes times;
+  BusCounters counters;
+  Sentence bus_text;
+};
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,109 @@
+// One inverter as the user sees it: decides, each cycle, the control word and the setpoints.
+//
+// Sans-IO and without a clock. Its rules, in one place:
+//  - Stop is the default, and the word that stops is 047E with the parameter set in force. Zeros stop nothing: with bit
+//  10 = 0
+//    the inverter carries on (BU 2700 6.4.1 note 2, 7.1.1).
+//  - 047E alone also says "parameter set 1". So 0000, which the inverter ignores, is sent until a status word has told
+//  the set
+//    in force; from then on never again while it is online.
+//  - An inverter that falls silent while it was not idle may still hear us: the stop word goes on into the dark, for
+//    shutdown_timeout; then the set is learned anew. When it answers it is idle, in the set it then reports.
+//  - Whatever ends "operation enabled" without being asked ends in the idle word and stays so until the next enable.
+//  - Under local control the set follows the inverter: its terminals choose it, and our word acts when control returns.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "nord_driver/core/time.h"
+#include "nord_driver/core/units.h"
+#include "nord_driver/drive/drive_report.h"
+#include "nord_driver/profile/control_word.h"
+#include "nord_driver/profile/process_data.h"
+#include "nord_driver/profile/scaling.h"
+
+namespace nord_driver::drive {
+
+struct DriveConfig {
+  profile::JointScaling joint;
+  /// P105 of sets 1..4 where typed in; others come by setMaxFrequency().
+  std::array<std::optional<Hertz>, 4> max_frequency;
+  Duration drive_timeout = seconds(0.05);     ///< silence that counts as offline
+  Duration enable_timeout = seconds(2.0);     ///< from the request to "operation enabled"
+  Duration shutdown_timeout = seconds(10.0);  ///< OFF1 until "ready to switch on", then quick stop
+  /// How long the acknowledge bit is held low and then high: longer than the slowest path to the inverter (the module's
+  /// own cycle adds 5 ms, P153).
+  Duration acknowledge_time = seconds(0.1);
+  /// Cross-check the sign of actual value 1 with status bits 11 and 12. No manual defines that sign in left rotation.
+  bool check_direction = true;
+};
+
+/// Each cycle: pollOutput() before the exchange, handleInput() after it. Requests in between, from the same thread; the
+/// answer to a request stands in report(): the phase, or the refusal.
+class Drive {
+ public:
+  explicit Drive(const DriveConfig& config) : config_(config), max_frequency_(config.max_frequency) {}
+
+  /// `fresh`: the inverter answered in this cycle. An all-zero status word counts as no answer.
+  void handleInput(const profile::ProcessInput& input, bool fresh, Instant now) noexcept;
+  profile::ProcessOutput pollOutput(Instant now) noexcept;
+
+  /// Why requestEnable() would refuse now.
+  Refusal enableRefusal() const noexcept;
+  /// Refused while OFF1 or a quick stop runs: ask again when it has ended.
+  void requestEnable(Instant now) noexcept;
+  /// Enabled: setpoint 0 with 047F from here on, whatever setVelocity() says. Enabling: as requestShutdown().
+  void requestSetpointZero(Instant now) noexcept;
+  void requestShutdown(Instant now) noexcept;
+  /// From every phase; offline it is what goes on into the dark.
+  void requestQuickStop(Instant now) noexcept;
+  /// Takes the latch away when no fault bit is set, else gives the inverter one acknowledge edge. Refused outside
+  /// kIdle.
+  void requestAcknowledge(Instant now) noexcept;
+
+  /// Used only while enabled, and forgotten with it. What is no number becomes setpoint 0.
+  void setVelocity(RadPerSec joint) noexcept;
+  /// P105 of set 1..4, as read from the inverter.
+  void setMaxFrequency(std::uint8_t set, Hertz frequency) noexcept;
+  std::optional<Hertz> maxFrequency(std::uint8_t set) const noexcept;
+  /// The joint speed 100 % stands for in the commanded set; beyond it one drive alone would saturate, and a base bend
+  /// its path.
+  std::optional<RadPerSec> maxVelocity() const noexcept;
+
+  const DriveReport& report() const noexcept { return report_; }
+  /// Nothing is being driven or stopped: idle (or offline), and the inverter confirms it by its state.
+  bool isAtRest() const noexcept;
+
+ private:
+  void handleUseful(const profile::ProcessInput& input, Instant now) noexcept;
+  void handleSilence(Instant now) noexcept;
+  void learnSet(profile::StatusWord status, bool joined) noexcept;
+  void checkStops(profile::StatusWord status, Instant now) noexcept;
+  void follow(profile::StatusWord status, Instant now) noexcept;
+  void followEnabling(profile::DriveState state, Instant now) noexcept;
+  void followStopping(profile::DriveState state, Instant now) noexcept;
+  void followQuickStop(profile::DriveState state, Instant now) noexcept;
+  void followAcknowledging(profile::StatusWord status, Instant now) noexcept;
+  void measure() noexcept;
+  void enter(Phase phase, Instant now) noexcept;
+  void stop(StopCause cause, Instant now) noexcept;
+  void latch(StopCause cause) noexcept;
+  void refuse(Refusal refusal) noexcept;
+  profile::Command command(Instant now) const noexcept;
+  bool isRunning() const noexcept;  // 047F may be on the wire
+
+  DriveConfig config_;
+  std::array<std::optional<Hertz>, 4> max_frequency_;
+  DriveReport report_;
+  Instant phase_since_{};
+  Instant last_useful_{};
+  Instant dark_until_{};  // offline: the stop word goes on until then
+  profile::Command dark_command_ = profile::Command::kIgnored;
+  RadPerSec wanted_{};
+  bool ready_seen_ = false;  // enabling: "ready to switch on" was seen after the request
+  bool sent_ = false;        // this phase's word went out at least once
+};
+
+}  // namespace nord_driver::drive

@@ -1,0 +1,94 @@
+// What one inverter does and did, for everybody outside the cycle: plain values, copied once per cycle.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "nord_driver/core/bytes.h"
+#include "nord_driver/core/units.h"
+#include "nord_driver/profile/process_data.h"
+#include "nord_driver/profile/status_word.h"
+
+namespace nord_driver::drive {
+
+/// What the driver is doing with the inverter. The comment names what goes on the wire.
+enum class Phase : std::uint8_t {
+  kOffline,        ///< 0000 (ignored by the inverter) until a status word tells the set; after a loss: see Drive
+  kIdle,           ///< 047E with the set in force
+  kAcknowledging,  ///< 047E, 04FE for a while, 047E
+  kEnabling,       ///< 047E until "ready to switch on", then 047F with setpoint 0 until "operation enabled"
+  kEnabled,        ///< 047F and the setpoint
+  kHoldingZero,    ///< 047F and setpoint 0: down the inverter's own ramp, torque stays on
+  kStopping,       ///< OFF1: 047E until "ready to switch on"
+  kQuickStopping,  ///< OFF3: 047B until "switch-on disabled"
+};
+
+/// Why the drive stopped, or was stopped by the driver, since it was last enabled. The first cause stays.
+enum class StopCause : std::uint8_t {
+  kNone,
+  kFault,            ///< the fault bit
+  kUnaskedExit,      ///< "operation enabled" left without being asked: OFF2/OFF3 at terminals, switch-on disabled, ...
+  kLocalControl,     ///< status bit 9 = 0: terminals have taken over
+  kSilent,           ///< no fresh status word for drive_timeout
+  kParameterSet,     ///< another parameter set came into force without being asked for
+  kQuickStop,        ///< the user's quick stop
+  kShutdownTimeout,  ///< OFF1 did not end in shutdown_timeout: quick stop
+};
+
+/// Why a request was not carried out.
+enum class Refusal : std::uint8_t {
+  kNone,
+  kOffline,
+  kFault,         ///< the fault bit is set, now
+  kFaultLatched,  ///< a fault was seen and not acknowledged since, though its bit is gone
+  kLocalControl,
+  kStopping,             ///< OFF1 or a quick stop has not ended yet
+  kBusy,                 ///< a fault is being acknowledged
+  kWrongState,           ///< from this state no enabling starts
+  kParameterSet,         ///< the set in force is not the one commanded
+  kMaxFrequencyUnknown,  ///< P105 of the set in force: nobody could say what a setpoint means
+  kEnableTimeout,        ///< the inverter did not follow within enable_timeout
+  kStopped,              ///< a stop came before the inverter had followed
+  kCauseStands,          ///< acknowledging: the fault is still there
+};
+
+struct DriveReport {
+  Phase phase = Phase::kOffline;
+  bool online = false;                                        ///< a useful status word within drive_timeout
+  profile::DriveState state = profile::DriveState::kUnknown;  ///< kUnknown while offline
+  Word status_word = 0;                                       ///< the last useful one
+  profile::ProcessInput input;                                ///< the last useful one
+  profile::ProcessOutput output;                              ///< as sent last
+  std::uint8_t parameter_set = 0;                             ///< in force, from the status word, 1..4; 0: not known
+  std::uint8_t commanded_set = 0;                             ///< in the control word, 1..4; 0: not learned yet
+
+  bool scaled = false;           ///< `frequency` and `velocity` can be told: online, and P105 of the set is known
+  Hertz frequency;               ///< from actual value 1
+  RadPerSec velocity;            ///< of the joint, from actual value 1
+  RadPerSec velocity_command;    ///< of the joint, what setpoint 1 as sent stands for
+  bool saturated = false;        ///< the wanted velocity is beyond P105
+  bool command_invalid = false;  ///< the wanted velocity was not a number: setpoint 0 was sent
+  bool direction_contradiction = false;  ///< the sign of actual value 1 against status bits 11 and 12
+
+  bool fault_latched = false;  ///< a fault was seen and not acknowledged since
+  StopCause stop_cause = StopCause::kNone;
+  Word stop_status_word = 0;  ///< the last status word at that moment
+
+  Refusal refusal = Refusal::kNone;  ///< of the last request
+  Word refusal_status_word = 0;      ///< the last status word at that moment
+  profile::DriveState refusal_state = profile::DriveState::kUnknown;
+};
+
+const char* toString(Phase phase) noexcept;
+/// A clause: "a fault", "the drive fell silent".
+const char* toString(StopCause cause) noexcept;
+/// A clause: "the drive does not answer".
+const char* toString(Refusal refusal) noexcept;
+
+/// The last refusal as a sentence with what the drive said at that moment; empty when there was none. Allocates.
+std::string refusalText(const DriveReport& report);
+/// The stop as a sentence; empty when there was none. Allocates.
+std::string stopText(const DriveReport& report);
+
+}  // namespace nord_driver::drive

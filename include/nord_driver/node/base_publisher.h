@@ -1,0 +1,37 @@
+// Odometry, tf, joint states and the limited command, from snapshots of the bus cycle.
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <optional>
+
+#include "nord_driver/cycle/snapshot.h"
+#include "nord_driver/node/node_config.h"
+
+namespace nord_driver::node {
+
+/// `odom` and its tf appear once every drive of the base has answered, enabled or not. Joint positions and velocities
+/// are always filled: robot_state_publisher ignores joints without a position.
+class BasePublisher {
+ public:
+  BasePublisher(ros::NodeHandle& node, const NodeConfig& config);
+  void publish(const cycle::CycleSnapshot& snapshot, ros::Time stamp);
+
+ private:
+  void publishOdometry(const cycle::BaseSnapshot& base, ros::Time stamp);
+  void publishJoints(const cycle::CycleSnapshot& snapshot, ros::Time stamp);
+
+  PublishConfig config_;
+  std::vector<std::size_t> jointed_;  // drives that turn a joint
+  nav_msgs::Odometry odometry_;
+  sensor_msgs::JointState joints_;
+  ros::Publisher odometry_publisher_;
+  ros::Publisher joints_publisher_;
+  ros::Publisher command_publisher_;
+  std::optional<tf2_ros::TransformBroadcaster> broadcaster_;
+};
+
+}  // namespace nord_driver::node

@@ -1,0 +1,28 @@
+// The bus as a whole, once a second.
+#pragma once
+
+#include <ros/ros.h>
+
+#include <string>
+#include <vector>
+
+#include "nord_driver/BusStatus.h"
+#include "nord_driver/cycle/snapshot.h"
+
+namespace nord_driver::node {
+
+/// One sentence for a technician: what the bus waits for, or that all is well.
+std::string busSentence(const cycle::CycleSnapshot& snapshot, const std::vector<std::string>& drive_names);
+
+class BusPublisher {
+ public:
+  BusPublisher(ros::NodeHandle& private_node, std::vector<std::string> drive_names);
+  void publish(const cycle::CycleSnapshot& snapshot, ros::Time stamp);
+  std::string sentence(const cycle::CycleSnapshot& snapshot) const { return busSentence(snapshot, names_); }
+
+ private:
+  std::vector<std::string> names_;
+  ros::Publisher publisher_;
+};
+
+}  // namespace nord_driver::node

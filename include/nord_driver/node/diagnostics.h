@@ -1,0 +1,35 @@
+// /diagnostics: one task for the bus, one for the base, one per drive (REP-107).
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "nord_driver/cycle/snapshot.h"
+#include "nord_driver/node/node_config.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver::node {
+
+/// Reports the snapshot it was given last. `update` runs the tasks when they are due (once a second).
+class Diagnostics {
+ public:
+  Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities);
+  void update(const cycle::CycleSnapshot& snapshot);
+
+ private:
+  void reportBus(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void reportBase(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void reportDrive(std::size_t drive, diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+  std::vector<std::string> names_;
+  std::vector<DriveIdentity> identities_;
+  std::vector<std::optional<double>> typed_max_frequency_;
+  std::string device_;
+  cycle::CycleSnapshot snapshot_;
+  diagnostic_updater::Updater updater_;
+};
+
+}  // namespace nord_driver::node

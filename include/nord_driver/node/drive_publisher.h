@@ -1,0 +1,38 @@
+// Status and device information of one drive, from snapshots of the bus cycle.
+#pragma once
+
+#include <ros/ros.h>
+
+#include <array>
+#include <optional>
+
+#include "nord_driver/DeviceInfo.h"
+#include "nord_driver/DriveStatus.h"
+#include "nord_driver/cycle/cycle_config.h"
+#include "nord_driver/cycle/snapshot.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver::node {
+
+class DrivePublisher {
+ public:
+  /// `private_node`: "~"; the topics are ~<drive>/status and ~<drive>/device_info.
+  DrivePublisher(ros::NodeHandle& private_node, const cycle::DriveSetup& setup, DriveIdentity identity,
+                 std::uint16_t address);
+
+  void publishStatus(const cycle::DriveSnapshot& drive, ros::Time stamp);
+  /// Latched, and published again only when it has changed.
+  void publishDeviceInfo(const cycle::DriveSnapshot& drive);
+
+ private:
+  DriveIdentity identity_;
+  double rated_current_;
+  DriveStatus status_;
+  DeviceInfo info_;
+  ros::Publisher status_publisher_;
+  ros::Publisher info_publisher_;
+  std::array<std::optional<double>, 4> frequencies_;  // behind info_.max_frequency, whose NaN equals nothing
+  bool told_ = false;
+};
+
+}  // namespace nord_driver::node

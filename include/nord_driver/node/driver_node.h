@@ -1,0 +1,74 @@
+// The driver as a ROS node: configuration in, topics and services out, the bus cycle in a thread of its own.
+#pragma once
+
+#include <geometry_msgs/Twist.h>
+#include <ros/ros.h>
+#include <std_msgs/Float64.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <pluginlib/class_loader.hpp>
+#include <vector>
+
+#include "nord_driver/cycle/bus_cycle.h"
+#include "nord_driver/cycle/cycle_ports.h"
+#include "nord_driver/cycle/cycle_thread.h"
+#include "nord_driver/node/base_publisher.h"
+#include "nord_driver/node/bus_publisher.h"
+#include "nord_driver/node/diagnostics.h"
+#include "nord_driver/node/drive_publisher.h"
+#include "nord_driver/node/node_config.h"
+#include "nord_driver/node/request_broker.h"
+#include "nord_driver/node/services.h"
+#include "nord_driver/node/snapshot_publisher.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver::node {
+
+/// Reads and checks the whole configuration before anything is advertised. Throws ConfigError.
+class DriverNode {
+ public:
+  DriverNode();
+  ~DriverNode();
+  DriverNode(const DriverNode&) = delete;
+  DriverNode& operator=(const DriverNode&) = delete;
+
+  /// Publishes until `end_asked` or ROS shuts down, then brings the drives to rest and ends the exchange.
+  void run(const std::atomic<bool>& end_asked);
+
+ private:
+  void loadTransport();
+  void warnOfUnknownKeys() const;
+  void advertise();
+  void takeCommand(const geometry_msgs::Twist& twist);
+  void takeDriveCommand(DriveIndex drive, double velocity);
+  void bringToRest();
+
+  ros::NodeHandle node_;
+  ros::NodeHandle private_node_;
+  RosSettings settings_;
+  NodeConfig config_;
+  pluginlib::ClassLoader<Transport> loader_;
+  boost::shared_ptr<Transport> transport_;
+  std::vector<DriveIdentity> identities_;
+
+  std::unique_ptr<cycle::CyclePorts> ports_;
+  std::unique_ptr<cycle::BusCycle> cycle_;
+  std::unique_ptr<cycle::CycleThread> thread_;
+  std::unique_ptr<RequestBroker> broker_;
+
+  std::unique_ptr<BasePublisher> base_publisher_;
+  std::vector<DrivePublisher> drive_publishers_;
+  std::unique_ptr<BusPublisher> bus_publisher_;
+  std::unique_ptr<Diagnostics> diagnostics_;
+  std::unique_ptr<Services> services_;
+  std::optional<SnapshotPublisher> publisher_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::Subscriber command_subscriber_;
+  std::atomic<std::uint64_t> bad_commands_{0};
+};
+
+}  // namespace nord_driver::node

@@ -1,0 +1,39 @@
+// The part of the configuration only the ROS side needs, and the reading of all parts from the parameter server.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nord_driver/cycle/cycle_config.h"
+#include "nord_driver/node/ros_settings.h"
+#include "nord_driver/transport/settings.h"
+
+namespace nord_driver::node {
+
+struct PublishConfig {
+  double publish_rate = 50.0;  ///< Hz: odom, tf, joint_states
+  double status_rate = 50.0;   ///< Hz: status of the drives
+  std::string base_frame_id = "base_link";
+  std::string odom_frame_id = "odom";
+  bool enable_odom_tf = true;
+  bool publish_cmd = false;
+  bool allow_multiple_cmd_vel_publishers = true;
+  std::array<double, 6> pose_covariance_diagonal{};
+  std::array<double, 6> twist_covariance_diagonal{};
+};
+
+struct NodeConfig {
+  std::string transport;  ///< plugin name with its prefix
+  bool auto_enable = false;
+  PublishConfig publish;
+  cycle::CycleConfig cycle;
+  std::vector<DriveSettings> drives;
+  std::shared_ptr<RosSettings> bus;
+};
+
+/// Everything except what the transport itself reads (`bus`, and each drive's address). Throws ConfigError.
+NodeConfig readNodeConfig(const RosSettings& settings);
+
+}  // namespace nord_driver::node

@@ -1,0 +1,34 @@
+// The services of the node: each hands a request to the bus cycle, waits for its answer and passes it on in words.
+#pragma once
+
+#include <ros/ros.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <vector>
+
+#include "nord_driver/ReadParameter.h"
+#include "nord_driver/cycle/request.h"
+#include "nord_driver/node/node_config.h"
+#include "nord_driver/node/request_broker.h"
+
+namespace nord_driver::node {
+
+class Services {
+ public:
+  Services(ros::NodeHandle& private_node, const NodeConfig& config, RequestBroker& broker);
+
+ private:
+  template <typename Service, typename Handler>
+  void advertise(ros::NodeHandle& node, const std::string& name, Handler handler);
+  cycle::Completion ask(cycle::RequestKind kind, DriveIndex drive);
+  void enable(DriveIndex drive, std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  void trigger(cycle::RequestKind kind, DriveIndex drive, std_srvs::Trigger::Response& response);
+  void readParameter(DriveIndex drive, ReadParameter::Request& request, ReadParameter::Response& response);
+
+  const NodeConfig& config_;
+  RequestBroker& broker_;
+  std::vector<ros::ServiceServer> servers_;
+};
+
+}  // namespace nord_driver::node

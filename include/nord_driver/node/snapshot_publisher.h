@@ -1,0 +1,44 @@
+// The publishing thread: takes the newest snapshot of the bus cycle and publishes each part of it at its own rate.
+#pragma once
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+#include "nord_driver/cycle/cycle_ports.h"
+#include "nord_driver/node/base_publisher.h"
+#include "nord_driver/node/bus_publisher.h"
+#include "nord_driver/node/diagnostics.h"
+#include "nord_driver/node/drive_publisher.h"
+#include "nord_driver/node/node_config.h"
+
+namespace nord_driver::node {
+
+/// Publishes from construction to destruction. The rates run on the steady clock, so that /use_sim_time cannot stop
+/// them; only the stamps are ROS time.
+class SnapshotPublisher {
+ public:
+  SnapshotPublisher(cycle::CyclePorts& ports, const PublishConfig& config, BasePublisher& base,
+                    std::vector<DrivePublisher>& drives, BusPublisher& bus, Diagnostics& diagnostics);
+  ~SnapshotPublisher();
+  SnapshotPublisher(const SnapshotPublisher&) = delete;
+  SnapshotPublisher& operator=(const SnapshotPublisher&) = delete;
+
+ private:
+  void run();
+  void logChanges(const cycle::CycleSnapshot& snapshot);
+
+  cycle::CyclePorts& ports_;
+  BasePublisher& base_;
+  std::vector<DrivePublisher>& drives_;
+  BusPublisher& bus_;
+  Diagnostics& diagnostics_;
+  Duration base_period_;
+  Duration status_period_;
+  std::string last_bus_text_;
+  std::string last_base_text_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace nord_driver::node

@@ -1,0 +1,99 @@
+// A PROFIBUS DP class-1 master for one segment with one master. Sans-IO: bytes and the time go in, bytes, events and
+// the next deadline come out. No thread, no clock, no device, no memory taken after construction.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "nord_driver/core/bytes.h"
+#include "nord_driver/core/time.h"
+#include "nord_driver/profibus/bus_parameters.h"
+#include "nord_driver/profibus/counters.h"
+#include "nord_driver/profibus/dp_event.h"
+#include "nord_driver/profibus/dp_services.h"
+#include "nord_driver/profibus/dp_slave.h"
+#include "nord_driver/profibus/requester.h"
+#include "nord_driver/profibus/slave_config.h"
+#include "nord_driver/profibus/slave_status.h"
+
+namespace nord_driver::profibus {
+
+/// Calling order: `restart()` whenever the line was opened; then per bus cycle
+///
+///     master.setOutputs(...);                           // for each slave
+///     master.startCycle(now);
+///     while (!master.cycleDone()) {
+///       link.write(master.pollTransmit(now));           // when not empty
+///       wait for bytes until master.nextDeadline();
+///       master.handleBytes(bytes, now);                 // when bytes came: before handleTimeout
+///       if (now >= *master.nextDeadline()) master.handleTimeout(now);
+///     }
+///     while (auto event = master.pollEvent()) ...
+///
+/// A cycle holds, in this order: Global_Control Operate when it is due; one exchange with each slave in data exchange;
+/// one step with each slave in its start-up; the diagnosis a slave announced in its exchange; a look for one silent
+/// slave. Bytes that come between cycles are given to `handleBytes()` too: they are counted, and the pause counts from
+/// them.
+class DpMaster {
+ public:
+  /// Throws std::invalid_argument with a sentence: a value out of range, an address twice, a watchdog no slave can be
+  /// told.
+  DpMaster(const BusParameters& bus, const std::vector<SlaveConfig>& slaves);
+
+  /// The line was (re)opened: every slave from the beginning.
+  void restart(Instant now) noexcept;
+
+  /// Begins a bus cycle. Ignored while one is running.
+  void startCycle(Instant now) noexcept;
+  bool cycleDone() const noexcept { return turn_ == Turn::Done && !requester_.busy(); }
+
+  void handleBytes(ByteView bytes, Instant now) noexcept;
+  /// To be called when `now` has reached `nextDeadline()`; harmless before.
+  void handleTimeout(Instant now) noexcept;
+  /// Bytes to send now with one write, or none (yet). Valid until the next call that is not const.
+  ByteView pollTransmit(Instant now) noexcept;
+  /// The end of the slot, or the moment the pause is over and `pollTransmit()` has something; nothing between cycles.
+  std::optional<Instant> nextDeadline() const noexcept { return requester_.nextDeadline(); }
+  std::optional<DpEvent> pollEvent() noexcept { return events_.pop(); }
+
+  std::size_t slaveCount() const noexcept { return slaves_.size(); }
+  /// Kept, and sent with every exchange from now on. Cut or filled with zeros to the configured length.
+  void setOutputs(std::size_t slave, ByteView outputs) noexcept { slaves_[slave].setOutputs(outputs); }
+  /// The last valid ones, zeros before the first; fresh only with `status().exchanged_this_cycle`.
+  ByteView inputs(std::size_t slave) const noexcept { return slaves_[slave].inputs(); }
+  const SlaveStatus& status(std::size_t slave) const noexcept { return slaves_[slave].status(); }
+  const Counters& counters() const noexcept { return requester_.counters(); }
+
+ private:
+  enum class Turn : std::uint8_t { Operate, Exchange, StartUp, Diagnosis, Probe, Done };
+
+  void advance(Instant now) noexcept;
+  bool askNext(Instant now) noexcept;
+  bool askOperate(Instant now) noexcept;
+  template <typename Wants>
+  bool askFirst(Instant now, Wants&& wants) noexcept;
+  bool askProbe(Instant now) noexcept;
+  void ask(std::size_t slave, Instant now) noexcept;
+  void nextTurn() noexcept;
+  void abandonCycle() noexcept;
+  void tellForeign(std::uint8_t master, Instant now) noexcept;
+
+  BusParameters bus_;
+  Requester requester_;
+  std::vector<DpSlave> slaves_;
+  DpEvents events_;
+  FdlRequest operate_;  // the same bytes every time
+  FdlRequest request_;
+  Turn turn_ = Turn::Done;
+  std::size_t cursor_ = 0;        // next slave to look at in this turn
+  std::size_t asked_ = 0;         // slave of `request_`
+  std::size_t probe_cursor_ = 0;  // silent slaves take turns
+  std::optional<Instant> last_operate_;
+  std::optional<Instant> last_foreign_;
+  std::uint8_t foreign_ = kNoOwner;
+  bool told_busy_ = false;
+};
+
+}  // namespace nord_driver::profibus

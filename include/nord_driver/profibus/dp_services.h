@@ -1,0 +1,41 @@
+// The requests of a DP class-1 master, byte for byte.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "nord_driver/core/bytes.h"
+#include "nord_driver/profibus/bus_parameters.h"
+#include "nord_driver/profibus/fdl_request.h"
+#include "nord_driver/profibus/slave_config.h"
+
+namespace nord_driver::profibus {
+
+/// Builds requests in place. `count_bits` are FCB and FCV from the slave's FrameCount.
+class DpServices {
+ public:
+  explicit DpServices(const BusParameters& bus) noexcept
+      : master_(bus.master), retries_(bus.max_retries), send_sd3_(bus.send_sd3) {}
+
+  /// Is anybody there? Never repeated: a station that does not answer is asked again later.
+  void fdlStatus(FdlRequest& request, StationAddress slave) const noexcept;
+  void slaveDiag(FdlRequest& request, StationAddress slave, std::uint8_t count_bits) const noexcept;
+  void setPrm(FdlRequest& request, const SlaveConfig& slave, std::uint16_t ident,
+              std::uint8_t count_bits) const noexcept;
+  void chkCfg(FdlRequest& request, const SlaveConfig& slave, std::uint8_t count_bits) const noexcept;
+  void dataExchange(FdlRequest& request, const SlaveConfig& slave, ByteView outputs,
+                    std::uint8_t count_bits) const noexcept;
+  /// Global_Control Operate to all slaves and all groups. There is no Clear: zeroed outputs do not stop a NORD drive
+  /// (BU 2700 7.1.1), so that it would only pretend to be a stop.
+  void operate(FdlRequest& request) const noexcept;
+
+ private:
+  void ask(FdlRequest& request, StationAddress slave, std::uint8_t count_bits, std::optional<std::uint8_t> dsap,
+           ByteView data) const noexcept;
+
+  StationAddress master_;
+  std::uint8_t retries_;
+  bool send_sd3_;
+};
+
+}  // namespace nord_driver::profibus

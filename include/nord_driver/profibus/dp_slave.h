@@ -1,0 +1,95 @@
+// One slave as its master sees it: which request is next, and what its answer means.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "nord_driver/core/bytes.h"
+#include "nord_driver/core/time.h"
+#include "nord_driver/profibus/dp_event.h"
+#include "nord_driver/profibus/dp_services.h"
+#include "nord_driver/profibus/fdl_request.h"
+#include "nord_driver/profibus/frame_count.h"
+#include "nord_driver/profibus/slave_config.h"
+#include "nord_driver/profibus/slave_status.h"
+
+namespace nord_driver::profibus {
+
+/// The order of EN 50170-8: FDL status, Slave_Diag, Set_Prm, Chk_Cfg, Slave_Diag until ready, data exchange. Everything
+/// that goes wrong leads back to the beginning: at once when the slave fell silent or left, after a growing pause when
+/// it refused.
+class DpSlave {
+ public:
+  DpSlave(std::size_t index, const SlaveConfig& config, const BusParameters& bus);
+
+  /// The line was opened anew: from the beginning.
+  void restart(Instant now, DpEvents& events) noexcept;
+  void startCycle() noexcept;
+
+  // What this slave wants of the current cycle. Every request it is given satisfies one of these.
+  bool wantsExchange() const noexcept;
+  bool wantsStartUpStep(Instant now) const noexcept;
+  bool wantsDiagnosis() const noexcept;
+  bool wantsProbe(Instant now) const noexcept;
+  /// Writes the wanted request.
+  void prepare(FdlRequest& request, Instant now) noexcept;
+
+  void handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
+  /// The request was sent, retries included, and not answered.
+  void handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) noexcept;
+
+  void setOutputs(ByteView outputs) noexcept;
+  ByteView inputs() const noexcept { return inputs_; }
+  const SlaveStatus& status() const noexcept { return status_; }
+  SlaveCounters& counters() noexcept { return status_.counters; }
+
+ private:
+  struct Fault {
+    DpEventKind kind;
+    const char* text;
+  };
+  enum class Service : std::uint8_t { FdlStatus, SlaveDiag, SetPrm, ChkCfg, DataExchange };
+
+  Service nextService() noexcept;
+  void onFdlStatus(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
+  void onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
+  void onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
+  void onExchange(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
+
+  void judgeFirst(Instant now, DpEvents& events) noexcept;
+  void judgeReady(Instant now, DpEvents& events) noexcept;
+  void judgeInExchange(Instant now, DpEvents& events) noexcept;
+  /// What makes data exchange impossible, as the diagnosis shows it; who it is and whose it is come first.
+  std::optional<Fault> strangerIn(const Diagnosis& diagnosis) const noexcept;
+  std::optional<Fault> faultIn(const Diagnosis& diagnosis) const noexcept;
+
+  void fallSilent(Instant due, const char* note) noexcept;
+  void startOver(const char* note) noexcept;
+  void lose(LossCause cause, const char* text, DpEvents& events) noexcept;
+  void backOff(const Fault& fault, Instant now, DpEvents& events) noexcept;
+  void forgetFaults() noexcept;
+  DpEvent event(DpEventKind kind, const char* text) const noexcept;
+
+  std::size_t index_;
+  SlaveConfig config_;
+  DpServices services_;
+  std::uint8_t master_;
+  Duration probe_interval_;
+
+  SlaveStatus status_;
+  FrameCount frame_count_;
+  std::vector<std::uint8_t> outputs_, inputs_;  // sized once, in the constructor
+  Service asked_ = Service::FdlStatus;
+  bool stepped_ = false;        // had its request of this cycle
+  bool diagnosed_ = false;      // ... and the diagnosis behind its exchange
+  bool diagnosis_due_ = false;  // in data exchange: DH was seen
+  Instant due_{};               // no request before (probes, back-off, slow polling)
+  Instant ready_since_{};       // AwaitReady was entered
+  Duration pause_{};            // of the next back-off
+  bool told_found_ = false;
+  std::optional<DpEventKind> told_fault_;
+};
+
+}  // namespace nord_driver::profibus

@@ -1,0 +1,86 @@
+// Sends one request at a time and brings its answer: pauses, slot time, retries. Sans-IO: bytes and the time go in,
+// bytes and the next deadline come out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "nord_driver/core/bytes.h"
+#include "nord_driver/core/time.h"
+#include "nord_driver/profibus/bus_parameters.h"
+#include "nord_driver/profibus/counters.h"
+#include "nord_driver/profibus/fdl_request.h"
+#include "nord_driver/profibus/telegram_receiver.h"
+
+namespace nord_driver::profibus {
+
+/// Calling order: `begin()`, then pollTransmit, handleBytes and handleTimeout until `busy()` is false.
+class Requester {
+ public:
+  enum class Outcome : std::uint8_t {
+    None,      ///< nothing has come to an end
+    NoAnswer,  ///< the last slot ended without an answer
+    LineBusy   ///< the line never fell silent enough to send
+  };
+
+  explicit Requester(const BusParameters& bus) noexcept : bus_(bus) {}
+
+  /// The line was opened: what was under way is forgotten, and the first request waits for a quiet line.
+  void restart(Instant now) noexcept;
+
+  /// `request` (and `slave`, when given: the counters of the station asked) must live until the request has ended.
+  void begin(const FdlRequest& request, SlaveCounters* slave, Instant now) noexcept;
+  bool busy() const noexcept { return state_ != State::Idle; }
+
+  /// The bytes to send now with one write, or none (yet). A request nobody answers has ended with this.
+  ByteView pollTransmit(Instant now) noexcept;
+  std::optional<Instant> nextDeadline() const noexcept;
+  Outcome handleTimeout(Instant now) noexcept;
+
+  /// Calls `on_answer(const FdlAnswer&)` for the answer to the outstanding request, at most once per request, and
+  /// `on_foreign(std::uint8_t master)` for every token and every request that somebody else sent.
+  template <typename OnAnswer, typename OnForeign>
+  void handleBytes(ByteView bytes, Instant now, OnAnswer&& on_answer, OnForeign&& on_foreign) noexcept {
+    if (bytes.empty()) return;
+    noteActivity(now);
+    receiver_.receive(bytes, [&](const Telegram& telegram) {
+      if (isForeign(telegram)) {
+        ++counters_.foreign_telegrams;
+        on_foreign(telegram.sa);
+      }
+      FdlAnswer answer;
+      if (accept(telegram, answer)) on_answer(answer);
+    });
+    takeReceiverCounters();
+  }
+
+  /// What was wrong with the last telegram that came instead of an answer to the request.
+  Mismatch lastMismatch() const noexcept { return mismatch_; }
+
+  Counters& counters() noexcept { return counters_; }
+  const Counters& counters() const noexcept { return counters_; }
+
+ private:
+  enum class State : std::uint8_t { Idle, ToSend, AwaitAnswer };
+
+  void noteActivity(Instant now) noexcept;
+  bool isForeign(const Telegram& telegram) const noexcept;
+  bool accept(const Telegram& telegram, FdlAnswer& answer) noexcept;
+  void queue(Instant now) noexcept;
+  void takeReceiverCounters() noexcept;
+
+  BusParameters bus_;
+  TelegramReceiver receiver_;
+  Counters counters_;
+  State state_ = State::Idle;
+  const FdlRequest* request_ = nullptr;
+  SlaveCounters* slave_ = nullptr;
+  std::uint32_t sendings_ = 0;
+  Mismatch mismatch_ = Mismatch::None;
+  Instant silent_from_{};   // the line has been idle for long enough at this moment
+  Instant give_up_{};       // ToSend: if it is not idle by then, it never will be
+  Instant slot_end_{};      // AwaitAnswer
+  Instant answer_limit_{};  // AwaitAnswer: the slot is not prolonged beyond
+};
+
+}  // namespace nord_driver::profibus

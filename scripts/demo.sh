@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# The demo: installs what is missing, builds, and lets a simulated two-wheel robot drive a square by cmd_vel.
+# Ends with 0 when the robot's true pose is back within 5 cm of the start. --keep leaves everything running.
+set -euo pipefail
+export PATH=/usr/bin:/bin:/usr/sbin:/sbin
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+keep=false
+for argument in "$@"; do
+  case "$argument" in
+    --keep) keep=true ;;
+    -h | --help)
+      sed -n '2,3s/^# //p' "${BASH_SOURCE[0]}"
+      exit 0
+      ;;
+    *)
+      echo "demo.sh: unknown argument \"$argument\", expected --keep" >&2
+      exit 2
+      ;;
+  esac
+done
+
+"$root/scripts/install_deps.sh"
+
+out="$root/out/demo"
+log=$(mktemp /tmp/nord_driver_demo.XXXXXX.log)
+echo "building in out/demo (log: $log) ..."
+if ! { cmake -S "$root" -B "$out" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCATKIN_ENABLE_TESTING=OFF &&
+  cmake --build "$out" -j "$(nproc)"; } >"$log" 2>&1; then
+  tail -n 40 "$log" >&2
+  echo "demo.sh: the build failed, see $log" >&2
+  exit 1
+fi
+
+set +u # catkin's setup files read variables that may be unset
+# shellcheck disable=SC1091
+source "$out/devel/setup.bash"
+set -u
+
+free_port() {
+  python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'
+}
+port=$(free_port)
+export ROS_MASTER_URI="http://127.0.0.1:$port" ROS_IP=127.0.0.1
+unset ROS_HOSTNAME
+
+device="/tmp/nord_driver_demo_bus.$$"
+roslaunch --port "$port" nord_driver demo.launch output:=log device:="$device" >>"$log" 2>&1 &
+launch=$!
+
+stop() {
+  kill -INT "$launch" 2>/dev/null || true
+  wait "$launch" 2>/dev/null || true
+}
+trap stop EXIT
+
+status=0
+python3 "$root/scripts/drive_square.py" || status=$?
+if [ "$status" -ne 0 ]; then
+  echo "--- end of $log:" >&2
+  tail -n 30 "$log" >&2
+fi
+
+if $keep; then
+  echo "The demo goes on until Ctrl-C. In another terminal:"
+  echo "  export ROS_MASTER_URI=$ROS_MASTER_URI ROS_IP=127.0.0.1"
+  echo "  source out/demo/devel/setup.bash && rostopic list"
+  wait "$launch" || true
+fi
+exit "$status"

@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# Installs the Debian (bookworm) packages this project needs and that are missing. Everything comes from Debian's own
+# archive; there is no /opt/ros. Nothing missing: ends with 0 at once, without network.
+set -euo pipefail
+export PATH=/usr/bin:/usr/sbin:/bin:/sbin:$PATH
+
+usage() {
+  cat <<'TEXT'
+usage: install_deps.sh [--test] [--list]
+  --test  also what scripts/test.sh needs beyond a build: formatter and linter
+  --list  print the packages, install nothing
+Without root it prints the command that installs what is missing and ends with 1.
+TEXT
+}
+
+# Build, programs and demo. The test libraries belong here: catkin configures the tests with every build.
+packages=(
+  build-essential cmake
+  catkin ros-core-dev rosbash
+  libdiagnostic-updater-dev pluginlib-dev
+  libtf2-dev libtf2-ros-dev
+  liburdfdom-dev liburdfdom-headers-dev
+  libcli11-dev libyaml-cpp-dev
+  ros-robot-state-publisher
+  librostest-dev python3-rostest
+  python3-rospy python3-geometry-msgs python3-nav-msgs python3-std-srvs
+  libgtest-dev libgmock-dev librapidcheck-dev
+)
+test_packages=(clang-format-14 clang-tidy-14)
+
+list=false
+for argument in "$@"; do
+  case $argument in
+    --test) packages+=("${test_packages[@]}") ;;
+    --list) list=true ;;
+    -h | --help) usage; exit 0 ;;
+    *) usage >&2; exit 2 ;;
+  esac
+done
+
+if $list; then
+  printf '%s\n' "${packages[@]}"
+  exit 0
+fi
+
+if ! command -v apt-get dpkg-query >/dev/null; then
+  echo "install_deps: this is not a Debian system; needed are the equivalents of: ${packages[*]}" >&2
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null || true)
+  grep -qx installed <<<"$status" || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+  exit 0
+fi
+
+install=(apt-get install -y --no-install-recommends "${missing[@]}")
+if ((EUID != 0)); then
+  echo "install_deps: missing packages; install them with" >&2
+  echo "sudo ${install[*]}"
+  exit 1
+fi
+
+export DEBIAN_FRONTEND=noninteractive
+# A machine that has never fetched the lists knows no candidate; one with old lists may be sent to files that are gone.
+if ! apt-cache show "${missing[@]}" >/dev/null 2>&1; then
+  apt-get update
+  "${install[@]}"
+elif ! "${install[@]}"; then
+  apt-get update
+  "${install[@]}"
+fi

@@ -1,0 +1,143 @@
+#!/usr/bin/env bash
+# Builds everything and runs every test and check. The last line is "N passed, N failed, N skipped": test cases, and each
+# check (format, lint, workspace) as one. Ends with 0 only when nothing failed and something passed.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+usage() {
+  cat <<'TEXT'
+usage: test.sh [--sanitize] [--quick]
+  --sanitize  the tests in a Debug build with AddressSanitizer and UndefinedBehaviorSanitizer (out/sanitize)
+  --quick     the tests and the format only; lint and workspace count as skipped
+TEXT
+}
+
+sanitize=false
+quick=false
+for argument in "$@"; do
+  case $argument in
+    --sanitize) sanitize=true ;;
+    --quick) quick=true ;;
+    -h | --help) usage; exit 0 ;;
+    *) usage >&2; exit 2 ;;
+  esac
+done
+
+out=$root/out/test
+options=(-DNORD_DRIVER_STRICT=ON)
+if $sanitize; then
+  out=$root/out/sanitize
+  options+=(-DCMAKE_BUILD_TYPE=Debug -DNORD_DRIVER_SANITIZE=ON)
+fi
+export CTEST_OUTPUT_ON_FAILURE=1
+# Nothing of a test leaves the build folder or this machine.
+export ROS_HOME=$out/ros_home ROS_LOG_DIR=$out/ros_home/log ROS_HOSTNAME=localhost
+export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_stack_use_after_return=1} UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
+unset ROS_MASTER_URI ROS_IP
+
+passed=0
+failed=0
+skipped=0
+
+finish() {
+  echo
+  echo "$passed passed, $failed failed, $skipped skipped"
+  ((failed == 0 && passed > 0)) || exit 1
+  exit 0
+}
+
+# check NAME COMMAND...: runs it and counts it as one.
+check() {
+  local name=$1 start=$SECONDS
+  shift
+  echo "== $name"
+  if "$@"; then
+    passed=$((passed + 1))
+    echo "== $name: passed ($((SECONDS - start)) s)"
+  else
+    failed=$((failed + 1))
+    echo "== $name: FAILED ($((SECONDS - start)) s)"
+  fi
+}
+
+skip() {
+  skipped=$((skipped + 1))
+  echo "== $1: skipped ($2)"
+}
+
+# Stops here when it fails: nothing after it could run.
+must() {
+  local name=$1 before=$failed
+  check "$@"
+  ((failed == before)) || finish
+  passed=$((passed - 1)) # a step, not a check
+}
+
+format() {
+  local folders=("$root"/include "$root"/src "$root"/test)
+  if [[ -d $root/bench ]]; then folders+=("$root/bench"); fi
+  find "${folders[@]}" \( -name '*.h' -o -name '*.cpp' \) -print0 |
+    xargs -0 clang-format-14 --style=file --dry-run -Werror
+}
+
+lint() {
+  [[ -s $out/compile_commands.json ]] || {
+    echo "$out/compile_commands.json is missing"
+    return 1
+  }
+  find "$root/src" -name '*.cpp' -print0 |
+    xargs -0 -n 1 -P "$jobs" clang-tidy-14 -p "$out" --quiet --extra-arg=-Wno-unknown-warning-option 2>&1 |
+    { grep -vE '^[0-9]+ warnings? generated\.$' || true; }
+}
+
+build() {
+  configure "$out" "${options[@]}" >"$out/configure.log" 2>&1 || {
+    tail -n 40 "$out/configure.log"
+    return 1
+  }
+  # Everything a user gets, and everything a test needs.
+  cmake --build "$out" -j "$jobs" >"$out/build.log" 2>&1 &&
+    cmake --build "$out" -j "$jobs" --target tests >>"$out/build.log" 2>&1 || {
+    grep -nE 'error|Error|FAILED' -A 5 "$out/build.log" | head -n 80
+    return 1
+  }
+}
+
+# Two at a time: the ones that need the machine for themselves say RUN_SERIAL.
+run_tests() {
+  local results=$out/test_results status=0 counted
+  rm -rf "$results"
+  (cd "$out" && ctest -j 2 --no-tests=error) || status=$?
+  counted=$(/usr/bin/python3 "$root/scripts/count_results.py" "$results")
+  read -r tests_passed tests_failed tests_skipped <<<"$counted"
+  passed=$((passed + tests_passed))
+  failed=$((failed + tests_failed))
+  skipped=$((skipped + tests_skipped))
+  if ((tests_passed == 0)); then
+    echo "no test case ran"
+    failed=$((failed + 1))
+  elif ((status != 0 && tests_failed == 0)); then
+    echo "ctest ended with $status although no case failed: a test program died"
+    failed=$((failed + 1))
+  fi
+}
+
+mkdir -p "$out"
+must "install_deps" "$root/scripts/install_deps.sh" --test
+must "build" build
+echo "== tests"
+start=$SECONDS
+run_tests
+echo "== tests: $((SECONDS - start)) s"
+if $sanitize; then
+  for name in format lint workspace; do skip $name "the run without --sanitize does it"; done
+else
+  check "format" format
+  if $quick; then
+    for name in lint workspace; do skip $name "--quick"; done
+  else
+    check "lint" lint
+    check "workspace" "$root/scripts/check_workspace.sh"
+  fi
+fi
+finish

@@ -1,0 +1,95 @@
+#include "nord_driver/cycle/base_config.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "nord_driver/transport/setting_checks.h"
+
+namespace nord_driver::cycle {
+
+namespace {
+
+std::vector<DriveIndex> readWheels(const Settings& settings, const std::string& key, const JointNames& joints) {
+  const auto names = settings.texts(key);
+  if (!names || names->empty()) {
+    throw ConfigError(settings.fullName(key) + " is missing: expected the joint name of a drive, or a list of them");
+  }
+  std::vector<DriveIndex> wheels;
+  for (const std::string& name : *names) {
+    const auto at = std::find(joints.begin(), joints.end(), name);
+    if (name.empty() || at == joints.end()) {
+      throw wrongSetting(settings, key, "\"" + name + "\"", "the `joint` of one of the drives");
+    }
+    wheels.push_back(static_cast<DriveIndex>(at - joints.begin()));
+  }
+  return wheels;
+}
+
+void refuseWheelsUsedTwice(const Settings& settings, const BaseConfig& base, const JointNames& joints) {
+  std::vector<DriveIndex> all = base.left;
+  all.insert(all.end(), base.right.begin(), base.right.end());
+  std::sort(all.begin(), all.end());
+  const auto twice = std::adjacent_find(all.begin(), all.end());
+  if (twice != all.end()) {
+    throw wrongSetting(settings, "right_wheel", "\"" + joints[*twice] + "\"", "every wheel joint only once");
+  }
+}
+
+robot::SpeedLimits readLimits(const Settings& settings, const std::string& axis) {
+  robot::SpeedLimits limits;
+  const auto number = [&](const char* key) { return settings.number(axis + "/" + key); };
+  limits.has_velocity_limits = settings.boolean(axis + "/has_velocity_limits").value_or(false);
+  limits.max_velocity = number("max_velocity").value_or(0.0);
+  limits.min_velocity = number("min_velocity");
+  limits.has_acceleration_limits = settings.boolean(axis + "/has_acceleration_limits").value_or(false);
+  limits.max_acceleration = number("max_acceleration").value_or(0.0);
+  limits.min_acceleration = number("min_acceleration");
+  limits.has_jerk_limits = settings.boolean(axis + "/has_jerk_limits").value_or(false);
+  limits.max_jerk = number("max_jerk").value_or(0.0);
+  limits.min_jerk = number("min_jerk");
+  const std::string problem = robot::problemOf(limits, settings.fullName(axis));
+  if (!problem.empty()) throw ConfigError(problem);
+  return limits;
+}
+
+robot::DiffDriveGeometry readGeometry(const Settings& settings) {
+  constexpr double kSmallest = 1e-3, kLargest = 100.0;
+  robot::DiffDriveGeometry geometry;
+  geometry.wheel_separation = requiredNumber(settings, "wheel_separation", kSmallest, kLargest, "m");
+  geometry.left_wheel_radius = requiredNumber(settings, "wheel_radius", kSmallest, kLargest, "m");
+  geometry.right_wheel_radius = geometry.left_wheel_radius;
+  const auto multiplier = [&](const char* key, double fallback) {
+    return numberOr(settings, key, fallback, 0.01, 100.0, "");
+  };
+  geometry.wheel_separation_multiplier = multiplier("wheel_separation_multiplier", 1.0);
+  const double both = multiplier("wheel_radius_multiplier", 1.0);
+  geometry.left_wheel_radius_multiplier = multiplier("left_wheel_radius_multiplier", both);
+  geometry.right_wheel_radius_multiplier = multiplier("right_wheel_radius_multiplier", both);
+  return geometry;
+}
+
+}  // namespace
+
+std::optional<BaseConfig> readBaseConfig(const Settings& settings, const JointNames& joints) {
+  if (!settings.has("left_wheel")) {
+    if (settings.has("right_wheel")) {
+      throw ConfigError(settings.fullName("left_wheel") + " is missing: expected it beside " +
+                        settings.fullName("right_wheel"));
+    }
+    return std::nullopt;
+  }
+  BaseConfig base;
+  base.left = readWheels(settings, "left_wheel", joints);
+  base.right = readWheels(settings, "right_wheel", joints);
+  refuseWheelsUsedTwice(settings, base, joints);
+  base.geometry = readGeometry(settings);
+  base.limits.linear_x = readLimits(settings, "linear/x");
+  base.limits.angular_z = readLimits(settings, "angular/z");
+  base.limits.limit_axes_independently = settings.boolean("limit_axes_independently").value_or(false);
+  base.open_loop = settings.boolean("open_loop").value_or(false);
+  base.velocity_rolling_window_size =
+      static_cast<std::size_t>(integerOr(settings, "velocity_rolling_window_size", 10, 1, 10'000));
+  return base;
+}
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,98 @@
+#include "nord_driver/cycle/cycle_config.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "nord_driver/transport/setting_checks.h"
+
+namespace nord_driver::cycle {
+
+namespace {
+
+constexpr double kMinCycleRate = 1.0, kMaxCycleRate = 1000.0;  // Hz
+constexpr Duration kMinDriveTimeout = std::chrono::milliseconds{50};
+
+// Drive names become parts of topic names.
+bool isRosName(const std::string& name) {
+  if (name.empty() || std::isalpha(static_cast<unsigned char>(name[0])) == 0) return false;
+  return std::all_of(name.begin(), name.end(),
+                     [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; });
+}
+
+profile::Series readSeries(const Settings& settings) {
+  std::string names;
+  for (const profile::Series series : profile::kAllSeries) {
+    names += (names.empty() ? "" : ", ") + std::string(profile::toString(series));
+  }
+  const std::string text = requiredText(settings, "series", "one of " + names);
+  const auto series = profile::seriesFrom(text);
+  if (!series) throw wrongSetting(settings, "series", "\"" + text + "\"", "one of " + names);
+  return *series;
+}
+
+DriveSetup readDrive(const DriveSettings& source, const CycleConfig& config, Duration drive_timeout) {
+  const Settings& settings = *source.settings;
+  if (!isRosName(source.name)) {
+    throw ConfigError(settings.fullName("") + ": \"" + source.name +
+                      "\" is not valid, expected a name of letters, digits and underscores that begins with a letter");
+  }
+  DriveSetup setup;
+  setup.name = source.name;
+  setup.joint = settings.text("joint").value_or("");
+  setup.series = readSeries(settings);
+  setup.drive.joint.gear_ratio = numberOr(settings, "gear_ratio", 1.0, 1e-3, 1e5, "");
+  setup.drive.joint.pole_pairs = static_cast<int>(requiredInteger(settings, "pole_pairs", 1, 64));
+  setup.drive.joint.inverted = settings.boolean("inverted").value_or(false);
+  if (settings.has("max_frequency")) {
+    // P105 has 0.1 Hz steps; 400 Hz is the most any of the series turns.
+    setup.typed_max_frequency = requiredNumber(settings, "max_frequency", 0.1, 400.0, "Hz");
+    setup.drive.max_frequency.fill(Hertz{*setup.typed_max_frequency});
+  }
+  if (settings.has("rated_current")) {
+    setup.rated_current = requiredNumber(settings, "rated_current", 0.01, 10'000.0, "A");
+  }
+  setup.drive.drive_timeout = drive_timeout;
+  setup.drive.enable_timeout = config.service_timeout;
+  setup.drive.shutdown_timeout = config.shutdown_timeout;
+  return setup;
+}
+
+void refuseJointsUsedTwice(const std::vector<DriveSettings>& sources, const std::vector<DriveSetup>& drives) {
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!drives[i].joint.empty() && drives[i].joint == drives[j].joint) {
+        throw wrongSetting(*sources[i].settings, "joint", "\"" + drives[i].joint + "\"",
+                           "a joint that drive \"" + drives[j].name + "\" does not turn already");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSettings>& drives) {
+  CycleConfig config;
+  config.cycle_rate = numberOr(node, "cycle_rate", 100.0, kMinCycleRate, kMaxCycleRate, "Hz");
+  config.real_time.priority = static_cast<int>(integerOr(node, "realtime_priority", 0, 0, 99));
+  config.real_time.lock_memory = node.boolean("lock_memory").value_or(false);
+  config.service_timeout = seconds(numberOr(node, "service_timeout", 3.0, 0.1, 60.0, "s"));
+  config.shutdown_timeout = seconds(numberOr(node, "shutdown_timeout", 10.0, 0.1, 600.0, "s"));
+  config.cmd_vel_timeout = seconds(numberOr(node, "cmd_vel_timeout", 0.5, 0.0, 60.0, "s"));
+  const Duration default_drive_timeout = std::max(kMinDriveTimeout, 3 * config.period());
+  const Duration drive_timeout = seconds(
+      numberOr(node, "drive_timeout", toSeconds(default_drive_timeout), toSeconds(2 * config.period()), 60.0, "s"));
+
+  if (drives.empty()) {
+    throw ConfigError(node.fullName("drives") + " is missing: expected at least one drive with its address");
+  }
+  JointNames joints;
+  for (const DriveSettings& source : drives) {
+    config.drives.push_back(readDrive(source, config, drive_timeout));
+    joints.push_back(config.drives.back().joint);
+  }
+  refuseJointsUsedTwice(drives, config.drives);
+  config.base = readBaseConfig(node, joints);
+  return config;
+}
+
+}  // namespace nord_driver::cycle

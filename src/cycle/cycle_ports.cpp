@@ -1,0 +1,50 @@
+#include "nord_driver/cycle/cycle_ports.h"
+
+#include <errno.h>
+#include <time.h>
+
+namespace nord_driver::cycle {
+
+CyclePorts::CyclePorts(std::size_t drive_count) : snapshot_(CycleSnapshot{drive_count}) {
+  for (std::size_t i = 0; i < drive_count; ++i) {
+    drive_commands_.push_back(std::make_unique<LatestValue<JointCommand>>());
+  }
+  sem_init(&completed_, 0, 0);
+}
+
+CyclePorts::~CyclePorts() {
+  sem_destroy(&completed_);
+}
+
+void CyclePorts::commandBase(const TwistCommand& command) {
+  const std::lock_guard<std::mutex> lock(writers_);
+  base_command_.write(command);
+}
+
+void CyclePorts::commandDrive(DriveIndex drive, const JointCommand& command) {
+  const std::lock_guard<std::mutex> lock(writers_);
+  drive_commands_.at(drive)->write(command);
+}
+
+bool CyclePorts::submit(const Request& request) {
+  const std::lock_guard<std::mutex> lock(writers_);
+  return requests_.push(request);
+}
+
+void CyclePorts::complete(const Completion& completion) noexcept {
+  if (completion.id != 0 && completions_.push(completion)) sem_post(&completed_);
+}
+
+std::optional<Completion> CyclePorts::waitCompletion(Duration limit) {
+  timespec until{};
+  clock_gettime(CLOCK_MONOTONIC, &until);
+  const std::int64_t nanoseconds = until.tv_nsec + limit.count();
+  until.tv_sec += static_cast<time_t>(nanoseconds / 1'000'000'000);
+  until.tv_nsec = static_cast<long>(nanoseconds % 1'000'000'000);
+  while (sem_clockwait(&completed_, CLOCK_MONOTONIC, &until) != 0) {
+    if (errno != EINTR) return std::nullopt;
+  }
+  return completions_.pop();
+}
+
+}  // namespace nord_driver::cycle

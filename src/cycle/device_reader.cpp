@@ -1,0 +1,91 @@
+#include "nord_driver/cycle/device_reader.h"
+
+#include "nord_driver/profile/parameter_catalogue.h"
+
+namespace nord_driver::cycle {
+
+namespace {
+
+constexpr std::uint8_t kMaxAttempts = 3;
+constexpr std::uint16_t kMaxFrequency = 105, kTelegramTimeout = 513, kFirstActualValue = 543, kFirstSetpoint = 546,
+                        kSoftwareVersion = 707;
+
+bool isArray(profile::ParameterShape shape) noexcept {
+  return shape == profile::ParameterShape::kArray || shape == profile::ParameterShape::kArrayPerSet;
+}
+
+}  // namespace
+
+DeviceReader::DeviceReader(profile::Series series) noexcept : series_(series) {
+  for (std::uint8_t set = 1; set <= 4; ++set) add(kMaxFrequency, set, 1);
+  add(kTelegramTimeout, 1, 1);
+  add(kSoftwareVersion, 1, 1);
+  add(kSoftwareVersion, 1, 2);
+  addFunctions(kFirstActualValue);
+  addFunctions(kFirstSetpoint);
+}
+
+void DeviceReader::add(std::uint16_t number, std::uint8_t set, std::uint8_t index) noexcept {
+  if (profile::findParameter(number, series_) != nullptr) items_.push_back({number, set, index});
+}
+
+// Functions 1..3: three parameters on SK 500E-535E, one array on the others (BU 2700 6.4.4).
+void DeviceReader::addFunctions(std::uint16_t first_number) noexcept {
+  const profile::ParameterInfo* info = profile::findParameter(first_number, series_);
+  if (info == nullptr) return;
+  for (std::uint8_t i = 0; i < 3; ++i) {
+    if (isArray(info->shape)) {
+      add(first_number, 1, static_cast<std::uint8_t>(i + 1));
+    } else {
+      add(static_cast<std::uint16_t>(first_number + i), 1, 1);
+    }
+  }
+}
+
+void DeviceReader::handleOffline() noexcept {
+  waiting_ = false;
+  restart_ = true;
+}
+
+std::optional<profile::ParameterRequest> DeviceReader::pollRequest() noexcept {
+  if (waiting_) return std::nullopt;
+  if (restart_) {
+    restart_ = false;
+    next_ = 0;
+    attempts_ = 0;
+    data_ = {};
+  }
+  if (next_ == items_.size()) {
+    data_.complete = true;
+    return std::nullopt;
+  }
+  const Item& item = items_[next_];
+  waiting_ = true;
+  return profile::readRequest(*profile::findParameter(item.number, series_), item.set, item.index);
+}
+
+void DeviceReader::handleResult(const profile::ParameterResult& result) noexcept {
+  if (!waiting_) return;
+  waiting_ = false;
+  if (result.outcome == profile::ParameterOutcome::kTimeout && ++attempts_ < kMaxAttempts) return;
+  if (result.outcome == profile::ParameterOutcome::kDone) store(items_[next_], result.raw);
+  attempts_ = 0;
+  ++next_;
+}
+
+void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
+  const double value = profile::toValue(*profile::findParameter(item.number, series_), raw);
+  if (item.number == kMaxFrequency) {
+    if (value > 0.0) data_.max_frequency[item.set - 1u] = value;
+  } else if (item.number == kTelegramTimeout) {
+    data_.telegram_timeout = value;
+  } else if (item.number == kSoftwareVersion) {
+    (item.index == 1 ? data_.software_version : data_.software_revision) = raw;
+  } else if (item.number >= kFirstSetpoint) {
+    data_.setpoint_functions.push_back(static_cast<std::uint16_t>(raw));
+  } else {
+    data_.actual_value_functions.push_back(static_cast<std::uint16_t>(raw));
+  }
+}
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,64 @@
+#include "nord_driver/cycle/sentences.h"
+
+#include "nord_driver/profile/pkw.h"
+
+namespace nord_driver::cycle {
+
+using drive::Refusal;
+using drive::StopCause;
+
+Sentence refusalSentence(const char* drive, Refusal refusal, const drive::DriveReport& report) noexcept {
+  Sentence text;
+  if (report.online) {
+    text.format("drive %s: %s (status word %04X, %s)", drive, drive::toString(refusal), report.status_word,
+                profile::toString(report.state));
+  } else {
+    text.format("drive %s: %s", drive, drive::toString(refusal));
+  }
+  return text;
+}
+
+Sentence stopSentence(const char* drive, StopCause cause, const drive::DriveReport& report) noexcept {
+  Sentence text;
+  if (cause == StopCause::kNone) return text;
+  text.format("drive %s stopped: %s (status word %04X, %s)", drive, drive::toString(cause), report.stop_status_word,
+              profile::toString(profile::StatusWord{report.stop_status_word}.state()));
+  return text;
+}
+
+Sentence stateSentence(const char* drive, const drive::DriveReport& report) noexcept {
+  Sentence text;
+  if (report.online) {
+    text.format("drive %s is %s, status word %04X", drive, profile::toString(report.state), report.status_word);
+  } else {
+    text.format("drive %s does not answer", drive);
+  }
+  return text;
+}
+
+Sentence parameterSentence(const char* drive, std::uint16_t number, const profile::ParameterResult& result) noexcept {
+  Sentence text;
+  switch (result.outcome) {
+    case profile::ParameterOutcome::kDone:
+      break;
+    case profile::ParameterOutcome::kRefused:
+      text.format("drive %s refuses P%03u: error %u, %s", drive, number, result.error_number,
+                  profile::pkwErrorText(result.error_number));
+      break;
+    case profile::ParameterOutcome::kTimeout:
+      text.format("drive %s gave no answer for P%03u", drive, number);
+      break;
+    case profile::ParameterOutcome::kOffline:
+      text.format("drive %s does not answer", drive);
+      break;
+    case profile::ParameterOutcome::kNoChannel:
+      text.format("drive %s has no parameter channel: PPO types 3 and 4 carry process data only", drive);
+      break;
+    case profile::ParameterOutcome::kBusy:
+      text.format("drive %s has too many parameter requests waiting already", drive);
+      break;
+  }
+  return text;
+}
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,205 @@
+#include "nord_driver/cycle/supervisor.h"
+
+#include <algorithm>
+
+#include "nord_driver/cycle/sentences.h"
+
+namespace nord_driver::cycle {
+
+using drive::GroupPhase;
+using drive::Refusal;
+
+Supervisor::Supervisor(const CycleConfig& config, std::vector<drive::Drive>& drives, bool auto_enable)
+    : drives_(drives), group_of_(drives.size()), has_base_(config.base.has_value()), auto_enable_(auto_enable) {
+  for (const DriveSetup& setup : config.drives) names_.push_back(setup.name);
+  std::vector<bool> taken(drives.size(), false);
+  if (config.base) {
+    std::vector<DriveIndex> members = config.base->left;
+    members.insert(members.end(), config.base->right.begin(), config.base->right.end());
+    for (const DriveIndex member : members) taken[member] = true;
+    addGroup(members, config);
+  }
+  for (DriveIndex i = 0; i < drives.size(); ++i) {
+    if (!taken[i]) addGroup({i}, config);
+  }
+}
+
+void Supervisor::addGroup(const std::vector<DriveIndex>& members, const CycleConfig& config) {
+  std::vector<drive::Drive*> pointers;
+  for (const DriveIndex member : members) {
+    pointers.push_back(&drives_[member]);
+    group_of_[member] = groups_.size();
+  }
+  drive::GroupConfig group;
+  group.shutdown_timeout = config.shutdown_timeout;
+  groups_.push_back({drive::DriveGroup{pointers, group}, members});
+}
+
+bool Supervisor::concerns(const Request& request, std::size_t group) const noexcept {
+  return request.drive == kAllDrives || group_of_[request.drive] == group;
+}
+
+void Supervisor::complete(const Request& request, bool success, const Sentence& message) noexcept {
+  Completion completion;
+  completion.id = request.id;
+  completion.success = success;
+  completion.message = message;
+  if (request.id != 0) completions_.push_back(completion);
+}
+
+std::optional<Completion> Supervisor::pollCompletion() noexcept {
+  if (completions_.empty()) return std::nullopt;
+  const Completion completion = completions_[0];
+  completions_.eraseFront(1);
+  return completion;
+}
+
+void Supervisor::handleRequest(const Request& request, const Sentence& moving, Instant now) noexcept {
+  if (jobs_.full()) return complete(request, false, "too many requests are being carried out already");
+  if (request.drive != kAllDrives && inBase(request.drive)) {
+    // One wheel of a base enabled or stopped alone would turn the base. Quick stop of one stops them all, see
+    // `concerns`.
+    if (request.kind != RequestKind::kQuickStop) {
+      Sentence text;
+      text.format("drive %s belongs to the base: use ~enable", names_[request.drive].c_str());
+      return complete(request, false, text);
+    }
+  }
+  switch (request.kind) {
+    case RequestKind::kEnable:
+      return startEnable(request, moving, now);
+    case RequestKind::kShutDown:
+    case RequestKind::kDisable:
+    case RequestKind::kQuickStop:
+      shutting_down_ = shutting_down_ || request.kind == RequestKind::kShutDown;
+      for (std::size_t i = 0; i < groups_.size(); ++i) {
+        if (!concerns(request, i)) continue;
+        if (request.kind == RequestKind::kQuickStop) {
+          groups_[i].group.requestQuickStop(now);
+        } else {
+          groups_[i].group.requestDisable(now);
+        }
+      }
+      jobs_.push_back({request, now + request.patience});
+      return;
+    case RequestKind::kResetOdometry:
+    case RequestKind::kReadParameter:
+      return;  // not of the drives' motion: the cycle answers them
+  }
+}
+
+void Supervisor::startEnable(const Request& request, const Sentence& moving, Instant now) noexcept {
+  auto_enable_ = false;  // somebody has taken over
+  if (shutting_down_) return complete(request, false, "the node is ending");
+  if (!moving.empty()) return complete(request, false, moving);
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    Group& group = groups_[i];
+    const GroupPhase phase = group.group.report().phase;
+    if (!concerns(request, i) || phase == GroupPhase::kEnabled || phase == GroupPhase::kEnabling) continue;
+    const drive::GroupRefusal refusal = group.group.requestEnable(now);
+    if (refusal.accepted()) continue;
+    takeBack(request, now);
+    return complete(request, false, refusalOf(group, refusal));
+  }
+  jobs_.push_back({request, now + request.patience});
+}
+
+void Supervisor::takeBack(const Request& request, Instant now) noexcept {
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    const GroupPhase phase = groups_[i].group.report().phase;
+    if (concerns(request, i) && (phase == GroupPhase::kEnabled || phase == GroupPhase::kEnabling)) {
+      groups_[i].group.requestDisable(now);
+    }
+  }
+}
+
+Sentence Supervisor::refusalOf(const Group& group, const drive::GroupRefusal& refusal) const noexcept {
+  const DriveIndex drive = group.members[refusal.member];
+  return refusalSentence(names_[drive].c_str(), refusal.refusal, drives_[drive].report());
+}
+
+void Supervisor::update(const Sentence& moving, Instant now) noexcept {
+  for (Group& group : groups_) group.group.update(now);
+  if (auto_enable_) autoEnable(moving, now);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < jobs_.size(); ++i) {
+    if (!follow(jobs_[i], now)) jobs_[kept++] = jobs_[i];
+  }
+  jobs_.resize(kept);
+}
+
+// Once, when every drive has first become ready: never over a fault, never after a stop (a stop needs an enable before
+// it).
+void Supervisor::autoEnable(const Sentence& moving, Instant now) noexcept {
+  if (!moving.empty() || shutting_down_) return;
+  for (const drive::Drive& drive : drives_) {
+    if (drive.enableRefusal() != Refusal::kNone) return;
+  }
+  Request request;
+  request.kind = RequestKind::kEnable;
+  request.patience = std::chrono::minutes{1};
+  startEnable(request, moving, now);
+}
+
+bool Supervisor::follow(const Job& job, Instant now) noexcept {
+  if (job.request.kind == RequestKind::kEnable ? followEnable(job, now) : followStop(job)) return true;
+  if (now < job.deadline) return false;
+  complete(job.request, false, unsettled(job.request));
+  return true;
+}
+
+bool Supervisor::followEnable(const Job& job, Instant now) noexcept {
+  bool all = true;
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    if (!concerns(job.request, i)) continue;
+    const drive::GroupReport& report = groups_[i].group.report();
+    if (report.phase == GroupPhase::kEnabled) continue;
+    all = false;
+    if (report.phase == GroupPhase::kEnabling) continue;
+    takeBack(job.request, now);
+    complete(job.request, false,
+             report.refusal.accepted() ? Sentence{"disabled again before all drives were enabled"}
+                                       : refusalOf(groups_[i], report.refusal));
+    return true;
+  }
+  if (all) complete(job.request, true, "enabled");
+  return all;
+}
+
+bool Supervisor::followStop(const Job& job) noexcept {
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    if (concerns(job.request, i) && !groups_[i].group.settled()) return false;
+  }
+  const bool quick = job.request.kind == RequestKind::kQuickStop;
+  complete(job.request, true, quick ? "stopped and disabled" : "disabled");
+  return true;
+}
+
+Sentence Supervisor::unsettled(const Request& request) const noexcept {
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    if (!concerns(request, i)) continue;
+    for (const DriveIndex member : groups_[i].members) {
+      const bool done =
+          request.kind == RequestKind::kEnable ? groups_[i].group.commandAllowed() : drives_[member].isAtRest();
+      if (done) continue;
+      Sentence text;
+      text.format("not confirmed in time: %s", stateSentence(names_[member].c_str(), drives_[member].report()).c_str());
+      return text;
+    }
+  }
+  return "not confirmed in time";
+}
+
+bool Supervisor::settled() const noexcept {
+  return std::all_of(groups_.begin(), groups_.end(), [](const Group& group) { return group.group.settled(); });
+}
+
+Sentence Supervisor::baseStopSentence() const noexcept {
+  if (!has_base_) return {};
+  const Group& base = groups_.front();
+  const drive::GroupReport& report = base.group.report();
+  const DriveIndex member = base.members[report.stop_member];
+  return stopSentence(names_[member].c_str(), report.stop_cause, drives_[member].report());
+}
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,352 @@
+#include "nord_driver/drive/drive.h"
+
+#include <cmath>
+#include <cstdlib>
+
+namespace nord_driver::drive {
+
+using profile::Command;
+using profile::DriveState;
+using profile::StatusWord;
+
+namespace {
+
+// |IW1| from which its sign is held against the direction bits: 5 % of P105. Below it bit 11 is 1 at rest (BU
+// 2700 6.6.1: 0B31) and slip may turn the sign.
+constexpr int kClearlyTurning = 819;
+
+bool contradictsDirection(StatusWord status, std::int16_t actual_value) noexcept {
+  if (std::abs(int{actual_value}) < kClearlyTurning) return false;
+  if (status.directionRight() == status.directionLeft()) return false;
+  return status.directionRight() != (actual_value > 0);
+}
+
+}  // namespace
+
+bool Drive::isRunning() const noexcept {
+  return report_.phase == Phase::kEnabling || report_.phase == Phase::kEnabled || report_.phase == Phase::kHoldingZero;
+}
+
+bool Drive::isAtRest() const noexcept {
+  if (report_.phase == Phase::kOffline) return true;
+  if (report_.phase != Phase::kIdle) return false;
+  switch (report_.state) {
+    case DriveState::kReadyToSwitchOn:
+    case DriveState::kSwitchOnDisabled:
+    case DriveState::kNotReadyToSwitchOn:
+    case DriveState::kFault:
+      return true;
+    default:
+      return false;
+  }
+}
+
+void Drive::enter(Phase phase, Instant now) noexcept {
+  report_.phase = phase;
+  phase_since_ = now;
+  ready_seen_ = false;
+  sent_ = false;
+  wanted_ = {};
+}
+
+void Drive::latch(StopCause cause) noexcept {
+  if (report_.stop_cause != StopCause::kNone) return;
+  report_.stop_cause = cause;
+  report_.stop_status_word = report_.status_word;
+}
+
+void Drive::stop(StopCause cause, Instant now) noexcept {
+  latch(cause);
+  if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
+  enter(Phase::kIdle, now);
+}
+
+void Drive::refuse(Refusal refusal) noexcept {
+  report_.refusal = refusal;
+  report_.refusal_status_word = report_.status_word;
+  report_.refusal_state = report_.state;
+}
+
+// --- what the inverter says
+// ---------------------------------------------------------------------------------------------
+
+void Drive::handleInput(const profile::ProcessInput& input, bool fresh, Instant now) noexcept {
+  if (fresh && StatusWord(input.status_word).isUseful()) {
+    handleUseful(input, now);
+  } else {
+    handleSilence(now);
+  }
+  measure();
+}
+
+void Drive::handleUseful(const profile::ProcessInput& input, Instant now) noexcept {
+  const StatusWord status(input.status_word);
+  const bool joined = report_.phase == Phase::kOffline;
+  last_useful_ = now;
+  report_.online = true;
+  report_.input = input;
+  report_.status_word = input.status_word;
+  report_.state = status.state();
+  report_.parameter_set = status.parameterSet();
+  learnSet(status, joined);
+  if (joined) enter(Phase::kIdle, now);
+  checkStops(status, now);
+  follow(status, now);
+}
+
+void Drive::learnSet(StatusWord status, bool joined) noexcept {
+  if (joined || !status.busControl()) report_.commanded_set = status.parameterSet();
+}
+
+void Drive::handleSilence(Instant now) noexcept {
+  if (report_.phase == Phase::kOffline || now - last_useful_ <= config_.drive_timeout) return;
+  dark_until_ = now;
+  if (report_.phase != Phase::kIdle) {
+    // It may hear us without being heard: with 0000 it would carry on at its last setpoint.
+    dark_until_ = now + config_.shutdown_timeout;
+    dark_command_ = report_.phase == Phase::kQuickStopping ? Command::kQuickStop : Command::kShutdown;
+    if (report_.phase != Phase::kAcknowledging) latch(StopCause::kSilent);
+  }
+  const bool was_enabling = report_.phase == Phase::kEnabling;
+  enter(Phase::kOffline, now);
+  report_.online = false;
+  report_.state = DriveState::kUnknown;
+  report_.parameter_set = 0;
+  if (was_enabling) refuse(Refusal::kOffline);
+}
+
+void Drive::checkStops(StatusWord status, Instant now) noexcept {
+  if (status.fault()) {
+    // A fault can vanish without us: dropping the enable acknowledges it, P506 and terminals do (BU 0020 8). So every
+    // fault seen is kept.
+    report_.fault_latched = true;
+    if (isRunning() || report_.phase == Phase::kStopping || report_.phase == Phase::kQuickStopping) {
+      stop(StopCause::kFault, now);
+    }
+    return;
+  }
+  if (!isRunning()) return;
+  if (!status.busControl()) {
+    stop(StopCause::kLocalControl, now);
+  } else if (status.parameterSet() != report_.commanded_set) {
+    // Setpoint 1 is a share of P105 of the set in force: a set that changes by itself is a step of the speed (BU
+    // 0020 7.3.5).
+    stop(StopCause::kParameterSet, now);
+  } else if (report_.phase != Phase::kEnabling && report_.state != DriveState::kOperationEnabled) {
+    stop(StopCause::kUnaskedExit, now);
+  }
+}
+
+void Drive::follow(StatusWord status, Instant now) noexcept {
+  switch (report_.phase) {
+    case Phase::kEnabling:
+      return followEnabling(report_.state, now);
+    case Phase::kStopping:
+      return followStopping(report_.state, now);
+    case Phase::kQuickStopping:
+      return followQuickStop(report_.state, now);
+    case Phase::kAcknowledging:
+      return followAcknowledging(status, now);
+    default:
+      return;
+  }
+}
+
+void Drive::followEnabling(DriveState state, Instant now) noexcept {
+  if (ready_seen_ && state == DriveState::kOperationEnabled) return enter(Phase::kEnabled, now);
+  if (ready_seen_ && state != DriveState::kReadyToSwitchOn && state != DriveState::kSwitchedOn) {
+    // Back behind "ready" without being asked, by terminals for example: an enable sequence never repeats itself.
+    return stop(StopCause::kUnaskedExit, now);
+  }
+  // Only once 047E went out: bits 0 and 3 come after an answered "shut down", never in place of one.
+  if (sent_ && state == DriveState::kReadyToSwitchOn) ready_seen_ = true;
+  if (now - phase_since_ < config_.enable_timeout) return;
+  refuse(Refusal::kEnableTimeout);
+  // Once 047F was sent it may still come to act: leave as from "enabled", with OFF1 until "ready to switch on" is seen.
+  enter(ready_seen_ ? Phase::kStopping : Phase::kIdle, now);
+}
+
+void Drive::followStopping(DriveState state, Instant now) noexcept {
+  // OFF1 is no latch: bits 0 and 3 set again during the ramp would run the motor up. So nothing ends it but the state.
+  const bool ended = state == DriveState::kReadyToSwitchOn || state == DriveState::kSwitchOnDisabled ||
+                     state == DriveState::kNotReadyToSwitchOn;
+  if (sent_ && ended) return enter(Phase::kIdle, now);
+  if (now - phase_since_ < config_.shutdown_timeout) return;
+  latch(StopCause::kShutdownTimeout);
+  enter(Phase::kQuickStopping, now);
+}
+
+void Drive::followQuickStop(DriveState state, Instant now) noexcept {
+  // Ends in "switch-on disabled" by itself at f = 0 (BU 2700 6.4.1 bit 2), or at once from "ready" (6.4.3 no. 7).
+  const bool ended = state == DriveState::kSwitchOnDisabled || state == DriveState::kNotReadyToSwitchOn;
+  if (sent_ && ended) enter(Phase::kIdle, now);
+}
+
+void Drive::followAcknowledging(StatusWord status, Instant now) noexcept {
+  const Duration elapsed = now - phase_since_;
+  if (!status.fault()) {
+    // The bit is dropped as soon as the fault is gone: left at 1, no further edge could follow (BU 2700 6.4.1 bit 7).
+    report_.fault_latched = false;
+    enter(Phase::kIdle, now);
+  } else if (elapsed >= 3 * config_.acknowledge_time) {
+    refuse(Refusal::kCauseStands);
+    enter(Phase::kIdle, now);
+  }
+}
+
+void Drive::measure() noexcept {
+  const auto maximum = maxFrequency(report_.parameter_set);
+  report_.scaled = report_.online && maximum.has_value();
+  report_.frequency = {};
+  report_.velocity = {};
+  if (report_.scaled) {
+    report_.frequency = profile::fromActualValue1(report_.input.actual_values[0], *maximum);
+    report_.velocity = profile::toRadPerSec(report_.frequency, config_.joint);
+  }
+  report_.direction_contradiction =
+      config_.check_direction && report_.online &&
+      contradictsDirection(StatusWord(report_.status_word), report_.input.actual_values[0]);
+}
+
+// --- what goes to the inverter
+// ------------------------------------------------------------------------------------------
+
+Command Drive::command(Instant now) const noexcept {
+  switch (report_.phase) {
+    case Phase::kOffline:
+      return report_.commanded_set != 0 && now < dark_until_ ? dark_command_ : Command::kIgnored;
+    case Phase::kEnabling:
+      return ready_seen_ ? Command::kEnableOperation : Command::kShutdown;
+    case Phase::kEnabled:
+    case Phase::kHoldingZero:
+      return Command::kEnableOperation;
+    case Phase::kQuickStopping:
+      return Command::kQuickStop;
+    case Phase::kIdle:
+    case Phase::kAcknowledging:
+    case Phase::kStopping:
+      break;
+  }
+  return Command::kShutdown;
+}
+
+profile::ProcessOutput Drive::pollOutput(Instant now) noexcept {
+  profile::ProcessOutput output;
+  const Command word = command(now);
+  if (word != Command::kIgnored) output.control_word = profile::controlWord(word, report_.commanded_set);
+  if (report_.phase == Phase::kAcknowledging) {
+    const Duration elapsed = now - phase_since_;
+    const bool high = elapsed >= config_.acknowledge_time && elapsed < 2 * config_.acknowledge_time;
+    if (high) output.control_word |= profile::control_bit::kAcknowledge;
+  }
+  report_.saturated = false;
+  report_.velocity_command = {};
+  if (report_.phase == Phase::kEnabled) {
+    // Enabled without P105 cannot be; were it so, the setpoint would be 0.
+    const Hertz maximum = maxFrequency(report_.commanded_set).value_or(Hertz{});
+    const profile::Setpoint setpoint = profile::toSetpoint1(profile::toHertz(wanted_, config_.joint), maximum);
+    output.setpoints[0] = setpoint.word;
+    report_.saturated = setpoint.saturated;
+    report_.command_invalid = setpoint.invalid;
+    report_.velocity_command = profile::toRadPerSec(profile::fromActualValue1(setpoint.word, maximum), config_.joint);
+  }
+  report_.output = output;
+  sent_ = true;
+  return output;
+}
+
+// --- requests
+// -----------------------------------------------------------------------------------------------------------
+
+Refusal Drive::enableRefusal() const noexcept {
+  switch (report_.phase) {
+    case Phase::kOffline:
+      return Refusal::kOffline;
+    case Phase::kEnabling:
+    case Phase::kEnabled:
+      return Refusal::kNone;
+    case Phase::kHoldingZero:
+    case Phase::kStopping:
+    case Phase::kQuickStopping:
+      return Refusal::kStopping;
+    case Phase::kAcknowledging:
+      return Refusal::kBusy;
+    case Phase::kIdle:
+      break;
+  }
+  const StatusWord status(report_.status_word);
+  if (status.fault()) return Refusal::kFault;
+  if (!status.busControl()) return Refusal::kLocalControl;
+  if (report_.fault_latched) return Refusal::kFaultLatched;
+  const bool startable = report_.state == DriveState::kSwitchOnDisabled ||
+                         report_.state == DriveState::kReadyToSwitchOn || report_.state == DriveState::kSwitchedOn;
+  if (!startable) return Refusal::kWrongState;
+  if (report_.parameter_set != report_.commanded_set) return Refusal::kParameterSet;
+  if (!maxFrequency(report_.commanded_set).has_value()) return Refusal::kMaxFrequencyUnknown;
+  return Refusal::kNone;
+}
+
+void Drive::requestEnable(Instant now) noexcept {
+  refuse(enableRefusal());
+  if (report_.refusal != Refusal::kNone || isRunning()) return;
+  report_.stop_cause = StopCause::kNone;
+  report_.command_invalid = false;
+  enter(Phase::kEnabling, now);
+}
+
+void Drive::requestSetpointZero(Instant now) noexcept {
+  if (report_.phase == Phase::kEnabling) return requestShutdown(now);
+  if (report_.phase == Phase::kEnabled) enter(Phase::kHoldingZero, now);
+}
+
+void Drive::requestShutdown(Instant now) noexcept {
+  if (!isRunning()) return;
+  if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
+  enter(Phase::kStopping, now);
+}
+
+void Drive::requestQuickStop(Instant now) noexcept {
+  if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
+  latch(StopCause::kQuickStop);
+  if (report_.phase == Phase::kOffline) {
+    dark_command_ = Command::kQuickStop;
+    dark_until_ = now + config_.shutdown_timeout;
+  } else if (report_.phase != Phase::kQuickStopping) {
+    enter(Phase::kQuickStopping, now);
+  }
+}
+
+void Drive::requestAcknowledge(Instant now) noexcept {
+  refuse(Refusal::kNone);
+  if (report_.phase == Phase::kOffline) return refuse(Refusal::kOffline);
+  if (report_.phase == Phase::kAcknowledging) return;
+  if (report_.phase != Phase::kIdle) return refuse(Refusal::kBusy);
+  if (!StatusWord(report_.status_word).fault()) {
+    report_.fault_latched = false;
+    return;
+  }
+  enter(Phase::kAcknowledging, now);
+}
+
+void Drive::setVelocity(RadPerSec joint) noexcept {
+  if (report_.phase == Phase::kEnabled) wanted_ = joint;
+}
+
+void Drive::setMaxFrequency(std::uint8_t set, Hertz frequency) noexcept {
+  if (set < 1 || set > 4) return;
+  const bool usable = std::isfinite(frequency.value) && frequency.value > 0.0;
+  max_frequency_[set - 1u] = usable ? std::optional<Hertz>(frequency) : std::nullopt;
+}
+
+std::optional<Hertz> Drive::maxFrequency(std::uint8_t set) const noexcept {
+  if (set < 1 || set > 4) return std::nullopt;
+  return max_frequency_[set - 1u];
+}
+
+std::optional<RadPerSec> Drive::maxVelocity() const noexcept {
+  const auto maximum = maxFrequency(report_.commanded_set);
+  if (!maximum.has_value()) return std::nullopt;
+  return RadPerSec{std::fabs(profile::toRadPerSec(*maximum, config_.joint).value)};
+}
+
+}  // namespace nord_driver::drive

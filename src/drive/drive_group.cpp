@@ -1,0 +1,215 @@
+#include "nord_driver/drive/drive_group.h"
+
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
+namespace nord_driver::drive {
+
+namespace {
+
+bool runs(const Drive& drive) noexcept {
+  const Phase phase = drive.report().phase;
+  return phase == Phase::kEnabled || phase == Phase::kHoldingZero;
+}
+
+bool isDown(const Drive& drive) noexcept {
+  const Phase phase = drive.report().phase;
+  return phase == Phase::kIdle || phase == Phase::kOffline || phase == Phase::kAcknowledging;
+}
+
+}  // namespace
+
+DriveGroup::DriveGroup(std::vector<Drive*> members, const GroupConfig& config)
+    : members_(std::move(members)), config_(config) {
+  if (members_.empty()) throw std::invalid_argument("a group of drives needs at least one drive");
+  for (const Drive* member : members_) {
+    if (member == nullptr) throw std::invalid_argument("a group of drives was given a null drive");
+  }
+}
+
+void DriveGroup::enter(GroupPhase phase, Instant now) noexcept {
+  report_.phase = phase;
+  phase_since_ = now;
+}
+
+void DriveGroup::latch(StopCause cause, std::size_t member) noexcept {
+  if (report_.stop_cause != StopCause::kNone) return;
+  report_.stop_cause = cause;
+  report_.stop_member = member;
+}
+
+GroupRefusal DriveGroup::requestEnable(Instant now) noexcept {
+  report_.refusal = {};
+  if (report_.phase == GroupPhase::kEnabling || report_.phase == GroupPhase::kEnabled) return report_.refusal;
+  if (report_.phase != GroupPhase::kDisabled) report_.refusal.refusal = Refusal::kStopping;
+  for (std::size_t i = 0; i < members_.size() && report_.refusal.accepted(); ++i) {
+    report_.refusal = {members_[i]->enableRefusal(), i};
+  }
+  if (!report_.refusal.accepted()) return report_.refusal;
+  for (Drive* member : members_) member->requestEnable(now);
+  report_.refusal = {};
+  report_.stop_cause = StopCause::kNone;
+  enter(GroupPhase::kEnabling, now);
+  return report_.refusal;
+}
+
+void DriveGroup::requestDisable(Instant now) noexcept {
+  switch (report_.phase) {
+    case GroupPhase::kEnabled:
+      setpoint_is_zero_ = false;
+      zero_seen_ = false;
+      down_since_ = now;
+      return enter(GroupPhase::kRampingDown, now);
+    case GroupPhase::kEnabling:
+      report_.refusal = {Refusal::kStopped, 0};
+      down_since_ = now;
+      return shutdownAll(now);
+    default:
+      return;
+  }
+}
+
+void DriveGroup::requestQuickStop(Instant now) noexcept {
+  if (report_.phase == GroupPhase::kEnabling) report_.refusal = {Refusal::kStopped, 0};
+  latch(StopCause::kQuickStop, 0);
+  quickStopAll(now);
+}
+
+void DriveGroup::quickStopAll(Instant now) noexcept {
+  for (Drive* member : members_) member->requestQuickStop(now);
+  enter(GroupPhase::kQuickStopping, now);
+}
+
+bool DriveGroup::quickStopTheRest(Instant now) noexcept {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (members_[i]->report().phase != Phase::kStopping) continue;
+    latch(StopCause::kShutdownTimeout, i);
+    quickStopAll(now);
+    return true;
+  }
+  return false;
+}
+
+void DriveGroup::shutdownAll(Instant now) noexcept {
+  for (Drive* member : members_) member->requestShutdown(now);
+  enter(GroupPhase::kStopping, now);
+}
+
+void DriveGroup::update(Instant now) noexcept {
+  switch (report_.phase) {
+    case GroupPhase::kDisabled:
+      return;
+    case GroupPhase::kEnabling:
+      return updateEnabling(now);
+    case GroupPhase::kEnabled:
+      haltIfAMemberStopped(now);
+      return;
+    case GroupPhase::kRampingDown:
+      if (!haltIfAMemberStopped(now)) updateRampingDown(now);
+      return;
+    case GroupPhase::kHalting:
+      return updateHalting(now);
+    case GroupPhase::kStopping:
+      if (now - down_since_ >= config_.shutdown_timeout && quickStopTheRest(now)) return;
+      return updateStopping();
+    case GroupPhase::kQuickStopping:
+      return updateStopping();
+  }
+}
+
+void DriveGroup::updateEnabling(Instant now) noexcept {
+  bool all_enabled = true;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const DriveReport& member = members_[i]->report();
+    if (member.phase == Phase::kEnabled) continue;
+    all_enabled = false;
+    if (member.phase == Phase::kEnabling) continue;
+    // It timed out, stopped or vanished: all or none. The others stand still, their setpoint was 0.
+    report_.refusal = {member.refusal == Refusal::kNone ? Refusal::kStopped : member.refusal, i};
+    if (member.stop_cause != StopCause::kNone) latch(member.stop_cause, i);
+    down_since_ = now;
+    return shutdownAll(now);
+  }
+  if (all_enabled) enter(GroupPhase::kEnabled, now);
+}
+
+bool DriveGroup::haltIfAMemberStopped(Instant now) noexcept {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (members_[i]->report().phase == Phase::kEnabled) continue;
+    latch(members_[i]->report().stop_cause, i);
+    // OFF1 at once would take their torque at 0 Hz; first down the drive's own ramp.
+    for (Drive* member : members_) member->requestSetpointZero(now);
+    down_since_ = now;
+    enter(GroupPhase::kHalting, now);
+    return true;
+  }
+  return false;
+}
+
+bool DriveGroup::nearStandstill() const noexcept {
+  for (const Drive* member : members_) {
+    if (!runs(*member)) continue;
+    if (std::abs(int{member->report().input.actual_values[0]}) > config_.near_standstill) return false;
+  }
+  return true;
+}
+
+void DriveGroup::updateRampingDown(Instant now) noexcept {
+  if (now - down_since_ >= config_.shutdown_timeout) {
+    latch(StopCause::kShutdownTimeout, 0);
+    return quickStopAll(now);
+  }
+  if (!setpoint_is_zero_) {
+    zero_seen_ = false;
+    return;
+  }
+  if (!zero_seen_) {
+    zero_seen_ = true;
+    zero_since_ = now;
+  }
+  if (nearStandstill() || now - zero_since_ >= config_.standstill_timeout) shutdownAll(now);
+}
+
+void DriveGroup::updateHalting(Instant now) noexcept {
+  if (!nearStandstill() && now - phase_since_ < config_.shutdown_timeout) return;
+  down_since_ = now;
+  shutdownAll(now);
+}
+
+void DriveGroup::updateStopping() noexcept {
+  for (const Drive* member : members_) {
+    if (!isDown(*member)) return;
+  }
+  report_.phase = GroupPhase::kDisabled;
+}
+
+bool DriveGroup::settled() const noexcept {
+  if (report_.phase != GroupPhase::kDisabled) return false;
+  for (const Drive* member : members_) {
+    if (!member->isAtRest()) return false;
+  }
+  return true;
+}
+
+const char* toString(GroupPhase phase) noexcept {
+  switch (phase) {
+    case GroupPhase::kDisabled:
+      return "disabled";
+    case GroupPhase::kEnabling:
+      return "enabling";
+    case GroupPhase::kEnabled:
+      return "enabled";
+    case GroupPhase::kRampingDown:
+      return "ramping down";
+    case GroupPhase::kHalting:
+      return "halting: a drive has stopped";
+    case GroupPhase::kStopping:
+      return "stopping (OFF1)";
+    case GroupPhase::kQuickStopping:
+      return "quick stopping (OFF3)";
+  }
+  return "";
+}
+
+}  // namespace nord_driver::drive

@@ -1,0 +1,94 @@
+#include "nord_driver/drive/drive_report.h"
+
+namespace nord_driver::drive {
+
+const char* toString(Phase phase) noexcept {
+  switch (phase) {
+    case Phase::kOffline:
+      return "offline";
+    case Phase::kIdle:
+      return "idle";
+    case Phase::kAcknowledging:
+      return "acknowledging a fault";
+    case Phase::kEnabling:
+      return "enabling";
+    case Phase::kEnabled:
+      return "enabled";
+    case Phase::kHoldingZero:
+      return "running down to setpoint 0";
+    case Phase::kStopping:
+      return "stopping (OFF1)";
+    case Phase::kQuickStopping:
+      return "quick stopping (OFF3)";
+  }
+  return "";
+}
+
+const char* toString(StopCause cause) noexcept {
+  switch (cause) {
+    case StopCause::kNone:
+      return "nothing";
+    case StopCause::kFault:
+      return "a fault of the inverter";
+    case StopCause::kUnaskedExit:
+      return "the inverter left \"operation enabled\" without being asked (OFF2 or OFF3 at its terminals, for example)";
+    case StopCause::kLocalControl:
+      return "local control: the inverter's terminals have taken over (status bit 9 = 0)";
+    case StopCause::kSilent:
+      return "the inverter fell silent";
+    case StopCause::kParameterSet:
+      return "another parameter set came into force without being asked for";
+    case StopCause::kQuickStop:
+      return "a quick stop was asked for";
+    case StopCause::kShutdownTimeout:
+      return "the ramp down (OFF1) did not end in time, so a quick stop followed";
+  }
+  return "";
+}
+
+const char* toString(Refusal refusal) noexcept {
+  switch (refusal) {
+    case Refusal::kNone:
+      return "nothing";
+    case Refusal::kOffline:
+      return "the inverter does not answer";
+    case Refusal::kFault:
+      return "the inverter reports a fault";
+    case Refusal::kFaultLatched:
+      return "a fault was seen and has not been acknowledged";
+    case Refusal::kLocalControl:
+      return "the inverter is under local control (status bit 9 = 0)";
+    case Refusal::kStopping:
+      return "the drive is still being stopped; ask again when it has come to rest";
+    case Refusal::kBusy:
+      return "the drive is busy with another request";
+    case Refusal::kWrongState:
+      return "from this state the inverter cannot be enabled";
+    case Refusal::kParameterSet:
+      return "the parameter set in force is not the one that is commanded";
+    case Refusal::kMaxFrequencyUnknown:
+      return "the maximum frequency (P105) of the parameter set in force is not known";
+    case Refusal::kEnableTimeout:
+      return "the inverter did not reach \"operation enabled\" in time";
+    case Refusal::kStopped:
+      return "a stop came before the inverter was enabled";
+    case Refusal::kCauseStands:
+      return "the cause of the fault still stands";
+  }
+  return "";
+}
+
+std::string refusalText(const DriveReport& report) {
+  if (report.refusal == Refusal::kNone) return {};
+  return std::string(toString(report.refusal)) + "; the last status word was " + toHexWord(report.refusal_status_word) +
+         " (" + profile::toString(report.refusal_state) + ")";
+}
+
+std::string stopText(const DriveReport& report) {
+  if (report.stop_cause == StopCause::kNone) return {};
+  return std::string("stopped: ") + toString(report.stop_cause) + "; the last status word was " +
+         toHexWord(report.stop_status_word) + " (" +
+         profile::toString(profile::StatusWord(report.stop_status_word).state()) + ")";
+}
+
+}  // namespace nord_driver::drive

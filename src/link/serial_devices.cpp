@@ -1,0 +1,28 @@
+#include "nord_driver/link/serial_devices.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+
+#include <cstring>
+
+namespace nord_driver::link {
+
+bool isPty(const std::string& device) noexcept {
+  // Linux' Documentation/admin-guide/devices.txt: majors 136-143 are the slave ends of ptys.
+  struct stat status {};
+  return ::stat(device.c_str(), &status) == 0 && S_ISCHR(status.st_mode) && major(status.st_rdev) >= 136 &&
+         major(status.st_rdev) <= 143;
+}
+
+bool isNativeUart(const std::string& device) noexcept {
+  char resolved[PATH_MAX];
+  if (::realpath(device.c_str(), resolved) == nullptr) return false;
+  for (const char* prefix : {"/dev/ttyS", "/dev/ttyAMA", "/dev/ttyO", "/dev/ttymxc", "/dev/ttyTHS", "/dev/ttyPS"}) {
+    if (std::strncmp(resolved, prefix, std::strlen(prefix)) == 0) return true;
+  }
+  return false;
+}
+
+}  // namespace nord_driver::link

@@ -1,0 +1,83 @@
+#include "nord_driver/node/base_publisher.h"
+
+#include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/TwistStamped.h>
+
+#include <cmath>
+
+namespace nord_driver::node {
+
+namespace {
+
+geometry_msgs::Quaternion yawQuaternion(double yaw) {
+  geometry_msgs::Quaternion quaternion;
+  quaternion.z = std::sin(yaw / 2.0);
+  quaternion.w = std::cos(yaw / 2.0);
+  return quaternion;
+}
+
+}  // namespace
+
+BasePublisher::BasePublisher(ros::NodeHandle& node, const NodeConfig& config) : config_(config.publish) {
+  for (std::size_t i = 0; i < config.cycle.drives.size(); ++i) {
+    if (config.cycle.drives[i].joint.empty()) continue;
+    jointed_.push_back(i);
+    joints_.name.push_back(config.cycle.drives[i].joint);
+  }
+  joints_.position.resize(jointed_.size());
+  joints_.velocity.resize(jointed_.size());
+  if (!jointed_.empty()) joints_publisher_ = node.advertise<sensor_msgs::JointState>("joint_states", 10);
+  if (!config.cycle.base) return;
+
+  odometry_.header.frame_id = config_.odom_frame_id;
+  odometry_.child_frame_id = config_.base_frame_id;
+  for (std::size_t i = 0; i < 6; ++i) {
+    odometry_.pose.covariance[i * 7] = config_.pose_covariance_diagonal[i];
+    odometry_.twist.covariance[i * 7] = config_.twist_covariance_diagonal[i];
+  }
+  odometry_publisher_ = node.advertise<nav_msgs::Odometry>("odom", 10);
+  if (config_.publish_cmd) command_publisher_ = node.advertise<geometry_msgs::TwistStamped>("cmd_vel_out", 10);
+  if (config_.enable_odom_tf) broadcaster_.emplace();
+}
+
+void BasePublisher::publish(const cycle::CycleSnapshot& snapshot, ros::Time stamp) {
+  if (!jointed_.empty()) publishJoints(snapshot, stamp);
+  if (odometry_publisher_ && snapshot.base.known) publishOdometry(snapshot.base, stamp);
+  if (command_publisher_) {
+    geometry_msgs::TwistStamped command;
+    command.header.stamp = stamp;
+    command.header.frame_id = config_.base_frame_id;
+    command.twist.linear.x = snapshot.base.command.linear_x;
+    command.twist.angular.z = snapshot.base.command.angular_z;
+    command_publisher_.publish(command);
+  }
+}
+
+void BasePublisher::publishOdometry(const cycle::BaseSnapshot& base, ros::Time stamp) {
+  odometry_.header.stamp = stamp;
+  odometry_.pose.pose.position.x = base.pose.x;
+  odometry_.pose.pose.position.y = base.pose.y;
+  odometry_.pose.pose.orientation = yawQuaternion(base.pose.heading);
+  odometry_.twist.twist.linear.x = base.velocity.linear_x;
+  odometry_.twist.twist.angular.z = base.velocity.angular_z;
+  odometry_publisher_.publish(odometry_);
+  if (!broadcaster_) return;
+  geometry_msgs::TransformStamped transform;
+  transform.header = odometry_.header;
+  transform.child_frame_id = odometry_.child_frame_id;
+  transform.transform.translation.x = base.pose.x;
+  transform.transform.translation.y = base.pose.y;
+  transform.transform.rotation = odometry_.pose.pose.orientation;
+  broadcaster_->sendTransform(transform);
+}
+
+void BasePublisher::publishJoints(const cycle::CycleSnapshot& snapshot, ros::Time stamp) {
+  joints_.header.stamp = stamp;
+  for (std::size_t i = 0; i < jointed_.size(); ++i) {
+    joints_.position[i] = snapshot.drives[jointed_[i]].joint_position;
+    joints_.velocity[i] = snapshot.drives[jointed_[i]].velocity;
+  }
+  joints_publisher_.publish(joints_);
+}
+
+}  // namespace nord_driver::node

@@ -1,0 +1,45 @@
+#include "nord_driver/node/bus_publisher.h"
+
+#include <utility>
+
+namespace nord_driver::node {
+
+BusPublisher::BusPublisher(ros::NodeHandle& private_node, std::vector<std::string> drive_names)
+    : names_(std::move(drive_names)), publisher_(private_node.advertise<BusStatus>("bus_status", 1)) {}
+
+void BusPublisher::publish(const cycle::CycleSnapshot& snapshot, ros::Time stamp) {
+  BusStatus status;
+  status.header.stamp = stamp;
+  status.connected = snapshot.connected;
+  status.cycle_time_min = snapshot.times.min;
+  status.cycle_time_mean = snapshot.times.mean;
+  status.cycle_time_p99 = snapshot.times.p99;
+  status.cycle_time_max = snapshot.times.max;
+  status.cycles = snapshot.counters.cycles;
+  status.retries = snapshot.counters.retries;
+  status.timeouts = snapshot.counters.timeouts;
+  status.checksum_errors = snapshot.counters.checksum_errors;
+  status.parity_errors = snapshot.counters.parity_errors;
+  status.discarded_bytes = snapshot.counters.discarded_bytes;
+  status.unexpected = snapshot.counters.unexpected;
+  status.stale = snapshot.counters.stale;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    (snapshot.drives[i].online ? status.online : status.offline).push_back(names_[i]);
+  }
+  status.text = busSentence(snapshot, names_);
+  publisher_.publish(status);
+}
+
+std::string busSentence(const cycle::CycleSnapshot& snapshot, const std::vector<std::string>& drive_names) {
+  if (!snapshot.bus_text.empty()) return snapshot.bus_text.str();
+  std::string silent;
+  for (std::size_t i = 0; i < drive_names.size(); ++i) {
+    const cycle::DriveSnapshot& drive = snapshot.drives[i];
+    if (drive.online) continue;
+    silent += (silent.empty() ? "drive " : "; drive ") + drive_names[i] + ": " +
+              (drive.text.empty() ? "no answer" : drive.text.str());
+  }
+  return silent.empty() ? "all drives answer" : silent;
+}
+
+}  // namespace nord_driver::node

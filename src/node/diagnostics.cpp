@@ -1,0 +1,99 @@
+#include "nord_driver/node/diagnostics.h"
+
+#include <cmath>
+
+#include "nord_driver/core/bytes.h"
+#include "nord_driver/node/bus_publisher.h"
+#include "nord_driver/profile/fault_text.h"
+
+namespace nord_driver::node {
+
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+
+Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities)
+    : identities_(identities), device_(config.bus->text("device").value_or("")), snapshot_(config.drives.size()) {
+  updater_.setHardwareID(device_);
+  updater_.add("bus", [this](DiagnosticStatusWrapper& status) { reportBus(status); });
+  if (config.cycle.base) updater_.add("base", [this](DiagnosticStatusWrapper& status) { reportBase(status); });
+  for (std::size_t i = 0; i < config.cycle.drives.size(); ++i) {
+    names_.push_back(config.cycle.drives[i].name);
+    typed_max_frequency_.push_back(config.cycle.drives[i].typed_max_frequency);
+    updater_.add("drive " + names_.back(), [this, i](DiagnosticStatusWrapper& status) { reportDrive(i, status); });
+  }
+}
+
+void Diagnostics::update(const cycle::CycleSnapshot& snapshot) {
+  snapshot_ = snapshot;
+  updater_.update();
+}
+
+void Diagnostics::reportBus(DiagnosticStatusWrapper& status) const {
+  bool all = true;
+  for (const auto& drive : snapshot_.drives) all = all && drive.online;
+  const auto level = !snapshot_.connected ? DiagnosticStatus::ERROR
+                     : all                ? DiagnosticStatus::OK
+                                          : DiagnosticStatus::WARN;
+  status.summary(level, busSentence(snapshot_, names_));
+  status.add("device", device_);
+  status.add("cycles", snapshot_.counters.cycles);
+  status.add("cycle time mean (s)", snapshot_.times.mean);
+  status.add("cycle time p99 (s)", snapshot_.times.p99);
+  status.add("cycle time max (s)", snapshot_.times.max);
+  status.add("retries", snapshot_.counters.retries);
+  status.add("timeouts", snapshot_.counters.timeouts);
+  status.add("checksum errors", snapshot_.counters.checksum_errors);
+  status.add("parity errors", snapshot_.counters.parity_errors);
+  status.add("discarded bytes", snapshot_.counters.discarded_bytes);
+  status.add("unexpected telegrams", snapshot_.counters.unexpected);
+  status.add("stale parameter answers", snapshot_.counters.stale);
+}
+
+void Diagnostics::reportBase(DiagnosticStatusWrapper& status) const {
+  const cycle::BaseSnapshot& base = snapshot_.base;
+  if (base.stopped) {
+    status.summary(DiagnosticStatus::ERROR, base.text.str());
+  } else if (base.enabled) {
+    status.summary(DiagnosticStatus::OK, "enabled");
+  } else {
+    status.summary(DiagnosticStatus::OK, base.text.empty() ? "disabled" : base.text.str());
+  }
+  status.add("linear velocity (m/s)", base.velocity.linear_x);
+  status.add("angular velocity (rad/s)", base.velocity.angular_z);
+}
+
+void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status) const {
+  const cycle::DriveSnapshot& drive = snapshot_.drives[index];
+  const DriveIdentity& identity = identities_[index];
+  status.hardware_id = device_ + ", " + identity.address;
+  if (!drive.online) {
+    status.summary(DiagnosticStatus::ERROR, drive.text.empty() ? "no answer" : drive.text.str());
+  } else if (drive.fault_number != 0) {
+    status.summary(DiagnosticStatus::ERROR, profile::faultText(drive.fault_number));
+  } else if (drive.stopped) {
+    status.summary(DiagnosticStatus::ERROR, drive.text.str());
+  } else {
+    status.summary(DiagnosticStatus::OK, drive.text.empty() ? profile::toString(drive.state) : drive.text.str());
+  }
+  const auto& typed = typed_max_frequency_[index];
+  for (std::size_t set = 0; set < drive.device.max_frequency.size() && typed; ++set) {
+    const auto& read = drive.device.max_frequency[set];
+    if (read && std::abs(*read - *typed) > 0.05) {
+      status.mergeSummaryf(DiagnosticStatus::WARN,
+                           "max_frequency is configured as %.1f Hz, but P105 of set %zu is %.1f Hz", *typed, set + 1,
+                           *read);
+    }
+  }
+  status.add("address", identity.address);
+  status.add("state", profile::toString(drive.state));
+  status.add("status word", toHexWord(drive.input.status_word));
+  status.add("control word", toHexWord(drive.output.control_word));
+  status.add("parameter set", static_cast<int>(drive.parameter_set));
+  status.add("frequency (Hz)", drive.frequency);
+  status.add("velocity (rad/s)", drive.velocity);
+  status.add("bus module answers", drive.module_answers);
+  status.add("parameter channel", identity.parameter_channel);
+  status.add("protected by", identity.protected_by);
+}
+
+}  // namespace nord_driver::node

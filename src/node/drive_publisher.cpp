@@ -1,0 +1,93 @@
+#include "nord_driver/node/drive_publisher.h"
+
+#include <limits>
+#include <utility>
+
+#include "nord_driver/profile/fault_text.h"
+
+namespace nord_driver::node {
+
+namespace {
+
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
+// P707 holds the version times ten: 21 is V2.1 R3 with revision 3.
+std::string versionText(const cycle::DeviceData& device) {
+  if (!device.software_version) return "";
+  std::string text =
+      "V" + std::to_string(*device.software_version / 10) + "." + std::to_string(*device.software_version % 10);
+  if (device.software_revision) text += " R" + std::to_string(*device.software_revision);
+  return text;
+}
+
+}  // namespace
+
+DrivePublisher::DrivePublisher(ros::NodeHandle& private_node, const cycle::DriveSetup& setup, DriveIdentity identity,
+                               std::uint16_t address)
+    : identity_(std::move(identity)), rated_current_(setup.rated_current.value_or(kNotKnown)) {
+  status_.name = setup.name;
+  info_.name = setup.name;
+  info_.series = profile::toString(setup.series);
+  info_.address = address;
+  info_.inverter = 1;
+  info_.rated_current = rated_current_;
+  info_.parameter_channel = identity_.parameter_channel;
+  info_.protected_by = identity_.protected_by;
+  status_publisher_ = private_node.advertise<DriveStatus>(setup.name + "/status", 10);
+  info_publisher_ = private_node.advertise<DeviceInfo>(setup.name + "/device_info", 1, true);
+}
+
+void DrivePublisher::publishStatus(const cycle::DriveSnapshot& drive, ros::Time stamp) {
+  const profile::StatusWord word{drive.input.status_word};
+  status_.header.stamp = stamp;
+  status_.online = drive.online;
+  status_.state = static_cast<std::uint8_t>(drive.online ? drive.state : profile::DriveState::kUnknown);
+  status_.status_word = word.word();
+  status_.control_word = drive.output.control_word;
+  status_.ready_to_switch_on = word.readyToSwitchOn();
+  status_.switched_on = word.switchedOn();
+  status_.operation_enabled = word.operationEnabled();
+  status_.fault = word.fault();
+  status_.voltage_enabled = word.voltageEnabled();
+  status_.quick_stop_inactive = word.quickStopInactive();
+  status_.switch_on_disabled = word.switchOnDisabled();
+  status_.warning = word.warning();
+  status_.setpoint_reached = word.setpointReached();
+  status_.bus_control = word.busControl();
+  status_.bit_10 = word.bit10();
+  status_.direction_right = word.directionRight();
+  status_.direction_left = word.directionLeft();
+  status_.bit_13 = word.bit13();
+  status_.parameter_set = drive.parameter_set;
+  status_.setpoints.assign(drive.output.setpoints.begin(), drive.output.setpoints.end());
+  status_.actual_values.assign(drive.input.actual_values.begin(), drive.input.actual_values.end());
+  status_.velocity_command = drive.velocity_command;
+  status_.velocity = drive.velocity;
+  status_.frequency = drive.frequency;
+  status_.current = kNotKnown;  // no actual value is mapped to the current yet
+  status_.fault_number = drive.fault_number;
+  status_.fault_text = drive.fault_number == 0 ? "" : profile::faultText(drive.fault_number);
+  status_publisher_.publish(status_);
+}
+
+void DrivePublisher::publishDeviceInfo(const cycle::DriveSnapshot& drive) {
+  const cycle::DeviceData& device = drive.device;
+  if (!device.complete && told_) return;
+  DeviceInfo info = info_;
+  info.ident = device.ident;
+  info.software_version = versionText(device);
+  info.max_frequency.clear();
+  for (const auto& frequency : device.max_frequency) info.max_frequency.push_back(frequency.value_or(kNotKnown));
+  info.setpoint_functions.assign(device.setpoint_functions.begin(), device.setpoint_functions.end());
+  info.actual_value_functions.assign(device.actual_value_functions.begin(), device.actual_value_functions.end());
+  const bool same = told_ && info.ident == info_.ident && info.software_version == info_.software_version &&
+                    info.setpoint_functions == info_.setpoint_functions &&
+                    info.actual_value_functions == info_.actual_value_functions && frequencies_ == device.max_frequency;
+  if (same) return;
+  info_ = info;
+  frequencies_ = device.max_frequency;
+  told_ = true;
+  info_publisher_.publish(info_);
+}
+
+}  // namespace nord_driver::node

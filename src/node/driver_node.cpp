@@ -1,0 +1,163 @@
+#include "nord_driver/node/driver_node.h"
+
+#include <boost/function.hpp>
+#include <cmath>
+
+#include "nord_driver/profile/series.h"
+#include "nord_driver/transport/setting_checks.h"
+
+namespace nord_driver::node {
+
+namespace {
+
+XmlRpc::XmlRpcValue privateParameters() {
+  XmlRpc::XmlRpcValue value;
+  ros::NodeHandle("~").getParam("", value);
+  return value;
+}
+
+// Service calls that may wait for their drives at the same time, and a command that is not held up by them.
+constexpr int kSpinnerThreads = 4;
+
+Instant steadyNow() {
+  return std::chrono::steady_clock::now();
+}
+
+}  // namespace
+
+DriverNode::DriverNode()
+    : private_node_("~"),
+      settings_("~", privateParameters()),
+      config_(readNodeConfig(settings_)),
+      loader_("nord_driver", "nord_driver::Transport") {
+  loadTransport();
+  warnOfUnknownKeys();
+  ports_ = std::make_unique<cycle::CyclePorts>(config_.drives.size());
+  cycle_ = std::make_unique<cycle::BusCycle>(config_.cycle, *transport_, *ports_, config_.auto_enable);
+  broker_ = std::make_unique<RequestBroker>(*ports_);
+  advertise();
+}
+
+DriverNode::~DriverNode() {
+  thread_.reset();
+  services_.reset();
+  broker_.reset();
+  if (transport_) transport_->close();
+}
+
+void DriverNode::loadTransport() {
+  if (!loader_.isClassAvailable(config_.transport)) {
+    std::string known;
+    for (const std::string& name : loader_.getDeclaredClasses()) known += (known.empty() ? "" : ", ") + name;
+    throw ConfigError("~transport: \"" + config_.transport +
+                      "\" is not valid, expected one of the declared transports: " +
+                      (known.empty() ? "none (is the package's setup file sourced?)" : known));
+  }
+  transport_ = loader_.createInstance(config_.transport);
+  transport_->configure(*config_.bus, config_.drives, config_.cycle.cycle_rate);
+  for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
+    identities_.push_back(transport_->identity(i));
+    // Without a parameter channel P105 cannot be read: nobody could say what a setpoint means.
+    if (identities_[i].parameter_channel == "none" && !config_.cycle.drives[i].typed_max_frequency) {
+      throw ConfigError(
+          config_.drives[i].settings->fullName("max_frequency") +
+          " is missing: expected P105 in Hz, because this drive has no parameter channel to read it from");
+    }
+  }
+}
+
+void DriverNode::warnOfUnknownKeys() const {
+  std::vector<std::string> sentences = settings_.unknownKeys();
+  for (const std::string& sentence : config_.bus->unknownKeys()) sentences.push_back(sentence);
+  for (const DriveSettings& drive : config_.drives) {
+    for (const std::string& sentence : static_cast<const RosSettings&>(*drive.settings).unknownKeys()) {
+      sentences.push_back(sentence);
+    }
+  }
+  for (const std::string& sentence : sentences) ROS_WARN("nord_driver: %s", sentence.c_str());
+}
+
+void DriverNode::advertise() {
+  base_publisher_ = std::make_unique<BasePublisher>(node_, config_);
+  std::vector<std::string> names;
+  for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
+    const cycle::DriveSetup& setup = config_.cycle.drives[i];
+    names.push_back(setup.name);
+    const auto address = config_.drives[i].settings->integer("address").value_or(0);
+    drive_publishers_.emplace_back(private_node_, setup, identities_[i], static_cast<std::uint16_t>(address));
+    if (cycle_->inBase(i)) continue;
+    boost::function<void(const std_msgs::Float64&)> take = [this, i](const std_msgs::Float64& velocity) {
+      takeDriveCommand(i, velocity.data);
+    };
+    subscribers_.push_back(private_node_.subscribe<std_msgs::Float64>(setup.name + "/command", 1, take));
+  }
+  bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
+  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_);
+  services_ = std::make_unique<Services>(private_node_, config_, *broker_);
+  if (config_.cycle.base) {
+    boost::function<void(const geometry_msgs::Twist&)> take = [this](const geometry_msgs::Twist& twist) {
+      takeCommand(twist);
+    };
+    command_subscriber_ = node_.subscribe<geometry_msgs::Twist>("cmd_vel", 1, take);
+  }
+}
+
+// Only looks at the command and stores it: the cycle decides.
+void DriverNode::takeCommand(const geometry_msgs::Twist& twist) {
+  cycle::TwistCommand command{{twist.linear.x, twist.angular.z}, steadyNow(), true};
+  if (!robot::isFinite(command.twist)) {
+    // No command at all: the time-out of the one before runs on.
+    ++bad_commands_;
+    ROS_WARN_THROTTLE(1.0, "nord_driver: cmd_vel is not a number or infinite, ignored (%lu so far)",
+                      static_cast<unsigned long>(bad_commands_));
+    return;
+  }
+  if (!config_.publish.allow_multiple_cmd_vel_publishers && command_subscriber_.getNumPublishers() > 1) {
+    ROS_ERROR_THROTTLE(1.0, "nord_driver: %u publishers on cmd_vel, expected one: the base brakes",
+                       command_subscriber_.getNumPublishers());
+    command.twist = {};
+  }
+  ports_->commandBase(command);
+}
+
+void DriverNode::takeDriveCommand(DriveIndex drive, double velocity) {
+  if (!std::isfinite(velocity)) {
+    ++bad_commands_;
+    ROS_WARN_THROTTLE(1.0, "nord_driver: the command of drive %s is not a number or infinite, ignored",
+                      config_.cycle.drives[drive].name.c_str());
+    return;
+  }
+  ports_->commandDrive(drive, {velocity, steadyNow(), true});
+}
+
+void DriverNode::run(const std::atomic<bool>& end_asked) {
+  ros::AsyncSpinner spinner(kSpinnerThreads);
+  spinner.start();
+  if (config_.cycle.cmd_vel_timeout == Duration::zero()) {
+    ROS_WARN("nord_driver: cmd_vel_timeout is 0: the last command is followed for ever");
+  }
+  thread_ = std::make_unique<cycle::CycleThread>(*cycle_, *transport_, config_.cycle.real_time);
+  if (!thread_->refused().empty()) ROS_WARN("nord_driver: %s", thread_->refused().c_str());
+
+  publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_);
+  while (!end_asked && ros::ok()) ros::WallDuration(0.02).sleep();
+  bringToRest();
+}
+
+void DriverNode::bringToRest() {
+  ROS_INFO("nord_driver: bringing the drives to rest");
+  cycle::Request request;
+  request.kind = cycle::RequestKind::kShutDown;
+  // OFF1 that does not end becomes a quick stop; that has a ramp of its own (P426).
+  request.patience = config_.cycle.shutdown_timeout + std::chrono::seconds{3};
+  const cycle::Completion answer = broker_->call(request);
+  if (answer.success) {
+    ROS_INFO("nord_driver: all drives are at rest, ending the exchange");
+  } else {
+    ROS_ERROR("nord_driver: ending, although %s", answer.message.c_str());
+  }
+  publisher_.reset();
+  thread_.reset();
+}
+
+}  // namespace nord_driver::node

@@ -1,0 +1,63 @@
+// nord_driver_node: reads the command line and the signals, runs the node until it is asked to end.
+#include <ros/ros.h>
+#include <signal.h>
+
+#include <atomic>
+#include <cstdio>
+#include <cstring>
+
+#include "nord_driver/core/version.h"
+#include "nord_driver/node/driver_node.h"
+
+namespace {
+
+std::atomic<bool> end_asked{false};
+
+void askToEnd(int) {
+  end_asked = true;
+}
+
+// roscpp's own handler would tear down the publishers before the drives have come to rest.
+void catchSignals() {
+  struct sigaction action {};
+  action.sa_handler = askToEnd;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+}
+
+/// The log reaches /rosout on roscpp's own thread: give it the time to get there before the node is gone.
+void letTheLogOut() {
+  ros::WallDuration(0.5).sleep();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--version") == 0) {
+      std::printf("nord_driver_node %s\n", nord_driver::kVersion);
+      return 0;
+    }
+  }
+  ros::init(argc, argv, "nord_driver", ros::init_options::NoSigintHandler);
+  catchSignals();
+  while (!ros::master::check()) {
+    if (end_asked) return 0;
+    ROS_WARN_THROTTLE(5.0, "nord_driver: no ROS master answers at %s, waiting for it", ros::master::getURI().c_str());
+    ros::WallDuration(0.2).sleep();
+  }
+  ros::NodeHandle keep_alive;
+  try {
+    nord_driver::node::DriverNode node;
+    node.run(end_asked);
+  } catch (const nord_driver::ConfigError& error) {
+    ROS_FATAL("nord_driver: %s", error.what());
+    letTheLogOut();
+    return 1;
+  } catch (const std::exception& error) {
+    ROS_FATAL("nord_driver: %s", error.what());
+    letTheLogOut();
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,65 @@
+#include "nord_driver/node/node_config.h"
+
+#include "nord_driver/transport/setting_checks.h"
+
+namespace nord_driver::node {
+
+namespace {
+
+// A base whose pose comes from wheels alone: sure of what it cannot do (z, roll, pitch), unsure of its heading.
+constexpr std::array<double, 6> kDefaultCovariance{1e-3, 1e-3, 1e6, 1e6, 1e6, 3e-2};
+
+std::array<double, 6> readCovariance(const RosSettings& settings, const std::string& key) {
+  const auto values = settings.numbers(key);
+  if (!values) return kDefaultCovariance;
+  std::array<double, 6> diagonal{};
+  if (values->size() != diagonal.size()) {
+    throw wrongSetting(settings, key, "a list of " + std::to_string(values->size()) + " numbers",
+                       "six numbers: x, y, z, roll, pitch, yaw");
+  }
+  for (std::size_t i = 0; i < diagonal.size(); ++i) {
+    diagonal[i] = (*values)[i];
+    if (!(diagonal[i] >= 0.0)) {
+      throw wrongSetting(settings, key, shortNumber(diagonal[i]), "six numbers that are not negative");
+    }
+  }
+  return diagonal;
+}
+
+std::string readTransport(const RosSettings& settings) {
+  const std::string name = settings.text("transport").value_or("nord_driver/profibus_dp");
+  return name.find('/') == std::string::npos ? "nord_driver/" + name : name;
+}
+
+PublishConfig readPublish(const RosSettings& settings) {
+  constexpr double kMaxRate = 1000.0;
+  PublishConfig publish;
+  publish.publish_rate = numberOr(settings, "publish_rate", publish.publish_rate, 0.1, kMaxRate, "Hz");
+  publish.status_rate = numberOr(settings, "status_rate", publish.status_rate, 0.1, kMaxRate, "Hz");
+  publish.base_frame_id = settings.text("base_frame_id").value_or(publish.base_frame_id);
+  publish.odom_frame_id = settings.text("odom_frame_id").value_or(publish.odom_frame_id);
+  publish.enable_odom_tf = settings.boolean("enable_odom_tf").value_or(publish.enable_odom_tf);
+  publish.publish_cmd = settings.boolean("publish_cmd").value_or(publish.publish_cmd);
+  publish.allow_multiple_cmd_vel_publishers =
+      settings.boolean("allow_multiple_cmd_vel_publishers").value_or(publish.allow_multiple_cmd_vel_publishers);
+  publish.pose_covariance_diagonal = readCovariance(settings, "pose_covariance_diagonal");
+  publish.twist_covariance_diagonal = readCovariance(settings, "twist_covariance_diagonal");
+  return publish;
+}
+
+}  // namespace
+
+NodeConfig readNodeConfig(const RosSettings& settings) {
+  NodeConfig config;
+  config.transport = readTransport(settings);
+  config.auto_enable = settings.boolean("auto_enable").value_or(false);
+  settings.accept("type");  // controller files name a plugin class here
+  config.publish = readPublish(settings);
+  config.bus = settings.group("bus");
+  const auto drives = settings.group("drives");
+  for (const std::string& name : drives->keys()) config.drives.push_back({name, drives->group(name)});
+  config.cycle = cycle::readCycleConfig(settings, config.drives);
+  return config;
+}
+
+}  // namespace nord_driver::node

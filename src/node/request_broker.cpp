@@ -1,0 +1,47 @@
+#include "nord_driver/node/request_broker.h"
+
+namespace nord_driver::node {
+
+RequestBroker::RequestBroker(cycle::CyclePorts& ports) : ports_(ports), dispatcher_([this] { dispatch(); }) {}
+
+RequestBroker::~RequestBroker() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+  }
+  dispatcher_.join();
+}
+
+void RequestBroker::dispatch() {
+  for (;;) {
+    const auto completion = ports_.waitCompletion(std::chrono::milliseconds{100});
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (stop_) return;
+    if (!completion) continue;
+    const auto at = waiting_.find(completion->id);
+    if (at == waiting_.end()) continue;  // its caller has given up
+    at->second = *completion;
+    arrived_.notify_all();
+  }
+}
+
+cycle::Completion RequestBroker::call(cycle::Request request) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  request.id = next_id_;
+  next_id_ = next_id_ == UINT32_MAX ? 1 : next_id_ + 1;
+  cycle::Completion answer;
+  answer.id = request.id;
+  const auto at = waiting_.emplace(request.id, std::nullopt).first;
+  if (!ports_.submit(request)) {
+    answer.message = "too many requests are waiting already";
+  } else if (arrived_.wait_for(lock, request.patience + std::chrono::seconds{1},
+                               [&] { return at->second.has_value(); })) {
+    answer = *at->second;
+  } else {
+    answer.message = "the bus cycle did not answer";
+  }
+  waiting_.erase(at);
+  return answer;
+}
+
+}  // namespace nord_driver::node

@@ -1,0 +1,80 @@
+#include "nord_driver/node/snapshot_publisher.h"
+
+#include <algorithm>
+
+namespace nord_driver::node {
+
+namespace {
+
+constexpr Duration kBusPeriod = std::chrono::seconds{1};
+
+/// True when `period` has passed since the last time; a late one is not caught up with.
+bool isDue(Instant& next, Duration period, Instant now) {
+  if (now < next) return false;
+  next = std::max(next + period, now);
+  return true;
+}
+
+}  // namespace
+
+SnapshotPublisher::SnapshotPublisher(cycle::CyclePorts& ports, const PublishConfig& config, BasePublisher& base,
+                                     std::vector<DrivePublisher>& drives, BusPublisher& bus, Diagnostics& diagnostics)
+    : ports_(ports),
+      base_(base),
+      drives_(drives),
+      bus_(bus),
+      diagnostics_(diagnostics),
+      base_period_(seconds(1.0 / config.publish_rate)),
+      status_period_(seconds(1.0 / config.status_rate)),
+      thread_([this] { run(); }) {}
+
+SnapshotPublisher::~SnapshotPublisher() {
+  stop_ = true;
+  thread_.join();
+}
+
+void SnapshotPublisher::run() {
+  Instant now = std::chrono::steady_clock::now();
+  Instant next_base = now, next_status = now, next_bus = now;
+  while (!stop_) {
+    const cycle::CycleSnapshot& snapshot = ports_.readSnapshot();
+    if (snapshot.time != Instant{}) {  // the first cycle has ended
+      const ros::Time stamp = ros::Time::now();
+      if (isDue(next_base, base_period_, now)) base_.publish(snapshot, stamp);
+      if (isDue(next_status, status_period_, now)) {
+        for (std::size_t i = 0; i < drives_.size(); ++i) {
+          drives_[i].publishStatus(snapshot.drives[i], stamp);
+          drives_[i].publishDeviceInfo(snapshot.drives[i]);
+        }
+      }
+      if (isDue(next_bus, kBusPeriod, now)) bus_.publish(snapshot, stamp);
+      logChanges(snapshot);
+      diagnostics_.update(snapshot);
+    }
+    const Instant wake = std::min({std::max(next_base, now), std::max(next_status, now), now + seconds(0.1)});
+    std::this_thread::sleep_until(std::max(wake, now + seconds(0.0005)));
+    now = std::chrono::steady_clock::now();
+  }
+}
+
+// Says at once, and once, what does not answer or what has stopped.
+void SnapshotPublisher::logChanges(const cycle::CycleSnapshot& snapshot) {
+  const std::string bus = bus_.sentence(snapshot);
+  if (bus != last_bus_text_) {
+    const bool all = std::all_of(snapshot.drives.begin(), snapshot.drives.end(),
+                                 [](const cycle::DriveSnapshot& drive) { return drive.online; });
+    if (all) {
+      ROS_INFO("nord_driver: %s", bus.c_str());
+    } else {
+      ROS_WARN("nord_driver: %s", bus.c_str());
+    }
+    last_bus_text_ = bus;
+  }
+  const std::string base = snapshot.base.text.str();
+  if (base != last_base_text_) {
+    if (snapshot.base.stopped) ROS_ERROR("nord_driver: the base is stopped: %s", base.c_str());
+    last_base_text_ = base;
+  }
+}
+
+}  // namespace nord_driver::node

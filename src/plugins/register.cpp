@@ -1,0 +1,6 @@
+// Declares the transports of this package to pluginlib.
+#include <pluginlib/class_list_macros.hpp>
+
+#include "nord_driver/transport/profibus_dp.h"
+
+PLUGINLIB_EXPORT_CLASS(nord_driver::ProfibusDpTransport, nord_driver::Transport)

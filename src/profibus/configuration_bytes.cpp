@@ -1,0 +1,48 @@
+#include "nord_driver/profibus/configuration_bytes.h"
+
+namespace nord_driver::profibus {
+
+namespace {
+
+// Compact identifier: bits 0-3 length - 1, bits 4-5 direction, bit 6 words instead of bytes, bit 7 consistency over
+// all. Direction 00 announces the special format: bits 6-7 say which length bytes follow, bits 0-3 how many bytes of
+// the maker.
+constexpr unsigned kInputBit = 0x10;
+constexpr unsigned kOutputBit = 0x20;
+constexpr unsigned kWordsBit = 0x40;
+constexpr unsigned kSpecialInputBit = 0x40;
+constexpr unsigned kSpecialOutputBit = 0x80;
+constexpr unsigned kNoMakerBytes = 0x0F;  // "not verified": none follow
+
+std::size_t inBytes(unsigned format, unsigned length_mask) noexcept {
+  const std::size_t units = (format & length_mask) + 1;
+  return (format & kWordsBit) != 0 ? 2 * units : units;
+}
+
+std::size_t specialLength(ByteReader& reader) noexcept {
+  return inBytes(reader.u8(), 0x3F);
+}
+
+}  // namespace
+
+std::optional<IoLengths> ioLengths(ByteView configuration) noexcept {
+  IoLengths lengths;
+  ByteReader reader{configuration};
+  while (reader.remaining() > 0) {
+    const unsigned identifier = reader.u8();
+    if ((identifier & (kInputBit | kOutputBit)) != 0) {
+      const std::size_t length = inBytes(identifier, 0x0F);
+      if ((identifier & kOutputBit) != 0) lengths.outputs += length;
+      if ((identifier & kInputBit) != 0) lengths.inputs += length;
+      continue;
+    }
+    if ((identifier & kSpecialOutputBit) != 0) lengths.outputs += specialLength(reader);
+    if ((identifier & kSpecialInputBit) != 0) lengths.inputs += specialLength(reader);
+    const unsigned maker_bytes = identifier & 0x0Fu;
+    for (unsigned i = 0; maker_bytes != kNoMakerBytes && i < maker_bytes; ++i) reader.u8();
+  }
+  if (!reader.ok()) return std::nullopt;
+  return lengths;
+}
+
+}  // namespace nord_driver::profibus

@@ -1,0 +1,163 @@
+#include "nord_driver/profibus/dp_master.h"
+
+namespace nord_driver::profibus {
+
+namespace {
+
+constexpr Duration kTellForeignAgain = std::chrono::seconds{10};
+constexpr const char* kForeign = "another master is on this segment: this driver must be the only one";
+constexpr const char* kOwnAddress =
+    "a second master has our address, or the adapter hands our own bytes back: switch its echo off";
+constexpr const char* kBusy =
+    "the line never falls silent: check polarity, termination and biasing, or another station babbles";
+
+}  // namespace
+
+DpMaster::DpMaster(const BusParameters& bus, const std::vector<SlaveConfig>& slaves) : bus_(bus), requester_(bus) {
+  bus.validate();
+  validate(slaves, bus);
+  slaves_.reserve(slaves.size());
+  for (std::size_t i = 0; i < slaves.size(); ++i) slaves_.emplace_back(i, slaves[i], bus);
+  DpServices{bus}.operate(operate_);
+}
+
+void DpMaster::restart(Instant now) noexcept {
+  requester_.restart(now);
+  for (DpSlave& slave : slaves_) slave.restart(now, events_);
+  turn_ = Turn::Done;
+  last_operate_.reset();
+  last_foreign_.reset();
+  told_busy_ = false;
+}
+
+void DpMaster::startCycle(Instant now) noexcept {
+  if (!cycleDone()) return;
+  ++requester_.counters().cycles;
+  for (DpSlave& slave : slaves_) slave.startCycle();
+  turn_ = Turn::Operate;
+  cursor_ = 0;
+  advance(now);
+}
+
+void DpMaster::handleBytes(ByteView bytes, Instant now) noexcept {
+  requester_.handleBytes(
+      bytes, now, [&](const FdlAnswer& answer) { slaves_[asked_].handleAnswer(answer, now, events_); },
+      [&](std::uint8_t master) { tellForeign(master, now); });
+  advance(now);
+}
+
+void DpMaster::handleTimeout(Instant now) noexcept {
+  switch (requester_.handleTimeout(now)) {
+    case Requester::Outcome::None:
+      break;
+    case Requester::Outcome::NoAnswer:
+      slaves_[asked_].handleNoAnswer(requester_.lastMismatch(), now, events_);
+      break;
+    case Requester::Outcome::LineBusy:
+      abandonCycle();
+      break;
+  }
+  advance(now);
+}
+
+ByteView DpMaster::pollTransmit(Instant now) noexcept {
+  const ByteView bytes = requester_.pollTransmit(now);
+  if (bytes.empty()) return bytes;
+  told_busy_ = false;
+  advance(now);  // a broadcast has ended with its sending; its bytes stay where they are
+  return bytes;
+}
+
+// The cycle in turns; each asks the slaves that want to be asked in it, one request at a time.
+void DpMaster::advance(Instant now) noexcept {
+  while (!requester_.busy() && turn_ != Turn::Done) {
+    if (!askNext(now)) nextTurn();
+  }
+  requester_.counters().events_lost = events_.overflow();
+}
+
+bool DpMaster::askNext(Instant now) noexcept {
+  switch (turn_) {
+    case Turn::Operate:
+      return askOperate(now);
+    case Turn::Exchange:
+      return askFirst(now, [](const DpSlave& slave) { return slave.wantsExchange(); });
+    case Turn::StartUp:
+      return askFirst(now, [now](const DpSlave& slave) { return slave.wantsStartUpStep(now); });
+    case Turn::Diagnosis:
+      return askFirst(now, [](const DpSlave& slave) { return slave.wantsDiagnosis(); });
+    case Turn::Probe:
+      return askProbe(now);
+    case Turn::Done:
+      break;
+  }
+  return false;
+}
+
+bool DpMaster::askOperate(Instant now) noexcept {
+  const bool wanted = bus_.operate_interval > Duration::zero();
+  if (!wanted || (last_operate_ && now - *last_operate_ < bus_.operate_interval)) return false;
+  last_operate_ = now;
+  requester_.begin(operate_, nullptr, now);
+  return true;
+}
+
+template <typename Wants>
+bool DpMaster::askFirst(Instant now, Wants&& wants) noexcept {
+  while (cursor_ < slaves_.size()) {
+    const std::size_t slave = cursor_++;
+    if (!wants(slaves_[slave])) continue;
+    ask(slave, now);
+    return true;
+  }
+  return false;
+}
+
+// One silent slave per cycle, in turns: each costs a whole slot.
+bool DpMaster::askProbe(Instant now) noexcept {
+  for (std::size_t i = 0; i < slaves_.size() && cursor_ == 0; ++i) {
+    const std::size_t slave = (probe_cursor_ + i) % slaves_.size();
+    if (!slaves_[slave].wantsProbe(now)) continue;
+    probe_cursor_ = slave + 1;
+    cursor_ = slaves_.size();
+    ask(slave, now);
+    return true;
+  }
+  return false;
+}
+
+void DpMaster::ask(std::size_t slave, Instant now) noexcept {
+  asked_ = slave;
+  slaves_[slave].prepare(request_, now);
+  requester_.begin(request_, &slaves_[slave].counters(), now);
+}
+
+void DpMaster::nextTurn() noexcept {
+  turn_ = static_cast<Turn>(static_cast<std::uint8_t>(turn_) + 1);
+  cursor_ = 0;
+}
+
+// Nothing was sent: what the slaves did is not known, and the next cycle asks them again.
+void DpMaster::abandonCycle() noexcept {
+  turn_ = Turn::Done;
+  last_operate_.reset();
+  if (told_busy_) return;
+  told_busy_ = true;
+  DpEvent busy;
+  busy.kind = DpEventKind::LineBusy;
+  busy.text = kBusy;
+  events_.push(busy);
+}
+
+void DpMaster::tellForeign(std::uint8_t master, Instant now) noexcept {
+  if (last_foreign_ && foreign_ == master && now - *last_foreign_ < kTellForeignAgain) return;
+  last_foreign_ = now;
+  foreign_ = master;
+  DpEvent foreign;
+  foreign.kind = DpEventKind::ForeignMaster;
+  foreign.master = master;
+  foreign.text = master == bus_.master.value() ? kOwnAddress : kForeign;
+  events_.push(foreign);
+}
+
+}  // namespace nord_driver::profibus

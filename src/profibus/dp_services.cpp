@@ -1,0 +1,136 @@
+#include "nord_driver/profibus/dp_services.h"
+
+#include <array>
+
+#include "nord_driver/profibus/diagnosis.h"
+#include "nord_driver/profibus/watchdog_factors.h"
+
+namespace nord_driver::profibus {
+
+namespace {
+
+// Service access points of the slave; the master's is 62 (MS0). Data exchange has none.
+constexpr std::uint8_t kMasterSap = 62;
+constexpr std::uint8_t kGlobalControlSap = 58;
+constexpr std::uint8_t kSlaveDiagSap = 60;
+constexpr std::uint8_t kSetPrmSap = 61;
+constexpr std::uint8_t kChkCfgSap = 62;
+
+// First byte of Set_Prm. Sync_Req and Freeze_Req are never set: SYNC would freeze the control word (BU 2700 6.3).
+// Without Lock_Req a slave does not go on to data exchange.
+constexpr std::uint8_t kLockRequest = 0x80;
+constexpr std::uint8_t kWatchdogOn = 0x08;
+
+constexpr std::size_t kSd3Octets = 8;
+
+using PrmBytes = FixedBytes<kMaxIoLength>;
+
+PrmBytes prmBytes(const SlaveConfig& slave, std::uint16_t ident) noexcept {
+  const auto factors = WatchdogFactors::from(slave.watchdog);
+  const WatchdogFactors sent = factors.value_or(WatchdogFactors{});  // 1 and 1 while the watchdog is off
+  PrmBytes bytes;
+  ByteWriter<kMaxIoLength> writer{bytes};
+  writer.u8(factors ? kLockRequest | kWatchdogOn : kLockRequest);
+  writer.u8(sent.f1);
+  writer.u8(sent.f2);
+  writer.u8(slave.min_tsdr_bits);
+  writer.u16be(ident);
+  writer.u8(slave.group);
+  writer.append(slave.user_parameters);
+  return bytes;
+}
+
+TelegramKind kindFor(std::size_t octets, bool send_sd3) noexcept {
+  if (octets == 0) return TelegramKind::Sd1;
+  return send_sd3 && octets == kSd3Octets ? TelegramKind::Sd3 : TelegramKind::Sd2;
+}
+
+/// Set_Prm and Chk_Cfg are answered by SC.
+void expectAcknowledge(FdlRequest& request) noexcept {
+  request.short_acknowledge_legal = true;
+  request.acknowledge_legal = true;
+  request.data_legal = false;
+}
+
+}  // namespace
+
+/// SRD high, from the master's access point 62 where the slave's is given.
+void DpServices::ask(FdlRequest& request, StationAddress slave, std::uint8_t count_bits,
+                     std::optional<std::uint8_t> dsap, ByteView data) const noexcept {
+  request = FdlRequest{};
+  request.station = slave.value();
+  request.retries = retries_;
+  request.dsap = dsap;
+  if (dsap) request.ssap = kMasterSap;
+
+  Telegram telegram;
+  telegram.kind = kindFor(data.size() + (dsap ? 2u : 0u), send_sd3_);
+  telegram.da = slave.value();
+  telegram.sa = master_.value();
+  telegram.fc = static_cast<std::uint8_t>(kSendRequestDataHigh | count_bits);
+  telegram.dsap = request.dsap;
+  telegram.ssap = request.ssap;
+  telegram.data = data;
+  encode(telegram, request.frame);
+}
+
+void DpServices::fdlStatus(FdlRequest& request, StationAddress slave) const noexcept {
+  request = FdlRequest{};
+  request.station = slave.value();
+  request.acknowledge_legal = true;
+  request.data_legal = false;
+  request.any_station_type = true;
+
+  Telegram telegram;
+  telegram.kind = TelegramKind::Sd1;
+  telegram.da = slave.value();
+  telegram.sa = master_.value();
+  telegram.fc = kFdlStatus;
+  encode(telegram, request.frame);
+}
+
+void DpServices::slaveDiag(FdlRequest& request, StationAddress slave, std::uint8_t count_bits) const noexcept {
+  ask(request, slave, count_bits, kSlaveDiagSap, {});
+  request.min_data = Diagnosis::kStandardLength;
+  request.max_data = Diagnosis::kMaxLength;
+}
+
+void DpServices::setPrm(FdlRequest& request, const SlaveConfig& slave, std::uint16_t ident,
+                        std::uint8_t count_bits) const noexcept {
+  ask(request, slave.address, count_bits, kSetPrmSap, prmBytes(slave, ident));
+  expectAcknowledge(request);
+}
+
+void DpServices::chkCfg(FdlRequest& request, const SlaveConfig& slave, std::uint8_t count_bits) const noexcept {
+  ask(request, slave.address, count_bits, kChkCfgSap, slave.configuration);
+  expectAcknowledge(request);
+}
+
+void DpServices::dataExchange(FdlRequest& request, const SlaveConfig& slave, ByteView outputs,
+                              std::uint8_t count_bits) const noexcept {
+  ask(request, slave.address, count_bits, std::nullopt, outputs);
+  request.min_data = slave.input_length;
+  request.max_data = slave.input_length;
+  // Only a slave that has nothing to say may acknowledge without data.
+  request.short_acknowledge_legal = slave.input_length == 0;
+  request.acknowledge_legal = slave.input_length == 0;
+}
+
+void DpServices::operate(FdlRequest& request) const noexcept {
+  request = FdlRequest{};
+  request.answered = false;
+  request.station = kBroadcastAddress;
+  const std::array<std::uint8_t, 2> operate_all{0x00, 0x00};  // no Clear, no Freeze, no Sync; every group
+
+  Telegram telegram;
+  telegram.kind = TelegramKind::Sd2;
+  telegram.da = kBroadcastAddress;
+  telegram.sa = master_.value();
+  telegram.fc = kSendNoAcknowledgeHigh;
+  telegram.dsap = kGlobalControlSap;
+  telegram.ssap = kMasterSap;
+  telegram.data = operate_all;
+  encode(telegram, request.frame);
+}
+
+}  // namespace nord_driver::profibus

@@ -1,0 +1,163 @@
+// The requests of a slave, and how it moves between its phases.
+#include "nord_driver/profibus/dp_slave.h"
+
+#include <algorithm>
+
+#include "dp_slave_texts.h"
+
+namespace nord_driver::profibus {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kFirstPause = 250ms;
+constexpr Duration kLongestPause = 2s;
+
+}  // namespace
+
+DpSlave::DpSlave(std::size_t index, const SlaveConfig& config, const BusParameters& bus)
+    : index_(index),
+      config_(config),
+      services_(bus),
+      master_(bus.master.value()),
+      probe_interval_(bus.probe_interval),
+      outputs_(config.output_length, 0),
+      inputs_(config.input_length, 0),
+      pause_(kFirstPause) {
+  status_.note = kNoAnswer;
+}
+
+void DpSlave::restart(Instant now, DpEvents& events) noexcept {
+  if (status_.phase == SlavePhase::DataExchange) lose(LossCause::LinkRestarted, kLinkOpened, events);
+  forgetFaults();
+  told_found_ = false;
+  startCycle();
+  fallSilent(now, kNoAnswer);
+}
+
+void DpSlave::startCycle() noexcept {
+  stepped_ = false;
+  diagnosed_ = false;
+  status_.exchanged_this_cycle = false;
+}
+
+bool DpSlave::wantsExchange() const noexcept {
+  return status_.phase == SlavePhase::DataExchange && !stepped_;
+}
+
+bool DpSlave::wantsStartUpStep(Instant now) const noexcept {
+  const bool starting = status_.phase != SlavePhase::Silent && status_.phase != SlavePhase::DataExchange;
+  return starting && !stepped_ && now >= due_;
+}
+
+bool DpSlave::wantsDiagnosis() const noexcept {
+  return status_.phase == SlavePhase::DataExchange && stepped_ && diagnosis_due_ && !diagnosed_;
+}
+
+bool DpSlave::wantsProbe(Instant now) const noexcept {
+  return status_.phase == SlavePhase::Silent && !stepped_ && now >= due_;
+}
+
+DpSlave::Service DpSlave::nextService() noexcept {
+  switch (status_.phase) {
+    case SlavePhase::Silent:
+      return Service::FdlStatus;
+    case SlavePhase::BackOff:
+      startOver(status_.note);  // the reason stays readable until it is gone
+      return Service::SlaveDiag;
+    case SlavePhase::FirstDiagnosis:
+    case SlavePhase::AwaitReady:
+      return Service::SlaveDiag;
+    case SlavePhase::Parameters:
+      return Service::SetPrm;
+    case SlavePhase::Configuration:
+      return Service::ChkCfg;
+    case SlavePhase::DataExchange:
+      return stepped_ ? Service::SlaveDiag : Service::DataExchange;
+  }
+  return Service::FdlStatus;
+}
+
+void DpSlave::prepare(FdlRequest& request, Instant now) noexcept {
+  asked_ = nextService();
+  if (stepped_) diagnosed_ = true;
+  stepped_ = true;
+  switch (asked_) {
+    case Service::FdlStatus:
+      due_ = now + probe_interval_;
+      services_.fdlStatus(request, config_.address);
+      break;
+    case Service::SlaveDiag:
+      services_.slaveDiag(request, config_.address, frame_count_.bits());
+      break;
+    case Service::SetPrm:
+      services_.setPrm(request, config_,
+                       config_.expect_exact_ident ? config_.ident_number : status_.ident.value_or(config_.ident_number),
+                       frame_count_.bits());
+      break;
+    case Service::ChkCfg:
+      services_.chkCfg(request, config_, frame_count_.bits());
+      break;
+    case Service::DataExchange:
+      services_.dataExchange(request, config_, outputs_, frame_count_.bits());
+      break;
+  }
+}
+
+void DpSlave::fallSilent(Instant due, const char* note) noexcept {
+  frame_count_.reset();
+  diagnosis_due_ = false;
+  status_.phase = SlavePhase::Silent;
+  status_.note = note;
+  due_ = due;
+}
+
+void DpSlave::startOver(const char* note) noexcept {
+  frame_count_.reset();
+  diagnosis_due_ = false;
+  status_.phase = SlavePhase::FirstDiagnosis;
+  status_.note = note;
+  due_ = Instant{};
+}
+
+void DpSlave::lose(LossCause cause, const char* text, DpEvents& events) noexcept {
+  ++status_.counters.losses;
+  status_.exchanged_this_cycle = false;
+  told_found_ = false;
+  DpEvent lost = event(DpEventKind::SlaveLost, text);
+  lost.cause = cause;
+  events.push(lost);
+}
+
+void DpSlave::backOff(const Fault& fault, Instant now, DpEvents& events) noexcept {
+  ++status_.counters.refusals;
+  startOver(fault.text);
+  status_.phase = SlavePhase::BackOff;
+  due_ = now + pause_;
+  pause_ = std::min(2 * pause_, kLongestPause);
+  if (told_fault_ == fault.kind) return;
+  told_fault_ = fault.kind;
+  events.push(event(fault.kind, fault.text));
+}
+
+void DpSlave::forgetFaults() noexcept {
+  pause_ = kFirstPause;
+  told_fault_.reset();
+}
+
+DpEvent DpSlave::event(DpEventKind kind, const char* text) const noexcept {
+  DpEvent told;
+  told.kind = kind;
+  told.slave = index_;
+  told.master = status_.diagnosis.empty() ? kNoOwner : status_.diagnosis.owner();
+  told.ident = status_.ident.value_or(0);
+  told.text = text;
+  return told;
+}
+
+void DpSlave::setOutputs(ByteView outputs) noexcept {
+  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = i < outputs.size() ? outputs[i] : std::uint8_t{0};
+}
+
+}  // namespace nord_driver::profibus

@@ -1,0 +1,32 @@
+// What a technician reads of a slave: sentences without their subject ("PROFIBUS station 8 ...").
+#pragma once
+
+namespace nord_driver::profibus {
+
+constexpr const char* kNoAnswer =
+    "does not answer: check its power, its address, the baud rate, the cable and its termination";
+constexpr const char* kStarting = "answers, and is being parameterised";
+constexpr const char* kWaiting = "has its parameters, and reports that it is not ready yet";
+constexpr const char* kNoValidData = "reports that it has no valid data for the moment (Stat_Diag)";
+constexpr const char* kMasterThere = "is a master, not a slave: check the addresses";
+constexpr const char* kFellSilent = "fell silent: check its power and the cable";
+constexpr const char* kGarbled =
+    "answered with telegrams that are no answer: check the cable, and that no other station has its address";
+constexpr const char* kLeft = "left data exchange by itself: its watchdog ran out, or it was switched off and on";
+constexpr const char* kAsksAgain = "asks for its parameters again: it was restarted, or another master took it";
+constexpr const char* kLinkOpened = "the bus device was opened anew";
+constexpr const char* kWrongLength =
+    "exchanges data of another length than configured: the PPO type or module list set at the device differs";
+constexpr const char* kWrongIdent = "is another device than configured: its ident number differs";
+constexpr const char* kLocked = "is locked by another master";
+constexpr const char* kPrmFault =
+    "refuses its parameters (Prm_Fault): the ident number, the user parameters or the watchdog do not suit it";
+constexpr const char* kCfgFault =
+    "refuses its configuration (Cfg_Fault): the PPO type or module list set at the device differs from the configured "
+    "one";
+constexpr const char* kServiceRefused =
+    "refuses a service of its start-up: it is no DP slave, or is busy with another master";
+constexpr const char* kNotReady = "has its parameters, but does not become ready for data exchange";
+constexpr const char* kForgot = "was given its parameters, and asks for them again (Prm_Req)";
+
+}  // namespace nord_driver::profibus

@@ -1,0 +1,127 @@
+#include "nord_driver/profibus/requester.h"
+
+#include <algorithm>
+
+namespace nord_driver::profibus {
+
+void Requester::restart(Instant now) noexcept {
+  state_ = State::Idle;
+  request_ = nullptr;
+  slave_ = nullptr;
+  receiver_.discard();
+  takeReceiverCounters();
+  silent_from_ = now + bus_.idleTime();
+}
+
+void Requester::begin(const FdlRequest& request, SlaveCounters* slave, Instant now) noexcept {
+  request_ = &request;
+  slave_ = slave;
+  sendings_ = 0;
+  mismatch_ = Mismatch::None;
+  queue(now);
+}
+
+// Whoever talks now may finish the longest telegram; a line that is not silent after that has a fault.
+void Requester::queue(Instant now) noexcept {
+  state_ = State::ToSend;
+  give_up_ = std::max(now, silent_from_) + bus_.baud.characters(kMaxTelegramLength) + 2 * bus_.slotTime();
+}
+
+ByteView Requester::pollTransmit(Instant now) noexcept {
+  if (state_ != State::ToSend || now < silent_from_) return {};
+  // Bytes from before the pause belong to no answer.
+  receiver_.discard();
+  takeReceiverCounters();
+
+  ++sendings_;
+  ++counters_.telegrams_sent;
+  if (sendings_ > 1) ++counters_.retries;
+  if (slave_ != nullptr) {
+    ++slave_->requests;
+    if (sendings_ > 1) ++slave_->retries;
+  }
+
+  const Instant sent = now + bus_.baud.characters(request_->frame.size());
+  if (request_->answered) {
+    state_ = State::AwaitAnswer;
+    silent_from_ = sent + bus_.idleTime();
+    slot_end_ = sent + bus_.slotTime();
+    answer_limit_ = slot_end_ + bus_.baud.characters(kMaxTelegramLength) + bus_.slotTime();
+  } else {
+    state_ = State::Idle;
+    silent_from_ = sent + bus_.broadcastIdleTime();
+  }
+  return request_->frame;
+}
+
+std::optional<Instant> Requester::nextDeadline() const noexcept {
+  switch (state_) {
+    case State::Idle:
+      return std::nullopt;
+    case State::ToSend:
+      return std::min(silent_from_, give_up_);
+    case State::AwaitAnswer:
+      return slot_end_;
+  }
+  return std::nullopt;
+}
+
+Requester::Outcome Requester::handleTimeout(Instant now) noexcept {
+  if (state_ == State::ToSend && now >= give_up_ && now < silent_from_) {
+    state_ = State::Idle;
+    ++counters_.busy;
+    return sendings_ == 0 ? Outcome::LineBusy : Outcome::NoAnswer;
+  }
+  if (state_ != State::AwaitAnswer || now < slot_end_) return Outcome::None;
+
+  ++counters_.timeouts;
+  if (slave_ != nullptr) ++slave_->timeouts;
+  receiver_.discard();
+  takeReceiverCounters();
+  if (sendings_ <= request_->retries) {
+    queue(now);
+    return Outcome::None;
+  }
+  state_ = State::Idle;
+  return Outcome::NoAnswer;
+}
+
+// The slot time is the time to the first character of an answer. A longer answer, or one that an adapter hands over in
+// pieces, takes its time: every piece prolongs the slot, up to the longest telegram there is.
+void Requester::noteActivity(Instant now) noexcept {
+  silent_from_ = std::max(silent_from_, now + bus_.idleTime());
+  if (state_ == State::AwaitAnswer) {
+    slot_end_ = std::max(slot_end_, std::min(now + bus_.slotTime(), answer_limit_));
+  }
+}
+
+bool Requester::isForeign(const Telegram& telegram) const noexcept {
+  if (telegram.kind == TelegramKind::Sc) return false;
+  return telegram.kind == TelegramKind::Sd4 || isRequest(telegram.fc);
+}
+
+bool Requester::accept(const Telegram& telegram, FdlAnswer& answer) noexcept {
+  if (state_ != State::AwaitAnswer) {
+    ++counters_.unexpected;
+    return false;
+  }
+  const Mismatch mismatch = matchAnswer(*request_, bus_.master.value(), telegram, answer);
+  if (mismatch != Mismatch::None) {
+    mismatch_ = mismatch;
+    ++counters_.unexpected;
+    if (slave_ != nullptr) ++slave_->unexpected;
+    return false;
+  }
+  state_ = State::Idle;
+  if (slave_ != nullptr) ++slave_->answers;
+  return true;
+}
+
+void Requester::takeReceiverCounters() noexcept {
+  counters_.receiver = receiver_.counters();
+  counters_.telegrams_received = counters_.receiver.telegrams;
+  counters_.checksum_errors = counters_.receiver.checksum_errors;
+  counters_.discarded_bytes = counters_.receiver.bytes_discarded;
+}
+
+}  // namespace nord_driver::profibus

@@ -1,0 +1,88 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "nord_driver/cycle/base_config.h"
+#include "support/map_settings.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using test::MapSettings;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const JointNames kJoints{"left_wheel_joint", "right_wheel_joint", "lift_joint"};
+
+MapSettings robot() {
+  MapSettings settings{"~"};
+  settings.set("left_wheel", "left_wheel_joint").set("right_wheel", "right_wheel_joint");
+  settings.set("wheel_separation", 0.5).set("wheel_radius", 0.1);
+  return settings;
+}
+
+/// The sentence a configuration is refused with.
+std::string refusal(const MapSettings& settings) {
+  try {
+    readBaseConfig(settings, kJoints);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(BaseConfig, FindsTheDrivesOfTheWheels) {
+  const auto base = readBaseConfig(robot(), kJoints);
+  ASSERT_TRUE(base);
+  EXPECT_EQ(std::vector<DriveIndex>{0}, base->left);
+  EXPECT_EQ(std::vector<DriveIndex>{1}, base->right);
+  EXPECT_EQ(0.5, base->geometry.wheel_separation);
+  EXPECT_EQ(0.1, base->geometry.left_wheel_radius);
+  EXPECT_EQ(0.1, base->geometry.right_wheel_radius);
+  EXPECT_FALSE(base->limits.linear_x.has_velocity_limits);
+}
+
+TEST(BaseConfig, WithoutALeftWheelThereIsNoBase) {
+  EXPECT_FALSE(readBaseConfig(MapSettings{"~"}, kJoints));
+}
+
+TEST(BaseConfig, TakesIntegersAsNumbersAndListsOfWheels) {
+  auto settings = robot();
+  settings.set("wheel_separation", 1).set("left_wheel", std::vector<std::string>{"left_wheel_joint", "lift_joint"});
+  const auto base = readBaseConfig(settings, kJoints);
+  EXPECT_EQ(1.0, base->geometry.wheel_separation);
+  EXPECT_EQ((std::vector<DriveIndex>{0, 2}), base->left);
+}
+
+TEST(BaseConfig, OneMultiplierServesBothSidesUnlessTheyHaveTheirOwn) {
+  auto settings = robot();
+  settings.set("wheel_radius_multiplier", 1.1).set("right_wheel_radius_multiplier", 1.2);
+  const auto base = readBaseConfig(settings, kJoints);
+  EXPECT_EQ(1.1, base->geometry.left_wheel_radius_multiplier);
+  EXPECT_EQ(1.2, base->geometry.right_wheel_radius_multiplier);
+}
+
+TEST(BaseConfig, ReadsTheLimitsOfBothAxes) {
+  auto settings = robot();
+  settings.set("linear/x/has_acceleration_limits", true).set("linear/x/max_acceleration", 0.5);
+  settings.set("linear/x/min_acceleration", -0.7).set("angular/z/has_velocity_limits", true);
+  settings.set("angular/z/max_velocity", 2);
+  const auto base = readBaseConfig(settings, kJoints);
+  EXPECT_EQ(-0.7, base->limits.linear_x.minAcceleration());
+  EXPECT_EQ(-2.0, base->limits.angular_z.minVelocity());
+}
+
+TEST(BaseConfig, RefusalsNameKeyValueAndExpectation) {
+  EXPECT_THAT(refusal(robot().erase("wheel_radius")), AllOf(HasSubstr("~wheel_radius"), HasSubstr("missing")));
+  EXPECT_THAT(refusal(robot().set("wheel_radius", 0.0)), AllOf(HasSubstr("~wheel_radius: 0"), HasSubstr("0.001")));
+  EXPECT_THAT(refusal(robot().set("wheel_separation", -0.5)), HasSubstr("~wheel_separation: -0.5"));
+  EXPECT_THAT(refusal(robot().set("left_wheel", "wheel")), AllOf(HasSubstr("~left_wheel"), HasSubstr("\"wheel\"")));
+  EXPECT_THAT(refusal(robot().set("right_wheel", "left_wheel_joint")), HasSubstr("only once"));
+  EXPECT_THAT(refusal(robot().erase("right_wheel")), HasSubstr("~right_wheel is missing"));
+  EXPECT_THAT(refusal(robot().erase("left_wheel")), HasSubstr("~left_wheel is missing"));
+  EXPECT_THAT(refusal(robot().set("wheel_separation", "wide")), HasSubstr("a number"));
+  EXPECT_THAT(refusal(robot().set("linear/x/has_velocity_limits", true).set("linear/x/max_velocity", -1.0)),
+              HasSubstr("linear/x/max_velocity"));
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

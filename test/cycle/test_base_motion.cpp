@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "nord_driver/cycle/base_motion.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr Duration kCycle = milliseconds{10};
+constexpr Duration kTimeout = milliseconds{500};
+constexpr robot::WheelSpeeds kFastWheels{100.0, 100.0};
+
+BaseConfig configWithDeceleration(double deceleration) {
+  BaseConfig config;
+  config.left = {0};
+  config.right = {1};
+  config.geometry.wheel_separation = 0.5;
+  config.geometry.left_wheel_radius = 0.1;
+  config.geometry.right_wheel_radius = 0.1;
+  if (deceleration > 0.0) {
+    config.limits.linear_x.has_acceleration_limits = true;
+    config.limits.linear_x.max_acceleration = 1000.0;
+    config.limits.linear_x.min_acceleration = -deceleration;
+  }
+  return config;
+}
+
+class BaseMotionTest : public ::testing::Test {
+ protected:
+  void command(double linear, double angular = 0.0) { command_ = {{linear, angular}, now_, true}; }
+  robot::WheelSpeeds poll(bool driving = true, bool follow = true, const robot::WheelSpeeds& max = kFastWheels) {
+    now_ += kCycle;
+    return motion_.pollWheels(command_, driving, follow, max, now_, kCycle);
+  }
+
+  BaseMotion motion_{configWithDeceleration(0.0), kTimeout};
+  Instant now_{std::chrono::hours{1}};
+  TwistCommand command_;
+};
+
+TEST_F(BaseMotionTest, TurnsTheCommandIntoWheelSpeeds) {
+  command(0.3);
+  EXPECT_NEAR(3.0, poll().left, 1e-12);  // 0.3 m/s on a wheel of 0.1 m
+  command(0.0, 1.0);
+  EXPECT_NEAR(2.5, poll().right, 1e-12);  // 0.25 m/s at half the separation
+  EXPECT_NEAR(-2.5, poll().left, 1e-12);
+}
+
+TEST_F(BaseMotionTest, ACommandOlderThanItsTimeoutIsZero) {
+  command(0.3);
+  now_ += kTimeout - kCycle;
+  EXPECT_NEAR(3.0, poll().left, 1e-12);
+  EXPECT_EQ(0.0, poll().left);
+}
+
+TEST_F(BaseMotionTest, ATimeoutOfZeroNeverEnds) {
+  BaseMotion patient{configWithDeceleration(0.0), Duration::zero()};
+  command(0.3);
+  now_ += std::chrono::hours{1};
+  EXPECT_NEAR(3.0, patient.pollWheels(command_, true, true, kFastWheels, now_, kCycle).left, 1e-12);
+}
+
+TEST_F(BaseMotionTest, NothingMovesBeforeTheFirstCommand) {
+  EXPECT_EQ((robot::WheelSpeeds{0.0, 0.0}), poll());
+}
+
+TEST_F(BaseMotionTest, BrakesAlongTheDecelerationLimitWhenTheCommandMayNotBeFollowed) {
+  motion_ = BaseMotion{configWithDeceleration(1.0), kTimeout};
+  command(0.3);
+  ASSERT_NEAR(3.0, poll().left, 1e-9);
+  // 1 m/s^2 for 10 ms is 0.01 m/s, 0.1 rad/s at the wheel.
+  EXPECT_NEAR(2.9, poll(true, false).left, 1e-9);
+  EXPECT_NEAR(2.8, poll(true, false).left, 1e-9);
+}
+
+// After a stop the base must begin from standstill, not from the velocity it had before.
+TEST_F(BaseMotionTest, ForgetsItsVelocityWhileItIsNotDriving) {
+  motion_ = BaseMotion{configWithDeceleration(1.0), kTimeout};
+  command(0.3);
+  ASSERT_NEAR(3.0, poll().left, 1e-9);
+  EXPECT_EQ(0.0, poll(false).left);
+  EXPECT_EQ(0.0, motion_.limited().linear_x);
+  EXPECT_EQ(0.0, poll(true, false).left);
+}
+
+TEST_F(BaseMotionTest, ScalesTheWholeBaseWhenOneWheelCannotTurnThatFast) {
+  command(1.0, 1.0);  // left 7.5, right 12.5 rad/s
+  const robot::WheelSpeeds wheels = poll(true, true, {10.0, 10.0});
+  EXPECT_NEAR(10.0, wheels.right, 1e-9);
+  EXPECT_NEAR(6.0, wheels.left, 1e-9);
+  EXPECT_NEAR(0.8, motion_.limited().linear_x, 1e-9);
+  EXPECT_NEAR(0.8, motion_.limited().angular_z, 1e-9);
+}
+
+TEST_F(BaseMotionTest, WhatIsNotANumberNeverReachesAWheel) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    command(bad, 0.0);
+    EXPECT_EQ((robot::WheelSpeeds{0.0, 0.0}), poll());
+    command(0.0, bad);
+    EXPECT_EQ((robot::WheelSpeeds{0.0, 0.0}), poll());
+  }
+}
+
+TEST_F(BaseMotionTest, MeasuredWheelsMoveThePose) {
+  for (int i = 0; i <= 100; ++i) motion_.handleWheels({3.0, 3.0}, kCycle);
+  EXPECT_NEAR(0.3, motion_.odometry().pose().x, 1e-9);
+}
+
+TEST_F(BaseMotionTest, AGapDoesNotMoveThePose) {
+  for (int i = 0; i <= 100; ++i) motion_.handleWheels({3.0, 3.0}, kCycle);
+  motion_.handleGap();
+  motion_.handleWheels({3.0, 3.0}, std::chrono::seconds{10});
+  EXPECT_NEAR(0.3, motion_.odometry().pose().x, 1e-9);
+  motion_.resetOdometry();
+  EXPECT_EQ(0.0, motion_.odometry().pose().x);
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

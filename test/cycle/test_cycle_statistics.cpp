@@ -1,0 +1,51 @@
+#include <gtest/gtest.h>
+
+#include "nord_driver/cycle/cycle_statistics.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using std::chrono::milliseconds;
+
+TEST(CycleStatistics, IsZeroBeforeTheFirstSecondHasPassed) {
+  CycleStatistics statistics;
+  Instant now{};
+  for (int i = 0; i < 50; ++i) statistics.handleCycleStart(now += milliseconds{10});
+  EXPECT_EQ(0.0, statistics.times().max);
+  EXPECT_EQ(50u, statistics.cycles());
+}
+
+TEST(CycleStatistics, SumsUpTheLastSecond) {
+  CycleStatistics statistics;
+  Instant now{};
+  statistics.handleCycleStart(now);
+  for (int i = 0; i < 98; ++i) statistics.handleCycleStart(now += milliseconds{10});
+  statistics.handleCycleStart(now += milliseconds{5});
+  statistics.handleCycleStart(now += milliseconds{40});
+  EXPECT_NEAR(0.005, statistics.times().min, 1e-9);
+  EXPECT_NEAR((0.98 + 0.045) / 100, statistics.times().mean, 1e-9);
+  EXPECT_NEAR(0.010, statistics.times().p99, 1e-6);  // 99 of 100 samples are not longer than 10 ms
+  EXPECT_NEAR(0.040, statistics.times().max, 1e-9);
+}
+
+TEST(CycleStatistics, ForgetsTheSecondBefore) {
+  CycleStatistics statistics;
+  Instant now{};
+  statistics.handleCycleStart(now);
+  statistics.handleCycleStart(now += milliseconds{1500});
+  EXPECT_NEAR(1.5, statistics.times().max, 1e-9);
+  for (int i = 0; i < 100; ++i) statistics.handleCycleStart(now += milliseconds{10});
+  EXPECT_NEAR(0.010, statistics.times().max, 1e-9);
+  EXPECT_NEAR(0.010, statistics.times().mean, 1e-9);
+}
+
+TEST(CycleStatistics, MoreSamplesThanRoomAreSurvived) {
+  CycleStatistics statistics;
+  Instant now{};
+  for (int i = 0; i < 5000; ++i) statistics.handleCycleStart(now += std::chrono::microseconds{250});
+  EXPECT_NEAR(0.00025, statistics.times().mean, 1e-9);
+  EXPECT_NEAR(0.00025, statistics.times().p99, 1e-6);
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "nord_driver/cycle/device_reader.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using profile::ParameterOutcome;
+using profile::ParameterRequest;
+using profile::ParameterResult;
+
+ParameterResult done(std::int32_t raw) {
+  ParameterResult result;
+  result.outcome = ParameterOutcome::kDone;
+  result.raw = raw;
+  return result;
+}
+
+ParameterResult failed(ParameterOutcome outcome) {
+  ParameterResult result;
+  result.outcome = outcome;
+  return result;
+}
+
+/// Answers all requests with one value and returns the numbers that were asked for.
+std::vector<std::uint16_t> answerAll(DeviceReader& reader, std::int32_t raw) {
+  std::vector<std::uint16_t> numbers;
+  while (const auto request = reader.pollRequest()) {
+    numbers.push_back(request->number);
+    reader.handleResult(done(raw));
+  }
+  return numbers;
+}
+
+TEST(DeviceReader, ReadsMaximumFrequencyOfAllSetsFirst) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  for (std::uint8_t set = 1; set <= 4; ++set) {
+    const auto request = reader.pollRequest();
+    ASSERT_TRUE(request);
+    EXPECT_EQ(105, request->number);
+    EXPECT_EQ(set, request->parameter_set);
+    EXPECT_EQ(profile::ParameterAction::kRead, request->action);
+    EXPECT_FALSE(reader.pollRequest()) << "one at a time";
+    reader.handleResult(done(500 + set));  // 0.1 Hz steps
+    EXPECT_DOUBLE_EQ(50.0 + 0.1 * set, *reader.data().max_frequency[set - 1u]);
+  }
+  EXPECT_FALSE(reader.data().complete);
+}
+
+TEST(DeviceReader, ReadsVersionTimeoutAndFunctions) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  const auto numbers = answerAll(reader, 1);
+  EXPECT_TRUE(reader.data().complete);
+  EXPECT_DOUBLE_EQ(0.1, *reader.data().telegram_timeout);
+  EXPECT_EQ(1, *reader.data().software_version);
+  EXPECT_EQ(3u, reader.data().setpoint_functions.size());
+  EXPECT_EQ(3u, reader.data().actual_value_functions.size());
+  // On SK 5xxE the functions are three parameters each (BU 2700 6.4.4).
+  for (const int number : {543, 544, 545, 546, 547, 548}) {
+    EXPECT_EQ(1, std::count(numbers.begin(), numbers.end(), number)) << "P" << number;
+  }
+}
+
+// P513 = -0.1 (raw FFFFh): the inverter ignores all bus errors. Read unsigned it would look like a long time-out.
+TEST(DeviceReader, ReadsTheTelegramTimeoutSigned) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  answerAll(reader, 0xFFFF);
+  EXPECT_DOUBLE_EQ(-0.1, *reader.data().telegram_timeout);
+}
+
+TEST(DeviceReader, ATimeoutIsAskedForAgainARefusalIsLeftOut) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  reader.pollRequest();
+  reader.handleResult(failed(ParameterOutcome::kTimeout));
+  auto again = reader.pollRequest();
+  ASSERT_TRUE(again);
+  EXPECT_EQ(1, again->parameter_set);
+  reader.handleResult(failed(ParameterOutcome::kRefused));
+  auto next = reader.pollRequest();
+  ASSERT_TRUE(next);
+  EXPECT_EQ(2, next->parameter_set);
+  EXPECT_FALSE(reader.data().max_frequency[0]);
+  for (int i = 0; i < 3; ++i) {
+    reader.handleResult(failed(ParameterOutcome::kTimeout));
+    next = reader.pollRequest();
+    ASSERT_TRUE(next);
+  }
+  EXPECT_EQ(3, next->parameter_set) << "three attempts, then the next one";
+}
+
+TEST(DeviceReader, AMaximumFrequencyOfZeroIsNoScale) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  answerAll(reader, 0);
+  EXPECT_FALSE(reader.data().max_frequency[0]);
+  EXPECT_TRUE(reader.data().complete);
+}
+
+TEST(DeviceReader, BeginsAgainWhenTheDriveHasComeBack) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  answerAll(reader, 500);
+  EXPECT_FALSE(reader.pollRequest());
+  reader.handleOffline();
+  EXPECT_TRUE(reader.data().max_frequency[0]) << "what was read is kept until the drive is back";
+  const auto request = reader.pollRequest();
+  ASSERT_TRUE(request);
+  EXPECT_EQ(105, request->number);
+  EXPECT_FALSE(reader.data().complete);
+}
+
+TEST(DeviceReader, AResultNobodyWaitsForChangesNothing) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  reader.pollRequest();
+  reader.handleOffline();
+  reader.handleResult(done(1));
+  EXPECT_FALSE(reader.data().max_frequency[0]);
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

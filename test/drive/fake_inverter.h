@@ -1,0 +1,65 @@
+// A minimal inverter for tests of groups: states and ramps one step per cycle, in words typed from BU 2700 6.4.3
+// and 6.6.
+#pragma once
+
+#include <algorithm>
+
+#include "nord_driver/profile/process_data.h"
+
+namespace nord_driver::drive {
+
+class FakeInverter {
+ public:
+  bool silent = false;
+  bool fault = false;
+  bool local = false;
+  bool stuck = false;          ///< never leaves "ready to switch on" upwards
+  bool endless = false;        ///< never comes down from an OFF1 ramp
+  std::int16_t ramp = 0x0400;  ///< per cycle
+
+  /// Takes the telegram; the input is what the inverter says after it.
+  profile::ProcessInput exchange(const profile::ProcessOutput& output) {
+    if ((output.control_word & 0x0400) != 0 && !local) obey(output.control_word, output.setpoints[0]);
+    if (fault) {
+      low_ = 0x38;
+      frequency_ = 0;
+    }
+    profile::ProcessInput input;
+    input.status_word = static_cast<Word>((local ? 0x0900 : 0x0B00) | low_);
+    input.actual_values[0] = frequency_;
+    return input;
+  }
+  std::int16_t frequency() const { return frequency_; }
+
+ private:
+  void rampTo(int target, int step) {
+    const int distance = std::clamp(target - frequency_, -step, step);
+    frequency_ = static_cast<std::int16_t>(frequency_ + distance);
+  }
+  void obey(Word word, std::int16_t setpoint) {
+    const bool running = low_ == 0x37 || low_ == 0x17;
+    if ((word & 0x02) == 0) {
+      low_ = 0x70;
+      frequency_ = 0;
+    } else if ((word & 0x04) == 0) {
+      if (running) rampTo(0, 4 * ramp);
+      low_ = running && frequency_ != 0 ? 0x17 : 0x70;
+    } else if ((word & 0x01) == 0) {
+      if (running && !endless) rampTo(0, ramp);
+      if (!running || frequency_ == 0) low_ = 0x31;
+    } else if ((word & 0x7F) == 0x7F) {
+      if (low_ == 0x33) {
+        low_ = 0x37;
+      } else if (low_ == 0x31 && !stuck) {
+        low_ = 0x33;
+      } else if (low_ == 0x37) {
+        rampTo(setpoint, ramp);
+      }
+    }
+  }
+
+  Word low_ = 0x70;
+  std::int16_t frequency_ = 0;
+};
+
+}  // namespace nord_driver::drive

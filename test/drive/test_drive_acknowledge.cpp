@@ -1,0 +1,54 @@
+// Acknowledging a fault.
+#include <gtest/gtest.h>
+
+#include "drive_fixture.h"
+
+namespace nord_driver::drive {
+namespace {
+
+// An edge with bit 7 held low and high for its time each, dropped when the fault bit falls (BU 2700 6.4.1 bit 7).
+TEST_F(DriveTest, AcknowledgesWithOneEdge) {
+  start();
+  cycle(0x0B38);
+  drive_.requestAcknowledge(now_);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(0x047E, cycle(0x0B38)) << i;
+  EXPECT_EQ(0x04FE, cycle(0x0B38));
+  EXPECT_EQ(0x04FE, cycle(0x0B70));
+  EXPECT_EQ(0x047E, cycle(0x0B31));
+  EXPECT_FALSE(report().fault_latched);
+  EXPECT_EQ(Refusal::kNone, report().refusal);
+  drive_.requestEnable(now_);
+  EXPECT_EQ(Refusal::kNone, report().refusal);
+}
+
+// While the cause stands the bit goes down again all the same, and the answer is no.
+TEST_F(DriveTest, NeverLeavesTheAcknowledgeBitStanding) {
+  start();
+  cycle(0x0B38);
+  drive_.requestAcknowledge(now_);
+  int high = 0;
+  for (int i = 0; i < 30; ++i) high += (cycle(0x0B38) & 0x0080) != 0 ? 1 : 0;
+  EXPECT_EQ(3, high);
+  EXPECT_EQ(Phase::kIdle, report().phase);
+  EXPECT_EQ(Refusal::kCauseStands, report().refusal);
+  EXPECT_TRUE(report().fault_latched);
+}
+
+TEST_F(DriveTest, AcknowledgesAVanishedFaultWithoutABit) {
+  start();
+  cycle(0x0B38);
+  cycle(0x0B31);
+  drive_.requestAcknowledge(now_);
+  EXPECT_FALSE(report().fault_latched);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(0x047E, cycle(0x0B31)) << i;
+}
+
+TEST_F(DriveTest, AcknowledgesOnlyWhileIdle) {
+  run();
+  drive_.requestAcknowledge(now_);
+  EXPECT_EQ(Refusal::kBusy, report().refusal);
+  EXPECT_EQ(0x047F, cycle(0x0B37, 0x2000));
+}
+
+}  // namespace
+}  // namespace nord_driver::drive

@@ -1,0 +1,267 @@
+// Two drives that stand or fall together, each with an inverter that follows it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "fake_inverter.h"
+#include "nord_driver/drive/drive_group.h"
+
+namespace nord_driver::drive {
+namespace {
+
+class DriveGroupTest : public ::testing::Test {
+ protected:
+  static constexpr Duration kCycle = seconds(0.01);
+
+  static DriveConfig config() {
+    DriveConfig result;
+    result.max_frequency[0] = Hertz{50.0};
+    result.enable_timeout = seconds(0.5);
+    result.shutdown_timeout = seconds(3.0);
+    return result;
+  }
+  static GroupConfig groupConfig() {
+    GroupConfig result;
+    result.shutdown_timeout = seconds(1.0);
+    result.standstill_timeout = seconds(0.3);
+    return result;
+  }
+
+  void cycle() {
+    const profile::ProcessOutput to_left = left_.pollOutput(now_);
+    const profile::ProcessOutput to_right = right_.pollOutput(now_);
+    now_ += kCycle;
+    left_.handleInput(left_inverter_.exchange(to_left), !left_inverter_.silent, now_);
+    right_.handleInput(right_inverter_.exchange(to_right), !right_inverter_.silent, now_);
+    group_.update(now_);
+    if (group_.commandAllowed()) {
+      left_.setVelocity({velocity_});
+      right_.setVelocity({velocity_});
+    } else if (group_.wantsZeroRamp()) {
+      velocity_ = std::max(0.0, velocity_ - 5.0);
+      left_.setVelocity({velocity_});
+      right_.setVelocity({velocity_});
+      group_.setpointIsZero(velocity_ == 0.0);
+    }
+  }
+  void cycles(int count) {
+    for (int i = 0; i < count; ++i) cycle();
+  }
+  /// The cycles until the group is in the phase; at most `limit`.
+  int cyclesUntil(GroupPhase phase, int limit) {
+    int count = 0;
+    while (group_.report().phase != phase && count < limit) {
+      cycle();
+      ++count;
+    }
+    return count;
+  }
+  void run() {
+    cycles(4);
+    ASSERT_TRUE(group_.requestEnable(now_).accepted());
+    ASSERT_LT(cyclesUntil(GroupPhase::kEnabled, 20), 20);
+    velocity_ = 78.5;  // about half of 50 Hz at two pole pairs
+    cycles(20);
+    ASSERT_GT(left_inverter_.frequency(), 0x1F00);
+    ASSERT_GT(right_inverter_.frequency(), 0x1F00);
+  }
+  Word leftWord() const { return left_.report().output.control_word; }
+  Word rightWord() const { return right_.report().output.control_word; }
+
+  Drive left_{config()};
+  Drive right_{config()};
+  FakeInverter left_inverter_;
+  FakeInverter right_inverter_;
+  DriveGroup group_{{&left_, &right_}, groupConfig()};
+  Instant now_{};
+  double velocity_ = 0.0;
+};
+
+TEST_F(DriveGroupTest, EnablesAllAndFollowsCommandsOnlyThen) {
+  cycles(4);
+  EXPECT_TRUE(group_.settled());
+  EXPECT_TRUE(group_.requestEnable(now_).accepted());
+  EXPECT_FALSE(group_.commandAllowed());
+  cyclesUntil(GroupPhase::kEnabled, 20);
+  EXPECT_TRUE(group_.commandAllowed());
+  EXPECT_FALSE(group_.settled());
+  EXPECT_EQ(0x047F, leftWord());
+  EXPECT_EQ(0x047F, rightWord());
+}
+
+// One that refuses: none is enabled, and the answer names it.
+TEST_F(DriveGroupTest, EnablesNoneWhenOneRefuses) {
+  cycles(4);
+  right_inverter_.local = true;
+  cycles(1);
+  const GroupRefusal refusal = group_.requestEnable(now_);
+  EXPECT_EQ(Refusal::kLocalControl, refusal.refusal);
+  EXPECT_EQ(1u, refusal.member);
+  cycles(5);
+  EXPECT_EQ(0x047E, leftWord());
+  EXPECT_EQ(Phase::kIdle, left_.report().phase);
+}
+
+// One that does not follow takes the others back.
+TEST_F(DriveGroupTest, TakesAllBackWhenOneDoesNotFollow) {
+  cycles(4);
+  left_inverter_.stuck = true;
+  ASSERT_TRUE(group_.requestEnable(now_).accepted());
+  cycles(70);
+  EXPECT_EQ(GroupPhase::kDisabled, group_.report().phase);
+  EXPECT_EQ(Refusal::kEnableTimeout, group_.report().refusal.refusal);
+  EXPECT_EQ(0u, group_.report().refusal.member);
+  EXPECT_EQ(0x047E, leftWord());
+  EXPECT_EQ(0x047E, rightWord());
+  EXPECT_TRUE(group_.settled());
+}
+
+// enable false: the setpoint ramps to zero from above, then OFF1 until "ready to switch on".
+TEST_F(DriveGroupTest, RampsDownThenOff1) {
+  run();
+  group_.requestDisable(now_);
+  EXPECT_TRUE(group_.wantsZeroRamp());
+  EXPECT_FALSE(group_.commandAllowed());
+  while (group_.wantsZeroRamp()) {
+    EXPECT_EQ(0x047F, leftWord());
+    cycle();
+  }
+  EXPECT_EQ(0.0, velocity_);
+  EXPECT_LT(left_inverter_.frequency(), 200);
+  EXPECT_EQ(GroupPhase::kStopping, group_.report().phase);
+  cycle();
+  EXPECT_EQ(0x047E, leftWord());
+  EXPECT_EQ(0x047E, rightWord());
+  EXPECT_LT(cyclesUntil(GroupPhase::kDisabled, 20), 20);
+  EXPECT_TRUE(group_.settled());
+  EXPECT_EQ(StopCause::kNone, group_.report().stop_cause);
+}
+
+// With P104 > 0 standstill never comes at setpoint 0: OFF1 takes over after a bounded wait.
+TEST_F(DriveGroupTest, DoesNotWaitForeverForStandstill) {
+  run();
+  left_inverter_.ramp = 10;
+  group_.requestDisable(now_);
+  EXPECT_LE(cyclesUntil(GroupPhase::kStopping, 100), 60);
+  EXPECT_EQ(GroupPhase::kStopping, group_.report().phase);
+  EXPECT_GT(left_inverter_.frequency(), 0x1000);
+}
+
+TEST_F(DriveGroupTest, QuickStopsWhenTheWayDownTakesTooLong) {
+  run();
+  left_inverter_.endless = true;
+  left_inverter_.ramp = 10;
+  group_.requestDisable(now_);
+  EXPECT_LE(cyclesUntil(GroupPhase::kQuickStopping, 200), 102);
+  cycle();
+  EXPECT_EQ(0x047B, leftWord());
+  EXPECT_EQ(StopCause::kShutdownTimeout, group_.report().stop_cause);
+}
+
+// A fault: that drive idles in the next cycle, the other runs down its own ramp with torque on, then OFF1.
+TEST_F(DriveGroupTest, HaltsTheOthersWhenOneTrips) {
+  run();
+  right_inverter_.fault = true;
+  cycle();
+  EXPECT_EQ(GroupPhase::kHalting, group_.report().phase);
+  EXPECT_FALSE(group_.commandAllowed());
+  EXPECT_EQ(StopCause::kFault, group_.report().stop_cause);
+  EXPECT_EQ(1u, group_.report().stop_member);
+  cycle();
+  EXPECT_EQ(0x047E, rightWord());
+  EXPECT_EQ(0x047F, leftWord());
+  EXPECT_EQ(0, left_.report().output.setpoints[0]);
+  while (group_.report().phase == GroupPhase::kHalting) {
+    EXPECT_EQ(0x047F, leftWord());
+    cycle();
+  }
+  EXPECT_LT(left_inverter_.frequency(), 200);
+  cycle();
+  EXPECT_EQ(0x047E, leftWord());
+  EXPECT_LT(cyclesUntil(GroupPhase::kDisabled, 20), 20);
+  right_inverter_.fault = false;
+  cycles(20);
+  EXPECT_EQ(0x047E, leftWord());
+  EXPECT_EQ(0x047E, rightWord());
+  EXPECT_EQ(Refusal::kFaultLatched, group_.requestEnable(now_).refusal);
+}
+
+TEST_F(DriveGroupTest, HaltsTheOthersWhenOneFallsSilent) {
+  run();
+  left_inverter_.silent = true;
+  EXPECT_LE(cyclesUntil(GroupPhase::kHalting, 20), 6);
+  EXPECT_EQ(StopCause::kSilent, group_.report().stop_cause);
+  EXPECT_EQ(0u, group_.report().stop_member);
+  cycle();
+  EXPECT_EQ(0, right_.report().output.setpoints[0]);
+  EXPECT_LT(cyclesUntil(GroupPhase::kDisabled, 100), 100);
+  EXPECT_TRUE(group_.settled());
+  left_inverter_.silent = false;
+  cycles(50);
+  EXPECT_EQ(GroupPhase::kDisabled, group_.report().phase);
+  EXPECT_EQ(0, left_inverter_.frequency());
+  EXPECT_TRUE(group_.requestEnable(now_).accepted());
+}
+
+TEST_F(DriveGroupTest, HaltsUnderLocalControl) {
+  run();
+  right_inverter_.local = true;
+  cycles(2);
+  EXPECT_EQ(StopCause::kLocalControl, group_.report().stop_cause);
+  EXPECT_EQ(0x047E, rightWord());
+  EXPECT_EQ(0, left_.report().output.setpoints[0]);
+}
+
+TEST_F(DriveGroupTest, QuickStopsAllInTheNextCycle) {
+  run();
+  group_.requestQuickStop(now_);
+  cycle();
+  EXPECT_EQ(0x047B, leftWord());
+  EXPECT_EQ(0x047B, rightWord());
+  EXPECT_EQ(Refusal::kStopping, group_.requestEnable(now_).refusal);
+  EXPECT_LT(cyclesUntil(GroupPhase::kDisabled, 50), 50);
+  cycles(5);
+  EXPECT_EQ(0x047E, leftWord());
+  EXPECT_EQ(StopCause::kQuickStop, group_.report().stop_cause);
+  EXPECT_TRUE(group_.settled());
+}
+
+// A quick stop of one member alone is a stop of the base.
+TEST_F(DriveGroupTest, HaltsWhenOneMemberIsQuickStopped) {
+  run();
+  left_.requestQuickStop(now_);
+  cycles(2);
+  EXPECT_EQ(StopCause::kQuickStop, group_.report().stop_cause);
+  EXPECT_EQ(0, right_.report().output.setpoints[0]);
+}
+
+// A member that trips during the way down: the others go on down, nothing waits for it.
+TEST_F(DriveGroupTest, SurvivesATripOnTheWayDown) {
+  run();
+  group_.requestDisable(now_);
+  cycles(2);
+  left_inverter_.fault = true;
+  EXPECT_LT(cyclesUntil(GroupPhase::kDisabled, 100), 100);
+  EXPECT_EQ(StopCause::kFault, group_.report().stop_cause);
+  EXPECT_EQ(0, right_inverter_.frequency());
+}
+
+TEST_F(DriveGroupTest, DisablesWhileEnabling) {
+  cycles(4);
+  group_.requestEnable(now_);
+  cycles(2);
+  group_.requestDisable(now_);
+  cycles(5);
+  EXPECT_EQ(GroupPhase::kDisabled, group_.report().phase);
+  EXPECT_EQ(Refusal::kStopped, group_.report().refusal.refusal);
+  EXPECT_EQ(0x047E, leftWord());
+}
+
+TEST(DriveGroup, NeedsMembers) {
+  EXPECT_THROW(DriveGroup({}), std::invalid_argument);
+  EXPECT_THROW(DriveGroup({nullptr}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace nord_driver::drive

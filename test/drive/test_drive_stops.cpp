@@ -1,0 +1,216 @@
+// Every way one drive stops.
+#include <gtest/gtest.h>
+
+#include "drive_fixture.h"
+
+namespace nord_driver::drive {
+namespace {
+
+// OFF1 is no latch (bits 0 and 3 back during the ramp run the motor up again): 047E until "ready to switch on" is seen.
+TEST_F(DriveTest, HoldsOff1UntilReadyToSwitchOn) {
+  run();
+  drive_.requestShutdown(now_);
+  for (int i = 0; i < 20; ++i) {
+    drive_.requestEnable(now_);
+    drive_.setVelocity({5.0});
+    ASSERT_EQ(0x047E, cycle(0x0A37, 0x1000)) << i;
+    ASSERT_EQ(0, setpoint_);
+    ASSERT_EQ(Phase::kStopping, report().phase);
+  }
+  EXPECT_EQ(0x047E, cycle(0x0B31));
+  EXPECT_EQ(Phase::kIdle, report().phase);
+  EXPECT_TRUE(drive_.isAtRest());
+  EXPECT_EQ(StopCause::kNone, report().stop_cause);
+}
+
+TEST_F(DriveTest, QuickStopsWhenOff1DoesNotEnd) {
+  run();
+  drive_.requestShutdown(now_);
+  const Instant begin = now_;
+  while (cycle(0x0A37, 0x1000) == 0x047E) ASSERT_LE(now_ - begin, seconds(1.1));
+  EXPECT_GE(now_ - begin, seconds(1.0));
+  EXPECT_EQ(0x047B, cycle(0x0A17, 0x0800));
+  EXPECT_EQ(StopCause::kShutdownTimeout, report().stop_cause);
+}
+
+// OFF3 keeps bit 1 (without it the motor would coast) and ends in "switch-on disabled"; nothing restarts the drive.
+TEST_F(DriveTest, HoldsTheQuickStopUntilSwitchOnDisabled) {
+  run();
+  drive_.requestQuickStop(now_);
+  EXPECT_EQ(0x047B, cycle(0x0B37, 0x2000));
+  EXPECT_EQ(0, setpoint_);
+  for (int i = 0; i < 20; ++i) {
+    drive_.requestEnable(now_);
+    ASSERT_EQ(0x047B, cycle(0x0A17, 0x1000)) << i;
+  }
+  EXPECT_EQ(0x047B, cycle(0x0B50));
+  for (int i = 0; i < 20; ++i) ASSERT_EQ(0x047E, cycle(i < 2 ? 0x0B70 : 0x0B31)) << i;
+  EXPECT_EQ(Phase::kIdle, report().phase);
+  EXPECT_EQ(StopCause::kQuickStop, report().stop_cause);
+}
+
+// A drive at "ready to switch on" is told as well, at least once.
+TEST_F(DriveTest, QuickStopsAnIdleDriveToo) {
+  start();
+  drive_.requestQuickStop(now_);
+  EXPECT_EQ(0x047B, cycle(0x0B31));
+  EXPECT_EQ(0x047B, cycle(0x0B50));
+  EXPECT_EQ(0x047E, cycle(0x0B31));
+}
+
+TEST_F(DriveTest, DropsToIdleOnAFaultAndRemembersIt) {
+  run();
+  EXPECT_EQ(0x047F, cycle(0x0B3F, 0x2000));
+  EXPECT_EQ(0x047E, cycle(0x0B38, 0x1000));
+  EXPECT_EQ(0, setpoint_);
+  for (int i = 0; i < 20; ++i) ASSERT_EQ(0x047E, cycle(0x0B31)) << i;
+  EXPECT_EQ(StopCause::kFault, report().stop_cause);
+  EXPECT_TRUE(report().fault_latched);
+  EXPECT_EQ("stopped: a fault of the inverter; the last status word was 0B3F (fault reaction active)",
+            stopText(report()));
+}
+
+// OFF2, OFF3 at terminals, or anything else that leaves "operation enabled": never back by itself.
+TEST_F(DriveTest, LatchesEveryUnaskedExit) {
+  for (const int status : {0x0B70, 0x0B31, 0x0B33, 0x0B17, 0x0B30, 0x0B02}) {
+    drive_ = Drive(config());
+    run();
+    EXPECT_EQ(0x047F, cycle(static_cast<Word>(status), 0x2000));
+    for (int i = 0; i < 10; ++i) ASSERT_EQ(0x047E, cycle(0x0B37, 0x2000)) << status;
+    EXPECT_EQ(StopCause::kUnaskedExit, report().stop_cause) << status;
+    EXPECT_EQ(Phase::kIdle, report().phase);
+  }
+}
+
+// Bit 9 = 0: the terminals may turn the motor, and a standing 047F would act when the bit returns (BU 0220 5.1.2).
+TEST_F(DriveTest, DropsToIdleUnderLocalControl) {
+  run();
+  EXPECT_EQ(0x047F, cycle(0x0937, 0x2000));
+  for (int i = 0; i < 10; ++i) ASSERT_EQ(0x047E, cycle(i < 5 ? 0x0937 : 0x0B37, 0x2000)) << i;
+  EXPECT_EQ(StopCause::kLocalControl, report().stop_cause);
+}
+
+// Under local control the terminals choose the set: our word must not switch it back the moment control returns.
+TEST_F(DriveTest, FollowsTheSetUnderLocalControl) {
+  start();
+  EXPECT_EQ(0x047E, cycle(0x8937, 0x2000));
+  EXPECT_EQ(0x847E, cycle(0x8B37, 0x2000));
+  EXPECT_EQ(0x847E, cycle(0x8B31));
+}
+
+// Setpoint 1 would be a share of another P105: a step of the speed.
+TEST_F(DriveTest, StopsWhenTheSetChangesByItself) {
+  run();
+  EXPECT_EQ(0x047F, cycle(0x8B37, 0x2000));
+  EXPECT_EQ(0x047E, cycle(0x8B37, 0x1000));
+  EXPECT_EQ(StopCause::kParameterSet, report().stop_cause);
+}
+
+// Silence shorter than drive_timeout is bridged; longer is the end of "enabled".
+TEST_F(DriveTest, BridgesShortSilence) {
+  run();
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(0x047F, silence()) << i;
+  EXPECT_EQ(0x047F, cycle(0x0B37, 0x2000));
+  EXPECT_EQ(Phase::kEnabled, report().phase);
+}
+
+// A drive that does not answer may still hear: 0000 would let it run on, so 047E goes on into the dark. Then the set is
+// learned anew, and it stays disabled.
+TEST_F(DriveTest, StopsASilentDriveAndLearnsAgain) {
+  run();
+  const Instant last = now_;
+  while (report().online) silence();
+  EXPECT_LE(now_ - last, seconds(0.07));
+  EXPECT_EQ(StopCause::kSilent, report().stop_cause);
+  EXPECT_EQ(profile::DriveState::kUnknown, report().state);
+  EXPECT_EQ(0.0, report().velocity.value);
+  const Instant begin = now_;
+  Word word = silence();
+  while (word != 0x0000) {
+    ASSERT_EQ(0x047E, word);
+    ASSERT_EQ(0, setpoint_);
+    word = silence();
+  }
+  EXPECT_GE(now_ - begin, seconds(1.0));
+  EXPECT_LE(now_ - begin, seconds(1.05));
+  EXPECT_EQ(0x0000, cycle(0x8B31));
+  for (int i = 0; i < 10; ++i) ASSERT_EQ(0x847E, cycle(0x8B31)) << i;
+  EXPECT_EQ(Phase::kIdle, report().phase);
+  EXPECT_EQ(StopCause::kSilent, report().stop_cause);
+}
+
+// The set it comes back with is the one that counts, within the dark time too.
+TEST_F(DriveTest, TakesTheSetOfADriveThatComesBackSoon) {
+  run();
+  fallSilent();
+  EXPECT_EQ(0x047E, cycle(0x8B31));
+  EXPECT_EQ(0x847E, cycle(0x8B31));
+}
+
+TEST_F(DriveTest, CarriesTheQuickStopIntoTheDark) {
+  run();
+  drive_.requestQuickStop(now_);
+  fallSilent();
+  EXPECT_EQ(0x047B, silence());
+}
+
+// A drive that was idle had its stop word long ago: it is only asked for its set.
+TEST_F(DriveTest, AsksASilentIdleDriveOnlyForItsSet) {
+  start();
+  fallSilent();
+  EXPECT_EQ(0x0000, silence());
+  EXPECT_EQ(StopCause::kNone, report().stop_cause);
+}
+
+// A bus module under 24 V goes on exchanging zeros for an inverter that is off.
+TEST_F(DriveTest, TakesAnAllZeroStatusWordForSilence) {
+  run();
+  const Instant begin = now_;
+  while (report().online) {
+    ASSERT_LE(now_ - begin, seconds(0.1));
+    cycle(0x0000);
+  }
+  EXPECT_EQ(StopCause::kSilent, report().stop_cause);
+}
+
+// Setpoint 0 keeps the torque on; velocities are not listened to any more.
+TEST_F(DriveTest, HoldsZeroOnItsOwnRamp) {
+  run();
+  drive_.requestSetpointZero(now_);
+  drive_.setVelocity({5.0});
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_EQ(0x047F, cycle(0x0B37, 0x1000)) << i;
+    ASSERT_EQ(0, setpoint_);
+  }
+  drive_.requestShutdown(now_);
+  EXPECT_EQ(0x047E, cycle(0x0B31));
+}
+
+// A stop during enabling is a stop: nothing half enabled is left behind.
+TEST_F(DriveTest, StopsWhileEnabling) {
+  start();
+  drive_.requestEnable(now_);
+  cycle(0x0B31);
+  EXPECT_EQ(0x047F, cycle(0x0B33));
+  drive_.requestSetpointZero(now_);
+  EXPECT_EQ(0x047E, cycle(0x0B37));
+  EXPECT_EQ(0x047E, cycle(0x0B31));
+  EXPECT_EQ(Refusal::kStopped, report().refusal);
+  EXPECT_EQ(Phase::kIdle, report().phase);
+}
+
+// A new enable clears the cause of the stop before.
+TEST_F(DriveTest, EnablesAgainOnlyWhenAsked) {
+  run();
+  cycle(0x0B70);
+  cycle(0x0B31);
+  drive_.requestEnable(now_);
+  EXPECT_EQ(StopCause::kNone, report().stop_cause);
+  EXPECT_EQ(0x047E, cycle(0x0B31));
+  EXPECT_EQ(0x047F, cycle(0x0B37));
+  cycle(0x0B37);
+  EXPECT_EQ(0, setpoint_);
+}
+
+}  // namespace
+}  // namespace nord_driver::drive

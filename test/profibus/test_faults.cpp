@@ -1,0 +1,256 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "profibus/nord_wire.h"
+
+namespace nord_driver::profibus {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// The slave is left alone for `pause`, then asked for its diagnosis with 6D.
+void backsOff(NordWire& wire, Duration pause, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  testing::ScopedTrace trace(file, line, "backsOff");
+  const Instant begin = wire.now;
+  wire.startCycle();
+  wire.cycleEnds();
+  wire.now = begin + pause - 1ms;
+  wire.startCycle();
+  wire.cycleEnds();
+  wire.now = begin + pause;
+  wire.startCycle();
+  EXPECT_FALSE(wire.master.cycleDone());
+}
+
+// Another ident number is another device: it gets no parameters. The pauses grow to 2 s, the event comes once.
+TEST(Faults, WrongIdentNumber) {
+  NordWire wire;
+  wire.isFound();
+  wire.forgetEvents();
+  const char* const kOther = "68 0B 0B 68 81 88 08 3E 3C 02 05 00 FF 0B A8 44 16";
+  wire.cycle(kDiag6D, kOther);
+  const DpEvent event = wire.tells(DpEventKind::WrongIdent);
+  EXPECT_EQ(0x0BA8, event.ident);
+  EXPECT_STRNE("", event.text);
+  EXPECT_STREQ(event.text, wire.status().note);
+  EXPECT_EQ(SlavePhase::BackOff, wire.status().phase);
+  for (const Duration pause : {250ms, 500ms, 1000ms, 2000ms, 2000ms}) {
+    backsOff(wire, pause);
+    wire.sends(kDiag6D);
+    EXPECT_STREQ(event.text, wire.status().note);
+    wire.receives(kOther);
+    wire.cycleEnds();
+  }
+  EXPECT_EQ(6u, wire.status().counters.refusals);
+  wire.tellsNothing();
+}
+
+// Where any device will do, it gets the ident number it reports.
+TEST(Faults, AnyIdentNumberWhenConfiguredSo) {
+  SlaveConfig slave = nordModule(8);
+  slave.expect_exact_ident = false;
+  NordWire wire{quietBus(), slave};
+  wire.isFound();
+  wire.cycle(kDiag6D, "68 0B 0B 68 81 88 08 3E 3C 02 05 00 FF 0B A8 44 16");
+  wire.cycle("68 0C 0C 68 88 81 5D 3D 3E 88 0A 01 0B 0B A8 00 32 16", "E5");
+}
+
+TEST(Faults, RefusedParameters) {
+  NordWire wire;
+  wire.isFound();
+  wire.isFree();
+  wire.takesParameters();
+  wire.takesConfiguration();
+  wire.forgetEvents();
+  wire.cycle(kDiag5D, "68 0B 0B 68 81 88 08 3E 3C 42 05 00 FF 75 31 77 16");
+  EXPECT_NE(nullptr, std::strstr(wire.tells(DpEventKind::ParameterFault).text, "Prm_Fault"));
+  backsOff(wire, 250ms);
+  wire.sends(kDiag6D);
+  // The old fault stands in the first diagnosis still: that is no reason not to try again.
+  wire.receives("68 0B 0B 68 81 88 08 3E 3C 42 05 00 FF 75 31 77 16");
+  wire.cycleEnds();
+  wire.takesParameters();
+}
+
+TEST(Faults, RefusedConfiguration) {
+  NordWire wire;
+  wire.isFound();
+  wire.isFree();
+  wire.takesParameters();
+  wire.takesConfiguration();
+  wire.forgetEvents();
+  wire.cycle(kDiag5D, "68 0B 0B 68 81 88 08 3E 3C 06 05 00 FF 75 31 3B 16");
+  EXPECT_NE(nullptr, std::strstr(wire.tells(DpEventKind::ConfigurationFault).text, "Cfg_Fault"));
+  EXPECT_EQ(SlavePhase::BackOff, wire.status().phase);
+  backsOff(wire, 250ms);
+}
+
+// The pause is short again after an exchange, and the same fault is told again.
+TEST(Faults, AreForgottenAfterAnExchange) {
+  NordWire wire;
+  const auto fault = [&] {
+    wire.isFree();
+    wire.takesParameters();
+    wire.takesConfiguration();
+    wire.cycle(kDiag5D, "68 0B 0B 68 81 88 08 3E 3C 06 05 00 FF 75 31 3B 16");
+  };
+  wire.isFound();
+  wire.tells(DpEventKind::SlaveFound);
+  fault();
+  wire.tells(DpEventKind::ConfigurationFault);
+  wire.advance(250ms);
+  fault();
+  wire.tellsNothing();
+  wire.advance(500ms);
+  wire.isFree();
+  wire.takesParameters();
+  wire.takesConfiguration();
+  wire.cycle(kDiag5D, kReady);
+  wire.tells(DpEventKind::DataExchangeEntered);
+  wire.cycle(kExchange7D, kInputs);
+  wire.cycle(kExchange5D, kNotActivated);
+  wire.tells(DpEventKind::SlaveLost);
+  fault();
+  wire.tells(DpEventKind::ConfigurationFault);
+  backsOff(wire, 250ms);
+}
+
+// Another master owns the slave: it is left to it, and said so.
+TEST(Faults, LockedByAnotherMaster) {
+  NordWire wire;
+  wire.isFound();
+  wire.forgetEvents();
+  wire.cycle(kDiag6D, "68 0B 0B 68 81 88 08 3E 3C 00 0C 00 03 75 31 40 16");
+  EXPECT_EQ(3, wire.tells(DpEventKind::LockedByMaster).master);
+  backsOff(wire, 250ms);
+}
+
+// A slave that still belongs to us (our process was restarted within its watchdog time) is parameterised anew.
+TEST(Faults, OurOwnSlaveIsFree) {
+  NordWire wire;
+  wire.isFound();
+  wire.cycle(kDiag6D, kReady);
+  wire.takesParameters();
+}
+
+// A negative answer to a service of the start-up.
+TEST(Faults, RefusedService) {
+  NordWire wire;
+  wire.isFound();
+  wire.forgetEvents();
+  wire.cycle(kDiag6D, kNotActivated);
+  wire.tells(DpEventKind::ServiceRefused);
+  backsOff(wire, 250ms);
+  wire.sends(kDiag6D);
+  wire.receives(kWantsPrm);
+  wire.cycle(kSetPrm5D, kNotActivated);
+  wire.tellsNothing();
+  backsOff(wire, 500ms);
+}
+
+// A slave that does not become ready is asked more and more rarely, and gets its parameters anew after 5 s.
+TEST(Faults, NeverReady) {
+  NordWire wire;
+  wire.isFound();
+  wire.isFree();
+  wire.takesParameters();
+  wire.takesConfiguration();
+  wire.forgetEvents();
+  const Instant begin = wire.now;
+  int asked = 0;
+  while (wire.status().phase == SlavePhase::AwaitReady && wire.now < begin + 10s) {
+    const Instant start = wire.now;
+    wire.startCycle();
+    if (!wire.master.cycleDone()) {
+      wire.sends(asked % 2 == 0 ? kDiag5D : kDiag7D);
+      wire.receives("68 0B 0B 68 81 88 08 3E 3C 02 0C 00 01 75 31 40 16");
+      ++asked;
+    }
+    wire.now = std::max(wire.now, start + 50ms);
+  }
+  EXPECT_EQ(SlavePhase::BackOff, wire.status().phase);
+  EXPECT_NEAR(5.0, toSeconds(wire.now - begin), 0.3);
+  EXPECT_LT(asked, 45);
+  EXPECT_GT(asked, 30);
+  wire.tells(DpEventKind::NotReady);
+}
+
+// Prm_Req that stays after Set_Prm: the slave lost its parameters; asked again soon, with a pause.
+TEST(Faults, ForgetsItsParameters) {
+  NordWire wire;
+  wire.isFound();
+  wire.isFree();
+  wire.takesParameters();
+  wire.takesConfiguration();
+  wire.forgetEvents();
+  wire.cycle(kDiag5D, kWantsPrm);
+  wire.advance(600ms);
+  wire.cycle(kDiag7D, kWantsPrm);
+  wire.tells(DpEventKind::NotReady);
+  EXPECT_EQ(SlavePhase::BackOff, wire.status().phase);
+}
+
+// Another module at the address, or another master's, seen in data exchange: lost, and the reason is told.
+TEST(Faults, InDataExchange) {
+  struct {
+    const char* diagnosis;
+    DpEventKind kind;
+  } const kCases[] = {{"68 0B 0B 68 81 88 08 3E 3C 00 0C 00 01 0B A8 4B 16", DpEventKind::WrongIdent},
+                      {"68 0B 0B 68 81 88 08 3E 3C 00 0C 00 03 75 31 40 16", DpEventKind::LockedByMaster},
+                      {"68 0B 0B 68 81 88 08 3E 3C 40 0C 00 01 75 31 7E 16", DpEventKind::ParameterFault},
+                      {"68 0B 0B 68 81 88 08 3E 3C 04 0C 00 01 75 31 42 16", DpEventKind::ConfigurationFault}};
+  for (const auto& example : kCases) {
+    NordWire wire;
+    wire.startsUp();
+    wire.startCycle();
+    wire.sends(kExchange7D);
+    wire.receives(kInputsDh);
+    wire.sends(kDiag5D);
+    wire.receives(example.diagnosis);
+    wire.cycleEnds();
+    wire.tells(DpEventKind::SlaveLost);
+    wire.tells(example.kind);
+    EXPECT_FALSE(wire.status().exchanged_this_cycle);
+    EXPECT_EQ(SlavePhase::BackOff, wire.status().phase);
+  }
+}
+
+// A master at a slave's address answers FDL status with its station type: it is no slave.
+TEST(Faults, AMasterAtASlavesAddress) {
+  NordWire wire;
+  wire.cycle(kFdlStatus8, "10 01 08 30 39 16");
+  EXPECT_EQ(8, wire.tells(DpEventKind::ForeignMaster).master);
+  EXPECT_EQ(SlavePhase::Silent, wire.status().phase);
+  wire.advance(250ms);
+  wire.cycle(kFdlStatus8, "10 01 08 30 39 16");
+  wire.tellsNothing();
+}
+
+// Tokens and requests of another master are counted and told, once per 10 s.
+TEST(Faults, ForeignMaster) {
+  NordWire wire;
+  wire.arrives("DC 03 03");
+  EXPECT_EQ(3, wire.tells(DpEventKind::ForeignMaster).master);
+  wire.arrives("DC 03 03  10 08 03 49 54 16");
+  wire.tellsNothing();
+  EXPECT_EQ(3u, wire.master.counters().foreign_telegrams);
+  wire.advance(10s);
+  wire.arrives("10 08 03 49 54 16");
+  EXPECT_EQ(3, wire.tells(DpEventKind::ForeignMaster).master);
+}
+
+// Our own request read back: the adapter echoes. It answers nothing, and the technician is told.
+TEST(Faults, OwnEcho) {
+  NordWire wire;
+  wire.startCycle();
+  wire.sends(kFdlStatus8);
+  wire.arrives(kFdlStatus8);
+  EXPECT_EQ(1, wire.tells(DpEventKind::ForeignMaster).master);
+  wire.receives(kHere8);
+  wire.cycleEnds();
+  EXPECT_EQ(SlavePhase::FirstDiagnosis, wire.status().phase);
+}
+
+}  // namespace
+}  // namespace nord_driver::profibus

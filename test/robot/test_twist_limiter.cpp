@@ -1,0 +1,199 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "nord_driver/robot/twist_limiter.h"
+#include "robot/generators.h"
+
+namespace nord_driver::robot {
+namespace {
+
+const Duration kCycle = seconds(0.01);
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// 1 m/s and 2 rad/s at most; 0.5 m/s^2 and 4 rad/s^2.
+TwistLimits limits() {
+  TwistLimits limits;
+  limits.linear_x.has_velocity_limits = true;
+  limits.linear_x.max_velocity = 1.0;
+  limits.linear_x.has_acceleration_limits = true;
+  limits.linear_x.max_acceleration = 0.5;
+  limits.angular_z.has_velocity_limits = true;
+  limits.angular_z.max_velocity = 2.0;
+  limits.angular_z.has_acceleration_limits = true;
+  limits.angular_z.max_acceleration = 4.0;
+  return limits;
+}
+
+TwistLimits anyTwistLimits(bool with_jerk) {
+  TwistLimits limits;
+  limits.linear_x = anyLimits(with_jerk);
+  limits.angular_z = anyLimits(with_jerk);
+  return limits;
+}
+
+/// How far `twist` lies beside the straight line through zero and `path`, as the sine of the angle between them.
+double besideThePath(const Twist2d& twist, const Twist2d& path) {
+  const double size = std::hypot(twist.linear_x, twist.angular_z) * std::hypot(path.linear_x, path.angular_z);
+  if (size == 0.0) return 0.0;
+  return std::abs(twist.linear_x * path.angular_z - twist.angular_z * path.linear_x) / size;
+}
+
+// A command beyond the velocity limit of one axis is scaled as a whole: same circle, slower.
+TEST(TwistLimiter, ScalesBothAxesIntoTheVelocityLimits) {
+  TwistLimits fast = limits();
+  fast.linear_x.has_acceleration_limits = fast.angular_z.has_acceleration_limits = false;
+  TwistLimiter limiter{fast};
+  const Twist2d slowed = limiter.limit({2.0, 2.0}, kCycle);
+  EXPECT_DOUBLE_EQ(1.0, slowed.linear_x);
+  EXPECT_DOUBLE_EQ(1.0, slowed.angular_z);
+  const Twist2d turning = limiter.limit({1.0, -8.0}, kCycle);
+  EXPECT_DOUBLE_EQ(0.25, turning.linear_x);
+  EXPECT_DOUBLE_EQ(-2.0, turning.angular_z);
+}
+
+// Speeding up, the axis that could be faster waits: after half a second at 0.5 m/s^2 on a circle of 1 m.
+TEST(TwistLimiter, TheSlowerAxisSetsThePace) {
+  TwistLimiter limiter{limits()};
+  for (int i = 0; i < 50; ++i) limiter.limit({1.0, 1.0}, kCycle);
+  EXPECT_NEAR(0.25, limiter.twist().linear_x, 1e-12);
+  EXPECT_NEAR(0.25, limiter.twist().angular_z, 1e-12);
+}
+
+// Braking to zero stays on the path and ends when the slower axis ends.
+TEST(TwistLimiter, BrakesOnThePath) {
+  TwistLimiter limiter{limits()};
+  limiter.reset({0.5, 1.0});
+  for (int i = 0; i < 99; ++i) {
+    const Twist2d twist = limiter.limit({}, kCycle);
+    ASSERT_NEAR(2.0, twist.angular_z / twist.linear_x, 1e-9) << i;
+  }
+  limiter.limit({}, kCycle);
+  limiter.limit({}, kCycle);
+  EXPECT_EQ((Twist2d{}), limiter.twist());
+}
+
+// With the option each axis is limited for itself, as diff_drive_controller does.
+TEST(TwistLimiter, IndependentAxesByOption) {
+  TwistLimits independent = limits();
+  independent.limit_axes_independently = true;
+  TwistLimiter limiter{independent};
+  for (int i = 0; i < 50; ++i) limiter.limit({5.0, 1.0}, kCycle);
+  EXPECT_NEAR(0.25, limiter.twist().linear_x, 1e-12);
+  EXPECT_NEAR(1.0, limiter.twist().angular_z, 1e-12);
+}
+
+// NaN or infinity on either axis is no command for that axis or the other: both brake.
+TEST(TwistLimiter, BrakesForWhatIsNotFinite) {
+  for (const bool independent : {false, true}) {
+    TwistLimits both = limits();
+    both.limit_axes_independently = independent;
+    for (const Twist2d& bad : {Twist2d{kNan, 1.0}, Twist2d{1.0, std::numeric_limits<double>::infinity()}}) {
+      TwistLimiter limiter{both};
+      limiter.reset({0.5, 0.5});
+      const Twist2d twist = limiter.limit(bad, kCycle);
+      EXPECT_LT(twist.linear_x, 0.5);
+      EXPECT_LT(twist.angular_z, 0.5);
+      for (int i = 0; i < 110; ++i) limiter.limit(bad, kCycle);
+      EXPECT_EQ((Twist2d{}), limiter.twist());
+    }
+  }
+}
+
+// No time, no change; and a reset to nonsense is a reset to zero.
+TEST(TwistLimiter, NoTimeNoChange) {
+  TwistLimiter limiter{TwistLimits{}};
+  limiter.reset({0.5, kNan});
+  EXPECT_EQ((Twist2d{0.5, 0.0}), limiter.limit({1.0, 1.0}, Duration{0}));
+}
+
+// Limits that cannot be are refused with the key of their axis.
+TEST(TwistLimiter, RefusesImpossibleLimits) {
+  TwistLimits wrong = limits();
+  wrong.angular_z.max_velocity = -2.0;
+  try {
+    TwistLimiter{wrong};
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("angular/z/max_velocity is -2"));
+  }
+}
+
+// From standstill and back to standstill the curvature never changes, with any limits.
+RC_GTEST_PROP(TwistLimiterProperty, KeepsTheCurvature, (bool with_jerk)) {
+  TwistLimiter limiter{anyTwistLimits(with_jerk)};
+  const Twist2d target = *twistWithin(5.0, 5.0);
+  const double dt = *number(0.001, 0.05);
+  const int steps = *rc::gen::inRange(1, 400);
+  for (int i = 0; i < steps; ++i) {
+    RC_ASSERT(besideThePath(limiter.limit(target, seconds(dt)), target) < 1e-9);
+  }
+  for (int i = 0; i < 200; ++i) {
+    const Twist2d twist = limiter.limit({}, seconds(dt));
+    // Where the base all but stands, the direction of what is left is rounding.
+    if (std::hypot(twist.linear_x, twist.angular_z) < 1e-6) break;
+    RC_ASSERT(besideThePath(twist, target) < 1e-9);
+  }
+}
+
+// Whatever is commanded: each axis inside its own limits, and finite.
+RC_GTEST_PROP(TwistLimiterProperty, NeverExceedsALimit, (bool with_jerk, bool independently)) {
+  TwistLimits any = anyTwistLimits(with_jerk);
+  any.limit_axes_independently = independently;
+  TwistLimiter limiter{any};
+  const double dt = *number(0.001, 0.1);
+  const auto targets = *rc::gen::container<std::vector<Twist2d>>(twistWithin(6.0, 6.0));
+  Twist2d before;
+  const auto check = [dt](double now, double last, const SpeedLimits& axis) {
+    RC_ASSERT(now <= axis.max_velocity && now >= axis.minVelocity());
+    RC_ASSERT((now - last) / dt <= axis.max_acceleration + 1e-6);
+    RC_ASSERT((now - last) / dt >= axis.minAcceleration() - 1e-6);
+  };
+  for (const Twist2d& target : targets) {
+    for (int i = 0; i < 20; ++i) {
+      const Twist2d twist = limiter.limit(target, seconds(dt));
+      RC_ASSERT(isFinite(twist));
+      check(twist.linear_x, before.linear_x, any.linear_x);
+      check(twist.angular_z, before.angular_z, any.angular_z);
+      before = twist;
+    }
+  }
+}
+
+// Any sequence of doubles, NaN and infinities among them, gives finite twists.
+RC_GTEST_PROP(TwistLimiterProperty, IsAlwaysFinite, (std::vector<std::pair<double, double>> targets)) {
+  TwistLimits some;
+  some.linear_x.has_jerk_limits = *rc::gen::arbitrary<bool>();
+  some.linear_x.max_jerk = 1.0;
+  some.angular_z.has_acceleration_limits = *rc::gen::arbitrary<bool>();
+  some.angular_z.max_acceleration = 1.0;
+  TwistLimiter limiter{some};
+  targets.emplace_back(std::numeric_limits<double>::max(), -std::numeric_limits<double>::max());
+  targets.emplace_back(kNan, kNan);
+  targets.emplace_back(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
+  for (const auto& target : targets) RC_ASSERT(isFinite(limiter.limit({target.first, target.second}, kCycle)));
+}
+
+// From any motion, a new path is reached and kept, and a stop ends in standstill.
+RC_GTEST_PROP(TwistLimiterProperty, ReachesTheTarget, (bool with_jerk)) {
+  const TwistLimits any = anyTwistLimits(with_jerk);
+  TwistLimiter limiter{any};
+  const Twist2d first = *twistWithin(3.0, 3.0);
+  const int steps = *rc::gen::inRange(0, 300);
+  for (int i = 0; i < steps; ++i) limiter.limit(first, kCycle);
+  const Twist2d target{*number(any.linear_x.minVelocity(), any.linear_x.max_velocity),
+                       *number(any.angular_z.minVelocity(), any.angular_z.max_velocity)};
+  for (int i = 0; i < 6000; ++i) limiter.limit(target, kCycle);
+  RC_ASSERT(std::abs(limiter.twist().linear_x - target.linear_x) < 1e-9);
+  RC_ASSERT(std::abs(limiter.twist().angular_z - target.angular_z) < 1e-9);
+  for (int i = 0; i < 6000; ++i) limiter.limit({}, kCycle);
+  RC_ASSERT(std::abs(limiter.twist().linear_x) < 1e-9);
+  RC_ASSERT(std::abs(limiter.twist().angular_z) < 1e-9);
+}
+
+}  // namespace
+}  // namespace nord_driver::robot

@@ -1,0 +1,14 @@
+// Rules that keep the build complete: a source or a folder that nobody lists is silently not built and not tested.
+#pragma once
+
+#include <vector>
+
+#include "rules/source_tree.h"
+
+namespace nord_driver::rules {
+
+/// Every .cpp under src and test is named in the nearest CMakeLists.txt above it, and every folder with a
+/// CMakeLists.txt is named in the nearest one above that.
+Violations checkSourceLists(const std::vector<SourceFile>& files);
+
+}  // namespace nord_driver::rules

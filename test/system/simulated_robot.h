@@ -1,0 +1,164 @@
+// The whole driver below ROS on a simulated segment, in simulated time: a minute of driving takes milliseconds.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nord_driver/cycle/bus_cycle.h"
+#include "nord_driver/cycle/cycle_config.h"
+#include "nord_driver/cycle/cycle_ports.h"
+#include "nord_driver/sim/simulated_segment.h"
+#include "nord_driver/transport/profibus_dp.h"
+#include "support/map_settings.h"
+#include "system/recording_link.h"
+
+namespace nord_driver::test {
+
+/// Two wheels of 0.1 m, 0.5 m apart; P105 = 50 Hz, 20:1, two pole pairs: 100 % is 7.854 rad/s or 0.785 m/s.
+class SimulatedRobot {
+ public:
+  struct Options {
+    double slip = 2.0;  ///< Hz at rated torque
+    bool auto_enable = false;
+    std::map<std::string, MapSettings::Value> node;  ///< on top of the robot's own settings
+    std::vector<sim::ParameterPreset> left_parameters;
+  };
+
+  SimulatedRobot() : SimulatedRobot(Options{}) {}
+  explicit SimulatedRobot(const Options& options) {
+    const auto drives = driveSettings();
+    const MapSettings node{"~", nodeSettings(options)};
+    config_ = cycle::readCycleConfig(node, drives);
+    transport_ = std::make_unique<ProfibusDpTransport>([this, options](const link::SerialSettings&) {
+      auto segment = std::make_unique<sim::SimulatedSegment>(simConfig(options));
+      segment_ = segment.get();
+      auto link = std::make_unique<RecordingLink>(std::move(segment));
+      link_ = link.get();
+      return link;
+    });
+    const MapSettings bus{"~bus/",
+                          {{"device", std::string{"simulated"}}, {"baud_rate", 500'000}, {"slot_time", 0.0005}}};
+    transport_->configure(bus, drives, config_.cycle_rate);
+    ports_ = std::make_unique<cycle::CyclePorts>(drives.size());
+    cycle_ = std::make_unique<cycle::BusCycle>(config_, *transport_, *ports_, options.auto_enable);
+  }
+
+  /// One bus cycle and the pause after it.
+  void step() {
+    const Instant start = transport_->now();
+    cycle_->runOnce();
+    transport_->sleepUntil(start + cycle_->period());
+    while (const auto completion = ports_->waitCompletion(Duration::zero())) completions_.push_back(*completion);
+  }
+  void run(Duration span) {
+    const Instant end = transport_->now() + span;
+    while (transport_->now() < end) step();
+  }
+  /// Steps until `done` or `limit`; true when done.
+  template <typename Condition>
+  bool runUntil(Condition done, Duration limit = std::chrono::seconds{20}) {
+    const Instant end = transport_->now() + limit;
+    while (!done()) {
+      if (transport_->now() >= end) return false;
+      step();
+    }
+    return true;
+  }
+
+  void command(double linear, double angular = 0.0) {
+    ports_->commandBase({{linear, angular}, transport_->now(), true});
+  }
+  /// Drives on with the same command, renewed every cycle.
+  void drive(double linear, double angular, Duration span) {
+    const Instant end = transport_->now() + span;
+    while (transport_->now() < end) {
+      command(linear, angular);
+      step();
+    }
+  }
+
+  /// Asks and runs until the answer has come.
+  cycle::Completion ask(cycle::RequestKind kind, DriveIndex drive = cycle::kAllDrives) {
+    cycle::Request request;
+    request.kind = kind;
+    request.drive = drive;
+    return ask(request);
+  }
+  cycle::Completion ask(cycle::Request request) {
+    request.id = next_id_++;
+    request.patience = std::chrono::seconds{3};
+    ports_->submit(request);
+    cycle::Completion answer;
+    answer.message = "no answer";
+    runUntil([&] {
+      for (const auto& completion : completions_) {
+        if (completion.id == request.id) answer = completion;
+      }
+      return answer.id == request.id;
+    });
+    return answer;
+  }
+  /// From power-on to two drives that could be enabled.
+  bool bringUp() {
+    return runUntil([this] { return snapshot().drives[0].device.complete && snapshot().drives[1].device.complete; });
+  }
+  bool bringUpAndEnable() { return bringUp() && ask(cycle::RequestKind::kEnable).success; }
+
+  const cycle::CycleSnapshot& snapshot() { return ports_->readSnapshot(); }
+  sim::SimulatedSegment& segment() { return *segment_; }
+  sim::DriveUnit& unit(std::size_t drive) { return segment_->drive(drive); }
+  RecordingLink& link() { return *link_; }
+  Transport& transport() { return *transport_; }
+  const cycle::CycleConfig& config() const { return config_; }
+
+  static std::vector<DriveSettings> driveSettings() {
+    return {driveSettings("left", 3, false), driveSettings("right", 4, true)};
+  }
+
+ private:
+  static DriveSettings driveSettings(const std::string& name, int address, bool inverted) {
+    auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
+    settings->set("address", address).set("series", "sk5xxe").set("ppo_type", 1).set("joint", name + "_wheel_joint");
+    settings->set("gear_ratio", 20.0).set("pole_pairs", 2).set("inverted", inverted);
+    return {name, settings};
+  }
+  static std::map<std::string, MapSettings::Value> nodeSettings(const Options& options) {
+    std::map<std::string, MapSettings::Value> values = options.node;
+    values.insert({{"cycle_rate", 100.0},
+                   {"left_wheel", std::string{"left_wheel_joint"}},
+                   {"right_wheel", std::string{"right_wheel_joint"}},
+                   {"wheel_separation", 0.5},
+                   {"wheel_radius", 0.1}});
+    return values;
+  }
+  static sim::SimConfig simConfig(const Options& options) {
+    sim::SimConfig config;
+    config.baud_rate = 500'000;
+    for (const bool right : {false, true}) {
+      sim::DriveConfig drive;
+      drive.name = right ? "right" : "left";
+      drive.joint = drive.name + "_wheel_joint";
+      drive.slave.address = right ? 4 : 3;
+      drive.gear_ratio = 20.0;
+      drive.inverted = right;
+      drive.motor.slip = options.slip;
+      if (!right) drive.parameters = options.left_parameters;
+      config.drives.push_back(drive);
+    }
+    config.body = sim::BodyConfig{{0}, {1}, 0.1, 0.5};
+    return config;
+  }
+
+  cycle::CycleConfig config_;
+  sim::SimulatedSegment* segment_ = nullptr;
+  RecordingLink* link_ = nullptr;
+  std::unique_ptr<ProfibusDpTransport> transport_;
+  std::unique_ptr<cycle::CyclePorts> ports_;
+  std::unique_ptr<cycle::BusCycle> cycle_;
+  std::vector<cycle::Completion> completions_;
+  std::uint32_t next_id_ = 1;
+};
+
+}  // namespace nord_driver::test
