@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
+#include <sstream>
 
 #include "nord_driver/sim/parameter_store.h"
 
@@ -83,6 +84,13 @@ bool isName(const std::string& name) {
          std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; });
 }
 
+/// "-0.1", not "-0.10000000000000001".
+std::string inUnit(std::int32_t raw, const ParameterDefinition& definition) {
+  std::ostringstream text;
+  text << static_cast<double>(raw) / definition.divisor;
+  return text.str();
+}
+
 void readParameter(const std::string& key, const std::string& name, const YAML::Node& values, DriveConfig& drive) {
   static const ParameterStore catalogue;
   const ParameterDefinition* definition = nullptr;
@@ -108,11 +116,9 @@ void readParameter(const std::string& key, const std::string& name, const YAML::
     }
     const double raw = std::round(value * definition->divisor);
     if (!(raw >= definition->minimum && raw <= definition->maximum)) {
-      const auto scaled = [&](std::int32_t limit) {
-        return YAML::Node(limit / static_cast<double>(definition->divisor));
-      };
       refuse(key, values,
-             "a number from " + asText(scaled(definition->minimum)) + " to " + asText(scaled(definition->maximum)));
+             "a number from " + inUnit(definition->minimum, *definition) + " to " +
+                 inUnit(definition->maximum, *definition));
     }
     ParameterPreset preset;
     preset.number = definition->number;

@@ -131,7 +131,7 @@ void SimulatedSegment::answer(const WireBytes& bytes, Duration delay) noexcept {
   for (std::size_t i = 0; i < sent.size(); ++i) {
     arriving_.push_back({answer_start_ + baud_rate_.characters(i + 1), sent[i]});
   }
-  answer_end_ = answer_start_ + baud_rate_.characters(sent.size());
+  answer_end_ = answer_start_ + baud_rate_.characters(bytes.size());  // noise is no activity of the station
   if (ByteView{sent} == ByteView{bytes}) robot_.delivered(bytes);
 }
 

@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
     return EXIT_SUCCESS;
   }
   ros::init(argc, argv, "nord_sim");
+  ros::NodeHandle handle("~");  // lives until the last word is logged
   try {
-    ros::NodeHandle handle("~");
     const nord_driver::sim::SimConfig config =
         nord_driver::sim::readSimConfig(nord_driver::sim_node::readParameters(handle));
     for (const std::string& warning : config.warnings) ROS_WARN("%s", warning.c_str());

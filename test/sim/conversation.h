@@ -53,9 +53,9 @@ class Conversation {
   }
   /// Sends `words` every 2 ms for `span`; the last answer.
   std::string pzdFor(const std::string& words, Duration span) {
-    std::string last;
-    for (Duration passed{0}; passed < span; passed += std::chrono::milliseconds(2)) {
-      last = pzd(words);
+    const Instant end = segment.now() + span;
+    while (segment.now() < end) {
+      pzd(words);
       segment.run(std::chrono::milliseconds(2));
     }
     return pzd(words);
