@@ -230,6 +230,18 @@ TEST_F(ParameterSessionTest, PutsP560BackWhenTheInverterReturns) {
   EXPECT_FALSE(session_.pollResult().has_value());
 }
 
+// P560 = 0 is out when the inverter goes: it may have been stored, so it counts.
+TEST_F(ParameterSessionTest, CountsP560WhenTheInverterGoes) {
+  inverter_.ram_orders = false;
+  session_.submit(writeRam(102, 1000));
+  steps(3);
+  session_.pollRequest();
+  session_.handleOffline();
+  EXPECT_EQ(1u, session_.eepromWrites());
+  EXPECT_TRUE(session_.pollResult().value().eeprom_written);
+  EXPECT_TRUE(session_.owesEepromSwitch());
+}
+
 TEST_F(ParameterSessionTest, TellsWhenAnotherValueIsReadBack) {
   inverter_.scripted["P102~1000"] = FakeParameters::failure(ParameterOutcome::kDone);
   const ParameterTaskResult result = run(writeRam(102, 1000));
