@@ -1,6 +1,7 @@
 #include "nord_driver/drive/parameter_session.h"
 
 #include "nord_driver/profile/pkw.h"
+#include "parameter_notes.h"
 
 namespace nord_driver::drive {
 
@@ -14,35 +15,6 @@ namespace {
 
 constexpr std::uint16_t kSaveInEeprom = 560;
 constexpr std::uint8_t kSwitchTries = 2;
-
-constexpr char kSame[] = "the inverter has this value already: nothing was written";
-constexpr char kNotRead[] = "the present value could not be read, so nothing was written";
-constexpr char kWriteUnanswered[] = "whether the inverter carried the write out is not known";
-constexpr char kDiffers[] = "the inverter accepted the value, but reads back another one";
-constexpr char kNotReadBack[] = "the inverter accepted the value, but it could not be read back";
-constexpr char kTooWide[] = "the answer does not fit this process data type: use PPO 2 or acyclic access";
-constexpr char kToggled[] =
-    "this inverter has no order that spares the EEPROM: P560 was set to 0 for the write and put back to 1 (counted as "
-    "two EEPROM writes)";
-constexpr char kWasOff[] = "P560 = 0 was found and left so: this inverter saves nothing in its EEPROM, whoever writes";
-constexpr char kNotPutBack[] =
-    "P560 could not be put back to 1: until it is, this inverter saves nothing in its EEPROM, whoever writes";
-constexpr char kNotSet[] = "P560 could not be set to 0, so the value was not written";
-constexpr char kSwitchUnread[] = "P560 could not be read, so nothing was written";
-constexpr char kNothingSpares[] =
-    "this inverter has neither an order that spares the EEPROM nor P560: it can only be written persistently";
-constexpr char kSwitchItself[] = "P560 itself can only be written persistently in this inverter";
-constexpr char kWouldBeLost[] =
-    "P560 = 0: the inverter would not save the value in its EEPROM; write P560 = 1 first, persistently";
-constexpr char kNoSwitch[] = "the inverter has no P560: whether it saved the value in its EEPROM is not known";
-
-bool hasSets(ParameterShape shape) noexcept {
-  return shape == ParameterShape::kPerSet || shape == ParameterShape::kArrayPerSet;
-}
-
-bool isArray(ParameterShape shape) noexcept {
-  return shape == ParameterShape::kArray || shape == ParameterShape::kArrayPerSet;
-}
 
 // A word comes back with its high word 0 or, negative, FFFF; with anything else there the parameter is a double word.
 bool isValue(const ParameterTask& task, std::int32_t raw) noexcept {
@@ -182,7 +154,7 @@ void ParameterSession::handleValue(const ParameterResult& result) noexcept {
   }
   result_.raw = result.raw;
   const bool persistent = task.kind == ParameterTaskKind::kWritePersistent;
-  const bool same = write && isValue(task, result.raw) && !(persistent && isRamOnly());
+  const bool same = write && isValue(task, result.raw) && !(persistent && ram_only_.holds(task));
   if (!write || same) {
     result_.outcome = ParameterOutcome::kDone;
     if (same) result_.note = kSame;
@@ -201,7 +173,7 @@ void ParameterSession::handleValue(const ParameterResult& result) noexcept {
 }
 
 void ParameterSession::handleRamWrite(const ParameterResult& result) noexcept {
-  if (!surelyNotDone(result.outcome)) markRamOnly();
+  if (!surelyNotDone(result.outcome)) ram_only_.mark(waiting_[0]);
   if (isDone(result)) {
     step_ = Step::kReadBack;
   } else if (isError(result, profile::pkw_error::kInvalidOrder)) {
@@ -326,7 +298,7 @@ void ParameterSession::handleReadBack(const ParameterResult& result) noexcept {
     result_.outcome = ParameterOutcome::kDone;
     if (!isValue(task, result.raw)) refuse(kDiffers);
   }
-  if (!failed_ && task.kind == ParameterTaskKind::kWritePersistent) unmarkRamOnly();
+  if (!failed_ && task.kind == ParameterTaskKind::kWritePersistent) ram_only_.unmark(waiting_[0]);
   finish();
 }
 
@@ -373,7 +345,7 @@ void ParameterSession::countWrite(const ParameterResult& result) noexcept {
 
 void ParameterSession::countValueWrite(const ParameterResult& result) noexcept {
   if (!owes_switch_ && !switch_was_off_) return countWrite(result);
-  if (!surelyNotDone(result.outcome)) markRamOnly();
+  if (!surelyNotDone(result.outcome)) ram_only_.mark(waiting_[0]);
 }
 
 void ParameterSession::handleOffline() noexcept {
@@ -383,7 +355,7 @@ void ParameterSession::handleOffline() noexcept {
   if (under_way_) {
     if (step_ == Step::kSwitchOff || step_ == Step::kSwitchOn) countWrite(offline);
     if (step_ == Step::kWrite) countValueWrite(offline);
-    if (step_ == Step::kWriteRam) markRamOnly();
+    if (step_ == Step::kWriteRam) ram_only_.mark(waiting_[0]);
   }
   under_way_ = false;
   ram_orders_ = true;
@@ -401,42 +373,6 @@ void ParameterSession::handleOffline() noexcept {
     finish();
   }
   try_recovery_ = owes_switch_;
-}
-
-// --- what stands in the RAM only
-// ----------------------------------------------------------------------------------------
-
-ParameterSession::Key ParameterSession::keyOfTask() const noexcept {
-  const ParameterTask& task = waiting_[0];
-  Key key;
-  key.number = task.number;
-  if (hasSets(task.shape)) key.set = task.set;
-  if (isArray(task.shape)) key.index = task.index;
-  return key;
-}
-
-bool ParameterSession::isRamOnly() const noexcept {
-  if (ram_only_overflow_) return true;
-  const Key key = keyOfTask();
-  for (const Key& other : ram_only_) {
-    if (other.number == key.number && other.set == key.set && other.index == key.index) return true;
-  }
-  return false;
-}
-
-void ParameterSession::markRamOnly() noexcept {
-  if (!isRamOnly() && !ram_only_.push_back(keyOfTask())) ram_only_overflow_ = true;
-}
-
-void ParameterSession::unmarkRamOnly() noexcept {
-  const Key key = keyOfTask();
-  for (std::size_t i = 0; i < ram_only_.size(); ++i) {
-    const Key& other = ram_only_[i];
-    if (other.number != key.number || other.set != key.set || other.index != key.index) continue;
-    ram_only_[i] = ram_only_[ram_only_.size() - 1];
-    ram_only_.resize(ram_only_.size() - 1);
-    return;
-  }
 }
 
 }  // namespace nord_driver::drive

@@ -141,6 +141,24 @@ TEST_F(ParameterSessionTest, TakesARefusedRamWriteForNone) {
   EXPECT_FALSE(run(writePersistent(102, 200)).eeprom_written);
 }
 
+// A set is a value of its own, and more values than can be remembered are all held to be in the RAM only.
+TEST_F(ParameterSessionTest, RemembersRamWritesBySet) {
+  ParameterTask what = writeRam(102, 1000);
+  what.shape = ParameterShape::kPerSet;
+  what.set = 2;
+  run(what);
+  what.kind = ParameterTaskKind::kWritePersistent;
+  what.set = 3;
+  EXPECT_FALSE(run(what).eeprom_written);
+  what.set = 2;
+  EXPECT_TRUE(run(what).eeprom_written);
+  for (std::uint16_t number = 300; number < 333; ++number) {
+    inverter_.ram[number] = 0;
+    run(writeRam(number, 1));
+  }
+  EXPECT_TRUE(run(writePersistent(105, 500)).eeprom_written);
+}
+
 // Error 201: no AK 11..14 here. P560 = 0 for the time of a plain write, and back; remembered for the next write.
 TEST_F(ParameterSessionTest, FallsBackToP560) {
   inverter_.ram_orders = false;

@@ -16,6 +16,7 @@
 
 #include "nord_driver/core/fixed_vector.h"
 #include "nord_driver/drive/parameter_task.h"
+#include "nord_driver/drive/ram_only_values.h"
 #include "nord_driver/profile/parameter_request.h"
 
 namespace nord_driver::drive {
@@ -55,11 +56,6 @@ class ParameterSession {
     kCheckSwitchOn,
     kReadBack,
   };
-  struct Key {
-    std::uint16_t number = 0;
-    std::uint8_t set = 0;
-    std::uint8_t index = 0;
-  };
 
   void begin() noexcept;
   profile::ParameterRequest requestFor(Step step) const noexcept;
@@ -79,11 +75,6 @@ class ParameterSession {
   void countWrite(const profile::ParameterResult& result) noexcept;
   void countValueWrite(const profile::ParameterResult& result) noexcept;
 
-  Key keyOfTask() const noexcept;
-  bool isRamOnly() const noexcept;
-  void markRamOnly() noexcept;
-  void unmarkRamOnly() noexcept;
-
   FixedVector<ParameterTask, kCapacity> waiting_;  // the first is the running one
   FixedVector<ParameterTaskResult, kCapacity> results_;
   ParameterTaskResult result_;  // of the running task, as far as it is known
@@ -97,8 +88,7 @@ class ParameterSession {
   bool owes_switch_ = false;     // P560 = 0 may stand because of us
   bool switch_was_off_ = false;  // P560 = 0 was there before us
   std::uint8_t switch_tries_ = 0;
-  FixedVector<Key, 32> ram_only_;  // written to the RAM and not to the EEPROM since
-  bool ram_only_overflow_ = false;
+  RamOnlyValues ram_only_;
   std::uint64_t eeprom_writes_ = 0;
 };
 
