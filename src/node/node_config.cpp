@@ -53,6 +53,7 @@ NodeConfig readNodeConfig(const RosSettings& settings) {
   NodeConfig config;
   config.transport = readTransport(settings);
   config.auto_enable = settings.boolean("auto_enable").value_or(false);
+  config.allow_raw_parameters = settings.boolean("allow_raw_parameters").value_or(false);
   settings.accept("type");  // controller files name a plugin class here
   config.publish = readPublish(settings);
   config.bus = settings.group("bus");

@@ -27,6 +27,7 @@ struct PublishConfig {
 struct NodeConfig {
   std::string transport;  ///< plugin name with its prefix
   bool auto_enable = false;
+  bool allow_raw_parameters = false;
   PublishConfig publish;
   cycle::CycleConfig cycle;
   std::vector<DriveSettings> drives;
