@@ -104,13 +104,13 @@ void DpSlave::prepare(FdlRequest& request, Instant now) noexcept {
 }
 
 void DpSlave::fallSilent(Instant due, const char* note) noexcept {
-  frame_count_.reset();
   diagnosis_due_ = false;
   status_.phase = SlavePhase::Silent;
   status_.note = note;
   due_ = due;
 }
 
+// The only way into a start-up: the first request has FCV = 0 and FCB = 1 again.
 void DpSlave::startOver(const char* note) noexcept {
   frame_count_.reset();
   diagnosis_due_ = false;

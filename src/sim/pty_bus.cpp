@@ -125,7 +125,7 @@ void PtyBus::serve() noexcept {
 }
 
 void PtyBus::takeInput(Instant model_now) noexcept {
-  std::array<std::uint8_t, 512> buffer{};
+  std::array<std::uint8_t, 256> buffer{};  // fits beside the longest unfinished telegram
   const ssize_t count = ::read(master_, buffer.data(), buffer.size());
   if (count <= 0) return;
   answer_from_ = model_now;

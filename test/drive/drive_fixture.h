@@ -44,7 +44,8 @@ class DriveTest : public ::testing::Test {
     return output.control_word;
   }
   void fallSilent() {
-    while (drive_.report().online) silence();
+    for (int i = 0; i < 10 && drive_.report().online; ++i) silence();
+    ASSERT_FALSE(drive_.report().online);
   }
   /// Learns set 1 and is idle at "ready to switch on".
   void start() {

@@ -64,6 +64,18 @@ TEST_F(DriveTest, EnablesOnlyOnAFreshReady) {
   EXPECT_EQ(0x047F, cycle(0x0B37));
 }
 
+// A request that falls between telegram and answer: that answer is older than the request's own 047E.
+TEST_F(DriveTest, WaitsForTheAnswerToItsOwnShutDown) {
+  start();
+  drive_.pollOutput(now_);
+  drive_.requestEnable(now_);
+  profile::ProcessInput ready;
+  ready.status_word = 0x0B31;
+  drive_.handleInput(ready, true, now_);
+  EXPECT_EQ(0x047E, cycle(0x0B31));
+  EXPECT_EQ(0x047F, cycle(0x0B37));
+}
+
 TEST_F(DriveTest, GoesBackToIdleWhenTheInverterDoesNotFollow) {
   start();
   drive_.requestEnable(now_);

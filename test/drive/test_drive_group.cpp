@@ -123,7 +123,7 @@ TEST_F(DriveGroupTest, RampsDownThenOff1) {
   group_.requestDisable(now_);
   EXPECT_TRUE(group_.wantsZeroRamp());
   EXPECT_FALSE(group_.commandAllowed());
-  while (group_.wantsZeroRamp()) {
+  for (int i = 0; i < 100 && group_.wantsZeroRamp(); ++i) {
     EXPECT_EQ(0x047F, leftWord());
     cycle();
   }
@@ -172,7 +172,7 @@ TEST_F(DriveGroupTest, HaltsTheOthersWhenOneTrips) {
   EXPECT_EQ(0x047E, rightWord());
   EXPECT_EQ(0x047F, leftWord());
   EXPECT_EQ(0, left_.report().output.setpoints[0]);
-  while (group_.report().phase == GroupPhase::kHalting) {
+  for (int i = 0; i < 100 && group_.report().phase == GroupPhase::kHalting; ++i) {
     EXPECT_EQ(0x047F, leftWord());
     cycle();
   }

@@ -36,7 +36,8 @@ const std::map<std::string, Names>& table() {
       {"plugins", {"core", "transport"}},
       {"tools", kTools},
       {"node", kNode},
-      {"system", kNode},  // tests of the whole stack, without ROS
+      {"system", kNode},                   // tests of the whole stack, without ROS
+      {"support", {"core", "transport"}},  // what tests of several folders share
       {"rules", {}},
   };
   return kTable;
@@ -44,6 +45,7 @@ const std::map<std::string, Names>& table() {
 
 const Names kPure{"core", "profile", "profibus", "canopen", "devicenet", "interbus", "robot", "drive"};
 const Names kWithRos{"node", "sim_node", "plugins", "tools"};
+const Names kForEveryTest{"sim", "link", "core", "support"};
 const Names kThreads{"thread", "mutex", "shared_mutex", "condition_variable", "future"};
 
 struct Place {
@@ -111,7 +113,7 @@ std::string layerOf(const std::string& header, bool quoted, const std::string& o
 bool mayUse(const Place& place, const std::string& used) {
   if (used == place.layer) return true;
   if (place.is_test && place.layer == "node") return true;
-  if (place.is_test && place.layer != "rules" && (used == "sim" || used == "link" || used == "core")) return true;
+  if (place.is_test && place.layer != "rules" && kForEveryTest.count(used) != 0) return true;
   return table().at(place.layer).count(used) != 0;
 }
 

@@ -28,7 +28,7 @@ namespace nord_driver::profibus {
 ///       link.write(master.pollTransmit(now));           // when not empty
 ///       wait for bytes until master.nextDeadline();
 ///       master.handleBytes(bytes, now);                 // when bytes came: before handleTimeout
-///       if (now >= *master.nextDeadline()) master.handleTimeout(now);
+///       master.handleTimeout(now);                      // harmless before the deadline
 ///     }
 ///     while (auto event = master.pollEvent()) ...
 ///
