@@ -12,6 +12,7 @@ namespace nord_driver::test {
 namespace {
 
 constexpr double kCommandPeriod = 0.02;  // s
+constexpr double kWheelRadius = 0.1;     // m, robot.yaml
 constexpr double kStandstill = 1e-3;     // m/s
 
 template <typename Service>
@@ -144,6 +145,10 @@ void RobotTest::enableAndDrive(double linear) {
   Answer answer;
   EXPECT_TRUE(eventually([&] { return (answer = robot().enable(true)).success; })) << answer;
   robot().drive(linear);
+  const double wheel = linear / kWheelRadius;
+  ASSERT_TRUE(robot().left.status.waitNext([&](const DriveStatus& status) {
+    return status.velocity_command >= 0.999 * wheel;
+  })) << "the ramp does not end";
   ASSERT_TRUE(robot().waitForTrueSpeed(0.9 * linear));
 }
 

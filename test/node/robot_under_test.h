@@ -90,7 +90,7 @@ class RobotTest : public ::testing::Test {
   void TearDown() override;
   /// The driver as a child, with the parameters of /nord_driver.
   void startDriver();
-  /// ~enable and a steady speed forward.
+  /// ~enable and a steady speed forward, the ramp behind it.
   void enableAndDrive(double linear);
 
   /// Shared by all tests of a program.
