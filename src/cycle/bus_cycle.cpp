@@ -290,11 +290,15 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive) const noexcept {
   to.joint_position = axes_[drive].joint.position();
   // The number stands in P700, which is read when faults are more than being lost.
   to.fault_number = profile::StatusWord{report.status_word}.fault() && report.online ? 65535 : 0;
-  to.stopped = report.stop_cause != drive::StopCause::kNone;
+  to.stopped = report.stop_cause != drive::StopCause::kNone || report.fault_latched;
   if (!report.online) {
     to.text = transport_.note(drive).text;
   } else {
     to.text = stopSentence(names_[drive].c_str(), report.stop_cause, report);
+    // Its bit may have vanished with our first idle word (BU 0020 8); enabling is refused for it all the same.
+    if (to.text.empty() && report.fault_latched) {
+      to.text = refusalSentence(names_[drive].c_str(), drive::Refusal::kFaultLatched, report);
+    }
   }
   to.device = axes_[drive].reader.data();
   to.device.ident = transport_.identNumber(drive);
