@@ -258,11 +258,15 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive) const noexcept {
   to.eeprom_writes = axes_[drive].parameters.eepromWrites();
   to.owes_eeprom_switch = axes_[drive].parameters.owesEepromSwitch();
   to.direction_contradiction = report.direction_contradiction;
-  to.stopped = report.stop_cause != drive::StopCause::kNone;
+  to.stopped = report.stop_cause != drive::StopCause::kNone || report.fault_latched;
   if (!report.online) {
     to.text = transport_.note(drive).text;
   } else {
     to.text = stopSentence(names_[drive].c_str(), report.stop_cause, report);
+    // Its bit may have vanished with our first idle word (BU 0020 8); enabling is refused for it all the same.
+    if (to.text.empty() && report.fault_latched) {
+      to.text = refusalSentence(names_[drive].c_str(), drive::Refusal::kFaultLatched, report);
+    }
   }
   to.device = axes_[drive].parameters.device();
   to.device.ident = transport_.identNumber(drive);
