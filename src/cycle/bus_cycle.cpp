@@ -256,7 +256,9 @@ void BusCycle::publish(Instant now) noexcept {
     base.enabled = supervisor_.base()->commandAllowed();
     base.text = supervisor_.baseStopSentence();
     base.stopped = !base.text.empty();
+    base.stop_cause = supervisor_.base()->report().stop_cause;
   }
+  ports_.trace().handleCycle(outputs_, inputs_, snapshot_);
   ports_.publish(snapshot_);
 }
 
@@ -276,6 +278,7 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive) const noexcept {
   // The number stands in P700, which is read when faults are more than being lost.
   to.fault_number = profile::StatusWord{report.status_word}.fault() && report.online ? 65535 : 0;
   to.stopped = report.stop_cause != drive::StopCause::kNone;
+  to.stop_cause = report.stop_cause;
   if (!report.online) {
     to.text = transport_.note(drive).text;
   } else {

@@ -111,6 +111,7 @@ class SimulatedRobot {
   sim::DriveUnit& unit(std::size_t drive) { return segment_->drive(drive); }
   RecordingLink& link() { return *link_; }
   Transport& transport() { return *transport_; }
+  cycle::CyclePorts& ports() { return *ports_; }
   const cycle::CycleConfig& config() const { return config_; }
 
   static std::vector<DriveSettings> driveSettings() {
