@@ -47,6 +47,10 @@ unset ROS_HOSTNAME
 device="/tmp/nord_driver_demo_bus.$$"
 roslaunch --port "$port" nord_driver demo.launch output:=log device:="$device" >>"$log" 2>&1 &
 launch=$!
+for _ in $(seq 100); do # until the master answers
+  python3 -c 'import rosgraph, sys; sys.exit(not rosgraph.is_master_online())' 2>>"$log" && break
+  sleep 0.2
+done
 
 stop() {
   kill -INT "$launch" 2>/dev/null || true
@@ -67,4 +71,5 @@ if $keep; then
   echo "  source out/demo/devel/setup.bash && rostopic list"
   wait "$launch" || true
 fi
+if [ "$status" -eq 0 ]; then rm -f "$log"; fi
 exit "$status"

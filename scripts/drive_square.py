@@ -64,6 +64,9 @@ class Table:
         self._start = rospy.Time.now()
 
     def head(self):
+        print("STW, the control word:  047E idle (OFF1), 047F run.   SW1: setpoint, 4000 = 100 % = P105")
+        print("ZSW, the status word:   0B31 ready to switch on, 0B37 operation enabled and at its setpoint; 0A.. while")
+        print("                        the frequency ramps, 1... while the motor turns left (the right one is mirrored)")
         print("%7s | %13s | %-25s | %-25s | %-21s | %s" %
               ("", "cmd_vel", "left drive", "right drive", "odometry", "true pose"))
         print("%7s | %6s %6s | %4s %4s %4s %10s | %4s %4s %4s %10s | %6s %6s %7s | %6s %6s" %

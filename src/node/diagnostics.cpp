@@ -4,6 +4,7 @@
 
 #include "nord_driver/core/bytes.h"
 #include "nord_driver/node/bus_publisher.h"
+#include "nord_driver/node/drive_protection.h"
 #include "nord_driver/profile/fault_text.h"
 
 namespace nord_driver::node {
@@ -84,6 +85,8 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
                            *read);
     }
   }
+  if (runsOnWithoutUs(drive.device))
+    status.mergeSummary(DiagnosticStatus::ERROR, protectionText(identity, drive.device));
   status.add("address", identity.address);
   status.add("state", profile::toString(drive.state));
   status.add("status word", toHexWord(drive.input.status_word));
@@ -93,7 +96,7 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
   status.add("velocity (rad/s)", drive.velocity);
   status.add("bus module answers", drive.module_answers);
   status.add("parameter channel", identity.parameter_channel);
-  status.add("protected by", identity.protected_by);
+  status.add("protected by", protectionText(identity, drive.device));
 }
 
 }  // namespace nord_driver::node

@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "nord_driver/node/drive_protection.h"
 #include "nord_driver/profile/fault_text.h"
 
 namespace nord_driver::node {
@@ -32,7 +33,6 @@ DrivePublisher::DrivePublisher(ros::NodeHandle& private_node, const cycle::Drive
   info_.inverter = 1;
   info_.rated_current = rated_current_;
   info_.parameter_channel = identity_.parameter_channel;
-  info_.protected_by = identity_.protected_by;
   status_publisher_ = private_node.advertise<DriveStatus>(setup.name + "/status", 10);
   info_publisher_ = private_node.advertise<DeviceInfo>(setup.name + "/device_info", 1, true);
 }
@@ -76,11 +76,13 @@ void DrivePublisher::publishDeviceInfo(const cycle::DriveSnapshot& drive) {
   DeviceInfo info = info_;
   info.ident = device.ident;
   info.software_version = versionText(device);
+  info.protected_by = protectionText(identity_, device);
   info.max_frequency.clear();
   for (const auto& frequency : device.max_frequency) info.max_frequency.push_back(frequency.value_or(kNotKnown));
   info.setpoint_functions.assign(device.setpoint_functions.begin(), device.setpoint_functions.end());
   info.actual_value_functions.assign(device.actual_value_functions.begin(), device.actual_value_functions.end());
-  const bool same = told_ && info.ident == info_.ident && info.software_version == info_.software_version &&
+  const bool same = told_ && info.ident == info_.ident && info.protected_by == info_.protected_by &&
+                    info.software_version == info_.software_version &&
                     info.setpoint_functions == info_.setpoint_functions &&
                     info.actual_value_functions == info_.actual_value_functions && frequencies_ == device.max_frequency;
   if (same) return;
