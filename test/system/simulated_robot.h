@@ -123,7 +123,6 @@ class SimulatedRobot {
   cycle::CyclePorts& ports() { return *ports_; }
   RecordingLink& link() { return *link_; }
   Transport& transport() { return *transport_; }
-  cycle::CyclePorts& ports() { return *ports_; }
   const cycle::CycleConfig& config() const { return config_; }
 
   static std::vector<DriveSettings> driveSettings(const Options& options) {
