@@ -235,7 +235,9 @@ void BusCycle::publish(Instant now) noexcept {
     base.enabled = supervisor_.base()->commandAllowed();
     base.text = supervisor_.baseStopSentence();
     base.stopped = !base.text.empty();
+    base.stop_cause = supervisor_.base()->report().stop_cause;
   }
+  ports_.trace().handleCycle(outputs_, inputs_, snapshot_);
   ports_.publish(snapshot_);
 }
 
@@ -259,6 +261,7 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive) const noexcept {
   to.owes_eeprom_switch = axes_[drive].parameters.owesEepromSwitch();
   to.direction_contradiction = report.direction_contradiction;
   to.stopped = report.stop_cause != drive::StopCause::kNone || report.fault_latched;
+  to.stop_cause = report.stop_cause;
   if (!report.online) {
     to.text = transport_.note(drive).text;
   } else {

@@ -60,6 +60,7 @@ NodeConfig readNodeConfig(const RosSettings& settings) {
   const auto drives = settings.group("drives");
   for (const std::string& name : drives->keys()) config.drives.push_back({name, drives->group(name)});
   config.cycle = cycle::readCycleConfig(settings, config.drives);
+  config.trace = cycle::readTraceConfig(settings);
   return config;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "nord_driver/profile/status_word.h"
+#include "nord_driver/transport/profibus_telegram_text.h"
 #include "nord_driver/transport/setting_checks.h"
 
 namespace nord_driver {
@@ -35,6 +36,8 @@ void ProfibusDpTransport::configure(const Settings& bus, const std::vector<Drive
   } catch (const std::invalid_argument& error) {
     throw ConfigError(bus.fullName("") + ": " + error.what());
   }
+  trace_.emplace(kLinkTypeProfibusDl, ProfibusTelegramText{config_});
+  recorder_.emplace(*trace_);
   drives_.assign(config_.drives.size(), DriveState{answerTimeout(cycle_rate)});
   link_ = make_link_({config_.device, config_.bus.baud});
 }
@@ -73,8 +76,10 @@ void ProfibusDpTransport::runMaster() noexcept {
   profibus::DpMaster& master = *master_;
   master.startCycle(link_->now());
   while (!master.cycleDone() && link_->isOpen()) {
-    const ByteView telegram = master.pollTransmit(link_->now());
+    const Instant start = link_->now();
+    const ByteView telegram = master.pollTransmit(start);
     if (!telegram.empty()) {
+      recorder_->handleSent(telegram, start);
       link_->write(telegram);
       continue;
     }
@@ -82,7 +87,9 @@ void ProfibusDpTransport::runMaster() noexcept {
     if (!deadline) break;
     if (link_->waitReadable(*deadline)) {
       const std::size_t count = link_->read(buffer, sizeof buffer);
-      master.handleBytes({buffer, count}, link_->now());
+      const Instant read = link_->now();
+      recorder_->handleReceived({buffer, count}, read);
+      master.handleBytes({buffer, count}, read);
     }
     if (link_->now() >= *deadline) master.handleTimeout(link_->now());
   }
@@ -91,6 +98,7 @@ void ProfibusDpTransport::runMaster() noexcept {
   if (!link_->isOpen()) {
     // Gone in the middle of a cycle: nobody exchanges until it is back.
     master.restart(link_->now());
+    recorder_->flush();
     next_open_ = link_->now() + kReopenInterval;
   }
 }

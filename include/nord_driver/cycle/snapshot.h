@@ -11,6 +11,7 @@
 #include "nord_driver/core/time.h"
 #include "nord_driver/cycle/cycle_statistics.h"
 #include "nord_driver/cycle/device_data.h"
+#include "nord_driver/drive/drive_report.h"
 #include "nord_driver/profile/process_data.h"
 #include "nord_driver/profile/status_word.h"
 #include "nord_driver/robot/odometry.h"
@@ -20,10 +21,11 @@
 namespace nord_driver::cycle {
 
 struct DriveSnapshot {
-  bool online = false;          ///< fresh process data from the inverter itself
-  bool module_answers = false;  ///< its bus module answers at least
-  bool enabled = false;         ///< follows velocity commands
-  bool stopped = false;         ///< stopped by a cause that is latched: `text` names it
+  bool online = false;                                    ///< fresh process data from the inverter itself
+  bool module_answers = false;                            ///< its bus module answers at least
+  bool enabled = false;                                   ///< follows velocity commands
+  bool stopped = false;                                   ///< stopped by a cause that is latched: `text` names it
+  drive::StopCause stop_cause = drive::StopCause::kNone;  ///< that cause
   profile::DriveState state = profile::DriveState::kUnknown;
   std::uint8_t parameter_set = 0;        ///< 0: not known
   profile::ProcessOutput output;         ///< as sent last
@@ -49,6 +51,7 @@ struct BaseSnapshot {
   robot::Twist2d command;   ///< after limiting
   bool enabled = false;
   bool stopped = false;
+  drive::StopCause stop_cause = drive::StopCause::kNone;
   Sentence text;
 };
 

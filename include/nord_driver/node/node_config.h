@@ -3,10 +3,12 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "nord_driver/cycle/cycle_config.h"
+#include "nord_driver/cycle/trace_config.h"
 #include "nord_driver/node/ros_settings.h"
 #include "nord_driver/transport/settings.h"
 
@@ -30,6 +32,7 @@ struct NodeConfig {
   bool allow_raw_parameters = false;
   PublishConfig publish;
   cycle::CycleConfig cycle;
+  std::optional<cycle::TraceConfig> trace;
   std::vector<DriveSettings> drives;
   std::shared_ptr<RosSettings> bus;
 };
