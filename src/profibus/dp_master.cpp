@@ -24,7 +24,7 @@ DpMaster::DpMaster(const BusParameters& bus, const std::vector<SlaveConfig>& sla
 void DpMaster::restart(Instant now) noexcept {
   requester_.restart(now);
   for (DpSlave& slave : slaves_) slave.restart(now, events_);
-  turn_ = Turn::Done;
+  turn_ = Turn::kDone;
   last_operate_.reset();
   last_foreign_.reset();
   told_busy_ = false;
@@ -34,7 +34,7 @@ void DpMaster::startCycle(Instant now) noexcept {
   if (!cycleDone()) return;
   ++requester_.counters().cycles;
   for (DpSlave& slave : slaves_) slave.startCycle();
-  turn_ = Turn::Operate;
+  turn_ = Turn::kOperate;
   cursor_ = 0;
   advance(now);
 }
@@ -48,12 +48,12 @@ void DpMaster::handleBytes(ByteView bytes, Instant now) noexcept {
 
 void DpMaster::handleTimeout(Instant now) noexcept {
   switch (requester_.handleTimeout(now)) {
-    case Requester::Outcome::None:
+    case Requester::Outcome::kNone:
       break;
-    case Requester::Outcome::NoAnswer:
+    case Requester::Outcome::kNoAnswer:
       slaves_[asked_].handleNoAnswer(requester_.lastMismatch(), now, events_);
       break;
-    case Requester::Outcome::LineBusy:
+    case Requester::Outcome::kLineBusy:
       abandonCycle();
       break;
   }
@@ -70,7 +70,7 @@ ByteView DpMaster::pollTransmit(Instant now) noexcept {
 
 // The cycle in turns; each asks the slaves that want to be asked in it, one request at a time.
 void DpMaster::advance(Instant now) noexcept {
-  while (!requester_.busy() && turn_ != Turn::Done) {
+  while (!requester_.busy() && turn_ != Turn::kDone) {
     if (!askNext(now)) nextTurn();
   }
   requester_.counters().events_lost = events_.overflow();
@@ -78,17 +78,17 @@ void DpMaster::advance(Instant now) noexcept {
 
 bool DpMaster::askNext(Instant now) noexcept {
   switch (turn_) {
-    case Turn::Operate:
+    case Turn::kOperate:
       return askOperate(now);
-    case Turn::Exchange:
+    case Turn::kExchange:
       return askFirst(now, [](const DpSlave& slave) { return slave.wantsExchange(); });
-    case Turn::StartUp:
+    case Turn::kStartUp:
       return askFirst(now, [now](const DpSlave& slave) { return slave.wantsStartUpStep(now); });
-    case Turn::Diagnosis:
+    case Turn::kDiagnosis:
       return askFirst(now, [](const DpSlave& slave) { return slave.wantsDiagnosis(); });
-    case Turn::Probe:
+    case Turn::kProbe:
       return askProbe(now);
-    case Turn::Done:
+    case Turn::kDone:
       break;
   }
   return false;
@@ -139,12 +139,12 @@ void DpMaster::nextTurn() noexcept {
 
 // Nothing was sent: what the slaves did is not known, and the next cycle asks them again.
 void DpMaster::abandonCycle() noexcept {
-  turn_ = Turn::Done;
+  turn_ = Turn::kDone;
   last_operate_.reset();
   if (told_busy_) return;
   told_busy_ = true;
   DpEvent busy;
-  busy.kind = DpEventKind::LineBusy;
+  busy.kind = DpEventKind::kLineBusy;
   busy.text = kBusy;
   events_.push(busy);
 }
@@ -154,7 +154,7 @@ void DpMaster::tellForeign(std::uint8_t master, Instant now) noexcept {
   last_foreign_ = now;
   foreign_ = master;
   DpEvent foreign;
-  foreign.kind = DpEventKind::ForeignMaster;
+  foreign.kind = DpEventKind::kForeignMaster;
   foreign.master = master;
   foreign.text = master == bus_.master.value() ? kOwnAddress : kForeign;
   events_.push(foreign);

@@ -41,8 +41,8 @@ PrmBytes prmBytes(const SlaveConfig& slave, std::uint16_t ident) noexcept {
 }
 
 TelegramKind kindFor(std::size_t octets, bool send_sd3) noexcept {
-  if (octets == 0) return TelegramKind::Sd1;
-  return send_sd3 && octets == kSd3Octets ? TelegramKind::Sd3 : TelegramKind::Sd2;
+  if (octets == 0) return TelegramKind::kSd1;
+  return send_sd3 && octets == kSd3Octets ? TelegramKind::kSd3 : TelegramKind::kSd2;
 }
 
 /// Set_Prm and Chk_Cfg are answered by SC.
@@ -82,10 +82,10 @@ void DpServices::fdlStatus(FdlRequest& request, StationAddress slave) const noex
   request.any_station_type = true;
 
   Telegram telegram;
-  telegram.kind = TelegramKind::Sd1;
+  telegram.kind = TelegramKind::kSd1;
   telegram.da = slave.value();
   telegram.sa = master_.value();
-  telegram.fc = kFdlStatus;
+  telegram.fc = kRequestFdlStatus;
   encode(telegram, request.frame);
 }
 
@@ -123,7 +123,7 @@ void DpServices::operate(FdlRequest& request) const noexcept {
   const std::array<std::uint8_t, 2> operate_all{0x00, 0x00};  // no Clear, no Freeze, no Sync; every group
 
   Telegram telegram;
-  telegram.kind = TelegramKind::Sd2;
+  telegram.kind = TelegramKind::kSd2;
   telegram.da = kBroadcastAddress;
   telegram.sa = master_.value();
   telegram.fc = kSendNoAcknowledgeHigh;

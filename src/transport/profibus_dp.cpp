@@ -124,7 +124,7 @@ void ProfibusDpTransport::takeInput(DriveIndex drive, DriveExchange& input) noex
       state.inverter_answers = profile::StatusWord{input.input.status_word}.isUseful();
       if (config.ppo.has_pkw && state.inverter_answers) state.pkw.handleWords(pkw, link_->now());
     }
-  } else if (slave.phase != profibus::SlavePhase::DataExchange) {
+  } else if (slave.phase != profibus::SlavePhase::kDataExchange) {
     state.pkw.handleOffline(link_->now());
   }
   input.module_answers = state.module_answers;

@@ -47,7 +47,7 @@ class DpMaster {
 
   /// Begins a bus cycle. Ignored while one is running.
   void startCycle(Instant now) noexcept;
-  bool cycleDone() const noexcept { return turn_ == Turn::Done && !requester_.busy(); }
+  bool cycleDone() const noexcept { return turn_ == Turn::kDone && !requester_.busy(); }
 
   void handleBytes(ByteView bytes, Instant now) noexcept;
   /// To be called when `now` has reached `nextDeadline()`; harmless before.
@@ -67,7 +67,7 @@ class DpMaster {
   const Counters& counters() const noexcept { return requester_.counters(); }
 
  private:
-  enum class Turn : std::uint8_t { Operate, Exchange, StartUp, Diagnosis, Probe, Done };
+  enum class Turn : std::uint8_t { kOperate, kExchange, kStartUp, kDiagnosis, kProbe, kDone };
 
   void advance(Instant now) noexcept;
   bool askNext(Instant now) noexcept;
@@ -86,7 +86,7 @@ class DpMaster {
   DpEvents events_;
   FdlRequest operate_;  // the same bytes every time
   FdlRequest request_;
-  Turn turn_ = Turn::Done;
+  Turn turn_ = Turn::kDone;
   std::size_t cursor_ = 0;        // next slave to look at in this turn
   std::size_t asked_ = 0;         // slave of `request_`
   std::size_t probe_cursor_ = 0;  // silent slaves take turns

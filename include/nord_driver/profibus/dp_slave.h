@@ -51,7 +51,7 @@ class DpSlave {
     DpEventKind kind;
     const char* text;
   };
-  enum class Service : std::uint8_t { FdlStatus, SlaveDiag, SetPrm, ChkCfg, DataExchange };
+  enum class Service : std::uint8_t { kFdlStatus, kSlaveDiag, kSetPrm, kChkCfg, kDataExchange };
 
   Service nextService() noexcept;
   void onFdlStatus(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
@@ -82,7 +82,7 @@ class DpSlave {
   SlaveStatus status_;
   FrameCount frame_count_;
   std::vector<std::uint8_t> outputs_, inputs_;  // sized once, in the constructor
-  Service asked_ = Service::FdlStatus;
+  Service asked_ = Service::kFdlStatus;
   bool stepped_ = false;        // had its request of this cycle
   bool diagnosis_due_ = false;  // in data exchange: DH was seen
   Instant due_{};               // no request before (probes, back-off, slow polling)
