@@ -86,6 +86,8 @@ bool DpMaster::askNext(Instant now) noexcept {
       return askFirst(now, [now](const DpSlave& slave) { return slave.wantsStartUpStep(now); });
     case Turn::kDiagnosis:
       return askFirst(now, [](const DpSlave& slave) { return slave.wantsDiagnosis(); });
+    case Turn::kAcyclic:
+      return askAcyclic(now);
     case Turn::kProbe:
       return askProbe(now);
     case Turn::kDone:
@@ -111,6 +113,30 @@ bool DpMaster::askFirst(Instant now, Wants&& wants) noexcept {
     return true;
   }
   return false;
+}
+
+// One acyclic telegram per cycle, in turns: the exchange must not wait longer than that.
+bool DpMaster::askAcyclic(Instant now) noexcept {
+  for (std::size_t i = 0; i < slaves_.size() && cursor_ == 0; ++i) {
+    const std::size_t slave = (acyclic_cursor_ + i) % slaves_.size();
+    if (!slaves_[slave].wantsAcyclic(now)) continue;
+    acyclic_cursor_ = slave + 1;
+    cursor_ = slaves_.size();
+    asked_ = slave;
+    slaves_[slave].prepareAcyclic(request_, now);
+    requester_.begin(request_, &slaves_[slave].counters(), now);
+    return true;
+  }
+  return false;
+}
+
+std::optional<RecordResult> DpMaster::pollRecord() noexcept {
+  for (std::size_t i = 0; i < slaves_.size(); ++i) {
+    const auto result = slaves_[record_cursor_].pollRecord();
+    record_cursor_ = (record_cursor_ + 1) % slaves_.size();
+    if (result) return result;
+  }
+  return std::nullopt;
 }
 
 // One silent slave per cycle, in turns: each costs a whole slot.

@@ -22,6 +22,7 @@ DpSlave::DpSlave(std::size_t index, const SlaveConfig& config, const BusParamete
       services_(bus),
       master_(bus.master.value()),
       probe_interval_(bus.probe_interval),
+      records_(index, config.record_timeout),
       outputs_(config.output_length, 0),
       inputs_(config.input_length, 0),
       pause_(kFirstPause) {
@@ -82,6 +83,8 @@ void DpSlave::prepare(FdlRequest& request, Instant now) noexcept {
   asked_ = nextService();
   stepped_ = true;
   switch (asked_) {
+    case Service::kRecord:  // prepareAcyclic()
+      break;
     case Service::kFdlStatus:
       due_ = now + probe_interval_;
       services_.fdlStatus(request, config_.address);
@@ -103,6 +106,22 @@ void DpSlave::prepare(FdlRequest& request, Instant now) noexcept {
   }
 }
 
+bool DpSlave::wantsAcyclic(Instant now) noexcept {
+  return status_.phase == SlavePhase::kDataExchange && records_.wantsTelegram(now);
+}
+
+void DpSlave::prepareAcyclic(FdlRequest& request, Instant now) noexcept {
+  asked_ = Service::kRecord;
+  services_.record(request, config_.address, records_.pollTelegram(now), frame_count_.bits());
+}
+
+bool DpSlave::submitRecord(const RecordRequest& request) noexcept {
+  std::optional<RecordOutcome> unusable;
+  if (status_.phase != SlavePhase::kDataExchange) unusable = RecordOutcome::kOffline;
+  if (!config_.dpv1) unusable = RecordOutcome::kNotSupported;
+  return records_.submit(request, unusable);
+}
+
 void DpSlave::fallSilent(Instant due, const char* note) noexcept {
   diagnosis_due_ = false;
   status_.phase = SlavePhase::kSilent;
@@ -121,6 +140,7 @@ void DpSlave::startOver(const char* note) noexcept {
 
 void DpSlave::lose(LossCause cause, const char* text, DpEvents& events) noexcept {
   ++status_.counters.losses;
+  records_.handleOffline();
   status_.exchanged_this_cycle = false;
   told_found_ = false;
   DpEvent lost = event(DpEventKind::kSlaveLost, text);

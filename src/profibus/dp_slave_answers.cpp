@@ -31,11 +31,19 @@ void DpSlave::handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& event
       return onAcknowledge(answer, now, events);
     case Service::kDataExchange:
       return onExchange(answer, now, events);
+    case Service::kRecord:
+      return records_.handleAnswer(answer, now);
   }
 }
 
 void DpSlave::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) noexcept {
   if (status_.phase == SlavePhase::kSilent) return;
+  if (asked_ == Service::kRecord) {
+    // Whether the slave took it is not known: the next exchange begins the frame count anew. If it is gone, that
+    // exchange finds out.
+    frame_count_.reset();
+    return records_.handleNoAnswer();
+  }
   if (status_.phase != SlavePhase::kDataExchange) return fallSilent(now + probe_interval_, texts::kNoAnswer);
 
   const bool other_length =

@@ -9,7 +9,10 @@ namespace nord_driver::profibus {
 constexpr std::uint8_t kRequestBit = 0x40;
 constexpr std::uint8_t kSendNoAcknowledgeHigh = 0x46;  ///< SDN high
 constexpr std::uint8_t kRequestFdlStatus = 0x49;       ///< request FDL status; FCB = FCV = 0
-constexpr std::uint8_t kSendRequestDataHigh = 0x4D;    ///< SRD high, before FCB and FCV
+/// SRD low, before FCB and FCV: acyclic requests. That these go at low priority is inferred, no source says so; answers
+/// of both priorities are taken.
+constexpr std::uint8_t kSendRequestDataLow = 0x4C;
+constexpr std::uint8_t kSendRequestDataHigh = 0x4D;  ///< SRD high, before FCB and FCV
 
 /// Responses: bits 0-3.
 enum class ResponseCode : std::uint8_t {
