@@ -134,7 +134,7 @@ void ProfibusDpTransport::takeInput(DriveIndex drive, DriveExchange& input) noex
     }
   }
   // An inverter that is off has forgotten its order, whether its module answers or not: no answer is waited for.
-  const bool exchanging = link_->isOpen() && slave.phase == profibus::SlavePhase::DataExchange;
+  const bool exchanging = link_->isOpen() && slave.phase == profibus::SlavePhase::kDataExchange;
   if (!exchanging || (state.module_answers && !state.inverter_answers)) state.pkw.handleOffline(link_->now());
   input.module_answers = state.module_answers;
   input.inverter_answers = state.inverter_answers;
