@@ -36,7 +36,7 @@ void ProfibusDpTransport::configure(const Settings& bus, const std::vector<Drive
     throw ConfigError(bus.fullName("") + ": " + error.what());
   }
   drives_.assign(config_.drives.size(), DriveState{answerTimeout(cycle_rate)});
-  link_ = make_link_({config_.device, config_.bus.baud});
+  link_ = make_link_(config_.line);
 }
 
 Instant ProfibusDpTransport::now() const noexcept {
@@ -168,9 +168,10 @@ BusCounters ProfibusDpTransport::counters() const noexcept {
   to.retries = from.retries;
   to.timeouts = from.timeouts;
   to.checksum_errors = from.checksum_errors;
-  to.parity_errors = link_->lineCounters().parity_errors;
+  const link::LineCounters line = link_->lineCounters();
+  to.parity_errors = line.parity_errors;
   to.discarded_bytes = from.discarded_bytes;
-  to.unexpected = from.unexpected;
+  to.unexpected = from.unexpected + line.collisions;
   for (const DriveState& drive : drives_) to.stale += drive.pkw.stale();
   return to;
 }
@@ -196,7 +197,9 @@ Sentence ProfibusDpTransport::busText() const noexcept {
     text.format(
         "%s is open, but no station answers: are the modules powered, is the baud rate right, are the wires A "
         "and B the right way round and terminated?",
-        config_.device.c_str());
+        config_.line.device.c_str());
+  } else {
+    text.format("%s", link_->warning());
   }
   return text;
 }

@@ -5,6 +5,7 @@
 
 #include "nord_driver/link/serial_devices.h"
 #include "nord_driver/transport/setting_checks.h"
+#include "serial_line_config.h"
 
 namespace nord_driver {
 
@@ -111,8 +112,9 @@ void checkTimes(const Settings& settings, const ProfibusDpConfig& config, const 
 ProfibusDpConfig readProfibusDpConfig(const Settings& bus, const std::vector<DriveSettings>& drives,
                                       double cycle_rate) {
   ProfibusDpConfig config;
-  config.device = requiredText(bus, "device", "a serial device such as /dev/ttyUSB0");
-  config.bus = readBus(bus, config.device);
+  config.line = readSerialLine(bus);
+  config.bus = readBus(bus, config.line.device);
+  config.line.baud_rate = config.bus.baud;
   // 10 ms to 650 s: what two factors of Set_Prm can say (BU 2700 8.1.1).
   config.watchdog = seconds(numberOr(bus, "watchdog", 0.2, 0.01, 650.0, "s"));
   if (const auto files = bus.texts("gsd"); files && !files->empty()) {
