@@ -197,9 +197,9 @@ Sentence ProfibusDpTransport::busText() const noexcept {
     text.format(
         "%s is open, but no station answers: are the modules powered, is the baud rate right, are the wires A "
         "and B the right way round and terminated?",
-        config_.line.device.c_str());
-  } else {
-    text.format("%s", link_->warning());
+        config_.device.c_str());
+  } else if (std::all_of(drives_.begin(), drives_.end(), [](const DriveState& d) { return d.inverter_answers; })) {
+    text.format("%s", link_->warning());  // a silent drive is worse news, told by its note
   }
   return text;
 }

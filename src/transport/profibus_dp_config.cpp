@@ -113,7 +113,8 @@ ProfibusDpConfig readProfibusDpConfig(const Settings& bus, const std::vector<Dri
                                       double cycle_rate) {
   ProfibusDpConfig config;
   config.line = readSerialLine(bus);
-  config.bus = readBus(bus, config.line.device);
+  config.device = config.line.device;
+  config.bus = readBus(bus, config.device);
   config.line.baud_rate = config.bus.baud;
   // 10 ms to 650 s: what two factors of Set_Prm can say (BU 2700 8.1.1).
   config.watchdog = seconds(numberOr(bus, "watchdog", 0.2, 0.01, 650.0, "s"));

@@ -24,7 +24,8 @@ struct ProfibusDrive {
 };
 
 struct ProfibusDpConfig {
-  link::SerialSettings line;
+  std::string device;         ///< as configured, for sentences
+  link::SerialSettings line;  ///< everything the link is told
   profibus::BusParameters bus;
   Duration watchdog{};
   Duration worst_cycle{};  ///< with one slave silent and all its retries
