@@ -39,7 +39,7 @@ void ProfibusDpTransport::configure(const Settings& bus, const std::vector<Drive
   trace_.emplace(kLinkTypeProfibusDl, ProfibusTelegramText{config_});
   recorder_.emplace(*trace_);
   drives_.assign(config_.drives.size(), DriveState{answerTimeout(cycle_rate)});
-  link_ = make_link_({config_.device, config_.bus.baud});
+  link_ = make_link_(config_.line);
 }
 
 Instant ProfibusDpTransport::now() const noexcept {
@@ -176,9 +176,10 @@ BusCounters ProfibusDpTransport::counters() const noexcept {
   to.retries = from.retries;
   to.timeouts = from.timeouts;
   to.checksum_errors = from.checksum_errors;
-  to.parity_errors = link_->lineCounters().parity_errors;
+  const link::LineCounters line = link_->lineCounters();
+  to.parity_errors = line.parity_errors;
   to.discarded_bytes = from.discarded_bytes;
-  to.unexpected = from.unexpected;
+  to.unexpected = from.unexpected + line.collisions;
   for (const DriveState& drive : drives_) to.stale += drive.pkw.stale();
   return to;
 }
@@ -205,6 +206,8 @@ Sentence ProfibusDpTransport::busText() const noexcept {
         "%s is open, but no station answers: are the modules powered, is the baud rate right, are the wires A "
         "and B the right way round and terminated?",
         config_.device.c_str());
+  } else if (std::all_of(drives_.begin(), drives_.end(), [](const DriveState& d) { return d.inverter_answers; })) {
+    text.format("%s", link_->warning());  // a silent drive is worse news, told by its note
   }
   return text;
 }

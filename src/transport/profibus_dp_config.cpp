@@ -7,6 +7,7 @@
 #include "nord_driver/link/serial_devices.h"
 #include "nord_driver/profibus/watchdog_factors.h"
 #include "nord_driver/transport/setting_checks.h"
+#include "serial_line_config.h"
 
 namespace nord_driver {
 
@@ -134,8 +135,10 @@ void checkTimes(const Settings& settings, const ProfibusDpConfig& config, const 
 ProfibusDpConfig readProfibusDpConfig(const Settings& bus, const std::vector<DriveSettings>& drives,
                                       double cycle_rate) {
   ProfibusDpConfig config;
-  config.device = requiredText(bus, "device", "a serial device such as /dev/ttyUSB0");
+  config.line = readSerialLine(bus);
+  config.device = config.line.device;
   config.bus = readBus(bus, config.device);
+  config.line.baud_rate = config.bus.baud;
   config.watchdog = readWatchdog(bus);
   if (const auto files = bus.texts("gsd"); files && !files->empty()) {
     throw wrongSetting(bus, "gsd", "\"" + files->front() + "\"",
