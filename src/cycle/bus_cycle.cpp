@@ -9,8 +9,10 @@ namespace nord_driver::cycle {
 
 namespace {
 
-// Ids of the cycle's own parameter accesses; the rest belongs to the callers.
+// Ids of the cycle's own parameter accesses, numbered through above the drive's index: an answer to a question from
+// before a loss must not pass for the answer to a new one. The rest belongs to the callers.
 constexpr std::uint32_t kDeviceReadId = 0x8000'0000u;
+constexpr std::uint32_t kReadStep = 0x100u, kDriveMask = 0xFFu;
 
 std::vector<drive::Drive> makeDrives(const CycleConfig& config) {
   std::vector<drive::Drive> drives;
@@ -145,14 +147,18 @@ void BusCycle::readDevices() noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     if (!drives_[i].report().online) {
       axes_[i].reader.handleOffline();
+      // Another inverter may come back in its place: nothing is enabled with what P105 was before.
+      for (std::uint8_t set = 1; set <= 4; ++set) drives_[i].setMaxFrequency(set, Hertz{});
       continue;
     }
     auto request = axes_[i].reader.pollRequest();
     if (!request) continue;
-    request->id = kDeviceReadId + static_cast<std::uint32_t>(i);
+    read_sequence_ += kReadStep;
+    request->id = kDeviceReadId | read_sequence_ | static_cast<std::uint32_t>(i);
+    axes_[i].read_id = request->id;
     if (!transport_.submit(i, *request)) {
       profile::ParameterResult busy;
-      busy.outcome = profile::ParameterOutcome::kTimeout;
+      busy.outcome = profile::ParameterOutcome::kBusy;
       axes_[i].reader.handleResult(busy);
     }
   }
@@ -182,14 +188,10 @@ void BusCycle::startParameterJob(const Request& request) noexcept {
 
 void BusCycle::takeParameterResult(const profile::ParameterResult& result) noexcept {
   if (result.id >= kDeviceReadId) {
-    const DriveIndex drive = result.id - kDeviceReadId;
-    if (drive >= axes_.size()) return;
+    const DriveIndex drive = result.id & kDriveMask;
+    if (drive >= axes_.size() || axes_[drive].read_id != result.id) return;
     axes_[drive].reader.handleResult(result);
-    const auto& frequencies = axes_[drive].reader.data().max_frequency;
-    for (std::uint8_t set = 1; set <= frequencies.size(); ++set) {
-      if (const auto& frequency = frequencies[set - 1u]) drives_[drive].setMaxFrequency(set, Hertz{*frequency});
-    }
-    return;
+    return scale(drive);
   }
   for (std::size_t i = 0; i < parameter_jobs_.size(); ++i) {
     const ParameterJob job = parameter_jobs_[i];
@@ -203,6 +205,19 @@ void BusCycle::takeParameterResult(const profile::ParameterResult& result) noexc
     completion.message = parameterSentence(names_[job.drive].c_str(), job.request.parameter.number, result);
     ports_.complete(completion);
     return;
+  }
+}
+
+// P105 as read; as typed where the drive does not tell it.
+void BusCycle::scale(DriveIndex drive) noexcept {
+  const Axis& axis = axes_[drive];
+  for (std::uint8_t set = 1; set <= 4; ++set) {
+    const auto& read = axis.reader.data().max_frequency[set - 1u];
+    if (read) {
+      drives_[drive].setMaxFrequency(set, Hertz{*read});
+    } else if (axis.typed_max_frequency && axis.reader.maxFrequenciesAsked()) {
+      drives_[drive].setMaxFrequency(set, Hertz{*axis.typed_max_frequency});
+    }
   }
 }
 

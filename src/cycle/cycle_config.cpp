@@ -46,7 +46,6 @@ DriveSetup readDrive(const DriveSettings& source, const CycleConfig& config, Dur
   if (settings.has("max_frequency")) {
     // P105 has 0.1 Hz steps; 400 Hz is the most any of the series turns.
     setup.typed_max_frequency = requiredNumber(settings, "max_frequency", 0.1, 400.0, "Hz");
-    setup.drive.max_frequency.fill(Hertz{*setup.typed_max_frequency});
   }
   if (settings.has("rated_current")) {
     setup.rated_current = requiredNumber(settings, "rated_current", 0.01, 10'000.0, "A");

@@ -47,6 +47,14 @@ void DeviceReader::handleOffline() noexcept {
   restart_ = true;
 }
 
+bool DeviceReader::maxFrequenciesAsked() const noexcept {
+  if (restart_) return false;
+  for (std::size_t i = next_; i < items_.size(); ++i) {
+    if (items_[i].number == kMaxFrequency) return false;
+  }
+  return true;
+}
+
 std::optional<profile::ParameterRequest> DeviceReader::pollRequest() noexcept {
   if (waiting_) return std::nullopt;
   if (restart_) {
@@ -67,6 +75,10 @@ std::optional<profile::ParameterRequest> DeviceReader::pollRequest() noexcept {
 void DeviceReader::handleResult(const profile::ParameterResult& result) noexcept {
   if (!waiting_) return;
   waiting_ = false;
+  // Not asked at all: the question is still to be put.
+  if (result.outcome == profile::ParameterOutcome::kBusy || result.outcome == profile::ParameterOutcome::kOffline) {
+    return;
+  }
   if (result.outcome == profile::ParameterOutcome::kTimeout && ++attempts_ < kMaxAttempts) return;
   if (result.outcome == profile::ParameterOutcome::kDone) store(items_[next_], result.raw);
   attempts_ = 0;

@@ -55,7 +55,6 @@ std::optional<Completion> Supervisor::pollCompletion() noexcept {
 }
 
 void Supervisor::handleRequest(const Request& request, const Sentence& moving, Instant now) noexcept {
-  if (jobs_.full()) return complete(request, false, "too many requests are being carried out already");
   if (request.drive != kAllDrives && inBase(request.drive)) {
     // One wheel of a base enabled or stopped alone would turn the base. Quick stop of one stops them all, see
     // `concerns`.
@@ -72,6 +71,7 @@ void Supervisor::handleRequest(const Request& request, const Sentence& moving, I
     case RequestKind::kDisable:
     case RequestKind::kQuickStop:
       shutting_down_ = shutting_down_ || request.kind == RequestKind::kShutDown;
+      auto_enable_ = false;  // who says stop before the drives were ready does not want them enabled when they are
       for (std::size_t i = 0; i < groups_.size(); ++i) {
         if (!concerns(request, i)) continue;
         if (request.kind == RequestKind::kQuickStop) {
@@ -80,18 +80,24 @@ void Supervisor::handleRequest(const Request& request, const Sentence& moving, I
           groups_[i].group.requestDisable(now);
         }
       }
-      jobs_.push_back({request, now + request.patience});
-      return;
+      return followUp(request, now);
     case RequestKind::kResetOdometry:
     case RequestKind::kReadParameter:
       return;  // not of the drives' motion: the cycle answers them
   }
 }
 
+// Stops have acted by then, whatever becomes of their answer.
+void Supervisor::followUp(const Request& request, Instant now) noexcept {
+  if (jobs_.push_back({request, now + request.patience})) return;
+  complete(request, false, "begun, but too many requests wait for their answers to follow this one");
+}
+
 void Supervisor::startEnable(const Request& request, const Sentence& moving, Instant now) noexcept {
   auto_enable_ = false;  // somebody has taken over
   if (shutting_down_) return complete(request, false, "the node is ending");
   if (!moving.empty()) return complete(request, false, moving);
+  if (jobs_.full()) return complete(request, false, "too many requests are being carried out already");
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& group = groups_[i];
     const GroupPhase phase = group.group.report().phase;
@@ -101,7 +107,7 @@ void Supervisor::startEnable(const Request& request, const Sentence& moving, Ins
     takeBack(request, now);
     return complete(request, false, refusalOf(group, refusal));
   }
-  jobs_.push_back({request, now + request.patience});
+  followUp(request, now);
 }
 
 void Supervisor::takeBack(const Request& request, Instant now) noexcept {
@@ -145,6 +151,8 @@ bool Supervisor::follow(const Job& job, Instant now) noexcept {
   if (job.request.kind == RequestKind::kEnable ? followEnable(job, now) : followStop(job)) return true;
   if (now < job.deadline) return false;
   complete(job.request, false, unsettled(job.request));
+  // Told that it failed, its asker must not see it succeed later.
+  if (job.request.kind == RequestKind::kEnable) takeBack(job.request, now);
   return true;
 }
 

@@ -124,9 +124,10 @@ void ProfibusDpTransport::takeInput(DriveIndex drive, DriveExchange& input) noex
       state.inverter_answers = profile::StatusWord{input.input.status_word}.isUseful();
       if (config.ppo.has_pkw && state.inverter_answers) state.pkw.handleWords(pkw, link_->now());
     }
-  } else if (slave.phase != profibus::SlavePhase::DataExchange) {
-    state.pkw.handleOffline(link_->now());
   }
+  // An inverter that is off has forgotten its order, whether its module answers or not: no answer is waited for.
+  const bool exchanging = slave.phase == profibus::SlavePhase::DataExchange;
+  if (!exchanging || (state.module_answers && !state.inverter_answers)) state.pkw.handleOffline(link_->now());
   input.module_answers = state.module_answers;
   input.inverter_answers = state.inverter_answers;
 }

@@ -50,6 +50,30 @@ TEST(DeviceReader, ReadsMaximumFrequencyOfAllSetsFirst) {
   EXPECT_FALSE(reader.data().complete);
 }
 
+// What did not reach the drive was not asked.
+TEST(DeviceReader, PutsAQuestionAgainThatDidNotReachTheDrive) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  for (int i = 0; i < 10; ++i) {
+    const auto request = reader.pollRequest();
+    ASSERT_TRUE(request);
+    EXPECT_EQ(105, request->number);
+    EXPECT_EQ(1, request->parameter_set);
+    reader.handleResult(failed(i % 2 == 0 ? ParameterOutcome::kBusy : ParameterOutcome::kOffline));
+  }
+}
+
+TEST(DeviceReader, TellsWhenP105OfEverySetWasAskedFor) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  for (int set = 1; set <= 4; ++set) {
+    EXPECT_FALSE(reader.maxFrequenciesAsked());
+    ASSERT_TRUE(reader.pollRequest());
+    reader.handleResult(failed(ParameterOutcome::kRefused));
+  }
+  EXPECT_TRUE(reader.maxFrequenciesAsked());
+  reader.handleOffline();
+  EXPECT_FALSE(reader.maxFrequenciesAsked());
+}
+
 TEST(DeviceReader, ReadsVersionTimeoutAndFunctions) {
   DeviceReader reader{profile::Series::kSk5xxe};
   const auto numbers = answerAll(reader, 1);

@@ -31,8 +31,10 @@ class BusCycle {
  private:
   /// One drive with everything the cycle keeps beside it.
   struct Axis {
-    explicit Axis(const DriveSetup& setup) : reader(setup.series) {}
+    explicit Axis(const DriveSetup& setup) : reader(setup.series), typed_max_frequency(setup.typed_max_frequency) {}
     DeviceReader reader;
+    std::uint32_t read_id = 0;  // of the reader's question
+    std::optional<double> typed_max_frequency;
     robot::JointPosition joint;
     bool known = false;  // has answered at least once
   };
@@ -51,6 +53,7 @@ class BusCycle {
   void handleInputs(Instant now) noexcept;
   void readDevices() noexcept;
   void takeParameterResult(const profile::ParameterResult& result) noexcept;
+  void scale(DriveIndex drive) noexcept;
   void measure(Duration dt) noexcept;
   void measureBase(Duration dt) noexcept;
   void publish(Instant now) noexcept;
@@ -70,6 +73,7 @@ class BusCycle {
   std::vector<profile::ProcessOutput> outputs_;
   std::vector<DriveExchange> inputs_;
   FixedVector<ParameterJob, 16> parameter_jobs_;
+  std::uint32_t read_sequence_ = 0;
   CycleSnapshot snapshot_;
   std::optional<Instant> last_command_;
   std::optional<Instant> last_input_;

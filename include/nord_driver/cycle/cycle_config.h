@@ -18,8 +18,10 @@ struct DriveSetup {
   std::string joint;
   profile::Series series = profile::Series::kSk5xxe;
   drive::DriveConfig drive;
-  std::optional<double> typed_max_frequency;  ///< Hz
-  std::optional<double> rated_current;        ///< A
+  /// Hz. Counts where the drive does not tell P105, and not before it was asked: one that is wrong would move it at
+  /// another speed than commanded.
+  std::optional<double> typed_max_frequency;
+  std::optional<double> rated_current;  ///< A
 };
 
 struct RealTimeWish {

@@ -13,7 +13,7 @@
 namespace nord_driver::cycle {
 
 /// Begins again whenever the drive has come back: it may have been exchanged. A parameter that times out is asked for
-/// three times, one the drive refuses is left out.
+/// three times, one the drive refuses is left out; a question that did not reach the drive is put again.
 class DeviceReader {
  public:
   explicit DeviceReader(profile::Series series) noexcept;
@@ -26,6 +26,8 @@ class DeviceReader {
   void handleResult(const profile::ParameterResult& result) noexcept;
 
   const DeviceData& data() const noexcept { return data_; }
+  /// P105 of every set was asked for since the drive is back: what is absent will not come.
+  bool maxFrequenciesAsked() const noexcept;
 
  private:
   struct Item {

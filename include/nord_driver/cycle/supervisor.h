@@ -52,6 +52,7 @@ class Supervisor {
   void addGroup(const std::vector<DriveIndex>& members, const CycleConfig& config);
   bool concerns(const Request& request, std::size_t group) const noexcept;
   void startEnable(const Request& request, const Sentence& moving, Instant now) noexcept;
+  void followUp(const Request& request, Instant now) noexcept;
   /// True when the job has ended.
   bool follow(const Job& job, Instant now) noexcept;
   bool followEnable(const Job& job, Instant now) noexcept;
@@ -70,7 +71,7 @@ class Supervisor {
   bool auto_enable_;
   bool shutting_down_ = false;
   FixedVector<Job, 16> jobs_;
-  FixedVector<Completion, 16> completions_;
+  FixedVector<Completion, 48> completions_;  // a full queue of requests refused, and every job ended
 };
 
 }  // namespace nord_driver::cycle

@@ -1,0 +1,81 @@
+// A bus cycle over a scripted transport: a base of two drives and a lift beside it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cycle/scripted_transport.h"
+#include "nord_driver/cycle/bus_cycle.h"
+
+namespace nord_driver::cycle {
+
+class CycleBench {
+ public:
+  static constexpr DriveIndex kLeft = 0, kRight = 1, kLift = 2;
+  static constexpr Duration kCycle = std::chrono::milliseconds{10};
+
+  explicit CycleBench(std::optional<double> typed_max_frequency = std::nullopt)
+      : transport{3}, ports{3}, cycle{config(typed_max_frequency), transport, ports, false} {}
+
+  void step() {
+    const Instant start = transport.time;
+    cycle.runOnce();
+    transport.sleepUntil(start + kCycle);
+    while (const auto completion = ports.waitCompletion(Duration::zero())) completions[completion->id] = *completion;
+  }
+  void run(int cycles) {
+    for (int i = 0; i < cycles; ++i) step();
+  }
+  Completion ask(Request request) {
+    request.id = ++last_id;
+    request.patience = std::chrono::seconds{3};
+    ports.submit(request);
+    for (int i = 0; i < 400 && completions.count(last_id) == 0; ++i) step();
+    return completions[last_id];
+  }
+  Completion ask(RequestKind kind, DriveIndex drive = kAllDrives) {
+    Request request;
+    request.kind = kind;
+    request.drive = drive;
+    return ask(request);
+  }
+  void commandBase(double linear, double angular = 0.0) {
+    ports.commandBase({{linear, angular}, transport.time, true});
+  }
+  void commandLift(double velocity) { ports.commandDrive(kLift, {velocity, transport.time, true}); }
+  const CycleSnapshot& snapshot() { return ports.readSnapshot(); }
+  std::int16_t setpoint(DriveIndex drive) const { return transport.outputs[drive].setpoints[0]; }
+  Word controlWord(DriveIndex drive) const { return transport.outputs[drive].control_word; }
+
+  ScriptedTransport transport;
+  CyclePorts ports;
+  BusCycle cycle;
+  std::map<std::uint32_t, Completion> completions;
+  std::uint32_t last_id = 0;
+
+ private:
+  // 50 Hz, two pole pairs, no gear: 100 % is 157.08 rad/s at the joint.
+  static CycleConfig config(std::optional<double> typed_max_frequency) {
+    CycleConfig config;
+    config.cmd_vel_timeout = std::chrono::milliseconds{500};
+    config.shutdown_timeout = std::chrono::seconds{2};
+    for (const char* name : {"left", "right", "lift"}) {
+      DriveSetup setup;
+      setup.name = name;
+      setup.drive.joint.gear_ratio = 1.0;
+      setup.drive.joint.pole_pairs = 2;
+      setup.typed_max_frequency = typed_max_frequency;
+      config.drives.push_back(setup);
+    }
+    config.base = BaseConfig{};
+    config.base->left = {kLeft};
+    config.base->right = {kRight};
+    config.base->geometry.wheel_separation = 0.5;
+    config.base->geometry.left_wheel_radius = config.base->geometry.right_wheel_radius = 0.1;
+    return config;
+  }
+};
+
+}  // namespace nord_driver::cycle

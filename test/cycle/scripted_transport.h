@@ -1,0 +1,92 @@
+// A transport for tests: minimal inverters instead of a bus, a clock that moves when told, parameters from a table.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "drive/fake_inverter.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver::cycle {
+
+class ScriptedTransport final : public Transport {
+ public:
+  struct Submitted {
+    DriveIndex drive = 0;
+    profile::ParameterRequest request;
+  };
+
+  explicit ScriptedTransport(std::size_t drives) : inverters(drives), module_only(drives, false) {}
+
+  void configure(const Settings&, const std::vector<DriveSettings>&, double) override {}
+  Instant now() const noexcept override { return time; }
+  void sleepUntil(Instant when) noexcept override {
+    if (when > time) time = when;
+  }
+  void exchange(const std::vector<profile::ProcessOutput>& sent, std::vector<DriveExchange>& inputs) noexcept override {
+    time += exchange_time;
+    outputs = sent;
+    for (DriveIndex i = 0; i < inverters.size(); ++i) {
+      inputs[i] = {};
+      const profile::ProcessInput input = inverters[i].exchange(sent[i]);
+      if (inverters[i].silent) continue;
+      inputs[i].module_answers = true;
+      inputs[i].inverter_answers = !module_only[i];
+      if (!module_only[i]) inputs[i].input = input;
+    }
+  }
+  /// Waits in `submitted` while `hold_answers`; otherwise answered in the same cycle, from `parameters` by number (and
+  /// set: number + 1000 * set), with "refused" for the rest.
+  bool submit(DriveIndex drive, const profile::ParameterRequest& request) noexcept override {
+    if (queue_full) return false;
+    submitted.push_back({drive, request});
+    if (!hold_answers) answerFirst();
+    return true;
+  }
+  std::optional<profile::ParameterResult> pollResult() noexcept override {
+    if (results.empty()) return std::nullopt;
+    const profile::ParameterResult result = results.front();
+    results.pop_front();
+    return result;
+  }
+  void answerFirst() {
+    const profile::ParameterRequest request = submitted.front().request;
+    submitted.pop_front();
+    profile::ParameterResult result;
+    result.id = request.id;
+    result.outcome = profile::ParameterOutcome::kRefused;
+    auto at = parameters.find(request.number + 1000 * request.parameter_set);
+    if (at == parameters.end()) at = parameters.find(request.number);
+    if (at != parameters.end()) {
+      result.outcome = profile::ParameterOutcome::kDone;
+      result.raw = at->second;
+    }
+    results.push_back(result);
+  }
+
+  bool connected() const noexcept override { return is_connected; }
+  BusCounters counters() const noexcept override { return bus_counters; }
+  DriveNote note(DriveIndex) const noexcept override { return {"the note of the bus"}; }
+  std::uint32_t identNumber(DriveIndex) const noexcept override { return 0x7531; }
+  Sentence busText() const noexcept override { return bus_text; }
+  DriveIdentity identity(DriveIndex) const override { return {"nowhere", "PKW", "nothing"}; }
+  void close() noexcept override {}
+
+  Instant time{std::chrono::hours{1}};
+  Duration exchange_time = std::chrono::milliseconds{2};
+  std::vector<drive::FakeInverter> inverters;
+  std::vector<bool> module_only;  ///< the bus module answers, its inverter is off
+  std::vector<profile::ProcessOutput> outputs;
+  std::map<int, std::int32_t> parameters{{105, 500}};
+  bool hold_answers = false;
+  bool queue_full = false;
+  std::deque<Submitted> submitted;
+  std::deque<profile::ParameterResult> results;
+  bool is_connected = true;
+  BusCounters bus_counters;
+  Sentence bus_text;
+};
+
+}  // namespace nord_driver::cycle

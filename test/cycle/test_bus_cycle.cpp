@@ -1,0 +1,262 @@
+// One cycle: newest command in, process data out, newest state out; parameters beside it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cycle/cycle_bench.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kFullSpeed = 157.07963267948966;  // rad/s: 50 Hz, two pole pairs
+
+class BusCycleTest : public ::testing::Test, protected CycleBench {
+ protected:
+  void bringUp() {
+    run(30);
+    ASSERT_TRUE(snapshot().drives[kLift].device.complete);
+  }
+  void enable() {
+    const Completion answer = ask(RequestKind::kEnable);
+    ASSERT_TRUE(answer.success) << answer.message.c_str();
+  }
+};
+
+TEST_F(BusCycleTest, SendsTheIgnoredWordFirstThenTheIdleWord) {
+  step();
+  EXPECT_EQ(0x0000, controlWord(kLeft));
+  step();
+  EXPECT_EQ(0x047E, controlWord(kLeft));
+}
+
+TEST_F(BusCycleTest, HandsTheNewestCommandsToTheDrives) {
+  bringUp();
+  enable();
+  commandBase(0.1 * kFullSpeed / 2);
+  commandLift(-kFullSpeed / 4);
+  step();
+  EXPECT_EQ(0x2000, setpoint(kLeft));
+  EXPECT_EQ(0x2000, setpoint(kRight));
+  EXPECT_EQ(-0x1000, setpoint(kLift));
+}
+
+// An old command of one drive alone is none, as cmd_vel's.
+TEST_F(BusCycleTest, CommandsOfSingleDrivesTimeOutToo) {
+  bringUp();
+  enable();
+  commandLift(kFullSpeed / 2);
+  run(50);
+  EXPECT_EQ(0x2000, setpoint(kLift));
+  run(2);
+  EXPECT_EQ(0, setpoint(kLift));
+  EXPECT_EQ(0x047F, controlWord(kLift)) << "the time-out ramps down and stays enabled";
+}
+
+TEST_F(BusCycleTest, RefusesToEnableUnderACommandThatMovesAndNamesIt) {
+  bringUp();
+  commandBase(0.25, 0.5);
+  Completion answer = ask(RequestKind::kEnable);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("the newest cmd_vel is not zero (0.250 m/s, 0.500 rad/s, 0.0"));
+  commandBase(0.0);
+  commandLift(1.0);
+  answer = ask(RequestKind::kEnable, kLift);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("the newest command of drive lift is not zero (1.000 rad/s)"));
+  run(51);  // now it is older than cmd_vel_timeout
+  EXPECT_TRUE(ask(RequestKind::kEnable).success);
+}
+
+TEST_F(BusCycleTest, AnInverterThatIsOffBehindItsModuleIsOffline) {
+  bringUp();
+  transport.module_only[kLeft] = true;
+  run(7);  // drive_timeout is 50 ms
+  EXPECT_TRUE(snapshot().drives[kLeft].module_answers);
+  EXPECT_FALSE(snapshot().drives[kLeft].online);
+  EXPECT_STREQ("the note of the bus", snapshot().drives[kLeft].text.c_str());
+  EXPECT_FALSE(ask(RequestKind::kEnable).success);
+}
+
+TEST_F(BusCycleTest, PassesTheStateOfTheBusOn) {
+  transport.bus_text = "the wire is cut";
+  transport.bus_counters.retries = 7;
+  transport.is_connected = false;
+  step();
+  EXPECT_STREQ("the wire is cut", snapshot().bus_text.c_str());
+  EXPECT_EQ(7u, snapshot().counters.retries);
+  EXPECT_FALSE(snapshot().connected);
+  EXPECT_EQ(0x7531u, snapshot().drives[kLeft].device.ident);
+}
+
+TEST_F(BusCycleTest, TheBaseIsKnownWhenAllItsDrivesHaveAnsweredOnce) {
+  transport.inverters[kRight].silent = true;
+  run(3);
+  EXPECT_FALSE(snapshot().base.known);
+  transport.inverters[kRight].silent = false;
+  run(1);
+  EXPECT_TRUE(snapshot().base.known);
+  transport.inverters[kRight].silent = true;
+  run(10);
+  EXPECT_TRUE(snapshot().base.known) << "once is enough";
+}
+
+TEST_F(BusCycleTest, ResetOdometryAnswers) {
+  EXPECT_TRUE(ask(RequestKind::kResetOdometry).success);
+}
+
+// --- Max frequency: what a setpoint means ----------------------------------------------------------------------------
+
+// SW1 is a share of P105: while nobody knows it, nothing is enabled.
+TEST_F(BusCycleTest, NothingIsEnabledBeforeP105IsKnown) {
+  transport.hold_answers = true;
+  run(10);
+  const Completion answer = ask(RequestKind::kEnable);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("the maximum frequency (P105) of the parameter set in force"));
+}
+
+// A typed max_frequency that is wrong would move the base at another speed until P105 is read, and then step.
+TEST(BusCycleTypedFrequency, IsNoLeaveToEnableBeforeP105WasAskedFor) {
+  CycleBench bench{100.0};
+  bench.transport.hold_answers = true;
+  bench.run(10);
+  EXPECT_FALSE(bench.ask(RequestKind::kEnable).success);
+}
+
+TEST(BusCycleTypedFrequency, GivesWayToP105) {
+  CycleBench bench{100.0};  // P105 says 50 Hz
+  bench.run(30);
+  ASSERT_TRUE(bench.ask(RequestKind::kEnable).success);
+  bench.commandLift(kFullSpeed / 2);
+  bench.step();
+  EXPECT_EQ(0x2000, bench.setpoint(CycleBench::kLift));
+}
+
+TEST(BusCycleTypedFrequency, ServesADriveThatDoesNotTellP105) {
+  CycleBench bench{100.0};
+  bench.transport.parameters.clear();
+  bench.run(30);
+  ASSERT_TRUE(bench.ask(RequestKind::kEnable).success);
+  bench.commandLift(kFullSpeed / 2);
+  bench.step();
+  EXPECT_EQ(0x1000, bench.setpoint(CycleBench::kLift));
+}
+
+// A drive that was away may be another one now: what P105 said before does not count any more.
+TEST_F(BusCycleTest, ADriveThatWasAwayIsAskedForP105AgainBeforeItIsEnabled) {
+  bringUp();
+  transport.inverters[kLift].silent = true;
+  run(10);
+  transport.inverters[kLift].silent = false;
+  transport.hold_answers = true;
+  run(5);
+  EXPECT_FALSE(ask(RequestKind::kEnable, kLift).success);
+  transport.hold_answers = false;
+  transport.answerFirst();
+  transport.parameters[105] = 1000;  // 100 Hz
+  run(30);
+  ASSERT_TRUE(ask(RequestKind::kEnable, kLift).success);
+}
+
+// An answer to a question from before the loss must not pass for the answer to a new one: P105 of another set, say.
+TEST_F(BusCycleTest, AnAnswerFromBeforeALossIsNotTakenForANewOne) {
+  transport.parameters = {{1105, 500}, {2105, 1000}, {3105, 500}, {4105, 500}};
+  run(2);
+  transport.hold_answers = true;
+  while (transport.submitted.size() < 3) step();  // each drive has asked for one
+  while (transport.submitted.front().drive != kLeft) step();
+  const auto old = transport.submitted.front();
+  transport.submitted.clear();
+  for (auto& inverter : transport.inverters) inverter.silent = true;
+  run(10);
+  for (auto& inverter : transport.inverters) inverter.silent = false;
+  run(2);
+  ASSERT_EQ(kLeft, transport.submitted.front().drive);
+  ASSERT_EQ(105, transport.submitted.front().request.number);
+  ASSERT_EQ(1, transport.submitted.front().request.parameter_set);
+  profile::ParameterResult late;
+  late.id = old.request.id;
+  late.outcome = profile::ParameterOutcome::kDone;
+  late.raw = 1000;  // what the old question was answered with
+  transport.results.push_back(late);
+  run(1);
+  EXPECT_FALSE(snapshot().drives[kLeft].device.max_frequency[0].has_value());
+}
+
+// A full queue is no answer: the question is put again until it is taken.
+TEST_F(BusCycleTest, AFullQueueDoesNotCostAParameter) {
+  transport.queue_full = true;
+  run(100);
+  transport.queue_full = false;
+  run(30);
+  EXPECT_TRUE(snapshot().drives[kLeft].device.max_frequency[0].has_value());
+}
+
+// --- Parameters for callers ------------------------------------------------------------------------------------------
+
+Request read(DriveIndex drive, std::uint16_t number, std::uint8_t set = 1, bool active = false) {
+  Request request;
+  request.kind = RequestKind::kReadParameter;
+  request.drive = drive;
+  request.parameter.number = number;
+  request.parameter.shape = profile::ParameterShape::kPerSet;
+  request.parameter.parameter_set = set;
+  request.active_set = active;
+  return request;
+}
+
+TEST_F(BusCycleTest, ReadsAParameterForACaller) {
+  bringUp();
+  transport.parameters[102] = 250;
+  const Completion answer = ask(read(kRight, 102));
+  EXPECT_TRUE(answer.success);
+  EXPECT_EQ(250, answer.parameter.raw);
+}
+
+TEST_F(BusCycleTest, TellsWhyAParameterCannotBeRead) {
+  bringUp();
+  Completion answer = ask(read(kRight, 102));
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("drive right refuses P102: error 0"));
+  transport.queue_full = true;
+  EXPECT_THAT(ask(read(kRight, 102)).message.c_str(), HasSubstr("too many parameter requests waiting"));
+  transport.queue_full = false;
+  transport.inverters[kRight].silent = true;
+  run(10);
+  EXPECT_STREQ("drive right does not answer", ask(read(kRight, 102)).message.c_str());
+}
+
+TEST_F(BusCycleTest, ReadsTheSetInForceWhenNoneIsNamed) {
+  bringUp();
+  transport.hold_answers = true;
+  ports.submit(read(kRight, 102, 3, true));
+  step();
+  ASSERT_FALSE(transport.submitted.empty());
+  EXPECT_EQ(1, transport.submitted.front().request.parameter_set) << "the inverter reports set 1";
+}
+
+// Sixteen are followed; the seventeenth is refused at once, and none of the others is mixed up.
+TEST_F(BusCycleTest, AnswersEachParameterRequestWithItsOwnResult) {
+  bringUp();
+  transport.hold_answers = true;
+  for (std::uint16_t i = 0; i < 17; ++i) {
+    Request request = read(kLeft, static_cast<std::uint16_t>(200 + i));
+    request.id = 500u + i;
+    transport.parameters[200 + i] = 9000 + i;
+    ports.submit(request);
+  }
+  step();
+  ASSERT_EQ(16u, transport.submitted.size());
+  EXPECT_FALSE(completions.at(516).success);
+  while (!transport.submitted.empty()) transport.answerFirst();
+  std::reverse(transport.results.begin(), transport.results.end());
+  step();
+  for (std::uint32_t i = 0; i < 16; ++i) {
+    ASSERT_TRUE(completions.at(500 + i).success);
+    EXPECT_EQ(9000 + static_cast<int>(i), completions.at(500 + i).parameter.raw);
+  }
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

@@ -1,0 +1,148 @@
+// The configuration of the cycle: defaults, and refusals that name key, value and what was expected.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "nord_driver/cycle/cycle_config.h"
+#include "support/map_settings.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using std::chrono::milliseconds;
+using test::MapSettings;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::shared_ptr<MapSettings> drive(const std::string& name) {
+  auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
+  settings->set("series", "sk5xxe").set("pole_pairs", 2).set("joint", name + "_joint");
+  return settings;
+}
+
+struct Configured {
+  MapSettings node{"~", {}};
+  std::shared_ptr<MapSettings> left = drive("left");
+  std::shared_ptr<MapSettings> right = drive("right");
+  std::vector<DriveSettings> drives{{"left", left}, {"right", right}};
+
+  CycleConfig read() const { return readCycleConfig(node, drives); }
+  std::string refusal() const {
+    try {
+      readCycleConfig(node, drives);
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+};
+
+TEST(CycleConfigTest, HasItsDefaults) {
+  const CycleConfig config = Configured{}.read();
+  EXPECT_DOUBLE_EQ(100.0, config.cycle_rate);
+  EXPECT_EQ(milliseconds{10}, config.period());
+  EXPECT_EQ(milliseconds{500}, config.cmd_vel_timeout);
+  EXPECT_EQ(milliseconds{3000}, config.service_timeout);
+  EXPECT_EQ(milliseconds{10'000}, config.shutdown_timeout);
+  EXPECT_EQ(0, config.real_time.priority);
+  EXPECT_FALSE(config.real_time.lock_memory);
+  EXPECT_FALSE(config.base.has_value());
+  ASSERT_EQ(2u, config.drives.size());
+  EXPECT_DOUBLE_EQ(1.0, config.drives[0].drive.joint.gear_ratio);
+  EXPECT_FALSE(config.drives[0].drive.joint.inverted);
+  EXPECT_EQ(milliseconds{3000}, config.drives[0].drive.enable_timeout);
+  EXPECT_EQ(milliseconds{10'000}, config.drives[0].drive.shutdown_timeout);
+}
+
+// Three cycles, at least 50 ms.
+TEST(CycleConfigTest, DriveTimeoutFollowsTheCycle) {
+  Configured robot;
+  EXPECT_EQ(milliseconds{50}, robot.read().drives[0].drive.drive_timeout);
+  robot.node.set("cycle_rate", 10);
+  EXPECT_EQ(milliseconds{300}, robot.read().drives[0].drive.drive_timeout);
+  robot.node.set("drive_timeout", 0.4);
+  EXPECT_EQ(milliseconds{400}, robot.read().drives[0].drive.drive_timeout);
+}
+
+// P105 decides what a setpoint means; a typed value that was not held against it may not.
+TEST(CycleConfigTest, ATypedMaxFrequencyIsNotYetTheDrives) {
+  Configured robot;
+  robot.left->set("max_frequency", 70);
+  const CycleConfig config = robot.read();
+  EXPECT_DOUBLE_EQ(70.0, config.drives[0].typed_max_frequency.value());
+  EXPECT_FALSE(config.drives[0].drive.max_frequency[0].has_value());
+  EXPECT_FALSE(config.drives[1].typed_max_frequency.has_value());
+}
+
+struct Wrong {
+  std::string key;
+  MapSettings::Value value;
+  std::string named;     // the value in the sentence
+  std::string expected;  // what the sentence says was expected
+};
+
+class WrongNodeKey : public ::testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongNodeKey, IsRefusedByNameValueAndExpectation) {
+  Configured robot;
+  robot.node.set(GetParam().key, GetParam().value);
+  EXPECT_THAT(robot.refusal(),
+              AllOf(HasSubstr("~" + GetParam().key), HasSubstr(GetParam().named), HasSubstr(GetParam().expected)));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WrongNodeKey,
+                         ::testing::Values(Wrong{"cycle_rate", 0.5, "0.5", "from 1 to 1000 Hz"},
+                                           Wrong{"cycle_rate", 2000, "2000", "from 1 to 1000 Hz"},
+                                           Wrong{"cycle_rate", std::string{"fast"}, "", "a number"},
+                                           Wrong{"realtime_priority", 100, "100", "a whole number from 0 to 99"},
+                                           Wrong{"service_timeout", 0.0, "0", "from 0.1 to 60 s"},
+                                           Wrong{"shutdown_timeout", 601.0, "601", "from 0.1 to 600 s"},
+                                           Wrong{"cmd_vel_timeout", -0.1, "-0.1", "from 0 to 60 s"},
+                                           Wrong{"drive_timeout", 0.01, "0.01", "from 0.02 to 60 s"},
+                                           Wrong{"lock_memory", 1, "", "true or false"},
+                                           Wrong{"left_wheel", std::string{"nowhere"}, "\"nowhere\"",
+                                                 "the `joint` of one of the drives"}));
+
+class WrongDriveKey : public ::testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongDriveKey, IsRefusedByNameValueAndExpectation) {
+  Configured robot;
+  robot.right->set(GetParam().key, GetParam().value);
+  EXPECT_THAT(robot.refusal(), AllOf(HasSubstr("~drives/right/" + GetParam().key), HasSubstr(GetParam().named),
+                                     HasSubstr(GetParam().expected)));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WrongDriveKey,
+                         ::testing::Values(Wrong{"series", std::string{"sk999"}, "\"sk999\"",
+                                                 "one of sk1x0e, sk2xxe, sk300e, sk5xxe, sk54xe, sk700e, sk750e"},
+                                           Wrong{"pole_pairs", 0, "0", "a whole number from 1 to 64"},
+                                           Wrong{"gear_ratio", 0.0, "0", "a number from 0.001 to 100000"},
+                                           Wrong{"gear_ratio", -20.0, "-20", "a number from 0.001 to 100000"},
+                                           Wrong{"max_frequency", 0.0, "0", "from 0.1 to 400 Hz"},
+                                           Wrong{"rated_current", -1.0, "-1", "from 0.01 to 10000 A"},
+                                           Wrong{"inverted", 1, "", "true or false"},
+                                           Wrong{"joint", std::string{"left_joint"}, "\"left_joint\"",
+                                                 "a joint that drive \"left\" does not turn already"}));
+
+TEST(CycleConfigTest, WhatIsMissingIsNamed) {
+  Configured robot;
+  robot.left->erase("pole_pairs");
+  EXPECT_THAT(robot.refusal(), HasSubstr("~drives/left/pole_pairs is missing: expected a whole number from 1 to 64"));
+  robot = Configured{};
+  robot.left->erase("series");
+  EXPECT_THAT(robot.refusal(), HasSubstr("~drives/left/series is missing: expected one of sk1x0e"));
+  robot = Configured{};
+  robot.drives.clear();
+  EXPECT_THAT(robot.refusal(), HasSubstr("~drives is missing: expected at least one drive"));
+}
+
+// A drive's name becomes a part of topic names.
+TEST(CycleConfigTest, NamesThatAreNoRosNamesAreRefused) {
+  for (const char* name : {"", "1st", "left wheel", "a/b", "l\xC3\xA4ngs", "_x"}) {
+    Configured robot;
+    robot.drives[0].name = name;
+    EXPECT_THAT(robot.refusal(), HasSubstr("letters, digits and underscores")) << name;
+  }
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

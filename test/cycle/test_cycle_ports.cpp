@@ -1,0 +1,72 @@
+// What crosses the border of the cycle's thread arrives once, in order, and never blocks the cycle.
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "nord_driver/cycle/cycle_ports.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+Completion completion(std::uint32_t id) {
+  Completion completion;
+  completion.id = id;
+  return completion;
+}
+
+TEST(CyclePorts, NothingWasCommandedAtFirst) {
+  CyclePorts ports{1};
+  EXPECT_FALSE(ports.newestBaseCommand().given);
+  EXPECT_FALSE(ports.newestDriveCommand(0).given);
+  EXPECT_FALSE(ports.pollRequest().has_value());
+  EXPECT_EQ(1u, ports.readSnapshot().drives.size());
+}
+
+TEST(CyclePorts, OnlyTheNewestCommandCounts) {
+  CyclePorts ports{2};
+  ports.commandBase({{0.1, 0.0}, Instant{}, true});
+  ports.commandBase({{0.2, 0.0}, Instant{}, true});
+  ports.commandDrive(1, {3.0, Instant{}, true});
+  EXPECT_DOUBLE_EQ(0.2, ports.newestBaseCommand().twist.linear_x);
+  EXPECT_DOUBLE_EQ(3.0, ports.newestDriveCommand(1).velocity);
+  EXPECT_FALSE(ports.newestDriveCommand(0).given);
+}
+
+TEST(CyclePorts, RequestsComeInOrderAndAFullQueueSaysSo) {
+  CyclePorts ports{1};
+  Request request;
+  for (request.id = 1; request.id <= 32; ++request.id) ASSERT_TRUE(ports.submit(request));
+  EXPECT_FALSE(ports.submit(request));
+  for (std::uint32_t id = 1; id <= 32; ++id) EXPECT_EQ(id, ports.pollRequest()->id);
+  EXPECT_FALSE(ports.pollRequest().has_value());
+}
+
+TEST(CyclePorts, CompletionsComeInOrderAndNobodysAreDropped) {
+  CyclePorts ports{1};
+  ports.complete(completion(1));
+  ports.complete(completion(0));  // nobody waits for it
+  ports.complete(completion(2));
+  EXPECT_EQ(1u, ports.waitCompletion(Duration::zero())->id);
+  EXPECT_EQ(2u, ports.waitCompletion(Duration::zero())->id);
+  EXPECT_FALSE(ports.waitCompletion(Duration::zero()).has_value());
+}
+
+// More completions than fit are lost; the rest still comes, and waiting afterwards ends in time.
+TEST(CyclePorts, AFullRingOfCompletionsKeepsTheOldest) {
+  CyclePorts ports{1};
+  for (std::uint32_t id = 1; id <= 70; ++id) ports.complete(completion(id));
+  for (std::uint32_t id = 1; id <= 64; ++id) EXPECT_EQ(id, ports.waitCompletion(Duration::zero())->id);
+  EXPECT_FALSE(ports.waitCompletion(std::chrono::milliseconds{1}).has_value());
+}
+
+TEST(CyclePorts, ACompletionWakesTheOneWhoWaits) {
+  CyclePorts ports{1};
+  std::thread cycle([&] { ports.complete(completion(7)); });
+  const auto answer = ports.waitCompletion(std::chrono::seconds{10});
+  cycle.join();
+  ASSERT_TRUE(answer.has_value());
+  EXPECT_EQ(7u, answer->id);
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

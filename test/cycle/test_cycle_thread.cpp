@@ -1,0 +1,95 @@
+// The thread keeps the rate of its cycle by the transport's clock and ends when it is told to.
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <mutex>
+
+#include "cycle/scripted_transport.h"
+#include "nord_driver/cycle/cycle_thread.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// Notes when cycles began and lets the test wait until enough have passed. Time moves only by exchange and sleep.
+class PacedTransport final : public Transport {
+ public:
+  void configure(const Settings&, const std::vector<DriveSettings>&, double) override {}
+  Instant now() const noexcept override { return time_; }
+  void sleepUntil(Instant when) noexcept override {
+    if (when > time_) time_ = when;
+  }
+  void exchange(const std::vector<profile::ProcessOutput>&, std::vector<DriveExchange>& inputs) noexcept override {
+    inputs[0] = {};
+    const std::unique_lock<std::mutex> lock(mutex_);
+    if (starts_.size() < kNoted) starts_.push_back(time_);
+    time_ += starts_.size() == kLateCycle ? milliseconds{35} : milliseconds{2};
+    if (starts_.size() == kNoted) enough_.notify_all();
+  }
+  bool submit(DriveIndex, const profile::ParameterRequest&) noexcept override { return false; }
+  std::optional<profile::ParameterResult> pollResult() noexcept override { return std::nullopt; }
+  bool connected() const noexcept override { return true; }
+  BusCounters counters() const noexcept override { return {}; }
+  DriveNote note(DriveIndex) const noexcept override { return {}; }
+  std::uint32_t identNumber(DriveIndex) const noexcept override { return 0; }
+  Sentence busText() const noexcept override { return {}; }
+  DriveIdentity identity(DriveIndex) const override { return {}; }
+  void close() noexcept override {}
+
+  /// The first starts, as soon as there are enough of them.
+  std::vector<Instant> starts() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    enough_.wait_for(lock, std::chrono::seconds{10}, [this] { return starts_.size() == kNoted; });
+    return starts_;
+  }
+  static constexpr std::size_t kNoted = 10, kLateCycle = 5;
+
+ private:
+  Instant time_{std::chrono::hours{1}};  // the cycle's thread only
+  std::mutex mutex_;
+  std::condition_variable enough_;
+  std::vector<Instant> starts_;
+};
+
+struct Running {
+  explicit Running(const RealTimeWish& wish = {}) : ports{1}, cycle{config(), transport, ports, false} {
+    thread = std::make_unique<CycleThread>(cycle, transport, wish);
+  }
+  static CycleConfig config() {
+    CycleConfig config;
+    config.drives.resize(1);
+    config.drives[0].name = "only";
+    return config;
+  }
+  PacedTransport transport;
+  CyclePorts ports;
+  BusCycle cycle;
+  std::unique_ptr<CycleThread> thread;
+};
+
+TEST(CycleThreadTest, BeginsACycleEveryPeriodAndDoesNotCatchUpWithALateOne) {
+  Running running;
+  const std::vector<Instant> starts = running.transport.starts();
+  ASSERT_EQ(PacedTransport::kNoted, starts.size());
+  for (std::size_t i = 1; i < starts.size(); ++i) {
+    // Two cycles in a row would tell the drives nothing new: after the late one the rhythm begins anew.
+    const Duration expected = i == PacedTransport::kLateCycle ? milliseconds{35} : milliseconds{10};
+    EXPECT_EQ(expected, starts[i] - starts[i - 1]) << "cycle " << i;
+  }
+}
+
+// It would hang here otherwise.
+TEST(CycleThreadTest, EndsWhenItIsDestroyed) {
+  Running running;
+  ASSERT_EQ(PacedTransport::kNoted, running.transport.starts().size());
+  running.thread.reset();
+  EXPECT_NE(Instant{}, running.ports.readSnapshot().time) << "its last picture stays";
+}
+
+TEST(CycleThreadTest, SaysWhatTheSystemRefused) {
+  EXPECT_EQ("", Running{}.thread->refused());
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

@@ -1,0 +1,57 @@
+// What the cycle says to people: who, what, and what was last seen, with the status word as on the wire.
+#include <gtest/gtest.h>
+
+#include "nord_driver/cycle/sentences.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+drive::DriveReport onlineReport() {
+  drive::DriveReport report;
+  report.online = true;
+  report.status_word = 0x0B31;
+  report.state = profile::DriveState::kReadyToSwitchOn;
+  return report;
+}
+
+TEST(Sentences, ARefusalNamesDriveReasonAndStatusWord) {
+  EXPECT_STREQ(
+      "drive left: the inverter is under local control (status bit 9 = 0) (status word 0B31, ready to switch on)",
+      refusalSentence("left", drive::Refusal::kLocalControl, onlineReport()).c_str());
+  EXPECT_STREQ("drive left: the inverter does not answer",
+               refusalSentence("left", drive::Refusal::kOffline, drive::DriveReport{}).c_str());
+}
+
+TEST(Sentences, AStopTellsTheStatusWordOfThatMoment) {
+  drive::DriveReport report = onlineReport();
+  report.stop_status_word = 0x0238;
+  EXPECT_STREQ("drive left stopped: a fault of the inverter (status word 0238, fault)",
+               stopSentence("left", drive::StopCause::kFault, report).c_str());
+  EXPECT_TRUE(stopSentence("left", drive::StopCause::kNone, report).empty());
+}
+
+TEST(Sentences, AStateTellsWhatTheDriveSaidLast) {
+  EXPECT_STREQ("drive left is ready to switch on, status word 0B31", stateSentence("left", onlineReport()).c_str());
+  EXPECT_STREQ("drive left does not answer", stateSentence("left", drive::DriveReport{}).c_str());
+}
+
+std::string parameter(profile::ParameterOutcome outcome) {
+  profile::ParameterResult result;
+  result.outcome = outcome;
+  result.error_number = 201;
+  return parameterSentence("left", 5, result).str();
+}
+
+TEST(Sentences, AParameterThatCouldNotBeReadSaysWhy) {
+  using Outcome = profile::ParameterOutcome;
+  EXPECT_EQ("", parameter(Outcome::kDone));
+  EXPECT_EQ(0u, parameter(Outcome::kRefused).find("drive left refuses P005: error 201, "));
+  EXPECT_EQ("drive left gave no answer for P005", parameter(Outcome::kTimeout));
+  EXPECT_EQ("drive left does not answer", parameter(Outcome::kOffline));
+  EXPECT_EQ("drive left has no parameter channel: PPO types 3 and 4 carry process data only",
+            parameter(Outcome::kNoChannel));
+  EXPECT_EQ("drive left has too many parameter requests waiting already", parameter(Outcome::kBusy));
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

@@ -1,0 +1,197 @@
+// Enabling: all drives or none, refusals in words, and what undoes it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cycle/drives_under_supervision.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class SupervisorEnable : public ::testing::Test, protected DrivesUnderSupervision {};
+
+TEST_F(SupervisorEnable, EnablesAllDrivesAndAnswersWhenAllFollow) {
+  bringUp();
+  const Completion answer = ask(RequestKind::kEnable);
+  EXPECT_TRUE(answer.success) << answer.message.c_str();
+  EXPECT_STREQ("enabled", answer.message.c_str());
+  EXPECT_TRUE(allEnabled());
+  EXPECT_FALSE(supervisor.settled());
+}
+
+// One drive that refuses at once keeps all others back: not one 047F leaves.
+TEST_F(SupervisorEnable, RefusesForAllWhenOneDriveIsOffline) {
+  inverters[kLift].silent = true;
+  bringUp();
+  const Completion answer = ask(RequestKind::kEnable);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), StartsWith("drive lift: the inverter does not answer"));
+  for (int i = 0; i < 50; ++i) {
+    step();
+    ASSERT_TRUE(noneRuns());
+  }
+  EXPECT_TRUE(supervisor.settled());
+}
+
+TEST_F(SupervisorEnable, TakesAllBackWhenOneDriveDoesNotFollow) {
+  bringUp();
+  inverters[kLift].stuck = true;
+  const Completion answer = ask(RequestKind::kEnable);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("drive lift"));
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("did not reach \"operation enabled\" in time"));
+  run(20);
+  EXPECT_TRUE(noneRuns());
+  EXPECT_TRUE(supervisor.settled());
+}
+
+// A request that ran out of patience has failed: nothing may come up behind its back afterwards.
+TEST_F(SupervisorEnable, AnEnableThatIsGivenUpIsTakenBack) {
+  bringUp();
+  inverters[kLift].stuck = true;
+  const Completion answer = ask(RequestKind::kEnable, kAllDrives, std::chrono::milliseconds{100});
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), StartsWith("not confirmed in time: drive lift is "));
+  inverters[kLift].stuck = false;  // now it would follow
+  for (int i = 0; i < 50; ++i) {
+    step();
+    ASSERT_NE(drive::Phase::kEnabled, drives[kLift].report().phase);
+  }
+  EXPECT_TRUE(noneRuns());
+}
+
+TEST_F(SupervisorEnable, RefusesWhileTheNewestCommandMoves) {
+  bringUp();
+  moving = "the newest cmd_vel is not zero";
+  const Completion answer = ask(RequestKind::kEnable);
+  EXPECT_FALSE(answer.success);
+  EXPECT_STREQ("the newest cmd_vel is not zero", answer.message.c_str());
+  EXPECT_TRUE(noneRuns());
+}
+
+TEST_F(SupervisorEnable, RefusesUnderLocalControlAndOverAFault) {
+  inverters[kLeft].local = true;
+  bringUp();
+  EXPECT_THAT(ask(RequestKind::kEnable).message.c_str(), HasSubstr("drive left: the inverter is under local control"));
+  inverters[kLeft].local = false;
+  inverters[kRight].fault = true;
+  run(2);
+  EXPECT_THAT(ask(RequestKind::kEnable).message.c_str(), StartsWith("drive right: the inverter reports a fault"));
+  EXPECT_TRUE(noneRuns());
+}
+
+// A wheel of a base alone would turn the base.
+TEST_F(SupervisorEnable, RefusesADriveOfTheBaseAlone) {
+  bringUp();
+  const Completion answer = ask(RequestKind::kEnable, kRight);
+  EXPECT_FALSE(answer.success);
+  EXPECT_STREQ("drive right belongs to the base: use ~enable", answer.message.c_str());
+  EXPECT_TRUE(noneRuns());
+}
+
+TEST_F(SupervisorEnable, EnablesASingleDriveBesideTheBase) {
+  bringUp();
+  EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);
+  EXPECT_EQ(drive::Phase::kEnabled, drives[kLift].report().phase);
+  EXPECT_EQ(drive::Phase::kIdle, drives[kLeft].report().phase);
+  EXPECT_EQ(0x047E, outputs[kLeft].control_word);
+  EXPECT_EQ(0x047E, outputs[kRight].control_word);
+}
+
+TEST_F(SupervisorEnable, EnablingWhatIsEnabledIsGranted) {
+  bringUp();
+  ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  EXPECT_TRUE(ask(RequestKind::kEnable).success);
+  EXPECT_TRUE(allEnabled());
+}
+
+TEST_F(SupervisorEnable, AStopDuringTheEnablingEndsItForItsAsker) {
+  bringUp();
+  request(1, RequestKind::kEnable);
+  step();
+  EXPECT_TRUE(ask(RequestKind::kDisable).success);
+  ASSERT_FALSE(completions.empty());
+  EXPECT_EQ(1u, completions[0].id);
+  EXPECT_FALSE(completions[0].success);
+  EXPECT_TRUE(noneRuns());
+}
+
+TEST_F(SupervisorEnable, NothingIsEnabledAfterShutDown) {
+  bringUp();
+  EXPECT_TRUE(ask(RequestKind::kShutDown).success);
+  const Completion answer = ask(RequestKind::kEnable);
+  EXPECT_FALSE(answer.success);
+  EXPECT_STREQ("the node is ending", answer.message.c_str());
+  EXPECT_TRUE(noneRuns());
+}
+
+/// auto_enable: once, when every drive has first become ready after start.
+class AutoEnable : public ::testing::Test, protected DrivesUnderSupervision {
+ protected:
+  AutoEnable() : DrivesUnderSupervision{true} {}
+};
+
+TEST_F(AutoEnable, ActsWhenTheLastDriveHasBecomeReady) {
+  inverters[kLift].silent = true;
+  run(20);
+  EXPECT_TRUE(noneRuns());
+  inverters[kLift].silent = false;
+  run(20);
+  EXPECT_TRUE(allEnabled());
+}
+
+TEST_F(AutoEnable, WaitsWhileACommandMoves) {
+  moving = "the newest cmd_vel is not zero";
+  run(20);
+  EXPECT_TRUE(noneRuns());
+  moving.clear();
+  run(20);
+  EXPECT_TRUE(allEnabled());
+}
+
+TEST_F(AutoEnable, NeverActsAfterAStop) {
+  run(20);
+  ASSERT_TRUE(allEnabled());
+  ASSERT_TRUE(ask(RequestKind::kDisable).success);
+  run(50);
+  EXPECT_TRUE(noneRuns());
+}
+
+// Somebody said stop before the drives were ready: then auto_enable has had its turn.
+TEST_F(AutoEnable, NeverActsAfterAStopThatCameBeforeIt) {
+  for (const RequestKind stop : {RequestKind::kDisable, RequestKind::kQuickStop, RequestKind::kShutDown}) {
+    DrivesUnderSupervision robot{true};
+    robot.inverters[kLift].silent = true;
+    robot.run(5);
+    robot.request(1, stop);
+    robot.run(5);
+    robot.inverters[kLift].silent = false;
+    robot.run(50);
+    EXPECT_TRUE(robot.noneRuns()) << static_cast<int>(stop);
+  }
+}
+
+TEST_F(AutoEnable, NeverActsOverAFaultEvenOneThatWentByItself) {
+  inverters[kLeft].fault = true;
+  run(20);
+  EXPECT_TRUE(noneRuns());
+  inverters[kLeft].fault = false;
+  run(50);
+  EXPECT_TRUE(noneRuns()) << "the fault is latched";
+}
+
+TEST_F(AutoEnable, ActsOnceAndNotAgainAfterALoss) {
+  run(20);
+  ASSERT_TRUE(allEnabled());
+  inverters[kRight].silent = true;
+  run(50);
+  inverters[kRight].silent = false;
+  run(50);
+  EXPECT_NE(drive::Phase::kEnabled, drives[kLeft].report().phase);
+  EXPECT_NE(drive::Phase::kEnabled, drives[kRight].report().phase);
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

@@ -1,0 +1,95 @@
+// Disable, quick stop and shut down: they always act, whatever else is going on, and answer when it is done.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cycle/drives_under_supervision.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using ::testing::HasSubstr;
+
+class SupervisorStops : public ::testing::Test, protected DrivesUnderSupervision {
+ protected:
+  void SetUp() override {
+    bringUp();
+    ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  }
+};
+
+TEST_F(SupervisorStops, DisableAnswersWhenEveryDriveIsReadyToSwitchOn) {
+  const Completion answer = ask(RequestKind::kDisable);
+  EXPECT_TRUE(answer.success);
+  EXPECT_STREQ("disabled", answer.message.c_str());
+  for (const auto& drive : drives) EXPECT_EQ(profile::DriveState::kReadyToSwitchOn, drive.report().state);
+  EXPECT_TRUE(supervisor.settled());
+}
+
+TEST_F(SupervisorStops, QuickStopOfOneWheelStopsTheWholeBaseAndNothingElse) {
+  request(1, RequestKind::kQuickStop, kRight);
+  step();
+  EXPECT_EQ(0x047B, outputs[kLeft].control_word);
+  EXPECT_EQ(0x047B, outputs[kRight].control_word);
+  EXPECT_EQ(0x047F, outputs[kLift].control_word);
+  run(20);
+  ASSERT_EQ(1u, completions.back().id);
+  EXPECT_TRUE(completions.back().success);
+  EXPECT_STREQ("stopped and disabled", completions.back().message.c_str());
+  EXPECT_THAT(supervisor.baseStopSentence().c_str(), HasSubstr("a quick stop was asked for"));
+}
+
+TEST_F(SupervisorStops, AStopThatIsNotConfirmedSaysWhatItLastSaw) {
+  velocity = 1.0;
+  run(40);
+  inverters[kLift].ramp = 1;  // hardly comes down
+  const Completion answer = ask(RequestKind::kDisable, kLift, std::chrono::milliseconds{300});
+  EXPECT_FALSE(answer.success);
+  EXPECT_STREQ("not confirmed in time: drive lift is operation enabled, status word 0B37", answer.message.c_str());
+}
+
+// Sixteen requests are followed at a time. A seventeenth may go without its answer, but never without its stop.
+TEST_F(SupervisorStops, AStopActsHoweverManyRequestsAreUnderWay) {
+  velocity = 1.0;
+  run(40);
+  for (std::uint32_t id = 1; id <= 16; ++id) request(id, RequestKind::kDisable);
+  request(17, RequestKind::kQuickStop);
+  step();
+  for (const auto& output : outputs) EXPECT_EQ(0x047B, output.control_word);
+  run(50);
+  EXPECT_TRUE(supervisor.settled());
+}
+
+// A whole queue of requests may be refused in one cycle; each asker is told.
+TEST_F(SupervisorStops, EveryRefusalIsAnswered) {
+  completions.clear();
+  for (std::uint32_t id = 1; id <= 32; ++id) request(id, RequestKind::kEnable, kLeft);
+  step();
+  EXPECT_EQ(32u, completions.size());
+}
+
+TEST_F(SupervisorStops, ARequestNobodyWaitsForIsNotAnswered) {
+  completions.clear();
+  request(0, RequestKind::kDisable);
+  run(30);
+  EXPECT_TRUE(completions.empty());
+  EXPECT_TRUE(supervisor.settled());
+}
+
+TEST_F(SupervisorStops, AMemberThatStopsBringsTheBaseDownAndIsNamed) {
+  velocity = 1.0;
+  run(40);
+  EXPECT_TRUE(supervisor.baseStopSentence().empty());
+  inverters[kRight].fault = true;
+  run(2);
+  EXPECT_EQ(0x047E, outputs[kRight].control_word);
+  EXPECT_EQ(0x047F, outputs[kLeft].control_word);
+  EXPECT_EQ(0, outputs[kLeft].setpoints[0]);
+  EXPECT_EQ(drive::Phase::kEnabled, drives[kLift].report().phase) << "no part of the base";
+  EXPECT_STREQ("drive right stopped: a fault of the inverter (status word 0B38, fault)",
+               supervisor.baseStopSentence().c_str());
+  run(40);
+  EXPECT_EQ(0x047E, outputs[kLeft].control_word);
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle
