@@ -81,9 +81,8 @@ void Supervisor::handleRequest(const Request& request, const Sentence& moving, I
         }
       }
       return followUp(request, now);
-    case RequestKind::kResetOdometry:
-    case RequestKind::kReadParameter:
-      return;  // not of the drives' motion: the cycle answers them
+    default:
+      return;  // not of the drives' motion
   }
 }
 

@@ -40,6 +40,7 @@ DriverNode::DriverNode()
 
 DriverNode::~DriverNode() {
   thread_.reset();
+  tracing_.reset();  // after the bus: what happened last is in the last trace
   services_.reset();
   broker_.reset();
   if (transport_) transport_->close();
@@ -80,9 +81,11 @@ void DriverNode::warnOfUnknownKeys() const {
 void DriverNode::advertise() {
   base_publisher_ = std::make_unique<BasePublisher>(node_, config_);
   std::vector<std::string> names;
+  std::vector<cycle::TracedDrive> traced;
   for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
     const cycle::DriveSetup& setup = config_.cycle.drives[i];
     names.push_back(setup.name);
+    traced.push_back({setup.name, identities_[i].address});
     const auto address = config_.drives[i].settings->integer("address").value_or(0);
     drive_publishers_.emplace_back(private_node_, setup, identities_[i], static_cast<std::uint16_t>(address));
     if (cycle_->inBase(i)) continue;
@@ -94,6 +97,7 @@ void DriverNode::advertise() {
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
   diagnostics_ = std::make_unique<Diagnostics>(config_, identities_);
   services_ = std::make_unique<Services>(private_node_, config_, *broker_);
+  tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace(), ports_->trace());
   if (config_.cycle.base) {
     boost::function<void(const geometry_msgs::Twist&)> take = [this](const geometry_msgs::Twist& twist) {
       takeCommand(twist);

@@ -24,7 +24,7 @@ DpMaster::DpMaster(const BusParameters& bus, const std::vector<SlaveConfig>& sla
 void DpMaster::restart(Instant now) noexcept {
   requester_.restart(now);
   for (DpSlave& slave : slaves_) slave.restart(now, events_);
-  turn_ = Turn::Done;
+  turn_ = Turn::kDone;
   last_operate_.reset();
   last_foreign_.reset();
   told_busy_ = false;
@@ -34,7 +34,7 @@ void DpMaster::startCycle(Instant now) noexcept {
   if (!cycleDone()) return;
   ++requester_.counters().cycles;
   for (DpSlave& slave : slaves_) slave.startCycle();
-  turn_ = Turn::Operate;
+  turn_ = Turn::kOperate;
   cursor_ = 0;
   advance(now);
 }
@@ -48,12 +48,12 @@ void DpMaster::handleBytes(ByteView bytes, Instant now) noexcept {
 
 void DpMaster::handleTimeout(Instant now) noexcept {
   switch (requester_.handleTimeout(now)) {
-    case Requester::Outcome::None:
+    case Requester::Outcome::kNone:
       break;
-    case Requester::Outcome::NoAnswer:
+    case Requester::Outcome::kNoAnswer:
       slaves_[asked_].handleNoAnswer(requester_.lastMismatch(), now, events_);
       break;
-    case Requester::Outcome::LineBusy:
+    case Requester::Outcome::kLineBusy:
       abandonCycle();
       break;
   }
@@ -70,7 +70,7 @@ ByteView DpMaster::pollTransmit(Instant now) noexcept {
 
 // The cycle in turns; each asks the slaves that want to be asked in it, one request at a time.
 void DpMaster::advance(Instant now) noexcept {
-  while (!requester_.busy() && turn_ != Turn::Done) {
+  while (!requester_.busy() && turn_ != Turn::kDone) {
     if (!askNext(now)) nextTurn();
   }
   requester_.counters().events_lost = events_.overflow();
@@ -78,17 +78,19 @@ void DpMaster::advance(Instant now) noexcept {
 
 bool DpMaster::askNext(Instant now) noexcept {
   switch (turn_) {
-    case Turn::Operate:
+    case Turn::kOperate:
       return askOperate(now);
-    case Turn::Exchange:
+    case Turn::kExchange:
       return askFirst(now, [](const DpSlave& slave) { return slave.wantsExchange(); });
-    case Turn::StartUp:
+    case Turn::kStartUp:
       return askFirst(now, [now](const DpSlave& slave) { return slave.wantsStartUpStep(now); });
-    case Turn::Diagnosis:
+    case Turn::kDiagnosis:
       return askFirst(now, [](const DpSlave& slave) { return slave.wantsDiagnosis(); });
-    case Turn::Probe:
+    case Turn::kAcyclic:
+      return askAcyclic(now);
+    case Turn::kProbe:
       return askProbe(now);
-    case Turn::Done:
+    case Turn::kDone:
       break;
   }
   return false;
@@ -111,6 +113,30 @@ bool DpMaster::askFirst(Instant now, Wants&& wants) noexcept {
     return true;
   }
   return false;
+}
+
+// One acyclic telegram per cycle, in turns: the exchange must not wait longer than that.
+bool DpMaster::askAcyclic(Instant now) noexcept {
+  for (std::size_t i = 0; i < slaves_.size() && cursor_ == 0; ++i) {
+    const std::size_t slave = (acyclic_cursor_ + i) % slaves_.size();
+    if (!slaves_[slave].wantsAcyclic(now)) continue;
+    acyclic_cursor_ = slave + 1;
+    cursor_ = slaves_.size();
+    asked_ = slave;
+    slaves_[slave].prepareAcyclic(request_, now);
+    requester_.begin(request_, &slaves_[slave].counters(), now);
+    return true;
+  }
+  return false;
+}
+
+std::optional<RecordResult> DpMaster::pollRecord() noexcept {
+  for (std::size_t i = 0; i < slaves_.size(); ++i) {
+    const auto result = slaves_[record_cursor_].pollRecord();
+    record_cursor_ = (record_cursor_ + 1) % slaves_.size();
+    if (result) return result;
+  }
+  return std::nullopt;
 }
 
 // One silent slave per cycle, in turns: each costs a whole slot.
@@ -139,12 +165,12 @@ void DpMaster::nextTurn() noexcept {
 
 // Nothing was sent: what the slaves did is not known, and the next cycle asks them again.
 void DpMaster::abandonCycle() noexcept {
-  turn_ = Turn::Done;
+  turn_ = Turn::kDone;
   last_operate_.reset();
   if (told_busy_) return;
   told_busy_ = true;
   DpEvent busy;
-  busy.kind = DpEventKind::LineBusy;
+  busy.kind = DpEventKind::kLineBusy;
   busy.text = kBusy;
   events_.push(busy);
 }
@@ -154,7 +180,7 @@ void DpMaster::tellForeign(std::uint8_t master, Instant now) noexcept {
   last_foreign_ = now;
   foreign_ = master;
   DpEvent foreign;
-  foreign.kind = DpEventKind::ForeignMaster;
+  foreign.kind = DpEventKind::kForeignMaster;
   foreign.master = master;
   foreign.text = master == bus_.master.value() ? kOwnAddress : kForeign;
   events_.push(foreign);

@@ -11,6 +11,7 @@ namespace {
 
 // Service access points of the slave; the master's is 62 (MS0). Data exchange has none.
 constexpr std::uint8_t kMasterSap = 62;
+constexpr std::uint8_t kRecordSap = 51;  // MS1, on both sides
 constexpr std::uint8_t kGlobalControlSap = 58;
 constexpr std::uint8_t kSlaveDiagSap = 60;
 constexpr std::uint8_t kSetPrmSap = 61;
@@ -41,8 +42,8 @@ PrmBytes prmBytes(const SlaveConfig& slave, std::uint16_t ident) noexcept {
 }
 
 TelegramKind kindFor(std::size_t octets, bool send_sd3) noexcept {
-  if (octets == 0) return TelegramKind::Sd1;
-  return send_sd3 && octets == kSd3Octets ? TelegramKind::Sd3 : TelegramKind::Sd2;
+  if (octets == 0) return TelegramKind::kSd1;
+  return send_sd3 && octets == kSd3Octets ? TelegramKind::kSd3 : TelegramKind::kSd2;
 }
 
 /// Set_Prm and Chk_Cfg are answered by SC.
@@ -54,20 +55,23 @@ void expectAcknowledge(FdlRequest& request) noexcept {
 
 }  // namespace
 
-/// SRD high, from the master's access point 62 where the slave's is given.
-void DpServices::ask(FdlRequest& request, StationAddress slave, std::uint8_t count_bits,
-                     std::optional<std::uint8_t> dsap, ByteView data) const noexcept {
+DpServices::Route DpServices::toServer(std::uint8_t dsap) noexcept {
+  return {kSendRequestDataHigh, dsap, kMasterSap};
+}
+
+void DpServices::ask(FdlRequest& request, StationAddress slave, std::uint8_t count_bits, const Route& route,
+                     ByteView data) const noexcept {
   request = FdlRequest{};
   request.station = slave.value();
   request.retries = retries_;
-  request.dsap = dsap;
-  if (dsap) request.ssap = kMasterSap;
+  request.dsap = route.dsap;
+  request.ssap = route.ssap;
 
   Telegram telegram;
-  telegram.kind = kindFor(data.size() + (dsap ? 2u : 0u), send_sd3_);
+  telegram.kind = kindFor(data.size() + (route.dsap ? 2u : 0u), send_sd3_);
   telegram.da = slave.value();
   telegram.sa = master_.value();
-  telegram.fc = static_cast<std::uint8_t>(kSendRequestDataHigh | count_bits);
+  telegram.fc = static_cast<std::uint8_t>(route.function | count_bits);
   telegram.dsap = request.dsap;
   telegram.ssap = request.ssap;
   telegram.data = data;
@@ -82,38 +86,46 @@ void DpServices::fdlStatus(FdlRequest& request, StationAddress slave) const noex
   request.any_station_type = true;
 
   Telegram telegram;
-  telegram.kind = TelegramKind::Sd1;
+  telegram.kind = TelegramKind::kSd1;
   telegram.da = slave.value();
   telegram.sa = master_.value();
-  telegram.fc = kFdlStatus;
+  telegram.fc = kRequestFdlStatus;
   encode(telegram, request.frame);
 }
 
 void DpServices::slaveDiag(FdlRequest& request, StationAddress slave, std::uint8_t count_bits) const noexcept {
-  ask(request, slave, count_bits, kSlaveDiagSap, {});
+  ask(request, slave, count_bits, toServer(kSlaveDiagSap), {});
   request.min_data = Diagnosis::kStandardLength;
   request.max_data = Diagnosis::kMaxLength;
 }
 
 void DpServices::setPrm(FdlRequest& request, const SlaveConfig& slave, std::uint16_t ident,
                         std::uint8_t count_bits) const noexcept {
-  ask(request, slave.address, count_bits, kSetPrmSap, prmBytes(slave, ident));
+  ask(request, slave.address, count_bits, toServer(kSetPrmSap), prmBytes(slave, ident));
   expectAcknowledge(request);
 }
 
 void DpServices::chkCfg(FdlRequest& request, const SlaveConfig& slave, std::uint8_t count_bits) const noexcept {
-  ask(request, slave.address, count_bits, kChkCfgSap, slave.configuration);
+  ask(request, slave.address, count_bits, toServer(kChkCfgSap), slave.configuration);
   expectAcknowledge(request);
 }
 
 void DpServices::dataExchange(FdlRequest& request, const SlaveConfig& slave, ByteView outputs,
                               std::uint8_t count_bits) const noexcept {
-  ask(request, slave.address, count_bits, std::nullopt, outputs);
+  ask(request, slave.address, count_bits, {kSendRequestDataHigh, std::nullopt, std::nullopt}, outputs);
   request.min_data = slave.input_length;
   request.max_data = slave.input_length;
   // Only a slave that has nothing to say may acknowledge without data.
   request.short_acknowledge_legal = slave.input_length == 0;
   request.acknowledge_legal = slave.input_length == 0;
+}
+
+void DpServices::record(FdlRequest& request, StationAddress slave, ByteView pdu,
+                        std::uint8_t count_bits) const noexcept {
+  ask(request, slave, count_bits, {kSendRequestDataLow, kRecordSap, kRecordSap}, pdu);
+  request.short_acknowledge_legal = true;
+  request.acknowledge_legal = true;
+  request.max_data = kMaxIoLength;
 }
 
 void DpServices::operate(FdlRequest& request) const noexcept {
@@ -123,7 +135,7 @@ void DpServices::operate(FdlRequest& request) const noexcept {
   const std::array<std::uint8_t, 2> operate_all{0x00, 0x00};  // no Clear, no Freeze, no Sync; every group
 
   Telegram telegram;
-  telegram.kind = TelegramKind::Sd2;
+  telegram.kind = TelegramKind::kSd2;
   telegram.da = kBroadcastAddress;
   telegram.sa = master_.value();
   telegram.fc = kSendNoAcknowledgeHigh;

@@ -22,18 +22,19 @@ DpSlave::DpSlave(std::size_t index, const SlaveConfig& config, const BusParamete
       services_(bus),
       master_(bus.master.value()),
       probe_interval_(bus.probe_interval),
+      records_(index, config.record_timeout),
       outputs_(config.output_length, 0),
       inputs_(config.input_length, 0),
       pause_(kFirstPause) {
-  status_.note = kNoAnswer;
+  status_.note = texts::kNoAnswer;
 }
 
 void DpSlave::restart(Instant now, DpEvents& events) noexcept {
-  if (status_.phase == SlavePhase::DataExchange) lose(LossCause::LinkRestarted, kLinkOpened, events);
+  if (status_.phase == SlavePhase::kDataExchange) lose(LossCause::kLinkRestarted, texts::kLinkOpened, events);
   forgetFaults();
   told_found_ = false;
   startCycle();
-  fallSilent(now, kNoAnswer);
+  fallSilent(now, texts::kNoAnswer);
 }
 
 void DpSlave::startCycle() noexcept {
@@ -42,70 +43,88 @@ void DpSlave::startCycle() noexcept {
 }
 
 bool DpSlave::wantsExchange() const noexcept {
-  return status_.phase == SlavePhase::DataExchange && !stepped_;
+  return status_.phase == SlavePhase::kDataExchange && !stepped_;
 }
 
 bool DpSlave::wantsStartUpStep(Instant now) const noexcept {
-  const bool starting = status_.phase != SlavePhase::Silent && status_.phase != SlavePhase::DataExchange;
+  const bool starting = status_.phase != SlavePhase::kSilent && status_.phase != SlavePhase::kDataExchange;
   return starting && !stepped_ && now >= due_;
 }
 
 bool DpSlave::wantsDiagnosis() const noexcept {
-  return status_.phase == SlavePhase::DataExchange && stepped_ && diagnosis_due_;
+  return status_.phase == SlavePhase::kDataExchange && stepped_ && diagnosis_due_;
 }
 
 bool DpSlave::wantsProbe(Instant now) const noexcept {
-  return status_.phase == SlavePhase::Silent && !stepped_ && now >= due_;
+  return status_.phase == SlavePhase::kSilent && !stepped_ && now >= due_;
 }
 
 DpSlave::Service DpSlave::nextService() noexcept {
   switch (status_.phase) {
-    case SlavePhase::Silent:
-      return Service::FdlStatus;
-    case SlavePhase::BackOff:
+    case SlavePhase::kSilent:
+      return Service::kFdlStatus;
+    case SlavePhase::kBackOff:
       startOver(status_.note);  // the reason stays readable until it is gone
-      return Service::SlaveDiag;
-    case SlavePhase::FirstDiagnosis:
-    case SlavePhase::AwaitReady:
-      return Service::SlaveDiag;
-    case SlavePhase::Parameters:
-      return Service::SetPrm;
-    case SlavePhase::Configuration:
-      return Service::ChkCfg;
-    case SlavePhase::DataExchange:
-      return stepped_ ? Service::SlaveDiag : Service::DataExchange;
+      return Service::kSlaveDiag;
+    case SlavePhase::kFirstDiagnosis:
+    case SlavePhase::kAwaitReady:
+      return Service::kSlaveDiag;
+    case SlavePhase::kParameters:
+      return Service::kSetPrm;
+    case SlavePhase::kConfiguration:
+      return Service::kChkCfg;
+    case SlavePhase::kDataExchange:
+      return stepped_ ? Service::kSlaveDiag : Service::kDataExchange;
   }
-  return Service::FdlStatus;
+  return Service::kFdlStatus;
 }
 
 void DpSlave::prepare(FdlRequest& request, Instant now) noexcept {
   asked_ = nextService();
   stepped_ = true;
   switch (asked_) {
-    case Service::FdlStatus:
+    case Service::kRecord:  // prepareAcyclic()
+      break;
+    case Service::kFdlStatus:
       due_ = now + probe_interval_;
       services_.fdlStatus(request, config_.address);
       break;
-    case Service::SlaveDiag:
+    case Service::kSlaveDiag:
       services_.slaveDiag(request, config_.address, frame_count_.bits());
       break;
-    case Service::SetPrm:
+    case Service::kSetPrm:
       services_.setPrm(request, config_,
                        config_.expect_exact_ident ? config_.ident_number : status_.ident.value_or(config_.ident_number),
                        frame_count_.bits());
       break;
-    case Service::ChkCfg:
+    case Service::kChkCfg:
       services_.chkCfg(request, config_, frame_count_.bits());
       break;
-    case Service::DataExchange:
+    case Service::kDataExchange:
       services_.dataExchange(request, config_, outputs_, frame_count_.bits());
       break;
   }
 }
 
+bool DpSlave::wantsAcyclic(Instant now) noexcept {
+  return status_.phase == SlavePhase::kDataExchange && records_.wantsTelegram(now);
+}
+
+void DpSlave::prepareAcyclic(FdlRequest& request, Instant now) noexcept {
+  asked_ = Service::kRecord;
+  services_.record(request, config_.address, records_.pollTelegram(now), frame_count_.bits());
+}
+
+bool DpSlave::submitRecord(const RecordRequest& request) noexcept {
+  std::optional<RecordOutcome> unusable;
+  if (status_.phase != SlavePhase::kDataExchange) unusable = RecordOutcome::kOffline;
+  if (!config_.dpv1) unusable = RecordOutcome::kNotSupported;
+  return records_.submit(request, unusable);
+}
+
 void DpSlave::fallSilent(Instant due, const char* note) noexcept {
   diagnosis_due_ = false;
-  status_.phase = SlavePhase::Silent;
+  status_.phase = SlavePhase::kSilent;
   status_.note = note;
   due_ = due;
 }
@@ -114,16 +133,17 @@ void DpSlave::fallSilent(Instant due, const char* note) noexcept {
 void DpSlave::startOver(const char* note) noexcept {
   frame_count_.reset();
   diagnosis_due_ = false;
-  status_.phase = SlavePhase::FirstDiagnosis;
+  status_.phase = SlavePhase::kFirstDiagnosis;
   status_.note = note;
   due_ = Instant{};
 }
 
 void DpSlave::lose(LossCause cause, const char* text, DpEvents& events) noexcept {
   ++status_.counters.losses;
+  records_.handleOffline();
   status_.exchanged_this_cycle = false;
   told_found_ = false;
-  DpEvent lost = event(DpEventKind::SlaveLost, text);
+  DpEvent lost = event(DpEventKind::kSlaveLost, text);
   lost.cause = cause;
   events.push(lost);
 }
@@ -131,7 +151,7 @@ void DpSlave::lose(LossCause cause, const char* text, DpEvents& events) noexcept
 void DpSlave::backOff(const Fault& fault, Instant now, DpEvents& events) noexcept {
   ++status_.counters.refusals;
   startOver(fault.text);
-  status_.phase = SlavePhase::BackOff;
+  status_.phase = SlavePhase::kBackOff;
   due_ = now + pause_;
   pause_ = std::min(2 * pause_, kLongestPause);
   if (told_fault_ == fault.kind) return;

@@ -20,97 +20,105 @@ constexpr Duration kOwnerLimit = 500ms;
 }  // namespace
 
 void DpSlave::handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
-  if (asked_ != Service::FdlStatus) frame_count_.answered();
+  if (asked_ != Service::kFdlStatus) frame_count_.answered();
   switch (asked_) {
-    case Service::FdlStatus:
+    case Service::kFdlStatus:
       return onFdlStatus(answer, now, events);
-    case Service::SlaveDiag:
+    case Service::kSlaveDiag:
       return onDiagnosis(answer, now, events);
-    case Service::SetPrm:
-    case Service::ChkCfg:
+    case Service::kSetPrm:
+    case Service::kChkCfg:
       return onAcknowledge(answer, now, events);
-    case Service::DataExchange:
+    case Service::kDataExchange:
       return onExchange(answer, now, events);
+    case Service::kRecord:
+      return records_.handleAnswer(answer, now);
   }
 }
 
 void DpSlave::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) noexcept {
-  if (status_.phase == SlavePhase::Silent) return;
-  if (status_.phase != SlavePhase::DataExchange) return fallSilent(now + probe_interval_, kNoAnswer);
+  if (status_.phase == SlavePhase::kSilent) return;
+  if (asked_ == Service::kRecord) {
+    // Whether the slave took it is not known: the next exchange begins the frame count anew. If it is gone, that
+    // exchange finds out.
+    frame_count_.reset();
+    return records_.handleNoAnswer();
+  }
+  if (status_.phase != SlavePhase::kDataExchange) return fallSilent(now + probe_interval_, texts::kNoAnswer);
 
   const bool other_length =
-      asked_ == Service::DataExchange && (mismatch == Mismatch::Length || mismatch == Mismatch::Acknowledge);
+      asked_ == Service::kDataExchange && (mismatch == Mismatch::kLength || mismatch == Mismatch::kAcknowledge);
   if (other_length) {
-    lose(LossCause::WrongAnswers, kWrongLength, events);
-    return backOff({DpEventKind::ConfigurationFault, kWrongLength}, now, events);
+    lose(LossCause::kWrongAnswers, texts::kWrongLength, events);
+    return backOff({DpEventKind::kConfigurationFault, texts::kWrongLength}, now, events);
   }
-  if (mismatch == Mismatch::None || mismatch == Mismatch::Stranger) {
-    lose(LossCause::Silence, kFellSilent, events);
+  if (mismatch == Mismatch::kNone || mismatch == Mismatch::kStranger) {
+    lose(LossCause::kSilence, texts::kFellSilent, events);
   } else {
-    lose(LossCause::WrongAnswers, kGarbled, events);
+    lose(LossCause::kWrongAnswers, texts::kGarbled, events);
   }
-  fallSilent(now, kNoAnswer);  // asked again in the next cycle: most silences are short
+  fallSilent(now, texts::kNoAnswer);  // asked again in the next cycle: most silences are short
 }
 
 void DpSlave::onFdlStatus(const FdlAnswer& answer, Instant, DpEvents& events) noexcept {
-  if (answer.kind != FdlAnswer::Kind::Acknowledge) return;
-  if (answer.station_type != StationType::Slave) {
-    status_.note = kMasterThere;
-    if (told_fault_ == DpEventKind::ForeignMaster) return;
-    told_fault_ = DpEventKind::ForeignMaster;
-    DpEvent told = event(DpEventKind::ForeignMaster, kMasterThere);
+  if (answer.kind != FdlAnswer::Kind::kAcknowledge) return;
+  if (answer.station_type != StationType::kSlave) {
+    status_.note = texts::kMasterThere;
+    if (told_fault_ == DpEventKind::kForeignMaster) return;
+    told_fault_ = DpEventKind::kForeignMaster;
+    DpEvent told = event(DpEventKind::kForeignMaster, texts::kMasterThere);
     told.master = config_.address.value();
     events.push(told);
     return;
   }
   status_.ident.reset();
-  startOver(kStarting);
-  if (!told_found_) events.push(event(DpEventKind::SlaveFound, kStarting));
+  startOver(texts::kStarting);
+  if (!told_found_) events.push(event(DpEventKind::kSlaveFound, texts::kStarting));
   told_found_ = true;
 }
 
 void DpSlave::onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
-  const bool exchanging = status_.phase == SlavePhase::DataExchange;
-  const auto diagnosis = answer.kind == FdlAnswer::Kind::Data ? Diagnosis::from(answer.data) : std::nullopt;
+  const bool exchanging = status_.phase == SlavePhase::kDataExchange;
+  const auto diagnosis = answer.kind == FdlAnswer::Kind::kData ? Diagnosis::from(answer.data) : std::nullopt;
   if (!diagnosis) {
-    if (!exchanging) return backOff({DpEventKind::ServiceRefused, kServiceRefused}, now, events);
-    if (answer.code != ResponseCode::NotActivated) return;  // asked for again after the next exchange
-    lose(LossCause::LeftDataExchange, kLeft, events);
-    return startOver(kLeft);
+    if (!exchanging) return backOff({DpEventKind::kServiceRefused, texts::kServiceRefused}, now, events);
+    if (answer.code != ResponseCode::kNotActivated) return;  // asked for again after the next exchange
+    lose(LossCause::kLeftDataExchange, texts::kLeft, events);
+    return startOver(texts::kLeft);
   }
   ++status_.counters.diagnoses;
   status_.diagnosis = *diagnosis;
   status_.ident = diagnosis->ident();
   if (exchanging) return judgeInExchange(now, events);
-  if (status_.phase == SlavePhase::AwaitReady) return judgeReady(now, events);
+  if (status_.phase == SlavePhase::kAwaitReady) return judgeReady(now, events);
   judgeFirst(now, events);
 }
 
 void DpSlave::onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
-  if (answer.kind != FdlAnswer::Kind::Acknowledge) {
-    return backOff({DpEventKind::ServiceRefused, kServiceRefused}, now, events);
+  if (answer.kind != FdlAnswer::Kind::kAcknowledge) {
+    return backOff({DpEventKind::kServiceRefused, texts::kServiceRefused}, now, events);
   }
-  if (asked_ == Service::SetPrm) {
-    status_.phase = SlavePhase::Configuration;
+  if (asked_ == Service::kSetPrm) {
+    status_.phase = SlavePhase::kConfiguration;
     return;
   }
   // That SC came says nothing about the content: the next diagnosis does.
-  status_.phase = SlavePhase::AwaitReady;
+  status_.phase = SlavePhase::kAwaitReady;
   ready_since_ = now;
 }
 
 void DpSlave::onExchange(const FdlAnswer& answer, Instant, DpEvents& events) noexcept {
-  if (answer.kind == FdlAnswer::Kind::Refusal) {
-    if (answer.code == ResponseCode::NotActivated) {
-      lose(LossCause::LeftDataExchange, kLeft, events);
-      return startOver(kLeft);
+  if (answer.kind == FdlAnswer::Kind::kRefusal) {
+    if (answer.code == ResponseCode::kNotActivated) {
+      lose(LossCause::kLeftDataExchange, texts::kLeft, events);
+      return startOver(texts::kLeft);
     }
     diagnosis_due_ = true;  // no data, no reason: ask for it
     return;
   }
   ++status_.counters.exchanges;
   forgetFaults();
-  if (answer.code == ResponseCode::DataHigh) diagnosis_due_ = true;
+  if (answer.code == ResponseCode::kDataHigh) diagnosis_due_ = true;
   if (status_.diagnosis.staticDiagnosis()) return;  // its inputs mean nothing
   std::copy(answer.data.begin(), answer.data.end(), inputs_.begin());
   status_.exchanged_this_cycle = true;
@@ -118,23 +126,24 @@ void DpSlave::onExchange(const FdlAnswer& answer, Instant, DpEvents& events) noe
 
 std::optional<DpSlave::Fault> DpSlave::strangerIn(const Diagnosis& diagnosis) const noexcept {
   if (config_.expect_exact_ident && diagnosis.ident() != config_.ident_number) {
-    return Fault{DpEventKind::WrongIdent, kWrongIdent};
+    return Fault{DpEventKind::kWrongIdent, texts::kWrongIdent};
   }
-  if (diagnosis.owner() != kNoOwner && diagnosis.owner() != master_) return Fault{DpEventKind::LockedByMaster, kLocked};
+  if (diagnosis.owner() != kNoOwner && diagnosis.owner() != master_)
+    return Fault{DpEventKind::kLockedByMaster, texts::kLocked};
   return std::nullopt;
 }
 
 std::optional<DpSlave::Fault> DpSlave::faultIn(const Diagnosis& diagnosis) const noexcept {
   if (const auto stranger = strangerIn(diagnosis)) return stranger;
-  if (diagnosis.parameterFault()) return Fault{DpEventKind::ParameterFault, kPrmFault};
-  if (diagnosis.configurationFault()) return Fault{DpEventKind::ConfigurationFault, kCfgFault};
+  if (diagnosis.parameterFault()) return Fault{DpEventKind::kParameterFault, texts::kPrmFault};
+  if (diagnosis.configurationFault()) return Fault{DpEventKind::kConfigurationFault, texts::kCfgFault};
   return std::nullopt;
 }
 
 // Faults shown here are those of an earlier start-up, perhaps of another master: Set_Prm takes them away.
 void DpSlave::judgeFirst(Instant now, DpEvents& events) noexcept {
   if (const auto stranger = strangerIn(status_.diagnosis)) return backOff(*stranger, now, events);
-  status_.phase = SlavePhase::Parameters;
+  status_.phase = SlavePhase::kParameters;
 }
 
 void DpSlave::judgeReady(Instant now, DpEvents& events) noexcept {
@@ -143,33 +152,33 @@ void DpSlave::judgeReady(Instant now, DpEvents& events) noexcept {
   const Duration waited = now - ready_since_;
   const bool ours = !diagnosis.parameterRequest() && diagnosis.owner() == master_;
   if (ours && !diagnosis.notReady() && !diagnosis.staticDiagnosis()) {
-    status_.phase = SlavePhase::DataExchange;
+    status_.phase = SlavePhase::kDataExchange;
     status_.note = "";
     diagnosis_due_ = false;
-    events.push(event(DpEventKind::DataExchangeEntered, ""));
+    events.push(event(DpEventKind::kDataExchangeEntered, ""));
     return;
   }
-  if (!ours && waited >= kOwnerLimit) return backOff({DpEventKind::NotReady, kForgot}, now, events);
-  if (waited >= kReadyLimit) return backOff({DpEventKind::NotReady, kNotReady}, now, events);
-  status_.note = diagnosis.staticDiagnosis() ? kNoValidData : kWaiting;
+  if (!ours && waited >= kOwnerLimit) return backOff({DpEventKind::kNotReady, texts::kForgot}, now, events);
+  if (waited >= kReadyLimit) return backOff({DpEventKind::kNotReady, texts::kNotReady}, now, events);
+  status_.note = diagnosis.staticDiagnosis() ? texts::kNoValidData : texts::kWaiting;
   if (waited >= kAskOften) due_ = now + kAskRarely;
 }
 
 void DpSlave::judgeInExchange(Instant now, DpEvents& events) noexcept {
   const Diagnosis& diagnosis = status_.diagnosis;
   if (const auto fault = faultIn(diagnosis)) {
-    lose(LossCause::ParametersRequested, fault->text, events);
+    lose(LossCause::kParametersRequested, fault->text, events);
     return backOff(*fault, now, events);
   }
   if (diagnosis.parameterRequest() || diagnosis.owner() != master_) {
-    lose(LossCause::ParametersRequested, kAsksAgain, events);
-    return startOver(kAsksAgain);
+    lose(LossCause::kParametersRequested, texts::kAsksAgain, events);
+    return startOver(texts::kAsksAgain);
   }
   // While Stat_Diag stands, outputs go on (a stop must reach the drive), inputs do not count, and the diagnosis is
   // fetched after every exchange until it has gone.
   diagnosis_due_ = diagnosis.staticDiagnosis();
   if (diagnosis.staticDiagnosis()) status_.exchanged_this_cycle = false;
-  status_.note = diagnosis.staticDiagnosis() ? kNoValidData : "";
+  status_.note = diagnosis.staticDiagnosis() ? texts::kNoValidData : "";
 }
 
 }  // namespace nord_driver::profibus

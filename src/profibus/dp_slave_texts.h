@@ -1,7 +1,7 @@
 // What a technician reads of a slave: sentences without their subject ("PROFIBUS station 8 ...").
 #pragma once
 
-namespace nord_driver::profibus {
+namespace nord_driver::profibus::texts {
 
 constexpr const char* kNoAnswer =
     "does not answer: check its power, its address, the baud rate, the cable and its termination";
@@ -29,4 +29,4 @@ constexpr const char* kServiceRefused =
 constexpr const char* kNotReady = "has its parameters, but does not become ready for data exchange";
 constexpr const char* kForgot = "was given its parameters, and asks for them again (Prm_Req)";
 
-}  // namespace nord_driver::profibus
+}  // namespace nord_driver::profibus::texts

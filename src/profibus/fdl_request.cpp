@@ -14,21 +14,21 @@ bool mirrorsAccessPoints(const FdlRequest& request, const Telegram& telegram) no
 }
 
 Mismatch matchData(const FdlRequest& request, const Telegram& telegram, FdlAnswer& answer) noexcept {
-  if (!request.data_legal) return Mismatch::Function;
-  if (!mirrorsAccessPoints(request, telegram)) return Mismatch::AccessPoint;
-  if (telegram.data.size() < request.min_data || telegram.data.size() > request.max_data) return Mismatch::Length;
-  answer.kind = FdlAnswer::Kind::Data;
+  if (!request.data_legal) return Mismatch::kFunction;
+  if (!mirrorsAccessPoints(request, telegram)) return Mismatch::kAccessPoint;
+  if (telegram.data.size() < request.min_data || telegram.data.size() > request.max_data) return Mismatch::kLength;
+  answer.kind = FdlAnswer::Kind::kData;
   answer.data = telegram.data;
-  return Mismatch::None;
+  return Mismatch::kNone;
 }
 
 // Captured slaves refuse with SD1, without service access points, also where the request had them.
 Mismatch matchWithoutData(const FdlRequest& request, const Telegram& telegram, FdlAnswer::Kind kind,
                           FdlAnswer& answer) noexcept {
-  if (!withoutAccessPoints(telegram) && !mirrorsAccessPoints(request, telegram)) return Mismatch::AccessPoint;
-  if (!telegram.data.empty()) return Mismatch::Length;
+  if (!withoutAccessPoints(telegram) && !mirrorsAccessPoints(request, telegram)) return Mismatch::kAccessPoint;
+  if (!telegram.data.empty()) return Mismatch::kLength;
   answer.kind = kind;
-  return Mismatch::None;
+  return Mismatch::kNone;
 }
 
 }  // namespace
@@ -36,38 +36,38 @@ Mismatch matchWithoutData(const FdlRequest& request, const Telegram& telegram, F
 Mismatch matchAnswer(const FdlRequest& request, std::uint8_t master, const Telegram& telegram,
                      FdlAnswer& answer) noexcept {
   answer = FdlAnswer{};
-  if (telegram.kind == TelegramKind::Sc) {
-    return request.short_acknowledge_legal ? Mismatch::None : Mismatch::Acknowledge;
+  if (telegram.kind == TelegramKind::kSc) {
+    return request.short_acknowledge_legal ? Mismatch::kNone : Mismatch::kAcknowledge;
   }
-  if (telegram.kind == TelegramKind::Sd4 || isRequest(telegram.fc)) return Mismatch::Stranger;
-  if (telegram.da != master || telegram.sa != request.station) return Mismatch::Stranger;
+  if (telegram.kind == TelegramKind::kSd4 || isRequest(telegram.fc)) return Mismatch::kStranger;
+  if (telegram.da != master || telegram.sa != request.station) return Mismatch::kStranger;
 
   answer.code = responseCode(telegram.fc);
   answer.station_type = stationType(telegram.fc);
-  if (answer.station_type != StationType::Slave && !request.any_station_type) return Mismatch::Function;
+  if (answer.station_type != StationType::kSlave && !request.any_station_type) return Mismatch::kFunction;
 
   switch (answer.code) {
-    case ResponseCode::DataLow:
-    case ResponseCode::DataHigh:
+    case ResponseCode::kDataLow:
+    case ResponseCode::kDataHigh:
       return matchData(request, telegram, answer);
-    case ResponseCode::Ok:
-      if (!request.acknowledge_legal) return Mismatch::Acknowledge;
-      return matchWithoutData(request, telegram, FdlAnswer::Kind::Acknowledge, answer);
-    case ResponseCode::NoData:
+    case ResponseCode::kOk:
+      if (!request.acknowledge_legal) return Mismatch::kAcknowledge;
+      return matchWithoutData(request, telegram, FdlAnswer::Kind::kAcknowledge, answer);
+    case ResponseCode::kNoData:
       return matchWithoutData(request, telegram,
-                              request.acknowledge_legal ? FdlAnswer::Kind::Acknowledge : FdlAnswer::Kind::Refusal,
+                              request.acknowledge_legal ? FdlAnswer::Kind::kAcknowledge : FdlAnswer::Kind::kRefusal,
                               answer);
-    case ResponseCode::UserError:
-    case ResponseCode::NoResource:
-    case ResponseCode::NotActivated:
-      return matchWithoutData(request, telegram, FdlAnswer::Kind::Refusal, answer);
-    case ResponseCode::DataLowNoResource:
-    case ResponseCode::DataHighNoResource:
+    case ResponseCode::kUserError:
+    case ResponseCode::kNoResource:
+    case ResponseCode::kNotActivated:
+      return matchWithoutData(request, telegram, FdlAnswer::Kind::kRefusal, answer);
+    case ResponseCode::kDataLowNoResource:
+    case ResponseCode::kDataHighNoResource:
       // The slave did not take what was sent: whatever data come with it, this was no exchange.
-      answer.kind = FdlAnswer::Kind::Refusal;
-      return mirrorsAccessPoints(request, telegram) ? Mismatch::None : Mismatch::AccessPoint;
+      answer.kind = FdlAnswer::Kind::kRefusal;
+      return mirrorsAccessPoints(request, telegram) ? Mismatch::kNone : Mismatch::kAccessPoint;
   }
-  return Mismatch::Function;
+  return Mismatch::kFunction;
 }
 
 }  // namespace nord_driver::profibus

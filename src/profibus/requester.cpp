@@ -5,7 +5,7 @@
 namespace nord_driver::profibus {
 
 void Requester::restart(Instant now) noexcept {
-  state_ = State::Idle;
+  state_ = State::kIdle;
   request_ = nullptr;
   slave_ = nullptr;
   receiver_.discard();
@@ -17,18 +17,18 @@ void Requester::begin(const FdlRequest& request, SlaveCounters* slave, Instant n
   request_ = &request;
   slave_ = slave;
   sendings_ = 0;
-  mismatch_ = Mismatch::None;
+  mismatch_ = Mismatch::kNone;
   queue(now);
 }
 
 // Whoever talks now may finish the longest telegram; a line that is not silent after that has a fault.
 void Requester::queue(Instant now) noexcept {
-  state_ = State::ToSend;
+  state_ = State::kToSend;
   give_up_ = std::max(now, silent_from_) + bus_.baud.characters(kMaxTelegramLength) + 2 * bus_.slotTime();
 }
 
 ByteView Requester::pollTransmit(Instant now) noexcept {
-  if (state_ != State::ToSend || now < silent_from_) return {};
+  if (state_ != State::kToSend || now < silent_from_) return {};
   // Bytes from before the pause belong to no answer.
   receiver_.discard();
   takeReceiverCounters();
@@ -43,12 +43,12 @@ ByteView Requester::pollTransmit(Instant now) noexcept {
 
   const Instant sent = now + bus_.baud.characters(request_->frame.size());
   if (request_->answered) {
-    state_ = State::AwaitAnswer;
+    state_ = State::kAwaitAnswer;
     silent_from_ = sent + bus_.idleTime();
     slot_end_ = sent + bus_.slotTime();
     answer_limit_ = slot_end_ + bus_.baud.characters(kMaxTelegramLength) + bus_.slotTime();
   } else {
-    state_ = State::Idle;
+    state_ = State::kIdle;
     silent_from_ = sent + bus_.broadcastIdleTime();
   }
   return request_->frame;
@@ -56,23 +56,23 @@ ByteView Requester::pollTransmit(Instant now) noexcept {
 
 std::optional<Instant> Requester::nextDeadline() const noexcept {
   switch (state_) {
-    case State::Idle:
+    case State::kIdle:
       return std::nullopt;
-    case State::ToSend:
+    case State::kToSend:
       return std::min(silent_from_, give_up_);
-    case State::AwaitAnswer:
+    case State::kAwaitAnswer:
       return slot_end_;
   }
   return std::nullopt;
 }
 
 Requester::Outcome Requester::handleTimeout(Instant now) noexcept {
-  if (state_ == State::ToSend && now >= give_up_ && now < silent_from_) {
-    state_ = State::Idle;
+  if (state_ == State::kToSend && now >= give_up_ && now < silent_from_) {
+    state_ = State::kIdle;
     ++counters_.busy;
-    return sendings_ == 0 ? Outcome::LineBusy : Outcome::NoAnswer;
+    return sendings_ == 0 ? Outcome::kLineBusy : Outcome::kNoAnswer;
   }
-  if (state_ != State::AwaitAnswer || now < slot_end_) return Outcome::None;
+  if (state_ != State::kAwaitAnswer || now < slot_end_) return Outcome::kNone;
 
   ++counters_.timeouts;
   if (slave_ != nullptr) ++slave_->timeouts;
@@ -80,39 +80,39 @@ Requester::Outcome Requester::handleTimeout(Instant now) noexcept {
   takeReceiverCounters();
   if (sendings_ <= request_->retries) {
     queue(now);
-    return Outcome::None;
+    return Outcome::kNone;
   }
-  state_ = State::Idle;
-  return Outcome::NoAnswer;
+  state_ = State::kIdle;
+  return Outcome::kNoAnswer;
 }
 
 // The slot time is the time to the first character of an answer. A longer answer, or one that an adapter hands over in
 // pieces, takes its time: every piece prolongs the slot, up to the longest telegram there is.
 void Requester::noteActivity(Instant now) noexcept {
   silent_from_ = std::max(silent_from_, now + bus_.idleTime());
-  if (state_ == State::AwaitAnswer) {
+  if (state_ == State::kAwaitAnswer) {
     slot_end_ = std::max(slot_end_, std::min(now + bus_.slotTime(), answer_limit_));
   }
 }
 
 bool Requester::isForeign(const Telegram& telegram) const noexcept {
-  if (telegram.kind == TelegramKind::Sc) return false;
-  return telegram.kind == TelegramKind::Sd4 || isRequest(telegram.fc);
+  if (telegram.kind == TelegramKind::kSc) return false;
+  return telegram.kind == TelegramKind::kSd4 || isRequest(telegram.fc);
 }
 
 bool Requester::accept(const Telegram& telegram, FdlAnswer& answer) noexcept {
-  if (state_ != State::AwaitAnswer) {
+  if (state_ != State::kAwaitAnswer) {
     ++counters_.unexpected;
     return false;
   }
   const Mismatch mismatch = matchAnswer(*request_, bus_.master.value(), telegram, answer);
-  if (mismatch != Mismatch::None) {
+  if (mismatch != Mismatch::kNone) {
     mismatch_ = mismatch;
     ++counters_.unexpected;
     if (slave_ != nullptr) ++slave_->unexpected;
     return false;
   }
-  state_ = State::Idle;
+  state_ = State::kIdle;
   if (slave_ != nullptr) ++slave_->answers;
   return true;
 }

@@ -11,6 +11,8 @@ namespace nord_driver::profibus {
 
 namespace {
 
+constexpr std::uint8_t kDpv1Enable = 0x80;
+
 std::string number(double value) {
   std::string text = std::to_string(value);
   text.erase(text.find_last_not_of('0') + 1);
@@ -70,6 +72,9 @@ void validate(const SlaveConfig& slave, const BusParameters& bus) {
           "neither outputs nor inputs: there is nothing to exchange");
   require(slave, slave.min_tsdr_bits == 0 || slave.min_tsdr_bits >= 11,
           "min T_SDR of " + std::to_string(slave.min_tsdr_bits) + " bit times: expected 11 to 255, or 0 to leave it");
+  require(slave, !slave.dpv1 || (slave.user_parameters.size() >= 3 && (slave.user_parameters[0] & kDpv1Enable) != 0),
+          "DP-V1 needs user parameters that begin with DPV1_Status_1 to 3 and have bit 7 (DPV1_Enable) set");
+  require(slave, slave.record_timeout > Duration::zero(), "the time for an acyclic response is not positive");
   requireWatchdog(slave);
   requireMatchingLengths(slave);
 }

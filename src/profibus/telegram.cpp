@@ -30,14 +30,14 @@ std::uint8_t checksum(ByteView bytes) noexcept {
 
 ParseResult malformed(Defect defect) noexcept {
   ParseResult result;
-  result.kind = Parse::Malformed;
+  result.kind = Parse::kMalformed;
   result.defect = defect;
   return result;
 }
 
 ParseResult done(const Telegram& telegram, std::size_t eaten) noexcept {
   ParseResult result;
-  result.kind = Parse::Ok;
+  result.kind = Parse::kOk;
   result.telegram = telegram;
   result.eaten = eaten;
   return result;
@@ -47,22 +47,22 @@ ParseResult done(const Telegram& telegram, std::size_t eaten) noexcept {
 ParseResult parseBody(ByteView bytes, TelegramKind kind, std::size_t head, std::size_t body) noexcept {
   if (bytes.size() < head + body + 2) return {};
   const ByteView content = bytes.sub(head, body);
-  if (checksum(content) != bytes[head + body]) return malformed(Defect::Checksum);
-  if (bytes[head + body + 1] != kEnd) return malformed(Defect::EndDelimiter);
+  if (checksum(content) != bytes[head + body]) return malformed(Defect::kChecksum);
+  if (bytes[head + body + 1] != kEnd) return malformed(Defect::kEndDelimiter);
 
   Telegram telegram;
   telegram.kind = kind;
   telegram.da = content[0] & kAddressMask;
   telegram.sa = content[1] & kAddressMask;
   telegram.fc = content[2];
-  if (telegram.sa == kBroadcastAddress) return malformed(Defect::Address);
+  if (telegram.sa == kBroadcastAddress) return malformed(Defect::kAddress);
   std::size_t position = kAddressesAndFunction;
   if ((content[0] & kExtensionBit) != 0) {
-    if (position >= body) return malformed(Defect::Address);
+    if (position >= body) return malformed(Defect::kAddress);
     telegram.dsap = content[position++];
   }
   if ((content[1] & kExtensionBit) != 0) {
-    if (position >= body) return malformed(Defect::Address);
+    if (position >= body) return malformed(Defect::kAddress);
     telegram.ssap = content[position++];
   }
   telegram.data = content.sub(position);
@@ -72,22 +72,22 @@ ParseResult parseBody(ByteView bytes, TelegramKind kind, std::size_t head, std::
 ParseResult parseSd2(ByteView bytes) noexcept {
   if (bytes.size() < 2) return {};
   const std::size_t le = bytes[1];
-  if (le < kMinLe || le > kMaxLe) return malformed(Defect::Length);
+  if (le < kMinLe || le > kMaxLe) return malformed(Defect::kLength);
   if (bytes.size() < 3) return {};
-  if (bytes[2] != bytes[1]) return malformed(Defect::Length);
+  if (bytes[2] != bytes[1]) return malformed(Defect::kLength);
   if (bytes.size() < 4) return {};
-  if (bytes[3] != kStart2) return malformed(Defect::StartDelimiter);
-  return parseBody(bytes, TelegramKind::Sd2, 4, le);
+  if (bytes[3] != kStart2) return malformed(Defect::kStartDelimiter);
+  return parseBody(bytes, TelegramKind::kSd2, 4, le);
 }
 
 ParseResult parseToken(ByteView bytes) noexcept {
   // The token has neither FCS nor end delimiter: the addresses are all there is to check.
   for (std::size_t i = 1; i < 3; ++i) {
     if (bytes.size() <= i) return {};
-    if (bytes[i] >= kBroadcastAddress) return malformed(Defect::Address);
+    if (bytes[i] >= kBroadcastAddress) return malformed(Defect::kAddress);
   }
   Telegram telegram;
-  telegram.kind = TelegramKind::Sd4;
+  telegram.kind = TelegramKind::kSd4;
   telegram.da = bytes[1];
   telegram.sa = bytes[2];
   return done(telegram, 3);
@@ -114,12 +114,12 @@ bool encode(const Telegram& telegram, Frame& frame) noexcept {
   if (telegram.da > kBroadcastAddress || telegram.sa >= kBroadcastAddress) return false;
   ByteWriter<256> writer{frame};
   switch (telegram.kind) {
-    case TelegramKind::Sd1:
+    case TelegramKind::kSd1:
       if (octets != 0) return false;
       writer.u8(kStart1);
       writeBody(telegram, writer, frame);
       return true;
-    case TelegramKind::Sd2: {
+    case TelegramKind::kSd2: {
       if (octets == 0 || octets > kMaxDataUnit) return false;
       const auto le = static_cast<std::uint8_t>(kAddressesAndFunction + octets);
       writer.u8(kStart2);
@@ -129,18 +129,18 @@ bool encode(const Telegram& telegram, Frame& frame) noexcept {
       writeBody(telegram, writer, frame);
       return true;
     }
-    case TelegramKind::Sd3:
+    case TelegramKind::kSd3:
       if (octets != kSd3Octets) return false;
       writer.u8(kStart3);
       writeBody(telegram, writer, frame);
       return true;
-    case TelegramKind::Sd4:
+    case TelegramKind::kSd4:
       if (octets != 0 || telegram.da == kBroadcastAddress) return false;
       writer.u8(kStart4);
       writer.u8(telegram.da);
       writer.u8(telegram.sa);
       return true;
-    case TelegramKind::Sc:
+    case TelegramKind::kSc:
       if (octets != 0) return false;
       writer.u8(kShortAcknowledge);
       return true;
@@ -154,15 +154,15 @@ ParseResult parse(ByteView bytes) noexcept {
     case kShortAcknowledge:
       return done(Telegram{}, 1);
     case kStart1:
-      return parseBody(bytes, TelegramKind::Sd1, 1, kAddressesAndFunction);
+      return parseBody(bytes, TelegramKind::kSd1, 1, kAddressesAndFunction);
     case kStart2:
       return parseSd2(bytes);
     case kStart3:
-      return parseBody(bytes, TelegramKind::Sd3, 1, kAddressesAndFunction + kSd3Octets);
+      return parseBody(bytes, TelegramKind::kSd3, 1, kAddressesAndFunction + kSd3Octets);
     case kStart4:
       return parseToken(bytes);
     default:
-      return malformed(Defect::StartDelimiter);
+      return malformed(Defect::kStartDelimiter);
   }
 }
 

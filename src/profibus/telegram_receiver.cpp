@@ -19,14 +19,14 @@ std::size_t TelegramReceiver::fill(ByteView bytes) noexcept {
 ParseResult TelegramReceiver::next(std::size_t& used) noexcept {
   while (true) {
     const ParseResult result = parse(ByteView{buffer_}.sub(used));
-    if (result.kind == Parse::NeedMore) return result;
-    if (result.kind == Parse::Ok) {
+    if (result.kind == Parse::kNeedMore) return result;
+    if (result.kind == Parse::kOk) {
       used += result.eaten;
       counters_.bytes_in_telegrams += result.eaten;
       ++counters_.telegrams;
       return result;
     }
-    if (result.defect == Defect::Checksum) ++counters_.checksum_errors;
+    if (result.defect == Defect::kChecksum) ++counters_.checksum_errors;
     ++counters_.bytes_discarded;
     ++used;
   }

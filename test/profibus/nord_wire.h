@@ -66,7 +66,7 @@ class NordWire : public Wire {
     takesParameters();
     takesConfiguration();
     cycle(kDiag5D, kReady);
-    EXPECT_EQ(SlavePhase::DataExchange, status().phase);
+    EXPECT_EQ(SlavePhase::kDataExchange, status().phase);
     forgetEvents();
   }
 };

@@ -74,7 +74,7 @@ TEST(Cycle, ALostSlaveCostsLittle) {
   wire.staysSilent();
   wire.asks(kExchange9of7D, kInputs9);
   wire.cycleEnds();
-  EXPECT_EQ(0u, wire.tells(DpEventKind::SlaveLost).slave);
+  EXPECT_EQ(0u, wire.tells(DpEventKind::kSlaveLost).slave);
   EXPECT_FALSE(wire.status(0).exchanged_this_cycle);
   EXPECT_TRUE(wire.status(1).exchanged_this_cycle);
 

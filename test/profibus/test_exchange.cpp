@@ -63,7 +63,7 @@ TEST(Exchange, FetchesTheDiagnosisThatDhAnnounces) {
   // Ext_Diag with a device block 02 04: the link to the inverter is broken (BU 0020 8.2).
   wire.receives("68 0D 0D 68 81 88 08 3E 3C 08 0C 00 01 75 31 02 04 4C 16");
   wire.cycleEnds();
-  EXPECT_EQ(SlavePhase::DataExchange, wire.status().phase);
+  EXPECT_EQ(SlavePhase::kDataExchange, wire.status().phase);
   EXPECT_TRUE(wire.status().exchanged_this_cycle);
   EXPECT_TRUE(wire.status().diagnosis.extended());
   EXPECT_TRUE(wire.status().diagnosis.watchdogOn());
@@ -126,7 +126,7 @@ TEST(Exchange, AsksWhyWhenAnAnswerCarriesNoData) {
     wire.receives(kReady);
     wire.cycleEnds();
     EXPECT_FALSE(wire.status().exchanged_this_cycle);
-    EXPECT_EQ(SlavePhase::DataExchange, wire.status().phase);
+    EXPECT_EQ(SlavePhase::kDataExchange, wire.status().phase);
     wire.cycle(kExchange7D, kInputs);
   }
 }
@@ -201,7 +201,7 @@ TEST(Exchange, TakesNoDataForAnAcknowledge) {
   wire.sends(kSetPrm5D);
   wire.receives("10 01 08 00 09 16");
   wire.cycleEnds();
-  EXPECT_EQ(SlavePhase::Configuration, wire.status().phase);
+  EXPECT_EQ(SlavePhase::kConfiguration, wire.status().phase);
 }
 
 // FDL status and Slave_Diag cannot be answered by SC: anybody's stray E5 would bring a slave to life.
@@ -212,7 +212,7 @@ TEST(Exchange, AShortAcknowledgeFindsNoSlave) {
   wire.receives("E5");
   wire.staysSilent();
   wire.cycleEnds();
-  EXPECT_EQ(SlavePhase::Silent, wire.status().phase);
+  EXPECT_EQ(SlavePhase::kSilent, wire.status().phase);
   EXPECT_EQ(1u, wire.master.counters().unexpected);
 }
 

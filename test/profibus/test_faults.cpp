@@ -30,11 +30,11 @@ TEST(Faults, WrongIdentNumber) {
   wire.forgetEvents();
   const char* const kOther = "68 0B 0B 68 81 88 08 3E 3C 02 05 00 FF 0B A8 44 16";
   wire.cycle(kDiag6D, kOther);
-  const DpEvent event = wire.tells(DpEventKind::WrongIdent);
+  const DpEvent event = wire.tells(DpEventKind::kWrongIdent);
   EXPECT_EQ(0x0BA8, event.ident);
   EXPECT_STRNE("", event.text);
   EXPECT_STREQ(event.text, wire.status().note);
-  EXPECT_EQ(SlavePhase::BackOff, wire.status().phase);
+  EXPECT_EQ(SlavePhase::kBackOff, wire.status().phase);
   for (const Duration pause : {250ms, 500ms, 1000ms, 2000ms, 2000ms}) {
     backsOff(wire, pause);
     wire.sends(kDiag6D);
@@ -64,7 +64,7 @@ TEST(Faults, RefusedParameters) {
   wire.takesConfiguration();
   wire.forgetEvents();
   wire.cycle(kDiag5D, "68 0B 0B 68 81 88 08 3E 3C 42 05 00 FF 75 31 77 16");
-  EXPECT_NE(nullptr, std::strstr(wire.tells(DpEventKind::ParameterFault).text, "Prm_Fault"));
+  EXPECT_NE(nullptr, std::strstr(wire.tells(DpEventKind::kParameterFault).text, "Prm_Fault"));
   backsOff(wire, 250ms);
   wire.sends(kDiag6D);
   // The old fault stands in the first diagnosis still: that is no reason not to try again.
@@ -81,8 +81,8 @@ TEST(Faults, RefusedConfiguration) {
   wire.takesConfiguration();
   wire.forgetEvents();
   wire.cycle(kDiag5D, "68 0B 0B 68 81 88 08 3E 3C 06 05 00 FF 75 31 3B 16");
-  EXPECT_NE(nullptr, std::strstr(wire.tells(DpEventKind::ConfigurationFault).text, "Cfg_Fault"));
-  EXPECT_EQ(SlavePhase::BackOff, wire.status().phase);
+  EXPECT_NE(nullptr, std::strstr(wire.tells(DpEventKind::kConfigurationFault).text, "Cfg_Fault"));
+  EXPECT_EQ(SlavePhase::kBackOff, wire.status().phase);
   backsOff(wire, 250ms);
 }
 
@@ -96,9 +96,9 @@ TEST(Faults, AreForgottenAfterAnExchange) {
     wire.cycle(kDiag5D, "68 0B 0B 68 81 88 08 3E 3C 06 05 00 FF 75 31 3B 16");
   };
   wire.isFound();
-  wire.tells(DpEventKind::SlaveFound);
+  wire.tells(DpEventKind::kSlaveFound);
   fault();
-  wire.tells(DpEventKind::ConfigurationFault);
+  wire.tells(DpEventKind::kConfigurationFault);
   wire.advance(250ms);
   fault();
   wire.tellsNothing();
@@ -107,12 +107,12 @@ TEST(Faults, AreForgottenAfterAnExchange) {
   wire.takesParameters();
   wire.takesConfiguration();
   wire.cycle(kDiag5D, kReady);
-  wire.tells(DpEventKind::DataExchangeEntered);
+  wire.tells(DpEventKind::kDataExchangeEntered);
   wire.cycle(kExchange7D, kInputs);
   wire.cycle(kExchange5D, kNotActivated);
-  wire.tells(DpEventKind::SlaveLost);
+  wire.tells(DpEventKind::kSlaveLost);
   fault();
-  wire.tells(DpEventKind::ConfigurationFault);
+  wire.tells(DpEventKind::kConfigurationFault);
   backsOff(wire, 250ms);
 }
 
@@ -122,7 +122,7 @@ TEST(Faults, LockedByAnotherMaster) {
   wire.isFound();
   wire.forgetEvents();
   wire.cycle(kDiag6D, "68 0B 0B 68 81 88 08 3E 3C 00 0C 00 03 75 31 40 16");
-  EXPECT_EQ(3, wire.tells(DpEventKind::LockedByMaster).master);
+  EXPECT_EQ(3, wire.tells(DpEventKind::kLockedByMaster).master);
   backsOff(wire, 250ms);
 }
 
@@ -140,7 +140,7 @@ TEST(Faults, RefusedService) {
   wire.isFound();
   wire.forgetEvents();
   wire.cycle(kDiag6D, kNotActivated);
-  wire.tells(DpEventKind::ServiceRefused);
+  wire.tells(DpEventKind::kServiceRefused);
   backsOff(wire, 250ms);
   wire.sends(kDiag6D);
   wire.receives(kWantsPrm);
@@ -159,7 +159,7 @@ TEST(Faults, NeverReady) {
   wire.forgetEvents();
   const Instant begin = wire.now;
   int asked = 0;
-  while (wire.status().phase == SlavePhase::AwaitReady && wire.now < begin + 10s) {
+  while (wire.status().phase == SlavePhase::kAwaitReady && wire.now < begin + 10s) {
     const Instant start = wire.now;
     wire.startCycle();
     if (!wire.master.cycleDone()) {
@@ -169,11 +169,11 @@ TEST(Faults, NeverReady) {
     }
     wire.now = std::max(wire.now, start + 50ms);
   }
-  EXPECT_EQ(SlavePhase::BackOff, wire.status().phase);
+  EXPECT_EQ(SlavePhase::kBackOff, wire.status().phase);
   EXPECT_NEAR(5.0, toSeconds(wire.now - begin), 0.3);
   EXPECT_LT(asked, 45);
   EXPECT_GT(asked, 30);
-  wire.tells(DpEventKind::NotReady);
+  wire.tells(DpEventKind::kNotReady);
 }
 
 // Prm_Req that stays after Set_Prm: the slave lost its parameters; asked again soon, with a pause.
@@ -187,8 +187,8 @@ TEST(Faults, ForgetsItsParameters) {
   wire.cycle(kDiag5D, kWantsPrm);
   wire.advance(600ms);
   wire.cycle(kDiag7D, kWantsPrm);
-  wire.tells(DpEventKind::NotReady);
-  EXPECT_EQ(SlavePhase::BackOff, wire.status().phase);
+  wire.tells(DpEventKind::kNotReady);
+  EXPECT_EQ(SlavePhase::kBackOff, wire.status().phase);
 }
 
 // Another module at the address, or another master's, seen in data exchange: lost, and the reason is told.
@@ -196,10 +196,10 @@ TEST(Faults, InDataExchange) {
   struct {
     const char* diagnosis;
     DpEventKind kind;
-  } const kCases[] = {{"68 0B 0B 68 81 88 08 3E 3C 00 0C 00 01 0B A8 4B 16", DpEventKind::WrongIdent},
-                      {"68 0B 0B 68 81 88 08 3E 3C 00 0C 00 03 75 31 40 16", DpEventKind::LockedByMaster},
-                      {"68 0B 0B 68 81 88 08 3E 3C 40 0C 00 01 75 31 7E 16", DpEventKind::ParameterFault},
-                      {"68 0B 0B 68 81 88 08 3E 3C 04 0C 00 01 75 31 42 16", DpEventKind::ConfigurationFault}};
+  } const kCases[] = {{"68 0B 0B 68 81 88 08 3E 3C 00 0C 00 01 0B A8 4B 16", DpEventKind::kWrongIdent},
+                      {"68 0B 0B 68 81 88 08 3E 3C 00 0C 00 03 75 31 40 16", DpEventKind::kLockedByMaster},
+                      {"68 0B 0B 68 81 88 08 3E 3C 40 0C 00 01 75 31 7E 16", DpEventKind::kParameterFault},
+                      {"68 0B 0B 68 81 88 08 3E 3C 04 0C 00 01 75 31 42 16", DpEventKind::kConfigurationFault}};
   for (const auto& example : kCases) {
     NordWire wire;
     wire.startsUp();
@@ -209,10 +209,10 @@ TEST(Faults, InDataExchange) {
     wire.sends(kDiag5D);
     wire.receives(example.diagnosis);
     wire.cycleEnds();
-    wire.tells(DpEventKind::SlaveLost);
+    wire.tells(DpEventKind::kSlaveLost);
     wire.tells(example.kind);
     EXPECT_FALSE(wire.status().exchanged_this_cycle);
-    EXPECT_EQ(SlavePhase::BackOff, wire.status().phase);
+    EXPECT_EQ(SlavePhase::kBackOff, wire.status().phase);
   }
 }
 
@@ -220,8 +220,8 @@ TEST(Faults, InDataExchange) {
 TEST(Faults, AMasterAtASlavesAddress) {
   NordWire wire;
   wire.cycle(kFdlStatus8, "10 01 08 30 39 16");
-  EXPECT_EQ(8, wire.tells(DpEventKind::ForeignMaster).master);
-  EXPECT_EQ(SlavePhase::Silent, wire.status().phase);
+  EXPECT_EQ(8, wire.tells(DpEventKind::kForeignMaster).master);
+  EXPECT_EQ(SlavePhase::kSilent, wire.status().phase);
   wire.advance(250ms);
   wire.cycle(kFdlStatus8, "10 01 08 30 39 16");
   wire.tellsNothing();
@@ -231,13 +231,13 @@ TEST(Faults, AMasterAtASlavesAddress) {
 TEST(Faults, ForeignMaster) {
   NordWire wire;
   wire.arrives("DC 03 03");
-  EXPECT_EQ(3, wire.tells(DpEventKind::ForeignMaster).master);
+  EXPECT_EQ(3, wire.tells(DpEventKind::kForeignMaster).master);
   wire.arrives("DC 03 03  10 08 03 49 54 16");
   wire.tellsNothing();
   EXPECT_EQ(3u, wire.master.counters().foreign_telegrams);
   wire.advance(10s);
   wire.arrives("10 08 03 49 54 16");
-  EXPECT_EQ(3, wire.tells(DpEventKind::ForeignMaster).master);
+  EXPECT_EQ(3, wire.tells(DpEventKind::kForeignMaster).master);
 }
 
 // Our own request read back: the adapter echoes. It answers nothing, and the technician is told.
@@ -246,10 +246,10 @@ TEST(Faults, OwnEcho) {
   wire.startCycle();
   wire.sends(kFdlStatus8);
   wire.arrives(kFdlStatus8);
-  EXPECT_EQ(1, wire.tells(DpEventKind::ForeignMaster).master);
+  EXPECT_EQ(1, wire.tells(DpEventKind::kForeignMaster).master);
   wire.receives(kHere8);
   wire.cycleEnds();
-  EXPECT_EQ(SlavePhase::FirstDiagnosis, wire.status().phase);
+  EXPECT_EQ(SlavePhase::kFirstDiagnosis, wire.status().phase);
 }
 
 }  // namespace

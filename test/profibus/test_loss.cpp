@@ -21,17 +21,17 @@ TEST(Loss, StartsAnewWith6D) {
   NordWire wire;
   wire.startsUp();
   loses(wire, kExchange7D);
-  EXPECT_EQ(SlavePhase::Silent, wire.status().phase);
+  EXPECT_EQ(SlavePhase::kSilent, wire.status().phase);
   EXPECT_FALSE(wire.status().exchanged_this_cycle);
-  EXPECT_EQ(LossCause::Silence, wire.tells(DpEventKind::SlaveLost).cause);
+  EXPECT_EQ(LossCause::kSilence, wire.tells(DpEventKind::kSlaveLost).cause);
   EXPECT_EQ(1u, wire.status().counters.losses);
   wire.isFound();
-  wire.tells(DpEventKind::SlaveFound);
+  wire.tells(DpEventKind::kSlaveFound);
   wire.cycle("68 05 05 68 88 81 6D 3C 3E F0 16", kWantsPrm);
   wire.takesParameters();
   wire.takesConfiguration();
   wire.cycle(kDiag5D, kReady);
-  wire.tells(DpEventKind::DataExchangeEntered);
+  wire.tells(DpEventKind::kDataExchangeEntered);
   wire.cycle(kExchange7D, kInputs);
   EXPECT_TRUE(wire.status().exchanged_this_cycle);
 }
@@ -59,7 +59,7 @@ TEST(Loss, ReturnsWithinTwoSeconds) {
     wire.advance(249ms);
   }
   const Instant back = wire.now;
-  while (wire.status().phase == SlavePhase::Silent) {
+  while (wire.status().phase == SlavePhase::kSilent) {
     const Instant start = wire.now;
     wire.startCycle();
     if (!wire.master.cycleDone()) {
@@ -87,14 +87,14 @@ TEST(Loss, StartsOverWhenTheSlaveLeftDataExchange) {
   NordWire wire;
   wire.startsUp();
   wire.cycle(kExchange7D, kNotActivated);
-  EXPECT_EQ(SlavePhase::FirstDiagnosis, wire.status().phase);
+  EXPECT_EQ(SlavePhase::kFirstDiagnosis, wire.status().phase);
   EXPECT_FALSE(wire.status().exchanged_this_cycle);
-  EXPECT_EQ(LossCause::LeftDataExchange, wire.tells(DpEventKind::SlaveLost).cause);
+  EXPECT_EQ(LossCause::kLeftDataExchange, wire.tells(DpEventKind::kSlaveLost).cause);
   wire.isFree();
   wire.takesParameters();
   wire.takesConfiguration();
   wire.cycle(kDiag5D, kReady);
-  wire.tells(DpEventKind::DataExchangeEntered);
+  wire.tells(DpEventKind::kDataExchangeEntered);
 }
 
 // A diagnosis with Prm_Req in data exchange, or one of no owner: from the beginning.
@@ -110,7 +110,7 @@ TEST(Loss, StartsOverWhenTheDiagnosisAsksForParameters) {
     wire.receives(diagnosis);
     wire.cycleEnds();
     EXPECT_FALSE(wire.status().exchanged_this_cycle);
-    EXPECT_EQ(LossCause::ParametersRequested, wire.tells(DpEventKind::SlaveLost).cause);
+    EXPECT_EQ(LossCause::kParametersRequested, wire.tells(DpEventKind::kSlaveLost).cause);
     wire.isFree();
   }
 }
@@ -126,9 +126,9 @@ TEST(Loss, NamesAnotherLength) {
     wire.staysSilent();
   }
   wire.cycleEnds();
-  EXPECT_EQ(LossCause::WrongAnswers, wire.tells(DpEventKind::SlaveLost).cause);
-  wire.tells(DpEventKind::ConfigurationFault);
-  EXPECT_EQ(SlavePhase::BackOff, wire.status().phase);
+  EXPECT_EQ(LossCause::kWrongAnswers, wire.tells(DpEventKind::kSlaveLost).cause);
+  wire.tells(DpEventKind::kConfigurationFault);
+  EXPECT_EQ(SlavePhase::kBackOff, wire.status().phase);
   wire.startCycle();
   wire.cycleEnds();
   wire.advance(250ms);
@@ -140,10 +140,10 @@ TEST(Loss, NamesAnotherLength) {
 TEST(Loss, InTheStartUp) {
   NordWire wire;
   wire.isFound();
-  wire.tells(DpEventKind::SlaveFound);
+  wire.tells(DpEventKind::kSlaveFound);
   wire.isFree();
   loses(wire, kSetPrm5D);
-  EXPECT_EQ(SlavePhase::Silent, wire.status().phase);
+  EXPECT_EQ(SlavePhase::kSilent, wire.status().phase);
   wire.startCycle();
   wire.cycleEnds();
   wire.advance(250ms);
@@ -165,7 +165,7 @@ TEST(Loss, RestartStartsEverySlaveFromTheBeginning) {
   wire.advance(1s);
   wire.restart();
   EXPECT_TRUE(wire.master.cycleDone());
-  EXPECT_EQ(LossCause::LinkRestarted, wire.tells(DpEventKind::SlaveLost).cause);
+  EXPECT_EQ(LossCause::kLinkRestarted, wire.tells(DpEventKind::kSlaveLost).cause);
   wire.startsUp();
   wire.cycle(kExchange7D, kInputs);
 }

@@ -10,16 +10,16 @@ namespace {
 TEST(StartUp, GoesByTheBook) {
   NordWire wire;
   wire.cycle("10 08 01 49 52 16", "10 01 08 00 09 16");
-  EXPECT_EQ(SlavePhase::FirstDiagnosis, wire.status().phase);
-  EXPECT_EQ(0u, wire.tells(DpEventKind::SlaveFound).slave);
+  EXPECT_EQ(SlavePhase::kFirstDiagnosis, wire.status().phase);
+  EXPECT_EQ(0u, wire.tells(DpEventKind::kSlaveFound).slave);
   wire.cycle("68 05 05 68 88 81 6D 3C 3E F0 16", "68 0B 0B 68 81 88 08 3E 3C 02 05 00 FF 75 31 37 16");
   EXPECT_EQ(0x7531, wire.status().ident);
   wire.cycle("68 0C 0C 68 88 81 5D 3D 3E 88 0A 01 0B 75 31 00 25 16", "E5");
   wire.cycle("68 07 07 68 88 81 7D 3E 3E F3 F1 E6 16", "E5");
   wire.cycle("68 05 05 68 88 81 5D 3C 3E E0 16", "68 0B 0B 68 81 88 08 3E 3C 00 0C 00 01 75 31 3E 16");
-  EXPECT_EQ(SlavePhase::DataExchange, wire.status().phase);
+  EXPECT_EQ(SlavePhase::kDataExchange, wire.status().phase);
   EXPECT_STREQ("", wire.status().note);
-  wire.tells(DpEventKind::DataExchangeEntered);
+  wire.tells(DpEventKind::kDataExchangeEntered);
   EXPECT_FALSE(wire.status().exchanged_this_cycle);
   wire.cycle("68 0F 0F 68 08 01 7D 00 00 00 00 00 00 00 00 04 7E 00 00 08 16",
              "68 0F 0F 68 01 08 08 00 00 00 00 00 00 00 00 0B 31 00 00 4D 16");
@@ -41,11 +41,11 @@ TEST(StartUp, AsksForTheDiagnosisUntilTheSlaveIsReady) {
   wire.takesConfiguration();
   wire.cycle(kDiag5D, "68 0B 0B 68 81 88 08 3E 3C 02 0C 00 01 75 31 40 16");  // not ready
   wire.cycle(kDiag7D, "68 0B 0B 68 81 88 08 3E 3C 00 0E 00 01 75 31 40 16");  // Stat_Diag
-  EXPECT_EQ(SlavePhase::AwaitReady, wire.status().phase);
+  EXPECT_EQ(SlavePhase::kAwaitReady, wire.status().phase);
   wire.cycle(kDiag5D, "68 0B 0B 68 81 88 08 3E 3C 00 0D 00 01 75 31 3F 16");  // Prm_Req
-  EXPECT_EQ(SlavePhase::AwaitReady, wire.status().phase);
+  EXPECT_EQ(SlavePhase::kAwaitReady, wire.status().phase);
   wire.cycle(kDiag7D, kReady);
-  EXPECT_EQ(SlavePhase::DataExchange, wire.status().phase);
+  EXPECT_EQ(SlavePhase::kDataExchange, wire.status().phase);
   wire.cycle(kExchange5D, kInputs);
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 Telegram parsed(const std::vector<std::uint8_t>& bytes) {
   const ParseResult result = parse(bytes);
-  EXPECT_EQ(Parse::Ok, result.kind) << toHex(bytes);
+  EXPECT_EQ(Parse::kOk, result.kind) << toHex(bytes);
   EXPECT_EQ(bytes.size(), result.eaten);
   return result.telegram;
 }
@@ -28,7 +28,7 @@ TEST(Telegram, NeedsMoreAtEveryTruncatedLength) {
   for (const char* text : validTelegrams()) {
     const auto bytes = fromHex(text);
     for (std::size_t n = 0; n < bytes.size(); ++n) {
-      EXPECT_EQ(Parse::NeedMore, parse(ByteView{bytes}.sub(0, n)).kind) << text << " cut to " << n;
+      EXPECT_EQ(Parse::kNeedMore, parse(ByteView{bytes}.sub(0, n)).kind) << text << " cut to " << n;
     }
   }
 }
@@ -39,13 +39,13 @@ TEST(Telegram, EatsOnlyItsOwnBytes) {
     const std::size_t length = bytes.size();
     bytes.insert(bytes.end(), {0x68, 0xE5, 0x10});
     const ParseResult result = parse(bytes);
-    EXPECT_EQ(Parse::Ok, result.kind) << text;
+    EXPECT_EQ(Parse::kOk, result.kind) << text;
     EXPECT_EQ(length, result.eaten);
   }
 }
 
 TEST(Telegram, RefusesEveryInvalidTelegram) {
-  for (const char* text : invalidTelegrams()) EXPECT_EQ(Parse::Malformed, parse(fromHex(text)).kind) << text;
+  for (const char* text : invalidTelegrams()) EXPECT_EQ(Parse::kMalformed, parse(fromHex(text)).kind) << text;
 }
 
 // A flipped bit is never taken for the telegram it was, nor, where there is an FCS, for another one of its length.
@@ -56,30 +56,30 @@ TEST(Telegram, NeverAcceptsAFlippedBit) {
       auto flipped = bytes;
       flipped[bit / 8] = static_cast<std::uint8_t>(flipped[bit / 8] ^ 1u << bit % 8);
       const ParseResult result = parse(flipped);
-      if (result.kind != Parse::Ok) continue;
+      if (result.kind != Parse::kOk) continue;
       Frame again;
       ASSERT_TRUE(encode(result.telegram, again));
       EXPECT_NE(text, toHex(again)) << "bit " << bit;
       // The token has no FCS: another one comes of it. Nothing else does.
-      EXPECT_EQ(TelegramKind::Sd4, result.telegram.kind) << text << " bit " << bit;
+      EXPECT_EQ(TelegramKind::kSd4, result.telegram.kind) << text << " bit " << bit;
     }
   }
 }
 
 TEST(Telegram, TellsWhatIsWrong) {
-  EXPECT_EQ(Defect::Length, parse(fromHex("68 05 06")).defect);
-  EXPECT_EQ(Defect::StartDelimiter, parse(fromHex("68 05 05 10")).defect);
-  EXPECT_EQ(Defect::Checksum, parse(fromHex("10 02 63 49 AF 16")).defect);
-  EXPECT_EQ(Defect::EndDelimiter, parse(fromHex("10 02 63 49 AE 15")).defect);
-  EXPECT_EQ(Defect::Address, parse(fromHex("10 82 01 49 CC 16")).defect);
-  EXPECT_EQ(Defect::StartDelimiter, parse(fromHex("E7")).defect);
+  EXPECT_EQ(Defect::kLength, parse(fromHex("68 05 06")).defect);
+  EXPECT_EQ(Defect::kStartDelimiter, parse(fromHex("68 05 05 10")).defect);
+  EXPECT_EQ(Defect::kChecksum, parse(fromHex("10 02 63 49 AF 16")).defect);
+  EXPECT_EQ(Defect::kEndDelimiter, parse(fromHex("10 02 63 49 AE 15")).defect);
+  EXPECT_EQ(Defect::kAddress, parse(fromHex("10 82 01 49 CC 16")).defect);
+  EXPECT_EQ(Defect::kStartDelimiter, parse(fromHex("E7")).defect);
 }
 
 // The fields of a Slave_Diag answer: access points apart from the data, addresses without their bit 7.
 TEST(Telegram, SeparatesAccessPointsFromData) {
   const auto bytes = fromHex("68 0B 0B 68 82 88 08 3E 3C 02 05 00 FF 0A 35 D1 16");
   const Telegram telegram = parsed(bytes);
-  EXPECT_EQ(TelegramKind::Sd2, telegram.kind);
+  EXPECT_EQ(TelegramKind::kSd2, telegram.kind);
   EXPECT_EQ(2, telegram.da);
   EXPECT_EQ(8, telegram.sa);
   EXPECT_EQ(0x08, telegram.fc);
@@ -91,14 +91,14 @@ TEST(Telegram, SeparatesAccessPointsFromData) {
 TEST(Telegram, CarriesUpTo246Octets) {
   const std::vector<std::uint8_t> data(246, 0xA5);
   Telegram telegram;
-  telegram.kind = TelegramKind::Sd2;
+  telegram.kind = TelegramKind::kSd2;
   telegram.da = 3;
   telegram.data = data;
   Frame frame;
   ASSERT_TRUE(encode(telegram, frame));
   EXPECT_EQ(kMaxTelegramLength, frame.size());
   EXPECT_EQ(249, frame[1]);
-  EXPECT_EQ(Parse::Ok, parse(frame).kind);
+  EXPECT_EQ(Parse::kOk, parse(frame).kind);
 }
 
 TEST(Telegram, DoesNotWriteWhatItsKindCannotCarry) {
@@ -113,18 +113,18 @@ TEST(Telegram, DoesNotWriteWhatItsKindCannotCarry) {
     telegram.data = ByteView{data}.sub(0, length);
     return !encode(telegram, frame) && frame.empty();
   };
-  EXPECT_TRUE(refuses(TelegramKind::Sd1, 1, false, 3, 1));
-  EXPECT_TRUE(refuses(TelegramKind::Sd1, 0, true, 3, 1));
-  EXPECT_TRUE(refuses(TelegramKind::Sd2, 0, false, 3, 1));
-  EXPECT_TRUE(refuses(TelegramKind::Sd2, 247, false, 3, 1));
-  EXPECT_TRUE(refuses(TelegramKind::Sd2, 246, true, 3, 1));
-  EXPECT_TRUE(refuses(TelegramKind::Sd3, 7, false, 3, 1));
-  EXPECT_TRUE(refuses(TelegramKind::Sd3, 8, true, 3, 1));
-  EXPECT_TRUE(refuses(TelegramKind::Sd4, 1, false, 3, 1));
-  EXPECT_TRUE(refuses(TelegramKind::Sd4, 0, false, 127, 1));
-  EXPECT_TRUE(refuses(TelegramKind::Sc, 1, false, 3, 1));
-  EXPECT_TRUE(refuses(TelegramKind::Sd1, 0, false, 128, 1));
-  EXPECT_TRUE(refuses(TelegramKind::Sd1, 0, false, 3, 127));
+  EXPECT_TRUE(refuses(TelegramKind::kSd1, 1, false, 3, 1));
+  EXPECT_TRUE(refuses(TelegramKind::kSd1, 0, true, 3, 1));
+  EXPECT_TRUE(refuses(TelegramKind::kSd2, 0, false, 3, 1));
+  EXPECT_TRUE(refuses(TelegramKind::kSd2, 247, false, 3, 1));
+  EXPECT_TRUE(refuses(TelegramKind::kSd2, 246, true, 3, 1));
+  EXPECT_TRUE(refuses(TelegramKind::kSd3, 7, false, 3, 1));
+  EXPECT_TRUE(refuses(TelegramKind::kSd3, 8, true, 3, 1));
+  EXPECT_TRUE(refuses(TelegramKind::kSd4, 1, false, 3, 1));
+  EXPECT_TRUE(refuses(TelegramKind::kSd4, 0, false, 127, 1));
+  EXPECT_TRUE(refuses(TelegramKind::kSc, 1, false, 3, 1));
+  EXPECT_TRUE(refuses(TelegramKind::kSd1, 0, false, 128, 1));
+  EXPECT_TRUE(refuses(TelegramKind::kSd1, 0, false, 3, 127));
 }
 
 // Whatever comes in, what is accepted writes back to the very bytes it was read from: several bytes of a good telegram
@@ -142,8 +142,8 @@ RC_GTEST_PROP(TelegramProperty, AcceptsOnlyWhatItWouldWrite, ()) {
     bytes[bytes.size() - 2] = static_cast<std::uint8_t>(sum & 0xFFu);
   }
   const ParseResult result = parse(bytes);
-  RC_CLASSIFY(result.kind == Parse::Ok, "accepted");
-  if (result.kind != Parse::Ok) return;
+  RC_CLASSIFY(result.kind == Parse::kOk, "accepted");
+  if (result.kind != Parse::kOk) return;
   Frame frame;
   RC_ASSERT(encode(result.telegram, frame));
   RC_ASSERT(ByteView{frame} == ByteView{bytes}.sub(0, result.eaten));
@@ -154,7 +154,7 @@ RC_GTEST_PROP(TelegramProperty, RoundTrip, ()) {
   const auto length = *rc::gen::inRange<std::size_t>(1, 244);
   const auto data = *rc::gen::container<std::vector<std::uint8_t>>(length, rc::gen::arbitrary<std::uint8_t>());
   Telegram sent;
-  sent.kind = TelegramKind::Sd2;
+  sent.kind = TelegramKind::kSd2;
   sent.da = *rc::gen::inRange<std::uint8_t>(0, 128);
   sent.sa = *rc::gen::inRange<std::uint8_t>(0, 127);
   sent.fc = *rc::gen::arbitrary<std::uint8_t>();
@@ -164,7 +164,7 @@ RC_GTEST_PROP(TelegramProperty, RoundTrip, ()) {
   Frame frame;
   RC_ASSERT(encode(sent, frame));
   const ParseResult result = parse(frame);
-  RC_ASSERT(result.kind == Parse::Ok);
+  RC_ASSERT(result.kind == Parse::kOk);
   RC_ASSERT(result.eaten == frame.size());
   RC_ASSERT(result.telegram.da == sent.da && result.telegram.sa == sent.sa && result.telegram.fc == sent.fc);
   RC_ASSERT(result.telegram.dsap == sent.dsap && result.telegram.ssap == sent.ssap);

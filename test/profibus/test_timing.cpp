@@ -152,7 +152,7 @@ TEST(Timing, ABusyLineEndsTheCycle) {
     }
   }
   EXPECT_LT(wire.now, begin + 500ms);
-  wire.tells(DpEventKind::LineBusy);
+  wire.tells(DpEventKind::kLineBusy);
   wire.tellsNothing();  // once
   EXPECT_EQ(2u, wire.master.counters().busy);
   EXPECT_FALSE(wire.status().exchanged_this_cycle);

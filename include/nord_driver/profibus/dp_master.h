@@ -33,9 +33,9 @@ namespace nord_driver::profibus {
 ///     while (auto event = master.pollEvent()) ...
 ///
 /// A cycle holds, in this order: Global_Control Operate when it is due; one exchange with each slave in data exchange;
-/// one step with each slave in its start-up; the diagnosis a slave announced in its exchange; a look for one silent
-/// slave. Bytes that come between cycles are given to `handleBytes()` too: they are counted, and the pause counts from
-/// them.
+/// one step with each slave in its start-up; the diagnosis a slave announced in its exchange; at most one acyclic
+/// telegram; a look for one silent slave. Bytes that come between cycles are given to `handleBytes()` too: they are
+/// counted, and the pause counts from them.
 class DpMaster {
  public:
   /// Throws std::invalid_argument with a sentence: a value out of range, an address twice, a watchdog no slave can be
@@ -47,7 +47,7 @@ class DpMaster {
 
   /// Begins a bus cycle. Ignored while one is running.
   void startCycle(Instant now) noexcept;
-  bool cycleDone() const noexcept { return turn_ == Turn::Done && !requester_.busy(); }
+  bool cycleDone() const noexcept { return turn_ == Turn::kDone && !requester_.busy(); }
 
   void handleBytes(ByteView bytes, Instant now) noexcept;
   /// To be called when `now` has reached `nextDeadline()`; harmless before.
@@ -58,6 +58,13 @@ class DpMaster {
   std::optional<Instant> nextDeadline() const noexcept { return requester_.nextDeadline(); }
   std::optional<DpEvent> pollEvent() noexcept { return events_.pop(); }
 
+  /// Reads or writes a record of a slave (DP-V1 class 1) beside data exchange. False when the slave has one under way
+  /// or a result not fetched, or when the request is out of range; otherwise one result follows.
+  bool submitRecord(std::size_t slave, const RecordRequest& request) noexcept {
+    return slaves_[slave].submitRecord(request);
+  }
+  std::optional<RecordResult> pollRecord() noexcept;
+
   std::size_t slaveCount() const noexcept { return slaves_.size(); }
   /// Kept, and sent with every exchange from now on. Cut or filled with zeros to the configured length.
   void setOutputs(std::size_t slave, ByteView outputs) noexcept { slaves_[slave].setOutputs(outputs); }
@@ -67,13 +74,14 @@ class DpMaster {
   const Counters& counters() const noexcept { return requester_.counters(); }
 
  private:
-  enum class Turn : std::uint8_t { Operate, Exchange, StartUp, Diagnosis, Probe, Done };
+  enum class Turn : std::uint8_t { kOperate, kExchange, kStartUp, kDiagnosis, kAcyclic, kProbe, kDone };
 
   void advance(Instant now) noexcept;
   bool askNext(Instant now) noexcept;
   bool askOperate(Instant now) noexcept;
   template <typename Wants>
   bool askFirst(Instant now, Wants&& wants) noexcept;
+  bool askAcyclic(Instant now) noexcept;
   bool askProbe(Instant now) noexcept;
   void ask(std::size_t slave, Instant now) noexcept;
   void nextTurn() noexcept;
@@ -86,10 +94,12 @@ class DpMaster {
   DpEvents events_;
   FdlRequest operate_;  // the same bytes every time
   FdlRequest request_;
-  Turn turn_ = Turn::Done;
-  std::size_t cursor_ = 0;        // next slave to look at in this turn
-  std::size_t asked_ = 0;         // slave of `request_`
-  std::size_t probe_cursor_ = 0;  // silent slaves take turns
+  Turn turn_ = Turn::kDone;
+  std::size_t cursor_ = 0;  // next slave to look at in this turn
+  std::size_t asked_ = 0;   // slave of `request_`
+  std::size_t acyclic_cursor_ = 0;
+  std::size_t record_cursor_ = 0;  // results are fetched in turns
+  std::size_t probe_cursor_ = 0;   // silent slaves take turns
   std::optional<Instant> last_operate_;
   std::optional<Instant> last_foreign_;
   std::uint8_t foreign_ = kNoOwner;

@@ -25,13 +25,22 @@ class DpServices {
   void chkCfg(FdlRequest& request, const SlaveConfig& slave, std::uint8_t count_bits) const noexcept;
   void dataExchange(FdlRequest& request, const SlaveConfig& slave, ByteView outputs,
                     std::uint8_t count_bits) const noexcept;
+  /// DP-V1 class 1: `pdu` to access point 51, or a poll when it is empty.
+  void record(FdlRequest& request, StationAddress slave, ByteView pdu, std::uint8_t count_bits) const noexcept;
   /// Global_Control Operate to all slaves and all groups. There is no Clear: zeroed outputs do not stop a NORD drive
   /// (BU 2700 7.1.1), so that it would only pretend to be a stop.
   void operate(FdlRequest& request) const noexcept;
 
  private:
-  void ask(FdlRequest& request, StationAddress slave, std::uint8_t count_bits, std::optional<std::uint8_t> dsap,
+  struct Route {
+    std::uint8_t function;  ///< FC before FCB and FCV
+    std::optional<std::uint8_t> dsap, ssap{};
+  };
+
+  void ask(FdlRequest& request, StationAddress slave, std::uint8_t count_bits, const Route& route,
            ByteView data) const noexcept;
+  /// SRD high, from the master's access point 62 to one of the slave's.
+  static Route toServer(std::uint8_t dsap) noexcept;
 
   StationAddress master_;
   std::uint8_t retries_;

@@ -12,6 +12,7 @@
 #include "nord_driver/profibus/dp_services.h"
 #include "nord_driver/profibus/fdl_request.h"
 #include "nord_driver/profibus/frame_count.h"
+#include "nord_driver/profibus/record_channel.h"
 #include "nord_driver/profibus/slave_config.h"
 #include "nord_driver/profibus/slave_status.h"
 
@@ -34,7 +35,10 @@ class DpSlave {
   bool wantsStartUpStep(Instant now) const noexcept;
   bool wantsDiagnosis() const noexcept;
   bool wantsProbe(Instant now) const noexcept;
-  /// Writes the wanted request.
+  /// Of an acyclic telegram beside data exchange.
+  bool wantsAcyclic(Instant now) noexcept;
+  void prepareAcyclic(FdlRequest& request, Instant now) noexcept;
+  /// Writes the wanted request of all others.
   void prepare(FdlRequest& request, Instant now) noexcept;
 
   void handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
@@ -44,6 +48,9 @@ class DpSlave {
   void setOutputs(ByteView outputs) noexcept;
   ByteView inputs() const noexcept { return inputs_; }
   const SlaveStatus& status() const noexcept { return status_; }
+  /// Looks in on the acyclic channel.
+  bool submitRecord(const RecordRequest& request) noexcept;
+  std::optional<RecordResult> pollRecord() noexcept { return records_.pollResult(); }
   SlaveCounters& counters() noexcept { return status_.counters; }
 
  private:
@@ -51,7 +58,7 @@ class DpSlave {
     DpEventKind kind;
     const char* text;
   };
-  enum class Service : std::uint8_t { FdlStatus, SlaveDiag, SetPrm, ChkCfg, DataExchange };
+  enum class Service : std::uint8_t { kFdlStatus, kSlaveDiag, kSetPrm, kChkCfg, kDataExchange, kRecord };
 
   Service nextService() noexcept;
   void onFdlStatus(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
@@ -81,8 +88,9 @@ class DpSlave {
 
   SlaveStatus status_;
   FrameCount frame_count_;
+  RecordChannel records_;
   std::vector<std::uint8_t> outputs_, inputs_;  // sized once, in the constructor
-  Service asked_ = Service::FdlStatus;
+  Service asked_ = Service::kFdlStatus;
   bool stepped_ = false;        // had its request of this cycle
   bool diagnosis_due_ = false;  // in data exchange: DH was seen
   Instant due_{};               // no request before (probes, back-off, slow polling)

@@ -27,27 +27,27 @@ struct FdlRequest {
 
 struct FdlAnswer {
   enum class Kind : std::uint8_t {
-    Acknowledge,  ///< SC, OK or NR: taken, nothing to say
-    Data,         ///< DL or DH, with data (or without, where none are expected)
-    Refusal       ///< RS, UE, RR, NR where data are due, RDL, RDH: see `code`
+    kAcknowledge,  ///< SC, OK or NR: taken, nothing to say
+    kData,         ///< DL or DH, with data (or without, where none are expected)
+    kRefusal       ///< RS, UE, RR, NR where data are due, RDL, RDH: see `code`
   };
-  Kind kind = Kind::Acknowledge;
-  ResponseCode code = ResponseCode::Ok;
-  StationType station_type = StationType::Slave;
+  Kind kind = Kind::kAcknowledge;
+  ResponseCode code = ResponseCode::kOk;
+  StationType station_type = StationType::kSlave;
   ByteView data;  ///< valid during the call that hands it out
 };
 
 /// Why a telegram that arrived in the slot did not count as the answer.
 enum class Mismatch : std::uint8_t {
-  None,
-  Stranger,     ///< from or to another station, or a request
-  Acknowledge,  ///< SC where data are due
-  AccessPoint,  ///< other service access points
-  Length,       ///< data of another length
-  Function      ///< a function code that answers nothing
+  kNone,
+  kStranger,     ///< from or to another station, or a request
+  kAcknowledge,  ///< SC where data are due
+  kAccessPoint,  ///< other service access points
+  kLength,       ///< data of another length
+  kFunction      ///< a function code that answers nothing
 };
 
-/// Judges a telegram against the request it should answer. `answer` is set when it fits (Mismatch::None).
+/// Judges a telegram against the request it should answer. `answer` is set when it fits (Mismatch::kNone).
 Mismatch matchAnswer(const FdlRequest& request, std::uint8_t master, const Telegram& telegram,
                      FdlAnswer& answer) noexcept;
 

@@ -18,9 +18,9 @@ namespace nord_driver::profibus {
 class Requester {
  public:
   enum class Outcome : std::uint8_t {
-    None,      ///< nothing has come to an end
-    NoAnswer,  ///< the last slot ended without an answer
-    LineBusy   ///< the line never fell silent enough to send
+    kNone,      ///< nothing has come to an end
+    kNoAnswer,  ///< the last slot ended without an answer
+    kLineBusy   ///< the line never fell silent enough to send
   };
 
   explicit Requester(const BusParameters& bus) noexcept : bus_(bus) {}
@@ -30,7 +30,7 @@ class Requester {
 
   /// `request` (and `slave`, when given: the counters of the station asked) must live until the request has ended.
   void begin(const FdlRequest& request, SlaveCounters* slave, Instant now) noexcept;
-  bool busy() const noexcept { return state_ != State::Idle; }
+  bool busy() const noexcept { return state_ != State::kIdle; }
 
   /// The bytes to send now with one write, or none (yet). A request nobody answers has ended with this.
   ByteView pollTransmit(Instant now) noexcept;
@@ -61,7 +61,7 @@ class Requester {
   const Counters& counters() const noexcept { return counters_; }
 
  private:
-  enum class State : std::uint8_t { Idle, ToSend, AwaitAnswer };
+  enum class State : std::uint8_t { kIdle, kToSend, kAwaitAnswer };
 
   void noteActivity(Instant now) noexcept;
   bool isForeign(const Telegram& telegram) const noexcept;
@@ -72,11 +72,11 @@ class Requester {
   BusParameters bus_;
   TelegramReceiver receiver_;
   Counters counters_;
-  State state_ = State::Idle;
+  State state_ = State::kIdle;
   const FdlRequest* request_ = nullptr;
   SlaveCounters* slave_ = nullptr;
   std::uint32_t sendings_ = 0;
-  Mismatch mismatch_ = Mismatch::None;
+  Mismatch mismatch_ = Mismatch::kNone;
   Instant silent_from_{};   // the line has been idle for long enough at this moment
   Instant give_up_{};       // ToSend: if it is not idle by then, it never will be
   Instant slot_end_{};      // AwaitAnswer

@@ -27,6 +27,9 @@ struct SlaveConfig {
   Duration watchdog{0};                       ///< 10 ms..650.25 s, a product f1 * f2 * 10 ms; 0 = off
   std::uint8_t min_tsdr_bits = 11;            ///< 11..255; 0 leaves the slave's own value
   std::uint8_t group = 0;                     ///< group bits of Set_Prm
+  /// Acyclic records (DP-V1 class 1): `user_parameters` begin with DPV1_Status_1 to 3, and DPV1_Enable is set.
+  bool dpv1 = false;
+  Duration record_timeout = std::chrono::seconds{2};  ///< for one response: C1_Response_Timeout of the GSD
   /// True: a slave with another ident number is not parameterised. False: the number it reports is the one it is given.
   bool expect_exact_ident = true;
 };

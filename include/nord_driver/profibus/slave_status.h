@@ -11,17 +11,17 @@ namespace nord_driver::profibus {
 
 /// Where a slave stands, in the order of its start-up (EN 50170-8, master state machine per slave).
 enum class SlavePhase : std::uint8_t {
-  Silent,          ///< asked for its FDL status now and then
-  FirstDiagnosis,  ///< is it the right device, and free?
-  Parameters,      ///< Set_Prm is next
-  Configuration,   ///< Chk_Cfg is next
-  AwaitReady,      ///< asked for its diagnosis until it is ready
-  DataExchange,
-  BackOff  ///< the start-up ended in a fault; waits to try again
+  kSilent,          ///< asked for its FDL status now and then
+  kFirstDiagnosis,  ///< is it the right device, and free?
+  kParameters,      ///< Set_Prm is next
+  kConfiguration,   ///< Chk_Cfg is next
+  kAwaitReady,      ///< asked for its diagnosis until it is ready
+  kDataExchange,
+  kBackOff  ///< the start-up ended in a fault; waits to try again
 };
 
 struct SlaveStatus {
-  SlavePhase phase = SlavePhase::Silent;
+  SlavePhase phase = SlavePhase::kSilent;
   /// Outputs were taken and fresh, valid inputs came in the cycle that `startCycle()` began last.
   bool exchanged_this_cycle = false;
   std::optional<std::uint16_t> ident;  ///< as the slave reported it, since it was found

@@ -11,11 +11,11 @@
 namespace nord_driver::profibus {
 
 enum class TelegramKind : std::uint8_t {
-  Sd1,  ///< 10 DA SA FC FCS 16: no data
-  Sd2,  ///< 68 LE LEr 68 DA SA FC DU.. FCS 16: data of any length
-  Sd3,  ///< A2 DA SA FC DU*8 FCS 16: exactly eight octets
-  Sd4,  ///< DC DA SA: the token
-  Sc    ///< E5: short acknowledge, no addresses
+  kSd1,  ///< 10 DA SA FC FCS 16: no data
+  kSd2,  ///< 68 LE LEr 68 DA SA FC DU.. FCS 16: data of any length
+  kSd3,  ///< A2 DA SA FC DU*8 FCS 16: exactly eight octets
+  kSd4,  ///< DC DA SA: the token
+  kSc    ///< E5: short acknowledge, no addresses
 };
 
 /// The longest telegram: SD2 with LE = 249.
@@ -25,7 +25,7 @@ constexpr std::size_t kMaxDataUnit = 246;
 using Frame = FixedBytes<256>;
 
 struct Telegram {
-  TelegramKind kind = TelegramKind::Sc;
+  TelegramKind kind = TelegramKind::kSc;
   std::uint8_t da = 0;  ///< destination, 0..127, without the extension bit
   std::uint8_t sa = 0;  ///< source, 0..126, without the extension bit
   std::uint8_t fc = 0;  ///< function code; 0 in SD4 and SC
@@ -40,16 +40,16 @@ struct Telegram {
 /// range.
 bool encode(const Telegram& telegram, Frame& frame) noexcept;
 
-enum class Parse : std::uint8_t { NeedMore, Malformed, Ok };
+enum class Parse : std::uint8_t { kNeedMore, kMalformed, kOk };
 
 /// What is wrong with malformed bytes.
-enum class Defect : std::uint8_t { None, StartDelimiter, Length, Address, Checksum, EndDelimiter };
+enum class Defect : std::uint8_t { kNone, kStartDelimiter, kLength, kAddress, kChecksum, kEndDelimiter };
 
 struct ParseResult {
-  Parse kind = Parse::NeedMore;
+  Parse kind = Parse::kNeedMore;
   Telegram telegram;      ///< only with Ok
   std::size_t eaten = 0;  ///< only with Ok: bytes of the telegram, from the front
-  Defect defect = Defect::None;
+  Defect defect = Defect::kNone;
 };
 
 /// Reads one telegram from the front. Stricter than most slaves: both 68, LE = LEr, 4 <= LE <= 249, FCS, ED, no source

@@ -30,7 +30,8 @@ class TelegramReceiver {
     while (!bytes.empty()) {
       bytes = bytes.sub(fill(bytes));
       std::size_t used = 0;
-      for (ParseResult result = next(used); result.kind == Parse::Ok; result = next(used)) on_telegram(result.telegram);
+      for (ParseResult result = next(used); result.kind == Parse::kOk; result = next(used))
+        on_telegram(result.telegram);
       buffer_.eraseFront(used);
     }
   }
