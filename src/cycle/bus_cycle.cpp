@@ -10,8 +10,7 @@ namespace nord_driver::cycle {
 namespace {
 
 // Ids of the cycle's own parameter accesses, numbered through above the drive's index: an answer to a question from
-// before a loss must not pass for the answer to a new one. The rest belongs to the callers.
-constexpr std::uint32_t kDeviceReadId = 0x8000'0000u;
+// before a loss must not pass for the answer to a new one.
 constexpr std::uint32_t kReadStep = 0x100u, kDriveMask = 0xFFu;
 
 std::vector<drive::Drive> makeDrives(const CycleConfig& config) {
@@ -154,7 +153,7 @@ void BusCycle::readDevices() noexcept {
     auto request = axes_[i].reader.pollRequest();
     if (!request) continue;
     read_sequence_ += kReadStep;
-    request->id = kDeviceReadId | read_sequence_ | static_cast<std::uint32_t>(i);
+    request->id = kFirstOwnRequest | read_sequence_ | static_cast<std::uint32_t>(i);
     axes_[i].read_id = request->id;
     if (!transport_.submit(i, *request)) {
       profile::ParameterResult busy;
@@ -187,7 +186,7 @@ void BusCycle::startParameterJob(const Request& request) noexcept {
 }
 
 void BusCycle::takeParameterResult(const profile::ParameterResult& result) noexcept {
-  if (result.id >= kDeviceReadId) {
+  if (result.id >= kFirstOwnRequest) {
     const DriveIndex drive = result.id & kDriveMask;
     if (drive >= axes_.size() || axes_[drive].read_id != result.id) return;
     axes_[drive].reader.handleResult(result);
