@@ -13,6 +13,7 @@ namespace {
 constexpr std::uint8_t kMasterSap = 62;
 constexpr std::uint8_t kRecordSap = 51;  // MS1, on both sides
 constexpr std::uint8_t kGlobalControlSap = 58;
+constexpr std::uint8_t kGetCfgSap = 59;
 constexpr std::uint8_t kSlaveDiagSap = 60;
 constexpr std::uint8_t kSetPrmSap = 61;
 constexpr std::uint8_t kChkCfgSap = 62;
@@ -108,6 +109,12 @@ void DpServices::setPrm(FdlRequest& request, const SlaveConfig& slave, std::uint
 void DpServices::chkCfg(FdlRequest& request, const SlaveConfig& slave, std::uint8_t count_bits) const noexcept {
   ask(request, slave.address, count_bits, toServer(kChkCfgSap), slave.configuration);
   expectAcknowledge(request);
+}
+
+void DpServices::getCfg(FdlRequest& request, StationAddress slave, std::uint8_t count_bits) const noexcept {
+  ask(request, slave, count_bits, toServer(kGetCfgSap), {});
+  request.min_data = 1;
+  request.max_data = kMaxIoLength;
 }
 
 void DpServices::dataExchange(FdlRequest& request, const SlaveConfig& slave, ByteView outputs,

@@ -65,6 +65,12 @@ class DpMaster {
   }
   std::optional<RecordResult> pollRecord() noexcept;
 
+  /// Asks a slave for its configuration (Get_Cfg) beside data exchange; the answer is told by an event. False when it
+  /// is not in data exchange.
+  bool requestConfiguration(std::size_t slave) noexcept { return slaves_[slave].requestConfiguration(); }
+  /// Configured and reported configuration in words, subject left out.
+  Sentence configurationText(std::size_t slave) const noexcept { return slaves_[slave].configurationText(); }
+
   std::size_t slaveCount() const noexcept { return slaves_.size(); }
   /// Kept, and sent with every exchange from now on. Cut or filled with zeros to the configured length.
   void setOutputs(std::size_t slave, ByteView outputs) noexcept { slaves_[slave].setOutputs(outputs); }

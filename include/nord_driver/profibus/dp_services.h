@@ -23,6 +23,8 @@ class DpServices {
   void setPrm(FdlRequest& request, const SlaveConfig& slave, std::uint16_t ident,
               std::uint8_t count_bits) const noexcept;
   void chkCfg(FdlRequest& request, const SlaveConfig& slave, std::uint8_t count_bits) const noexcept;
+  /// Get_Cfg: which configuration does the slave have?
+  void getCfg(FdlRequest& request, StationAddress slave, std::uint8_t count_bits) const noexcept;
   void dataExchange(FdlRequest& request, const SlaveConfig& slave, ByteView outputs,
                     std::uint8_t count_bits) const noexcept;
   /// DP-V1 class 1: `pdu` to access point 51, or a poll when it is empty.
