@@ -24,6 +24,7 @@ enum class DpEventKind : std::uint8_t {
   // Not of one slave: `slave` is kNoSlave.
   kForeignMaster,  ///< `master` sent a token or a request. Our own address: a second master has it, or an adapter
                    ///< echoes
+  kSyncReleased,   ///< a slave of the group did not exchange: UNSYNC is sent, until `setSynchronised()` is called again
   kLineBusy        ///< the line never falls silent: nothing can be sent
 };
 

@@ -47,6 +47,7 @@ class DpSlave {
 
   void setOutputs(ByteView outputs) noexcept;
   ByteView inputs() const noexcept { return inputs_; }
+  bool isSynchronised() const noexcept { return services_.isSynchronised(config_); }
   const SlaveStatus& status() const noexcept { return status_; }
   /// Get_Cfg beside data exchange; false when the slave is not in it.
   bool requestConfiguration() noexcept;
