@@ -26,8 +26,7 @@ std::vector<DriveIndex> readWheels(const Settings& settings, const std::string& 
 }
 
 void refuseWheelsUsedTwice(const Settings& settings, const BaseConfig& base, const JointNames& joints) {
-  std::vector<DriveIndex> all = base.left;
-  all.insert(all.end(), base.right.begin(), base.right.end());
+  std::vector<DriveIndex> all = base.wheels();
   std::sort(all.begin(), all.end());
   const auto twice = std::adjacent_find(all.begin(), all.end());
   if (twice != all.end()) {
@@ -52,9 +51,9 @@ robot::SpeedLimits readLimits(const Settings& settings, const std::string& axis)
   return limits;
 }
 
-robot::DiffDriveGeometry readGeometry(const Settings& settings) {
+robot::BaseGeometry readGeometry(const Settings& settings) {
   constexpr double kSmallest = 1e-3, kLargest = 100.0;
-  robot::DiffDriveGeometry geometry;
+  robot::BaseGeometry geometry;
   geometry.wheel_separation = requiredNumber(settings, "wheel_separation", kSmallest, kLargest, "m");
   geometry.left_wheel_radius = requiredNumber(settings, "wheel_radius", kSmallest, kLargest, "m");
   geometry.right_wheel_radius = geometry.left_wheel_radius;
@@ -69,6 +68,12 @@ robot::DiffDriveGeometry readGeometry(const Settings& settings) {
 }
 
 }  // namespace
+
+std::vector<DriveIndex> BaseConfig::wheels() const {
+  std::vector<DriveIndex> all = left;
+  all.insert(all.end(), right.begin(), right.end());
+  return all;
+}
 
 std::optional<BaseConfig> readBaseConfig(const Settings& settings, const JointNames& joints) {
   if (!settings.has("left_wheel")) {
