@@ -30,7 +30,9 @@ struct BaseConfig {
 /// Joint of every drive, in the order of the drives; empty where a drive has none.
 using JointNames = std::vector<std::string>;
 
-/// No `left_wheel`: no base (nothing is read). Throws ConfigError.
-std::optional<BaseConfig> readBaseConfig(const Settings& settings, const JointNames& joints);
+/// No `left_wheel`: no base (nothing is read). `robot_description` is the text of the URDF, empty without one: it gives
+/// the sizes that are not typed in and the velocity limits of the joints. Throws ConfigError.
+std::optional<BaseConfig> readBaseConfig(const Settings& settings, const JointNames& joints,
+                                         const std::string& robot_description = {});
 
 }  // namespace nord_driver::cycle
