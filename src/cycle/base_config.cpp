@@ -67,6 +67,15 @@ double readSize(const Settings& settings, const char* key, bool has_description,
   return look_up();
 }
 
+/// The joints' limits of a description nothing else is taken from: it may be of another robot part, without our wheels.
+std::vector<double> limitsIfThere(const std::string& urdf, const std::string& base_link, const JointNames& wheels) {
+  try {
+    return robot::UrdfGeometry(urdf, base_link).maxVelocities(wheels);
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+}
+
 void readGeometry(BaseConfig& base, const Settings& settings, const JointNames& joints, const std::string& urdf) {
   const auto namesOf = [&](const std::vector<DriveIndex>& drives) {
     JointNames names;
@@ -75,8 +84,11 @@ void readGeometry(BaseConfig& base, const Settings& settings, const JointNames& 
   };
   const JointNames left = namesOf(base.left);
   const JointNames right = namesOf(base.right);
+  const bool all_typed = settings.has("wheel_separation") && settings.has("wheel_radius") &&
+                         (base.kind != robot::BaseKind::kMecanum || settings.has("wheel_base"));
   std::optional<robot::UrdfGeometry> description;
-  if (!urdf.empty()) description.emplace(urdf, settings.text("base_frame_id").value_or("base_link"));
+  const std::string base_link = settings.text("base_frame_id").value_or("base_link");
+  if (!urdf.empty() && !all_typed) description.emplace(urdf, base_link);
   const auto size = [&](const char* key, auto look_up) {
     return readSize(settings, key, description.has_value(), look_up);
   };
@@ -88,7 +100,11 @@ void readGeometry(BaseConfig& base, const Settings& settings, const JointNames& 
   if (base.kind == robot::BaseKind::kMecanum) {
     geometry.wheel_base = size("wheel_base", [&] { return description->wheelBase(left, right); });
   }
-  if (description) base.joint_velocity_limits = description->maxVelocities(namesOf(base.wheels()));
+  if (description) {
+    base.joint_velocity_limits = description->maxVelocities(namesOf(base.wheels()));
+  } else if (!urdf.empty()) {
+    base.joint_velocity_limits = limitsIfThere(urdf, base_link, namesOf(base.wheels()));
+  }
 
   const auto multiplier = [&](const char* key, double fallback) {
     return numberOr(settings, key, fallback, 0.01, 100.0, "");

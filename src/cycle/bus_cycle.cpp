@@ -75,8 +75,9 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
     case RequestKind::kWriteParameter:
       return axes_[request.drive].parameters.handleRequest(request, drives_[request.drive].report());
     case RequestKind::kAcknowledge:
-    case RequestKind::kSelectParameterSet:
       return maintenance_.handleRequest(request, now);
+    case RequestKind::kSelectParameterSet:
+      return selectParameterSet(request, now);
     case RequestKind::kResetOdometry:
       return ports_.complete(resetOdometry(request));
     case RequestKind::kEnable:
@@ -85,6 +86,18 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
     case RequestKind::kShutDown:
       return supervisor_.handleRequest(request, movingCommand(now), now);
   }
+}
+
+// A drive that is idle may still belong to a base that is on its way to rest: its set stays what it is until then.
+void BusCycle::selectParameterSet(const Request& request, Instant now) noexcept {
+  if (supervisor_.groupOf(request.drive).report().phase == drive::GroupPhase::kDisabled) {
+    return maintenance_.handleRequest(request, now);
+  }
+  Completion completion;
+  completion.id = request.id;
+  completion.message.format("parameter sets are switched at standstill only: disable drive %s first",
+                            names_[request.drive].c_str());
+  ports_.complete(completion);
 }
 
 Completion BusCycle::resetOdometry(const Request& request) noexcept {

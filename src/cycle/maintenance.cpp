@@ -6,9 +6,6 @@
 
 namespace nord_driver::cycle {
 
-using drive::Phase;
-using drive::Refusal;
-
 Maintenance::Maintenance(std::vector<drive::Drive>& drives, std::vector<std::string> names)
     : drives_(drives), names_(std::move(names)) {}
 
@@ -44,9 +41,11 @@ bool Maintenance::follow(const Job& job, Instant now) noexcept {
   bool busy = false;
   Sentence refused;
   forEach(job.request, [&](DriveIndex i) {
-    const drive::DriveReport& report = drives_[i].report();
-    busy = busy || report.phase == Phase::kAcknowledging || report.phase == Phase::kSwitchingSet;
-    if (refused.empty() && report.refusal != Refusal::kNone) refused = refusal(i);
+    const drive::RequestReport& report = reportOf(job.request, i);
+    busy = busy || report.state == drive::RequestState::kRunning;
+    if (refused.empty() && report.state == drive::RequestState::kRefused) {
+      refused = refusalSentence(names_[i].c_str(), report.refusal, drives_[i].report());
+    }
   });
   if (busy && now < job.deadline) return false;
   if (busy) {
@@ -63,8 +62,9 @@ bool Maintenance::follow(const Job& job, Instant now) noexcept {
   return true;
 }
 
-Sentence Maintenance::refusal(DriveIndex drive) const noexcept {
-  return refusalSentence(names_[drive].c_str(), drives_[drive].report().refusal, drives_[drive].report());
+const drive::RequestReport& Maintenance::reportOf(const Request& request, DriveIndex drive) const noexcept {
+  const drive::DriveReport& report = drives_[drive].report();
+  return request.kind == RequestKind::kAcknowledge ? report.acknowledge : report.set_switch;
 }
 
 void Maintenance::complete(const Request& request, bool success, const Sentence& message) noexcept {

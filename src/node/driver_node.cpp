@@ -16,6 +16,13 @@ XmlRpc::XmlRpcValue privateParameters() {
   return value;
 }
 
+// The URDF of the robot, where somebody has put it; empty when nobody has.
+std::string robotDescription() {
+  std::string key, text;
+  if (ros::param::search("robot_description", key)) ros::param::get(key, text);
+  return text;
+}
+
 // Service calls that may wait for their drives at the same time, and a command that is not held up by them.
 constexpr int kSpinnerThreads = 4;
 constexpr int kShutDownAttempts = 50;
@@ -29,7 +36,7 @@ Instant steadyNow() {
 DriverNode::DriverNode()
     : private_node_("~"),
       settings_("~", privateParameters()),
-      config_(readNodeConfig(settings_)),
+      config_(readNodeConfig(settings_, robotDescription())),
       loader_("nord_driver", "nord_driver::Transport") {
   loadTransport();
   warnOfUnknownKeys();
@@ -109,7 +116,9 @@ void DriverNode::advertise() {
 
 // Only looks at the command and stores it: the cycle decides.
 void DriverNode::takeCommand(const geometry_msgs::Twist& twist) {
-  cycle::TwistCommand command{{twist.linear.x, twist.angular.z}, steadyNow(), true};
+  const bool sideways = config_.cycle.base->kind == robot::BaseKind::kMecanum;
+  const double linear_y = sideways ? twist.linear.y : 0.0;
+  cycle::TwistCommand command{{twist.linear.x, twist.angular.z, linear_y}, steadyNow(), true};
   if (!robot::isFinite(command.twist)) {
     // No command at all: the time-out of the one before runs on.
     ++bad_commands_;

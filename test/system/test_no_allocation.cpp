@@ -187,7 +187,7 @@ TEST_F(NoAllocation, InTheCyclesThreadOverALossAndAParameterRead) {
   ASSERT_TRUE(runCycles(20));
 
   EXPECT_TRUE(waitFor([this] { return bothRead(); }));
-  EXPECT_EQ(500, ask(cycle::RequestKind::kReadParameter, 105).parameter.raw);
+  EXPECT_EQ(500, ask(cycle::RequestKind::kReadParameter, 105).raw);
   EXPECT_FALSE(ask(cycle::RequestKind::kReadParameter, 999).success);
   EXPECT_TRUE(ask(cycle::RequestKind::kEnable).success);
   ports_->commandBase({{0.2, 0.1}, std::chrono::steady_clock::now(), true});

@@ -62,7 +62,7 @@ class DriveParameters {
   drive::ParameterSession session_;
   std::array<std::uint32_t, kAskers> open_ids_{};  // of the question under way; 0: none
   std::uint32_t sequence_ = 0;
-  bool scale_due_ = false;  // the reader learned something the drive was not told yet
+  bool scale_due_ = false;             // the reader learned something the drive was not told yet
   std::optional<Instant> held_since_;  // idle, and not ready to switch on
   FixedVector<Request, drive::ParameterSession::kCapacity> pending_;
   FixedVector<Completion, 2 * drive::ParameterSession::kCapacity> completions_;

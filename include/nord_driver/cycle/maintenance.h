@@ -35,7 +35,7 @@ class Maintenance {
   /// True when the job has ended.
   bool follow(const Job& job, Instant now) noexcept;
   void complete(const Request& request, bool success, const Sentence& message) noexcept;
-  Sentence refusal(DriveIndex drive) const noexcept;
+  const drive::RequestReport& reportOf(const Request& request, DriveIndex drive) const noexcept;
 
   std::vector<drive::Drive>& drives_;
   std::vector<std::string> names_;

@@ -38,6 +38,6 @@ struct NodeConfig {
 };
 
 /// Everything except what the transport itself reads (`bus`, and each drive's address). Throws ConfigError.
-NodeConfig readNodeConfig(const RosSettings& settings);
+NodeConfig readNodeConfig(const RosSettings& settings, const std::string& robot_description = {});
 
 }  // namespace nord_driver::node
