@@ -30,7 +30,6 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       cmd_vel_timeout_(config.cmd_vel_timeout),
       names_(namesOf(config)),
       drives_(makeDrives(config)),
-      base_config_(config.base),
       supervisor_(config, drives_, auto_enable),
       maintenance_(drives_, names_),
       outputs_(config.drives.size()),
@@ -39,7 +38,9 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
   for (const DriveSetup& setup : config.drives) {
     axes_.emplace_back(axes_.size(), setup);
   }
-  if (base_config_) base_.emplace(*base_config_, config.cmd_vel_timeout);
+  if (!config.base) return;
+  base_.emplace(*config.base, config.cmd_vel_timeout);
+  wheels_ = config.base->wheels();
 }
 
 void BusCycle::runOnce() noexcept {
@@ -129,9 +130,8 @@ void BusCycle::commandBase(Instant now, Duration dt) noexcept {
   const bool driving = follow || group.wantsZeroRamp();
   const robot::WheelSpeeds wheels =
       base_->pollWheels(ports_.newestBaseCommand(), driving, follow, maxWheelSpeeds(), now, dt);
-  for (const DriveIndex i : base_config_->left) drives_[i].setVelocity(RadPerSec{wheels.left});
-  for (const DriveIndex i : base_config_->right) drives_[i].setVelocity(RadPerSec{wheels.right});
-  group.setpointIsZero(wheels == robot::WheelSpeeds{});
+  for (std::size_t i = 0; i < wheels_.size(); ++i) drives_[wheels_[i]].setVelocity(RadPerSec{wheels[i]});
+  group.setpointIsZero(robot::standsStill(wheels));
 }
 
 void BusCycle::commandSingles(Instant now) noexcept {
@@ -146,12 +146,9 @@ void BusCycle::commandSingles(Instant now) noexcept {
 }
 
 robot::WheelSpeeds BusCycle::maxWheelSpeeds() const noexcept {
-  const auto slowest = [this](const std::vector<DriveIndex>& side) {
-    double speed = std::numeric_limits<double>::infinity();
-    for (const DriveIndex i : side) speed = std::min(speed, drives_[i].maxVelocity().value_or(RadPerSec{}).value);
-    return speed;
-  };
-  return {slowest(base_config_->left), slowest(base_config_->right)};
+  robot::WheelSpeeds speeds;
+  for (const DriveIndex i : wheels_) speeds.push_back(drives_[i].maxVelocity().value_or(RadPerSec{}).value);
+  return speeds;
 }
 
 void BusCycle::handleInputs(Instant now) noexcept {
@@ -199,15 +196,11 @@ void BusCycle::measure(Duration dt) noexcept {
 
 void BusCycle::measureBase(Duration dt) noexcept {
   bool seen = true;
-  const auto mean = [&](const std::vector<DriveIndex>& side) {
-    double sum = 0.0;
-    for (const DriveIndex i : side) {
-      seen = seen && drives_[i].report().online && drives_[i].report().scaled;
-      sum += drives_[i].report().velocity.value;
-    }
-    return sum / static_cast<double>(side.size());
-  };
-  const robot::WheelSpeeds wheels{mean(base_config_->left), mean(base_config_->right)};
+  robot::WheelSpeeds wheels;
+  for (const DriveIndex i : wheels_) {
+    seen = seen && drives_[i].report().online && drives_[i].report().scaled;
+    wheels.push_back(drives_[i].report().velocity.value);
+  }
   if (seen) {
     base_->handleWheels(wheels, dt);
   } else {

@@ -18,6 +18,7 @@ XmlRpc::XmlRpcValue privateParameters() {
 
 // Service calls that may wait for their drives at the same time, and a command that is not held up by them.
 constexpr int kSpinnerThreads = 4;
+constexpr int kShutDownAttempts = 50;
 
 Instant steadyNow() {
   return std::chrono::steady_clock::now();
@@ -143,8 +144,14 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
   thread_ = std::make_unique<cycle::CycleThread>(*cycle_, *transport_, config_.cycle.real_time);
   if (!thread_->refused().empty()) ROS_WARN("nord_driver: %s", thread_->refused().c_str());
 
-  publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_);
-  while (!end_asked && ros::ok()) ros::WallDuration(0.02).sleep();
+  // Whatever ends the node, the drives come to rest first: an exchange that simply ends lets the wheels coast.
+  try {
+    publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_);
+    while (!end_asked && ros::ok() && publisher_->healthy()) ros::WallDuration(0.02).sleep();
+  } catch (...) {
+    bringToRest();
+    throw;
+  }
   bringToRest();
 }
 
@@ -154,7 +161,12 @@ void DriverNode::bringToRest() {
   request.kind = cycle::RequestKind::kShutDown;
   // OFF1 that does not end becomes a quick stop; that has a ramp of its own (P426).
   request.patience = config_.cycle.shutdown_timeout + std::chrono::seconds{3};
-  const cycle::Completion answer = broker_->call(request);
+  cycle::Completion answer = broker_->call(request);
+  // Services fill the queue at most for a moment; the stop must get through.
+  for (int attempt = 0; attempt < kShutDownAttempts && answer.id == 0; ++attempt) {
+    ros::WallDuration(0.02).sleep();
+    answer = broker_->call(request);
+  }
   if (answer.success) {
     ROS_INFO("nord_driver: all drives are at rest, ending the exchange");
   } else {

@@ -23,7 +23,35 @@ std::size_t specialLength(ByteReader& reader) noexcept {
   return inBytes(reader.u8(), 0x3F);
 }
 
+/// "F3 F1 (12 bytes out, 12 in)", at most 16 of the bytes.
+FixedText<110> inWords(ByteView configuration) noexcept {
+  constexpr std::size_t kShown = 16;
+  char hex[3 * kShown + 1] = {};
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < configuration.size() && i < kShown; ++i) {
+    end += static_cast<std::size_t>(
+        std::snprintf(hex + end, sizeof hex - end, i == 0 ? "%02X" : " %02X", configuration[i]));
+  }
+  const auto lengths = ioLengths(configuration);
+  FixedText<110> text;
+  const char* const more = configuration.size() > kShown ? " .." : "";
+  if (lengths) {
+    text.format("%s%s (%zu bytes out, %zu in)", hex, more, lengths->outputs, lengths->inputs);
+  } else {
+    text.format("%s%s (which end in the middle of an identifier)", hex, more);
+  }
+  return text;
+}
+
 }  // namespace
+
+Sentence compareConfigurations(ByteView configured, ByteView reported) noexcept {
+  Sentence text;
+  const char* const verdict = configured == reported ? "has the configured" : "has another than the configured";
+  text.format("%s configuration: configured are %s, it reports %s", verdict, inWords(configured).c_str(),
+              inWords(reported).c_str());
+  return text;
+}
 
 std::optional<IoLengths> ioLengths(ByteView configuration) noexcept {
   IoLengths lengths;

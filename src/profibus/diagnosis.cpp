@@ -1,5 +1,7 @@
 #include "nord_driver/profibus/diagnosis.h"
 
+#include "nord_driver/profibus/diagnosis_blocks.h"
+
 namespace nord_driver::profibus {
 
 std::optional<Diagnosis> Diagnosis::from(ByteView bytes) noexcept {
@@ -7,6 +9,14 @@ std::optional<Diagnosis> Diagnosis::from(ByteView bytes) noexcept {
   Diagnosis diagnosis;
   for (const std::uint8_t byte : bytes) diagnosis.bytes_.push_back(byte);
   return diagnosis;
+}
+
+bool Diagnosis::inverterLinkBroken() const noexcept {
+  DiagnosisBlocks blocks{extendedBytes()};
+  while (const auto block = blocks.next()) {
+    if (block->isInverterLinkBroken()) return true;
+  }
+  return false;
 }
 
 }  // namespace nord_driver::profibus

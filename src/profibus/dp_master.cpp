@@ -1,24 +1,32 @@
 #include "nord_driver/profibus/dp_master.h"
 
+#include <algorithm>
+
 namespace nord_driver::profibus {
 
 namespace {
 
+constexpr Duration kListenSlice = std::chrono::milliseconds{2};
 constexpr Duration kTellForeignAgain = std::chrono::seconds{10};
 constexpr const char* kForeign = "another master is on this segment: this driver must be the only one";
 constexpr const char* kOwnAddress =
     "a second master has our address, or the adapter hands our own bytes back: switch its echo off";
+constexpr const char* kReleased = "a slave of the synchronised group did not exchange: SYNC and FREEZE are taken back";
 constexpr const char* kBusy =
     "the line never falls silent: check polarity, termination and biasing, or another station babbles";
 
 }  // namespace
 
-DpMaster::DpMaster(const BusParameters& bus, const std::vector<SlaveConfig>& slaves) : bus_(bus), requester_(bus) {
+DpMaster::DpMaster(const BusParameters& bus, const std::vector<SlaveConfig>& slaves)
+    : bus_(bus), requester_(bus), listen_(bus.listen_first) {
   bus.validate();
   validate(slaves, bus);
   slaves_.reserve(slaves.size());
   for (std::size_t i = 0; i < slaves.size(); ++i) slaves_.emplace_back(i, slaves[i], bus);
-  DpServices{bus}.operate(operate_);
+  const DpServices services{bus};
+  services.operate(operate_);
+  services.synchronise(sync_, true);
+  services.synchronise(unsync_, false);
 }
 
 void DpMaster::restart(Instant now) noexcept {
@@ -28,13 +36,16 @@ void DpMaster::restart(Instant now) noexcept {
   last_operate_.reset();
   last_foreign_.reset();
   told_busy_ = false;
+  synchronised_ = false;
+  listen_.restart(now);
 }
 
 void DpMaster::startCycle(Instant now) noexcept {
   if (!cycleDone()) return;
   ++requester_.counters().cycles;
   for (DpSlave& slave : slaves_) slave.startCycle();
-  turn_ = Turn::kOperate;
+  turn_ = Turn::kListen;
+  listen_slice_ = std::min(now + kListenSlice, listen_.end());
   cursor_ = 0;
   advance(now);
 }
@@ -47,6 +58,7 @@ void DpMaster::handleBytes(ByteView bytes, Instant now) noexcept {
 }
 
 void DpMaster::handleTimeout(Instant now) noexcept {
+  if (turn_ == Turn::kListen && now >= listen_slice_ && !listen_.mayTalk(now)) turn_ = Turn::kDone;
   switch (requester_.handleTimeout(now)) {
     case Requester::Outcome::kNone:
       break;
@@ -71,6 +83,7 @@ ByteView DpMaster::pollTransmit(Instant now) noexcept {
 // The cycle in turns; each asks the slaves that want to be asked in it, one request at a time.
 void DpMaster::advance(Instant now) noexcept {
   while (!requester_.busy() && turn_ != Turn::kDone) {
+    if (turn_ == Turn::kListen && !listen_.mayTalk(now)) break;
     if (!askNext(now)) nextTurn();
   }
   requester_.counters().events_lost = events_.overflow();
@@ -78,10 +91,14 @@ void DpMaster::advance(Instant now) noexcept {
 
 bool DpMaster::askNext(Instant now) noexcept {
   switch (turn_) {
+    case Turn::kListen:
+      return false;
     case Turn::kOperate:
       return askOperate(now);
     case Turn::kExchange:
       return askFirst(now, [](const DpSlave& slave) { return slave.wantsExchange(); });
+    case Turn::kSynchronise:
+      return askSynchronise(now);
     case Turn::kStartUp:
       return askFirst(now, [now](const DpSlave& slave) { return slave.wantsStartUpStep(now); });
     case Turn::kDiagnosis:
@@ -101,6 +118,35 @@ bool DpMaster::askOperate(Instant now) noexcept {
   if (!wanted || (last_operate_ && now - *last_operate_ < bus_.operate_interval)) return false;
   last_operate_ = now;
   requester_.begin(operate_, nullptr, now);
+  return true;
+}
+
+bool DpMaster::setSynchronised(bool on) noexcept {
+  const bool used = bus_.sync_outputs || bus_.freeze_inputs;
+  if (on && (!used || !groupExchanged())) return false;
+  synchronised_ = on;
+  return true;
+}
+
+bool DpMaster::groupExchanged() const noexcept {
+  return std::all_of(slaves_.begin(), slaves_.end(), [](const DpSlave& slave) {
+    return !slave.isSynchronised() || slave.status().exchanged_this_cycle;
+  });
+}
+
+// SYNC is a broadcast nobody acknowledges: it comes in every cycle, and so does UNSYNC, so that a lost one does no
+// harm.
+bool DpMaster::askSynchronise(Instant now) noexcept {
+  if ((!bus_.sync_outputs && !bus_.freeze_inputs) || cursor_ != 0) return false;
+  cursor_ = slaves_.size() + 1;
+  if (synchronised_ && !groupExchanged()) {
+    synchronised_ = false;
+    DpEvent released;
+    released.kind = DpEventKind::kSyncReleased;
+    released.text = kReleased;
+    events_.push(released);
+  }
+  requester_.begin(synchronised_ ? sync_ : unsync_, nullptr, now);
   return true;
 }
 
@@ -167,6 +213,7 @@ void DpMaster::nextTurn() noexcept {
 void DpMaster::abandonCycle() noexcept {
   turn_ = Turn::kDone;
   last_operate_.reset();
+  synchronised_ = false;
   if (told_busy_) return;
   told_busy_ = true;
   DpEvent busy;
@@ -176,6 +223,7 @@ void DpMaster::abandonCycle() noexcept {
 }
 
 void DpMaster::tellForeign(std::uint8_t master, Instant now) noexcept {
+  listen_.handleForeign(master, now);
   if (last_foreign_ && foreign_ == master && now - *last_foreign_ < kTellForeignAgain) return;
   last_foreign_ = now;
   foreign_ = master;

@@ -13,25 +13,34 @@ namespace {
 constexpr std::uint8_t kMasterSap = 62;
 constexpr std::uint8_t kRecordSap = 51;  // MS1, on both sides
 constexpr std::uint8_t kGlobalControlSap = 58;
+constexpr std::uint8_t kGetCfgSap = 59;
 constexpr std::uint8_t kSlaveDiagSap = 60;
 constexpr std::uint8_t kSetPrmSap = 61;
 constexpr std::uint8_t kChkCfgSap = 62;
 
-// First byte of Set_Prm. Sync_Req and Freeze_Req are never set: SYNC would freeze the control word (BU 2700 6.3).
+// First byte of Set_Prm. Sync_Req and Freeze_Req only where the bus uses them: a slave that was not told ignores SYNC.
 // Without Lock_Req a slave does not go on to data exchange.
 constexpr std::uint8_t kLockRequest = 0x80;
+constexpr std::uint8_t kSyncRequest = 0x20;
+constexpr std::uint8_t kFreezeRequest = 0x10;
 constexpr std::uint8_t kWatchdogOn = 0x08;
+
+// First byte of Global_Control.
+constexpr std::uint8_t kUnfreeze = 0x04;
+constexpr std::uint8_t kFreeze = 0x08;
+constexpr std::uint8_t kUnsync = 0x10;
+constexpr std::uint8_t kSync = 0x20;
 
 constexpr std::size_t kSd3Octets = 8;
 
 using PrmBytes = FixedBytes<kMaxIoLength>;
 
-PrmBytes prmBytes(const SlaveConfig& slave, std::uint16_t ident) noexcept {
+PrmBytes prmBytes(const SlaveConfig& slave, std::uint16_t ident, std::uint8_t requests) noexcept {
   const auto factors = WatchdogFactors::from(slave.watchdog);
   const WatchdogFactors sent = factors.value_or(WatchdogFactors{});  // 1 and 1 while the watchdog is off
   PrmBytes bytes;
   ByteWriter<kMaxIoLength> writer{bytes};
-  writer.u8(factors ? kLockRequest | kWatchdogOn : kLockRequest);
+  writer.u8(static_cast<std::uint8_t>(kLockRequest | requests | (factors ? kWatchdogOn : 0u)));
   writer.u8(sent.f1);
   writer.u8(sent.f2);
   writer.u8(slave.min_tsdr_bits);
@@ -101,13 +110,22 @@ void DpServices::slaveDiag(FdlRequest& request, StationAddress slave, std::uint8
 
 void DpServices::setPrm(FdlRequest& request, const SlaveConfig& slave, std::uint16_t ident,
                         std::uint8_t count_bits) const noexcept {
-  ask(request, slave.address, count_bits, toServer(kSetPrmSap), prmBytes(slave, ident));
+  unsigned requests = 0;
+  if (isSynchronised(slave)) requests = (sync_outputs_ ? kSyncRequest : 0u) | (freeze_inputs_ ? kFreezeRequest : 0u);
+  ask(request, slave.address, count_bits, toServer(kSetPrmSap),
+      prmBytes(slave, ident, static_cast<std::uint8_t>(requests)));
   expectAcknowledge(request);
 }
 
 void DpServices::chkCfg(FdlRequest& request, const SlaveConfig& slave, std::uint8_t count_bits) const noexcept {
   ask(request, slave.address, count_bits, toServer(kChkCfgSap), slave.configuration);
   expectAcknowledge(request);
+}
+
+void DpServices::getCfg(FdlRequest& request, StationAddress slave, std::uint8_t count_bits) const noexcept {
+  ask(request, slave, count_bits, toServer(kGetCfgSap), {});
+  request.min_data = 1;
+  request.max_data = kMaxIoLength;
 }
 
 void DpServices::dataExchange(FdlRequest& request, const SlaveConfig& slave, ByteView outputs,
@@ -129,10 +147,26 @@ void DpServices::record(FdlRequest& request, StationAddress slave, ByteView pdu,
 }
 
 void DpServices::operate(FdlRequest& request) const noexcept {
+  globalControl(request, 0x00, 0x00);  // no Clear, no Freeze, no Sync; every group
+}
+
+void DpServices::synchronise(FdlRequest& request, bool on) const noexcept {
+  unsigned command = 0;
+  if (sync_outputs_) command |= on ? kSync : kUnsync;
+  if (freeze_inputs_) command |= on ? kFreeze : kUnfreeze;
+  globalControl(request, static_cast<std::uint8_t>(command), sync_groups_);
+}
+
+bool DpServices::isSynchronised(const SlaveConfig& slave) const noexcept {
+  if (!sync_outputs_ && !freeze_inputs_) return false;
+  return sync_groups_ == 0 || (slave.group & sync_groups_) != 0;
+}
+
+void DpServices::globalControl(FdlRequest& request, std::uint8_t command, std::uint8_t groups) const noexcept {
   request = FdlRequest{};
   request.answered = false;
   request.station = kBroadcastAddress;
-  const std::array<std::uint8_t, 2> operate_all{0x00, 0x00};  // no Clear, no Freeze, no Sync; every group
+  const std::array<std::uint8_t, 2> data{command, groups};
 
   Telegram telegram;
   telegram.kind = TelegramKind::kSd2;
@@ -141,7 +175,7 @@ void DpServices::operate(FdlRequest& request) const noexcept {
   telegram.fc = kSendNoAcknowledgeHigh;
   telegram.dsap = kGlobalControlSap;
   telegram.ssap = kMasterSap;
-  telegram.data = operate_all;
+  telegram.data = data;
   encode(telegram, request.frame);
 }
 

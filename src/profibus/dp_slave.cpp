@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "dp_slave_texts.h"
+#include "nord_driver/profibus/configuration_bytes.h"
 
 namespace nord_driver::profibus {
 
@@ -69,6 +70,8 @@ DpSlave::Service DpSlave::nextService() noexcept {
     case SlavePhase::kFirstDiagnosis:
     case SlavePhase::kAwaitReady:
       return Service::kSlaveDiag;
+    case SlavePhase::kReadConfiguration:
+      return Service::kGetCfg;
     case SlavePhase::kParameters:
       return Service::kSetPrm;
     case SlavePhase::kConfiguration:
@@ -92,6 +95,9 @@ void DpSlave::prepare(FdlRequest& request, Instant now) noexcept {
     case Service::kSlaveDiag:
       services_.slaveDiag(request, config_.address, frame_count_.bits());
       break;
+    case Service::kGetCfg:
+      services_.getCfg(request, config_.address, frame_count_.bits());
+      break;
     case Service::kSetPrm:
       services_.setPrm(request, config_,
                        config_.expect_exact_ident ? config_.ident_number : status_.ident.value_or(config_.ident_number),
@@ -107,12 +113,27 @@ void DpSlave::prepare(FdlRequest& request, Instant now) noexcept {
 }
 
 bool DpSlave::wantsAcyclic(Instant now) noexcept {
-  return status_.phase == SlavePhase::kDataExchange && records_.wantsTelegram(now);
+  return status_.phase == SlavePhase::kDataExchange && (configuration_wanted_ || records_.wantsTelegram(now));
 }
 
 void DpSlave::prepareAcyclic(FdlRequest& request, Instant now) noexcept {
+  if (configuration_wanted_) {
+    configuration_wanted_ = false;
+    asked_ = Service::kGetCfg;
+    return services_.getCfg(request, config_.address, frame_count_.bits());
+  }
   asked_ = Service::kRecord;
   services_.record(request, config_.address, records_.pollTelegram(now), frame_count_.bits());
+}
+
+bool DpSlave::requestConfiguration() noexcept {
+  configuration_wanted_ = status_.phase == SlavePhase::kDataExchange;
+  return configuration_wanted_;
+}
+
+Sentence DpSlave::configurationText() const noexcept {
+  if (status_.configuration.empty()) return "has not been asked for its configuration, or did not tell";
+  return compareConfigurations(config_.configuration, status_.configuration);
 }
 
 bool DpSlave::submitRecord(const RecordRequest& request) noexcept {
@@ -141,6 +162,7 @@ void DpSlave::startOver(const char* note) noexcept {
 void DpSlave::lose(LossCause cause, const char* text, DpEvents& events) noexcept {
   ++status_.counters.losses;
   records_.handleOffline();
+  configuration_wanted_ = false;
   status_.exchanged_this_cycle = false;
   told_found_ = false;
   DpEvent lost = event(DpEventKind::kSlaveLost, text);
@@ -150,6 +172,7 @@ void DpSlave::lose(LossCause cause, const char* text, DpEvents& events) noexcept
 
 void DpSlave::backOff(const Fault& fault, Instant now, DpEvents& events) noexcept {
   ++status_.counters.refusals;
+  if (fault.kind == DpEventKind::kConfigurationFault) configuration_doubted_ = true;
   startOver(fault.text);
   status_.phase = SlavePhase::kBackOff;
   due_ = now + pause_;
@@ -161,6 +184,8 @@ void DpSlave::backOff(const Fault& fault, Instant now, DpEvents& events) noexcep
 
 void DpSlave::forgetFaults() noexcept {
   pause_ = kFirstPause;
+  told_configuration_ = false;
+  configuration_doubted_ = false;
   told_fault_.reset();
 }
 

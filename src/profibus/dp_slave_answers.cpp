@@ -26,6 +26,8 @@ void DpSlave::handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& event
       return onFdlStatus(answer, now, events);
     case Service::kSlaveDiag:
       return onDiagnosis(answer, now, events);
+    case Service::kGetCfg:
+      return onConfiguration(answer, now, events);
     case Service::kSetPrm:
     case Service::kChkCfg:
       return onAcknowledge(answer, now, events);
@@ -38,12 +40,7 @@ void DpSlave::handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& event
 
 void DpSlave::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) noexcept {
   if (status_.phase == SlavePhase::kSilent) return;
-  if (asked_ == Service::kRecord) {
-    // Whether the slave took it is not known: the next exchange begins the frame count anew. If it is gone, that
-    // exchange finds out.
-    frame_count_.reset();
-    return records_.handleNoAnswer();
-  }
+  if (asked_ == Service::kRecord || asked_ == Service::kGetCfg) return handleNoOptionalAnswer(events);
   if (status_.phase != SlavePhase::kDataExchange) return fallSilent(now + probe_interval_, texts::kNoAnswer);
 
   const bool other_length =
@@ -58,6 +55,18 @@ void DpSlave::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) n
     lose(LossCause::kWrongAnswers, texts::kGarbled, events);
   }
   fallSilent(now, texts::kNoAnswer);  // asked again in the next cycle: most silences are short
+}
+
+// A service the exchange can do without. Whether the slave took the request is not known: the next one begins the frame
+// count anew. If the slave is gone, that one finds out.
+void DpSlave::handleNoOptionalAnswer(DpEvents& events) noexcept {
+  frame_count_.reset();
+  if (asked_ == Service::kRecord) return records_.handleNoAnswer();
+  if (status_.phase == SlavePhase::kDataExchange) {
+    events.push(event(DpEventKind::kConfigurationRead, texts::kNoConfiguration));
+  } else {
+    status_.phase = SlavePhase::kParameters;
+  }
 }
 
 void DpSlave::onFdlStatus(const FdlAnswer& answer, Instant, DpEvents& events) noexcept {
@@ -92,6 +101,24 @@ void DpSlave::onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events
   if (exchanging) return judgeInExchange(now, events);
   if (status_.phase == SlavePhase::kAwaitReady) return judgeReady(now, events);
   judgeFirst(now, events);
+}
+
+// Beside data exchange a difference is only told: what works is not ended.
+void DpSlave::onConfiguration(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
+  const bool exchanging = status_.phase == SlavePhase::kDataExchange;
+  status_.configuration.clear();
+  for (const std::uint8_t byte : answer.data) status_.configuration.push_back(byte);
+  const bool told = answer.kind == FdlAnswer::Kind::kData;
+  const bool differs = told && ByteView{status_.configuration} != ByteView{config_.configuration};
+  if (exchanging) events.push(event(DpEventKind::kConfigurationRead, told ? "" : texts::kNoConfiguration));
+  if (differs && !exchanging && config_.configuration_check == ConfigurationCheck::kRequire) {
+    return backOff({DpEventKind::kConfigurationDiffers, texts::kOtherConfiguration}, now, events);
+  }
+  if (differs && !told_configuration_) {
+    told_configuration_ = true;
+    events.push(event(DpEventKind::kConfigurationDiffers, texts::kOtherConfiguration));
+  }
+  if (!exchanging) status_.phase = SlavePhase::kParameters;
 }
 
 void DpSlave::onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
@@ -143,7 +170,9 @@ std::optional<DpSlave::Fault> DpSlave::faultIn(const Diagnosis& diagnosis) const
 // Faults shown here are those of an earlier start-up, perhaps of another master: Set_Prm takes them away.
 void DpSlave::judgeFirst(Instant now, DpEvents& events) noexcept {
   if (const auto stranger = strangerIn(status_.diagnosis)) return backOff(*stranger, now, events);
-  status_.phase = SlavePhase::kParameters;
+  const bool always = config_.configuration_check >= ConfigurationCheck::kTell;
+  const bool doubted = configuration_doubted_ && config_.configuration_check == ConfigurationCheck::kAfterFault;
+  status_.phase = always || doubted ? SlavePhase::kReadConfiguration : SlavePhase::kParameters;
 }
 
 void DpSlave::judgeReady(Instant now, DpEvents& events) noexcept {

@@ -24,6 +24,9 @@ constexpr const char* kPrmFault =
 constexpr const char* kCfgFault =
     "refuses its configuration (Cfg_Fault): the PPO type or module list set at the device differs from the configured "
     "one";
+constexpr const char* kOtherConfiguration =
+    "has another configuration than configured: the PPO type or module list set at the device differs";
+constexpr const char* kNoConfiguration = "did not tell its configuration (Get_Cfg)";
 constexpr const char* kServiceRefused =
     "refuses a service of its start-up: it is no DP slave, or is busy with another master";
 constexpr const char* kNotReady = "has its parameters, but does not become ready for data exchange";

@@ -31,8 +31,8 @@ void ProfibusRecorder::split(Instant now) noexcept {
   for (;;) {
     const ByteView rest = ByteView{pending_}.sub(used);
     const profibus::ParseResult result = profibus::parse(rest);
-    if (result.kind == profibus::Parse::NeedMore) break;
-    if (result.kind == profibus::Parse::Malformed) {
+    if (result.kind == profibus::Parse::kNeedMore) break;
+    if (result.kind == profibus::Parse::kMalformed) {
       addNoise(rest[0]);
       ++used;
       continue;

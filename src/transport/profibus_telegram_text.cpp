@@ -60,22 +60,22 @@ std::string diagnosisText(ByteView data) {
 
 const char* responseText(ResponseCode code) {
   switch (code) {
-    case ResponseCode::Ok:
+    case ResponseCode::kOk:
       return "OK";
-    case ResponseCode::UserError:
+    case ResponseCode::kUserError:
       return "user error";
-    case ResponseCode::NoResource:
+    case ResponseCode::kNoResource:
       return "no resource";
-    case ResponseCode::NotActivated:
+    case ResponseCode::kNotActivated:
       return "not activated";
-    case ResponseCode::DataLow:
+    case ResponseCode::kDataLow:
       return "data";
-    case ResponseCode::NoData:
+    case ResponseCode::kNoData:
       return "no data";
-    case ResponseCode::DataHigh:
+    case ResponseCode::kDataHigh:
       return "diagnosis waits";
-    case ResponseCode::DataLowNoResource:
-    case ResponseCode::DataHighNoResource:
+    case ResponseCode::kDataLowNoResource:
+    case ResponseCode::kDataHighNoResource:
       return "sent data not taken";
   }
   return "unknown response";
@@ -99,15 +99,15 @@ ProfibusTelegramText::ProfibusTelegramText(const ProfibusDpConfig& config) {
 std::string ProfibusTelegramText::operator()(const TraceRecord& record) const {
   if (record.kind == TraceKind::kNoise) return "no telegram";
   const profibus::ParseResult result = profibus::parse(record.view());
-  if (result.kind != profibus::Parse::Ok) return "no telegram";
+  if (result.kind != profibus::Parse::kOk) return "no telegram";
   const Telegram& telegram = result.telegram;
-  if (telegram.kind == TelegramKind::Sc) return "acknowledge";
-  if (telegram.kind == TelegramKind::Sd4) return "token " + way(telegram);
+  if (telegram.kind == TelegramKind::kSc) return "acknowledge";
+  if (telegram.kind == TelegramKind::kSd4) return "token " + way(telegram);
   return profibus::isRequest(telegram.fc) ? request(telegram) : answer(telegram);
 }
 
 std::string ProfibusTelegramText::request(const Telegram& telegram) const {
-  if (telegram.fc == profibus::kFdlStatus) return "FDL status " + way(telegram);
+  if (telegram.fc == profibus::kRequestFdlStatus) return "FDL status " + way(telegram);
   if (telegram.dsap) {
     return withHex(std::string(serviceName(*telegram.dsap)) + " " + way(telegram), telegram.data);
   }
@@ -126,7 +126,7 @@ std::string ProfibusTelegramText::answer(const Telegram& telegram) const {
   }
   if (telegram.data.empty()) return "answer " + way(telegram) + " " + responseText(code);
   const std::string text = "DX " + way(telegram) + processData(telegram.sa, telegram.data, false);
-  return code == ResponseCode::DataLow ? text : text + ", " + responseText(code);
+  return code == ResponseCode::kDataLow ? text : text + ", " + responseText(code);
 }
 
 std::string ProfibusTelegramText::processData(std::uint8_t station, ByteView data, bool to_drive) const {

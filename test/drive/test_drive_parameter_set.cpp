@@ -38,6 +38,20 @@ TEST_F(DriveTest, SwitchesToEverySet) {
   }
 }
 
+// A status word from before the request's own telegram confirms nothing.
+TEST_F(DriveTest, WaitsForTheAnswerToItsOwnSet) {
+  start();
+  cycle(0x4B31);  // set 2 came into force by itself; set 1 is still commanded
+  drive_.pollOutput(now_);
+  drive_.requestParameterSet(2, now_);
+  profile::ProcessInput before;
+  before.status_word = 0x4B31;
+  drive_.handleInput(before, true, now_);
+  EXPECT_EQ(RequestState::kRunning, report().set_switch.state);
+  EXPECT_EQ(0x447E, cycle(0x4B31));
+  EXPECT_EQ(RequestState::kDone, report().set_switch.state);
+}
+
 // Not confirmed in enable_timeout: back to the set in force, and said.
 TEST_F(DriveTest, GoesBackToTheSetInForce) {
   start();

@@ -89,8 +89,18 @@ TEST(Faults, RefusedConfiguration) {
 // The pause is short again after an exchange, and the same fault is told again.
 TEST(Faults, AreForgottenAfterAnExchange) {
   NordWire wire;
+  // The start-up after the first one asks what the configuration is (Get_Cfg), which turns the frame count.
+  bool asked = false;
   const auto fault = [&] {
     wire.isFree();
+    if (asked) {
+      wire.cycle(kGetCfg5D, kHasPpo1);
+      wire.cycle(kSetPrm7D, kShortAcknowledge);
+      wire.cycle(kChkCfg5D, kShortAcknowledge);
+      wire.cycle(kDiag7D, "68 0B 0B 68 81 88 08 3E 3C 06 05 00 FF 75 31 3B 16");
+      return;
+    }
+    asked = true;
     wire.takesParameters();
     wire.takesConfiguration();
     wire.cycle(kDiag5D, "68 0B 0B 68 81 88 08 3E 3C 06 05 00 FF 75 31 3B 16");
@@ -104,13 +114,15 @@ TEST(Faults, AreForgottenAfterAnExchange) {
   wire.tellsNothing();
   wire.advance(500ms);
   wire.isFree();
-  wire.takesParameters();
-  wire.takesConfiguration();
-  wire.cycle(kDiag5D, kReady);
+  wire.cycle(kGetCfg5D, kHasPpo1);
+  wire.cycle(kSetPrm7D, kShortAcknowledge);
+  wire.cycle(kChkCfg5D, kShortAcknowledge);
+  wire.cycle(kDiag7D, kReady);
   wire.tells(DpEventKind::kDataExchangeEntered);
-  wire.cycle(kExchange7D, kInputs);
-  wire.cycle(kExchange5D, kNotActivated);
+  wire.cycle(kExchange5D, kInputs);
+  wire.cycle(kExchange7D, kNotActivated);
   wire.tells(DpEventKind::kSlaveLost);
+  asked = false;
   fault();
   wire.tells(DpEventKind::kConfigurationFault);
   backsOff(wire, 250ms);

@@ -214,6 +214,9 @@ TEST_F(Inverter, StandingCommandActsWhenTheBusReturns) {
 TEST_F(Inverter, TerminalsStopUnderBusControl) {
   Terminals low;
   low.coast = true;
+  model.setTerminals(low);
+  EXPECT_EQ("0B60", status());  // before any word of the bus
+  model.setTerminals(Terminals{});
   enable();
   model.setTerminals(low);
   hold(0x047F, 0x2000, 0.01);

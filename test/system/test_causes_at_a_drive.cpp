@@ -141,8 +141,8 @@ TEST_F(CauseAtADrive, AnInverterThatIsOffBehindItsModuleStopsTheBase) {
   EXPECT_STREQ("enabled", enableAtRest().message.c_str());
 }
 
-// One cycle with all its retries unanswered: the slave is parameterised anew, which takes longer than drive_timeout, but
-// not as long as the watchdog. Back within 2 s, at rest, and enabled only when asked.
+// One cycle with all its retries unanswered: the slave is parameterised anew, which takes longer than drive_timeout,
+// but not as long as the watchdog. Back within 2 s, at rest, and enabled only when asked.
 TEST_F(CauseAtADrive, ADriveThatIsBackDoesNotMoveBeforeItIsEnabled) {
   robot_.unit(kRight).slave().setMute(true);
   step();

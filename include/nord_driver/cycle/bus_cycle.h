@@ -61,8 +61,8 @@ class BusCycle {
   std::vector<std::string> names_;
   std::vector<drive::Drive> drives_;
   std::vector<Axis> axes_;
-  std::optional<BaseConfig> base_config_;
   std::optional<BaseMotion> base_;
+  std::vector<DriveIndex> wheels_;  // the drives of the base, in the order of its wheel speeds
   Supervisor supervisor_;
   Maintenance maintenance_;
   CycleStatistics statistics_;

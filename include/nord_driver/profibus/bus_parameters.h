@@ -26,6 +26,18 @@ struct BusParameters {
 
   Duration probe_interval = std::chrono::milliseconds{250};  ///< a silent slave is asked for no more often than this
   Duration operate_interval = std::chrono::seconds{1};       ///< Global_Control Operate, 0 = never
+  /// Before the first telegram, and for as long again whenever another master is heard meanwhile; 0 = do not listen. A
+  /// token comes round in far less than a second on any segment.
+  Duration listen_first{0};
+
+  // Global_Control SYNC and FREEZE, off unless asked for: a slave in SYNC keeps its outputs, stop words included, and
+  // data exchange feeds its watchdog all the same (BU 2700 6.3; BU 0020 5.3). So a master that uses them sends SYNC in
+  // every cycle behind the exchanges, falls back to UNSYNC when one of the group did not exchange, and sends UNSYNC in
+  // every cycle until it is switched on again: see DpMaster::setSynchronised().
+  bool sync_outputs = false;     ///< new outputs act at the same moment
+  bool freeze_inputs = false;    ///< inputs are of the same moment, one cycle older
+  std::uint8_t sync_groups = 0;  ///< slaves with one of these group bits; 0 = all
+
   bool send_sd3 = false;  ///< requests of eight octets as SD3; both kinds are legal, slaves are seen to use SD2
 
   /// The usual values of a standard rate (9.6k, 19.2k, 45.45k, 93.75k, 187.5k, 500k, 1.5M, 3M, 6M, 12M).

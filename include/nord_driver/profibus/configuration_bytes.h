@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "nord_driver/core/bytes.h"
+#include "nord_driver/core/fixed_text.h"
 
 namespace nord_driver::profibus {
 
@@ -16,5 +17,8 @@ struct IoLengths {
 /// The sum over all identifiers, compact and special format (EN 50170-8, Chk_Cfg). Nothing when the bytes end in the
 /// middle of an identifier.
 std::optional<IoLengths> ioLengths(ByteView configuration) noexcept;
+
+/// A sentence for a technician, subject left out: both byte lists, and how many bytes they stand for.
+Sentence compareConfigurations(ByteView configured, ByteView reported) noexcept;
 
 }  // namespace nord_driver::profibus

@@ -30,6 +30,8 @@ class Diagnosis {
   ByteView bytes() const noexcept { return bytes_; }
   /// The blocks of the device, module or channel.
   ByteView extendedBytes() const noexcept { return ByteView{bytes_}.sub(kStandardLength); }
+  /// A module whose inverter is off, or whose link to it is broken, while it exchanges data itself (BU 0020 8.2).
+  bool inverterLinkBroken() const noexcept;
   bool empty() const noexcept { return bytes_.empty(); }
 
   static constexpr std::size_t kStandardLength = 6;

@@ -16,12 +16,15 @@ enum class DpEventKind : std::uint8_t {
   kWrongIdent,
   kParameterFault,
   kConfigurationFault,
-  kLockedByMaster,  ///< `master` owns the slave
-  kServiceRefused,  ///< a negative answer to a service of the start-up
-  kNotReady,        ///< parameterised and configured, but does not become ready
+  kLockedByMaster,        ///< `master` owns the slave
+  kConfigurationDiffers,  ///< Get_Cfg: see `DpMaster::configurationText()`
+  kConfigurationRead,     ///< Get_Cfg on demand was answered, or was refused: see `text`
+  kServiceRefused,        ///< a negative answer to a service of the start-up
+  kNotReady,              ///< parameterised and configured, but does not become ready
   // Not of one slave: `slave` is kNoSlave.
   kForeignMaster,  ///< `master` sent a token or a request. Our own address: a second master has it, or an adapter
                    ///< echoes
+  kSyncReleased,   ///< a slave of the group did not exchange: UNSYNC is sent, until `setSynchronised()` is called again
   kLineBusy        ///< the line never falls silent: nothing can be sent
 };
 

@@ -14,6 +14,7 @@
 #include "nord_driver/profibus/dp_event.h"
 #include "nord_driver/profibus/dp_services.h"
 #include "nord_driver/profibus/dp_slave.h"
+#include "nord_driver/profibus/listen_first.h"
 #include "nord_driver/profibus/requester.h"
 #include "nord_driver/profibus/slave_config.h"
 #include "nord_driver/profibus/slave_status.h"
@@ -33,6 +34,7 @@ namespace nord_driver::profibus {
 ///     while (auto event = master.pollEvent()) ...
 ///
 /// A cycle holds, in this order: Global_Control Operate when it is due; one exchange with each slave in data exchange;
+/// SYNC or UNSYNC, where the bus uses it;
 /// one step with each slave in its start-up; the diagnosis a slave announced in its exchange; at most one acyclic
 /// telegram; a look for one silent slave. Bytes that come between cycles are given to `handleBytes()` too: they are
 /// counted, and the pause counts from them.
@@ -55,7 +57,9 @@ class DpMaster {
   /// Bytes to send now with one write, or none (yet). Valid until the next call that is not const.
   ByteView pollTransmit(Instant now) noexcept;
   /// The end of the slot, or the moment the pause is over and `pollTransmit()` has something; nothing between cycles.
-  std::optional<Instant> nextDeadline() const noexcept { return requester_.nextDeadline(); }
+  std::optional<Instant> nextDeadline() const noexcept {
+    return turn_ == Turn::kListen ? listen_slice_ : requester_.nextDeadline();
+  }
   std::optional<DpEvent> pollEvent() noexcept { return events_.pop(); }
 
   /// Reads or writes a record of a slave (DP-V1 class 1) beside data exchange. False when the slave has one under way
@@ -64,6 +68,21 @@ class DpMaster {
     return slaves_[slave].submitRecord(request);
   }
   std::optional<RecordResult> pollRecord() noexcept;
+
+  /// Asks a slave for its configuration (Get_Cfg) beside data exchange; the answer is told by an event. False when it
+  /// is not in data exchange.
+  bool requestConfiguration(std::size_t slave) noexcept { return slaves_[slave].requestConfiguration(); }
+  /// Configured and reported configuration in words, subject left out.
+  Sentence configurationText(std::size_t slave) const noexcept { return slaves_[slave].configurationText(); }
+
+  /// From the next cycle on: SYNC and FREEZE behind the exchanges of every cycle, or UNSYNC and UNFREEZE there. A layer
+  /// that stops a drive, or sees a fault, calls this with false in the same cycle. Refused unless the bus is configured
+  /// for it and every slave of the group exchanged in the last cycle. One that misses an exchange ends it by itself.
+  bool setSynchronised(bool on) noexcept;
+  bool isSynchronised() const noexcept { return synchronised_; }
+
+  /// Nothing has been sent yet: the line is listened to (`BusParameters::listen_first`).
+  bool isListening() const noexcept { return listen_.isListening(); }
 
   std::size_t slaveCount() const noexcept { return slaves_.size(); }
   /// Kept, and sent with every exchange from now on. Cut or filled with zeros to the configured length.
@@ -74,10 +93,22 @@ class DpMaster {
   const Counters& counters() const noexcept { return requester_.counters(); }
 
  private:
-  enum class Turn : std::uint8_t { kOperate, kExchange, kStartUp, kDiagnosis, kAcyclic, kProbe, kDone };
+  enum class Turn : std::uint8_t {
+    kListen,
+    kOperate,
+    kExchange,
+    kSynchronise,
+    kStartUp,
+    kDiagnosis,
+    kAcyclic,
+    kProbe,
+    kDone
+  };
 
   void advance(Instant now) noexcept;
   bool askNext(Instant now) noexcept;
+  bool askSynchronise(Instant now) noexcept;
+  bool groupExchanged() const noexcept;
   bool askOperate(Instant now) noexcept;
   template <typename Wants>
   bool askFirst(Instant now, Wants&& wants) noexcept;
@@ -92,7 +123,10 @@ class DpMaster {
   Requester requester_;
   std::vector<DpSlave> slaves_;
   DpEvents events_;
-  FdlRequest operate_;  // the same bytes every time
+  FdlRequest operate_, sync_, unsync_;  // the same bytes every time
+  ListenFirst listen_;
+  Instant listen_slice_{};  // a cycle listens no longer than that
+  bool synchronised_ = false;
   FdlRequest request_;
   Turn turn_ = Turn::kDone;
   std::size_t cursor_ = 0;  // next slave to look at in this turn

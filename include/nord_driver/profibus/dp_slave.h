@@ -47,8 +47,12 @@ class DpSlave {
 
   void setOutputs(ByteView outputs) noexcept;
   ByteView inputs() const noexcept { return inputs_; }
+  bool isSynchronised() const noexcept { return services_.isSynchronised(config_); }
   const SlaveStatus& status() const noexcept { return status_; }
-  /// Looks in on the acyclic channel.
+  /// Get_Cfg beside data exchange; false when the slave is not in it.
+  bool requestConfiguration() noexcept;
+  Sentence configurationText() const noexcept;
+  /// See DpMaster.
   bool submitRecord(const RecordRequest& request) noexcept;
   std::optional<RecordResult> pollRecord() noexcept { return records_.pollResult(); }
   SlaveCounters& counters() noexcept { return status_.counters; }
@@ -58,11 +62,13 @@ class DpSlave {
     DpEventKind kind;
     const char* text;
   };
-  enum class Service : std::uint8_t { kFdlStatus, kSlaveDiag, kSetPrm, kChkCfg, kDataExchange, kRecord };
+  enum class Service : std::uint8_t { kFdlStatus, kSlaveDiag, kGetCfg, kSetPrm, kChkCfg, kDataExchange, kRecord };
 
   Service nextService() noexcept;
+  void handleNoOptionalAnswer(DpEvents& events) noexcept;
   void onFdlStatus(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
   void onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
+  void onConfiguration(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
   void onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
   void onExchange(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
 
@@ -91,11 +97,14 @@ class DpSlave {
   RecordChannel records_;
   std::vector<std::uint8_t> outputs_, inputs_;  // sized once, in the constructor
   Service asked_ = Service::kFdlStatus;
-  bool stepped_ = false;        // had its request of this cycle
-  bool diagnosis_due_ = false;  // in data exchange: DH was seen
-  Instant due_{};               // no request before (probes, back-off, slow polling)
-  Instant ready_since_{};       // AwaitReady was entered
-  Duration pause_{};            // of the next back-off
+  bool stepped_ = false;                // had its request of this cycle
+  bool diagnosis_due_ = false;          // in data exchange: DH was seen
+  Instant due_{};                       // no request before (probes, back-off, slow polling)
+  Instant ready_since_{};               // AwaitReady was entered
+  Duration pause_{};                    // of the next back-off
+  bool configuration_wanted_ = false;   // by requestConfiguration()
+  bool configuration_doubted_ = false;  // Cfg_Fault was seen
+  bool told_configuration_ = false;
   bool told_found_ = false;
   std::optional<DpEventKind> told_fault_;
 };

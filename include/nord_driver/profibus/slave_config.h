@@ -16,6 +16,14 @@ constexpr std::size_t kMaxIoLength = 244;
 /// Set_Prm: seven bytes are the standard's, the rest is the user's.
 constexpr std::size_t kMaxUserParameters = kMaxIoLength - 7;
 
+/// When the configuration a slave has is read (Get_Cfg) and compared with the configured one.
+enum class ConfigurationCheck : std::uint8_t {
+  kNever,
+  kAfterFault,  ///< in the start-up after a Cfg_Fault, so that both can be told
+  kTell,        ///< in every start-up; a difference is told, Chk_Cfg decides
+  kRequire      ///< in every start-up; a slave with another configuration is not parameterised
+};
+
 struct SlaveConfig {
   StationAddress address;
   std::uint16_t ident_number = 0;
@@ -27,6 +35,7 @@ struct SlaveConfig {
   Duration watchdog{0};                       ///< 10 ms..650.25 s, a product f1 * f2 * 10 ms; 0 = off
   std::uint8_t min_tsdr_bits = 11;            ///< 11..255; 0 leaves the slave's own value
   std::uint8_t group = 0;                     ///< group bits of Set_Prm
+  ConfigurationCheck configuration_check = ConfigurationCheck::kAfterFault;
   /// Acyclic records (DP-V1 class 1): `user_parameters` begin with DPV1_Status_1 to 3, and DPV1_Enable is set.
   bool dpv1 = false;
   Duration record_timeout = std::chrono::seconds{2};  ///< for one response: C1_Response_Timeout of the GSD

@@ -6,16 +6,18 @@
 
 #include "nord_driver/profibus/counters.h"
 #include "nord_driver/profibus/diagnosis.h"
+#include "nord_driver/profibus/slave_config.h"
 
 namespace nord_driver::profibus {
 
 /// Where a slave stands, in the order of its start-up (EN 50170-8, master state machine per slave).
 enum class SlavePhase : std::uint8_t {
-  kSilent,          ///< asked for its FDL status now and then
-  kFirstDiagnosis,  ///< is it the right device, and free?
-  kParameters,      ///< Set_Prm is next
-  kConfiguration,   ///< Chk_Cfg is next
-  kAwaitReady,      ///< asked for its diagnosis until it is ready
+  kSilent,             ///< asked for its FDL status now and then
+  kFirstDiagnosis,     ///< is it the right device, and free?
+  kReadConfiguration,  ///< Get_Cfg is next, where it is wanted
+  kParameters,         ///< Set_Prm is next
+  kConfiguration,      ///< Chk_Cfg is next
+  kAwaitReady,         ///< asked for its diagnosis until it is ready
   kDataExchange,
   kBackOff  ///< the start-up ended in a fault; waits to try again
 };
@@ -28,6 +30,13 @@ struct SlaveStatus {
   Diagnosis diagnosis;                 ///< the last one; `empty()` before the first
   const char* note = "";               ///< what it needs or waits for, for a technician; empty in data exchange
   SlaveCounters counters;
+  /// What Get_Cfg said last: configuration bytes; empty when it was not asked.
+  FixedBytes<kMaxIoLength> configuration;
+
+  /// The module answers, and reports that its inverter does not: only in data exchange is that known.
+  bool inverterLinkBroken() const noexcept {
+    return phase == SlavePhase::kDataExchange && diagnosis.inverterLinkBroken();
+  }
 };
 
 }  // namespace nord_driver::profibus

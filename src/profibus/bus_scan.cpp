@@ -1,0 +1,129 @@
+#include "nord_driver/profibus/bus_scan.h"
+
+#include "nord_driver/profibus/frame_count.h"
+
+namespace nord_driver::profibus {
+
+namespace {
+
+constexpr std::uint8_t kUnnamed = 126;
+
+}  // namespace
+
+Sentence describe(std::uint8_t address, const ScannedStation& station) noexcept {
+  Sentence text;
+  switch (station.kind) {
+    case ScannedStation::Kind::kSilent:
+      return "does not answer";
+    case ScannedStation::Kind::kSelf:
+      return "is the address of this master";
+    case ScannedStation::Kind::kMaster:
+      return "is a master";
+    case ScannedStation::Kind::kGarbled:
+      return "answers garbled: two stations with this address, or a bad line";
+    case ScannedStation::Kind::kSlave:
+      break;
+  }
+  const char* const unnamed = address == kUnnamed ? ", not addressed yet: set its address to 3 to 125" : "";
+  if (!station.ident) {
+    text.format("is a slave that does not tell its diagnosis%s", unnamed);
+  } else if (station.owner == kNoOwner) {
+    text.format("is a slave with the ident number %04Xh%s", *station.ident, unnamed);
+  } else {
+    text.format("is a slave with the ident number %04Xh, parameterised by master %u%s", *station.ident, station.owner,
+                unnamed);
+  }
+  return text;
+}
+
+BusScan::BusScan(const BusParameters& bus) : bus_(bus), requester_(bus), services_(bus), listen_(bus.listen_first) {
+  bus.validate();
+}
+
+void BusScan::start(Instant now) noexcept {
+  requester_.restart(now);
+  stations_ = {};
+  stations_[bus_.master.value()].kind = ScannedStation::Kind::kSelf;
+  refused_by_.reset();
+  line_busy_ = false;
+  listen_.restart(now);
+  step_ = Step::kListen;
+  if (listen_.mayTalk(now)) askStatus(0, now);
+}
+
+void BusScan::handleBytes(ByteView bytes, Instant now) noexcept {
+  requester_.handleBytes(
+      bytes, now, [&](const FdlAnswer& answer) { onAnswer(answer, now); },
+      [&](std::uint8_t master) { onForeign(master, now); });
+}
+
+void BusScan::handleTimeout(Instant now) noexcept {
+  if (step_ == Step::kListen && listen_.mayTalk(now)) return askStatus(0, now);
+  switch (requester_.handleTimeout(now)) {
+    case Requester::Outcome::kNone:
+      return;
+    case Requester::Outcome::kNoAnswer:
+      // A slave that does not tell its diagnosis is still a slave.
+      if (step_ == Step::kStatus && requester_.lastMismatch() != Mismatch::kNone) {
+        stations_[address_].kind = ScannedStation::Kind::kGarbled;
+      }
+      return askNext(now);
+    case Requester::Outcome::kLineBusy:
+      line_busy_ = true;
+      step_ = Step::kDone;
+      return;
+  }
+}
+
+ByteView BusScan::pollTransmit(Instant now) noexcept {
+  return requester_.pollTransmit(now);
+}
+
+std::optional<Instant> BusScan::nextDeadline() const noexcept {
+  return step_ == Step::kListen ? listen_.end() : requester_.nextDeadline();
+}
+
+void BusScan::askStatus(std::uint8_t address, Instant now) noexcept {
+  address_ = address;
+  if (address_ == bus_.master.value()) ++address_;
+  if (address_ >= kAddresses) {
+    step_ = Step::kDone;
+    return;
+  }
+  step_ = Step::kStatus;
+  services_.fdlStatus(request_, *StationAddress::from(address_));
+  requester_.begin(request_, &slave_counters_, now);
+}
+
+void BusScan::askNext(Instant now) noexcept {
+  askStatus(static_cast<std::uint8_t>(address_ + 1), now);
+}
+
+void BusScan::onAnswer(const FdlAnswer& answer, Instant now) noexcept {
+  ScannedStation& station = stations_[address_];
+  if (step_ == Step::kDiagnosis) {
+    const auto diagnosis = answer.kind == FdlAnswer::Kind::kData ? Diagnosis::from(answer.data) : std::nullopt;
+    if (diagnosis) {
+      station.ident = diagnosis->ident();
+      station.owner = diagnosis->owner();
+    }
+    return askNext(now);
+  }
+  if (answer.station_type != StationType::kSlave) {
+    station.kind = ScannedStation::Kind::kMaster;
+    return askNext(now);
+  }
+  station.kind = ScannedStation::Kind::kSlave;
+  step_ = Step::kDiagnosis;
+  services_.slaveDiag(request_, *StationAddress::from(address_), FrameCount{}.bits());
+  requester_.begin(request_, &slave_counters_, now);
+}
+
+void BusScan::onForeign(std::uint8_t master, Instant now) noexcept {
+  listen_.handleForeign(master, now);
+  if (step_ != Step::kListen) return;
+  refused_by_ = master;
+  step_ = Step::kDone;
+}
+
+}  // namespace nord_driver::profibus

@@ -1,0 +1,89 @@
+#include <gtest/gtest.h>
+
+#include "profibus/nord_wire.h"
+
+namespace nord_driver::profibus {
+namespace {
+
+using namespace std::chrono_literals;
+
+BusParameters listening() {
+  BusParameters bus = quietBus();
+  bus.listen_first = 100ms;
+  return bus;
+}
+
+/// A cycle in which nothing may be sent; it takes no longer than 2 ms.
+void silentCycle(Wire& wire, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  testing::ScopedTrace trace(file, line, "silentCycle");
+  const Instant begin = wire.now;
+  wire.startCycle();
+  EXPECT_FALSE(wire.master.cycleDone());
+  wire.staysSilent();
+  wire.cycleEnds();
+  EXPECT_LE(wire.now - begin, 2ms);
+  EXPECT_TRUE(wire.master.isListening());
+}
+
+// Nothing is sent before the line was listened to for the whole time.
+TEST(ListenFirst, ThenTalks) {
+  NordWire wire{listening()};
+  const Instant begin = wire.now;
+  silentCycle(wire);
+  wire.now = begin + 97ms;
+  silentCycle(wire);
+  wire.now = begin + 99ms;
+  wire.startCycle();
+  wire.staysSilent();
+  EXPECT_EQ(begin + 100ms, wire.now);
+  wire.sends(kFdlStatus8);
+  EXPECT_FALSE(wire.master.isListening());
+  EXPECT_EQ(100ms, wire.now - begin);
+}
+
+// A foreign token, or request, keeps it silent for as long again.
+TEST(ListenFirst, StaysSilentBesideAnotherMaster) {
+  NordWire wire{listening()};
+  for (int i = 0; i < 5; ++i) {
+    silentCycle(wire);
+    wire.advance(48ms);
+    wire.startCycle();
+    wire.arrives("DC 02 02");
+    wire.staysSilent();
+    wire.cycleEnds();
+    wire.advance(44ms);
+  }
+  EXPECT_EQ(2, wire.tells(DpEventKind::kForeignMaster).master);
+  EXPECT_EQ(0u, wire.master.counters().telegrams_sent);
+  wire.advance(56ms);
+  wire.startCycle();
+  wire.sends(kFdlStatus8);
+}
+
+// The answers of slaves alone are no master: but somebody asked them, and that is heard too.
+TEST(ListenFirst, NoiseIsNoMaster) {
+  NordWire wire{listening()};
+  silentCycle(wire);
+  wire.arrives("E7 A7 DA 00");
+  wire.advance(100ms);
+  wire.startCycle();
+  wire.sends(kFdlStatus8);
+}
+
+TEST(ListenFirst, AgainAfterTheLinkWasOpened) {
+  NordWire wire{listening()};
+  wire.advance(100ms);
+  wire.startCycle();
+  wire.sends(kFdlStatus8);
+  wire.restart();
+  silentCycle(wire);
+}
+
+TEST(ListenFirst, RangeOfTheTime) {
+  BusParameters bus = listening();
+  bus.listen_first = 11s;
+  EXPECT_THROW(bus.validate(), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace nord_driver::profibus
