@@ -97,7 +97,10 @@ TEST_P(WrongConfiguration, EndsTheNodeWithASentence) {
   EXPECT_EQ(end->exit_code, 1);
   EXPECT_THAT(advertised, IsEmpty());
 
-  const std::vector<std::string> lines = driver.errorLines();
+  std::vector<std::string> lines = driver.errorLines();
+  // roscpp's own words on a master that is slow under load.
+  const auto of_roscpp = [](const std::string& line) { return line.find("contact master") != std::string::npos; };
+  lines.erase(std::remove_if(lines.begin(), lines.end(), of_roscpp), lines.end());
   ASSERT_THAT(lines, SizeIs(1)) << driver.errorText();
   EXPECT_THAT(lines[0], HasSubstr("FATAL"));
   EXPECT_THAT(lines[0], HasSubstr("nord_driver: " + mistake.named));
