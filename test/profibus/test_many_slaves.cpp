@@ -38,7 +38,9 @@ INSTANTIATE_TEST_SUITE_P(Counts, StartUp, testing::Values(1, 8, 125));
 // 124 of 125 slaves are off: the one that is there is exchanged with in every cycle, and the others together cost it a
 // tenth of the time.
 TEST(ManySlaves, OfflineOnesCostLittle) {
-  SimulatedRun run{fastBus(1'500'000), modules(125)};
+  BusParameters bus = fastBus(1'500'000);
+  bus.slot_time = 20ms;  // a USB adapter
+  SimulatedRun run{bus, modules(125)};
   for (std::size_t i = 1; i < 125; ++i) run.segment.drive(i).slave().setPowered(false);
   while (!run.master.status(0).exchanged_this_cycle) run.cycle(2ms);
   const Instant begin = run.now();
@@ -49,7 +51,7 @@ TEST(ManySlaves, OfflineOnesCostLittle) {
     busy += run.last_cycle;
   }
   const Duration exchange = 1000 * BaudRate{1'500'000}.bits(533);
-  EXPECT_LE(busy - exchange, (run.now() - begin) / 5);
+  EXPECT_LE(busy - exchange, (run.now() - begin) / 8);
   EXPECT_EQ(0u, run.losses_told);
 }
 
