@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "nord_driver/robot/urdf_geometry.h"
 #include "nord_driver/transport/setting_checks.h"
 
 namespace nord_driver::cycle {
@@ -26,8 +27,7 @@ std::vector<DriveIndex> readWheels(const Settings& settings, const std::string& 
 }
 
 void refuseWheelsUsedTwice(const Settings& settings, const BaseConfig& base, const JointNames& joints) {
-  std::vector<DriveIndex> all = base.left;
-  all.insert(all.end(), base.right.begin(), base.right.end());
+  std::vector<DriveIndex> all = base.wheels();
   std::sort(all.begin(), all.end());
   const auto twice = std::adjacent_find(all.begin(), all.end());
   if (twice != all.end()) {
@@ -52,12 +52,60 @@ robot::SpeedLimits readLimits(const Settings& settings, const std::string& axis)
   return limits;
 }
 
-robot::DiffDriveGeometry readGeometry(const Settings& settings) {
+robot::BaseKind readKind(const Settings& settings) {
+  const std::string kind = settings.text("base_type").value_or("differential");
+  if (kind == "differential") return robot::BaseKind::kDifferential;
+  if (kind == "mecanum") return robot::BaseKind::kMecanum;
+  throw wrongSetting(settings, "base_type", "\"" + kind + "\"", "differential or mecanum");
+}
+
+/// A size in m: typed in, or from the robot description by `look_up`.
+template <typename LookUp>
+double readSize(const Settings& settings, const char* key, bool has_description, LookUp look_up) {
   constexpr double kSmallest = 1e-3, kLargest = 100.0;
-  robot::DiffDriveGeometry geometry;
-  geometry.wheel_separation = requiredNumber(settings, "wheel_separation", kSmallest, kLargest, "m");
-  geometry.left_wheel_radius = requiredNumber(settings, "wheel_radius", kSmallest, kLargest, "m");
-  geometry.right_wheel_radius = geometry.left_wheel_radius;
+  if (settings.has(key) || !has_description) return requiredNumber(settings, key, kSmallest, kLargest, "m");
+  return look_up();
+}
+
+/// The joints' limits of a description nothing else is taken from: it may be of another robot part, without our wheels.
+std::vector<double> limitsIfThere(const std::string& urdf, const std::string& base_link, const JointNames& wheels) {
+  try {
+    return robot::UrdfGeometry(urdf, base_link).maxVelocities(wheels);
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+}
+
+void readGeometry(BaseConfig& base, const Settings& settings, const JointNames& joints, const std::string& urdf) {
+  const auto namesOf = [&](const std::vector<DriveIndex>& drives) {
+    JointNames names;
+    for (const DriveIndex drive : drives) names.push_back(joints[drive]);
+    return names;
+  };
+  const JointNames left = namesOf(base.left);
+  const JointNames right = namesOf(base.right);
+  const bool all_typed = settings.has("wheel_separation") && settings.has("wheel_radius") &&
+                         (base.kind != robot::BaseKind::kMecanum || settings.has("wheel_base"));
+  std::optional<robot::UrdfGeometry> description;
+  const std::string base_link = settings.text("base_frame_id").value_or("base_link");
+  if (!urdf.empty() && !all_typed) description.emplace(urdf, base_link);
+  const auto size = [&](const char* key, auto look_up) {
+    return readSize(settings, key, description.has_value(), look_up);
+  };
+
+  robot::BaseGeometry& geometry = base.geometry;
+  geometry.wheel_separation = size("wheel_separation", [&] { return description->wheelSeparation(left, right); });
+  geometry.left_wheel_radius = size("wheel_radius", [&] { return description->wheelRadius(left); });
+  geometry.right_wheel_radius = size("wheel_radius", [&] { return description->wheelRadius(right); });
+  if (base.kind == robot::BaseKind::kMecanum) {
+    geometry.wheel_base = size("wheel_base", [&] { return description->wheelBase(left, right); });
+  }
+  if (description) {
+    base.joint_velocity_limits = description->maxVelocities(namesOf(base.wheels()));
+  } else if (!urdf.empty()) {
+    base.joint_velocity_limits = limitsIfThere(urdf, base_link, namesOf(base.wheels()));
+  }
+
   const auto multiplier = [&](const char* key, double fallback) {
     return numberOr(settings, key, fallback, 0.01, 100.0, "");
   };
@@ -65,12 +113,18 @@ robot::DiffDriveGeometry readGeometry(const Settings& settings) {
   const double both = multiplier("wheel_radius_multiplier", 1.0);
   geometry.left_wheel_radius_multiplier = multiplier("left_wheel_radius_multiplier", both);
   geometry.right_wheel_radius_multiplier = multiplier("right_wheel_radius_multiplier", both);
-  return geometry;
 }
 
 }  // namespace
 
-std::optional<BaseConfig> readBaseConfig(const Settings& settings, const JointNames& joints) {
+std::vector<DriveIndex> BaseConfig::wheels() const {
+  std::vector<DriveIndex> all = left;
+  all.insert(all.end(), right.begin(), right.end());
+  return all;
+}
+
+std::optional<BaseConfig> readBaseConfig(const Settings& settings, const JointNames& joints,
+                                         const std::string& robot_description) {
   if (!settings.has("left_wheel")) {
     if (settings.has("right_wheel")) {
       throw ConfigError(settings.fullName("left_wheel") + " is missing: expected it beside " +
@@ -82,9 +136,16 @@ std::optional<BaseConfig> readBaseConfig(const Settings& settings, const JointNa
   base.left = readWheels(settings, "left_wheel", joints);
   base.right = readWheels(settings, "right_wheel", joints);
   refuseWheelsUsedTwice(settings, base, joints);
-  base.geometry = readGeometry(settings);
+  base.kind = readKind(settings);
+  try {
+    readGeometry(base, settings, joints, robot_description);
+    robot::makeKinematics(base.kind, base.geometry, base.left.size(), base.right.size());
+  } catch (const std::invalid_argument& error) {
+    throw ConfigError(error.what());
+  }
   base.limits.linear_x = readLimits(settings, "linear/x");
   base.limits.angular_z = readLimits(settings, "angular/z");
+  if (base.kind == robot::BaseKind::kMecanum) base.limits.linear_y = readLimits(settings, "linear/y");
   base.limits.limit_axes_independently = settings.boolean("limit_axes_independently").value_or(false);
   base.open_loop = settings.boolean("open_loop").value_or(false);
   base.velocity_rolling_window_size =

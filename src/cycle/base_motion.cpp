@@ -1,9 +1,31 @@
 #include "nord_driver/cycle/base_motion.h"
 
+#include <limits>
+#include <stdexcept>
+
 namespace nord_driver::cycle {
 
+namespace {
+
+robot::WheelSpeeds jointLimits(const BaseConfig& config, std::size_t wheels) {
+  robot::WheelSpeeds limits;
+  if (config.joint_velocity_limits.empty()) {
+    for (std::size_t i = 0; i < wheels; ++i) limits.push_back(std::numeric_limits<double>::infinity());
+  } else if (config.joint_velocity_limits.size() == wheels) {
+    for (const double limit : config.joint_velocity_limits) limits.push_back(limit);
+  } else {
+    throw std::invalid_argument(std::to_string(config.joint_velocity_limits.size()) +
+                                " joints have a velocity limit, expected one for each of the base's " +
+                                std::to_string(wheels) + " wheels");
+  }
+  return limits;
+}
+
+}  // namespace
+
 BaseMotion::BaseMotion(const BaseConfig& config, Duration cmd_vel_timeout)
-    : kinematics_(config.geometry),
+    : kinematics_(robot::makeKinematics(config.kind, config.geometry, config.left.size(), config.right.size())),
+      joint_limits_(jointLimits(config, kinematics_->wheelCount())),
       limiter_(config.limits),
       odometry_(config.velocity_rolling_window_size),
       timeout_(cmd_vel_timeout),
@@ -14,19 +36,30 @@ robot::WheelSpeeds BaseMotion::pollWheels(const TwistCommand& command, bool driv
   if (!driving) {
     limiter_.reset();
     limited_ = {};
-    return {};
+    return kinematics_->wheels(limited_);
   }
+  // Beyond 100 % of P105, or a joint's limit, the whole base is scaled: a wheel cut alone would bend the path. The
+  // target is scaled first, so that the limiter never runs ahead of the wheels and braking begins at once.
+  const robot::WheelSpeeds limits = robot::tighterOf(max_speeds, joint_limits_);
   const bool obey = follow && !isStale(command, timeout_, now);
-  limited_ = limiter_.limit(obey ? command.twist : robot::Twist2d{}, dt);
-  // Beyond 100 % of P105 the whole base is scaled: a wheel cut alone would bend the path.
-  const robot::WheelSpeeds wanted = kinematics_.wheels(limited_);
-  const robot::WheelSpeeds possible = robot::scaleInto(wanted, max_speeds);
-  if (!(possible == wanted)) limited_ = kinematics_.twist(possible);
+  limited_ = limiter_.limit(within(limits, obey ? command.twist : robot::Twist2d{}), dt);
+  const robot::WheelSpeeds wanted = kinematics_->wheels(limited_);
+  const robot::WheelSpeeds possible = robot::scaleInto(wanted, limits);
+  if (possible != wanted) {
+    limited_ = kinematics_->twist(possible);
+    limiter_.reset(limited_);
+  }
   return possible;
 }
 
+robot::Twist2d BaseMotion::within(const robot::WheelSpeeds& limits, const robot::Twist2d& target) const noexcept {
+  const robot::WheelSpeeds wanted = kinematics_->wheels(target);
+  const robot::WheelSpeeds possible = robot::scaleInto(wanted, limits);
+  return possible == wanted ? kinematics_->possible(target) : kinematics_->twist(possible);
+}
+
 void BaseMotion::handleWheels(const robot::WheelSpeeds& measured, Duration dt) noexcept {
-  odometry_.update(open_loop_ ? limited_ : kinematics_.twist(measured), dt);
+  odometry_.update(open_loop_ ? limited_ : kinematics_->twist(measured), dt);
 }
 
 }  // namespace nord_driver::cycle

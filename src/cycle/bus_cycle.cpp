@@ -9,10 +9,11 @@ namespace nord_driver::cycle {
 
 namespace {
 
-// Ids of the cycle's own parameter accesses, numbered through above the drive's index: an answer to a question from
-// before a loss must not pass for the answer to a new one. The rest belongs to the callers.
-constexpr std::uint32_t kDeviceReadId = 0x8000'0000u;
-constexpr std::uint32_t kReadStep = 0x100u, kDriveMask = 0xFFu;
+std::vector<std::string> namesOf(const CycleConfig& config) {
+  std::vector<std::string> names;
+  for (const DriveSetup& setup : config.drives) names.push_back(setup.name);
+  return names;
+}
 
 std::vector<drive::Drive> makeDrives(const CycleConfig& config) {
   std::vector<drive::Drive> drives;
@@ -27,17 +28,19 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       ports_(ports),
       period_(config.period()),
       cmd_vel_timeout_(config.cmd_vel_timeout),
+      names_(namesOf(config)),
       drives_(makeDrives(config)),
-      base_config_(config.base),
       supervisor_(config, drives_, auto_enable),
+      maintenance_(drives_, names_),
       outputs_(config.drives.size()),
       inputs_(config.drives.size()),
       snapshot_(config.drives.size()) {
   for (const DriveSetup& setup : config.drives) {
-    names_.push_back(setup.name);
-    axes_.emplace_back(setup);
+    axes_.emplace_back(axes_.size(), setup);
   }
-  if (base_config_) base_.emplace(*base_config_, config.cmd_vel_timeout);
+  if (!config.base) return;
+  base_.emplace(*config.base, config.cmd_vel_timeout);
+  wheels_ = config.base->wheels();
 }
 
 void BusCycle::runOnce() noexcept {
@@ -53,28 +56,57 @@ void BusCycle::runOnce() noexcept {
   const Instant after = transport_.now();
   handleInputs(after);
   supervisor_.update(movingCommand(after), after);
+  maintenance_.update(after);
   while (const auto completion = supervisor_.pollCompletion()) ports_.complete(*completion);
-  readDevices();
+  while (const auto completion = maintenance_.pollCompletion()) ports_.complete(*completion);
+  runParameters(after);
   measure(last_input_ ? after - *last_input_ : Duration::zero());
   last_input_ = after;
   publish(after);
 }
 
 void BusCycle::takeRequests(Instant now) noexcept {
-  while (const auto request = ports_.pollRequest()) {
-    if (request->kind == RequestKind::kReadParameter) {
-      startParameterJob(*request);
-    } else if (request->kind == RequestKind::kResetOdometry) {
-      Completion completion;
-      completion.id = request->id;
-      completion.success = base_.has_value();
-      completion.message = base_ ? "the pose is zero" : "there is no base";
-      if (base_) base_->resetOdometry();
-      ports_.complete(completion);
-    } else {
-      supervisor_.handleRequest(*request, movingCommand(now), now);
-    }
+  while (const auto request = ports_.pollRequest()) takeRequest(*request, now);
+}
+
+void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
+  switch (request.kind) {
+    case RequestKind::kReadParameter:
+    case RequestKind::kWriteParameter:
+      return axes_[request.drive].parameters.handleRequest(request, drives_[request.drive].report());
+    case RequestKind::kAcknowledge:
+      return maintenance_.handleRequest(request, now);
+    case RequestKind::kSelectParameterSet:
+      return selectParameterSet(request, now);
+    case RequestKind::kResetOdometry:
+      return ports_.complete(resetOdometry(request));
+    case RequestKind::kEnable:
+    case RequestKind::kDisable:
+    case RequestKind::kQuickStop:
+    case RequestKind::kShutDown:
+      return supervisor_.handleRequest(request, movingCommand(now), now);
   }
+}
+
+// A drive that is idle may still belong to a base that is on its way to rest: its set stays what it is until then.
+void BusCycle::selectParameterSet(const Request& request, Instant now) noexcept {
+  if (supervisor_.groupOf(request.drive).report().phase == drive::GroupPhase::kDisabled) {
+    return maintenance_.handleRequest(request, now);
+  }
+  Completion completion;
+  completion.id = request.id;
+  completion.message.format("parameter sets are switched at standstill only: disable drive %s first",
+                            names_[request.drive].c_str());
+  ports_.complete(completion);
+}
+
+Completion BusCycle::resetOdometry(const Request& request) noexcept {
+  if (base_) base_->resetOdometry();
+  Completion completion;
+  completion.id = request.id;
+  completion.success = base_.has_value();
+  completion.message = base_ ? "the pose is zero" : "there is no base";
+  return completion;
 }
 
 // A command that is not zero and not stale: nothing may be enabled under it.
@@ -111,9 +143,8 @@ void BusCycle::commandBase(Instant now, Duration dt) noexcept {
   const bool driving = follow || group.wantsZeroRamp();
   const robot::WheelSpeeds wheels =
       base_->pollWheels(ports_.newestBaseCommand(), driving, follow, maxWheelSpeeds(), now, dt);
-  for (const DriveIndex i : base_config_->left) drives_[i].setVelocity(RadPerSec{wheels.left});
-  for (const DriveIndex i : base_config_->right) drives_[i].setVelocity(RadPerSec{wheels.right});
-  group.setpointIsZero(wheels == robot::WheelSpeeds{});
+  for (std::size_t i = 0; i < wheels_.size(); ++i) drives_[wheels_[i]].setVelocity(RadPerSec{wheels[i]});
+  group.setpointIsZero(robot::standsStill(wheels));
 }
 
 void BusCycle::commandSingles(Instant now) noexcept {
@@ -128,12 +159,9 @@ void BusCycle::commandSingles(Instant now) noexcept {
 }
 
 robot::WheelSpeeds BusCycle::maxWheelSpeeds() const noexcept {
-  const auto slowest = [this](const std::vector<DriveIndex>& side) {
-    double speed = std::numeric_limits<double>::infinity();
-    for (const DriveIndex i : side) speed = std::min(speed, drives_[i].maxVelocity().value_or(RadPerSec{}).value);
-    return speed;
-  };
-  return {slowest(base_config_->left), slowest(base_config_->right)};
+  robot::WheelSpeeds speeds;
+  for (const DriveIndex i : wheels_) speeds.push_back(drives_[i].maxVelocity().value_or(RadPerSec{}).value);
+  return speeds;
 }
 
 void BusCycle::handleInputs(Instant now) noexcept {
@@ -143,81 +171,27 @@ void BusCycle::handleInputs(Instant now) noexcept {
   }
 }
 
-void BusCycle::readDevices() noexcept {
+void BusCycle::runParameters(Instant now) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
-    if (!drives_[i].report().online) {
-      axes_[i].reader.handleOffline();
-      // Another inverter may come back in its place: nothing is enabled with what P105 was before.
-      for (std::uint8_t set = 1; set <= 4; ++set) drives_[i].setMaxFrequency(set, Hertz{});
-      continue;
-    }
-    auto request = axes_[i].reader.pollRequest();
-    if (!request) continue;
-    read_sequence_ += kReadStep;
-    request->id = kDeviceReadId | read_sequence_ | static_cast<std::uint32_t>(i);
-    axes_[i].read_id = request->id;
-    if (!transport_.submit(i, *request)) {
+    DriveParameters& parameters = axes_[i].parameters;
+    parameters.handleState(drives_[i], now);
+    if (!drives_[i].report().online) continue;
+    while (const auto request = parameters.pollRequest(now)) {
+      if (transport_.submit(i, *request)) continue;
       profile::ParameterResult busy;
+      busy.id = request->id;
       busy.outcome = profile::ParameterOutcome::kBusy;
-      axes_[i].reader.handleResult(busy);
+      parameters.handleResult(busy);
+      break;
     }
   }
-  while (const auto result = transport_.pollResult()) takeParameterResult(*result);
-}
-
-void BusCycle::startParameterJob(const Request& request) noexcept {
-  profile::ParameterResult refused;
-  refused.id = request.id;
-  refused.outcome = profile::ParameterOutcome::kBusy;
-  if (!drives_[request.drive].report().online) refused.outcome = profile::ParameterOutcome::kOffline;
-  profile::ParameterRequest access = request.parameter;
-  access.id = request.id;
-  const std::uint8_t set_in_force = drives_[request.drive].report().parameter_set;
-  if (request.active_set && set_in_force != 0) access.parameter_set = set_in_force;
-  const bool startable = refused.outcome == profile::ParameterOutcome::kBusy && !parameter_jobs_.full();
-  if (startable && transport_.submit(request.drive, access)) {
-    parameter_jobs_.push_back({request, request.drive});
-    return;
-  }
-  Completion completion;
-  completion.id = request.id;
-  completion.parameter = refused;
-  completion.message = parameterSentence(names_[request.drive].c_str(), request.parameter.number, refused);
-  ports_.complete(completion);
-}
-
-void BusCycle::takeParameterResult(const profile::ParameterResult& result) noexcept {
-  if (result.id >= kDeviceReadId) {
-    const DriveIndex drive = result.id & kDriveMask;
-    if (drive >= axes_.size() || axes_[drive].read_id != result.id) return;
-    axes_[drive].reader.handleResult(result);
-    return scale(drive);
-  }
-  for (std::size_t i = 0; i < parameter_jobs_.size(); ++i) {
-    const ParameterJob job = parameter_jobs_[i];
-    if (job.request.id != result.id) continue;
-    for (std::size_t j = i + 1; j < parameter_jobs_.size(); ++j) parameter_jobs_[j - 1] = parameter_jobs_[j];
-    parameter_jobs_.resize(parameter_jobs_.size() - 1);
-    Completion completion;
-    completion.id = result.id;
-    completion.success = result.outcome == profile::ParameterOutcome::kDone;
-    completion.parameter = result;
-    completion.message = parameterSentence(names_[job.drive].c_str(), job.request.parameter.number, result);
-    ports_.complete(completion);
-    return;
-  }
-}
-
-// P105 as read; as typed where the drive does not tell it.
-void BusCycle::scale(DriveIndex drive) noexcept {
-  const Axis& axis = axes_[drive];
-  for (std::uint8_t set = 1; set <= 4; ++set) {
-    const auto& read = axis.reader.data().max_frequency[set - 1u];
-    if (read) {
-      drives_[drive].setMaxFrequency(set, Hertz{*read});
-    } else if (axis.typed_max_frequency && axis.reader.maxFrequenciesAsked()) {
-      drives_[drive].setMaxFrequency(set, Hertz{*axis.typed_max_frequency});
+  while (const auto result = transport_.pollResult()) {
+    for (Axis& axis : axes_) {
+      if (axis.parameters.handleResult(*result)) break;
     }
+  }
+  for (Axis& axis : axes_) {
+    while (const auto completion = axis.parameters.pollCompletion()) ports_.complete(*completion);
   }
 }
 
@@ -235,15 +209,11 @@ void BusCycle::measure(Duration dt) noexcept {
 
 void BusCycle::measureBase(Duration dt) noexcept {
   bool seen = true;
-  const auto mean = [&](const std::vector<DriveIndex>& side) {
-    double sum = 0.0;
-    for (const DriveIndex i : side) {
-      seen = seen && drives_[i].report().online && drives_[i].report().scaled;
-      sum += drives_[i].report().velocity.value;
-    }
-    return sum / static_cast<double>(side.size());
-  };
-  const robot::WheelSpeeds wheels{mean(base_config_->left), mean(base_config_->right)};
+  robot::WheelSpeeds wheels;
+  for (const DriveIndex i : wheels_) {
+    seen = seen && drives_[i].report().online && drives_[i].report().scaled;
+    wheels.push_back(drives_[i].report().velocity.value);
+  }
   if (seen) {
     base_->handleWheels(wheels, dt);
   } else {
@@ -271,7 +241,9 @@ void BusCycle::publish(Instant now) noexcept {
     base.enabled = supervisor_.base()->commandAllowed();
     base.text = supervisor_.baseStopSentence();
     base.stopped = !base.text.empty();
+    base.stop_cause = supervisor_.base()->report().stop_cause;
   }
+  ports_.trace().handleCycle(outputs_, inputs_, snapshot_);
   ports_.publish(snapshot_);
 }
 
@@ -288,15 +260,24 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive) const noexcept {
   to.velocity = report.velocity.value;
   to.frequency = report.frequency.value;
   to.joint_position = axes_[drive].joint.position();
-  // The number stands in P700, which is read when faults are more than being lost.
-  to.fault_number = profile::StatusWord{report.status_word}.fault() && report.online ? 65535 : 0;
-  to.stopped = report.stop_cause != drive::StopCause::kNone;
+  to.fault_number = axes_[drive].parameters.faults().number();
+  to.last_fault_number = axes_[drive].parameters.faults().lastNumber();
+  to.fault_latched = report.fault_latched;
+  to.eeprom_writes = axes_[drive].parameters.eepromWrites();
+  to.owes_eeprom_switch = axes_[drive].parameters.owesEepromSwitch();
+  to.direction_contradiction = report.direction_contradiction;
+  to.stopped = report.stop_cause != drive::StopCause::kNone || report.fault_latched;
+  to.stop_cause = report.stop_cause;
   if (!report.online) {
     to.text = transport_.note(drive).text;
   } else {
     to.text = stopSentence(names_[drive].c_str(), report.stop_cause, report);
+    // Its bit may have vanished with our first idle word (BU 0020 8); enabling is refused for it all the same.
+    if (to.text.empty() && report.fault_latched) {
+      to.text = refusalSentence(names_[drive].c_str(), drive::Refusal::kFaultLatched, report);
+    }
   }
-  to.device = axes_[drive].reader.data();
+  to.device = axes_[drive].parameters.device();
   to.device.ident = transport_.identNumber(drive);
 }
 

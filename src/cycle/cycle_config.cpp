@@ -69,7 +69,8 @@ void refuseJointsUsedTwice(const std::vector<DriveSettings>& sources, const std:
 
 }  // namespace
 
-CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSettings>& drives) {
+CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSettings>& drives,
+                            const std::string& robot_description) {
   CycleConfig config;
   config.cycle_rate = numberOr(node, "cycle_rate", 100.0, kMinCycleRate, kMaxCycleRate, "Hz");
   config.real_time.priority = static_cast<int>(integerOr(node, "realtime_priority", 0, 0, 99));
@@ -90,7 +91,7 @@ CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSetting
     joints.push_back(config.drives.back().joint);
   }
   refuseJointsUsedTwice(drives, config.drives);
-  config.base = readBaseConfig(node, joints);
+  config.base = readBaseConfig(node, joints, robot_description);
   return config;
 }
 

@@ -36,20 +36,27 @@ Sentence stateSentence(const char* drive, const drive::DriveReport& report) noex
   return text;
 }
 
-Sentence parameterSentence(const char* drive, std::uint16_t number, const profile::ParameterResult& result) noexcept {
+Sentence parameterSentence(const char* drive, std::uint16_t number, const drive::ParameterTaskResult& result) noexcept {
+  const char* note = result.note;
+  const char* joint = note[0] != '\0' ? "; " : "";
   Sentence text;
   switch (result.outcome) {
     case profile::ParameterOutcome::kDone:
+      text.format("%s", note);
       break;
     case profile::ParameterOutcome::kRefused:
-      text.format("drive %s refuses P%03u: error %u, %s", drive, number, result.error_number,
-                  profile::pkwErrorText(result.error_number));
+      if (result.refused_number == 0) {
+        text.format("P%03u of drive %s: %s", number, drive, note);
+      } else {
+        text.format("drive %s refuses P%03u: error %u, %s%s%s", drive, result.refused_number, result.error_number,
+                    profile::pkwErrorText(result.error_number), joint, note);
+      }
       break;
     case profile::ParameterOutcome::kTimeout:
-      text.format("drive %s gave no answer for P%03u", drive, number);
+      text.format("drive %s gave no answer for P%03u%s%s", drive, number, joint, note);
       break;
     case profile::ParameterOutcome::kOffline:
-      text.format("drive %s does not answer", drive);
+      text.format("drive %s does not answer%s%s", drive, joint, note);
       break;
     case profile::ParameterOutcome::kNoChannel:
       text.format("drive %s has no parameter channel: PPO types 3 and 4 carry process data only", drive);

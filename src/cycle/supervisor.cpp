@@ -14,8 +14,7 @@ Supervisor::Supervisor(const CycleConfig& config, std::vector<drive::Drive>& dri
   for (const DriveSetup& setup : config.drives) names_.push_back(setup.name);
   std::vector<bool> taken(drives.size(), false);
   if (config.base) {
-    std::vector<DriveIndex> members = config.base->left;
-    members.insert(members.end(), config.base->right.begin(), config.base->right.end());
+    std::vector<DriveIndex> members = config.base->wheels();
     for (const DriveIndex member : members) taken[member] = true;
     addGroup(members, config);
   }
@@ -81,9 +80,8 @@ void Supervisor::handleRequest(const Request& request, const Sentence& moving, I
         }
       }
       return followUp(request, now);
-    case RequestKind::kResetOdometry:
-    case RequestKind::kReadParameter:
-      return;  // not of the drives' motion: the cycle answers them
+    default:
+      return;  // not of the drives' motion
   }
 }
 

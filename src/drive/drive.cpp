@@ -21,6 +21,13 @@ bool contradictsDirection(StatusWord status, std::int16_t actual_value) noexcept
   return status.directionRight() != (actual_value > 0);
 }
 
+// Why "operation enabled" was left without being asked, as far as the status word tells (BU 2700 6.4.2 bits 4 and 5).
+StopCause exitCause(StatusWord status) noexcept {
+  if (!status.voltageEnabled()) return StopCause::kOff2;  // the command of the higher priority (BU 2700 6.4.1)
+  if (!status.quickStopInactive()) return StopCause::kOff3;
+  return StopCause::kUnaskedExit;
+}
+
 }  // namespace
 
 bool Drive::isRunning() const noexcept {
@@ -101,10 +108,11 @@ void Drive::learnSet(StatusWord status, bool joined) noexcept {
 void Drive::handleSilence(Instant now) noexcept {
   if (report_.phase == Phase::kOffline || now - last_useful_ <= config_.drive_timeout) return;
   dark_until_ = now;
-  if (report_.phase != Phase::kIdle) {
+  breakOff(Refusal::kOffline);
+  if (report_.phase != Phase::kIdle && report_.phase != Phase::kSwitchingSet) {
     // It may hear us without being heard: with 0000 it would carry on at its last setpoint.
     dark_until_ = now + config_.shutdown_timeout;
-    dark_command_ = report_.phase == Phase::kQuickStopping ? Command::kQuickStop : Command::kShutdown;
+    dark_command_ = isRunning() ? Command::kShutdown : command(now);
     if (report_.phase != Phase::kAcknowledging) latch(StopCause::kSilent);
   }
   const bool was_enabling = report_.phase == Phase::kEnabling;
@@ -120,9 +128,9 @@ void Drive::checkStops(StatusWord status, Instant now) noexcept {
     // A fault can vanish without us: dropping the enable acknowledges it, P506 and terminals do (BU 0020 8). So every
     // fault seen is kept.
     report_.fault_latched = true;
-    if (isRunning() || report_.phase == Phase::kStopping || report_.phase == Phase::kQuickStopping) {
-      stop(StopCause::kFault, now);
-    }
+    const bool stopping = report_.phase == Phase::kStopping || report_.phase == Phase::kQuickStopping ||
+                          report_.phase == Phase::kCoasting;
+    if (isRunning() || stopping) stop(StopCause::kFault, now);
     return;
   }
   if (!isRunning()) return;
@@ -133,30 +141,35 @@ void Drive::checkStops(StatusWord status, Instant now) noexcept {
     // 0020 7.3.5).
     stop(StopCause::kParameterSet, now);
   } else if (report_.phase != Phase::kEnabling && report_.state != DriveState::kOperationEnabled) {
-    stop(StopCause::kUnaskedExit, now);
+    stop(exitCause(status), now);
   }
 }
 
 void Drive::follow(StatusWord status, Instant now) noexcept {
   switch (report_.phase) {
     case Phase::kEnabling:
-      return followEnabling(report_.state, now);
+      return followEnabling(status, now);
     case Phase::kStopping:
       return followStopping(report_.state, now);
     case Phase::kQuickStopping:
       return followQuickStop(report_.state, now);
     case Phase::kAcknowledging:
       return followAcknowledging(status, now);
+    case Phase::kSwitchingSet:
+      return followSwitchingSet(status, now);
+    case Phase::kCoasting:
+      return followCoasting(report_.state, now);
     default:
       return;
   }
 }
 
-void Drive::followEnabling(DriveState state, Instant now) noexcept {
+void Drive::followEnabling(StatusWord status, Instant now) noexcept {
+  const DriveState state = report_.state;
   if (ready_seen_ && state == DriveState::kOperationEnabled) return enter(Phase::kEnabled, now);
   if (ready_seen_ && state != DriveState::kReadyToSwitchOn && state != DriveState::kSwitchedOn) {
     // Back behind "ready" without being asked, by terminals for example: an enable sequence never repeats itself.
-    return stop(StopCause::kUnaskedExit, now);
+    return stop(exitCause(status), now);
   }
   // Only once 047E went out: bits 0 and 3 come after an answered "shut down", never in place of one.
   if (sent_ && state == DriveState::kReadyToSwitchOn) ready_seen_ = true;
@@ -183,15 +196,35 @@ void Drive::followQuickStop(DriveState state, Instant now) noexcept {
 }
 
 void Drive::followAcknowledging(StatusWord status, Instant now) noexcept {
-  const Duration elapsed = now - phase_since_;
   if (!status.fault()) {
     // The bit is dropped as soon as the fault is gone: left at 1, no further edge could follow (BU 2700 6.4.1 bit 7).
     report_.fault_latched = false;
+    report_.acknowledge = {RequestState::kDone, Refusal::kNone};
     enter(Phase::kIdle, now);
-  } else if (elapsed >= 3 * config_.acknowledge_time) {
-    refuse(Refusal::kCauseStands);
+  } else if (edge_.ended(now)) {
+    breakOff(Refusal::kCauseStands);
     enter(Phase::kIdle, now);
   }
+}
+
+void Drive::followSwitchingSet(StatusWord status, Instant now) noexcept {
+  if (sent_ && status.parameterSet() == report_.commanded_set && status.busControl() && !status.fault()) {
+    report_.set_switch = {RequestState::kDone, Refusal::kNone};
+  } else if (status.fault()) {
+    breakOff(Refusal::kFault);
+  } else if (!status.busControl()) {
+    breakOff(Refusal::kLocalControl);
+  } else if (now - phase_since_ >= config_.enable_timeout) {
+    breakOff(Refusal::kSetNotConfirmed);
+  } else {
+    return;
+  }
+  enter(Phase::kIdle, now);
+}
+
+void Drive::followCoasting(DriveState state, Instant now) noexcept {
+  const bool ended = state == DriveState::kSwitchOnDisabled || state == DriveState::kNotReadyToSwitchOn;
+  if (sent_ && ended) enter(Phase::kIdle, now);
 }
 
 void Drive::measure() noexcept {
@@ -222,8 +255,11 @@ Command Drive::command(Instant now) const noexcept {
       return Command::kEnableOperation;
     case Phase::kQuickStopping:
       return Command::kQuickStop;
+    case Phase::kCoasting:
+      return Command::kDisableVoltage;
     case Phase::kIdle:
     case Phase::kAcknowledging:
+    case Phase::kSwitchingSet:
     case Phase::kStopping:
       break;
   }
@@ -234,10 +270,8 @@ profile::ProcessOutput Drive::pollOutput(Instant now) noexcept {
   profile::ProcessOutput output;
   const Command word = command(now);
   if (word != Command::kIgnored) output.control_word = profile::controlWord(word, report_.commanded_set);
-  if (report_.phase == Phase::kAcknowledging) {
-    const Duration elapsed = now - phase_since_;
-    const bool high = elapsed >= config_.acknowledge_time && elapsed < 2 * config_.acknowledge_time;
-    if (high) output.control_word |= profile::control_bit::kAcknowledge;
+  if (report_.phase == Phase::kAcknowledging && edge_.poll(now)) {
+    output.control_word |= profile::control_bit::kAcknowledge;
   }
   report_.saturated = false;
   report_.velocity_command = {};
@@ -253,100 +287,6 @@ profile::ProcessOutput Drive::pollOutput(Instant now) noexcept {
   report_.output = output;
   sent_ = true;
   return output;
-}
-
-// --- requests
-// -----------------------------------------------------------------------------------------------------------
-
-Refusal Drive::enableRefusal() const noexcept {
-  switch (report_.phase) {
-    case Phase::kOffline:
-      return Refusal::kOffline;
-    case Phase::kEnabling:
-    case Phase::kEnabled:
-      return Refusal::kNone;
-    case Phase::kHoldingZero:
-    case Phase::kStopping:
-    case Phase::kQuickStopping:
-      return Refusal::kStopping;
-    case Phase::kAcknowledging:
-      return Refusal::kBusy;
-    case Phase::kIdle:
-      break;
-  }
-  const StatusWord status(report_.status_word);
-  if (status.fault()) return Refusal::kFault;
-  if (!status.busControl()) return Refusal::kLocalControl;
-  if (report_.fault_latched) return Refusal::kFaultLatched;
-  const bool startable = report_.state == DriveState::kSwitchOnDisabled ||
-                         report_.state == DriveState::kReadyToSwitchOn || report_.state == DriveState::kSwitchedOn;
-  if (!startable) return Refusal::kWrongState;
-  if (report_.parameter_set != report_.commanded_set) return Refusal::kParameterSet;
-  if (!maxFrequency(report_.commanded_set).has_value()) return Refusal::kMaxFrequencyUnknown;
-  return Refusal::kNone;
-}
-
-void Drive::requestEnable(Instant now) noexcept {
-  refuse(enableRefusal());
-  if (report_.refusal != Refusal::kNone || isRunning()) return;
-  report_.stop_cause = StopCause::kNone;
-  report_.command_invalid = false;
-  enter(Phase::kEnabling, now);
-}
-
-void Drive::requestSetpointZero(Instant now) noexcept {
-  if (report_.phase == Phase::kEnabling) return requestShutdown(now);
-  if (report_.phase == Phase::kEnabled) enter(Phase::kHoldingZero, now);
-}
-
-void Drive::requestShutdown(Instant now) noexcept {
-  if (!isRunning()) return;
-  if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
-  enter(Phase::kStopping, now);
-}
-
-void Drive::requestQuickStop(Instant now) noexcept {
-  if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
-  latch(StopCause::kQuickStop);
-  if (report_.phase == Phase::kOffline) {
-    dark_command_ = Command::kQuickStop;
-    dark_until_ = now + config_.shutdown_timeout;
-  } else if (report_.phase != Phase::kQuickStopping) {
-    enter(Phase::kQuickStopping, now);
-  }
-}
-
-void Drive::requestAcknowledge(Instant now) noexcept {
-  refuse(Refusal::kNone);
-  if (report_.phase == Phase::kOffline) return refuse(Refusal::kOffline);
-  if (report_.phase == Phase::kAcknowledging) return;
-  if (report_.phase != Phase::kIdle) return refuse(Refusal::kBusy);
-  if (!StatusWord(report_.status_word).fault()) {
-    report_.fault_latched = false;
-    return;
-  }
-  enter(Phase::kAcknowledging, now);
-}
-
-void Drive::setVelocity(RadPerSec joint) noexcept {
-  if (report_.phase == Phase::kEnabled) wanted_ = joint;
-}
-
-void Drive::setMaxFrequency(std::uint8_t set, Hertz frequency) noexcept {
-  if (set < 1 || set > 4) return;
-  const bool usable = std::isfinite(frequency.value) && frequency.value > 0.0;
-  max_frequency_[set - 1u] = usable ? std::optional<Hertz>(frequency) : std::nullopt;
-}
-
-std::optional<Hertz> Drive::maxFrequency(std::uint8_t set) const noexcept {
-  if (set < 1 || set > 4) return std::nullopt;
-  return max_frequency_[set - 1u];
-}
-
-std::optional<RadPerSec> Drive::maxVelocity() const noexcept {
-  const auto maximum = maxFrequency(report_.commanded_set);
-  if (!maximum.has_value()) return std::nullopt;
-  return RadPerSec{std::fabs(profile::toRadPerSec(*maximum, config_.joint).value)};
 }
 
 }  // namespace nord_driver::drive

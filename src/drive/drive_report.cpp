@@ -20,6 +20,10 @@ const char* toString(Phase phase) noexcept {
       return "stopping (OFF1)";
     case Phase::kQuickStopping:
       return "quick stopping (OFF3)";
+    case Phase::kSwitchingSet:
+      return "switching the parameter set";
+    case Phase::kCoasting:
+      return "coasting (OFF2)";
   }
   return "";
 }
@@ -31,7 +35,11 @@ const char* toString(StopCause cause) noexcept {
     case StopCause::kFault:
       return "a fault of the inverter";
     case StopCause::kUnaskedExit:
-      return "the inverter left \"operation enabled\" without being asked (OFF2 or OFF3 at its terminals, for example)";
+      return "the inverter left \"operation enabled\" without being asked";
+    case StopCause::kOff2:
+      return "OFF2 at the inverter's terminals: its output was switched off and the motor coasts (status bit 4 = 0)";
+    case StopCause::kOff3:
+      return "OFF3 at the inverter's terminals: quick stop or emergency stop (status bit 5 = 0)";
     case StopCause::kLocalControl:
       return "local control: the inverter's terminals have taken over (status bit 9 = 0)";
     case StopCause::kSilent:
@@ -42,6 +50,8 @@ const char* toString(StopCause cause) noexcept {
       return "a quick stop was asked for";
     case StopCause::kShutdownTimeout:
       return "the ramp down (OFF1) did not end in time, so a quick stop followed";
+    case StopCause::kCoast:
+      return "switching the output off (OFF2) was asked for";
   }
   return "";
 }
@@ -74,6 +84,14 @@ const char* toString(Refusal refusal) noexcept {
       return "a stop came before the inverter was enabled";
     case Refusal::kCauseStands:
       return "the cause of the fault still stands";
+    case Refusal::kNotDisabled:
+      return "the parameter set is switched at standstill only, and the drive is enabled or being stopped";
+    case Refusal::kTurning:
+      return "the parameter set is switched at standstill only, and the motor turns";
+    case Refusal::kNoSuchSet:
+      return "there are parameter sets 1 to 4 only";
+    case Refusal::kSetNotConfirmed:
+      return "the inverter did not confirm the new parameter set in time";
   }
   return "";
 }

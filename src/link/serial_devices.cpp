@@ -9,11 +9,14 @@
 
 namespace nord_driver::link {
 
+// Linux' Documentation/admin-guide/devices.txt: majors 136-143 are the slave ends of ptys.
+bool isPtyNumber(std::uint64_t device_number) noexcept {
+  return major(device_number) >= 136 && major(device_number) <= 143;
+}
+
 bool isPty(const std::string& device) noexcept {
-  // Linux' Documentation/admin-guide/devices.txt: majors 136-143 are the slave ends of ptys.
   struct stat status {};
-  return ::stat(device.c_str(), &status) == 0 && S_ISCHR(status.st_mode) && major(status.st_rdev) >= 136 &&
-         major(status.st_rdev) <= 143;
+  return ::stat(device.c_str(), &status) == 0 && S_ISCHR(status.st_mode) && isPtyNumber(status.st_rdev);
 }
 
 bool isNativeUart(const std::string& device) noexcept {

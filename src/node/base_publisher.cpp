@@ -48,6 +48,7 @@ void BasePublisher::publish(const cycle::CycleSnapshot& snapshot, ros::Time stam
     command.header.stamp = stamp;
     command.header.frame_id = config_.base_frame_id;
     command.twist.linear.x = snapshot.base.command.linear_x;
+    command.twist.linear.y = snapshot.base.command.linear_y;
     command.twist.angular.z = snapshot.base.command.angular_z;
     command_publisher_.publish(command);
   }
@@ -59,6 +60,7 @@ void BasePublisher::publishOdometry(const cycle::BaseSnapshot& base, ros::Time s
   odometry_.pose.pose.position.y = base.pose.y;
   odometry_.pose.pose.orientation = yawQuaternion(base.pose.heading);
   odometry_.twist.twist.linear.x = base.velocity.linear_x;
+  odometry_.twist.twist.linear.y = base.velocity.linear_y;
   odometry_.twist.twist.angular.z = base.velocity.angular_z;
   odometry_publisher_.publish(odometry_);
   if (!broadcaster_) return;

@@ -70,7 +70,8 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
   if (!drive.online) {
     status.summary(DiagnosticStatus::ERROR, drive.text.empty() ? "no answer" : drive.text.str());
   } else if (drive.fault_number != 0) {
-    status.summary(DiagnosticStatus::ERROR, profile::faultText(drive.fault_number));
+    status.summary(DiagnosticStatus::ERROR,
+                   profile::faultName(drive.fault_number) + ": " + profile::faultText(drive.fault_number));
   } else if (drive.stopped) {
     status.summary(DiagnosticStatus::ERROR, drive.text.str());
   } else {
@@ -87,6 +88,23 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
   }
   if (runsOnWithoutUs(drive.device))
     status.mergeSummary(DiagnosticStatus::ERROR, protectionText(identity, drive.device));
+  if (drive.direction_contradiction) {
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        "actual value 1 and the direction bits of the status word contradict each other");
+  }
+  if (drive.owes_eeprom_switch) {
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        "P560 was set to 0 for a parameter write and could not be put back yet");
+  }
+  const std::uint16_t fault = drive.fault_number != 0 ? drive.fault_number : drive.last_fault_number;
+  if (fault != 0) {
+    status.add(drive.fault_number != 0 ? "fault" : "last fault",
+               profile::faultName(fault) + ": " + profile::faultText(fault));
+    status.add("likely cause", profile::faultCause(fault));
+    status.add("remedy", profile::faultRemedy(fault));
+  }
+  status.add("fault latched", drive.fault_latched);
+  status.add("EEPROM writes by this node", drive.eeprom_writes);
   status.add("address", identity.address);
   status.add("state", profile::toString(drive.state));
   status.add("status word", toHexWord(drive.input.status_word));

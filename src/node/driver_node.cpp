@@ -16,8 +16,16 @@ XmlRpc::XmlRpcValue privateParameters() {
   return value;
 }
 
+// The URDF of the robot, where somebody has put it; empty when nobody has.
+std::string robotDescription() {
+  std::string key, text;
+  if (ros::param::search("robot_description", key)) ros::param::get(key, text);
+  return text;
+}
+
 // Service calls that may wait for their drives at the same time, and a command that is not held up by them.
 constexpr int kSpinnerThreads = 4;
+constexpr int kShutDownAttempts = 50;
 
 Instant steadyNow() {
   return std::chrono::steady_clock::now();
@@ -28,7 +36,7 @@ Instant steadyNow() {
 DriverNode::DriverNode()
     : private_node_("~"),
       settings_("~", privateParameters()),
-      config_(readNodeConfig(settings_)),
+      config_(readNodeConfig(settings_, robotDescription())),
       loader_("nord_driver", "nord_driver::Transport") {
   loadTransport();
   warnOfUnknownKeys();
@@ -40,6 +48,7 @@ DriverNode::DriverNode()
 
 DriverNode::~DriverNode() {
   thread_.reset();
+  tracing_.reset();  // after the bus: what happened last is in the last trace
   services_.reset();
   broker_.reset();
   if (transport_) transport_->close();
@@ -80,9 +89,11 @@ void DriverNode::warnOfUnknownKeys() const {
 void DriverNode::advertise() {
   base_publisher_ = std::make_unique<BasePublisher>(node_, config_);
   std::vector<std::string> names;
+  std::vector<cycle::TracedDrive> traced;
   for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
     const cycle::DriveSetup& setup = config_.cycle.drives[i];
     names.push_back(setup.name);
+    traced.push_back({setup.name, identities_[i].address});
     const auto address = config_.drives[i].settings->integer("address").value_or(0);
     drive_publishers_.emplace_back(private_node_, setup, identities_[i], static_cast<std::uint16_t>(address));
     if (cycle_->inBase(i)) continue;
@@ -94,6 +105,7 @@ void DriverNode::advertise() {
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
   diagnostics_ = std::make_unique<Diagnostics>(config_, identities_);
   services_ = std::make_unique<Services>(private_node_, config_, *broker_);
+  tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace(), ports_->trace());
   if (config_.cycle.base) {
     boost::function<void(const geometry_msgs::Twist&)> take = [this](const geometry_msgs::Twist& twist) {
       takeCommand(twist);
@@ -104,7 +116,9 @@ void DriverNode::advertise() {
 
 // Only looks at the command and stores it: the cycle decides.
 void DriverNode::takeCommand(const geometry_msgs::Twist& twist) {
-  cycle::TwistCommand command{{twist.linear.x, twist.angular.z}, steadyNow(), true};
+  const bool sideways = config_.cycle.base->kind == robot::BaseKind::kMecanum;
+  const double linear_y = sideways ? twist.linear.y : 0.0;
+  cycle::TwistCommand command{{twist.linear.x, twist.angular.z, linear_y}, steadyNow(), true};
   if (!robot::isFinite(command.twist)) {
     // No command at all: the time-out of the one before runs on.
     ++bad_commands_;
@@ -139,8 +153,14 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
   thread_ = std::make_unique<cycle::CycleThread>(*cycle_, *transport_, config_.cycle.real_time);
   if (!thread_->refused().empty()) ROS_WARN("nord_driver: %s", thread_->refused().c_str());
 
-  publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_);
-  while (!end_asked && ros::ok()) ros::WallDuration(0.02).sleep();
+  // Whatever ends the node, the drives come to rest first: an exchange that simply ends lets the wheels coast.
+  try {
+    publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_);
+    while (!end_asked && ros::ok() && publisher_->healthy()) ros::WallDuration(0.02).sleep();
+  } catch (...) {
+    bringToRest();
+    throw;
+  }
   bringToRest();
 }
 
@@ -150,7 +170,12 @@ void DriverNode::bringToRest() {
   request.kind = cycle::RequestKind::kShutDown;
   // OFF1 that does not end becomes a quick stop; that has a ramp of its own (P426).
   request.patience = config_.cycle.shutdown_timeout + std::chrono::seconds{3};
-  const cycle::Completion answer = broker_->call(request);
+  cycle::Completion answer = broker_->call(request);
+  // Services fill the queue at most for a moment; the stop must get through.
+  for (int attempt = 0; attempt < kShutDownAttempts && answer.id == 0; ++attempt) {
+    ros::WallDuration(0.02).sleep();
+    answer = broker_->call(request);
+  }
   if (answer.success) {
     ROS_INFO("nord_driver: all drives are at rest, ending the exchange");
   } else {

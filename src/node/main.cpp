@@ -1,5 +1,6 @@
 // nord_driver_node: reads the command line and the signals, runs the node until it is asked to end.
 #include <ros/ros.h>
+#include <ros/topic_manager.h>
 #include <signal.h>
 
 #include <atomic>
@@ -25,6 +26,15 @@ void catchSignals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
 }
 
+/// What is said before somebody reads /rosout is lost to it, and a wrong configuration is said at once. Without a
+/// reader the node goes on.
+void waitForALogReader() {
+  for (int i = 0; i < 50 && !end_asked; ++i) {
+    if (ros::TopicManager::instance()->getNumSubscribers(ros::names::resolve("/rosout")) > 0) return;
+    ros::WallDuration(0.02).sleep();
+  }
+}
+
 /// The log reaches /rosout on roscpp's own thread: give it the time to get there before the node is gone.
 void letTheLogOut() {
   ros::WallDuration(0.5).sleep();
@@ -41,12 +51,14 @@ int main(int argc, char** argv) {
   }
   ros::init(argc, argv, "nord_driver", ros::init_options::NoSigintHandler);
   catchSignals();
+  ros::Time::init();  // before the first NodeHandle, which needs the master, nobody else does it
   while (!ros::master::check()) {
     if (end_asked) return 0;
     ROS_WARN_THROTTLE(5.0, "nord_driver: no ROS master answers at %s, waiting for it", ros::master::getURI().c_str());
     ros::WallDuration(0.2).sleep();
   }
   ros::NodeHandle keep_alive;
+  waitForALogReader();
   try {
     nord_driver::node::DriverNode node;
     node.run(end_asked);

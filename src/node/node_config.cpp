@@ -49,16 +49,18 @@ PublishConfig readPublish(const RosSettings& settings) {
 
 }  // namespace
 
-NodeConfig readNodeConfig(const RosSettings& settings) {
+NodeConfig readNodeConfig(const RosSettings& settings, const std::string& robot_description) {
   NodeConfig config;
   config.transport = readTransport(settings);
   config.auto_enable = settings.boolean("auto_enable").value_or(false);
+  config.allow_raw_parameters = settings.boolean("allow_raw_parameters").value_or(false);
   settings.accept("type");  // controller files name a plugin class here
   config.publish = readPublish(settings);
   config.bus = settings.group("bus");
   const auto drives = settings.group("drives");
   for (const std::string& name : drives->keys()) config.drives.push_back({name, drives->group(name)});
-  config.cycle = cycle::readCycleConfig(settings, config.drives);
+  config.cycle = cycle::readCycleConfig(settings, config.drives, robot_description);
+  config.trace = cycle::readTraceConfig(settings);
   return config;
 }
 

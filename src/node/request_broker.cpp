@@ -28,9 +28,8 @@ void RequestBroker::dispatch() {
 cycle::Completion RequestBroker::call(cycle::Request request) {
   std::unique_lock<std::mutex> lock(mutex_);
   request.id = next_id_;
-  next_id_ = next_id_ == UINT32_MAX ? 1 : next_id_ + 1;
+  next_id_ = next_id_ + 1 == cycle::kFirstOwnRequest ? 1 : next_id_ + 1;
   cycle::Completion answer;
-  answer.id = request.id;
   const auto at = waiting_.emplace(request.id, std::nullopt).first;
   if (!ports_.submit(request)) {
     answer.message = "too many requests are waiting already";
@@ -38,6 +37,7 @@ cycle::Completion RequestBroker::call(cycle::Request request) {
                                [&] { return at->second.has_value(); })) {
     answer = *at->second;
   } else {
+    answer.id = request.id;
     answer.message = "the bus cycle did not answer";
   }
   waiting_.erase(at);

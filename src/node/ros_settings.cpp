@@ -1,6 +1,7 @@
 #include "nord_driver/node/ros_settings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <sstream>
@@ -105,8 +106,9 @@ std::optional<std::int64_t> RosSettings::integer(const std::string& key) const {
   if (value->getType() == XmlRpcValue::TypeInt) return static_cast<int>(*value);
   if (value->getType() == XmlRpcValue::TypeDouble) {
     const double number = static_cast<double>(*value);
-    const auto whole = static_cast<std::int64_t>(number);
-    if (static_cast<double>(whole) == number) return whole;
+    // Beyond 2^53 not every whole number is a double, and a cast is undefined where none fits.
+    constexpr double kLargest = 9007199254740992.0;
+    if (std::abs(number) <= kLargest && std::trunc(number) == number) return static_cast<std::int64_t>(number);
   }
   throw wrongKind(key, *value, "a whole number");
 }

@@ -26,7 +26,15 @@ SnapshotPublisher::SnapshotPublisher(cycle::CyclePorts& ports, const PublishConf
       diagnostics_(diagnostics),
       base_period_(seconds(1.0 / config.publish_rate)),
       status_period_(seconds(1.0 / config.status_rate)),
-      thread_([this] { run(); }) {}
+      thread_([this] {
+        try {
+          run();
+        } catch (const std::exception& error) {
+          // Not let out of the thread: that would kill the node with its drives running.
+          ROS_FATAL("nord_driver: publishing failed, the node ends: %s", error.what());
+          healthy_ = false;
+        }
+      }) {}
 
 SnapshotPublisher::~SnapshotPublisher() {
   stop_ = true;

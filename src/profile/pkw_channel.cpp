@@ -92,6 +92,8 @@ PkwWords PkwChannel::pollWords(Instant now) noexcept {
   }
   if (!waiting_.empty() && phase_ == Phase::kPause && mayStart()) {
     phase_ = Phase::kOrder;
+    previous_ = sent_;
+    sent_ = order_;
     stale_words_ = {};
   }
   if (phase_ == Phase::kOrder) return toWords(order_);
@@ -111,9 +113,7 @@ void PkwChannel::handleWords(const PkwWords& words, Instant now) noexcept {
     return;
   }
   if (!answers(order_, answer)) {
-    // The same repeated answer counts once.
-    if (!empty && words != stale_words_) ++stale_;
-    if (!empty) stale_words_ = words;
+    if (!empty) countStale(words, answer);
     return;
   }
   last_unanswered_ = false;
@@ -123,6 +123,12 @@ void PkwChannel::handleWords(const PkwWords& words, Instant now) noexcept {
     finish(ParameterOutcome::kRefused, 0, answer.error_number);
   }
   if (!waiting_.empty() && !prepared_) startNext(now);
+}
+
+void PkwChannel::countStale(const PkwWords& words, const PkwAnswer& answer) noexcept {
+  if (answers(previous_, answer) || words == stale_words_) return;  // the same repeated answer counts once
+  ++stale_;
+  stale_words_ = words;
 }
 
 bool PkwChannel::fallBack(std::uint16_t error_number) noexcept {

@@ -1,36 +1,40 @@
 #include "nord_driver/robot/diff_drive_kinematics.h"
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
 namespace nord_driver::robot {
-namespace {
 
-double positive(double value, const char* field) {
-  if (std::isfinite(value) && value > 0.0) return value;
-  throw std::invalid_argument(std::string(field) + " is " + std::to_string(value) +
-                              ", expected a finite number greater than 0");
+DiffDriveKinematics::DiffDriveKinematics(const BaseGeometry& geometry, std::size_t left_wheels,
+                                         std::size_t right_wheels)
+    : separation_(separationOf(geometry)),
+      left_radius_(leftRadiusOf(geometry)),
+      right_radius_(rightRadiusOf(geometry)),
+      left_wheels_(left_wheels),
+      right_wheels_(right_wheels) {
+  if (left_wheels >= 1 && right_wheels >= 1 && left_wheels <= kMaxWheels && right_wheels <= kMaxWheels - left_wheels) {
+    return;
+  }
+  throw std::invalid_argument("the base has " + std::to_string(left_wheels) + " wheels in left_wheel and " +
+                              std::to_string(right_wheels) + " in right_wheel, expected at least one in each and " +
+                              std::to_string(kMaxWheels) + " in all at most");
 }
-
-}  // namespace
-
-DiffDriveKinematics::DiffDriveKinematics(const DiffDriveGeometry& geometry)
-    : separation_(positive(geometry.wheel_separation, "wheel_separation") *
-                  positive(geometry.wheel_separation_multiplier, "wheel_separation_multiplier")),
-      left_radius_(positive(geometry.left_wheel_radius, "left_wheel_radius") *
-                   positive(geometry.left_wheel_radius_multiplier, "left_wheel_radius_multiplier")),
-      right_radius_(positive(geometry.right_wheel_radius, "right_wheel_radius") *
-                    positive(geometry.right_wheel_radius_multiplier, "right_wheel_radius_multiplier")) {}
 
 WheelSpeeds DiffDriveKinematics::wheels(const Twist2d& twist) const noexcept {
   const double turn = twist.angular_z * separation_ / 2.0;
-  return {(twist.linear_x - turn) / left_radius_, (twist.linear_x + turn) / right_radius_};
+  WheelSpeeds wheels;
+  for (std::size_t i = 0; i < left_wheels_; ++i) wheels.push_back((twist.linear_x - turn) / left_radius_);
+  for (std::size_t i = 0; i < right_wheels_; ++i) wheels.push_back((twist.linear_x + turn) / right_radius_);
+  return wheels;
 }
 
 Twist2d DiffDriveKinematics::twist(const WheelSpeeds& wheels) const noexcept {
-  const double left = wheels.left * left_radius_;
-  const double right = wheels.right * right_radius_;
+  if (wheels.size() != wheelCount()) return {};
+  double left = 0.0;
+  double right = 0.0;
+  for (std::size_t i = 0; i < wheels.size(); ++i) (i < left_wheels_ ? left : right) += wheels[i];
+  left *= left_radius_ / static_cast<double>(left_wheels_);
+  right *= right_radius_ / static_cast<double>(right_wheels_);
   return {(left + right) / 2.0, (right - left) / separation_};
 }
 

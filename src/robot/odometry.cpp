@@ -33,10 +33,11 @@ void Odometry::update(const Twist2d& twist, Duration dt) noexcept {
   if (!isFinite(twist)) return;
   const double time = toSeconds(dt);
   if (has_last_ && time > 0.0) {
-    const double distance = (last_.linear_x + twist.linear_x) / 2.0 * time;
+    const double forward = (last_.linear_x + twist.linear_x) / 2.0 * time;
     const double angle = (last_.angular_z + twist.angular_z) / 2.0 * time;
-    moveAlongArc(distance, angle);
-    window_[next_] = {distance, angle, time};
+    const double left = (last_.linear_y + twist.linear_y) / 2.0 * time;
+    moveAlongArc(forward, angle, left);
+    window_[next_] = {forward, angle, left, time};
     next_ = (next_ + 1) % window_.size();
     if (filled_ < window_.size()) ++filled_;
   }
@@ -44,13 +45,14 @@ void Odometry::update(const Twist2d& twist, Duration dt) noexcept {
   has_last_ = true;
 }
 
-void Odometry::moveAlongArc(double distance, double angle) noexcept {
-  if (!std::isfinite(distance) || !std::isfinite(angle)) return;
-  // The chord of the arc leaves at half the angle; its length is the arc's times sinc of that half.
+void Odometry::moveAlongArc(double forward, double angle, double left) noexcept {
+  if (!std::isfinite(forward) || !std::isfinite(angle) || !std::isfinite(left)) return;
+  // The chord of the arc is the way seen at half the angle; its length is the arc's times sinc of that half.
   const double half = angle / 2.0;
-  const double chord = distance * sinc(half);
-  pose_.x += chord * std::cos(pose_.heading + half);
-  pose_.y += chord * std::sin(pose_.heading + half);
+  const double x = std::cos(pose_.heading + half) * sinc(half);
+  const double y = std::sin(pose_.heading + half) * sinc(half);
+  pose_.x += forward * x - left * y;
+  pose_.y += forward * y + left * x;
   pose_.heading = normalized(pose_.heading + angle);
 }
 
@@ -69,12 +71,13 @@ void Odometry::rebase() noexcept {
 Twist2d Odometry::velocity() const noexcept {
   Step sum;
   for (std::size_t i = 0; i < filled_; ++i) {
-    sum.distance += window_[i].distance;
+    sum.forward += window_[i].forward;
     sum.angle += window_[i].angle;
+    sum.left += window_[i].left;
     sum.dt += window_[i].dt;
   }
   if (!(sum.dt > 0.0)) return {};
-  return {sum.distance / sum.dt, sum.angle / sum.dt};
+  return {sum.forward / sum.dt, sum.angle / sum.dt, sum.left / sum.dt};
 }
 
 }  // namespace nord_driver::robot

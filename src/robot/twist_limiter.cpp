@@ -22,17 +22,16 @@ void narrow(RampLimits& common, const RampLimits& axis, double distance) noexcep
 }  // namespace
 
 TwistLimiter::TwistLimiter(const TwistLimits& limits)
-    : linear_(limits.linear_x, "linear/x"),
-      angular_(limits.angular_z, "angular/z"),
+    : axes_{SpeedLimiter{limits.linear_x, "linear/x"}, SpeedLimiter{limits.angular_z, "angular/z"},
+            SpeedLimiter{limits.linear_y, "linear/y"}},
       independent_(limits.limit_axes_independently) {}
 
 Twist2d TwistLimiter::limit(const Twist2d& target, Duration dt) noexcept {
   const double time = toSeconds(dt);
   if (!(time > 0.0)) return twist();
-  const Twist2d wanted = isFinite(target) ? target : Twist2d{};
+  const Values wanted = valuesOf(isFinite(target) ? target : Twist2d{});
   if (independent_) {
-    linear_.limit(wanted.linear_x, dt);
-    angular_.limit(wanted.angular_z, dt);
+    for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i].limit(wanted[i], dt);
   } else {
     followTogether(wanted, time);
   }
@@ -42,40 +41,50 @@ Twist2d TwistLimiter::limit(const Twist2d& target, Duration dt) noexcept {
 }
 
 void TwistLimiter::reset(const Twist2d& twist) noexcept {
-  linear_.reset(twist.linear_x);
-  angular_.reset(twist.angular_z);
+  const Values values = valuesOf(twist);
+  for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i].reset(values[i]);
 }
 
-void TwistLimiter::followTogether(Twist2d target, double dt) noexcept {
-  const auto share = [](double wanted, double allowed) { return wanted == allowed ? 1.0 : allowed / wanted; };
-  const double scale = std::min(share(target.linear_x, linear_.clampVelocity(target.linear_x)),
-                                share(target.angular_z, angular_.clampVelocity(target.angular_z)));
-  target = {target.linear_x * scale, target.angular_z * scale};
+void TwistLimiter::followTogether(Values target, double dt) noexcept {
+  double scale = 1.0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const double allowed = axes_[i].clampVelocity(target[i]);
+    if (allowed != target[i]) scale = std::min(scale, allowed / target[i]);
+  }
+  for (double& value : target) value *= scale;
 
   // The last step goes exactly there: a rest of rounding would be the next step's way, in a direction of its own.
-  if (linear_.canEndAt(target.linear_x, dt) && angular_.canEndAt(target.angular_z, dt)) {
-    linear_.step(target.linear_x, target.linear_x, dt);
-    angular_.step(target.angular_z, target.angular_z, dt);
+  bool one_step = true;
+  for (std::size_t i = 0; i < axes_.size(); ++i) one_step = one_step && axes_[i].canEndAt(target[i], dt);
+  if (one_step) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i].step(target[i], target[i], dt);
     return;
   }
 
   // The way to the target counts from 0 to 1 on the straight line between the two twists.
-  const double linear = target.linear_x - linear_.velocity_;
-  const double angular = target.angular_z - angular_.velocity_;
-  const double size = std::max(std::abs(linear), std::abs(angular));
+  Values way{};
+  double size = 0.0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    way[i] = target[i] - axes_[i].velocity_;
+    size = std::max(size, std::abs(way[i]));
+  }
   double progress = 0.0;
   if (size > 0.0) {
     RampLimits common;
-    narrow(common, linear_.ramp_, linear);
-    narrow(common, angular_.ramp_, angular);
     // The part of the present acceleration that points along the line; divided by `size` first, against overflow.
-    const double x = linear / size;
-    const double z = angular / size;
-    const double acceleration = (linear_.acceleration_ * x + angular_.acceleration_ * z) / (x * x + z * z) / size;
-    progress = nextAcceleration(1.0, acceleration, common, dt) * dt;
+    double along = 0.0;
+    double square = 0.0;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      narrow(common, axes_[i].ramp_, way[i]);
+      const double part = way[i] / size;
+      along += axes_[i].acceleration_ * part;
+      square += part * part;
+    }
+    progress = nextAcceleration(1.0, along / square / size, common, dt) * dt;
   }
-  linear_.step(linear_.velocity_ + progress * linear, target.linear_x, dt);
-  angular_.step(angular_.velocity_ + progress * angular, target.angular_z, dt);
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    axes_[i].step(axes_[i].velocity_ + progress * way[i], target[i], dt);
+  }
 }
 
 }  // namespace nord_driver::robot

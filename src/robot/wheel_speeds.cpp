@@ -4,21 +4,32 @@
 #include <cmath>
 
 namespace nord_driver::robot {
-namespace {
 
-double shareOf(double speed, double max) noexcept {
-  const double magnitude = std::abs(speed);
-  return magnitude > max ? max / magnitude : 1.0;
+bool standsStill(const WheelSpeeds& wheels) noexcept {
+  return std::all_of(wheels.begin(), wheels.end(), [](double speed) { return speed == 0.0; });
 }
 
-}  // namespace
-
 WheelSpeeds scaleInto(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept {
-  // Written so that a NaN limit fails the comparison too.
-  if (!(max.left > 0.0) || !(max.right > 0.0)) return {};
-  if (!std::isfinite(wanted.left) || !std::isfinite(wanted.right)) return {};
-  const double factor = std::min(shareOf(wanted.left, max.left), shareOf(wanted.right, max.right));
-  return {wanted.left * factor, wanted.right * factor};
+  WheelSpeeds scaled;
+  scaled.resize(wanted.size());
+  if (max.size() != wanted.size()) return scaled;
+  double factor = 1.0;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    // Written so that a NaN limit fails the comparison too.
+    if (!(max[i] > 0.0) || !std::isfinite(wanted[i])) return scaled;
+    const double size = std::abs(wanted[i]);
+    if (size > max[i]) factor = std::min(factor, max[i] / size);
+  }
+  for (std::size_t i = 0; i < wanted.size(); ++i) scaled[i] = wanted[i] * factor;
+  return scaled;
+}
+
+WheelSpeeds tighterOf(const WheelSpeeds& a, const WheelSpeeds& b) noexcept {
+  WheelSpeeds tighter;
+  if (a.size() != b.size()) return tighter;
+  // A NaN on either side stays, and moves nothing.
+  for (std::size_t i = 0; i < a.size(); ++i) tighter.push_back(a[i] < b[i] || std::isnan(a[i]) ? a[i] : b[i]);
+  return tighter;
 }
 
 }  // namespace nord_driver::robot

@@ -232,14 +232,21 @@ void DpSlave::takeOutputs(ByteView data) noexcept {
   if (!inverterReachable()) return;
   inverter_.receive(process);
   parameters_.show(740, 0, process.control);
-  for (unsigned i = 0; i < 3; ++i) parameters_.show(740, 1 + i, process.setpoints[i]);
+  for (unsigned i = 0; i < 3; ++i) parameters_.show(740, displayElement(i), process.setpoints[i]);
 }
 
 void DpSlave::showStatus() noexcept {
   if (!inverterReachable()) return;
   parameters_.show(741, 0, inverter_.statusWord());
-  for (unsigned i = 0; i < 3; ++i) parameters_.show(741, 1 + i, inverter_.actualValue(i));
+  for (unsigned i = 0; i < 3; ++i) parameters_.show(741, displayElement(i), inverter_.actualValue(i));
   parameters_.show(746, 0, state_ == SlaveState::kDataExchange ? kModuleConnected : kModuleReady);
+}
+
+// P740 and P741 of SK 700E and 750E have the high word of a 32-bit value 1 in between (BU 0020 6.1.3).
+unsigned DpSlave::displayElement(unsigned value) const noexcept {
+  const Series series = parameters_.device().series;
+  const bool gap = series == Series::kSk700e || series == Series::kSk750e;
+  return 1 + value + (gap && value > 0 ? 1u : 0u);
 }
 
 // "A safe state, in which all outputs are switched to 0" (BU 2700 8.1.1): bit 10 is 0 then, so the inverter does not

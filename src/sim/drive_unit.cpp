@@ -4,13 +4,15 @@ namespace nord_driver::sim {
 
 namespace {
 
-constexpr std::int32_t kControlByProfibus = 4;  // P509, BU 0020 6.2.2
+// P509, control word and setpoint from PROFIBUS: BU 0020 6.2.2, of the older series 6.1.2.
+constexpr std::int32_t kProfibus = 4;
+constexpr std::int32_t kProfibusOlderSeries = 10;
 
 /// Commissioned as BU 2700 7.2 asks for before it is switched on, then as the configuration says.
 void commission(const DriveConfig& config, ParameterStore& parameters) {
   parameters.preset(507, 0, 0, config.slave.ppo_type);
   parameters.preset(508, 0, 0, config.slave.address);
-  parameters.preset(509, 0, 0, kControlByProfibus);
+  parameters.preset(509, 0, 0, config.device.isOlderSeries() ? kProfibusOlderSeries : kProfibus);
   for (const ParameterPreset& preset : config.parameters) {
     if (!parameters.preset(preset.number, preset.set, preset.element, preset.raw)) {
       throw ConfigError("drive " + config.name + ": there is no parameter P" + std::to_string(preset.number) +
@@ -24,9 +26,10 @@ void commission(const DriveConfig& config, ParameterStore& parameters) {
 
 DriveUnit::DriveUnit(const DriveConfig& config, Referee& referee)
     : config_(config),
+      parameters_(config.device),
       motor_(config.motor),
-      inverter_(parameters_, motor_, seconds(config.charging_time)),
-      pkw_(parameters_, config.parameter_delay, config.ram_orders),
+      inverter_(parameters_, motor_, config.inverter),
+      pkw_(parameters_, config.pkw),
       slave_(config.slave, parameters_, inverter_, pkw_, &referee) {
   commission(config_, parameters_);
   inverter_.setPowered(true);

@@ -7,11 +7,18 @@ namespace nord_driver::sim {
 
 namespace {
 
-constexpr double kStep = 1e-3;                  // s
-constexpr double kFaultReaction = 5e-3;         // s, until "error reaction active" has become "fault"
-constexpr std::int32_t kControlByProfibus = 4;  // P509, BU 0020 6.2.2
-constexpr std::int32_t kInputAcknowledge = 12;  // P420.., BU 0020 8
-constexpr int kAcknowledgeAlways = 6;           // P506
+constexpr double kStep = 1e-3;           // s
+constexpr double kFaultReaction = 5e-3;  // s, until "error reaction active" has become "fault"
+// P509: BU 0020 6.2.2; SK 300E, 700E and 750E have one value for each half and one for both (6.1.2).
+constexpr std::int32_t kProfibus = 4;
+constexpr std::int32_t kOlderSetpoint = 8;
+constexpr std::int32_t kOlderControlWord = 9;
+constexpr std::int32_t kOlderProfibus = 10;
+
+// P546-P548. Frequencies are shares of P105 (BU 0020 7.3.5, 7.3.6).
+constexpr std::int32_t kSetpointFrequency = 1;
+constexpr std::int32_t kFrequencyAddition = 4;
+constexpr std::int32_t kFrequencySubtraction = 5;
 
 constexpr Word kEnable = stw::kOn | stw::kNoOff2 | stw::kNoOff3 | stw::kEnableOperation;
 constexpr Word kAllOn = kEnable | stw::kRampEnable | stw::kRampRun | stw::kSetpointEnable;  // X1111111
@@ -23,8 +30,8 @@ double approach(double value, double target, double step) noexcept {
 
 }  // namespace
 
-InverterModel::InverterModel(ParameterStore& parameters, Motor& motor, Duration charging_time)
-    : parameters_(parameters), motor_(motor), charging_time_(toSeconds(charging_time)) {}
+InverterModel::InverterModel(ParameterStore& parameters, Motor& motor, const InverterSettings& settings)
+    : parameters_(parameters), motor_(motor), settings_(settings) {}
 
 void InverterModel::advance(Duration span) noexcept {
   double rest = toSeconds(span);
@@ -45,6 +52,7 @@ void InverterModel::step(double dt) noexcept {
   acknowledgeByItself();
   evaluate();
   follow(dt);
+  parameters_.show(700, 2, switchOnBlock());
   const bool voltage = state_ == InverterState::kOperationEnabled || state_ == InverterState::kQuickStopActive;
   motor_.advance(dt, voltage, frequency_);
 }
@@ -70,8 +78,7 @@ void InverterModel::evaluate() noexcept {
     case S::kOff:
       return;
     case S::kNotReadyToSwitchOn:
-      if (in_state_ >= charging_time_) enter(S::kSwitchOnDisabled);  // 1
-      return;
+      return waitForStart();
     case S::kSwitchOnDisabled:
       if (commanded && !off2 && !off3 && !on) enter(S::kReadyToSwitchOn);  // 2
       return;
@@ -142,16 +149,9 @@ void InverterModel::follow(double dt) noexcept {
 
 double InverterModel::setpointFrequency() const noexcept {
   const double maximum = parameters_.scaled(105, set_);
-  double share = 0.0;
-  bool left = false;
-  if (!busControl()) {
-    share = maximum > 0.0 ? local_setpoint_ / maximum : 0.0;
-  } else {
-    const bool frequency = parameters_.value(546, set_) == 1;
-    if (frequency && (data_.control & stw::kSetpointEnable) != 0) share = toSigned(data_.setpoints[0]) / kFullScale;
-    // Bit 11 beats bit 12; both 0 is right (6.4.1 note 3).
-    left = (data_.control & stw::kLeft) != 0 && (data_.control & stw::kRight) == 0;
-  }
+  double share = busSetpoint() ? busShare() : maximum > 0.0 ? terminals_.frequency / maximum : 0.0;
+  // Bit 11 beats bit 12; both 0 is right (6.4.1 note 3).
+  const bool left = busControl() && (data_.control & stw::kLeft) != 0 && (data_.control & stw::kRight) == 0;
   share = std::clamp(left ? -share : share, -1.0, 1.0);
   const double frequency = share * maximum;
   const double minimum = parameters_.scaled(104, set_);
@@ -159,13 +159,49 @@ double InverterModel::setpointFrequency() const noexcept {
   return frequency;
 }
 
+double InverterModel::busShare() const noexcept {
+  if (busControl() && (data_.control & stw::kSetpointEnable) == 0) return 0.0;
+  double share = 0.0;
+  for (unsigned n = 0; n < data_.setpoints.size(); ++n) {
+    const double value = toSigned(data_.setpoints[n]) / kFullScale;
+    const std::int32_t function = busFunction(546, n);
+    if (function == kSetpointFrequency) share += value;
+    // P546 of the older series is a table of its own, with positions in these places (BU 0020 6.1.2).
+    if (n == 0 && parameters_.device().isOlderSeries()) continue;
+    if (function == kFrequencyAddition) share += value;
+    if (function == kFrequencySubtraction) share -= value;
+  }
+  return share;
+}
+
+// Setpoint or actual value `n` has a parameter of its own, or on SK 540E and above an element of the first one.
+std::int32_t InverterModel::busFunction(unsigned first_number, unsigned n) const noexcept {
+  const bool array = parameters_.device().series == Series::kSk54xe;
+  return array ? parameters_.value(first_number, set_, n) : parameters_.value(first_number + n, set_);
+}
+
 Word InverterModel::command() const noexcept {
-  if (busControl()) return data_.control;
-  return static_cast<Word>(local_setpoint_ != 0.0 ? kAllOn : kAllOn & ~(stw::kOn | stw::kEnableOperation));
+  unsigned word = busControl()        ? data_.control
+                  : terminals_.enable ? kAllOn
+                                      : kAllOn & ~(stw::kOn | stw::kEnableOperation);
+  if (terminals_.coast) word &= ~unsigned{stw::kNoOff2};
+  if (terminals_.quick_stop) word &= ~unsigned{stw::kNoOff3};
+  return static_cast<Word>(word);
 }
 
 bool InverterModel::busControl() const noexcept {
-  return !local_ && parameters_.value(509) == kControlByProfibus;
+  if (local_) return false;
+  const std::int32_t source = parameters_.value(509);
+  if (!parameters_.device().isOlderSeries()) return source == kProfibus;
+  return source == kOlderProfibus || source == kOlderControlWord;
+}
+
+bool InverterModel::busSetpoint() const noexcept {
+  if (local_) return false;
+  const std::int32_t source = parameters_.value(509);
+  if (parameters_.device().isOlderSeries()) return source == kOlderProfibus || source == kOlderSetpoint;
+  const std::int32_t setpoint_source = parameters_.value(510);  // P510[-01], 0 = as P509
+  return (setpoint_source == 0 ? source : setpoint_source) == kProfibus;
 }
 
 void InverterModel::setPowered(bool on) noexcept {
@@ -180,7 +216,7 @@ void InverterModel::setPowered(bool on) noexcept {
   set_ = 0;
   fault_ = 0;
   warning_ = 0;
-  tripped_cause_ = master_lost_ = timed_out_ = false;
+  tripped_cause_ = master_lost_ = timed_out_ = link_fault_ = false;
   automatic_acknowledgements_ = 0;
   parameters_.show(700, 0, 0);
   parameters_.show(700, 1, 0);
@@ -208,76 +244,10 @@ void InverterModel::selectParameterSet(unsigned set) noexcept {
   ++set_switches_;
 }
 
-void InverterModel::masterLost() noexcept {
-  if (!powered() || ignoresBusErrors()) return;
-  master_lost_ = true;
-  trip(fault::kMasterLost, false);
-}
-
-void InverterModel::setModuleLink(bool intact) noexcept {
-  link_broken_ = !intact;
-  if (link_broken_ && powered() && !ignoresBusErrors()) trip(fault::kModuleLink, false);
-}
-
-// P513 > 0: no control word with bit 10 = 1 for that long is E10.3 (BU 2700 7.1.1, 8.3).
-void InverterModel::watchTimeout(double dt) noexcept {
-  since_valid_ += dt;
-  const double limit = parameters_.scaled(513);
-  if (!commanded_ || limit <= 0.0 || timed_out_ || since_valid_ < limit) return;
-  timed_out_ = true;
-  trip(fault::kTimeout, false);
-}
-
-bool InverterModel::ignoresBusErrors() const noexcept {
-  return parameters_.value(513) < 0;
-}
-
-void InverterModel::trip(std::uint16_t number, bool cause_stays) noexcept {
-  if (!powered()) return;
-  tripped_cause_ = tripped_cause_ || cause_stays;
-  if (state_ == InverterState::kFault || state_ == InverterState::kFaultReactionActive) return;
-  fault_ = number;
-  for (unsigned i = 4; i > 0; --i) parameters_.show(701, i, parameters_.value(701, 0, i - 1));
-  parameters_.show(701, 0, number);
-  parameters_.show(700, 0, number);
-  enter(InverterState::kFaultReactionActive);  // 13
-}
-
-void InverterModel::setWarning(std::uint16_t number) noexcept {
-  warning_ = number;
-  parameters_.show(700, 1, number);
-}
-
-bool InverterModel::causeStands() const noexcept {
-  return tripped_cause_ || master_lost_ || timed_out_ || (link_broken_ && !ignoresBusErrors());
-}
-
-bool InverterModel::acknowledge() noexcept {
-  if (state_ != InverterState::kFault || causeStands()) return false;
-  fault_ = 0;
-  parameters_.show(700, 0, 0);
-  enter(InverterState::kSwitchOnDisabled);  // 15
-  return true;
-}
-
-// P506: 1-5 times since mains on, 6 always. The counts are not in the bus manuals; 7 acts like 0 here.
-void InverterModel::acknowledgeByItself() noexcept {
-  const int allowed = parameters_.value(506);
-  if (allowed <= 0 || allowed > kAcknowledgeAlways) return;
-  if (allowed < kAcknowledgeAlways && automatic_acknowledgements_ >= allowed) return;
-  if (acknowledge()) ++automatic_acknowledgements_;
-}
-
-bool InverterModel::inputAcknowledges() const noexcept {
-  for (unsigned number = 420; number <= 425; ++number) {
-    if (parameters_.value(number) == kInputAcknowledge) return true;
-  }
-  return false;
-}
-
 void InverterModel::setLocalControl(bool on, double setpoint_hz) noexcept {
   local_ = on;
-  local_setpoint_ = on ? setpoint_hz : 0.0;
+  terminals_.enable = setpoint_hz != 0.0;
+  terminals_.frequency = setpoint_hz;
 }
 
 }  // namespace nord_driver::sim

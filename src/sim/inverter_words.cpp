@@ -60,8 +60,9 @@ Word InverterModel::statusWord() const noexcept {
       break;
   }
   const bool commanded = commanded_ || !busControl();
-  const bool off2 = commanded && (command() & stw::kNoOff2) == 0;
-  const bool off3 = (commanded && (command() & stw::kNoOff3) == 0) || state_ == S::kQuickStopActive;
+  const bool off2 = terminals_.coast || (commanded && (command() & stw::kNoOff2) == 0);
+  const bool off3 =
+      terminals_.quick_stop || (commanded && (command() & stw::kNoOff3) == 0) || state_ == S::kQuickStopActive;
   if (!off2) word |= zsw::kNoOff2;
   if (!off3) word |= zsw::kNoOff3;
   if (warning_ != 0) word |= zsw::kWarning;
@@ -73,7 +74,7 @@ Word InverterModel::statusWord() const noexcept {
 
 Word InverterModel::actualValue(unsigned n) const noexcept {
   if (state_ == InverterState::kOff || n > 2) return 0;
-  return functionValue(parameters_.value(543 + n, set_));
+  return functionValue(busFunction(543, n));
 }
 
 // BU 0020 6.2.2 (P543) and 7.3.7: shares of the nominal sizes, +-200 %.

@@ -8,6 +8,7 @@ constexpr unsigned kNumberMask = 0x07FF;
 constexpr unsigned kNumberOffset = 1000;  // P000-P999 are mapped to 1000-1999
 
 constexpr Word kErrorLabel = 7;
+constexpr unsigned kCountElements = 9;
 
 /// What an order label asks for: the table of BU 2700 6.5.1.1. Labels 11 and 12 as BU 0020 7.5.1 has them (11 double
 /// word, 12 word); BU 2700 prints "double word" for both, with the answers of BU 0020: a slip.
@@ -46,12 +47,16 @@ Order orderOf(unsigned label) noexcept {
   }
 }
 
-PkwWords refused(const PkwWords& order, ParameterError error) noexcept {
+PkwWords refused(const PkwWords& order, Word error) noexcept {
   PkwWords answer;
   answer.pke = static_cast<Word>(kErrorLabel << 12 | (order.pke & kNumberMask));
   answer.ind = order.ind;
-  answer.pwe2 = static_cast<Word>(error);
+  answer.pwe2 = error;
   return answer;
+}
+
+PkwWords refused(const PkwWords& order, ParameterError error) noexcept {
+  return refused(order, static_cast<Word>(error));
 }
 
 PkwWords accepted(const PkwWords& order, unsigned label, std::int32_t value) noexcept {
@@ -70,9 +75,9 @@ void PkwServer::receive(const PkwWords& order) noexcept {
   if (order != order_) {
     order_ = order;
     executed_ = false;
-    waiting_ = delay_;
+    waiting_ = settings_.delay;
   }
-  if (executed_) return;
+  if (executed_ || silent_) return;
   if (waiting_ > 0) {
     --waiting_;
     return;
@@ -91,12 +96,16 @@ PkwWords PkwServer::execute(const PkwWords& order) noexcept {
   const unsigned label = order.label();
   if (label == 0) return PkwWords{};
   const Order asked = orderOf(label);
-  if ((!asked.known && label != 9) || (asked.ram && !ram_orders_)) return refused(order, ParameterError::kInvalidOrder);
-
   const unsigned pnu = order.pke & kNumberMask;
+  if (refusal_ && (!refusal_->number || *refusal_->number + kNumberOffset == pnu)) {
+    return refused(order, refusal_->error);
+  }
+  if ((!asked.known && label != kCountElements) || (asked.ram && !settings_.ram_orders)) {
+    return refused(order, ParameterError::kInvalidOrder);
+  }
   const ParameterDefinition* definition = pnu >= kNumberOffset ? parameters_.find(pnu - kNumberOffset) : nullptr;
   if (definition == nullptr) return refused(order, ParameterError::kInvalidNumber);
-  if (label == 9) {
+  if (label == kCountElements) {
     if (definition->elements == 0) return refused(order, ParameterError::kNoArray);
     return accepted(order, 6, definition->elements);
   }
@@ -114,15 +123,20 @@ PkwWords PkwServer::execute(const PkwWords& order) noexcept {
       return refused(order, ParameterError::kSubIndex);
     }
   }
+  if (definition->double_word && !settings_.double_word_answers) {
+    return refused(order, ParameterError::kAnswerNotPossible);
+  }
   if (asked.write) {
-    if (asked.double_word) return refused(order, ParameterError::kDataType);  // no 32-bit parameter without POSICON
+    if (asked.double_word != definition->double_word) return refused(order, ParameterError::kDataType);
     const auto raw = static_cast<std::int32_t>(static_cast<std::uint32_t>(order.pwe1) << 16 | order.pwe2);
     const bool to_ram = asked.ram || parameters_.value(560) == 0;
     const auto error =
         parameters_.write(definition->number, set, element, raw, to_ram ? Storage::kRam : Storage::kEeprom);
     if (error) return refused(order, *error);
   }
-  return accepted(order, asked.array ? 4u : 1u, parameters_.value(definition->number, set, element));
+  const unsigned word_label = asked.array ? 4u : 1u;
+  return accepted(order, definition->double_word ? word_label + 1 : word_label,
+                  parameters_.value(definition->number, set, element));
 }
 
 }  // namespace nord_driver::sim

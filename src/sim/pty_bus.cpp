@@ -108,7 +108,7 @@ void PtyBus::serve() noexcept {
     const timespec timeout{0, kStep.count()};
     const int ready = ::ppoll(&descriptor, 1, &timeout, nullptr);
 
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard<InheritingMutex> lock(mutex_);
     const Instant now = std::chrono::steady_clock::now();
     if (now - last > kLongestGap) standstill += now - last - kStep;
     last = now;

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <sstream>
 
 #include "nord_driver/sim/parameter_store.h"
@@ -92,7 +93,7 @@ std::string inUnit(std::int32_t raw, const ParameterDefinition& definition) {
 }
 
 void readParameter(const std::string& key, const std::string& name, const YAML::Node& values, DriveConfig& drive) {
-  static const ParameterStore catalogue;
+  const ParameterStore catalogue{drive.device};
   const ParameterDefinition* definition = nullptr;
   if (name.size() == 4 && name[0] == 'P' &&
       std::all_of(name.begin() + 1, name.end(), [](unsigned char c) { return std::isdigit(c) != 0; })) {
@@ -135,19 +136,25 @@ const std::vector<std::string>& driveKeys() {
       "address", "series", "ppo_type", "joint", "gear_ratio", "pole_pairs", "inverted", "max_frequency",
       "rated_current", "inverter", "connection", "profile",
       // the simulator's
-      "inertia", "rated_torque", "slip", "load", "viscous", "charging_time", "parameter_delay", "ram_orders",
-      "parameters"};
+      "inertia", "rated_torque", "slip", "load", "viscous", "charging_time", "firmware", "parameter_delay",
+      "ram_orders", "double_word_answers", "automatic_acknowledgement_delay", "parameters"};
   return keys;
 }
 
 void readSeries(const Group& group, DriveConfig& drive) {
-  const std::string series = group.get<std::string>("series", "sk5xxe", "a series");
-  if (series == "sk300e" || series == "sk700e" || series == "sk750e") {
-    drive.slave.swap_words_3_4 = true;
-  } else if (series != "sk5xxe" && series != "sk54xe") {
+  static const std::map<std::string, Series> kSeries{{"sk300e", Series::kSk300e},
+                                                     {"sk5xxe", Series::kSk5xxe},
+                                                     {"sk54xe", Series::kSk54xe},
+                                                     {"sk700e", Series::kSk700e},
+                                                     {"sk750e", Series::kSk750e}};
+  const auto series = kSeries.find(group.get<std::string>("series", "sk5xxe", "a series"));
+  if (series == kSeries.end()) {
     refuse(group.keyName("series"), group["series"],
            "sk300e, sk5xxe, sk54xe, sk700e or sk750e (the series with the bus module that is simulated, 7531h)");
   }
+  drive.device.series = series->second;
+  drive.device.firmware = group.positive("firmware", drive.device.firmware);
+  drive.slave.swap_words_3_4 = drive.device.isOlderSeries();
 }
 
 DriveConfig readDrive(const std::string& name, const YAML::Node& node, std::vector<std::string>& warnings) {
@@ -170,9 +177,13 @@ DriveConfig readDrive(const std::string& name, const YAML::Node& node, std::vect
   drive.motor.slip = group.positive("slip", drive.motor.slip);
   drive.motor.load = group.notNegative("load", drive.motor.load);
   drive.motor.viscous = group.notNegative("viscous", drive.motor.viscous);
-  drive.charging_time = group.notNegative("charging_time", drive.charging_time);
-  drive.parameter_delay = static_cast<unsigned>(group.integer("parameter_delay", 1, 0, 1000));
-  drive.ram_orders = group.get<bool>("ram_orders", true, "true or false");
+  drive.inverter.charging_time = group.notNegative("charging_time", drive.inverter.charging_time);
+  drive.inverter.automatic_acknowledgement_delay =
+      group.notNegative("automatic_acknowledgement_delay", drive.inverter.automatic_acknowledgement_delay);
+  drive.pkw.delay = static_cast<unsigned>(group.integer("parameter_delay", 1, 0, 1000));
+  drive.pkw.ram_orders = group.get<bool>("ram_orders", true, "true or false");
+  drive.pkw.double_word_answers =
+      group.get<bool>("double_word_answers", true, "true or false") || drive.slave.ppo_type == 2;
   if (group.has("max_frequency")) {
     readParameter(group.keyName("max_frequency"), "P105", group["max_frequency"], drive);
   }

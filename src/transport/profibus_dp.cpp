@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "nord_driver/profile/status_word.h"
+#include "nord_driver/transport/profibus_telegram_text.h"
 #include "nord_driver/transport/setting_checks.h"
 
 namespace nord_driver {
@@ -35,8 +36,10 @@ void ProfibusDpTransport::configure(const Settings& bus, const std::vector<Drive
   } catch (const std::invalid_argument& error) {
     throw ConfigError(bus.fullName("") + ": " + error.what());
   }
+  trace_.emplace(kLinkTypeProfibusDl, ProfibusTelegramText{config_});
+  recorder_.emplace(*trace_);
   drives_.assign(config_.drives.size(), DriveState{answerTimeout(cycle_rate)});
-  link_ = make_link_({config_.device, config_.bus.baud});
+  link_ = make_link_(config_.line);
 }
 
 Instant ProfibusDpTransport::now() const noexcept {
@@ -73,8 +76,10 @@ void ProfibusDpTransport::runMaster() noexcept {
   profibus::DpMaster& master = *master_;
   master.startCycle(link_->now());
   while (!master.cycleDone() && link_->isOpen()) {
-    const ByteView telegram = master.pollTransmit(link_->now());
+    const Instant start = link_->now();
+    const ByteView telegram = master.pollTransmit(start);
     if (!telegram.empty()) {
+      recorder_->handleSent(telegram, start);
       link_->write(telegram);
       continue;
     }
@@ -82,7 +87,9 @@ void ProfibusDpTransport::runMaster() noexcept {
     if (!deadline) break;
     if (link_->waitReadable(*deadline)) {
       const std::size_t count = link_->read(buffer, sizeof buffer);
-      master.handleBytes({buffer, count}, link_->now());
+      const Instant read = link_->now();
+      recorder_->handleReceived({buffer, count}, read);
+      master.handleBytes({buffer, count}, read);
     }
     if (link_->now() >= *deadline) master.handleTimeout(link_->now());
   }
@@ -91,6 +98,7 @@ void ProfibusDpTransport::runMaster() noexcept {
   if (!link_->isOpen()) {
     // Gone in the middle of a cycle: nobody exchanges until it is back.
     master.restart(link_->now());
+    recorder_->flush();
     next_open_ = link_->now() + kReopenInterval;
   }
 }
@@ -126,7 +134,7 @@ void ProfibusDpTransport::takeInput(DriveIndex drive, DriveExchange& input) noex
     }
   }
   // An inverter that is off has forgotten its order, whether its module answers or not: no answer is waited for.
-  const bool exchanging = slave.phase == profibus::SlavePhase::kDataExchange;
+  const bool exchanging = link_->isOpen() && slave.phase == profibus::SlavePhase::kDataExchange;
   if (!exchanging || (state.module_answers && !state.inverter_answers)) state.pkw.handleOffline(link_->now());
   input.module_answers = state.module_answers;
   input.inverter_answers = state.inverter_answers;
@@ -168,9 +176,10 @@ BusCounters ProfibusDpTransport::counters() const noexcept {
   to.retries = from.retries;
   to.timeouts = from.timeouts;
   to.checksum_errors = from.checksum_errors;
-  to.parity_errors = link_->lineCounters().parity_errors;
+  const link::LineCounters line = link_->lineCounters();
+  to.parity_errors = line.parity_errors;
   to.discarded_bytes = from.discarded_bytes;
-  to.unexpected = from.unexpected;
+  to.unexpected = from.unexpected + line.collisions;
   for (const DriveState& drive : drives_) to.stale += drive.pkw.stale();
   return to;
 }
@@ -197,6 +206,8 @@ Sentence ProfibusDpTransport::busText() const noexcept {
         "%s is open, but no station answers: are the modules powered, is the baud rate right, are the wires A "
         "and B the right way round and terminated?",
         config_.device.c_str());
+  } else if (std::all_of(drives_.begin(), drives_.end(), [](const DriveState& d) { return d.inverter_answers; })) {
+    text.format("%s", link_->warning());  // a silent drive is worse news, told by its note
   }
   return text;
 }

@@ -1,10 +1,13 @@
 #include "nord_driver/transport/profibus_dp_config.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "nord_driver/link/serial_devices.h"
+#include "nord_driver/profibus/watchdog_factors.h"
 #include "nord_driver/transport/setting_checks.h"
+#include "serial_line_config.h"
 
 namespace nord_driver {
 
@@ -51,6 +54,33 @@ bool needsModularStation(profile::Series series) {
   return series == profile::Series::kSk1x0e || series == profile::Series::kSk2xxe;
 }
 
+std::vector<std::uint8_t> readUserParameters(const Settings& settings) {
+  constexpr const char* kKey = "user_parameters";
+  const std::string text = settings.text(kKey).value_or("");
+  std::vector<std::uint8_t> bytes;
+  try {
+    bytes = fromHex(text);
+  } catch (const std::invalid_argument&) {
+    throw wrongSetting(settings, kKey, "\"" + text + "\"", "hexadecimal bytes such as \"00 1A FF\"");
+  }
+  if (bytes.size() > profibus::kMaxUserParameters) {
+    throw wrongSetting(settings, kKey, std::to_string(bytes.size()) + " bytes",
+                       "at most " + std::to_string(profibus::kMaxUserParameters));
+  }
+  return bytes;
+}
+
+// 10 ms to 650 s: what two factors of Set_Prm can say (BU 2700 8.1.1).
+Duration readWatchdog(const Settings& settings) {
+  const double value = numberOr(settings, "watchdog", 0.2, 0.01, 650.0, "s");
+  const Duration next = profibus::WatchdogFactors::representableFrom(seconds(value)).value_or(seconds(650.25));
+  if (std::abs(toSeconds(next) - value) > 1e-6) {
+    throw wrongSetting(settings, "watchdog", shortNumber(value),
+                       "a time a slave can be told: " + shortNumber(toSeconds(next)) + " s is the next longer one");
+  }
+  return next;
+}
+
 profibus::SlaveConfig readSlave(const Settings& settings, const profile::PpoLayout& ppo, Duration watchdog) {
   profibus::SlaveConfig slave;
   slave.address = readAddress(settings, "address", -1);
@@ -60,13 +90,7 @@ profibus::SlaveConfig readSlave(const Settings& settings, const profile::PpoLayo
   slave.input_length = ppo.bytes();
   slave.watchdog = watchdog;
   // No source gives User_Prm_Data of ident 7531h; a GSD in the field may.
-  if (const auto text = settings.text("user_parameters")) {
-    try {
-      slave.user_parameters = fromHex(*text);
-    } catch (const std::invalid_argument& error) {
-      throw ConfigError(settings.fullName("user_parameters") + ": " + error.what());
-    }
-  }
+  if (settings.has("user_parameters")) slave.user_parameters = readUserParameters(settings);
   return slave;
 }
 
@@ -111,10 +135,11 @@ void checkTimes(const Settings& settings, const ProfibusDpConfig& config, const 
 ProfibusDpConfig readProfibusDpConfig(const Settings& bus, const std::vector<DriveSettings>& drives,
                                       double cycle_rate) {
   ProfibusDpConfig config;
-  config.device = requiredText(bus, "device", "a serial device such as /dev/ttyUSB0");
+  config.line = readSerialLine(bus);
+  config.device = config.line.device;
   config.bus = readBus(bus, config.device);
-  // 10 ms to 650 s: what two factors of Set_Prm can say (BU 2700 8.1.1).
-  config.watchdog = seconds(numberOr(bus, "watchdog", 0.2, 0.01, 650.0, "s"));
+  config.line.baud_rate = config.bus.baud;
+  config.watchdog = readWatchdog(bus);
   if (const auto files = bus.texts("gsd"); files && !files->empty()) {
     throw wrongSetting(bus, "gsd", "\"" + files->front() + "\"",
                        "an empty list: GSD files are not read by this version");

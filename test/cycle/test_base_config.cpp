@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "nord_driver/cycle/base_config.h"
 #include "support/map_settings.h"
 
@@ -82,6 +84,67 @@ TEST(BaseConfig, RefusalsNameKeyValueAndExpectation) {
   EXPECT_THAT(refusal(robot().set("wheel_separation", "wide")), HasSubstr("a number"));
   EXPECT_THAT(refusal(robot().set("linear/x/has_velocity_limits", true).set("linear/x/max_velocity", -1.0)),
               HasSubstr("linear/x/max_velocity"));
+}
+
+/// Wheels of 0.2 m, 0.8 m apart; the right one may turn at 12 rad/s.
+std::string description(const std::string& shape = "cylinder radius=\"0.2\" length=\"0.1\"") {
+  const auto wheel = [&](const std::string& side, const std::string& y, const std::string& inside) {
+    return "<link name=\"" + side + "\"><visual><geometry><" + shape + "/></geometry></visual></link><joint name=\"" +
+           side + "_wheel_joint\" type=\"continuous\"><parent link=\"base_link\"/><child link=\"" + side +
+           "\"/><origin xyz=\"0 " + y + " 0\"/>" + inside + "</joint>";
+  };
+  return "<robot name=\"r\"><link name=\"base_link\"/>" + wheel("left", "0.4", "") +
+         wheel("right", "-0.4", "<limit effort=\"1\" velocity=\"12\"/>") + "</robot>";
+}
+
+// What is not typed in comes from the URDF, the joints' limits too.
+TEST(BaseConfig, TakesWhatIsMissingFromTheRobotDescription) {
+  const auto base = readBaseConfig(robot().erase("wheel_separation").erase("wheel_radius"), kJoints, description());
+  EXPECT_NEAR(0.8, base->geometry.wheel_separation, 1e-12);
+  EXPECT_NEAR(0.2, base->geometry.left_wheel_radius, 1e-12);
+  EXPECT_NEAR(0.2, base->geometry.right_wheel_radius, 1e-12);
+  ASSERT_EQ(2u, base->joint_velocity_limits.size());
+  EXPECT_TRUE(std::isinf(base->joint_velocity_limits[0]));
+  EXPECT_EQ(12.0, base->joint_velocity_limits[1]);
+}
+
+// What is typed in wins, and then the description may say what it likes of it.
+TEST(BaseConfig, WhatIsTypedInWins) {
+  const auto base = readBaseConfig(robot(), kJoints, description("box size=\"1 1 1\""));
+  EXPECT_EQ(0.5, base->geometry.wheel_separation);
+  EXPECT_EQ(0.1, base->geometry.left_wheel_radius);
+  EXPECT_EQ(0.1, base->geometry.right_wheel_radius);
+}
+
+TEST(BaseConfig, ARobotDescriptionThatCannotBeIsAConfigError) {
+  const auto refusalWith = [](const MapSettings& settings, const std::string& urdf) {
+    try {
+      readBaseConfig(settings, kJoints, urdf);
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_THAT(refusalWith(robot().erase("wheel_radius"), description("box size=\"1 1 1\"")), HasSubstr("a box"));
+  EXPECT_THAT(refusalWith(robot(), "<robot"), HasSubstr("robot_description"));
+}
+
+// Mecanum: four drives, a wheel base and limits of linear/y.
+TEST(BaseConfig, ReadsAMecanumBase) {
+  const JointNames joints{"fl", "rl", "fr", "rr"};
+  MapSettings settings = robot();
+  settings.set("base_type", "mecanum").set("wheel_base", 0.6);
+  settings.set("left_wheel", std::vector<std::string>{"fl", "rl"})
+      .set("right_wheel", std::vector<std::string>{"fr", "rr"});
+  settings.set("linear/y/has_velocity_limits", true).set("linear/y/max_velocity", 0.3);
+  const auto base = readBaseConfig(settings, joints);
+  EXPECT_EQ(robot::BaseKind::kMecanum, base->kind);
+  EXPECT_EQ(0.6, base->geometry.wheel_base);
+  EXPECT_EQ(0.3, base->limits.linear_y.max_velocity);
+  EXPECT_EQ((std::vector<DriveIndex>{0, 1, 2, 3}), base->wheels());
+  EXPECT_THAT(refusal(robot().set("base_type", "mecanum").set("wheel_base", 0.6)), HasSubstr("two in each"));
+  EXPECT_THAT(refusal(robot().set("base_type", "mecanum")), HasSubstr("~wheel_base is missing"));
+  EXPECT_THAT(refusal(robot().set("base_type", "tricycle")), HasSubstr("differential or mecanum"));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ using std::chrono::milliseconds;
 
 constexpr Duration kCycle = milliseconds{10};
 constexpr Duration kTimeout = milliseconds{500};
-constexpr robot::WheelSpeeds kFastWheels{100.0, 100.0};
+const robot::WheelSpeeds kFastWheels{100.0, 100.0};
 
 BaseConfig configWithDeceleration(double deceleration) {
   BaseConfig config;
@@ -44,24 +44,24 @@ class BaseMotionTest : public ::testing::Test {
 
 TEST_F(BaseMotionTest, TurnsTheCommandIntoWheelSpeeds) {
   command(0.3);
-  EXPECT_NEAR(3.0, poll().left, 1e-12);  // 0.3 m/s on a wheel of 0.1 m
+  EXPECT_NEAR(3.0, poll()[0], 1e-12);  // 0.3 m/s on a wheel of 0.1 m
   command(0.0, 1.0);
-  EXPECT_NEAR(2.5, poll().right, 1e-12);  // 0.25 m/s at half the separation
-  EXPECT_NEAR(-2.5, poll().left, 1e-12);
+  EXPECT_NEAR(2.5, poll()[1], 1e-12);  // 0.25 m/s at half the separation
+  EXPECT_NEAR(-2.5, poll()[0], 1e-12);
 }
 
 TEST_F(BaseMotionTest, ACommandOlderThanItsTimeoutIsZero) {
   command(0.3);
   now_ += kTimeout - kCycle;
-  EXPECT_NEAR(3.0, poll().left, 1e-12);
-  EXPECT_EQ(0.0, poll().left);
+  EXPECT_NEAR(3.0, poll()[0], 1e-12);
+  EXPECT_EQ(0.0, poll()[0]);
 }
 
 TEST_F(BaseMotionTest, ATimeoutOfZeroNeverEnds) {
   BaseMotion patient{configWithDeceleration(0.0), Duration::zero()};
   command(0.3);
   now_ += std::chrono::hours{1};
-  EXPECT_NEAR(3.0, patient.pollWheels(command_, true, true, kFastWheels, now_, kCycle).left, 1e-12);
+  EXPECT_NEAR(3.0, patient.pollWheels(command_, true, true, kFastWheels, now_, kCycle)[0], 1e-12);
 }
 
 TEST_F(BaseMotionTest, NothingMovesBeforeTheFirstCommand) {
@@ -71,29 +71,75 @@ TEST_F(BaseMotionTest, NothingMovesBeforeTheFirstCommand) {
 TEST_F(BaseMotionTest, BrakesAlongTheDecelerationLimitWhenTheCommandMayNotBeFollowed) {
   motion_ = BaseMotion{configWithDeceleration(1.0), kTimeout};
   command(0.3);
-  ASSERT_NEAR(3.0, poll().left, 1e-9);
+  ASSERT_NEAR(3.0, poll()[0], 1e-9);
   // 1 m/s^2 for 10 ms is 0.01 m/s, 0.1 rad/s at the wheel.
-  EXPECT_NEAR(2.9, poll(true, false).left, 1e-9);
-  EXPECT_NEAR(2.8, poll(true, false).left, 1e-9);
+  EXPECT_NEAR(2.9, poll(true, false)[0], 1e-9);
+  EXPECT_NEAR(2.8, poll(true, false)[0], 1e-9);
 }
 
 // After a stop the base must begin from standstill, not from the velocity it had before.
 TEST_F(BaseMotionTest, ForgetsItsVelocityWhileItIsNotDriving) {
   motion_ = BaseMotion{configWithDeceleration(1.0), kTimeout};
   command(0.3);
-  ASSERT_NEAR(3.0, poll().left, 1e-9);
-  EXPECT_EQ(0.0, poll(false).left);
+  ASSERT_NEAR(3.0, poll()[0], 1e-9);
+  EXPECT_EQ(0.0, poll(false)[0]);
   EXPECT_EQ(0.0, motion_.limited().linear_x);
-  EXPECT_EQ(0.0, poll(true, false).left);
+  EXPECT_EQ(0.0, poll(true, false)[0]);
 }
 
 TEST_F(BaseMotionTest, ScalesTheWholeBaseWhenOneWheelCannotTurnThatFast) {
   command(1.0, 1.0);  // left 7.5, right 12.5 rad/s
   const robot::WheelSpeeds wheels = poll(true, true, {10.0, 10.0});
-  EXPECT_NEAR(10.0, wheels.right, 1e-9);
-  EXPECT_NEAR(6.0, wheels.left, 1e-9);
+  EXPECT_NEAR(10.0, wheels[1], 1e-9);
+  EXPECT_NEAR(6.0, wheels[0], 1e-9);
   EXPECT_NEAR(0.8, motion_.limited().linear_x, 1e-9);
   EXPECT_NEAR(0.8, motion_.limited().angular_z, 1e-9);
+}
+
+// The velocity limit of a joint in the URDF counts like the drive's 100 %.
+TEST_F(BaseMotionTest, ScalesTheWholeBaseIntoTheLimitsOfTheJoints) {
+  BaseConfig config = configWithDeceleration(0.0);
+  config.joint_velocity_limits = {std::numeric_limits<double>::infinity(), 5.0};
+  motion_ = BaseMotion{config, kTimeout};
+  command(1.0, 1.0);  // left 7.5, right 12.5 rad/s
+  const robot::WheelSpeeds wheels = poll();
+  EXPECT_NEAR(5.0, wheels[1], 1e-9);
+  EXPECT_NEAR(3.0, wheels[0], 1e-9);
+}
+
+// A command far beyond what the drives can turn must not delay the stop: the first cycle of braking is slower.
+TEST_F(BaseMotionTest, BrakesAtOnceFromACommandBeyondTheDrives) {
+  motion_ = BaseMotion{configWithDeceleration(1.0), kTimeout};
+  const robot::WheelSpeeds max{10.0, 10.0};
+  command(5.0);
+  for (int i = 0; i < 20; ++i) EXPECT_NEAR(10.0, poll(true, true, max)[0], 1e-9);
+  EXPECT_NEAR(1.0, motion_.limited().linear_x, 1e-9);
+  EXPECT_NEAR(9.9, poll(true, false, max)[0], 1e-9);
+  EXPECT_NEAR(9.8, poll(true, false, max)[0], 1e-9);
+}
+
+// A base that cannot go sideways ignores that part of a command, and what it drives is told as such.
+TEST_F(BaseMotionTest, SidewaysIsIgnoredWhereItCannotBeDone) {
+  command_ = {{0.3, 0.0, 0.4}, now_, true};
+  EXPECT_NEAR(3.0, poll()[0], 1e-12);
+  EXPECT_EQ(0.0, motion_.limited().linear_y);
+}
+
+TEST_F(BaseMotionTest, MecanumGoesSideways) {
+  BaseConfig config = configWithDeceleration(0.0);
+  config.kind = robot::BaseKind::kMecanum;
+  config.left = {0, 1};
+  config.right = {2, 3};
+  config.geometry.wheel_base = 0.6;
+  motion_ = BaseMotion{config, kTimeout};
+  command_ = {{0.0, 0.0, 0.3}, now_, true};
+  const robot::WheelSpeeds wheels = poll(true, true, {100.0, 100.0, 100.0, 100.0});
+  ASSERT_EQ(4u, wheels.size());
+  EXPECT_NEAR(-3.0, wheels[0], 1e-12);
+  EXPECT_NEAR(3.0, wheels[1], 1e-12);
+  EXPECT_NEAR(0.3, motion_.limited().linear_y, 1e-12);
+  for (int i = 0; i <= 100; ++i) motion_.handleWheels(wheels, kCycle);
+  EXPECT_NEAR(0.3, motion_.odometry().pose().y, 1e-9);
 }
 
 TEST_F(BaseMotionTest, WhatIsNotANumberNeverReachesAWheel) {

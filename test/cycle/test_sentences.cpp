@@ -36,9 +36,10 @@ TEST(Sentences, AStateTellsWhatTheDriveSaidLast) {
 }
 
 std::string parameter(profile::ParameterOutcome outcome) {
-  profile::ParameterResult result;
+  drive::ParameterTaskResult result;
   result.outcome = outcome;
   result.error_number = 201;
+  result.refused_number = 5;
   return parameterSentence("left", 5, result).str();
 }
 
@@ -51,6 +52,19 @@ TEST(Sentences, AParameterThatCouldNotBeReadSaysWhy) {
   EXPECT_EQ("drive left has no parameter channel: PPO types 3 and 4 carry process data only",
             parameter(Outcome::kNoChannel));
   EXPECT_EQ("drive left has too many parameter requests waiting already", parameter(Outcome::kBusy));
+}
+
+TEST(Sentences, WhatTheSessionAddsIsPassedOn) {
+  drive::ParameterTaskResult result;
+  result.outcome = profile::ParameterOutcome::kDone;
+  result.note = "nothing was written, the value was there already";
+  EXPECT_EQ("nothing was written, the value was there already", parameterSentence("left", 5, result).str());
+  result.outcome = profile::ParameterOutcome::kRefused;
+  EXPECT_EQ("P005 of drive left: nothing was written, the value was there already",
+            parameterSentence("left", 5, result).str());
+  result.refused_number = 560;  // the error is about P560, not about the parameter asked for
+  result.error_number = 1;
+  EXPECT_EQ(0u, parameterSentence("left", 5, result).str().find("drive left refuses P560: error 1, "));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ class FakeInverter {
  public:
   bool silent = false;
   bool fault = false;
+  bool cause = false;  ///< of the fault, still there: no acknowledging
   bool local = false;
   bool stuck = false;          ///< never leaves "ready to switch on" upwards
   bool endless = false;        ///< never comes down from an OFF1 ramp
@@ -20,6 +21,12 @@ class FakeInverter {
   /// Takes the telegram; the input is what the inverter says after it.
   profile::ProcessInput exchange(const profile::ProcessOutput& output) {
     if ((output.control_word & 0x0400) != 0 && !local) obey(output.control_word, output.setpoints[0]);
+    const bool acknowledge = (output.control_word & 0x0080) != 0;
+    if (acknowledge && !acknowledge_ && !cause && fault) {
+      fault = false;
+      low_ = 0x70;
+    }
+    acknowledge_ = acknowledge;
     if (fault) {
       low_ = 0x38;
       frequency_ = 0;
@@ -59,6 +66,7 @@ class FakeInverter {
   }
 
   Word low_ = 0x70;
+  bool acknowledge_ = false;
   std::int16_t frequency_ = 0;
 };
 

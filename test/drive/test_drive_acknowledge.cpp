@@ -16,6 +16,7 @@ TEST_F(DriveTest, AcknowledgesWithOneEdge) {
   EXPECT_EQ(0x04FE, cycle(0x0B70));
   EXPECT_EQ(0x047E, cycle(0x0B31));
   EXPECT_FALSE(report().fault_latched);
+  EXPECT_EQ(RequestState::kDone, report().acknowledge.state);
   EXPECT_EQ(Refusal::kNone, report().refusal);
   drive_.requestEnable(now_);
   EXPECT_EQ(Refusal::kNone, report().refusal);
@@ -31,6 +32,8 @@ TEST_F(DriveTest, NeverLeavesTheAcknowledgeBitStanding) {
   EXPECT_EQ(3, high);
   EXPECT_EQ(Phase::kIdle, report().phase);
   EXPECT_EQ(Refusal::kCauseStands, report().refusal);
+  EXPECT_EQ(RequestState::kRefused, report().acknowledge.state);
+  EXPECT_EQ(Refusal::kCauseStands, report().acknowledge.refusal);
   EXPECT_TRUE(report().fault_latched);
 }
 
@@ -40,6 +43,7 @@ TEST_F(DriveTest, AcknowledgesAVanishedFaultWithoutABit) {
   cycle(0x0B31);
   drive_.requestAcknowledge(now_);
   EXPECT_FALSE(report().fault_latched);
+  EXPECT_EQ(RequestState::kDone, report().acknowledge.state);
   for (int i = 0; i < 10; ++i) EXPECT_EQ(0x047E, cycle(0x0B31)) << i;
 }
 
@@ -47,7 +51,53 @@ TEST_F(DriveTest, AcknowledgesOnlyWhileIdle) {
   run();
   drive_.requestAcknowledge(now_);
   EXPECT_EQ(Refusal::kBusy, report().refusal);
+  EXPECT_EQ(RequestState::kRefused, report().acknowledge.state);
   EXPECT_EQ(0x047F, cycle(0x0B37, 0x2000));
+}
+
+// However slow the cycle, the inverter sees the bit low, high, and low again.
+TEST_F(DriveTest, GivesAnEdgeInCyclesLongerThanItsTimes) {
+  start();
+  cycle(0x0B38);
+  drive_.requestAcknowledge(now_);
+  for (const int word : {0x047E, 0x04FE, 0x047E}) {
+    now_ += seconds(0.2);
+    EXPECT_EQ(word, cycle(0x0B38));
+  }
+}
+
+// The bit does not wait for answers to fall: cycles without one count as well.
+TEST_F(DriveTest, DropsTheAcknowledgeBitWithoutAnAnswer) {
+  start();
+  cycle(0x0B38);
+  drive_.requestAcknowledge(now_);
+  for (int i = 0; i < 5; ++i) cycle(0x0B38);
+  EXPECT_EQ(0x04FE, silence());
+  EXPECT_EQ(0x047E, silence());
+}
+
+TEST_F(DriveTest, EndsTheAcknowledgingOfASilentDrive) {
+  start();
+  cycle(0x0B38);
+  drive_.requestAcknowledge(now_);
+  EXPECT_EQ(RequestState::kRunning, report().acknowledge.state);
+  fallSilent();
+  EXPECT_EQ(RequestState::kRefused, report().acknowledge.state);
+  EXPECT_EQ(Refusal::kOffline, report().acknowledge.refusal);
+  EXPECT_EQ(0x047E, silence());
+  drive_.requestAcknowledge(now_);
+  EXPECT_EQ(Refusal::kOffline, report().acknowledge.refusal);
+}
+
+// A stop comes first: the edge is given up, and asked for again by whoever wants it.
+TEST_F(DriveTest, GivesUpTheAcknowledgingForAStop) {
+  start();
+  cycle(0x0B38);
+  drive_.requestAcknowledge(now_);
+  for (int i = 0; i < 4; ++i) cycle(0x0B38);
+  drive_.requestQuickStop(now_);
+  EXPECT_EQ(0x047B, cycle(0x0B38));
+  EXPECT_EQ(Refusal::kStopped, report().acknowledge.refusal);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <vector>
@@ -37,7 +38,8 @@ rc::Gen<Step> anyStep() {
       rc::gen::set(&Step::status_word, rc::gen::weightedOneOf<Word>({{100, real}, {1, rc::gen::arbitrary<Word>()}})),
       rc::gen::set(&Step::actual_value),
       rc::gen::set(&Step::fresh, rc::gen::weightedElement<bool>({{15, true}, {1, false}})),
-      rc::gen::set(&Step::request, rc::gen::weightedElement<int>({{1, 0}, {1, 1}, {1, 2}, {2, 3}, {60, 5}, {10, 7}})),
+      rc::gen::set(&Step::request,
+                   rc::gen::weightedElement<int>({{1, 0}, {1, 1}, {1, 2}, {2, 3}, {1, 4}, {60, 5}, {2, 6}, {10, 7}})),
       rc::gen::set(&Step::milliseconds, rc::gen::weightedElement<int>({{20, 10}, {1, 100}})),
       rc::gen::set(&Step::velocity, rc::gen::element(0.0, 3.0, -3.0, 1e9, -1e300, std::nan(""), HUGE_VAL)));
 }
@@ -58,9 +60,12 @@ class Universe {
     input.actual_values[0] = step.actual_value;
     set_of_output_ = learned_set_;
     drive_.handleInput(input, step.fresh, now_);
-    // Bits 14 and 15, read here a second time: learned on joining, and while bit 9 says local control.
+    // Bits 14 and 15, read here a second time: learned on joining, and while bit 9 says local control; or as asked for.
     const bool useful = step.fresh && step.status_word != 0;
-    if (useful && (!was_online_ || (step.status_word & 0x0200) == 0)) learned_set_ = step.status_word >> 14;
+    if (useful) last_set_ = step.status_word >> 14;
+    if (useful && (!was_online_ || (step.status_word & 0x0200) == 0)) learned_set_ = last_set_;
+    endSwitching();
+    measureAcknowledge();
   }
 
   void checkEverySequence() const {
@@ -71,8 +76,11 @@ class Universe {
       RC_ASSERT((word & 0x0400) != 0);
       RC_ASSERT(set_of_output_ >= 0);
       RC_ASSERT(word >> 14 == set_of_output_);
-      RC_ASSERT((word & 0x0002) != 0);  // never OFF2
+      RC_ASSERT((word & 0x0002) != 0 || coast_asked_);  // OFF2 only when asked for
     }
+    // The acknowledge bit stands for its time and the cycle in which that ends, never longer.
+    RC_ASSERT(acknowledged_for_ <= std::chrono::milliseconds(20) + longest_cycle_);
+    RC_ASSERT((word & 0x0080) == 0 || (word & 0x000F) == 0x000E);
     RC_ASSERT(std::abs(int{output_.setpoints[0]}) <= 0x4000);
     if ((word & 0x000F) != 0x000F) RC_ASSERT(output_.setpoints[0] == 0);
   }
@@ -88,16 +96,46 @@ class Universe {
     result.acknowledge_time = seconds(0.02);
     return result;
   }
+  // The set is switched at standstill and while idle only, and the drive goes back to the set in force when that fails.
+  void requestSet(std::uint8_t set) {
+    const bool idle = drive_.report().phase == Phase::kIdle;
+    const int actual = drive_.report().input.actual_values[0];
+    drive_.requestParameterSet(set, now_);
+    if (drive_.report().refusal != Refusal::kNone) return;
+    RC_ASSERT(idle);
+    RC_ASSERT(std::abs(actual) <= 164);
+    switching_ = true;
+    learned_set_ = set - 1;
+  }
+  void endSwitching() {
+    if (!switching_ || drive_.report().set_switch.state == RequestState::kRunning) return;
+    switching_ = false;
+    if (drive_.report().set_switch.state == RequestState::kRefused) learned_set_ = last_set_;
+  }
+  void measureAcknowledge() {
+    const bool high = (output_.control_word & 0x0080) != 0;
+    const Duration cycle = now_ - last_now_;
+    longest_cycle_ = std::max(longest_cycle_, cycle);
+    acknowledged_for_ = high ? acknowledged_for_ + cycle : Duration{};
+    last_now_ = now_;
+  }
   void request(const Step& step, bool may_enable) {
     switch (step.request) {
       case 0:
         return drive_.requestShutdown(now_);
       case 1:
-        return drive_.requestQuickStop(now_);
+        drive_.requestQuickStop(now_);
+        return endSwitching();
       case 2:
         return drive_.requestSetpointZero(now_);
       case 3:
         return drive_.requestAcknowledge(now_);
+      case 4:
+        coast_asked_ = true;
+        drive_.requestCoast(now_);
+        return endSwitching();
+      case 6:
+        return requestSet(static_cast<std::uint8_t>(1 + step.milliseconds % 3 + (step.fresh ? 1 : 0)));
       case 7:
         if (may_enable) drive_.requestEnable(now_);
         return;
@@ -111,6 +149,12 @@ class Universe {
   profile::ProcessOutput output_;
   bool was_online_ = false;
   int learned_set_ = -1;
+  int last_set_ = -1;
+  bool switching_ = false;
+  bool coast_asked_ = false;
+  Duration acknowledged_for_{};
+  Duration longest_cycle_{};
+  Instant last_now_{};
   int set_of_output_ = -1;
 };
 

@@ -1,6 +1,8 @@
 // Every way one drive stops.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "drive_fixture.h"
 
 namespace nord_driver::drive {
@@ -70,16 +72,66 @@ TEST_F(DriveTest, DropsToIdleOnAFaultAndRemembersIt) {
             stopText(report()));
 }
 
-// OFF2, OFF3 at terminals, or anything else that leaves "operation enabled": never back by itself.
+// OFF2 or OFF3 at terminals (status bits 4 and 5, BU 2700 6.4.2), or anything else that leaves "operation enabled":
+// named, and never back by itself.
 TEST_F(DriveTest, LatchesEveryUnaskedExit) {
-  for (const int status : {0x0B70, 0x0B31, 0x0B33, 0x0B17, 0x0B30, 0x0B02}) {
+  const std::pair<int, StopCause> kExits[] = {
+      {0x0B70, StopCause::kUnaskedExit}, {0x0B31, StopCause::kUnaskedExit}, {0x0B33, StopCause::kUnaskedExit},
+      {0x0B30, StopCause::kUnaskedExit}, {0x0B17, StopCause::kOff3},        {0x0B50, StopCause::kOff3},
+      {0x0B60, StopCause::kOff2},        {0x0B40, StopCause::kOff2},        {0x0B02, StopCause::kOff2}};
+  for (const auto& [status, cause] : kExits) {
     drive_ = Drive(config());
     run();
     EXPECT_EQ(0x047F, cycle(static_cast<Word>(status), 0x2000));
     for (int i = 0; i < 10; ++i) ASSERT_EQ(0x047E, cycle(0x0B37, 0x2000)) << status;
-    EXPECT_EQ(StopCause::kUnaskedExit, report().stop_cause) << status;
+    EXPECT_EQ(cause, report().stop_cause) << status;
     EXPECT_EQ(Phase::kIdle, report().phase);
   }
+}
+
+TEST_F(DriveTest, SaysWhatTheTerminalsDid) {
+  run();
+  cycle(0x0B17, 0x2000);
+  EXPECT_EQ(
+      "stopped: OFF3 at the inverter's terminals: quick stop or emergency stop (status bit 5 = 0); the last status "
+      "word "
+      "was 0B17 (quick stop active)",
+      stopText(report()));
+}
+
+// A terminal's stop while enabling is named, too.
+TEST_F(DriveTest, NamesTheStopThatEndsTheEnabling) {
+  start();
+  drive_.requestEnable(now_);
+  cycle(0x0B31);
+  EXPECT_EQ(0x047F, cycle(0x0B60));
+  EXPECT_EQ(0x047E, cycle(0x0B31));
+  EXPECT_EQ(StopCause::kOff2, report().stop_cause);
+  EXPECT_EQ(Refusal::kStopped, report().refusal);
+}
+
+// OFF2: bit 1 = 0, bit 10 and the rest as ever (BU 2700 6.4.1), until "switch-on disabled"; a quick stop does not take
+// its place.
+TEST_F(DriveTest, CoastsUntilSwitchOnDisabled) {
+  run();
+  drive_.requestCoast(now_);
+  EXPECT_EQ(0x047D, cycle(0x0B37, 0x2000));
+  EXPECT_EQ(0, setpoint_);
+  drive_.requestQuickStop(now_);
+  drive_.requestEnable(now_);
+  EXPECT_EQ(Refusal::kStopping, report().refusal);
+  EXPECT_EQ(0x047D, cycle(0x0B31));
+  EXPECT_EQ(0x047D, cycle(0x0B60));
+  EXPECT_EQ(0x047E, cycle(0x0B31));
+  EXPECT_EQ(Phase::kIdle, report().phase);
+  EXPECT_EQ(StopCause::kCoast, report().stop_cause);
+}
+
+TEST_F(DriveTest, CarriesTheCoastIntoTheDark) {
+  run();
+  drive_.requestCoast(now_);
+  fallSilent();
+  EXPECT_EQ(0x047D, silence());
 }
 
 // Bit 9 = 0: the terminals may turn the motor, and a standing 047F would act when the bit returns (BU 0220 5.1.2).

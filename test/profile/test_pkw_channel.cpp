@@ -100,20 +100,39 @@ TEST_F(PkwChannelTest, NeverTakesTheOldAnswerForAnEqualOrder) {
   EXPECT_EQ(4, result->raw);
 }
 
-// An order that cannot be mistaken starts after one exchange of "no order"; the old answer then counts as stale, once.
-TEST_F(PkwChannelTest, CountsStaleAnswers) {
+// An order that cannot be mistaken starts after one exchange of "no order". While a slow inverter has not executed it,
+// the answer before it stands on: that is no error, and not counted as one.
+TEST_F(PkwChannelTest, TakesTheStandingAnswerForPatience) {
   channel_.submit(read(508, ParameterShape::kPlain, 1), now_);
   channel_.submit(read(507, ParameterShape::kPlain, 2), now_);
   clear();
+  exchange(kNothing);
   exchange({0x15E4, 0, 0, 3});
   EXPECT_EQ(kNothing, exchange({0x15E4, 0, 0, 3}));
+  const PkwWords order{0x15E3, 0, 0, 0};
+  EXPECT_EQ(order, exchange({0x15E4, 0, 0, 3}));
+  EXPECT_EQ(order, exchange({0x15E4, 0, 0, 3}));
+  EXPECT_EQ(order, exchange(kNothing));
+  EXPECT_EQ(order, exchange({0x15E3, 0, 0, 1}));
   EXPECT_EQ(0u, channel_.stale());
-  EXPECT_EQ((PkwWords{0x15E3, 0, 0, 0}), exchange({0x15E4, 0, 0, 3}));
-  EXPECT_EQ((PkwWords{0x15E3, 0, 0, 0}), exchange({0x15E4, 0, 0, 3}));
-  EXPECT_EQ(1u, channel_.stale());
-  exchange({0x15E3, 0, 0, 1});
   EXPECT_EQ(3, channel_.pollResult()->raw);
   EXPECT_EQ(1, channel_.pollResult()->raw);
+}
+
+// An answer to no order of ours is somebody else's: never taken, and counted once however often it is repeated.
+TEST_F(PkwChannelTest, CountsAnswersThatBelongToNoOrder) {
+  channel_.submit(read(508, ParameterShape::kPlain, 1), now_);
+  clear();
+  const PkwWords foreign{0x15E3, 0, 0, 1};
+  exchange(foreign);
+  exchange(foreign);
+  EXPECT_EQ(1u, channel_.stale());
+  exchange({0x44E8, 0x0100, 0, 1});
+  EXPECT_EQ(2u, channel_.stale());
+  EXPECT_FALSE(channel_.pollResult().has_value());
+  exchange({0x15E4, 0, 0, 3});
+  EXPECT_EQ(3, channel_.pollResult()->raw);
+  EXPECT_EQ(2u, channel_.stale());
 }
 
 // The answer to an order that was given up may still come: only an answered pause makes room for the next.

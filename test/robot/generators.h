@@ -3,6 +3,7 @@
 
 #include <rapidcheck.h>
 
+#include <tuple>
 #include <vector>
 
 #include "nord_driver/robot/speed_limits.h"
@@ -21,6 +22,14 @@ inline rc::Gen<Twist2d> twistWithin(double linear, double angular) {
   return rc::gen::map(rc::gen::pair(number(-linear, linear), number(-angular, angular)), [](const auto& pair) {
     return Twist2d{pair.first, pair.second};
   });
+}
+
+/// Sideways too.
+inline rc::Gen<Twist2d> twistWithin(double forward, double angular, double sideways) {
+  return rc::gen::map(rc::gen::tuple(number(-forward, forward), number(-angular, angular), number(-sideways, sideways)),
+                      [](const auto& values) {
+                        return Twist2d{std::get<0>(values), std::get<1>(values), std::get<2>(values)};
+                      });
 }
 
 /// Limits of all three kinds, with bounds that are not symmetrical.

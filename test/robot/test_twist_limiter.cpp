@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
+#include <vector>
 
 #include "nord_driver/robot/twist_limiter.h"
 #include "robot/generators.h"
@@ -33,14 +35,22 @@ TwistLimits anyTwistLimits(bool with_jerk) {
   TwistLimits limits;
   limits.linear_x = anyLimits(with_jerk);
   limits.angular_z = anyLimits(with_jerk);
+  limits.linear_y = anyLimits(with_jerk);
   return limits;
+}
+
+double sizeOf(const Twist2d& twist) {
+  return std::hypot(twist.linear_x, twist.angular_z, twist.linear_y);
 }
 
 /// How far `twist` lies beside the straight line through zero and `path`, as the sine of the angle between them.
 double besideThePath(const Twist2d& twist, const Twist2d& path) {
-  const double size = std::hypot(twist.linear_x, twist.angular_z) * std::hypot(path.linear_x, path.angular_z);
+  const double size = sizeOf(twist) * sizeOf(path);
   if (size == 0.0) return 0.0;
-  return std::abs(twist.linear_x * path.angular_z - twist.angular_z * path.linear_x) / size;
+  return std::hypot(twist.linear_x * path.angular_z - twist.angular_z * path.linear_x,
+                    twist.angular_z * path.linear_y - twist.linear_y * path.angular_z,
+                    twist.linear_y * path.linear_x - twist.linear_x * path.linear_y) /
+         size;
 }
 
 // A command beyond the velocity limit of one axis is scaled as a whole: same circle, slower.
@@ -54,6 +64,31 @@ TEST(TwistLimiter, ScalesBothAxesIntoTheVelocityLimits) {
   const Twist2d turning = limiter.limit({1.0, -8.0}, kCycle);
   EXPECT_DOUBLE_EQ(0.25, turning.linear_x);
   EXPECT_DOUBLE_EQ(-2.0, turning.angular_z);
+}
+
+// A base that can go sideways: the limit of linear/y slows forward motion and turning too, and the path stays.
+TEST(TwistLimiter, ScalesAllThreeAxes) {
+  TwistLimits mecanum = limits();
+  mecanum.linear_x.has_acceleration_limits = mecanum.angular_z.has_acceleration_limits = false;
+  mecanum.linear_y.has_velocity_limits = true;
+  mecanum.linear_y.max_velocity = 0.25;
+  TwistLimiter limiter{mecanum};
+  const Twist2d slowed = limiter.limit({0.5, 1.0, -0.5}, kCycle);
+  EXPECT_DOUBLE_EQ(0.25, slowed.linear_x);
+  EXPECT_DOUBLE_EQ(0.5, slowed.angular_z);
+  EXPECT_DOUBLE_EQ(-0.25, slowed.linear_y);
+}
+
+// The acceleration limit of linear/y sets the pace of all: 0.2 m/s^2 for half a second.
+TEST(TwistLimiter, SidewaysSetsThePace) {
+  TwistLimits mecanum = limits();
+  mecanum.linear_y.has_acceleration_limits = true;
+  mecanum.linear_y.max_acceleration = 0.2;
+  TwistLimiter limiter{mecanum};
+  for (int i = 0; i < 50; ++i) limiter.limit({0.5, -1.0, 0.5}, kCycle);
+  EXPECT_NEAR(0.1, limiter.twist().linear_x, 1e-12);
+  EXPECT_NEAR(-0.2, limiter.twist().angular_z, 1e-12);
+  EXPECT_NEAR(0.1, limiter.twist().linear_y, 1e-12);
 }
 
 // Speeding up, the axis that could be faster waits: after half a second at 0.5 m/s^2 on a circle of 1 m.
@@ -92,7 +127,8 @@ TEST(TwistLimiter, BrakesForWhatIsNotFinite) {
   for (const bool independent : {false, true}) {
     TwistLimits both = limits();
     both.limit_axes_independently = independent;
-    for (const Twist2d& bad : {Twist2d{kNan, 1.0}, Twist2d{1.0, std::numeric_limits<double>::infinity()}}) {
+    for (const Twist2d& bad :
+         {Twist2d{kNan, 1.0}, Twist2d{1.0, std::numeric_limits<double>::infinity()}, Twist2d{0.5, 0.5, kNan}}) {
       TwistLimiter limiter{both};
       limiter.reset({0.5, 0.5});
       const Twist2d twist = limiter.limit(bad, kCycle);
@@ -121,12 +157,21 @@ TEST(TwistLimiter, RefusesImpossibleLimits) {
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("angular/z/max_velocity is -2"));
   }
+  wrong = limits();
+  wrong.linear_y.has_velocity_limits = true;
+  wrong.linear_y.max_velocity = -0.5;
+  try {
+    TwistLimiter{wrong};
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("linear/y/max_velocity is -0.5"));
+  }
 }
 
 // From standstill and back to standstill the curvature never changes, with any limits.
 RC_GTEST_PROP(TwistLimiterProperty, KeepsTheCurvature, (bool with_jerk)) {
   TwistLimiter limiter{anyTwistLimits(with_jerk)};
-  const Twist2d target = *twistWithin(5.0, 5.0);
+  const Twist2d target = *twistWithin(5.0, 5.0, 5.0);
   const double dt = *number(0.001, 0.05);
   const int steps = *rc::gen::inRange(1, 400);
   for (int i = 0; i < steps; ++i) {
@@ -135,7 +180,7 @@ RC_GTEST_PROP(TwistLimiterProperty, KeepsTheCurvature, (bool with_jerk)) {
   for (int i = 0; i < 200; ++i) {
     const Twist2d twist = limiter.limit({}, seconds(dt));
     // Where the base all but stands, the direction of what is left is rounding.
-    if (std::hypot(twist.linear_x, twist.angular_z) < 1e-6) break;
+    if (sizeOf(twist) < 1e-6) break;
     RC_ASSERT(besideThePath(twist, target) < 1e-9);
   }
 }
@@ -146,7 +191,7 @@ RC_GTEST_PROP(TwistLimiterProperty, NeverExceedsALimit, (bool with_jerk, bool in
   any.limit_axes_independently = independently;
   TwistLimiter limiter{any};
   const double dt = *number(0.001, 0.1);
-  const auto targets = *rc::gen::container<std::vector<Twist2d>>(twistWithin(6.0, 6.0));
+  const auto targets = *rc::gen::container<std::vector<Twist2d>>(twistWithin(6.0, 6.0, 6.0));
   Twist2d before;
   const auto check = [dt](double now, double last, const SpeedLimits& axis) {
     RC_ASSERT(now <= axis.max_velocity && now >= axis.minVelocity());
@@ -159,40 +204,45 @@ RC_GTEST_PROP(TwistLimiterProperty, NeverExceedsALimit, (bool with_jerk, bool in
       RC_ASSERT(isFinite(twist));
       check(twist.linear_x, before.linear_x, any.linear_x);
       check(twist.angular_z, before.angular_z, any.angular_z);
+      check(twist.linear_y, before.linear_y, any.linear_y);
       before = twist;
     }
   }
 }
 
 // Any sequence of doubles, NaN and infinities among them, gives finite twists.
-RC_GTEST_PROP(TwistLimiterProperty, IsAlwaysFinite, (std::vector<std::pair<double, double>> targets)) {
+RC_GTEST_PROP(TwistLimiterProperty, IsAlwaysFinite, (std::vector<std::tuple<double, double, double>> targets)) {
   TwistLimits some;
   some.linear_x.has_jerk_limits = *rc::gen::arbitrary<bool>();
   some.linear_x.max_jerk = 1.0;
   some.angular_z.has_acceleration_limits = *rc::gen::arbitrary<bool>();
   some.angular_z.max_acceleration = 1.0;
   TwistLimiter limiter{some};
-  targets.emplace_back(std::numeric_limits<double>::max(), -std::numeric_limits<double>::max());
-  targets.emplace_back(kNan, kNan);
-  targets.emplace_back(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
-  for (const auto& target : targets) RC_ASSERT(isFinite(limiter.limit({target.first, target.second}, kCycle)));
+  constexpr double kMax = std::numeric_limits<double>::max();
+  targets.emplace_back(kMax, -kMax, kMax);
+  targets.emplace_back(kNan, kNan, kNan);
+  targets.emplace_back(-kMax, kMax, -kMax);
+  for (const auto& [x, z, y] : targets) RC_ASSERT(isFinite(limiter.limit({x, z, y}, kCycle)));
 }
 
 // From any motion, a new path is reached and kept, and a stop ends in standstill.
 RC_GTEST_PROP(TwistLimiterProperty, ReachesTheTarget, (bool with_jerk)) {
   const TwistLimits any = anyTwistLimits(with_jerk);
   TwistLimiter limiter{any};
-  const Twist2d first = *twistWithin(3.0, 3.0);
+  const Twist2d first = *twistWithin(3.0, 3.0, 3.0);
   const int steps = *rc::gen::inRange(0, 300);
   for (int i = 0; i < steps; ++i) limiter.limit(first, kCycle);
   const Twist2d target{*number(any.linear_x.minVelocity(), any.linear_x.max_velocity),
-                       *number(any.angular_z.minVelocity(), any.angular_z.max_velocity)};
+                       *number(any.angular_z.minVelocity(), any.angular_z.max_velocity),
+                       *number(any.linear_y.minVelocity(), any.linear_y.max_velocity)};
   for (int i = 0; i < 6000; ++i) limiter.limit(target, kCycle);
   RC_ASSERT(std::abs(limiter.twist().linear_x - target.linear_x) < 1e-9);
   RC_ASSERT(std::abs(limiter.twist().angular_z - target.angular_z) < 1e-9);
+  RC_ASSERT(std::abs(limiter.twist().linear_y - target.linear_y) < 1e-9);
   for (int i = 0; i < 6000; ++i) limiter.limit({}, kCycle);
   RC_ASSERT(std::abs(limiter.twist().linear_x) < 1e-9);
   RC_ASSERT(std::abs(limiter.twist().angular_z) < 1e-9);
+  RC_ASSERT(std::abs(limiter.twist().linear_y) < 1e-9);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ inline SimConfig oneDrive(int address = 8) {
   DriveConfig drive;
   drive.name = "left";
   drive.slave.address = static_cast<std::uint8_t>(address);
-  drive.parameter_delay = 0;
+  drive.pkw.delay = 0;
   config.drives.push_back(drive);
   return config;
 }

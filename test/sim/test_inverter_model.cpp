@@ -1,44 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "nord_driver/sim/inverter_model.h"
+#include "sim/inverter_fixture.h"
 
 namespace nord_driver::sim {
 namespace {
 
 using std::chrono::milliseconds;
-
-class Inverter : public ::testing::Test {
- protected:
-  Inverter() {
-    parameters.preset(509, 0, 0, 4);
-    model.setPowered(true);
-    model.advance(milliseconds(301));
-  }
-
-  /// One telegram, then its effect.
-  void send(Word control, Word setpoint = 0) {
-    ProcessData data;
-    data.control = control;
-    data.setpoints[0] = setpoint;
-    model.receive(data);
-    model.advance(milliseconds(3));
-  }
-  /// The same telegram every 3 ms.
-  void hold(Word control, Word setpoint, double span) {
-    for (double passed = 0.0; passed < span; passed += 0.003) send(control, setpoint);
-  }
-  void enable(Word setpoint = 0x2000, double span = 2.0) {
-    send(0x047E);
-    hold(0x047F, setpoint, span);
-  }
-  std::string status() const { return toHexWord(model.statusWord()); }
-
-  ParameterStore parameters;
-  Motor motor{MotorSettings{}};
-  InverterModel model{parameters, motor, milliseconds(300)};
-};
 
 // After mains on: not ready until the charging relay has engaged, then switch-on disabled.
 TEST_F(Inverter, ChargesFirst) {
@@ -219,67 +184,6 @@ TEST_F(Inverter, IdleWordSwitchesTheSet) {
   EXPECT_EQ(0u, model.parameterSet());
 }
 
-// A fault passes "reaction active" (0F) to "fault" (08); the voltage is off and the wheel coasts.
-TEST_F(Inverter, FaultCoasts) {
-  enable();
-  const double speed = motor.speed();
-  model.trip(30, false);
-  EXPECT_EQ("0B3F", status());
-  model.advance(milliseconds(10));
-  EXPECT_EQ("0B38", status());
-  EXPECT_EQ(30, parameters.value(700, 0, 0));
-  EXPECT_EQ(30, parameters.value(701, 0, 0));
-  EXPECT_GT(motor.speed(), 0.9 * speed);
-}
-
-// Acknowledge: on the 0 -> 1 edge of bit 7, and only when the cause is gone.
-TEST_F(Inverter, AcknowledgesOnTheEdge) {
-  send(0x04FE);
-  model.trip(21, true);
-  model.advance(milliseconds(10));
-  send(0x04FE);
-  EXPECT_EQ("0B38", status());  // no edge
-  send(0x047E);
-  send(0x04FE);
-  EXPECT_EQ("0B38", status());  // the cause stands
-  model.clearCause();
-  hold(0x04FE, 0, 0.1);
-  EXPECT_EQ("0B38", status());  // no new edge
-  send(0x047E);
-  send(0x04FE);
-  EXPECT_EQ(InverterState::kReadyToSwitchOn, model.state());
-  EXPECT_EQ(0, parameters.value(700, 0, 0));
-}
-
-// Taking the enable away acknowledges, unless an input has function 12 (BU 0020 8).
-TEST_F(Inverter, DroppingTheEnableAcknowledges) {
-  enable();
-  model.trip(21, false);
-  model.advance(milliseconds(10));
-  send(0x047F, 0x2000);
-  EXPECT_EQ("0B38", status());
-  send(0x047E);
-  EXPECT_EQ("0B31", status());
-
-  parameters.preset(423, 0, 0, 12);
-  enable();
-  model.trip(21, false);
-  model.advance(milliseconds(10));
-  send(0x047E);
-  EXPECT_EQ("0B38", status());
-}
-
-// P506 acknowledges by itself, as often as it says.
-TEST_F(Inverter, AcknowledgesByItself) {
-  parameters.preset(506, 0, 0, 1);
-  model.trip(21, false);
-  model.advance(milliseconds(20));
-  EXPECT_EQ("0B70", status());
-  model.trip(21, false);
-  model.advance(milliseconds(20));
-  EXPECT_EQ("0B38", status());
-}
-
 // Local control: status bit 9 = 0, the terminals decide; back on the bus a standing 047F acts at once.
 TEST_F(Inverter, LocalControl) {
   enable();
@@ -292,6 +196,113 @@ TEST_F(Inverter, LocalControl) {
   model.setLocalControl(true, -10.0);
   model.advance(seconds(3.0));
   EXPECT_DOUBLE_EQ(-10.0, model.frequency());
+}
+
+// Trap: a standing 047F with its setpoint acts at once when "remote control" comes back (BU 0220 5.1.2).
+TEST_F(Inverter, StandingCommandActsWhenTheBusReturns) {
+  enable();
+  model.setLocalControl(true);
+  model.advance(seconds(2.0));
+  EXPECT_EQ(InverterState::kReadyToSwitchOn, model.state());
+  model.setLocalControl(false);
+  model.advance(milliseconds(10));  // nothing new from the bus
+  EXPECT_EQ(InverterState::kOperationEnabled, model.state());
+  EXPECT_GT(model.frequency(), 0.0);
+}
+
+// Terminals may stop a drive that the bus controls (BU 0020 6, note): coasting, or the quick stop ramp.
+TEST_F(Inverter, TerminalsStopUnderBusControl) {
+  Terminals low;
+  low.coast = true;
+  model.setTerminals(low);
+  EXPECT_EQ("0B60", status());  // before any word of the bus
+  model.setTerminals(Terminals{});
+  enable();
+  model.setTerminals(low);
+  hold(0x047F, 0x2000, 0.01);
+  EXPECT_EQ("0B60", status());
+  EXPECT_GT(motor.speed(), 50.0);
+  EXPECT_EQ(block::kVoltageByTerminals, parameters.value(700, 0, 2));
+  model.setTerminals(Terminals{});
+  hold(0x047F, 0x2000, 0.1);
+  EXPECT_EQ("0B70", status());  // a standing enable does not start it
+  EXPECT_EQ(block::kStandingEnable, parameters.value(700, 0, 2));
+
+  parameters.preset(426, 0, 0, 100);
+  enable();
+  low.coast = false;
+  low.quick_stop = true;
+  model.setTerminals(low);
+  hold(0x047F, 0x2000, 0.25);
+  EXPECT_EQ("0A17", status());
+  hold(0x047F, 0x2000, 0.5);
+  EXPECT_EQ("0B50", status());
+  EXPECT_EQ(block::kQuickStopByTerminals, parameters.value(700, 0, 2));
+}
+
+// "Not ready" and "switch-on disabled" have their reason in P700[-03] (BU 0020 8).
+TEST_F(Inverter, NamesTheReasonOfASwitchOnBlock) {
+  const auto reason = [&] { return parameters.value(700, 0, 2); };
+  EXPECT_EQ(block::kNone, reason());
+  send(0x047D);
+  EXPECT_EQ(block::kVoltageByBus, reason());
+  send(0x047A);
+  EXPECT_EQ(block::kQuickStopByBus, reason());
+  send(0x047F);
+  EXPECT_EQ(block::kStandingEnable, reason());
+  send(0x047E);
+  EXPECT_EQ(block::kNone, reason());
+  model.setPowered(false);
+  model.setPowered(true);
+  model.advance(milliseconds(10));
+  EXPECT_EQ(block::kCharging, reason());
+}
+
+// SW2 and SW3 act by their functions: 4 adds to the frequency, 5 subtracts (BU 0020 6.2.2).
+TEST_F(Inverter, FurtherSetpointsAddAndSubtract) {
+  parameters.preset(547, 0, 0, 4);
+  parameters.preset(548, 0, 0, 5);
+  send(0x047E);
+  ProcessData data;
+  data.control = 0x047F;
+  data.setpoints = {0x2000, 0x1000, 0x0800};
+  for (int i = 0; i < 1000; ++i) {
+    model.receive(data);
+    model.advance(milliseconds(3));
+  }
+  EXPECT_DOUBLE_EQ(25.0 + 12.5 - 6.25, model.frequency());
+}
+
+// SK 300E, 700E and 750E can take the setpoint alone (P509 = 8) or the control word alone (9) from PROFIBUS.
+TEST(InverterOfAnOlderSeries, TakesHalfOfItsOrdersFromTheBus) {
+  Device device;
+  device.series = Series::kSk700e;
+  ParameterStore parameters{device};
+  Motor motor{MotorSettings{}};
+  InverterModel model{parameters, motor};
+  model.setPowered(true);
+  model.advance(milliseconds(301));
+  Terminals terminals;
+  terminals.enable = true;
+  terminals.frequency = 10.0;
+  model.setTerminals(terminals);
+  const auto run = [&](int source) {
+    parameters.preset(509, 0, 0, source);
+    for (const int control : {0x047E, 0x047F}) {
+      ProcessData data;
+      data.control = static_cast<Word>(control);
+      data.setpoints[0] = 0x2000;
+      model.receive(data);
+      model.advance(seconds(3.0));
+    }
+    return model.frequency();
+  };
+  EXPECT_DOUBLE_EQ(25.0, run(8));
+  EXPECT_FALSE(model.busControl());
+  EXPECT_DOUBLE_EQ(10.0, run(9));
+  EXPECT_TRUE(model.busControl());
+  EXPECT_DOUBLE_EQ(25.0, run(10));
+  EXPECT_DOUBLE_EQ(10.0, run(4));  // SK 5xxE's number for PROFIBUS is not theirs
 }
 
 // P509 other than 4 takes the control away from PROFIBUS.
@@ -309,46 +320,6 @@ TEST_F(Inverter, HasSlip) {
   EXPECT_GT(motor.rotorFrequency(), 24.0);
   parameters.preset(543, 0, 0, 23);
   EXPECT_LT(model.actualValue(0), 0x2000);
-}
-
-struct TimeoutCase {
-  int p513;               // raw, 0.1 s
-  std::uint16_t invalid;  // fault after the control word became invalid
-  std::uint16_t lost;     // fault after the master was lost
-  std::uint16_t interrupted;
-};
-
-// The table of BU 2700 7.1.1: settings x causes.
-TEST_F(Inverter, TimeoutTable) {
-  for (const TimeoutCase& row :
-       {TimeoutCase{-1, 0, 0, 0}, TimeoutCase{0, 0, 102, 108}, TimeoutCase{10, 103, 102, 108}}) {
-    for (int cause = 0; cause < 3; ++cause) {
-      model.setModuleLink(true);
-      model.setPowered(false);
-      parameters.preset(513, 0, 0, row.p513);
-      model.setPowered(true);
-      model.advance(milliseconds(301));
-      enable();
-      ASSERT_EQ("0B37", status());
-      std::uint16_t expected = row.invalid;
-      if (cause == 0) {
-        hold(0x0000, 0, 0.9);
-        EXPECT_EQ(0, model.faultNumber());
-        hold(0x0000, 0, 0.2);
-      } else if (cause == 1) {
-        expected = row.lost;
-        model.masterLost();
-      } else {
-        expected = row.interrupted;
-        model.setModuleLink(false);
-      }
-      model.advance(milliseconds(20));
-      EXPECT_EQ(expected, model.faultNumber()) << "P513 raw " << row.p513 << ", cause " << cause;
-      EXPECT_EQ(expected == 0 ? "0B37" : "0B38", status());
-      model.advance(milliseconds(500));
-      EXPECT_EQ(expected == 0, model.frequency() == 25.0);
-    }
-  }
 }
 
 }  // namespace

@@ -58,6 +58,24 @@ TEST(SimConfig, WarnsAboutUnknownKeys) {
   EXPECT_THAT(config.warnings, testing::ElementsAre(testing::HasSubstr("drives/a/gear_ration")));
 }
 
+// What differs between inverters of one interface is a key: firmware, known orders, width of answers.
+TEST(SimConfig, ReadsWhatTheInverterCan) {
+  const SimConfig config = readSimConfig(YAML::Load(
+      "drives: {a: {address: 3, series: sk700e, firmware: 1.8, ram_orders: false, double_word_answers: false, "
+      "automatic_acknowledgement_delay: 2, parameter_delay: 7}, b: {address: 4, series: sk54xe, parameters: {P546: [1, "
+      "1, 1, 1, 4, 4, 4, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]}}}"));
+  EXPECT_FALSE(config.drives[0].pkw.ram_orders);
+  EXPECT_FALSE(config.drives[0].pkw.double_word_answers);
+  EXPECT_EQ(7u, config.drives[0].pkw.delay);
+  EXPECT_EQ(2.0, config.drives[0].inverter.automatic_acknowledgement_delay);
+  RobotSim robot{config};
+  EXPECT_EQ(18, robot.drive(0).parameters().value(707));
+  EXPECT_EQ(nullptr, robot.drive(0).parameters().find(749));
+  EXPECT_EQ(10, robot.drive(0).parameters().value(509));  // PROFIBUS, on this series
+  EXPECT_EQ(4, robot.drive(1).parameters().value(546, 2, 1));
+  EXPECT_EQ(4, robot.drive(1).parameters().value(509));
+}
+
 // Wrong configurations are refused in a sentence with key, value and expectation.
 TEST(SimConfig, RefusesInWords) {
   const auto refusal = [](const std::string& text) -> std::string {

@@ -1,7 +1,9 @@
 // The whole driver below ROS on a simulated segment, in simulated time: a minute of driving takes milliseconds.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,13 +24,16 @@ class SimulatedRobot {
   struct Options {
     double slip = 2.0;  ///< Hz at rated torque
     bool auto_enable = false;
-    std::map<std::string, MapSettings::Value> node;  ///< on top of the robot's own settings
+    std::map<std::string, MapSettings::Value> node;    ///< on top of the robot's own settings
+    std::map<std::string, MapSettings::Value> drives;  ///< of both drives, on top of their own
+    std::vector<sim::ParameterPreset> parameters;      ///< of both inverters
     std::vector<sim::ParameterPreset> left_parameters;
+    int ppo_type = 1;  ///< as set at the inverters
   };
 
   SimulatedRobot() : SimulatedRobot(Options{}) {}
   explicit SimulatedRobot(const Options& options) {
-    const auto drives = driveSettings();
+    const auto drives = driveSettings(options);
     const MapSettings node{"~", nodeSettings(options)};
     config_ = cycle::readCycleConfig(node, drives);
     transport_ = std::make_unique<ProfibusDpTransport>([this, options](const link::SerialSettings&) {
@@ -107,21 +112,29 @@ class SimulatedRobot {
   bool bringUpAndEnable() { return bringUp() && ask(cycle::RequestKind::kEnable).success; }
 
   const cycle::CycleSnapshot& snapshot() { return ports_->readSnapshot(); }
+  /// What left for a drive in the last cycle, and what came back.
+  Word controlWord(DriveIndex drive) { return snapshot().drives[drive].output.control_word; }
+  std::int16_t setpoint(DriveIndex drive) { return snapshot().drives[drive].output.setpoints[0]; }
+  Word statusWord(DriveIndex drive) { return snapshot().drives[drive].input.status_word; }
+  bool standsStill() { return std::abs(unit(0).shaftSpeed()) < 0.1 && std::abs(unit(1).shaftSpeed()) < 0.1; }
+
   sim::SimulatedSegment& segment() { return *segment_; }
   sim::DriveUnit& unit(std::size_t drive) { return segment_->drive(drive); }
+  cycle::CyclePorts& ports() { return *ports_; }
   RecordingLink& link() { return *link_; }
   Transport& transport() { return *transport_; }
   const cycle::CycleConfig& config() const { return config_; }
 
-  static std::vector<DriveSettings> driveSettings() {
-    return {driveSettings("left", 3, false), driveSettings("right", 4, true)};
+  static std::vector<DriveSettings> driveSettings(const Options& options) {
+    return {driveSettings(options, "left", 3, false), driveSettings(options, "right", 4, true)};
   }
 
  private:
-  static DriveSettings driveSettings(const std::string& name, int address, bool inverted) {
+  static DriveSettings driveSettings(const Options& options, const std::string& name, int address, bool inverted) {
     auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
     settings->set("address", address).set("series", "sk5xxe").set("ppo_type", 1).set("joint", name + "_wheel_joint");
     settings->set("gear_ratio", 20.0).set("pole_pairs", 2).set("inverted", inverted);
+    for (const auto& [key, value] : options.drives) settings->set(key, value);
     return {name, settings};
   }
   static std::map<std::string, MapSettings::Value> nodeSettings(const Options& options) {
@@ -144,7 +157,11 @@ class SimulatedRobot {
       drive.gear_ratio = 20.0;
       drive.inverted = right;
       drive.motor.slip = options.slip;
-      if (!right) drive.parameters = options.left_parameters;
+      drive.slave.ppo_type = options.ppo_type;
+      drive.parameters = options.parameters;
+      if (!right) {
+        drive.parameters.insert(drive.parameters.end(), options.left_parameters.begin(), options.left_parameters.end());
+      }
       config.drives.push_back(drive);
     }
     config.body = sim::BodyConfig{{0}, {1}, 0.1, 0.5};

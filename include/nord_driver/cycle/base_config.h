@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "nord_driver/core/time.h"
-#include "nord_driver/robot/diff_drive_kinematics.h"
+#include "nord_driver/robot/base_kinematics.h"
 #include "nord_driver/robot/twist_limiter.h"
 #include "nord_driver/transport/settings.h"
 #include "nord_driver/transport/transport.h"
@@ -15,16 +15,24 @@ namespace nord_driver::cycle {
 struct BaseConfig {
   std::vector<DriveIndex> left;
   std::vector<DriveIndex> right;
-  robot::DiffDriveGeometry geometry;
+  robot::BaseKind kind = robot::BaseKind::kDifferential;
+  robot::BaseGeometry geometry;
+  /// rad/s, one for each of `wheels()`, infinity where there is none; empty: no joint has one.
+  std::vector<double> joint_velocity_limits;
   robot::TwistLimits limits;
   bool open_loop = false;
   std::size_t velocity_rolling_window_size = 10;
+
+  /// The drives in the order of the kinematics: left, then right, each front to rear.
+  std::vector<DriveIndex> wheels() const;
 };
 
 /// Joint of every drive, in the order of the drives; empty where a drive has none.
 using JointNames = std::vector<std::string>;
 
-/// No `left_wheel`: no base (nothing is read). Throws ConfigError.
-std::optional<BaseConfig> readBaseConfig(const Settings& settings, const JointNames& joints);
+/// No `left_wheel`: no base (nothing is read). `robot_description` is the text of the URDF, empty without one: it gives
+/// the sizes that are not typed in and the velocity limits of the joints. Throws ConfigError.
+std::optional<BaseConfig> readBaseConfig(const Settings& settings, const JointNames& joints,
+                                         const std::string& robot_description = {});
 
 }  // namespace nord_driver::cycle

@@ -1,10 +1,12 @@
 // From the newest velocity command to the speeds of the wheels, and from the wheels' speeds to the pose of the base.
 #pragma once
 
+#include <memory>
+
 #include "nord_driver/core/time.h"
 #include "nord_driver/cycle/base_config.h"
 #include "nord_driver/cycle/commands.h"
-#include "nord_driver/robot/diff_drive_kinematics.h"
+#include "nord_driver/robot/base_kinematics.h"
 #include "nord_driver/robot/odometry.h"
 #include "nord_driver/robot/twist_limiter.h"
 #include "nord_driver/robot/wheel_speeds.h"
@@ -15,11 +17,12 @@ namespace nord_driver::cycle {
 /// forgets its velocity, so that the next start begins from standstill.
 class BaseMotion {
  public:
+  /// Throws std::invalid_argument in words: a geometry, limit or number of wheels that cannot be.
   BaseMotion(const BaseConfig& config, Duration cmd_vel_timeout);
 
   /// The wheel speeds for this cycle. `driving`: the drives follow setpoints now; `follow`: the command may be followed
   /// (otherwise the base ramps to zero along the deceleration limit). `max_speeds`: what 100 % of the setpoint means at
-  /// each side, in rad/s: a base that would exceed it is scaled as a whole.
+  /// each wheel, in rad/s: a base that would exceed it, or a joint's own limit, is scaled as a whole.
   robot::WheelSpeeds pollWheels(const TwistCommand& command, bool driving, bool follow,
                                 const robot::WheelSpeeds& max_speeds, Instant now, Duration dt) noexcept;
   /// The velocity behind the last wheel speeds (what `cmd_vel_out` tells).
@@ -34,7 +37,10 @@ class BaseMotion {
   const robot::Odometry& odometry() const noexcept { return odometry_; }
 
  private:
-  robot::DiffDriveKinematics kinematics_;
+  robot::Twist2d within(const robot::WheelSpeeds& limits, const robot::Twist2d& target) const noexcept;
+
+  std::unique_ptr<robot::BaseKinematics> kinematics_;
+  robot::WheelSpeeds joint_limits_;
   robot::TwistLimiter limiter_;
   robot::Odometry odometry_;
   Duration timeout_;

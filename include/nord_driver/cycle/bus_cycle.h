@@ -10,7 +10,8 @@
 #include "nord_driver/cycle/cycle_config.h"
 #include "nord_driver/cycle/cycle_ports.h"
 #include "nord_driver/cycle/cycle_statistics.h"
-#include "nord_driver/cycle/device_reader.h"
+#include "nord_driver/cycle/drive_parameters.h"
+#include "nord_driver/cycle/maintenance.h"
 #include "nord_driver/cycle/supervisor.h"
 #include "nord_driver/drive/drive.h"
 #include "nord_driver/robot/joint_position.h"
@@ -31,29 +32,24 @@ class BusCycle {
  private:
   /// One drive with everything the cycle keeps beside it.
   struct Axis {
-    explicit Axis(const DriveSetup& setup) : reader(setup.series), typed_max_frequency(setup.typed_max_frequency) {}
-    DeviceReader reader;
-    std::uint32_t read_id = 0;  // of the reader's question
-    std::optional<double> typed_max_frequency;
+    Axis(DriveIndex drive, const DriveSetup& setup)
+        : parameters(drive, setup.name, setup.series, setup.typed_max_frequency) {}
+    DriveParameters parameters;
     robot::JointPosition joint;
     bool known = false;  // has answered at least once
   };
-  struct ParameterJob {
-    Request request;
-    DriveIndex drive = 0;
-  };
 
   void takeRequests(Instant now) noexcept;
-  void startParameterJob(const Request& request) noexcept;
+  void takeRequest(const Request& request, Instant now) noexcept;
+  void selectParameterSet(const Request& request, Instant now) noexcept;
+  Completion resetOdometry(const Request& request) noexcept;
   Sentence movingCommand(Instant now) noexcept;
   void command(Instant now, Duration dt) noexcept;
   void commandBase(Instant now, Duration dt) noexcept;
   void commandSingles(Instant now) noexcept;
   robot::WheelSpeeds maxWheelSpeeds() const noexcept;
   void handleInputs(Instant now) noexcept;
-  void readDevices() noexcept;
-  void takeParameterResult(const profile::ParameterResult& result) noexcept;
-  void scale(DriveIndex drive) noexcept;
+  void runParameters(Instant now) noexcept;
   void measure(Duration dt) noexcept;
   void measureBase(Duration dt) noexcept;
   void publish(Instant now) noexcept;
@@ -66,14 +62,13 @@ class BusCycle {
   std::vector<std::string> names_;
   std::vector<drive::Drive> drives_;
   std::vector<Axis> axes_;
-  std::optional<BaseConfig> base_config_;
   std::optional<BaseMotion> base_;
+  std::vector<DriveIndex> wheels_;  // the drives of the base, in the order of its wheel speeds
   Supervisor supervisor_;
+  Maintenance maintenance_;
   CycleStatistics statistics_;
   std::vector<profile::ProcessOutput> outputs_;
   std::vector<DriveExchange> inputs_;
-  FixedVector<ParameterJob, 16> parameter_jobs_;
-  std::uint32_t read_sequence_ = 0;
   CycleSnapshot snapshot_;
   std::optional<Instant> last_command_;
   std::optional<Instant> last_input_;

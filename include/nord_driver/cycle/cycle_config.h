@@ -41,7 +41,9 @@ struct CycleConfig {
   Duration period() const noexcept { return seconds(1.0 / cycle_rate); }
 };
 
+/// `robot_description`: URDF text the base's sizes and joint limits are taken from; may be empty.
 /// Throws ConfigError naming key, value and what was expected.
-CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSettings>& drives);
+CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSettings>& drives,
+                            const std::string& robot_description = {});
 
 }  // namespace nord_driver::cycle

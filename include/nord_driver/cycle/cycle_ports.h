@@ -12,6 +12,7 @@
 #include "nord_driver/cycle/commands.h"
 #include "nord_driver/cycle/request.h"
 #include "nord_driver/cycle/snapshot.h"
+#include "nord_driver/cycle/trace_feed.h"
 
 namespace nord_driver::cycle {
 
@@ -32,6 +33,8 @@ class CyclePorts {
   std::optional<Completion> waitCompletion(Duration limit);
   /// One thread only; the reference holds until the next call.
   const CycleSnapshot& readSnapshot() { return snapshot_.read(); }
+  /// What each side may do with it stands at its functions.
+  TraceFeed& trace() noexcept { return trace_; }
 
   // The cycle's thread.
   const TwistCommand& newestBaseCommand() { return base_command_.read(); }
@@ -48,6 +51,7 @@ class CyclePorts {
   EventRing<Completion, 64> completions_;
   sem_t completed_;
   LatestValue<CycleSnapshot> snapshot_;
+  TraceFeed trace_;
 };
 
 }  // namespace nord_driver::cycle

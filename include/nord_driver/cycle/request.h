@@ -15,12 +15,18 @@ enum class RequestKind : std::uint8_t {
   kDisable,    ///< ramp to zero, then OFF1 until "ready to switch on"
   kQuickStop,  ///< OFF3
   kResetOdometry,
+  kAcknowledge,         ///< faults; refused while their cause stands
+  kSelectParameterSet,  ///< one drive, disabled and at standstill
   kReadParameter,
+  kWriteParameter,
   kShutDown,  ///< as kDisable for all drives, and no enable after it
 };
 
 /// All drives of the node.
 constexpr DriveIndex kAllDrives = static_cast<DriveIndex>(-1);
+
+/// Ids from here on are the cycle's own; callers stay below.
+constexpr std::uint32_t kFirstOwnRequest = 0x8000'0000u;
 
 struct Request {
   std::uint32_t id = 0;  ///< comes back in the completion; 0: nobody waits for one
@@ -28,14 +34,15 @@ struct Request {
   DriveIndex drive = kAllDrives;
   Duration patience{};  ///< the longest the asker waits
   profile::ParameterRequest parameter;
-  bool active_set = false;  ///< the parameter's set is the one in force, whichever that is
+  bool active_set = false;         ///< the parameter's set is the one in force, whichever that is
+  std::uint8_t parameter_set = 0;  ///< for kSelectParameterSet, 1..4
 };
 
 struct Completion {
   std::uint32_t id = 0;
   bool success = false;
   Sentence message;
-  profile::ParameterResult parameter;
+  std::int32_t raw = 0;  ///< the parameter's value, read or read back
 };
 
 }  // namespace nord_driver::cycle

@@ -10,6 +10,7 @@
 //  - An inverter that falls silent while it was not idle may still hear us: the stop word goes on into the dark, for
 //    shutdown_timeout; then the set is learned anew. When it answers it is idle, in the set it then reports.
 //  - Whatever ends "operation enabled" without being asked ends in the idle word and stays so until the next enable.
+//  - The set is switched at standstill only: setpoint 1 is a share of P105 of the set in force (BU 0020 7.3.5).
 //  - Under local control the set follows the inverter: its terminals choose it, and our word acts when control returns.
 #pragma once
 
@@ -19,6 +20,7 @@
 
 #include "nord_driver/core/time.h"
 #include "nord_driver/core/units.h"
+#include "nord_driver/drive/acknowledge_edge.h"
 #include "nord_driver/drive/drive_report.h"
 #include "nord_driver/profile/control_word.h"
 #include "nord_driver/profile/process_data.h"
@@ -31,11 +33,13 @@ struct DriveConfig {
   /// P105 of sets 1..4 where typed in; others come by setMaxFrequency().
   std::array<std::optional<Hertz>, 4> max_frequency;
   Duration drive_timeout = seconds(0.05);     ///< silence that counts as offline
-  Duration enable_timeout = seconds(2.0);     ///< from the request to "operation enabled"
+  Duration enable_timeout = seconds(2.0);     ///< from the request to "operation enabled", or to the new parameter set
   Duration shutdown_timeout = seconds(10.0);  ///< OFF1 until "ready to switch on", then quick stop
   /// How long the acknowledge bit is held low and then high: longer than the slowest path to the inverter (the module's
   /// own cycle adds 5 ms, P153).
   Duration acknowledge_time = seconds(0.1);
+  /// |actual value 1| that counts as standstill for switching the parameter set, of 16384.
+  std::int16_t near_standstill = 164;
   /// Cross-check the sign of actual value 1 with status bits 11 and 12. No manual defines that sign in left rotation.
   bool check_direction = true;
 };
@@ -44,7 +48,8 @@ struct DriveConfig {
 /// answer to a request stands in report(): the phase, or the refusal.
 class Drive {
  public:
-  explicit Drive(const DriveConfig& config) : config_(config), max_frequency_(config.max_frequency) {}
+  explicit Drive(const DriveConfig& config)
+      : config_(config), max_frequency_(config.max_frequency), edge_(config.acknowledge_time) {}
 
   /// `fresh`: the inverter answered in this cycle. An all-zero status word counts as no answer.
   void handleInput(const profile::ProcessInput& input, bool fresh, Instant now) noexcept;
@@ -59,9 +64,15 @@ class Drive {
   void requestShutdown(Instant now) noexcept;
   /// From every phase; offline it is what goes on into the dark.
   void requestQuickStop(Instant now) noexcept;
-  /// Takes the latch away when no fault bit is set, else gives the inverter one acknowledge edge. Refused outside
-  /// kIdle.
+  /// OFF2: the output goes off at once and the motor coasts, without any braking. From every phase; nothing but
+  /// "switch-on disabled" (or a fault) ends it, a quick stop neither.
+  void requestCoast(Instant now) noexcept;
+  /// Takes the latch away when no fault bit is set, else gives the inverter one acknowledge edge; only faults whose
+  /// cause is gone follow it (BU 2700 6.4.1 bit 7). Refused outside kIdle. report().acknowledge tells the outcome.
   void requestAcknowledge(Instant now) noexcept;
+  /// Commands set 1..4 from kIdle at standstill. report().set_switch is done when the status word shows the set;
+  /// without that, after enable_timeout, the set in force is commanded again.
+  void requestParameterSet(std::uint8_t set, Instant now) noexcept;
 
   /// Used only while enabled, and forgotten with it. What is no number becomes setpoint 0.
   void setVelocity(RadPerSec joint) noexcept;
@@ -82,10 +93,14 @@ class Drive {
   void learnSet(profile::StatusWord status, bool joined) noexcept;
   void checkStops(profile::StatusWord status, Instant now) noexcept;
   void follow(profile::StatusWord status, Instant now) noexcept;
-  void followEnabling(profile::DriveState state, Instant now) noexcept;
+  void followEnabling(profile::StatusWord status, Instant now) noexcept;
   void followStopping(profile::DriveState state, Instant now) noexcept;
   void followQuickStop(profile::DriveState state, Instant now) noexcept;
   void followAcknowledging(profile::StatusWord status, Instant now) noexcept;
+  void followSwitchingSet(profile::StatusWord status, Instant now) noexcept;
+  void followCoasting(profile::DriveState state, Instant now) noexcept;
+  Refusal setRefusal(std::uint8_t set) const noexcept;
+  void breakOff(Refusal why) noexcept;
   void measure() noexcept;
   void enter(Phase phase, Instant now) noexcept;
   void stop(StopCause cause, Instant now) noexcept;
@@ -97,6 +112,7 @@ class Drive {
   DriveConfig config_;
   std::array<std::optional<Hertz>, 4> max_frequency_;
   DriveReport report_;
+  AcknowledgeEdge edge_;
   Instant phase_since_{};
   Instant last_useful_{};
   Instant dark_until_{};  // offline: the stop word goes on until then

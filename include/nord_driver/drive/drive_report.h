@@ -22,18 +22,23 @@ enum class Phase : std::uint8_t {
   kHoldingZero,    ///< 047F and setpoint 0: down the inverter's own ramp, torque stays on
   kStopping,       ///< OFF1: 047E until "ready to switch on"
   kQuickStopping,  ///< OFF3: 047B until "switch-on disabled"
+  kSwitchingSet,   ///< 047E with another set, until the status word confirms it
+  kCoasting,       ///< OFF2: 047D until "switch-on disabled"; the motor is not braked
 };
 
 /// Why the drive stopped, or was stopped by the driver, since it was last enabled. The first cause stays.
 enum class StopCause : std::uint8_t {
   kNone,
   kFault,            ///< the fault bit
-  kUnaskedExit,      ///< "operation enabled" left without being asked: OFF2/OFF3 at terminals, switch-on disabled, ...
+  kUnaskedExit,      ///< "operation enabled" left without being asked, and bits 4 and 5 do not say why
+  kOff2,             ///< the same with status bit 4 = 0: OFF2 (coasting) at terminals
+  kOff3,             ///< the same with status bit 5 = 0: OFF3 (quick stop, emergency stop) at terminals
   kLocalControl,     ///< status bit 9 = 0: terminals have taken over
   kSilent,           ///< no fresh status word for drive_timeout
   kParameterSet,     ///< another parameter set came into force without being asked for
   kQuickStop,        ///< the user's quick stop
   kShutdownTimeout,  ///< OFF1 did not end in shutdown_timeout: quick stop
+  kCoast,            ///< the user's OFF2
 };
 
 /// Why a request was not carried out.
@@ -44,13 +49,25 @@ enum class Refusal : std::uint8_t {
   kFaultLatched,  ///< a fault was seen and not acknowledged since, though its bit is gone
   kLocalControl,
   kStopping,             ///< OFF1 or a quick stop has not ended yet
-  kBusy,                 ///< a fault is being acknowledged
+  kBusy,                 ///< a fault is being acknowledged, or the parameter set switched
   kWrongState,           ///< from this state no enabling starts
   kParameterSet,         ///< the set in force is not the one commanded
   kMaxFrequencyUnknown,  ///< P105 of the set in force: nobody could say what a setpoint means
   kEnableTimeout,        ///< the inverter did not follow within enable_timeout
   kStopped,              ///< a stop came before the inverter had followed
   kCauseStands,          ///< acknowledging: the fault is still there
+  kNotDisabled,          ///< switching the set: the drive is enabled or being stopped
+  kTurning,              ///< switching the set: actual value 1 is not near zero
+  kNoSuchSet,            ///< the parameter sets are 1..4
+  kSetNotConfirmed,      ///< status bits 14 and 15 did not show the new set within enable_timeout
+};
+
+/// How far a request is that takes its time.
+enum class RequestState : std::uint8_t { kNone, kRunning, kDone, kRefused };
+
+struct RequestReport {
+  RequestState state = RequestState::kNone;
+  Refusal refusal = Refusal::kNone;  ///< with kRefused
 };
 
 struct DriveReport {
@@ -78,6 +95,9 @@ struct DriveReport {
   Refusal refusal = Refusal::kNone;  ///< of the last request
   Word refusal_status_word = 0;      ///< the last status word at that moment
   profile::DriveState refusal_state = profile::DriveState::kUnknown;
+
+  RequestReport acknowledge;  ///< the last acknowledging; kCauseStands while the fault cannot be acknowledged
+  RequestReport set_switch;   ///< the last switching of the parameter set
 };
 
 const char* toString(Phase phase) noexcept;

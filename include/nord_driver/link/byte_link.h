@@ -10,11 +10,12 @@
 
 namespace nord_driver::link {
 
-/// Errors of the line as counted by the driver or the receiver.
+/// Errors of the line as counted by the driver or the receiver, since the link was made.
 struct LineCounters {
   std::uint64_t parity_errors = 0;
   std::uint64_t framing_errors = 0;
   std::uint64_t overruns = 0;
+  std::uint64_t collisions = 0;  ///< what came back of our own telegram was not what was sent
 };
 
 /// Life: closed -> open() -> open -> close() or a failure -> closed. Nothing here throws; a failed call closes the link
@@ -47,6 +48,8 @@ class ByteLink {
   virtual LineCounters lineCounters() const noexcept { return {}; }
   /// One sentence naming the device and what went wrong; empty when nothing did.
   virtual const std::string& lastError() const noexcept = 0;
+  /// One sentence about an open device that works, but not as it could; empty when there is nothing to say.
+  virtual const char* warning() const noexcept { return ""; }
 };
 
 }  // namespace nord_driver::link

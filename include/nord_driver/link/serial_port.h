@@ -4,50 +4,56 @@
 #include <cstdint>
 #include <string>
 
-#include "nord_driver/core/baud_rate.h"
 #include "nord_driver/link/byte_link.h"
+#include "nord_driver/link/device_finder.h"
+#include "nord_driver/link/echo_filter.h"
+#include "nord_driver/link/line_errors.h"
+#include "nord_driver/link/serial_settings.h"
+#include "nord_driver/link/serial_system.h"
 
 namespace nord_driver::link {
 
-struct SerialSettings {
-  std::string device;  ///< "/dev/ttyUSB0", or a link to a pty
-  BaudRate baud_rate{500'000};
-};
-
-/// Uses termios2, because PROFIBUS rates such as 93.75 and 187.5 kbit/s have no constant of their own; the rate is read
-/// back and refused when it is more than 0.5 % off. One process only: a second one on the same device is refused, since
-/// two masters that do not know of each other would talk into each other's telegrams.
+/// The rate is read back and refused when it is more than 0.5 % off. One process only: a second one on the same device
+/// is refused, since two masters that do not know of each other would talk into each other's telegrams.
 class SerialPort final : public ByteLink {
  public:
-  explicit SerialPort(SerialSettings settings);
+  /// `system` is kept by reference: Linux' own, or one a test made.
+  explicit SerialPort(const SerialSettings& settings, SerialSystem& system = linuxSerialSystem());
   ~SerialPort() override;
   SerialPort(const SerialPort&) = delete;
   SerialPort& operator=(const SerialPort&) = delete;
 
   bool open() noexcept override;
   void close() noexcept override;
-  bool isOpen() const noexcept override { return fd_ >= 0; }
+  bool isOpen() const noexcept override { return descriptor_ >= 0; }
   bool write(ByteView telegram) noexcept override;
   std::size_t read(std::uint8_t* buffer, std::size_t capacity) noexcept override;
   void discardInput() noexcept override;
+  /// Our own echo is nothing to be read.
   bool waitReadable(Instant until) noexcept override;
-  void sleepUntil(Instant when) noexcept override;
-  Instant now() const noexcept override;
+  void sleepUntil(Instant when) noexcept override { system_.sleepUntil(when); }
+  Instant now() const noexcept override { return system_.now(); }
   bool keepsBaudRate() const noexcept override { return !is_pty_; }
   LineCounters lineCounters() const noexcept override;
   const std::string& lastError() const noexcept override { return error_; }
+  const char* warning() const noexcept override { return warning_.c_str(); }
 
  private:
-  bool configure() noexcept;
-  bool setRateAndFrame() noexcept;
-  void requestLowLatency() noexcept;
-  bool fail(const char* what, int error) noexcept;
+  bool setUp() noexcept;
+  long receive(std::uint8_t* buffer, std::size_t capacity) noexcept;
+  void receiveThroughFilter() noexcept;
+  bool fail(const char* what, int error = 0) noexcept;
 
   SerialSettings settings_;
-  int fd_ = -1;
+  SerialSystem& system_;
+  DeviceFinder finder_;
+  EchoFilter echo_;
+  int descriptor_ = -1;
   bool is_pty_ = false;
-  LineCounters counters_at_open_;
+  DevicePath device_;  // what is open, or was last
   std::string error_;
+  Sentence warning_;
+  mutable LineErrors errors_;  // asked of the kernel when somebody wants to know
 };
 
 }  // namespace nord_driver::link

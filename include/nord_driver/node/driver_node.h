@@ -24,6 +24,7 @@
 #include "nord_driver/node/request_broker.h"
 #include "nord_driver/node/services.h"
 #include "nord_driver/node/snapshot_publisher.h"
+#include "nord_driver/node/tracing.h"
 #include "nord_driver/transport/transport.h"
 
 namespace nord_driver::node {
@@ -65,6 +66,7 @@ class DriverNode {
   std::unique_ptr<BusPublisher> bus_publisher_;
   std::unique_ptr<Diagnostics> diagnostics_;
   std::unique_ptr<Services> services_;
+  std::unique_ptr<Tracing> tracing_;
   std::optional<SnapshotPublisher> publisher_;
   std::vector<ros::Subscriber> subscribers_;
   ros::Subscriber command_subscriber_;

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "nord_driver/cycle/cycle_config.h"
+#include "nord_driver/cycle/trace_config.h"
 #include "nord_driver/node/ros_settings.h"
 #include "nord_driver/transport/settings.h"
 
@@ -27,13 +29,15 @@ struct PublishConfig {
 struct NodeConfig {
   std::string transport;  ///< plugin name with its prefix
   bool auto_enable = false;
+  bool allow_raw_parameters = false;
   PublishConfig publish;
   cycle::CycleConfig cycle;
+  std::optional<cycle::TraceConfig> trace;
   std::vector<DriveSettings> drives;
   std::shared_ptr<RosSettings> bus;
 };
 
 /// Everything except what the transport itself reads (`bus`, and each drive's address). Throws ConfigError.
-NodeConfig readNodeConfig(const RosSettings& settings);
+NodeConfig readNodeConfig(const RosSettings& settings, const std::string& robot_description = {});
 
 }  // namespace nord_driver::node

@@ -20,7 +20,7 @@ class RequestBroker {
   RequestBroker& operator=(const RequestBroker&) = delete;
 
   /// Blocks until the cycle has answered, at most the request's patience and a second more. Never throws for a refusal:
-  /// the completion says why.
+  /// the completion says why; its id is 0 when the request did not reach the cycle.
   cycle::Completion call(cycle::Request request);
 
  private:

@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "nord_driver/ReadParameter.h"
+#include "nord_driver/SelectParameterSet.h"
+#include "nord_driver/WriteParameter.h"
 #include "nord_driver/cycle/request.h"
 #include "nord_driver/node/node_config.h"
 #include "nord_driver/node/request_broker.h"
+#include "nord_driver/profile/parameter_catalogue.h"
 
 namespace nord_driver::node {
 
@@ -24,7 +27,13 @@ class Services {
   cycle::Completion ask(cycle::RequestKind kind, DriveIndex drive);
   void enable(DriveIndex drive, std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   void trigger(cycle::RequestKind kind, DriveIndex drive, std_srvs::Trigger::Response& response);
+  template <typename RosRequest>
+  std::string addressParameter(DriveIndex drive, const RosRequest& from, cycle::Request& to,
+                               const profile::ParameterInfo*& info) const;
+  void selectSet(DriveIndex drive, SelectParameterSet::Request& request, SelectParameterSet::Response& response);
   void readParameter(DriveIndex drive, ReadParameter::Request& request, ReadParameter::Response& response);
+
+  void writeParameter(DriveIndex drive, WriteParameter::Request& request, WriteParameter::Response& response);
 
   const NodeConfig& config_;
   RequestBroker& broker_;

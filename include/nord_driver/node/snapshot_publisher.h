@@ -24,6 +24,9 @@ class SnapshotPublisher {
   SnapshotPublisher(const SnapshotPublisher&) = delete;
   SnapshotPublisher& operator=(const SnapshotPublisher&) = delete;
 
+  /// False when publishing has failed for good.
+  bool healthy() const noexcept { return healthy_; }
+
  private:
   void run();
   void logChanges(const cycle::CycleSnapshot& snapshot);
@@ -38,6 +41,7 @@ class SnapshotPublisher {
   std::string last_bus_text_;
   std::string last_base_text_;
   std::atomic<bool> stop_{false};
+  std::atomic<bool> healthy_{true};
   std::thread thread_;
 };
 

@@ -51,6 +51,7 @@ constexpr std::uint16_t kInvalidNumber = 0;
 constexpr std::uint16_t kWrongSubIndex = 3;
 constexpr std::uint16_t kNoArray = 4;
 constexpr std::uint16_t kInvalidOrder = 201;
+constexpr std::uint16_t kNotRepresentable = 202;
 }  // namespace pkw_error
 
 struct PkwOrder {

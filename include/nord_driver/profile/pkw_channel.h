@@ -36,7 +36,8 @@ class PkwChannel {
   /// Ends all pending requests as offline.
   void handleOffline(Instant now) noexcept;
   std::optional<ParameterResult> pollResult() noexcept;
-  /// Answers seen while an order ran that were not its own.
+  /// Answers seen while an order ran that belong to no order of ours: another master's, or nonsense. The "no answer" of
+  /// the pause and the answer to the order before only mean that the inverter has not executed this one yet.
   std::uint64_t stale() const noexcept { return stale_; }
 
  private:
@@ -45,6 +46,7 @@ class PkwChannel {
   void startNext(Instant now) noexcept;
   void pause() noexcept;
   bool mayStart() const noexcept;
+  void countStale(const PkwWords& words, const PkwAnswer& answer) noexcept;
   bool fallBack(std::uint16_t error_number) noexcept;
   void finish(ParameterOutcome outcome, std::int32_t raw, std::uint16_t error_number) noexcept;
 
@@ -52,6 +54,8 @@ class PkwChannel {
   FixedVector<ParameterRequest, kCapacity> waiting_;  // the first is the running one
   FixedVector<ParameterResult, kCapacity> results_;
   PkwOrder order_;
+  PkwOrder sent_;      // the last order that went out: order_, while it runs
+  PkwOrder previous_;  // the one before it
   Phase phase_ = Phase::kPause;
   Instant deadline_{};
   bool prepared_ = false;        // order_ and deadline_ belong to waiting_[0]

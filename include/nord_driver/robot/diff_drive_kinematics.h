@@ -1,20 +1,9 @@
-// From the motion of a two-sided base to its wheels and back.
+// The kinematics of a two-sided base: differential drive and skid steer.
 #pragma once
 
-#include "nord_driver/robot/twist.h"
-#include "nord_driver/robot/wheel_speeds.h"
+#include "nord_driver/robot/base_kinematics.h"
 
 namespace nord_driver::robot {
-
-/// What has to be known of the base, named as diff_drive_controller names it.
-struct DiffDriveGeometry {
-  double wheel_separation = 0.0;    ///< m, between the contact points of the two sides
-  double left_wheel_radius = 0.0;   ///< m
-  double right_wheel_radius = 0.0;  ///< m
-  double wheel_separation_multiplier = 1.0;
-  double left_wheel_radius_multiplier = 1.0;
-  double right_wheel_radius_multiplier = 1.0;
-};
 
 /// Differential and skid-steer kinematics.
 ///
@@ -25,16 +14,18 @@ struct DiffDriveGeometry {
 /// - `base_link` lies midway between the two contact points,
 /// - the wheels roll without slip on a plane and touch it all the time,
 /// - the radii are those of the loaded wheels and do not change.
-class DiffDriveKinematics {
+///
+/// From measured wheels, a side moves with the mean of its wheels.
+class DiffDriveKinematics final : public BaseKinematics {
  public:
-  /// Throws std::invalid_argument with a sentence naming the field: every length and multiplier is finite and greater
-  /// than zero.
-  explicit DiffDriveKinematics(const DiffDriveGeometry& geometry);
+  /// Throws std::invalid_argument with a sentence naming the field or the number of wheels: at least one a side, at
+  /// most kMaxWheels in all.
+  explicit DiffDriveKinematics(const BaseGeometry& geometry, std::size_t left_wheels = 1, std::size_t right_wheels = 1);
 
-  /// The wheel speeds (rad/s) that give this motion.
-  WheelSpeeds wheels(const Twist2d& twist) const noexcept;
-  /// The motion that these wheel speeds (rad/s) give.
-  Twist2d twist(const WheelSpeeds& wheels) const noexcept;
+  std::size_t wheelCount() const noexcept override { return left_wheels_ + right_wheels_; }
+  bool movesSideways() const noexcept override { return false; }
+  WheelSpeeds wheels(const Twist2d& twist) const noexcept override;
+  Twist2d twist(const WheelSpeeds& wheels) const noexcept override;
 
   double wheelSeparation() const noexcept { return separation_; }     ///< m, multiplier included
   double leftWheelRadius() const noexcept { return left_radius_; }    ///< m, multiplier included
@@ -44,6 +35,8 @@ class DiffDriveKinematics {
   double separation_;
   double left_radius_;
   double right_radius_;
+  std::size_t left_wheels_;
+  std::size_t right_wheels_;
 };
 
 }  // namespace nord_driver::robot

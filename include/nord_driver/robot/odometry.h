@@ -19,9 +19,9 @@ struct Pose2d {
 /// Integrates velocities to a pose that never jumps.
 ///
 /// The bus gives velocities (IW1), not wheel angles, so the way of a cycle is the mean of the velocities at its two
-/// ends times its measured duration (trapezoid rule), and that way is laid out as the exact arc. Closed loop hands in
-/// the twist of the measured wheel speeds, open loop the limited command. What happens while a drive is away cannot be
-/// seen: `rebase` before the first sample after a gap keeps the gap out of the pose.
+/// ends times its measured duration (trapezoid rule), and that way is laid out as the exact arc, sideways motion
+/// included. Closed loop hands in the twist of the measured wheel speeds, open loop the limited command. What happens
+/// while a drive is away cannot be seen: `rebase` before the first sample after a gap keeps the gap out of the pose.
 class Odometry {
  public:
   static constexpr std::size_t kMaxWindow = 10000;
@@ -34,9 +34,9 @@ class Odometry {
   /// `rebase` only sets the velocity to go on from. A sample that is not finite is ignored, and so is its time; a `dt`
   /// that is not positive moves nothing.
   void update(const Twist2d& twist, Duration dt) noexcept;
-  /// Moves the pose along an arc: `distance` in m (signed, along the arc), turning by `angle` in rad. Values that are
-  /// not finite move nothing.
-  void moveAlongArc(double distance, double angle) noexcept;
+  /// Moves the pose along an arc: `forward` and `left` in m (signed, in the base's frame, which turns along), turning
+  /// by `angle` in rad. Values that are not finite move nothing.
+  void moveAlongArc(double forward, double angle, double left = 0.0) noexcept;
 
   /// Puts the base at `pose`, at rest.
   void reset(const Pose2d& pose = {}) noexcept;
@@ -49,8 +49,9 @@ class Odometry {
 
  private:
   struct Step {
-    double distance = 0.0;
+    double forward = 0.0;
     double angle = 0.0;
+    double left = 0.0;
     double dt = 0.0;
   };
 

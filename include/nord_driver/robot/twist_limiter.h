@@ -1,5 +1,7 @@
-// Limits both axes of a base together, so that a limit changes how fast the path is driven and not which path.
+// Limits the axes of a base together, so that a limit changes how fast the path is driven and not which path.
 #pragma once
+
+#include <array>
 
 #include "nord_driver/core/time.h"
 #include "nord_driver/robot/speed_limiter.h"
@@ -10,12 +12,13 @@ namespace nord_driver::robot {
 struct TwistLimits {
   SpeedLimits linear_x;
   SpeedLimits angular_z;
+  SpeedLimits linear_y;                   ///< for bases that can go sideways
   bool limit_axes_independently = false;  ///< as diff_drive_controller does: each axis for itself, the path may bend
 };
 
 /// Follows a target twist step by step.
 ///
-/// By default both axes are scaled by the same factor: a target beyond a velocity limit is scaled down as a whole, and
+/// By default all axes are scaled by the same factor: a target beyond a velocity limit is scaled down as a whole, and
 /// a change runs along the straight line from the present to the wanted twist, at the pace of the axis that needs
 /// longer. So from standstill, to standstill and between speeds on one path the curvature does not change, and the base
 /// stands as soon as it would with each axis braking for itself. Where the jerk limit and the curvature contradict each
@@ -28,18 +31,20 @@ class TwistLimiter {
   explicit TwistLimiter(const TwistLimits& limits);
 
   /// The twist after a step of `dt` towards `target`; a `dt` that is not positive changes nothing.
-  /// A target with a value that is not finite brakes both axes to zero.
+  /// A target with a value that is not finite brakes every axis to zero.
   Twist2d limit(const Twist2d& target, Duration dt) noexcept;
   /// Continues from this twist: zero after a stop that the drives made by themselves.
   void reset(const Twist2d& twist = {}) noexcept;
 
-  Twist2d twist() const noexcept { return {linear_.velocity(), angular_.velocity()}; }
+  Twist2d twist() const noexcept { return {axes_[0].velocity(), axes_[1].velocity(), axes_[2].velocity()}; }
 
  private:
-  void followTogether(Twist2d target, double dt) noexcept;
+  using Values = std::array<double, 3>;  // in the order of Twist2d's fields
 
-  SpeedLimiter linear_;
-  SpeedLimiter angular_;
+  static Values valuesOf(const Twist2d& twist) noexcept { return {twist.linear_x, twist.angular_z, twist.linear_y}; }
+  void followTogether(Values target, double dt) noexcept;
+
+  std::array<SpeedLimiter, 3> axes_;
   bool independent_;
 };
 

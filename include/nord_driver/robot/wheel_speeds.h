@@ -1,21 +1,27 @@
-// The speeds of the two sides of a base, and keeping them inside what the drives can turn.
+// The speeds of the wheels of a base, and keeping them inside what drives and joints can turn.
 #pragma once
+
+#include <cstddef>
+
+#include "nord_driver/core/fixed_vector.h"
 
 namespace nord_driver::robot {
 
-/// Angular velocities at the wheel joints, rad/s, positive: the wheel rolls the base forward.
-struct WheelSpeeds {
-  double left = 0.0;
-  double right = 0.0;
-};
+constexpr std::size_t kMaxWheels = 16;
 
-constexpr bool operator==(const WheelSpeeds& a, const WheelSpeeds& b) noexcept {
-  return a.left == b.left && a.right == b.right;
-}
+/// Angular velocities at the wheel joints, rad/s, positive: the wheel rolls the base forward. The left wheels first,
+/// front to rear, then the right ones likewise.
+using WheelSpeeds = FixedVector<double, kMaxWheels>;
 
-/// Scales both sides by one factor, so that neither exceeds its limit and the path keeps its curvature.
-/// A side cut alone would bend the path. `max` holds magnitudes in rad/s (share 100 % of P105 at the joint, or less);
-/// a limit that is not positive, or speeds that are not finite, give zero on both sides.
+/// True when every wheel is to stand.
+bool standsStill(const WheelSpeeds& wheels) noexcept;
+
+/// Scales all wheels by one factor, so that none exceeds its limit and the path keeps its curvature: a wheel cut alone
+/// would bend it. `max` holds a magnitude in rad/s for each wheel (share 100 % of P105 at the joint, or less; infinity:
+/// no limit); a limit that is not positive or missing, or a speed that is not finite, gives zero on all wheels.
 WheelSpeeds scaleInto(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept;
+
+/// The tighter of two limits, wheel by wheel; none (so that nothing moves) when they are not of one base.
+WheelSpeeds tighterOf(const WheelSpeeds& a, const WheelSpeeds& b) noexcept;
 
 }  // namespace nord_driver::robot

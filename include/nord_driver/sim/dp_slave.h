@@ -79,6 +79,7 @@ class DpSlave {
   void clearOutputs() noexcept;
   void toWaitParameters() noexcept;
   void showStatus() noexcept;
+  unsigned displayElement(unsigned value) const noexcept;
 
   SlaveSettings settings_;
   ParameterStore& parameters_;

@@ -1,10 +1,12 @@
-// The parameters of a simulated SK 5xxE: definitions, RAM, EEPROM and the counter of EEPROM writes.
+// The parameter values of a simulated inverter: RAM, EEPROM and the counter of EEPROM writes.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
+
+#include "nord_driver/sim/parameter_definitions.h"
 
 namespace nord_driver::sim {
 
@@ -17,22 +19,8 @@ enum class ParameterError : std::uint16_t {
   kNoArray = 4,
   kDataType = 5,
   kInvalidOrder = 201,
+  kAnswerNotPossible = 202,
 };
-
-struct ParameterDefinition {
-  std::uint16_t number;  ///< the manual's: 102 for P102
-  const char* name;
-  int divisor;            ///< raw = value * divisor: 100 for a resolution of 0.01
-  std::int32_t minimum;   ///< raw
-  std::int32_t maximum;   ///< raw
-  std::int32_t factory;   ///< raw
-  bool per_set;           ///< one value for each of the four parameter sets
-  std::uint8_t elements;  ///< array elements; 0 = no array
-  bool read_only;
-};
-
-/// All definitions, sorted by number.
-const std::vector<ParameterDefinition>& parameterDefinitions();
 
 /// Where a write goes: P560 and the order labels 11-14 decide (BU 2700 6.5).
 enum class Storage : std::uint8_t { kRam, kEeprom };
@@ -41,7 +29,9 @@ class ParameterStore {
  public:
   static constexpr unsigned kSets = 4;
 
-  ParameterStore();
+  explicit ParameterStore(const Device& device = Device{});
+
+  const Device& device() const noexcept { return device_; }
 
   const ParameterDefinition* find(unsigned number) const noexcept;
 
@@ -55,7 +45,7 @@ class ParameterStore {
                                       Storage storage) noexcept;
   /// As commissioning at the device does it, RAM and EEPROM, uncounted, limits unchecked. False: no such parameter.
   bool preset(unsigned number, unsigned set, unsigned element, std::int32_t raw) noexcept;
-  /// A value the inverter itself shows (P700, P740 ...): RAM only.
+  /// A value the inverter itself shows (P700, P740 ...): RAM only. Without such an element nothing happens.
   void show(unsigned number, unsigned element, std::int32_t raw) noexcept;
 
   /// Mains back: what was only in RAM is gone.
@@ -66,6 +56,8 @@ class ParameterStore {
  private:
   std::optional<std::size_t> slot(unsigned number, unsigned set, unsigned element) const noexcept;
 
+  Device device_;
+  std::vector<ParameterDefinition> definitions_;
   std::array<std::int16_t, 1000> index_{};  // parameter number -> definition, -1 = none
   std::vector<std::size_t> first_;          // definition -> first slot
   std::vector<std::int32_t> ram_;

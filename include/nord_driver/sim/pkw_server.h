@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "nord_driver/sim/parameter_store.h"
 #include "nord_driver/sim/words.h"
@@ -22,16 +23,43 @@ struct PkwWords {
   friend bool operator!=(const PkwWords& a, const PkwWords& b) noexcept { return !(a == b); }
 };
 
+struct PkwSettings {
+  unsigned delay = 1;      ///< further telegrams an order waits before it is executed
+  bool ram_orders = true;  ///< labels 11-14 are known; BU 0020 7.5.1 and BU 2700 6.5.1.1 contradict each other on that
+  bool double_word_answers = true;  ///< false: answers 2 and 5 "only for PPO 2 and PPO 4" (BU 0020 7.5.1), else 202
+};
+
+/// An answer an experimenter wants instead of the inverter's own.
+struct PkwRefusal {
+  Word error = 0;
+  std::optional<unsigned> number;  ///< orders for this parameter only
+};
+
 /// "As long as an order has not been executed, the inverter sends the response for the previous order" (BU
 /// 2700 6.5.1.1).
+///
+/// The error numbers and how to get them:
+///
+///     0    a number that does not exist, or a PNU below 1000
+///     1    a write to P700
+///     2    P507 = 5
+///     3    P105 with element 2 (IND 0400), P701 with element 6
+///     4    an array order to P513; element 1 of P700 before firmware V1.9
+///     5    a double word order to P105, a word order to P613
+///     201  a reserved label (4, 5, 10, 15); 11-14 when `ram_orders` is false
+///     202  P613 with PPO 1 when `double_word_answers` is false
+///     6, 7, 9, 101, 102, 103 and all others: `refuse()`. No parameter of this inverter gives them by itself: 101-103
+///     are those of a bus module with several inverters, 7 and 9 of orders that the table does not have.
 class PkwServer {
  public:
-  /// `delay`: further telegrams an order has to wait before it is executed. `ram_orders`: order labels 11-14 are known;
-  /// the manuals contradict each other on which inverters know them (BU 0020 7.5.1, BU 2700 6.5.1.1).
-  PkwServer(ParameterStore& parameters, unsigned delay, bool ram_orders) noexcept
-      : parameters_(parameters), delay_(delay), ram_orders_(ram_orders) {}
+  PkwServer(ParameterStore& parameters, const PkwSettings& settings) noexcept
+      : parameters_(parameters), settings_(settings) {}
 
-  void setDelay(unsigned telegrams) noexcept { delay_ = telegrams; }
+  void setDelay(unsigned telegrams) noexcept { settings_.delay = telegrams; }
+  /// From now on nothing is executed: the last answer stands for ever.
+  void setSilent(bool silent) noexcept { silent_ = silent; }
+  /// Orders are answered with this error instead of being executed; nullopt ends it.
+  void refuse(const std::optional<PkwRefusal>& refusal) noexcept { refusal_ = refusal; }
 
   /// The order of one telegram. Its answer is seen in `answer()` at once or `delay` telegrams later.
   void receive(const PkwWords& order) noexcept;
@@ -47,8 +75,9 @@ class PkwServer {
   PkwWords execute(const PkwWords& order) noexcept;
 
   ParameterStore& parameters_;
-  unsigned delay_;
-  bool ram_orders_;
+  PkwSettings settings_;
+  std::optional<PkwRefusal> refusal_;
+  bool silent_ = false;
   PkwWords order_;
   PkwWords answer_;
   unsigned waiting_ = 0;

@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "nord_driver/sim/inheriting_mutex.h"
 #include "nord_driver/sim/robot_sim.h"
 
 namespace nord_driver::sim {
@@ -31,7 +32,7 @@ class PtyBus : private AnswerSink {
   /// Runs `function(RobotSim&)` while the models stand still, and returns what it returns. Any thread.
   template <typename Function>
   auto withModel(Function&& function) {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard<InheritingMutex> lock(mutex_);
     return std::forward<Function>(function)(robot_);
   }
 
@@ -55,7 +56,7 @@ class PtyBus : private AnswerSink {
   std::string device_path_;
   int master_ = -1;
   int slave_ = -1;  // held open, so that a client's closing is no hang-up
-  std::mutex mutex_;
+  InheritingMutex mutex_;
   std::atomic<bool> stop_{false};
   Instant answer_from_{};  // model time of the request being answered
   FixedVector<Delayed, 64> delayed_;

@@ -11,7 +11,10 @@
 #include <vector>
 
 #include "nord_driver/sim/dp_slave.h"
+#include "nord_driver/sim/inverter_model.h"
 #include "nord_driver/sim/motor.h"
+#include "nord_driver/sim/parameter_definitions.h"
+#include "nord_driver/sim/pkw_server.h"
 
 namespace YAML {
 class Node;
@@ -38,10 +41,10 @@ struct DriveConfig {
   SlaveSettings slave;
   MotorSettings motor;
   double gear_ratio = 1.0;
-  bool inverted = false;         ///< the joint turns against the motor
-  double charging_time = 0.3;    ///< s from mains on to "switch-on disabled"
-  unsigned parameter_delay = 1;  ///< telegrams a parameter order waits
-  bool ram_orders = true;        ///< order labels 11-14 are known
+  bool inverted = false;  ///< the joint turns against the motor
+  Device device;
+  InverterSettings inverter;
+  PkwSettings pkw;
   std::vector<ParameterPreset> parameters;
 };
 

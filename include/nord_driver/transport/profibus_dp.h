@@ -12,6 +12,8 @@
 #include "nord_driver/profibus/dp_master.h"
 #include "nord_driver/profile/pkw_channel.h"
 #include "nord_driver/transport/profibus_dp_config.h"
+#include "nord_driver/transport/profibus_recorder.h"
+#include "nord_driver/transport/telegram_trace.h"
 #include "nord_driver/transport/transport.h"
 
 namespace nord_driver {
@@ -40,6 +42,7 @@ class ProfibusDpTransport final : public Transport {
   std::uint32_t identNumber(DriveIndex drive) const noexcept override;
   Sentence busText() const noexcept override;
   DriveIdentity identity(DriveIndex drive) const override;
+  const TelegramTrace* trace() const noexcept override { return trace_ ? &*trace_ : nullptr; }
   void close() noexcept override;
 
   const ProfibusDpConfig& config() const noexcept { return config_; }
@@ -61,6 +64,8 @@ class ProfibusDpTransport final : public Transport {
   ProfibusDpConfig config_;
   std::unique_ptr<link::ByteLink> link_;
   std::optional<profibus::DpMaster> master_;
+  std::optional<TelegramTrace> trace_;
+  std::optional<ProfibusRecorder> recorder_;
   std::vector<DriveState> drives_;
   FixedVector<profile::ParameterResult, 16> refused_;
   Instant next_open_{};

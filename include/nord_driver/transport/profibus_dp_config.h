@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nord_driver/core/time.h"
+#include "nord_driver/link/serial_settings.h"
 #include "nord_driver/profibus/bus_parameters.h"
 #include "nord_driver/profibus/dp_master.h"
 #include "nord_driver/profile/ppo.h"
@@ -23,7 +24,8 @@ struct ProfibusDrive {
 };
 
 struct ProfibusDpConfig {
-  std::string device;
+  std::string device;         ///< as configured, for sentences
+  link::SerialSettings line;  ///< everything the link is told
   profibus::BusParameters bus;
   Duration watchdog{};
   Duration worst_cycle{};  ///< with one slave silent and all its retries

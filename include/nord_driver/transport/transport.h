@@ -17,6 +17,7 @@
 #include "nord_driver/profile/process_data.h"
 #include "nord_driver/profile/series.h"
 #include "nord_driver/transport/settings.h"
+#include "nord_driver/transport/telegram_trace.h"
 
 namespace nord_driver {
 
@@ -90,6 +91,9 @@ class Transport {
   /// One sentence for a technician on the bus as a whole ("/dev/ttyUSB0: no such file"), empty when it is fine.
   virtual Sentence busText() const noexcept = 0;
   virtual DriveIdentity identity(DriveIndex drive) const = 0;
+  /// The last telegrams, from configure() on; nullptr when this transport sees none. Lives as long as the transport and
+  /// may be copied by any thread.
+  virtual const TelegramTrace* trace() const noexcept { return nullptr; }
 
   /// Ends the exchange: closes the device. The drives must have been stopped before.
   virtual void close() noexcept = 0;

@@ -1,0 +1,71 @@
+// All parameter traffic of one drive: what the driver reads for itself and what users ask for share one channel.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "nord_driver/core/fixed_vector.h"
+#include "nord_driver/core/time.h"
+#include "nord_driver/cycle/device_reader.h"
+#include "nord_driver/cycle/request.h"
+#include "nord_driver/drive/drive.h"
+#include "nord_driver/drive/fault_reader.h"
+#include "nord_driver/drive/parameter_session.h"
+#include "nord_driver/profile/series.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver::cycle {
+
+/// Each cycle, after the exchange: `handleState`, then `pollRequest` until it is empty, then the transport's results by
+/// `handleResult`, then `pollCompletion`. Three askers, each with one question under way at most; a result is given
+/// only to the one whose latest question it answers.
+class DriveParameters {
+ public:
+  DriveParameters(DriveIndex drive, std::string name, profile::Series series,
+                  std::optional<double> typed_max_frequency);
+
+  /// Looks whether the drive is there and whether it has a fault; hands it P105 as it is known. Offline: all ends.
+  void handleState(drive::Drive& drive, Instant now) noexcept;
+  /// kReadParameter and kWriteParameter; the answer comes as a completion.
+  void handleRequest(const Request& request, const drive::DriveReport& report) noexcept;
+
+  /// The next access for the transport, with its id.
+  std::optional<profile::ParameterRequest> pollRequest(Instant now) noexcept;
+  /// True when the result was of this drive, wanted or not.
+  bool handleResult(const profile::ParameterResult& result) noexcept;
+  std::optional<Completion> pollCompletion() noexcept;
+
+  const DeviceData& device() const noexcept { return reader_.data(); }
+  const drive::FaultReader& faults() const noexcept { return faults_; }
+  std::uint64_t eepromWrites() const noexcept { return session_.eepromWrites(); }
+  /// P560 was switched off for a user's write and could not be put back yet.
+  bool owesEepromSwitch() const noexcept { return session_.owesEepromSwitch(); }
+
+ private:
+  enum class Asker : std::uint8_t { kFaults, kSession, kReader, kCount };
+  static constexpr std::size_t kAskers = static_cast<std::size_t>(Asker::kCount);
+
+  std::optional<profile::ParameterRequest> ask(Asker asker, Instant now) noexcept;
+  void answer(Asker asker, const profile::ParameterResult& result) noexcept;
+  void askForReason(const drive::DriveReport& report, Instant now) noexcept;
+  void scale(drive::Drive& drive) const noexcept;
+  void refuse(const Request& request, profile::ParameterOutcome outcome) noexcept;
+  void collect() noexcept;
+
+  DriveIndex drive_;
+  std::string name_;
+  std::optional<double> typed_max_frequency_;
+  DeviceReader reader_;
+  drive::FaultReader faults_;
+  drive::ParameterSession session_;
+  std::array<std::uint32_t, kAskers> open_ids_{};  // of the question under way; 0: none
+  std::uint32_t sequence_ = 0;
+  bool scale_due_ = false;             // the reader learned something the drive was not told yet
+  std::optional<Instant> held_since_;  // idle, and not ready to switch on
+  FixedVector<Request, drive::ParameterSession::kCapacity> pending_;
+  FixedVector<Completion, 2 * drive::ParameterSession::kCapacity> completions_;
+};
+
+}  // namespace nord_driver::cycle

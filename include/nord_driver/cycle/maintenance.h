@@ -1,0 +1,46 @@
+// Carries out what users ask of drives that stand still: acknowledging faults and choosing a parameter set.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nord_driver/core/fixed_vector.h"
+#include "nord_driver/core/time.h"
+#include "nord_driver/cycle/request.h"
+#include "nord_driver/drive/drive.h"
+
+namespace nord_driver::cycle {
+
+/// Neither moves anything, so the drives of a base may be asked one by one. Each cycle: `handleRequest` for what has
+/// come, after the exchange `update`, then `pollCompletion`.
+class Maintenance {
+ public:
+  /// `drives` must outlive the object and not move.
+  Maintenance(std::vector<drive::Drive>& drives, std::vector<std::string> names);
+
+  /// kAcknowledge and kSelectParameterSet.
+  void handleRequest(const Request& request, Instant now) noexcept;
+  void update(Instant now) noexcept;
+  std::optional<Completion> pollCompletion() noexcept;
+
+ private:
+  struct Job {
+    Request request;
+    Instant deadline{};
+  };
+
+  template <typename Action>
+  void forEach(const Request& request, Action action) noexcept;
+  /// True when the job has ended.
+  bool follow(const Job& job, Instant now) noexcept;
+  void complete(const Request& request, bool success, const Sentence& message) noexcept;
+  const drive::RequestReport& reportOf(const Request& request, DriveIndex drive) const noexcept;
+
+  std::vector<drive::Drive>& drives_;
+  std::vector<std::string> names_;
+  FixedVector<Job, 16> jobs_;
+  FixedVector<Completion, 48> completions_;
+};
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,51 @@
+// What a robot description (URDF) says of the wheels of a base: where they stand, how large they are, how fast they may
+// turn.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace urdf {
+class ModelInterface;
+}
+
+namespace nord_driver::robot {
+
+/// Answers are computed when they are asked for, so a value the user typed is not looked up: what the description says
+/// of it may then be wrong or missing.
+///
+/// Every refusal is a std::invalid_argument with one sentence that begins with "robot_description", names the joint and
+/// says what was expected. A joint is the wheel's when it is continuous and its chain of parents ends at the root that
+/// carries `base_link` too; joints between (suspension, steering) are taken at their zero position.
+class UrdfGeometry {
+ public:
+  /// Reads the XML. `base_link`: the link the base's motion is told of, x forward and y left (REP-103); a leading slash
+  /// is dropped. Throws when the text is no URDF or has no such link.
+  explicit UrdfGeometry(const std::string& urdf, const std::string& base_link = "base_link");
+
+  /// Distance (m) between the left and the right wheels across the direction of travel: the difference of the joints' y
+  /// in `base_link`. (diff_drive_controller takes each joint relative to its own parent link, which is wrong as soon as
+  /// the parents differ.) Throws also when the wheels stand in line, the left ones stand on the right, or wheels of one
+  /// side stand more than 1 mm apart in y.
+  double wheelSeparation(const std::vector<std::string>& left, const std::vector<std::string>& right) const;
+
+  /// Distance (m) between the front and the rear axle, for a base with two wheels a side, the front one first: the
+  /// difference of the joints' x in `base_link`. Throws also when the sides differ by more than 1 mm.
+  double wheelBase(const std::vector<std::string>& left, const std::vector<std::string>& right) const;
+
+  /// Radius (m) of the wheels of one side, from a cylinder or sphere: of the wheel link's collision where it has one,
+  /// otherwise of its visual; the largest where there are several. Throws also when there is none (a box or a mesh does
+  /// not roll on a radius) and when wheels differ by more than 0.1 mm.
+  double wheelRadius(const std::vector<std::string>& joints) const;
+
+  /// The `velocity` of each joint's `limit` (rad/s, positive), infinity where the joint has no limit. Throws also for a
+  /// limit that is zero or negative: such a wheel could never turn.
+  std::vector<double> maxVelocities(const std::vector<std::string>& joints) const;
+
+ private:
+  std::shared_ptr<const urdf::ModelInterface> model_;
+  std::string base_link_;
+};
+
+}  // namespace nord_driver::robot

@@ -1,0 +1,31 @@
+// A PROFIBUS telegram in a few words: the service, who to whom, and the process data by the manual's names.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "nord_driver/profibus/telegram.h"
+#include "nord_driver/profile/ppo.h"
+#include "nord_driver/transport/profibus_dp_config.h"
+#include "nord_driver/transport/telegram_trace.h"
+
+namespace nord_driver {
+
+/// "DX 3 <- 1 STW 047F SW1 2000": data exchange to station 3 from station 1. Addresses, as PROFIBUS counts them, are
+/// decimal, words hexadecimal; words of the parameter channel are left out while they are all zero.
+class ProfibusTelegramText {
+ public:
+  explicit ProfibusTelegramText(const ProfibusDpConfig& config);
+
+  std::string operator()(const TraceRecord& record) const;
+
+ private:
+  std::string request(const profibus::Telegram& telegram) const;
+  std::string answer(const profibus::Telegram& telegram) const;
+  std::string processData(std::uint8_t station, ByteView data, bool to_drive) const;
+
+  std::map<std::uint8_t, profile::PpoLayout> layouts_;  // by station
+};
+
+}  // namespace nord_driver

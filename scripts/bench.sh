@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Builds the benchmarks (optimised, out/bench) and runs them one after the other. Ends with 0 when every bound is kept.
+# A machine that does other things at the same time makes the figures worse: stop the rest, or repeat.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+if (($# > 0)); then
+  echo "usage: bench.sh"
+  [[ $1 == -h || $1 == --help ]]
+  exit
+fi
+
+out=$root/out/bench
+mkdir -p "$out"
+configure "$out" -DCMAKE_BUILD_TYPE=Release -DNORD_DRIVER_BENCH=ON -DNORD_DRIVER_STRICT=ON >"$out/configure.log" 2>&1 ||
+  { tail -n 40 "$out/configure.log"; exit 1; }
+cmake --build "$out" -j "$jobs" --target bench >"$out/build.log" 2>&1 || { tail -n 40 "$out/build.log"; exit 1; }
+
+echo "processors $(nproc), load before: $(cut -d' ' -f1-3 /proc/loadavg)"
+status=0
+for program in bench_in_process bench_pty_cycle; do
+  echo "== $program"
+  "$out/devel/lib/nord_driver/$program" || status=1
+done
+exit $status

@@ -1,0 +1,165 @@
+// What users may ask of a drive, and why it says no.
+#include <cmath>
+#include <cstdlib>
+
+#include "nord_driver/drive/drive.h"
+
+namespace nord_driver::drive {
+
+using profile::Command;
+using profile::DriveState;
+using profile::StatusWord;
+
+Refusal Drive::enableRefusal() const noexcept {
+  switch (report_.phase) {
+    case Phase::kOffline:
+      return Refusal::kOffline;
+    case Phase::kEnabling:
+    case Phase::kEnabled:
+      return Refusal::kNone;
+    case Phase::kHoldingZero:
+    case Phase::kStopping:
+    case Phase::kQuickStopping:
+    case Phase::kCoasting:
+      return Refusal::kStopping;
+    case Phase::kAcknowledging:
+    case Phase::kSwitchingSet:
+      return Refusal::kBusy;
+    case Phase::kIdle:
+      break;
+  }
+  const StatusWord status(report_.status_word);
+  if (status.fault()) return Refusal::kFault;
+  if (!status.busControl()) return Refusal::kLocalControl;
+  if (report_.fault_latched) return Refusal::kFaultLatched;
+  const bool startable = report_.state == DriveState::kSwitchOnDisabled ||
+                         report_.state == DriveState::kReadyToSwitchOn || report_.state == DriveState::kSwitchedOn;
+  if (!startable) return Refusal::kWrongState;
+  if (report_.parameter_set != report_.commanded_set) return Refusal::kParameterSet;
+  if (!maxFrequency(report_.commanded_set).has_value()) return Refusal::kMaxFrequencyUnknown;
+  return Refusal::kNone;
+}
+
+void Drive::requestEnable(Instant now) noexcept {
+  refuse(enableRefusal());
+  if (report_.refusal != Refusal::kNone || isRunning()) return;
+  report_.stop_cause = StopCause::kNone;
+  report_.command_invalid = false;
+  enter(Phase::kEnabling, now);
+}
+
+void Drive::requestSetpointZero(Instant now) noexcept {
+  if (report_.phase == Phase::kEnabling) return requestShutdown(now);
+  if (report_.phase == Phase::kEnabled) enter(Phase::kHoldingZero, now);
+}
+
+void Drive::requestShutdown(Instant now) noexcept {
+  if (!isRunning()) return;
+  if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
+  enter(Phase::kStopping, now);
+}
+
+void Drive::requestQuickStop(Instant now) noexcept {
+  if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
+  breakOff(Refusal::kStopped);
+  latch(StopCause::kQuickStop);
+  if (report_.phase == Phase::kOffline) {
+    dark_command_ = Command::kQuickStop;
+    dark_until_ = now + config_.shutdown_timeout;
+  } else if (report_.phase != Phase::kQuickStopping && report_.phase != Phase::kCoasting) {
+    enter(Phase::kQuickStopping, now);
+  }
+}
+
+void Drive::requestCoast(Instant now) noexcept {
+  if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
+  breakOff(Refusal::kStopped);
+  latch(StopCause::kCoast);
+  if (report_.phase == Phase::kOffline) {
+    dark_command_ = Command::kDisableVoltage;
+    dark_until_ = now + config_.shutdown_timeout;
+  } else if (report_.phase != Phase::kCoasting) {
+    enter(Phase::kCoasting, now);
+  }
+}
+
+// Ends a request that takes its time, if one runs, without success.
+void Drive::breakOff(Refusal why) noexcept {
+  if (report_.phase == Phase::kAcknowledging) {
+    report_.acknowledge = {RequestState::kRefused, why};
+    refuse(why);
+  } else if (report_.phase == Phase::kSwitchingSet) {
+    report_.set_switch = {RequestState::kRefused, why};
+    refuse(why);
+    report_.commanded_set = report_.parameter_set;
+  }
+}
+
+void Drive::requestAcknowledge(Instant now) noexcept {
+  if (report_.phase == Phase::kAcknowledging) return;
+  refuse(Refusal::kNone);
+  if (report_.phase == Phase::kOffline) refuse(Refusal::kOffline);
+  if (report_.phase != Phase::kOffline && report_.phase != Phase::kIdle) refuse(Refusal::kBusy);
+  if (report_.refusal != Refusal::kNone) {
+    report_.acknowledge = {RequestState::kRefused, report_.refusal};
+    return;
+  }
+  if (!StatusWord(report_.status_word).fault()) {
+    report_.fault_latched = false;
+    report_.acknowledge = {RequestState::kDone, Refusal::kNone};
+    return;
+  }
+  report_.acknowledge = {RequestState::kRunning, Refusal::kNone};
+  edge_.start();
+  enter(Phase::kAcknowledging, now);
+}
+
+Refusal Drive::setRefusal(std::uint8_t set) const noexcept {
+  if (set < 1 || set > 4) return Refusal::kNoSuchSet;
+  if (report_.phase == Phase::kOffline) return Refusal::kOffline;
+  if (report_.phase == Phase::kAcknowledging || report_.phase == Phase::kSwitchingSet) return Refusal::kBusy;
+  if (report_.phase != Phase::kIdle) return Refusal::kNotDisabled;
+  const StatusWord status(report_.status_word);
+  if (status.fault()) return Refusal::kFault;
+  if (!status.busControl()) return Refusal::kLocalControl;
+  if (std::abs(int{report_.input.actual_values[0]}) > config_.near_standstill) return Refusal::kTurning;
+  const bool switchable =
+      report_.state == DriveState::kSwitchOnDisabled || report_.state == DriveState::kReadyToSwitchOn;
+  return switchable ? Refusal::kNone : Refusal::kWrongState;
+}
+
+void Drive::requestParameterSet(std::uint8_t set, Instant now) noexcept {
+  const Refusal refusal = setRefusal(set);
+  refuse(refusal);
+  if (refusal != Refusal::kNone) {
+    // A switching that runs goes on: its outcome is not this one's.
+    if (report_.phase != Phase::kSwitchingSet) report_.set_switch = {RequestState::kRefused, refusal};
+    return;
+  }
+  report_.set_switch = {RequestState::kRunning, Refusal::kNone};
+  enter(Phase::kSwitchingSet, now);
+  report_.commanded_set = set;
+}
+
+void Drive::setVelocity(RadPerSec joint) noexcept {
+  if (report_.phase == Phase::kEnabled) wanted_ = joint;
+}
+
+void Drive::setMaxFrequency(std::uint8_t set, Hertz frequency) noexcept {
+  if (set < 1 || set > 4) return;
+  const bool usable = std::isfinite(frequency.value) && frequency.value > 0.0;
+  max_frequency_[set - 1u] = usable ? std::optional<Hertz>(frequency) : std::nullopt;
+}
+
+std::optional<Hertz> Drive::maxFrequency(std::uint8_t set) const noexcept {
+  if (set < 1 || set > 4) return std::nullopt;
+  return max_frequency_[set - 1u];
+}
+
+std::optional<RadPerSec> Drive::maxVelocity() const noexcept {
+  const auto maximum = maxFrequency(report_.commanded_set);
+  if (!maximum.has_value()) return std::nullopt;
+  return RadPerSec{std::fabs(profile::toRadPerSec(*maximum, config_.joint).value)};
+}
+
+}  // namespace nord_driver::drive

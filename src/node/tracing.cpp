@@ -1,0 +1,67 @@
+#include "nord_driver/node/tracing.h"
+
+#include <boost/function.hpp>
+
+namespace nord_driver::node {
+
+namespace {
+
+constexpr Duration kPollPeriod = std::chrono::milliseconds{50};
+
+cycle::TraceClock clockNow() {
+  return {std::chrono::steady_clock::now(), std::chrono::system_clock::now()};
+}
+
+}  // namespace
+
+Tracing::Tracing(ros::NodeHandle& private_node, const std::optional<cycle::TraceConfig>& config,
+                 const std::vector<cycle::TracedDrive>& drives, const TelegramTrace* telegrams,
+                 cycle::TraceFeed& feed) {
+  if (config) {
+    writer_ = std::make_unique<cycle::TraceWriter>(*config, drives, telegrams, feed.history());
+    tracer_ = std::make_unique<cycle::FaultTracer>(feed, *writer_);
+    told_ = writer_->obstacle();
+    if (!told_.empty()) ROS_WARN("nord_driver: %s", told_.c_str());
+    thread_ = std::thread([this] { run(); });
+  }
+  boost::function<bool(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&)> callback =
+      [this](std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+        answer(response);
+        return true;
+      };
+  server_ = private_node.advertiseService("write_trace", callback);
+}
+
+Tracing::~Tracing() {
+  server_.shutdown();
+  stop_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+void Tracing::run() {
+  while (!stop_) {
+    if (const auto result = tracer_->poll(clockNow())) log(*result);
+    std::this_thread::sleep_for(kPollPeriod);
+  }
+  if (const auto result = tracer_->finish(clockNow())) log(*result);
+}
+
+void Tracing::answer(std_srvs::Trigger::Response& response) {
+  if (!writer_) {
+    response.message = "trace_directory is not set: give it an absolute path and start the node again";
+    return;
+  }
+  const cycle::TraceResult result = writer_->writeNow(clockNow());
+  response.success = result.written;
+  response.message = result.message;
+  if (!result.warning.empty()) response.message += " (" + result.warning + ")";
+}
+
+void Tracing::log(const cycle::TraceResult& result) {
+  if (result.written) ROS_WARN("nord_driver: a trace is written: %s", result.message.c_str());
+  const std::string& trouble = result.written ? result.warning : result.message;
+  if (trouble != told_ && !trouble.empty()) ROS_ERROR("nord_driver: %s", trouble.c_str());
+  told_ = trouble;
+}
+
+}  // namespace nord_driver::node

@@ -1,0 +1,246 @@
+#include "nord_driver/robot/urdf_geometry.h"
+
+#include <urdf_model/model.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+namespace nord_driver::robot {
+namespace {
+
+using Names = std::vector<std::string>;
+
+constexpr double kSamePlace = 1e-3;   // m
+constexpr double kSameRadius = 1e-4;  // m
+
+template <typename... Words>
+[[noreturn]] void refuse(const Words&... words) {
+  std::ostringstream text;
+  text << "robot_description: ";
+  (text << ... << words);
+  throw std::invalid_argument(text.str());
+}
+
+std::string quoted(const std::string& name) {
+  return "\"" + name + "\"";
+}
+
+const char* nameOf(int joint_type) {
+  switch (joint_type) {
+    case urdf::Joint::REVOLUTE:
+      return "revolute";
+    case urdf::Joint::CONTINUOUS:
+      return "continuous";
+    case urdf::Joint::PRISMATIC:
+      return "prismatic";
+    case urdf::Joint::FLOATING:
+      return "floating";
+    case urdf::Joint::PLANAR:
+      return "planar";
+    case urdf::Joint::FIXED:
+      return "fixed";
+    default:
+      return "of no known type";
+  }
+}
+
+const urdf::Joint& wheelJoint(const urdf::ModelInterface& model, const std::string& name) {
+  const auto joint = model.getJoint(name);
+  if (!joint) refuse("there is no joint ", quoted(name), ", expected the continuous joint of a wheel");
+  if (joint->type != urdf::Joint::CONTINUOUS) {
+    refuse("joint ", quoted(name), " is ", nameOf(joint->type), ", expected the continuous joint of a wheel");
+  }
+  return *joint;
+}
+
+/// `inner`, given in the frame that stands at `outer`, in the frame `outer` is given in.
+urdf::Pose compose(urdf::Pose outer, const urdf::Pose& inner) {  // a copy: its operators are not const
+  urdf::Pose pose;
+  pose.position = outer.position + outer.rotation * inner.position;
+  pose.rotation = outer.rotation * inner.rotation;
+  return pose;
+}
+
+/// Where `link` stands in the root link's frame; nothing when its chain of parents does not end there.
+std::optional<urdf::Pose> poseInRoot(const urdf::ModelInterface& model, const std::string& link) {
+  urdf::Pose pose;
+  std::string at = link;
+  // A description may hold a ring of links beside its tree; the count ends the walk.
+  for (std::size_t i = 0; i <= model.links_.size(); ++i) {
+    if (model.getRoot() && at == model.getRoot()->name) return pose;
+    const auto here = model.getLink(at);
+    if (!here || !here->parent_joint) return std::nullopt;
+    pose = compose(here->parent_joint->parent_to_joint_origin_transform, pose);
+    at = here->parent_joint->parent_link_name;
+  }
+  return std::nullopt;
+}
+
+/// A wheel as seen from `base_link`.
+struct Place {
+  std::string joint;
+  double x = 0.0;
+  double y = 0.0;
+};
+
+Place placeOf(const urdf::ModelInterface& model, const std::string& base_link, const std::string& name) {
+  // The joint's frame is its child link's.
+  const auto wheel = poseInRoot(model, wheelJoint(model, name).child_link_name);
+  if (!wheel) refuse("joint ", quoted(name), " does not hang on the tree of ", quoted(base_link));
+  urdf::Pose base = *poseInRoot(model, base_link);
+  const urdf::Vector3 away(wheel->position.x - base.position.x, wheel->position.y - base.position.y,
+                           wheel->position.z - base.position.z);
+  const urdf::Vector3 seen = base.rotation.GetInverse() * away;
+  if (!std::isfinite(seen.x) || !std::isfinite(seen.y)) refuse("joint ", quoted(name), " stands at no finite place");
+  return {name, seen.x, seen.y};
+}
+
+std::vector<Place> placesOf(const urdf::ModelInterface& model, const std::string& base_link, const Names& joints) {
+  if (joints.empty()) refuse("no joint was named, expected at least one wheel a side");
+  std::vector<Place> places;
+  for (const std::string& joint : joints) places.push_back(placeOf(model, base_link, joint));
+  return places;
+}
+
+/// The y all wheels of a side have in common.
+double lineOf(const std::vector<Place>& side) {
+  double sum = 0.0;
+  for (const Place& wheel : side) {
+    if (std::abs(wheel.y - side.front().y) > kSamePlace) {
+      refuse("joint ", quoted(side.front().joint), " stands at y = ", side.front().y, " m and joint ",
+             quoted(wheel.joint), " at y = ", wheel.y,
+             " m, expected the wheels of one side in one line (or wheel_separation typed in)");
+    }
+    sum += wheel.y;
+  }
+  return sum / static_cast<double>(side.size());
+}
+
+const char* nameOf(const urdf::GeometrySharedPtr& geometry) {
+  if (!geometry) return "nothing";
+  switch (geometry->type) {
+    case urdf::Geometry::SPHERE:
+      return "a sphere";
+    case urdf::Geometry::BOX:
+      return "a box";
+    case urdf::Geometry::CYLINDER:
+      return "a cylinder";
+    case urdf::Geometry::MESH:
+      return "a mesh";
+    default:
+      return "an unknown shape";
+  }
+}
+
+double radiusOf(const urdf::GeometrySharedPtr& geometry) {
+  if (const auto cylinder = std::dynamic_pointer_cast<const urdf::Cylinder>(geometry)) return cylinder->radius;
+  if (const auto sphere = std::dynamic_pointer_cast<const urdf::Sphere>(geometry)) return sphere->radius;
+  return 0.0;
+}
+
+/// The largest of the shapes that roll; 0 without one. What else there is goes into `seen`.
+template <typename Shapes>
+double largestRadius(const Shapes& shapes, std::string& seen) {
+  double radius = 0.0;
+  for (const auto& shape : shapes) {
+    if (!shape) continue;
+    seen = nameOf(shape->geometry);
+    radius = std::max(radius, radiusOf(shape->geometry));
+  }
+  return radius;
+}
+
+double radiusOfWheel(const urdf::ModelInterface& model, const std::string& name) {
+  const std::string& link_name = wheelJoint(model, name).child_link_name;
+  const auto link = model.getLink(link_name);
+  std::string seen = "no shape";
+  double radius = link ? largestRadius(link->collision_array, seen) : 0.0;
+  if (!(radius > 0.0) && link) radius = largestRadius(link->visual_array, seen);
+  if (radius > 0.0 && std::isfinite(radius)) return radius;
+  refuse("the wheel link ", quoted(link_name), " of joint ", quoted(name), " has ", seen,
+         ", expected a cylinder or a sphere with a radius greater than 0 (or wheel_radius typed in)");
+}
+
+}  // namespace
+
+UrdfGeometry::UrdfGeometry(const std::string& urdf, const std::string& base_link)
+    : base_link_(base_link.substr(std::min(base_link.find_first_not_of('/'), base_link.size()))) {
+  try {
+    model_ = urdf::parseURDF(urdf);
+  } catch (const std::exception& error) {
+    refuse("expected the XML of a URDF, and reading it failed: ", error.what());
+  }
+  if (!model_) refuse("expected the XML of a URDF: one tree of links and joints, each complete");
+  if (!model_->getLink(base_link_)) refuse("there is no link ", quoted(base_link_), ", expected the link of the base");
+  if (!poseInRoot(*model_, base_link_)) refuse("link ", quoted(base_link_), " does not hang on the tree of links");
+}
+
+double UrdfGeometry::wheelSeparation(const Names& left, const Names& right) const {
+  const double left_line = lineOf(placesOf(*model_, base_link_, left));
+  const double right_line = lineOf(placesOf(*model_, base_link_, right));
+  const double separation = left_line - right_line;
+  if (separation > kSamePlace) return separation;
+  const bool in_line = std::abs(separation) <= kSamePlace;
+  refuse("joint ", quoted(left.front()), " stands at y = ", left_line, " m and joint ", quoted(right.front()),
+         " at y = ", right_line, " m in ", quoted(base_link_), ": ",
+         in_line ? "the wheels stand in line, expected some distance between left and right"
+                 : "left and right are exchanged, expected y to grow to the left",
+         " (or wheel_separation typed in)");
+}
+
+double UrdfGeometry::wheelBase(const Names& left, const Names& right) const {
+  if (left.size() != 2 || right.size() != 2) {
+    refuse("there are ", left.size(), " left and ", right.size(),
+           " right wheels, expected two a side, the front one first");
+  }
+  const auto distance = [this](const Names& side) {
+    const std::vector<Place> places = placesOf(*model_, base_link_, side);
+    const double length = places[0].x - places[1].x;
+    if (length > kSamePlace) return length;
+    refuse("joint ", quoted(side[0]), " stands at x = ", places[0].x, " m and joint ", quoted(side[1]),
+           " at x = ", places[1].x, " m, expected the front wheel first and the rear wheel behind it");
+  };
+  const double of_left = distance(left);
+  const double of_right = distance(right);
+  if (std::abs(of_left - of_right) > kSamePlace) {
+    refuse("the joints ", quoted(left[0]), " and ", quoted(left[1]), " stand ", of_left, " m apart, but ",
+           quoted(right[0]), " and ", quoted(right[1]), " ", of_right,
+           " m, expected the same on both sides (or wheel_base typed in)");
+  }
+  return (of_left + of_right) / 2.0;
+}
+
+double UrdfGeometry::wheelRadius(const Names& joints) const {
+  if (joints.empty()) refuse("no joint was named, expected at least one wheel a side");
+  const double radius = radiusOfWheel(*model_, joints.front());
+  for (const std::string& joint : joints) {
+    const double other = radiusOfWheel(*model_, joint);
+    if (std::abs(other - radius) > kSameRadius) {
+      refuse("the wheel of joint ", quoted(joints.front()), " has a radius of ", radius, " m and that of joint ",
+             quoted(joint), " of ", other,
+             " m, expected the same for the wheels of one side (or wheel_radius typed in)");
+    }
+  }
+  return radius;
+}
+
+std::vector<double> UrdfGeometry::maxVelocities(const Names& joints) const {
+  std::vector<double> velocities;
+  for (const std::string& name : joints) {
+    const auto& limits = wheelJoint(*model_, name).limits;
+    const double velocity = limits ? limits->velocity : std::numeric_limits<double>::infinity();
+    if (!(velocity > 0.0)) {
+      refuse("the velocity limit of joint ", quoted(name), " is ", velocity,
+             " rad/s, expected a number greater than 0, or no limit at all");
+    }
+    velocities.push_back(velocity);
+  }
+  return velocities;
+}
+
+}  // namespace nord_driver::robot

@@ -1,0 +1,191 @@
+#include "sim_drive_node.h"
+
+#include <boost/function.hpp>
+#include <cmath>
+
+namespace nord_driver::sim_node {
+
+namespace {
+
+constexpr double kLongestDelay = 60.0;       // s
+constexpr double kHighestFrequency = 400.0;  // Hz
+
+/// "0.03", not "0.030000".
+std::string inWords(double number) {
+  std::string text = std::to_string(number);
+  while (text.find('.') != std::string::npos && (text.back() == '0' || text.back() == '.')) {
+    const bool whole = text.back() == '.';
+    text.pop_back();
+    if (whole) break;
+  }
+  return text;
+}
+
+}  // namespace
+
+SimDriveNode::SimDriveNode(ros::NodeHandle& handle, sim::PtyBus& bus, std::size_t index, const std::string& name)
+    : handle_(handle), bus_(bus), index_(index), name_(name) {
+  truth_ = handle_.advertise<SimDrive>("truth/" + name_, 10);
+  serveFaults();
+  serveStation();
+  serveParameters();
+  serveControl();
+}
+
+template <typename Service>
+void SimDriveNode::serve(const std::string& service, Act<Service> act) {
+  const boost::function<bool(typename Service::Request&, typename Service::Response&)> callback =
+      [this, act](typename Service::Request& request, typename Service::Response& response) {
+        response.success = true;
+        const std::string message =
+            bus_.withModel([&](sim::RobotSim& robot) { return act(robot.drive(index_), request, response); });
+        response.message = name_ + ": " + message;
+        return true;
+      };
+  services_.push_back(handle_.advertiseService(name_ + "/" + service, callback));
+}
+
+void SimDriveNode::serveSwitch(const std::string& service, void (*act)(sim::DriveUnit&, bool), const char* on,
+                               const char* off) {
+  serve<std_srvs::SetBool>(service,
+                           [act, on, off](sim::DriveUnit& drive, const std_srvs::SetBool::Request& request,
+                                          std_srvs::SetBool::Response&) -> std::string {
+                             act(drive, request.data != 0);
+                             return request.data != 0 ? on : off;
+                           });
+}
+
+void SimDriveNode::serveFaults() {
+  serve<SimTrip>("trip", [](sim::DriveUnit& drive, const SimTrip::Request& request, SimTrip::Response& response) {
+    if (request.number == 0) {
+      response.success = false;
+      return std::string("number is 0; expected a fault number as P700 shows it, 102 for E10.2");
+    }
+    response.success = drive.inverter().powered();
+    drive.inverter().trip(request.number, request.cause_stays != 0);
+    return (response.success != 0 ? "tripped with fault " : "off, cannot trip with ") + std::to_string(request.number);
+  });
+  serve<std_srvs::Trigger>("clear_cause", [](sim::DriveUnit& drive, const auto&, auto&) {
+    drive.inverter().clearCause();
+    return std::string("the cause is gone, the fault waits for its acknowledgement");
+  });
+  serve<std_srvs::Trigger>("acknowledge", [](sim::DriveUnit& drive, const auto&, auto& response) {
+    response.success = drive.inverter().acknowledge();
+    return std::string(response.success != 0 ? "acknowledged at the device" : "no fault, or its cause stands");
+  });
+  serve<SimWarn>("warn", [](sim::DriveUnit& drive, const SimWarn::Request& request, SimWarn::Response&) {
+    drive.inverter().setWarning(request.number);
+    return request.number == 0 ? std::string("no warning") : "warns with " + std::to_string(request.number);
+  });
+}
+
+void SimDriveNode::serveStation() {
+  serveSwitch(
+      "unplug", [](sim::DriveUnit& drive, bool on) { drive.setPlugged(!on); },
+      "unplugged: the module is silent, the mains are off", "plugged in");
+  serveSwitch(
+      "power_inverter", [](sim::DriveUnit& drive, bool on) { drive.setInverterPower(on); }, "mains of the inverter on",
+      "mains of the inverter off, the module lives on 24 V");
+  serveSwitch(
+      "module_link", [](sim::DriveUnit& drive, bool on) { drive.slave().setInverterLink(on); },
+      "module and inverter are connected", "the connection between module and inverter is interrupted");
+  serveSwitch(
+      "mute", [](sim::DriveUnit& drive, bool on) { drive.slave().setMute(on); }, "answers are lost",
+      "answers get through");
+  serve<SimAnswerDelay>("answer_delay", [](sim::DriveUnit& drive, const SimAnswerDelay::Request& request,
+                                           SimAnswerDelay::Response& response) {
+    if (!(request.seconds >= 0.0 && request.seconds <= kLongestDelay)) {
+      response.success = false;
+      return "seconds is " + inWords(request.seconds) + "; expected 0 to " + inWords(kLongestDelay);
+    }
+    drive.setAnswerDelay(seconds(request.seconds));
+    drive.pkw().setDelay(request.parameter_cycles);
+    return "answers " + inWords(request.seconds) + " s late, parameters " + std::to_string(request.parameter_cycles) +
+           " telegrams late";
+  });
+}
+
+void SimDriveNode::serveParameters() {
+  serve<SimSetParameter>("set_parameter", [](sim::DriveUnit& drive, const SimSetParameter::Request& request,
+                                             SimSetParameter::Response& response) {
+    const unsigned element = request.index == 0 ? 0u : request.index - 1u;
+    const unsigned first = request.parameter_set == 0 ? 0u : request.parameter_set - 1u;
+    const unsigned last = request.parameter_set == 0 ? sim::ParameterStore::kSets - 1 : first;
+    bool known = true;
+    for (unsigned set = first; set <= last; ++set) {
+      known = drive.parameters().preset(request.number, set, element, request.raw) && known;
+    }
+    response.success = known;
+    const std::string parameter = "P" + std::to_string(request.number);
+    if (known) return parameter + " is " + std::to_string(request.raw);
+    return "no parameter " + parameter + " with set " + std::to_string(request.parameter_set) + " and index " +
+           std::to_string(request.index);
+  });
+  serve<SimParameterChannel>("parameter_channel", [](sim::DriveUnit& drive, const SimParameterChannel::Request& request,
+                                                     SimParameterChannel::Response&) {
+    drive.pkw().setSilent(request.silent != 0);
+    drive.pkw().refuse(std::nullopt);
+    if (request.refuse != 0) {
+      sim::PkwRefusal refusal;
+      refusal.error = request.error;
+      if (request.number != 0) refusal.number = request.number;
+      drive.pkw().refuse(refusal);
+    }
+    if (request.silent != 0) return std::string("the parameter channel is silent");
+    if (request.refuse == 0) return std::string("the parameter channel answers");
+    return (request.number == 0 ? std::string("every order") : "P" + std::to_string(request.number)) +
+           " is refused with error " + std::to_string(request.error);
+  });
+}
+
+void SimDriveNode::serveControl() {
+  serveSwitch(
+      "local_control", [](sim::DriveUnit& drive, bool on) { drive.inverter().setLocalControl(on); },
+      "controlled by its terminals", "controlled by the bus");
+  serve<SimTerminals>(
+      "terminals", [](sim::DriveUnit& drive, const SimTerminals::Request& request, SimTerminals::Response& response) {
+        if (!(std::fabs(request.frequency) <= kHighestFrequency)) {
+          response.success = false;
+          return "frequency is " + inWords(request.frequency) + "; expected -" + inWords(kHighestFrequency) + " to " +
+                 inWords(kHighestFrequency) + " Hz";
+        }
+        sim::Terminals terminals;
+        terminals.enable = request.enable != 0;
+        terminals.frequency = request.frequency;
+        terminals.coast = request.coast != 0;
+        terminals.quick_stop = request.quick_stop != 0;
+        drive.inverter().setTerminals(terminals);
+        return "terminals say " +
+               (terminals.enable ? "enable with " + inWords(terminals.frequency) + " Hz" : std::string("OFF1")) +
+               (terminals.coast ? ", disable voltage" : "") + (terminals.quick_stop ? ", quick stop" : "");
+      });
+}
+
+SimDrive SimDriveNode::truthOf(const sim::DriveUnit& drive) {
+  const sim::InverterModel& inverter = drive.inverter();
+  const sim::SlaveCounters& counters = drive.slave().counters();
+  SimDrive truth;
+  truth.powered = inverter.powered();
+  truth.in_data_exchange = drive.slave().state() == sim::SlaveState::kDataExchange;
+  truth.operation_enabled = inverter.state() == sim::InverterState::kOperationEnabled;
+  truth.status_word = inverter.statusWord();
+  truth.control_word = counters.last_control;
+  truth.last_control_word_before_loss = counters.control_before_loss;
+  truth.status_word_at_loss = counters.status_at_loss;
+  truth.setpoint_1 = toSigned(inverter.setpoint1());
+  truth.parameter_set = static_cast<std::uint8_t>(inverter.parameterSet() + 1);
+  truth.frequency = inverter.frequency();
+  truth.shaft_velocity = drive.shaftSpeed();
+  truth.shaft_angle = drive.shaftAngle();
+  truth.wheel_velocity = drive.wheelSpeed();
+  truth.wheel_angle = drive.wheelAngle();
+  truth.fault_number = inverter.faultNumber();
+  truth.watchdog_trips = counters.watchdog_trips;
+  truth.set_switches = inverter.setSwitches();
+  truth.telegrams = counters.telegrams;
+  truth.zero_control_words = counters.zero_control_words;
+  truth.eeprom_writes = drive.parameters().eepromWrites();
+  return truth;
+}
+
+}  // namespace nord_driver::sim_node

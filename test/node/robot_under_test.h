@@ -1,0 +1,107 @@
+// The robot of the rostests as a user sees it (topics and services of driver) and as it really is (the simulator's
+// truth).
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/Twist.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "node/node_process.h"
+#include "node/topic.h"
+#include "nord_driver/BusStatus.h"
+#include "nord_driver/DriveStatus.h"
+#include "nord_driver/SimDrive.h"
+
+namespace nord_driver::test {
+
+/// What a service answered.
+struct Answer {
+  bool success = false;
+  std::string message;
+};
+std::ostream& operator<<(std::ostream& out, const Answer& answer);
+
+/// One side's drive.
+struct DriveTopics {
+  DriveTopics(ros::NodeHandle& node, const std::string& drive)
+      : status(node, "nord_driver/" + drive + "/status"), truth(node, "nord_sim/truth/" + drive) {}
+  Topic<DriveStatus> status;
+  Topic<SimDrive> truth;
+};
+
+class RobotUnderTest {
+ public:
+  RobotUnderTest();
+
+  /// ~enable of the driver.
+  Answer enable(bool on);
+  /// A std_srvs/SetBool service of the simulator: "left/unplug".
+  Answer simulator(const std::string& service, bool on);
+  /// The simulator's judgement of all that was on the bus.
+  Answer referee();
+
+  /// Publishes this velocity 50 times a second until the next call.
+  void drive(double linear, double angular = 0.0);
+  /// No more commands: they grow old.
+  void silence() { commanding_ = false; }
+
+  bool waitForDrivesOnline(Seconds limit = kPatience);
+  /// Both drives "ready to switch on", in words of the driver and in truth.
+  bool waitForRest(Seconds limit = kPatience);
+  /// The true speed of the body along its x axis is at least `linear`, by now and from a message that is still to come.
+  bool waitForTrueSpeed(double linear, Seconds limit = kPatience);
+  bool waitForStandstill(Seconds limit = kPatience);
+  /// The message of a task of /diagnostics ("base", "drive left") for which `good(level, message)` holds; empty when
+  /// none comes.
+  std::string waitForDiagnostics(const std::string& task, const std::function<bool(int, const std::string&)>& good,
+                                 Seconds limit = kPatience);
+
+  DriveTopics left, right;
+  Topic<nav_msgs::Odometry> odom, true_odom;
+  Topic<sensor_msgs::JointState> joint_states;
+  Topic<BusStatus> bus_status;
+  Topic<diagnostic_msgs::DiagnosticArray> diagnostics;
+
+ private:
+  explicit RobotUnderTest(ros::NodeHandle node);
+  Answer setBool(const std::string& service, bool on);
+
+  ros::Publisher command_publisher_;
+  std::atomic<bool> commanding_{false};
+  std::mutex command_mutex_;
+  geometry_msgs::Twist command_;
+  ros::SteadyTimer command_timer_;
+};
+
+/// A test on a robot whose drives are there, idle, healthy and without commands; afterwards it is brought there again
+/// and the referee must have nothing to say.
+class RobotTest : public ::testing::Test {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+  /// The driver as a child, with the parameters of /nord_driver.
+  void startDriver();
+  /// ~enable and a steady speed forward, the ramp behind it.
+  void enableAndDrive(double linear);
+
+  /// Shared by all tests of a program.
+  static RobotUnderTest& robot();
+  std::unique_ptr<NodeProcess> driver_;
+};
+
+/// Asks again and again until `condition` holds; false when it does not within `limit`.
+bool eventually(const std::function<bool()>& condition, Seconds limit = kPatience);
+
+/// The state bits 0, 1, 2, 3, 5 and 6 say "ready to switch on" (BU 2700 6.4.2: X01X0001).
+bool isReadyToSwitchOn(std::uint16_t status_word);
+
+}  // namespace nord_driver::test

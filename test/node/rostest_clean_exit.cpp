@@ -1,0 +1,78 @@
+// The node is asked to end while the robot drives: ramp, OFF1 until "ready to switch on" is seen, then the end.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include "node/robot_under_test.h"
+
+namespace nord_driver::test {
+namespace {
+
+constexpr double kSpeed = 0.4, kDeceleration = 0.8;  // m/s, m/s^2: robot.yaml
+constexpr Seconds kShutdownTimeout{10.0};            // the default
+
+class CleanExit : public RobotTest, public ::testing::WithParamInterface<int> {
+ protected:
+  void SetUp() override {
+    RobotTest::SetUp();
+    // The watchdog that expired after the last clean exit has left E10.2: mains off and on.
+    for (const char* drive : {"left", "right"}) {
+      ASSERT_TRUE(robot().simulator(std::string(drive) + "/unplug", true).success);
+      ASSERT_TRUE(robot().simulator(std::string(drive) + "/unplug", false).success);
+    }
+    robot().drive(0.0);
+    ASSERT_NO_FATAL_FAILURE(startDriver());
+  }
+};
+
+TEST_P(CleanExit, RampsDownAndLeavesDrivesReadyToSwitchOn) {
+  ASSERT_NO_FATAL_FAILURE(enableAndDrive(kSpeed));
+  const std::uint64_t trips_before = robot().left.truth.next()->watchdog_trips;
+  const double x_before = robot().true_odom.next()->pose.pose.position.x;
+  const std::size_t left_from = robot().left.truth.mark();
+  const std::size_t right_from = robot().right.truth.mark();
+  driver_->signal(GetParam());
+  const auto end = driver_->waitEnd(kShutdownTimeout);
+  ASSERT_TRUE(end) << "still runs after shutdown_timeout";
+  EXPECT_EQ(end->exit_code, 0) << driver_->errorText();
+
+  for (const auto& [drive, from] :
+       {std::make_pair(&robot().left, left_from), std::make_pair(&robot().right, right_from)}) {
+    // The watchdog keeps what was said last.
+    const auto last =
+        drive->truth.waitFrom(from, [&](const SimDrive& truth) { return truth.watchdog_trips == trips_before + 1; });
+    ASSERT_TRUE(last);
+    EXPECT_EQ(last->zero_control_words, 0u) << "bit 10 was set to the last telegram";
+    EXPECT_EQ(last->last_control_word_before_loss, 0x047E);
+    EXPECT_TRUE(isReadyToSwitchOn(last->status_word_at_loss)) << std::hex << last->status_word_at_loss;
+
+    std::set<int> steps;
+    int before = 1 << 15;
+    for (const auto& truth : drive->truth.since(from)) {
+      const int setpoint = std::abs(int{truth->setpoint_1});
+      EXPECT_LE(setpoint, before) << "the command still stands, but nobody listens";
+      before = setpoint;
+      steps.insert(setpoint);
+      if (!truth->operation_enabled) break;
+    }
+    EXPECT_EQ(before, 0);
+    EXPECT_GE(steps.size(), 5u) << "a step, no ramp";
+  }
+  // v^2 / 2a along the deceleration limit; what comes before the signal is heard, and a late message, add a little.
+  const double way = robot().true_odom.next()->pose.pose.position.x - x_before;
+  const double ramp = kSpeed * kSpeed / (2.0 * kDeceleration);
+  EXPECT_GT(way, 0.9 * ramp);
+  EXPECT_LT(way, 3.0 * ramp);
+}
+
+std::string signalName(const ::testing::TestParamInfo<int>& info) {
+  return info.param == SIGINT ? "BySigint" : "BySigterm";
+}
+
+INSTANTIATE_TEST_SUITE_P(Ended, CleanExit, ::testing::Values(SIGINT, SIGTERM), signalName);
+
+}  // namespace
+}  // namespace nord_driver::test

@@ -1,0 +1,98 @@
+// The bus device is not there when the driver starts, comes, goes and comes again: never a reason to end.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/stat.h>
+
+#include "node/robot_under_test.h"
+
+namespace nord_driver::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
+
+/// The driver looks for its device at least every 2 s (INTERFACE: "retries"); the rest is start-up, charging included.
+constexpr Seconds kFound{3.0};
+
+class DeviceMissing : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(ros::param::get("nord_driver/bus/device", device_)); }
+
+  void startSimulator() {
+    simulator_ = std::make_unique<NodeProcess>(kSimulatorProgram, std::vector<std::string>{"__name:=nord_sim"});
+    struct stat info {};
+    ASSERT_TRUE(eventually([&] { return ::stat(device_.c_str(), &info) == 0; })) << simulator_->errorText();
+  }
+  void expectAMissingDevice() {
+    const auto missing = [](const BusStatus& status) { return !status.connected && status.offline.size() == 2; };
+    const auto status = robot_.bus_status.waitNext(missing);
+    ASSERT_TRUE(status);
+    EXPECT_THAT(status->text, HasSubstr(device_));
+    EXPECT_THAT(status->offline, UnorderedElementsAre("left", "right"));
+    EXPECT_THAT(status->online, IsEmpty());
+    const auto error = [](int level, const std::string&) { return level == diagnostic_msgs::DiagnosticStatus::ERROR; };
+    EXPECT_THAT(robot_.waitForDiagnostics("bus", error), HasSubstr(device_));
+    EXPECT_FALSE(robot_.left.status.next()->online);
+    EXPECT_FALSE(robot_.right.status.next()->online);
+  }
+
+  RobotUnderTest robot_;
+  std::string device_;
+  std::unique_ptr<NodeProcess> simulator_;
+};
+
+// One story: each part needs the one before.
+TEST_F(DeviceMissing, IsSaidLookedForFoundAndLookedForAgain) {
+  ASSERT_NO_FATAL_FAILURE(expectAMissingDevice());
+  for (const char* service : {"enable", "quick_stop", "left/enable", "right/read_parameter"}) {
+    EXPECT_TRUE(ros::service::exists(std::string("/nord_driver/") + service, false)) << service;
+  }
+  EXPECT_TRUE(robot_.joint_states.next());
+  EXPECT_EQ(robot_.odom.mark(), 0u) << "no odometry before all drives of the base have answered";
+  const Answer refused = robot_.enable(true);
+  EXPECT_FALSE(refused.success);
+  EXPECT_THAT(refused.message, HasSubstr("does not answer"));
+
+  ASSERT_NO_FATAL_FAILURE(startSimulator());
+  EXPECT_TRUE(robot_.waitForDrivesOnline(kFound));
+  EXPECT_TRUE(robot_.odom.next());
+  EXPECT_TRUE(robot_.waitForRest());
+  EXPECT_TRUE(robot_.referee().success) << robot_.referee();
+
+  // An adapter pulled out: its device hangs up, and its name leads nowhere.
+  simulator_->signal(SIGKILL);
+  ASSERT_TRUE(simulator_->waitEnd(kPatience));
+  ASSERT_NO_FATAL_FAILURE(expectAMissingDevice());
+
+  // And plugged in again.
+  ASSERT_NO_FATAL_FAILURE(startSimulator());
+  EXPECT_TRUE(robot_.waitForDrivesOnline(kFound));
+  Answer answer;
+  EXPECT_TRUE(eventually([&] { return (answer = robot_.enable(true)).success; })) << answer;
+  robot_.drive(0.3);
+  EXPECT_TRUE(robot_.waitForTrueSpeed(0.27));
+  answer = robot_.enable(false);
+  EXPECT_TRUE(answer.success) << answer;
+  answer = robot_.referee();
+  EXPECT_TRUE(answer.success) << answer;
+  simulator_->signal(SIGINT);
+  EXPECT_TRUE(simulator_->waitEnd(kPatience)) << "the simulator takes its link away";
+}
+
+// A driver that has never seen its bus ends at once when it is asked to.
+TEST_F(DeviceMissing, ANodeWithoutItsDeviceEndsCleanly) {
+  XmlRpc::XmlRpcValue parameters;
+  ASSERT_TRUE(ros::param::get("nord_driver", parameters));
+  ros::param::set("lonely_driver", parameters);
+  NodeProcess driver(kDriverProgram, {"__name:=lonely_driver"});
+  ASSERT_TRUE(ros::service::waitForService("lonely_driver/enable", ros::Duration(kPatience.count())));
+  driver.signal(SIGINT);
+  const auto end = driver.waitEnd(kPatience);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->exit_code, 0) << driver.errorText();
+  EXPECT_THAT(driver.errorText(), HasSubstr(device_));
+}
+
+}  // namespace
+}  // namespace nord_driver::test

@@ -1,0 +1,113 @@
+// What the node reads for itself: defaults, refusals, and that no key of the documentation is unknown.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "node/parameters.h"
+#include "nord_driver/node/node_config.h"
+
+namespace nord_driver::node {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using XmlRpc::XmlRpcValue;
+
+std::string refusal(const XmlRpcValue& value) {
+  try {
+    readNodeConfig(RosSettings{"~", value});
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(NodeConfigTest, HasItsDefaults) {
+  const NodeConfig config = readNodeConfig(RosSettings{"~", robotParameters()});
+  EXPECT_EQ("nord_driver/profibus_dp", config.transport);
+  EXPECT_FALSE(config.auto_enable);
+  EXPECT_DOUBLE_EQ(50.0, config.publish.publish_rate);
+  EXPECT_DOUBLE_EQ(50.0, config.publish.status_rate);
+  EXPECT_EQ("base_link", config.publish.base_frame_id);
+  EXPECT_EQ("odom", config.publish.odom_frame_id);
+  EXPECT_TRUE(config.publish.enable_odom_tf);
+  EXPECT_FALSE(config.publish.publish_cmd);
+  ASSERT_EQ(2u, config.drives.size());
+  EXPECT_EQ("left", config.drives[0].name);
+  EXPECT_EQ("right", config.drives[1].name);
+  EXPECT_EQ("/dev/ttyUSB0", config.bus->text("device").value());
+  EXPECT_TRUE(config.cycle.base.has_value());
+}
+
+// A plugin's name without its prefix is one of this package's.
+TEST(NodeConfigTest, ATransportMayLeaveItsPrefixOut) {
+  XmlRpcValue value = robotParameters();
+  value["transport"] = std::string{"profibus_dp"};
+  EXPECT_EQ("nord_driver/profibus_dp", readNodeConfig(RosSettings{"~", value}).transport);
+  value["transport"] = std::string{"my_package/my_card"};
+  EXPECT_EQ("my_package/my_card", readNodeConfig(RosSettings{"~", value}).transport);
+}
+
+TEST(NodeConfigTest, TakesWhatIsGiven) {
+  XmlRpcValue value = robotParameters();
+  value["auto_enable"] = true;
+  value["publish_rate"] = 20;
+  value["base_frame_id"] = std::string{"base_footprint"};
+  value["enable_odom_tf"] = false;
+  value["pose_covariance_diagonal"] = listOf<double>({1, 2, 3, 4, 5, 6});
+  const NodeConfig config = readNodeConfig(RosSettings{"~", value});
+  EXPECT_TRUE(config.auto_enable);
+  EXPECT_DOUBLE_EQ(20.0, config.publish.publish_rate);
+  EXPECT_EQ("base_footprint", config.publish.base_frame_id);
+  EXPECT_FALSE(config.publish.enable_odom_tf);
+  EXPECT_DOUBLE_EQ(6.0, config.publish.pose_covariance_diagonal[5]);
+}
+
+// Files written for diff_drive_controller are accepted as they are, its `type` included.
+TEST(NodeConfigTest, KnowsTheKeysOfDiffDriveController) {
+  XmlRpcValue value = robotParameters();
+  value["type"] = std::string{"diff_drive_controller/DiffDriveController"};
+  for (const char* axis : {"linear", "angular"}) {
+    XmlRpcValue& limits = value[axis][axis == std::string{"linear"} ? "x" : "z"];
+    limits["has_velocity_limits"] = limits["has_acceleration_limits"] = limits["has_jerk_limits"] = true;
+    limits["max_velocity"] = limits["max_acceleration"] = limits["max_jerk"] = 1.0;
+    limits["min_velocity"] = limits["min_acceleration"] = limits["min_jerk"] = -1.0;
+  }
+  for (const char* key : {"wheel_separation_multiplier", "wheel_radius_multiplier", "left_wheel_radius_multiplier",
+                          "right_wheel_radius_multiplier", "cmd_vel_timeout", "publish_rate"}) {
+    value[key] = 1.0;
+  }
+  for (const char* key : {"enable_odom_tf", "open_loop", "publish_cmd", "allow_multiple_cmd_vel_publishers"}) {
+    value[key] = true;
+  }
+  value["velocity_rolling_window_size"] = 10;
+  value["base_frame_id"] = value["odom_frame_id"] = std::string{"frame"};
+  value["pose_covariance_diagonal"] = value["twist_covariance_diagonal"] = listOf<double>({1, 2, 3, 4, 5, 6});
+  const RosSettings settings{"~", value};
+  readNodeConfig(settings);
+  EXPECT_THAT(settings.unknownKeys(), IsEmpty());
+}
+
+template <typename Value>
+XmlRpcValue with(const std::string& key, const Value& wrong) {
+  XmlRpcValue value = robotParameters();
+  value[key] = wrong;
+  return value;
+}
+
+TEST(NodeConfigTest, RefusalsNameKeyValueAndExpectation) {
+  EXPECT_THAT(refusal(with("publish_rate", 0)), HasSubstr("~publish_rate: 0 is not valid, expected a number from 0.1"));
+  EXPECT_THAT(refusal(with("status_rate", 1001)), HasSubstr("~status_rate: 1001 is not valid"));
+  EXPECT_THAT(refusal(with("auto_enable", 1)), HasSubstr("~auto_enable: 1 is not valid, expected true or false"));
+  EXPECT_THAT(refusal(with("pose_covariance_diagonal", listOf<double>({1, 2}))),
+              AllOf(HasSubstr("~pose_covariance_diagonal: a list of 2 numbers"), HasSubstr("expected six numbers")));
+  EXPECT_THAT(refusal(with("twist_covariance_diagonal", listOf<double>({1, 2, 3, 4, 5, -6}))),
+              HasSubstr("~twist_covariance_diagonal: -6 is not valid"));
+  EXPECT_THAT(refusal(with("drives", 3)), HasSubstr("~drives: 3 is not valid, expected a group of keys and values"));
+  EXPECT_THAT(refusal(with("bus", std::string{"ttyUSB0"})), HasSubstr("~bus: \"ttyUSB0\" is not valid"));
+  EXPECT_THAT(refusal(with("wheel_radius", -0.1)), HasSubstr("~wheel_radius: -0.1 is not valid"));
+  EXPECT_THAT(refusal(XmlRpcValue{}), HasSubstr("~drives is missing"));
+}
+
+}  // namespace
+}  // namespace nord_driver::node

@@ -1,0 +1,110 @@
+// Service calls that wait for the cycle: each gets its own answer, and nobody waits for ever.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "nord_driver/node/request_broker.h"
+
+namespace nord_driver::node {
+namespace {
+
+/// In the place of the bus cycle: answers what it is told to, in a thread of its own.
+class Cycle {
+ public:
+  explicit Cycle(cycle::CyclePorts& ports, bool reversed = false) : ports_(ports), reversed_(reversed) {
+    thread_ = std::thread([this] { run(); });
+  }
+  ~Cycle() {
+    stop_ = true;
+    thread_.join();
+  }
+
+ private:
+  void run() {
+    std::vector<cycle::Request> pending;
+    while (!stop_) {
+      while (const auto request = ports_.pollRequest()) pending.push_back(*request);
+      if (reversed_ && pending.size() < 4) {  // all four callers first, then the last one first
+        std::this_thread::yield();
+        continue;
+      }
+      for (auto at = pending.rbegin(); at != pending.rend(); ++at) {
+        cycle::Completion completion;
+        completion.id = at->id;
+        completion.success = true;
+        completion.message = std::to_string(at->drive).c_str();
+        ports_.complete(completion);
+      }
+      pending.clear();
+      std::this_thread::yield();
+    }
+  }
+
+  cycle::CyclePorts& ports_;
+  bool reversed_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+cycle::Request request(DriveIndex drive, Duration patience = std::chrono::seconds{5}) {
+  cycle::Request request;
+  request.drive = drive;
+  request.patience = patience;
+  return request;
+}
+
+TEST(RequestBrokerTest, EachOfSeveralCallersGetsItsOwnAnswer) {
+  cycle::CyclePorts ports{4};
+  RequestBroker broker{ports};
+  Cycle cycle{ports, true};
+  std::vector<std::string> answers(4);
+  std::vector<std::thread> callers;
+  for (DriveIndex i = 0; i < 4; ++i) {
+    callers.emplace_back([&, i] { answers[i] = broker.call(request(i)).message.str(); });
+  }
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_EQ((std::vector<std::string>{"0", "1", "2", "3"}), answers);
+}
+
+// A cycle that does not answer costs a caller its patience and a second, not the node.
+TEST(RequestBrokerTest, ACallerGivesUpAndALateAnswerDisturbsNobody) {
+  cycle::CyclePorts ports{4};
+  RequestBroker broker{ports};
+  const cycle::Completion none = broker.call(request(0, std::chrono::seconds{-1}));
+  EXPECT_FALSE(none.success);
+  EXPECT_STREQ("the bus cycle did not answer", none.message.c_str());
+  Cycle cycle{ports};  // answers the forgotten request first
+  const cycle::Completion answer = broker.call(request(3));
+  EXPECT_TRUE(answer.success);
+  EXPECT_STREQ("3", answer.message.c_str());
+}
+
+TEST(RequestBrokerTest, AFullQueueIsSaidAtOnce) {
+  cycle::CyclePorts ports{1};
+  RequestBroker broker{ports};
+  while (ports.submit({})) {
+  }
+  const cycle::Completion answer = broker.call(request(0));
+  EXPECT_FALSE(answer.success);
+  EXPECT_STREQ("too many requests are waiting already", answer.message.c_str());
+  EXPECT_EQ(0u, answer.id) << "it may be asked again";
+}
+
+// The cycle's own parameter accesses have the upper half of the numbers; a caller's must never look like one.
+TEST(RequestBrokerTest, NumbersAreNeverZeroNorTheCycles) {
+  cycle::CyclePorts ports{1};
+  RequestBroker broker{ports};
+  for (int i = 0; i < 3; ++i) {
+    broker.call(request(0, std::chrono::seconds{-1}));
+    const auto seen = ports.pollRequest();
+    ASSERT_TRUE(seen.has_value());
+    EXPECT_NE(0u, seen->id);
+    EXPECT_LT(seen->id, cycle::kFirstOwnRequest);
+  }
+}
+
+}  // namespace
+}  // namespace nord_driver::node

@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "sim/conversation.h"
+
+namespace {
+
+bool counting = false;
+std::size_t allocations = 0;
+
+void* counted(std::size_t size) {
+  if (counting) ++allocations;
+  void* const memory = std::malloc(size == 0 ? 1 : size);
+  if (memory == nullptr) throw std::bad_alloc{};
+  return memory;
+}
+
+}  // namespace
+
+// For the whole test program; counted is only what the test below lets happen.
+void* operator new(std::size_t size) {
+  return counted(size);
+}
+void* operator new[](std::size_t size) {
+  return counted(size);
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace nord_driver::sim {
+namespace {
+
+using std::chrono::milliseconds;
+
+// From its construction on the simulated segment takes no memory: start-up, exchange, parameters, faults, an unplugged
+// station, its return and disturbed bytes included. A driver's own measurement of its cycle may rely on it.
+
+TEST(NoAllocation, AfterConstruction) {
+  SimConfig config = oneDrive();
+  config.body = BodyConfig{{0}, {0}, 0.1, 0.5};
+  Conversation bus{config};
+  std::vector<std::vector<std::uint8_t>> requests;
+  requests.push_back(Conversation::variable(0x88, 0x81, 0x6D, fromHex("3C 3E")));
+  requests.push_back(Conversation::variable(0x88, 0x81, 0x5D, fromHex("3D 3E 88 0A 01 0B 75 31 00")));
+  requests.push_back(Conversation::variable(0x88, 0x81, 0x7D, fromHex("3E 3E F3 F1")));
+  requests.push_back(Conversation::variable(0x88, 0x81, 0x5D, fromHex("3C 3E")));
+  const char* const exchanges[] = {"0000000000000000 047E 0000", "744E0200000003E8 047F 2000",
+                                   "7FCE0200000003E8 047F 2000", "0000000000000000 047F 2000"};
+  unsigned code = 0x7D;
+  for (const char* data : exchanges) {
+    requests.push_back(Conversation::variable(0x08, 0x01, code, fromHex(data)));
+    code ^= 0x20u;
+  }
+  Disturbance noise;
+  noise.flip = noise.lose = noise.duplicate = 0.01;
+  std::size_t received = 0;
+
+  counting = true;
+  for (int round = 0; round < 20; ++round) {
+    if (round == 10) bus.segment.setDisturbance(noise);
+    for (const auto& request : requests) {
+      bus.segment.run(milliseconds(1));
+      bus.segment.write(request);
+      const Instant until = bus.segment.now() + milliseconds(5);
+      while (bus.segment.waitReadable(until)) {
+        std::uint8_t buffer[64];
+        received += bus.segment.read(buffer, sizeof buffer);
+      }
+    }
+    bus.drive().inverter().trip(30, false);
+    bus.segment.run(milliseconds(20));
+    bus.drive().setPlugged(false);
+    bus.segment.run(milliseconds(300));
+    bus.drive().setPlugged(true);
+    bus.segment.run(milliseconds(400));
+  }
+  counting = false;
+
+  EXPECT_EQ(0u, allocations);
+  EXPECT_LT(1000u, received);
+  EXPECT_LT(9u, bus.drive().parameters().eepromWrites());
+}
+
+}  // namespace
+}  // namespace nord_driver::sim

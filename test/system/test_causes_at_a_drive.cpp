@@ -1,0 +1,200 @@
+// What stops the base without being asked, row by row of "What stops what": the drive concerned gets the idle word, the
+// others setpoint 0 on their own ramp, then OFF1; all of it latched until somebody enables again.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "system/simulated_robot.h"
+
+namespace nord_driver::test {
+namespace {
+
+using std::chrono::milliseconds;
+using ::testing::HasSubstr;
+
+constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
+constexpr DriveIndex kLeft = 0, kRight = 1;
+
+class CauseAtADrive : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(robot_.bringUpAndEnable());
+    robot_.drive(kHalfSpeed, 0.0, std::chrono::seconds{3});
+    ASSERT_EQ(0x2000, robot_.setpoint(kLeft));
+  }
+  void TearDown() override { EXPECT_EQ("no rule broken", robot_.segment().referee().report()); }
+
+  void step() {
+    robot_.command(kHalfSpeed);  // somebody goes on commanding, whatever happens
+    robot_.step();
+  }
+  bool known() {
+    const cycle::DriveSnapshot& right = robot_.snapshot().drives[kRight];
+    return !right.online || right.stopped;
+  }
+  /// Steps until the driver knows of the cause, at most `limit` cycles; then two cycles are the bound.
+  void expectReaction(int limit) {
+    for (int i = 0; i < limit && !known(); ++i) step();
+    ASSERT_TRUE(known());
+    step();
+    step();
+    EXPECT_EQ(0x047E, robot_.controlWord(kRight)) << "the idle word";
+    EXPECT_EQ(0x047F, robot_.controlWord(kLeft)) << "torque stays until the other has come to rest";
+    EXPECT_EQ(0, robot_.setpoint(kLeft));
+  }
+  /// The other one comes down its own ramp, then OFF1; a standing command moves nothing any more.
+  void expectRestForGood(bool by_ramp = true) {
+    bool off1_while_fast = false;
+    for (int i = 0; i < 500; ++i) {
+      step();
+      ASSERT_EQ(0, robot_.setpoint(kLeft));
+      ASSERT_EQ(0, robot_.setpoint(kRight));
+      off1_while_fast |= robot_.controlWord(kLeft) == 0x047E && std::abs(robot_.unit(kLeft).shaftSpeed()) > 5.0;
+    }
+    EXPECT_EQ(!by_ramp, off1_while_fast);
+    EXPECT_EQ(0x047E, robot_.controlWord(kLeft));
+    EXPECT_EQ(0x0B31, robot_.statusWord(kLeft));
+    EXPECT_FALSE(robot_.snapshot().base.enabled);
+    EXPECT_TRUE(robot_.snapshot().base.stopped);
+  }
+  std::string stopText() { return robot_.snapshot().base.text.str(); }
+  cycle::Completion enableAtRest() {
+    robot_.run(milliseconds{600});  // the last command is too old by then
+    return robot_.ask(cycle::RequestKind::kEnable);
+  }
+
+  SimulatedRobot robot_;
+};
+
+TEST_F(CauseAtADrive, AFaultStopsTheBase) {
+  robot_.unit(kRight).inverter().trip(30, true);
+  expectReaction(2);
+  EXPECT_THAT(stopText(), HasSubstr("drive right stopped: a fault of the inverter"));
+  expectRestForGood();
+  EXPECT_TRUE(robot_.runUntil([this] { return robot_.standsStill(); }));
+  EXPECT_THAT(enableAtRest().message.c_str(), HasSubstr("drive right: the inverter reports a fault"));
+}
+
+// Taking the enable away acknowledges (BU 0020 8): the fault is gone by itself, and must not be forgotten.
+TEST_F(CauseAtADrive, AFaultThatVanishedIsStillInTheWay) {
+  robot_.unit(kRight).inverter().trip(30, false);
+  expectReaction(2);
+  expectRestForGood();
+  EXPECT_EQ(0, robot_.unit(kRight).inverter().faultNumber()) << "the inverter has forgotten it";
+  const cycle::Completion answer = enableAtRest();
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("a fault was seen and has not been acknowledged"));
+}
+
+// P509 or digital input 14: terminals may turn the wheel, and a standing 047F would act when the bus has control again.
+TEST_F(CauseAtADrive, LocalControlStopsTheBase) {
+  robot_.unit(kRight).inverter().setLocalControl(true, 0.0);
+  expectReaction(2);
+  EXPECT_THAT(stopText(), HasSubstr("local control"));
+  expectRestForGood();
+  EXPECT_THAT(robot_.ask(cycle::RequestKind::kEnable).message.c_str(), HasSubstr("the newest cmd_vel"));
+  EXPECT_THAT(enableAtRest().message.c_str(), HasSubstr("under local control"));
+  robot_.unit(kRight).inverter().setLocalControl(false);
+  robot_.drive(kHalfSpeed, 0.0, std::chrono::seconds{2});
+  EXPECT_TRUE(robot_.runUntil([this] { return robot_.standsStill(); }))
+      << "control over the bus returns: nothing moves";
+  EXPECT_STREQ("enabled", enableAtRest().message.c_str());
+}
+
+// OFF2 at the terminals: "operation enabled" is left without being asked.
+TEST_F(CauseAtADrive, AnUnaskedExitStopsTheBase) {
+  robot_.unit(kRight).inverter().setPowered(false);
+  robot_.unit(kRight).inverter().setPowered(true);  // a dip of the mains: "not ready to switch on" with the set kept
+  expectReaction(2);
+  EXPECT_THAT(stopText(), HasSubstr("left \"operation enabled\" without being asked"));
+  expectRestForGood();
+  EXPECT_STREQ("enabled", enableAtRest().message.c_str());
+}
+
+// Silent for drive_timeout (50 ms: five cycles), then the same.
+TEST_F(CauseAtADrive, ADriveThatFallsSilentStopsTheBase) {
+  robot_.unit(kRight).setPlugged(false);
+  for (int i = 0; i < 5; ++i) {
+    step();
+    EXPECT_TRUE(robot_.snapshot().drives[kRight].online) << "cycle " << i;
+  }
+  expectReaction(3);
+  EXPECT_THAT(stopText(), HasSubstr("drive right stopped: the inverter fell silent"));
+  expectRestForGood();
+  EXPECT_THAT(enableAtRest().message.c_str(), HasSubstr("drive right: the inverter does not answer"));
+}
+
+// Modules with 24 V of their own answer for an inverter that is off (BU 0020 2.1.3): with zeros, which are no status.
+TEST_F(CauseAtADrive, AnInverterThatIsOffBehindItsModuleStopsTheBase) {
+  robot_.unit(kRight).setInverterPower(false);
+  expectReaction(10);
+  EXPECT_TRUE(robot_.snapshot().drives[kRight].module_answers);
+  EXPECT_FALSE(robot_.snapshot().drives[kRight].online);
+  EXPECT_THAT(robot_.snapshot().drives[kRight].text.c_str(), HasSubstr("the inverter behind it does not"));
+  EXPECT_THAT(stopText(), HasSubstr("the inverter fell silent"));
+  expectRestForGood();
+  // Power is back: idle, in the set it says, and only `enable` moves it.
+  robot_.unit(kRight).setInverterPower(true);
+  robot_.drive(kHalfSpeed, 0.0, std::chrono::seconds{2});
+  EXPECT_TRUE(robot_.snapshot().drives[kRight].online);
+  EXPECT_TRUE(robot_.runUntil([this] { return robot_.standsStill(); }));
+  EXPECT_EQ(0x047E, robot_.controlWord(kRight));
+  EXPECT_STREQ("enabled", enableAtRest().message.c_str());
+}
+
+// One cycle with all its retries unanswered: the slave is parameterised anew, which takes longer than drive_timeout,
+// but not as long as the watchdog. Back within 2 s, at rest, and enabled only when asked.
+TEST_F(CauseAtADrive, ADriveThatIsBackDoesNotMoveBeforeItIsEnabled) {
+  robot_.unit(kRight).slave().setMute(true);
+  step();
+  robot_.unit(kRight).slave().setMute(false);
+  for (int i = 0; i < 10 && robot_.snapshot().drives[kRight].online; ++i) step();
+  ASSERT_FALSE(robot_.snapshot().drives[kRight].online);
+  const Instant back = robot_.transport().now();
+  while (!robot_.snapshot().drives[kRight].online && robot_.transport().now() - back < std::chrono::seconds{5}) step();
+  EXPECT_LT(toSeconds(robot_.transport().now() - back), 2.0);
+  ASSERT_TRUE(robot_.snapshot().drives[kRight].online);
+  expectRestForGood();
+  EXPECT_TRUE(robot_.runUntil([this] { return robot_.standsStill(); }));
+  ASSERT_STREQ("enabled", enableAtRest().message.c_str());
+  robot_.drive(kHalfSpeed, 0.0, std::chrono::seconds{3});
+  EXPECT_EQ(0x2000, robot_.setpoint(kLeft));
+  EXPECT_EQ(-0x2000, robot_.setpoint(kRight));
+}
+
+// Unplugged and plugged in again: the same after its restart, with mains and module both gone.
+TEST_F(CauseAtADrive, ADriveThatWasOffIsBackWithinTwoSecondsAtRest) {
+  robot_.unit(kRight).setPlugged(false);
+  for (int i = 0; i < 100; ++i) step();
+  robot_.unit(kRight).setPlugged(true);
+  const Instant back = robot_.transport().now();
+  while (!robot_.snapshot().drives[kRight].online && robot_.transport().now() - back < std::chrono::seconds{5}) step();
+  EXPECT_LT(toSeconds(robot_.transport().now() - back), 2.0);
+  expectRestForGood();
+  EXPECT_STREQ("enabled", enableAtRest().message.c_str());
+}
+
+// The bus device is pulled: nothing can be sent, the drives' watchdogs switch off and the wheels coast. On return:
+// disabled, and the fault E10.2 the watchdog left is in the way of enabling.
+TEST_F(CauseAtADrive, TheBusLostAndBackLeavesTheBaseDisabled) {
+  robot_.segment().setDevicePresent(false);
+  for (int i = 0; i < 100; ++i) step();
+  EXPECT_FALSE(robot_.snapshot().connected);
+  EXPECT_THAT(robot_.snapshot().bus_text.c_str(), HasSubstr("simulated segment: no such device"));
+  EXPECT_EQ(1u, robot_.unit(kLeft).slave().counters().watchdog_trips);
+  EXPECT_EQ(1u, robot_.unit(kRight).slave().counters().watchdog_trips);
+  robot_.segment().setDevicePresent(true);
+  const Instant back = robot_.transport().now();
+  while (!(robot_.snapshot().drives[kLeft].online && robot_.snapshot().drives[kRight].online) &&
+         robot_.transport().now() - back < std::chrono::seconds{5}) {
+    step();
+  }
+  EXPECT_LT(toSeconds(robot_.transport().now() - back), 2.0);
+  expectRestForGood(false);
+  EXPECT_TRUE(robot_.runUntil([this] { return robot_.standsStill(); }));
+  const cycle::Completion answer = enableAtRest();
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("has not been acknowledged"));
+}
+
+}  // namespace
+}  // namespace nord_driver::test

@@ -1,0 +1,212 @@
+// The cycle's thread allocates nothing from 100 cycles after data exchange on, a drive loss and a parameter read
+// included: whoever allocates in it may wait for a lock another thread holds, and a stop word with it.
+//
+// A program of its own, in real time over a pty, because it replaces malloc. Not built under sanitizers, which do the
+// same.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "nord_driver/cycle/cycle_thread.h"
+#include "nord_driver/sim/pty_bus.h"
+#include "nord_driver/transport/profibus_dp.h"
+#include "support/map_settings.h"
+
+namespace {
+
+thread_local bool counted_thread = false;
+std::atomic<unsigned long> allocations{0};
+
+void count() noexcept {
+  if (counted_thread) ++allocations;
+}
+
+}  // namespace
+
+// The whole malloc family; operator new of libstdc++ calls malloc. glibc's own names keep working underneath.
+extern "C" {
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t count, size_t size);
+void* __libc_realloc(void* memory, size_t size);
+void* __libc_memalign(size_t alignment, size_t size);
+
+void* malloc(size_t size) {
+  count();
+  return __libc_malloc(size);
+}
+void* calloc(size_t number, size_t size) {
+  count();
+  return __libc_calloc(number, size);
+}
+void* realloc(void* memory, size_t size) {
+  count();
+  return __libc_realloc(memory, size);
+}
+void* memalign(size_t alignment, size_t size) {
+  count();
+  return __libc_memalign(alignment, size);
+}
+void* aligned_alloc(size_t alignment, size_t size) {
+  count();
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** memory, size_t alignment, size_t size) {
+  count();
+  *memory = __libc_memalign(alignment, size);
+  return *memory == nullptr ? ENOMEM : 0;
+}
+}
+
+namespace nord_driver::test {
+namespace {
+
+using std::chrono::seconds;
+
+/// Passes everything on; marks its thread as counted when told to.
+class CountingTransport final : public Transport {
+ public:
+  void configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) override {
+    inner_.configure(bus, drives, cycle_rate);
+  }
+  Instant now() const noexcept override { return inner_.now(); }
+  void sleepUntil(Instant when) noexcept override { inner_.sleepUntil(when); }
+  void exchange(const std::vector<profile::ProcessOutput>& outputs,
+                std::vector<DriveExchange>& inputs) noexcept override {
+    ++cycles;
+    counted_thread = counting;
+    if (spoil) spoiled_ = std::make_unique<int>(1);
+    inner_.exchange(outputs, inputs);
+  }
+  bool submit(DriveIndex drive, const profile::ParameterRequest& request) noexcept override {
+    return inner_.submit(drive, request);
+  }
+  std::optional<profile::ParameterResult> pollResult() noexcept override { return inner_.pollResult(); }
+  bool connected() const noexcept override { return inner_.connected(); }
+  BusCounters counters() const noexcept override { return inner_.counters(); }
+  DriveNote note(DriveIndex drive) const noexcept override { return inner_.note(drive); }
+  std::uint32_t identNumber(DriveIndex drive) const noexcept override { return inner_.identNumber(drive); }
+  Sentence busText() const noexcept override { return inner_.busText(); }
+  DriveIdentity identity(DriveIndex drive) const override { return inner_.identity(drive); }
+  void close() noexcept override { inner_.close(); }
+
+  std::atomic<unsigned long> cycles{0};
+  std::atomic<bool> counting{false};
+  std::atomic<bool> spoil{false};
+
+ private:
+  ProfibusDpTransport inner_;
+  std::unique_ptr<int> spoiled_;
+};
+
+class NoAllocation : public ::testing::Test {
+ protected:
+  NoAllocation() : link_path_("/tmp/nord_no_allocation_" + std::to_string(getpid())), bus_(simConfig(), link_path_) {
+    std::vector<DriveSettings> drives;
+    for (const char* name : {"left", "right"}) {
+      auto settings = std::make_shared<MapSettings>(std::string{"~drives/"} + name + "/");
+      settings->set("address", name == std::string{"left"} ? 3 : 4).set("series", "sk5xxe").set("pole_pairs", 2);
+      settings->set("joint", name).set("gear_ratio", 20.0);
+      drives.push_back({name, settings});
+    }
+    const MapSettings node{"~",
+                           {{"left_wheel", std::string{"left"}},
+                            {"right_wheel", std::string{"right"}},
+                            {"wheel_separation", 0.5},
+                            {"wheel_radius", 0.1}}};
+    const cycle::CycleConfig config = cycle::readCycleConfig(node, drives);
+    // A busy machine may hold the pty's other end up for long: no watchdog shall end this test.
+    transport_.configure(MapSettings{"~bus/", {{"device", bus_.devicePath()}, {"watchdog", 5.0}}}, drives,
+                         config.cycle_rate);
+    ports_ = std::make_unique<cycle::CyclePorts>(drives.size());
+    cycle_ = std::make_unique<cycle::BusCycle>(config, transport_, *ports_, false);
+    thread_ = std::make_unique<cycle::CycleThread>(*cycle_, transport_, cycle::RealTimeWish{});
+  }
+
+  static sim::SimConfig simConfig() {
+    sim::SimConfig config;
+    for (const char* name : {"left", "right"}) {
+      sim::DriveConfig drive;
+      drive.name = name;
+      drive.slave.address = name == std::string{"left"} ? 3 : 4;
+      config.drives.push_back(drive);
+    }
+    return config;
+  }
+  template <typename Condition>
+  bool waitFor(Condition done) {
+    const Instant limit = std::chrono::steady_clock::now() + seconds{30};
+    while (!done()) {
+      if (std::chrono::steady_clock::now() > limit) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds{2});
+    }
+    return true;
+  }
+  bool runCycles(unsigned long count) {
+    const unsigned long until = transport_.cycles + count;
+    return waitFor([&] { return transport_.cycles >= until; });
+  }
+  bool bothOnline() {
+    const auto& drives = ports_->readSnapshot().drives;
+    return drives[0].online && drives[1].online;
+  }
+  bool bothRead() {
+    const auto& drives = ports_->readSnapshot().drives;
+    return drives[0].device.complete && drives[1].device.complete;
+  }
+  cycle::Completion ask(cycle::RequestKind kind, std::uint16_t parameter = 0) {
+    cycle::Request request;
+    request.id = 1;
+    request.kind = kind;
+    request.patience = seconds{10};
+    if (kind == cycle::RequestKind::kReadParameter) request.drive = 0;
+    request.parameter.number = parameter;
+    request.parameter.shape = profile::ParameterShape::kPerSet;
+    ports_->submit(request);
+    return ports_->waitCompletion(seconds{15}).value_or(cycle::Completion{});
+  }
+
+  std::string link_path_;
+  sim::PtyBus bus_;
+  CountingTransport transport_;
+  std::unique_ptr<cycle::CyclePorts> ports_;
+  std::unique_ptr<cycle::BusCycle> cycle_;
+  std::unique_ptr<cycle::CycleThread> thread_;
+};
+
+TEST_F(NoAllocation, InTheCyclesThreadOverALossAndAParameterRead) {
+  ASSERT_TRUE(waitFor([this] { return bothOnline(); }));
+  ASSERT_TRUE(runCycles(100));
+  transport_.counting = true;
+  ASSERT_TRUE(runCycles(20));
+
+  EXPECT_TRUE(waitFor([this] { return bothRead(); }));
+  EXPECT_EQ(500, ask(cycle::RequestKind::kReadParameter, 105).raw);
+  EXPECT_FALSE(ask(cycle::RequestKind::kReadParameter, 999).success);
+  EXPECT_TRUE(ask(cycle::RequestKind::kEnable).success);
+  ports_->commandBase({{0.2, 0.1}, std::chrono::steady_clock::now(), true});
+  EXPECT_TRUE(runCycles(40));
+
+  bus_.withModel([](sim::RobotSim& robot) { robot.drive(1).setPlugged(false); });
+  EXPECT_TRUE(waitFor([this] { return !ports_->readSnapshot().drives[1].online; }));
+  EXPECT_TRUE(runCycles(20));
+  bus_.withModel([](sim::RobotSim& robot) { robot.drive(1).setPlugged(true); });
+  EXPECT_TRUE(waitFor([this] { return bothOnline() && bothRead(); }));
+  EXPECT_TRUE(ask(cycle::RequestKind::kDisable).success);
+  EXPECT_TRUE(runCycles(20));
+  EXPECT_EQ(0u, allocations);
+
+  // And this test would have noticed.
+  transport_.spoil = true;
+  EXPECT_TRUE(runCycles(3));
+  EXPECT_GT(allocations, 0u);
+}
+
+}  // namespace
+}  // namespace nord_driver::test
