@@ -111,6 +111,24 @@ TEST(Cycle, ALostSlaveCostsLittle) {
   wire.cycleEnds();
 }
 
+// However many slaves are silent, and however long a slot is (a USB adapter needs 20 ms), they take a tenth of the
+// time.
+TEST(Cycle, SilentSlavesShareATenthOfTheTime) {
+  BusParameters bus = quietBus();
+  bus.slot_time = 20ms;
+  TwoModules wire{bus};
+  wire.startCycle();
+  wire.sends(kFdlStatus8);
+  wire.staysSilent();
+  wire.cycleEnds();
+  wire.advance(179ms);
+  wire.startCycle();
+  wire.cycleEnds();
+  wire.advance(1ms);
+  wire.startCycle();
+  wire.sends(kFdlStatus9);
+}
+
 // Two silent slaves take turns, one per cycle.
 TEST(Cycle, OneProbePerCycle) {
   TwoModules wire;
@@ -119,10 +137,12 @@ TEST(Cycle, OneProbePerCycle) {
     wire.sends(kFdlStatus8);
     wire.staysSilent();
     wire.cycleEnds();
+    wire.advance(50ms);
     wire.startCycle();
     wire.sends(kFdlStatus9);
     wire.staysSilent();
     wire.cycleEnds();
+    wire.advance(50ms);
     wire.startCycle();  // both intervals run
     wire.cycleEnds();
     wire.advance(250ms);

@@ -134,6 +134,7 @@ class DpMaster {
   std::size_t acyclic_cursor_ = 0;
   std::size_t record_cursor_ = 0;  // results are fetched in turns
   std::size_t probe_cursor_ = 0;   // silent slaves take turns
+  Instant next_probe_{};           // silent slaves take a tenth of the time at most
   std::optional<Instant> last_operate_;
   std::optional<Instant> last_foreign_;
   std::uint8_t foreign_ = kNoOwner;
