@@ -126,7 +126,15 @@ TEST(BaseConfig, ARobotDescriptionThatCannotBeIsAConfigError) {
     return std::string("accepted");
   };
   EXPECT_THAT(refusalWith(robot().erase("wheel_radius"), description("box size=\"1 1 1\"")), HasSubstr("a box"));
-  EXPECT_THAT(refusalWith(robot(), "<robot"), HasSubstr("robot_description"));
+  EXPECT_THAT(refusalWith(robot().erase("wheel_radius"), "<robot"), HasSubstr("robot_description"));
+}
+
+// A description nothing is taken from may be of a part of the robot that knows nothing of our wheels.
+TEST(BaseConfig, ADescriptionWithoutOurWheelsDoesNotMatterWhenAllIsTypedIn) {
+  const auto base = readBaseConfig(robot(), kJoints, "<robot name=\"arm\"><link name=\"base_link\"/></robot>");
+  ASSERT_TRUE(base);
+  EXPECT_TRUE(base->joint_velocity_limits.empty());
+  EXPECT_EQ(0.5, base->geometry.wheel_separation);
 }
 
 // Mecanum: four drives, a wheel base and limits of linear/y.
