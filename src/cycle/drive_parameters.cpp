@@ -41,7 +41,7 @@ void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
   const drive::DriveReport& report = drive.report();
   if (report.online) {
     faults_.handleStatus(profile::StatusWord{report.status_word});
-    askForReason(report, now);
+    askForReason(drive, now);
     if (scale_due_) scale(drive);
     scale_due_ = false;
     return;
@@ -57,9 +57,13 @@ void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
 }
 
 // An idle drive that 047E does not lead to "ready to switch on" has a reason; it is known before anybody asks for it.
-void DriveParameters::askForReason(const drive::DriveReport& report, Instant now) noexcept {
-  const bool held = report.phase == drive::Phase::kIdle && (report.state == profile::DriveState::kSwitchOnDisabled ||
-                                                            report.state == profile::DriveState::kNotReadyToSwitchOn);
+void DriveParameters::askForReason(drive::Drive& drive, Instant now) noexcept {
+  const drive::DriveReport& report = drive.report();
+  const bool waiting = report.phase == drive::Phase::kIdle || report.phase == drive::Phase::kEnabling;
+  const bool held = waiting && (report.state == profile::DriveState::kSwitchOnDisabled ||
+                                report.state == profile::DriveState::kNotReadyToSwitchOn);
+  const bool known = held && faults_.reasonState() == drive::ReasonState::kKnown && faults_.reason() != 0;
+  drive.setSwitchOnReason(known ? std::optional<std::uint16_t>{faults_.reason()} : std::nullopt);
   if (!held) {
     held_since_.reset();
   } else if (!held_since_) {

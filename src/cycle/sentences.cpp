@@ -9,7 +9,12 @@ using drive::StopCause;
 
 Sentence refusalSentence(const char* drive, Refusal refusal, const drive::DriveReport& report) noexcept {
   Sentence text;
-  if (report.online) {
+  if (report.online && report.switch_on_reason) {
+    const unsigned reason = *report.switch_on_reason;
+    text.format("drive %s: %s (status word %04X, %s; the inverter's own reason, P700[-03], is %u.%u)", drive,
+                drive::toString(refusal), report.status_word, profile::toString(report.state), reason / 10,
+                reason % 10);
+  } else if (report.online) {
     text.format("drive %s: %s (status word %04X, %s)", drive, drive::toString(refusal), report.status_word,
                 profile::toString(report.state));
   } else {

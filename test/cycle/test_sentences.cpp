@@ -1,4 +1,5 @@
 // What the cycle says to people: who, what, and what was last seen, with the status word as on the wire.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "nord_driver/cycle/sentences.h"
@@ -28,6 +29,16 @@ TEST(Sentences, AStopTellsTheStatusWordOfThatMoment) {
   EXPECT_STREQ("drive left stopped: a fault of the inverter (status word 0238, fault)",
                stopSentence("left", drive::StopCause::kFault, report).c_str());
   EXPECT_TRUE(stopSentence("left", drive::StopCause::kNone, report).empty());
+}
+
+TEST(Sentences, ARefusalTellsTheInvertersOwnReason) {
+  drive::DriveReport report = onlineReport();
+  report.status_word = 0x0B70;
+  report.state = profile::DriveState::kSwitchOnDisabled;
+  report.switch_on_reason = 181;
+  const std::string text = refusalSentence("left", drive::Refusal::kEnableTimeout, report).str();
+  EXPECT_THAT(text, ::testing::HasSubstr("status word 0B70, switch-on disabled"));
+  EXPECT_THAT(text, ::testing::HasSubstr("P700[-03], is 18.1"));
 }
 
 TEST(Sentences, AStateTellsWhatTheDriveSaidLast) {

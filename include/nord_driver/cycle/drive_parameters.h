@@ -49,7 +49,7 @@ class DriveParameters {
 
   std::optional<profile::ParameterRequest> ask(Asker asker, Instant now) noexcept;
   void answer(Asker asker, const profile::ParameterResult& result) noexcept;
-  void askForReason(const drive::DriveReport& report, Instant now) noexcept;
+  void askForReason(drive::Drive& drive, Instant now) noexcept;
   void scale(drive::Drive& drive) const noexcept;
   void refuse(const Request& request, profile::ParameterOutcome outcome) noexcept;
   void collect() noexcept;

@@ -79,6 +79,8 @@ class Drive {
   /// P105 of set 1..4, as read from the inverter.
   void setMaxFrequency(std::uint8_t set, Hertz frequency) noexcept;
   std::optional<Hertz> maxFrequency(std::uint8_t set) const noexcept;
+  /// P700 [-03], why the inverter does not become ready to switch on, as read from it; none when it gives no reason.
+  void setSwitchOnReason(std::optional<std::uint16_t> reason) noexcept { report_.switch_on_reason = reason; }
   /// The joint speed 100 % stands for in the commanded set; beyond it one drive alone would saturate, and a base bend
   /// its path.
   std::optional<RadPerSec> maxVelocity() const noexcept;

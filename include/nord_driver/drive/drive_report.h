@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "nord_driver/core/bytes.h"
@@ -95,6 +96,8 @@ struct DriveReport {
   Refusal refusal = Refusal::kNone;  ///< of the last request
   Word refusal_status_word = 0;      ///< the last status word at that moment
   profile::DriveState refusal_state = profile::DriveState::kUnknown;
+
+  std::optional<std::uint16_t> switch_on_reason;  ///< P700 [-03] raw: the inverter's own reason of not becoming ready
 
   RequestReport acknowledge;  ///< the last acknowledging; kCauseStands while the fault cannot be acknowledged
   RequestReport set_switch;   ///< the last switching of the parameter set

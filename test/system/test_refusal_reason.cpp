@@ -1,0 +1,30 @@
+// A drive that cannot be enabled says why in the inverter's own words: P700 [-03].
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "system/simulated_robot.h"
+
+namespace nord_driver::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(RefusalReason, IsReadBeforeAnybodyAsksAndToldWithTheRefusal) {
+  SimulatedRobot robot;
+  ASSERT_TRUE(robot.bringUp());
+  sim::Terminals terminals;
+  terminals.coast = true;  // an input "disable voltage" is low
+  robot.unit(0).inverter().setTerminals(terminals);
+  robot.run(std::chrono::seconds{2});
+  const cycle::Completion answer = robot.ask(cycle::RequestKind::kEnable);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("drive left"));
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("P700[-03]"));
+
+  robot.unit(0).inverter().setTerminals({});
+  robot.run(std::chrono::seconds{1});
+  EXPECT_TRUE(robot.ask(cycle::RequestKind::kEnable).success);
+}
+
+}  // namespace
+}  // namespace nord_driver::test
