@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint8_t kMaxAttempts = 3;
 constexpr std::uint16_t kMaxFrequency = 105, kTelegramTimeout = 513, kFirstActualValue = 543, kFirstSetpoint = 546,
-                        kSoftwareVersion = 707;
+                        kEepromSwitch = 560, kSoftwareVersion = 707;
 
 bool isArray(profile::ParameterShape shape) noexcept {
   return shape == profile::ParameterShape::kArray || shape == profile::ParameterShape::kArrayPerSet;
@@ -19,6 +19,7 @@ bool isArray(profile::ParameterShape shape) noexcept {
 DeviceReader::DeviceReader(profile::Series series) noexcept : series_(series) {
   for (std::uint8_t set = 1; set <= 4; ++set) add(kMaxFrequency, set, 1);
   add(kTelegramTimeout, 1, 1);
+  add(kEepromSwitch, 1, 1);
   add(kSoftwareVersion, 1, 1);
   add(kSoftwareVersion, 1, 2);
   addFunctions(kFirstActualValue);
@@ -91,6 +92,8 @@ void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
     if (value > 0.0) data_.max_frequency[item.set - 1u] = value;
   } else if (item.number == kTelegramTimeout) {
     data_.telegram_timeout = value;
+  } else if (item.number == kEepromSwitch) {
+    data_.saves_in_eeprom = raw != 0;
   } else if (item.number == kSoftwareVersion) {
     (item.index == 1 ? data_.software_version : data_.software_revision) = raw;
   } else if (item.number >= kFirstSetpoint) {

@@ -92,6 +92,10 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
     status.mergeSummary(DiagnosticStatus::WARN,
                         "actual value 1 and the direction bits of the status word contradict each other");
   }
+  if (drive.device.saves_in_eeprom == false && !drive.owes_eeprom_switch) {
+    // It may have been left so by whoever wrote parameters last: it hits every writer, NORD CON included.
+    status.mergeSummary(DiagnosticStatus::WARN, "P560 = 0: parameters changed by anybody are lost at power off");
+  }
   if (drive.owes_eeprom_switch) {
     status.mergeSummary(DiagnosticStatus::WARN,
                         "P560 was set to 0 for a parameter write and could not be put back yet");

@@ -5,6 +5,7 @@
 
 #include "nord_driver/node/drive_protection.h"
 #include "nord_driver/profile/fault_text.h"
+#include "nord_driver/profile/scaling.h"
 
 namespace nord_driver::node {
 
@@ -37,6 +38,18 @@ DrivePublisher::DrivePublisher(ros::NodeHandle& private_node, const cycle::Drive
   info_publisher_ = private_node.advertise<DeviceInfo>(setup.name + "/device_info", 1, true);
 }
 
+// Only function 3, "current", is a share of the rated current; torque current (4) is one of P112 (BU
+// 0020 6.2.2, 7.3.7).
+double DrivePublisher::currentOf(const cycle::DriveSnapshot& drive) const {
+  constexpr std::uint16_t kCurrent = 3;
+  const auto& functions = drive.device.actual_value_functions;
+  for (std::size_t i = 0; i < functions.size() && i < identity_.process_values && drive.online; ++i) {
+    if (functions[i] != kCurrent) continue;
+    return rated_current_ * drive.input.actual_values[i] / profile::kHundredPercent;
+  }
+  return kNotKnown;
+}
+
 void DrivePublisher::publishStatus(const cycle::DriveSnapshot& drive, ros::Time stamp) {
   const profile::StatusWord word{drive.input.status_word};
   status_.header.stamp = stamp;
@@ -64,7 +77,7 @@ void DrivePublisher::publishStatus(const cycle::DriveSnapshot& drive, ros::Time 
   status_.velocity_command = drive.velocity_command;
   status_.velocity = drive.velocity;
   status_.frequency = drive.frequency;
-  status_.current = kNotKnown;  // no actual value is mapped to the current yet
+  status_.current = currentOf(drive);
   status_.fault_number = drive.fault_number;
   status_.fault_text = drive.fault_number == 0 ? "" : profile::faultText(drive.fault_number);
   status_publisher_.publish(status_);

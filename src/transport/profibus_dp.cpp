@@ -216,6 +216,7 @@ DriveIdentity ProfibusDpTransport::identity(DriveIndex drive) const {
   const ProfibusDrive& config = config_.drives[drive];
   DriveIdentity identity;
   identity.address = "PROFIBUS station " + std::to_string(config_.slaves[config.slave].address.value());
+  identity.process_values = config.ppo.process_values;
   identity.parameter_channel = config.ppo.has_pkw ? "PKW" : "none";
   identity.protected_by = "PROFIBUS watchdog of " + shortNumber(toSeconds(config_.watchdog)) +
                           " s: the inverter trips E10.2 and the motor coasts";

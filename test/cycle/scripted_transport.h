@@ -71,7 +71,7 @@ class ScriptedTransport final : public Transport {
   DriveNote note(DriveIndex) const noexcept override { return {"the note of the bus"}; }
   std::uint32_t identNumber(DriveIndex) const noexcept override { return 0x7531; }
   Sentence busText() const noexcept override { return bus_text; }
-  DriveIdentity identity(DriveIndex) const override { return {"nowhere", "PKW", "nothing"}; }
+  DriveIdentity identity(DriveIndex) const override { return {"nowhere", 1, "PKW", "nothing"}; }
   void close() noexcept override {}
 
   Instant time{std::chrono::hours{1}};

@@ -80,6 +80,7 @@ TEST(DeviceReader, ReadsVersionTimeoutAndFunctions) {
   EXPECT_TRUE(reader.data().complete);
   EXPECT_DOUBLE_EQ(0.1, *reader.data().telegram_timeout);
   EXPECT_EQ(1, *reader.data().software_version);
+  EXPECT_TRUE(*reader.data().saves_in_eeprom);
   EXPECT_EQ(3u, reader.data().setpoint_functions.size());
   EXPECT_EQ(3u, reader.data().actual_value_functions.size());
   // On SK 5xxE the functions are three parameters each (BU 2700 6.4.4).

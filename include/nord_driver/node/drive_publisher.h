@@ -25,6 +25,8 @@ class DrivePublisher {
   void publishDeviceInfo(const cycle::DriveSnapshot& drive);
 
  private:
+  double currentOf(const cycle::DriveSnapshot& drive) const;
+
   DriveIdentity identity_;
   double rated_current_;
   DriveStatus status_;

@@ -32,9 +32,10 @@ struct DriveExchange {
 
 /// What a transport tells about a drive once it is configured.
 struct DriveIdentity {
-  std::string address;            ///< "PROFIBUS station 3"
-  std::string parameter_channel;  ///< "PKW", "SDO", "none"
-  std::string protected_by;       ///< what stops the drive when this computer dies, in words
+  std::string address;              ///< "PROFIBUS station 3"
+  std::uint8_t process_values = 1;  ///< setpoints and actual values carried: 1 or 3
+  std::string parameter_channel;    ///< "PKW", "SDO", "none"
+  std::string protected_by;         ///< what stops the drive when this computer dies, in words
 };
 
 /// Counters since start-up and the state of the bus. Copied once per cycle: no strings of variable length.
