@@ -98,8 +98,10 @@ void Drive::breakOff(Refusal why) noexcept {
 void Drive::requestAcknowledge(Instant now) noexcept {
   if (report_.phase == Phase::kAcknowledging) return;
   refuse(Refusal::kNone);
+  // A drive without a fault has nothing to wait for, and must not spoil the answer for the others of its base.
+  const bool healthy = !report_.fault_latched && !StatusWord(report_.status_word).fault();
   if (report_.phase == Phase::kOffline) refuse(Refusal::kOffline);
-  if (report_.phase != Phase::kOffline && report_.phase != Phase::kIdle) refuse(Refusal::kBusy);
+  if (report_.phase != Phase::kOffline && report_.phase != Phase::kIdle && !healthy) refuse(Refusal::kBusy);
   if (report_.refusal != Refusal::kNone) {
     report_.acknowledge = {RequestState::kRefused, report_.refusal};
     return;

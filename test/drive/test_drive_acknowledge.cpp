@@ -47,11 +47,12 @@ TEST_F(DriveTest, AcknowledgesAVanishedFaultWithoutABit) {
   for (int i = 0; i < 10; ++i) EXPECT_EQ(0x047E, cycle(0x0B31)) << i;
 }
 
-TEST_F(DriveTest, AcknowledgesOnlyWhileIdle) {
+// Asked for all drives of a base, a healthy one that still runs down must not answer "no" for the others.
+TEST_F(DriveTest, HasNothingToAcknowledgeWithoutAFaultAndRunsOn) {
   run();
   drive_.requestAcknowledge(now_);
-  EXPECT_EQ(Refusal::kBusy, report().refusal);
-  EXPECT_EQ(RequestState::kRefused, report().acknowledge.state);
+  EXPECT_EQ(RequestState::kDone, report().acknowledge.state);
+  EXPECT_EQ(Phase::kEnabled, report().phase);
   EXPECT_EQ(0x047F, cycle(0x0B37, 0x2000));
 }
 

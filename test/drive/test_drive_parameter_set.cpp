@@ -131,6 +131,8 @@ TEST_F(SetRefusalTest, FromAnotherState) {
 // One at a time; what runs is not disturbed by what is refused.
 TEST_F(DriveTest, RefusesASecondSwitchingAndAnEnable) {
   start();
+  cycle(0x0B38);
+  cycle(0x0B31);  // a fault that has vanished is there to be acknowledged
   drive_.requestParameterSet(3, now_);
   drive_.requestParameterSet(2, now_);
   EXPECT_EQ(Refusal::kBusy, report().refusal);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <ostream>
 
+#include "nord_driver/SimTrip.h"
+
 namespace nord_driver::test {
 
 namespace {
@@ -14,13 +16,6 @@ namespace {
 constexpr double kCommandPeriod = 0.02;  // s
 constexpr double kWheelRadius = 0.1;     // m, robot.yaml
 constexpr double kStandstill = 1e-3;     // m/s
-
-template <typename Service>
-Answer call(const std::string& name, Service& service) {
-  if (!ros::service::waitForService(name, ros::Duration(kPatience.count()))) return {false, name + " does not exist"};
-  if (!ros::service::call(name, service)) return {false, name + " was not carried out"};
-  return {service.response.success != 0, service.response.message};
-}
 
 }  // namespace
 
@@ -49,7 +44,7 @@ RobotUnderTest::RobotUnderTest(ros::NodeHandle node)
 Answer RobotUnderTest::setBool(const std::string& name, bool on) {
   std_srvs::SetBool service;
   service.request.data = on;
-  return call(name, service);
+  return callService(name, service);
 }
 
 Answer RobotUnderTest::enable(bool on) {
@@ -60,9 +55,28 @@ Answer RobotUnderTest::simulator(const std::string& service, bool on) {
   return setBool("nord_sim/" + service, on);
 }
 
-Answer RobotUnderTest::referee() {
+Answer RobotUnderTest::callTrigger(const std::string& name) {
   std_srvs::Trigger service;
-  return call("nord_sim/referee", service);
+  return callService(name, service);
+}
+
+Answer RobotUnderTest::trigger(const std::string& service) {
+  return callTrigger("nord_driver/" + service);
+}
+
+Answer RobotUnderTest::trip(const std::string& drive, std::uint16_t number, bool cause_stays) {
+  SimTrip service;
+  service.request.number = number;
+  service.request.cause_stays = cause_stays;
+  return callService("nord_sim/" + drive + "/trip", service);
+}
+
+Answer RobotUnderTest::clearCause(const std::string& drive) {
+  return callTrigger("nord_sim/" + drive + "/clear_cause");
+}
+
+Answer RobotUnderTest::referee() {
+  return callTrigger("nord_sim/referee");
 }
 
 void RobotUnderTest::drive(double linear, double angular) {

@@ -30,6 +30,14 @@ struct Answer {
 };
 std::ostream& operator<<(std::ostream& out, const Answer& answer);
 
+/// Calls a service of any type that answers `success` and `message`; the rest of the answer is in `service`.
+template <typename Service>
+Answer callService(const std::string& name, Service& service) {
+  if (!ros::service::waitForService(name, ros::Duration(kPatience.count()))) return {false, name + " does not exist"};
+  if (!ros::service::call(name, service)) return {false, name + " was not carried out"};
+  return {service.response.success != 0, service.response.message};
+}
+
 /// One side's drive.
 struct DriveTopics {
   DriveTopics(ros::NodeHandle& node, const std::string& drive)
@@ -44,8 +52,13 @@ class RobotUnderTest {
 
   /// ~enable of the driver.
   Answer enable(bool on);
+  /// A std_srvs/Trigger service of the driver: "left/acknowledge_fault".
+  Answer trigger(const std::string& service);
   /// A std_srvs/SetBool service of the simulator: "left/unplug".
   Answer simulator(const std::string& service, bool on);
+  /// Lets a simulated inverter trip; `number` as P700 shows it. Without `cause_stays` it can be acknowledged at once.
+  Answer trip(const std::string& drive, std::uint16_t number, bool cause_stays);
+  Answer clearCause(const std::string& drive);
   /// The simulator's judgement of all that was on the bus.
   Answer referee();
 
@@ -74,6 +87,7 @@ class RobotUnderTest {
  private:
   explicit RobotUnderTest(ros::NodeHandle node);
   Answer setBool(const std::string& service, bool on);
+  Answer callTrigger(const std::string& service);
 
   ros::Publisher command_publisher_;
   std::atomic<bool> commanding_{false};

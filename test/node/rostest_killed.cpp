@@ -58,6 +58,12 @@ TEST_F(Killed, TheDrivesSwitchOffByTheirWatchdogAndTheNextNodeNamesTheFault) {
     ASSERT_FALSE(truth->operation_enabled);
     ASSERT_EQ(truth->control_word & 0x0080, 0) << "acknowledged without being asked";
   }
+
+  // Asked to, it acknowledges; enabled, it drives.
+  const Answer acknowledged = robot().trigger("acknowledge_faults");
+  EXPECT_TRUE(acknowledged.success) << acknowledged;
+  EXPECT_FALSE(robot().left.truth.next()->operation_enabled);
+  ASSERT_NO_FATAL_FAILURE(enableAndDrive(0.3));
 }
 
 }  // namespace

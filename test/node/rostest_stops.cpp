@@ -1,0 +1,277 @@
+// What stops what, while the robot drives and its commands go on: the words that go out, how soon, and that only
+// ~enable moves again. Exact bounds are proven in simulated time; here they are seen through the topics of the real
+// programs.
+#include <gmock/gmock.h>
+#include <rosgraph_msgs/Log.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "node/robot_under_test.h"
+#include "nord_driver/SimTerminals.h"
+
+namespace nord_driver::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr double kSpeed = 0.4;                // m/s
+constexpr double kWheelSpeed = kSpeed / 0.1;  // rad/s
+constexpr Seconds kCommandTimeout{0.5};       // robot.yaml
+/// Status messages, one for each cycle, that may still show the old word: the two cycles of the bound, and one that
+/// tells of a cycle a second time because the publisher has its own clock.
+constexpr int kTwoCycles = 3;
+/// The same from a service call on: its way through ROS takes longer than the bus.
+constexpr int kCallAndTwoCycles = 15;
+
+bool isError(int level, const std::string&) {
+  return level == diagnostic_msgs::DiagnosticStatus::ERROR;
+}
+
+using Statuses = std::vector<Topic<DriveStatus>::Pointer>;
+using Condition = std::function<bool(const DriveStatus&)>;
+
+/// How many messages came before the first for which `good` holds, from `since` on; -1: none.
+int messagesUntil(const Statuses& statuses, ros::Time since, const Condition& good) {
+  int count = 0;
+  for (const auto& status : statuses) {
+    if (status->header.stamp < since) continue;
+    if (good(*status)) return count;
+    ++count;
+  }
+  return -1;
+}
+
+class Stops : public RobotTest {
+ protected:
+  void SetUp() override {
+    RobotTest::SetUp();
+    ASSERT_TRUE(robot().waitForDrivesOnline());
+    enableAndDrive(kSpeed);
+    left_from_ = robot().left.status.mark();
+    right_from_ = robot().right.status.mark();
+  }
+  void TearDown() override {
+    robot().silence();
+    terminals(false, false);
+    robot().simulator("right/local_control", false);
+    robot().enable(false);
+    EXPECT_TRUE(eventually([] { return robot().trigger("acknowledge_faults").success; }));
+    EXPECT_TRUE(robot().waitForRest());
+    RobotTest::TearDown();
+  }
+  /// Inputs of the right drive.
+  static void terminals(bool coast, bool quick_stop) {
+    SimTerminals service;
+    service.request.coast = coast;
+    service.request.quick_stop = quick_stop;
+    EXPECT_TRUE(callService("nord_sim/right/terminals", service).success);
+  }
+  Statuses left() const { return robot().left.status.since(left_from_); }
+  Statuses right() const { return robot().right.status.since(right_from_); }
+  /// Stopped, both drives idle, and so it stays although commands go on.
+  void expectRestForGood() {
+    EXPECT_TRUE(robot().waitForStandstill());
+    EXPECT_FALSE(robot().enable(true).success) << "the command still stands";
+    for (DriveTopics* drive : {&robot().left, &robot().right}) {
+      const auto idle = [](const SimDrive& truth) { return truth.control_word == 0x047E && !truth.operation_enabled; };
+      ASSERT_TRUE(drive->truth.waitNext(idle));
+      const std::size_t from = drive->truth.mark();
+      ASSERT_TRUE(eventually([&] { return drive->truth.mark() >= from + 25; }));
+      for (const auto& truth : drive->truth.since(from)) ASSERT_TRUE(idle(*truth));
+    }
+  }
+  void expectDrivesAgain() {
+    robot().drive(0.0);
+    enableAndDrive(0.2);
+  }
+
+  std::size_t left_from_ = 0, right_from_ = 0;
+};
+
+/// Something at the right drive that stops the base.
+struct Cause {
+  std::string name;
+  void (*act)();
+  void (*take_back)();
+  Condition seen;  ///< in the status of the right drive
+  std::string said;
+};
+
+void PrintTo(const Cause& cause, std::ostream* out) {
+  *out << cause.name;
+}
+
+class CauseAtADrive : public Stops, public ::testing::WithParamInterface<Cause> {
+ public:
+  static void trip() { EXPECT_TRUE(robot().trip("right", 21, true).success); }
+  static void acknowledge() {
+    EXPECT_TRUE(robot().clearCause("right").success);
+    EXPECT_TRUE(eventually([] { return robot().trigger("acknowledge_faults").success; }));
+  }
+  static void takeOver() { EXPECT_TRUE(robot().simulator("right/local_control", true).success); }
+  static void handBack() { EXPECT_TRUE(robot().simulator("right/local_control", false).success); }
+  static void coast() { terminals(true, false); }
+  static void quickStop() { terminals(false, true); }
+  static void release() { terminals(false, false); }
+};
+
+// The idle word to that drive at most two cycles later; setpoint 0 to the other one, OFF1 when it is down.
+TEST_P(CauseAtADrive, IdlesItAndRunsTheOtherOneDown) {
+  const Cause& cause = GetParam();
+  cause.act();
+  const auto first = robot().right.status.waitFrom(right_from_, cause.seen);
+  ASSERT_TRUE(first) << "the cause is not seen";
+  EXPECT_TRUE(robot().waitForStandstill());
+  EXPECT_TRUE(robot().left.status.waitFrom(left_from_, [](const DriveStatus& status) {
+    return status.control_word == 0x047E && status.ready_to_switch_on && !status.operation_enabled;
+  }));
+
+  const ros::Time seen = first->header.stamp;
+  const int idled = messagesUntil(right(), seen, [](const DriveStatus& s) { return s.control_word == 0x047E; });
+  EXPECT_GE(idled, 0);
+  EXPECT_LE(idled, kTwoCycles);
+  const int zero = messagesUntil(left(), seen, [](const DriveStatus& s) { return s.setpoints.at(0) == 0; });
+  EXPECT_GE(zero, 0);
+  EXPECT_LE(zero, kTwoCycles);
+  bool at_zero = false, off = false;
+  for (const auto& status : left()) {
+    at_zero = at_zero || status->setpoints.at(0) == 0;
+    off = off || status->control_word == 0x047E;
+    if (at_zero) {
+      EXPECT_EQ(status->setpoints.at(0), 0);
+    }
+    EXPECT_EQ(status->control_word, off ? 0x047E : 0x047F);
+  }
+  // Not OFF1 at once: the torque stays until the drive is down.
+  const int off1 = messagesUntil(left(), seen, [](const DriveStatus& s) { return s.control_word == 0x047E; });
+  EXPECT_GT(off1, zero);
+  EXPECT_THAT(robot().waitForDiagnostics("base", isError), AllOf(HasSubstr("drive right"), HasSubstr(cause.said)));
+
+  ASSERT_NO_FATAL_FAILURE(expectRestForGood());
+  cause.take_back();
+  ASSERT_NO_FATAL_FAILURE(expectRestForGood());
+  expectDrivesAgain();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    WhileDriving, CauseAtADrive,
+    ::testing::Values(Cause{"Fault", &CauseAtADrive::trip, &CauseAtADrive::acknowledge,
+                            [](const DriveStatus& status) { return status.fault != 0; }, "a fault of the inverter"},
+                      Cause{"LocalControl", &CauseAtADrive::takeOver, &CauseAtADrive::handBack,
+                            [](const DriveStatus& status) { return !status.bus_control; }, "local control"},
+                      Cause{"Off2AtTheTerminals", &CauseAtADrive::coast, &CauseAtADrive::release,
+                            [](const DriveStatus& status) { return !status.voltage_enabled; },
+                            "OFF2 at the inverter's terminals"},
+                      Cause{"Off3AtTheTerminals", &CauseAtADrive::quickStop, &CauseAtADrive::release,
+                            [](const DriveStatus& status) { return !status.quick_stop_inactive; },
+                            "OFF3 at the inverter's terminals"}),
+    [](const ::testing::TestParamInfo<Cause>& test) { return test.param.name; });
+
+class QuickStop : public Stops, public ::testing::WithParamInterface<const char*> {};
+
+// OFF3 on all drives of the base, whichever was asked, held until "switch-on disabled" (BU 2700 6.4.1 bit 2).
+TEST_P(QuickStop, SaysOff3ToAllDrivesUntilTheyAreDisabled) {
+  const ros::Time asked = ros::Time::now();
+  const Answer answer = robot().trigger(GetParam());
+  EXPECT_TRUE(answer.success) << answer;
+  EXPECT_THAT(answer.message, HasSubstr("stopped and disabled"));
+  ASSERT_TRUE(robot().waitForStandstill());
+  ASSERT_NO_FATAL_FAILURE(expectRestForGood());
+
+  for (const Statuses& statuses : {left(), right()}) {
+    const int off3 = messagesUntil(statuses, asked, [](const DriveStatus& s) { return s.control_word == 0x047B; });
+    EXPECT_GE(off3, 0);
+    EXPECT_LE(off3, kCallAndTwoCycles);
+    bool stopping = false, disabled = false;
+    for (const auto& status : statuses) {
+      stopping = stopping || status->control_word == 0x047B;
+      if (stopping && !disabled) {
+        EXPECT_EQ(status->control_word, 0x047B);
+        EXPECT_EQ(status->setpoints.at(0), 0);
+      }
+      disabled = disabled || (stopping && status->switch_on_disabled);
+    }
+    EXPECT_TRUE(disabled);
+  }
+  EXPECT_THAT(robot().waitForDiagnostics("base", isError), HasSubstr("a quick stop was asked for"));
+  expectDrivesAgain();
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTheBase, QuickStop, ::testing::Values("quick_stop", "left/quick_stop"),
+                         [](const ::testing::TestParamInfo<const char*>& test) {
+                           return std::string(test.param) == "quick_stop" ? "AllDrives" : "OneOfThem";
+                         });
+
+// Down the deceleration limit with the drives enabled, then OFF1.
+TEST_F(Stops, DisableRampsDownThenSaysOff1) {
+  const int cruising = std::abs(int{robot().left.status.next()->setpoints.at(0)});
+  const ros::Time asked = ros::Time::now();
+  const Answer answer = robot().enable(false);
+  EXPECT_TRUE(answer.success) << answer;
+  ASSERT_NO_FATAL_FAILURE(expectRestForGood());
+  const int slower =
+      messagesUntil(left(), asked, [&](const DriveStatus& s) { return std::abs(int{s.setpoints.at(0)}) < cruising; });
+  EXPECT_GE(slower, 0);
+  EXPECT_LE(slower, kCallAndTwoCycles);
+  int last = cruising;
+  std::size_t steps = 0;
+  for (const auto& status : left()) {
+    if (status->header.stamp < asked) continue;
+    const int setpoint = std::abs(int{status->setpoints.at(0)});
+    EXPECT_LE(setpoint, last);
+    steps += setpoint < last ? 1 : 0;
+    last = setpoint;
+    if (setpoint > 0) {
+      EXPECT_EQ(status->control_word, 0x047F) << "no OFF1 above zero";
+    }
+  }
+  EXPECT_EQ(last, 0);
+  EXPECT_GE(steps, 5u) << "a step, no ramp";
+  expectDrivesAgain();
+}
+
+struct BadCommand {
+  std::string name;
+  double linear, angular;
+};
+
+class NotANumber : public Stops, public ::testing::WithParamInterface<BadCommand> {};
+
+// No command at all: the one before stands until its time-out, then the base ramps down and stays enabled.
+TEST_P(NotANumber, IsIgnoredAndCountedWhileTheTimeoutRuns) {
+  ros::NodeHandle handle;
+  Topic<rosgraph_msgs::Log> rosout(handle, "/rosout");
+  robot().drive(GetParam().linear, GetParam().angular);
+  const ros::Time last_good = ros::Time::now();
+  ASSERT_TRUE(robot().waitForStandstill());
+  EXPECT_EQ(robot().left.status.next()->state, DriveStatus::OPERATION_ENABLED);
+  EXPECT_EQ(robot().right.status.next()->state, DriveStatus::OPERATION_ENABLED);
+
+  const ros::Duration followed(0.8 * kCommandTimeout.count());
+  int while_fresh = 0;
+  for (const auto& status : left()) {
+    ASSERT_TRUE(std::isfinite(status->velocity_command));
+    EXPECT_EQ(status->control_word, 0x047F);
+    EXPECT_LE(std::fabs(status->velocity_command), 1.001 * kWheelSpeed);
+    if (status->header.stamp < last_good || status->header.stamp > last_good + followed) continue;
+    ++while_fresh;
+    EXPECT_NEAR(status->velocity_command, kWheelSpeed, 0.01) << "the command before is still fresh";
+  }
+  EXPECT_GT(while_fresh, 5);
+  EXPECT_TRUE(rosout.waitFrom(0, [](const rosgraph_msgs::Log& log) {
+    return log.name == "/nord_driver" && log.msg.find("ignored (") != std::string::npos;
+  })) << "not counted";
+  robot().drive(0.2);
+  EXPECT_TRUE(robot().waitForTrueSpeed(0.18)) << "a good command is followed again";
+}
+
+INSTANTIATE_TEST_SUITE_P(InACommand, NotANumber,
+                         ::testing::Values(BadCommand{"LinearNan", std::numeric_limits<double>::quiet_NaN(), 0.0},
+                                           BadCommand{"AngularInfinite", 0.2, std::numeric_limits<double>::infinity()}),
+                         [](const ::testing::TestParamInfo<BadCommand>& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace nord_driver::test
