@@ -73,7 +73,7 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
   switch (request.kind) {
     case RequestKind::kReadParameter:
     case RequestKind::kWriteParameter:
-      return axes_[request.drive].parameters.handleRequest(request, drives_[request.drive].report());
+      return accessParameter(request);
     case RequestKind::kAcknowledge:
       return maintenance_.handleRequest(request, now);
     case RequestKind::kSelectParameterSet:
@@ -86,6 +86,20 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
     case RequestKind::kShutDown:
       return supervisor_.handleRequest(request, movingCommand(now), now);
   }
+}
+
+// Written while it turns, P105 would be a step of the speed: the setpoint is a share of it.
+void BusCycle::accessParameter(const Request& request) noexcept {
+  const bool at_rest = supervisor_.groupOf(request.drive).report().phase == drive::GroupPhase::kDisabled &&
+                       drives_[request.drive].isAtRest();
+  if (at_rest || !changesProcessData(request)) {
+    return axes_[request.drive].parameters.handleRequest(request, drives_[request.drive]);
+  }
+  Completion completion;
+  completion.id = request.id;
+  completion.message.format("P%03u decides what setpoints and actual values mean: disable drive %s first",
+                            request.parameter.number, names_[request.drive].c_str());
+  ports_.complete(completion);
 }
 
 // A drive that is idle may still belong to a base that is on its way to rest: its set stays what it is until then.

@@ -14,6 +14,10 @@ constexpr std::uint32_t kDriveMask = (1u << kDriveBits) - 1, kAskerMask = (1u <<
 
 constexpr Duration kReasonInterval = std::chrono::milliseconds{500};
 
+void forgetScale(drive::Drive& drive) noexcept {
+  for (std::uint8_t set = 1; set <= 4; ++set) drive.setMaxFrequency(set, Hertz{});
+}
+
 drive::ParameterTask taskOf(const Request& request, std::uint8_t set_in_force) noexcept {
   const profile::ParameterRequest& from = request.parameter;
   drive::ParameterTask task;
@@ -33,6 +37,11 @@ drive::ParameterTask taskOf(const Request& request, std::uint8_t set_in_force) n
 
 }  // namespace
 
+bool changesProcessData(const Request& request) noexcept {
+  const std::uint16_t number = request.parameter.number;
+  return request.kind == RequestKind::kWriteParameter && (number == 105 || (number >= 543 && number <= 548));
+}
+
 DriveParameters::DriveParameters(DriveIndex drive, std::string name, profile::Series series,
                                  std::optional<double> typed_max_frequency)
     : drive_(drive), name_(std::move(name)), typed_max_frequency_(typed_max_frequency), reader_(series) {}
@@ -42,7 +51,7 @@ void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
   if (report.online) {
     faults_.handleStatus(profile::StatusWord{report.status_word});
     askForReason(drive, now);
-    if (scale_due_) scale(drive);
+    if (scale_due_ && !writesProcessData()) scale(drive);
     scale_due_ = false;
     return;
   }
@@ -53,7 +62,7 @@ void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
   session_.handleOffline();
   collect();
   // Another inverter may come back in its place: nothing is enabled with what P105 was before.
-  for (std::uint8_t set = 1; set <= 4; ++set) drive.setMaxFrequency(set, Hertz{});
+  forgetScale(drive);
 }
 
 // An idle drive that 047E does not lead to "ready to switch on" has a reason; it is known before anybody asks for it.
@@ -86,12 +95,28 @@ void DriveParameters::scale(drive::Drive& drive) const noexcept {
   }
 }
 
-void DriveParameters::handleRequest(const Request& request, const drive::DriveReport& report) noexcept {
+bool DriveParameters::writesProcessData() const noexcept {
+  for (const Request& request : pending_) {
+    if (changesProcessData(request)) return true;
+  }
+  return false;
+}
+
+void DriveParameters::readDeviceAgain() noexcept {
+  // Its question under way may have been answered before the write.
+  open_ids_[static_cast<std::size_t>(Asker::kReader)] = 0;
+  reader_.handleOffline();
+  scale_due_ = false;
+}
+
+void DriveParameters::handleRequest(const Request& request, drive::Drive& drive) noexcept {
+  const drive::DriveReport& report = drive.report();
   if (!report.online) return refuse(request, profile::ParameterOutcome::kOffline);
   if (pending_.full() || !session_.submit(taskOf(request, report.parameter_set))) {
     return refuse(request, profile::ParameterOutcome::kBusy);
   }
   pending_.push_back(request);
+  if (changesProcessData(request)) forgetScale(drive);
 }
 
 void DriveParameters::refuse(const Request& request, profile::ParameterOutcome outcome) noexcept {
@@ -167,6 +192,8 @@ void DriveParameters::collect() noexcept {
       completion.raw = result->raw;
       completion.message = parameterSentence(name_.c_str(), pending_[i].parameter.number, *result);
       completions_.push_back(completion);
+      // Whatever became of it: a write without an answer may have been carried out.
+      if (changesProcessData(pending_[i])) readDeviceAgain();
       for (std::size_t j = i + 1; j < pending_.size(); ++j) pending_[j - 1] = pending_[j];
       pending_.resize(pending_.size() - 1);
       break;

@@ -112,5 +112,44 @@ TEST(ParameterSets, ASetThatChangesByItselfStopsTheBase) {
   EXPECT_TRUE(robot.standsStill());
 }
 
+cycle::Request writeP105(DriveIndex drive, std::int32_t raw) {
+  cycle::Request request;
+  request.kind = cycle::RequestKind::kWriteParameter;
+  request.drive = drive;
+  request.parameter.number = 105;
+  request.parameter.shape = profile::ParameterShape::kPerSet;
+  request.parameter.action = profile::ParameterAction::kWriteRam;
+  request.parameter.raw = raw;
+  return request;
+}
+
+// Written over the driver's own service, the new P105 counts from the first movement on.
+TEST(ParameterSets, AP105ThatTheUserHasWrittenScalesFromThenOn) {
+  SimulatedRobot robot;
+  ASSERT_TRUE(robot.bringUp());
+  for (DriveIndex drive = 0; drive < 2; ++drive) {
+    const cycle::Completion written = robot.ask(writeP105(drive, 1000));
+    ASSERT_TRUE(written.success) << written.message.c_str();
+  }
+  EXPECT_THAT(robot.ask(cycle::RequestKind::kEnable).message.c_str(), HasSubstr("(P105)")) << "not before it is read";
+  ASSERT_TRUE(robot.bringUp());
+  ASSERT_TRUE(robot.ask(cycle::RequestKind::kEnable).success);
+  robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{5});
+  EXPECT_EQ(0x1000, robot.setpoint(0));
+  EXPECT_NEAR(25.0, robot.unit(0).inverter().frequency(), 1e-2) << "the truth";
+  EXPECT_NEAR(kHalfSpeed, robot.snapshot().base.velocity.linear_x, 1e-4);
+}
+
+// Under a setpoint it would be a step of the speed.
+TEST(ParameterSets, P105IsNotWrittenWhileTheDriveIsEnabled) {
+  SimulatedRobot robot;
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{5});
+  const cycle::Completion answer = robot.ask(writeP105(0, 1000));
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("P105 decides what setpoints and actual values mean: disable drive"));
+  EXPECT_EQ(500, robot.unit(0).parameters().value(105));
+}
+
 }  // namespace
 }  // namespace nord_driver::test

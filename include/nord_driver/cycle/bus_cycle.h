@@ -42,6 +42,7 @@ class BusCycle {
   void takeRequests(Instant now) noexcept;
   void takeRequest(const Request& request, Instant now) noexcept;
   void selectParameterSet(const Request& request, Instant now) noexcept;
+  void accessParameter(const Request& request) noexcept;
   Completion resetOdometry(const Request& request) noexcept;
   Sentence movingCommand(Instant now) noexcept;
   void command(Instant now, Duration dt) noexcept;

@@ -18,6 +18,10 @@
 
 namespace nord_driver::cycle {
 
+/// A write of P105 (100 % of setpoint 1 and actual value 1) or of P543 to P548 (which setpoints and actual values these
+/// are): afterwards the same process data are another speed.
+bool changesProcessData(const Request& request) noexcept;
+
 /// Each cycle, after the exchange: `handleState`, then `pollRequest` until it is empty, then the transport's results by
 /// `handleResult`, then `pollCompletion`. Three askers, each with one question under way at most; a result is given
 /// only to the one whose latest question it answers.
@@ -28,8 +32,10 @@ class DriveParameters {
 
   /// Looks whether the drive is there and whether it has a fault; hands it P105 as it is known. Offline: all ends.
   void handleState(drive::Drive& drive, Instant now) noexcept;
-  /// kReadParameter and kWriteParameter; the answer comes as a completion.
-  void handleRequest(const Request& request, const drive::DriveReport& report) noexcept;
+  /// kReadParameter and kWriteParameter; the answer comes as a completion. A write that changes what the process data
+  /// mean (`changesProcessData`) takes P105 from the drive until all of them have been read again: it is not enabled
+  /// before.
+  void handleRequest(const Request& request, drive::Drive& drive) noexcept;
 
   /// The next access for the transport, with its id.
   std::optional<profile::ParameterRequest> pollRequest(Instant now) noexcept;
@@ -53,6 +59,8 @@ class DriveParameters {
   void scale(drive::Drive& drive) const noexcept;
   void refuse(const Request& request, profile::ParameterOutcome outcome) noexcept;
   void collect() noexcept;
+  void readDeviceAgain() noexcept;
+  bool writesProcessData() const noexcept;
 
   DriveIndex drive_;
   std::string name_;
