@@ -51,7 +51,7 @@ void collectLeaves(XmlRpcValue& value, const std::string& prefix, std::vector<st
 
 }  // namespace
 
-RosSettings::RosSettings(std::string prefix, XmlRpcValue value) : prefix_(std::move(prefix)), value_(std::move(value)) {
+RosSettings::RosSettings(std::string prefix, const XmlRpcValue& value) : prefix_(std::move(prefix)), value_(value) {
   if (value_.valid() && value_.getType() != XmlRpcValue::TypeStruct) {
     throw ConfigError(prefix_ + ": " + printed(value_) + " is not valid, expected a group of keys and values");
   }

@@ -24,8 +24,8 @@ bool hasTwoWords(Series series) noexcept {
 }
 
 std::optional<std::uint8_t> find(const ValueFunctions& functions, std::uint16_t wanted) noexcept {
-  for (std::uint8_t i = 0; i < functions.size(); ++i) {
-    if (functions[i] == wanted) return i;
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    if (functions[i] == wanted) return static_cast<std::uint8_t>(i);
   }
   return std::nullopt;
 }

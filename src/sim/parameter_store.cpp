@@ -29,7 +29,7 @@ std::optional<std::size_t> ParameterStore::slot(unsigned number, unsigned set, u
   const unsigned elements = std::max<unsigned>(definition->elements, 1);
   if (!definition->per_set) set = 0;
   if (set >= sets || element >= elements) return std::nullopt;
-  return first_[static_cast<std::size_t>(index_[number])] + element * sets + set;
+  return first_[static_cast<std::size_t>(index_[number])] + std::size_t{element} * sets + set;
 }
 
 std::int32_t ParameterStore::value(unsigned number, unsigned set, unsigned element) const noexcept {

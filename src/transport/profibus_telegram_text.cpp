@@ -36,7 +36,7 @@ std::string way(const Telegram& telegram) {
   return std::to_string(telegram.da) + " <- " + std::to_string(telegram.sa);
 }
 
-std::string withHex(std::string text, ByteView data) {
+std::string withHex(const std::string& text, ByteView data) {
   return data.empty() ? text : text + " " + toHex(data);
 }
 

@@ -17,7 +17,7 @@ namespace nord_driver::node {
 class RosSettings final : public Settings {
  public:
   /// `value` is a struct, or invalid for an absent group. Throws ConfigError when it is anything else.
-  RosSettings(std::string prefix, XmlRpc::XmlRpcValue value);
+  RosSettings(std::string prefix, const XmlRpc::XmlRpcValue& value);
 
   bool has(const std::string& key) const override;
   std::optional<double> number(const std::string& key) const override;
