@@ -56,7 +56,9 @@ look_into() {
   for launch in "$root"/launch/*.launch; do
     [[ -e $launch ]] || continue
     launch=$(basename "$launch")
-    in_space "$space/setup.bash" "roslaunch --files nord_driver $launch" >/dev/null || {
+    # Every launch file takes a configuration; one has no default for it.
+    in_space "$space/setup.bash" \
+      "roslaunch --files nord_driver $launch config:=\$(rospack find nord_driver)/config/demo.yaml" >/dev/null || {
       echo "check_workspace: roslaunch does not find $launch in the $(basename "$space") space"
       exit 1
     }
