@@ -51,9 +51,7 @@ void report(PtyBus& bus) {
   std::printf("referee: %s\n", text.c_str());
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app{"Simulated NORD inverters on a PROFIBUS DP segment, on a pseudo-terminal."};
   app.set_version_flag("--version", std::string("nord_sim ") + NORD_DRIVER_VERSION);
   std::vector<std::string> files;
@@ -72,15 +70,21 @@ int main(int argc, char** argv) {
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  const SimConfig config = readConfig(files, device);
+  for (const std::string& warning : config.warnings) std::fprintf(stderr, "nord_sim: %s\n", warning.c_str());
+  PtyBus bus(config, config.device);
+  std::printf("%s\n", bus.linkPath().c_str());
+  std::fflush(stdout);
+  waitForEnd(signals, duration);
+  report(bus);
+  return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    const SimConfig config = readConfig(files, device);
-    for (const std::string& warning : config.warnings) std::fprintf(stderr, "nord_sim: %s\n", warning.c_str());
-    PtyBus bus(config, config.device);
-    std::printf("%s\n", bus.linkPath().c_str());
-    std::fflush(stdout);
-    waitForEnd(signals, duration);
-    report(bus);
-    return EXIT_SUCCESS;
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "nord_sim: %s\n", error.what());
     return EXIT_FAILURE;
