@@ -17,6 +17,7 @@ NodeGuard::NodeGuard(std::uint8_t node, Duration guard_time, std::uint8_t life_t
 void NodeGuard::start(bool fresh, Instant now) noexcept {
   next_question_ = now + guard_time_;
   life_end_ = now + life_time_;
+  over_ = false;
   due_ = true;
   open_ = false;
   expected_toggle_.reset();
@@ -36,10 +37,12 @@ GuardAnswer NodeGuard::handle(std::uint8_t value, Instant now) noexcept {
   if (expected_toggle_ && *expected_toggle_ != toggle) return GuardAnswer::kWrongToggle;
   expected_toggle_ = static_cast<std::uint8_t>(toggle ^ kToggle);
   life_end_ = now + life_time_;
+  over_ = false;
   return GuardAnswer::kAccepted;
 }
 
 bool NodeGuard::poll(Instant now) noexcept {
+  over_ = expired(now);
   if (!running() || now < *next_question_) return false;
   // A late look asks once, not once for each time that was missed.
   next_question_ = std::max(*next_question_ + guard_time_, now + guard_time_ / 2);
@@ -60,7 +63,7 @@ bool NodeGuard::pollTransmit(CanFrame& frame) noexcept {
 }
 
 std::optional<Instant> NodeGuard::nextDeadline() const noexcept {
-  if (!running()) return std::nullopt;
+  if (!running() || over_) return next_question_;
   return std::min(*next_question_, life_end_);
 }
 

@@ -4,14 +4,19 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "nord_driver/canopen/bus_watch.h"
 #include "nord_driver/canopen/canopen_event.h"
+#include "nord_driver/canopen/cob_id_table.h"
 #include "nord_driver/canopen/counters.h"
 #include "nord_driver/canopen/master_config.h"
+#include "nord_driver/canopen/node.h"
 #include "nord_driver/canopen/node_status.h"
 #include "nord_driver/canopen/pdo_value.h"
+#include "nord_driver/canopen/process_queue.h"
 #include "nord_driver/canopen/sdo_request.h"
 #include "nord_driver/core/bytes.h"
 #include "nord_driver/core/can_frame.h"
@@ -82,13 +87,57 @@ class Master {
   bool submitSdo(std::size_t node, std::size_t server, const SdoRequest& request) noexcept;
   std::optional<NodeSdoAnswer> pollSdo() noexcept;
 
-  std::size_t nodeCount() const noexcept;
-  const NodeStatus& status(std::size_t node) const noexcept;
-  std::optional<CanopenEvent> pollEvent() noexcept;
-  const Counters& counters() const noexcept;
+  std::size_t nodeCount() const noexcept { return nodes_.size(); }
+  const NodeStatus& status(std::size_t node) const noexcept { return nodes_[node]->status(); }
+  std::optional<CanopenEvent> pollEvent() noexcept { return events_.pop(); }
+  const Counters& counters() const noexcept { return counters_; }
   /// The identifiers that must reach `handleFrame()`: those of our nodes, boot-up and heartbeat of every other node,
   /// and those only a master sends. For the filters of the interface; sorted.
   std::vector<std::uint32_t> receivedIds() const;
+
+ private:
+  /// What `pollTransmit()` gave out last, for `notSent()`.
+  struct Given {
+    enum class Kind : std::uint8_t { kNothing, kNmt, kReceivePdo, kSync, kOwnHeartbeat, kGuard, kSdo };
+    Kind kind = Kind::kNothing;
+    std::size_t node = 0;
+    std::size_t item = 0;
+    CanFrame frame;
+  };
+
+  void dispatch(const CobIdUse& use, const CanFrame& frame, Instant now) noexcept;
+  void handleNmt(const CanFrame& frame, Instant now) noexcept;
+  void handleRemote(const CobIdUse& use, const CanFrame& frame, Instant now) noexcept;
+  /// A node was worked on: it may have something to send, and an earlier deadline.
+  void touched(const Node& node) noexcept;
+  void expect(std::optional<Instant> deadline) noexcept;
+  bool pollNmt() noexcept;
+  bool pollReceivePdo() noexcept;
+  bool pollSync() noexcept;
+  bool pollErrorControl() noexcept;
+  bool pollSdoFrame() noexcept;
+  void give(Given::Kind kind, std::size_t node, std::size_t item, const CanFrame& frame) noexcept;
+  void dropProcessData() noexcept;
+
+  MasterConfig config_;
+  Counters counters_;
+  CanopenEvents events_;
+  std::vector<CobIdUse> uses_;
+  std::vector<std::unique_ptr<Node>> nodes_;
+  BusWatch watch_;
+  ProcessQueue process_;
+  std::vector<std::pair<std::size_t, std::size_t>> servers_;  // node, server: for the turns of SDO
+  std::size_t next_server_ = 0;
+  Given given_;
+  Instant now_{};
+  std::optional<Instant> deadline_;  // not later than the earliest of all
+  std::optional<Instant> next_heartbeat_;
+  bool boot_up_due_ = false;  // ours
+  bool heartbeat_due_ = false;
+  // False: nobody has anything of that kind to send. True: somebody may.
+  bool nmt_maybe_ = false;
+  bool error_control_maybe_ = false;
+  bool sdo_maybe_ = false;
 };
 
 }  // namespace nord_driver::canopen

@@ -36,7 +36,10 @@ class NodeGuard {
   /// The question, when one is due.
   bool pollTransmit(CanFrame& frame) noexcept;
   /// It was not sent: it is due again.
-  void notSent() noexcept { due_ = running(); }
+  void notSent() noexcept {
+    due_ = running();
+    open_ = false;
+  }
   bool due() const noexcept { return due_; }
   std::optional<Instant> nextDeadline() const noexcept;
 
@@ -46,6 +49,7 @@ class NodeGuard {
   Duration life_time_;
   std::optional<Instant> next_question_;
   Instant life_end_{};
+  bool over_ = false;  // the life time is over, and this was seen
   bool due_ = false;   // a question waits to be sent
   bool open_ = false;  // a question was sent and not answered
   std::optional<std::uint8_t> expected_toggle_;
