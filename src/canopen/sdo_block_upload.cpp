@@ -48,8 +48,12 @@ SdoStep BlockUpload::handleSegment(const SdoBytes& segment, SdoBuffer& buffer) n
   const auto number = static_cast<std::uint8_t>(segment[0] & 0x7Fu);
   const bool last = (segment[0] & kLastOfAll) != 0;
   if (number == 0 || number > kSdoBlockSize) return SdoStep::stale();
-  // The end of the block before, repeated on the bus behind our acknowledgement.
-  if (in_order_ == 0 && number == last_of_block_ && number != 1 && segment == last_segment_) return SdoStep::stale();
+  // The end of the block before once more: repeated on the bus behind our acknowledgement, or all that arrived of the
+  // same block a second time. Silence will tell.
+  if (in_order_ == 0 && number == last_of_block_ && number != 1 && segment == last_segment_) {
+    heard_ = true;
+    return SdoStep::stale();
+  }
   if (number <= in_order_) return SdoStep::stale();
   silent_ = false;
   heard_ = true;
@@ -68,10 +72,10 @@ SdoStep BlockUpload::handleSegment(const SdoBytes& segment, SdoBuffer& buffer) n
 }
 
 bool BlockUpload::handleSilence() noexcept {
-  if (state_ != State::kReceiving || silent_) return false;
+  if (state_ == State::kEnding || silent_) return false;
   silent_ = true;
   // Before the first segment the server may only be slow, and an acknowledgement would send it back a block.
-  return !heard_ || acknowledge().kind == SdoStep::Kind::kAccepted;
+  return state_ != State::kReceiving || !heard_ || acknowledge().kind == SdoStep::Kind::kAccepted;
 }
 
 SdoBytes BlockUpload::confirmation() noexcept {

@@ -31,7 +31,7 @@ class BlockUpload {
   /// brings it again: false when that was tried already, or does not help.
   bool handleSilence() noexcept;
   /// That half counts; otherwise the whole.
-  bool awaitsSegments() const noexcept { return state_ == State::kReceiving || state_ == State::kToAcknowledge; }
+  bool awaitsSegments() const noexcept { return state_ != State::kEnding; }
   /// What the server is told when the data are complete; it does not answer.
   static SdoBytes confirmation() noexcept;
 

@@ -10,8 +10,9 @@
 
 namespace nord_driver::canopen {
 
-/// Most bytes of one object that a client can carry. NORD's objects have 1 to 4; strings have some tens.
-constexpr std::size_t kSdoCapacity = 1024;
+/// Most bytes of one object that a client can carry. NORD's objects have 1 to 4; strings have some tens. A multiple of
+/// the 7 bytes of a segment, since the last one of a block comes filled up.
+constexpr std::size_t kSdoCapacity = 1022;
 
 /// The two identifiers of one SDO server. A gateway has several servers (BU 0260: 1200h to 1203h, one per inverter).
 struct SdoChannel {
