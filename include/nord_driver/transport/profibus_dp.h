@@ -11,6 +11,7 @@
 #include "nord_driver/link/serial_port.h"
 #include "nord_driver/profibus/dp_master.h"
 #include "nord_driver/profile/pkw_channel.h"
+#include "nord_driver/transport/parameters_only.h"
 #include "nord_driver/transport/profibus_dp_config.h"
 #include "nord_driver/transport/profibus_recorder.h"
 #include "nord_driver/transport/telegram_trace.h"
@@ -20,7 +21,7 @@ namespace nord_driver {
 
 /// Joins the DP master (profibus/), a byte link (link/) and the layout of the process data (profile/). This is where
 /// words become bytes: PROFIBUS sends the high byte first (EN 50170-8; BU 2700 6.6).
-class ProfibusDpTransport final : public Transport {
+class ProfibusDpTransport final : public Transport, public ParametersOnly {
  public:
   using LinkFactory = std::function<std::unique_ptr<link::ByteLink>(const link::SerialSettings&)>;
 
@@ -29,6 +30,7 @@ class ProfibusDpTransport final : public Transport {
   /// On whatever the factory makes: a simulated segment in tests.
   explicit ProfibusDpTransport(LinkFactory make_link);
 
+  void serveParametersOnly() noexcept override { parameters_only_ = true; }
   void configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) override;
   Instant now() const noexcept override;
   void sleepUntil(Instant when) noexcept override;
@@ -61,6 +63,7 @@ class ProfibusDpTransport final : public Transport {
   void takeInput(DriveIndex drive, DriveExchange& input) noexcept;
 
   LinkFactory make_link_;
+  bool parameters_only_ = false;
   ProfibusDpConfig config_;
   std::unique_ptr<link::ByteLink> link_;
   std::optional<profibus::DpMaster> master_;
