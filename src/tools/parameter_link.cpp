@@ -144,6 +144,7 @@ ParameterAnswer ParameterLink::write(const cycle::ParameterAddress& address, con
 ParameterAnswer ParameterLink::carryOut(const cycle::Request& request, const profile::ParameterInfo* info) {
   drive::ParameterTask task = cycle::taskOf(request, drives_[0].report().parameter_set);
   task.id = ++last_id_;
+  task.even_if_same = true;  // the run before may have put it into the RAM
   std::optional<drive::ParameterTaskResult> result;
   if (session_.submit(task)) {
     const Instant end = transport_.now() + kPatience;

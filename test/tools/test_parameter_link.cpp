@@ -57,6 +57,21 @@ TEST(ParameterLink, ReadsAndWrites) {
   EXPECT_THAT(drive.link().write(parameter(102, 4), value(2.5)).message, HasSubstr("nothing was written"));
 }
 
+// A value of the run before may be in the RAM only, and reads the same.
+TEST(ParameterLink, SavesWhatIsThereAlready) {
+  LinkedDrive drive;
+  drive.left().parameters().write(102, 0, 0, 250, sim::Storage::kRam);
+  drive.connect();
+  cycle::ParameterWish wish = value(2.5);
+  EXPECT_THAT(drive.link().write(parameter(102), wish).message, HasSubstr("nothing was written"));
+  wish.persistent = true;
+  const ParameterAnswer saved = drive.link().write(parameter(102), wish);
+  EXPECT_TRUE(saved.success) << saved.message;
+  EXPECT_EQ(1u, drive.left().parameters().eepromWrites());
+  drive.left().parameters().restoreFromEeprom();
+  EXPECT_EQ(250, drive.left().parameters().value(102));
+}
+
 // The end of the program is no loss of the master: with a watchdog each run would leave E10.2 behind (BU 2700 8.1.1).
 TEST(ParameterLink, ItsEndTripsNothing) {
   LinkedDrive drive;
