@@ -8,11 +8,22 @@ namespace {
 constexpr std::int32_t kProfibus = 4;
 constexpr std::int32_t kProfibusOlderSeries = 10;
 
+/// P515 the node id, P551 the profile, P509 CANopen.
+void commissionOnCan(const DriveConfig& config, ParameterStore& parameters) noexcept {
+  if (config.can->connection != CanConnection::kGateway) parameters.preset(515, 0, 0, config.slave.address);
+  parameters.preset(551, 0, 0, config.can->cia402 ? 1 : 0);
+  if (config.inverter.bus_source) parameters.preset(509, 0, 0, *config.inverter.bus_source);
+}
+
 /// Commissioned as BU 2700 7.2 asks for before it is switched on, then as the configuration says.
 void commission(const DriveConfig& config, ParameterStore& parameters) {
-  parameters.preset(507, 0, 0, config.slave.ppo_type);
-  parameters.preset(508, 0, 0, config.slave.address);
-  parameters.preset(509, 0, 0, config.device.isOlderSeries() ? kProfibusOlderSeries : kProfibus);
+  if (config.can) {
+    commissionOnCan(config, parameters);
+  } else {
+    parameters.preset(507, 0, 0, config.slave.ppo_type);
+    parameters.preset(508, 0, 0, config.slave.address);
+    parameters.preset(509, 0, 0, config.device.isOlderSeries() ? kProfibusOlderSeries : kProfibus);
+  }
   for (const ParameterPreset& preset : config.parameters) {
     if (!parameters.preset(preset.number, preset.set, preset.element, preset.raw)) {
       throw ConfigError("drive " + config.name + ": there is no parameter P" + std::to_string(preset.number) +
@@ -45,6 +56,22 @@ void DriveUnit::setPlugged(bool plugged) noexcept {
   plugged_ = plugged;
   setInverterPower(plugged);
   slave_.setPowered(plugged);
+}
+
+void DriveUnit::setModuleLink(bool intact) noexcept {
+  module_link_ = intact;
+  slave_.setInverterLink(intact);
+}
+
+void DriveUnit::setMute(bool mute) noexcept {
+  mute_ = mute;
+  slave_.setMute(mute);
+}
+
+void DriveUnit::setParameterSwitches(const ParameterSwitches& switches) noexcept {
+  switches_ = switches;
+  pkw_.setSilent(switches.silent);
+  pkw_.refuse(switches.refuse);
 }
 
 void DriveUnit::setInverterPower(bool on) noexcept {

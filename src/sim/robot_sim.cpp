@@ -13,7 +13,7 @@ constexpr Duration kStep = std::chrono::milliseconds(1);
 RobotSim::RobotSim(const SimConfig& config) : config_(config) {
   for (const DriveConfig& drive : config_.drives) {
     for (const std::unique_ptr<DriveUnit>& other : drives_) {
-      if (other->config().slave.address == drive.slave.address) {
+      if (!config_.can && other->config().slave.address == drive.slave.address) {
         throw ConfigError("drives " + other->name() + " and " + drive.name + " have the same address " +
                           std::to_string(drive.slave.address) + "; expected one station each");
       }

@@ -1,6 +1,7 @@
 // One simulated drive: inverter, motor, parameters, bus module, and the switches an experimenter has.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "nord_driver/sim/dp_slave.h"
@@ -11,6 +12,13 @@
 #include "nord_driver/sim/sim_config.h"
 
 namespace nord_driver::sim {
+
+/// What an experimenter does to parameter orders.
+struct ParameterSwitches {
+  bool silent = false;               ///< none is answered any more
+  std::optional<PkwRefusal> refuse;  ///< answered with this error
+  unsigned delay = 0;                ///< cycles of about a millisecond they take longer
+};
 
 class DriveUnit {
  public:
@@ -26,6 +34,15 @@ class DriveUnit {
   /// Mains of the inverter behind a module with its own 24 V supply (BU 0020 2.1.3).
   void setInverterPower(bool on) noexcept;
   /// Answers come later by this much than the segment makes them.
+  /// Module and inverter are connected.
+  void setModuleLink(bool intact) noexcept;
+  bool moduleLink() const noexcept { return module_link_; }
+  /// The module works, its answers are lost.
+  void setMute(bool mute) noexcept;
+  bool mute() const noexcept { return mute_; }
+  /// How parameter orders fare, over whatever bus they come.
+  void setParameterSwitches(const ParameterSwitches& switches) noexcept;
+  const ParameterSwitches& parameterSwitches() const noexcept { return switches_; }
   void setAnswerDelay(Duration delay) noexcept { answer_delay_ = delay; }
   Duration answerDelay() const noexcept { return answer_delay_; }
 
@@ -56,6 +73,9 @@ class DriveUnit {
   PkwServer pkw_;
   DpSlave slave_;
   bool plugged_ = true;
+  bool module_link_ = true;
+  bool mute_ = false;
+  ParameterSwitches switches_;
   Duration answer_delay_{0};
 };
 

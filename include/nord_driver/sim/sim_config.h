@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "nord_driver/sim/can_communication.h"
 #include "nord_driver/sim/dp_slave.h"
 #include "nord_driver/sim/inverter_model.h"
 #include "nord_driver/sim/motor.h"
@@ -35,6 +36,17 @@ struct ParameterPreset {
   std::int32_t raw = 0;
 };
 
+/// How a drive sits on a CAN bus; its node id is `DriveConfig::slave.address`.
+struct CanDriveConfig {
+  CanConnection connection = CanConnection::kOption;
+  unsigned inverter = 1;       ///< 1-4, which one behind a gateway
+  bool cia402 = false;         ///< P551 on
+  bool fixed_mapping = false;  ///< 1600h.. and 1A00h.. are read-only
+  /// Sub-index of array-only parameters: 4 * (n - 1) + 1 (BU 0060 p. 61) instead of n (p. 54).
+  bool array_sub_by_table = false;
+  CanIdentity identity;
+};
+
 struct DriveConfig {
   std::string name;
   std::string joint;
@@ -45,8 +57,12 @@ struct DriveConfig {
   Device device;
   InverterSettings inverter;
   PkwSettings pkw;
+  std::optional<CanDriveConfig> can;  ///< on a CAN bus
   std::vector<ParameterPreset> parameters;
 };
+
+/// What a CAN connection makes of an inverter: P509, and the faults of a lost master.
+InverterSettings canInverterSettings(CanConnection connection, const Device& device);
 
 struct BodyConfig {
   std::vector<std::size_t> left;  ///< indices of drives
@@ -55,9 +71,15 @@ struct BodyConfig {
   double wheel_separation = 0.0;  ///< m
 };
 
+struct CanBusConfig {
+  std::string interface = "virtual:nord_sim";
+  std::uint32_t bit_rate = 250000;
+};
+
 struct SimConfig {
   std::string device = "/tmp/nord_sim_bus";  ///< the link the programs put to their pty
   std::uint32_t baud_rate = 500000;
+  std::optional<CanBusConfig> can;  ///< the bus is a CAN bus
   std::vector<DriveConfig> drives;
   std::optional<BodyConfig> body;
   std::vector<std::string> warnings;  ///< keys nobody knows
