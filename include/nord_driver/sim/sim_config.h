@@ -12,6 +12,7 @@
 
 #include "nord_driver/sim/dp_slave.h"
 #include "nord_driver/sim/inverter_model.h"
+#include "nord_driver/sim/module_station.h"
 #include "nord_driver/sim/motor.h"
 #include "nord_driver/sim/parameter_definitions.h"
 #include "nord_driver/sim/pkw_server.h"
@@ -39,6 +40,7 @@ struct DriveConfig {
   std::string name;
   std::string joint;
   SlaveSettings slave;
+  unsigned place = 0;  ///< 1-4: FI1-FI4 behind the module with this address; 0: it has a module of its own
   MotorSettings motor;
   double gear_ratio = 1.0;
   bool inverted = false;  ///< the joint turns against the motor
@@ -46,6 +48,13 @@ struct DriveConfig {
   InverterSettings inverter;
   PkwSettings pkw;
   std::vector<ParameterPreset> parameters;
+};
+
+/// A bus module with slots. One that is not listed is there all the same, as its drives say.
+struct ModuleConfig {
+  std::string name;
+  ModuleSettings settings;
+  std::vector<ParameterPreset> parameters;  ///< P150-P160 of the module
 };
 
 struct BodyConfig {
@@ -59,6 +68,7 @@ struct SimConfig {
   std::string device = "/tmp/nord_sim_bus";  ///< the link the programs put to their pty
   std::uint32_t baud_rate = 500000;
   std::vector<DriveConfig> drives;
+  std::vector<ModuleConfig> modules;
   std::optional<BodyConfig> body;
   std::vector<std::string> warnings;  ///< keys nobody knows
 };
