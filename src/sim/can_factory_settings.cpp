@@ -70,13 +70,15 @@ void addGatewayPdos(CanCommunication& communication, std::uint32_t node) {
 
 }  // namespace
 
-CanCommunication factoryCommunication(std::uint8_t node, CanConnection connection, bool cia402, bool swap_words_2_3) {
+CanCommunication factoryCommunication(std::uint8_t node, CanConnection connection, bool cia402, bool swap_words_2_3,
+                                      bool servers_set) {
   CanCommunication communication;
   communication.emergency_cob_id = 0x80u + node;
   communication.servers.push_back({0x600u + node, 0x580u + node});
   if (connection == CanConnection::kGateway) {
-    // One server for each inverter; the identifiers of the other three are the master's to choose.
-    while (communication.servers.size() < kInverters) communication.servers.push_back(SdoCobIds{});
+    for (unsigned n = 1; n < kInverters; ++n) {  // one server for each inverter
+      communication.servers.push_back(servers_set ? SdoCobIds{0x600u + node + n, 0x580u + node + n} : SdoCobIds{});
+    }
     addGatewayPdos(communication, node);
   } else if (cia402) {
     addCia402Pdos(communication, node);

@@ -56,8 +56,8 @@ void CanNode::initialise(Duration time, bool application) noexcept {
         settings_.can.connection == CanConnection::kOption && drive != nullptr && drive->parameters().value(551) == 1;
     if (!factory_for_cia402_ || *factory_for_cia402_ != cia402) {
       factory_for_cia402_ = cia402;
-      communication_objects_.useFactorySettings(
-          factoryCommunication(settings_.node, settings_.can.connection, cia402, settings_.swap_words_2_3));
+      communication_objects_.useFactorySettings(factoryCommunication(
+          settings_.node, settings_.can.connection, cia402, settings_.swap_words_2_3, settings_.can.servers_set));
     }
     communication_objects_.setDeviceType(cia402 ? kCia402FrequencyConverter : 0);
     process_.setCia402(cia402);
@@ -181,7 +181,7 @@ void CanNode::masterLost() noexcept {
   ++counters_.masters_lost;
   if (state_ == NmtState::kOperational) enter(NmtState::kPreOperational);
   for (DriveUnit* drive : drives_) {
-    if (drive != nullptr && drive->moduleLink()) drive->inverter().masterLost();
+    if (drive != nullptr && drive->inverterLink()) drive->inverter().masterLost();
   }
 }
 
@@ -225,7 +225,7 @@ void CanNode::watchFaults(CanSink& sink) noexcept {
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     const DriveUnit* drive = drives_[i];
     if (drive == nullptr) continue;
-    const bool missing = !drive->inverter().powered() || !drive->moduleLink();
+    const bool missing = !drive->inverter().powered() || !drive->inverterLink();
     faults[i] = missing ? kMissing : drive->inverter().faultNumber();
     any = any || faults[i] != 0;
   }

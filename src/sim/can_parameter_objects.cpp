@@ -57,7 +57,7 @@ CanParameterObjects::Place CanParameterObjects::find(ObjectId id) const noexcept
   if (switches.refuse && (!switches.refuse->number || *switches.refuse->number == number)) {
     return refused(abortOf(switches.refuse->error));
   }
-  if (!drive_.inverter().powered() || !drive_.moduleLink()) return refused(SdoAbort::kHardware);
+  if (!drive_.inverter().powered() || !drive_.inverterLink()) return refused(SdoAbort::kHardware);
   place.definition = parameters.find(number);
   if (place.definition == nullptr) return refused(SdoAbort::kNoObject);
   const bool per_set = place.definition->per_set;

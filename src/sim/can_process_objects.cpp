@@ -142,7 +142,7 @@ std::uint32_t CanProcessObjects::value(const Field& field) const noexcept {
       break;
   }
   const DriveUnit* drive = drives_[field.inverter];
-  if (drive == nullptr || !drive->plugged() || !drive->moduleLink()) return 0;
+  if (drive == nullptr || !drive->plugged() || !drive->inverterLink()) return 0;
   const InverterModel& inverter = drive->inverter();
   switch (field.kind) {
     case Kind::kStatus:
@@ -241,7 +241,7 @@ bool CanProcessObjects::commit() noexcept {
     zero = zero || (!valid && outputs.valid_seen);
     outputs.valid_seen = outputs.valid_seen || valid;
     DriveUnit* drive = drives_[i];
-    if (drive == nullptr || !drive->moduleLink()) continue;
+    if (drive == nullptr || !drive->inverterLink()) continue;
     if (cia402_) {
       drive->inverter().receive(fromCia402(outputs.control, toSigned(outputs.setpoints[0]), *drive));
     } else {

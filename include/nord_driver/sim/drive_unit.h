@@ -6,6 +6,7 @@
 
 #include "nord_driver/sim/dp_slave.h"
 #include "nord_driver/sim/inverter_model.h"
+#include "nord_driver/sim/module_station.h"
 #include "nord_driver/sim/motor.h"
 #include "nord_driver/sim/parameter_store.h"
 #include "nord_driver/sim/pkw_server.h"
@@ -17,34 +18,37 @@ namespace nord_driver::sim {
 struct ParameterSwitches {
   bool silent = false;               ///< none is answered any more
   std::optional<PkwRefusal> refuse;  ///< answered with this error
-  unsigned delay = 0;                ///< cycles of about a millisecond they take longer
+  unsigned delay = 0;                ///< telegrams they wait; over CAN milliseconds more
 };
 
 class DriveUnit {
  public:
-  /// `referee` must outlive the drive.
+  /// With a module of its own. `referee` must outlive the drive.
   DriveUnit(const DriveConfig& config, Referee& referee);
+  /// Behind a module that others share; it must outlive the drive.
+  DriveUnit(const DriveConfig& config, ModuleStation& module);
   DriveUnit(const DriveUnit&) = delete;
   DriveUnit& operator=(const DriveUnit&) = delete;
 
   void advance(Duration span) noexcept;
 
-  /// Mains and the module's 24 V both off: the station is silent, the wheel coasts.
+  /// Mains and the module's 24 V both off: the station is silent, the wheel coasts. A module that others share lives
+  /// on.
   void setPlugged(bool plugged) noexcept;
   /// Mains of the inverter behind a module with its own 24 V supply (BU 0020 2.1.3).
   void setInverterPower(bool on) noexcept;
-  /// Answers come later by this much than the segment makes them.
-  /// Module and inverter are connected.
-  void setModuleLink(bool intact) noexcept;
-  bool moduleLink() const noexcept { return module_link_; }
+  /// The connection between this inverter and its module.
+  void setInverterLink(bool intact) noexcept;
+  bool inverterLink() const noexcept { return inverter_link_; }
   /// The module works, its answers are lost.
   void setMute(bool mute) noexcept;
   bool mute() const noexcept { return mute_; }
   /// How parameter orders fare, over whatever bus they come.
   void setParameterSwitches(const ParameterSwitches& switches) noexcept;
   const ParameterSwitches& parameterSwitches() const noexcept { return switches_; }
-  void setAnswerDelay(Duration delay) noexcept { answer_delay_ = delay; }
-  Duration answerDelay() const noexcept { return answer_delay_; }
+  /// Answers come later by this much than the segment makes them; those of the whole station.
+  void setAnswerDelay(Duration delay) noexcept { station().setAnswerDelay(delay); }
+  Duration answerDelay() const noexcept { return slave().answerDelay(); }
 
   const DriveConfig& config() const noexcept { return config_; }
   const std::string& name() const noexcept { return config_.name; }
@@ -59,11 +63,19 @@ class DriveUnit {
   const ParameterStore& parameters() const noexcept { return parameters_; }
   InverterModel& inverter() noexcept { return inverter_; }
   const InverterModel& inverter() const noexcept { return inverter_; }
-  DpSlave& slave() noexcept { return slave_; }
-  const DpSlave& slave() const noexcept { return slave_; }
+  /// The bus module: its own, or the one it shares.
+  DpStation& slave() noexcept { return station(); }
+  const DpStation& slave() const noexcept {
+    return module_ != nullptr ? static_cast<const DpStation&>(*module_) : *own_;
+  }
+  bool sharesModule() const noexcept { return module_ != nullptr; }
+  /// Of its station, and of what came for this inverter.
+  SlaveCounters counters() const noexcept;
   PkwServer& pkw() noexcept { return pkw_; }
 
  private:
+  DpStation& station() noexcept { return module_ != nullptr ? static_cast<DpStation&>(*module_) : *own_; }
+  unsigned place() const noexcept { return config_.place - 1; }
   double ratio() const noexcept { return config_.inverted ? -config_.gear_ratio : config_.gear_ratio; }
 
   DriveConfig config_;
@@ -71,12 +83,12 @@ class DriveUnit {
   Motor motor_;
   InverterModel inverter_;
   PkwServer pkw_;
-  DpSlave slave_;
+  std::optional<DpSlave> own_;
+  ModuleStation* module_ = nullptr;
   bool plugged_ = true;
-  bool module_link_ = true;
+  bool inverter_link_ = true;
   bool mute_ = false;
   ParameterSwitches switches_;
-  Duration answer_delay_{0};
 };
 
 }  // namespace nord_driver::sim

@@ -13,6 +13,7 @@
 #include "nord_driver/sim/can_communication.h"
 #include "nord_driver/sim/dp_slave.h"
 #include "nord_driver/sim/inverter_model.h"
+#include "nord_driver/sim/module_station.h"
 #include "nord_driver/sim/motor.h"
 #include "nord_driver/sim/parameter_definitions.h"
 #include "nord_driver/sim/pkw_server.h"
@@ -44,6 +45,9 @@ struct CanDriveConfig {
   bool fixed_mapping = false;  ///< 1600h.. and 1A00h.. are read-only
   /// Sub-index of array-only parameters: 4 * (n - 1) + 1 (BU 0060 p. 61) instead of n (p. 54).
   bool array_sub_by_table = false;
+  /// The SDO servers 2 to 4 of a gateway are on, with 600h + id + 1 .. + 3 and 580h + id + 1 .. + 3; off they are the
+  /// master's to set. No source prints their identifiers.
+  bool servers_set = false;
   CanIdentity identity;
 };
 
@@ -51,6 +55,7 @@ struct DriveConfig {
   std::string name;
   std::string joint;
   SlaveSettings slave;
+  unsigned place = 0;  ///< 1-4: FI1-FI4 behind the module with this address; 0: it has a module of its own
   MotorSettings motor;
   double gear_ratio = 1.0;
   bool inverted = false;  ///< the joint turns against the motor
@@ -63,6 +68,13 @@ struct DriveConfig {
 
 /// What a CAN connection makes of an inverter: P509, and the faults of a lost master.
 InverterSettings canInverterSettings(CanConnection connection, const Device& device);
+
+/// A bus module with slots. One that is not listed is there all the same, as its drives say.
+struct ModuleConfig {
+  std::string name;
+  ModuleSettings settings;
+  std::vector<ParameterPreset> parameters;  ///< P150-P160 of the module
+};
 
 struct BodyConfig {
   std::vector<std::size_t> left;  ///< indices of drives
@@ -81,6 +93,7 @@ struct SimConfig {
   std::uint32_t baud_rate = 500000;
   std::optional<CanBusConfig> can;  ///< the bus is a CAN bus
   std::vector<DriveConfig> drives;
+  std::vector<ModuleConfig> modules;
   std::optional<BodyConfig> body;
   std::vector<std::string> warnings;  ///< keys nobody knows
 };
@@ -92,6 +105,13 @@ struct SimConfig {
 ///       left: {address: 3, series: sk5xxe, ppo_type: 1, joint: left_wheel_joint, gear_ratio: 20.0, pole_pairs: 2,
 ///              inertia: 0.01, slip: 2.0, parameters: {P105: 50.0, P102: [2.0, 2.0, 1.0, 1.0]}}
 ///     body: {left: [left], right: [right], wheel_radius: 0.1, wheel_separation: 0.5}
+///
+/// or on a CAN bus
+///
+///     bus: {transport: canopen, interface: virtual:nord_sim, bit_rate: 250000}
+///     drives:
+///       left: {address: 32, series: sk5xxe, connection: option, profile: nord, joint: left_wheel_joint}
+///       lift: {address: 40, series: sk2xxe, connection: gateway, inverter: 2}
 ///
 /// Parameters are in the manual's unit, a list gives the four sets or the array elements. Without `body` the driver's
 /// keys left_wheel, right_wheel (joints), wheel_radius and wheel_separation are taken when all are there; without these
