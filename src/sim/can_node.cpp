@@ -180,8 +180,12 @@ void CanNode::watchMaster(Duration span) noexcept {
 void CanNode::masterLost() noexcept {
   ++counters_.masters_lost;
   if (state_ == NmtState::kOperational) enter(NmtState::kPreOperational);
-  for (DriveUnit* drive : drives_) {
-    if (drive != nullptr && drive->inverterLink()) drive->inverter().masterLost();
+  for (std::size_t place = 0; place < drives_.size(); ++place) {
+    DriveUnit* drive = drives_[place];
+    if (drive == nullptr) continue;
+    exchanged_[place].control_before_loss = process_.control(place);
+    exchanged_[place].status_at_loss = drive->inverter().statusWord();
+    if (drive->inverterLink()) drive->inverter().masterLost();
   }
 }
 
@@ -190,6 +194,7 @@ void CanNode::advance(Duration span, CanSink& sink) noexcept {
     if (alive_) {
       alive_ = false;
       enter(NmtState::kInitialising);
+      showStatus();
       return;
     }
     initialise(settings_.start_time, true);
@@ -256,8 +261,16 @@ void CanNode::watchFaults(CanSink& sink) noexcept {
 void CanNode::showStatus() noexcept {
   const bool operational = state_ == NmtState::kOperational;
   const int nmt = operational ? 2 : state_ == NmtState::kPreOperational ? 1 : 0;
-  for (DriveUnit* drive : drives_) {
+  for (std::size_t place = 0; place < drives_.size(); ++place) {
+    DriveUnit* drive = drives_[place];
     if (drive == nullptr) continue;
+    SlaveCounters counters = exchanged_[place];
+    counters.telegrams = counters_.rpdos + counters_.sdo_requests;
+    counters.data_exchanges = counters_.rpdos;
+    counters.watchdog_trips = counters_.masters_lost;
+    counters.zero_control_words = counters_.zero_control_words;
+    counters.last_control = process_.control(place);
+    drive->showExchange(operational, counters);
     drive->parameters().show(746, 0, 0x0C01 | (operational ? 2 : 0));
     drive->parameters().show(748, 0, 0x0141 | nmt << 9);
   }

@@ -117,7 +117,17 @@ void DriveUnit::setInverterLink(bool intact) noexcept {
   }
 }
 
+bool DriveUnit::inDataExchange() const noexcept {
+  return config_.can ? exchanging_ : slave().state() == SlaveState::kDataExchange;
+}
+
+void DriveUnit::showExchange(bool moving, const SlaveCounters& counters) noexcept {
+  exchanging_ = moving;
+  exchanged_ = counters;
+}
+
 SlaveCounters DriveUnit::counters() const noexcept {
+  if (config_.can) return exchanged_;
   return module_ != nullptr ? module_->countersOf(place()) : own_->counters();
 }
 

@@ -23,7 +23,7 @@ std::string inWords(double number) {
 
 }  // namespace
 
-SimDriveNode::SimDriveNode(ros::NodeHandle& handle, sim::PtyBus& bus, std::size_t index, const std::string& name)
+SimDriveNode::SimDriveNode(ros::NodeHandle& handle, sim::RunningBus& bus, std::size_t index, const std::string& name)
     : handle_(handle), bus_(bus), index_(index), name_(name) {
   truth_ = handle_.advertise<SimDrive>("truth/" + name_, 10);
   serveFaults();
@@ -169,7 +169,7 @@ SimDrive SimDriveNode::truthOf(const sim::DriveUnit& drive) {
   const sim::SlaveCounters counters = drive.counters();
   SimDrive truth;
   truth.powered = inverter.powered();
-  truth.in_data_exchange = drive.slave().state() == sim::SlaveState::kDataExchange;
+  truth.in_data_exchange = drive.inDataExchange();
   truth.operation_enabled = inverter.state() == sim::InverterState::kOperationEnabled;
   truth.status_word = inverter.statusWord();
   truth.control_word = counters.last_control;

@@ -167,6 +167,7 @@ class CanNode : private CanPdoContext {
   std::array<Consumer, CanCommunication::kConsumers> consumers_{};
   Duration since_sample_{0};
   std::array<std::uint16_t, CanProcessObjects::kInverters> told_faults_{};
+  std::array<SlaveCounters, CanProcessObjects::kInverters> exchanged_{};
   CanNodeCounters counters_;
 };
 

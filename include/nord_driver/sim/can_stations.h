@@ -32,6 +32,7 @@ class CanStations {
   CanNode* find(std::uint8_t id) noexcept;
 
   CanReferee& referee() noexcept { return referee_; }
+  std::string report() const { return referee_.report(); }
   RobotSim& robot() noexcept { return robot_; }
 
  private:

@@ -71,6 +71,10 @@ class DriveUnit {
   bool sharesModule() const noexcept { return module_ != nullptr; }
   /// Of its station, and of what came for this inverter.
   SlaveCounters counters() const noexcept;
+  /// Its process data move: in data exchange, its node operational.
+  bool inDataExchange() const noexcept;
+  /// What the node of a drive on a CAN bus tells of the exchange.
+  void showExchange(bool moving, const SlaveCounters& counters) noexcept;
   PkwServer& pkw() noexcept { return pkw_; }
 
  private:
@@ -88,6 +92,8 @@ class DriveUnit {
   bool plugged_ = true;
   bool inverter_link_ = true;
   bool mute_ = false;
+  bool exchanging_ = false;  // on a CAN bus
+  SlaveCounters exchanged_;  // on a CAN bus
   ParameterSwitches switches_;
 };
 
