@@ -32,15 +32,15 @@ CanConnection readConnection(const Group& group, const Device& device) {
                                                                  {"onboard", CanConnection::kOnboard},
                                                                  {"gateway", CanConnection::kGateway},
                                                                  {"system_bus", CanConnection::kSystemBus}};
-  const std::string fallback = device.isDecentral() ? "gateway" : "option";
-  const auto found = kConnections.find(group.get<std::string>("connection", fallback, "a connection"));
+  const auto found = kConnections.find(group.get<std::string>("connection", "option", "a connection"));
   if (found == kConnections.end()) {
     refuse(group.keyName("connection"), group["connection"], "option, onboard, gateway or system_bus");
   }
   const CanConnection connection = found->second;
   const bool own_port = device.series == Series::kSk5xxe || device.series == Series::kSk54xe;
   if (connection == CanConnection::kOption && device.isDecentral()) {
-    refuse(group.keyName("connection"), group["connection"], "gateway or system_bus, the ones for this series");
+    throw ConfigError(group.keyName("connection") +
+                      ": option is not valid; expected gateway or system_bus, the ones for this series");
   }
   if (connection == CanConnection::kOnboard && !own_port) {
     refuse(group.keyName("connection"), group["connection"], "a series with a CAN port: sk5xxe or sk54xe");
@@ -101,14 +101,19 @@ void readCanDrive(const Group& group, DriveConfig& drive) {
            std::string("nord: the connection ") + toString(can.connection) + " is simulated without a drive profile");
   }
   can.fixed_mapping = group.get<bool>("fixed_mapping", false, "true or false");
-  can.array_sub_by_table = group.get<bool>("array_sub_by_table", false, "true or false");
+  const std::string sub_index = group.get<std::string>("array_sub_index", "element", "element or table");
+  if (sub_index != "element" && sub_index != "table") {
+    refuse(group.keyName("array_sub_index"), group["array_sub_index"], "element or table");
+  }
+  can.array_sub_by_table = sub_index == "table";
   can.servers_set = group.get<bool>("sdo_servers_set", false, "true or false");
   can.identity.product = static_cast<std::uint32_t>(can.connection) + 1;
   can.identity.serial = drive.slave.address;
   can.identity.vendor = group.get<std::uint32_t>("vendor_id", can.identity.vendor, "a number of 32 bits");
   can.identity.product = group.get<std::uint32_t>("product_code", can.identity.product, "a number of 32 bits");
-  can.identity.revision = group.get<std::uint32_t>("revision", can.identity.revision, "a number of 32 bits");
+  can.identity.revision = group.get<std::uint32_t>("revision_number", can.identity.revision, "a number of 32 bits");
   can.identity.serial = group.get<std::uint32_t>("serial_number", can.identity.serial, "a number of 32 bits");
+  if (group.has("device_type")) can.device_type = group.get<std::uint32_t>("device_type", 0, "a number of 32 bits");
   drive.inverter = canInverterSettings(can.connection, drive.device);
   drive.can = can;
 }

@@ -59,7 +59,7 @@ void CanNode::initialise(Duration time, bool application) noexcept {
       communication_objects_.useFactorySettings(factoryCommunication(
           settings_.node, settings_.can.connection, cia402, settings_.swap_words_2_3, settings_.can.servers_set));
     }
-    communication_objects_.setDeviceType(cia402 ? kCia402FrequencyConverter : 0);
+    communication_objects_.setDeviceType(settings_.can.device_type.value_or(cia402 ? kCia402FrequencyConverter : 0));
     process_.setCia402(cia402);
     process_.clear();
     emergency_.forget();

@@ -98,9 +98,12 @@ const std::vector<std::string>& driveKeys() {
       // the driver's
       "address", "series", "ppo_type", "joint", "gear_ratio", "pole_pairs", "inverted", "max_frequency",
       "rated_current", "module", "inverter", "io_byte", "connection", "profile",
+      // the driver's on a CAN bus; those of the identity are the simulator's, too
+      "array_sub_index", "boot_reset", "device_type", "error_control", "event_time", "guard_time", "heartbeat_time",
+      "heartbeat_timeout", "inhibit_time", "life_time_factor", "parameter_servers", "pdo_mapping", "process_values",
+      "product_code", "revision_number", "sdo_answer_id", "sdo_request_id", "sdo_timeout", "vendor_id", "watch_master",
       // the simulator's on a CAN bus
-      "fixed_mapping", "array_sub_by_table", "sdo_servers_set", "vendor_id", "product_code", "revision",
-      "serial_number",
+      "fixed_mapping", "sdo_servers_set", "serial_number",
       // the simulator's
       "inertia", "rated_torque", "slip", "load", "viscous", "charging_time", "firmware", "parameter_delay",
       "ram_orders", "double_word_answers", "automatic_acknowledgement_delay", "parameters"};

@@ -18,8 +18,8 @@ bus: {transport: canopen, interface: "virtual:demo", bit_rate: 125000}
 drives:
   a: {address: 32, series: sk300e}
   b: {address: 33, series: sk5xxe, connection: onboard}
-  c: {address: 34, series: sk2xxe, inverter: 1}
-  d: {address: 34, series: sk2xxe, inverter: 3, vendor_id: 0x12345678}
+  c: {address: 34, series: sk2xxe, connection: gateway, inverter: 1, array_sub_index: table}
+  d: {address: 34, series: sk2xxe, connection: gateway, inverter: 3, vendor_id: 0x12345678}
   e: {address: 36, series: sk1x0e, connection: system_bus}
   f: {address: 127, series: sk5xxe, profile: cia402}
 )");
@@ -30,6 +30,7 @@ drives:
   EXPECT_EQ(CanConnection::kOption, config.drives[0].can->connection);
   EXPECT_EQ(CanConnection::kOnboard, config.drives[1].can->connection);
   EXPECT_EQ(CanConnection::kGateway, config.drives[2].can->connection);
+  EXPECT_TRUE(config.drives[2].can->array_sub_by_table);
   EXPECT_EQ(3u, config.drives[3].can->inverter);
   EXPECT_EQ(0x12345678u, config.drives[3].can->identity.vendor);
   EXPECT_EQ(CanConnection::kSystemBus, config.drives[4].can->connection);
@@ -67,17 +68,19 @@ TEST(CanConfig, RefusesInWords) {
   EXPECT_EQ("drives/b/address: 3 is not valid; expected a node id of its own, drive a has it",
             refusal("a: {address: 3}, b: {address: 3}"));
   EXPECT_EQ("drives/b/inverter: 1 is not valid; expected another one, drive a has it behind this gateway",
-            refusal("a: {address: 3, series: sk2xxe}, b: {address: 3, series: sk2xxe}"));
+            refusal("a: {address: 3, connection: gateway}, b: {address: 3, connection: gateway}"));
   EXPECT_EQ("drives/a/connection: usb is not valid; expected option, onboard, gateway or system_bus",
             refusal("a: {address: 3, connection: usb}"));
   EXPECT_EQ("drives/a/connection: option is not valid; expected gateway or system_bus, the ones for this series",
-            refusal("a: {address: 3, series: sk2xxe, connection: option}"));
+            refusal("a: {address: 3, series: sk2xxe}"));
   EXPECT_EQ("drives/a/connection: onboard is not valid; expected a series with a CAN port: sk5xxe or sk54xe",
             refusal("a: {address: 3, series: sk700e, connection: onboard}"));
   EXPECT_EQ("drives/a/connection: gateway is not valid; expected option, the one for this series",
             refusal("a: {address: 3, series: sk700e, connection: gateway}"));
   EXPECT_EQ("drives/a/inverter: 2 is not valid; expected 1: only a gateway has more than one",
             refusal("a: {address: 3, inverter: 2}"));
+  EXPECT_EQ("drives/a/array_sub_index: both is not valid; expected element or table",
+            refusal("a: {address: 3, array_sub_index: both}"));
   EXPECT_EQ("drives/a/profile: ds402 is not valid; expected nord or cia402",
             refusal("a: {address: 3, profile: ds402}"));
   EXPECT_THAT(refusal("a: {address: 3, connection: onboard, profile: cia402}"),

@@ -49,6 +49,7 @@ struct CanDriveConfig {
   /// master's to set. No source prints their identifiers.
   bool servers_set = false;
   CanIdentity identity;
+  std::optional<std::uint32_t> device_type;  ///< 1000h; nothing: 0, with the drive profile 00010192h
 };
 
 struct DriveConfig {
