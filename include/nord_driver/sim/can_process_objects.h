@@ -29,8 +29,12 @@ class CanProcessObjects : public CanObjects {
   /// What is written counts from the next `commit()` on.
   SdoAbort read(ObjectId id, ObjectBytes& bytes) noexcept override;
   SdoAbort write(ObjectId id, ByteView bytes) noexcept override;
-  /// Hands what was written to the inverters. True when a control word without bit 10 followed one with it.
-  bool commit() noexcept;
+  struct Commit {
+    bool zero = false;   ///< a control word without bit 10 followed one with it
+    bool valid = false;  ///< a control word with bit 10 = 1 was among them
+  };
+  /// Hands what was written to the inverters.
+  Commit commit() noexcept;
   /// Forgets what was written.
   void clear() noexcept;
 
