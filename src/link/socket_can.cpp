@@ -125,13 +125,19 @@ bool SocketCan::setUp(int index) noexcept {
 }
 
 void SocketCan::failedCall(const char* what, int error) noexcept {
-  if (error == ENETDOWN) {
-    health_.handleDown();
-  } else if (meansRemoved(error)) {
+  if (meansRemoved(error)) {
     fail("was removed");
   } else {
     fail(what, error);
   }
+}
+
+/// The socket keeps this error until it is read: the interface may be up again by now, and that news be read already.
+void SocketCan::wentDown() noexcept {
+  CanInterface interface;
+  const int result = system_.readInterface(settings_.interface.c_str(), interface);
+  if (result != 0 || interface.index != health_.interface().index) return health_.handleDown();
+  if (accept(interface)) health_.handleInterface(interface);
 }
 
 CanSend SocketCan::send(const CanFrame& frame) noexcept {
@@ -150,7 +156,11 @@ CanSend SocketCan::send(const CanFrame& frame) noexcept {
     health_.handleQueueFull();
     return CanSend::kQueueFull;
   }
-  failedCall("cannot be written", -result);
+  if (result == -ENETDOWN) {
+    health_.handleDown();
+  } else {
+    failedCall("cannot be written", -result);
+  }
   return CanSend::kFailed;
 }
 
@@ -170,6 +180,10 @@ bool SocketCan::takeNext(ReceivedCanFrame& received) noexcept {
     if (result == -EINTR) continue;
     if (result == -EAGAIN) {
       empty_at_ = before;
+      return false;
+    }
+    if (result == -ENETDOWN) {
+      wentDown();
       return false;
     }
     if (result < 0) {

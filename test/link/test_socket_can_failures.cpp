@@ -96,11 +96,25 @@ TEST_F(SocketCanFailures, DownKeepsTheLinkOpen) {
   kernel.tell();  // up
   look();
   EXPECT_EQ(CanState::kActive, link.state());
+  kernel.interface.up = false;
   kernel.arrivals.push_back({ENETDOWN, {}});
   EXPECT_FALSE(link.receive(received));
   EXPECT_EQ(CanState::kDown, link.state());
   EXPECT_EQ(CanSend::kSent, link.send(kFrame));  // without news this is the proof
   EXPECT_EQ(CanState::kUnknown, link.state());
+}
+
+// The socket keeps the error until it is read: the news that it is up again may have been read before.
+TEST_F(SocketCanFailures, AnOldErrorDoesNotHideThatItIsUpAgain) {
+  ASSERT_TRUE(link.open());
+  kernel.arrivals.push_back({ENETDOWN, {}});
+  kernel.tell();  // up
+  look();
+  EXPECT_EQ(CanState::kActive, link.state());
+  kernel.arrivals.push_back({ENETDOWN, {}});
+  kernel.read_interface_error = EPERM;  // nobody tells: the error counts
+  look();
+  EXPECT_EQ(CanState::kDown, link.state());
 }
 
 TEST_F(SocketCanFailures, AnInterfaceThatIsDownCanBeOpened) {

@@ -51,6 +51,7 @@ class SocketCan final : public CanLink {
   bool setUp(int index) noexcept;
   bool accept(const CanInterface& interface) noexcept;
   void failedCall(const char* what, int error) noexcept;
+  void wentDown() noexcept;
   bool takeNext(ReceivedCanFrame& received) noexcept;
   Instant arrival(const CanReceipt& receipt) const noexcept;
   void takeNews() noexcept;
