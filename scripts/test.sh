@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test and check. The last line is "N passed, N failed, N skipped": test cases, and each
-# check (format, lint, workspace) as one. Ends with 0 only when nothing failed and something passed.
+# check (format, lint, fuzz, workspace) as one. Ends with 0 only when nothing failed and something passed.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -8,7 +8,7 @@ usage() {
   cat <<'TEXT'
 usage: test.sh [--sanitize] [--quick]
   --sanitize  the tests in a Debug build with AddressSanitizer and UndefinedBehaviorSanitizer (out/sanitize)
-  --quick     the tests and the format only; lint and workspace count as skipped
+  --quick     the tests and the format only; lint, fuzz and workspace count as skipped
 TEXT
 }
 
@@ -77,6 +77,7 @@ must() {
 format() {
   local folders=("$root"/include "$root"/src "$root"/test)
   if [[ -d $root/bench ]]; then folders+=("$root/bench"); fi
+  if [[ -d $root/fuzz ]]; then folders+=("$root/fuzz"); fi
   find "${folders[@]}" \( -name '*.h' -o -name '*.cpp' \) -print0 |
     xargs -0 clang-format-14 --style=file --dry-run -Werror
 }
@@ -134,13 +135,14 @@ start=$SECONDS
 run_tests
 echo "== tests: $((SECONDS - start)) s"
 if $sanitize; then
-  for name in format lint workspace; do skip $name "the run without --sanitize does it"; done
+  for name in format lint fuzz workspace; do skip $name "the run without --sanitize does it"; done
 else
   check "format" format
   if $quick; then
-    for name in lint workspace; do skip $name "--quick"; done
+    for name in lint fuzz workspace; do skip $name "--quick"; done
   else
     check "lint" lint
+    check "fuzz" "$root/scripts/fuzz.sh" 30
     check "workspace" "$root/scripts/check_workspace.sh"
   fi
 fi
