@@ -12,7 +12,13 @@ constexpr Duration kStep = std::chrono::milliseconds(1);
 
 RobotSim::RobotSim(const SimConfig& config) : config_(config) {
   for (const DriveConfig& drive : config_.drives) addDrive(drive);
-  if (config_.body) body_.emplace(config_.body->wheel_radius, config_.body->wheel_separation);
+  if (!config_.body) return;
+  const BodyConfig& body = *config_.body;
+  if (body.kind == BodyKind::kMecanum) {
+    body_ = std::make_unique<MecanumBody>(body.wheel_radius, body.wheel_separation, body.wheel_base);
+  } else {
+    body_ = std::make_unique<DiffDriveBody>(body.wheel_radius, body.wheel_separation);
+  }
 }
 
 void RobotSim::addDrive(const DriveConfig& config) {
@@ -66,15 +72,26 @@ void RobotSim::advance(Instant now) noexcept {
 void RobotSim::step(Duration span) noexcept {
   for (const std::unique_ptr<ModuleStation>& module : modules_) module->advance(span);
   for (const std::unique_ptr<DriveUnit>& drive : drives_) drive->advance(span);
-  if (!body_) return;
-  body_->moveTo(meanOf(config_.body->left, false), meanOf(config_.body->right, false));
-  body_->setSpeeds(meanOf(config_.body->left, true), meanOf(config_.body->right, true));
+  if (body_ == nullptr) return;
+  body_->moveTo(wheels(&DriveUnit::wheelAngle));
+  body_->setSpeeds(wheels(&DriveUnit::wheelSpeed));
 }
 
-double RobotSim::meanOf(const std::vector<std::size_t>& group, bool speed) const noexcept {
-  double sum = 0.0;
-  for (const std::size_t index : group) sum += speed ? drives_[index]->wheelSpeed() : drives_[index]->wheelAngle();
-  return group.empty() ? 0.0 : sum / static_cast<double>(group.size());
+// Of a side that turns as one the mean counts.
+Wheels RobotSim::wheels(double (DriveUnit::*of)() const noexcept) const noexcept {
+  const auto wheel = [&](std::size_t drive) { return (*drives_[drive].*of)(); };
+  const auto mean = [&](const std::vector<std::size_t>& side) {
+    double sum = 0.0;
+    for (const std::size_t drive : side) sum += wheel(drive);
+    return sum / static_cast<double>(side.size());
+  };
+  const BodyConfig& body = *config_.body;
+  if (body.kind == BodyKind::kMecanum) {
+    return {wheel(body.left[0]), wheel(body.left[1]), wheel(body.right[0]), wheel(body.right[1])};
+  }
+  const double left = mean(body.left);
+  const double right = mean(body.right);
+  return {left, left, right, right};
 }
 
 void RobotSim::receive(ByteView bytes, Instant now, Judge judge, AnswerSink& sink) noexcept {

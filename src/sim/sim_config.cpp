@@ -255,17 +255,32 @@ std::optional<BodyConfig> readBody(const Group& root, const YAML::Node& node, co
   const Group group = own ? Group(node["body"], "body") : root;
   const char* left = own ? "left" : "left_wheel";
   const char* right = own ? "right" : "right_wheel";
-  for (const char* key : {left, right, "wheel_radius", "wheel_separation"}) {
-    if (group.has(key)) continue;
-    if (own)
-      throw ConfigError(group.keyName(key) + " is missing; a body has left, right, wheel_radius, wheel_separation");
-    return std::nullopt;
-  }
   BodyConfig body;
+  const char* kind = own ? "kind" : "base_type";
+  const std::string name = group.get<std::string>(kind, "differential", "differential or mecanum");
+  if (name == "mecanum") {
+    body.kind = BodyKind::kMecanum;
+  } else if (name != "differential") {
+    refuse(group.keyName(kind), group[kind], "differential or mecanum");
+  }
+  std::vector<const char*> needed{left, right, "wheel_radius", "wheel_separation"};
+  if (body.kind == BodyKind::kMecanum) needed.push_back("wheel_base");
+  for (const char* key : needed) {
+    if (group.has(key)) continue;
+    if (!own) return std::nullopt;
+    throw ConfigError(group.keyName(key) +
+                      " is missing; a body has left, right, wheel_radius, wheel_separation, of the kind mecanum "
+                      "wheel_base, too");
+  }
   body.left = members(group, left, drives, !own);
   body.right = members(group, right, drives, !own);
   body.wheel_radius = group.positive("wheel_radius", 0.0);
   body.wheel_separation = group.positive("wheel_separation", 0.0);
+  if (body.kind == BodyKind::kMecanum) {
+    body.wheel_base = group.positive("wheel_base", 0.0);
+    if (body.left.size() != 2) refuse(group.keyName(left), group[left], "two of them, the front one first");
+    if (body.right.size() != 2) refuse(group.keyName(right), group[right], "two of them, the front one first");
+  }
   return body;
 }
 

@@ -104,6 +104,7 @@ TEST_F(Records, RefusesWhatIsNotThere) {
   EXPECT_EQ("DE 80 B0 00", record("5E 00 69 08"));
   EXPECT_EQ("DF 80 B1 00", record("5F 00 65 04 15E5 0000"));
   EXPECT_EQ("DF 80 B1 00", record("5F 00 65 08 15E5 0000"));
+  EXPECT_EQ("DF 80 B1 00", record("5F 00 65 04 15E5 0000 0000 0000"));
   EXPECT_EQ("D1 80 A9 00", record("51 00 65 08"));
   EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
 }
@@ -118,6 +119,7 @@ TEST_F(Records, AnswersWithParameterErrors) {
   EXPECT_EQ("5E 00 65 08 75 E5 00 00 00 00 00 66", record("5E 00 65 08"));
   record("5F 00 66 08 15E5 0000 0000 0000");
   EXPECT_EQ("5E 00 66 08 15 E5 00 00 00 00 00 03", record("5E 00 66 08"));
+  EXPECT_EQ("5E 00 66 08 70 00 00 00 00 00 00 09", record("5E 00 66 08"));  // read already
 }
 
 // A record order and an order in the parameter channel do not disturb each other.

@@ -122,6 +122,15 @@ TEST(ModuleTimeout, OneValidControlWordIsEnough) {
   EXPECT_EQ(25.0, driving.inverter(0).frequency());
 }
 
+// Behind this module it is P151 that counts, not P513 of the inverter (BU 2700 8.1).
+TEST(ModuleTimeout, P513DoesNotCount) {
+  DrivingModule driving{0};
+  driving.bus.segment.drive(0).parameters().preset(513, 0, 0, 5);
+  driving.bus.outputsFor(kInvalid, seconds(2.0));
+  EXPECT_EQ(0, driving.inverter(0).faultNumber());
+  EXPECT_EQ(25.0, driving.inverter(0).frequency());
+}
+
 // P151 begins with the first valid telegram, not before.
 TEST(ModuleTimeout, BeginsWithTheFirstValidTelegram) {
   Conversation bus{twoInverters(100)};

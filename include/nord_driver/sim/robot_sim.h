@@ -9,7 +9,7 @@
 
 #include "nord_driver/core/bytes.h"
 #include "nord_driver/core/time.h"
-#include "nord_driver/sim/diff_drive_body.h"
+#include "nord_driver/sim/body.h"
 #include "nord_driver/sim/drive_unit.h"
 #include "nord_driver/sim/referee.h"
 #include "nord_driver/sim/sim_config.h"
@@ -56,21 +56,22 @@ class RobotSim {
   ModuleStation& module(std::size_t index) noexcept { return *modules_[index]; }
   Referee& referee() noexcept { return referee_; }
   const Referee& referee() const noexcept { return referee_; }
-  const std::optional<DiffDriveBody>& body() const noexcept { return body_; }
+  /// Null when none is configured.
+  const Body* body() const noexcept { return body_.get(); }
   const SimConfig& config() const noexcept { return config_; }
 
  private:
   void addDrive(const DriveConfig& config);
   ModuleStation& moduleAt(std::uint8_t address);
   void step(Duration span) noexcept;
-  double meanOf(const std::vector<std::size_t>& group, bool speed) const noexcept;
+  Wheels wheels(double (DriveUnit::*of)() const noexcept) const noexcept;
 
   SimConfig config_;
   Referee referee_;
   std::vector<std::unique_ptr<ModuleStation>> modules_;
   std::vector<std::unique_ptr<DriveUnit>> drives_;
   std::vector<DpStation*> stations_;  // every one once
-  std::optional<DiffDriveBody> body_;
+  std::unique_ptr<Body> body_;
   std::optional<Instant> now_;
   FixedBytes<512> input_;
   Telegram telegram_;
