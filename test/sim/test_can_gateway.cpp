@@ -67,6 +67,20 @@ TEST_F(CanGateway, TimesAndTheModulesOwnPdo) {
   EXPECT_EQ("43041A0108010430", sdo("40041A0100000000"));
 }
 
+// Inputs and outputs of the module go with the fifth PDO, once the master has given it an identifier.
+TEST_F(CanGateway, InputsAndOutputs) {
+  EXPECT_EQ("60", sdo("2304180185060040").substr(0, 2));
+  EXPECT_EQ("60", sdo("23041401A5060000").substr(0, 2));
+  bus.node().setModuleInputs(0x05);
+  bus.send("000#0105");
+  bus.bus.run(milliseconds(20));
+  EXPECT_EQ("685#05", bus.take().back());
+  bus.send("6A5#02");
+  bus.bus.run(milliseconds(5));
+  EXPECT_EQ(0x02, bus.node().moduleOutputs());
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
+}
+
 // One SDO server for each inverter (1200h-1203h); all but the first are the master's to set.
 TEST_F(CanGateway, ServersOfTheInverters) {
   bus.drive(0).parameters().preset(102, 0, 0, 111);

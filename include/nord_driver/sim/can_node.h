@@ -75,6 +75,10 @@ class CanNode : private CanPdoContext {
   /// How long the SDO servers take for an answer; also `DriveUnit::setAnswerDelay()` counts.
   void setSdoDelay(Duration delay) noexcept { sdo_delay_ = delay; }
 
+  /// Of a gateway.
+  void setModuleInputs(std::uint8_t inputs) noexcept { process_.setModuleInputs(inputs); }
+  std::uint8_t moduleOutputs() const noexcept { return process_.moduleOutputs(); }
+
   std::uint8_t id() const noexcept { return settings_.node; }
   const CanNodeSettings& settings() const noexcept { return settings_; }
   bool alive() const noexcept { return alive_; }

@@ -38,6 +38,10 @@ class CanProcessObjects : public CanObjects {
   /// Forgets what was written.
   void clear() noexcept;
 
+  /// A gateway's own digital inputs (3004h:1) and outputs (3005h:1).
+  void setModuleInputs(std::uint8_t inputs) noexcept { module_inputs_ = inputs; }
+  std::uint8_t moduleOutputs() const noexcept { return module_outputs_; }
+
   /// The control word written last, as on the wire.
   Word control(std::size_t inverter) const noexcept { return outputs_[inverter].control; }
 
