@@ -21,11 +21,22 @@ InverterSettings onSystemBus(InverterSettings settings) {
   return settings;
 }
 
+/// P515 the node id, P551 the profile, P509 CANopen.
+void commissionOnCan(const DriveConfig& config, ParameterStore& parameters) noexcept {
+  if (config.can->connection != CanConnection::kGateway) parameters.preset(515, 0, 0, config.slave.address);
+  parameters.preset(551, 0, 0, config.can->cia402 ? 1 : 0);
+  if (config.inverter.bus_source) parameters.preset(509, 0, 0, *config.inverter.bus_source);
+}
+
 /// Commissioned as BU 2700 7.2 asks for before it is switched on, then as the configuration says.
 void commission(const DriveConfig& config, ParameterStore& parameters) {
-  parameters.preset(507, 0, 0, config.slave.ppo_type);
-  parameters.preset(508, 0, 0, config.slave.address);
-  parameters.preset(509, 0, 0, controlWordSource(config));
+  if (config.can) {
+    commissionOnCan(config, parameters);
+  } else {
+    parameters.preset(507, 0, 0, config.slave.ppo_type);
+    parameters.preset(508, 0, 0, config.slave.address);
+    parameters.preset(509, 0, 0, controlWordSource(config));
+  }
   for (unsigned element = 1; element < 5; ++element) {  // where these are arrays only the first one has a function
     for (unsigned set = 0; set < ParameterStore::kSets; ++set) {
       parameters.preset(543, set, element, 0);
@@ -50,6 +61,7 @@ DriveUnit::DriveUnit(const DriveConfig& config, Referee& referee)
       inverter_(parameters_, motor_, config.inverter),
       pkw_(parameters_, config.pkw) {
   own_.emplace(config.slave, parameters_, inverter_, pkw_, &referee);
+  switches_.delay = config.pkw.delay;
   commission(config_, parameters_);
   inverter_.setPowered(true);
   own_->setPowered(true);
@@ -62,6 +74,7 @@ DriveUnit::DriveUnit(const DriveConfig& config, ModuleStation& module)
       inverter_(parameters_, motor_, onSystemBus(config.inverter)),
       pkw_(parameters_, config.pkw),
       module_(&module) {
+  switches_.delay = config.pkw.delay;
   commission(config_, parameters_);
   inverter_.setPowered(true);
   module_->attach(place(), parameters_, inverter_, pkw_, config_.slave.ppo_type);
@@ -78,12 +91,25 @@ void DriveUnit::setPlugged(bool plugged) noexcept {
   if (own_) own_->setPowered(plugged);
 }
 
+void DriveUnit::setMute(bool mute) noexcept {
+  mute_ = mute;
+  slave().setMute(mute);
+}
+
+void DriveUnit::setParameterSwitches(const ParameterSwitches& switches) noexcept {
+  switches_ = switches;
+  pkw_.setDelay(switches.delay);
+  pkw_.setSilent(switches.silent);
+  pkw_.refuse(switches.refuse);
+}
+
 void DriveUnit::setInverterPower(bool on) noexcept {
   if (on && !inverter_.powered()) pkw_.reset();
   inverter_.setPowered(on);
 }
 
 void DriveUnit::setInverterLink(bool intact) noexcept {
+  inverter_link_ = intact;
   if (module_ != nullptr) {
     module_->setInverterLink(place(), intact);
   } else {
@@ -91,7 +117,17 @@ void DriveUnit::setInverterLink(bool intact) noexcept {
   }
 }
 
+bool DriveUnit::inDataExchange() const noexcept {
+  return config_.can ? exchanging_ : slave().state() == SlaveState::kDataExchange;
+}
+
+void DriveUnit::showExchange(bool moving, const SlaveCounters& counters) noexcept {
+  exchanging_ = moving;
+  exchanged_ = counters;
+}
+
 SlaveCounters DriveUnit::counters() const noexcept {
+  if (config_.can) return exchanged_;
   return module_ != nullptr ? module_->countersOf(place()) : own_->counters();
 }
 

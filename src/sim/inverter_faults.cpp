@@ -16,7 +16,7 @@ constexpr double kWaitForModule = 5.0;          // s in "not ready", BU 0280 5.1
 void InverterModel::masterLost() noexcept {
   if (!powered() || ignoresBusErrors()) return;
   master_lost_ = true;
-  trip(fault::kMasterLost, false);
+  trip(settings_.master_lost_fault, false);
 }
 
 void InverterModel::moduleTimeout() noexcept {
@@ -60,7 +60,7 @@ void InverterModel::watchTimeout(double dt) noexcept {
   const double limit = parameters_.scaled(513);
   if (!commanded_ || limit <= 0.0 || timed_out_ || since_valid_ < limit) return;
   timed_out_ = true;
-  trip(fault::kTimeout, false);
+  trip(settings_.timeout_fault, false);
 }
 
 bool InverterModel::ignoresBusErrors() const noexcept {

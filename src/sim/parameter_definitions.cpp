@@ -44,6 +44,7 @@ const std::vector<ParameterDefinition>& sk5xxe() {
       {546, "Bus setpoint 1", 1, 0, 55, 1, kPerSet, 0, false},
       {547, "Bus setpoint 2", 1, 0, 55, 0, kPerSet, 0, false},
       {548, "Bus setpoint 3", 1, 0, 55, 0, kPerSet, 0, false},
+      {551, "Drive profile", 1, 0, 1, 0, false, 0, false},
       {560, "Save in EEPROM", 1, 0, 1, 1, false, 0, false},
       // Of the position control of SK 53xE and 54xE, and the only one of 32 bits here; the range is that of a position
       // (BU 0020 7.3.5), the number of elements the simulator's.

@@ -23,7 +23,7 @@ RobotSim::RobotSim(const SimConfig& config) : config_(config) {
 
 void RobotSim::addDrive(const DriveConfig& config) {
   for (const std::unique_ptr<DriveUnit>& other : drives_) {
-    if (other->config().slave.address != config.slave.address) continue;
+    if (config_.can || other->config().slave.address != config.slave.address) continue;  // CanStations checks its own
     if (other->config().place != config.place && other->config().place > 0 && config.place > 0) continue;
     throw ConfigError("drives " + other->name() + " and " + config.name + " have the same address " +
                       std::to_string(config.slave.address) +

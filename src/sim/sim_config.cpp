@@ -5,81 +5,18 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <sstream>
 
+#include "config_group.h"
 #include "nord_driver/sim/parameter_store.h"
 
 namespace nord_driver::sim {
 
 namespace {
 
-std::string asText(const YAML::Node& node) {
-  if (node.IsScalar()) return node.Scalar().empty() ? "\"\"" : node.Scalar();
-  YAML::Emitter emitter;
-  emitter << YAML::Flow << node;
-  return emitter.c_str();
-}
-
-[[noreturn]] void refuse(const std::string& key, const YAML::Node& node, const std::string& expected) {
-  throw ConfigError(key + ": " + asText(node) + " is not valid; expected " + expected);
-}
-
 const char* const kOfAnInverter = "inverter; expected P102, P105, P513 ...";
 const char* const kOfAModule = "module; expected P150, P151, P153, P154 or P160";
-
-/// One map of the configuration with the name a user knows it by.
-class Group {
- public:
-  Group(const YAML::Node& node, std::string name) : node_(node), name_(std::move(name)) {
-    if (node_.IsDefined() && !node_.IsNull() && !node_.IsMap()) refuse(name_, node_, "a group of keys");
-  }
-
-  std::string keyName(const std::string& key) const { return name_.empty() ? key : name_ + "/" + key; }
-  bool has(const std::string& key) const { return node_.IsMap() && node_[key].IsDefined() && !node_[key].IsNull(); }
-  YAML::Node operator[](const std::string& key) const { return node_[key]; }
-
-  template <typename T>
-  T get(const std::string& key, T fallback, const std::string& expected,
-        const std::function<bool(const T&)>& good = nullptr) const {
-    if (!has(key)) return fallback;
-    T value{};
-    try {
-      value = node_[key].as<T>();
-    } catch (const YAML::Exception&) {
-      refuse(keyName(key), node_[key], expected);
-    }
-    if (good && !good(value)) refuse(keyName(key), node_[key], expected);
-    return value;
-  }
-  double positive(const std::string& key, double fallback) const {
-    return get<double>(key, fallback, "a number greater than 0",
-                       [](const double& value) { return std::isfinite(value) && value > 0.0; });
-  }
-  double notNegative(const std::string& key, double fallback) const {
-    return get<double>(key, fallback, "a number not less than 0",
-                       [](const double& value) { return std::isfinite(value) && value >= 0.0; });
-  }
-  int integer(const std::string& key, int fallback, int minimum, int maximum) const {
-    return get<int>(key, fallback, "a whole number from " + std::to_string(minimum) + " to " + std::to_string(maximum),
-                    [&](const int& value) { return value >= minimum && value <= maximum; });
-  }
-  /// One text or a list of them.
-  std::vector<std::string> texts(const std::string& key) const {
-    const YAML::Node node = node_[key];
-    try {
-      if (node.IsScalar()) return {node.as<std::string>()};
-      return node.as<std::vector<std::string>>();
-    } catch (const YAML::Exception&) {
-      refuse(keyName(key), node, "a name or a list of names");
-    }
-  }
-
- private:
-  YAML::Node node_;
-  std::string name_;
-};
 
 // What a drive may be called is what ROS lets a name be.
 bool isName(const std::string& name) {
@@ -161,6 +98,12 @@ const std::vector<std::string>& driveKeys() {
       // the driver's
       "address", "series", "ppo_type", "joint", "gear_ratio", "pole_pairs", "inverted", "max_frequency",
       "rated_current", "module", "inverter", "io_byte", "connection", "profile",
+      // the driver's on a CAN bus; those of the identity are the simulator's, too
+      "array_sub_index", "boot_reset", "device_type", "error_control", "event_time", "guard_time", "heartbeat_time",
+      "heartbeat_timeout", "inhibit_time", "life_time_factor", "parameter_servers", "pdo_mapping", "process_values",
+      "product_code", "revision_number", "sdo_answer_id", "sdo_request_id", "sdo_timeout", "vendor_id", "watch_master",
+      // the simulator's on a CAN bus
+      "fixed_mapping", "sdo_servers_set", "serial_number",
       // the simulator's
       "inertia", "rated_torque", "slip", "load", "viscous", "charging_time", "firmware", "parameter_delay",
       "ram_orders", "double_word_answers", "automatic_acknowledgement_delay", "parameters"};
@@ -246,19 +189,25 @@ void takeIoByte(const Group& group, const DriveConfig& drive, SimConfig& config)
   config.modules.push_back(module);
 }
 
-DriveConfig readDrive(const std::string& name, const YAML::Node& node, std::vector<std::string>& warnings) {
+DriveConfig readDrive(const std::string& name, const YAML::Node& node, bool on_can,
+                      std::vector<std::string>& warnings) {
   const std::string path = "drives/" + name;
   if (!isName(name)) refuse("drives", YAML::Node(name), "a name of letters, digits and _ that starts with a letter");
   const Group group(node, path);
-  if (!group.has("address")) throw ConfigError(path + "/address is missing; expected a whole number from 1 to 126");
+  if (!group.has("address"))
+    throw ConfigError(path + "/address is missing; expected a whole number from 1 to " + (on_can ? "127" : "126"));
 
   DriveConfig drive;
   drive.name = name;
   drive.joint = group.get<std::string>("joint", "", "the name of a joint");
-  drive.slave.address = static_cast<std::uint8_t>(group.integer("address", 0, 1, 126));
+  drive.slave.address = static_cast<std::uint8_t>(group.integer("address", 0, 1, on_can ? 127 : 126));
   drive.slave.ppo_type = group.integer("ppo_type", 1, 1, 4);
   readSeries(group, drive);
-  readModule(group, drive);
+  if (on_can) {
+    readCanDrive(group, drive);
+  } else {
+    readModule(group, drive);
+  }
   drive.gear_ratio = group.positive("gear_ratio", 1.0);
   drive.inverted = group.get<bool>("inverted", false, "true or false");
   drive.motor.pole_pairs = group.integer("pole_pairs", drive.motor.pole_pairs, 1, 24);
@@ -340,7 +289,8 @@ std::optional<BodyConfig> readBody(const Group& root, const YAML::Node& node, co
 SimConfig readSimConfig(const YAML::Node& node) {
   const Group root(node, "");
   SimConfig config;
-  if (root.has("bus")) {
+  config.can = readCanBus(root);
+  if (root.has("bus") && !config.can) {
     const Group bus(node["bus"], "bus");
     config.device = bus.get<std::string>("device", config.device, "the path of the link to create",
                                          [](const std::string& path) { return !path.empty(); });
@@ -351,8 +301,10 @@ SimConfig readSimConfig(const YAML::Node& node) {
     throw ConfigError("drives: nothing is configured; expected a group with at least one drive");
   }
   for (const auto& entry : node["drives"]) {
-    config.drives.push_back(readDrive(entry.first.as<std::string>(), entry.second, config.warnings));
+    config.drives.push_back(
+        readDrive(entry.first.as<std::string>(), entry.second, config.can.has_value(), config.warnings));
     const DriveConfig& added = config.drives.back();
+    if (config.can) continue;
     for (std::size_t i = 0; i + 1 < config.drives.size(); ++i) {
       const DriveConfig& other = config.drives[i];
       if (other.slave.address != added.slave.address) continue;
@@ -366,6 +318,7 @@ SimConfig readSimConfig(const YAML::Node& node) {
       }
     }
   }
+  if (config.can) checkCanNodes(config.drives);
   readModules(root, config);
   for (std::size_t i = 0; i < config.drives.size(); ++i) {
     const std::string& name = config.drives[i].name;

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "nord_driver/sim/pty_bus.h"
+#include "nord_driver/sim/running_bus.h"
 
 namespace nord_driver::sim_node {
 
@@ -25,7 +25,7 @@ namespace nord_driver::sim_node {
 class SimDriveNode {
  public:
   /// `bus` must outlive it.
-  SimDriveNode(ros::NodeHandle& handle, sim::PtyBus& bus, std::size_t index, const std::string& name);
+  SimDriveNode(ros::NodeHandle& handle, sim::RunningBus& bus, std::size_t index, const std::string& name);
   SimDriveNode(const SimDriveNode&) = delete;
   SimDriveNode& operator=(const SimDriveNode&) = delete;
 
@@ -47,7 +47,7 @@ class SimDriveNode {
   void serveControl();
 
   ros::NodeHandle handle_;
-  sim::PtyBus& bus_;
+  sim::RunningBus& bus_;
   std::size_t index_;
   std::string name_;
   ros::Publisher truth_;

@@ -29,7 +29,7 @@ nav_msgs::Odometry toOdometry(const sim::Body& body, const ros::Time& stamp) {
 
 }  // namespace
 
-SimNode::SimNode(ros::NodeHandle& private_handle, sim::PtyBus& bus) : handle_(private_handle), bus_(bus) {
+SimNode::SimNode(ros::NodeHandle& private_handle, sim::RunningBus& bus) : handle_(private_handle), bus_(bus) {
   const sim::SimConfig config = bus_.withModel([](sim::RobotSim& robot) { return robot.config(); });
   if (config.body) odom_ = handle_.advertise<nav_msgs::Odometry>("truth/odom", 10);
   for (std::size_t i = 0; i < config.drives.size(); ++i) {
@@ -37,10 +37,8 @@ SimNode::SimNode(ros::NodeHandle& private_handle, sim::PtyBus& bus) : handle_(pr
   }
   const boost::function<bool(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&)> referee =
       [this](std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-        bus_.withModel([&](sim::RobotSim& robot) {
-          response.success = robot.referee().content();
-          response.message = robot.referee().report();
-        });
+        response.message = bus_.refereeReport();
+        response.success = response.message == sim::kNoRuleBroken;
         return true;
       };
   referee_ = handle_.advertiseService("referee", referee);

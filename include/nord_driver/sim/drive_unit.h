@@ -14,6 +14,13 @@
 
 namespace nord_driver::sim {
 
+/// What an experimenter does to parameter orders.
+struct ParameterSwitches {
+  bool silent = false;               ///< none is answered any more
+  std::optional<PkwRefusal> refuse;  ///< answered with this error
+  unsigned delay = 0;                ///< telegrams they wait; over CAN milliseconds more
+};
+
 class DriveUnit {
  public:
   /// With a module of its own. `referee` must outlive the drive.
@@ -32,8 +39,16 @@ class DriveUnit {
   void setInverterPower(bool on) noexcept;
   /// The connection between this inverter and its module.
   void setInverterLink(bool intact) noexcept;
+  bool inverterLink() const noexcept { return inverter_link_; }
+  /// The module works, its answers are lost.
+  void setMute(bool mute) noexcept;
+  bool mute() const noexcept { return mute_; }
+  /// How parameter orders fare, over whatever bus they come.
+  void setParameterSwitches(const ParameterSwitches& switches) noexcept;
+  const ParameterSwitches& parameterSwitches() const noexcept { return switches_; }
   /// Answers come later by this much than the segment makes them; those of the whole station.
   void setAnswerDelay(Duration delay) noexcept { station().setAnswerDelay(delay); }
+  Duration answerDelay() const noexcept { return slave().answerDelay(); }
 
   const DriveConfig& config() const noexcept { return config_; }
   const std::string& name() const noexcept { return config_.name; }
@@ -56,6 +71,10 @@ class DriveUnit {
   bool sharesModule() const noexcept { return module_ != nullptr; }
   /// Of its station, and of what came for this inverter.
   SlaveCounters counters() const noexcept;
+  /// Its process data move: in data exchange, its node operational.
+  bool inDataExchange() const noexcept;
+  /// What the node of a drive on a CAN bus tells of the exchange.
+  void showExchange(bool moving, const SlaveCounters& counters) noexcept;
   PkwServer& pkw() noexcept { return pkw_; }
 
  private:
@@ -71,6 +90,11 @@ class DriveUnit {
   std::optional<DpSlave> own_;
   ModuleStation* module_ = nullptr;
   bool plugged_ = true;
+  bool inverter_link_ = true;
+  bool mute_ = false;
+  bool exchanging_ = false;  // on a CAN bus
+  SlaveCounters exchanged_;  // on a CAN bus
+  ParameterSwitches switches_;
 };
 
 }  // namespace nord_driver::sim

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "nord_driver/sim/can_communication.h"
 #include "nord_driver/sim/dp_slave.h"
 #include "nord_driver/sim/inverter_model.h"
 #include "nord_driver/sim/module_station.h"
@@ -36,6 +37,21 @@ struct ParameterPreset {
   std::int32_t raw = 0;
 };
 
+/// How a drive sits on a CAN bus; its node id is `DriveConfig::slave.address`.
+struct CanDriveConfig {
+  CanConnection connection = CanConnection::kOption;
+  unsigned inverter = 1;       ///< 1-4, which one behind a gateway
+  bool cia402 = false;         ///< P551 on
+  bool fixed_mapping = false;  ///< 1600h.. and 1A00h.. are read-only
+  /// Sub-index of array-only parameters: 4 * (n - 1) + 1 (BU 0060 p. 61) instead of n (p. 54).
+  bool array_sub_by_table = false;
+  /// The SDO servers 2 to 4 of a gateway are on, with 600h + id + 1 .. + 3 and 580h + id + 1 .. + 3; off they are the
+  /// master's to set. No source prints their identifiers.
+  bool servers_set = false;
+  CanIdentity identity;
+  std::optional<std::uint32_t> device_type;  ///< 1000h; nothing: 0, with the drive profile 00010192h
+};
+
 struct DriveConfig {
   std::string name;
   std::string joint;
@@ -47,8 +63,12 @@ struct DriveConfig {
   Device device;
   InverterSettings inverter;
   PkwSettings pkw;
+  std::optional<CanDriveConfig> can;  ///< on a CAN bus
   std::vector<ParameterPreset> parameters;
 };
+
+/// What a CAN connection makes of an inverter: P509, and the faults of a lost master.
+InverterSettings canInverterSettings(CanConnection connection, const Device& device);
 
 /// A bus module with slots. One that is not listed is there all the same, as its drives say.
 struct ModuleConfig {
@@ -68,9 +88,15 @@ struct BodyConfig {
   BodyKind kind = BodyKind::kDiffDrive;
 };
 
+struct CanBusConfig {
+  std::string interface = "virtual:nord_sim";
+  std::uint32_t bit_rate = 250000;
+};
+
 struct SimConfig {
   std::string device = "/tmp/nord_sim_bus";  ///< the link the programs put to their pty
   std::uint32_t baud_rate = 500000;
+  std::optional<CanBusConfig> can;  ///< the bus is a CAN bus
   std::vector<DriveConfig> drives;
   std::vector<ModuleConfig> modules;
   std::optional<BodyConfig> body;
@@ -86,6 +112,13 @@ struct SimConfig {
 ///       arm: {address: 5, module: sk_cu4, inverter: 1, series: sk2xxe}
 ///     modules: {cu4: {address: 5, io_byte: true, parameters: {P151: 500}}}
 ///     body: {left: [left], right: [right], wheel_radius: 0.1, wheel_separation: 0.5}
+///
+/// or on a CAN bus
+///
+///     bus: {transport: canopen, interface: virtual:nord_sim, bit_rate: 250000}
+///     drives:
+///       left: {address: 32, series: sk5xxe, connection: option, profile: nord, joint: left_wheel_joint}
+///       lift: {address: 40, series: sk2xxe, connection: gateway, inverter: 2}
 ///
 /// Parameters are in the manual's unit, a list gives the four sets or the array elements. A body of the kind mecanum
 /// has two drives a side and wheel_base, too. Without `body` the driver's keys base_type, left_wheel, right_wheel
