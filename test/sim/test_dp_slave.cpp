@@ -158,8 +158,8 @@ TEST(DpSlave, AnswersForAnInverterThatIsOff) {
   EXPECT_EQ("0B 31 00 00", bus.pzdFor("047E 0000", milliseconds(400)));
 }
 
-// A zero control word is the master's mistake while an inverter could lose its commands by it, not while the inverter is
-// off behind the living module, nor before the first valid word after it came back.
+// A zero control word is the master's mistake while an inverter could lose its commands by it, not while the inverter
+// is off behind the living module, nor before the first valid word after it came back.
 TEST(DpSlave, ZerosToAnInverterThatIsOffAreNoMistake) {
   Conversation bus;
   bus.startUp(0);
