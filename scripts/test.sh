@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test and check. The last line is "N passed, N failed, N skipped": test cases, and each
-# check (format, lint, workspace) as one. The line before says where the tests on SocketCAN ran. Ends with 0 only when
-# nothing failed and something passed.
+# check (format, lint, fuzz, workspace) as one. The line before says where the tests on SocketCAN ran. Ends with 0 only
+# when nothing failed and something passed.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -10,7 +10,7 @@ usage() {
 usage: test.sh [--sanitize] [--quick]
   --sanitize  the tests in a Debug build with AddressSanitizer and UndefinedBehaviorSanitizer (out/sanitize); those on
               SocketCAN count as skipped
-  --quick     the tests and the format only; lint and workspace count as skipped
+  --quick     the tests and the format only; lint, fuzz and workspace count as skipped
 TEXT
 }
 
@@ -82,6 +82,7 @@ must() {
 format() {
   local folders=("$root"/include "$root"/src "$root"/test)
   if [[ -d $root/bench ]]; then folders+=("$root/bench"); fi
+  if [[ -d $root/fuzz ]]; then folders+=("$root/fuzz"); fi
   find "${folders[@]}" \( -name '*.h' -o -name '*.cpp' \) -print0 |
     xargs -0 clang-format-14 --style=file --dry-run -Werror
 }
@@ -163,14 +164,15 @@ start=$SECONDS
 run_tests
 echo "== tests: $((SECONDS - start)) s"
 if $sanitize; then
-  for name in format lint workspace socketcan; do skip $name "the run without --sanitize does it"; done
+  for name in format lint fuzz workspace socketcan; do skip $name "the run without --sanitize does it"; done
 else
   start_socketcan
   check "format" format
   if $quick; then
-    for name in lint workspace; do skip $name "--quick"; done
+    for name in lint fuzz workspace; do skip $name "--quick"; done
   else
     check "lint" lint
+    check "fuzz" "$root/scripts/fuzz.sh" 30
     check "workspace" "$root/scripts/check_workspace.sh"
   fi
   finish_socketcan
