@@ -60,11 +60,16 @@ bool SdoClient::pollRequest(SdoBytes& bytes) noexcept {
   return sends;
 }
 
+bool SdoClient::awaitsAnswer() const noexcept {
+  const auto* initiating = std::get_if<Initiating>(&transfer_);
+  return active() && (initiating == nullptr || !initiating->to_send);
+}
+
 void SdoClient::handle(const CanFrame& frame, Instant now) noexcept {
   if (frame.id != channel_.response_id || frame.extended || frame.remote) return;
   if (frame.size != kCanDataLength) {
     ++counters_.malformed;
-  } else if (!active() || !known_to_server_) {
+  } else if (!awaitsAnswer()) {
     ++counters_.stale;
   } else if (frame.data[0] == kAbort) {
     handleAbort(frame.data, now);
@@ -90,8 +95,7 @@ SdoStep SdoClient::handleResponse(const SdoBytes& response) noexcept {
 }
 
 SdoStep SdoClient::handleInitiated(const SdoBytes& response) noexcept {
-  const auto* initiating = std::get_if<Initiating>(&transfer_);
-  if (initiating == nullptr || initiating->to_send || !namesObject(response, request_)) return SdoStep::stale();
+  if (!namesObject(response, request_)) return SdoStep::stale();
   return request_.write ? beginDownload(response) : beginUpload(response);
 }
 

@@ -68,6 +68,7 @@ class SdoClient {
   using Transfer = std::variant<Idle, Initiating, SegmentedUpload, SegmentedDownload, BlockUpload, BlockDownload>;
 
   bool active() const noexcept { return !std::holds_alternative<Idle>(transfer_); }
+  bool awaitsAnswer() const noexcept;
   void arm(Instant now) noexcept;
   bool pollRequest(SdoBytes& bytes) noexcept;
   SdoStep handleResponse(const SdoBytes& response) noexcept;
