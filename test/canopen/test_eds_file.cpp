@@ -109,6 +109,7 @@ TEST(EdsFile, ValuesThatAreNoNumbersOfTheType) {
     EXPECT_FALSE(file.object(0x2000, 0)->value);
     EXPECT_EQ(text, file.object(0x2000, 0)->text);
   }
+  EXPECT_FALSE(withDefault("0x15", "-9223372036854775809").value(0x2000, 0, 0));
   EXPECT_EQ("7: 2000h:0: \"256\" does not fit 8 bits", onlyProblem(withDefault("5", "256")));
   EXPECT_EQ("7: 2000h:0: \"-129\" does not fit 8 bits", onlyProblem(withDefault("2", "-129")));
   EXPECT_EQ(0x80u, withDefault("2", "-128").value(0x2000, 0, 0));
@@ -188,6 +189,9 @@ TEST(EdsFile, SubNumberIsOnlyAHint) {
   const EdsFile huge = parseEds(base + "[1018]\nSubNumber=0xFFFFFFFF\n[1018sub1]\nDataType=7\nDefaultValue=9\n");
   EXPECT_EQ("6: subnumber = \"0xFFFFFFFF\": expected a number of at most 255", onlyProblem(huge));
   EXPECT_EQ(9u, huge.vendor_id) << "1018h fills in what [DeviceInfo] does not tell";
+  const EdsFile none = parseEds(base + "[2001]\nSubNumber=4\nDataType=5\n");
+  EXPECT_EQ("5: 2001h: SubNumber is 4, but there are 0 sections of sub-indices", onlyProblem(none));
+  EXPECT_FALSE(none.hasIndex(0x2001));
   EXPECT_NE(nullptr, parseEds(base + "[2000]\nSubNumber=0\nDataType=5\n").object(0x2000, 0));
 }
 
@@ -223,6 +227,12 @@ TEST(EdsFile, NamesAContradictionInTheIdentity) {
       "[DeviceInfo]\nVendorNumber=5\n[1000]\nDataType=7\nDefaultValue=1\n[1018sub1]\nDataType=7\nDefaultValue=6\n";
   EXPECT_EQ("6: 1018h:1 and VendorNumber of [DeviceInfo] differ; the latter is taken", onlyProblem(parseEds(text)));
   EXPECT_EQ(5u, parseEds(text).vendor_id);
+}
+
+// The node id stands in values of objects only.
+TEST(EdsFile, NoNodeIdInTheIdentity) {
+  EXPECT_EQ("2: vendornumber = \"$NODEID\": expected a number of at most 4294967295",
+            onlyProblem(parseEds("[DeviceInfo]\nVendorNumber=$NODEID\n[1000]\nDataType=7\nDefaultValue=1\n")));
 }
 
 TEST(EdsFile, UnknownAccessIsNamed) {
