@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the fuzz targets of the PROFIBUS engine in out/fuzz and runs each for a time. Ends with 1 when one of them
+# Builds the fuzz targets of the protocol engines in out/fuzz and runs each for a time. Ends with 1 when one of them
 # crashed; the input that did it stays in out/fuzz.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -23,7 +23,7 @@ cmake --build "$out" -j "$jobs" --target fuzz_targets >"$out/build.log" 2>&1 || 
 }
 
 failed=0
-for target in telegram diagnosis gsd record master; do
+for target in telegram diagnosis gsd record master sdo eds canopen; do
   corpus=$out/corpus/$target
   mkdir -p "$corpus"
   log=$out/$target.log
