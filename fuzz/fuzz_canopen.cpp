@@ -48,13 +48,16 @@ MasterConfig bus(std::uint8_t options) {
 
 class Game {
  public:
-  Game(const std::uint8_t* data, std::size_t size) : choices_(data, size), master_(bus(choices_.byte())) {
+  Game(const std::uint8_t* data, std::size_t size)
+      : choices_(data, size), options_(choices_.byte()), master_(bus(options_)) {
     const auto ids = master_.receivedIds();
     fuzz::require(std::is_sorted(ids.begin(), ids.end()) && ids.back() <= 0x7FF);
     master_.restart(now_);
+    if ((options_ & 4u) == 0) boot();
   }
 
   void play() {
+    well_behaved_ = false;
     while (!choices_.empty()) {
       act();
       settle();
@@ -73,6 +76,26 @@ class Game {
   }
 
  private:
+  /// Nodes that do as they are told, until all run.
+  void boot() {
+    for (int i = 0; i < 500 && !allOperational(); ++i) {
+      now_ += 5ms;
+      settle();
+      for (CanFrame& asked : asked_) {
+        if (asked.size == 8) answer(asked);
+      }
+      const std::uint8_t state = states_[0];
+      hear(dataFrame(0x701, ByteView{&state, 1}));
+    }
+    fuzz::require(allOperational());
+  }
+  bool allOperational() const {
+    for (std::size_t i = 0; i < master_.nodeCount(); ++i) {
+      if (master_.status(i).state != NodeState::kOperational) return false;
+    }
+    return true;
+  }
+
   void act() {
     now_ += std::chrono::milliseconds{choices_.below(60)};
     const std::size_t which = choices_.below(3);
@@ -117,18 +140,20 @@ class Game {
                        choices_.bytes(choices_.below(9))));
         break;
       default:
-        if (asked_.size == 8) answer();
+        for (CanFrame& asked : asked_) {
+          if (asked.size == 8 && choices_.below(4) != 3) answer(asked);
+        }
     }
   }
 
   /// As a server would that is there; sometimes something else.
-  void answer() {
-    CanFrame frame = asked_;
-    asked_.size = 0;
+  void answer(CanFrame& asked) {
+    CanFrame frame = asked;
+    asked.size = 0;
     frame.id = frame.id == 0x640 ? 0x5C0 : frame.id - 0x80;
     const std::uint8_t command = frame.data[0] >> 5;
     frame.data[0] = command == 2 ? 0x43 : 0x60;
-    const std::uint8_t kind = choices_.below(16);
+    const std::uint8_t kind = well_behaved_ ? 15 : choices_.below(16);
     if (kind == 0) frame.data[0] = choices_.byte();
     if (kind == 1) frame.data[0] = 0x80;
     if (kind == 2) frame.size = choices_.below(9);
@@ -165,19 +190,38 @@ class Game {
     CanFrame frame;
     for (int i = 0; master_.pollTransmit(frame); ++i) {
       fuzz::require(i < 100 && !frame.extended && frame.id <= 0x7FF && frame.size <= 8);
-      if (choices_.below(64) == 63) {
+      if (!well_behaved_ && choices_.below(64) == 63) {
         master_.notSent();
         return;
       }
       const bool request = (frame.id >= 0x601 && frame.id <= 0x603) || frame.id == 0x640;
-      if (request && frame.data[0] != 0x80) asked_ = frame;
+      if (request && frame.data[0] != 0x80) asked_[frame.id & 3u] = frame;
+      if (frame.id == 0) command(frame);
+      if (frame.remote && frame.id == 0x702 && well_behaved_) {
+        const auto state = static_cast<std::uint8_t>(states_[1] | toggle_);
+        toggle_ ^= 0x80u;
+        hear(dataFrame(0x702, ByteView{&state, 1}));
+      }
+    }
+  }
+  void command(const CanFrame& frame) {
+    for (std::uint8_t i = 0; i < 3; ++i) {
+      if (frame.data[1] != 0 && frame.data[1] != i + 1) continue;
+      states_[i] = frame.data[0] == 0x01 ? 0x05 : 0x7F;
+      if (i == 1) toggle_ = frame.data[0] > 0x80 ? 0 : toggle_;
+      const std::uint8_t boot_up = 0;
+      if (frame.data[0] > 0x80 && well_behaved_) hear(dataFrame(0x701u + i, ByteView{&boot_up, 1}));
     }
   }
 
   fuzz::Choices choices_;
+  std::uint8_t options_;
   Instant now_{std::chrono::hours{1}};
   std::size_t pending_ = 0;
-  CanFrame asked_;  // the last SDO request not answered
+  std::array<CanFrame, 4> asked_;  // SDO requests not answered, by server
+  std::array<std::uint8_t, 3> states_{0x7F, 0x7F, 0x7F};
+  unsigned toggle_ = 0;  // of node 2, which is guarded
+  bool well_behaved_ = true;
   Master master_;
 };
 
