@@ -39,7 +39,10 @@ class MasterRun {
   static constexpr int kStepsPerCycle = 10;
 
   explicit MasterRun(const MasterConfig& config) : master{config} {
-    for (const NodeConfig& node : config.nodes) nodes.push_back(std::make_unique<ScriptedNode>(node.id));
+    for (const NodeConfig& node : config.nodes) {
+      if (!node.receive_pdos.empty()) with_receive_pdo_.push_back(nodes.size());
+      nodes.push_back(std::make_unique<ScriptedNode>(node.id));
+    }
   }
 
   void powerAll() {
@@ -105,9 +108,9 @@ class MasterRun {
   Instant now{std::chrono::hours{1}};
   bool link_full = false;
   std::function<bool(const CanFrame&)> loses;  ///< of both directions
-  /// What the master sends before each cycle.
-  std::function<void(Master&)> before_cycle = [](Master& m) {
-    for (std::size_t i = 0; i < m.nodeCount(); ++i) m.setReceivePdo(i, 0, fromHex("7E 04 00 00"));
+  /// What the master is given before each cycle: the idle control word for every node that has an RPDO.
+  std::function<void(Master&)> before_cycle = [this](Master& to) {
+    for (const std::size_t node : with_receive_pdo_) to.setReceivePdo(node, 0, fromHex("7E 04 00 00"));
   };
 
  private:
@@ -128,6 +131,7 @@ class MasterRun {
     }
   }
 
+  std::vector<std::size_t> with_receive_pdo_;
   int steps_ = 0;
 };
 

@@ -33,7 +33,6 @@ class ScriptedNode {
   void say(const std::string& candump, Instant at);
   Entry& object(std::uint16_t index, std::uint8_t sub) { return dictionary_[{index, sub}]; }
   void remove(std::uint16_t index, std::uint8_t sub) { dictionary_.erase({index, sub}); }
-  bool guardedNow() const { return guards > 0; }
 
   std::uint8_t state = 0x7F;  // as heartbeat and guarding tell it
   bool powered = false;
