@@ -7,7 +7,7 @@ export PATH=/usr/bin:/usr/sbin:/bin:/sbin:$PATH
 usage() {
   cat <<'TEXT'
 usage: install_deps.sh [--test] [--list]
-  --test  also what scripts/test.sh needs beyond a build: formatter, linter, tcpdump
+  --test  also what scripts/test.sh needs beyond a build: formatter, linter, recorders, and a machine with CAN
   --list  print the packages, install nothing
 Without root it prints the command that installs what is missing and ends with 1.
 TEXT
@@ -26,7 +26,11 @@ packages=(
   python3-rospy python3-geometry-msgs python3-nav-msgs python3-std-srvs
   libgtest-dev libgmock-dev librapidcheck-dev
 )
-test_packages=(clang-format-14 clang-tidy-14 tcpdump)
+test_packages=(
+  clang-format-14 clang-tidy-14 tcpdump
+  can-utils iproute2 tshark
+  qemu-system-x86 busybox-static cpio kmod # the emulated machine of scripts/can_machine.sh
+)
 
 list=false
 for argument in "$@"; do
