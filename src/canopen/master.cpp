@@ -329,7 +329,7 @@ bool Master::submitSdo(std::size_t node, std::size_t server, const SdoRequest& r
 
 std::optional<NodeSdoAnswer> Master::pollSdo() noexcept {
   for (const auto& [node, server] : servers_) {
-    const std::optional<SdoAnswer> answer = nodes_[node]->ports()[server].take(SdoOwner::kUser, now_);
+    const std::optional<SdoAnswer> answer = nodes_[node]->ports()[server].take(SdoOwner::kUser);
     if (!answer) continue;
     touched(*nodes_[node]);
     return NodeSdoAnswer{node, server, *answer};

@@ -154,7 +154,7 @@ void NodeBoot::handleForeignCommand(NmtCommand command, Instant now) noexcept {
 }
 
 void NodeBoot::poll(Instant now) noexcept {
-  while (const std::optional<SdoAnswer> answer = port_.take(SdoOwner::kBoot, now)) handleAnswer(*answer, now);
+  while (const std::optional<SdoAnswer> answer = port_.take(SdoOwner::kBoot)) handleAnswer(*answer, now);
   if (!deadline_ || now < *deadline_) return;
   deadline_.reset();
   handleDeadline(now);

@@ -10,9 +10,7 @@ bool SdoPort::submit(SdoOwner owner, const SdoRequest& request, Instant now) noe
   return true;
 }
 
-std::optional<SdoAnswer> SdoPort::take(SdoOwner owner, Instant now) noexcept {
-  // The answer before may have been the last use of the client.
-  if (owner_ == SdoOwner::kNobody) startNext(now);
+std::optional<SdoAnswer> SdoPort::take(SdoOwner owner) noexcept {
   if (owner_ != owner) return std::nullopt;
   const std::optional<SdoAnswer> answer = client_.takeAnswer();
   if (answer) {
@@ -48,6 +46,13 @@ bool SdoPort::pollTransmit(CanFrame& frame) noexcept {
   frame = *put_back_;
   put_back_.reset();
   return true;
+}
+
+std::optional<Instant> SdoPort::nextDeadline() const noexcept {
+  const bool waiting = boot_.has_value() || user_.has_value();
+  // The answer of the one that was taken is still looked at: the other begins with the next `poll()`.
+  if (owner_ == SdoOwner::kNobody && waiting) return Instant{};
+  return client_.nextDeadline();
 }
 
 void SdoPort::startNext(Instant now) noexcept {

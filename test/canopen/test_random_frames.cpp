@@ -38,7 +38,7 @@ class Chaos {
 
   void play() {
     run_.begin();
-    for (int i = 0; i < 120; ++i) {
+    for (int i = 0; i < 90; ++i) {
       disturb();
       step();
     }

@@ -104,6 +104,34 @@ TEST(SdoBeside, CountsStrayAnswers) {
   EXPECT_FALSE(run.master.pollSdo());
 }
 
+// An answer is fetched by asking until there is none: the access of the start-up that waited for the server is not
+// forgotten by that.
+TEST(SdoBeside, FetchingAnAnswerDoesNotStrandTheStartUp) {
+  MasterConfig config = busConfig(1);
+  config.nodes[0].reset = BootReset::kNone;
+  Master master{config};
+  Instant now{std::chrono::hours{1}};
+  CanFrame sent;
+  master.restart(now);
+  ASSERT_TRUE(master.pollTransmit(sent));
+  EXPECT_EQ("601#4000100000000000", text(sent));
+  ASSERT_TRUE(master.submitSdo(0, 0, sdoRead(1, 0x2066, 1)));
+  master.handleFrame(frame("581#4300100000000000"), now);
+  ASSERT_TRUE(master.pollTransmit(sent));
+  EXPECT_EQ("000#8001", text(sent));
+  ASSERT_TRUE(master.pollTransmit(sent));
+  EXPECT_EQ("601#4066200100000000", text(sent));
+  EXPECT_FALSE(master.pollTransmit(sent));
+  master.handleFrame(frame("581#4B66200167000000"), now);
+  EXPECT_TRUE(master.pollSdo());
+  EXPECT_FALSE(master.pollSdo());
+  ASSERT_TRUE(master.nextDeadline());
+  EXPECT_LE(*master.nextDeadline(), now);
+  master.poll(now);
+  ASSERT_TRUE(master.pollTransmit(sent));
+  EXPECT_EQ("601#4000140100000000", text(sent));
+}
+
 // The bus was opened again: what was under way is over, and the server is free.
 TEST(SdoBeside, RestartEndsWhatWasUnderWay) {
   MasterRun run{busConfig(1)};

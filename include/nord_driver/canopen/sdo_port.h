@@ -22,7 +22,7 @@ class SdoPort {
   bool submit(SdoOwner owner, const SdoRequest& request, Instant now) noexcept;
   /// The answer; its data is valid until the next call that is not const. An answer not fetched keeps the others
   /// waiting.
-  std::optional<SdoAnswer> take(SdoOwner owner, Instant now) noexcept;
+  std::optional<SdoAnswer> take(SdoOwner owner) noexcept;
   /// Ends this owner's access without an answer.
   void cancel(SdoOwner owner, Instant now) noexcept;
 
@@ -31,7 +31,7 @@ class SdoPort {
   bool pollTransmit(CanFrame& frame) noexcept;
   /// The frame given out last was not sent: it comes again.
   void putBack(const CanFrame& frame) noexcept { put_back_ = frame; }
-  std::optional<Instant> nextDeadline() const noexcept { return client_.nextDeadline(); }
+  std::optional<Instant> nextDeadline() const noexcept;
   const SdoCounters& counters() const noexcept { return client_.counters(); }
 
  private:
