@@ -4,6 +4,8 @@
 #include <new>
 
 #include "canopen/master_run.h"
+#include "canopen/scripted_sdo_server.h"
+#include "nord_driver/canopen/sdo_client.h"
 
 namespace {
 
@@ -46,6 +48,21 @@ struct Counted {
   Counted() { counting = true; }
   ~Counted() { counting = false; }
 };
+
+/// Counts what one call allocates.
+template <typename Call>
+auto counted(Call&& call) {
+  const Counted here;
+  return call();
+}
+
+// The other tests prove nothing unless this counts.
+TEST(NoAllocation, IsCounted) {
+  allocations = 0;
+  void* memory = counted([] { return ::operator new(1); });
+  ::operator delete(memory);
+  EXPECT_EQ(1u, allocations);
+}
 
 // From its construction on the master takes no memory: start-up, exchange, emergencies, malformed and foreign frames,
 // refusals, losses, return, restart and a full link included.
@@ -124,6 +141,45 @@ TEST(NoAllocation, AfterConstruction) {
   EXPECT_GE(master.status(0).counters.losses, 1u);
   EXPECT_GE(master.status(2).counters.losses, 1u);
   EXPECT_GT(master.counters().not_sent, 0u);
+}
+
+// The client takes none either: every kind of transfer, both ways, aborted and timed out.
+TEST(NoAllocation, OfAnSdoClient) {
+  ScriptedSdoServer server;
+  SdoClient client{defaultSdoChannel(1), std::chrono::milliseconds{50}};
+  Instant now{std::chrono::hours{1}};
+  const std::vector<std::uint8_t> data(300, 0x55);
+  allocations = 0;
+  std::size_t good = 0, ended = 0;
+  for (unsigned kind = 0; kind < 16; ++kind) {
+    SdoRequest request = sdoRead(kind, 0x2000, static_cast<std::uint8_t>(kind & 1u));
+    request.write = (kind & 2u) == 0;
+    request.block = (kind & 4u) != 0;
+    const bool silent = (kind & 8u) != 0 && (kind & 1u) != 0;
+    const ByteView bytes = ByteView{data}.sub(0, (kind & 1u) != 0 ? 4 : 300);
+    ASSERT_TRUE(counted([&] { return client.start(request, bytes, now); }));
+    for (bool over = false; !over;) {
+      CanFrame frame;
+      std::vector<SdoBytes> answers;
+      while (counted([&] { return client.pollTransmit(frame); })) {
+        if (silent) continue;
+        for (const auto& answer : server.handle(frame.data)) answers.push_back(answer);
+      }
+      for (const SdoBytes& answer : answers) {
+        const CanFrame made = dataFrame(0x581, answer);
+        counted([&] { client.handle(made, now); });
+      }
+      now += std::chrono::milliseconds{10};
+      counted([&] { client.poll(now); });
+      const auto answer = counted([&] { return client.takeAnswer(); });
+      over = answer.has_value();
+      if (over) good += answer->ok() ? 1 : 0;
+      if (over) ++ended;
+    }
+  }
+  EXPECT_EQ(16u, ended);
+  EXPECT_EQ(12u, good);
+  EXPECT_EQ(0u, allocations);
 }
 
 }  // namespace
