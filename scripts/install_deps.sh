@@ -7,11 +7,7 @@ export PATH=/usr/bin:/usr/sbin:/bin:/sbin:$PATH
 usage() {
   cat <<'TEXT'
 usage: install_deps.sh [--test] [--list]
-<<<<<<< HEAD
-  --test  also what scripts/test.sh needs beyond a build: formatter, linter, recorders, and a machine with CAN
-=======
-  --test  also what scripts/test.sh needs beyond a build: formatter, linter, fuzzer, tcpdump
->>>>>>> w-pbsim
+  --test  also what scripts/test.sh needs beyond a build: formatter, linter, fuzzer, recorders, and a machine with CAN
   --list  print the packages, install nothing
 Without root it prints the command that installs what is missing and ends with 1.
 TEXT
@@ -30,15 +26,11 @@ packages=(
   python3-rospy python3-geometry-msgs python3-nav-msgs python3-std-srvs
   libgtest-dev libgmock-dev librapidcheck-dev
 )
-<<<<<<< HEAD
 test_packages=(
-  clang-format-14 clang-tidy-14 tcpdump
+  clang-format-14 clang-tidy-14 clang-14 libclang-rt-14-dev tcpdump
   can-utils iproute2 tshark
   qemu-system-x86 busybox-static cpio kmod # the emulated machine of scripts/can_machine.sh
 )
-=======
-test_packages=(clang-format-14 clang-tidy-14 clang-14 libclang-rt-14-dev tcpdump)
->>>>>>> w-pbsim
 
 list=false
 for argument in "$@"; do

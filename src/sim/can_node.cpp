@@ -36,6 +36,7 @@ CanNode::CanNode(const CanNodeSettings& settings, const Drives& drives, CanRefer
       pdo_objects_(communication_, *this, settings.can.fixed_mapping,
                    settings.can.connection == CanConnection::kGateway ? SdoAbort::kNotStored : SdoAbort::kValueRange),
       process_(drives, settings.can.connection) {
+  if (settings.can.connection == CanConnection::kGateway) module_.emplace();
   for (std::size_t i = 0; i < servers_.size(); ++i) servers_[i].bind(*this, i);
   referee_.nodeExists(settings_.node);
 }
@@ -62,6 +63,7 @@ void CanNode::initialise(Duration time, bool application) noexcept {
     communication_objects_.setDeviceType(settings_.can.device_type.value_or(cia402 ? kCia402FrequencyConverter : 0));
     process_.setCia402(cia402);
     process_.clear();
+    if (module_) module_->restart();
     emergency_.forget();
   }
   communication_ = communication_objects_.saved();
@@ -160,6 +162,7 @@ void CanNode::consumeHeartbeat(const CanFrame& frame) noexcept {
 }
 
 void CanNode::watchMaster(Duration span) noexcept {
+  if (module_) module_->watch(span, drives_);
   since_guard_ += span;
   const Duration life = std::chrono::milliseconds{communication_.guard_time} * communication_.life_factor;
   if (guarded_ && life > Duration::zero() && since_guard_ >= life) {
@@ -176,7 +179,8 @@ void CanNode::watchMaster(Duration span) noexcept {
   }
 }
 
-// The inverters trip unless P513 = -0.1; the node falls back to pre-operational (CiA 301 7.5.2.32, 1029h as delivered).
+// The inverters trip unless P513 = -0.1, behind a gateway unless its P151 = -1; the node falls back to pre-operational
+// (CiA 301 7.5.2.32, 1029h as delivered).
 void CanNode::masterLost() noexcept {
   ++counters_.masters_lost;
   if (state_ == NmtState::kOperational) enter(NmtState::kPreOperational);
@@ -185,8 +189,9 @@ void CanNode::masterLost() noexcept {
     if (drive == nullptr) continue;
     exchanged_[place].control_before_loss = process_.control(place);
     exchanged_[place].status_at_loss = drive->inverter().statusWord();
-    if (drive->inverterLink()) drive->inverter().masterLost();
+    if (!module_ && drive->inverterLink()) drive->inverter().masterLost();
   }
+  if (module_) module_->masterLost(drives_);
 }
 
 void CanNode::advance(Duration span, CanSink& sink) noexcept {

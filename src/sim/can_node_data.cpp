@@ -18,12 +18,13 @@ void CanNode::Server::bind(CanNode& node, std::size_t inverter) noexcept {
   node_ = &node;
   inverter_ = inverter;
   DriveUnit* drive = node.drives_[inverter];
-  if (drive != nullptr) parameters_.emplace(*drive, node.settings_.can.array_sub_by_table);
+  if (drive != nullptr) parameters_.emplace(drive->parameters(), drive, node.settings_.can.array_sub_by_table);
 }
 
 CanObjects* CanNode::Server::part(std::uint16_t index) noexcept {
   if (CanPdoObjects::has(index)) return &node_->pdo_objects_;
   if (index < 0x2000) return &node_->communication_objects_;
+  if (node_->module_ && CanGatewayModule::hasParameter(index)) return &node_->module_->objects();
   if (CanParameterObjects::has(index)) return parameters_ ? &*parameters_ : nullptr;
   return node_->process_.has(index) ? &node_->process_ : nullptr;
 }
@@ -105,7 +106,9 @@ void CanNode::apply(const PdoSettings& pdo, ByteView data) noexcept {
 }
 
 void CanNode::commit() noexcept {
-  if (!process_.commit()) return;
+  const CanProcessObjects::Commit commit = process_.commit();
+  if (commit.valid && module_) module_->validWord();
+  if (!commit.zero) return;
   ++counters_.zero_control_words;
   if (judged_) referee_.broken(CanRule::kZeroControlWord);
 }

@@ -45,20 +45,25 @@ std::int32_t rawOf(ByteView bytes, const ParameterDefinition& definition) noexce
 
 }  // namespace
 
+SdoAbort CanParameterObjects::absence(unsigned number) const noexcept {
+  if (drive_ == nullptr) return SdoAbort::kNone;
+  const ParameterSwitches& switches = drive_->parameterSwitches();
+  if (switches.refuse && (!switches.refuse->number || *switches.refuse->number == number)) {
+    return abortOf(switches.refuse->error);
+  }
+  return drive_->inverter().powered() && drive_->inverterLink() ? SdoAbort::kNone : SdoAbort::kHardware;
+}
+
 CanParameterObjects::Place CanParameterObjects::find(ObjectId id) const noexcept {
   Place place;
-  const ParameterStore& parameters = static_cast<const DriveUnit&>(drive_).parameters();
   const unsigned number = id.index - kObjectOffset;
   const auto refused = [&](SdoAbort refusal) {
     place.refusal = refusal;
     return place;
   };
-  const ParameterSwitches& switches = drive_.parameterSwitches();
-  if (switches.refuse && (!switches.refuse->number || *switches.refuse->number == number)) {
-    return refused(abortOf(switches.refuse->error));
-  }
-  if (!drive_.inverter().powered() || !drive_.inverterLink()) return refused(SdoAbort::kHardware);
-  place.definition = parameters.find(number);
+  const SdoAbort absent = absence(number);
+  if (absent != SdoAbort::kNone) return refused(absent);
+  place.definition = parameters_.find(number);
   if (place.definition == nullptr) return refused(SdoAbort::kNoObject);
   const bool per_set = place.definition->per_set;
   const unsigned elements = place.definition->elements;
@@ -86,7 +91,7 @@ SdoAbort CanParameterObjects::read(ObjectId id, ObjectBytes& bytes) noexcept {
     bytes = objectBytes(by_table ? elements * ParameterStore::kSets : elements, 1);
     return SdoAbort::kNone;
   }
-  const std::int32_t raw = drive_.parameters().value(definition.number, place.set, place.element);
+  const std::int32_t raw = parameters_.value(definition.number, place.set, place.element);
   bytes = objectBytes(static_cast<std::uint32_t>(raw), lengthOf(definition));
   return SdoAbort::kNone;
 }
@@ -97,11 +102,11 @@ SdoAbort CanParameterObjects::write(ObjectId id, ByteView bytes) noexcept {
   const ParameterDefinition& definition = *place.definition;
   if (place.is_count) return SdoAbort::kReadOnly;
   if (bytes.size() != lengthOf(definition)) return SdoAbort::kTypeOrLength;
-  ParameterStore& parameters = drive_.parameters();
   const std::int32_t raw = rawOf(bytes, definition);
-  // An SDO has no way to say "not into the EEPROM" but P560.
-  const Storage storage = parameters.value(560) == 0 ? Storage::kRam : Storage::kEeprom;
-  const auto error = parameters.write(definition.number, place.set, place.element, raw, storage);
+  // An SDO has no way to say "not into the EEPROM" but P560, and that is the inverter's.
+  const bool to_ram = parameters_.find(560) != nullptr && parameters_.value(560) == 0;
+  const Storage storage = to_ram ? Storage::kRam : Storage::kEeprom;
+  const auto error = parameters_.write(definition.number, place.set, place.element, raw, storage);
   return error ? abortOf(*error, definition, raw) : SdoAbort::kNone;
 }
 

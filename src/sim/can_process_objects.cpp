@@ -231,14 +231,15 @@ SdoAbort CanProcessObjects::write(ObjectId id, ByteView bytes) noexcept {
   return SdoAbort::kNone;
 }
 
-bool CanProcessObjects::commit() noexcept {
-  bool zero = false;
+CanProcessObjects::Commit CanProcessObjects::commit() noexcept {
+  Commit commit;
   for (std::size_t i = 0; i < kInverters; ++i) {
     Outputs& outputs = outputs_[i];
     if (!outputs.written) continue;
     outputs.written = false;
     const bool valid = cia402_ || (outputs.control & stw::kDataValid) != 0;
-    zero = zero || (!valid && outputs.valid_seen);
+    commit.zero = commit.zero || (!valid && outputs.valid_seen);
+    commit.valid = commit.valid || valid;
     outputs.valid_seen = outputs.valid_seen || valid;
     DriveUnit* drive = drives_[i];
     if (drive == nullptr || !drive->inverterLink()) continue;
@@ -248,7 +249,7 @@ bool CanProcessObjects::commit() noexcept {
       drive->inverter().receive({outputs.control, outputs.setpoints});
     }
   }
-  return zero;
+  return commit;
 }
 
 void CanProcessObjects::clear() noexcept {

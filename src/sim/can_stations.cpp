@@ -79,7 +79,11 @@ void CanStations::receive(const CanFrame& frame, Judge judge, CanSink& sink) noe
 }
 
 void CanStations::delivered(const CanFrame& frame, bool to_master, CanSink& sink) noexcept {
-  if (to_master) referee_.delivered(frame);
+  // A heartbeat that waited for the bus may tell what is over already: it is no news to be judged by.
+  const CanNode* sender =
+      frame.id > kErrorControl ? find(static_cast<std::uint8_t>(frame.id - kErrorControl)) : nullptr;
+  const bool stale = sender != nullptr && sender->state() == NmtState::kOperational;
+  if (to_master && !stale) referee_.delivered(frame);
   for (const auto& node : nodes_) {
     if (node->claim(frame.id) != CanNode::Claim::kSends) node->receive(frame, false, sink);
   }

@@ -67,6 +67,20 @@ TEST_F(CanGateway, TimesAndTheModulesOwnPdo) {
   EXPECT_EQ("43041A0108010430", sdo("40041A0100000000"));
 }
 
+// Inputs and outputs of the module go with the fifth PDO, once the master has given it an identifier.
+TEST_F(CanGateway, InputsAndOutputs) {
+  EXPECT_EQ("60", sdo("2304180185060040").substr(0, 2));
+  EXPECT_EQ("60", sdo("23041401A5060000").substr(0, 2));
+  bus.node().setModuleInputs(0x05);
+  bus.send("000#0105");
+  bus.bus.run(milliseconds(20));
+  EXPECT_EQ("685#05", bus.take().back());
+  bus.send("6A5#02");
+  bus.bus.run(milliseconds(5));
+  EXPECT_EQ(0x02, bus.node().moduleOutputs());
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
+}
+
 // One SDO server for each inverter (1200h-1203h); all but the first are the master's to set.
 TEST_F(CanGateway, ServersOfTheInverters) {
   bus.drive(0).parameters().preset(102, 0, 0, 111);
@@ -129,6 +143,55 @@ TEST_F(CanGateway, StoreAndRestore) {
   bus.send("000#8105");
   bus.bus.run(milliseconds(200));
   EXPECT_EQ("4B0C100000000000", sdo("400C100000000000"));
+}
+
+/// All three enabled by their first PDO; the module has been told what to watch.
+void enableAll(CanConversation& bus) {
+  bus.send("000#0105");
+  bus.bus.run(milliseconds(20));
+  for (const char* words : {"7E04000000000000", "7F04002000000000"}) {
+    for (int i = 0; i < 20; ++i) {
+      for (const char* id : {"205#", "305#", "505#"}) bus.send(std::string(id) + words);
+      bus.bus.run(milliseconds(5));
+    }
+  }
+}
+
+// P151 of the module: no valid control word for any of the inverters for that long, and all trip with E10.3; the module
+// stays in the time-out until each is acknowledged (BU 2700 7.1.1, BU 0220 4.2.3.2). P513 is not looked at.
+TEST_F(CanGateway, P151StopsAll) {
+  EXPECT_EQ("6097200000000000", sdo("2B972000C8000000"));  // 200 ms
+  for (std::size_t i = 0; i < 3; ++i) bus.drive(i).parameters().preset(513, 0, 0, 1);
+  enableAll(bus);
+  bus.repeat("205#7F04002000000000", milliseconds(500), "185");
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(InverterState::kOperationEnabled, bus.drive(i).inverter().state());
+  bus.bus.run(milliseconds(210));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(103, bus.drive(i).inverter().faultNumber());
+  EXPECT_TRUE(bus.node().module()->timedOut());
+  EXPECT_EQ("4BAA2001FC030000", sdo("40AA200100000000")) << "P170[-01] = 102.0";
+  bus.repeat("205#7E04000000000000", milliseconds(20), "185");
+  bus.repeat("305#7E04000000000000", milliseconds(20), "285");
+  EXPECT_TRUE(bus.node().module()->timedOut());
+  bus.repeat("505#7E04000000000000", milliseconds(20), "485");
+  EXPECT_FALSE(bus.node().module()->timedOut());
+}
+
+// A lost master (life guarding): E10.2 with P151 = 0, nothing with -1: the table of BU 2700 7.1.1.
+TEST_F(CanGateway, LifeGuardingByP151) {
+  for (const bool watched : {true, false}) {
+    EXPECT_EQ("6097200000000000", sdo(watched ? "2B97200000000000" : "2B972000FFFF0000"));
+    sdo("2B0C100064000000");
+    sdo("2F0D100002000000");
+    enableAll(bus);
+    bus.send("705#R1");
+    bus.bus.run(milliseconds(300));
+    EXPECT_EQ(watched ? 102 : 0, bus.drive(1).inverter().faultNumber());
+    bus.send("000#8105");
+    bus.bus.run(milliseconds(200));
+    for (std::size_t i = 0; i < 3; ++i) bus.drive(i).setInverterPower(false);
+    for (std::size_t i = 0; i < 3; ++i) bus.drive(i).setInverterPower(true);
+    bus.bus.run(milliseconds(500));
+  }
 }
 
 // The drive profile is that of the technology units, 1010h that of the gateway.

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "sim/can_conversation.h"
 #include "sim/conversation.h"
 
 namespace {
@@ -135,6 +136,43 @@ TEST(NoAllocation, OfAModule) {
 
   EXPECT_EQ(0u, allocations);
   EXPECT_LT(1000u, received);
+}
+
+// The same of the simulated CAN bus and its nodes.
+TEST(NoAllocation, OnACanBus) {
+  CanConversation bus;
+  std::vector<CanFrame> requests;
+  for (const char* text : {"732#R1", "632#4066200100000000", "632#2B17100014000000", "000#0132", "232#7E040000",
+                           "232#7F040020", "080#", "632#4008100000000000", "632#6000000000000000"}) {
+    requests.push_back(fromText(text));
+  }
+  CanDisturbance noise;
+  noise.lose = noise.error = noise.duplicate = 0.05;
+  std::size_t received = 0;
+
+  allocations = 0;
+  counting = true;
+  for (int round = 0; round < 20; ++round) {
+    if (round == 10) bus.bus.setDisturbance(noise);
+    for (const CanFrame& request : requests) {
+      bus.bus.send(request);
+      const Instant until = bus.bus.now() + milliseconds(10);
+      while (bus.bus.waitReadable(until)) {
+        link::ReceivedCanFrame frame;
+        while (bus.bus.receive(frame)) ++received;
+      }
+    }
+    bus.drive().inverter().trip(30, false);
+    bus.bus.run(milliseconds(20));
+    bus.drive().setPlugged(false);
+    bus.bus.run(milliseconds(50));
+    bus.drive().setPlugged(true);
+    bus.bus.run(milliseconds(400));
+  }
+  counting = false;
+
+  EXPECT_EQ(0u, allocations);
+  EXPECT_LT(200u, received);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "nord_driver/core/can_frame.h"
 #include "nord_driver/core/time.h"
 #include "nord_driver/sim/can_communication_objects.h"
+#include "nord_driver/sim/can_gateway_module.h"
 #include "nord_driver/sim/can_parameter_objects.h"
 #include "nord_driver/sim/can_pdo_objects.h"
 #include "nord_driver/sim/can_process_objects.h"
@@ -74,6 +75,10 @@ class CanNode : private CanPdoContext {
   /// How long the SDO servers take for an answer; also `DriveUnit::setAnswerDelay()` counts.
   void setSdoDelay(Duration delay) noexcept { sdo_delay_ = delay; }
 
+  /// Of a gateway.
+  void setModuleInputs(std::uint8_t inputs) noexcept { process_.setModuleInputs(inputs); }
+  std::uint8_t moduleOutputs() const noexcept { return process_.moduleOutputs(); }
+
   std::uint8_t id() const noexcept { return settings_.node; }
   const CanNodeSettings& settings() const noexcept { return settings_; }
   bool alive() const noexcept { return alive_; }
@@ -82,6 +87,8 @@ class CanNode : private CanPdoContext {
   const CanNodeCounters& counters() const noexcept { return counters_; }
   const CanEmergencyState& emergencies() const noexcept { return emergency_; }
   const Drives& drives() const noexcept { return drives_; }
+  /// Of a gateway; null otherwise.
+  CanGatewayModule* module() noexcept { return module_ ? &*module_ : nullptr; }
   /// As on the wire, of the inverter at that place.
   Word lastControl(std::size_t inverter) const noexcept { return process_.control(inverter); }
 
@@ -143,6 +150,7 @@ class CanNode : private CanPdoContext {
   CanCommunicationObjects communication_objects_;
   CanPdoObjects pdo_objects_;
   CanProcessObjects process_;
+  std::optional<CanGatewayModule> module_;
   std::array<Server, CanCommunication::kServers> servers_;
   std::array<CanTpdo, CanCommunication::kPdos> tpdos_;
   std::array<std::optional<PdoData>, CanCommunication::kPdos> waiting_for_sync_;

@@ -11,9 +11,9 @@ namespace nord_driver::sim {
 
 class CanParameterObjects : public CanObjects {
  public:
-  /// `drive` must outlive it.
-  CanParameterObjects(DriveUnit& drive, bool array_sub_by_table) noexcept
-      : drive_(drive), array_sub_by_table_(array_sub_by_table) {}
+  /// Both must outlive it; `drive` (its power, its link, the experimenter's switches) may be null.
+  CanParameterObjects(ParameterStore& parameters, const DriveUnit* drive, bool array_sub_by_table) noexcept
+      : parameters_(parameters), drive_(drive), array_sub_by_table_(array_sub_by_table) {}
 
   static bool has(std::uint16_t index) noexcept { return index >= 0x2000 && index < 0x2000 + 1000; }
 
@@ -29,8 +29,10 @@ class CanParameterObjects : public CanObjects {
     bool is_count = false;  ///< sub-index 0 of an array
   };
   Place find(ObjectId id) const noexcept;
+  SdoAbort absence(unsigned number) const noexcept;
 
-  DriveUnit& drive_;
+  ParameterStore& parameters_;
+  const DriveUnit* drive_;
   bool array_sub_by_table_;
 };
 

@@ -29,10 +29,18 @@ class CanProcessObjects : public CanObjects {
   /// What is written counts from the next `commit()` on.
   SdoAbort read(ObjectId id, ObjectBytes& bytes) noexcept override;
   SdoAbort write(ObjectId id, ByteView bytes) noexcept override;
-  /// Hands what was written to the inverters. True when a control word without bit 10 followed one with it.
-  bool commit() noexcept;
+  struct Commit {
+    bool zero = false;   ///< a control word without bit 10 followed one with it
+    bool valid = false;  ///< a control word with bit 10 = 1 was among them
+  };
+  /// Hands what was written to the inverters.
+  Commit commit() noexcept;
   /// Forgets what was written.
   void clear() noexcept;
+
+  /// A gateway's own digital inputs (3004h:1) and outputs (3005h:1).
+  void setModuleInputs(std::uint8_t inputs) noexcept { module_inputs_ = inputs; }
+  std::uint8_t moduleOutputs() const noexcept { return module_outputs_; }
 
   /// The control word written last, as on the wire.
   Word control(std::size_t inverter) const noexcept { return outputs_[inverter].control; }
