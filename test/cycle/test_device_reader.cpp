@@ -143,5 +143,50 @@ TEST(DeviceReader, AResultNobodyWaitsForChangesNothing) {
   EXPECT_FALSE(reader.data().max_frequency[0]);
 }
 
+// A function the drive refuses leaves a gap: the later ones must not move up, or `current` would be another value.
+TEST(DeviceReader, AFunctionThatIsRefusedKeepsItsPlace) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  while (const auto request = reader.pollRequest()) {
+    if (request->number == 544 || request->number == 546) {
+      reader.handleResult(failed(ParameterOutcome::kRefused));
+    } else {
+      reader.handleResult(done(request->number == 545 ? 3 : 1));
+    }
+  }
+  ASSERT_EQ(3u, reader.data().actual_value_functions.size());
+  EXPECT_EQ(1, reader.data().actual_value_functions[0]);
+  EXPECT_EQ(kUnknownFunction, reader.data().actual_value_functions[1]);
+  EXPECT_EQ(3, reader.data().actual_value_functions[2]) << "current stays actual value 3";
+  ASSERT_EQ(3u, reader.data().setpoint_functions.size());
+  EXPECT_EQ(kUnknownFunction, reader.data().setpoint_functions[0]);
+  EXPECT_EQ(1, reader.data().setpoint_functions[1]);
+}
+
+// What watches the bus besides the PROFIBUS watchdog: P151 of the bus module (ms), P120 [-01] of the inverter.
+TEST(DeviceReader, ReadsTheTimeoutOfTheBusModuleAndWhoWatchesIt) {
+  DeviceReader reader{profile::Series::kSk2xxe};
+  bool first_option = false;
+  while (const auto request = reader.pollRequest()) {
+    if (request->number == 151) {
+      reader.handleResult(done(200));
+    } else if (request->number == 120) {
+      first_option = request->index == 1;
+      reader.handleResult(done(2));
+    } else {
+      reader.handleResult(failed(ParameterOutcome::kRefused));
+    }
+  }
+  EXPECT_DOUBLE_EQ(0.2, reader.data().module_timeout.value_or(-9.0));
+  EXPECT_TRUE(first_option);
+  EXPECT_EQ(2, reader.data().module_monitoring.value_or(-9));
+}
+
+// -1 = nothing is watched (BU 2700 7.1.1).
+TEST(DeviceReader, ReadsTheTimeoutOfTheBusModuleSigned) {
+  DeviceReader reader{profile::Series::kSk2xxe};
+  answerAll(reader, 0xFFFF);
+  EXPECT_DOUBLE_EQ(-0.001, *reader.data().module_timeout);
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

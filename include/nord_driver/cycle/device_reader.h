@@ -39,9 +39,12 @@ class DeviceReader {
   void add(std::uint16_t number, std::uint8_t set, std::uint8_t index) noexcept;
   void addFunctions(std::uint16_t first_number) noexcept;
   void store(const Item& item, std::int32_t raw) noexcept;
+  void leaveOut(const Item& item) noexcept;
+  /// Where a function P543 to P548 belongs; nullptr for all other parameters.
+  FixedVector<std::uint16_t, 3>* functionsOf(const Item& item) noexcept;
 
   profile::Series series_;
-  FixedVector<Item, 16> items_;
+  FixedVector<Item, 20> items_;
   std::size_t next_ = 0;
   std::uint8_t attempts_ = 0;
   bool waiting_ = false;
