@@ -87,7 +87,7 @@ void SimDriveNode::serveStation() {
       "power_inverter", [](sim::DriveUnit& drive, bool on) { drive.setInverterPower(on); }, "mains of the inverter on",
       "mains of the inverter off, the module lives on 24 V");
   serveSwitch(
-      "module_link", [](sim::DriveUnit& drive, bool on) { drive.slave().setInverterLink(on); },
+      "module_link", [](sim::DriveUnit& drive, bool on) { drive.setInverterLink(on); },
       "module and inverter are connected", "the connection between module and inverter is interrupted");
   serveSwitch(
       "mute", [](sim::DriveUnit& drive, bool on) { drive.slave().setMute(on); }, "answers are lost",
@@ -163,7 +163,7 @@ void SimDriveNode::serveControl() {
 
 SimDrive SimDriveNode::truthOf(const sim::DriveUnit& drive) {
   const sim::InverterModel& inverter = drive.inverter();
-  const sim::SlaveCounters& counters = drive.slave().counters();
+  const sim::SlaveCounters counters = drive.counters();
   SimDrive truth;
   truth.powered = inverter.powered();
   truth.in_data_exchange = drive.slave().state() == sim::SlaveState::kDataExchange;

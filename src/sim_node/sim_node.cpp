@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTruthPeriod = 0.02;  // s
 
-nav_msgs::Odometry toOdometry(const sim::DiffDriveBody& body, const ros::Time& stamp) {
+nav_msgs::Odometry toOdometry(const sim::Body& body, const ros::Time& stamp) {
   nav_msgs::Odometry message;
   message.header.stamp = stamp;
   message.header.frame_id = "odom";
@@ -22,6 +22,7 @@ nav_msgs::Odometry toOdometry(const sim::DiffDriveBody& body, const ros::Time& s
   message.pose.pose.orientation.z = std::sin(0.5 * body.pose().theta);
   message.pose.pose.orientation.w = std::cos(0.5 * body.pose().theta);
   message.twist.twist.linear.x = body.linear();
+  message.twist.twist.linear.y = body.lateral();
   message.twist.twist.angular.z = body.angular();
   return message;
 }
@@ -55,7 +56,7 @@ void SimNode::publish() {
   const ros::Time stamp = ros::Time::now();
   bus_.withModel([&](sim::RobotSim& robot) {
     for (const auto& drive : robot.drives()) truths.push_back(SimDriveNode::truthOf(*drive));
-    if (robot.body()) odometry = toOdometry(*robot.body(), stamp);
+    if (robot.body() != nullptr) odometry = toOdometry(*robot.body(), stamp);
   });
   for (std::size_t i = 0; i < truths.size(); ++i) {
     truths[i].header.stamp = stamp;

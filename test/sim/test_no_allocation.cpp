@@ -93,5 +93,49 @@ TEST(NoAllocation, AfterConstruction) {
   EXPECT_LT(9u, bus.drive().parameters().eepromWrites());
 }
 
+// The same with a module: slots, records, its time-out and SYNC.
+TEST(NoAllocation, OfAModule) {
+  Conversation bus{oneModule(2)};
+  bus.segment.robot().module(0).parameters().preset(151, 0, 0, 100);
+  std::vector<std::vector<std::uint8_t>> requests;
+  requests.push_back(Conversation::variable(0x88, 0x81, 0x6D, fromHex("3C 3E")));
+  requests.push_back(Conversation::variable(0x88, 0x81, 0x5D, fromHex("3D 3E A8 0A 01 0B 0B A8 00 80 00 00")));
+  requests.push_back(Conversation::variable(0x88, 0x81, 0x7D, fromHex("3E 3E 30 F5 F1")));
+  requests.push_back(Conversation::variable(0x88, 0x81, 0x5D, fromHex("3C 3E")));
+  const char* const exchanges[] = {"02 0000000000000000 047E 0000 047E 0000", "01 744E0200000003E8 047F 2000 047E 0000",
+                                   "00 0000000000000000 0000 0000 0000 0000"};
+  unsigned code = 0x7D;
+  for (const char* data : exchanges) {
+    requests.push_back(Conversation::variable(0x08, 0x01, code, fromHex(data)));
+    code ^= 0x20u;
+  }
+  for (const char* pdu : {"33 33 5F 00 64 08 1496 0000 0000 0000", "33 33", "33 33", "33 33 5E 00 64 08", "33 33"}) {
+    requests.push_back(Conversation::variable(0x88, 0x81, code ^ 0x01u, fromHex(pdu)));
+    code ^= 0x20u;
+  }
+  requests.push_back(Conversation::variable(0xFF, 0x81, 0x46, fromHex("3A 3E 20 00")));
+  std::size_t received = 0;
+
+  counting = true;
+  for (int round = 0; round < 20; ++round) {
+    for (const auto& request : requests) {
+      bus.segment.run(milliseconds(1));
+      bus.segment.write(request);
+      const Instant until = bus.segment.now() + milliseconds(5);
+      while (bus.segment.waitReadable(until)) {
+        std::uint8_t buffer[64];
+        received += bus.segment.read(buffer, sizeof buffer);
+      }
+    }
+    bus.segment.run(milliseconds(120));
+    bus.drive().setPlugged(round % 2 != 0);
+    bus.segment.robot().module(0).setPowered(round % 3 != 0);
+  }
+  counting = false;
+
+  EXPECT_EQ(0u, allocations);
+  EXPECT_LT(1000u, received);
+}
+
 }  // namespace
 }  // namespace nord_driver::sim

@@ -86,6 +86,8 @@ class InverterModel {
   void receive(const ProcessData& data) noexcept;
   /// The module's watchdog expired: E10.2, unless P513 = -0.1 (BU 2700 7.1.1).
   void masterLost() noexcept;
+  /// A module on the system bus says that P151 is over: E10.3 (BU 2700 7.1.1).
+  void moduleTimeout() noexcept;
   /// The connection to the module broke (E10.8, on the system bus E10.9 unless P120[-01] = 0; never with P513 = -0.1)
   /// or is back.
   void setModuleLink(bool intact) noexcept;
@@ -132,6 +134,7 @@ class InverterModel {
   void acknowledgeByItself() noexcept;
   bool causeStands() const noexcept;
   bool inputAcknowledges() const noexcept;
+  std::int32_t busSource() const noexcept;
   bool ignoresBusErrors() const noexcept;
   bool watchesModule() const noexcept;
   bool busSetpoint() const noexcept;

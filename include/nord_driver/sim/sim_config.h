@@ -12,6 +12,7 @@
 
 #include "nord_driver/sim/dp_slave.h"
 #include "nord_driver/sim/inverter_model.h"
+#include "nord_driver/sim/module_station.h"
 #include "nord_driver/sim/motor.h"
 #include "nord_driver/sim/parameter_definitions.h"
 #include "nord_driver/sim/pkw_server.h"
@@ -39,6 +40,7 @@ struct DriveConfig {
   std::string name;
   std::string joint;
   SlaveSettings slave;
+  unsigned place = 0;  ///< 1-4: FI1-FI4 behind the module with this address; 0: it has a module of its own
   MotorSettings motor;
   double gear_ratio = 1.0;
   bool inverted = false;  ///< the joint turns against the motor
@@ -48,17 +50,29 @@ struct DriveConfig {
   std::vector<ParameterPreset> parameters;
 };
 
+/// A bus module with slots. One that is not listed is there all the same, as its drives say.
+struct ModuleConfig {
+  std::string name;
+  ModuleSettings settings;
+  std::vector<ParameterPreset> parameters;  ///< P150-P160 of the module
+};
+
+enum class BodyKind : std::uint8_t { kDiffDrive, kMecanum };
+
 struct BodyConfig {
-  std::vector<std::size_t> left;  ///< indices of drives
+  std::vector<std::size_t> left;  ///< indices of drives; mecanum: two a side, the front one first
   std::vector<std::size_t> right;
   double wheel_radius = 0.0;      ///< m
   double wheel_separation = 0.0;  ///< m
+  double wheel_base = 0.0;        ///< m, mecanum only
+  BodyKind kind = BodyKind::kDiffDrive;
 };
 
 struct SimConfig {
   std::string device = "/tmp/nord_sim_bus";  ///< the link the programs put to their pty
   std::uint32_t baud_rate = 500000;
   std::vector<DriveConfig> drives;
+  std::vector<ModuleConfig> modules;
   std::optional<BodyConfig> body;
   std::vector<std::string> warnings;  ///< keys nobody knows
 };
@@ -69,11 +83,14 @@ struct SimConfig {
 ///     drives:
 ///       left: {address: 3, series: sk5xxe, ppo_type: 1, joint: left_wheel_joint, gear_ratio: 20.0, pole_pairs: 2,
 ///              inertia: 0.01, slip: 2.0, parameters: {P105: 50.0, P102: [2.0, 2.0, 1.0, 1.0]}}
+///       arm: {address: 5, module: sk_cu4, inverter: 1, series: sk2xxe}
+///     modules: {cu4: {address: 5, io_byte: true, parameters: {P151: 500}}}
 ///     body: {left: [left], right: [right], wheel_radius: 0.1, wheel_separation: 0.5}
 ///
-/// Parameters are in the manual's unit, a list gives the four sets or the array elements. Without `body` the driver's
-/// keys left_wheel, right_wheel (joints), wheel_radius and wheel_separation are taken when all are there; without these
-/// there is no body. Throws ConfigError.
+/// Parameters are in the manual's unit, a list gives the four sets or the array elements. A body of the kind mecanum
+/// has two drives a side and wheel_base, too. Without `body` the driver's keys base_type, left_wheel, right_wheel
+/// (joints), wheel_radius, wheel_separation and wheel_base are taken when all are there; without these there is no
+/// body. Throws ConfigError.
 SimConfig readSimConfig(const YAML::Node& root);
 
 /// `later` laid over `earlier`: maps are merged key by key, everything else is replaced.
