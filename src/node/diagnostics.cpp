@@ -45,6 +45,8 @@ void Diagnostics::reportBus(DiagnosticStatusWrapper& status) const {
   status.add("timeouts", snapshot_.counters.timeouts);
   status.add("checksum errors", snapshot_.counters.checksum_errors);
   status.add("parity errors", snapshot_.counters.parity_errors);
+  status.add("framing errors", snapshot_.counters.framing_errors);
+  status.add("overruns", snapshot_.counters.overruns);
   status.add("discarded bytes", snapshot_.counters.discarded_bytes);
   status.add("unexpected telegrams", snapshot_.counters.unexpected);
   status.add("stale parameter answers", snapshot_.counters.stale);

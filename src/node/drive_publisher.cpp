@@ -31,7 +31,7 @@ DrivePublisher::DrivePublisher(ros::NodeHandle& private_node, const cycle::Drive
   info_.name = setup.name;
   info_.series = profile::toString(setup.series);
   info_.address = address;
-  info_.inverter = 1;
+  info_.inverter = identity_.inverter;
   info_.rated_current = rated_current_;
   info_.parameter_channel = identity_.parameter_channel;
   status_publisher_ = private_node.advertise<DriveStatus>(setup.name + "/status", 10);

@@ -64,6 +64,7 @@ void DriverNode::loadTransport() {
   }
   transport_ = loader_.createInstance(config_.transport);
   transport_->configure(*config_.bus, config_.drives, config_.cycle.cycle_rate);
+  for (const std::string& sentence : transport_->warnings()) ROS_WARN("nord_driver: %s", sentence.c_str());
   for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
     identities_.push_back(transport_->identity(i));
     // Without a parameter channel P105 cannot be read: nobody could say what a setpoint means.
@@ -156,12 +157,25 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
   // Whatever ends the node, the drives come to rest first: an exchange that simply ends lets the wheels coast.
   try {
     publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_);
-    while (!end_asked && ros::ok() && publisher_->healthy()) ros::WallDuration(0.02).sleep();
+    while (!end_asked && ros::ok() && publisher_->healthy()) {
+      tellBusEvents();
+      ros::WallDuration(0.02).sleep();
+    }
   } catch (...) {
     bringToRest();
     throw;
   }
   bringToRest();
+}
+
+void DriverNode::tellBusEvents() {
+  while (const auto event = ports_->pollBusEvent()) {
+    if (event->warning) {
+      ROS_WARN("nord_driver: %s", event->text.c_str());
+    } else {
+      ROS_INFO("nord_driver: %s", event->text.c_str());
+    }
+  }
 }
 
 void DriverNode::bringToRest() {

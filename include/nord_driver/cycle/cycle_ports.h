@@ -33,6 +33,8 @@ class CyclePorts {
   std::optional<Completion> waitCompletion(Duration limit);
   /// One thread only; the reference holds until the next call.
   const CycleSnapshot& readSnapshot() { return snapshot_.read(); }
+  /// What happened on the bus. One thread only.
+  std::optional<BusEvent> pollBusEvent() noexcept { return bus_events_.pop(); }
   /// What each side may do with it stands at its functions.
   TraceFeed& trace() noexcept { return trace_; }
 
@@ -42,6 +44,8 @@ class CyclePorts {
   std::optional<Request> pollRequest() noexcept { return requests_.pop(); }
   void complete(const Completion& completion) noexcept;
   void publish(const CycleSnapshot& snapshot) { snapshot_.write(snapshot); }
+  /// What nobody fetches in time is lost.
+  void tell(const BusEvent& event) noexcept { bus_events_.push(event); }
 
  private:
   std::mutex writers_;  // several ROS threads may write; the cycle never takes it
@@ -51,6 +55,7 @@ class CyclePorts {
   EventRing<Completion, 64> completions_;
   sem_t completed_;
   LatestValue<CycleSnapshot> snapshot_;
+  EventRing<BusEvent, 256> bus_events_;
   TraceFeed trace_;
 };
 

@@ -46,6 +46,7 @@ class DriverNode {
   void advertise();
   void takeCommand(const geometry_msgs::Twist& twist);
   void takeDriveCommand(DriveIndex drive, double velocity);
+  void tellBusEvents();
   void bringToRest();
 
   ros::NodeHandle node_;

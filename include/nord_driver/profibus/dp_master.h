@@ -72,6 +72,8 @@ class DpMaster {
   /// Asks a slave for its configuration (Get_Cfg) beside data exchange; the answer is told by an event. False when it
   /// is not in data exchange.
   bool requestConfiguration(std::size_t slave) noexcept { return slaves_[slave].requestConfiguration(); }
+  /// Asks a slave in data exchange for its diagnosis, though it announced none.
+  void requestDiagnosis(std::size_t slave) noexcept { slaves_[slave].requestDiagnosis(); }
   /// Configured and reported configuration in words, subject left out.
   Sentence configurationText(std::size_t slave) const noexcept { return slaves_[slave].configurationText(); }
 

@@ -54,6 +54,8 @@ class DpSlave {
   /// Get_Cfg beside data exchange; false when the slave is not in it.
   bool requestConfiguration() noexcept;
   Sentence configurationText() const noexcept;
+  /// Slave_Diag behind the next exchange, announced or not.
+  void requestDiagnosis() noexcept { diagnosis_due_ = status_.phase == SlavePhase::kDataExchange; }
   /// See DpMaster.
   bool submitRecord(const RecordRequest& request) noexcept;
   std::optional<RecordResult> pollRecord() noexcept { return records_.pollResult(); }
