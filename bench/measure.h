@@ -92,4 +92,12 @@ inline bool report(const char* what, double value, const char* unit, double boun
   return kept;
 }
 
+/// The same for a figure that must not be smaller.
+inline bool reportAtLeast(const char* what, double value, double bound) {
+  const bool kept = value >= bound;
+  std::printf("%-66s %9.3f     at least %8.3f  %s\n", what, value, bound, kept ? "ok" : "MISSED");
+  std::fflush(stdout);
+  return kept;
+}
+
 }  // namespace nord_driver::bench

@@ -86,6 +86,12 @@ void SimDriveNode::serveStation() {
   serveSwitch(
       "power_inverter", [](sim::DriveUnit& drive, bool on) { drive.setInverterPower(on); }, "mains of the inverter on",
       "mains of the inverter off, the module lives on 24 V");
+  serve<std_srvs::SetBool>("power_module", [](sim::DriveUnit& drive, const auto& request, auto& response) {
+    response.success = drive.sharesModule();
+    if (!drive.sharesModule()) return std::string("has a module of its own; unplug takes the power from both");
+    drive.slave().setPowered(request.data != 0);
+    return std::string(request.data != 0 ? "24 V of its module on" : "24 V of its module off, the station is silent");
+  });
   serveSwitch(
       "module_link", [](sim::DriveUnit& drive, bool on) { drive.setInverterLink(on); },
       "module and inverter are connected", "the connection between module and inverter is interrupted");

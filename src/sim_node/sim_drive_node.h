@@ -21,7 +21,7 @@
 namespace nord_driver::sim_node {
 
 /// Publishes ~truth/<drive>; services ~<drive>/trip, clear_cause, acknowledge, warn, unplug, power_inverter,
-/// module_link, mute, answer_delay, parameter_channel, local_control, terminals and set_parameter.
+/// power_module, module_link, mute, answer_delay, parameter_channel, local_control, terminals and set_parameter.
 class SimDriveNode {
  public:
   /// `bus` must outlive it.

@@ -41,6 +41,12 @@ TEST_F(Station, PowerInverter) {
   EXPECT_EQ("0B 31 00 00", bus->pzdUntil("047E 0000", "0B 31 00 00"));
 }
 
+// A module of one's own has no supply that could be switched alone.
+TEST_F(Station, PowerModule) {
+  EXPECT_EQ("no, left: has a module of its own; unplug takes the power from both", set("left/power_module", false));
+  EXPECT_EQ(kHere, bus->askStatus());
+}
+
 // The connection between module and inverter broken: E10.8 in the inverter, zeros from the module.
 TEST_F(Station, ModuleLink) {
   bus->startUp();
