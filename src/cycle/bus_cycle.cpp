@@ -95,11 +95,10 @@ void BusCycle::accessParameter(const Request& request) noexcept {
   if (at_rest || !changesProcessData(request)) {
     return axes_[request.drive].parameters.handleRequest(request, drives_[request.drive]);
   }
-  Completion completion;
-  completion.id = request.id;
-  completion.message.format("P%03u decides what setpoints and actual values mean: disable drive %s first",
-                            request.parameter.number, names_[request.drive].c_str());
-  ports_.complete(completion);
+  Sentence why;
+  why.format("P%03u decides what setpoints and actual values mean: disable drive %s first", request.parameter.number,
+             names_[request.drive].c_str());
+  ports_.complete(answerTo(request, false, why));
 }
 
 // A drive that is idle may still belong to a base that is on its way to rest: its set stays what it is until then.
@@ -107,20 +106,14 @@ void BusCycle::selectParameterSet(const Request& request, Instant now) noexcept 
   if (supervisor_.groupOf(request.drive).report().phase == drive::GroupPhase::kDisabled) {
     return maintenance_.handleRequest(request, now);
   }
-  Completion completion;
-  completion.id = request.id;
-  completion.message.format("parameter sets are switched at standstill only: disable drive %s first",
-                            names_[request.drive].c_str());
-  ports_.complete(completion);
+  Sentence why;
+  why.format("parameter sets are switched at standstill only: disable drive %s first", names_[request.drive].c_str());
+  ports_.complete(answerTo(request, false, why));
 }
 
 Completion BusCycle::resetOdometry(const Request& request) noexcept {
   if (base_) base_->resetOdometry();
-  Completion completion;
-  completion.id = request.id;
-  completion.success = base_.has_value();
-  completion.message = base_ ? "the pose is zero" : "there is no base";
-  return completion;
+  return answerTo(request, base_.has_value(), base_ ? "the pose is zero" : "there is no base");
 }
 
 // A command that is not zero and not stale: nothing may be enabled under it.

@@ -18,7 +18,7 @@ void Maintenance::forEach(const Request& request, Action action) noexcept {
 
 void Maintenance::handleRequest(const Request& request, Instant now) noexcept {
   if (!jobs_.push_back({request, now + request.patience})) {
-    return complete(request, false, "too many requests are being carried out already");
+    return completions_.answer(request, false, "too many requests are being carried out already");
   }
   forEach(request, [&](DriveIndex i) {
     if (request.kind == RequestKind::kAcknowledge) {
@@ -49,15 +49,15 @@ bool Maintenance::follow(const Job& job, Instant now) noexcept {
   });
   if (busy && now < job.deadline) return false;
   if (busy) {
-    complete(job.request, false, "not confirmed in time");
+    completions_.answer(job.request, false, "not confirmed in time");
   } else if (!refused.empty()) {
-    complete(job.request, false, refused);
+    completions_.answer(job.request, false, refused);
   } else if (job.request.kind == RequestKind::kAcknowledge) {
-    complete(job.request, true, "no fault stands; the drives stay disabled until they are enabled");
+    completions_.answer(job.request, true, "no fault stands; the drives stay disabled until they are enabled");
   } else {
     Sentence text;
     text.format("parameter set %u is active", job.request.parameter_set);
-    complete(job.request, true, text);
+    completions_.answer(job.request, true, text);
   }
   return true;
 }
@@ -65,21 +65,6 @@ bool Maintenance::follow(const Job& job, Instant now) noexcept {
 const drive::RequestReport& Maintenance::reportOf(const Request& request, DriveIndex drive) const noexcept {
   const drive::DriveReport& report = drives_[drive].report();
   return request.kind == RequestKind::kAcknowledge ? report.acknowledge : report.set_switch;
-}
-
-void Maintenance::complete(const Request& request, bool success, const Sentence& message) noexcept {
-  Completion completion;
-  completion.id = request.id;
-  completion.success = success;
-  completion.message = message;
-  if (request.id != 0) completions_.push_back(completion);
-}
-
-std::optional<Completion> Maintenance::pollCompletion() noexcept {
-  if (completions_.empty()) return std::nullopt;
-  const Completion completion = completions_[0];
-  completions_.eraseFront(1);
-  return completion;
 }
 
 }  // namespace nord_driver::cycle

@@ -7,6 +7,7 @@
 
 #include "nord_driver/core/fixed_vector.h"
 #include "nord_driver/core/time.h"
+#include "nord_driver/cycle/completion_queue.h"
 #include "nord_driver/cycle/request.h"
 #include "nord_driver/drive/drive.h"
 
@@ -22,7 +23,7 @@ class Maintenance {
   /// kAcknowledge and kSelectParameterSet.
   void handleRequest(const Request& request, Instant now) noexcept;
   void update(Instant now) noexcept;
-  std::optional<Completion> pollCompletion() noexcept;
+  std::optional<Completion> pollCompletion() noexcept { return completions_.poll(); }
 
  private:
   struct Job {
@@ -34,13 +35,12 @@ class Maintenance {
   void forEach(const Request& request, Action action) noexcept;
   /// True when the job has ended.
   bool follow(const Job& job, Instant now) noexcept;
-  void complete(const Request& request, bool success, const Sentence& message) noexcept;
   const drive::RequestReport& reportOf(const Request& request, DriveIndex drive) const noexcept;
 
   std::vector<drive::Drive>& drives_;
   std::vector<std::string> names_;
   FixedVector<Job, 16> jobs_;
-  FixedVector<Completion, 48> completions_;
+  CompletionQueue<48> completions_;
 };
 
 }  // namespace nord_driver::cycle
