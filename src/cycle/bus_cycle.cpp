@@ -148,6 +148,7 @@ void BusCycle::commandBase(Instant now, Duration dt) noexcept {
   drive::DriveGroup& group = *supervisor_.base();
   const bool follow = group.commandAllowed();
   const bool driving = follow || group.wantsZeroRamp();
+  base_->tune(ports_.newestBaseTuning());
   const robot::WheelSpeeds wheels =
       base_->pollWheels(ports_.newestBaseCommand(), driving, follow, maxWheelSpeeds(), now, dt);
   for (std::size_t i = 0; i < wheels_.size(); ++i) drives_[wheels_[i]].setVelocity(RadPerSec{wheels[i]});

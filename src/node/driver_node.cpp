@@ -88,6 +88,9 @@ void DriverNode::warnOfUnknownKeys() const {
 
 void DriverNode::advertise() {
   base_publisher_ = std::make_unique<BasePublisher>(node_, config_);
+  if (config_.cycle.base) {
+    base_tuner_ = std::make_unique<BaseTuner>(private_node_, config_, *ports_, *base_publisher_);
+  }
   std::vector<std::string> names;
   std::vector<cycle::TracedDrive> traced;
   for (DriveIndex i = 0; i < config_.drives.size(); ++i) {

@@ -32,10 +32,9 @@ std::string readTransport(const RosSettings& settings) {
 }
 
 PublishConfig readPublish(const RosSettings& settings) {
-  constexpr double kMaxRate = 1000.0;
   PublishConfig publish;
-  publish.publish_rate = numberOr(settings, "publish_rate", publish.publish_rate, 0.1, kMaxRate, "Hz");
-  publish.status_rate = numberOr(settings, "status_rate", publish.status_rate, 0.1, kMaxRate, "Hz");
+  publish.publish_rate = numberOr(settings, "publish_rate", publish.publish_rate, 0.1, 2000.0, "Hz");
+  publish.status_rate = numberOr(settings, "status_rate", publish.status_rate, 0.1, 1000.0, "Hz");
   publish.base_frame_id = settings.text("base_frame_id").value_or(publish.base_frame_id);
   publish.odom_frame_id = settings.text("odom_frame_id").value_or(publish.odom_frame_id);
   publish.enable_odom_tf = settings.boolean("enable_odom_tf").value_or(publish.enable_odom_tf);
