@@ -36,7 +36,8 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       inputs_(config.drives.size()),
       snapshot_(config.drives.size()) {
   for (const DriveSetup& setup : config.drives) {
-    axes_.emplace_back(axes_.size(), setup);
+    const DriveIndex drive = axes_.size();
+    axes_.emplace_back(drive, setup, transport.identity(drive).timeout_owner);
   }
   if (!config.base) return;
   base_.emplace(*config.base, config.cmd_vel_timeout);

@@ -43,8 +43,8 @@ bool changesProcessData(const Request& request) noexcept {
 }
 
 DriveParameters::DriveParameters(DriveIndex drive, std::string name, profile::Series series,
-                                 std::optional<double> typed_max_frequency)
-    : drive_(drive), name_(std::move(name)), typed_max_frequency_(typed_max_frequency), reader_(series) {}
+                                 std::optional<double> typed_max_frequency, TimeoutOwner owner)
+    : drive_(drive), name_(std::move(name)), typed_max_frequency_(typed_max_frequency), reader_(series, owner) {}
 
 void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
   const drive::DriveReport& report = drive.report();

@@ -4,7 +4,6 @@
 
 #include "nord_driver/core/bytes.h"
 #include "nord_driver/node/bus_publisher.h"
-#include "nord_driver/node/drive_protection.h"
 #include "nord_driver/profile/fault_text.h"
 
 namespace nord_driver::node {
@@ -19,6 +18,7 @@ Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdenti
   if (config.cycle.base) updater_.add("base", [this](DiagnosticStatusWrapper& status) { reportBase(status); });
   for (std::size_t i = 0; i < config.cycle.drives.size(); ++i) {
     names_.push_back(config.cycle.drives[i].name);
+    protections_.emplace_back(identities[i], config.cycle.cmd_vel_timeout, config.cycle.period());
     typed_max_frequency_.push_back(config.cycle.drives[i].typed_max_frequency);
     updater_.add("drive " + names_.back(), [this, i](DiagnosticStatusWrapper& status) { reportDrive(i, status); });
   }
@@ -86,8 +86,12 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
                            *read);
     }
   }
-  if (runsOnWithoutUs(drive.device))
-    status.mergeSummary(DiagnosticStatus::ERROR, protectionText(identity, drive.device));
+  const ProtectionReport protection = protections_[index].assess(drive.device);
+  if (drive.online && protection.level != ProtectionReport::Level::kFine) {
+    const bool runs_on = protection.level == ProtectionReport::Level::kError;
+    status.mergeSummary(runs_on ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
+                        "if this computer died: " + protection.text);
+  }
   if (drive.direction_contradiction) {
     status.mergeSummary(DiagnosticStatus::WARN,
                         "actual value 1 and the direction bits of the status word contradict each other");
@@ -118,7 +122,7 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
   status.add("velocity (rad/s)", drive.velocity);
   status.add("bus module answers", drive.module_answers);
   status.add("parameter channel", identity.parameter_channel);
-  status.add("protected by", protectionText(identity, drive.device));
+  status.add("protected by", protection.text);
 }
 
 }  // namespace nord_driver::node

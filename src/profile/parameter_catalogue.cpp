@@ -35,7 +35,9 @@ constexpr ParameterInfo kCatalogue[] = {
     {105, kAll, "Maximum frequency", "Hz", 0.1, false, kPerSet, 1, 0, kMaxUnsigned},  // 100 % of frequencies, BU 2700 6.4.4
     // Set-dependent or not is not said; an order with a set falls back by itself when it is not.
     {112, kAll, "Torque current limit", "", 1.0, false, kPerSet, 1, 0, kMaxUnsigned},
-    {120, kSk12, "Option monitoring", "", 1.0, false, kArray, 4, 0, 2},
+    {120, kSk12 | kSk54, "Option monitoring", "", 1.0, false, kArray, 4, 0, 2},
+    // Of the modules SK CU4/TU4, which stand in front of these series; -1: the module heeds nothing (BU 2700 7.1.1).
+    {151, kSk12 | kSk5 | kSk54, "Timeout for external bus", "s", 0.001, true, kPlain, 1, -1, 32767},
     {426, kAll, "Quick stop time", "", 1.0, false, kPerSet, 1, 0, kMaxUnsigned},
     {506, kAll, "Automatic fault acknowledgement", "", 1.0, false, kPlain, 1, 0, kMaxUnsigned},
     {507, kSk5 | kSk54 | kSk300 | kSk7, "PPO type", "", 1.0, false, kPlain, 1, 1, 4},

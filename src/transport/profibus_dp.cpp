@@ -220,6 +220,7 @@ DriveIdentity ProfibusDpTransport::identity(DriveIndex drive) const {
   identity.parameter_channel = config.ppo.has_pkw ? "PKW" : "none";
   identity.protected_by = "PROFIBUS watchdog of " + shortNumber(toSeconds(config_.watchdog)) +
                           " s: the inverter trips E10.2 and the motor coasts";
+  identity.protection_time = toSeconds(config_.watchdog);
   return identity;
 }
 

@@ -143,5 +143,18 @@ TEST(DeviceReader, AResultNobodyWaitsForChangesNothing) {
   EXPECT_FALSE(reader.data().max_frequency[0]);
 }
 
+// Behind a module SK CU4/TU4 its own time-out counts, and the inverter's watch over it (BU 2700 8.1).
+TEST(DeviceReader, ReadsTheTimeoutsOfABusModule) {
+  DeviceReader reader{profile::Series::kSk2xxe, TimeoutOwner::kModule};
+  const auto numbers = answerAll(reader, 0xFFFF);
+  EXPECT_EQ(1, std::count(numbers.begin(), numbers.end(), 151));
+  EXPECT_DOUBLE_EQ(-0.001, *reader.data().module_timeout);
+  EXPECT_EQ(0xFFFF, *reader.data().option_monitoring);
+  DeviceReader without{profile::Series::kSk2xxe};
+  answerAll(without, 1);
+  EXPECT_FALSE(without.data().module_timeout);
+  EXPECT_FALSE(without.data().option_monitoring);
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

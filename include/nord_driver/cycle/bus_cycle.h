@@ -23,6 +23,7 @@ namespace nord_driver::cycle {
 /// nothing and, once every drive has been in data exchange, allocates nothing.
 class BusCycle {
  public:
+  /// `transport` is configured.
   BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& ports, bool auto_enable);
 
   void runOnce() noexcept;
@@ -32,8 +33,8 @@ class BusCycle {
  private:
   /// One drive with everything the cycle keeps beside it.
   struct Axis {
-    Axis(DriveIndex drive, const DriveSetup& setup)
-        : parameters(drive, setup.name, setup.series, setup.typed_max_frequency) {}
+    Axis(DriveIndex drive, const DriveSetup& setup, TimeoutOwner owner)
+        : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, owner) {}
     DriveParameters parameters;
     robot::JointPosition joint;
     bool known = false;  // has answered at least once

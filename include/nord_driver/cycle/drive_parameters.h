@@ -28,8 +28,8 @@ bool changesProcessData(const Request& request) noexcept;
 /// only to the one whose latest question it answers.
 class DriveParameters {
  public:
-  DriveParameters(DriveIndex drive, std::string name, profile::Series series,
-                  std::optional<double> typed_max_frequency);
+  DriveParameters(DriveIndex drive, std::string name, profile::Series series, std::optional<double> typed_max_frequency,
+                  TimeoutOwner owner = TimeoutOwner::kInverter);
 
   /// Looks whether the drive is there and whether it has a fault; hands it P105 as it is known. Offline: all ends.
   void handleState(drive::Drive& drive, Instant now) noexcept;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nord_driver/cycle/snapshot.h"
+#include "nord_driver/node/drive_protection.h"
 #include "nord_driver/node/node_config.h"
 #include "nord_driver/transport/transport.h"
 
@@ -26,6 +27,7 @@ class Diagnostics {
 
   std::vector<std::string> names_;
   std::vector<DriveIdentity> identities_;
+  std::vector<DriveProtection> protections_;
   std::vector<std::optional<double>> typed_max_frequency_;
   std::string device_;
   cycle::CycleSnapshot snapshot_;

@@ -30,12 +30,20 @@ struct DriveExchange {
   bool inverter_answers = false;  ///< ... and the inverter behind it is on: `input` is fresh
 };
 
+/// Whose time-outs decide whether the inverter heeds a lost bus (BU 2700 8.1).
+enum class TimeoutOwner : std::uint8_t {
+  kInverter,  ///< P513
+  kModule,    ///< P151 in the bus module (SK CU4/TU4), and P120 in the inverter for the way between them
+};
+
 /// What a transport tells about a drive once it is configured.
 struct DriveIdentity {
   std::string address;              ///< "PROFIBUS station 3"
   std::uint8_t process_values = 1;  ///< setpoints and actual values carried: 1 or 3
   std::string parameter_channel;    ///< "PKW", "SDO", "none"
-  std::string protected_by;         ///< what stops the drive when this computer dies, in words
+  std::string protected_by;      ///< what of this bus stops the drive when this computer dies, in words; empty: nothing
+  double protection_time = 0.0;  ///< s until that acts; 0: not known
+  TimeoutOwner timeout_owner = TimeoutOwner::kInverter;
 };
 
 /// Counters since start-up and the state of the bus. Copied once per cycle: no strings of variable length.
