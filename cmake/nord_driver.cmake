@@ -12,6 +12,13 @@ function(nord_warnings target)
   endif()
 endfunction()
 
+# Off by default: with it a source may forget an include and still build.
+function(nord_precompile target)
+  if(NORD_DRIVER_PRECOMPILE)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
+
 # A unit test: nord_gtest(NAME SOURCES a.cpp ... LIBS lib ...). It runs without a ROS master.
 function(nord_gtest name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
@@ -19,4 +26,5 @@ function(nord_gtest name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
   target_link_libraries(${name} ${ARG_LIBS} GTest::gmock GTest::gtest GTest::gtest_main Threads::Threads)
   nord_warnings(${name})
+  nord_precompile(${name} <gmock/gmock.h> <gtest/gtest.h>)
 endfunction()
