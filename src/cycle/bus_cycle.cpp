@@ -147,6 +147,7 @@ void BusCycle::command(Instant now, Duration dt) noexcept {
 
 void BusCycle::commandBase(Instant now, Duration dt) noexcept {
   drive::DriveGroup& group = *supervisor_.base();
+  group.commandIsFresh(!isStale(ports_.newestBaseCommand(), cmd_vel_timeout_, now), now);
   const bool follow = group.commandAllowed();
   const bool driving = follow || group.wantsZeroRamp();
   base_->tune(ports_.newestBaseTuning());
@@ -161,7 +162,9 @@ void BusCycle::commandSingles(Instant now) noexcept {
     if (supervisor_.inBase(i)) continue;
     drive::DriveGroup& group = supervisor_.groupOf(i);
     const JointCommand& newest = ports_.newestDriveCommand(i);
-    const bool follow = group.commandAllowed() && !isStale(newest, cmd_vel_timeout_, now);
+    const bool fresh = !isStale(newest, cmd_vel_timeout_, now);
+    group.commandIsFresh(fresh, now);
+    const bool follow = group.commandAllowed() && fresh;
     drives_[i].setVelocity(RadPerSec{follow ? newest.velocity : 0.0});
     group.setpointIsZero(!follow || newest.velocity == 0.0);
   }

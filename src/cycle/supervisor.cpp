@@ -31,6 +31,7 @@ void Supervisor::addGroup(const std::vector<DriveIndex>& members, const CycleCon
   }
   drive::GroupConfig group;
   group.shutdown_timeout = config.shutdown_timeout;
+  group.ways = config.stop_ways;
   groups_.push_back({drive::DriveGroup{pointers, group}, members});
 }
 
@@ -189,6 +190,7 @@ Sentence Supervisor::baseStopSentence() const noexcept {
   if (!has_base_) return {};
   const Group& base = groups_.front();
   const drive::GroupReport& report = base.group.report();
+  if (report.stop_cause == drive::StopCause::kCommandTimeout) return drive::toString(report.stop_cause);
   const DriveIndex member = base.members[report.stop_member];
   return stopSentence(names_[member].c_str(), report.stop_cause, drives_[member].report());
 }
