@@ -61,7 +61,7 @@ void BusCycle::runOnce() noexcept {
   while (const auto completion = supervisor_.pollCompletion()) ports_.complete(*completion);
   while (const auto completion = maintenance_.pollCompletion()) ports_.complete(*completion);
   runParameters(after);
-  measure(last_input_ ? after - *last_input_ : Duration::zero());
+  measure(after, last_input_ ? after - *last_input_ : Duration::zero());
   last_input_ = after;
   publish(after);
 }
@@ -207,7 +207,7 @@ void BusCycle::runParameters(Instant now) noexcept {
   }
 }
 
-void BusCycle::measure(Duration dt) noexcept {
+void BusCycle::measure(Instant now, Duration dt) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     const drive::DriveReport& report = drives_[i].report();
     if (report.online && report.scaled) {
@@ -215,6 +215,8 @@ void BusCycle::measure(Duration dt) noexcept {
     } else {
       axes_[i].joint.rebase();
     }
+    axes_[i].speed.update(report.phase == drive::Phase::kEnabled && report.scaled, report.velocity_command.value,
+                          report.velocity.value, drives_[i].maxVelocity().value_or(RadPerSec{}).value, now);
   }
   if (base_) measureBase(dt);
 }
@@ -271,9 +273,13 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive) const noexcept {
   to.velocity_command = report.velocity_command.value;
   to.velocity = report.velocity.value;
   to.frequency = report.frequency.value;
+  to.speed_deviation = axes_[drive].speed.deviation();
+  to.at_speed = axes_[drive].speed.atSpeed();
+  to.astray = axes_[drive].speed.isAstray();
   to.joint_position = axes_[drive].joint.position();
   to.fault_number = axes_[drive].parameters.faults().number();
   to.last_fault_number = axes_[drive].parameters.faults().lastNumber();
+  to.switch_on_reason = report.switch_on_reason;
   to.fault_latched = report.fault_latched;
   to.eeprom_writes = axes_[drive].parameters.eepromWrites();
   to.owes_eeprom_switch = axes_[drive].parameters.owesEepromSwitch();

@@ -26,8 +26,15 @@ Sentence refusalSentence(const char* drive, Refusal refusal, const drive::DriveR
 Sentence stopSentence(const char* drive, StopCause cause, const drive::DriveReport& report) noexcept {
   Sentence text;
   if (cause == StopCause::kNone) return text;
-  text.format("drive %s stopped: %s (status word %04X, %s)", drive, drive::toString(cause), report.stop_status_word,
-              profile::toString(profile::StatusWord{report.stop_status_word}.state()));
+  const char* const state = profile::toString(profile::StatusWord{report.stop_status_word}.state());
+  if (report.online && report.switch_on_reason) {
+    const unsigned reason = *report.switch_on_reason;
+    text.format("drive %s stopped: %s (status word %04X, %s; the inverter's own reason, P700[-03], is %u.%u)", drive,
+                drive::toString(cause), report.stop_status_word, state, reason / 10, reason % 10);
+  } else {
+    text.format("drive %s stopped: %s (status word %04X, %s)", drive, drive::toString(cause), report.stop_status_word,
+                state);
+  }
   return text;
 }
 

@@ -63,10 +63,7 @@ void Diagnostics::reportBase(DiagnosticStatusWrapper& status) const {
   status.add("angular velocity (rad/s)", base.velocity.angular_z);
 }
 
-void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status) const {
-  const cycle::DriveSnapshot& drive = snapshot_.drives[index];
-  const DriveIdentity& identity = identities_[index];
-  status.hardware_id = device_ + ", " + identity.address;
+void Diagnostics::summarize(const cycle::DriveSnapshot& drive, DiagnosticStatusWrapper& status) const {
   if (!drive.online) {
     status.summary(DiagnosticStatus::ERROR, drive.text.empty() ? "no answer" : drive.text.str());
   } else if (drive.fault_number != 0) {
@@ -77,6 +74,11 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
   } else {
     status.summary(DiagnosticStatus::OK, drive.text.empty() ? profile::toString(drive.state) : drive.text.str());
   }
+}
+
+// What does not stop the drive, but should be seen to.
+void Diagnostics::warn(std::size_t index, const ProtectionReport& protection, DiagnosticStatusWrapper& status) const {
+  const cycle::DriveSnapshot& drive = snapshot_.drives[index];
   const auto& typed = typed_max_frequency_[index];
   for (std::size_t set = 0; set < drive.device.max_frequency.size() && typed; ++set) {
     const auto& read = drive.device.max_frequency[set];
@@ -86,11 +88,16 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
                            *read);
     }
   }
-  const ProtectionReport protection = protections_[index].assess(drive.device);
   if (drive.online && protection.level != ProtectionReport::Level::kFine) {
     const bool runs_on = protection.level == ProtectionReport::Level::kError;
     status.mergeSummary(runs_on ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
                         "if this computer died: " + protection.text);
+  }
+  if (drive.astray) {
+    status.mergeSummaryf(DiagnosticStatus::WARN,
+                         "it has been %.2f rad/s away from its setpoint for seconds: is the motor overloaded, or are "
+                         "the inverter's ramps (P102, P103) longer than those of the commands?",
+                         drive.speed_deviation);
   }
   if (drive.direction_contradiction) {
     status.mergeSummary(DiagnosticStatus::WARN,
@@ -104,12 +111,28 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
     status.mergeSummary(DiagnosticStatus::WARN,
                         "P560 was set to 0 for a parameter write and could not be put back yet");
   }
+}
+
+void Diagnostics::addFault(const cycle::DriveSnapshot& drive, DiagnosticStatusWrapper& status) const {
   const std::uint16_t fault = drive.fault_number != 0 ? drive.fault_number : drive.last_fault_number;
-  if (fault != 0) {
-    status.add(drive.fault_number != 0 ? "fault" : "last fault",
-               profile::faultName(fault) + ": " + profile::faultText(fault));
-    status.add("likely cause", profile::faultCause(fault));
-    status.add("remedy", profile::faultRemedy(fault));
+  if (fault == 0) return;
+  status.add(drive.fault_number != 0 ? "fault" : "last fault",
+             profile::faultName(fault) + ": " + profile::faultText(fault));
+  status.add("likely cause", profile::faultCause(fault));
+  status.add("remedy", profile::faultRemedy(fault));
+}
+
+void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status) const {
+  const cycle::DriveSnapshot& drive = snapshot_.drives[index];
+  const DriveIdentity& identity = identities_[index];
+  const ProtectionReport protection = protections_[index].assess(drive.device);
+  status.hardware_id = device_ + ", " + identity.address;
+  summarize(drive, status);
+  warn(index, protection, status);
+  addFault(drive, status);
+  if (drive.switch_on_reason) {
+    status.addf("not ready to switch on, P700[-03]", "%u.%u", *drive.switch_on_reason / 10u,
+                *drive.switch_on_reason % 10u);
   }
   status.add("fault latched", drive.fault_latched);
   status.add("EEPROM writes by this node", drive.eeprom_writes);
@@ -120,6 +143,9 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
   status.add("parameter set", static_cast<int>(drive.parameter_set));
   status.add("frequency (Hz)", drive.frequency);
   status.add("velocity (rad/s)", drive.velocity);
+  status.add("velocity commanded (rad/s)", drive.velocity_command);
+  status.add("speed deviation (rad/s)", drive.speed_deviation);
+  status.add("at speed", drive.at_speed);
   status.add("bus module answers", drive.module_answers);
   status.add("parameter channel", identity.parameter_channel);
   status.add("protected by", protection.text);

@@ -76,7 +76,8 @@ void DriverNode::loadTransport() {
 }
 
 void DriverNode::warnOfUnknownKeys() const {
-  std::vector<std::string> sentences = settings_.unknownKeys();
+  std::vector<std::string> sentences = config_.warnings;
+  for (const std::string& sentence : settings_.unknownKeys()) sentences.push_back(sentence);
   for (const std::string& sentence : config_.bus->unknownKeys()) sentences.push_back(sentence);
   for (const DriveSettings& drive : config_.drives) {
     for (const std::string& sentence : static_cast<const RosSettings&>(*drive.settings).unknownKeys()) {

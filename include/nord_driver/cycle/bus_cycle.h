@@ -12,6 +12,7 @@
 #include "nord_driver/cycle/cycle_statistics.h"
 #include "nord_driver/cycle/drive_parameters.h"
 #include "nord_driver/cycle/maintenance.h"
+#include "nord_driver/cycle/speed_watch.h"
 #include "nord_driver/cycle/supervisor.h"
 #include "nord_driver/drive/drive.h"
 #include "nord_driver/robot/joint_position.h"
@@ -37,6 +38,7 @@ class BusCycle {
         : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, owner) {}
     DriveParameters parameters;
     robot::JointPosition joint;
+    SpeedWatch speed;
     bool known = false;  // has answered at least once
   };
 
@@ -52,7 +54,7 @@ class BusCycle {
   robot::WheelSpeeds maxWheelSpeeds() const noexcept;
   void handleInputs(Instant now) noexcept;
   void runParameters(Instant now) noexcept;
-  void measure(Duration dt) noexcept;
+  void measure(Instant now, Duration dt) noexcept;
   void measureBase(Duration dt) noexcept;
   void publish(Instant now) noexcept;
   void fill(DriveSnapshot& to, DriveIndex drive) const noexcept;

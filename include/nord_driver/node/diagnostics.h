@@ -23,7 +23,11 @@ class Diagnostics {
  private:
   void reportBus(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void reportBase(diagnostic_updater::DiagnosticStatusWrapper& status) const;
-  void reportDrive(std::size_t drive, diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void reportDrive(std::size_t index, diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void summarize(const cycle::DriveSnapshot& drive, diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void warn(std::size_t index, const ProtectionReport& protection,
+            diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void addFault(const cycle::DriveSnapshot& drive, diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   std::vector<std::string> names_;
   std::vector<DriveIdentity> identities_;
