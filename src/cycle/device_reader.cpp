@@ -7,7 +7,7 @@ namespace nord_driver::cycle {
 namespace {
 
 constexpr std::uint8_t kMaxAttempts = 3;
-constexpr std::uint16_t kMaxFrequency = 105, kModuleMonitoring = 120, kModuleTimeout = 151, kTelegramTimeout = 513,
+constexpr std::uint16_t kMaxFrequency = 105, kOptionMonitoring = 120, kModuleTimeout = 151, kTelegramTimeout = 513,
                         kFirstActualValue = 543, kFirstSetpoint = 546, kEepromSwitch = 560, kSoftwareVersion = 707;
 
 bool isArray(profile::ParameterShape shape) noexcept {
@@ -16,11 +16,13 @@ bool isArray(profile::ParameterShape shape) noexcept {
 
 }  // namespace
 
-DeviceReader::DeviceReader(profile::Series series) noexcept : series_(series) {
+DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner) noexcept : series_(series) {
   for (std::uint8_t set = 1; set <= 4; ++set) add(kMaxFrequency, set, 1);
   add(kTelegramTimeout, 1, 1);
-  add(kModuleTimeout, 1, 1);
-  add(kModuleMonitoring, 1, 1);
+  if (owner == TimeoutOwner::kModule) {
+    add(kModuleTimeout, 1, 1);
+    add(kOptionMonitoring, 1, 1);
+  }
   add(kEepromSwitch, 1, 1);
   add(kSoftwareVersion, 1, 1);
   add(kSoftwareVersion, 1, 2);
@@ -98,14 +100,14 @@ void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
     if (value > 0.0) data_.max_frequency[item.set - 1u] = value;
   } else if (item.number == kTelegramTimeout) {
     data_.telegram_timeout = value;
+  } else if (item.number == kModuleTimeout) {
+    data_.module_timeout = value;
+  } else if (item.number == kOptionMonitoring) {
+    data_.option_monitoring = raw;
   } else if (item.number == kEepromSwitch) {
     data_.saves_in_eeprom = raw != 0;
   } else if (item.number == kSoftwareVersion) {
     (item.index == 1 ? data_.software_version : data_.software_revision) = raw;
-  } else if (item.number == kModuleTimeout) {
-    data_.module_timeout = value;
-  } else if (item.number == kModuleMonitoring) {
-    data_.module_monitoring = raw;
   } else if (auto* functions = functionsOf(item)) {
     functions->push_back(static_cast<std::uint16_t>(raw));
   }

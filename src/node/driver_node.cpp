@@ -77,7 +77,8 @@ void DriverNode::loadTransport() {
 }
 
 void DriverNode::warnOfUnknownKeys() const {
-  std::vector<std::string> sentences = settings_.unknownKeys();
+  std::vector<std::string> sentences = config_.warnings;
+  for (const std::string& sentence : settings_.unknownKeys()) sentences.push_back(sentence);
   for (const std::string& sentence : config_.bus->unknownKeys()) sentences.push_back(sentence);
   for (const DriveSettings& drive : config_.drives) {
     for (const std::string& sentence : static_cast<const RosSettings&>(*drive.settings).unknownKeys()) {
@@ -89,6 +90,9 @@ void DriverNode::warnOfUnknownKeys() const {
 
 void DriverNode::advertise() {
   base_publisher_ = std::make_unique<BasePublisher>(node_, config_);
+  if (config_.cycle.base) {
+    base_tuner_ = std::make_unique<BaseTuner>(private_node_, config_, *ports_, *base_publisher_);
+  }
   std::vector<std::string> names;
   std::vector<cycle::TracedDrive> traced;
   for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
@@ -96,7 +100,10 @@ void DriverNode::advertise() {
     names.push_back(setup.name);
     traced.push_back({setup.name, identities_[i].address});
     const auto address = config_.drives[i].settings->integer("address").value_or(0);
-    drive_publishers_.emplace_back(private_node_, setup, identities_[i], static_cast<std::uint16_t>(address));
+    drive_publishers_.emplace_back(
+        private_node_, setup, identities_[i],
+        DriveProtection{identities_[i], config_.cycle.cmd_vel_timeout, config_.cycle.period()},
+        static_cast<std::uint16_t>(address));
     if (cycle_->inBase(i)) continue;
     boost::function<void(const std_msgs::Float64&)> take = [this, i](const std_msgs::Float64& velocity) {
       takeDriveCommand(i, velocity.data);

@@ -348,16 +348,17 @@ DriveIdentity ProfibusDpTransport::identity(DriveIndex drive) const {
   if (modular) {
     identity.address += ", inverter " + std::to_string(config.inverter);
     identity.shared_module = config.slave;
+    identity.timeout_owner = TimeoutOwner::kModule;
   }
   identity.inverter = config.inverter;
   identity.process_values = config.ppo.process_values;
   identity.parameter_channel = config.ppo.has_pkw                  ? "PKW"
                                : config_.slaves[config.slave].dpv1 ? "DP-V1 records"
                                                                    : "none";
-  identity.worst_cycle = config_.worst_cycle;
-  identity.watchdog = config_.watchdog;
+  identity.worst_cycle = toSeconds(config_.worst_cycle);
   identity.protected_by = "PROFIBUS watchdog of " + shortNumber(toSeconds(config_.watchdog)) +
                           " s: the inverter trips E10.2 and the motor coasts";
+  identity.protection_time = toSeconds(config_.watchdog);
   return identity;
 }
 

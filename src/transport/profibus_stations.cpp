@@ -41,12 +41,14 @@ ProfibusModule readModule(const Settings& settings, Series series) {
   const bool either = series == Series::kSk5xxe || series == Series::kSk54xe;
   const auto text = settings.text("module");
   if (!text) return only_cu4 ? ProfibusModule::kSkCu4 : ProfibusModule::kSkTu3;
-  if (*text == "sk_cu4" && (only_cu4 || either)) return ProfibusModule::kSkCu4;
-  if (*text == "sk_tu3" && !only_cu4) return ProfibusModule::kSkTu3;
+  const bool with_slots = *text == "sk_cu4" || *text == "sk_tu4";
+  const bool plain = *text == "sk_tu1" || *text == "sk_tu2" || *text == "sk_tu3";
+  if (with_slots && (only_cu4 || either)) return ProfibusModule::kSkCu4;
+  if (plain && !only_cu4) return ProfibusModule::kSkTu3;
   throw wrongSetting(settings, "module", "\"" + *text + "\"",
-                     either     ? "sk_tu3 (SK TU3-PBR) or sk_cu4 (SK CU4/TU4-PBR)"
-                     : only_cu4 ? "sk_cu4: this series is only behind SK CU4/TU4-PBR"
-                                : "sk_tu3: this series is only behind SK TU1/2/3-PBR");
+                     either     ? "sk_tu3 (SK TU3-PBR), sk_cu4 or sk_tu4 (SK CU4/TU4-PBR)"
+                     : only_cu4 ? "sk_cu4 or sk_tu4: this series is only behind SK CU4/TU4-PBR"
+                                : "sk_tu1, sk_tu2 or sk_tu3: this series is only behind SK TU1/2/3-PBR");
 }
 
 Plan readPlan(const DriveSettings& source) {

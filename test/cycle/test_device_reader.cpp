@@ -162,30 +162,17 @@ TEST(DeviceReader, AFunctionThatIsRefusedKeepsItsPlace) {
   EXPECT_EQ(1, reader.data().setpoint_functions[1]);
 }
 
-// What watches the bus besides the PROFIBUS watchdog: P151 of the bus module (ms), P120 [-01] of the inverter.
-TEST(DeviceReader, ReadsTheTimeoutOfTheBusModuleAndWhoWatchesIt) {
-  DeviceReader reader{profile::Series::kSk2xxe};
-  bool first_option = false;
-  while (const auto request = reader.pollRequest()) {
-    if (request->number == 151) {
-      reader.handleResult(done(200));
-    } else if (request->number == 120) {
-      first_option = request->index == 1;
-      reader.handleResult(done(2));
-    } else {
-      reader.handleResult(failed(ParameterOutcome::kRefused));
-    }
-  }
-  EXPECT_DOUBLE_EQ(0.2, reader.data().module_timeout.value_or(-9.0));
-  EXPECT_TRUE(first_option);
-  EXPECT_EQ(2, reader.data().module_monitoring.value_or(-9));
-}
-
-// -1 = nothing is watched (BU 2700 7.1.1).
-TEST(DeviceReader, ReadsTheTimeoutOfTheBusModuleSigned) {
-  DeviceReader reader{profile::Series::kSk2xxe};
-  answerAll(reader, 0xFFFF);
+// Behind a module SK CU4/TU4 its own time-out counts, and the inverter's watch over it (BU 2700 8.1).
+TEST(DeviceReader, ReadsTheTimeoutsOfABusModule) {
+  DeviceReader reader{profile::Series::kSk2xxe, TimeoutOwner::kModule};
+  const auto numbers = answerAll(reader, 0xFFFF);
+  EXPECT_EQ(1, std::count(numbers.begin(), numbers.end(), 151));
   EXPECT_DOUBLE_EQ(-0.001, *reader.data().module_timeout);
+  EXPECT_EQ(0xFFFF, *reader.data().option_monitoring);
+  DeviceReader without{profile::Series::kSk2xxe};
+  answerAll(without, 1);
+  EXPECT_FALSE(without.data().module_timeout);
+  EXPECT_FALSE(without.data().option_monitoring);
 }
 
 }  // namespace

@@ -1,43 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "sim/conversation.h"
-
-namespace {
-
-bool counting = false;
-std::size_t allocations = 0;
-
-void* counted(std::size_t size) {
-  if (counting) ++allocations;
-  void* const memory = std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) throw std::bad_alloc{};
-  return memory;
-}
-
-}  // namespace
-
-// For the whole test program; counted is only what the test below lets happen.
-void* operator new(std::size_t size) {
-  return counted(size);
-}
-void* operator new[](std::size_t size) {
-  return counted(size);
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
+#include "support/count_allocations.h"
 
 namespace nord_driver::sim {
 namespace {
@@ -48,6 +12,7 @@ using std::chrono::milliseconds;
 // station, its return and disturbed bytes included. A driver's own measurement of its cycle may rely on it.
 
 TEST(NoAllocation, AfterConstruction) {
+  if (!test::kCanCountAllocations) GTEST_SKIP() << "the sanitizers have replaced malloc";
   SimConfig config = oneDrive();
   config.body = BodyConfig{{0}, {0}, 0.1, 0.5};
   Conversation bus{config};
@@ -67,7 +32,7 @@ TEST(NoAllocation, AfterConstruction) {
   noise.flip = noise.lose = noise.duplicate = 0.01;
   std::size_t received = 0;
 
-  counting = true;
+  test::countThisThread(true);
   for (int round = 0; round < 20; ++round) {
     if (round == 10) bus.segment.setDisturbance(noise);
     for (const auto& request : requests) {
@@ -86,9 +51,9 @@ TEST(NoAllocation, AfterConstruction) {
     bus.drive().setPlugged(true);
     bus.segment.run(milliseconds(400));
   }
-  counting = false;
+  test::countThisThread(false);
 
-  EXPECT_EQ(0u, allocations);
+  EXPECT_EQ(0u, test::allocations);
   EXPECT_LT(1000u, received);
   EXPECT_LT(9u, bus.drive().parameters().eepromWrites());
 }

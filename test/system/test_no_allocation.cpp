@@ -4,7 +4,6 @@
 // A program of its own, in real time over a pty, because it replaces malloc. Not built under sanitizers, which do the
 // same.
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -17,52 +16,8 @@
 #include "nord_driver/cycle/cycle_thread.h"
 #include "nord_driver/sim/pty_bus.h"
 #include "nord_driver/transport/profibus_dp.h"
+#include "support/count_allocations.h"
 #include "support/map_settings.h"
-
-namespace {
-
-thread_local bool counted_thread = false;
-std::atomic<unsigned long> allocations{0};
-
-void count() noexcept {
-  if (counted_thread) ++allocations;
-}
-
-}  // namespace
-
-// The whole malloc family; operator new of libstdc++ calls malloc. glibc's own names keep working underneath.
-extern "C" {
-void* __libc_malloc(size_t size);
-void* __libc_calloc(size_t count, size_t size);
-void* __libc_realloc(void* memory, size_t size);
-void* __libc_memalign(size_t alignment, size_t size);
-
-void* malloc(size_t size) {
-  count();
-  return __libc_malloc(size);
-}
-void* calloc(size_t number, size_t size) {
-  count();
-  return __libc_calloc(number, size);
-}
-void* realloc(void* memory, size_t size) {
-  count();
-  return __libc_realloc(memory, size);
-}
-void* memalign(size_t alignment, size_t size) {
-  count();
-  return __libc_memalign(alignment, size);
-}
-void* aligned_alloc(size_t alignment, size_t size) {
-  count();
-  return __libc_memalign(alignment, size);
-}
-int posix_memalign(void** memory, size_t alignment, size_t size) {
-  count();
-  *memory = __libc_memalign(alignment, size);
-  return *memory == nullptr ? ENOMEM : 0;
-}
-}
 
 namespace nord_driver::test {
 namespace {
@@ -80,7 +35,7 @@ class CountingTransport final : public Transport {
   void exchange(const std::vector<profile::ProcessOutput>& outputs,
                 std::vector<DriveExchange>& inputs) noexcept override {
     ++cycles;
-    counted_thread = counting;
+    countThisThread(counting);
     if (spoil) spoiled_ = std::make_unique<int>(1);
     inner_.exchange(outputs, inputs);
   }

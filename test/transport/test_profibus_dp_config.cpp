@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Wrong{"address", 3, "3 is not valid, expected another address than drive \"drive0\" has"},
                       Wrong{"address", 1, "1 is not valid, expected another address than the master's own"},
                       Wrong{"module", std::string{"sk_cu5"},
-                            "\"sk_cu5\" is not valid, expected sk_tu3 (SK TU3-PBR) or sk_cu4"},
+                            "\"sk_cu5\" is not valid, expected sk_tu3 (SK TU3-PBR), sk_cu4"},
                       Wrong{"io_byte", true, "true is not valid, expected false: only SK CU4/TU4-PBR"},
                       Wrong{"ppo_type", 5, "5 is not valid, expected a whole number from 1 to 4"},
                       Wrong{"ppo_type", 0, "0 is not valid, expected a whole number from 1 to 4"},

@@ -131,7 +131,8 @@ TEST(ProfibusStations, TheSeriesDecidesWhichModuleItIsBehind) {
   module.add(1, 1).set("series", "sk54xe").set("module", "sk_cu4");
   EXPECT_EQ(0x0BA8, module.read().slaves[0].ident_number);
   module.settings[0]->set("series", "sk300e");
-  EXPECT_THAT(module.refusal(), HasSubstr("~drives/fi1/module: \"sk_cu4\" is not valid, expected sk_tu3"));
+  EXPECT_THAT(module.refusal(),
+              HasSubstr("~drives/fi1/module: \"sk_cu4\" is not valid, expected sk_tu1, sk_tu2 or sk_tu3"));
   module.settings[0]->set("series", "sk2xxe").set("module", "sk_tu3");
   EXPECT_THAT(module.refusal(), HasSubstr("~drives/fi1/module: \"sk_tu3\" is not valid, expected sk_cu4"));
 }

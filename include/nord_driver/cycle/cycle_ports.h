@@ -27,6 +27,7 @@ class CyclePorts {
   // Outside.
   void commandBase(const TwistCommand& command);
   void commandDrive(DriveIndex drive, const JointCommand& command);
+  void tuneBase(const BaseTuning& tuning);
   /// False when the queue is full.
   bool submit(const Request& request);
   /// Waits for a completion, at most `limit`. One thread only.
@@ -41,6 +42,7 @@ class CyclePorts {
   // The cycle's thread.
   const TwistCommand& newestBaseCommand() { return base_command_.read(); }
   const JointCommand& newestDriveCommand(DriveIndex drive) { return drive_commands_[drive]->read(); }
+  const BaseTuning& newestBaseTuning() { return base_tuning_.read(); }
   std::optional<Request> pollRequest() noexcept { return requests_.pop(); }
   void complete(const Completion& completion) noexcept;
   void publish(const CycleSnapshot& snapshot) { snapshot_.write(snapshot); }
@@ -50,6 +52,7 @@ class CyclePorts {
  private:
   std::mutex writers_;  // several ROS threads may write; the cycle never takes it
   LatestValue<TwistCommand> base_command_;
+  LatestValue<BaseTuning> base_tuning_;
   std::vector<std::unique_ptr<LatestValue<JointCommand>>> drive_commands_;
   EventRing<Request, 32> requests_;
   EventRing<Completion, 64> completions_;

@@ -9,6 +9,7 @@
 #include "nord_driver/cycle/device_data.h"
 #include "nord_driver/profile/parameter_request.h"
 #include "nord_driver/profile/series.h"
+#include "nord_driver/transport/transport.h"
 
 namespace nord_driver::cycle {
 
@@ -16,7 +17,8 @@ namespace nord_driver::cycle {
 /// three times, one the drive refuses is left out; a question that did not reach the drive is put again.
 class DeviceReader {
  public:
-  explicit DeviceReader(profile::Series series) noexcept;
+  /// `owner`: whose time-outs are read; those of a module by requests the transport passes on to it.
+  explicit DeviceReader(profile::Series series, TimeoutOwner owner = TimeoutOwner::kInverter) noexcept;
 
   /// The drive went away: what was read is kept until it is back.
   void handleOffline() noexcept;

@@ -17,6 +17,7 @@
 #include "nord_driver/cycle/cycle_ports.h"
 #include "nord_driver/cycle/cycle_thread.h"
 #include "nord_driver/node/base_publisher.h"
+#include "nord_driver/node/base_tuner.h"
 #include "nord_driver/node/bus_publisher.h"
 #include "nord_driver/node/diagnostics.h"
 #include "nord_driver/node/drive_publisher.h"
@@ -63,6 +64,7 @@ class DriverNode {
   std::unique_ptr<RequestBroker> broker_;
 
   std::unique_ptr<BasePublisher> base_publisher_;
+  std::unique_ptr<BaseTuner> base_tuner_;
   std::vector<DrivePublisher> drive_publishers_;
   std::unique_ptr<BusPublisher> bus_publisher_;
   std::unique_ptr<Diagnostics> diagnostics_;

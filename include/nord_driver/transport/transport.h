@@ -30,23 +30,31 @@ struct DriveExchange {
   bool inverter_answers = false;  ///< ... and the inverter behind it is on: `input` is fresh
 };
 
+/// Whose time-outs decide whether the inverter heeds a lost bus (BU 2700 8.1).
+enum class TimeoutOwner : std::uint8_t {
+  kInverter,  ///< P513
+  kModule,    ///< P151 in the bus module (SK CU4/TU4), and P120 in the inverter for the way between them
+};
+
 /// What a transport tells about a drive once it is configured.
 struct DriveIdentity {
   std::string address;              ///< "PROFIBUS station 3"
   std::uint8_t process_values = 1;  ///< setpoints and actual values carried: 1 or 3
   std::string parameter_channel;    ///< "PKW", "SDO", "none"
-  std::string protected_by;         ///< what stops the drive when this computer dies, in words
-  std::uint8_t inverter = 1;        ///< 1..4 behind a bus module that serves several
+  std::string protected_by;      ///< what of this bus stops the drive when this computer dies, in words; empty: nothing
+  double protection_time = 0.0;  ///< s until that acts; 0: not known
+  TimeoutOwner timeout_owner = TimeoutOwner::kInverter;
+  std::uint8_t inverter = 1;  ///< 1..4 behind a bus module that serves several
   /// Drives with the same number are behind the same bus module; nothing: this one has a module of its own.
-  std::optional<std::size_t> shared_module;
-  Duration worst_cycle{};  ///< no time-out of a drive or a module may be shorter than twice this; 0: not known
-  Duration watchdog{};     ///< time-out the bus itself watches with; 0: none
+  std::optional<std::size_t> shared_module = std::nullopt;
+  /// The longest cycle there may be, with one slave silent: a time-out that stops a drive must be longer. 0: not known.
+  double worst_cycle = 0.0;
 };
 
 /// Something that happened on the bus, told once: a sentence for a technician.
 struct BusEvent {
   bool warning = true;  ///< false: good news
-  Sentence text;
+  Sentence text = {};
 };
 
 /// Counters since start-up and the state of the bus. Copied once per cycle: no strings of variable length.
