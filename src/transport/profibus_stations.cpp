@@ -27,7 +27,7 @@ struct Plan {
   std::uint8_t inverter = 1;
   std::uint8_t ppo_type = 1;
   std::optional<bool> io_byte;
-  std::optional<std::string> user_parameters;
+  std::optional<std::string> user_parameters, gsd;
 };
 
 Series readSeries(const Settings& settings) {
@@ -61,6 +61,7 @@ Plan readPlan(const DriveSettings& source) {
   plan.ppo_type = static_cast<std::uint8_t>(integerOr(settings, "ppo_type", 1, 1, 4));
   plan.io_byte = settings.boolean("io_byte");
   plan.user_parameters = settings.text("user_parameters");
+  plan.gsd = settings.text("gsd");
   if (plan.module == ProfibusModule::kSkTu3) {
     if (plan.inverter != 1) {
       throw wrongSetting(settings, "inverter", std::to_string(plan.inverter),
@@ -128,15 +129,12 @@ class StationBuilder {
       slave.dpv1 = true;
       slave.record_timeout = kRecordTimeout;
     }
-    gsd_ = nullptr;
+    const Settings* naming = &settings;  // the drive that names a file itself, if one does
     for (const Plan& plan : plans) {
-      const GsdEntry* named = gsd_library_.find(*plan.source->settings, slave.ident_number);
-      if (gsd_ != nullptr && named != gsd_) {
-        throw wrongSetting(*plan.source->settings, "gsd", "\"" + (named != nullptr ? named->path : "") + "\"",
-                           "the one file of its module, \"" + gsd_->path + "\"");
-      }
-      gsd_ = named;
+      if (plan.gsd && !naming->has("gsd")) naming = plan.source->settings.get();
     }
+    agreed(plans, &Plan::gsd, "gsd", [](const std::string& path) { return path; });
+    gsd_ = gsd_library_.find(*naming, slave.ident_number);
     if (gsd_ != nullptr) takeGsd(settings, station, slave);
 
     if (modular) addIdentifier(slave, station.io_byte ? kIoSlot : kEmptySlot, station.io_byte ? 1 : 0);

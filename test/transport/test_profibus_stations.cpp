@@ -270,5 +270,15 @@ TEST(ProfibusStations, ADriveMayNameItsGsdFile) {
   EXPECT_FALSE(module.read().slaves[0].dpv1) << "the file knows nothing of it";
 }
 
+TEST(ProfibusStations, OneDriveNamesTheFileForItsWholeModule) {
+  const GsdText gsd{"#Profibus_DP\nIdent_Number=0x1234\n"};
+  Module module;
+  module.add(1, 1);
+  module.add(2, 1).set("gsd", gsd.path().c_str());
+  EXPECT_EQ(0x1234, module.read().slaves[0].ident_number);
+  module.settings[0]->set("gsd", "other.gsd");
+  EXPECT_THAT(module.refusal(), HasSubstr("~drives/fi2/gsd: " + gsd.path() + " is not valid, expected other.gsd, as "));
+}
+
 }  // namespace
 }  // namespace nord_driver
