@@ -217,7 +217,7 @@ class StationBuilder {
   void takeLength(const Plan& plan, const profibus::GsdModule& module, ProfibusDrive& drive) const {
     const auto lengths = profibus::ioLengths(module.configuration);
     const std::size_t pkw = drive.ppo.has_pkw ? 8 : 0;
-    const std::size_t least = pkw + 2 * (1u + drive.ppo.process_values);
+    const std::size_t least = pkw + 2 * (std::size_t{1} + drive.ppo.process_values);
     const std::size_t most = pkw + 12;
     const std::size_t bytes = lengths ? lengths->outputs : 0;
     if (!lengths || lengths->inputs != bytes || bytes % 2 != 0 || bytes < least || bytes > most) {
@@ -301,6 +301,7 @@ void readStations(const Settings& bus, const std::vector<DriveSettings>& drives,
     std::sort(members.begin(), members.end(),
               [&](std::size_t a, std::size_t b) { return plans[a].inverter < plans[b].inverter; });
     std::vector<Plan> own;
+    own.reserve(members.size());
     for (const std::size_t member : members) own.push_back(plans[member]);
     builder.build(station, own, members);
   }

@@ -99,11 +99,12 @@ Sentence ProfibusText::liveList(const profibus::BusScan& scan) noexcept {
         station.kind == profibus::ScannedStation::Kind::kSelf) {
       continue;
     }
-    const int written = std::snprintf(list + length, sizeof list - length, "%s%u%s", length == 0 ? "" : ", ", address,
-                                      address == kUnnamed ? " (not addressed yet: set its address to 3 to 125)"
-                                      : station.kind == profibus::ScannedStation::Kind::kMaster  ? " (a master)"
-                                      : station.kind == profibus::ScannedStation::Kind::kGarbled ? " (garbled)"
-                                                                                                 : "");
+    const char* what = "";
+    if (station.kind == profibus::ScannedStation::Kind::kMaster) what = " (a master)";
+    if (station.kind == profibus::ScannedStation::Kind::kGarbled) what = " (garbled)";
+    if (address == kUnnamed) what = " (not addressed yet: set its address to 3 to 125)";
+    const int written =
+        std::snprintf(list + length, sizeof list - length, "%s%u%s", length == 0 ? "" : ", ", address, what);
     if (written > 0) length += static_cast<std::size_t>(written);
   }
   if (length == 0) return scan.lineBusy() ? "the line never fell silent" : "no station answered";

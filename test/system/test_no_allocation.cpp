@@ -49,6 +49,7 @@ class CountingTransport final : public Transport {
   std::uint32_t identNumber(DriveIndex drive) const noexcept override { return inner_.identNumber(drive); }
   Sentence busText() const noexcept override { return inner_.busText(); }
   DriveIdentity identity(DriveIndex drive) const override { return inner_.identity(drive); }
+  std::optional<BusEvent> pollEvent() noexcept override { return inner_.pollEvent(); }
   void close() noexcept override { inner_.close(); }
 
   std::atomic<unsigned long> cycles{0};
@@ -60,13 +61,16 @@ class CountingTransport final : public Transport {
   std::unique_ptr<int> spoiled_;
 };
 
-class NoAllocation : public ::testing::Test {
+/// With `true` both drives are behind one module SK CU4, the second in PPO 3: its parameters come by records.
+class NoAllocation : public ::testing::TestWithParam<bool> {
  protected:
   NoAllocation() : link_path_("/tmp/nord_no_allocation_" + std::to_string(getpid())), bus_(simConfig(), link_path_) {
     std::vector<DriveSettings> drives;
     for (const char* name : {"left", "right"}) {
       auto settings = std::make_shared<MapSettings>(std::string{"~drives/"} + name + "/");
-      settings->set("address", name == std::string{"left"} ? 3 : 4).set("series", "sk5xxe").set("pole_pairs", 2);
+      const bool left = name == std::string{"left"};
+      settings->set("address", left || GetParam() ? 3 : 4).set("series", "sk5xxe").set("pole_pairs", 2);
+      if (GetParam()) settings->set("module", "sk_cu4").set("inverter", left ? 1 : 2).set("ppo_type", left ? 1 : 3);
       settings->set("joint", name).set("gear_ratio", 20.0);
       drives.push_back({name, settings});
     }
@@ -89,7 +93,9 @@ class NoAllocation : public ::testing::Test {
     for (const char* name : {"left", "right"}) {
       sim::DriveConfig drive;
       drive.name = name;
-      drive.slave.address = name == std::string{"left"} ? 3 : 4;
+      const bool left = name == std::string{"left"};
+      drive.slave.address = left || GetParam() ? 3 : 4;
+      if (GetParam()) drive.place = left ? 1 : 2;
       config.drives.push_back(drive);
     }
     return config;
@@ -135,9 +141,12 @@ class NoAllocation : public ::testing::Test {
   std::unique_ptr<cycle::CycleThread> thread_;
 };
 
-TEST_F(NoAllocation, InTheCyclesThreadOverALossAndAParameterRead) {
+INSTANTIATE_TEST_SUITE_P(Modules, NoAllocation, ::testing::Bool());
+
+TEST_P(NoAllocation, InTheCyclesThreadOverALossAndAParameterRead) {
   ASSERT_TRUE(waitFor([this] { return bothOnline(); }));
   ASSERT_TRUE(runCycles(100));
+  allocations = 0;
   transport_.counting = true;
   ASSERT_TRUE(runCycles(20));
 
