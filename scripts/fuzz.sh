@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the fuzz targets of the PROFIBUS engine in out/fuzz and runs each for a time, one on each processor. Ends with 1
+# Builds the fuzz targets of the protocol engines in out/fuzz and runs each for a time, one on each processor. Ends with 1
 # when one of them crashed; the input that did it stays in out/fuzz.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"

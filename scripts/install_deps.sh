@@ -18,6 +18,7 @@ packages=(
   build-essential cmake
   catkin ros-core-dev rosbash
   libdiagnostic-updater-dev pluginlib-dev
+  libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
   libtf2-dev libtf2-ros-dev
   liburdfdom-dev liburdfdom-headers-dev
   libcli11-dev libyaml-cpp-dev

@@ -31,7 +31,7 @@ struct Address {
     static_assert(sizeof kFolder + kLongestVirtualName < sizeof address.sun_path, "the longest name fits");
     address.sun_family = AF_UNIX;
     std::memcpy(address.sun_path + 1, kFolder, sizeof kFolder - 1);
-    std::memcpy(address.sun_path + sizeof kFolder, name, size);
+    std::copy_n(name, size, address.sun_path + sizeof kFolder);
     length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + sizeof kFolder + size);
   }
   const sockaddr* get() const noexcept { return reinterpret_cast<const sockaddr*>(&address); }

@@ -1,44 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "sim/can_conversation.h"
 #include "sim/conversation.h"
-
-namespace {
-
-bool counting = false;
-std::size_t allocations = 0;
-
-void* counted(std::size_t size) {
-  if (counting) ++allocations;
-  void* const memory = std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) throw std::bad_alloc{};
-  return memory;
-}
-
-}  // namespace
-
-// For the whole test program; counted is only what the test below lets happen.
-void* operator new(std::size_t size) {
-  return counted(size);
-}
-void* operator new[](std::size_t size) {
-  return counted(size);
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
+#include "support/count_allocations.h"
 
 namespace nord_driver::sim {
 namespace {
@@ -49,6 +13,7 @@ using std::chrono::milliseconds;
 // station, its return and disturbed bytes included. A driver's own measurement of its cycle may rely on it.
 
 TEST(NoAllocation, AfterConstruction) {
+  if (!test::kCanCountAllocations) GTEST_SKIP() << "the sanitizers have replaced malloc";
   SimConfig config = oneDrive();
   config.body = BodyConfig{{0}, {0}, 0.1, 0.5};
   Conversation bus{config};
@@ -68,7 +33,8 @@ TEST(NoAllocation, AfterConstruction) {
   noise.flip = noise.lose = noise.duplicate = 0.01;
   std::size_t received = 0;
 
-  counting = true;
+  test::allocations = 0;
+  test::countThisThread(true);
   for (int round = 0; round < 20; ++round) {
     if (round == 10) bus.segment.setDisturbance(noise);
     for (const auto& request : requests) {
@@ -87,15 +53,16 @@ TEST(NoAllocation, AfterConstruction) {
     bus.drive().setPlugged(true);
     bus.segment.run(milliseconds(400));
   }
-  counting = false;
+  test::countThisThread(false);
 
-  EXPECT_EQ(0u, allocations);
+  EXPECT_EQ(0u, test::allocations);
   EXPECT_LT(1000u, received);
   EXPECT_LT(9u, bus.drive().parameters().eepromWrites());
 }
 
 // The same with a module: slots, records, its time-out and SYNC.
 TEST(NoAllocation, OfAModule) {
+  if (!test::kCanCountAllocations) GTEST_SKIP() << "the sanitizers have replaced malloc";
   Conversation bus{oneModule(2)};
   bus.segment.robot().module(0).parameters().preset(151, 0, 0, 100);
   std::vector<std::vector<std::uint8_t>> requests;
@@ -117,7 +84,8 @@ TEST(NoAllocation, OfAModule) {
   requests.push_back(Conversation::variable(0xFF, 0x81, 0x46, fromHex("3A 3E 20 00")));
   std::size_t received = 0;
 
-  counting = true;
+  test::allocations = 0;
+  test::countThisThread(true);
   for (int round = 0; round < 20; ++round) {
     for (const auto& request : requests) {
       bus.segment.run(milliseconds(1));
@@ -132,14 +100,15 @@ TEST(NoAllocation, OfAModule) {
     bus.drive().setPlugged(round % 2 != 0);
     bus.segment.robot().module(0).setPowered(round % 3 != 0);
   }
-  counting = false;
+  test::countThisThread(false);
 
-  EXPECT_EQ(0u, allocations);
+  EXPECT_EQ(0u, test::allocations);
   EXPECT_LT(1000u, received);
 }
 
 // The same of the simulated CAN bus and its nodes.
 TEST(NoAllocation, OnACanBus) {
+  if (!test::kCanCountAllocations) GTEST_SKIP() << "the sanitizers have replaced malloc";
   CanConversation bus;
   std::vector<CanFrame> requests;
   for (const char* text : {"732#R1", "632#4066200100000000", "632#2B17100014000000", "000#0132", "232#7E040000",
@@ -150,8 +119,8 @@ TEST(NoAllocation, OnACanBus) {
   noise.lose = noise.error = noise.duplicate = 0.05;
   std::size_t received = 0;
 
-  allocations = 0;
-  counting = true;
+  test::allocations = 0;
+  test::countThisThread(true);
   for (int round = 0; round < 20; ++round) {
     if (round == 10) bus.bus.setDisturbance(noise);
     for (const CanFrame& request : requests) {
@@ -169,9 +138,9 @@ TEST(NoAllocation, OnACanBus) {
     bus.drive().setPlugged(true);
     bus.bus.run(milliseconds(400));
   }
-  counting = false;
+  test::countThisThread(false);
 
-  EXPECT_EQ(0u, allocations);
+  EXPECT_EQ(0u, test::allocations);
   EXPECT_LT(200u, received);
 }
 
