@@ -18,7 +18,8 @@
 
 namespace nord_driver::test {
 
-/// Two wheels of 0.1 m, 0.5 m apart; P105 = 50 Hz, 20:1, two pole pairs: 100 % is 7.854 rad/s or 0.785 m/s.
+/// Two wheels of 0.1 m, 0.5 m apart, or as many a side as asked for (drives 0, 2 ... left, 1, 3 ... right); P105 = 50
+/// Hz, 20:1, two pole pairs: 100 % is 7.854 rad/s or 0.785 m/s.
 class SimulatedRobot {
  public:
   struct Options {
@@ -29,6 +30,7 @@ class SimulatedRobot {
     std::vector<sim::ParameterPreset> parameters;      ///< of both inverters
     std::vector<sim::ParameterPreset> left_parameters;
     int ppo_type = 1;  ///< as set at the inverters
+    int wheels_a_side = 1;
   };
 
   SimulatedRobot() : SimulatedRobot(Options{}) {}
@@ -107,7 +109,12 @@ class SimulatedRobot {
   }
   /// From power-on to two drives that could be enabled.
   bool bringUp() {
-    return runUntil([this] { return snapshot().drives[0].device.complete && snapshot().drives[1].device.complete; });
+    return runUntil([this] {
+      for (const cycle::DriveSnapshot& drive : snapshot().drives) {
+        if (!drive.device.complete) return false;
+      }
+      return true;
+    });
   }
   bool bringUpAndEnable() { return bringUp() && ask(cycle::RequestKind::kEnable).success; }
 
@@ -116,7 +123,13 @@ class SimulatedRobot {
   Word controlWord(DriveIndex drive) { return snapshot().drives[drive].output.control_word; }
   std::int16_t setpoint(DriveIndex drive) { return snapshot().drives[drive].output.setpoints[0]; }
   Word statusWord(DriveIndex drive) { return snapshot().drives[drive].input.status_word; }
-  bool standsStill() { return std::abs(unit(0).shaftSpeed()) < 0.1 && std::abs(unit(1).shaftSpeed()) < 0.1; }
+  bool standsStill() {
+    for (std::size_t i = 0; i < config_.drives.size(); ++i) {
+      if (std::abs(unit(i).shaftSpeed()) >= 0.1) return false;
+    }
+    return true;
+  }
+  std::size_t driveCount() const { return config_.drives.size(); }
 
   sim::SimulatedSegment& segment() { return *segment_; }
   sim::DriveUnit& unit(std::size_t drive) { return segment_->drive(drive); }
@@ -126,10 +139,19 @@ class SimulatedRobot {
   const cycle::CycleConfig& config() const { return config_; }
 
   static std::vector<DriveSettings> driveSettings(const Options& options) {
-    return {driveSettings(options, "left", 3, false), driveSettings(options, "right", 4, true)};
+    std::vector<DriveSettings> drives;
+    for (int i = 0; i < 2 * options.wheels_a_side; ++i) {
+      drives.push_back(driveSettings(options, nameOf(i), 3 + i, i % 2 == 1));
+    }
+    return drives;
   }
 
  private:
+  /// "left", "right", "left_2", "right_2" ...
+  static std::string nameOf(int drive) {
+    const std::string side = drive % 2 == 0 ? "left" : "right";
+    return drive < 2 ? side : side + "_" + std::to_string(drive / 2 + 1);
+  }
   static DriveSettings driveSettings(const Options& options, const std::string& name, int address, bool inverted) {
     auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
     settings->set("address", address).set("series", "sk5xxe").set("ppo_type", 1).set("joint", name + "_wheel_joint");
@@ -139,9 +161,13 @@ class SimulatedRobot {
   }
   static std::map<std::string, MapSettings::Value> nodeSettings(const Options& options) {
     std::map<std::string, MapSettings::Value> values = options.node;
+    std::vector<std::string> left, right;
+    for (int i = 0; i < 2 * options.wheels_a_side; ++i) {
+      (i % 2 == 0 ? left : right).push_back(nameOf(i) + "_wheel_joint");
+    }
     values.insert({{"cycle_rate", 100.0},
-                   {"left_wheel", std::string{"left_wheel_joint"}},
-                   {"right_wheel", std::string{"right_wheel_joint"}},
+                   {"left_wheel", left},
+                   {"right_wheel", right},
                    {"wheel_separation", 0.5},
                    {"wheel_radius", 0.1}});
     return values;
@@ -149,22 +175,24 @@ class SimulatedRobot {
   static sim::SimConfig simConfig(const Options& options) {
     sim::SimConfig config;
     config.baud_rate = 500'000;
-    for (const bool right : {false, true}) {
+    config.body = sim::BodyConfig{{}, {}, 0.1, 0.5};
+    for (int i = 0; i < 2 * options.wheels_a_side; ++i) {
+      const bool right = i % 2 == 1;
+      (right ? config.body->right : config.body->left).push_back(static_cast<std::size_t>(i));
       sim::DriveConfig drive;
-      drive.name = right ? "right" : "left";
+      drive.name = nameOf(i);
       drive.joint = drive.name + "_wheel_joint";
-      drive.slave.address = right ? 4 : 3;
+      drive.slave.address = static_cast<std::uint8_t>(3 + i);
       drive.gear_ratio = 20.0;
       drive.inverted = right;
       drive.motor.slip = options.slip;
       drive.slave.ppo_type = options.ppo_type;
       drive.parameters = options.parameters;
-      if (!right) {
+      if (i == 0) {
         drive.parameters.insert(drive.parameters.end(), options.left_parameters.begin(), options.left_parameters.end());
       }
       config.drives.push_back(drive);
     }
-    config.body = sim::BodyConfig{{0}, {1}, 0.1, 0.5};
     return config;
   }
 
