@@ -1,0 +1,113 @@
+// The life of one node as its NMT master sees it (CiA 302-2, "boot slave"): found, reset, checked, configured, started,
+// seen operational; and what follows when a step fails.
+//
+//     restart -> reset? -> await boot-up -> ask 1000h -> script -> start -> running
+//                                            ^  |          |        |        |
+//                            nobody answers  |  v          v        v        | lost, boot-up, left the state
+//                                           pause <---- refused <- diagnose  v
+//                                                                           ask 1000h
+//
+// A boot-up frame leads to the script at once, from everywhere. It is never waited for without an end: a node whose
+// boot-up was missed is found by asking.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "nord_driver/canopen/boot_script.h"
+#include "nord_driver/canopen/nmt.h"
+#include "nord_driver/canopen/node_config.h"
+#include "nord_driver/canopen/node_report.h"
+#include "nord_driver/canopen/sdo_port.h"
+#include "nord_driver/core/fixed_text.h"
+#include "nord_driver/core/time.h"
+
+namespace nord_driver::canopen {
+
+class NodeBoot {
+ public:
+  /// What error control has to do.
+  enum class Watch : std::uint8_t {
+    kOff,
+    kVerify,  ///< the node was started: does it report that it is operational?
+    kWatch    ///< it is operational: its silence is a loss
+  };
+
+  /// The references live longer than this. `port`: the node's first SDO server.
+  NodeBoot(const NodeConfig& config, std::uint8_t own_id, Duration ask_interval, NodeReport& report,
+           SdoPort& port) noexcept;
+
+  void restart(Instant now) noexcept;
+  void release(NmtCommand command, Instant now) noexcept;
+
+  void handleBootUp(Instant now) noexcept;
+  /// The node reported its state.
+  void handleState(NmtState state, Instant now) noexcept;
+  /// Error control failed, and why. Only while `watch()` is kWatch.
+  void handleLoss(const Sentence& why, Instant now) noexcept;
+  /// Another master told this node something.
+  void handleForeignCommand(NmtCommand command, Instant now) noexcept;
+  /// Takes SDO answers, and does what is due by time.
+  void poll(Instant now) noexcept;
+
+  std::optional<Instant> nextDeadline() const noexcept { return deadline_; }
+  Watch watch() const noexcept;
+  /// The node came with a boot-up frame: its toggle bit begins anew.
+  bool fresh() const noexcept { return fresh_; }
+  /// The NMT command to send, or none; a newer one replaces one that was not sent.
+  std::optional<NmtCommand>& command() noexcept { return command_; }
+
+ private:
+  enum class Phase : std::uint8_t {
+    kOff,
+    kAwaitBootUp,
+    kScript,
+    kStart,
+    kReadErrorRegister,
+    kReadErrorField,
+    kRunning,
+    kSilent,  // pause between two questions
+    kRefused  // pause before the next attempt
+  };
+
+  void reset(Instant now) noexcept;
+  void ask(Instant now) noexcept;
+  void submit(const SdoRequest& request, Instant now) noexcept;
+  void handleAnswer(const SdoAnswer& answer, Instant now) noexcept;
+  void handleScriptAnswer(const SdoAnswer& answer, Instant now) noexcept;
+  void handleNoAnswer(Instant now) noexcept;
+  void handleDeadline(Instant now) noexcept;
+  void found(Instant now) noexcept;
+  void silent(const Sentence& why, Instant now) noexcept;
+  void start(Instant now) noexcept;
+  void run(Instant now) noexcept;
+  void leave(const Sentence& why, Instant now) noexcept;
+  void diagnose(Instant now) noexcept;
+  void refuseStart(Instant now) noexcept;
+  void refuse(const Sentence& why, Instant now) noexcept;
+  bool repeated(Instant now) noexcept;
+
+  const NodeConfig& config_;
+  Duration ask_interval_;
+  NodeReport& report_;
+  SdoPort& port_;
+  BootScript script_;
+  SdoRequest request_;  // under way
+  Phase phase_ = Phase::kOff;
+  std::optional<Instant> deadline_;
+  std::optional<NmtCommand> command_;
+  bool reset_due_ = false;  // it was not reset since it was lost
+  bool fresh_ = false;
+  bool answered_ = false;  // in this attempt
+  bool heard_ = false;     // after the start
+  bool was_operational_ = false;
+  std::uint8_t tries_left_ = 0;
+  Duration ask_pause_{};
+  Duration refuse_pause_{};
+  std::optional<std::uint8_t> error_register_;
+  std::optional<std::uint16_t> last_error_;
+  std::optional<Instant> last_boot_up_;
+  std::uint32_t boot_ups_in_a_row_ = 0;
+};
+
+}  // namespace nord_driver::canopen

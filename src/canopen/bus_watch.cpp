@@ -1,0 +1,73 @@
+#include "nord_driver/canopen/bus_watch.h"
+
+namespace nord_driver::canopen {
+namespace {
+
+constexpr Duration kPause = std::chrono::seconds{1};
+
+}  // namespace
+
+void BusWatch::restart() noexcept {
+  told_nodes_.reset();
+  told_master_.reset();
+  told_own_id_.reset();
+  told_malformed_.reset();
+}
+
+void BusWatch::foreignNode(std::uint8_t id, Instant now) noexcept {
+  ++counters_.foreign;
+  if (told_nodes_[id]) return;
+  told_nodes_[id] = true;
+  Sentence text;
+  text.format("node %u is on the bus, but is not configured", unsigned{id});
+  tell(CanopenEventKind::kForeignNode, text, id, now);
+}
+
+void BusWatch::secondMaster(const CanFrame& frame, CobIdUse::Kind kind, Instant now) noexcept {
+  ++counters_.second_master;
+  if (!again(told_master_, now)) return;
+  Sentence text;
+  if (kind == CobIdUse::Kind::kNmt) {
+    FixedText<16> whom{"all nodes"};
+    if (frame.data[1] != 0) whom.format("node %u", unsigned{frame.data[1]});
+    text.format("another master sends NMT \"%s\" to %s", toText(static_cast<NmtCommand>(frame.data[0])), whom.c_str());
+  } else {
+    text.format("another master is on the bus: it sends %s (%03Xh), which only we should", toText(kind),
+                static_cast<unsigned>(frame.id));
+  }
+  tell(CanopenEventKind::kSecondMaster, text, frame.id, now);
+}
+
+void BusWatch::ownIdUsed(const CanFrame& frame, Instant now) noexcept {
+  ++counters_.own_id_used;
+  if (!again(told_own_id_, now)) return;
+  Sentence text;
+  text.format("another node has our own node id %u", static_cast<unsigned>(frame.id - kErrorControlBase));
+  tell(CanopenEventKind::kOwnIdUsed, text, frame.id - kErrorControlBase, now);
+}
+
+void BusWatch::malformedNmt(const CanFrame& frame, Instant now) noexcept {
+  ++counters_.malformed;
+  if (!again(told_malformed_, now)) return;
+  Sentence text;
+  text.format("somebody sent a malformed NMT command (%u bytes%s)", unsigned{frame.size},
+              frame.remote ? ", remote" : "");
+  tell(CanopenEventKind::kMalformed, text, frame.id, now);
+}
+
+void BusWatch::tell(CanopenEventKind kind, const Sentence& text, std::uint32_t value, Instant now) noexcept {
+  CanopenEvent event;
+  event.kind = kind;
+  event.value = value;
+  event.at = now;
+  event.text = text;
+  events_.push(event);
+}
+
+bool BusWatch::again(std::optional<Instant>& told, Instant now) noexcept {
+  if (told && now - *told < kPause) return false;
+  told = now;
+  return true;
+}
+
+}  // namespace nord_driver::canopen

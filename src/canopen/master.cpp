@@ -1,0 +1,350 @@
+#include "nord_driver/canopen/master.h"
+
+#include <array>
+
+namespace nord_driver::canopen {
+namespace {
+
+using Kind = CobIdUse::Kind;
+
+MasterConfig checked(const MasterConfig& config) {
+  MasterConfig complete = completed(config);
+  checkConfig(complete);
+  return complete;
+}
+
+std::size_t receivePdosOf(const MasterConfig& config) {
+  std::size_t count = 0;
+  for (const NodeConfig& node : config.nodes) count += node.receive_pdos.size();
+  return count;
+}
+
+}  // namespace
+
+Master::Master(const MasterConfig& config)
+    : config_(checked(config)),
+      uses_(cobIdTable(config_)),
+      watch_(counters_, events_),
+      process_(receivePdosOf(config_)) {
+  nodes_.reserve(config_.nodes.size());
+  for (std::size_t i = 0; i < config_.nodes.size(); ++i) {
+    const NodeConfig& node = config_.nodes[i];
+    nodes_.push_back(std::make_unique<Node>(i, node, config_.own_id.value_or(std::uint8_t{0}), config_.ask_interval,
+                                            counters_, events_));
+    for (std::size_t server = 0; server < node.sdo_servers.size(); ++server) servers_.emplace_back(i, server);
+  }
+}
+
+void Master::restart(Instant now) noexcept {
+  now_ = now;
+  given_ = Given{};
+  process_.clear();
+  watch_.restart();
+  next_server_ = 0;
+  deadline_.reset();
+  boot_up_due_ = config_.own_id.has_value();
+  heartbeat_due_ = false;
+  next_heartbeat_.reset();
+  if (config_.own_id && config_.heartbeat_time > Duration::zero()) next_heartbeat_ = now + config_.heartbeat_time;
+  expect(next_heartbeat_);
+  for (const auto& node : nodes_) {
+    node->restart(now);
+    touched(*node);
+  }
+}
+
+void Master::releaseAll(NmtCommand command, Instant now) noexcept {
+  now_ = now;
+  for (const auto& node : nodes_) {
+    node->release(command, now);
+    touched(*node);
+  }
+}
+
+void Master::startCycle(Instant now) noexcept {
+  now_ = now;
+  ++counters_.cycles;
+  dropProcessData();
+  bool any = false;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (!nodes_[i]->operational()) continue;
+    any = true;
+    const std::vector<ReceivePdoSlot>& pdos = nodes_[i]->receivePdos();
+    for (std::size_t pdo = 0; pdo < pdos.size(); ++pdo) {
+      if (pdos[pdo].ready()) process_.add({static_cast<std::uint8_t>(i), static_cast<std::uint16_t>(pdo)});
+    }
+  }
+  if (any && config_.sync_cob_id) process_.addSync();
+}
+
+void Master::dropProcessData() noexcept {
+  while (process_.hasPdo()) {
+    ++counters_.superseded;
+    ++nodes_[process_.takePdo().node]->report().status().counters.superseded;
+  }
+  if (process_.syncDue()) ++counters_.superseded;
+  process_.clear();
+}
+
+void Master::handleFrame(const CanFrame& frame, Instant now) noexcept {
+  now_ = now;
+  ++counters_.frames_received;
+  if (frame.extended || frame.id >= kCobIds || frame.size > kCanDataLength) {
+    ++counters_.foreign;
+    return;
+  }
+  const CobIdUse& use = uses_[frame.id];
+  if (frame.remote) {
+    handleRemote(use, frame, now);
+  } else {
+    dispatch(use, frame, now);
+  }
+}
+
+void Master::dispatch(const CobIdUse& use, const CanFrame& frame, Instant now) noexcept {
+  switch (use.kind) {
+    case Kind::kTransmitPdo:
+      return nodes_[use.node]->handleTransmitPdo(use.item, frame, now);
+    case Kind::kErrorControl:
+      nodes_[use.node]->handleErrorControl(frame, now);
+      return touched(*nodes_[use.node]);
+    case Kind::kSdoAnswer:
+      nodes_[use.node]->handleSdo(use.item, frame, now);
+      return touched(*nodes_[use.node]);
+    case Kind::kEmergency:
+      return nodes_[use.node]->handleEmergency(frame, now);
+    case Kind::kNmt:
+      return handleNmt(frame, now);
+    case Kind::kSync:
+    case Kind::kReceivePdo:
+    case Kind::kSdoRequest:
+      return watch_.secondMaster(frame, use.kind, now);
+    case Kind::kOwnHeartbeat:
+      return watch_.ownIdUsed(frame, now);
+    case Kind::kForeignNode:
+      return watch_.foreignNode(static_cast<std::uint8_t>(use.item), now);
+    case Kind::kForeign:
+      ++counters_.foreign;
+      return;
+    case Kind::kIgnored:
+      return;
+  }
+}
+
+/// Only a master asks by remote frames here: for the state of a node (guarding), or for a PDO.
+void Master::handleRemote(const CobIdUse& use, const CanFrame& frame, Instant now) noexcept {
+  switch (use.kind) {
+    case Kind::kErrorControl:
+    case Kind::kTransmitPdo:
+      return watch_.secondMaster(frame, use.kind, now);
+    case Kind::kNmt:
+      return watch_.malformedNmt(frame, now);
+    case Kind::kEmergency:
+    case Kind::kSdoAnswer:
+      return nodes_[use.node]->report().malformed(frame, "nobody asks for this by a remote frame", now);
+    default:
+      ++counters_.foreign;
+  }
+}
+
+void Master::handleNmt(const CanFrame& frame, Instant now) noexcept {
+  constexpr std::array<NmtCommand, 5> kCommands{NmtCommand::kStart, NmtCommand::kStop, NmtCommand::kEnterPreOperational,
+                                                NmtCommand::kResetNode, NmtCommand::kResetCommunication};
+  bool known = false;
+  for (const NmtCommand command : kCommands) known = known || frame.data[0] == static_cast<std::uint8_t>(command);
+  if (frame.size != 2 || !known || frame.data[1] > kMaxNodeId) return watch_.malformedNmt(frame, now);
+  watch_.secondMaster(frame, Kind::kNmt, now);
+  for (const auto& node : nodes_) {
+    if (frame.data[1] != 0 && frame.data[1] != node->id()) continue;
+    node->handleForeignCommand(static_cast<NmtCommand>(frame.data[0]), now);
+    touched(*node);
+  }
+}
+
+void Master::poll(Instant now) noexcept {
+  now_ = now;
+  if (!deadline_ || now < *deadline_) return;
+  deadline_.reset();
+  if (next_heartbeat_ && now >= *next_heartbeat_) {
+    heartbeat_due_ = true;
+    // A late look sends one, not one for each that was missed.
+    *next_heartbeat_ += config_.heartbeat_time;
+    if (*next_heartbeat_ <= now) next_heartbeat_ = now + config_.heartbeat_time;
+  }
+  expect(next_heartbeat_);
+  for (const auto& node : nodes_) {
+    node->poll(now);
+    touched(*node);
+  }
+}
+
+std::optional<Instant> Master::nextDeadline() const noexcept {
+  return deadline_;
+}
+
+void Master::expect(std::optional<Instant> deadline) noexcept {
+  if (deadline && (!deadline_ || *deadline < *deadline_)) deadline_ = deadline;
+}
+
+void Master::touched(const Node& node) noexcept {
+  expect(node.nextDeadline());
+  nmt_maybe_ = true;
+  error_control_maybe_ = true;
+  sdo_maybe_ = true;
+}
+
+bool Master::pollTransmit(CanFrame& frame) noexcept {
+  const bool given = pollNmt() || pollReceivePdo() || pollSync() || pollErrorControl() || pollSdoFrame();
+  if (!given) {
+    given_.kind = Given::Kind::kNothing;
+    return false;
+  }
+  frame = given_.frame;
+  ++counters_.frames_sent;
+  return true;
+}
+
+void Master::give(Given::Kind kind, std::size_t node, std::size_t item, const CanFrame& frame) noexcept {
+  given_ = {kind, node, item, frame};
+}
+
+bool Master::pollNmt() noexcept {
+  if (!nmt_maybe_) return false;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    std::optional<NmtCommand>& command = nodes_[i]->command();
+    if (!command) continue;
+    give(Given::Kind::kNmt, i, static_cast<std::size_t>(*command), nmtFrame(*command, nodes_[i]->id()));
+    command.reset();
+    return true;
+  }
+  nmt_maybe_ = false;
+  return false;
+}
+
+bool Master::pollReceivePdo() noexcept {
+  while (process_.hasPdo()) {
+    const PdoReference due = process_.takePdo();
+    Node& node = *nodes_[due.node];
+    const ReceivePdoSlot& slot = node.receivePdos()[due.pdo];
+    // It may have been lost since the cycle began.
+    if (!node.operational() || !slot.ready()) continue;
+    ++node.report().status().counters.receive_pdos;
+    give(Given::Kind::kReceivePdo, due.node, due.pdo, slot.frame());
+    return true;
+  }
+  return false;
+}
+
+bool Master::pollSync() noexcept {
+  if (!process_.takeSync()) return false;
+  ++counters_.syncs;
+  give(Given::Kind::kSync, 0, 0, dataFrame(*config_.sync_cob_id, ByteView{}));
+  return true;
+}
+
+bool Master::pollErrorControl() noexcept {
+  if (boot_up_due_ || heartbeat_due_) {
+    const NmtState state = boot_up_due_ ? NmtState::kBootUp : NmtState::kOperational;
+    const std::array<std::uint8_t, 1> byte{static_cast<std::uint8_t>(state)};
+    give(Given::Kind::kOwnHeartbeat, 0, byte[0], dataFrame(kErrorControlBase + *config_.own_id, byte));
+    (boot_up_due_ ? boot_up_due_ : heartbeat_due_) = false;
+    return true;
+  }
+  if (!error_control_maybe_) return false;
+  CanFrame frame;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (!nodes_[i]->guard().pollTransmit(frame)) continue;
+    give(Given::Kind::kGuard, i, 0, frame);
+    return true;
+  }
+  error_control_maybe_ = false;
+  return false;
+}
+
+bool Master::pollSdoFrame() noexcept {
+  if (!sdo_maybe_) return false;
+  CanFrame frame;
+  for (std::size_t tried = 0; tried < servers_.size(); ++tried) {
+    const auto [node, server] = servers_[next_server_];
+    next_server_ = (next_server_ + 1) % servers_.size();
+    if (!nodes_[node]->ports()[server].pollTransmit(frame)) continue;
+    give(Given::Kind::kSdo, node, server, frame);
+    return true;
+  }
+  sdo_maybe_ = false;
+  return false;
+}
+
+void Master::notSent() noexcept {
+  const Given given = given_;
+  given_.kind = Given::Kind::kNothing;
+  if (given.kind == Given::Kind::kNothing) return;
+  --counters_.frames_sent;
+  ++counters_.not_sent;
+  Node& node = *nodes_[given.node];
+  switch (given.kind) {
+    case Given::Kind::kNothing:
+      break;
+    case Given::Kind::kNmt:
+      if (!node.command()) node.command() = static_cast<NmtCommand>(given.item);
+      nmt_maybe_ = true;
+      break;
+    case Given::Kind::kReceivePdo:
+      --node.report().status().counters.receive_pdos;
+      ++node.report().status().counters.superseded;
+      ++counters_.superseded;
+      break;
+    case Given::Kind::kSync:
+      --counters_.syncs;
+      ++counters_.superseded;
+      break;
+    case Given::Kind::kOwnHeartbeat:
+      (given.item == 0 ? boot_up_due_ : heartbeat_due_) = true;
+      break;
+    case Given::Kind::kGuard:
+      node.guard().notSent();
+      error_control_maybe_ = true;
+      break;
+    case Given::Kind::kSdo:
+      node.ports()[given.item].putBack(given.frame);
+      sdo_maybe_ = true;
+      break;
+  }
+  dropProcessData();
+}
+
+void Master::setReceivePdo(std::size_t node, std::size_t pdo, ByteView bytes) noexcept {
+  nodes_[node]->receivePdos()[pdo].set(bytes);
+}
+
+const PdoValue& Master::transmitPdo(std::size_t node, std::size_t pdo) const noexcept {
+  return nodes_[node]->transmitPdo(pdo);
+}
+
+bool Master::submitSdo(std::size_t node, std::size_t server, const SdoRequest& request) noexcept {
+  if (!nodes_[node]->ports()[server].submit(SdoOwner::kUser, request, now_)) return false;
+  touched(*nodes_[node]);
+  return true;
+}
+
+std::optional<NodeSdoAnswer> Master::pollSdo() noexcept {
+  for (const auto& [node, server] : servers_) {
+    const std::optional<SdoAnswer> answer = nodes_[node]->ports()[server].take(SdoOwner::kUser);
+    if (!answer) continue;
+    touched(*nodes_[node]);
+    return NodeSdoAnswer{node, server, *answer};
+  }
+  return std::nullopt;
+}
+
+std::vector<std::uint32_t> Master::receivedIds() const {
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t id = 0; id < kCobIds; ++id) {
+    const Kind kind = uses_[id].kind;
+    const bool foreign_emergency = kind == Kind::kForeignNode && id < kErrorControlBase;
+    if (kind != Kind::kForeign && kind != Kind::kIgnored && !foreign_emergency) ids.push_back(id);
+  }
+  return ids;
+}
+
+}  // namespace nord_driver::canopen

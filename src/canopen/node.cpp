@@ -1,0 +1,183 @@
+#include "nord_driver/canopen/node.h"
+
+#include <algorithm>
+
+namespace nord_driver::canopen {
+namespace {
+
+std::vector<SdoPort> portsOf(const NodeConfig& config) {
+  std::vector<SdoPort> ports;
+  ports.reserve(config.sdo_servers.size());
+  for (const SdoChannel& channel : config.sdo_servers) ports.emplace_back(channel, config.sdo_timeout);
+  return ports;
+}
+
+void takeEarlier(std::optional<Instant>& earliest, std::optional<Instant> other) noexcept {
+  if (other && (!earliest || *other < *earliest)) earliest = other;
+}
+
+}  // namespace
+
+Node::Node(std::size_t index, const NodeConfig& config, std::uint8_t own_id, Duration ask_interval, Counters& counters,
+           CanopenEvents& events)
+    : config_(config),
+      report_(index, counters, events),
+      ports_(portsOf(config)),
+      boot_(config, own_id, ask_interval, report_, ports_.front()),
+      heartbeat_(config.error_control.heartbeat_timeout),
+      guard_(config.id, config.error_control.guard_time, config.error_control.life_time_factor) {
+  for (const PdoConfig& pdo : config.receive_pdos) receive_pdos_.emplace_back(pdo);
+  for (const PdoConfig& pdo : config.transmit_pdos) transmit_pdos_.push_back({mappedLength(pdo), {}});
+}
+
+void Node::restart(Instant now) noexcept {
+  for (SdoPort& port : ports_) {
+    port.cancel(SdoOwner::kUser, now);
+    port.cancel(SdoOwner::kBoot, now);
+  }
+  report_.status().emergencies.clear();
+  boot_.restart(now);
+  for (ReceivePdoSlot& pdo : receive_pdos_) pdo.forget();
+  settle(now);
+}
+
+void Node::release(NmtCommand command, Instant now) noexcept {
+  boot_.release(command, now);
+  settle(now);
+}
+
+void Node::handleErrorControl(const CanFrame& frame, Instant now) noexcept {
+  if (frame.size != 1) return report_.malformed(frame, "a state is one byte", now);
+  const std::uint8_t value = frame.data[0];
+  if (nmtStateOf(value) == NmtState::kUnknown) return report_.malformed(frame, "no such state", now);
+  report_.status().heard_at = now;
+  handleStateByte(value, now);
+  settle(now);
+}
+
+void Node::handleStateByte(std::uint8_t value, Instant now) noexcept {
+  if (nmtStateOf(value) == NmtState::kBootUp) return boot_.handleBootUp(now);
+  ++report_.status().counters.heartbeats;
+  if (guard_.running() && !acceptGuardAnswer(value, now)) return;
+  heartbeat_.heard(now);
+  boot_.handleState(nmtStateOf(value), now);
+}
+
+bool Node::acceptGuardAnswer(std::uint8_t value, Instant now) noexcept {
+  switch (guard_.handle(value, now)) {
+    case GuardAnswer::kAccepted:
+      told_toggle_ = false;
+      return true;
+    case GuardAnswer::kNotAsked:
+      return false;
+    case GuardAnswer::kWrongToggle:
+      break;
+  }
+  ++report_.status().counters.toggle_errors;
+  if (!told_toggle_) {
+    Sentence text;
+    text.format("answered to guarding with the toggle bit of the answer before (%02Xh)", unsigned{value});
+    report_.tell(CanopenEventKind::kToggleError, text, value, now);
+  }
+  told_toggle_ = true;
+  return false;
+}
+
+void Node::handleEmergency(const CanFrame& frame, Instant now) noexcept {
+  EmergencyHistory& history = report_.status().emergencies;
+  if (!history.handle(frame, now)) return report_.malformed(frame, "an emergency has eight bytes", now);
+  ++report_.status().counters.emergencies;
+  const Emergency& emergency = history.back(0);
+  Sentence text;
+  text.format("emergency %04Xh, error register %02Xh, manufacturer's bytes %02X %02X %02X %02X %02X",
+              unsigned{emergency.code}, unsigned{emergency.error_register}, unsigned{emergency.manufacturer[0]},
+              unsigned{emergency.manufacturer[1]}, unsigned{emergency.manufacturer[2]},
+              unsigned{emergency.manufacturer[3]}, unsigned{emergency.manufacturer[4]});
+  report_.tell(CanopenEventKind::kEmergency, text,
+               (std::uint32_t{emergency.code} << 8) | std::uint32_t{emergency.error_register}, now);
+}
+
+void Node::handleTransmitPdo(std::size_t pdo, const CanFrame& frame, Instant now) noexcept {
+  TransmitPdo& received = transmit_pdos_[pdo];
+  // What comes before the start may be laid out otherwise.
+  if (watch_ == NodeBoot::Watch::kOff) return;
+  const ByteView bytes = frame.bytes();
+  if (bytes.size() < received.length) return report_.malformed(frame, "a TPDO shorter than its mapping", now);
+  // Of more bytes than mapped the first are taken (CiA 301 7.2.2.2).
+  received.value.bytes.clear();
+  for (const std::uint8_t byte : bytes.sub(0, received.length != 0 ? received.length : kCanDataLength)) {
+    received.value.bytes.push_back(byte);
+  }
+  received.value.at = now;
+  ++received.value.count;
+  ++report_.status().counters.transmit_pdos;
+}
+
+void Node::handleSdo(std::size_t server, const CanFrame& frame, Instant now) noexcept {
+  SdoPort& port = ports_[server];
+  const SdoCounters before = port.counters();
+  port.handle(frame, now);
+  report_.busCounters().stray_sdo += port.counters().stale - before.stale;
+  if (port.counters().malformed != before.malformed) report_.malformed(frame, "an SDO has eight bytes", now);
+  settle(now);
+}
+
+void Node::handleForeignCommand(NmtCommand command, Instant now) noexcept {
+  boot_.handleForeignCommand(command, now);
+  settle(now);
+}
+
+void Node::poll(Instant now) noexcept {
+  for (SdoPort& port : ports_) port.poll(now);
+  if (guard_.poll(now)) ++report_.status().counters.missed_guards;
+  if (watch_ == NodeBoot::Watch::kWatch) tellLoss(now);
+  settle(now);
+}
+
+void Node::tellLoss(Instant now) noexcept {
+  Sentence why;
+  if (heartbeat_.expired(now)) {
+    why.format("sent no heartbeat for %.0f ms", toSeconds(config_.error_control.heartbeat_timeout) * 1e3);
+  } else if (guard_.expired(now)) {
+    why.format("gave no good answer to guarding for %.0f ms",
+               toSeconds(config_.error_control.guard_time * config_.error_control.life_time_factor) * 1e3);
+  } else {
+    return;
+  }
+  boot_.handleLoss(why, now);
+}
+
+/// The start-up goes on with what came; error control follows it.
+void Node::settle(Instant now) noexcept {
+  followWatch(now);
+  boot_.poll(now);
+  followWatch(now);
+}
+
+void Node::followWatch(Instant now) noexcept {
+  const NodeBoot::Watch watch = boot_.watch();
+  if (watch == watch_) return;
+  const bool begins = watch_ == NodeBoot::Watch::kOff;
+  watch_ = watch;
+  const ErrorControlMode mode = config_.error_control.mode;
+  if (begins) {
+    for (TransmitPdo& pdo : transmit_pdos_) pdo.value = PdoValue{};
+    told_toggle_ = false;
+    if (mode == ErrorControlMode::kGuarding) guard_.start(boot_.fresh(), now);
+  }
+  if (watch == NodeBoot::Watch::kWatch && mode == ErrorControlMode::kHeartbeat) heartbeat_.start(now);
+  if (watch != NodeBoot::Watch::kOff) return;
+  heartbeat_.stop();
+  guard_.stop();
+  for (ReceivePdoSlot& pdo : receive_pdos_) pdo.forget();
+}
+
+std::optional<Instant> Node::nextDeadline() const noexcept {
+  std::optional<Instant> earliest = boot_.nextDeadline();
+  takeEarlier(earliest, heartbeat_.nextDeadline());
+  takeEarlier(earliest, guard_.nextDeadline());
+  for (const SdoPort& port : ports_) takeEarlier(earliest, port.nextDeadline());
+  return earliest;
+}
+
+}  // namespace nord_driver::canopen

@@ -1,0 +1,225 @@
+#include "nord_driver/canopen/sdo_client.h"
+
+#include "nord_driver/canopen/sdo_abort.h"
+#include "sdo_commands.h"
+
+namespace nord_driver::canopen {
+
+bool SdoClient::start(const SdoRequest& request, Instant now) noexcept {
+  return start(request, ByteView{request.data}, now);
+}
+
+bool SdoClient::start(const SdoRequest& request, ByteView data, Instant now) noexcept {
+  if (busy() || data.size() > kSdoCapacity || (request.write && data.empty())) return false;
+  request_ = request;
+  buffer_.clear();
+  if (request.write) {
+    for (const std::uint8_t byte : data) buffer_.push_back(byte);
+  }
+  size_told_ = true;
+  known_to_server_ = false;
+  transfer_ = Initiating{};
+  arm(now);
+  return true;
+}
+
+// Half of the time for a missing segment, so that there is time left to get it again.
+void SdoClient::arm(Instant now) noexcept {
+  const auto* block = std::get_if<BlockUpload>(&transfer_);
+  deadline_ = now + (block != nullptr && block->awaitsSegments() ? timeout_ / 2 : timeout_);
+}
+
+bool SdoClient::pollTransmit(CanFrame& frame) noexcept {
+  SdoBytes bytes{};
+  if (parting_) {
+    bytes = *parting_;
+    parting_.reset();
+  } else if (!pollRequest(bytes)) {
+    return false;
+  }
+  frame = dataFrame(channel_.request_id, bytes);
+  return true;
+}
+
+bool SdoClient::pollRequest(SdoBytes& bytes) noexcept {
+  bool sends = false;
+  if (auto* initiating = std::get_if<Initiating>(&transfer_)) {
+    sends = initiating->to_send;
+    initiating->to_send = false;
+    if (sends) bytes = initiation(request_, ByteView{buffer_});
+  } else if (auto* segmented_upload = std::get_if<SegmentedUpload>(&transfer_)) {
+    sends = segmented_upload->pollTransmit(bytes, buffer_);
+  } else if (auto* segmented_download = std::get_if<SegmentedDownload>(&transfer_)) {
+    sends = segmented_download->pollTransmit(bytes, buffer_);
+  } else if (auto* block_upload = std::get_if<BlockUpload>(&transfer_)) {
+    sends = block_upload->pollTransmit(bytes, buffer_);
+  } else if (auto* block_download = std::get_if<BlockDownload>(&transfer_)) {
+    sends = block_download->pollTransmit(bytes, buffer_);
+  }
+  known_to_server_ = known_to_server_ || sends;
+  return sends;
+}
+
+void SdoClient::handle(const CanFrame& frame, Instant now) noexcept {
+  if (frame.id != channel_.response_id || frame.extended || frame.remote) return;
+  if (frame.size != kCanDataLength) {
+    ++counters_.malformed;
+  } else if (!active() || !known_to_server_) {
+    ++counters_.stale;
+  } else if (frame.data[0] == kAbort) {
+    handleAbort(frame.data, now);
+  } else {
+    apply(handleResponse(frame.data), now);
+  }
+}
+
+SdoStep SdoClient::handleResponse(const SdoBytes& response) noexcept {
+  if (auto* segmented_upload = std::get_if<SegmentedUpload>(&transfer_)) {
+    return segmented_upload->handle(response, buffer_);
+  }
+  if (auto* segmented_download = std::get_if<SegmentedDownload>(&transfer_)) {
+    return segmented_download->handle(response, buffer_);
+  }
+  if (auto* block_upload = std::get_if<BlockUpload>(&transfer_)) {
+    const SdoStep step = block_upload->handle(response, buffer_);
+    if (step.kind == SdoStep::Kind::kDone) parting_ = BlockUpload::confirmation();
+    return step;
+  }
+  if (auto* block_download = std::get_if<BlockDownload>(&transfer_)) return block_download->handle(response, buffer_);
+  return handleInitiated(response);
+}
+
+SdoStep SdoClient::handleInitiated(const SdoBytes& response) noexcept {
+  const auto* initiating = std::get_if<Initiating>(&transfer_);
+  if (initiating == nullptr || initiating->to_send || !namesObject(response, request_)) return SdoStep::stale();
+  return request_.write ? beginDownload(response) : beginUpload(response);
+}
+
+// A server may answer a wish for blocks in plain (CiA 301 7.2.4.3.13, protocol switch).
+SdoStep SdoClient::beginUpload(const SdoBytes& response) noexcept {
+  const Initiated initiated = readInitiated(response);
+  size_told_ = initiated.size.has_value();
+  if (initiated.kind == Initiated::Kind::kExpedited) {
+    for (std::size_t i = 0; i < initiated.count; ++i) buffer_.push_back(response[4 + i]);
+    return SdoStep::done();
+  }
+  const bool plain = initiated.kind == Initiated::Kind::kSegmentedUpload;
+  if (!plain && !(request_.block && initiated.kind == Initiated::Kind::kBlockUpload)) return SdoStep::stale();
+  if (initiated.size && *initiated.size > kSdoCapacity) return SdoStep::abort(sdo_abort::kMemory);
+  if (plain) {
+    transfer_ = SegmentedUpload{initiated.size};
+  } else {
+    transfer_ = BlockUpload{initiated.size, initiated.crc};
+  }
+  return SdoStep::accepted();
+}
+
+SdoStep SdoClient::beginDownload(const SdoBytes& response) noexcept {
+  const Initiated initiated = readInitiated(response);
+  if (request_.block) {
+    if (initiated.kind != Initiated::Kind::kBlockDownload) return SdoStep::stale();
+    if (initiated.block_size == 0 || initiated.block_size > kMaxSequence) return SdoStep::abort(sdo_abort::kBlockSize);
+    transfer_ = BlockDownload{initiated.block_size, initiated.crc};
+    segments_seen_ = 0;
+    return SdoStep::accepted();
+  }
+  if (initiated.kind != Initiated::Kind::kDownload) return SdoStep::stale();
+  if (buffer_.size() <= kExpeditedLength) return SdoStep::done();
+  transfer_ = SegmentedDownload{};
+  return SdoStep::accepted();
+}
+
+void SdoClient::handleAbort(const SdoBytes& response, Instant now) noexcept {
+  if (!namesObject(response, request_)) {
+    ++counters_.stale;
+    return;
+  }
+  const std::uint32_t code = u32(response);
+  if (request_.block && code == sdo_abort::kCommand && std::holds_alternative<Initiating>(transfer_)) {
+    request_.block = false;
+    transfer_ = Initiating{};
+    arm(now);
+    return;
+  }
+  finish(SdoEnd::kAbortedByServer, code);
+}
+
+void SdoClient::apply(SdoStep step, Instant now) noexcept {
+  switch (step.kind) {
+    case SdoStep::Kind::kStale:
+      ++counters_.stale;
+      break;
+    case SdoStep::Kind::kAccepted:
+      arm(now);
+      break;
+    case SdoStep::Kind::kDone:
+      finish(SdoEnd::kDone, 0);
+      break;
+    case SdoStep::Kind::kAbort:
+      abort(SdoEnd::kAbortedByUs, step.abort_code);
+      break;
+  }
+}
+
+void SdoClient::poll(Instant now) noexcept {
+  if (!active() || now < deadline_) return;
+  if (goesOnWithoutAnswer()) {
+    arm(now);
+  } else {
+    abort(SdoEnd::kTimedOut, sdo_abort::kTimedOut);
+  }
+}
+
+bool SdoClient::goesOnWithoutAnswer() noexcept {
+  if (auto* upload = std::get_if<BlockUpload>(&transfer_)) return upload->handleSilence();
+  const auto* download = std::get_if<BlockDownload>(&transfer_);
+  if (download == nullptr || download->segmentsSent() == segments_seen_) return false;
+  segments_seen_ = download->segmentsSent();
+  return true;
+}
+
+void SdoClient::cancel() noexcept {
+  if (active()) abort(SdoEnd::kAbortedByUs, sdo_abort::kGeneral);
+  answer_.reset();
+}
+
+void SdoClient::abort(SdoEnd end, std::uint32_t code) noexcept {
+  if (known_to_server_) {
+    parting_ = objectFrame(kAbort, request_);
+    putU32(*parting_, code);
+  }
+  finish(end, code);
+}
+
+void SdoClient::finish(SdoEnd end, std::uint32_t code) noexcept {
+  transfer_ = Idle{};
+  SdoAnswer answer;
+  answer.id = request_.id;
+  answer.end = end;
+  answer.abort_code = code;
+  answer.size_told = size_told_;
+  answer_ = answer;
+  switch (end) {
+    case SdoEnd::kDone:
+      ++counters_.done;
+      break;
+    case SdoEnd::kAbortedByServer:
+      ++counters_.aborted_by_server;
+      break;
+    case SdoEnd::kAbortedByUs:
+      ++counters_.aborted_by_us;
+      break;
+    case SdoEnd::kTimedOut:
+      ++counters_.timed_out;
+      break;
+  }
+}
+
+std::optional<SdoAnswer> SdoClient::takeAnswer() noexcept {
+  std::optional<SdoAnswer> answer = answer_;
+  if (answer && answer->ok() && !request_.write) answer->data = ByteView{buffer_};
+  answer_.reset();
+  return answer;
+}
+
+}  // namespace nord_driver::canopen

@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <stdexcept>
+
+#include "canopen/master_run.h"
+
+namespace nord_driver::canopen {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// The sentence with which the configuration of two nodes, changed so, is refused.
+std::string refusal(const std::function<void(MasterConfig&)>& change) {
+  MasterConfig config = busConfig(2);
+  change(config);
+  try {
+    const Master master{config};
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(MasterConfig, AcceptsTwoPlainNodes) {
+  EXPECT_EQ("", refusal([](MasterConfig&) {}));
+}
+
+// Every mistake has its sentence, with node and value.
+TEST(MasterConfig, NamesEveryMistake) {
+  const auto first = [](const std::function<void(NodeConfig&)>& change) {
+    return refusal([&](MasterConfig& config) { change(config.nodes[0]); });
+  };
+  EXPECT_EQ("a CANopen master needs 1 to 126 nodes", refusal([](MasterConfig& c) { c.nodes.clear(); }));
+  EXPECT_EQ("node 2 is configured twice", first([](NodeConfig& n) { n.id = 2; }));
+  EXPECT_EQ("node id 128 is not 1 to 127", first([](NodeConfig& n) { n.id = 128; }));
+  EXPECT_EQ("node id 0 is not 1 to 127", first([](NodeConfig& n) { n.id = 0; }));
+  EXPECT_EQ("COB-ID 701h is used by our own heartbeat and by node 1", refusal([](MasterConfig& c) { c.own_id = 1; }));
+  EXPECT_EQ("COB-ID 202h is used by node 1, RPDO 1 and by node 2, RPDO 1",
+            first([](NodeConfig& n) { n.receive_pdos[0].cob_id = 0x202; }));
+  EXPECT_EQ("COB-ID 081h is used by SYNC and by node 1, EMCY", refusal([](MasterConfig& c) { c.sync_cob_id = 0x81; }));
+  EXPECT_EQ("node 1, TPDO 1: COB-ID 581h is reserved", first([](NodeConfig& n) { n.transmit_pdos[0].cob_id = 0x581; }));
+  EXPECT_EQ("node 1, RPDO 1: configured twice",
+            first([](NodeConfig& n) { n.receive_pdos.push_back(n.receive_pdos[0]); }));
+  EXPECT_EQ("node 1, RPDO 0: its number must be 1 to 512", first([](NodeConfig& n) { n.receive_pdos[0].number = 0; }));
+  EXPECT_EQ("node 1, RPDO 1: more than 8 bytes are mapped", first([](NodeConfig& n) {
+              n.receive_pdos[0].mapping = {{0x3000, 0, 64}, {0x3002, 1, 16}};
+            }));
+  EXPECT_EQ("node 1, RPDO 1: mapped objects must have whole bytes", first([](NodeConfig& n) {
+              n.receive_pdos[0].mapping = {{0x3000, 0, 1}};
+            }));
+  EXPECT_EQ("node 1, TPDO 1: transmission type 252 is not 0..240, 254 or 255",
+            first([](NodeConfig& n) { n.transmit_pdos[0].transmission_type = 252; }));
+  EXPECT_EQ("node 1, TPDO 1: it is synchronous, but no SYNC is sent",
+            first([](NodeConfig& n) { n.transmit_pdos[0].transmission_type = 1; }));
+  EXPECT_EQ("node 1, RPDO 1: only a TPDO has an inhibit time",
+            first([](NodeConfig& n) { n.receive_pdos[0].inhibit_time = std::uint16_t{1}; }));
+  EXPECT_EQ("node 1: the heartbeat time must be whole milliseconds, 1 to 65535",
+            first([](NodeConfig& n) { n.error_control.heartbeat_time = std::chrono::microseconds{1500}; }));
+  EXPECT_EQ("node 1: the heartbeat time-out must be longer than the heartbeat time",
+            first([](NodeConfig& n) { n.error_control.heartbeat_timeout = milliseconds{100}; }));
+  EXPECT_EQ("node 1: it shall watch our heartbeat, but we send none",
+            first([](NodeConfig& n) { n.error_control.master_timeout = milliseconds{100}; }));
+  EXPECT_EQ("node 1: the life time factor must be 1 to 255", first([](NodeConfig& n) {
+              n.error_control.mode = ErrorControlMode::kGuarding;
+              n.error_control.life_time_factor = 0;
+            }));
+  EXPECT_EQ("node 1: the SDO time-out must be above 0", first([](NodeConfig& n) { n.sdo_timeout = Duration{}; }));
+  EXPECT_EQ("node 1: set-up of 2066h: the size must be 1, 2 or 4 bytes", first([](NodeConfig& n) {
+              n.setup = {{0x2066, 1, 0, 3}};
+            }));
+  EXPECT_EQ("node 1: more than 4 SDO servers", first([](NodeConfig& n) { n.sdo_servers.resize(5); }));
+  EXPECT_EQ("COB-ID 602h is used by node 1, SDO server 1 and by node 2, SDO server 1", first([](NodeConfig& n) {
+              n.sdo_servers = {{0x602, 0x581}};
+            }));
+  EXPECT_EQ("our heartbeat needs a node id of our own",
+            refusal([](MasterConfig& c) { c.heartbeat_time = milliseconds{100}; }));
+}
+
+}  // namespace
+}  // namespace nord_driver::canopen

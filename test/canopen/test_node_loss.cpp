@@ -1,0 +1,174 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "canopen/master_run.h"
+
+namespace nord_driver::canopen {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+MasterConfig guarded() {
+  MasterConfig config = busConfig(1, 0x32);
+  ErrorControl& control = config.nodes[0].error_control;
+  control.mode = ErrorControlMode::kGuarding;
+  control.guard_time = milliseconds{250};  // the example of BU 0260 p. 50
+  control.life_time_factor = 3;
+  return config;
+}
+
+/// One node, or those of `config`, operational.
+struct Operational : MasterRun {
+  explicit Operational(const MasterConfig& config = busConfig(1)) : MasterRun{config} {
+    begin();
+    EXPECT_TRUE(runUntil([this] { return allOperational(); }, seconds{2}));
+    sent.clear();
+  }
+  std::size_t guardingQuestions() const {
+    return static_cast<std::size_t>(std::count(sent.begin(), sent.end(), "732#R1"));
+  }
+};
+
+// No heartbeat for its time-out: lost, told, counted, and not one RPDO more.
+TEST(NodeLoss, HeartbeatLost) {
+  Operational run;
+  run.nodes[0]->powerOff();
+  run.run(milliseconds{199});
+  EXPECT_EQ(NodeState::kOperational, run.master.status(0).state);
+  ASSERT_TRUE(run.reaches(NodeState::kLost, milliseconds{120}));
+  EXPECT_EQ("sent no heartbeat for 300 ms", run.eventText(CanopenEventKind::kNodeLost));
+  EXPECT_EQ(1u, run.master.status(0).counters.losses);
+  run.sent.clear();
+  run.run(seconds{1});
+  EXPECT_THAT(run.sent, testing::Not(Contains(HasSubstr("201#"))));
+  // It comes back: running within 2 s.
+  run.nodes[0]->powerOn(run.now);
+  EXPECT_TRUE(run.reaches(NodeState::kOperational, milliseconds{200}));
+  EXPECT_EQ(2u, run.master.status(0).counters.boots);
+  EXPECT_THAT(run.violations(), IsEmpty());
+}
+
+// The cable was off: the node goes on by itself and has no boot-up to send. It is found, reset and started.
+TEST(NodeLoss, ComesBackWithoutABootUp) {
+  Operational run;
+  bool cut = true;
+  run.loses = [&cut](const CanFrame&) { return cut; };
+  ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{1}));
+  run.run(seconds{3});
+  EXPECT_EQ(NodeState::kLost, run.master.status(0).state);
+  const int resets = run.nodes[0]->resets;
+  cut = false;
+  EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));
+  EXPECT_EQ(resets + 1, run.nodes[0]->resets);
+}
+
+// A short break of the supply shows only as a boot-up in the middle of the exchange.
+TEST(NodeLoss, RestartedByItself) {
+  Operational run;
+  run.nodes[0]->powerOff();
+  run.nodes[0]->powerOn(run.now);
+  run.run(milliseconds{25});
+  EXPECT_EQ("has restarted by itself: it sent its boot-up", run.eventText(CanopenEventKind::kNodeLost));
+  EXPECT_TRUE(run.reaches(NodeState::kOperational, milliseconds{300}));
+  EXPECT_EQ(1, run.nodes[0]->resets) << "it need not be reset";
+}
+
+TEST(NodeLoss, LeftOperationalByItself) {
+  Operational run;
+  run.nodes[0]->state = 0x7F;
+  run.run(milliseconds{101});
+  EXPECT_EQ("is pre-operational now, which we did not tell it", run.eventText(CanopenEventKind::kNodeLost));
+  EXPECT_TRUE(run.reaches(NodeState::kOperational, milliseconds{300}));
+  EXPECT_EQ(1u, run.master.status(0).counters.losses);
+}
+
+// Guarding: 1017h off, 100Ch and 100Dh set, a remote frame per guard time, answered with a toggling bit 7.
+TEST(NodeLoss, GuardsByRemoteFrames) {
+  MasterRun run{guarded()};
+  run.nodes[0]->object(0x1017, 0).value = 100;
+  run.begin();
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{1}));
+  EXPECT_THAT(run.nodes[0]->writes, testing::ElementsAre("1017:00=0", "100C:00=FA", "100D:00=3"));
+  const int before = run.nodes[0]->guards;
+  run.run(seconds{10});
+  EXPECT_EQ(before + 40, run.nodes[0]->guards);
+  EXPECT_EQ(NodeState::kOperational, run.master.status(0).state);
+  EXPECT_EQ(0u, run.master.status(0).counters.toggle_errors);
+}
+
+TEST(NodeLoss, GuardingLost) {
+  Operational run{guarded()};
+  run.run(milliseconds{100});
+  run.nodes[0]->answers_guarding = false;
+  ASSERT_TRUE(run.runUntil([&] { return run.master.status(0).counters.losses == 1; }, milliseconds{760}));
+  EXPECT_GE(run.guardingQuestions(), 2u);
+  EXPECT_EQ("gave no good answer to guarding for 750 ms", run.eventText(CanopenEventKind::kNodeLost));
+  run.nodes[0]->answers_guarding = true;
+  EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{3}));
+}
+
+// An answer with the toggle bit of the one before counts as none (CiA 301 7.2.8.3.2.1): told once, lost in the end.
+TEST(NodeLoss, ToggleBitStandsStill) {
+  Operational run{guarded()};
+  run.nodes[0]->toggles = false;
+  ASSERT_TRUE(run.runUntil([&] { return run.master.status(0).counters.losses == 1; }, seconds{2}));
+  EXPECT_EQ(1u, run.count(CanopenEventKind::kToggleError));
+  EXPECT_GE(run.master.status(0).counters.toggle_errors, 2u);
+}
+
+// One answer that did not reach us leaves the toggle bit unknown, not wrong.
+TEST(NodeLoss, OneLostAnswerToGuardingIsForgiven) {
+  Operational run{guarded()};
+  bool lost = false;
+  run.loses = [&lost](const CanFrame& frame) {
+    const bool first = !lost && frame.id == 0x732 && !frame.remote;
+    lost = lost || first;
+    return first;
+  };
+  run.run(seconds{3});
+  EXPECT_TRUE(lost);
+  EXPECT_EQ(NodeState::kOperational, run.master.status(0).state);
+  EXPECT_EQ(0u, run.master.status(0).counters.toggle_errors);
+  EXPECT_EQ(1u, run.master.status(0).counters.missed_guards);
+}
+
+// A master that looks late, because its machine stood still, asks once, not once for every time it missed.
+TEST(NodeLoss, NoBurstOfQuestionsAfterAStandstill) {
+  Operational run{guarded()};
+  run.now += milliseconds{700};
+  run.run(milliseconds{100});
+  EXPECT_LE(run.guardingQuestions(), 2u);
+}
+
+// Our own heartbeat, and the node told to watch it (1016h:1 = our id, time).
+TEST(NodeLoss, SendsItsOwnHeartbeat) {
+  MasterConfig config = busConfig(1);
+  config.own_id = 127;
+  config.heartbeat_time = milliseconds{100};
+  config.nodes[0].error_control.master_timeout = milliseconds{300};
+  MasterRun run{config};
+  run.begin();
+  run.run(seconds{1});
+  EXPECT_EQ(1, std::count(run.sent.begin(), run.sent.end(), "77F#00"));
+  EXPECT_EQ(10, std::count(run.sent.begin(), run.sent.end(), "77F#05"));
+  EXPECT_THAT(run.nodes[0]->writes, Contains("1016:01=7F012C"));
+}
+
+// The clean exit: every node gets the command once and is left alone until the bus is opened again.
+TEST(NodeLoss, ReleasedNodesAreLeftAlone) {
+  Operational run{busConfig(2)};
+  run.master.releaseAll(NmtCommand::kEnterPreOperational, run.now);
+  EXPECT_EQ(NodeState::kReleased, run.master.status(0).state);
+  run.run(seconds{2});
+  EXPECT_THAT(run.sent, testing::ElementsAre("000#8001", "000#8002"));
+  EXPECT_EQ(0u, run.count(CanopenEventKind::kNodeLost));
+  run.master.restart(run.now);
+  EXPECT_TRUE(run.runUntil([&] { return run.allOperational(); }, seconds{1}));
+}
+
+}  // namespace
+}  // namespace nord_driver::canopen
