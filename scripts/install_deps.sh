@@ -22,7 +22,7 @@ packages=(
   libtf2-dev libtf2-ros-dev
   liburdfdom-dev liburdfdom-headers-dev
   libcli11-dev libyaml-cpp-dev
-  ros-robot-state-publisher
+  ros-robot-state-publisher python3-rosbag
   librostest-dev python3-rostest
   python3-rospy python3-geometry-msgs python3-nav-msgs python3-std-srvs
   libgtest-dev libgmock-dev librapidcheck-dev

@@ -71,8 +71,11 @@ void DriveParameters::askForReason(drive::Drive& drive, Instant now) noexcept {
   const bool waiting = report.phase == drive::Phase::kIdle || report.phase == drive::Phase::kEnabling;
   const bool held = waiting && (report.state == profile::DriveState::kSwitchOnDisabled ||
                                 report.state == profile::DriveState::kNotReadyToSwitchOn);
-  const bool known = held && faults_.reasonState() == drive::ReasonState::kKnown && faults_.reason() != 0;
-  drive.setSwitchOnReason(known ? std::optional<std::uint16_t>{faults_.reason()} : std::nullopt);
+  // While it is read again, the one known before stands.
+  if (!held || faults_.reasonState() != drive::ReasonState::kReading) {
+    const bool known = held && faults_.reasonState() == drive::ReasonState::kKnown && faults_.reason() != 0;
+    drive.setSwitchOnReason(known ? std::optional<std::uint16_t>{faults_.reason()} : std::nullopt);
+  }
   if (!held) {
     held_since_.reset();
   } else if (!held_since_) {

@@ -1,66 +1,22 @@
 #include "nord_driver/node/services.h"
 
 #include <boost/function.hpp>
-#include <cmath>
-#include <cstdint>
 
-#include "nord_driver/transport/setting_checks.h"
+#include "nord_driver/cycle/parameter_access.h"
 
 namespace nord_driver::node {
 
 using cycle::kAllDrives;
 using cycle::RequestKind;
 
-namespace {
-
-double valueOf(const profile::ParameterInfo* info, std::int32_t raw) {
-  return info != nullptr ? profile::toValue(*info, raw) : raw;
-}
-
-// Nobody has said how an unknown parameter is indexed: as it was asked for.
-profile::ParameterShape shapeOfUnknown(std::uint8_t set, std::uint8_t index) {
-  if (set != 0) return index != 0 ? profile::ParameterShape::kArrayPerSet : profile::ParameterShape::kPerSet;
-  return index != 0 ? profile::ParameterShape::kArray : profile::ParameterShape::kPlain;
-}
-
-std::optional<std::int32_t> rawValue(double value) {
-  const double rounded = std::round(value);
-  if (!(std::abs(rounded) <= INT32_MAX)) return std::nullopt;
-  return static_cast<std::int32_t>(rounded);
-}
-
-std::string rangeOf(const profile::ParameterInfo* info) {
-  if (info == nullptr) return "a whole number of 32 bits";
-  return shortNumber(profile::toValue(*info, info->minimum)) + " to " +
-         shortNumber(profile::toValue(*info, info->maximum)) + (info->unit[0] != '\0' ? " " : "") + info->unit;
-}
-
-}  // namespace
-
 /// Which parameter a request names. Returns what is wrong with it; empty when nothing is.
 template <typename RosRequest>
 std::string Services::addressParameter(DriveIndex drive, const RosRequest& from, cycle::Request& to,
                                        const profile::ParameterInfo*& info) const {
-  if (from.number > 999) {
-    return "parameter " + std::to_string(from.number) + " does not exist, expected 0 to 999";
-  }
-  if (from.parameter_set > 4) {
-    return "parameter set " + std::to_string(from.parameter_set) + " does not exist, expected 0 to 4";
-  }
-  info = profile::findParameter(from.number, config_.cycle.drives[drive].series);
-  const std::uint8_t index = from.index == 0 ? 1 : from.index;
-  if (info != nullptr) {
-    to.parameter = profile::readRequest(*info, from.parameter_set, index);
-  } else {
-    to.parameter.number = from.number;
-    to.parameter.shape = shapeOfUnknown(from.parameter_set, from.index);
-    to.parameter.parameter_set = from.parameter_set == 0 ? 1 : from.parameter_set;
-    to.parameter.index = index;
-  }
   to.drive = drive;
   to.patience = config_.cycle.service_timeout;
-  to.active_set = from.parameter_set == 0;
-  return "";
+  return cycle::addressParameter({from.number, from.parameter_set, from.index}, config_.cycle.drives[drive].series, to,
+                                 info);
 }
 
 template <typename Service, typename Handler>
@@ -140,7 +96,6 @@ void Services::selectSet(DriveIndex drive, SelectParameterSet::Request& request,
 
 void Services::readParameter(DriveIndex drive, ReadParameter::Request& request, ReadParameter::Response& response) {
   cycle::Request access;
-  access.kind = RequestKind::kReadParameter;
   const profile::ParameterInfo* info = nullptr;
   response.message = addressParameter(drive, request, access, info);
   if (!response.message.empty()) return;
@@ -149,7 +104,7 @@ void Services::readParameter(DriveIndex drive, ReadParameter::Request& request, 
   response.message = answer.message.str();
   if (!answer.success) return;
   response.raw = answer.raw;
-  response.value = valueOf(info, answer.raw);
+  response.value = cycle::valueOf(info, answer.raw);
   if (info != nullptr) {
     response.unit = info->unit;
     response.name = info->name;
@@ -158,30 +113,17 @@ void Services::readParameter(DriveIndex drive, ReadParameter::Request& request, 
 
 void Services::writeParameter(DriveIndex drive, WriteParameter::Request& request, WriteParameter::Response& response) {
   cycle::Request access;
-  access.kind = RequestKind::kWriteParameter;
   const profile::ParameterInfo* info = nullptr;
   response.message = addressParameter(drive, request, access, info);
   if (!response.message.empty()) return;
-  access.parameter.action =
-      request.persistent ? profile::ParameterAction::kWritePersistent : profile::ParameterAction::kWriteRam;
-  const auto raw = info != nullptr ? profile::toRaw(*info, request.value) : rawValue(request.value);
-  if (info == nullptr && !config_.allow_raw_parameters) {
-    response.message =
-        "P" + std::to_string(request.number) +
-        " is not in the catalogue: its unit is not known, and raw values need allow_raw_parameters: true";
-    return;
-  }
-  if (!raw) {
-    response.message = "the value " + shortNumber(request.value) + " cannot be written to P" +
-                       std::to_string(request.number) + ", expected " + rangeOf(info);
-    return;
-  }
-  access.parameter.raw = *raw;
+  response.message =
+      cycle::addValue({request.value, request.persistent != 0, config_.allow_raw_parameters}, info, access);
+  if (!response.message.empty()) return;
   const cycle::Completion answer = broker_.call(access);
   response.success = answer.success;
   response.message = answer.message.str();
   response.raw = answer.raw;
-  response.value = valueOf(info, answer.raw);
+  response.value = cycle::valueOf(info, answer.raw);
 }
 
 }  // namespace nord_driver::node

@@ -18,7 +18,8 @@
 
 namespace nord_driver::test {
 
-/// Two wheels of 0.1 m, 0.5 m apart; P105 = 50 Hz, 20:1, two pole pairs: 100 % is 7.854 rad/s or 0.785 m/s.
+/// Two wheels of 0.1 m, 0.5 m apart, or as many a side as asked for (drives 0, 2 ... left, 1, 3 ... right); P105 = 50
+/// Hz, 20:1, two pole pairs: 100 % is 7.854 rad/s or 0.785 m/s.
 class SimulatedRobot {
  public:
   struct Options {
@@ -31,6 +32,7 @@ class SimulatedRobot {
     int ppo_type = 1;  ///< as set at the inverters
     /// Four wheels, two on each side, all behind one module SK CU4 at address 3 with its I/O byte in slot 1.
     bool one_module = false;
+    int wheels_a_side = 1;  ///< 1 or 2, each with a module of its own
   };
 
   SimulatedRobot() : SimulatedRobot(Options{}) {}
@@ -110,9 +112,10 @@ class SimulatedRobot {
   /// From power-on to two drives that could be enabled.
   bool bringUp() {
     return runUntil([this] {
-      bool complete = true;
-      for (const auto& drive : snapshot().drives) complete = complete && drive.device.complete;
-      return complete;
+      for (const cycle::DriveSnapshot& drive : snapshot().drives) {
+        if (!drive.device.complete) return false;
+      }
+      return true;
     });
   }
   bool bringUpAndEnable() { return bringUp() && ask(cycle::RequestKind::kEnable).success; }
@@ -123,10 +126,12 @@ class SimulatedRobot {
   std::int16_t setpoint(DriveIndex drive) { return snapshot().drives[drive].output.setpoints[0]; }
   Word statusWord(DriveIndex drive) { return snapshot().drives[drive].input.status_word; }
   bool standsStill() {
-    bool still = true;
-    for (std::size_t i = 0; i < snapshot().drives.size(); ++i) still = still && std::abs(unit(i).shaftSpeed()) < 0.1;
-    return still;
+    for (std::size_t i = 0; i < config_.drives.size(); ++i) {
+      if (std::abs(unit(i).shaftSpeed()) >= 0.1) return false;
+    }
+    return true;
   }
+  std::size_t driveCount() const { return config_.drives.size(); }
 
   sim::SimulatedSegment& segment() { return *segment_; }
   sim::DriveUnit& unit(std::size_t drive) { return segment_->drive(drive); }
@@ -135,7 +140,7 @@ class SimulatedRobot {
   Transport& transport() { return *transport_; }
   const cycle::CycleConfig& config() const { return config_; }
 
-  /// left, right and, behind one module, rear_left, rear_right.
+  /// left, right and, with two wheels a side, rear_left, rear_right.
   static std::vector<DriveSettings> driveSettings(const Options& options) {
     std::vector<DriveSettings> drives;
     for (const std::string& name : names(options)) {
@@ -153,7 +158,7 @@ class SimulatedRobot {
 
  private:
   static std::vector<std::string> names(const Options& options) {
-    if (options.one_module) return {"left", "right", "rear_left", "rear_right"};
+    if (options.one_module || options.wheels_a_side == 2) return {"left", "right", "rear_left", "rear_right"};
     return {"left", "right"};
   }
   static bool isRight(const std::string& name) { return name.find("right") != std::string::npos; }

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "system/simulated_robot.h"
 
 namespace nord_driver::test {
@@ -14,19 +16,25 @@ using ::testing::HasSubstr;
 constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
 constexpr DriveIndex kLeft = 0, kRight = 1;
 
-/// With `true` four drives behind one module SK CU4: a drive is a drive wherever it is connected.
-class CauseAtADrive : public ::testing::TestWithParam<bool> {
+enum class Base { kTwoDrives, kFourDrives, kFourBehindOneModule };
+
+/// A drive is a drive wherever it is connected. The cause is at the first right one.
+class CauseAtADrive : public ::testing::TestWithParam<Base> {
  protected:
   CauseAtADrive() : robot_(options()) {}
   static SimulatedRobot::Options options() {
     SimulatedRobot::Options options;
-    options.one_module = GetParam();
+    options.one_module = GetParam() == Base::kFourBehindOneModule;
+    options.wheels_a_side = GetParam() == Base::kTwoDrives ? 1 : 2;
     return options;
   }
   void SetUp() override {
     ASSERT_TRUE(robot_.bringUpAndEnable());
     robot_.drive(kHalfSpeed, 0.0, std::chrono::seconds{3});
-    ASSERT_EQ(0x2000, robot_.setpoint(kLeft));
+    for (DriveIndex i = 0; i < robot_.driveCount(); ++i) {
+      ASSERT_EQ(i % 2 == 0 ? 0x2000 : -0x2000, robot_.setpoint(i));
+      if (i != kRight) others_.push_back(i);
+    }
   }
   void TearDown() override { EXPECT_EQ("no rule broken", robot_.segment().referee().report()); }
 
@@ -45,21 +53,26 @@ class CauseAtADrive : public ::testing::TestWithParam<bool> {
     step();
     step();
     EXPECT_EQ(0x047E, robot_.controlWord(kRight)) << "the idle word";
-    EXPECT_EQ(0x047F, robot_.controlWord(kLeft)) << "torque stays until the other has come to rest";
-    EXPECT_EQ(0, robot_.setpoint(kLeft));
+    for (const DriveIndex other : others_) {
+      EXPECT_EQ(0x047F, robot_.controlWord(other)) << "torque stays until it has come to rest, drive " << other;
+      EXPECT_EQ(0, robot_.setpoint(other)) << other;
+    }
   }
   /// The other one comes down its own ramp, then OFF1; a standing command moves nothing any more.
   void expectRestForGood(bool by_ramp = true) {
     bool off1_while_fast = false;
     for (int i = 0; i < 500; ++i) {
       step();
-      ASSERT_EQ(0, robot_.setpoint(kLeft));
-      ASSERT_EQ(0, robot_.setpoint(kRight));
-      off1_while_fast |= robot_.controlWord(kLeft) == 0x047E && std::abs(robot_.unit(kLeft).shaftSpeed()) > 5.0;
+      for (DriveIndex drive = 0; drive < robot_.driveCount(); ++drive) ASSERT_EQ(0, robot_.setpoint(drive)) << drive;
+      for (const DriveIndex other : others_) {
+        off1_while_fast |= robot_.controlWord(other) == 0x047E && std::abs(robot_.unit(other).shaftSpeed()) > 5.0;
+      }
     }
     EXPECT_EQ(!by_ramp, off1_while_fast);
-    EXPECT_EQ(0x047E, robot_.controlWord(kLeft));
-    EXPECT_EQ(0x0B31, robot_.statusWord(kLeft));
+    for (const DriveIndex other : others_) {
+      EXPECT_EQ(0x047E, robot_.controlWord(other)) << other;
+      EXPECT_EQ(0x0B31, robot_.statusWord(other)) << other;
+    }
     EXPECT_FALSE(robot_.snapshot().base.enabled);
     EXPECT_TRUE(robot_.snapshot().base.stopped);
   }
@@ -70,10 +83,15 @@ class CauseAtADrive : public ::testing::TestWithParam<bool> {
   }
 
   SimulatedRobot robot_;
+  std::vector<DriveIndex> others_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Modules, CauseAtADrive, ::testing::Bool(),
-                         [](const auto& test) { return test.param ? "FourInvertersOnOne" : "OneEach"; });
+INSTANTIATE_TEST_SUITE_P(On, CauseAtADrive,
+                         ::testing::Values(Base::kTwoDrives, Base::kFourDrives, Base::kFourBehindOneModule),
+                         [](const auto& test) {
+                           const char* const names[] = {"TwoDrives", "FourDrives", "FourBehindOneModule"};
+                           return names[static_cast<int>(test.param)];
+                         });
 
 TEST_P(CauseAtADrive, AFaultStopsTheBase) {
   robot_.unit(kRight).inverter().trip(30, true);
@@ -110,7 +128,24 @@ TEST_P(CauseAtADrive, LocalControlStopsTheBase) {
   EXPECT_STREQ("enabled", enableAtRest().message.c_str());
 }
 
-// OFF2 at the terminals: "operation enabled" is left without being asked.
+// OFF2 and OFF3 at the terminals, seen in status bits 4 and 5 (BU 2700 6.4.2).
+TEST_P(CauseAtADrive, Off2AndOff3AtTheTerminalsStopTheBase) {
+  for (const bool off2 : {true, false}) {
+    sim::Terminals terminals;
+    terminals.coast = off2;
+    terminals.quick_stop = !off2;
+    robot_.unit(kRight).inverter().setTerminals(terminals);
+    expectReaction(2);
+    EXPECT_THAT(stopText(), HasSubstr(off2 ? "OFF2 at the inverter's terminals" : "OFF3 at the inverter's terminals"));
+    expectRestForGood();
+    EXPECT_THAT(stopText(), HasSubstr("P700[-03]")) << "the inverter's own reason, once it is read";
+    robot_.unit(kRight).inverter().setTerminals({});
+    ASSERT_STREQ("enabled", enableAtRest().message.c_str());
+    robot_.drive(kHalfSpeed, 0.0, std::chrono::seconds{3});
+  }
+}
+
+// A dip of the mains: "operation enabled" is left without being asked.
 TEST_P(CauseAtADrive, AnUnaskedExitStopsTheBase) {
   robot_.unit(kRight).inverter().setPowered(false);
   robot_.unit(kRight).inverter().setPowered(true);  // a dip of the mains: "not ready to switch on" with the set kept
@@ -163,7 +198,9 @@ TEST_P(CauseAtADrive, ADriveThatIsBackDoesNotMoveBeforeItIsEnabled) {
   while (!robot_.snapshot().drives[kRight].online && robot_.transport().now() - back < std::chrono::seconds{5}) step();
   EXPECT_LT(toSeconds(robot_.transport().now() - back), 2.0);
   ASSERT_TRUE(robot_.snapshot().drives[kRight].online);
-  expectRestForGood(!GetParam());  // a module is lost with all its drives: nobody is left to come down by a ramp
+  expectRestForGood(
+      GetParam() !=
+      Base::kFourBehindOneModule);  // a module is lost with all its drives: nobody is left to come down by a ramp
   EXPECT_TRUE(robot_.runUntil([this] { return robot_.standsStill(); }));
   ASSERT_STREQ("enabled", enableAtRest().message.c_str());
   robot_.drive(kHalfSpeed, 0.0, std::chrono::seconds{3});
@@ -194,10 +231,11 @@ TEST_P(CauseAtADrive, TheBusLostAndBackLeavesTheBaseDisabled) {
   EXPECT_EQ(1u, robot_.unit(kRight).slave().counters().watchdog_trips);
   robot_.segment().setDevicePresent(true);
   const Instant back = robot_.transport().now();
-  while (!(robot_.snapshot().drives[kLeft].online && robot_.snapshot().drives[kRight].online) &&
-         robot_.transport().now() - back < std::chrono::seconds{5}) {
-    step();
-  }
+  const auto all_online = [this] {
+    const auto& drives = robot_.snapshot().drives;
+    return std::all_of(drives.begin(), drives.end(), [](const auto& drive) { return drive.online; });
+  };
+  while (!all_online() && robot_.transport().now() - back < std::chrono::seconds{5}) step();
   EXPECT_LT(toSeconds(robot_.transport().now() - back), 2.0);
   expectRestForGood(false);
   EXPECT_TRUE(robot_.runUntil([this] { return robot_.standsStill(); }));

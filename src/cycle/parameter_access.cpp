@@ -1,0 +1,75 @@
+#include "nord_driver/cycle/parameter_access.h"
+
+#include <cmath>
+#include <optional>
+
+#include "nord_driver/transport/setting_checks.h"
+
+namespace nord_driver::cycle {
+
+namespace {
+
+// Nobody has said how an unknown parameter is indexed: as it was asked for.
+profile::ParameterShape shapeOfUnknown(std::uint8_t set, std::uint8_t index) {
+  if (set != 0) return index != 0 ? profile::ParameterShape::kArrayPerSet : profile::ParameterShape::kPerSet;
+  return index != 0 ? profile::ParameterShape::kArray : profile::ParameterShape::kPlain;
+}
+
+std::optional<std::int32_t> rawValue(double value) {
+  const double rounded = std::round(value);
+  if (!(std::abs(rounded) <= INT32_MAX)) return std::nullopt;
+  return static_cast<std::int32_t>(rounded);
+}
+
+std::string rangeOf(const profile::ParameterInfo* info) {
+  if (info == nullptr) return "a whole number of 32 bits";
+  return shortNumber(profile::toValue(*info, info->minimum)) + " to " +
+         shortNumber(profile::toValue(*info, info->maximum)) + (info->unit[0] != '\0' ? " " : "") + info->unit;
+}
+
+}  // namespace
+
+std::string addressParameter(const ParameterAddress& address, profile::Series series, Request& request,
+                             const profile::ParameterInfo*& info) {
+  if (address.number > 999) {
+    return "parameter " + std::to_string(address.number) + " does not exist, expected 0 to 999";
+  }
+  if (address.parameter_set > 4) {
+    return "parameter set " + std::to_string(address.parameter_set) + " does not exist, expected 0 to 4";
+  }
+  info = profile::findParameter(address.number, series);
+  const std::uint8_t index = address.index == 0 ? 1 : address.index;
+  if (info != nullptr) {
+    request.parameter = profile::readRequest(*info, address.parameter_set, index);
+  } else {
+    request.parameter.number = address.number;
+    request.parameter.shape = shapeOfUnknown(address.parameter_set, address.index);
+    request.parameter.parameter_set = address.parameter_set == 0 ? 1 : address.parameter_set;
+    request.parameter.index = index;
+  }
+  request.kind = RequestKind::kReadParameter;
+  request.active_set = address.parameter_set == 0;
+  return "";
+}
+
+std::string addValue(const ParameterWish& wish, const profile::ParameterInfo* info, Request& request) {
+  const std::string name = "P" + std::to_string(request.parameter.number);
+  if (info == nullptr && !wish.allow_raw) {
+    return name + " is not in the catalogue: its unit is not known, and raw values need allow_raw_parameters: true";
+  }
+  const auto raw = info != nullptr ? profile::toRaw(*info, wish.value) : rawValue(wish.value);
+  if (!raw) {
+    return "the value " + shortNumber(wish.value) + " cannot be written to " + name + ", expected " + rangeOf(info);
+  }
+  request.kind = RequestKind::kWriteParameter;
+  request.parameter.action =
+      wish.persistent ? profile::ParameterAction::kWritePersistent : profile::ParameterAction::kWriteRam;
+  request.parameter.raw = *raw;
+  return "";
+}
+
+double valueOf(const profile::ParameterInfo* info, std::int32_t raw) {
+  return info != nullptr ? profile::toValue(*info, raw) : raw;
+}
+
+}  // namespace nord_driver::cycle
