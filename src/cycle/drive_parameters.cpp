@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "nord_driver/cycle/parameter_access.h"
 #include "nord_driver/cycle/sentences.h"
 
 namespace nord_driver::cycle {
@@ -16,23 +17,6 @@ constexpr Duration kReasonInterval = std::chrono::milliseconds{500};
 
 void forgetScale(drive::Drive& drive) noexcept {
   for (std::uint8_t set = 1; set <= 4; ++set) drive.setMaxFrequency(set, Hertz{});
-}
-
-drive::ParameterTask taskOf(const Request& request, std::uint8_t set_in_force) noexcept {
-  const profile::ParameterRequest& from = request.parameter;
-  drive::ParameterTask task;
-  task.id = request.id;
-  if (request.kind == RequestKind::kWriteParameter) {
-    task.kind = from.action == profile::ParameterAction::kWritePersistent ? drive::ParameterTaskKind::kWritePersistent
-                                                                          : drive::ParameterTaskKind::kWriteRam;
-  }
-  task.number = from.number;
-  task.shape = from.shape;
-  task.set = request.active_set && set_in_force != 0 ? set_in_force : from.parameter_set;
-  task.index = from.index;
-  task.double_word = from.double_word;
-  task.raw = from.raw;
-  return task;
 }
 
 }  // namespace

@@ -68,6 +68,23 @@ std::string addValue(const ParameterWish& wish, const profile::ParameterInfo* in
   return "";
 }
 
+drive::ParameterTask taskOf(const Request& request, std::uint8_t set_in_force) noexcept {
+  const profile::ParameterRequest& from = request.parameter;
+  drive::ParameterTask task;
+  task.id = request.id;
+  if (request.kind == RequestKind::kWriteParameter) {
+    task.kind = from.action == profile::ParameterAction::kWritePersistent ? drive::ParameterTaskKind::kWritePersistent
+                                                                          : drive::ParameterTaskKind::kWriteRam;
+  }
+  task.number = from.number;
+  task.shape = from.shape;
+  task.set = request.active_set && set_in_force != 0 ? set_in_force : from.parameter_set;
+  task.index = from.index;
+  task.double_word = from.double_word;
+  task.raw = from.raw;
+  return task;
+}
+
 double valueOf(const profile::ParameterInfo* info, std::int32_t raw) {
   return info != nullptr ? profile::toValue(*info, raw) : raw;
 }

@@ -1,101 +1,158 @@
 // nord_param: parameters of the inverters on the command line, over the bus itself, without a roscore.
+#include <signal.h>
+
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
-#include <memory>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "nord_driver/core/version.h"
-#include "nord_driver/tools/parameter_tool.h"
-#include "nord_driver/transport/profibus_dp.h"
+#include "nord_driver/tools/param_commands.h"
+#include "nord_driver/tools/parameter_dump.h"
+#include "nord_driver/tools/parameter_name.h"
+#include "nord_driver/tools/transport_loader.h"
+#include "nord_driver/tools/yaml_settings.h"
 
 namespace {
 
-using namespace nord_driver;
-using tools::ParameterAnswer;
-using tools::ParameterTool;
+using namespace nord_driver::tools;
+
+constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2;
+
+constexpr char kAbout[] =
+    "Reads and writes parameters of NORD inverters over the bus, without ROS: with the driver's configuration file, "
+    "but "
+    "not beside the driver. It is the master of the bus while it runs.";
+
+constexpr char kFooter[] =
+    "It moves nothing and stops nothing: a drive that is not at rest is left alone, and the command refused. A drive "
+    "at "
+    "rest gets the idle word 047E; the other drives of the bus get nothing. No PROFIBUS watchdog runs meanwhile, so "
+    "that "
+    "the end of the program trips nothing; a drive with P513 > 0 trips all the same, and is named.\n"
+    "End the driver first. A serial device in use is refused; on any bus it listens before it sends anything.\n"
+    "A dump cannot be written back: the bus settings in it (P507 to P515, P543 to P548, P105) are the branch this "
+    "program sits on, and what fits one drive may move another.\n"
+    "Exit code: 0 done, 1 refused, failed or different, 2 wrong usage.";
+
+std::atomic<bool> end_asked{false};
+
+void askToEnd(int) {
+  end_asked = true;
+}
+
+// A write that is under way is not cut off: P560 may have to be put back.
+void catchSignals() {
+  struct sigaction action {};
+  action.sa_handler = askToEnd;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+}
 
 struct Options {
   std::vector<std::string> files;
   std::string device;
-  double timeout = 10.0;  // s
+  double timeout = 5.0;  // s
   std::string drive;
-  cycle::ParameterAddress address;
-  cycle::ParameterWish wish;
+  std::string parameter;
+  int set = 0;
+  int index = 0;
+  WriteWish write;
+  std::string dump;
 };
 
-std::unique_ptr<Transport> makeTransport(const std::string& name) {
-  if (name == "nord_driver/profibus_dp" || name == "profibus_dp") return std::make_unique<ProfibusDpTransport>();
-  throw ConfigError("transport: \"" + name + "\" is not valid, expected profibus_dp");
+void list(const YAML::Node& file) {
+  const ToolConfig config = readToolConfig(file);
+  TransportLoader loader;
+  const auto transport = loader.load(config.transport);
+  transport->configure(*config.bus, config.drives, config.cycle.cycle_rate);
+  printList(config, *transport);
 }
 
-bool printed(const cycle::ParameterAddress& address, const ParameterAnswer& answer) {
-  std::fprintf(answer.success ? stdout : stderr, "%s\n", tools::answerText(address, answer).c_str());
-  return answer.success;
-}
+using Command = std::function<bool(ParameterLink&)>;
 
-/// Every element of every parameter the catalogue knows of this series; of parameter sets the one asked for.
-bool list(ParameterTool& tool, DriveIndex drive, std::uint8_t set) {
-  for (std::uint16_t number = 0; number < 1000; ++number) {
-    const profile::ParameterInfo* info = profile::findParameter(number, tool.series(drive));
-    if (info == nullptr) continue;
-    const bool array =
-        info->shape == profile::ParameterShape::kArray || info->shape == profile::ParameterShape::kArrayPerSet;
-    for (std::uint8_t index = 1; index <= (array ? info->elements : 1); ++index) {
-      const cycle::ParameterAddress address{number, set, static_cast<std::uint8_t>(array ? index : 0)};
-      const ParameterAnswer answer = tool.read(drive, address);
-      std::printf("%s\n", tools::answerText(address, answer).c_str());
-      std::fflush(stdout);
-      if (!answer.success && !tool.waitForDrive(drive, Duration::zero())) return false;
-    }
+int carryOut(const ToolConfig& config, double timeout, const Command& command) {
+  TransportLoader loader;
+  const auto transport = loader.load(config.transport);
+  ParameterLink link{config, *transport};
+  link.connect(nord_driver::seconds(timeout), end_asked);
+  bool done = false;
+  std::exception_ptr stopped;
+  try {
+    done = command(link);
+  } catch (const std::exception&) {
+    stopped = std::current_exception();
   }
-  return true;
+  for (const std::string& sentence : link.finish()) std::fprintf(stderr, "nord_param: %s\n", sentence.c_str());
+  if (stopped) std::rethrow_exception(stopped);
+  return done ? kDone : kFailed;
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{
-      "Reads and writes parameters of NORD inverters over the bus, without ROS. It is the only master: end the "
-      "driver first. The drives get the word OFF1 and are not moved."};
-  app.set_version_flag("--version", std::string("nord_param ") + kVersion);
+  CLI::App app{kAbout};
+  app.footer(kFooter);
+  app.set_version_flag("--version", std::string("nord_param ") + nord_driver::kVersion);
   app.require_subcommand(1);
+  app.fallthrough();
   Options options;
-  app.add_option("--config", options.files, "the driver's configuration; a later file is laid over an earlier one")
+  app.add_option("--config", options.files, "the driver's YAML file; a later file is laid over an earlier one")
       ->required()
       ->allow_extra_args(false);
-  app.add_option("--device", options.device, "bus device, in place of bus/device");
-  app.add_option("--timeout", options.timeout, "how long to wait for the drive, in s");
+  app.add_option("--device", options.device, "bus device, in place of the file's bus/device");
+  app.add_option("--timeout", options.timeout, "s to wait for the drive to answer (5)")->check(CLI::PositiveNumber);
 
-  CLI::App* read = app.add_subcommand("read", "reads one parameter");
-  CLI::App* write = app.add_subcommand("write", "writes one parameter and reads it back");
-  CLI::App* all = app.add_subcommand("list", "reads every parameter that is known of this series");
-  for (CLI::App* command : {read, write, all}) {
-    command->add_option("drive", options.drive, "name of the drive in the configuration")->required();
-    command->add_option("--set", options.address.parameter_set, "parameter set 1 to 4; 0: the one in force");
-    if (command == all) continue;
-    command->add_option("number", options.address.number, "the manual's number: 105 for P105")->required();
-    command->add_option("--index", options.address.index, "array index, [-01] = 1; 0: no array");
+  CLI::App* const list_command = app.add_subcommand("list", "the drives of the file, and every known parameter");
+  CLI::App* const read = app.add_subcommand("read", "read one parameter");
+  CLI::App* const write = app.add_subcommand("write", "write one parameter, in RAM unless told otherwise");
+  CLI::App* const dump = app.add_subcommand("dump", "print every known parameter as YAML");
+  CLI::App* const compare = app.add_subcommand("compare", "tell how the settings of a drive differ from a dump");
+  for (CLI::App* command : {read, write, dump, compare}) {
+    command->add_option("DRIVE", options.drive, "its name in the file")->required();
   }
-  write->add_option("value", options.wish.value, "in the parameter's unit")->required();
-  write->add_flag("--persistent", options.wish.persistent, "to the EEPROM, which endures 100 000 writes; else RAM");
-  write->add_flag("--raw", options.wish.allow_raw, "write a raw value where the unit is not known");
-  CLI11_PARSE(app, argc, argv);
+  for (CLI::App* command : {read, write}) {
+    command->add_option("PARAMETER", options.parameter, "the manual's number: 105, P105 or P700[-01]")->required();
+    command->add_option("--set", options.set, "parameter set 1 to 4; without it the set in force")
+        ->check(CLI::Range(1, 4));
+    command->add_option("--index", options.index, "array element, [-01] = 1")->check(CLI::Range(1, 99));
+  }
+  write->add_option("VALUE", options.write.value, "in the unit that list shows")->required();
+  write->add_flag("--persistent", options.write.persistent, "save it in the EEPROM, which endures 100 000 writes");
+  write->add_flag("--raw", options.write.raw, "VALUE is as transferred; needed where the unit is not known");
+  compare->add_option("FILE", options.dump, "what dump has printed")->required();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kWrongUsage;
+  }
 
-  YAML::Node config = tools::readYamlFiles(options.files);
-  if (!options.device.empty()) config["bus"]["device"] = options.device;
-  const tools::YamlSettings settings{"", config};
-  ParameterTool tool{settings, makeTransport(settings.text("transport").value_or("nord_driver/profibus_dp"))};
-  const DriveIndex drive = tool.driveNamed(options.drive);
-  if (!tool.waitForDrive(drive, seconds(options.timeout))) {
-    std::fprintf(stderr, "nord_param: %s\n", tool.trouble(drive).c_str());
-    return EXIT_FAILURE;
+  catchSignals();
+  YAML::Node file = readYamlFiles(options.files);
+  if (!options.device.empty()) file["bus"]["device"] = options.device;
+  if (list_command->parsed()) {
+    list(file);
+    return kDone;
   }
-  bool good = false;
-  if (read->parsed()) good = printed(options.address, tool.read(drive, options.address));
-  if (write->parsed()) good = printed(options.address, tool.write(drive, options.address, options.wish));
-  if (all->parsed()) good = list(tool, drive, options.address.parameter_set);
-  return good ? EXIT_SUCCESS : EXIT_FAILURE;
+  const ToolConfig config = readToolConfig(file, options.drive);
+  Command command = [](ParameterLink& link) { return dumpParameters(link, end_asked); };
+  if (compare->parsed()) {
+    command = [reference = readDump(options.dump)](ParameterLink& link) {
+      return compareParameters(link, reference, end_asked);
+    };
+  }
+  // What is wrong already here reaches no bus.
+  if (read->parsed()) {
+    const auto address = addressOf(options.parameter, options.set, options.index);
+    command = [address](ParameterLink& link) { return readParameter(link, address); };
+  }
+  if (write->parsed()) {
+    const auto address = addressOf(options.parameter, options.set, options.index);
+    const auto wish = checkedWish(options.write, address, config.cycle.drives.front().series);
+    command = [address, wish](ParameterLink& link) { return writeParameter(link, address, wish); };
+  }
+  return carryOut(config, options.timeout, command);
 }
 
 }  // namespace
@@ -103,8 +160,14 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
+  } catch (const UsageError& error) {
+    std::fprintf(stderr, "nord_param: %s\n", error.what());
+    return kWrongUsage;
+  } catch (const nord_driver::ConfigError& error) {
+    std::fprintf(stderr, "nord_param: %s\n", error.what());
+    return kWrongUsage;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "nord_param: %s\n", error.what());
-    return EXIT_FAILURE;
+    return kFailed;
   }
 }

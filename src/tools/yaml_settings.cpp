@@ -1,12 +1,43 @@
 #include "nord_driver/tools/yaml_settings.h"
 
 #include <algorithm>
+#include <cmath>
+#include <regex>
 #include <sstream>
 #include <utility>
 
 namespace nord_driver::tools {
 
 namespace {
+
+enum class Kind { kText, kInteger, kFraction, kBoolean, kList, kGroup };
+
+// YAML 1.1, as rosparam reads it.
+Kind kindOf(const YAML::Node& value) {
+  static const std::regex kIntegers("[-+]?([0-9]+|0x[0-9a-fA-F]+)");
+  static const std::regex kFractions(R"([-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?)");
+  static const std::regex kBooleans("true|True|TRUE|false|False|FALSE|yes|Yes|YES|no|No|NO|on|On|ON|off|Off|OFF");
+  if (value.IsSequence()) return Kind::kList;
+  if (value.IsMap()) return Kind::kGroup;
+  const std::string& text = value.Scalar();
+  if (value.Tag() == "!") return Kind::kText;  // quoted
+  if (std::regex_match(text, kIntegers)) return Kind::kInteger;
+  if (std::regex_match(text, kFractions)) return Kind::kFraction;
+  return std::regex_match(text, kBooleans) ? Kind::kBoolean : Kind::kText;
+}
+
+std::string printed(const YAML::Node& value) {
+  switch (kindOf(value)) {
+    case Kind::kGroup:
+      return "a group";
+    case Kind::kList:
+      return "a list";
+    case Kind::kText:
+      return "\"" + value.Scalar() + "\"";
+    default:
+      return value.Scalar();
+  }
+}
 
 void layOver(YAML::Node lower, const YAML::Node& upper) {
   for (const auto& member : upper) {
@@ -38,7 +69,7 @@ YAML::Node readYamlFiles(const std::vector<std::string>& files) {
 YamlSettings::YamlSettings(std::string prefix, const YAML::Node& node)
     : prefix_(std::move(prefix)), node_(YAML::Clone(node)) {
   if (node_.IsDefined() && !node_.IsNull() && !node_.IsMap()) {
-    throw ConfigError(prefix_ + ": expected a group of keys and values");
+    throw ConfigError(prefix_ + ": " + printed(node_) + " is not valid, expected a group of keys and values");
   }
 }
 
@@ -49,49 +80,69 @@ YAML::Node YamlSettings::find(const std::string& key) const {
     if (!at.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
     const YAML::Node& here = at;
     const YAML::Node next = here[part];  // of a const node: a missing key is not added
-    if (!next.IsDefined()) return YAML::Node(YAML::NodeType::Undefined);
+    if (!next.IsDefined() || next.IsNull()) return YAML::Node(YAML::NodeType::Undefined);
     at.reset(next);
   }
   return at;
 }
 
-template <typename T>
-std::optional<T> YamlSettings::scalar(const std::string& key, const std::string& expected) const {
-  const YAML::Node node = find(key);
-  if (!node.IsDefined() || node.IsNull()) return std::nullopt;
-  try {
-    return node.as<T>();
-  } catch (const YAML::Exception&) {
-    throw ConfigError(fullName(key) + ": " + (node.IsScalar() ? node.Scalar() : "a list or group") +
-                      " is not valid, expected " + expected);
-  }
+ConfigError YamlSettings::wrongKind(const std::string& key, const YAML::Node& value,
+                                    const std::string& expected) const {
+  return ConfigError(fullName(key) + ": " + printed(value) + " is not valid, expected " + expected);
 }
 
 bool YamlSettings::has(const std::string& key) const {
-  const YAML::Node node = find(key);
-  return node.IsDefined() && !node.IsNull();
+  return find(key).IsDefined();
 }
 
 std::optional<double> YamlSettings::number(const std::string& key) const {
-  return scalar<double>(key, "a number");
+  const YAML::Node value = find(key);
+  if (!value.IsDefined()) return std::nullopt;
+  const Kind kind = kindOf(value);
+  if (kind != Kind::kInteger && kind != Kind::kFraction) throw wrongKind(key, value, "a number");
+  if (kind == Kind::kInteger) return static_cast<double>(integer(key).value_or(0));
+  return value.as<double>();
 }
 
 std::optional<std::int64_t> YamlSettings::integer(const std::string& key) const {
-  return scalar<std::int64_t>(key, "a whole number");
+  const YAML::Node value = find(key);
+  if (!value.IsDefined()) return std::nullopt;
+  const Kind kind = kindOf(value);
+  std::int64_t whole = 0;
+  if (kind == Kind::kInteger && YAML::convert<std::int64_t>::decode(value, whole)) return whole;
+  if (kind == Kind::kFraction) {
+    constexpr double kLargest = 9007199254740992.0;  // 2^53: beyond it not every whole number is a double
+    const auto fraction = value.as<double>();
+    if (std::abs(fraction) <= kLargest && std::trunc(fraction) == fraction) return static_cast<std::int64_t>(fraction);
+  }
+  throw wrongKind(key, value, "a whole number");
 }
 
 std::optional<bool> YamlSettings::boolean(const std::string& key) const {
-  return scalar<bool>(key, "true or false");
+  const YAML::Node value = find(key);
+  if (!value.IsDefined()) return std::nullopt;
+  if (kindOf(value) != Kind::kBoolean) throw wrongKind(key, value, "true or false");
+  return value.as<bool>();
 }
 
 std::optional<std::string> YamlSettings::text(const std::string& key) const {
-  return scalar<std::string>(key, "a text");
+  const YAML::Node value = find(key);
+  if (!value.IsDefined()) return std::nullopt;
+  if (kindOf(value) != Kind::kText) throw wrongKind(key, value, "a text");
+  return value.Scalar();
 }
 
 std::optional<std::vector<std::string>> YamlSettings::texts(const std::string& key) const {
-  const YAML::Node node = find(key);
-  if (node.IsDefined() && node.IsScalar()) return std::vector<std::string>{node.Scalar()};
-  return scalar<std::vector<std::string>>(key, "a text or a list of texts");
+  const YAML::Node value = find(key);
+  if (!value.IsDefined()) return std::nullopt;
+  if (kindOf(value) == Kind::kText) return std::vector<std::string>{value.Scalar()};
+  if (!value.IsSequence()) throw wrongKind(key, value, "a text or a list of texts");
+  std::vector<std::string> list;
+  for (const YAML::Node& item : value) {
+    if (kindOf(item) != Kind::kText) throw wrongKind(key, item, "a list of texts");
+    list.push_back(item.Scalar());
+  }
+  return list;
 }
 
 std::string YamlSettings::fullName(const std::string& key) const {
@@ -99,8 +150,8 @@ std::string YamlSettings::fullName(const std::string& key) const {
 }
 
 std::shared_ptr<YamlSettings> YamlSettings::group(const std::string& key) const {
-  const YAML::Node node = find(key);
-  return std::make_shared<YamlSettings>(fullName(key), node.IsDefined() ? node : YAML::Node(YAML::NodeType::Null));
+  const YAML::Node value = find(key);
+  return std::make_shared<YamlSettings>(fullName(key), value.IsDefined() ? value : YAML::Node(YAML::NodeType::Null));
 }
 
 std::vector<std::string> YamlSettings::keys() const {

@@ -21,6 +21,13 @@ Duration answerTimeout(double cycle_rate) {
   return std::max(seconds(1.0), 20 * seconds(1.0 / cycle_rate));
 }
 
+// Without a watchdog the end of the program is no E10.2 in the inverters (BU 2700 8.1.1): they keep the idle word.
+void endWithoutATrip(ProfibusDpConfig& config) {
+  constexpr Duration kListenFirst = std::chrono::milliseconds{500};  // far longer than a cycle of another master
+  for (profibus::SlaveConfig& slave : config.slaves) slave.watchdog = Duration::zero();
+  config.bus.listen_first = std::max(config.bus.listen_first, kListenFirst);
+}
+
 std::unique_ptr<link::ByteLink> openSerialPort(const link::SerialSettings& settings) {
   return std::make_unique<link::SerialPort>(settings);
 }
@@ -33,6 +40,7 @@ ProfibusDpTransport::ProfibusDpTransport(LinkFactory make_link) : make_link_(std
 
 void ProfibusDpTransport::configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) {
   config_ = readProfibusDpConfig(bus, drives, cycle_rate);
+  if (parameters_only_) endWithoutATrip(config_);
   try {
     master_.emplace(config_.bus, config_.slaves);
     if (config_.scan) scan_.emplace(config_.bus);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "nord_driver/cycle/request.h"
+#include "nord_driver/drive/parameter_task.h"
 #include "nord_driver/profile/parameter_catalogue.h"
 #include "nord_driver/profile/series.h"
 
@@ -29,6 +30,9 @@ std::string addressParameter(const ParameterAddress& address, profile::Series se
 
 /// Makes it a request to write. Returns what is wrong with the value; empty when nothing is.
 std::string addValue(const ParameterWish& wish, const profile::ParameterInfo* info, Request& request);
+
+/// The request as the session's task; `set_in_force` 1..4 is the drive's, 0: not known.
+drive::ParameterTask taskOf(const Request& request, std::uint8_t set_in_force) noexcept;
 
 /// The value behind a raw one; the raw one itself where the catalogue knows nothing.
 double valueOf(const profile::ParameterInfo* info, std::int32_t raw);

@@ -11,7 +11,8 @@
 
 namespace nord_driver::tools {
 
-/// Keys may hold slashes ("bus/baud_rate"). Integers are accepted where numbers are expected.
+/// Reads values as rosparam does, so that a file means here what it means to the node: what is quoted is a text, what
+/// looks like a number is none. Keys may hold slashes ("bus/baud_rate").
 class YamlSettings final : public Settings {
  public:
   /// `node` is a map, or null for an absent group. Throws ConfigError when it is anything else.
@@ -31,9 +32,8 @@ class YamlSettings final : public Settings {
   std::vector<std::string> keys() const;
 
  private:
-  YAML::Node find(const std::string& key) const;
-  template <typename T>
-  std::optional<T> scalar(const std::string& key, const std::string& expected) const;
+  YAML::Node find(const std::string& key) const;  // undefined when it is absent or null
+  ConfigError wrongKind(const std::string& key, const YAML::Node& value, const std::string& expected) const;
 
   std::string prefix_;
   YAML::Node node_;

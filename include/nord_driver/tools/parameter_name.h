@@ -1,0 +1,32 @@
+// How people and files name one parameter value: "105", "P105", "P700[-01]", "P546[-02] set 3".
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "nord_driver/cycle/parameter_access.h"
+#include "nord_driver/profile/series.h"
+
+namespace nord_driver::tools {
+
+/// The command line makes no sense: one sentence.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Index and set are 0 where the name has none. Throws UsageError.
+cycle::ParameterAddress parseParameterName(const std::string& name);
+std::string parameterName(const cycle::ParameterAddress& address);
+
+/// A value as the command line gives it. Throws UsageError.
+double parseValue(const std::string& text);
+
+/// Every value of every parameter the catalogue knows of a series, by number, array index and set.
+std::vector<cycle::ParameterAddress> knownParameters(profile::Series series);
+
+/// A value somebody sets, unlike the inverter's information of itself and its state (P700 to P799).
+bool isSetting(const cycle::ParameterAddress& address) noexcept;
+
+}  // namespace nord_driver::tools

@@ -1,0 +1,121 @@
+#include "nord_driver/tools/parameter_dump.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include "nord_driver/profile/parameter_catalogue.h"
+#include "nord_driver/tools/parameter_name.h"
+#include "nord_driver/transport/setting_checks.h"
+
+namespace nord_driver::tools {
+
+namespace {
+
+// None: the inverter has no such parameter, set or element.
+std::optional<std::int32_t> readFrom(ParameterLink& link, const cycle::ParameterAddress& address,
+                                     const std::atomic<bool>& end_asked) {
+  if (end_asked) throw Trouble("ended before all parameters were read");
+  const ParameterAnswer answer = link.read(address);
+  if (answer.success) return answer.raw;
+  if (!answer.refused) throw Trouble(answer.message);
+  return std::nullopt;
+}
+
+std::string line(const Dump::Value& value, profile::Series series) {
+  const profile::ParameterInfo* info = profile::findParameter(value.address.number, series);
+  std::string text = "  \"" + parameterName(value.address) + "\": {raw: " + std::to_string(value.raw);
+  if (info != nullptr) {
+    text += ", value: " + shortNumber(profile::toValue(*info, value.raw)) + ", unit: \"" + info->unit + "\", name: \"" +
+            info->name + "\"";
+  }
+  return text + "}\n";
+}
+
+std::string section(const Dump& dump, const std::string& name, bool settings) {
+  std::string text = name + ":\n";
+  for (const Dump::Value& value : dump.values) {
+    if (isSetting(value.address) == settings) text += line(value, dump.series);
+  }
+  return text;
+}
+
+Dump parse(const YAML::Node& file) {
+  Dump dump;
+  const auto series = profile::seriesFrom(file["series"].as<std::string>());
+  if (!series) throw UsageError("series \"" + file["series"].as<std::string>() + "\" is not known");
+  dump.series = *series;
+  for (const char* part : {"settings", "information"}) {
+    for (const auto& entry : file[part]) {
+      Dump::Value value;
+      value.address = parseParameterName(entry.first.as<std::string>());
+      value.raw = entry.second["raw"].as<std::int32_t>();
+      dump.values.push_back(value);
+    }
+  }
+  return dump;
+}
+
+}  // namespace
+
+std::string valueText(const profile::ParameterInfo* info, std::int32_t raw) {
+  std::string text = shortNumber(cycle::valueOf(info, raw));
+  if (info != nullptr && info->unit[0] != '\0') text += std::string(" ") + info->unit;
+  return text;
+}
+
+Dump takeDump(ParameterLink& link, const std::atomic<bool>& end_asked) {
+  Dump dump;
+  dump.series = link.drive().series;
+  for (const cycle::ParameterAddress& address : knownParameters(dump.series)) {
+    if (const auto raw = readFrom(link, address, end_asked)) {
+      dump.values.push_back({address, *raw});
+    } else {
+      dump.missing.push_back(address);
+    }
+  }
+  return dump;
+}
+
+std::string dumpText(const Dump& dump, const std::string& drive, const std::string& address) {
+  std::string text = "# What nord_param read from drive " + drive + ", " + address + "\n";
+  text += std::string("series: ") + profile::toString(dump.series) + "\n";
+  text += section(dump, "settings", true);
+  text += "# changes by itself, is not compared\n";
+  text += section(dump, "information", false);
+  for (const cycle::ParameterAddress& missing : dump.missing) {
+    text += "# not in this inverter: " + parameterName(missing) + "\n";
+  }
+  return text;
+}
+
+Dump readDump(const std::string& file) {
+  try {
+    return parse(YAML::LoadFile(file));
+  } catch (const YAML::Exception& error) {
+    throw UsageError(file + " is no dump of nord_param: " + error.what());
+  } catch (const UsageError& error) {
+    throw UsageError(file + " is no dump of nord_param: " + error.what());
+  }
+}
+
+Comparison compare(ParameterLink& link, const Dump& dump, const std::atomic<bool>& end_asked) {
+  const profile::Series series = link.drive().series;
+  if (dump.series != series) {
+    throw UsageError(std::string("the dump is of a ") + profile::toString(dump.series) + ", drive " +
+                     link.drive().name + " is a " + profile::toString(series) + ": their parameters differ");
+  }
+  Comparison result;
+  for (const Dump::Value& value : dump.values) {
+    if (!isSetting(value.address)) continue;
+    ++result.compared;
+    const profile::ParameterInfo* info = profile::findParameter(value.address.number, series);
+    const auto raw = readFrom(link, value.address, end_asked);
+    if (raw && *raw == value.raw) continue;
+    std::string text = parameterName(value.address) + (info != nullptr ? std::string(" ") + info->name : "");
+    text += ": " + valueText(info, value.raw) + " in the file, ";
+    text += raw ? valueText(info, *raw) + " in the drive" : "not in this drive";
+    result.differences.push_back(text);
+  }
+  return result;
+}
+
+}  // namespace nord_driver::tools

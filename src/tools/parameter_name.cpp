@@ -1,0 +1,86 @@
+#include "nord_driver/tools/parameter_name.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <regex>
+
+namespace nord_driver::tools {
+
+using cycle::ParameterAddress;
+using profile::ParameterShape;
+
+namespace {
+
+constexpr std::uint16_t kLastNumber = 999;
+constexpr std::uint16_t kFirstInformation = 700, kLastInformation = 799;
+
+// P152 and PNU 970 reset the inverter to its factory settings: no list of values has them, whatever a catalogue grows.
+constexpr bool resets(std::uint16_t number) noexcept {
+  return number == 152 || number == 970;
+}
+
+std::uint8_t small(const std::ssub_match& digits) {
+  return digits.matched ? static_cast<std::uint8_t>(std::atoi(digits.str().c_str())) : std::uint8_t{0};
+}
+
+}  // namespace
+
+ParameterAddress parseParameterName(const std::string& name) {
+  static const std::regex kName(R"([Pp]?([0-9]{1,3})(?:\[-?([0-9]{1,2})\])?(?: set ([1-4]))?)");
+  std::smatch match;
+  if (!std::regex_match(name, match, kName)) {
+    throw UsageError("\"" + name + "\" is no parameter, expected the manual's number: 105, P105 or P700[-01]");
+  }
+  ParameterAddress address;
+  address.number = static_cast<std::uint16_t>(std::atoi(match[1].str().c_str()));
+  address.index = small(match[2]);
+  address.parameter_set = small(match[3]);
+  if (match[2].matched && address.index == 0) {
+    throw UsageError("\"" + name + "\": array elements are counted from [-01]; where a manual prints [0], too");
+  }
+  return address;
+}
+
+std::string parameterName(const ParameterAddress& address) {
+  char text[32];
+  std::snprintf(text, sizeof text, "P%03u", address.number);
+  std::string name = text;
+  if (address.index != 0) {
+    std::snprintf(text, sizeof text, "[-%02u]", address.index);
+    name += text;
+  }
+  if (address.parameter_set != 0) name += " set " + std::to_string(address.parameter_set);
+  return name;
+}
+
+double parseValue(const std::string& text) {
+  static const std::regex kNumber(R"([-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]{1,3})?)");
+  if (!std::regex_match(text, kNumber)) throw UsageError("\"" + text + "\" is no number");
+  return std::strtod(text.c_str(), nullptr);
+}
+
+std::vector<ParameterAddress> knownParameters(profile::Series series) {
+  std::vector<ParameterAddress> all;
+  for (std::uint16_t number = 0; number <= kLastNumber; ++number) {
+    const profile::ParameterInfo* info = profile::findParameter(number, series);
+    if (info == nullptr || resets(number)) continue;
+    const bool array = info->shape == ParameterShape::kArray || info->shape == ParameterShape::kArrayPerSet;
+    const bool sets = info->shape == ParameterShape::kPerSet || info->shape == ParameterShape::kArrayPerSet;
+    for (std::uint8_t element = 1; element <= (array ? info->elements : 1); ++element) {
+      for (std::uint8_t set = 1; set <= (sets ? 4 : 1); ++set) {
+        ParameterAddress address;
+        address.number = number;
+        address.index = array ? element : std::uint8_t{0};
+        address.parameter_set = sets ? set : std::uint8_t{0};
+        all.push_back(address);
+      }
+    }
+  }
+  return all;
+}
+
+bool isSetting(const ParameterAddress& address) noexcept {
+  return address.number < kFirstInformation || address.number > kLastInformation;
+}
+
+}  // namespace nord_driver::tools

@@ -1,0 +1,67 @@
+#include "nord_driver/tools/tool_config.h"
+
+#include <algorithm>
+
+#include "nord_driver/tools/yaml_settings.h"
+
+namespace nord_driver::tools {
+
+namespace {
+
+// A drive that is late is waited for: nothing turns that would have to be stopped.
+constexpr Duration kDriveTimeout = std::chrono::seconds{1};
+
+std::vector<DriveSettings> drivesOf(const YamlSettings& settings) {
+  const auto group = settings.group("drives");
+  std::vector<DriveSettings> drives;
+  for (const std::string& name : group->keys()) drives.push_back({name, group->group(name)});
+  return drives;
+}
+
+// Of the cycle only its rate counts. The base may need a URDF, which there is none of without a roscore.
+YamlSettings rateOf(const YAML::Node& file) {
+  YAML::Node rate{YAML::NodeType::Map};
+  if (file["cycle_rate"]) rate["cycle_rate"] = file["cycle_rate"];
+  return {"", rate};
+}
+
+ToolConfig read(const YAML::Node& file, const YamlSettings& settings, const std::vector<DriveSettings>& drives) {
+  ToolConfig config;
+  config.transport = settings.text("transport").value_or("profibus_dp");
+  if (config.transport.find('/') == std::string::npos) config.transport = "nord_driver/" + config.transport;
+  config.bus = settings.group("bus");
+  config.drives = drives;
+  config.cycle = cycle::readCycleConfig(rateOf(file), drives);
+  for (cycle::DriveSetup& setup : config.cycle.drives) {
+    setup.drive.drive_timeout = std::max(setup.drive.drive_timeout, kDriveTimeout);
+  }
+  return config;
+}
+
+}  // namespace
+
+ToolConfig readToolConfig(const YAML::Node& file) {
+  const YamlSettings settings{"", file};
+  return read(file, settings, drivesOf(settings));
+}
+
+ToolConfig readToolConfig(const YAML::Node& file, const std::string& name) {
+  const YamlSettings settings{"", file};
+  const std::vector<DriveSettings> all = drivesOf(settings);
+  const auto asked =
+      std::find_if(all.begin(), all.end(), [&](const DriveSettings& drive) { return drive.name == name; });
+  if (asked == all.end()) {
+    std::string known;
+    for (const DriveSettings& drive : all) known += (known.empty() ? "" : ", ") + drive.name;
+    throw ConfigError("drive \"" + name + "\" is not in the configuration, expected " +
+                      (known.empty() ? "one that has drives" : "one of " + known));
+  }
+  std::vector<DriveSettings> station{*asked};
+  const auto address = asked->settings->integer("address");
+  for (const DriveSettings& drive : all) {
+    if (drive.name != name && drive.settings->integer("address") == address) station.push_back(drive);
+  }
+  return read(file, settings, station);
+}
+
+}  // namespace nord_driver::tools

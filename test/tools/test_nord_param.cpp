@@ -1,0 +1,167 @@
+// The program as a technician runs it, against simulated drives on a pty. No ROS master is asked for.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <memory>
+
+#include "nord_driver/core/version.h"
+#include "tools/program.h"
+
+namespace nord_driver::test {
+namespace {
+
+using std::chrono::seconds;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+// Driver, simulator and program read the same file. Times are generous: this runs on loaded machines.
+constexpr char kRobot[] = R"(
+cycle_rate: 250.0
+bus: {baud_rate: 500000, watchdog: 0.6, slot_time: 0.05}
+drives:
+  left:  {address: 3, series: sk5xxe, ppo_type: 1, joint: left_wheel_joint,  gear_ratio: 20.0, pole_pairs: 2}
+  right: {address: 4, series: sk5xxe, ppo_type: 1, joint: right_wheel_joint, gear_ratio: 20.0, pole_pairs: 2}
+left_wheel: left_wheel_joint
+right_wheel: right_wheel_joint
+wheel_separation: 0.5
+wheel_radius: 0.1
+)";
+
+class NordParam : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const std::string base = ::testing::TempDir() + "nord_param_" + std::to_string(::getpid());
+    config_ = base + ".yaml";
+    dump_ = base + "_dump.yaml";
+    device_ = base + "_bus";
+    std::ofstream(config_) << kRobot;
+    ::setenv("ROS_MASTER_URI", "http://127.0.0.1:1", 1);  // nobody there
+    simulator_ =
+        std::make_unique<Program>(std::vector<std::string>{NORD_SIM_PROGRAM, "--config", config_, "--device", device_});
+    ASSERT_TRUE(simulator_->saysSomething(seconds{30})) << simulator_->errors();
+  }
+  static void TearDownTestSuite() {
+    simulator_->signal(SIGTERM);
+    EXPECT_EQ(0, simulator_->wait(seconds{30}));
+    EXPECT_THAT(simulator_->output(), HasSubstr("referee: no rule broken"));
+    simulator_.reset();
+    ::unlink(config_.c_str());
+    ::unlink(dump_.c_str());
+  }
+  static Ended run(const std::vector<std::string>& words, const std::string& device = device_) {
+    std::vector<std::string> command{NORD_PARAM_PROGRAM, "--config", config_, "--device", device};
+    command.insert(command.end(), words.begin(), words.end());
+    return runProgram(command);
+  }
+
+  static std::string config_, dump_, device_;
+  static std::unique_ptr<Program> simulator_;
+};
+
+std::string NordParam::config_, NordParam::dump_, NordParam::device_;
+std::unique_ptr<Program> NordParam::simulator_;
+
+TEST_F(NordParam, ListsDrivesAndCatalogueWithoutABus) {
+  const Ended list = run({"list"}, "/dev/is_not_there");
+  EXPECT_EQ(0, list.code) << list.errors;
+  EXPECT_THAT(list.output, HasSubstr("left         PROFIBUS station 3       sk5xxe   parameter channel: PKW\n"));
+  EXPECT_THAT(list.output, HasSubstr("P102  Acceleration time                 0 s to 655.35 s        sets 1 to 4\n"));
+}
+
+// The value, its unit and the set it is of.
+TEST_F(NordParam, ReadsAParameter) {
+  const Ended read = run({"read", "left", "P105"});
+  EXPECT_EQ(0, read.code) << read.errors;
+  EXPECT_EQ("P105 set 1 Maximum frequency = 50 Hz (raw 500)\n", read.output);
+  EXPECT_THAT(read.errors, IsEmpty());
+  EXPECT_EQ("P700[-01] Current fault = 0 (raw 0)\n", run({"read", "left", "P700[-01]"}).output)
+      << "the end of the run before is no fault";
+}
+
+// The EEPROM is spared, the value stays for the next run, and what is there already is not written again.
+TEST_F(NordParam, WritesIntoTheRamAndNotTwice) {
+  const Ended first = run({"write", "right", "102", "2.5", "--set", "2"});
+  EXPECT_EQ(0, first.code) << first.errors;
+  EXPECT_EQ("P102 set 2 Acceleration time = 2.5 s (raw 250), in RAM: lost at power off\n", first.output);
+  const Ended again = run({"write", "right", "102", "250", "--raw", "--set", "2"});
+  EXPECT_EQ(0, again.code) << again.errors;
+  EXPECT_THAT(again.output, HasSubstr("the inverter has this value already: nothing was written"));
+}
+
+TEST_F(NordParam, NamesWhatTheInverterRefuses) {
+  const Ended read = run({"read", "left", "P999"});
+  EXPECT_EQ(1, read.code);
+  EXPECT_EQ("nord_param: drive left refuses P999: error 0, the inverter has no parameter of this number\n",
+            read.errors);
+  const Ended write = run({"write", "left", "P105", "6000"});
+  EXPECT_EQ(1, write.code);
+  EXPECT_THAT(write.errors, StartsWith("nord_param: drive left refuses P105: error 2, "));
+}
+
+TEST_F(NordParam, RefusesAValueBeyondTheCatalogue) {
+  const Ended write = run({"write", "left", "P513", "-0.2"});
+  EXPECT_EQ(1, write.code);
+  EXPECT_EQ("nord_param: the value -0.2 cannot be written to P513, expected -0.1 to 100 s\n", write.errors);
+}
+
+TEST_F(NordParam, SaysWhatIsWrongWithTheCommandLine) {
+  const Ended drive = run({"read", "lift", "P105"});
+  EXPECT_EQ(2, drive.code);
+  EXPECT_EQ("nord_param: drive \"lift\" is not in the configuration, expected one of left, right\n", drive.errors);
+  EXPECT_EQ(2, run({"read", "left"}).code);
+  EXPECT_EQ(2, run({"read", "left", "P105", "--set", "5"}).code);
+  EXPECT_EQ(2, run({}).code);
+  const Ended unknown = run({"write", "left", "P420", "1"});
+  EXPECT_EQ(2, unknown.code);
+  EXPECT_THAT(unknown.errors, HasSubstr("write the raw value with --raw"));
+}
+
+TEST_F(NordParam, NamesADeviceThatIsMissing) {
+  const Ended read = run({"--timeout", "0.2", "read", "left", "P105"}, "/dev/is_not_there");
+  EXPECT_EQ(1, read.code);
+  EXPECT_THAT(read.errors, StartsWith("nord_param: /dev/is_not_there"));
+}
+
+// A driver that runs has the device: nothing of ours gets on the wire.
+TEST_F(NordParam, LeavesADeviceInUseAlone) {
+  const int driver = ::open(device_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+  ASSERT_EQ(0, ::flock(driver, LOCK_EX | LOCK_NB));
+  const Ended read = run({"--timeout", "0.2", "read", "left", "P105"});
+  EXPECT_EQ(1, read.code);
+  EXPECT_THAT(read.errors, HasSubstr("is in use by another process"));
+  ::close(driver);
+}
+
+// Exit code 1, and a line for each setting that differs.
+TEST_F(NordParam, DumpsAndCompares) {
+  const Ended dump = run({"dump", "left"});
+  ASSERT_EQ(0, dump.code) << dump.errors;
+  EXPECT_THAT(dump.output,
+              HasSubstr("  \"P105 set 1\": {raw: 500, value: 50, unit: \"Hz\", name: \"Maximum frequency\"}\n"));
+  EXPECT_THAT(dump.output, Not(HasSubstr("P152")));
+  std::ofstream(dump_) << dump.output;
+  const Ended same = run({"compare", "left", dump_});
+  EXPECT_EQ(0, same.code) << same.output << same.errors;
+  EXPECT_THAT(same.output, StartsWith("0 of "));
+  ASSERT_EQ(0, run({"write", "left", "P103", "150", "--set", "3"}).code);
+  const Ended different = run({"compare", "left", dump_});
+  EXPECT_EQ(1, different.code);
+  EXPECT_THAT(different.output, StartsWith("P103 set 3 Deceleration time: 200 in the file, 150 in the drive\n1 of "));
+}
+
+TEST_F(NordParam, TellsItsVersionAndWhyThereIsNoRestore) {
+  EXPECT_EQ(std::string("nord_param ") + kVersion + "\n", runProgram({NORD_PARAM_PROGRAM, "--version"}).output);
+  const Ended help = runProgram({NORD_PARAM_PROGRAM, "--help"});
+  EXPECT_EQ(0, help.code);
+  EXPECT_THAT(help.output, HasSubstr("A dump cannot be written back"));
+}
+
+}  // namespace
+}  // namespace nord_driver::test

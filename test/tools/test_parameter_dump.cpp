@@ -1,0 +1,114 @@
+// Dumps: what is in them, and what a comparison finds.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "nord_driver/tools/parameter_dump.h"
+#include "nord_driver/tools/parameter_name.h"
+#include "tools/linked_drive.h"
+
+namespace nord_driver::tools {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class InAFile {
+ public:
+  explicit InAFile(const std::string& text) { std::ofstream(path_) << text; }
+  ~InAFile() { std::remove(path_.c_str()); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_ = ::testing::TempDir() + "nord_dump.yaml";
+};
+
+std::string refusal(const std::string& text) {
+  const InAFile file{text};
+  try {
+    readDump(file.path());
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+// What is written is what is read: every value, with its set and element.
+TEST(ParameterDump, IsReadAsItWasWritten) {
+  LinkedDrive drive;
+  drive.connect();
+  const Dump taken = takeDump(drive.link(), drive.notAsked());
+  const std::string text = dumpText(taken, "left", "PROFIBUS station 3");
+  EXPECT_THAT(text,
+              HasSubstr("# What nord_param read from drive left, PROFIBUS station 3\nseries: sk5xxe\nsettings:\n"));
+  EXPECT_THAT(text, HasSubstr("  \"P102 set 4\": {raw: 200, value: 2, unit: \"s\", name: \"Acceleration time\"}\n"));
+  const InAFile file{text};
+  const Dump read = readDump(file.path());
+  ASSERT_EQ(taken.values.size(), read.values.size());
+  for (std::size_t i = 0; i < read.values.size(); ++i) {
+    EXPECT_EQ(parameterName(taken.values[i].address), parameterName(read.values[i].address));
+    EXPECT_EQ(taken.values[i].raw, read.values[i].raw);
+  }
+}
+
+// Not every firmware has every parameter: what is refused is named, the rest goes on.
+TEST(ParameterDump, NamesWhatTheInverterDoesNotHave) {
+  LinkedDrive drive;
+  sim::PkwRefusal refused;
+  refused.error = 0;
+  refused.number = 506;
+  drive.connect();
+  drive.left().pkw().refuse(refused);
+  const Dump taken = takeDump(drive.link(), drive.notAsked());
+  ASSERT_EQ(1u, taken.missing.size());
+  EXPECT_THAT(dumpText(taken, "left", "here"), HasSubstr("# not in this inverter: P506\n"));
+}
+
+TEST(ParameterDump, IsNotTakenOfADriveThatFallsSilent) {
+  LinkedDrive drive;
+  drive.connect();
+  drive.left().pkw().setSilent(true);
+  EXPECT_THROW(takeDump(drive.link(), drive.notAsked()), Trouble);
+  const std::atomic<bool> asked{true};
+  EXPECT_THROW(takeDump(drive.link(), asked), Trouble);
+}
+
+// Settings only: a fault of yesterday is no difference.
+TEST(ParameterDump, ComparesSettingsAndNotWhatChangesByItself) {
+  LinkedDrive drive;
+  drive.connect();
+  const Dump taken = takeDump(drive.link(), drive.notAsked());
+  drive.left().parameters().preset(701, 0, 0, 102);
+  const Comparison same = compare(drive.link(), taken, drive.notAsked());
+  EXPECT_THAT(same.differences, IsEmpty());
+  EXPECT_GT(same.compared, 30u);
+  drive.left().parameters().preset(102, 2, 0, 250);
+  drive.left().parameters().preset(513, 0, 0, -1);
+  EXPECT_THAT(compare(drive.link(), taken, drive.notAsked()).differences,
+              ElementsAre("P102 set 3 Acceleration time: 2 s in the file, 2.5 s in the drive",
+                          "P513 Telegram timeout: 0 s in the file, -0.1 s in the drive"));
+}
+
+// P509 = 8 means one thing in an SK 300E and another in an SK 5xxE.
+TEST(ParameterDump, IsNotComparedWithAnotherSeries) {
+  LinkedDrive drive;
+  drive.connect();
+  Dump other;
+  other.series = profile::Series::kSk300e;
+  EXPECT_THROW(compare(drive.link(), other, drive.notAsked()), UsageError);
+}
+
+TEST(ParameterDump, RefusesAFileThatIsNone) {
+  EXPECT_THROW(readDump("/is/not/there.yaml"), UsageError);
+  EXPECT_THAT(refusal("drives: {}\n"), HasSubstr("is no dump of nord_param"));
+  EXPECT_THAT(refusal("series: sk9\n"), HasSubstr("series \"sk9\" is not known"));
+  EXPECT_THAT(refusal("series: sk5xxe\nsettings: {P1050: {raw: 1}}\n"), HasSubstr("\"P1050\" is no parameter"));
+  EXPECT_THAT(refusal("series: sk5xxe\nsettings: {P105: {raw: many}}\n"), HasSubstr("is no dump of nord_param"));
+  EXPECT_THAT(refusal("series: sk5xxe\nsettings: {P105: 500}\n"), HasSubstr("is no dump of nord_param"));
+}
+
+}  // namespace
+}  // namespace nord_driver::tools

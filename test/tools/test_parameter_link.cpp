@@ -1,0 +1,216 @@
+// A program that comes, reads or writes parameters, and goes: what the drives notice of it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tools/linked_drive.h"
+
+namespace nord_driver::tools {
+namespace {
+
+using sim::InverterState;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+cycle::ParameterAddress parameter(std::uint16_t number, std::uint8_t set = 0, std::uint8_t index = 0) {
+  cycle::ParameterAddress address;
+  address.number = number;
+  address.parameter_set = set;
+  address.index = index;
+  return address;
+}
+
+cycle::ParameterWish value(double value) {
+  cycle::ParameterWish wish;
+  wish.value = value;
+  return wish;
+}
+
+// As a master that has died left it: P513 = 0 lets it run on (BU 2700 7.1.1).
+void letRun(LinkedDrive& drive) {
+  sim::ProcessData data;
+  data.control = 0x047E;
+  drive.left().inverter().receive(data);
+  drive.segment().run(seconds{1});
+  data.control = 0x047F;
+  data.setpoints[0] = 0x2000;
+  drive.left().inverter().receive(data);
+  drive.segment().run(seconds{4});
+  ASSERT_EQ(InverterState::kOperationEnabled, drive.left().inverter().state());
+  ASSERT_DOUBLE_EQ(25.0, drive.left().inverter().frequency());
+}
+
+TEST(ParameterLink, ReadsAndWrites) {
+  LinkedDrive drive;
+  drive.connect();
+  const ParameterAnswer read = drive.link().read(parameter(105));
+  EXPECT_TRUE(read.success) << read.message;
+  EXPECT_EQ(500, read.raw);
+  EXPECT_DOUBLE_EQ(50.0, read.value);
+  EXPECT_EQ(1, read.set) << "the one in force";
+  const ParameterAnswer written = drive.link().write(parameter(102, 4), value(2.5));
+  EXPECT_TRUE(written.success) << written.message;
+  EXPECT_EQ(250, drive.left().parameters().value(102, 3));
+  EXPECT_EQ(200, drive.left().parameters().value(102, 0));
+  EXPECT_THAT(drive.link().write(parameter(102, 4), value(2.5)).message, HasSubstr("nothing was written"));
+}
+
+// The end of the program is no loss of the master: with a watchdog each run would leave E10.2 behind (BU 2700 8.1.1).
+TEST(ParameterLink, ItsEndTripsNothing) {
+  LinkedDrive drive;
+  drive.connect();
+  EXPECT_TRUE(drive.link().read(parameter(105)).success);
+  EXPECT_THAT(drive.link().finish(), IsEmpty());
+  drive.segment().run(seconds{60});
+  EXPECT_EQ(0, drive.left().inverter().faultNumber());
+  EXPECT_EQ(InverterState::kReadyToSwitchOn, drive.left().inverter().state());
+  EXPECT_EQ("no rule broken", drive.segment().referee().report());
+}
+
+// 047E would stop it; the one word that may reach it is 0000, which it ignores.
+TEST(ParameterLink, LeavesADriveThatRunsAlone) {
+  LinkedDrive drive;
+  letRun(drive);
+  EXPECT_EQ("drive left is not at rest (operation enabled): it was left as it is; disable it first", drive.trouble());
+  EXPECT_THAT(drive.link().finish(), IsEmpty());
+  drive.segment().run(seconds{60});
+  EXPECT_EQ(InverterState::kOperationEnabled, drive.left().inverter().state());
+  EXPECT_DOUBLE_EQ(25.0, drive.left().inverter().frequency());
+  EXPECT_EQ(0x0000, drive.left().slave().counters().last_control);
+}
+
+// Under local control the terminals turn it; it is left alone all the same.
+TEST(ParameterLink, LeavesADriveAloneThatItsTerminalsTurn) {
+  LinkedDrive drive;
+  drive.left().inverter().setLocalControl(true, 0.0);
+  drive.segment().run(seconds{1});
+  drive.left().inverter().setLocalControl(true, 20.0);
+  drive.segment().run(seconds{4});
+  ASSERT_EQ(InverterState::kOperationEnabled, drive.left().inverter().state());
+  EXPECT_THAT(drive.trouble(), HasSubstr("not at rest"));
+  drive.segment().run(seconds{10});
+  EXPECT_DOUBLE_EQ(20.0, drive.left().inverter().frequency());
+}
+
+TEST(ParameterLink, SaysNothingToTheOtherDrivesOfTheBus) {
+  LinkedDrive drive;
+  drive.connect();
+  drive.link().read(parameter(105));
+  drive.link().finish();
+  EXPECT_EQ(0u, drive.right().slave().counters().telegrams);
+}
+
+// Another master would be heard meanwhile.
+TEST(ParameterLink, ListensForHalfASecondBeforeItsFirstTelegram) {
+  LinkedDrive drive;
+  const Instant start = drive.segment().now();
+  drive.connect();
+  const auto telegrams = drive.transport().trace()->copy();
+  ASSERT_FALSE(telegrams.empty());
+  EXPECT_GE(telegrams.front().time - start, milliseconds{500});
+}
+
+// 047E alone says "set 1": the drive keeps its own, and a parameter without a set is that of the set in force.
+TEST(ParameterLink, KeepsTheParameterSetInForce) {
+  LinkedDrive drive;
+  sim::ProcessData data;
+  data.control = 0x847E;
+  drive.left().inverter().receive(data);
+  drive.segment().run(seconds{1});
+  ASSERT_EQ(2u, drive.left().inverter().parameterSet());
+  const auto switches = drive.left().inverter().setSwitches();
+  drive.connect();
+  EXPECT_EQ(3, drive.link().read(parameter(105)).set);
+  drive.link().finish();
+  EXPECT_EQ(switches, drive.left().inverter().setSwitches());
+  EXPECT_EQ(0x847E, drive.left().slave().counters().last_control);
+}
+
+// P513 > 0 trips on control words with bit 10 = 0 (E10.3): the idle word keeps it quiet as long as the program runs.
+// Nothing can after that, so it is said.
+TEST(ParameterLink, TelegramTimeoutIsKeptQuietAndThenNamed) {
+  LinkedDrive drive{{{513, 0, 0, 10}}};
+  drive.connect();
+  const Instant end = drive.segment().now() + seconds{5};
+  while (drive.segment().now() < end) ASSERT_TRUE(drive.link().read(parameter(105)).success);
+  EXPECT_EQ(0, drive.left().inverter().faultNumber());
+  EXPECT_THAT(drive.link().finish(), ElementsAre(HasSubstr("drive left has P513 = 1 s")));
+  drive.segment().run(seconds{3});
+  EXPECT_EQ(sim::fault::kTimeout, drive.left().inverter().faultNumber());
+}
+
+// An order left standing is executed for ever (BU 2700 6.5).
+TEST(ParameterLink, LeavesNoOrderStanding) {
+  LinkedDrive drive;
+  drive.connect();
+  drive.link().write(parameter(102), value(3.0));
+  EXPECT_NE(0u, drive.left().pkw().answer().label());
+  drive.link().finish();
+  EXPECT_EQ(0u, drive.left().pkw().answer().label());
+}
+
+// An inverter without orders that spare the EEPROM is written with P560 = 0, which must not stay (BU 0020 7.5.1).
+TEST(ParameterLink, PutsP560Back) {
+  LinkedDrive drive{{}, false};
+  drive.connect();
+  const ParameterAnswer written = drive.link().write(parameter(102), value(3.0));
+  EXPECT_TRUE(written.success) << written.message;
+  EXPECT_THAT(written.message, HasSubstr("put back to 1"));
+  EXPECT_THAT(drive.link().finish(), IsEmpty());
+  EXPECT_EQ(1, drive.left().parameters().value(560));
+  EXPECT_EQ(300, drive.left().parameters().value(102));
+}
+
+TEST(ParameterLink, SaysWhyAnAccessFailed) {
+  LinkedDrive drive;
+  drive.connect();
+  const ParameterAnswer refused = drive.link().read(parameter(999));
+  EXPECT_TRUE(refused.refused);
+  EXPECT_THAT(refused.message, HasSubstr("no parameter of this number"));
+  drive.left().pkw().setSilent(true);
+  const ParameterAnswer silent = drive.link().read(parameter(105));
+  EXPECT_FALSE(silent.success);
+  EXPECT_FALSE(silent.refused);
+  EXPECT_EQ("drive left gave no answer for P105", silent.message);
+  drive.left().setPlugged(false);
+  EXPECT_EQ("drive left does not answer", drive.link().read(parameter(105)).message);
+  EXPECT_THAT(drive.link().finish(), IsEmpty());
+}
+
+TEST(ParameterLink, SaysThatAPpoTypeHasNoParameterChannel) {
+  LinkedDrive drive{{}, true, 3};
+  drive.connect();
+  EXPECT_THAT(drive.link().read(parameter(105)).message, HasSubstr("no parameter channel"));
+}
+
+TEST(ParameterLink, SaysWhyNobodyAnswers) {
+  LinkedDrive silent;
+  silent.left().setPlugged(false);
+  EXPECT_THAT(silent.trouble(), HasSubstr("no station answers"));
+  LinkedDrive gone;
+  gone.segment().setDevicePresent(false);
+  EXPECT_THAT(gone.trouble(), ::testing::Not(IsEmpty()));
+}
+
+TEST(ParameterLink, EndsWhenItIsAskedTo) {
+  LinkedDrive drive;
+  const std::atomic<bool> asked{true};
+  EXPECT_THROW(drive.link().connect(seconds{5}, asked), Trouble);
+}
+
+// Terminals may turn a drive while the program runs; a new P105 would be a step of what its setpoints mean.
+TEST(ParameterLink, DoesNotChangeTheScaleOfADriveThatTurns) {
+  LinkedDrive drive;
+  drive.connect();
+  drive.left().inverter().setLocalControl(true, 20.0);
+  const Instant end = drive.segment().now() + seconds{2};
+  while (drive.segment().now() < end) drive.link().read(parameter(102));
+  EXPECT_THROW(drive.link().write(parameter(105), value(60.0)), Trouble);
+  EXPECT_EQ(500, drive.left().parameters().value(105));
+  EXPECT_TRUE(drive.link().write(parameter(102), value(3.0)).success);
+}
+
+}  // namespace
+}  // namespace nord_driver::tools

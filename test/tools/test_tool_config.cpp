@@ -1,0 +1,80 @@
+// What nord_param takes of the driver's configuration.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "nord_driver/tools/tool_config.h"
+
+namespace nord_driver::tools {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr char kFile[] = R"(
+transport: canopen
+cycle_rate: 50.0
+left_wheel: a
+bus: {baud_rate: 500000}
+drives:
+  far:   {address: 9, series: sk5xxe, pole_pairs: 2}
+  near:  {address: 7, inverter: 1, series: sk2xxe, pole_pairs: 2, joint: a}
+  mate:  {address: 7, inverter: 2, series: sk2xxe, pole_pairs: 2}
+)";
+
+std::vector<std::string> namesOf(const ToolConfig& config) {
+  std::vector<std::string> names;
+  for (const DriveSettings& drive : config.drives) names.push_back(drive.name);
+  return names;
+}
+
+template <typename Action>
+std::string refusal(Action action) {
+  try {
+    action();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+// Inverters behind one bus module share its telegrams; the others of the bus are not talked to.
+TEST(ToolConfig, TakesTheDriveAndItsStation) {
+  const YAML::Node file = YAML::Load(kFile);
+  EXPECT_THAT(namesOf(readToolConfig(file, "mate")), ElementsAre("mate", "near"));
+  EXPECT_THAT(namesOf(readToolConfig(file, "far")), ElementsAre("far"));
+  EXPECT_THAT(namesOf(readToolConfig(file)), ElementsAre("far", "mate", "near"));
+}
+
+// The base's sizes may be in a URDF, which is not there.
+TEST(ToolConfig, NeedsNothingOfTheBase) {
+  const ToolConfig config = readToolConfig(YAML::Load(kFile), "near");
+  EXPECT_EQ("nord_driver/canopen", config.transport);
+  EXPECT_DOUBLE_EQ(50.0, config.cycle.cycle_rate);
+  EXPECT_EQ(profile::Series::kSk2xxe, config.cycle.drives.front().series);
+  EXPECT_FALSE(config.cycle.base);
+  EXPECT_EQ(500'000, config.bus->integer("baud_rate"));
+  EXPECT_GE(config.cycle.drives.front().drive.drive_timeout, std::chrono::seconds{1});
+}
+
+TEST(ToolConfig, TheTransportIsProfibusWhenNoneIsNamed) {
+  YAML::Node file = YAML::Load(kFile);
+  file.remove("transport");
+  EXPECT_EQ("nord_driver/profibus_dp", readToolConfig(file).transport);
+}
+
+TEST(ToolConfig, NamesWhatIsWrong) {
+  YAML::Node file = YAML::Load(kFile);
+  EXPECT_EQ("drive \"lift\" is not in the configuration, expected one of far, mate, near",
+            refusal([&] { readToolConfig(file, "lift"); }));
+  file["drives"]["far"]["series"] = "sk9";
+  EXPECT_THAT(refusal([&] { readToolConfig(file, "far"); }), HasSubstr("drives/far/series"));
+  EXPECT_EQ("accepted", refusal([&] { readToolConfig(file, "near"); }));
+  file["transport"] = 5;
+  EXPECT_THAT(refusal([&] { readToolConfig(file, "near"); }), HasSubstr("transport: 5 is not valid"));
+  EXPECT_THAT(refusal([] { readToolConfig(YAML::Load("{bus: {}}"), "left"); }),
+              HasSubstr("expected one that has drives"));
+  EXPECT_THAT(refusal([] { readToolConfig(YAML::Load("{bus: {}}")); }), HasSubstr("drives is missing"));
+}
+
+}  // namespace
+}  // namespace nord_driver::tools
