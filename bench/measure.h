@@ -24,6 +24,14 @@ inline void pinTo(unsigned processor) {
   pthread_setaffinity_np(pthread_self(), sizeof set, &set);
 }
 
+/// The calling thread no longer takes the processor from another as soon as it could go on (SCHED_BATCH): two threads
+/// on one processor then change places where one waits, and not in the middle of a burst, where it would depend on how
+/// long each has run before.
+inline void runUntilWaiting() {
+  sched_param none{};
+  pthread_setschedparam(pthread_self(), SCHED_BATCH, &none);
+}
+
 /// Keeps the other processors from idling, so that the scheduler has no reason to move anybody there and clocks stay
 /// up. SCHED_IDLE: whoever else has work there gets it done.
 class BusyOthers {
@@ -88,6 +96,14 @@ Pair measurePairs(std::size_t pairs, std::size_t block, First&& first, Second&& 
 inline bool report(const char* what, double value, const char* unit, double bound) {
   const bool kept = value <= bound;
   std::printf("%-66s %9.3f %-3s at most %9.3f  %s\n", what, value, unit, bound, kept ? "ok" : "MISSED");
+  std::fflush(stdout);
+  return kept;
+}
+
+/// The same for a figure that must not be smaller.
+inline bool reportAtLeast(const char* what, double value, double bound) {
+  const bool kept = value >= bound;
+  std::printf("%-66s %9.3f     at least %8.3f  %s\n", what, value, bound, kept ? "ok" : "MISSED");
   std::fflush(stdout);
   return kept;
 }

@@ -23,8 +23,23 @@ endfunction()
 function(nord_gtest name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   catkin_add_gtest(${name} ${ARG_SOURCES})
+  nord_test_settings(${name} ${ARG_LIBS})
+endfunction()
+
+# A GoogleTest program that ctest does not run, since it needs more than any machine has: nord_test_program(NAME ...) as
+# nord_gtest().
+function(nord_test_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(${name} EXCLUDE_FROM_ALL ${ARG_SOURCES})
+  set_target_properties(${name} PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+  nord_test_settings(${name} ${ARG_LIBS})
+  add_dependencies(tests ${name})
+endfunction()
+
+function(nord_test_settings name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
-  target_link_libraries(${name} ${ARG_LIBS} GTest::gmock GTest::gtest GTest::gtest_main Threads::Threads)
+  target_link_libraries(${name} ${ARGN} GTest::gmock GTest::gtest GTest::gtest_main Threads::Threads)
   nord_warnings(${name})
   nord_precompile(${name} <gmock/gmock.h> <gtest/gtest.h>)
 endfunction()

@@ -18,7 +18,7 @@ cmake --build "$out" -j "$jobs" --target bench >"$out/build.log" 2>&1 || { tail 
 
 echo "processors $(nproc), load before: $(cut -d' ' -f1-3 /proc/loadavg)"
 status=0
-for program in bench_in_process bench_pty_cycle; do
+for program in bench_efficiency bench_in_process bench_pty_cycle bench_can bench_command_latency; do
   echo "== $program"
   "$out/devel/lib/nord_driver/$program" || status=1
 done

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the fuzz targets of the PROFIBUS engine in out/fuzz and runs each for a time. Ends with 1 when one of them
-# crashed; the input that did it stays in out/fuzz.
+# Builds the fuzz targets of the protocol engines in out/fuzz and runs each for a time, one on each processor. Ends with 1
+# when one of them crashed; the input that did it stays in out/fuzz.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -22,18 +22,24 @@ cmake --build "$out" -j "$jobs" --target fuzz_targets >"$out/build.log" 2>&1 || 
   exit 1
 }
 
-failed=0
-for target in telegram diagnosis gsd record master; do
-  corpus=$out/corpus/$target
+# run NAME: one target, for its time.
+run() {
+  local name=$1 log=$out/$1.log corpus=$out/corpus/$1
   mkdir -p "$corpus"
-  log=$out/$target.log
-  if "$out/bin/fuzz_$target" -max_total_time="$seconds" -max_len=4096 -timeout=10 -print_final_stats=1 \
-    -artifact_prefix="$out/$target-" "$corpus" >"$log" 2>&1; then
-    echo "fuzz_$target: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") executions in $seconds s"
+  if "$out/bin/$name" -max_total_time="$seconds" -max_len=4096 -timeout=10 -print_final_stats=1 \
+    -artifact_prefix="$out/$name-" "$corpus" >"$log" 2>&1; then
+    echo "$name: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") executions in $seconds s"
   else
-    failed=1
-    echo "fuzz_$target: FAILED, see $log"
+    echo "$name: FAILED, see $log"
     tail -n 30 "$log"
+    return 1
   fi
-done
-exit "$failed"
+}
+export -f run
+export out seconds
+
+[[ -s $out/fuzz_targets.txt ]] || {
+  echo "$out/fuzz_targets.txt names no target"
+  exit 1
+}
+xargs -n 1 -P "$jobs" bash -c 'run "$1"' fuzz <"$out/fuzz_targets.txt" || exit 1

@@ -7,7 +7,7 @@ export PATH=/usr/bin:/usr/sbin:/bin:/sbin:$PATH
 usage() {
   cat <<'TEXT'
 usage: install_deps.sh [--test] [--list]
-  --test  also what scripts/test.sh needs beyond a build: formatter, linter, tcpdump
+  --test  also what scripts/test.sh needs beyond a build: formatter, linter, fuzzer, recorders, and a machine with CAN
   --list  print the packages, install nothing
 Without root it prints the command that installs what is missing and ends with 1.
 TEXT
@@ -18,15 +18,20 @@ packages=(
   build-essential cmake
   catkin ros-core-dev rosbash
   libdiagnostic-updater-dev pluginlib-dev
+  libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
   libtf2-dev libtf2-ros-dev
   liburdfdom-dev liburdfdom-headers-dev
   libcli11-dev libyaml-cpp-dev
-  ros-robot-state-publisher
+  ros-robot-state-publisher python3-rosbag
   librostest-dev python3-rostest
   python3-rospy python3-geometry-msgs python3-nav-msgs python3-std-srvs
   libgtest-dev libgmock-dev librapidcheck-dev
 )
-test_packages=(clang-format-14 clang-tidy-14 tcpdump)
+test_packages=(
+  clang-format-14 clang-tidy-14 clang-14 libclang-rt-14-dev tcpdump
+  can-utils iproute2 tshark
+  qemu-system-x86 busybox-static cpio kmod # the emulated machine of scripts/can_machine.sh
+)
 
 list=false
 for argument in "$@"; do

@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test and check. The last line is "N passed, N failed, N skipped": test cases, and each
-# check (format, lint, workspace) as one. Ends with 0 only when nothing failed and something passed.
+# check (format, lint, fuzz, workspace) as one. The line before says where the tests on SocketCAN ran. Ends with 0 only
+# when nothing failed and something passed.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 usage() {
   cat <<'TEXT'
 usage: test.sh [--sanitize] [--quick]
-  --sanitize  the tests in a Debug build with AddressSanitizer and UndefinedBehaviorSanitizer (out/sanitize)
-  --quick     the tests and the format only; lint and workspace count as skipped
+  --sanitize  the tests in a Debug build with AddressSanitizer and UndefinedBehaviorSanitizer (out/sanitize); those on
+              SocketCAN count as skipped
+  --quick     the tests and the format only; lint, fuzz and workspace count as skipped
 TEXT
 }
 
@@ -39,9 +41,12 @@ unset ROS_MASTER_URI ROS_IP
 passed=0
 failed=0
 skipped=0
+socketcan=          # the process that runs these tests
+socketcan_ran=      # where, in words
 
 finish() {
   echo
+  if [[ -n $socketcan_ran ]]; then echo "socketcan: $socketcan_ran"; fi
   echo "$passed passed, $failed failed, $skipped skipped"
   ((failed == 0 && passed > 0)) || exit 1
   exit 0
@@ -77,6 +82,7 @@ must() {
 format() {
   local folders=("$root"/include "$root"/src "$root"/test)
   if [[ -d $root/bench ]]; then folders+=("$root/bench"); fi
+  if [[ -d $root/fuzz ]]; then folders+=("$root/fuzz"); fi
   find "${folders[@]}" \( -name '*.h' -o -name '*.cpp' \) -print0 |
     xargs -0 clang-format-14 --style=file --dry-run -Werror
 }
@@ -107,23 +113,47 @@ build() {
   }
 }
 
-# Two at a time: the ones that need the machine for themselves say RUN_SERIAL.
-run_tests() {
-  local results=$out/test_results status=0 counted
-  rm -rf "$results"
-  (cd "$out" && ctest -j 2 --no-tests=error) || status=$?
-  counted=$(/usr/bin/python3 "$root/scripts/count_results.py" "$results")
-  read -r tests_passed tests_failed tests_skipped <<<"$counted"
-  passed=$((passed + tests_passed))
-  failed=$((failed + tests_failed))
-  skipped=$((skipped + tests_skipped))
-  if ((tests_passed == 0)); then
+# count_cases FOLDER STATUS: adds the cases of the result files there; STATUS is how their programs ended.
+count_cases() {
+  local cases_passed cases_failed cases_skipped
+  read -r cases_passed cases_failed cases_skipped <<<"$(/usr/bin/python3 "$root/scripts/count_results.py" "$1")"
+  passed=$((passed + cases_passed))
+  failed=$((failed + cases_failed))
+  skipped=$((skipped + cases_skipped))
+  if ((cases_passed == 0)); then
     echo "no test case ran"
     failed=$((failed + 1))
-  elif ((status != 0 && tests_failed == 0)); then
-    echo "ctest ended with $status although no case failed: a test program died"
+  elif (($2 != 0 && cases_failed == 0)); then
+    echo "ended with $2 although no case failed: a test program died"
     failed=$((failed + 1))
   fi
+}
+
+# Two at a time: the ones that need the machine for themselves say RUN_SERIAL.
+run_tests() {
+  local results=$out/test_results status=0
+  rm -rf "$results"
+  (cd "$out" && ctest -j 2 --no-tests=error) || status=$?
+  count_cases "$results" "$status"
+}
+
+# Beside the linter: the emulated machine waits most of the time. A session of its own, to be ended as a whole.
+start_socketcan() {
+  rm -rf "$out/socketcan_results"
+  setsid "$root/scripts/test_socketcan.sh" "$out" "$out/socketcan_results" >"$out/socketcan.log" 2>&1 </dev/null &
+  socketcan=$!
+  trap 'kill -- "-$socketcan" 2>/dev/null || true' EXIT
+}
+
+finish_socketcan() {
+  local status=0
+  echo "== socketcan"
+  wait "$socketcan" || status=$?
+  trap - EXIT
+  cat "$out/socketcan.log"
+  socketcan_ran=$(sed -n 's/^can_machine: \(on\|in\) /\1 /p' "$out/socketcan.log" | head -n 1)
+  if [[ -z $socketcan_ran ]]; then socketcan_ran="ran nowhere"; fi
+  count_cases "$out/socketcan_results" "$status"
 }
 
 mkdir -p "$out"
@@ -134,14 +164,17 @@ start=$SECONDS
 run_tests
 echo "== tests: $((SECONDS - start)) s"
 if $sanitize; then
-  for name in format lint workspace; do skip $name "the run without --sanitize does it"; done
+  for name in format lint fuzz workspace socketcan; do skip $name "the run without --sanitize does it"; done
 else
+  start_socketcan
   check "format" format
   if $quick; then
-    for name in lint workspace; do skip $name "--quick"; done
+    for name in lint fuzz workspace; do skip $name "--quick"; done
   else
     check "lint" lint
+    check "fuzz" "$root/scripts/fuzz.sh" 30
     check "workspace" "$root/scripts/check_workspace.sh"
   fi
+  finish_socketcan
 fi
 finish

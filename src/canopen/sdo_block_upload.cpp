@@ -50,7 +50,7 @@ SdoStep BlockUpload::handleSegment(const SdoBytes& segment, SdoBuffer& buffer) n
   if (number == 0 || number > kSdoBlockSize) return SdoStep::stale();
   // The end of the block before once more: repeated on the bus behind our acknowledgement, or all that arrived of the
   // same block a second time. Silence will tell.
-  if (in_order_ == 0 && number == last_of_block_ && number != 1 && segment == last_segment_) {
+  if (in_order_ == 0 && number == last_of_block_ && segment == last_segment_) {
     heard_ = true;
     return SdoStep::stale();
   }

@@ -18,15 +18,14 @@ bool SdoClient::start(const SdoRequest& request, ByteView data, Instant now) noe
   }
   size_told_ = true;
   known_to_server_ = false;
-  transfer_ = Initiating{};
+  phase_ = Phase::kToAsk;
   arm(now);
   return true;
 }
 
 // Half of the time for a missing segment, so that there is time left to get it again.
 void SdoClient::arm(Instant now) noexcept {
-  const auto* block = std::get_if<BlockUpload>(&transfer_);
-  deadline_ = now + (block != nullptr && block->awaitsSegments() ? timeout_ / 2 : timeout_);
+  deadline_ = now + (phase_ == Phase::kBlockUpload && block_upload_.awaitsSegments() ? timeout_ / 2 : timeout_);
 }
 
 bool SdoClient::pollTransmit(CanFrame& frame) noexcept {
@@ -43,18 +42,27 @@ bool SdoClient::pollTransmit(CanFrame& frame) noexcept {
 
 bool SdoClient::pollRequest(SdoBytes& bytes) noexcept {
   bool sends = false;
-  if (auto* initiating = std::get_if<Initiating>(&transfer_)) {
-    sends = initiating->to_send;
-    initiating->to_send = false;
-    if (sends) bytes = initiation(request_, ByteView{buffer_});
-  } else if (auto* segmented_upload = std::get_if<SegmentedUpload>(&transfer_)) {
-    sends = segmented_upload->pollTransmit(bytes, buffer_);
-  } else if (auto* segmented_download = std::get_if<SegmentedDownload>(&transfer_)) {
-    sends = segmented_download->pollTransmit(bytes, buffer_);
-  } else if (auto* block_upload = std::get_if<BlockUpload>(&transfer_)) {
-    sends = block_upload->pollTransmit(bytes, buffer_);
-  } else if (auto* block_download = std::get_if<BlockDownload>(&transfer_)) {
-    sends = block_download->pollTransmit(bytes, buffer_);
+  switch (phase_) {
+    case Phase::kIdle:
+    case Phase::kAsked:
+      break;
+    case Phase::kToAsk:
+      bytes = initiation(request_, ByteView{buffer_});
+      phase_ = Phase::kAsked;
+      sends = true;
+      break;
+    case Phase::kSegmentedUpload:
+      sends = segmented_upload_.pollTransmit(bytes, buffer_);
+      break;
+    case Phase::kSegmentedDownload:
+      sends = segmented_download_.pollTransmit(bytes, buffer_);
+      break;
+    case Phase::kBlockUpload:
+      sends = block_upload_.pollTransmit(bytes, buffer_);
+      break;
+    case Phase::kBlockDownload:
+      sends = block_download_.pollTransmit(bytes, buffer_);
+      break;
   }
   known_to_server_ = known_to_server_ || sends;
   return sends;
@@ -64,7 +72,7 @@ void SdoClient::handle(const CanFrame& frame, Instant now) noexcept {
   if (frame.id != channel_.response_id || frame.extended || frame.remote) return;
   if (frame.size != kCanDataLength) {
     ++counters_.malformed;
-  } else if (!active() || !known_to_server_) {
+  } else if (!awaitsAnswer()) {
     ++counters_.stale;
   } else if (frame.data[0] == kAbort) {
     handleAbort(frame.data, now);
@@ -74,24 +82,29 @@ void SdoClient::handle(const CanFrame& frame, Instant now) noexcept {
 }
 
 SdoStep SdoClient::handleResponse(const SdoBytes& response) noexcept {
-  if (auto* segmented_upload = std::get_if<SegmentedUpload>(&transfer_)) {
-    return segmented_upload->handle(response, buffer_);
+  switch (phase_) {
+    case Phase::kSegmentedUpload:
+      return segmented_upload_.handle(response, buffer_);
+    case Phase::kSegmentedDownload:
+      return segmented_download_.handle(response, buffer_);
+    case Phase::kBlockUpload: {
+      const SdoStep step = block_upload_.handle(response, buffer_);
+      if (step.kind == SdoStep::Kind::kDone) parting_ = BlockUpload::confirmation();
+      return step;
+    }
+    case Phase::kBlockDownload:
+      return block_download_.handle(response, buffer_);
+    case Phase::kAsked:
+      return handleInitiated(response);
+    case Phase::kIdle:
+    case Phase::kToAsk:
+      break;
   }
-  if (auto* segmented_download = std::get_if<SegmentedDownload>(&transfer_)) {
-    return segmented_download->handle(response, buffer_);
-  }
-  if (auto* block_upload = std::get_if<BlockUpload>(&transfer_)) {
-    const SdoStep step = block_upload->handle(response, buffer_);
-    if (step.kind == SdoStep::Kind::kDone) parting_ = BlockUpload::confirmation();
-    return step;
-  }
-  if (auto* block_download = std::get_if<BlockDownload>(&transfer_)) return block_download->handle(response, buffer_);
-  return handleInitiated(response);
+  return SdoStep::stale();
 }
 
 SdoStep SdoClient::handleInitiated(const SdoBytes& response) noexcept {
-  const auto* initiating = std::get_if<Initiating>(&transfer_);
-  if (initiating == nullptr || initiating->to_send || !namesObject(response, request_)) return SdoStep::stale();
+  if (!namesObject(response, request_)) return SdoStep::stale();
   return request_.write ? beginDownload(response) : beginUpload(response);
 }
 
@@ -107,9 +120,11 @@ SdoStep SdoClient::beginUpload(const SdoBytes& response) noexcept {
   if (!plain && !(request_.block && initiated.kind == Initiated::Kind::kBlockUpload)) return SdoStep::stale();
   if (initiated.size && *initiated.size > kSdoCapacity) return SdoStep::abort(sdo_abort::kMemory);
   if (plain) {
-    transfer_ = SegmentedUpload{initiated.size};
+    segmented_upload_ = SegmentedUpload{initiated.size};
+    phase_ = Phase::kSegmentedUpload;
   } else {
-    transfer_ = BlockUpload{initiated.size, initiated.crc};
+    block_upload_ = BlockUpload{initiated.size, initiated.crc};
+    phase_ = Phase::kBlockUpload;
   }
   return SdoStep::accepted();
 }
@@ -119,13 +134,15 @@ SdoStep SdoClient::beginDownload(const SdoBytes& response) noexcept {
   if (request_.block) {
     if (initiated.kind != Initiated::Kind::kBlockDownload) return SdoStep::stale();
     if (initiated.block_size == 0 || initiated.block_size > kMaxSequence) return SdoStep::abort(sdo_abort::kBlockSize);
-    transfer_ = BlockDownload{initiated.block_size, initiated.crc};
+    block_download_ = BlockDownload{initiated.block_size, initiated.crc};
+    phase_ = Phase::kBlockDownload;
     segments_seen_ = 0;
     return SdoStep::accepted();
   }
   if (initiated.kind != Initiated::Kind::kDownload) return SdoStep::stale();
   if (buffer_.size() <= kExpeditedLength) return SdoStep::done();
-  transfer_ = SegmentedDownload{};
+  segmented_download_ = SegmentedDownload{};
+  phase_ = Phase::kSegmentedDownload;
   return SdoStep::accepted();
 }
 
@@ -135,9 +152,9 @@ void SdoClient::handleAbort(const SdoBytes& response, Instant now) noexcept {
     return;
   }
   const std::uint32_t code = u32(response);
-  if (request_.block && code == sdo_abort::kCommand && std::holds_alternative<Initiating>(transfer_)) {
+  if (request_.block && code == sdo_abort::kCommand && phase_ == Phase::kAsked) {
     request_.block = false;
-    transfer_ = Initiating{};
+    phase_ = Phase::kToAsk;
     arm(now);
     return;
   }
@@ -171,10 +188,9 @@ void SdoClient::poll(Instant now) noexcept {
 }
 
 bool SdoClient::goesOnWithoutAnswer() noexcept {
-  if (auto* upload = std::get_if<BlockUpload>(&transfer_)) return upload->handleSilence();
-  const auto* download = std::get_if<BlockDownload>(&transfer_);
-  if (download == nullptr || download->segmentsSent() == segments_seen_) return false;
-  segments_seen_ = download->segmentsSent();
+  if (phase_ == Phase::kBlockUpload) return block_upload_.handleSilence();
+  if (phase_ != Phase::kBlockDownload || block_download_.segmentsSent() == segments_seen_) return false;
+  segments_seen_ = block_download_.segmentsSent();
   return true;
 }
 
@@ -192,7 +208,7 @@ void SdoClient::abort(SdoEnd end, std::uint32_t code) noexcept {
 }
 
 void SdoClient::finish(SdoEnd end, std::uint32_t code) noexcept {
-  transfer_ = Idle{};
+  phase_ = Phase::kIdle;
   SdoAnswer answer;
   answer.id = request_.id;
   answer.end = end;

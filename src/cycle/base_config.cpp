@@ -110,9 +110,14 @@ void readGeometry(BaseConfig& base, const Settings& settings, const JointNames& 
     return numberOr(settings, key, fallback, 0.01, 100.0, "");
   };
   geometry.wheel_separation_multiplier = multiplier("wheel_separation_multiplier", 1.0);
-  const double both = multiplier("wheel_radius_multiplier", 1.0);
-  geometry.left_wheel_radius_multiplier = multiplier("left_wheel_radius_multiplier", both);
-  geometry.right_wheel_radius_multiplier = multiplier("right_wheel_radius_multiplier", both);
+  geometry.left_wheel_radius_multiplier = multiplier("left_wheel_radius_multiplier", 1.0);
+  geometry.right_wheel_radius_multiplier = multiplier("right_wheel_radius_multiplier", 1.0);
+  // As in diff_drive_controller the common one wins: dynamic_reconfigure leaves the other two on the parameter server,
+  // where a later start would find them.
+  if (settings.has("wheel_radius_multiplier")) {
+    const double both = multiplier("wheel_radius_multiplier", 1.0);
+    geometry.left_wheel_radius_multiplier = geometry.right_wheel_radius_multiplier = both;
+  }
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ robot::WheelSpeeds jointLimits(const BaseConfig& config, std::size_t wheels) {
 }  // namespace
 
 BaseMotion::BaseMotion(const BaseConfig& config, Duration cmd_vel_timeout)
-    : kinematics_(robot::makeKinematics(config.kind, config.geometry, config.left.size(), config.right.size())),
+    : geometry_(config.geometry),
+      kinematics_(robot::makeKinematics(config.kind, config.geometry, config.left.size(), config.right.size())),
       joint_limits_(jointLimits(config, kinematics_->wheelCount())),
       limiter_(config.limits),
       odometry_(config.velocity_rolling_window_size),
@@ -56,6 +57,18 @@ robot::Twist2d BaseMotion::within(const robot::WheelSpeeds& limits, const robot:
   const robot::WheelSpeeds wanted = kinematics_->wheels(target);
   const robot::WheelSpeeds possible = robot::scaleInto(wanted, limits);
   return possible == wanted ? kinematics_->possible(target) : kinematics_->twist(possible);
+}
+
+void BaseMotion::tune(const BaseTuning& tuning) noexcept {
+  const bool same = tuning.wheel_separation_multiplier == geometry_.wheel_separation_multiplier &&
+                    tuning.left_wheel_radius_multiplier == geometry_.left_wheel_radius_multiplier &&
+                    tuning.right_wheel_radius_multiplier == geometry_.right_wheel_radius_multiplier;
+  if (!tuning.given || same || limited_ != robot::Twist2d{}) return;
+  robot::BaseGeometry tuned = geometry_;
+  tuned.wheel_separation_multiplier = tuning.wheel_separation_multiplier;
+  tuned.left_wheel_radius_multiplier = tuning.left_wheel_radius_multiplier;
+  tuned.right_wheel_radius_multiplier = tuning.right_wheel_radius_multiplier;
+  if (kinematics_->setGeometry(tuned)) geometry_ = tuned;
 }
 
 void BaseMotion::handleWheels(const robot::WheelSpeeds& measured, Duration dt) noexcept {

@@ -15,6 +15,12 @@ std::vector<std::string> namesOf(const CycleConfig& config) {
   return names;
 }
 
+std::vector<std::optional<std::size_t>> modulesOf(const CycleConfig& config, const Transport& transport) {
+  std::vector<std::optional<std::size_t>> modules;
+  for (DriveIndex i = 0; i < config.drives.size(); ++i) modules.push_back(transport.identity(i).shared_module);
+  return modules;
+}
+
 std::vector<drive::Drive> makeDrives(const CycleConfig& config) {
   std::vector<drive::Drive> drives;
   for (const DriveSetup& setup : config.drives) drives.emplace_back(setup.drive);
@@ -31,12 +37,13 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       names_(namesOf(config)),
       drives_(makeDrives(config)),
       supervisor_(config, drives_, auto_enable),
-      maintenance_(drives_, names_),
+      maintenance_(drives_, names_, modulesOf(config, transport)),
       outputs_(config.drives.size()),
       inputs_(config.drives.size()),
       snapshot_(config.drives.size()) {
   for (const DriveSetup& setup : config.drives) {
-    axes_.emplace_back(axes_.size(), setup);
+    const DriveIndex drive = axes_.size();
+    axes_.emplace_back(drive, setup, transport.identity(drive).timeout_owner);
   }
   if (!config.base) return;
   base_.emplace(*config.base, config.cmd_vel_timeout);
@@ -60,7 +67,7 @@ void BusCycle::runOnce() noexcept {
   while (const auto completion = supervisor_.pollCompletion()) ports_.complete(*completion);
   while (const auto completion = maintenance_.pollCompletion()) ports_.complete(*completion);
   runParameters(after);
-  measure(last_input_ ? after - *last_input_ : Duration::zero());
+  measure(after, last_input_ ? after - *last_input_ : Duration::zero());
   last_input_ = after;
   publish(after);
 }
@@ -95,11 +102,10 @@ void BusCycle::accessParameter(const Request& request) noexcept {
   if (at_rest || !changesProcessData(request)) {
     return axes_[request.drive].parameters.handleRequest(request, drives_[request.drive]);
   }
-  Completion completion;
-  completion.id = request.id;
-  completion.message.format("P%03u decides what setpoints and actual values mean: disable drive %s first",
-                            request.parameter.number, names_[request.drive].c_str());
-  ports_.complete(completion);
+  Sentence why;
+  why.format("P%03u decides what setpoints and actual values mean: disable drive %s first", request.parameter.number,
+             names_[request.drive].c_str());
+  ports_.complete(answerTo(request, false, why));
 }
 
 // A drive that is idle may still belong to a base that is on its way to rest: its set stays what it is until then.
@@ -107,20 +113,14 @@ void BusCycle::selectParameterSet(const Request& request, Instant now) noexcept 
   if (supervisor_.groupOf(request.drive).report().phase == drive::GroupPhase::kDisabled) {
     return maintenance_.handleRequest(request, now);
   }
-  Completion completion;
-  completion.id = request.id;
-  completion.message.format("parameter sets are switched at standstill only: disable drive %s first",
-                            names_[request.drive].c_str());
-  ports_.complete(completion);
+  Sentence why;
+  why.format("parameter sets are switched at standstill only: disable drive %s first", names_[request.drive].c_str());
+  ports_.complete(answerTo(request, false, why));
 }
 
 Completion BusCycle::resetOdometry(const Request& request) noexcept {
   if (base_) base_->resetOdometry();
-  Completion completion;
-  completion.id = request.id;
-  completion.success = base_.has_value();
-  completion.message = base_ ? "the pose is zero" : "there is no base";
-  return completion;
+  return answerTo(request, base_.has_value(), base_ ? "the pose is zero" : "there is no base");
 }
 
 // A command that is not zero and not stale: nothing may be enabled under it.
@@ -153,8 +153,10 @@ void BusCycle::command(Instant now, Duration dt) noexcept {
 
 void BusCycle::commandBase(Instant now, Duration dt) noexcept {
   drive::DriveGroup& group = *supervisor_.base();
+  group.commandIsFresh(!isStale(ports_.newestBaseCommand(), cmd_vel_timeout_, now), now);
   const bool follow = group.commandAllowed();
   const bool driving = follow || group.wantsZeroRamp();
+  base_->tune(ports_.newestBaseTuning());
   const robot::WheelSpeeds wheels =
       base_->pollWheels(ports_.newestBaseCommand(), driving, follow, maxWheelSpeeds(), now, dt);
   for (std::size_t i = 0; i < wheels_.size(); ++i) drives_[wheels_[i]].setVelocity(RadPerSec{wheels[i]});
@@ -166,7 +168,9 @@ void BusCycle::commandSingles(Instant now) noexcept {
     if (supervisor_.inBase(i)) continue;
     drive::DriveGroup& group = supervisor_.groupOf(i);
     const JointCommand& newest = ports_.newestDriveCommand(i);
-    const bool follow = group.commandAllowed() && !isStale(newest, cmd_vel_timeout_, now);
+    const bool fresh = !isStale(newest, cmd_vel_timeout_, now);
+    group.commandIsFresh(fresh, now);
+    const bool follow = group.commandAllowed() && fresh;
     drives_[i].setVelocity(RadPerSec{follow ? newest.velocity : 0.0});
     group.setpointIsZero(!follow || newest.velocity == 0.0);
   }
@@ -209,7 +213,7 @@ void BusCycle::runParameters(Instant now) noexcept {
   }
 }
 
-void BusCycle::measure(Duration dt) noexcept {
+void BusCycle::measure(Instant now, Duration dt) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     const drive::DriveReport& report = drives_[i].report();
     if (report.online && report.scaled) {
@@ -217,6 +221,8 @@ void BusCycle::measure(Duration dt) noexcept {
     } else {
       axes_[i].joint.rebase();
     }
+    axes_[i].speed.update(report.phase == drive::Phase::kEnabled && report.scaled, report.velocity_command.value,
+                          report.velocity.value, drives_[i].maxVelocity().value_or(RadPerSec{}).value, now);
   }
   if (base_) measureBase(dt);
 }
@@ -242,6 +248,7 @@ void BusCycle::publish(Instant now) noexcept {
   snapshot_.times = statistics_.times();
   snapshot_.counters = transport_.counters();
   snapshot_.bus_text = transport_.busText();
+  while (const auto event = transport_.pollEvent()) ports_.tell(*event);
   for (DriveIndex i = 0; i < drives_.size(); ++i) fill(snapshot_.drives[i], i);
   if (base_) {
     BaseSnapshot& base = snapshot_.base;
@@ -273,9 +280,13 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive) const noexcept {
   to.velocity_command = report.velocity_command.value;
   to.velocity = report.velocity.value;
   to.frequency = report.frequency.value;
+  to.speed_deviation = axes_[drive].speed.deviation();
+  to.at_speed = axes_[drive].speed.atSpeed();
+  to.astray = axes_[drive].speed.isAstray();
   to.joint_position = axes_[drive].joint.position();
   to.fault_number = axes_[drive].parameters.faults().number();
   to.last_fault_number = axes_[drive].parameters.faults().lastNumber();
+  to.switch_on_reason = report.switch_on_reason;
   to.fault_latched = report.fault_latched;
   to.eeprom_writes = axes_[drive].parameters.eepromWrites();
   to.owes_eeprom_switch = axes_[drive].parameters.owesEepromSwitch();

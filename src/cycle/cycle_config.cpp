@@ -67,6 +67,25 @@ void refuseJointsUsedTwice(const std::vector<DriveSettings>& sources, const std:
   }
 }
 
+drive::StopWay readStopWay(const Settings& settings, const char* key, drive::StopWay fallback, bool may_hold) {
+  const auto word = settings.text(key);
+  if (!word) return fallback;
+  if (may_hold && *word == "setpoint_zero") return drive::StopWay::kSetpointZero;
+  if (*word == "off1") return drive::StopWay::kOff1;
+  if (*word == "quick_stop") return drive::StopWay::kQuickStop;
+  if (*word == "coast") return drive::StopWay::kCoast;
+  throw wrongSetting(settings, key, "\"" + *word + "\"",
+                     std::string(may_hold ? "setpoint_zero, " : "") + "off1, quick_stop or coast");
+}
+
+drive::StopWays readStopWays(const Settings& settings) {
+  drive::StopWays ways;
+  ways.command_timeout = readStopWay(settings, "stop/command_timeout", ways.command_timeout, true);
+  ways.disable = readStopWay(settings, "stop/disable", ways.disable, false);
+  ways.drive_stopped = readStopWay(settings, "stop/drive_stopped", ways.drive_stopped, true);
+  return ways;
+}
+
 }  // namespace
 
 CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSettings>& drives,
@@ -78,6 +97,7 @@ CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSetting
   config.service_timeout = seconds(numberOr(node, "service_timeout", 3.0, 0.1, 60.0, "s"));
   config.shutdown_timeout = seconds(numberOr(node, "shutdown_timeout", 10.0, 0.1, 600.0, "s"));
   config.cmd_vel_timeout = seconds(numberOr(node, "cmd_vel_timeout", 0.5, 0.0, 60.0, "s"));
+  config.stop_ways = readStopWays(node);
   const Duration default_drive_timeout = std::max(kMinDriveTimeout, 3 * config.period());
   const Duration drive_timeout = seconds(
       numberOr(node, "drive_timeout", toSeconds(default_drive_timeout), toSeconds(2 * config.period()), 60.0, "s"));

@@ -26,6 +26,11 @@ void CyclePorts::commandDrive(DriveIndex drive, const JointCommand& command) {
   drive_commands_.at(drive)->write(command);
 }
 
+void CyclePorts::tuneBase(const BaseTuning& tuning) {
+  const std::lock_guard<std::mutex> lock(writers_);
+  base_tuning_.write(tuning);
+}
+
 bool CyclePorts::submit(const Request& request) {
   const std::lock_guard<std::mutex> lock(writers_);
   return requests_.push(request);

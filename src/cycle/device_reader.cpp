@@ -7,8 +7,8 @@ namespace nord_driver::cycle {
 namespace {
 
 constexpr std::uint8_t kMaxAttempts = 3;
-constexpr std::uint16_t kMaxFrequency = 105, kTelegramTimeout = 513, kFirstActualValue = 543, kFirstSetpoint = 546,
-                        kEepromSwitch = 560, kSoftwareVersion = 707;
+constexpr std::uint16_t kMaxFrequency = 105, kOptionMonitoring = 120, kModuleTimeout = 151, kTelegramTimeout = 513,
+                        kFirstActualValue = 543, kFirstSetpoint = 546, kEepromSwitch = 560, kSoftwareVersion = 707;
 
 bool isArray(profile::ParameterShape shape) noexcept {
   return shape == profile::ParameterShape::kArray || shape == profile::ParameterShape::kArrayPerSet;
@@ -16,9 +16,13 @@ bool isArray(profile::ParameterShape shape) noexcept {
 
 }  // namespace
 
-DeviceReader::DeviceReader(profile::Series series) noexcept : series_(series) {
+DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner) noexcept : series_(series) {
   for (std::uint8_t set = 1; set <= 4; ++set) add(kMaxFrequency, set, 1);
   add(kTelegramTimeout, 1, 1);
+  if (owner == TimeoutOwner::kModule) {
+    add(kModuleTimeout, 1, 1);
+    add(kOptionMonitoring, 1, 1);
+  }
   add(kEepromSwitch, 1, 1);
   add(kSoftwareVersion, 1, 1);
   add(kSoftwareVersion, 1, 2);
@@ -81,7 +85,11 @@ void DeviceReader::handleResult(const profile::ParameterResult& result) noexcept
     return;
   }
   if (result.outcome == profile::ParameterOutcome::kTimeout && ++attempts_ < kMaxAttempts) return;
-  if (result.outcome == profile::ParameterOutcome::kDone) store(items_[next_], result.raw);
+  if (result.outcome == profile::ParameterOutcome::kDone) {
+    store(items_[next_], result.raw);
+  } else {
+    leaveOut(items_[next_]);
+  }
   attempts_ = 0;
   ++next_;
 }
@@ -92,15 +100,28 @@ void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
     if (value > 0.0) data_.max_frequency[item.set - 1u] = value;
   } else if (item.number == kTelegramTimeout) {
     data_.telegram_timeout = value;
+  } else if (item.number == kModuleTimeout) {
+    data_.module_timeout = value;
+  } else if (item.number == kOptionMonitoring) {
+    data_.option_monitoring = raw;
   } else if (item.number == kEepromSwitch) {
     data_.saves_in_eeprom = raw != 0;
   } else if (item.number == kSoftwareVersion) {
     (item.index == 1 ? data_.software_version : data_.software_revision) = raw;
-  } else if (item.number >= kFirstSetpoint) {
-    data_.setpoint_functions.push_back(static_cast<std::uint16_t>(raw));
-  } else {
-    data_.actual_value_functions.push_back(static_cast<std::uint16_t>(raw));
+  } else if (auto* functions = functionsOf(item)) {
+    functions->push_back(static_cast<std::uint16_t>(raw));
   }
+}
+
+// They are asked for in their order: one that stays away must not let the next take its place.
+void DeviceReader::leaveOut(const Item& item) noexcept {
+  if (auto* functions = functionsOf(item)) functions->push_back(kUnknownFunction);
+}
+
+FixedVector<std::uint16_t, 3>* DeviceReader::functionsOf(const Item& item) noexcept {
+  if (item.number >= kFirstSetpoint && item.number < kFirstSetpoint + 3) return &data_.setpoint_functions;
+  if (item.number >= kFirstActualValue && item.number < kFirstSetpoint) return &data_.actual_value_functions;
+  return nullptr;
 }
 
 }  // namespace nord_driver::cycle

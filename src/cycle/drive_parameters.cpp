@@ -27,8 +27,8 @@ bool changesProcessData(const Request& request) noexcept {
 }
 
 DriveParameters::DriveParameters(DriveIndex drive, std::string name, profile::Series series,
-                                 std::optional<double> typed_max_frequency)
-    : drive_(drive), name_(std::move(name)), typed_max_frequency_(typed_max_frequency), reader_(series) {}
+                                 std::optional<double> typed_max_frequency, TimeoutOwner owner)
+    : drive_(drive), name_(std::move(name)), typed_max_frequency_(typed_max_frequency), reader_(series, owner) {}
 
 void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
   const drive::DriveReport& report = drive.report();
@@ -55,8 +55,11 @@ void DriveParameters::askForReason(drive::Drive& drive, Instant now) noexcept {
   const bool waiting = report.phase == drive::Phase::kIdle || report.phase == drive::Phase::kEnabling;
   const bool held = waiting && (report.state == profile::DriveState::kSwitchOnDisabled ||
                                 report.state == profile::DriveState::kNotReadyToSwitchOn);
-  const bool known = held && faults_.reasonState() == drive::ReasonState::kKnown && faults_.reason() != 0;
-  drive.setSwitchOnReason(known ? std::optional<std::uint16_t>{faults_.reason()} : std::nullopt);
+  // While it is read again, the one known before stands.
+  if (!held || faults_.reasonState() != drive::ReasonState::kReading) {
+    const bool known = held && faults_.reasonState() == drive::ReasonState::kKnown && faults_.reason() != 0;
+    drive.setSwitchOnReason(known ? std::optional<std::uint16_t>{faults_.reason()} : std::nullopt);
+  }
   if (!held) {
     held_since_.reset();
   } else if (!held_since_) {
@@ -107,10 +110,7 @@ void DriveParameters::refuse(const Request& request, profile::ParameterOutcome o
   drive::ParameterTaskResult result;
   result.id = request.id;
   result.outcome = outcome;
-  Completion completion;
-  completion.id = request.id;
-  completion.message = parameterSentence(name_.c_str(), request.parameter.number, result);
-  completions_.push_back(completion);
+  completions_.answer(request, false, parameterSentence(name_.c_str(), request.parameter.number, result));
 }
 
 std::optional<profile::ParameterRequest> DriveParameters::pollRequest(Instant now) noexcept {
@@ -170,12 +170,10 @@ void DriveParameters::collect() noexcept {
   while (const auto result = session_.pollResult()) {
     for (std::size_t i = 0; i < pending_.size(); ++i) {
       if (pending_[i].id != result->id) continue;
-      Completion completion;
-      completion.id = result->id;
-      completion.success = result->outcome == profile::ParameterOutcome::kDone;
+      Completion completion = answerTo(pending_[i], result->outcome == profile::ParameterOutcome::kDone,
+                                       parameterSentence(name_.c_str(), pending_[i].parameter.number, *result));
       completion.raw = result->raw;
-      completion.message = parameterSentence(name_.c_str(), pending_[i].parameter.number, *result);
-      completions_.push_back(completion);
+      completions_.add(completion);
       // Whatever became of it: a write without an answer may have been carried out.
       if (changesProcessData(pending_[i])) readDeviceAgain();
       for (std::size_t j = i + 1; j < pending_.size(); ++j) pending_[j - 1] = pending_[j];
@@ -183,13 +181,6 @@ void DriveParameters::collect() noexcept {
       break;
     }
   }
-}
-
-std::optional<Completion> DriveParameters::pollCompletion() noexcept {
-  if (completions_.empty()) return std::nullopt;
-  const Completion completion = completions_[0];
-  completions_.eraseFront(1);
-  return completion;
 }
 
 }  // namespace nord_driver::cycle

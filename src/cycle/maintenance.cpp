@@ -6,8 +6,24 @@
 
 namespace nord_driver::cycle {
 
-Maintenance::Maintenance(std::vector<drive::Drive>& drives, std::vector<std::string> names)
-    : drives_(drives), names_(std::move(names)) {}
+namespace {
+
+// One P151 watches up to four inverters, and the module stays in its time-out until all of them are acknowledged (BU
+// 0220 4.2.3.2).
+Sentence withNeighbour(const Sentence& answer, const char* neighbour) noexcept {
+  Sentence text;
+  text.format("%.120s; drive %s behind the same bus module has a fault too: after a time-out all must be acknowledged",
+              answer.c_str(), neighbour);
+  return text;
+}
+
+}  // namespace
+
+Maintenance::Maintenance(std::vector<drive::Drive>& drives, std::vector<std::string> names,
+                         std::vector<std::optional<std::size_t>> modules)
+    : drives_(drives), names_(std::move(names)), modules_(std::move(modules)) {
+  modules_.resize(drives_.size());
+}
 
 template <typename Action>
 void Maintenance::forEach(const Request& request, Action action) noexcept {
@@ -18,7 +34,7 @@ void Maintenance::forEach(const Request& request, Action action) noexcept {
 
 void Maintenance::handleRequest(const Request& request, Instant now) noexcept {
   if (!jobs_.push_back({request, now + request.patience})) {
-    return complete(request, false, "too many requests are being carried out already");
+    return completions_.answer(request, false, "too many requests are being carried out already");
   }
   forEach(request, [&](DriveIndex i) {
     if (request.kind == RequestKind::kAcknowledge) {
@@ -49,37 +65,35 @@ bool Maintenance::follow(const Job& job, Instant now) noexcept {
   });
   if (busy && now < job.deadline) return false;
   if (busy) {
-    complete(job.request, false, "not confirmed in time");
-  } else if (!refused.empty()) {
-    complete(job.request, false, refused);
+    completions_.answer(job.request, false, "not confirmed in time");
   } else if (job.request.kind == RequestKind::kAcknowledge) {
-    complete(job.request, true, "no fault stands; the drives stay disabled until they are enabled");
+    const Sentence answer =
+        refused.empty() ? "no fault stands; the drives stay disabled until they are enabled" : refused;
+    const auto neighbour = faultedNeighbour(job.request);
+    completions_.answer(job.request, refused.empty(),
+                        neighbour ? withNeighbour(answer, names_[*neighbour].c_str()) : answer);
+  } else if (!refused.empty()) {
+    completions_.answer(job.request, false, refused);
   } else {
     Sentence text;
     text.format("parameter set %u is active", job.request.parameter_set);
-    complete(job.request, true, text);
+    completions_.answer(job.request, true, text);
   }
   return true;
+}
+
+std::optional<DriveIndex> Maintenance::faultedNeighbour(const Request& request) const noexcept {
+  if (request.drive == kAllDrives || !modules_[request.drive]) return std::nullopt;
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    const drive::DriveReport& report = drives_[i].report();
+    if (i != request.drive && modules_[i] == modules_[request.drive] && report.online && report.fault_latched) return i;
+  }
+  return std::nullopt;
 }
 
 const drive::RequestReport& Maintenance::reportOf(const Request& request, DriveIndex drive) const noexcept {
   const drive::DriveReport& report = drives_[drive].report();
   return request.kind == RequestKind::kAcknowledge ? report.acknowledge : report.set_switch;
-}
-
-void Maintenance::complete(const Request& request, bool success, const Sentence& message) noexcept {
-  Completion completion;
-  completion.id = request.id;
-  completion.success = success;
-  completion.message = message;
-  if (request.id != 0) completions_.push_back(completion);
-}
-
-std::optional<Completion> Maintenance::pollCompletion() noexcept {
-  if (completions_.empty()) return std::nullopt;
-  const Completion completion = completions_[0];
-  completions_.eraseFront(1);
-  return completion;
 }
 
 }  // namespace nord_driver::cycle

@@ -26,8 +26,15 @@ Sentence refusalSentence(const char* drive, Refusal refusal, const drive::DriveR
 Sentence stopSentence(const char* drive, StopCause cause, const drive::DriveReport& report) noexcept {
   Sentence text;
   if (cause == StopCause::kNone) return text;
-  text.format("drive %s stopped: %s (status word %04X, %s)", drive, drive::toString(cause), report.stop_status_word,
-              profile::toString(profile::StatusWord{report.stop_status_word}.state()));
+  const char* const state = profile::toString(profile::StatusWord{report.stop_status_word}.state());
+  if (report.online && report.switch_on_reason) {
+    const unsigned reason = *report.switch_on_reason;
+    text.format("drive %s stopped: %s (status word %04X, %s; the inverter's own reason, P700[-03], is %u.%u)", drive,
+                drive::toString(cause), report.stop_status_word, state, reason / 10, reason % 10);
+  } else {
+    text.format("drive %s stopped: %s (status word %04X, %s)", drive, drive::toString(cause), report.stop_status_word,
+                state);
+  }
   return text;
 }
 
@@ -64,7 +71,10 @@ Sentence parameterSentence(const char* drive, std::uint16_t number, const drive:
       text.format("drive %s does not answer%s%s", drive, joint, note);
       break;
     case profile::ParameterOutcome::kNoChannel:
-      text.format("drive %s has no parameter channel: PPO types 3 and 4 carry process data only", drive);
+      text.format(
+          "drive %s has no parameter channel: PPO types 3 and 4 carry process data only, and its bus module takes no "
+          "acyclic requests (DP-V1)",
+          drive);
       break;
     case profile::ParameterOutcome::kBusy:
       text.format("drive %s has too many parameter requests waiting already", drive);

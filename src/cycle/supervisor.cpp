@@ -31,26 +31,12 @@ void Supervisor::addGroup(const std::vector<DriveIndex>& members, const CycleCon
   }
   drive::GroupConfig group;
   group.shutdown_timeout = config.shutdown_timeout;
+  group.ways = config.stop_ways;
   groups_.push_back({drive::DriveGroup{pointers, group}, members});
 }
 
 bool Supervisor::concerns(const Request& request, std::size_t group) const noexcept {
   return request.drive == kAllDrives || group_of_[request.drive] == group;
-}
-
-void Supervisor::complete(const Request& request, bool success, const Sentence& message) noexcept {
-  Completion completion;
-  completion.id = request.id;
-  completion.success = success;
-  completion.message = message;
-  if (request.id != 0) completions_.push_back(completion);
-}
-
-std::optional<Completion> Supervisor::pollCompletion() noexcept {
-  if (completions_.empty()) return std::nullopt;
-  const Completion completion = completions_[0];
-  completions_.eraseFront(1);
-  return completion;
 }
 
 void Supervisor::handleRequest(const Request& request, const Sentence& moving, Instant now) noexcept {
@@ -60,7 +46,7 @@ void Supervisor::handleRequest(const Request& request, const Sentence& moving, I
     if (request.kind != RequestKind::kQuickStop) {
       Sentence text;
       text.format("drive %s belongs to the base: use ~enable", names_[request.drive].c_str());
-      return complete(request, false, text);
+      return completions_.answer(request, false, text);
     }
   }
   switch (request.kind) {
@@ -88,14 +74,14 @@ void Supervisor::handleRequest(const Request& request, const Sentence& moving, I
 // Stops have acted by then, whatever becomes of their answer.
 void Supervisor::followUp(const Request& request, Instant now) noexcept {
   if (jobs_.push_back({request, now + request.patience})) return;
-  complete(request, false, "begun, but too many requests wait for their answers to follow this one");
+  completions_.answer(request, false, "begun, but too many requests wait for their answers to follow this one");
 }
 
 void Supervisor::startEnable(const Request& request, const Sentence& moving, Instant now) noexcept {
   auto_enable_ = false;  // somebody has taken over
-  if (shutting_down_) return complete(request, false, "the node is ending");
-  if (!moving.empty()) return complete(request, false, moving);
-  if (jobs_.full()) return complete(request, false, "too many requests are being carried out already");
+  if (shutting_down_) return completions_.answer(request, false, "the node is ending");
+  if (!moving.empty()) return completions_.answer(request, false, moving);
+  if (jobs_.full()) return completions_.answer(request, false, "too many requests are being carried out already");
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& group = groups_[i];
     const GroupPhase phase = group.group.report().phase;
@@ -103,7 +89,7 @@ void Supervisor::startEnable(const Request& request, const Sentence& moving, Ins
     const drive::GroupRefusal refusal = group.group.requestEnable(now);
     if (refusal.accepted()) continue;
     takeBack(request, now);
-    return complete(request, false, refusalOf(group, refusal));
+    return completions_.answer(request, false, refusalOf(group, refusal));
   }
   followUp(request, now);
 }
@@ -148,7 +134,7 @@ void Supervisor::autoEnable(const Sentence& moving, Instant now) noexcept {
 bool Supervisor::follow(const Job& job, Instant now) noexcept {
   if (job.request.kind == RequestKind::kEnable ? followEnable(job, now) : followStop(job)) return true;
   if (now < job.deadline) return false;
-  complete(job.request, false, unsettled(job.request));
+  completions_.answer(job.request, false, unsettled(job.request));
   // Told that it failed, its asker must not see it succeed later.
   if (job.request.kind == RequestKind::kEnable) takeBack(job.request, now);
   return true;
@@ -163,12 +149,12 @@ bool Supervisor::followEnable(const Job& job, Instant now) noexcept {
     all = false;
     if (report.phase == GroupPhase::kEnabling) continue;
     takeBack(job.request, now);
-    complete(job.request, false,
-             report.refusal.accepted() ? Sentence{"disabled again before all drives were enabled"}
-                                       : refusalOf(groups_[i], report.refusal));
+    completions_.answer(job.request, false,
+                        report.refusal.accepted() ? Sentence{"disabled again before all drives were enabled"}
+                                                  : refusalOf(groups_[i], report.refusal));
     return true;
   }
-  if (all) complete(job.request, true, "enabled");
+  if (all) completions_.answer(job.request, true, "enabled");
   return all;
 }
 
@@ -177,7 +163,7 @@ bool Supervisor::followStop(const Job& job) noexcept {
     if (concerns(job.request, i) && !groups_[i].group.settled()) return false;
   }
   const bool quick = job.request.kind == RequestKind::kQuickStop;
-  complete(job.request, true, quick ? "stopped and disabled" : "disabled");
+  completions_.answer(job.request, true, quick ? "stopped and disabled" : "disabled");
   return true;
 }
 
@@ -204,6 +190,7 @@ Sentence Supervisor::baseStopSentence() const noexcept {
   if (!has_base_) return {};
   const Group& base = groups_.front();
   const drive::GroupReport& report = base.group.report();
+  if (report.stop_cause == drive::StopCause::kCommandTimeout) return drive::toString(report.stop_cause);
   const DriveIndex member = base.members[report.stop_member];
   return stopSentence(names_[member].c_str(), report.stop_cause, drives_[member].report());
 }

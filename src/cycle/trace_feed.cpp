@@ -6,7 +6,8 @@ namespace {
 
 /// True for a stop nobody asked for.
 bool unasked(drive::StopCause cause) noexcept {
-  return cause != drive::StopCause::kNone && cause != drive::StopCause::kQuickStop;
+  // OFF2 is the way of a stop, asked for or with a cause of its own.
+  return cause != drive::StopCause::kNone && cause != drive::StopCause::kQuickStop && cause != drive::StopCause::kCoast;
 }
 
 /// Remembers `now` and tells whether it has just become true.

@@ -58,10 +58,7 @@ GroupRefusal DriveGroup::requestEnable(Instant now) noexcept {
 void DriveGroup::requestDisable(Instant now) noexcept {
   switch (report_.phase) {
     case GroupPhase::kEnabled:
-      setpoint_is_zero_ = false;
-      zero_seen_ = false;
-      down_since_ = now;
-      return enter(GroupPhase::kRampingDown, now);
+      return stop(config_.ways.disable, now);
     case GroupPhase::kEnabling:
       report_.refusal = {Refusal::kStopped, 0};
       down_since_ = now;
@@ -69,6 +66,30 @@ void DriveGroup::requestDisable(Instant now) noexcept {
     default:
       return;
   }
+}
+
+// From kEnabled, all members.
+void DriveGroup::stop(StopWay way, Instant now) noexcept {
+  down_since_ = now;
+  switch (way) {
+    case StopWay::kSetpointZero:
+    case StopWay::kOff1:
+      setpoint_is_zero_ = false;
+      zero_seen_ = false;
+      return enter(GroupPhase::kRampingDown, now);
+    case StopWay::kQuickStop:
+      return quickStopAll(now);
+    case StopWay::kCoast:
+      return coastAll(now);
+  }
+}
+
+void DriveGroup::commandIsFresh(bool fresh, Instant now) noexcept {
+  const bool too_old = followed_ && !fresh && report_.phase == GroupPhase::kEnabled;
+  followed_ = fresh && report_.phase == GroupPhase::kEnabled;
+  if (!too_old || config_.ways.command_timeout == StopWay::kSetpointZero) return;
+  latch(StopCause::kCommandTimeout, 0);
+  stop(config_.ways.command_timeout, now);
 }
 
 void DriveGroup::requestQuickStop(Instant now) noexcept {
@@ -121,6 +142,11 @@ bool DriveGroup::quickStopTheRest(Instant now) noexcept {
   return false;
 }
 
+void DriveGroup::coastAll(Instant now) noexcept {
+  for (Drive* member : members_) member->requestCoast(now);
+  enter(GroupPhase::kStopping, now);
+}
+
 void DriveGroup::shutdownAll(Instant now) noexcept {
   for (Drive* member : members_) member->requestShutdown(now);
   enter(GroupPhase::kStopping, now);
@@ -169,13 +195,25 @@ bool DriveGroup::haltIfAMemberStopped(Instant now) noexcept {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (members_[i]->report().phase == Phase::kEnabled) continue;
     latch(members_[i]->report().stop_cause, i);
-    // OFF1 at once would take their torque at 0 Hz; first down the drive's own ramp.
-    for (Drive* member : members_) member->requestSetpointZero(now);
-    down_since_ = now;
-    enter(GroupPhase::kHalting, now);
+    haltTheOthers(now);
     return true;
   }
   return false;
+}
+
+// The member that stopped keeps its idle word.
+void DriveGroup::haltTheOthers(Instant now) noexcept {
+  const StopWay way = config_.ways.drive_stopped;
+  for (Drive* member : members_) {
+    if (!runs(*member)) continue;
+    if (way == StopWay::kSetpointZero) member->requestSetpointZero(now);
+    if (way == StopWay::kOff1) member->requestShutdown(now);
+    if (way == StopWay::kQuickStop) member->requestQuickStop(now);
+    if (way == StopWay::kCoast) member->requestCoast(now);
+  }
+  down_since_ = now;
+  // OFF1 at once would take their torque at 0 Hz; kHalting waits for the drive's own ramp first.
+  enter(way == StopWay::kSetpointZero ? GroupPhase::kHalting : GroupPhase::kStopping, now);
 }
 
 bool DriveGroup::nearStandstill() const noexcept {
@@ -236,7 +274,7 @@ const char* toString(GroupPhase phase) noexcept {
     case GroupPhase::kHalting:
       return "halting: a drive has stopped";
     case GroupPhase::kStopping:
-      return "stopping (OFF1)";
+      return "stopping";
     case GroupPhase::kQuickStopping:
       return "quick stopping (OFF3)";
   }

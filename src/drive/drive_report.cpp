@@ -52,6 +52,8 @@ const char* toString(StopCause cause) noexcept {
       return "the ramp down (OFF1) did not end in time, so a quick stop followed";
     case StopCause::kCoast:
       return "switching the output off (OFF2) was asked for";
+    case StopCause::kCommandTimeout:
+      return "no new velocity command came within cmd_vel_timeout";
   }
   return "";
 }

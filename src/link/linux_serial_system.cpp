@@ -3,24 +3,17 @@
 #include <poll.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "nord_driver/link/adapter_identity.h"
 #include "nord_driver/link/serial_devices.h"
 #include "nord_driver/link/serial_system.h"
 #include "uart_requests.h"
+#include "waiting.h"
 
 namespace nord_driver::link {
 
 namespace {
-
-timespec toTimespec(Duration span) noexcept {
-  timespec time{};
-  time.tv_sec = static_cast<time_t>(span.count() / 1'000'000'000);
-  time.tv_nsec = static_cast<long>(span.count() % 1'000'000'000);
-  return time;
-}
 
 class LinuxSerialSystem final : public SerialSystem {
  public:
@@ -61,9 +54,8 @@ class LinuxSerialSystem final : public SerialSystem {
     const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
     return count >= 0 ? count : -errno;
   }
-  // ppoll and not poll or epoll: a millisecond is longer than the pauses of the bus.
   PollResult poll(int descriptor, Duration timeout) noexcept override {
-    const timespec left = toTimespec(timeout > Duration::zero() ? timeout : Duration::zero());
+    const timespec left = toTimeout(timeout);
     pollfd wait{descriptor, POLLIN, 0};
     PollResult result;
     const int ready = ::ppoll(&wait, 1, &left, nullptr);
@@ -76,11 +68,7 @@ class LinuxSerialSystem final : public SerialSystem {
   }
 
   Instant now() const noexcept override { return std::chrono::steady_clock::now(); }
-  void sleepUntil(Instant when) noexcept override {
-    const timespec wake = toTimespec(when.time_since_epoch());
-    while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr) == EINTR) {
-    }
-  }
+  void sleepUntil(Instant when) noexcept override { sleepUntilInstant(when); }
 
   int resolve(const char* path, DevicePath& target) noexcept override { return resolvePath(path, target); }
   int adapterLink(const char* device, DevicePath& link) noexcept override {

@@ -18,7 +18,8 @@ geometry_msgs::Quaternion yawQuaternion(double yaw) {
 
 }  // namespace
 
-BasePublisher::BasePublisher(ros::NodeHandle& node, const NodeConfig& config) : config_(config.publish) {
+BasePublisher::BasePublisher(ros::NodeHandle& node, const NodeConfig& config)
+    : config_(config.publish), odom_tf_(config.publish.enable_odom_tf), rate_(config.publish.publish_rate) {
   for (std::size_t i = 0; i < config.cycle.drives.size(); ++i) {
     if (config.cycle.drives[i].joint.empty()) continue;
     jointed_.push_back(i);
@@ -37,7 +38,7 @@ BasePublisher::BasePublisher(ros::NodeHandle& node, const NodeConfig& config) : 
   }
   odometry_publisher_ = node.advertise<nav_msgs::Odometry>("odom", 10);
   if (config_.publish_cmd) command_publisher_ = node.advertise<geometry_msgs::TwistStamped>("cmd_vel_out", 10);
-  if (config_.enable_odom_tf) broadcaster_.emplace();
+  if (odom_tf_) broadcaster_.emplace();
 }
 
 void BasePublisher::publish(const cycle::CycleSnapshot& snapshot, ros::Time stamp) {
@@ -63,7 +64,8 @@ void BasePublisher::publishOdometry(const cycle::BaseSnapshot& base, ros::Time s
   odometry_.twist.twist.linear.y = base.velocity.linear_y;
   odometry_.twist.twist.angular.z = base.velocity.angular_z;
   odometry_publisher_.publish(odometry_);
-  if (!broadcaster_) return;
+  if (!odom_tf_) return;
+  if (!broadcaster_) broadcaster_.emplace();
   geometry_msgs::TransformStamped transform;
   transform.header = odometry_.header;
   transform.child_frame_id = odometry_.child_frame_id;

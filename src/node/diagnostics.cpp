@@ -4,7 +4,6 @@
 
 #include "nord_driver/core/bytes.h"
 #include "nord_driver/node/bus_publisher.h"
-#include "nord_driver/node/drive_protection.h"
 #include "nord_driver/profile/fault_text.h"
 
 namespace nord_driver::node {
@@ -19,6 +18,7 @@ Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdenti
   if (config.cycle.base) updater_.add("base", [this](DiagnosticStatusWrapper& status) { reportBase(status); });
   for (std::size_t i = 0; i < config.cycle.drives.size(); ++i) {
     names_.push_back(config.cycle.drives[i].name);
+    protections_.emplace_back(identities[i], config.cycle.cmd_vel_timeout, config.cycle.period());
     typed_max_frequency_.push_back(config.cycle.drives[i].typed_max_frequency);
     updater_.add("drive " + names_.back(), [this, i](DiagnosticStatusWrapper& status) { reportDrive(i, status); });
   }
@@ -45,6 +45,8 @@ void Diagnostics::reportBus(DiagnosticStatusWrapper& status) const {
   status.add("timeouts", snapshot_.counters.timeouts);
   status.add("checksum errors", snapshot_.counters.checksum_errors);
   status.add("parity errors", snapshot_.counters.parity_errors);
+  status.add("framing errors", snapshot_.counters.framing_errors);
+  status.add("overruns", snapshot_.counters.overruns);
   status.add("discarded bytes", snapshot_.counters.discarded_bytes);
   status.add("unexpected telegrams", snapshot_.counters.unexpected);
   status.add("stale parameter answers", snapshot_.counters.stale);
@@ -63,10 +65,7 @@ void Diagnostics::reportBase(DiagnosticStatusWrapper& status) const {
   status.add("angular velocity (rad/s)", base.velocity.angular_z);
 }
 
-void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status) const {
-  const cycle::DriveSnapshot& drive = snapshot_.drives[index];
-  const DriveIdentity& identity = identities_[index];
-  status.hardware_id = device_ + ", " + identity.address;
+void Diagnostics::summarize(const cycle::DriveSnapshot& drive, DiagnosticStatusWrapper& status) const {
   if (!drive.online) {
     status.summary(DiagnosticStatus::ERROR, drive.text.empty() ? "no answer" : drive.text.str());
   } else if (drive.fault_number != 0) {
@@ -77,6 +76,11 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
   } else {
     status.summary(DiagnosticStatus::OK, drive.text.empty() ? profile::toString(drive.state) : drive.text.str());
   }
+}
+
+// What does not stop the drive, but should be seen to.
+void Diagnostics::warn(std::size_t index, const ProtectionReport& protection, DiagnosticStatusWrapper& status) const {
+  const cycle::DriveSnapshot& drive = snapshot_.drives[index];
   const auto& typed = typed_max_frequency_[index];
   for (std::size_t set = 0; set < drive.device.max_frequency.size() && typed; ++set) {
     const auto& read = drive.device.max_frequency[set];
@@ -86,8 +90,17 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
                            *read);
     }
   }
-  if (runsOnWithoutUs(drive.device))
-    status.mergeSummary(DiagnosticStatus::ERROR, protectionText(identity, drive.device));
+  if (drive.online && protection.level != ProtectionReport::Level::kFine) {
+    const bool runs_on = protection.level == ProtectionReport::Level::kError;
+    status.mergeSummary(runs_on ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
+                        "if this computer died: " + protection.text);
+  }
+  if (drive.astray) {
+    status.mergeSummaryf(DiagnosticStatus::WARN,
+                         "it has been %.2f rad/s away from its setpoint for seconds: is the motor overloaded, or are "
+                         "the inverter's ramps (P102, P103) longer than those of the commands?",
+                         drive.speed_deviation);
+  }
   if (drive.direction_contradiction) {
     status.mergeSummary(DiagnosticStatus::WARN,
                         "actual value 1 and the direction bits of the status word contradict each other");
@@ -100,12 +113,28 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
     status.mergeSummary(DiagnosticStatus::WARN,
                         "P560 was set to 0 for a parameter write and could not be put back yet");
   }
+}
+
+void Diagnostics::addFault(const cycle::DriveSnapshot& drive, DiagnosticStatusWrapper& status) const {
   const std::uint16_t fault = drive.fault_number != 0 ? drive.fault_number : drive.last_fault_number;
-  if (fault != 0) {
-    status.add(drive.fault_number != 0 ? "fault" : "last fault",
-               profile::faultName(fault) + ": " + profile::faultText(fault));
-    status.add("likely cause", profile::faultCause(fault));
-    status.add("remedy", profile::faultRemedy(fault));
+  if (fault == 0) return;
+  status.add(drive.fault_number != 0 ? "fault" : "last fault",
+             profile::faultName(fault) + ": " + profile::faultText(fault));
+  status.add("likely cause", profile::faultCause(fault));
+  status.add("remedy", profile::faultRemedy(fault));
+}
+
+void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status) const {
+  const cycle::DriveSnapshot& drive = snapshot_.drives[index];
+  const DriveIdentity& identity = identities_[index];
+  const ProtectionReport protection = protections_[index].assess(drive.device);
+  status.hardware_id = device_ + ", " + identity.address;
+  summarize(drive, status);
+  warn(index, protection, status);
+  addFault(drive, status);
+  if (drive.switch_on_reason) {
+    status.addf("not ready to switch on, P700[-03]", "%u.%u", *drive.switch_on_reason / 10u,
+                *drive.switch_on_reason % 10u);
   }
   status.add("fault latched", drive.fault_latched);
   status.add("EEPROM writes by this node", drive.eeprom_writes);
@@ -116,9 +145,12 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
   status.add("parameter set", static_cast<int>(drive.parameter_set));
   status.add("frequency (Hz)", drive.frequency);
   status.add("velocity (rad/s)", drive.velocity);
+  status.add("velocity commanded (rad/s)", drive.velocity_command);
+  status.add("speed deviation (rad/s)", drive.speed_deviation);
+  status.add("at speed", drive.at_speed);
   status.add("bus module answers", drive.module_answers);
   status.add("parameter channel", identity.parameter_channel);
-  status.add("protected by", protectionText(identity, drive.device));
+  status.add("protected by", protection.text);
 }
 
 }  // namespace nord_driver::node

@@ -1,17 +1,74 @@
 #include "nord_driver/node/drive_protection.h"
 
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "nord_driver/transport/setting_checks.h"
+
 namespace nord_driver::node {
 
-bool runsOnWithoutUs(const cycle::DeviceData& device) {
-  return device.telegram_timeout.has_value() && *device.telegram_timeout < 0.0;
+namespace {
+
+using Level = ProtectionReport::Level;
+
+void warn(ProtectionReport& report, const std::string& text) {
+  report.level = Level::kWarning;
+  report.text += "; " + text;
 }
 
-std::string protectionText(const DriveIdentity& identity, const cycle::DeviceData& device) {
-  if (runsOnWithoutUs(device)) {
-    return "nothing: P513 = -0.1 lets the inverter ignore every bus error, it would run on; set P513 to 0 or more";
+}  // namespace
+
+DriveProtection::DriveProtection(DriveIdentity identity, Duration cmd_vel_timeout, Duration period)
+    : identity_(std::move(identity)), cmd_vel_timeout_(cmd_vel_timeout), period_(period) {}
+
+ProtectionReport DriveProtection::assess(const cycle::DeviceData& device) const {
+  const bool by_module = identity_.timeout_owner == TimeoutOwner::kModule;
+  const std::optional<double>& own = by_module ? device.module_timeout : device.telegram_timeout;
+  const std::string name = by_module ? "P151 of the bus module" : "P513";
+  if (device.telegram_timeout && *device.telegram_timeout < 0.0) {
+    return {Level::kError,
+            "nothing: P513 = -0.1 lets the inverter ignore every bus error, it would run on; set P513 to 0 or more"};
   }
-  if (!device.telegram_timeout) return identity.protected_by + "; P513, which can switch this off, is not known";
-  return identity.protected_by;
+  if (own && *own < 0.0) {
+    return {Level::kError,
+            "nothing: P151 = -1 lets the bus module ignore a lost master, the inverter would run on; set P151 to 0 or "
+            "more"};
+  }
+  // With 0 the drive itself watches nothing, but heeds what the bus notices (BU 2700 7.1.1).
+  const bool own_acts = own && *own > 0.0;
+  const bool bus_acts = !identity_.protected_by.empty();
+  if (!own_acts && !bus_acts) {
+    if (own) return {Level::kError, "nothing: the bus watches nothing, and " + name + " = 0: it would run on"};
+    return {Level::kWarning, "not known: the bus watches nothing, and " + name + " could not be read"};
+  }
+
+  ProtectionReport report;
+  if (bus_acts) report.text = identity_.protected_by;
+  if (own_acts) {
+    report.text += std::string(bus_acts ? "; " : "") + name + " of " + shortNumber(*own) +
+                   " s: the inverter trips E10.3 and the motor coasts";
+  }
+  if (!own) report.text += "; " + name + ", which can switch this off, is not known";
+  if (by_module && !device.option_monitoring) {
+    report.text += "; P120, by which the inverter watches its bus module, is not known";
+  } else if (by_module && *device.option_monitoring == 0) {
+    warn(report, "P120 = 0: the inverter does not notice a bus module that fails; set it to 1 or 2");
+  }
+
+  double latest = bus_acts ? identity_.protection_time : *own;
+  if (own_acts && latest > 0.0) latest = std::min(latest, *own);
+  if (cmd_vel_timeout_ > Duration::zero() && seconds(latest) > cmd_vel_timeout_) {
+    warn(report, "that is " + shortNumber(latest) + " s after the last telegram, later than cmd_vel_timeout (" +
+                     shortNumber(toSeconds(cmd_vel_timeout_)) + " s)");
+  }
+  if (own_acts && *own < identity_.worst_cycle) {
+    warn(report, name + " is shorter than a bus cycle may be, " + shortNumber(identity_.worst_cycle) +
+                     " s while a drive is silent: it trips without a reason");
+  } else if (own_acts && seconds(*own) < 2 * period_) {
+    warn(report, name + " is shorter than two bus cycles: it trips without a reason (BU 0220 4.2.3.1)");
+  }
+  return report;
 }
 
 }  // namespace nord_driver::node

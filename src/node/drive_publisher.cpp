@@ -3,7 +3,6 @@
 #include <limits>
 #include <utility>
 
-#include "nord_driver/node/drive_protection.h"
 #include "nord_driver/profile/fault_text.h"
 #include "nord_driver/profile/scaling.h"
 
@@ -25,13 +24,15 @@ std::string versionText(const cycle::DeviceData& device) {
 }  // namespace
 
 DrivePublisher::DrivePublisher(ros::NodeHandle& private_node, const cycle::DriveSetup& setup, DriveIdentity identity,
-                               std::uint16_t address)
-    : identity_(std::move(identity)), rated_current_(setup.rated_current.value_or(kNotKnown)) {
+                               DriveProtection protection, std::uint16_t address)
+    : identity_(std::move(identity)),
+      protection_(std::move(protection)),
+      rated_current_(setup.rated_current.value_or(kNotKnown)) {
   status_.name = setup.name;
   info_.name = setup.name;
   info_.series = profile::toString(setup.series);
   info_.address = address;
-  info_.inverter = 1;
+  info_.inverter = identity_.inverter;
   info_.rated_current = rated_current_;
   info_.parameter_channel = identity_.parameter_channel;
   status_publisher_ = private_node.advertise<DriveStatus>(setup.name + "/status", 10);
@@ -83,13 +84,27 @@ void DrivePublisher::publishStatus(const cycle::DriveSnapshot& drive, ros::Time 
   status_publisher_.publish(status_);
 }
 
+// Once all that can be read has been read: before, "not known" would be no news.
+void DrivePublisher::logProtection(const cycle::DeviceData& device) {
+  if (!device.complete) return;
+  const ProtectionReport report = protection_.assess(device);
+  if (report.level == ProtectionReport::Level::kFine || report.text == protection_told_) return;
+  protection_told_ = report.text;
+  if (report.level == ProtectionReport::Level::kError) {
+    ROS_ERROR("nord_driver: what stops drive %s if this computer dies: %s", info_.name.c_str(), report.text.c_str());
+  } else {
+    ROS_WARN("nord_driver: what stops drive %s if this computer dies: %s", info_.name.c_str(), report.text.c_str());
+  }
+}
+
 void DrivePublisher::publishDeviceInfo(const cycle::DriveSnapshot& drive) {
   const cycle::DeviceData& device = drive.device;
+  logProtection(device);
   if (!device.complete && told_) return;
   DeviceInfo info = info_;
   info.ident = device.ident;
   info.software_version = versionText(device);
-  info.protected_by = protectionText(identity_, device);
+  info.protected_by = protection_.assess(device).text;
   info.max_frequency.clear();
   for (const auto& frequency : device.max_frequency) info.max_frequency.push_back(frequency.value_or(kNotKnown));
   info.setpoint_functions.assign(device.setpoint_functions.begin(), device.setpoint_functions.end());

@@ -64,6 +64,7 @@ void DriverNode::loadTransport() {
   }
   transport_ = loader_.createInstance(config_.transport);
   transport_->configure(*config_.bus, config_.drives, config_.cycle.cycle_rate);
+  for (const std::string& sentence : transport_->warnings()) ROS_WARN("nord_driver: %s", sentence.c_str());
   for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
     identities_.push_back(transport_->identity(i));
     // Without a parameter channel P105 cannot be read: nobody could say what a setpoint means.
@@ -76,7 +77,8 @@ void DriverNode::loadTransport() {
 }
 
 void DriverNode::warnOfUnknownKeys() const {
-  std::vector<std::string> sentences = settings_.unknownKeys();
+  std::vector<std::string> sentences = config_.warnings;
+  for (const std::string& sentence : settings_.unknownKeys()) sentences.push_back(sentence);
   for (const std::string& sentence : config_.bus->unknownKeys()) sentences.push_back(sentence);
   for (const DriveSettings& drive : config_.drives) {
     for (const std::string& sentence : static_cast<const RosSettings&>(*drive.settings).unknownKeys()) {
@@ -88,6 +90,9 @@ void DriverNode::warnOfUnknownKeys() const {
 
 void DriverNode::advertise() {
   base_publisher_ = std::make_unique<BasePublisher>(node_, config_);
+  if (config_.cycle.base) {
+    base_tuner_ = std::make_unique<BaseTuner>(private_node_, config_, *ports_, *base_publisher_);
+  }
   std::vector<std::string> names;
   std::vector<cycle::TracedDrive> traced;
   for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
@@ -95,7 +100,10 @@ void DriverNode::advertise() {
     names.push_back(setup.name);
     traced.push_back({setup.name, identities_[i].address});
     const auto address = config_.drives[i].settings->integer("address").value_or(0);
-    drive_publishers_.emplace_back(private_node_, setup, identities_[i], static_cast<std::uint16_t>(address));
+    drive_publishers_.emplace_back(
+        private_node_, setup, identities_[i],
+        DriveProtection{identities_[i], config_.cycle.cmd_vel_timeout, config_.cycle.period()},
+        static_cast<std::uint16_t>(address));
     if (cycle_->inBase(i)) continue;
     boost::function<void(const std_msgs::Float64&)> take = [this, i](const std_msgs::Float64& velocity) {
       takeDriveCommand(i, velocity.data);
@@ -156,12 +164,25 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
   // Whatever ends the node, the drives come to rest first: an exchange that simply ends lets the wheels coast.
   try {
     publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_);
-    while (!end_asked && ros::ok() && publisher_->healthy()) ros::WallDuration(0.02).sleep();
+    while (!end_asked && ros::ok() && publisher_->healthy()) {
+      tellBusEvents();
+      ros::WallDuration(0.02).sleep();
+    }
   } catch (...) {
     bringToRest();
     throw;
   }
   bringToRest();
+}
+
+void DriverNode::tellBusEvents() {
+  while (const auto event = ports_->pollBusEvent()) {
+    if (event->warning) {
+      ROS_WARN("nord_driver: %s", event->text.c_str());
+    } else {
+      ROS_INFO("nord_driver: %s", event->text.c_str());
+    }
+  }
 }
 
 void DriverNode::bringToRest() {

@@ -31,11 +31,20 @@ std::string readTransport(const RosSettings& settings) {
   return name.find('/') == std::string::npos ? "nord_driver/" + name : name;
 }
 
+// What a controller file may hold that means nothing here.
+void acceptControllerKeys(const RosSettings& settings, std::vector<std::string>& warnings) {
+  settings.accept("type");                             // a plugin class
+  settings.accept("estimate_velocity_from_position");  // older controllers; inverters tell velocities
+  if (settings.boolean("publish_wheel_joint_controller_state").value_or(false)) {
+    warnings.push_back(settings.fullName("publish_wheel_joint_controller_state") +
+                       " is not offered: ~<drive>/status tells command and velocity of each wheel");
+  }
+}
+
 PublishConfig readPublish(const RosSettings& settings) {
-  constexpr double kMaxRate = 1000.0;
   PublishConfig publish;
-  publish.publish_rate = numberOr(settings, "publish_rate", publish.publish_rate, 0.1, kMaxRate, "Hz");
-  publish.status_rate = numberOr(settings, "status_rate", publish.status_rate, 0.1, kMaxRate, "Hz");
+  publish.publish_rate = numberOr(settings, "publish_rate", publish.publish_rate, 0.1, 2000.0, "Hz");
+  publish.status_rate = numberOr(settings, "status_rate", publish.status_rate, 0.1, 1000.0, "Hz");
   publish.base_frame_id = settings.text("base_frame_id").value_or(publish.base_frame_id);
   publish.odom_frame_id = settings.text("odom_frame_id").value_or(publish.odom_frame_id);
   publish.enable_odom_tf = settings.boolean("enable_odom_tf").value_or(publish.enable_odom_tf);
@@ -54,7 +63,7 @@ NodeConfig readNodeConfig(const RosSettings& settings, const std::string& robot_
   config.transport = readTransport(settings);
   config.auto_enable = settings.boolean("auto_enable").value_or(false);
   config.allow_raw_parameters = settings.boolean("allow_raw_parameters").value_or(false);
-  settings.accept("type");  // controller files name a plugin class here
+  acceptControllerKeys(settings, config.warnings);
   config.publish = readPublish(settings);
   config.bus = settings.group("bus");
   const auto drives = settings.group("drives");

@@ -28,7 +28,7 @@ void RequestBroker::dispatch() {
 cycle::Completion RequestBroker::call(cycle::Request request) {
   std::unique_lock<std::mutex> lock(mutex_);
   request.id = next_id_;
-  next_id_ = next_id_ + 1 == cycle::kFirstOwnRequest ? 1 : next_id_ + 1;
+  if (++next_id_ == 0) next_id_ = 1;  // 0: nobody waits for an answer
   cycle::Completion answer;
   const auto at = waiting_.emplace(request.id, std::nullopt).first;
   if (!ports_.submit(request)) {

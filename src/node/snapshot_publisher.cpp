@@ -8,6 +8,11 @@ namespace {
 
 constexpr Duration kBusPeriod = std::chrono::seconds{1};
 
+/// The rate of the base may change at any time; 0 Hz is never, but a new rate is soon seen.
+Duration basePeriod(const BasePublisher& base) {
+  return base.rate() > 0.0 ? seconds(1.0 / base.rate()) : Duration::max();
+}
+
 /// True when `period` has passed since the last time; a late one is not caught up with.
 bool isDue(Instant& next, Duration period, Instant now) {
   if (now < next) return false;
@@ -24,7 +29,6 @@ SnapshotPublisher::SnapshotPublisher(cycle::CyclePorts& ports, const PublishConf
       drives_(drives),
       bus_(bus),
       diagnostics_(diagnostics),
-      base_period_(seconds(1.0 / config.publish_rate)),
       status_period_(seconds(1.0 / config.status_rate)),
       thread_([this] {
         try {
@@ -48,7 +52,13 @@ void SnapshotPublisher::run() {
     const cycle::CycleSnapshot& snapshot = ports_.readSnapshot();
     if (snapshot.time != Instant{}) {  // the first cycle has ended
       const ros::Time stamp = ros::Time::now();
-      if (isDue(next_base, base_period_, now)) base_.publish(snapshot, stamp);
+      const Duration base_period = basePeriod(base_);
+      if (base_period == Duration::max()) {
+        next_base = now + seconds(0.1);
+      } else {
+        next_base = std::min(next_base, now + base_period);
+        if (isDue(next_base, base_period, now)) base_.publish(snapshot, stamp);
+      }
       if (isDue(next_status, status_period_, now)) {
         for (std::size_t i = 0; i < drives_.size(); ++i) {
           drives_[i].publishStatus(snapshot.drives[i], stamp);

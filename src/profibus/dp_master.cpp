@@ -7,7 +7,8 @@ namespace nord_driver::profibus {
 namespace {
 
 constexpr Duration kListenSlice = std::chrono::milliseconds{2};
-constexpr int kRestAfterProbe = 9;  // slots without a probe after one that nobody answered
+constexpr int kRestAfterProbe = 9;        // slots without a probe after one that nobody answered
+constexpr int kRestAfterUrgentProbe = 1;  // likewise, for a slave whose watchdog still runs
 constexpr Duration kTellForeignAgain = std::chrono::seconds{10};
 constexpr const char* kForeign = "another master is on this segment: this driver must be the only one";
 constexpr const char* kOwnAddress =
@@ -38,7 +39,7 @@ void DpMaster::restart(Instant now) noexcept {
   last_foreign_.reset();
   told_busy_ = false;
   synchronised_ = false;
-  next_probe_ = Instant{};
+  next_probe_ = next_urgent_probe_ = Instant{};
   listen_.restart(now);
 }
 
@@ -65,7 +66,10 @@ void DpMaster::handleTimeout(Instant now) noexcept {
     case Requester::Outcome::kNone:
       break;
     case Requester::Outcome::kNoAnswer:
-      if (turn_ == Turn::kProbe) next_probe_ = now + kRestAfterProbe * bus_.slotTime();
+      if (turn_ == Turn::kProbe) {
+        next_probe_ = now + kRestAfterProbe * bus_.slotTime();
+        next_urgent_probe_ = now + kRestAfterUrgentProbe * bus_.slotTime();
+      }
       slaves_[asked_].handleNoAnswer(requester_.lastMismatch(), now, events_);
       break;
     case Requester::Outcome::kLineBusy:
@@ -189,12 +193,17 @@ std::optional<RecordResult> DpMaster::pollRecord() noexcept {
 }
 
 // One silent slave per cycle, in turns. Each costs a whole slot, which is long where the adapter is slow: however many
-// are silent, the others keep nine tenths of the time.
+// are silent, the others keep nine tenths of the time; half of it, for as long as a lost slave's watchdog may be saved.
 bool DpMaster::askProbe(Instant now) noexcept {
-  if (now < next_probe_) return false;
-  for (std::size_t i = 0; i < slaves_.size() && cursor_ == 0; ++i) {
+  if (cursor_ != 0) return false;
+  if (now >= next_urgent_probe_ && askProbe(true, now)) return true;
+  return now >= next_probe_ && askProbe(false, now);
+}
+
+bool DpMaster::askProbe(bool urgent, Instant now) noexcept {
+  for (std::size_t i = 0; i < slaves_.size(); ++i) {
     const std::size_t slave = (probe_cursor_ + i) % slaves_.size();
-    if (!slaves_[slave].wantsProbe(now)) continue;
+    if (!slaves_[slave].wantsProbe(now) || slaves_[slave].isUrgent(now) != urgent) continue;
     probe_cursor_ = slave + 1;
     cursor_ = slaves_.size();
     ask(slave, now);

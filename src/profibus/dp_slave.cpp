@@ -89,7 +89,7 @@ void DpSlave::prepare(FdlRequest& request, Instant now) noexcept {
     case Service::kRecord:  // prepareAcyclic()
       break;
     case Service::kFdlStatus:
-      due_ = now + probe_interval_;
+      due_ = isUrgent(now) ? now : now + probe_interval_;
       services_.fdlStatus(request, config_.address);
       break;
     case Service::kSlaveDiag:

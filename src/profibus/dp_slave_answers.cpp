@@ -16,11 +16,14 @@ constexpr Duration kAskOften = 1s;
 constexpr Duration kAskRarely = 250ms;
 constexpr Duration kReadyLimit = 5s;
 constexpr Duration kOwnerLimit = 500ms;
+// A slave with a longer watchdog is found in time without haste.
+constexpr Duration kHasteLimit = 1s;
 
 }  // namespace
 
 void DpSlave::handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
   if (asked_ != Service::kFdlStatus) frame_count_.answered();
+  last_answer_ = now;
   switch (asked_) {
     case Service::kFdlStatus:
       return onFdlStatus(answer, now, events);
@@ -41,7 +44,9 @@ void DpSlave::handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& event
 void DpSlave::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) noexcept {
   if (status_.phase == SlavePhase::kSilent) return;
   if (asked_ == Service::kRecord || asked_ == Service::kGetCfg) return handleNoOptionalAnswer(events);
-  if (status_.phase != SlavePhase::kDataExchange) return fallSilent(now + probe_interval_, texts::kNoAnswer);
+  if (status_.phase != SlavePhase::kDataExchange) {
+    return fallSilent(now < save_until_ ? now : now + probe_interval_, texts::kNoAnswer);
+  }
 
   const bool other_length =
       asked_ == Service::kDataExchange && (mismatch == Mismatch::kLength || mismatch == Mismatch::kAcknowledge);
@@ -54,6 +59,7 @@ void DpSlave::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) n
   } else {
     lose(LossCause::kWrongAnswers, texts::kGarbled, events);
   }
+  save_until_ = last_answer_ + std::min(config_.watchdog, kHasteLimit);
   fallSilent(now, texts::kNoAnswer);  // asked again in the next cycle: most silences are short
 }
 

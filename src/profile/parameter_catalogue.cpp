@@ -18,6 +18,8 @@ constexpr std::uint8_t kSk7 = bit(Series::kSk700e) | bit(Series::kSk750e);
 constexpr std::uint8_t kSk12 =
     bit(Series::kSk1x0e) | bit(Series::kSk2xxe);  // decentralised: one bus module, one manual
 
+constexpr std::uint8_t kCu4 = kSk12 | kSk5 | kSk54;  // these sit behind SK CU4/TU4-PBR (BU 2700 3.1)
+
 constexpr std::int32_t kMaxUnsigned = 65535;
 constexpr ParameterShape kPlain = ParameterShape::kPlain;
 constexpr ParameterShape kPerSet = ParameterShape::kPerSet;
@@ -35,7 +37,26 @@ constexpr ParameterInfo kCatalogue[] = {
     {105, kAll, "Maximum frequency", "Hz", 0.1, false, kPerSet, 1, 0, kMaxUnsigned},  // 100 % of frequencies, BU 2700 6.4.4
     // Set-dependent or not is not said; an order with a set falls back by itself when it is not.
     {112, kAll, "Torque current limit", "", 1.0, false, kPerSet, 1, 0, kMaxUnsigned},
-    {120, kSk12, "Option monitoring", "", 1.0, false, kArray, 4, 0, 2},
+    {120, kSk12 | kSk54, "Option monitoring", "", 1.0, false, kArray, 4, 0, 2},
+    // Of the bus module SK CU4/TU4, which stands in front of these series (BU 2700 7.1, BU 0220 5.2); P151 = -1: it heeds
+    // nothing. P152, factory setting,
+    // is not here: nothing that goes through the catalogue may reset a module.
+    {150, kCu4, "Set relay", "", 1.0, false, kPlain, 1, 0, 4},
+    {151, kCu4, "Timeout for external bus", "s", 0.001, true, kPlain, 1, -1, 32767},
+    {153, kCu4, "Min. system bus cycle", "s", 0.001, false, kArray, 2, 0, 250},
+    {154, kCu4, "TB-IO access", "", 1.0, false, kArray, 2, 0, 5},
+    {160, kCu4, "Profibus address", "", 1.0, false, kPlain, 1, 3, 125},
+    {170, kCu4, "Actual error of the bus module", "", 1.0, false, kArray, 2, 0, 9999},
+    {171, kCu4, "Software version of the bus module", "", 1.0, false, kArray, 3, 0, kMaxUnsigned},
+    {172, kCu4, "Configuration level", "", 1.0, false, kPlain, 1, 0, 2},
+    {173, kCu4, "Module status", "", 1.0, false, kPlain, 1, 0, kMaxUnsigned},
+    {174, kCu4, "Digital input status", "", 1.0, false, kPlain, 1, 0, 255},
+    {175, kCu4, "Relay status", "", 1.0, false, kPlain, 1, 0, 3},
+    {176, kCu4, "Process data Bus In", "", 1.0, true, kArray, 17, -32768, 32767},
+    {177, kCu4, "Process data Bus Out", "", 1.0, true, kArray, 17, -32768, 32767},
+    {180, kCu4, "Actual Profibus address", "", 1.0, false, kPlain, 1, 0, 126},
+    {181, kCu4, "Profibus baud rate", "", 1.0, false, kPlain, 1, 0, 15},
+    {182, kCu4, "PPO type of the slots", "", 1.0, false, kArray, 5, 0, 255},
     {426, kAll, "Quick stop time", "", 1.0, false, kPerSet, 1, 0, kMaxUnsigned},
     {506, kAll, "Automatic fault acknowledgement", "", 1.0, false, kPlain, 1, 0, kMaxUnsigned},
     {507, kSk5 | kSk54 | kSk300 | kSk7, "PPO type", "", 1.0, false, kPlain, 1, 1, 4},

@@ -147,6 +147,12 @@ bool PkwChannel::fallBack(std::uint16_t error_number) noexcept {
   return true;
 }
 
+void PkwChannel::handleFailure(ParameterOutcome outcome, std::uint16_t error_number) noexcept {
+  if (waiting_.empty()) return;
+  last_unanswered_ = last_unanswered_ || phase_ == Phase::kOrder;
+  finish(outcome, 0, error_number);
+}
+
 void PkwChannel::handleOffline(Instant) noexcept {
   last_unanswered_ = true;
   pause();

@@ -68,6 +68,8 @@ const char* pkwErrorText(std::uint16_t number) noexcept {
     case 202:
       return "the internal answer label cannot be represented (try PPO 2 or acyclic access)";
     default:
+      // A number of the bus, not of the inverter: 8000h and Error_Code_1 of DP-V1.
+      if (number >= 0x8000) return "the bus module refuses the acyclic access (32768 and the DP-V1 error code)";
       return "an error number the manuals do not list";
   }
 }

@@ -38,4 +38,13 @@ Twist2d DiffDriveKinematics::twist(const WheelSpeeds& wheels) const noexcept {
   return {(left + right) / 2.0, (right - left) / separation_};
 }
 
+bool DiffDriveKinematics::setGeometry(const BaseGeometry& geometry) noexcept {
+  try {
+    *this = DiffDriveKinematics(geometry, left_wheels_, right_wheels_);
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
 }  // namespace nord_driver::robot

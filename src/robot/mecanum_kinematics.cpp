@@ -1,5 +1,7 @@
 #include "nord_driver/robot/mecanum_kinematics.h"
 
+#include <stdexcept>
+
 namespace nord_driver::robot {
 
 MecanumKinematics::MecanumKinematics(const BaseGeometry& geometry)
@@ -24,6 +26,15 @@ Twist2d MecanumKinematics::twist(const WheelSpeeds& wheels) const noexcept {
   return {(front_left + rear_left + front_right + rear_right) / 4.0,
           (-front_left - rear_left + front_right + rear_right) / (4.0 * lever_),
           (-front_left + rear_left + front_right - rear_right) / 4.0};
+}
+
+bool MecanumKinematics::setGeometry(const BaseGeometry& geometry) noexcept {
+  try {
+    *this = MecanumKinematics(geometry);
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
 }
 
 }  // namespace nord_driver::robot

@@ -16,7 +16,13 @@ constexpr double kWaitForModule = 5.0;          // s in "not ready", BU 0280 5.1
 void InverterModel::masterLost() noexcept {
   if (!powered() || ignoresBusErrors()) return;
   master_lost_ = true;
-  trip(fault::kMasterLost, false);
+  trip(settings_.master_lost_fault, false);
+}
+
+void InverterModel::moduleTimeout() noexcept {
+  if (!powered() || ignoresBusErrors()) return;
+  timed_out_ = true;
+  trip(fault::kTimeout, false);
 }
 
 void InverterModel::setModuleLink(bool intact) noexcept {
@@ -46,13 +52,15 @@ void InverterModel::waitForStart() noexcept {
   if (in_state_ >= settings_.charging_time) enter(InverterState::kSwitchOnDisabled);  // 1
 }
 
-// P513 > 0: no control word with bit 10 = 1 for that long is E10.3 (BU 2700 7.1.1, 8.3).
+// P513 > 0: no control word with bit 10 = 1 for that long is E10.3 (BU 2700 7.1.1, 8.3). Behind SK CU4/TU4 it is P151
+// of the module that watches the field bus (8.1).
 void InverterModel::watchTimeout(double dt) noexcept {
+  if (settings_.on_system_bus) return;
   since_valid_ += dt;
   const double limit = parameters_.scaled(513);
   if (!commanded_ || limit <= 0.0 || timed_out_ || since_valid_ < limit) return;
   timed_out_ = true;
-  trip(fault::kTimeout, false);
+  trip(settings_.timeout_fault, false);
 }
 
 bool InverterModel::ignoresBusErrors() const noexcept {
@@ -99,6 +107,10 @@ void InverterModel::acknowledgeByItself() noexcept {
 }
 
 bool InverterModel::inputAcknowledges() const noexcept {
+  // SK 2xxE has one array for its inputs (BU 0220 5.1.2).
+  for (unsigned element = 1; element < 4; ++element) {
+    if (parameters_.value(420, 0, element) == kInputAcknowledge) return true;
+  }
   for (unsigned number = 420; number <= 425; ++number) {
     if (parameters_.value(number) == kInputAcknowledge) return true;
   }

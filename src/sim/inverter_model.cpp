@@ -10,7 +10,10 @@ namespace {
 constexpr double kStep = 1e-3;           // s
 constexpr double kFaultReaction = 5e-3;  // s, until "error reaction active" has become "fault"
 // P509: BU 0020 6.2.2; SK 300E, 700E and 750E have one value for each half and one for both (6.1.2).
+// From a module on the system bus: 3, of the SK 5xxE 6 (BU 2700 7.2).
 constexpr std::int32_t kProfibus = 4;
+constexpr std::int32_t kSystemBus = 3;
+constexpr std::int32_t kCanopen = 6;
 constexpr std::int32_t kOlderSetpoint = 8;
 constexpr std::int32_t kOlderControlWord = 9;
 constexpr std::int32_t kOlderProfibus = 10;
@@ -19,6 +22,8 @@ constexpr std::int32_t kOlderProfibus = 10;
 constexpr std::int32_t kSetpointFrequency = 1;
 constexpr std::int32_t kFrequencyAddition = 4;
 constexpr std::int32_t kFrequencySubtraction = 5;
+constexpr std::int32_t kDecentralAddition = 2;  // SK 1x0E and 2xxE: BU 0220 5.1.3
+constexpr std::int32_t kDecentralSubtraction = 3;
 
 constexpr Word kEnable = stw::kOn | stw::kNoOff2 | stw::kNoOff3 | stw::kEnableOperation;
 constexpr Word kAllOn = kEnable | stw::kRampEnable | stw::kRampRun | stw::kSetpointEnable;  // X1111111
@@ -168,15 +173,16 @@ double InverterModel::busShare() const noexcept {
     if (function == kSetpointFrequency) share += value;
     // P546 of the older series is a table of its own, with positions in these places (BU 0020 6.1.2).
     if (n == 0 && parameters_.device().isOlderSeries()) continue;
-    if (function == kFrequencyAddition) share += value;
-    if (function == kFrequencySubtraction) share -= value;
+    const bool decentral = parameters_.device().isDecentral();
+    if (function == (decentral ? kDecentralAddition : kFrequencyAddition)) share += value;
+    if (function == (decentral ? kDecentralSubtraction : kFrequencySubtraction)) share -= value;
   }
   return share;
 }
 
 // Setpoint or actual value `n` has a parameter of its own, or on SK 540E and above an element of the first one.
 std::int32_t InverterModel::busFunction(unsigned first_number, unsigned n) const noexcept {
-  const bool array = parameters_.device().series == Series::kSk54xe;
+  const bool array = parameters_.device().series == Series::kSk54xe || parameters_.device().isDecentral();
   return array ? parameters_.value(first_number, set_, n) : parameters_.value(first_number + n, set_);
 }
 
@@ -192,16 +198,24 @@ Word InverterModel::command() const noexcept {
 bool InverterModel::busControl() const noexcept {
   if (local_) return false;
   const std::int32_t source = parameters_.value(509);
-  if (!parameters_.device().isOlderSeries()) return source == kProfibus;
+  if (settings_.bus_source) return source == *settings_.bus_source;
+  if (!parameters_.device().isOlderSeries()) return source == busSource();
   return source == kOlderProfibus || source == kOlderControlWord;
 }
 
 bool InverterModel::busSetpoint() const noexcept {
   if (local_) return false;
   const std::int32_t source = parameters_.value(509);
+  if (settings_.bus_source && parameters_.device().isOlderSeries()) return source == *settings_.bus_source;
   if (parameters_.device().isOlderSeries()) return source == kOlderProfibus || source == kOlderSetpoint;
   const std::int32_t setpoint_source = parameters_.value(510);  // P510[-01], 0 = as P509
-  return (setpoint_source == 0 ? source : setpoint_source) == kProfibus;
+  return (setpoint_source == 0 ? source : setpoint_source) == busSource();
+}
+
+std::int32_t InverterModel::busSource() const noexcept {
+  if (settings_.bus_source) return *settings_.bus_source;
+  if (!settings_.on_system_bus) return kProfibus;
+  return parameters_.device().isDecentral() ? kSystemBus : kCanopen;
 }
 
 void InverterModel::setPowered(bool on) noexcept {

@@ -44,6 +44,7 @@ const std::vector<ParameterDefinition>& sk5xxe() {
       {546, "Bus setpoint 1", 1, 0, 55, 1, kPerSet, 0, false},
       {547, "Bus setpoint 2", 1, 0, 55, 0, kPerSet, 0, false},
       {548, "Bus setpoint 3", 1, 0, 55, 0, kPerSet, 0, false},
+      {551, "Drive profile", 1, 0, 1, 0, false, 0, false},
       {560, "Save in EEPROM", 1, 0, 1, 1, false, 0, false},
       // Of the position control of SK 53xE and 54xE, and the only one of 32 bits here; the range is that of a position
       // (BU 0020 7.3.5), the number of elements the simulator's.
@@ -118,12 +119,29 @@ void makeOlderSeries(Definitions& definitions, Series series) {
   definitions.setElements(746, 3);
 }
 
+// SK 1x0E and 2xxE: inputs, setpoints and actual values are arrays, address and PPO type are the module's (BU
+// 0220 5.1).
+void makeDecentral(Definitions& definitions) {
+  for (const int number : {421, 422, 423, 424, 425, 507, 508, 544, 545, 547, 548, 613, 744, 745, 746}) {
+    definitions.remove(number);
+  }
+  definitions.setElements(420, 4);
+  definitions.setRange(509, 0, 4);
+  definitions.setRange(510, 0, 4);
+  definitions.setElements(543, 3);
+  definitions.setRange(546, 0, 32);
+  definitions.setElements(546, 3);
+  definitions.setElements(741, 10);
+  definitions.setElements(748, 0);
+}
+
 }  // namespace
 
 std::vector<ParameterDefinition> parameterDefinitions(const Device& device) {
   Definitions definitions{sk5xxe()};
   if (device.series == Series::kSk54xe) makeSk54xe(definitions);
   if (device.isOlderSeries()) makeOlderSeries(definitions, device.series);
+  if (device.isDecentral()) makeDecentral(definitions);
   if (device.firmware < kFirmwareWithFaultArray) definitions.setElements(700, 0);
   definitions.find(707).factory = static_cast<std::int32_t>(std::lround(device.firmware * 10.0));
   return definitions.take();

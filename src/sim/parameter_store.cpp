@@ -1,10 +1,19 @@
 #include "nord_driver/sim/parameter_store.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace nord_driver::sim {
 
 ParameterStore::ParameterStore(const Device& device) : device_(device), definitions_(parameterDefinitions(device)) {
+  lay();
+}
+
+ParameterStore::ParameterStore(std::vector<ParameterDefinition> definitions) : definitions_(std::move(definitions)) {
+  lay();
+}
+
+void ParameterStore::lay() {
   index_.fill(-1);
   for (std::size_t d = 0; d < definitions_.size(); ++d) {
     const ParameterDefinition& definition = definitions_[d];
@@ -15,6 +24,13 @@ ParameterStore::ParameterStore(const Device& device) : device_(device), definiti
     ram_.insert(ram_.end(), sets * elements, definition.factory);
   }
   eeprom_ = ram_;
+}
+
+void ParameterStore::resetToFactory() noexcept {
+  for (std::size_t d = 0; d < definitions_.size(); ++d) {
+    const std::size_t end = d + 1 < first_.size() ? first_[d + 1] : ram_.size();
+    for (std::size_t at = first_[d]; at < end; ++at) ram_[at] = eeprom_[at] = definitions_[d].factory;
+  }
 }
 
 const ParameterDefinition* ParameterStore::find(unsigned number) const noexcept {

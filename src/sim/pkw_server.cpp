@@ -48,11 +48,7 @@ Order orderOf(unsigned label) noexcept {
 }
 
 PkwWords refused(const PkwWords& order, Word error) noexcept {
-  PkwWords answer;
-  answer.pke = static_cast<Word>(kErrorLabel << 12 | (order.pke & kNumberMask));
-  answer.ind = order.ind;
-  answer.pwe2 = error;
-  return answer;
+  return PkwServer::refusal(order, error);
 }
 
 PkwWords refused(const PkwWords& order, ParameterError error) noexcept {
@@ -70,6 +66,14 @@ PkwWords accepted(const PkwWords& order, unsigned label, std::int32_t value) noe
 }
 
 }  // namespace
+
+PkwWords PkwServer::refusal(const PkwWords& order, Word error) noexcept {
+  PkwWords answer;
+  answer.pke = static_cast<Word>(kErrorLabel << 12 | (order.pke & kNumberMask));
+  answer.ind = order.ind;
+  answer.pwe2 = error;
+  return answer;
+}
 
 void PkwServer::receive(const PkwWords& order) noexcept {
   if (order != order_) {
@@ -129,7 +133,8 @@ PkwWords PkwServer::execute(const PkwWords& order) noexcept {
   if (asked.write) {
     if (asked.double_word != definition->double_word) return refused(order, ParameterError::kDataType);
     const auto raw = static_cast<std::int32_t>(static_cast<std::uint32_t>(order.pwe1) << 16 | order.pwe2);
-    const bool to_ram = asked.ram || parameters_.value(560) == 0;
+    // P560 is the inverter's; a bus module has none and saves what it is not told otherwise.
+    const bool to_ram = asked.ram || (parameters_.find(560) != nullptr && parameters_.value(560) == 0);
     const auto error =
         parameters_.write(definition->number, set, element, raw, to_ram ? Storage::kRam : Storage::kEeprom);
     if (error) return refused(order, *error);

@@ -2,10 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <pthread.h>
-#include <sched.h>
 #include <stdlib.h>
-#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <termios.h>
 #include <unistd.h>
@@ -16,27 +13,18 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "model_clock.h"
+
 namespace nord_driver::sim {
 
 namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds(1);
-/// A thread that was kept from running for longer lets the models stand still meanwhile: the master is not to blame.
-constexpr Duration kLongestGap = std::chrono::milliseconds(20);
 /// A telegram whose rest did not come for that long never will be one.
 constexpr Duration kPartialLife = std::chrono::milliseconds(100);
-constexpr int kPriority = 10;
 
 [[noreturn]] void fail(const std::string& what) {
   throw std::runtime_error(what + ": " + std::strerror(errno));
-}
-
-void becomeRealTime() noexcept {
-  ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
-  sched_param parameter{};
-  parameter.sched_priority = kPriority;
-  // Refused without the right to it: the simulator answers a little later then.
-  static_cast<void>(::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameter));
 }
 
 }  // namespace
@@ -100,9 +88,8 @@ void PtyBus::closePty() noexcept {
 
 void PtyBus::serve() noexcept {
   becomeRealTime();
-  Instant last = std::chrono::steady_clock::now();
-  Duration standstill{0};  // model time = clock - standstill
-  Instant last_input = last;
+  Instant last_input = std::chrono::steady_clock::now();
+  ModelClock clock{last_input};
   while (!stop_) {
     pollfd descriptor{master_, POLLIN, 0};
     const timespec timeout{0, kStep.count()};
@@ -110,9 +97,7 @@ void PtyBus::serve() noexcept {
 
     const std::lock_guard<InheritingMutex> lock(mutex_);
     const Instant now = std::chrono::steady_clock::now();
-    if (now - last > kLongestGap) standstill += now - last - kStep;
-    last = now;
-    const Instant model_now = now - standstill;
+    const Instant model_now = clock.tick(now);
     if (ready > 0 && (descriptor.revents & POLLIN) != 0) {
       takeInput(model_now);
       last_input = now;

@@ -64,6 +64,10 @@ const char* toString(Rule rule) noexcept {
       return "a parameter write order was left standing after its answer (BU 2700 6.5, continuous writing)";
     case Rule::kZeroControlWord:
       return "a control word with bit 10 = 0 came after valid process data (BU 2700 6.4.3)";
+    case Rule::kRecordBeforeReady:
+      return "a DP-V1 record was asked for outside data exchange";
+    case Rule::kRecordWhileOutstanding:
+      return "a DP-V1 request came before the response to the last one was fetched";
     case Rule::kCount:
       break;
   }
@@ -90,8 +94,7 @@ void Referee::request(const Telegram& telegram) noexcept {
     case kSdaHigh:
     case kSrdLow:
     case kSrdHigh:
-      frameCount(station, telegram);
-      service(station, telegram);
+      service(station, telegram, !frameCount(station, telegram));
       pending_ = telegram;
       awaiting_ = true;
       return;
@@ -101,22 +104,26 @@ void Referee::request(const Telegram& telegram) noexcept {
 }
 
 // EN 50170-4, frame count bit.
-void Referee::frameCount(Station& station, const Telegram& telegram) noexcept {
+bool Referee::frameCount(Station& station, const Telegram& telegram) noexcept {
+  bool repeated = false;
   if (!telegram.fcv()) {
     if (!telegram.fcb()) broken(Rule::kFirstRequestWithoutFcb);
+    repeated = station.first_request_sent && !station.answered && sameTelegram(telegram, station.last);
     station.first_request_sent = true;
   } else if (!station.first_request_sent) {
     broken(Rule::kFcvBeforeFirstRequest);
   } else if (telegram.fcb() == station.last.fcb()) {
+    repeated = true;
     if (differsInMoreThanFcv(telegram, station.last)) broken(Rule::kFcbReused);
   } else if (!station.answered) {
     broken(Rule::kFcbToggledWithoutAnswer);
   }
   station.last = telegram;
   station.answered = false;
+  return !repeated;
 }
 
-void Referee::service(Station& station, const Telegram& telegram) noexcept {
+void Referee::service(Station& station, const Telegram& telegram, bool repeated) noexcept {
   const std::size_t length = telegram.data.size();
   if (!telegram.destination_sap) {
     if (station.view != View::kReady) broken(Rule::kDataExchangeBeforeReady);
@@ -136,6 +143,12 @@ void Referee::service(Station& station, const Telegram& telegram) noexcept {
       return;
     case kSapCheckConfiguration:
       if (station.view == View::kUnknown) broken(Rule::kConfiguredBeforeParameterised);
+      return;
+    case kSapRecords:
+      if (station.view != View::kReady) broken(Rule::kRecordBeforeReady);
+      if (length == 0) return;
+      if (station.record_outstanding && !repeated) broken(Rule::kRecordWhileOutstanding);
+      station.record_outstanding = true;
       return;
     default:
       return;
@@ -158,11 +171,18 @@ void Referee::answer(const Telegram& telegram) noexcept {
       const bool locked =
           !pending_.data.empty() && (pending_.data[0] & (kLockRequest | kUnlockRequest)) == kLockRequest;
       station.view = locked ? View::kParameterised : View::kUnknown;
-      station.standing = 0;
+      station.standing.fill(0);
+      station.record_outstanding = false;
       return;
     }
     case kSapCheckConfiguration:
       if (acknowledged && station.view != View::kUnknown) station.view = View::kConfigured;
+      return;
+    case kSapRecords:
+      // RS: the server is not there (any more). A response ends the service.
+      if (!acknowledged && (telegram.code() == kServiceNotActive || !telegram.data.empty())) {
+        station.record_outstanding = false;
+      }
       return;
     case kSapDiagnosis: {
       if (telegram.data.size() < 6) return;
@@ -180,8 +200,8 @@ void Referee::answer(const Telegram& telegram) noexcept {
   }
 }
 
-void Referee::parameterChannel(std::uint8_t station, const PkwWords& order, bool answered) noexcept {
-  unsigned& standing = stations_[station].standing;
+void Referee::parameterChannel(std::uint8_t station, const PkwWords& order, bool answered, unsigned inverter) noexcept {
+  unsigned& standing = stations_[station].standing[inverter];
   standing = answered && isWriteOrder(order.label()) ? standing + 1 : 0;
   if (standing == kStandingTolerance + 1) broken(Rule::kWriteOrderLeftStanding);
 }

@@ -11,16 +11,50 @@ constexpr Duration kStep = std::chrono::milliseconds(1);
 }  // namespace
 
 RobotSim::RobotSim(const SimConfig& config) : config_(config) {
-  for (const DriveConfig& drive : config_.drives) {
-    for (const std::unique_ptr<DriveUnit>& other : drives_) {
-      if (other->config().slave.address == drive.slave.address) {
-        throw ConfigError("drives " + other->name() + " and " + drive.name + " have the same address " +
-                          std::to_string(drive.slave.address) + "; expected one station each");
-      }
-    }
-    drives_.push_back(std::make_unique<DriveUnit>(drive, referee_));
+  for (const DriveConfig& drive : config_.drives) addDrive(drive);
+  if (!config_.body) return;
+  const BodyConfig& body = *config_.body;
+  if (body.kind == BodyKind::kMecanum) {
+    body_ = std::make_unique<MecanumBody>(body.wheel_radius, body.wheel_separation, body.wheel_base);
+  } else {
+    body_ = std::make_unique<DiffDriveBody>(body.wheel_radius, body.wheel_separation);
   }
-  if (config_.body) body_.emplace(config_.body->wheel_radius, config_.body->wheel_separation);
+}
+
+void RobotSim::addDrive(const DriveConfig& config) {
+  for (const std::unique_ptr<DriveUnit>& other : drives_) {
+    if (config_.can || other->config().slave.address != config.slave.address) continue;  // CanStations checks its own
+    if (other->config().place != config.place && other->config().place > 0 && config.place > 0) continue;
+    throw ConfigError("drives " + other->name() + " and " + config.name + " have the same address " +
+                      std::to_string(config.slave.address) +
+                      "; expected one station each, or two places behind one module");
+  }
+  if (config.place > 0) {
+    drives_.push_back(std::make_unique<DriveUnit>(config, moduleAt(config.slave.address)));
+  } else {
+    drives_.push_back(std::make_unique<DriveUnit>(config, referee_));
+    stations_.push_back(&drives_.back()->slave());
+  }
+}
+
+ModuleStation& RobotSim::moduleAt(std::uint8_t address) {
+  for (const std::unique_ptr<ModuleStation>& module : modules_) {
+    if (module->address() == address) return *module;
+  }
+  ModuleConfig found;
+  found.settings.address = address;
+  for (const ModuleConfig& listed : config_.modules) {
+    if (listed.settings.address == address) found = listed;
+  }
+  found.settings.baud_rate = config_.baud_rate;
+  modules_.push_back(std::make_unique<ModuleStation>(found.settings, &referee_));
+  ModuleStation& module = *modules_.back();
+  for (const ParameterPreset& preset : found.parameters) {
+    module.parameters().preset(preset.number, preset.set, preset.element, preset.raw);
+  }
+  module.setPowered(true);
+  stations_.push_back(&module);
+  return module;
 }
 
 void RobotSim::advance(Instant now) noexcept {
@@ -36,16 +70,28 @@ void RobotSim::advance(Instant now) noexcept {
 }
 
 void RobotSim::step(Duration span) noexcept {
+  for (const std::unique_ptr<ModuleStation>& module : modules_) module->advance(span);
   for (const std::unique_ptr<DriveUnit>& drive : drives_) drive->advance(span);
-  if (!body_) return;
-  body_->moveTo(meanOf(config_.body->left, false), meanOf(config_.body->right, false));
-  body_->setSpeeds(meanOf(config_.body->left, true), meanOf(config_.body->right, true));
+  if (body_ == nullptr) return;
+  body_->moveTo(wheels(&DriveUnit::wheelAngle));
+  body_->setSpeeds(wheels(&DriveUnit::wheelSpeed));
 }
 
-double RobotSim::meanOf(const std::vector<std::size_t>& group, bool speed) const noexcept {
-  double sum = 0.0;
-  for (const std::size_t index : group) sum += speed ? drives_[index]->wheelSpeed() : drives_[index]->wheelAngle();
-  return group.empty() ? 0.0 : sum / static_cast<double>(group.size());
+// Of a side that turns as one the mean counts.
+Wheels RobotSim::wheels(double (DriveUnit::*of)() const noexcept) const noexcept {
+  const auto wheel = [&](std::size_t drive) { return (*drives_[drive].*of)(); };
+  const auto mean = [&](const std::vector<std::size_t>& side) {
+    double sum = 0.0;
+    for (const std::size_t drive : side) sum += wheel(drive);
+    return sum / static_cast<double>(side.size());
+  };
+  const BodyConfig& body = *config_.body;
+  if (body.kind == BodyKind::kMecanum) {
+    return {wheel(body.left[0]), wheel(body.left[1]), wheel(body.right[0]), wheel(body.right[1])};
+  }
+  const double left = mean(body.left);
+  const double right = mean(body.right);
+  return {left, left, right, right};
 }
 
 void RobotSim::receive(ByteView bytes, Instant now, Judge judge, AnswerSink& sink) noexcept {
@@ -68,9 +114,9 @@ void RobotSim::receive(ByteView bytes, Instant now, Judge judge, AnswerSink& sin
     }
     input_.eraseFront(parsed.length);
     if (judge == Judge::kYes) referee_.request(telegram_);
-    for (const std::unique_ptr<DriveUnit>& drive : drives_) {
-      const std::optional<WireBytes> reply = drive->slave().handle(telegram_);
-      if (reply) sink.answer(*reply, drive->answerDelay());
+    for (DpStation* station : stations_) {
+      const std::optional<WireBytes> reply = station->handle(telegram_);
+      if (reply) sink.answer(*reply, station->answerDelay());
     }
   }
   if (garbage && judge == Judge::kYes) referee_.broken(Rule::kNoTelegram);

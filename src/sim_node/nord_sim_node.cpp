@@ -1,13 +1,15 @@
-// nord_sim_node: simulated NORD drives on a pseudo-terminal, with the truth as topics and faults as services.
+// nord_sim_node: simulated NORD drives on a pseudo-terminal or a CAN bus, with the truth as topics and faults as
+// services.
 
 #include <ros/ros.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <memory>
 #include <string>
 
-#include "nord_driver/sim/pty_bus.h"
+#include "nord_driver/sim/running_bus.h"
 #include "param_yaml.h"
 #include "sim_node.h"
 
@@ -22,13 +24,11 @@ int main(int argc, char** argv) {
     const nord_driver::sim::SimConfig config =
         nord_driver::sim::readSimConfig(nord_driver::sim_node::readParameters(handle));
     for (const std::string& warning : config.warnings) ROS_WARN("%s", warning.c_str());
-    nord_driver::sim::PtyBus bus(config, config.device);
-    nord_driver::sim_node::SimNode node(handle, bus);
-    ROS_INFO("simulated bus with %zu drives at %s", config.drives.size(), bus.linkPath().c_str());
+    const std::unique_ptr<nord_driver::sim::RunningBus> bus = nord_driver::sim::runBus(config);
+    nord_driver::sim_node::SimNode node(handle, *bus);
+    ROS_INFO("simulated bus with %zu drives at %s", config.drives.size(), bus->where().c_str());
     ros::spin();
-    const std::string report =
-        bus.withModel([](nord_driver::sim::RobotSim& robot) { return robot.referee().report(); });
-    std::printf("referee: %s\n", report.c_str());
+    std::printf("referee: %s\n", bus->refereeReport().c_str());
     return EXIT_SUCCESS;
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());  // on stderr and, when a master is there, on rosout

@@ -23,7 +23,7 @@ std::string inWords(double number) {
 
 }  // namespace
 
-SimDriveNode::SimDriveNode(ros::NodeHandle& handle, sim::PtyBus& bus, std::size_t index, const std::string& name)
+SimDriveNode::SimDriveNode(ros::NodeHandle& handle, sim::RunningBus& bus, std::size_t index, const std::string& name)
     : handle_(handle), bus_(bus), index_(index), name_(name) {
   truth_ = handle_.advertise<SimDrive>("truth/" + name_, 10);
   serveFaults();
@@ -86,12 +86,17 @@ void SimDriveNode::serveStation() {
   serveSwitch(
       "power_inverter", [](sim::DriveUnit& drive, bool on) { drive.setInverterPower(on); }, "mains of the inverter on",
       "mains of the inverter off, the module lives on 24 V");
+  serve<std_srvs::SetBool>("power_module", [](sim::DriveUnit& drive, const auto& request, auto& response) {
+    response.success = drive.sharesModule();
+    if (!drive.sharesModule()) return std::string("has a module of its own; unplug takes the power from both");
+    drive.slave().setPowered(request.data != 0);
+    return std::string(request.data != 0 ? "24 V of its module on" : "24 V of its module off, the station is silent");
+  });
   serveSwitch(
-      "module_link", [](sim::DriveUnit& drive, bool on) { drive.slave().setInverterLink(on); },
+      "module_link", [](sim::DriveUnit& drive, bool on) { drive.setInverterLink(on); },
       "module and inverter are connected", "the connection between module and inverter is interrupted");
   serveSwitch(
-      "mute", [](sim::DriveUnit& drive, bool on) { drive.slave().setMute(on); }, "answers are lost",
-      "answers get through");
+      "mute", [](sim::DriveUnit& drive, bool on) { drive.setMute(on); }, "answers are lost", "answers get through");
   serve<SimAnswerDelay>("answer_delay", [](sim::DriveUnit& drive, const SimAnswerDelay::Request& request,
                                            SimAnswerDelay::Response& response) {
     if (!(request.seconds >= 0.0 && request.seconds <= kLongestDelay)) {
@@ -99,7 +104,9 @@ void SimDriveNode::serveStation() {
       return "seconds is " + inWords(request.seconds) + "; expected 0 to " + inWords(kLongestDelay);
     }
     drive.setAnswerDelay(seconds(request.seconds));
-    drive.pkw().setDelay(request.parameter_cycles);
+    sim::ParameterSwitches switches = drive.parameterSwitches();
+    switches.delay = request.parameter_cycles;
+    drive.setParameterSwitches(switches);
     return "answers " + inWords(request.seconds) + " s late, parameters " + std::to_string(request.parameter_cycles) +
            " telegrams late";
   });
@@ -123,14 +130,16 @@ void SimDriveNode::serveParameters() {
   });
   serve<SimParameterChannel>("parameter_channel", [](sim::DriveUnit& drive, const SimParameterChannel::Request& request,
                                                      SimParameterChannel::Response&) {
-    drive.pkw().setSilent(request.silent != 0);
-    drive.pkw().refuse(std::nullopt);
+    sim::ParameterSwitches switches = drive.parameterSwitches();
+    switches.silent = request.silent != 0;
+    switches.refuse.reset();
     if (request.refuse != 0) {
       sim::PkwRefusal refusal;
       refusal.error = request.error;
       if (request.number != 0) refusal.number = request.number;
-      drive.pkw().refuse(refusal);
+      switches.refuse = refusal;
     }
+    drive.setParameterSwitches(switches);
     if (request.silent != 0) return std::string("the parameter channel is silent");
     if (request.refuse == 0) return std::string("the parameter channel answers");
     return (request.number == 0 ? std::string("every order") : "P" + std::to_string(request.number)) +
@@ -163,10 +172,10 @@ void SimDriveNode::serveControl() {
 
 SimDrive SimDriveNode::truthOf(const sim::DriveUnit& drive) {
   const sim::InverterModel& inverter = drive.inverter();
-  const sim::SlaveCounters& counters = drive.slave().counters();
+  const sim::SlaveCounters counters = drive.counters();
   SimDrive truth;
   truth.powered = inverter.powered();
-  truth.in_data_exchange = drive.slave().state() == sim::SlaveState::kDataExchange;
+  truth.in_data_exchange = drive.inDataExchange();
   truth.operation_enabled = inverter.state() == sim::InverterState::kOperationEnabled;
   truth.status_word = inverter.statusWord();
   truth.control_word = counters.last_control;

@@ -16,16 +16,16 @@
 #include <string>
 #include <vector>
 
-#include "nord_driver/sim/pty_bus.h"
+#include "nord_driver/sim/running_bus.h"
 
 namespace nord_driver::sim_node {
 
 /// Publishes ~truth/<drive>; services ~<drive>/trip, clear_cause, acknowledge, warn, unplug, power_inverter,
-/// module_link, mute, answer_delay, parameter_channel, local_control, terminals and set_parameter.
+/// power_module, module_link, mute, answer_delay, parameter_channel, local_control, terminals and set_parameter.
 class SimDriveNode {
  public:
   /// `bus` must outlive it.
-  SimDriveNode(ros::NodeHandle& handle, sim::PtyBus& bus, std::size_t index, const std::string& name);
+  SimDriveNode(ros::NodeHandle& handle, sim::RunningBus& bus, std::size_t index, const std::string& name);
   SimDriveNode(const SimDriveNode&) = delete;
   SimDriveNode& operator=(const SimDriveNode&) = delete;
 
@@ -47,7 +47,7 @@ class SimDriveNode {
   void serveControl();
 
   ros::NodeHandle handle_;
-  sim::PtyBus& bus_;
+  sim::RunningBus& bus_;
   std::size_t index_;
   std::string name_;
   ros::Publisher truth_;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTruthPeriod = 0.02;  // s
 
-nav_msgs::Odometry toOdometry(const sim::DiffDriveBody& body, const ros::Time& stamp) {
+nav_msgs::Odometry toOdometry(const sim::Body& body, const ros::Time& stamp) {
   nav_msgs::Odometry message;
   message.header.stamp = stamp;
   message.header.frame_id = "odom";
@@ -22,13 +22,14 @@ nav_msgs::Odometry toOdometry(const sim::DiffDriveBody& body, const ros::Time& s
   message.pose.pose.orientation.z = std::sin(0.5 * body.pose().theta);
   message.pose.pose.orientation.w = std::cos(0.5 * body.pose().theta);
   message.twist.twist.linear.x = body.linear();
+  message.twist.twist.linear.y = body.lateral();
   message.twist.twist.angular.z = body.angular();
   return message;
 }
 
 }  // namespace
 
-SimNode::SimNode(ros::NodeHandle& private_handle, sim::PtyBus& bus) : handle_(private_handle), bus_(bus) {
+SimNode::SimNode(ros::NodeHandle& private_handle, sim::RunningBus& bus) : handle_(private_handle), bus_(bus) {
   const sim::SimConfig config = bus_.withModel([](sim::RobotSim& robot) { return robot.config(); });
   if (config.body) odom_ = handle_.advertise<nav_msgs::Odometry>("truth/odom", 10);
   for (std::size_t i = 0; i < config.drives.size(); ++i) {
@@ -36,10 +37,8 @@ SimNode::SimNode(ros::NodeHandle& private_handle, sim::PtyBus& bus) : handle_(pr
   }
   const boost::function<bool(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&)> referee =
       [this](std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-        bus_.withModel([&](sim::RobotSim& robot) {
-          response.success = robot.referee().content();
-          response.message = robot.referee().report();
-        });
+        response.message = bus_.refereeReport();
+        response.success = response.message == sim::kNoRuleBroken;
         return true;
       };
   referee_ = handle_.advertiseService("referee", referee);
@@ -55,7 +54,7 @@ void SimNode::publish() {
   const ros::Time stamp = ros::Time::now();
   bus_.withModel([&](sim::RobotSim& robot) {
     for (const auto& drive : robot.drives()) truths.push_back(SimDriveNode::truthOf(*drive));
-    if (robot.body()) odometry = toOdometry(*robot.body(), stamp);
+    if (robot.body() != nullptr) odometry = toOdometry(*robot.body(), stamp);
   });
   for (std::size_t i = 0; i < truths.size(); ++i) {
     truths[i].header.stamp = stamp;

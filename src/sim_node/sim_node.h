@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "nord_driver/sim/pty_bus.h"
+#include "nord_driver/sim/running_bus.h"
 #include "sim_drive_node.h"
 
 namespace nord_driver::sim_node {
@@ -15,13 +15,13 @@ namespace nord_driver::sim_node {
 class SimNode {
  public:
   /// `bus` must outlive the node.
-  SimNode(ros::NodeHandle& private_handle, sim::PtyBus& bus);
+  SimNode(ros::NodeHandle& private_handle, sim::RunningBus& bus);
 
  private:
   void publish();
 
   ros::NodeHandle handle_;
-  sim::PtyBus& bus_;
+  sim::RunningBus& bus_;
   std::vector<std::unique_ptr<SimDriveNode>> drives_;
   ros::Publisher odom_;
   ros::ServiceServer referee_;

@@ -1,4 +1,4 @@
-// nord_sim: simulated NORD drives on a pseudo-terminal, without ROS.
+// nord_sim: simulated NORD drives on a pseudo-terminal or a CAN bus, without ROS.
 
 #include <signal.h>
 #include <yaml-cpp/yaml.h>
@@ -7,19 +7,19 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "nord_driver/sim/pty_bus.h"
+#include "nord_driver/sim/running_bus.h"
 
 namespace {
 
-using nord_driver::sim::PtyBus;
-using nord_driver::sim::RobotSim;
+using nord_driver::sim::RunningBus;
 using nord_driver::sim::SimConfig;
 
-SimConfig readConfig(const std::vector<std::string>& files, const std::string& device) {
+SimConfig readConfig(const std::vector<std::string>& files, const std::string& device, const std::string& interface) {
   YAML::Node merged;
   for (const std::string& file : files) {
     try {
@@ -30,6 +30,7 @@ SimConfig readConfig(const std::vector<std::string>& files, const std::string& d
   }
   SimConfig config = nord_driver::sim::readSimConfig(merged);
   if (!device.empty()) config.device = device;
+  if (!interface.empty() && config.can) config.can->interface = interface;
   return config;
 }
 
@@ -46,20 +47,17 @@ void waitForEnd(const sigset_t& signals, double duration) {
   static_cast<void>(sigtimedwait(&signals, nullptr, &limit));
 }
 
-void report(PtyBus& bus) {
-  const std::string text = bus.withModel([](RobotSim& robot) { return robot.referee().report(); });
-  std::printf("referee: %s\n", text.c_str());
-}
-
 int run(int argc, char** argv) {
-  CLI::App app{"Simulated NORD inverters on a PROFIBUS DP segment, on a pseudo-terminal."};
+  CLI::App app{"Simulated NORD inverters: a PROFIBUS DP segment on a pseudo-terminal, or CANopen nodes on a CAN bus."};
   app.set_version_flag("--version", std::string("nord_sim ") + NORD_DRIVER_VERSION);
   std::vector<std::string> files;
   std::string device;
+  std::string interface;
   double duration = 0.0;
   app.add_option("--config", files, "YAML file with bus, drives and body; a later file is laid over an earlier one")
       ->required();
   app.add_option("--device", device, "where to put the link to the pseudo-terminal, instead of bus/device");
+  app.add_option("--interface", interface, "CAN interface (can0, vcan0, virtual:NAME), instead of bus/interface");
   app.add_option("--duration", duration, "seconds to run; without it until SIGINT or SIGTERM")
       ->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
@@ -70,13 +68,13 @@ int run(int argc, char** argv) {
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  const SimConfig config = readConfig(files, device);
+  const SimConfig config = readConfig(files, device, interface);
   for (const std::string& warning : config.warnings) std::fprintf(stderr, "nord_sim: %s\n", warning.c_str());
-  PtyBus bus(config, config.device);
-  std::printf("%s\n", bus.linkPath().c_str());
+  const std::unique_ptr<RunningBus> bus = nord_driver::sim::runBus(config);
+  std::printf("%s\n", bus->where().c_str());
   std::fflush(stdout);
   waitForEnd(signals, duration);
-  report(bus);
+  std::printf("referee: %s\n", bus->refereeReport().c_str());
   return EXIT_SUCCESS;
 }
 

@@ -15,10 +15,15 @@ using profibus::Telegram;
 using profibus::TelegramKind;
 
 // Service access points of a slave (EN 50170-8).
-constexpr std::uint8_t kGlobalControlSap = 58, kSlaveDiagSap = 60, kSetPrmSap = 61, kChkCfgSap = 62;
+constexpr std::uint8_t kRecordSap = 51, kGlobalControlSap = 58, kGetCfgSap = 59, kSlaveDiagSap = 60, kSetPrmSap = 61,
+                       kChkCfgSap = 62;
 
 const char* serviceName(std::uint8_t sap) {
   switch (sap) {
+    case kRecordSap:
+      return "record";
+    case kGetCfgSap:
+      return "Get_Cfg";
     case kGlobalControlSap:
       return "Global_Control";
     case kSlaveDiagSap:
@@ -91,8 +96,16 @@ profile::PpoWords wordsOf(ByteView data) {
 }  // namespace
 
 ProfibusTelegramText::ProfibusTelegramText(const ProfibusDpConfig& config) {
-  for (const ProfibusDrive& drive : config.drives) {
-    layouts_[config.slaves[drive.slave].address.value()] = drive.ppo;
+  for (std::size_t i = 0; i < config.stations.size(); ++i) {
+    const ProfibusStation& station = config.stations[i];
+    Layout& layout = layouts_[config.slaves[i].address.value()];
+    layout.length = config.slaves[i].output_length;
+    layout.io_byte = station.io_byte;
+    for (const std::size_t drive : station.drives) {
+      const ProfibusDrive& from = config.drives[drive];
+      const bool several = station.module == ProfibusModule::kSkCu4;
+      layout.parts.push_back({from.offset, from.ppo, several ? " FI" + std::to_string(from.inverter) : ""});
+    }
   }
 }
 
@@ -131,19 +144,26 @@ std::string ProfibusTelegramText::answer(const Telegram& telegram) const {
 
 std::string ProfibusTelegramText::processData(std::uint8_t station, ByteView data, bool to_drive) const {
   const auto layout = layouts_.find(station);
+  if (layout == layouts_.end() || data.size() != layout->second.length) return withHex("", data);
+  std::string text;
+  if (layout->second.io_byte) text = " I/O " + toHex(data.sub(0, 1));
+  for (const Part& part : layout->second.parts) {
+    text += part.name + partText(part, data.sub(part.offset, part.layout.bytes()), to_drive);
+  }
+  return text;
+}
+
+std::string ProfibusTelegramText::partText(const Part& part, ByteView data, bool to_drive) {
   profile::PkwWords pkw{};
   profile::ProcessInput values;  // the way back is laid out as the way there
-  if (layout == layouts_.end() || data.size() % 2 != 0 ||
-      !profile::unpack(layout->second, wordsOf(data), pkw, values)) {
-    return withHex("", data);
-  }
+  if (!profile::unpack(part.layout, wordsOf(data), pkw, values)) return withHex("", data);
   std::string text;
   if (std::any_of(pkw.begin(), pkw.end(), [](Word word) { return word != 0; })) {
     text += " PKW";
     for (const Word word : pkw) text += " " + toHexWord(word);
   }
   text += (to_drive ? " STW " : " ZSW ") + toHexWord(values.status_word);
-  for (std::size_t i = 0; i < layout->second.process_values; ++i) {
+  for (std::size_t i = 0; i < part.layout.process_values; ++i) {
     text += (to_drive ? " SW" : " IW") + std::to_string(i + 1) + " " + toHexWord(toWord(values.actual_values[i]));
   }
   return text;

@@ -1,55 +1,39 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "canopen/master_run.h"
-
-namespace {
-
-bool counting = false;
-std::size_t allocations = 0;
-
-void* allocate(std::size_t size) {
-  if (counting) ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc{};
-}
-
-}  // namespace
-
-// The whole test program runs on these; they count only where a test asks for it.
-void* operator new(std::size_t size) {
-  return allocate(size);
-}
-void* operator new[](std::size_t size) {
-  return allocate(size);
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
+#include "canopen/scripted_sdo_server.h"
+#include "nord_driver/canopen/sdo_client.h"
+#include "support/count_allocations.h"
 
 namespace nord_driver::canopen {
 namespace {
 
 /// Counts what is allocated while it lives.
 struct Counted {
-  Counted() { counting = true; }
-  ~Counted() { counting = false; }
+  Counted() { test::countThisThread(true); }
+  ~Counted() { test::countThisThread(false); }
 };
+
+/// Counts what one call allocates.
+template <typename Call>
+auto counted(Call&& call) {
+  const Counted here;
+  return call();
+}
+
+// The other tests prove nothing unless this counts.
+TEST(NoAllocation, IsCounted) {
+  if (!test::kCanCountAllocations) GTEST_SKIP() << "the sanitizers have replaced malloc";
+  test::allocations = 0;
+  void* memory = counted([] { return ::operator new(1); });
+  ::operator delete(memory);
+  EXPECT_EQ(1u, test::allocations);
+}
 
 // From its construction on the master takes no memory: start-up, exchange, emergencies, malformed and foreign frames,
 // refusals, losses, return, restart and a full link included.
 TEST(NoAllocation, AfterConstruction) {
+  if (!test::kCanCountAllocations) GTEST_SKIP() << "the sanitizers have replaced malloc";
   MasterConfig config = busConfig(4);
   config.sync_cob_id = 0x80;
   config.own_id = 127;
@@ -69,7 +53,7 @@ TEST(NoAllocation, AfterConstruction) {
                                     frame("581#4B66200167000000")};
   Instant now{std::chrono::hours{1}};
   std::array<bool, 4> was_operational{};
-  allocations = 0;
+  test::allocations = 0;
   for (int i = 0; i < 12000; ++i, now += std::chrono::milliseconds{1}) {
     if (i == 0 || i == 5000) {
       for (auto& node : nodes) node->powerOn(now);
@@ -117,13 +101,53 @@ TEST(NoAllocation, AfterConstruction) {
       for (auto& node : nodes) node->receive(out, now);
     }
   }
-  EXPECT_EQ(0u, allocations);
+  EXPECT_EQ(0u, test::allocations);
   // It did what it was to be watched at.
   EXPECT_EQ((std::array<bool, 4>{true, false, true, true}), was_operational);
   EXPECT_EQ(NodeState::kRefused, master.status(1).state);
   EXPECT_GE(master.status(0).counters.losses, 1u);
   EXPECT_GE(master.status(2).counters.losses, 1u);
   EXPECT_GT(master.counters().not_sent, 0u);
+}
+
+// The client takes none either: every kind of transfer, both ways, aborted and timed out.
+TEST(NoAllocation, OfAnSdoClient) {
+  if (!test::kCanCountAllocations) GTEST_SKIP() << "the sanitizers have replaced malloc";
+  ScriptedSdoServer server;
+  SdoClient client{defaultSdoChannel(1), std::chrono::milliseconds{50}};
+  Instant now{std::chrono::hours{1}};
+  const std::vector<std::uint8_t> data(300, 0x55);
+  test::allocations = 0;
+  std::size_t good = 0, ended = 0;
+  for (unsigned kind = 0; kind < 16; ++kind) {
+    SdoRequest request = sdoRead(kind, 0x2000, static_cast<std::uint8_t>(kind & 1u));
+    request.write = (kind & 2u) == 0;
+    request.block = (kind & 4u) != 0;
+    const bool silent = (kind & 8u) != 0 && (kind & 1u) != 0;
+    const ByteView bytes = ByteView{data}.sub(0, (kind & 1u) != 0 ? 4 : 300);
+    ASSERT_TRUE(counted([&] { return client.start(request, bytes, now); }));
+    for (bool over = false; !over;) {
+      CanFrame frame;
+      std::vector<SdoBytes> answers;
+      while (counted([&] { return client.pollTransmit(frame); })) {
+        if (silent) continue;
+        for (const auto& answer : server.handle(frame.data)) answers.push_back(answer);
+      }
+      for (const SdoBytes& answer : answers) {
+        const CanFrame made = dataFrame(0x581, answer);
+        counted([&] { client.handle(made, now); });
+      }
+      now += std::chrono::milliseconds{10};
+      counted([&] { client.poll(now); });
+      const auto answer = counted([&] { return client.takeAnswer(); });
+      over = answer.has_value();
+      if (over) good += answer->ok() ? 1 : 0;
+      if (over) ++ended;
+    }
+  }
+  EXPECT_EQ(16u, ended);
+  EXPECT_EQ(12u, good);
+  EXPECT_EQ(0u, test::allocations);
 }
 
 }  // namespace

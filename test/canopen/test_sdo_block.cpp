@@ -28,6 +28,8 @@ TEST_F(SdoBlockUpload, TakesSegmentsAndChecksTheSum) {
   begin();
   answer("01 4E 4F 52 44 20 53 4B");
   answer("02 20 35 30 30 45 20 43");
+  answer("02 20 35 30 30 45 20 43");
+  EXPECT_EQ(1u, client.counters().stale);
   EXPECT_EQ("", sent());
   answer("83 41 4E 6F 70 65 6E 00");
   exchange("A2 03 20 00 00 00 00 00", "C5 44 3B 00 00 00 00 00");
@@ -186,6 +188,7 @@ TEST_F(SdoBlockUpload, TakesAPlainAnswer) {
 TEST_F(SdoBlockUpload, AsksInPlainWhenRefused) {
   read(0x2066, 1, true);
   exchange("A4 66 20 01 20 1C 00 00", "80 66 20 01 01 00 04 05");
+  answer("80 66 20 01 01 00 04 05");  // repeated on the bus
   exchange("40 66 20 01 00 00 00 00", "80 66 20 01 01 00 04 05");
   expectAborted(SdoEnd::kAbortedByServer, 0x05040001);
 }

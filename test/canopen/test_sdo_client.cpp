@@ -138,11 +138,12 @@ TEST_F(SdoStrangers, AnswersNobodyWaitsFor) {
   answer("4B 66 20 01 67 00 00 00");
   read(0x2066, 1);
   answer("4B 66 20 01 67 00 00 00");
+  answer("80 66 20 01 00 00 02 06");
   EXPECT_FALSE(client.takeAnswer());
   exchange("40 66 20 01 00 00 00 00", "4B 66 20 01 68 00 00 00");
   answer("4B 66 20 01 67 00 00 00");
   EXPECT_EQ(104u, taken().number());
-  EXPECT_EQ(3u, client.counters().stale);
+  EXPECT_EQ(4u, client.counters().stale);
 }
 
 // CiA 301 7.2.4.3: every SDO frame has eight bytes.

@@ -55,12 +55,16 @@ TEST(BaseConfig, TakesIntegersAsNumbersAndListsOfWheels) {
   EXPECT_EQ((std::vector<DriveIndex>{0, 2}), base->left);
 }
 
-TEST(BaseConfig, OneMultiplierServesBothSidesUnlessTheyHaveTheirOwn) {
+// As diff_drive_controller has it; the sides' own ones may be what dynamic_reconfigure left behind.
+TEST(BaseConfig, AMultiplierForBothSidesWinsOverTheirOwn) {
   auto settings = robot();
-  settings.set("wheel_radius_multiplier", 1.1).set("right_wheel_radius_multiplier", 1.2);
-  const auto base = readBaseConfig(settings, kJoints);
-  EXPECT_EQ(1.1, base->geometry.left_wheel_radius_multiplier);
-  EXPECT_EQ(1.2, base->geometry.right_wheel_radius_multiplier);
+  settings.set("left_wheel_radius_multiplier", 0.9).set("right_wheel_radius_multiplier", 1.2);
+  const auto sides = readBaseConfig(settings, kJoints);
+  EXPECT_EQ(0.9, sides->geometry.left_wheel_radius_multiplier);
+  EXPECT_EQ(1.2, sides->geometry.right_wheel_radius_multiplier);
+  const auto both = readBaseConfig(settings.set("wheel_radius_multiplier", 1.1), kJoints);
+  EXPECT_EQ(1.1, both->geometry.left_wheel_radius_multiplier);
+  EXPECT_EQ(1.1, both->geometry.right_wheel_radius_multiplier);
 }
 
 TEST(BaseConfig, ReadsTheLimitsOfBothAxes) {

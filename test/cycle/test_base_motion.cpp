@@ -77,6 +77,36 @@ TEST_F(BaseMotionTest, BrakesAlongTheDecelerationLimitWhenTheCommandMayNotBeFoll
   EXPECT_NEAR(2.8, poll(true, false)[0], 1e-9);
 }
 
+// Multipliers taken over under way would be a step of the wheels' speeds: they wait until the base is to stand.
+TEST_F(BaseMotionTest, IsTunedWhenItStands) {
+  command(0.3);
+  poll();
+  BaseTuning tuning;
+  tuning.left_wheel_radius_multiplier = 0.5;
+  tuning.given = true;
+  motion_.tune(tuning);
+  EXPECT_NEAR(3.0, poll()[0], 1e-12);
+  command(0.0);
+  poll();
+  motion_.tune(tuning);
+  command(0.3);
+  EXPECT_NEAR(6.0, poll()[0], 1e-12);
+  EXPECT_NEAR(3.0, poll()[1], 1e-12);
+}
+
+TEST_F(BaseMotionTest, IsNotTunedByWhatCannotBe) {
+  for (const double wrong : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    BaseTuning tuning;
+    tuning.wheel_separation_multiplier = wrong;
+    tuning.given = true;
+    motion_.tune(tuning);
+    command(0.0, 1.0);
+    EXPECT_NEAR(2.5, poll()[1], 1e-12) << wrong;
+    command(0.0);
+    poll();
+  }
+}
+
 // After a stop the base must begin from standstill, not from the velocity it had before.
 TEST_F(BaseMotionTest, ForgetsItsVelocityWhileItIsNotDriving) {
   motion_ = BaseMotion{configWithDeceleration(1.0), kTimeout};

@@ -53,6 +53,21 @@ TEST(CycleConfigTest, HasItsDefaults) {
   EXPECT_EQ(milliseconds{10'000}, config.drives[0].drive.shutdown_timeout);
 }
 
+// What stops how, by a word each; the torque is never kept on behind "disabled".
+TEST(CycleConfigTest, TheWayOfEachStopIsAWord) {
+  Configured robot;
+  EXPECT_EQ(drive::StopWay::kSetpointZero, robot.read().stop_ways.command_timeout);
+  EXPECT_EQ(drive::StopWay::kOff1, robot.read().stop_ways.disable);
+  EXPECT_EQ(drive::StopWay::kSetpointZero, robot.read().stop_ways.drive_stopped);
+  robot.node.set("stop/command_timeout", "off1").set("stop/disable", "coast").set("stop/drive_stopped", "quick_stop");
+  EXPECT_EQ(drive::StopWay::kOff1, robot.read().stop_ways.command_timeout);
+  EXPECT_EQ(drive::StopWay::kCoast, robot.read().stop_ways.disable);
+  EXPECT_EQ(drive::StopWay::kQuickStop, robot.read().stop_ways.drive_stopped);
+  robot.node.set("stop/disable", "setpoint_zero");
+  EXPECT_THAT(robot.refusal(),
+              AllOf(HasSubstr("~stop/disable: \"setpoint_zero\""), HasSubstr("expected off1, quick_stop or coast")));
+}
+
 // Three cycles, at least 50 ms.
 TEST(CycleConfigTest, DriveTimeoutFollowsTheCycle) {
   Configured robot;

@@ -143,5 +143,37 @@ TEST(DeviceReader, AResultNobodyWaitsForChangesNothing) {
   EXPECT_FALSE(reader.data().max_frequency[0]);
 }
 
+// A function the drive refuses leaves a gap: the later ones must not move up, or `current` would be another value.
+TEST(DeviceReader, AFunctionThatIsRefusedKeepsItsPlace) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  while (const auto request = reader.pollRequest()) {
+    if (request->number == 544 || request->number == 546) {
+      reader.handleResult(failed(ParameterOutcome::kRefused));
+    } else {
+      reader.handleResult(done(request->number == 545 ? 3 : 1));
+    }
+  }
+  ASSERT_EQ(3u, reader.data().actual_value_functions.size());
+  EXPECT_EQ(1, reader.data().actual_value_functions[0]);
+  EXPECT_EQ(kUnknownFunction, reader.data().actual_value_functions[1]);
+  EXPECT_EQ(3, reader.data().actual_value_functions[2]) << "current stays actual value 3";
+  ASSERT_EQ(3u, reader.data().setpoint_functions.size());
+  EXPECT_EQ(kUnknownFunction, reader.data().setpoint_functions[0]);
+  EXPECT_EQ(1, reader.data().setpoint_functions[1]);
+}
+
+// Behind a module SK CU4/TU4 its own time-out counts, and the inverter's watch over it (BU 2700 8.1).
+TEST(DeviceReader, ReadsTheTimeoutsOfABusModule) {
+  DeviceReader reader{profile::Series::kSk2xxe, TimeoutOwner::kModule};
+  const auto numbers = answerAll(reader, 0xFFFF);
+  EXPECT_EQ(1, std::count(numbers.begin(), numbers.end(), 151));
+  EXPECT_DOUBLE_EQ(-0.001, *reader.data().module_timeout);
+  EXPECT_EQ(0xFFFF, *reader.data().option_monitoring);
+  DeviceReader without{profile::Series::kSk2xxe};
+  answerAll(without, 1);
+  EXPECT_FALSE(without.data().module_timeout);
+  EXPECT_FALSE(without.data().option_monitoring);
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

@@ -60,8 +60,10 @@ TEST(Sentences, AParameterThatCouldNotBeReadSaysWhy) {
   EXPECT_EQ(0u, parameter(Outcome::kRefused).find("drive left refuses P005: error 201, "));
   EXPECT_EQ("drive left gave no answer for P005", parameter(Outcome::kTimeout));
   EXPECT_EQ("drive left does not answer", parameter(Outcome::kOffline));
-  EXPECT_EQ("drive left has no parameter channel: PPO types 3 and 4 carry process data only",
-            parameter(Outcome::kNoChannel));
+  EXPECT_EQ(
+      "drive left has no parameter channel: PPO types 3 and 4 carry process data only, and its bus module takes no "
+      "acyclic requests (DP-V1)",
+      parameter(Outcome::kNoChannel));
   EXPECT_EQ("drive left has too many parameter requests waiting already", parameter(Outcome::kBusy));
 }
 

@@ -82,7 +82,7 @@ TEST_F(StartUp, DeviceInfoIsLatched) {
     EXPECT_THAT(info->max_frequency, ElementsAre(50.0, 50.0, 25.0, 50.0));
     EXPECT_EQ(info->ident, 0x7531u);
     EXPECT_EQ(info->parameter_channel, "PKW");
-    EXPECT_THAT(info->protected_by, HasSubstr("watchdog of 0.6 s"));
+    EXPECT_THAT(info->protected_by, HasSubstr("watchdog of 0.5 s"));
   }
 }
 

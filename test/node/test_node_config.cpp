@@ -9,6 +9,7 @@ namespace nord_driver::node {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using XmlRpc::XmlRpcValue;
@@ -77,15 +78,17 @@ TEST(NodeConfigTest, KnowsTheKeysOfDiffDriveController) {
                           "right_wheel_radius_multiplier", "cmd_vel_timeout", "publish_rate"}) {
     value[key] = 1.0;
   }
-  for (const char* key : {"enable_odom_tf", "open_loop", "publish_cmd", "allow_multiple_cmd_vel_publishers"}) {
+  for (const char* key : {"enable_odom_tf", "open_loop", "publish_cmd", "allow_multiple_cmd_vel_publishers",
+                          "estimate_velocity_from_position", "publish_wheel_joint_controller_state"}) {
     value[key] = true;
   }
   value["velocity_rolling_window_size"] = 10;
   value["base_frame_id"] = value["odom_frame_id"] = std::string{"frame"};
   value["pose_covariance_diagonal"] = value["twist_covariance_diagonal"] = listOf<double>({1, 2, 3, 4, 5, 6});
   const RosSettings settings{"~", value};
-  readNodeConfig(settings);
+  const NodeConfig config = readNodeConfig(settings);
   EXPECT_THAT(settings.unknownKeys(), IsEmpty());
+  EXPECT_THAT(config.warnings, ElementsAre(HasSubstr("~publish_wheel_joint_controller_state is not offered")));
 }
 
 template <typename Value>

@@ -20,7 +20,7 @@ class Trouble {
 
   /// Something goes wrong, for one cycle or until `end()`.
   void strike(SimulatedRun& run) {
-    sim::DpSlave& slave = run.segment.drive(below(2)).slave();
+    sim::DpStation& slave = run.segment.drive(below(2)).slave();
     switch (below(9)) {
       case 0:
         return run.segment.loseAnswers(1 + below(4));

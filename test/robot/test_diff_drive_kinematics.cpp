@@ -64,6 +64,20 @@ TEST(DiffDriveKinematics, MultipliersAct) {
   EXPECT_DOUBLE_EQ(5.0, wheels[1]);
 }
 
+// Taken over as if built so; sizes that cannot be leave it as it was.
+TEST(DiffDriveKinematics, GoesOnWithOtherSizes) {
+  BaseGeometry geometry;
+  geometry.wheel_separation = 0.5;
+  geometry.left_wheel_radius = geometry.right_wheel_radius = 0.1;
+  DiffDriveKinematics kinematics{geometry, 2, 2};
+  geometry.right_wheel_radius_multiplier = 2.0;
+  EXPECT_TRUE(kinematics.setGeometry(geometry));
+  EXPECT_EQ((WheelSpeeds{10.0, 10.0, 5.0, 5.0}), kinematics.wheels({1.0, 0.0}));
+  geometry.wheel_separation_multiplier = -1.0;
+  EXPECT_FALSE(kinematics.setGeometry(geometry));
+  EXPECT_EQ((WheelSpeeds{10.0, 10.0, 5.0, 5.0}), kinematics.wheels({1.0, 0.0}));
+}
+
 // A geometry that cannot be is refused in words that name the field.
 TEST(DiffDriveKinematics, RefusesImpossibleGeometry) {
   EXPECT_EQ("", problemOf(geometry()));

@@ -72,6 +72,18 @@ TEST(MecanumKinematics, MultipliersAct) {
   EXPECT_EQ((WheelSpeeds{20.0, 20.0, 10.0, 10.0}), kinematics.wheels({1.0, 0.0}));
 }
 
+// Taken over as if built so; sizes that cannot be leave it as it was.
+TEST(MecanumKinematics, GoesOnWithOtherSizes) {
+  MecanumKinematics kinematics{geometry()};
+  BaseGeometry changed = geometry();
+  changed.left_wheel_radius_multiplier = 0.5;
+  EXPECT_TRUE(kinematics.setGeometry(changed));
+  EXPECT_EQ(MecanumKinematics{changed}.wheels({1.0, 0.2}), kinematics.wheels({1.0, 0.2}));
+  changed.wheel_base = 0.0;
+  EXPECT_FALSE(kinematics.setGeometry(changed));
+  EXPECT_EQ((WheelSpeeds{20.0, 20.0, 10.0, 10.0}), kinematics.wheels({1.0, 0.0}));
+}
+
 // One wheel that slips by 0.4 m/s moves the best fit by a quarter of it.
 TEST(MecanumKinematics, ContradictingWheelsGiveTheBestFit) {
   const Twist2d twist = MecanumKinematics{geometry()}.twist({14.0, 10.0, 10.0, 10.0});

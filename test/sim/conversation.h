@@ -20,6 +20,22 @@ inline SimConfig oneDrive(int address = 8) {
   return config;
 }
 
+/// An SK CU4-PBR with so many inverters of the series SK 2xxE behind it.
+inline SimConfig oneModule(unsigned inverters, int address = 8) {
+  SimConfig config;
+  config.baud_rate = 500000;
+  for (unsigned place = 1; place <= inverters; ++place) {
+    DriveConfig drive;
+    drive.name = "fi" + std::to_string(place);
+    drive.slave.address = static_cast<std::uint8_t>(address);
+    drive.device.series = Series::kSk2xxe;
+    drive.place = place;
+    drive.pkw.delay = 0;
+    config.drives.push_back(drive);
+  }
+  return config;
+}
+
 /// Station 1 talking to station 8 over a simulated segment, one telegram after the other, with proper pauses.
 class Conversation {
  public:
@@ -46,6 +62,20 @@ class Conversation {
     // 68 LE LE 68 DA SA FC data FCS 16
     return answer.size() > 27 ? answer.substr(21, answer.size() - 27) : answer;
   }
+  /// Data_Exchange with whatever is configured, in hexadecimal; the data of the answer.
+  std::string outputs(const std::string& hex) {
+    const std::string answer = askBytes(variable(0x08, 0x01, frameCount(), fromHex(hex)));
+    return answer.size() > 27 ? answer.substr(21, answer.size() - 27) : answer;
+  }
+  /// Sends `hex` every 2 ms for `span`; the last answer.
+  std::string outputsFor(const std::string& hex, Duration span) {
+    const Instant end = segment.now() + span;
+    while (segment.now() < end) {
+      outputs(hex);
+      segment.run(std::chrono::milliseconds(2));
+    }
+    return outputs(hex);
+  }
   /// The process data of the answer to `pzd`, without any parameter order.
   std::string pzd(const std::string& words) {
     const std::string answer = exchange("0000 0000 0000 0000", words);
@@ -67,6 +97,17 @@ class Conversation {
     const std::uint8_t flags = watchdog_factor > 0 ? 0x88 : 0x80;
     service(61, {flags, static_cast<std::uint8_t>(watchdog_factor), 1, 11, 0x75, 0x31, 0});
     service(62, {0xF3, 0xF1});
+    service(60, {});
+  }
+
+  /// The same with a module with slots; DP-V1 as asked for.
+  void startUpModule(const std::vector<std::uint8_t>& identifiers, unsigned watchdog_factor = 10, bool dpv1 = true) {
+    service(60, {});
+    const std::uint8_t flags = watchdog_factor > 0 ? 0x88 : 0x80;
+    std::vector<std::uint8_t> parameters{flags, static_cast<std::uint8_t>(watchdog_factor), 1, 11, 0x0B, 0xA8, 0};
+    if (dpv1) parameters.insert(parameters.end(), {0x80, 0, 0});
+    service(61, parameters);
+    service(62, identifiers);
     service(60, {});
   }
 

@@ -158,6 +158,23 @@ TEST(DpSlave, AnswersForAnInverterThatIsOff) {
   EXPECT_EQ("0B 31 00 00", bus.pzdFor("047E 0000", milliseconds(400)));
 }
 
+// A zero control word is the master's mistake while an inverter could lose its commands by it, not while the inverter
+// is off behind the living module, nor before the first valid word after it came back.
+TEST(DpSlave, ZerosToAnInverterThatIsOffAreNoMistake) {
+  Conversation bus;
+  bus.startUp(0);
+  bus.pzd("047E 0000");
+  bus.drive().setInverterPower(false);
+  bus.pzdFor("0000 0000", seconds(12.0));
+  bus.drive().setInverterPower(true);
+  bus.pzdFor("0000 0000", milliseconds(20));
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
+  bus.pzd("047E 0000");
+  bus.pzd("0000 0000");
+  EXPECT_EQ(1u, bus.referee().count(Rule::kZeroControlWord));
+  EXPECT_EQ(1u, bus.drive().counters().zero_control_words);
+}
+
 // Unplugged: silence; plugged in again, it wants everything from the start.
 TEST(DpSlave, IsSilentWithoutPower) {
   Conversation bus;

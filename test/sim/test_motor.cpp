@@ -1,12 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "nord_driver/sim/diff_drive_body.h"
 #include "nord_driver/sim/motor.h"
 
 namespace nord_driver::sim {
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 // At a steady load the rotor stays behind the field by the slip that load needs.
 TEST(Motor, SlipFollowsTheLoad) {
@@ -40,22 +37,6 @@ TEST(Motor, StepSizeDoesNotMatter) {
   for (int i = 0; i < 3000; ++i) coarse.advance(0.001, true, 10.0);
   EXPECT_NEAR(fine.angle(), coarse.angle(), 0.2);
   EXPECT_NEAR(fine.speed(), coarse.speed(), 1e-6);
-}
-
-// Equal wheels go straight, unequal ones turn about the middle of the axle.
-TEST(DiffDriveBody, IntegratesThePose) {
-  DiffDriveBody body{0.1, 0.5};
-  body.moveTo(5.0, 5.0);
-  for (int i = 1; i <= 100; ++i) body.moveTo(5.0 + 0.1 * i, 5.0 + 0.1 * i);
-  EXPECT_NEAR(1.0, body.pose().x, 1e-12);
-  EXPECT_NEAR(0.0, body.pose().y, 1e-12);
-  const double quarter = kPi / 2 * 0.25 / 0.1;  // wheel angle for 90 degrees on the spot
-  for (int i = 1; i <= 100; ++i) body.moveTo(15.0 - quarter * i / 100, 15.0 + quarter * i / 100);
-  EXPECT_NEAR(kPi / 2, body.pose().theta, 1e-9);
-  EXPECT_NEAR(1.0, body.pose().x, 1e-9);
-  body.setSpeeds(2.0, 4.0);
-  EXPECT_DOUBLE_EQ(0.3, body.linear());
-  EXPECT_DOUBLE_EQ(0.4, body.angular());
 }
 
 }  // namespace

@@ -51,6 +51,16 @@ class PtyBusTest : public ::testing::Test {
   std::string path;
 };
 
+// A module with slots on a pty: its ident number, and what is connected to it.
+TEST_F(PtyBusTest, ServesModules) {
+  PtyBus bus{oneModule(2), path};
+  const int client = openClient();
+  ASSERT_GE(client, 0);
+  EXPECT_EQ("68 0B 0B 68 81 88 08 3E 3C 02 05 00 FF 0B A8 44 16", ask(client, "68 05 05 68 88 81 6D 3C 3E F0 16", 17));
+  EXPECT_EQ("68 08 08 68 81 88 08 3E 3B 00 F5 F5 74 16", ask(client, "68 05 05 68 88 81 5D 3B 3E DF 16", 14));
+  ::close(client);
+}
+
 // A client after the other finds the stations behind the link; the first one's closing disturbs nobody.
 TEST_F(PtyBusTest, ServesClients) {
   {

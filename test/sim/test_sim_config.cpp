@@ -76,6 +76,65 @@ TEST(SimConfig, ReadsWhatTheInverterCan) {
   EXPECT_EQ(4, robot.drive(1).parameters().value(509));
 }
 
+// Four drives move a mecanum body; without `body` the driver's own keys say the same.
+TEST(SimConfig, ReadsAMecanumBody) {
+  const std::string drives =
+      "drives: {fl: {address: 3, joint: a}, rl: {address: 4, joint: b}, fr: {address: 5, joint: c}, rr: {address: 6, "
+      "joint: d}}, ";
+  for (const char* body : {"body: {kind: mecanum, left: [fl, rl], right: [fr, rr], wheel_radius: 0.1, "
+                           "wheel_separation: 0.5, wheel_base: 0.7}",
+                           "base_type: mecanum, left_wheel: [a, b], right_wheel: [c, d], wheel_radius: 0.1, "
+                           "wheel_separation: 0.5, wheel_base: 0.7"}) {
+    const SimConfig config = readSimConfig(YAML::Load("{" + drives + body + "}"));
+    ASSERT_TRUE(config.body.has_value()) << body;
+    EXPECT_EQ(BodyKind::kMecanum, config.body->kind);
+    RobotSim robot{config};
+    ASSERT_NE(nullptr, robot.body());
+    // Front right and rear left forward, the other two backward, by their terminals: to the left.
+    Instant now{seconds(1.0)};
+    robot.advance(now);
+    for (std::size_t i = 0; i < 4; ++i) robot.drive(i).inverter().setLocalControl(true, 0.0);
+    robot.advance(now += std::chrono::milliseconds(500));  // charged, and ready to switch on
+    for (const auto& [drive, hertz] : {std::pair{0, -10.0}, {1, 10.0}, {2, 10.0}, {3, -10.0}}) {
+      robot.drive(static_cast<std::size_t>(drive)).inverter().setLocalControl(true, hertz);
+    }
+    robot.advance(now += seconds(2.0));
+    EXPECT_GT(robot.body()->pose().y, 1.0);
+    EXPECT_NEAR(0.0, robot.body()->pose().x, 1e-9);
+    EXPECT_NEAR(0.0, robot.body()->pose().theta, 1e-9);
+    // 10 Hz, two pole pairs, 0.1 m: 3.14 m/s without slip.
+    EXPECT_GT(robot.body()->lateral(), 3.0);
+    EXPECT_LT(robot.body()->lateral(), 3.14);
+  }
+}
+
+// Drives behind one module share its address and differ in their place; what the module has is a group of its own.
+TEST(SimConfig, ReadsModulesWithSlots) {
+  const SimConfig config = readSimConfig(YAML::Load(
+      "{bus: {baud_rate: 93750}, drives: {a: {address: 5, module: sk_cu4, inverter: 1, series: sk2xxe, ppo_type: 2}, "
+      "b: {address: 5, module: sk_cu4, inverter: 3, series: sk2xxe, io_byte: true}, c: {address: 6, series: sk5xxe, "
+      "module: sk_tu4}, d: {address: 7}, e: {address: 8, series: sk1x0e}}, modules: {front: {address: 6, inputs: 5, "
+      "record_polls: 4, record_busy: 3, record_by_slot: true, record_plain_numbers: true, parameters: {P151: 500}}}}"));
+  EXPECT_TRUE(config.warnings.empty()) << config.warnings.front();
+  RobotSim robot{config};
+  ASSERT_EQ(3u, robot.modules().size());
+  EXPECT_EQ(5, robot.module(0).address());
+  EXPECT_TRUE(robot.drive(0).sharesModule());
+  EXPECT_FALSE(robot.drive(3).sharesModule());
+  EXPECT_EQ(&robot.drive(0).slave(), &robot.drive(1).slave());
+  EXPECT_EQ(500, robot.module(1).parameters().value(151));
+  EXPECT_EQ(6, robot.module(1).parameters().value(181));  // 93.75 kbit/s
+  EXPECT_EQ(4u, robot.module(1).recordSettings().polls);
+  EXPECT_EQ(3u, robot.module(1).recordSettings().busy);
+  EXPECT_TRUE(robot.module(1).recordSettings().by_slot);
+  EXPECT_TRUE(robot.module(1).recordSettings().plain_numbers);
+  // The control word comes over the system bus: P509 = 3, of an SK 5xxE 6 (BU 2700 7.2).
+  EXPECT_EQ(3, robot.drive(0).parameters().value(509));
+  EXPECT_EQ(6, robot.drive(2).parameters().value(509));
+  EXPECT_EQ(4, robot.drive(3).parameters().value(509));
+  EXPECT_EQ(3, robot.drive(4).parameters().value(509));
+}
+
 // Wrong configurations are refused in a sentence with key, value and expectation.
 TEST(SimConfig, RefusesInWords) {
   const auto refusal = [](const std::string& text) -> std::string {
@@ -109,6 +168,28 @@ TEST(SimConfig, RefusesInWords) {
   EXPECT_THAT(refusal("{drives: {a: {address: 3}}, body: {left: b, right: a, wheel_radius: 1, wheel_separation: 1}}"),
               testing::HasSubstr("body/left: b is not valid"));
   EXPECT_THAT(refusal("{drives: {a: {address: 3}}, body: {left: a}}"), testing::HasSubstr("body/right is missing"));
+  EXPECT_THAT(refusal("{drives: {a: {address: 3}}, body: {kind: mecanum, left: a, right: a, wheel_radius: 1, "
+                      "wheel_separation: 1}}"),
+              testing::HasSubstr("body/wheel_base is missing"));
+  EXPECT_THAT(refusal("{drives: {a: {address: 3}}, body: {kind: mecanum, left: a, right: a, wheel_radius: 1, "
+                      "wheel_separation: 1, wheel_base: 1}}"),
+              testing::HasSubstr("body/left: a is not valid; expected two of them"));
+  EXPECT_THAT(refusal("{drives: {a: {address: 3}}, body: {kind: tricycle}}"),
+              testing::HasSubstr("body/kind: tricycle is not valid; expected differential or mecanum"));
+  EXPECT_EQ("drives/b/inverter: 1 is not valid; expected another one, drive a has it behind this module",
+            refusal("drives: {a: {address: 3, series: sk2xxe}, b: {address: 3, series: sk2xxe}}"));
+  EXPECT_EQ("drives/b/address: 3 is not valid; expected an address of its own; drive a has it",
+            refusal("drives: {a: {address: 3, series: sk2xxe}, b: {address: 3}}"));
+  EXPECT_EQ("drives/a/inverter: 5 is not valid; expected a whole number from 1 to 4",
+            refusal("drives: {a: {address: 3, series: sk2xxe, inverter: 5}}"));
+  EXPECT_EQ("drives/a/module: sk_tu3 is not valid; expected sk_cu4 or sk_tu4, the ones for this series",
+            refusal("drives: {a: {address: 3, series: sk2xxe, module: sk_tu3}}"));
+  EXPECT_EQ("drives/a/module: sk_tu4 is not valid; expected sk_tu1 or sk_tu2, the ones for this series",
+            refusal("drives: {a: {address: 3, series: sk700e, module: sk_tu4}}"));
+  EXPECT_THAT(refusal("{drives: {a: {address: 3}}, modules: {m: {address: 3}}}"),
+              testing::HasSubstr("modules/m/address: 3 is not valid"));
+  EXPECT_THAT(refusal("{drives: {a: {address: 3, series: sk2xxe}}, modules: {m: {address: 3, parameters: {P102: 1}}}}"),
+              testing::HasSubstr("P102 is no parameter of the simulated module"));
 }
 
 }  // namespace

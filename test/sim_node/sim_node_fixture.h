@@ -6,6 +6,7 @@
 #include <nord_driver/SimDrive.h>
 #include <nord_driver/SimParameterChannel.h>
 #include <nord_driver/SimTerminals.h>
+#include <nord_driver/SimTrip.h>
 #include <ros/ros.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>

@@ -1,3 +1,5 @@
+#include <vector>
+
 #include "sim_node/sim_node_fixture.h"
 
 namespace nord_driver::sim_node {
@@ -39,6 +41,19 @@ TEST_F(Station, PowerInverter) {
   EXPECT_TRUE(truth().in_data_exchange);
   EXPECT_EQ("yes, left: mains of the inverter on", set("left/power_inverter", true));
   EXPECT_EQ("0B 31 00 00", bus->pzdUntil("047E 0000", "0B 31 00 00"));
+}
+
+// The 24 V of a module with slots: off, its station is silent. A module of one's own has no supply of that kind.
+TEST_F(Station, PowerModule) {
+  const std::vector<std::uint8_t> is_there{0x10, 0x09, 0x01, 0x49, 0x53, 0x16};
+  const std::vector<std::uint8_t> diagnosis{0x68, 0x05, 0x05, 0x68, 0x89, 0x81, 0x6D, 0x3C, 0x3E, 0xF1, 0x16};
+  EXPECT_EQ("68 0B 0B 68 81 89 08 3E 3C 02 05 00 FF 0B A8 45 16", bus->ask(diagnosis));
+  EXPECT_EQ("yes, lift: 24 V of its module off, the station is silent", set("lift/power_module", false));
+  EXPECT_EQ("", bus->ask(is_there, kSilence));
+  EXPECT_EQ("yes, lift: 24 V of its module on", set("lift/power_module", true));
+  EXPECT_EQ("10 01 09 00 0A 16", bus->ask(is_there));
+  EXPECT_EQ("no, left: has a module of its own; unplug takes the power from both", set("left/power_module", false));
+  EXPECT_EQ(kHere, bus->askStatus());
 }
 
 // The connection between module and inverter broken: E10.8 in the inverter, zeros from the module.

@@ -18,7 +18,8 @@
 
 namespace nord_driver::test {
 
-/// Two wheels of 0.1 m, 0.5 m apart; P105 = 50 Hz, 20:1, two pole pairs: 100 % is 7.854 rad/s or 0.785 m/s.
+/// Two wheels of 0.1 m, 0.5 m apart, or as many a side as asked for (drives 0, 2 ... left, 1, 3 ... right); P105 = 50
+/// Hz, 20:1, two pole pairs: 100 % is 7.854 rad/s or 0.785 m/s.
 class SimulatedRobot {
  public:
   struct Options {
@@ -29,6 +30,9 @@ class SimulatedRobot {
     std::vector<sim::ParameterPreset> parameters;      ///< of both inverters
     std::vector<sim::ParameterPreset> left_parameters;
     int ppo_type = 1;  ///< as set at the inverters
+    /// Four wheels, two on each side, all behind one module SK CU4 at address 3 with its I/O byte in slot 1.
+    bool one_module = false;
+    int wheels_a_side = 1;  ///< 1 or 2, each with a module of its own
   };
 
   SimulatedRobot() : SimulatedRobot(Options{}) {}
@@ -107,7 +111,12 @@ class SimulatedRobot {
   }
   /// From power-on to two drives that could be enabled.
   bool bringUp() {
-    return runUntil([this] { return snapshot().drives[0].device.complete && snapshot().drives[1].device.complete; });
+    return runUntil([this] {
+      for (const cycle::DriveSnapshot& drive : snapshot().drives) {
+        if (!drive.device.complete) return false;
+      }
+      return true;
+    });
   }
   bool bringUpAndEnable() { return bringUp() && ask(cycle::RequestKind::kEnable).success; }
 
@@ -116,7 +125,13 @@ class SimulatedRobot {
   Word controlWord(DriveIndex drive) { return snapshot().drives[drive].output.control_word; }
   std::int16_t setpoint(DriveIndex drive) { return snapshot().drives[drive].output.setpoints[0]; }
   Word statusWord(DriveIndex drive) { return snapshot().drives[drive].input.status_word; }
-  bool standsStill() { return std::abs(unit(0).shaftSpeed()) < 0.1 && std::abs(unit(1).shaftSpeed()) < 0.1; }
+  bool standsStill() {
+    for (std::size_t i = 0; i < config_.drives.size(); ++i) {
+      if (std::abs(unit(i).shaftSpeed()) >= 0.1) return false;
+    }
+    return true;
+  }
+  std::size_t driveCount() const { return config_.drives.size(); }
 
   sim::SimulatedSegment& segment() { return *segment_; }
   sim::DriveUnit& unit(std::size_t drive) { return segment_->drive(drive); }
@@ -125,23 +140,35 @@ class SimulatedRobot {
   Transport& transport() { return *transport_; }
   const cycle::CycleConfig& config() const { return config_; }
 
+  /// left, right and, with two wheels a side, rear_left, rear_right.
   static std::vector<DriveSettings> driveSettings(const Options& options) {
-    return {driveSettings(options, "left", 3, false), driveSettings(options, "right", 4, true)};
+    std::vector<DriveSettings> drives;
+    for (const std::string& name : names(options)) {
+      const int number = static_cast<int>(drives.size());
+      auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
+      settings->set("address", options.one_module ? 3 : 3 + number).set("ppo_type", 1);
+      settings->set("series", options.one_module ? "sk2xxe" : "sk5xxe").set("joint", name + "_wheel_joint");
+      settings->set("gear_ratio", 20.0).set("pole_pairs", 2).set("inverted", isRight(name));
+      if (options.one_module) settings->set("inverter", number + 1).set("io_byte", true);
+      for (const auto& [key, value] : options.drives) settings->set(key, value);
+      drives.push_back({name, settings});
+    }
+    return drives;
   }
 
  private:
-  static DriveSettings driveSettings(const Options& options, const std::string& name, int address, bool inverted) {
-    auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
-    settings->set("address", address).set("series", "sk5xxe").set("ppo_type", 1).set("joint", name + "_wheel_joint");
-    settings->set("gear_ratio", 20.0).set("pole_pairs", 2).set("inverted", inverted);
-    for (const auto& [key, value] : options.drives) settings->set(key, value);
-    return {name, settings};
+  static std::vector<std::string> names(const Options& options) {
+    if (options.one_module || options.wheels_a_side == 2) return {"left", "right", "rear_left", "rear_right"};
+    return {"left", "right"};
   }
+  static bool isRight(const std::string& name) { return name.find("right") != std::string::npos; }
   static std::map<std::string, MapSettings::Value> nodeSettings(const Options& options) {
     std::map<std::string, MapSettings::Value> values = options.node;
+    std::vector<std::string> left, right;
+    for (const std::string& name : names(options)) (isRight(name) ? right : left).push_back(name + "_wheel_joint");
     values.insert({{"cycle_rate", 100.0},
-                   {"left_wheel", std::string{"left_wheel_joint"}},
-                   {"right_wheel", std::string{"right_wheel_joint"}},
+                   {"left_wheel", left},
+                   {"right_wheel", right},
                    {"wheel_separation", 0.5},
                    {"wheel_radius", 0.1}});
     return values;
@@ -149,22 +176,28 @@ class SimulatedRobot {
   static sim::SimConfig simConfig(const Options& options) {
     sim::SimConfig config;
     config.baud_rate = 500'000;
-    for (const bool right : {false, true}) {
+    config.body = sim::BodyConfig{{}, {}, 0.1, 0.5};
+    for (const std::string& name : names(options)) {
+      const std::size_t number = config.drives.size();
       sim::DriveConfig drive;
-      drive.name = right ? "right" : "left";
-      drive.joint = drive.name + "_wheel_joint";
-      drive.slave.address = right ? 4 : 3;
+      drive.name = name;
+      drive.joint = name + "_wheel_joint";
+      drive.slave.address = static_cast<std::uint8_t>(options.one_module ? 3 : 3 + number);
       drive.gear_ratio = 20.0;
-      drive.inverted = right;
+      drive.inverted = isRight(name);
       drive.motor.slip = options.slip;
       drive.slave.ppo_type = options.ppo_type;
       drive.parameters = options.parameters;
-      if (!right) {
+      if (options.one_module) {
+        drive.place = static_cast<unsigned>(number + 1);
+        drive.device.series = sim::Series::kSk2xxe;
+      }
+      if (number == 0) {
         drive.parameters.insert(drive.parameters.end(), options.left_parameters.begin(), options.left_parameters.end());
       }
+      (isRight(name) ? config.body->right : config.body->left).push_back(number);
       config.drives.push_back(drive);
     }
-    config.body = sim::BodyConfig{{0}, {1}, 0.1, 0.5};
     return config;
   }
 

@@ -13,13 +13,15 @@ using ::testing::StartsWith;
 
 constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
 
-SimulatedRobot::Options withDeceleration() {
+SimulatedRobot::Options withDeceleration(bool one_module) {
   SimulatedRobot::Options options;
+  options.one_module = one_module;
   options.node = {{"linear/x/has_acceleration_limits", true}, {"linear/x/max_acceleration", 0.5}};
   return options;
 }
 
-class AskedStops : public ::testing::Test {
+/// With `true` four drives behind one module SK CU4.
+class AskedStops : public ::testing::TestWithParam<bool> {
  protected:
   void SetUp() override {
     ASSERT_TRUE(robot_.bringUpAndEnable());
@@ -36,12 +38,15 @@ class AskedStops : public ::testing::Test {
     robot_.ports().submit(request);
   }
 
-  SimulatedRobot robot_{withDeceleration()};
+  SimulatedRobot robot_{withDeceleration(GetParam())};
 };
+
+INSTANTIATE_TEST_SUITE_P(Modules, AskedStops, ::testing::Bool(),
+                         [](const auto& test) { return test.param ? "FourInvertersOnOne" : "OneEach"; });
 
 // Command older than cmd_vel_timeout: at most two cycles to the first smaller setpoint, the ramp of the configuration
 // down to zero, and the drives stay enabled.
-TEST_F(AskedStops, ACommandThatIsTooOldRampsDownAndStaysEnabled) {
+TEST_P(AskedStops, ACommandThatIsTooOldRampsDownAndStaysEnabled) {
   robot_.command(kHalfSpeed);
   robot_.run(milliseconds{500});
   EXPECT_EQ(0x2000, robot_.setpoint(0)) << "not too old yet";
@@ -65,7 +70,7 @@ TEST_F(AskedStops, ACommandThatIsTooOldRampsDownAndStaysEnabled) {
 }
 
 // `enable false`: the same ramp, whatever is commanded meanwhile, then OFF1 until "ready to switch on".
-TEST_F(AskedStops, DisableRampsDownThenSaysOff1) {
+TEST_P(AskedStops, DisableRampsDownThenSaysOff1) {
   robot_.command(kHalfSpeed);
   submit(cycle::RequestKind::kDisable);
   robot_.step();
@@ -88,7 +93,7 @@ TEST_F(AskedStops, DisableRampsDownThenSaysOff1) {
 }
 
 // OFF3 on all drives at most two cycles later; ends in "switch-on disabled", then idle.
-TEST_F(AskedStops, QuickStopSaysOff3ToAllDrives) {
+TEST_P(AskedStops, QuickStopSaysOff3ToAllDrives) {
   robot_.command(kHalfSpeed);
   submit(cycle::RequestKind::kQuickStop);
   robot_.step();
@@ -104,13 +109,13 @@ TEST_F(AskedStops, QuickStopSaysOff3ToAllDrives) {
 }
 
 // The node's end: the way of disable, confirmed by "ready to switch on" with bit 10 set to the last telegram.
-TEST_F(AskedStops, ShutDownRampsAndEndsInReadyToSwitchOn) {
+TEST_P(AskedStops, ShutDownRampsAndEndsInReadyToSwitchOn) {
   const cycle::Completion answer = robot_.ask(cycle::RequestKind::kShutDown);
   EXPECT_TRUE(answer.success) << answer.message.c_str();
   EXPECT_EQ(0x0B31, robot_.statusWord(0));
   EXPECT_EQ(0x0B31, robot_.statusWord(1));
-  EXPECT_EQ(0x047E, robot_.unit(0).slave().counters().last_control);
-  EXPECT_EQ(0x047E, robot_.unit(1).slave().counters().last_control);
+  EXPECT_EQ(0x047E, robot_.unit(0).counters().last_control);
+  EXPECT_EQ(0x047E, robot_.unit(1).counters().last_control);
   robot_.transport().close();
   robot_.segment().run(std::chrono::seconds{1});
   EXPECT_TRUE(robot_.standsStill());

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "system/simulated_robot.h"
 
 namespace nord_driver::test {
@@ -14,12 +16,25 @@ using ::testing::HasSubstr;
 constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
 constexpr DriveIndex kLeft = 0, kRight = 1;
 
-class CauseAtADrive : public ::testing::Test {
+enum class Base { kTwoDrives, kFourDrives, kFourBehindOneModule };
+
+/// A drive is a drive wherever it is connected. The cause is at the first right one.
+class CauseAtADrive : public ::testing::TestWithParam<Base> {
  protected:
+  CauseAtADrive() : robot_(options()) {}
+  static SimulatedRobot::Options options() {
+    SimulatedRobot::Options options;
+    options.one_module = GetParam() == Base::kFourBehindOneModule;
+    options.wheels_a_side = GetParam() == Base::kTwoDrives ? 1 : 2;
+    return options;
+  }
   void SetUp() override {
     ASSERT_TRUE(robot_.bringUpAndEnable());
     robot_.drive(kHalfSpeed, 0.0, std::chrono::seconds{3});
-    ASSERT_EQ(0x2000, robot_.setpoint(kLeft));
+    for (DriveIndex i = 0; i < robot_.driveCount(); ++i) {
+      ASSERT_EQ(i % 2 == 0 ? 0x2000 : -0x2000, robot_.setpoint(i));
+      if (i != kRight) others_.push_back(i);
+    }
   }
   void TearDown() override { EXPECT_EQ("no rule broken", robot_.segment().referee().report()); }
 
@@ -38,21 +53,26 @@ class CauseAtADrive : public ::testing::Test {
     step();
     step();
     EXPECT_EQ(0x047E, robot_.controlWord(kRight)) << "the idle word";
-    EXPECT_EQ(0x047F, robot_.controlWord(kLeft)) << "torque stays until the other has come to rest";
-    EXPECT_EQ(0, robot_.setpoint(kLeft));
+    for (const DriveIndex other : others_) {
+      EXPECT_EQ(0x047F, robot_.controlWord(other)) << "torque stays until it has come to rest, drive " << other;
+      EXPECT_EQ(0, robot_.setpoint(other)) << other;
+    }
   }
   /// The other one comes down its own ramp, then OFF1; a standing command moves nothing any more.
   void expectRestForGood(bool by_ramp = true) {
     bool off1_while_fast = false;
     for (int i = 0; i < 500; ++i) {
       step();
-      ASSERT_EQ(0, robot_.setpoint(kLeft));
-      ASSERT_EQ(0, robot_.setpoint(kRight));
-      off1_while_fast |= robot_.controlWord(kLeft) == 0x047E && std::abs(robot_.unit(kLeft).shaftSpeed()) > 5.0;
+      for (DriveIndex drive = 0; drive < robot_.driveCount(); ++drive) ASSERT_EQ(0, robot_.setpoint(drive)) << drive;
+      for (const DriveIndex other : others_) {
+        off1_while_fast |= robot_.controlWord(other) == 0x047E && std::abs(robot_.unit(other).shaftSpeed()) > 5.0;
+      }
     }
     EXPECT_EQ(!by_ramp, off1_while_fast);
-    EXPECT_EQ(0x047E, robot_.controlWord(kLeft));
-    EXPECT_EQ(0x0B31, robot_.statusWord(kLeft));
+    for (const DriveIndex other : others_) {
+      EXPECT_EQ(0x047E, robot_.controlWord(other)) << other;
+      EXPECT_EQ(0x0B31, robot_.statusWord(other)) << other;
+    }
     EXPECT_FALSE(robot_.snapshot().base.enabled);
     EXPECT_TRUE(robot_.snapshot().base.stopped);
   }
@@ -63,9 +83,17 @@ class CauseAtADrive : public ::testing::Test {
   }
 
   SimulatedRobot robot_;
+  std::vector<DriveIndex> others_;
 };
 
-TEST_F(CauseAtADrive, AFaultStopsTheBase) {
+INSTANTIATE_TEST_SUITE_P(On, CauseAtADrive,
+                         ::testing::Values(Base::kTwoDrives, Base::kFourDrives, Base::kFourBehindOneModule),
+                         [](const auto& test) {
+                           const char* const names[] = {"TwoDrives", "FourDrives", "FourBehindOneModule"};
+                           return names[static_cast<int>(test.param)];
+                         });
+
+TEST_P(CauseAtADrive, AFaultStopsTheBase) {
   robot_.unit(kRight).inverter().trip(30, true);
   expectReaction(2);
   EXPECT_THAT(stopText(), HasSubstr("drive right stopped: a fault of the inverter"));
@@ -75,7 +103,7 @@ TEST_F(CauseAtADrive, AFaultStopsTheBase) {
 }
 
 // Taking the enable away acknowledges (BU 0020 8): the fault is gone by itself, and must not be forgotten.
-TEST_F(CauseAtADrive, AFaultThatVanishedIsStillInTheWay) {
+TEST_P(CauseAtADrive, AFaultThatVanishedIsStillInTheWay) {
   robot_.unit(kRight).inverter().trip(30, false);
   expectReaction(2);
   expectRestForGood();
@@ -86,7 +114,7 @@ TEST_F(CauseAtADrive, AFaultThatVanishedIsStillInTheWay) {
 }
 
 // P509 or digital input 14: terminals may turn the wheel, and a standing 047F would act when the bus has control again.
-TEST_F(CauseAtADrive, LocalControlStopsTheBase) {
+TEST_P(CauseAtADrive, LocalControlStopsTheBase) {
   robot_.unit(kRight).inverter().setLocalControl(true, 0.0);
   expectReaction(2);
   EXPECT_THAT(stopText(), HasSubstr("local control"));
@@ -100,8 +128,25 @@ TEST_F(CauseAtADrive, LocalControlStopsTheBase) {
   EXPECT_STREQ("enabled", enableAtRest().message.c_str());
 }
 
-// OFF2 at the terminals: "operation enabled" is left without being asked.
-TEST_F(CauseAtADrive, AnUnaskedExitStopsTheBase) {
+// OFF2 and OFF3 at the terminals, seen in status bits 4 and 5 (BU 2700 6.4.2).
+TEST_P(CauseAtADrive, Off2AndOff3AtTheTerminalsStopTheBase) {
+  for (const bool off2 : {true, false}) {
+    sim::Terminals terminals;
+    terminals.coast = off2;
+    terminals.quick_stop = !off2;
+    robot_.unit(kRight).inverter().setTerminals(terminals);
+    expectReaction(2);
+    EXPECT_THAT(stopText(), HasSubstr(off2 ? "OFF2 at the inverter's terminals" : "OFF3 at the inverter's terminals"));
+    expectRestForGood();
+    EXPECT_THAT(stopText(), HasSubstr("P700[-03]")) << "the inverter's own reason, once it is read";
+    robot_.unit(kRight).inverter().setTerminals({});
+    ASSERT_STREQ("enabled", enableAtRest().message.c_str());
+    robot_.drive(kHalfSpeed, 0.0, std::chrono::seconds{3});
+  }
+}
+
+// A dip of the mains: "operation enabled" is left without being asked.
+TEST_P(CauseAtADrive, AnUnaskedExitStopsTheBase) {
   robot_.unit(kRight).inverter().setPowered(false);
   robot_.unit(kRight).inverter().setPowered(true);  // a dip of the mains: "not ready to switch on" with the set kept
   expectReaction(2);
@@ -111,7 +156,7 @@ TEST_F(CauseAtADrive, AnUnaskedExitStopsTheBase) {
 }
 
 // Silent for drive_timeout (50 ms: five cycles), then the same.
-TEST_F(CauseAtADrive, ADriveThatFallsSilentStopsTheBase) {
+TEST_P(CauseAtADrive, ADriveThatFallsSilentStopsTheBase) {
   robot_.unit(kRight).setPlugged(false);
   for (int i = 0; i < 5; ++i) {
     step();
@@ -124,7 +169,7 @@ TEST_F(CauseAtADrive, ADriveThatFallsSilentStopsTheBase) {
 }
 
 // Modules with 24 V of their own answer for an inverter that is off (BU 0020 2.1.3): with zeros, which are no status.
-TEST_F(CauseAtADrive, AnInverterThatIsOffBehindItsModuleStopsTheBase) {
+TEST_P(CauseAtADrive, AnInverterThatIsOffBehindItsModuleStopsTheBase) {
   robot_.unit(kRight).setInverterPower(false);
   expectReaction(10);
   EXPECT_TRUE(robot_.snapshot().drives[kRight].module_answers);
@@ -143,7 +188,7 @@ TEST_F(CauseAtADrive, AnInverterThatIsOffBehindItsModuleStopsTheBase) {
 
 // One cycle with all its retries unanswered: the slave is parameterised anew, which takes longer than drive_timeout,
 // but not as long as the watchdog. Back within 2 s, at rest, and enabled only when asked.
-TEST_F(CauseAtADrive, ADriveThatIsBackDoesNotMoveBeforeItIsEnabled) {
+TEST_P(CauseAtADrive, ADriveThatIsBackDoesNotMoveBeforeItIsEnabled) {
   robot_.unit(kRight).slave().setMute(true);
   step();
   robot_.unit(kRight).slave().setMute(false);
@@ -153,7 +198,9 @@ TEST_F(CauseAtADrive, ADriveThatIsBackDoesNotMoveBeforeItIsEnabled) {
   while (!robot_.snapshot().drives[kRight].online && robot_.transport().now() - back < std::chrono::seconds{5}) step();
   EXPECT_LT(toSeconds(robot_.transport().now() - back), 2.0);
   ASSERT_TRUE(robot_.snapshot().drives[kRight].online);
-  expectRestForGood();
+  expectRestForGood(
+      GetParam() !=
+      Base::kFourBehindOneModule);  // a module is lost with all its drives: nobody is left to come down by a ramp
   EXPECT_TRUE(robot_.runUntil([this] { return robot_.standsStill(); }));
   ASSERT_STREQ("enabled", enableAtRest().message.c_str());
   robot_.drive(kHalfSpeed, 0.0, std::chrono::seconds{3});
@@ -162,7 +209,7 @@ TEST_F(CauseAtADrive, ADriveThatIsBackDoesNotMoveBeforeItIsEnabled) {
 }
 
 // Unplugged and plugged in again: the same after its restart, with mains and module both gone.
-TEST_F(CauseAtADrive, ADriveThatWasOffIsBackWithinTwoSecondsAtRest) {
+TEST_P(CauseAtADrive, ADriveThatWasOffIsBackWithinTwoSecondsAtRest) {
   robot_.unit(kRight).setPlugged(false);
   for (int i = 0; i < 100; ++i) step();
   robot_.unit(kRight).setPlugged(true);
@@ -175,7 +222,7 @@ TEST_F(CauseAtADrive, ADriveThatWasOffIsBackWithinTwoSecondsAtRest) {
 
 // The bus device is pulled: nothing can be sent, the drives' watchdogs switch off and the wheels coast. On return:
 // disabled, and the fault E10.2 the watchdog left is in the way of enabling.
-TEST_F(CauseAtADrive, TheBusLostAndBackLeavesTheBaseDisabled) {
+TEST_P(CauseAtADrive, TheBusLostAndBackLeavesTheBaseDisabled) {
   robot_.segment().setDevicePresent(false);
   for (int i = 0; i < 100; ++i) step();
   EXPECT_FALSE(robot_.snapshot().connected);
@@ -184,10 +231,11 @@ TEST_F(CauseAtADrive, TheBusLostAndBackLeavesTheBaseDisabled) {
   EXPECT_EQ(1u, robot_.unit(kRight).slave().counters().watchdog_trips);
   robot_.segment().setDevicePresent(true);
   const Instant back = robot_.transport().now();
-  while (!(robot_.snapshot().drives[kLeft].online && robot_.snapshot().drives[kRight].online) &&
-         robot_.transport().now() - back < std::chrono::seconds{5}) {
-    step();
-  }
+  const auto all_online = [this] {
+    const auto& drives = robot_.snapshot().drives;
+    return std::all_of(drives.begin(), drives.end(), [](const auto& drive) { return drive.online; });
+  };
+  while (!all_online() && robot_.transport().now() - back < std::chrono::seconds{5}) step();
   EXPECT_LT(toSeconds(robot_.transport().now() - back), 2.0);
   expectRestForGood(false);
   EXPECT_TRUE(robot_.runUntil([this] { return robot_.standsStill(); }));

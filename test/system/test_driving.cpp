@@ -26,6 +26,26 @@ TEST(Driving, BeyondFullSpeedTheWholeBaseIsScaled) {
   EXPECT_EQ("no rule broken", robot.segment().referee().report());
 }
 
+// At most 1 cm in 1 m, with slip, ramps and friction; the odometry's velocity is the output frequency's (BU
+// 2700 6.4.4).
+TEST(Driving, TheWayIsTrueToACentimetreInAMetre) {
+  for (const int wheels_a_side : {1, 2}) {
+    SimulatedRobot::Options options;
+    options.wheels_a_side = wheels_a_side;
+    options.node = {{"linear/x/has_acceleration_limits", true}, {"linear/x/max_acceleration", 0.5}};
+    SimulatedRobot robot{options};
+    ASSERT_TRUE(robot.bringUpAndEnable());
+    robot.drive(0.4, 0.0, std::chrono::seconds{3});
+    robot.drive(0.0, 0.0, std::chrono::seconds{3});
+    double way = 0.0;
+    for (std::size_t i = 0; i < robot.driveCount(); ++i) {
+      way += 0.1 * robot.unit(i).wheelAngle() / static_cast<double>(robot.driveCount());
+    }
+    EXPECT_GT(way, 0.8);
+    EXPECT_NEAR(way, robot.snapshot().base.pose.x, 0.01 * way);
+  }
+}
+
 struct Loss {
   const char* name;
   void (*take)(SimulatedRobot&);

@@ -4,7 +4,6 @@
 // A program of its own, in real time over a pty, because it replaces malloc. Not built under sanitizers, which do the
 // same.
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -17,52 +16,8 @@
 #include "nord_driver/cycle/cycle_thread.h"
 #include "nord_driver/sim/pty_bus.h"
 #include "nord_driver/transport/profibus_dp.h"
+#include "support/count_allocations.h"
 #include "support/map_settings.h"
-
-namespace {
-
-thread_local bool counted_thread = false;
-std::atomic<unsigned long> allocations{0};
-
-void count() noexcept {
-  if (counted_thread) ++allocations;
-}
-
-}  // namespace
-
-// The whole malloc family; operator new of libstdc++ calls malloc. glibc's own names keep working underneath.
-extern "C" {
-void* __libc_malloc(size_t size);
-void* __libc_calloc(size_t count, size_t size);
-void* __libc_realloc(void* memory, size_t size);
-void* __libc_memalign(size_t alignment, size_t size);
-
-void* malloc(size_t size) {
-  count();
-  return __libc_malloc(size);
-}
-void* calloc(size_t number, size_t size) {
-  count();
-  return __libc_calloc(number, size);
-}
-void* realloc(void* memory, size_t size) {
-  count();
-  return __libc_realloc(memory, size);
-}
-void* memalign(size_t alignment, size_t size) {
-  count();
-  return __libc_memalign(alignment, size);
-}
-void* aligned_alloc(size_t alignment, size_t size) {
-  count();
-  return __libc_memalign(alignment, size);
-}
-int posix_memalign(void** memory, size_t alignment, size_t size) {
-  count();
-  *memory = __libc_memalign(alignment, size);
-  return *memory == nullptr ? ENOMEM : 0;
-}
-}
 
 namespace nord_driver::test {
 namespace {
@@ -80,7 +35,7 @@ class CountingTransport final : public Transport {
   void exchange(const std::vector<profile::ProcessOutput>& outputs,
                 std::vector<DriveExchange>& inputs) noexcept override {
     ++cycles;
-    counted_thread = counting;
+    countThisThread(counting);
     if (spoil) spoiled_ = std::make_unique<int>(1);
     inner_.exchange(outputs, inputs);
   }
@@ -94,6 +49,7 @@ class CountingTransport final : public Transport {
   std::uint32_t identNumber(DriveIndex drive) const noexcept override { return inner_.identNumber(drive); }
   Sentence busText() const noexcept override { return inner_.busText(); }
   DriveIdentity identity(DriveIndex drive) const override { return inner_.identity(drive); }
+  std::optional<BusEvent> pollEvent() noexcept override { return inner_.pollEvent(); }
   void close() noexcept override { inner_.close(); }
 
   std::atomic<unsigned long> cycles{0};
@@ -105,13 +61,16 @@ class CountingTransport final : public Transport {
   std::unique_ptr<int> spoiled_;
 };
 
-class NoAllocation : public ::testing::Test {
+/// With `true` both drives are behind one module SK CU4, the second in PPO 3: its parameters come by records.
+class NoAllocation : public ::testing::TestWithParam<bool> {
  protected:
   NoAllocation() : link_path_("/tmp/nord_no_allocation_" + std::to_string(getpid())), bus_(simConfig(), link_path_) {
     std::vector<DriveSettings> drives;
     for (const char* name : {"left", "right"}) {
       auto settings = std::make_shared<MapSettings>(std::string{"~drives/"} + name + "/");
-      settings->set("address", name == std::string{"left"} ? 3 : 4).set("series", "sk5xxe").set("pole_pairs", 2);
+      const bool left = name == std::string{"left"};
+      settings->set("address", left || GetParam() ? 3 : 4).set("series", "sk5xxe").set("pole_pairs", 2);
+      if (GetParam()) settings->set("module", "sk_cu4").set("inverter", left ? 1 : 2).set("ppo_type", left ? 1 : 3);
       settings->set("joint", name).set("gear_ratio", 20.0);
       drives.push_back({name, settings});
     }
@@ -134,7 +93,9 @@ class NoAllocation : public ::testing::Test {
     for (const char* name : {"left", "right"}) {
       sim::DriveConfig drive;
       drive.name = name;
-      drive.slave.address = name == std::string{"left"} ? 3 : 4;
+      const bool left = name == std::string{"left"};
+      drive.slave.address = left || GetParam() ? 3 : 4;
+      if (GetParam()) drive.place = left ? 1 : 2;
       config.drives.push_back(drive);
     }
     return config;
@@ -180,15 +141,19 @@ class NoAllocation : public ::testing::Test {
   std::unique_ptr<cycle::CycleThread> thread_;
 };
 
-TEST_F(NoAllocation, InTheCyclesThreadOverALossAndAParameterRead) {
+INSTANTIATE_TEST_SUITE_P(Modules, NoAllocation, ::testing::Bool());
+
+TEST_P(NoAllocation, InTheCyclesThreadOverALossAndAParameterRead) {
   ASSERT_TRUE(waitFor([this] { return bothOnline(); }));
   ASSERT_TRUE(runCycles(100));
+  allocations = 0;
   transport_.counting = true;
   ASSERT_TRUE(runCycles(20));
 
   EXPECT_TRUE(waitFor([this] { return bothRead(); }));
   EXPECT_EQ(500, ask(cycle::RequestKind::kReadParameter, 105).raw);
   EXPECT_FALSE(ask(cycle::RequestKind::kReadParameter, 999).success);
+  ports_->tuneBase({1.1, 0.9, 1.05, true});
   EXPECT_TRUE(ask(cycle::RequestKind::kEnable).success);
   ports_->commandBase({{0.2, 0.1}, std::chrono::steady_clock::now(), true});
   EXPECT_TRUE(runCycles(40));

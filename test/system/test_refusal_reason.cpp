@@ -16,6 +16,10 @@ TEST(RefusalReason, IsReadBeforeAnybodyAsksAndToldWithTheRefusal) {
   terminals.coast = true;  // an input "disable voltage" is low
   robot.unit(0).inverter().setTerminals(terminals);
   robot.run(std::chrono::seconds{2});
+  for (int i = 0; i < 200; ++i) {
+    robot.step();
+    ASSERT_TRUE(robot.snapshot().drives[0].switch_on_reason) << "kept while it is read again";
+  }
   const cycle::Completion answer = robot.ask(cycle::RequestKind::kEnable);
   EXPECT_FALSE(answer.success);
   EXPECT_THAT(answer.message.c_str(), HasSubstr("drive left"));

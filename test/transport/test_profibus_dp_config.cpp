@@ -152,18 +152,21 @@ TEST_P(WrongBusKey, IsRefusedByNameValueAndExpectation) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, WrongBusKey,
-    ::testing::Values(
-        Wrong{"device", std::string{}, "\"\" is not valid, expected a serial device such as /dev/ttyUSB0"},
-        Wrong{"device", 3, "expected a text"},
-        Wrong{"baud_rate", 115200, "115200 bit/s is no PROFIBUS rate: expected 9600, 19200"},
-        Wrong{"baud_rate", 0, "0 is not valid, expected a whole number from 1 to 12000000"},
-        Wrong{"master_address", 126, "126 is not valid, expected a whole number from 0 to 125"},
-        Wrong{"max_retries", 16, "16 is not valid, expected a whole number from 0 to 15"},
-        Wrong{"watchdog", 0.0, "0 is not valid, expected a number from 0.01 to 650 s"},
-        Wrong{"watchdog", 651.0, "651 is not valid, expected a number from 0.01 to 650 s"},
-        Wrong{"slot_time", 1.5, "1.5 is not valid, expected a number from 0 to 1 s"},
-        Wrong{"slot_time", 0.0001, "0.0001 is not valid, expected at least 0.00023 s"},
-        Wrong{"gsd", std::vector<std::string>{"nord.gsd"}, "\"nord.gsd\" is not valid, expected an empty list"}));
+    ::testing::Values(Wrong{"device", std::string{},
+                            "\"\" is not valid, expected a serial device such as /dev/ttyUSB0"},
+                      Wrong{"device", 3, "expected a text"},
+                      Wrong{"baud_rate", 115200, "115200 bit/s is no PROFIBUS rate: expected 9600, 19200"},
+                      Wrong{"baud_rate", 0, "0 is not valid, expected a whole number from 1 to 12000000"},
+                      Wrong{"master_address", 126, "126 is not valid, expected a whole number from 0 to 125"},
+                      Wrong{"max_retries", 16, "16 is not valid, expected a whole number from 0 to 15"},
+                      Wrong{"watchdog", 0.0, "0 is not valid, expected a number from 0.01 to 650 s"},
+                      Wrong{"watchdog", 651.0, "651 is not valid, expected a number from 0.01 to 650 s"},
+                      Wrong{"slot_time", 1.5, "1.5 is not valid, expected a number from 0 to 1 s"},
+                      Wrong{"listen_first", 11.0, "11 is not valid, expected a number from 0 to 10 s"},
+                      Wrong{"record_addressing", std::string{"both"}, "\"both\" is not valid, expected index or slot"},
+                      Wrong{"slot_time", 0.0001, "0.0001 is not valid, expected at least 0.00023 s"},
+                      Wrong{"gsd", std::vector<std::string>{"nord.gsd"},
+                            "\"nord.gsd\" is not valid, expected a GSD file that can be read"}));
 
 class WrongDriveKey : public ::testing::TestWithParam<Wrong> {};
 
@@ -175,18 +178,18 @@ TEST_P(WrongDriveKey, IsRefusedByNameValueAndExpectation) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, WrongDriveKey,
-    ::testing::Values(
-        Wrong{"address", 126, "126 is not valid, expected a whole number from 0 to 125"},
-        Wrong{"address", 3, "3 is not valid, expected another address than drive \"drive0\" has"},
-        Wrong{"address", 1, "1 is not valid, expected another address than the master's own"},
-        Wrong{"series", std::string{"sk2xxe"}, "\"sk2xxe\" is not valid, expected a series with SK TU1/2/3-PBR"},
-        Wrong{"series", std::string{"sk1x0e"}, "\"sk1x0e\" is not valid, expected a series with SK TU1/2/3-PBR"},
-        Wrong{"ppo_type", 5, "5 is not valid, expected a whole number from 1 to 4"},
-        Wrong{"ppo_type", 0, "0 is not valid, expected a whole number from 1 to 4"},
-        Wrong{"inverter", 2, "2 is not valid, expected a whole number from 1 to 1"},
-        Wrong{"user_parameters", std::string{"0G"}, "\"0G\" is not valid, expected hexadecimal bytes"},
-        Wrong{"user_parameters", std::string{"001"}, "\"001\" is not valid, expected hexadecimal bytes"},
-        Wrong{"user_parameters", std::string(2 * 238, '0'), "at most 237"}));
+    ::testing::Values(Wrong{"address", 126, "126 is not valid, expected a whole number from 0 to 125"},
+                      Wrong{"address", 3, "3 is not valid, expected another address than drive \"drive0\" has"},
+                      Wrong{"address", 1, "1 is not valid, expected another address than the master's own"},
+                      Wrong{"module", std::string{"sk_cu5"},
+                            "\"sk_cu5\" is not valid, expected sk_tu3 (SK TU3-PBR), sk_cu4"},
+                      Wrong{"io_byte", true, "true is not valid, expected false: only SK CU4/TU4-PBR"},
+                      Wrong{"ppo_type", 5, "5 is not valid, expected a whole number from 1 to 4"},
+                      Wrong{"ppo_type", 0, "0 is not valid, expected a whole number from 1 to 4"},
+                      Wrong{"inverter", 2, "2 is not valid, expected 1: SK TU1/2/3-PBR serves one inverter"},
+                      Wrong{"user_parameters", std::string{"0G"}, "\"0G\" is not valid, expected hexadecimal bytes"},
+                      Wrong{"user_parameters", std::string{"001"}, "\"001\" is not valid, expected hexadecimal bytes"},
+                      Wrong{"user_parameters", std::string(2 * 238, '0'), "at most 237"}));
 
 TEST(ProfibusDpConfigTest, WhatIsMissingIsNamed) {
   Segment segment;
@@ -217,6 +220,44 @@ TEST(ProfibusDpConfigTest, EveryMultipleOf10MsUpTo2550MsCanBeTold) {
     segment.bus.set("watchdog", n / 100.0);
     ASSERT_EQ(milliseconds{10 * n}, segment.read().watchdog);
   }
+}
+
+// For as long as the watchdog runs nobody stops the drives of a dead computer.
+TEST(ProfibusDpConfigTest, AWatchdogAboveThreeSecondsIsWarnedOf) {
+  Segment segment;
+  segment.bus.set("watchdog", 3.0);
+  EXPECT_TRUE(segment.read().warnings.empty());
+  segment.bus.set("watchdog", 3.01);
+  ASSERT_EQ(1u, segment.read().warnings.size());
+  EXPECT_THAT(segment.read().warnings[0], HasSubstr("~bus/watchdog: a drive runs on for 3.01 s"));
+}
+
+// The figures behind a refusal: 0.2 s at 19.2 kbit/s with 8 slaves.
+TEST(ProfibusDpConfigTest, AWatchdogThatDoesNotFitIsRefusedWithTheFigures) {
+  Segment segment{8};
+  segment.bus.set("baud_rate", 19200);
+  EXPECT_THAT(segment.refusal(4.0), AllOf(HasSubstr("~bus/watchdog: 0.2 is not valid, expected at least 0.5 s"),
+                                          HasSubstr("for 8 stations at 19200 bit/s, slot time 0.02 s, 1 retries")));
+}
+
+TEST(ProfibusDpConfigTest, OptionsOfTheBusAreOffUnlessAskedFor) {
+  Segment segment;
+  ProfibusDpConfig config = segment.read();
+  EXPECT_EQ(Duration::zero(), config.bus.listen_first);
+  EXPECT_FALSE(config.bus.sync_outputs);
+  EXPECT_FALSE(config.bus.freeze_inputs);
+  EXPECT_FALSE(config.scan);
+  EXPECT_FALSE(config.records.by_slot);
+  EXPECT_TRUE(config.records.number_offset);
+  segment.bus.set("listen_first", 0.5).set("sync", true).set("freeze", true).set("scan", true);
+  segment.bus.set("record_addressing", "slot").set("record_number_offset", false);
+  config = segment.read();
+  EXPECT_EQ(milliseconds{500}, config.bus.listen_first);
+  EXPECT_TRUE(config.bus.sync_outputs);
+  EXPECT_TRUE(config.bus.freeze_inputs);
+  EXPECT_TRUE(config.scan);
+  EXPECT_TRUE(config.records.by_slot);
+  EXPECT_FALSE(config.records.number_offset);
 }
 
 TEST(ProfibusDpConfigTest, AnEmptyListOfGsdFilesIsFine) {

@@ -11,8 +11,12 @@ namespace {
 ProfibusDpConfig twoDrives() {
   ProfibusDpConfig config;
   config.slaves.resize(2);
-  config.slaves[0].address = *profibus::StationAddress::from(3);
-  config.slaves[1].address = *profibus::StationAddress::from(4);
+  config.stations.resize(2);
+  for (const std::size_t i : {0u, 1u}) {
+    config.slaves[i].address = *profibus::StationAddress::from(static_cast<int>(3 + i));
+    config.slaves[i].output_length = 12;
+    config.stations[i].drives = {i};
+  }
   ProfibusDrive left, right;
   left.ppo = *profile::ppoLayout(1, profile::kIdentTechnologyUnit, profile::Series::kSk5xxe);
   right.ppo = *profile::ppoLayout(4, profile::kIdentTechnologyUnit, profile::Series::kSk700e);
@@ -46,6 +50,28 @@ TEST(ProfibusTelegramText, SaysThatADiagnosisWaits) {
 TEST(ProfibusTelegramText, ShowsTheParameterChannel) {
   EXPECT_EQ("DX 3 <- 1 PKW 744E 0200 0000 03E8 STW 047E SW1 0000",
             textOf("68 0F 0F 68 03 01 5D 74 4E 02 00 00 00 03 E8 04 7E 00 00 92 16"));
+}
+
+// Several inverters behind one module, and its I/O byte before them: FI1 in PPO 1, FI3 in PPO 3.
+TEST(ProfibusTelegramText, NamesTheInvertersBehindAModule) {
+  ProfibusDpConfig config = twoDrives();
+  config.slaves.resize(1);
+  config.slaves[0].output_length = 17;
+  config.stations.resize(1);
+  config.stations[0].module = ProfibusModule::kSkCu4;
+  config.stations[0].io_byte = true;
+  config.stations[0].drives = {0, 1};
+  config.drives[0].ppo = *profile::ppoLayout(1, profile::kIdentCu4Tu4, profile::Series::kSk2xxe);
+  config.drives[0].offset = 1;
+  config.drives[1].ppo = *profile::ppoLayout(3, profile::kIdentCu4Tu4, profile::Series::kSk2xxe);
+  config.drives[1].slave = 0;
+  config.drives[1].inverter = 3;
+  config.drives[1].offset = 13;
+  const auto bytes = fromHex("68 14 14 68 03 01 5D 00 00 00 00 00 00 00 00 00 04 7F 20 00 04 7E 00 00 86 16");
+  TraceRecord record;
+  record.length = static_cast<std::uint8_t>(bytes.size());
+  std::copy(bytes.begin(), bytes.end(), record.bytes.begin());
+  EXPECT_EQ("DX 3 <- 1 I/O 00 FI1 STW 047F SW1 2000 FI3 STW 047E SW1 0000", ProfibusTelegramText{config}(record));
 }
 
 // On SK 700E the third setpoint stands before the second (BU 0020 7.2.2).

@@ -8,7 +8,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <variant>
 
 #include "nord_driver/canopen/sdo_block_download.h"
 #include "nord_driver/canopen/sdo_block_upload.h"
@@ -61,13 +60,18 @@ class SdoClient {
   const SdoCounters& counters() const noexcept { return counters_; }
 
  private:
-  struct Idle {};
-  struct Initiating {
-    bool to_send = true;
+  enum class Phase : std::uint8_t {
+    kIdle,
+    kToAsk,  ///< the initiation has not been given out
+    kAsked,
+    kSegmentedUpload,
+    kSegmentedDownload,
+    kBlockUpload,
+    kBlockDownload
   };
-  using Transfer = std::variant<Idle, Initiating, SegmentedUpload, SegmentedDownload, BlockUpload, BlockDownload>;
 
-  bool active() const noexcept { return !std::holds_alternative<Idle>(transfer_); }
+  bool active() const noexcept { return phase_ != Phase::kIdle; }
+  bool awaitsAnswer() const noexcept { return active() && phase_ != Phase::kToAsk; }
   void arm(Instant now) noexcept;
   bool pollRequest(SdoBytes& bytes) noexcept;
   SdoStep handleResponse(const SdoBytes& response) noexcept;
@@ -84,7 +88,12 @@ class SdoClient {
   Duration timeout_;
   SdoRequest request_;
   SdoBuffer buffer_;
-  Transfer transfer_;
+  Phase phase_ = Phase::kIdle;
+  // What goes on in the phase of that name.
+  SegmentedUpload segmented_upload_{std::nullopt};
+  SegmentedDownload segmented_download_;
+  BlockUpload block_upload_{std::nullopt, false};
+  BlockDownload block_download_{1, false};
   bool size_told_ = true;
   bool known_to_server_ = false;   // a frame of this transfer was given out
   std::size_t segments_seen_ = 0;  // of a block download, sent when its deadline was set

@@ -28,6 +28,10 @@ class BaseMotion {
   /// The velocity behind the last wheel speeds (what `cmd_vel_out` tells).
   const robot::Twist2d& limited() const noexcept { return limited_; }
 
+  /// Other multipliers, from the next time on that the base is commanded to stand: while it drives they would be a step
+  /// of the wheels' speeds beyond every limit. Multipliers that cannot be change nothing.
+  void tune(const BaseTuning& tuning) noexcept;
+
   /// The wheels turn with these speeds now, `dt` after the last call.
   void handleWheels(const robot::WheelSpeeds& measured, Duration dt) noexcept;
   /// A drive is away: its way cannot be seen. The pose stays; the next sample starts anew.
@@ -39,6 +43,7 @@ class BaseMotion {
  private:
   robot::Twist2d within(const robot::WheelSpeeds& limits, const robot::Twist2d& target) const noexcept;
 
+  robot::BaseGeometry geometry_;
   std::unique_ptr<robot::BaseKinematics> kinematics_;
   robot::WheelSpeeds joint_limits_;
   robot::TwistLimiter limiter_;

@@ -12,6 +12,7 @@
 #include "nord_driver/cycle/cycle_statistics.h"
 #include "nord_driver/cycle/drive_parameters.h"
 #include "nord_driver/cycle/maintenance.h"
+#include "nord_driver/cycle/speed_watch.h"
 #include "nord_driver/cycle/supervisor.h"
 #include "nord_driver/drive/drive.h"
 #include "nord_driver/robot/joint_position.h"
@@ -23,6 +24,7 @@ namespace nord_driver::cycle {
 /// nothing and, once every drive has been in data exchange, allocates nothing.
 class BusCycle {
  public:
+  /// `transport` is configured.
   BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& ports, bool auto_enable);
 
   void runOnce() noexcept;
@@ -32,10 +34,11 @@ class BusCycle {
  private:
   /// One drive with everything the cycle keeps beside it.
   struct Axis {
-    Axis(DriveIndex drive, const DriveSetup& setup)
-        : parameters(drive, setup.name, setup.series, setup.typed_max_frequency) {}
+    Axis(DriveIndex drive, const DriveSetup& setup, TimeoutOwner owner)
+        : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, owner) {}
     DriveParameters parameters;
     robot::JointPosition joint;
+    SpeedWatch speed;
     bool known = false;  // has answered at least once
   };
 
@@ -51,7 +54,7 @@ class BusCycle {
   robot::WheelSpeeds maxWheelSpeeds() const noexcept;
   void handleInputs(Instant now) noexcept;
   void runParameters(Instant now) noexcept;
-  void measure(Duration dt) noexcept;
+  void measure(Instant now, Duration dt) noexcept;
   void measureBase(Duration dt) noexcept;
   void publish(Instant now) noexcept;
   void fill(DriveSnapshot& to, DriveIndex drive) const noexcept;

@@ -19,6 +19,14 @@ struct JointCommand {
   bool given = false;
 };
 
+/// Corrections of the base's sizes, changed while the node runs.
+struct BaseTuning {
+  double wheel_separation_multiplier = 1.0;
+  double left_wheel_radius_multiplier = 1.0;
+  double right_wheel_radius_multiplier = 1.0;
+  bool given = false;  ///< false until somebody changes them
+};
+
 /// No longer valid at `now`: never given, or older than `timeout`. A timeout of zero never ends.
 template <typename Command>
 bool isStale(const Command& command, Duration timeout, Instant now) noexcept {

@@ -8,6 +8,7 @@
 #include "nord_driver/core/time.h"
 #include "nord_driver/cycle/base_config.h"
 #include "nord_driver/drive/drive.h"
+#include "nord_driver/drive/stop_way.h"
 #include "nord_driver/profile/series.h"
 #include "nord_driver/transport/settings.h"
 
@@ -35,6 +36,7 @@ struct CycleConfig {
   Duration service_timeout{};
   Duration shutdown_timeout{};
   Duration cmd_vel_timeout{};  ///< 0: never
+  drive::StopWays stop_ways;
   std::vector<DriveSetup> drives;
   std::optional<BaseConfig> base;
 

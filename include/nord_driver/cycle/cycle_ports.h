@@ -27,30 +27,38 @@ class CyclePorts {
   // Outside.
   void commandBase(const TwistCommand& command);
   void commandDrive(DriveIndex drive, const JointCommand& command);
+  void tuneBase(const BaseTuning& tuning);
   /// False when the queue is full.
   bool submit(const Request& request);
   /// Waits for a completion, at most `limit`. One thread only.
   std::optional<Completion> waitCompletion(Duration limit);
   /// One thread only; the reference holds until the next call.
   const CycleSnapshot& readSnapshot() { return snapshot_.read(); }
+  /// What happened on the bus. One thread only.
+  std::optional<BusEvent> pollBusEvent() noexcept { return bus_events_.pop(); }
   /// What each side may do with it stands at its functions.
   TraceFeed& trace() noexcept { return trace_; }
 
   // The cycle's thread.
   const TwistCommand& newestBaseCommand() { return base_command_.read(); }
   const JointCommand& newestDriveCommand(DriveIndex drive) { return drive_commands_[drive]->read(); }
+  const BaseTuning& newestBaseTuning() { return base_tuning_.read(); }
   std::optional<Request> pollRequest() noexcept { return requests_.pop(); }
   void complete(const Completion& completion) noexcept;
   void publish(const CycleSnapshot& snapshot) { snapshot_.write(snapshot); }
+  /// What nobody fetches in time is lost.
+  void tell(const BusEvent& event) noexcept { bus_events_.push(event); }
 
  private:
   std::mutex writers_;  // several ROS threads may write; the cycle never takes it
   LatestValue<TwistCommand> base_command_;
+  LatestValue<BaseTuning> base_tuning_;
   std::vector<std::unique_ptr<LatestValue<JointCommand>>> drive_commands_;
   EventRing<Request, 32> requests_;
   EventRing<Completion, 64> completions_;
   sem_t completed_;
   LatestValue<CycleSnapshot> snapshot_;
+  EventRing<BusEvent, 256> bus_events_;
   TraceFeed trace_;
 };
 

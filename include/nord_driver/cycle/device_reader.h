@@ -9,6 +9,7 @@
 #include "nord_driver/cycle/device_data.h"
 #include "nord_driver/profile/parameter_request.h"
 #include "nord_driver/profile/series.h"
+#include "nord_driver/transport/transport.h"
 
 namespace nord_driver::cycle {
 
@@ -16,7 +17,8 @@ namespace nord_driver::cycle {
 /// three times, one the drive refuses is left out; a question that did not reach the drive is put again.
 class DeviceReader {
  public:
-  explicit DeviceReader(profile::Series series) noexcept;
+  /// `owner`: whose time-outs are read; those of a module by requests the transport passes on to it.
+  explicit DeviceReader(profile::Series series, TimeoutOwner owner = TimeoutOwner::kInverter) noexcept;
 
   /// The drive went away: what was read is kept until it is back.
   void handleOffline() noexcept;
@@ -39,9 +41,12 @@ class DeviceReader {
   void add(std::uint16_t number, std::uint8_t set, std::uint8_t index) noexcept;
   void addFunctions(std::uint16_t first_number) noexcept;
   void store(const Item& item, std::int32_t raw) noexcept;
+  void leaveOut(const Item& item) noexcept;
+  /// Where a function P543 to P548 belongs; nullptr for all other parameters.
+  FixedVector<std::uint16_t, 3>* functionsOf(const Item& item) noexcept;
 
   profile::Series series_;
-  FixedVector<Item, 16> items_;
+  FixedVector<Item, 20> items_;
   std::size_t next_ = 0;
   std::uint8_t attempts_ = 0;
   bool waiting_ = false;

@@ -8,6 +8,7 @@
 
 #include "nord_driver/core/fixed_vector.h"
 #include "nord_driver/core/time.h"
+#include "nord_driver/cycle/completion_queue.h"
 #include "nord_driver/cycle/device_reader.h"
 #include "nord_driver/cycle/request.h"
 #include "nord_driver/drive/drive.h"
@@ -27,8 +28,8 @@ bool changesProcessData(const Request& request) noexcept;
 /// only to the one whose latest question it answers.
 class DriveParameters {
  public:
-  DriveParameters(DriveIndex drive, std::string name, profile::Series series,
-                  std::optional<double> typed_max_frequency);
+  DriveParameters(DriveIndex drive, std::string name, profile::Series series, std::optional<double> typed_max_frequency,
+                  TimeoutOwner owner = TimeoutOwner::kInverter);
 
   /// Looks whether the drive is there and whether it has a fault; hands it P105 as it is known. Offline: all ends.
   void handleState(drive::Drive& drive, Instant now) noexcept;
@@ -41,7 +42,7 @@ class DriveParameters {
   std::optional<profile::ParameterRequest> pollRequest(Instant now) noexcept;
   /// True when the result was of this drive, wanted or not.
   bool handleResult(const profile::ParameterResult& result) noexcept;
-  std::optional<Completion> pollCompletion() noexcept;
+  std::optional<Completion> pollCompletion() noexcept { return completions_.poll(); }
 
   const DeviceData& device() const noexcept { return reader_.data(); }
   const drive::FaultReader& faults() const noexcept { return faults_; }
@@ -73,7 +74,7 @@ class DriveParameters {
   bool scale_due_ = false;             // the reader learned something the drive was not told yet
   std::optional<Instant> held_since_;  // idle, and not ready to switch on
   FixedVector<Request, drive::ParameterSession::kCapacity> pending_;
-  FixedVector<Completion, 2 * drive::ParameterSession::kCapacity> completions_;
+  CompletionQueue<2 * drive::ParameterSession::kCapacity> completions_;
 };
 
 }  // namespace nord_driver::cycle

@@ -7,6 +7,7 @@
 
 #include "nord_driver/core/fixed_vector.h"
 #include "nord_driver/core/time.h"
+#include "nord_driver/cycle/completion_queue.h"
 #include "nord_driver/cycle/request.h"
 #include "nord_driver/drive/drive.h"
 
@@ -17,12 +18,14 @@ namespace nord_driver::cycle {
 class Maintenance {
  public:
   /// `drives` must outlive the object and not move.
-  Maintenance(std::vector<drive::Drive>& drives, std::vector<std::string> names);
+  /// `modules`: drives with the same number are behind the same bus module; may be empty.
+  Maintenance(std::vector<drive::Drive>& drives, std::vector<std::string> names,
+              std::vector<std::optional<std::size_t>> modules = {});
 
   /// kAcknowledge and kSelectParameterSet.
   void handleRequest(const Request& request, Instant now) noexcept;
   void update(Instant now) noexcept;
-  std::optional<Completion> pollCompletion() noexcept;
+  std::optional<Completion> pollCompletion() noexcept { return completions_.poll(); }
 
  private:
   struct Job {
@@ -34,13 +37,15 @@ class Maintenance {
   void forEach(const Request& request, Action action) noexcept;
   /// True when the job has ended.
   bool follow(const Job& job, Instant now) noexcept;
-  void complete(const Request& request, bool success, const Sentence& message) noexcept;
+  /// A drive with a fault behind the same bus module as those of the request, and not one of them.
+  std::optional<DriveIndex> faultedNeighbour(const Request& request) const noexcept;
   const drive::RequestReport& reportOf(const Request& request, DriveIndex drive) const noexcept;
 
   std::vector<drive::Drive>& drives_;
   std::vector<std::string> names_;
+  std::vector<std::optional<std::size_t>> modules_;
   FixedVector<Job, 16> jobs_;
-  FixedVector<Completion, 48> completions_;
+  CompletionQueue<48> completions_;
 };
 
 }  // namespace nord_driver::cycle

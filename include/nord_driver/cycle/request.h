@@ -25,9 +25,6 @@ enum class RequestKind : std::uint8_t {
 /// All drives of the node.
 constexpr DriveIndex kAllDrives = static_cast<DriveIndex>(-1);
 
-/// Ids from here on are the cycle's own; callers stay below.
-constexpr std::uint32_t kFirstOwnRequest = 0x8000'0000u;
-
 struct Request {
   std::uint32_t id = 0;  ///< comes back in the completion; 0: nobody waits for one
   RequestKind kind = RequestKind::kDisable;

@@ -7,6 +7,7 @@
 
 #include "nord_driver/core/fixed_vector.h"
 #include "nord_driver/core/time.h"
+#include "nord_driver/cycle/completion_queue.h"
 #include "nord_driver/cycle/cycle_config.h"
 #include "nord_driver/cycle/request.h"
 #include "nord_driver/drive/drive.h"
@@ -26,7 +27,7 @@ class Supervisor {
   /// Enable, disable, quick stop and shut down. `moving`: names the command that is not zero now; empty when all are.
   void handleRequest(const Request& request, const Sentence& moving, Instant now) noexcept;
   void update(const Sentence& moving, Instant now) noexcept;
-  std::optional<Completion> pollCompletion() noexcept;
+  std::optional<Completion> pollCompletion() noexcept { return completions_.poll(); }
 
   /// The group of the base; nullptr without one.
   drive::DriveGroup* base() noexcept { return has_base_ ? &groups_.front().group : nullptr; }
@@ -58,7 +59,6 @@ class Supervisor {
   bool followEnable(const Job& job, Instant now) noexcept;
   bool followStop(const Job& job) noexcept;
   void takeBack(const Request& request, Instant now) noexcept;
-  void complete(const Request& request, bool success, const Sentence& message) noexcept;
   Sentence refusalOf(const Group& group, const drive::GroupRefusal& refusal) const noexcept;
   Sentence unsettled(const Request& request) const noexcept;
   void autoEnable(const Sentence& moving, Instant now) noexcept;
@@ -71,7 +71,7 @@ class Supervisor {
   bool auto_enable_;
   bool shutting_down_ = false;
   FixedVector<Job, 16> jobs_;
-  FixedVector<Completion, 48> completions_;  // a full queue of requests refused, and every job ended
+  CompletionQueue<48> completions_;  // a full queue of requests refused, and every job ended
 };
 
 }  // namespace nord_driver::cycle

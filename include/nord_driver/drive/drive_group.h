@@ -11,6 +11,7 @@
 
 #include "nord_driver/core/time.h"
 #include "nord_driver/drive/drive.h"
+#include "nord_driver/drive/stop_way.h"
 
 namespace nord_driver::drive {
 
@@ -23,6 +24,7 @@ struct GroupConfig {
   Duration standstill_timeout = seconds(1.0);
   /// |actual value 1| that counts as near standstill, of 16384.
   std::int16_t near_standstill = 164;
+  StopWays ways;
 };
 
 enum class GroupPhase : std::uint8_t {
@@ -31,7 +33,7 @@ enum class GroupPhase : std::uint8_t {
   kEnabled,
   kRampingDown,    ///< disable asked: 047F, the setpoint comes down from above
   kHalting,        ///< a member stopped: the others at setpoint 0 on their own ramp
-  kStopping,       ///< OFF1 on all
+  kStopping,       ///< OFF1 on all, or OFF2
   kQuickStopping,  ///< OFF3 on all
 };
 
@@ -64,6 +66,9 @@ class DriveGroup {
   /// Acknowledges the faults of all members that have one, or had one that is latched. Refused unless disabled. The
   /// outcome stands in report().acknowledge: done when no member is left with a fault.
   void requestAcknowledge(Instant now) noexcept;
+  /// From the layer above, each cycle: a velocity command is there and not too old. One that was followed and has grown
+  /// old stops the group in the way chosen; before the first there is nothing to stop.
+  void commandIsFresh(bool fresh, Instant now) noexcept;
   /// From the layer above: the setpoint it hands to the members has reached zero.
   void setpointIsZero(bool zero) noexcept { setpoint_is_zero_ = zero; }
 
@@ -87,7 +92,10 @@ class DriveGroup {
   void updateRampingDown(Instant now) noexcept;
   void updateHalting(Instant now) noexcept;
   void updateStopping() noexcept;
+  void stop(StopWay way, Instant now) noexcept;
+  void haltTheOthers(Instant now) noexcept;
   void shutdownAll(Instant now) noexcept;
+  void coastAll(Instant now) noexcept;
   void quickStopAll(Instant now) noexcept;
   bool quickStopTheRest(Instant now) noexcept;
   void latch(StopCause cause, std::size_t member) noexcept;
@@ -102,6 +110,7 @@ class DriveGroup {
   Instant zero_since_{};
   bool setpoint_is_zero_ = false;
   bool zero_seen_ = false;
+  bool followed_ = false;  // a fresh command, since the group is enabled
 };
 
 const char* toString(GroupPhase phase) noexcept;

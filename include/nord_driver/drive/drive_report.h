@@ -39,7 +39,8 @@ enum class StopCause : std::uint8_t {
   kParameterSet,     ///< another parameter set came into force without being asked for
   kQuickStop,        ///< the user's quick stop
   kShutdownTimeout,  ///< OFF1 did not end in shutdown_timeout: quick stop
-  kCoast,            ///< the user's OFF2
+  kCoast,            ///< OFF2 was asked for
+  kCommandTimeout,   ///< no new velocity command came in time
 };
 
 /// Why a request was not carried out.

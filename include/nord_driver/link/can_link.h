@@ -59,6 +59,12 @@ class CanLink {
 
   /// Waits until something can be received or `until` has come. True when something can be received.
   virtual bool waitReadable(Instant until) noexcept = 0;
+  /// After kQueueFull: waits until a send may succeed or `until` has come. True when it may. A burst longer than the
+  /// interface's queue (8 frames) needs it.
+  virtual bool waitWritable(Instant until) noexcept {
+    static_cast<void>(until);
+    return true;
+  }
   /// Waits until `when`, whatever arrives meanwhile.
   virtual void sleepUntil(Instant when) noexcept = 0;
   virtual Instant now() const noexcept = 0;

@@ -6,6 +6,7 @@
 #include <sensor_msgs/JointState.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <atomic>
 #include <optional>
 
 #include "nord_driver/cycle/snapshot.h"
@@ -20,6 +21,11 @@ class BasePublisher {
   BasePublisher(ros::NodeHandle& node, const NodeConfig& config);
   void publish(const cycle::CycleSnapshot& snapshot, ros::Time stamp);
 
+  /// Any thread: whether tf is published, and how often everything is (Hz; 0: not at all).
+  void setOdomTf(bool on) { odom_tf_ = on; }
+  void setRate(double rate) { rate_ = rate; }
+  double rate() const { return rate_; }
+
  private:
   void publishOdometry(const cycle::BaseSnapshot& base, ros::Time stamp);
   void publishJoints(const cycle::CycleSnapshot& snapshot, ros::Time stamp);
@@ -31,7 +37,9 @@ class BasePublisher {
   ros::Publisher odometry_publisher_;
   ros::Publisher joints_publisher_;
   ros::Publisher command_publisher_;
-  std::optional<tf2_ros::TransformBroadcaster> broadcaster_;
+  std::optional<tf2_ros::TransformBroadcaster> broadcaster_;  // from the first transform on
+  std::atomic<bool> odom_tf_;
+  std::atomic<double> rate_;
 };
 
 }  // namespace nord_driver::node

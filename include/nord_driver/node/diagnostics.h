@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nord_driver/cycle/snapshot.h"
+#include "nord_driver/node/drive_protection.h"
 #include "nord_driver/node/node_config.h"
 #include "nord_driver/transport/transport.h"
 
@@ -22,10 +23,15 @@ class Diagnostics {
  private:
   void reportBus(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void reportBase(diagnostic_updater::DiagnosticStatusWrapper& status) const;
-  void reportDrive(std::size_t drive, diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void reportDrive(std::size_t index, diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void summarize(const cycle::DriveSnapshot& drive, diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void warn(std::size_t index, const ProtectionReport& protection,
+            diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void addFault(const cycle::DriveSnapshot& drive, diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   std::vector<std::string> names_;
   std::vector<DriveIdentity> identities_;
+  std::vector<DriveProtection> protections_;
   std::vector<std::optional<double>> typed_max_frequency_;
   std::string device_;
   cycle::CycleSnapshot snapshot_;

@@ -1,18 +1,37 @@
-// What stops a drive when this computer dies, from what is configured and what the drive's parameters say.
+// What stops a drive when this computer dies: what the bus does, what the drive's parameters say of it, and whether it
+// is soon enough.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
+#include "nord_driver/core/time.h"
 #include "nord_driver/cycle/device_data.h"
 #include "nord_driver/transport/transport.h"
 
 namespace nord_driver::node {
 
-/// True when the drive would run on: P513 = -0.1 makes the inverter ignore every bus error (BU 2700 7.1.1, BU
-/// 0020 6.2.2).
-bool runsOnWithoutUs(const cycle::DeviceData& device);
+struct ProtectionReport {
+  enum class Level : std::uint8_t {
+    kFine,
+    kWarning,  ///< it stops, but late or not in every case
+    kError,    ///< it would run on
+  };
+  Level level = Level::kFine;
+  std::string text;  ///< what stops it, or what is wrong, in words
+};
 
-/// In words, for device_info and diagnostics.
-std::string protectionText(const DriveIdentity& identity, const cycle::DeviceData& device);
+/// Compares with P513 in the inverter, or with P151 in a module SK CU4/TU4 and P120 in the inverter behind it (BU 2700
+/// 7.1.1, 8.1). What could not be read is said to be unknown.
+class DriveProtection {
+ public:
+  DriveProtection(DriveIdentity identity, Duration cmd_vel_timeout, Duration period);
+  ProtectionReport assess(const cycle::DeviceData& device) const;
+
+ private:
+  DriveIdentity identity_;
+  Duration cmd_vel_timeout_;
+  Duration period_;
+};
 
 }  // namespace nord_driver::node

@@ -5,11 +5,13 @@
 
 #include <array>
 #include <optional>
+#include <string>
 
 #include "nord_driver/DeviceInfo.h"
 #include "nord_driver/DriveStatus.h"
 #include "nord_driver/cycle/cycle_config.h"
 #include "nord_driver/cycle/snapshot.h"
+#include "nord_driver/node/drive_protection.h"
 #include "nord_driver/transport/transport.h"
 
 namespace nord_driver::node {
@@ -18,16 +20,19 @@ class DrivePublisher {
  public:
   /// `private_node`: "~"; the topics are ~<drive>/status and ~<drive>/device_info.
   DrivePublisher(ros::NodeHandle& private_node, const cycle::DriveSetup& setup, DriveIdentity identity,
-                 std::uint16_t address);
+                 DriveProtection protection, std::uint16_t address);
 
   void publishStatus(const cycle::DriveSnapshot& drive, ros::Time stamp);
-  /// Latched, and published again only when it has changed.
+  /// Latched, and published again only when it has changed. A drive that would run on when this computer dies, or
+  /// stop late, is named in the log.
   void publishDeviceInfo(const cycle::DriveSnapshot& drive);
 
  private:
+  void logProtection(const cycle::DeviceData& device);
   double currentOf(const cycle::DriveSnapshot& drive) const;
 
   DriveIdentity identity_;
+  DriveProtection protection_;
   double rated_current_;
   DriveStatus status_;
   DeviceInfo info_;
@@ -35,6 +40,7 @@ class DrivePublisher {
   ros::Publisher info_publisher_;
   std::array<std::optional<double>, 4> frequencies_;  // behind info_.max_frequency, whose NaN equals nothing
   bool told_ = false;
+  std::string protection_told_;
 };
 
 }  // namespace nord_driver::node

@@ -17,6 +17,7 @@
 #include "nord_driver/cycle/cycle_ports.h"
 #include "nord_driver/cycle/cycle_thread.h"
 #include "nord_driver/node/base_publisher.h"
+#include "nord_driver/node/base_tuner.h"
 #include "nord_driver/node/bus_publisher.h"
 #include "nord_driver/node/diagnostics.h"
 #include "nord_driver/node/drive_publisher.h"
@@ -46,6 +47,7 @@ class DriverNode {
   void advertise();
   void takeCommand(const geometry_msgs::Twist& twist);
   void takeDriveCommand(DriveIndex drive, double velocity);
+  void tellBusEvents();
   void bringToRest();
 
   ros::NodeHandle node_;
@@ -62,6 +64,7 @@ class DriverNode {
   std::unique_ptr<RequestBroker> broker_;
 
   std::unique_ptr<BasePublisher> base_publisher_;
+  std::unique_ptr<BaseTuner> base_tuner_;
   std::vector<DrivePublisher> drive_publishers_;
   std::unique_ptr<BusPublisher> bus_publisher_;
   std::unique_ptr<Diagnostics> diagnostics_;

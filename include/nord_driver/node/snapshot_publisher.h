@@ -36,7 +36,6 @@ class SnapshotPublisher {
   std::vector<DrivePublisher>& drives_;
   BusPublisher& bus_;
   Diagnostics& diagnostics_;
-  Duration base_period_;
   Duration status_period_;
   std::string last_bus_text_;
   std::string last_base_text_;

@@ -72,6 +72,8 @@ class DpMaster {
   /// Asks a slave for its configuration (Get_Cfg) beside data exchange; the answer is told by an event. False when it
   /// is not in data exchange.
   bool requestConfiguration(std::size_t slave) noexcept { return slaves_[slave].requestConfiguration(); }
+  /// Asks a slave in data exchange for its diagnosis, though it announced none.
+  void requestDiagnosis(std::size_t slave) noexcept { slaves_[slave].requestDiagnosis(); }
   /// Configured and reported configuration in words, subject left out.
   Sentence configurationText(std::size_t slave) const noexcept { return slaves_[slave].configurationText(); }
 
@@ -114,6 +116,7 @@ class DpMaster {
   bool askFirst(Instant now, Wants&& wants) noexcept;
   bool askAcyclic(Instant now) noexcept;
   bool askProbe(Instant now) noexcept;
+  bool askProbe(bool urgent, Instant now) noexcept;
   void ask(std::size_t slave, Instant now) noexcept;
   void nextTurn() noexcept;
   void abandonCycle() noexcept;
@@ -135,6 +138,7 @@ class DpMaster {
   std::size_t record_cursor_ = 0;  // results are fetched in turns
   std::size_t probe_cursor_ = 0;   // silent slaves take turns
   Instant next_probe_{};           // silent slaves take a tenth of the time at most
+  Instant next_urgent_probe_{};    // those whose watchdog has not run out yet: a half
   std::optional<Instant> last_operate_;
   std::optional<Instant> last_foreign_;
   std::uint8_t foreign_ = kNoOwner;

@@ -35,6 +35,8 @@ class DpSlave {
   bool wantsStartUpStep(Instant now) const noexcept;
   bool wantsDiagnosis() const noexcept;
   bool wantsProbe(Instant now) const noexcept;
+  /// Its watchdog runs since it fell silent: found again before it runs out, the drive behind does not trip.
+  bool isUrgent(Instant now) const noexcept { return status_.phase == SlavePhase::kSilent && now < save_until_; }
   /// Of an acyclic telegram beside data exchange.
   bool wantsAcyclic(Instant now) noexcept;
   void prepareAcyclic(FdlRequest& request, Instant now) noexcept;
@@ -52,6 +54,8 @@ class DpSlave {
   /// Get_Cfg beside data exchange; false when the slave is not in it.
   bool requestConfiguration() noexcept;
   Sentence configurationText() const noexcept;
+  /// Slave_Diag behind the next exchange, announced or not.
+  void requestDiagnosis() noexcept { diagnosis_due_ = status_.phase == SlavePhase::kDataExchange; }
   /// See DpMaster.
   bool submitRecord(const RecordRequest& request) noexcept;
   std::optional<RecordResult> pollRecord() noexcept { return records_.pollResult(); }
@@ -101,6 +105,8 @@ class DpSlave {
   bool diagnosis_due_ = false;          // in data exchange: DH was seen
   Instant due_{};                       // no request before (probes, back-off, slow polling)
   Instant ready_since_{};               // AwaitReady was entered
+  Instant last_answer_{};               // of whatever kind: its watchdog runs from there at the earliest
+  Instant save_until_{};                // see isUrgent()
   Duration pause_{};                    // of the next back-off
   bool configuration_wanted_ = false;   // by requestConfiguration()
   bool configuration_doubted_ = false;  // Cfg_Fault was seen

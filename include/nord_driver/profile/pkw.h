@@ -50,6 +50,8 @@ namespace pkw_error {
 constexpr std::uint16_t kInvalidNumber = 0;
 constexpr std::uint16_t kWrongSubIndex = 3;
 constexpr std::uint16_t kNoArray = 4;
+constexpr std::uint16_t kNoInverter = 101;        ///< behind a bus module: the addressed one does not exist
+constexpr std::uint16_t kNoInverterEither = 102;  ///< the same
 constexpr std::uint16_t kInvalidOrder = 201;
 constexpr std::uint16_t kNotRepresentable = 202;
 }  // namespace pkw_error

@@ -33,6 +33,8 @@ class PkwChannel {
   PkwWords pollWords(Instant now) noexcept;
   /// The words of its response.
   void handleWords(const PkwWords& words, Instant now) noexcept;
+  /// Ends the running request: what carries the words has failed or refused. Nothing happens when none runs.
+  void handleFailure(ParameterOutcome outcome, std::uint16_t error_number) noexcept;
   /// Ends all pending requests as offline.
   void handleOffline(Instant now) noexcept;
   std::optional<ParameterResult> pollResult() noexcept;

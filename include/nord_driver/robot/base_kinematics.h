@@ -31,6 +31,9 @@ class BaseKinematics {
   /// best. Zero for another number of wheels than `wheelCount`.
   virtual Twist2d twist(const WheelSpeeds& wheels) const noexcept = 0;
 
+  /// Goes on with other sizes; allocates nothing when they are possible. False, and nothing changes, when one is not.
+  virtual bool setGeometry(const BaseGeometry& geometry) noexcept = 0;
+
   /// The part of a motion that this base can do.
   Twist2d possible(const Twist2d& twist) const noexcept {
     return {twist.linear_x, twist.angular_z, movesSideways() ? twist.linear_y : 0.0};

@@ -26,6 +26,7 @@ class DiffDriveKinematics final : public BaseKinematics {
   bool movesSideways() const noexcept override { return false; }
   WheelSpeeds wheels(const Twist2d& twist) const noexcept override;
   Twist2d twist(const WheelSpeeds& wheels) const noexcept override;
+  bool setGeometry(const BaseGeometry& geometry) noexcept override;
 
   double wheelSeparation() const noexcept { return separation_; }     ///< m, multiplier included
   double leftWheelRadius() const noexcept { return left_radius_; }    ///< m, multiplier included

@@ -26,6 +26,7 @@ class MecanumKinematics final : public BaseKinematics {
   bool movesSideways() const noexcept override { return true; }
   WheelSpeeds wheels(const Twist2d& twist) const noexcept override;
   Twist2d twist(const WheelSpeeds& wheels) const noexcept override;
+  bool setGeometry(const BaseGeometry& geometry) noexcept override;
 
   double lever() const noexcept { return lever_; }  ///< m, see mecanumLeverOf
 

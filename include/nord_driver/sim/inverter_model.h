@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "nord_driver/core/time.h"
 #include "nord_driver/sim/motor.h"
@@ -37,6 +38,7 @@ struct ProcessData {
 
 /// Fault numbers as P700 shows them, ten times the printed number: BU 2700 8.3.
 namespace fault {
+constexpr std::uint16_t kBusTimeout = 100;  ///< E10.0 bus time-out: P513, node guarding (BU 0020 8)
 constexpr std::uint16_t kMasterLost = 102;  ///< E10.2 PROFIBUS watchdog
 constexpr std::uint16_t kTimeout = 103;     ///< E10.3 time-out by P151/P513
 constexpr std::uint16_t kModuleLink = 108;  ///< E10.8 connection to the bus interface interrupted
@@ -61,6 +63,10 @@ struct InverterSettings {
   double automatic_acknowledgement_delay = 0.1;
   /// Behind SK CU4/TU4: P120 watches the link to the module, not P513 alone (BU 2700 8.1).
   bool on_system_bus = false;
+  /// The value of P509 that gives control to the bus it is wired to; nothing: PROFIBUS, as the series numbers it.
+  std::optional<std::int32_t> bus_source;
+  std::uint16_t master_lost_fault = fault::kMasterLost;  ///< how a lost master shows
+  std::uint16_t timeout_fault = fault::kTimeout;         ///< how P513 shows
 };
 
 /// What is wired to the inverter. Coasting and quick stop act under bus control too (BU 0020 6, note).
@@ -86,6 +92,8 @@ class InverterModel {
   void receive(const ProcessData& data) noexcept;
   /// The module's watchdog expired: E10.2, unless P513 = -0.1 (BU 2700 7.1.1).
   void masterLost() noexcept;
+  /// A module on the system bus says that P151 is over: E10.3 (BU 2700 7.1.1).
+  void moduleTimeout() noexcept;
   /// The connection to the module broke (E10.8, on the system bus E10.9 unless P120[-01] = 0; never with P513 = -0.1)
   /// or is back.
   void setModuleLink(bool intact) noexcept;
@@ -132,6 +140,7 @@ class InverterModel {
   void acknowledgeByItself() noexcept;
   bool causeStands() const noexcept;
   bool inputAcknowledges() const noexcept;
+  std::int32_t busSource() const noexcept;
   bool ignoresBusErrors() const noexcept;
   bool watchesModule() const noexcept;
   bool busSetpoint() const noexcept;

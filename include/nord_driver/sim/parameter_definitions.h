@@ -6,15 +6,20 @@
 
 namespace nord_driver::sim {
 
-/// The series with an SK TUx-PBR(-24V) bus module, ident number 7531h (BU 0020 2).
-enum class Series : std::uint8_t { kSk300e, kSk5xxe, kSk54xe, kSk700e, kSk750e };
+/// The series with an SK TUx-PBR(-24V) bus module, ident number 7531h (BU 0020 2), and the decentralised ones, which
+/// sit behind SK CU4 or SK TU4 only (BU 2700 4.1).
+enum class Series : std::uint8_t { kSk300e, kSk5xxe, kSk54xe, kSk700e, kSk750e, kSk1x0e, kSk2xxe };
 
 struct Device {
   Series series = Series::kSk5xxe;
   double firmware = 2.0;  ///< P700 is an array from V1.9 on (BU 0020 8)
 
   /// SK 300E, 700E and 750E: the parameters of BU 0020 6.1, and SW3 before SW2 in the telegram (7.3.6).
-  bool isOlderSeries() const noexcept { return series != Series::kSk5xxe && series != Series::kSk54xe; }
+  bool isOlderSeries() const noexcept {
+    return series == Series::kSk300e || series == Series::kSk700e || series == Series::kSk750e;
+  }
+  /// SK 1x0E and 2xxE: the parameters of BU 0220 5.1.
+  bool isDecentral() const noexcept { return series == Series::kSk1x0e || series == Series::kSk2xxe; }
 };
 
 struct ParameterDefinition {

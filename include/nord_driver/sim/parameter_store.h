@@ -30,6 +30,8 @@ class ParameterStore {
   static constexpr unsigned kSets = 4;
 
   explicit ParameterStore(const Device& device = Device{});
+  /// Of something that is no inverter.
+  explicit ParameterStore(std::vector<ParameterDefinition> definitions);
 
   const Device& device() const noexcept { return device_; }
 
@@ -48,6 +50,8 @@ class ParameterStore {
   /// A value the inverter itself shows (P700, P740 ...): RAM only. Without such an element nothing happens.
   void show(unsigned number, unsigned element, std::int32_t raw) noexcept;
 
+  /// Everything to its factory setting, RAM and EEPROM.
+  void resetToFactory() noexcept;
   /// Mains back: what was only in RAM is gone.
   void restoreFromEeprom() noexcept { ram_ = eeprom_; }
 
@@ -55,6 +59,8 @@ class ParameterStore {
 
  private:
   std::optional<std::size_t> slot(unsigned number, unsigned set, unsigned element) const noexcept;
+
+  void lay();
 
   Device device_;
   std::vector<ParameterDefinition> definitions_;

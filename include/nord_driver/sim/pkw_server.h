@@ -65,6 +65,11 @@ class PkwServer {
   void receive(const PkwWords& order) noexcept;
   const PkwWords& answer() const noexcept { return answer_; }
 
+  /// An order that came by another way than the parameter channel: carried out at once, next to it.
+  PkwWords executeNow(const PkwWords& order) noexcept { return execute(order); }
+  /// The answer "order cannot be executed" with this error number.
+  static PkwWords refusal(const PkwWords& order, Word error) noexcept;
+
   /// True when `order` is the one executed last.
   bool hasAnswered(const PkwWords& order) const noexcept { return executed_ && order == order_; }
 

@@ -4,19 +4,17 @@
 #pragma once
 
 #include <atomic>
-#include <mutex>
 #include <string>
 #include <thread>
-#include <utility>
 
-#include "nord_driver/sim/inheriting_mutex.h"
 #include "nord_driver/sim/robot_sim.h"
+#include "nord_driver/sim/running_bus.h"
 
 namespace nord_driver::sim {
 
 /// Serves from construction to destruction, in a thread of its own. What a client does not read is thrown away; a
 /// client that closes is no hang-up, the next one may open.
-class PtyBus : private AnswerSink {
+class PtyBus : public RunningBus, private AnswerSink {
  public:
   /// Puts a symbolic link to the pty at `link_path`; a link that is there already is replaced. Throws
   /// std::runtime_error naming path and reason, and ConfigError as RobotSim does.
@@ -29,12 +27,7 @@ class PtyBus : private AnswerSink {
   /// The pty itself: /dev/pts/7.
   const std::string& devicePath() const noexcept { return device_path_; }
 
-  /// Runs `function(RobotSim&)` while the models stand still, and returns what it returns. Any thread.
-  template <typename Function>
-  auto withModel(Function&& function) {
-    const std::lock_guard<InheritingMutex> lock(mutex_);
-    return std::forward<Function>(function)(robot_);
-  }
+  std::string where() const override { return link_path_; }
 
  private:
   struct Delayed {
@@ -42,6 +35,8 @@ class PtyBus : private AnswerSink {
     WireBytes bytes;
   };
 
+  RobotSim& robot() noexcept override { return robot_; }
+  std::string report() const override { return robot_.referee().report(); }
   void answer(const WireBytes& bytes, Duration delay) noexcept override;
   void openPty();
   void putLink();
@@ -56,7 +51,6 @@ class PtyBus : private AnswerSink {
   std::string device_path_;
   int master_ = -1;
   int slave_ = -1;  // held open, so that a client's closing is no hang-up
-  InheritingMutex mutex_;
   std::atomic<bool> stop_{false};
   Instant answer_from_{};  // model time of the request being answered
   FixedVector<Delayed, 64> delayed_;

@@ -34,6 +34,8 @@ enum class Rule : std::uint8_t {
   kWrongDataLength,
   kWriteOrderLeftStanding,
   kZeroControlWord,
+  kRecordBeforeReady,
+  kRecordWhileOutstanding,
   kCount,
 };
 
@@ -43,6 +45,7 @@ const char* toString(Rule rule) noexcept;
 class Referee {
  public:
   static constexpr unsigned kStations = 128;
+  static constexpr unsigned kInverters = 4;
   /// How often a parameter write order may still be seen after its answer: the master learns of the answer a cycle
   /// late.
   static constexpr unsigned kStandingTolerance = 3;
@@ -57,8 +60,8 @@ class Referee {
   void outputLength(std::uint8_t station, std::size_t expected) noexcept {
     stations_[station].output_length = expected;
   }
-  /// `answered`: this very order had been executed before it came once more.
-  void parameterChannel(std::uint8_t station, const PkwWords& order, bool answered) noexcept;
+  /// `answered`: this very order had been executed before it came once more. `inverter`: 0-3 behind one module.
+  void parameterChannel(std::uint8_t station, const PkwWords& order, bool answered, unsigned inverter = 0) noexcept;
 
   std::uint64_t count(Rule rule) const noexcept { return counts_[static_cast<std::size_t>(rule)]; }
   std::uint64_t total() const noexcept;
@@ -76,11 +79,13 @@ class Referee {
     bool answered = true;  // the last request that carried a frame count bit
     Telegram last;
     std::size_t output_length = 0;  // 0 = not known
-    unsigned standing = 0;
+    std::array<unsigned, kInverters> standing{};
+    bool record_outstanding = false;
   };
 
-  void frameCount(Station& station, const Telegram& telegram) noexcept;
-  void service(Station& station, const Telegram& telegram) noexcept;
+  /// False: the last telegram once more.
+  bool frameCount(Station& station, const Telegram& telegram) noexcept;
+  void service(Station& station, const Telegram& telegram, bool repeated) noexcept;
 
   std::array<std::uint64_t, static_cast<std::size_t>(Rule::kCount)> counts_{};
   std::array<Station, kStations> stations_{};

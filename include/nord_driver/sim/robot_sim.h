@@ -9,7 +9,7 @@
 
 #include "nord_driver/core/bytes.h"
 #include "nord_driver/core/time.h"
-#include "nord_driver/sim/diff_drive_body.h"
+#include "nord_driver/sim/body.h"
 #include "nord_driver/sim/drive_unit.h"
 #include "nord_driver/sim/referee.h"
 #include "nord_driver/sim/sim_config.h"
@@ -31,7 +31,7 @@ enum class Judge : std::uint8_t { kNo, kYes };
 /// Fed with the master's bytes and the time; opens nothing, waits for nothing, allocates nothing after construction.
 class RobotSim {
  public:
-  /// Throws ConfigError when two drives share an address.
+  /// Throws ConfigError when two drives share an address, or a place behind one module.
   explicit RobotSim(const SimConfig& config);
 
   /// Lets the models run up to `now`; the first call sets the start.
@@ -51,19 +51,27 @@ class RobotSim {
   DriveUnit& drive(std::size_t index) noexcept { return *drives_[index]; }
   /// Null when there is none of this name.
   DriveUnit* find(const std::string& name) noexcept;
+  /// The modules with slots, in the order of the drives that name them first.
+  std::vector<std::unique_ptr<ModuleStation>>& modules() noexcept { return modules_; }
+  ModuleStation& module(std::size_t index) noexcept { return *modules_[index]; }
   Referee& referee() noexcept { return referee_; }
   const Referee& referee() const noexcept { return referee_; }
-  const std::optional<DiffDriveBody>& body() const noexcept { return body_; }
+  /// Null when none is configured.
+  const Body* body() const noexcept { return body_.get(); }
   const SimConfig& config() const noexcept { return config_; }
 
  private:
+  void addDrive(const DriveConfig& config);
+  ModuleStation& moduleAt(std::uint8_t address);
   void step(Duration span) noexcept;
-  double meanOf(const std::vector<std::size_t>& group, bool speed) const noexcept;
+  Wheels wheels(double (DriveUnit::*of)() const noexcept) const noexcept;
 
   SimConfig config_;
   Referee referee_;
+  std::vector<std::unique_ptr<ModuleStation>> modules_;
   std::vector<std::unique_ptr<DriveUnit>> drives_;
-  std::optional<DiffDriveBody> body_;
+  std::vector<DpStation*> stations_;  // every one once
+  std::unique_ptr<Body> body_;
   std::optional<Instant> now_;
   FixedBytes<512> input_;
   Telegram telegram_;

@@ -1,19 +1,25 @@
-// PROFIBUS DP as a transport: our own master on a serial line, one slave per drive, process data as PPO 1 to 4.
+// PROFIBUS DP as a transport: our own master on a serial line, process data as PPO 1 to 4, one drive per module or up
+// to four.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "nord_driver/core/event_ring.h"
 #include "nord_driver/link/byte_link.h"
 #include "nord_driver/link/serial_port.h"
+#include "nord_driver/profibus/bus_scan.h"
 #include "nord_driver/profibus/dp_master.h"
 #include "nord_driver/profile/pkw_channel.h"
 #include "nord_driver/transport/parameters_only.h"
 #include "nord_driver/transport/profibus_dp_config.h"
+#include "nord_driver/transport/profibus_parameters.h"
 #include "nord_driver/transport/profibus_recorder.h"
+#include "nord_driver/transport/profibus_text.h"
 #include "nord_driver/transport/telegram_trace.h"
 #include "nord_driver/transport/transport.h"
 
@@ -44,6 +50,8 @@ class ProfibusDpTransport final : public Transport, public ParametersOnly {
   std::uint32_t identNumber(DriveIndex drive) const noexcept override;
   Sentence busText() const noexcept override;
   DriveIdentity identity(DriveIndex drive) const override;
+  std::vector<std::string> warnings() const override { return config_.warnings; }
+  std::optional<BusEvent> pollEvent() noexcept override;
   const TelegramTrace* trace() const noexcept override { return trace_ ? &*trace_ : nullptr; }
   void close() noexcept override;
 
@@ -51,28 +59,44 @@ class ProfibusDpTransport final : public Transport, public ParametersOnly {
 
  private:
   struct DriveState {
-    explicit DriveState(Duration answer_timeout) : pkw(answer_timeout) {}
-    profile::PkwChannel pkw;
     bool module_answers = false;
     bool inverter_answers = false;
+    std::size_t place = 0;  ///< among the drives of its station
+    Sentence note;
   };
 
   bool linkReady() noexcept;
+  template <typename Engine, typename Done>
+  void run(Engine& engine, Done done) noexcept;
   void runMaster() noexcept;
-  void putOutput(DriveIndex drive, const profile::ProcessOutput& output) noexcept;
-  void takeInput(DriveIndex drive, DriveExchange& input) noexcept;
+  bool scanning() noexcept;
+  void watchLine() noexcept;
+  bool mayBeSynchronised(const std::vector<profile::ProcessOutput>& outputs,
+                         const std::vector<DriveExchange>& inputs) const noexcept;
+  void putOutputs(std::size_t station, const std::vector<profile::ProcessOutput>& outputs) noexcept;
+  void takeInputs(std::size_t station, std::vector<DriveExchange>& inputs) noexcept;
+  void takeInverter(DriveIndex drive, ByteView station_inputs, DriveExchange& input,
+                    profile::PkwWords& pkw) const noexcept;
+  void askModule(std::size_t station) noexcept;
+  void explain(DriveIndex drive) noexcept;
 
   LinkFactory make_link_;
   bool parameters_only_ = false;
   ProfibusDpConfig config_;
   std::unique_ptr<link::ByteLink> link_;
   std::optional<profibus::DpMaster> master_;
+  std::optional<profibus::BusScan> scan_;  // until it has ended
+  std::optional<ProfibusParameters> parameters_;
+  std::optional<ProfibusText> text_;
   std::optional<TelegramTrace> trace_;
   std::optional<ProfibusRecorder> recorder_;
   std::vector<DriveState> drives_;
-  FixedVector<profile::ParameterResult, 16> refused_;
+  std::vector<InverterPresence> presence_;  // of the stations
+  EventRing<BusEvent, 16> own_events_;      // beside the master's
+  Sentence live_list_;
   Instant next_open_{};
-  DriveIndex result_cursor_ = 0;
+  std::uint64_t foreign_seen_ = 0, busy_seen_ = 0;
+  std::optional<Instant> last_foreign_, last_busy_;
 };
 
 }  // namespace nord_driver

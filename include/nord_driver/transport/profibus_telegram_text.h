@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "nord_driver/profibus/telegram.h"
 #include "nord_driver/profile/ppo.h"
@@ -25,7 +26,19 @@ class ProfibusTelegramText {
   std::string answer(const profibus::Telegram& telegram) const;
   std::string processData(std::uint8_t station, ByteView data, bool to_drive) const;
 
-  std::map<std::uint8_t, profile::PpoLayout> layouts_;  // by station
+  struct Part {
+    std::size_t offset = 0;
+    profile::PpoLayout layout;
+    std::string name;  // "" where a station has one inverter
+  };
+  struct Layout {
+    std::size_t length = 0;
+    bool io_byte = false;
+    std::vector<Part> parts;
+  };
+  static std::string partText(const Part& part, ByteView data, bool to_drive);
+
+  std::map<std::uint8_t, Layout> layouts_;  // by station
 };
 
 }  // namespace nord_driver

@@ -30,12 +30,31 @@ struct DriveExchange {
   bool inverter_answers = false;  ///< ... and the inverter behind it is on: `input` is fresh
 };
 
+/// Whose time-outs decide whether the inverter heeds a lost bus (BU 2700 8.1).
+enum class TimeoutOwner : std::uint8_t {
+  kInverter,  ///< P513
+  kModule,    ///< P151 in the bus module (SK CU4/TU4), and P120 in the inverter for the way between them
+};
+
 /// What a transport tells about a drive once it is configured.
 struct DriveIdentity {
   std::string address;              ///< "PROFIBUS station 3"
   std::uint8_t process_values = 1;  ///< setpoints and actual values carried: 1 or 3
   std::string parameter_channel;    ///< "PKW", "SDO", "none"
-  std::string protected_by;         ///< what stops the drive when this computer dies, in words
+  std::string protected_by;      ///< what of this bus stops the drive when this computer dies, in words; empty: nothing
+  double protection_time = 0.0;  ///< s until that acts; 0: not known
+  TimeoutOwner timeout_owner = TimeoutOwner::kInverter;
+  std::uint8_t inverter = 1;  ///< 1..4 behind a bus module that serves several
+  /// Drives with the same number are behind the same bus module; nothing: this one has a module of its own.
+  std::optional<std::size_t> shared_module = std::nullopt;
+  /// The longest cycle there may be, with one slave silent: a time-out that stops a drive must be longer. 0: not known.
+  double worst_cycle = 0.0;
+};
+
+/// Something that happened on the bus, told once: a sentence for a technician.
+struct BusEvent {
+  bool warning = true;  ///< false: good news
+  Sentence text = {};
 };
 
 /// Counters since start-up and the state of the bus. Copied once per cycle: no strings of variable length.
@@ -47,6 +66,8 @@ struct BusCounters {
   std::uint64_t timeouts = 0;
   std::uint64_t checksum_errors = 0;
   std::uint64_t parity_errors = 0;
+  std::uint64_t framing_errors = 0;
+  std::uint64_t overruns = 0;  ///< bytes this computer was too slow to take
   std::uint64_t discarded_bytes = 0;
   std::uint64_t unexpected = 0;
   std::uint64_t stale = 0;  ///< parameter answers that did not match the order
@@ -92,6 +113,10 @@ class Transport {
   /// One sentence for a technician on the bus as a whole ("/dev/ttyUSB0: no such file"), empty when it is fine.
   virtual Sentence busText() const noexcept = 0;
   virtual DriveIdentity identity(DriveIndex drive) const = 0;
+  /// What is accepted in the configuration and still doubtful; sentences, known from configure() on.
+  virtual std::vector<std::string> warnings() const { return {}; }
+  /// What happened since the last call, oldest first.
+  virtual std::optional<BusEvent> pollEvent() noexcept { return std::nullopt; }
   /// The last telegrams, from configure() on; nullptr when this transport sees none. Lives as long as the transport and
   /// may be copied by any thread.
   virtual const TelegramTrace* trace() const noexcept { return nullptr; }

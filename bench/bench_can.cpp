@@ -1,0 +1,268 @@
+// What the driver adds to a bare exchange of CAN frames: SDO reads, and cycles of RPDOs, SYNC and TPDOs.
+#include <sys/prctl.h>
+
+#include <cstdio>
+#include <stdexcept>
+#include <vector>
+
+#include "can_pair.h"
+#include "can_responder.h"
+#include "measure.h"
+#include "nord_driver/canopen/master.h"
+#include "nord_driver/canopen/sdo_client.h"
+#include "nord_driver/link/socket_can.h"
+
+namespace {
+
+using namespace nord_driver;
+using namespace nord_driver::bench;
+using namespace std::chrono_literals;
+
+constexpr unsigned kProcessor = 0;
+constexpr std::size_t kBlock = 20;
+constexpr int kRepeats = 5;
+constexpr std::array<std::uint8_t, 4> kStandby{0x7E, 0x04, 0x00, 0x00};  // BU 0060 p. 96
+
+/// Nodes at the far end, and a near end of its own for whoever talks to them: the driver does not wait in its calls.
+struct FarEnd {
+  explicit FarEnd(std::size_t drives) : nodes(pair, drives, kProcessor) {}
+  CanPair pair;
+  CanResponder nodes;
+};
+
+/// The same frames with nothing but write() and read().
+class Bare {
+ public:
+  Bare(const CanPair& pair, const std::vector<CanFrame>& frames, std::size_t answers)
+      : near_(pair.near()), answers_(answers) {
+    for (const CanFrame& frame : frames) frames_.push_back(toKernel(frame));
+  }
+
+  void exchange() const {
+    for (const can_frame& frame : frames_) {
+      if (::write(near_, &frame, sizeof frame) != static_cast<ssize_t>(sizeof frame)) fail();
+    }
+    can_frame answer;
+    for (std::size_t i = 0; i < answers_; ++i) {
+      if (::read(near_, &answer, sizeof answer) != static_cast<ssize_t>(sizeof answer)) fail();
+    }
+  }
+
+ private:
+  [[noreturn]] static void fail() { throw std::runtime_error("the far end is gone"); }
+
+  int near_;
+  std::size_t answers_;
+  std::vector<can_frame> frames_;
+};
+
+/// The driver's SocketCAN link on one end of a pair.
+struct Line {
+  explicit Line(const CanPair& pair) : system(pair), port({"pair0"}, system) {
+    if (!port.open()) throw std::runtime_error(port.lastError());
+  }
+  PairSystem system;
+  link::SocketCan port;
+};
+
+class SdoReader {
+ public:
+  explicit SdoReader(const CanPair& pair) : line_(pair) {}
+
+  void read() {
+    CanFrame frame;
+    client_.start(canopen::sdoRead(1, 0x2066, 1), line_.port.now());
+    while (client_.pollTransmit(frame)) line_.port.send(frame);
+    while (!(answer_ = client_.takeAnswer())) {
+      line_.port.waitReadable(*client_.nextDeadline());
+      link::ReceivedCanFrame received;
+      if (line_.port.receive(received)) client_.handle(received.frame, received.at);
+      client_.poll(line_.port.now());
+    }
+    if (answer_->number() != 103u) throw std::runtime_error("a wrong value was read");
+  }
+
+ private:
+  Line line_;
+  canopen::SdoClient client_{canopen::defaultSdoChannel(1), 1s};
+  std::optional<canopen::SdoAnswer> answer_;
+};
+
+bool sdoReads() {
+  const FarEnd of_driver{1}, of_bare{1};
+  SdoReader reader{of_driver.pair};
+  const Bare bare{of_bare.pair, {dataFrame(0x601, fromHex("40 66 20 01 00 00 00 00"))}, 1};
+  const auto driver = [&reader] { reader.read(); };
+  const auto ping_pong = [&bare] { bare.exchange(); };
+  measurePairs(1000, kBlock, driver, ping_pong);  // warm-up
+  std::vector<double> ratios;
+  for (int i = 0; i < kRepeats; ++i) {
+    const Pair medians = measurePairs(5000, kBlock, driver, ping_pong);
+    ratios.push_back(medians.first / medians.second);
+    std::printf("  SDO read %.2f us (%.0f per s), bare %.2f us, rate %.3f of the bare one\n", medians.first,
+                1e6 / medians.first, medians.second, 1.0 / ratios.back());
+  }
+  return report("SDO read over bare ping-pong (0.8 of its rate)", median(ratios), "", 1.0 / 0.8);
+}
+
+canopen::MasterConfig busOf(std::size_t drives) {
+  canopen::MasterConfig config;
+  config.sync_cob_id = 0x80;
+  for (std::size_t id = 1; id <= drives; ++id) {
+    canopen::NodeConfig node;
+    node.id = static_cast<std::uint8_t>(id);
+    node.reset = canopen::BootReset::kNone;
+    node.error_control.mode = canopen::ErrorControlMode::kNone;
+    canopen::PdoConfig pdo;
+    pdo.transmission_type = 1;
+    pdo.cob_id = static_cast<std::uint32_t>(0x200 + id);
+    node.receive_pdos.push_back(pdo);
+    pdo.cob_id = static_cast<std::uint32_t>(0x180 + id);
+    node.transmit_pdos.push_back(pdo);
+    config.nodes.push_back(node);
+  }
+  return canopen::completed(config);
+}
+
+/// The driver's side of a bus, turned as the transport turns it. What the transport does between two cycles (taking
+/// whatever comes until the next one is due) is not timed here, and has nothing to do: only answers to SYNC come.
+class CanBus {
+ public:
+  CanBus(const CanPair& pair, std::size_t drives) : line_(pair), master_(busOf(drives)), counts_(drives) {
+    master_.restart(line_.port.now());
+    for (const Instant until = line_.port.now() + 20s; !allOperational() && line_.port.now() < until;) turn(1ms);
+    if (!allOperational()) throw std::runtime_error("the nodes do not become operational");
+    late_ = 0;  // while they started, nobody was to answer
+  }
+
+  void cycle() {
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      master_.setReceivePdo(i, 0, kStandby);
+      counts_[i] = master_.transmitPdo(i, 0).count;
+    }
+    master_.startCycle(line_.port.now());
+    turn(1s);
+  }
+  void check() const {
+    if (!allOperational()) throw std::runtime_error("a node was lost during the measurement");
+    if (late_ > 0) throw std::runtime_error("a node did not answer in time");
+  }
+
+ private:
+  /// Until every node has answered the SYNC. The last answer ends it: no look whether there is more.
+  void turn(Duration longest) {
+    const Instant until = line_.port.now() + longest;
+    Instant now = line_.port.now();
+    while (true) {
+      master_.poll(now);
+      send();
+      while (master_.pollEvent()) {
+      }
+      if (line_.port.waitReadable(std::min(until, master_.nextDeadline().value_or(until)))) {
+        link::ReceivedCanFrame received;
+        while (line_.port.receive(received)) {
+          master_.handleFrame(received.frame, received.at);
+          if (allAnswered()) return;
+        }
+      }
+      now = line_.port.now();
+      if (now < until) continue;
+      ++late_;
+      return;
+    }
+  }
+  void send() {
+    CanFrame frame;
+    while (master_.pollTransmit(frame)) {
+      if (line_.port.send(frame) == link::CanSend::kSent) continue;
+      master_.notSent();
+      return;
+    }
+  }
+  bool allAnswered() const {
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      if (master_.transmitPdo(i, 0).count == counts_[i]) return false;
+    }
+    return true;
+  }
+  bool allOperational() const {
+    for (std::size_t i = 0; i < master_.nodeCount(); ++i) {
+      if (master_.status(i).state != canopen::NodeState::kOperational) return false;
+    }
+    return true;
+  }
+
+  Line line_;
+  canopen::Master master_;
+  std::vector<std::uint64_t> counts_;  // TPDOs of each node when the cycle began
+  std::uint64_t late_ = 0;
+};
+
+std::vector<CanFrame> framesOf(std::size_t drives) {
+  std::vector<CanFrame> frames;
+  for (std::size_t id = 1; id <= drives; ++id) {
+    frames.push_back(dataFrame(static_cast<std::uint32_t>(0x200 + id), kStandby));
+  }
+  frames.push_back(dataFrame(0x80, {}));
+  return frames;
+}
+
+bool cycleOf(std::size_t drives) {
+  const FarEnd of_driver{drives}, of_bare{drives};
+  CanBus bus{of_driver.pair, drives};
+  const Bare bare{of_bare.pair, framesOf(drives), drives};
+  const auto driver = [&bus] { bus.cycle(); };
+  const auto bare_cycle = [&bare] { bare.exchange(); };
+  const std::size_t pairs = 5000 / (1 + drives / 4);
+  measurePairs(pairs / 5, kBlock, driver, bare_cycle);  // warm-up
+  std::vector<double> ratios;
+  for (int i = 0; i < kRepeats; ++i) {
+    const Pair medians = measurePairs(pairs, kBlock, driver, bare_cycle);
+    ratios.push_back(medians.first / medians.second);
+    std::printf("  %zu drive(s): cycle %.2f us, bare %.2f us, ratio %.3f\n", drives, medians.first, medians.second,
+                ratios.back());
+  }
+  bus.check();
+  return report("CANopen cycle over the bare exchange of the same frames", median(ratios), "", 1.25);
+}
+
+/// Cost per drive of a full bus against one drive, and against eight.
+bool manyDrivesCostNoMoreEach(std::size_t few, std::size_t many) {
+  const FarEnd end_of_few{few}, end_of_many{many};
+  CanBus bus_of_few{end_of_few.pair, few}, bus_of_many{end_of_many.pair, many};
+  const auto cycle_few = [&] {
+    for (std::size_t i = 0; i < many / few; ++i) bus_of_few.cycle();
+  };
+  const auto cycle_many = [&] { bus_of_many.cycle(); };
+  measurePairs(200, kBlock, cycle_few, cycle_many);  // warm-up
+  std::vector<double> ratios;
+  for (int i = 0; i < kRepeats; ++i) {
+    const Pair medians = measurePairs(600, kBlock, cycle_few, cycle_many);
+    const double per_few = medians.first / static_cast<double>(many / few * few);
+    const double per_many = medians.second / static_cast<double>(many);
+    ratios.push_back(per_many / per_few);
+    std::printf("  per drive: of %zu %.3f us, of %zu %.3f us\n", few, per_few, many, per_many);
+  }
+  bus_of_few.check();
+  bus_of_many.check();
+  return report("cost per drive, the many over the few", median(ratios), "", 1.2);
+}
+
+}  // namespace
+
+int main() {
+  try {
+    pinTo(kProcessor);
+    runUntilWaiting();
+    prctl(PR_SET_TIMERSLACK, 1);  // like the thread of the bus cycle
+    const BusyOthers busy{kProcessor};
+    bool kept = sdoReads();
+    for (const std::size_t drives : {1u, 2u, 4u, 8u, 16u, 32u}) kept = cycleOf(drives) && kept;
+    kept = manyDrivesCostNoMoreEach(1, 32) && kept;
+    kept = manyDrivesCostNoMoreEach(8, 32) && kept;
+    return kept ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bench_can: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,90 @@
+// A CAN bus of two ends over AF_UNIX SEQPACKET, carrying the kernel's struct can_frame: no controller, no bit rate, and
+// the same system calls as on a CAN_RAW socket.
+#pragma once
+
+#include <fcntl.h>
+#include <linux/can.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "nord_driver/link/can_system.h"
+
+namespace nord_driver::bench {
+
+class CanPair {
+ public:
+  CanPair() {
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends_) != 0) throw std::runtime_error("no socketpair");
+  }
+  ~CanPair() {
+    for (const int end : ends_) ::close(end);
+  }
+  CanPair(const CanPair&) = delete;
+  CanPair& operator=(const CanPair&) = delete;
+
+  int near() const { return ends_[0]; }
+  int far() const { return ends_[1]; }
+
+ private:
+  int ends_[2] = {-1, -1};
+};
+
+inline can_frame toKernel(const CanFrame& frame) {
+  can_frame raw{};
+  raw.can_id = frame.id | (frame.remote ? CAN_RTR_FLAG : 0u);
+  raw.can_dlc = frame.size;
+  std::copy(frame.data.begin(), frame.data.end(), raw.data);
+  return raw;
+}
+
+/// Lets the driver's SocketCAN link work on the near end: everything that moves frames is Linux' own, only opening and
+/// setting up an interface is not.
+class PairSystem final : public link::CanSystem {
+ public:
+  explicit PairSystem(const CanPair& pair) : pair_(pair) {}
+
+  int open() noexcept override {
+    const int end = ::fcntl(pair_.near(), F_DUPFD_CLOEXEC, 0);
+    ::fcntl(end, F_SETFL, O_NONBLOCK);
+    return end;
+  }
+  void close(int descriptor) noexcept override { ::close(descriptor); }
+  int readInterface(const char* name, link::CanInterface& interface) noexcept override {
+    interface = link::CanInterface{};
+    interface.index = 1;
+    interface.name = name;
+    interface.is_can = interface.up = true;
+    return 0;
+  }
+  int restart(int /*index*/) noexcept override { return 0; }
+  int openNews() noexcept override { return -1; }
+  int readNews(int /*descriptor*/, link::CanInterface& /*interface*/) noexcept override { return -EAGAIN; }
+  int setFilters(int /*descriptor*/, const std::vector<std::uint32_t>& /*ids*/) noexcept override { return 0; }
+  int setErrorFilter(int /*descriptor*/, std::uint32_t /*classes*/) noexcept override { return 0; }
+  int setBuffers(int /*descriptor*/, int /*receive*/, int /*send*/) noexcept override { return 0; }
+  int enableTimeStamps(int /*descriptor*/) noexcept override { return 0; }
+  int bind(int /*descriptor*/, int /*index*/) noexcept override { return 0; }
+  int readDropCount(int /*descriptor*/, std::uint32_t& count) noexcept override {
+    count = 0;
+    return 0;
+  }
+
+  int send(int descriptor, const CanFrame& frame) noexcept override { return linux_.send(descriptor, frame); }
+  int receive(int descriptor, link::CanReceipt& receipt) noexcept override {
+    return linux_.receive(descriptor, receipt);
+  }
+  link::CanReady poll(int descriptor, int news, bool to_write, Duration timeout) noexcept override {
+    return linux_.poll(descriptor, news, to_write, timeout);
+  }
+  Instant now() const noexcept override { return linux_.now(); }
+  void sleepUntil(Instant when) noexcept override { linux_.sleepUntil(when); }
+
+ private:
+  const CanPair& pair_;
+  link::CanSystem& linux_ = link::linuxCanSystem();
+};
+
+}  // namespace nord_driver::bench

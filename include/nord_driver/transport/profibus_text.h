@@ -1,0 +1,32 @@
+// What a PROFIBUS master sees, in words for a technician and with the figures of the configuration.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "nord_driver/core/fixed_text.h"
+#include "nord_driver/profibus/bus_scan.h"
+#include "nord_driver/profibus/dp_master.h"
+#include "nord_driver/transport/profibus_dp_config.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver {
+
+class ProfibusText {
+ public:
+  explicit ProfibusText(const ProfibusDpConfig& config);
+
+  /// "PROFIBUS station 3 (left, right) fell silent: ..."
+  BusEvent event(const profibus::DpEvent& event, const profibus::DpMaster& master) const noexcept;
+  /// What a station waits for or needs, subject left out; empty in data exchange.
+  Sentence note(std::size_t station, const profibus::DpMaster& master) const noexcept;
+  /// "stations 3, 126 (not addressed yet) answered"; "no station answered".
+  static Sentence liveList(const profibus::BusScan& scan) noexcept;
+
+ private:
+  const ProfibusDpConfig& config_;
+  std::vector<std::string> names_;  // of the stations
+};
+
+}  // namespace nord_driver

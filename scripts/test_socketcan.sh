@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# Runs the tests that need a kernel with CAN, all at one go, where can_machine.sh finds one. The last line says where.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+# GoogleTest programs.
+programs=(test_socketcan)
+# rostests, each a file below test/: one line each. They are handed interface:=vcan0 and time_factor:=N (1, or 10 where
+# everything is emulated), so they have these two <arg>s and multiply their time limits with the latter.
+rostests=(
+)
+
+usage() {
+  cat <<'TEXT'
+usage: test_socketcan.sh BUILD RESULTS [GTEST OPTION...]
+  BUILD    a configured build folder in which the target "tests" was built
+  RESULTS  a folder for the results (JUnit XML); what is in it goes
+Ends with 0 when every program did, with 125 when there was no place to run them.
+TEXT
+}
+
+# Called by itself, in the place with CAN.
+inside() {
+  local build=$1 results=$2 program file name status=0
+  shift 2
+  for program in "${programs[@]}"; do
+    echo "-- $program"
+    timeout $((60 * NORD_TIME_FACTOR)) "$build/devel/lib/nord_driver/$program" "--gtest_output=xml:$results/$program.xml" \
+      --gtest_brief=1 "$@" || status=1
+  done
+  ((${#rostests[@]} > 0)) || return "$status"
+  set +u # ROS' own file
+  source "$build/devel/setup.bash"
+  set -u
+  for file in "${rostests[@]}"; do
+    name=$(basename "$file" .test)
+    echo "-- $name"
+    rostest --pkgdir="$root" --package=nord_driver --results-filename="$name.xml" --results-base-dir="$results" \
+      "$root/test/$file" interface:=vcan0 "time_factor:=$NORD_TIME_FACTOR" || status=1
+  done
+  return "$status"
+}
+
+case ${1-} in
+  --inside) shift; inside "$@"; exit ;;
+  -h | --help) usage; exit 0 ;;
+esac
+(($# >= 2)) || { usage >&2; exit 2; }
+build=$(cd "$1" && pwd)
+results=$2
+shift 2
+rm -rf "$results"
+mkdir -p "$results"
+results=$(cd "$results" && pwd)
+status=0
+"$root/scripts/can_machine.sh" --keep "$results" "${BASH_SOURCE[0]}" --inside "$build" "$results" "$@" || status=$?
+exit "$status"

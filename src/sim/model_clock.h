@@ -1,0 +1,24 @@
+// The time of models that run in a thread: the steady clock, without the spans the thread was kept from running.
+#pragma once
+
+#include "nord_driver/core/time.h"
+
+namespace nord_driver::sim {
+
+/// SCHED_FIFO and fine timers where they are permitted; without the right to them the simulator answers a little later.
+void becomeRealTime() noexcept;
+
+class ModelClock {
+ public:
+  explicit ModelClock(Instant now) noexcept : last_(now) {}
+
+  /// Model time at `now`. A thread that was kept from running lets the models stand still meanwhile: the master is not
+  /// to blame.
+  Instant tick(Instant now) noexcept;
+
+ private:
+  Instant last_;
+  Duration standstill_{0};
+};
+
+}  // namespace nord_driver::sim

@@ -1,0 +1,106 @@
+// Whether a drive would stop when this computer dies, from what the bus does and what the drive's parameters say.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "nord_driver/node/drive_protection.h"
+
+namespace nord_driver::node {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using Level = ProtectionReport::Level;
+
+const char* const kWatchdog = "PROFIBUS watchdog of 0.2 s";
+
+DriveIdentity identity(TimeoutOwner owner = TimeoutOwner::kInverter, const char* by = kWatchdog, double time = 0.2) {
+  DriveIdentity identity;
+  identity.protected_by = by;
+  identity.protection_time = time;
+  identity.timeout_owner = owner;
+  return identity;
+}
+
+cycle::DeviceData withP513(std::optional<double> p513) {
+  cycle::DeviceData device;
+  device.telegram_timeout = p513;
+  device.complete = true;
+  return device;
+}
+
+cycle::DeviceData behindModule(std::optional<double> p151, std::optional<std::int32_t> p120) {
+  cycle::DeviceData device = withP513(0.0);
+  device.module_timeout = p151;
+  device.option_monitoring = p120;
+  return device;
+}
+
+ProtectionReport assess(const DriveIdentity& identity, const cycle::DeviceData& device, double cmd_vel_timeout = 0.5) {
+  return DriveProtection{identity, seconds(cmd_vel_timeout), seconds(0.01)}.assess(device);
+}
+
+// BU 2700 7.1.1: with 0 the inverter trips on a lost master, with -0.1 it runs on in every case.
+TEST(DriveProtection, P513OfMinusOneTenthRunsOn) {
+  EXPECT_EQ(Level::kFine, assess(identity(), withP513(0.0)).level);
+  EXPECT_EQ(kWatchdog, assess(identity(), withP513(0.0)).text);
+  const ProtectionReport off = assess(identity(), withP513(-0.1));
+  EXPECT_EQ(Level::kError, off.level);
+  EXPECT_THAT(off.text, StartsWith("nothing: P513 = -0.1"));
+  EXPECT_EQ(Level::kError, assess(identity(TimeoutOwner::kModule), withP513(-0.1)).level);
+}
+
+TEST(DriveProtection, WhatCouldNotBeReadIsSaidToBeUnknown) {
+  const ProtectionReport inverter = assess(identity(), withP513(std::nullopt));
+  EXPECT_EQ(Level::kFine, inverter.level);
+  EXPECT_THAT(inverter.text, HasSubstr("P513, which can switch this off, is not known"));
+  const ProtectionReport module = assess(identity(TimeoutOwner::kModule), withP513(0.0));
+  EXPECT_THAT(module.text, HasSubstr("P151 of the bus module, which can switch this off, is not known"));
+  EXPECT_THAT(module.text, HasSubstr("P120, by which the inverter watches its bus module, is not known"));
+}
+
+// Modules SK CU4/TU4: P151 of the module, P120 of the inverter (BU 2700 8.1).
+TEST(DriveProtection, BehindAModuleP151AndP120Decide) {
+  const DriveIdentity module = identity(TimeoutOwner::kModule);
+  EXPECT_EQ(Level::kFine, assess(module, behindModule(0.0, 1)).level);
+  EXPECT_EQ(Level::kFine, assess(module, behindModule(0.3, 2)).level);
+  EXPECT_THAT(assess(module, behindModule(0.3, 2)).text, HasSubstr("P151 of the bus module of 0.3 s"));
+  const ProtectionReport off = assess(module, behindModule(-0.001, 1));
+  EXPECT_EQ(Level::kError, off.level);
+  EXPECT_THAT(off.text, HasSubstr("P151 = -1"));
+  const ProtectionReport unwatched = assess(module, behindModule(0.0, 0));
+  EXPECT_EQ(Level::kWarning, unwatched.level);
+  EXPECT_THAT(unwatched.text, HasSubstr("P120 = 0"));
+}
+
+// A bus without a watchdog of its own leaves all to the drive's time-out.
+TEST(DriveProtection, WithoutAWatchdogOnTheBusTheDrivesOwnTimeoutMustAct) {
+  const DriveIdentity bare = identity(TimeoutOwner::kInverter, "", 0.0);
+  EXPECT_EQ(Level::kFine, assess(bare, withP513(0.3)).level);
+  EXPECT_THAT(assess(bare, withP513(0.3)).text, StartsWith("P513 of 0.3 s"));
+  EXPECT_EQ(Level::kError, assess(bare, withP513(0.0)).level);
+  EXPECT_EQ(Level::kWarning, assess(bare, withP513(std::nullopt)).level);
+}
+
+// A robot must not drive on for longer without a computer than without a command.
+TEST(DriveProtection, LaterThanCmdVelTimeoutIsWarnedAbout) {
+  EXPECT_EQ(Level::kFine, assess(identity(), withP513(0.0), 0.2).level);
+  const ProtectionReport late = assess(identity(), withP513(0.0), 0.1);
+  EXPECT_EQ(Level::kWarning, late.level);
+  EXPECT_THAT(late.text, HasSubstr("0.2 s after the last telegram, later than cmd_vel_timeout (0.1 s)"));
+  EXPECT_EQ(Level::kFine, assess(identity(), withP513(0.1), 0.1).level) << "the earlier one counts";
+  EXPECT_EQ(Level::kFine, assess(identity(), withP513(0.0), 0.0).level) << "no time-out to compare with";
+  EXPECT_EQ(Level::kWarning, assess(identity(TimeoutOwner::kInverter, "", 0.0), withP513(2.0)).level);
+  EXPECT_EQ(Level::kFine, assess(identity(TimeoutOwner::kInverter, "guarding", 0.0), withP513(0.0)).level)
+      << "when it acts is not known";
+}
+
+// P151 at least twice the bus cycle (BU 0220 4.2.3.1).
+TEST(DriveProtection, ShorterThanTwoCyclesIsWarnedAbout) {
+  EXPECT_EQ(Level::kFine, assess(identity(TimeoutOwner::kModule), behindModule(0.02, 1)).level);
+  const ProtectionReport report = assess(identity(TimeoutOwner::kModule), behindModule(0.019, 1));
+  EXPECT_EQ(Level::kWarning, report.level);
+  EXPECT_THAT(report.text, HasSubstr("shorter than two bus cycles"));
+}
+
+}  // namespace
+}  // namespace nord_driver::node

@@ -1,0 +1,86 @@
+// A slave that was silent for a short while is found again before its watchdog runs out: the drive does not trip.
+#include <gtest/gtest.h>
+
+#include "profibus/simulated_run.h"
+
+namespace nord_driver::profibus {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration kPeriod = 10ms;
+
+/// Two modules with a watchdog of 200 ms behind an adapter with a slot time of 20 ms, at 500 kbit/s and 100 Hz.
+struct Adapter : SimulatedRun {
+  static BusParameters bus() {
+    BusParameters bus = fastBus(500'000);
+    bus.slot_time = 20ms;
+    return bus;
+  }
+  static std::vector<SlaveConfig> slaves() {
+    std::vector<SlaveConfig> slaves = modules(2);
+    for (SlaveConfig& slave : slaves) slave.watchdog = 200ms;
+    return slaves;
+  }
+  Adapter() : SimulatedRun(bus(), slaves()) {
+    while (!allExchange()) cycle(kPeriod);
+  }
+  void loseFor(Duration span) {  // not even its receiver works
+    segment.drive(0).setPlugged(false);
+    const Instant end = now() + span;
+    while (now() < end) cycle(kPeriod);
+    segment.drive(0).setPlugged(true);
+  }
+  std::uint64_t trips() { return segment.drive(0).slave().counters().watchdog_trips; }
+};
+
+class Gap : public testing::TestWithParam<int> {};
+
+TEST_P(Gap, OfSoManyMillisecondsTripsNothing) {
+  Adapter run;
+  run.loseFor(std::chrono::milliseconds{GetParam()});
+  const Instant back = run.now();
+  while (!run.allExchange() && run.now() < back + 2s) run.cycle(kPeriod);
+  EXPECT_TRUE(run.allExchange());
+  EXPECT_EQ(0u, run.trips());
+  EXPECT_EQ(1u, run.losses_told);
+  EXPECT_LT(run.now() - back, 150ms);
+  EXPECT_TRUE(run.segment.referee().content()) << run.segment.referee().report();
+}
+
+INSTANTIATE_TEST_SUITE_P(Milliseconds, Gap, testing::Values(60, 100, 140, 160));
+
+// The one that is there is exchanged with in every cycle meanwhile, and keeps half of the time.
+TEST(SavedWatchdog, TheOthersKeepHalfOfTheTime) {
+  Adapter run;
+  run.segment.drive(0).slave().setMute(true);
+  run.cycle(kPeriod);  // two slots of 20 ms in it
+  const Instant begin = run.now();
+  Duration busy{};
+  while (run.now() < begin + 150ms) {
+    run.cycle(kPeriod);
+    ASSERT_TRUE(run.master.status(1).exchanged_this_cycle);
+    EXPECT_LE(run.last_cycle, 25ms);
+    busy += run.last_cycle;
+  }
+  EXPECT_LE(busy, (run.now() - begin) * 6 / 10);
+  EXPECT_GE(busy, (run.now() - begin) * 3 / 10);
+}
+
+// Whoever stays away costs little again: a tenth of the time, as before.
+TEST(SavedWatchdog, TheHasteEndsWithTheWatchdog) {
+  Adapter run;
+  run.segment.drive(0).slave().setMute(true);
+  const Instant lost = run.now();
+  while (run.now() < lost + 300ms) run.cycle(kPeriod);
+  const Instant begin = run.now();
+  Duration busy{};
+  for (int i = 0; i < 100; ++i) {
+    run.cycle(kPeriod);
+    busy += run.last_cycle;
+  }
+  EXPECT_LE(busy, (run.now() - begin) / 5);
+}
+
+}  // namespace
+}  // namespace nord_driver::profibus

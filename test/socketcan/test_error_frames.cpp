@@ -1,0 +1,88 @@
+// Error frames as the drivers of controllers send them (linux/can/error.h), put on a vcan by hand: the kernel gives
+// them to sockets that asked for their class.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <linux/can/error.h>
+
+#include "nord_driver/link/socket_can.h"
+#include "socketcan/network.h"
+
+namespace nord_driver::link {
+namespace {
+
+using ::testing::HasSubstr;
+
+class SocketCanErrors : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(link.open()) << link.lastError(); }
+  /// What was sent on a vcan is there when the call is over.
+  void take() {
+    ReceivedCanFrame received;
+    EXPECT_FALSE(link.receive(received)) << "an error frame is nothing to be received";
+  }
+  void controller(std::uint8_t status) {
+    driver.sendError(CAN_ERR_CRTL, {0, status});
+    take();
+  }
+
+  VcanInterface bus{"nord_vcan"};
+  BareSocket driver{bus.name()};
+  SocketCan link{bus.settings({0x1B2})};
+};
+
+TEST_F(SocketCanErrors, WarningPassiveActive) {
+  controller(CAN_ERR_CRTL_RX_WARNING);
+  EXPECT_EQ(CanState::kWarning, link.state());
+  EXPECT_THAT(link.advice(), HasSubstr("many errors on the bus"));
+  controller(CAN_ERR_CRTL_TX_PASSIVE);
+  EXPECT_EQ(CanState::kPassive, link.state());
+  EXPECT_THAT(link.advice(), HasSubstr("error passive"));
+  controller(CAN_ERR_CRTL_ACTIVE);
+  EXPECT_EQ(CanState::kActive, link.state());
+  EXPECT_STREQ("", link.advice());
+  EXPECT_EQ(2u, link.counters().controller_errors);
+}
+
+TEST_F(SocketCanErrors, NobodyAcknowledgesUntilSomebodyIsHeard) {
+  driver.sendError(CAN_ERR_ACK);
+  take();
+  EXPECT_THAT(link.advice(), HasSubstr("no other node acknowledges: are the drives powered"));
+  EXPECT_EQ(1u, link.counters().no_acknowledge);
+  SocketCan other{bus.settings()};
+  ASSERT_TRUE(other.open());
+  ASSERT_EQ(CanSend::kSent, other.send(numberedFrame(0x1B2, 1)));
+  CanFrame got;
+  ASSERT_TRUE(next(link, got));
+  EXPECT_STREQ("", link.advice());
+}
+
+TEST_F(SocketCanErrors, ProtocolErrorsAreCounted) {
+  for (int i = 0; i < 10; ++i) driver.sendError(CAN_ERR_PROT | CAN_ERR_BUSERROR, {0, 0, CAN_ERR_PROT_STUFF, 0x0A});
+  take();
+  EXPECT_EQ(10u, link.counters().bus_errors);
+  EXPECT_THAT(link.advice(), HasSubstr("bus errors within a second"));
+}
+
+TEST_F(SocketCanErrors, BusOffAndRestarted) {
+  driver.sendError(CAN_ERR_BUSOFF);
+  EXPECT_TRUE(reaches(link, CanState::kBusOff));
+  EXPECT_EQ(CanSend::kFailed, link.send(numberedFrame(0x232, 1)));
+  EXPECT_TRUE(link.isOpen());
+  EXPECT_THAT(link.advice(), HasSubstr("is bus-off"));
+  driver.sendError(CAN_ERR_RESTARTED);
+  EXPECT_TRUE(reaches(link, CanState::kActive));
+  EXPECT_EQ(CanSend::kSent, link.send(numberedFrame(0x232, 1)));
+  EXPECT_EQ(1u, link.counters().bus_off);
+  EXPECT_EQ(1u, link.counters().restarts);
+}
+
+// Each frame that loses arbitration is daily life: the kernel keeps this class from us.
+TEST_F(SocketCanErrors, LostArbitrationIsNotAskedFor) {
+  driver.sendError(CAN_ERR_LOSTARB, {5});
+  take();
+  EXPECT_EQ(CanState::kUnknown, link.state());
+  EXPECT_EQ(0u, link.counters().bus_errors + link.counters().controller_errors);
+}
+
+}  // namespace
+}  // namespace nord_driver::link

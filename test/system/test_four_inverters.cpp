@@ -1,0 +1,180 @@
+// Four wheels behind one bus module SK CU4: what is different from four modules.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "nord_driver/sim/module_station.h"
+#include "system/simulated_robot.h"
+
+namespace nord_driver::test {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
+constexpr DriveIndex kLeft = 0, kRight = 1, kRearLeft = 2, kRearRight = 3;
+
+class FourInverters : public ::testing::Test {
+ protected:
+  static SimulatedRobot::Options options() {
+    SimulatedRobot::Options options;
+    options.one_module = true;
+    return options;
+  }
+  void SetUp() override { ASSERT_TRUE(robot_.bringUp()); }
+  void TearDown() override { EXPECT_EQ("no rule broken", robot_.segment().referee().report()); }
+
+  sim::ModuleStation& module() { return static_cast<sim::ModuleStation&>(robot_.unit(0).slave()); }
+  cycle::Completion parameter(cycle::RequestKind kind, DriveIndex drive, std::uint16_t number, std::int32_t raw = 0) {
+    cycle::Request request;
+    request.kind = kind;
+    request.drive = drive;
+    request.parameter.number = number;
+    request.parameter.raw = raw;
+    request.parameter.action = profile::ParameterAction::kWritePersistent;
+    return robot_.ask(request);
+  }
+  bool allOnline() {
+    for (const auto& drive : robot_.snapshot().drives) {
+      if (!drive.online) return false;
+    }
+    return true;
+  }
+
+  SimulatedRobot robot_{options()};
+};
+
+// One exchange a cycle for all four, and the base drives as with modules of their own.
+TEST_F(FourInverters, DriveTheBase) {
+  ASSERT_STREQ("enabled", robot_.ask(cycle::RequestKind::kEnable).message.c_str());
+  const std::uint64_t before = robot_.transport().counters().telegrams_sent;
+  robot_.step();
+  EXPECT_EQ(before + 1, robot_.transport().counters().telegrams_sent);
+  robot_.drive(kHalfSpeed, 0.0, seconds{3});
+  for (const DriveIndex drive : {kLeft, kRearLeft}) EXPECT_EQ(0x2000, robot_.setpoint(drive));
+  for (const DriveIndex drive : {kRight, kRearRight}) EXPECT_EQ(-0x2000, robot_.setpoint(drive));
+  EXPECT_GT(robot_.snapshot().base.pose.x, 0.5);
+  EXPECT_EQ(0, module().outputs());
+}
+
+// P151 by a record from the module, P120 by the PKW from the inverter: what protects the drive is known from the start.
+TEST_F(FourInverters, TellWhatWatchesTheBus) {
+  for (const auto& drive : robot_.snapshot().drives) {
+    EXPECT_EQ(0.0, drive.device.module_timeout.value_or(-9.0)) << "the factory setting";
+    EXPECT_EQ(1, drive.device.option_monitoring.value_or(-9));
+    EXPECT_EQ(0x0BA8u, drive.device.ident);
+  }
+  EXPECT_EQ(TimeoutOwner::kModule, robot_.transport().identity(kRearLeft).timeout_owner);
+  EXPECT_EQ("PROFIBUS station 3, inverter 3", robot_.transport().identity(kRearLeft).address);
+}
+
+// P151 is asked for through any drive; it is one and the same.
+TEST_F(FourInverters, ShareTheParametersOfTheirModule) {
+  cycle::Completion answer = parameter(cycle::RequestKind::kWriteParameter, kRight, 151, 500);
+  EXPECT_TRUE(answer.success) << answer.message.c_str();
+  answer = parameter(cycle::RequestKind::kReadParameter, kRearLeft, 151);
+  EXPECT_TRUE(answer.success) << answer.message.c_str();
+  EXPECT_EQ(500, answer.raw);
+  EXPECT_EQ(500, module().parameters().value(151));
+  answer = parameter(cycle::RequestKind::kReadParameter, kRearLeft, 199);
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("drive rear_left refuses P199: error 0"));
+}
+
+// The module stays in its time-out until all its inverters are acknowledged (BU 0220 4.2.3.2): the answer says who is
+// missing, and acknowledging all of them ends it.
+TEST_F(FourInverters, AreAcknowledgedTogetherAfterATimeout) {
+  module().setMute(true);
+  robot_.segment().setDevicePresent(false);
+  robot_.run(seconds{1});
+  module().setMute(false);
+  robot_.segment().setDevicePresent(true);
+  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(); }, seconds{3}));
+  robot_.run(seconds{1});
+  EXPECT_TRUE(module().timedOut());
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(102, robot_.snapshot().drives[i].last_fault_number) << i;
+  const cycle::Completion one = robot_.ask(cycle::RequestKind::kAcknowledge, kLeft);
+  EXPECT_TRUE(one.success);
+  EXPECT_THAT(one.message.c_str(), HasSubstr("drive right behind the same bus module has a fault too"));
+  const cycle::Completion all = robot_.ask(cycle::RequestKind::kAcknowledge);
+  EXPECT_TRUE(all.success) << all.message.c_str();
+  EXPECT_THAT(all.message.c_str(), Not(HasSubstr("behind the same")));
+  EXPECT_FALSE(module().timedOut());
+  EXPECT_STREQ("enabled", robot_.ask(cycle::RequestKind::kEnable).message.c_str());
+}
+
+// Behind a module of their own nobody waits for a neighbour.
+TEST(TwoModules, AreAcknowledgedOneByOne) {
+  SimulatedRobot robot;
+  ASSERT_TRUE(robot.bringUp());
+  for (std::size_t i = 0; i < 2; ++i) robot.unit(i).inverter().trip(30, false);
+  robot.run(milliseconds{500});
+  EXPECT_STREQ("no fault stands; the drives stay disabled until they are enabled",
+               robot.ask(cycle::RequestKind::kAcknowledge, 0).message.c_str());
+}
+
+// The module is gone: four drives at once, and all of them back.
+TEST_F(FourInverters, AreLostAndFoundTogether) {
+  ASSERT_TRUE(robot_.ask(cycle::RequestKind::kEnable).success);
+  robot_.drive(kHalfSpeed, 0.0, seconds{2});
+  module().setMute(true);
+  robot_.run(milliseconds{120});
+  for (const auto& drive : robot_.snapshot().drives) EXPECT_FALSE(drive.online);
+  module().setMute(false);
+  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(); }, seconds{2}));
+  EXPECT_EQ(0u, module().counters().watchdog_trips) << "found before its watchdog of 0.2 s ran out";
+  EXPECT_TRUE(robot_.runUntil([this] { return robot_.standsStill(); }));
+  EXPECT_FALSE(robot_.snapshot().base.enabled);
+  EXPECT_TRUE(robot_.snapshot().base.stopped);
+}
+
+// One of four is switched off and on again: the other three stay what they are.
+TEST_F(FourInverters, OneOffIsThatDriveOffline) {
+  robot_.unit(kRearLeft).setInverterPower(false);
+  robot_.run(milliseconds{300});
+  for (const DriveIndex drive : {kLeft, kRight, kRearRight}) EXPECT_TRUE(robot_.snapshot().drives[drive].online);
+  EXPECT_FALSE(robot_.snapshot().drives[kRearLeft].online);
+  EXPECT_TRUE(robot_.snapshot().drives[kRearLeft].module_answers);
+  EXPECT_THAT(robot_.ask(cycle::RequestKind::kEnable).message.c_str(),
+              HasSubstr("drive rear_left: the inverter does not answer"));
+  robot_.unit(kRearLeft).setInverterPower(true);
+  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(); }, seconds{2}));
+  robot_.run(seconds{1});
+  EXPECT_STREQ("enabled", robot_.ask(cycle::RequestKind::kEnable).message.c_str());
+}
+
+// Parameter sets are each inverter's own.
+TEST_F(FourInverters, HaveParameterSetsOfTheirOwn) {
+  cycle::Request request;
+  request.kind = cycle::RequestKind::kSelectParameterSet;
+  request.drive = kRearRight;
+  request.parameter_set = 3;
+  EXPECT_STREQ("parameter set 3 is active", robot_.ask(request).message.c_str());
+  EXPECT_EQ(0x847E, robot_.controlWord(kRearRight));
+  EXPECT_EQ(2u, robot_.unit(kRearRight).inverter().parameterSet());
+  EXPECT_EQ(0u, robot_.unit(kRearLeft).inverter().parameterSet());
+  EXPECT_EQ(0x047E, robot_.controlWord(kRearLeft));
+}
+
+// PPO 3 has no PKW: P105, P700 and the rest come by records, and everything works as with one.
+TEST(FourInvertersInPpo3, ReadTheirParametersByRecords) {
+  SimulatedRobot::Options options;
+  options.one_module = true;
+  options.drives["ppo_type"] = 3;
+  SimulatedRobot robot{options};
+  ASSERT_TRUE(robot.bringUp());
+  EXPECT_EQ("DP-V1 records", robot.transport().identity(0).parameter_channel);
+  for (const auto& drive : robot.snapshot().drives) EXPECT_EQ(50.0, drive.device.max_frequency[0].value_or(0.0));
+  ASSERT_STREQ("enabled", robot.ask(cycle::RequestKind::kEnable).message.c_str());
+  robot.drive(kHalfSpeed, 0.0, seconds{3});
+  EXPECT_EQ(0x2000, robot.setpoint(kRearLeft));
+  robot.unit(kRearLeft).inverter().trip(30, true);
+  robot.drive(kHalfSpeed, 0.0, seconds{1});
+  EXPECT_EQ(30, robot.snapshot().drives[kRearLeft].fault_number) << "P700 by a record";
+  EXPECT_EQ("no rule broken", robot.segment().referee().report());
+}
+
+}  // namespace
+}  // namespace nord_driver::test
