@@ -19,7 +19,7 @@ constexpr int kCyclesToSeeAll = 3;     // inverters behind one module do not ans
 constexpr int kCyclesToEndOrders = 5;  // "no order" has reached the inverter (BU 2700 6.5: none is left standing)
 constexpr Duration kReadyTime = std::chrono::seconds{1};
 constexpr Duration kPatience = std::chrono::seconds{20};  // every step of an access has its own, shorter one
-constexpr std::uint16_t kTelegramTimeout = 513;
+constexpr std::uint16_t kTelegramTimeout = 513, kModuleTimeout = 151;
 
 bool isAtRest(DriveState state) noexcept {
   return state == DriveState::kNotReadyToSwitchOn || state == DriveState::kSwitchOnDisabled ||
@@ -167,11 +167,12 @@ std::vector<std::string> ParameterLink::finish() {
   std::vector<std::string> sentences;
   if (!connected_ || !drives_[0].report().online) return sentences;
   cycle::ParameterAddress timeout;
-  timeout.number = kTelegramTimeout;
+  timeout.number = identity().timeout_owner == TimeoutOwner::kModule ? kModuleTimeout : kTelegramTimeout;
   // Any further access also tries again to put P560 back.
   const ParameterAnswer answer = read(timeout);
   if (answer.success && answer.info != nullptr && answer.value > 0.0) {
-    sentences.push_back("drive " + drive().name + " has P513 = " + shortNumber(answer.value) +
+    sentences.push_back("drive " + drive().name + " has P" + std::to_string(timeout.number) + " = " +
+                        shortNumber(answer.value) +
                         " s: that long after this it trips (E10.x), because nobody sends it words any more; "
                         "acknowledge it before it is enabled");
   }
