@@ -4,6 +4,7 @@
 
 #include "nord_driver/cycle/drive_parameters.h"
 #include "nord_driver/cycle/sentences.h"
+#include "nord_driver/profile/pkw.h"
 #include "nord_driver/profile/status_word.h"
 #include "nord_driver/transport/parameters_only.h"
 #include "nord_driver/transport/setting_checks.h"
@@ -155,6 +156,8 @@ ParameterAnswer ParameterLink::carryOut(const cycle::Request& request, const pro
   ParameterAnswer answer;
   answer.success = result->outcome == ParameterOutcome::kDone;
   answer.refused = result->outcome == ParameterOutcome::kRefused;
+  answer.unknown = answer.refused && result->refused_number == task.number &&
+                   result->error_number == profile::pkw_error::kInvalidNumber;
   answer.message = cycle::parameterSentence(drive().name.c_str(), task.number, *result).str();
   answer.raw = result->raw;
   answer.value = cycle::valueOf(info, result->raw);

@@ -19,7 +19,7 @@ struct Dump {
   };
   profile::Series series = profile::Series::kSk5xxe;
   std::vector<Value> values;
-  std::vector<cycle::ParameterAddress> missing;  ///< known of the series, but not in this inverter
+  std::vector<cycle::ParameterAddress> missing;  ///< known of the series, but not in this inverter; whole or in part
 };
 
 /// Throws Trouble when the drive stops answering, or `end_asked`.
