@@ -1,7 +1,5 @@
 #include "nord_driver/tools/parameter_link.h"
 
-#include <optional>
-
 #include "nord_driver/cycle/drive_parameters.h"
 #include "nord_driver/cycle/sentences.h"
 #include "nord_driver/profile/pkw.h"
@@ -20,6 +18,8 @@ constexpr int kCyclesToSeeAll = 3;     // inverters behind one module do not ans
 constexpr int kCyclesToEndOrders = 5;  // "no order" has reached the inverter (BU 2700 6.5: none is left standing)
 constexpr Duration kReadyTime = std::chrono::seconds{1};
 constexpr Duration kPatience = std::chrono::seconds{20};  // every step of an access has its own, shorter one
+constexpr int kAttempts = 3;
+constexpr Duration kBackTime = std::chrono::seconds{2};  // a silent station is asked for more often than that
 constexpr std::uint16_t kTelegramTimeout = 513, kModuleTimeout = 151;
 
 bool isAtRest(DriveState state) noexcept {
@@ -142,14 +142,34 @@ ParameterAnswer ParameterLink::write(const cycle::ParameterAddress& address, con
   return carryOut(request, info);
 }
 
+std::optional<drive::ParameterTaskResult> ParameterLink::run(const drive::ParameterTask& task) noexcept {
+  if (!session_.submit(task)) return std::nullopt;
+  const Instant end = transport_.now() + kPatience;
+  do {
+    exchange();
+    if (const auto result = session_.pollResult()) return result;
+  } while (transport_.now() < end);
+  return std::nullopt;
+}
+
+bool ParameterLink::waitForDrive() noexcept {
+  const Instant end = transport_.now() + kBackTime;
+  do {
+    exchange();
+    if (inputs_[0].inverter_answers) return true;
+  } while (transport_.now() < end);
+  return false;
+}
+
 ParameterAnswer ParameterLink::carryOut(const cycle::Request& request, const profile::ParameterInfo* info) {
   drive::ParameterTask task = cycle::taskOf(request, drives_[0].report().parameter_set);
   task.id = ++last_id_;
   task.even_if_same = true;  // the run before may have put it into the RAM
-  std::optional<drive::ParameterTaskResult> result;
-  if (session_.submit(task)) {
-    const Instant end = transport_.now() + kPatience;
-    while (!(result = session_.pollResult()) && transport_.now() < end) exchange();
+  std::optional<drive::ParameterTaskResult> result = run(task);
+  // Nothing but the line was lost: a write compares first, so that it is not done twice.
+  for (int i = 1; i < kAttempts && result && result->outcome == ParameterOutcome::kOffline; ++i) {
+    if (result->eeprom_written || !waitForDrive()) break;
+    result = run(task);
   }
   if (!result) throw Trouble("drive " + drive().name + " did not carry the access out");
 

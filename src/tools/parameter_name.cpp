@@ -21,7 +21,7 @@ constexpr bool resets(std::uint16_t number) noexcept {
 }
 
 std::uint8_t small(const std::ssub_match& digits) {
-  return digits.matched ? static_cast<std::uint8_t>(std::atoi(digits.str().c_str())) : std::uint8_t{0};
+  return digits.matched ? static_cast<std::uint8_t>(std::stoul(digits.str())) : std::uint8_t{0};
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ ParameterAddress parseParameterName(const std::string& name) {
     throw UsageError("\"" + name + "\" is no parameter, expected the manual's number: 105, P105 or P700[-01]");
   }
   ParameterAddress address;
-  address.number = static_cast<std::uint16_t>(std::atoi(match[1].str().c_str()));
+  address.number = static_cast<std::uint16_t>(std::stoul(match[1].str()));
   address.index = small(match[2]);
   address.parameter_set = small(match[3]);
   if (match[2].matched && address.index == 0) {

@@ -232,6 +232,19 @@ TEST(ParameterLink, SaysWhyAnAccessFailed) {
   EXPECT_THAT(drive.link().finish(), IsEmpty());
 }
 
+// A few lost telegrams are no reason to send a technician away: a loaded computer loses them, too.
+TEST(ParameterLink, AsksAgainWhenTheLineWasLostForAMoment) {
+  LinkedDrive drive;
+  drive.connect();
+  drive.segment().loseAnswers(8);
+  const ParameterAnswer read = drive.link().read(parameter(105));
+  EXPECT_TRUE(read.success) << read.message;
+  drive.segment().loseAnswers(8);
+  const ParameterAnswer written = drive.link().write(parameter(102), value(3.0));
+  EXPECT_TRUE(written.success) << written.message;
+  EXPECT_EQ(300, drive.left().parameters().value(102));
+}
+
 TEST(ParameterLink, SaysThatAPpoTypeHasNoParameterChannel) {
   LinkedDrive drive{{}, true, 3};
   drive.connect();

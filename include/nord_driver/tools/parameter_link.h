@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -68,6 +69,8 @@ class ParameterLink {
   void idle(int cycles) noexcept;
   void refuseRunning() const;
   std::string silence() const;
+  std::optional<drive::ParameterTaskResult> run(const drive::ParameterTask& task) noexcept;
+  bool waitForDrive() noexcept;
   ParameterAnswer carryOut(const cycle::Request& request, const profile::ParameterInfo* info);
 
   const ToolConfig& config_;
