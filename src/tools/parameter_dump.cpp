@@ -16,7 +16,7 @@ namespace {
 ParameterAnswer readFrom(ParameterLink& link, const cycle::ParameterAddress& address,
                          const std::atomic<bool>& end_asked) {
   if (end_asked) throw Trouble("ended before all parameters were read");
-  const ParameterAnswer answer = link.read(address);
+  ParameterAnswer answer = link.read(address);
   if (!answer.success && !answer.refused) throw Trouble(answer.message);
   return answer;
 }

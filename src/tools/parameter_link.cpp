@@ -45,7 +45,7 @@ ParameterLink::~ParameterLink() {
 }
 
 std::string ParameterLink::silence() const {
-  const std::string bus = transport_.busText().str();
+  std::string bus = transport_.busText().str();
   if (!bus.empty() && !transport_.connected()) return bus;
   const std::string note = transport_.note(0).text;
   return "drive " + drive().name + " (" + transport_.identity(0).address + ") does not answer" +

@@ -67,12 +67,13 @@ std::vector<ParameterAddress> knownParameters(profile::Series series) {
     if (info == nullptr || resets(number)) continue;
     const bool array = info->shape == ParameterShape::kArray || info->shape == ParameterShape::kArrayPerSet;
     const bool sets = info->shape == ParameterShape::kPerSet || info->shape == ParameterShape::kArrayPerSet;
-    for (std::uint8_t element = 1; element <= (array ? info->elements : 1); ++element) {
-      for (std::uint8_t set = 1; set <= (sets ? 4 : 1); ++set) {
+    const int elements = array ? info->elements : 1;
+    for (int element = 1; element <= elements; ++element) {
+      for (int set = 1; set <= (sets ? 4 : 1); ++set) {
         ParameterAddress address;
         address.number = number;
-        address.index = array ? element : std::uint8_t{0};
-        address.parameter_set = sets ? set : std::uint8_t{0};
+        address.index = static_cast<std::uint8_t>(array ? element : 0);
+        address.parameter_set = static_cast<std::uint8_t>(sets ? set : 0);
         all.push_back(address);
       }
     }

@@ -39,15 +39,15 @@ std::string printed(const YAML::Node& value) {
   }
 }
 
-void layOver(YAML::Node lower, const YAML::Node& upper) {
+YAML::Node laidOver(const YAML::Node& lower, const YAML::Node& upper) {
+  YAML::Node all = YAML::Clone(lower);
   for (const auto& member : upper) {
     const auto key = member.first.as<std::string>();
-    if (member.second.IsMap() && lower[key] && lower[key].IsMap()) {
-      layOver(lower[key], member.second);
-    } else {
-      lower[key] = member.second;
-    }
+    const YAML::Node below = lower[key];
+    const bool both = below.IsDefined() && below.IsMap() && member.second.IsMap();
+    all[key] = both ? laidOver(below, member.second) : YAML::Clone(member.second);
   }
+  return all;
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ YAML::Node readYamlFiles(const std::vector<std::string>& files) {
     try {
       const YAML::Node node = YAML::LoadFile(file);
       if (!node.IsMap()) throw ConfigError("--config " + file + ": expected a file of keys and values");
-      layOver(all, node);
+      all.reset(laidOver(all, node));
     } catch (const YAML::Exception& error) {
       throw ConfigError("--config " + file + ": " + error.what() + "; expected a readable YAML file");
     }
