@@ -14,7 +14,7 @@
 #include "nord_driver/link/serial_port.h"
 #include "nord_driver/profibus/bus_scan.h"
 #include "nord_driver/profibus/dp_master.h"
-#include "nord_driver/profile/pkw_channel.h"
+#include "nord_driver/transport/inverter_presence.h"
 #include "nord_driver/transport/parameters_only.h"
 #include "nord_driver/transport/profibus_dp_config.h"
 #include "nord_driver/transport/profibus_parameters.h"
@@ -27,6 +27,9 @@ namespace nord_driver {
 
 /// Joins the DP master (profibus/), a byte link (link/) and the layout of the process data (profile/). This is where
 /// words become bytes: PROFIBUS sends the high byte first (EN 50170-8; BU 2700 6.6).
+///
+/// It owns the digital outputs of a module with an I/O byte (SK TU4-PBR: DO1, DO2) and holds them at 0: nobody switches
+/// anything with them, whatever the drives do.
 class ProfibusDpTransport final : public Transport, public ParametersOnly {
  public:
   using LinkFactory = std::function<std::unique_ptr<link::ByteLink>(const link::SerialSettings&)>;
