@@ -154,7 +154,8 @@ void ParameterSession::handleValue(const ParameterResult& result) noexcept {
   }
   result_.raw = result.raw;
   const bool persistent = task.kind == ParameterTaskKind::kWritePersistent;
-  const bool same = write && isValue(task, result.raw) && !(persistent && ram_only_.holds(task));
+  const bool may_be_ram = persistent && (task.even_if_same || ram_only_.holds(task));
+  const bool same = write && isValue(task, result.raw) && !may_be_ram;
   if (!write || same) {
     result_.outcome = ParameterOutcome::kDone;
     if (same) result_.note = kSame;

@@ -133,8 +133,8 @@ bool writeParameter(ParameterLink& link, const cycle::ParameterAddress& address,
     printRefusal(answer);
     return false;
   }
-  const char* where = wish.persistent || !answer.message.empty() ? "" : ", in RAM: lost at power off";
-  std::printf("%s%s\n", answerText(address, answer).c_str(), where);
+  const char* where = wish.persistent ? ", in the EEPROM" : ", in RAM: lost at power off";
+  std::printf("%s%s\n", answerText(address, answer).c_str(), answer.message.empty() ? where : "");
   if (!answer.message.empty()) std::printf("%s\n", answer.message.c_str());
   return true;
 }

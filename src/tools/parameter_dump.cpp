@@ -2,6 +2,8 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <optional>
+
 #include "nord_driver/profile/parameter_catalogue.h"
 #include "nord_driver/tools/parameter_name.h"
 #include "nord_driver/transport/setting_checks.h"
@@ -10,14 +12,13 @@ namespace nord_driver::tools {
 
 namespace {
 
-// None: the inverter has no such parameter, set or element.
-std::optional<std::int32_t> readFrom(ParameterLink& link, const cycle::ParameterAddress& address,
-                                     const std::atomic<bool>& end_asked) {
+// Refused, it is not there; anything else ends the whole.
+ParameterAnswer readFrom(ParameterLink& link, const cycle::ParameterAddress& address,
+                         const std::atomic<bool>& end_asked) {
   if (end_asked) throw Trouble("ended before all parameters were read");
   const ParameterAnswer answer = link.read(address);
-  if (answer.success) return answer.raw;
-  if (!answer.refused) throw Trouble(answer.message);
-  return std::nullopt;
+  if (!answer.success && !answer.refused) throw Trouble(answer.message);
+  return answer;
 }
 
 std::string line(const Dump::Value& value, profile::Series series) {
@@ -65,9 +66,17 @@ std::string valueText(const profile::ParameterInfo* info, std::int32_t raw) {
 Dump takeDump(ParameterLink& link, const std::atomic<bool>& end_asked) {
   Dump dump;
   dump.series = link.drive().series;
+  std::optional<std::uint16_t> unknown;
   for (const cycle::ParameterAddress& address : knownParameters(dump.series)) {
-    if (const auto raw = readFrom(link, address, end_asked)) {
-      dump.values.push_back({address, *raw});
+    if (unknown == address.number) continue;
+    const ParameterAnswer answer = readFrom(link, address, end_asked);
+    if (answer.success) {
+      dump.values.push_back({address, answer.raw});
+    } else if (answer.unknown) {
+      unknown = address.number;
+      cycle::ParameterAddress whole;
+      whole.number = address.number;
+      dump.missing.push_back(whole);
     } else {
       dump.missing.push_back(address);
     }
@@ -108,11 +117,11 @@ Comparison compare(ParameterLink& link, const Dump& dump, const std::atomic<bool
     if (!isSetting(value.address)) continue;
     ++result.compared;
     const profile::ParameterInfo* info = profile::findParameter(value.address.number, series);
-    const auto raw = readFrom(link, value.address, end_asked);
-    if (raw && *raw == value.raw) continue;
+    const ParameterAnswer answer = readFrom(link, value.address, end_asked);
+    if (answer.success && answer.raw == value.raw) continue;
     std::string text = parameterName(value.address) + (info != nullptr ? std::string(" ") + info->name : "");
     text += ": " + valueText(info, value.raw) + " in the file, ";
-    text += raw ? valueText(info, *raw) + " in the drive" : "not in this drive";
+    text += answer.success ? valueText(info, answer.raw) + " in the drive" : "not in this drive";
     result.differences.push_back(text);
   }
   return result;

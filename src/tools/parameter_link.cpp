@@ -4,6 +4,7 @@
 
 #include "nord_driver/cycle/drive_parameters.h"
 #include "nord_driver/cycle/sentences.h"
+#include "nord_driver/profile/pkw.h"
 #include "nord_driver/profile/status_word.h"
 #include "nord_driver/transport/parameters_only.h"
 #include "nord_driver/transport/setting_checks.h"
@@ -19,7 +20,7 @@ constexpr int kCyclesToSeeAll = 3;     // inverters behind one module do not ans
 constexpr int kCyclesToEndOrders = 5;  // "no order" has reached the inverter (BU 2700 6.5: none is left standing)
 constexpr Duration kReadyTime = std::chrono::seconds{1};
 constexpr Duration kPatience = std::chrono::seconds{20};  // every step of an access has its own, shorter one
-constexpr std::uint16_t kTelegramTimeout = 513;
+constexpr std::uint16_t kTelegramTimeout = 513, kModuleTimeout = 151;
 
 bool isAtRest(DriveState state) noexcept {
   return state == DriveState::kNotReadyToSwitchOn || state == DriveState::kSwitchOnDisabled ||
@@ -144,6 +145,7 @@ ParameterAnswer ParameterLink::write(const cycle::ParameterAddress& address, con
 ParameterAnswer ParameterLink::carryOut(const cycle::Request& request, const profile::ParameterInfo* info) {
   drive::ParameterTask task = cycle::taskOf(request, drives_[0].report().parameter_set);
   task.id = ++last_id_;
+  task.even_if_same = true;  // the run before may have put it into the RAM
   std::optional<drive::ParameterTaskResult> result;
   if (session_.submit(task)) {
     const Instant end = transport_.now() + kPatience;
@@ -154,6 +156,8 @@ ParameterAnswer ParameterLink::carryOut(const cycle::Request& request, const pro
   ParameterAnswer answer;
   answer.success = result->outcome == ParameterOutcome::kDone;
   answer.refused = result->outcome == ParameterOutcome::kRefused;
+  answer.unknown = answer.refused && result->refused_number == task.number &&
+                   result->error_number == profile::pkw_error::kInvalidNumber;
   answer.message = cycle::parameterSentence(drive().name.c_str(), task.number, *result).str();
   answer.raw = result->raw;
   answer.value = cycle::valueOf(info, result->raw);
@@ -166,11 +170,12 @@ std::vector<std::string> ParameterLink::finish() {
   std::vector<std::string> sentences;
   if (!connected_ || !drives_[0].report().online) return sentences;
   cycle::ParameterAddress timeout;
-  timeout.number = kTelegramTimeout;
+  timeout.number = identity().timeout_owner == TimeoutOwner::kModule ? kModuleTimeout : kTelegramTimeout;
   // Any further access also tries again to put P560 back.
   const ParameterAnswer answer = read(timeout);
   if (answer.success && answer.info != nullptr && answer.value > 0.0) {
-    sentences.push_back("drive " + drive().name + " has P513 = " + shortNumber(answer.value) +
+    sentences.push_back("drive " + drive().name + " has P" + std::to_string(timeout.number) + " = " +
+                        shortNumber(answer.value) +
                         " s: that long after this it trips (E10.x), because nobody sends it words any more; "
                         "acknowledge it before it is enabled");
   }

@@ -12,7 +12,8 @@ using profile::ParameterShape;
 namespace {
 
 constexpr std::uint16_t kLastNumber = 999;
-constexpr std::uint16_t kFirstInformation = 700, kLastInformation = 799;
+constexpr std::uint16_t kFirstInformation = 700, kLastInformation = 799;  // of the inverter
+constexpr std::uint16_t kFirstOfModule = 170, kLastOfModule = 199;        // of the bus module (BU 0220 5.2)
 
 // P152 and PNU 970 reset the inverter to its factory settings: no list of values has them, whatever a catalogue grows.
 constexpr bool resets(std::uint16_t number) noexcept {
@@ -80,7 +81,8 @@ std::vector<ParameterAddress> knownParameters(profile::Series series) {
 }
 
 bool isSetting(const ParameterAddress& address) noexcept {
-  return address.number < kFirstInformation || address.number > kLastInformation;
+  const bool of_module = address.number >= kFirstOfModule && address.number <= kLastOfModule;
+  return !of_module && (address.number < kFirstInformation || address.number > kLastInformation);
 }
 
 }  // namespace nord_driver::tools

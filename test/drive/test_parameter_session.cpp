@@ -132,6 +132,17 @@ TEST_F(ParameterSessionTest, MakesARamWritePersistent) {
   EXPECT_EQ(1u, session_.eepromWrites());
 }
 
+// ... nor when somebody else may have written it: then the wish says so.
+TEST_F(ParameterSessionTest, SavesWhatSomebodyElseMayHavePutIntoTheRam) {
+  ParameterTask wish = writePersistent(102, 200);
+  wish.even_if_same = true;
+  EXPECT_TRUE(run(wish).eeprom_written);
+  EXPECT_EQ(200, inverter_.eeprom[102]);
+  wish.kind = ParameterTaskKind::kWriteRam;
+  EXPECT_FALSE(run(wish).eeprom_written) << "a RAM write is compared all the same";
+  EXPECT_THAT(inverter_.asked, ElementsAre("P102?"));
+}
+
 // A write that was refused has not put anything into the RAM.
 TEST_F(ParameterSessionTest, TakesARefusedRamWriteForNone) {
   inverter_.scripted["P102~1000"] = FakeParameters::refusal(2);

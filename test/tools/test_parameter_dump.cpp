@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 
@@ -63,7 +64,11 @@ TEST(ParameterDump, NamesWhatTheInverterDoesNotHave) {
   drive.connect();
   drive.left().pkw().refuse(refused);
   const Dump taken = takeDump(drive.link(), drive.notAsked());
-  ASSERT_EQ(1u, taken.missing.size());
+  std::vector<std::string> missing;
+  for (const auto& address : taken.missing) missing.push_back(parameterName(address));
+  // P150 to P199 belong to bus modules of another kind; asked for once, not for each element.
+  EXPECT_THAT(missing, ::testing::IsSupersetOf({"P151", "P176", "P506"}));
+  EXPECT_EQ(1, std::count(missing.begin(), missing.end(), "P176"));
   EXPECT_THAT(dumpText(taken, "left", "here"), HasSubstr("# not in this inverter: P506\n"));
 }
 

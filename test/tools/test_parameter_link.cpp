@@ -57,6 +57,21 @@ TEST(ParameterLink, ReadsAndWrites) {
   EXPECT_THAT(drive.link().write(parameter(102, 4), value(2.5)).message, HasSubstr("nothing was written"));
 }
 
+// A value of the run before may be in the RAM only, and reads the same.
+TEST(ParameterLink, SavesWhatIsThereAlready) {
+  LinkedDrive drive;
+  drive.left().parameters().write(102, 0, 0, 250, sim::Storage::kRam);
+  drive.connect();
+  cycle::ParameterWish wish = value(2.5);
+  EXPECT_THAT(drive.link().write(parameter(102), wish).message, HasSubstr("nothing was written"));
+  wish.persistent = true;
+  const ParameterAnswer saved = drive.link().write(parameter(102), wish);
+  EXPECT_TRUE(saved.success) << saved.message;
+  EXPECT_EQ(1u, drive.left().parameters().eepromWrites());
+  drive.left().parameters().restoreFromEeprom();
+  EXPECT_EQ(250, drive.left().parameters().value(102));
+}
+
 // The end of the program is no loss of the master: with a watchdog each run would leave E10.2 behind (BU 2700 8.1.1).
 TEST(ParameterLink, ItsEndTripsNothing) {
   LinkedDrive drive;
@@ -139,6 +154,44 @@ TEST(ParameterLink, TelegramTimeoutIsKeptQuietAndThenNamed) {
   EXPECT_THAT(drive.link().finish(), ElementsAre(HasSubstr("drive left has P513 = 1 s")));
   drive.segment().run(seconds{3});
   EXPECT_EQ(sim::fault::kTimeout, drive.left().inverter().faultNumber());
+}
+
+// Behind SK CU4-PBR the module's P151 watches in place of P513, and all four inverters are in the same telegrams.
+TEST(ParameterLink, NamesTheTimeoutOfAModuleThatServesSeveral) {
+  const YAML::Node file = YAML::Load(
+      "{cycle_rate: 100, bus: {device: simulated, baud_rate: 500000, slot_time: 0.0005}, drives: {"
+      " one: {address: 5, inverter: 1, series: sk2xxe, pole_pairs: 2},"
+      " two: {address: 5, inverter: 2, series: sk2xxe, pole_pairs: 2}}}");
+  sim::SimConfig simulated;
+  for (const unsigned place : {1u, 2u}) {
+    sim::DriveConfig drive;
+    drive.name = place == 1 ? "one" : "two";
+    drive.slave.address = 5;
+    drive.device.series = sim::Series::kSk2xxe;
+    drive.place = place;
+    simulated.drives.push_back(drive);
+  }
+  sim::ModuleConfig module;
+  module.settings.address = 5;
+  module.parameters = {{151, 0, 0, 1000}};
+  simulated.modules.push_back(module);
+  sim::SimulatedSegment* segment = nullptr;
+  ProfibusDpTransport transport([&](const link::SerialSettings&) {
+    auto made = std::make_unique<sim::SimulatedSegment>(simulated);
+    segment = made.get();
+    return made;
+  });
+  const ToolConfig config = readToolConfig(file, "two");
+  ParameterLink link{config, transport};
+  const std::atomic<bool> not_asked{false};
+  link.connect(seconds{5}, not_asked);
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(link.read(parameter(105)).success);
+  segment->run(milliseconds{500});
+  EXPECT_THAT(link.finish(), ElementsAre(HasSubstr("drive two has P151 = 1 s")));
+  EXPECT_EQ(0, segment->drive(0).inverter().faultNumber());
+  EXPECT_EQ(0, segment->drive(1).inverter().faultNumber());
+  segment->run(seconds{3});
+  EXPECT_EQ(sim::fault::kTimeout, segment->drive(1).inverter().faultNumber());
 }
 
 // An order left standing is executed for ever (BU 2700 6.5).

@@ -86,6 +86,8 @@ TEST(ParameterName, TellsSettingsFromInformation) {
   EXPECT_FALSE(isSetting(parseParameterName("P700[-01]")));
   EXPECT_FALSE(isSetting(parseParameterName("P799")));
   EXPECT_TRUE(isSetting(parseParameterName("P800")));
+  EXPECT_TRUE(isSetting(parseParameterName("P151")));
+  EXPECT_FALSE(isSetting(parseParameterName("P176[-01]")));
 }
 
 }  // namespace

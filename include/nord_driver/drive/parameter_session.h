@@ -2,7 +2,7 @@
 //
 // Sans-IO: hands out one parameter request at a time and is told its result; the transport does the rest. Its rules:
 //  - Nothing is written that is there already: each write first reads. The exception is a persistent write of what this
-//    session has only put into the RAM.
+//    session has only put into the RAM, or somebody else may have (`even_if_same`).
 //  - A RAM write uses the orders that spare the EEPROM (AK 11..14). Not every inverter has them: BU 0020 7.5.1 grants
 //    them to SK 2xxE and bus modules, BU 2700 6.5.1.1 to all. On error 201 the session remembers that, and writes with
 //    the plain orders while P560 = 0, reading P560 before and putting it back after, also when the write fails.

@@ -22,6 +22,9 @@ struct ParameterTask {
   std::uint8_t index = 1;    ///< the manual's, [-01] = 1, where the shape is an array
   bool double_word = false;  ///< 32 bit value (writes only)
   std::int32_t raw = 0;      ///< value to write
+  /// kWritePersistent: also when the inverter has the value already. It may have it in its RAM only, from somebody this
+  /// session does not know of.
+  bool even_if_same = false;
 };
 
 struct ParameterTaskResult {

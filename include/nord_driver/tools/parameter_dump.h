@@ -19,7 +19,7 @@ struct Dump {
   };
   profile::Series series = profile::Series::kSk5xxe;
   std::vector<Value> values;
-  std::vector<cycle::ParameterAddress> missing;  ///< known of the series, but not in this inverter
+  std::vector<cycle::ParameterAddress> missing;  ///< known of the series, but not in this inverter; whole or in part
 };
 
 /// Throws Trouble when the drive stops answering, or `end_asked`.
@@ -35,7 +35,7 @@ struct Comparison {
   std::size_t compared = 0;
 };
 
-/// Reads from the drive what `dump` has of settings; P700 to P799 change by themselves. Throws Trouble, and UsageError
+/// Reads from the drive what `dump` has of settings; information changes by itself. Throws Trouble, and UsageError
 /// when the dump is of another series: its numbers mean something else.
 Comparison compare(ParameterLink& link, const Dump& dump, const std::atomic<bool>& end_asked);
 

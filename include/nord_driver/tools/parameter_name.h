@@ -26,7 +26,7 @@ double parseValue(const std::string& text);
 /// Every value of every parameter the catalogue knows of a series, by number, array index and set.
 std::vector<cycle::ParameterAddress> knownParameters(profile::Series series);
 
-/// A value somebody sets, unlike the inverter's information of itself and its state (P700 to P799).
+/// A value somebody sets, unlike what inverter (P700 to P799) and bus module (P170 to P199) tell of themselves.
 bool isSetting(const cycle::ParameterAddress& address) noexcept;
 
 }  // namespace nord_driver::tools

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boost/shared_ptr.hpp>
+#include <optional>
 #include <pluginlib/class_loader.hpp>
 #include <string>
 
@@ -12,13 +13,12 @@ namespace nord_driver::tools {
 /// Must outlive what it has loaded.
 class TransportLoader {
  public:
-  TransportLoader() : loader_("nord_driver", "nord_driver::Transport") {}
-
-  /// Throws ConfigError naming the declared transports when `name` is none of them.
+  /// Throws ConfigError naming the declared transports when `name` is none of them, and std::runtime_error when this
+  /// package is not found.
   boost::shared_ptr<Transport> load(const std::string& name);
 
  private:
-  pluginlib::ClassLoader<Transport> loader_;
+  std::optional<pluginlib::ClassLoader<Transport>> loader_;
 };
 
 }  // namespace nord_driver::tools
