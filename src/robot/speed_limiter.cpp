@@ -49,6 +49,15 @@ bool SpeedLimiter::canEndAt(double target, double dt) const noexcept {
          needed <= down + slack;
 }
 
+bool SpeedLimiter::canStepBy(double change, double dt) const noexcept {
+  const double needed = change / dt;
+  const double down = -ramp_.min_jerk * dt;
+  const double up = ramp_.max_jerk * dt;
+  // Wide enough for the rounding of velocities over a short step; `step` cuts what is beyond.
+  const double slack = std::isfinite(up) ? 1e-6 * (up + down) : 0.0;
+  return needed >= acceleration_ - down - slack && needed <= acceleration_ + up + slack;
+}
+
 void SpeedLimiter::step(double velocity, double target, double dt) noexcept {
   // Jerk, acceleration, velocity: the later one wins.
   double next = std::max(velocity_ + (acceleration_ + ramp_.min_jerk * dt) * dt,

@@ -71,19 +71,29 @@ void TwistLimiter::followTogether(Values target, double dt) noexcept {
   double progress = 0.0;
   if (size > 0.0) {
     RampLimits common;
-    // The part of the present acceleration that points along the line; divided by `size` first, against overflow.
+    // The part of the present acceleration that points along the line; divided by `size` first, against overflow. Only
+    // the axes with a jerk limit remember theirs: the others would count as if they stood, and hold these back.
     double along = 0.0;
     double square = 0.0;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       narrow(common, axes_[i].ramp_, way[i]);
+      if (!axes_[i].limits_.has_jerk_limits) continue;
       const double part = way[i] / size;
       along += axes_[i].acceleration_ * part;
       square += part * part;
     }
-    progress = nextAcceleration(1.0, along / square / size, common, dt) * dt;
+    const double acceleration = square > 0.0 ? along / square / size : 0.0;
+    progress = nextAcceleration(1.0, acceleration, common, dt) * dt;
   }
+  // An acceleration from before that points elsewhere can only be wound down; until it is, each axis goes its own
+  // shortest way, so that no axis waits for another.
+  bool possible = true;
+  for (std::size_t i = 0; i < axes_.size(); ++i) possible = possible && axes_[i].canStepBy(progress * way[i], dt);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    axes_[i].step(axes_[i].velocity_ + progress * way[i], target[i], dt);
+    SpeedLimiter& axis = axes_[i];
+    const double change =
+        possible ? progress * way[i] : nextAcceleration(way[i], axis.acceleration_, axis.ramp_, dt) * dt;
+    axis.step(axis.velocity_ + change, target[i], dt);
   }
 }
 

@@ -245,5 +245,74 @@ RC_GTEST_PROP(TwistLimiterProperty, ReachesTheTarget, (bool with_jerk)) {
   RC_ASSERT(std::abs(limiter.twist().linear_y) < 1e-9);
 }
 
+/// Steps until the target is reached; 3000 when it is not.
+int stepsTo(const Twist2d& target, TwistLimiter limiter) {
+  int steps = 0;
+  for (; steps < 3000; ++steps) {
+    const Twist2d twist = limiter.limit(target, kCycle);
+    if (sizeOf({twist.linear_x - target.linear_x, twist.angular_z - target.angular_z,
+                twist.linear_y - target.linear_y}) < 1e-6) {
+      break;
+    }
+  }
+  return steps;
+}
+
+// Keeping the path costs little time, whichever of the axes have jerk limits; a stop least of all.
+RC_GTEST_PROP(TwistLimiterProperty, TakesLittleLongerThanTheAxesAlone, (bool x_jerk, bool z_jerk, bool y_jerk)) {
+  TwistLimits any;
+  any.linear_x = anyLimits(x_jerk);
+  any.angular_z = anyLimits(z_jerk);
+  any.linear_y = anyLimits(y_jerk);
+  const auto inside = [&any] {
+    return Twist2d{*number(any.linear_x.minVelocity(), any.linear_x.max_velocity),
+                   *number(any.angular_z.minVelocity(), any.angular_z.max_velocity),
+                   *number(any.linear_y.minVelocity(), any.linear_y.max_velocity)};
+  };
+  TwistLimiter together{any};
+  any.limit_axes_independently = true;
+  TwistLimiter alone{any};
+  const Twist2d from = inside();
+  together.reset(from);
+  alone.reset(from);
+  const Twist2d to = inside();
+  RC_ASSERT(stepsTo(to, together) <= 2 * stepsTo(to, alone) + 20);
+  RC_ASSERT(stepsTo({}, together) <= 2 * stepsTo({}, alone) + 20);
+}
+
+// A stop ends in time from any moment of speeding up: 1 s of braking, and what the acceleration takes to wind down.
+RC_GTEST_PROP(TwistLimiterProperty, StopsInTimeFromUnderWay, (bool x_jerk, bool z_jerk, bool y_jerk)) {
+  const auto axis = [](bool with_jerk) {
+    SpeedLimits limits;
+    limits.has_velocity_limits = limits.has_acceleration_limits = true;
+    limits.max_velocity = limits.max_acceleration = *number(0.2, 3.0);
+    limits.has_jerk_limits = with_jerk;
+    limits.max_jerk = 5.0 * limits.max_acceleration;
+    return limits;
+  };
+  TwistLimits any;
+  any.linear_x = axis(x_jerk);
+  any.angular_z = axis(z_jerk);
+  any.linear_y = axis(y_jerk);
+  TwistLimiter limiter{any};
+  for (int target = 0; target < 3; ++target) {
+    const Twist2d to = *twistWithin(3.0, 3.0, 3.0);
+    const int steps = *rc::gen::inRange(0, 100);
+    for (int i = 0; i < steps; ++i) limiter.limit(to, kCycle);
+  }
+  RC_ASSERT(stepsTo({}, limiter) <= 200);
+}
+
+// A jerk limit on one axis alone must not hold the other one back, nor a stop.
+TEST(TwistLimiter, AJerkLimitOnOneAxisAloneStillStopsInTime) {
+  TwistLimits mixed = limits();
+  mixed.linear_x.has_jerk_limits = true;
+  mixed.linear_x.max_jerk = 4.0;
+  TwistLimiter limiter{mixed};
+  limiter.reset({0.4, 1.6});
+  // 0.4 m/s at 0.5 m/s^2 and 4 m/s^3: 0.8 s and 0.125 s.
+  EXPECT_LE(stepsTo({}, limiter), 95);
+}
+
 }  // namespace
 }  // namespace nord_driver::robot

@@ -86,12 +86,13 @@ class CauseAtADrive : public ::testing::TestWithParam<Base> {
   std::vector<DriveIndex> others_;
 };
 
+std::string nameOf(const ::testing::TestParamInfo<Base>& test) {
+  const char* const names[] = {"TwoDrives", "FourDrives", "FourBehindOneModule"};
+  return names[static_cast<int>(test.param)];
+}
+
 INSTANTIATE_TEST_SUITE_P(On, CauseAtADrive,
-                         ::testing::Values(Base::kTwoDrives, Base::kFourDrives, Base::kFourBehindOneModule),
-                         [](const auto& test) {
-                           const char* const names[] = {"TwoDrives", "FourDrives", "FourBehindOneModule"};
-                           return names[static_cast<int>(test.param)];
-                         });
+                         ::testing::Values(Base::kTwoDrives, Base::kFourDrives, Base::kFourBehindOneModule), nameOf);
 
 TEST_P(CauseAtADrive, AFaultStopsTheBase) {
   robot_.unit(kRight).inverter().trip(30, true);

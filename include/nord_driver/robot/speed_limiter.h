@@ -34,6 +34,8 @@ class SpeedLimiter {
   double clampVelocity(double target) const noexcept;
   /// True when one step inside the limits ends at `target`, and the step after it can stay there.
   bool canEndAt(double target, double dt) const noexcept;
+  /// True when the jerk limit lets the velocity change by this in one step.
+  bool canStepBy(double change, double dt) const noexcept;
   /// Takes `velocity` as the next one, cut where a limit forbids it, and remembers the acceleration it takes.
   void step(double velocity, double target, double dt) noexcept;
 
