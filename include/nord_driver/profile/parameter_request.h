@@ -37,7 +37,7 @@ enum class ParameterOutcome : std::uint8_t {
 struct ParameterResult {
   std::uint32_t id = 0;
   ParameterOutcome outcome = ParameterOutcome::kTimeout;
-  std::uint16_t error_number = 0;  ///< with kRefused: the PKW error number (BU 2700 6.5.1.1) or the bus's own code
+  std::uint16_t error_number = 0;  ///< with kRefused: see parameter_error.h
   std::int32_t raw = 0;            ///< with kDone: the value read, or read back
 };
 
