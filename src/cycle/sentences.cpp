@@ -1,6 +1,6 @@
 #include "nord_driver/cycle/sentences.h"
 
-#include "nord_driver/profile/pkw.h"
+#include "nord_driver/profile/parameter_error.h"
 
 namespace nord_driver::cycle {
 
@@ -61,7 +61,7 @@ Sentence parameterSentence(const char* drive, std::uint16_t number, const drive:
         text.format("P%03u of drive %s: %s", number, drive, note);
       } else {
         text.format("drive %s refuses P%03u: error %u, %s%s%s", drive, result.refused_number, result.error_number,
-                    profile::pkwErrorText(result.error_number), joint, note);
+                    profile::parameterErrorText(result.error_number), joint, note);
       }
       break;
     case profile::ParameterOutcome::kTimeout:

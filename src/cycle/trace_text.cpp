@@ -44,14 +44,15 @@ void addProcessData(std::string& text, const TracePage& page, const std::vector<
 }
 
 void addTelegrams(std::string& text, const TracePage& page, const TelegramTrace& trace) {
-  constexpr std::size_t kHexWidth = 62;  // a data exchange of PPO 1
+  // A data exchange of PPO 1, or 1B2#310B000000000000.
+  const std::size_t width = trace.linkType() == kLinkTypeCanSocketCan ? 20 : 62;
   text += "\ntelegrams, " + std::to_string(page.telegrams.size()) +
           ": time in s, > sent, < received, ? bytes that are no telegram\n";
   for (const TraceRecord& record : page.telegrams) {
     const char sign = record.kind == TraceKind::kSent ? '>' : record.kind == TraceKind::kReceived ? '<' : '?';
-    std::string hex = toHex(record.view());
-    hex.resize(std::max(hex.size(), kHexWidth), ' ');
-    text += timeText(record.time, page.time) + " " + sign + " " + hex + "  " + trace.describe(record) + "\n";
+    std::string raw = trace.raw(record);
+    raw.resize(std::max(raw.size(), width), ' ');
+    text += timeText(record.time, page.time) + " " + sign + " " + raw + "  " + trace.describe(record) + "\n";
   }
 }
 

@@ -11,8 +11,20 @@ namespace nord_driver::node {
 using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
 
+namespace {
+
+// What a transport opens, by whichever key it has.
+std::string busDevice(const RosSettings& bus) {
+  for (const char* key : {"device", "interface"}) {
+    if (bus.has(key)) return bus.text(key).value_or("");
+  }
+  return "";
+}
+
+}  // namespace
+
 Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities)
-    : identities_(identities), device_(config.bus->text("device").value_or("")), snapshot_(config.drives.size()) {
+    : identities_(identities), device_(busDevice(*config.bus)), snapshot_(config.drives.size()) {
   updater_.setHardwareID(device_);
   updater_.add("bus", [this](DiagnosticStatusWrapper& status) { reportBus(status); });
   if (config.cycle.base) updater_.add("base", [this](DiagnosticStatusWrapper& status) { reportBase(status); });

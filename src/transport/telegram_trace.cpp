@@ -5,8 +5,8 @@
 
 namespace nord_driver {
 
-TelegramTrace::TelegramTrace(std::uint32_t link_type, Describe describe, std::size_t capacity)
-    : link_type_(link_type), describe_(std::move(describe)), ring_(capacity) {}
+TelegramTrace::TelegramTrace(std::uint32_t link_type, Describe describe, std::size_t capacity, Describe raw)
+    : link_type_(link_type), describe_(std::move(describe)), raw_(std::move(raw)), ring_(capacity) {}
 
 void TelegramTrace::record(TraceKind kind, ByteView bytes, Instant time) noexcept {
   while (!bytes.empty()) {

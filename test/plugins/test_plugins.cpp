@@ -47,6 +47,7 @@ TEST(Plugins, EveryDeclaredTransportCanBeCreated) {
   const std::vector<std::string> names = declaredNames();
   ASSERT_THAT(names, Not(IsEmpty()));
   EXPECT_THAT(names, Contains("nord_driver/profibus_dp"));
+  EXPECT_THAT(names, Contains("nord_driver/canopen"));
   pluginlib::ClassLoader<Transport> loader("nord_driver", "nord_driver::Transport");
   for (const std::string& name : names) {
     EXPECT_TRUE(loader.isClassAvailable(name)) << name << "; " << whereItLooked(loader);

@@ -42,6 +42,18 @@ TEST(TelegramTrace, CutsWhatIsLongerThanARecord) {
   EXPECT_EQ("16", toHex(records[1].view()));
 }
 
+// A bus may have its own way to write its bytes; without one they are hexadecimal.
+TEST(TelegramTrace, WritesBytesTheWayOfTheirBus) {
+  TelegramTrace plain{kLinkTypeProfibusDl, nullptr, 4};
+  TelegramTrace own{kLinkTypeCanSocketCan, nullptr, 4,
+                    [](const TraceRecord& record) { return "<" + std::to_string(record.length) + ">"; }};
+  const std::vector<std::uint8_t> bytes{0x68, 0x16};
+  plain.record(TraceKind::kSent, bytes, at(1));
+  own.record(TraceKind::kSent, bytes, at(1));
+  EXPECT_EQ("68 16", plain.raw(plain.copy()[0]));
+  EXPECT_EQ("<2>", own.raw(own.copy()[0]));
+}
+
 // The default length is the one users are told.
 TEST(TelegramTrace, HoldsTenThousand) {
   TelegramTrace trace{kLinkTypeProfibusDl, nullptr};

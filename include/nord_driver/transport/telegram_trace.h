@@ -32,6 +32,7 @@ struct TraceRecord {
 
 /// Link types of the pcap format (www.tcpdump.org/linktypes.html).
 constexpr std::uint32_t kLinkTypeProfibusDl = 257;
+constexpr std::uint32_t kLinkTypeCanSocketCan = 227;
 
 /// Never waits for its readers and takes no memory after construction. What a copy cannot have whole it does not have:
 /// records overwritten during `copy()` are missing at its old end.
@@ -42,7 +43,8 @@ class TelegramTrace {
 
   static constexpr std::size_t kCapacity = 10'000;
 
-  TelegramTrace(std::uint32_t link_type, Describe describe, std::size_t capacity = kCapacity);
+  /// `raw`: its bytes as people write them on this bus; without it they are written in hexadecimal.
+  TelegramTrace(std::uint32_t link_type, Describe describe, std::size_t capacity = kCapacity, Describe raw = {});
 
   /// The bus's thread only. Longer than 255 bytes: several records.
   void record(TraceKind kind, ByteView bytes, Instant time) noexcept;
@@ -54,10 +56,12 @@ class TelegramTrace {
 
   std::uint32_t linkType() const noexcept { return link_type_; }
   std::string describe(const TraceRecord& record) const { return describe_ ? describe_(record) : std::string{}; }
+  std::string raw(const TraceRecord& record) const { return raw_ ? raw_(record) : toHex(record.view()); }
 
  private:
   std::uint32_t link_type_;
   Describe describe_;
+  Describe raw_;
   HistoryRing<TraceRecord> ring_;
 };
 

@@ -1,0 +1,86 @@
+// CANopen as a transport: our own master on a CAN interface, inverters behind their options, ports and gateways.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "nord_driver/canopen/master.h"
+#include "nord_driver/core/fixed_vector.h"
+#include "nord_driver/link/can_link.h"
+#include "nord_driver/link/can_settings.h"
+#include "nord_driver/transport/canopen_config.h"
+#include "nord_driver/transport/canopen_drive.h"
+#include "nord_driver/transport/telegram_trace.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver {
+
+/// Joins the CANopen master (canopen/), a CAN link (link/) and what the drives' objects mean (canopen_map.h).
+///
+/// A cycle: every operational node gets its RPDO, then SYNC goes out where it is used, then the answers are taken in
+/// for `bus/answer_window` at most, or until each drive has sent a TPDO. An inverter that sends on change only has
+/// nothing to send while nothing changes: it is not waited for beyond that window, and its last values count while it
+/// is operational, its error control alive, and its event timer not overdue. In the pause between two cycles frames go
+/// in and out as well: parameters, error control and start-ups do not wait for the next cycle, nor does it for them.
+class CanopenTransport final : public Transport {
+ public:
+  using LinkFactory = std::function<std::unique_ptr<link::CanLink>(const link::CanSettings&)>;
+
+  /// On an interface of the kernel, or a virtual bus.
+  CanopenTransport();
+  /// On whatever the factory makes: a simulated bus in tests.
+  explicit CanopenTransport(LinkFactory make_link);
+
+  void configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) override;
+  Instant now() const noexcept override;
+  void sleepUntil(Instant when) noexcept override;
+  void exchange(const std::vector<profile::ProcessOutput>& outputs,
+                std::vector<DriveExchange>& inputs) noexcept override;
+  bool submit(DriveIndex drive, const profile::ParameterRequest& request) noexcept override;
+  std::optional<profile::ParameterResult> pollResult() noexcept override;
+  bool connected() const noexcept override;
+  BusCounters counters() const noexcept override;
+  DriveNote note(DriveIndex drive) const noexcept override;
+  std::uint32_t identNumber(DriveIndex drive) const noexcept override;
+  Sentence busText() const noexcept override;
+  DriveIdentity identity(DriveIndex drive) const override;
+  std::vector<std::string> warnings() const override;
+  std::optional<BusEvent> pollEvent() noexcept override;
+  const TelegramTrace* trace() const noexcept override { return trace_ ? &*trace_ : nullptr; }
+  /// The nodes are led out of operational first, so that the end of guarding is no loss to them.
+  void close() noexcept override;
+
+  const CanopenConfig& config() const noexcept { return config_; }
+
+ private:
+  bool linkReady() noexcept;
+  bool busWorks() const noexcept;
+  void restart() noexcept;
+  void run(Instant until, bool until_answered) noexcept;
+  void receive() noexcept;
+  void send(Instant until) noexcept;
+  void sendIntoTheDark() noexcept;
+  void runParameters() noexcept;
+  void takeEvents() noexcept;
+  bool allAnswered() const noexcept;
+  canopen::NmtCommand releaseCommand() const noexcept;
+
+  LinkFactory make_link_;
+  CanopenConfig config_;
+  Duration period_{};
+  std::unique_ptr<link::CanLink> link_;
+  std::optional<canopen::Master> master_;
+  std::optional<TelegramTrace> trace_;
+  std::vector<CanopenDriveState> drives_;
+  std::vector<std::uint64_t> answered_;  // TPDOs of each drive when the cycle began
+  Instant cycle_start_{};
+  Instant next_open_{};
+  DriveIndex result_cursor_ = 0;
+  FixedVector<BusEvent, 8> events_;
+  Sentence event_text_;  // the last event of no node of ours
+  Instant event_at_{};
+};
+
+}  // namespace nord_driver
