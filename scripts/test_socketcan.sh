@@ -8,6 +8,7 @@ programs=(test_socketcan)
 # rostests, each a file below test/: one line each. They are handed interface:=vcan0 and time_factor:=N (1, or 10 where
 # everything is emulated), so they have these two <arg>s and multiply their time limits with the latter.
 rostests=(
+  node/rostest_canopen_drive.test
 )
 
 usage() {

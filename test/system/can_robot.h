@@ -1,0 +1,211 @@
+// The whole driver below ROS on a simulated CAN bus, in simulated time.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nord_driver/cycle/bus_cycle.h"
+#include "nord_driver/cycle/cycle_config.h"
+#include "nord_driver/cycle/cycle_ports.h"
+#include "nord_driver/sim/simulated_can_bus.h"
+#include "nord_driver/transport/canopen.h"
+#include "support/map_settings.h"
+#include "system/deaf_can_link.h"
+
+namespace nord_driver::test {
+
+/// Two wheels of 0.1 m, 0.5 m apart, each behind an SK TU3-CAO; P105 = 50 Hz, 20:1, two pole pairs: 100 % is
+/// 7.854 rad/s or 0.785 m/s.
+class CanRobot {
+ public:
+  struct Options {
+    std::map<std::string, MapSettings::Value> node;               ///< on top of the robot's own settings
+    std::map<std::string, MapSettings::Value> bus;                ///< of the bus
+    std::map<std::string, MapSettings::Value> drives;             ///< of all drives, on top of their own
+    std::vector<std::map<std::string, MapSettings::Value>> each;  ///< of single drives, on top of these
+    /// Behind one SK CU4-CAO, which then has these inverters; the first two are the wheels.
+    std::size_t gateway_inverters = 0;
+    std::function<void(sim::SimConfig&)> simulate;  ///< changes of the simulated side
+  };
+
+  CanRobot() : CanRobot(Options{}) {}
+  explicit CanRobot(const Options& options) {
+    const auto drives = driveSettings(options);
+    const MapSettings node{"~", nodeSettings(options)};
+    config_ = cycle::readCycleConfig(node, drives);
+    transport_ = std::make_unique<CanopenTransport>([this, options](const link::CanSettings& settings) {
+      ids_ = settings.ids;
+      auto bus = std::make_unique<sim::SimulatedCanBus>(simConfig(options));
+      bus_ = bus.get();
+      auto link = std::make_unique<DeafCanLink>(std::move(bus));
+      link_ = link.get();
+      return link;
+    });
+    MapSettings bus{"~bus/", {{"interface", std::string{"can0"}}}};
+    for (const auto& [key, value] : options.bus) bus.set(key, value);
+    transport_->configure(bus, drives, config_.cycle_rate);
+    ports_ = std::make_unique<cycle::CyclePorts>(drives.size());
+    cycle_ = std::make_unique<cycle::BusCycle>(config_, *transport_, *ports_, false);
+  }
+
+  /// One bus cycle and the pause after it.
+  void step() {
+    const Instant start = transport_->now();
+    cycle_->runOnce();
+    exchange_time_ = transport_->now() - start;
+    transport_->sleepUntil(start + cycle_->period());
+    while (const auto completion = ports_->waitCompletion(Duration::zero())) completions_.push_back(*completion);
+  }
+  void run(Duration span) {
+    const Instant end = transport_->now() + span;
+    while (transport_->now() < end) step();
+  }
+  /// Steps until `done` or `limit`; true when done.
+  template <typename Condition>
+  bool runUntil(Condition done, Duration limit = std::chrono::seconds{20}) {
+    const Instant end = transport_->now() + limit;
+    while (!done()) {
+      if (transport_->now() >= end) return false;
+      step();
+    }
+    return true;
+  }
+
+  void command(double linear, double angular = 0.0) {
+    ports_->commandBase({{linear, angular}, transport_->now(), true});
+  }
+  /// Drives on with the same command, renewed every cycle.
+  void drive(double linear, double angular, Duration span) {
+    const Instant end = transport_->now() + span;
+    while (transport_->now() < end) {
+      command(linear, angular);
+      step();
+    }
+  }
+
+  /// Asks and runs until the answer has come.
+  cycle::Completion ask(cycle::RequestKind kind, DriveIndex drive = cycle::kAllDrives) {
+    cycle::Request request;
+    request.kind = kind;
+    request.drive = drive;
+    return ask(request);
+  }
+  cycle::Completion ask(cycle::Request request) {
+    request.id = next_id_++;
+    request.patience = std::chrono::seconds{3};
+    ports_->submit(request);
+    cycle::Completion answer;
+    answer.message = "no answer";
+    runUntil([&] {
+      for (const auto& completion : completions_) {
+        if (completion.id == request.id) answer = completion;
+      }
+      return answer.id == request.id;
+    });
+    return answer;
+  }
+  /// From power-on to drives that could be enabled.
+  bool bringUp() {
+    return runUntil([this] {
+      for (std::size_t i = 0; i < config_.drives.size(); ++i) {
+        if (!snapshot().drives[i].device.complete) return false;
+      }
+      return true;
+    });
+  }
+  bool bringUpAndEnable() { return bringUp() && ask(cycle::RequestKind::kEnable).success; }
+
+  const cycle::CycleSnapshot& snapshot() { return ports_->readSnapshot(); }
+  bool online(DriveIndex drive) { return snapshot().drives[drive].online; }
+  Word controlWord(DriveIndex drive) { return snapshot().drives[drive].output.control_word; }
+  Word statusWord(DriveIndex drive) { return snapshot().drives[drive].input.status_word; }
+  std::string text(DriveIndex drive) { return snapshot().drives[drive].text.str(); }
+  std::string busText() { return transport_->busText().str(); }
+  bool standsStill() { return std::abs(unit(0).shaftSpeed()) < 0.1 && std::abs(unit(1).shaftSpeed()) < 0.1; }
+  /// Of the last cycle, without its pause.
+  Duration exchangeTime() const { return exchange_time_; }
+
+  sim::SimulatedCanBus& bus() { return *bus_; }
+  DeafCanLink& link() { return *link_; }
+  sim::DriveUnit& unit(std::size_t drive) { return bus_->drive(drive); }
+  sim::CanNode& node(std::size_t drive) { return bus_->node(drive); }
+  cycle::CyclePorts& ports() { return *ports_; }
+  CanopenTransport& transport() { return *transport_; }
+  const std::vector<std::uint32_t>& filteredIds() const { return ids_; }
+
+ private:
+  static std::vector<DriveSettings> driveSettings(const Options& options) {
+    std::vector<DriveSettings> drives;
+    const std::size_t count = options.gateway_inverters == 0 ? 2 : options.gateway_inverters;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::string name = nameOf(i);
+      auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
+      settings->set("address", static_cast<int>(3 + i)).set("series", "sk5xxe").set("joint", name + "_wheel_joint");
+      settings->set("gear_ratio", 20.0).set("pole_pairs", 2).set("inverted", i == 1);
+      if (options.gateway_inverters != 0) {
+        settings->set("address", 10).set("connection", "gateway");
+        settings->set("inverter", static_cast<int>(i + 1));
+      }
+      for (const auto& [key, value] : options.drives) settings->set(key, value);
+      if (i < options.each.size()) {
+        for (const auto& [key, value] : options.each[i]) settings->set(key, value);
+      }
+      drives.push_back({name, settings});
+    }
+    return drives;
+  }
+  static std::string nameOf(std::size_t i) { return i == 0 ? "left" : i == 1 ? "right" : "extra" + std::to_string(i); }
+  static std::map<std::string, MapSettings::Value> nodeSettings(const Options& options) {
+    std::map<std::string, MapSettings::Value> values = options.node;
+    values.insert({{"cycle_rate", 100.0},
+                   {"left_wheel", std::string{"left_wheel_joint"}},
+                   {"right_wheel", std::string{"right_wheel_joint"}},
+                   {"wheel_separation", 0.5},
+                   {"wheel_radius", 0.1}});
+    return values;
+  }
+  static sim::SimConfig simConfig(const Options& options) {
+    sim::SimConfig config;
+    config.can = sim::CanBusConfig{};
+    const bool gateway = options.gateway_inverters != 0;
+    for (std::size_t i = 0; i < (gateway ? options.gateway_inverters : 2); ++i) {
+      sim::DriveConfig drive;
+      drive.name = nameOf(i);
+      drive.joint = drive.name + "_wheel_joint";
+      drive.slave.address = static_cast<std::uint8_t>(gateway ? 10 : 3 + i);
+      drive.gear_ratio = 20.0;
+      drive.inverted = i == 1;
+      drive.motor.slip = 2.0;
+      drive.can = sim::CanDriveConfig{};
+      if (gateway) {
+        drive.can->connection = sim::CanConnection::kGateway;
+        drive.can->inverter = static_cast<unsigned>(i + 1);
+      }
+      config.drives.push_back(drive);
+    }
+    config.body = sim::BodyConfig{{0}, {1}, 0.1, 0.5};
+    if (options.simulate) options.simulate(config);
+    for (sim::DriveConfig& drive : config.drives) {
+      drive.inverter = sim::canInverterSettings(drive.can->connection, drive.device);
+    }
+    return config;
+  }
+
+  cycle::CycleConfig config_;
+  sim::SimulatedCanBus* bus_ = nullptr;
+  DeafCanLink* link_ = nullptr;
+  std::vector<std::uint32_t> ids_;
+  std::unique_ptr<CanopenTransport> transport_;
+  std::unique_ptr<cycle::CyclePorts> ports_;
+  std::unique_ptr<cycle::BusCycle> cycle_;
+  std::vector<cycle::Completion> completions_;
+  std::uint32_t next_id_ = 1;
+  Duration exchange_time_{};
+};
+
+}  // namespace nord_driver::test

@@ -1,0 +1,42 @@
+// A CAN link that loses all frames of one identifier on their way in.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "nord_driver/link/can_link.h"
+
+namespace nord_driver::test {
+
+class DeafCanLink final : public link::CanLink {
+ public:
+  explicit DeafCanLink(std::unique_ptr<link::CanLink> inner) : inner_(std::move(inner)) {}
+
+  void setDeaf(std::optional<std::uint32_t> id) noexcept { deaf_ = id; }
+
+  bool open() noexcept override { return inner_->open(); }
+  void close() noexcept override { inner_->close(); }
+  bool isOpen() const noexcept override { return inner_->isOpen(); }
+  link::CanSend send(const CanFrame& frame) noexcept override { return inner_->send(frame); }
+  bool receive(link::ReceivedCanFrame& received) noexcept override {
+    while (inner_->receive(received)) {
+      if (received.frame.id != deaf_) return true;
+    }
+    return false;
+  }
+  bool waitReadable(Instant until) noexcept override { return inner_->waitReadable(until); }
+  bool waitWritable(Instant until) noexcept override { return inner_->waitWritable(until); }
+  void sleepUntil(Instant when) noexcept override { inner_->sleepUntil(when); }
+  Instant now() const noexcept override { return inner_->now(); }
+  link::CanState state() const noexcept override { return inner_->state(); }
+  link::CanCounters counters() const noexcept override { return inner_->counters(); }
+  const std::string& lastError() const noexcept override { return inner_->lastError(); }
+  const char* advice() const noexcept override { return inner_->advice(); }
+
+ private:
+  std::unique_ptr<link::CanLink> inner_;
+  std::optional<std::uint32_t> deaf_;
+};
+
+}  // namespace nord_driver::test

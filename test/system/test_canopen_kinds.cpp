@@ -1,0 +1,228 @@
+// The other ways an inverter sits on CAN: gateway, CiA 402, three values, SYNC, its own port, the system bus.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "system/can_robot.h"
+
+namespace nord_driver::test {
+namespace {
+
+using std::chrono::milliseconds;
+using ::testing::HasSubstr;
+
+constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
+
+void expectDrives(CanRobot& robot) {
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{4});
+  EXPECT_NEAR(kHalfSpeed, robot.snapshot().base.velocity.linear_x, 2e-3);
+  EXPECT_NEAR(25.0, robot.unit(0).inverter().frequency(), 0.1);
+  EXPECT_NEAR(-25.0, robot.unit(1).inverter().frequency(), 0.1);
+  robot.run(milliseconds{600});
+  ASSERT_TRUE(robot.ask(cycle::RequestKind::kDisable).success);
+  EXPECT_TRUE(robot.runUntil([&] { return robot.standsStill(); }));
+  EXPECT_EQ("no rule broken", robot.bus().referee().report());
+}
+
+// BU 0260: one node, PDO n and SDO server n for inverter n.
+TEST(CanopenKinds, FourInvertersBehindAGateway) {
+  CanRobot::Options options;
+  options.gateway_inverters = 4;
+  CanRobot robot{options};
+  EXPECT_EQ("CANopen node 10, inverter 3", robot.transport().identity(2).address);
+  EXPECT_EQ(TimeoutOwner::kModule, robot.transport().identity(2).timeout_owner);
+  EXPECT_EQ(robot.transport().identity(0).shared_module, robot.transport().identity(2).shared_module);
+  expectDrives(robot);
+  // Parameters of inverter 2 are inverter 2's.
+  cycle::Request request;
+  request.kind = cycle::RequestKind::kWriteParameter;
+  request.drive = 1;
+  request.parameter.number = 103;
+  request.parameter.shape = profile::ParameterShape::kPerSet;
+  request.parameter.action = profile::ParameterAction::kWritePersistent;
+  request.parameter.raw = 321;
+  EXPECT_TRUE(robot.ask(request).success);
+  EXPECT_EQ(321, robot.unit(1).parameters().value(103, 0));
+  EXPECT_NE(321, robot.unit(0).parameters().value(103, 0));
+}
+
+// One inverter of four is off: that one is offline and named, the others go on.
+TEST(CanopenKinds, AGatewayWithOneInverterMissing) {
+  CanRobot::Options options;
+  options.gateway_inverters = 4;
+  CanRobot robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{2});
+  robot.unit(2).setInverterPower(false);
+  robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{1});
+  EXPECT_FALSE(robot.online(2));
+  EXPECT_TRUE(robot.snapshot().drives[2].module_answers);
+  EXPECT_FALSE(robot.text(2).empty());
+  for (const DriveIndex other : {0, 1, 3}) EXPECT_TRUE(robot.online(other)) << other;
+  robot.unit(2).setInverterPower(true);
+  EXPECT_TRUE(robot.runUntil([&] { return robot.online(2); }, std::chrono::seconds{2}));
+}
+
+// Its cable is cut: the module reports the inverter missing by an emergency.
+TEST(CanopenKinds, AGatewayThatLosesItsLinkToAnInverter) {
+  CanRobot::Options options;
+  options.gateway_inverters = 4;
+  CanRobot robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.unit(2).setInverterLink(false);
+  EXPECT_TRUE(robot.runUntil([&] { return !robot.online(2); }, std::chrono::seconds{1}));
+  for (const DriveIndex other : {0, 1, 3}) EXPECT_TRUE(robot.online(other)) << other;
+}
+
+// BU 0260 p. 78: byte 3 of an emergency is the inverter, from 0. 5000h says that the module has lost it, whatever the
+// module goes on sending for it.
+TEST(CanopenKinds, AGatewaysEmergencyEndsTheInverterItNames) {
+  CanRobot::Options options;
+  options.gateway_inverters = 4;
+  CanRobot robot{options};
+  ASSERT_TRUE(robot.bringUp());
+  robot.bus().inject(dataFrame(0x08A, ByteView{FixedBytes<8>{0x00, 0x50, 1, 2, 0, 0, 0, 0}}));
+  robot.run(milliseconds{300});
+  EXPECT_FALSE(robot.online(2));
+  EXPECT_THAT(robot.text(2), HasSubstr("EMCY 5000h (E10.8, communication between bus module and inverter)"));
+  for (const DriveIndex other : {0, 1, 3}) EXPECT_TRUE(robot.online(other)) << other;
+  robot.bus().inject(dataFrame(0x08A, ByteView{FixedBytes<8>{0x00, 0x00, 0, 2, 0, 0, 0, 0}}));
+  robot.run(milliseconds{300});
+  EXPECT_TRUE(robot.online(2));
+}
+
+TEST(CanopenKinds, AGatewayIsWaitedForWithAnInverterMissingFromTheStart) {
+  CanRobot::Options options;
+  options.gateway_inverters = 4;
+  CanRobot robot{options};
+  robot.unit(3).setInverterPower(false);
+  EXPECT_TRUE(robot.runUntil([&] { return robot.online(0) && robot.online(1) && robot.online(2); }));
+  EXPECT_FALSE(robot.online(3));
+  robot.unit(3).setInverterPower(true);
+  EXPECT_TRUE(robot.runUntil([&] { return robot.online(3); }, std::chrono::seconds{2}));
+}
+
+CanRobot::Options cia402() {
+  CanRobot::Options options;
+  options.drives = {{"profile", std::string{"cia402"}}};
+  options.simulate = [](sim::SimConfig& config) {
+    for (sim::DriveConfig& drive : config.drives) drive.can->cia402 = true;
+  };
+  return options;
+}
+
+// 6040h and 6042h in rpm: 25 Hz with two pole pairs are 750 rpm, EE 02.
+TEST(CanopenKinds, Cia402VelocityMode) {
+  CanRobot robot{cia402()};
+  std::vector<std::string> frames;
+  robot.bus().setTap([&](const CanFrame& frame, sim::SimulatedCanBus::Sender, Instant) {
+    if (frame.id == 0x203) frames.push_back(toHex(frame.bytes()));
+  });
+  EXPECT_EQ("CANopen node 3, CiA 402", robot.transport().identity(0).address);
+  expectDrives(robot);
+  EXPECT_EQ("7E 00 00 00", frames.front()) << "nothing is sent before there is something to say";
+  EXPECT_THAT(frames, ::testing::Contains("7F 00 EE 02"));
+}
+
+// P551 off: the objects are not there, and the node says so at its start.
+TEST(CanopenKinds, Cia402WithoutP551IsNamed) {
+  CanRobot::Options options = cia402();
+  options.simulate = nullptr;
+  CanRobot robot{options};
+  robot.run(std::chrono::seconds{3});
+  EXPECT_FALSE(robot.online(0));
+  EXPECT_THAT(robot.text(0), HasSubstr("profile cia402 needs P551 = 1"));
+}
+
+TEST(CanopenKinds, ThreeValuesComeByPdoTwo) {
+  CanRobot::Options options;
+  options.drives = {{"process_values", 3}};
+  CanRobot robot{options};
+  expectDrives(robot);
+  EXPECT_EQ(3, robot.transport().identity(0).process_values);
+  EXPECT_FALSE(robot.node(0).communication().tpdos[0].enabled());
+  EXPECT_TRUE(robot.node(0).communication().tpdos[1].enabled());
+}
+
+TEST(CanopenKinds, SynchronousExchange) {
+  CanRobot::Options options;
+  options.bus = {{"sync", true}};
+  CanRobot robot{options};
+  expectDrives(robot);
+  EXPECT_LT(robot.exchangeTime(), milliseconds{5});
+}
+
+TEST(CanopenKinds, TheOwnCanPortOfSk5xxE) {
+  CanRobot::Options options;
+  options.drives = {{"connection", std::string{"onboard"}}};
+  options.simulate = [](sim::SimConfig& config) {
+    for (sim::DriveConfig& drive : config.drives) drive.can->connection = sim::CanConnection::kOnboard;
+  };
+  CanRobot robot{options};
+  expectDrives(robot);
+}
+
+// Experimental: taken to be as SK 5xxE on its own port.
+TEST(CanopenKinds, TheSystemBus) {
+  CanRobot::Options options;
+  options.drives = {{"connection", std::string{"system_bus"}}};
+  options.each = {{{"address", 32}}, {{"address", 34}}};
+  options.simulate = [](sim::SimConfig& config) {
+    config.drives[0].slave.address = 32;
+    config.drives[1].slave.address = 34;
+    for (sim::DriveConfig& drive : config.drives) drive.can->connection = sim::CanConnection::kSystemBus;
+  };
+  CanRobot robot{options};
+  ASSERT_EQ(2u, robot.transport().warnings().size());
+  EXPECT_THAT(robot.transport().warnings()[0], HasSubstr("experimental"));
+  expectDrives(robot);
+}
+
+// Mappings that cannot be written: what they hold is compared first, and found right.
+TEST(CanopenKinds, AFixedMappingIsFine) {
+  CanRobot::Options options;
+  options.simulate = [](sim::SimConfig& config) {
+    for (sim::DriveConfig& drive : config.drives) drive.can->fixed_mapping = true;
+  };
+  CanRobot robot{options};
+  expectDrives(robot);
+}
+
+TEST(CanopenKinds, ArraysByTheTable) {
+  CanRobot::Options options;
+  options.drives = {{"array_sub_index", std::string{"table"}}};
+  options.simulate = [](sim::SimConfig& config) {
+    for (sim::DriveConfig& drive : config.drives) drive.can->array_sub_by_table = true;
+  };
+  CanRobot robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.unit(1).inverter().trip(30, true);
+  EXPECT_TRUE(robot.runUntil([&] { return robot.snapshot().drives[1].fault_number == 30; }, std::chrono::seconds{1}));
+}
+
+// Heartbeats both ways: the nodes watch ours (1016h) and stop their inverters when it ends.
+TEST(CanopenKinds, OurHeartbeatIsWatchedByTheNodes) {
+  CanRobot::Options options;
+  options.bus = {{"heartbeat", 0.05}};
+  options.drives = {{"error_control", std::string{"heartbeat"}}, {"watch_master", 0.2}};
+  CanRobot robot{options};
+  EXPECT_THAT(robot.transport().identity(0).protected_by, HasSubstr("heartbeat for 0.2 s"));
+  expectDrives(robot);
+  EXPECT_EQ(0u, robot.node(0).counters().masters_lost);
+  ASSERT_TRUE(robot.ask(cycle::RequestKind::kEnable).success);
+  robot.bus().run(milliseconds{400});
+  EXPECT_EQ(100, robot.unit(0).inverter().faultNumber());
+}
+
+// Only P513 is left then; who starts the node is told.
+TEST(CanopenKinds, WithoutErrorControlOnlyP513Protects) {
+  CanRobot::Options options;
+  options.drives = {{"error_control", std::string{"none"}}};
+  CanRobot robot{options};
+  EXPECT_EQ("", robot.transport().identity(0).protected_by);
+  EXPECT_EQ(TimeoutOwner::kInverter, robot.transport().identity(0).timeout_owner);
+  expectDrives(robot);
+}
+
+}  // namespace
+}  // namespace nord_driver::test
