@@ -28,12 +28,12 @@ constexpr char kAbout[] =
     "not beside the driver. It is the master of the bus while it runs.";
 
 constexpr char kFooter[] =
-    "It moves nothing and, on PROFIBUS, stops nothing: a drive that is not at rest is left as it is, and the command "
-    "refused. One at rest gets the idle word 047E, the other drives of the bus get nothing. No watchdog runs "
-    "meanwhile, so that the end of the program trips nothing; a drive with P513 > 0 trips all the same, and is named. "
-    "On other buses the start-up may stop a drive that runs: disable the drives first.\n"
-    "End the driver first. A serial device in use is refused; on PROFIBUS half a second is listened for another "
-    "master.\n"
+    "It moves nothing and stops nothing: a drive that is not at rest is left as it is, and the command refused. One at "
+    "rest gets the idle word 047E, the other drives of the bus get nothing. No watchdog runs and no node is guarded "
+    "meanwhile, so that the end of the program trips nothing; a drive with P513 > 0 trips all the same, and is named.\n"
+    "End the driver first. A serial device in use is refused, and half a second is listened for another master. On "
+    "CANopen a drive that runs without a master and sends nothing is not heard, and is stopped by the start-up of its "
+    "node.\n"
     "A dump cannot be written back: the bus settings in it (P507 to P515, P543 to P548, P105) are the branch this "
     "program sits on, and what fits one drive may move another.\n"
     "Exit code: 0 done, 1 refused, failed or different, 2 wrong usage.";

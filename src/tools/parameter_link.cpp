@@ -35,7 +35,13 @@ bool hasSets(profile::ParameterShape shape) noexcept {
 
 ParameterLink::ParameterLink(const ToolConfig& config, Transport& transport)
     : config_(config), transport_(transport), outputs_(config.drives.size()), inputs_(config.drives.size()) {
-  if (auto* quiet = dynamic_cast<ParametersOnly*>(&transport)) quiet->serveParametersOnly();
+  auto* const guest = dynamic_cast<ParametersOnly*>(&transport);
+  if (guest == nullptr) {
+    throw Trouble("transport " + config.transport +
+                  " does not serve a program for parameters only, and its start-up might stop a drive that runs: ask "
+                  "the driver (~<drive>/read_parameter)");
+  }
+  guest->serveParametersOnly();
   transport.configure(*config.bus, config.drives, config.cycle.cycle_rate);
   for (const cycle::DriveSetup& setup : config.cycle.drives) drives_.emplace_back(setup.drive);
 }
@@ -188,13 +194,16 @@ ParameterAnswer ParameterLink::carryOut(const cycle::Request& request, const pro
 
 std::vector<std::string> ParameterLink::finish() {
   std::vector<std::string> sentences;
-  if (!connected_ || !drives_[0].report().online) return sentences;
-  cycle::ParameterAddress timeout;
-  timeout.number = identity().timeout_owner == TimeoutOwner::kModule ? kModuleTimeout : kTelegramTimeout;
-  // Any further access also tries again to put P560 back.
-  const ParameterAnswer answer = read(timeout);
+  if (!connected_) return sentences;
+  ParameterAnswer answer;
+  if (drives_[0].report().online) {
+    cycle::ParameterAddress timeout;
+    timeout.number = identity().timeout_owner == TimeoutOwner::kModule ? kModuleTimeout : kTelegramTimeout;
+    // Any further access also tries again to put P560 back.
+    answer = read(timeout);
+  }
   if (answer.success && answer.info != nullptr && answer.value > 0.0) {
-    sentences.push_back("drive " + drive().name + " has P" + std::to_string(timeout.number) + " = " +
+    sentences.push_back("drive " + drive().name + " has P" + std::to_string(answer.info->number) + " = " +
                         shortNumber(answer.value) +
                         " s: that long after this it trips (E10.x), because nobody sends it words any more; "
                         "acknowledge it before it is enabled");

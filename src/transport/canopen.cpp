@@ -18,9 +18,22 @@ constexpr Duration kEventShown = std::chrono::seconds{10};
 constexpr Duration kShortestWait = std::chrono::microseconds{50};
 constexpr Duration kQueueRetry = std::chrono::microseconds{250};
 constexpr int kFramesAtOnce = 1000;
+constexpr Duration kListenFirst = std::chrono::milliseconds{500};  // a driver guards or sends more often than that
 
 std::unique_ptr<link::CanLink> openInterface(const link::CanSettings& settings) {
   return link::makeCanLink(settings);
+}
+
+// A node watches its master from the first question or heartbeat on (CiA 301 7.2.8.3.2): where none came, the end is no
+// loss, whatever times a driver has left in 100Ch, 100Dh and 1016h.
+void endWithoutATrip(canopen::MasterConfig& master) {
+  master.own_id.reset();
+  master.heartbeat_time = Duration::zero();
+  for (canopen::NodeConfig& node : master.nodes) {
+    node.reset = canopen::BootReset::kNone;
+    node.error_control.mode = canopen::ErrorControlMode::kNone;
+    node.error_control.master_timeout.reset();
+  }
 }
 
 // s until the node notices that this computer is gone; 0: the bus gives it nothing to watch.
@@ -50,10 +63,14 @@ CanopenTransport::CanopenTransport(LinkFactory make_link) : make_link_(std::move
 void CanopenTransport::configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) {
   config_ = readCanopenConfig(bus, drives, cycle_rate);
   period_ = seconds(1.0 / cycle_rate);
+  if (parameters_only_) {
+    endWithoutATrip(config_.master);
+    listen_first_.emplace(kListenFirst);
+  }
   master_.emplace(config_.master);
   link::CanSettings settings;
   settings.interface = config_.interface;
-  settings.ids = master_->receivedIds();
+  if (!parameters_only_) settings.ids = master_->receivedIds();  // otherwise every frame there is
   settings.bit_rate = config_.bit_rate;
   Sentence reason;
   if (!link::checkCanSettings(settings, reason)) throw ConfigError(bus.fullName("interface") + ": " + reason.str());
@@ -94,8 +111,20 @@ bool CanopenTransport::linkReady() noexcept {
 }
 
 void CanopenTransport::restart() noexcept {
-  master_->restart(link_->now());
+  const Instant now = link_->now();
+  master_->restart(now);
+  if (listen_first_) listen_first_->restart(now);
   for (CanopenDriveState& drive : drives_) drive.handleRestart();
+}
+
+// Listening is over: the start-up of the nodes begins now, so that none of its times has run meanwhile.
+bool CanopenTransport::mayTalk() noexcept {
+  if (!listen_first_) return true;
+  const Instant now = link_->now();
+  const bool listened = isSilent();
+  if (!listen_first_->mayTalk(now)) return false;
+  if (listened) master_->restart(now);
+  return true;
 }
 
 bool CanopenTransport::busWorks() const noexcept {
@@ -112,10 +141,10 @@ void CanopenTransport::exchange(const std::vector<profile::ProcessOutput>& outpu
       answered_[i] = master_->transmitPdo(config_.drives[i].node, config_.drives[i].transmit_pdo).count;
     }
     master_->startCycle(cycle_start_);
-    sendIntoTheDark();
+    if (!isSilent()) sendIntoTheDark();
     run(cycle_start_ + config_.answer_window, true);
   }
-  const bool works = busWorks();
+  const bool works = busWorks() && !isSilent();
   const Instant now = link_->now();
   for (DriveIndex i = 0; i < drives_.size(); ++i) drives_[i].takeInput(*master_, works, now, inputs[i]);
 }
@@ -132,13 +161,17 @@ bool CanopenTransport::allAnswered() const noexcept {
 void CanopenTransport::run(Instant until, bool until_answered) noexcept {
   while (link_->isOpen()) {
     receive();
-    master_->poll(link_->now());
-    runParameters();
-    send(std::max(until, cycle_start_ + period_ / 2));
     takeEvents();
+    const bool talks = mayTalk();
+    if (talks) {
+      master_->poll(link_->now());
+      runParameters();
+      send(std::max(until, cycle_start_ + period_ / 2));
+      takeEvents();
+    }
     const Instant now = link_->now();
     if (now >= until || (until_answered && allAnswered())) break;
-    const Instant due = master_->nextDeadline().value_or(until);
+    const Instant due = (talks ? master_->nextDeadline() : listen_first_->nextDeadline()).value_or(until);
     // Time must pass, also where something is due that cannot be sent.
     link_->waitReadable(std::min(until, std::max(due, now + kShortestWait)));
   }
@@ -152,7 +185,11 @@ void CanopenTransport::receive() noexcept {
   link::ReceivedCanFrame received;
   for (int count = 0; count < kFramesAtOnce && link_->receive(received); ++count) {
     trace_->record(TraceKind::kReceived, toPacket(received.frame), received.at);
-    master_->handleFrame(received.frame, received.at);
+    if (isSilent()) {
+      listen_first_->handle(received.frame);
+    } else {
+      master_->handleFrame(received.frame, received.at);
+    }
   }
 }
 
@@ -198,6 +235,7 @@ void CanopenTransport::takeEvents() noexcept {
   using Kind = canopen::CanopenEventKind;
   while (const auto event = master_->pollEvent()) {
     const bool of_the_bus = event->node == canopen::kNoNode;
+    if (listen_first_ && event->kind == Kind::kSecondMaster) listen_first_->handleMaster(event->value);
     const bool worth_telling =
         event->kind == Kind::kToggleError || event->kind == Kind::kBootUpRepeated || event->kind == Kind::kMalformed;
     if (of_the_bus) {
@@ -286,6 +324,7 @@ Sentence CanopenTransport::busText() const noexcept {
   }
   text.format("%s", link_->advice());
   if (!text.empty()) return text;
+  if (isSilent()) return listen_first_->text();
   if (!connected()) {
     text.format(
         "%s is open, but no node runs: are the drives powered, is the bit rate right (P514), are the two ends of the "
@@ -338,6 +377,7 @@ canopen::NmtCommand CanopenTransport::releaseCommand() const noexcept {
 void CanopenTransport::close() noexcept {
   if (!link_ || !link_->isOpen()) return;
   const Instant now = link_->now();
+  if (isSilent()) return link_->close();  // no node was touched, or somebody else has them
   master_->releaseAll(releaseCommand(), now);
   send(now + kReopenInterval);
   link_->close();

@@ -159,6 +159,28 @@ TEST_F(NordParam, DumpsAndCompares) {
   EXPECT_THAT(different.output, StartsWith("P103 set 3 Deceleration time: 200 in the file, 150 in the drive\n1 of "));
 }
 
+// Over CANopen, on a bus between processes. The end of a run leaves no fault and a bus that is free. The referee is not
+// asked: to him the node was never reset, and the 0000 of the next run comes after valid words.
+TEST(NordParamOnCan, ReadsAndWrites) {
+  const std::string name = "nord_param_" + std::to_string(::getpid());
+  const std::string config = ::testing::TempDir() + name + "_can.yaml";
+  std::ofstream(config) << "transport: canopen\ncycle_rate: 100.0\nbus: {interface: \"virtual:" << name << "\"}\n"
+                        << "drives: {left: {address: 3, series: sk5xxe, joint: l, gear_ratio: 20.0, pole_pairs: 2}}\n";
+  Program simulator{{NORD_SIM_PROGRAM, "--config", config}};
+  ASSERT_TRUE(simulator.saysSomething(seconds{30})) << simulator.errors();
+  const Ended read = runProgram({NORD_PARAM_PROGRAM, "--config", config, "read", "left", "P105"});
+  EXPECT_EQ(0, read.code) << read.errors;
+  EXPECT_EQ("P105 set 1 Maximum frequency = 50 Hz (raw 500)\n", read.output);
+  const Ended written = runProgram({NORD_PARAM_PROGRAM, "--config", config, "write", "left", "P102", "2.5"});
+  EXPECT_EQ(0, written.code) << written.errors;
+  EXPECT_THAT(written.output, StartsWith("P102 set 1 Acceleration time = 2.5 s (raw 250)"));
+  EXPECT_EQ("P700[-01] Current fault = 0 (raw 0)\n",
+            runProgram({NORD_PARAM_PROGRAM, "--config", config, "read", "left", "P700[-01]"}).output);
+  simulator.signal(SIGTERM);
+  EXPECT_EQ(0, simulator.wait(seconds{30}));
+  ::unlink(config.c_str());
+}
+
 TEST_F(NordParam, TellsItsVersionAndWhyThereIsNoRestore) {
   EXPECT_EQ(std::string("nord_param ") + kVersion + "\n", runProgram({NORD_PARAM_PROGRAM, "--version"}).output);
   const Ended help = runProgram({NORD_PARAM_PROGRAM, "--help"});

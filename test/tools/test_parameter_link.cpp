@@ -42,6 +42,42 @@ void letRun(LinkedDrive& drive) {
   ASSERT_DOUBLE_EQ(25.0, drive.left().inverter().frequency());
 }
 
+/// A transport of somebody else, who does not know of programs for parameters only.
+class DriversOnly final : public Transport {
+ public:
+  void configure(const Settings&, const std::vector<DriveSettings>&, double) override { configured = true; }
+  Instant now() const noexcept override { return {}; }
+  void sleepUntil(Instant) noexcept override {}
+  void exchange(const std::vector<profile::ProcessOutput>&, std::vector<DriveExchange>&) noexcept override {}
+  bool submit(DriveIndex, const profile::ParameterRequest&) noexcept override { return false; }
+  std::optional<profile::ParameterResult> pollResult() noexcept override { return std::nullopt; }
+  bool connected() const noexcept override { return false; }
+  BusCounters counters() const noexcept override { return {}; }
+  DriveNote note(DriveIndex) const noexcept override { return {}; }
+  std::uint32_t identNumber(DriveIndex) const noexcept override { return 0; }
+  Sentence busText() const noexcept override { return {}; }
+  DriveIdentity identity(DriveIndex) const override { return {}; }
+  void close() noexcept override {}
+
+  bool configured = false;
+};
+
+// What the start-up and the end of a bus do to a drive, only its transport can know.
+TEST(ParameterLink, RefusesATransportThatDoesNotServeIt) {
+  const ToolConfig config = readToolConfig(LinkedDrive::file(), "left");
+  DriversOnly transport;
+  try {
+    ParameterLink link{config, transport};
+    FAIL() << "not refused";
+  } catch (const Trouble& error) {
+    EXPECT_STREQ(
+        "transport nord_driver/profibus_dp does not serve a program for parameters only, and its start-up might stop a "
+        "drive that runs: ask the driver (~<drive>/read_parameter)",
+        error.what());
+  }
+  EXPECT_FALSE(transport.configured);
+}
+
 TEST(ParameterLink, ReadsAndWrites) {
   LinkedDrive drive;
   drive.connect();

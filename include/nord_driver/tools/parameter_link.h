@@ -38,11 +38,11 @@ struct ParameterAnswer {
 ///    note 2). A drive that runs then is left alone: `connect` refuses. One at rest gets the idle word 047E with its
 ///    own set, so that P513 or P151 > 0 does not trip it (7.1.1).
 ///  - The other drives of the bus are not talked to.
-///  - No watchdog runs in the module, where the transport can do without (`ParametersOnly`): the end of the program is
-///    no loss of a master.
+///  - Nothing in the module watches for the end of the program, and nothing is sent on the bus of another master: the
+///    transport is told so (`ParametersOnly`).
 class ParameterLink {
  public:
-  /// Configures `transport`. Throws ConfigError.
+  /// Configures `transport`. Throws ConfigError; Trouble when `transport` is no `ParametersOnly`.
   ParameterLink(const ToolConfig& config, Transport& transport);
   /// Ends the exchange; what was not ended by `finish` ends as it stands.
   ~ParameterLink();

@@ -10,8 +10,10 @@
 #include "nord_driver/core/fixed_vector.h"
 #include "nord_driver/link/can_link.h"
 #include "nord_driver/link/can_settings.h"
+#include "nord_driver/transport/can_listen_first.h"
 #include "nord_driver/transport/canopen_config.h"
 #include "nord_driver/transport/canopen_drive.h"
+#include "nord_driver/transport/parameters_only.h"
 #include "nord_driver/transport/telegram_trace.h"
 #include "nord_driver/transport/transport.h"
 
@@ -24,7 +26,10 @@ namespace nord_driver {
 /// nothing to send while nothing changes: it is not waited for beyond that window, and its last values count while it
 /// is operational, its error control alive, and its event timer not overdue. In the pause between two cycles frames go
 /// in and out as well: parameters, error control and start-ups do not wait for the next cycle, nor does it for them.
-class CanopenTransport final : public Transport {
+///
+/// For parameters only: nothing is reset and nothing watched, and nothing is sent on a bus that somebody else works
+/// with, whether he was heard before the first frame or came later.
+class CanopenTransport final : public Transport, public ParametersOnly {
  public:
   using LinkFactory = std::function<std::unique_ptr<link::CanLink>(const link::CanSettings&)>;
 
@@ -33,6 +38,7 @@ class CanopenTransport final : public Transport {
   /// On whatever the factory makes: a simulated bus in tests.
   explicit CanopenTransport(LinkFactory make_link);
 
+  void serveParametersOnly() noexcept override { parameters_only_ = true; }
   void configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) override;
   Instant now() const noexcept override;
   void sleepUntil(Instant when) noexcept override;
@@ -58,6 +64,8 @@ class CanopenTransport final : public Transport {
   bool linkReady() noexcept;
   bool busWorks() const noexcept;
   void restart() noexcept;
+  bool isSilent() const noexcept { return listen_first_ && listen_first_->isSilent(); }
+  bool mayTalk() noexcept;
   void run(Instant until, bool until_answered) noexcept;
   void receive() noexcept;
   void send(Instant until) noexcept;
@@ -68,10 +76,12 @@ class CanopenTransport final : public Transport {
   canopen::NmtCommand releaseCommand() const noexcept;
 
   LinkFactory make_link_;
+  bool parameters_only_ = false;
   CanopenConfig config_;
   Duration period_{};
   std::unique_ptr<link::CanLink> link_;
   std::optional<canopen::Master> master_;
+  std::optional<CanListenFirst> listen_first_;  // for parameters only
   std::optional<TelegramTrace> trace_;
   std::vector<CanopenDriveState> drives_;
   std::vector<std::uint64_t> answered_;  // TPDOs of each drive when the cycle began

@@ -1,0 +1,261 @@
+// nord_param on a CAN bus: what the drives, and the driver that may have them, notice of it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nord_driver/sim/simulated_can_bus.h"
+#include "nord_driver/tools/parameter_link.h"
+#include "nord_driver/transport/canopen.h"
+
+namespace nord_driver::test {
+namespace {
+
+using sim::InverterState;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+cycle::ParameterAddress parameter(std::uint16_t number) {
+  cycle::ParameterAddress address;
+  address.number = number;
+  return address;
+}
+
+/// Nodes 3 and 4, each an SK 5xxE behind its SK TU3-CAO; the program is linked to node 3.
+class CanTool {
+ public:
+  explicit CanTool(const std::vector<sim::ParameterPreset>& parameters = {})
+      : config_(
+            tools::readToolConfig(YAML::Load("{transport: canopen, cycle_rate: 100, bus: {interface: can0}, drives: {"
+                                             " left: {address: 3, series: sk5xxe, pole_pairs: 2, joint: l},"
+                                             " right: {address: 4, series: sk5xxe, pole_pairs: 2, joint: r}}}"),
+                                  "left")),
+        transport_([this, parameters](const link::CanSettings& settings) {
+          ids_ = settings.ids;
+          auto made = std::make_unique<sim::SimulatedCanBus>(simulated(parameters));
+          bus_ = made.get();
+          return made;
+        }),
+        link_(std::make_unique<tools::ParameterLink>(config_, transport_)) {
+    bus_->run(seconds{1});  // the nodes have sent their boot-up
+    bus_->setTap([this](const CanFrame& frame, sim::SimulatedCanBus::Sender sender, Instant at) {
+      if (sender != sim::SimulatedCanBus::Sender::kMaster) return;
+      sent_.push_back(frame);
+      if (sent_.size() == 1) first_sent_ = at;
+    });
+  }
+
+  void connect() { link_->connect(seconds{5}, not_asked_); }
+  std::string trouble() {
+    try {
+      connect();
+    } catch (const tools::Trouble& error) {
+      return error.what();
+    }
+    return "";
+  }
+  /// Somebody else sends this, and the node has it.
+  void otherSends(std::uint32_t id, std::initializer_list<std::uint8_t> bytes) {
+    const std::vector<std::uint8_t> data{bytes};
+    bus_->inject(dataFrame(id, ByteView{data.data(), data.size()}));
+    bus_->run(milliseconds{20});
+  }
+  /// As another master does it: NMT start, 047E, 047F with a setpoint of 50 %.
+  void otherLetsItRun() {
+    otherSends(0x000, {0x01, 0x03});
+    otherSends(0x203, {0x7E, 0x04, 0x00, 0x00});
+    bus_->run(milliseconds{500});
+    otherSends(0x203, {0x7F, 0x04, 0x00, 0x20});
+    bus_->run(milliseconds{100});
+    ASSERT_EQ(InverterState::kOperationEnabled, left().state());
+  }
+
+  tools::ParameterLink& link() { return *link_; }
+  CanopenTransport& transport() { return transport_; }
+  sim::SimulatedCanBus& bus() { return *bus_; }
+  sim::InverterModel& left() { return bus_->drive(0).inverter(); }
+  /// Frames of ours that went over the bus.
+  std::vector<CanFrame>& sent() { return sent_; }
+  Instant firstSent() const { return first_sent_; }
+  const std::vector<std::uint32_t>& filteredIds() const { return ids_; }
+
+ private:
+  static sim::SimConfig simulated(const std::vector<sim::ParameterPreset>& parameters) {
+    sim::SimConfig config;
+    config.can = sim::CanBusConfig{};
+    for (const std::uint8_t address : {std::uint8_t{3}, std::uint8_t{4}}) {
+      sim::DriveConfig drive;
+      drive.name = address == 3 ? "left" : "right";
+      drive.slave.address = address;
+      drive.can = sim::CanDriveConfig{};
+      drive.parameters = parameters;
+      drive.inverter = sim::canInverterSettings(drive.can->connection, drive.device);
+      config.drives.push_back(drive);
+    }
+    return config;
+  }
+
+  tools::ToolConfig config_;
+  std::vector<std::uint32_t> ids_;
+  sim::SimulatedCanBus* bus_ = nullptr;  // of the transport
+  std::vector<CanFrame> sent_;
+  Instant first_sent_{};
+  CanopenTransport transport_;
+  std::unique_ptr<tools::ParameterLink> link_;
+  std::atomic<bool> not_asked_{false};
+};
+
+std::vector<std::string> nmtCommands(const std::vector<CanFrame>& frames) {
+  std::vector<std::string> commands;
+  for (const CanFrame& frame : frames) {
+    if (frame.id == 0) commands.push_back(toHex(frame.bytes()));
+  }
+  return commands;
+}
+
+TEST(CanopenParametersOnly, ReadsAndWritesOnAQuietBus) {
+  CanTool tool;
+  tool.connect();
+  const auto read = tool.link().read(parameter(105));
+  EXPECT_TRUE(read.success) << read.message;
+  EXPECT_EQ(500, read.raw);
+  cycle::ParameterWish wish;
+  wish.value = 2.5;
+  const auto written = tool.link().write(parameter(102), wish);
+  EXPECT_TRUE(written.success) << written.message;
+  EXPECT_EQ(250, tool.bus().drive(0).parameters().value(102, 0));
+  EXPECT_THAT(tool.link().finish(), IsEmpty());
+  EXPECT_EQ(1, tool.bus().drive(0).parameters().value(560));
+  EXPECT_EQ("no rule broken", tool.bus().referee().report());
+}
+
+// 100Ch and 100Dh as a driver may have left them: the node watches from the first question on (CiA 301 7.2.8.3.2.1),
+// and the program asks none. With the driver's guarding its end would be E10.0 after 0.3 s.
+TEST(CanopenParametersOnly, ItsEndTripsNothing) {
+  CanTool tool;
+  tool.otherSends(0x603, {0x2B, 0x0C, 0x10, 0x00, 100, 0, 0, 0});
+  tool.otherSends(0x603, {0x2F, 0x0D, 0x10, 0x00, 3, 0, 0, 0});
+  tool.connect();
+  ASSERT_TRUE(tool.link().read(parameter(105)).success);
+  EXPECT_THAT(tool.link().finish(), IsEmpty());
+  tool.bus().run(seconds{5});
+  EXPECT_EQ(0, tool.left().faultNumber());
+  EXPECT_EQ(InverterState::kReadyToSwitchOn, tool.left().state());
+  EXPECT_EQ(0u, tool.bus().node(0).counters().masters_lost);
+  for (const CanFrame& frame : tool.sent()) EXPECT_FALSE(frame.remote) << "a question of guarding";
+}
+
+// Pre-operational for the set-up, start, and pre-operational again at the end; only for the drive that was asked for.
+TEST(CanopenParametersOnly, ResetsNothingAndTouchesNoOtherNode) {
+  CanTool tool;
+  tool.connect();
+  tool.link().finish();
+  tool.bus().run(milliseconds{100});
+  EXPECT_THAT(nmtCommands(tool.sent()), ElementsAre("80 03", "01 03", "80 03"));
+  EXPECT_EQ(1u, tool.bus().node(0).counters().boot_ups);
+  for (const CanFrame& frame : tool.sent()) EXPECT_NE(0x604u, frame.id);
+}
+
+// Whatever is sent there may concern another master: no filter hides it.
+TEST(CanopenParametersOnly, ListensToTheWholeBusForHalfASecond) {
+  CanTool tool;
+  EXPECT_THAT(tool.filteredIds(), IsEmpty());
+  const Instant start = tool.bus().now();
+  tool.connect();
+  EXPECT_GE(tool.firstSent() - start, milliseconds{500});
+  EXPECT_LT(tool.firstSent() - start, milliseconds{600});
+}
+
+// The drive of another master that runs sends its TPDO while it accelerates: that is enough.
+TEST(CanopenParametersOnly, ARunningDriveOfAnotherMasterIsLeftAlone) {
+  CanTool tool;
+  tool.otherLetsItRun();
+  EXPECT_EQ(
+      "the bus is in use: 183h was seen; nothing is sent beside another master, nor to nodes that one has left "
+      "operational: end it, or switch them off and on",
+      tool.trouble());
+  EXPECT_FALSE(tool.transport().connected());
+  EXPECT_THAT(tool.link().finish(), IsEmpty());
+  tool.transport().close();
+  tool.bus().run(seconds{10});
+  EXPECT_THAT(tool.sent(), IsEmpty());
+  EXPECT_EQ(InverterState::kOperationEnabled, tool.left().state());
+  EXPECT_DOUBLE_EQ(25.0, tool.left().frequency());
+}
+
+// It holds its speed and sends nothing; its master gives the other node a word once in a while.
+TEST(CanopenParametersOnly, TheMasterOfOtherNodesIsHeard) {
+  CanTool tool;
+  const Instant start = tool.bus().now();
+  std::vector<profile::ProcessOutput> outputs(1);
+  std::vector<DriveExchange> inputs(1);
+  tool.transport().exchange(outputs, inputs);
+  tool.transport().sleepUntil(start + milliseconds{450});
+  EXPECT_THAT(tool.transport().busText().str(), StartsWith("listens for others"));
+  tool.otherSends(0x204, {0x7E, 0x04, 0x00, 0x00});
+  for (int i = 0; i < 300; ++i) {
+    tool.transport().exchange(outputs, inputs);
+    tool.transport().sleepUntil(tool.transport().now() + milliseconds{10});
+  }
+  EXPECT_THAT(tool.transport().busText().str(), HasSubstr("204h was seen"));
+  EXPECT_THAT(tool.sent(), IsEmpty());
+}
+
+// A driver that is started beside it resets the node first: from then on the node is the driver's.
+TEST(CanopenParametersOnly, ADriverThatStartsLaterIsGivenTheBus) {
+  CanTool tool;
+  tool.connect();
+  tool.bus().inject(dataFrame(0x000, ByteView{FixedBytes<2>{0x82, 0x03}}));
+  EXPECT_FALSE(tool.link().read(parameter(105)).success);
+  EXPECT_THAT(tool.transport().busText().str(), HasSubstr("000h was seen"));
+  tool.sent().clear();
+  tool.otherLetsItRun();
+  EXPECT_FALSE(tool.link().read(parameter(105)).success);
+  tool.link().finish();
+  tool.transport().close();
+  tool.bus().run(seconds{5});
+  EXPECT_THAT(tool.sent(), IsEmpty());
+  EXPECT_EQ(InverterState::kOperationEnabled, tool.left().state());
+  EXPECT_DOUBLE_EQ(25.0, tool.left().frequency());
+}
+
+// P513 > 0 is the drive's own watch over control words: only the end of the program lets it act, and it is named.
+TEST(CanopenParametersOnly, NamesTheTelegramTimeout) {
+  CanTool tool{{{513, 0, 0, 10}}};
+  tool.connect();
+  const Instant end = tool.bus().now() + seconds{3};
+  while (tool.bus().now() < end) ASSERT_TRUE(tool.link().read(parameter(105)).success);
+  EXPECT_EQ(0, tool.left().faultNumber());
+  EXPECT_THAT(tool.link().finish(), ElementsAre(HasSubstr("drive left has P513 = 1 s")));
+}
+
+// Nobody knows who is on the bus now. The node that was left operational talks, and nothing tells whose it is.
+TEST(CanopenParametersOnly, ListensAgainAfterTheInterfaceWasAway) {
+  CanTool tool;
+  tool.connect();
+  tool.bus().setInterfacePresent(false);
+  EXPECT_FALSE(tool.link().read(parameter(105)).success);
+  tool.bus().setInterfacePresent(true);
+  tool.sent().clear();
+  EXPECT_THAT(tool.trouble(), HasSubstr("183h was seen"));
+  EXPECT_THAT(tool.sent(), IsEmpty());
+  tool.bus().drive(0).setPlugged(false);
+  tool.bus().run(seconds{1});
+  tool.bus().drive(0).setPlugged(true);
+  tool.bus().setInterfacePresent(false);
+  tool.transport().sleepUntil(tool.bus().now() + seconds{1});
+  tool.bus().setInterfacePresent(true);
+  EXPECT_EQ("", tool.trouble());
+  EXPECT_TRUE(tool.link().read(parameter(105)).success);
+}
+
+}  // namespace
+}  // namespace nord_driver::test
