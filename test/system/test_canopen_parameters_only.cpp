@@ -191,7 +191,7 @@ TEST(CanopenParametersOnly, ARunningDriveOfAnotherMasterIsLeftAlone) {
   EXPECT_DOUBLE_EQ(25.0, tool.left().frequency());
 }
 
-// It holds its speed and sends nothing; its master gives the other node a word once in a while.
+// A word to a node that the program would not touch, shortly before listening is over.
 TEST(CanopenParametersOnly, TheMasterOfOtherNodesIsHeard) {
   CanTool tool;
   const Instant start = tool.bus().now();

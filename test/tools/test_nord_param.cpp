@@ -10,12 +10,14 @@
 #include <memory>
 
 #include "nord_driver/core/version.h"
+#include "nord_driver/link/virtual_can.h"
 #include "tools/program.h"
 
 namespace nord_driver::test {
 namespace {
 
 using std::chrono::seconds;
+using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -159,26 +161,63 @@ TEST_F(NordParam, DumpsAndCompares) {
   EXPECT_THAT(different.output, StartsWith("P103 set 3 Deceleration time: 200 in the file, 150 in the drive\n1 of "));
 }
 
-// Over CANopen, on a bus between processes. The end of a run leaves no fault and a bus that is free. The referee is not
-// asked: to him the node was never reset, and the 0000 of the next run comes after valid words.
-TEST(NordParamOnCan, ReadsAndWrites) {
-  const std::string name = "nord_param_" + std::to_string(::getpid());
-  const std::string config = ::testing::TempDir() + name + "_can.yaml";
-  std::ofstream(config) << "transport: canopen\ncycle_rate: 100.0\nbus: {interface: \"virtual:" << name << "\"}\n"
-                        << "drives: {left: {address: 3, series: sk5xxe, joint: l, gear_ratio: 20.0, pole_pairs: 2}}\n";
-  Program simulator{{NORD_SIM_PROGRAM, "--config", config}};
-  ASSERT_TRUE(simulator.saysSomething(seconds{30})) << simulator.errors();
-  const Ended read = runProgram({NORD_PARAM_PROGRAM, "--config", config, "read", "left", "P105"});
+/// One node on a CAN bus between processes.
+class NordParamOnCan : public ::testing::Test {
+ protected:
+  NordParamOnCan() {
+    std::ofstream(config_)
+        << "transport: canopen\ncycle_rate: 100.0\nbus: {interface: \"" << interface_ << "\"}\n"
+        << "drives: {left: {address: 3, series: sk5xxe, joint: l, gear_ratio: 20.0, pole_pairs: 2}}\n";
+    simulator_ = std::make_unique<Program>(std::vector<std::string>{NORD_SIM_PROGRAM, "--config", config_});
+    EXPECT_TRUE(simulator_->saysSomething(seconds{30})) << simulator_->errors();
+  }
+  ~NordParamOnCan() override {
+    simulator_->signal(SIGTERM);
+    EXPECT_EQ(0, simulator_->wait(seconds{30}));
+    ::unlink(config_.c_str());
+  }
+  std::vector<std::string> command(std::vector<std::string> words) const {
+    words.insert(words.begin(), {NORD_PARAM_PROGRAM, "--config", config_});
+    return words;
+  }
+  Ended run(const std::vector<std::string>& words) const { return runProgram(command(words)); }
+
+  std::string interface_ = "virtual:nord_param_" + std::to_string(::getpid());
+  std::string config_ = ::testing::TempDir() + "nord_param_can_" + std::to_string(::getpid()) + ".yaml";
+  std::unique_ptr<Program> simulator_;
+};
+
+// The end of a run leaves no fault and a bus that is free. The referee is not asked: to him the node was never reset,
+// and the 0000 of the next run comes after valid words.
+TEST_F(NordParamOnCan, ReadsAndWrites) {
+  const Ended read = run({"read", "left", "P105"});
   EXPECT_EQ(0, read.code) << read.errors;
   EXPECT_EQ("P105 set 1 Maximum frequency = 50 Hz (raw 500)\n", read.output);
-  const Ended written = runProgram({NORD_PARAM_PROGRAM, "--config", config, "write", "left", "P102", "2.5"});
+  const Ended written = run({"write", "left", "P102", "2.5"});
   EXPECT_EQ(0, written.code) << written.errors;
   EXPECT_THAT(written.output, StartsWith("P102 set 1 Acceleration time = 2.5 s (raw 250)"));
-  EXPECT_EQ("P700[-01] Current fault = 0 (raw 0)\n",
-            runProgram({NORD_PARAM_PROGRAM, "--config", config, "read", "left", "P700[-01]"}).output);
-  simulator.signal(SIGTERM);
-  EXPECT_EQ(0, simulator.wait(seconds{30}));
-  ::unlink(config.c_str());
+  EXPECT_EQ("P700[-01] Current fault = 0 (raw 0)\n", run({"read", "left", "P700[-01]"}).output);
+}
+
+// CAN locks nothing: a driver on the same interface is heard by its words.
+TEST_F(NordParamOnCan, LeavesABusInUseAlone) {
+  link::CanSettings settings;
+  settings.interface = interface_;
+  link::VirtualCan driver{settings};
+  ASSERT_TRUE(driver.open()) << driver.lastError();
+  Program reader{command({"--timeout", "2", "read", "left", "P105"})};
+  int code = -2;
+  std::vector<std::uint32_t> seen;
+  link::ReceivedCanFrame received;
+  for (int i = 0; i < 6000 && code == -2; ++i) {
+    driver.send(dataFrame(0x203, ByteView{FixedBytes<4>{0x7E, 0x04, 0x00, 0x00}}));
+    code = reader.wait(seconds{0});
+    driver.waitReadable(driver.now() + std::chrono::milliseconds{10});
+    while (driver.receive(received)) seen.push_back(received.frame.id);
+  }
+  EXPECT_EQ(1, code);
+  EXPECT_THAT(reader.errors(), StartsWith("nord_param: the bus is in use: 203h was seen; "));
+  EXPECT_THAT(seen, Each(0x703u)) << "only the node's own boot-up";
 }
 
 TEST_F(NordParam, TellsItsVersionAndWhyThereIsNoRestore) {
