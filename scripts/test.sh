@@ -35,12 +35,14 @@ fi
 export CTEST_OUTPUT_ON_FAILURE=1
 # Nothing of a test leaves the build folder or this machine.
 export ROS_HOME=$out/ros_home ROS_LOG_DIR=$out/ros_home/log ROS_HOSTNAME=localhost
+export LSAN_OPTIONS=${LSAN_OPTIONS:-suppressions=$root/scripts/lsan_suppressions.txt:print_suppressions=0}
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_stack_use_after_return=1} UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
 unset ROS_MASTER_URI ROS_IP
 
 passed=0
 failed=0
 skipped=0
+linter=             # the process that runs the linter
 socketcan=          # the process that runs these tests
 socketcan_ran=      # where, in words
 
@@ -137,19 +139,45 @@ run_tests() {
   count_cases "$results" "$status"
 }
 
-# Beside the linter: the emulated machine waits most of the time. A session of its own, to be ended as a whole.
+# beside NAME COMMAND...: starts it in a session of its own, which ends with this script; what it says goes to NAME.log.
+beside() {
+  local name=$1
+  shift
+  setsid "$@" >"$out/$name.log" 2>&1 </dev/null &
+  sessions+=("$!")
+}
+
+end_sessions() {
+  local session
+  for session in "${sessions[@]}"; do kill -- "-$session" 2>/dev/null || true; done
+}
+
+# Takes what the tests leave of the processors: they wait for events most of the time.
+start_lint() {
+  export -f lint
+  export out root jobs
+  beside lint nice -n 19 bash -o pipefail -c lint
+  linter=$!
+}
+
+finish_lint() {
+  local status=0
+  wait "$linter" || status=$?
+  cat "$out/lint.log"
+  return "$status"
+}
+
+# After the tests on a bus of this machine: an emulated one is slow enough alone.
 start_socketcan() {
   rm -rf "$out/socketcan_results"
-  setsid "$root/scripts/test_socketcan.sh" "$out" "$out/socketcan_results" >"$out/socketcan.log" 2>&1 </dev/null &
+  beside socketcan "$root/scripts/test_socketcan.sh" "$out" "$out/socketcan_results"
   socketcan=$!
-  trap 'kill -- "-$socketcan" 2>/dev/null || true' EXIT
 }
 
 finish_socketcan() {
   local status=0
   echo "== socketcan"
   wait "$socketcan" || status=$?
-  trap - EXIT
   cat "$out/socketcan.log"
   socketcan_ran=$(sed -n 's/^can_machine: \(on\|in\) /\1 /p' "$out/socketcan.log" | head -n 1)
   if [[ -z $socketcan_ran ]]; then socketcan_ran="ran nowhere"; fi
@@ -159,6 +187,9 @@ finish_socketcan() {
 mkdir -p "$out"
 must "install_deps" "$root/scripts/install_deps.sh" --test
 must "build" build
+sessions=()
+trap end_sessions EXIT
+if ! $sanitize && ! $quick; then start_lint; fi
 echo "== tests"
 start=$SECONDS
 run_tests
@@ -171,9 +202,9 @@ else
   if $quick; then
     for name in lint fuzz workspace; do skip $name "--quick"; done
   else
-    check "lint" lint
-    check "fuzz" "$root/scripts/fuzz.sh" 30
+    check "lint" finish_lint
     check "workspace" "$root/scripts/check_workspace.sh"
+    check "fuzz" "$root/scripts/fuzz.sh" 30
   fi
   finish_socketcan
 fi
