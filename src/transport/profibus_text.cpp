@@ -70,17 +70,15 @@ Sentence ProfibusText::note(std::size_t station, const profibus::DpMaster& maste
   const profibus::SlaveStatus& status = master.status(station);
   const std::uint16_t configured = config_.slaves[station].ident_number;
   Sentence text;
-  if (status.phase == profibus::SlavePhase::kDataExchange || status.phase == profibus::SlavePhase::kSilent) {
-    text = status.note;
-  } else if (status.ident && *status.ident != configured) {
+  text = status.note;
+  if (status.phase == profibus::SlavePhase::kDataExchange || status.phase == profibus::SlavePhase::kSilent) return text;
+  if (status.ident && *status.ident != configured) {
     text.format("is another module than configured: it reports the ident number %04Xh%s, expected %04Xh%s",
                 *status.ident, moduleName(*status.ident), configured, moduleName(configured));
   } else if (status.diagnosis.configurationFault() && !status.configuration.empty()) {
     text.format("%s; %s", "refuses its configuration (Cfg_Fault)", master.configurationText(station).c_str());
   } else if (status.diagnosis.owner() != profibus::kNoOwner && status.diagnosis.owner() != config_.bus.master.value()) {
     text.format("%s: its address is %u", status.note, status.diagnosis.owner());
-  } else {
-    text = status.note;
   }
   return text;
 }
