@@ -7,21 +7,21 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "nord_driver/cycle/bus_cycle.h"
 #include "nord_driver/cycle/cycle_config.h"
-#include "nord_driver/cycle/cycle_ports.h"
 #include "nord_driver/sim/simulated_can_bus.h"
 #include "nord_driver/transport/canopen.h"
 #include "support/map_settings.h"
 #include "system/deaf_can_link.h"
+#include "system/driven_robot.h"
 
 namespace nord_driver::test {
 
 /// Two wheels of 0.1 m, 0.5 m apart, each behind an SK TU3-CAO; P105 = 50 Hz, 20:1, two pole pairs: 100 % is
 /// 7.854 rad/s or 0.785 m/s.
-class CanRobot {
+class CanRobot : public DrivenRobot {
  public:
   struct Options {
     std::map<std::string, MapSettings::Value> node;               ///< on top of the robot's own settings
@@ -37,8 +37,8 @@ class CanRobot {
   explicit CanRobot(const Options& options) {
     const auto drives = driveSettings(options);
     const MapSettings node{"~", nodeSettings(options)};
-    config_ = cycle::readCycleConfig(node, drives);
-    transport_ = std::make_unique<CanopenTransport>([this, options](const link::CanSettings& settings) {
+    const cycle::CycleConfig config = cycle::readCycleConfig(node, drives);
+    auto transport = std::make_unique<CanopenTransport>([this, options](const link::CanSettings& settings) {
       ids_ = settings.ids;
       auto bus = std::make_unique<sim::SimulatedCanBus>(simConfig(options));
       bus_ = bus.get();
@@ -48,94 +48,19 @@ class CanRobot {
     });
     MapSettings bus{"~bus/", {{"interface", std::string{"can0"}}}};
     for (const auto& [key, value] : options.bus) bus.set(key, value);
-    transport_->configure(bus, drives, config_.cycle_rate);
-    ports_ = std::make_unique<cycle::CyclePorts>(drives.size());
-    cycle_ = std::make_unique<cycle::BusCycle>(config_, *transport_, *ports_, false);
+    transport->configure(bus, drives, config.cycle_rate);
+    start(config, std::move(transport), false);
   }
 
-  /// One bus cycle and the pause after it.
-  void step() {
-    const Instant start = transport_->now();
-    cycle_->runOnce();
-    exchange_time_ = transport_->now() - start;
-    transport_->sleepUntil(start + cycle_->period());
-    while (const auto completion = ports_->waitCompletion(Duration::zero())) completions_.push_back(*completion);
-  }
-  void run(Duration span) {
-    const Instant end = transport_->now() + span;
-    while (transport_->now() < end) step();
-  }
-  /// Steps until `done` or `limit`; true when done.
-  template <typename Condition>
-  bool runUntil(Condition done, Duration limit = std::chrono::seconds{20}) {
-    const Instant end = transport_->now() + limit;
-    while (!done()) {
-      if (transport_->now() >= end) return false;
-      step();
-    }
-    return true;
-  }
-
-  void command(double linear, double angular = 0.0) {
-    ports_->commandBase({{linear, angular}, transport_->now(), true});
-  }
-  /// Drives on with the same command, renewed every cycle.
-  void drive(double linear, double angular, Duration span) {
-    const Instant end = transport_->now() + span;
-    while (transport_->now() < end) {
-      command(linear, angular);
-      step();
-    }
-  }
-
-  /// Asks and runs until the answer has come.
-  cycle::Completion ask(cycle::RequestKind kind, DriveIndex drive = cycle::kAllDrives) {
-    cycle::Request request;
-    request.kind = kind;
-    request.drive = drive;
-    return ask(request);
-  }
-  cycle::Completion ask(cycle::Request request) {
-    request.id = next_id_++;
-    request.patience = std::chrono::seconds{3};
-    ports_->submit(request);
-    cycle::Completion answer;
-    answer.message = "no answer";
-    runUntil([&] {
-      for (const auto& completion : completions_) {
-        if (completion.id == request.id) answer = completion;
-      }
-      return answer.id == request.id;
-    });
-    return answer;
-  }
-  /// From power-on to drives that could be enabled.
-  bool bringUp() {
-    return runUntil([this] {
-      for (std::size_t i = 0; i < config_.drives.size(); ++i) {
-        if (!snapshot().drives[i].device.complete) return false;
-      }
-      return true;
-    });
-  }
-  bool bringUpAndEnable() { return bringUp() && ask(cycle::RequestKind::kEnable).success; }
-
-  const cycle::CycleSnapshot& snapshot() { return ports_->readSnapshot(); }
   bool online(DriveIndex drive) { return snapshot().drives[drive].online; }
-  Word controlWord(DriveIndex drive) { return snapshot().drives[drive].output.control_word; }
-  Word statusWord(DriveIndex drive) { return snapshot().drives[drive].input.status_word; }
   std::string text(DriveIndex drive) { return snapshot().drives[drive].text.str(); }
-  std::string busText() { return transport_->busText().str(); }
+  std::string busText() { return transport().busText().str(); }
   bool standsStill() { return std::abs(unit(0).shaftSpeed()) < 0.1 && std::abs(unit(1).shaftSpeed()) < 0.1; }
-  /// Of the last cycle, without its pause.
-  Duration exchangeTime() const { return exchange_time_; }
 
   sim::SimulatedCanBus& bus() { return *bus_; }
   DeafCanLink& link() { return *link_; }
   sim::DriveUnit& unit(std::size_t drive) { return bus_->drive(drive); }
   sim::CanNode& node(std::size_t drive) { return bus_->node(drive); }
-  cycle::CyclePorts& ports() { return *ports_; }
-  CanopenTransport& transport() { return *transport_; }
   const std::vector<std::uint32_t>& filteredIds() const { return ids_; }
 
  private:
@@ -196,16 +121,9 @@ class CanRobot {
     return config;
   }
 
-  cycle::CycleConfig config_;
   sim::SimulatedCanBus* bus_ = nullptr;
   DeafCanLink* link_ = nullptr;
   std::vector<std::uint32_t> ids_;
-  std::unique_ptr<CanopenTransport> transport_;
-  std::unique_ptr<cycle::CyclePorts> ports_;
-  std::unique_ptr<cycle::BusCycle> cycle_;
-  std::vector<cycle::Completion> completions_;
-  std::uint32_t next_id_ = 1;
-  Duration exchange_time_{};
 };
 
 }  // namespace nord_driver::test

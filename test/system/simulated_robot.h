@@ -6,21 +6,21 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "nord_driver/cycle/bus_cycle.h"
 #include "nord_driver/cycle/cycle_config.h"
-#include "nord_driver/cycle/cycle_ports.h"
 #include "nord_driver/sim/simulated_segment.h"
 #include "nord_driver/transport/profibus_dp.h"
 #include "support/map_settings.h"
+#include "system/driven_robot.h"
 #include "system/recording_link.h"
 
 namespace nord_driver::test {
 
 /// Two wheels of 0.1 m, 0.5 m apart, or as many a side as asked for (drives 0, 2 ... left, 1, 3 ... right); P105 = 50
 /// Hz, 20:1, two pole pairs: 100 % is 7.854 rad/s or 0.785 m/s.
-class SimulatedRobot {
+class SimulatedRobot : public DrivenRobot {
  public:
   struct Options {
     double slip = 2.0;  ///< Hz at rated torque
@@ -39,8 +39,8 @@ class SimulatedRobot {
   explicit SimulatedRobot(const Options& options) {
     const auto drives = driveSettings(options);
     const MapSettings node{"~", nodeSettings(options)};
-    config_ = cycle::readCycleConfig(node, drives);
-    transport_ = std::make_unique<ProfibusDpTransport>([this, options](const link::SerialSettings&) {
+    const cycle::CycleConfig config = cycle::readCycleConfig(node, drives);
+    auto transport = std::make_unique<ProfibusDpTransport>([this, options](const link::SerialSettings&) {
       auto segment = std::make_unique<sim::SimulatedSegment>(simConfig(options));
       segment_ = segment.get();
       auto link = std::make_unique<RecordingLink>(std::move(segment));
@@ -49,96 +49,21 @@ class SimulatedRobot {
     });
     const MapSettings bus{"~bus/",
                           {{"device", std::string{"simulated"}}, {"baud_rate", 500'000}, {"slot_time", 0.0005}}};
-    transport_->configure(bus, drives, config_.cycle_rate);
-    ports_ = std::make_unique<cycle::CyclePorts>(drives.size());
-    cycle_ = std::make_unique<cycle::BusCycle>(config_, *transport_, *ports_, options.auto_enable);
+    transport->configure(bus, drives, config.cycle_rate);
+    start(config, std::move(transport), options.auto_enable);
   }
 
-  /// One bus cycle and the pause after it.
-  void step() {
-    const Instant start = transport_->now();
-    cycle_->runOnce();
-    transport_->sleepUntil(start + cycle_->period());
-    while (const auto completion = ports_->waitCompletion(Duration::zero())) completions_.push_back(*completion);
-  }
-  void run(Duration span) {
-    const Instant end = transport_->now() + span;
-    while (transport_->now() < end) step();
-  }
-  /// Steps until `done` or `limit`; true when done.
-  template <typename Condition>
-  bool runUntil(Condition done, Duration limit = std::chrono::seconds{20}) {
-    const Instant end = transport_->now() + limit;
-    while (!done()) {
-      if (transport_->now() >= end) return false;
-      step();
-    }
-    return true;
-  }
-
-  void command(double linear, double angular = 0.0) {
-    ports_->commandBase({{linear, angular}, transport_->now(), true});
-  }
-  /// Drives on with the same command, renewed every cycle.
-  void drive(double linear, double angular, Duration span) {
-    const Instant end = transport_->now() + span;
-    while (transport_->now() < end) {
-      command(linear, angular);
-      step();
-    }
-  }
-
-  /// Asks and runs until the answer has come.
-  cycle::Completion ask(cycle::RequestKind kind, DriveIndex drive = cycle::kAllDrives) {
-    cycle::Request request;
-    request.kind = kind;
-    request.drive = drive;
-    return ask(request);
-  }
-  cycle::Completion ask(cycle::Request request) {
-    request.id = next_id_++;
-    request.patience = std::chrono::seconds{3};
-    ports_->submit(request);
-    cycle::Completion answer;
-    answer.message = "no answer";
-    runUntil([&] {
-      for (const auto& completion : completions_) {
-        if (completion.id == request.id) answer = completion;
-      }
-      return answer.id == request.id;
-    });
-    return answer;
-  }
-  /// From power-on to two drives that could be enabled.
-  bool bringUp() {
-    return runUntil([this] {
-      for (const cycle::DriveSnapshot& drive : snapshot().drives) {
-        if (!drive.device.complete) return false;
-      }
-      return true;
-    });
-  }
-  bool bringUpAndEnable() { return bringUp() && ask(cycle::RequestKind::kEnable).success; }
-
-  const cycle::CycleSnapshot& snapshot() { return ports_->readSnapshot(); }
-  /// What left for a drive in the last cycle, and what came back.
-  Word controlWord(DriveIndex drive) { return snapshot().drives[drive].output.control_word; }
-  std::int16_t setpoint(DriveIndex drive) { return snapshot().drives[drive].output.setpoints[0]; }
-  Word statusWord(DriveIndex drive) { return snapshot().drives[drive].input.status_word; }
   bool standsStill() {
-    for (std::size_t i = 0; i < config_.drives.size(); ++i) {
+    for (std::size_t i = 0; i < config().drives.size(); ++i) {
       if (std::abs(unit(i).shaftSpeed()) >= 0.1) return false;
     }
     return true;
   }
-  std::size_t driveCount() const { return config_.drives.size(); }
+  std::size_t driveCount() const { return config().drives.size(); }
 
   sim::SimulatedSegment& segment() { return *segment_; }
   sim::DriveUnit& unit(std::size_t drive) { return segment_->drive(drive); }
-  cycle::CyclePorts& ports() { return *ports_; }
   RecordingLink& link() { return *link_; }
-  Transport& transport() { return *transport_; }
-  const cycle::CycleConfig& config() const { return config_; }
 
   /// left, right and, with two wheels a side, rear_left, rear_right.
   static std::vector<DriveSettings> driveSettings(const Options& options) {
@@ -201,14 +126,8 @@ class SimulatedRobot {
     return config;
   }
 
-  cycle::CycleConfig config_;
   sim::SimulatedSegment* segment_ = nullptr;
   RecordingLink* link_ = nullptr;
-  std::unique_ptr<ProfibusDpTransport> transport_;
-  std::unique_ptr<cycle::CyclePorts> ports_;
-  std::unique_ptr<cycle::BusCycle> cycle_;
-  std::vector<cycle::Completion> completions_;
-  std::uint32_t next_id_ = 1;
 };
 
 }  // namespace nord_driver::test
