@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdio>
 #include <cstring>
 
+#include "error_text.h"
 #include "nord_driver/link/can_settings.h"
 #include "waiting.h"
 
@@ -86,6 +88,13 @@ bool wait(int descriptor, short events, Instant until) noexcept {
     if (ready > 0) return true;
     if (ready == 0 || errno != EINTR) return false;
   }
+}
+
+void describe(std::string& text, const std::string& interface, const char* what, int error) noexcept {
+  char sentence[kLongestError];
+  std::snprintf(sentence, sizeof sentence, "%s: %s%s%s", interface.c_str(), what, error != 0 ? ": " : "",
+                error != 0 ? ErrorText{error}.c_str() : "");
+  text.assign(sentence);
 }
 
 }  // namespace nord_driver::link::packet_socket

@@ -23,4 +23,7 @@ long receive(int descriptor, CanPacket& packet) noexcept;
 /// True when `events` (POLLIN, POLLOUT) or a failure is there before `until`. Over when `until` has come.
 bool wait(int descriptor, short events, Instant until) noexcept;
 
+/// "INTERFACE: what: the error's text" into `text`, which has reserved kLongestError characters. `error` 0: without it.
+void describe(std::string& text, const std::string& interface, const char* what, int error) noexcept;
+
 }  // namespace nord_driver::link::packet_socket

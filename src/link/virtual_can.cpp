@@ -4,9 +4,6 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <cstdio>
-
-#include "error_text.h"
 #include "packet_socket.h"
 #include "waiting.h"
 
@@ -29,11 +26,8 @@ VirtualCan::~VirtualCan() {
 }
 
 bool VirtualCan::fail(const char* what, int error) noexcept {
-  char text[packet_socket::kLongestError];
-  std::snprintf(text, sizeof text, "%s: %s%s%s", settings_.interface.c_str(), what, error != 0 ? ": " : "",
-                error != 0 ? ErrorText{error}.c_str() : "");
   close();
-  error_.assign(text);
+  packet_socket::describe(error_, settings_.interface, what, error);
   return false;
 }
 

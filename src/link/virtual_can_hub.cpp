@@ -6,9 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 
-#include "error_text.h"
 #include "packet_socket.h"
 #include "waiting.h"
 
@@ -32,11 +30,8 @@ VirtualCanHub::~VirtualCanHub() {
 }
 
 bool VirtualCanHub::fail(const char* what, int error) noexcept {
-  char text[packet_socket::kLongestError];
-  std::snprintf(text, sizeof text, "%s: %s%s%s", settings_.interface.c_str(), what, error != 0 ? ": " : "",
-                error != 0 ? ErrorText{error}.c_str() : "");
   close();
-  error_.assign(text);
+  packet_socket::describe(error_, settings_.interface, what, error);
   return false;
 }
 
