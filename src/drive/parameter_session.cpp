@@ -41,20 +41,12 @@ bool isError(const ParameterResult& result, std::uint16_t number) noexcept {
 }  // namespace
 
 bool ParameterSession::submit(const ParameterTask& task) noexcept {
-  if (waiting_.size() + results_.size() >= kCapacity) return false;
-  if (waiting_.empty()) try_recovery_ = owes_switch_;
-  return waiting_.push_back(task);
+  if (!tasks_.submit(task)) return false;
+  if (tasks_.size() == 1) try_recovery_ = owes_switch_;
+  return true;
 }
 
-std::optional<ParameterTaskResult> ParameterSession::pollResult() noexcept {
-  if (results_.empty()) return std::nullopt;
-  const ParameterTaskResult result = results_[0];
-  results_.eraseFront(1);
-  return result;
-}
-
-// --- handing out
-// --------------------------------------------------------------------------------------------------------
+// --- Handing out
 
 void ParameterSession::begin() noexcept {
   failed_ = false;
@@ -64,9 +56,8 @@ void ParameterSession::begin() noexcept {
   recovering_ = owes_switch_ && try_recovery_;
   if (recovering_) {
     step_ = Step::kReadSwitch;
-  } else if (!waiting_.empty()) {
+  } else if (!tasks_.empty()) {
     result_ = {};
-    result_.id = waiting_[0].id;
     step_ = Step::kReadValue;
   }
 }
@@ -105,7 +96,7 @@ ParameterRequest ParameterSession::requestFor(Step step) const noexcept {
       request.action = ParameterAction::kWritePersistent;
       break;
   }
-  const ParameterTask& task = waiting_[0];
+  const ParameterTask& task = tasks_.front();
   request.number = task.number;
   request.shape = no_index_ ? ParameterShape::kPlain : task.shape;
   request.parameter_set = task.set;
@@ -117,8 +108,7 @@ ParameterRequest ParameterSession::requestFor(Step step) const noexcept {
   return request;
 }
 
-// --- results
-// ------------------------------------------------------------------------------------------------------------
+// --- Results
 
 void ParameterSession::handleResult(const ParameterResult& result) noexcept {
   if (!under_way_) return;
@@ -146,7 +136,7 @@ void ParameterSession::handleResult(const ParameterResult& result) noexcept {
 }
 
 void ParameterSession::handleValue(const ParameterResult& result) noexcept {
-  const ParameterTask& task = waiting_[0];
+  const ParameterTask& task = tasks_.front();
   const bool write = task.kind != ParameterTaskKind::kRead;
   if (!isDone(result)) {
     fail(result, task.number, write ? kNotRead : "");
@@ -174,20 +164,20 @@ void ParameterSession::handleValue(const ParameterResult& result) noexcept {
 }
 
 void ParameterSession::handleRamWrite(const ParameterResult& result) noexcept {
-  if (!surelyNotDone(result.outcome)) ram_only_.mark(waiting_[0]);
+  if (!surelyNotDone(result.outcome)) ram_only_.mark(tasks_.front());
   if (isDone(result)) {
     step_ = Step::kReadBack;
   } else if (isError(result, profile::pkw_error::kInvalidOrder)) {
     ram_orders_ = false;
     writePlainly();
   } else if (!retryWithoutIndex(result)) {
-    fail(result, waiting_[0].number, surelyNotDone(result.outcome) ? "" : kWriteUnanswered);
+    fail(result, tasks_.front().number, surelyNotDone(result.outcome) ? "" : kWriteUnanswered);
     finish();
   }
 }
 
 void ParameterSession::writePlainly() noexcept {
-  if (waiting_[0].number != kSaveInEeprom) {
+  if (tasks_.front().number != kSaveInEeprom) {
     step_ = Step::kReadSwitch;
     return;
   }
@@ -205,7 +195,7 @@ void ParameterSession::handleSwitch(const ParameterResult& result) noexcept {
     }
     return;
   }
-  const bool persistent = waiting_[0].kind == ParameterTaskKind::kWritePersistent;
+  const bool persistent = tasks_.front().kind == ParameterTaskKind::kWritePersistent;
   const bool off = isDone(result) && result.raw == 0;
   if (isDone(result) && !off) owes_switch_ = false;
   if (isError(result, profile::pkw_error::kInvalidNumber)) {
@@ -250,7 +240,7 @@ void ParameterSession::handleWrite(const ParameterResult& result) noexcept {
   countValueWrite(result);
   if (!isDone(result)) {
     if (retryWithoutIndex(result)) return;
-    fail(result, waiting_[0].number, surelyNotDone(result.outcome) ? "" : kWriteUnanswered);
+    fail(result, tasks_.front().number, surelyNotDone(result.outcome) ? "" : kWriteUnanswered);
   }
   putBackOrFinish();
 }
@@ -291,7 +281,7 @@ void ParameterSession::handleSwitchOn(const ParameterResult& result) noexcept {
 }
 
 void ParameterSession::handleReadBack(const ParameterResult& result) noexcept {
-  const ParameterTask& task = waiting_[0];
+  const ParameterTask& task = tasks_.front();
   if (!isDone(result)) {
     fail(result, task.number, kNotReadBack);
   } else {
@@ -299,14 +289,14 @@ void ParameterSession::handleReadBack(const ParameterResult& result) noexcept {
     result_.outcome = ParameterOutcome::kDone;
     if (!isValue(task, result.raw)) refuse(kDiffers);
   }
-  if (!failed_ && task.kind == ParameterTaskKind::kWritePersistent) ram_only_.unmark(waiting_[0]);
+  if (!failed_ && task.kind == ParameterTaskKind::kWritePersistent) ram_only_.unmark(tasks_.front());
   finish();
 }
 
 // A parameter that was taken for set-dependent and is not answers a write with error 4; reads fall back by themselves.
 bool ParameterSession::retryWithoutIndex(const ParameterResult& result) noexcept {
   if (no_index_ || !isError(result, profile::pkw_error::kNoArray)) return false;
-  no_index_ = waiting_[0].shape == ParameterShape::kPerSet;
+  no_index_ = tasks_.front().shape == ParameterShape::kPerSet;
   return no_index_;
 }
 
@@ -316,6 +306,7 @@ void ParameterSession::fail(const ParameterResult& result, std::uint16_t number,
   result_.note = note;
   if (result.outcome != ParameterOutcome::kRefused) return;
   result_.error_number = result.error_number;
+  result_.abort_code = result.abort_code;
   result_.refused_number = number;
   if (result.error_number == profile::pkw_error::kNotRepresentable) result_.note = kTooWide;
 }
@@ -333,9 +324,8 @@ void ParameterSession::finish() noexcept {
     try_recovery_ = false;
     return;
   }
-  try_recovery_ = owes_switch_ && waiting_.size() > 1;
-  results_.push_back(result_);
-  waiting_.eraseFront(1);
+  try_recovery_ = owes_switch_ && tasks_.size() > 1;
+  tasks_.finish(result_);
 }
 
 void ParameterSession::countWrite(const ParameterResult& result) noexcept {
@@ -346,7 +336,7 @@ void ParameterSession::countWrite(const ParameterResult& result) noexcept {
 
 void ParameterSession::countValueWrite(const ParameterResult& result) noexcept {
   if (!owes_switch_ && !switch_was_off_) return countWrite(result);
-  if (!surelyNotDone(result.outcome)) ram_only_.mark(waiting_[0]);
+  if (!surelyNotDone(result.outcome)) ram_only_.mark(tasks_.front());
 }
 
 void ParameterSession::handleOffline() noexcept {
@@ -356,7 +346,7 @@ void ParameterSession::handleOffline() noexcept {
   if (under_way_) {
     if (step_ == Step::kSwitchOff || step_ == Step::kSwitchOn) countWrite(offline);
     if (step_ == Step::kWrite) countValueWrite(offline);
-    if (step_ == Step::kWriteRam) ram_only_.mark(waiting_[0]);
+    if (step_ == Step::kWriteRam) ram_only_.mark(tasks_.front());
   }
   under_way_ = false;
   ram_orders_ = true;
@@ -367,9 +357,8 @@ void ParameterSession::handleOffline() noexcept {
   }
   step_ = Step::kNone;
   recovering_ = false;
-  while (!waiting_.empty()) {
+  while (!tasks_.empty()) {
     result_ = {};
-    result_.id = waiting_[0].id;
     fail(offline, 0, "");
     finish();
   }

@@ -50,23 +50,21 @@ bool indexIsPossible(const ParameterRequest& request) noexcept {
 }  // namespace
 
 bool PkwChannel::submit(const ParameterRequest& request, Instant now) noexcept {
-  if (waiting_.size() + results_.size() >= kCapacity) return false;
   if (request.number > kLastNumber || !indexIsPossible(request)) {
     ParameterResult result;
-    result.id = request.id;
     result.outcome = ParameterOutcome::kRefused;
     result.error_number = request.number > kLastNumber ? pkw_error::kInvalidNumber : pkw_error::kWrongSubIndex;
-    return results_.push_back(result);
+    return requests_.answer(request, result);
   }
-  waiting_.push_back(request);
-  if (waiting_.size() == 1) startNext(now);
+  if (!requests_.submit(request)) return false;
+  if (requests_.size() == 1) startNext(now);
   return true;
 }
 
 void PkwChannel::startNext(Instant now) noexcept {
-  prepared_ = !waiting_.empty();
+  prepared_ = !requests_.empty();
   if (!prepared_) return;
-  order_ = orderFor(waiting_[0]);
+  order_ = orderFor(requests_.front());
   fell_back_ = false;
   deadline_ = now + answer_timeout_;
 }
@@ -84,13 +82,13 @@ bool PkwChannel::mayStart() const noexcept {
 }
 
 PkwWords PkwChannel::pollWords(Instant now) noexcept {
-  while (!waiting_.empty()) {
+  while (!requests_.empty()) {
     if (!prepared_) startNext(now);
     if (now < deadline_) break;
     last_unanswered_ = last_unanswered_ || phase_ == Phase::kOrder;
     finish(ParameterOutcome::kTimeout, 0, 0);
   }
-  if (!waiting_.empty() && phase_ == Phase::kPause && mayStart()) {
+  if (!requests_.empty() && phase_ == Phase::kPause && mayStart()) {
     phase_ = Phase::kOrder;
     previous_ = sent_;
     sent_ = order_;
@@ -122,7 +120,7 @@ void PkwChannel::handleWords(const PkwWords& words, Instant now) noexcept {
   } else if (!fallBack(answer.error_number)) {
     finish(ParameterOutcome::kRefused, 0, answer.error_number);
   }
-  if (!waiting_.empty() && !prepared_) startNext(now);
+  if (!requests_.empty() && !prepared_) startNext(now);
 }
 
 void PkwChannel::countStale(const PkwWords& words, const PkwAnswer& answer) noexcept {
@@ -138,7 +136,7 @@ bool PkwChannel::fallBack(std::uint16_t error_number) noexcept {
   if (fell_back_ || order_.label != OrderLabel::kReadArray) return false;
   const bool no_array = error_number == pkw_error::kNoArray ||
                         (error_number == pkw_error::kWrongSubIndex && order_.number == kFaultNumber);
-  const ParameterRequest& request = waiting_[0];
+  const ParameterRequest& request = requests_.front();
   if (!no_array || (isArray(request.shape) && request.index != 1)) return false;
   fell_back_ = true;
   order_.label = OrderLabel::kRead;
@@ -148,7 +146,7 @@ bool PkwChannel::fallBack(std::uint16_t error_number) noexcept {
 }
 
 void PkwChannel::handleFailure(ParameterOutcome outcome, std::uint16_t error_number) noexcept {
-  if (waiting_.empty()) return;
+  if (requests_.empty()) return;
   last_unanswered_ = last_unanswered_ || phase_ == Phase::kOrder;
   finish(outcome, 0, error_number);
 }
@@ -156,26 +154,17 @@ void PkwChannel::handleFailure(ParameterOutcome outcome, std::uint16_t error_num
 void PkwChannel::handleOffline(Instant) noexcept {
   last_unanswered_ = true;
   pause();
-  while (!waiting_.empty()) finish(ParameterOutcome::kOffline, 0, 0);
+  while (!requests_.empty()) finish(ParameterOutcome::kOffline, 0, 0);
 }
 
 void PkwChannel::finish(ParameterOutcome outcome, std::int32_t raw, std::uint16_t error_number) noexcept {
   ParameterResult result;
-  result.id = waiting_[0].id;
   result.outcome = outcome;
   result.raw = raw;
   result.error_number = error_number;
-  results_.push_back(result);
-  waiting_.eraseFront(1);
+  requests_.finish(result);
   prepared_ = false;
   if (phase_ == Phase::kOrder) pause();
-}
-
-std::optional<ParameterResult> PkwChannel::pollResult() noexcept {
-  if (results_.empty()) return std::nullopt;
-  const ParameterResult result = results_[0];
-  results_.eraseFront(1);
-  return result;
 }
 
 }  // namespace nord_driver::profile

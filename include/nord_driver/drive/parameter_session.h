@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "nord_driver/core/fixed_vector.h"
+#include "nord_driver/core/request_queue.h"
 #include "nord_driver/drive/parameter_task.h"
 #include "nord_driver/drive/ram_only_values.h"
 #include "nord_driver/profile/parameter_request.h"
@@ -33,7 +33,7 @@ class ParameterSession {
   std::optional<profile::ParameterRequest> pollRequest() noexcept;
   /// The result of the request handed out last.
   void handleResult(const profile::ParameterResult& result) noexcept;
-  std::optional<ParameterTaskResult> pollResult() noexcept;
+  std::optional<ParameterTaskResult> pollResult() noexcept { return tasks_.pollResult(); }
   /// Ends all tasks as offline. The inverter that comes back may be another one: what was learned of it is forgotten.
   void handleOffline() noexcept;
 
@@ -75,8 +75,7 @@ class ParameterSession {
   void countWrite(const profile::ParameterResult& result) noexcept;
   void countValueWrite(const profile::ParameterResult& result) noexcept;
 
-  FixedVector<ParameterTask, kCapacity> waiting_;  // the first is the running one
-  FixedVector<ParameterTaskResult, kCapacity> results_;
+  RequestQueue<ParameterTask, ParameterTaskResult, kCapacity> tasks_;
   ParameterTaskResult result_;  // of the running task, as far as it is known
   Step step_ = Step::kNone;
   bool under_way_ = false;       // a request is handed out

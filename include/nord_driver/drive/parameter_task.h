@@ -31,7 +31,8 @@ struct ParameterTaskResult {
   std::uint32_t id = 0;
   /// kRefused without refused_number: the session itself refused, the note says why.
   profile::ParameterOutcome outcome = profile::ParameterOutcome::kTimeout;
-  std::uint16_t error_number = 0;    ///< the inverter's PKW error number (BU 2700 6.5.1.1), when refused_number is set
+  std::uint16_t error_number = 0;    ///< see parameter_error.h, when refused_number is set
+  std::uint32_t abort_code = 0;      ///< CANopen: the SDO abort code behind error_number; 0: none
   std::uint16_t refused_number = 0;  ///< the parameter that error is about: the task's own, or P560; 0: none
   std::int32_t raw = 0;              ///< the value read, or read back
   bool eeprom_written = false;       ///< this task cost EEPROM cycles, or may have

@@ -38,6 +38,7 @@ struct ParameterResult {
   std::uint32_t id = 0;
   ParameterOutcome outcome = ParameterOutcome::kTimeout;
   std::uint16_t error_number = 0;  ///< with kRefused: see parameter_error.h
+  std::uint32_t abort_code = 0;    ///< with kRefused, CANopen: the SDO abort code behind error_number; 0: none
   std::int32_t raw = 0;            ///< with kDone: the value read, or read back
 };
 

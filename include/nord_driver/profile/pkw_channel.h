@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "nord_driver/core/fixed_vector.h"
+#include "nord_driver/core/request_queue.h"
 #include "nord_driver/core/time.h"
 #include "nord_driver/profile/parameter_request.h"
 #include "nord_driver/profile/pkw.h"
@@ -37,7 +37,7 @@ class PkwChannel {
   void handleFailure(ParameterOutcome outcome, std::uint16_t error_number) noexcept;
   /// Ends all pending requests as offline.
   void handleOffline(Instant now) noexcept;
-  std::optional<ParameterResult> pollResult() noexcept;
+  std::optional<ParameterResult> pollResult() noexcept { return requests_.pollResult(); }
   /// Answers seen while an order ran that belong to no order of ours: another master's, or nonsense. The "no answer" of
   /// the pause and the answer to the order before only mean that the inverter has not executed this one yet.
   std::uint64_t stale() const noexcept { return stale_; }
@@ -53,14 +53,13 @@ class PkwChannel {
   void finish(ParameterOutcome outcome, std::int32_t raw, std::uint16_t error_number) noexcept;
 
   Duration answer_timeout_;
-  FixedVector<ParameterRequest, kCapacity> waiting_;  // the first is the running one
-  FixedVector<ParameterResult, kCapacity> results_;
+  RequestQueue<ParameterRequest, ParameterResult, kCapacity> requests_;
   PkwOrder order_;
   PkwOrder sent_;      // the last order that went out: order_, while it runs
   PkwOrder previous_;  // the one before it
   Phase phase_ = Phase::kPause;
   Instant deadline_{};
-  bool prepared_ = false;        // order_ and deadline_ belong to waiting_[0]
+  bool prepared_ = false;        // order_ and deadline_ belong to the running request
   bool fell_back_ = false;       // the running request already uses its one fall-back
   bool pause_sent_ = false;      // at least one exchange asked "no order" since the last order
   bool pause_answered_ = false;  // ... and was answered "no answer"

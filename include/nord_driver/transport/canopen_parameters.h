@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "nord_driver/canopen/sdo_request.h"
-#include "nord_driver/core/fixed_vector.h"
+#include "nord_driver/core/request_queue.h"
 #include "nord_driver/profile/parameter_request.h"
 #include "nord_driver/transport/canopen_map.h"
 
@@ -34,7 +34,7 @@ class CanopenParameters {
   void handleAnswer(const canopen::SdoAnswer& answer) noexcept;
   /// Ends all pending requests as offline.
   void handleOffline() noexcept;
-  std::optional<profile::ParameterResult> pollResult() noexcept;
+  std::optional<profile::ParameterResult> pollResult() noexcept { return requests_.pollResult(); }
 
   /// Of the tag given to the constructor.
   static std::uint16_t tagOf(std::uint32_t id) noexcept { return static_cast<std::uint16_t>(id >> 16); }
@@ -43,16 +43,16 @@ class CanopenParameters {
   std::uint32_t accessId() const noexcept { return std::uint32_t{tag_} << 16 | sequence_; }
   bool fallBack(std::uint32_t abort_code) noexcept;
   void handleValue(const canopen::SdoAnswer& answer) noexcept;
-  void finish(profile::ParameterOutcome outcome, std::int32_t raw, std::uint16_t error_number) noexcept;
+  void finish(profile::ParameterOutcome outcome, std::int32_t raw = 0) noexcept;
+  void refuse(std::uint16_t error_number, std::uint32_t abort_code) noexcept;
   void next() noexcept;
 
   CanopenDrive drive_;
   std::uint16_t tag_;
   std::uint16_t sequence_ = 0;
   bool under_way_ = false;
-  bool plain_ = false;                                         // the running request is asked for with sub-index 0
-  FixedVector<profile::ParameterRequest, kCapacity> waiting_;  // the first is the running one
-  FixedVector<profile::ParameterResult, kCapacity> results_;
+  bool plain_ = false;  // the running request is asked for with sub-index 0
+  RequestQueue<profile::ParameterRequest, profile::ParameterResult, kCapacity> requests_;
 };
 
 }  // namespace nord_driver
