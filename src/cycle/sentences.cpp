@@ -59,6 +59,9 @@ Sentence parameterSentence(const char* drive, std::uint16_t number, const drive:
     case profile::ParameterOutcome::kRefused:
       if (result.refused_number == 0) {
         text.format("P%03u of drive %s: %s", number, drive, note);
+      } else if (result.abort_code != 0) {
+        text.format("drive %s refuses P%03u: SDO abort %08X, %s%s%s", drive, result.refused_number, result.abort_code,
+                    profile::parameterErrorText(result.error_number), joint, note);
       } else {
         text.format("drive %s refuses P%03u: error %u, %s%s%s", drive, result.refused_number, result.error_number,
                     profile::parameterErrorText(result.error_number), joint, note);

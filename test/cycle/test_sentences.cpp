@@ -78,6 +78,9 @@ TEST(Sentences, WhatTheSessionAddsIsPassedOn) {
   result.refused_number = 560;  // the error is about P560, not about the parameter asked for
   result.error_number = 1;
   EXPECT_EQ(0u, parameterSentence("left", 5, result).str().find("drive left refuses P560: error 1, "));
+  // On CANopen by the code that is in its books.
+  result.abort_code = 0x06010002;
+  EXPECT_EQ(0u, parameterSentence("left", 5, result).str().find("drive left refuses P560: SDO abort 06010002, "));
 }
 
 }  // namespace

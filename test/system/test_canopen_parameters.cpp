@@ -56,11 +56,11 @@ TEST(CanopenParameterAccess, AnAbortIsToldInWords) {
   const auto limits = robot.ask(access(kAccelerationTime, -5, profile::ParameterAction::kWritePersistent));
   EXPECT_FALSE(limits.success);
   EXPECT_THAT(limits.message.c_str(),
-              HasSubstr("drive left refuses P102: error 2, the value is beyond the lower or upper limit"));
+              HasSubstr("drive left refuses P102: SDO abort 06090032, the value is beyond the lower or upper limit"));
   const auto unknown = robot.ask(access(999, 0, profile::ParameterAction::kRead));
   EXPECT_FALSE(unknown.success);
   EXPECT_THAT(unknown.message.c_str(),
-              HasSubstr("drive left refuses P999: error 0, the inverter has no parameter of this number"));
+              HasSubstr("drive left refuses P999: SDO abort 06020000, the inverter has no parameter of this number"));
 }
 
 // Answers that take a quarter of a second: the cycle goes on, and the answer comes when it comes.

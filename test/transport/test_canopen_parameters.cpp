@@ -142,6 +142,7 @@ TEST(CanopenParametersTest, AnAbortIsARefusalWithItsNumber) {
   const auto result = channel.result();
   EXPECT_EQ(ParameterOutcome::kRefused, result.outcome);
   EXPECT_EQ(2, result.error_number);
+  EXPECT_EQ(0x06090031u, result.abort_code);
 }
 
 TEST(CanopenParametersTest, ASilentServerIsATimeOut) {
