@@ -252,6 +252,10 @@ CanProcessObjects::Commit CanProcessObjects::commit() noexcept {
   return commit;
 }
 
+void CanProcessObjects::expectNewMaster() noexcept {
+  for (Outputs& outputs : outputs_) outputs.valid_seen = false;
+}
+
 void CanProcessObjects::clear() noexcept {
   outputs_ = {};
   module_outputs_ = 0;

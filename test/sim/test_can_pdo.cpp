@@ -171,5 +171,19 @@ TEST_F(CanPdo, ZerosDoNotStop) {
   EXPECT_EQ(200u, bus.referee().count(CanRule::kZeroControlWord));
 }
 
+// Who has just started the node may look at the status before the first command: the drive has another set in force
+// than any word it could guess.
+TEST_F(CanPdo, ZerosBeforeTheFirstWordsOfAMasterAreNoMistake) {
+  bus.start();
+  bus.repeat("232#7E040000", milliseconds(50), "1B2");
+  bus.send("000#8032");
+  bus.send("000#0132");
+  bus.repeat("232#00000000", milliseconds(50), "1B2");
+  EXPECT_EQ(0u, bus.referee().count(CanRule::kZeroControlWord));
+  bus.repeat("232#7E040000", milliseconds(50), "1B2");
+  bus.repeat("232#00000000", milliseconds(5), "1B2");
+  EXPECT_EQ(1u, bus.referee().count(CanRule::kZeroControlWord));
+}
+
 }  // namespace
 }  // namespace nord_driver::sim

@@ -35,6 +35,8 @@ class CanProcessObjects : public CanObjects {
   };
   /// Hands what was written to the inverters.
   Commit commit() noexcept;
+  /// From here on zeros come before the first valid words: a master may look before it commands.
+  void expectNewMaster() noexcept;
   /// Forgets what was written.
   void clear() noexcept;
 
