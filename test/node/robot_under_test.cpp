@@ -166,6 +166,10 @@ void RobotTest::enableAndDrive(double linear) {
   ASSERT_TRUE(robot().waitForTrueSpeed(0.9 * linear));
 }
 
+bool onCanopen() {
+  return ros::param::param("nord_driver/transport", std::string{}) == "nord_driver/canopen";
+}
+
 bool eventually(const std::function<bool()>& condition, Seconds limit) {
   const auto deadline = std::chrono::steady_clock::now() + limit;
   while (!condition()) {

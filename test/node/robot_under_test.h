@@ -112,6 +112,9 @@ class RobotTest : public ::testing::Test {
   std::unique_ptr<NodeProcess> driver_;
 };
 
+/// The robot of this run is on CANopen: its launch file says so.
+bool onCanopen();
+
 /// Asks again and again until `condition` holds; false when it does not within `limit`.
 bool eventually(const std::function<bool()>& condition, Seconds limit = kPatience);
 

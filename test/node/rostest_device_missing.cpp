@@ -17,12 +17,18 @@ constexpr Seconds kFound{3.0};
 
 class DeviceMissing : public ::testing::Test {
  protected:
-  void SetUp() override { ASSERT_TRUE(ros::param::get("nord_driver/bus/device", device_)); }
+  void SetUp() override {
+    ASSERT_TRUE(ros::param::get(onCanopen() ? "nord_driver/bus/interface" : "nord_driver/bus/device", device_));
+  }
 
   void startSimulator() {
     simulator_ = std::make_unique<NodeProcess>(kSimulatorProgram, std::vector<std::string>{"__name:=nord_sim"});
+    // A virtual bus is nothing to be seen in a file system.
     struct stat info {};
-    ASSERT_TRUE(eventually([&] { return ::stat(device_.c_str(), &info) == 0; })) << simulator_->errorText();
+    const auto is_there = [&] {
+      return onCanopen() ? ros::service::exists("/nord_sim/referee", false) : ::stat(device_.c_str(), &info) == 0;
+    };
+    ASSERT_TRUE(eventually(is_there)) << simulator_->errorText();
   }
   void expectAMissingDevice() {
     const auto missing = [](const BusStatus& status) { return !status.connected && status.offline.size() == 2; };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "node/robot_under_test.h"
+#include "nord_driver/transport/canopen.h"
 #include "nord_driver/transport/profibus_dp.h"
 #include "support/map_settings.h"
 
@@ -16,17 +17,26 @@ constexpr double kGear = 20.0, kPolePairs = 2.0, kMaxFrequencyOfSet3 = 25.0;  //
 /// them run on (BU 2700 7.1.1).
 class EarlierMaster {
  public:
-  explicit EarlierMaster(const std::string& device) {
+  EarlierMaster() {
     std::vector<DriveSettings> drives;
     for (const std::string name : {"left", "right"}) {
       auto settings = std::make_shared<MapSettings>(name + "/");
-      settings->set("address", name == "left" ? 3 : 4).set("series", "sk5xxe").set("ppo_type", 1);
+      settings->set("address", name == "left" ? 3 : 4).set("series", "sk5xxe");
+      if (!onCanopen()) settings->set("ppo_type", 1);
       drives.push_back({name, settings});
     }
-    const MapSettings bus{"bus/", {{"device", device}, {"baud_rate", 500'000}, {"slot_time", 0.05}, {"watchdog", 0.6}}};
-    transport_.configure(bus, drives, kRate);
+    MapSettings bus{"bus/"};
+    if (onCanopen()) {
+      bus.set("interface", ros::param::param("nord_driver/bus/interface", std::string{})).set("sdo_timeout", 1.0);
+      transport_ = std::make_unique<CanopenTransport>();
+    } else {
+      bus.set("device", ros::param::param("nord_driver/bus/device", std::string{})).set("baud_rate", 500'000);
+      bus.set("slot_time", 0.05).set("watchdog", 0.6);
+      transport_ = std::make_unique<ProfibusDpTransport>();
+    }
+    transport_->configure(bus, drives, kRate);
   }
-  ~EarlierMaster() { transport_.close(); }
+  ~EarlierMaster() { transport_->close(); }
   EarlierMaster(const EarlierMaster&) = delete;
   EarlierMaster& operator=(const EarlierMaster&) = delete;
 
@@ -37,11 +47,11 @@ class EarlierMaster {
       output.control_word = control;
       output.setpoints[0] = setpoint;
     }
-    const Instant deadline = transport_.now() + seconds(kPatience.count());
-    while (transport_.now() < deadline) {
-      const Instant start = transport_.now();
-      transport_.exchange(outputs_, inputs_);
-      transport_.sleepUntil(start + seconds(1.0 / kRate));
+    const Instant deadline = transport_->now() + seconds(kPatience.count());
+    while (transport_->now() < deadline) {
+      const Instant start = transport_->now();
+      transport_->exchange(outputs_, inputs_);
+      transport_->sleepUntil(start + seconds(1.0 / kRate));
       bool all = true;
       for (const DriveExchange& input : inputs_) {
         all = all && input.inverter_answers && (input.input.status_word & mask) == status;
@@ -53,7 +63,7 @@ class EarlierMaster {
 
  private:
   static constexpr double kRate = 100.0;  // Hz
-  ProfibusDpTransport transport_;
+  std::unique_ptr<Transport> transport_;
   std::vector<profile::ProcessOutput> outputs_;
   std::vector<DriveExchange> inputs_{2};
 };
@@ -63,11 +73,9 @@ using ParameterSet = RobotTest;
 // The set is learnt from the status word and kept: 847E is OFF1 in set 3, where 047E would be set 1, with another P105
 // and other ramps, on a turning motor.
 TEST_F(ParameterSet, ANodeOverDrivesThatTurnInSet3KeepsTheSetAndIdlesThem) {
-  std::string device;
-  ASSERT_TRUE(ros::param::get("nord_driver/bus/device", device));
   ASSERT_TRUE(robot().left.truth.next());  // the simulator is there
   {
-    EarlierMaster earlier(device);
+    EarlierMaster earlier;
     constexpr Word kStateOfSet3 = 0xC06F;  // set and state bits of the status word; bits 14 and 15 = 10 is set 3
     ASSERT_TRUE(earlier.bring(0x847E, 0, kStateOfSet3, 0x8021));
     ASSERT_TRUE(earlier.bring(0x847F, 0, kStateOfSet3, 0x8027));
@@ -78,7 +86,7 @@ TEST_F(ParameterSet, ANodeOverDrivesThatTurnInSet3KeepsTheSetAndIdlesThem) {
              turning(*robot().right.truth.next());
     }));
   }
-  // The module's watchdog expires; the inverters do not mind.
+  // The module's watchdog expires, or the node is left alone; the inverters do not mind.
   for (DriveTopics* drive : {&robot().left, &robot().right}) {
     const auto alone = drive->truth.waitNext([](const SimDrive& truth) { return !truth.in_data_exchange; });
     ASSERT_TRUE(alone);
