@@ -3,51 +3,25 @@
 #pragma once
 
 #include <fcntl.h>
-#include <linux/can.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <stdexcept>
 #include <vector>
 
-#include "nord_driver/link/can_system.h"
+#include "can_ends.h"
 
 namespace nord_driver::bench {
-
-class CanPair {
- public:
-  CanPair() {
-    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends_) != 0) throw std::runtime_error("no socketpair");
-  }
-  ~CanPair() {
-    for (const int end : ends_) ::close(end);
-  }
-  CanPair(const CanPair&) = delete;
-  CanPair& operator=(const CanPair&) = delete;
-
-  int near() const { return ends_[0]; }
-  int far() const { return ends_[1]; }
-
- private:
-  int ends_[2] = {-1, -1};
-};
-
-inline can_frame toKernel(const CanFrame& frame) {
-  can_frame raw{};
-  raw.can_id = frame.id | (frame.remote ? CAN_RTR_FLAG : 0u);
-  raw.can_dlc = frame.size;
-  std::copy(frame.data.begin(), frame.data.end(), raw.data);
-  return raw;
-}
 
 /// Lets the driver's SocketCAN link work on the near end: everything that moves frames is Linux' own, only opening and
 /// setting up an interface is not.
 class PairSystem final : public link::CanSystem {
  public:
-  explicit PairSystem(const CanPair& pair) : pair_(pair) {}
+  /// `near` is read when the link is opened.
+  explicit PairSystem(const int& near) : near_(near) {}
 
   int open() noexcept override {
-    const int end = ::fcntl(pair_.near(), F_DUPFD_CLOEXEC, 0);
+    const int end = ::fcntl(near_, F_DUPFD_CLOEXEC, 0);
     ::fcntl(end, F_SETFL, O_NONBLOCK);
     return end;
   }
@@ -83,8 +57,29 @@ class PairSystem final : public link::CanSystem {
   void sleepUntil(Instant when) noexcept override { linux_.sleepUntil(when); }
 
  private:
-  const CanPair& pair_;
+  const int& near_;
   link::CanSystem& linux_ = link::linuxCanSystem();
+};
+
+class CanPair final : public CanEnds {
+ public:
+  CanPair() {
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends_) != 0) throw std::runtime_error("no socketpair");
+  }
+  ~CanPair() override {
+    for (const int end : ends_) ::close(end);
+  }
+  CanPair(const CanPair&) = delete;
+  CanPair& operator=(const CanPair&) = delete;
+
+  int near() override { return ends_[0]; }
+  int far() const override { return ends_[1]; }
+  const char* interface() const override { return "pair0"; }
+  link::CanSystem& system() override { return system_; }
+
+ private:
+  int ends_[2] = {-1, -1};
+  PairSystem system_{ends_[0]};
 };
 
 }  // namespace nord_driver::bench

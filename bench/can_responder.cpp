@@ -1,10 +1,17 @@
 #include "can_responder.h"
 
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+
 #include "measure.h"
 
 namespace nord_driver::bench {
 
 namespace {
+
+constexpr canid_t kEndId = 0x7FF;  // of no node
 
 std::uint32_t valueOf(unsigned index, unsigned sub_index, unsigned node) {
   if (index == 0x1400 && sub_index == 1) return 0x40000200u + node;
@@ -15,7 +22,7 @@ std::uint32_t valueOf(unsigned index, unsigned sub_index, unsigned node) {
 
 }  // namespace
 
-CanResponder::CanResponder(const CanPair& pair, std::size_t nodes, unsigned processor) : far_(pair.far()) {
+CanResponder::CanResponder(CanEnds& ends, std::size_t nodes, unsigned processor) : ends_(ends) {
   for (std::size_t node = 1; node <= nodes; ++node) {
     can_frame frame{};
     frame.can_id = static_cast<canid_t>(0x180 + node);
@@ -32,17 +39,24 @@ CanResponder::CanResponder(const CanPair& pair, std::size_t nodes, unsigned proc
 }
 
 CanResponder::~CanResponder() {
-  ::shutdown(far_, SHUT_RDWR);
+  // Nothing else wakes a thread that reads from a CAN_RAW socket.
+  can_frame end{};
+  end.can_id = kEndId;
+  if (::write(ends_.near(), &end, sizeof end) != static_cast<ssize_t>(sizeof end)) {
+    std::perror("the far end cannot be told to end");
+    std::abort();
+  }
   thread_.join();
 }
 
 void CanResponder::run() {
   can_frame frame{};
-  while (::read(far_, &frame, sizeof frame) == static_cast<ssize_t>(sizeof frame) && answer(frame)) {
+  while (::read(ends_.far(), &frame, sizeof frame) == static_cast<ssize_t>(sizeof frame) && answer(frame)) {
   }
 }
 
 bool CanResponder::answer(const can_frame& frame) const {
+  if (frame.can_id == kEndId) return false;
   if (frame.can_id == 0x080) {
     for (const can_frame& pdo : transmit_pdos_) {
       if (!send(pdo)) return false;
@@ -56,7 +70,7 @@ bool CanResponder::answer(const can_frame& frame) const {
 }
 
 bool CanResponder::send(const can_frame& frame) const {
-  return ::write(far_, &frame, sizeof frame) == static_cast<ssize_t>(sizeof frame);
+  return ::write(ends_.far(), &frame, sizeof frame) == static_cast<ssize_t>(sizeof frame);
 }
 
 void CanResponder::answerSdo(const can_frame& request, can_frame& response) {

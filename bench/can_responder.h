@@ -5,14 +5,14 @@
 #include <thread>
 #include <vector>
 
-#include "can_pair.h"
+#include "can_ends.h"
 
 namespace nord_driver::bench {
 
 class CanResponder {
  public:
-  /// Nodes 1 to `nodes`.
-  CanResponder(const CanPair& pair, std::size_t nodes, unsigned processor);
+  /// Nodes 1 to `nodes`; `ends` must outlive them.
+  CanResponder(CanEnds& ends, std::size_t nodes, unsigned processor);
   ~CanResponder();
   CanResponder(const CanResponder&) = delete;
   CanResponder& operator=(const CanResponder&) = delete;
@@ -23,7 +23,7 @@ class CanResponder {
   bool send(const can_frame& frame) const;
   static void answerSdo(const can_frame& request, can_frame& response);
 
-  int far_;
+  CanEnds& ends_;
   std::vector<can_frame> transmit_pdos_;
   std::thread thread_;
 };

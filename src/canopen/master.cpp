@@ -1,5 +1,6 @@
 #include "nord_driver/canopen/master.h"
 
+#include <algorithm>
 #include <array>
 
 namespace nord_driver::canopen {
@@ -11,6 +12,16 @@ MasterConfig checked(const MasterConfig& config) {
   MasterConfig complete = completed(config);
   checkConfig(complete);
   return complete;
+}
+
+constexpr std::uint8_t kToggle = 0x80;
+
+bool isNmtCommand(const CanFrame& frame) noexcept {
+  constexpr std::array<NmtCommand, 5> kCommands{NmtCommand::kStart, NmtCommand::kStop, NmtCommand::kEnterPreOperational,
+                                                NmtCommand::kResetNode, NmtCommand::kResetCommunication};
+  bool known = false;
+  for (const NmtCommand command : kCommands) known = known || frame.data[0] == static_cast<std::uint8_t>(command);
+  return !frame.remote && frame.size == 2 && known && frame.data[1] <= kMaxNodeId;
 }
 
 std::size_t receivePdosOf(const MasterConfig& config) {
@@ -101,6 +112,36 @@ void Master::handleFrame(const CanFrame& frame, Instant now) noexcept {
   }
 }
 
+bool Master::noteOtherMaster(const CanFrame& frame, Instant now) noexcept {
+  now_ = now;
+  ++counters_.frames_received;
+  if (frame.extended || frame.id >= kCobIds || frame.size > kCanDataLength) return false;
+  const CobIdUse& use = uses_[frame.id];
+  if (!isOfOtherMaster(use, frame)) return false;
+  watch_.secondMaster(frame, use.kind, now);
+  return true;
+}
+
+bool Master::isOfOtherMaster(const CobIdUse& use, const CanFrame& frame) const noexcept {
+  switch (use.kind) {
+    case Kind::kNmt:
+      return isNmtCommand(frame) &&
+             (frame.data[1] == 0 ||
+              std::any_of(nodes_.begin(), nodes_.end(), [&](const auto& node) { return node->id() == frame.data[1]; }));
+    case Kind::kSync:
+    case Kind::kReceivePdo:
+    case Kind::kSdoRequest:
+      return !frame.remote;
+    case Kind::kTransmitPdo:
+      return frame.remote;
+    case Kind::kErrorControl:
+      // Only the answer to a question bears a toggle bit; the question itself may not have passed the filters.
+      return frame.remote || (frame.size == 1 && (frame.data[0] & kToggle) != 0);
+    default:
+      return false;
+  }
+}
+
 void Master::dispatch(const CobIdUse& use, const CanFrame& frame, Instant now) noexcept {
   switch (use.kind) {
     case Kind::kTransmitPdo:
@@ -115,9 +156,13 @@ void Master::dispatch(const CobIdUse& use, const CanFrame& frame, Instant now) n
       return nodes_[use.node]->handleEmergency(frame, now);
     case Kind::kNmt:
       return handleNmt(frame, now);
-    case Kind::kSync:
     case Kind::kReceivePdo:
+      nodes_[use.node]->handleForeignPdo(now);
+      return watch_.secondMaster(frame, use.kind, now);
     case Kind::kSdoRequest:
+      nodes_[use.node]->handleForeignRequest();
+      return watch_.secondMaster(frame, use.kind, now);
+    case Kind::kSync:
       return watch_.secondMaster(frame, use.kind, now);
     case Kind::kOwnHeartbeat:
       return watch_.ownIdUsed(frame, now);
@@ -148,11 +193,7 @@ void Master::handleRemote(const CobIdUse& use, const CanFrame& frame, Instant no
 }
 
 void Master::handleNmt(const CanFrame& frame, Instant now) noexcept {
-  constexpr std::array<NmtCommand, 5> kCommands{NmtCommand::kStart, NmtCommand::kStop, NmtCommand::kEnterPreOperational,
-                                                NmtCommand::kResetNode, NmtCommand::kResetCommunication};
-  bool known = false;
-  for (const NmtCommand command : kCommands) known = known || frame.data[0] == static_cast<std::uint8_t>(command);
-  if (frame.size != 2 || !known || frame.data[1] > kMaxNodeId) return watch_.malformedNmt(frame, now);
+  if (!isNmtCommand(frame)) return watch_.malformedNmt(frame, now);
   watch_.secondMaster(frame, Kind::kNmt, now);
   for (const auto& node : nodes_) {
     if (frame.data[1] != 0 && frame.data[1] != node->id()) continue;

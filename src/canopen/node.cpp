@@ -36,6 +36,7 @@ void Node::restart(Instant now) noexcept {
     port.cancel(SdoOwner::kBoot, now);
   }
   report_.status().emergencies.clear();
+  report_.status().other_commands_at.reset();
   boot_.restart(now);
   for (ReceivePdoSlot& pdo : receive_pdos_) pdo.forget();
   settle(now);
@@ -117,7 +118,10 @@ void Node::handleSdo(std::size_t server, const CanFrame& frame, Instant now) noe
   SdoPort& port = ports_[server];
   const SdoCounters before = port.counters();
   port.handle(frame, now);
-  report_.busCounters().stray_sdo += port.counters().stale - before.stale;
+  if (port.counters().stale != before.stale) {
+    report_.busCounters().stray_sdo += port.counters().stale - before.stale;
+    if (server == 0) boot_.handleStrayAnswer(now);
+  }
   if (port.counters().malformed != before.malformed) report_.malformed(frame, "an SDO has eight bytes", now);
   settle(now);
 }
@@ -125,6 +129,11 @@ void Node::handleSdo(std::size_t server, const CanFrame& frame, Instant now) noe
 void Node::handleForeignCommand(NmtCommand command, Instant now) noexcept {
   boot_.handleForeignCommand(command, now);
   settle(now);
+}
+
+void Node::handleForeignPdo(Instant now) noexcept {
+  ++report_.status().counters.foreign_receive_pdos;
+  report_.status().other_commands_at = now;
 }
 
 void Node::poll(Instant now) noexcept {

@@ -13,8 +13,18 @@ constexpr Duration kLongestRefusePause = std::chrono::seconds{4};
 constexpr Duration kBootUpsBelongTogether = std::chrono::seconds{2};
 constexpr std::uint32_t kMostBootUps = 3;
 
+/// A frame may be received twice (ISO 11898-1: an error in its last bit but one), but not most of the answers.
+constexpr std::uint32_t kSurplusOfTwoNodes = 4;
+
+/// Two nodes with one id get stop words for so long.
+constexpr Duration kStopBoth = std::chrono::seconds{4};
+
 constexpr std::uint16_t kErrorRegisterIndex = 0x1001;
 constexpr std::uint16_t kErrorFieldIndex = 0x1003;
+
+Sentence doubleId() noexcept {
+  return Sentence{"two nodes answer with this id: is it set twice, by switches or P515?"};
+}
 
 NmtCommand resetCommand(BootReset reset) noexcept {
   return reset == BootReset::kResetNode ? NmtCommand::kResetNode : NmtCommand::kResetCommunication;
@@ -39,6 +49,7 @@ void NodeBoot::restart(Instant now) noexcept {
   command_.reset();
   fresh_ = false;
   was_operational_ = false;
+  doubled_ = false;
   boot_ups_in_a_row_ = 0;
   last_boot_up_.reset();
   ask_pause_ = kFirstAskPause;
@@ -77,6 +88,10 @@ void NodeBoot::ask(Instant now) noexcept {
   phase_ = Phase::kScript;
   deadline_.reset();
   answered_ = false;
+  answers_are_ours_ = true;
+  answers_ = 0;
+  surplus_answers_ = 0;
+  two_answer_ = false;
   script_.begin();
   tries_left_ = 0;
   submit(script_.request(), now);
@@ -135,6 +150,25 @@ void NodeBoot::handleState(NmtState state, Instant now) noexcept {
   }
 }
 
+void NodeBoot::handleStrayAnswer(Instant now) noexcept {
+  if (phase_ != Phase::kScript || !answers_are_ours_ || two_answer_) return;
+  ++surplus_answers_;
+  if (surplus_answers_ < kSurplusOfTwoNodes || 2 * surplus_answers_ < answers_) return;
+  two_answer_ = true;
+  if (report_.status().state != NodeState::kRefused && !doubled_) {
+    report_.tell(CanopenEventKind::kDoubleId, doubleId(), 0, now);
+  }
+  if (!was_operational_ || doubled_) refuseBoth(now);
+}
+
+// Two nodes with one id take the same control words: they must not run. One that was in operation may turn, though, and
+// hears a stop word in no other state.
+void NodeBoot::refuseBoth(Instant now) noexcept {
+  was_operational_ = false;
+  doubled_ = false;
+  refuse(doubleId(), now);
+}
+
 void NodeBoot::handleLoss(const Sentence& why, Instant now) noexcept {
   if (phase_ != Phase::kRunning) return;
   leave(why, now);
@@ -161,6 +195,7 @@ void NodeBoot::poll(Instant now) noexcept {
 }
 
 void NodeBoot::handleDeadline(Instant now) noexcept {
+  if (phase_ == Phase::kRunning) report_.enter(NodeState::kBooting, doubleId(), now);
   if (phase_ != Phase::kStart) return ask(now);
   if (tries_left_ == 0) return diagnose(now);
   --tries_left_;
@@ -170,6 +205,7 @@ void NodeBoot::handleDeadline(Instant now) noexcept {
 
 void NodeBoot::handleAnswer(const SdoAnswer& answer, Instant now) noexcept {
   NodeCounters& counters = report_.status().counters;
+  ++answers_;
   if (answer.end == SdoEnd::kTimedOut || answer.end == SdoEnd::kAbortedByUs) {
     ++counters.sdo_timeouts;
     ++report_.busCounters().sdo_timeouts;
@@ -209,6 +245,7 @@ void NodeBoot::handleScriptAnswer(const SdoAnswer& answer, Instant now) noexcept
 }
 
 void NodeBoot::handleNoAnswer(Instant now) noexcept {
+  answers_are_ours_ = false;  // some may come late
   if (phase_ == Phase::kReadErrorRegister || phase_ == Phase::kReadErrorField) return refuseStart(now);
   if (tries_left_ > 0) {
     --tries_left_;
@@ -242,6 +279,7 @@ void NodeBoot::silent(const Sentence& why, Instant now) noexcept {
 }
 
 void NodeBoot::start(Instant now) noexcept {
+  doubled_ = two_answer_;
   command_ = NmtCommand::kStart;
   heard_ = false;
   if (config_.error_control.mode == ErrorControlMode::kNone) return run(now);
@@ -257,7 +295,9 @@ void NodeBoot::run(Instant now) noexcept {
   was_operational_ = true;
   refuse_pause_ = kFirstRefusePause;
   ++report_.status().counters.boots;
-  report_.enter(NodeState::kOperational, {}, now);
+  report_.enter(NodeState::kOperational, doubled_ ? doubleId() : Sentence{}, now);
+  report_.status().doubled = doubled_;
+  if (doubled_) deadline_ = now + kStopBoth;
   report_.tell(CanopenEventKind::kNodeOperational, Sentence{"is operational"}, 0, now);
 }
 

@@ -31,7 +31,7 @@ CanStations::CanStations(RobotSim& robot) : robot_(robot) {
     const std::size_t place = gateway ? can.inverter - 1 : 0;
     auto at = std::find_if(plan.begin(), plan.end(),
                            [&](const auto& entry) { return entry.first.node == config.slave.address; });
-    if (at == plan.end()) {
+    if (can.doubled_id || at == plan.end()) {
       CanNodeSettings settings;
       settings.node = config.slave.address;
       settings.can = can;

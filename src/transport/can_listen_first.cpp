@@ -32,26 +32,39 @@ void CanListenFirst::restart(Instant now) noexcept {
 }
 
 void CanListenFirst::handle(const CanFrame& frame) noexcept {
-  if (listening_ && !isSaidUnasked(frame)) handleMaster(frame.id);
+  if (listening_ && !heard_ && !isSaidUnasked(frame)) heard_ = frame.id;
 }
 
-void CanListenFirst::handleMaster(std::uint32_t id) noexcept {
-  if (!heard_) heard_ = id;
+void CanListenFirst::handleMaster(std::uint32_t id, Instant at) noexcept {
+  if (who_ == CanListener::kGuest) {
+    if (!heard_) heard_ = id;
+  } else if (listening_) {
+    heard_ = id;
+    end_ = at + kGone;
+  }
 }
 
 bool CanListenFirst::mayTalk(Instant now) noexcept {
-  if (!heard_ && now >= end_) listening_ = false;
+  const bool waits = who_ == CanListener::kDriver || !heard_;
+  if (listening_ && waits && now >= end_) {
+    listening_ = false;
+    heard_.reset();
+  }
   return !isSilent();
 }
 
 std::optional<Instant> CanListenFirst::nextDeadline() const noexcept {
-  if (!listening_ || heard_) return std::nullopt;
-  return end_;
+  const bool waits = who_ == CanListener::kDriver || !heard_;
+  return listening_ && waits ? std::optional<Instant>{end_} : std::nullopt;
 }
 
 Sentence CanListenFirst::text() const noexcept {
   Sentence text;
-  if (heard_) {
+  if (heard_ && who_ == CanListener::kDriver) {
+    text.format(
+        "another master works with these nodes: %03Xh was seen; nothing is sent until he has been silent for %d s",
+        static_cast<unsigned>(*heard_), static_cast<int>(kGone.count()));
+  } else if (heard_) {
     text.format(
         "the bus is in use: %03Xh was seen; nothing is sent beside another master, nor to nodes that one has left "
         "operational: end it, or switch them off and on",

@@ -63,10 +63,8 @@ CanopenTransport::CanopenTransport(LinkFactory make_link) : make_link_(std::move
 void CanopenTransport::configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) {
   config_ = readCanopenConfig(bus, drives, cycle_rate);
   period_ = seconds(1.0 / cycle_rate);
-  if (parameters_only_) {
-    endWithoutATrip(config_.master);
-    listen_first_.emplace(kListenFirst);
-  }
+  if (parameters_only_) endWithoutATrip(config_.master);
+  listen_first_.emplace(kListenFirst, parameters_only_ ? CanListener::kGuest : CanListener::kDriver);
   master_.emplace(config_.master);
   link::CanSettings settings;
   settings.interface = config_.interface;
@@ -113,13 +111,14 @@ bool CanopenTransport::linkReady() noexcept {
 void CanopenTransport::restart() noexcept {
   const Instant now = link_->now();
   master_->restart(now);
-  if (listen_first_) listen_first_->restart(now);
+  // A driver whose interface was away has had the nodes: they may turn, and must hear from him at once.
+  if (parameters_only_ || !opened_) listen_first_->restart(now);
+  opened_ = true;
   for (CanopenDriveState& drive : drives_) drive.handleRestart();
 }
 
 // Listening is over: the start-up of the nodes begins now, so that none of its times has run meanwhile.
 bool CanopenTransport::mayTalk() noexcept {
-  if (!listen_first_) return true;
   const Instant now = link_->now();
   const bool listened = isSilent();
   if (!listen_first_->mayTalk(now)) return false;
@@ -185,10 +184,12 @@ void CanopenTransport::receive() noexcept {
   link::ReceivedCanFrame received;
   for (int count = 0; count < kFramesAtOnce && link_->receive(received); ++count) {
     trace_->record(TraceKind::kReceived, toPacket(received.frame), received.at);
-    if (isSilent()) {
-      listen_first_->handle(received.frame);
-    } else {
+    if (!isSilent()) {
       master_->handleFrame(received.frame, received.at);
+    } else if (parameters_only_) {
+      listen_first_->handle(received.frame);
+    } else if (master_->noteOtherMaster(received.frame, received.at)) {
+      listen_first_->handleMaster(received.frame.id, received.at);
     }
   }
 }
@@ -235,21 +236,29 @@ void CanopenTransport::takeEvents() noexcept {
   using Kind = canopen::CanopenEventKind;
   while (const auto event = master_->pollEvent()) {
     const bool of_the_bus = event->node == canopen::kNoNode;
-    if (listen_first_ && event->kind == Kind::kSecondMaster) listen_first_->handleMaster(event->value);
-    const bool worth_telling =
-        event->kind == Kind::kToggleError || event->kind == Kind::kBootUpRepeated || event->kind == Kind::kMalformed;
+    if (event->kind == Kind::kSecondMaster) listen_first_->handleMaster(event->value, event->at);
+    const bool worth_telling = event->kind == Kind::kToggleError || event->kind == Kind::kBootUpRepeated ||
+                               event->kind == Kind::kDoubleId || event->kind == Kind::kMalformed;
+    BusEvent told;
     if (of_the_bus) {
-      event_text_ = event->text;
+      told.text = event->text;
     } else if (worth_telling) {
-      event_text_.format("node %u: %s", config_.master.nodes[event->node].id, event->text.c_str());
+      told.text.format("node %u: %s", config_.master.nodes[event->node].id, event->text.c_str());
     } else {
       continue;
     }
-    event_at_ = event->at;
-    BusEvent told;
-    told.text = event_text_;
     events_.push_back(told);  // what does not fit is in the counters
+    const bool explains = event->kind == Kind::kSecondMaster || event->kind == Kind::kDoubleId;
+    if (!explains && isExplained(event->at)) continue;
+    if (explains) explained_at_ = event->at;
+    event_text_ = told.text;
+    event_at_ = event->at;
   }
+}
+
+// Another master, or a second node with one id, is the reason of most that the nodes do meanwhile.
+bool CanopenTransport::isExplained(Instant now) const noexcept {
+  return explained_at_ && now - *explained_at_ < kEventShown;
 }
 
 std::optional<BusEvent> CanopenTransport::pollEvent() noexcept {
@@ -308,7 +317,9 @@ BusCounters CanopenTransport::counters() const noexcept {
 
 DriveNote CanopenTransport::note(DriveIndex drive) const noexcept {
   if (!link_->isOpen()) return {"the CAN interface is not open"};
-  return {drives_[drive].note()};
+  if (!isSilent()) return {drives_[drive].note()};
+  return {listen_first_->heard() ? "another master has the bus: nothing is sent beside him"
+                                 : "it is listened for other masters before anything is sent"};
 }
 
 std::uint32_t CanopenTransport::identNumber(DriveIndex drive) const noexcept {
@@ -325,7 +336,7 @@ Sentence CanopenTransport::busText() const noexcept {
   text.format("%s", link_->advice());
   if (!text.empty()) return text;
   if (isSilent()) return listen_first_->text();
-  if (!connected()) {
+  if (!connected() && !isExplained(link_->now())) {
     text.format(
         "%s is open, but no node runs: are the drives powered, is the bit rate right (P514), are the two ends of the "
         "bus terminated?",

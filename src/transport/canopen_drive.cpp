@@ -11,7 +11,9 @@ namespace {
 
 constexpr std::uint16_t kMaxFrequency = 105;
 constexpr double kMaxFrequencyResolution = 0.1;  // Hz
-constexpr std::uint16_t kModuleLink = 0x5000;    // E10.8, between bus module and inverter (BU 0060 p. 93)
+// An inverter that two command does what the last one said. It is ours again when the other was silent for so long.
+constexpr Duration kContested = std::chrono::seconds{1};
+constexpr std::uint16_t kModuleLink = 0x5000;  // E10.8, between bus module and inverter (BU 0060 p. 93)
 
 }  // namespace
 
@@ -56,8 +58,10 @@ void CanopenDriveState::takeInput(const canopen::Master& master, bool bus_works,
   input = {};
   module_answers_ = bus_works && status.state == canopen::NodeState::kOperational;
   const bool ever_sent = pdo.count != 0;
+  contested_ = status.other_commands_at && now - *status.other_commands_at < kContested;
   const bool overdue = config_.transmit_limit > Duration::zero() && now - pdo.at > config_.transmit_limit;
-  inverter_answers_ = module_answers_ && ever_sent && !overdue && decode(pdo.bytes, input.input) &&
+  inverter_answers_ = module_answers_ && !contested_ && !status.doubled && ever_sent && !overdue &&
+                      decode(pdo.bytes, input.input) &&
                       // A module with its own supply answers for an inverter that is off.
                       profile::StatusWord{input.input.status_word}.isUseful() && !moduleMissesInverter(input.input);
   input.module_answers = module_answers_;
@@ -108,6 +112,8 @@ void CanopenDriveState::explain(const canopen::NodeStatus& status, bool bus_work
     note_ = status.reason;
   } else if (!module_answers_) {
     note_ = canopen::toText(status.state);
+  } else if (contested_) {
+    note_ = "another master commands it, too: end one of the two";
   } else {
     const char* text =
         !ever_sent || overdue

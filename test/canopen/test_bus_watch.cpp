@@ -64,6 +64,30 @@ TEST_F(Watched, SecondMaster) {
   EXPECT_TRUE(run.allOperational());
 }
 
+// Before our first frame: who works with our nodes, and who does not. A node that was left operational is nobody's.
+TEST_F(Watched, SomebodyElseHasOurNodes) {
+  const auto noted = [this](const CanFrame& frame) { return run.master.noteOtherMaster(frame, run.now); };
+  for (const char* text :
+       {"000#0100", "000#8201", "201#7F040020", "601#4000100000000000", "080#", "701#R1", "181#R4", "701#85"}) {
+    EXPECT_TRUE(noted(frame(text))) << text;
+  }
+  EXPECT_EQ(8u, run.master.counters().second_master);
+  for (const char* text : {"000#0109", "000#01", "209#7F040020", "701#05", "701#00", "181#31030000",
+                           "581#4300100000000000", "081#0010010000000000", "709#85", "100#000000000000"}) {
+    EXPECT_FALSE(noted(frame(text))) << text;
+  }
+  EXPECT_EQ(8u, run.master.counters().second_master);
+  EXPECT_TRUE(run.allOperational()) << "nothing else comes of it";
+}
+
+// Control words of another master: when the last one came is known.
+TEST_F(Watched, AnotherMasterCommandsANode) {
+  run.say("202#7F040020");
+  EXPECT_EQ(run.now, run.master.status(1).other_commands_at.value_or(Instant{}));
+  EXPECT_EQ(1u, run.master.status(1).counters.foreign_receive_pdos);
+  EXPECT_FALSE(run.master.status(0).other_commands_at.has_value());
+}
+
 TEST_F(Watched, OwnNodeIdUsed) {
   EXPECT_EQ("another node has our own node id 127", told("77F#00", CanopenEventKind::kOwnIdUsed));
   EXPECT_EQ(1u, run.master.counters().own_id_used);

@@ -14,6 +14,7 @@
 #include "nord_driver/sim/simulated_can_bus.h"
 #include "nord_driver/transport/canopen.h"
 #include "support/map_settings.h"
+#include "system/beside_can_link.h"
 #include "system/deaf_can_link.h"
 #include "system/driven_robot.h"
 
@@ -31,6 +32,8 @@ class CanRobot : public DrivenRobot {
     /// Behind one SK CU4-CAO, which then has these inverters; the first two are the wheels.
     std::size_t gateway_inverters = 0;
     std::function<void(sim::SimConfig&)> simulate;  ///< changes of the simulated side
+    /// A second driver on this bus, which outlives it; `bus()`, `link()`, `unit()` and `node()` are the first one's.
+    sim::SimulatedCanBus* beside = nullptr;
   };
 
   CanRobot() : CanRobot(Options{}) {}
@@ -38,14 +41,20 @@ class CanRobot : public DrivenRobot {
     const auto drives = driveSettings(options);
     const MapSettings node{"~", nodeSettings(options)};
     const cycle::CycleConfig config = cycle::readCycleConfig(node, drives);
-    auto transport = std::make_unique<CanopenTransport>([this, options](const link::CanSettings& settings) {
-      ids_ = settings.ids;
-      auto bus = std::make_unique<sim::SimulatedCanBus>(simConfig(options));
-      bus_ = bus.get();
-      auto link = std::make_unique<DeafCanLink>(std::move(bus));
-      link_ = link.get();
-      return link;
-    });
+    auto transport = std::make_unique<CanopenTransport>(
+        [this, options](const link::CanSettings& settings) -> std::unique_ptr<link::CanLink> {
+          ids_ = settings.ids;
+          if (options.beside != nullptr) {
+            auto beside = std::make_unique<BesideCanLink>(*options.beside);
+            beside_ = beside.get();
+            return beside;
+          }
+          auto bus = std::make_unique<sim::SimulatedCanBus>(simConfig(options));
+          bus_ = bus.get();
+          auto link = std::make_unique<DeafCanLink>(std::move(bus));
+          link_ = link.get();
+          return link;
+        });
     MapSettings bus{"~bus/", {{"interface", std::string{"can0"}}}};
     for (const auto& [key, value] : options.bus) bus.set(key, value);
     transport->configure(bus, drives, config.cycle_rate);
@@ -59,6 +68,8 @@ class CanRobot : public DrivenRobot {
 
   sim::SimulatedCanBus& bus() { return *bus_; }
   DeafCanLink& link() { return *link_; }
+  /// Of a second driver.
+  BesideCanLink& beside() { return *beside_; }
   sim::DriveUnit& unit(std::size_t drive) { return bus_->drive(drive); }
   sim::CanNode& node(std::size_t drive) { return bus_->node(drive); }
   const std::vector<std::uint32_t>& filteredIds() const { return ids_; }
@@ -123,6 +134,7 @@ class CanRobot : public DrivenRobot {
 
   sim::SimulatedCanBus* bus_ = nullptr;
   DeafCanLink* link_ = nullptr;
+  BesideCanLink* beside_ = nullptr;
   std::vector<std::uint32_t> ids_;
 };
 

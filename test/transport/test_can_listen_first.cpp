@@ -87,9 +87,28 @@ TEST(CanListenFirst, AMasterThatComesLaterEndsIt) {
   ASSERT_TRUE(listener.mayTalkAfter(milliseconds{500}));
   listener.listen.handle(dataFrame(0x583, ByteView{}));
   EXPECT_TRUE(listener.mayTalkAfter(milliseconds{600}));
-  listener.listen.handleMaster(0x000);
+  listener.listen.handleMaster(0x000, kStart + milliseconds{650});
   EXPECT_FALSE(listener.mayTalkAfter(milliseconds{700}));
   EXPECT_EQ(0x000u, listener.listen.heard());
+}
+
+// A driver waits until the other master has been silent for two seconds, and from then on the nodes are its own.
+TEST(CanListenFirst, ADriverWaitsUntilTheOtherHasEnded) {
+  CanListenFirst listen{milliseconds{500}, CanListener::kDriver};
+  listen.restart(kStart);
+  EXPECT_FALSE(listen.mayTalk(kStart + milliseconds{499}));
+  listen.handleMaster(0x203, kStart + milliseconds{499});
+  EXPECT_FALSE(listen.mayTalk(kStart + milliseconds{600}));
+  listen.handleMaster(0x000, kStart + milliseconds{1000});
+  EXPECT_STREQ("another master works with these nodes: 000h was seen; nothing is sent until he has been silent for 2 s",
+               listen.text().c_str());
+  EXPECT_EQ(kStart + milliseconds{3000}, listen.nextDeadline());
+  EXPECT_FALSE(listen.mayTalk(kStart + milliseconds{2999}));
+  EXPECT_TRUE(listen.mayTalk(kStart + milliseconds{3000}));
+  EXPECT_TRUE(listen.text().empty());
+  listen.handleMaster(0x203, kStart + milliseconds{3500});
+  EXPECT_TRUE(listen.mayTalk(kStart + milliseconds{3500}));
+  EXPECT_FALSE(listen.nextDeadline().has_value());
 }
 
 // The interface was opened anew.

@@ -18,6 +18,7 @@ enum class CanopenEventKind : std::uint8_t {
   kEmergency,        ///< `value`: error code << 8 | error register
   kToggleError,      ///< guarding answered twice with the same toggle bit
   kBootUpRepeated,   ///< boot-ups while it was being started: two nodes with one id, or a heartbeat that says 0
+  kDoubleId,         ///< more answers than questions: two nodes with one id
   kMalformed,        ///< a frame of a wrong length or an impossible value; `value`: its identifier
   // Not of a configured node: `node` is kNoNode.
   kForeignNode,   ///< `value`: id of a node that is not configured; told once per node until `restart()`

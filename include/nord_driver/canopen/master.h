@@ -65,6 +65,9 @@ class Master {
   /// Every node gets this command once and is left alone until `restart()`: PDOs end at once. For the clean exit.
   void releaseAll(NmtCommand command, Instant now) noexcept;
 
+  /// While nothing may be sent yet, in place of `handleFrame()`: whether only a master that works with our nodes sends
+  /// such a frame (NMT, guarding, RPDOs, SDO requests, our SYNC), or a node answers to one. Counted and told.
+  bool noteOtherMaster(const CanFrame& frame, Instant now) noexcept;
   void startCycle(Instant now) noexcept;
   void handleFrame(const CanFrame& frame, Instant now) noexcept;
   /// What is due by time: to be called when `now` has reached `nextDeadline()`; harmless before.
@@ -107,6 +110,7 @@ class Master {
 
   void dispatch(const CobIdUse& use, const CanFrame& frame, Instant now) noexcept;
   void handleNmt(const CanFrame& frame, Instant now) noexcept;
+  bool isOfOtherMaster(const CobIdUse& use, const CanFrame& frame) const noexcept;
   void handleRemote(const CobIdUse& use, const CanFrame& frame, Instant now) noexcept;
   /// A node was worked on: it may have something to send, and an earlier deadline.
   void touched(const Node& node) noexcept;

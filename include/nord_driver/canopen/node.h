@@ -36,6 +36,9 @@ class Node {
   void handleTransmitPdo(std::size_t pdo, const CanFrame& frame, Instant now) noexcept;
   void handleSdo(std::size_t server, const CanFrame& frame, Instant now) noexcept;
   void handleForeignCommand(NmtCommand command, Instant now) noexcept;
+  /// Another master commanded this node by an RPDO, or asked it by SDO.
+  void handleForeignPdo(Instant now) noexcept;
+  void handleForeignRequest() noexcept { boot_.handleForeignRequest(); }
   void poll(Instant now) noexcept;
   std::optional<Instant> nextDeadline() const noexcept;
 

@@ -47,6 +47,10 @@ class NodeBoot {
   void handleLoss(const Sentence& why, Instant now) noexcept;
   /// Another master told this node something.
   void handleForeignCommand(NmtCommand command, Instant now) noexcept;
+  /// Another master asked this node by SDO: answers that come too often are his.
+  void handleForeignRequest() noexcept { answers_are_ours_ = false; }
+  /// The node's first SDO server sent an answer nobody waits for.
+  void handleStrayAnswer(Instant now) noexcept;
   /// Takes SDO answers, and does what is due by time.
   void poll(Instant now) noexcept;
 
@@ -84,6 +88,7 @@ class NodeBoot {
   void leave(const Sentence& why, Instant now) noexcept;
   void diagnose(Instant now) noexcept;
   void refuseStart(Instant now) noexcept;
+  void refuseBoth(Instant now) noexcept;
   void refuse(const Sentence& why, Instant now) noexcept;
   bool repeated(Instant now) noexcept;
 
@@ -100,6 +105,12 @@ class NodeBoot {
   bool fresh_ = false;
   bool answered_ = false;  // in this attempt
   bool heard_ = false;     // after the start
+  // In this attempt: whether there is one answer for each question.
+  bool answers_are_ours_ = true;
+  std::uint32_t answers_ = 0;
+  std::uint32_t surplus_answers_ = 0;
+  bool two_answer_ = false;
+  bool doubled_ = false;  // it was started all the same, to be stopped
   bool was_operational_ = false;
   std::uint8_t tries_left_ = 0;
   Duration ask_pause_{};

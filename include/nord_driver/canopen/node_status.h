@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "nord_driver/canopen/emergency.h"
 #include "nord_driver/canopen/nmt.h"
@@ -29,6 +30,7 @@ struct NodeCounters {
   std::uint64_t refusals = 0;
   std::uint64_t receive_pdos = 0;  ///< sent to it
   std::uint64_t transmit_pdos = 0;
+  std::uint64_t foreign_receive_pdos = 0;  ///< sent to it by another master
   std::uint64_t emergencies = 0;
   std::uint64_t heartbeats = 0;  ///< or answers to guarding
   std::uint64_t sdo_timeouts = 0;
@@ -51,8 +53,11 @@ struct NodeStatus {
   std::uint32_t revision_number = 0;
   std::uint32_t serial_number = 0;
   EmergencyHistory emergencies;
-  Instant heard_at{};  ///< last frame of error control
-  Instant since{};     ///< of `state`
+  /// Operational, but two nodes have its id: only to be stopped.
+  bool doubled = false;
+  Instant heard_at{};                        ///< last frame of error control
+  std::optional<Instant> other_commands_at;  ///< another master's last RPDO for it
+  Instant since{};                           ///< of `state`
   NodeCounters counters;
 };
 

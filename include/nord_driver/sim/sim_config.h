@@ -48,6 +48,8 @@ struct CanDriveConfig {
   /// The SDO servers 2 to 4 of a gateway are on, with 600h + id + 1 .. + 3 and 580h + id + 1 .. + 3; off they are the
   /// master's to set. No source prints their identifiers.
   bool servers_set = false;
+  /// A node of its own with an id that another one has, too: wrongly set switches, or P515.
+  bool doubled_id = false;
   CanIdentity identity;
   std::optional<std::uint32_t> device_type;  ///< 1000h; nothing: 0, with the drive profile 00010192h
 };

@@ -27,6 +27,9 @@ namespace nord_driver {
 /// is operational, its error control alive, and its event timer not overdue. In the pause between two cycles frames go
 /// in and out as well: parameters, error control and start-ups do not wait for the next cycle, nor does it for them.
 ///
+/// Before the first frame it listens: nodes that another master works with are not taken away from him, he is waited
+/// for. From then on it holds them, but a drive that somebody else commands as well does not count as answering.
+///
 /// For parameters only: nothing is reset and nothing watched, and nothing is sent on a bus that somebody else works
 /// with, whether he was heard before the first frame or came later.
 class CanopenTransport final : public Transport, public ParametersOnly {
@@ -64,7 +67,7 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   bool linkReady() noexcept;
   bool busWorks() const noexcept;
   void restart() noexcept;
-  bool isSilent() const noexcept { return listen_first_ && listen_first_->isSilent(); }
+  bool isSilent() const noexcept { return listen_first_->isSilent(); }
   bool mayTalk() noexcept;
   void run(Instant until, bool until_answered) noexcept;
   void receive() noexcept;
@@ -73,6 +76,7 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   void runParameters() noexcept;
   void takeEvents() noexcept;
   bool allAnswered() const noexcept;
+  bool isExplained(Instant now) const noexcept;
   canopen::NmtCommand releaseCommand() const noexcept;
 
   LinkFactory make_link_;
@@ -81,7 +85,8 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   Duration period_{};
   std::unique_ptr<link::CanLink> link_;
   std::optional<canopen::Master> master_;
-  std::optional<CanListenFirst> listen_first_;  // for parameters only
+  std::optional<CanListenFirst> listen_first_;  // once configured
+  bool opened_ = false;                         // ever
   std::optional<TelegramTrace> trace_;
   std::vector<CanopenDriveState> drives_;
   std::vector<std::uint64_t> answered_;  // TPDOs of each drive when the cycle began
@@ -91,6 +96,7 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   FixedVector<BusEvent, 8> events_;
   Sentence event_text_;  // the last event of no node of ours
   Instant event_at_{};
+  std::optional<Instant> explained_at_;  // the text tells of another master, or of two nodes with one id
 };
 
 }  // namespace nord_driver

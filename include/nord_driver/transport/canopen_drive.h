@@ -55,6 +55,7 @@ class CanopenDriveState {
   bool commands_ = false;                                                         // ... and it is not to be ignored
   bool module_answers_ = false;
   bool inverter_answers_ = false;
+  bool contested_ = false;  // another master commands it, too
   std::uint64_t emergencies_seen_ = 0;
   std::uint16_t emergency_code_ = 0;
   Sentence emergency_text_;

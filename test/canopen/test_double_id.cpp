@@ -1,0 +1,96 @@
+// Two nodes with one id: both answer each question of the start-up.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "canopen/master_run.h"
+
+namespace nord_driver::canopen {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr std::uint32_t kSdoAnswer = 0x581;
+
+struct Doubled : testing::Test {
+  /// Every `nth` answer comes twice.
+  void answerTwice(int nth) {
+    run.loses = [this, nth](const CanFrame& frame) {
+      if (frame.id != kSdoAnswer || ++answers % nth != 0) return false;
+      run.master.handleFrame(frame, run.now);
+      if (other_asks) run.say("601#4001100000000000");
+      return false;
+    };
+  }
+  bool started() const { return std::find(run.sent.begin(), run.sent.end(), "000#0101") != run.sent.end(); }
+
+  MasterRun run{busConfig(1)};
+  int answers = 0;
+  bool other_asks = false;
+};
+
+TEST_F(Doubled, IsNotStartedAndTold) {
+  answerTwice(1);
+  run.begin();
+  ASSERT_TRUE(run.reaches(NodeState::kRefused, seconds{2}));
+  EXPECT_STREQ("two nodes answer with this id: is it set twice, by switches or P515?",
+               run.master.status(0).reason.c_str());
+  run.run(seconds{20});
+  EXPECT_EQ(NodeState::kRefused, run.master.status(0).state) << "tried again, and refused again";
+  EXPECT_FALSE(started());
+  EXPECT_EQ(1u, run.count(CanopenEventKind::kDoubleId));
+  EXPECT_GE(run.master.counters().stray_sdo, 4u);
+  run.loses = nullptr;
+  EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{6}));
+}
+
+// A frame may be received twice (ISO 11898-1); most answers are single ones then.
+TEST_F(Doubled, IsNotSaidOfABadLine) {
+  answerTwice(3);
+  run.begin();
+  EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));
+  EXPECT_EQ(0u, run.count(CanopenEventKind::kDoubleId));
+}
+
+// Somebody else asks, too: the answers are his.
+TEST_F(Doubled, IsNotSaidBesideAnotherMaster) {
+  other_asks = true;
+  answerTwice(1);
+  run.begin();
+  EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));
+  EXPECT_EQ(0u, run.count(CanopenEventKind::kDoubleId));
+  EXPECT_GE(run.count(CanopenEventKind::kSecondMaster), 1u);
+}
+
+// A slow server whose answers come after the question was repeated: late ones, not those of a second node.
+TEST_F(Doubled, IsNotSaidOfASlowServer) {
+  MasterConfig config = busConfig(1);
+  config.nodes[0].sdo_timeout = milliseconds{50};
+  MasterRun slow{config};
+  slow.nodes[0]->sdo_delay = milliseconds{60};
+  slow.begin();
+  slow.run(seconds{20});
+  EXPECT_EQ(0u, slow.count(CanopenEventKind::kDoubleId));
+  EXPECT_GT(slow.master.counters().sdo_timeouts, 0u);
+}
+
+// One that was in operation may turn: it is started again for stop words, and stays out then.
+TEST_F(Doubled, WhileItRunsIsStoppedFirst) {
+  run.begin();
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));
+  answerTwice(1);
+  run.say("701#00");
+  run.nodes[0]->state = 0x7F;
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));
+  EXPECT_TRUE(run.master.status(0).doubled);
+  const std::uint64_t before = run.master.status(0).counters.receive_pdos;
+  run.run(seconds{2});
+  EXPECT_GT(run.master.status(0).counters.receive_pdos, before + 100);
+  ASSERT_TRUE(run.reaches(NodeState::kRefused, seconds{6}));
+  run.run(seconds{20});
+  EXPECT_EQ(NodeState::kRefused, run.master.status(0).state);
+  EXPECT_EQ(1u, run.count(CanopenEventKind::kDoubleId));
+}
+
+}  // namespace
+}  // namespace nord_driver::canopen

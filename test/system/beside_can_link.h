@@ -1,0 +1,66 @@
+// A second computer on a simulated CAN bus that belongs to a first one.
+#pragma once
+
+#include <algorithm>
+#include <deque>
+#include <string>
+
+#include "nord_driver/link/can_link.h"
+#include "nord_driver/sim/simulated_can_bus.h"
+
+namespace nord_driver::test {
+
+/// It hears whatever goes over the bus (and takes the bus's tap for that) but what it sent itself, as do all frames
+/// that are injected. Time passes for both computers when either waits.
+class BesideCanLink final : public link::CanLink {
+ public:
+  explicit BesideCanLink(sim::SimulatedCanBus& bus) : bus_(bus) {}
+  ~BesideCanLink() override { bus_.setTap(nullptr); }
+
+  /// Its receiver is broken.
+  void setDeaf(bool deaf) noexcept { deaf_ = deaf; }
+  std::size_t sent() const noexcept { return sent_; }
+
+  bool open() noexcept override {
+    open_ = true;
+    bus_.setTap([this](const CanFrame& frame, sim::SimulatedCanBus::Sender sender, Instant at) {
+      if (open_ && !deaf_ && sender != sim::SimulatedCanBus::Sender::kForeign) received_.push_back({frame, at});
+    });
+    return true;
+  }
+  void close() noexcept override { open_ = false; }
+  bool isOpen() const noexcept override { return open_; }
+  link::CanSend send(const CanFrame& frame) noexcept override {
+    ++sent_;
+    bus_.inject(frame);
+    return link::CanSend::kSent;
+  }
+  bool receive(link::ReceivedCanFrame& received) noexcept override {
+    if (received_.empty()) return false;
+    received = received_.front();
+    received_.pop_front();
+    return true;
+  }
+  bool waitReadable(Instant until) noexcept override {
+    while (received_.empty() && bus_.now() < until) {
+      bus_.run(std::min<Duration>(until - bus_.now(), std::chrono::microseconds{200}));
+    }
+    return !received_.empty();
+  }
+  void sleepUntil(Instant when) noexcept override { bus_.sleepUntil(when); }
+  Instant now() const noexcept override { return bus_.now(); }
+  link::CanState state() const noexcept override { return link::CanState::kActive; }
+  link::CanCounters counters() const noexcept override { return {}; }
+  const std::string& lastError() const noexcept override { return no_error_; }
+  const char* advice() const noexcept override { return ""; }
+
+ private:
+  sim::SimulatedCanBus& bus_;
+  bool open_ = false;
+  bool deaf_ = false;
+  std::size_t sent_ = 0;
+  std::deque<link::ReceivedCanFrame> received_;
+  std::string no_error_;
+};
+
+}  // namespace nord_driver::test
