@@ -118,10 +118,13 @@ void Supervisor::update(const Sentence& moving, Instant now) noexcept {
   jobs_.resize(kept);
 }
 
-// Once, when every drive has first become ready: never over a fault, never after a stop (a stop needs an enable before
-// it).
+// Once, when every drive has first become ready: never over a fault nor after one (whoever acknowledges it enables),
+// never after a stop (a stop needs an enable before it).
 void Supervisor::autoEnable(const Sentence& moving, Instant now) noexcept {
-  if (!moving.empty() || shutting_down_) return;
+  for (const drive::Drive& drive : drives_) {
+    if (drive.report().fault_latched) auto_enable_ = false;
+  }
+  if (!auto_enable_ || !moving.empty() || shutting_down_) return;
   for (const drive::Drive& drive : drives_) {
     if (drive.enableRefusal() != Refusal::kNone) return;
   }
@@ -162,17 +165,36 @@ bool Supervisor::followStop(const Job& job) noexcept {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     if (concerns(job.request, i) && !groups_[i].group.settled()) return false;
   }
+  const auto silent = silentMember(job.request);
+  if (silent && job.request.kind != RequestKind::kShutDown) return false;  // it may be back before the deadline
+  if (silent) {
+    Sentence text;
+    text.format("drive %s does not answer: nobody has seen it stop", names_[*silent].c_str());
+    completions_.answer(job.request, false, text);
+    return true;
+  }
   const bool quick = job.request.kind == RequestKind::kQuickStop;
   completions_.answer(job.request, true, quick ? "stopped and disabled" : "disabled");
   return true;
+}
+
+// A group counts a silent drive as settled, for nothing more can be done with it; confirmed it has nothing.
+std::optional<DriveIndex> Supervisor::silentMember(const Request& request) const noexcept {
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    if (!concerns(request, i)) continue;
+    for (const DriveIndex member : groups_[i].members) {
+      if (!drives_[member].report().online) return member;
+    }
+  }
+  return std::nullopt;
 }
 
 Sentence Supervisor::unsettled(const Request& request) const noexcept {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     if (!concerns(request, i)) continue;
     for (const DriveIndex member : groups_[i].members) {
-      const bool done =
-          request.kind == RequestKind::kEnable ? groups_[i].group.commandAllowed() : drives_[member].isAtRest();
+      const bool at_rest = drives_[member].report().online && drives_[member].isAtRest();
+      const bool done = request.kind == RequestKind::kEnable ? groups_[i].group.commandAllowed() : at_rest;
       if (done) continue;
       Sentence text;
       text.format("not confirmed in time: %s", stateSentence(names_[member].c_str(), drives_[member].report()).c_str());

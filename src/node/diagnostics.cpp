@@ -38,7 +38,10 @@ Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdenti
 
 void Diagnostics::update(const cycle::CycleSnapshot& snapshot) {
   snapshot_ = snapshot;
-  updater_.update();
+  const Instant now = std::chrono::steady_clock::now();
+  if (now < next_update_) return;
+  updater_.force_update();
+  next_update_ = now + seconds(updater_.getPeriod());
 }
 
 void Diagnostics::reportBus(DiagnosticStatusWrapper& status) const {

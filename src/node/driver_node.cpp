@@ -23,7 +23,8 @@ std::string robotDescription() {
   return text;
 }
 
-// Service calls that may wait for their drives at the same time, and a command that is not held up by them.
+// Calls that may wait for their drives at the same time: of those that stop, and of the others.
+constexpr int kStopThreads = 8;
 constexpr int kSpinnerThreads = 4;
 constexpr int kShutDownAttempts = 50;
 
@@ -35,6 +36,9 @@ Instant steadyNow() {
 
 DriverNode::DriverNode()
     : private_node_("~"),
+      commands_(node_, 1),
+      private_commands_(private_node_, 1),
+      stops_(private_node_, kStopThreads),
       settings_("~", privateParameters()),
       config_(readNodeConfig(settings_, robotDescription())),
       loader_("nord_driver", "nord_driver::Transport") {
@@ -47,6 +51,7 @@ DriverNode::DriverNode()
 }
 
 DriverNode::~DriverNode() {
+  for (CallbackLane* lane : {&commands_, &private_commands_, &stops_}) lane->stop();  // they use what goes next
   thread_.reset();
   tracing_.reset();  // after the bus: what happened last is in the last trace
   services_.reset();
@@ -108,17 +113,17 @@ void DriverNode::advertise() {
     boost::function<void(const std_msgs::Float64&)> take = [this, i](const std_msgs::Float64& velocity) {
       takeDriveCommand(i, velocity.data);
     };
-    subscribers_.push_back(private_node_.subscribe<std_msgs::Float64>(setup.name + "/command", 1, take));
+    subscribers_.push_back(private_commands_.handle().subscribe<std_msgs::Float64>(setup.name + "/command", 1, take));
   }
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
   diagnostics_ = std::make_unique<Diagnostics>(config_, identities_);
-  services_ = std::make_unique<Services>(private_node_, config_, *broker_);
+  services_ = std::make_unique<Services>(private_node_, stops_.handle(), config_, *broker_);
   tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace(), ports_->trace());
   if (config_.cycle.base) {
     boost::function<void(const geometry_msgs::Twist&)> take = [this](const geometry_msgs::Twist& twist) {
       takeCommand(twist);
     };
-    command_subscriber_ = node_.subscribe<geometry_msgs::Twist>("cmd_vel", 1, take);
+    command_subscriber_ = commands_.handle().subscribe<geometry_msgs::Twist>("cmd_vel", 1, take);
   }
 }
 
@@ -155,6 +160,7 @@ void DriverNode::takeDriveCommand(DriveIndex drive, double velocity) {
 void DriverNode::run(const std::atomic<bool>& end_asked) {
   ros::AsyncSpinner spinner(kSpinnerThreads);
   spinner.start();
+  for (CallbackLane* lane : {&commands_, &private_commands_, &stops_}) lane->start();
   if (config_.cycle.cmd_vel_timeout == Duration::zero()) {
     ROS_WARN("nord_driver: cmd_vel_timeout is 0: the last command is followed for ever");
   }

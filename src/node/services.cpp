@@ -30,14 +30,16 @@ void Services::advertise(ros::NodeHandle& node, const std::string& name, Handler
   servers_.push_back(node.advertiseService(name, callback));
 }
 
-Services::Services(ros::NodeHandle& private_node, const NodeConfig& config, RequestBroker& broker)
+Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, const NodeConfig& config,
+                   RequestBroker& broker)
     : config_(config), broker_(broker) {
   const auto addTrigger = [&](const std::string& name, RequestKind kind, DriveIndex drive) {
-    advertise<std_srvs::Trigger>(private_node, name,
+    ros::NodeHandle& node = kind == RequestKind::kQuickStop ? stop_node : private_node;
+    advertise<std_srvs::Trigger>(node, name,
                                  [this, kind, drive](auto&, auto& response) { trigger(kind, drive, response); });
   };
   const auto addEnable = [&](const std::string& name, DriveIndex drive) {
-    advertise<std_srvs::SetBool>(private_node, name,
+    advertise<std_srvs::SetBool>(stop_node, name,
                                  [this, drive](auto& request, auto& response) { enable(drive, request, response); });
   };
   addEnable("enable", kAllDrives);

@@ -66,6 +66,20 @@ TEST(NodeLoss, ComesBackWithoutABootUp) {
   EXPECT_EQ(resets + 1, run.nodes[0]->resets);
 }
 
+// What a node said before it was lost is no news of it when it is back: another state, another set, another speed.
+TEST(NodeLoss, ItsLastWordsAreForgotten) {
+  Operational run;
+  run.say("181#370B0020");
+  ASSERT_EQ("37 0B 00 20", toHex(run.master.transmitPdo(0, 0).bytes));
+  run.nodes[0]->powerOff();
+  ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{1}));
+  run.loses = [](const CanFrame& frame) { return frame.id == 0x181; };
+  run.nodes[0]->powerOn(run.now);
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{1}));
+  run.run(milliseconds{50});
+  EXPECT_EQ(0u, run.master.transmitPdo(0, 0).count);
+}
+
 // A short break of the supply shows only as a boot-up in the middle of the exchange.
 TEST(NodeLoss, RestartedByItself) {
   Operational run;

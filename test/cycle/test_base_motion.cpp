@@ -186,6 +186,26 @@ TEST_F(BaseMotionTest, MeasuredWheelsMoveThePose) {
   EXPECT_NEAR(0.3, motion_.odometry().pose().x, 1e-9);
 }
 
+// open_loop, as diff_drive_controller has it: the pose follows what is commanded, not what is measured.
+TEST_F(BaseMotionTest, OpenLoopBelievesTheCommand) {
+  BaseConfig config = configWithDeceleration(0.0);
+  config.open_loop = true;
+  motion_ = BaseMotion{config, kTimeout};
+  for (int i = 0; i <= 100; ++i) {
+    command(0.2);
+    poll();
+    motion_.handleWheels({3.0, 3.0}, kCycle);
+  }
+  EXPECT_NEAR(0.2, motion_.odometry().pose().x, 1e-9);
+  // A base that does not drive is commanded nothing.
+  for (int i = 0; i <= 100; ++i) {
+    poll(false);
+    motion_.handleWheels({3.0, 3.0}, kCycle);
+  }
+  EXPECT_NEAR(0.0, motion_.odometry().velocity().linear_x, 1e-9);
+  EXPECT_NEAR(0.201, motion_.odometry().pose().x, 1e-9);  // half a cycle on the way down
+}
+
 TEST_F(BaseMotionTest, AGapDoesNotMoveThePose) {
   for (int i = 0; i <= 100; ++i) motion_.handleWheels({3.0, 3.0}, kCycle);
   motion_.handleGap();

@@ -68,6 +68,52 @@ TEST_F(BusCycleTest, RefusesToEnableUnderACommandThatMovesAndNamesIt) {
   EXPECT_TRUE(ask(RequestKind::kEnable).success);
 }
 
+// A drive that stopped is idle, but its base is still on its way to rest: no drive of it gets another ramp or P105 now.
+TEST_F(BusCycleTest, NoSetIsSwitchedWhileTheBaseComesToRest) {
+  bringUp();
+  enable();
+  commandBase(0.05 * kFullSpeed);
+  run(30);
+  transport.inverters[kLeft].ramp = 16;  // takes its time
+  transport.inverters[kRight].fault = true;
+  run(3);
+  transport.inverters[kRight].fault = false;
+  run(1);
+  ASSERT_EQ(0x047F, controlWord(kLeft));
+  Request request;
+  request.kind = RequestKind::kSelectParameterSet;
+  request.drive = kRight;
+  request.parameter_set = 2;
+  const Completion answer = ask(request);
+  EXPECT_FALSE(answer.success);
+  EXPECT_STREQ("parameter sets are switched at standstill only: disable drive right first", answer.message.c_str());
+  EXPECT_EQ(0x047E, controlWord(kRight));
+}
+
+// Two things a user may ask for at the same time, each with its own way to the inverter.
+TEST_F(BusCycleTest, AParameterIsReadWhileAFaultIsAcknowledged) {
+  bringUp();
+  transport.inverters[kLift].fault = true;
+  transport.parameters[700] = 21;
+  transport.parameters[102] = 100;
+  run(5);
+  Request acknowledge, read;
+  acknowledge.kind = RequestKind::kAcknowledge;
+  read.kind = RequestKind::kReadParameter;
+  acknowledge.drive = read.drive = kLift;
+  acknowledge.id = 501;
+  read.id = 502;
+  acknowledge.patience = read.patience = std::chrono::seconds{3};
+  read.parameter.number = 102;
+  ASSERT_TRUE(ports.submit(acknowledge));
+  ASSERT_TRUE(ports.submit(read));
+  run(60);
+  EXPECT_TRUE(completions[501].success) << completions[501].message.c_str();
+  EXPECT_TRUE(completions[502].success) << completions[502].message.c_str();
+  EXPECT_EQ(100, completions[502].raw);
+  EXPECT_EQ(0x047E, controlWord(kLift)) << "the acknowledge bit does not stay";
+}
+
 TEST_F(BusCycleTest, AnInverterThatIsOffBehindItsModuleIsOffline) {
   bringUp();
   transport.module_only[kLeft] = true;
@@ -99,6 +145,25 @@ TEST_F(BusCycleTest, TheBaseIsKnownWhenAllItsDrivesHaveAnsweredOnce) {
   transport.inverters[kRight].silent = true;
   run(10);
   EXPECT_TRUE(snapshot().base.known) << "once is enough";
+}
+
+// The speed a base had when a wheel of it was last seen is not the one it has.
+TEST_F(BusCycleTest, NoVelocityIsToldOfABaseWithAWheelThatIsNotSeen) {
+  bringUp();
+  enable();
+  for (int i = 0; i < 30; ++i) {
+    commandBase(0.05 * kFullSpeed);
+    step();
+  }
+  ASSERT_GT(snapshot().base.velocity.linear_x, 0.04 * kFullSpeed);
+  const double x = snapshot().base.pose.x;
+  transport.inverters[kLeft].silent = true;
+  run(7);  // drive_timeout is 50 ms
+  EXPECT_EQ(0.0, snapshot().base.velocity.linear_x);
+  EXPECT_GE(snapshot().base.pose.x, x);
+  const double last_seen = snapshot().base.pose.x;
+  run(50);
+  EXPECT_EQ(last_seen, snapshot().base.pose.x);
 }
 
 TEST_F(BusCycleTest, ResetOdometryAnswers) {

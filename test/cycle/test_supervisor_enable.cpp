@@ -182,6 +182,17 @@ TEST_F(AutoEnable, NeverActsOverAFaultEvenOneThatWentByItself) {
   EXPECT_TRUE(noneRuns()) << "the fault is latched";
 }
 
+// "The drives stay disabled until they are enabled" is what acknowledging answers.
+TEST_F(AutoEnable, LeavesItToTheUserAfterAFault) {
+  inverters[kLeft].fault = true;
+  run(20);
+  drives[kLeft].requestAcknowledge(now);
+  run(50);
+  ASSERT_FALSE(drives[kLeft].report().fault_latched);
+  EXPECT_TRUE(noneRuns());
+  EXPECT_TRUE(ask(RequestKind::kEnable).success);
+}
+
 TEST_F(AutoEnable, ActsOnceAndNotAgainAfterALoss) {
   run(20);
   ASSERT_TRUE(allEnabled());

@@ -91,5 +91,55 @@ TEST_F(SupervisorStops, AMemberThatStopsBringsTheBaseDownAndIsNamed) {
   EXPECT_EQ(0x047E, outputs[kLeft].control_word);
 }
 
+// Nobody has seen a drive stop that does not answer: a stop is no success before it is back and at rest.
+TEST_F(SupervisorStops, ADriveThatDoesNotAnswerConfirmsNoStop) {
+  inverters[kLift].silent = true;
+  run(20);
+  for (const RequestKind stop : {RequestKind::kQuickStop, RequestKind::kDisable}) {
+    const Completion answer = ask(stop, kAllDrives, std::chrono::milliseconds{200});
+    EXPECT_FALSE(answer.success);
+    EXPECT_STREQ("not confirmed in time: drive lift does not answer", answer.message.c_str());
+  }
+  EXPECT_TRUE(ask(RequestKind::kQuickStop, kLeft).success) << "of the base, which answers";
+  request(1, RequestKind::kQuickStop);
+  inverters[kLift].silent = false;
+  run(20);
+  ASSERT_EQ(1u, completions.back().id);
+  EXPECT_TRUE(completions.back().success) << "it came back in time";
+}
+
+// The node ends without waiting for a drive that is not there, but does not call it stopped.
+TEST_F(SupervisorStops, ShutDownWaitsForNoDriveThatDoesNotAnswer) {
+  inverters[kLift].silent = true;
+  run(20);
+  const Instant asked = now;
+  const Completion answer = ask(RequestKind::kShutDown);
+  EXPECT_LT(now - asked, std::chrono::milliseconds{200});
+  EXPECT_FALSE(answer.success);
+  EXPECT_STREQ("drive lift does not answer: nobody has seen it stop", answer.message.c_str());
+}
+
+// Whichever of the two comes first in a cycle: nothing is enabled afterwards, and the asker of the enable is told.
+TEST_F(SupervisorStops, AStopBesideAnEnableWins) {
+  for (const RequestKind stop : {RequestKind::kQuickStop, RequestKind::kDisable, RequestKind::kShutDown}) {
+    for (const bool enable_first : {true, false}) {
+      DrivesUnderSupervision robot;
+      robot.bringUp();
+      if (enable_first) robot.request(1, RequestKind::kEnable);
+      robot.request(2, stop);
+      if (!enable_first && stop != RequestKind::kDisable) robot.request(1, RequestKind::kEnable);
+      for (int i = 0; i < 50; ++i) {
+        robot.step();
+        ASSERT_TRUE(robot.noneRuns()) << static_cast<int>(stop) << enable_first;
+      }
+      for (const Completion& completion : robot.completions) {
+        EXPECT_EQ(completion.id == 2, completion.success) << completion.message.c_str();
+      }
+      EXPECT_EQ(!enable_first && stop == RequestKind::kDisable ? 1u : 2u, robot.completions.size());
+      EXPECT_TRUE(robot.supervisor.settled());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

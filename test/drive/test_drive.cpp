@@ -94,6 +94,22 @@ TEST_F(DriveTest, GoesBackToIdleWhenTheInverterDoesNotFollow) {
   EXPECT_EQ(Phase::kIdle, report().phase);
 }
 
+// 047F is out and may still come to act: OFF1 is held until "ready to switch on" is seen, as after any enabling.
+TEST_F(DriveTest, StopsTheInverterThatFollowsTooLate) {
+  start();
+  drive_.requestEnable(now_);
+  cycle(0x0B31);
+  while (report().phase == Phase::kEnabling) cycle(0x0B33);
+  EXPECT_EQ(Refusal::kEnableTimeout, report().refusal);
+  for (const Word late : {Word{0x0B33}, Word{0x0B37}, Word{0x0B37}}) {
+    EXPECT_EQ(0x047E, cycle(late, 0x0800));
+    EXPECT_EQ(Phase::kStopping, report().phase);
+    EXPECT_FALSE(drive_.isAtRest());
+  }
+  EXPECT_EQ(0x047E, cycle(0x0B31));
+  EXPECT_EQ(Phase::kIdle, report().phase);
+}
+
 // Each refusal of requestEnable() has its cause; none of them puts 047F on the wire.
 class RefusalTest : public DriveTest {
  protected:

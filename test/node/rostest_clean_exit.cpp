@@ -1,6 +1,8 @@
 // The node is asked to end while the robot drives: ramp, OFF1 until "ready to switch on" is seen, then the end.
 #include <gmock/gmock.h>
+#include <ros/network.h>
 #include <signal.h>
+#include <xmlrpcpp/XmlRpc.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -13,6 +15,7 @@ namespace {
 
 constexpr double kSpeed = 0.4, kDeceleration = 0.8;  // m/s, m/s^2: robot.yaml
 constexpr Seconds kShutdownTimeout{10.0};            // the default
+constexpr int kRosnodeKill = 0;                      // in place of a signal
 
 class CleanExit : public RobotTest, public ::testing::WithParamInterface<int> {
  protected:
@@ -26,6 +29,19 @@ class CleanExit : public RobotTest, public ::testing::WithParamInterface<int> {
     robot().drive(0.0);
     ASSERT_NO_FATAL_FAILURE(startDriver());
   }
+  void askToEnd() {
+    if (GetParam() != kRosnodeKill) return driver_->signal(GetParam());
+    XmlRpc::XmlRpcValue arguments, result, uri;
+    arguments[0] = ros::this_node::getName();
+    arguments[1] = "/nord_driver";
+    ASSERT_TRUE(ros::master::execute("lookupNode", arguments, result, uri, false));
+    std::string host;
+    std::uint32_t port = 0;
+    ASSERT_TRUE(ros::network::splitURI(uri, host, port));
+    XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port));
+    arguments[1] = "a test";
+    EXPECT_TRUE(client.execute("shutdown", arguments, result));
+  }
 };
 
 TEST_P(CleanExit, RampsDownAndLeavesDrivesReadyToSwitchOn) {
@@ -34,7 +50,7 @@ TEST_P(CleanExit, RampsDownAndLeavesDrivesReadyToSwitchOn) {
   const double x_before = robot().true_odom.next()->pose.pose.position.x;
   const std::size_t left_from = robot().left.truth.mark();
   const std::size_t right_from = robot().right.truth.mark();
-  driver_->signal(GetParam());
+  ASSERT_NO_FATAL_FAILURE(askToEnd());
   const auto end = driver_->waitEnd(kShutdownTimeout);
   ASSERT_TRUE(end) << "still runs after shutdown_timeout";
   EXPECT_EQ(end->exit_code, 0) << driver_->errorText();
@@ -73,10 +89,11 @@ TEST_P(CleanExit, RampsDownAndLeavesDrivesReadyToSwitchOn) {
 }
 
 std::string signalName(const ::testing::TestParamInfo<int>& info) {
+  if (info.param == kRosnodeKill) return "ByRosnodeKill";
   return info.param == SIGINT ? "BySigint" : "BySigterm";
 }
 
-INSTANTIATE_TEST_SUITE_P(Ended, CleanExit, ::testing::Values(SIGINT, SIGTERM), signalName);
+INSTANTIATE_TEST_SUITE_P(Ended, CleanExit, ::testing::Values(SIGINT, SIGTERM, kRosnodeKill), signalName);
 
 }  // namespace
 }  // namespace nord_driver::test

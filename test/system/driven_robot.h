@@ -83,6 +83,8 @@ class DrivenRobot {
   }
   bool bringUpAndEnable() { return bringUp() && ask(cycle::RequestKind::kEnable).success; }
 
+  /// Every answer so far.
+  const std::vector<cycle::Completion>& completions() const { return completions_; }
   const cycle::CycleSnapshot& snapshot() { return ports_->readSnapshot(); }
   /// What left for a drive in the last cycle, and what came back.
   Word controlWord(DriveIndex drive) { return snapshot().drives[drive].output.control_word; }

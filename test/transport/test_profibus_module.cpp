@@ -303,5 +303,23 @@ TEST_F(OnAModule, SyncIsTakenBackWithTheFirstStopWord) {
   EXPECT_EQ("68 07 07 68 FF 81 46 3A 3E 10 00 4E 16", sent().back());
 }
 
+// The same as soon as one of them does not run: its stop word comes in this cycle or the next.
+TEST_F(OnAModule, SyncIsTakenBackWhenADriveStopsByItself) {
+  bus_.set("sync", true);
+  bringUp({1, 1});
+  for (auto& output : outputs_) output.control_word = 0x047F;
+  run(seconds{1});
+  ASSERT_EQ("68 07 07 68 FF 81 46 3A 3E 20 00 5E 16", sent().back());
+  sim::Terminals terminals;
+  terminals.coast = true;
+  segment_->drive(1).inverter().setTerminals(terminals);
+  const auto enabled = [this] { return (inputs_[1].input.status_word & 0x0004) != 0; };
+  for (int i = 0; i < 20 && enabled(); ++i) step();
+  ASSERT_FALSE(enabled());
+  ASSERT_EQ(0, inputs_[1].input.status_word & 0x0008) << "no fault";
+  step();
+  EXPECT_EQ("68 07 07 68 FF 81 46 3A 3E 10 00 4E 16", sent().back());
+}
+
 }  // namespace
 }  // namespace nord_driver

@@ -21,7 +21,7 @@ namespace nord_driver::cycle {
 class Supervisor {
  public:
   /// `drives` must outlive the supervisor and not move. `auto_enable`: enable once, when every drive has first become
-  /// ready.
+  /// ready; a fault seen before is the end of it.
   Supervisor(const CycleConfig& config, std::vector<drive::Drive>& drives, bool auto_enable);
 
   /// Enable, disable, quick stop and shut down. `moving`: names the command that is not zero now; empty when all are.
@@ -60,6 +60,8 @@ class Supervisor {
   bool followStop(const Job& job) noexcept;
   void takeBack(const Request& request, Instant now) noexcept;
   Sentence refusalOf(const Group& group, const drive::GroupRefusal& refusal) const noexcept;
+  /// A drive the request concerns and that does not answer.
+  std::optional<DriveIndex> silentMember(const Request& request) const noexcept;
   Sentence unsettled(const Request& request) const noexcept;
   void autoEnable(const Sentence& moving, Instant now) noexcept;
 

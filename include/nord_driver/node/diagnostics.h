@@ -36,6 +36,7 @@ class Diagnostics {
   std::string device_;
   cycle::CycleSnapshot snapshot_;
   diagnostic_updater::Updater updater_;
+  Instant next_update_{};  // its own clock is ROS's, which may be set back or stand still
 };
 
 }  // namespace nord_driver::node

@@ -19,6 +19,7 @@
 #include "nord_driver/node/base_publisher.h"
 #include "nord_driver/node/base_tuner.h"
 #include "nord_driver/node/bus_publisher.h"
+#include "nord_driver/node/callback_lane.h"
 #include "nord_driver/node/diagnostics.h"
 #include "nord_driver/node/drive_publisher.h"
 #include "nord_driver/node/node_config.h"
@@ -52,6 +53,9 @@ class DriverNode {
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
+  CallbackLane commands_;          // cmd_vel
+  CallbackLane private_commands_;  // ~<drive>/command
+  CallbackLane stops_;             // ~quick_stop, ~<drive>/quick_stop, and ~enable, which stops, too
   RosSettings settings_;
   NodeConfig config_;
   pluginlib::ClassLoader<Transport> loader_;

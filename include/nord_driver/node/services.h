@@ -19,7 +19,8 @@ namespace nord_driver::node {
 
 class Services {
  public:
-  Services(ros::NodeHandle& private_node, const NodeConfig& config, RequestBroker& broker);
+  /// `stop_node`: the private handle whose callbacks do not wait behind those of the other services.
+  Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, const NodeConfig& config, RequestBroker& broker);
 
  private:
   template <typename Service, typename Handler>
