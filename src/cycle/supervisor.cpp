@@ -162,6 +162,15 @@ bool Supervisor::followStop(const Job& job) noexcept {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     if (concerns(job.request, i) && !groups_[i].group.settled()) return false;
   }
+  // Nobody waits for a drive that does not answer; but it may be moving.
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    if (!concerns(job.request, group_of_[i]) || drives_[i].report().phase != drive::Phase::kOffline) continue;
+    Sentence text;
+    text.format("drive %s does not answer, nobody knows whether it stands; every drive that answers is disabled",
+                names_[i].c_str());
+    completions_.answer(job.request, false, text);
+    return true;
+  }
   const bool quick = job.request.kind == RequestKind::kQuickStop;
   completions_.answer(job.request, true, quick ? "stopped and disabled" : "disabled");
   return true;

@@ -47,6 +47,22 @@ TEST_F(SupervisorStops, AStopThatIsNotConfirmedSaysWhatItLastSaw) {
   EXPECT_STREQ("not confirmed in time: drive lift is operation enabled, status word 0B37", answer.message.c_str());
 }
 
+// A drive that does not answer has nothing to come to rest for, so that nobody waits for it; but it may be moving, and
+// "stopped" would be a guess.
+TEST_F(SupervisorStops, AStopOfADriveThatDoesNotAnswerIsNotCalledDone) {
+  inverters[kRight].silent = true;
+  run(60);
+  ASSERT_EQ(drive::Phase::kOffline, drives[kRight].report().phase);
+  for (const RequestKind kind : {RequestKind::kQuickStop, RequestKind::kDisable, RequestKind::kShutDown}) {
+    const Completion answer = ask(kind);
+    EXPECT_FALSE(answer.success);
+    EXPECT_STREQ("drive right does not answer, nobody knows whether it stands; every drive that answers is disabled",
+                 answer.message.c_str());
+  }
+  EXPECT_EQ(drive::Phase::kIdle, drives[kLift].report().phase);
+  EXPECT_TRUE(ask(RequestKind::kDisable, kLift).success) << "no part of the base";
+}
+
 // Sixteen requests are followed at a time. A seventeenth may go without its answer, but never without its stop.
 TEST_F(SupervisorStops, AStopActsHoweverManyRequestsAreUnderWay) {
   velocity = 1.0;
