@@ -10,6 +10,7 @@ import sys
 import threading
 
 import rospy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from nord_driver.msg import DriveStatus
@@ -30,14 +31,19 @@ def wrapped(angle):
 class Latest:
     """The newest message of a topic."""
 
-    def __init__(self, topic, kind):
+    def __init__(self, topic, kind, part=lambda message: message):
+        """Of each message only part(message) counts; None: none of it."""
         self._arrived = threading.Condition()
         self._message = None
-        rospy.Subscriber(topic, kind, self._take, queue_size=1)
+        self._part = part
+        rospy.Subscriber(topic, kind, self._take, queue_size=10)
 
     def _take(self, message):
+        part = self._part(message)
+        if part is None:
+            return
         with self._arrived:
-            self._message = message
+            self._message = part
             self._arrived.notify_all()
 
     def get(self):
@@ -51,6 +57,10 @@ class Latest:
             if not ready or rospy.is_shutdown():
                 raise TimeoutError("%s: nothing after %.0f s" % (what, limit))
             return self._message
+
+
+def base_of(diagnostics):
+    return next((status for status in diagnostics.status if status.name == "nord_driver: base"), None)
 
 
 class Table:
@@ -105,6 +115,7 @@ class SquareDriver:
         self._right = Latest("/nord_driver/right/status", DriveStatus)
         self._odom = Latest("/odom", Odometry)
         self._truth = Latest("/nord_sim/truth/odom", Odometry)
+        self._base = Latest("/diagnostics", DiagnosticArray, base_of)
         self._command = rospy.Publisher("/cmd_vel", Twist, queue_size=1)
         self._table = Table(self._left, self._right, self._odom, self._truth)
 
@@ -141,6 +152,13 @@ class SquareDriver:
         if not answer.success:
             raise RuntimeError("~enable %s was refused: %s" % (str(on).lower(), answer.message))
 
+    def _check_enabled(self):
+        """Without it the square would be waited for in vain when the base has stopped by itself."""
+        if all(drive.get().operation_enabled for drive in (self._left, self._right)):
+            return
+        base = self._base.wait("the base's diagnostics", 3.0, lambda status: status.level == DiagnosticStatus.ERROR)
+        raise RuntimeError("%s. On a busy computer the simulator may have been too late: try again" % base.message)
+
     def _watch(self, duration):
         end = rospy.Time.now() + rospy.Duration(duration)
         while rospy.Time.now() < end and not rospy.is_shutdown():
@@ -160,10 +178,13 @@ class SquareDriver:
         while abs(distance_left()) > tolerance:
             if rospy.is_shutdown() or rospy.Time.now() > deadline:
                 raise TimeoutError("the robot does not get there: %.3f left" % distance_left())
+            self._check_enabled()
             left = distance_left()
             command(math.copysign(max(creep, min(top_speed, 1.5 * abs(left))), left))
             rospy.sleep(0.02)
         while not self._standing():
+            if rospy.is_shutdown() or rospy.Time.now() > deadline:
+                raise TimeoutError("the robot does not come to rest")
             self._send(0.0, 0.0)
             rospy.sleep(0.02)
 

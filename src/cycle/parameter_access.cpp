@@ -38,6 +38,12 @@ std::string addressParameter(const ParameterAddress& address, profile::Series se
     return "parameter set " + std::to_string(address.parameter_set) + " does not exist, expected 0 to 4";
   }
   info = profile::findParameter(address.number, series);
+  const bool array = info == nullptr || info->shape == profile::ParameterShape::kArray ||
+                     info->shape == profile::ParameterShape::kArrayPerSet;
+  if (!array && address.index > 1) {
+    return "P" + std::to_string(address.number) + " is no array, expected index 0, not " +
+           std::to_string(address.index);
+  }
   const std::uint8_t index = address.index == 0 ? 1 : address.index;
   if (info != nullptr) {
     request.parameter = profile::readRequest(*info, address.parameter_set, index);

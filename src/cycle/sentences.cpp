@@ -57,7 +57,7 @@ Sentence parameterSentence(const char* drive, std::uint16_t number, const drive:
       text.format("%s", note);
       break;
     case profile::ParameterOutcome::kRefused:
-      if (result.refused_number == 0) {
+      if (result.refused_number == 0 && number != 0) {
         text.format("P%03u of drive %s: %s", number, drive, note);
       } else if (result.abort_code != 0) {
         text.format("drive %s refuses P%03u: SDO abort %08X, %s%s%s", drive, result.refused_number, result.abort_code,

@@ -5,12 +5,18 @@
 
 #include <atomic>
 #include <cstdio>
-#include <cstring>
 
-#include "nord_driver/core/version.h"
+#include "nord_driver/core/node_arguments.h"
 #include "nord_driver/node/driver_node.h"
 
 namespace {
+
+constexpr char kUsage[] =
+    "Drives NORD frequency inverters over PROFIBUS DP or CANopen. A ROS node: its configuration is its private\n"
+    "parameters.\n"
+    "  roslaunch nord_driver nord_driver.launch config:=$PWD/my_robot.yaml\n"
+    "  nord_driver_node [--help] [--version] [NAME:=VALUE ...]\n"
+    "Exit code: 0 ended when asked to, the drives at rest; 1 wrong configuration; 2 another error, or wrong usage.\n";
 
 std::atomic<bool> end_asked{false};
 
@@ -43,11 +49,10 @@ void letTheLogOut() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--version") == 0) {
-      std::printf("nord_driver_node %s\n", nord_driver::kVersion);
-      return 0;
-    }
+  if (const auto answer = nord_driver::answerArguments(argc, argv, "nord_driver_node", kUsage)) {
+    std::fputs(answer->output.c_str(), stdout);
+    std::fputs(answer->error.c_str(), stderr);
+    return answer->exit_code;
   }
   ros::init(argc, argv, "nord_driver", ros::init_options::NoSigintHandler);
   catchSignals();

@@ -66,7 +66,7 @@ void SnapshotPublisher::run() {
         }
       }
       if (isDue(next_bus, kBusPeriod, now)) bus_.publish(snapshot, stamp);
-      logChanges(snapshot);
+      logChanges(snapshot, now);
       diagnostics_.update(snapshot);
     }
     const Instant wake = std::min({std::max(next_base, now), std::max(next_status, now), now + seconds(0.1)});
@@ -75,18 +75,16 @@ void SnapshotPublisher::run() {
   }
 }
 
-// Says at once, and once, what does not answer or what has stopped.
-void SnapshotPublisher::logChanges(const cycle::CycleSnapshot& snapshot) {
-  const std::string bus = bus_.sentence(snapshot);
-  if (bus != last_bus_text_) {
-    const bool all = std::all_of(snapshot.drives.begin(), snapshot.drives.end(),
-                                 [](const cycle::DriveSnapshot& drive) { return drive.online; });
-    if (all) {
-      ROS_INFO("nord_driver: %s", bus.c_str());
+// Says once what does not answer, and at once what has stopped.
+void SnapshotPublisher::logChanges(const cycle::CycleSnapshot& snapshot, Instant now) {
+  const bool all = std::all_of(snapshot.drives.begin(), snapshot.drives.end(),
+                               [](const cycle::DriveSnapshot& drive) { return drive.online; });
+  if (const auto news = bus_news_.poll(bus_.sentence(snapshot), all, now)) {
+    if (news->good) {
+      ROS_INFO("nord_driver: %s", news->text.c_str());
     } else {
-      ROS_WARN("nord_driver: %s", bus.c_str());
+      ROS_WARN("nord_driver: %s", news->text.c_str());
     }
-    last_bus_text_ = bus;
   }
   const std::string base = snapshot.base.text.str();
   if (base != last_base_text_) {

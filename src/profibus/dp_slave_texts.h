@@ -14,7 +14,7 @@ constexpr const char* kGarbled =
     "answered with telegrams that are no answer: check the cable, and that no other station has its address";
 constexpr const char* kLeft = "left data exchange by itself: its watchdog ran out, or it was switched off and on";
 constexpr const char* kAsksAgain = "asks for its parameters again: it was restarted, or another master took it";
-constexpr const char* kLinkOpened = "the bus device was opened anew";
+constexpr const char* kLinkOpened = "was lost with the bus device, which is opened anew";
 constexpr const char* kWrongLength =
     "exchanges data of another length than configured: the PPO type or module list set at the device differs";
 constexpr const char* kWrongIdent = "is another device than configured: its ident number differs";

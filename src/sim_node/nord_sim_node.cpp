@@ -7,16 +7,29 @@
 #include <cstdlib>
 #include <exception>
 #include <memory>
-#include <string>
 
+#include "nord_driver/core/node_arguments.h"
 #include "nord_driver/sim/running_bus.h"
 #include "param_yaml.h"
 #include "sim_node.h"
 
+namespace {
+
+constexpr char kUsage[] =
+    "Simulated NORD inverters on a pseudo-terminal or a CAN bus, with the truth as topics and faults as services. A "
+    "ROS\n"
+    "node: its configuration is its private parameters. nord_sim is the same without ROS.\n"
+    "  rosparam load config/demo.yaml /nord_sim && rosrun nord_driver nord_sim_node __name:=nord_sim\n"
+    "  nord_sim_node [--help] [--version] [NAME:=VALUE ...]\n"
+    "Exit code: 0 ended when asked to; 1 wrong configuration or another error; 2 wrong usage.\n";
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  if (argc > 1 && std::string(argv[1]) == "--version") {  // without a ROS master
-    std::printf("nord_sim_node %s\n", NORD_DRIVER_VERSION);
-    return EXIT_SUCCESS;
+  if (const auto answer = nord_driver::answerArguments(argc, argv, "nord_sim_node", kUsage)) {
+    std::fputs(answer->output.c_str(), stdout);
+    std::fputs(answer->error.c_str(), stderr);
+    return answer->exit_code;
   }
   ros::init(argc, argv, "nord_sim");
   ros::NodeHandle handle("~");  // lives until the last word is logged

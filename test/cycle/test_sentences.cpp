@@ -46,6 +46,14 @@ TEST(Sentences, AStateTellsWhatTheDriveSaidLast) {
   EXPECT_STREQ("drive left does not answer", stateSentence("left", drive::DriveReport{}).c_str());
 }
 
+// 0 as the refused number stands for "not the inverter refused"; P000 is a number like others.
+TEST(Sentences, P000IsRefusedInWordsToo) {
+  drive::ParameterTaskResult result;
+  result.outcome = profile::ParameterOutcome::kRefused;
+  EXPECT_EQ("drive left refuses P000: error 0, the inverter has no parameter of this number",
+            parameterSentence("left", 0, result).str());
+}
+
 std::string parameter(profile::ParameterOutcome outcome) {
   drive::ParameterTaskResult result;
   result.outcome = outcome;

@@ -164,6 +164,15 @@ TEST(UnknownKey, IsWarnedAboutWithTheNearestNameAndTheNodeRunsOn) {
   EXPECT_FALSE(driver.waitEnd(Seconds::zero())) << driver.errorText();
 }
 
+// A file name that is silently ignored would look taken.
+TEST(CommandLine, IsRefusedInWordsWithoutAskingAMaster) {
+  NodeProcess driver(kDriverProgram, {"my_robot.yaml", "__master:=http://127.0.0.1:1"});
+  const auto end = driver.waitEnd(kPatience);
+  ASSERT_TRUE(end) << driver.errorText();
+  EXPECT_EQ(end->exit_code, 2);
+  EXPECT_THAT(driver.errorText(), HasSubstr("nord_driver_node: \"my_robot.yaml\" is not known, expected --help"));
+}
+
 // No master is no wrong configuration: the node says so and waits. Asked to end meanwhile, it ends well.
 TEST(NoMaster, IsSaidAndWaitedFor) {
   NodeProcess driver(kDriverProgram, {"__name:=driver_without_a_master", "__master:=http://127.0.0.1:1"});

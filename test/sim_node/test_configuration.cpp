@@ -41,6 +41,16 @@ TEST(Configuration, Version) {
   EXPECT_THAT(end.words, testing::MatchesRegex("nord_sim_node [0-9]+\\.[0-9]+\\.[0-9]+\n"));
 }
 
+// Nor does --help; and what looks like a configuration file is not silently passed over.
+TEST(Configuration, Usage) {
+  const End help = run("--help");
+  EXPECT_EQ(0, help.exit_code);
+  EXPECT_THAT(help.words, testing::HasSubstr("nord_sim_node [--help]"));
+  const End unknown = run("config/demo.yaml");
+  EXPECT_EQ(2, unknown.exit_code);
+  EXPECT_THAT(unknown.words, testing::HasSubstr("nord_sim_node: \"config/demo.yaml\" is not known, expected --help"));
+}
+
 // A wrong configuration ends the node with a sentence that names key, value and what was expected.
 TEST(Configuration, RefusesInWords) {
   const struct {

@@ -7,6 +7,7 @@
 
 #include "nord_driver/cycle/cycle_ports.h"
 #include "nord_driver/node/base_publisher.h"
+#include "nord_driver/node/bus_news.h"
 #include "nord_driver/node/bus_publisher.h"
 #include "nord_driver/node/diagnostics.h"
 #include "nord_driver/node/drive_publisher.h"
@@ -29,7 +30,7 @@ class SnapshotPublisher {
 
  private:
   void run();
-  void logChanges(const cycle::CycleSnapshot& snapshot);
+  void logChanges(const cycle::CycleSnapshot& snapshot, Instant now);
 
   cycle::CyclePorts& ports_;
   BasePublisher& base_;
@@ -37,7 +38,7 @@ class SnapshotPublisher {
   BusPublisher& bus_;
   Diagnostics& diagnostics_;
   Duration status_period_;
-  std::string last_bus_text_;
+  BusNews bus_news_;
   std::string last_base_text_;
   std::atomic<bool> stop_{false};
   std::atomic<bool> healthy_{true};

@@ -1,0 +1,20 @@
+#include "nord_driver/node/bus_news.h"
+
+namespace nord_driver::node {
+
+namespace {
+
+constexpr Duration kPatience = std::chrono::seconds{1};
+
+}  // namespace
+
+std::optional<BusNews::News> BusNews::poll(const std::string& text, bool good, Instant now) {
+  if (!good && !troubled_) due_ = now + kPatience;
+  troubled_ = !good;
+  if (text == told_ || (troubled_ && now < due_)) return std::nullopt;
+  due_ = now + kPatience;
+  told_ = text;
+  return News{good, text};
+}
+
+}  // namespace nord_driver::node

@@ -1,0 +1,49 @@
+#include <gmock/gmock.h>
+
+#include <vector>
+
+#include "nord_driver/core/node_arguments.h"
+#include "nord_driver/core/version.h"
+
+namespace nord_driver {
+namespace {
+
+std::optional<ProgramAnswer> answer(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "/path/to/node");
+  return answerArguments(static_cast<int>(arguments.size()), arguments.data(), "some_node", "usage: some_node\n");
+}
+
+// What roslaunch adds is ROS's own affair.
+TEST(NodeArguments, OfRosLetTheNodeRun) {
+  EXPECT_FALSE(answer({}));
+  EXPECT_FALSE(answer({"__name:=left_robot", "__log:=/tmp/x.log", "cmd_vel:=/twist", "_cycle_rate:=50"}));
+}
+
+// Help and version need no master and no configuration, wherever they stand.
+TEST(NodeArguments, HelpAndVersionAreAnswered) {
+  for (const char* word : {"--help", "-h"}) {
+    const auto help = answer({"__name:=x", word});
+    ASSERT_TRUE(help) << word;
+    EXPECT_EQ(help->output, "usage: some_node\n");
+    EXPECT_EQ(help->error, "");
+    EXPECT_EQ(help->exit_code, 0);
+  }
+  const auto version = answer({"--version"});
+  ASSERT_TRUE(version);
+  EXPECT_EQ(version->output, std::string("some_node ") + kVersion + "\n");
+  EXPECT_EQ(version->exit_code, 0);
+}
+
+// nord_driver_node my_robot.yaml would run without that file and complain of a missing key.
+TEST(NodeArguments, UnknownOnesAreRefusedByName) {
+  for (const char* word : {"my_robot.yaml", "--config", ""}) {
+    const auto refused = answer({word});
+    ASSERT_TRUE(refused) << word;
+    EXPECT_EQ(refused->output, "");
+    EXPECT_THAT(refused->error, testing::HasSubstr("some_node: \"" + std::string(word) + "\" is not known, expected"));
+    EXPECT_EQ(refused->exit_code, 2);
+  }
+}
+
+}  // namespace
+}  // namespace nord_driver
