@@ -93,7 +93,10 @@ Instant CanopenTransport::now() const noexcept {
 }
 
 void CanopenTransport::sleepUntil(Instant when) noexcept {
-  if (link_->isOpen()) run(when, false);
+  if (link_->isOpen()) {
+    receive();
+    run(when, false);
+  }
   link_->sleepUntil(when);
 }
 
@@ -157,9 +160,9 @@ bool CanopenTransport::allAnswered() const noexcept {
   return true;
 }
 
+// What had come was received just before: no time-out may be seen ahead of it.
 void CanopenTransport::run(Instant until, bool until_answered) noexcept {
   while (link_->isOpen()) {
-    receive();
     takeEvents();
     const bool talks = mayTalk();
     if (talks) {
@@ -172,7 +175,7 @@ void CanopenTransport::run(Instant until, bool until_answered) noexcept {
     if (now >= until || (until_answered && allAnswered())) break;
     const Instant due = (talks ? master_->nextDeadline() : listen_first_->nextDeadline()).value_or(until);
     // Time must pass, also where something is due that cannot be sent.
-    link_->waitReadable(std::min(until, std::max(due, now + kShortestWait)));
+    if (link_->waitReadable(std::min(until, std::max(due, now + kShortestWait)))) receive();
   }
   if (link_->isOpen()) return;
   // Gone in the middle of a cycle: nobody exchanges until it is back.

@@ -13,6 +13,8 @@ class DeafCanLink final : public link::CanLink {
  public:
   explicit DeafCanLink(std::unique_ptr<link::CanLink> inner) : inner_(std::move(inner)) {}
 
+  /// Reads that brought nothing.
+  std::size_t emptyReads() const noexcept { return empty_reads_; }
   void setDeaf(std::optional<std::uint32_t> id) noexcept { deaf_ = id; }
 
   bool open() noexcept override { return inner_->open(); }
@@ -23,6 +25,7 @@ class DeafCanLink final : public link::CanLink {
     while (inner_->receive(received)) {
       if (received.frame.id != deaf_) return true;
     }
+    ++empty_reads_;
     return false;
   }
   bool waitReadable(Instant until) noexcept override { return inner_->waitReadable(until); }
@@ -37,6 +40,7 @@ class DeafCanLink final : public link::CanLink {
  private:
   std::unique_ptr<link::CanLink> inner_;
   std::optional<std::uint32_t> deaf_;
+  std::size_t empty_reads_ = 0;
 };
 
 }  // namespace nord_driver::test

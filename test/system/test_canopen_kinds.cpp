@@ -152,6 +152,23 @@ TEST(CanopenKinds, SynchronousExchange) {
   EXPECT_LT(robot.exchangeTime(), milliseconds{5});
 }
 
+// A read that brings nothing is a system call: one before the cycle's setpoints are sent, so that no answer is taken
+// for a new one, one after each answer that comes alone (two here), one when the pause begins.
+TEST(CanopenKinds, ACycleReadsNoOftenerThanItMust) {
+  CanRobot::Options options;
+  options.bus = {{"sync", true}};
+  options.drives = {{"error_control", std::string{"none"}}};
+  CanRobot robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{2});
+  const std::size_t before = robot.link().emptyReads();
+  const std::uint64_t cycles = robot.snapshot().counters.cycles;
+  robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{1});
+  const std::uint64_t of = robot.snapshot().counters.cycles - cycles;
+  ASSERT_GE(of, 99u);
+  EXPECT_LE(static_cast<double>(robot.link().emptyReads() - before) / static_cast<double>(of), 4.1);
+}
+
 TEST(CanopenKinds, TheOwnCanPortOfSk5xxE) {
   CanRobot::Options options;
   options.drives = {{"connection", std::string{"onboard"}}};
