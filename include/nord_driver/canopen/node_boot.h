@@ -101,6 +101,7 @@ class NodeBoot {
   bool answered_ = false;  // in this attempt
   bool heard_ = false;     // after the start
   bool was_operational_ = false;
+  Sentence lost_why_;  // empty once it was found again
   std::uint8_t tries_left_ = 0;
   Duration ask_pause_{};
   Duration refuse_pause_{};
