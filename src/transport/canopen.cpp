@@ -14,6 +14,7 @@ namespace nord_driver {
 namespace {
 
 constexpr Duration kReopenInterval = std::chrono::milliseconds{500};
+constexpr Duration kLossPause = std::chrono::seconds{1};
 constexpr Duration kEventShown = std::chrono::seconds{10};
 constexpr Duration kShortestWait = std::chrono::microseconds{50};
 constexpr Duration kQueueRetry = std::chrono::microseconds{250};
@@ -143,6 +144,7 @@ void CanopenTransport::exchange(const std::vector<profile::ProcessOutput>& outpu
     master_->startCycle(cycle_start_);
     if (!isSilent()) sendIntoTheDark();
     run(cycle_start_ + config_.answer_window, true);
+    tellLostFrames();
   }
   const bool works = busWorks() && !isSilent();
   const Instant now = link_->now();
@@ -245,11 +247,27 @@ void CanopenTransport::takeEvents() noexcept {
     } else {
       continue;
     }
-    event_at_ = event->at;
-    BusEvent told;
-    told.text = event_text_;
-    events_.push_back(told);  // what does not fit is in the counters
+    tell(event->at);
   }
+}
+
+void CanopenTransport::tell(Instant at) noexcept {
+  event_at_ = at;
+  BusEvent told;
+  told.text = event_text_;
+  events_.push_back(told);  // what does not fit is in the counters
+}
+
+// At most once a second: a computer that is too slow has no time to lose.
+void CanopenTransport::tellLostFrames() noexcept {
+  const std::uint64_t lost = link_->counters().dropped;
+  const Instant now = link_->now();
+  if (lost == lost_told_ || now - lost_told_at_ < kLossPause) return;
+  event_text_.format("%s: received frames were lost, %llu since the start: this computer took them too late",
+                     config_.interface.c_str(), static_cast<unsigned long long>(lost));
+  lost_told_ = lost;
+  lost_told_at_ = now;
+  tell(now);
 }
 
 std::optional<BusEvent> CanopenTransport::pollEvent() noexcept {

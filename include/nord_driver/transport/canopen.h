@@ -72,6 +72,8 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   void sendIntoTheDark() noexcept;
   void runParameters() noexcept;
   void takeEvents() noexcept;
+  void tell(Instant at) noexcept;
+  void tellLostFrames() noexcept;
   bool allAnswered() const noexcept;
   canopen::NmtCommand releaseCommand() const noexcept;
 
@@ -91,6 +93,8 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   FixedVector<BusEvent, 8> events_;
   Sentence event_text_;  // the last event of no node of ours
   Instant event_at_{};
+  std::uint64_t lost_told_ = 0;  // frames this computer was too slow to take
+  Instant lost_told_at_{};
 };
 
 }  // namespace nord_driver
