@@ -373,6 +373,8 @@ std::optional<NodeSdoAnswer> Master::pollSdo() noexcept {
     const std::optional<SdoAnswer> answer = nodes_[node]->ports()[server].take(SdoOwner::kUser);
     if (!answer) continue;
     touched(*nodes_[node]);
+    if (answer->end == SdoEnd::kTimedOut) ++counters_.sdo_timeouts;
+    if (answer->end == SdoEnd::kAbortedByServer) ++counters_.sdo_aborts;
     return NodeSdoAnswer{node, server, *answer};
   }
   return std::nullopt;

@@ -50,6 +50,7 @@ void NodeBoot::restart(Instant now) noexcept {
   fresh_ = false;
   was_operational_ = false;
   doubled_ = false;
+  lost_why_.clear();
   boot_ups_in_a_row_ = 0;
   last_boot_up_.reset();
   ask_pause_ = kFirstAskPause;
@@ -255,6 +256,8 @@ void NodeBoot::handleNoAnswer(Instant now) noexcept {
   if (answered_) {
     why.format("stopped answering in its start-up (SDO %04Xh:%u)", unsigned{request_.index},
                unsigned{request_.sub_index});
+  } else if (!lost_why_.empty()) {
+    why.format("%s; since then it does not answer: is it powered and connected?", lost_why_.c_str());
   } else {
     why.format("does not answer: is it powered, and are its node id and bit rate right?");
   }
@@ -262,6 +265,7 @@ void NodeBoot::handleNoAnswer(Instant now) noexcept {
 }
 
 void NodeBoot::found(Instant now) noexcept {
+  lost_why_.clear();
   ask_pause_ = kFirstAskPause;
   const NodeState state = report_.status().state;
   if (state == NodeState::kRefused) return;  // with its reason, until it gets further
@@ -305,6 +309,7 @@ void NodeBoot::leave(const Sentence& why, Instant now) noexcept {
   phase_ = Phase::kSilent;
   fresh_ = false;
   ask_pause_ = kFirstAskPause;
+  lost_why_ = why;
   ++report_.status().counters.losses;
   report_.enter(NodeState::kBooting, why, now);
   report_.tell(CanopenEventKind::kNodeLost, why, 0, now);

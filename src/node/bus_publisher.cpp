@@ -20,6 +20,7 @@ void BusPublisher::publish(const cycle::CycleSnapshot& snapshot, ros::Time stamp
   status.timeouts = snapshot.counters.timeouts;
   status.checksum_errors = snapshot.counters.checksum_errors;
   status.parity_errors = snapshot.counters.parity_errors;
+  status.overruns = snapshot.counters.overruns;
   status.discarded_bytes = snapshot.counters.discarded_bytes;
   status.unexpected = snapshot.counters.unexpected;
   status.stale = snapshot.counters.stale;

@@ -79,7 +79,7 @@ void CanNode::initialise(Duration time, bool application) noexcept {
 void CanNode::enter(NmtState state) noexcept {
   if (state == NmtState::kOperational && state_ != state) {
     for (CanTpdo& tpdo : tpdos_) tpdo.start();
-    process_.expectNewMaster();
+    process_.beginExchange();
   }
   if (state != NmtState::kOperational) waiting_for_sync_ = {};
   state_ = state;

@@ -238,10 +238,11 @@ CanProcessObjects::Commit CanProcessObjects::commit() noexcept {
     if (!outputs.written) continue;
     outputs.written = false;
     const bool valid = cia402_ || (outputs.control & stw::kDataValid) != 0;
-    commit.zero = commit.zero || (!valid && outputs.valid_seen);
-    commit.valid = commit.valid || valid;
-    outputs.valid_seen = outputs.valid_seen || valid;
     DriveUnit* drive = drives_[i];
+    const bool there = drive != nullptr && drive->inverterLink() && drive->inverter().powered();
+    commit.zero = commit.zero || (!valid && outputs.valid_seen && there);
+    commit.valid = commit.valid || valid;
+    outputs.valid_seen = there && (outputs.valid_seen || valid);  // one that comes back begins anew, too
     if (drive == nullptr || !drive->inverterLink()) continue;
     if (cia402_) {
       drive->inverter().receive(fromCia402(outputs.control, toSigned(outputs.setpoints[0]), *drive));
@@ -252,7 +253,7 @@ CanProcessObjects::Commit CanProcessObjects::commit() noexcept {
   return commit;
 }
 
-void CanProcessObjects::expectNewMaster() noexcept {
+void CanProcessObjects::beginExchange() noexcept {
   for (Outputs& outputs : outputs_) outputs.valid_seen = false;
 }
 

@@ -14,7 +14,6 @@ namespace nord_driver {
 namespace {
 
 constexpr Duration kReopenInterval = std::chrono::milliseconds{500};
-constexpr Duration kEventShown = std::chrono::seconds{10};
 constexpr Duration kShortestWait = std::chrono::microseconds{50};
 constexpr Duration kQueueRetry = std::chrono::microseconds{250};
 constexpr int kFramesAtOnce = 1000;
@@ -145,6 +144,7 @@ void CanopenTransport::exchange(const std::vector<profile::ProcessOutput>& outpu
     master_->startCycle(cycle_start_);
     if (!isSilent()) sendIntoTheDark();
     run(cycle_start_ + config_.answer_window, true);
+    events_.noteLostFrames(config_.interface.c_str(), link_->counters().dropped, link_->now());
   }
   const bool works = busWorks() && !isSilent();
   const Instant now = link_->now();
@@ -234,41 +234,12 @@ void CanopenTransport::runParameters() noexcept {
   }
 }
 
-// What is wrong with the bus rather than with one drive, whose note tells its own.
 void CanopenTransport::takeEvents() noexcept {
-  using Kind = canopen::CanopenEventKind;
   while (const auto event = master_->pollEvent()) {
-    const bool of_the_bus = event->node == canopen::kNoNode;
-    if (event->kind == Kind::kSecondMaster) listen_first_->handleMaster(event->value, event->at);
-    const bool worth_telling = event->kind == Kind::kToggleError || event->kind == Kind::kBootUpRepeated ||
-                               event->kind == Kind::kDoubleId || event->kind == Kind::kMalformed;
-    BusEvent told;
-    if (of_the_bus) {
-      told.text = event->text;
-    } else if (worth_telling) {
-      told.text.format("node %u: %s", config_.master.nodes[event->node].id, event->text.c_str());
-    } else {
-      continue;
-    }
-    events_.push_back(told);  // what does not fit is in the counters
-    const bool explains = event->kind == Kind::kSecondMaster || event->kind == Kind::kDoubleId;
-    if (!explains && isExplained(event->at)) continue;
-    if (explains) explained_at_ = event->at;
-    event_text_ = told.text;
-    event_at_ = event->at;
+    if (event->kind == canopen::CanopenEventKind::kSecondMaster) listen_first_->handleMaster(event->value, event->at);
+    const bool of_a_node = event->node != canopen::kNoNode;
+    events_.take(*event, of_a_node ? config_.master.nodes[event->node].id : 0);
   }
-}
-
-// Another master, or a second node with one id, is the reason of most that the nodes do meanwhile.
-bool CanopenTransport::isExplained(Instant now) const noexcept {
-  return explained_at_ && now - *explained_at_ < kEventShown;
-}
-
-std::optional<BusEvent> CanopenTransport::pollEvent() noexcept {
-  if (events_.empty()) return std::nullopt;
-  const BusEvent event = events_[0];
-  events_.eraseFront(1);
-  return event;
 }
 
 std::vector<std::string> CanopenTransport::warnings() const {
@@ -339,14 +310,15 @@ Sentence CanopenTransport::busText() const noexcept {
   text.format("%s", link_->advice());
   if (!text.empty()) return text;
   if (isSilent()) return listen_first_->text();
-  if (!connected() && !isExplained(link_->now())) {
+  if (!connected() && !events_.isExplained(link_->now())) {
     text.format(
         "%s is open, but no node runs: are the drives powered, is the bit rate right (P514), are the two ends of the "
         "bus terminated?",
         config_.interface.c_str());
     return text;
   }
-  if (!event_text_.empty() && link_->now() - event_at_ < kEventShown) return event_text_;
+  text = events_.text(link_->now());
+  if (!text.empty()) return text;
   for (const CanopenDriveState& drive : drives_) {
     // A drive that is silent tells it in its note.
     if (!drive.inverterAnswers() || drive.emergency().empty()) continue;

@@ -80,6 +80,19 @@ TEST(NodeLoss, ItsLastWordsAreForgotten) {
   EXPECT_EQ(0u, run.master.transmitPdo(0, 0).count);
 }
 
+// What was noticed first is what a technician needs to know, however long the node has been asked in vain since.
+TEST(NodeLoss, WhatWasLostIsStillToldAfterAWhile) {
+  Operational run;
+  run.nodes[0]->powerOff();
+  ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{1}));
+  run.run(seconds{5});
+  EXPECT_STREQ("sent no heartbeat for 300 ms; since then it does not answer: is it powered and connected?",
+               run.master.status(0).reason.c_str());
+  run.nodes[0]->powerOn(run.now);
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));
+  EXPECT_STREQ("", run.master.status(0).reason.c_str());
+}
+
 // A short break of the supply shows only as a boot-up in the middle of the exchange.
 TEST(NodeLoss, RestartedByItself) {
   Operational run;

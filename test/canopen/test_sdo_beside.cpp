@@ -69,6 +69,8 @@ TEST(SdoBeside, TellsAbortsAndTimeOuts) {
   const auto silent = answerWithin(run, milliseconds{310});
   ASSERT_TRUE(silent);
   EXPECT_EQ(SdoEnd::kTimedOut, silent->answer.end);
+  EXPECT_EQ(1u, run.master.counters().sdo_timeouts);
+  EXPECT_EQ(1u, run.master.counters().sdo_aborts);
   EXPECT_EQ(NodeState::kOperational, run.master.status(0).state) << "an SDO alone loses no node";
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "nord_driver/ReadParameter.h"
 #include "nord_driver/SimTrip.h"
 
 namespace nord_driver::test {
@@ -73,6 +74,12 @@ Answer RobotUnderTest::trip(const std::string& drive, std::uint16_t number, bool
 
 Answer RobotUnderTest::clearCause(const std::string& drive) {
   return callTrigger("nord_sim/" + drive + "/clear_cause");
+}
+
+Answer RobotUnderTest::readParameter(const std::string& drive, std::uint16_t number) {
+  ReadParameter service;
+  service.request.number = number;
+  return callService("nord_driver/" + drive + "/read_parameter", service);
 }
 
 Answer RobotUnderTest::referee() {
@@ -154,6 +161,12 @@ void RobotTest::startDriver() {
   ASSERT_TRUE(robot().waitForDrivesOnline());
 }
 
+void RobotTest::endDriver() {
+  robot().silence();
+  driver_->signal(SIGTERM);
+  EXPECT_TRUE(driver_->waitEnd(kPatience)) << "the driver does not end";
+}
+
 void RobotTest::enableAndDrive(double linear) {
   // P105 is read in the first moments after a drive is there; before, enabling is refused.
   Answer answer;
@@ -168,6 +181,10 @@ void RobotTest::enableAndDrive(double linear) {
 
 bool onCanopen() {
   return ros::param::param("nord_driver/transport", std::string{}) == "nord_driver/canopen";
+}
+
+bool isError(int level, const std::string&) {
+  return level == diagnostic_msgs::DiagnosticStatus::ERROR;
 }
 
 bool eventually(const std::function<bool()>& condition, Seconds limit) {

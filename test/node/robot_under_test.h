@@ -59,6 +59,8 @@ class RobotUnderTest {
   /// Lets a simulated inverter trip; `number` as P700 shows it. Without `cause_stays` it can be acknowledged at once.
   Answer trip(const std::string& drive, std::uint16_t number, bool cause_stays);
   Answer clearCause(const std::string& drive);
+  /// ~<drive>/read_parameter of the driver.
+  Answer readParameter(const std::string& drive, std::uint16_t number);
   /// The simulator's judgement of all that was on the bus.
   Answer referee();
 
@@ -104,6 +106,8 @@ class RobotTest : public ::testing::Test {
   void TearDown() override;
   /// The driver as a child, with the parameters of /nord_driver.
   void startDriver();
+  /// Ends it cleanly: the drives at rest and without a fault.
+  void endDriver();
   /// ~enable and a steady speed forward, the ramp behind it.
   void enableAndDrive(double linear);
 
@@ -114,6 +118,9 @@ class RobotTest : public ::testing::Test {
 
 /// The robot of this run is on CANopen: its launch file says so.
 bool onCanopen();
+
+/// The level of a task of /diagnostics; for `waitForDiagnostics`.
+bool isError(int level, const std::string& message);
 
 /// Asks again and again until `condition` holds; false when it does not within `limit`.
 bool eventually(const std::function<bool()>& condition, Seconds limit = kPatience);

@@ -14,9 +14,7 @@ class CanopenDrive : public RobotTest {
  protected:
   void SetUp() override {
     RobotTest::SetUp();
-    // An emulated machine takes a minute to start the driver.
-    const int factor = ros::param::param("time_factor", 1);
-    ASSERT_TRUE(robot().waitForDrivesOnline(Seconds{kPatience.count() * factor}));
+    ASSERT_TRUE(robot().waitForDrivesOnline());
   }
   void TearDown() override {
     robot().silence();

@@ -13,10 +13,6 @@ constexpr std::uint16_t kMotorHot = 21;  // E2.1 as P700 shows it
 constexpr std::size_t kLongEnough = 25;  // messages in which a drive that wanted to move would have
 constexpr Seconds kAcknowledged{5.0};    // the longest answer: service_timeout of robot.yaml
 
-bool isError(int level, const std::string&) {
-  return level == diagnostic_msgs::DiagnosticStatus::ERROR;
-}
-
 class Faults : public RobotTest {
  protected:
   void SetUp() override {

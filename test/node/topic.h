@@ -6,6 +6,7 @@
 #include <boost/function.hpp>
 #include <chrono>
 #include <condition_variable>
+#include <cstdlib>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -14,8 +15,14 @@ namespace nord_driver::test {
 
 using Seconds = std::chrono::duration<double>;
 
+/// How much longer everything takes where it is emulated (scripts/can_machine.sh).
+inline double timeFactor() {
+  const char* text = std::getenv("NORD_TIME_FACTOR");
+  return text == nullptr ? 1.0 : std::atof(text);
+}
+
 /// Long enough for whatever will happen at all, on a machine that does a lot else.
-constexpr Seconds kPatience{20.0};
+inline const Seconds kPatience{20.0 * timeFactor()};
 
 /// Filled by the spinner's threads, read by the test's. A place in the record is a count of messages: `mark()` now,
 /// `since(mark)` later.

@@ -261,8 +261,9 @@ TEST_F(CanopenCauses, AnOverflowIsCountedAndSurvived) {
   start();
   const std::uint64_t before = robot_->snapshot().counters.overruns;
   robot_->bus().overflow(3);
-  robot_->drive(kHalfSpeed, 0.0, milliseconds{500});
+  robot_->drive(kHalfSpeed, 0.0, milliseconds{1500});
   EXPECT_EQ(before + 3, robot_->snapshot().counters.overruns);
+  EXPECT_EQ("can0: received frames were lost, 3 since the start: this computer took them too late", robot_->busText());
   EXPECT_TRUE(robot_->online(kLeft));
   EXPECT_TRUE(robot_->snapshot().base.enabled);
 }

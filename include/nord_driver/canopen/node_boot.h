@@ -112,6 +112,7 @@ class NodeBoot {
   bool two_answer_ = false;
   bool doubled_ = false;  // it was started all the same, to be stopped
   bool was_operational_ = false;
+  Sentence lost_why_;  // empty once it was found again
   std::uint8_t tries_left_ = 0;
   Duration ask_pause_{};
   Duration refuse_pause_{};

@@ -35,10 +35,10 @@ class CanProcessObjects : public CanObjects {
   };
   /// Hands what was written to the inverters.
   Commit commit() noexcept;
-  /// From here on zeros come before the first valid words: a master may look before it commands.
-  void expectNewMaster() noexcept;
   /// Forgets what was written.
   void clear() noexcept;
+  /// The node becomes operational: its master may look before it commands.
+  void beginExchange() noexcept;
 
   /// A gateway's own digital inputs (3004h:1) and outputs (3005h:1).
   void setModuleInputs(std::uint8_t inputs) noexcept { module_inputs_ = inputs; }

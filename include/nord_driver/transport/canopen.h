@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "nord_driver/canopen/master.h"
-#include "nord_driver/core/fixed_vector.h"
 #include "nord_driver/link/can_link.h"
 #include "nord_driver/link/can_settings.h"
 #include "nord_driver/transport/can_listen_first.h"
+#include "nord_driver/transport/canopen_bus_events.h"
 #include "nord_driver/transport/canopen_config.h"
 #include "nord_driver/transport/canopen_drive.h"
 #include "nord_driver/transport/parameters_only.h"
@@ -56,7 +56,7 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   Sentence busText() const noexcept override;
   DriveIdentity identity(DriveIndex drive) const override;
   std::vector<std::string> warnings() const override;
-  std::optional<BusEvent> pollEvent() noexcept override;
+  std::optional<BusEvent> pollEvent() noexcept override { return events_.poll(); }
   const TelegramTrace* trace() const noexcept override { return trace_ ? &*trace_ : nullptr; }
   /// The nodes are led out of operational first, so that the end of guarding is no loss to them.
   void close() noexcept override;
@@ -76,7 +76,6 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   void runParameters() noexcept;
   void takeEvents() noexcept;
   bool allAnswered() const noexcept;
-  bool isExplained(Instant now) const noexcept;
   canopen::NmtCommand releaseCommand() const noexcept;
 
   LinkFactory make_link_;
@@ -93,10 +92,7 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   Instant cycle_start_{};
   Instant next_open_{};
   DriveIndex result_cursor_ = 0;
-  FixedVector<BusEvent, 8> events_;
-  Sentence event_text_;  // the last event of no node of ours
-  Instant event_at_{};
-  std::optional<Instant> explained_at_;  // the text tells of another master, or of two nodes with one id
+  CanopenBusEvents events_;
 };
 
 }  // namespace nord_driver
