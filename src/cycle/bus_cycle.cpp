@@ -21,6 +21,11 @@ std::vector<std::optional<std::size_t>> modulesOf(const CycleConfig& config, con
   return modules;
 }
 
+// Never too late.
+bool stops(RequestKind kind) noexcept {
+  return kind == RequestKind::kDisable || kind == RequestKind::kQuickStop || kind == RequestKind::kShutDown;
+}
+
 std::vector<drive::Drive> makeDrives(const CycleConfig& config) {
   std::vector<drive::Drive> drives;
   for (const DriveSetup& setup : config.drives) drives.emplace_back(setup.drive);
@@ -73,7 +78,16 @@ void BusCycle::runOnce() noexcept {
 }
 
 void BusCycle::takeRequests(Instant now) noexcept {
-  while (const auto request = ports_.pollRequest()) takeRequest(*request, now);
+  while (auto request = ports_.pollRequest()) {
+    const Duration waited = request->asked == Instant{} ? Duration::zero() : now - request->asked;
+    request->patience -= std::max(waited, Duration::zero());
+    if (request->patience >= Duration::zero() || stops(request->kind)) {
+      takeRequest(*request, now);
+    } else {
+      // Told that it failed, its asker must not see it succeed later.
+      ports_.complete(answerTo(*request, false, "the bus cycle was held up for too long: not carried out"));
+    }
+  }
 }
 
 void BusCycle::takeRequest(const Request& request, Instant now) noexcept {

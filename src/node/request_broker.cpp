@@ -27,6 +27,7 @@ void RequestBroker::dispatch() {
 
 cycle::Completion RequestBroker::call(cycle::Request request) {
   std::unique_lock<std::mutex> lock(mutex_);
+  request.asked = std::chrono::steady_clock::now();
   request.id = next_id_;
   if (++next_id_ == 0) next_id_ = 1;  // 0: nobody waits for an answer
   cycle::Completion answer;

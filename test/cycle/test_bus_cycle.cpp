@@ -90,6 +90,40 @@ TEST_F(BusCycleTest, NoSetIsSwitchedWhileTheBaseComesToRest) {
   EXPECT_EQ(0x047E, controlWord(kRight));
 }
 
+// The bus was held up for longer than the asker waited: he was told that it failed, and must not see it succeed now.
+TEST_F(BusCycleTest, WhatNobodyWaitsForAnyMoreIsNotBegun) {
+  bringUp();
+  Request enable;
+  enable.kind = RequestKind::kEnable;
+  enable.asked = transport.time - std::chrono::seconds{5};
+  Completion answer = ask(enable);
+  EXPECT_FALSE(answer.success);
+  EXPECT_STREQ("the bus cycle was held up for too long: not carried out", answer.message.c_str());
+  run(20);
+  EXPECT_EQ(0x047E, controlWord(kLeft));
+  enable.asked = transport.time - std::chrono::seconds{1};
+  EXPECT_TRUE(ask(enable).success) << "in time";
+  // A stop is never too late.
+  Request stop;
+  stop.kind = RequestKind::kQuickStop;
+  stop.asked = transport.time - std::chrono::seconds{5};
+  ask(stop);
+  run(20);
+  EXPECT_EQ(0x047E, controlWord(kLeft));
+  EXPECT_FALSE(snapshot().base.enabled);
+}
+
+TEST_F(BusCycleTest, PatienceCountsFromTheAsking) {
+  bringUp();
+  transport.inverters[kLift].stuck = true;
+  Request enable;
+  enable.kind = RequestKind::kEnable;
+  enable.asked = transport.time - std::chrono::milliseconds{2900};
+  const Instant begin = transport.time;
+  EXPECT_FALSE(ask(enable).success);
+  EXPECT_LT(transport.time - begin, std::chrono::milliseconds{200});
+}
+
 // Two things a user may ask for at the same time, each with its own way to the inverter.
 TEST_F(BusCycleTest, AParameterIsReadWhileAFaultIsAcknowledged) {
   bringUp();

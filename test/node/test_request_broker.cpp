@@ -56,6 +56,17 @@ cycle::Request request(DriveIndex drive, Duration patience = std::chrono::second
   return request;
 }
 
+TEST(RequestBrokerTest, SaysWhenItWasAsked) {
+  cycle::CyclePorts ports{4};
+  RequestBroker broker{ports};
+  const Instant before = std::chrono::steady_clock::now();
+  broker.call(request(0, -std::chrono::seconds{1}));
+  const auto asked = ports.pollRequest();
+  ASSERT_TRUE(asked);
+  EXPECT_GE(asked->asked, before);
+  EXPECT_LE(asked->asked, std::chrono::steady_clock::now());
+}
+
 TEST(RequestBrokerTest, EachOfSeveralCallersGetsItsOwnAnswer) {
   cycle::CyclePorts ports{4};
   RequestBroker broker{ports};

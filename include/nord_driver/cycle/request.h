@@ -30,6 +30,7 @@ struct Request {
   RequestKind kind = RequestKind::kDisable;
   DriveIndex drive = kAllDrives;
   Duration patience{};  ///< the longest the asker waits
+  Instant asked{};      ///< when, by the clock of the bus; the patience counts from then. {}: from when it is taken
   profile::ParameterRequest parameter;
   bool active_set = false;         ///< the parameter's set is the one in force, whichever that is
   std::uint8_t parameter_set = 0;  ///< for kSelectParameterSet, 1..4
