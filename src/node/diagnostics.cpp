@@ -4,6 +4,7 @@
 
 #include "nord_driver/core/bytes.h"
 #include "nord_driver/node/bus_publisher.h"
+#include "nord_driver/node/way_on.h"
 #include "nord_driver/profile/fault_text.h"
 
 namespace nord_driver::node {
@@ -71,6 +72,7 @@ void Diagnostics::reportBase(DiagnosticStatusWrapper& status) const {
   const cycle::BaseSnapshot& base = snapshot_.base;
   if (base.stopped) {
     status.summary(DiagnosticStatus::ERROR, base.text.str());
+    status.add("to go on", wayOn(snapshot_, names_));
   } else if (base.enabled) {
     status.summary(DiagnosticStatus::OK, "enabled");
   } else {
