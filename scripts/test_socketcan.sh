@@ -5,10 +5,12 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 # GoogleTest programs.
 programs=(test_socketcan)
-# rostests, each a file below test/: one line each. They are handed interface:=vcan0 and time_factor:=N (1, or 10 where
-# everything is emulated), so they have these two <arg>s and multiply their time limits with the latter.
+# rostests, each a file below test/: one line each. They are handed interface:=vcan0 (or make interfaces of their own) and
+# time_factor:=N (1, or 10 where everything is emulated), so they have these two <arg>s and multiply their time limits
+# with the latter.
 rostests=(
   node/rostest_canopen_drive.test
+  socketcan/rostest_socketcan.test
 )
 
 usage() {

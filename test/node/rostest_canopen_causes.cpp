@@ -85,7 +85,7 @@ class CanopenCauses : public RobotTest {
 
 // The node sends its heartbeat by itself; nobody tells it that we are gone, so it has no fault afterwards.
 TEST_F(CanopenCauses, AHeartbeatThatStopsStopsTheBase) {
-  ASSERT_NO_FATAL_FAILURE(loseAndExpectStop("left", robot().left, "sent no heartbeat for 300 ms"));
+  ASSERT_NO_FATAL_FAILURE(loseAndExpectStop("left", robot().left, "sent no heartbeat for 900 ms"));
   EXPECT_TRUE(robot().right.truth.waitNext(
       [](const SimDrive& truth) { return !truth.operation_enabled && isReadyToSwitchOn(truth.status_word); }));
   EXPECT_TRUE(robot().right.status.next()->online);
@@ -99,7 +99,7 @@ TEST_F(CanopenCauses, AHeartbeatThatStopsStopsTheBase) {
 // Of a node that is not heard any more nobody asks the state: its own guarding ends, too, and the inverter trips E10.0.
 TEST_F(CanopenCauses, AGuardedNodeThatDoesNotAnswerStopsTheBase) {
   const std::size_t from = robot().right.truth.mark();
-  ASSERT_NO_FATAL_FAILURE(loseAndExpectStop("right", robot().right, "gave no good answer to guarding for 600 ms"));
+  ASSERT_NO_FATAL_FAILURE(loseAndExpectStop("right", robot().right, "gave no good answer to guarding for 1200 ms"));
   EXPECT_TRUE(robot().left.truth.waitNext(
       [](const SimDrive& truth) { return !truth.operation_enabled && isReadyToSwitchOn(truth.status_word); }));
   EXPECT_TRUE(robot().right.truth.waitFrom(

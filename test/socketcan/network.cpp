@@ -73,11 +73,24 @@ BareSocket::~BareSocket() {
 }
 
 void BareSocket::sendError(std::uint32_t classes, const std::array<std::uint8_t, 8>& data) {
+  send(classes | CAN_ERR_FLAG, data);
+}
+
+void BareSocket::sendZeros(std::uint32_t id) {
+  send(id, {});
+}
+
+void BareSocket::send(std::uint32_t id, const std::array<std::uint8_t, 8>& data) {
   can_frame raw{};
-  raw.can_id = classes | CAN_ERR_FLAG;
+  raw.can_id = id;
   raw.can_dlc = 8;
   std::copy(data.begin(), data.end(), raw.data);
   EXPECT_EQ(static_cast<ssize_t>(sizeof raw), ::write(descriptor_, &raw, sizeof raw));
+}
+
+void BareSocket::sendOutOnly() {
+  const int loopback = 0;
+  EXPECT_EQ(0, ::setsockopt(descriptor_, SOL_CAN_RAW, CAN_RAW_LOOPBACK, &loopback, sizeof loopback));
 }
 
 bool BareSocket::takesFilters(std::size_t count) {

@@ -42,10 +42,16 @@ class BareSocket {
   BareSocket& operator=(const BareSocket&) = delete;
 
   void sendError(std::uint32_t classes, const std::array<std::uint8_t, 8>& data = {});
+  /// A frame with eight zeros.
+  void sendZeros(std::uint32_t id);
+  /// What is sent from now on is heard at the other end of a pair only, not by other sockets on this interface.
+  void sendOutOnly();
   /// True when a filter of `count` identifiers is taken.
   bool takesFilters(std::size_t count);
 
  private:
+  void send(std::uint32_t id, const std::array<std::uint8_t, 8>& data);
+
   int descriptor_ = -1;
 };
 

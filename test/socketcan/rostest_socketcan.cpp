@@ -1,0 +1,190 @@
+// What happens to the kernel's CAN interface under a robot that drives: driver and simulator at the two ends of a pair
+// of virtual interfaces, which this program makes, spoils and takes away.
+#include <gmock/gmock.h>
+#include <linux/can/error.h>
+#include <signal.h>
+
+#include <cmath>
+
+#include "node/robot_under_test.h"
+#include "socketcan/network.h"
+
+namespace nord_driver::test {
+namespace {
+
+using link::BareSocket;
+using link::ip;
+using link::tc;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+// The driver's end and the drives' end; the launch file has the names, too.
+constexpr const char* kNear = "nord_near";
+constexpr const char* kFar = "nord_far";
+constexpr std::uint16_t kMasterLost = 100;  // E10.0 as P700 shows it
+constexpr double kSpeed = 0.3;              // m/s
+constexpr double kTurning = 1.0;            // rad/s at the wheel
+
+/// Each test finds the robot driving, takes the bus away, and leaves it at rest with a bus that works.
+class SocketCanRobot : public RobotTest {
+ protected:
+  static void SetUpTestSuite() {
+    addPair();
+    simulator = std::make_unique<NodeProcess>(kSimulatorProgram, std::vector<std::string>{"__name:=nord_sim"});
+    driver = std::make_unique<NodeProcess>(kDriverProgram, std::vector<std::string>{"__name:=nord_driver"});
+    // An emulated machine takes a minute to start them.
+    EXPECT_TRUE(robot().waitForDrivesOnline(2.0 * kPatience)) << simulator->errorText() << driver->errorText();
+  }
+  static void TearDownTestSuite() {
+    driver.reset();
+    simulator.reset();
+    if (link::exists(kNear)) removePair();
+  }
+  void SetUp() override {
+    RobotTest::SetUp();
+    ASSERT_TRUE(robot().waitForDrivesOnline());
+    enableAndDrive(kSpeed);
+    from_ = {robot().left.truth.mark(), robot().right.truth.mark()};
+  }
+  void TearDown() override {
+    if (HasFailure()) std::fputs(driver->errorText().c_str(), stderr);
+    // Not asked for: the referee. Over a bus that fails a master cannot know that a node has left its state.
+    robot().silence();
+  }
+
+  static void addPair() {
+    ip(std::string("link add dev ") + kNear + " type vxcan peer name " + kFar);
+    ip(std::string("link set ") + kNear + " up");
+    ip(std::string("link set ") + kFar + " up");
+  }
+  static void removePair() { ip(std::string("link del ") + kNear); }
+
+  /// Nobody guards the nodes any more: the inverters trip E10.0 and the wheels coast to rest.
+  void expectDrivesStopThemselves() {
+    const std::array<DriveTopics*, 2> drives{&robot().left, &robot().right};
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+      const auto off =
+          drives[i]->truth.waitFrom(from_[i], [](const SimDrive& truth) { return !truth.operation_enabled; });
+      ASSERT_TRUE(off);
+      EXPECT_EQ(off->fault_number, kMasterLost);
+      EXPECT_GT(std::fabs(off->wheel_velocity), kTurning) << "it coasts";
+    }
+    EXPECT_TRUE(robot().waitForStandstill());
+  }
+  /// The bus does not work, and why is said where a technician looks.
+  void expectBusLost(const std::string& why) {
+    const auto status = robot().bus_status.waitNext([&](const BusStatus& bus) {
+      return !bus.connected && bus.offline.size() == 2 && bus.text.find(why) != std::string::npos;
+    });
+    ASSERT_TRUE(status) << "nobody says: " << why << "; but: " << robot().bus_status.next()->text;
+    EXPECT_THAT(robot().waitForDiagnostics("bus", isError), HasSubstr(why));
+    EXPECT_THAT(robot().waitForDiagnostics("base", isError), AllOf(HasSubstr("stopped"), HasSubstr("silent")));
+  }
+  /// Both drives are online again, at rest though commands go on; the fault they were left with is said, and kept until
+  /// somebody acknowledges it.
+  void expectBackAtRest() {
+    EXPECT_TRUE(robot().waitForDrivesOnline());
+    EXPECT_TRUE(
+        robot().bus_status.waitNext([](const BusStatus& bus) { return bus.connected && bus.online.size() == 2; }));
+    robot().drive(0.0);
+    Answer answer;
+    EXPECT_TRUE(eventually([&] {
+      answer = robot().enable(true);
+      return answer.message.find("cmd_vel") == std::string::npos;
+    }));
+    EXPECT_FALSE(answer.success);
+    EXPECT_THAT(answer.message, HasSubstr("fault"));
+    for (DriveTopics* drive : {&robot().left, &robot().right}) {
+      const auto truth = drive->truth.next();
+      EXPECT_FALSE(truth->operation_enabled);
+      EXPECT_LT(std::fabs(truth->wheel_velocity), 1e-2);
+    }
+    EXPECT_TRUE(eventually([&] { return (answer = robot().trigger("acknowledge_faults")).success; })) << answer;
+    EXPECT_TRUE(robot().waitForRest());
+  }
+
+  static std::unique_ptr<NodeProcess> simulator, driver;
+  std::array<std::size_t, 2> from_{};  // in the truth of left and right
+};
+std::unique_ptr<NodeProcess> SocketCanRobot::simulator, SocketCanRobot::driver;
+
+// As the driver of a controller reports it (linux/can/error.h).
+TEST_F(SocketCanRobot, BusOffAndRestarted) {
+  BareSocket controller{kFar};
+  controller.sendOutOnly();
+  controller.sendError(CAN_ERR_BUSOFF);
+  ASSERT_NO_FATAL_FAILURE(expectBusLost("nord_near is bus-off"));
+  ASSERT_NO_FATAL_FAILURE(expectDrivesStopThemselves());
+  controller.sendError(CAN_ERR_RESTARTED);
+  ASSERT_NO_FATAL_FAILURE(expectBackAtRest());
+}
+
+TEST_F(SocketCanRobot, InterfaceDownAndUp) {
+  ip(std::string("link set ") + kNear + " down");
+  ASSERT_NO_FATAL_FAILURE(expectBusLost("nord_near is down: sudo ip link set nord_near up"));
+  ASSERT_NO_FATAL_FAILURE(expectDrivesStopThemselves());
+  ip(std::string("link set ") + kNear + " up");
+  ASSERT_NO_FATAL_FAILURE(expectBackAtRest());
+}
+
+// An adapter pulled out and plugged in again, under the same name.
+TEST_F(SocketCanRobot, InterfaceRemovedAndBack) {
+  removePair();
+  ASSERT_NO_FATAL_FAILURE(expectBusLost("nord_near: there is no such interface: is the adapter plugged in?"));
+  ASSERT_NO_FATAL_FAILURE(expectDrivesStopThemselves());
+  addPair();
+  ASSERT_NO_FATAL_FAILURE(expectBackAtRest());
+}
+
+// ENOBUFS: about one frame a second leaves, the queue behind takes two, and every other one is refused. The drives are
+// stopped by a word that gets through, or by themselves.
+TEST_F(SocketCanRobot, AQueueThatStaysFull) {
+  const std::uint64_t before = robot().bus_status.next()->retries;
+  tc(std::string("qdisc add dev ") + kNear + " root tbf rate 128bit burst 16 limit 32");
+  for (DriveTopics* drive : {&robot().left, &robot().right}) {
+    EXPECT_TRUE(drive->truth.waitNext([](const SimDrive& truth) { return !truth.operation_enabled; }));
+  }
+  EXPECT_TRUE(robot().waitForStandstill());
+  EXPECT_TRUE(robot().bus_status.waitNext([](const BusStatus& bus) {
+    return bus.text.find("nord_near: frames do not leave, the send queue stays full") != std::string::npos;
+  }));
+  EXPECT_THAT(robot().waitForDiagnostics("base", isError), HasSubstr("stopped"));
+  EXPECT_GT(robot().bus_status.next()->retries, before + 50);
+  tc(std::string("qdisc del dev ") + kNear + " root");
+  EXPECT_TRUE(robot().waitForDrivesOnline());
+  robot().drive(0.0);
+  EXPECT_TRUE(eventually([] { return robot().trigger("acknowledge_faults").success; }));
+  EXPECT_TRUE(robot().waitForRest());
+}
+
+// A computer that stands still while the bus goes on: what did not fit into the receive buffer is counted and told.
+// SDO answers that nobody asked for do no other harm.
+TEST_F(SocketCanRobot, FramesThatComeTooFastAreCounted) {
+  constexpr int kFlood = 1500;  // the buffer takes about 550
+  const std::uint64_t before = robot().bus_status.next()->overruns;
+  driver->signal(SIGSTOP);
+  BareSocket other{kFar};
+  other.sendOutOnly();
+  for (int i = 0; i < kFlood; ++i) other.sendZeros(0x583);
+  ASSERT_NO_FATAL_FAILURE(expectDrivesStopThemselves());
+  driver->signal(SIGCONT);
+  const auto told = robot().bus_status.waitNext(
+      [](const BusStatus& bus) { return bus.text.find("nord_near: received frames were lost") != std::string::npos; });
+  ASSERT_TRUE(told) << robot().bus_status.next()->text;
+  EXPECT_GE(told->overruns, before + 500);
+  ASSERT_NO_FATAL_FAILURE(expectBackAtRest());
+}
+
+// Last: nobody starts the driver again.
+TEST_F(SocketCanRobot, KilledTheDrivesStopByThemselves) {
+  driver->signal(SIGKILL);
+  ASSERT_TRUE(driver->waitEnd(kPatience));
+  ASSERT_NO_FATAL_FAILURE(expectDrivesStopThemselves());
+  for (DriveTopics* drive : {&robot().left, &robot().right}) {
+    const auto truth = drive->truth.next();
+    EXPECT_EQ(truth->last_control_word_before_loss, 0x047F);
+  }
+}
+
+}  // namespace
+}  // namespace nord_driver::test
