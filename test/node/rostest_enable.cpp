@@ -117,6 +117,8 @@ TEST_F(Enable, ACommandTimesOutByARampAndTheDrivesStayEnabled) {
   const std::size_t from = robot().left.truth.mark();
   robot().silence();
   ASSERT_TRUE(robot().waitForStandstill());
+  // The drive's topic may be behind the body's.
+  ASSERT_TRUE(robot().left.truth.waitFrom(from, [](const SimDrive& truth) { return truth.setpoint_1 == 0; }));
 
   std::set<int> steps;
   int last = 1 << 15;
