@@ -148,7 +148,7 @@ TEST_F(CanopenCauses, AnEmergencyIsToldAndP700SaysWhichFaultItIs) {
 TEST_F(CanopenCauses, AnSdoThatIsAbortedIsRefusedInWords) {
   Answer answer = robot().readParameter("left", 999);
   EXPECT_FALSE(answer.success);
-  EXPECT_THAT(answer.message, AllOf(HasSubstr("drive left refuses P999"), HasSubstr("error 0")));
+  EXPECT_THAT(answer.message, AllOf(HasSubstr("drive left refuses P999"), HasSubstr("SDO abort 06020000")));
   SimParameterChannel::Request refuse;
   refuse.refuse = true;
   refuse.error = 101;

@@ -38,7 +38,7 @@ const std::map<std::string, Names>& table() {
       {"node", kNode},
       {"system", kNode},                   // tests of the whole stack, without ROS
       {"support", {"core", "transport"}},  // what tests of several folders share
-      {"socketcan", {}},                   // tests of link/ that need a kernel with CAN
+      {"socketcan", {"node"}},             // tests of link/ and of the nodes that need a kernel with CAN
       {"rules", {}},
   };
   return kTable;
