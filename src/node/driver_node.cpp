@@ -210,6 +210,7 @@ void DriverNode::bringToRest() {
   }
   publisher_.reset();
   thread_.reset();
+  transport_->close();  // at once: nobody guards the nodes from here on, and the rest of the node takes its time to end
 }
 
 }  // namespace nord_driver::node
