@@ -9,7 +9,7 @@ namespace {
 
 TuningConfig tuningOf(const NodeConfig& config) {
   const robot::BaseGeometry& geometry = config.cycle.base->geometry;
-  TuningConfig tuning;
+  TuningConfig tuning = TuningConfig::__getDefault__();  // the constructor leaves its group's fields open
   tuning.left_wheel_radius_multiplier = geometry.left_wheel_radius_multiplier;
   tuning.right_wheel_radius_multiplier = geometry.right_wheel_radius_multiplier;
   tuning.wheel_separation_multiplier = geometry.wheel_separation_multiplier;
