@@ -167,6 +167,13 @@ void RobotTest::endDriver() {
   EXPECT_TRUE(driver_->waitEnd(kPatience)) << "the driver does not end";
 }
 
+void RobotTest::switchDrivesOffAndOn() {
+  for (const char* drive : {"left", "right"}) {
+    ASSERT_TRUE(robot().simulator(std::string(drive) + "/unplug", true).success);
+    ASSERT_TRUE(robot().simulator(std::string(drive) + "/unplug", false).success);
+  }
+}
+
 void RobotTest::enableAndDrive(double linear) {
   // P105 is read in the first moments after a drive is there; before, enabling is refused.
   Answer answer;

@@ -110,6 +110,8 @@ class RobotTest : public ::testing::Test {
   void endDriver();
   /// ~enable and a steady speed forward, the ramp behind it.
   void enableAndDrive(double linear);
+  /// The mains of both: no fault survives that.
+  void switchDrivesOffAndOn();
 
   /// Shared by all tests of a program.
   static RobotUnderTest& robot();

@@ -21,11 +21,8 @@ class CleanExit : public RobotTest, public ::testing::WithParamInterface<int> {
  protected:
   void SetUp() override {
     RobotTest::SetUp();
-    // The watchdog that expired after the last clean exit has left E10.2: mains off and on.
-    for (const char* drive : {"left", "right"}) {
-      ASSERT_TRUE(robot().simulator(std::string(drive) + "/unplug", true).success);
-      ASSERT_TRUE(robot().simulator(std::string(drive) + "/unplug", false).success);
-    }
+    // The watchdog that expired after the last clean exit has left E10.2.
+    ASSERT_NO_FATAL_FAILURE(switchDrivesOffAndOn());
     robot().drive(0.0);
     ASSERT_NO_FATAL_FAILURE(startDriver());
   }

@@ -19,11 +19,8 @@ class Undisturbed : public RobotTest {
  protected:
   void SetUp() override {
     RobotTest::SetUp();
-    // The watchdog that expired after the test before has left E10.2: mains off and on.
-    for (const char* drive : {"left", "right"}) {
-      ASSERT_TRUE(robot().simulator(std::string(drive) + "/unplug", true).success);
-      ASSERT_TRUE(robot().simulator(std::string(drive) + "/unplug", false).success);
-    }
+    // The watchdog that expired after the test before has left E10.2.
+    ASSERT_NO_FATAL_FAILURE(switchDrivesOffAndOn());
     robot().drive(0.0);
   }
   void TearDown() override {
