@@ -79,7 +79,8 @@ void Master::startCycle(Instant now) noexcept {
   bool any = false;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (!nodes_[i]->operational()) continue;
-    any = true;
+    any = true;  // SYNC is what a synchronous TPDO waits for
+    if (nodes_[i]->awaitsFirstAnswer(now)) continue;
     const std::vector<ReceivePdoSlot>& pdos = nodes_[i]->receivePdos();
     for (std::size_t pdo = 0; pdo < pdos.size(); ++pdo) {
       if (pdos[pdo].ready()) process_.add({static_cast<std::uint8_t>(i), static_cast<std::uint16_t>(pdo)});

@@ -27,7 +27,7 @@ Node::Node(std::size_t index, const NodeConfig& config, std::uint8_t own_id, Dur
       heartbeat_(config.error_control.heartbeat_timeout),
       guard_(config.id, config.error_control.guard_time, config.error_control.life_time_factor) {
   for (const PdoConfig& pdo : config.receive_pdos) receive_pdos_.emplace_back(pdo);
-  for (const PdoConfig& pdo : config.transmit_pdos) transmit_pdos_.push_back({mappedLength(pdo), {}});
+  for (const PdoConfig& pdo : config.transmit_pdos) transmit_pdos_.push_back({mappedLength(pdo), pdo.enabled, {}});
 }
 
 void Node::restart(Instant now) noexcept {
@@ -40,6 +40,12 @@ void Node::restart(Instant now) noexcept {
   boot_.restart(now);
   for (ReceivePdoSlot& pdo : receive_pdos_) pdo.forget();
   settle(now);
+}
+
+bool Node::awaitsFirstAnswer(Instant now) const noexcept {
+  if (!operational() || now - operational_since_ >= config_.first_answer_timeout) return false;
+  return std::any_of(transmit_pdos_.begin(), transmit_pdos_.end(),
+                     [](const TransmitPdo& pdo) { return pdo.enabled && pdo.value.count == 0; });
 }
 
 void Node::release(NmtCommand command, Instant now) noexcept {
@@ -174,7 +180,10 @@ void Node::followWatch(Instant now) noexcept {
     told_toggle_ = false;
     if (mode == ErrorControlMode::kGuarding) guard_.start(boot_.fresh(), now);
   }
-  if (watch == NodeBoot::Watch::kWatch && mode == ErrorControlMode::kHeartbeat) heartbeat_.start(now);
+  if (watch == NodeBoot::Watch::kWatch) {
+    operational_since_ = now;
+    if (mode == ErrorControlMode::kHeartbeat) heartbeat_.start(now);
+  }
   if (watch != NodeBoot::Watch::kOff) return;
   heartbeat_.stop();
   guard_.stop();

@@ -76,6 +76,7 @@ class Reader {
     const CanopenPdoWish wish = readPdoWish(settings, drive, defaults_);
     addPdos(drive, wish, shared);
     drive.transmit_limit = limit(wish);
+    shared.first_answer_timeout = std::max(shared.first_answer_timeout, firstAnswerTimeout(drive));
     config_.drives.push_back(drive);
   }
 
@@ -125,6 +126,11 @@ class Reader {
     if (wish.synchronous) return 3 * defaults_.period;
     if (!wish.event_time || *wish.event_time == Duration::zero()) return Duration::zero();
     return *wish.event_time * 5 / 2 + defaults_.period;
+  }
+
+  // A node that sends on changes only begins with what there is, or says nothing for a long time.
+  static Duration firstAnswerTimeout(const CanopenDrive& drive) {
+    return drive.transmit_limit > Duration::zero() ? drive.transmit_limit : Duration{milliseconds{100}};
   }
 
   CanopenConfig& config_;

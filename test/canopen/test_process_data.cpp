@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "canopen/master_run.h"
 
 namespace nord_driver::canopen {
@@ -10,6 +12,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing::ElementsAre;
 using testing::IsEmpty;
+using testing::Not;
 
 struct Running : MasterRun {
   explicit Running(const MasterConfig& config) : MasterRun{config} {
@@ -67,6 +70,68 @@ TEST(ProcessData, SendsNothingThatWasNotSet) {
   ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{1}));
   run.run(milliseconds{100});
   EXPECT_THAT(run.nodes[0]->received_pdos, IsEmpty());
+}
+
+// The first control word acknowledges a fault when it takes the enable away (BU 0020 8): the node tells its state
+// first.
+TEST(ProcessData, WaitsForTheFirstTransmitPdo) {
+  MasterConfig config = busConfig(2);
+  config.nodes[0].first_answer_timeout = milliseconds{80};
+  MasterRun run{config};
+  run.loses = [](const CanFrame& frame) { return frame.id == 0x181; };
+  run.begin();
+  ASSERT_TRUE(run.runUntil([&run] { return run.allOperational(); }, seconds{2}));
+  run.run(milliseconds{50});
+  EXPECT_THAT(run.nodes[0]->received_pdos, IsEmpty());
+  EXPECT_THAT(run.nodes[1]->received_pdos, Not(IsEmpty())) << "it is told to take them at once";
+  run.loses = nullptr;
+  run.nodes[0]->say("181#380B0000", run.now);
+  run.run(milliseconds{12});
+  EXPECT_THAT(run.nodes[0]->received_pdos, Not(IsEmpty()));
+}
+
+// One that hears us without being heard must get its stop words.
+TEST(ProcessData, DoesNotWaitForeverForTheFirstTransmitPdo) {
+  MasterConfig config = busConfig(1);
+  config.nodes[0].first_answer_timeout = milliseconds{80};
+  PdoConfig off;
+  off.number = 2;
+  off.enabled = false;
+  config.nodes[0].transmit_pdos.push_back(off);
+  MasterRun run{config};
+  run.begin();
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));
+  run.run(milliseconds{12});
+  EXPECT_THAT(run.nodes[0]->received_pdos, Not(IsEmpty())) << "the PDO that is off is not waited for";
+
+  run.nodes[0]->powerOff();
+  ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{1}));
+  run.nodes[0]->received_pdos.clear();
+  run.loses = [](const CanFrame& frame) { return frame.id == 0x181; };
+  run.nodes[0]->powerOn(run.now);
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{1}));
+  run.run(milliseconds{70});
+  EXPECT_THAT(run.nodes[0]->received_pdos, IsEmpty());
+  run.run(milliseconds{22});
+  EXPECT_THAT(run.nodes[0]->received_pdos, Not(IsEmpty()));
+}
+
+// A synchronous TPDO comes with the SYNC, which is not held back.
+TEST(ProcessData, SyncGoesOutWhileTheFirstAnswerIsAwaited) {
+  MasterConfig config = busConfig(1);
+  config.sync_cob_id = 0x80;
+  config.nodes[0].receive_pdos[0].transmission_type = 0;
+  config.nodes[0].transmit_pdos[0].transmission_type = 1;
+  config.nodes[0].first_answer_timeout = seconds{10};
+  bool lost = false;  // what the node sends by itself at its start
+  MasterRun run{config};
+  run.loses = [&lost](const CanFrame& frame) { return frame.id == 0x181 && !std::exchange(lost, true); };
+  run.begin();
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));
+  run.run(milliseconds{40});
+  EXPECT_TRUE(lost);
+  EXPECT_GE(run.nodes[0]->syncs, 2);
+  EXPECT_THAT(run.nodes[0]->received_pdos, Not(IsEmpty()));
 }
 
 TEST(ProcessData, FitsValuesToTheMapping) {

@@ -231,6 +231,25 @@ TEST_F(CanopenCauses, AnInterfaceThatIsSetDownAndUp) {
   expectRestForGood();
 }
 
+// The stop word of a drive that fell silent takes the enable away, and so acknowledges (BU 0020 8). The fault it was
+// left with is seen before, also when the node's first TPDO is late.
+TEST_F(CanopenCauses, AFaultIsSeenBeforeAStopWordAcknowledgesIt) {
+  constexpr std::uint32_t kTpdoOfLeft = 0x183;
+  start();
+  robot_->bus().setInterfacePresent(false);
+  for (int i = 0; i < 100; ++i) step();
+  ASSERT_NE(0, robot_->unit(kLeft).inverter().faultNumber()) << "nobody guards it any more";
+  robot_->link().setDeaf(kTpdoOfLeft);
+  robot_->bus().setInterfacePresent(true);
+  EXPECT_TRUE(robot_->runUntil([this] { return robot_->node(kLeft).state() == sim::NmtState::kOperational; }));
+  for (int i = 0; i < 4; ++i) step();
+  robot_->link().setDeaf(std::nullopt);
+  EXPECT_LT(toSeconds(timeUntilOnline(std::chrono::seconds{5})), 2.5);
+  for (int i = 0; i < 60; ++i) step();
+  EXPECT_TRUE(robot_->snapshot().drives[kLeft].fault_latched);
+  EXPECT_THAT(enableAtRest().message.c_str(), HasSubstr("fault"));
+}
+
 // A queue that is full takes no setpoint, and no old one leaves when it drains: what goes out then is of that cycle.
 TEST_F(CanopenCauses, NoStaleSetpointLeavesAfterAStall) {
   start();

@@ -44,6 +44,7 @@ TEST(CanopenConfigTest, HasItsDefaults) {
   EXPECT_EQ(1, drive.process_values);
   EXPECT_EQ(ArraySubIndex::kElement, drive.array_sub_index);
   EXPECT_EQ(milliseconds{135}, drive.transmit_limit) << "two and a half event times and a cycle";
+  EXPECT_EQ(milliseconds{135}, config.master.nodes[0].first_answer_timeout) << "as long as its TPDOs may take";
 }
 
 TEST(CanopenConfigTest, TakesWhatIsGiven) {
@@ -80,6 +81,7 @@ TEST(CanopenConfigTest, TakesWhatIsGiven) {
   EXPECT_EQ(0, node.transmit_pdos[1].event_timer.value());
   EXPECT_EQ(3, config.drives[0].process_values);
   EXPECT_EQ(Duration::zero(), config.drives[0].transmit_limit) << "it sends on change only";
+  EXPECT_EQ(milliseconds{100}, config.master.nodes[0].first_answer_timeout);
   EXPECT_EQ(ArraySubIndex::kTable, config.drives[0].array_sub_index);
 }
 

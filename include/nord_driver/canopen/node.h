@@ -44,6 +44,8 @@ class Node {
 
   std::uint8_t id() const noexcept { return config_.id; }
   bool operational() const noexcept { return boot_.watch() == NodeBoot::Watch::kWatch; }
+  /// Operational, but its first TPDOs are still waited for, see `NodeConfig::first_answer_timeout`.
+  bool awaitsFirstAnswer(Instant now) const noexcept;
   std::optional<NmtCommand>& command() noexcept { return boot_.command(); }
   NodeGuard& guard() noexcept { return guard_; }
   std::vector<SdoPort>& ports() noexcept { return ports_; }
@@ -55,6 +57,7 @@ class Node {
  private:
   struct TransmitPdo {
     std::size_t length = 0;  // 0: any
+    bool enabled = true;
     PdoValue value;
   };
 
@@ -73,6 +76,7 @@ class Node {
   HeartbeatConsumer heartbeat_;
   NodeGuard guard_;
   NodeBoot::Watch watch_ = NodeBoot::Watch::kOff;
+  Instant operational_since_{};
   bool told_toggle_ = false;
 };
 
