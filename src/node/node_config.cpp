@@ -43,7 +43,7 @@ void acceptControllerKeys(const RosSettings& settings, std::vector<std::string>&
 
 PublishConfig readPublish(const RosSettings& settings) {
   PublishConfig publish;
-  publish.publish_rate = numberOr(settings, "publish_rate", publish.publish_rate, 0.1, 2000.0, "Hz");
+  publish.publish_rate = numberOr(settings, "publish_rate", publish.publish_rate, 0.0, 2000.0, "Hz");
   publish.status_rate = numberOr(settings, "status_rate", publish.status_rate, 0.1, 1000.0, "Hz");
   publish.base_frame_id = settings.text("base_frame_id").value_or(publish.base_frame_id);
   publish.odom_frame_id = settings.text("odom_frame_id").value_or(publish.odom_frame_id);

@@ -10,7 +10,9 @@ constexpr Duration kBusPeriod = std::chrono::seconds{1};
 
 /// The rate of the base may change at any time; 0 Hz is never, but a new rate is soon seen.
 Duration basePeriod(const BasePublisher& base) {
-  return base.rate() > 0.0 ? seconds(1.0 / base.rate()) : Duration::max();
+  constexpr double kSlowest = 1e-6;  // Hz; below it is never, too: the period of 1e-200 Hz fits into no Duration
+  const double rate = base.rate();
+  return rate >= kSlowest ? seconds(1.0 / rate) : Duration::max();
 }
 
 /// True when `period` has passed since the last time; a late one is not caught up with.

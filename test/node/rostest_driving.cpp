@@ -327,6 +327,10 @@ TEST_F(Reconfigured, RateAndTfChangeAtOnce) {
   EXPECT_GT(countIn(robot().odom, 50), 30u);
   reconfigure(number("publish_rate", 5.0));
   EXPECT_LT(countIn(robot().odom, 50), 15u);
+  reconfigure(number("publish_rate", 1e-200));  // a period that no clock can hold
+  EXPECT_LT(countIn(robot().odom, 50), 3u);
+  reconfigure(number("publish_rate", 0.0));
+  EXPECT_EQ(countIn(robot().odom, 50), 0u);
   reconfigure(flag("enable_odom_tf", false));
   reconfigure(number("publish_rate", 50.0));
   ASSERT_TRUE(robot().odom.next());

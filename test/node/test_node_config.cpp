@@ -91,6 +91,15 @@ TEST(NodeConfigTest, KnowsTheKeysOfDiffDriveController) {
   EXPECT_THAT(config.warnings, ElementsAre(HasSubstr("~publish_wheel_joint_controller_state is not offered")));
 }
 
+// dynamic_reconfigure leaves what it is given on the parameter server, where a node that is started again finds it.
+TEST(NodeConfigTest, TakesEveryRateThatDynamicReconfigureOffers) {
+  for (const double rate : {0.0, 1e-200, 0.05, 2000.0}) {
+    XmlRpcValue value = robotParameters();
+    value["publish_rate"] = rate;
+    EXPECT_DOUBLE_EQ(rate, readNodeConfig(RosSettings{"~", value}).publish.publish_rate);
+  }
+}
+
 template <typename Value>
 XmlRpcValue with(const std::string& key, const Value& wrong) {
   XmlRpcValue value = robotParameters();
@@ -99,7 +108,7 @@ XmlRpcValue with(const std::string& key, const Value& wrong) {
 }
 
 TEST(NodeConfigTest, RefusalsNameKeyValueAndExpectation) {
-  EXPECT_THAT(refusal(with("publish_rate", 0)), HasSubstr("~publish_rate: 0 is not valid, expected a number from 0.1"));
+  EXPECT_THAT(refusal(with("publish_rate", -1)), HasSubstr("~publish_rate: -1 is not valid, expected a number from 0"));
   EXPECT_THAT(refusal(with("status_rate", 1001)), HasSubstr("~status_rate: 1001 is not valid"));
   EXPECT_THAT(refusal(with("auto_enable", 1)), HasSubstr("~auto_enable: 1 is not valid, expected true or false"));
   EXPECT_THAT(refusal(with("pose_covariance_diagonal", listOf<double>({1, 2}))),

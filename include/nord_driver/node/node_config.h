@@ -15,7 +15,7 @@
 namespace nord_driver::node {
 
 struct PublishConfig {
-  double publish_rate = 50.0;  ///< Hz: odom, tf, joint_states
+  double publish_rate = 50.0;  ///< Hz: odom, tf, joint_states; 0: none
   double status_rate = 50.0;   ///< Hz: status of the drives
   std::string base_frame_id = "base_link";
   std::string odom_frame_id = "odom";
