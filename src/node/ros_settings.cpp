@@ -62,8 +62,10 @@ std::optional<XmlRpcValue> RosSettings::find(const std::string& key) const {
   if (!value_.valid()) return std::nullopt;
   XmlRpcValue at = value_;
   std::istringstream parts(key);
-  for (std::string part; std::getline(parts, part, '/');) {
-    if (at.getType() != XmlRpcValue::TypeStruct || !at.hasMember(part)) return std::nullopt;
+  std::string path;
+  for (std::string part; std::getline(parts, part, '/'); path += (path.empty() ? "" : "/") + part) {
+    if (at.getType() != XmlRpcValue::TypeStruct) throw wrongKind(path, at, "a group of keys and values");
+    if (!at.hasMember(part)) return std::nullopt;
     XmlRpcValue next = at[part];
     at = next;
   }
@@ -142,7 +144,7 @@ std::optional<std::vector<std::string>> RosSettings::texts(const std::string& ke
 }
 
 std::string RosSettings::fullName(const std::string& key) const {
-  return prefix_ + (prefix_ == "~" || prefix_.empty() ? "" : "/") + key;
+  return prefix_ + (prefix_ == "~" || prefix_.empty() || key.empty() ? "" : "/") + key;
 }
 
 std::shared_ptr<RosSettings> RosSettings::group(const std::string& key) const {

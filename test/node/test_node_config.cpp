@@ -117,6 +117,13 @@ TEST(NodeConfigTest, RefusalsNameKeyValueAndExpectation) {
               HasSubstr("~twist_covariance_diagonal: -6 is not valid"));
   EXPECT_THAT(refusal(with("drives", 3)), HasSubstr("~drives: 3 is not valid, expected a group of keys and values"));
   EXPECT_THAT(refusal(with("bus", std::string{"ttyUSB0"})), HasSubstr("~bus: \"ttyUSB0\" is not valid"));
+  // Below it keys are asked for, never the group itself.
+  EXPECT_THAT(refusal(with("stop", std::string{"coast"})),
+              HasSubstr("~stop: \"coast\" is not valid, expected a group of keys and values"));
+  EXPECT_THAT(refusal(with("linear", 5)), HasSubstr("~linear: 5 is not valid, expected a group of keys and values"));
+  XmlRpcValue axis;
+  axis["x"] = 5;
+  EXPECT_THAT(refusal(with("linear", axis)), HasSubstr("~linear/x: 5 is not valid, expected a group of keys and"));
   EXPECT_THAT(refusal(with("wheel_radius", -0.1)), HasSubstr("~wheel_radius: -0.1 is not valid"));
   EXPECT_THAT(refusal(XmlRpcValue{}), HasSubstr("~drives is missing"));
 }

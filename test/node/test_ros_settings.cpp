@@ -97,7 +97,7 @@ TEST(RosSettingsTest, KeysMayLieInGroups) {
   EXPECT_TRUE(settings.has("linear/x/max_velocity"));
   EXPECT_DOUBLE_EQ(1.5, settings.number("linear/x/max_velocity").value());
   EXPECT_FALSE(settings.has("linear/y/max_velocity"));
-  EXPECT_FALSE(settings.has("linear/x/max_velocity/deeper"));
+  EXPECT_THROW(settings.has("linear/x/max_velocity/deeper"), ConfigError) << "a value where a group belongs";
   EXPECT_DOUBLE_EQ(1.5, settings.group("linear")->group("x")->number("max_velocity").value());
 }
 
@@ -107,6 +107,7 @@ TEST(RosSettingsTest, NamesAreThoseTheUserWrote) {
   const RosSettings settings{"~", value};
   EXPECT_EQ("~cycle_rate", settings.fullName("cycle_rate"));
   EXPECT_EQ("~drives/left/address", settings.group("drives")->group("left")->fullName("address"));
+  EXPECT_EQ("~drives/left", settings.group("drives")->group("left")->fullName("")) << "the group itself";
 }
 
 // A key with a slip of the pen does nothing, and must not do so in silence.
