@@ -41,12 +41,22 @@ void acceptControllerKeys(const RosSettings& settings, std::vector<std::string>&
   }
 }
 
+std::string readFrame(const RosSettings& settings, const char* key, const std::string& fallback) {
+  const std::string frame = settings.text(key).value_or(fallback);
+  if (frame.empty()) throw wrongSetting(settings, key, "\"\"", "the name of a frame");
+  return frame;
+}
+
 PublishConfig readPublish(const RosSettings& settings) {
   PublishConfig publish;
   publish.publish_rate = numberOr(settings, "publish_rate", publish.publish_rate, 0.0, 2000.0, "Hz");
   publish.status_rate = numberOr(settings, "status_rate", publish.status_rate, 0.1, 1000.0, "Hz");
-  publish.base_frame_id = settings.text("base_frame_id").value_or(publish.base_frame_id);
-  publish.odom_frame_id = settings.text("odom_frame_id").value_or(publish.odom_frame_id);
+  publish.base_frame_id = readFrame(settings, "base_frame_id", publish.base_frame_id);
+  publish.odom_frame_id = readFrame(settings, "odom_frame_id", publish.odom_frame_id);
+  if (publish.odom_frame_id == publish.base_frame_id) {
+    throw wrongSetting(settings, "odom_frame_id", "\"" + publish.odom_frame_id + "\"",
+                       "another frame than base_frame_id: tf has no frame that is its own parent");
+  }
   publish.enable_odom_tf = settings.boolean("enable_odom_tf").value_or(publish.enable_odom_tf);
   publish.publish_cmd = settings.boolean("publish_cmd").value_or(publish.publish_cmd);
   publish.allow_multiple_cmd_vel_publishers =

@@ -83,7 +83,8 @@ TEST(NodeConfigTest, KnowsTheKeysOfDiffDriveController) {
     value[key] = true;
   }
   value["velocity_rolling_window_size"] = 10;
-  value["base_frame_id"] = value["odom_frame_id"] = std::string{"frame"};
+  value["base_frame_id"] = std::string{"frame"};
+  value["odom_frame_id"] = std::string{"other_frame"};
   value["pose_covariance_diagonal"] = value["twist_covariance_diagonal"] = listOf<double>({1, 2, 3, 4, 5, 6});
   const RosSettings settings{"~", value};
   const NodeConfig config = readNodeConfig(settings);
@@ -124,6 +125,10 @@ TEST(NodeConfigTest, RefusalsNameKeyValueAndExpectation) {
   XmlRpcValue axis;
   axis["x"] = 5;
   EXPECT_THAT(refusal(with("linear", axis)), HasSubstr("~linear/x: 5 is not valid, expected a group of keys and"));
+  EXPECT_THAT(refusal(with("base_frame_id", std::string{})), HasSubstr("~base_frame_id: \"\" is not valid"));
+  EXPECT_THAT(refusal(with("odom_frame_id", std::string{})), HasSubstr("~odom_frame_id: \"\" is not valid"));
+  EXPECT_THAT(refusal(with("odom_frame_id", std::string{"base_link"})),
+              AllOf(HasSubstr("~odom_frame_id: \"base_link\" is not valid"), HasSubstr("another frame")));
   EXPECT_THAT(refusal(with("wheel_radius", -0.1)), HasSubstr("~wheel_radius: -0.1 is not valid"));
   EXPECT_THAT(refusal(XmlRpcValue{}), HasSubstr("~drives is missing"));
 }
