@@ -28,6 +28,14 @@ constexpr int kStopThreads = 8;
 constexpr int kSpinnerThreads = 4;
 constexpr int kShutDownAttempts = 50;
 
+/// What the base does not use counts, too: whose rest is broken means nothing.
+bool isFinite(const geometry_msgs::Twist& twist) {
+  for (const geometry_msgs::Vector3& part : {twist.linear, twist.angular}) {
+    if (!std::isfinite(part.x) || !std::isfinite(part.y) || !std::isfinite(part.z)) return false;
+  }
+  return true;
+}
+
 Instant steadyNow() {
   return std::chrono::steady_clock::now();
 }
@@ -129,16 +137,16 @@ void DriverNode::advertise() {
 
 // Only looks at the command and stores it: the cycle decides.
 void DriverNode::takeCommand(const geometry_msgs::Twist& twist) {
-  const bool sideways = config_.cycle.base->kind == robot::BaseKind::kMecanum;
-  const double linear_y = sideways ? twist.linear.y : 0.0;
-  cycle::TwistCommand command{{twist.linear.x, twist.angular.z, linear_y}, steadyNow(), true};
-  if (!robot::isFinite(command.twist)) {
+  if (!isFinite(twist)) {
     // No command at all: the time-out of the one before runs on.
     ++bad_commands_;
     ROS_WARN_THROTTLE(1.0, "nord_driver: cmd_vel is not a number or infinite, ignored (%lu so far)",
                       static_cast<unsigned long>(bad_commands_));
     return;
   }
+  const bool sideways = config_.cycle.base->kind == robot::BaseKind::kMecanum;
+  const double linear_y = sideways ? twist.linear.y : 0.0;
+  cycle::TwistCommand command{{twist.linear.x, twist.angular.z, linear_y}, steadyNow(), true};
   if (!config_.publish.allow_multiple_cmd_vel_publishers && command_subscriber_.getNumPublishers() > 1) {
     ROS_ERROR_THROTTLE(1.0, "nord_driver: %u publishers on cmd_vel, expected one: the base brakes",
                        command_subscriber_.getNumPublishers());

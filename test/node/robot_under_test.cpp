@@ -87,9 +87,15 @@ Answer RobotUnderTest::referee() {
 }
 
 void RobotUnderTest::drive(double linear, double angular) {
+  geometry_msgs::Twist twist;
+  twist.linear.x = linear;
+  twist.angular.z = angular;
+  command(twist);
+}
+
+void RobotUnderTest::command(const geometry_msgs::Twist& twist) {
   const std::lock_guard<std::mutex> lock(command_mutex_);
-  command_.linear.x = linear;
-  command_.angular.z = angular;
+  command_ = twist;
   commanding_ = true;
 }
 

@@ -66,6 +66,7 @@ class RobotUnderTest {
 
   /// Publishes this velocity 50 times a second until the next call.
   void drive(double linear, double angular = 0.0);
+  void command(const geometry_msgs::Twist& twist);
   /// No more commands: they grow old.
   void silence() { commanding_ = false; }
 

@@ -14,6 +14,8 @@
 namespace nord_driver::test {
 namespace {
 
+using geometry_msgs::Twist;
+using geometry_msgs::Vector3;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
@@ -237,8 +239,19 @@ TEST_F(Stops, DisableRampsDownThenSaysOff1) {
 
 struct BadCommand {
   std::string name;
-  double linear, angular;
+  Twist twist;
 };
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// 0.2 m/s forward, with one value spoilt.
+BadCommand spoilt(const std::string& name, Vector3 Twist::*part, double Vector3::*axis, double value) {
+  BadCommand command{name, {}};
+  command.twist.linear.x = 0.2;
+  command.twist.*part.*axis = value;
+  return command;
+}
 
 class NotANumber : public Stops, public ::testing::WithParamInterface<BadCommand> {};
 
@@ -246,7 +259,7 @@ class NotANumber : public Stops, public ::testing::WithParamInterface<BadCommand
 TEST_P(NotANumber, IsIgnoredAndCountedWhileTheTimeoutRuns) {
   ros::NodeHandle handle;
   Topic<rosgraph_msgs::Log> rosout(handle, "/rosout");
-  robot().drive(GetParam().linear, GetParam().angular);
+  robot().command(GetParam().twist);
   const ros::Time last_good = ros::Time::now();
   ASSERT_TRUE(robot().waitForStandstill());
   EXPECT_EQ(robot().left.status.next()->state, DriveStatus::OPERATION_ENABLED);
@@ -271,8 +284,11 @@ TEST_P(NotANumber, IsIgnoredAndCountedWhileTheTimeoutRuns) {
 }
 
 INSTANTIATE_TEST_SUITE_P(InACommand, NotANumber,
-                         ::testing::Values(BadCommand{"LinearNan", std::numeric_limits<double>::quiet_NaN(), 0.0},
-                                           BadCommand{"AngularInfinite", 0.2, std::numeric_limits<double>::infinity()}),
+                         ::testing::Values(spoilt("LinearNan", &Twist::linear, &Vector3::x, kNan),
+                                           spoilt("AngularInfinite", &Twist::angular, &Vector3::z, kInfinite),
+                                           // Not used by this base; but whose rest is broken means nothing.
+                                           spoilt("SidewaysNan", &Twist::linear, &Vector3::y, kNan),
+                                           spoilt("RollInfinite", &Twist::angular, &Vector3::x, -kInfinite)),
                          [](const ::testing::TestParamInfo<BadCommand>& test) { return test.param.name; });
 
 }  // namespace
