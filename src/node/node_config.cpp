@@ -42,7 +42,7 @@ void acceptControllerKeys(const RosSettings& settings, std::vector<std::string>&
 }
 
 std::string readFrame(const RosSettings& settings, const char* key, const std::string& fallback) {
-  const std::string frame = settings.text(key).value_or(fallback);
+  std::string frame = settings.text(key).value_or(fallback);
   if (frame.empty()) throw wrongSetting(settings, key, "\"\"", "the name of a frame");
   return frame;
 }
