@@ -13,6 +13,7 @@ constexpr std::uint16_t kHeartbeatConsumerIndex = 0x1016;
 constexpr std::uint16_t kHeartbeatProducerIndex = 0x1017;
 
 constexpr std::size_t kIdentitySteps = 4;
+constexpr std::size_t kNamingSteps = 2;  // vendor and product tell what the device is: read in any case
 constexpr std::array<const char*, kIdentitySteps> kIdentityNames{"vendor id", "product code", "revision number",
                                                                  "serial number"};
 
@@ -104,6 +105,8 @@ Progress BootScript::handleDeviceType(const SdoAnswer& answer, NodeStatus& statu
 
 Progress BootScript::handleIdentity(const SdoAnswer& answer, NodeStatus& status) noexcept {
   const std::optional<std::uint32_t> found = numberOf(answer, 4);
+  const std::optional<std::uint32_t>& wanted = wantedIdentity();
+  if (!found && !wanted) return next();
   if (!found) {
     reason_ = refusalText(kIdentityNames[step_], request(), answer);
     return Progress::kFailed;
@@ -111,11 +114,10 @@ Progress BootScript::handleIdentity(const SdoAnswer& answer, NodeStatus& status)
   const std::array<std::uint32_t*, kIdentitySteps> noted{&status.vendor_id, &status.product_code,
                                                          &status.revision_number, &status.serial_number};
   *noted[step_] = *found;
-  const std::uint32_t wanted = *wantedIdentity();
-  if (*found != wanted) {
+  if (wanted && *found != *wanted) {
     FixedText<40> name;
     name.format("%s (1018h:%u)", kIdentityNames[step_], static_cast<unsigned>(step_ + 1));
-    return differs(name.c_str(), *found, wanted);
+    return differs(name.c_str(), *found, *wanted);
   }
   return next();
 }
@@ -164,7 +166,7 @@ Progress BootScript::next() noexcept {
 bool BootScript::beginStep() noexcept {
   switch (stage_) {
     case Stage::kIdentity:
-      while (step_ < kIdentitySteps && !wantedIdentity()) ++step_;
+      while (step_ >= kNamingSteps && step_ < kIdentitySteps && !wantedIdentity()) ++step_;
       return step_ < kIdentitySteps;
     case Stage::kSetup:
       if (step_ >= config_.setup.size()) return false;

@@ -131,7 +131,7 @@ TEST(SdoBeside, FetchingAnAnswerDoesNotStrandTheStartUp) {
   EXPECT_LE(*master.nextDeadline(), now);
   master.poll(now);
   ASSERT_TRUE(master.pollTransmit(sent));
-  EXPECT_EQ("601#4000140100000000", text(sent));
+  EXPECT_EQ("601#4018100100000000", text(sent));
 }
 
 // The bus was opened again: what was under way is over, and the server is free.

@@ -33,6 +33,7 @@ TEST(StartUp, AsksFirstAndWritesOnlyTheHeartbeat) {
       ElementsAre("000#8232",              // reset communication
                   "632#4000100000000000",  // device type
                   "632#4018100100000000",  // vendor id
+                  "632#4018100200000000",  // product code
                   "632#4000140100000000",  // RPDO 1: COB-ID, mapping, transmission type
                   "632#4000160000000000", "632#4000160100000000", "632#4000160200000000", "632#4000140200000000",
                   "632#4000180100000000",  // TPDO 1
@@ -158,6 +159,20 @@ TEST(StartUp, ChecksEveryPartOfTheIdentity) {
   EXPECT_THAT(run.master.status(2).reason.str(), HasSubstr("revision number (1018h:3) is 00010002h"));
   EXPECT_THAT(run.master.status(3).reason.str(), HasSubstr("serial number (1018h:4) is 12345678h"));
   EXPECT_EQ(NodeState::kOperational, run.master.status(4).state);
+}
+
+// Vendor and product are told where nobody demands them, too; a node that does not have them is started all the same.
+TEST(StartUp, TellsVendorAndProductWhereTheyAre) {
+  MasterRun run{busConfig(2)};
+  run.nodes[1]->remove(0x1018, 1);
+  run.nodes[1]->remove(0x1018, 2);
+  run.begin();
+  ASSERT_TRUE(run.runUntil([&run] { return run.allOperational(); }, seconds{1}));
+  EXPECT_EQ(0x000001E2u, run.master.status(0).vendor_id);
+  EXPECT_EQ(0x0000000Cu, run.master.status(0).product_code);
+  EXPECT_EQ(0u, run.master.status(0).serial_number) << "not asked for";
+  EXPECT_EQ(0u, run.master.status(1).vendor_id);
+  EXPECT_EQ(0u, run.master.status(1).product_code);
 }
 
 // A node that does not obey NMT start is asked why.

@@ -48,7 +48,7 @@ struct NodeStatus {
   /// is the node's for ever, and never moves.
   Sentence reason;
   std::uint32_t device_type = 0;  ///< 1000h, once read
-  std::uint32_t vendor_id = 0;    ///< 1018h:1..4, as far as configured to be checked
+  std::uint32_t vendor_id = 0;    ///< 1018h:1..4; of 3 and 4 only what is configured to be checked
   std::uint32_t product_code = 0;
   std::uint32_t revision_number = 0;
   std::uint32_t serial_number = 0;
