@@ -17,8 +17,9 @@ class CycleBench {
   static constexpr Duration kCycle = std::chrono::milliseconds{10};
 
   /// `acceleration`: the limit of the base in m/s^2, both ways; 0: none.
-  explicit CycleBench(std::optional<double> typed_max_frequency = std::nullopt, double acceleration = 0.0)
-      : transport{3}, ports{3}, cycle{config(typed_max_frequency, acceleration), transport, ports, false} {}
+  explicit CycleBench(std::optional<double> typed_max_frequency = std::nullopt, double acceleration = 0.0,
+                      const drive::StopWays& ways = {})
+      : transport{3}, ports{3}, cycle{config(typed_max_frequency, acceleration, ways), transport, ports, false} {}
 
   void step() {
     const Instant start = transport.time;
@@ -58,8 +59,10 @@ class CycleBench {
 
  private:
   // 50 Hz, two pole pairs, no gear: 100 % is 157.08 rad/s at the joint.
-  static CycleConfig config(std::optional<double> typed_max_frequency, double acceleration) {
+  static CycleConfig config(std::optional<double> typed_max_frequency, double acceleration,
+                            const drive::StopWays& ways) {
     CycleConfig config;
+    config.stop_ways = ways;
     config.cmd_vel_timeout = std::chrono::milliseconds{500};
     config.shutdown_timeout = std::chrono::seconds{2};
     for (const char* name : {"left", "right", "lift"}) {
