@@ -19,6 +19,41 @@ function(nord_precompile target)
   endif()
 endfunction()
 
+# Those of C++ most sources of the libraries include.
+set(nord_std_headers
+  <algorithm> <array> <cmath> <cstddef> <cstdint> <memory> <optional> <stdexcept> <string> <utility> <vector>)
+
+# The precompiled headers of `owner`, which must be compiled with the same options.
+function(nord_share_precompiled target owner)
+  if(NORD_DRIVER_PRECOMPILE)
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+  endif()
+endfunction()
+
+# How every source of a test is compiled.
+function(nord_test_options target)
+  nord_warnings(${target})
+  target_compile_options(${target} PRIVATE ${NORD_DRIVER_TEST_OPTIONS})
+endfunction()
+
+# What owns precompiled headers for programs has to be compiled as a program is, and not as a library.
+function(nord_compile_as_program target)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+  target_compile_options(${target} PRIVATE -fPIE)
+endfunction()
+
+# Nothing but the precompiled headers of GoogleTest, once for all unit tests: making them takes longer than compiling a test.
+function(nord_gtest_headers)
+  if(NORD_DRIVER_PRECOMPILE)
+    file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/gtest_headers.cpp CONTENT "")
+    add_library(nord_gtest_headers OBJECT EXCLUDE_FROM_ALL ${CMAKE_CURRENT_BINARY_DIR}/gtest_headers.cpp)
+    target_link_libraries(nord_gtest_headers PRIVATE GTest::gmock GTest::gtest Threads::Threads)
+    nord_test_options(nord_gtest_headers)
+    nord_compile_as_program(nord_gtest_headers)
+    nord_precompile(nord_gtest_headers <gmock/gmock.h> <gtest/gtest.h>)
+  endif()
+endfunction()
+
 # A unit test: nord_gtest(NAME SOURCES a.cpp ... LIBS lib ...). It runs without a ROS master.
 function(nord_gtest name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
@@ -40,6 +75,6 @@ endfunction()
 function(nord_test_settings name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
   target_link_libraries(${name} ${ARGN} GTest::gmock GTest::gtest GTest::gtest_main Threads::Threads)
-  nord_warnings(${name})
-  nord_precompile(${name} <gmock/gmock.h> <gtest/gtest.h>)
+  nord_test_options(${name})
+  nord_share_precompiled(${name} nord_gtest_headers)
 endfunction()

@@ -65,7 +65,8 @@ look_into() {
   done
 }
 
-make=(catkin_make -C "$workspace" -j "$jobs" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_BUILD_TYPE=Debug)
+make=(catkin_make -C "$workspace" -j "$jobs" -DPYTHON_EXECUTABLE=/usr/bin/python3
+  -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0) # without debug information: nobody debugs these
 step "catkin_make" "${make[@]}"
 look_into "$workspace/devel"
 step "catkin_make install" "${make[@]}" install

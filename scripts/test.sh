@@ -27,7 +27,8 @@ done
 
 out=$root/out/test
 # Light optimisation builds in half the time, and without NDEBUG the assertions of the code are tested, too.
-options=(-DNORD_DRIVER_STRICT=ON -DNORD_DRIVER_PRECOMPILE=ON "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1")
+options=(-DNORD_DRIVER_STRICT=ON -DNORD_DRIVER_PRECOMPILE=ON "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1"
+  -DNORD_DRIVER_TEST_OPTIONS=-O0)
 if $sanitize; then
   out=$root/out/sanitize
   options+=(-DCMAKE_BUILD_TYPE=Debug -DNORD_DRIVER_SANITIZE=ON)

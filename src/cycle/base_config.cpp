@@ -13,7 +13,7 @@ namespace {
 std::vector<DriveIndex> readWheels(const Settings& settings, const std::string& key, const JointNames& joints) {
   const auto names = settings.texts(key);
   if (!names || names->empty()) {
-    throw ConfigError(settings.fullName(key) + " is missing: expected the joint name of a drive, or a list of them");
+    throw missingSetting(settings, key, "the joint name of a drive, or a list of them");
   }
   std::vector<DriveIndex> wheels;
   for (const std::string& name : *names) {
@@ -132,8 +132,7 @@ std::optional<BaseConfig> readBaseConfig(const Settings& settings, const JointNa
                                          const std::string& robot_description) {
   if (!settings.has("left_wheel")) {
     if (settings.has("right_wheel")) {
-      throw ConfigError(settings.fullName("left_wheel") + " is missing: expected it beside " +
-                        settings.fullName("right_wheel"));
+      throw missingSetting(settings, "left_wheel", "it beside " + settings.fullName("right_wheel"));
     }
     return std::nullopt;
   }

@@ -103,7 +103,7 @@ CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSetting
       numberOr(node, "drive_timeout", toSeconds(default_drive_timeout), toSeconds(2 * config.period()), 60.0, "s"));
 
   if (drives.empty()) {
-    throw ConfigError(node.fullName("drives") + " is missing: expected at least one drive with its address");
+    throw missingSetting(node, "drives", "at least one drive with its address");
   }
   JointNames joints;
   for (const DriveSettings& source : drives) {

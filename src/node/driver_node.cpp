@@ -74,9 +74,8 @@ void DriverNode::loadTransport() {
     identities_.push_back(transport_->identity(i));
     // Without a parameter channel P105 cannot be read: nobody could say what a setpoint means.
     if (identities_[i].parameter_channel == "none" && !config_.cycle.drives[i].typed_max_frequency) {
-      throw ConfigError(
-          config_.drives[i].settings->fullName("max_frequency") +
-          " is missing: expected P105 in Hz, because this drive has no parameter channel to read it from");
+      throw missingSetting(*config_.drives[i].settings, "max_frequency",
+                           "P105 in Hz, because this drive has no parameter channel to read it from");
     }
   }
 }

@@ -1,13 +1,13 @@
 // nord_driver_node: reads the command line and the signals, runs the node until it is asked to end.
 #include <ros/ros.h>
 #include <ros/topic_manager.h>
-#include <signal.h>
 
 #include <atomic>
 #include <cstdio>
 
 #include "nord_driver/core/node_arguments.h"
 #include "nord_driver/node/driver_node.h"
+#include "nord_driver/tools/end_signals.h"
 
 namespace {
 
@@ -18,23 +18,9 @@ constexpr char kUsage[] =
     "  nord_driver_node [--help] [--version] [NAME:=VALUE ...]\n"
     "Exit code: 0 ended when asked to, the drives at rest; 1 wrong configuration; 2 another error, or wrong usage.\n";
 
-std::atomic<bool> end_asked{false};
-
-void askToEnd(int) {
-  end_asked = true;
-}
-
-// roscpp's own handler would tear down the publishers before the drives have come to rest.
-void catchSignals() {
-  struct sigaction action {};
-  action.sa_handler = askToEnd;
-  sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-}
-
 /// What is said before somebody reads /rosout is lost to it, and a wrong configuration is said at once. Without a
 /// reader the node goes on.
-void waitForALogReader() {
+void waitForALogReader(const std::atomic<bool>& end_asked) {
   for (int i = 0; i < 50 && !end_asked; ++i) {
     if (ros::TopicManager::instance()->getNumSubscribers(ros::names::resolve("/rosout")) > 0) return;
     ros::WallDuration(0.02).sleep();
@@ -54,8 +40,9 @@ int main(int argc, char** argv) {
     std::fputs(answer->error.c_str(), stderr);
     return answer->exit_code;
   }
+  // roscpp's own handler would tear down the publishers before the drives have come to rest.
   ros::init(argc, argv, "nord_driver", ros::init_options::NoSigintHandler);
-  catchSignals();
+  const std::atomic<bool>& end_asked = nord_driver::tools::catchEndSignals();
   ros::Time::init();  // before the first NodeHandle, which needs the master, nobody else does it
   while (!ros::master::check()) {
     if (end_asked) return 0;
@@ -63,7 +50,7 @@ int main(int argc, char** argv) {
     ros::WallDuration(0.2).sleep();
   }
   ros::NodeHandle keep_alive;
-  waitForALogReader();
+  waitForALogReader(end_asked);
   try {
     nord_driver::node::DriverNode node;
     node.run(end_asked);

@@ -1,11 +1,11 @@
 #include "nord_driver/node/ros_settings.h"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <sstream>
 #include <utility>
+
+#include "nord_driver/transport/nearest_name.h"
 
 namespace nord_driver::node {
 
@@ -171,35 +171,11 @@ std::vector<std::string> RosSettings::unknownKeys() const {
       known = asked_.count(name.substr(0, slash)) != 0;
     }
     if (known) continue;
-    std::string nearest;
-    std::size_t best = std::string::npos;
-    for (const std::string& candidate : asked_) {
-      const std::size_t distance = editDistance(name, candidate);
-      if (distance < best) {
-        best = distance;
-        nearest = candidate;
-      }
-    }
-    const bool close = best <= std::max<std::size_t>(2, name.size() / 3);
+    const std::string nearest = nearestName(name, {asked_.begin(), asked_.end()});
     sentences.push_back(fullName(name) + " is not known and is ignored" +
-                        (close ? "; did you mean " + fullName(nearest) + "?" : ""));
+                        (nearest.empty() ? "" : "; did you mean " + fullName(nearest) + "?"));
   }
   return sentences;
-}
-
-std::size_t editDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace nord_driver::node

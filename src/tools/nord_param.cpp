@@ -1,6 +1,4 @@
 // nord_param: parameters of the inverters on the command line, over the bus itself, without a roscore.
-#include <signal.h>
-
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <cstdio>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "nord_driver/core/version.h"
+#include "nord_driver/tools/end_signals.h"
 #include "nord_driver/tools/param_commands.h"
 #include "nord_driver/tools/parameter_dump.h"
 #include "nord_driver/tools/parameter_name.h"
@@ -38,20 +37,6 @@ constexpr char kFooter[] =
     "program sits on, and what fits one drive may move another.\n"
     "Exit code: 0 done, 1 refused, failed or different, 2 wrong usage.";
 
-std::atomic<bool> end_asked{false};
-
-void askToEnd(int) {
-  end_asked = true;
-}
-
-// A write that is under way is not cut off: P560 may have to be put back.
-void catchSignals() {
-  struct sigaction action {};
-  action.sa_handler = askToEnd;
-  sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-}
-
 struct Options {
   std::vector<std::string> files;
   std::string device;
@@ -74,7 +59,7 @@ void list(const YAML::Node& file) {
 
 using Command = std::function<bool(ParameterLink&)>;
 
-int carryOut(const ToolConfig& config, double timeout, const Command& command) {
+int carryOut(const ToolConfig& config, double timeout, const Command& command, const std::atomic<bool>& end_asked) {
   TransportLoader loader;
   const auto transport = loader.load(config.transport);
   ParameterLink link{config, *transport};
@@ -129,7 +114,8 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }
 
-  catchSignals();
+  // A write that is under way is not cut off: P560 may have to be put back.
+  const std::atomic<bool>& end_asked = catchEndSignals();
   YAML::Node file = readYamlFiles(options.files);
   if (!options.device.empty()) file["bus"]["device"] = options.device;
   if (list_command->parsed()) {
@@ -137,9 +123,9 @@ int run(int argc, char** argv) {
     return kDone;
   }
   const ToolConfig config = readToolConfig(file, options.drive);
-  Command command = [](ParameterLink& link) { return dumpParameters(link, end_asked); };
+  Command command = [&end_asked](ParameterLink& link) { return dumpParameters(link, end_asked); };
   if (compare->parsed()) {
-    command = [reference = readDump(options.dump)](ParameterLink& link) {
+    command = [&end_asked, reference = readDump(options.dump)](ParameterLink& link) {
       return compareParameters(link, reference, end_asked);
     };
   }
@@ -153,7 +139,7 @@ int run(int argc, char** argv) {
     const auto wish = checkedWish(options.write, address, config.cycle.drives.front().series);
     command = [address, wish](ParameterLink& link) { return writeParameter(link, address, wish); };
   }
-  return carryOut(config, options.timeout, command);
+  return carryOut(config, options.timeout, command, end_asked);
 }
 
 }  // namespace

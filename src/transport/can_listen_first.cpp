@@ -45,8 +45,8 @@ void CanListenFirst::handleMaster(std::uint32_t id, Instant at) noexcept {
 }
 
 bool CanListenFirst::mayTalk(Instant now) noexcept {
-  const bool waits = who_ == CanListener::kDriver || !heard_;
-  if (listening_ && waits && now >= end_) {
+  const auto end = nextDeadline();
+  if (end && now >= *end) {
     listening_ = false;
     heard_.reset();
   }
@@ -54,8 +54,8 @@ bool CanListenFirst::mayTalk(Instant now) noexcept {
 }
 
 std::optional<Instant> CanListenFirst::nextDeadline() const noexcept {
-  const bool waits = who_ == CanListener::kDriver || !heard_;
-  return listening_ && waits ? std::optional<Instant>{end_} : std::nullopt;
+  const bool for_good = heard_ && who_ == CanListener::kGuest;
+  return listening_ && !for_good ? std::optional<Instant>{end_} : std::nullopt;
 }
 
 Sentence CanListenFirst::text() const noexcept {

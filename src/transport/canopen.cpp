@@ -17,6 +17,7 @@ constexpr Duration kReopenInterval = std::chrono::milliseconds{500};
 constexpr Duration kShortestWait = std::chrono::microseconds{50};
 constexpr Duration kQueueRetry = std::chrono::microseconds{250};
 constexpr int kFramesAtOnce = 1000;
+constexpr Duration kLineCountersInterval = std::chrono::milliseconds{500};  // each time is a system call
 constexpr Duration kListenFirst = std::chrono::milliseconds{500};  // a driver guards or sends more often than that
 
 std::unique_ptr<link::CanLink> openInterface(const link::CanSettings& settings) {
@@ -144,8 +145,8 @@ void CanopenTransport::exchange(const std::vector<profile::ProcessOutput>& outpu
     master_->startCycle(cycle_start_);
     if (!isSilent()) sendIntoTheDark();
     run(cycle_start_ + config_.answer_window, true);
-    events_.noteLostFrames(config_.interface.c_str(), link_->counters().dropped, link_->now());
   }
+  takeLineCounters();
   const bool works = busWorks() && !isSilent();
   const Instant now = link_->now();
   for (DriveIndex i = 0; i < drives_.size(); ++i) drives_[i].takeInput(*master_, works, now, inputs[i]);
@@ -242,6 +243,14 @@ void CanopenTransport::takeEvents() noexcept {
   }
 }
 
+void CanopenTransport::takeLineCounters() noexcept {
+  const Instant now = link_->now();
+  if (now < next_line_counters_) return;
+  next_line_counters_ = now + kLineCountersInterval;
+  line_ = link_->counters();
+  events_.noteLostFrames(config_.interface.c_str(), line_.dropped, now);
+}
+
 std::vector<std::string> CanopenTransport::warnings() const {
   std::vector<std::string> sentences;
   for (const CanopenDrive& drive : config_.drives) {
@@ -273,17 +282,16 @@ bool CanopenTransport::connected() const noexcept {
 
 BusCounters CanopenTransport::counters() const noexcept {
   const canopen::Counters& from = master_->counters();
-  const link::CanCounters line = link_->counters();
   BusCounters to;
   to.cycles = from.cycles;
   to.telegrams_sent = from.frames_sent;
   to.telegrams_received = from.frames_received;
   to.retries = from.not_sent;
   to.timeouts = from.sdo_timeouts;
-  to.checksum_errors = line.bus_errors + line.no_acknowledge;
+  to.checksum_errors = line_.bus_errors + line_.no_acknowledge;
   to.discarded_bytes = 0;
   to.unexpected = from.foreign + from.malformed + from.second_master + from.own_id_used;
-  to.overruns = line.dropped;
+  to.overruns = line_.dropped;
   to.stale = from.superseded + from.stray_sdo;
   for (std::size_t i = 0; i < master_->nodeCount(); ++i) to.timeouts += master_->status(i).counters.missed_guards;
   return to;

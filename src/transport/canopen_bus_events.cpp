@@ -44,13 +44,6 @@ void CanopenBusEvents::tell(const Sentence& text) noexcept {
   events_.push_back(event);
 }
 
-std::optional<BusEvent> CanopenBusEvents::poll() noexcept {
-  if (events_.empty()) return std::nullopt;
-  const BusEvent event = events_[0];
-  events_.eraseFront(1);
-  return event;
-}
-
 Sentence CanopenBusEvents::text(Instant now) const noexcept {
   return now - text_at_ < kShown ? text_ : Sentence{};
 }

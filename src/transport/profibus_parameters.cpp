@@ -52,11 +52,7 @@ bool ProfibusParameters::submit(DriveIndex drive, const profile::ParameterReques
 }
 
 std::optional<profile::ParameterResult> ProfibusParameters::pollResult() noexcept {
-  if (!refused_.empty()) {
-    const profile::ParameterResult result = refused_[0];
-    refused_.eraseFront(1);
-    return result;
-  }
+  if (const auto refused = refused_.takeFront()) return refused;
   const std::size_t all = drives_.size() + stations_.size();
   for (std::size_t i = 0; i < all; ++i) {
     const auto result = cursor_ < drives_.size() ? pollDrive(cursor_) : pollModule(stations_[cursor_ - drives_.size()]);
@@ -143,10 +139,7 @@ std::optional<Word> ProfibusParameters::pollModuleStatus(std::size_t station) no
 }
 
 std::optional<DriveIndex> ProfibusParameters::pollAbsence() noexcept {
-  if (absent_.empty()) return std::nullopt;
-  const DriveIndex drive = absent_[0];
-  absent_.eraseFront(1);
-  return drive;
+  return absent_.takeFront();
 }
 
 }  // namespace nord_driver

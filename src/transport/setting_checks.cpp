@@ -3,6 +3,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "nord_driver/transport/nearest_name.h"
+
 namespace nord_driver {
 
 namespace {
@@ -26,15 +28,17 @@ std::int64_t checkedInteger(const Settings& settings, const std::string& key, st
                      rangeText("a whole number", std::to_string(min), std::to_string(max), ""));
 }
 
-ConfigError missing(const Settings& settings, const std::string& key, const std::string& expected) {
-  return ConfigError(settings.fullName(key) + " is missing: expected " + expected);
-}
-
 }  // namespace
 
 ConfigError wrongSetting(const Settings& settings, const std::string& key, const std::string& value,
                          const std::string& expected) {
   return ConfigError(settings.fullName(key) + ": " + value + " is not valid, expected " + expected);
+}
+
+ConfigError missingSetting(const Settings& settings, const std::string& key, const std::string& expected) {
+  const std::string given = nearestName(key, settings.keys());
+  return ConfigError(settings.fullName(key) + " is missing: expected " + expected +
+                     (given.empty() ? "" : "; did you mean it by " + settings.fullName(given) + "?"));
 }
 
 double numberOr(const Settings& settings, const std::string& key, double fallback, double min, double max,
@@ -45,7 +49,7 @@ double numberOr(const Settings& settings, const std::string& key, double fallbac
 double requiredNumber(const Settings& settings, const std::string& key, double min, double max,
                       const std::string& unit) {
   const auto value = settings.number(key);
-  if (!value) throw missing(settings, key, rangeText("a number", shortNumber(min), shortNumber(max), unit));
+  if (!value) throw missingSetting(settings, key, rangeText("a number", shortNumber(min), shortNumber(max), unit));
   return checkedNumber(settings, key, *value, min, max, unit);
 }
 
@@ -57,14 +61,14 @@ std::int64_t integerOr(const Settings& settings, const std::string& key, std::in
 std::int64_t requiredInteger(const Settings& settings, const std::string& key, std::int64_t min, std::int64_t max) {
   const auto value = settings.integer(key);
   if (!value) {
-    throw missing(settings, key, rangeText("a whole number", std::to_string(min), std::to_string(max), ""));
+    throw missingSetting(settings, key, rangeText("a whole number", std::to_string(min), std::to_string(max), ""));
   }
   return checkedInteger(settings, key, *value, min, max);
 }
 
 std::string requiredText(const Settings& settings, const std::string& key, const std::string& expected) {
   const auto value = settings.text(key);
-  if (!value) throw missing(settings, key, expected);
+  if (!value) throw missingSetting(settings, key, expected);
   if (value->empty()) throw wrongSetting(settings, key, "\"\"", expected);
   return *value;
 }

@@ -22,6 +22,17 @@ TEST(FixedVector, ErasesFromTheFront) {
   EXPECT_TRUE(values.empty());
 }
 
+TEST(FixedVector, GivesItsElementsFromTheFrontOneByOne) {
+  FixedVector<int, 2> values{1, 2};
+  EXPECT_EQ(1, values.takeFront());
+  EXPECT_TRUE(values.push_back(3)) << "there is room again";
+  EXPECT_EQ(2, values.takeFront());
+  EXPECT_EQ(3, values.takeFront());
+  EXPECT_EQ(std::nullopt, values.takeFront());
+  EXPECT_TRUE(values.push_back(4)) << "taking from nothing took nothing away";
+  EXPECT_EQ((FixedVector<int, 2>{4}), values);
+}
+
 TEST(FixedVector, ResizeFillsWithDefaultsNotWithOldValues) {
   FixedVector<int, 4> values{7, 8};
   values.clear();

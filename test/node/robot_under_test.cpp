@@ -186,6 +186,16 @@ void RobotTest::enableAndDrive(double linear) {
   ASSERT_TRUE(robot().waitForTrueSpeed(0.9 * linear));
 }
 
+std::string RobotTest::refusalOfEnable() {
+  Answer answer;
+  EXPECT_TRUE(eventually([&] {
+    answer = robot().enable(true);
+    return answer.message.find("cmd_vel") == std::string::npos;
+  })) << answer;
+  EXPECT_FALSE(answer.success) << answer;
+  return answer.message;
+}
+
 bool onCanopen() {
   return ros::param::param("nord_driver/transport", std::string{}) == "nord_driver/canopen";
 }

@@ -110,6 +110,8 @@ class RobotTest : public ::testing::Test {
   void endDriver();
   /// ~enable and a steady speed forward, the ramp behind it.
   void enableAndDrive(double linear);
+  /// Why ~enable is refused once no cmd_vel that is not zero stands against it: there must be another reason.
+  std::string refusalOfEnable();
   /// The mains of both: no fault survives that.
   void switchDrivesOffAndOn();
 

@@ -137,17 +137,5 @@ TEST(RosSettingsTest, KeysThatWereAskedForOrHandedOutAreKnown) {
   EXPECT_THAT(bus->unknownKeys(), ElementsAre("~bus/anything is not known and is ignored"));
 }
 
-TEST(EditDistance, CountsSingleCharacterChanges) {
-  EXPECT_EQ(0u, editDistance("", ""));
-  EXPECT_EQ(3u, editDistance("", "abc"));
-  EXPECT_EQ(3u, editDistance("abc", ""));
-  EXPECT_EQ(0u, editDistance("watchdog", "watchdog"));
-  EXPECT_EQ(1u, editDistance("watchdg", "watchdog"));
-  EXPECT_EQ(1u, editDistance("watchdog", "watchdogs"));
-  EXPECT_EQ(1u, editDistance("watchdog", "watchdig"));
-  EXPECT_EQ(3u, editDistance("kitten", "sitting"));
-  EXPECT_EQ(2u, editDistance("ab", "ba"));
-}
-
 }  // namespace
 }  // namespace nord_driver::node

@@ -87,18 +87,13 @@ class SocketCanRobot : public RobotTest {
     EXPECT_TRUE(
         robot().bus_status.waitNext([](const BusStatus& bus) { return bus.connected && bus.online.size() == 2; }));
     robot().drive(0.0);
-    Answer answer;
-    EXPECT_TRUE(eventually([&] {
-      answer = robot().enable(true);
-      return answer.message.find("cmd_vel") == std::string::npos;
-    }));
-    EXPECT_FALSE(answer.success);
-    EXPECT_THAT(answer.message, HasSubstr("fault"));
+    EXPECT_THAT(refusalOfEnable(), HasSubstr("fault"));
     for (DriveTopics* drive : {&robot().left, &robot().right}) {
       const auto truth = drive->truth.next();
       EXPECT_FALSE(truth->operation_enabled);
       EXPECT_LT(std::fabs(truth->wheel_velocity), 1e-2);
     }
+    Answer answer;
     EXPECT_TRUE(eventually([&] { return (answer = robot().trigger("acknowledge_faults")).success; })) << answer;
     EXPECT_TRUE(robot().waitForRest());
   }

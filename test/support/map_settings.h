@@ -44,6 +44,11 @@ class MapSettings final : public Settings {
     if (const auto* value = find<std::string>(key)) return std::vector<std::string>{*value};
     return get<std::vector<std::string>>(key, "a text or a list of texts");
   }
+  std::vector<std::string> keys() const override {
+    std::vector<std::string> names;
+    for (const auto& entry : values_) names.push_back(entry.first);
+    return names;
+  }
   std::string fullName(const std::string& key) const override { return prefix_ + key; }
 
  private:

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "system/can_robot.h"
+#include "system/four_inverters.h"
 
 namespace nord_driver::test {
 namespace {
@@ -12,10 +13,6 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
-
-constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
-constexpr DriveIndex kLeft = 0, kRight = 1, kRearLeft = 2, kRearRight = 3;
 
 struct Kind {
   const char* series;
@@ -43,29 +40,15 @@ class FourInvertersOnCan : public ::testing::TestWithParam<Kind> {
   void SetUp() override { ASSERT_TRUE(robot_.bringUp()); }
   void TearDown() override { EXPECT_EQ("no rule broken", robot_.bus().referee().report()); }
 
-  cycle::Completion parameter(cycle::RequestKind kind, DriveIndex drive, std::uint16_t number, std::int32_t raw = 0,
-                              profile::ParameterShape shape = profile::ParameterShape::kPlain) {
-    cycle::Request request;
-    request.kind = kind;
-    request.drive = drive;
-    request.parameter.number = number;
-    request.parameter.shape = shape;
-    request.parameter.raw = raw;
-    request.parameter.action = kind == cycle::RequestKind::kReadParameter ? profile::ParameterAction::kRead
-                                                                          : profile::ParameterAction::kWritePersistent;
-    return robot_.ask(request);
+  cycle::Completion read(DriveIndex drive, std::uint16_t number,
+                         profile::ParameterShape shape = profile::ParameterShape::kPlain) {
+    return parameter(robot_, cycle::RequestKind::kReadParameter, drive, number, 0, shape);
   }
   void enableAndDrive() {
     ASSERT_STREQ("enabled", robot_.ask(cycle::RequestKind::kEnable).message.c_str());
     robot_.drive(kHalfSpeed, 0.0, seconds{3});
     for (const DriveIndex drive : {kLeft, kRearLeft}) ASSERT_EQ(0x2000, robot_.setpoint(drive));
     for (const DriveIndex drive : {kRight, kRearRight}) ASSERT_EQ(-0x2000, robot_.setpoint(drive));
-  }
-  bool allOnline() {
-    for (const DriveIndex drive : {kLeft, kRight, kRearLeft, kRearRight}) {
-      if (!robot_.online(drive)) return false;
-    }
-    return true;
   }
   bool allStand() {
     for (const DriveIndex drive : {kLeft, kRight, kRearLeft, kRearRight}) {
@@ -115,11 +98,8 @@ TEST_P(FourInvertersOnCan, ComeToRestTogether) {
 
 // P151 is the module's, P120 the inverter's; who stops the motors is known from the start.
 TEST_P(FourInvertersOnCan, TellWhatWatchesTheBus) {
-  for (const auto& drive : robot_.snapshot().drives) {
-    EXPECT_EQ(0.0, drive.device.module_timeout.value_or(-9.0)) << "the factory setting";
-    EXPECT_EQ(1, drive.device.option_monitoring.value_or(-9));
-    EXPECT_EQ(50.0, drive.device.max_frequency[0].value_or(0.0));
-  }
+  expectMonitoringKnown(robot_);
+  for (const auto& drive : robot_.snapshot().drives) EXPECT_EQ(50.0, drive.device.max_frequency[0].value_or(0.0));
   const DriveIdentity identity = robot_.transport().identity(kRearLeft);
   EXPECT_EQ(TimeoutOwner::kModule, identity.timeout_owner);
   EXPECT_EQ("CANopen node 10, inverter 3", identity.address);
@@ -128,12 +108,7 @@ TEST_P(FourInvertersOnCan, TellWhatWatchesTheBus) {
 }
 
 TEST_P(FourInvertersOnCan, ShareTheParametersOfTheirModule) {
-  cycle::Completion answer = parameter(cycle::RequestKind::kWriteParameter, kRight, 151, 500);
-  EXPECT_TRUE(answer.success) << answer.message.c_str();
-  answer = parameter(cycle::RequestKind::kReadParameter, kRearLeft, 151);
-  EXPECT_TRUE(answer.success) << answer.message.c_str();
-  EXPECT_EQ(500, answer.raw);
-  EXPECT_EQ(500, robot_.node(kLeft).module()->parameters().value(151));
+  expectSharedTimeout(robot_, *robot_.node(kLeft).module());
 }
 
 // What is an array here is none in SK 5xxE (P420 .. P423, P543 .. P545): by number and element, each inverter its own.
@@ -141,13 +116,12 @@ TEST_P(FourInvertersOnCan, HaveParametersOfTheirOwn) {
   using Shape = profile::ParameterShape;
   for (const DriveIndex drive : {kLeft, kRight, kRearLeft, kRearRight}) {
     const auto value = static_cast<std::int32_t>(300 + 10 * drive);
-    const auto written = parameter(cycle::RequestKind::kWriteParameter, drive, 103, value, Shape::kPerSet);
+    const auto written = parameter(robot_, cycle::RequestKind::kWriteParameter, drive, 103, value, Shape::kPerSet);
     EXPECT_TRUE(written.success) << written.message.c_str();
   }
   for (const DriveIndex drive : {kLeft, kRight, kRearLeft, kRearRight}) {
     EXPECT_EQ(static_cast<std::int32_t>(300 + 10 * drive), robot_.unit(drive).parameters().value(103, 0));
-    EXPECT_EQ(static_cast<std::int32_t>(300 + 10 * drive),
-              parameter(cycle::RequestKind::kReadParameter, drive, 103, 0, Shape::kPerSet).raw);
+    EXPECT_EQ(static_cast<std::int32_t>(300 + 10 * drive), read(drive, 103, Shape::kPerSet).raw);
   }
   robot_.unit(kRearLeft).parameters().preset(420, 0, 1, 10);
   cycle::Request request;
@@ -160,20 +134,12 @@ TEST_P(FourInvertersOnCan, HaveParametersOfTheirOwn) {
   const cycle::Completion answer = robot_.ask(request);
   EXPECT_TRUE(answer.success) << answer.message.c_str();
   EXPECT_EQ(10, answer.raw);
-  EXPECT_THAT(parameter(cycle::RequestKind::kReadParameter, kRearLeft, 508).message.c_str(),
-              HasSubstr("SDO abort 06020000"))
+  EXPECT_THAT(read(kRearLeft, 508).message.c_str(), HasSubstr("SDO abort 06020000"))
       << "the PROFIBUS address is the module's, not the inverter's";
 }
 
 TEST_P(FourInvertersOnCan, HaveParameterSetsOfTheirOwn) {
-  cycle::Request request;
-  request.kind = cycle::RequestKind::kSelectParameterSet;
-  request.drive = kRearRight;
-  request.parameter_set = 3;
-  EXPECT_STREQ("parameter set 3 is active", robot_.ask(request).message.c_str());
-  EXPECT_EQ(0x847E, robot_.controlWord(kRearRight));
-  EXPECT_EQ(2u, robot_.unit(kRearRight).inverter().parameterSet());
-  EXPECT_EQ(0u, robot_.unit(kRearLeft).inverter().parameterSet());
+  expectSetsOfTheirOwn(robot_);
 }
 
 // The emergency names the inverter in its byte 3 (BU 0260 p. 78), P700 of that inverter the number; the base stops, and
@@ -203,18 +169,10 @@ TEST_P(FourInvertersOnCan, AreAcknowledgedTogetherAfterATimeout) {
   for (const DriveIndex drive : {kLeft, kRight, kRearLeft, kRearRight}) {
     EXPECT_EQ(102, robot_.unit(drive).inverter().faultNumber()) << drive;
   }
-  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(); }, seconds{3}));
+  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(robot_); }, seconds{3}));
   robot_.run(seconds{1});
   EXPECT_EQ(0u, robot_.bus().referee().total());
-  EXPECT_TRUE(robot_.node(kLeft).module()->timedOut());
-  const cycle::Completion one = robot_.ask(cycle::RequestKind::kAcknowledge, kLeft);
-  EXPECT_TRUE(one.success);
-  EXPECT_THAT(one.message.c_str(), HasSubstr("drive right behind the same bus module has a fault too"));
-  const cycle::Completion all = robot_.ask(cycle::RequestKind::kAcknowledge);
-  EXPECT_TRUE(all.success) << all.message.c_str();
-  EXPECT_THAT(all.message.c_str(), Not(HasSubstr("behind the same")));
-  EXPECT_FALSE(robot_.node(kLeft).module()->timedOut());
-  EXPECT_STREQ("enabled", robot_.ask(cycle::RequestKind::kEnable).message.c_str());
+  expectAcknowledgedTogether(robot_, *robot_.node(kLeft).module());
 }
 
 // The module is gone: four drives at once, and all of them back, at rest.
@@ -224,7 +182,7 @@ TEST_P(FourInvertersOnCan, AreLostAndFoundTogether) {
   robot_.run(milliseconds{600});
   for (const DriveIndex drive : {kLeft, kRight, kRearLeft, kRearRight}) EXPECT_FALSE(robot_.online(drive));
   robot_.node(kLeft).setMute(false);
-  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(); }, seconds{2}));
+  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(robot_); }, seconds{2}));
   EXPECT_TRUE(comesToRest());
   EXPECT_FALSE(robot_.snapshot().base.enabled);
   EXPECT_TRUE(robot_.snapshot().base.stopped);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "nord_driver/sim/module_station.h"
+#include "system/four_inverters.h"
 #include "system/simulated_robot.h"
 
 namespace nord_driver::test {
@@ -10,12 +11,7 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
-
-constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
-constexpr DriveIndex kLeft = 0, kRight = 1, kRearLeft = 2, kRearRight = 3;
 
 class FourInverters : public ::testing::Test {
  protected:
@@ -28,21 +24,6 @@ class FourInverters : public ::testing::Test {
   void TearDown() override { EXPECT_EQ("no rule broken", robot_.segment().referee().report()); }
 
   sim::ModuleStation& module() { return static_cast<sim::ModuleStation&>(robot_.unit(0).slave()); }
-  cycle::Completion parameter(cycle::RequestKind kind, DriveIndex drive, std::uint16_t number, std::int32_t raw = 0) {
-    cycle::Request request;
-    request.kind = kind;
-    request.drive = drive;
-    request.parameter.number = number;
-    request.parameter.raw = raw;
-    request.parameter.action = profile::ParameterAction::kWritePersistent;
-    return robot_.ask(request);
-  }
-  bool allOnline() {
-    for (const auto& drive : robot_.snapshot().drives) {
-      if (!drive.online) return false;
-    }
-    return true;
-  }
 
   SimulatedRobot robot_{options()};
 };
@@ -62,47 +43,29 @@ TEST_F(FourInverters, DriveTheBase) {
 
 // P151 by a record from the module, P120 by the PKW from the inverter: what protects the drive is known from the start.
 TEST_F(FourInverters, TellWhatWatchesTheBus) {
-  for (const auto& drive : robot_.snapshot().drives) {
-    EXPECT_EQ(0.0, drive.device.module_timeout.value_or(-9.0)) << "the factory setting";
-    EXPECT_EQ(1, drive.device.option_monitoring.value_or(-9));
-    EXPECT_EQ(0x0BA8u, drive.device.ident);
-  }
+  expectMonitoringKnown(robot_);
+  for (const auto& drive : robot_.snapshot().drives) EXPECT_EQ(0x0BA8u, drive.device.ident);
   EXPECT_EQ(TimeoutOwner::kModule, robot_.transport().identity(kRearLeft).timeout_owner);
   EXPECT_EQ("PROFIBUS station 3, inverter 3", robot_.transport().identity(kRearLeft).address);
 }
 
-// P151 is asked for through any drive; it is one and the same.
 TEST_F(FourInverters, ShareTheParametersOfTheirModule) {
-  cycle::Completion answer = parameter(cycle::RequestKind::kWriteParameter, kRight, 151, 500);
-  EXPECT_TRUE(answer.success) << answer.message.c_str();
-  answer = parameter(cycle::RequestKind::kReadParameter, kRearLeft, 151);
-  EXPECT_TRUE(answer.success) << answer.message.c_str();
-  EXPECT_EQ(500, answer.raw);
-  EXPECT_EQ(500, module().parameters().value(151));
-  answer = parameter(cycle::RequestKind::kReadParameter, kRearLeft, 199);
+  expectSharedTimeout(robot_, module());
+  const cycle::Completion answer = parameter(robot_, cycle::RequestKind::kReadParameter, kRearLeft, 199);
   EXPECT_THAT(answer.message.c_str(), HasSubstr("drive rear_left refuses P199: error 0"));
 }
 
-// The module stays in its time-out until all its inverters are acknowledged (BU 0220 4.2.3.2): the answer says who is
-// missing, and acknowledging all of them ends it.
+// As long as one of them is not acknowledged, the module stays in its time-out.
 TEST_F(FourInverters, AreAcknowledgedTogetherAfterATimeout) {
   module().setMute(true);
   robot_.segment().setDevicePresent(false);
   robot_.run(seconds{1});
   module().setMute(false);
   robot_.segment().setDevicePresent(true);
-  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(); }, seconds{3}));
+  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(robot_); }, seconds{3}));
   robot_.run(seconds{1});
-  EXPECT_TRUE(module().timedOut());
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(102, robot_.snapshot().drives[i].last_fault_number) << i;
-  const cycle::Completion one = robot_.ask(cycle::RequestKind::kAcknowledge, kLeft);
-  EXPECT_TRUE(one.success);
-  EXPECT_THAT(one.message.c_str(), HasSubstr("drive right behind the same bus module has a fault too"));
-  const cycle::Completion all = robot_.ask(cycle::RequestKind::kAcknowledge);
-  EXPECT_TRUE(all.success) << all.message.c_str();
-  EXPECT_THAT(all.message.c_str(), Not(HasSubstr("behind the same")));
-  EXPECT_FALSE(module().timedOut());
-  EXPECT_STREQ("enabled", robot_.ask(cycle::RequestKind::kEnable).message.c_str());
+  expectAcknowledgedTogether(robot_, module());
 }
 
 // Behind a module of their own nobody waits for a neighbour.
@@ -123,7 +86,7 @@ TEST_F(FourInverters, AreLostAndFoundTogether) {
   robot_.run(milliseconds{120});
   for (const auto& drive : robot_.snapshot().drives) EXPECT_FALSE(drive.online);
   module().setMute(false);
-  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(); }, seconds{2}));
+  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(robot_); }, seconds{2}));
   EXPECT_EQ(0u, module().counters().watchdog_trips) << "found before its watchdog of 0.2 s ran out";
   EXPECT_TRUE(robot_.runUntil([this] { return robot_.standsStill(); }));
   EXPECT_FALSE(robot_.snapshot().base.enabled);
@@ -140,22 +103,13 @@ TEST_F(FourInverters, OneOffIsThatDriveOffline) {
   EXPECT_THAT(robot_.ask(cycle::RequestKind::kEnable).message.c_str(),
               HasSubstr("drive rear_left: the inverter does not answer"));
   robot_.unit(kRearLeft).setInverterPower(true);
-  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(); }, seconds{2}));
+  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(robot_); }, seconds{2}));
   robot_.run(seconds{1});
   EXPECT_STREQ("enabled", robot_.ask(cycle::RequestKind::kEnable).message.c_str());
 }
 
-// Parameter sets are each inverter's own.
 TEST_F(FourInverters, HaveParameterSetsOfTheirOwn) {
-  cycle::Request request;
-  request.kind = cycle::RequestKind::kSelectParameterSet;
-  request.drive = kRearRight;
-  request.parameter_set = 3;
-  EXPECT_STREQ("parameter set 3 is active", robot_.ask(request).message.c_str());
-  EXPECT_EQ(0x847E, robot_.controlWord(kRearRight));
-  EXPECT_EQ(2u, robot_.unit(kRearRight).inverter().parameterSet());
-  EXPECT_EQ(0u, robot_.unit(kRearLeft).inverter().parameterSet());
-  EXPECT_EQ(0x047E, robot_.controlWord(kRearLeft));
+  expectSetsOfTheirOwn(robot_);
 }
 
 // PPO 3 has no PKW: P105, P700 and the rest come by records, and everything works as with one.

@@ -70,6 +70,17 @@ TEST(SettingChecks, WhatIsMissingIsNamedWithWhatIsExpected) {
             refusal([&] { requiredText(settings, "empty", "a device"); }));
 }
 
+// With a slip of the pen in a key that must be there, both are said: what is missing, and what was given.
+TEST(SettingChecks, WhatIsMissingIsNamedWithTheKeyThatLooksLikeIt) {
+  const MapSettings settings{"~bus/", {{"devcie", std::string{"/dev/ttyUSB0"}}, {"adress", 3}, {"baud_rate", 500000}}};
+  EXPECT_EQ("~bus/device is missing: expected a device; did you mean it by ~bus/devcie?",
+            refusal([&] { requiredText(settings, "device", "a device"); }));
+  EXPECT_EQ("~bus/address is missing: expected a whole number from 0 to 125; did you mean it by ~bus/adress?",
+            refusal([&] { requiredInteger(settings, "address", 0, 125); }));
+  EXPECT_EQ("~bus/series is missing: expected a series",
+            refusal([&] { requiredText(settings, "series", "a series"); }));
+}
+
 TEST(SettingChecks, NumbersArePrintedAsPeopleWriteThem) {
   EXPECT_EQ("0.2", shortNumber(0.2));
   EXPECT_EQ("20", shortNumber(20.0));

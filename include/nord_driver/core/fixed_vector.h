@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 
 namespace nord_driver {
 
@@ -35,6 +36,13 @@ class FixedVector {
     if (count > size_) count = size_;
     for (std::size_t i = count; i < size_; ++i) items_[i - count] = items_[i];
     size_ -= count;
+  }
+  /// Takes the first element away and returns it; nothing when empty.
+  constexpr std::optional<T> takeFront() noexcept {
+    if (size_ == 0) return std::nullopt;
+    const std::optional<T> first{items_[0]};
+    eraseFront(1);
+    return first;
   }
   constexpr void clear() noexcept { size_ = 0; }
 

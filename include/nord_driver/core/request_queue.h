@@ -33,12 +33,7 @@ class RequestQueue {
     waiting_.eraseFront(1);
   }
   /// The oldest result, once.
-  std::optional<Result> pollResult() noexcept {
-    if (results_.empty()) return std::nullopt;
-    const Result result = results_[0];
-    results_.eraseFront(1);
-    return result;
-  }
+  std::optional<Result> pollResult() noexcept { return results_.takeFront(); }
 
  private:
   bool full() const noexcept { return waiting_.size() + results_.size() >= Capacity; }

@@ -29,12 +29,7 @@ class CompletionQueue {
   void answer(const Request& request, bool success, const Sentence& message) noexcept {
     add(answerTo(request, success, message));
   }
-  std::optional<Completion> poll() noexcept {
-    if (waiting_.empty()) return std::nullopt;
-    const Completion completion = waiting_[0];
-    waiting_.eraseFront(1);
-    return completion;
-  }
+  std::optional<Completion> poll() noexcept { return waiting_.takeFront(); }
 
  private:
   FixedVector<Completion, Capacity> waiting_;

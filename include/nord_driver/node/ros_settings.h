@@ -25,14 +25,13 @@ class RosSettings final : public Settings {
   std::optional<bool> boolean(const std::string& key) const override;
   std::optional<std::string> text(const std::string& key) const override;
   std::optional<std::vector<std::string>> texts(const std::string& key) const override;
+  std::vector<std::string> keys() const override;
   std::string fullName(const std::string& key) const override;
 
   /// A list of numbers.
   std::optional<std::vector<double>> numbers(const std::string& key) const;
   /// The group below `key`; an empty one when it is absent.
   std::shared_ptr<RosSettings> group(const std::string& key) const;
-  /// The keys of this group, whatever their kind.
-  std::vector<std::string> keys() const;
   /// Marks a key as known without reading it.
   void accept(const std::string& key) const { asked_.insert(key); }
 
@@ -47,8 +46,5 @@ class RosSettings final : public Settings {
   XmlRpc::XmlRpcValue value_;
   mutable std::set<std::string> asked_;
 };
-
-/// The number of single-character changes between two words (Levenshtein).
-std::size_t editDistance(const std::string& a, const std::string& b);
 
 }  // namespace nord_driver::node

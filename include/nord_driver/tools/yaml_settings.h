@@ -24,12 +24,12 @@ class YamlSettings final : public Settings {
   std::optional<bool> boolean(const std::string& key) const override;
   std::optional<std::string> text(const std::string& key) const override;
   std::optional<std::vector<std::string>> texts(const std::string& key) const override;
+  /// Sorted as the parameter server sorts them.
+  std::vector<std::string> keys() const override;
   std::string fullName(const std::string& key) const override;
 
   /// The group below `key`; an empty one when it is absent.
   std::shared_ptr<YamlSettings> group(const std::string& key) const;
-  /// The keys of this group, sorted as the parameter server sorts them.
-  std::vector<std::string> keys() const;
 
  private:
   YAML::Node find(const std::string& key) const;  // undefined when it is absent or null

@@ -75,6 +75,7 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   void sendIntoTheDark() noexcept;
   void runParameters() noexcept;
   void takeEvents() noexcept;
+  void takeLineCounters() noexcept;
   bool allAnswered() const noexcept;
   canopen::NmtCommand releaseCommand() const noexcept;
 
@@ -93,6 +94,8 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   Instant next_open_{};
   DriveIndex result_cursor_ = 0;
   CanopenBusEvents events_;
+  link::CanCounters line_;  // as the interface told them last
+  Instant next_line_counters_{};
 };
 
 }  // namespace nord_driver

@@ -19,7 +19,7 @@ class CanopenBusEvents {
   /// is too slow has no time to lose.
   void noteLostFrames(const char* interface, std::uint64_t lost, Instant now) noexcept;
 
-  std::optional<BusEvent> poll() noexcept;
+  std::optional<BusEvent> poll() noexcept { return events_.takeFront(); }
   /// The last event; empty when it is too long ago.
   Sentence text(Instant now) const noexcept;
   /// That text tells of another master, or of a second node with one id: the reason of most that the nodes do

@@ -12,6 +12,10 @@ namespace nord_driver {
 ConfigError wrongSetting(const Settings& settings, const std::string& key, const std::string& value,
                          const std::string& expected);
 
+/// "~bus/device is missing: expected ..."; throw what this returns. A key that is there and may be a slip of the
+/// missing one is named with it.
+ConfigError missingSetting(const Settings& settings, const std::string& key, const std::string& expected);
+
 /// The number at `key`, or `fallback` when it is absent. Throws ConfigError outside min..max (both included) and for
 /// NaN and infinity. `unit` is named in the sentence ("s", "Hz"; may be empty).
 double numberOr(const Settings& settings, const std::string& key, double fallback, double min, double max,

@@ -30,6 +30,8 @@ class Settings {
   /// A list of texts; a single text counts as a list of one.
   virtual std::optional<std::vector<std::string>> texts(const std::string& key) const = 0;
 
+  /// The keys of this group that are there, whatever their kind.
+  virtual std::vector<std::string> keys() const = 0;
   /// The full name of a key as a user wrote it ("~bus/baud_rate"), for error sentences.
   virtual std::string fullName(const std::string& key) const = 0;
 };

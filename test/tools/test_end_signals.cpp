@@ -1,0 +1,30 @@
+// A signal asks a program to end and leaves it its time.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "nord_driver/tools/end_signals.h"
+
+namespace nord_driver::tools {
+namespace {
+
+/// 0: the signal was noted, and nothing ended.
+[[noreturn]] void takeSignal(int signal) {
+  const std::atomic<bool>& asked = catchEndSignals();
+  const bool before = asked;
+  raise(signal);
+  _exit(before ? 1 : asked ? 0 : 2);
+}
+
+TEST(EndSignalsDeathTest, EachIsNotedAndEndsNothing) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    EXPECT_EXIT(takeSignal(signal), ::testing::ExitedWithCode(0), "") << signal;
+  }
+}
+
+// Another one ends a program as ever: SIGQUIT is the way out of one that hangs.
+TEST(EndSignalsDeathTest, OthersEndItAtOnce) {
+  EXPECT_EXIT(takeSignal(SIGQUIT), ::testing::KilledBySignal(SIGQUIT), "");
+}
+
+}  // namespace
+}  // namespace nord_driver::tools
