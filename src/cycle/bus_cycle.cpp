@@ -9,6 +9,8 @@ namespace nord_driver::cycle {
 
 namespace {
 
+constexpr Duration kLongestRampStep = std::chrono::milliseconds{100};
+
 std::vector<std::string> namesOf(const CycleConfig& config) {
   std::vector<std::string> names;
   for (const DriveSetup& setup : config.drives) names.push_back(setup.name);
@@ -59,7 +61,7 @@ void BusCycle::runOnce() noexcept {
   const Instant now = transport_.now();
   statistics_.handleCycleStart(now);
   takeRequests(now);
-  command(now, last_command_ ? now - *last_command_ : period_);
+  command(now, rampTime(now));
   last_command_ = now;
 
   for (DriveIndex i = 0; i < drives_.size(); ++i) outputs_[i] = drives_[i].pollOutput(now);
@@ -75,6 +77,12 @@ void BusCycle::runOnce() noexcept {
   measure(after, last_input_ ? after - *last_input_ : Duration::zero());
   last_input_ = after;
   publish(after);
+}
+
+// A cycle that was held up is no time the wheels had for their ramp: what it lasted would be a jump of the setpoint.
+Duration BusCycle::rampTime(Instant now) const noexcept {
+  if (!last_command_) return period_;
+  return std::min(now - *last_command_, std::max(kLongestRampStep, 3 * period_));
 }
 
 void BusCycle::takeRequests(Instant now) noexcept {

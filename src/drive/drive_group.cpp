@@ -1,6 +1,7 @@
 #include "nord_driver/drive/drive_group.h"
 
 #include <cstdlib>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -212,6 +213,7 @@ void DriveGroup::haltTheOthers(Instant now) noexcept {
     if (way == StopWay::kCoast) member->requestCoast(now);
   }
   down_since_ = now;
+  halting_speed_ = std::numeric_limits<int>::max();
   // OFF1 at once would take their torque at 0 Hz; kHalting waits for the drive's own ramp first.
   enter(way == StopWay::kSetpointZero ? GroupPhase::kHalting : GroupPhase::kStopping, now);
 }
@@ -240,8 +242,23 @@ void DriveGroup::updateRampingDown(Instant now) noexcept {
   if (nearStandstill() || now - zero_since_ >= config_.standstill_timeout) shutdownAll(now);
 }
 
+// At setpoint 0 a drive with P104 > 0 comes down to that and no further; left there, it turns the base around the one
+// that has no torque.
+bool DriveGroup::getsSlower(Instant now) noexcept {
+  int speed = 0;
+  for (const Drive* member : members_) {
+    if (runs(*member)) speed += std::abs(int{member->report().input.actual_values[0]});
+  }
+  if (speed <= halting_speed_ - config_.near_standstill) {
+    halting_speed_ = speed;
+    slower_since_ = now;
+  }
+  return now - slower_since_ < config_.standstill_timeout;
+}
+
 void DriveGroup::updateHalting(Instant now) noexcept {
-  if (!nearStandstill() && now - phase_since_ < config_.shutdown_timeout) return;
+  const bool goes_on = getsSlower(now) && now - phase_since_ < config_.shutdown_timeout;
+  if (!nearStandstill() && goes_on) return;
   down_since_ = now;
   shutdownAll(now);
 }

@@ -16,8 +16,10 @@ class CycleBench {
   static constexpr DriveIndex kLeft = 0, kRight = 1, kLift = 2;
   static constexpr Duration kCycle = std::chrono::milliseconds{10};
 
-  explicit CycleBench(std::optional<double> typed_max_frequency = std::nullopt)
-      : transport{3}, ports{3}, cycle{config(typed_max_frequency), transport, ports, false} {}
+  /// `acceleration`: the limit of the base in m/s^2, both ways; 0: none.
+  explicit CycleBench(std::optional<double> typed_max_frequency = std::nullopt, double acceleration = 0.0,
+                      const drive::StopWays& ways = {})
+      : transport{3}, ports{3}, cycle{config(typed_max_frequency, acceleration, ways), transport, ports, false} {}
 
   void step() {
     const Instant start = transport.time;
@@ -57,8 +59,10 @@ class CycleBench {
 
  private:
   // 50 Hz, two pole pairs, no gear: 100 % is 157.08 rad/s at the joint.
-  static CycleConfig config(std::optional<double> typed_max_frequency) {
+  static CycleConfig config(std::optional<double> typed_max_frequency, double acceleration,
+                            const drive::StopWays& ways) {
     CycleConfig config;
+    config.stop_ways = ways;
     config.cmd_vel_timeout = std::chrono::milliseconds{500};
     config.shutdown_timeout = std::chrono::seconds{2};
     for (const char* name : {"left", "right", "lift"}) {
@@ -72,6 +76,8 @@ class CycleBench {
     config.base = BaseConfig{};
     config.base->left = {kLeft};
     config.base->right = {kRight};
+    config.base->limits.linear_x.has_acceleration_limits = acceleration > 0.0;
+    config.base->limits.linear_x.max_acceleration = acceleration;
     config.base->geometry.wheel_separation = 0.5;
     config.base->geometry.left_wheel_radius = config.base->geometry.right_wheel_radius = 0.1;
     return config;

@@ -34,7 +34,7 @@ class ScriptedTransport final : public Transport {
       if (inverters[i].silent) continue;
       inputs[i].module_answers = true;
       inputs[i].inverter_answers = !module_only[i];
-      if (!module_only[i]) inputs[i].input = input;
+      inputs[i].input = input;  // of a module alone it is an old one
     }
   }
   /// Waits in `submitted` while `hold_answers`; otherwise answered in the same cycle, from `parameters` by number (and

@@ -237,6 +237,10 @@ TEST_F(DriveTest, TellsWhenSignAndDirectionBitsContradict) {
   EXPECT_TRUE(report().direction_contradiction);
   cycle(0x0B37, -0x2000);
   EXPECT_TRUE(report().direction_contradiction);
+  cycle(0x0337, 0x2000);  // neither bit, or both: they tell no direction
+  EXPECT_FALSE(report().direction_contradiction);
+  cycle(0x1B37, -0x2000);
+  EXPECT_FALSE(report().direction_contradiction);
   cycle(0x0B37, -100);  // at rest bit 11 is 1 whatever the sign
   EXPECT_FALSE(report().direction_contradiction);
 

@@ -85,6 +85,7 @@ TEST_F(DriveTest, EndsTheAcknowledgingOfASilentDrive) {
   fallSilent();
   EXPECT_EQ(RequestState::kRefused, report().acknowledge.state);
   EXPECT_EQ(Refusal::kOffline, report().acknowledge.refusal);
+  EXPECT_EQ(StopCause::kNone, report().stop_cause) << "it was not driven";
   EXPECT_EQ(0x047E, silence());
   drive_.requestAcknowledge(now_);
   EXPECT_EQ(Refusal::kOffline, report().acknowledge.refusal);

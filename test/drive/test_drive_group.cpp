@@ -120,6 +120,7 @@ TEST_F(DriveGroupTest, TakesAllBackWhenOneDoesNotFollow) {
 // enable false: the setpoint ramps to zero from above, then OFF1 until "ready to switch on".
 TEST_F(DriveGroupTest, RampsDownThenOff1) {
   run();
+  cycles(150);  // longer than shutdown_timeout, which counts from the request
   group_.requestDisable(now_);
   EXPECT_TRUE(group_.wantsZeroRamp());
   EXPECT_FALSE(group_.commandAllowed());
@@ -136,6 +137,20 @@ TEST_F(DriveGroupTest, RampsDownThenOff1) {
   EXPECT_LT(cyclesUntil(GroupPhase::kDisabled, 20), 20);
   EXPECT_TRUE(group_.settled());
   EXPECT_EQ(StopCause::kNone, group_.report().stop_cause);
+}
+
+// Standstill has no direction: backwards, OFF1 waits for it as well.
+TEST_F(DriveGroupTest, RampsDownFromBackwards) {
+  run();
+  velocity_ = -78.5;
+  cycles(40);
+  ASSERT_LT(left_inverter_.frequency(), -0x1F00);
+  left_inverter_.ramp = right_inverter_.ramp = 0x0200;
+  velocity_ = 0.0;  // the setpoint comes down at once, the inverters in 16 cycles
+  group_.requestDisable(now_);
+  cyclesUntil(GroupPhase::kStopping, 25);
+  EXPECT_EQ(GroupPhase::kStopping, group_.report().phase);
+  EXPECT_GT(left_inverter_.frequency(), -200);
 }
 
 // With P104 > 0 standstill never comes at setpoint 0: OFF1 takes over after a bounded wait.
@@ -202,6 +217,47 @@ TEST_F(DriveGroupTest, HaltsTheOthersWhenOneFallsSilent) {
   EXPECT_EQ(GroupPhase::kDisabled, group_.report().phase);
   EXPECT_EQ(0, left_inverter_.frequency());
   EXPECT_TRUE(group_.requestEnable(now_).accepted());
+}
+
+// With P104 > 0 the others turn on at setpoint 0, and the base around the drive without torque: OFF1 as soon as they do
+// not get slower any more.
+TEST_F(DriveGroupTest, HaltsADriveThatTurnsAtSetpointZero) {
+  run();
+  left_inverter_.minimum = 0x0800;
+  right_inverter_.fault = true;
+  cycle();
+  ASSERT_EQ(GroupPhase::kHalting, group_.report().phase);
+  EXPECT_LE(cyclesUntil(GroupPhase::kStopping, 200), 50) << "its ramp of 6 cycles, 0.3 s, and never a whole second";
+  EXPECT_LT(cyclesUntil(GroupPhase::kDisabled, 20), 20);
+  EXPECT_EQ(0, left_inverter_.frequency());
+}
+
+// A long ramp of its own is not cut short: OFF1 would take the torque away where it ends.
+TEST_F(DriveGroupTest, LetsALongRampEndWhenOneTrips) {
+  run();
+  left_inverter_.ramp = 0x0080;  // 64 cycles, twice standstill_timeout
+  right_inverter_.fault = true;
+  cycle();
+  while (left_inverter_.frequency() > 0x0100) {
+    ASSERT_EQ(GroupPhase::kHalting, group_.report().phase) << left_inverter_.frequency();
+    ASSERT_EQ(0x047F, leftWord());
+    cycle();
+  }
+  EXPECT_LT(cyclesUntil(GroupPhase::kDisabled, 20), 20);
+}
+
+// Its ramp is waited for, and OFF1 has its own time after that: nothing brakes hard that comes down all the while.
+TEST_F(DriveGroupTest, BoundsTheWayDownWhenOneTrips) {
+  run();
+  left_inverter_.ramp = 50;  // 1.6 s
+  right_inverter_.fault = true;
+  cycle();
+  EXPECT_EQ(100, cyclesUntil(GroupPhase::kStopping, 200)) << "shutdown_timeout";
+  while (left_inverter_.frequency() > 0) {
+    cycle();
+    ASSERT_EQ(0x047E, leftWord());
+  }
+  EXPECT_LT(cyclesUntil(GroupPhase::kDisabled, 20), 20);
 }
 
 TEST_F(DriveGroupTest, HaltsUnderLocalControl) {

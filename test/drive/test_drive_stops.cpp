@@ -35,6 +35,54 @@ TEST_F(DriveTest, QuickStopsWhenOff1DoesNotEnd) {
   EXPECT_EQ(StopCause::kShutdownTimeout, report().stop_cause);
 }
 
+// Terminals may end the ramp before it is over (OFF2, OFF3): there is nothing left to wait for.
+TEST_F(DriveTest, EndsOff1WhenTerminalsDisableTheInverter) {
+  run();
+  drive_.requestShutdown(now_);
+  EXPECT_EQ(0x047E, cycle(0x0A37, 0x1000));
+  EXPECT_EQ(0x047E, cycle(0x0B60));
+  EXPECT_EQ(Phase::kIdle, report().phase);
+  EXPECT_EQ(0x047E, cycle(0x0B70));
+}
+
+// What the inverter said before it got the word of a stop confirms nothing.
+TEST_F(DriveTest, TakesNoStateFromBeforeAStopForItsEnd) {
+  profile::ProcessInput ready, disabled;
+  ready.status_word = 0x0B31;
+  disabled.status_word = 0x0B70;
+  start();
+  drive_.requestEnable(now_);
+  cycle(0x0B31);
+  ASSERT_EQ(0x047F, cycle(0x0B31)) << "on its way up";
+  drive_.requestShutdown(now_);
+  drive_.handleInput(ready, true, now_);
+  EXPECT_EQ(Phase::kStopping, report().phase);
+  drive_.requestQuickStop(now_);
+  drive_.handleInput(disabled, true, now_);
+  EXPECT_EQ(Phase::kQuickStopping, report().phase);
+  drive_.requestCoast(now_);
+  drive_.handleInput(disabled, true, now_);
+  EXPECT_EQ(Phase::kCoasting, report().phase);
+  EXPECT_EQ(0x047D, cycle(0x0B70));
+  EXPECT_EQ(Phase::kIdle, report().phase);
+}
+
+// A fault ends every way of stopping: its output is off, and "switch-on disabled" comes only after an acknowledgement.
+TEST_F(DriveTest, AFaultEndsEveryStop) {
+  using Request = void (Drive::*)(Instant) noexcept;
+  for (const Request request : {&Drive::requestShutdown, &Drive::requestQuickStop, &Drive::requestCoast}) {
+    drive_ = Drive{config()};
+    run();
+    (drive_.*request)(now_);
+    cycle(0x0B37, 0x2000);
+    ASSERT_NE(Phase::kIdle, report().phase);
+    cycle(0x0B38);
+    EXPECT_EQ(Phase::kIdle, report().phase);
+    EXPECT_EQ(0x047E, cycle(0x0B38));
+    EXPECT_TRUE(drive_.isAtRest());
+  }
+}
+
 // OFF3 keeps bit 1 (without it the motor would coast) and ends in "switch-on disabled"; nothing restarts the drive.
 TEST_F(DriveTest, HoldsTheQuickStopUntilSwitchOnDisabled) {
   run();
@@ -213,6 +261,18 @@ TEST_F(DriveTest, AsksASilentIdleDriveOnlyForItsSet) {
   fallSilent();
   EXPECT_EQ(0x0000, silence());
   EXPECT_EQ(StopCause::kNone, report().stop_cause);
+}
+
+// Idle is what we send, not what the motor does: on its way down it gets 047E, which a module's time-out does not trip.
+TEST_F(DriveTest, CarriesTheIdleWordIntoTheDarkWhileItStillTurns) {
+  cycle(0x8B37, 0x2000);  // found running in set 3
+  ASSERT_EQ(Phase::kIdle, report().phase);
+  EXPECT_EQ(0x847E, cycle(0x8A37, 0x1F00));
+  fallSilent();
+  const Instant begin = now_;
+  while (silence() != 0x0000) ASSERT_LE(now_ - begin, seconds(1.1));
+  EXPECT_GE(now_ - begin, seconds(0.9)) << "for shutdown_timeout";
+  EXPECT_EQ(StopCause::kNone, report().stop_cause) << "it was not driven";
 }
 
 // A bus module under 24 V goes on exchanging zeros for an inverter that is off.

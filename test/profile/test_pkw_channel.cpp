@@ -247,5 +247,24 @@ TEST_F(PkwChannelTest, RefusesWhatNoOrderCanSay) {
   EXPECT_EQ(3, channel_.pollResult()->error_number);
 }
 
+// An order that went out before the inverter was lost may still be answered: nothing is asked before "no answer".
+TEST_F(PkwChannelTest, WaitsForAnAnsweredPauseAfterALoss) {
+  ASSERT_TRUE(channel_.submit(read(105, ParameterShape::kPerSet, 1), now_));
+  clear();
+  const PkwWords order{0x6451, 0x0000, 0x0000, 0x0000};
+  ASSERT_EQ(order, exchange(kNothing));
+  channel_.handleOffline(now_);
+  ASSERT_EQ(ParameterOutcome::kOffline, channel_.pollResult()->outcome);
+  ASSERT_TRUE(channel_.submit(read(105, ParameterShape::kPerSet, 2), now_));
+  const PkwWords somebody_elses{0x14E8, 0x0000, 0x0000, 0x0001};
+  EXPECT_EQ(kNothing, exchange(somebody_elses));
+  EXPECT_EQ(kNothing, exchange(somebody_elses));
+  EXPECT_EQ(kNothing, exchange({0x4451, 0x0000, 0x0000, 0x01F4})) << "P105 as it was before the loss";
+  EXPECT_FALSE(channel_.pollResult().has_value());
+  EXPECT_EQ(kNothing, exchange(kNothing));
+  EXPECT_EQ(order, exchange({0x4451, 0x0000, 0x0000, 0x03E8}));
+  EXPECT_EQ(1000, channel_.pollResult()->raw);
+}
+
 }  // namespace
 }  // namespace nord_driver::profile

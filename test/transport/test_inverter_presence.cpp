@@ -23,6 +23,18 @@ TEST(InverterPresence, ZerosAreAnInverterThatIsOff) {
   EXPECT_FALSE(presence.wantsModuleStatus(kStart));
 }
 
+// A module that fell silent took everything known of its inverters with it.
+TEST(InverterPresence, NothingIsKeptOverALoss) {
+  InverterPresence presence{4, true};
+  presence.handleExchange(true, kAllUseful, kStart);
+  presence.handleModuleStatus(0xAA02, kNumbers);  // all online
+  ASSERT_TRUE(presence.answers(0));
+  presence.handleSilence();
+  EXPECT_FALSE(presence.answers(0));
+  presence.handleExchange(true, kAllUseful, kStart);
+  EXPECT_FALSE(presence.answers(0)) << "a broken link again, and P173 not asked yet";
+}
+
 // 02 04 behind a module with one inverter: its status word is an old one. The diagnosis is looked at again.
 TEST(InverterPresence, ABrokenLinkIsTheOnlyInvertersOwn) {
   InverterPresence presence{1, false};

@@ -48,6 +48,7 @@ class BusCycle {
   void accessParameter(const Request& request) noexcept;
   Completion resetOdometry(const Request& request) noexcept;
   Sentence movingCommand(Instant now) noexcept;
+  Duration rampTime(Instant now) const noexcept;
   void command(Instant now, Duration dt) noexcept;
   void commandBase(Instant now, Duration dt) noexcept;
   void commandSingles(Instant now) noexcept;

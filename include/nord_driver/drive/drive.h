@@ -7,7 +7,7 @@
 //  - 047E alone also says "parameter set 1". So 0000, which the inverter ignores, is sent until a status word has told
 //  the set
 //    in force; from then on never again while it is online.
-//  - An inverter that falls silent while it was not idle may still hear us: the stop word goes on into the dark, for
+//  - An inverter that falls silent while it was not at rest may still hear us: the stop word goes on into the dark, for
 //    shutdown_timeout; then the set is learned anew. When it answers it is idle, in the set it then reports.
 //  - Whatever ends "operation enabled" without being asked ends in the idle word and stays so until the next enable.
 //  - The set is switched at standstill only: setpoint 1 is a share of P105 of the set in force (BU 0020 7.3.5).

@@ -20,7 +20,7 @@ struct GroupConfig {
   /// stopped.
   Duration shutdown_timeout = seconds(10.0);
   /// With the setpoint at zero: how long to wait for standstill before OFF1 takes over the ramp (P104 > 0 never lets it
-  /// come).
+  /// come). On the others' own ramp it counts from where they get no slower.
   Duration standstill_timeout = seconds(1.0);
   /// |actual value 1| that counts as near standstill, of 16384.
   std::int16_t near_standstill = 164;
@@ -100,6 +100,7 @@ class DriveGroup {
   bool quickStopTheRest(Instant now) noexcept;
   void latch(StopCause cause, std::size_t member) noexcept;
   bool nearStandstill() const noexcept;
+  bool getsSlower(Instant now) noexcept;
 
   std::vector<Drive*> members_;
   std::vector<bool> acknowledging_;  // members asked to
@@ -108,6 +109,8 @@ class DriveGroup {
   Instant phase_since_{};
   Instant down_since_{};  // since when a way down is on: its bound runs over several phases
   Instant zero_since_{};
+  int halting_speed_ = 0;  // the least so far, of all that halt together
+  Instant slower_since_{};
   bool setpoint_is_zero_ = false;
   bool zero_seen_ = false;
   bool followed_ = false;  // a fresh command, since the group is enabled

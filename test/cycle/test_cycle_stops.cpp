@@ -1,0 +1,57 @@
+// What the cycle itself sees to when something stops: the age of the commands, and where the next start begins.
+#include <gtest/gtest.h>
+
+#include "cycle/cycle_bench.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+drive::StopWays quickStopWhenTooOld() {
+  drive::StopWays ways;
+  ways.command_timeout = drive::StopWay::kQuickStop;
+  return ways;
+}
+
+// The way chosen for a command that is too old is that of the base and of a drive alone, each by its own commands.
+TEST(CycleStops, ACommandThatIsTooOldStopsItsGroupAsChosen) {
+  CycleBench bench{std::nullopt, 0.0, quickStopWhenTooOld()};
+  bench.run(30);
+  ASSERT_TRUE(bench.ask(RequestKind::kEnable).success);
+  bench.commandLift(10.0);
+  bench.run(20);
+  bench.commandBase(0.5);
+  bench.run(30);
+  EXPECT_EQ(0x047F, bench.controlWord(CycleBench::kLift)) << "not too old yet";
+  bench.run(3);
+  EXPECT_FALSE(bench.snapshot().drives[CycleBench::kLift].enabled);
+  EXPECT_EQ(drive::StopCause::kQuickStop, bench.snapshot().drives[CycleBench::kLift].stop_cause);
+  EXPECT_EQ(0x047F, bench.controlWord(CycleBench::kLeft)) << "its command is younger";
+  bench.run(20);
+  EXPECT_EQ(drive::StopCause::kCommandTimeout, bench.snapshot().base.stop_cause);
+  EXPECT_FALSE(bench.snapshot().drives[CycleBench::kLeft].enabled);
+  EXPECT_FALSE(bench.snapshot().drives[CycleBench::kRight].enabled);
+}
+
+// A base that was stopped stands: enabled again it begins there, not where its ramp would be by now.
+TEST(CycleStops, ABaseThatIsEnabledSoonAfterAStopBeginsFromStandstill) {
+  CycleBench bench{std::nullopt, 0.5};
+  bench.run(30);
+  ASSERT_TRUE(bench.ask(RequestKind::kEnable).success);
+  for (int i = 0; i < 200; ++i) {
+    bench.commandBase(1.0);
+    bench.step();
+  }
+  ASSERT_GT(bench.setpoint(CycleBench::kLeft), 1000);
+  bench.commandBase(0.0);
+  ASSERT_TRUE(bench.ask(RequestKind::kQuickStop).success);
+  ASSERT_TRUE(bench.ask(RequestKind::kEnable).success);
+  for (int i = 0; i < 10; ++i) {
+    bench.commandBase(0.0);
+    bench.step();
+    ASSERT_EQ(0x047F, bench.controlWord(CycleBench::kLeft));
+    ASSERT_EQ(0, bench.setpoint(CycleBench::kLeft));
+  }
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

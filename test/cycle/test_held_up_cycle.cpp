@@ -1,0 +1,63 @@
+// A cycle that comes late: the computer was busy, or the bus took its time.
+#include <gtest/gtest.h>
+
+#include "cycle/cycle_bench.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+constexpr double kAcceleration = 0.5;  // m/s^2
+
+/// What setpoint 1 may change by in 0.1 s: 0.5 rad/s at the wheel, 52 of 16384, and one for the rounding.
+constexpr int kTenthOfASecond = 53;
+
+class HeldUpCycle : public ::testing::Test, protected CycleBench {
+ protected:
+  HeldUpCycle() : CycleBench{std::nullopt, kAcceleration} {}
+
+  void SetUp() override {
+    run(30);
+    const Completion answer = ask(RequestKind::kEnable);
+    ASSERT_TRUE(answer.success) << answer.message.c_str();
+  }
+  /// The bus cycle stands still, while commands go on coming.
+  void holdUp(double linear) {
+    transport.time += std::chrono::seconds{2};
+    commandBase(linear);
+  }
+};
+
+// The wheels have not followed the ramp of the two seconds nobody told them of: the next setpoint is no jump.
+TEST_F(HeldUpCycle, GoesOnWhereTheRampWas) {
+  commandBase(1.0);
+  run(20);
+  const int before = setpoint(kLeft);
+  ASSERT_GT(before, 60);
+  holdUp(1.0);
+  step();
+  EXPECT_GT(setpoint(kLeft), before);
+  EXPECT_LE(setpoint(kLeft), before + kTenthOfASecond);
+  for (int i = 0; i < 300; ++i) {
+    commandBase(1.0);
+    step();
+  }
+  const int fast = setpoint(kLeft);
+  ASSERT_GT(fast, 1000);
+  holdUp(0.0);
+  step();
+  EXPECT_LT(setpoint(kLeft), fast) << "braking begins at once";
+  EXPECT_GE(setpoint(kLeft), fast - kTenthOfASecond);
+}
+
+// Cycles that always take longer than cycle_rate says still brake as the limit says.
+TEST_F(HeldUpCycle, KeepsTheRampOnASlowBus) {
+  transport.exchange_time = std::chrono::milliseconds{50};
+  for (int i = 0; i < 20; ++i) {
+    commandBase(1.0);
+    step();
+  }
+  EXPECT_NEAR(521, setpoint(kLeft), 27) << "0.5 m/s after a second";
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle
