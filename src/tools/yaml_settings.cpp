@@ -75,9 +75,11 @@ YamlSettings::YamlSettings(std::string prefix, const YAML::Node& node)
 
 YAML::Node YamlSettings::find(const std::string& key) const {
   YAML::Node at = node_;
+  if (!at.IsDefined() || at.IsNull()) return YAML::Node(YAML::NodeType::Undefined);  // an absent group
   std::istringstream parts(key);
-  for (std::string part; std::getline(parts, part, '/');) {
-    if (!at.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
+  std::string path;
+  for (std::string part; std::getline(parts, part, '/'); path += (path.empty() ? "" : "/") + part) {
+    if (!at.IsMap()) throw wrongKind(path, at, "a group of keys and values");
     const YAML::Node& here = at;
     const YAML::Node next = here[part];  // of a const node: a missing key is not added
     if (!next.IsDefined() || next.IsNull()) return YAML::Node(YAML::NodeType::Undefined);
@@ -146,7 +148,7 @@ std::optional<std::vector<std::string>> YamlSettings::texts(const std::string& k
 }
 
 std::string YamlSettings::fullName(const std::string& key) const {
-  return prefix_.empty() ? key : prefix_ + "/" + key;
+  return prefix_ + (prefix_.empty() || key.empty() ? "" : "/") + key;
 }
 
 std::shared_ptr<YamlSettings> YamlSettings::group(const std::string& key) const {

@@ -9,6 +9,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 constexpr char kFile[] = R"(
 transport: canopen
@@ -73,6 +74,10 @@ TEST(ToolConfig, NamesWhatIsWrong) {
   EXPECT_THAT(refusal([&] { readToolConfig(file, "near"); }), HasSubstr("transport: 5 is not valid"));
   EXPECT_THAT(refusal([] { readToolConfig(YAML::Load("{bus: {}}"), "left"); }),
               HasSubstr("expected one that has drives"));
+  EXPECT_EQ("bus: 5 is not valid, expected a group of keys and values",
+            refusal([] { readToolConfig(YAML::Load("{bus: 5, drives: {left: {series: sk5xxe, pole_pairs: 2}}}")); }));
+  EXPECT_THAT(refusal([] { readToolConfig(YAML::Load("{drives: {2nd: {}}}")); }),
+              StartsWith("drives/2nd: \"2nd\" is not valid, expected a name of letters"));
   EXPECT_THAT(refusal([] { readToolConfig(YAML::Load("{bus: {}}")); }), HasSubstr("drives is missing"));
 }
 

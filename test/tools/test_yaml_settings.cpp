@@ -39,7 +39,7 @@ TEST(YamlSettings, ReadsWhatIsThereAndNothingElse) {
   EXPECT_EQ(500'000, all.group("bus")->integer("baud_rate"));
   EXPECT_EQ("bus/baud_rate", all.group("bus")->fullName("baud_rate"));
   EXPECT_FALSE(all.has("nothing"));
-  EXPECT_FALSE(all.has("name/of/nothing"));
+  EXPECT_EQ("bus", all.group("bus")->fullName("")) << "the group itself";
   EXPECT_FALSE(all.number("bus/nothing"));
   EXPECT_FALSE(all.group("nothing")->has("key"));
   EXPECT_THAT(all.keys(), ElementsAre("bus", "name", "on_air", "rate", "wheels")) << "asking adds nothing";
@@ -70,6 +70,22 @@ TEST(YamlSettings, AWrongKindIsRefusedWithKeyValueAndExpectation) {
   EXPECT_THAT(refusal([&] { all.integer("part"); }), HasSubstr("part: 2.5 is not valid, expected a whole number"));
   EXPECT_THAT(refusal([&] { all.integer("huge"); }), HasSubstr("expected a whole number"));
   EXPECT_THAT(refusal([&] { all.boolean("rate"); }), HasSubstr("expected true or false"));
+}
+
+// A group is told by a key in it as well: nobody has to ask for the group itself. One that is empty is absent.
+TEST(YamlSettings, AValueWhereAGroupBelongsIsRefused) {
+  const YamlSettings all = settings("{stop: coast, linear: {x: 5}, axes: [x], angular: ~, drives: {left: 3}}");
+  EXPECT_EQ("stop: \"coast\" is not valid, expected a group of keys and values",
+            refusal([&] { all.text("stop/on_fault"); }));
+  EXPECT_EQ("linear/x: 5 is not valid, expected a group of keys and values",
+            refusal([&] { all.has("linear/x/max_velocity"); }));
+  EXPECT_EQ("linear/x: 5 is not valid, expected a group of keys and values",
+            refusal([&] { all.group("linear")->number("x/max_velocity"); }));
+  EXPECT_EQ("axes: a list is not valid, expected a group of keys and values", refusal([&] { all.has("axes/x"); }));
+  EXPECT_EQ("drives/left: 3 is not valid, expected a group of keys and values",
+            refusal([&] { all.group("drives")->group("left"); }));
+  EXPECT_FALSE(all.has("angular/z/max_velocity"));
+  EXPECT_FALSE(all.group("angular")->has("z/max_velocity"));
 }
 
 TEST(YamlSettings, ALaterFileIsLaidOverAnEarlierOne) {
