@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nord_driver/core/version.h"
+#include "nord_driver/tools/command_line.h"
 #include "nord_driver/tools/end_signals.h"
 #include "nord_driver/tools/param_commands.h"
 #include "nord_driver/tools/parameter_dump.h"
@@ -18,8 +19,6 @@
 namespace {
 
 using namespace nord_driver::tools;
-
-constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2;
 
 constexpr char kAbout[] =
     "Reads and writes parameters of NORD inverters over the bus, without ROS: with the driver's configuration file, "
@@ -108,11 +107,7 @@ int run(int argc, char** argv) {
                   "save it in the EEPROM, which endures 100 000 writes; writes even what is there");
   write->add_flag("--raw", options.write.raw, "VALUE is as transferred; needed where the unit is not known");
   compare->add_option("FILE", options.dump, "what dump has printed")->required();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kWrongUsage;
-  }
+  if (const auto code = parseArguments(app, argc, argv)) return *code;
 
   // A write that is under way is not cut off: P560 may have to be put back.
   const std::atomic<bool>& end_asked = catchEndSignals();

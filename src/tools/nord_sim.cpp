@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <memory>
 #include <string>
@@ -13,11 +12,13 @@
 #include <vector>
 
 #include "nord_driver/sim/running_bus.h"
+#include "nord_driver/tools/command_line.h"
 
 namespace {
 
 using nord_driver::sim::RunningBus;
 using nord_driver::sim::SimConfig;
+using namespace nord_driver::tools;
 
 SimConfig readConfig(const std::vector<std::string>& files, const std::string& device, const std::string& interface) {
   YAML::Node merged;
@@ -60,7 +61,8 @@ int run(int argc, char** argv) {
   app.add_option("--interface", interface, "CAN interface (can0, vcan0, virtual:NAME), instead of bus/interface");
   app.add_option("--duration", duration, "seconds to run; without it until SIGINT or SIGTERM")
       ->check(CLI::PositiveNumber);
-  CLI11_PARSE(app, argc, argv);
+  app.footer("Exit code: 0 ended when asked to, 1 wrong configuration or another error, 2 wrong usage.");
+  if (const auto code = parseArguments(app, argc, argv)) return *code;
 
   // Blocked before the bus starts its thread, so that only the wait below sees them.
   sigset_t signals;
@@ -75,7 +77,7 @@ int run(int argc, char** argv) {
   std::fflush(stdout);
   waitForEnd(signals, duration);
   std::printf("referee: %s\n", bus->refereeReport().c_str());
-  return EXIT_SUCCESS;
+  return kDone;
 }
 
 }  // namespace
@@ -85,6 +87,6 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "nord_sim: %s\n", error.what());
-    return EXIT_FAILURE;
+    return kFailed;
   }
 }

@@ -1,0 +1,47 @@
+// The simulator's program as a user runs it. What it simulates is tested in test/sim.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "tools/program.h"
+
+namespace nord_driver::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+class NordSim : public ::testing::Test {
+ protected:
+  NordSim() { std::ofstream(config_) << "drives: {left: {address: 3}}\n"; }
+  ~NordSim() override { ::unlink(config_.c_str()); }
+  Ended run(std::vector<std::string> words) const {
+    words.insert(words.begin(), {NORD_SIM_PROGRAM, "--config", config_, "--device", base_ + "_bus"});
+    return runProgram(words);
+  }
+
+  std::string base_ = ::testing::TempDir() + "nord_sim_" + std::to_string(::getpid());
+  std::string config_ = base_ + ".yaml";
+};
+
+// 0 done, 1 failed, 2 wrong usage, as the other programs of this package.
+TEST_F(NordSim, ItsExitCodeTellsWrongUsageFromFailure) {
+  const Ended done = run({"--duration", "0.01"});
+  EXPECT_EQ(0, done.code) << done.errors;
+  EXPECT_THAT(done.output, StartsWith(base_ + "_bus\nreferee: "));
+  EXPECT_EQ(0, run({"--help"}).code);
+  EXPECT_EQ(0, run({"--version"}).code);
+  EXPECT_EQ(2, run({"--duration", "soon"}).code);
+  EXPECT_EQ(2, run({"--no_such_option"}).code);
+  EXPECT_EQ(2, runProgram({NORD_SIM_PROGRAM}).code) << "--config is required";
+  const Ended missing = runProgram({NORD_SIM_PROGRAM, "--config", base_ + "_is_not_there"});
+  EXPECT_EQ(1, missing.code);
+  EXPECT_THAT(missing.errors, StartsWith("nord_sim: --config " + base_ + "_is_not_there: "));
+  EXPECT_THAT(missing.output, IsEmpty());
+}
+
+}  // namespace
+}  // namespace nord_driver::test
