@@ -86,7 +86,7 @@ int run(int argc, char** argv) {
       ->required()
       ->allow_extra_args(false);
   app.add_option("--device", options.device, "bus device, in place of the file's bus/device");
-  app.add_option("--timeout", options.timeout, "s to wait for the drive to answer (5)")->check(CLI::PositiveNumber);
+  app.add_option("--timeout", options.timeout, "s to wait for the drive to answer (5)")->check(positiveSeconds());
 
   CLI::App* const list_command = app.add_subcommand("list", "the drives of the file, and every known parameter");
   CLI::App* const read = app.add_subcommand("read", "read one parameter");

@@ -60,7 +60,7 @@ int run(int argc, char** argv) {
   app.add_option("--device", device, "where to put the link to the pseudo-terminal, instead of bus/device");
   app.add_option("--interface", interface, "CAN interface (can0, vcan0, virtual:NAME), instead of bus/interface");
   app.add_option("--duration", duration, "seconds to run; without it until SIGINT or SIGTERM")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveSeconds());
   app.footer("Exit code: 0 ended when asked to, 1 wrong configuration or another error, 2 wrong usage.");
   if (const auto code = parseArguments(app, argc, argv)) return *code;
 

@@ -123,6 +123,9 @@ TEST_F(NordParam, SaysWhatIsWrongWithTheCommandLine) {
   EXPECT_EQ(2, run({"read", "left"}).code);
   EXPECT_EQ(2, run({"read", "left", "P105", "--set", "5"}).code);
   EXPECT_EQ(2, run({}).code);
+  const Ended timeout = run({"--timeout", "0", "read", "left", "P105"});
+  EXPECT_EQ(2, timeout.code);
+  EXPECT_THAT(timeout.errors, StartsWith("--timeout: 0 is not valid, expected more than 0 s\n"));
   const Ended unknown = run({"write", "left", "P420", "1"});
   EXPECT_EQ(2, unknown.code);
   EXPECT_THAT(unknown.errors, HasSubstr("write the raw value with --raw"));

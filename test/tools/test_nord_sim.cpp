@@ -43,5 +43,18 @@ TEST_F(NordSim, ItsExitCodeTellsWrongUsageFromFailure) {
   EXPECT_THAT(missing.output, IsEmpty());
 }
 
+// CLI11's own range has 300 digits.
+TEST_F(NordSim, ATimeThatIsNoneIsRefusedInShortWords) {
+  for (const char* const wrong : {"-1", "0", "nan", "soon"}) {
+    const Ended refused = run({"--duration", wrong});
+    EXPECT_EQ(2, refused.code);
+    EXPECT_THAT(refused.errors,
+                StartsWith(std::string("--duration: ") + wrong + " is not valid, expected more than 0 s\n"));
+  }
+  const Ended endless = run({"--duration", "inf"});
+  EXPECT_EQ(2, endless.code);
+  EXPECT_THAT(endless.errors, StartsWith("--duration: inf is not valid, expected at most 1000000000 s\n"));
+}
+
 }  // namespace
 }  // namespace nord_driver::test
