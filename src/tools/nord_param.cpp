@@ -38,7 +38,7 @@ constexpr char kFooter[] =
 
 struct Options {
   std::vector<std::string> files;
-  std::string device;
+  BusPort port;
   double timeout = 5.0;  // s
   std::string drive;
   std::string parameter;
@@ -85,7 +85,9 @@ int run(int argc, char** argv) {
   app.add_option("--config", options.files, "the driver's YAML file; a later file is laid over an earlier one")
       ->required()
       ->allow_extra_args(false);
-  app.add_option("--device", options.device, "bus device, in place of the file's bus/device");
+  app.add_option("--device", options.port.device, "PROFIBUS: serial device, in place of the file's bus/device");
+  app.add_option("--interface", options.port.interface,
+                 "CANopen: interface (can0, virtual:NAME), in place of the file's bus/interface");
   app.add_option("--timeout", options.timeout, "s to wait for the drive to answer (5)")->check(positiveSeconds());
 
   CLI::App* const list_command = app.add_subcommand("list", "the drives of the file, and every known parameter");
@@ -112,7 +114,7 @@ int run(int argc, char** argv) {
   // A write that is under way is not cut off: P560 may have to be put back.
   const std::atomic<bool>& end_asked = catchEndSignals();
   YAML::Node file = readYamlFiles(options.files);
-  if (!options.device.empty()) file["bus"]["device"] = options.device;
+  choosePort(file, options.port);
   if (list_command->parsed()) {
     list(file);
     return kDone;

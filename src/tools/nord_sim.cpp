@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "nord_driver/sim/running_bus.h"
+#include "nord_driver/tools/bus_port.h"
 #include "nord_driver/tools/command_line.h"
 
 namespace {
@@ -20,7 +21,7 @@ using nord_driver::sim::RunningBus;
 using nord_driver::sim::SimConfig;
 using namespace nord_driver::tools;
 
-SimConfig readConfig(const std::vector<std::string>& files, const std::string& device, const std::string& interface) {
+SimConfig readConfig(const std::vector<std::string>& files, const BusPort& port) {
   YAML::Node merged;
   for (const std::string& file : files) {
     try {
@@ -30,8 +31,9 @@ SimConfig readConfig(const std::vector<std::string>& files, const std::string& d
     }
   }
   SimConfig config = nord_driver::sim::readSimConfig(merged);
-  if (!device.empty()) config.device = device;
-  if (!interface.empty() && config.can) config.can->interface = interface;
+  checkPort(port, config.can.has_value());
+  if (!port.device.empty()) config.device = port.device;
+  if (!port.interface.empty() && config.can) config.can->interface = port.interface;
   return config;
 }
 
@@ -52,13 +54,14 @@ int run(int argc, char** argv) {
   CLI::App app{"Simulated NORD inverters: a PROFIBUS DP segment on a pseudo-terminal, or CANopen nodes on a CAN bus."};
   app.set_version_flag("--version", std::string("nord_sim ") + NORD_DRIVER_VERSION);
   std::vector<std::string> files;
-  std::string device;
-  std::string interface;
+  BusPort port;
   double duration = 0.0;
   app.add_option("--config", files, "YAML file with bus, drives and body; a later file is laid over an earlier one")
       ->required();
-  app.add_option("--device", device, "where to put the link to the pseudo-terminal, instead of bus/device");
-  app.add_option("--interface", interface, "CAN interface (can0, vcan0, virtual:NAME), instead of bus/interface");
+  app.add_option("--device", port.device,
+                 "PROFIBUS: where to put the link to the pseudo-terminal, instead of bus/device");
+  app.add_option("--interface", port.interface,
+                 "CANopen: interface (can0, vcan0, virtual:NAME), instead of bus/interface");
   app.add_option("--duration", duration, "seconds to run; without it until SIGINT or SIGTERM")
       ->check(positiveSeconds());
   app.footer("Exit code: 0 ended when asked to, 1 wrong configuration or another error, 2 wrong usage.");
@@ -70,7 +73,7 @@ int run(int argc, char** argv) {
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  const SimConfig config = readConfig(files, device, interface);
+  const SimConfig config = readConfig(files, port);
   for (const std::string& warning : config.warnings) std::fprintf(stderr, "nord_sim: %s\n", warning.c_str());
   const std::unique_ptr<RunningBus> bus = nord_driver::sim::runBus(config);
   std::printf("%s\n", bus->where().c_str());
@@ -85,6 +88,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
+  } catch (const UsageError& error) {
+    std::fprintf(stderr, "nord_sim: %s\n", error.what());
+    return kWrongUsage;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "nord_sim: %s\n", error.what());
     return kFailed;

@@ -11,6 +11,14 @@ namespace {
 // A drive that is late is waited for: nothing turns that would have to be stopped.
 constexpr Duration kDriveTimeout = std::chrono::seconds{1};
 
+constexpr char kProfibus[] = "nord_driver/profibus_dp";
+constexpr char kCanopen[] = "nord_driver/canopen";
+
+std::string transportOf(const YamlSettings& settings) {
+  const std::string name = settings.text("transport").value_or(kProfibus);
+  return name.find('/') == std::string::npos ? "nord_driver/" + name : name;
+}
+
 std::vector<DriveSettings> drivesOf(const YamlSettings& settings) {
   const auto group = settings.group("drives");
   std::vector<DriveSettings> drives;
@@ -27,8 +35,7 @@ YamlSettings rateOf(const YAML::Node& file) {
 
 ToolConfig read(const YAML::Node& file, const YamlSettings& settings, const std::vector<DriveSettings>& drives) {
   ToolConfig config;
-  config.transport = settings.text("transport").value_or("profibus_dp");
-  if (config.transport.find('/') == std::string::npos) config.transport = "nord_driver/" + config.transport;
+  config.transport = transportOf(settings);
   config.bus = settings.group("bus");
   config.drives = drives;
   config.cycle = cycle::readCycleConfig(rateOf(file), drives);
@@ -39,6 +46,15 @@ ToolConfig read(const YAML::Node& file, const YamlSettings& settings, const std:
 }
 
 }  // namespace
+
+void choosePort(YAML::Node& file, const BusPort& port) {
+  const YamlSettings settings{"", file};
+  const std::string transport = transportOf(settings);
+  if (transport == kProfibus || transport == kCanopen) checkPort(port, transport == kCanopen);
+  settings.group("bus");  // refuses a value where the group belongs
+  if (!port.device.empty()) file["bus"]["device"] = port.device;
+  if (!port.interface.empty()) file["bus"]["interface"] = port.interface;
+}
 
 ToolConfig readToolConfig(const YAML::Node& file) {
   const YamlSettings settings{"", file};

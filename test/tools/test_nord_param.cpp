@@ -120,6 +120,9 @@ TEST_F(NordParam, SaysWhatIsWrongWithTheCommandLine) {
   const Ended drive = run({"read", "lift", "P105"});
   EXPECT_EQ(2, drive.code);
   EXPECT_EQ("nord_param: drive \"lift\" is not in the configuration, expected one of left, right\n", drive.errors);
+  const Ended interface = run({"--interface", "can0", "read", "left", "P105"});
+  EXPECT_EQ(2, interface.code);
+  EXPECT_EQ("nord_param: --interface does not fit the transport profibus_dp, expected --device\n", interface.errors);
   EXPECT_EQ(2, run({"read", "left"}).code);
   EXPECT_EQ(2, run({"read", "left", "P105", "--set", "5"}).code);
   EXPECT_EQ(2, run({}).code);
@@ -200,6 +203,25 @@ TEST_F(NordParamOnCan, ReadsAndWrites) {
   EXPECT_EQ(0, written.code) << written.errors;
   EXPECT_THAT(written.output, StartsWith("P102 set 1 Acceleration time = 2.5 s (raw 250)"));
   EXPECT_EQ("P700[-01] Current fault = 0 (raw 0)\n", run({"read", "left", "P700[-01]"}).output);
+}
+
+// The file's own interface has no node.
+TEST_F(NordParamOnCan, TakesTheInterfaceOfTheCommandLine) {
+  const std::string other = config_ + "_other";
+  std::ofstream(other) << "bus: {interface: \"virtual:nobody\"}\n";
+  const std::vector<std::string> both{NORD_PARAM_PROGRAM, "--config", config_, "--config", other};
+  const auto with = [&](const char* option, const std::string& value) {
+    std::vector<std::string> words = both;
+    words.insert(words.end(), {option, value, "read", "left", "P105"});
+    return runProgram(words);
+  };
+  const Ended read = with("--interface", interface_);
+  EXPECT_EQ(0, read.code) << read.errors;
+  EXPECT_EQ("P105 set 1 Maximum frequency = 50 Hz (raw 500)\n", read.output);
+  const Ended device = with("--device", "/dev/ttyUSB0");
+  EXPECT_EQ(2, device.code);
+  EXPECT_EQ("nord_param: --device does not fit the transport canopen, expected --interface\n", device.errors);
+  ::unlink(other.c_str());
 }
 
 // CAN locks nothing: a driver on the same interface is heard by its words.

@@ -56,5 +56,15 @@ TEST_F(NordSim, ATimeThatIsNoneIsRefusedInShortWords) {
   EXPECT_THAT(endless.errors, StartsWith("--duration: inf is not valid, expected at most 1000000000 s\n"));
 }
 
+TEST_F(NordSim, ThePortOfTheOtherTransportIsRefused) {
+  const Ended profibus = run({"--interface", "virtual:x", "--duration", "0.01"});
+  EXPECT_EQ(2, profibus.code);
+  EXPECT_EQ("nord_sim: --interface does not fit the transport profibus_dp, expected --device\n", profibus.errors);
+  std::ofstream(config_) << "{transport: canopen, drives: {left: {address: 3}}}\n";
+  const Ended canopen = run({"--duration", "0.01"});
+  EXPECT_EQ(2, canopen.code);
+  EXPECT_EQ("nord_sim: --device does not fit the transport canopen, expected --interface\n", canopen.errors);
+}
+
 }  // namespace
 }  // namespace nord_driver::test

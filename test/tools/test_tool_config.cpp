@@ -81,5 +81,34 @@ TEST(ToolConfig, NamesWhatIsWrong) {
   EXPECT_THAT(refusal([] { readToolConfig(YAML::Load("{bus: {}}")); }), HasSubstr("drives is missing"));
 }
 
+/// `file` with this on the command line, or why not.
+std::string portOf(const char* file, const BusPort& port) {
+  YAML::Node node = YAML::Load(file);
+  try {
+    choosePort(node, port);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return YAML::Dump(node["bus"]);
+}
+
+TEST(ToolConfig, ThePortOfTheCommandLineReplacesTheFiles) {
+  EXPECT_EQ("{device: b}", portOf("bus: {device: a}", {"b", ""}));
+  EXPECT_EQ("{device: a}", portOf("bus: {device: a}", {"", ""}));
+  EXPECT_EQ("device: b", portOf("bus: ~", {"b", ""}));
+  EXPECT_EQ("{interface: can1}", portOf("{transport: canopen, bus: {interface: can0}}", {"", "can1"}));
+}
+
+// What would be ignored looks taken. Of a transport from elsewhere nobody knows here what it opens.
+TEST(ToolConfig, ThePortOfTheOtherTransportIsRefused) {
+  EXPECT_EQ("--device does not fit the transport canopen, expected --interface",
+            portOf("{transport: canopen, bus: {interface: can0}}", {"/dev/ttyUSB0", ""}));
+  EXPECT_EQ("--device does not fit the transport canopen, expected --interface",
+            portOf("transport: nord_driver/canopen", {"/dev/ttyUSB0", "can0"}));
+  EXPECT_EQ("--interface does not fit the transport profibus_dp, expected --device",
+            portOf("bus: {device: a}", {"", "can0"}));
+  EXPECT_EQ("device: a\ninterface: b", portOf("transport: my_package/my_card", {"a", "b"}));
+}
+
 }  // namespace
 }  // namespace nord_driver::tools

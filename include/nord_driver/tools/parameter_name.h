@@ -1,20 +1,14 @@
 // How people and files name one parameter value: "105", "P105", "P700[-01]", "P546[-02] set 3".
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "nord_driver/cycle/parameter_access.h"
 #include "nord_driver/profile/series.h"
+#include "nord_driver/tools/usage_error.h"
 
 namespace nord_driver::tools {
-
-/// The command line makes no sense: one sentence.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Index and set are 0 where the name has none. Throws UsageError.
 cycle::ParameterAddress parseParameterName(const std::string& name);

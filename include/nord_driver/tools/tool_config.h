@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nord_driver/cycle/cycle_config.h"
+#include "nord_driver/tools/bus_port.h"
 #include "nord_driver/transport/settings.h"
 
 namespace nord_driver::tools {
@@ -18,6 +19,10 @@ struct ToolConfig {
   std::vector<DriveSettings> drives;  ///< as the transport is told, in the order of `cycle.drives`
   cycle::CycleConfig cycle;           ///< without a base
 };
+
+/// Puts the port in place of the file's. Throws UsageError when it is one of another transport than the file's; what a
+/// transport that is not of this package opens is not known here. Throws ConfigError as below.
+void choosePort(YAML::Node& file, const BusPort& port);
 
 /// All drives of the file, to look at them. Throws ConfigError.
 ToolConfig readToolConfig(const YAML::Node& file);
