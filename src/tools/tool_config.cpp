@@ -45,6 +45,17 @@ ToolConfig read(const YAML::Node& file, const YamlSettings& settings, const std:
   return config;
 }
 
+// A transport wants to know what it opens before it tells anything of its drives.
+YAML::Node withAnyPort(const YAML::Node& file) {
+  const YamlSettings settings{"", file};
+  const std::string transport = transportOf(settings);
+  const auto bus = settings.group("bus");
+  YAML::Node complete = YAML::Clone(file);
+  if (transport == kCanopen && !bus->has("interface")) complete["bus"]["interface"] = "can0";
+  if (transport == kProfibus && !bus->has("device")) complete["bus"]["device"] = "/dev/null";
+  return complete;
+}
+
 }  // namespace
 
 void choosePort(YAML::Node& file, const BusPort& port) {
@@ -57,8 +68,9 @@ void choosePort(YAML::Node& file, const BusPort& port) {
 }
 
 ToolConfig readToolConfig(const YAML::Node& file) {
-  const YamlSettings settings{"", file};
-  return read(file, settings, drivesOf(settings));
+  const YAML::Node complete = withAnyPort(file);
+  const YamlSettings settings{"", complete};
+  return read(complete, settings, drivesOf(settings));
 }
 
 ToolConfig readToolConfig(const YAML::Node& file, const std::string& name) {

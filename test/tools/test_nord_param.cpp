@@ -70,11 +70,14 @@ class NordParam : public ::testing::Test {
 std::string NordParam::config_, NordParam::dump_, NordParam::device_;
 std::unique_ptr<Program> NordParam::simulator_;
 
+// Neither file nor command line names a device.
 TEST_F(NordParam, ListsDrivesAndCatalogueWithoutABus) {
-  const Ended list = run({"list"}, "/dev/is_not_there");
+  const Ended list = runProgram({NORD_PARAM_PROGRAM, "--config", config_, "list"});
   EXPECT_EQ(0, list.code) << list.errors;
   EXPECT_THAT(list.output, HasSubstr("left         PROFIBUS station 3       sk5xxe   parameter channel: PKW\n"));
   EXPECT_THAT(list.output, HasSubstr("P102  Acceleration time                 0 s to 655.35 s        sets 1 to 4\n"));
+  EXPECT_EQ(list.output, run({"list"}, "/dev/is_not_there").output);
+  EXPECT_EQ(2, runProgram({NORD_PARAM_PROGRAM, "--config", config_, "read", "left", "P105"}).code) << "needs a device";
 }
 
 // The value, its unit and the set it is of.

@@ -110,5 +110,16 @@ TEST(ToolConfig, ThePortOfTheOtherTransportIsRefused) {
   EXPECT_EQ("device: a\ninterface: b", portOf("transport: my_package/my_card", {"a", "b"}));
 }
 
+// To look at the drives nothing is opened, so that what would be opened need not be known.
+TEST(ToolConfig, ToLookAtThemTheDrivesNeedNoPort) {
+  YAML::Node file = YAML::Load(kFile);
+  EXPECT_TRUE(readToolConfig(file).bus->has("interface"));
+  EXPECT_FALSE(readToolConfig(file, "far").bus->has("interface"));
+  file.remove("transport");
+  EXPECT_TRUE(readToolConfig(file).bus->has("device"));
+  file["bus"]["device"] = "a";
+  EXPECT_EQ("a", readToolConfig(file).bus->text("device"));
+}
+
 }  // namespace
 }  // namespace nord_driver::tools

@@ -24,7 +24,7 @@ struct ToolConfig {
 /// transport that is not of this package opens is not known here. Throws ConfigError as below.
 void choosePort(YAML::Node& file, const BusPort& port);
 
-/// All drives of the file, to look at them. Throws ConfigError.
+/// All drives of the file, to look at them: a file without a port is given one that means nothing. Throws ConfigError.
 ToolConfig readToolConfig(const YAML::Node& file);
 
 /// The drive `name` first, and after it those behind the same bus module: its words are in the same telegrams. The
