@@ -16,9 +16,8 @@ profile::ParameterShape shapeOfUnknown(std::uint8_t set, std::uint8_t index) {
 }
 
 std::optional<std::int32_t> rawValue(double value) {
-  const double rounded = std::round(value);
-  if (!(std::abs(rounded) <= INT32_MAX)) return std::nullopt;
-  return static_cast<std::int32_t>(rounded);
+  if (!(std::abs(value) <= INT32_MAX) || value != std::trunc(value)) return std::nullopt;
+  return static_cast<std::int32_t>(value);
 }
 
 std::string rangeOf(const profile::ParameterInfo* info) {

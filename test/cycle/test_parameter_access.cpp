@@ -27,5 +27,17 @@ TEST(ParameterAccess, AnIndexOfAParameterWithoutAnArrayIsRefused) {
   EXPECT_EQ("", refusal(420, 0, 7)) << "nobody knows whether P420 is one";
 }
 
+// A raw value is what the inverter stores: half of one is a mistake, and nobody knows which neighbour was meant.
+TEST(ParameterAccess, ARawValueIsAWholeNumber) {
+  Request request;
+  ASSERT_EQ(nullptr, profile::findParameter(999, profile::Series::kSk5xxe));
+  request.parameter.number = 999;
+  EXPECT_EQ("", addValue({12.0, false, true}, nullptr, request));
+  EXPECT_EQ(12, request.parameter.raw);
+  EXPECT_EQ("the value 12.5 cannot be written to P999, expected a whole number of 32 bits",
+            addValue({12.5, false, true}, nullptr, request));
+  EXPECT_NE("", addValue({4e9, false, true}, nullptr, request));
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle
