@@ -80,7 +80,7 @@ void Master::startCycle(Instant now) noexcept {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (!nodes_[i]->operational()) continue;
     any = true;  // SYNC is what a synchronous TPDO waits for
-    if (nodes_[i]->awaitsFirstAnswer(now)) continue;
+    if (!nodes_[i]->takesReceivePdos(now)) continue;
     const std::vector<ReceivePdoSlot>& pdos = nodes_[i]->receivePdos();
     for (std::size_t pdo = 0; pdo < pdos.size(); ++pdo) {
       if (pdos[pdo].ready()) process_.add({static_cast<std::uint8_t>(i), static_cast<std::uint16_t>(pdo)});

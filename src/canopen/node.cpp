@@ -42,10 +42,13 @@ void Node::restart(Instant now) noexcept {
   settle(now);
 }
 
-bool Node::awaitsFirstAnswer(Instant now) const noexcept {
-  if (!operational() || now - operational_since_ >= config_.first_answer_timeout) return false;
-  return std::any_of(transmit_pdos_.begin(), transmit_pdos_.end(),
-                     [](const TransmitPdo& pdo) { return pdo.enabled && pdo.value.count == 0; });
+bool Node::takesReceivePdos(Instant now) noexcept {
+  if (!operational()) return false;
+  if (answered_ || now - operational_since_ >= config_.first_answer_timeout) return true;
+  // Not in this cycle: its answer would replace the first one before anybody has read that.
+  answered_ = std::none_of(transmit_pdos_.begin(), transmit_pdos_.end(),
+                           [](const TransmitPdo& pdo) { return pdo.enabled && pdo.value.count == 0; });
+  return false;
 }
 
 void Node::release(NmtCommand command, Instant now) noexcept {
@@ -178,6 +181,7 @@ void Node::followWatch(Instant now) noexcept {
   if (begins) {
     for (TransmitPdo& pdo : transmit_pdos_) pdo.value = PdoValue{};
     told_toggle_ = false;
+    answered_ = false;
     if (mode == ErrorControlMode::kGuarding) guard_.start(boot_.fresh(), now);
   }
   if (watch == NodeBoot::Watch::kWatch) {

@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "canopen/master_run.h"
 
@@ -86,8 +88,31 @@ TEST(ProcessData, WaitsForTheFirstTransmitPdo) {
   EXPECT_THAT(run.nodes[1]->received_pdos, Not(IsEmpty())) << "it is told to take them at once";
   run.loses = nullptr;
   run.nodes[0]->say("181#380B0000", run.now);
-  run.run(milliseconds{12});
+  run.run(milliseconds{22});
   EXPECT_THAT(run.nodes[0]->received_pdos, Not(IsEmpty()));
+}
+
+// A TPDO that comes in the pause between two cycles is read at the end of the next one. An RPDO in that one would bring
+// another TPDO, in the place of the first.
+TEST(ProcessData, TheFirstTransmitPdoIsReadBeforeItCanBeReplaced) {
+  MasterConfig config = busConfig(1);
+  config.nodes[0].first_answer_timeout = seconds{10};
+  MasterRun run{config};
+  std::vector<bool> answered;     // at the start of each cycle: it runs, and its first TPDO has come
+  std::vector<std::size_t> sent;  // RPDOs, likewise
+  run.before_cycle = [&](Master& master) {
+    master.setReceivePdo(0, 0, fromHex("7E 04 00 00"));
+    const bool runs = master.status(0).state == NodeState::kOperational;
+    answered.push_back(runs && master.transmitPdo(0, 0).count != 0);
+    sent.push_back(run.nodes[0]->received_pdos.size());
+  };
+  run.begin();
+  ASSERT_TRUE(run.runUntil([&run] { return !run.nodes[0]->received_pdos.empty(); }, seconds{2}));
+  run.run(milliseconds{20});
+  const auto first = static_cast<std::size_t>(std::find(answered.begin(), answered.end(), true) - answered.begin());
+  ASSERT_LT(first + 2, answered.size());
+  EXPECT_EQ(0u, sent[first + 1]) << "the cycle that begins with the first TPDO is there to read it";
+  EXPECT_EQ(1u, sent[first + 2]);
 }
 
 // One that hears us without being heard must get its stop words.
@@ -101,7 +126,7 @@ TEST(ProcessData, DoesNotWaitForeverForTheFirstTransmitPdo) {
   MasterRun run{config};
   run.begin();
   ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));
-  run.run(milliseconds{12});
+  run.run(milliseconds{22});
   EXPECT_THAT(run.nodes[0]->received_pdos, Not(IsEmpty())) << "the PDO that is off is not waited for";
 
   run.nodes[0]->powerOff();

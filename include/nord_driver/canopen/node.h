@@ -44,8 +44,9 @@ class Node {
 
   std::uint8_t id() const noexcept { return config_.id; }
   bool operational() const noexcept { return boot_.watch() == NodeBoot::Watch::kWatch; }
-  /// Operational, but its first TPDOs are still waited for, see `NodeConfig::first_answer_timeout`.
-  bool awaitsFirstAnswer(Instant now) const noexcept;
+  /// Once a cycle: whether it gets its RPDOs in this one. After its start not before the cycle that follows the first
+  /// TPDOs, or `NodeConfig::first_answer_timeout`.
+  bool takesReceivePdos(Instant now) noexcept;
   std::optional<NmtCommand>& command() noexcept { return boot_.command(); }
   NodeGuard& guard() noexcept { return guard_; }
   std::vector<SdoPort>& ports() noexcept { return ports_; }
@@ -77,6 +78,7 @@ class Node {
   NodeGuard guard_;
   NodeBoot::Watch watch_ = NodeBoot::Watch::kOff;
   Instant operational_since_{};
+  bool answered_ = false;  // its first TPDOs had come when a cycle began
   bool told_toggle_ = false;
 };
 

@@ -85,8 +85,8 @@ struct NodeConfig {
   std::uint8_t sdo_retries = 2;                        ///< of one access of the start-up
   Duration boot_up_timeout = std::chrono::seconds{2};  ///< from a reset to the question whether it is there
   Duration start_timeout = std::chrono::seconds{1};    ///< from NMT start to its being seen operational
-  /// An operational node gets no RPDO before its first TPDOs have come, or for so long: the first control word may
-  /// acknowledge a fault that nobody has seen yet. 0: it gets them at once.
+  /// An operational node gets no RPDO before the cycle after its first TPDOs, or for so long: the first control word
+  /// may acknowledge a fault that nobody has seen yet. 0: it gets them at once.
   Duration first_answer_timeout{};
   std::vector<SdoChannel> sdo_servers;  ///< empty: the one of the predefined connection set (600h + id, 580h + id)
   std::vector<SetupWrite> setup;
