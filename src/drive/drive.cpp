@@ -147,6 +147,8 @@ void Drive::checkStops(StatusWord status, Instant now) noexcept {
 
 void Drive::follow(StatusWord status, Instant now) noexcept {
   switch (report_.phase) {
+    case Phase::kIdle:
+      return followIdle(status, now);
     case Phase::kEnabling:
       return followEnabling(status, now);
     case Phase::kStopping:
@@ -162,6 +164,16 @@ void Drive::follow(StatusWord status, Instant now) noexcept {
     default:
       return;
   }
+}
+
+// Idle commands OFF1 as well, to a drive that stopped for a reason of its own or was found turning: a ramp that does
+// not end is escalated as in kStopping. Without bus control no word is evaluated, and the time has not begun.
+void Drive::followIdle(StatusWord status, Instant now) noexcept {
+  const bool ramps_down = sent_ && status.busControl() && report_.state == DriveState::kOperationEnabled;
+  if (!ramps_down) phase_since_ = now;
+  if (now - phase_since_ < config_.shutdown_timeout) return;
+  latch(StopCause::kShutdownTimeout);
+  enter(Phase::kQuickStopping, now);
 }
 
 void Drive::followEnabling(StatusWord status, Instant now) noexcept {

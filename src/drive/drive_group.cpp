@@ -23,7 +23,7 @@ bool isDown(const Drive& drive) noexcept {
 }  // namespace
 
 DriveGroup::DriveGroup(std::vector<Drive*> members, const GroupConfig& config)
-    : members_(std::move(members)), acknowledging_(members_.size()), config_(config) {
+    : members_(std::move(members)), config_(config) {
   if (members_.empty()) throw std::invalid_argument("a group of drives needs at least one drive");
   for (const Drive* member : members_) {
     if (member == nullptr) throw std::invalid_argument("a group of drives was given a null drive");
@@ -99,35 +99,6 @@ void DriveGroup::requestQuickStop(Instant now) noexcept {
   quickStopAll(now);
 }
 
-void DriveGroup::requestAcknowledge(Instant now) noexcept {
-  if (report_.phase != GroupPhase::kDisabled) {
-    report_.acknowledge = {RequestState::kRefused, Refusal::kStopping};
-    return;
-  }
-  report_.acknowledge = {RequestState::kRunning, Refusal::kNone};
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    const DriveReport& member = members_[i]->report();
-    acknowledging_[i] = member.fault_latched || profile::StatusWord(member.status_word).fault();
-    if (acknowledging_[i]) members_[i]->requestAcknowledge(now);
-  }
-  followAcknowledging();
-}
-
-void DriveGroup::followAcknowledging() noexcept {
-  if (report_.acknowledge.state != RequestState::kRunning) return;
-  std::size_t refused = members_.size();
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (!acknowledging_[i]) continue;
-    const RequestState state = members_[i]->report().acknowledge.state;
-    if (state == RequestState::kRunning) return;
-    if (state == RequestState::kRefused && refused == members_.size()) refused = i;
-  }
-  report_.acknowledge = {RequestState::kDone, Refusal::kNone};
-  if (refused == members_.size()) return;
-  report_.acknowledge = members_[refused]->report().acknowledge;
-  report_.acknowledge_member = refused;
-}
-
 void DriveGroup::quickStopAll(Instant now) noexcept {
   for (Drive* member : members_) member->requestQuickStop(now);
   enter(GroupPhase::kQuickStopping, now);
@@ -154,7 +125,6 @@ void DriveGroup::shutdownAll(Instant now) noexcept {
 }
 
 void DriveGroup::update(Instant now) noexcept {
-  followAcknowledging();
   switch (report_.phase) {
     case GroupPhase::kDisabled:
       return;

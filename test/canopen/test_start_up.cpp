@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "canopen/master_run.h"
 
 namespace nord_driver::canopen {
@@ -8,9 +10,11 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 std::vector<std::string> withoutPdos(const std::vector<std::string>& sent) {
   std::vector<std::string> rest;
@@ -107,6 +111,29 @@ TEST(StartUp, LeavesARunningNodeUnreset) {
   EXPECT_EQ("632#4000100000000000", run.sent[0]);
   EXPECT_EQ("000#8032", run.sent[1]);
   EXPECT_THAT(run.violations(), IsEmpty());
+}
+
+// A start that never left this computer was for the node as it was before the link was opened again: without a reset
+// the node behind it now is asked first, and starts only behind its whole script.
+TEST(StartUp, AStartThatWasNotSentIsForgottenWithTheLink) {
+  MasterConfig config = busConfig(1, 0x32);
+  config.nodes[0].reset = BootReset::kNone;
+  MasterRun run{config};
+  run.nodes[0]->sends_boot_up = false;
+  run.begin();
+  ASSERT_TRUE(run.runUntil([&] { return !run.nodes[0]->writes.empty(); }, seconds{1})) << "1017h, its last step";
+  run.link_full = true;
+  run.run(milliseconds{20});
+  ASSERT_GT(run.master.counters().not_sent, 0u);
+  ASSERT_THAT(run.sent, Not(Contains("000#0132")));
+  run.sent.clear();
+  run.link_full = false;
+  run.master.restart(run.now);
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{1}));
+  ASSERT_GT(run.sent.size(), 2u);
+  EXPECT_EQ("632#4000100000000000", run.sent[0]);
+  EXPECT_EQ("000#8032", run.sent[1]);
+  EXPECT_EQ(1, std::count(run.sent.begin(), run.sent.end(), "000#0132"));
 }
 
 TEST(StartUp, ResetsTheWholeNodeWhenToldSo) {

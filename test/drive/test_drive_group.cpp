@@ -314,58 +314,6 @@ TEST_F(DriveGroupTest, DisablesWhileEnabling) {
   EXPECT_EQ(0x047E, leftWord());
 }
 
-// One request acknowledges every member that has a fault or had one; the others are left alone.
-TEST_F(DriveGroupTest, AcknowledgesAllMembers) {
-  cycles(4);
-  left_inverter_.fault = right_inverter_.fault = true;
-  cycles(2);
-  right_inverter_.fault = false;  // vanished by itself: latched all the same
-  cycles(2);
-  group_.requestAcknowledge(now_);
-  EXPECT_EQ(RequestState::kRunning, group_.report().acknowledge.state);
-  for (int i = 0; i < 60 && group_.report().acknowledge.state == RequestState::kRunning; ++i) {
-    cycle();
-    EXPECT_EQ(0, rightWord() & 0x0080);
-  }
-  EXPECT_EQ(RequestState::kDone, group_.report().acknowledge.state);
-  EXPECT_FALSE(left_.report().fault_latched);
-  EXPECT_FALSE(right_.report().fault_latched);
-  cycles(4);
-  EXPECT_TRUE(group_.requestEnable(now_).accepted());
-}
-
-// No while one cause stands, and who it is; the other one's fault is gone nevertheless.
-TEST_F(DriveGroupTest, TellsWhoseCauseStands) {
-  cycles(4);
-  left_inverter_.fault = right_inverter_.fault = right_inverter_.cause = true;
-  cycles(2);
-  group_.requestAcknowledge(now_);
-  for (int i = 0; i < 60 && group_.report().acknowledge.state == RequestState::kRunning; ++i) cycle();
-  EXPECT_EQ(RequestState::kRefused, group_.report().acknowledge.state);
-  EXPECT_EQ(Refusal::kCauseStands, group_.report().acknowledge.refusal);
-  EXPECT_EQ(1u, group_.report().acknowledge_member);
-  EXPECT_FALSE(left_.report().fault_latched);
-  cycles(4);
-  EXPECT_EQ(Refusal::kFault, group_.requestEnable(now_).refusal);
-}
-
-TEST_F(DriveGroupTest, AcknowledgesOnlyWhileDisabled) {
-  run();
-  group_.requestAcknowledge(now_);
-  EXPECT_EQ(RequestState::kRefused, group_.report().acknowledge.state);
-  EXPECT_EQ(Refusal::kStopping, group_.report().acknowledge.refusal);
-  cycles(3);
-  EXPECT_EQ(GroupPhase::kEnabled, group_.report().phase);
-}
-
-// Without any fault there is nothing to do, and that is done.
-TEST_F(DriveGroupTest, AcknowledgesNothingAtOnce) {
-  cycles(4);
-  group_.requestAcknowledge(now_);
-  EXPECT_EQ(RequestState::kDone, group_.report().acknowledge.state);
-  EXPECT_EQ(Phase::kIdle, left_.report().phase);
-}
-
 TEST(DriveGroup, NeedsMembers) {
   EXPECT_THROW(DriveGroup({}), std::invalid_argument);
   EXPECT_THROW(DriveGroup({nullptr}), std::invalid_argument);

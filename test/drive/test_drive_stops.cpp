@@ -206,6 +206,47 @@ TEST_F(DriveTest, StopsWhenTheSetChangesByItself) {
   EXPECT_EQ(StopCause::kParameterSet, report().stop_cause);
 }
 
+// The other set has another brake ramp (P103), which may last for minutes: as after a stop that was asked for, the
+// quick stop follows (OFF3 in the set that was commanded, 047Bh). The cause that came first stays.
+TEST_F(DriveTest, QuickStopsWhenOff1DoesNotEndInAChangedSet) {
+  run();
+  cycle(0x8B37, 0x2000);
+  const Instant begin = now_;
+  while (cycle(0x8B37, 0x1000) == 0x047E) ASSERT_LE(now_ - begin, seconds(1.1));
+  EXPECT_GE(now_ - begin, seconds(1.0));
+  EXPECT_EQ(0x047B, cycle(0x8B37, 0x1000));
+  EXPECT_EQ(StopCause::kParameterSet, report().stop_cause);
+  EXPECT_EQ(0x047B, cycle(0x8B50));
+  EXPECT_EQ(0x047E, cycle(0x8B31));
+  EXPECT_EQ(Phase::kIdle, report().phase);
+}
+
+// Under local control no word is evaluated (BU 0220 5.1.2), however long the terminals turn the motor: OFF1 has its
+// whole time from the moment control returns.
+TEST_F(DriveTest, CountsOff1FromTheReturnOfControl) {
+  run();
+  for (int i = 0; i < 300; ++i) ASSERT_EQ(i < 1 ? 0x047F : 0x047E, cycle(0x0937, 0x2000)) << i;
+  for (int i = 0; i < 99; ++i) ASSERT_EQ(0x047E, cycle(0x0B37, 0x1000)) << i;
+  cycle(0x0B37, 0x1000);
+  EXPECT_EQ(0x047B, cycle(0x0B37, 0x1000));
+  EXPECT_EQ(StopCause::kLocalControl, report().stop_cause);
+}
+
+// A driver that starts over a motor that turns stops it with OFF1, and not only with that.
+TEST_F(DriveTest, QuickStopsADriveThatIsFoundTurningAndTurnsOn) {
+  for (int i = 0; i < 101; ++i) ASSERT_NE(0x047B, cycle(0x0B37, 0x2000)) << i;
+  EXPECT_EQ(0x047B, cycle(0x0B37, 0x2000));
+  EXPECT_EQ(StopCause::kShutdownTimeout, report().stop_cause);
+}
+
+// An idle drive at rest is left alone, for hours.
+TEST_F(DriveTest, NeverQuickStopsAnIdleDriveAtRest) {
+  start();
+  for (const int status : {0x0B31, 0x0B70, 0x0B33, 0x0B38, 0x0937}) {
+    for (int i = 0; i < 200; ++i) ASSERT_EQ(0x047E, cycle(static_cast<Word>(status))) << status;
+  }
+}
+
 // Silence shorter than drive_timeout is bridged; longer is the end of "enabled".
 TEST_F(DriveTest, BridgesShortSilence) {
   run();

@@ -101,6 +101,28 @@ TEST_F(CanopenCauses, AGuardedNodeThatFallsSilentStopsTheBase) {
   expectRestForGood();
 }
 
+// A lost node may still hear us: the stop word goes on into the dark, but not for ever. After shutdown_timeout nothing
+// is sent that would keep its P513 time-out from tripping.
+TEST_F(CanopenCauses, AStopWordGoesIntoTheDarkForShutdownTimeoutOnly) {
+  CanRobot::Options options;
+  options.node = {{"shutdown_timeout", 1.0}};
+  start(options);
+  robot_->node(kRight).setMute(true);
+  ASSERT_TRUE(
+      robot_->runUntil([this] { return !robot_->snapshot().drives[kRight].module_answers; }, std::chrono::seconds{1}));
+  std::vector<std::string> sent;
+  robot_->bus().setTap([&](const CanFrame& frame, sim::SimulatedCanBus::Sender, Instant) {
+    if (frame.id == 0x204) sent.push_back(toHex(frame.bytes()));
+  });
+  for (int i = 0; i < 50; ++i) step();
+  EXPECT_GE(sent.size(), 49u) << "one a cycle";
+  for (const std::string& bytes : sent) EXPECT_EQ("7E 04 00 00", bytes);
+  for (int i = 0; i < 60; ++i) step();
+  sent.clear();
+  for (int i = 0; i < 200; ++i) step();
+  EXPECT_THAT(sent, ::testing::IsEmpty());
+}
+
 TEST_F(CanopenCauses, AHeartbeatThatStopsStopsTheBase) {
   CanRobot::Options options;
   options.drives = {{"error_control", std::string{"heartbeat"}}, {"heartbeat_time", 0.05}};

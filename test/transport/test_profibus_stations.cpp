@@ -280,5 +280,19 @@ TEST(ProfibusStations, OneDriveNamesTheFileForItsWholeModule) {
   EXPECT_THAT(module.refusal(), HasSubstr("~drives/fi2/gsd: " + gsd.path() + " is not valid, expected other.gsd, as "));
 }
 
+// A module that takes records may cost one of them a cycle: 23 octets there and back, 60 bit times for the slave and 37
+// of idle time are 603 bits, 31.4 ms at 19.2 kbit/s. The exchange itself is 559 bits, the module's silence with one
+// retry 2 x (231 bits + 20 ms).
+TEST(ProfibusStations, AModuleThatTakesRecordsHasALongerWorstCycle) {
+  Module module;
+  module.bus.set("baud_rate", 19200).set("watchdog", 1.0);
+  module.add(1, 1);
+  EXPECT_NEAR(0.1246, toSeconds(module.read(20.0).worst_cycle), 0.0001);
+  module.bus.set("watchdog", 0.1);
+  EXPECT_THAT(module.refusal(20.0), HasSubstr("~bus/watchdog: 0.1 is not valid, expected at least 0.12"));
+  module.settings[0]->set("user_parameters", "00 00 00");  // DPV1_Enable is not set: no records
+  EXPECT_NEAR(0.0932, toSeconds(module.read(20.0).worst_cycle), 0.0001);
+}
+
 }  // namespace
 }  // namespace nord_driver

@@ -10,6 +10,7 @@
 //  - An inverter that falls silent while it was not at rest may still hear us: the stop word goes on into the dark, for
 //    shutdown_timeout; then the set is learned anew. When it answers it is idle, in the set it then reports.
 //  - Whatever ends "operation enabled" without being asked ends in the idle word and stays so until the next enable.
+//  - OFF1, asked for or in the idle word, that has not ended "operation enabled" after shutdown_timeout becomes OFF3.
 //  - The set is switched at standstill only: setpoint 1 is a share of P105 of the set in force (BU 0020 7.3.5).
 //  - Under local control the set follows the inverter: its terminals choose it, and our word acts when control returns.
 #pragma once
@@ -95,6 +96,7 @@ class Drive {
   void learnSet(profile::StatusWord status, bool joined) noexcept;
   void checkStops(profile::StatusWord status, Instant now) noexcept;
   void follow(profile::StatusWord status, Instant now) noexcept;
+  void followIdle(profile::StatusWord status, Instant now) noexcept;
   void followEnabling(profile::StatusWord status, Instant now) noexcept;
   void followStopping(profile::DriveState state, Instant now) noexcept;
   void followQuickStop(profile::DriveState state, Instant now) noexcept;

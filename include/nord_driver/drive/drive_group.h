@@ -48,10 +48,8 @@ struct GroupReport {
   GroupPhase phase = GroupPhase::kDisabled;
   /// Why the group stopped by itself or by quick stop, since it was last enabled; the first cause stays.
   StopCause stop_cause = StopCause::kNone;
-  std::size_t stop_member = 0;         ///< the member that stopped first
-  GroupRefusal refusal;                ///< of the last enabling
-  RequestReport acknowledge;           ///< of the last acknowledging
-  std::size_t acknowledge_member = 0;  ///< with kRefused: who refused first
+  std::size_t stop_member = 0;  ///< the member that stopped first
+  GroupRefusal refusal;         ///< of the last enabling
 };
 
 class DriveGroup {
@@ -63,9 +61,6 @@ class DriveGroup {
   GroupRefusal requestEnable(Instant now) noexcept;
   void requestDisable(Instant now) noexcept;
   void requestQuickStop(Instant now) noexcept;
-  /// Acknowledges the faults of all members that have one, or had one that is latched. Refused unless disabled. The
-  /// outcome stands in report().acknowledge: done when no member is left with a fault.
-  void requestAcknowledge(Instant now) noexcept;
   /// From the layer above, each cycle: a velocity command is there and not too old. One that was followed and has grown
   /// old stops the group in the way chosen; before the first there is nothing to stop.
   void commandIsFresh(bool fresh, Instant now) noexcept;
@@ -86,7 +81,6 @@ class DriveGroup {
 
  private:
   void enter(GroupPhase phase, Instant now) noexcept;
-  void followAcknowledging() noexcept;
   bool haltIfAMemberStopped(Instant now) noexcept;
   void updateEnabling(Instant now) noexcept;
   void updateRampingDown(Instant now) noexcept;
@@ -103,7 +97,6 @@ class DriveGroup {
   bool getsSlower(Instant now) noexcept;
 
   std::vector<Drive*> members_;
-  std::vector<bool> acknowledging_;  // members asked to
   GroupConfig config_;
   GroupReport report_;
   Instant phase_since_{};

@@ -1,0 +1,126 @@
+// What users ask of drives that stand still: one request acknowledges all of them, and tells who cannot.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "drive/fake_inverter.h"
+#include "nord_driver/cycle/maintenance.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using drive::Phase;
+using ::testing::HasSubstr;
+
+constexpr DriveIndex kLeft = 0, kRight = 1;
+
+class MaintenanceTest : public ::testing::Test {
+ protected:
+  static drive::DriveConfig config() {
+    drive::DriveConfig config;
+    config.max_frequency[0] = Hertz{50.0};
+    return config;
+  }
+  void step() {
+    now_ += std::chrono::milliseconds{10};
+    for (const DriveIndex i : {kLeft, kRight}) {
+      const profile::ProcessOutput output = drives_[i].pollOutput(now_);
+      edge_seen_[i] = edge_seen_[i] || (output.control_word & 0x0080) != 0;
+      drives_[i].handleInput(inverters_[i].exchange(output), true, now_);
+    }
+    maintenance_.update(now_);
+  }
+  void run(int cycles) {
+    for (int i = 0; i < cycles; ++i) step();
+  }
+  /// Acknowledges all drives.
+  Completion acknowledge() {
+    Request request;
+    request.id = 7;
+    request.kind = RequestKind::kAcknowledge;
+    request.drive = kAllDrives;
+    request.patience = std::chrono::seconds{3};
+    maintenance_.handleRequest(request, now_);
+    for (int i = 0; i < 400; ++i) {
+      step();
+      if (const auto answer = maintenance_.pollCompletion()) return *answer;
+    }
+    Completion none;
+    none.message = "no answer";
+    return none;
+  }
+  bool latched(DriveIndex drive) const { return drives_[drive].report().fault_latched; }
+
+  std::vector<drive::Drive> drives_{drive::Drive{config()}, drive::Drive{config()}};
+  std::array<drive::FakeInverter, 2> inverters_;
+  std::array<bool, 2> edge_seen_{};
+  Maintenance maintenance_{drives_, {"left", "right"}};
+  Instant now_{std::chrono::hours{1}};
+};
+
+// A fault that stands gets its edge; one that has vanished by itself is taken away without.
+TEST_F(MaintenanceTest, OneRequestAcknowledgesAllDrives) {
+  run(4);
+  inverters_[kLeft].fault = inverters_[kRight].fault = true;
+  run(2);
+  inverters_[kRight].fault = false;
+  run(2);
+  ASSERT_TRUE(latched(kLeft) && latched(kRight));
+  EXPECT_STREQ("no fault stands; the drives stay disabled until they are enabled", acknowledge().message.c_str());
+  EXPECT_FALSE(latched(kLeft) || latched(kRight));
+  EXPECT_TRUE(edge_seen_[kLeft]);
+  EXPECT_FALSE(edge_seen_[kRight]);
+  run(4);
+  for (const drive::Drive& drive : drives_) EXPECT_EQ(drive::Refusal::kNone, drive.enableRefusal());
+}
+
+// No while one cause stands, and whose it is; the other one's fault is gone nevertheless.
+TEST_F(MaintenanceTest, TheDriveWhoseCauseStandsIsNamed) {
+  run(4);
+  inverters_[kLeft].fault = inverters_[kRight].fault = inverters_[kRight].cause = true;
+  run(2);
+  const Completion answer = acknowledge();
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("drive right: "));
+  EXPECT_FALSE(latched(kLeft));
+  EXPECT_TRUE(latched(kRight));
+  EXPECT_EQ(drive::Refusal::kFault, drives_[kRight].enableRefusal());
+}
+
+// Without any fault there is nothing to do, and that is done: no edge is sent, and who runs runs on.
+TEST_F(MaintenanceTest, WithoutAFaultNothingIsDone) {
+  run(4);
+  drives_[kRight].requestEnable(now_);
+  run(10);
+  ASSERT_EQ(Phase::kEnabled, drives_[kRight].report().phase);
+  EXPECT_TRUE(acknowledge().success);
+  run(10);
+  EXPECT_FALSE(edge_seen_[kLeft] || edge_seen_[kRight]);
+  EXPECT_EQ(Phase::kIdle, drives_[kLeft].report().phase);
+  EXPECT_EQ(Phase::kEnabled, drives_[kRight].report().phase);
+}
+
+// A drive that has a fault and has not come to rest is not acknowledged: its stop goes first.
+TEST_F(MaintenanceTest, ADriveThatIsStoppedGoesOnStopping) {
+  run(4);
+  inverters_[kRight].fault = true;
+  run(2);
+  inverters_[kRight].fault = false;
+  drives_[kRight].requestQuickStop(now_);
+  Request request;
+  request.id = 8;
+  request.kind = RequestKind::kAcknowledge;
+  request.drive = kRight;
+  request.patience = std::chrono::seconds{3};
+  maintenance_.handleRequest(request, now_);
+  maintenance_.update(now_);
+  const auto answer = maintenance_.pollCompletion();
+  ASSERT_TRUE(answer);
+  EXPECT_FALSE(answer->success);
+  EXPECT_EQ(Phase::kQuickStopping, drives_[kRight].report().phase);
+  EXPECT_TRUE(latched(kRight));
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle
