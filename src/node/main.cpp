@@ -16,7 +16,8 @@ constexpr char kUsage[] =
     "parameters.\n"
     "  roslaunch nord_driver nord_driver.launch config:=$PWD/my_robot.yaml\n"
     "  nord_driver_node [--help] [--version] [NAME:=VALUE ...]\n"
-    "Exit code: 0 ended when asked to (the log names a drive that nobody saw at rest); 1 wrong configuration; 2 another error, or wrong usage.\n";
+    "Exit code: 0 ended when asked to (the log names a drive that nobody saw at rest); 1 wrong configuration; 2 "
+    "another error, or wrong usage.\n";
 
 /// What is said before somebody reads /rosout is lost to it, and a wrong configuration is said at once. Without a
 /// reader the node goes on.
