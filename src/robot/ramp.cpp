@@ -6,17 +6,15 @@
 namespace nord_driver::robot {
 namespace {
 
-/// The largest acceleration a whose step plus the steps a - u, a - 2u, ... down to zero gain no more velocity than
-/// `distance` > 0, where u = `jerk` * dt is what the jerk limit takes off in one step.
-///
-/// With n further steps the gain is dt * ((n + 1) * a - u * n * (n + 1) / 2); n is the largest for which the gain of
-/// a = n * u still fits.
+/// The largest acceleration a that can still be wound down to zero within `distance` > 0 after a step of `dt` with it,
+/// however short or long the steps after it are: cycles are late, and the next ones early. Winding down at `jerk` gains
+/// less than a^2 / (2 jerk), and the shorter its steps, the nearer to that: a * dt + a^2 / (2 jerk) = distance.
 double approachAcceleration(double distance, double jerk, double dt) noexcept {
-  const double gain = distance / dt;
   const double u = jerk * dt;
-  if (!std::isfinite(u)) return gain;
-  const double n = std::floor((std::sqrt(1.0 + 8.0 * gain / u) - 1.0) / 2.0);
-  return gain / (n + 1.0) + u * n / 2.0;
+  if (!std::isfinite(u)) return distance / dt;
+  // u * (sqrt(1 + x) - 1) without the loss of digits where x is small
+  const double x = 2.0 * distance / (u * dt);
+  return u * x / (std::sqrt(1.0 + x) + 1.0);
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ Twist2d TwistLimiter::limit(const Twist2d& target, Duration dt) noexcept {
 void TwistLimiter::reset(const Twist2d& twist) noexcept {
   const Values values = valuesOf(twist);
   for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i].reset(values[i]);
+  ended_ = false;
 }
 
 void TwistLimiter::followTogether(Values target, double dt) noexcept {
@@ -53,11 +54,20 @@ void TwistLimiter::followTogether(Values target, double dt) noexcept {
   }
   for (double& value : target) value *= scale;
 
+  // There the acceleration has one step to end in, as planned, also when this step is shorter than the last.
+  const auto at_target = [&](std::size_t i) { return axes_[i].velocity_ == target[i]; };
+  if (ended_ && at_target(0) && at_target(1) && at_target(2)) {
+    for (SpeedLimiter& axis : axes_) axis.acceleration_ = 0.0;
+    return;
+  }
+  ended_ = false;
+
   // The last step goes exactly there: a rest of rounding would be the next step's way, in a direction of its own.
   bool one_step = true;
   for (std::size_t i = 0; i < axes_.size(); ++i) one_step = one_step && axes_[i].canEndAt(target[i], dt);
   if (one_step) {
     for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i].step(target[i], target[i], dt);
+    ended_ = true;
     return;
   }
 

@@ -165,5 +165,16 @@ RC_GTEST_PROP(SpeedLimiterProperty, DoesNotOvershootFromRest, (bool with_jerk)) 
   }
 }
 
+// Cycles are late, and the ones after them early: what a long step has planned is still kept in short ones.
+RC_GTEST_PROP(SpeedLimiterProperty, DoesNotOvershootInUnevenCycles, (bool with_jerk)) {
+  const SpeedLimits limits = anyLimits(with_jerk);
+  SpeedLimiter limiter{limits, "linear/x"};
+  const double target = *number(0.0, limits.max_velocity);
+  for (int i = 0; i < 300; ++i) {
+    const double dt = *rc::gen::element(0.001, 0.005, 0.01, 0.02, 0.035, 0.1);
+    RC_ASSERT(limiter.limit(target, seconds(dt)) <= target + 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace nord_driver::robot

@@ -185,6 +185,22 @@ RC_GTEST_PROP(TwistLimiterProperty, KeepsTheCurvature, (bool with_jerk)) {
   }
 }
 
+// Cycles are late, and the ones after them early: no axis passes its target, and there it stays.
+RC_GTEST_PROP(TwistLimiterProperty, DoesNotOvershootInUnevenCycles, (bool x_jerk, bool z_jerk, bool independently)) {
+  TwistLimits limits = anyTwistLimits(true);
+  limits.linear_x.has_jerk_limits = x_jerk;
+  limits.angular_z.has_jerk_limits = z_jerk;
+  limits.limit_axes_independently = independently;
+  TwistLimiter limiter{limits};
+  const Twist2d target{*number(0.0, 3.0), *number(0.0, 3.0), *number(0.0, 3.0)};
+  for (int i = 0; i < 300; ++i) {
+    const Twist2d twist = limiter.limit(target, seconds(*rc::gen::element(0.001, 0.005, 0.01, 0.02, 0.035, 0.1)));
+    RC_ASSERT(twist.linear_x <= target.linear_x + 1e-9);
+    RC_ASSERT(twist.angular_z <= target.angular_z + 1e-9);
+    RC_ASSERT(twist.linear_y <= target.linear_y + 1e-9);
+  }
+}
+
 // Whatever is commanded: each axis inside its own limits, and finite.
 RC_GTEST_PROP(TwistLimiterProperty, NeverExceedsALimit, (bool with_jerk, bool independently)) {
   TwistLimits any = anyTwistLimits(with_jerk);

@@ -46,6 +46,7 @@ class TwistLimiter {
 
   std::array<SpeedLimiter, 3> axes_;
   bool independent_;
+  bool ended_ = false;  // the last step was planned to end at its target
 };
 
 }  // namespace nord_driver::robot
