@@ -43,7 +43,6 @@ void Node::restart(Instant now) noexcept {
 }
 
 bool Node::takesReceivePdos(Instant now) noexcept {
-  if (!operational()) return false;
   if (answered_ || now - operational_since_ >= config_.first_answer_timeout) return true;
   // Not in this cycle: its answer would replace the first one before anybody has read that.
   answered_ = std::none_of(transmit_pdos_.begin(), transmit_pdos_.end(),

@@ -324,6 +324,14 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive) const noexcept {
       to.text = refusalSentence(names_[drive].c_str(), drive::Refusal::kFaultLatched, report);
     }
   }
+  if (to.online) {
+    const bool fault = profile::StatusWord{to.input.status_word}.fault();
+    if (fault && !to.fault) {
+      ++to.faults;
+      to.at_fault = to;
+    }
+    to.fault = fault;
+  }
   to.device = axes_[drive].parameters.device();
   to.device.ident = transport_.identNumber(drive);
 }

@@ -171,6 +171,10 @@ void Drive::follow(StatusWord status, Instant now) noexcept {
 void Drive::followIdle(StatusWord status, Instant now) noexcept {
   const bool ramps_down = sent_ && status.busControl() && report_.state == DriveState::kOperationEnabled;
   if (!ramps_down) phase_since_ = now;
+  boundRamp(now);
+}
+
+void Drive::boundRamp(Instant now) noexcept {
   if (now - phase_since_ < config_.shutdown_timeout) return;
   latch(StopCause::kShutdownTimeout);
   enter(Phase::kQuickStopping, now);
@@ -196,9 +200,7 @@ void Drive::followStopping(DriveState state, Instant now) noexcept {
   const bool ended = state == DriveState::kReadyToSwitchOn || state == DriveState::kSwitchOnDisabled ||
                      state == DriveState::kNotReadyToSwitchOn;
   if (sent_ && ended) return enter(Phase::kIdle, now);
-  if (now - phase_since_ < config_.shutdown_timeout) return;
-  latch(StopCause::kShutdownTimeout);
-  enter(Phase::kQuickStopping, now);
+  boundRamp(now);
 }
 
 void Drive::followQuickStop(DriveState state, Instant now) noexcept {

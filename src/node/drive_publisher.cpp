@@ -41,23 +41,30 @@ DrivePublisher::DrivePublisher(ros::NodeHandle& private_node, const cycle::Drive
 
 // Only function 3, "current", is a share of the rated current; torque current (4) is one of P112 (BU
 // 0020 6.2.2, 7.3.7).
-double DrivePublisher::currentOf(const cycle::DriveSnapshot& drive) const {
+double DrivePublisher::currentOf(const cycle::DriveSample& sample, const cycle::DeviceData& device) const {
   constexpr std::uint16_t kCurrent = 3;
-  const auto& functions = drive.device.actual_value_functions;
-  for (std::size_t i = 0; i < functions.size() && i < identity_.process_values && drive.online; ++i) {
+  const auto& functions = device.actual_value_functions;
+  for (std::size_t i = 0; i < functions.size() && i < identity_.process_values && sample.online; ++i) {
     if (functions[i] != kCurrent) continue;
-    return rated_current_ * drive.input.actual_values[i] / profile::kHundredPercent;
+    return rated_current_ * sample.input.actual_values[i] / profile::kHundredPercent;
   }
   return kNotKnown;
 }
 
+// The driver's own idle word can acknowledge a fault within one cycle (BU 0020 8), between two messages.
 void DrivePublisher::publishStatus(const cycle::DriveSnapshot& drive, ros::Time stamp) {
-  const profile::StatusWord word{drive.input.status_word};
+  if (drive.faults != faults_told_ && !drive.fault) publishStatus(drive.at_fault, drive.device, stamp);
+  faults_told_ = drive.faults;
+  publishStatus(drive, drive.device, stamp);
+}
+
+void DrivePublisher::publishStatus(const cycle::DriveSample& sample, const cycle::DeviceData& device, ros::Time stamp) {
+  const profile::StatusWord word{sample.input.status_word};
   status_.header.stamp = stamp;
-  status_.online = drive.online;
-  status_.state = static_cast<std::uint8_t>(drive.online ? drive.state : profile::DriveState::kUnknown);
+  status_.online = sample.online;
+  status_.state = static_cast<std::uint8_t>(sample.online ? sample.state : profile::DriveState::kUnknown);
   status_.status_word = word.word();
-  status_.control_word = drive.output.control_word;
+  status_.control_word = sample.output.control_word;
   status_.ready_to_switch_on = word.readyToSwitchOn();
   status_.switched_on = word.switchedOn();
   status_.operation_enabled = word.operationEnabled();
@@ -72,15 +79,15 @@ void DrivePublisher::publishStatus(const cycle::DriveSnapshot& drive, ros::Time 
   status_.direction_right = word.directionRight();
   status_.direction_left = word.directionLeft();
   status_.bit_13 = word.bit13();
-  status_.parameter_set = drive.parameter_set;
-  status_.setpoints.assign(drive.output.setpoints.begin(), drive.output.setpoints.end());
-  status_.actual_values.assign(drive.input.actual_values.begin(), drive.input.actual_values.end());
-  status_.velocity_command = drive.velocity_command;
-  status_.velocity = drive.velocity;
-  status_.frequency = drive.frequency;
-  status_.current = currentOf(drive);
-  status_.fault_number = drive.fault_number;
-  status_.fault_text = drive.fault_number == 0 ? "" : profile::faultText(drive.fault_number);
+  status_.parameter_set = sample.parameter_set;
+  status_.setpoints.assign(sample.output.setpoints.begin(), sample.output.setpoints.end());
+  status_.actual_values.assign(sample.input.actual_values.begin(), sample.input.actual_values.end());
+  status_.velocity_command = sample.velocity_command;
+  status_.velocity = sample.velocity;
+  status_.frequency = sample.frequency;
+  status_.current = currentOf(sample, device);
+  status_.fault_number = sample.fault_number;
+  status_.fault_text = sample.fault_number == 0 ? "" : profile::faultText(sample.fault_number);
   status_publisher_.publish(status_);
 }
 

@@ -68,6 +68,34 @@ TEST_F(BusCycleTest, RefusesToEnableUnderACommandThatMovesAndNamesIt) {
   EXPECT_TRUE(ask(RequestKind::kEnable).success);
 }
 
+// The driver's idle word may acknowledge a fault at once; what it looked like is kept for those who look less often.
+TEST_F(BusCycleTest, AFaultIsKeptAsItWasWhenItRose) {
+  bringUp();
+  enable();
+  commandBase(0.05 * kFullSpeed);
+  run(30);
+  EXPECT_EQ(0u, snapshot().drives[kRight].faults);
+  transport.inverters[kRight].fault = true;
+  run(3);
+  transport.inverters[kRight].fault = false;
+  run(3);
+  const DriveSnapshot& drive = snapshot().drives[kRight];
+  EXPECT_FALSE(drive.fault);
+  EXPECT_EQ(1u, drive.faults) << "once, however long it stood";
+  EXPECT_EQ(0u, snapshot().drives[kLeft].faults);
+  EXPECT_TRUE(profile::StatusWord{drive.at_fault.input.status_word}.fault());
+  EXPECT_EQ(profile::DriveState::kFault, drive.at_fault.state);
+  EXPECT_EQ(0x047F, drive.at_fault.output.control_word) << "as sent before it was seen";
+  EXPECT_NE(0, drive.at_fault.fault_number);
+  transport.inverters[kRight].fault = true;
+  run(3);
+  transport.inverters[kRight].silent = true;
+  run(30);
+  transport.inverters[kRight].silent = false;
+  run(3);
+  EXPECT_EQ(2u, snapshot().drives[kRight].faults) << "the same one when the drive is back";
+}
+
 // A drive that stopped is idle, but its base is still on its way to rest: no drive of it gets another ramp or P105 now.
 TEST_F(BusCycleTest, NoSetIsSwitchedWhileTheBaseComesToRest) {
   bringUp();

@@ -34,14 +34,17 @@ class MaintenanceTest : public ::testing::Test {
   void run(int cycles) {
     for (int i = 0; i < cycles; ++i) step();
   }
-  /// Acknowledges all drives.
-  Completion acknowledge() {
+  void requestAcknowledge(DriveIndex drive) {
     Request request;
     request.id = 7;
     request.kind = RequestKind::kAcknowledge;
-    request.drive = kAllDrives;
+    request.drive = drive;
     request.patience = std::chrono::seconds{3};
     maintenance_.handleRequest(request, now_);
+  }
+  /// Acknowledges all drives.
+  Completion acknowledge() {
+    requestAcknowledge(kAllDrives);
     for (int i = 0; i < 400; ++i) {
       step();
       if (const auto answer = maintenance_.pollCompletion()) return *answer;
@@ -108,12 +111,7 @@ TEST_F(MaintenanceTest, ADriveThatIsStoppedGoesOnStopping) {
   run(2);
   inverters_[kRight].fault = false;
   drives_[kRight].requestQuickStop(now_);
-  Request request;
-  request.id = 8;
-  request.kind = RequestKind::kAcknowledge;
-  request.drive = kRight;
-  request.patience = std::chrono::seconds{3};
-  maintenance_.handleRequest(request, now_);
+  requestAcknowledge(kRight);
   maintenance_.update(now_);
   const auto answer = maintenance_.pollCompletion();
   ASSERT_TRUE(answer);

@@ -44,8 +44,8 @@ class Node {
 
   std::uint8_t id() const noexcept { return config_.id; }
   bool operational() const noexcept { return boot_.watch() == NodeBoot::Watch::kWatch; }
-  /// Once a cycle: whether it gets its RPDOs in this one. After its start not before the cycle that follows the first
-  /// TPDOs, or `NodeConfig::first_answer_timeout`.
+  /// Once a cycle while operational: whether it gets its RPDOs in this one. After its start not before the cycle that
+  /// follows the first TPDOs, or `NodeConfig::first_answer_timeout`.
   bool takesReceivePdos(Instant now) noexcept;
   std::optional<NmtCommand>& command() noexcept { return boot_.command(); }
   NodeGuard& guard() noexcept { return guard_; }

@@ -20,27 +20,34 @@
 
 namespace nord_driver::cycle {
 
-struct DriveSnapshot {
-  bool online = false;                                    ///< fresh process data from the inverter itself
+/// The process data of one drive in one cycle.
+struct DriveSample {
+  bool online = false;  ///< fresh process data from the inverter itself
+  profile::DriveState state = profile::DriveState::kUnknown;
+  std::uint8_t parameter_set = 0;  ///< 0: not known
+  profile::ProcessOutput output;   ///< as sent last
+  profile::ProcessInput input;     ///< as received last
+  double velocity_command = 0.0;   ///< rad/s at the joint
+  double velocity = 0.0;           ///< rad/s at the joint
+  double frequency = 0.0;          ///< Hz
+  std::uint16_t fault_number = 0;  ///< P700 raw; 0 = none, 65535 = its number is not known (yet)
+};
+
+struct DriveSnapshot : DriveSample {
   bool module_answers = false;                            ///< its bus module answers at least
   bool enabled = false;                                   ///< follows velocity commands
   bool stopped = false;                                   ///< stopped by a cause that is latched: `text` names it
   drive::StopCause stop_cause = drive::StopCause::kNone;  ///< that cause
-  profile::DriveState state = profile::DriveState::kUnknown;
-  std::uint8_t parameter_set = 0;                 ///< 0: not known
-  profile::ProcessOutput output;                  ///< as sent last
-  profile::ProcessInput input;                    ///< as received last
-  double velocity_command = 0.0;                  ///< rad/s at the joint
-  double velocity = 0.0;                          ///< rad/s at the joint
-  double frequency = 0.0;                         ///< Hz
   double speed_deviation = 0.0;                   ///< rad/s, velocity minus velocity_command; 0 while not enabled
   bool at_speed = false;                          ///< enabled, and the deviation is small
   bool astray = false;                            ///< enabled, and far from its command for seconds
   double joint_position = 0.0;                    ///< rad, continuous
-  std::uint16_t fault_number = 0;                 ///< P700 raw; 0 = none, 65535 = its number is not known (yet)
   std::uint16_t last_fault_number = 0;            ///< the last one there was, also when it vanished by itself
   std::optional<std::uint16_t> switch_on_reason;  ///< P700[-03] raw, while it keeps the drive from becoming ready
   bool fault_latched = false;                     ///< a fault was seen and not acknowledged since
+  bool fault = false;                             ///< the fault bit as seen last; a silent drive keeps it
+  std::uint64_t faults = 0;                       ///< how often it rose
+  DriveSample at_fault;                           ///< when it rose last: the first idle word may let it vanish
   std::uint64_t eeprom_writes = 0;                ///< of this node, of 100 000 the EEPROM endures (BU 2700 6.5)
   bool owes_eeprom_switch = false;                ///< P560 = 0 stands because of this node
   bool direction_contradiction = false;           ///< the sign of actual value 1 against the direction bits

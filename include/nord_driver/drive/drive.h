@@ -99,6 +99,8 @@ class Drive {
   void followIdle(profile::StatusWord status, Instant now) noexcept;
   void followEnabling(profile::StatusWord status, Instant now) noexcept;
   void followStopping(profile::DriveState state, Instant now) noexcept;
+  /// A ramp that has not ended within shutdown_timeout ends in a quick stop.
+  void boundRamp(Instant now) noexcept;
   void followQuickStop(profile::DriveState state, Instant now) noexcept;
   void followAcknowledging(profile::StatusWord status, Instant now) noexcept;
   void followSwitchingSet(profile::StatusWord status, Instant now) noexcept;

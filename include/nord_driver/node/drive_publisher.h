@@ -22,6 +22,7 @@ class DrivePublisher {
   DrivePublisher(ros::NodeHandle& private_node, const cycle::DriveSetup& setup, DriveIdentity identity,
                  DriveProtection protection, std::uint16_t address);
 
+  /// Every fault stands in at least one message: one that rose and vanished since the last gets a message of its own.
   void publishStatus(const cycle::DriveSnapshot& drive, ros::Time stamp);
   /// Latched, and published again only when it has changed. A drive that would run on when this computer dies, or
   /// stop late, is named in the log.
@@ -29,7 +30,8 @@ class DrivePublisher {
 
  private:
   void logProtection(const cycle::DeviceData& device);
-  double currentOf(const cycle::DriveSnapshot& drive) const;
+  void publishStatus(const cycle::DriveSample& sample, const cycle::DeviceData& device, ros::Time stamp);
+  double currentOf(const cycle::DriveSample& sample, const cycle::DeviceData& device) const;
 
   DriveIdentity identity_;
   DriveProtection protection_;
@@ -39,6 +41,7 @@ class DrivePublisher {
   ros::Publisher status_publisher_;
   ros::Publisher info_publisher_;
   std::array<std::optional<double>, 4> frequencies_;  // behind info_.max_frequency, whose NaN equals nothing
+  std::uint64_t faults_told_ = 0;
   bool told_ = false;
   std::string protection_told_;
 };
