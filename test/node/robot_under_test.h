@@ -16,6 +16,7 @@
 #include <string>
 
 #include "node/node_process.h"
+#include "node/service_call.h"
 #include "node/topic.h"
 #include "nord_driver/BusStatus.h"
 #include "nord_driver/DriveStatus.h"
@@ -34,7 +35,7 @@ std::ostream& operator<<(std::ostream& out, const Answer& answer);
 template <typename Service>
 Answer callService(const std::string& name, Service& service) {
   if (!ros::service::waitForService(name, ros::Duration(kPatience.count()))) return {false, name + " does not exist"};
-  if (!ros::service::call(name, service)) return {false, name + " was not carried out"};
+  if (!carryOut(name, service)) return {false, name + " was not carried out"};
   return {service.response.success != 0, service.response.message};
 }
 

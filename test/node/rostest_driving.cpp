@@ -254,7 +254,7 @@ TEST_F(Driving, TheAnalyzersExpectTheTasksThereAre) {
 dynamic_reconfigure::Config reconfigure(const dynamic_reconfigure::Config& wanted) {
   dynamic_reconfigure::Reconfigure service;
   service.request.config = wanted;
-  EXPECT_TRUE(ros::service::call("nord_driver/set_parameters", service));
+  EXPECT_TRUE(carryOut("nord_driver/set_parameters", service));
   return service.response.config;
 }
 

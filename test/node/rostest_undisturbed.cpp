@@ -46,8 +46,7 @@ class Askers {
         while (!stop_) {
           ReadParameter service;
           service.request.number = 102;
-          ros::service::call(std::string("nord_driver/") + (i % 2 == 0 ? "left" : "right") + "/read_parameter",
-                             service);
+          carryOut(std::string("nord_driver/") + (i % 2 == 0 ? "left" : "right") + "/read_parameter", service);
           ++answered_;
         }
       });

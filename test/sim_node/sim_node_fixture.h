@@ -15,6 +15,7 @@
 #include <memory>
 #include <string>
 
+#include "node/service_call.h"
 #include "sim_node/bus_client.h"
 
 namespace nord_driver::sim_node {
@@ -30,7 +31,7 @@ class SimNodeTest : public ::testing::Test {
     call.request = request;
     const std::string name = "/nord_sim/" + service;
     EXPECT_TRUE(ros::service::waitForService(name, ros::Duration(10.0))) << name;
-    EXPECT_TRUE(ros::service::call(name, call)) << name;
+    EXPECT_TRUE(test::carryOut(name, call)) << name;
     return call.response;
   }
   static std::string trigger(const std::string& service);
