@@ -29,7 +29,7 @@ RampSeen rampIn(const std::vector<Topic<SimDrive>::Pointer>& truths) {
   RampSeen ramp;
   const int full = std::abs(int{truths.front()->setpoint_1});
   for (std::size_t i = 1; i < truths.size() && truths[i]->operation_enabled; ++i) {
-    if (std::abs(int{truths[i]->setpoint_1}) == full) continue;
+    if (std::abs(int{truths[i]->setpoint_1}) >= full) continue;
     if (ramp.begin.isZero()) ramp.begin = truths[i]->header.stamp;
     const double step = (truths[i]->header.stamp - truths[i - 1]->header.stamp).toSec();
     if (step > kLate || truths[i]->telegrams == truths[i - 1]->telegrams) ramp.held_up += step;
@@ -54,7 +54,7 @@ class CleanExit : public RobotTest, public ::testing::WithParamInterface<int> {
     ASSERT_NO_FATAL_FAILURE(startDriver());
   }
   void askToEnd() {
-  if (GetParam() != kRosnodeKill) return driver_->signal(GetParam());
+    if (GetParam() != kRosnodeKill) return driver_->signal(GetParam());
     XmlRpc::XmlRpcValue arguments, result, uri;
     arguments[0] = ros::this_node::getName();
     arguments[1] = "/nord_driver";
