@@ -17,7 +17,7 @@ Its exit status is that of can_machine.sh; 125 when there was no place to run it
 Settings in the environment:
   NORD_CAN_PLACE        "kernel" or "machine" instead of the first that works
   NORD_CAN_MACHINE_DIR  where kernel and start-up files of the machine are kept (out/can_machine)
-  NORD_CAN_TIMEOUT      seconds until an emulated machine is stopped (1200)
+  NORD_CAN_TIMEOUT      seconds until an emulated machine is stopped (3000)
 TEXT
 }
 
@@ -77,7 +77,8 @@ on_this_kernel() {
 }
 
 in_a_machine() {
-  local processors=2 where status
+  local processors=2 where status ended=0
+  local limit=${NORD_CAN_TIMEOUT:-3000} # s; longer than all that runs inside may take
   command -v qemu-system-x86_64 >/dev/null || give_up "qemu-system-x86_64 is missing (scripts/install_deps.sh --test)"
   "$root/scripts/can_machine/make.sh" "$cache" || give_up "the start-up files of the emulated machine could not be made"
   if ((jobs < 2)); then processors=1; fi
@@ -91,13 +92,15 @@ in_a_machine() {
     shares+=(-virtfs "local,path=$keep,mount_tag=keep,security_model=none")
   fi
   # Pure emulation: virtualization within a virtual machine hangs on some hosts. Two emulated controllers on one bus.
-  timeout --foreground --kill-after=10 "${NORD_CAN_TIMEOUT:-1200}" \
+  timeout --foreground --kill-after=10 "$limit" \
     qemu-system-x86_64 -accel tcg,thread=multi -cpu max -smp "$processors" -m 2G -no-reboot -nic none \
     -display none -vga none -monitor none -serial stdio \
     -kernel "$cache/vmlinuz" -initrd "$cache/initramfs" -append "console=ttyS0 quiet panic=-1" \
     -virtfs local,path=/,mount_tag=host,security_model=none,readonly=on,multidevs=remap "${shares[@]}" \
     -object can-bus,id=bus0 -device kvaser_pci,canbus=bus0 -device kvaser_pci,canbus=bus0 \
-    </dev/null > >(tr -d '\r') || give_up "qemu ended with $?"
+    </dev/null | tr -d '\r' || ended=$?
+  ((ended != 124)) || give_up "the emulated machine was not done after $limit s"
+  ((ended == 0)) || give_up "qemu ended with $ended"
   status=$(cat "$run/share/status" 2>/dev/null) || give_up "the emulated machine stopped before the command was done"
   return "$status"
 }

@@ -42,7 +42,7 @@ look_into() {
     exit 1
   }
   for program in $programs; do
-    answer=$(in_space "$space/setup.bash" "timeout 10 rosrun nord_driver $program --version" 2>&1) &&
+    answer=$(in_space "$space/setup.bash" "timeout 60 rosrun nord_driver $program --version" 2>&1) &&
       grep -qF "$version" <<<"$answer" || {
       echo "check_workspace: rosrun nord_driver $program --version says, where $version was expected: $answer"
       exit 1

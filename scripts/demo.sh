@@ -47,16 +47,17 @@ unset ROS_HOSTNAME
 device="/tmp/nord_driver_demo_bus.$$"
 roslaunch --port "$port" nord_driver demo.launch output:=log device:="$device" >>"$log" 2>&1 &
 launch=$!
-for _ in $(seq 100); do # until the master answers
-  python3 -c 'import rosgraph, sys; sys.exit(not rosgraph.is_master_online())' 2>>"$log" && break
-  sleep 0.2
-done
-
+# TERM: a shell that is no terminal's starts what is beside it deaf to INT.
 stop() {
-  kill -INT "$launch" 2>/dev/null || true
+  kill -TERM "$launch" 2>/dev/null || true
   wait "$launch" 2>/dev/null || true
 }
 trap stop EXIT
+for _ in $(seq 100); do # until the master answers
+  python3 -c 'import rosgraph, sys; sys.exit(not rosgraph.is_master_online())' 2>>"$log" && break
+  kill -0 "$launch" 2>/dev/null || break
+  sleep 0.2
+done
 
 status=0
 python3 "$root/scripts/drive_square.py" || status=$?

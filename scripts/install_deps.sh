@@ -62,7 +62,8 @@ if ((${#missing[@]} == 0)); then
   exit 0
 fi
 
-install=(apt-get install -y --no-install-recommends "${missing[@]}")
+# A desktop's own updates may hold the lock of dpkg for minutes.
+install=(apt-get -o DPkg::Lock::Timeout=300 install -y --no-install-recommends "${missing[@]}")
 if ((EUID != 0)); then
   echo "install_deps: missing packages; install them with" >&2
   echo "sudo ${install[*]}"
@@ -71,10 +72,14 @@ fi
 
 export DEBIAN_FRONTEND=noninteractive
 # A machine that has never fetched the lists knows no candidate; one with old lists may be sent to files that are gone.
-if ! apt-cache show "${missing[@]}" >/dev/null 2>&1; then
-  apt-get update
-  "${install[@]}"
-elif ! "${install[@]}"; then
-  apt-get update
-  "${install[@]}"
+if apt-cache show "${missing[@]}" >/dev/null 2>&1 && "${install[@]}"; then
+  exit 0
 fi
+for pause in 10 60 0; do # a network or a mirror may be away for a moment
+  if apt-get update && "${install[@]}"; then
+    exit 0
+  fi
+  sleep "$pause"
+done
+echo "install_deps: these packages could not be installed: ${missing[*]}" >&2
+exit 1

@@ -38,7 +38,7 @@ fetch() {
 echo "can_machine: fetching Debian's kernel"
 if ! fetch; then
   if ((EUID == 0)); then apt-get update >/dev/null 2>&1 || true; fi
-  fetch || give_up "Debian's kernel package cannot be fetched: $(tail -n 3 "$work/log" 2>/dev/null || true)"
+  fetch || { sleep 30 && fetch; } || give_up "Debian's kernel package cannot be fetched: $(tail -n 3 "$work/log" 2>/dev/null || true)"
 fi
 package=$(kernel_package)
 version=${package#linux-image-}
