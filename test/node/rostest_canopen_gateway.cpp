@@ -1,6 +1,7 @@
 // Four inverters behind one CANopen node, and one of them is not there.
 #include <gmock/gmock.h>
 
+#include "node/lived_time.h"
 #include "node/robot_under_test.h"
 
 namespace nord_driver::test {
@@ -40,7 +41,10 @@ class CanopenGateway : public RobotTest {
     EXPECT_FALSE(robot().readParameter(kMissing, 102).success);
   }
   void waitForAllFour() {
-    EXPECT_TRUE(rear_right_.status.waitNext([](const DriveStatus& status) { return status.online != 0; }, kBackOnline));
+    const LivedTime since{rear_right_};
+    const auto back = rear_right_.status.waitNext([](const DriveStatus& status) { return status.online != 0; });
+    ASSERT_TRUE(back);
+    EXPECT_LT(since.ofBoth(*back), kBackOnline);
     EXPECT_TRUE(robot().bus_status.waitNext([](const BusStatus& bus) { return bus.online.size() == 4; }));
   }
   void expectAllTurn() {
@@ -65,14 +69,14 @@ TEST_F(CanopenGateway, AnInverterMissingFromTheStartIsNamedAndKeepsTheBaseFromMo
     EXPECT_FALSE(drive->truth.next()->operation_enabled);
   }
   power(true);
-  waitForAllFour();
+  ASSERT_NO_FATAL_FAILURE(waitForAllFour());
   enableAndDrive(0.3);
   expectAllTurn();
 }
 
 TEST_F(CanopenGateway, AnInverterThatGoesOffStopsTheOtherThreeUntilTheyAreEnabledAgain) {
   ASSERT_NO_FATAL_FAILURE(startDriver());
-  waitForAllFour();
+  ASSERT_NO_FATAL_FAILURE(waitForAllFour());
   enableAndDrive(0.3);
   expectAllTurn();
 
@@ -88,7 +92,7 @@ TEST_F(CanopenGateway, AnInverterThatGoesOffStopsTheOtherThreeUntilTheyAreEnable
 
   // Back, with the command still standing: nothing moves.
   power(true);
-  waitForAllFour();
+  ASSERT_NO_FATAL_FAILURE(waitForAllFour());
   EXPECT_FALSE(
       robot().left.truth.waitNext([](const SimDrive& truth) { return truth.operation_enabled != 0; }, Seconds{0.5}));
   EXPECT_FALSE(rear_right_.truth.next()->operation_enabled);

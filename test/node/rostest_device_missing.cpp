@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <sys/stat.h>
 
+#include "node/lived_time.h"
 #include "node/robot_under_test.h"
 
 namespace nord_driver::test {
@@ -43,6 +44,15 @@ class DeviceMissing : public ::testing::Test {
     EXPECT_FALSE(robot_.right.status.next()->online);
   }
 
+  void expectItFound() {
+    const LivedTime left{robot_.left}, right{robot_.right};
+    const auto online = [](const DriveStatus& status) { return status.online != 0; };
+    const auto left_found = robot_.left.status.waitNext(online), right_found = robot_.right.status.waitNext(online);
+    ASSERT_TRUE(left_found && right_found);
+    EXPECT_LT(left.ofDriver(*left_found), kFound);
+    EXPECT_LT(right.ofDriver(*right_found), kFound);
+  }
+
   RobotUnderTest robot_;
   std::string device_;
   std::unique_ptr<NodeProcess> simulator_;
@@ -61,7 +71,7 @@ TEST_F(DeviceMissing, IsSaidLookedForFoundAndLookedForAgain) {
   EXPECT_THAT(refused.message, HasSubstr("does not answer"));
 
   ASSERT_NO_FATAL_FAILURE(startSimulator());
-  EXPECT_TRUE(robot_.waitForDrivesOnline(kFound));
+  ASSERT_NO_FATAL_FAILURE(expectItFound());
   EXPECT_TRUE(robot_.odom.next());
   EXPECT_TRUE(robot_.waitForRest());
   EXPECT_TRUE(robot_.referee().success) << robot_.referee();
@@ -73,7 +83,7 @@ TEST_F(DeviceMissing, IsSaidLookedForFoundAndLookedForAgain) {
 
   // And plugged in again.
   ASSERT_NO_FATAL_FAILURE(startSimulator());
-  EXPECT_TRUE(robot_.waitForDrivesOnline(kFound));
+  ASSERT_NO_FATAL_FAILURE(expectItFound());
   Answer answer;
   EXPECT_TRUE(eventually([&] { return (answer = robot_.enable(true)).success; })) << answer;
   robot_.drive(0.3);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "node/lived_time.h"
 #include "node/robot_under_test.h"
 
 namespace nord_driver::test {
@@ -13,14 +14,19 @@ using ::testing::HasSubstr;
 
 /// What a drive needs from the plug to its first status word: the simulated inverter charges for 0.3 s.
 constexpr Seconds kBackOnline{2.0};
-constexpr double kLongestStep = 0.05;  // m between two odometry messages: several lost ones at full speed
+constexpr double kSpeed = 0.4;  // m/s
 
 class DriveLost : public RobotTest {
  protected:
   void SetUp() override {
     RobotTest::SetUp();
     ASSERT_TRUE(robot().waitForDrivesOnline());
-    enableAndDrive(0.4);
+    enableAndDrive(kSpeed);
+  }
+  static void expectBackOnline(DriveTopics& drive, const LivedTime& since) {
+    const auto back = drive.status.waitNext([](const DriveStatus& status) { return status.online != 0; });
+    ASSERT_TRUE(back);
+    EXPECT_LT(since.ofBoth(*back), kBackOnline);
   }
 };
 
@@ -50,7 +56,7 @@ TEST_F(DriveLost, StopsTheBaseWhichStaysStoppedWhenTheDriveIsBack) {
   const std::size_t left_from = robot().left.truth.mark();
   const std::size_t right_from = robot().right.truth.mark();
   ASSERT_TRUE(robot().simulator("left/unplug", false).success);
-  ASSERT_TRUE(robot().left.status.waitNext([](const DriveStatus& status) { return status.online != 0; }, kBackOnline));
+  ASSERT_NO_FATAL_FAILURE(expectBackOnline(robot().left, LivedTime{robot().left}));
   EXPECT_FALSE(robot().enable(true).success) << "the command still stands";
   ASSERT_TRUE(robot().waitForRest());
   for (const auto& truth : robot().left.truth.since(left_from)) EXPECT_FALSE(truth->operation_enabled);
@@ -63,13 +69,16 @@ TEST_F(DriveLost, StopsTheBaseWhichStaysStoppedWhenTheDriveIsBack) {
   robot().silence();
   EXPECT_TRUE(robot().waitForStandstill());
 
-  // The pose has gone on without a jump.
+  // The pose has gone on without a jump: never further than twice the speed allows in the time between two
+  // measurements.
   const auto poses = robot().odom.since(odom_from);
   ASSERT_GT(poses.size(), 1u);
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const auto& before = poses[i - 1]->pose.pose.position;
     const auto& after = poses[i]->pose.pose.position;
-    EXPECT_LT(std::hypot(after.x - before.x, after.y - before.y), kLongestStep);
+    const double span = (poses[i]->header.stamp - poses[i - 1]->header.stamp).toSec();
+    ASSERT_GE(span, 0.0);
+    EXPECT_LT(std::hypot(after.x - before.x, after.y - before.y), 0.01 + 2.0 * kSpeed * span);
   }
   EXPECT_GT(poses.back()->pose.pose.position.x, poses.front()->pose.pose.position.x);
 }
@@ -84,7 +93,7 @@ TEST_F(DriveLost, AnInverterWithoutMainsBehindAModuleThatAnswersIsOffline) {
   EXPECT_TRUE(robot().waitForStandstill());
   EXPECT_FALSE(robot().left.truth.next()->operation_enabled);
   ASSERT_TRUE(robot().simulator("right/power_inverter", true).success);
-  EXPECT_TRUE(robot().right.status.waitNext([](const DriveStatus& status) { return status.online != 0; }, kBackOnline));
+  ASSERT_NO_FATAL_FAILURE(expectBackOnline(robot().right, LivedTime{robot().right}));
   EXPECT_TRUE(robot().waitForRest());
 }
 
