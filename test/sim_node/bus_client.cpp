@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <stdexcept>
@@ -23,6 +24,7 @@ BusClient::~BusClient() {
 }
 
 std::string BusClient::ask(const std::vector<std::uint8_t>& telegram, milliseconds limit) {
+  ::tcflush(file_, TCIFLUSH);  // what came too late for the question before is no answer to this one
   if (::write(file_, telegram.data(), telegram.size()) != static_cast<ssize_t>(telegram.size())) return "not written";
   const auto end = steady_clock::now() + limit;
   std::vector<std::uint8_t> answer;

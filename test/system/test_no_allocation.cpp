@@ -78,11 +78,13 @@ class NoAllocation : public ::testing::TestWithParam<bool> {
                            {{"left_wheel", std::string{"left"}},
                             {"right_wheel", std::string{"right"}},
                             {"wheel_separation", 0.5},
-                            {"wheel_radius", 0.1}}};
+                            {"wheel_radius", 0.1},
+                            {"drive_timeout", 1.0}}};
     const cycle::CycleConfig config = cycle::readCycleConfig(node, drives);
-    // A busy machine may hold the pty's other end up for long: no watchdog shall end this test.
-    transport_.configure(MapSettings{"~bus/", {{"device", bus_.devicePath()}, {"watchdog", 5.0}}}, drives,
-                         config.cycle_rate);
+    // A busy machine may hold the pty's other end up for long: neither a watchdog nor a late answer shall end this
+    // test.
+    const MapSettings bus{"~bus/", {{"device", bus_.devicePath()}, {"watchdog", 5.0}, {"slot_time", 0.05}}};
+    transport_.configure(bus, drives, config.cycle_rate);
     ports_ = std::make_unique<cycle::CyclePorts>(drives.size());
     cycle_ = std::make_unique<cycle::BusCycle>(config, transport_, *ports_, false);
     thread_ = std::make_unique<cycle::CycleThread>(*cycle_, transport_, cycle::RealTimeWish{});
