@@ -11,6 +11,8 @@ namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds(1);
 constexpr Duration kOpenAgain = std::chrono::milliseconds(100);
+/// After a standstill as long a master may take its nodes for lost, though they are as operational as before.
+constexpr Duration kLostAfter = std::chrono::milliseconds(100);
 constexpr int kMostInOneGo = 64;  // frames taken before the models run on
 
 std::unique_ptr<link::CanLink> linkOf(const SimConfig& config) {
@@ -50,6 +52,7 @@ void CanBusThread::serve() noexcept {
     }
     const std::lock_guard<InheritingMutex> lock(mutex_);
     stations_.advance(clock.tick(link_->now()), *this);
+    if (clock.stoodStill() > kLostAfter) stations_.stoodStill();
     takeInput();
     sendWaiting();
   }

@@ -196,6 +196,7 @@ void CanNode::masterLost() noexcept {
 }
 
 void CanNode::advance(Duration span, CanSink& sink) noexcept {
+  master_may_look_ = std::max(Duration::zero(), master_may_look_ - span);
   if (hasSupply() != alive_) {
     if (alive_) {
       alive_ = false;

@@ -10,6 +10,8 @@ namespace {
 
 /// How often a module looks at its inverter: process data take 1-3 ms (BU 0060 p. 50).
 constexpr Duration kSample = std::chrono::milliseconds{2};
+/// Control words the master sent before it learnt of a standstill are taken first, and it may have stood still itself.
+constexpr Duration kMasterMayLook = std::chrono::milliseconds{100};
 constexpr std::uint8_t kLongestSynchronous = 240;
 
 }  // namespace
@@ -105,7 +107,12 @@ void CanNode::apply(const PdoSettings& pdo, ByteView data) noexcept {
   commit();
 }
 
+void CanNode::stoodStill() noexcept {
+  master_may_look_ = kMasterMayLook;
+}
+
 void CanNode::commit() noexcept {
+  if (master_may_look_ > Duration::zero()) process_.beginExchange();
   const CanProcessObjects::Commit commit = process_.commit();
   if (commit.valid && module_) module_->validWord();
   if (!commit.zero) return;

@@ -89,6 +89,10 @@ void CanStations::delivered(const CanFrame& frame, bool to_master, CanSink& sink
   }
 }
 
+void CanStations::stoodStill() noexcept {
+  for (const auto& node : nodes_) node->stoodStill();
+}
+
 bool CanStations::anyAlive() const noexcept {
   return std::any_of(nodes_.begin(), nodes_.end(), [](const auto& node) { return node->alive(); });
 }

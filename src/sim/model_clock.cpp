@@ -22,7 +22,8 @@ void becomeRealTime() noexcept {
 }
 
 Instant ModelClock::tick(Instant now) noexcept {
-  if (now - last_ > kLongestGap) standstill_ += now - last_ - kStep;
+  stood_still_ = now - last_ > kLongestGap ? now - last_ - kStep : Duration::zero();
+  standstill_ += stood_still_;
   last_ = now;
   return now - standstill_;
 }

@@ -15,10 +15,13 @@ class ModelClock {
   /// Model time at `now`. A thread that was kept from running lets the models stand still meanwhile: the master is not
   /// to blame.
   Instant tick(Instant now) noexcept;
+  /// How long the models stood still before the last tick.
+  Duration stoodStill() const noexcept { return stood_still_; }
 
  private:
   Instant last_;
   Duration standstill_{0};
+  Duration stood_still_{0};
 };
 
 }  // namespace nord_driver::sim

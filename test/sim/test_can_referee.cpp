@@ -76,6 +76,21 @@ TEST_F(CanRefereeTest, RpdoAfterTheNews) {
   EXPECT_EQ(1u, only(CanRule::kRpdoBeforeOperational));
 }
 
+// A node that was kept from running: the master's words of before, and those without bit 10 with which it begins anew,
+// are taken together; a tenth of a second later it must know.
+TEST_F(CanRefereeTest, ZeroControlWordAfterAStandstill) {
+  bus.start();
+  bus.repeat("232#7E040000", milliseconds(50), "1B2");
+  bus.bus.stations().stoodStill();
+  for (const char* text : {"232#7E040000", "232#7E040000", "232#00000000", "232#00000000", "232#7E040000"})
+    bus.send(text);
+  bus.bus.run(milliseconds(20));
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
+  bus.repeat("232#7E040000", milliseconds(100), "1B2");
+  bus.send("232#00000000");
+  EXPECT_EQ(1u, only(CanRule::kZeroControlWord));
+}
+
 TEST_F(CanRefereeTest, Report) {
   EXPECT_EQ("no rule broken", bus.referee().report());
   bus.send("000#0132AA");

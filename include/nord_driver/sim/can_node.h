@@ -62,6 +62,9 @@ class CanNode : private CanPdoContext {
   void receive(const CanFrame& frame, bool judged, CanSink& sink) noexcept;
   void advance(Duration span, CanSink& sink) noexcept;
 
+  /// It was kept from running: for a while its master may look before it commands, as after a start.
+  void stoodStill() noexcept;
+
   enum class Claim : std::uint8_t { kNone, kReceives, kSends };
   /// Whether this node listens to an identifier, or sends with it.
   Claim claim(std::uint32_t id) const noexcept;
@@ -162,6 +165,7 @@ class CanNode : private CanPdoContext {
   NmtState state_ = NmtState::kInitialising;
   Duration starting_{0};
   Duration sdo_delay_{0};
+  Duration master_may_look_{0};
   bool judged_ = false;  // the request being executed is the master's
 
   bool toggle_ = false;

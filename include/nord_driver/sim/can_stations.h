@@ -21,6 +21,8 @@ class CanStations {
   void receive(const CanFrame& frame, Judge judge, CanSink& sink) noexcept;
   /// A frame of a node reached the others, and perhaps the master.
   void delivered(const CanFrame& frame, bool to_master, CanSink& sink) noexcept;
+  /// The nodes were kept from running, for so long that the master may take them for lost and begin anew with each.
+  void stoodStill() noexcept;
 
   bool anyAlive() const noexcept;
   std::size_t nodeCount() const noexcept { return nodes_.size(); }
