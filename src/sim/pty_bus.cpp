@@ -88,20 +88,19 @@ void PtyBus::closePty() noexcept {
 
 void PtyBus::serve() noexcept {
   becomeRealTime();
-  Instant last_input = std::chrono::steady_clock::now();
-  ModelClock clock{last_input};
+  ModelClock clock{std::chrono::steady_clock::now()};
+  Instant last_input{};  // in the time of the models: what comes while they stand still is not late
   while (!stop_) {
     pollfd descriptor{master_, POLLIN, 0};
     const timespec timeout{0, kStep.count()};
     const int ready = ::ppoll(&descriptor, 1, &timeout, nullptr);
 
     const std::lock_guard<InheritingMutex> lock(mutex_);
-    const Instant now = std::chrono::steady_clock::now();
-    const Instant model_now = clock.tick(now);
+    const Instant model_now = clock.tick(std::chrono::steady_clock::now());
     if (ready > 0 && (descriptor.revents & POLLIN) != 0) {
       takeInput(model_now);
-      last_input = now;
-    } else if (robot_.hasPartial() && now - last_input > kPartialLife) {
+      last_input = model_now;
+    } else if (robot_.hasPartial() && model_now - last_input > kPartialLife) {
       robot_.forgetPartial();
     }
     robot_.advance(model_now);

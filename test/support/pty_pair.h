@@ -37,10 +37,10 @@ class PtyPair {
       throw std::runtime_error("short write to a pty");
     }
   }
-  /// What one read brings, within a second; empty when nothing comes.
+  /// What one read brings; empty when nothing comes within ten seconds.
   std::vector<std::uint8_t> receive() {
     pollfd descriptor{far_, POLLIN, 0};
-    if (poll(&descriptor, 1, 1000) <= 0) return {};
+    if (poll(&descriptor, 1, 10000) <= 0) return {};
     std::vector<std::uint8_t> bytes(512);
     const ssize_t count = ::read(far_, bytes.data(), bytes.size());
     bytes.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
