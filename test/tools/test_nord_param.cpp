@@ -6,6 +6,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <memory>
 
@@ -227,25 +229,48 @@ TEST_F(NordParamOnCan, TakesTheInterfaceOfTheCommandLine) {
   ::unlink(other.c_str());
 }
 
-// CAN locks nothing: a driver on the same interface is heard by its words.
-TEST_F(NordParamOnCan, LeavesABusInUseAlone) {
-  link::CanSettings settings;
-  settings.interface = interface_;
-  link::VirtualCan driver{settings};
-  ASSERT_TRUE(driver.open()) << driver.lastError();
-  Program reader{command({"--timeout", "2", "read", "left", "P105"})};
+/// What became of nord_param on a bus with a driver.
+struct BesideADriver {
   int code = -2;
-  std::vector<std::uint32_t> seen;
+  std::string errors;
+  std::vector<std::uint32_t> seen;             ///< identifiers, by the driver
+  std::chrono::duration<double> silence{0.0};  ///< the longest of the driver
+};
+
+BesideADriver readBesideADriver(const std::string& interface, const std::vector<std::string>& command) {
+  BesideADriver end;
+  link::CanSettings settings;
+  settings.interface = interface;
+  link::VirtualCan driver{settings};
+  EXPECT_TRUE(driver.open()) << driver.lastError();
+  Program reader{command};
   link::ReceivedCanFrame received;
-  for (int i = 0; i < 6000 && code == -2; ++i) {
+  Instant last = driver.now();
+  for (int i = 0; i < 6000 && end.code == -2; ++i) {
     driver.send(dataFrame(0x203, ByteView{FixedBytes<4>{0x7E, 0x04, 0x00, 0x00}}));
-    code = reader.wait(seconds{0});
+    end.silence = std::max<std::chrono::duration<double>>(end.silence, driver.now() - last);
+    last = driver.now();
+    end.code = reader.wait(seconds{0});
     driver.waitReadable(driver.now() + std::chrono::milliseconds{10});
-    while (driver.receive(received)) seen.push_back(received.frame.id);
+    while (driver.receive(received)) end.seen.push_back(received.frame.id);
   }
-  EXPECT_EQ(1, code);
-  EXPECT_THAT(reader.errors(), StartsWith("nord_param: the bus is in use: 203h was seen; "));
-  EXPECT_THAT(seen, Each(0x703u)) << "only the node's own boot-up";
+  end.errors = reader.errors();
+  return end;
+}
+
+// CAN locks nothing: a driver on the same interface is heard by its words. One that the machine keeps from talking for
+// long cannot be heard: then nord_param is asked again.
+TEST_F(NordParamOnCan, LeavesABusInUseAlone) {
+  constexpr std::chrono::duration<double> kLongestSilence{0.25};
+  BesideADriver end;
+  for (int i = 0; i < 3; ++i) {
+    end = readBesideADriver(interface_, command({"--timeout", "2", "read", "left", "P105"}));
+    if (end.silence <= kLongestSilence) break;
+    std::fprintf(stderr, "try %d: the driver was silent for %.3f s\n", i + 1, end.silence.count());
+  }
+  EXPECT_EQ(1, end.code);
+  EXPECT_THAT(end.errors, StartsWith("nord_param: the bus is in use: 203h was seen; "));
+  EXPECT_THAT(end.seen, Each(0x703u)) << "only the node's own boot-up";
 }
 
 TEST_F(NordParam, TellsItsVersionAndWhyThereIsNoRestore) {
