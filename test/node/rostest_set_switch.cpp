@@ -48,7 +48,10 @@ class SetSwitch : public RobotTest {
         return std::fabs(std::fabs(truth.wheel_velocity) - kSpeed / kWheelRadius) < 0.1;
       };
       EXPECT_TRUE(drive->truth.waitNext(turns)) << drive->truth.next()->wheel_velocity;
-      EXPECT_NEAR(std::fabs(drive->status.next()->velocity), kSpeed / kWheelRadius, 0.02);
+      const auto told = [](const DriveStatus& status) {
+        return std::fabs(std::fabs(status.velocity) - kSpeed / kWheelRadius) < 0.02;
+      };
+      EXPECT_TRUE(drive->status.waitNext(told)) << drive->status.next()->velocity;
     }
     return robot().left.truth.next()->setpoint_1;
   }
