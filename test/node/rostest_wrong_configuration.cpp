@@ -5,6 +5,8 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <memory>
+#include <optional>
 
 #include "node/robot_under_test.h"
 
@@ -76,39 +78,74 @@ void configure(const std::string& node, const std::string& key, const XmlRpcValu
   }
 }
 
-class WrongConfiguration : public ::testing::TestWithParam<Mistake> {};
+class WrongConfiguration : public ::testing::TestWithParam<Mistake> {
+ protected:
+  static void SetUpTestSuite() {
+    ros::NodeHandle handle;
+    rosout = std::make_unique<Topic<rosgraph_msgs::Log>>(handle, "/rosout");
+    aggregated = std::make_unique<Topic<rosgraph_msgs::Log>>(handle, "/rosout_agg");
+  }
+  static void TearDownTestSuite() {
+    rosout.reset();
+    aggregated.reset();
+  }
+  /// The last words of a node. It waits for one reader, which may be the aggregator and not this test.
+  static Topic<rosgraph_msgs::Log>::Pointer lastWordsOf(const std::string& node) {
+    const auto last = [&](const rosgraph_msgs::Log& log) {
+      return log.name == node && log.level == rosgraph_msgs::Log::FATAL;
+    };
+    Topic<rosgraph_msgs::Log>::Pointer said;
+    eventually([&] {
+      for (auto* topic : {&rosout, &aggregated}) {
+        if (said == nullptr) said = (*topic)->waitFrom(0, last, Seconds{0.0});
+      }
+      return said != nullptr;
+    });
+    return said;
+  }
+  /// Starts the node and looks, while it lives, at what it advertises.
+  static std::optional<NodeProcess::End> runToItsEnd(const std::string& name, std::unique_ptr<NodeProcess>& driver,
+                                                     std::vector<std::string>& advertised) {
+    const auto start = std::chrono::steady_clock::now();
+    driver = std::make_unique<NodeProcess>(kDriverProgram, std::vector<std::string>{"__name:=" + name});
+    while (!driver->waitEnd(Seconds{0.02}) && std::chrono::steady_clock::now() - start < kLongestLife) {
+      for (const std::string& topic : advertisedBy("/" + name)) advertised.push_back(topic);
+    }
+    return driver->waitEnd(Seconds::zero());
+  }
+
+  static std::unique_ptr<Topic<rosgraph_msgs::Log>> rosout, aggregated;
+};
+std::unique_ptr<Topic<rosgraph_msgs::Log>> WrongConfiguration::rosout, WrongConfiguration::aggregated;
 
 TEST_P(WrongConfiguration, EndsTheNodeWithASentence) {
   const Mistake& mistake = GetParam();
-  const std::string node = "/driver_" + mistake.name;
+  const std::string name = "driver_" + mistake.name, node = "/" + name;
   ASSERT_NO_FATAL_FAILURE(configure(node, mistake.key, mistake.value));
-  ros::NodeHandle handle;
-  Topic<rosgraph_msgs::Log> rosout(handle, "/rosout");
 
-  const auto start = std::chrono::steady_clock::now();
-  NodeProcess driver(kDriverProgram, {"__name:=driver_" + mistake.name});
+  std::unique_ptr<NodeProcess> driver;
   std::vector<std::string> advertised;
-  while (!driver.waitEnd(Seconds{0.02}) && std::chrono::steady_clock::now() - start < kLongestLife) {
-    for (const std::string& name : advertisedBy(node)) advertised.push_back(name);
+  auto end = runToItsEnd(name, driver, advertised);
+  if (!end) {  // the machine may have held it up; not twice
+    std::fprintf(stderr, "still runs, and is started once more: %s\n", driver->errorText().c_str());
+    end = runToItsEnd(name, driver, advertised);
   }
-  const auto end = driver.waitEnd(Seconds::zero());
-  ASSERT_TRUE(end) << "still runs: " << driver.errorText();
+  ASSERT_TRUE(end) << "still runs: " << driver->errorText();
   EXPECT_EQ(end->signal, 0);
   EXPECT_EQ(end->exit_code, 1);
   EXPECT_THAT(advertised, IsEmpty());
 
-  std::vector<std::string> lines = driver.errorLines();
+  std::vector<std::string> lines = driver->errorLines();
   // roscpp's own words on a master that is slow under load.
   const auto of_roscpp = [](const std::string& line) { return line.find("contact master") != std::string::npos; };
   lines.erase(std::remove_if(lines.begin(), lines.end(), of_roscpp), lines.end());
-  ASSERT_THAT(lines, SizeIs(1)) << driver.errorText();
+  ASSERT_THAT(lines, SizeIs(1)) << driver->errorText();
   EXPECT_THAT(lines[0], HasSubstr("FATAL"));
   EXPECT_THAT(lines[0], HasSubstr("nord_driver: " + mistake.named));
   EXPECT_THAT(lines[0], HasSubstr(mistake.shown));
   EXPECT_THAT(lines[0], HasSubstr("expected"));
   EXPECT_THAT(lines[0], HasSubstr(mistake.expected));
-  const auto said = rosout.waitFrom(
-      0, [&](const rosgraph_msgs::Log& log) { return log.name == node && log.level == rosgraph_msgs::Log::FATAL; });
+  const auto said = lastWordsOf(node);
   ASSERT_TRUE(said) << "nothing on rosout";
   EXPECT_THAT(said->msg, StartsWith("nord_driver: " + mistake.named));
 }
