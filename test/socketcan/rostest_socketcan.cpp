@@ -163,10 +163,11 @@ TEST_F(SocketCanRobot, FramesThatComeTooFastAreCounted) {
   for (int i = 0; i < kFlood; ++i) other.sendZeros(0x083);
   ASSERT_NO_FATAL_FAILURE(expectDrivesStopThemselves());
   driver->signal(SIGCONT);
-  const auto told = robot().bus_status.waitNext(
-      [](const BusStatus& bus) { return bus.text.find("nord_near: received frames were lost") != std::string::npos; });
-  ASSERT_TRUE(told) << robot().bus_status.next()->text;
-  EXPECT_GE(told->overruns, before + 500);
+  // The status tells it for 10 s, once a node runs again: an emulated machine may be later. What is logged stays.
+  const char* const lost = "nord_near: received frames were lost";
+  EXPECT_TRUE(eventually([&] { return driver->errorText().find(lost) != std::string::npos; })) << driver->errorText();
+  EXPECT_TRUE(robot().bus_status.waitNext([&](const BusStatus& bus) { return bus.overruns >= before + 500; }))
+      << robot().bus_status.next()->overruns;
   ASSERT_NO_FATAL_FAILURE(expectBackAtRest());
 }
 
