@@ -1,5 +1,7 @@
 #include "nord_driver/cycle/device_reader.h"
 
+#include <algorithm>
+
 #include "nord_driver/profile/parameter_catalogue.h"
 
 namespace nord_driver::cycle {
@@ -54,10 +56,16 @@ void DeviceReader::handleOffline() noexcept {
 
 bool DeviceReader::maxFrequenciesAsked() const noexcept {
   if (restart_) return false;
+  if (data_.complete) return true;
   for (std::size_t i = next_; i < items_.size(); ++i) {
     if (items_[i].number == kMaxFrequency) return false;
   }
   return true;
+}
+
+bool DeviceReader::missesMaxFrequency() const noexcept {
+  if (restart_ || next_ != items_.size()) return false;
+  return std::any_of(items_.begin(), items_.end(), [](const Item& item) { return item.due; });
 }
 
 std::optional<profile::ParameterRequest> DeviceReader::pollRequest() noexcept {
@@ -67,7 +75,9 @@ std::optional<profile::ParameterRequest> DeviceReader::pollRequest() noexcept {
     next_ = 0;
     attempts_ = 0;
     data_ = {};
+    for (Item& item : items_) item.due = true;
   }
+  while (next_ != items_.size() && !items_[next_].due) ++next_;
   if (next_ == items_.size()) {
     data_.complete = true;
     return std::nullopt;
@@ -84,7 +94,9 @@ void DeviceReader::handleResult(const profile::ParameterResult& result) noexcept
   if (result.outcome == profile::ParameterOutcome::kBusy || result.outcome == profile::ParameterOutcome::kOffline) {
     return;
   }
-  if (result.outcome == profile::ParameterOutcome::kTimeout && ++attempts_ < kMaxAttempts) return;
+  const bool timed_out = result.outcome == profile::ParameterOutcome::kTimeout;
+  if (timed_out && ++attempts_ < kMaxAttempts) return;
+  items_[next_].due = timed_out && items_[next_].number == kMaxFrequency;
   if (result.outcome == profile::ParameterOutcome::kDone) {
     store(items_[next_], result.raw);
   } else {

@@ -14,6 +14,7 @@ constexpr unsigned kDriveBits = 8, kAskerBits = 2;
 constexpr std::uint32_t kDriveMask = (1u << kDriveBits) - 1, kAskerMask = (1u << kAskerBits) - 1;
 
 constexpr Duration kReasonInterval = std::chrono::milliseconds{500};
+constexpr Duration kMissingInterval = std::chrono::seconds{2};
 
 void forgetScale(drive::Drive& drive) noexcept {
   for (std::uint8_t set = 1; set <= 4; ++set) drive.setMaxFrequency(set, Hertz{});
@@ -134,11 +135,25 @@ std::optional<profile::ParameterRequest> DriveParameters::ask(Asker asker, Insta
     case Asker::kSession:
       return session_.pollRequest();
     case Asker::kReader:
+      askMissingAgain(now);
       return reader_.pollRequest();
     case Asker::kCount:
       break;
   }
   return std::nullopt;
+}
+
+// A parameter channel that was busy elsewhere for a second must not keep the drive from ever being enabled. Where a
+// P105 was typed it has taken the place of the missing one, and another scale could be a step of the speed.
+void DriveParameters::askMissingAgain(Instant now) noexcept {
+  if (typed_max_frequency_ || !reader_.missesMaxFrequency()) {
+    missing_since_.reset();
+  } else if (!missing_since_) {
+    missing_since_ = now;
+  } else if (now - *missing_since_ >= kMissingInterval) {
+    missing_since_.reset();
+    reader_.askMissingAgain();
+  }
 }
 
 bool DriveParameters::handleResult(const profile::ParameterResult& result) noexcept {

@@ -121,8 +121,7 @@ void CanopenTransport::restart() noexcept {
 }
 
 // Listening is over: the start-up of the nodes begins now, so that none of its times has run meanwhile.
-bool CanopenTransport::mayTalk() noexcept {
-  const Instant now = link_->now();
+bool CanopenTransport::mayTalk(Instant now) noexcept {
   const bool listened = isSilent();
   if (!listen_first_->mayTalk(now)) return false;
   if (listened) master_->restart(now);
@@ -161,13 +160,14 @@ bool CanopenTransport::allAnswered() const noexcept {
   return true;
 }
 
-// What had come was received just before: no time-out may be seen ahead of it.
+// What had come at `looked_` was received: the clock may be later by now, but no time-out may be seen ahead of what has
+// come since.
 void CanopenTransport::run(Instant until, bool until_answered) noexcept {
   while (link_->isOpen()) {
     takeEvents();
-    const bool talks = mayTalk();
+    const bool talks = mayTalk(looked_);
     if (talks) {
-      master_->poll(link_->now());
+      master_->poll(looked_);
       runParameters();
       send(std::max(until, cycle_start_ + period_ / 2));
       takeEvents();
@@ -176,7 +176,8 @@ void CanopenTransport::run(Instant until, bool until_answered) noexcept {
     if (now >= until || (until_answered && allAnswered())) break;
     const Instant due = (talks ? master_->nextDeadline() : listen_first_->nextDeadline()).value_or(until);
     // Time must pass, also where something is due that cannot be sent.
-    if (link_->waitReadable(std::min(until, std::max(due, now + kShortestWait)))) receive();
+    if (!link_->waitReadable(std::min(until, std::max(due, now + kShortestWait))) && link_->now() >= until) break;
+    receive();
   }
   if (link_->isOpen()) return;
   // Gone in the middle of a cycle: nobody exchanges until it is back.
@@ -186,6 +187,7 @@ void CanopenTransport::run(Instant until, bool until_answered) noexcept {
 
 void CanopenTransport::receive() noexcept {
   link::ReceivedCanFrame received;
+  looked_ = link_->now();
   for (int count = 0; count < kFramesAtOnce && link_->receive(received); ++count) {
     trace_->record(TraceKind::kReceived, toPacket(received.frame), received.at);
     if (!isSilent()) {

@@ -116,6 +116,34 @@ TEST(DeviceReader, ATimeoutIsAskedForAgainARefusalIsLeftOut) {
   EXPECT_EQ(3, next->parameter_set) << "three attempts, then the next one";
 }
 
+// Nothing can be driven without P105: the one that stayed away is asked for again when its owner wants to, alone.
+TEST(DeviceReader, AMaximumFrequencyThatTimedOutCanBeAskedForAgain) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  EXPECT_FALSE(reader.missesMaxFrequency());
+  while (const auto request = reader.pollRequest()) {
+    if (request->number == 105 && request->parameter_set == 2) {
+      reader.handleResult(failed(ParameterOutcome::kTimeout));
+    } else if (request->number == 105 && request->parameter_set == 3) {
+      reader.handleResult(failed(ParameterOutcome::kRefused));
+    } else {
+      reader.handleResult(done(500));
+    }
+  }
+  EXPECT_TRUE(reader.data().complete);
+  ASSERT_TRUE(reader.missesMaxFrequency());
+  reader.askMissingAgain();
+  EXPECT_TRUE(reader.maxFrequenciesAsked());
+  const auto again = reader.pollRequest();
+  ASSERT_TRUE(again);
+  EXPECT_EQ(105, again->number);
+  EXPECT_EQ(2, again->parameter_set);
+  EXPECT_DOUBLE_EQ(50.0, *reader.data().max_frequency[0]) << "what was read stays";
+  reader.handleResult(done(250));
+  EXPECT_FALSE(reader.pollRequest());
+  EXPECT_DOUBLE_EQ(25.0, *reader.data().max_frequency[1]);
+  EXPECT_FALSE(reader.missesMaxFrequency());
+}
+
 TEST(DeviceReader, AMaximumFrequencyOfZeroIsNoScale) {
   DeviceReader reader{profile::Series::kSk5xxe};
   answerAll(reader, 0);

@@ -1,4 +1,4 @@
-// A CAN link that loses all frames of one identifier on their way in.
+// A CAN link that loses all frames of one identifier on their way in, or holds its user up behind a read.
 #pragma once
 
 #include <memory>
@@ -17,6 +17,9 @@ class DeafCanLink final : public link::CanLink {
   std::size_t emptyReads() const noexcept { return empty_reads_; }
   void setDeaf(std::optional<std::uint32_t> id) noexcept { deaf_ = id; }
 
+  /// The next read that brings nothing takes so long, and frames come meanwhile.
+  void holdUp(Duration span) noexcept { hold_up_ = span; }
+
   bool open() noexcept override { return inner_->open(); }
   void close() noexcept override { inner_->close(); }
   bool isOpen() const noexcept override { return inner_->isOpen(); }
@@ -26,6 +29,7 @@ class DeafCanLink final : public link::CanLink {
       if (received.frame.id != deaf_) return true;
     }
     ++empty_reads_;
+    if (hold_up_ != Duration::zero()) inner_->sleepUntil(inner_->now() + std::exchange(hold_up_, Duration::zero()));
     return false;
   }
   bool waitReadable(Instant until) noexcept override { return inner_->waitReadable(until); }
@@ -41,6 +45,7 @@ class DeafCanLink final : public link::CanLink {
   std::unique_ptr<link::CanLink> inner_;
   std::optional<std::uint32_t> deaf_;
   std::size_t empty_reads_ = 0;
+  Duration hold_up_{0};
 };
 
 }  // namespace nord_driver::test

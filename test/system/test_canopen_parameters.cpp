@@ -50,6 +50,30 @@ TEST(CanopenParameterAccess, ARamWriteGoesByP560) {
   EXPECT_EQ(1, robot.unit(0).parameters().value(560, 0));
 }
 
+// The thread was held up between reading the socket and looking at the clock: what came meanwhile waits in the socket,
+// and no time-out may be seen ahead of it.
+TEST(CanopenParameterAccess, AnAnswerInTheSocketIsNoTimeOut) {
+  CanRobot::Options options;
+  options.drives = {{"sdo_timeout", 0.05}};
+  options.node = {{"drive_timeout", 0.5}};
+  CanRobot robot{options};
+  ASSERT_TRUE(robot.bringUp());
+  robot.node(0).setSdoDelay(milliseconds{40});
+  cycle::Request request = access(kAccelerationTime, 0, profile::ParameterAction::kRead);
+  request.id = 77;
+  request.patience = std::chrono::seconds{3};
+  ASSERT_TRUE(robot.ports().submit(request));
+  robot.run(milliseconds{20});
+  const std::uint64_t before = robot.transport().counters().timeouts;
+  robot.link().holdUp(milliseconds{100});
+  robot.run(milliseconds{500});
+  ASSERT_FALSE(robot.completions().empty());
+  const cycle::Completion& answer = robot.completions().back();
+  EXPECT_EQ(77u, answer.id);
+  EXPECT_TRUE(answer.success) << answer.message.c_str();
+  EXPECT_EQ(before, robot.transport().counters().timeouts);
+}
+
 TEST(CanopenParameterAccess, AnAbortIsToldInWords) {
   CanRobot robot;
   ASSERT_TRUE(robot.bringUp());

@@ -14,7 +14,8 @@
 namespace nord_driver::cycle {
 
 /// Begins again whenever the drive has come back: it may have been exchanged. A parameter that times out is asked for
-/// three times, one the drive refuses is left out; a question that did not reach the drive is put again.
+/// three times, one the drive refuses is left out; a question that did not reach the drive is put again. Without P105
+/// nothing can be driven: one that timed out is asked for again whenever the owner wants to.
 class DeviceReader {
  public:
   /// `owner`: whose time-outs are read; those of a module by requests the transport passes on to it.
@@ -30,12 +31,17 @@ class DeviceReader {
   const DeviceData& data() const noexcept { return data_; }
   /// P105 of every set was asked for since the drive is back: what is absent will not come.
   bool maxFrequenciesAsked() const noexcept;
+  /// All has been asked for, and a P105 has only timed out.
+  bool missesMaxFrequency() const noexcept;
+  /// Asks again, once each, for those; what else was read stays.
+  void askMissingAgain() noexcept { next_ = 0; }
 
  private:
   struct Item {
     std::uint16_t number = 0;
     std::uint8_t set = 1;
     std::uint8_t index = 1;
+    bool due = true;  // to be asked for, in this round or the next
   };
 
   void add(std::uint16_t number, std::uint8_t set, std::uint8_t index) noexcept;

@@ -61,6 +61,7 @@ class DriveParameters {
   void refuse(const Request& request, profile::ParameterOutcome outcome) noexcept;
   void collect() noexcept;
   void readDeviceAgain() noexcept;
+  void askMissingAgain(Instant now) noexcept;
   bool writesProcessData() const noexcept;
 
   DriveIndex drive_;
@@ -71,8 +72,9 @@ class DriveParameters {
   drive::ParameterSession session_;
   std::array<std::uint32_t, kAskers> open_ids_{};  // of the question under way; 0: none
   std::uint32_t sequence_ = 0;
-  bool scale_due_ = false;             // the reader learned something the drive was not told yet
-  std::optional<Instant> held_since_;  // idle, and not ready to switch on
+  bool scale_due_ = false;                // the reader learned something the drive was not told yet
+  std::optional<Instant> held_since_;     // idle, and not ready to switch on
+  std::optional<Instant> missing_since_;  // a P105 was asked for in vain
   FixedVector<Request, drive::ParameterSession::kCapacity> pending_;
   CompletionQueue<2 * drive::ParameterSession::kCapacity> completions_;
 };

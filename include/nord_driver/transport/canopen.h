@@ -68,7 +68,7 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   bool busWorks() const noexcept;
   void restart() noexcept;
   bool isSilent() const noexcept { return listen_first_->isSilent(); }
-  bool mayTalk() noexcept;
+  bool mayTalk(Instant now) noexcept;
   void run(Instant until, bool until_answered) noexcept;
   void receive() noexcept;
   void send(Instant until) noexcept;
@@ -91,6 +91,7 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   std::vector<CanopenDriveState> drives_;
   std::vector<std::uint64_t> answered_;  // TPDOs of each drive when the cycle began
   Instant cycle_start_{};
+  Instant looked_{};  // before what was there was received
   Instant next_open_{};
   DriveIndex result_cursor_ = 0;
   CanopenBusEvents events_;

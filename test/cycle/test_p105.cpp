@@ -1,4 +1,5 @@
-// P105 is what 100 % of a setpoint means: written, it must never be a step of the speed.
+// P105 is what 100 % of a setpoint means: without it nothing is driven, and written it must never be a step of the
+// speed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,55 @@ namespace nord_driver::cycle {
 namespace {
 
 using ::testing::HasSubstr;
+
+/// Nobody answers a parameter for so long.
+class P105Reads : public ::testing::Test, protected CycleBench {
+ protected:
+  explicit P105Reads(std::optional<double> typed_max_frequency = std::nullopt) : CycleBench(typed_max_frequency) {
+    transport.hold_answers = true;
+    for (int i = 0; i < 200; ++i) {
+      step();
+      for (const auto& [drive, request] : transport.submitted) {
+        profile::ParameterResult result;
+        result.id = request.id;
+        result.outcome = profile::ParameterOutcome::kTimeout;
+        transport.results.push_back(result);
+      }
+      transport.submitted.clear();
+    }
+    transport.hold_answers = false;
+  }
+};
+
+class P105ReadsBesideATypedOne : public P105Reads {
+ protected:
+  P105ReadsBesideATypedOne() : P105Reads(40.0) {}
+};
+
+// A parameter channel that was busy elsewhere when the drive came must not keep it from ever being enabled.
+TEST_F(P105Reads, AreTriedAgainUntilTheyAreAnswered) {
+  const Completion answer = ask(RequestKind::kEnable, kLift);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("P105"));
+  run(220);  // two seconds, and a little
+  EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);
+  EXPECT_DOUBLE_EQ(50.0, snapshot().drives[kLift].device.max_frequency[0].value_or(0.0));
+}
+
+// The typed one counts then, and goes on counting: another scale would be a step of the speed.
+TEST_F(P105ReadsBesideATypedOne, AreNotTriedAgain) {
+  ASSERT_TRUE(ask(RequestKind::kEnable, kLift).success);
+  commandLift(40.0);
+  run(20);
+  const std::int16_t before = setpoint(kLift);
+  ASSERT_NE(0, before);
+  for (int i = 0; i < 300; ++i) {
+    commandLift(40.0);
+    step();
+    ASSERT_EQ(before, setpoint(kLift));
+  }
+  EXPECT_FALSE(snapshot().drives[kLift].device.max_frequency[0]);
+}
 
 class P105Writes : public ::testing::Test, protected CycleBench {
  protected:
