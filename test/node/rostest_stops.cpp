@@ -21,7 +21,6 @@ using ::testing::HasSubstr;
 
 constexpr double kSpeed = 0.4;                // m/s
 constexpr double kWheelSpeed = kSpeed / 0.1;  // rad/s
-constexpr Seconds kCommandTimeout{0.5};       // robot.yaml
 /// Status messages, one for each cycle, that may still show the old word: the two cycles of the bound, and one that
 /// tells of a cycle a second time because the publisher has its own clock.
 constexpr int kTwoCycles = 3;
@@ -76,7 +75,7 @@ class Stops : public RobotTest {
   /// Stopped, both drives idle, and so it stays although commands go on.
   void expectRestForGood() {
     EXPECT_TRUE(robot().waitForStandstill());
-    EXPECT_FALSE(robot().enable(true).success) << "the command still stands";
+    EXPECT_FALSE(enableUnderCommand().success) << "the command still stands";
     for (DriveTopics* drive : {&robot().left, &robot().right}) {
       const auto idle = [](const SimDrive& truth) { return truth.control_word == 0x047E && !truth.operation_enabled; };
       ASSERT_TRUE(drive->truth.waitNext(idle));
@@ -259,13 +258,12 @@ class NotANumber : public Stops, public ::testing::WithParamInterface<BadCommand
 TEST_P(NotANumber, IsIgnoredAndCountedWhileTheTimeoutRuns) {
   ros::NodeHandle handle;
   Topic<rosgraph_msgs::Log> rosout(handle, "/rosout");
-  robot().command(GetParam().twist);
-  const ros::Time last_good = ros::Time::now();
+  const ros::Time last_good = robot().command(GetParam().twist);
   ASSERT_TRUE(robot().waitForStandstill());
   EXPECT_EQ(robot().left.status.next()->state, DriveStatus::OPERATION_ENABLED);
   EXPECT_EQ(robot().right.status.next()->state, DriveStatus::OPERATION_ENABLED);
 
-  const ros::Duration followed(0.8 * kCommandTimeout.count());
+  const ros::Duration followed(0.99 * commandTimeout().count());
   int while_fresh = 0;
   for (const auto& status : left()) {
     ASSERT_TRUE(std::isfinite(status->velocity_command));
