@@ -271,7 +271,10 @@ void BusCycle::publish(Instant now) noexcept {
   snapshot_.counters = transport_.counters();
   snapshot_.bus_text = transport_.busText();
   while (const auto event = transport_.pollEvent()) ports_.tell(*event);
-  for (DriveIndex i = 0; i < drives_.size(); ++i) fill(snapshot_.drives[i], i);
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    snapshot_.drives[i].time = now;
+    fill(snapshot_.drives[i], i);
+  }
   if (base_) {
     BaseSnapshot& base = snapshot_.base;
     base.known = true;

@@ -37,7 +37,12 @@ bool CyclePorts::submit(const Request& request) {
 }
 
 void CyclePorts::complete(const Completion& completion) noexcept {
-  if (completion.id != 0 && completions_.push(completion)) sem_post(&completed_);
+  if (completion.id != 0 && completions_.push(completion)) ++unpublished_;
+}
+
+void CyclePorts::publish(const CycleSnapshot& snapshot) noexcept {
+  snapshot_.write(snapshot);
+  for (; unpublished_ > 0; --unpublished_) sem_post(&completed_);
 }
 
 std::optional<Completion> CyclePorts::waitCompletion(Duration limit) {

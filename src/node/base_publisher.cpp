@@ -64,7 +64,8 @@ void BasePublisher::publishOdometry(const cycle::BaseSnapshot& base, ros::Time s
   odometry_.twist.twist.linear.y = base.velocity.linear_y;
   odometry_.twist.twist.angular.z = base.velocity.angular_z;
   odometry_publisher_.publish(odometry_);
-  if (!odom_tf_) return;
+  if (!odom_tf_ || stamp == transform_stamp_) return;  // tf warns of a transform that comes twice
+  transform_stamp_ = stamp;
   if (!broadcaster_) broadcaster_.emplace();
   geometry_msgs::TransformStamped transform;
   transform.header = odometry_.header;

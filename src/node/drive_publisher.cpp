@@ -52,10 +52,12 @@ double DrivePublisher::currentOf(const cycle::DriveSample& sample, const cycle::
 }
 
 // The driver's own idle word can acknowledge a fault within one cycle (BU 0020 8), between two messages.
-void DrivePublisher::publishStatus(const cycle::DriveSnapshot& drive, ros::Time stamp) {
-  if (drive.faults != faults_told_ && !drive.fault) publishStatus(drive.at_fault, drive.device, stamp);
+void DrivePublisher::publishStatus(const cycle::DriveSnapshot& drive, const Stamps& stamps) {
+  if (drive.faults != faults_told_ && !drive.fault) {
+    publishStatus(drive.at_fault, drive.device, stamps.of(drive.at_fault.time));
+  }
   faults_told_ = drive.faults;
-  publishStatus(drive, drive.device, stamp);
+  publishStatus(drive, drive.device, stamps.of(drive.time));
 }
 
 void DrivePublisher::publishStatus(const cycle::DriveSample& sample, const cycle::DeviceData& device, ros::Time stamp) {

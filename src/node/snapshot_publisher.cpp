@@ -49,11 +49,16 @@ SnapshotPublisher::~SnapshotPublisher() {
 
 void SnapshotPublisher::run() {
   Instant now = std::chrono::steady_clock::now();
-  Instant next_base = now, next_status = now, next_bus = now;
+  Instant next_base = now, next_status = now, next_bus = now, stamped{};
+  Stamps stamps{ros::Time{}, now};
   while (!stop_) {
     const cycle::CycleSnapshot& snapshot = ports_.readSnapshot();
     if (snapshot.time != Instant{}) {  // the first cycle has ended
-      const ros::Time stamp = ros::Time::now();
+      if (snapshot.time != stamped) {  // what is published twice has one stamp
+        stamps = Stamps::sample();
+        stamped = snapshot.time;
+      }
+      const ros::Time stamp = stamps.of(snapshot.time);
       const Duration base_period = basePeriod(base_);
       if (base_period == Duration::max()) {
         next_base = now + seconds(0.1);
@@ -63,7 +68,7 @@ void SnapshotPublisher::run() {
       }
       if (isDue(next_status, status_period_, now)) {
         for (std::size_t i = 0; i < drives_.size(); ++i) {
-          drives_[i].publishStatus(snapshot.drives[i], stamp);
+          drives_[i].publishStatus(snapshot.drives[i], stamps);
           drives_[i].publishDeviceInfo(snapshot.drives[i]);
         }
       }

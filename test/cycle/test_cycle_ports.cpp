@@ -46,8 +46,23 @@ TEST(CyclePorts, CompletionsComeInOrderAndNobodysAreDropped) {
   ports.complete(completion(1));
   ports.complete(completion(0));  // nobody waits for it
   ports.complete(completion(2));
+  ports.publish(CycleSnapshot{1});
   EXPECT_EQ(1u, ports.waitCompletion(Duration::zero())->id);
   EXPECT_EQ(2u, ports.waitCompletion(Duration::zero())->id);
+  EXPECT_FALSE(ports.waitCompletion(Duration::zero()).has_value());
+}
+
+// Who has been told that the pose is zero, and looks, must not see the old one.
+TEST(CyclePorts, AnAnswerComesNotBeforeTheSnapshotThatShowsItsEffect) {
+  CyclePorts ports{1};
+  ports.complete(completion(1));
+  EXPECT_FALSE(ports.waitCompletion(Duration::zero()).has_value());
+  CycleSnapshot snapshot{1};
+  snapshot.settled = true;
+  ports.publish(snapshot);
+  ports.complete(completion(2));
+  EXPECT_EQ(1u, ports.waitCompletion(Duration::zero())->id);
+  EXPECT_TRUE(ports.readSnapshot().settled);
   EXPECT_FALSE(ports.waitCompletion(Duration::zero()).has_value());
 }
 
@@ -55,13 +70,17 @@ TEST(CyclePorts, CompletionsComeInOrderAndNobodysAreDropped) {
 TEST(CyclePorts, AFullRingOfCompletionsKeepsTheOldest) {
   CyclePorts ports{1};
   for (std::uint32_t id = 1; id <= 70; ++id) ports.complete(completion(id));
+  ports.publish(CycleSnapshot{1});
   for (std::uint32_t id = 1; id <= 64; ++id) EXPECT_EQ(id, ports.waitCompletion(Duration::zero())->id);
   EXPECT_FALSE(ports.waitCompletion(std::chrono::milliseconds{1}).has_value());
 }
 
 TEST(CyclePorts, ACompletionWakesTheOneWhoWaits) {
   CyclePorts ports{1};
-  std::thread cycle([&] { ports.complete(completion(7)); });
+  std::thread cycle([&] {
+    ports.complete(completion(7));
+    ports.publish(CycleSnapshot{1});
+  });
   const auto answer = ports.waitCompletion(std::chrono::seconds{10});
   cycle.join();
   ASSERT_TRUE(answer.has_value());

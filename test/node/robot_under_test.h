@@ -15,11 +15,11 @@
 #include <string>
 
 #include "node/node_process.h"
-#include "node/service_call.h"
 #include "node/topic.h"
 #include "nord_driver/BusStatus.h"
 #include "nord_driver/DriveStatus.h"
 #include "nord_driver/SimDrive.h"
+#include "ros_support/service_call.h"
 
 namespace nord_driver::test {
 

@@ -39,6 +39,7 @@ class Cycle {
         ports_.complete(completion);
       }
       pending.clear();
+      ports_.publish(cycle::CycleSnapshot{4});
       std::this_thread::yield();
     }
   }

@@ -17,8 +17,9 @@ const std::map<std::string, Names>& table() {
   static const Names kTransport{"core", "profile", "profibus", "canopen", "devicenet", "interbus", "link"};
   static const Names kTools{"core",      "profile", "profibus", "canopen", "devicenet", "interbus", "link",
                             "transport", "robot",   "drive",    "cycle",   "sim",       "plugins"};
-  static const Names kNode{"core",      "profile", "profibus", "canopen", "devicenet", "interbus", "link",
-                           "transport", "robot",   "drive",    "cycle",   "sim",       "plugins",  "tools"};
+  static const Names kNode{"core",     "profile", "profibus",  "canopen", "devicenet",
+                           "interbus", "link",    "transport", "robot",   "drive",
+                           "cycle",    "sim",     "plugins",   "tools",   "ros_support"};
   static const std::map<std::string, Names> kTable{
       {"core", {}},
       {"profile", {"core"}},
@@ -32,12 +33,13 @@ const std::map<std::string, Names>& table() {
       {"drive", {"core", "profile"}},
       {"cycle", {"core", "profile", "drive", "transport", "robot"}},
       {"sim", {"core", "link"}},
-      {"sim_node", {"core", "link", "sim"}},
+      {"sim_node", {"core", "link", "sim", "ros_support"}},
       {"plugins", {"core", "transport"}},
       {"tools", kTools},
       {"node", kNode},
       {"system", kNode},                   // tests of the whole stack, without ROS
       {"support", {"core", "transport"}},  // what tests of several folders share
+      {"ros_support", {}},                 // the same for those with ROS
       {"socketcan", {"node"}},             // tests of link/ and of the nodes that need a kernel with CAN
       {"rules", {}},
   };
@@ -45,7 +47,7 @@ const std::map<std::string, Names>& table() {
 }
 
 const Names kPure{"core", "profile", "profibus", "canopen", "devicenet", "interbus", "robot", "drive"};
-const Names kWithRos{"node", "sim_node", "plugins", "tools"};
+const Names kWithRos{"node", "sim_node", "plugins", "tools", "ros_support"};
 const Names kForEveryTest{"sim", "link", "core", "support"};
 const Names kThreads{"thread", "mutex", "shared_mutex", "condition_variable", "future"};
 

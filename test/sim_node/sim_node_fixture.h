@@ -15,7 +15,7 @@
 #include <memory>
 #include <string>
 
-#include "node/service_call.h"
+#include "ros_support/service_call.h"
 #include "sim_node/bus_client.h"
 
 namespace nord_driver::sim_node {

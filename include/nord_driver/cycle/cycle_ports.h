@@ -44,8 +44,9 @@ class CyclePorts {
   const JointCommand& newestDriveCommand(DriveIndex drive) { return drive_commands_[drive]->read(); }
   const BaseTuning& newestBaseTuning() { return base_tuning_.read(); }
   std::optional<Request> pollRequest() noexcept { return requests_.pop(); }
+  /// Comes out of `waitCompletion` once the next snapshot is published: who has an answer finds its effect there.
   void complete(const Completion& completion) noexcept;
-  void publish(const CycleSnapshot& snapshot) { snapshot_.write(snapshot); }
+  void publish(const CycleSnapshot& snapshot) noexcept;
   /// What nobody fetches in time is lost.
   void tell(const BusEvent& event) noexcept { bus_events_.push(event); }
 
@@ -56,6 +57,7 @@ class CyclePorts {
   std::vector<std::unique_ptr<LatestValue<JointCommand>>> drive_commands_;
   EventRing<Request, 32> requests_;
   EventRing<Completion, 64> completions_;
+  std::size_t unpublished_ = 0;  // completions in the ring that `completed_` does not count yet
   sem_t completed_;
   LatestValue<CycleSnapshot> snapshot_;
   EventRing<BusEvent, 256> bus_events_;

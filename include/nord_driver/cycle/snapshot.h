@@ -22,6 +22,7 @@ namespace nord_driver::cycle {
 
 /// The process data of one drive in one cycle.
 struct DriveSample {
+  Instant time{};       ///< of the cycle
   bool online = false;  ///< fresh process data from the inverter itself
   profile::DriveState state = profile::DriveState::kUnknown;
   std::uint8_t parameter_set = 0;  ///< 0: not known

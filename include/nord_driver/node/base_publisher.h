@@ -39,6 +39,7 @@ class BasePublisher {
   ros::Publisher command_publisher_;
   std::optional<tf2_ros::TransformBroadcaster> broadcaster_;  // from the first transform on
   std::atomic<bool> odom_tf_;
+  ros::Time transform_stamp_;
   std::atomic<double> rate_;
 };
 

@@ -12,6 +12,7 @@
 #include "nord_driver/cycle/cycle_config.h"
 #include "nord_driver/cycle/snapshot.h"
 #include "nord_driver/node/drive_protection.h"
+#include "nord_driver/node/stamps.h"
 #include "nord_driver/transport/transport.h"
 
 namespace nord_driver::node {
@@ -23,7 +24,7 @@ class DrivePublisher {
                  DriveProtection protection, std::uint16_t address);
 
   /// Every fault stands in at least one message: one that rose and vanished since the last gets a message of its own.
-  void publishStatus(const cycle::DriveSnapshot& drive, ros::Time stamp);
+  void publishStatus(const cycle::DriveSnapshot& drive, const Stamps& stamps);
   /// Latched, and published again only when it has changed. A drive that would run on when this computer dies, or
   /// stop late, is named in the log.
   void publishDeviceInfo(const cycle::DriveSnapshot& drive);

@@ -16,7 +16,7 @@
 namespace nord_driver::node {
 
 /// Publishes from construction to destruction. The rates run on the steady clock, so that /use_sim_time cannot stop
-/// them; only the stamps are ROS time.
+/// them; only the stamps are ROS time: of the bus cycle that measured.
 class SnapshotPublisher {
  public:
   SnapshotPublisher(cycle::CyclePorts& ports, const PublishConfig& config, BasePublisher& base,
