@@ -141,16 +141,31 @@ TEST_F(Driving, VelocityLimitsAreKeptAndTheCurvatureToo) {
 
 // Acceleration and jerk, seen in the time a ramp takes: v/a + a/j, and a begin along j t^2 / 2.
 TEST_F(Driving, AccelerationAndJerkLimitsAreKept) {
-  const std::size_t from = limited_.mark();
-  robot().drive(0.6);
-  ASSERT_TRUE(limited_.waitNext([](const auto& limited) { return limited.twist.linear.x > 0.599; }));
-  ros::Time start;
+  // A cycle that comes late is granted its time, which shortens what is seen of the ramp: then it is driven again.
+  constexpr double kLate = 0.03;  // s
   double early = 0.0, end = 0.0;
-  for (const auto& limited : limited_.since(from)) {
-    if (limited->twist.linear.x == 0.0) start = limited->header.stamp;
-    const double time = (limited->header.stamp - start).toSec();
-    if (time < 0.1) early = std::max(early, limited->twist.linear.x);
-    if (limited->twist.linear.x > 0.599 && end == 0.0) end = time;
+  for (int attempt = 1; attempt <= 3; ++attempt) {
+    const std::size_t from = limited_.mark(), bus_from = robot().bus_status.mark();
+    robot().drive(0.6);
+    ASSERT_TRUE(limited_.waitNext([](const auto& limited) { return limited.twist.linear.x > 0.599; }));
+    ros::Time start;
+    early = end = 0.0;
+    for (const auto& limited : limited_.since(from)) {
+      if (limited->twist.linear.x == 0.0) start = limited->header.stamp;
+      const double time = (limited->header.stamp - start).toSec();
+      if (time < 0.1) early = std::max(early, limited->twist.linear.x);
+      if (limited->twist.linear.x > 0.599 && end == 0.0) end = time;
+    }
+    // A message tells of the last whole second: the next but one certainly of the end of the ramp.
+    ASSERT_TRUE(robot().bus_status.next());
+    ASSERT_TRUE(robot().bus_status.next());
+    double longest = 0.0;
+    for (const auto& bus : robot().bus_status.since(bus_from)) longest = std::max(longest, bus->cycle_time_max);
+    if (longest < kLate) break;
+    std::fprintf(stderr, "a cycle of %.3f s\n", longest);
+    robot().drive(0.0);
+    ASSERT_TRUE(limited_.waitNext([](const auto& limited) { return limited.twist.linear.x == 0.0; }));
+    ASSERT_TRUE(robot().waitForStandstill());
   }
   EXPECT_GT(end, 0.9 * (0.6 / kAcceleration + kAcceleration / kJerk));
   EXPECT_LT(early, 0.5 * 0.1 * kAcceleration) << "no step in the acceleration";
