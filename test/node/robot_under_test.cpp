@@ -4,8 +4,11 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <ostream>
+#include <utility>
 
 #include "nord_driver/ReadParameter.h"
 #include "nord_driver/SimTrip.h"
@@ -17,6 +20,28 @@ namespace {
 constexpr double kCommandPeriod = 0.02;  // s
 constexpr double kWheelRadius = 0.1;     // m, robot.yaml
 constexpr double kStandstill = 1e-3;     // m/s
+constexpr int kAttempts = 3;
+const Seconds kMoment{0.5 * timeFactor()};
+
+/// Whether a drive has been lost since this was made: to the driver, or the drive its master.
+class DriveLoss {
+ public:
+  explicit DriveLoss(const DriveTopics& drive)
+      : drive_(drive), status_from_(drive.status.mark()), truth_from_(drive.truth.mark()) {}
+  bool happened() const {
+    bool online = false;
+    for (const auto& status : drive_.status.since(status_from_)) {
+      if (online && !status->online) return true;
+      online = status->online != 0;
+    }
+    const auto truths = drive_.truth.since(truth_from_);
+    return !truths.empty() && truths.back()->watchdog_trips > truths.front()->watchdog_trips;
+  }
+
+ private:
+  const DriveTopics& drive_;
+  std::size_t status_from_, truth_from_;
+};
 
 }  // namespace
 
@@ -37,7 +62,11 @@ RobotUnderTest::RobotUnderTest(ros::NodeHandle node)
       command_publisher_(node.advertise<geometry_msgs::Twist>("cmd_vel", 1)) {
   const auto publish = [this](const ros::SteadyTimerEvent&) {
     const std::lock_guard<std::mutex> lock(command_mutex_);
-    if (commanding_) command_publisher_.publish(command_);
+    if (!commanding_) return;
+    const ros::Time now = ros::Time::now();
+    if (!last_command_.isZero()) longest_pause_ = std::max(longest_pause_, (now - last_command_).toSec());
+    last_command_ = now;
+    command_publisher_.publish(command_);
   };
   command_timer_ = node.createSteadyTimer(ros::WallDuration(kCommandPeriod), publish);
 }
@@ -93,10 +122,28 @@ void RobotUnderTest::drive(double linear, double angular) {
   command(twist);
 }
 
-void RobotUnderTest::command(const geometry_msgs::Twist& twist) {
+ros::Time RobotUnderTest::command(const geometry_msgs::Twist& twist) {
   const std::lock_guard<std::mutex> lock(command_mutex_);
   command_ = twist;
   commanding_ = true;
+  return last_command_;
+}
+
+ros::Time RobotUnderTest::silence() {
+  const std::lock_guard<std::mutex> lock(command_mutex_);
+  commanding_ = false;
+  return last_command_;
+}
+
+ros::Time RobotUnderTest::lastCommand() const {
+  const std::lock_guard<std::mutex> lock(command_mutex_);
+  return last_command_;
+}
+
+Seconds RobotUnderTest::longestPause() {
+  const std::lock_guard<std::mutex> lock(command_mutex_);
+  const double now = (ros::Time::now() - last_command_).toSec();
+  return Seconds{std::max(std::exchange(longest_pause_, 0.0), now)};
 }
 
 bool RobotUnderTest::waitForDrivesOnline(Seconds limit) {
@@ -181,15 +228,43 @@ void RobotTest::switchDrivesOffAndOn() {
 }
 
 void RobotTest::enableAndDrive(double linear) {
+  for (int attempt = 1;; ++attempt) {
+    const DriveLoss left(robot().left), right(robot().right);
+    const auto lost = [&] { return left.happened() || right.happened(); };
+    const std::string missing = tryToDrive(linear, lost);
+    if (missing.empty()) return;
+    ASSERT_TRUE(lost() && attempt < kAttempts) << missing;
+    std::fprintf(stderr, "a drive was lost before the test had begun: %s; once more\n", missing.c_str());
+    robot().drive(0.0);
+    ASSERT_TRUE(robot().waitForDrivesOnline());
+    ASSERT_TRUE(robot().waitForStandstill());
+    Answer answer;
+    ASSERT_TRUE(eventually([&] { return (answer = robot().trigger("acknowledge_faults")).success; })) << answer;
+  }
+}
+
+std::string RobotTest::tryToDrive(double linear, const std::function<bool()>& lost) {
   // P105 is read in the first moments after a drive is there; before, enabling is refused.
   Answer answer;
-  EXPECT_TRUE(eventually([&] { return (answer = robot().enable(true)).success; })) << answer;
+  eventually([&] { return (answer = robot().enable(true)).success || lost(); });
+  if (!answer.success) return answer.message;
   robot().drive(linear);
-  const double wheel = linear / kWheelRadius;
-  ASSERT_TRUE(robot().left.status.waitNext([&](const DriveStatus& status) {
-    return status.velocity_command >= 0.999 * wheel;
-  })) << "the ramp does not end";
-  ASSERT_TRUE(robot().waitForTrueSpeed(0.9 * linear));
+  bool reached = false;
+  const auto ramped = [&](const DriveStatus& status) {
+    return status.velocity_command >= 0.999 * linear / kWheelRadius;
+  };
+  eventually([&] { return (reached = robot().left.status.waitNext(ramped, kMoment) != nullptr) || lost(); });
+  if (!reached) return "the ramp does not end";
+  eventually([&] { return (reached = robot().waitForTrueSpeed(0.9 * linear, kMoment)) || lost(); });
+  return reached ? "" : "the robot does not become as fast as commanded";
+}
+
+Answer RobotTest::enableUnderCommand(const std::function<void()>& begin) {
+  const auto take_back = [] {
+    robot().enable(false);
+    EXPECT_TRUE(robot().waitForRest());
+  };
+  return askUnderCommand([] { return robot().lastCommand(); }, [] { return robot().enable(true); }, take_back, begin);
 }
 
 std::string RobotTest::refusalOfEnable() {
@@ -200,6 +275,25 @@ std::string RobotTest::refusalOfEnable() {
   })) << answer;
   EXPECT_FALSE(answer.success) << answer;
   return answer.message;
+}
+
+Seconds commandTimeout() {
+  return Seconds{ros::param::param("nord_driver/cmd_vel_timeout", 0.5)};
+}
+
+Answer askUnderCommand(const std::function<ros::Time()>& last_command, const std::function<Answer()>& ask,
+                       const std::function<void()>& take_back, const std::function<void()>& begin) {
+  const double fresh = 0.5 * commandTimeout().count();
+  for (int attempt = 1;; ++attempt) {
+    begin();
+    EXPECT_TRUE(eventually([&] { return (ros::Time::now() - last_command()).toSec() < 0.1 * fresh; })) << "no commands";
+    const ros::Time last = last_command();
+    const Answer answer = ask();
+    const double age = (ros::Time::now() - last).toSec();
+    if (!answer.success || age < fresh || attempt == kAttempts) return answer;
+    std::fprintf(stderr, "the command may have been %.3f s old when it was asked; once more\n", age);
+    take_back();
+  }
 }
 
 bool onCanopen() {

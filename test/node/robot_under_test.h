@@ -9,7 +9,6 @@
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 
-#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
@@ -67,9 +66,13 @@ class RobotUnderTest {
 
   /// Publishes this velocity 50 times a second until the next call.
   void drive(double linear, double angular = 0.0);
-  void command(const geometry_msgs::Twist& twist);
-  /// No more commands: they grow old.
-  void silence() { commanding_ = false; }
+  /// When the command before went out last: not before then does it begin to grow old.
+  ros::Time command(const geometry_msgs::Twist& twist);
+  /// No more commands; when the last one went out.
+  ros::Time silence();
+  ros::Time lastCommand() const;
+  /// The longest pause between two commands since this was asked last, or since they began.
+  Seconds longestPause();
 
   bool waitForDrivesOnline(Seconds limit = kPatience);
   /// Both drives "ready to switch on", in words of the driver and in truth.
@@ -94,9 +97,11 @@ class RobotUnderTest {
   Answer callTrigger(const std::string& service);
 
   ros::Publisher command_publisher_;
-  std::atomic<bool> commanding_{false};
-  std::mutex command_mutex_;
+  mutable std::mutex command_mutex_;
+  bool commanding_ = false;
   geometry_msgs::Twist command_;
+  ros::Time last_command_;
+  double longest_pause_ = 0.0;  // s
   ros::SteadyTimer command_timer_;
 };
 
@@ -110,8 +115,11 @@ class RobotTest : public ::testing::Test {
   void startDriver();
   /// Ends it cleanly: the drives at rest and without a fault.
   void endDriver();
-  /// ~enable and a steady speed forward, the ramp behind it.
+  /// ~enable and a steady speed forward, the ramp behind it. Up to three times where this machine stood still for so
+  /// long that a drive was lost on the way: what a test proves comes after it.
   void enableAndDrive(double linear);
+  /// What ~enable answers while the robot's command is fresh.
+  Answer enableUnderCommand(const std::function<void()>& begin = [] {});
   /// Why ~enable is refused once no cmd_vel that is not zero stands against it: there must be another reason.
   std::string refusalOfEnable();
   /// The mains of both: no fault survives that.
@@ -120,7 +128,21 @@ class RobotTest : public ::testing::Test {
   /// Shared by all tests of a program.
   static RobotUnderTest& robot();
   std::unique_ptr<NodeProcess> driver_;
+
+ private:
+  /// Empty, or what has not come.
+  std::string tryToDrive(double linear, const std::function<bool()>& lost);
 };
+
+/// cmd_vel_timeout of the driver.
+Seconds commandTimeout();
+
+/// What `ask` answers while a command is fresh that was published last at `last_command()`. Where none went out for so
+/// long that the driver may have taken it for old, what was granted is taken back and asked for again, up to three
+/// times; `begin` comes before each.
+Answer askUnderCommand(
+    const std::function<ros::Time()>& last_command, const std::function<Answer()>& ask,
+    const std::function<void()>& take_back, const std::function<void()>& begin = [] {});
 
 /// The robot of this run is on CANopen: its launch file says so.
 bool onCanopen();

@@ -18,7 +18,6 @@ using ::testing::HasSubstr;
 
 constexpr double kMaxSpeed = 0.7, kAcceleration = 0.8, kJerk = 4.0, kMaxTurn = 2.0;  // the .test, robot.yaml
 constexpr double kWheelRadius = 0.1, kWheelSeparation = 0.5;                         // m
-constexpr Seconds kCommandTimeout{0.5};
 
 struct Pose {
   double x, y, heading;
@@ -142,16 +141,31 @@ TEST_F(Driving, VelocityLimitsAreKeptAndTheCurvatureToo) {
 
 // Acceleration and jerk, seen in the time a ramp takes: v/a + a/j, and a begin along j t^2 / 2.
 TEST_F(Driving, AccelerationAndJerkLimitsAreKept) {
-  const std::size_t from = limited_.mark();
-  robot().drive(0.6);
-  ASSERT_TRUE(limited_.waitNext([](const auto& limited) { return limited.twist.linear.x > 0.599; }));
-  ros::Time start;
+  // A cycle that comes late is granted its time, which shortens what is seen of the ramp: then it is driven again.
+  constexpr double kLate = 0.03;  // s
   double early = 0.0, end = 0.0;
-  for (const auto& limited : limited_.since(from)) {
-    if (limited->twist.linear.x == 0.0) start = limited->header.stamp;
-    const double time = (limited->header.stamp - start).toSec();
-    if (time < 0.1) early = std::max(early, limited->twist.linear.x);
-    if (limited->twist.linear.x > 0.599 && end == 0.0) end = time;
+  for (int attempt = 1; attempt <= 3; ++attempt) {
+    const std::size_t from = limited_.mark(), bus_from = robot().bus_status.mark();
+    robot().drive(0.6);
+    ASSERT_TRUE(limited_.waitNext([](const auto& limited) { return limited.twist.linear.x > 0.599; }));
+    ros::Time start;
+    early = end = 0.0;
+    for (const auto& limited : limited_.since(from)) {
+      if (limited->twist.linear.x == 0.0) start = limited->header.stamp;
+      const double time = (limited->header.stamp - start).toSec();
+      if (time < 0.1) early = std::max(early, limited->twist.linear.x);
+      if (limited->twist.linear.x > 0.599 && end == 0.0) end = time;
+    }
+    // A message tells of the last whole second: the next but one certainly of the end of the ramp.
+    ASSERT_TRUE(robot().bus_status.next());
+    ASSERT_TRUE(robot().bus_status.next());
+    double longest = 0.0;
+    for (const auto& bus : robot().bus_status.since(bus_from)) longest = std::max(longest, bus->cycle_time_max);
+    if (longest < kLate) break;
+    std::fprintf(stderr, "a cycle of %.3f s\n", longest);
+    robot().drive(0.0);
+    ASSERT_TRUE(limited_.waitNext([](const auto& limited) { return limited.twist.linear.x == 0.0; }));
+    ASSERT_TRUE(robot().waitForStandstill());
   }
   EXPECT_GT(end, 0.9 * (0.6 / kAcceleration + kAcceleration / kJerk));
   EXPECT_LT(early, 0.5 * 0.1 * kAcceleration) << "no step in the acceleration";
@@ -163,8 +177,7 @@ TEST_F(Driving, ACommandThatGrowsOldIsBrakedAlongTheLimit) {
   ASSERT_TRUE(robot().left.status.waitNext(
       [](const DriveStatus& status) { return status.velocity_command > 0.999 * 0.5 / kWheelRadius; }));
   const std::size_t from = robot().left.status.mark();
-  robot().silence();
-  const ros::Time last = ros::Time::now();
+  const ros::Time last = robot().silence();
   ASSERT_TRUE(
       robot().left.status.waitFrom(from, [](const DriveStatus& status) { return status.velocity_command == 0.0; }));
   double before = 0.5 / kWheelRadius;
@@ -176,7 +189,7 @@ TEST_F(Driving, ACommandThatGrowsOldIsBrakedAlongTheLimit) {
     if (stood.isZero() && status->velocity_command == 0.0) stood = status->header.stamp;
     before = status->velocity_command;
   }
-  EXPECT_GT((slower - last).toSec(), 0.8 * kCommandTimeout.count());
+  EXPECT_GT((slower - last).toSec(), 0.99 * commandTimeout().count());
   EXPECT_GT((stood - slower).toSec(), 0.7 * 0.5 / kAcceleration);
   EXPECT_EQ(robot().left.status.next()->state, DriveStatus::OPERATION_ENABLED);
 }
@@ -342,7 +355,7 @@ TEST_F(Reconfigured, RateAndTfChangeAtOnce) {
 // As diff_drive_controller: the values of the configuration, latched for whoever looks.
 TEST_F(Reconfigured, TheFiveParametersAreThere) {
   Topic<dynamic_reconfigure::Config> updates(node_, "nord_driver/parameter_updates");
-  const auto told = updates.next();
+  const auto told = updates.waitFrom(0, [](const auto&) { return true; });
   ASSERT_TRUE(told);
   std::vector<std::string> names;
   for (const auto& parameter : told->doubles) names.push_back(parameter.name);

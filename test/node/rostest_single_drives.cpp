@@ -64,6 +64,11 @@ class SingleDrives : public RobotTest {
     left_ = left;
     right_ = right;
   }
+  /// When those that are not nothing went out last.
+  ros::Time lastCommand() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return last_command_;
+  }
   static bool turns(DriveTopics& drive, double velocity) {
     return drive.status.waitNext([velocity](const DriveStatus& status) {
       return std::fabs(status.velocity_command - velocity) < 0.01 && std::fabs(status.velocity - velocity) < 0.05;
@@ -76,6 +81,7 @@ class SingleDrives : public RobotTest {
   void publish() {
     const std::lock_guard<std::mutex> lock(mutex_);
     std_msgs::Float64 message;
+    last_command_ = ros::Time::now();
     if (left_) {
       message.data = *left_;
       left_command_.publish(message);
@@ -91,6 +97,7 @@ class SingleDrives : public RobotTest {
   ros::SteadyTimer timer_;
   std::mutex mutex_;
   std::optional<double> left_, right_;
+  ros::Time last_command_;
 };
 std::unique_ptr<NodeProcess> SingleDrives::shared_driver;
 
@@ -114,7 +121,8 @@ TEST_F(SingleDrives, StopOneByOneAndAllTogether) {
   EXPECT_TRUE(answer.success) << answer;
   EXPECT_TRUE(robot().left.status.waitNext(isIdle));
   EXPECT_TRUE(turns(robot().right, kVelocity)) << "the other one turns on";
-  answer = enable("left", true);
+  answer = askUnderCommand([this] { return lastCommand(); }, [] { return enable("left", true); },
+                           [] { enable("left", false); });
   EXPECT_FALSE(answer.success) << "under a command that moves";
   EXPECT_THAT(answer.message, HasSubstr("is not zero"));
   answer = robot().trigger("quick_stop");

@@ -100,7 +100,7 @@ TEST_F(StartUp, DeviceInfoIsLatched) {
     EXPECT_THAT(info->max_frequency, ElementsAre(50.0, 50.0, 25.0, 50.0));
     EXPECT_EQ(info->ident, onCanopen() ? 0x004E0001u : 0x7531u) << "vendor and product, or the module's ident number";
     EXPECT_EQ(info->parameter_channel, onCanopen() ? "SDO" : "PKW");
-    EXPECT_THAT(info->protected_by, HasSubstr(onCanopen() ? "node guarding" : "watchdog of 0.5 s"));
+    EXPECT_THAT(info->protected_by, HasSubstr(onCanopen() ? "node guarding" : "watchdog of 1 s"));
   }
 }
 

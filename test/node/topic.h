@@ -1,6 +1,7 @@
 // Everything that was published on a topic since the subscription, and waiting for what comes.
 #pragma once
 
+#include <ros/message_traits.h>
 #include <ros/ros.h>
 
 #include <boost/function.hpp>
@@ -65,10 +66,16 @@ class Topic {
     });
     return found;
   }
-  /// The same for messages that come from now on: what was true before does not count.
+  /// The same for what was measured from now on: what was true before does not count, though it comes late. Without a
+  /// stamp, and with one of a clock that stands at zero, for what comes from now on.
   template <typename Condition>
   Pointer waitNext(Condition good, Seconds limit = kPatience) {
-    return waitFrom(mark(), good, limit);
+    const ros::Time now = ros::Time::now();
+    const auto later = [&](const Message& message) {
+      const ros::Time* stamp = ros::message_traits::timeStamp(message);
+      return (stamp == nullptr || stamp->isZero() || *stamp >= now) && good(message);
+    };
+    return waitFrom(mark(), later, limit);
   }
   Pointer next(Seconds limit = kPatience) {
     return waitNext([](const Message&) { return true; }, limit);
