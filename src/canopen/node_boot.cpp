@@ -80,6 +80,7 @@ void NodeBoot::reset(Instant now) noexcept {
   reset_due_ = false;
   port_.cancel(SdoOwner::kBoot, now);
   command_ = resetCommand(config_.reset);
+  report_.status().nmt = NmtState::kUnknown;  // it hears no RPDO any more, also before its boot-up says so
   phase_ = Phase::kAwaitBootUp;
   deadline_ = now + config_.boot_up_timeout;
 }

@@ -66,6 +66,19 @@ TEST(NodeLoss, ComesBackWithoutABootUp) {
   EXPECT_EQ(resets + 1, run.nodes[0]->resets);
 }
 
+// A node that is being reset hears no RPDO: it does not count as operational until it says so.
+TEST(NodeLoss, ANodeThatIsResetIsNotOperational) {
+  Operational run;
+  bool cut = true;
+  run.loses = [&cut](const CanFrame& frame) { return cut || frame.id == 0x701; };  // its boot-up takes its time
+  ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{1}));
+  EXPECT_EQ(NmtState::kOperational, run.master.status(0).nmt);
+  const int resets = run.nodes[0]->resets;
+  cut = false;
+  ASSERT_TRUE(run.runUntil([&] { return run.nodes[0]->resets > resets; }, seconds{2}));
+  EXPECT_EQ(NmtState::kUnknown, run.master.status(0).nmt);
+}
+
 // What a node said before it was lost is no news of it when it is back: another state, another set, another speed.
 TEST(NodeLoss, ItsLastWordsAreForgotten) {
   Operational run;
