@@ -33,7 +33,7 @@ class DeviceReader {
   bool maxFrequenciesAsked() const noexcept;
   /// All has been asked for, and a P105 has only timed out.
   bool missesMaxFrequency() const noexcept;
-  /// Asks again, once each, for those; what else was read stays.
+  /// Asks again, up to three times each, for those; what else was read stays.
   void askMissingAgain() noexcept { next_ = 0; }
 
  private:
