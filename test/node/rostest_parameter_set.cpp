@@ -132,7 +132,12 @@ TEST_F(ParameterSet, ANodeOverDrivesThatTurnInSet3KeepsTheSetAndIdlesThem) {
   const auto status = robot().left.status.waitNext([](const DriveStatus& left) {
     return std::fabs(left.frequency - kFrequency) < 0.1 && std::fabs(left.velocity - kShaft / kGear) < 0.05;
   });
-  EXPECT_TRUE(status) << *robot().left.status.next();
+  ASSERT_TRUE(status) << *robot().left.status.next();
+  const auto told = robot().left.status.next();
+  const auto is = robot().left.truth.next();
+  ASSERT_TRUE(told && is);
+  EXPECT_NEAR(told->frequency, is->frequency, 0.1);
+  EXPECT_NEAR(told->velocity, is->frequency * 2.0 * M_PI / kPolePairs / kGear, 0.05);
   EXPECT_EQ(truth->set_switches, robot().left.truth.since(left_from).front()->set_switches);
   EXPECT_GT(robot().left.status.mark(), status_from);
 }
