@@ -8,13 +8,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <limits>
 #include <set>
 
 #include "node/robot_under_test.h"
 #include "nord_driver/SimTerminals.h"
+#include "support/second_try.h"
 
 namespace nord_driver::test {
 namespace {
@@ -28,14 +28,9 @@ constexpr double kSpeed = 0.4;                // m/s
 constexpr double kWheelSpeed = kSpeed / 0.1;  // rad/s
 /// Cycles that may still show the old word.
 constexpr int kTwoCycles = 2;
-/// The same from a service call on: its way through ROS takes longer than the bus. A machine that is busy elsewhere may
-/// need another try.
-constexpr int kCallAndTwoCycles = 15;
-constexpr int kAttempts = 3;
-
-bool isError(int level, const std::string&) {
-  return level == diagnostic_msgs::DiagnosticStatus::ERROR;
-}
+/// The same from a call or a message on: the way through ROS comes before them.
+constexpr int kWayAndTwoCycles = 2 + kTwoCycles;
+const Seconds kCycle{0.01};
 
 using Statuses = std::vector<Topic<DriveStatus>::Pointer>;
 using Condition = std::function<bool(const DriveStatus&)>;
@@ -98,27 +93,29 @@ class Stops : public RobotTest {
     robot().drive(0.0);
     enableAndDrive(0.2);
   }
-  /// Stops the base by a service of the driver, until `expectStop` has counted few cycles before it was heard, and lets
-  /// it drive again.
+  /// Stops the base by a service of the driver. `expectStop` counts the cycles before it was heard. Lets it drive
+  /// again.
   template <typename Service>
   void stopBy(const std::string& name, Service service, const std::string& said,
               const std::function<void(ros::Time asked, int& cycles)>& expectStop) {
     // Connected before, as any client that means it.
     constexpr bool kPersistent = true;
     ros::ServiceClient client = ros::NodeHandle().serviceClient<Service>("nord_driver/" + name, kPersistent);
-    for (int attempt = 1;; ++attempt) {
+    int cycles = 0;
+    const auto attempt = [&] {
       const ros::Time asked = ros::Time::now();
       ASSERT_TRUE(client.call(service));
       EXPECT_TRUE(service.response.success) << service.response.message;
       EXPECT_THAT(service.response.message, HasSubstr(said));
-      int cycles = 0;
+      cycles = 0;
       ASSERT_NO_FATAL_FAILURE(expectStop(asked, cycles));
       robot().drive(0.0);
-      if (cycles <= kCallAndTwoCycles) break;
-      ASSERT_LT(attempt, kAttempts) << "heard after " << cycles << " cycles";
-      std::fprintf(stderr, "%s was heard after %d cycles; once more\n", name.c_str(), cycles);
-      ASSERT_NO_FATAL_FAILURE(driveAndMark());
-    }
+    };
+    // What holds up a thread on the way adds to the cycles that are counted.
+    tryAgainOnlyIfStoodStill(
+        kCycle, attempt, [&] { return cycles <= kWayAndTwoCycles; }, [this] { driveAndMark(); });
+    ASSERT_FALSE(HasFatalFailure());
+    EXPECT_LE(cycles, kWayAndTwoCycles) << name;
     enableAndDrive(0.2);
   }
 
