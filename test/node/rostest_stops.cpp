@@ -12,6 +12,7 @@
 #include <limits>
 #include <set>
 
+#include "node/lived_time.h"
 #include "node/robot_under_test.h"
 #include "nord_driver/SimTerminals.h"
 #include "support/second_try.h"
@@ -260,6 +261,55 @@ TEST_F(Stops, DisableRampsDownThenSaysOff1) {
     EXPECT_GE(steps, 5u) << "a step, no ramp";
   };
   stopBy("enable", std_srvs::SetBool{}, "", expectStop);  // its data is false
+}
+
+// The ramp begins with the time-out, neither before nor later, and the drives stay enabled.
+TEST_F(Stops, ACommandThatIsNotRenewedIsBrakedAsSoonAsItIsTooOld) {
+  int cycles = 0;
+  const auto attempt = [&] {
+    const ros::Time last = robot().silence();
+    ASSERT_TRUE(robot().waitForStandstill());
+    const auto slower = [](const DriveStatus& status) { return status.velocity_command < kWheelSpeed - 0.01; };
+    cycles = cyclesUntil(left(), last + ros::Duration(commandTimeout().count()), slower);
+    ASSERT_GE(cycles, 0);
+    for (const auto& status : left()) {
+      EXPECT_EQ(status->control_word, 0x047F);
+      if ((status->header.stamp - last).toSec() < 0.99 * commandTimeout().count()) {
+        EXPECT_FALSE(slower(*status)) << "the command is still fresh";
+      }
+    }
+  };
+  tryAgainOnlyIfStoodStill(
+      kCycle, attempt, [&] { return cycles <= kWayAndTwoCycles; }, [this] { driveAndMark(); });
+  ASSERT_FALSE(HasFatalFailure());
+  EXPECT_LE(cycles, kWayAndTwoCycles);
+  EXPECT_EQ(robot().left.status.next()->state, DriveStatus::OPERATION_ENABLED);
+}
+
+// drive_timeout decides, counted in what the driver lived: a cycle that waits for the silent station twice is longer.
+// Two cycles after that the other drive is told.
+TEST_F(Stops, ADriveThatFallsSilentStopsTheOtherAfterTheDriveTimeout) {
+  constexpr Seconds kTwoSilentCycles{0.25};
+  const ros::Time before = ros::Time::now();
+  ASSERT_TRUE(robot().simulator("right/unplug", true).success);
+  const LivedTime since{robot().right};
+  const auto offline = robot().right.status.waitFrom(right_from_, [](const DriveStatus& s) { return !s.online; });
+  ASSERT_TRUE(offline);
+  EXPECT_LE(since.ofDriver(*offline), driveTimeout() + kTwoSilentCycles);
+  // Guarding may have had its last answer two guard times before.
+  EXPECT_GT((offline->header.stamp - before).toSec(), (onCanopen() ? 0.6 : 0.95) * driveTimeout().count());
+  ASSERT_TRUE(robot().waitForStandstill());
+  const int zero =
+      cyclesUntil(left(), offline->header.stamp, [](const DriveStatus& s) { return s.setpoints.at(0) == 0; });
+  EXPECT_GE(zero, 0);
+  EXPECT_LE(zero, kTwoCycles);
+  EXPECT_TRUE(robot().left.truth.waitNext(
+      [](const SimDrive& truth) { return truth.control_word == 0x047E && !truth.operation_enabled; }));
+
+  ASSERT_TRUE(robot().simulator("right/unplug", false).success);
+  ASSERT_TRUE(robot().waitForDrivesOnline());
+  ASSERT_NO_FATAL_FAILURE(expectRestForGood());
+  expectDrivesAgain();
 }
 
 struct BadCommand {
