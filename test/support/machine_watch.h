@@ -22,16 +22,16 @@
 
 namespace nord_driver::test {
 
-/// Two measurements, none of which knows what is tried or what came of it:
-/// - On every processor a thread that only sleeps, in steps of 5 ms, above all others where that is permitted. It sees
-///   the machine stand still: a virtual one that its host does not run, a group that has used up its time.
-/// - Driver and simulator are other processes, and may be held up alone. Nothing they say themselves is believed, since
-/// a
-///   driver that is late by its own fault would excuse itself: neither bus_status/cycle_time_max nor gaps between
-///   stamps. The kernel counts for every thread how long it was ready to run and did not (`RunDelay`); that is read
-///   every 10 ms of this process, its children, and the others of its launcher (roslaunch). A deadlock, a wait for an
-///   answer or a sleep that is too long count as nothing there.
-/// Not seen: a page that has to be read from a disk, and what happens to a process that runs as a stranger.
+/// Two measurements, none of which knows what is tried or what came of it.
+/// 1. On every processor a thread only sleeps, in steps of 5 ms, above all others where that is permitted. It sees the
+/// machine stand still: a virtual one that its host does not run, a group that has used up its time.
+/// 2. Driver and simulator are other processes, and may be held up alone. Nothing they say themselves is believed,
+/// neither bus_status/cycle_time_max nor gaps between stamps: a driver that is late by its own fault would excuse
+/// itself. The kernel counts for every thread how long it was ready to run and did not (`RunDelay`); that is read every
+/// 10 ms of this process, its children, and the others of its launcher (roslaunch). A deadlock, a wait for an answer
+/// and a sleep that is too long count as nothing there. Not seen: a page that has to be read from a disk, and processes
+/// somebody else has started. Seen, though it is no stranger's doing: our own threads that keep each other from the
+/// processors, which is why a try is repeated twice at most and each time is told.
 class MachineWatch {
  public:
   MachineWatch() {
