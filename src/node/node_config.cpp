@@ -79,6 +79,10 @@ NodeConfig readNodeConfig(const RosSettings& settings, const std::string& robot_
   const auto drives = settings.group("drives");
   for (const std::string& name : drives->keys()) config.drives.push_back({name, drives->group(name)});
   config.cycle = cycle::readCycleConfig(settings, config.drives, robot_description);
+  if (config.cycle.base) {
+    const std::vector<std::string>& of_base = config.cycle.base->warnings;
+    config.warnings.insert(config.warnings.end(), of_base.begin(), of_base.end());
+  }
   config.trace = cycle::readTraceConfig(settings);
   return config;
 }

@@ -92,6 +92,14 @@ TEST(NodeConfigTest, KnowsTheKeysOfDiffDriveController) {
   EXPECT_THAT(config.warnings, ElementsAre(HasSubstr("~publish_wheel_joint_controller_state is not offered")));
 }
 
+// What the base's reader has to say of the robot description goes the way of all warnings.
+TEST(NodeConfigTest, WarnsOfWhatTheRobotDescriptionDoesNotTell) {
+  const NodeConfig config =
+      readNodeConfig(RosSettings{"~", robotParameters()}, "<robot name=\"arm\"><link name=\"base_link\"/></robot>");
+  EXPECT_THAT(config.warnings, ElementsAre(HasSubstr("robot_description: there is no joint"),
+                                           HasSubstr("robot_description: there is no joint")));
+}
+
 // dynamic_reconfigure leaves what it is given on the parameter server, where a node that is started again finds it.
 TEST(NodeConfigTest, TakesEveryRateThatDynamicReconfigureOffers) {
   for (const double rate : {0.0, 1e-200, 0.05, 2000.0}) {

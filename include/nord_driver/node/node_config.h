@@ -35,7 +35,7 @@ struct NodeConfig {
   std::optional<cycle::TraceConfig> trace;
   std::vector<DriveSettings> drives;
   std::shared_ptr<RosSettings> bus;
-  std::vector<std::string> warnings;  ///< sentences on what is accepted but not done
+  std::vector<std::string> warnings;  ///< sentences on what is accepted but done in another way, or not
 };
 
 /// Everything except what the transport itself reads (`bus`, and each drive's address). Throws ConfigError.
