@@ -13,10 +13,10 @@ namespace {
 
 constexpr const char* kDisabledAgain = "disabled again before all drives were enabled";
 
-Sentence notHeardYet(const CommandState& commands) noexcept {
+Sentence notHeardYet(const CommandState& commands, bool has_base) noexcept {
   Sentence text;
-  text.format("velocity commands have been listened to for %.1f s only: ask again in %.1f s", toSeconds(commands.heard),
-              toSeconds(commands.to_hear));
+  text.format("%s been listened to for %.1f s only: ask again in %.1f s", has_base ? "cmd_vel has" : "commands have",
+              toSeconds(commands.heard), toSeconds(commands.to_hear));
   return text;
 }
 
@@ -125,7 +125,7 @@ void Supervisor::startEnable(const Request& request, const CommandState& command
   if (jobs_.full()) return completions_.answer(request, false, "too many requests are being carried out already");
   if (nothingToEnable(request)) return followUp(request, now);
   if (!commands.moving.empty()) return completions_.answer(request, false, commands.moving);
-  if (commands.to_hear > request.patience) return completions_.answer(request, false, notHeardYet(commands));
+  if (commands.to_hear > request.patience) return completions_.answer(request, false, notHeardYet(commands, has_base_));
   if (commands.to_hear > Duration::zero()) return followUp(request, now, false);
   if (enableAll(request, now)) followUp(request, now);
 }
@@ -191,7 +191,7 @@ bool Supervisor::followWaiting(Job& job, const CommandState& commands, Instant n
   }
   if (commands.to_hear > Duration::zero()) {
     if (now < job.deadline) return false;
-    completions_.answer(job.request, false, notHeardYet(commands));
+    completions_.answer(job.request, false, notHeardYet(commands, has_base_));
     return true;
   }
   job.begun = enableAll(job.request, now);

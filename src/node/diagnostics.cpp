@@ -112,6 +112,10 @@ void Diagnostics::warn(std::size_t index, const ProtectionReport& protection, Di
     status.mergeSummary(runs_on ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
                         "if this computer died: " + protection.text);
   }
+  if (drive.terminals != cycle::TerminalFinding::kNone) {
+    const bool turns = drive.terminals == cycle::TerminalFinding::kTurned;
+    status.mergeSummary(turns ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN, drive.terminals_text.str());
+  }
   if (drive.astray) {
     status.mergeSummaryf(DiagnosticStatus::WARN,
                          "it has been %.2f rad/s away from its setpoint for seconds: is the motor overloaded, or are "

@@ -145,8 +145,7 @@ TEST_F(FirstCommand, EnableIsRefusedAtOnceWhenTheTimeIsLongerThanItsPatience) {
   robot.step();
   ASSERT_EQ(1u, robot.completions.count(7));
   EXPECT_FALSE(robot.completions[7].success);
-  EXPECT_STREQ("velocity commands have been listened to for 0.2 s only: ask again in 9.8 s",
-               robot.completions[7].message.c_str());
+  EXPECT_STREQ("cmd_vel has been listened to for 0.2 s only: ask again in 9.8 s", robot.completions[7].message.c_str());
 }
 
 }  // namespace
