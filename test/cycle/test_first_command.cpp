@@ -122,6 +122,26 @@ TEST_F(FirstCommand, EnableRightAfterStartIsRefusedWhenTheFirstCommandMoves) {
   EXPECT_FALSE(everMoved(robot));
 }
 
+// What a publisher has to say that was connected a moment ago has not been heard yet either.
+TEST_F(FirstCommand, APublisherThatHasJustBeenConnectedIsListenedToFirst) {
+  for (const bool by_itself : {true, false}) {
+    CycleBench robot{config(seconds(0.5)), by_itself};
+    robot.transport.inverters[CycleBench::kLift].silent = true;
+    robot.run(100);
+    robot.ports.commanderConnected(robot.transport.time);
+    robot.transport.inverters[CycleBench::kLift].silent = false;
+    robot.run(5);
+    if (!by_itself) robot.ports.submit(enableRequest(3.0));
+    robot.run(44);
+    EXPECT_EQ(0x047E, robot.controlWord(CycleBench::kLeft)) << by_itself;
+    robot.run(20);
+    EXPECT_TRUE(robot.snapshot().base.enabled) << by_itself;
+    robot.ports.commanderConnected(robot.transport.time);
+    robot.run(20);
+    EXPECT_TRUE(robot.snapshot().base.enabled) << "what is enabled stays so";
+  }
+}
+
 TEST_F(FirstCommand, AStopEndsTheWaiting) {
   CycleBench robot{config(seconds(0.5)), false};
   robot.run(10);

@@ -33,6 +33,20 @@ TEST_F(Terminals, LocalControlWhileIdleIsToldWhenItBegins) {
   EXPECT_THAT(events(), ElementsAre("news: drive left: the bus has control of it again"));
 }
 
+// A loss tells what it has to tell by itself; what comes back under local control is told again.
+TEST_F(Terminals, WhatIsFoundUnderLocalControlIsTold) {
+  transport.inverters[kLeft].silent = true;
+  run(20);
+  transport.inverters[kLeft].local = true;
+  EXPECT_THAT(events(), IsEmpty());
+  transport.inverters[kLeft].silent = false;
+  step();
+  EXPECT_THAT(events(), ElementsAre(kLocal));
+  EXPECT_EQ(TerminalFinding::kLocalControl, snapshot().drives[kLeft].terminals);
+  EXPECT_EQ(kLocal, "warning: " + snapshot().drives[kLeft].terminals_text.str());
+  EXPECT_EQ(TerminalFinding::kNone, snapshot().drives[kRight].terminals);
+}
+
 TEST_F(Terminals, ADriveThatIsEnabledPastTheDriverIsToldWhenItStartsTurning) {
   transport.inverters[kLeft].terminals = true;
   step();

@@ -59,7 +59,7 @@ TEST_F(AutoEnable, NeverMovesUnderACommanderThatTalksAlready) {
     const bool rested = restsUnderCommands();
     const Seconds pause = robot().longestPause();
     if (rested) break;
-    ASSERT_GE(pause, commandTimeout()) << "it was enabled, or moved";
+    ASSERT_GE(pause.count(), commandTimeout().count()) << "it was enabled, or moved";
     ASSERT_LT(attempt, kAttempts) << "no commands for " << pause.count() << " s in each attempt";
     std::fprintf(stderr, "this machine kept the commander from talking for %.2f s; once more\n", pause.count());
     endDriver();
