@@ -48,6 +48,27 @@ Sentence stateSentence(const char* drive, const drive::DriveReport& report) noex
   return text;
 }
 
+Sentence terminalSentence(const char* drive, TerminalFinding finding, const drive::DriveReport& report) noexcept {
+  Sentence text;
+  switch (finding) {
+    case TerminalFinding::kNone:
+      break;
+    case TerminalFinding::kLocalControl:
+      text.format(
+          "drive %s is under local control (status bit 9 = 0, status word %04X): its terminals may turn it whatever is "
+          "sent",
+          drive, report.status_word);
+      break;
+    case TerminalFinding::kTurned:
+      text.format(
+          "drive %s turns although nothing here has enabled it (status word %04X, %s, %.1f Hz): by its terminals, or "
+          "by bus I/O bits (P480)",
+          drive, report.status_word, profile::toString(report.state), report.frequency.value);
+      break;
+  }
+  return text;
+}
+
 Sentence parameterSentence(const char* drive, std::uint16_t number, const drive::ParameterTaskResult& result) noexcept {
   const char* note = result.note;
   const char* joint = note[0] != '\0' ? "; " : "";

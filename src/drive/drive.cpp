@@ -213,7 +213,7 @@ void Drive::followAcknowledging(StatusWord status, Instant now) noexcept {
   if (!status.fault()) {
     // The bit is dropped as soon as the fault is gone: left at 1, no further edge could follow (BU 2700 6.4.1 bit 7).
     report_.fault_latched = false;
-    report_.acknowledge = {RequestState::kDone, Refusal::kNone};
+    end(report_.acknowledge, Refusal::kNone);
     enter(Phase::kIdle, now);
   } else if (edge_.ended(now)) {
     breakOff(Refusal::kCauseStands);
@@ -223,7 +223,7 @@ void Drive::followAcknowledging(StatusWord status, Instant now) noexcept {
 
 void Drive::followSwitchingSet(StatusWord status, Instant now) noexcept {
   if (sent_ && status.parameterSet() == report_.commanded_set && status.busControl() && !status.fault()) {
-    report_.set_switch = {RequestState::kDone, Refusal::kNone};
+    end(report_.set_switch, Refusal::kNone);
   } else if (status.fault()) {
     breakOff(Refusal::kFault);
   } else if (!status.busControl()) {

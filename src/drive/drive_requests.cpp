@@ -83,35 +83,36 @@ void Drive::requestCoast(Instant now) noexcept {
   }
 }
 
+void Drive::end(RequestReport& request, Refusal refusal) noexcept {
+  request.state = refusal == Refusal::kNone ? RequestState::kDone : RequestState::kRefused;
+  request.refusal = refusal;
+}
+
 // Ends a request that takes its time, if one runs, without success.
 void Drive::breakOff(Refusal why) noexcept {
   if (report_.phase == Phase::kAcknowledging) {
-    report_.acknowledge = {RequestState::kRefused, why};
+    end(report_.acknowledge, why);
     refuse(why);
   } else if (report_.phase == Phase::kSwitchingSet) {
-    report_.set_switch = {RequestState::kRefused, why};
+    end(report_.set_switch, why);
     refuse(why);
     report_.commanded_set = report_.parameter_set;
   }
 }
 
-void Drive::requestAcknowledge(Instant now) noexcept {
+void Drive::requestAcknowledge(Instant now, std::uint32_t token) noexcept {
   if (report_.phase == Phase::kAcknowledging) return;
   refuse(Refusal::kNone);
   // A drive without a fault has nothing to wait for, and must not spoil the answer for the others of its base.
   const bool healthy = !report_.fault_latched && !StatusWord(report_.status_word).fault();
   if (report_.phase == Phase::kOffline) refuse(Refusal::kOffline);
   if (report_.phase != Phase::kOffline && report_.phase != Phase::kIdle && !healthy) refuse(Refusal::kBusy);
-  if (report_.refusal != Refusal::kNone) {
-    report_.acknowledge = {RequestState::kRefused, report_.refusal};
-    return;
-  }
+  report_.acknowledge = {token, RequestState::kRunning, Refusal::kNone};
+  if (report_.refusal != Refusal::kNone) return end(report_.acknowledge, report_.refusal);
   if (!StatusWord(report_.status_word).fault()) {
     report_.fault_latched = false;
-    report_.acknowledge = {RequestState::kDone, Refusal::kNone};
-    return;
+    return end(report_.acknowledge, Refusal::kNone);
   }
-  report_.acknowledge = {RequestState::kRunning, Refusal::kNone};
   edge_.start();
   enter(Phase::kAcknowledging, now);
 }
@@ -130,15 +131,12 @@ Refusal Drive::setRefusal(std::uint8_t set) const noexcept {
   return switchable ? Refusal::kNone : Refusal::kWrongState;
 }
 
-void Drive::requestParameterSet(std::uint8_t set, Instant now) noexcept {
+void Drive::requestParameterSet(std::uint8_t set, Instant now, std::uint32_t token) noexcept {
   const Refusal refusal = setRefusal(set);
   refuse(refusal);
-  if (refusal != Refusal::kNone) {
-    // A switching that runs goes on: its outcome is not this one's.
-    if (report_.phase != Phase::kSwitchingSet) report_.set_switch = {RequestState::kRefused, refusal};
-    return;
-  }
-  report_.set_switch = {RequestState::kRunning, Refusal::kNone};
+  if (report_.phase == Phase::kSwitchingSet) return;  // it goes on: its outcome is not this one's
+  report_.set_switch = {token, RequestState::kRunning, Refusal::kNone};
+  if (refusal != Refusal::kNone) return end(report_.set_switch, refusal);
   enter(Phase::kSwitchingSet, now);
   report_.commanded_set = set;
 }

@@ -113,6 +113,10 @@ void Diagnostics::warn(std::size_t index, const ProtectionReport& protection, Di
     status.mergeSummary(runs_on ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
                         "if this computer died: " + protection.text);
   }
+  if (drive.terminals != cycle::TerminalFinding::kNone) {
+    const bool turns = drive.terminals == cycle::TerminalFinding::kTurned;
+    status.mergeSummary(turns ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN, drive.terminals_text.str());
+  }
   const std::string slow_ramp = ramps_[index].assess(drive.device, drive.parameter_set);
   if (drive.online && !slow_ramp.empty()) status.mergeSummary(DiagnosticStatus::WARN, slow_ramp);
   if (drive.astray) {

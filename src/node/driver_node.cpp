@@ -178,6 +178,7 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
   try {
     publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_);
     while (!end_asked && ros::ok() && publisher_->healthy()) {
+      noteCommanders();
       tellBusEvents();
       ros::WallDuration(0.02).sleep();
     }
@@ -186,6 +187,13 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
     throw;
   }
   bringToRest();
+}
+
+void DriverNode::noteCommanders() {
+  std::uint32_t now = command_subscriber_ ? command_subscriber_.getNumPublishers() : 0;
+  for (const ros::Subscriber& subscriber : subscribers_) now += subscriber.getNumPublishers();
+  if (now > commanders_) ports_->commanderConnected(steadyNow());
+  commanders_ = now;
 }
 
 void DriverNode::tellBusEvents() {

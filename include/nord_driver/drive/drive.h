@@ -69,11 +69,13 @@ class Drive {
   /// "switch-on disabled" (or a fault) ends it, a quick stop neither.
   void requestCoast(Instant now) noexcept;
   /// Takes the latch away when no fault bit is set, else gives the inverter one acknowledge edge; only faults whose
-  /// cause is gone follow it (BU 2700 6.4.1 bit 7). Refused outside kIdle. report().acknowledge tells the outcome.
-  void requestAcknowledge(Instant now) noexcept;
+  /// cause is gone follow it (BU 2700 6.4.1 bit 7). Refused outside kIdle. report().acknowledge tells the outcome, with
+  /// the `token`; while an acknowledging runs, another is not begun and the report stays with the first.
+  void requestAcknowledge(Instant now, std::uint32_t token = 0) noexcept;
   /// Commands set 1..4 from kIdle at standstill. report().set_switch is done when the status word shows the set;
-  /// without that, after enable_timeout, the set in force is commanded again.
-  void requestParameterSet(std::uint8_t set, Instant now) noexcept;
+  /// without that, after enable_timeout, the set in force is commanded again. While one runs, another is refused and
+  /// the report stays with the first.
+  void requestParameterSet(std::uint8_t set, Instant now, std::uint32_t token = 0) noexcept;
 
   /// Used only while enabled, and forgotten with it. What is no number becomes setpoint 0.
   void setVelocity(RadPerSec joint) noexcept;
@@ -107,6 +109,7 @@ class Drive {
   void followCoasting(profile::DriveState state, Instant now) noexcept;
   Refusal setRefusal(std::uint8_t set) const noexcept;
   void breakOff(Refusal why) noexcept;
+  static void end(RequestReport& request, Refusal refusal) noexcept;
   void measure() noexcept;
   void enter(Phase phase, Instant now) noexcept;
   void stop(StopCause cause, Instant now) noexcept;

@@ -68,6 +68,7 @@ enum class Refusal : std::uint8_t {
 enum class RequestState : std::uint8_t { kNone, kRunning, kDone, kRefused };
 
 struct RequestReport {
+  std::uint32_t token = 0;  ///< of the request this is about: as its asker gave it
   RequestState state = RequestState::kNone;
   Refusal refusal = Refusal::kNone;  ///< with kRefused
 };
