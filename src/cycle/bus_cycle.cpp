@@ -191,6 +191,7 @@ robot::WheelSpeeds BusCycle::maxWheelSpeeds() const noexcept {
 
 void BusCycle::handleInputs(Instant now) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    if (inputs_[i].interrupted) drives_[i].handleInterruption(now);
     drives_[i].handleInput(inputs_[i].input, inputs_[i].inverter_answers, now);
     axes_[i].known = axes_[i].known || drives_[i].report().online;
     axes_[i].terminals.update(drives_[i].report());

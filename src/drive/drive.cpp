@@ -107,13 +107,21 @@ void Drive::learnSet(StatusWord status, bool joined) noexcept {
 
 void Drive::handleSilence(Instant now) noexcept {
   if (report_.phase == Phase::kOffline || now - last_useful_ <= config_.drive_timeout) return;
+  goOffline(StopCause::kSilent, now);
+}
+
+void Drive::handleInterruption(Instant now) noexcept {
+  if (report_.phase != Phase::kOffline) goOffline(StopCause::kInterrupted, now);
+}
+
+void Drive::goOffline(StopCause cause, Instant now) noexcept {
   dark_until_ = now;
   breakOff(Refusal::kOffline);
   if (!isAtRest() && report_.phase != Phase::kSwitchingSet) {
     // It may hear us without being heard: with 0000 it would carry on at its last setpoint, or trip by its time-out.
     dark_until_ = now + config_.shutdown_timeout;
     dark_command_ = isRunning() ? Command::kShutdown : command(now);
-    if (report_.phase != Phase::kIdle && report_.phase != Phase::kAcknowledging) latch(StopCause::kSilent);
+    if (report_.phase != Phase::kIdle && report_.phase != Phase::kAcknowledging) latch(cause);
   }
   const bool was_enabling = report_.phase == Phase::kEnabling;
   enter(Phase::kOffline, now);

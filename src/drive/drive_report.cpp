@@ -44,6 +44,8 @@ const char* toString(StopCause cause) noexcept {
       return "local control: the inverter's terminals have taken over (status bit 9 = 0)";
     case StopCause::kSilent:
       return "the inverter fell silent";
+    case StopCause::kInterrupted:
+      return "its connection to the bus was reset, or left operation, without being asked";
     case StopCause::kParameterSet:
       return "another parameter set came into force without being asked for";
     case StopCause::kQuickStop:

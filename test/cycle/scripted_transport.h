@@ -18,7 +18,8 @@ class ScriptedTransport final : public Transport {
     profile::ParameterRequest request;
   };
 
-  explicit ScriptedTransport(std::size_t drives) : inverters(drives), module_only(drives, false) {}
+  explicit ScriptedTransport(std::size_t drives)
+      : inverters(drives), module_only(drives, false), interrupted(drives, false) {}
 
   void configure(const Settings&, const std::vector<DriveSettings>&, double) override {}
   Instant now() const noexcept override { return time; }
@@ -30,6 +31,8 @@ class ScriptedTransport final : public Transport {
     outputs = sent;
     for (DriveIndex i = 0; i < inverters.size(); ++i) {
       inputs[i] = {};
+      inputs[i].interrupted = interrupted[i];
+      interrupted[i] = false;
       const profile::ProcessInput input = inverters[i].exchange(sent[i]);
       if (inverters[i].silent) continue;
       inputs[i].module_answers = true;
@@ -78,6 +81,7 @@ class ScriptedTransport final : public Transport {
   Duration exchange_time = std::chrono::milliseconds{2};
   std::vector<drive::FakeInverter> inverters;
   std::vector<bool> module_only;  ///< the bus module answers, its inverter is off
+  std::vector<bool> interrupted;  ///< in the next cycle
   std::vector<profile::ProcessOutput> outputs;
   std::map<int, std::int32_t> parameters{{105, 500}};
   bool hold_answers = false;

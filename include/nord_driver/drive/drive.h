@@ -54,6 +54,10 @@ class Drive {
 
   /// `fresh`: the inverter answered in this cycle. An all-zero status word counts as no answer.
   void handleInput(const profile::ProcessInput& input, bool fresh, Instant now) noexcept;
+  /// Before handleInput() of a cycle in which the connection to this inverter was reset, or left the state in which it
+  /// is commanded, without being asked: what it heard last is not known. As after silence, but without drive_timeout,
+  /// and also when the inverter answers again in this cycle.
+  void handleInterruption(Instant now) noexcept;
   profile::ProcessOutput pollOutput(Instant now) noexcept;
 
   /// Why requestEnable() would refuse now.
@@ -95,6 +99,7 @@ class Drive {
  private:
   void handleUseful(const profile::ProcessInput& input, Instant now) noexcept;
   void handleSilence(Instant now) noexcept;
+  void goOffline(StopCause cause, Instant now) noexcept;
   void learnSet(profile::StatusWord status, bool joined) noexcept;
   void checkStops(profile::StatusWord status, Instant now) noexcept;
   void follow(profile::StatusWord status, Instant now) noexcept;
