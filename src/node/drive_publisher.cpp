@@ -87,6 +87,7 @@ void DrivePublisher::publishStatus(const cycle::DriveSample& sample, const cycle
   status_.velocity_command = sample.velocity_command;
   status_.velocity = sample.velocity;
   status_.frequency = sample.frequency;
+  status_.saturated = sample.saturated;
   status_.current = currentOf(sample, device);
   status_.fault_number = sample.fault_number;
   status_.fault_text = sample.fault_number == 0 ? "" : profile::faultText(sample.fault_number);

@@ -32,6 +32,7 @@ class Diagnostics {
   std::vector<std::string> names_;
   std::vector<DriveIdentity> identities_;
   std::vector<DriveProtection> protections_;
+  std::vector<profile::Series> series_;
   std::vector<std::optional<double>> typed_max_frequency_;
   std::string device_;
   cycle::CycleSnapshot snapshot_;
