@@ -13,6 +13,9 @@ constexpr std::uint16_t kMinFrequency = 104, kMaxFrequency = 105, kOptionMonitor
                         kBusBits = 480, kTelegramTimeout = 513, kFirstActualValue = 543, kFirstSetpoint = 546,
                         kEepromSwitch = 560, kSoftwareVersion = 707;
 constexpr std::uint8_t kSets = 4;
+constexpr std::uint16_t kAccelerationTime = 102, kDecelerationTime = 103;
+// s: the bus manuals name no unit of P103, which is set in the steps of P102 on the inverter.
+constexpr double kRampStep = 0.01;
 
 bool isArray(profile::ParameterShape shape) noexcept {
   return shape == profile::ParameterShape::kArray || shape == profile::ParameterShape::kArrayPerSet;
@@ -37,6 +40,10 @@ DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner) noexcept 
   for (std::uint8_t place = 1; place < 3; ++place) addFunction(kFirstActualValue, place, 1);
   for (std::uint8_t place = 1; place < 3; ++place) addFunction(kFirstSetpoint, place, 1);
   addBusBits();
+  for (std::uint8_t set = 1; set <= kSets; ++set) {
+    add(kAccelerationTime, set, 1);
+    add(kDecelerationTime, set, 1);
+  }
 }
 
 void DeviceReader::add(std::uint16_t number, std::uint8_t set, std::uint8_t index) noexcept {
@@ -153,6 +160,10 @@ void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
   } else if (item.number == kBusBits) {
     while (data_.bus_bit_functions.size() < item.index) data_.bus_bit_functions.push_back(kUnknownFunction);
     data_.bus_bit_functions[item.index - 1u] = static_cast<std::uint16_t>(raw);
+  } else if (item.number == kAccelerationTime) {
+    data_.acceleration_time[item.set - 1u] = value;
+  } else if (item.number == kDecelerationTime) {
+    data_.deceleration_time[item.set - 1u] = raw * kRampStep;
   } else {
     storeFunction(item, static_cast<std::uint16_t>(raw));
   }

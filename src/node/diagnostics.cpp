@@ -35,6 +35,7 @@ Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdenti
     protections_.emplace_back(identities[i], config.cycle.drives[i].series, config.cycle.cmd_vel_timeout,
                               config.cycle.period());
     series_.push_back(config.cycle.drives[i].series);
+    ramps_.emplace_back(config.cycle, i);
     typed_max_frequency_.push_back(config.cycle.drives[i].typed_max_frequency);
     updater_.add("drive " + names_.back(), [this, i](DiagnosticStatusWrapper& status) { reportDrive(i, status); });
   }
@@ -118,6 +119,8 @@ void Diagnostics::warn(std::size_t index, const ProtectionReport& protection, Di
   for (const std::string& text : deviceWarnings(drive.device, series_[index])) {
     status.mergeSummary(DiagnosticStatus::WARN, text);
   }
+  const std::string slow_ramp = ramps_[index].assess(drive.device, drive.parameter_set);
+  if (drive.online && !slow_ramp.empty()) status.mergeSummary(DiagnosticStatus::WARN, slow_ramp);
   if (drive.astray) {
     status.mergeSummaryf(DiagnosticStatus::WARN,
                          "it has been %.2f rad/s away from its setpoint for seconds: is the motor overloaded, or are "

@@ -16,8 +16,10 @@ constexpr std::uint16_t kUnknownFunction = 0xFFFF;
 constexpr std::uint16_t kFrequencyFunction = 1;
 
 struct DeviceData {
-  std::array<std::optional<double>, 4> max_frequency;  ///< Hz, P105 of parameter sets 1..4
-  std::array<std::optional<double>, 4> min_frequency;  ///< Hz, P104: at setpoint 0 the motor turns at it
+  std::array<std::optional<double>, 4> max_frequency;      ///< Hz, P105 of parameter sets 1..4
+  std::array<std::optional<double>, 4> min_frequency;      ///< Hz, P104: at setpoint 0 the motor turns at it
+  std::array<std::optional<double>, 4> acceleration_time;  ///< s from 0 Hz to P105, P102 of parameter sets 1..4
+  std::array<std::optional<double>, 4> deceleration_time;  ///< s from P105 to 0 Hz, P103 likewise
   std::array<std::optional<std::uint16_t>, 4> actual_value_1_function;  ///< P543 (or [-01]) of parameter sets 1..4
   std::array<std::optional<std::uint16_t>, 4> setpoint_1_function;      ///< P546 (or [-01]) of parameter sets 1..4
   std::optional<std::int32_t> software_version;                         ///< P707 [-01]: 21 = V2.1

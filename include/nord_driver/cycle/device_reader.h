@@ -58,7 +58,7 @@ class DeviceReader {
   void storeFunction(const Item& item, std::uint16_t function) noexcept;
 
   profile::Series series_;
-  FixedVector<Item, 40> items_;
+  FixedVector<Item, 64> items_;
   std::size_t motion_items_ = 0;  // the first ones: those that decide motion
   std::size_t next_ = 0;
   std::uint8_t attempts_ = 0;
