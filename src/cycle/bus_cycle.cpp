@@ -125,17 +125,13 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
   }
 }
 
-// Written while it turns, P105 would be a step of the speed: the setpoint is a share of it.
+// Written while it turns, P105 would be a step of the speed (the setpoint is a share of it), P104 a motion of its own.
 void BusCycle::accessParameter(const Request& request) noexcept {
   const bool at_rest = supervisor_.groupOf(request.drive).report().phase == drive::GroupPhase::kDisabled &&
                        drives_[request.drive].isAtRest();
-  if (at_rest || !changesProcessData(request)) {
-    return axes_[request.drive].parameters.handleRequest(request, drives_[request.drive]);
-  }
-  Sentence why;
-  why.format("P%03u decides what setpoints and actual values mean: disable drive %s first", request.parameter.number,
-             names_[request.drive].c_str());
-  ports_.complete(answerTo(request, false, why));
+  DriveParameters& parameters = axes_[request.drive].parameters;
+  if (at_rest || !decidesMotion(request)) return parameters.handleRequest(request, drives_[request.drive]);
+  ports_.complete(answerTo(request, false, parameters.notWhileEnabled(request)));
 }
 
 // A drive that is idle may still belong to a base that is on its way to rest: its set stays what it is until then.
@@ -165,7 +161,7 @@ void BusCycle::commandBase(Instant now, Duration dt) noexcept {
   const bool driving = follow || group.wantsZeroRamp();
   base_->tune(ports_.newestBaseTuning());
   const robot::WheelSpeeds wheels =
-      base_->pollWheels(ports_.newestBaseCommand(), driving, follow, maxWheelSpeeds(), now, dt);
+      base_->pollWheels(ports_.newestBaseCommand(), driving, follow, maxWheelSpeeds(), now, dt, minWheelSpeeds());
   for (std::size_t i = 0; i < wheels_.size(); ++i) drives_[wheels_[i]].setVelocity(RadPerSec{wheels[i]});
   group.setpointIsZero(robot::standsStill(wheels));
 }
@@ -187,6 +183,15 @@ robot::WheelSpeeds BusCycle::maxWheelSpeeds() const noexcept {
   robot::WheelSpeeds speeds;
   for (const DriveIndex i : wheels_) speeds.push_back(drives_[i].maxVelocity().value_or(RadPerSec{}).value);
   return speeds;
+}
+
+MinimumSpeeds BusCycle::minWheelSpeeds() const noexcept {
+  MinimumSpeeds minimum;
+  for (const DriveIndex i : wheels_) {
+    minimum.wheels.push_back(drives_[i].minVelocity().value);
+    minimum.coming_to_rest = minimum.coming_to_rest || drives_[i].comesToRest();
+  }
+  return minimum;
 }
 
 void BusCycle::handleInputs(Instant now) noexcept {
@@ -230,7 +235,7 @@ void BusCycle::measure(Instant now, Duration dt) noexcept {
     } else {
       axes_[i].joint.rebase();
     }
-    axes_[i].speed.update(report.phase == drive::Phase::kEnabled && report.scaled, report.velocity_command.value,
+    axes_[i].speed.update(drive::isEnabled(report.phase) && report.scaled, report.velocity_command.value,
                           report.velocity.value, drives_[i].maxVelocity().value_or(RadPerSec{}).value, now);
   }
   if (base_) measureBase(dt);
@@ -290,7 +295,7 @@ void BusCycle::tellChanges(Instant now) noexcept {
   }
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     const drive::DriveReport& report = drives_[i].report();
-    if (!supervisor_.inBase(i) && report.phase == drive::Phase::kEnabled && !snapshot_.drives[i].enabled) {
+    if (!supervisor_.inBase(i) && drive::isEnabled(report.phase) && !snapshot_.drives[i].enabled) {
       news.text.format("drive %s is enabled", names_[i].c_str());
       ports_.tell(news);
     }
@@ -309,7 +314,8 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive) const noexcept {
   const drive::DriveReport& report = drives_[drive].report();
   to.online = report.online;
   to.module_answers = inputs_[drive].module_answers;
-  to.enabled = report.phase == drive::Phase::kEnabled;
+  to.enabled = drive::isEnabled(report.phase);
+  to.saturated = report.saturated || (to.enabled && base_ && supervisor_.inBase(drive) && base_->belowMinimum());
   to.state = report.state;
   to.parameter_set = report.parameter_set;
   to.output = report.output;

@@ -16,6 +16,8 @@ Refusal Drive::enableRefusal() const noexcept {
       return Refusal::kOffline;
     case Phase::kEnabling:
     case Phase::kEnabled:
+    case Phase::kResting:
+    case Phase::kResuming:
       return Refusal::kNone;
     case Phase::kHoldingZero:
     case Phase::kStopping:
@@ -37,6 +39,9 @@ Refusal Drive::enableRefusal() const noexcept {
   if (!startable) return Refusal::kWrongState;
   if (report_.parameter_set != report_.commanded_set) return Refusal::kParameterSet;
   if (!maxFrequency(report_.commanded_set).has_value()) return Refusal::kMaxFrequencyUnknown;
+  if (parameters_awaited_) return Refusal::kParametersAwaited;
+  if (report_.unexpected_function) return Refusal::kUnexpectedFunction;
+  if (restsAtZero() && !config_.allow_minimum_frequency) return Refusal::kMinimumFrequency;
   return Refusal::kNone;
 }
 
@@ -50,7 +55,10 @@ void Drive::requestEnable(Instant now) noexcept {
 
 void Drive::requestSetpointZero(Instant now) noexcept {
   if (report_.phase == Phase::kEnabling) return requestShutdown(now);
-  if (report_.phase == Phase::kEnabled) enter(Phase::kHoldingZero, now);
+  if (!isEnabled(report_.phase)) return;
+  // With P104 > 0 setpoint 0 is no rest.
+  if (restsAtZero() || report_.phase != Phase::kEnabled) return requestShutdown(now);
+  enter(Phase::kHoldingZero, now);
 }
 
 void Drive::requestShutdown(Instant now) noexcept {
@@ -142,7 +150,7 @@ void Drive::requestParameterSet(std::uint8_t set, Instant now, std::uint32_t tok
 }
 
 void Drive::setVelocity(RadPerSec joint) noexcept {
-  if (report_.phase == Phase::kEnabled) wanted_ = joint;
+  if (isEnabled(report_.phase)) wanted_ = joint;
 }
 
 void Drive::setMaxFrequency(std::uint8_t set, Hertz frequency) noexcept {
@@ -154,6 +162,22 @@ void Drive::setMaxFrequency(std::uint8_t set, Hertz frequency) noexcept {
 std::optional<Hertz> Drive::maxFrequency(std::uint8_t set) const noexcept {
   if (set < 1 || set > 4) return std::nullopt;
   return max_frequency_[set - 1u];
+}
+
+void Drive::setMinimumFrequency(std::uint8_t set, Hertz frequency) noexcept {
+  if (set < 1 || set > 4) return;
+  min_frequency_[set - 1u] = std::isfinite(frequency.value) && frequency.value > 0.0 ? frequency : Hertz{};
+  tellSet();
+}
+
+void Drive::setUnexpectedFunction(std::uint8_t set, const std::optional<UnexpectedFunction>& function) noexcept {
+  if (set < 1 || set > 4) return;
+  unexpected_[set - 1u] = function;
+  tellSet();
+}
+
+RadPerSec Drive::minVelocity() const noexcept {
+  return RadPerSec{std::fabs(profile::toRadPerSec(report_.minimum_frequency, config_.joint).value)};
 }
 
 std::optional<RadPerSec> Drive::maxVelocity() const noexcept {

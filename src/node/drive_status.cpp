@@ -36,6 +36,7 @@ void fillDriveStatus(const cycle::DriveSample& sample, DriveStatus& status) {
   status.velocity_command = sample.velocity_command;
   status.velocity = sample.velocity;
   status.frequency = sample.frequency;
+  status.saturated = sample.saturated;
   status.fault_number = sample.fault_number;
   status.fault_text = sample.fault_number == 0 ? "" : profile::faultText(sample.fault_number);
 }

@@ -112,10 +112,10 @@ void DriverNode::advertise() {
     names.push_back(setup.name);
     traced.push_back({setup.name, identities_[i].address});
     const auto address = config_.drives[i].settings->integer("address").value_or(0);
-    drive_publishers_.emplace_back(
-        private_node_, setup, identities_[i],
-        DriveProtection{identities_[i], config_.cycle.cmd_vel_timeout, config_.cycle.period()},
-        static_cast<std::uint16_t>(address));
+    drive_publishers_.emplace_back(private_node_, setup, identities_[i],
+                                   DriveProtection{identities_[i], config_.cycle.drives[i].series,
+                                                   config_.cycle.cmd_vel_timeout, config_.cycle.period()},
+                                   static_cast<std::uint16_t>(address));
     if (cycle_->inBase(i)) continue;
     boost::function<void(const std_msgs::Float64&)> take = [this, i](const std_msgs::Float64& velocity) {
       takeDriveCommand(i, velocity.data);

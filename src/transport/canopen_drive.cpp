@@ -72,10 +72,7 @@ void CanopenDriveState::takeInput(const canopen::Master& master, bool bus_works,
   input.module_answers = module_answers_;
   input.inverter_answers = inverter_answers_;
   // The dictionary can be read before the node is operational, but nobody asks before the drive is online.
-  if (!module_answers_) {
-    parameters_.handleOffline();
-    scaling_.setMaxFrequency(config_.typed_max_frequency);
-  }
+  if (!module_answers_) parameters_.handleOffline();
   explain(status, bus_works, ever_sent, overdue);
 }
 
@@ -155,13 +152,16 @@ bool CanopenDriveState::submit(const profile::ParameterRequest& request) noexcep
   if (!parameters_.submit(request)) return false;
   using Shape = profile::ParameterShape;
   const bool of_set_1 = request.shape == Shape::kPlain || request.parameter_set == 1;
-  if (request.number == kMaxFrequency && request.action == profile::ParameterAction::kRead && of_set_1) {
+  if (request.scales && request.number == kMaxFrequency && of_set_1) {
     max_frequency_reads_.push_back(request.id);
+    // The drive layer, too, begins anew with what was typed in.
+    scaling_.setMaxFrequency(config_.typed_max_frequency);
   }
   return true;
 }
 
-// Revolutions per minute are told as shares of P105 by what the drive layer itself has read of it.
+// Revolutions per minute are told as shares of P105 by what the drive layer itself has read of it. What a user reads
+// while the drive layer commands shares of another P105 (somebody wrote it at the keypad) would be a step of the speed.
 std::optional<profile::ParameterResult> CanopenDriveState::pollResult() noexcept {
   const auto result = parameters_.pollResult();
   if (!result) return std::nullopt;

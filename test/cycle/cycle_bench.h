@@ -19,9 +19,9 @@ class CycleBench {
   /// `acceleration`: the limit of the base in m/s^2, both ways; 0: none.
   explicit CycleBench(std::optional<double> typed_max_frequency = std::nullopt, double acceleration = 0.0,
                       const drive::StopWays& ways = {})
-      : CycleBench{config(typed_max_frequency, acceleration, ways), false} {}
-  CycleBench(const CycleConfig& config, bool auto_enable)
-      : transport{3}, ports{3}, cycle{config, transport, ports, auto_enable} {}
+      : CycleBench{config(typed_max_frequency, acceleration, ways)} {}
+  explicit CycleBench(const CycleConfig& config, bool auto_enable = false)
+      : transport{config.drives.size()}, ports{config.drives.size()}, cycle{config, transport, ports, auto_enable} {}
 
   void step() {
     const Instant start = transport.time;
@@ -61,12 +61,6 @@ class CycleBench {
   std::int16_t setpoint(DriveIndex drive) const { return transport.outputs[drive].setpoints[0]; }
   Word controlWord(DriveIndex drive) const { return transport.outputs[drive].control_word; }
 
-  ScriptedTransport transport;
-  CyclePorts ports;
-  BusCycle cycle;
-  std::map<std::uint32_t, Completion> completions;
-  std::uint32_t last_id = 0;
-
   // 50 Hz, two pole pairs, no gear: 100 % is 157.08 rad/s at the joint.
   static CycleConfig config(std::optional<double> typed_max_frequency = std::nullopt, double acceleration = 0.0,
                             const drive::StopWays& ways = {}) {
@@ -91,6 +85,12 @@ class CycleBench {
     config.base->geometry.left_wheel_radius = config.base->geometry.right_wheel_radius = 0.1;
     return config;
   }
+
+  ScriptedTransport transport;
+  CyclePorts ports;
+  BusCycle cycle;
+  std::map<std::uint32_t, Completion> completions;
+  std::uint32_t last_id = 0;
 };
 
 }  // namespace nord_driver::cycle

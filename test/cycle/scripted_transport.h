@@ -55,6 +55,7 @@ class ScriptedTransport final : public Transport {
     return result;
   }
   void answerFirst() {
+    const DriveIndex drive = submitted.front().drive;
     const profile::ParameterRequest request = submitted.front().request;
     submitted.pop_front();
     profile::ParameterResult result;
@@ -62,7 +63,11 @@ class ScriptedTransport final : public Transport {
     result.outcome = profile::ParameterOutcome::kRefused;
     auto at = parameters.find(request.number + 1000 * request.parameter_set);
     if (at == parameters.end()) at = parameters.find(request.number);
-    if (at != parameters.end()) {
+    const auto own = of_drive[drive].find(request.number);
+    if (own != of_drive[drive].end()) {
+      result.outcome = profile::ParameterOutcome::kDone;
+      result.raw = own->second;
+    } else if (at != parameters.end()) {
       result.outcome = profile::ParameterOutcome::kDone;
       result.raw = at->second;
     }
@@ -84,6 +89,7 @@ class ScriptedTransport final : public Transport {
   std::vector<bool> interrupted;  ///< in the next cycle
   std::vector<profile::ProcessOutput> outputs;
   std::map<int, std::int32_t> parameters{{105, 500}};
+  std::map<DriveIndex, std::map<int, std::int32_t>> of_drive;  ///< by number, of one drive alone: before `parameters`
   bool hold_answers = false;
   bool queue_full = false;
   std::deque<Submitted> submitted;

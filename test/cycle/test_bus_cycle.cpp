@@ -14,7 +14,7 @@ constexpr double kFullSpeed = 157.07963267948966;  // rad/s: 50 Hz, two pole pai
 class BusCycleTest : public ::testing::Test, protected CycleBench {
  protected:
   void bringUp() {
-    run(30);
+    run(60);
     ASSERT_TRUE(snapshot().drives[kLift].device.complete);
   }
   void enable() {

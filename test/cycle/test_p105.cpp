@@ -76,7 +76,7 @@ class P105Writes : public ::testing::Test, protected CycleBench {
 
 // The device is read beside the write: an answer about the old P105 is no leave to enable before the write has ended.
 TEST_F(P105Writes, NothingIsEnabledOnTheOldOneMeanwhile) {
-  run(30);
+  run(60);
   transport.inverters[kLift].silent = true;
   run(10);
   transport.inverters[kLift].silent = false;
@@ -90,7 +90,7 @@ TEST_F(P105Writes, NothingIsEnabledOnTheOldOneMeanwhile) {
   transport.submitted.pop_back();  // the write's first question stays without an answer
   transport.hold_answers = false;
   transport.answerFirst();
-  run(30);
+  run(60);
   ASSERT_EQ(0u, completions.count(4711));
   ASSERT_TRUE(snapshot().drives[kLift].device.complete);
   EXPECT_FALSE(ask(RequestKind::kEnable, kLift).success);

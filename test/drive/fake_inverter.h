@@ -18,7 +18,7 @@ class FakeInverter {
   bool stuck = false;          ///< never leaves "ready to switch on" upwards
   bool endless = false;        ///< never comes down from an OFF1 ramp
   std::int16_t ramp = 0x0400;  ///< per cycle
-  std::int16_t minimum = 0;    ///< P104: what it turns at with setpoint 0
+  std::int16_t minimum = 0;    ///< P104: what it turns at with a setpoint below it, to the right with setpoint 0
   bool terminals = false;      ///< its digital inputs enable it, whatever the bus says
   int set_delay = 0;           ///< cycles until it follows another parameter set
 
@@ -84,7 +84,8 @@ class FakeInverter {
       } else if (low_ == 0x31 && !stuck) {
         low_ = 0x33;
       } else if (low_ == 0x37) {
-        rampTo(std::abs(int{setpoint}) < minimum ? minimum : setpoint, ramp);
+        const int least = setpoint < 0 ? -minimum : minimum;
+        rampTo(std::abs(int{setpoint}) < minimum ? least : setpoint, ramp);
       }
     }
   }

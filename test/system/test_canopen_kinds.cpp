@@ -162,6 +162,36 @@ TEST(CanopenKinds, Cia402VelocityMode) {
   EXPECT_THAT(frames, ::testing::Contains("7F 00 EE 02"));
 }
 
+// The shares the drive layer commands are of the P105 it has read: told as rpm by another one, they are another speed.
+TEST(CanopenKinds, Cia402IsNotScaledByAReadOfTheUser) {
+  CanRobot robot{cia402()};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{3});
+  ASSERT_NEAR(25.0, robot.unit(0).inverter().frequency(), 0.1);
+  for (const unsigned set : {0u, 2u}) robot.unit(0).parameters().preset(105, set, 0, 1000);  // by its keypad
+  std::vector<std::string> frames;
+  robot.bus().setTap([&](const CanFrame& frame, sim::SimulatedCanBus::Sender, Instant) {
+    if (frame.id == 0x203) frames.push_back(toHex(frame.bytes()));
+  });
+  const auto readWhileDriving = [&](std::uint8_t set) {
+    cycle::Request request;
+    request.id = 4711u + set;
+    request.patience = std::chrono::seconds{3};
+    request.kind = cycle::RequestKind::kReadParameter;
+    request.drive = 0;
+    request.parameter.number = 105;
+    request.parameter.shape = profile::ParameterShape::kPerSet;
+    request.parameter.parameter_set = set;
+    robot.ports().submit(request);
+    robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{1});
+    ASSERT_EQ(1000, robot.completions().back().raw);
+  };
+  readWhileDriving(3);
+  readWhileDriving(1);
+  ASSERT_FALSE(frames.empty());
+  EXPECT_THAT(frames, ::testing::Each("7F 00 EE 02"));
+}
+
 // P551 off: the objects are not there, and the node says so at its start.
 TEST(CanopenKinds, Cia402WithoutP551IsNamed) {
   CanRobot::Options options = cia402();

@@ -55,6 +55,7 @@ class BusCycle {
   void commandBase(Instant now, Duration dt) noexcept;
   void commandSingles(Instant now) noexcept;
   robot::WheelSpeeds maxWheelSpeeds() const noexcept;
+  MinimumSpeeds minWheelSpeeds() const noexcept;
   void handleInputs(Instant now) noexcept;
   void runParameters(Instant now) noexcept;
   void measure(Instant now, Duration dt) noexcept;

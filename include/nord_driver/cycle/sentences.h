@@ -17,7 +17,9 @@ Sentence stopSentence(const char* drive, drive::StopCause cause, const drive::Dr
 Sentence stateSentence(const char* drive, const drive::DriveReport& report) noexcept;
 /// "drive left is under local control ..."; empty for TerminalFinding::kNone.
 Sentence terminalSentence(const char* drive, TerminalFinding finding, const drive::DriveReport& report) noexcept;
-/// Why a parameter access failed, or what was done besides; empty when there is nothing to say.
-Sentence parameterSentence(const char* drive, std::uint16_t number, const drive::ParameterTaskResult& result) noexcept;
+/// Why a parameter access failed, or what was done besides; empty when there is nothing to say. `no_bus_control`: it
+/// was a write, and the bus has no control (status bit 9 = 0), which may be why it was refused.
+Sentence parameterSentence(const char* drive, std::uint16_t number, const drive::ParameterTaskResult& result,
+                           bool no_bus_control = false) noexcept;
 
 }  // namespace nord_driver::cycle
