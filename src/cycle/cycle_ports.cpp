@@ -3,6 +3,8 @@
 #include <errno.h>
 #include <time.h>
 
+#include <cmath>
+
 namespace nord_driver::cycle {
 
 CyclePorts::CyclePorts(std::size_t drive_count) : snapshot_(CycleSnapshot{drive_count}), trace_(drive_count) {
@@ -16,14 +18,18 @@ CyclePorts::~CyclePorts() {
   sem_destroy(&completed_);
 }
 
-void CyclePorts::commandBase(const TwistCommand& command) {
+bool CyclePorts::commandBase(const TwistCommand& command) {
+  if (!robot::isFinite(command.twist)) return false;
   const std::lock_guard<std::mutex> lock(writers_);
   base_command_.write(command);
+  return true;
 }
 
-void CyclePorts::commandDrive(DriveIndex drive, const JointCommand& command) {
+bool CyclePorts::commandDrive(DriveIndex drive, const JointCommand& command) {
+  if (!std::isfinite(command.velocity)) return false;
   const std::lock_guard<std::mutex> lock(writers_);
   drive_commands_.at(drive)->write(command);
+  return true;
 }
 
 void CyclePorts::tuneBase(const BaseTuning& tuning) {
