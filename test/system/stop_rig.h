@@ -73,7 +73,7 @@ class StopRig {
   std::array<WireWords, kDrives> words_;
 };
 
-/// A bus the table is held on.
+/// A robot the table is held on; the name tells what is special about it.
 struct StopBus {
   const char* name;
   std::unique_ptr<StopRig> (*make)();

@@ -128,12 +128,12 @@ const std::vector<StopRow>& stopRows() {
   return rows;
 }
 
-std::map<std::string, MapSettings::Value> decelerationLimit() {
-  return {{"linear/x/has_acceleration_limits", true}, {"linear/x/max_acceleration", 0.5}};
+std::map<std::string, MapSettings::Value> stopSettings(double cycle_rate) {
+  return {{"cycle_rate", cycle_rate}, {"linear/x/has_acceleration_limits", true}, {"linear/x/max_acceleration", 0.5}};
 }
 
 std::string nameOfStop(const ::testing::TestParamInfo<std::tuple<StopBus, StopRow>>& info) {
-  return std::get<StopRow>(info.param).name;
+  return std::string(std::get<StopRow>(info.param).name) + "At" + std::get<StopBus>(info.param).name;
 }
 
 void PrintTo(const StopBus& bus, std::ostream* out) {

@@ -56,8 +56,8 @@ struct StopRow {
 };
 
 const std::vector<StopRow>& stopRows();
-/// Of the base, for the rows that end in a ramp; nothing else is set.
-std::map<std::string, MapSettings::Value> decelerationLimit();
+/// Of the node: the limit of the base for the rows that end in a ramp, and the cycle; nothing else is set.
+std::map<std::string, MapSettings::Value> stopSettings(double cycle_rate);
 void PrintTo(const StopBus& bus, std::ostream* out);
 void PrintTo(const StopRow& row, std::ostream* out);
 std::string nameOfStop(const ::testing::TestParamInfo<std::tuple<StopBus, StopRow>>& info);

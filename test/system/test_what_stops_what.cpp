@@ -19,11 +19,10 @@ namespace {
 constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
 constexpr std::int16_t kHalfSetpoint = 0x2000;
 constexpr Word kIdle = 0x047E, kRun = 0x047F, kOff3 = 0x047B;
-constexpr int kBound = 2;                           // bus cycles, of every row
-constexpr int kNewsLimit = 20;                      // bus cycles until a simulated cause shows on the bus
-constexpr int kRampStep = 106;                      // of 16384 a cycle: 0.5 m/s2, and the rounding of two setpoints
-constexpr double kSlow = 5.0;                       // rad/s at the motor: OFF1 takes the torque no earlier
-constexpr Duration kTripMargin = milliseconds{10};  // a cycle: the last word may have left a cycle before the cause
+constexpr int kBound = 2;          // bus cycles, of every row
+constexpr int kNewsLimit = 20;     // bus cycles until a simulated cause shows on the bus
+constexpr double kRamp = 10431.0;  // of 16384 a second: 0.5 m/s2, where 100 % are 0.7854 m/s
+constexpr double kSlow = 5.0;      // rad/s at the motor: OFF1 takes the torque no earlier
 
 bool tellsToRun(const WireWords& words) {
   return words.sent && (words.control & 0x000F) == 0x000F;
@@ -52,7 +51,7 @@ void WhatStopsWhat::submit(cycle::RequestKind kind) {
 }
 
 void WhatStopsWhat::standStill() {
-  rig_->passWithoutTheDriver(rig_->driveSideTimeout() + kTripMargin);
+  rig_->passWithoutTheDriver(rig_->driveSideTimeout() + robot().config().period());
 }
 
 void WhatStopsWhat::step() {
@@ -168,7 +167,8 @@ void WhatStopsWhat::expectOneCycleDown() {
       ASSERT_LE(std::abs(rig_->unit(i).shaftSpeed()), kSlow) << "OFF1 on the ramp: " << this->words();
     }
     if (row().reaction == Reaction::kRamp) {
-      ASSERT_LE(std::abs(before_[i].setpoint - words.setpoint), kRampStep) << this->words();
+      const double step = kRamp * toSeconds(robot().config().period()) + 1.0;  // two setpoints are rounded
+      ASSERT_LE(std::abs(before_[i].setpoint - words.setpoint), step) << this->words();
       ASSERT_EQ(rig_->wire(kLeft).setpoint, -rig_->wire(kRight).setpoint) << "the path bends: " << this->words();
     }
   }
@@ -190,7 +190,8 @@ void WhatStopsWhat::expectDown() {
 
 // Nothing can be sent: watchdog or guarding switch the inverters off, and the wheels coast.
 void WhatStopsWhat::expectDriveSideStop() {
-  const Instant trip_by = begun_ + rig_->driveSideTimeout() + kTripMargin;
+  // The last word may have left a cycle before the cause.
+  const Instant trip_by = begun_ + rig_->driveSideTimeout() + robot().config().period();
   while (now() < trip_by) {
     step();
     ASSERT_TRUE(reacted()) << words();

@@ -12,6 +12,8 @@ constexpr std::size_t kDataTelegram = 21;   // with PZD of 4, FCS and ED
 
 class ProfibusStopRig final : public StopRig {
  public:
+  explicit ProfibusStopRig(double cycle_rate) : robot_(options(cycle_rate)) {}
+
   DrivenRobot& robot() override { return robot_; }
   sim::DriveUnit& unit(DriveIndex drive) override { return robot_.unit(drive); }
   std::string referee() override { return robot_.segment().referee().report(); }
@@ -39,22 +41,29 @@ class ProfibusStopRig final : public StopRig {
   Duration driveSideTimeout() const override { return std::chrono::milliseconds{200}; }
 
  private:
-  static SimulatedRobot::Options options() {
+  static SimulatedRobot::Options options(double cycle_rate) {
     SimulatedRobot::Options options;
-    options.node = decelerationLimit();
+    options.node = stopSettings(cycle_rate);
     return options;
   }
   static Word wordAt(const std::vector<std::uint8_t>& telegram, std::size_t offset) {
     return static_cast<Word>(telegram[kControlOffset + offset] << 8 | telegram[kControlOffset + offset + 1]);
   }
 
-  SimulatedRobot robot_{options()};
+  SimulatedRobot robot_;
 };
 
-const StopBus kProfibus{"Profibus", [] { return std::unique_ptr<StopRig>{std::make_unique<ProfibusStopRig>()}; }};
+template <int kCycleRate>
+std::unique_ptr<StopRig> makeRig() {
+  return std::make_unique<ProfibusStopRig>(kCycleRate);
+}
 
+// The default, and one where drive_timeout is three cycles, not 50 ms.
 INSTANTIATE_TEST_SUITE_P(Profibus, WhatStopsWhat,
-                         ::testing::Combine(::testing::Values(kProfibus), ::testing::ValuesIn(stopRows())), nameOfStop);
+                         ::testing::Combine(::testing::Values(StopBus{"100Hz", makeRig<100>},
+                                                              StopBus{"25Hz", makeRig<25>}),
+                                            ::testing::ValuesIn(stopRows())),
+                         nameOfStop);
 
 }  // namespace
 }  // namespace nord_driver::test
