@@ -3,6 +3,8 @@
 #include <errno.h>
 #include <time.h>
 
+#include <cmath>
+
 namespace nord_driver::cycle {
 
 CyclePorts::CyclePorts(std::size_t drive_count)
@@ -17,20 +19,24 @@ CyclePorts::~CyclePorts() {
   sem_destroy(&completed_);
 }
 
-void CyclePorts::commandBase(const TwistCommand& command) {
+bool CyclePorts::commandBase(const TwistCommand& command) {
+  if (!robot::isFinite(command.twist)) return false;
   const std::lock_guard<std::mutex> lock(writers_);
   if (command.twist != robot::Twist2d{}) base_moved_ = command.received;
   TwistCommand kept = command;
   kept.moved = base_moved_;
   base_command_.write(kept);
+  return true;
 }
 
-void CyclePorts::commandDrive(DriveIndex drive, const JointCommand& command) {
+bool CyclePorts::commandDrive(DriveIndex drive, const JointCommand& command) {
+  if (!std::isfinite(command.velocity)) return false;
   const std::lock_guard<std::mutex> lock(writers_);
   if (command.velocity != 0.0) drives_moved_.at(drive) = command.received;
   JointCommand kept = command;
   kept.moved = drives_moved_.at(drive);
   drive_commands_.at(drive)->write(kept);
+  return true;
 }
 
 void CyclePorts::tuneBase(const BaseTuning& tuning) {

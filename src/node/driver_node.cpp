@@ -155,13 +155,10 @@ void DriverNode::takeCommand(const geometry_msgs::Twist& twist) {
 }
 
 void DriverNode::takeDriveCommand(DriveIndex drive, double velocity) {
-  if (!std::isfinite(velocity)) {
-    ++bad_commands_;
-    ROS_WARN_THROTTLE(1.0, "nord_driver: the command of drive %s is not a number or infinite, ignored",
-                      config_.cycle.drives[drive].name.c_str());
-    return;
-  }
-  ports_->commandDrive(drive, {velocity, steadyNow(), true});
+  if (ports_->commandDrive(drive, {velocity, steadyNow(), true})) return;
+  ++bad_commands_;
+  ROS_WARN_THROTTLE(1.0, "nord_driver: the command of drive %s is not a number or infinite, ignored",
+                    config_.cycle.drives[drive].name.c_str());
 }
 
 void DriverNode::run(const std::atomic<bool>& end_asked) {

@@ -291,8 +291,11 @@ TEST_F(BusCycleTest, AnAnswerFromBeforeALossIsNotTakenForANewOne) {
   transport.parameters = {{1105, 500}, {2105, 1000}, {3105, 500}, {4105, 500}};
   run(2);
   transport.hold_answers = true;
-  while (transport.submitted.size() < 3) step();  // each drive has asked for one
-  while (transport.submitted.front().drive != kLeft) step();
+  for (int i = 0; transport.submitted.size() < 3; ++i) {  // each drive has asked for one
+    ASSERT_LT(i, 300) << transport.submitted.size() << " of 3 drives have asked for a parameter within 3 s";
+    step();
+  }
+  ASSERT_EQ(kLeft, transport.submitted.front().drive);
   const auto old = transport.submitted.front();
   transport.submitted.clear();
   for (auto& inverter : transport.inverters) inverter.silent = true;

@@ -25,8 +25,9 @@ class CyclePorts {
   CyclePorts& operator=(const CyclePorts&) = delete;
 
   // Outside.
-  void commandBase(const TwistCommand& command);
-  void commandDrive(DriveIndex drive, const JointCommand& command);
+  /// False, and no command at all, when it is not a number or infinite: the one before goes on growing old.
+  bool commandBase(const TwistCommand& command);
+  bool commandDrive(DriveIndex drive, const JointCommand& command);
   void tuneBase(const BaseTuning& tuning);
   /// One more publisher of commands is connected: what it has to say has not been heard yet.
   void commanderConnected(Instant when);
