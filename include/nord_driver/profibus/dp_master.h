@@ -120,7 +120,7 @@ class DpMaster {
   void ask(std::size_t slave, Instant now) noexcept;
   void nextTurn() noexcept;
   void abandonCycle() noexcept;
-  void tellForeign(std::uint8_t master, Instant now) noexcept;
+  void onForeign(std::uint8_t master, bool certain, Instant now) noexcept;
 
   BusParameters bus_;
   Requester requester_;
