@@ -83,6 +83,11 @@ class DpMaster {
   bool setSynchronised(bool on) noexcept;
   bool isSynchronised() const noexcept { return synchronised_; }
 
+  /// How long data exchange with a slave goes on, with the retries of each cycle, while it does not answer: a slave
+  /// stays in it, too, until its watchdog runs out, which is why its time is the most there is. 0, the default: one
+  /// exchange without an answer is a loss. Kept over `restart()`.
+  void setSilenceLimit(std::size_t slave, Duration limit) noexcept { slaves_[slave].setSilenceLimit(limit); }
+
   /// Nothing has been sent yet: the line is listened to (`BusParameters::listen_first`).
   bool isListening() const noexcept { return listen_.isListening(); }
 

@@ -28,6 +28,7 @@ struct DriveExchange {
   profile::ProcessInput input;
   bool module_answers = false;    ///< the bus module took part in data exchange in this cycle
   bool inverter_answers = false;  ///< ... and the inverter behind it is on: `input` is fresh
+  bool inverter_missing = false;  ///< the bus module answers, and the inverter behind it does not: it hears nothing
 };
 
 /// Whose time-outs decide whether the inverter heeds a lost bus (BU 2700 8.1).
@@ -88,6 +89,10 @@ class Transport {
 
   /// Reads the `bus` settings and the drives' own (address, ppo_type, ...). Throws ConfigError naming key and value.
   virtual void configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) = 0;
+
+  /// Told once, after configure(): silence of a drive that is shorter stops nothing. A transport that can tries for as
+  /// long to go on as if nothing had happened.
+  virtual void setDriveTimeout(Duration /*timeout*/) noexcept {}
 
   /// Time of this bus (the steady clock, or a simulated one in tests).
   virtual Instant now() const noexcept = 0;
