@@ -220,6 +220,7 @@ robot::WheelSpeeds BusCycle::maxWheelSpeeds() const noexcept {
 
 void BusCycle::handleInputs(Instant now) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    drives_[i].handleModule(inputs_[i].inverter_missing, now);
     drives_[i].handleInput(inputs_[i].input, inputs_[i].inverter_answers, now);
     axes_[i].known = axes_[i].known || drives_[i].report().online;
   }
