@@ -45,7 +45,10 @@ BusParameters bus(std::uint8_t options) {
 class Game {
  public:
   Game(const std::uint8_t* data, std::size_t size)
-      : choices_(data, size), bus_(bus(choices_.byte())), master_(bus_, slaves()) {
+      : choices_(data, size), options_(choices_.byte()), bus_(bus(options_)), master_(bus_, slaves()) {
+    for (std::size_t i = 0; i < master_.slaveCount() && (options_ & 32u) != 0; ++i) {
+      master_.setSilenceLimit(i, std::chrono::milliseconds{20});
+    }
     master_.restart(now_);
   }
 
@@ -202,6 +205,7 @@ class Game {
   }
 
   fuzz::Choices choices_;
+  std::uint8_t options_;
   BusParameters bus_;
   Instant now_{std::chrono::hours{1}};
   Instant line_free_{};

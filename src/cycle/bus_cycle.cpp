@@ -35,9 +35,23 @@ bool stops(RequestKind kind) noexcept {
   return kind == RequestKind::kDisable || kind == RequestKind::kQuickStop || kind == RequestKind::kShutDown;
 }
 
-std::vector<drive::Drive> makeDrives(const CycleConfig& config) {
+// A cycle in which one station is silent takes as long as all its retries: behind a slow adapter longer than several
+// others. Two such cycles are no loss, unless somebody said so.
+Duration driveTimeout(const CycleConfig& config, const DriveSetup& setup, const DriveIdentity& identity) {
+  if (config.drive_timeout_given) return setup.drive.drive_timeout;
+  return std::max(setup.drive.drive_timeout, config.period() + 2 * seconds(identity.worst_cycle));
+}
+
+std::vector<drive::Drive> makeDrives(const CycleConfig& config, Transport& transport) {
   std::vector<drive::Drive> drives;
-  for (const DriveSetup& setup : config.drives) drives.emplace_back(setup.drive);
+  Duration shortest = Duration::max();
+  for (const DriveSetup& setup : config.drives) {
+    drive::DriveConfig drive = setup.drive;
+    drive.drive_timeout = driveTimeout(config, setup, transport.identity(drives.size()));
+    shortest = std::min(shortest, drive.drive_timeout);
+    drives.emplace_back(drive);
+  }
+  transport.setDriveTimeout(shortest);
   return drives;
 }
 
@@ -49,7 +63,7 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       period_(config.period()),
       cmd_vel_timeout_(config.cmd_vel_timeout),
       names_(namesOf(config)),
-      drives_(makeDrives(config)),
+      drives_(makeDrives(config, transport)),
       supervisor_(config, drives_, auto_enable),
       command_watch_(ports, config.cmd_vel_timeout, config.base.has_value(), names_, membersOf(config)),
       maintenance_(drives_, names_, modulesOf(config, transport)),
@@ -197,6 +211,7 @@ MinimumSpeeds BusCycle::minWheelSpeeds() const noexcept {
 void BusCycle::handleInputs(Instant now) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     if (inputs_[i].interrupted) drives_[i].handleInterruption(now);
+    drives_[i].handleModule(inputs_[i].inverter_missing, now);
     drives_[i].handleInput(inputs_[i].input, inputs_[i].inverter_answers, now);
     axes_[i].known = axes_[i].known || drives_[i].report().online;
     axes_[i].terminals.update(drives_[i].report());

@@ -99,6 +99,7 @@ CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSetting
   config.shutdown_timeout = seconds(numberOr(node, "shutdown_timeout", 10.0, 0.1, 600.0, "s"));
   config.cmd_vel_timeout = seconds(numberOr(node, "cmd_vel_timeout", 0.5, 0.0, 60.0, "s"));
   config.stop_ways = readStopWays(node);
+  config.drive_timeout_given = node.has("drive_timeout");
   const Duration default_drive_timeout = std::max(kMinDriveTimeout, 3 * config.period());
   const Duration drive_timeout = seconds(
       numberOr(node, "drive_timeout", toSeconds(default_drive_timeout), toSeconds(2 * config.period()), 60.0, "s"));

@@ -122,6 +122,12 @@ Sentence parameterSentence(const char* drive, std::uint16_t number, const drive:
           "acyclic requests (DP-V1)",
           drive);
       break;
+    case profile::ParameterOutcome::kNotActivated:
+      text.format(
+          "the bus module of drive %s refuses acyclic requests (DP-V1): it answers RS, not activated, at access point "
+          "51; PPO types 1 and 2 reach the inverter's parameters without them",
+          drive);
+      break;
     case profile::ParameterOutcome::kBusy:
       text.format("drive %s has too many parameter requests waiting already", drive);
       break;

@@ -86,6 +86,13 @@ void Drive::handleInput(const profile::ProcessInput& input, bool fresh, Instant 
   measure();
 }
 
+void Drive::handleModule(bool inverter_missing, Instant now) noexcept {
+  if (!inverter_missing) return;
+  const Instant heard = last_missing_ ? std::max(last_useful_, *last_missing_) : last_useful_;
+  if (now - heard > config_.drive_timeout) module_back_ = now;
+  last_missing_ = now;
+}
+
 void Drive::handleUseful(const profile::ProcessInput& input, Instant now) noexcept {
   const StatusWord status(input.status_word);
   const bool joined = report_.phase == Phase::kOffline;
@@ -310,10 +317,18 @@ void Drive::measure() noexcept {
 // --- what goes to the inverter
 // ------------------------------------------------------------------------------------------
 
+// Not before the module had time to find it: it might be turning in a set of its own.
+bool Drive::isMissing(Instant now) const noexcept {
+  if (!last_missing_ || now - *last_missing_ > config_.drive_timeout) return false;
+  return !module_back_ || now - *module_back_ > config_.drive_timeout;
+}
+
 Command Drive::command(Instant now) const noexcept {
   switch (report_.phase) {
     case Phase::kOffline:
-      return report_.commanded_set != 0 && now < dark_until_ ? dark_command_ : Command::kIgnored;
+      if (report_.commanded_set == 0) return Command::kIgnored;
+      if (now < dark_until_) return dark_command_;
+      return isMissing(now) ? Command::kShutdown : Command::kIgnored;
     case Phase::kEnabling:
       return ready_seen_ ? Command::kEnableOperation : Command::kShutdown;
     case Phase::kEnabled:

@@ -27,7 +27,7 @@ bool isValue(const ParameterTask& task, std::int32_t raw) noexcept {
 // Not carried out for certain; everything else may have been.
 bool surelyNotDone(ParameterOutcome outcome) noexcept {
   return outcome == ParameterOutcome::kRefused || outcome == ParameterOutcome::kBusy ||
-         outcome == ParameterOutcome::kNoChannel;
+         outcome == ParameterOutcome::kNoChannel || outcome == ParameterOutcome::kNotActivated;
 }
 
 bool isDone(const ParameterResult& result) noexcept {

@@ -54,7 +54,7 @@ void BusScan::start(Instant now) noexcept {
 void BusScan::handleBytes(ByteView bytes, Instant now) noexcept {
   requester_.handleBytes(
       bytes, now, [&](const FdlAnswer& answer) { onAnswer(answer, now); },
-      [&](std::uint8_t master) { onForeign(master, now); });
+      [&](std::uint8_t master, bool certain) { onForeign(master, certain, now); });
 }
 
 void BusScan::handleTimeout(Instant now) noexcept {
@@ -119,9 +119,9 @@ void BusScan::onAnswer(const FdlAnswer& answer, Instant now) noexcept {
   requester_.begin(request_, &slave_counters_, now);
 }
 
-void BusScan::onForeign(std::uint8_t master, Instant now) noexcept {
-  listen_.handleForeign(master, now);
-  if (step_ != Step::kListen) return;
+void BusScan::onForeign(std::uint8_t master, bool certain, Instant now) noexcept {
+  listen_.handleForeign(master, certain, now);
+  if (step_ != Step::kListen || !certain) return;
   refused_by_ = master;
   step_ = Step::kDone;
 }

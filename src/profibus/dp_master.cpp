@@ -56,7 +56,7 @@ void DpMaster::startCycle(Instant now) noexcept {
 void DpMaster::handleBytes(ByteView bytes, Instant now) noexcept {
   requester_.handleBytes(
       bytes, now, [&](const FdlAnswer& answer) { slaves_[asked_].handleAnswer(answer, now, events_); },
-      [&](std::uint8_t master) { tellForeign(master, now); });
+      [&](std::uint8_t master, bool certain) { onForeign(master, certain, now); });
   advance(now);
 }
 
@@ -236,8 +236,9 @@ void DpMaster::abandonCycle() noexcept {
   events_.push(busy);
 }
 
-void DpMaster::tellForeign(std::uint8_t master, Instant now) noexcept {
-  listen_.handleForeign(master, now);
+void DpMaster::onForeign(std::uint8_t master, bool certain, Instant now) noexcept {
+  listen_.handleForeign(master, certain, now);
+  if (!certain) return;
   if (last_foreign_ && foreign_ == master && now - *last_foreign_ < kTellForeignAgain) return;
   last_foreign_ = now;
   foreign_ = master;

@@ -53,7 +53,7 @@ bool DpSlave::wantsStartUpStep(Instant now) const noexcept {
 }
 
 bool DpSlave::wantsDiagnosis() const noexcept {
-  return status_.phase == SlavePhase::kDataExchange && stepped_ && diagnosis_due_;
+  return status_.phase == SlavePhase::kDataExchange && stepped_ && status_.heard && diagnosis_due_;
 }
 
 bool DpSlave::wantsProbe(Instant now) const noexcept {
@@ -113,7 +113,8 @@ void DpSlave::prepare(FdlRequest& request, Instant now) noexcept {
 }
 
 bool DpSlave::wantsAcyclic(Instant now) noexcept {
-  return status_.phase == SlavePhase::kDataExchange && (configuration_wanted_ || records_.wantsTelegram(now));
+  if (status_.phase != SlavePhase::kDataExchange || !status_.heard) return false;
+  return configuration_wanted_ || records_.wantsTelegram(now);
 }
 
 void DpSlave::prepareAcyclic(FdlRequest& request, Instant now) noexcept {
@@ -145,7 +146,9 @@ bool DpSlave::submitRecord(const RecordRequest& request) noexcept {
 
 void DpSlave::fallSilent(Instant due, const char* note) noexcept {
   diagnosis_due_ = false;
+  undiagnosed_since_.reset();
   status_.phase = SlavePhase::kSilent;
+  status_.heard = false;
   status_.note = note;
   due_ = due;
 }
@@ -154,6 +157,7 @@ void DpSlave::fallSilent(Instant due, const char* note) noexcept {
 void DpSlave::startOver(const char* note) noexcept {
   frame_count_.reset();
   diagnosis_due_ = false;
+  undiagnosed_since_.reset();
   status_.phase = SlavePhase::kFirstDiagnosis;
   status_.note = note;
   due_ = Instant{};
@@ -197,6 +201,11 @@ DpEvent DpSlave::event(DpEventKind kind, const char* text) const noexcept {
   told.ident = status_.ident.value_or(0);
   told.text = text;
   return told;
+}
+
+void DpSlave::setSilenceLimit(Duration limit) noexcept {
+  const bool watched = config_.watchdog > Duration::zero();
+  silence_limit_ = watched ? std::min(limit, config_.watchdog) : limit;
 }
 
 void DpSlave::setOutputs(ByteView outputs) noexcept {

@@ -24,6 +24,7 @@ constexpr Duration kHasteLimit = 1s;
 void DpSlave::handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
   if (asked_ != Service::kFdlStatus) frame_count_.answered();
   last_answer_ = now;
+  status_.heard = true;
   switch (asked_) {
     case Service::kFdlStatus:
       return onFdlStatus(answer, now, events);
@@ -42,17 +43,31 @@ void DpSlave::handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& event
 }
 
 void DpSlave::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) noexcept {
-  if (status_.phase == SlavePhase::kSilent) return;
   if (asked_ == Service::kRecord || asked_ == Service::kGetCfg) return handleNoOptionalAnswer(events);
-  if (status_.phase != SlavePhase::kDataExchange) {
-    return fallSilent(now < save_until_ ? now : now + probe_interval_, texts::kNoAnswer);
+  status_.heard = false;
+  if (status_.phase == SlavePhase::kDataExchange) return handleNoExchange(mismatch, now, events);
+  if (status_.phase == SlavePhase::kSilent) {
+    status_.note = texts::kNoAnswer;
+  } else {
+    fallSilent(now < save_until_ ? now : now + probe_interval_, texts::kNoAnswer);
   }
+}
 
-  const bool other_length =
-      asked_ == Service::kDataExchange && (mismatch == Mismatch::kLength || mismatch == Mismatch::kAcknowledge);
-  if (other_length) {
+// The exchange or the diagnosis beside it. A slave stays in data exchange until its watchdog runs out: for as long as
+// the silence may last, the next cycle asks it again, and whether it took this request is not known, so that the frame
+// count begins anew. With another count it might take the new outputs for a repetition of the old.
+void DpSlave::handleNoExchange(Mismatch mismatch, Instant now, DpEvents& events) noexcept {
+  const bool exchange = asked_ == Service::kDataExchange;
+  if (!exchange && !undiagnosed_since_) undiagnosed_since_ = now;
+  const bool ended = now - (exchange ? last_answer_ : *undiagnosed_since_) >= silence_limit_;
+  // A telegram of another length has its checksum; E5 is a single byte, which noise makes, too.
+  if (exchange && (mismatch == Mismatch::kLength || (ended && mismatch == Mismatch::kAcknowledge))) {
     lose(LossCause::kWrongAnswers, texts::kWrongLength, events);
     return backOff({DpEventKind::kConfigurationFault, texts::kWrongLength}, now, events);
+  }
+  if (!ended) {
+    if (exchange) status_.note = texts::kNoAnswer;
+    return frame_count_.reset();
   }
   if (mismatch == Mismatch::kNone || mismatch == Mismatch::kStranger) {
     lose(LossCause::kSilence, texts::kFellSilent, events);
@@ -102,6 +117,7 @@ void DpSlave::onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events
     return startOver(texts::kLeft);
   }
   ++status_.counters.diagnoses;
+  undiagnosed_since_.reset();
   status_.diagnosis = *diagnosis;
   status_.ident = diagnosis->ident();
   if (exchanging) return judgeInExchange(now, events);
@@ -151,6 +167,7 @@ void DpSlave::onExchange(const FdlAnswer& answer, Instant, DpEvents& events) noe
   }
   ++status_.counters.exchanges;
   forgetFaults();
+  status_.note = status_.diagnosis.staticDiagnosis() ? texts::kNoValidData : "";
   if (answer.code == ResponseCode::kDataHigh) diagnosis_due_ = true;
   if (status_.diagnosis.staticDiagnosis()) return;  // its inputs mean nothing
   std::copy(answer.data.begin(), answer.data.end(), inputs_.begin());

@@ -113,7 +113,10 @@ Sentence describe(const RecordResult& result) noexcept {
       text.format("does not answer acyclic requests, but exchanges data");
       break;
     case RecordOutcome::kNotSupported:
-      text.format("has no acyclic channel (DP-V1 class 1, access point 51), or it is not switched on");
+      text.format("is configured without an acyclic channel (DP-V1 class 1)");
+      break;
+    case RecordOutcome::kNotActivated:
+      text.format("refuses acyclic requests: it answers RS, not activated, at access point 51 (DP-V1 class 1)");
       break;
     case RecordOutcome::kOffline:
       text.format("is not in data exchange: DP-V1 class 1 lives on it");

@@ -62,7 +62,7 @@ void RecordChannel::handleAnswer(const FdlAnswer& answer, Instant now) noexcept 
     case FdlAnswer::Kind::kRefusal:
       if (answer.code != ResponseCode::kNotActivated) return;  // no resource for the moment: once more, until the end
       drain_until_.reset();
-      return end(RecordOutcome::kNotSupported);
+      return end(RecordOutcome::kNotActivated);
   }
 }
 

@@ -9,6 +9,7 @@ void Requester::restart(Instant now) noexcept {
   request_ = nullptr;
   slave_ = nullptr;
   receiver_.discard();
+  tokens_.forget();
   takeReceiverCounters();
   silent_from_ = now + bus_.idleTime();
 }
@@ -98,6 +99,12 @@ void Requester::noteActivity(Instant now) noexcept {
 bool Requester::isForeign(const Telegram& telegram) const noexcept {
   if (telegram.kind == TelegramKind::kSc) return false;
   return telegram.kind == TelegramKind::kSd4 || isRequest(telegram.fc);
+}
+
+// A request has a checksum; a token behind bytes that are no telegram is a piece of something else.
+bool Requester::isCertain(const Telegram& telegram, Instant now) noexcept {
+  if (telegram.kind != TelegramKind::kSd4) return true;
+  return tokens_.believes(telegram, receiver_.counters().bytes_discarded == discarded_, now);
 }
 
 bool Requester::accept(const Telegram& telegram, FdlAnswer& answer) noexcept {

@@ -201,7 +201,8 @@ WireBytes DpStation::exchangeData(const Telegram& request) noexcept {
 // The server is there for the master the station exchanges data with, and only when that asked for DP-V1.
 WireBytes DpStation::record(const Telegram& request) noexcept {
   RecordServer* server = records();
-  if (server == nullptr || !records_enabled_ || state_ != SlaveState::kDataExchange || request.source != owner_) {
+  const bool active = server != nullptr && server->settings().active && records_enabled_;
+  if (!active || state_ != SlaveState::kDataExchange || request.source != owner_) {
     return answerWithout(request, kServiceNotActive);
   }
   if (!request.data.empty() && server->outstanding()) return answerWithout(request, kNoResource);

@@ -71,6 +71,8 @@ void CanopenDriveState::takeInput(const canopen::Master& master, bool bus_works,
   if (moduleMissesInverter(status, pdo, status_word, now)) inverter_answers_ = false;
   input.module_answers = module_answers_;
   input.inverter_answers = inverter_answers_;
+  // To a node that another one commands, or that is there twice, nothing is said that acts.
+  input.inverter_missing = module_answers_ && !contested_ && !status.doubled && !inverter_answers_;
   // The dictionary can be read before the node is operational, but nobody asks before the drive is online.
   if (!module_answers_) parameters_.handleOffline();
   explain(status, bus_works, ever_sent, overdue);

@@ -61,6 +61,10 @@ void ProfibusDpTransport::configure(const Settings& bus, const std::vector<Drive
   link_ = make_link_(config_.line);
 }
 
+void ProfibusDpTransport::setDriveTimeout(Duration timeout) noexcept {
+  for (std::size_t station = 0; station < presence_.size(); ++station) master_->setSilenceLimit(station, timeout);
+}
+
 Instant ProfibusDpTransport::now() const noexcept {
   return link_->now();
 }
@@ -184,7 +188,7 @@ void ProfibusDpTransport::takeInputs(std::size_t station, std::vector<DriveExcha
   InverterPresence& presence = presence_[station];
   const Instant now = link_->now();
   const bool answers = link_->isOpen() && slave.exchanged_this_cycle;
-  const bool exchanging = link_->isOpen() && slave.phase == profibus::SlavePhase::kDataExchange;
+  const bool exchanging = isExchanging(station);
 
   std::array<profile::PkwWords, InverterPresence::kMaxInverters> pkw{};
   std::array<bool, InverterPresence::kMaxInverters> useful{};
@@ -213,6 +217,7 @@ void ProfibusDpTransport::takeInputs(std::size_t station, std::vector<DriveExcha
     if (!exchanging || (answers && !state.inverter_answers)) parameters_->handleInverterOffline(drive, now);
     inputs[drive].module_answers = state.module_answers;
     inputs[drive].inverter_answers = state.inverter_answers;
+    inputs[drive].inverter_missing = state.module_answers && !state.inverter_answers;
     if (!state.inverter_answers) inputs[drive].input = {};
     explain(drive);
   }
@@ -280,9 +285,15 @@ std::optional<profile::ParameterResult> ProfibusDpTransport::pollResult() noexce
   return result;
 }
 
+bool ProfibusDpTransport::isExchanging(std::size_t station) const noexcept {
+  return link_->isOpen() && master_->status(station).phase == profibus::SlavePhase::kDataExchange;
+}
+
 bool ProfibusDpTransport::connected() const noexcept {
-  return link_->isOpen() &&
-         std::any_of(drives_.begin(), drives_.end(), [](const DriveState& drive) { return drive.module_answers; });
+  for (std::size_t station = 0; station < presence_.size(); ++station) {
+    if (isExchanging(station)) return true;
+  }
+  return false;
 }
 
 BusCounters ProfibusDpTransport::counters() const noexcept {
@@ -318,10 +329,22 @@ std::optional<BusEvent> ProfibusDpTransport::pollEvent() noexcept {
   return std::nullopt;
 }
 
+// No station is in data exchange. One that answers all the same says why, and that is no matter of wires.
+Sentence ProfibusDpTransport::silenceText() const noexcept {
+  for (std::size_t station = 0; station < presence_.size(); ++station) {
+    if (master_->status(station).heard) return text_->named(station, text_->note(station, *master_).c_str());
+  }
+  Sentence text;
+  text.format(
+      "%s is open, but no station answers: power, baud rate, wires A and B the right way round, "
+      "termination?%s%s",
+      config_.device.c_str(), live_list_.empty() ? "" : "; scan: ", live_list_.c_str());
+  return text;
+}
+
 Sentence ProfibusDpTransport::busText() const noexcept {
   Sentence text;
   const Instant now = link_->now();
-  const char* const scanned = live_list_.empty() ? "" : "; scan: ";
   if (!link_->isOpen()) {
     text.format("%s", link_->lastError().empty() ? "the bus device is not open yet" : link_->lastError().c_str());
   } else if (scan_) {
@@ -336,10 +359,7 @@ Sentence ProfibusDpTransport::busText() const noexcept {
         "the line never falls silent, so that nothing can be sent: check polarity, termination and biasing, or another "
         "station babbles";
   } else if (!connected()) {
-    text.format(
-        "%s is open, but no station answers: power, baud rate, wires A and B the right way round, "
-        "termination?%s%s",
-        config_.device.c_str(), scanned, live_list_.c_str());
+    text = silenceText();
   } else if (std::all_of(drives_.begin(), drives_.end(), [](const DriveState& d) { return d.inverter_answers; })) {
     text.format("%s", link_->warning());  // a silent drive is worse news, told by its note
   } else {

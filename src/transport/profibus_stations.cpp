@@ -51,12 +51,23 @@ ProfibusModule readModule(const Settings& settings, Series series) {
                                 : "sk_tu1, sk_tu2 or sk_tu3: this series is only behind SK TU1/2/3-PBR");
 }
 
+// BU 2700 5.2.4.
+profibus::StationAddress readAddress(const Settings& settings) {
+  constexpr std::int64_t kFirst = 3, kLast = 125, kFactory = 126;
+  if (settings.integer("address") == kFactory) {
+    throw wrongSetting(settings, "address", std::to_string(kFactory),
+                       "a whole number from 3 to 125: 126 is what a module has from the factory, give it an address of "
+                       "its own");
+  }
+  return *profibus::StationAddress::from(static_cast<int>(requiredInteger(settings, "address", kFirst, kLast)));
+}
+
 Plan readPlan(const DriveSettings& source) {
   const Settings& settings = *source.settings;
   Plan plan;
   plan.source = &source;
   plan.module = readModule(settings, readSeries(settings));
-  plan.address = *profibus::StationAddress::from(static_cast<int>(requiredInteger(settings, "address", 0, 125)));
+  plan.address = readAddress(settings);
   plan.inverter = static_cast<std::uint8_t>(integerOr(settings, "inverter", 1, 1, 4));
   plan.ppo_type = static_cast<std::uint8_t>(integerOr(settings, "ppo_type", 1, 1, 4));
   plan.io_byte = settings.boolean("io_byte");

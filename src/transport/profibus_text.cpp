@@ -83,6 +83,12 @@ Sentence ProfibusText::note(std::size_t station, const profibus::DpMaster& maste
   return text;
 }
 
+Sentence ProfibusText::named(std::size_t station, const char* what) const noexcept {
+  Sentence text;
+  text.format("%s %s", names_[station].c_str(), what);
+  return text;
+}
+
 Sentence ProfibusText::liveList(const profibus::BusScan& scan) noexcept {
   Sentence text;
   if (const auto master = scan.refusedBy()) {

@@ -12,10 +12,12 @@ constexpr Duration kLongWatchdog = std::chrono::seconds{3};
 constexpr std::uint32_t kFrameOverhead = 9;               // SD2: 68 LE LE 68 DA SA FC ... FCS 16
 constexpr std::uint32_t kRecordTelegram = 9 + 2 + 4 + 8;  // with two access points, the PDU's head and a PKW
 
-/// A cycle in which all slaves answer, and one in which one of them is silent with all its retries.
+/// A cycle in which all slaves answer, one in which one of them is silent with all its retries, and one in which only
+/// one answers.
 struct CycleLengths {
   Duration exchange{};
   Duration worst{};
+  Duration one_left{};
 };
 
 CycleLengths cycleLengths(const profibus::BusParameters& bus, const std::vector<profibus::SlaveConfig>& slaves) {
@@ -29,10 +31,15 @@ CycleLengths cycleLengths(const profibus::BusParameters& bus, const std::vector<
     longest_slot = std::max(longest_slot, request + bus.slotTime());
     acyclic = acyclic || slave.dpv1;
   }
-  lengths.worst = lengths.exchange + (1 + bus.max_retries) * longest_slot;
+  const Duration silence = (1 + bus.max_retries) * longest_slot;
+  lengths.worst = lengths.exchange + silence;
+  lengths.one_left = lengths.exchange + static_cast<Duration::rep>(slaves.size() - 1) * silence;
   // One acyclic telegram a cycle, when there is a module that takes any.
   if (acyclic) {
-    lengths.worst += 2 * bus.baud.characters(kRecordTelegram) + bus.baud.bits(bus.max_tsdr_bits) + bus.idleTime();
+    const Duration record =
+        2 * bus.baud.characters(kRecordTelegram) + bus.baud.bits(bus.max_tsdr_bits) + bus.idleTime();
+    lengths.worst += record;
+    lengths.one_left += record;
   }
   return lengths;
 }
@@ -73,6 +80,12 @@ void checkTimes(const Settings& bus, double cycle_rate, ProfibusDpConfig& config
                            std::to_string(config.bus.baud.bitsPerSecond()) + " bit/s, slot time " +
                            inSeconds(config.bus.slotTime()) + ", " + std::to_string(config.bus.max_retries) +
                            " retries) or two cycles");
+  }
+  if (config.watchdog < lengths.one_left) {
+    config.warnings.push_back(bus.fullName("watchdog") + ": " + inSeconds(config.watchdog) +
+                              " is shorter than a cycle in which all stations but one are silent (" +
+                              inSeconds(lengths.one_left) + " for " + std::to_string(config.slaves.size()) +
+                              " stations): the inverter behind that one would trip, too");
   }
   if (config.watchdog > kLongWatchdog) {
     config.warnings.push_back(bus.fullName("watchdog") + ": a drive runs on for " + inSeconds(config.watchdog) +

@@ -75,6 +75,9 @@ void RecordParameterChannel::handleRecord(const profibus::RecordResult& result, 
     case profibus::RecordOutcome::kNotSupported:
       pkw_.handleFailure(profile::ParameterOutcome::kNoChannel, 0);
       break;
+    case profibus::RecordOutcome::kNotActivated:
+      pkw_.handleFailure(profile::ParameterOutcome::kNotActivated, 0);
+      break;
     case profibus::RecordOutcome::kOffline:
       pkw_.handleOffline(now);
       break;

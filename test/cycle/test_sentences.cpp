@@ -72,6 +72,8 @@ TEST(Sentences, AParameterThatCouldNotBeReadSaysWhy) {
       "drive left has no parameter channel: PPO types 3 and 4 carry process data only, and its bus module takes no "
       "acyclic requests (DP-V1)",
       parameter(Outcome::kNoChannel));
+  EXPECT_EQ(0u,
+            parameter(Outcome::kNotActivated).find("the bus module of drive left refuses acyclic requests (DP-V1): "));
   EXPECT_EQ("drive left has too many parameter requests waiting already", parameter(Outcome::kBusy));
 }
 

@@ -102,6 +102,17 @@ TEST_F(PortFailures, AWaitThatCannotBe) {
   expectClosed("Bad file descriptor");
 }
 
+// What an adapter collected while nobody listened, opening after opening.
+TEST_F(PortFailures, OpeningDiscardsWhatArrivedBefore) {
+  for (int i = 0; i < 2; ++i) {
+    port.close();
+    system.incoming = {{0x68, 0x0F}, {0xE5}};
+    ASSERT_TRUE(port.open());
+    EXPECT_EQ(0u, port.read(buffer, sizeof buffer));
+    EXPECT_FALSE(port.waitReadable(port.now() + milliseconds{1}));
+  }
+}
+
 // A character with a wrong parity bit reaches the reader as a zero: the UART's own counters tell it from noise.
 TEST_F(PortFailures, ErrorsOfTheLineAreCountedFromTheOpening) {
   port.close();

@@ -107,7 +107,21 @@ TEST(SerialPort, WaitingEndsAtTheDeadline) {
   EXPECT_TRUE(port.isOpen());
 }
 
-TEST(SerialPort, DiscardsWhatArrivedBefore) {
+// Bytes from before belong to no telegram of ours, whoever sent them.
+TEST(SerialPort, OpeningDiscardsWhatArrivedBefore) {
+  PtyPair pty;
+  pty.send({1, 2, 3, '\n'});
+  SerialPort port{settingsFor(pty)};
+  ASSERT_TRUE(port.open()) << port.lastError();
+  EXPECT_FALSE(port.waitReadable(port.now() + milliseconds{20}));
+  pty.send({4});
+  std::uint8_t buffer[8];
+  ASSERT_TRUE(port.waitReadable(port.now() + seconds{1}));
+  ASSERT_EQ(1u, port.read(buffer, sizeof buffer));
+  EXPECT_EQ(4, buffer[0]);
+}
+
+TEST(SerialPort, DiscardsWhatArrivedBeforeItWasAskedTo) {
   PtyPair pty;
   SerialPort port{settingsFor(pty)};
   ASSERT_TRUE(port.open());

@@ -88,6 +88,8 @@ TEST(BusScan, RefusesBesideAnotherMaster) {
   scan.start(line.now);
   EXPECT_TRUE(scan.pollTransmit(line.now + 100ms).empty());
   scan.handleBytes(fromHex("DC 05 05"), line.now + 100ms);
+  EXPECT_FALSE(scan.done()) << "three bytes may be noise";
+  scan.handleBytes(fromHex("DC 05 05"), line.now + 120ms);
   EXPECT_TRUE(scan.done());
   EXPECT_EQ(5, scan.refusedBy().value_or(255));
   EXPECT_EQ(0u, scan.counters().telegrams_sent);

@@ -239,19 +239,6 @@ TEST(Faults, AMasterAtASlavesAddress) {
   wire.tellsNothing();
 }
 
-// Tokens and requests of another master are counted and told, once per 10 s.
-TEST(Faults, ForeignMaster) {
-  NordWire wire;
-  wire.arrives("DC 03 03");
-  EXPECT_EQ(3, wire.tells(DpEventKind::kForeignMaster).master);
-  wire.arrives("DC 03 03  10 08 03 49 54 16");
-  wire.tellsNothing();
-  EXPECT_EQ(3u, wire.master.counters().foreign_telegrams);
-  wire.advance(10s);
-  wire.arrives("10 08 03 49 54 16");
-  EXPECT_EQ(3, wire.tells(DpEventKind::kForeignMaster).master);
-}
-
 // Our own request read back: the adapter echoes. It answers nothing, and the technician is told.
 TEST(Faults, OwnEcho) {
   NordWire wire;

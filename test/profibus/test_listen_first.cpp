@@ -70,6 +70,21 @@ TEST(ListenFirst, NoiseIsNoMaster) {
   wire.sends(kFdlStatus8);
 }
 
+// One token may be noise: nothing is told, and the line is listened to once more, to be sure.
+TEST(ListenFirst, ListensAgainAfterWhatMayBeAToken) {
+  NordWire wire{listening()};
+  silentCycle(wire);
+  wire.advance(50ms);
+  const Instant heard = wire.now;
+  wire.arrives("DC 02 02");
+  wire.advance(80ms);
+  silentCycle(wire);
+  wire.now = heard + 100ms;
+  wire.startCycle();
+  wire.sends(kFdlStatus8);
+  wire.tellsNothing();
+}
+
 TEST(ListenFirst, AgainAfterTheLinkWasOpened) {
   NordWire wire{listening()};
   wire.advance(100ms);

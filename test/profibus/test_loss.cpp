@@ -36,6 +36,131 @@ TEST(Loss, StartsAnewWith6D) {
   EXPECT_TRUE(wire.status().exchanged_this_cycle);
 }
 
+// A slave stays in data exchange until its watchdog runs out, and so does its master, for as long as it was told: the
+// slave hears every stop word meanwhile. Whether it took a request nobody knows: the next one begins the frame count.
+TEST(Loss, ComesWhenTheSilenceHasLasted) {
+  NordWire wire;
+  wire.master.setSilenceLimit(0, 90ms);
+  wire.startsUp();
+  wire.cycle(kExchange7D, kInputs);
+  const Instant answered = wire.now;
+  loses(wire, kExchange5D);  // twice 12 ms of telegram and 5 ms of slot
+  EXPECT_EQ(SlavePhase::kDataExchange, wire.status().phase);
+  EXPECT_FALSE(wire.status().exchanged_this_cycle);
+  wire.tellsNothing();
+  loses(wire, kExchange6D);
+  EXPECT_LT(wire.now - answered, 90ms);
+  wire.tellsNothing();
+  loses(wire, kExchange6D);
+  EXPECT_EQ(LossCause::kSilence, wire.tells(DpEventKind::kSlaveLost).cause);
+  EXPECT_EQ(SlavePhase::kSilent, wire.status().phase);
+  EXPECT_EQ(1u, wire.status().counters.losses);
+  wire.isFound();
+}
+
+TEST(Loss, IsNoneWhenTheSilenceWasShort) {
+  NordWire wire;
+  wire.master.setSilenceLimit(0, 50ms);
+  wire.startsUp();
+  for (int i = 0; i < 5; ++i) {
+    wire.cycle(i == 0 ? kExchange7D : kExchange5D, kInputs);
+    loses(wire, i == 0 ? kExchange5D : kExchange7D);
+    EXPECT_STRNE("", wire.status().note);
+    wire.cycle(kExchange6D, kInputs);
+    EXPECT_TRUE(wire.status().exchanged_this_cycle);
+    EXPECT_STREQ("", wire.status().note);
+    wire.cycle(kExchange5D, kInputs);
+    wire.cycle(kExchange7D, kInputs);
+  }
+  wire.tellsNothing();
+  EXPECT_EQ(0u, wire.status().counters.losses);
+}
+
+// What says "not in data exchange" ends it at once.
+TEST(Loss, IsCertainByAnAnswer) {
+  NordWire wire;
+  wire.master.setSilenceLimit(0, 50ms);
+  wire.startsUp();
+  loses(wire, kExchange7D);
+  wire.cycle(kExchange6D, kNotActivated);
+  EXPECT_EQ(LossCause::kLeftDataExchange, wire.tells(DpEventKind::kSlaveLost).cause);
+  wire.isFree();
+}
+
+// Its watchdog of 100 ms has run out: it is in data exchange no longer, whatever the limit.
+TEST(Loss, ComesWithTheWatchdogAtTheLatest) {
+  NordWire wire;
+  wire.master.setSilenceLimit(0, 10s);
+  wire.startsUp();
+  wire.cycle(kExchange7D, kInputs);
+  const Instant answered = wire.now;
+  loses(wire, kExchange5D);
+  while (wire.status().phase == SlavePhase::kDataExchange) loses(wire, kExchange6D);
+  EXPECT_GE(wire.now - answered, 100ms);
+  EXPECT_LE(wire.now - answered, 140ms);
+}
+
+// A slave that did not answer costs the others no more than that.
+TEST(Loss, NothingElseIsAskedOfASilentSlave) {
+  NordWire wire;
+  wire.master.setSilenceLimit(0, 90ms);
+  wire.startsUp();
+  wire.startCycle();
+  wire.sends(kExchange7D);
+  wire.receives(kInputsDh);
+  for (int i = 0; i < 2; ++i) {
+    wire.sends(kDiag5D);
+    wire.staysSilent();
+  }
+  wire.cycleEnds();
+  EXPECT_TRUE(wire.status().exchanged_this_cycle) << "its inputs were good";
+  loses(wire, kExchange6D);  // and no diagnosis
+  wire.startCycle();
+  wire.sends(kExchange6D);
+  wire.receives(kInputs);
+  wire.sends(kDiag5D);
+  wire.receives(kReady);
+  wire.cycleEnds();
+  wire.tellsNothing();
+}
+
+// It exchanges data, and does not tell its diagnosis for as long as that.
+TEST(Loss, OfTheDiagnosisIsALossToo) {
+  NordWire wire;
+  wire.master.setSilenceLimit(0, 90ms);
+  wire.startsUp();
+  const Instant begin = wire.now;
+  for (int i = 0; wire.status().phase == SlavePhase::kDataExchange; ++i) {
+    ASSERT_LT(wire.now - begin, 300ms);
+    wire.startCycle();
+    wire.sends(i == 0 ? kExchange7D : kExchange6D);
+    wire.receives(kInputsDh);
+    for (int sending = 0; sending < 2; ++sending) {
+      wire.sends(kDiag5D);
+      wire.staysSilent();
+    }
+    wire.cycleEnds();
+  }
+  EXPECT_GE(wire.now - begin, 90ms);
+  wire.tells(DpEventKind::kSlaveLost);
+}
+
+// E5 is a single byte, and noise makes it.
+TEST(Loss, AShortAcknowledgeIsNoOtherLengthAtOnce) {
+  NordWire wire;
+  wire.master.setSilenceLimit(0, 90ms);
+  wire.startsUp();
+  wire.startCycle();
+  for (int i = 0; i < 2; ++i) {
+    wire.sends(kExchange7D);
+    wire.receives("E5");
+    wire.staysSilent();
+  }
+  wire.cycleEnds();
+  wire.tellsNothing();
+  wire.cycle(kExchange6D, kInputs);
+}
+
 // The inputs of a lost slave stay readable, but are not fresh.
 TEST(Loss, KeepsTheLastInputs) {
   NordWire wire;

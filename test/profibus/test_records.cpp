@@ -208,7 +208,7 @@ TEST(Records, InactiveAccessPoint) {
   wire.startsUpModular();
   ASSERT_TRUE(wire.master.submitRecord(0, readAnswer()));
   wire.cycleWith(kReadRequest, kNotActivated);
-  EXPECT_EQ(RecordOutcome::kNotSupported, wire.result().outcome);
+  EXPECT_EQ(RecordOutcome::kNotActivated, wire.result().outcome);
   wire.plainCycle();
 }
 

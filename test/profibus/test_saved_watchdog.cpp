@@ -49,6 +49,19 @@ TEST_P(Gap, OfSoManyMillisecondsTripsNothing) {
   EXPECT_TRUE(run.segment.referee().content()) << run.segment.referee().report();
 }
 
+// The same for a master that goes on with data exchange first, as long as a base of defaults lets it.
+TEST_P(Gap, TripsNothingBehindASilenceLimitEither) {
+  Adapter run;
+  for (const std::size_t i : {0u, 1u}) run.master.setSilenceLimit(i, 94ms);
+  run.loseFor(std::chrono::milliseconds{GetParam()});
+  const Instant back = run.now();
+  while (!run.allExchange() && run.now() < back + 2s) run.cycle(kPeriod);
+  EXPECT_TRUE(run.allExchange());
+  EXPECT_EQ(0u, run.trips());
+  EXPECT_LT(run.now() - back, 150ms);
+  EXPECT_TRUE(run.segment.referee().content()) << run.segment.referee().report();
+}
+
 INSTANTIATE_TEST_SUITE_P(Milliseconds, Gap, testing::Values(60, 100, 140, 160));
 
 // The one that is there is exchanged with in every cycle meanwhile, and keeps half of the time.

@@ -129,6 +129,21 @@ TEST(ModuleTimeout, OneValidControlWordIsEnough) {
   EXPECT_EQ(25.0, driving.inverter(0).frequency());
 }
 
+// A word for an inverter that is off is a word, too: the module looks at what its master sends, not at who would take
+// it.
+TEST(ModuleTimeout, ControlWordsOfAbsentInvertersCountToo) {
+  DrivingModule driving{200};
+  for (const std::size_t place : {0u, 1u}) driving.bus.segment.drive(place).setInverterPower(false);
+  driving.bus.outputsFor(kStandby, seconds(1.0));
+  EXPECT_FALSE(driving.module().timedOut());
+  driving.bus.outputsFor("0000 0000 047E 0000", seconds(1.0));
+  EXPECT_FALSE(driving.module().timedOut());
+  driving.bus.outputsFor(kInvalid, milliseconds(300));
+  EXPECT_TRUE(driving.module().timedOut());
+  EXPECT_EQ(1020, driving.module().parameters().value(170, 0, 0));
+  EXPECT_EQ(0x0F0A, driving.module().parameters().value(173));  // both lost or switched off, time-out, operational
+}
+
 // Behind this module it is P151 that counts, not P513 of the inverter (BU 2700 8.1).
 TEST(ModuleTimeout, P513DoesNotCount) {
   DrivingModule driving{0};

@@ -26,10 +26,12 @@ class SimulatedRobot : public DrivenRobot {
     double slip = 2.0;  ///< Hz at rated torque
     bool auto_enable = false;
     std::map<std::string, MapSettings::Value> node;    ///< on top of the robot's own settings
+    std::map<std::string, MapSettings::Value> bus;     ///< before the robot's own ones
     std::map<std::string, MapSettings::Value> drives;  ///< of both drives, on top of their own
     std::vector<sim::ParameterPreset> parameters;      ///< of both inverters
     std::vector<sim::ParameterPreset> left_parameters;
-    int ppo_type = 1;  ///< as set at the inverters
+    std::vector<sim::ModuleConfig> modules;  ///< what there is more to say of, by address
+    int ppo_type = 1;                        ///< as set at the inverters
     /// Four wheels, two on each side, all behind one module SK CU4 at address 3 with its I/O byte in slot 1.
     bool one_module = false;
     int wheels_a_side = 1;  ///< 1 or 2, each with a module of its own
@@ -48,9 +50,9 @@ class SimulatedRobot : public DrivenRobot {
       link_ = link.get();
       return link;
     });
-    const MapSettings bus{"~bus/",
-                          {{"device", std::string{"simulated"}}, {"baud_rate", 500'000}, {"slot_time", 0.0005}}};
-    transport->configure(bus, drives, config.cycle_rate);
+    std::map<std::string, MapSettings::Value> bus = options.bus;
+    bus.insert({{"device", std::string{"simulated"}}, {"baud_rate", 500'000}, {"slot_time", 0.0005}});
+    transport->configure(MapSettings{"~bus/", bus}, drives, config.cycle_rate);
     start(config, std::move(transport), options.auto_enable);
   }
 
@@ -103,6 +105,7 @@ class SimulatedRobot : public DrivenRobot {
     sim::SimConfig config;
     config.baud_rate = 500'000;
     config.body = sim::BodyConfig{{}, {}, 0.1, 0.5};
+    config.modules = options.modules;
     for (const std::string& name : names(options)) {
       const std::size_t number = config.drives.size();
       sim::DriveConfig drive;

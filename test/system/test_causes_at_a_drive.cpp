@@ -156,10 +156,11 @@ TEST_P(CauseAtADrive, AnUnaskedExitStopsTheBase) {
   EXPECT_STREQ("enabled", enableAtRest().message.c_str());
 }
 
-// Silent for drive_timeout (50 ms: five cycles), then the same.
+// Silent for longer than drive_timeout (50 ms), then the same. The fifth silent cycle ends behind it: it is asked, with
+// the repetition, in each.
 TEST_P(CauseAtADrive, ADriveThatFallsSilentStopsTheBase) {
   robot_.unit(kRight).setPlugged(false);
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < 4; ++i) {
     step();
     EXPECT_TRUE(robot_.snapshot().drives[kRight].online) << "cycle " << i;
   }
@@ -187,13 +188,28 @@ TEST_P(CauseAtADrive, AnInverterThatIsOffBehindItsModuleStopsTheBase) {
   EXPECT_STREQ("enabled", enableAtRest().message.c_str());
 }
 
-// One cycle with all its retries unanswered: the slave is parameterised anew, which takes longer than drive_timeout,
-// but not as long as the watchdog. Back within 2 s, at rest, and enabled only when asked.
-TEST_P(CauseAtADrive, ADriveThatIsBackDoesNotMoveBeforeItIsEnabled) {
+// Two cycles with all their retries unanswered are shorter than drive_timeout: data exchange goes on, and so does the
+// base.
+TEST_P(CauseAtADrive, TwoLostCyclesStopNothing) {
   robot_.unit(kRight).slave().setMute(true);
   step();
+  step();
   robot_.unit(kRight).slave().setMute(false);
+  for (int i = 0; i < 50; ++i) {
+    step();
+    ASSERT_TRUE(robot_.snapshot().base.enabled) << i << ": " << stopText();
+    ASSERT_TRUE(robot_.snapshot().drives[kRight].online) << i;
+    ASSERT_EQ(0x047F, robot_.controlWord(kRight)) << i;
+    ASSERT_EQ(-0x2000, robot_.setpoint(kRight)) << i;
+  }
+}
+
+// Silent for longer than drive_timeout: the slave is parameterised anew. Back within 2 s, at rest, and enabled only
+// when asked.
+TEST_P(CauseAtADrive, ADriveThatIsBackDoesNotMoveBeforeItIsEnabled) {
+  robot_.unit(kRight).slave().setMute(true);
   for (int i = 0; i < 10 && robot_.snapshot().drives[kRight].online; ++i) step();
+  robot_.unit(kRight).slave().setMute(false);
   ASSERT_FALSE(robot_.snapshot().drives[kRight].online);
   const Instant back = robot_.transport().now();
   while (!robot_.snapshot().drives[kRight].online && robot_.transport().now() - back < std::chrono::seconds{5}) step();

@@ -108,6 +108,31 @@ TEST_F(FourInverters, OneOffIsThatDriveOffline) {
   EXPECT_STREQ("enabled", robot_.ask(cycle::RequestKind::kEnable).message.c_str());
 }
 
+// The mains of all four go, the module lives on its 24 V: with 0000 for all of them P151 would run out (BU 0220
+// 4.2.3.2). The idle word goes on, in the set each had; what comes back says its set itself.
+TEST_F(FourInverters, AllOffAreNoTimeoutOfTheirModule) {
+  module().parameters().preset(151, 0, 0, 100);
+  cycle::Request request;
+  request.kind = cycle::RequestKind::kSelectParameterSet;
+  request.drive = kRearRight;
+  request.parameter_set = 3;
+  ASSERT_TRUE(robot_.ask(request).success);
+  for (DriveIndex i = 0; i < 4; ++i) robot_.unit(i).setInverterPower(false);
+  for (int i = 0; i < 300; ++i) {
+    robot_.step();
+    ASSERT_FALSE(module().timedOut()) << i;
+  }
+  for (DriveIndex drive = 0; drive < 4; ++drive) {
+    EXPECT_FALSE(robot_.snapshot().drives[drive].online);
+    EXPECT_EQ(drive == kRearRight ? 0x847E : 0x047E, robot_.controlWord(drive)) << drive;
+  }
+  for (DriveIndex i = 0; i < 4; ++i) robot_.unit(i).setInverterPower(true);
+  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(robot_); }, seconds{3}));
+  robot_.run(seconds{1});
+  EXPECT_EQ(0, module().parameters().value(170, 0, 1)) << "no time-out of the past either";
+  EXPECT_STREQ("enabled", robot_.ask(cycle::RequestKind::kEnable).message.c_str());
+}
+
 TEST_F(FourInverters, HaveParameterSetsOfTheirOwn) {
   expectSetsOfTheirOwn(robot_);
 }

@@ -230,6 +230,34 @@ TEST(ParameterLink, NamesTheTimeoutOfAModuleThatServesSeveral) {
   EXPECT_EQ(sim::fault::kTimeout, segment->drive(1).inverter().faultNumber());
 }
 
+// PPO 3 leaves the records, and the module answers RS at their access point: that, and not the PPO type, is the reason.
+TEST(ParameterLink, NamesAModuleThatRefusesRecords) {
+  const YAML::Node file = YAML::Load(
+      "{cycle_rate: 100, bus: {device: simulated, baud_rate: 500000, slot_time: 0.0005}, drives: {"
+      " one: {address: 5, inverter: 1, series: sk2xxe, ppo_type: 3, pole_pairs: 2, max_frequency: 50.0}}}");
+  sim::SimConfig simulated;
+  sim::DriveConfig drive;
+  drive.name = "one";
+  drive.slave.address = 5;
+  drive.slave.ppo_type = 3;
+  drive.device.series = sim::Series::kSk2xxe;
+  drive.place = 1;
+  simulated.drives.push_back(drive);
+  sim::ModuleConfig module;
+  module.settings.address = 5;
+  module.settings.records.active = false;
+  simulated.modules.push_back(module);
+  ProfibusDpTransport transport(
+      [&](const link::SerialSettings&) { return std::make_unique<sim::SimulatedSegment>(simulated); });
+  const ToolConfig config = readToolConfig(file, "one");
+  ParameterLink link{config, transport};
+  const std::atomic<bool> not_asked{false};
+  link.connect(seconds{5}, not_asked);
+  const ParameterAnswer answer = link.read(parameter(105));
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message, HasSubstr("the bus module of drive one refuses acyclic requests (DP-V1): it answers RS"));
+}
+
 // An order left standing is executed for ever (BU 2700 6.5).
 TEST(ParameterLink, LeavesNoOrderStanding) {
   LinkedDrive drive;

@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <memory>
+#include <set>
+#include <string>
 
 #include "nord_driver/sim/simulated_segment.h"
 #include "nord_driver/transport/profibus_dp.h"
@@ -32,6 +35,7 @@ class OnASegment : public ::testing::Test {
       drive.slave.ppo_type = ppo_type;
       config.drives.push_back(drive);
     }
+    if (change_) change_(config);
     transport_ = std::make_unique<ProfibusDpTransport>([&](const link::SerialSettings& serial) {
       EXPECT_EQ("/dev/ttyUSB0", serial.device);
       auto segment = std::make_unique<sim::SimulatedSegment>(config);
@@ -41,6 +45,7 @@ class OnASegment : public ::testing::Test {
     });
     transport_->configure(MapSettings{"~bus/", {{"device", std::string{"/dev/ttyUSB0"}}, {"slot_time", 0.0005}}},
                           drives, 100.0);
+    transport_->setDriveTimeout(milliseconds{50});
   }
   void step() {
     const Instant start = transport_->now();
@@ -77,6 +82,7 @@ class OnASegment : public ::testing::Test {
     return std::nullopt;
   }
 
+  std::function<void(sim::SimConfig&)> change_;  // of what is there, before it is built
   sim::SimulatedSegment* segment_ = nullptr;
   std::unique_ptr<ProfibusDpTransport> transport_;
   std::vector<profile::ProcessOutput> outputs_{2};
@@ -128,6 +134,86 @@ TEST_F(OnASegment, SaysWhichDriveIsMissingAndWhatToLookAt) {
   run(seconds{1});
   EXPECT_FALSE(transport_->connected());
   EXPECT_THAT(transport_->busText().c_str(), HasSubstr("/dev/ttyUSB0 is open, but no station answers"));
+}
+
+// A station that answers and refuses has been told by its reason: "no station answers" would send the technician to the
+// wires.
+class TrueReasons : public OnASegment {
+ protected:
+  std::set<std::string> told(Duration span) {
+    std::set<std::string> sentences;
+    const Instant end = transport_->now() + span;
+    while (transport_->now() < end) {
+      step();
+      EXPECT_FALSE(transport_->connected());
+      sentences.insert(transport_->busText().str());
+    }
+    return sentences;
+  }
+  void expectReason(const char* reason) {
+    run(milliseconds{500});
+    for (const std::string& sentence : told(seconds{5})) {
+      EXPECT_THAT(sentence, HasSubstr("PROFIBUS station 3 (left)"));
+      EXPECT_THAT(sentence, HasSubstr(reason));
+    }
+  }
+};
+
+TEST_F(TrueReasons, AnotherModuleThanConfigured) {
+  change_ = [](sim::SimConfig& config) {
+    for (sim::DriveConfig& drive : config.drives) drive.slave.ident = 0x1234;
+  };
+  open();
+  expectReason("it reports the ident number 1234h, expected 7531h");
+}
+
+TEST_F(TrueReasons, AnotherPpoTypeThanConfigured) {
+  change_ = [](sim::SimConfig& config) {
+    for (sim::DriveConfig& drive : config.drives) drive.slave.ppo_type = 2;
+  };
+  open();
+  expectReason("Cfg_Fault");
+}
+
+TEST_F(TrueReasons, LockedByAnotherMaster) {
+  open();
+  for (const std::size_t i : {0u, 1u}) {
+    sim::Telegram lock;  // Set_Prm of master 9, without a watchdog
+    lock.destination = segment_->drive(i).slave().address();
+    lock.source = 9;
+    lock.function = 0x6D;
+    lock.destination_sap = 61;
+    lock.source_sap = 62;
+    for (const int byte : {0x80, 0x00, 0x00, 0x0B, 0x75, 0x31, 0x00}) {
+      lock.data.push_back(static_cast<std::uint8_t>(byte));
+    }
+    segment_->drive(i).slave().handle(lock);
+  }
+  expectReason("is locked by another master: its address is 9");
+}
+
+// And when they are silent, they are silent: the reason of before is no longer one.
+TEST_F(TrueReasons, EndWithTheStation) {
+  change_ = [](sim::SimConfig& config) {
+    for (sim::DriveConfig& drive : config.drives) drive.slave.ident = 0x1234;
+  };
+  open();
+  run(seconds{2});
+  for (const std::size_t i : {0u, 1u}) segment_->drive(i).setPlugged(false);
+  run(seconds{3});
+  EXPECT_THAT(transport_->busText().c_str(), HasSubstr("is open, but no station answers"));
+}
+
+// A cycle that is lost is no news of the bus.
+TEST_F(OnASegment, IsConnectedThroughALostCycle) {
+  bringUp();
+  for (const std::size_t i : {0u, 1u}) segment_->drive(i).slave().setMute(true);
+  step();
+  EXPECT_FALSE(inputs_[0].module_answers);
+  EXPECT_TRUE(transport_->connected());
+  EXPECT_TRUE(transport_->busText().empty()) << transport_->busText().c_str();
+  run(milliseconds{300});
+  EXPECT_FALSE(transport_->connected());
 }
 
 // A module with 24 V of its own exchanges data for an inverter that is off (BU 0020 2.1.3): all zero.

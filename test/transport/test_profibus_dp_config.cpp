@@ -123,6 +123,27 @@ TEST(ProfibusDpConfigTest, AWatchdogShorterThanTheWorstCycleIsRefused) {
   EXPECT_NE("accepted", segment.refusal()) << "more retries, a longer worst cycle";
 }
 
+TEST(ProfibusDpConfigTest, TheMastersOwnAddressIsRefusedToADrive) {
+  Segment segment;
+  segment.bus.set("master_address", 5);
+  segment.settings[1]->set("address", 5);
+  EXPECT_THAT(segment.refusal(), HasSubstr("address: 5 is not valid, expected another address than the master's own"));
+}
+
+// All but one silent: that one waits for all the slots of the others. It fits, or is told with the figure.
+TEST(ProfibusDpConfigTest, AWatchdogShorterThanACycleWithOneStationLeftIsWarnedOf) {
+  for (const std::size_t count : {1u, 2u, 5u}) EXPECT_TRUE(Segment{count}.read().warnings.empty()) << count;
+  Segment segment{7};  // 6 x 2 slots of 20 ms, and their telegrams
+  ASSERT_EQ(1u, segment.read().warnings.size());
+  EXPECT_THAT(segment.read().warnings[0],
+              AllOf(HasSubstr("~bus/watchdog: 0.2 s is shorter than a cycle in which all stations but one are silent"),
+                    HasSubstr("(0.25"), HasSubstr(" s for 7 stations")));
+  segment.bus.set("watchdog", 0.3);
+  EXPECT_TRUE(segment.read().warnings.empty());
+  segment.bus.set("max_retries", 2);
+  EXPECT_EQ(1u, segment.read().warnings.size());
+}
+
 TEST(ProfibusDpConfigTest, AWatchdogShorterThanTwoCyclesIsRefused) {
   Segment segment;
   segment.bus.set("watchdog", 0.3).set("slot_time", 0.001);
@@ -178,9 +199,14 @@ TEST_P(WrongDriveKey, IsRefusedByNameValueAndExpectation) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, WrongDriveKey,
-    ::testing::Values(Wrong{"address", 126, "126 is not valid, expected a whole number from 0 to 125"},
+    ::testing::Values(Wrong{"address", 2, "2 is not valid, expected a whole number from 3 to 125"},
+                      Wrong{"address", 0, "0 is not valid, expected a whole number from 3 to 125"},
+                      Wrong{"address", 127, "127 is not valid, expected a whole number from 3 to 125"},
+                      Wrong{"address", 126,
+                            "126 is not valid, expected a whole number from 3 to 125: 126 is what a module has from "
+                            "the factory, give it an address of its own"},
                       Wrong{"address", 3, "3 is not valid, expected another address than drive \"drive0\" has"},
-                      Wrong{"address", 1, "1 is not valid, expected another address than the master's own"},
+                      Wrong{"address", 1, "1 is not valid, expected a whole number from 3 to 125"},
                       Wrong{"module", std::string{"sk_cu5"},
                             "\"sk_cu5\" is not valid, expected sk_tu3 (SK TU3-PBR), sk_cu4"},
                       Wrong{"io_byte", true, "true is not valid, expected false: only SK CU4/TU4-PBR"},
@@ -197,7 +223,7 @@ TEST(ProfibusDpConfigTest, WhatIsMissingIsNamed) {
   EXPECT_THAT(segment.refusal(), HasSubstr("~bus/device is missing: expected a serial device such as /dev/ttyUSB0"));
   segment = Segment{};
   segment.settings[0]->erase("address");
-  EXPECT_THAT(segment.refusal(), HasSubstr("~drives/drive0/address is missing: expected a whole number from 0 to 125"));
+  EXPECT_THAT(segment.refusal(), HasSubstr("~drives/drive0/address is missing: expected a whole number from 3 to 125"));
 }
 
 // Set_Prm says f1 * f2 * 10 ms (BU 2700 8.1.1); 257 is a prime number. Rounded down it would be shorter than checked.

@@ -168,6 +168,7 @@ INSTANTIATE_TEST_SUITE_P(All, RecordEndings,
                          ::testing::Values(Ending{RecordOutcome::kTimedOut, ParameterOutcome::kTimeout},
                                            Ending{RecordOutcome::kNoAnswer, ParameterOutcome::kTimeout},
                                            Ending{RecordOutcome::kNotSupported, ParameterOutcome::kNoChannel},
+                                           Ending{RecordOutcome::kNotActivated, ParameterOutcome::kNotActivated},
                                            Ending{RecordOutcome::kOffline, ParameterOutcome::kOffline}));
 
 // The drive went while its record was under way: the late result belongs to nobody.

@@ -36,6 +36,8 @@ struct CycleConfig {
   Duration service_timeout{};
   Duration shutdown_timeout{};
   Duration cmd_vel_timeout{};  ///< 0: never
+  /// `drive_timeout` is as configured; if not, it is as long as two cycles with a silent station take, too.
+  bool drive_timeout_given = false;
   drive::StopWays stop_ways;
   std::vector<DriveSetup> drives;
   std::optional<BaseConfig> base;

@@ -9,6 +9,8 @@
 //    in force; from then on never again while it is online.
 //  - An inverter that falls silent while it was not at rest may still hear us: the stop word goes on into the dark, for
 //    shutdown_timeout; then the set is learned anew. When it answers it is idle, in the set it then reports.
+//  - One that is off behind a bus module that lives gets the idle word with the last set known of it: the module's P151
+//    runs out when all its control words are invalid (BU 0220 4.2.3.2). Never known: 0000, which does not start P151.
 //  - Whatever ends "operation enabled" without being asked ends in the idle word and stays so until the next enable.
 //  - OFF1, asked for or in the idle word, that has not ended "operation enabled" after shutdown_timeout becomes OFF3.
 //  - The set is switched at standstill only: setpoint 1 is a share of P105 of the set in force (BU 0020 7.3.5).
@@ -63,6 +65,9 @@ class Drive {
   /// is commanded, without being asked: what it heard last is not known. As after silence, but without drive_timeout,
   /// and also when the inverter answers again in this cycle.
   void handleInterruption(Instant now) noexcept;
+  /// Before handleInput(). `inverter_missing`: its bus module took part in this cycle, and says that the inverter
+  /// behind it does not.
+  void handleModule(bool inverter_missing, Instant now) noexcept;
   profile::ProcessOutput pollOutput(Instant now) noexcept;
 
   /// Why requestEnable() would refuse now.
@@ -143,6 +148,7 @@ class Drive {
   void refuse(Refusal refusal) noexcept;
   profile::Command command(Instant now) const noexcept;
   bool isRunning() const noexcept;  // 047F may be on the wire, or come by itself
+  bool isMissing(Instant now) const noexcept;
 
   DriveConfig config_;
   std::array<std::optional<Hertz>, 4> max_frequency_;
@@ -155,6 +161,8 @@ class Drive {
   Instant last_useful_{};
   Instant dark_until_{};  // offline: the stop word goes on until then
   profile::Command dark_command_ = profile::Command::kIgnored;
+  std::optional<Instant> last_missing_;  // behind a module that answers
+  std::optional<Instant> module_back_;   // its module answered again after a silence of its own
   RadPerSec wanted_{};
   bool ready_seen_ = false;  // enabling: "ready to switch on" was seen after the request
   bool sent_ = false;        // this phase's word went out at least once

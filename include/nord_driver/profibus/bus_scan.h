@@ -66,7 +66,7 @@ class BusScan {
   void askStatus(std::uint8_t address, Instant now) noexcept;
   void askNext(Instant now) noexcept;
   void onAnswer(const FdlAnswer& answer, Instant now) noexcept;
-  void onForeign(std::uint8_t master, Instant now) noexcept;
+  void onForeign(std::uint8_t master, bool certain, Instant now) noexcept;
 
   BusParameters bus_;
   Requester requester_;

@@ -83,6 +83,11 @@ class DpMaster {
   bool setSynchronised(bool on) noexcept;
   bool isSynchronised() const noexcept { return synchronised_; }
 
+  /// How long data exchange with a slave goes on, with the retries of each cycle, while it does not answer: a slave
+  /// stays in it, too, until its watchdog runs out, which is why its time is the most there is. 0, the default: one
+  /// exchange without an answer is a loss. Kept over `restart()`.
+  void setSilenceLimit(std::size_t slave, Duration limit) noexcept { slaves_[slave].setSilenceLimit(limit); }
+
   /// Nothing has been sent yet: the line is listened to (`BusParameters::listen_first`).
   bool isListening() const noexcept { return listen_.isListening(); }
 
@@ -120,7 +125,7 @@ class DpMaster {
   void ask(std::size_t slave, Instant now) noexcept;
   void nextTurn() noexcept;
   void abandonCycle() noexcept;
-  void tellForeign(std::uint8_t master, Instant now) noexcept;
+  void onForeign(std::uint8_t master, bool certain, Instant now) noexcept;
 
   BusParameters bus_;
   Requester requester_;

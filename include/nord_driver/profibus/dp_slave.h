@@ -19,8 +19,8 @@
 namespace nord_driver::profibus {
 
 /// The order of EN 50170-8: FDL status, Slave_Diag, Set_Prm, Chk_Cfg, Slave_Diag until ready, data exchange. Everything
-/// that goes wrong leads back to the beginning: at once when the slave fell silent or left, after a growing pause when
-/// it refused.
+/// that goes wrong leads back to the beginning: at once when the slave left, when its silence has lasted, after a
+/// growing pause when it refused.
 class DpSlave {
  public:
   DpSlave(std::size_t index, const SlaveConfig& config, const BusParameters& bus);
@@ -48,6 +48,7 @@ class DpSlave {
   void handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) noexcept;
 
   void setOutputs(ByteView outputs) noexcept;
+  void setSilenceLimit(Duration limit) noexcept;
   ByteView inputs() const noexcept { return inputs_; }
   bool isSynchronised() const noexcept { return services_.isSynchronised(config_); }
   const SlaveStatus& status() const noexcept { return status_; }
@@ -70,6 +71,7 @@ class DpSlave {
 
   Service nextService() noexcept;
   void handleNoOptionalAnswer(DpEvents& events) noexcept;
+  void handleNoExchange(Mismatch mismatch, Instant now, DpEvents& events) noexcept;
   void onFdlStatus(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
   void onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
   void onConfiguration(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
@@ -101,15 +103,17 @@ class DpSlave {
   RecordChannel records_;
   std::vector<std::uint8_t> outputs_, inputs_;  // sized once, in the constructor
   Service asked_ = Service::kFdlStatus;
-  bool stepped_ = false;                // had its request of this cycle
-  bool diagnosis_due_ = false;          // in data exchange: DH was seen
-  Instant due_{};                       // no request before (probes, back-off, slow polling)
-  Instant ready_since_{};               // AwaitReady was entered
-  Instant last_answer_{};               // of whatever kind: its watchdog runs from there at the earliest
-  Instant save_until_{};                // see isUrgent()
-  Duration pause_{};                    // of the next back-off
-  bool configuration_wanted_ = false;   // by requestConfiguration()
-  bool configuration_doubted_ = false;  // Cfg_Fault was seen
+  bool stepped_ = false;                      // had its request of this cycle
+  bool diagnosis_due_ = false;                // in data exchange: DH was seen
+  Instant due_{};                             // no request before (probes, back-off, slow polling)
+  Instant ready_since_{};                     // AwaitReady was entered
+  Instant last_answer_{};                     // of whatever kind: its watchdog runs from there at the earliest
+  Instant save_until_{};                      // see isUrgent()
+  Duration silence_limit_{};                  // of data exchange without an answer
+  std::optional<Instant> undiagnosed_since_;  // in data exchange: Slave_Diag was not answered
+  Duration pause_{};                          // of the next back-off
+  bool configuration_wanted_ = false;         // by requestConfiguration()
+  bool configuration_doubted_ = false;        // Cfg_Fault was seen
   bool told_configuration_ = false;
   bool told_found_ = false;
   std::optional<DpEventKind> told_fault_;

@@ -8,8 +8,8 @@
 
 namespace nord_driver::profibus {
 
-/// Silent for `time` from the beginning, and for as long again from every telegram of another master. Once over, it
-/// stays over until `restart()`. A time of 0 does not listen.
+/// Silent for `time` from the beginning, and for as long again from every telegram of another master, or what may be
+/// one. Once over, it stays over until `restart()`. A time of 0 does not listen.
 class ListenFirst {
  public:
   explicit ListenFirst(Duration time) noexcept : time_(time) {}
@@ -19,9 +19,10 @@ class ListenFirst {
     end_ = now + time_;
     listening_ = time_ > Duration::zero();
   }
-  void handleForeign(std::uint8_t master, Instant now) noexcept {
+  /// `certain`: no noise.
+  void handleForeign(std::uint8_t master, bool certain, Instant now) noexcept {
     if (!listening_) return;
-    foreign_ = master;
+    if (certain) foreign_ = master;
     end_ = now + time_;
   }
   bool mayTalk(Instant now) noexcept {

@@ -27,7 +27,8 @@ enum class RecordOutcome : std::uint8_t {
   kRefused,       ///< a negative response: see `error`
   kTimedOut,      ///< no response in time, or busy all the time
   kNoAnswer,      ///< the access point did not answer at all, retries included
-  kNotSupported,  ///< the access point is not active, or the slave is configured without DP-V1
+  kNotSupported,  ///< the slave is configured without DP-V1
+  kNotActivated,  ///< the slave answered RS: its access point is not active
   kOffline        ///< the slave is not in data exchange, or left it
 };
 

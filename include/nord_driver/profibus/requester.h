@@ -11,6 +11,7 @@
 #include "nord_driver/profibus/counters.h"
 #include "nord_driver/profibus/fdl_request.h"
 #include "nord_driver/profibus/telegram_receiver.h"
+#include "nord_driver/profibus/token_watch.h"
 
 namespace nord_driver::profibus {
 
@@ -23,7 +24,7 @@ class Requester {
     kLineBusy   ///< the line never fell silent enough to send
   };
 
-  explicit Requester(const BusParameters& bus) noexcept : bus_(bus) {}
+  explicit Requester(const BusParameters& bus) noexcept : bus_(bus), tokens_(bus) {}
 
   /// The line was opened: what was under way is forgotten, and the first request waits for a quiet line.
   void restart(Instant now) noexcept;
@@ -38,15 +39,18 @@ class Requester {
   Outcome handleTimeout(Instant now) noexcept;
 
   /// Calls `on_answer(const FdlAnswer&)` for the answer to the outstanding request, at most once per request, and
-  /// `on_foreign(std::uint8_t master)` for every token and every request that somebody else sent.
+  /// `on_foreign(std::uint8_t master, bool certain)` for every token and every request that somebody else sent; not
+  /// certain: three bytes that look like a token, and may be noise.
   template <typename OnAnswer, typename OnForeign>
   void handleBytes(ByteView bytes, Instant now, OnAnswer&& on_answer, OnForeign&& on_foreign) noexcept {
     if (bytes.empty()) return;
     noteActivity(now);
+    discarded_ = receiver_.counters().bytes_discarded;
     receiver_.receive(bytes, [&](const Telegram& telegram) {
       if (isForeign(telegram)) {
-        ++counters_.foreign_telegrams;
-        on_foreign(telegram.sa);
+        const bool certain = isCertain(telegram, now);
+        if (certain) ++counters_.foreign_telegrams;
+        on_foreign(telegram.sa, certain);
       }
       FdlAnswer answer;
       if (accept(telegram, answer)) on_answer(answer);
@@ -65,12 +69,15 @@ class Requester {
 
   void noteActivity(Instant now) noexcept;
   bool isForeign(const Telegram& telegram) const noexcept;
+  bool isCertain(const Telegram& telegram, Instant now) noexcept;
   bool accept(const Telegram& telegram, FdlAnswer& answer) noexcept;
   void queue(Instant now) noexcept;
   void takeReceiverCounters() noexcept;
 
   BusParameters bus_;
   TelegramReceiver receiver_;
+  TokenWatch tokens_;
+  std::uint64_t discarded_ = 0;  // before the bytes that came last
   Counters counters_;
   State state_ = State::kIdle;
   const FdlRequest* request_ = nullptr;

@@ -28,6 +28,7 @@ struct SlaveStatus {
   bool exchanged_this_cycle = false;
   std::optional<std::uint16_t> ident;  ///< as the slave reported it, since it was found
   Diagnosis diagnosis;                 ///< the last one; `empty()` before the first
+  bool heard = false;                  ///< it answered its last request, whatever it said
   const char* note = "";               ///< what it needs or waits for, for a technician; empty in data exchange
   SlaveCounters counters;
   /// What Get_Cfg said last: configuration bytes; empty when it was not asked.

@@ -30,11 +30,12 @@ struct ParameterRequest {
 
 enum class ParameterOutcome : std::uint8_t {
   kDone,
-  kRefused,    ///< the inverter answered with an error number
-  kTimeout,    ///< no matching answer in time
-  kOffline,    ///< the drive answers nothing at the moment
-  kNoChannel,  ///< this process data type carries no parameter channel (PPO 3, PPO 4)
-  kBusy,       ///< too many requests wait already
+  kRefused,       ///< the inverter answered with an error number
+  kTimeout,       ///< no matching answer in time
+  kOffline,       ///< the drive answers nothing at the moment
+  kNoChannel,     ///< this process data type carries no parameter channel (PPO 3, PPO 4)
+  kBusy,          ///< too many requests wait already
+  kNotActivated,  ///< the bus module refuses acyclic requests (PROFIBUS: RS at access point 51)
 };
 
 struct ParameterResult {

@@ -14,6 +14,7 @@
 namespace nord_driver::sim {
 
 struct RecordSettings {
+  bool active = true;  ///< false: the access point answers RS, whatever Set_Prm says
   unsigned polls = 1;  ///< empty polls answered "nothing yet" before a response is there
   unsigned busy = 0;   ///< reads after a write answered "state conflict" (80 B5) before the answer can be read
   /// BU 2700 6.5 instead of BU 0220 4.2.1: slot 1 the module, slots 2 to 5 the inverters, any index.

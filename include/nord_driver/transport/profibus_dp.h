@@ -41,6 +41,7 @@ class ProfibusDpTransport final : public Transport, public ParametersOnly {
 
   void serveParametersOnly() noexcept override { parameters_only_ = true; }
   void configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) override;
+  void setDriveTimeout(Duration timeout) noexcept override;
   Instant now() const noexcept override;
   void sleepUntil(Instant when) noexcept override;
   void exchange(const std::vector<profile::ProcessOutput>& outputs,
@@ -74,6 +75,9 @@ class ProfibusDpTransport final : public Transport, public ParametersOnly {
   void runMaster() noexcept;
   bool scanning() noexcept;
   void watchLine() noexcept;
+  /// In data exchange: one that misses a cycle is not lost yet.
+  bool isExchanging(std::size_t station) const noexcept;
+  Sentence silenceText() const noexcept;
   bool mayBeSynchronised(const std::vector<profile::ProcessOutput>& outputs,
                          const std::vector<DriveExchange>& inputs) const noexcept;
   void putOutputs(std::size_t station, const std::vector<profile::ProcessOutput>& outputs) noexcept;

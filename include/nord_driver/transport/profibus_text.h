@@ -21,6 +21,8 @@ class ProfibusText {
   BusEvent event(const profibus::DpEvent& event, const profibus::DpMaster& master) const noexcept;
   /// What a station waits for or needs, subject left out; empty in data exchange.
   Sentence note(std::size_t station, const profibus::DpMaster& master) const noexcept;
+  /// "PROFIBUS station 3 (left, right) ", and what there is to say of it.
+  Sentence named(std::size_t station, const char* what) const noexcept;
   /// "stations 3, 126 (not addressed yet) answered"; "no station answered".
   static Sentence liveList(const profibus::BusScan& scan) noexcept;
 

@@ -31,6 +31,7 @@ struct DriveExchange {
   /// In this cycle its connection was reset, or left the state in which data are exchanged, without being asked: by
   /// another master, by itself, or because it was lost. Said once, also when data are exchanged again already.
   bool interrupted = false;
+  bool inverter_missing = false;  ///< the bus module answers, and the inverter behind it does not: it hears nothing
 };
 
 /// Whose time-outs decide whether the inverter heeds a lost bus (BU 2700 8.1).
@@ -91,6 +92,10 @@ class Transport {
 
   /// Reads the `bus` settings and the drives' own (address, ppo_type, ...). Throws ConfigError naming key and value.
   virtual void configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) = 0;
+
+  /// Told once, after configure(): silence of a drive that is shorter stops nothing. A transport that can tries for as
+  /// long to go on as if nothing had happened.
+  virtual void setDriveTimeout(Duration /*timeout*/) noexcept {}
 
   /// Time of this bus (the steady clock, or a simulated one in tests).
   virtual Instant now() const noexcept = 0;
