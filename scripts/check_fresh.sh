@@ -33,8 +33,9 @@ fail() {
 
 # --- Inside: in namespaces of its own. Whatever is mounted or started here ends with them. ---
 
+# make_debian FOLDER SUITE PACKAGES: in FOLDER/debian.
 make_debian() {
-  mmdebstrap --quiet --variant=minbase --include="$4" --aptopt="$2/apt.conf" "$1" "$3" - <"$2/sources.list"
+  mmdebstrap --quiet --variant=minbase --include="$3" --aptopt="$1/apt.conf" "$2" "$1/debian" - <"$1/sources.list"
 }
 
 # What an installer leaves and minbase does not.
@@ -46,10 +47,10 @@ inside() {
   local folder=$1 suite=$2 debian=$1/debian extra=ca-certificates
   if [[ $suite == bullseye ]]; then extra+=,g++-9; fi
   echo "making a minimal Debian $suite"
-  make_debian "$debian" "$folder" "$suite" "$extra" || {
+  make_debian "$folder" "$suite" "$extra" || {
     sleep 30 # a network or a mirror may be away for a moment
     rm -rf --one-file-system "$debian"
-    make_debian "$debian" "$folder" "$suite" "$extra" || fail "mmdebstrap failed"
+    make_debian "$folder" "$suite" "$extra" || fail "mmdebstrap failed"
   }
   name_machine "$debian"
   mkdir "$debian/root/nord_driver"

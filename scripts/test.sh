@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test and check. The last line is "N passed, N failed, N skipped": test cases, and each
-# check (format, lint, fuzz, workspace) as one. The line before says where the tests on SocketCAN ran. Ends with 0 only
+# check (format, dependencies, lint, fuzz, workspace, fresh) as one. The line before says where the tests on SocketCAN ran. Ends with 0 only
 # when nothing failed and something passed.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -10,7 +10,7 @@ usage() {
 usage: test.sh [--sanitize] [--quick]
   --sanitize  the tests in a Debug build with AddressSanitizer and UndefinedBehaviorSanitizer (out/sanitize); those on
               SocketCAN count as skipped
-  --quick     the tests and the format only; lint, fuzz and workspace count as skipped
+  --quick     the tests, format and dependencies only; lint, fuzz, workspace and fresh count as skipped
 TEXT
 }
 
@@ -64,6 +64,25 @@ check() {
     passed=$((passed + 1))
     echo "== $name: passed ($((SECONDS - start)) s)"
   else
+    failed=$((failed + 1))
+    echo "== $name: FAILED ($((SECONDS - start)) s)"
+  fi
+}
+
+# As check(); a status of 77 says that it cannot be tried here, and its last line why.
+check_where_possible() {
+  local name=$1 start=$SECONDS status=0
+  shift
+  echo "== $name"
+  "$@" >"$out/$name.log" 2>&1 || status=$?
+  if ((status == 77)); then
+    skip "$name" "$(tail -n 1 "$out/$name.log")"
+  elif ((status == 0)); then
+    tail -n 5 "$out/$name.log"
+    passed=$((passed + 1))
+    echo "== $name: passed ($((SECONDS - start)) s)"
+  else
+    tail -n 60 "$out/$name.log"
     failed=$((failed + 1))
     echo "== $name: FAILED ($((SECONDS - start)) s)"
   fi
@@ -197,16 +216,18 @@ start=$SECONDS
 run_tests
 echo "== tests: $((SECONDS - start)) s"
 if $sanitize; then
-  for name in format lint fuzz workspace socketcan; do skip $name "the run without --sanitize does it"; done
+  for name in format dependencies lint fuzz workspace fresh socketcan; do skip $name "the run without --sanitize does it"; done
 else
   start_socketcan
   check "format" format
+  check "dependencies" "$root/scripts/check_dependencies.py"
   if $quick; then
-    for name in lint fuzz workspace; do skip $name "--quick"; done
+    for name in lint fuzz workspace fresh; do skip $name "--quick"; done
   else
     check "lint" finish_lint
     check "workspace" "$root/scripts/check_workspace.sh"
     check "fuzz" "$root/scripts/fuzz.sh" 30
+    check_where_possible "fresh" "$root/scripts/check_fresh.sh" bookworm
   fi
   finish_socketcan
 fi
