@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test and check. The last line is "N passed, N failed, N skipped": test cases, and each
-# check (format, dependencies, lint, fuzz, workspace, fresh) as one. The line before says where the tests on SocketCAN ran. Ends with 0 only
-# when nothing failed and something passed.
+# check (format, dependencies, lint, fuzz, workspace, fresh) as one. The line before says where the tests on SocketCAN ran.
+# Ends with 0 only when nothing failed and something passed.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -216,7 +216,9 @@ start=$SECONDS
 run_tests
 echo "== tests: $((SECONDS - start)) s"
 if $sanitize; then
-  for name in format dependencies lint fuzz workspace fresh socketcan; do skip $name "the run without --sanitize does it"; done
+  for name in format dependencies lint fuzz workspace fresh socketcan; do
+    skip $name "the run without --sanitize does it"
+  done
 else
   start_socketcan
   check "format" format

@@ -10,7 +10,7 @@
 #include <utility>
 
 #define RC_ASSERT(condition) static_cast<void>(condition)
-#define RC_CLASSIFY(condition, ...) static_cast<void>(condition)
+#define RC_CLASSIFY(...) ::rc::ignore(__VA_ARGS__)
 
 namespace rc {
 
@@ -19,6 +19,9 @@ class Gen {
  public:
   T operator*() const { std::abort(); }
 };
+
+template <typename... Ts>
+void ignore(const Ts&...) {}
 
 namespace gen {
 
