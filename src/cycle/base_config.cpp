@@ -1,6 +1,8 @@
 #include "nord_driver/cycle/base_config.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "nord_driver/robot/urdf_geometry.h"
@@ -67,13 +69,44 @@ double readSize(const Settings& settings, const char* key, bool has_description,
   return look_up();
 }
 
-/// The joints' limits of a description nothing else is taken from: it may be of another robot part, without our wheels.
-std::vector<double> limitsIfThere(const std::string& urdf, const std::string& base_link, const JointNames& wheels) {
+/// The joints' limits of a description nothing else is taken from: it may be of another part of the robot, without our
+/// wheels. What it does not tell is no reason to refuse, but is said, and takes nothing away from the other joints.
+std::vector<double> limitsIfThere(const std::string& urdf, const JointNames& wheels,
+                                  std::vector<std::string>& warnings) {
+  std::optional<robot::UrdfGeometry> description;
   try {
-    return robot::UrdfGeometry(urdf, base_link).maxVelocities(wheels);
-  } catch (const std::invalid_argument&) {
+    description.emplace(urdf);
+  } catch (const std::invalid_argument& error) {
+    warnings.push_back(std::string(error.what()) + "; no velocity limit of its joints is kept");
     return {};
   }
+  std::vector<double> limits;
+  for (const std::string& joint : wheels) {
+    try {
+      limits.push_back(description->maxVelocities({joint}).front());
+    } catch (const std::invalid_argument& error) {
+      warnings.push_back(std::string(error.what()) + "; no velocity limit is kept for it");
+      limits.push_back(std::numeric_limits<double>::infinity());
+    }
+  }
+  const bool none = std::all_of(limits.begin(), limits.end(), [](double limit) { return std::isinf(limit); });
+  return none ? std::vector<double>{} : limits;
+}
+
+/// Robots were drawn for diff_drive_controller with their wheels along x: it takes the distance of the first joints
+/// wherever they stand.
+double separationFrom(const robot::UrdfGeometry& description, BaseConfig& base, const std::string& base_link,
+                      const JointNames& left, const JointNames& right) {
+  if (base.kind != robot::BaseKind::kDifferential || !description.inLine(left, right)) {
+    return description.wheelSeparation(left, right);
+  }
+  const double distance = description.jointDistance(left.front(), right.front());
+  base.warnings.push_back("robot_description: the joints \"" + left.front() + "\" and \"" + right.front() +
+                          "\" stand in line along x of \"" + base_link + "\"; their distance, " +
+                          shortNumber(distance) +
+                          " m, is taken for wheel_separation, as diff_drive_controller does. Nobody can see there "
+                          "whether left and right are exchanged, and odom calls the way the wheels roll x");
+  return distance;
 }
 
 void readGeometry(BaseConfig& base, const Settings& settings, const JointNames& joints, const std::string& urdf) {
@@ -94,7 +127,8 @@ void readGeometry(BaseConfig& base, const Settings& settings, const JointNames& 
   };
 
   robot::BaseGeometry& geometry = base.geometry;
-  geometry.wheel_separation = size("wheel_separation", [&] { return description->wheelSeparation(left, right); });
+  geometry.wheel_separation =
+      size("wheel_separation", [&] { return separationFrom(*description, base, base_link, left, right); });
   geometry.left_wheel_radius = size("wheel_radius", [&] { return description->wheelRadius(left); });
   geometry.right_wheel_radius = size("wheel_radius", [&] { return description->wheelRadius(right); });
   if (base.kind == robot::BaseKind::kMecanum) {
@@ -103,7 +137,7 @@ void readGeometry(BaseConfig& base, const Settings& settings, const JointNames& 
   if (description) {
     base.joint_velocity_limits = description->maxVelocities(namesOf(base.wheels()));
   } else if (!urdf.empty()) {
-    base.joint_velocity_limits = limitsIfThere(urdf, base_link, namesOf(base.wheels()));
+    base.joint_velocity_limits = limitsIfThere(urdf, namesOf(base.wheels()), base.warnings);
   }
 
   const auto multiplier = [&](const char* key, double fallback) {

@@ -9,6 +9,9 @@ namespace nord_driver::cycle {
 namespace {
 
 constexpr std::uint8_t kMaxAttempts = 3;
+constexpr std::uint16_t kAccelerationTime = 102, kDecelerationTime = 103;
+// s: the bus manuals name no unit of P103, which is set in the steps of P102 on the inverter.
+constexpr double kRampStep = 0.01;
 constexpr std::uint16_t kMaxFrequency = 105, kOptionMonitoring = 120, kModuleTimeout = 151, kTelegramTimeout = 513,
                         kFirstActualValue = 543, kFirstSetpoint = 546, kEepromSwitch = 560, kSoftwareVersion = 707;
 
@@ -30,6 +33,10 @@ DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner) noexcept 
   add(kSoftwareVersion, 1, 2);
   addFunctions(kFirstActualValue);
   addFunctions(kFirstSetpoint);
+  for (std::uint8_t set = 1; set <= 4; ++set) {
+    add(kAccelerationTime, set, 1);
+    add(kDecelerationTime, set, 1);
+  }
 }
 
 void DeviceReader::add(std::uint16_t number, std::uint8_t set, std::uint8_t index) noexcept {
@@ -120,6 +127,10 @@ void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
     data_.saves_in_eeprom = raw != 0;
   } else if (item.number == kSoftwareVersion) {
     (item.index == 1 ? data_.software_version : data_.software_revision) = raw;
+  } else if (item.number == kAccelerationTime) {
+    data_.acceleration_time[item.set - 1u] = value;
+  } else if (item.number == kDecelerationTime) {
+    data_.deceleration_time[item.set - 1u] = raw * kRampStep;
   } else if (auto* functions = functionsOf(item)) {
     functions->push_back(static_cast<std::uint16_t>(raw));
   }

@@ -38,12 +38,14 @@ BasePublisher::BasePublisher(ros::NodeHandle& node, const NodeConfig& config)
   }
   odometry_publisher_ = node.advertise<nav_msgs::Odometry>("odom", 10);
   if (config_.publish_cmd) command_publisher_ = node.advertise<geometry_msgs::TwistStamped>("cmd_vel_out", 10);
+  if (config_.publish_wheel_states) wheel_states_.emplace(node, config.cycle);
   if (odom_tf_) broadcaster_.emplace();
 }
 
 void BasePublisher::publish(const cycle::CycleSnapshot& snapshot, ros::Time stamp) {
   if (!jointed_.empty()) publishJoints(snapshot, stamp);
   if (odometry_publisher_ && snapshot.base.known) publishOdometry(snapshot.base, stamp);
+  if (wheel_states_) wheel_states_->publish(snapshot, stamp);
   if (command_publisher_) {
     geometry_msgs::TwistStamped command;
     command.header.stamp = stamp;

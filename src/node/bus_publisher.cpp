@@ -1,5 +1,6 @@
 #include "nord_driver/node/bus_publisher.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace nord_driver::node {
@@ -41,6 +42,12 @@ std::string busSentence(const cycle::CycleSnapshot& snapshot, const std::vector<
               (drive.text.empty() ? "no answer" : drive.text.str());
   }
   return silent.empty() ? "all drives answer" : silent;
+}
+
+bool busIsWell(const cycle::CycleSnapshot& snapshot) {
+  return snapshot.connected && snapshot.bus_text.empty() &&
+         std::all_of(snapshot.drives.begin(), snapshot.drives.end(),
+                     [](const cycle::DriveSnapshot& drive) { return drive.online; });
 }
 
 }  // namespace nord_driver::node

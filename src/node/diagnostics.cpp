@@ -32,6 +32,7 @@ Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdenti
   for (std::size_t i = 0; i < config.cycle.drives.size(); ++i) {
     names_.push_back(config.cycle.drives[i].name);
     protections_.emplace_back(identities[i], config.cycle.cmd_vel_timeout, config.cycle.period());
+    ramps_.emplace_back(config.cycle, i);
     typed_max_frequency_.push_back(config.cycle.drives[i].typed_max_frequency);
     updater_.add("drive " + names_.back(), [this, i](DiagnosticStatusWrapper& status) { reportDrive(i, status); });
   }
@@ -112,6 +113,8 @@ void Diagnostics::warn(std::size_t index, const ProtectionReport& protection, Di
     status.mergeSummary(runs_on ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
                         "if this computer died: " + protection.text);
   }
+  const std::string slow_ramp = ramps_[index].assess(drive.device, drive.parameter_set);
+  if (drive.online && !slow_ramp.empty()) status.mergeSummary(DiagnosticStatus::WARN, slow_ramp);
   if (drive.astray) {
     status.mergeSummaryf(DiagnosticStatus::WARN,
                          "it has been %.2f rad/s away from its setpoint for seconds: is the motor overloaded, or are "

@@ -1,5 +1,6 @@
 #include "nord_driver/node/node_config.h"
 
+#include "nord_driver/node/wheel_state_publisher.h"
 #include "nord_driver/transport/setting_checks.h"
 
 namespace nord_driver::node {
@@ -32,13 +33,18 @@ std::string readTransport(const RosSettings& settings) {
 }
 
 // What a controller file may hold that means nothing here.
-void acceptControllerKeys(const RosSettings& settings, std::vector<std::string>& warnings) {
+void acceptControllerKeys(const RosSettings& settings) {
   settings.accept("type");                             // a plugin class
   settings.accept("estimate_velocity_from_position");  // older controllers; inverters tell velocities
-  if (settings.boolean("publish_wheel_joint_controller_state").value_or(false)) {
-    warnings.push_back(settings.fullName("publish_wheel_joint_controller_state") +
-                       " is not offered: ~<drive>/status tells command and velocity of each wheel");
-  }
+}
+
+bool readWheelStates(const RosSettings& settings, std::vector<std::string>& warnings) {
+  const bool wanted = settings.boolean("publish_wheel_joint_controller_state").value_or(false);
+  if (!wanted || WheelStatePublisher::isOffered()) return wanted;
+  warnings.push_back(settings.fullName("publish_wheel_joint_controller_state") +
+                     " is not offered: there was no control_msgs when this driver was built; ~<drive>/status tells "
+                     "command and velocity of each wheel");
+  return false;
 }
 
 std::string readFrame(const RosSettings& settings, const char* key, const std::string& fallback) {
@@ -73,12 +79,17 @@ NodeConfig readNodeConfig(const RosSettings& settings, const std::string& robot_
   config.transport = readTransport(settings);
   config.auto_enable = settings.boolean("auto_enable").value_or(false);
   config.allow_raw_parameters = settings.boolean("allow_raw_parameters").value_or(false);
-  acceptControllerKeys(settings, config.warnings);
+  acceptControllerKeys(settings);
   config.publish = readPublish(settings);
+  config.publish.publish_wheel_states = readWheelStates(settings, config.warnings);
   config.bus = settings.group("bus");
   const auto drives = settings.group("drives");
   for (const std::string& name : drives->keys()) config.drives.push_back({name, drives->group(name)});
   config.cycle = cycle::readCycleConfig(settings, config.drives, robot_description);
+  if (config.cycle.base) {
+    const std::vector<std::string>& of_base = config.cycle.base->warnings;
+    config.warnings.insert(config.warnings.end(), of_base.begin(), of_base.end());
+  }
   config.trace = cycle::readTraceConfig(settings);
   return config;
 }

@@ -84,9 +84,7 @@ void SnapshotPublisher::run() {
 
 // Says once what does not answer, and at once what has stopped.
 void SnapshotPublisher::logChanges(const cycle::CycleSnapshot& snapshot, Instant now) {
-  const bool all = std::all_of(snapshot.drives.begin(), snapshot.drives.end(),
-                               [](const cycle::DriveSnapshot& drive) { return drive.online; });
-  if (const auto news = bus_news_.poll(bus_.sentence(snapshot), all, now)) {
+  if (const auto news = bus_news_.poll(bus_.sentence(snapshot), busIsWell(snapshot), now)) {
     if (news->good) {
       ROS_INFO("nord_driver: %s", news->text.c_str());
     } else {

@@ -81,6 +81,24 @@ std::optional<urdf::Pose> poseInRoot(const urdf::ModelInterface& model, const st
   return std::nullopt;
 }
 
+/// Where a wheel's joint stands in the root link's frame. The joint's frame is its child link's.
+urdf::Vector3 positionOf(const urdf::ModelInterface& model, const std::string& name) {
+  const auto wheel = poseInRoot(model, wheelJoint(model, name).child_link_name);
+  if (!wheel) refuse("joint ", quoted(name), " does not hang on the tree of links");
+  const urdf::Vector3& at = wheel->position;
+  if (!std::isfinite(at.x) || !std::isfinite(at.y) || !std::isfinite(at.z)) {
+    refuse("joint ", quoted(name), " stands at no finite place");
+  }
+  return at;
+}
+
+urdf::Pose baseIn(const urdf::ModelInterface& model, const std::string& base_link) {
+  if (!model.getLink(base_link)) refuse("there is no link ", quoted(base_link), ", expected the link of the base");
+  const auto pose = poseInRoot(model, base_link);
+  if (!pose) refuse("link ", quoted(base_link), " does not hang on the tree of links");
+  return *pose;
+}
+
 /// A wheel as seen from `base_link`.
 struct Place {
   std::string joint;
@@ -89,14 +107,10 @@ struct Place {
 };
 
 Place placeOf(const urdf::ModelInterface& model, const std::string& base_link, const std::string& name) {
-  // The joint's frame is its child link's.
-  const auto wheel = poseInRoot(model, wheelJoint(model, name).child_link_name);
-  if (!wheel) refuse("joint ", quoted(name), " does not hang on the tree of ", quoted(base_link));
-  urdf::Pose base = *poseInRoot(model, base_link);
-  const urdf::Vector3 away(wheel->position.x - base.position.x, wheel->position.y - base.position.y,
-                           wheel->position.z - base.position.z);
+  urdf::Pose base = baseIn(model, base_link);
+  const urdf::Vector3 wheel = positionOf(model, name);
+  const urdf::Vector3 away(wheel.x - base.position.x, wheel.y - base.position.y, wheel.z - base.position.z);
   const urdf::Vector3 seen = base.rotation.GetInverse() * away;
-  if (!std::isfinite(seen.x) || !std::isfinite(seen.y)) refuse("joint ", quoted(name), " stands at no finite place");
   return {name, seen.x, seen.y};
 }
 
@@ -107,18 +121,22 @@ std::vector<Place> placesOf(const urdf::ModelInterface& model, const std::string
   return places;
 }
 
+double meanY(const std::vector<Place>& side) {
+  double sum = 0.0;
+  for (const Place& wheel : side) sum += wheel.y;
+  return sum / static_cast<double>(side.size());
+}
+
 /// The y all wheels of a side have in common.
 double lineOf(const std::vector<Place>& side) {
-  double sum = 0.0;
   for (const Place& wheel : side) {
     if (std::abs(wheel.y - side.front().y) > kSamePlace) {
       refuse("joint ", quoted(side.front().joint), " stands at y = ", side.front().y, " m and joint ",
              quoted(wheel.joint), " at y = ", wheel.y,
              " m, expected the wheels of one side in one line (or wheel_separation typed in)");
     }
-    sum += wheel.y;
   }
-  return sum / static_cast<double>(side.size());
+  return meanY(side);
 }
 
 const char* nameOf(const urdf::GeometrySharedPtr& geometry) {
@@ -176,8 +194,6 @@ UrdfGeometry::UrdfGeometry(const std::string& urdf, const std::string& base_link
     refuse("expected the XML of a URDF, and reading it failed: ", error.what());
   }
   if (!model_) refuse("expected the XML of a URDF: one tree of links and joints, each complete");
-  if (!model_->getLink(base_link_)) refuse("there is no link ", quoted(base_link_), ", expected the link of the base");
-  if (!poseInRoot(*model_, base_link_)) refuse("link ", quoted(base_link_), " does not hang on the tree of links");
 }
 
 double UrdfGeometry::wheelSeparation(const Names& left, const Names& right) const {
@@ -191,6 +207,20 @@ double UrdfGeometry::wheelSeparation(const Names& left, const Names& right) cons
          in_line ? "the wheels stand in line, expected some distance between left and right"
                  : "left and right are exchanged, expected y to grow to the left",
          " (or wheel_separation typed in)");
+}
+
+bool UrdfGeometry::inLine(const Names& left, const Names& right) const {
+  return std::abs(meanY(placesOf(*model_, base_link_, left)) - meanY(placesOf(*model_, base_link_, right))) <=
+         kSamePlace;
+}
+
+double UrdfGeometry::jointDistance(const std::string& one, const std::string& other) const {
+  const urdf::Vector3 a = positionOf(*model_, one);
+  const urdf::Vector3 b = positionOf(*model_, other);
+  const double distance = std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+  if (distance > kSamePlace) return distance;
+  refuse("joint ", quoted(one), " and joint ", quoted(other),
+         " stand in one place, expected some distance between left and right (or wheel_separation typed in)");
 }
 
 double UrdfGeometry::wheelBase(const Names& left, const Names& right) const {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "nord_driver/cycle/base_config.h"
 #include "support/map_settings.h"
@@ -11,7 +12,9 @@ namespace {
 
 using test::MapSettings;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 const JointNames kJoints{"left_wheel_joint", "right_wheel_joint", "lift_joint"};
 
@@ -133,12 +136,95 @@ TEST(BaseConfig, ARobotDescriptionThatCannotBeIsAConfigError) {
   EXPECT_THAT(refusalWith(robot().erase("wheel_radius"), "<robot"), HasSubstr("robot_description"));
 }
 
-// A description nothing is taken from may be of a part of the robot that knows nothing of our wheels.
+// A description nothing is taken from may be of a part of the robot that knows nothing of our wheels; but nobody should
+// believe that their limits are kept.
 TEST(BaseConfig, ADescriptionWithoutOurWheelsDoesNotMatterWhenAllIsTypedIn) {
   const auto base = readBaseConfig(robot(), kJoints, "<robot name=\"arm\"><link name=\"base_link\"/></robot>");
   ASSERT_TRUE(base);
   EXPECT_TRUE(base->joint_velocity_limits.empty());
   EXPECT_EQ(0.5, base->geometry.wheel_separation);
+  EXPECT_THAT(base->warnings, ElementsAre(HasSubstr("no joint \"left_wheel_joint\""),
+                                          AllOf(HasSubstr("no joint \"right_wheel_joint\""),
+                                                HasSubstr("no velocity limit is kept for it"))));
+}
+
+// A joint's limit is its own: no frame is asked for it.
+TEST(BaseConfig, JointLimitsAreKeptWhateverTheBaseFrame) {
+  const auto base = readBaseConfig(robot().set("base_frame_id", "base_footprint"), kJoints, description());
+  EXPECT_EQ((std::vector<double>{std::numeric_limits<double>::infinity(), 12.0}), base->joint_velocity_limits);
+  EXPECT_THAT(base->warnings, IsEmpty());
+}
+
+// One joint that cannot be read is named; the limits of the others are kept.
+TEST(BaseConfig, ABadJointDoesNotTakeTheLimitsOfTheOthersAway) {
+  const JointNames joints{"left_joint", "right_wheel_joint", "lift_joint"};
+  const auto base = readBaseConfig(robot().set("left_wheel", "left_joint"), joints, description());
+  EXPECT_EQ((std::vector<double>{std::numeric_limits<double>::infinity(), 12.0}), base->joint_velocity_limits);
+  EXPECT_THAT(base->warnings, ElementsAre(HasSubstr("no joint \"left_joint\"")));
+}
+
+TEST(BaseConfig, ALimitOfZeroIsNamedWhenAllIsTypedIn) {
+  std::string urdf = description();
+  urdf.replace(urdf.find("velocity=\"12\""), 13, "velocity=\"0\"");
+  const auto base = readBaseConfig(robot(), kJoints, urdf);
+  EXPECT_TRUE(base->joint_velocity_limits.empty());
+  EXPECT_THAT(base->warnings, ElementsAre(HasSubstr("velocity limit of joint \"right_wheel_joint\" is 0 rad/s")));
+}
+
+TEST(BaseConfig, ADescriptionThatIsNoneIsAWarningWhenAllIsTypedIn) {
+  const auto base = readBaseConfig(robot(), kJoints, "<robot");
+  EXPECT_THAT(base->warnings, ElementsAre(AllOf(HasSubstr("expected the XML of a URDF"),
+                                                HasSubstr("no velocity limit of its joints is kept"))));
+}
+
+/// Wheels of 0.2 m that stand along x of base_link; `z` lifts the left one.
+std::string turnedDescription(const std::string& left_x = "0.35", const std::string& z = "0") {
+  const auto wheel = [](const std::string& name, const std::string& xyz) {
+    return "<link name=\"" + name + "\"><collision><geometry><cylinder radius=\"0.2\" length=\"0.1\"/></geometry>" +
+           "</collision></link><joint name=\"" + name + "_joint\" type=\"continuous\"><parent link=\"base_link\"/>" +
+           "<child link=\"" + name + "\"/><origin xyz=\"" + xyz + "\"/></joint>";
+  };
+  return "<robot name=\"r\"><link name=\"base_link\"/>" + wheel("left_wheel", left_x + " 0 " + z) +
+         wheel("right_wheel", "-0.35 0 0") + "</robot>";
+}
+
+// diff_drive_controller takes the distance of the wheel joints wherever they stand, and robots were drawn for it.
+TEST(BaseConfig, TakesTheDistanceOfWheelsThatStandAlongX) {
+  const MapSettings settings = robot().erase("wheel_separation");
+  const auto base = readBaseConfig(settings, kJoints, turnedDescription());
+  EXPECT_NEAR(0.7, base->geometry.wheel_separation, 1e-12);
+  EXPECT_THAT(base->warnings, ElementsAre(AllOf(HasSubstr("\"left_wheel_joint\" and \"right_wheel_joint\""),
+                                                HasSubstr("0.7 m"), HasSubstr("diff_drive_controller"))));
+  EXPECT_NEAR(0.5, readBaseConfig(settings, kJoints, turnedDescription("-0.05", "0.4"))->geometry.wheel_separation,
+              1e-12)
+      << "the way between the joints, not only along x";
+  try {
+    readBaseConfig(settings, kJoints, turnedDescription("-0.35"));
+    FAIL() << "wheels in one place";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("stand in one place"), HasSubstr("wheel_separation typed in")));
+  }
+}
+
+// What crosses the direction of travel has no need of it, and no warning.
+TEST(BaseConfig, WheelsThatStandAcrossXAreNoNews) {
+  const auto base = readBaseConfig(robot().erase("wheel_separation"), kJoints, description());
+  EXPECT_THAT(base->warnings, IsEmpty());
+}
+
+// A mecanum base has an axle at the front: in line its wheels have neither separation nor wheel base.
+TEST(BaseConfig, AMecanumBaseInLineIsRefused) {
+  const JointNames joints{"left_wheel_joint", "rear_left", "right_wheel_joint", "rear_right"};
+  MapSettings settings = robot().erase("wheel_separation");
+  settings.set("base_type", "mecanum").set("wheel_base", 0.6);
+  settings.set("left_wheel", std::vector<std::string>{"left_wheel_joint"})
+      .set("right_wheel", std::vector<std::string>{"right_wheel_joint"});
+  try {
+    readBaseConfig(settings, joints, turnedDescription());
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("stand in line"));
+  }
 }
 
 // Mecanum: four drives, a wheel base and limits of linear/y.

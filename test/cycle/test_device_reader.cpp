@@ -89,6 +89,23 @@ TEST(DeviceReader, ReadsVersionTimeoutAndFunctions) {
   }
 }
 
+// The drive's ramps, last: nothing waits for them. P103 comes in the steps of P102.
+TEST(DeviceReader, ReadsTheRampsOfAllSetsLast) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  std::vector<std::uint16_t> numbers;
+  while (const auto request = reader.pollRequest()) {
+    numbers.push_back(request->number);
+    reader.handleResult(done(request->number * 10 + request->parameter_set));
+  }
+  ASSERT_GE(numbers.size(), 8u);
+  EXPECT_EQ((std::vector<std::uint16_t>{102, 103, 102, 103, 102, 103, 102, 103}),
+            std::vector<std::uint16_t>(numbers.end() - 8, numbers.end()));
+  for (std::size_t set = 1; set <= 4; ++set) {
+    EXPECT_DOUBLE_EQ(10.2 + 0.01 * static_cast<double>(set), reader.data().acceleration_time[set - 1].value());
+    EXPECT_DOUBLE_EQ(10.3 + 0.01 * static_cast<double>(set), reader.data().deceleration_time[set - 1].value());
+  }
+}
+
 // P513 = -0.1 (raw FFFFh): the inverter ignores all bus errors. Read unsigned it would look like a long time-out.
 TEST(DeviceReader, ReadsTheTelegramTimeoutSigned) {
   DeviceReader reader{profile::Series::kSk5xxe};

@@ -87,6 +87,15 @@ TEST_P(Shape, GivesTheRadiusAndTheJointsTheSeparation) {
   EXPECT_TRUE(waitForWheels(-1.0, 1.0));
 }
 
+// Drawn with its wheels along x, as diff_drive_controller's own test robot: 0.8 m between the joints.
+TEST_F(Variant, WheelsAlongXGiveTheSeparationTheirDistance) {
+  takeSizesFrom(
+      robotOf(wheel("left_wheel_joint", "0.4 0 0.2", kCylinder) + wheel("right_wheel_joint", "-0.4 0 0.2", kCylinder)));
+  ASSERT_NO_FATAL_FAILURE(startAndEnable());
+  robot().drive(0.0, 0.5);
+  EXPECT_TRUE(waitForWheels(-1.0, 1.0));
+}
+
 INSTANTIATE_TEST_SUITE_P(OfAWheel, Shape, ::testing::Values(kCylinder, "sphere radius=\"0.2\""),
                          [](const auto& test) { return std::string(test.param).substr(0, 6); });
 
@@ -115,10 +124,10 @@ TEST_P(RefusedUrdf, EndsTheNodeWithASentence) {
 INSTANTIATE_TEST_SUITE_P(
     Because, RefusedUrdf,
     ::testing::Values(Refused{"ABoxHasNoRadius", twoWheels("box size=\"0.2 0.1 0.2\""), "left_wheel_joint"},
-                      Refused{"TheWheelsStandInLine",
+                      Refused{"TheWheelsStandInOnePlace",
                               robotOf(wheel("left_wheel_joint", "0.3 0 0.2", kCylinder) +
-                                      wheel("right_wheel_joint", "-0.3 0 0.2", kCylinder)),
-                              "in line"},
+                                      wheel("right_wheel_joint", "0.3 0 0.2", kCylinder)),
+                              "in one place"},
                       Refused{"AJointIsMissing", robotOf(wheel("left_wheel_joint", "0 0.4 0.2", kCylinder)),
                               "right_wheel_joint"}),
     [](const ::testing::TestParamInfo<Refused>& test) { return test.param.name; });

@@ -74,6 +74,11 @@ TEST_F(SetSwitch, ScalesTheSetpointByTheSetInForce) {
     EXPECT_FALSE(truth->operation_enabled);
     EXPECT_TRUE(drive->status.waitNext([](const DriveStatus& status) { return status.parameter_set == 3; }));
   }
+  // Half of P105 in the same time is half the ramp: slower than what the base's limits ask for.
+  const auto slow = [](int level, const std::string& message) {
+    return level == diagnostic_msgs::DiagnosticStatus::WARN && message.find("P102 of set 3 is 0.50 s") != message.npos;
+  };
+  EXPECT_NE(robot().waitForDiagnostics("drive left", slow), "");
   EXPECT_NEAR(setpointAtSpeed(), 2 * in_set_1, 2);
   EXPECT_EQ(robot().left.truth.next()->control_word, 0x847F);
 

@@ -29,5 +29,21 @@ TEST(BusSentence, TheBusComesBeforeItsDrives) {
   EXPECT_EQ("/dev/ttyUSB0: no such device", busSentence(snapshot, kNames));
 }
 
+// A long drive_timeout keeps drives online for a while that no longer answer: the loss of the bus is trouble at once.
+TEST(BusSentence, ALostBusIsNotWellWhileItsDrivesStillCountAsOnline) {
+  cycle::CycleSnapshot snapshot{2};
+  snapshot.connected = true;
+  for (auto& drive : snapshot.drives) drive.online = true;
+  EXPECT_TRUE(busIsWell(snapshot));
+  snapshot.connected = false;
+  snapshot.bus_text = "no station answers";
+  EXPECT_FALSE(busIsWell(snapshot));
+  snapshot.connected = true;
+  EXPECT_FALSE(busIsWell(snapshot)) << "what the sentence tells is not that all is well";
+  snapshot.bus_text = "";
+  snapshot.drives[1].online = false;
+  EXPECT_FALSE(busIsWell(snapshot));
+}
+
 }  // namespace
 }  // namespace nord_driver::node

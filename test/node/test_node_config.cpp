@@ -4,6 +4,7 @@
 
 #include "node/parameters.h"
 #include "nord_driver/node/node_config.h"
+#include "nord_driver/node/wheel_state_publisher.h"
 
 namespace nord_driver::node {
 namespace {
@@ -89,7 +90,21 @@ TEST(NodeConfigTest, KnowsTheKeysOfDiffDriveController) {
   const RosSettings settings{"~", value};
   const NodeConfig config = readNodeConfig(settings);
   EXPECT_THAT(settings.unknownKeys(), IsEmpty());
-  EXPECT_THAT(config.warnings, ElementsAre(HasSubstr("~publish_wheel_joint_controller_state is not offered")));
+  EXPECT_EQ(WheelStatePublisher::isOffered(), config.publish.publish_wheel_states);
+  if (WheelStatePublisher::isOffered()) {
+    EXPECT_THAT(config.warnings, IsEmpty());
+  } else {
+    EXPECT_THAT(config.warnings, ElementsAre(AllOf(HasSubstr("~publish_wheel_joint_controller_state is not offered"),
+                                                   HasSubstr("no control_msgs"))));
+  }
+}
+
+// What the base's reader has to say of the robot description goes the way of all warnings.
+TEST(NodeConfigTest, WarnsOfWhatTheRobotDescriptionDoesNotTell) {
+  const NodeConfig config =
+      readNodeConfig(RosSettings{"~", robotParameters()}, "<robot name=\"arm\"><link name=\"base_link\"/></robot>");
+  EXPECT_THAT(config.warnings, ElementsAre(HasSubstr("robot_description: there is no joint"),
+                                           HasSubstr("robot_description: there is no joint")));
 }
 
 // dynamic_reconfigure leaves what it is given on the parameter server, where a node that is started again finds it.

@@ -28,8 +28,8 @@ std::string refusalOf(Ask ask) {
   return "accepted";
 }
 
-std::string refusalOfText(const std::string& urdf, const std::string& base_link = "base_link") {
-  return refusalOf([&] { UrdfGeometry(urdf, base_link); });
+std::string refusalOfText(const std::string& urdf) {
+  return refusalOf([&] { UrdfGeometry{urdf}; });
 }
 
 std::string refusalOfSeparation(const std::string& urdf, const Names& left = kLeft, const Names& right = kRight) {
@@ -186,8 +186,9 @@ TEST(UrdfGeometry, RefusesAJointThatHangsOnNothing) {
   const std::string ring = urdfRobot(urdfLink("base_link") + urdfWheel("right", "0 -0.25 0") + urdfLink("a") +
                                      urdfLink("b") + urdfJoint("left_joint", "continuous", "a", "b", "xyz=\"0 1 0\"") +
                                      urdfJoint("back", "fixed", "b", "a", "xyz=\"0 0 0\""));
-  EXPECT_THAT(refusalOfSeparation(ring), HasSubstr("joint \"left_joint\" does not hang on the tree of \"base_link\""));
-  EXPECT_THAT(refusalOfText(ring, "a"), HasSubstr("link \"a\" does not hang on the tree"));
+  EXPECT_THAT(refusalOfSeparation(ring), HasSubstr("joint \"left_joint\" does not hang on the tree of links"));
+  EXPECT_THAT(refusalOf([&] { UrdfGeometry(ring, "a").wheelSeparation(kRight, kLeft); }),
+              HasSubstr("link \"a\" does not hang on the tree"));
 }
 
 // Wheels in line have no separation; exchanged wheels would turn the base the wrong way.
@@ -209,7 +210,28 @@ TEST(UrdfGeometry, RefusesWhatIsNoUrdf) {
               HasSubstr("expected the XML of a URDF"));
   EXPECT_THAT(refusalOfText(urdfRobot(urdfLink("base_link") + urdfWheel("left", "0 wide 0"))),
               HasSubstr("expected the XML of a URDF"));
-  EXPECT_THAT(refusalOfText(urdfTwoWheels(), "base"), HasSubstr("there is no link \"base\""));
+}
+
+// What is seen from the base needs its link; what a joint or a wheel says of itself does not.
+TEST(UrdfGeometry, TheBaseLinkIsAskedForOnlyWhereItCounts) {
+  const UrdfGeometry geometry(urdfTwoWheels(), "base");
+  EXPECT_THAT(refusalOf([&] { geometry.wheelSeparation(kLeft, kRight); }), HasSubstr("there is no link \"base\""));
+  EXPECT_THAT(refusalOf([&] { geometry.inLine(kLeft, kRight); }), HasSubstr("there is no link \"base\""));
+  EXPECT_THAT(refusalOf([&] { geometry.wheelBase(kLefts, kRights); }), HasSubstr("there is no link \"base\""));
+  EXPECT_NEAR(0.1, geometry.wheelRadius(kLeft), 1e-12);
+  EXPECT_NEAR(0.5, geometry.jointDistance("left_joint", "right_joint"), 1e-12);
+  EXPECT_EQ(1u, geometry.maxVelocities(kLeft).size());
+}
+
+// Two wheels a side on both ends of x: what differs in y within a side is the same on both.
+TEST(UrdfGeometry, WheelsAlongX) {
+  const UrdfGeometry turned(urdfRobot(urdfLink("base_link") + urdfWheel("a", "0.3 0.35 0") +
+                                      urdfWheel("b", "0.3 -0.35 0") + urdfWheel("c", "-0.2 0.35 0") +
+                                      urdfWheel("d", "-0.2 -0.35 0")));
+  EXPECT_TRUE(turned.inLine({"a_joint", "b_joint"}, {"c_joint", "d_joint"}));
+  EXPECT_NEAR(0.5, turned.jointDistance("a_joint", "c_joint"), 1e-12);
+  EXPECT_FALSE(UrdfGeometry(urdfTwoWheels()).inLine(kLeft, kRight));
+  EXPECT_THAT(refusalOf([&] { turned.jointDistance("a_joint", "a_joint"); }), HasSubstr("stand in one place"));
 }
 
 // The velocity limit is the joint's own; without one there is none.

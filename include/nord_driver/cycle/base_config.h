@@ -22,6 +22,7 @@ struct BaseConfig {
   robot::TwistLimits limits;
   bool open_loop = false;
   std::size_t velocity_rolling_window_size = 10;
+  std::vector<std::string> warnings;  ///< sentences on what of the robot description was taken in another way, or not
 
   /// The drives in the order of the kinematics: left, then right, each front to rear.
   std::vector<DriveIndex> wheels() const;

@@ -52,7 +52,7 @@ class DeviceReader {
   FixedVector<std::uint16_t, 3>* functionsOf(const Item& item) noexcept;
 
   profile::Series series_;
-  FixedVector<Item, 20> items_;
+  FixedVector<Item, 64> items_;
   std::size_t next_ = 0;
   std::uint8_t attempts_ = 0;
   bool waiting_ = false;

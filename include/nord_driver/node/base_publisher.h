@@ -1,4 +1,4 @@
-// Odometry, tf, joint states and the limited command, from snapshots of the bus cycle.
+// Odometry, tf, joint states, the limited command and the wheels' states, from snapshots of the bus cycle.
 #pragma once
 
 #include <nav_msgs/Odometry.h>
@@ -11,6 +11,7 @@
 
 #include "nord_driver/cycle/snapshot.h"
 #include "nord_driver/node/node_config.h"
+#include "nord_driver/node/wheel_state_publisher.h"
 
 namespace nord_driver::node {
 
@@ -37,6 +38,7 @@ class BasePublisher {
   ros::Publisher odometry_publisher_;
   ros::Publisher joints_publisher_;
   ros::Publisher command_publisher_;
+  std::optional<WheelStatePublisher> wheel_states_;
   std::optional<tf2_ros::TransformBroadcaster> broadcaster_;  // from the first transform on
   std::atomic<bool> odom_tf_;
   ros::Time transform_stamp_;

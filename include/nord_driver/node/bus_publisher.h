@@ -14,6 +14,10 @@ namespace nord_driver::node {
 /// One sentence for a technician: what the bus waits for, or that all is well.
 std::string busSentence(const cycle::CycleSnapshot& snapshot, const std::vector<std::string>& drive_names);
 
+/// False when that sentence is of trouble. A bus that is lost is trouble before its drives are: they count as online
+/// until drive_timeout has passed.
+bool busIsWell(const cycle::CycleSnapshot& snapshot);
+
 class BusPublisher {
  public:
   BusPublisher(ros::NodeHandle& private_node, std::vector<std::string> drive_names);

@@ -10,6 +10,7 @@
 #include "nord_driver/cycle/snapshot.h"
 #include "nord_driver/node/drive_protection.h"
 #include "nord_driver/node/node_config.h"
+#include "nord_driver/node/ramp_check.h"
 #include "nord_driver/transport/transport.h"
 
 namespace nord_driver::node {
@@ -32,6 +33,7 @@ class Diagnostics {
   std::vector<std::string> names_;
   std::vector<DriveIdentity> identities_;
   std::vector<DriveProtection> protections_;
+  std::vector<RampCheck> ramps_;
   std::vector<std::optional<double>> typed_max_frequency_;
   std::string device_;
   cycle::CycleSnapshot snapshot_;

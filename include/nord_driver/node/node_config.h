@@ -21,6 +21,7 @@ struct PublishConfig {
   std::string odom_frame_id = "odom";
   bool enable_odom_tf = true;
   bool publish_cmd = false;
+  bool publish_wheel_states = false;  ///< wheel_joint_controller_state; never true where it is not offered
   bool allow_multiple_cmd_vel_publishers = true;
   std::array<double, 6> pose_covariance_diagonal{};
   std::array<double, 6> twist_covariance_diagonal{};
@@ -35,7 +36,7 @@ struct NodeConfig {
   std::optional<cycle::TraceConfig> trace;
   std::vector<DriveSettings> drives;
   std::shared_ptr<RosSettings> bus;
-  std::vector<std::string> warnings;  ///< sentences on what is accepted but not done
+  std::vector<std::string> warnings;  ///< sentences on what is accepted but done in another way, or not
 };
 
 /// Everything except what the transport itself reads (`bus`, and each drive's address). Throws ConfigError.

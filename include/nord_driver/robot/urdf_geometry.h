@@ -21,7 +21,8 @@ namespace nord_driver::robot {
 class UrdfGeometry {
  public:
   /// Reads the XML. `base_link`: the link the base's motion is told of, x forward and y left (REP-103); a leading slash
-  /// is dropped. Throws when the text is no URDF or has no such link.
+  /// is dropped. Throws when the text is no URDF. That there is such a link is asked only by what is seen from it:
+  /// `wheelSeparation`, `inLine` and `wheelBase` throw without it.
   explicit UrdfGeometry(const std::string& urdf, const std::string& base_link = "base_link");
 
   /// Distance (m) between the left and the right wheels across the direction of travel: the difference of the joints' y
@@ -29,6 +30,13 @@ class UrdfGeometry {
   /// the parents differ.) Throws also when the wheels stand in line, the left ones stand on the right, or wheels of one
   /// side stand more than 1 mm apart in y.
   double wheelSeparation(const std::vector<std::string>& left, const std::vector<std::string>& right) const;
+
+  /// True when left and right do not differ in y of `base_link` by more than 1 mm: of a robot that was drawn with its
+  /// wheels along x.
+  bool inLine(const std::vector<std::string>& left, const std::vector<std::string>& right) const;
+
+  /// Distance (m) between two wheel joints, whatever lies between them. Throws also when it is 1 mm or less.
+  double jointDistance(const std::string& one, const std::string& other) const;
 
   /// Distance (m) between the front and the rear axle, for a base with two wheels a side, the front one first: the
   /// difference of the joints' x in `base_link`. Throws also when the sides differ by more than 1 mm.
