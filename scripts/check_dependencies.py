@@ -23,8 +23,10 @@ OWN = "nord_driver"
 # What only a machine that tests needs: these files may use what --test adds.
 FOR_TESTS = (".ci/", "bench/", "fuzz/", "scripts/bench.sh", "scripts/can_machine", "scripts/check_", "scripts/common.sh",
              "scripts/count_results.py", "scripts/fuzz.sh", "scripts/test")
-# What a user is told to install himself, and where.
-LEFT_TO_THE_USER = {"node rviz/rviz": "README.md"}
+# What a user is told to install himself.
+LEFT_TO_THE_USER = {"node rviz/rviz"}
+# Used where it is found; Debian has no package of it.
+OPTIONAL = {"find_package(control_msgs)", "#include <control_msgs/JointTrajectoryControllerState.h>"}
 
 # What stands before a command in a shell script, and may stand between.
 BEFORE_A_COMMAND = r"(?:^|[;&|({`]|\$\(|\b(?:then|do|else|elif|if|while|until|exec|nice -n \d+|setsid|env -i|command -v|!)\s)"
@@ -180,7 +182,7 @@ def launch_uses():
         for element in re.findall(r"<(?:node|test)\s[^>]*>", text):
             package = re.search(r'\bpkg="([^"]+)"', element)
             kind = re.search(r'\btype="([^"]+)"', element)
-            if package and kind and package[1] != OWN and f"node {package[1]}/{kind[1]}" not in LEFT_TO_THE_USER:
+            if package and kind and package[1] != OWN:
                 yield Use(f"node {package[1]}/{kind[1]}", file,
                           first_of(f"{place}/{package[1]}/{kind[1]}" for place in ("/usr/lib", "/usr/share")))
 
@@ -259,7 +261,8 @@ def main():
         for_tests: packages.brought_by(set(listed(*(["--test"] if for_tests else []))) - set(options.without))
         for for_tests in (False, True)
     }
-    uses = [use for part in (python_uses, cmake_uses, include_uses, program_uses, launch_uses) for use in part()]
+    uses = [use for part in (python_uses, cmake_uses, include_uses, program_uses, launch_uses) for use in part()
+            if use.what not in LEFT_TO_THE_USER | OPTIONAL]
     owners = packages.owners(sorted({use.path for use in uses if use.path}))
     wrong = []
     for use in uses:

@@ -66,6 +66,7 @@ const std::vector<Dependency>& dependencies() {
   static const std::vector<Dependency> kDependencies{
       {"", {"build-essential", "cmake"}, {"Threads"}},
       {"", {"librapidcheck-dev"}, {"rapidcheck"}},  // optional: older distributions have none
+      {"", {}, {"control_msgs"}},                   // optional: Debian has none
       {"catkin", {"catkin"}, {"catkin"}},
       {"diagnostic_msgs", {"ros-core-dev", "python3-diagnostic-msgs"}, {"diagnostic_msgs"}},
       {"diagnostic_updater", {"libdiagnostic-updater-dev"}, {"diagnostic_updater"}},
