@@ -73,6 +73,7 @@ const std::vector<Dependency>& dependencies() {
       {"dynamic_reconfigure",
        {"libdynamic-reconfigure-config-init-mutex-dev", "python3-dynamic-reconfigure"},
        {"dynamic_reconfigure"}},
+      {"gencpp", {"ros-core-dev"}, {"gencpp"}},
       {"geometry_msgs", {"ros-core-dev", "python3-geometry-msgs"}, {"geometry_msgs"}},
       {"google-mock", {"libgmock-dev"}, {"gmock"}},
       {"gtest", {"libgtest-dev"}, {"GTest"}},
@@ -97,6 +98,7 @@ const std::vector<Dependency>& dependencies() {
       {"tf2", {"libtf2-dev"}, {"tf2"}},
       {"tf2_msgs", {"libtf2-ros-dev"}, {}},
       {"tf2_ros", {"libtf2-ros-dev"}, {"tf2_ros"}},
+      {"trajectory_msgs", {"ros-core-dev"}, {"trajectory_msgs"}},
       {"yaml-cpp", {"libyaml-cpp-dev"}, {"yaml-cpp"}},
   };
   return kDependencies;
