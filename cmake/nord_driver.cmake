@@ -59,6 +59,7 @@ function(nord_gtest name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   catkin_add_gtest(${name} ${ARG_SOURCES})
   nord_test_settings(${name} ${ARG_LIBS})
+  add_dependencies(unit_tests ${name})
 endfunction()
 
 # A GoogleTest program that ctest does not run, since it needs more than any machine has: nord_test_program(NAME ...) as

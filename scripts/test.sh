@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test and check. The last line is "N passed, N failed, N skipped": test cases, and each
-# check (format, lint, fuzz, workspace) as one. The lines before say where the tests on SocketCAN ran, and how often a test
-# was tried again since the machine had stood still. Ends with 0 only when nothing failed and something passed.
+# check (format, dependencies, lint, fuzz, workspace, fresh) as one. The lines before say where the tests on SocketCAN ran,
+# and how often a test was tried again since the machine had stood still. Ends with 0 only when nothing failed and something
+# passed.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -10,7 +11,7 @@ usage() {
 usage: test.sh [--sanitize] [--quick]
   --sanitize  the tests in a Debug build with AddressSanitizer and UndefinedBehaviorSanitizer (out/sanitize); those on
               SocketCAN count as skipped
-  --quick     the tests and the format only; lint, fuzz and workspace count as skipped
+  --quick     the tests, format and dependencies only; lint, fuzz, workspace and fresh count as skipped
 TEXT
 }
 
@@ -71,6 +72,25 @@ check() {
   fi
 }
 
+# As check(); a status of 77 says that it cannot be tried here, and its last line why.
+check_where_possible() {
+  local name=$1 start=$SECONDS status=0
+  shift
+  echo "== $name"
+  "$@" >"$out/$name.log" 2>&1 || status=$?
+  if ((status == 77)); then
+    skip "$name" "$(tail -n 1 "$out/$name.log")"
+  elif ((status == 0)); then
+    tail -n 5 "$out/$name.log"
+    passed=$((passed + 1))
+    echo "== $name: passed ($((SECONDS - start)) s)"
+  else
+    tail -n 60 "$out/$name.log"
+    failed=$((failed + 1))
+    echo "== $name: FAILED ($((SECONDS - start)) s)"
+  fi
+}
+
 skip() {
   skipped=$((skipped + 1))
   echo "== $1: skipped ($2)"
@@ -90,6 +110,15 @@ format() {
   if [[ -d $root/fuzz ]]; then folders+=("$root/fuzz"); fi
   find "${folders[@]}" \( -name '*.h' -o -name '*.cpp' \) -print0 |
     xargs -0 clang-format-14 --style=file --dry-run -Werror
+}
+
+# Shows as well that it can fail: the headers of yaml-cpp are on this machine whatever is listed.
+dependencies() {
+  "$root/scripts/check_dependencies.py" || return 1
+  if "$root/scripts/check_dependencies.py" --without libyaml-cpp-dev >/dev/null; then
+    echo "check_dependencies.py does not notice that libyaml-cpp-dev is not listed"
+    return 1
+  fi
 }
 
 lint() {
@@ -200,16 +229,20 @@ start=$SECONDS
 run_tests
 echo "== tests: $((SECONDS - start)) s"
 if $sanitize; then
-  for name in format lint fuzz workspace socketcan; do skip $name "the run without --sanitize does it"; done
+  for name in format dependencies lint fuzz workspace fresh socketcan; do
+    skip $name "the run without --sanitize does it"
+  done
 else
   start_socketcan
   check "format" format
+  check "dependencies" dependencies
   if $quick; then
-    for name in lint fuzz workspace; do skip $name "--quick"; done
+    for name in lint fuzz workspace fresh; do skip $name "--quick"; done
   else
     check "lint" finish_lint
     check "workspace" "$root/scripts/check_workspace.sh"
     check "fuzz" "$root/scripts/fuzz.sh" 30
+    check_where_possible "fresh" "$root/scripts/check_fresh.sh" bookworm
   fi
   finish_socketcan
 fi

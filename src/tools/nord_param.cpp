@@ -1,6 +1,6 @@
 // nord_param: parameters of the inverters on the command line, over the bus itself, without a roscore.
-#include <CLI/CLI.hpp>
 #include <atomic>
+#include <boost/program_options.hpp>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -39,11 +39,11 @@ constexpr char kFooter[] =
 struct Options {
   std::vector<std::string> files;
   BusPort port;
-  double timeout = 5.0;  // s
+  Seconds timeout{5.0};
   std::string drive;
   std::string parameter;
-  int set = 0;
-  int index = 0;
+  WholeNumber<1, 4> set;     ///< 0: not given
+  WholeNumber<1, 99> index;  ///< 0: not given
   WriteWish write;
   std::string dump;
 };
@@ -56,9 +56,9 @@ void list(const YAML::Node& file) {
   printList(config, *transport);
 }
 
-using Command = std::function<bool(ParameterLink&)>;
+using Task = std::function<bool(ParameterLink&)>;
 
-int carryOut(const ToolConfig& config, double timeout, const Command& command, const std::atomic<bool>& end_asked) {
+int carryOut(const ToolConfig& config, double timeout, const Task& task, const std::atomic<bool>& end_asked) {
   TransportLoader loader;
   const auto transport = loader.load(config.transport);
   ParameterLink link{config, *transport};
@@ -66,7 +66,7 @@ int carryOut(const ToolConfig& config, double timeout, const Command& command, c
   bool done = false;
   std::exception_ptr stopped;
   try {
-    done = command(link);
+    done = task(link);
   } catch (const std::exception&) {
     stopped = std::current_exception();
   }
@@ -76,67 +76,64 @@ int carryOut(const ToolConfig& config, double timeout, const Command& command, c
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{kAbout};
-  app.footer(kFooter);
-  app.set_version_flag("--version", std::string("nord_param ") + nord_driver::kVersion);
-  app.require_subcommand(1);
-  app.fallthrough();
+  namespace po = boost::program_options;
   Options options;
-  app.add_option("--config", options.files, "the driver's YAML file; a later file is laid over an earlier one")
-      ->required()
-      ->allow_extra_args(false);
-  app.add_option("--device", options.port.device, "PROFIBUS: serial device, in place of the file's bus/device");
-  app.add_option("--interface", options.port.interface,
-                 "CANopen: interface (can0, virtual:NAME), in place of the file's bus/interface");
-  app.add_option("--timeout", options.timeout, "s to wait for the drive to answer (5)")->check(positiveSeconds());
+  CommandLine line{"nord_param", nord_driver::kVersion, kAbout, kFooter};
+  line.addOptions()("config", po::value(&options.files)->value_name("FILE")->required(),
+                    "the driver's YAML file; a later file is laid over an earlier one; required")(
+      "device", po::value(&options.port.device)->value_name("PATH"),
+      "PROFIBUS: serial device, in place of the file's bus/device")(
+      "interface", po::value(&options.port.interface)->value_name("NAME"),
+      "CANopen: interface (can0, virtual:NAME), in place of the file's bus/interface")(
+      "timeout", po::value(&options.timeout)->value_name("SECONDS"), "s to wait for the drive to answer (5)");
 
-  CLI::App* const list_command = app.add_subcommand("list", "the drives of the file, and every known parameter");
-  CLI::App* const read = app.add_subcommand("read", "read one parameter");
-  CLI::App* const write = app.add_subcommand("write", "write one parameter, in RAM unless told otherwise");
-  CLI::App* const dump = app.add_subcommand("dump", "print every known parameter as YAML");
-  CLI::App* const compare = app.add_subcommand("compare", "tell how the settings of a drive differ from a dump");
-  for (CLI::App* command : {read, write, dump, compare}) {
-    command->add_option("DRIVE", options.drive, "its name in the file")->required();
+  Command& list_command = line.addCommand("list", "the drives of the file, and every known parameter");
+  Command& read = line.addCommand("read", "read one parameter");
+  Command& write = line.addCommand("write", "write one parameter, in RAM unless told otherwise");
+  Command& dump = line.addCommand("dump", "print every known parameter as YAML");
+  Command& compare = line.addCommand("compare", "tell how the settings of a drive differ from a dump");
+  for (Command* command : {&read, &write, &dump, &compare}) {
+    command->arguments.push_back({"DRIVE", "its name in the file", &options.drive});
   }
-  for (CLI::App* command : {read, write}) {
-    command->add_option("PARAMETER", options.parameter, "the manual's number: 105, P105 or P700[-01]")->required();
-    command->add_option("--set", options.set, "parameter set 1 to 4; without it the set in force")
-        ->check(CLI::Range(1, 4));
-    command->add_option("--index", options.index, "array element, [-01] = 1")->check(CLI::Range(1, 99));
+  for (Command* command : {&read, &write}) {
+    command->arguments.push_back({"PARAMETER", "the manual's number: 105, P105 or P700[-01]", &options.parameter});
+    command->options.add_options()("set", po::value(&options.set)->value_name("SET"),
+                                   "parameter set 1 to 4; without it the set in force")(
+        "index", po::value(&options.index)->value_name("INDEX"), "array element, [-01] = 1");
   }
-  write->add_option("VALUE", options.write.value, "in the unit that list shows")->required();
-  write->add_flag("--persistent", options.write.persistent,
-                  "save it in the EEPROM, which endures 100 000 writes; writes even what is there");
-  write->add_flag("--raw", options.write.raw, "VALUE is as transferred; needed where the unit is not known");
-  compare->add_option("FILE", options.dump, "what dump has printed")->required();
-  if (const auto code = parseArguments(app, argc, argv)) return *code;
+  write.arguments.push_back({"VALUE", "in the unit that list shows", &options.write.value});
+  write.options.add_options()("persistent", po::bool_switch(&options.write.persistent),
+                              "save it in the EEPROM, which endures 100 000 writes; writes even what is there")(
+      "raw", po::bool_switch(&options.write.raw), "VALUE is as transferred; needed where the unit is not known");
+  compare.arguments.push_back({"FILE", "what dump has printed", &options.dump});
+  if (const auto code = line.parse(argc, argv)) return *code;
 
   // A write that is under way is not cut off: P560 may have to be put back.
   const std::atomic<bool>& end_asked = catchEndSignals();
   YAML::Node file = readYamlFiles(options.files);
   choosePort(file, options.port);
-  if (list_command->parsed()) {
+  if (line.asksFor(list_command)) {
     list(file);
     return kDone;
   }
   const ToolConfig config = readToolConfig(file, options.drive);
-  Command command = [&end_asked](ParameterLink& link) { return dumpParameters(link, end_asked); };
-  if (compare->parsed()) {
-    command = [&end_asked, reference = readDump(options.dump)](ParameterLink& link) {
+  Task task = [&end_asked](ParameterLink& link) { return dumpParameters(link, end_asked); };
+  if (line.asksFor(compare)) {
+    task = [&end_asked, reference = readDump(options.dump)](ParameterLink& link) {
       return compareParameters(link, reference, end_asked);
     };
   }
   // What is wrong already here reaches no bus.
-  if (read->parsed()) {
-    const auto address = addressOf(options.parameter, options.set, options.index);
-    command = [address](ParameterLink& link) { return readParameter(link, address); };
+  if (line.asksFor(read)) {
+    const auto address = addressOf(options.parameter, options.set.value, options.index.value);
+    task = [address](ParameterLink& link) { return readParameter(link, address); };
   }
-  if (write->parsed()) {
-    const auto address = addressOf(options.parameter, options.set, options.index);
+  if (line.asksFor(write)) {
+    const auto address = addressOf(options.parameter, options.set.value, options.index.value);
     const auto wish = checkedWish(options.write, address, config.cycle.drives.front().series);
-    command = [address, wish](ParameterLink& link) { return writeParameter(link, address, wish); };
+    task = [address, wish](ParameterLink& link) { return writeParameter(link, address, wish); };
   }
-  return carryOut(config, options.timeout, command, end_asked);
+  return carryOut(config, options.timeout.value, task, end_asked);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <signal.h>
 #include <yaml-cpp/yaml.h>
 
-#include <CLI/CLI.hpp>
+#include <boost/program_options.hpp>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -51,21 +51,22 @@ void waitForEnd(const sigset_t& signals, double duration) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Simulated NORD inverters: a PROFIBUS DP segment on a pseudo-terminal, or CANopen nodes on a CAN bus."};
-  app.set_version_flag("--version", std::string("nord_sim ") + NORD_DRIVER_VERSION);
+  namespace po = boost::program_options;
   std::vector<std::string> files;
   BusPort port;
-  double duration = 0.0;
-  app.add_option("--config", files, "YAML file with bus, drives and body; a later file is laid over an earlier one")
-      ->required();
-  app.add_option("--device", port.device,
-                 "PROFIBUS: where to put the link to the pseudo-terminal, instead of bus/device");
-  app.add_option("--interface", port.interface,
-                 "CANopen: interface (can0, vcan0, virtual:NAME), instead of bus/interface");
-  app.add_option("--duration", duration, "seconds to run; without it until SIGINT or SIGTERM")
-      ->check(positiveSeconds());
-  app.footer("Exit code: 0 ended when asked to, 1 wrong configuration or another error, 2 wrong usage.");
-  if (const auto code = parseArguments(app, argc, argv)) return *code;
+  Seconds duration;
+  CommandLine line{
+      "nord_sim", NORD_DRIVER_VERSION,
+      "Simulated NORD inverters: a PROFIBUS DP segment on a pseudo-terminal, or CANopen nodes on a CAN bus.",
+      "Exit code: 0 ended when asked to, 1 wrong configuration or another error, 2 wrong usage."};
+  line.addOptions()("config", po::value(&files)->value_name("FILE...")->multitoken()->required(),
+                    "YAML file with bus, drives and body; a later file is laid over an earlier one; required")(
+      "device", po::value(&port.device)->value_name("PATH"),
+      "PROFIBUS: where to put the link to the pseudo-terminal, instead of bus/device")(
+      "interface", po::value(&port.interface)->value_name("NAME"),
+      "CANopen: interface (can0, vcan0, virtual:NAME), instead of bus/interface")(
+      "duration", po::value(&duration)->value_name("SECONDS"), "seconds to run; without it until SIGINT or SIGTERM");
+  if (const auto code = line.parse(argc, argv)) return *code;
 
   // Blocked before the bus starts its thread, so that only the wait below sees them.
   sigset_t signals;
@@ -78,7 +79,7 @@ int run(int argc, char** argv) {
   const std::unique_ptr<RunningBus> bus = nord_driver::sim::runBus(config);
   std::printf("%s\n", bus->where().c_str());
   std::fflush(stdout);
-  waitForEnd(signals, duration);
+  waitForEnd(signals, duration.value);
   std::printf("referee: %s\n", bus->refereeReport().c_str());
   return kDone;
 }

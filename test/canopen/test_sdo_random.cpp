@@ -66,7 +66,9 @@ class BadBus {
     // An initiation says what comes, and nothing checks it; a block's segments and its end are under the check sum.
     const bool segment = frame[0] < 0x80 + 33 || (frame[0] & 0xE1) == 0xC1;
     if (strikes(bus_.flipped) && (!flip_segments_only || (in_block_ && segment))) {
-      frame[below(8)] ^= static_cast<std::uint8_t>(1u << below(8));
+      const unsigned bit = 1u << below(8);
+      std::uint8_t& byte = frame[below(8)];
+      byte = static_cast<std::uint8_t>(byte ^ bit);
     }
     in_block_ = in_block_ || (frame[0] & 0xE1) == 0xC0;
     to_client_.push_back(frame);

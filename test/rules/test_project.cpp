@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rules/build_rules.h"
+#include "rules/dependency_rules.h"
 #include "rules/include_rules.h"
 #include "rules/source_tree.h"
 #include "rules/text_rules.h"
@@ -53,6 +54,11 @@ TEST(Project, HoldsNoForbiddenWord) {
 // What nobody lists is not built and not tested.
 TEST(Project, EverySourceIsListed) {
   EXPECT_EQ("", list(checkSourceLists(project())));
+}
+
+// What rosdep, apt and CMake are told is the same.
+TEST(Project, DependenciesAreNamedAlikeEverywhere) {
+  EXPECT_EQ("", list(checkDependencies(project(), dependencies())));
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ TEST_F(NordSim, ItsExitCodeTellsWrongUsageFromFailure) {
   EXPECT_THAT(missing.output, IsEmpty());
 }
 
-// CLI11's own range has 300 digits.
+// Shorter than a range with all its digits, and nan is no time.
 TEST_F(NordSim, ATimeThatIsNoneIsRefusedInShortWords) {
   for (const char* const wrong : {"-1", "0", "nan", "soon"}) {
     const Ended refused = run({"--duration", wrong});

@@ -1,36 +1,92 @@
-// What the programs' command lines have in common: their exit codes, and what a time is.
+// What the programs' command lines have in common: options, commands, --help, --version, exit codes and what a time is.
+// Over Boost.Program_options, which is wherever ROS 1 is.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <cstdlib>
+#include <boost/any.hpp>
+#include <boost/program_options.hpp>
+#include <deque>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace nord_driver::tools {
 
 constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2;
 
-/// Nothing: go on. Otherwise the exit code; --help, --version or what is wrong has been printed. CLI11's own codes are
-/// another one for each mistake.
-inline std::optional<int> parseArguments(CLI::App& app, int argc, const char* const* argv) {
-  try {
-    app.parse(argc, argv);
-    return std::nullopt;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kWrongUsage;
-  }
-}
+/// The value of an option in seconds: more than 0, and a time there can be a timer for.
+struct Seconds {
+  double value = 0.0;
+};
 
-/// Of an option in seconds: a time there can be a timer for. CLI11's PositiveNumber prints a range with 300 digits, and
-/// takes nan.
-inline CLI::Validator positiveSeconds() {
-  const auto wrong = [](const std::string& text) -> std::string {
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    if (*end != '\0' || !(value > 0.0)) return text + " is not valid, expected more than 0 s";
-    return value > 1e9 ? text + " is not valid, expected at most 1000000000 s" : "";
+/// The value of an option that is a whole number from kLow to kHigh.
+template <int kLow, int kHigh>
+struct WholeNumber {
+  int value = 0;
+};
+
+/// A word that has to follow the name of a command.
+struct Argument {
+  std::string name;  ///< in capitals, as --help shows it
+  std::string about;
+  std::string* value;
+};
+
+/// What a program can be asked for by name, with the words and the options that belong to it.
+struct Command {
+  std::string name;
+  std::string about;
+  std::vector<Argument> arguments;
+  boost::program_options::options_description options{"Options"};
+};
+
+class CommandLine {
+ public:
+  CommandLine(std::string program, std::string version, std::string about, std::string footer);
+
+  /// Those of the program: before or after the name of a command.
+  boost::program_options::options_description_easy_init addOptions() { return options_.add_options(); }
+  /// Once there is a command, one has to be given. The reference stays good.
+  Command& addCommand(const std::string& name, const std::string& about);
+
+  /// Fills what the options and arguments point to. Nothing: go on. Otherwise the exit code: --help or --version has
+  /// been printed on stdout (kDone), or what is wrong on stderr (kWrongUsage).
+  std::optional<int> parse(int argc, const char* const* argv);
+
+  /// Whether this command was given.
+  bool asksFor(const Command& command) const { return chosen_ == &command; }
+
+ private:
+  struct Words {
+    bool help = false;
+    bool version = false;
+    std::vector<std::string> others;  ///< what is neither an option nor the value of one
   };
-  return {wrong, "POSITIVE"};
+
+  Words read(const std::vector<std::string>& words) const;
+  void choose(const std::vector<std::string>& others);
+  void store(const std::vector<std::string>& words, const std::vector<std::string>& others) const;
+  std::string help() const;
+
+  std::string program_;
+  std::string version_;
+  std::string about_;
+  std::string footer_;
+  boost::program_options::options_description options_;
+  std::deque<Command> commands_;
+  const Command* chosen_ = nullptr;
+};
+
+/// How Boost.Program_options reads a Seconds.
+void validate(boost::any& result, const std::vector<std::string>& texts, Seconds* type, int);
+
+/// A whole number from `low` to `high`; what it throws becomes a sentence that names option, value and range.
+int wholeNumber(const std::vector<std::string>& texts, int low, int high);
+
+template <int kLow, int kHigh>
+void validate(boost::any& result, const std::vector<std::string>& texts, WholeNumber<kLow, kHigh>*, int) {
+  boost::program_options::validators::check_first_occurrence(result);
+  result = WholeNumber<kLow, kHigh>{wholeNumber(texts, kLow, kHigh)};
 }
 
 }  // namespace nord_driver::tools

@@ -1,0 +1,31 @@
+# The libraries of the tests, under the same names wherever they come from.
+
+# GoogleTest's own description has these targets. FindGTest of CMake before 3.20 knows neither them nor gmock.
+find_package(GTest CONFIG QUIET)
+if(NOT TARGET GTest::gmock)
+  find_package(GTest MODULE REQUIRED)
+  find_library(NORD_GMOCK_LIBRARY gmock)
+  if(NOT NORD_GMOCK_LIBRARY)
+    message(FATAL_ERROR "gmock was not found (libgmock-dev)")
+  endif()
+  if(NOT TARGET GTest::gtest)
+    add_library(GTest::gtest INTERFACE IMPORTED)
+    target_link_libraries(GTest::gtest INTERFACE GTest::GTest)
+    add_library(GTest::gtest_main INTERFACE IMPORTED)
+    target_link_libraries(GTest::gtest_main INTERFACE GTest::Main)
+  endif()
+  add_library(GTest::gmock INTERFACE IMPORTED)
+  target_link_libraries(GTest::gmock INTERFACE ${NORD_GMOCK_LIBRARY} GTest::gtest)
+endif()
+
+# Debian bullseye and Ubuntu 20.04 have no rapidcheck: there each property test is a test case that says it was skipped.
+add_library(nord_rapidcheck INTERFACE)
+find_path(NORD_RAPIDCHECK_INCLUDE_DIR rapidcheck/gtest.h)
+find_library(NORD_RAPIDCHECK_LIBRARY rapidcheck)
+if(NORD_RAPIDCHECK_INCLUDE_DIR AND NORD_RAPIDCHECK_LIBRARY)
+  target_include_directories(nord_rapidcheck SYSTEM INTERFACE ${NORD_RAPIDCHECK_INCLUDE_DIR})
+  target_link_libraries(nord_rapidcheck INTERFACE ${NORD_RAPIDCHECK_LIBRARY})
+else()
+  message(WARNING "rapidcheck was not found (librapidcheck-dev): the property tests are left out, each is counted as skipped")
+  target_include_directories(nord_rapidcheck INTERFACE ${PROJECT_SOURCE_DIR}/test/support/without_rapidcheck)
+endif()
