@@ -2,15 +2,14 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "node/robot_under_test.h"
+#include "support/second_try.h"
 
 namespace nord_driver::test {
 namespace {
 
 constexpr double kSpeed = 0.2;            // m/s
-constexpr int kAttempts = 3;              // where the commander itself was held up
 const std::size_t kStatusMessages = 150;  // 3 s of the driver's life
 
 bool isEnabled(const DriveStatus& status) {
@@ -52,19 +51,20 @@ class AutoEnable : public RobotTest {
 };
 
 TEST_F(AutoEnable, NeverMovesUnderACommanderThatTalksAlready) {
-  for (int attempt = 1; attempt <= kAttempts; ++attempt) {
-    robot().drive(kSpeed);
-    ros::WallDuration(0.1).sleep();
-    robot().longestPause();
-    const bool rested = restsUnderCommands();
-    const Seconds pause = robot().longestPause();
-    if (rested) break;
-    ASSERT_GE(pause.count(), commandTimeout().count()) << "it was enabled, or moved";
-    ASSERT_LT(attempt, kAttempts) << "no commands for " << pause.count() << " s in each attempt";
-    std::fprintf(stderr, "this machine kept the commander from talking for %.2f s; once more\n", pause.count());
-    endDriver();
-    driver_.reset();
-  }
+  bool rested = false;
+  tryAgainOnlyIfStoodStill(
+      commandTimeout(),  // a commander that is held up for so long has stopped talking
+      [&] {
+        robot().drive(kSpeed);
+        ros::WallDuration(0.1).sleep();
+        rested = restsUnderCommands();
+      },
+      [&] { return rested; },
+      [&] {
+        endDriver();
+        driver_.reset();
+      });
+  ASSERT_TRUE(rested) << "it was enabled, or moved";
   // Its turn comes when the commander has said zero for cmd_vel_timeout.
   const std::size_t truth = robot().true_odom.mark();
   robot().drive(0.0);
