@@ -11,6 +11,8 @@ namespace {
 constexpr std::uint32_t kFirstReceivePdo = 0x203, kFirstTransmitPdo = 0x183;
 constexpr std::size_t kPdoLength = 4;
 constexpr std::uint8_t kRightNode = 4;
+constexpr char kInterrupted[] =
+    "drive right stopped: its connection to the bus was reset, or left operation, without being asked";
 
 class CanopenStopRig final : public StopRig {
  public:
@@ -45,10 +47,14 @@ class CanopenStopRig final : public StopRig {
     robot_.node(WhatStopsWhat::kRight).setPowered(true);
   }
 
-  /// A node sends what has changed, and every 50 ms, at least two cycles: two
-  /// and a half of these (doc/canopen.md).
+  /// A node sends what has changed, and every 50 ms, at least two cycles: two and a half of these (doc/canopen.md).
   Duration silenceCounts() const override {
     return std::max<Duration>(std::chrono::milliseconds{50}, 2 * robot_.config().period()) * 5 / 2;
+  }
+  /// Guarding may find the node lost first: then its connection is what ended.
+  const char* silenceIsNamed() override {
+    const Duration silence = silenceCounts() + robot_.config().drives[WhatStopsWhat::kRight].drive.drive_timeout;
+    return silence > driveSideTimeout() ? kInterrupted : StopRig::silenceIsNamed();
   }
   /// Node guarding, 100 ms times 3.
   Duration driveSideTimeout() const override { return std::chrono::milliseconds{300}; }
@@ -95,13 +101,7 @@ INSTANTIATE_TEST_SUITE_P(Canopen, WhatStopsWhat,
 /// "A node changes state unasked": here by the commands of others, and by a
 /// restart of its own.
 StopRow stateRow(const char* name, void (*cause)(WhatStopsWhat&)) {
-  return {name,
-          Known::kNodeState,
-          Reaction::kOneIsGone,
-          After::kLatched,
-          "drive right stopped: its connection to the bus was reset, or left "
-          "operation, without being asked",
-          cause};
+  return {name, Known::kNodeState, Reaction::kOneIsGone, After::kLatched, kInterrupted, cause};
 }
 
 CanopenStopRig& canopen(WhatStopsWhat& test) {
