@@ -70,7 +70,11 @@ INSTANTIATE_TEST_SUITE_P(
     Bu2700, ParameterErrors,
     ::testing::Values(
         ByAnOrder{0, {999}, {}, "drive left refuses P999: error 0, the inverter has no parameter of this number"},
-        ByAnOrder{1, {743, 0, 9.0}, {}, "drive left refuses P743: error 1, the parameter cannot be changed"},
+        ByAnOrder{1,
+                  {743, 0, 9.0},
+                  {},
+                  "drive left refuses P743: error 1, the parameter cannot be changed (it is read-only, or P509 does "
+                  "not select this bus)"},
         ByAnOrder{
             2, {102, 0, 400.0}, {}, "drive left refuses P102: error 2, the value is beyond the lower or upper limit"},
         ByAnOrder{3, {701, 6}, {}, "drive left refuses P701: error 3, the sub-index is wrong"},
@@ -150,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(
         ::testing::Values(Channel::kPkw, Channel::kRecords),
         ::testing::Values(
             ByTheInverter{0, "the inverter has no parameter of this number"},
-            ByTheInverter{1, "the parameter cannot be changed"},
+            ByTheInverter{1, "the parameter cannot be changed (it is read-only, or P509 does not select this bus)"},
             ByTheInverter{2, "the value is beyond the lower or upper limit"},
             ByTheInverter{3, "the sub-index is wrong"}, ByTheInverter{5, "the data type is wrong"},
             ByTheInverter{6, "the parameter can only be reset (only 0 may be written)"},

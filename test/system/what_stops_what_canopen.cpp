@@ -10,11 +10,17 @@ namespace {
 
 constexpr std::uint32_t kFirstReceivePdo = 0x203, kFirstTransmitPdo = 0x183;
 constexpr std::size_t kPdoLength = 4;
+constexpr std::uint8_t kRightNode = 4;
+constexpr char kInterrupted[] =
+    "drive right stopped: its connection to the bus was reset, or left operation, without being asked";
 
 class CanopenStopRig final : public StopRig {
  public:
   explicit CanopenStopRig(double cycle_rate) : robot_(options(cycle_rate)) {
-    robot_.bus().setTap([this](const CanFrame& frame, sim::SimulatedCanBus::Sender, Instant at) { see(frame, at); });
+    robot_.bus().setTap([this](const CanFrame& frame, sim::SimulatedCanBus::Sender sender, Instant at) {
+      see(frame, at);
+      tells_state_ = tells_state_ || tellsState(frame, sender);
+    });
   }
 
   DrivenRobot& robot() override { return robot_; }
@@ -23,15 +29,32 @@ class CanopenStopRig final : public StopRig {
 
   void step() override {
     beginCycle();
+    tells_state_ = false;
     robot_.step();
   }
+  bool stateNews() const override { return tells_state_; }
   void passWithoutTheDriver(Duration span) override { robot_.bus().run(span); }
 
   void setBusPresent(bool present) override { robot_.bus().setInterfacePresent(present); }
 
+  /// Somebody else commands the right node (CiA 301 7.2.8.3.1).
+  void commandRightNode(std::uint8_t command) {
+    robot_.bus().inject(dataFrame(0x000, ByteView{FixedBytes<2>{command, kRightNode}}));
+  }
+  void restartRightNode() {
+    robot_.node(WhatStopsWhat::kRight).setPowered(false);
+    robot_.bus().run(std::chrono::milliseconds{2});
+    robot_.node(WhatStopsWhat::kRight).setPowered(true);
+  }
+
   /// A node sends what has changed, and every 50 ms, at least two cycles: two and a half of these (doc/canopen.md).
   Duration silenceCounts() const override {
     return std::max<Duration>(std::chrono::milliseconds{50}, 2 * robot_.config().period()) * 5 / 2;
+  }
+  /// Guarding may find the node lost first: then its connection is what ended.
+  const char* silenceIsNamed() override {
+    const Duration silence = silenceCounts() + robot_.config().drives[WhatStopsWhat::kRight].drive.drive_timeout;
+    return silence > driveSideTimeout() ? kInterrupted : StopRig::silenceIsNamed();
   }
   /// Node guarding, 100 ms times 3.
   Duration driveSideTimeout() const override { return std::chrono::milliseconds{300}; }
@@ -49,11 +72,18 @@ class CanopenStopRig final : public StopRig {
       if (frame.id == kFirstTransmitPdo + i) sawStatus(i, wordAt(frame, 0), at);
     }
   }
+  /// A command of somebody else, or a boot-up: nobody asked for either.
+  static bool tellsState(const CanFrame& frame, sim::SimulatedCanBus::Sender sender) {
+    const bool command = frame.id == 0x000 && sender == sim::SimulatedCanBus::Sender::kForeign;
+    const bool boot_up = frame.id == 0x700u + kRightNode && !frame.remote && frame.size == 1 && frame.data[0] == 0;
+    return command || boot_up;
+  }
   static Word wordAt(const CanFrame& frame, std::size_t offset) {
     return static_cast<Word>(frame.data[offset] | frame.data[offset + 1] << 8);
   }
 
   CanRobot robot_;
+  bool tells_state_ = false;
 };
 
 template <int kCycleRate>
@@ -67,6 +97,28 @@ INSTANTIATE_TEST_SUITE_P(Canopen, WhatStopsWhat,
                                                               StopBus{"25Hz", makeRig<25>}),
                                             ::testing::ValuesIn(stopRows())),
                          nameOfStop);
+
+/// "A node changes state unasked": here by the commands of others, and by a
+/// restart of its own.
+StopRow stateRow(const char* name, void (*cause)(WhatStopsWhat&)) {
+  return {name, Known::kNodeState, Reaction::kOneIsGone, After::kLatched, kInterrupted, cause};
+}
+
+CanopenStopRig& canopen(WhatStopsWhat& test) {
+  return static_cast<CanopenStopRig&>(test.rig());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    CanopenNode, WhatStopsWhat,
+    ::testing::Combine(
+        ::testing::Values(StopBus{"100Hz", makeRig<100>}, StopBus{"25Hz", makeRig<25>}),
+        ::testing::Values(
+            stateRow("StoppedByOthers", [](WhatStopsWhat& test) { canopen(test).commandRightNode(0x02); }),
+            stateRow("PreOperationalByOthers", [](WhatStopsWhat& test) { canopen(test).commandRightNode(0x80); }),
+            stateRow("ResetByOthers", [](WhatStopsWhat& test) { canopen(test).commandRightNode(0x81); }),
+            stateRow("CommunicationResetByOthers", [](WhatStopsWhat& test) { canopen(test).commandRightNode(0x82); }),
+            stateRow("RestartsItself", [](WhatStopsWhat& test) { canopen(test).restartRightNode(); }))),
+    nameOfStop);
 
 }  // namespace
 }  // namespace nord_driver::test
