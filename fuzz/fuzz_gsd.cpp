@@ -14,7 +14,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::require(problem.line >= 1 && problem.line <= lines && !problem.text.empty());
   }
   fuzz::require(file.user_parameters.size() <= 237);
-  for (const profibus::GsdModule& module : file.modules) file.module(module.name);
+  for (const profibus::GsdModule& module : file.modules) {
+    fuzz::require(module.user_parameters.size() <= 237);
+    file.module(module.name);
+  }
   file.maxTsdrBits(500'000);
   return 0;
 }

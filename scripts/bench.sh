@@ -17,9 +17,15 @@ configure "$out" -DCMAKE_BUILD_TYPE=Release -DNORD_DRIVER_BENCH=ON -DNORD_DRIVER
   { tail -n 40 "$out/configure.log"; exit 1; }
 cmake --build "$out" -j "$jobs" --target bench >"$out/build.log" 2>&1 || { tail -n 40 "$out/build.log"; exit 1; }
 
+# bench_ros_latency starts a ROS master and the node; their logs stay in the build folder.
+export ROS_HOME=$out/ros_home ROS_LOG_DIR=$out/ros_home/log
+set +u # ROS' own file
+source "$out/devel/setup.bash"
+set -u
+
 echo "processors $(nproc), load before: $(cut -d' ' -f1-3 /proc/loadavg)"
 status=0
-for program in bench_efficiency bench_in_process bench_pty_cycle bench_can bench_command_latency; do
+for program in bench_efficiency bench_in_process bench_pty_cycle bench_can bench_command_latency bench_ros_latency; do
   echo "== $program"
   "$out/devel/lib/nord_driver/$program" || status=1
 done

@@ -148,6 +148,12 @@ class SquareDriver:
     def _enable(self, on):
         rospy.wait_for_service("/nord_driver/enable", 10.0)
         answer = rospy.ServiceProxy("/nord_driver/enable", SetBool)(on)
+        # Refused for a moment after the drives have answered: the parameters that decide motion are being read.
+        deadline = rospy.Time.now() + rospy.Duration(5.0)
+        early = ("still being read", "is not known")
+        while not answer.success and any(t in answer.message for t in early) and rospy.Time.now() < deadline:
+            rospy.sleep(0.1)
+            answer = rospy.ServiceProxy("/nord_driver/enable", SetBool)(on)
         self._table.say("~enable %s: %s" % (str(on).lower(), answer.message))
         if not answer.success:
             raise RuntimeError("~enable %s was refused: %s" % (str(on).lower(), answer.message))

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test and check. The last line is "N passed, N failed, N skipped": test cases, and each
-# check (format, dependencies, lint, fuzz, workspace, fresh) as one. The line before says where the tests on SocketCAN ran.
-# Ends with 0 only when nothing failed and something passed.
+# check (format, dependencies, lint, fuzz, workspace, fresh) as one. The lines before say where the tests on SocketCAN ran,
+# and how often a test was tried again since the machine had stood still. Ends with 0 only when nothing failed and something
+# passed.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -43,6 +44,7 @@ unset ROS_MASTER_URI ROS_IP
 passed=0
 failed=0
 skipped=0
+second_tries=0      # of tests whose machine stood still (test/support/second_try.h)
 linter=             # the process that runs the linter
 socketcan=          # the process that runs these tests
 socketcan_ran=      # where, in words
@@ -50,6 +52,7 @@ socketcan_ran=      # where, in words
 finish() {
   echo
   if [[ -n $socketcan_ran ]]; then echo "socketcan: $socketcan_ran"; fi
+  echo "second tries because the machine stood still: $second_tries"
   echo "$passed passed, $failed failed, $skipped skipped"
   ((failed == 0 && passed > 0)) || exit 1
   exit 0
@@ -146,11 +149,12 @@ build() {
 
 # count_cases FOLDER STATUS: adds the cases of the result files there; STATUS is how their programs ended.
 count_cases() {
-  local cases_passed cases_failed cases_skipped
-  read -r cases_passed cases_failed cases_skipped <<<"$(/usr/bin/python3 "$root/scripts/count_results.py" "$1")"
+  local cases_passed cases_failed cases_skipped cases_tried_again
+  read -r cases_passed cases_failed cases_skipped cases_tried_again <<<"$(/usr/bin/python3 "$root/scripts/count_results.py" "$1")"
   passed=$((passed + cases_passed))
   failed=$((failed + cases_failed))
   skipped=$((skipped + cases_skipped))
+  second_tries=$((second_tries + cases_tried_again))
   if ((cases_passed == 0)); then
     echo "no test case ran"
     failed=$((failed + 1))

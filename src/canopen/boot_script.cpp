@@ -2,15 +2,13 @@
 
 #include <array>
 
+#include "error_control_objects.h"
+
 namespace nord_driver::canopen {
 namespace {
 
 constexpr std::uint16_t kDeviceTypeIndex = 0x1000;
 constexpr std::uint16_t kIdentityIndex = 0x1018;
-constexpr std::uint16_t kGuardTimeIndex = 0x100C;
-constexpr std::uint16_t kLifeTimeFactorIndex = 0x100D;
-constexpr std::uint16_t kHeartbeatConsumerIndex = 0x1016;
-constexpr std::uint16_t kHeartbeatProducerIndex = 0x1017;
 
 constexpr std::size_t kIdentitySteps = 4;
 constexpr std::size_t kNamingSteps = 2;  // vendor and product tell what the device is: read in any case

@@ -64,12 +64,17 @@ void Master::restart(Instant now) noexcept {
   }
 }
 
-void Master::releaseAll(NmtCommand command, Instant now) noexcept {
+void Master::releaseAll(Instant now) noexcept {
   now_ = now;
+  process_.clear();
   for (const auto& node : nodes_) {
-    node->release(command, now);
+    node->release(now);
     touched(*node);
   }
+}
+
+bool Master::released() const noexcept {
+  return std::all_of(nodes_.begin(), nodes_.end(), [](const auto& node) { return node->released(); });
 }
 
 void Master::startCycle(Instant now) noexcept {

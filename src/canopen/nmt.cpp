@@ -53,6 +53,21 @@ NmtState nmtStateOf(std::uint8_t value) noexcept {
   return NmtState::kUnknown;
 }
 
+NmtState stateAfter(NmtCommand command) noexcept {
+  switch (command) {
+    case NmtCommand::kStart:
+      return NmtState::kOperational;
+    case NmtCommand::kStop:
+      return NmtState::kStopped;
+    case NmtCommand::kEnterPreOperational:
+      return NmtState::kPreOperational;
+    case NmtCommand::kResetNode:
+    case NmtCommand::kResetCommunication:
+      break;
+  }
+  return NmtState::kUnknown;
+}
+
 CanFrame nmtFrame(NmtCommand command, std::uint8_t node) noexcept {
   return dataFrame(kNmtCobId, std::array<std::uint8_t, 2>{static_cast<std::uint8_t>(command), node});
 }

@@ -50,8 +50,9 @@ bool Node::takesReceivePdos(Instant now) noexcept {
   return false;
 }
 
-void Node::release(NmtCommand command, Instant now) noexcept {
-  boot_.release(command, now);
+void Node::release(Instant now) noexcept {
+  for (SdoPort& port : ports_) port.cancel(SdoOwner::kUser, now);
+  boot_.release(now);
   settle(now);
 }
 
@@ -67,8 +68,12 @@ void Node::handleErrorControl(const CanFrame& frame, Instant now) noexcept {
 void Node::handleStateByte(std::uint8_t value, Instant now) noexcept {
   if (nmtStateOf(value) == NmtState::kBootUp) return boot_.handleBootUp(now);
   ++report_.status().counters.heartbeats;
-  if (guard_.running() && !acceptGuardAnswer(value, now)) return;
-  heartbeat_.heard(now);
+  const bool alive = !guard_.running() || acceptGuardAnswer(value, now);
+  // A wrong toggle bit, or an answer to somebody else's question, is no sign of life; the state is the node's all the
+  // same.
+  const bool left = operational() && nmtStateOf(value) != NmtState::kOperational;
+  if (!alive && !left) return;
+  if (alive) heartbeat_.heard(now);
   boot_.handleState(nmtStateOf(value), now);
 }
 
@@ -169,6 +174,7 @@ void Node::settle(Instant now) noexcept {
   followWatch(now);
   boot_.poll(now);
   followWatch(now);
+  if (boot_.takeGuardQuestion()) guard_.askOnce();
 }
 
 void Node::followWatch(Instant now) noexcept {

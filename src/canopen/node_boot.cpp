@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "error_control_objects.h"
+
 namespace nord_driver::canopen {
 namespace {
 
@@ -18,6 +20,9 @@ constexpr std::uint32_t kSurplusOfTwoNodes = 4;
 
 /// Two nodes with one id get stop words for so long.
 constexpr Duration kStopBoth = std::chrono::seconds{4};
+
+/// Bounds the end of a driver whose node does not answer.
+constexpr Duration kLongestRelease = std::chrono::seconds{1};
 
 constexpr std::uint16_t kErrorRegisterIndex = 0x1001;
 constexpr std::uint16_t kErrorFieldIndex = 0x1003;
@@ -41,7 +46,12 @@ Duration startTimeout(const NodeConfig& config) noexcept {
 
 NodeBoot::NodeBoot(const NodeConfig& config, std::uint8_t own_id, Duration ask_interval, NodeReport& report,
                    SdoPort& port) noexcept
-    : config_(config), ask_interval_(ask_interval), report_(report), port_(port), script_(config, own_id) {}
+    : config_(config),
+      ask_interval_(ask_interval),
+      report_(report),
+      port_(port),
+      script_(config, own_id),
+      release_script_(config.error_control) {}
 
 void NodeBoot::restart(Instant now) noexcept {
   report_.enter(NodeState::kAbsent, {}, now);
@@ -63,16 +73,29 @@ void NodeBoot::restart(Instant now) noexcept {
   }
 }
 
-void NodeBoot::release(NmtCommand command, Instant now) noexcept {
+void NodeBoot::release(Instant now) noexcept {
+  port_.cancel(SdoOwner::kBoot, now);
+  const bool ever_there = report_.status().state != NodeState::kAbsent;
+  report_.enter(NodeState::kReleased, {}, now);
+  if (config_.reset != BootReset::kNone) return endRelease(NmtCommand::kResetCommunication, now);
+  guards_ = watch() != Watch::kOff;
+  release_script_.begin();
+  if (!ever_there || release_script_.done()) return endRelease(NmtCommand::kEnterPreOperational, now);
+  phase_ = Phase::kRelease;
+  command_.reset();
+  deadline_ = now + kLongestRelease;
+  submit(release_script_.request(), now);
+}
+
+void NodeBoot::endRelease(NmtCommand command, Instant now) noexcept {
   port_.cancel(SdoOwner::kBoot, now);
   phase_ = Phase::kOff;
   deadline_.reset();
   command_ = command;
-  report_.enter(NodeState::kReleased, {}, now);
 }
 
 NodeBoot::Watch NodeBoot::watch() const noexcept {
-  if (phase_ == Phase::kStart) return Watch::kVerify;
+  if (phase_ == Phase::kStart || (phase_ == Phase::kRelease && guards_)) return Watch::kVerify;
   return phase_ == Phase::kRunning ? Watch::kWatch : Watch::kOff;
 }
 
@@ -101,13 +124,17 @@ void NodeBoot::ask(Instant now) noexcept {
 
 void NodeBoot::submit(const SdoRequest& request, Instant now) noexcept {
   request_ = request;
+  guard_question_ = guard_question_ || (phase_ == Phase::kScript && !fresh_ && setsLifeTime(request));
   port_.submit(SdoOwner::kBoot, request, now);
 }
 
 void NodeBoot::handleBootUp(Instant now) noexcept {
   ++report_.status().counters.boot_ups;
   report_.status().nmt = NmtState::kBootUp;
+  report_.status().booted_up_at = now;
   if (phase_ == Phase::kOff) return;
+  // It has forgotten whom it watched.
+  if (phase_ == Phase::kRelease) return endRelease(NmtCommand::kEnterPreOperational, now);
   Sentence why;
   if (phase_ == Phase::kRunning) {
     why.format("has restarted by itself: it sent its boot-up");
@@ -147,8 +174,10 @@ void NodeBoot::handleState(NmtState state, Instant now) noexcept {
     why.format("is %s now, which we did not tell it", toText(state));
     leave(why, now);
     ask(now);
+    leadBack();
   } else if (phase_ == Phase::kSilent) {
     ask(now);
+    leadBack();
   }
 }
 
@@ -179,14 +208,22 @@ void NodeBoot::handleLoss(const Sentence& why, Instant now) noexcept {
   ask(now);
 }
 
+// What it was told it does at once: its next RPDO would go nowhere. Error control tells a guard time later, or never.
 void NodeBoot::handleForeignCommand(NmtCommand command, Instant now) noexcept {
-  // Error control tells sooner or later; without it nothing does.
-  if (phase_ != Phase::kRunning || config_.error_control.mode != ErrorControlMode::kNone) return;
-  if (command == NmtCommand::kStart) return;
-  Sentence why;
-  why.format("was told \"%s\" by another master", toText(command));
-  leave(why, now);
-  ask(now);
+  if (command == NmtCommand::kStart || phase_ == Phase::kOff || phase_ == Phase::kRelease) return;
+  report_.status().nmt = stateAfter(command);
+  if (phase_ == Phase::kRunning) {
+    Sentence why;
+    why.format("was told \"%s\" by another master", toText(command));
+    leave(why, now);
+    ask(now);
+  }
+  leadBack();
+}
+
+// A stopped node answers no SDO: without this it would be asked in vain for ever.
+void NodeBoot::leadBack() noexcept {
+  if (report_.status().nmt == NmtState::kStopped && !command_) command_ = NmtCommand::kEnterPreOperational;
 }
 
 void NodeBoot::poll(Instant now) noexcept {
@@ -197,6 +234,7 @@ void NodeBoot::poll(Instant now) noexcept {
 }
 
 void NodeBoot::handleDeadline(Instant now) noexcept {
+  if (phase_ == Phase::kRelease) return endRelease(NmtCommand::kEnterPreOperational, now);
   if (phase_ == Phase::kRunning) report_.enter(NodeState::kBooting, doubleId(), now);
   if (phase_ != Phase::kStart) return ask(now);
   if (tries_left_ == 0) return diagnose(now);
@@ -208,6 +246,11 @@ void NodeBoot::handleDeadline(Instant now) noexcept {
 void NodeBoot::handleAnswer(const SdoAnswer& answer, Instant now) noexcept {
   NodeCounters& counters = report_.status().counters;
   ++answers_;
+  if (phase_ == Phase::kRelease) {
+    release_script_.handle(answer);
+    if (release_script_.done()) return endRelease(NmtCommand::kEnterPreOperational, now);
+    return submit(release_script_.request(), now);
+  }
   if (answer.end == SdoEnd::kTimedOut || answer.end == SdoEnd::kAbortedByUs) {
     ++counters.sdo_timeouts;
     ++report_.busCounters().sdo_timeouts;

@@ -13,10 +13,10 @@ namespace nord_driver::cycle {
 namespace {
 
 std::vector<DriveIndex> readWheels(const Settings& settings, const std::string& key, const JointNames& joints) {
+  constexpr const char* kExpected = "the joint name of a drive, or a list of them";
   const auto names = settings.texts(key);
-  if (!names || names->empty()) {
-    throw missingSetting(settings, key, "the joint name of a drive, or a list of them");
-  }
+  if (!names) throw missingSetting(settings, key, kExpected);
+  if (names->empty()) throw wrongSetting(settings, key, "[]", kExpected);
   std::vector<DriveIndex> wheels;
   for (const std::string& name : *names) {
     const auto at = std::find(joints.begin(), joints.end(), name);

@@ -1,5 +1,6 @@
 #include "nord_driver/cycle/base_motion.h"
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -21,6 +22,14 @@ robot::WheelSpeeds jointLimits(const BaseConfig& config, std::size_t wheels) {
   return limits;
 }
 
+bool anyBelow(const robot::WheelSpeeds& wheels, const robot::WheelSpeeds& minimum) noexcept {
+  if (robot::standsStill(wheels)) return false;
+  for (std::size_t i = 0; i < wheels.size() && i < minimum.size(); ++i) {
+    if (std::abs(wheels[i]) < minimum[i]) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 BaseMotion::BaseMotion(const BaseConfig& config, Duration cmd_vel_timeout)
@@ -33,17 +42,41 @@ BaseMotion::BaseMotion(const BaseConfig& config, Duration cmd_vel_timeout)
       open_loop_(config.open_loop) {}
 
 robot::WheelSpeeds BaseMotion::pollWheels(const TwistCommand& command, bool driving, bool follow,
-                                          const robot::WheelSpeeds& max_speeds, Instant now, Duration dt) noexcept {
+                                          const robot::WheelSpeeds& max_speeds, Instant now, Duration dt,
+                                          const MinimumSpeeds& minimum) noexcept {
+  below_minimum_ = false;
   if (!driving) {
     limiter_.reset();
-    limited_ = {};
-    return kinematics_->wheels(limited_);
+    return rest();
   }
   // Beyond 100 % of P105, or a joint's limit, the whole base is scaled: a wheel cut alone would bend the path. The
   // target is scaled first, so that the limiter never runs ahead of the wheels and braking begins at once.
   const robot::WheelSpeeds limits = robot::tighterOf(max_speeds, joint_limits_);
-  const bool obey = follow && !isStale(command, timeout_, now);
-  limited_ = limiter_.limit(within(limits, obey ? command.twist : robot::Twist2d{}), dt);
+  const bool obey = follow && !minimum.coming_to_rest && !isStale(command, timeout_, now);
+  robot::Twist2d target = within(limits, obey ? command.twist : robot::Twist2d{});
+  // Taken as zero at once, it is left along the limits.
+  below_minimum_ = anyBelow(kinematics_->wheels(target), minimum.wheels);
+  if (below_minimum_) target = {};
+  const robot::WheelSpeeds wheels = ramp(target, limits, dt);
+  if (!anyBelow(wheels, minimum.wheels)) {
+    drives_ = !robot::standsStill(wheels);
+    return wheels;
+  }
+  // On the way up the limiter goes on alone until every wheel is fast enough; on the way down it has arrived.
+  below_minimum_ = below_minimum_ || target != robot::Twist2d{};
+  if (drives_) limiter_.reset();
+  return rest();
+}
+
+robot::WheelSpeeds BaseMotion::rest() noexcept {
+  limited_ = {};
+  drives_ = false;
+  return kinematics_->wheels(limited_);
+}
+
+robot::WheelSpeeds BaseMotion::ramp(const robot::Twist2d& target, const robot::WheelSpeeds& limits,
+                                    Duration dt) noexcept {
+  limited_ = limiter_.limit(target, dt);
   const robot::WheelSpeeds wanted = kinematics_->wheels(limited_);
   const robot::WheelSpeeds possible = robot::scaleInto(wanted, limits);
   if (possible != wanted) {

@@ -23,6 +23,13 @@ std::vector<std::optional<std::size_t>> modulesOf(const CycleConfig& config, con
   return modules;
 }
 
+std::vector<bool> membersOf(const CycleConfig& config) {
+  std::vector<bool> members(config.drives.size(), false);
+  if (!config.base) return members;
+  for (const DriveIndex wheel : config.base->wheels()) members[wheel] = true;
+  return members;
+}
+
 // Never too late.
 bool stops(RequestKind kind) noexcept {
   return kind == RequestKind::kDisable || kind == RequestKind::kQuickStop || kind == RequestKind::kShutDown;
@@ -44,6 +51,7 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       names_(namesOf(config)),
       drives_(makeDrives(config)),
       supervisor_(config, drives_, auto_enable),
+      command_watch_(ports, config.cmd_vel_timeout, config.base.has_value(), names_, membersOf(config)),
       maintenance_(drives_, names_, modulesOf(config, transport)),
       outputs_(config.drives.size()),
       inputs_(config.drives.size()),
@@ -69,7 +77,7 @@ void BusCycle::runOnce() noexcept {
 
   const Instant after = transport_.now();
   handleInputs(after);
-  supervisor_.update(movingCommand(after), after);
+  supervisor_.update(command_watch_.look(after), after);
   maintenance_.update(after);
   while (const auto completion = supervisor_.pollCompletion()) ports_.complete(*completion);
   while (const auto completion = maintenance_.pollCompletion()) ports_.complete(*completion);
@@ -113,21 +121,17 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
     case RequestKind::kDisable:
     case RequestKind::kQuickStop:
     case RequestKind::kShutDown:
-      return supervisor_.handleRequest(request, movingCommand(now), now);
+      return supervisor_.handleRequest(request, command_watch_.look(now), now);
   }
 }
 
-// Written while it turns, P105 would be a step of the speed: the setpoint is a share of it.
+// Written while it turns, P105 would be a step of the speed (the setpoint is a share of it), P104 a motion of its own.
 void BusCycle::accessParameter(const Request& request) noexcept {
   const bool at_rest = supervisor_.groupOf(request.drive).report().phase == drive::GroupPhase::kDisabled &&
                        drives_[request.drive].isAtRest();
-  if (at_rest || !changesProcessData(request)) {
-    return axes_[request.drive].parameters.handleRequest(request, drives_[request.drive]);
-  }
-  Sentence why;
-  why.format("P%03u decides what setpoints and actual values mean: disable drive %s first", request.parameter.number,
-             names_[request.drive].c_str());
-  ports_.complete(answerTo(request, false, why));
+  DriveParameters& parameters = axes_[request.drive].parameters;
+  if (at_rest || !decidesMotion(request)) return parameters.handleRequest(request, drives_[request.drive]);
+  ports_.complete(answerTo(request, false, parameters.notWhileEnabled(request)));
 }
 
 // A drive that is idle may still belong to a base that is on its way to rest: its set stays what it is until then.
@@ -145,29 +149,6 @@ Completion BusCycle::resetOdometry(const Request& request) noexcept {
   return answerTo(request, base_.has_value(), base_ ? "the pose is zero" : "there is no base");
 }
 
-// A command that is not zero and not stale: nothing may be enabled under it.
-Sentence BusCycle::movingCommand(Instant now) noexcept {
-  Sentence text;
-  const TwistCommand& base = ports_.newestBaseCommand();
-  if (base_ && !isStale(base, cmd_vel_timeout_, now) && base.twist != robot::Twist2d{}) {
-    text.format(
-        "the newest cmd_vel is not zero (%.3f m/s, %.3f rad/s, %.2f s old): send zero first, or wait until it "
-        "is older than cmd_vel_timeout",
-        base.twist.linear_x, base.twist.angular_z, toSeconds(now - base.received));
-    return text;
-  }
-  for (DriveIndex i = 0; i < drives_.size(); ++i) {
-    const JointCommand& joint = ports_.newestDriveCommand(i);
-    if (supervisor_.inBase(i) || isStale(joint, cmd_vel_timeout_, now) || joint.velocity == 0.0) continue;
-    text.format(
-        "the newest command of drive %s is not zero (%.3f rad/s): send zero first, or wait until it is older "
-        "than cmd_vel_timeout",
-        names_[i].c_str(), joint.velocity);
-    return text;
-  }
-  return text;
-}
-
 void BusCycle::command(Instant now, Duration dt) noexcept {
   if (base_) commandBase(now, dt);
   commandSingles(now);
@@ -180,7 +161,7 @@ void BusCycle::commandBase(Instant now, Duration dt) noexcept {
   const bool driving = follow || group.wantsZeroRamp();
   base_->tune(ports_.newestBaseTuning());
   const robot::WheelSpeeds wheels =
-      base_->pollWheels(ports_.newestBaseCommand(), driving, follow, maxWheelSpeeds(), now, dt);
+      base_->pollWheels(ports_.newestBaseCommand(), driving, follow, maxWheelSpeeds(), now, dt, minWheelSpeeds());
   for (std::size_t i = 0; i < wheels_.size(); ++i) drives_[wheels_[i]].setVelocity(RadPerSec{wheels[i]});
   group.setpointIsZero(robot::standsStill(wheels));
 }
@@ -204,10 +185,21 @@ robot::WheelSpeeds BusCycle::maxWheelSpeeds() const noexcept {
   return speeds;
 }
 
+MinimumSpeeds BusCycle::minWheelSpeeds() const noexcept {
+  MinimumSpeeds minimum;
+  for (const DriveIndex i : wheels_) {
+    minimum.wheels.push_back(drives_[i].minVelocity().value);
+    minimum.coming_to_rest = minimum.coming_to_rest || drives_[i].comesToRest();
+  }
+  return minimum;
+}
+
 void BusCycle::handleInputs(Instant now) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    if (inputs_[i].interrupted) drives_[i].handleInterruption(now);
     drives_[i].handleInput(inputs_[i].input, inputs_[i].inverter_answers, now);
     axes_[i].known = axes_[i].known || drives_[i].report().online;
+    axes_[i].terminals.update(drives_[i].report());
   }
 }
 
@@ -243,7 +235,7 @@ void BusCycle::measure(Instant now, Duration dt) noexcept {
     } else {
       axes_[i].joint.rebase();
     }
-    axes_[i].speed.update(report.phase == drive::Phase::kEnabled && report.scaled, report.velocity_command.value,
+    axes_[i].speed.update(drive::isEnabled(report.phase) && report.scaled, report.velocity_command.value,
                           report.velocity.value, drives_[i].maxVelocity().value_or(RadPerSec{}).value, now);
   }
   if (base_) measureBase(dt);
@@ -271,6 +263,7 @@ void BusCycle::publish(Instant now) noexcept {
   snapshot_.counters = transport_.counters();
   snapshot_.bus_text = transport_.busText();
   while (const auto event = transport_.pollEvent()) ports_.tell(*event);
+  tellChanges(now);
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     snapshot_.drives[i].time = now;
     fill(snapshot_.drives[i], i);
@@ -293,11 +286,36 @@ void BusCycle::publish(Instant now) noexcept {
   ports_.publish(snapshot_);
 }
 
+// Against the snapshot of the last cycle.
+void BusCycle::tellChanges(Instant now) noexcept {
+  BusEvent news{false, {}};
+  if (base_ && supervisor_.base()->commandAllowed() && !snapshot_.base.enabled) {
+    news.text = "the base is enabled";
+    ports_.tell(news);
+  }
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    const drive::DriveReport& report = drives_[i].report();
+    if (!supervisor_.inBase(i) && drive::isEnabled(report.phase) && !snapshot_.drives[i].enabled) {
+      news.text.format("drive %s is enabled", names_[i].c_str());
+      ports_.tell(news);
+    }
+    const auto finding = axes_[i].terminals.pollNews(now);
+    if (!finding) continue;
+    BusEvent event{true, terminalSentence(names_[i].c_str(), *finding, report)};
+    if (*finding == TerminalFinding::kNone) {
+      event.warning = false;
+      event.text.format("drive %s: the bus has control of it again", names_[i].c_str());
+    }
+    ports_.tell(event);
+  }
+}
+
 void BusCycle::fill(DriveSnapshot& to, DriveIndex drive) const noexcept {
   const drive::DriveReport& report = drives_[drive].report();
   to.online = report.online;
   to.module_answers = inputs_[drive].module_answers;
-  to.enabled = report.phase == drive::Phase::kEnabled;
+  to.enabled = drive::isEnabled(report.phase);
+  to.saturated = report.saturated || (to.enabled && base_ && supervisor_.inBase(drive) && base_->belowMinimum());
   to.state = report.state;
   to.parameter_set = report.parameter_set;
   to.output = report.output;
@@ -315,6 +333,8 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive) const noexcept {
   to.fault_latched = report.fault_latched;
   to.eeprom_writes = axes_[drive].parameters.eepromWrites();
   to.owes_eeprom_switch = axes_[drive].parameters.owesEepromSwitch();
+  to.terminals = axes_[drive].terminals.finding();
+  to.terminals_text = terminalSentence(names_[drive].c_str(), to.terminals, report);
   to.direction_contradiction = report.direction_contradiction;
   to.stopped = report.stop_cause != drive::StopCause::kNone || report.fault_latched;
   to.stop_cause = report.stop_cause;

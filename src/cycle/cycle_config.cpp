@@ -47,6 +47,7 @@ DriveSetup readDrive(const DriveSettings& source, const CycleConfig& config, Dur
     // P105 has 0.1 Hz steps; 400 Hz is the most any of the series turns.
     setup.typed_max_frequency = requiredNumber(settings, "max_frequency", 0.1, 400.0, "Hz");
   }
+  setup.drive.allow_minimum_frequency = settings.boolean("allow_minimum_frequency").value_or(false);
   if (settings.has("rated_current")) {
     setup.rated_current = requiredNumber(settings, "rated_current", 0.01, 10'000.0, "A");
   }

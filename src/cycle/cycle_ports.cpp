@@ -3,9 +3,12 @@
 #include <errno.h>
 #include <time.h>
 
+#include <cmath>
+
 namespace nord_driver::cycle {
 
-CyclePorts::CyclePorts(std::size_t drive_count) : snapshot_(CycleSnapshot{drive_count}), trace_(drive_count) {
+CyclePorts::CyclePorts(std::size_t drive_count)
+    : drives_moved_(drive_count), snapshot_(CycleSnapshot{drive_count}), trace_(drive_count) {
   for (std::size_t i = 0; i < drive_count; ++i) {
     drive_commands_.push_back(std::make_unique<LatestValue<JointCommand>>());
   }
@@ -16,19 +19,34 @@ CyclePorts::~CyclePorts() {
   sem_destroy(&completed_);
 }
 
-void CyclePorts::commandBase(const TwistCommand& command) {
+bool CyclePorts::commandBase(const TwistCommand& command) {
+  if (!robot::isFinite(command.twist)) return false;
   const std::lock_guard<std::mutex> lock(writers_);
-  base_command_.write(command);
+  if (command.twist != robot::Twist2d{}) base_moved_ = command.received;
+  TwistCommand kept = command;
+  kept.moved = base_moved_;
+  base_command_.write(kept);
+  return true;
 }
 
-void CyclePorts::commandDrive(DriveIndex drive, const JointCommand& command) {
+bool CyclePorts::commandDrive(DriveIndex drive, const JointCommand& command) {
+  if (!std::isfinite(command.velocity)) return false;
   const std::lock_guard<std::mutex> lock(writers_);
-  drive_commands_.at(drive)->write(command);
+  if (command.velocity != 0.0) drives_moved_.at(drive) = command.received;
+  JointCommand kept = command;
+  kept.moved = drives_moved_.at(drive);
+  drive_commands_.at(drive)->write(kept);
+  return true;
 }
 
 void CyclePorts::tuneBase(const BaseTuning& tuning) {
   const std::lock_guard<std::mutex> lock(writers_);
   base_tuning_.write(tuning);
+}
+
+void CyclePorts::commanderConnected(Instant when) {
+  const std::lock_guard<std::mutex> lock(writers_);
+  commander_.write(when);
 }
 
 bool CyclePorts::submit(const Request& request) {

@@ -9,11 +9,13 @@ namespace nord_driver::cycle {
 namespace {
 
 constexpr std::uint8_t kMaxAttempts = 3;
+constexpr std::uint16_t kMinFrequency = 104, kMaxFrequency = 105, kOptionMonitoring = 120, kModuleTimeout = 151,
+                        kBusBits = 480, kTelegramTimeout = 513, kFirstActualValue = 543, kFirstSetpoint = 546,
+                        kEepromSwitch = 560, kSoftwareVersion = 707;
+constexpr std::uint8_t kSets = 4;
 constexpr std::uint16_t kAccelerationTime = 102, kDecelerationTime = 103;
 // s: the bus manuals name no unit of P103, which is set in the steps of P102 on the inverter.
 constexpr double kRampStep = 0.01;
-constexpr std::uint16_t kMaxFrequency = 105, kOptionMonitoring = 120, kModuleTimeout = 151, kTelegramTimeout = 513,
-                        kFirstActualValue = 543, kFirstSetpoint = 546, kEepromSwitch = 560, kSoftwareVersion = 707;
 
 bool isArray(profile::ParameterShape shape) noexcept {
   return shape == profile::ParameterShape::kArray || shape == profile::ParameterShape::kArrayPerSet;
@@ -22,7 +24,11 @@ bool isArray(profile::ParameterShape shape) noexcept {
 }  // namespace
 
 DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner) noexcept : series_(series) {
-  for (std::uint8_t set = 1; set <= 4; ++set) add(kMaxFrequency, set, 1);
+  for (std::uint8_t set = 1; set <= kSets; ++set) add(kMaxFrequency, set, 1);
+  for (std::uint8_t set = 1; set <= kSets; ++set) add(kMinFrequency, set, 1);
+  for (std::uint8_t set = 1; set <= kSets; ++set) addFunction(kFirstActualValue, 0, set);
+  for (std::uint8_t set = 1; set <= kSets; ++set) addFunction(kFirstSetpoint, 0, set);
+  motion_items_ = items_.size();
   add(kTelegramTimeout, 1, 1);
   if (owner == TimeoutOwner::kModule) {
     add(kModuleTimeout, 1, 1);
@@ -31,9 +37,10 @@ DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner) noexcept 
   add(kEepromSwitch, 1, 1);
   add(kSoftwareVersion, 1, 1);
   add(kSoftwareVersion, 1, 2);
-  addFunctions(kFirstActualValue);
-  addFunctions(kFirstSetpoint);
-  for (std::uint8_t set = 1; set <= 4; ++set) {
+  for (std::uint8_t place = 1; place < 3; ++place) addFunction(kFirstActualValue, place, 1);
+  for (std::uint8_t place = 1; place < 3; ++place) addFunction(kFirstSetpoint, place, 1);
+  addBusBits();
+  for (std::uint8_t set = 1; set <= kSets; ++set) {
     add(kAccelerationTime, set, 1);
     add(kDecelerationTime, set, 1);
   }
@@ -44,16 +51,19 @@ void DeviceReader::add(std::uint16_t number, std::uint8_t set, std::uint8_t inde
 }
 
 // Functions 1..3: three parameters on SK 500E-535E, one array on the others (BU 2700 6.4.4).
-void DeviceReader::addFunctions(std::uint16_t first_number) noexcept {
+void DeviceReader::addFunction(std::uint16_t first_number, std::uint8_t place, std::uint8_t set) noexcept {
   const profile::ParameterInfo* info = profile::findParameter(first_number, series_);
   if (info == nullptr) return;
-  for (std::uint8_t i = 0; i < 3; ++i) {
-    if (isArray(info->shape)) {
-      add(first_number, 1, static_cast<std::uint8_t>(i + 1));
-    } else {
-      add(static_cast<std::uint16_t>(first_number + i), 1, 1);
-    }
+  if (isArray(info->shape)) {
+    add(first_number, set, static_cast<std::uint8_t>(place + 1));
+  } else {
+    add(static_cast<std::uint16_t>(first_number + place), set, 1);
   }
+}
+
+void DeviceReader::addBusBits() noexcept {
+  const profile::ParameterInfo* info = profile::findParameter(kBusBits, series_);
+  for (std::uint8_t i = 1; info != nullptr && i <= info->elements; ++i) add(kBusBits, 1, i);
 }
 
 void DeviceReader::handleOffline() noexcept {
@@ -70,9 +80,23 @@ bool DeviceReader::maxFrequenciesAsked() const noexcept {
   return true;
 }
 
-bool DeviceReader::missesMaxFrequency() const noexcept {
+bool DeviceReader::motionAsked() const noexcept {
+  return !restart_ && (data_.complete || next_ >= motion_items_);
+}
+
+bool DeviceReader::missesMotion(bool max_frequencies) const noexcept {
   if (restart_ || next_ != items_.size()) return false;
-  return std::any_of(items_.begin(), items_.end(), [](const Item& item) { return item.due; });
+  return std::any_of(items_.begin(), items_.end(), [max_frequencies](const Item& item) {
+    return item.due && (max_frequencies || item.number != kMaxFrequency);
+  });
+}
+
+void DeviceReader::askMissingAgain(bool max_frequencies) noexcept {
+  for (Item& item : items_) {
+    if (item.number == kMaxFrequency && !max_frequencies) item.due = false;
+  }
+  silent_ = false;
+  next_ = 0;
 }
 
 std::optional<profile::ParameterRequest> DeviceReader::pollRequest() noexcept {
@@ -81,6 +105,7 @@ std::optional<profile::ParameterRequest> DeviceReader::pollRequest() noexcept {
     restart_ = false;
     next_ = 0;
     attempts_ = 0;
+    silent_ = false;
     data_ = {};
     for (Item& item : items_) item.due = true;
   }
@@ -91,7 +116,9 @@ std::optional<profile::ParameterRequest> DeviceReader::pollRequest() noexcept {
   }
   const Item& item = items_[next_];
   waiting_ = true;
-  return profile::readRequest(*profile::findParameter(item.number, series_), item.set, item.index);
+  auto request = profile::readRequest(*profile::findParameter(item.number, series_), item.set, item.index);
+  request.scales = item.number == kMaxFrequency;
+  return request;
 }
 
 void DeviceReader::handleResult(const profile::ParameterResult& result) noexcept {
@@ -102,8 +129,9 @@ void DeviceReader::handleResult(const profile::ParameterResult& result) noexcept
     return;
   }
   const bool timed_out = result.outcome == profile::ParameterOutcome::kTimeout;
-  if (timed_out && ++attempts_ < kMaxAttempts) return;
-  items_[next_].due = timed_out && items_[next_].number == kMaxFrequency;
+  if (timed_out && ++attempts_ < (silent_ ? 1 : kMaxAttempts)) return;
+  silent_ = timed_out;
+  items_[next_].due = timed_out && next_ < motion_items_;
   if (result.outcome == profile::ParameterOutcome::kDone) {
     store(items_[next_], result.raw);
   } else {
@@ -127,18 +155,38 @@ void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
     data_.saves_in_eeprom = raw != 0;
   } else if (item.number == kSoftwareVersion) {
     (item.index == 1 ? data_.software_version : data_.software_revision) = raw;
+  } else if (item.number == kMinFrequency) {
+    data_.min_frequency[item.set - 1u] = value;
+  } else if (item.number == kBusBits) {
+    while (data_.bus_bit_functions.size() < item.index) data_.bus_bit_functions.push_back(kUnknownFunction);
+    data_.bus_bit_functions[item.index - 1u] = static_cast<std::uint16_t>(raw);
   } else if (item.number == kAccelerationTime) {
     data_.acceleration_time[item.set - 1u] = value;
   } else if (item.number == kDecelerationTime) {
     data_.deceleration_time[item.set - 1u] = raw * kRampStep;
-  } else if (auto* functions = functionsOf(item)) {
-    functions->push_back(static_cast<std::uint16_t>(raw));
+  } else {
+    storeFunction(item, static_cast<std::uint16_t>(raw));
   }
 }
 
-// They are asked for in their order: one that stays away must not let the next take its place.
 void DeviceReader::leaveOut(const Item& item) noexcept {
-  if (auto* functions = functionsOf(item)) functions->push_back(kUnknownFunction);
+  storeFunction(item, kUnknownFunction);
+}
+
+void DeviceReader::storeFunction(const Item& item, std::uint16_t function) noexcept {
+  auto* functions = functionsOf(item);
+  if (functions == nullptr) return;
+  const bool actual_value = item.number < kFirstSetpoint;
+  const unsigned parameter = item.number - unsigned{actual_value ? kFirstActualValue : kFirstSetpoint};
+  const std::size_t place = parameter + item.index - 1u;
+  if (place == 0) {
+    auto& of_sets = actual_value ? data_.actual_value_1_function : data_.setpoint_1_function;
+    of_sets[item.set - 1u] = function == kUnknownFunction ? std::nullopt : std::optional<std::uint16_t>{function};
+  }
+  if (item.set != 1) return;
+  // One that stays away must not let the next take its place.
+  while (functions->size() <= place) functions->push_back(kUnknownFunction);
+  (*functions)[place] = function;
 }
 
 FixedVector<std::uint16_t, 3>* DeviceReader::functionsOf(const Item& item) noexcept {

@@ -1,9 +1,11 @@
 #include "nord_driver/cycle/drive_parameters.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "nord_driver/cycle/parameter_access.h"
 #include "nord_driver/cycle/sentences.h"
+#include "nord_driver/profile/parameter_catalogue.h"
 
 namespace nord_driver::cycle {
 
@@ -16,25 +18,65 @@ constexpr std::uint32_t kDriveMask = (1u << kDriveBits) - 1, kAskerMask = (1u <<
 constexpr Duration kReasonInterval = std::chrono::milliseconds{500};
 constexpr Duration kMissingInterval = std::chrono::seconds{2};
 
+// Beside those that are read at start: jog frequency, brake, servo mode and encoder (the P300 family's, not its
+// controller gains), PPO type, source of control word and setpoints, drive profile.
+constexpr std::uint16_t kDecideMotion[] = {113, 114, 300, 301, 325, 507, 509, 510, 551};
+
 void forgetScale(drive::Drive& drive) noexcept {
-  for (std::uint8_t set = 1; set <= 4; ++set) drive.setMaxFrequency(set, Hertz{});
+  for (std::uint8_t set = 1; set <= 4; ++set) {
+    drive.setMaxFrequency(set, Hertz{});
+    drive.setMinimumFrequency(set, Hertz{});
+    drive.setUnexpectedFunction(set, std::nullopt);
+  }
+  drive.setParametersAwaited(true);
+}
+
+bool saysWhatSetpointsMean(std::uint16_t number) noexcept {
+  return number == 105 || (number >= 543 && number <= 548);
+}
+
+std::optional<drive::UnexpectedFunction> unexpectedFunction(const DeviceData& device, std::uint8_t set,
+                                                            profile::Series series) noexcept {
+  const auto compare = [&](std::uint16_t number, const std::optional<std::uint16_t>& found) {
+    std::optional<drive::UnexpectedFunction> unexpected;
+    if (!found || *found == kFrequencyFunction) return unexpected;
+    const profile::ParameterInfo* info = profile::findParameter(number, series);
+    const bool is_array = info != nullptr && info->shape == profile::ParameterShape::kArrayPerSet;
+    unexpected = {number, is_array, *found, kFrequencyFunction};
+    return unexpected;
+  };
+  const auto actual_value = compare(543, device.actual_value_1_function[set - 1u]);
+  return actual_value ? actual_value : compare(546, device.setpoint_1_function[set - 1u]);
 }
 
 }  // namespace
 
 bool changesProcessData(const Request& request) noexcept {
   const std::uint16_t number = request.parameter.number;
-  return request.kind == RequestKind::kWriteParameter && (number == 105 || (number >= 543 && number <= 548));
+  return request.kind == RequestKind::kWriteParameter &&
+         (saysWhatSetpointsMean(number) || number == 104 || number == 480);
+}
+
+bool decidesMotion(const Request& request) noexcept {
+  if (changesProcessData(request)) return true;
+  return request.kind == RequestKind::kWriteParameter && std::find(std::begin(kDecideMotion), std::end(kDecideMotion),
+                                                                   request.parameter.number) != std::end(kDecideMotion);
 }
 
 DriveParameters::DriveParameters(DriveIndex drive, std::string name, profile::Series series,
                                  std::optional<double> typed_max_frequency, TimeoutOwner owner)
-    : drive_(drive), name_(std::move(name)), typed_max_frequency_(typed_max_frequency), reader_(series, owner) {}
+    : drive_(drive),
+      name_(std::move(name)),
+      series_(series),
+      typed_max_frequency_(typed_max_frequency),
+      reader_(series, owner) {}
 
 void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
   const drive::DriveReport& report = drive.report();
   if (report.online) {
-    faults_.handleStatus(profile::StatusWord{report.status_word});
+    const profile::StatusWord status{report.status_word};
+    bus_control_ = status.busControl();
+    faults_.handleStatus(status);
     askForReason(drive, now);
     if (scale_due_ && !writesProcessData()) scale(drive);
     scale_due_ = false;
@@ -71,7 +113,8 @@ void DriveParameters::askForReason(drive::Drive& drive, Instant now) noexcept {
   }
 }
 
-// P105 as read; as typed where the drive does not tell it.
+// P105 as read; as typed where the drive does not tell it. What else could not be read refuses nothing: /diagnostics
+// tells it.
 void DriveParameters::scale(drive::Drive& drive) const noexcept {
   for (std::uint8_t set = 1; set <= 4; ++set) {
     const auto& read = reader_.data().max_frequency[set - 1u];
@@ -80,7 +123,23 @@ void DriveParameters::scale(drive::Drive& drive) const noexcept {
     } else if (typed_max_frequency_ && reader_.maxFrequenciesAsked()) {
       drive.setMaxFrequency(set, Hertz{*typed_max_frequency_});
     }
+    drive.setMinimumFrequency(set, Hertz{reader_.data().min_frequency[set - 1u].value_or(0.0)});
+    drive.setUnexpectedFunction(set, unexpectedFunction(reader_.data(), set, series_));
   }
+  drive.setParametersAwaited(!reader_.motionAsked());
+}
+
+Sentence DriveParameters::notWhileEnabled(const Request& request) const noexcept {
+  const std::uint16_t number = request.parameter.number;
+  Sentence why;
+  if (saysWhatSetpointsMean(number)) {
+    why.format("P%03u decides what setpoints and actual values mean: disable drive %s first", number, name_.c_str());
+    return why;
+  }
+  const profile::ParameterInfo* info = profile::findParameter(number, series_);
+  why.format("P%03u%s%s%s decides whether and how the motor turns: disable drive %s first", number,
+             info != nullptr ? " (" : "", info != nullptr ? info->name : "", info != nullptr ? ")" : "", name_.c_str());
+  return why;
 }
 
 bool DriveParameters::writesProcessData() const noexcept {
@@ -146,13 +205,14 @@ std::optional<profile::ParameterRequest> DriveParameters::ask(Asker asker, Insta
 // A parameter channel that was busy elsewhere for a second must not keep the drive from ever being enabled. Where a
 // P105 was typed it has taken the place of the missing one, and another scale could be a step of the speed.
 void DriveParameters::askMissingAgain(Instant now) noexcept {
-  if (typed_max_frequency_ || !reader_.missesMaxFrequency()) {
+  const bool max_frequencies = !typed_max_frequency_;
+  if (!reader_.missesMotion(max_frequencies)) {
     missing_since_.reset();
   } else if (!missing_since_) {
     missing_since_ = now;
   } else if (now - *missing_since_ >= kMissingInterval) {
     missing_since_.reset();
-    reader_.askMissingAgain();
+    reader_.askMissingAgain(max_frequencies);
   }
 }
 
@@ -181,12 +241,18 @@ void DriveParameters::answer(Asker asker, const profile::ParameterResult& result
   }
 }
 
+// Parameters are written over a bus while P509 selects it (BU 0020 6.2.2, note); status bit 9 tells whether it does.
+Sentence DriveParameters::sentenceOf(const Request& request, const drive::ParameterTaskResult& result) const noexcept {
+  const bool by_control_source = request.kind == RequestKind::kWriteParameter && !bus_control_;
+  return parameterSentence(name_.c_str(), request.parameter.number, result, by_control_source);
+}
+
 void DriveParameters::collect() noexcept {
   while (const auto result = session_.pollResult()) {
     for (std::size_t i = 0; i < pending_.size(); ++i) {
       if (pending_[i].id != result->id) continue;
-      Completion completion = answerTo(pending_[i], result->outcome == profile::ParameterOutcome::kDone,
-                                       parameterSentence(name_.c_str(), pending_[i].parameter.number, *result));
+      Completion completion =
+          answerTo(pending_[i], result->outcome == profile::ParameterOutcome::kDone, sentenceOf(pending_[i], *result));
       completion.raw = result->raw;
       completions_.add(completion);
       // Whatever became of it: a write without an answer may have been carried out.

@@ -33,16 +33,32 @@ void Maintenance::forEach(const Request& request, Action action) noexcept {
 }
 
 void Maintenance::handleRequest(const Request& request, Instant now) noexcept {
-  if (!jobs_.push_back({request, now + request.patience})) {
-    return completions_.answer(request, false, "too many requests are being carried out already");
-  }
+  update(now);  // what a stop has just ended is answered before the drives' reports are about another request
+  Job job{request, now + request.patience, ++last_token_, {}};
+  if (jobs_.full()) return completions_.answer(request, false, "too many requests are being carried out already");
   forEach(request, [&](DriveIndex i) {
-    if (request.kind == RequestKind::kAcknowledge) {
-      drives_[i].requestAcknowledge(now);
+    const Sentence busy = othersRequest(request.kind, i);
+    if (!busy.empty()) {
+      if (job.busy.empty()) job.busy = busy;
+    } else if (request.kind == RequestKind::kAcknowledge) {
+      drives_[i].requestAcknowledge(now, job.token);
     } else {
-      drives_[i].requestParameterSet(request.parameter_set, now);
+      drives_[i].requestParameterSet(request.parameter_set, now, job.token);
     }
   });
+  jobs_.push_back(job);
+}
+
+Sentence Maintenance::othersRequest(RequestKind kind, DriveIndex drive) const noexcept {
+  const drive::DriveReport& report = drives_[drive].report();
+  Sentence text;
+  if (kind == RequestKind::kAcknowledge && report.phase == drive::Phase::kAcknowledging) {
+    text.format("drive %s: a fault is being acknowledged: ask again", names_[drive].c_str());
+  } else if (kind == RequestKind::kSelectParameterSet && report.phase == drive::Phase::kSwitchingSet) {
+    text.format("drive %s: a switch to parameter set %u is running: ask again", names_[drive].c_str(),
+                unsigned{report.commanded_set});
+  }
+  return text;
 }
 
 void Maintenance::update(Instant now) noexcept {
@@ -55,12 +71,21 @@ void Maintenance::update(Instant now) noexcept {
 
 bool Maintenance::follow(const Job& job, Instant now) noexcept {
   bool busy = false;
-  Sentence refused;
+  Sentence refused = job.busy;
   forEach(job.request, [&](DriveIndex i) {
     const drive::RequestReport& report = reportOf(job.request, i);
+    if (report.token != job.token) {  // of another request: this one's drive was busy
+      if (refused.empty()) refused = refusalSentence(names_[i].c_str(), drive::Refusal::kBusy, drives_[i].report());
+      return;
+    }
     busy = busy || report.state == drive::RequestState::kRunning;
     if (refused.empty() && report.state == drive::RequestState::kRefused) {
       refused = refusalSentence(names_[i].c_str(), report.refusal, drives_[i].report());
+    }
+    // Acknowledged, and in the same cycle there is the next one.
+    const bool again = job.request.kind == RequestKind::kAcknowledge && drives_[i].report().fault_latched;
+    if (refused.empty() && report.state == drive::RequestState::kDone && again) {
+      refused = refusalSentence(names_[i].c_str(), drive::Refusal::kFault, drives_[i].report());
     }
   });
   if (busy && now < job.deadline) return false;

@@ -9,6 +9,22 @@ using drive::StopCause;
 
 Sentence refusalSentence(const char* drive, Refusal refusal, const drive::DriveReport& report) noexcept {
   Sentence text;
+  if (refusal == Refusal::kMinimumFrequency && report.minimum_frequency.value > 0.0) {
+    text.format(
+        "drive %s: P104 of parameter set %u is %.1f Hz: enabled, the motor would turn at that with setpoint 0; set "
+        "P104 to "
+        "0, or allow_minimum_frequency: true",
+        drive, unsigned{report.commanded_set}, report.minimum_frequency.value);
+    return text;
+  }
+  if (refusal == Refusal::kUnexpectedFunction && report.unexpected_function) {
+    const drive::UnexpectedFunction& function = *report.unexpected_function;
+    text.format("drive %s: P%u%s of parameter set %u is %u, so that %s 1 is not the frequency; set it to %u", drive,
+                unsigned{function.number}, function.is_array ? " [-01]" : "", unsigned{report.commanded_set},
+                unsigned{function.found}, function.number == 543 ? "actual value" : "setpoint",
+                unsigned{function.expected});
+    return text;
+  }
   if (report.online && report.switch_on_reason) {
     const unsigned reason = *report.switch_on_reason;
     text.format("drive %s: %s (status word %04X, %s; the inverter's own reason, P700[-03], is %u.%u)", drive,
@@ -48,7 +64,29 @@ Sentence stateSentence(const char* drive, const drive::DriveReport& report) noex
   return text;
 }
 
-Sentence parameterSentence(const char* drive, std::uint16_t number, const drive::ParameterTaskResult& result) noexcept {
+Sentence terminalSentence(const char* drive, TerminalFinding finding, const drive::DriveReport& report) noexcept {
+  Sentence text;
+  switch (finding) {
+    case TerminalFinding::kNone:
+      break;
+    case TerminalFinding::kLocalControl:
+      text.format(
+          "drive %s is under local control (status bit 9 = 0, status word %04X): its terminals may turn it whatever is "
+          "sent",
+          drive, report.status_word);
+      break;
+    case TerminalFinding::kTurned:
+      text.format(
+          "drive %s turns although nothing here has enabled it (status word %04X, %s, %.1f Hz): by its terminals, or "
+          "by bus I/O bits (P480)",
+          drive, report.status_word, profile::toString(report.state), report.frequency.value);
+      break;
+  }
+  return text;
+}
+
+Sentence parameterSentence(const char* drive, std::uint16_t number, const drive::ParameterTaskResult& result,
+                           bool no_bus_control) noexcept {
   const char* note = result.note;
   const char* joint = note[0] != '\0' ? "; " : "";
   Sentence text;
@@ -63,8 +101,13 @@ Sentence parameterSentence(const char* drive, std::uint16_t number, const drive:
         text.format("drive %s refuses P%03u: SDO abort %08X, %s%s%s", drive, result.refused_number, result.abort_code,
                     profile::parameterErrorText(result.error_number), joint, note);
       } else {
-        text.format("drive %s refuses P%03u: error %u, %s%s%s", drive, result.refused_number, result.error_number,
-                    profile::parameterErrorText(result.error_number), joint, note);
+        // On CANopen a code of its own says so.
+        const char* source = no_bus_control
+                                 ? "; the bus has no control (status bit 9 = 0): does P509 select it? Parameters are "
+                                   "written over a bus only while it does (BU 0020 6.2.2)"
+                                 : "";
+        text.format("drive %s refuses P%03u: error %u, %s%s%s%s", drive, result.refused_number, result.error_number,
+                    profile::parameterErrorText(result.error_number), source, joint, note);
       }
       break;
     case profile::ParameterOutcome::kTimeout:

@@ -9,6 +9,19 @@ namespace nord_driver::cycle {
 using drive::GroupPhase;
 using drive::Refusal;
 
+namespace {
+
+constexpr const char* kDisabledAgain = "disabled again before all drives were enabled";
+
+Sentence notHeardYet(const CommandState& commands, bool has_base) noexcept {
+  Sentence text;
+  text.format("%s been listened to for %.1f s only: ask again in %.1f s", has_base ? "cmd_vel has" : "commands have",
+              toSeconds(commands.heard), toSeconds(commands.to_hear));
+  return text;
+}
+
+}  // namespace
+
 Supervisor::Supervisor(const CycleConfig& config, std::vector<drive::Drive>& drives, bool auto_enable)
     : drives_(drives), group_of_(drives.size()), has_base_(config.base.has_value()), auto_enable_(auto_enable) {
   for (const DriveSetup& setup : config.drives) names_.push_back(setup.name);
@@ -39,7 +52,7 @@ bool Supervisor::concerns(const Request& request, std::size_t group) const noexc
   return request.drive == kAllDrives || group_of_[request.drive] == group;
 }
 
-void Supervisor::handleRequest(const Request& request, const Sentence& moving, Instant now) noexcept {
+void Supervisor::handleRequest(const Request& request, const CommandState& commands, Instant now) noexcept {
   if (request.drive != kAllDrives && inBase(request.drive)) {
     // One wheel of a base enabled or stopped alone would turn the base. Quick stop of one stops them all, see
     // `concerns`.
@@ -51,37 +64,73 @@ void Supervisor::handleRequest(const Request& request, const Sentence& moving, I
   }
   switch (request.kind) {
     case RequestKind::kEnable:
-      return startEnable(request, moving, now);
+      return startEnable(request, commands, now);
     case RequestKind::kShutDown:
     case RequestKind::kDisable:
     case RequestKind::kQuickStop:
-      shutting_down_ = shutting_down_ || request.kind == RequestKind::kShutDown;
-      auto_enable_ = false;  // who says stop before the drives were ready does not want them enabled when they are
-      for (std::size_t i = 0; i < groups_.size(); ++i) {
-        if (!concerns(request, i)) continue;
-        if (request.kind == RequestKind::kQuickStop) {
-          groups_[i].group.requestQuickStop(now);
-        } else {
-          groups_[i].group.requestDisable(now);
-        }
-      }
-      return followUp(request, now);
+      return stop(request, now);
     default:
       return;  // not of the drives' motion
   }
 }
 
+void Supervisor::stop(const Request& request, Instant now) noexcept {
+  shutting_down_ = shutting_down_ || request.kind == RequestKind::kShutDown;
+  auto_enable_ = false;  // who says stop before the drives were ready does not want them enabled when they are
+  endWaitingEnables(request);
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    if (!concerns(request, i)) continue;
+    if (request.kind == RequestKind::kQuickStop) {
+      groups_[i].group.requestQuickStop(now);
+    } else {
+      groups_[i].group.requestDisable(now);
+    }
+  }
+  followUp(request, now);
+}
+
+void Supervisor::endWaitingEnables(const Request& stop) noexcept {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < jobs_.size(); ++i) {
+    bool ends = false;
+    for (std::size_t group = 0; group < groups_.size() && !jobs_[i].begun; ++group) {
+      ends = ends || (concerns(stop, group) && concerns(jobs_[i].request, group));
+    }
+    if (ends) {
+      completions_.answer(jobs_[i].request, false, kDisabledAgain);
+    } else {
+      jobs_[kept++] = jobs_[i];
+    }
+  }
+  jobs_.resize(kept);
+}
+
 // Stops have acted by then, whatever becomes of their answer.
-void Supervisor::followUp(const Request& request, Instant now) noexcept {
-  if (jobs_.push_back({request, now + request.patience})) return;
+void Supervisor::followUp(const Request& request, Instant now, bool begun) noexcept {
+  if (jobs_.push_back({request, now + request.patience, begun})) return;
   completions_.answer(request, false, "begun, but too many requests wait for their answers to follow this one");
 }
 
-void Supervisor::startEnable(const Request& request, const Sentence& moving, Instant now) noexcept {
+bool Supervisor::nothingToEnable(const Request& request) const noexcept {
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    const GroupPhase phase = groups_[i].group.report().phase;
+    if (concerns(request, i) && phase != GroupPhase::kEnabled && phase != GroupPhase::kEnabling) return false;
+  }
+  return true;
+}
+
+void Supervisor::startEnable(const Request& request, const CommandState& commands, Instant now) noexcept {
   auto_enable_ = false;  // somebody has taken over
   if (shutting_down_) return completions_.answer(request, false, "the node is ending");
-  if (!moving.empty()) return completions_.answer(request, false, moving);
   if (jobs_.full()) return completions_.answer(request, false, "too many requests are being carried out already");
+  if (nothingToEnable(request)) return followUp(request, now);
+  if (!commands.moving.empty()) return completions_.answer(request, false, commands.moving);
+  if (commands.to_hear > request.patience) return completions_.answer(request, false, notHeardYet(commands, has_base_));
+  if (commands.to_hear > Duration::zero()) return followUp(request, now, false);
+  if (enableAll(request, now)) followUp(request, now);
+}
+
+bool Supervisor::enableAll(const Request& request, Instant now) noexcept {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& group = groups_[i];
     const GroupPhase phase = group.group.report().phase;
@@ -89,9 +138,10 @@ void Supervisor::startEnable(const Request& request, const Sentence& moving, Ins
     const drive::GroupRefusal refusal = group.group.requestEnable(now);
     if (refusal.accepted()) continue;
     takeBack(request, now);
-    return completions_.answer(request, false, refusalOf(group, refusal));
+    completions_.answer(request, false, refusalOf(group, refusal));
+    return false;
   }
-  followUp(request, now);
+  return true;
 }
 
 void Supervisor::takeBack(const Request& request, Instant now) noexcept {
@@ -108,33 +158,48 @@ Sentence Supervisor::refusalOf(const Group& group, const drive::GroupRefusal& re
   return refusalSentence(names_[drive].c_str(), refusal.refusal, drives_[drive].report());
 }
 
-void Supervisor::update(const Sentence& moving, Instant now) noexcept {
+void Supervisor::update(const CommandState& commands, Instant now) noexcept {
   for (Group& group : groups_) group.group.update(now);
-  if (auto_enable_) autoEnable(moving, now);
+  if (auto_enable_) autoEnable(commands, now);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
-    if (!follow(jobs_[i], now)) jobs_[kept++] = jobs_[i];
+    if (!follow(jobs_[i], commands, now)) jobs_[kept++] = jobs_[i];
   }
   jobs_.resize(kept);
 }
 
-// Once, when every drive has first become ready: never over a fault nor after one (whoever acknowledges it enables),
-// never after a stop (a stop needs an enable before it).
-void Supervisor::autoEnable(const Sentence& moving, Instant now) noexcept {
+// Once, when every drive has first become ready and the commands are quiet: never over a fault nor after one (whoever
+// acknowledges it enables), never after a stop (a stop needs an enable before it).
+void Supervisor::autoEnable(const CommandState& commands, Instant now) noexcept {
   for (const drive::Drive& drive : drives_) {
     if (drive.report().fault_latched) auto_enable_ = false;
   }
-  if (!auto_enable_ || !moving.empty() || shutting_down_) return;
+  if (!auto_enable_ || !commands.quiet || shutting_down_) return;
   for (const drive::Drive& drive : drives_) {
     if (drive.enableRefusal() != Refusal::kNone) return;
   }
   Request request;
   request.kind = RequestKind::kEnable;
   request.patience = std::chrono::minutes{1};
-  startEnable(request, moving, now);
+  startEnable(request, commands, now);
 }
 
-bool Supervisor::follow(const Job& job, Instant now) noexcept {
+bool Supervisor::followWaiting(Job& job, const CommandState& commands, Instant now) noexcept {
+  if (!commands.moving.empty()) {
+    completions_.answer(job.request, false, commands.moving);
+    return true;
+  }
+  if (commands.to_hear > Duration::zero()) {
+    if (now < job.deadline) return false;
+    completions_.answer(job.request, false, notHeardYet(commands, has_base_));
+    return true;
+  }
+  job.begun = enableAll(job.request, now);
+  return !job.begun;
+}
+
+bool Supervisor::follow(Job& job, const CommandState& commands, Instant now) noexcept {
+  if (!job.begun) return followWaiting(job, commands, now);
   if (job.request.kind == RequestKind::kEnable ? followEnable(job, now) : followStop(job)) return true;
   if (now < job.deadline) return false;
   completions_.answer(job.request, false, unsettled(job.request));
@@ -153,8 +218,7 @@ bool Supervisor::followEnable(const Job& job, Instant now) noexcept {
     if (report.phase == GroupPhase::kEnabling) continue;
     takeBack(job.request, now);
     completions_.answer(job.request, false,
-                        report.refusal.accepted() ? Sentence{"disabled again before all drives were enabled"}
-                                                  : refusalOf(groups_[i], report.refusal));
+                        report.refusal.accepted() ? Sentence{kDisabledAgain} : refusalOf(groups_[i], report.refusal));
     return true;
   }
   if (all) completions_.answer(job.request, true, "enabled");

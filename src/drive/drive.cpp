@@ -31,7 +31,7 @@ StopCause exitCause(StatusWord status) noexcept {
 }  // namespace
 
 bool Drive::isRunning() const noexcept {
-  return report_.phase == Phase::kEnabling || report_.phase == Phase::kEnabled || report_.phase == Phase::kHoldingZero;
+  return isEnabled(report_.phase) || report_.phase == Phase::kEnabling || report_.phase == Phase::kHoldingZero;
 }
 
 bool Drive::isAtRest() const noexcept {
@@ -107,13 +107,21 @@ void Drive::learnSet(StatusWord status, bool joined) noexcept {
 
 void Drive::handleSilence(Instant now) noexcept {
   if (report_.phase == Phase::kOffline || now - last_useful_ <= config_.drive_timeout) return;
+  goOffline(StopCause::kSilent, now);
+}
+
+void Drive::handleInterruption(Instant now) noexcept {
+  if (report_.phase != Phase::kOffline) goOffline(StopCause::kInterrupted, now);
+}
+
+void Drive::goOffline(StopCause cause, Instant now) noexcept {
   dark_until_ = now;
   breakOff(Refusal::kOffline);
   if (!isAtRest() && report_.phase != Phase::kSwitchingSet) {
     // It may hear us without being heard: with 0000 it would carry on at its last setpoint, or trip by its time-out.
     dark_until_ = now + config_.shutdown_timeout;
     dark_command_ = isRunning() ? Command::kShutdown : command(now);
-    if (report_.phase != Phase::kIdle && report_.phase != Phase::kAcknowledging) latch(StopCause::kSilent);
+    if (report_.phase != Phase::kIdle && report_.phase != Phase::kAcknowledging) latch(cause);
   }
   const bool was_enabling = report_.phase == Phase::kEnabling;
   enter(Phase::kOffline, now);
@@ -140,7 +148,8 @@ void Drive::checkStops(StatusWord status, Instant now) noexcept {
     // Setpoint 1 is a share of P105 of the set in force: a set that changes by itself is a step of the speed (BU
     // 0020 7.3.5).
     stop(StopCause::kParameterSet, now);
-  } else if (report_.phase != Phase::kEnabling && report_.state != DriveState::kOperationEnabled) {
+  } else if ((report_.phase == Phase::kEnabled || report_.phase == Phase::kHoldingZero) &&
+             report_.state != DriveState::kOperationEnabled) {
     stop(exitCause(status), now);
   }
 }
@@ -151,6 +160,10 @@ void Drive::follow(StatusWord status, Instant now) noexcept {
       return followIdle(status, now);
     case Phase::kEnabling:
       return followEnabling(status, now);
+    case Phase::kResting:
+      return followResting(status, now);
+    case Phase::kResuming:
+      return followResuming(status, now);
     case Phase::kStopping:
       return followStopping(report_.state, now);
     case Phase::kQuickStopping:
@@ -163,6 +176,33 @@ void Drive::follow(StatusWord status, Instant now) noexcept {
       return followCoasting(report_.state, now);
     default:
       return;
+  }
+}
+
+// OFF1 is no latch here either: nothing but "ready to switch on" shows that it has ended.
+void Drive::followResting(StatusWord status, Instant now) noexcept {
+  const bool ramps_down = report_.state == DriveState::kOperationEnabled;
+  const bool expected =
+      ramps_down || report_.state == DriveState::kSwitchedOn || report_.state == DriveState::kReadyToSwitchOn;
+  if (!expected) return stop(exitCause(status), now);
+  ready_seen_ = sent_ && report_.state == DriveState::kReadyToSwitchOn;
+  if (!ramps_down) phase_since_ = now;
+  boundRamp(now);
+}
+
+void Drive::followResuming(StatusWord status, Instant now) noexcept {
+  const RadPerSec wanted = wanted_;
+  switch (report_.state) {
+    case DriveState::kOperationEnabled:
+      enter(Phase::kEnabled, now);
+      wanted_ = wanted;
+      return;
+    case DriveState::kReadyToSwitchOn:
+    case DriveState::kSwitchedOn:
+      if (now - phase_since_ >= config_.enable_timeout) stop(StopCause::kNotResumed, now);
+      return;
+    default:
+      return stop(exitCause(status), now);
   }
 }
 
@@ -188,7 +228,11 @@ void Drive::followEnabling(StatusWord status, Instant now) noexcept {
     return stop(exitCause(status), now);
   }
   // Only once 047E went out: bits 0 and 3 come after an answered "shut down", never in place of one.
-  if (sent_ && state == DriveState::kReadyToSwitchOn) ready_seen_ = true;
+  if (sent_ && state == DriveState::kReadyToSwitchOn) {
+    // With P104 > 0 it would turn as soon as it is "operation enabled": that waits for the first velocity.
+    if (restsAtZero()) return enter(Phase::kResting, now);
+    ready_seen_ = true;
+  }
   if (now - phase_since_ < config_.enable_timeout) return;
   refuse(Refusal::kEnableTimeout);
   // Once 047F was sent it may still come to act: leave as from "enabled", with OFF1 until "ready to switch on" is seen.
@@ -213,7 +257,7 @@ void Drive::followAcknowledging(StatusWord status, Instant now) noexcept {
   if (!status.fault()) {
     // The bit is dropped as soon as the fault is gone: left at 1, no further edge could follow (BU 2700 6.4.1 bit 7).
     report_.fault_latched = false;
-    report_.acknowledge = {RequestState::kDone, Refusal::kNone};
+    end(report_.acknowledge, Refusal::kNone);
     enter(Phase::kIdle, now);
   } else if (edge_.ended(now)) {
     breakOff(Refusal::kCauseStands);
@@ -223,7 +267,7 @@ void Drive::followAcknowledging(StatusWord status, Instant now) noexcept {
 
 void Drive::followSwitchingSet(StatusWord status, Instant now) noexcept {
   if (sent_ && status.parameterSet() == report_.commanded_set && status.busControl() && !status.fault()) {
-    report_.set_switch = {RequestState::kDone, Refusal::kNone};
+    end(report_.set_switch, Refusal::kNone);
   } else if (status.fault()) {
     breakOff(Refusal::kFault);
   } else if (!status.busControl()) {
@@ -241,7 +285,15 @@ void Drive::followCoasting(DriveState state, Instant now) noexcept {
   if (sent_ && ended) enter(Phase::kIdle, now);
 }
 
+void Drive::tellSet() noexcept {
+  const std::size_t set = report_.commanded_set;
+  const bool known = set >= 1 && set <= min_frequency_.size();
+  report_.minimum_frequency = known ? min_frequency_[set - 1] : Hertz{};
+  report_.unexpected_function = known ? unexpected_[set - 1] : std::nullopt;
+}
+
 void Drive::measure() noexcept {
+  tellSet();
   const auto maximum = maxFrequency(report_.parameter_set);
   report_.scaled = report_.online && maximum.has_value();
   report_.frequency = {};
@@ -266,6 +318,7 @@ Command Drive::command(Instant now) const noexcept {
       return ready_seen_ ? Command::kEnableOperation : Command::kShutdown;
     case Phase::kEnabled:
     case Phase::kHoldingZero:
+    case Phase::kResuming:
       return Command::kEnableOperation;
     case Phase::kQuickStopping:
       return Command::kQuickStop;
@@ -275,28 +328,45 @@ Command Drive::command(Instant now) const noexcept {
     case Phase::kAcknowledging:
     case Phase::kSwitchingSet:
     case Phase::kStopping:
+    case Phase::kResting:
       break;
   }
   return Command::kShutdown;
 }
 
+// The setpoint goes out with 047F from the first word on: at setpoint 0 the motor would turn to the right meanwhile.
+void Drive::restOrResume(const profile::Setpoint& setpoint, Instant now) noexcept {
+  const RadPerSec wanted = wanted_;
+  const bool running = report_.phase == Phase::kEnabled || report_.phase == Phase::kResuming;
+  if (running && restsAtZero() && setpoint.word == 0) {
+    enter(Phase::kResting, now);
+  } else if (report_.phase == Phase::kResting && ready_seen_ && setpoint.word != 0) {
+    enter(Phase::kResuming, now);
+  }
+  wanted_ = wanted;
+}
+
 profile::ProcessOutput Drive::pollOutput(Instant now) noexcept {
   profile::ProcessOutput output;
+  report_.saturated = false;
+  report_.velocity_command = {};
+  if (isEnabled(report_.phase)) {
+    // Enabled without P105 cannot be; were it so, the setpoint would be 0.
+    const Hertz maximum = maxFrequency(report_.commanded_set).value_or(Hertz{});
+    const profile::Setpoint setpoint = profile::toSetpoint1(profile::toHertz(wanted_, config_.joint), maximum);
+    restOrResume(setpoint, now);
+    if (report_.phase != Phase::kResting) output.setpoints[0] = setpoint.word;
+    const double frequency = std::fabs(profile::fromActualValue1(setpoint.word, maximum).value);
+    const bool below = setpoint.word != 0 && frequency < report_.minimum_frequency.value;
+    report_.saturated = setpoint.saturated || below;
+    report_.command_invalid = setpoint.invalid;
+    report_.velocity_command =
+        profile::toRadPerSec(profile::fromActualValue1(output.setpoints[0], maximum), config_.joint);
+  }
   const Command word = command(now);
   if (word != Command::kIgnored) output.control_word = profile::controlWord(word, report_.commanded_set);
   if (report_.phase == Phase::kAcknowledging && edge_.poll(now)) {
     output.control_word |= profile::control_bit::kAcknowledge;
-  }
-  report_.saturated = false;
-  report_.velocity_command = {};
-  if (report_.phase == Phase::kEnabled) {
-    // Enabled without P105 cannot be; were it so, the setpoint would be 0.
-    const Hertz maximum = maxFrequency(report_.commanded_set).value_or(Hertz{});
-    const profile::Setpoint setpoint = profile::toSetpoint1(profile::toHertz(wanted_, config_.joint), maximum);
-    output.setpoints[0] = setpoint.word;
-    report_.saturated = setpoint.saturated;
-    report_.command_invalid = setpoint.invalid;
-    report_.velocity_command = profile::toRadPerSec(profile::fromActualValue1(setpoint.word, maximum), config_.joint);
   }
   report_.output = output;
   sent_ = true;

@@ -11,7 +11,7 @@ namespace {
 
 bool runs(const Drive& drive) noexcept {
   const Phase phase = drive.report().phase;
-  return phase == Phase::kEnabled || phase == Phase::kHoldingZero;
+  return isEnabled(phase) || phase == Phase::kHoldingZero;
 }
 
 bool isDown(const Drive& drive) noexcept {
@@ -150,7 +150,7 @@ void DriveGroup::updateEnabling(Instant now) noexcept {
   bool all_enabled = true;
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const DriveReport& member = members_[i]->report();
-    if (member.phase == Phase::kEnabled) continue;
+    if (isEnabled(member.phase)) continue;
     all_enabled = false;
     if (member.phase == Phase::kEnabling) continue;
     // It timed out, stopped or vanished: all or none. The others stand still, their setpoint was 0.
@@ -164,7 +164,7 @@ void DriveGroup::updateEnabling(Instant now) noexcept {
 
 bool DriveGroup::haltIfAMemberStopped(Instant now) noexcept {
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (members_[i]->report().phase == Phase::kEnabled) continue;
+    if (isEnabled(members_[i]->report().phase)) continue;
     latch(members_[i]->report().stop_cause, i);
     haltTheOthers(now);
     return true;

@@ -24,6 +24,10 @@ const char* toString(Phase phase) noexcept {
       return "switching the parameter set";
     case Phase::kCoasting:
       return "coasting (OFF2)";
+    case Phase::kResting:
+      return "enabled, at rest by OFF1 (P104 > 0)";
+    case Phase::kResuming:
+      return "enabled, on the way from rest (P104 > 0)";
   }
   return "";
 }
@@ -44,6 +48,8 @@ const char* toString(StopCause cause) noexcept {
       return "local control: the inverter's terminals have taken over (status bit 9 = 0)";
     case StopCause::kSilent:
       return "the inverter fell silent";
+    case StopCause::kInterrupted:
+      return "its connection to the bus was reset, or left operation, without being asked";
     case StopCause::kParameterSet:
       return "another parameter set came into force without being asked for";
     case StopCause::kQuickStop:
@@ -54,6 +60,8 @@ const char* toString(StopCause cause) noexcept {
       return "switching the output off (OFF2) was asked for";
     case StopCause::kCommandTimeout:
       return "no new velocity command came within cmd_vel_timeout";
+    case StopCause::kNotResumed:
+      return "the inverter did not come from rest (OFF1, for P104 > 0) to \"operation enabled\" in time";
   }
   return "";
 }
@@ -80,6 +88,13 @@ const char* toString(Refusal refusal) noexcept {
       return "the parameter set in force is not the one that is commanded";
     case Refusal::kMaxFrequencyUnknown:
       return "the maximum frequency (P105) of the parameter set in force is not known";
+    case Refusal::kParametersAwaited:
+      return "its parameters P104, P543 and P546 are still being read";
+    case Refusal::kMinimumFrequency:
+      return "P104 of the parameter set in force is above 0: enabled, the motor turns at setpoint 0";
+    case Refusal::kUnexpectedFunction:
+      return "P543 or P546 of the parameter set in force makes actual value 1 or setpoint 1 something else than the "
+             "frequency";
     case Refusal::kEnableTimeout:
       return "the inverter did not reach \"operation enabled\" in time";
     case Refusal::kStopped:

@@ -16,6 +16,8 @@ Refusal Drive::enableRefusal() const noexcept {
       return Refusal::kOffline;
     case Phase::kEnabling:
     case Phase::kEnabled:
+    case Phase::kResting:
+    case Phase::kResuming:
       return Refusal::kNone;
     case Phase::kHoldingZero:
     case Phase::kStopping:
@@ -37,6 +39,9 @@ Refusal Drive::enableRefusal() const noexcept {
   if (!startable) return Refusal::kWrongState;
   if (report_.parameter_set != report_.commanded_set) return Refusal::kParameterSet;
   if (!maxFrequency(report_.commanded_set).has_value()) return Refusal::kMaxFrequencyUnknown;
+  if (parameters_awaited_) return Refusal::kParametersAwaited;
+  if (report_.unexpected_function) return Refusal::kUnexpectedFunction;
+  if (restsAtZero() && !config_.allow_minimum_frequency) return Refusal::kMinimumFrequency;
   return Refusal::kNone;
 }
 
@@ -50,7 +55,10 @@ void Drive::requestEnable(Instant now) noexcept {
 
 void Drive::requestSetpointZero(Instant now) noexcept {
   if (report_.phase == Phase::kEnabling) return requestShutdown(now);
-  if (report_.phase == Phase::kEnabled) enter(Phase::kHoldingZero, now);
+  if (!isEnabled(report_.phase)) return;
+  // With P104 > 0 setpoint 0 is no rest.
+  if (restsAtZero() || report_.phase != Phase::kEnabled) return requestShutdown(now);
+  enter(Phase::kHoldingZero, now);
 }
 
 void Drive::requestShutdown(Instant now) noexcept {
@@ -83,35 +91,36 @@ void Drive::requestCoast(Instant now) noexcept {
   }
 }
 
+void Drive::end(RequestReport& request, Refusal refusal) noexcept {
+  request.state = refusal == Refusal::kNone ? RequestState::kDone : RequestState::kRefused;
+  request.refusal = refusal;
+}
+
 // Ends a request that takes its time, if one runs, without success.
 void Drive::breakOff(Refusal why) noexcept {
   if (report_.phase == Phase::kAcknowledging) {
-    report_.acknowledge = {RequestState::kRefused, why};
+    end(report_.acknowledge, why);
     refuse(why);
   } else if (report_.phase == Phase::kSwitchingSet) {
-    report_.set_switch = {RequestState::kRefused, why};
+    end(report_.set_switch, why);
     refuse(why);
     report_.commanded_set = report_.parameter_set;
   }
 }
 
-void Drive::requestAcknowledge(Instant now) noexcept {
+void Drive::requestAcknowledge(Instant now, std::uint32_t token) noexcept {
   if (report_.phase == Phase::kAcknowledging) return;
   refuse(Refusal::kNone);
   // A drive without a fault has nothing to wait for, and must not spoil the answer for the others of its base.
   const bool healthy = !report_.fault_latched && !StatusWord(report_.status_word).fault();
   if (report_.phase == Phase::kOffline) refuse(Refusal::kOffline);
   if (report_.phase != Phase::kOffline && report_.phase != Phase::kIdle && !healthy) refuse(Refusal::kBusy);
-  if (report_.refusal != Refusal::kNone) {
-    report_.acknowledge = {RequestState::kRefused, report_.refusal};
-    return;
-  }
+  report_.acknowledge = {token, RequestState::kRunning, Refusal::kNone};
+  if (report_.refusal != Refusal::kNone) return end(report_.acknowledge, report_.refusal);
   if (!StatusWord(report_.status_word).fault()) {
     report_.fault_latched = false;
-    report_.acknowledge = {RequestState::kDone, Refusal::kNone};
-    return;
+    return end(report_.acknowledge, Refusal::kNone);
   }
-  report_.acknowledge = {RequestState::kRunning, Refusal::kNone};
   edge_.start();
   enter(Phase::kAcknowledging, now);
 }
@@ -130,21 +139,18 @@ Refusal Drive::setRefusal(std::uint8_t set) const noexcept {
   return switchable ? Refusal::kNone : Refusal::kWrongState;
 }
 
-void Drive::requestParameterSet(std::uint8_t set, Instant now) noexcept {
+void Drive::requestParameterSet(std::uint8_t set, Instant now, std::uint32_t token) noexcept {
   const Refusal refusal = setRefusal(set);
   refuse(refusal);
-  if (refusal != Refusal::kNone) {
-    // A switching that runs goes on: its outcome is not this one's.
-    if (report_.phase != Phase::kSwitchingSet) report_.set_switch = {RequestState::kRefused, refusal};
-    return;
-  }
-  report_.set_switch = {RequestState::kRunning, Refusal::kNone};
+  if (report_.phase == Phase::kSwitchingSet) return;  // it goes on: its outcome is not this one's
+  report_.set_switch = {token, RequestState::kRunning, Refusal::kNone};
+  if (refusal != Refusal::kNone) return end(report_.set_switch, refusal);
   enter(Phase::kSwitchingSet, now);
   report_.commanded_set = set;
 }
 
 void Drive::setVelocity(RadPerSec joint) noexcept {
-  if (report_.phase == Phase::kEnabled) wanted_ = joint;
+  if (isEnabled(report_.phase)) wanted_ = joint;
 }
 
 void Drive::setMaxFrequency(std::uint8_t set, Hertz frequency) noexcept {
@@ -156,6 +162,22 @@ void Drive::setMaxFrequency(std::uint8_t set, Hertz frequency) noexcept {
 std::optional<Hertz> Drive::maxFrequency(std::uint8_t set) const noexcept {
   if (set < 1 || set > 4) return std::nullopt;
   return max_frequency_[set - 1u];
+}
+
+void Drive::setMinimumFrequency(std::uint8_t set, Hertz frequency) noexcept {
+  if (set < 1 || set > 4) return;
+  min_frequency_[set - 1u] = std::isfinite(frequency.value) && frequency.value > 0.0 ? frequency : Hertz{};
+  tellSet();
+}
+
+void Drive::setUnexpectedFunction(std::uint8_t set, const std::optional<UnexpectedFunction>& function) noexcept {
+  if (set < 1 || set > 4) return;
+  unexpected_[set - 1u] = function;
+  tellSet();
+}
+
+RadPerSec Drive::minVelocity() const noexcept {
+  return RadPerSec{std::fabs(profile::toRadPerSec(report_.minimum_frequency, config_.joint).value)};
 }
 
 std::optional<RadPerSec> Drive::maxVelocity() const noexcept {

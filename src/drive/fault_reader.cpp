@@ -20,7 +20,8 @@ std::uint16_t word(std::int32_t raw) noexcept {
 }  // namespace
 
 void FaultReader::handleStatus(profile::StatusWord status) noexcept {
-  if (status.fault() == fault_) return;
+  if (status.fault() == fault_ && !away_) return;
+  away_ = false;
   fault_ = status.fault();
   number_ = fault_ ? profile::kFaultNumberUnknown : std::uint16_t{0};
   if (fault_) last_number_ = profile::kFaultNumberUnknown;
@@ -29,6 +30,7 @@ void FaultReader::handleStatus(profile::StatusWord status) noexcept {
 }
 
 void FaultReader::handleOffline() noexcept {
+  away_ = true;
   fault_ = false;
   same_fault_ = false;
   under_way_ = Item::kNone;

@@ -4,6 +4,7 @@
 
 #include "nord_driver/core/bytes.h"
 #include "nord_driver/node/bus_publisher.h"
+#include "nord_driver/node/device_warnings.h"
 #include "nord_driver/node/way_on.h"
 #include "nord_driver/profile/fault_text.h"
 
@@ -31,7 +32,9 @@ Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdenti
   if (config.cycle.base) updater_.add("base", [this](DiagnosticStatusWrapper& status) { reportBase(status); });
   for (std::size_t i = 0; i < config.cycle.drives.size(); ++i) {
     names_.push_back(config.cycle.drives[i].name);
-    protections_.emplace_back(identities[i], config.cycle.cmd_vel_timeout, config.cycle.period());
+    protections_.emplace_back(identities[i], config.cycle.drives[i].series, config.cycle.cmd_vel_timeout,
+                              config.cycle.period());
+    series_.push_back(config.cycle.drives[i].series);
     ramps_.emplace_back(config.cycle, i);
     typed_max_frequency_.push_back(config.cycle.drives[i].typed_max_frequency);
     updater_.add("drive " + names_.back(), [this, i](DiagnosticStatusWrapper& status) { reportDrive(i, status); });
@@ -112,6 +115,13 @@ void Diagnostics::warn(std::size_t index, const ProtectionReport& protection, Di
     const bool runs_on = protection.level == ProtectionReport::Level::kError;
     status.mergeSummary(runs_on ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
                         "if this computer died: " + protection.text);
+  }
+  if (drive.terminals != cycle::TerminalFinding::kNone) {
+    const bool turns = drive.terminals == cycle::TerminalFinding::kTurned;
+    status.mergeSummary(turns ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN, drive.terminals_text.str());
+  }
+  for (const std::string& text : deviceWarnings(drive.device, series_[index])) {
+    status.mergeSummary(DiagnosticStatus::WARN, text);
   }
   const std::string slow_ramp = ramps_[index].assess(drive.device, drive.parameter_set);
   if (drive.online && !slow_ramp.empty()) status.mergeSummary(DiagnosticStatus::WARN, slow_ramp);

@@ -17,10 +17,35 @@ void warn(ProtectionReport& report, const std::string& text) {
   report.text += "; " + text;
 }
 
+// No news before everything has been asked for.
+void sayUnknown(ProtectionReport& report, const cycle::DeviceData& device, const std::string& text) {
+  if (device.complete) return warn(report, text);
+  report.text += "; " + text;
+}
+
 }  // namespace
 
-DriveProtection::DriveProtection(DriveIdentity identity, Duration cmd_vel_timeout, Duration period)
-    : identity_(std::move(identity)), cmd_vel_timeout_(cmd_vel_timeout), period_(period) {}
+DriveProtection::DriveProtection(DriveIdentity identity, profile::Series series, Duration cmd_vel_timeout,
+                                 Duration period)
+    : identity_(std::move(identity)), series_(series), cmd_vel_timeout_(cmd_vel_timeout), period_(period) {}
+
+// "System bus timeout" in the table of BU 2700 8.1, columns SK CU4 and SK TU4.
+void DriveProtection::assessWayToModule(const cycle::DeviceData& device, ProtectionReport& report) const {
+  if (series_ == profile::Series::kSk5xxe) {
+    if (!device.telegram_timeout) {
+      sayUnknown(report, device, "P513, by which the inverter watches its bus module, is not known");
+    } else if (*device.telegram_timeout == 0.0) {
+      warn(report, "P513 = 0: the inverter does not notice a bus module that fails; set it above 0");
+    }
+    return;
+  }
+  if (!device.telegram_timeout) sayUnknown(report, device, "P513, which can switch this off, is not known");
+  if (!device.option_monitoring) {
+    sayUnknown(report, device, "P120, by which the inverter watches its bus module, is not known");
+  } else if (*device.option_monitoring == 0) {
+    warn(report, "P120 = 0: the inverter does not notice a bus module that fails; set it to 1 or 2");
+  }
+}
 
 ProtectionReport DriveProtection::assess(const cycle::DeviceData& device) const {
   const bool by_module = identity_.timeout_owner == TimeoutOwner::kModule;
@@ -49,12 +74,8 @@ ProtectionReport DriveProtection::assess(const cycle::DeviceData& device) const 
     report.text += std::string(bus_acts ? "; " : "") + name + " of " + shortNumber(*own) +
                    " s: the inverter trips E10.3 and the motor coasts";
   }
-  if (!own) report.text += "; " + name + ", which can switch this off, is not known";
-  if (by_module && !device.option_monitoring) {
-    report.text += "; P120, by which the inverter watches its bus module, is not known";
-  } else if (by_module && *device.option_monitoring == 0) {
-    warn(report, "P120 = 0: the inverter does not notice a bus module that fails; set it to 1 or 2");
-  }
+  if (!own) sayUnknown(report, device, name + ", which can switch this off, is not known");
+  if (by_module) assessWayToModule(device, report);
 
   double latest = bus_acts ? identity_.protection_time : *own;
   if (own_acts && latest > 0.0) latest = std::min(latest, *own);

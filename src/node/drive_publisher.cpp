@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "nord_driver/profile/fault_text.h"
+#include "nord_driver/node/drive_status.h"
 #include "nord_driver/profile/scaling.h"
 
 namespace nord_driver::node {
@@ -53,7 +53,7 @@ double DrivePublisher::currentOf(const cycle::DriveSample& sample, const cycle::
 
 // The driver's own idle word can acknowledge a fault within one cycle (BU 0020 8), between two messages.
 void DrivePublisher::publishStatus(const cycle::DriveSnapshot& drive, const Stamps& stamps) {
-  if (drive.faults != faults_told_ && !drive.fault) {
+  if (hidesAFault(drive, faults_told_)) {
     publishStatus(drive.at_fault, drive.device, stamps.of(drive.at_fault.time));
   }
   faults_told_ = drive.faults;
@@ -61,35 +61,9 @@ void DrivePublisher::publishStatus(const cycle::DriveSnapshot& drive, const Stam
 }
 
 void DrivePublisher::publishStatus(const cycle::DriveSample& sample, const cycle::DeviceData& device, ros::Time stamp) {
-  const profile::StatusWord word{sample.input.status_word};
+  fillDriveStatus(sample, status_);
   status_.header.stamp = stamp;
-  status_.online = sample.online;
-  status_.state = static_cast<std::uint8_t>(sample.online ? sample.state : profile::DriveState::kUnknown);
-  status_.status_word = word.word();
-  status_.control_word = sample.output.control_word;
-  status_.ready_to_switch_on = word.readyToSwitchOn();
-  status_.switched_on = word.switchedOn();
-  status_.operation_enabled = word.operationEnabled();
-  status_.fault = word.fault();
-  status_.voltage_enabled = word.voltageEnabled();
-  status_.quick_stop_inactive = word.quickStopInactive();
-  status_.switch_on_disabled = word.switchOnDisabled();
-  status_.warning = word.warning();
-  status_.setpoint_reached = word.setpointReached();
-  status_.bus_control = word.busControl();
-  status_.bit_10 = word.bit10();
-  status_.direction_right = word.directionRight();
-  status_.direction_left = word.directionLeft();
-  status_.bit_13 = word.bit13();
-  status_.parameter_set = sample.parameter_set;
-  status_.setpoints.assign(sample.output.setpoints.begin(), sample.output.setpoints.end());
-  status_.actual_values.assign(sample.input.actual_values.begin(), sample.input.actual_values.end());
-  status_.velocity_command = sample.velocity_command;
-  status_.velocity = sample.velocity;
-  status_.frequency = sample.frequency;
   status_.current = currentOf(sample, device);
-  status_.fault_number = sample.fault_number;
-  status_.fault_text = sample.fault_number == 0 ? "" : profile::faultText(sample.fault_number);
   status_publisher_.publish(status_);
 }
 

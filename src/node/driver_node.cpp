@@ -112,10 +112,10 @@ void DriverNode::advertise() {
     names.push_back(setup.name);
     traced.push_back({setup.name, identities_[i].address});
     const auto address = config_.drives[i].settings->integer("address").value_or(0);
-    drive_publishers_.emplace_back(
-        private_node_, setup, identities_[i],
-        DriveProtection{identities_[i], config_.cycle.cmd_vel_timeout, config_.cycle.period()},
-        static_cast<std::uint16_t>(address));
+    drive_publishers_.emplace_back(private_node_, setup, identities_[i],
+                                   DriveProtection{identities_[i], config_.cycle.drives[i].series,
+                                                   config_.cycle.cmd_vel_timeout, config_.cycle.period()},
+                                   static_cast<std::uint16_t>(address));
     if (cycle_->inBase(i)) continue;
     boost::function<void(const std_msgs::Float64&)> take = [this, i](const std_msgs::Float64& velocity) {
       takeDriveCommand(i, velocity.data);
@@ -155,13 +155,10 @@ void DriverNode::takeCommand(const geometry_msgs::Twist& twist) {
 }
 
 void DriverNode::takeDriveCommand(DriveIndex drive, double velocity) {
-  if (!std::isfinite(velocity)) {
-    ++bad_commands_;
-    ROS_WARN_THROTTLE(1.0, "nord_driver: the command of drive %s is not a number or infinite, ignored",
-                      config_.cycle.drives[drive].name.c_str());
-    return;
-  }
-  ports_->commandDrive(drive, {velocity, steadyNow(), true});
+  if (ports_->commandDrive(drive, {velocity, steadyNow(), true})) return;
+  ++bad_commands_;
+  ROS_WARN_THROTTLE(1.0, "nord_driver: the command of drive %s is not a number or infinite, ignored",
+                    config_.cycle.drives[drive].name.c_str());
 }
 
 void DriverNode::run(const std::atomic<bool>& end_asked) {
@@ -178,6 +175,7 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
   try {
     publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_);
     while (!end_asked && ros::ok() && publisher_->healthy()) {
+      noteCommanders();
       tellBusEvents();
       ros::WallDuration(0.02).sleep();
     }
@@ -186,6 +184,13 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
     throw;
   }
   bringToRest();
+}
+
+void DriverNode::noteCommanders() {
+  std::uint32_t now = command_subscriber_ ? command_subscriber_.getNumPublishers() : 0;
+  for (const ros::Subscriber& subscriber : subscribers_) now += subscriber.getNumPublishers();
+  if (now > commanders_) ports_->commanderConnected(steadyNow());
+  commanders_ = now;
 }
 
 void DriverNode::tellBusEvents() {

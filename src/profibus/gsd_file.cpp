@@ -4,6 +4,7 @@
 #include <array>
 
 #include "gsd_lines.h"
+#include "gsd_parameters.h"
 #include "nord_driver/profibus/slave_config.h"
 
 namespace nord_driver::profibus {
@@ -26,13 +27,15 @@ constexpr std::array<RateName, 11> kRates{{{"9.6", 9'600},
                                            {"6m", 6'000'000},
                                            {"12m", 12'000'000}}};
 
-/// Blocks of texts for engineering tools: skipped to their end. Their keys mean something else inside.
+/// Blocks for engineering tools: skipped to their end, but for the defaults of parameters. Their keys mean something
+/// else inside.
 struct BlockName {
   const char* begin;
   const char* end;
 };
+constexpr BlockName kParameter{"extuserprmdata", "endextuserprmdata"};
 constexpr std::array<BlockName, 7> kSkipped{{{"prmtext", "endprmtext"},
-                                             {"extuserprmdata", "endextuserprmdata"},
+                                             kParameter,
                                              {"unit_diag_area", "unit_diag_area_end"},
                                              {"unitdiagtype", "endunitdiagtype"},
                                              {"slotdefinition", "endslotdefinition"},
@@ -58,11 +61,16 @@ class GsdReader {
  private:
   void take(const GsdStatement& statement) {
     if (!skip_until_.empty()) {
-      if (statement.key == skip_until_) skip_until_.clear();
+      if (statement.key == skip_until_) {
+        skip_until_.clear();
+      } else if (skip_until_ == kParameter.end) {
+        parameters_.takeLine(statement);
+      }
       return;
     }
     for (const BlockName& block : kSkipped) {
       if (statement.key != block.begin) continue;
+      if (statement.key == kParameter.begin) parameters_.begin(statement);
       skip_until_ = block.end;
       skip_from_ = statement.line;
       return;
@@ -76,6 +84,10 @@ class GsdReader {
       module_ = false;
     } else if (statement.key == "ext_user_prm_data_const") {
       takeConstants(statement);
+    } else if (statement.key == "ext_user_prm_data_ref") {
+      parameters_.refer(statement, moduleIndex());
+    } else if (module_ && statement.key == "ext_module_prm_data_len") {
+      takeNumber(statement, kMaxUserParameters, module_lengths_.back());
     } else if (!module_ && !takeRate(statement)) {
       takeKey(statement);
     }
@@ -95,6 +107,12 @@ class GsdReader {
       problem(statement.line, "module \"" + module.name + "\": \"" + rest + "\" is no list of bytes");
     }
     file_.modules.push_back(std::move(module));
+    module_lengths_.push_back(0);
+  }
+
+  std::optional<std::size_t> moduleIndex() const {
+    if (!module_) return std::nullopt;
+    return file_.modules.size() - 1;
   }
 
   /// Bytes from an offset on, over what is there.
@@ -216,8 +234,15 @@ class GsdReader {
     std::copy(bytes.begin(), bytes.end(), file_.user_parameters.begin());
   }
 
-  /// User_Prm_Data_Len is the length; bytes nobody gave are zero.
+  /// Defaults lie over constants. User_Prm_Data_Len and Ext_Module_Prm_Data_Len are lengths; bytes nobody gave are
+  /// zero.
   void finishParameters() {
+    parameters_.lay(std::nullopt, file_.user_parameters);
+    for (std::size_t i = 0; i < file_.modules.size(); ++i) {
+      std::vector<std::uint8_t>& bytes = file_.modules[i].user_parameters;
+      parameters_.lay(i, bytes);
+      bytes.resize(std::max<std::size_t>(bytes.size(), module_lengths_[i]), 0);
+    }
     if (parameter_length_ == 0) return;
     if (parameter_length_ > kMaxUserParameters) return problem(parameter_line_, "User_Prm_Data_Len is above 237");
     if (file_.user_parameters.size() > parameter_length_) {
@@ -230,6 +255,8 @@ class GsdReader {
   void problem(std::size_t line, const std::string& text) { file_.problems.push_back({line, text}); }
 
   GsdFile file_;
+  GsdParameters parameters_{file_.problems};
+  std::vector<unsigned> module_lengths_;  // Ext_Module_Prm_Data_Len
   bool seen_start_ = false;
   bool module_ = false;
   std::size_t module_line_ = 0;

@@ -40,6 +40,7 @@ std::string withoutComment(const std::string& line) {
 GsdStatement statement(std::size_t line, const std::string& text) {
   GsdStatement made;
   made.line = line;
+  made.text = trimmed(text);
   const std::size_t equals = text.find('=');
   std::string key = trimmed(text.substr(0, equals));
   if (equals != std::string::npos) made.value = trimmed(text.substr(equals + 1));
@@ -60,7 +61,8 @@ std::vector<GsdStatement> splitGsd(const std::string& text) {
   std::string joined;
   std::size_t first = 0, number = 0;
   bool continued = false;
-  for (std::size_t begin = 0; begin < text.size();) {
+  constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";  // of UTF-8, as editors on Windows put it before a text
+  for (std::size_t begin = text.rfind(kByteOrderMark, 0) == 0 ? 3 : 0; begin < text.size();) {
     std::size_t end = text.find('\n', begin);
     if (end == std::string::npos) end = text.size();
     ++number;

@@ -14,6 +14,7 @@ struct GsdStatement {
   std::string key;       ///< in lower case: "ext_user_prm_data_const"
   std::string argument;  ///< in the brackets behind the key
   std::string value;     ///< behind '=', spaces at the ends gone
+  std::string text;      ///< all of it as written, spaces at the ends gone
 };
 
 std::vector<GsdStatement> splitGsd(const std::string& text);

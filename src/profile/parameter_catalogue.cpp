@@ -58,6 +58,10 @@ constexpr ParameterInfo kCatalogue[] = {
     {181, kCu4, "Profibus baud rate", "", 1.0, false, kPlain, 1, 0, 15},
     {182, kCu4, "PPO type of the slots", "", 1.0, false, kArray, 5, 0, 255},
     {426, kAll, "Quick stop time", "", 1.0, false, kPerSet, 1, 0, kMaxUnsigned},
+    // What bus I/O bits do, as digital inputs would: BU 0020 6.1.1, 6.2.1, BU 0280 5.1.2.
+    {480, kSk300 | kSk7, "Function of bus I/O in bits", "", 1.0, false, kArray, 8, 0, 62},
+    {480, kSk5 | kSk54, "Function of bus I/O in bits", "", 1.0, false, kArray, 12, 0, 74},
+    {480, kSk12, "Function of bus I/O in bits", "", 1.0, false, kArray, 12, 0, 72},
     {506, kAll, "Automatic fault acknowledgement", "", 1.0, false, kPlain, 1, 0, kMaxUnsigned},
     {507, kSk5 | kSk54 | kSk300 | kSk7, "PPO type", "", 1.0, false, kPlain, 1, 1, 4},
     {508, kSk5 | kSk54 | kSk300 | kSk7, "PROFIBUS address", "", 1.0, false, kPlain, 1, 1, 126},

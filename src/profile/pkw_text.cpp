@@ -43,7 +43,7 @@ const char* pkwErrorText(std::uint16_t number) noexcept {
     case 0:
       return "the inverter has no parameter of this number";
     case 1:
-      return "the parameter cannot be changed";
+      return "the parameter cannot be changed (it is read-only, or P509 does not select this bus)";
     case 2:
       return "the value is beyond the lower or upper limit";
     case 3:

@@ -30,6 +30,7 @@ const std::vector<ParameterDefinition>& sk5xxe() {
       {424, "Digital input 5", 1, 0, 77, 0, false, 0, false},
       {425, "Digital input 6", 1, 0, 77, 0, false, 0, false},
       {426, "Quick stop time", 100, 0, 32000, 10, kPerSet, 0, false},
+      {480, "Function of bus I/O in bits", 1, 0, 74, 0, false, 12, false},
       {506, "Automatic acknowledgement", 1, 0, 7, 0, false, 0, false},
       {507, "PPO type", 1, 1, 4, 1, false, 0, false},
       {508, "Profibus address", 1, 1, 126, 1, false, 0, false},
@@ -80,6 +81,10 @@ class Definitions {
     find(number).maximum = maximum;
   }
   void setElements(int number, std::uint8_t elements) { find(number).elements = elements; }
+  void setFirstElements(int number, const std::array<std::int32_t, 4>& values, std::uint8_t count) {
+    find(number).first_elements = values;
+    find(number).differing = count;
+  }
   ParameterDefinition& find(int number) {
     return *std::find_if(all_.begin(), all_.end(), [&](const ParameterDefinition& d) { return d.number == number; });
   }
@@ -106,6 +111,8 @@ void makeOlderSeries(Definitions& definitions, Series series) {
   definitions.setRange(509, 0, 21);
   definitions.setRange(513, -1, 10'000);
   for (const int number : {543, 544, 545}) definitions.setRange(number, 0, 12);
+  definitions.setRange(480, 0, 62);
+  definitions.setElements(480, 8);
   definitions.setRange(546, 0, 7);
   definitions.setRange(547, 0, 20);
   definitions.setRange(548, 0, 20);
@@ -126,6 +133,8 @@ void makeDecentral(Definitions& definitions) {
     definitions.remove(number);
   }
   definitions.setElements(420, 4);
+  definitions.setRange(480, 0, 72);
+  definitions.setFirstElements(480, {1, 2, 5, 12}, 4);  // enable right and left ... (BU 0280 5.1.2)
   definitions.setRange(509, 0, 4);
   definitions.setRange(510, 0, 4);
   definitions.setElements(543, 3);

@@ -21,7 +21,7 @@ void ParameterStore::lay() {
     first_.push_back(ram_.size());
     const std::size_t sets = definition.per_set ? kSets : 1;
     const std::size_t elements = std::max<std::size_t>(definition.elements, 1);
-    ram_.insert(ram_.end(), sets * elements, definition.factory);
+    for (std::size_t e = 0; e < elements; ++e) ram_.insert(ram_.end(), sets, definition.factoryOf(e));
   }
   eeprom_ = ram_;
 }
@@ -29,7 +29,10 @@ void ParameterStore::lay() {
 void ParameterStore::resetToFactory() noexcept {
   for (std::size_t d = 0; d < definitions_.size(); ++d) {
     const std::size_t end = d + 1 < first_.size() ? first_[d + 1] : ram_.size();
-    for (std::size_t at = first_[d]; at < end; ++at) ram_[at] = eeprom_[at] = definitions_[d].factory;
+    const std::size_t sets = definitions_[d].per_set ? kSets : 1;
+    for (std::size_t at = first_[d]; at < end; ++at) {
+      ram_[at] = eeprom_[at] = definitions_[d].factoryOf((at - first_[d]) / sets);
+    }
   }
 }
 

@@ -97,7 +97,7 @@ const std::vector<std::string>& driveKeys() {
   static const std::vector<std::string> keys{
       // the driver's
       "address", "series", "ppo_type", "joint", "gear_ratio", "pole_pairs", "inverted", "max_frequency",
-      "rated_current", "module", "inverter", "io_byte", "connection", "profile",
+      "rated_current", "allow_minimum_frequency", "module", "inverter", "io_byte", "connection", "profile",
       // the driver's on a CAN bus; those of the identity are the simulator's, too
       "array_sub_index", "boot_reset", "device_type", "error_control", "event_time", "guard_time", "heartbeat_time",
       "heartbeat_timeout", "inhibit_time", "life_time_factor", "parameter_servers", "pdo_mapping", "process_values",

@@ -141,8 +141,8 @@ ParameterAnswer ParameterLink::write(const cycle::ParameterAddress& address, con
   if (wrong.empty()) wrong = cycle::addValue(wish, info, request);
   if (!wrong.empty()) throw Trouble(wrong);
   // The terminals may turn a drive under local control at any time; setpoints are a share of P105.
-  if (cycle::changesProcessData(request) && !drives_[0].isAtRest()) {
-    throw Trouble("P" + std::to_string(address.number) + " decides what setpoints and actual values mean, and drive " +
+  if (cycle::decidesMotion(request) && !drives_[0].isAtRest()) {
+    throw Trouble("P" + std::to_string(address.number) + " decides how the motor follows setpoints, and drive " +
                   drive().name + " is not at rest");
   }
   return carryOut(request, info);

@@ -18,6 +18,7 @@ constexpr Duration kShortestWait = std::chrono::microseconds{50};
 constexpr Duration kQueueRetry = std::chrono::microseconds{250};
 constexpr int kFramesAtOnce = 1000;
 constexpr Duration kLineCountersInterval = std::chrono::milliseconds{500};  // each time is a system call
+constexpr Duration kLongestRelease = std::chrono::milliseconds{1100};       // the master ends before
 constexpr Duration kListenFirst = std::chrono::milliseconds{500};  // a driver guards or sends more often than that
 
 std::unique_ptr<link::CanLink> openInterface(const link::CanSettings& settings) {
@@ -363,19 +364,25 @@ DriveIdentity CanopenTransport::identity(DriveIndex drive) const {
 }
 
 // Guarding that simply ended would be a loss to the node, and leave E10.0 in every inverter.
-canopen::NmtCommand CanopenTransport::releaseCommand() const noexcept {
-  const bool may_reset =
-      std::all_of(config_.master.nodes.begin(), config_.master.nodes.end(),
-                  [](const canopen::NodeConfig& node) { return node.reset != canopen::BootReset::kNone; });
-  return may_reset ? canopen::NmtCommand::kResetCommunication : canopen::NmtCommand::kEnterPreOperational;
+void CanopenTransport::release() noexcept {
+  looked_ = link_->now();
+  const Instant until = looked_ + kLongestRelease;
+  master_->releaseAll(looked_);
+  for (;;) {
+    send(until);
+    const Instant now = link_->now();
+    if (master_->released() || now >= until || !link_->isOpen()) return;
+    const Instant due = master_->nextDeadline().value_or(until);
+    link_->waitReadable(std::min(until, std::max(due, now + kShortestWait)));
+    receive();
+    master_->poll(looked_);
+  }
 }
 
 void CanopenTransport::close() noexcept {
   if (!link_ || !link_->isOpen()) return;
-  const Instant now = link_->now();
-  if (isSilent()) return link_->close();  // no node was touched, or somebody else has them
-  master_->releaseAll(releaseCommand(), now);
-  send(now + kReopenInterval);
+  // Silent: no node was touched, or somebody else has them.
+  if (!isSilent()) release();
   link_->close();
 }
 

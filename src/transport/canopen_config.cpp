@@ -125,7 +125,7 @@ class Reader {
   Duration limit(const CanopenPdoWish& wish) const {
     if (wish.synchronous) return 3 * defaults_.period;
     if (!wish.event_time || *wish.event_time == Duration::zero()) return Duration::zero();
-    return *wish.event_time * 5 / 2 + defaults_.period;
+    return *wish.event_time * 5 / 2;
   }
 
   // A node that sends on changes only begins with what there is, or says nothing for a long time.

@@ -13,7 +13,9 @@ constexpr std::uint16_t kMaxFrequency = 105;
 constexpr double kMaxFrequencyResolution = 0.1;  // Hz
 // An inverter that two command does what the last one said. It is ours again when the other was silent for so long.
 constexpr Duration kContested = std::chrono::seconds{1};
-constexpr std::uint16_t kModuleLink = 0x5000;  // E10.8, between bus module and inverter (BU 0060 p. 93)
+
+// Bits 0 to 3 of a word that keeps an inverter running; every one that stops has one of them at 0 (BU 2700 6.4.1).
+constexpr Word kRuns = 0x000F;
 
 }  // namespace
 
@@ -24,7 +26,7 @@ CanopenDriveState::CanopenDriveState(const CanopenDrive& config, std::uint32_t r
 
 // In CiA 402 no word says "ignore me": then the master repeats what it was given before, or sends nothing yet.
 void CanopenDriveState::putOutput(const profile::ProcessOutput& output, canopen::Master& master) noexcept {
-  commands_ = (output.control_word & profile::control_bit::kDataValid) != 0;
+  stops_ = (output.control_word & profile::control_bit::kDataValid) != 0 && (output.control_word & kRuns) != kRuns;
   if (config_.drive_profile == DriveProfile::kNord) {
     output_ = packPdo(config_, output);
   } else if (const auto words = scaling_.toCia402(output)) {
@@ -38,7 +40,7 @@ void CanopenDriveState::putOutput(const profile::ProcessOutput& output, canopen:
 std::optional<CanFrame> CanopenDriveState::darkFrame(const canopen::Master& master) const noexcept {
   const canopen::NodeStatus& status = master.status(config_.node);
   const bool silent = status.state == canopen::NodeState::kLost && status.nmt == canopen::NmtState::kOperational;
-  if (!silent || !commands_) return std::nullopt;
+  if (!silent || !stops_) return std::nullopt;
   return dataFrame(receive_id_, output_);
 }
 
@@ -56,6 +58,7 @@ void CanopenDriveState::takeInput(const canopen::Master& master, bool bus_works,
   const canopen::PdoValue& pdo = master.transmitPdo(config_.node, config_.transmit_pdo);
   takeEmergencies(status);
   input = {};
+  input.interrupted = takeInterruption(status);
   module_answers_ = bus_works && status.state == canopen::NodeState::kOperational;
   const bool ever_sent = pdo.count != 0;
   contested_ = status.other_commands_at && now - *status.other_commands_at < kContested;
@@ -63,29 +66,31 @@ void CanopenDriveState::takeInput(const canopen::Master& master, bool bus_works,
   inverter_answers_ = module_answers_ && !contested_ && !status.doubled && ever_sent && !overdue &&
                       decode(pdo.bytes, input.input) &&
                       // A module with its own supply answers for an inverter that is off.
-                      profile::StatusWord{input.input.status_word}.isUseful() && !moduleMissesInverter(input.input);
+                      profile::StatusWord{input.input.status_word}.isUseful();
+  const Word status_word = inverter_answers_ ? input.input.status_word : Word{0};
+  if (moduleMissesInverter(status, pdo, status_word, now)) inverter_answers_ = false;
   input.module_answers = module_answers_;
   input.inverter_answers = inverter_answers_;
   // The dictionary can be read before the node is operational, but nobody asks before the drive is online.
-  if (!module_answers_) {
-    parameters_.handleOffline();
-    scaling_.setMaxFrequency(config_.typed_max_frequency);
-  }
+  if (!module_answers_) parameters_.handleOffline();
   explain(status, bus_works, ever_sent, overdue);
 }
 
 // Behind a gateway byte 3 names the inverter, from 0 (BU 0260 p. 78).
 void CanopenDriveState::takeEmergencies(const canopen::NodeStatus& status) noexcept {
-  if (status.emergencies.count() == emergencies_seen_) return;
-  emergencies_seen_ = status.emergencies.count();
+  const std::uint64_t count = status.emergencies.count();
+  if (count == emergencies_seen_) return;
+  const std::uint64_t fresh = count < emergencies_seen_ ? count : count - emergencies_seen_;
+  emergencies_seen_ = count;
+  if (count == 0) return forgetEmergency();
   const bool gateway = config_.connection == CanopenConnection::kGateway;
-  for (std::size_t i = 0; i < status.emergencies.size(); ++i) {
+  for (std::size_t i = 0; i < status.emergencies.size() && i < fresh; ++i) {
     const canopen::Emergency& emergency = status.emergencies.back(i);
     if (gateway && emergency.manufacturer[0] != config_.inverter - 1) continue;
     emergency_code_ = emergency.code;
+    if (gateway) module_link_.handleEmergency(emergency.code, emergency.at);
     break;
   }
-  if (emergencies_seen_ == 0) emergency_code_ = 0;
   emergency_text_.clear();
   if (emergency_code_ == 0) return;
   const char* faults = profile::emergencyFaults(emergency_code_);
@@ -93,11 +98,29 @@ void CanopenDriveState::takeEmergencies(const canopen::NodeStatus& status) noexc
                          profile::emergencyText(emergency_code_));
 }
 
+void CanopenDriveState::forgetEmergency() noexcept {
+  emergency_code_ = 0;
+  emergency_text_.clear();
+  module_link_.forget();
+}
+
 // A gateway that has lost an inverter says so, and may go on sending what it heard last. An inverter that reports a
 // fault itself is there.
-bool CanopenDriveState::moduleMissesInverter(const profile::ProcessInput& input) const noexcept {
-  return config_.connection == CanopenConnection::kGateway && emergency_code_ == kModuleLink &&
-         !profile::StatusWord{input.status_word}.fault();
+bool CanopenDriveState::moduleMissesInverter(const canopen::NodeStatus& status, const canopen::PdoValue& pdo,
+                                             Word status_word, Instant now) noexcept {
+  if (!module_link_.missing()) return false;
+  module_link_.handleBootUp(status.booted_up_at);
+  module_link_.handleWords(status_word, pdo.bytes, pdo.at, now);
+  if (!module_link_.missing()) forgetEmergency();
+  return module_link_.missing() && !profile::StatusWord{status_word}.fault();
+}
+
+// Said once, when a start the drive layer has seen is over.
+bool CanopenDriveState::takeInterruption(const canopen::NodeStatus& status) noexcept {
+  const std::optional<std::uint64_t> before = start_;
+  start_.reset();
+  if (status.state == canopen::NodeState::kOperational) start_ = status.counters.boots;
+  return before && start_ != before;
 }
 
 void CanopenDriveState::explain(const canopen::NodeStatus& status, bool bus_works, bool ever_sent,
@@ -129,13 +152,16 @@ bool CanopenDriveState::submit(const profile::ParameterRequest& request) noexcep
   if (!parameters_.submit(request)) return false;
   using Shape = profile::ParameterShape;
   const bool of_set_1 = request.shape == Shape::kPlain || request.parameter_set == 1;
-  if (request.number == kMaxFrequency && request.action == profile::ParameterAction::kRead && of_set_1) {
+  if (request.scales && request.number == kMaxFrequency && of_set_1) {
     max_frequency_reads_.push_back(request.id);
+    // The drive layer, too, begins anew with what was typed in.
+    scaling_.setMaxFrequency(config_.typed_max_frequency);
   }
   return true;
 }
 
-// Revolutions per minute are told as shares of P105 by what the drive layer itself has read of it.
+// Revolutions per minute are told as shares of P105 by what the drive layer itself has read of it. What a user reads
+// while the drive layer commands shares of another P105 (somebody wrote it at the keypad) would be a step of the speed.
 std::optional<profile::ParameterResult> CanopenDriveState::pollResult() noexcept {
   const auto result = parameters_.pollResult();
   if (!result) return std::nullopt;
@@ -156,8 +182,7 @@ void CanopenDriveState::handleRestart() noexcept {
   module_answers_ = false;
   inverter_answers_ = false;
   emergencies_seen_ = 0;
-  emergency_code_ = 0;
-  emergency_text_.clear();
+  forgetEmergency();
 }
 
 }  // namespace nord_driver

@@ -137,10 +137,11 @@ class StationBuilder {
     gsd_ = gsd_library_.find(*naming, slave.ident_number);
     if (gsd_ != nullptr) takeGsd(settings, station, slave);
 
-    if (modular) addIdentifier(slave, station.io_byte ? kIoSlot : kEmptySlot, station.io_byte ? 1 : 0);
+    modules_ = 0;
+    if (modular) addSlot(slave, station.io_byte ? kIoSlot : kEmptySlot, station.io_byte ? 1 : 0);
     std::uint8_t slot_inverter = 1;
     for (std::size_t i = 0; i < plans.size(); ++i) {
-      for (; slot_inverter < plans[i].inverter; ++slot_inverter) addIdentifier(slave, kEmptySlot, 0);
+      for (; slot_inverter < plans[i].inverter; ++slot_inverter) addSlot(slave, kEmptySlot, 0);
       addInverter(plans[i], config_.drives[drives[i]], slave);
       ++slot_inverter;
     }
@@ -154,7 +155,8 @@ class StationBuilder {
   }
 
  private:
-  static void addIdentifier(profibus::SlaveConfig& slave, std::uint8_t identifier, std::size_t bytes) {
+  void addSlot(profibus::SlaveConfig& slave, std::uint8_t identifier, std::size_t bytes) {
+    ++modules_;
     slave.configuration.push_back(identifier);
     slave.output_length += bytes;
     slave.input_length += bytes;
@@ -208,6 +210,7 @@ class StationBuilder {
                                    ": the identifiers of the manual are used");
       }
     }
+    ++modules_;  // one, however many identifiers it has
     slave.configuration.insert(slave.configuration.end(), identifiers.begin(), identifiers.end());
     slave.output_length += drive.ppo.bytes();
     slave.input_length += drive.ppo.bytes();
@@ -239,10 +242,10 @@ class StationBuilder {
                         std::to_string(file.max_output_length) + " out, " + std::to_string(file.max_input_length) +
                         " in, " + std::to_string(file.max_data_length) + " together (" + gsd_->path + ")");
     }
-    if (file.max_modules != 0 && slave.configuration.size() > file.max_modules) {
-      throw ConfigError(settings.fullName("inverter") + ": " + std::to_string(slave.configuration.size()) +
-                        " slots are needed, expected at most " + std::to_string(file.max_modules) + " (" + gsd_->path +
-                        ")");
+    if (file.max_modules != 0 && modules_ > file.max_modules) {
+      throw ConfigError(settings.fullName("inverter") + ": " + std::to_string(modules_) +
+                        " modules are needed, expected at most " + std::to_string(file.max_modules) + " (" +
+                        gsd_->path + ")");
     }
   }
 
@@ -250,6 +253,7 @@ class StationBuilder {
   ProfibusGsdLibrary& gsd_library_;
   ProfibusDpConfig& config_;
   const GsdEntry* gsd_ = nullptr;
+  std::size_t modules_ = 0;  // of the station, empty slots included
 };
 
 /// The station of a drive; a new one when nobody has its address yet.

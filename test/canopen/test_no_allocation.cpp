@@ -126,7 +126,9 @@ TEST(NoAllocation, OfAnSdoClient) {
     const bool silent = (kind & 8u) != 0 && (kind & 1u) != 0;
     const ByteView bytes = ByteView{data}.sub(0, (kind & 1u) != 0 ? 4 : 300);
     ASSERT_TRUE(counted([&] { return client.start(request, bytes, now); }));
-    for (bool over = false; !over;) {
+    bool over = false;
+    for (int step = 0; !over; ++step) {
+      ASSERT_LT(step, 10'000) << "transfer " << kind << " does not end";
       CanFrame frame;
       std::vector<SdoBytes> answers;
       while (counted([&] { return client.pollTransmit(frame); })) {

@@ -198,16 +198,39 @@ TEST(NodeLoss, SendsItsOwnHeartbeat) {
   EXPECT_THAT(run.nodes[0]->writes, Contains("1016:01=7F012C"));
 }
 
-// The clean exit: every node gets the command once and is left alone until the bus is opened again.
-TEST(NodeLoss, ReleasedNodesAreLeftAlone) {
-  Operational run{busConfig(2)};
-  run.master.releaseAll(NmtCommand::kEnterPreOperational, run.now);
-  EXPECT_EQ(NodeState::kReleased, run.master.status(0).state);
-  run.run(seconds{2});
-  EXPECT_THAT(run.sent, testing::ElementsAre("000#8001", "000#8002"));
-  EXPECT_EQ(0u, run.count(CanopenEventKind::kNodeLost));
-  run.master.restart(run.now);
-  EXPECT_TRUE(run.runUntil([&] { return run.allOperational(); }, seconds{1}));
+// What a node was told by somebody else it does: known when the command is on the bus, with any error control.
+TEST(NodeLoss, ToldSomethingByAnotherMaster) {
+  for (const auto& [command, name] : {std::make_pair("82", "reset communication"), std::make_pair("81", "reset node"),
+                                      std::make_pair("80", "enter pre-operational"), std::make_pair("02", "stop")}) {
+    Operational run;
+    run.say(std::string{"000#"} + command + "01");
+    EXPECT_EQ(NodeState::kBooting, run.master.status(0).state) << name;
+    EXPECT_EQ(std::string{"was told \""} + name + "\" by another master", run.master.status(0).reason.str());
+  }
+  Operational run;
+  run.say("000#0101");
+  run.say("000#8202");
+  EXPECT_EQ(NodeState::kOperational, run.master.status(0).state) << "start, or another node";
+}
+
+// A stopped node answers no SDO: it is led back, also when its command was missed.
+TEST(NodeLoss, AStoppedNodeIsLedBack) {
+  Operational run;
+  run.sent.clear();
+  run.nodes[0]->state = 0x04;
+  run.run(milliseconds{101});
+  EXPECT_EQ("is stopped now, which we did not tell it", run.eventText(CanopenEventKind::kNodeLost));
+  EXPECT_THAT(run.sent, Contains("000#8001"));
+  EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{1}));
+}
+
+// The answer to another master's guarding is none to ours, but the state in it is the node's.
+TEST(NodeLoss, AStateInAnAnswerToSomebodyElseCounts) {
+  Operational run{guarded()};
+  run.run(milliseconds{50});
+  run.say("732#FF");  // toggle bit as it may be, pre-operational
+  EXPECT_EQ(NodeState::kBooting, run.master.status(0).state);
+  EXPECT_EQ("is pre-operational now, which we did not tell it", run.master.status(0).reason.str());
 }
 
 }  // namespace

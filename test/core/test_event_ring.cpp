@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <thread>
 
 #include "nord_driver/core/event_ring.h"
@@ -33,13 +34,18 @@ TEST(EventRing, CountsWhatDoesNotFit) {
 TEST(EventRing, EveryEventArrivesOnceOrIsCounted) {
   EventRing<int, 64> ring;
   constexpr int kCount = 100'000;
+  std::atomic<bool> done{false};
   std::thread writer{[&] {
     for (int i = 0; i < kCount; ++i) ring.push(i);
+    done = true;
   }};
   int received = 0, last = -1;
   bool ordered = true;
-  while (received + static_cast<int>(ring.overflow()) < kCount) {
-    if (const auto event = ring.pop()) {
+  for (bool over = false; !over;) {
+    over = done;  // before the ring is looked into: what was pushed by then is still fetched
+    while (received < kCount) {
+      const auto event = ring.pop();
+      if (!event) break;
       ordered = ordered && *event > last;
       last = *event;
       ++received;

@@ -19,7 +19,9 @@ class CycleBench {
   /// `acceleration`: the limit of the base in m/s^2, both ways; 0: none.
   explicit CycleBench(std::optional<double> typed_max_frequency = std::nullopt, double acceleration = 0.0,
                       const drive::StopWays& ways = {})
-      : transport{3}, ports{3}, cycle{config(typed_max_frequency, acceleration, ways), transport, ports, false} {}
+      : CycleBench{config(typed_max_frequency, acceleration, ways)} {}
+  explicit CycleBench(const CycleConfig& config, bool auto_enable = false)
+      : transport{config.drives.size()}, ports{config.drives.size()}, cycle{config, transport, ports, auto_enable} {}
 
   void step() {
     const Instant start = transport.time;
@@ -47,20 +49,21 @@ class CycleBench {
     ports.commandBase({{linear, angular}, transport.time, true});
   }
   void commandLift(double velocity) { ports.commandDrive(kLift, {velocity, transport.time, true}); }
+  /// What was told since this was asked last, a line each: "warning: ..." or "news: ...".
+  std::vector<std::string> events() {
+    std::vector<std::string> lines;
+    while (const auto event = ports.pollBusEvent()) {
+      lines.push_back((event->warning ? "warning: " : "news: ") + event->text.str());
+    }
+    return lines;
+  }
   const CycleSnapshot& snapshot() { return ports.readSnapshot(); }
   std::int16_t setpoint(DriveIndex drive) const { return transport.outputs[drive].setpoints[0]; }
   Word controlWord(DriveIndex drive) const { return transport.outputs[drive].control_word; }
 
-  ScriptedTransport transport;
-  CyclePorts ports;
-  BusCycle cycle;
-  std::map<std::uint32_t, Completion> completions;
-  std::uint32_t last_id = 0;
-
- private:
   // 50 Hz, two pole pairs, no gear: 100 % is 157.08 rad/s at the joint.
-  static CycleConfig config(std::optional<double> typed_max_frequency, double acceleration,
-                            const drive::StopWays& ways) {
+  static CycleConfig config(std::optional<double> typed_max_frequency = std::nullopt, double acceleration = 0.0,
+                            const drive::StopWays& ways = {}) {
     CycleConfig config;
     config.stop_ways = ways;
     config.cmd_vel_timeout = std::chrono::milliseconds{500};
@@ -82,6 +85,12 @@ class CycleBench {
     config.base->geometry.left_wheel_radius = config.base->geometry.right_wheel_radius = 0.1;
     return config;
   }
+
+  ScriptedTransport transport;
+  CyclePorts ports;
+  BusCycle cycle;
+  std::map<std::uint32_t, Completion> completions;
+  std::uint32_t last_id = 0;
 };
 
 }  // namespace nord_driver::cycle

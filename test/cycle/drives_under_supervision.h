@@ -45,7 +45,7 @@ class DrivesUnderSupervision {
       const profile::ProcessInput input = inverters[i].exchange(outputs[i]);
       drives[i].handleInput(input, !inverters[i].silent, now);
     }
-    supervisor.update(moving, now);
+    supervisor.update(commands(), now);
     while (const auto completion = supervisor.pollCompletion()) completions.push_back(*completion);
   }
   void run(int cycles) {
@@ -59,7 +59,7 @@ class DrivesUnderSupervision {
     request.kind = kind;
     request.drive = drive;
     request.patience = patience;
-    supervisor.handleRequest(request, moving, now);
+    supervisor.handleRequest(request, commands(), now);
   }
   /// Asks and runs until the answer has come; "no answer" after 5 s.
   Completion ask(RequestKind kind, DriveIndex drive = kAllDrives, Duration patience = std::chrono::seconds{3}) {
@@ -100,6 +100,12 @@ class DrivesUnderSupervision {
   std::uint32_t last_id = 1000;
 
  private:
+  CommandState commands() const {
+    CommandState state;
+    state.moving = moving;
+    state.quiet = moving.empty();
+    return state;
+  }
   static std::vector<drive::Drive> makeDrives() {
     std::vector<drive::Drive> drives;
     for (const DriveSetup& setup : config().drives) drives.emplace_back(setup.drive);

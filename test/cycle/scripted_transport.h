@@ -18,7 +18,8 @@ class ScriptedTransport final : public Transport {
     profile::ParameterRequest request;
   };
 
-  explicit ScriptedTransport(std::size_t drives) : inverters(drives), module_only(drives, false) {}
+  explicit ScriptedTransport(std::size_t drives)
+      : inverters(drives), module_only(drives, false), interrupted(drives, false) {}
 
   void configure(const Settings&, const std::vector<DriveSettings>&, double) override {}
   Instant now() const noexcept override { return time; }
@@ -30,6 +31,8 @@ class ScriptedTransport final : public Transport {
     outputs = sent;
     for (DriveIndex i = 0; i < inverters.size(); ++i) {
       inputs[i] = {};
+      inputs[i].interrupted = interrupted[i];
+      interrupted[i] = false;
       const profile::ProcessInput input = inverters[i].exchange(sent[i]);
       if (inverters[i].silent) continue;
       inputs[i].module_answers = true;
@@ -52,6 +55,7 @@ class ScriptedTransport final : public Transport {
     return result;
   }
   void answerFirst() {
+    const DriveIndex drive = submitted.front().drive;
     const profile::ParameterRequest request = submitted.front().request;
     submitted.pop_front();
     profile::ParameterResult result;
@@ -59,7 +63,11 @@ class ScriptedTransport final : public Transport {
     result.outcome = profile::ParameterOutcome::kRefused;
     auto at = parameters.find(request.number + 1000 * request.parameter_set);
     if (at == parameters.end()) at = parameters.find(request.number);
-    if (at != parameters.end()) {
+    const auto own = of_drive[drive].find(request.number);
+    if (own != of_drive[drive].end()) {
+      result.outcome = profile::ParameterOutcome::kDone;
+      result.raw = own->second;
+    } else if (at != parameters.end()) {
       result.outcome = profile::ParameterOutcome::kDone;
       result.raw = at->second;
     }
@@ -78,8 +86,10 @@ class ScriptedTransport final : public Transport {
   Duration exchange_time = std::chrono::milliseconds{2};
   std::vector<drive::FakeInverter> inverters;
   std::vector<bool> module_only;  ///< the bus module answers, its inverter is off
+  std::vector<bool> interrupted;  ///< in the next cycle
   std::vector<profile::ProcessOutput> outputs;
   std::map<int, std::int32_t> parameters{{105, 500}};
+  std::map<DriveIndex, std::map<int, std::int32_t>> of_drive;  ///< by number, of one drive alone: before `parameters`
   bool hold_answers = false;
   bool queue_full = false;
   std::deque<Submitted> submitted;

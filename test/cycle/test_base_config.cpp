@@ -88,6 +88,10 @@ TEST(BaseConfig, RefusalsNameKeyValueAndExpectation) {
   EXPECT_THAT(refusal(robot().set("right_wheel", "left_wheel_joint")), HasSubstr("only once"));
   EXPECT_THAT(refusal(robot().erase("right_wheel")), HasSubstr("~right_wheel is missing"));
   EXPECT_THAT(refusal(robot().erase("left_wheel")), HasSubstr("~left_wheel is missing"));
+  for (const std::string key : {"left_wheel", "right_wheel"}) {
+    EXPECT_EQ("~" + key + ": [] is not valid, expected the joint name of a drive, or a list of them",
+              refusal(robot().set(key, std::vector<std::string>{})));
+  }
   EXPECT_THAT(refusal(robot().set("wheel_separation", "wide")), HasSubstr("a number"));
   EXPECT_THAT(refusal(robot().set("linear/x/has_velocity_limits", true).set("linear/x/max_velocity", -1.0)),
               HasSubstr("linear/x/max_velocity"));

@@ -14,7 +14,7 @@ constexpr double kFullSpeed = 157.07963267948966;  // rad/s: 50 Hz, two pole pai
 class BusCycleTest : public ::testing::Test, protected CycleBench {
  protected:
   void bringUp() {
-    run(30);
+    run(60);
     ASSERT_TRUE(snapshot().drives[kLift].device.complete);
   }
   void enable() {
@@ -291,8 +291,11 @@ TEST_F(BusCycleTest, AnAnswerFromBeforeALossIsNotTakenForANewOne) {
   transport.parameters = {{1105, 500}, {2105, 1000}, {3105, 500}, {4105, 500}};
   run(2);
   transport.hold_answers = true;
-  while (transport.submitted.size() < 3) step();  // each drive has asked for one
-  while (transport.submitted.front().drive != kLeft) step();
+  for (int i = 0; transport.submitted.size() < 3; ++i) {  // each drive has asked for one
+    ASSERT_LT(i, 300) << transport.submitted.size() << " of 3 drives have asked for a parameter within 3 s";
+    step();
+  }
+  ASSERT_EQ(kLeft, transport.submitted.front().drive);
   const auto old = transport.submitted.front();
   transport.submitted.clear();
   for (auto& inverter : transport.inverters) inverter.silent = true;

@@ -1,6 +1,7 @@
 // What crosses the border of the cycle's thread arrives once, in order, and never blocks the cycle.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <thread>
 
 #include "nord_driver/cycle/cycle_ports.h"
@@ -30,6 +31,25 @@ TEST(CyclePorts, OnlyTheNewestCommandCounts) {
   EXPECT_DOUBLE_EQ(0.2, ports.newestBaseCommand().twist.linear_x);
   EXPECT_DOUBLE_EQ(3.0, ports.newestDriveCommand(1).velocity);
   EXPECT_FALSE(ports.newestDriveCommand(0).given);
+}
+
+// The one before goes on growing old: what is no number is no command at all.
+TEST(CyclePorts, WhatIsNoNumberIsNoCommand) {
+  CyclePorts ports{1};
+  ASSERT_TRUE(ports.commandBase({{0.2, 0.1, 0.3}, Instant{}, true}));
+  ASSERT_TRUE(ports.commandDrive(0, {3.0, Instant{}, true}));
+  const Instant later{std::chrono::seconds{1}};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity}) {
+    EXPECT_FALSE(ports.commandBase({{bad, 0.0, 0.0}, later, true}));
+    EXPECT_FALSE(ports.commandBase({{0.0, bad, 0.0}, later, true}));
+    EXPECT_FALSE(ports.commandBase({{0.0, 0.0, bad}, later, true}));
+    EXPECT_FALSE(ports.commandDrive(0, {bad, later, true}));
+  }
+  EXPECT_EQ((robot::Twist2d{0.2, 0.1, 0.3}), ports.newestBaseCommand().twist);
+  EXPECT_EQ(Instant{}, ports.newestBaseCommand().received);
+  EXPECT_DOUBLE_EQ(3.0, ports.newestDriveCommand(0).velocity);
+  EXPECT_EQ(Instant{}, ports.newestDriveCommand(0).received);
 }
 
 TEST(CyclePorts, RequestsComeInOrderAndAFullQueueSaysSo) {

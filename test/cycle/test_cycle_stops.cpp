@@ -32,6 +32,30 @@ TEST(CycleStops, ACommandThatIsTooOldStopsItsGroupAsChosen) {
   EXPECT_FALSE(bench.snapshot().drives[CycleBench::kRight].enabled);
 }
 
+// A connection that changed its state unasked stops the base in the next cycle, though its drive answers all the while.
+TEST(CycleStops, AnInterruptedConnectionStopsTheBase) {
+  CycleBench bench;
+  bench.run(30);
+  ASSERT_TRUE(bench.ask(RequestKind::kEnable).success);
+  for (int i = 0; i < 20; ++i) {
+    bench.commandBase(0.5);
+    bench.step();
+  }
+  ASSERT_GT(bench.setpoint(CycleBench::kLeft), 0);
+  bench.transport.interrupted[CycleBench::kRight] = true;
+  bench.commandBase(0.5);
+  bench.step();
+  bench.commandBase(0.5);
+  bench.step();
+  EXPECT_EQ(0x047E, bench.controlWord(CycleBench::kRight));
+  EXPECT_EQ(0, bench.setpoint(CycleBench::kLeft));
+  EXPECT_EQ(drive::StopCause::kInterrupted, bench.snapshot().base.stop_cause);
+  bench.commandBase(0.5);
+  bench.run(100);
+  EXPECT_FALSE(bench.snapshot().base.enabled);
+  EXPECT_EQ(0x047E, bench.controlWord(CycleBench::kLeft));
+}
+
 // A base that was stopped stands: enabled again it begins there, not where its ramp would be by now.
 TEST(CycleStops, ABaseThatIsEnabledSoonAfterAStopBeginsFromStandstill) {
   CycleBench bench{std::nullopt, 0.5};

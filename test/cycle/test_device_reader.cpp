@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "nord_driver/cycle/device_reader.h"
@@ -25,12 +26,21 @@ ParameterResult failed(ParameterOutcome outcome) {
   return result;
 }
 
+/// More than there are parameters to read: said once, for a loop that would never end.
+bool asksForEver(std::size_t requests) {
+  constexpr std::size_t kFarTooMany = 500;
+  if (requests <= kFarTooMany) return false;
+  ADD_FAILURE() << "the device is asked for ever: " << requests << " requests";
+  return true;
+}
+
 /// Answers all requests with one value and returns the numbers that were asked for.
 std::vector<std::uint16_t> answerAll(DeviceReader& reader, std::int32_t raw) {
   std::vector<std::uint16_t> numbers;
   while (const auto request = reader.pollRequest()) {
     numbers.push_back(request->number);
     reader.handleResult(done(raw));
+    if (asksForEver(numbers.size())) break;
   }
   return numbers;
 }
@@ -84,9 +94,78 @@ TEST(DeviceReader, ReadsVersionTimeoutAndFunctions) {
   EXPECT_EQ(3u, reader.data().setpoint_functions.size());
   EXPECT_EQ(3u, reader.data().actual_value_functions.size());
   // On SK 5xxE the functions are three parameters each (BU 2700 6.4.4).
-  for (const int number : {543, 544, 545, 546, 547, 548}) {
+  for (const int number : {544, 545, 547, 548}) {
     EXPECT_EQ(1, std::count(numbers.begin(), numbers.end(), number)) << "P" << number;
   }
+}
+
+// What decides motion, of every set the driver may use, before all the rest.
+TEST(DeviceReader, ReadsWhatDecidesMotionOfAllSetsFirst) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  std::vector<std::pair<int, int>> asked;
+  while (!reader.motionAsked()) {
+    const auto request = reader.pollRequest();
+    ASSERT_TRUE(request);
+    EXPECT_EQ(request->number == 105, request->scales);
+    asked.emplace_back(request->number, request->parameter_set);
+    reader.handleResult(done(10 * request->parameter_set + (request->number == 543 ? 1 : 0)));
+  }
+  const std::vector<std::pair<int, int>> expected{{105, 1}, {105, 2}, {105, 3}, {105, 4}, {104, 1}, {104, 2},
+                                                  {104, 3}, {104, 4}, {543, 1}, {543, 2}, {543, 3}, {543, 4},
+                                                  {546, 1}, {546, 2}, {546, 3}, {546, 4}};
+  EXPECT_EQ(expected, asked);
+  for (std::size_t set = 0; set < 4; ++set) {
+    const double number = static_cast<double>(set) + 1.0;
+    EXPECT_DOUBLE_EQ(number, reader.data().min_frequency[set].value_or(-1.0));
+    EXPECT_EQ(10.0 * number + 1.0, reader.data().actual_value_1_function[set].value_or(0));
+    EXPECT_EQ(10.0 * number, reader.data().setpoint_1_function[set].value_or(0));
+  }
+  reader.handleOffline();
+  EXPECT_FALSE(reader.motionAsked());
+}
+
+// SK 540E and above, 1x0E and 2xxE: [-01] of an array.
+TEST(DeviceReader, ReadsTheFirstElementWhereTheyAreArrays) {
+  for (const profile::Series series : {profile::Series::kSk54xe, profile::Series::kSk2xxe}) {
+    DeviceReader reader{series};
+    while (const auto request = reader.pollRequest()) {
+      const bool function = request->number == 543 || request->number == 546;
+      reader.handleResult(done(function ? 10 * request->index + request->parameter_set : 0));
+    }
+    for (std::size_t set = 0; set < 4; ++set) {
+      EXPECT_EQ(11 + set, reader.data().actual_value_1_function[set].value_or(0));
+      EXPECT_EQ(11 + set, reader.data().setpoint_1_function[set].value_or(0));
+    }
+    ASSERT_EQ(3u, reader.data().actual_value_functions.size());
+    EXPECT_EQ(31, reader.data().actual_value_functions[2]);
+  }
+}
+
+// BU 0020 6.1.1: eight on SK 300E and 7x0E, twelve on the others.
+TEST(DeviceReader, ReadsTheFunctionsOfTheBusBits) {
+  for (const auto& [series, count] : {std::pair{profile::Series::kSk300e, 8u}, {profile::Series::kSk2xxe, 12u}}) {
+    DeviceReader reader{series};
+    while (const auto request = reader.pollRequest()) {
+      const bool refused = request->number == 480 && request->index == 2;
+      reader.handleResult(refused ? failed(ParameterOutcome::kRefused) : done(request->index));
+    }
+    ASSERT_EQ(count, reader.data().bus_bit_functions.size());
+    EXPECT_EQ(1, reader.data().bus_bit_functions[0]);
+    EXPECT_EQ(kUnknownFunction, reader.data().bus_bit_functions[1]);
+    EXPECT_EQ(3, reader.data().bus_bit_functions[2]);
+  }
+}
+
+// Sixteen questions of three attempts each would keep a drive with a typed P105 from being enabled for a minute.
+TEST(DeviceReader, AsksADeadChannelOnceForEachOfTheOthers) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  int asked = 0;
+  while (!reader.motionAsked()) {
+    ASSERT_TRUE(reader.pollRequest());
+    reader.handleResult(failed(ParameterOutcome::kTimeout));
+    ++asked;
+  }
+  EXPECT_EQ(3 + 15, asked);
 }
 
 // The drive's ramps, last: nothing waits for them. P103 comes in the steps of P102.
@@ -136,8 +215,10 @@ TEST(DeviceReader, ATimeoutIsAskedForAgainARefusalIsLeftOut) {
 // Nothing can be driven without P105: the one that stayed away is asked for again when its owner wants to, alone.
 TEST(DeviceReader, AMaximumFrequencyThatTimedOutCanBeAskedForAgain) {
   DeviceReader reader{profile::Series::kSk5xxe};
-  EXPECT_FALSE(reader.missesMaxFrequency());
+  EXPECT_FALSE(reader.missesMotion());
+  std::size_t requests = 0;
   while (const auto request = reader.pollRequest()) {
+    if (asksForEver(++requests)) break;
     if (request->number == 105 && request->parameter_set == 2) {
       reader.handleResult(failed(ParameterOutcome::kTimeout));
     } else if (request->number == 105 && request->parameter_set == 3) {
@@ -147,7 +228,8 @@ TEST(DeviceReader, AMaximumFrequencyThatTimedOutCanBeAskedForAgain) {
     }
   }
   EXPECT_TRUE(reader.data().complete);
-  ASSERT_TRUE(reader.missesMaxFrequency());
+  ASSERT_TRUE(reader.missesMotion());
+  EXPECT_FALSE(reader.missesMotion(false));
   reader.askMissingAgain();
   EXPECT_TRUE(reader.maxFrequenciesAsked());
   const auto again = reader.pollRequest();
@@ -158,7 +240,23 @@ TEST(DeviceReader, AMaximumFrequencyThatTimedOutCanBeAskedForAgain) {
   reader.handleResult(done(250));
   EXPECT_FALSE(reader.pollRequest());
   EXPECT_DOUBLE_EQ(25.0, *reader.data().max_frequency[1]);
-  EXPECT_FALSE(reader.missesMaxFrequency());
+  EXPECT_FALSE(reader.missesMotion());
+}
+
+// Where P105 was typed in, another one could be a step of the speed; P104 and the functions are asked for all the same.
+TEST(DeviceReader, ATypedMaximumFrequencyIsNotAskedForAgain) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  while (reader.pollRequest()) reader.handleResult(failed(ParameterOutcome::kTimeout));
+  ASSERT_TRUE(reader.missesMotion(false));
+  reader.askMissingAgain(false);
+  for (int i = 0; i < 12; ++i) {
+    const auto request = reader.pollRequest();
+    ASSERT_TRUE(request);
+    EXPECT_NE(105, request->number);
+    reader.handleResult(done(1));
+  }
+  EXPECT_FALSE(reader.pollRequest());
+  EXPECT_EQ(1, reader.data().actual_value_1_function[3].value_or(0));
 }
 
 TEST(DeviceReader, AMaximumFrequencyOfZeroIsNoScale) {
@@ -191,7 +289,9 @@ TEST(DeviceReader, AResultNobodyWaitsForChangesNothing) {
 // A function the drive refuses leaves a gap: the later ones must not move up, or `current` would be another value.
 TEST(DeviceReader, AFunctionThatIsRefusedKeepsItsPlace) {
   DeviceReader reader{profile::Series::kSk5xxe};
+  std::size_t requests = 0;
   while (const auto request = reader.pollRequest()) {
+    if (asksForEver(++requests)) break;
     if (request->number == 544 || request->number == 546) {
       reader.handleResult(failed(ParameterOutcome::kRefused));
     } else {

@@ -76,21 +76,27 @@ class P105Writes : public ::testing::Test, protected CycleBench {
 
 // The device is read beside the write: an answer about the old P105 is no leave to enable before the write has ended.
 TEST_F(P105Writes, NothingIsEnabledOnTheOldOneMeanwhile) {
-  run(30);
+  run(60);
   transport.inverters[kLift].silent = true;
   run(10);
   transport.inverters[kLift].silent = false;
   transport.hold_answers = true;
-  while (transport.submitted.empty()) step();
+  for (int i = 0; transport.submitted.empty(); ++i) {
+    ASSERT_LT(i, 300) << "3 s after its return the drive has not been read again";
+    step();
+  }
   Request request = write(kLift);
   request.id = 4711;
   request.patience = std::chrono::seconds{3};
   ports.submit(request);
-  while (transport.submitted.size() < 2) step();
+  for (int i = 0; transport.submitted.size() < 2; ++i) {
+    ASSERT_LT(i, 300) << "the write asks nothing within its patience of 3 s, beside the reading";
+    step();
+  }
   transport.submitted.pop_back();  // the write's first question stays without an answer
   transport.hold_answers = false;
   transport.answerFirst();
-  run(30);
+  run(60);
   ASSERT_EQ(0u, completions.count(4711));
   ASSERT_TRUE(snapshot().drives[kLift].device.complete);
   EXPECT_FALSE(ask(RequestKind::kEnable, kLift).success);

@@ -75,6 +75,41 @@ TEST(Sentences, AParameterThatCouldNotBeReadSaysWhy) {
   EXPECT_EQ("drive left has too many parameter requests waiting already", parameter(Outcome::kBusy));
 }
 
+TEST(Sentences, AMinimumFrequencyIsRefusedWithWhatToSet) {
+  drive::DriveReport report = onlineReport();
+  report.commanded_set = 2;
+  report.minimum_frequency = Hertz{2.5};
+  EXPECT_STREQ(
+      "drive left: P104 of parameter set 2 is 2.5 Hz: enabled, the motor would turn at that with setpoint 0; set P104 "
+      "to "
+      "0, or allow_minimum_frequency: true",
+      refusalSentence("left", drive::Refusal::kMinimumFrequency, report).c_str());
+}
+
+TEST(Sentences, AFunctionIsRefusedWithWhatToSet) {
+  drive::DriveReport report = onlineReport();
+  report.commanded_set = 4;
+  report.unexpected_function = drive::UnexpectedFunction{546, true, 5, 1};
+  EXPECT_STREQ("drive left: P546 [-01] of parameter set 4 is 5, so that setpoint 1 is not the frequency; set it to 1",
+               refusalSentence("left", drive::Refusal::kUnexpectedFunction, report).c_str());
+}
+
+// BU 0020 6.2.2: parameters are written over a bus only while P509 selects it.
+TEST(Sentences, ARefusedWriteNamesP509) {
+  drive::ParameterTaskResult result;
+  result.outcome = profile::ParameterOutcome::kRefused;
+  result.refused_number = 102;
+  result.error_number = 1;
+  EXPECT_EQ(
+      "drive left refuses P102: error 1, the parameter cannot be changed (it is read-only, or P509 does not select "
+      "this bus)",
+      parameterSentence("left", 102, result).str());
+  result.error_number = 202;
+  EXPECT_THAT(parameterSentence("left", 102, result).str(), ::testing::Not(::testing::HasSubstr("P509")));
+  EXPECT_THAT(parameterSentence("left", 102, result, true).str(),
+              ::testing::HasSubstr("the bus has no control (status bit 9 = 0): does P509 select it?"));
+}
+
 TEST(Sentences, WhatTheSessionAddsIsPassedOn) {
   drive::ParameterTaskResult result;
   result.outcome = profile::ParameterOutcome::kDone;

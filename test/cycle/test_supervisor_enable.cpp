@@ -107,6 +107,22 @@ TEST_F(SupervisorEnable, EnablingWhatIsEnabledIsGranted) {
   EXPECT_TRUE(allEnabled());
 }
 
+// Nothing is begun then: the command is already followed.
+TEST_F(SupervisorEnable, EnablingWhatIsEnabledIsGrantedWhileItDrives) {
+  bringUp();
+  ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  moving = "the newest cmd_vel is not zero";
+  velocity = 3.0;
+  run(5);
+  EXPECT_STREQ("enabled", ask(RequestKind::kEnable).message.c_str());
+  EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);
+  run(5);
+  EXPECT_TRUE(allEnabled());
+  ASSERT_TRUE(ask(RequestKind::kDisable, kLift).success);
+  EXPECT_STREQ("the newest cmd_vel is not zero", ask(RequestKind::kEnable).message.c_str()) << "the lift is not";
+  EXPECT_EQ(drive::Phase::kEnabled, drives[kLeft].report().phase) << "a refusal takes back nothing that was enabled";
+}
+
 TEST_F(SupervisorEnable, AStopDuringTheEnablingEndsItForItsAsker) {
   bringUp();
   request(1, RequestKind::kEnable);

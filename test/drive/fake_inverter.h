@@ -18,11 +18,20 @@ class FakeInverter {
   bool stuck = false;          ///< never leaves "ready to switch on" upwards
   bool endless = false;        ///< never comes down from an OFF1 ramp
   std::int16_t ramp = 0x0400;  ///< per cycle
-  std::int16_t minimum = 0;    ///< P104: what it turns at with setpoint 0
+  std::int16_t minimum = 0;    ///< P104: what it turns at with a setpoint below it, to the right with setpoint 0
+  bool terminals = false;      ///< its digital inputs enable it, whatever the bus says
+  int set_delay = 0;           ///< cycles until it follows another parameter set
 
   /// Takes the telegram; the input is what the inverter says after it.
   profile::ProcessInput exchange(const profile::ProcessOutput& output) {
-    if ((output.control_word & 0x0400) != 0 && !local) obey(output.control_word, output.setpoints[0]);
+    if ((output.control_word & 0x0400) != 0 && !local) {
+      followSet(static_cast<Word>(output.control_word & 0xC000));
+      if (!terminals) obey(output.control_word, output.setpoints[0]);
+    }
+    if (terminals) {
+      low_ = 0x37;
+      rampTo(0x1000, ramp);
+    }
     const bool acknowledge = (output.control_word & 0x0080) != 0;
     if (acknowledge && !acknowledge_ && !cause && fault) {
       fault = false;
@@ -34,16 +43,29 @@ class FakeInverter {
       frequency_ = 0;
     }
     profile::ProcessInput input;
-    input.status_word = static_cast<Word>((local ? 0x0900 : 0x0B00) | low_);
+    input.status_word = static_cast<Word>((local ? 0x0900 : 0x0B00) | low_ | set_);
     input.actual_values[0] = frequency_;
     return input;
   }
+  /// Mains off and on: a fault whose cause is gone is gone.
+  void switchOffAndOn() {
+    fault = cause;
+    low_ = 0x70;
+    set_ = 0;
+    frequency_ = 0;
+  }
   std::int16_t frequency() const { return frequency_; }
+  /// 1 to 4, in force.
+  unsigned parameterSet() const { return (set_ >> 14) + 1u; }
 
  private:
   void rampTo(int target, int step) {
     const int distance = std::clamp(target - frequency_, -step, step);
     frequency_ = static_cast<std::int16_t>(frequency_ + distance);
+  }
+  void followSet(Word wanted) {
+    waited_ = wanted == set_ ? 0 : waited_ + 1;
+    if (waited_ > set_delay) set_ = wanted;
   }
   void obey(Word word, std::int16_t setpoint) {
     const bool running = low_ == 0x37 || low_ == 0x17;
@@ -62,12 +84,15 @@ class FakeInverter {
       } else if (low_ == 0x31 && !stuck) {
         low_ = 0x33;
       } else if (low_ == 0x37) {
-        rampTo(std::abs(int{setpoint}) < minimum ? minimum : setpoint, ramp);
+        const int least = setpoint < 0 ? -minimum : minimum;
+        rampTo(std::abs(int{setpoint}) < minimum ? least : setpoint, ramp);
       }
     }
   }
 
   Word low_ = 0x70;
+  Word set_ = 0;  // bits 14 and 15
+  int waited_ = 0;
   bool acknowledge_ = false;
   std::int16_t frequency_ = 0;
 };

@@ -99,7 +99,11 @@ TEST_F(DriveTest, StopsTheInverterThatFollowsTooLate) {
   start();
   drive_.requestEnable(now_);
   cycle(0x0B31);
-  while (report().phase == Phase::kEnabling) cycle(0x0B33);
+  const Instant begin = now_;
+  while (report().phase == Phase::kEnabling) {
+    ASSERT_LT(now_ - begin, seconds(1.0)) << "enable_timeout does not end the enabling";
+    cycle(0x0B33);
+  }
   EXPECT_EQ(Refusal::kEnableTimeout, report().refusal);
   for (const Word late : {Word{0x0B33}, Word{0x0B37}, Word{0x0B37}}) {
     EXPECT_EQ(0x047E, cycle(late, 0x0800));

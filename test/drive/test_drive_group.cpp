@@ -238,7 +238,8 @@ TEST_F(DriveGroupTest, LetsALongRampEndWhenOneTrips) {
   left_inverter_.ramp = 0x0080;  // 64 cycles, twice standstill_timeout
   right_inverter_.fault = true;
   cycle();
-  while (left_inverter_.frequency() > 0x0100) {
+  for (int i = 0; left_inverter_.frequency() > 0x0100; ++i) {
+    ASSERT_LT(i, 100) << "the left one is not braked: it turns at " << left_inverter_.frequency();
     ASSERT_EQ(GroupPhase::kHalting, group_.report().phase) << left_inverter_.frequency();
     ASSERT_EQ(0x047F, leftWord());
     cycle();
@@ -253,7 +254,8 @@ TEST_F(DriveGroupTest, BoundsTheWayDownWhenOneTrips) {
   right_inverter_.fault = true;
   cycle();
   EXPECT_EQ(100, cyclesUntil(GroupPhase::kStopping, 200)) << "shutdown_timeout";
-  while (left_inverter_.frequency() > 0) {
+  for (int i = 0; left_inverter_.frequency() > 0; ++i) {
+    ASSERT_LT(i, 200) << "OFF1 does not end: the left one turns at " << left_inverter_.frequency();
     cycle();
     ASSERT_EQ(0x047E, leftWord());
   }

@@ -120,6 +120,24 @@ TEST_F(FaultReaderTest, ReadsAnewWhatComesBackWithAFault) {
   EXPECT_EQ(65535, reader_.number());
 }
 
+// Mains off and on takes a fault away without a status word that says so.
+TEST_F(FaultReaderTest, ForgetsTheFaultOfAnInverterThatComesBackHealthy) {
+  status(0x0B38);
+  EXPECT_EQ(1, poll());
+  answer(21);
+  reader_.handleOffline();
+  EXPECT_EQ(21, reader_.number()) << "the last one, until it says something else";
+  status(0x0B31);
+  EXPECT_EQ(0, reader_.number());
+  EXPECT_EQ(21, reader_.lastNumber());
+  EXPECT_EQ(0, poll(seconds(5.0)));
+  status(0x0B38);  // this one is never read
+  reader_.handleOffline();
+  status(0x0B31);
+  EXPECT_EQ(0, reader_.number());
+  EXPECT_EQ(65535, reader_.lastNumber());
+}
+
 // P700 [-03], only when asked for, and not again where the firmware has none (before V1.9, BU 0020 8).
 TEST_F(FaultReaderTest, ReadsTheReasonOnRequest) {
   status(0x0B70);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <vector>
 
 #include "link/fake_serial_system.h"
@@ -14,6 +15,7 @@ namespace nord_driver::link {
 class PortFixture : public ::testing::Test {
  protected:
   using Bytes = FakeSerialSystem::Bytes;
+  static constexpr int kMostReads = 100'000;
 
   SerialPort makePort() { return SerialPort{settings, system}; }
 
@@ -21,7 +23,11 @@ class PortFixture : public ::testing::Test {
   Bytes everything(SerialPort& port, std::size_t capacity = 64) {
     Bytes all;
     Bytes buffer(capacity);
-    while (port.waitReadable(port.now() + std::chrono::milliseconds{1})) {
+    for (int reads = 0; port.waitReadable(port.now() + std::chrono::milliseconds{1}); ++reads) {
+      if (reads == kMostReads) {
+        ADD_FAILURE() << "the port is readable for ever: " << all.size() << " bytes by " << reads << " reads";
+        break;
+      }
       const std::size_t count = port.read(buffer.data(), buffer.size());
       all.insert(all.end(), buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(count));
     }

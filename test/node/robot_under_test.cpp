@@ -8,10 +8,10 @@
 #include <cmath>
 #include <cstdio>
 #include <ostream>
-#include <utility>
 
 #include "nord_driver/ReadParameter.h"
 #include "nord_driver/SimTrip.h"
+#include "support/second_try.h"
 
 namespace nord_driver::test {
 
@@ -20,7 +20,6 @@ namespace {
 constexpr double kCommandPeriod = 0.02;  // s
 constexpr double kWheelRadius = 0.1;     // m, robot.yaml
 constexpr double kStandstill = 1e-3;     // m/s
-constexpr int kAttempts = 3;
 const Seconds kMoment{0.5 * timeFactor()};
 
 /// Whether a drive has been lost since this was made: to the driver, or the drive its master.
@@ -63,9 +62,7 @@ RobotUnderTest::RobotUnderTest(ros::NodeHandle node)
   const auto publish = [this](const ros::SteadyTimerEvent&) {
     const std::lock_guard<std::mutex> lock(command_mutex_);
     if (!commanding_) return;
-    const ros::Time now = ros::Time::now();
-    if (!last_command_.isZero()) longest_pause_ = std::max(longest_pause_, (now - last_command_).toSec());
-    last_command_ = now;
+    last_command_ = ros::Time::now();
     command_publisher_.publish(command_);
   };
   command_timer_ = node.createSteadyTimer(ros::WallDuration(kCommandPeriod), publish);
@@ -138,12 +135,6 @@ ros::Time RobotUnderTest::silence() {
 ros::Time RobotUnderTest::lastCommand() const {
   const std::lock_guard<std::mutex> lock(command_mutex_);
   return last_command_;
-}
-
-Seconds RobotUnderTest::longestPause() {
-  const std::lock_guard<std::mutex> lock(command_mutex_);
-  const double now = (ros::Time::now() - last_command_).toSec();
-  return Seconds{std::max(std::exchange(longest_pause_, 0.0), now)};
 }
 
 bool RobotUnderTest::waitForDrivesOnline(Seconds limit) {
@@ -228,19 +219,23 @@ void RobotTest::switchDrivesOffAndOn() {
 }
 
 void RobotTest::enableAndDrive(double linear) {
-  for (int attempt = 1;; ++attempt) {
+  std::string missing;
+  const auto attempt = [&] {
     const DriveLoss left(robot().left), right(robot().right);
     const auto lost = [&] { return left.happened() || right.happened(); };
-    const std::string missing = tryToDrive(linear, lost);
-    if (missing.empty()) return;
-    ASSERT_TRUE(lost() && attempt < kAttempts) << missing;
-    std::fprintf(stderr, "a drive was lost before the test had begun: %s; once more\n", missing.c_str());
+    missing = tryToDrive(linear, lost);
+    if (!missing.empty() && lost()) missing += "; a drive was lost";
+  };
+  const auto prepare = [] {
     robot().drive(0.0);
     ASSERT_TRUE(robot().waitForDrivesOnline());
     ASSERT_TRUE(robot().waitForStandstill());
     Answer answer;
     ASSERT_TRUE(eventually([&] { return (answer = robot().trigger("acknowledge_faults")).success; })) << answer;
-  }
+  };
+  tryAgainOnlyIfStoodStill(
+      0.5 * driveTimeout(), attempt, [&] { return missing.empty(); }, prepare);
+  ASSERT_EQ(missing, "");
 }
 
 std::string RobotTest::tryToDrive(double linear, const std::function<bool()>& lost) {
@@ -281,19 +276,23 @@ Seconds commandTimeout() {
   return Seconds{ros::param::param("nord_driver/cmd_vel_timeout", 0.5)};
 }
 
+Seconds driveTimeout() {
+  const double three_cycles = 3.0 / ros::param::param("nord_driver/cycle_rate", 100.0);
+  return Seconds{ros::param::param("nord_driver/drive_timeout", std::max(three_cycles, 0.05))};
+}
+
 Answer askUnderCommand(const std::function<ros::Time()>& last_command, const std::function<Answer()>& ask,
                        const std::function<void()>& take_back, const std::function<void()>& begin) {
-  const double fresh = 0.5 * commandTimeout().count();
-  for (int attempt = 1;; ++attempt) {
+  const double just_now = 0.05 * commandTimeout().count();
+  Answer answer;
+  const auto attempt = [&] {
     begin();
-    EXPECT_TRUE(eventually([&] { return (ros::Time::now() - last_command()).toSec() < 0.1 * fresh; })) << "no commands";
-    const ros::Time last = last_command();
-    const Answer answer = ask();
-    const double age = (ros::Time::now() - last).toSec();
-    if (!answer.success || age < fresh || attempt == kAttempts) return answer;
-    std::fprintf(stderr, "the command may have been %.3f s old when it was asked; once more\n", age);
-    take_back();
-  }
+    EXPECT_TRUE(eventually([&] { return (ros::Time::now() - last_command()).toSec() < just_now; })) << "no commands";
+    answer = ask();
+  };
+  tryAgainOnlyIfStoodStill(
+      0.5 * commandTimeout(), attempt, [&] { return !answer.success; }, take_back);
+  return answer;
 }
 
 bool onCanopen() {

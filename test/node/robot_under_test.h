@@ -71,8 +71,6 @@ class RobotUnderTest {
   /// No more commands; when the last one went out.
   ros::Time silence();
   ros::Time lastCommand() const;
-  /// The longest pause between two commands since this was asked last, or since they began.
-  Seconds longestPause();
 
   bool waitForDrivesOnline(Seconds limit = kPatience);
   /// Both drives "ready to switch on", in words of the driver and in truth.
@@ -101,7 +99,6 @@ class RobotUnderTest {
   bool commanding_ = false;
   geometry_msgs::Twist command_;
   ros::Time last_command_;
-  double longest_pause_ = 0.0;  // s
   ros::SteadyTimer command_timer_;
 };
 
@@ -115,8 +112,8 @@ class RobotTest : public ::testing::Test {
   void startDriver();
   /// Ends it cleanly: the drives at rest and without a fault.
   void endDriver();
-  /// ~enable and a steady speed forward, the ramp behind it. Up to three times where this machine stood still for so
-  /// long that a drive was lost on the way: what a test proves comes after it.
+  /// ~enable and a steady speed forward, the ramp behind it: what a test proves comes after it. Tried again where the
+  /// machine stood still for so long that a drive may have been lost (support/second_try.h).
   void enableAndDrive(double linear);
   /// What ~enable answers while the robot's command is fresh.
   Answer enableUnderCommand(const std::function<void()>& begin = [] {});
@@ -137,9 +134,12 @@ class RobotTest : public ::testing::Test {
 /// cmd_vel_timeout of the driver.
 Seconds commandTimeout();
 
-/// What `ask` answers while a command is fresh that was published last at `last_command()`. Where none went out for so
-/// long that the driver may have taken it for old, what was granted is taken back and asked for again, up to three
-/// times; `begin` comes before each.
+/// drive_timeout of the driver.
+Seconds driveTimeout();
+
+/// What `ask` answers to while a command stands that was published last at `last_command()`: it must refuse. Where the
+/// machine stood still for so long that the command may have been too old, what was granted is taken back and asked for
+/// again (support/second_try.h); `begin` comes before each.
 Answer askUnderCommand(
     const std::function<ros::Time()>& last_command, const std::function<Answer()>& ask,
     const std::function<void()>& take_back, const std::function<void()>& begin = [] {});

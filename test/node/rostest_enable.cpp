@@ -87,11 +87,14 @@ TEST_F(Enable, IsAllowedOnceTheCommandIsOlderThanItsTimeout) {
 // Trap of status bit 9: the terminals may turn the wheel.
 TEST_F(Enable, IsRefusedUnderLocalControl) {
   ASSERT_TRUE(robot().simulator("left/local_control", true).success);
-  ASSERT_TRUE(robot().left.status.waitNext([](const DriveStatus& status) { return !status.bus_control; }));
+  ASSERT_TRUE(
+      robot().left.status.waitNext([](const DriveStatus& status) { return status.online && !status.bus_control; }));
   const Answer answer = robot().enable(true);
   EXPECT_FALSE(answer.success);
   EXPECT_THAT(answer.message, AllOf(HasSubstr("drive left"), HasSubstr("local control")));
   expectNothingMoved();
+  const auto warned = [](int level, const std::string&) { return level == diagnostic_msgs::DiagnosticStatus::WARN; };
+  EXPECT_THAT(robot().waitForDiagnostics("drive left", warned), HasSubstr("drive left is under local control"));
 
   ASSERT_TRUE(robot().simulator("left/local_control", false).success);
   ASSERT_TRUE(robot().left.status.waitNext([](const DriveStatus& status) { return status.bus_control != 0; }));

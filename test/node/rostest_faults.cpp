@@ -124,6 +124,30 @@ TEST_F(Faults, AFaultThatVanishesByItselfStaysLatched) {
   enableAndDrive(0.3);
 }
 
+// Nobody saw the fault bit fall: the drive was off. It is latched all the same, and told no longer.
+TEST_F(Faults, AFaultThatMainsOffAndOnTookAwayIsNoErrorAnyMore) {
+  ASSERT_TRUE(robot().trip("left", kMotorHot, true).success);
+  ASSERT_TRUE(robot().left.status.waitNext([](const DriveStatus& status) { return status.fault_number == kMotorHot; }));
+  EXPECT_TRUE(robot().waitForStandstill());
+  robot().drive(0.0);
+  ASSERT_TRUE(robot().simulator("left/unplug", true).success);
+  const auto gone = robot().left.status.waitNext([](const DriveStatus& status) { return status.online == 0; });
+  ASSERT_TRUE(gone);
+  EXPECT_EQ(gone->fault_number, kMotorHot) << "the last one";
+  EXPECT_FALSE(gone->fault || gone->ready_to_switch_on || gone->operation_enabled || gone->bus_control);
+  ASSERT_TRUE(robot().clearCause("left").success);
+  ASSERT_TRUE(robot().simulator("left/unplug", false).success);
+  EXPECT_TRUE(robot().left.status.waitNext(
+      [](const DriveStatus& status) { return status.online != 0 && status.fault_number == 0; }));
+  EXPECT_THAT(refusalOfEnable(), HasSubstr("has not been acknowledged"));
+  const Answer answer = robot().trigger("acknowledge_faults");
+  EXPECT_TRUE(answer.success) << answer;
+  enableAndDrive(0.3);
+  EXPECT_EQ(robot().left.status.next()->fault_number, 0) << "while it drives";
+  const auto no_error = [](int level, const std::string& message) { return !isError(level, message); };
+  EXPECT_NE(robot().waitForDiagnostics("drive left", no_error), "");
+}
+
 // Nothing to acknowledge is no failure, and does not disturb a robot that drives.
 TEST_F(Faults, AcknowledgingWithoutAFaultSucceedsAndStopsNothing) {
   const std::size_t from = robot().left.truth.mark();

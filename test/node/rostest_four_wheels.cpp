@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "node/robot_under_test.h"
+#include "support/second_try.h"
 
 namespace nord_driver::test {
 namespace {
@@ -119,17 +120,13 @@ class FourWheels : public ::testing::Test {
     command.angular.z = turn;
     return command;
   }
-  /// Drives until the pose told is `far_enough` from where it began, and comes to rest. While the simulator is kept
-  /// from running its wheels stand still and the driver's sums go on: a leg that does not fit is driven again.
+  /// Drives until the pose told is `far_enough` from where it began, and comes to rest. The models of a simulator that
+  /// is kept from running for longer stand still (sim/model_clock.h) and the driver's sums go on.
   void driveLeg(const geometry_msgs::Twist& command, const std::function<bool(const Pose&)>& far_enough,
                 const std::function<bool(const Leg&)>& fits, Leg& leg) {
-    constexpr int kDrives = 3;
-    for (int count = 1; count <= kDrives; ++count) {
-      ASSERT_NO_FATAL_FAILURE(driveOnce(command, far_enough, leg));
-      if (fits(leg)) return;
-      std::fprintf(stderr, "drive %d of %d: told %.3f m, %.3f m, %.3f rad; is %.3f m, %.3f m, %.3f rad\n", count,
-                   kDrives, leg.told.x, leg.told.y, leg.told.heading, leg.is.x, leg.is.y, leg.is.heading);
-    }
+    constexpr Seconds kModelsStandStill{0.02};
+    tryAgainOnlyIfStoodStill(
+        kModelsStandStill, [&] { driveOnce(command, far_enough, leg); }, [&] { return fits(leg); });
   }
   void driveOnce(const geometry_msgs::Twist& command, const std::function<bool(const Pose&)>& far_enough, Leg& leg) {
     Pose told, is;

@@ -107,7 +107,8 @@ TEST_F(SetSwitch, IsRefusedWhileTheDrivesAreEnabled) {
 TEST_F(SetSwitch, IsRefusedUnderLocalControl) {
   disable();
   ASSERT_TRUE(robot().simulator("left/local_control", true).success);
-  ASSERT_TRUE(robot().left.status.waitNext([](const DriveStatus& status) { return !status.bus_control; }));
+  ASSERT_TRUE(
+      robot().left.status.waitNext([](const DriveStatus& status) { return status.online && !status.bus_control; }));
   const Answer answer = select("left", 2);
   EXPECT_FALSE(answer.success);
   EXPECT_THAT(answer.message, AllOf(HasSubstr("drive left"), HasSubstr("local control")));

@@ -6,6 +6,7 @@
 
 #include "node/robot_under_test.h"
 #include "nord_driver/DeviceInfo.h"
+#include "support/second_try.h"
 
 namespace nord_driver::test {
 namespace {
@@ -134,16 +135,15 @@ TEST_F(StartUp, EnabledItFollowsCommandsAndDisabledItRests) {
   EXPECT_TRUE(robot().left.truth.next()->operation_enabled);
   EXPECT_TRUE(robot().right.truth.next()->operation_enabled);
 
-  // While the simulator is kept from running its wheels stand still and odometry goes on: then it is driven again.
-  constexpr int kDrives = 3;
-  constexpr double kFits =
-      0.03;  // m: the motors slip, and at the moments of speeding up and braking a cycle is a cycle
+  // The models of a simulator that is kept from running for longer stand still (sim/model_clock.h), and odometry goes
+  // on.
+  constexpr Seconds kModelsStandStill{0.02};
+  // m: the motors slip, and at the moments of speeding up and braking a cycle is a cycle
+  constexpr double kFits = 0.03;
   double seen = 0.0, is = 0.0, aside = 0.0;
-  for (int count = 1; count <= kDrives; ++count) {
-    ASSERT_NO_FATAL_FAILURE(driveAndStop(0.2, seen, is, aside));
-    if (std::fabs(is - seen) < kFits) break;
-    std::fprintf(stderr, "drive %d of %d: odometry %.3f m, truth %.3f m\n", count, kDrives, seen, is);
-  }
+  tryAgainOnlyIfStoodStill(
+      kModelsStandStill, [&] { driveAndStop(0.2, seen, is, aside); }, [&] { return std::fabs(is - seen) < kFits; });
+  ASSERT_FALSE(HasFatalFailure());
   EXPECT_GT(is, 0.2);
   EXPECT_NEAR(is, seen, kFits);
   EXPECT_NEAR(aside, 0.0, 0.03);

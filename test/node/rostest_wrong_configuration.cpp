@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "node/robot_under_test.h"
+#include "support/second_try.h"
 
 namespace nord_driver::test {
 namespace {
@@ -20,6 +21,7 @@ using ::testing::StartsWith;
 using XmlRpc::XmlRpcValue;
 
 constexpr Seconds kLongestLife{5.0};
+constexpr Seconds kHoldsUpAStart{1.0};
 
 /// Everything below "/<node>/" that the master knows: publications, subscriptions and services, but for what every
 /// roscpp node has.
@@ -125,11 +127,10 @@ TEST_P(WrongConfiguration, EndsTheNodeWithASentence) {
 
   std::unique_ptr<NodeProcess> driver;
   std::vector<std::string> advertised;
-  auto end = runToItsEnd(name, driver, advertised);
-  if (!end) {  // the machine may have held it up; not twice
-    std::fprintf(stderr, "still runs, and is started once more: %s\n", driver->errorText().c_str());
-    end = runToItsEnd(name, driver, advertised);
-  }
+  std::optional<NodeProcess::End> end;
+  const auto attempt = [&] { end = runToItsEnd(name, driver, advertised); };
+  tryAgainOnlyIfStoodStill(
+      kHoldsUpAStart, attempt, [&] { return end.has_value(); }, [&] { driver.reset(); });
   ASSERT_TRUE(end) << "still runs: " << driver->errorText();
   EXPECT_EQ(end->signal, 0);
   EXPECT_EQ(end->exit_code, 1);

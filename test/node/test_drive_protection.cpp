@@ -8,6 +8,7 @@ namespace nord_driver::node {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 using Level = ProtectionReport::Level;
 
@@ -35,8 +36,9 @@ cycle::DeviceData behindModule(std::optional<double> p151, std::optional<std::in
   return device;
 }
 
-ProtectionReport assess(const DriveIdentity& identity, const cycle::DeviceData& device, double cmd_vel_timeout = 0.5) {
-  return DriveProtection{identity, seconds(cmd_vel_timeout), seconds(0.01)}.assess(device);
+ProtectionReport assess(const DriveIdentity& identity, const cycle::DeviceData& device, double cmd_vel_timeout = 0.5,
+                        profile::Series series = profile::Series::kSk2xxe) {
+  return DriveProtection{identity, series, seconds(cmd_vel_timeout), seconds(0.01)}.assess(device);
 }
 
 // BU 2700 7.1.1: with 0 the inverter trips on a lost master, with -0.1 it runs on in every case.
@@ -49,13 +51,21 @@ TEST(DriveProtection, P513OfMinusOneTenthRunsOn) {
   EXPECT_EQ(Level::kError, assess(identity(TimeoutOwner::kModule), withP513(-0.1)).level);
 }
 
-TEST(DriveProtection, WhatCouldNotBeReadIsSaidToBeUnknown) {
+// It may be -0.1: nobody knows whether this drive stops.
+TEST(DriveProtection, WhatCouldNotBeReadIsWarnedAbout) {
   const ProtectionReport inverter = assess(identity(), withP513(std::nullopt));
-  EXPECT_EQ(Level::kFine, inverter.level);
+  EXPECT_EQ(Level::kWarning, inverter.level);
   EXPECT_THAT(inverter.text, HasSubstr("P513, which can switch this off, is not known"));
   const ProtectionReport module = assess(identity(TimeoutOwner::kModule), withP513(0.0));
   EXPECT_THAT(module.text, HasSubstr("P151 of the bus module, which can switch this off, is not known"));
   EXPECT_THAT(module.text, HasSubstr("P120, by which the inverter watches its bus module, is not known"));
+}
+
+// Before everything has been asked for, "not known" would be no news.
+TEST(DriveProtection, WhatHasNotBeenAskedForYetIsNoWarning) {
+  cycle::DeviceData device;
+  EXPECT_EQ(Level::kFine, assess(identity(), device).level);
+  EXPECT_EQ(Level::kFine, assess(identity(TimeoutOwner::kModule), device).level);
 }
 
 // Modules SK CU4/TU4: P151 of the module, P120 of the inverter (BU 2700 8.1).
@@ -70,6 +80,29 @@ TEST(DriveProtection, BehindAModuleP151AndP120Decide) {
   const ProtectionReport unwatched = assess(module, behindModule(0.0, 0));
   EXPECT_EQ(Level::kWarning, unwatched.level);
   EXPECT_THAT(unwatched.text, HasSubstr("P120 = 0"));
+}
+
+// SK 511E to 535E behind SK CU4/TU4 watch the system bus by P513 and have no P120; SK 54xE have it (BU 2700 8.1).
+TEST(DriveProtection, BehindAModuleSk5xxeWatchesItByP513) {
+  const auto assess5xxe = [](std::optional<double> p513) {
+    cycle::DeviceData device = withP513(p513);
+    device.module_timeout = 0.3;
+    return assess(identity(TimeoutOwner::kModule), device, 0.5, profile::Series::kSk5xxe);
+  };
+  const ProtectionReport fine = assess5xxe(0.5);
+  EXPECT_EQ(Level::kFine, fine.level) << fine.text;
+  EXPECT_THAT(fine.text, Not(HasSubstr("P120")));
+  const ProtectionReport off = assess5xxe(0.0);
+  EXPECT_EQ(Level::kWarning, off.level);
+  EXPECT_THAT(off.text, HasSubstr("P513 = 0: the inverter does not notice a bus module that fails"));
+  EXPECT_THAT(off.text, Not(HasSubstr("P120")));
+  EXPECT_EQ(Level::kError, assess5xxe(-0.1).level);
+  const ProtectionReport unknown = assess5xxe(std::nullopt);
+  EXPECT_EQ(Level::kWarning, unknown.level);
+  EXPECT_THAT(unknown.text, HasSubstr("P513, by which the inverter watches its bus module, is not known"));
+  const ProtectionReport sk54xe =
+      assess(identity(TimeoutOwner::kModule), behindModule(0.3, 0), 0.5, profile::Series::kSk54xe);
+  EXPECT_THAT(sk54xe.text, HasSubstr("P120 = 0"));
 }
 
 // A bus without a watchdog of its own leaves all to the drive's time-out.

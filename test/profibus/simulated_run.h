@@ -27,9 +27,12 @@ class SimulatedRun {
     const Instant begin = segment.now();
     std::uint8_t buffer[256];
     master.startCycle(begin);
+    std::size_t telegrams = 0;
     while (!master.cycleDone()) {
+      ASSERT_LT(segment.now(), begin + std::chrono::seconds{10}) << "the cycle does not end";
       const ByteView telegram = master.pollTransmit(segment.now());
       if (!telegram.empty()) {
+        ASSERT_LT(++telegrams, 100'000u) << "the cycle sends for ever";
         segment.write(telegram);
         continue;
       }

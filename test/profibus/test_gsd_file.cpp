@@ -121,9 +121,151 @@ TEST(GsdFile, OfNothing) {
   EXPECT_EQ("1: no #Profibus_DP: this may be no GSD file\n1: no Ident_Number\n", problems(parseGsd("")));
 }
 
+// What an engineering tool would offer: its defaults lie over the constant bytes (EN 50170-8, Ext_User_Prm_Data_Ref).
+constexpr const char* kReferences = R"(#Profibus_DP
+Ident_Number = 1
+ExtUserPrmData = 1 "Supply"
+Bit(3) 1 0-1
+Prm_Text_Ref = 7
+EndExtUserPrmData
+ExtUserPrmData = 2 "Filter"
+BitArea(4-6) 5 0-7
+EndExtUserPrmData
+ExtUserPrmData = 3 "Unit"
+Unsigned8 0x2A 0-255
+EndExtUserPrmData
+extuserprmdata = 0x04 "Limit"
+UNSIGNED16 1000 0-2000
+EndExtUserPrmData
+ExtUserPrmData = 5 "Offset"
+Signed16 -2 -100-100
+EndExtUserPrmData
+ExtUserPrmData = 6 "Mask"
+Unsigned32 4042322160 0-4294967295
+EndExtUserPrmData
+ExtUserPrmData = 7 "Off"
+Bit ( 0 ) 0 0-1
+EndExtUserPrmData
+ExtUserPrmData = 8 "Trim"
+Signed8 -1 -128-127
+EndExtUserPrmData
+ExtUserPrmData = 9 "Way"
+Signed32 -2 -10,-2,0,5
+EndExtUserPrmData
+PrmText = 7
+Text(0) = "off"
+EndPrmText
+)";
+
+std::string stationParameters(const std::string& lines) {
+  const GsdFile file = parseGsd(kReferences + lines);
+  EXPECT_EQ("", problems(file)) << lines;
+  return toHex(file.user_parameters);
+}
+
+TEST(GsdFile, DefaultsLieOverTheConstantBytes) {
+  EXPECT_EQ("80 FF 2A FF", stationParameters("Ext_User_Prm_Data_Const(0) = 0x80,0xFF,0xFF,0xFF\n"
+                                             "Ext_User_Prm_Data_Ref(2) = 3\n"));
+  EXPECT_EQ("00 03 E8", stationParameters("Ext_User_Prm_Data_Const(0) = 0,0,0\nExt_User_Prm_Data_Ref(1) = 4\n"))
+      << "high byte first";
+  EXPECT_EQ("FF FE", stationParameters("Ext_User_Prm_Data_Ref(0) = 5\n")) << "nothing below: zeros";
+  EXPECT_EQ("F0 F0 F0 F0", stationParameters("Ext_User_Prm_Data_Ref(0) = 6\n"));
+  EXPECT_EQ("FF FF FF FE FF", stationParameters("Ext_User_Prm_Data_Ref(0) = 9\nExt_User_Prm_Data_Ref(4) = 8\n"));
+  EXPECT_EQ("2A 00", stationParameters("Ext_User_Prm_Data_Ref(0) = 3\nExt_User_Prm_Data_Const(0) = 0,0\n"))
+      << "the reference wins wherever it stands";
+}
+
+// Of a byte only the bits of the field are replaced.
+TEST(GsdFile, BitsAreLaidIntoTheirByte) {
+  EXPECT_EQ("08", stationParameters("Ext_User_Prm_Data_Ref(0) = 1\n"));
+  EXPECT_EQ("D8", stationParameters("Ext_User_Prm_Data_Const(0) = 0x80\n"
+                                    "Ext_User_Prm_Data_Ref(0) = 1\nExt_User_Prm_Data_Ref(0) = 2\n"));
+  EXPECT_EQ("DE", stationParameters("Ext_User_Prm_Data_Const(0) = 0xFF\n"
+                                    "Ext_User_Prm_Data_Ref(0) = 2\nExt_User_Prm_Data_Ref(0) = 7\n"));
+}
+
+TEST(GsdFile, EveryModuleHasItsOwnDefaults) {
+  const GsdFile file = parseGsd(std::string{kReferences} +
+                                "Ext_User_Prm_Data_Const(0) = 0x80\n"
+                                "Module = \"A\" 0x10\n"
+                                "1\n"
+                                "Ext_Module_Prm_Data_Len = 4\n"
+                                "Ext_User_Prm_Data_Const(0) = 0x01,0x02\n"
+                                "Ext_User_Prm_Data_Ref(1) = 3\n"
+                                "EndModule\n"
+                                "Module = \"B\" 0x20\n"
+                                "2\n"
+                                "Ext_User_Prm_Data_Ref(0) = 4\n"
+                                "EndModule\n");
+  EXPECT_EQ("", problems(file));
+  EXPECT_EQ("80", toHex(file.user_parameters));
+  EXPECT_EQ("01 2A 00 00", toHex(file.module("A")->user_parameters)) << "filled up to Ext_Module_Prm_Data_Len";
+  EXPECT_EQ("03 E8", toHex(file.module("B")->user_parameters));
+}
+
+// A definition may stand behind its first use.
+TEST(GsdFile, DefinitionsCountWhereverTheyStand) {
+  const GsdFile file = parseGsd(
+      "#Profibus_DP\nIdent_Number=1\nExt_User_Prm_Data_Ref(0)=1\nExtUserPrmData=1 \"x\"\nUnsigned8 7 0-9\n"
+      "EndExtUserPrmData\n");
+  EXPECT_EQ("", problems(file));
+  EXPECT_EQ("07", toHex(file.user_parameters));
+}
+
+TEST(GsdFile, ReferencesThatCannotBeFollowedAreNamed) {
+  const GsdFile file = parseGsd(
+      "#Profibus_DP\n"
+      "Ident_Number=1\n"
+      "ExtUserPrmData=1 \"a\"\n"
+      "Float 1 0-9\n"
+      "EndExtUserPrmData\n"
+      "ExtUserPrmData=2 \"b\"\n"
+      "Unsigned8 300 0-300\n"
+      "EndExtUserPrmData\n"
+      "ExtUserPrmData=3 \"c\"\n"
+      "Bit(9) 1 0-1\n"
+      "EndExtUserPrmData\n"
+      "ExtUserPrmData=4 \"d\"\n"
+      "Unsigned8\n"
+      "EndExtUserPrmData\n"
+      "ExtUserPrmData=\"e\"\n"
+      "Unsigned8 1 0-1\n"
+      "EndExtUserPrmData\n"
+      "ExtUserPrmData=6 \"f\"\n"
+      "Unsigned16 1 0-1\n"
+      "EndExtUserPrmData\n"
+      "ExtUserPrmData=7 \"g\"\n"
+      "EndExtUserPrmData\n"
+      "Ext_User_Prm_Data_Const(0)=1\n"
+      "Ext_User_Prm_Data_Ref(0)=1\n"
+      "Ext_User_Prm_Data_Ref(0)=99\n"
+      "Ext_User_Prm_Data_Ref(236)=6\n"
+      "Ext_User_Prm_Data_Ref=6\n");
+  EXPECT_EQ(
+      "4: ExtUserPrmData 1: \"Float 1 0-9\" is no data type and default of a parameter\n"
+      "7: ExtUserPrmData 2: the default 300 does not fit into Unsigned8\n"
+      "10: ExtUserPrmData 3: \"Bit(9) 1 0-1\" is no data type and default of a parameter\n"
+      "13: ExtUserPrmData 4: \"Unsigned8\" is no data type and default of a parameter\n"
+      "15: ExtUserPrmData without a number\n"
+      "27: Ext_User_Prm_Data_Ref needs (offset) = number, in 237 bytes at most\n"
+      "24: Ext_User_Prm_Data_Ref names ExtUserPrmData 1, which gives no default: the constant bytes are kept\n"
+      "25: Ext_User_Prm_Data_Ref names ExtUserPrmData 99, which gives no default: the constant bytes are kept\n"
+      "26: Ext_User_Prm_Data_Ref needs (offset) = number, in 237 bytes at most\n",
+      problems(file));
+  EXPECT_EQ("01", toHex(file.user_parameters));
+}
+
+// As editors on Windows save it: three bytes before the text.
+TEST(GsdFile, AByteOrderMarkIsNoPartOfTheText) {
+  const GsdFile file = parseGsd("\xEF\xBB\xBF#Profibus_DP\r\nIdent_Number=0x7531\r\n");
+  EXPECT_EQ("", problems(file));
+  EXPECT_EQ(0x7531, file.ident_number.value_or(0));
+}
+
 // However a file is cut, it is read to its end, and every problem names a line of it.
 RC_GTEST_PROP(GsdFile, CutAnywhere, ()) {
-  const std::string whole = kGsd0ba8;
+  const std::string whole =
+      std::string{kReferences} + "Ext_User_Prm_Data_Ref(1)=4\nExt_User_Prm_Data_Ref(0)=2\n" + kGsd0ba8;
   const auto cut = *rc::gen::inRange<std::size_t>(0, whole.size());
   auto text = whole.substr(0, cut);
   if (!text.empty()) text[*rc::gen::inRange<std::size_t>(0, text.size())] = *rc::gen::arbitrary<char>();

@@ -23,7 +23,8 @@ struct Adapter : SimulatedRun {
     return slaves;
   }
   Adapter() : SimulatedRun(bus(), slaves()) {
-    while (!allExchange()) cycle(kPeriod);
+    for (int cycles = 0; !allExchange() && cycles < 200; ++cycles) cycle(kPeriod);
+    EXPECT_TRUE(allExchange()) << "200 cycles after the start not all slaves exchange data";
   }
   void loseFor(Duration span) {  // not even its receiver works
     segment.drive(0).setPlugged(false);

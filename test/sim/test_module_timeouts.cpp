@@ -11,7 +11,7 @@ const char* const kStandby = "047E 0000 047E 0000";
 const char* const kDriving = "047F 2000 047F 2000";
 const char* const kInvalid = "0000 0000 0000 0000";
 
-SimConfig twoInverters(std::int32_t p151) {
+SimConfig twoInverters(std::int32_t p151, std::int32_t p513 = 0) {
   SimConfig config = oneModule(2);
   for (DriveConfig& drive : config.drives) {
     ParameterPreset acknowledge_input;  // else 047F becoming 047E would acknowledge (BU 0020 8)
@@ -19,6 +19,10 @@ SimConfig twoInverters(std::int32_t p151) {
     acknowledge_input.element = 2;
     acknowledge_input.raw = 12;
     drive.parameters.push_back(acknowledge_input);
+    ParameterPreset telegram_timeout;
+    telegram_timeout.number = 513;
+    telegram_timeout.raw = p513;
+    drive.parameters.push_back(telegram_timeout);
   }
   ModuleConfig module;
   module.settings.address = 8;
@@ -32,7 +36,8 @@ SimConfig twoInverters(std::int32_t p151) {
 
 class DrivingModule {
  public:
-  explicit DrivingModule(std::int32_t p151, unsigned watchdog_factor = 20) : bus{twoInverters(p151)} {
+  explicit DrivingModule(std::int32_t p151, unsigned watchdog_factor = 20, std::int32_t p513 = 0)
+      : bus{twoInverters(p151, p513)} {
     bus.startUpModule({0x00, 0xF1, 0xF1}, watchdog_factor);
     bus.outputsFor(kStandby, milliseconds(20));
     bus.outputsFor(kDriving, seconds(2.0));
@@ -47,21 +52,22 @@ enum class Cause { kInvalidControlWords, kMasterLost, kLinkInterrupted };
 
 struct Row {
   std::int32_t p151;  // ms
+  std::int32_t p513;  // 0.1 s
   Cause cause;
   std::uint16_t fault;  // 0: "frequency inverter continues operation"
 };
 
 void PrintTo(const Row& row, std::ostream* out) {
-  *out << "P151 " << row.p151 << ", cause " << static_cast<int>(row.cause);
+  *out << "P151 " << row.p151 << ", P513 " << row.p513 << ", cause " << static_cast<int>(row.cause);
 }
 
 class ModuleTimeoutTable : public ::testing::TestWithParam<Row> {};
 
-// BU 2700 7.1.1, the table of settings and causes, for P151 in the module; the link is watched by P120 in the inverter
-// (8.1), which says E10.9 (8.3).
+// BU 2700 7.1.1, the table of settings and causes, each row with both settings it prints, for P151 in the module; the
+// link is watched by P120 in the inverter (8.1), which says E10.9 (8.3).
 TEST_P(ModuleTimeoutTable, OverTheBus) {
   const Row row = GetParam();
-  DrivingModule driving{row.p151};
+  DrivingModule driving{row.p151, 20, row.p513};
   ASSERT_EQ(25.0, driving.inverter(0).frequency());
   switch (row.cause) {
     case Cause::kInvalidControlWords:
@@ -87,12 +93,13 @@ TEST_P(ModuleTimeoutTable, OverTheBus) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Bu2700, ModuleTimeoutTable,
-                         ::testing::Values(Row{-1, Cause::kInvalidControlWords, 0}, Row{-1, Cause::kMasterLost, 0},
-                                           Row{0, Cause::kInvalidControlWords, 0}, Row{0, Cause::kMasterLost, 102},
-                                           Row{0, Cause::kLinkInterrupted, 109},
-                                           Row{1000, Cause::kInvalidControlWords, 103},
-                                           Row{1000, Cause::kMasterLost, 102},
-                                           Row{1000, Cause::kLinkInterrupted, 109}));
+                         ::testing::Values(Row{-1, -1, Cause::kInvalidControlWords, 0},
+                                           Row{-1, -1, Cause::kMasterLost, 0}, Row{-1, -1, Cause::kLinkInterrupted, 0},
+                                           Row{0, 0, Cause::kInvalidControlWords, 0},
+                                           Row{0, 0, Cause::kMasterLost, 102}, Row{0, 0, Cause::kLinkInterrupted, 109},
+                                           Row{1000, 10, Cause::kInvalidControlWords, 103},
+                                           Row{1000, 10, Cause::kMasterLost, 102},
+                                           Row{1000, 10, Cause::kLinkInterrupted, 109}));
 
 // P120[-01] = 0: the inverter does not watch the system bus and goes on.
 TEST(ModuleTimeout, LinkIsNotWatchedWithoutP120) {

@@ -64,9 +64,10 @@ class DrivenRobot {
     ports_->submit(request);
     cycle::Completion answer;
     answer.message = "no answer";
+    std::size_t seen = completions_.size();
     runUntil([&] {
-      for (const auto& completion : completions_) {
-        if (completion.id == request.id) answer = completion;
+      for (; seen < completions_.size(); ++seen) {
+        if (completions_[seen].id == request.id) answer = completions_[seen];
       }
       return answer.id == request.id;
     });

@@ -33,6 +33,7 @@ class SimulatedRobot : public DrivenRobot {
     /// Four wheels, two on each side, all behind one module SK CU4 at address 3 with its I/O byte in slot 1.
     bool one_module = false;
     int wheels_a_side = 1;  ///< 1 or 2, each with a module of its own
+    sim::PkwSettings pkw;   ///< of all inverters
   };
 
   SimulatedRobot() : SimulatedRobot(Options{}) {}
@@ -113,6 +114,7 @@ class SimulatedRobot : public DrivenRobot {
       drive.motor.slip = options.slip;
       drive.slave.ppo_type = options.ppo_type;
       drive.parameters = options.parameters;
+      drive.pkw = options.pkw;
       if (options.one_module) {
         drive.place = static_cast<unsigned>(number + 1);
         drive.device.series = sim::Series::kSk2xxe;

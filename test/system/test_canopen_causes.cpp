@@ -173,8 +173,8 @@ TEST_F(CanopenCauses, AnInverterThatIsOffBehindItsModuleStopsTheBase) {
   expectRestForGood();
 }
 
-// Guarding goes on, but no process data come: nobody knows what the inverter does. Two and a half event times of 50 ms,
-// a cycle and drive_timeout are the bound.
+// Guarding goes on, but no process data come: nobody knows what the inverter does. Two and a half event times of 50 ms
+// and drive_timeout are the bound.
 TEST_F(CanopenCauses, ProcessDataThatStopStopTheBase) {
   start();
   robot_->link().setDeaf(0x184);

@@ -79,5 +79,37 @@ TEST(CanopenDriving, ATwistBecomesTheManualsFrames) {
   EXPECT_EQ("no rule broken", robot.bus().referee().report());
 }
 
+// P104 > 0 turns the motor at setpoint 0: accepted, zero and silence are OFF1, and the next command leads up again.
+TEST(CanopenDriving, WithAMinimumFrequencyAtRestItIsOff1) {
+  CanRobot::Options options;
+  options.drives = {{"allow_minimum_frequency", true}};
+  options.simulate = [](sim::SimConfig& config) {
+    for (sim::DriveConfig& drive : config.drives) drive.parameters = {{104, 0, 0, 50}};
+  };
+  CanRobot robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.drive(0.05, 0.0, std::chrono::seconds{1});  // 3.2 Hz
+  EXPECT_TRUE(robot.standsStill());
+  EXPECT_TRUE(robot.snapshot().drives[0].saturated);
+  for (const double speed : {kHalfSpeed, -kHalfSpeed}) {
+    robot.drive(speed, 0.0, std::chrono::seconds{4});
+    EXPECT_NEAR(speed, robot.snapshot().base.velocity.linear_x, 2e-3);
+    robot.run(std::chrono::seconds{4});
+    EXPECT_TRUE(robot.standsStill());
+    EXPECT_EQ(0x047E, robot.controlWord(1));
+    EXPECT_TRUE(robot.snapshot().base.enabled);
+  }
+  EXPECT_EQ("no rule broken", robot.bus().referee().report());
+}
+
+TEST(CanopenDriving, AMinimumFrequencyNobodyAcceptedIsNotEnabled) {
+  CanRobot::Options options;
+  options.simulate = [](sim::SimConfig& config) { config.drives[1].parameters = {{104, 0, 0, 50}}; };
+  CanRobot robot{options};
+  ASSERT_TRUE(robot.bringUp());
+  EXPECT_THAT(robot.ask(cycle::RequestKind::kEnable).message.c_str(),
+              HasSubstr("drive right: P104 of parameter set 1 is 5.0 Hz"));
+}
+
 }  // namespace
 }  // namespace nord_driver::test

@@ -74,6 +74,11 @@ TEST(CanopenKinds, AGatewayThatLosesItsLinkToAnInverter) {
   for (const DriveIndex other : {0, 1, 3}) EXPECT_TRUE(robot.online(other)) << other;
 }
 
+/// EMCY 5000h of the third inverter, which goes on sending good status words.
+CanFrame emergencyOfTheThird() {
+  return dataFrame(0x08A, ByteView{FixedBytes<8>{0x00, 0x50, 1, 2, 0, 0, 0, 0}});
+}
+
 // BU 0260 p. 78: byte 3 of an emergency is the inverter, from 0. 5000h says that the module has lost it, whatever the
 // module goes on sending for it.
 TEST(CanopenKinds, AGatewaysEmergencyEndsTheInverterItNames) {
@@ -81,7 +86,7 @@ TEST(CanopenKinds, AGatewaysEmergencyEndsTheInverterItNames) {
   options.gateway_inverters = 4;
   CanRobot robot{options};
   ASSERT_TRUE(robot.bringUp());
-  robot.bus().inject(dataFrame(0x08A, ByteView{FixedBytes<8>{0x00, 0x50, 1, 2, 0, 0, 0, 0}}));
+  robot.bus().inject(emergencyOfTheThird());
   robot.run(milliseconds{300});
   EXPECT_FALSE(robot.online(2));
   EXPECT_THAT(robot.text(2), HasSubstr("EMCY 5000h (E10.8, communication between bus module and inverter)"));
@@ -89,6 +94,39 @@ TEST(CanopenKinds, AGatewaysEmergencyEndsTheInverterItNames) {
   robot.bus().inject(dataFrame(0x08A, ByteView{FixedBytes<8>{0x00, 0x00, 0, 2, 0, 0, 0, 0}}));
   robot.run(milliseconds{300});
   EXPECT_TRUE(robot.online(2));
+}
+
+// The emergency that takes it back may be lost: good status words that come for longer than it could be late count.
+TEST(CanopenKinds, AnInverterWhoseEmergencyIsNeverTakenBackComesBack) {
+  CanRobot::Options options;
+  options.gateway_inverters = 4;
+  CanRobot robot{options};
+  ASSERT_TRUE(robot.bringUp());
+  robot.bus().inject(emergencyOfTheThird());
+  robot.run(milliseconds{300});
+  EXPECT_FALSE(robot.online(2));
+  EXPECT_TRUE(robot.runUntil([&] { return robot.online(2); }, std::chrono::seconds{2}));
+  robot.run(std::chrono::seconds{3});
+  EXPECT_TRUE(robot.online(2));
+  EXPECT_EQ("", robot.busText()) << "nothing is reported any more";
+}
+
+// What a module has said before it was without power is no news of its inverters.
+TEST(CanopenKinds, AGatewayThatWasWithoutPowerBeginsAnew) {
+  CanRobot::Options options;
+  options.gateway_inverters = 4;
+  options.drives = {{"event_time", 0.5}};
+  CanRobot robot{options};
+  ASSERT_TRUE(robot.bringUp());
+  robot.bus().inject(emergencyOfTheThird());
+  robot.run(milliseconds{50});
+  robot.node(0).setPowered(false);
+  robot.run(milliseconds{50});
+  EXPECT_FALSE(robot.online(2));
+  const std::uint64_t boot_ups = robot.node(0).counters().boot_ups;
+  robot.node(0).setPowered(true);
+  ASSERT_TRUE(robot.runUntil([&] { return robot.node(0).counters().boot_ups > boot_ups; }, std::chrono::seconds{1}));
+  EXPECT_TRUE(robot.runUntil([&] { return robot.online(2); }, milliseconds{600})) << robot.text(2);
 }
 
 TEST(CanopenKinds, AGatewayIsWaitedForWithAnInverterMissingFromTheStart) {
@@ -122,6 +160,36 @@ TEST(CanopenKinds, Cia402VelocityMode) {
   expectDrives(robot);
   EXPECT_EQ("7E 00 00 00", frames.front()) << "nothing is sent before there is something to say";
   EXPECT_THAT(frames, ::testing::Contains("7F 00 EE 02"));
+}
+
+// The shares the drive layer commands are of the P105 it has read: told as rpm by another one, they are another speed.
+TEST(CanopenKinds, Cia402IsNotScaledByAReadOfTheUser) {
+  CanRobot robot{cia402()};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{3});
+  ASSERT_NEAR(25.0, robot.unit(0).inverter().frequency(), 0.1);
+  for (const unsigned set : {0u, 2u}) robot.unit(0).parameters().preset(105, set, 0, 1000);  // by its keypad
+  std::vector<std::string> frames;
+  robot.bus().setTap([&](const CanFrame& frame, sim::SimulatedCanBus::Sender, Instant) {
+    if (frame.id == 0x203) frames.push_back(toHex(frame.bytes()));
+  });
+  const auto readWhileDriving = [&](std::uint8_t set) {
+    cycle::Request request;
+    request.id = 4711u + set;
+    request.patience = std::chrono::seconds{3};
+    request.kind = cycle::RequestKind::kReadParameter;
+    request.drive = 0;
+    request.parameter.number = 105;
+    request.parameter.shape = profile::ParameterShape::kPerSet;
+    request.parameter.parameter_set = set;
+    robot.ports().submit(request);
+    robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{1});
+    ASSERT_EQ(1000, robot.completions().back().raw);
+  };
+  readWhileDriving(3);
+  readWhileDriving(1);
+  ASSERT_FALSE(frames.empty());
+  EXPECT_THAT(frames, ::testing::Each("7F 00 EE 02"));
 }
 
 // P551 off: the objects are not there, and the node says so at its start.

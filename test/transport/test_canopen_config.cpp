@@ -43,8 +43,8 @@ TEST(CanopenConfigTest, HasItsDefaults) {
   EXPECT_EQ(DriveProfile::kNord, drive.drive_profile);
   EXPECT_EQ(1, drive.process_values);
   EXPECT_EQ(ArraySubIndex::kElement, drive.array_sub_index);
-  EXPECT_EQ(milliseconds{135}, drive.transmit_limit) << "two and a half event times and a cycle";
-  EXPECT_EQ(milliseconds{135}, config.master.nodes[0].first_answer_timeout) << "as long as its TPDOs may take";
+  EXPECT_EQ(milliseconds{125}, drive.transmit_limit) << "two and a half event times";
+  EXPECT_EQ(milliseconds{125}, config.master.nodes[0].first_answer_timeout) << "as long as its TPDOs may take";
 }
 
 TEST(CanopenConfigTest, TakesWhatIsGiven) {

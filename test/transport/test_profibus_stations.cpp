@@ -211,6 +211,51 @@ TEST(ProfibusStations, AGsdFileGivesParametersIdentifiersAndTimes) {
   EXPECT_TRUE(config.warnings.empty());
 }
 
+// Max_Module counts modules, however many identifiers each has; what Max_Data_Len and its like count is bytes.
+TEST(ProfibusStations, AModuleOfSeveralIdentifiersIsOneModule) {
+  const GsdText gsd{
+      "#Profibus_DP\nIdent_Number=0x7531\nModular_Station=0\nMax_Module=1\n"
+      "Max_Input_Len=20\nMax_Output_Len=20\nMax_Data_Len=40\n"
+      "Module=\"PPO 1\" 0xF3,0xF1\nEndModule\nModule=\"PPO 2\" 0xF3,0xF5\nEndModule\n"};
+  for (const int ppo_type : {1, 2}) {
+    Module module;
+    module.bus.set("gsd", gsd.path().c_str());
+    module.add(1, ppo_type).set("series", "sk5xxe").set("module", "sk_tu3");
+    EXPECT_EQ("accepted", module.refusal()) << ppo_type;
+  }
+}
+
+// The slot of the module's own inputs and outputs, one per inverter, an empty one before: modules, all of them.
+TEST(ProfibusStations, MoreModulesThanTheGsdAllowsAreRefused) {
+  const GsdText gsd{
+      "#Profibus_DP\nIdent_Number=0x0BA8\nModular_Station=1\nMax_Module=3\n"
+      "Module=\"PPO 1\" 0xF3,0xF1\nEndModule\n"};
+  Module module;
+  module.bus.set("gsd", gsd.path().c_str());
+  module.add(1, 1);
+  module.add(2, 1);
+  EXPECT_EQ("accepted", module.refusal());
+  Module beyond;
+  beyond.bus.set("gsd", gsd.path().c_str());
+  beyond.add(1, 1);
+  beyond.add(3, 1);
+  EXPECT_THAT(beyond.refusal(), HasSubstr("inverter: 4 modules are needed, expected at most 3 (" + gsd.path()));
+}
+
+// Set_Prm carries the defaults of station and modules.
+TEST(ProfibusStations, AGsdFileGivesDefaultsOfParameters) {
+  const GsdText gsd{
+      "#Profibus_DP\nIdent_Number=0x0BA8\nModular_Station=1\n"
+      "ExtUserPrmData=1 \"a\"\nBit(7) 1 0-1\nEndExtUserPrmData\n"
+      "ExtUserPrmData=2 \"b\"\nUnsigned16 500 0-1000\nEndExtUserPrmData\n"
+      "Ext_User_Prm_Data_Const(0)=0x01,0,0\nExt_User_Prm_Data_Ref(0)=1\n"
+      "Module=\"PPO 1\" 0xF5\nExt_User_Prm_Data_Const(0)=0,0\nExt_User_Prm_Data_Ref(0)=2\nEndModule\n"};
+  Module module;
+  module.bus.set("gsd", gsd.path().c_str());
+  module.add(1, 1);
+  EXPECT_EQ("81 00 00 01 F4", toHex(module.read().slaves[0].user_parameters));
+}
+
 // MaxTsdr of 300 bit times at 500 kbit/s and a margin of 15: 0.63 ms.
 TEST(ProfibusStations, ASlotTimeBelowMaxTsdrIsRefused) {
   const GsdText gsd{kGsd};

@@ -62,8 +62,12 @@ class Master {
 
   /// The bus was (re)opened: every node from the beginning. RPDO values are forgotten; SDO accesses end without answer.
   void restart(Instant now) noexcept;
-  /// Every node gets this command once and is left alone until `restart()`: PDOs end at once. For the clean exit.
-  void releaseAll(NmtCommand command, Instant now) noexcept;
+  /// For the clean exit: every node is let go so that it does not miss us, and left alone until `restart()`. PDOs end
+  /// at once. A node that may be reset (`NodeConfig::reset`) gets "reset communication"; another one is first told by
+  /// SDO not to watch us any more, then "enter pre-operational". Until `released()`, in a second at most, everything
+  /// else goes on as usual: polling, frames, error control.
+  void releaseAll(Instant now) noexcept;
+  bool released() const noexcept;
 
   /// While nothing may be sent yet, in place of `handleFrame()`: whether only a master that works with our nodes sends
   /// such a frame (NMT, guarding, RPDOs, SDO requests, our SYNC), or a node answers to one. Counted and told.

@@ -37,6 +37,9 @@ const char* toText(NmtCommand command) noexcept;
 /// What heartbeat or guarding carried, bit 7 (toggle) left out. kUnknown for a value that is none of the four.
 NmtState nmtStateOf(std::uint8_t value) noexcept;
 
+/// Of a node that has followed the command; kUnknown while it starts anew.
+NmtState stateAfter(NmtCommand command) noexcept;
+
 /// 000#<command><node>; `node` 0 means all of them.
 CanFrame nmtFrame(NmtCommand command, std::uint8_t node) noexcept;
 

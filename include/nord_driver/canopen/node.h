@@ -29,7 +29,8 @@ class Node {
   Node& operator=(const Node&) = delete;
 
   void restart(Instant now) noexcept;
-  void release(NmtCommand command, Instant now) noexcept;
+  void release(Instant now) noexcept;
+  bool released() const noexcept { return boot_.released(); }
 
   void handleErrorControl(const CanFrame& frame, Instant now) noexcept;
   void handleEmergency(const CanFrame& frame, Instant now) noexcept;

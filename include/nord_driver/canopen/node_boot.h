@@ -13,11 +13,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "nord_driver/canopen/boot_script.h"
 #include "nord_driver/canopen/nmt.h"
 #include "nord_driver/canopen/node_config.h"
 #include "nord_driver/canopen/node_report.h"
+#include "nord_driver/canopen/release_script.h"
 #include "nord_driver/canopen/sdo_port.h"
 #include "nord_driver/core/fixed_text.h"
 #include "nord_driver/core/time.h"
@@ -29,7 +31,7 @@ class NodeBoot {
   /// What error control has to do.
   enum class Watch : std::uint8_t {
     kOff,
-    kVerify,  ///< the node was started: does it report that it is operational?
+    kVerify,  ///< the node was started, or is being released: its state is of interest, its silence is no loss
     kWatch    ///< it is operational: its silence is a loss
   };
 
@@ -38,7 +40,11 @@ class NodeBoot {
            SdoPort& port) noexcept;
 
   void restart(Instant now) noexcept;
-  void release(NmtCommand command, Instant now) noexcept;
+  /// Lets the node go: a reset of its communication where the configuration allows one; otherwise it is told not to
+  /// watch us any more, which takes a second at most, and led to pre-operational.
+  void release(Instant now) noexcept;
+  /// Nothing is to be sent to it any more.
+  bool released() const noexcept { return phase_ == Phase::kOff && !command_; }
 
   void handleBootUp(Instant now) noexcept;
   /// The node reported its state.
@@ -58,6 +64,9 @@ class NodeBoot {
   Watch watch() const noexcept;
   /// The node came with a boot-up frame: its toggle bit begins anew.
   bool fresh() const noexcept { return fresh_; }
+  /// A node that was guarded before and has not been reset may count from its last question on: a life time that it
+  /// gets now would be over at once. True once: it is to be asked first.
+  bool takeGuardQuestion() noexcept { return std::exchange(guard_question_, false); }
   /// The NMT command to send, or none; a newer one replaces one that was not sent.
   std::optional<NmtCommand>& command() noexcept { return command_; }
 
@@ -70,10 +79,12 @@ class NodeBoot {
     kReadErrorRegister,
     kReadErrorField,
     kRunning,
-    kSilent,  // pause between two questions
-    kRefused  // pause before the next attempt
+    kSilent,   // pause between two questions
+    kRefused,  // pause before the next attempt
+    kRelease   // it is told not to watch us
   };
 
+  void endRelease(NmtCommand command, Instant now) noexcept;
   void reset(Instant now) noexcept;
   void ask(Instant now) noexcept;
   void submit(const SdoRequest& request, Instant now) noexcept;
@@ -85,6 +96,7 @@ class NodeBoot {
   void silent(const Sentence& why, Instant now) noexcept;
   void start(Instant now) noexcept;
   void run(Instant now) noexcept;
+  void leadBack() noexcept;
   void leave(const Sentence& why, Instant now) noexcept;
   void diagnose(Instant now) noexcept;
   void refuseStart(Instant now) noexcept;
@@ -97,12 +109,15 @@ class NodeBoot {
   NodeReport& report_;
   SdoPort& port_;
   BootScript script_;
+  ReleaseScript release_script_;
   SdoRequest request_;  // under way
   Phase phase_ = Phase::kOff;
   std::optional<Instant> deadline_;
   std::optional<NmtCommand> command_;
   bool reset_due_ = false;  // it was not reset since it was lost
   bool fresh_ = false;
+  bool guard_question_ = false;
+  bool guards_ = false;    // releasing: error control goes on until the node does not watch us any more
   bool answered_ = false;  // in this attempt
   bool heard_ = false;     // after the start
   // In this attempt: whether there is one answer for each question.

@@ -24,6 +24,8 @@ class NodeGuard {
   /// Asks from now on, the first time at once. `fresh`: the node has just been reset, its toggle bit begins with 0.
   void start(bool fresh, Instant now) noexcept;
   void stop() noexcept;
+  /// One question now, without watching for its answer.
+  void askOnce() noexcept { due_ = true; }
   bool running() const noexcept { return next_question_.has_value(); }
 
   /// `value`: the data byte.
@@ -37,7 +39,7 @@ class NodeGuard {
   bool pollTransmit(CanFrame& frame) noexcept;
   /// It was not sent: it is due again.
   void notSent() noexcept {
-    due_ = running();
+    due_ = true;
     open_ = false;
   }
   bool due() const noexcept { return due_; }

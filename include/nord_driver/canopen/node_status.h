@@ -17,7 +17,7 @@ enum class NodeState : std::uint8_t {
   kOperational,  ///< seen operational (without error control: started): PDOs are exchanged
   kLost,         ///< was there, and is silent; it is asked again and again
   kRefused,      ///< answers, but must not or will not run: see `reason`. Tried again after a pause
-  kReleased      ///< `Master::releaseAll()`: left alone until `restart()`
+  kReleased      ///< `Master::releaseAll()`: let go, and left alone until `restart()`
 };
 
 const char* toText(NodeState state) noexcept;
@@ -43,7 +43,7 @@ struct NodeCounters {
 
 struct NodeStatus {
   NodeState state = NodeState::kAbsent;
-  NmtState nmt = NmtState::kUnknown;  ///< as it last reported itself
+  NmtState nmt = NmtState::kUnknown;  ///< as it last reported itself, or was told by another master
   /// Why it does not run: one sentence for a technician without the node's name; empty while all is well. The memory
   /// is the node's for ever, and never moves.
   Sentence reason;
@@ -56,6 +56,7 @@ struct NodeStatus {
   /// Operational, but two nodes have its id: only to be stopped.
   bool doubled = false;
   Instant heard_at{};                        ///< last frame of error control
+  std::optional<Instant> booted_up_at;       ///< last boot-up frame
   std::optional<Instant> other_commands_at;  ///< another master's last RPDO for it
   Instant since{};                           ///< of `state`
   NodeCounters counters;

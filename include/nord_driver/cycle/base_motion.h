@@ -13,6 +13,15 @@
 
 namespace nord_driver::cycle {
 
+/// What P104 > 0 of its drives asks of the base. Without a velocity such a wheel turns at P104 to the right all the
+/// same, inverted or not, so it is brought to rest by OFF1; below P104 it turns faster than commanded. So the base
+/// drives as a whole or rests as a whole: while any such wheel would be slower than its P104, all wheels are commanded
+/// zero.
+struct MinimumSpeeds {
+  robot::WheelSpeeds wheels;    ///< rad/s of each wheel, 0: none; empty: of no wheel
+  bool coming_to_rest = false;  ///< a wheel has not come to rest yet: it would not follow
+};
+
 /// One base. Stale commands and commands that may not be followed are targets of zero; a base that is not driving
 /// forgets its velocity, so that the next start begins from standstill.
 class BaseMotion {
@@ -24,7 +33,10 @@ class BaseMotion {
   /// (otherwise the base ramps to zero along the deceleration limit). `max_speeds`: what 100 % of the setpoint means at
   /// each wheel, in rad/s: a base that would exceed it, or a joint's own limit, is scaled as a whole.
   robot::WheelSpeeds pollWheels(const TwistCommand& command, bool driving, bool follow,
-                                const robot::WheelSpeeds& max_speeds, Instant now, Duration dt) noexcept;
+                                const robot::WheelSpeeds& max_speeds, Instant now, Duration dt,
+                                const MinimumSpeeds& minimum = {}) noexcept;
+  /// It rests although a velocity is commanded, for `MinimumSpeeds`.
+  bool belowMinimum() const noexcept { return below_minimum_; }
   /// The velocity behind the last wheel speeds (what `cmd_vel_out` tells).
   const robot::Twist2d& limited() const noexcept { return limited_; }
 
@@ -41,6 +53,8 @@ class BaseMotion {
   const robot::Odometry& odometry() const noexcept { return odometry_; }
 
  private:
+  robot::WheelSpeeds ramp(const robot::Twist2d& target, const robot::WheelSpeeds& limits, Duration dt) noexcept;
+  robot::WheelSpeeds rest() noexcept;
   robot::Twist2d within(const robot::WheelSpeeds& limits, const robot::Twist2d& target) const noexcept;
 
   robot::BaseGeometry geometry_;
@@ -50,6 +64,8 @@ class BaseMotion {
   robot::Odometry odometry_;
   Duration timeout_;
   bool open_loop_;
+  bool below_minimum_ = false;
+  bool drives_ = false;  // the wheels were commanded to turn
   robot::Twist2d limited_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "nord_driver/core/time.h"
 #include "nord_driver/cycle/base_motion.h"
+#include "nord_driver/cycle/command_watch.h"
 #include "nord_driver/cycle/cycle_config.h"
 #include "nord_driver/cycle/cycle_ports.h"
 #include "nord_driver/cycle/cycle_statistics.h"
@@ -14,6 +15,7 @@
 #include "nord_driver/cycle/maintenance.h"
 #include "nord_driver/cycle/speed_watch.h"
 #include "nord_driver/cycle/supervisor.h"
+#include "nord_driver/cycle/terminal_watch.h"
 #include "nord_driver/drive/drive.h"
 #include "nord_driver/robot/joint_position.h"
 #include "nord_driver/transport/transport.h"
@@ -39,6 +41,7 @@ class BusCycle {
     DriveParameters parameters;
     robot::JointPosition joint;
     SpeedWatch speed;
+    TerminalWatch terminals;
     bool known = false;  // has answered at least once
   };
 
@@ -47,17 +50,18 @@ class BusCycle {
   void selectParameterSet(const Request& request, Instant now) noexcept;
   void accessParameter(const Request& request) noexcept;
   Completion resetOdometry(const Request& request) noexcept;
-  Sentence movingCommand(Instant now) noexcept;
   Duration rampTime(Instant now) const noexcept;
   void command(Instant now, Duration dt) noexcept;
   void commandBase(Instant now, Duration dt) noexcept;
   void commandSingles(Instant now) noexcept;
   robot::WheelSpeeds maxWheelSpeeds() const noexcept;
+  MinimumSpeeds minWheelSpeeds() const noexcept;
   void handleInputs(Instant now) noexcept;
   void runParameters(Instant now) noexcept;
   void measure(Instant now, Duration dt) noexcept;
   void measureBase(Duration dt) noexcept;
   void publish(Instant now) noexcept;
+  void tellChanges(Instant now) noexcept;
   void fill(DriveSnapshot& to, DriveIndex drive) const noexcept;
 
   Transport& transport_;
@@ -70,6 +74,7 @@ class BusCycle {
   std::optional<BaseMotion> base_;
   std::vector<DriveIndex> wheels_;  // the drives of the base, in the order of its wheel speeds
   Supervisor supervisor_;
+  CommandWatch command_watch_;
   Maintenance maintenance_;
   CycleStatistics statistics_;
   std::vector<profile::ProcessOutput> outputs_;

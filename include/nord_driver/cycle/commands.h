@@ -1,6 +1,8 @@
 // The newest velocity commands of those outside, with the time they came.
 #pragma once
 
+#include <optional>
+
 #include "nord_driver/core/time.h"
 #include "nord_driver/robot/twist.h"
 
@@ -9,7 +11,8 @@ namespace nord_driver::cycle {
 struct TwistCommand {
   robot::Twist2d twist;
   Instant received{};
-  bool given = false;  ///< false until the first command
+  bool given = false;                 ///< false until the first command
+  std::optional<Instant> moved = {};  ///< when the newest that was not zero came; CyclePorts keeps it
 };
 
 /// For a drive that belongs to no base.
@@ -17,6 +20,7 @@ struct JointCommand {
   double velocity = 0.0;  ///< rad/s at the joint
   Instant received{};
   bool given = false;
+  std::optional<Instant> moved = {};  ///< as that of TwistCommand
 };
 
 /// Corrections of the base's sizes, changed while the node runs.

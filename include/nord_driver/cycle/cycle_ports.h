@@ -25,9 +25,12 @@ class CyclePorts {
   CyclePorts& operator=(const CyclePorts&) = delete;
 
   // Outside.
-  void commandBase(const TwistCommand& command);
-  void commandDrive(DriveIndex drive, const JointCommand& command);
+  /// False, and no command at all, when it is not a number or infinite: the one before goes on growing old.
+  bool commandBase(const TwistCommand& command);
+  bool commandDrive(DriveIndex drive, const JointCommand& command);
   void tuneBase(const BaseTuning& tuning);
+  /// One more publisher of commands is connected: what it has to say has not been heard yet.
+  void commanderConnected(Instant when);
   /// False when the queue is full.
   bool submit(const Request& request);
   /// Waits for a completion, at most `limit`. One thread only.
@@ -42,6 +45,8 @@ class CyclePorts {
   // The cycle's thread.
   const TwistCommand& newestBaseCommand() { return base_command_.read(); }
   const JointCommand& newestDriveCommand(DriveIndex drive) { return drive_commands_[drive]->read(); }
+  /// When a publisher of commands was connected last; {} while there was none.
+  Instant newestCommander() { return commander_.read(); }
   const BaseTuning& newestBaseTuning() { return base_tuning_.read(); }
   std::optional<Request> pollRequest() noexcept { return requests_.pop(); }
   /// Comes out of `waitCompletion` once the next snapshot is published: who has an answer finds its effect there.
@@ -55,6 +60,9 @@ class CyclePorts {
   LatestValue<TwistCommand> base_command_;
   LatestValue<BaseTuning> base_tuning_;
   std::vector<std::unique_ptr<LatestValue<JointCommand>>> drive_commands_;
+  LatestValue<Instant> commander_;
+  std::optional<Instant> base_moved_;                 // the writers'
+  std::vector<std::optional<Instant>> drives_moved_;  // the writers'
   EventRing<Request, 32> requests_;
   EventRing<Completion, 64> completions_;
   std::size_t unpublished_ = 0;  // completions in the ring that `completed_` does not count yet

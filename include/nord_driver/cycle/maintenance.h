@@ -1,6 +1,7 @@
 // Carries out what users ask of drives that stand still: acknowledging faults and choosing a parameter set.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +15,8 @@
 namespace nord_driver::cycle {
 
 /// Neither moves anything, so the drives of a base may be asked one by one. Each cycle: `handleRequest` for what has
-/// come, after the exchange `update`, then `pollCompletion`.
+/// come, after the exchange `update`, then `pollCompletion`. A drive does one thing of a kind at a time: who asks for a
+/// second meanwhile is refused, and never answered by the outcome of the first.
 class Maintenance {
  public:
   /// `drives` must outlive the object and not move.
@@ -31,6 +33,8 @@ class Maintenance {
   struct Job {
     Request request;
     Instant deadline{};
+    std::uint32_t token = 0;  // what the drives' reports carry while they are about this one
+    Sentence busy;            // a drive that was busy with another's request, and was not asked
   };
 
   template <typename Action>
@@ -39,12 +43,15 @@ class Maintenance {
   bool follow(const Job& job, Instant now) noexcept;
   /// A drive with a fault behind the same bus module as those of the request, and not one of them.
   std::optional<DriveIndex> faultedNeighbour(const Request& request) const noexcept;
+  /// What another's request keeps the drive busy with, in words; empty when nothing does.
+  Sentence othersRequest(RequestKind kind, DriveIndex drive) const noexcept;
   const drive::RequestReport& reportOf(const Request& request, DriveIndex drive) const noexcept;
 
   std::vector<drive::Drive>& drives_;
   std::vector<std::string> names_;
   std::vector<std::optional<std::size_t>> modules_;
   FixedVector<Job, 16> jobs_;
+  std::uint32_t last_token_ = 0;
   CompletionQueue<48> completions_;
 };
 

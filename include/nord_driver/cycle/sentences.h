@@ -3,6 +3,7 @@
 
 #include "nord_driver/core/fixed_text.h"
 #include "nord_driver/cycle/request.h"
+#include "nord_driver/cycle/terminal_watch.h"
 #include "nord_driver/drive/drive_report.h"
 #include "nord_driver/drive/parameter_task.h"
 
@@ -14,7 +15,11 @@ Sentence refusalSentence(const char* drive, drive::Refusal refusal, const drive:
 Sentence stopSentence(const char* drive, drive::StopCause cause, const drive::DriveReport& report) noexcept;
 /// "drive left is operation enabled (status word 0B37)".
 Sentence stateSentence(const char* drive, const drive::DriveReport& report) noexcept;
-/// Why a parameter access failed, or what was done besides; empty when there is nothing to say.
-Sentence parameterSentence(const char* drive, std::uint16_t number, const drive::ParameterTaskResult& result) noexcept;
+/// "drive left is under local control ..."; empty for TerminalFinding::kNone.
+Sentence terminalSentence(const char* drive, TerminalFinding finding, const drive::DriveReport& report) noexcept;
+/// Why a parameter access failed, or what was done besides; empty when there is nothing to say. `no_bus_control`: it
+/// was a write, and the bus has no control (status bit 9 = 0), which may be why it was refused.
+Sentence parameterSentence(const char* drive, std::uint16_t number, const drive::ParameterTaskResult& result,
+                           bool no_bus_control = false) noexcept;
 
 }  // namespace nord_driver::cycle

@@ -11,6 +11,7 @@
 #include "nord_driver/core/time.h"
 #include "nord_driver/cycle/cycle_statistics.h"
 #include "nord_driver/cycle/device_data.h"
+#include "nord_driver/cycle/terminal_watch.h"
 #include "nord_driver/drive/drive_report.h"
 #include "nord_driver/profile/process_data.h"
 #include "nord_driver/profile/status_word.h"
@@ -31,6 +32,7 @@ struct DriveSample {
   double velocity_command = 0.0;   ///< rad/s at the joint
   double velocity = 0.0;           ///< rad/s at the joint
   double frequency = 0.0;          ///< Hz
+  bool saturated = false;          ///< the velocity wanted is beyond P105, or not zero and below P104
   std::uint16_t fault_number = 0;  ///< P700 raw; 0 = none, 65535 = its number is not known (yet)
 };
 
@@ -39,19 +41,21 @@ struct DriveSnapshot : DriveSample {
   bool enabled = false;                                   ///< follows velocity commands
   bool stopped = false;                                   ///< stopped by a cause that is latched: `text` names it
   drive::StopCause stop_cause = drive::StopCause::kNone;  ///< that cause
-  double speed_deviation = 0.0;                   ///< rad/s, velocity minus velocity_command; 0 while not enabled
-  bool at_speed = false;                          ///< enabled, and the deviation is small
-  bool astray = false;                            ///< enabled, and far from its command for seconds
-  double joint_position = 0.0;                    ///< rad, continuous
-  std::uint16_t last_fault_number = 0;            ///< the last one there was, also when it vanished by itself
-  std::optional<std::uint16_t> switch_on_reason;  ///< P700[-03] raw, while it keeps the drive from becoming ready
-  bool fault_latched = false;                     ///< a fault was seen and not acknowledged since
-  bool fault = false;                             ///< the fault bit as seen last; a silent drive keeps it
-  std::uint64_t faults = 0;                       ///< how often it rose
-  DriveSample at_fault;                           ///< when it rose last: the first idle word may let it vanish
-  std::uint64_t eeprom_writes = 0;                ///< of this node, of 100 000 the EEPROM endures (BU 2700 6.5)
-  bool owes_eeprom_switch = false;                ///< P560 = 0 stands because of this node
-  bool direction_contradiction = false;           ///< the sign of actual value 1 against the direction bits
+  double speed_deviation = 0.0;                        ///< rad/s, velocity minus velocity_command; 0 while not enabled
+  bool at_speed = false;                               ///< enabled, and the deviation is small
+  bool astray = false;                                 ///< enabled, and far from its command for seconds
+  double joint_position = 0.0;                         ///< rad, continuous
+  std::uint16_t last_fault_number = 0;                 ///< the last one there was, also when it vanished by itself
+  std::optional<std::uint16_t> switch_on_reason;       ///< P700[-03] raw, while it keeps the drive from becoming ready
+  bool fault_latched = false;                          ///< a fault was seen and not acknowledged since
+  bool fault = false;                                  ///< the fault bit as seen last; a silent drive keeps it
+  std::uint64_t faults = 0;                            ///< how often it rose
+  DriveSample at_fault;                                ///< when it rose last: the first idle word may let it vanish
+  std::uint64_t eeprom_writes = 0;                     ///< of this node, of 100 000 the EEPROM endures (BU 2700 6.5)
+  bool owes_eeprom_switch = false;                     ///< P560 = 0 stands because of this node
+  TerminalFinding terminals = TerminalFinding::kNone;  ///< who else has a say in a drive that is disabled here
+  Sentence terminals_text;                             ///< that, in words; empty when nobody has
+  bool direction_contradiction = false;                ///< the sign of actual value 1 against the direction bits
   Sentence text;  ///< what it waits for or why it stopped; empty when there is nothing to say
   DeviceData device;
 };

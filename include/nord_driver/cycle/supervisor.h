@@ -7,6 +7,7 @@
 
 #include "nord_driver/core/fixed_vector.h"
 #include "nord_driver/core/time.h"
+#include "nord_driver/cycle/command_watch.h"
 #include "nord_driver/cycle/completion_queue.h"
 #include "nord_driver/cycle/cycle_config.h"
 #include "nord_driver/cycle/request.h"
@@ -21,12 +22,13 @@ namespace nord_driver::cycle {
 class Supervisor {
  public:
   /// `drives` must outlive the supervisor and not move. `auto_enable`: enable once, when every drive has first become
-  /// ready; a fault seen before is the end of it.
+  /// ready and the commands have been quiet for long enough; a fault seen before is the end of it.
   Supervisor(const CycleConfig& config, std::vector<drive::Drive>& drives, bool auto_enable);
 
-  /// Enable, disable, quick stop and shut down. `moving`: names the command that is not zero now; empty when all are.
-  void handleRequest(const Request& request, const Sentence& moving, Instant now) noexcept;
-  void update(const Sentence& moving, Instant now) noexcept;
+  /// Enable, disable, quick stop and shut down. An enable that comes before the commands have been listened to for long
+  /// enough waits for that; a stop meanwhile ends it.
+  void handleRequest(const Request& request, const CommandState& commands, Instant now) noexcept;
+  void update(const CommandState& commands, Instant now) noexcept;
   std::optional<Completion> pollCompletion() noexcept { return completions_.poll(); }
 
   /// The group of the base; nullptr without one.
@@ -48,14 +50,22 @@ class Supervisor {
   struct Job {
     Request request;
     Instant deadline{};
+    bool begun = true;  // false: an enable that waits until commands have been listened to
   };
 
   void addGroup(const std::vector<DriveIndex>& members, const CycleConfig& config);
   bool concerns(const Request& request, std::size_t group) const noexcept;
-  void startEnable(const Request& request, const Sentence& moving, Instant now) noexcept;
-  void followUp(const Request& request, Instant now) noexcept;
-  /// True when the job has ended.
-  bool follow(const Job& job, Instant now) noexcept;
+  void startEnable(const Request& request, const CommandState& commands, Instant now) noexcept;
+  /// All drives of the request, or none: false when one refuses, and answered.
+  bool enableAll(const Request& request, Instant now) noexcept;
+  /// All it asks for is enabled, or on its way there.
+  bool nothingToEnable(const Request& request) const noexcept;
+  void stop(const Request& request, Instant now) noexcept;
+  void endWaitingEnables(const Request& stop) noexcept;
+  void followUp(const Request& request, Instant now, bool begun = true) noexcept;
+  /// These three: true when the job has ended.
+  bool follow(Job& job, const CommandState& commands, Instant now) noexcept;
+  bool followWaiting(Job& job, const CommandState& commands, Instant now) noexcept;
   bool followEnable(const Job& job, Instant now) noexcept;
   bool followStop(const Job& job) noexcept;
   void takeBack(const Request& request, Instant now) noexcept;
@@ -63,7 +73,7 @@ class Supervisor {
   /// A drive the request concerns and that does not answer.
   std::optional<DriveIndex> silentMember(const Request& request) const noexcept;
   Sentence unsettled(const Request& request) const noexcept;
-  void autoEnable(const Sentence& moving, Instant now) noexcept;
+  void autoEnable(const CommandState& commands, Instant now) noexcept;
 
   std::vector<drive::Drive>& drives_;
   std::vector<std::string> names_;

@@ -12,6 +12,9 @@
 //  - Whatever ends "operation enabled" without being asked ends in the idle word and stays so until the next enable.
 //  - OFF1, asked for or in the idle word, that has not ended "operation enabled" after shutdown_timeout becomes OFF3.
 //  - The set is switched at standstill only: setpoint 1 is a share of P105 of the set in force (BU 0020 7.3.5).
+//  - With P104 > 0 the motor turns at setpoint 0. Such a drive is enabled only where the configuration accepts it; then
+//    a command of zero is OFF1 (kResting), and the next one that is not zero leads up again through "ready to switch
+//    on".
 //  - Under local control the set follows the inverter: its terminals choose it, and our word acts when control returns.
 #pragma once
 
@@ -41,6 +44,8 @@ struct DriveConfig {
   Duration acknowledge_time = seconds(0.1);
   /// |actual value 1| that counts as standstill for switching the parameter set, of 16384.
   std::int16_t near_standstill = 164;
+  /// P104 > 0 is no reason to refuse enabling.
+  bool allow_minimum_frequency = false;
   /// Cross-check the sign of actual value 1 with status bits 11 and 12. No manual defines that sign in left rotation.
   bool check_direction = true;
 };
@@ -54,6 +59,10 @@ class Drive {
 
   /// `fresh`: the inverter answered in this cycle. An all-zero status word counts as no answer.
   void handleInput(const profile::ProcessInput& input, bool fresh, Instant now) noexcept;
+  /// Before handleInput() of a cycle in which the connection to this inverter was reset, or left the state in which it
+  /// is commanded, without being asked: what it heard last is not known. As after silence, but without drive_timeout,
+  /// and also when the inverter answers again in this cycle.
+  void handleInterruption(Instant now) noexcept;
   profile::ProcessOutput pollOutput(Instant now) noexcept;
 
   /// Why requestEnable() would refuse now.
@@ -69,22 +78,34 @@ class Drive {
   /// "switch-on disabled" (or a fault) ends it, a quick stop neither.
   void requestCoast(Instant now) noexcept;
   /// Takes the latch away when no fault bit is set, else gives the inverter one acknowledge edge; only faults whose
-  /// cause is gone follow it (BU 2700 6.4.1 bit 7). Refused outside kIdle. report().acknowledge tells the outcome.
-  void requestAcknowledge(Instant now) noexcept;
+  /// cause is gone follow it (BU 2700 6.4.1 bit 7). Refused outside kIdle. report().acknowledge tells the outcome, with
+  /// the `token`; while an acknowledging runs, another is not begun and the report stays with the first.
+  void requestAcknowledge(Instant now, std::uint32_t token = 0) noexcept;
   /// Commands set 1..4 from kIdle at standstill. report().set_switch is done when the status word shows the set;
-  /// without that, after enable_timeout, the set in force is commanded again.
-  void requestParameterSet(std::uint8_t set, Instant now) noexcept;
+  /// without that, after enable_timeout, the set in force is commanded again. While one runs, another is refused and
+  /// the report stays with the first.
+  void requestParameterSet(std::uint8_t set, Instant now, std::uint32_t token = 0) noexcept;
 
   /// Used only while enabled, and forgotten with it. What is no number becomes setpoint 0.
   void setVelocity(RadPerSec joint) noexcept;
   /// P105 of set 1..4, as read from the inverter.
   void setMaxFrequency(std::uint8_t set, Hertz frequency) noexcept;
   std::optional<Hertz> maxFrequency(std::uint8_t set) const noexcept;
+  /// P104 of set 1..4, as read from the inverter; 0 or no number: nothing to heed, or not known.
+  void setMinimumFrequency(std::uint8_t set, Hertz frequency) noexcept;
+  /// What P543 or P546 of set 1..4 should not be; none when both are as expected or not known.
+  void setUnexpectedFunction(std::uint8_t set, const std::optional<UnexpectedFunction>& function) noexcept;
+  /// P104, P543 and P546 have not been asked for yet: it is not enabled before.
+  void setParametersAwaited(bool awaited) noexcept { parameters_awaited_ = awaited; }
   /// P700 [-03], why the inverter does not become ready to switch on, as read from it; none when it gives no reason.
   void setSwitchOnReason(std::optional<std::uint16_t> reason) noexcept { report_.switch_on_reason = reason; }
   /// The joint speed 100 % stands for in the commanded set; beyond it one drive alone would saturate, and a base bend
   /// its path.
   std::optional<RadPerSec> maxVelocity() const noexcept;
+  /// The joint speed P104 of the commanded set stands for: below it the motor turns at it all the same. 0: none known.
+  RadPerSec minVelocity() const noexcept;
+  /// On the way to rest by OFF1, for P104 > 0: a velocity would not be followed yet.
+  bool comesToRest() const noexcept { return report_.phase == Phase::kResting && !ready_seen_; }
 
   const DriveReport& report() const noexcept { return report_; }
   /// Nothing is being driven or stopped: idle (or offline), and the inverter confirms it by its state.
@@ -93,10 +114,13 @@ class Drive {
  private:
   void handleUseful(const profile::ProcessInput& input, Instant now) noexcept;
   void handleSilence(Instant now) noexcept;
+  void goOffline(StopCause cause, Instant now) noexcept;
   void learnSet(profile::StatusWord status, bool joined) noexcept;
   void checkStops(profile::StatusWord status, Instant now) noexcept;
   void follow(profile::StatusWord status, Instant now) noexcept;
   void followIdle(profile::StatusWord status, Instant now) noexcept;
+  void followResting(profile::StatusWord status, Instant now) noexcept;
+  void followResuming(profile::StatusWord status, Instant now) noexcept;
   void followEnabling(profile::StatusWord status, Instant now) noexcept;
   void followStopping(profile::DriveState state, Instant now) noexcept;
   /// A ramp that has not ended within shutdown_timeout ends in a quick stop.
@@ -107,16 +131,24 @@ class Drive {
   void followCoasting(profile::DriveState state, Instant now) noexcept;
   Refusal setRefusal(std::uint8_t set) const noexcept;
   void breakOff(Refusal why) noexcept;
+  static void end(RequestReport& request, Refusal refusal) noexcept;
   void measure() noexcept;
+  void tellSet() noexcept;
+  /// Between resting and driving, by the velocity wanted.
+  void restOrResume(const profile::Setpoint& setpoint, Instant now) noexcept;
+  bool restsAtZero() const noexcept { return report_.minimum_frequency.value > 0.0; }
   void enter(Phase phase, Instant now) noexcept;
   void stop(StopCause cause, Instant now) noexcept;
   void latch(StopCause cause) noexcept;
   void refuse(Refusal refusal) noexcept;
   profile::Command command(Instant now) const noexcept;
-  bool isRunning() const noexcept;  // 047F may be on the wire
+  bool isRunning() const noexcept;  // 047F may be on the wire, or come by itself
 
   DriveConfig config_;
   std::array<std::optional<Hertz>, 4> max_frequency_;
+  std::array<Hertz, 4> min_frequency_{};
+  std::array<std::optional<UnexpectedFunction>, 4> unexpected_{};
+  bool parameters_awaited_ = false;
   DriveReport report_;
   AcknowledgeEdge edge_;
   Instant phase_since_{};

@@ -25,7 +25,14 @@ enum class Phase : std::uint8_t {
   kQuickStopping,  ///< OFF3: 047B until "switch-on disabled"
   kSwitchingSet,   ///< 047E with another set, until the status word confirms it
   kCoasting,       ///< OFF2: 047D until "switch-on disabled"; the motor is not braked
+  kResting,        ///< enabled, P104 > 0 and no velocity wanted: OFF1, 047E and setpoint 0
+  kResuming,       ///< enabled, from rest to the velocity wanted: 047F and the setpoint until "operation enabled"
 };
+
+/// The user has it enabled: it follows velocity commands.
+constexpr bool isEnabled(Phase phase) noexcept {
+  return phase == Phase::kEnabled || phase == Phase::kResting || phase == Phase::kResuming;
+}
 
 /// Why the drive stopped, or was stopped by the driver, since it was last enabled. The first cause stays.
 enum class StopCause : std::uint8_t {
@@ -36,11 +43,13 @@ enum class StopCause : std::uint8_t {
   kOff3,             ///< the same with status bit 5 = 0: OFF3 (quick stop, emergency stop) at terminals
   kLocalControl,     ///< status bit 9 = 0: terminals have taken over
   kSilent,           ///< no fresh status word for drive_timeout
+  kInterrupted,      ///< its connection to the bus was reset or left operation: by others, by itself, or lost
   kParameterSet,     ///< another parameter set came into force without being asked for
   kQuickStop,        ///< the user's quick stop
   kShutdownTimeout,  ///< OFF1 did not end in shutdown_timeout: quick stop
   kCoast,            ///< OFF2 was asked for
   kCommandTimeout,   ///< no new velocity command came in time
+  kNotResumed,       ///< from rest (P104 > 0) it did not reach "operation enabled" within enable_timeout
 };
 
 /// Why a request was not carried out.
@@ -55,6 +64,9 @@ enum class Refusal : std::uint8_t {
   kWrongState,           ///< from this state no enabling starts
   kParameterSet,         ///< the set in force is not the one commanded
   kMaxFrequencyUnknown,  ///< P105 of the set in force: nobody could say what a setpoint means
+  kParametersAwaited,    ///< P104, P543 and P546 are being read: what they are is not known yet
+  kMinimumFrequency,     ///< P104 of the set in force is > 0, and nobody has accepted that
+  kUnexpectedFunction,   ///< setpoint 1 or actual value 1 of the set in force is no frequency
   kEnableTimeout,        ///< the inverter did not follow within enable_timeout
   kStopped,              ///< a stop came before the inverter had followed
   kCauseStands,          ///< acknowledging: the fault is still there
@@ -68,8 +80,17 @@ enum class Refusal : std::uint8_t {
 enum class RequestState : std::uint8_t { kNone, kRunning, kDone, kRefused };
 
 struct RequestReport {
+  std::uint32_t token = 0;  ///< of the request this is about: as its asker gave it
   RequestState state = RequestState::kNone;
   Refusal refusal = Refusal::kNone;  ///< with kRefused
+};
+
+/// A parameter P543 or P546 that gives setpoint 1 or actual value 1 another function than the frequency.
+struct UnexpectedFunction {
+  std::uint16_t number = 0;    ///< 543 or 546
+  bool is_array = false;       ///< the series has it as an array: [-01]
+  std::uint16_t found = 0;     ///< the value read
+  std::uint16_t expected = 0;  ///< the value to be set
 };
 
 struct DriveReport {
@@ -86,7 +107,7 @@ struct DriveReport {
   Hertz frequency;               ///< from actual value 1
   RadPerSec velocity;            ///< of the joint, from actual value 1
   RadPerSec velocity_command;    ///< of the joint, what setpoint 1 as sent stands for
-  bool saturated = false;        ///< the wanted velocity is beyond P105
+  bool saturated = false;        ///< the wanted velocity is beyond P105, or below P104 and not zero
   bool command_invalid = false;  ///< the wanted velocity was not a number: setpoint 0 was sent
   bool direction_contradiction = false;  ///< the sign of actual value 1 against status bits 11 and 12
 
@@ -97,6 +118,9 @@ struct DriveReport {
   Refusal refusal = Refusal::kNone;  ///< of the last request
   Word refusal_status_word = 0;      ///< the last status word at that moment
   profile::DriveState refusal_state = profile::DriveState::kUnknown;
+
+  Hertz minimum_frequency;                                ///< P104 of the commanded set; 0 where it is not known
+  std::optional<UnexpectedFunction> unexpected_function;  ///< of the commanded set
 
   std::optional<std::uint16_t> switch_on_reason;  ///< P700 [-03] raw: the inverter's own reason of not becoming ready
 

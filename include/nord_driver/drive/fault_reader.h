@@ -27,7 +27,7 @@ enum class ReasonState : std::uint8_t {
 class FaultReader {
  public:
   void handleStatus(profile::StatusWord status) noexcept;
-  /// The inverter is gone; a fault it comes back with is read anew.
+  /// The inverter is gone; a fault it comes back with is read anew, and without one there is none any more.
   void handleOffline() noexcept;
   /// Asks for the reason of "switch-on disabled" as it is now.
   void requestReason() noexcept;
@@ -57,6 +57,7 @@ class FaultReader {
 
   Item under_way_ = Item::kNone;
   Instant retry_at_{};
+  bool away_ = false;        // what the fault bit was counts no longer
   bool fault_ = false;       // the fault bit
   bool same_fault_ = false;  // ... has stood since the request that is under way
   std::uint16_t number_ = 0;

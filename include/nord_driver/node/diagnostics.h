@@ -33,6 +33,7 @@ class Diagnostics {
   std::vector<std::string> names_;
   std::vector<DriveIdentity> identities_;
   std::vector<DriveProtection> protections_;
+  std::vector<profile::Series> series_;
   std::vector<RampCheck> ramps_;
   std::vector<std::optional<double>> typed_max_frequency_;
   std::string device_;

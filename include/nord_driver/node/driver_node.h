@@ -48,6 +48,8 @@ class DriverNode {
   void advertise();
   void takeCommand(const geometry_msgs::Twist& twist);
   void takeDriveCommand(DriveIndex drive, double velocity);
+  /// Whoever publishes commands and has just been connected is listened to before anything is enabled.
+  void noteCommanders();
   void tellBusEvents();
   void bringToRest();
 
@@ -77,6 +79,7 @@ class DriverNode {
   std::optional<SnapshotPublisher> publisher_;
   std::vector<ros::Subscriber> subscribers_;
   ros::Subscriber command_subscriber_;
+  std::uint32_t commanders_ = 0;  // publishers connected to all of these
   std::atomic<std::uint64_t> bad_commands_{0};
 };
 

@@ -19,8 +19,10 @@ struct GsdProblem {
 
 struct GsdModule {
   std::string name;
-  std::vector<std::uint8_t> configuration;    ///< its identifiers in Chk_Cfg
-  std::vector<std::uint8_t> user_parameters;  ///< appended to the station's, in the order of the slots
+  std::vector<std::uint8_t> configuration;  ///< its identifiers in Chk_Cfg
+  /// Ext_User_Prm_Data_Const with the defaults of Ext_User_Prm_Data_Ref over it; appended to the station's, in the
+  /// order of the slots.
+  std::vector<std::uint8_t> user_parameters;
 };
 
 struct GsdRate {
@@ -40,10 +42,12 @@ struct GsdFile {
   Duration min_slave_interval{0};  ///< between two exchanges with this slave
 
   bool modular = false;
-  unsigned max_modules = 0;
+  unsigned max_modules = 0;  ///< modules, however many identifiers each has; 0: not told
+  /// Bytes per exchange; 0: not told.
   unsigned max_input_length = 0, max_output_length = 0, max_data_length = 0;
   unsigned max_diagnosis_length = 0, max_user_parameters = 0;
-  /// User_Prm_Data, with Ext_User_Prm_Data_Const laid over it. With DP-V1 the first three are DPV1_Status_1 to 3.
+  /// User_Prm_Data, with Ext_User_Prm_Data_Const laid over it, and the defaults of Ext_User_Prm_Data_Ref over both.
+  /// With DP-V1 the first three are DPV1_Status_1 to 3.
   std::vector<std::uint8_t> user_parameters;
 
   bool dpv1 = false;  ///< DPV1_Slave

@@ -1,6 +1,8 @@
 // Which parameters a simulated inverter has: they differ by series and firmware.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -33,6 +35,13 @@ struct ParameterDefinition {
   std::uint8_t elements;  ///< array elements; 0 = no array
   bool read_only;
   bool double_word = false;  ///< 32 bits: the orders 3, 8, 11 and 13 and the answers 2 and 5 (BU 2700 6.5.1.1)
+  /// Factory settings of the first elements where they differ; the others have `factory`.
+  std::array<std::int32_t, 4> first_elements{};
+  std::uint8_t differing = 0;  ///< how many of them count
+
+  std::int32_t factoryOf(std::size_t element) const noexcept {
+    return element < differing ? first_elements[element] : factory;
+  }
 };
 
 /// All parameters of the device, sorted by number.

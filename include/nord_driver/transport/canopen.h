@@ -58,7 +58,7 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   std::vector<std::string> warnings() const override;
   std::optional<BusEvent> pollEvent() noexcept override { return events_.poll(); }
   const TelegramTrace* trace() const noexcept override { return trace_ ? &*trace_ : nullptr; }
-  /// The nodes are led out of operational first, so that the end of guarding is no loss to them.
+  /// The nodes are let go first, each in its way, so that the end of guarding is no loss to them: a second at most.
   void close() noexcept override;
 
   const CanopenConfig& config() const noexcept { return config_; }
@@ -77,7 +77,7 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   void takeEvents() noexcept;
   void takeLineCounters() noexcept;
   bool allAnswered() const noexcept;
-  canopen::NmtCommand releaseCommand() const noexcept;
+  void release() noexcept;
 
   LinkFactory make_link_;
   bool parameters_only_ = false;

@@ -9,6 +9,7 @@
 #include "nord_driver/profile/cia402.h"
 #include "nord_driver/transport/canopen_config.h"
 #include "nord_driver/transport/canopen_parameters.h"
+#include "nord_driver/transport/module_link.h"
 #include "nord_driver/transport/transport.h"
 
 namespace nord_driver {
@@ -43,7 +44,10 @@ class CanopenDriveState {
  private:
   bool decode(ByteView bytes, profile::ProcessInput& input) const noexcept;
   void takeEmergencies(const canopen::NodeStatus& status) noexcept;
-  bool moduleMissesInverter(const profile::ProcessInput& input) const noexcept;
+  void forgetEmergency() noexcept;
+  bool moduleMissesInverter(const canopen::NodeStatus& status, const canopen::PdoValue& pdo, Word status_word,
+                            Instant now) noexcept;
+  bool takeInterruption(const canopen::NodeStatus& status) noexcept;
   void explain(const canopen::NodeStatus& status, bool bus_works, bool ever_sent, bool overdue) noexcept;
 
   CanopenDrive config_;
@@ -52,12 +56,14 @@ class CanopenDriveState {
   profile::Cia402Scaling scaling_;
   FixedVector<std::uint32_t, CanopenParameters::kCapacity> max_frequency_reads_;  // ids of P105 of set 1 under way
   PdoBytes output_;                                                               // as of the last putOutput()
-  bool commands_ = false;                                                         // ... and it is not to be ignored
+  bool stops_ = false;                                                            // ... and it is a word that stops
+  std::optional<std::uint64_t> start_;  // which start of the node it is operational from; none: it is not
   bool module_answers_ = false;
   bool inverter_answers_ = false;
   bool contested_ = false;  // another master commands it, too
   std::uint64_t emergencies_seen_ = 0;
   std::uint16_t emergency_code_ = 0;
+  ModuleLink module_link_;  // of an inverter behind a gateway
   Sentence emergency_text_;
   Sentence note_;
 };

@@ -28,6 +28,9 @@ struct DriveExchange {
   profile::ProcessInput input;
   bool module_answers = false;    ///< the bus module took part in data exchange in this cycle
   bool inverter_answers = false;  ///< ... and the inverter behind it is on: `input` is fresh
+  /// In this cycle its connection was reset, or left the state in which data are exchanged, without being asked: by
+  /// another master, by itself, or because it was lost. Said once, also when data are exchanged again already.
+  bool interrupted = false;
 };
 
 /// Whose time-outs decide whether the inverter heeds a lost bus (BU 2700 8.1).

@@ -1,0 +1,58 @@
+#include "nord_driver/cycle/command_watch.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace nord_driver::cycle {
+
+CommandWatch::CommandWatch(CyclePorts& ports, Duration cmd_vel_timeout, bool has_base, std::vector<std::string> names,
+                           std::vector<bool> of_base)
+    : ports_(ports),
+      cmd_vel_timeout_(cmd_vel_timeout),
+      listening_time_(std::max(cmd_vel_timeout, kLeast)),
+      has_base_(has_base),
+      names_(std::move(names)),
+      of_base_(std::move(of_base)) {}
+
+CommandState CommandWatch::look(Instant now) noexcept {
+  if (!since_) since_ = now;
+  CommandState state;
+  state.moving = moving(now);
+  state.heard = std::max(Duration::zero(), now - std::max(*since_, ports_.newestCommander()));
+  state.to_hear = std::max(Duration::zero(), listening_time_ - state.heard);
+  state.quiet = state.moving.empty() && state.to_hear == Duration::zero() && !movedWithin(listening_time_, now);
+  return state;
+}
+
+bool CommandWatch::movedWithin(Duration span, Instant now) noexcept {
+  const auto recent = [&](const auto& command) { return command.moved && now - *command.moved < span; };
+  if (has_base_ && recent(ports_.newestBaseCommand())) return true;
+  for (DriveIndex i = 0; i < names_.size(); ++i) {
+    if (!of_base_[i] && recent(ports_.newestDriveCommand(i))) return true;
+  }
+  return false;
+}
+
+Sentence CommandWatch::moving(Instant now) noexcept {
+  Sentence text;
+  const TwistCommand& base = ports_.newestBaseCommand();
+  if (has_base_ && !isStale(base, cmd_vel_timeout_, now) && base.twist != robot::Twist2d{}) {
+    text.format(
+        "the newest cmd_vel is not zero (%.3f m/s, %.3f rad/s, %.2f s old): send zero first, or wait until it "
+        "is older than cmd_vel_timeout",
+        base.twist.linear_x, base.twist.angular_z, toSeconds(now - base.received));
+    return text;
+  }
+  for (DriveIndex i = 0; i < names_.size(); ++i) {
+    const JointCommand& joint = ports_.newestDriveCommand(i);
+    if (of_base_[i] || isStale(joint, cmd_vel_timeout_, now) || joint.velocity == 0.0) continue;
+    text.format(
+        "the newest command of drive %s is not zero (%.3f rad/s): send zero first, or wait until it is older "
+        "than cmd_vel_timeout",
+        names_[i].c_str(), joint.velocity);
+    return text;
+  }
+  return text;
+}
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,172 @@
+// Right after start no command has been heard yet, and that is no command of zero: a commander that is talking already
+// is heard 0.1 to 0.25 s later.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cycle/cycle_bench.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using ::testing::HasSubstr;
+
+class FirstCommand : public ::testing::Test {
+ protected:
+  static CycleConfig config(Duration cmd_vel_timeout) {
+    CycleConfig config = CycleBench::config();
+    config.cmd_vel_timeout = cmd_vel_timeout;
+    return config;
+  }
+  /// A commander at 50 Hz that is heard for the first time `from` after start, to `to`.
+  static void live(CycleBench& robot, double velocity, Duration from, Duration to) {
+    for (Duration age{}; age < to; age += CycleBench::kCycle) {
+      if (age >= from && age.count() % (2 * CycleBench::kCycle.count()) == 0) robot.commandBase(velocity);
+      robot.step();
+    }
+  }
+  static bool everMoved(CycleBench& robot) {
+    for (const auto& inverter : robot.transport.inverters) {
+      if (inverter.frequency() != 0) return true;
+    }
+    return robot.snapshot().base.pose.x != 0.0;
+  }
+};
+
+TEST_F(FirstCommand, AutoEnableNeverStartsUnderACommanderThatIsTalkingAlready) {
+  for (const double from : {0.0, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4}) {
+    CycleBench robot{config(seconds(0.5)), true};
+    live(robot, 0.2, seconds(from), seconds(20.0));
+    EXPECT_FALSE(everMoved(robot)) << "first heard after " << from << " s";
+    EXPECT_FALSE(robot.snapshot().base.enabled);
+    robot.run(49);
+    EXPECT_FALSE(robot.snapshot().base.enabled);
+    robot.run(20);
+    EXPECT_TRUE(robot.snapshot().base.enabled) << "it has been quiet for cmd_vel_timeout";
+    EXPECT_FALSE(everMoved(robot));
+  }
+}
+
+TEST_F(FirstCommand, AutoEnableActsUnderZerosAndUnderNothing) {
+  for (const bool zeros : {true, false}) {
+    CycleBench robot{config(seconds(0.5)), true};
+    live(robot, 0.0, zeros ? seconds(0.2) : seconds(9.0), seconds(0.49));
+    EXPECT_FALSE(robot.snapshot().base.enabled) << zeros;
+    live(robot, 0.0, zeros ? Duration::zero() : seconds(9.0), seconds(0.2));
+    EXPECT_TRUE(robot.snapshot().base.enabled) << zeros;
+    live(robot, 0.2, Duration::zero(), seconds(2.0));
+    EXPECT_TRUE(everMoved(robot)) << "a command that begins after the start is followed";
+  }
+}
+
+// One command that moves within the time begins it anew, though a zero followed.
+TEST_F(FirstCommand, AutoEnableWantsZeroOrNothingInAllOfTheTime) {
+  CycleBench robot{config(seconds(1.0)), true};
+  live(robot, 0.0, Duration::zero(), seconds(0.8));
+  robot.commandBase(0.2);
+  robot.commandBase(0.0);
+  live(robot, 0.0, Duration::zero(), seconds(0.99));
+  EXPECT_FALSE(robot.snapshot().base.enabled);
+  live(robot, 0.0, Duration::zero(), seconds(0.2));
+  EXPECT_TRUE(robot.snapshot().base.enabled);
+}
+
+TEST_F(FirstCommand, AutoEnableHearsTheCommandsOfSingleDrivesToo) {
+  CycleBench robot{config(seconds(0.5)), true};
+  robot.run(20);
+  for (int i = 0; i < 200; ++i) {
+    robot.commandLift(1.0);
+    robot.step();
+  }
+  EXPECT_FALSE(everMoved(robot));
+  EXPECT_FALSE(robot.snapshot().drives[CycleBench::kLift].enabled);
+}
+
+// However short or endless cmd_vel_timeout is, half a second is listened.
+TEST_F(FirstCommand, HalfASecondIsTheLeast) {
+  for (const double timeout : {0.0, 0.1}) {
+    CycleBench robot{config(seconds(timeout)), true};
+    robot.run(49);
+    EXPECT_FALSE(robot.snapshot().base.enabled) << timeout;
+    robot.run(20);
+    EXPECT_TRUE(robot.snapshot().base.enabled) << timeout;
+  }
+}
+
+Request enableRequest(double patience) {
+  Request request;
+  request.id = 7;
+  request.kind = RequestKind::kEnable;
+  request.patience = seconds(patience);
+  return request;
+}
+
+TEST_F(FirstCommand, EnableRightAfterStartWaitsAndIsGranted) {
+  CycleBench robot{config(seconds(0.5)), false};
+  robot.run(10);
+  robot.ports.submit(enableRequest(3.0));
+  robot.run(39);
+  EXPECT_EQ(0u, robot.completions.count(7));
+  EXPECT_EQ(0x047E, robot.controlWord(CycleBench::kLeft));
+  robot.run(20);
+  ASSERT_EQ(1u, robot.completions.count(7));
+  EXPECT_STREQ("enabled", robot.completions[7].message.c_str());
+}
+
+TEST_F(FirstCommand, EnableRightAfterStartIsRefusedWhenTheFirstCommandMoves) {
+  CycleBench robot{config(seconds(0.5)), false};
+  robot.run(10);
+  robot.ports.submit(enableRequest(3.0));
+  live(robot, 0.2, seconds(0.15), seconds(3.0));
+  ASSERT_EQ(1u, robot.completions.count(7));
+  EXPECT_THAT(robot.completions[7].message.c_str(), HasSubstr("the newest cmd_vel is not zero (0.200 m/s"));
+  EXPECT_FALSE(everMoved(robot));
+}
+
+// What a publisher has to say that was connected a moment ago has not been heard yet either.
+TEST_F(FirstCommand, APublisherThatHasJustBeenConnectedIsListenedToFirst) {
+  for (const bool by_itself : {true, false}) {
+    CycleBench robot{config(seconds(0.5)), by_itself};
+    robot.transport.inverters[CycleBench::kLift].silent = true;
+    robot.run(100);
+    robot.ports.commanderConnected(robot.transport.time);
+    robot.transport.inverters[CycleBench::kLift].silent = false;
+    robot.run(5);
+    if (!by_itself) robot.ports.submit(enableRequest(3.0));
+    robot.run(44);
+    EXPECT_EQ(0x047E, robot.controlWord(CycleBench::kLeft)) << by_itself;
+    robot.run(20);
+    EXPECT_TRUE(robot.snapshot().base.enabled) << by_itself;
+    robot.ports.commanderConnected(robot.transport.time);
+    robot.run(20);
+    EXPECT_TRUE(robot.snapshot().base.enabled) << "what is enabled stays so";
+  }
+}
+
+TEST_F(FirstCommand, AStopEndsTheWaiting) {
+  CycleBench robot{config(seconds(0.5)), false};
+  robot.run(10);
+  robot.ports.submit(enableRequest(3.0));
+  robot.run(5);
+  Request stop = enableRequest(3.0);
+  stop.id = 8;
+  stop.kind = RequestKind::kQuickStop;
+  robot.ports.submit(stop);
+  robot.run(200);
+  EXPECT_FALSE(robot.snapshot().base.enabled);
+  EXPECT_STREQ("disabled again before all drives were enabled", robot.completions[7].message.c_str());
+  EXPECT_TRUE(robot.completions[8].success);
+}
+
+// Who cannot wait so long is told at once, with the time.
+TEST_F(FirstCommand, EnableIsRefusedAtOnceWhenTheTimeIsLongerThanItsPatience) {
+  CycleBench robot{config(seconds(10.0)), false};
+  robot.run(20);
+  robot.ports.submit(enableRequest(3.0));
+  robot.step();
+  ASSERT_EQ(1u, robot.completions.count(7));
+  EXPECT_FALSE(robot.completions[7].success);
+  EXPECT_STREQ("cmd_vel has been listened to for 0.2 s only: ask again in 9.8 s", robot.completions[7].message.c_str());
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

@@ -1,0 +1,108 @@
+// Parameters that decide whether and how a motor follows: when they are written, and what enabling waits for.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cycle/cycle_bench.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Request write(int number, std::int32_t raw) {
+  Request request;
+  request.kind = RequestKind::kWriteParameter;
+  request.drive = CycleBench::kLift;
+  request.parameter.number = static_cast<std::uint16_t>(number);
+  request.parameter.shape = profile::ParameterShape::kPerSet;
+  request.parameter.action = profile::ParameterAction::kWriteRam;
+  request.parameter.raw = raw;
+  return request;
+}
+
+class MotionParameters : public ::testing::Test, protected CycleBench {
+ protected:
+  void bringUp() {
+    run(80);
+    ASSERT_TRUE(snapshot().drives[kLift].device.complete);
+  }
+};
+
+TEST_F(MotionParameters, AreNotWrittenWhileEnabled) {
+  bringUp();
+  ASSERT_TRUE(ask(RequestKind::kEnable, kLift).success);
+  for (const int number : {104, 105, 113, 114, 300, 301, 325, 480, 507, 509, 510, 543, 544, 545, 546, 547, 548, 551}) {
+    const Completion answer = ask(write(number, 1));
+    EXPECT_FALSE(answer.success);
+    EXPECT_THAT(answer.message.c_str(),
+                AllOf(HasSubstr("P" + std::to_string(number)), HasSubstr("disable drive lift first")));
+    EXPECT_TRUE(decidesMotion(write(number, 1)));
+  }
+  EXPECT_THAT(ask(write(104, 1)).message.c_str(),
+              HasSubstr("P104 (Minimum frequency) decides whether and how the motor turns"));
+  EXPECT_THAT(ask(write(300, 1)).message.c_str(), HasSubstr("P300 decides whether and how the motor turns"));
+  for (const int number : {102, 103, 310, 426}) {
+    EXPECT_FALSE(decidesMotion(write(number, 1)));
+    EXPECT_THAT(ask(write(number, 1)).message.c_str(), Not(HasSubstr("disable"))) << number;
+  }
+  Request read = write(104, 1);
+  read.kind = RequestKind::kReadParameter;
+  EXPECT_FALSE(decidesMotion(read));
+}
+
+TEST_F(MotionParameters, AMinimumFrequencyRefusesToEnable) {
+  transport.parameters[1104] = 25;
+  transport.parameters[2104] = 80;
+  bringUp();
+  EXPECT_THAT(ask(RequestKind::kEnable, kLift).message.c_str(),
+              HasSubstr("drive lift: P104 of parameter set 1 is 2.5 Hz"));
+}
+
+TEST_F(MotionParameters, AnotherFunctionRefusesToEnable) {
+  transport.parameters[1543] = 3;
+  bringUp();
+  EXPECT_THAT(ask(RequestKind::kEnable, kLift).message.c_str(),
+              HasSubstr("drive lift: P543 of parameter set 1 is 3, so that actual value 1 is not the frequency"));
+}
+
+// P105 is there, P104 not yet: it may be anything.
+TEST_F(MotionParameters, NothingIsEnabledBeforeTheyHaveBeenAskedFor) {
+  transport.hold_answers = true;
+  int answered = 0;
+  while (answered < 3 * 15) {
+    step();
+    while (!transport.submitted.empty() && answered < 3 * 15) {
+      transport.answerFirst();
+      ++answered;
+    }
+  }
+  step();
+  ASSERT_TRUE(snapshot().drives[kLift].device.max_frequency[3]);
+  const Completion early = ask(RequestKind::kEnable, kLift);
+  EXPECT_FALSE(early.success);
+  EXPECT_THAT(early.message.c_str(), HasSubstr("P104, P543 and P546 are still being read"));
+  transport.hold_answers = false;
+  while (!transport.submitted.empty()) transport.answerFirst();
+  run(5);
+  EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);
+}
+
+// What cannot be read refuses nothing.
+TEST_F(MotionParameters, ThatCannotBeReadRefuseNothing) {
+  bringUp();
+  EXPECT_FALSE(snapshot().drives[kLift].device.min_frequency[0]);
+  EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);
+}
+
+TEST_F(MotionParameters, ARefusedWriteWithoutBusControlNamesP509) {
+  bringUp();
+  EXPECT_THAT(ask(write(102, 1)).message.c_str(), Not(HasSubstr("P509")));
+  transport.inverters[kLift].local = true;
+  run(5);
+  EXPECT_THAT(ask(write(102, 1)).message.c_str(), AllOf(HasSubstr("drive lift refuses P102"), HasSubstr("P509")));
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

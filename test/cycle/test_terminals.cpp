@@ -1,0 +1,105 @@
+// Drives that get under local control, or are turned by their terminals, while nobody here has enabled them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cycle/cycle_bench.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr const char* kLocal =
+    "warning: drive left is under local control (status bit 9 = 0, status word 0931): its terminals may turn it "
+    "whatever is sent";
+
+class Terminals : public ::testing::Test, protected CycleBench {
+ protected:
+  void SetUp() override {
+    run(100);
+    ASSERT_THAT(events(), IsEmpty());
+  }
+};
+
+TEST_F(Terminals, LocalControlWhileIdleIsToldWhenItBegins) {
+  transport.inverters[kLeft].local = true;
+  step();
+  EXPECT_THAT(events(), ElementsAre(kLocal));
+  run(500);
+  EXPECT_THAT(events(), IsEmpty()) << "once";
+  transport.inverters[kLeft].local = false;
+  step();
+  EXPECT_THAT(events(), ElementsAre("news: drive left: the bus has control of it again"));
+}
+
+// A loss tells what it has to tell by itself; what comes back under local control is told again.
+TEST_F(Terminals, WhatIsFoundUnderLocalControlIsTold) {
+  transport.inverters[kLeft].silent = true;
+  run(20);
+  transport.inverters[kLeft].local = true;
+  EXPECT_THAT(events(), IsEmpty());
+  transport.inverters[kLeft].silent = false;
+  step();
+  EXPECT_THAT(events(), ElementsAre(kLocal));
+  EXPECT_EQ(TerminalFinding::kLocalControl, snapshot().drives[kLeft].terminals);
+  EXPECT_EQ(kLocal, "warning: " + snapshot().drives[kLeft].terminals_text.str());
+  EXPECT_EQ(TerminalFinding::kNone, snapshot().drives[kRight].terminals);
+}
+
+TEST_F(Terminals, ADriveThatIsEnabledPastTheDriverIsToldWhenItStartsTurning) {
+  transport.inverters[kLeft].terminals = true;
+  step();
+  EXPECT_THAT(events(), ElementsAre("warning: drive left turns although nothing here has enabled it (status word 0B37, "
+                                    "operation enabled, 3.1 Hz): by its terminals, or by bus I/O bits (P480)"));
+  run(300);
+  EXPECT_THAT(events(), IsEmpty());
+}
+
+TEST_F(Terminals, TurningUnderLocalControlIsToldBesidesIt) {
+  transport.inverters[kLeft].local = true;
+  run(10);
+  transport.inverters[kLeft].terminals = true;
+  step();
+  EXPECT_THAT(events(), ElementsAre(kLocal,
+                                    "warning: drive left turns although nothing here has enabled it (status word 0937, "
+                                    "operation enabled, 3.1 Hz): by its terminals, or by bus I/O bits (P480)"));
+}
+
+// A loose contact must not fill the log.
+TEST_F(Terminals, AFlickeringBitIsToldOnceASecondAtMost) {
+  for (int i = 0; i < 300; ++i) {
+    transport.inverters[kLeft].local = i % 2 == 0;
+    step();
+  }
+  EXPECT_LE(events().size(), 4u);
+}
+
+// What the driver itself commands is no news: the way up, driving, and the ramp down.
+TEST_F(Terminals, NothingIsToldOfMotionThatWasAskedFor) {
+  ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  events();
+  for (int i = 0; i < 50; ++i) {
+    commandBase(1.0);
+    commandLift(20.0);
+    step();
+  }
+  ASSERT_TRUE(ask(RequestKind::kQuickStop).success);
+  run(100);
+  transport.inverters[kRight].silent = true;
+  run(20);
+  transport.inverters[kRight].silent = false;
+  run(100);
+  EXPECT_THAT(events(), IsEmpty());
+}
+
+TEST_F(Terminals, EnabledDrivesAreNamedInTheLog) {
+  ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  EXPECT_THAT(events(), ElementsAre("news: the base is enabled", "news: drive lift is enabled"));
+  ASSERT_TRUE(ask(RequestKind::kDisable).success);
+  run(100);
+  EXPECT_THAT(events(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle
