@@ -1,22 +1,22 @@
 # The libraries of the tests, under the same names wherever they come from.
 
-# GoogleTest's own description has these targets. FindGTest of CMake before 3.20 knows neither them nor gmock.
-find_package(GTest CONFIG QUIET)
-if(NOT TARGET GTest::gmock)
-  find_package(GTest MODULE REQUIRED)
-  find_library(NORD_GMOCK_LIBRARY gmock)
-  if(NOT NORD_GMOCK_LIBRARY)
-    message(FATAL_ERROR "gmock was not found (libgmock-dev)")
+# No find_package(GTest): FindGTest has other targets in every version of CMake, none has gmock, and GoogleTest's own description
+# refuses to be read where catkin has read FindGTest before. All have libraries of these names.
+foreach(library gtest gtest_main gmock)
+  if(NOT TARGET GTest::${library})
+    find_library(NORD_${library}_LIBRARY ${library})
+    if(NOT NORD_${library}_LIBRARY)
+      message(FATAL_ERROR "lib${library} was not found (libgtest-dev, libgmock-dev)")
+    endif()
+    add_library(GTest::${library} INTERFACE IMPORTED)
+    target_link_libraries(GTest::${library} INTERFACE ${NORD_${library}_LIBRARY})
+    if(library STREQUAL gtest)
+      target_link_libraries(GTest::gtest INTERFACE Threads::Threads)
+    else()
+      target_link_libraries(GTest::${library} INTERFACE GTest::gtest)
+    endif()
   endif()
-  if(NOT TARGET GTest::gtest)
-    add_library(GTest::gtest INTERFACE IMPORTED)
-    target_link_libraries(GTest::gtest INTERFACE GTest::GTest)
-    add_library(GTest::gtest_main INTERFACE IMPORTED)
-    target_link_libraries(GTest::gtest_main INTERFACE GTest::Main)
-  endif()
-  add_library(GTest::gmock INTERFACE IMPORTED)
-  target_link_libraries(GTest::gmock INTERFACE ${NORD_GMOCK_LIBRARY} GTest::gtest)
-endif()
+endforeach()
 
 # Debian bullseye and Ubuntu 20.04 have no rapidcheck: there each property test is a test case that says it was skipped.
 add_library(nord_rapidcheck INTERFACE)
