@@ -174,7 +174,8 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
   // Whatever ends the node, the drives come to rest first: an exchange that simply ends lets the wheels coast.
   try {
     publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_);
-    while (!end_asked && ros::ok() && publisher_->healthy()) {
+    // roscpp is "ok" until it has unregistered every topic: tenths of a second in which the robot would drive on.
+    while (!end_asked && ros::ok() && !ros::isShuttingDown() && publisher_->healthy()) {
       noteCommanders();
       tellBusEvents();
       ros::WallDuration(0.02).sleep();
