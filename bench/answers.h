@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "nord_driver/core/bytes.h"
-#include "nord_driver/profibus/slave_config.h"
+#include "profibus/slave_config.h"
 
 namespace nord_driver::bench {
 

@@ -13,10 +13,10 @@
 #include "can_interface.h"
 #include "can_pair.h"
 #include "can_responder.h"
+#include "canopen/master.h"
+#include "canopen/sdo_client.h"
+#include "link/can/socket_can.h"
 #include "measure.h"
-#include "nord_driver/canopen/master.h"
-#include "nord_driver/canopen/sdo_client.h"
-#include "nord_driver/link/socket_can.h"
 
 namespace {
 

@@ -10,13 +10,13 @@
 #include <string>
 #include <utility>
 
+#include "cycle/bus_cycle.h"
+#include "cycle/cycle_thread.h"
+#include "link/serial/serial_port.h"
 #include "measure.h"
-#include "nord_driver/cycle/bus_cycle.h"
-#include "nord_driver/cycle/cycle_thread.h"
-#include "nord_driver/link/serial_port.h"
-#include "nord_driver/sim/pty_bus.h"
-#include "nord_driver/transport/profibus_dp.h"
+#include "sim/profibus/pty_bus.h"
 #include "support/map_settings.h"
+#include "transport/profibus/profibus_dp.h"
 
 namespace {
 

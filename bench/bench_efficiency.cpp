@@ -11,8 +11,8 @@
 
 #include "answers.h"
 #include "measure.h"
-#include "nord_driver/profibus/dp_master.h"
-#include "nord_driver/sim/simulated_segment.h"
+#include "profibus/dp_master.h"
+#include "sim/profibus/simulated_segment.h"
 
 namespace {
 

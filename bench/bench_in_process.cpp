@@ -5,9 +5,9 @@
 
 #include "answers.h"
 #include "measure.h"
-#include "nord_driver/profibus/dp_master.h"
-#include "nord_driver/profile/pkw.h"
-#include "nord_driver/profile/ppo.h"
+#include "profibus/dp_master.h"
+#include "profile/pkw.h"
+#include "transport/profibus/ppo.h"
 
 namespace {
 

@@ -16,7 +16,7 @@
 
 #include "measure.h"
 #include "node/node_process.h"
-#include "nord_driver/sim/pty_bus.h"
+#include "sim/profibus/pty_bus.h"
 
 namespace {
 

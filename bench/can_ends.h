@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "nord_driver/core/can_frame.h"
-#include "nord_driver/link/can_system.h"
+#include "core/can_frame.h"
+#include "link/can/can_system.h"
 
 namespace nord_driver::bench {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "answers.h"
-#include "nord_driver/link/serial_port.h"
-#include "nord_driver/profibus/dp_master.h"
+#include "link/serial/serial_port.h"
+#include "profibus/dp_master.h"
 
 namespace nord_driver::bench {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "answers.h"
-#include "nord_driver/core/baud_rate.h"
+#include "core/baud_rate.h"
 
 namespace nord_driver::bench {
 

@@ -2,8 +2,8 @@
 // answer.
 #include <algorithm>
 
+#include "canopen/master.h"
 #include "fuzz.h"
-#include "nord_driver/canopen/master.h"
 
 namespace {
 

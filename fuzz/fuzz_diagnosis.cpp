@@ -1,8 +1,8 @@
 // Any bytes as the answer to Slave_Diag and to Get_Cfg: every byte is in one block, everything has its words.
 #include "fuzz.h"
-#include "nord_driver/profibus/configuration_bytes.h"
-#include "nord_driver/profibus/diagnosis.h"
-#include "nord_driver/profibus/diagnosis_blocks.h"
+#include "profibus/configuration_bytes.h"
+#include "profibus/diagnosis.h"
+#include "profibus/diagnosis_blocks.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace nord_driver;

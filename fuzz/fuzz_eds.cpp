@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "canopen/eds_check.h"
 #include "fuzz.h"
-#include "nord_driver/canopen/eds_check.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace nord_driver;

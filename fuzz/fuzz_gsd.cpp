@@ -3,7 +3,7 @@
 #include <string>
 
 #include "fuzz.h"
-#include "nord_driver/profibus/gsd_file.h"
+#include "profibus/gsd_file.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace nord_driver;

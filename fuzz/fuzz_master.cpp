@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "fuzz.h"
-#include "nord_driver/profibus/dp_master.h"
+#include "profibus/dp_master.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // Any answers to acyclic requests: one result per record, in bounded time, never longer than asked for.
 #include "fuzz.h"
-#include "nord_driver/profibus/record_channel.h"
+#include "profibus/record_channel.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace nord_driver;

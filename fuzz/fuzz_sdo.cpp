@@ -1,8 +1,8 @@
 // An SDO client against a server that answers anything: every request gets exactly one answer, and no answer holds more
 // than the client can.
+#include "canopen/sdo_abort.h"
+#include "canopen/sdo_client.h"
 #include "fuzz.h"
-#include "nord_driver/canopen/sdo_abort.h"
-#include "nord_driver/canopen/sdo_client.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // Any bytes in any chunks: no telegram is lost or made up, every byte is accounted for.
 #include "fuzz.h"
-#include "nord_driver/profibus/telegram_receiver.h"
+#include "profibus/telegram_receiver.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace nord_driver;

@@ -1,8 +1,8 @@
-#include "nord_driver/canopen/boot_script.h"
+#include "canopen/boot_script.h"
 
 #include <array>
 
-#include "error_control_objects.h"
+#include "canopen/error_control_objects.h"
 
 namespace nord_driver::canopen {
 namespace {

@@ -1,4 +1,4 @@
-#include "nord_driver/canopen/bus_watch.h"
+#include "canopen/bus_watch.h"
 
 namespace nord_driver::canopen {
 namespace {

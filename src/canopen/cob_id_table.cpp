@@ -1,7 +1,7 @@
-#include "nord_driver/canopen/cob_id_table.h"
+#include "canopen/cob_id_table.h"
 
-#include "nord_driver/canopen/emergency.h"
-#include "nord_driver/canopen/nmt.h"
+#include "canopen/emergency.h"
+#include "canopen/nmt.h"
 
 namespace nord_driver::canopen {
 namespace {

@@ -1,6 +1,6 @@
-#include "nord_driver/canopen/compared_write.h"
+#include "canopen/compared_write.h"
 
-#include "nord_driver/canopen/sdo_abort.h"
+#include "canopen/sdo_abort.h"
 
 namespace nord_driver::canopen {
 

@@ -1,6 +1,6 @@
-#include "nord_driver/canopen/dictionary_text.h"
+#include "canopen/dictionary_text.h"
 
-#include "nord_driver/canopen/sdo_abort.h"
+#include "canopen/sdo_abort.h"
 
 namespace nord_driver::canopen {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/canopen/eds_check.h"
+#include "canopen/eds_check.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,10 +1,10 @@
-#include "nord_driver/canopen/eds_file.h"
+#include "canopen/eds_file.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 
-#include "eds_lines.h"
+#include "canopen/eds_lines.h"
 
 namespace nord_driver::canopen {
 

@@ -1,4 +1,4 @@
-#include "eds_lines.h"
+#include "canopen/eds_lines.h"
 
 #include <algorithm>
 #include <cctype>

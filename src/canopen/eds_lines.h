@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "nord_driver/canopen/eds_file.h"
+#include "canopen/eds_file.h"
 
 namespace nord_driver::canopen {
 

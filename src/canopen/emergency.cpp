@@ -1,4 +1,4 @@
-#include "nord_driver/canopen/emergency.h"
+#include "canopen/emergency.h"
 
 #include <cassert>
 

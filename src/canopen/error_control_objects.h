@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "nord_driver/canopen/sdo_request.h"
+#include "canopen/sdo_request.h"
 
 namespace nord_driver::canopen {
 

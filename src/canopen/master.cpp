@@ -1,4 +1,4 @@
-#include "nord_driver/canopen/master.h"
+#include "canopen/master.h"
 
 #include <algorithm>
 #include <array>

@@ -1,13 +1,13 @@
-#include "nord_driver/canopen/master_config.h"
+#include "canopen/master_config.h"
 
 #include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
 
-#include "nord_driver/canopen/cob_id_table.h"
-#include "nord_driver/canopen/emergency.h"
-#include "nord_driver/canopen/nmt.h"
+#include "canopen/cob_id_table.h"
+#include "canopen/emergency.h"
+#include "canopen/nmt.h"
 #include "nord_driver/core/fixed_text.h"
 
 namespace nord_driver::canopen {

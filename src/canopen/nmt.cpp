@@ -1,4 +1,4 @@
-#include "nord_driver/canopen/nmt.h"
+#include "canopen/nmt.h"
 
 #include <array>
 

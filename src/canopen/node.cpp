@@ -1,4 +1,4 @@
-#include "nord_driver/canopen/node.h"
+#include "canopen/node.h"
 
 #include <algorithm>
 

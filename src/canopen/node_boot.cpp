@@ -1,9 +1,9 @@
-#include "nord_driver/canopen/node_boot.h"
+#include "canopen/node_boot.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "error_control_objects.h"
+#include "canopen/error_control_objects.h"
 
 namespace nord_driver::canopen {
 namespace {

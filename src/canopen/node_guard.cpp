@@ -1,8 +1,8 @@
-#include "nord_driver/canopen/node_guard.h"
+#include "canopen/node_guard.h"
 
 #include <algorithm>
 
-#include "nord_driver/canopen/nmt.h"
+#include "canopen/nmt.h"
 
 namespace nord_driver::canopen {
 namespace {

@@ -1,4 +1,4 @@
-#include "nord_driver/canopen/node_report.h"
+#include "canopen/node_report.h"
 
 namespace nord_driver::canopen {
 namespace {

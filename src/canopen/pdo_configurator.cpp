@@ -1,6 +1,6 @@
-#include "nord_driver/canopen/pdo_configurator.h"
+#include "canopen/pdo_configurator.h"
 
-#include "nord_driver/canopen/sdo_abort.h"
+#include "canopen/sdo_abort.h"
 
 namespace nord_driver::canopen {
 namespace {

@@ -1,4 +1,4 @@
-#include "nord_driver/canopen/receive_pdo_slot.h"
+#include "canopen/receive_pdo_slot.h"
 
 namespace nord_driver::canopen {
 

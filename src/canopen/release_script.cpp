@@ -1,6 +1,6 @@
-#include "nord_driver/canopen/release_script.h"
+#include "canopen/release_script.h"
 
-#include "error_control_objects.h"
+#include "canopen/error_control_objects.h"
 
 namespace nord_driver::canopen {
 

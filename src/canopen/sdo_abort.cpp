@@ -1,4 +1,4 @@
-#include "nord_driver/canopen/sdo_abort.h"
+#include "canopen/sdo_abort.h"
 
 #include <array>
 #include <cstdio>

@@ -1,8 +1,8 @@
-#include "nord_driver/canopen/sdo_block_upload.h"
+#include "canopen/sdo_block_upload.h"
 
-#include "nord_driver/canopen/sdo_abort.h"
-#include "nord_driver/canopen/sdo_crc.h"
-#include "sdo_commands.h"
+#include "canopen/sdo_abort.h"
+#include "canopen/sdo_commands.h"
+#include "canopen/sdo_crc.h"
 
 namespace nord_driver::canopen {
 

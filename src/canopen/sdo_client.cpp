@@ -1,7 +1,7 @@
-#include "nord_driver/canopen/sdo_client.h"
+#include "canopen/sdo_client.h"
 
-#include "nord_driver/canopen/sdo_abort.h"
-#include "sdo_commands.h"
+#include "canopen/sdo_abort.h"
+#include "canopen/sdo_commands.h"
 
 namespace nord_driver::canopen {
 

@@ -1,6 +1,6 @@
-#include "sdo_commands.h"
+#include "canopen/sdo_commands.h"
 
-#include "nord_driver/canopen/sdo_block_upload.h"
+#include "canopen/sdo_block_upload.h"
 
 namespace nord_driver::canopen {
 

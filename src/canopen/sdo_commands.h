@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "nord_driver/canopen/sdo_transfer.h"
+#include "canopen/sdo_transfer.h"
 
 namespace nord_driver::canopen {
 

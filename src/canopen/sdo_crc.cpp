@@ -1,4 +1,4 @@
-#include "nord_driver/canopen/sdo_crc.h"
+#include "canopen/sdo_crc.h"
 
 namespace nord_driver::canopen {
 

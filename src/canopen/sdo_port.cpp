@@ -1,4 +1,4 @@
-#include "nord_driver/canopen/sdo_port.h"
+#include "canopen/sdo_port.h"
 
 namespace nord_driver::canopen {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/canopen/sdo_request.h"
+#include "canopen/sdo_request.h"
 
 namespace nord_driver::canopen {
 

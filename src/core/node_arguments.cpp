@@ -1,6 +1,6 @@
-#include "nord_driver/core/node_arguments.h"
+#include "core/node_arguments.h"
 
-#include "nord_driver/core/version.h"
+#include "core/version.h"
 
 namespace nord_driver {
 

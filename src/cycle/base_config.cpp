@@ -1,12 +1,12 @@
-#include "nord_driver/cycle/base_config.h"
+#include "cycle/base_config.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "nord_driver/robot/urdf_geometry.h"
-#include "nord_driver/transport/setting_checks.h"
+#include "config/setting_checks.h"
+#include "robot/urdf_geometry.h"
 
 namespace nord_driver::cycle {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/cycle/base_motion.h"
+#include "cycle/base_motion.h"
 
 #include <cmath>
 #include <limits>

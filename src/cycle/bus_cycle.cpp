@@ -1,9 +1,9 @@
-#include "nord_driver/cycle/bus_cycle.h"
+#include "cycle/bus_cycle.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "nord_driver/cycle/sentences.h"
+#include "cycle/sentences.h"
 
 namespace nord_driver::cycle {
 
@@ -210,7 +210,10 @@ MinimumSpeeds BusCycle::minWheelSpeeds() const noexcept {
 
 void BusCycle::handleInputs(Instant now) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
-    if (inputs_[i].interrupted) drives_[i].handleInterruption(now);
+    if (inputs_[i].interruption != Interruption::kNone) {
+      const bool silent = inputs_[i].interruption == Interruption::kSilent;
+      drives_[i].handleInterruption(silent ? drive::StopCause::kSilent : drive::StopCause::kInterrupted, now);
+    }
     drives_[i].handleModule(inputs_[i].inverter_missing, now);
     drives_[i].handleInput(inputs_[i].input, inputs_[i].inverter_answers, now);
     axes_[i].known = axes_[i].known || drives_[i].report().online;

@@ -1,4 +1,4 @@
-#include "nord_driver/cycle/command_watch.h"
+#include "cycle/command_watch.h"
 
 #include <algorithm>
 #include <utility>

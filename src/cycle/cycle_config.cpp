@@ -1,9 +1,9 @@
-#include "nord_driver/cycle/cycle_config.h"
+#include "cycle/cycle_config.h"
 
 #include <algorithm>
 #include <cctype>
 
-#include "nord_driver/transport/setting_checks.h"
+#include "config/setting_checks.h"
 
 namespace nord_driver::cycle {
 

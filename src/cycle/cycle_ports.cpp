@@ -1,4 +1,4 @@
-#include "nord_driver/cycle/cycle_ports.h"
+#include "cycle/cycle_ports.h"
 
 #include <errno.h>
 #include <time.h>

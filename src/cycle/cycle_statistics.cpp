@@ -1,4 +1,4 @@
-#include "nord_driver/cycle/cycle_statistics.h"
+#include "cycle/cycle_statistics.h"
 
 #include <algorithm>
 

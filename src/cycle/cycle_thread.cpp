@@ -1,4 +1,4 @@
-#include "nord_driver/cycle/cycle_thread.h"
+#include "cycle/cycle_thread.h"
 
 #include <pthread.h>
 #include <sched.h>

@@ -1,8 +1,8 @@
-#include "nord_driver/cycle/device_reader.h"
+#include "cycle/device_reader.h"
 
 #include <algorithm>
 
-#include "nord_driver/profile/parameter_catalogue.h"
+#include "profile/parameter_catalogue.h"
 
 namespace nord_driver::cycle {
 

@@ -1,11 +1,11 @@
-#include "nord_driver/cycle/drive_parameters.h"
+#include "cycle/drive_parameters.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "nord_driver/cycle/parameter_access.h"
-#include "nord_driver/cycle/sentences.h"
-#include "nord_driver/profile/parameter_catalogue.h"
+#include "cycle/parameter_access.h"
+#include "cycle/sentences.h"
+#include "profile/parameter_catalogue.h"
 
 namespace nord_driver::cycle {
 

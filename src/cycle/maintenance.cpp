@@ -1,8 +1,8 @@
-#include "nord_driver/cycle/maintenance.h"
+#include "cycle/maintenance.h"
 
 #include <utility>
 
-#include "nord_driver/cycle/sentences.h"
+#include "cycle/sentences.h"
 
 namespace nord_driver::cycle {
 

@@ -1,9 +1,9 @@
-#include "nord_driver/cycle/parameter_access.h"
+#include "cycle/parameter_access.h"
 
 #include <cmath>
 #include <optional>
 
-#include "nord_driver/transport/setting_checks.h"
+#include "config/setting_checks.h"
 
 namespace nord_driver::cycle {
 

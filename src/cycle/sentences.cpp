@@ -1,6 +1,6 @@
-#include "nord_driver/cycle/sentences.h"
+#include "cycle/sentences.h"
 
-#include "nord_driver/profile/parameter_error.h"
+#include "profile/parameter_error.h"
 
 namespace nord_driver::cycle {
 

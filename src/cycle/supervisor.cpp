@@ -1,8 +1,8 @@
-#include "nord_driver/cycle/supervisor.h"
+#include "cycle/supervisor.h"
 
 #include <algorithm>
 
-#include "nord_driver/cycle/sentences.h"
+#include "cycle/sentences.h"
 
 namespace nord_driver::cycle {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/drive/drive.h"
+#include "drive/drive.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -117,8 +117,8 @@ void Drive::handleSilence(Instant now) noexcept {
   goOffline(StopCause::kSilent, now);
 }
 
-void Drive::handleInterruption(Instant now) noexcept {
-  if (report_.phase != Phase::kOffline) goOffline(StopCause::kInterrupted, now);
+void Drive::handleInterruption(StopCause cause, Instant now) noexcept {
+  if (report_.phase != Phase::kOffline) goOffline(cause, now);
 }
 
 void Drive::goOffline(StopCause cause, Instant now) noexcept {

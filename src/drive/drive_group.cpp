@@ -1,4 +1,4 @@
-#include "nord_driver/drive/drive_group.h"
+#include "drive/drive_group.h"
 
 #include <cstdlib>
 #include <limits>

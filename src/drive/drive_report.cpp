@@ -1,4 +1,4 @@
-#include "nord_driver/drive/drive_report.h"
+#include "drive/drive_report.h"
 
 namespace nord_driver::drive {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "nord_driver/drive/drive.h"
+#include "drive/drive.h"
 
 namespace nord_driver::drive {
 

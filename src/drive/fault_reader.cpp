@@ -1,6 +1,6 @@
-#include "nord_driver/drive/fault_reader.h"
+#include "drive/fault_reader.h"
 
-#include "nord_driver/profile/fault_text.h"
+#include "profile/fault_text.h"
 
 namespace nord_driver::drive {
 

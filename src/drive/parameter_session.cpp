@@ -1,7 +1,7 @@
-#include "nord_driver/drive/parameter_session.h"
+#include "drive/parameter_session.h"
 
-#include "nord_driver/profile/pkw.h"
-#include "parameter_notes.h"
+#include "drive/parameter_notes.h"
+#include "profile/pkw.h"
 
 namespace nord_driver::drive {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/drive/ram_only_values.h"
+#include "drive/ram_only_values.h"
 
 namespace nord_driver::drive {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/node/base_publisher.h"
+#include "node/base_publisher.h"
 
 #include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/TwistStamped.h>

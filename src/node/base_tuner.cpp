@@ -1,4 +1,4 @@
-#include "nord_driver/node/base_tuner.h"
+#include "node/base_tuner.h"
 
 #include <algorithm>
 #include <cmath>

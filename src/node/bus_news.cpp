@@ -1,4 +1,4 @@
-#include "nord_driver/node/bus_news.h"
+#include "node/bus_news.h"
 
 namespace nord_driver::node {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/node/bus_publisher.h"
+#include "node/bus_publisher.h"
 
 #include <algorithm>
 #include <utility>

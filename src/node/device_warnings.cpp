@@ -1,11 +1,11 @@
-#include "nord_driver/node/device_warnings.h"
+#include "node/device_warnings.h"
 
 #include <array>
 #include <cstdint>
 #include <optional>
 
-#include "nord_driver/profile/parameter_catalogue.h"
-#include "nord_driver/transport/setting_checks.h"
+#include "config/setting_checks.h"
+#include "profile/parameter_catalogue.h"
 
 namespace nord_driver::node {
 

@@ -1,12 +1,12 @@
-#include "nord_driver/node/diagnostics.h"
+#include "node/diagnostics.h"
 
 #include <cmath>
 
+#include "node/bus_publisher.h"
+#include "node/device_warnings.h"
+#include "node/way_on.h"
 #include "nord_driver/core/bytes.h"
-#include "nord_driver/node/bus_publisher.h"
-#include "nord_driver/node/device_warnings.h"
-#include "nord_driver/node/way_on.h"
-#include "nord_driver/profile/fault_text.h"
+#include "profile/fault_text.h"
 
 namespace nord_driver::node {
 

@@ -1,10 +1,10 @@
-#include "nord_driver/node/drive_protection.h"
+#include "node/drive_protection.h"
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
-#include "nord_driver/transport/setting_checks.h"
+#include "config/setting_checks.h"
 
 namespace nord_driver::node {
 

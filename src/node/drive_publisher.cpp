@@ -1,10 +1,10 @@
-#include "nord_driver/node/drive_publisher.h"
+#include "node/drive_publisher.h"
 
 #include <limits>
 #include <utility>
 
-#include "nord_driver/node/drive_status.h"
-#include "nord_driver/profile/scaling.h"
+#include "node/drive_status.h"
+#include "profile/scaling.h"
 
 namespace nord_driver::node {
 

@@ -1,8 +1,8 @@
-#include "nord_driver/node/drive_status.h"
+#include "node/drive_status.h"
 
 #include <algorithm>
 
-#include "nord_driver/profile/fault_text.h"
+#include "profile/fault_text.h"
 
 namespace nord_driver::node {
 

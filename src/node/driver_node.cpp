@@ -1,10 +1,10 @@
-#include "nord_driver/node/driver_node.h"
+#include "node/driver_node.h"
 
 #include <boost/function.hpp>
 #include <cmath>
 
+#include "config/setting_checks.h"
 #include "nord_driver/profile/series.h"
-#include "nord_driver/transport/setting_checks.h"
 
 namespace nord_driver::node {
 

@@ -5,9 +5,9 @@
 #include <atomic>
 #include <cstdio>
 
-#include "nord_driver/core/node_arguments.h"
-#include "nord_driver/node/driver_node.h"
-#include "nord_driver/tools/end_signals.h"
+#include "core/node_arguments.h"
+#include "node/driver_node.h"
+#include "tools/end_signals.h"
 
 namespace {
 

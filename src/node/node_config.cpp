@@ -1,7 +1,7 @@
-#include "nord_driver/node/node_config.h"
+#include "node/node_config.h"
 
-#include "nord_driver/node/wheel_state_publisher.h"
-#include "nord_driver/transport/setting_checks.h"
+#include "config/setting_checks.h"
+#include "node/wheel_state_publisher.h"
 
 namespace nord_driver::node {
 

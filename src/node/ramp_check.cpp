@@ -1,10 +1,10 @@
-#include "nord_driver/node/ramp_check.h"
+#include "node/ramp_check.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "nord_driver/core/fixed_text.h"
-#include "nord_driver/robot/base_kinematics.h"
+#include "robot/base_kinematics.h"
 
 namespace nord_driver::node {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/node/request_broker.h"
+#include "node/request_broker.h"
 
 namespace nord_driver::node {
 

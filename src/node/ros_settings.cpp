@@ -1,11 +1,11 @@
-#include "nord_driver/node/ros_settings.h"
+#include "node/ros_settings.h"
 
 #include <cmath>
 #include <functional>
 #include <sstream>
 #include <utility>
 
-#include "nord_driver/transport/nearest_name.h"
+#include "config/nearest_name.h"
 
 namespace nord_driver::node {
 

@@ -1,8 +1,8 @@
-#include "nord_driver/node/services.h"
+#include "node/services.h"
 
 #include <boost/function.hpp>
 
-#include "nord_driver/cycle/parameter_access.h"
+#include "cycle/parameter_access.h"
 
 namespace nord_driver::node {
 

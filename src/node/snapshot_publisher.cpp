@@ -1,4 +1,4 @@
-#include "nord_driver/node/snapshot_publisher.h"
+#include "node/snapshot_publisher.h"
 
 #include <algorithm>
 

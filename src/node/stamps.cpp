@@ -1,4 +1,4 @@
-#include "nord_driver/node/stamps.h"
+#include "node/stamps.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "nord_driver/node/tracing.h"
+#include "node/tracing.h"
 
 #include <boost/function.hpp>
 

@@ -1,4 +1,4 @@
-#include "nord_driver/node/way_on.h"
+#include "node/way_on.h"
 
 namespace nord_driver::node {
 

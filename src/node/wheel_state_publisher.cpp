@@ -1,4 +1,4 @@
-#include "nord_driver/node/wheel_state_publisher.h"
+#include "node/wheel_state_publisher.h"
 
 #ifdef NORD_DRIVER_HAS_CONTROL_MSGS
 #include <control_msgs/JointTrajectoryControllerState.h>

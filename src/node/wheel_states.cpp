@@ -1,4 +1,4 @@
-#include "nord_driver/node/wheel_states.h"
+#include "node/wheel_states.h"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "nord_driver/profibus/bus_parameters.h"
+#include "profibus/bus_parameters.h"
 
 #include <array>
 #include <stdexcept>

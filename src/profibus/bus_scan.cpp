@@ -1,6 +1,6 @@
-#include "nord_driver/profibus/bus_scan.h"
+#include "profibus/bus_scan.h"
 
-#include "nord_driver/profibus/frame_count.h"
+#include "profibus/frame_count.h"
 
 namespace nord_driver::profibus {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/profibus/configuration_bytes.h"
+#include "profibus/configuration_bytes.h"
 
 namespace nord_driver::profibus {
 

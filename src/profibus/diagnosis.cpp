@@ -1,6 +1,6 @@
-#include "nord_driver/profibus/diagnosis.h"
+#include "profibus/diagnosis.h"
 
-#include "nord_driver/profibus/diagnosis_blocks.h"
+#include "profibus/diagnosis_blocks.h"
 
 namespace nord_driver::profibus {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/profibus/diagnosis_blocks.h"
+#include "profibus/diagnosis_blocks.h"
 
 #include <array>
 

@@ -1,4 +1,4 @@
-#include "nord_driver/profibus/dp_master.h"
+#include "profibus/dp_master.h"
 
 #include <algorithm>
 

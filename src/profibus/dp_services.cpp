@@ -1,9 +1,9 @@
-#include "nord_driver/profibus/dp_services.h"
+#include "profibus/dp_services.h"
 
 #include <array>
 
-#include "nord_driver/profibus/diagnosis.h"
-#include "nord_driver/profibus/watchdog_factors.h"
+#include "profibus/diagnosis.h"
+#include "profibus/watchdog_factors.h"
 
 namespace nord_driver::profibus {
 

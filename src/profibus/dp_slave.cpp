@@ -1,10 +1,10 @@
 // The requests of a slave, and how it moves between its phases.
-#include "nord_driver/profibus/dp_slave.h"
+#include "profibus/dp_slave.h"
 
 #include <algorithm>
 
-#include "dp_slave_texts.h"
-#include "nord_driver/profibus/configuration_bytes.h"
+#include "profibus/configuration_bytes.h"
+#include "profibus/dp_slave_texts.h"
 
 namespace nord_driver::profibus {
 

@@ -1,8 +1,8 @@
 // What the answers of a slave mean.
 #include <algorithm>
 
-#include "dp_slave_texts.h"
-#include "nord_driver/profibus/dp_slave.h"
+#include "profibus/dp_slave.h"
+#include "profibus/dp_slave_texts.h"
 
 namespace nord_driver::profibus {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/profibus/fdl_request.h"
+#include "profibus/fdl_request.h"
 
 namespace nord_driver::profibus {
 

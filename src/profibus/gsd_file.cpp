@@ -1,11 +1,11 @@
-#include "nord_driver/profibus/gsd_file.h"
+#include "profibus/gsd_file.h"
 
 #include <algorithm>
 #include <array>
 
-#include "gsd_lines.h"
-#include "gsd_parameters.h"
-#include "nord_driver/profibus/slave_config.h"
+#include "profibus/gsd_lines.h"
+#include "profibus/gsd_parameters.h"
+#include "profibus/slave_config.h"
 
 namespace nord_driver::profibus {
 

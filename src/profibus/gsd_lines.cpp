@@ -1,4 +1,4 @@
-#include "gsd_lines.h"
+#include "profibus/gsd_lines.h"
 
 #include <cctype>
 

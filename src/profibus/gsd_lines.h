@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "nord_driver/profibus/gsd_file.h"
+#include "profibus/gsd_file.h"
 
 namespace nord_driver::profibus {
 

@@ -1,10 +1,10 @@
-#include "gsd_parameters.h"
+#include "profibus/gsd_parameters.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 
-#include "nord_driver/profibus/slave_config.h"
+#include "profibus/slave_config.h"
 
 namespace nord_driver::profibus {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "gsd_lines.h"
-#include "nord_driver/profibus/gsd_file.h"
+#include "profibus/gsd_file.h"
+#include "profibus/gsd_lines.h"
 
 namespace nord_driver::profibus {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/profibus/record.h"
+#include "profibus/record.h"
 
 namespace nord_driver::profibus {
 

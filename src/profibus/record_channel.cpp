@@ -1,4 +1,4 @@
-#include "nord_driver/profibus/record_channel.h"
+#include "profibus/record_channel.h"
 
 #include <algorithm>
 

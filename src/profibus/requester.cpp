@@ -1,4 +1,4 @@
-#include "nord_driver/profibus/requester.h"
+#include "profibus/requester.h"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
-#include "nord_driver/profibus/slave_config.h"
+#include "profibus/slave_config.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 
-#include "nord_driver/profibus/configuration_bytes.h"
-#include "nord_driver/profibus/watchdog_factors.h"
+#include "profibus/configuration_bytes.h"
+#include "profibus/watchdog_factors.h"
 
 namespace nord_driver::profibus {
 

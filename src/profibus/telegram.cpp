@@ -1,6 +1,6 @@
-#include "nord_driver/profibus/telegram.h"
+#include "profibus/telegram.h"
 
-#include "nord_driver/profibus/station_address.h"
+#include "profibus/station_address.h"
 
 namespace nord_driver::profibus {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/profibus/telegram_receiver.h"
+#include "profibus/telegram_receiver.h"
 
 #include <algorithm>
 

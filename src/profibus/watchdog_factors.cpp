@@ -1,4 +1,4 @@
-#include "nord_driver/profibus/watchdog_factors.h"
+#include "profibus/watchdog_factors.h"
 
 namespace nord_driver::profibus {
 

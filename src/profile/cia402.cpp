@@ -1,10 +1,10 @@
-#include "nord_driver/profile/cia402.h"
+#include "profile/cia402.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "nord_driver/profile/control_word.h"
-#include "nord_driver/profile/scaling.h"
+#include "profile/control_word.h"
+#include "profile/scaling.h"
 
 namespace nord_driver::profile {
 

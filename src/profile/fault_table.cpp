@@ -1,4 +1,4 @@
-#include "nord_driver/profile/fault_table.h"
+#include "profile/fault_table.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
-#include "nord_driver/profile/fault_text.h"
+#include "profile/fault_text.h"
 
-#include "nord_driver/profile/fault_table.h"
+#include "profile/fault_table.h"
 
 namespace nord_driver::profile {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/profile/parameter_catalogue.h"
+#include "profile/parameter_catalogue.h"
 
 #include <cmath>
 

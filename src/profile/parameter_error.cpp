@@ -1,6 +1,6 @@
-#include "nord_driver/profile/parameter_error.h"
+#include "profile/parameter_error.h"
 
-#include "nord_driver/profile/pkw.h"
+#include "profile/pkw.h"
 
 namespace nord_driver::profile {
 

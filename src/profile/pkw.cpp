@@ -1,4 +1,4 @@
-#include "nord_driver/profile/pkw.h"
+#include "profile/pkw.h"
 
 namespace nord_driver::profile {
 

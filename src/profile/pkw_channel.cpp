@@ -1,4 +1,4 @@
-#include "nord_driver/profile/pkw_channel.h"
+#include "profile/pkw_channel.h"
 
 namespace nord_driver::profile {
 

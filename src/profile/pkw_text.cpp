@@ -1,5 +1,5 @@
 // The words of the parameter channel's labels and error numbers (BU 2700 6.5.1.1, BU 0020 7.5.1).
-#include "nord_driver/profile/pkw.h"
+#include "profile/pkw.h"
 
 namespace nord_driver::profile {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/profile/scaling.h"
+#include "profile/scaling.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "nord_driver/profile/state_machine.h"
+#include "profile/state_machine.h"
 
 namespace nord_driver::profile {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/profile/status_word.h"
+#include "profile/status_word.h"
 
 namespace nord_driver::profile {
 

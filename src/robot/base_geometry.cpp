@@ -1,4 +1,4 @@
-#include "nord_driver/robot/base_geometry.h"
+#include "robot/base_geometry.h"
 
 #include <cmath>
 #include <stdexcept>

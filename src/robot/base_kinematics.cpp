@@ -1,10 +1,10 @@
-#include "nord_driver/robot/base_kinematics.h"
+#include "robot/base_kinematics.h"
 
 #include <stdexcept>
 #include <string>
 
-#include "nord_driver/robot/diff_drive_kinematics.h"
-#include "nord_driver/robot/mecanum_kinematics.h"
+#include "robot/diff_drive_kinematics.h"
+#include "robot/mecanum_kinematics.h"
 
 namespace nord_driver::robot {
 

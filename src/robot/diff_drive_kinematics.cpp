@@ -1,4 +1,4 @@
-#include "nord_driver/robot/diff_drive_kinematics.h"
+#include "robot/diff_drive_kinematics.h"
 
 #include <stdexcept>
 #include <string>

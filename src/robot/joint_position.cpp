@@ -1,4 +1,4 @@
-#include "nord_driver/robot/joint_position.h"
+#include "robot/joint_position.h"
 
 #include <cmath>
 

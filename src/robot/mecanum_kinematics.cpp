@@ -1,4 +1,4 @@
-#include "nord_driver/robot/mecanum_kinematics.h"
+#include "robot/mecanum_kinematics.h"
 
 #include <stdexcept>
 

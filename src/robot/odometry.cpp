@@ -1,4 +1,4 @@
-#include "nord_driver/robot/odometry.h"
+#include "robot/odometry.h"
 
 #include <cmath>
 #include <stdexcept>

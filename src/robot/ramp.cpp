@@ -1,4 +1,4 @@
-#include "nord_driver/robot/ramp.h"
+#include "robot/ramp.h"
 
 #include <algorithm>
 #include <cmath>

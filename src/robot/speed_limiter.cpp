@@ -1,4 +1,4 @@
-#include "nord_driver/robot/speed_limiter.h"
+#include "robot/speed_limiter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "nord_driver/robot/speed_limits.h"
+#include "robot/speed_limits.h"
 
 #include <cmath>
 #include <sstream>

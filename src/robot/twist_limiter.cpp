@@ -1,4 +1,4 @@
-#include "nord_driver/robot/twist_limiter.h"
+#include "robot/twist_limiter.h"
 
 #include <algorithm>
 #include <cmath>

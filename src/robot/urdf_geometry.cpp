@@ -1,4 +1,4 @@
-#include "nord_driver/robot/urdf_geometry.h"
+#include "robot/urdf_geometry.h"
 
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>

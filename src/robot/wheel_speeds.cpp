@@ -1,4 +1,4 @@
-#include "nord_driver/robot/wheel_speeds.h"
+#include "robot/wheel_speeds.h"
 
 #include <algorithm>
 #include <cmath>

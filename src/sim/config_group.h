@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "nord_driver/sim/sim_config.h"
+#include "sim/sim_config.h"
 
 namespace nord_driver::sim {
 

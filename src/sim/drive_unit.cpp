@@ -1,4 +1,4 @@
-#include "nord_driver/sim/drive_unit.h"
+#include "sim/drive_unit.h"
 
 namespace nord_driver::sim {
 

@@ -1,4 +1,4 @@
-#include "model_clock.h"
+#include "sim/model_clock.h"
 
 #include <pthread.h>
 #include <sched.h>

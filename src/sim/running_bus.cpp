@@ -1,7 +1,7 @@
-#include "nord_driver/sim/running_bus.h"
+#include "sim/running_bus.h"
 
-#include "nord_driver/sim/can_bus_thread.h"
-#include "nord_driver/sim/pty_bus.h"
+#include "sim/canopen/can_bus_thread.h"
+#include "sim/profibus/pty_bus.h"
 
 namespace nord_driver::sim {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/sim/sim_config.h"
+#include "sim/sim_config.h"
 
 #include <yaml-cpp/yaml.h>
 
@@ -8,8 +8,8 @@
 #include <map>
 #include <sstream>
 
-#include "config_group.h"
-#include "nord_driver/sim/parameter_store.h"
+#include "sim/config_group.h"
+#include "sim/inverter/parameter_store.h"
 
 namespace nord_driver::sim {
 

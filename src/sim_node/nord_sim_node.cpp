@@ -8,10 +8,10 @@
 #include <exception>
 #include <memory>
 
-#include "nord_driver/core/node_arguments.h"
-#include "nord_driver/sim/running_bus.h"
-#include "param_yaml.h"
-#include "sim_node.h"
+#include "core/node_arguments.h"
+#include "sim/running_bus.h"
+#include "sim_node/param_yaml.h"
+#include "sim_node/sim_node.h"
 
 namespace {
 

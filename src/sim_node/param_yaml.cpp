@@ -1,4 +1,4 @@
-#include "param_yaml.h"
+#include "sim_node/param_yaml.h"
 
 #include <string>
 

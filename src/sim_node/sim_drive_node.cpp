@@ -1,4 +1,4 @@
-#include "sim_drive_node.h"
+#include "sim_node/sim_drive_node.h"
 
 #include <boost/function.hpp>
 #include <cmath>

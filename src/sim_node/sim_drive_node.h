@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "nord_driver/sim/running_bus.h"
+#include "sim/running_bus.h"
 
 namespace nord_driver::sim_node {
 

@@ -1,4 +1,4 @@
-#include "sim_node.h"
+#include "sim_node/sim_node.h"
 
 #include <nav_msgs/Odometry.h>
 #include <std_srvs/Trigger.h>

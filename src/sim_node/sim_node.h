@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "nord_driver/sim/running_bus.h"
-#include "sim_drive_node.h"
+#include "sim/running_bus.h"
+#include "sim_node/sim_drive_node.h"
 
 namespace nord_driver::sim_node {
 

@@ -1,4 +1,4 @@
-#include "nord_driver/tools/command_line.h"
+#include "tools/command_line.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "nord_driver/tools/usage_error.h"
+#include "tools/usage_error.h"
 
 namespace nord_driver::tools {
 

@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "nord_driver/core/version.h"
-#include "nord_driver/tools/command_line.h"
-#include "nord_driver/tools/end_signals.h"
-#include "nord_driver/tools/param_commands.h"
-#include "nord_driver/tools/parameter_dump.h"
-#include "nord_driver/tools/parameter_name.h"
-#include "nord_driver/tools/transport_loader.h"
-#include "nord_driver/tools/yaml_settings.h"
+#include "config/yaml_settings.h"
+#include "core/version.h"
+#include "tools/command_line.h"
+#include "tools/end_signals.h"
+#include "tools/param_commands.h"
+#include "tools/parameter_dump.h"
+#include "tools/parameter_name.h"
+#include "tools/transport_loader.h"
 
 namespace {
 

@@ -11,9 +11,9 @@
 #include <thread>
 #include <vector>
 
-#include "nord_driver/sim/running_bus.h"
-#include "nord_driver/tools/bus_port.h"
-#include "nord_driver/tools/command_line.h"
+#include "sim/running_bus.h"
+#include "tools/bus_port.h"
+#include "tools/command_line.h"
 
 namespace {
 

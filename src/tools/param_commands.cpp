@@ -1,12 +1,12 @@
-#include "nord_driver/tools/param_commands.h"
+#include "tools/param_commands.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
-#include "nord_driver/profile/parameter_catalogue.h"
-#include "nord_driver/tools/parameter_name.h"
+#include "profile/parameter_catalogue.h"
+#include "tools/parameter_name.h"
 
 namespace nord_driver::tools {
 

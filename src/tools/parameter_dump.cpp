@@ -1,12 +1,12 @@
-#include "nord_driver/tools/parameter_dump.h"
+#include "tools/parameter_dump.h"
 
 #include <yaml-cpp/yaml.h>
 
 #include <optional>
 
-#include "nord_driver/profile/parameter_catalogue.h"
-#include "nord_driver/tools/parameter_name.h"
-#include "nord_driver/transport/setting_checks.h"
+#include "config/setting_checks.h"
+#include "profile/parameter_catalogue.h"
+#include "tools/parameter_name.h"
 
 namespace nord_driver::tools {
 

@@ -1,11 +1,11 @@
-#include "nord_driver/tools/parameter_link.h"
+#include "tools/parameter_link.h"
 
-#include "nord_driver/cycle/drive_parameters.h"
-#include "nord_driver/cycle/sentences.h"
-#include "nord_driver/profile/pkw.h"
-#include "nord_driver/profile/status_word.h"
-#include "nord_driver/transport/parameters_only.h"
-#include "nord_driver/transport/setting_checks.h"
+#include "config/setting_checks.h"
+#include "cycle/drive_parameters.h"
+#include "cycle/sentences.h"
+#include "profile/pkw.h"
+#include "profile/status_word.h"
+#include "transport/parameters_only.h"
 
 namespace nord_driver::tools {
 

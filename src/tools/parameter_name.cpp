@@ -1,4 +1,4 @@
-#include "nord_driver/tools/parameter_name.h"
+#include "tools/parameter_name.h"
 
 #include <cstdio>
 #include <cstdlib>

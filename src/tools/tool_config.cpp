@@ -1,8 +1,8 @@
-#include "nord_driver/tools/tool_config.h"
+#include "tools/tool_config.h"
 
 #include <algorithm>
 
-#include "nord_driver/tools/yaml_settings.h"
+#include "config/yaml_settings.h"
 
 namespace nord_driver::tools {
 

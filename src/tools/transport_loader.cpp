@@ -1,4 +1,4 @@
-#include "nord_driver/tools/transport_loader.h"
+#include "tools/transport_loader.h"
 
 #include <stdexcept>
 

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <string>
 
+#include "core/can_frame.h"
 #include "nord_driver/core/bytes.h"
-#include "nord_driver/core/can_frame.h"
 
 namespace nord_driver::canopen {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "canopen/can_text.h"
+#include "canopen/master.h"
 #include "canopen/scripted_node.h"
-#include "nord_driver/canopen/master.h"
 
 namespace nord_driver::canopen {
 

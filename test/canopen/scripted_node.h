@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "nord_driver/core/can_frame.h"
+#include "core/can_frame.h"
 #include "nord_driver/core/time.h"
 
 namespace nord_driver::canopen {

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "canopen/eds_check.h"
 #include "canopen/eds_samples.h"
-#include "nord_driver/canopen/eds_check.h"
 
 namespace nord_driver::canopen {
 namespace {

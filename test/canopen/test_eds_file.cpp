@@ -3,8 +3,8 @@
 #include <random>
 #include <string>
 
+#include "canopen/eds_file.h"
 #include "canopen/eds_samples.h"
-#include "nord_driver/canopen/eds_file.h"
 
 namespace nord_driver::canopen {
 namespace {

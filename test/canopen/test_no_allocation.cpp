@@ -2,7 +2,7 @@
 
 #include "canopen/master_run.h"
 #include "canopen/scripted_sdo_server.h"
-#include "nord_driver/canopen/sdo_client.h"
+#include "canopen/sdo_client.h"
 #include "support/count_allocations.h"
 
 namespace nord_driver::canopen {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "canopen/master_run.h"
-#include "nord_driver/canopen/sdo_abort.h"
+#include "canopen/sdo_abort.h"
 
 namespace nord_driver::canopen {
 namespace {

@@ -1,5 +1,5 @@
 #include "canopen/sdo_conversation.h"
-#include "nord_driver/canopen/sdo_crc.h"
+#include "canopen/sdo_crc.h"
 
 namespace nord_driver::canopen {
 namespace {

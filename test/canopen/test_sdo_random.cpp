@@ -5,8 +5,8 @@
 #include <random>
 
 #include "canopen/scripted_sdo_server.h"
-#include "nord_driver/canopen/sdo_abort.h"
-#include "nord_driver/canopen/sdo_client.h"
+#include "canopen/sdo_abort.h"
+#include "canopen/sdo_client.h"
 
 namespace nord_driver::canopen {
 namespace {

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <thread>
 
-#include "nord_driver/core/event_ring.h"
+#include "core/event_ring.h"
 
 namespace nord_driver {
 namespace {

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <thread>
 
-#include "nord_driver/core/latest_value.h"
+#include "core/latest_value.h"
 
 namespace nord_driver {
 namespace {

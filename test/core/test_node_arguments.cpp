@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "nord_driver/core/node_arguments.h"
-#include "nord_driver/core/version.h"
+#include "core/node_arguments.h"
+#include "core/version.h"
 
 namespace nord_driver {
 namespace {

@@ -1,7 +1,7 @@
 // The turn of each request, its result under its own id, and the one limit over both.
 #include <gtest/gtest.h>
 
-#include "nord_driver/core/request_queue.h"
+#include "core/request_queue.h"
 
 namespace nord_driver {
 namespace {

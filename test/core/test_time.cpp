@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "nord_driver/core/baud_rate.h"
+#include "core/baud_rate.h"
 #include "nord_driver/core/time.h"
 
 namespace nord_driver {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "cycle/bus_cycle.h"
 #include "cycle/scripted_transport.h"
-#include "nord_driver/cycle/bus_cycle.h"
 
 namespace nord_driver::cycle {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "cycle/supervisor.h"
 #include "drive/fake_inverter.h"
-#include "nord_driver/cycle/supervisor.h"
 
 namespace nord_driver::cycle {
 

@@ -31,7 +31,7 @@ class ScriptedTransport final : public Transport {
     outputs = sent;
     for (DriveIndex i = 0; i < inverters.size(); ++i) {
       inputs[i] = {};
-      inputs[i].interrupted = interrupted[i];
+      inputs[i].interruption = interrupted[i] ? Interruption::kUnasked : Interruption::kNone;
       interrupted[i] = false;
       const profile::ProcessInput input = inverters[i].exchange(sent[i]);
       if (inverters[i].silent) continue;

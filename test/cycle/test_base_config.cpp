@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "nord_driver/cycle/base_config.h"
+#include "cycle/base_config.h"
 #include "support/map_settings.h"
 
 namespace nord_driver::cycle {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "nord_driver/cycle/base_motion.h"
+#include "cycle/base_motion.h"
 
 namespace nord_driver::cycle {
 namespace {

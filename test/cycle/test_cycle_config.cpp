@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "nord_driver/cycle/cycle_config.h"
+#include "cycle/cycle_config.h"
 #include "support/map_settings.h"
 
 namespace nord_driver::cycle {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <thread>
 
-#include "nord_driver/cycle/cycle_ports.h"
+#include "cycle/cycle_ports.h"
 
 namespace nord_driver::cycle {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "nord_driver/cycle/cycle_statistics.h"
+#include "cycle/cycle_statistics.h"
 
 namespace nord_driver::cycle {
 namespace {

@@ -4,8 +4,8 @@
 #include <condition_variable>
 #include <mutex>
 
+#include "cycle/cycle_thread.h"
 #include "cycle/scripted_transport.h"
-#include "nord_driver/cycle/cycle_thread.h"
 
 namespace nord_driver::cycle {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "nord_driver/cycle/device_reader.h"
+#include "cycle/device_reader.h"
 
 namespace nord_driver::cycle {
 namespace {

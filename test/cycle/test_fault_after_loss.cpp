@@ -35,6 +35,7 @@ TEST_F(FaultAfterLoss, IsToldNoLongerOnceItIsGone) {
   EXPECT_EQ(21, snapshot().drives[kLeft].last_fault_number);
   EXPECT_THAT(ask(RequestKind::kEnable).message.c_str(), HasSubstr("a fault was seen and has not been acknowledged"));
   ASSERT_TRUE(ask(RequestKind::kAcknowledge, kLeft).success);
+  run(100);  // its parameters are read again
   ASSERT_TRUE(ask(RequestKind::kEnable).success);
   for (int i = 0; i < 20; ++i) {
     commandBase(0.5);

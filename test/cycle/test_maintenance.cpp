@@ -4,8 +4,8 @@
 
 #include <array>
 
+#include "cycle/maintenance.h"
 #include "drive/fake_inverter.h"
-#include "nord_driver/cycle/maintenance.h"
 
 namespace nord_driver::cycle {
 namespace {

@@ -1,7 +1,7 @@
 // From the manual's numbers to a request: what cannot be meant is refused before the bus hears of it.
 #include <gtest/gtest.h>
 
-#include "nord_driver/cycle/parameter_access.h"
+#include "cycle/parameter_access.h"
 
 namespace nord_driver::cycle {
 namespace {

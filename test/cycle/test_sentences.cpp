@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "nord_driver/cycle/sentences.h"
+#include "cycle/sentences.h"
 
 namespace nord_driver::cycle {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "nord_driver/cycle/speed_watch.h"
+#include "cycle/speed_watch.h"
 
 namespace nord_driver::cycle {
 namespace {

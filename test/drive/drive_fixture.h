@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "nord_driver/drive/drive.h"
+#include "drive/drive.h"
 
 namespace nord_driver::drive {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "drive_fixture.h"
+#include "drive/drive_fixture.h"
 
 namespace nord_driver::drive {
 namespace {

@@ -1,7 +1,7 @@
 // Acknowledging a fault.
 #include <gtest/gtest.h>
 
-#include "drive_fixture.h"
+#include "drive/drive_fixture.h"
 
 namespace nord_driver::drive {
 namespace {

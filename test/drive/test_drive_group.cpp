@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "fake_inverter.h"
-#include "nord_driver/drive/drive_group.h"
+#include "drive/drive_group.h"
+#include "drive/fake_inverter.h"
 
 namespace nord_driver::drive {
 namespace {

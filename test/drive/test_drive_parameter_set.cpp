@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "drive_fixture.h"
+#include "drive/drive_fixture.h"
 
 namespace nord_driver::drive {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "drive_fixture.h"
+#include "drive/drive_fixture.h"
 
 namespace nord_driver::drive {
 namespace {

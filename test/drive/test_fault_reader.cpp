@@ -1,8 +1,8 @@
 // Which fault an inverter has, read when its fault bit rises.
 #include <gtest/gtest.h>
 
-#include "fake_parameters.h"
-#include "nord_driver/drive/fault_reader.h"
+#include "drive/fake_parameters.h"
+#include "drive/fault_reader.h"
 
 namespace nord_driver::drive {
 namespace {

@@ -1,7 +1,7 @@
 // P104 > 0: the motor turns at setpoint 0. Refused; or accepted, and then zero is OFF1.
 #include <gtest/gtest.h>
 
-#include "drive_fixture.h"
+#include "drive/drive_fixture.h"
 
 namespace nord_driver::drive {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "fake_parameters.h"
-#include "nord_driver/drive/parameter_session.h"
+#include "drive/fake_parameters.h"
+#include "drive/parameter_session.h"
 
 namespace nord_driver::drive {
 namespace {

@@ -1,8 +1,8 @@
 // The choice of how a group of drives stops, for each case that has one: the words that go out.
 #include <gtest/gtest.h>
 
-#include "fake_inverter.h"
-#include "nord_driver/drive/drive_group.h"
+#include "drive/drive_group.h"
+#include "drive/fake_inverter.h"
 
 namespace nord_driver::drive {
 namespace {

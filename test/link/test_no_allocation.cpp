@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "link/fake_can_system.h"
-#include "nord_driver/link/socket_can.h"
-#include "nord_driver/link/virtual_can.h"
-#include "nord_driver/link/virtual_can_hub.h"
+#include "link/can/fake_can_system.h"
+#include "link/can/socket_can.h"
+#include "link/can/virtual_can.h"
+#include "link/can/virtual_can_hub.h"
 #include "support/count_allocations.h"
 
 namespace nord_driver::link {

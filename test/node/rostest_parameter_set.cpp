@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "node/robot_under_test.h"
-#include "nord_driver/transport/canopen.h"
-#include "nord_driver/transport/profibus_dp.h"
 #include "support/map_settings.h"
+#include "transport/canopen/canopen.h"
+#include "transport/profibus/profibus_dp.h"
 
 namespace nord_driver::test {
 namespace {

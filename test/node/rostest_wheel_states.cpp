@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "node/base_publisher.h"
 #include "node/parameters.h"
 #include "node/topic.h"
-#include "nord_driver/node/base_publisher.h"
-#include "nord_driver/node/wheel_state_publisher.h"
+#include "node/wheel_state_publisher.h"
 
 namespace nord_driver::node {
 namespace {

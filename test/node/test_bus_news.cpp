@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "nord_driver/node/bus_news.h"
+#include "node/bus_news.h"
 
 namespace nord_driver::node {
 namespace {

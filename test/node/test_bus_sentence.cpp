@@ -1,7 +1,7 @@
 // One sentence for a technician: what the bus waits for, or that all is well.
 #include <gtest/gtest.h>
 
-#include "nord_driver/node/bus_publisher.h"
+#include "node/bus_publisher.h"
 
 namespace nord_driver::node {
 namespace {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "nord_driver/node/device_warnings.h"
+#include "node/device_warnings.h"
 
 namespace nord_driver::node {
 namespace {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "nord_driver/node/drive_protection.h"
+#include "node/drive_protection.h"
 
 namespace nord_driver::node {
 namespace {

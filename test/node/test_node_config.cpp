@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "node/node_config.h"
 #include "node/parameters.h"
-#include "nord_driver/node/node_config.h"
-#include "nord_driver/node/wheel_state_publisher.h"
+#include "node/wheel_state_publisher.h"
 
 namespace nord_driver::node {
 namespace {

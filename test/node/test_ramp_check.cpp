@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "nord_driver/node/ramp_check.h"
+#include "node/ramp_check.h"
 
 namespace nord_driver::node {
 namespace {

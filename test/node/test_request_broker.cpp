@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "nord_driver/node/request_broker.h"
+#include "node/request_broker.h"
 
 namespace nord_driver::node {
 namespace {

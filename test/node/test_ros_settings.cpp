@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "node/parameters.h"
-#include "nord_driver/node/ros_settings.h"
+#include "node/ros_settings.h"
 
 namespace nord_driver::node {
 namespace {

@@ -1,7 +1,7 @@
 // The moment of a measurement in ROS time, with every clock a node may meet.
 #include <gtest/gtest.h>
 
-#include "nord_driver/node/stamps.h"
+#include "node/stamps.h"
 
 namespace nord_driver::node {
 namespace {

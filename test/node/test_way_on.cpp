@@ -1,7 +1,7 @@
 // What comes next after a stop: the drive that is missing before the one with a fault, and ~enable always last.
 #include <gtest/gtest.h>
 
-#include "nord_driver/node/way_on.h"
+#include "node/way_on.h"
 
 namespace nord_driver::node {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "nord_driver/node/wheel_states.h"
+#include "node/wheel_states.h"
 
 namespace nord_driver::node {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "nord_driver/profibus/dp_master.h"
-#include "nord_driver/sim/simulated_segment.h"
+#include "profibus/dp_master.h"
 #include "profibus/wire.h"
+#include "sim/profibus/simulated_segment.h"
 
 namespace nord_driver::profibus {
 

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "nord_driver/profibus/bus_parameters.h"
-#include "nord_driver/profibus/frame_count.h"
+#include "profibus/bus_parameters.h"
+#include "profibus/frame_count.h"
 
 namespace nord_driver::profibus {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "nord_driver/profibus/bus_scan.h"
+#include "profibus/bus_scan.h"
 #include "profibus/nord_wire.h"
 
 namespace nord_driver::profibus {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "nord_driver/profibus/configuration_bytes.h"
+#include "profibus/configuration_bytes.h"
 
 namespace nord_driver::profibus {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "nord_driver/profibus/diagnosis_blocks.h"
+#include "profibus/diagnosis_blocks.h"
 #include "profibus/nord_wire.h"
 
 namespace nord_driver::profibus {

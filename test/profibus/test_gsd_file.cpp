@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "nord_driver/core/bytes.h"
-#include "nord_driver/profibus/gsd_file.h"
+#include "profibus/gsd_file.h"
 #include "profibus/gsd_samples.h"
 
 namespace nord_driver::profibus {

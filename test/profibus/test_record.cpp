@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "nord_driver/profibus/record.h"
+#include "profibus/record.h"
 
 namespace nord_driver::profibus {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <stdexcept>
 
-#include "nord_driver/profibus/diagnosis.h"
-#include "nord_driver/profibus/dp_master.h"
-#include "nord_driver/profibus/slave_config.h"
-#include "nord_driver/profibus/watchdog_factors.h"
+#include "profibus/diagnosis.h"
+#include "profibus/dp_master.h"
+#include "profibus/slave_config.h"
+#include "profibus/watchdog_factors.h"
 #include "profibus/wire.h"
 
 namespace nord_driver::profibus {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "nord_driver/profibus/telegram.h"
+#include "profibus/telegram.h"
 #include "profibus/vectors.h"
 
 namespace nord_driver::profibus {

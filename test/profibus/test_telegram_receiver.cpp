@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "nord_driver/profibus/telegram_receiver.h"
+#include "profibus/telegram_receiver.h"
 #include "profibus/vectors.h"
 
 namespace nord_driver::profibus {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nord_driver/core/bytes.h"
-#include "nord_driver/profibus/dp_master.h"
+#include "profibus/dp_master.h"
 
 namespace nord_driver::profibus {
 

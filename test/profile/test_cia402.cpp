@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "nord_driver/profile/cia402.h"
+#include "profile/cia402.h"
 
 namespace nord_driver::profile {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "nord_driver/profile/control_word.h"
+#include "profile/control_word.h"
 
 namespace nord_driver::profile {
 namespace {

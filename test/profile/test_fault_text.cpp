@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "nord_driver/profile/fault_table.h"
-#include "nord_driver/profile/fault_text.h"
+#include "profile/fault_table.h"
+#include "profile/fault_text.h"
 
 namespace nord_driver::profile {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "nord_driver/profile/parameter_catalogue.h"
+#include "profile/parameter_catalogue.h"
 
 namespace nord_driver::profile {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "nord_driver/profile/parameter_error.h"
-#include "nord_driver/profile/pkw.h"
+#include "profile/parameter_error.h"
+#include "profile/pkw.h"
 
 namespace nord_driver::profile {
 namespace {

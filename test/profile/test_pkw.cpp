@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "nord_driver/profile/pkw.h"
+#include "profile/pkw.h"
 
 namespace nord_driver::profile {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "nord_driver/profile/pkw_channel.h"
+#include "profile/pkw_channel.h"
 
 namespace nord_driver::profile {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "nord_driver/profile/pkw_channel.h"
+#include "profile/pkw_channel.h"
 
 namespace nord_driver::profile {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "nord_driver/profile/scaling.h"
+#include "profile/scaling.h"
 
 namespace nord_driver::profile {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "nord_driver/profile/state_machine.h"
+#include "profile/state_machine.h"
 
 namespace nord_driver::profile {
 namespace {

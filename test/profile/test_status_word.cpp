@@ -3,7 +3,7 @@
 #include <initializer_list>
 #include <string>
 
-#include "nord_driver/profile/status_word.h"
+#include "profile/status_word.h"
 
 namespace nord_driver::profile {
 namespace {

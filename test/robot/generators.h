@@ -6,8 +6,8 @@
 #include <tuple>
 #include <vector>
 
-#include "nord_driver/robot/speed_limits.h"
-#include "nord_driver/robot/twist.h"
+#include "robot/speed_limits.h"
+#include "robot/twist.h"
 
 namespace nord_driver::robot {
 

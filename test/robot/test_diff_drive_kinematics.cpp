@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "nord_driver/robot/diff_drive_kinematics.h"
+#include "robot/diff_drive_kinematics.h"
 #include "robot/generators.h"
 
 namespace nord_driver::robot {

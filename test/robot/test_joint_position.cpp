@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "nord_driver/robot/joint_position.h"
+#include "robot/joint_position.h"
 
 namespace nord_driver::robot {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "nord_driver/robot/mecanum_kinematics.h"
 #include "robot/generators.h"
+#include "robot/mecanum_kinematics.h"
 
 namespace nord_driver::robot {
 namespace {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "nord_driver/robot/odometry.h"
 #include "robot/generators.h"
+#include "robot/odometry.h"
 
 namespace nord_driver::robot {
 namespace {

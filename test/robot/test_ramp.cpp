@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "nord_driver/robot/ramp.h"
+#include "robot/ramp.h"
 
 namespace nord_driver::robot {
 namespace {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "nord_driver/robot/speed_limiter.h"
 #include "robot/generators.h"
+#include "robot/speed_limiter.h"
 
 namespace nord_driver::robot {
 namespace {

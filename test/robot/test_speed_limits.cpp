@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "nord_driver/robot/speed_limits.h"
+#include "robot/speed_limits.h"
 
 namespace nord_driver::robot {
 namespace {

@@ -8,8 +8,8 @@
 #include <tuple>
 #include <vector>
 
-#include "nord_driver/robot/twist_limiter.h"
 #include "robot/generators.h"
+#include "robot/twist_limiter.h"
 
 namespace nord_driver::robot {
 namespace {

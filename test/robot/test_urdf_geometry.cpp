@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "nord_driver/robot/urdf_geometry.h"
+#include "robot/urdf_geometry.h"
 #include "robot/urdf_robots.h"
 
 namespace nord_driver::robot {

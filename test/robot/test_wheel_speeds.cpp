@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "nord_driver/robot/wheel_speeds.h"
 #include "robot/generators.h"
+#include "robot/wheel_speeds.h"
 
 namespace nord_driver::robot {
 namespace {

@@ -14,12 +14,13 @@ using Names = std::set<std::string>;
 
 /// The table: what a layer may use beside itself.
 const std::map<std::string, Names>& table() {
-  static const Names kTransport{"core", "profile", "profibus", "canopen", "devicenet", "interbus", "link"};
-  static const Names kTools{"core",      "profile", "profibus", "canopen", "devicenet", "interbus", "link",
-                            "transport", "robot",   "drive",    "cycle",   "sim",       "plugins"};
-  static const Names kNode{"core",     "profile", "profibus",  "canopen", "devicenet",
-                           "interbus", "link",    "transport", "robot",   "drive",
-                           "cycle",    "sim",     "plugins",   "tools",   "ros_support"};
+  static const Names kTransport{"core",      "config",   "profile", "profibus", "canopen",
+                                "devicenet", "interbus", "link",    "trace"};
+  static const Names kTools{"core", "config",    "trace", "profile", "profibus", "canopen", "devicenet", "interbus",
+                            "link", "transport", "robot", "drive",   "cycle",    "sim",     "plugins"};
+  static const Names kNode{"core",      "config",   "trace",   "profile",   "profibus",   "canopen",
+                           "devicenet", "interbus", "link",    "transport", "robot",      "drive",
+                           "cycle",     "sim",      "plugins", "tools",     "ros_support"};
   static const std::map<std::string, Names> kTable{
       {"core", {}},
       {"profile", {"core"}},
@@ -28,19 +29,21 @@ const std::map<std::string, Names>& table() {
       {"devicenet", {"core"}},
       {"interbus", {"core"}},
       {"link", {"core"}},
+      {"config", {"core"}},
+      {"trace", {"core", "profile", "config", "transport", "cycle"}},
       {"robot", {"core"}},
       {"transport", kTransport},
       {"drive", {"core", "profile"}},
-      {"cycle", {"core", "profile", "drive", "transport", "robot"}},
+      {"cycle", {"core", "config", "profile", "drive", "transport", "robot", "trace"}},
       {"sim", {"core", "link"}},
       {"sim_node", {"core", "link", "sim", "ros_support"}},
       {"plugins", {"core", "transport"}},
       {"tools", kTools},
       {"node", kNode},
-      {"system", kNode},                   // tests of the whole stack, without ROS
-      {"support", {"core", "transport"}},  // what tests of several folders share
-      {"ros_support", {}},                 // the same for those with ROS
-      {"socketcan", {"node"}},             // tests of link/ and of the nodes that need a kernel with CAN
+      {"system", kNode},                             // tests of the whole stack, without ROS
+      {"support", {"core", "config", "transport"}},  // what tests of several folders share
+      {"ros_support", {}},                           // the same for those with ROS
+      {"socketcan", {"node"}},                       // tests of link/ and of the nodes that need a kernel with CAN
       {"rules", {}},
   };
   return kTable;

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "sim/conversation.h"
+#include "sim/profibus/conversation.h"
 
 namespace nord_driver::sim {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "sim/can_conversation.h"
-#include "sim/conversation.h"
+#include "sim/canopen/can_conversation.h"
+#include "sim/profibus/conversation.h"
 #include "support/count_allocations.h"
 
 namespace nord_driver::sim {

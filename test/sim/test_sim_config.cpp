@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
-#include "nord_driver/sim/robot_sim.h"
-#include "nord_driver/sim/sim_config.h"
+#include "sim/robot/robot_sim.h"
+#include "sim/sim_config.h"
 
 namespace nord_driver::sim {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <stdexcept>
 
-#include "sim/conversation.h"
+#include "sim/profibus/conversation.h"
 
 namespace nord_driver::sim_node {
 

@@ -1,5 +1,5 @@
-#include "nord_driver/link/make_can_link.h"
-#include "sim/can_conversation.h"
+#include "link/can/make_can_link.h"
+#include "sim/canopen/can_conversation.h"
 #include "sim_node/sim_node_fixture.h"
 
 namespace nord_driver::sim_node {

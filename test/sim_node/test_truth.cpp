@@ -1,6 +1,6 @@
 #include <nav_msgs/Odometry.h>
 
-#include "sim/conversation.h"
+#include "sim/profibus/conversation.h"
 #include "sim_node/sim_node_fixture.h"
 
 namespace nord_driver::sim_node {

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "nord_driver/core/can_frame.h"
-#include "nord_driver/link/can_link.h"
-#include "nord_driver/link/can_settings.h"
+#include "core/can_frame.h"
+#include "link/can/can_link.h"
+#include "link/can/can_settings.h"
 
 namespace nord_driver::link {
 

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "nord_driver/link/can_system.h"
-#include "nord_driver/link/socket_can.h"
+#include "link/can/can_system.h"
+#include "link/can/socket_can.h"
 #include "socketcan/network.h"
 
 namespace nord_driver::link {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "nord_driver/link/socket_can.h"
+#include "link/can/socket_can.h"
 #include "socketcan/network.h"
 
 namespace nord_driver::link {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "nord_driver/link/socket_can.h"
+#include "link/can/socket_can.h"
 #include "socketcan/network.h"
 
 namespace nord_driver::link {

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "nord_driver/link/can_interface.h"
-#include "nord_driver/link/make_can_link.h"
-#include "nord_driver/link/socket_can.h"
+#include "link/can/can_interface.h"
+#include "link/can/make_can_link.h"
+#include "link/can/socket_can.h"
 #include "socketcan/network.h"
 
 namespace nord_driver::link {

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "nord_driver/transport/settings.h"
+#include "nord_driver/config/settings.h"
 
 namespace nord_driver::test {
 

@@ -5,8 +5,8 @@
 #include <deque>
 #include <string>
 
-#include "nord_driver/link/can_link.h"
-#include "nord_driver/sim/simulated_can_bus.h"
+#include "link/can/can_link.h"
+#include "sim/canopen/simulated_can_bus.h"
 
 namespace nord_driver::test {
 

@@ -10,13 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "nord_driver/cycle/cycle_config.h"
-#include "nord_driver/sim/simulated_can_bus.h"
-#include "nord_driver/transport/canopen.h"
+#include "cycle/cycle_config.h"
+#include "sim/canopen/simulated_can_bus.h"
 #include "support/map_settings.h"
 #include "system/beside_can_link.h"
 #include "system/deaf_can_link.h"
 #include "system/driven_robot.h"
+#include "transport/canopen/canopen.h"
 
 namespace nord_driver::test {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "nord_driver/link/can_link.h"
+#include "link/can/can_link.h"
 
 namespace nord_driver::test {
 

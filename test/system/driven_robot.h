@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "nord_driver/cycle/bus_cycle.h"
-#include "nord_driver/cycle/cycle_config.h"
-#include "nord_driver/cycle/cycle_ports.h"
+#include "cycle/bus_cycle.h"
+#include "cycle/cycle_config.h"
+#include "cycle/cycle_ports.h"
 #include "nord_driver/transport/transport.h"
 
 namespace nord_driver::test {

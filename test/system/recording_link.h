@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "nord_driver/link/byte_link.h"
+#include "link/serial/byte_link.h"
 
 namespace nord_driver::test {
 

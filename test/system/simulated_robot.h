@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "nord_driver/cycle/cycle_config.h"
-#include "nord_driver/sim/simulated_segment.h"
-#include "nord_driver/transport/profibus_dp.h"
+#include "cycle/cycle_config.h"
+#include "sim/profibus/simulated_segment.h"
 #include "support/map_settings.h"
 #include "system/driven_robot.h"
 #include "system/recording_link.h"
+#include "transport/profibus/profibus_dp.h"
 
 namespace nord_driver::test {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "nord_driver/sim/drive_unit.h"
+#include "sim/drive_unit.h"
 #include "system/driven_robot.h"
 
 namespace nord_driver::test {
@@ -46,7 +46,7 @@ class StopRig {
   /// How old the last status word may be before the bus takes it for missing; drive_timeout counts from there.
   virtual Duration silenceCounts() const = 0;
   /// How the base names a drive that has fallen silent.
-  virtual const char* silenceIsNamed() { return "drive right stopped: the inverter fell silent"; }
+  static const char* silenceIsNamed() { return "drive right stopped: the inverter fell silent"; }
   /// The longest time from the last word of a master to the trip of the inverter.
   virtual Duration driveSideTimeout() const = 0;
 

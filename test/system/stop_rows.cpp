@@ -1,6 +1,6 @@
 #include "system/stop_rows.h"
 
-#include "nord_driver/sim/words.h"
+#include "sim/inverter/words.h"
 #include "system/what_stops_what.h"
 
 namespace nord_driver::test {

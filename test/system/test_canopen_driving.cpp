@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "nord_driver/transport/can_trace.h"
 #include "system/can_robot.h"
+#include "transport/canopen/can_trace.h"
 
 namespace nord_driver::test {
 namespace {

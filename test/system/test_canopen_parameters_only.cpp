@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "nord_driver/sim/simulated_can_bus.h"
-#include "nord_driver/tools/parameter_link.h"
-#include "nord_driver/transport/canopen.h"
+#include "sim/canopen/simulated_can_bus.h"
+#include "tools/parameter_link.h"
+#include "transport/canopen/canopen.h"
 
 namespace nord_driver::test {
 namespace {

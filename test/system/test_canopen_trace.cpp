@@ -8,9 +8,9 @@
 #include <map>
 #include <sstream>
 
-#include "nord_driver/transport/can_trace.h"
-#include "nord_driver/transport/pcap.h"
 #include "system/can_robot.h"
+#include "trace/pcap.h"
+#include "transport/canopen/can_trace.h"
 
 namespace nord_driver::test {
 namespace {

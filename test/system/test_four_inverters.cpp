@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "nord_driver/sim/module_station.h"
+#include "sim/profibus/module_station.h"
 #include "system/four_inverters.h"
 #include "system/simulated_robot.h"
 

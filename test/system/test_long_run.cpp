@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "nord_driver/cycle/parameter_access.h"
+#include "cycle/parameter_access.h"
 #include "system/simulated_robot.h"
 
 namespace nord_driver::test {

@@ -13,11 +13,11 @@
 #include <string>
 #include <thread>
 
-#include "nord_driver/cycle/cycle_thread.h"
-#include "nord_driver/sim/pty_bus.h"
-#include "nord_driver/transport/profibus_dp.h"
+#include "cycle/cycle_thread.h"
+#include "sim/profibus/pty_bus.h"
 #include "support/count_allocations.h"
 #include "support/map_settings.h"
+#include "transport/profibus/profibus_dp.h"
 
 namespace nord_driver::test {
 namespace {

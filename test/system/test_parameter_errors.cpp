@@ -8,7 +8,7 @@
 #include <ostream>
 #include <tuple>
 
-#include "nord_driver/cycle/parameter_access.h"
+#include "cycle/parameter_access.h"
 #include "system/simulated_robot.h"
 
 namespace nord_driver::test {

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "nord_driver/cycle/fault_tracer.h"
-#include "nord_driver/cycle/trace_writer.h"
 #include "system/simulated_robot.h"
+#include "trace/fault_tracer.h"
+#include "trace/trace_writer.h"
 
 namespace nord_driver::test {
 namespace {

@@ -233,7 +233,7 @@ void WhatStopsWhat::expectOnlyEnableMoves() {
   while (!allOnline() && now() < back_by) step();
   ASSERT_TRUE(allOnline()) << "not back within 3 s";
   ASSERT_NO_FATAL_FAILURE(expectNothingMoves(seconds{2}));
-  const char* const named = row().known == Known::kSilence ? rig_->silenceIsNamed() : row().named;
+  const char* const named = row().known == Known::kSilence ? StopRig::silenceIsNamed() : row().named;
   EXPECT_THAT(robot().snapshot().base.text.str(), HasSubstr(named));
   EXPECT_EQ(row().after != After::kDisabled && row().named[0] != '\0', robot().snapshot().base.stopped);
 

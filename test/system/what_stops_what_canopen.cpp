@@ -51,11 +51,6 @@ class CanopenStopRig final : public StopRig {
   Duration silenceCounts() const override {
     return std::max<Duration>(std::chrono::milliseconds{50}, 2 * robot_.config().period()) * 5 / 2;
   }
-  /// Guarding may find the node lost first: then its connection is what ended.
-  const char* silenceIsNamed() override {
-    const Duration silence = silenceCounts() + robot_.config().drives[WhatStopsWhat::kRight].drive.drive_timeout;
-    return silence > driveSideTimeout() ? kInterrupted : StopRig::silenceIsNamed();
-  }
   /// Node guarding, 100 ms times 3.
   Duration driveSideTimeout() const override { return std::chrono::milliseconds{300}; }
 

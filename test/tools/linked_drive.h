@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "nord_driver/sim/simulated_segment.h"
-#include "nord_driver/tools/parameter_link.h"
-#include "nord_driver/transport/profibus_dp.h"
+#include "sim/profibus/simulated_segment.h"
+#include "tools/parameter_link.h"
+#include "transport/profibus/profibus_dp.h"
 
 namespace nord_driver::tools {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "nord_driver/tools/command_line.h"
+#include "tools/command_line.h"
 
 namespace nord_driver::tools {
 namespace {

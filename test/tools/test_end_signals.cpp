@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "nord_driver/tools/end_signals.h"
+#include "tools/end_signals.h"
 
 namespace nord_driver::tools {
 namespace {

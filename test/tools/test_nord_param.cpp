@@ -11,8 +11,8 @@
 #include <fstream>
 #include <memory>
 
-#include "nord_driver/core/version.h"
-#include "nord_driver/link/virtual_can.h"
+#include "core/version.h"
+#include "link/can/virtual_can.h"
 #include "support/second_try.h"
 #include "tools/program.h"
 

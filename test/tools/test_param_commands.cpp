@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "nord_driver/tools/param_commands.h"
-#include "nord_driver/tools/parameter_name.h"
+#include "tools/param_commands.h"
+#include "tools/parameter_name.h"
 
 namespace nord_driver::tools {
 namespace {

@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <fstream>
 
-#include "nord_driver/tools/parameter_dump.h"
-#include "nord_driver/tools/parameter_name.h"
 #include "tools/linked_drive.h"
+#include "tools/parameter_dump.h"
+#include "tools/parameter_name.h"
 
 namespace nord_driver::tools {
 namespace {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "nord_driver/tools/parameter_name.h"
+#include "tools/parameter_name.h"
 
 namespace nord_driver::tools {
 namespace {

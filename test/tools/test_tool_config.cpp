@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "nord_driver/tools/tool_config.h"
+#include "tools/tool_config.h"
 
 namespace nord_driver::tools {
 namespace {

@@ -11,26 +11,32 @@
 #include <string>
 #include <vector>
 
+#include "nord_driver/config/settings.h"
 #include "nord_driver/core/fixed_text.h"
 #include "nord_driver/core/time.h"
 #include "nord_driver/profile/parameter_request.h"
 #include "nord_driver/profile/process_data.h"
 #include "nord_driver/profile/series.h"
-#include "nord_driver/transport/settings.h"
-#include "nord_driver/transport/telegram_trace.h"
+#include "nord_driver/trace/telegram_trace.h"
 
 namespace nord_driver {
 
 using DriveIndex = std::size_t;
+
+/// How the connection to an inverter ended, where the bus itself tells.
+enum class Interruption : std::uint8_t {
+  kNone,
+  kUnasked,  ///< it was reset, or left the state in which data are exchanged, without being asked
+  kSilent,   ///< what watches it (guarding, heartbeat) has not heard it in time
+};
 
 /// What the last cycle brought from one inverter.
 struct DriveExchange {
   profile::ProcessInput input;
   bool module_answers = false;    ///< the bus module took part in data exchange in this cycle
   bool inverter_answers = false;  ///< ... and the inverter behind it is on: `input` is fresh
-  /// In this cycle its connection was reset, or left the state in which data are exchanged, without being asked: by
-  /// another master, by itself, or because it was lost. Said once, also when data are exchanged again already.
-  bool interrupted = false;
+  /// In this cycle, said once, also when data are exchanged again already.
+  Interruption interruption = Interruption::kNone;
   bool inverter_missing = false;  ///< the bus module answers, and the inverter behind it does not: it hears nothing
 };
 

@@ -1,0 +1,151 @@
+// A CANopen master for one bus. Sans-IO: frames and the time go in, frames, events and the next deadline come out. No
+// thread, no clock, no socket, no memory taken after construction.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "canopen/bus_watch.h"
+#include "canopen/canopen_event.h"
+#include "canopen/cob_id_table.h"
+#include "canopen/counters.h"
+#include "canopen/master_config.h"
+#include "canopen/node.h"
+#include "canopen/node_status.h"
+#include "canopen/pdo_value.h"
+#include "canopen/process_queue.h"
+#include "canopen/sdo_request.h"
+#include "core/can_frame.h"
+#include "nord_driver/core/bytes.h"
+#include "nord_driver/core/time.h"
+
+namespace nord_driver::canopen {
+
+/// The answer to a `Master::submitSdo()`. `answer.data` is valid until the next call that is not const.
+struct NodeSdoAnswer {
+  std::size_t node = 0;
+  std::size_t server = 0;
+  SdoAnswer answer;
+};
+
+/// Nodes, PDOs and SDO servers are named by their index in the configuration, from 0.
+///
+/// Calling order: `restart()` whenever the bus was opened; then per bus cycle
+///
+///     master.setReceivePdo(...);                       // the newest values
+///     master.startCycle(now);
+///     send();
+///     until the cycle is over:
+///       wait for frames until min(end of the cycle, master.nextDeadline());
+///       master.handleFrame(frame, now);                // each one, with the time it was received
+///       master.poll(now);                              // after the frames: a late look is no time-out
+///       send();
+///     while (auto event = master.pollEvent()) ...
+///
+///     send():  while (master.pollTransmit(frame)) {
+///                if (link.send(frame) != kSent) { master.notSent(); break; }
+///              }
+///
+/// `startCycle()` makes due the newest value of every enabled RPDO of every operational node, and behind them SYNC,
+/// when it is used and a node is operational: an RPDO of type 0..240 acts with the SYNC of the same cycle, one of type
+/// 254 or 255 at once. `pollTransmit()` gives out NMT first, then RPDOs and SYNC, error control, SDO.
+///
+/// What the link did not take is not lost, and not stale: NMT, error control and SDO frames are given out again by the
+/// next `pollTransmit()`; RPDOs and SYNC of this cycle are dropped, the next cycle sends the values of its own.
+class Master {
+ public:
+  /// Throws std::invalid_argument with a sentence: see `checkConfig()`.
+  explicit Master(const MasterConfig& config);
+
+  /// The bus was (re)opened: every node from the beginning. RPDO values are forgotten; SDO accesses end without answer.
+  void restart(Instant now) noexcept;
+  /// For the clean exit: every node is let go so that it does not miss us, and left alone until `restart()`. PDOs end
+  /// at once. A node that may be reset (`NodeConfig::reset`) gets "reset communication"; another one is first told by
+  /// SDO not to watch us any more, then "enter pre-operational". Until `released()`, in a second at most, everything
+  /// else goes on as usual: polling, frames, error control.
+  void releaseAll(Instant now) noexcept;
+  bool released() const noexcept;
+
+  /// While nothing may be sent yet, in place of `handleFrame()`: whether only a master that works with our nodes sends
+  /// such a frame (NMT, guarding, RPDOs, SDO requests, our SYNC), or a node answers to one. Counted and told.
+  bool noteOtherMaster(const CanFrame& frame, Instant now) noexcept;
+  void startCycle(Instant now) noexcept;
+  void handleFrame(const CanFrame& frame, Instant now) noexcept;
+  /// What is due by time: to be called when `now` has reached `nextDeadline()`; harmless before.
+  void poll(Instant now) noexcept;
+  /// The next frame to send, or false. Each is given out once, unless `notSent()` says otherwise.
+  bool pollTransmit(CanFrame& frame) noexcept;
+  /// The link did not take the last frame of `pollTransmit()`. To be called before anything else.
+  void notSent() noexcept;
+  /// When `poll()` has something to do; nothing when only frames can change anything.
+  std::optional<Instant> nextDeadline() const noexcept;
+
+  /// Kept, and sent in every cycle in which the node is operational; before the first call, and after a loss, nothing
+  /// is sent. Cut or filled with zeros to the mapped length (when the mapping is configured).
+  void setReceivePdo(std::size_t node, std::size_t pdo, ByteView bytes) noexcept;
+  /// What it sent last while operational; `count` 0: nothing yet since it became so.
+  const PdoValue& transmitPdo(std::size_t node, std::size_t pdo) const noexcept;
+
+  /// An access beside the start-up, in whatever state the node is. False when this server has one under way or an
+  /// answer not fetched; otherwise one answer follows, unless `restart()` comes first.
+  bool submitSdo(std::size_t node, std::size_t server, const SdoRequest& request) noexcept;
+  std::optional<NodeSdoAnswer> pollSdo() noexcept;
+
+  std::size_t nodeCount() const noexcept { return nodes_.size(); }
+  const NodeStatus& status(std::size_t node) const noexcept { return nodes_[node]->status(); }
+  std::optional<CanopenEvent> pollEvent() noexcept { return events_.pop(); }
+  const Counters& counters() const noexcept { return counters_; }
+  /// The identifiers that must reach `handleFrame()`: those of our nodes, boot-up and heartbeat of every other node,
+  /// and those only a master sends. For the filters of the interface; sorted.
+  std::vector<std::uint32_t> receivedIds() const;
+
+ private:
+  /// What `pollTransmit()` gave out last, for `notSent()`.
+  struct Given {
+    enum class Kind : std::uint8_t { kNothing, kNmt, kReceivePdo, kSync, kOwnHeartbeat, kGuard, kSdo };
+    Kind kind = Kind::kNothing;
+    std::size_t node = 0;
+    std::size_t item = 0;
+    CanFrame frame;
+  };
+
+  void dispatch(const CobIdUse& use, const CanFrame& frame, Instant now) noexcept;
+  void handleNmt(const CanFrame& frame, Instant now) noexcept;
+  bool isOfOtherMaster(const CobIdUse& use, const CanFrame& frame) const noexcept;
+  void handleRemote(const CobIdUse& use, const CanFrame& frame, Instant now) noexcept;
+  /// A node was worked on: it may have something to send, and an earlier deadline.
+  void touched(const Node& node) noexcept;
+  void expect(std::optional<Instant> deadline) noexcept;
+  bool pollNmt() noexcept;
+  bool pollReceivePdo() noexcept;
+  bool pollSync() noexcept;
+  bool pollErrorControl() noexcept;
+  bool pollSdoFrame() noexcept;
+  void give(Given::Kind kind, std::size_t node, std::size_t item, const CanFrame& frame) noexcept;
+  void dropProcessData() noexcept;
+
+  MasterConfig config_;
+  Counters counters_;
+  CanopenEvents events_;
+  std::vector<CobIdUse> uses_;
+  std::vector<std::unique_ptr<Node>> nodes_;
+  BusWatch watch_;
+  ProcessQueue process_;
+  std::vector<std::pair<std::size_t, std::size_t>> servers_;  // node, server: for the turns of SDO
+  std::size_t next_server_ = 0;
+  Given given_;
+  Instant now_{};
+  std::optional<Instant> deadline_;  // not later than the earliest of all
+  std::optional<Instant> next_heartbeat_;
+  bool boot_up_due_ = false;  // ours
+  bool heartbeat_due_ = false;
+  // False: nobody has anything of that kind to send. True: somebody may.
+  bool nmt_maybe_ = false;
+  bool error_control_maybe_ = false;
+  bool sdo_maybe_ = false;
+};
+
+}  // namespace nord_driver::canopen

@@ -1,0 +1,82 @@
+#include "config/setting_checks.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "config/nearest_name.h"
+
+namespace nord_driver {
+
+namespace {
+
+std::string rangeText(const std::string& kind, const std::string& min, const std::string& max,
+                      const std::string& unit) {
+  return kind + " from " + min + " to " + max + (unit.empty() ? "" : " " + unit);
+}
+
+double checkedNumber(const Settings& settings, const std::string& key, double value, double min, double max,
+                     const std::string& unit) {
+  if (std::isfinite(value) && value >= min && value <= max) return value;
+  throw wrongSetting(settings, key, shortNumber(value),
+                     rangeText("a number", shortNumber(min), shortNumber(max), unit));
+}
+
+std::int64_t checkedInteger(const Settings& settings, const std::string& key, std::int64_t value, std::int64_t min,
+                            std::int64_t max) {
+  if (value >= min && value <= max) return value;
+  throw wrongSetting(settings, key, std::to_string(value),
+                     rangeText("a whole number", std::to_string(min), std::to_string(max), ""));
+}
+
+}  // namespace
+
+ConfigError wrongSetting(const Settings& settings, const std::string& key, const std::string& value,
+                         const std::string& expected) {
+  return ConfigError(settings.fullName(key) + ": " + value + " is not valid, expected " + expected);
+}
+
+ConfigError missingSetting(const Settings& settings, const std::string& key, const std::string& expected) {
+  const std::string given = nearestName(key, settings.keys());
+  return ConfigError(settings.fullName(key) + " is missing: expected " + expected +
+                     (given.empty() ? "" : "; did you mean it by " + settings.fullName(given) + "?"));
+}
+
+double numberOr(const Settings& settings, const std::string& key, double fallback, double min, double max,
+                const std::string& unit) {
+  return checkedNumber(settings, key, settings.number(key).value_or(fallback), min, max, unit);
+}
+
+double requiredNumber(const Settings& settings, const std::string& key, double min, double max,
+                      const std::string& unit) {
+  const auto value = settings.number(key);
+  if (!value) throw missingSetting(settings, key, rangeText("a number", shortNumber(min), shortNumber(max), unit));
+  return checkedNumber(settings, key, *value, min, max, unit);
+}
+
+std::int64_t integerOr(const Settings& settings, const std::string& key, std::int64_t fallback, std::int64_t min,
+                       std::int64_t max) {
+  return checkedInteger(settings, key, settings.integer(key).value_or(fallback), min, max);
+}
+
+std::int64_t requiredInteger(const Settings& settings, const std::string& key, std::int64_t min, std::int64_t max) {
+  const auto value = settings.integer(key);
+  if (!value) {
+    throw missingSetting(settings, key, rangeText("a whole number", std::to_string(min), std::to_string(max), ""));
+  }
+  return checkedInteger(settings, key, *value, min, max);
+}
+
+std::string requiredText(const Settings& settings, const std::string& key, const std::string& expected) {
+  const auto value = settings.text(key);
+  if (!value) throw missingSetting(settings, key, expected);
+  if (value->empty()) throw wrongSetting(settings, key, "\"\"", expected);
+  return *value;
+}
+
+std::string shortNumber(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+}  // namespace nord_driver

@@ -1,0 +1,87 @@
+// One bus cycle: newest command in, process data out and back, newest state out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cycle/base_motion.h"
+#include "cycle/command_watch.h"
+#include "cycle/cycle_config.h"
+#include "cycle/cycle_ports.h"
+#include "cycle/cycle_statistics.h"
+#include "cycle/drive_parameters.h"
+#include "cycle/maintenance.h"
+#include "cycle/speed_watch.h"
+#include "cycle/supervisor.h"
+#include "cycle/terminal_watch.h"
+#include "drive/drive.h"
+#include "nord_driver/core/time.h"
+#include "nord_driver/transport/transport.h"
+#include "robot/joint_position.h"
+
+namespace nord_driver::cycle {
+
+/// Owns the drives and runs them over a configured transport. `runOnce` never waits for anybody but the bus, throws
+/// nothing and, once every drive has been in data exchange, allocates nothing.
+class BusCycle {
+ public:
+  /// `transport` is configured.
+  BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& ports, bool auto_enable);
+
+  void runOnce() noexcept;
+  Duration period() const noexcept { return period_; }
+  bool inBase(DriveIndex drive) const noexcept { return supervisor_.inBase(drive); }
+
+ private:
+  /// One drive with everything the cycle keeps beside it.
+  struct Axis {
+    Axis(DriveIndex drive, const DriveSetup& setup, TimeoutOwner owner)
+        : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, owner) {}
+    DriveParameters parameters;
+    robot::JointPosition joint;
+    SpeedWatch speed;
+    TerminalWatch terminals;
+    bool known = false;  // has answered at least once
+  };
+
+  void takeRequests(Instant now) noexcept;
+  void takeRequest(const Request& request, Instant now) noexcept;
+  void selectParameterSet(const Request& request, Instant now) noexcept;
+  void accessParameter(const Request& request) noexcept;
+  Completion resetOdometry(const Request& request) noexcept;
+  Duration rampTime(Instant now) const noexcept;
+  void command(Instant now, Duration dt) noexcept;
+  void commandBase(Instant now, Duration dt) noexcept;
+  void commandSingles(Instant now) noexcept;
+  robot::WheelSpeeds maxWheelSpeeds() const noexcept;
+  MinimumSpeeds minWheelSpeeds() const noexcept;
+  void handleInputs(Instant now) noexcept;
+  void runParameters(Instant now) noexcept;
+  void measure(Instant now, Duration dt) noexcept;
+  void measureBase(Duration dt) noexcept;
+  void publish(Instant now) noexcept;
+  void tellChanges(Instant now) noexcept;
+  void fill(DriveSnapshot& to, DriveIndex drive) const noexcept;
+
+  Transport& transport_;
+  CyclePorts& ports_;
+  Duration period_;
+  Duration cmd_vel_timeout_;
+  std::vector<std::string> names_;
+  std::vector<drive::Drive> drives_;
+  std::vector<Axis> axes_;
+  std::optional<BaseMotion> base_;
+  std::vector<DriveIndex> wheels_;  // the drives of the base, in the order of its wheel speeds
+  Supervisor supervisor_;
+  CommandWatch command_watch_;
+  Maintenance maintenance_;
+  CycleStatistics statistics_;
+  std::vector<profile::ProcessOutput> outputs_;
+  std::vector<DriveExchange> inputs_;
+  CycleSnapshot snapshot_;
+  std::optional<Instant> last_command_;
+  std::optional<Instant> last_input_;
+};
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,41 @@
+// The newest velocity commands of those outside, with the time they came.
+#pragma once
+
+#include <optional>
+
+#include "nord_driver/core/time.h"
+#include "robot/twist.h"
+
+namespace nord_driver::cycle {
+
+struct TwistCommand {
+  robot::Twist2d twist;
+  Instant received{};
+  bool given = false;                 ///< false until the first command
+  std::optional<Instant> moved = {};  ///< when the newest that was not zero came; CyclePorts keeps it
+};
+
+/// For a drive that belongs to no base.
+struct JointCommand {
+  double velocity = 0.0;  ///< rad/s at the joint
+  Instant received{};
+  bool given = false;
+  std::optional<Instant> moved = {};  ///< as that of TwistCommand
+};
+
+/// Corrections of the base's sizes, changed while the node runs.
+struct BaseTuning {
+  double wheel_separation_multiplier = 1.0;
+  double left_wheel_radius_multiplier = 1.0;
+  double right_wheel_radius_multiplier = 1.0;
+  bool given = false;  ///< false until somebody changes them
+};
+
+/// No longer valid at `now`: never given, or older than `timeout`. A timeout of zero never ends.
+template <typename Command>
+bool isStale(const Command& command, Duration timeout, Instant now) noexcept {
+  if (!command.given) return true;
+  return timeout > Duration::zero() && now - command.received > timeout;
+}
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,53 @@
+// The part of the configuration the bus cycle runs on.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cycle/base_config.h"
+#include "drive/drive.h"
+#include "drive/stop_way.h"
+#include "nord_driver/config/settings.h"
+#include "nord_driver/core/time.h"
+#include "nord_driver/profile/series.h"
+
+namespace nord_driver::cycle {
+
+struct DriveSetup {
+  std::string name;
+  std::string joint;
+  profile::Series series = profile::Series::kSk5xxe;
+  drive::DriveConfig drive;
+  /// Hz. Counts where the drive does not tell P105, and not before it was asked: one that is wrong would move it at
+  /// another speed than commanded.
+  std::optional<double> typed_max_frequency;
+  std::optional<double> rated_current;  ///< A
+};
+
+struct RealTimeWish {
+  int priority = 0;          ///< SCHED_FIFO priority 1..99; 0 = the ordinary scheduler
+  bool lock_memory = false;  ///< mlockall
+};
+
+struct CycleConfig {
+  double cycle_rate = 100.0;  ///< Hz
+  RealTimeWish real_time;
+  Duration service_timeout{};
+  Duration shutdown_timeout{};
+  Duration cmd_vel_timeout{};  ///< 0: never
+  /// `drive_timeout` is as configured; if not, it is as long as two cycles with a silent station take, too.
+  bool drive_timeout_given = false;
+  drive::StopWays stop_ways;
+  std::vector<DriveSetup> drives;
+  std::optional<BaseConfig> base;
+
+  Duration period() const noexcept { return seconds(1.0 / cycle_rate); }
+};
+
+/// `robot_description`: URDF text the base's sizes and joint limits are taken from; may be empty.
+/// Throws ConfigError naming key, value and what was expected.
+CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSettings>& drives,
+                            const std::string& robot_description = {});
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,75 @@
+// Everything that crosses the border of the bus cycle's thread: newest values and bounded queues, no locks.
+#pragma once
+
+#include <semaphore.h>
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "core/event_ring.h"
+#include "core/latest_value.h"
+#include "cycle/commands.h"
+#include "cycle/request.h"
+#include "cycle/snapshot.h"
+#include "trace/trace_feed.h"
+
+namespace nord_driver::cycle {
+
+/// Outside threads call `command*`, `submit`, `waitCompletion` and `readSnapshot`; the cycle's thread uses the rest.
+class CyclePorts {
+ public:
+  explicit CyclePorts(std::size_t drive_count);
+  ~CyclePorts();
+  CyclePorts(const CyclePorts&) = delete;
+  CyclePorts& operator=(const CyclePorts&) = delete;
+
+  // Outside.
+  /// False, and no command at all, when it is not a number or infinite: the one before goes on growing old.
+  bool commandBase(const TwistCommand& command);
+  bool commandDrive(DriveIndex drive, const JointCommand& command);
+  void tuneBase(const BaseTuning& tuning);
+  /// One more publisher of commands is connected: what it has to say has not been heard yet.
+  void commanderConnected(Instant when);
+  /// False when the queue is full.
+  bool submit(const Request& request);
+  /// Waits for a completion, at most `limit`. One thread only.
+  std::optional<Completion> waitCompletion(Duration limit);
+  /// One thread only; the reference holds until the next call.
+  const CycleSnapshot& readSnapshot() { return snapshot_.read(); }
+  /// What happened on the bus. One thread only.
+  std::optional<BusEvent> pollBusEvent() noexcept { return bus_events_.pop(); }
+  /// What each side may do with it stands at its functions.
+  TraceFeed& trace() noexcept { return trace_; }
+
+  // The cycle's thread.
+  const TwistCommand& newestBaseCommand() { return base_command_.read(); }
+  const JointCommand& newestDriveCommand(DriveIndex drive) { return drive_commands_[drive]->read(); }
+  /// When a publisher of commands was connected last; {} while there was none.
+  Instant newestCommander() { return commander_.read(); }
+  const BaseTuning& newestBaseTuning() { return base_tuning_.read(); }
+  std::optional<Request> pollRequest() noexcept { return requests_.pop(); }
+  /// Comes out of `waitCompletion` once the next snapshot is published: who has an answer finds its effect there.
+  void complete(const Completion& completion) noexcept;
+  void publish(const CycleSnapshot& snapshot) noexcept;
+  /// What nobody fetches in time is lost.
+  void tell(const BusEvent& event) noexcept { bus_events_.push(event); }
+
+ private:
+  std::mutex writers_;  // several ROS threads may write; the cycle never takes it
+  LatestValue<TwistCommand> base_command_;
+  LatestValue<BaseTuning> base_tuning_;
+  std::vector<std::unique_ptr<LatestValue<JointCommand>>> drive_commands_;
+  LatestValue<Instant> commander_;
+  std::optional<Instant> base_moved_;                 // the writers'
+  std::vector<std::optional<Instant>> drives_moved_;  // the writers'
+  EventRing<Request, 32> requests_;
+  EventRing<Completion, 64> completions_;
+  std::size_t unpublished_ = 0;  // completions in the ring that `completed_` does not count yet
+  sem_t completed_;
+  LatestValue<CycleSnapshot> snapshot_;
+  EventRing<BusEvent, 256> bus_events_;
+  TraceFeed trace_;
+};
+
+}  // namespace nord_driver::cycle

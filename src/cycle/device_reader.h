@@ -1,0 +1,71 @@
+// Reads from a drive what scaling and device information need, one parameter at a time, beside the process data.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "cycle/device_data.h"
+#include "nord_driver/core/fixed_vector.h"
+#include "nord_driver/profile/parameter_request.h"
+#include "nord_driver/profile/series.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver::cycle {
+
+/// Begins again whenever the drive has come back: it may have been exchanged. A parameter that times out is asked for
+/// three times (once, as long as nothing is answered at all), one the drive refuses is left out; a question that did
+/// not reach the drive is put again. First come those that decide motion: P105, without which nothing can be driven,
+/// P104, and the functions of setpoint 1 and actual value 1, of all parameter sets. One of these that timed out is
+/// asked for again whenever the owner wants to.
+class DeviceReader {
+ public:
+  /// `owner`: whose time-outs are read; those of a module by requests the transport passes on to it.
+  explicit DeviceReader(profile::Series series, TimeoutOwner owner = TimeoutOwner::kInverter) noexcept;
+
+  /// The drive went away: what was read is kept until it is back.
+  void handleOffline() noexcept;
+  /// The next parameter to ask for, when none is under way; its id is for the caller to choose.
+  std::optional<profile::ParameterRequest> pollRequest() noexcept;
+  /// The result of the request handed out last.
+  void handleResult(const profile::ParameterResult& result) noexcept;
+
+  const DeviceData& data() const noexcept { return data_; }
+  /// P105 of every set was asked for since the drive is back: what is absent will not come.
+  bool maxFrequenciesAsked() const noexcept;
+  /// The same of all parameters that decide motion.
+  bool motionAsked() const noexcept;
+  /// All has been asked for, and one that decides motion has only timed out; `max_frequencies`: P105 counts, too.
+  bool missesMotion(bool max_frequencies = true) const noexcept;
+  /// Asks again, up to three times each, for those; what else was read stays.
+  void askMissingAgain(bool max_frequencies = true) noexcept;
+
+ private:
+  struct Item {
+    std::uint16_t number = 0;
+    std::uint8_t set = 1;
+    std::uint8_t index = 1;
+    bool due = true;  // to be asked for, in this round or the next
+  };
+
+  void add(std::uint16_t number, std::uint8_t set, std::uint8_t index) noexcept;
+  void addFunction(std::uint16_t first_number, std::uint8_t place, std::uint8_t set) noexcept;
+  void addBusBits() noexcept;
+  void store(const Item& item, std::int32_t raw) noexcept;
+  void leaveOut(const Item& item) noexcept;
+  /// Where a function P543 to P548 belongs; nullptr for all other parameters.
+  FixedVector<std::uint16_t, 3>* functionsOf(const Item& item) noexcept;
+  void storeFunction(const Item& item, std::uint16_t function) noexcept;
+
+  profile::Series series_;
+  FixedVector<Item, 64> items_;
+  std::size_t motion_items_ = 0;  // the first ones: those that decide motion
+  std::size_t next_ = 0;
+  std::uint8_t attempts_ = 0;
+  bool waiting_ = false;
+  bool silent_ = false;  // the last question has timed out to its end
+  bool restart_ = true;
+  DeviceData data_;
+};
+
+}  // namespace nord_driver::cycle

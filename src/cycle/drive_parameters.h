@@ -1,0 +1,90 @@
+// All parameter traffic of one drive: what the driver reads for itself and what users ask for share one channel.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "cycle/completion_queue.h"
+#include "cycle/device_reader.h"
+#include "cycle/request.h"
+#include "drive/drive.h"
+#include "drive/fault_reader.h"
+#include "drive/parameter_session.h"
+#include "nord_driver/core/fixed_vector.h"
+#include "nord_driver/core/time.h"
+#include "nord_driver/profile/series.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver::cycle {
+
+/// A write of P105 (100 % of setpoint 1 and actual value 1) or of P543 to P548 (which setpoints and actual values these
+/// are), afterwards the same process data are another speed; or of P104 or P480, which were read for the same reason.
+bool changesProcessData(const Request& request) noexcept;
+/// A write that decides whether and how the motor follows the process data, the ones above included: nothing that may
+/// be written while the drive is enabled.
+bool decidesMotion(const Request& request) noexcept;
+
+/// Each cycle, after the exchange: `handleState`, then `pollRequest` until it is empty, then the transport's results by
+/// `handleResult`, then `pollCompletion`. Three askers, each with one question under way at most; a result is given
+/// only to the one whose latest question it answers.
+class DriveParameters {
+ public:
+  DriveParameters(DriveIndex drive, std::string name, profile::Series series, std::optional<double> typed_max_frequency,
+                  TimeoutOwner owner = TimeoutOwner::kInverter);
+
+  /// Looks whether the drive is there and whether it has a fault; hands it P105 as it is known. Offline: all ends.
+  void handleState(drive::Drive& drive, Instant now) noexcept;
+  /// Why a write that `decidesMotion` is not carried out now.
+  Sentence notWhileEnabled(const Request& request) const noexcept;
+  /// kReadParameter and kWriteParameter; the answer comes as a completion. A write that changes what the process data
+  /// mean (`changesProcessData`) takes P105 from the drive until all of them have been read again: it is not enabled
+  /// before.
+  void handleRequest(const Request& request, drive::Drive& drive) noexcept;
+
+  /// The next access for the transport, with its id.
+  std::optional<profile::ParameterRequest> pollRequest(Instant now) noexcept;
+  /// True when the result was of this drive, wanted or not.
+  bool handleResult(const profile::ParameterResult& result) noexcept;
+  std::optional<Completion> pollCompletion() noexcept { return completions_.poll(); }
+
+  const DeviceData& device() const noexcept { return reader_.data(); }
+  const drive::FaultReader& faults() const noexcept { return faults_; }
+  std::uint64_t eepromWrites() const noexcept { return session_.eepromWrites(); }
+  /// P560 was switched off for a user's write and could not be put back yet.
+  bool owesEepromSwitch() const noexcept { return session_.owesEepromSwitch(); }
+
+ private:
+  enum class Asker : std::uint8_t { kFaults, kSession, kReader, kCount };
+  static constexpr std::size_t kAskers = static_cast<std::size_t>(Asker::kCount);
+
+  std::optional<profile::ParameterRequest> ask(Asker asker, Instant now) noexcept;
+  void answer(Asker asker, const profile::ParameterResult& result) noexcept;
+  void askForReason(drive::Drive& drive, Instant now) noexcept;
+  void scale(drive::Drive& drive) const noexcept;
+  void refuse(const Request& request, profile::ParameterOutcome outcome) noexcept;
+  void collect() noexcept;
+  Sentence sentenceOf(const Request& request, const drive::ParameterTaskResult& result) const noexcept;
+  void readDeviceAgain() noexcept;
+  void askMissingAgain(Instant now) noexcept;
+  bool writesProcessData() const noexcept;
+
+  DriveIndex drive_;
+  std::string name_;
+  profile::Series series_;
+  std::optional<double> typed_max_frequency_;
+  DeviceReader reader_;
+  drive::FaultReader faults_;
+  drive::ParameterSession session_;
+  std::array<std::uint32_t, kAskers> open_ids_{};  // of the question under way; 0: none
+  std::uint32_t sequence_ = 0;
+  bool scale_due_ = false;                // the reader learned something the drive was not told yet
+  bool bus_control_ = true;               // status bit 9, as seen last
+  std::optional<Instant> held_since_;     // idle, and not ready to switch on
+  std::optional<Instant> missing_since_;  // one that decides motion was asked for in vain
+  FixedVector<Request, drive::ParameterSession::kCapacity> pending_;
+  CompletionQueue<2 * drive::ParameterSession::kCapacity> completions_;
+};
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,89 @@
+// Carries out what users ask of the drives: which groups it concerns, whether it may begin, and when it is done.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cycle/command_watch.h"
+#include "cycle/completion_queue.h"
+#include "cycle/cycle_config.h"
+#include "cycle/request.h"
+#include "drive/drive.h"
+#include "drive/drive_group.h"
+#include "nord_driver/core/fixed_vector.h"
+#include "nord_driver/core/time.h"
+
+namespace nord_driver::cycle {
+
+/// Drives stand in groups: the base, and every other drive alone. A request for all drives is carried out for all
+/// groups or for none. Each cycle: `handleRequest` for what has come, then after the exchange `update`, then
+/// `pollCompletion`.
+class Supervisor {
+ public:
+  /// `drives` must outlive the supervisor and not move. `auto_enable`: enable once, when every drive has first become
+  /// ready and the commands have been quiet for long enough; a fault seen before is the end of it.
+  Supervisor(const CycleConfig& config, std::vector<drive::Drive>& drives, bool auto_enable);
+
+  /// Enable, disable, quick stop and shut down. An enable that comes before the commands have been listened to for long
+  /// enough waits for that; a stop meanwhile ends it.
+  void handleRequest(const Request& request, const CommandState& commands, Instant now) noexcept;
+  void update(const CommandState& commands, Instant now) noexcept;
+  std::optional<Completion> pollCompletion() noexcept { return completions_.poll(); }
+
+  /// The group of the base; nullptr without one.
+  drive::DriveGroup* base() noexcept { return has_base_ ? &groups_.front().group : nullptr; }
+  const drive::DriveGroup* base() const noexcept { return has_base_ ? &groups_.front().group : nullptr; }
+  /// The group a drive belongs to.
+  drive::DriveGroup& groupOf(DriveIndex drive) noexcept { return groups_[group_of_[drive]].group; }
+  bool inBase(DriveIndex drive) const noexcept { return has_base_ && group_of_[drive] == 0; }
+  /// Nothing is enabled, enabling or on its way to rest.
+  bool settled() const noexcept;
+  /// Why the base stands still against its user's will; empty when it does not.
+  Sentence baseStopSentence() const noexcept;
+
+ private:
+  struct Group {
+    drive::DriveGroup group;
+    std::vector<DriveIndex> members;
+  };
+  struct Job {
+    Request request;
+    Instant deadline{};
+    bool begun = true;  // false: an enable that waits until commands have been listened to
+  };
+
+  void addGroup(const std::vector<DriveIndex>& members, const CycleConfig& config);
+  bool concerns(const Request& request, std::size_t group) const noexcept;
+  void startEnable(const Request& request, const CommandState& commands, Instant now) noexcept;
+  /// All drives of the request, or none: false when one refuses, and answered.
+  bool enableAll(const Request& request, Instant now) noexcept;
+  /// All it asks for is enabled, or on its way there.
+  bool nothingToEnable(const Request& request) const noexcept;
+  void stop(const Request& request, Instant now) noexcept;
+  void endWaitingEnables(const Request& stop) noexcept;
+  void followUp(const Request& request, Instant now, bool begun = true) noexcept;
+  /// These three: true when the job has ended.
+  bool follow(Job& job, const CommandState& commands, Instant now) noexcept;
+  bool followWaiting(Job& job, const CommandState& commands, Instant now) noexcept;
+  bool followEnable(const Job& job, Instant now) noexcept;
+  bool followStop(const Job& job) noexcept;
+  void takeBack(const Request& request, Instant now) noexcept;
+  Sentence refusalOf(const Group& group, const drive::GroupRefusal& refusal) const noexcept;
+  /// A drive the request concerns and that does not answer.
+  std::optional<DriveIndex> silentMember(const Request& request) const noexcept;
+  Sentence unsettled(const Request& request) const noexcept;
+  void autoEnable(const CommandState& commands, Instant now) noexcept;
+
+  std::vector<drive::Drive>& drives_;
+  std::vector<std::string> names_;
+  std::vector<Group> groups_;  // the base first
+  std::vector<std::size_t> group_of_;
+  bool has_base_ = false;
+  bool auto_enable_;
+  bool shutting_down_ = false;
+  FixedVector<Job, 16> jobs_;
+  CompletionQueue<48> completions_;  // a full queue of requests refused, and every job ended
+};
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,171 @@
+// One inverter as the user sees it: decides, each cycle, the control word and the setpoints.
+//
+// Sans-IO and without a clock. Its rules, in one place:
+//  - Stop is the default, and the word that stops is 047E with the parameter set in force. Zeros stop nothing: with bit
+//  10 = 0
+//    the inverter carries on (BU 2700 6.4.1 note 2, 7.1.1).
+//  - 047E alone also says "parameter set 1". So 0000, which the inverter ignores, is sent until a status word has told
+//  the set
+//    in force; from then on never again while it is online.
+//  - An inverter that falls silent while it was not at rest may still hear us: the stop word goes on into the dark, for
+//    shutdown_timeout; then the set is learned anew. When it answers it is idle, in the set it then reports.
+//  - One that is off behind a bus module that lives gets the idle word with the last set known of it: the module's P151
+//    runs out when all its control words are invalid (BU 0220 4.2.3.2). Never known: 0000, which does not start P151.
+//  - Whatever ends "operation enabled" without being asked ends in the idle word and stays so until the next enable.
+//  - OFF1, asked for or in the idle word, that has not ended "operation enabled" after shutdown_timeout becomes OFF3.
+//  - The set is switched at standstill only: setpoint 1 is a share of P105 of the set in force (BU 0020 7.3.5).
+//  - With P104 > 0 the motor turns at setpoint 0. Such a drive is enabled only where the configuration accepts it; then
+//    a command of zero is OFF1 (kResting), and the next one that is not zero leads up again through "ready to switch
+//    on".
+//  - Under local control the set follows the inverter: its terminals choose it, and our word acts when control returns.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "core/units.h"
+#include "drive/acknowledge_edge.h"
+#include "drive/drive_report.h"
+#include "nord_driver/core/time.h"
+#include "nord_driver/profile/process_data.h"
+#include "profile/control_word.h"
+#include "profile/scaling.h"
+
+namespace nord_driver::drive {
+
+struct DriveConfig {
+  profile::JointScaling joint;
+  /// P105 of sets 1..4 where typed in; others come by setMaxFrequency().
+  std::array<std::optional<Hertz>, 4> max_frequency;
+  Duration drive_timeout = seconds(0.05);     ///< silence that counts as offline
+  Duration enable_timeout = seconds(2.0);     ///< from the request to "operation enabled", or to the new parameter set
+  Duration shutdown_timeout = seconds(10.0);  ///< OFF1 until "ready to switch on", then quick stop
+  /// How long the acknowledge bit is held low and then high: longer than the slowest path to the inverter (the module's
+  /// own cycle adds 5 ms, P153).
+  Duration acknowledge_time = seconds(0.1);
+  /// |actual value 1| that counts as standstill for switching the parameter set, of 16384.
+  std::int16_t near_standstill = 164;
+  /// P104 > 0 is no reason to refuse enabling.
+  bool allow_minimum_frequency = false;
+  /// Cross-check the sign of actual value 1 with status bits 11 and 12. No manual defines that sign in left rotation.
+  bool check_direction = true;
+};
+
+/// Each cycle: pollOutput() before the exchange, handleInput() after it. Requests in between, from the same thread; the
+/// answer to a request stands in report(): the phase, or the refusal.
+class Drive {
+ public:
+  explicit Drive(const DriveConfig& config)
+      : config_(config), max_frequency_(config.max_frequency), edge_(config.acknowledge_time) {}
+
+  /// `fresh`: the inverter answered in this cycle. An all-zero status word counts as no answer.
+  void handleInput(const profile::ProcessInput& input, bool fresh, Instant now) noexcept;
+  /// Before handleInput() of a cycle in which the connection to this inverter ended: what it heard last is not known.
+  /// As after silence, but without drive_timeout, and also when the inverter answers again in this cycle. `cause`:
+  /// kInterrupted, or kSilent where the bus has found it silent.
+  void handleInterruption(StopCause cause, Instant now) noexcept;
+  /// Before handleInput(). `inverter_missing`: its bus module took part in this cycle, and says that the inverter
+  /// behind it does not.
+  void handleModule(bool inverter_missing, Instant now) noexcept;
+  profile::ProcessOutput pollOutput(Instant now) noexcept;
+
+  /// Why requestEnable() would refuse now.
+  Refusal enableRefusal() const noexcept;
+  /// Refused while OFF1 or a quick stop runs: ask again when it has ended.
+  void requestEnable(Instant now) noexcept;
+  /// Enabled: setpoint 0 with 047F from here on, whatever setVelocity() says. Enabling: as requestShutdown().
+  void requestSetpointZero(Instant now) noexcept;
+  void requestShutdown(Instant now) noexcept;
+  /// From every phase; offline it is what goes on into the dark.
+  void requestQuickStop(Instant now) noexcept;
+  /// OFF2: the output goes off at once and the motor coasts, without any braking. From every phase; nothing but
+  /// "switch-on disabled" (or a fault) ends it, a quick stop neither.
+  void requestCoast(Instant now) noexcept;
+  /// Takes the latch away when no fault bit is set, else gives the inverter one acknowledge edge; only faults whose
+  /// cause is gone follow it (BU 2700 6.4.1 bit 7). Refused outside kIdle. report().acknowledge tells the outcome, with
+  /// the `token`; while an acknowledging runs, another is not begun and the report stays with the first.
+  void requestAcknowledge(Instant now, std::uint32_t token = 0) noexcept;
+  /// Commands set 1..4 from kIdle at standstill. report().set_switch is done when the status word shows the set;
+  /// without that, after enable_timeout, the set in force is commanded again. While one runs, another is refused and
+  /// the report stays with the first.
+  void requestParameterSet(std::uint8_t set, Instant now, std::uint32_t token = 0) noexcept;
+
+  /// Used only while enabled, and forgotten with it. What is no number becomes setpoint 0.
+  void setVelocity(RadPerSec joint) noexcept;
+  /// P105 of set 1..4, as read from the inverter.
+  void setMaxFrequency(std::uint8_t set, Hertz frequency) noexcept;
+  std::optional<Hertz> maxFrequency(std::uint8_t set) const noexcept;
+  /// P104 of set 1..4, as read from the inverter; 0 or no number: nothing to heed, or not known.
+  void setMinimumFrequency(std::uint8_t set, Hertz frequency) noexcept;
+  /// What P543 or P546 of set 1..4 should not be; none when both are as expected or not known.
+  void setUnexpectedFunction(std::uint8_t set, const std::optional<UnexpectedFunction>& function) noexcept;
+  /// P104, P543 and P546 have not been asked for yet: it is not enabled before.
+  void setParametersAwaited(bool awaited) noexcept { parameters_awaited_ = awaited; }
+  /// P700 [-03], why the inverter does not become ready to switch on, as read from it; none when it gives no reason.
+  void setSwitchOnReason(std::optional<std::uint16_t> reason) noexcept { report_.switch_on_reason = reason; }
+  /// The joint speed 100 % stands for in the commanded set; beyond it one drive alone would saturate, and a base bend
+  /// its path.
+  std::optional<RadPerSec> maxVelocity() const noexcept;
+  /// The joint speed P104 of the commanded set stands for: below it the motor turns at it all the same. 0: none known.
+  RadPerSec minVelocity() const noexcept;
+  /// On the way to rest by OFF1, for P104 > 0: a velocity would not be followed yet.
+  bool comesToRest() const noexcept { return report_.phase == Phase::kResting && !ready_seen_; }
+
+  const DriveReport& report() const noexcept { return report_; }
+  /// Nothing is being driven or stopped: idle (or offline), and the inverter confirms it by its state.
+  bool isAtRest() const noexcept;
+
+ private:
+  void handleUseful(const profile::ProcessInput& input, Instant now) noexcept;
+  void handleSilence(Instant now) noexcept;
+  void goOffline(StopCause cause, Instant now) noexcept;
+  void learnSet(profile::StatusWord status, bool joined) noexcept;
+  void checkStops(profile::StatusWord status, Instant now) noexcept;
+  void follow(profile::StatusWord status, Instant now) noexcept;
+  void followIdle(profile::StatusWord status, Instant now) noexcept;
+  void followResting(profile::StatusWord status, Instant now) noexcept;
+  void followResuming(profile::StatusWord status, Instant now) noexcept;
+  void followEnabling(profile::StatusWord status, Instant now) noexcept;
+  void followStopping(profile::DriveState state, Instant now) noexcept;
+  /// A ramp that has not ended within shutdown_timeout ends in a quick stop.
+  void boundRamp(Instant now) noexcept;
+  void followQuickStop(profile::DriveState state, Instant now) noexcept;
+  void followAcknowledging(profile::StatusWord status, Instant now) noexcept;
+  void followSwitchingSet(profile::StatusWord status, Instant now) noexcept;
+  void followCoasting(profile::DriveState state, Instant now) noexcept;
+  Refusal setRefusal(std::uint8_t set) const noexcept;
+  void breakOff(Refusal why) noexcept;
+  static void end(RequestReport& request, Refusal refusal) noexcept;
+  void measure() noexcept;
+  void tellSet() noexcept;
+  /// Between resting and driving, by the velocity wanted.
+  void restOrResume(const profile::Setpoint& setpoint, Instant now) noexcept;
+  bool restsAtZero() const noexcept { return report_.minimum_frequency.value > 0.0; }
+  void enter(Phase phase, Instant now) noexcept;
+  void stop(StopCause cause, Instant now) noexcept;
+  void latch(StopCause cause) noexcept;
+  void refuse(Refusal refusal) noexcept;
+  profile::Command command(Instant now) const noexcept;
+  bool isRunning() const noexcept;  // 047F may be on the wire, or come by itself
+  bool isMissing(Instant now) const noexcept;
+
+  DriveConfig config_;
+  std::array<std::optional<Hertz>, 4> max_frequency_;
+  std::array<Hertz, 4> min_frequency_{};
+  std::array<std::optional<UnexpectedFunction>, 4> unexpected_{};
+  bool parameters_awaited_ = false;
+  DriveReport report_;
+  AcknowledgeEdge edge_;
+  Instant phase_since_{};
+  Instant last_useful_{};
+  Instant dark_until_{};  // offline: the stop word goes on until then
+  profile::Command dark_command_ = profile::Command::kIgnored;
+  std::optional<Instant> last_missing_;  // behind a module that answers
+  std::optional<Instant> module_back_;   // its module answered again after a silence of its own
+  RadPerSec wanted_{};
+  bool ready_seen_ = false;  // enabling: "ready to switch on" was seen after the request
+  bool sent_ = false;        // this phase's word went out at least once
+};
+
+}  // namespace nord_driver::drive

@@ -1,0 +1,32 @@
+// Which values of an inverter were written to its RAM and not to its EEPROM since: reading them back says nothing about
+// what the next power-up will bring.
+#pragma once
+
+#include <cstdint>
+
+#include "drive/parameter_task.h"
+#include "nord_driver/core/fixed_vector.h"
+
+namespace nord_driver::drive {
+
+/// Remembers 32 values; beyond them it holds every value to be one, which costs a write that was not needed.
+class RamOnlyValues {
+ public:
+  void mark(const ParameterTask& task) noexcept;
+  void unmark(const ParameterTask& task) noexcept;
+  bool holds(const ParameterTask& task) const noexcept;
+
+ private:
+  struct Key {
+    std::uint16_t number = 0;
+    std::uint8_t set = 0;
+    std::uint8_t index = 0;
+  };
+  static Key keyOf(const ParameterTask& task) noexcept;
+  std::size_t find(const ParameterTask& task) const noexcept;
+
+  FixedVector<Key, 32> keys_;
+  bool overflow_ = false;
+};
+
+}  // namespace nord_driver::drive

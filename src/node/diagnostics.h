@@ -1,0 +1,45 @@
+// /diagnostics: one task for the bus, one for the base, one per drive (REP-107).
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "cycle/snapshot.h"
+#include "node/drive_protection.h"
+#include "node/node_config.h"
+#include "node/ramp_check.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver::node {
+
+/// Reports the snapshot it was given last. `update` runs the tasks when they are due (once a second).
+class Diagnostics {
+ public:
+  Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities);
+  void update(const cycle::CycleSnapshot& snapshot);
+
+ private:
+  void reportBus(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void reportBase(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void reportDrive(std::size_t index, diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void summarize(const cycle::DriveSnapshot& drive, diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void warn(std::size_t index, const ProtectionReport& protection,
+            diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void addFault(const cycle::DriveSnapshot& drive, diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+  std::vector<std::string> names_;
+  std::vector<DriveIdentity> identities_;
+  std::vector<DriveProtection> protections_;
+  std::vector<profile::Series> series_;
+  std::vector<RampCheck> ramps_;
+  std::vector<std::optional<double>> typed_max_frequency_;
+  std::string device_;
+  cycle::CycleSnapshot snapshot_;
+  diagnostic_updater::Updater updater_;
+  Instant next_update_{};  // its own clock is ROS's, which may be set back or stand still
+};
+
+}  // namespace nord_driver::node

@@ -1,0 +1,86 @@
+// The driver as a ROS node: configuration in, topics and services out, the bus cycle in a thread of its own.
+#pragma once
+
+#include <geometry_msgs/Twist.h>
+#include <ros/ros.h>
+#include <std_msgs/Float64.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <pluginlib/class_loader.hpp>
+#include <vector>
+
+#include "cycle/bus_cycle.h"
+#include "cycle/cycle_ports.h"
+#include "cycle/cycle_thread.h"
+#include "node/base_publisher.h"
+#include "node/base_tuner.h"
+#include "node/bus_publisher.h"
+#include "node/callback_lane.h"
+#include "node/diagnostics.h"
+#include "node/drive_publisher.h"
+#include "node/node_config.h"
+#include "node/request_broker.h"
+#include "node/services.h"
+#include "node/snapshot_publisher.h"
+#include "node/tracing.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver::node {
+
+/// Reads and checks the whole configuration before anything is advertised. Throws ConfigError.
+class DriverNode {
+ public:
+  DriverNode();
+  ~DriverNode();
+  DriverNode(const DriverNode&) = delete;
+  DriverNode& operator=(const DriverNode&) = delete;
+
+  /// Publishes until `end_asked` or ROS shuts down, then brings the drives to rest and ends the exchange.
+  void run(const std::atomic<bool>& end_asked);
+
+ private:
+  void loadTransport();
+  void warnOfUnknownKeys() const;
+  void advertise();
+  void takeCommand(const geometry_msgs::Twist& twist);
+  void takeDriveCommand(DriveIndex drive, double velocity);
+  /// Whoever publishes commands and has just been connected is listened to before anything is enabled.
+  void noteCommanders();
+  void tellBusEvents();
+  void bringToRest();
+
+  ros::NodeHandle node_;
+  ros::NodeHandle private_node_;
+  CallbackLane commands_;          // cmd_vel
+  CallbackLane private_commands_;  // ~<drive>/command
+  CallbackLane stops_;             // ~quick_stop, ~<drive>/quick_stop, and ~enable, which stops, too
+  RosSettings settings_;
+  NodeConfig config_;
+  pluginlib::ClassLoader<Transport> loader_;
+  boost::shared_ptr<Transport> transport_;
+  std::vector<DriveIdentity> identities_;
+
+  std::unique_ptr<cycle::CyclePorts> ports_;
+  std::unique_ptr<cycle::BusCycle> cycle_;
+  std::unique_ptr<cycle::CycleThread> thread_;
+  std::unique_ptr<RequestBroker> broker_;
+
+  std::unique_ptr<BasePublisher> base_publisher_;
+  std::unique_ptr<BaseTuner> base_tuner_;
+  std::vector<DrivePublisher> drive_publishers_;
+  std::unique_ptr<BusPublisher> bus_publisher_;
+  std::unique_ptr<Diagnostics> diagnostics_;
+  std::unique_ptr<Services> services_;
+  std::unique_ptr<Tracing> tracing_;
+  std::optional<SnapshotPublisher> publisher_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::Subscriber command_subscriber_;
+  std::uint32_t commanders_ = 0;  // publishers connected to all of these
+  std::atomic<std::uint64_t> bad_commands_{0};
+};
+
+}  // namespace nord_driver::node

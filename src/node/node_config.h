@@ -1,0 +1,45 @@
+// The part of the configuration only the ROS side needs, and the reading of all parts from the parameter server.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cycle/cycle_config.h"
+#include "node/ros_settings.h"
+#include "nord_driver/config/settings.h"
+#include "trace/trace_config.h"
+
+namespace nord_driver::node {
+
+struct PublishConfig {
+  double publish_rate = 50.0;  ///< Hz: odom, tf, joint_states; 0: none
+  double status_rate = 50.0;   ///< Hz: status of the drives
+  std::string base_frame_id = "base_link";
+  std::string odom_frame_id = "odom";
+  bool enable_odom_tf = true;
+  bool publish_cmd = false;
+  bool publish_wheel_states = false;  ///< wheel_joint_controller_state; never true where it is not offered
+  bool allow_multiple_cmd_vel_publishers = true;
+  std::array<double, 6> pose_covariance_diagonal{};
+  std::array<double, 6> twist_covariance_diagonal{};
+};
+
+struct NodeConfig {
+  std::string transport;  ///< plugin name with its prefix
+  bool auto_enable = false;
+  bool allow_raw_parameters = false;
+  PublishConfig publish;
+  cycle::CycleConfig cycle;
+  std::optional<cycle::TraceConfig> trace;
+  std::vector<DriveSettings> drives;
+  std::shared_ptr<RosSettings> bus;
+  std::vector<std::string> warnings;  ///< sentences on what is accepted but done in another way, or not
+};
+
+/// Everything except what the transport itself reads (`bus`, and each drive's address). Throws ConfigError.
+NodeConfig readNodeConfig(const RosSettings& settings, const std::string& robot_description = {});
+
+}  // namespace nord_driver::node

@@ -1,0 +1,38 @@
+// Lets a service call wait for the bus cycle's answer without the cycle ever waiting for it.
+#pragma once
+
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "cycle/cycle_ports.h"
+
+namespace nord_driver::node {
+
+/// Numbers requests, hands them to the cycle and wakes the caller whose completion has come. `call` may be used by
+/// several threads at once.
+class RequestBroker {
+ public:
+  explicit RequestBroker(cycle::CyclePorts& ports);
+  ~RequestBroker();
+  RequestBroker(const RequestBroker&) = delete;
+  RequestBroker& operator=(const RequestBroker&) = delete;
+
+  /// Blocks until the cycle has answered, at most the request's patience and a second more. Never throws for a refusal:
+  /// the completion says why; its id is 0 when the request did not reach the cycle.
+  cycle::Completion call(cycle::Request request);
+
+ private:
+  void dispatch();
+
+  cycle::CyclePorts& ports_;
+  std::mutex mutex_;
+  std::condition_variable arrived_;
+  std::map<std::uint32_t, std::optional<cycle::Completion>> waiting_;
+  std::uint32_t next_id_ = 1;
+  bool stop_ = false;
+  std::thread dispatcher_;
+};
+
+}  // namespace nord_driver::node

@@ -1,0 +1,48 @@
+// The publishing thread: takes the newest snapshot of the bus cycle and publishes each part of it at its own rate.
+#pragma once
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+#include "cycle/cycle_ports.h"
+#include "node/base_publisher.h"
+#include "node/bus_news.h"
+#include "node/bus_publisher.h"
+#include "node/diagnostics.h"
+#include "node/drive_publisher.h"
+#include "node/node_config.h"
+
+namespace nord_driver::node {
+
+/// Publishes from construction to destruction. The rates run on the steady clock, so that /use_sim_time cannot stop
+/// them; only the stamps are ROS time: of the bus cycle that measured.
+class SnapshotPublisher {
+ public:
+  SnapshotPublisher(cycle::CyclePorts& ports, const PublishConfig& config, BasePublisher& base,
+                    std::vector<DrivePublisher>& drives, BusPublisher& bus, Diagnostics& diagnostics);
+  ~SnapshotPublisher();
+  SnapshotPublisher(const SnapshotPublisher&) = delete;
+  SnapshotPublisher& operator=(const SnapshotPublisher&) = delete;
+
+  /// False when publishing has failed for good.
+  bool healthy() const noexcept { return healthy_; }
+
+ private:
+  void run();
+  void logChanges(const cycle::CycleSnapshot& snapshot, Instant now);
+
+  cycle::CyclePorts& ports_;
+  BasePublisher& base_;
+  std::vector<DrivePublisher>& drives_;
+  BusPublisher& bus_;
+  Diagnostics& diagnostics_;
+  Duration status_period_;
+  BusNews bus_news_;
+  std::string last_base_text_;
+  std::atomic<bool> stop_{false};
+  std::atomic<bool> healthy_{true};
+  std::thread thread_;
+};
+
+}  // namespace nord_driver::node

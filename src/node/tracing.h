@@ -1,0 +1,45 @@
+// The trace as ROS sees it: the service ~write_trace, and a thread that writes one with each fault.
+#pragma once
+
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "nord_driver/trace/telegram_trace.h"
+#include "trace/fault_tracer.h"
+#include "trace/trace_config.h"
+#include "trace/trace_feed.h"
+#include "trace/trace_writer.h"
+
+namespace nord_driver::node {
+
+/// From construction to destruction. Without a configuration only the service is there, and refuses.
+class Tracing {
+ public:
+  /// `feed` and `telegrams` (nullptr: none) must outlive it.
+  Tracing(ros::NodeHandle& private_node, const std::optional<cycle::TraceConfig>& config,
+          const std::vector<cycle::TracedDrive>& drives, const TelegramTrace* telegrams, cycle::TraceFeed& feed);
+  ~Tracing();
+  Tracing(const Tracing&) = delete;
+  Tracing& operator=(const Tracing&) = delete;
+
+ private:
+  void run();
+  void answer(std_srvs::Trigger::Response& response);
+  void log(const cycle::TraceResult& result);
+
+  std::unique_ptr<cycle::TraceWriter> writer_;
+  std::unique_ptr<cycle::FaultTracer> tracer_;
+  std::string told_;  // an obstacle is named once, not with every fault
+  ros::ServiceServer server_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace nord_driver::node

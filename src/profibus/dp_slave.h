@@ -1,0 +1,122 @@
+// One slave as its master sees it: which request is next, and what its answer means.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "nord_driver/core/bytes.h"
+#include "nord_driver/core/time.h"
+#include "profibus/dp_event.h"
+#include "profibus/dp_services.h"
+#include "profibus/fdl_request.h"
+#include "profibus/frame_count.h"
+#include "profibus/record_channel.h"
+#include "profibus/slave_config.h"
+#include "profibus/slave_status.h"
+
+namespace nord_driver::profibus {
+
+/// The order of EN 50170-8: FDL status, Slave_Diag, Set_Prm, Chk_Cfg, Slave_Diag until ready, data exchange. Everything
+/// that goes wrong leads back to the beginning: at once when the slave left, when its silence has lasted, after a
+/// growing pause when it refused.
+class DpSlave {
+ public:
+  DpSlave(std::size_t index, const SlaveConfig& config, const BusParameters& bus);
+
+  /// The line was opened anew: from the beginning.
+  void restart(Instant now, DpEvents& events) noexcept;
+  void startCycle() noexcept;
+
+  // What this slave wants of the current cycle; asked once for each, in this order. A request is prepared where one
+  // says yes.
+  bool wantsExchange() const noexcept;
+  bool wantsStartUpStep(Instant now) const noexcept;
+  bool wantsDiagnosis() const noexcept;
+  bool wantsProbe(Instant now) const noexcept;
+  /// Its watchdog runs since it fell silent: found again before it runs out, the drive behind does not trip.
+  bool isUrgent(Instant now) const noexcept { return status_.phase == SlavePhase::kSilent && now < save_until_; }
+  /// Of an acyclic telegram beside data exchange.
+  bool wantsAcyclic(Instant now) noexcept;
+  void prepareAcyclic(FdlRequest& request, Instant now) noexcept;
+  /// Writes the wanted request of all others.
+  void prepare(FdlRequest& request, Instant now) noexcept;
+
+  void handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
+  /// The request was sent, retries included, and not answered.
+  void handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) noexcept;
+
+  void setOutputs(ByteView outputs) noexcept;
+  void setSilenceLimit(Duration limit) noexcept;
+  ByteView inputs() const noexcept { return inputs_; }
+  bool isSynchronised() const noexcept { return services_.isSynchronised(config_); }
+  const SlaveStatus& status() const noexcept { return status_; }
+  /// Get_Cfg beside data exchange; false when the slave is not in it.
+  bool requestConfiguration() noexcept;
+  Sentence configurationText() const noexcept;
+  /// Slave_Diag behind the next exchange, announced or not.
+  void requestDiagnosis() noexcept { diagnosis_due_ = status_.phase == SlavePhase::kDataExchange; }
+  /// See DpMaster.
+  bool submitRecord(const RecordRequest& request) noexcept;
+  std::optional<RecordResult> pollRecord() noexcept { return records_.pollResult(); }
+  SlaveCounters& counters() noexcept { return status_.counters; }
+
+ private:
+  struct Fault {
+    DpEventKind kind;
+    const char* text;
+  };
+  enum class Service : std::uint8_t { kFdlStatus, kSlaveDiag, kGetCfg, kSetPrm, kChkCfg, kDataExchange, kRecord };
+
+  Service nextService() noexcept;
+  void handleNoOptionalAnswer(DpEvents& events) noexcept;
+  void handleNoExchange(Mismatch mismatch, Instant now, DpEvents& events) noexcept;
+  void onFdlStatus(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
+  void onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
+  void onConfiguration(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
+  void onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
+  void onExchange(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
+
+  void judgeFirst(Instant now, DpEvents& events) noexcept;
+  void judgeReady(Instant now, DpEvents& events) noexcept;
+  void judgeInExchange(Instant now, DpEvents& events) noexcept;
+  /// What makes data exchange impossible, as the diagnosis shows it; who it is and whose it is come first.
+  std::optional<Fault> strangerIn(const Diagnosis& diagnosis) const noexcept;
+  std::optional<Fault> faultIn(const Diagnosis& diagnosis) const noexcept;
+
+  void fallSilent(Instant due, const char* note) noexcept;
+  void startOver(const char* note) noexcept;
+  void lose(LossCause cause, const char* text, DpEvents& events) noexcept;
+  void backOff(const Fault& fault, Instant now, DpEvents& events) noexcept;
+  void forgetFaults() noexcept;
+  DpEvent event(DpEventKind kind, const char* text) const noexcept;
+
+  std::size_t index_;
+  SlaveConfig config_;
+  DpServices services_;
+  std::uint8_t master_;
+  Duration probe_interval_;
+
+  SlaveStatus status_;
+  FrameCount frame_count_;
+  RecordChannel records_;
+  std::vector<std::uint8_t> outputs_, inputs_;  // sized once, in the constructor
+  Service asked_ = Service::kFdlStatus;
+  bool stepped_ = false;                      // had its request of this cycle
+  bool diagnosis_due_ = false;                // in data exchange: DH was seen
+  Instant due_{};                             // no request before (probes, back-off, slow polling)
+  Instant ready_since_{};                     // AwaitReady was entered
+  Instant last_answer_{};                     // of whatever kind: its watchdog runs from there at the earliest
+  Instant save_until_{};                      // see isUrgent()
+  Duration silence_limit_{};                  // of data exchange without an answer
+  std::optional<Instant> undiagnosed_since_;  // in data exchange: Slave_Diag was not answered
+  Duration pause_{};                          // of the next back-off
+  bool configuration_wanted_ = false;         // by requestConfiguration()
+  bool configuration_doubted_ = false;        // Cfg_Fault was seen
+  bool told_configuration_ = false;
+  bool told_found_ = false;
+  std::optional<DpEventKind> told_fault_;
+};
+
+}  // namespace nord_driver::profibus

@@ -1,0 +1,81 @@
+// The referee of a CAN bus: counts every rule of CANopen and of NORD's modules that the master breaks.
+//
+// It judges by what the master can know: a node that fell back by itself is no mistake of the master, talking on as if
+// nothing had happened is.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "core/can_frame.h"
+#include "sim/canopen/can_communication.h"
+
+namespace nord_driver::sim {
+
+enum class CanRule : std::uint8_t {
+  kExtendedFrame,
+  kIdOfANode,
+  kUnknownId,
+  kNmtLength,
+  kNmtCommand,
+  kNmtUnknownNode,
+  kSyncLength,
+  kSdoLength,
+  kSdoWhilePending,
+  kSdoToStopped,
+  kRpdoBeforeOperational,
+  kRpdoLength,
+  kMappingOrder,
+  kRemotePdo,
+  kRemoteLength,
+  kGuardingBesideHeartbeat,
+  kZeroControlWord,
+  kCount,
+};
+
+/// One sentence on the rule, with its source.
+const char* toString(CanRule rule) noexcept;
+
+class CanReferee {
+ public:
+  static constexpr std::size_t kNodes = 128;
+  /// RPDOs that may still follow the news that a node is no longer operational: they were on their way.
+  static constexpr unsigned kRpdoTolerance = 3;
+
+  void broken(CanRule rule) noexcept { ++counts_[static_cast<std::size_t>(rule)]; }
+
+  /// There is a node of this number on the bus, powered or not.
+  void nodeExists(std::uint8_t node) noexcept { views_[node].exists = true; }
+  /// A frame of the master: what can be judged without the nodes.
+  void masterFrame(const CanFrame& frame) noexcept;
+  /// A frame that reached the master.
+  void delivered(const CanFrame& frame) noexcept;
+  /// An RPDO of `length` bytes reached a node that maps `expected`.
+  void rpdo(std::uint8_t node, std::size_t length, std::size_t expected) noexcept;
+  /// An SDO request reached a server. `pending`: its last one is not answered yet.
+  void sdoRequest(std::uint8_t node, const CanFrame& frame, bool pending) noexcept;
+
+  std::uint64_t count(CanRule rule) const noexcept { return counts_[static_cast<std::size_t>(rule)]; }
+  std::uint64_t total() const noexcept;
+  bool content() const noexcept { return total() == 0; }
+  /// "no rule broken", or each broken rule with its count.
+  std::string report() const;
+  void forget() noexcept { counts_.fill(0); }
+
+ private:
+  /// What the master can know of a node.
+  struct View {
+    bool exists = false;
+    bool started = false;  ///< by an NMT command
+    bool stopped = false;
+    unsigned since_news = 0;  ///< RPDOs since the node told that it is not operational
+  };
+
+  void nmt(const CanFrame& frame) noexcept;
+
+  std::array<std::uint64_t, static_cast<std::size_t>(CanRule::kCount)> counts_{};
+  std::array<View, kNodes> views_{};
+};
+
+}  // namespace nord_driver::sim

@@ -1,0 +1,262 @@
+#include "sim/canopen/simulated_can_bus.h"
+
+#include <algorithm>
+
+namespace nord_driver::sim {
+
+namespace {
+
+constexpr Duration kStep = std::chrono::milliseconds(1);
+constexpr Duration kLongestWait = std::chrono::hours(24);  // a wait without end would never return
+constexpr unsigned kFrameBits = 47;  // with the three bits of the pause after it, without stuff bits
+constexpr unsigned kExtendedBits = 20;
+constexpr unsigned kErrorFrameBits = 20;
+constexpr unsigned kPassiveAfter = 16;  // unacknowledged frames until the error counter is above 127 (8 each)
+
+bool isNode(SimulatedCanBus::Sender sender) noexcept {
+  return sender == SimulatedCanBus::Sender::kNode;
+}
+
+}  // namespace
+
+SimulatedCanBus::SimulatedCanBus(const SimConfig& config, const CanBusSettings& settings)
+    : robot_(config),
+      stations_(robot_),
+      settings_(settings),
+      bit_time_(std::chrono::nanoseconds{1'000'000'000} / config.can.value_or(CanBusConfig{}).bit_rate),
+      now_(settings.start) {
+  stations_.advance(now_, *this);
+}
+
+bool SimulatedCanBus::open() noexcept {
+  if (!present_) {
+    last_error_ = "simulated CAN bus: no such interface";
+    return false;
+  }
+  last_error_.clear();
+  received_.clear();
+  open_ = true;
+  return true;
+}
+
+void SimulatedCanBus::close() noexcept {
+  open_ = false;
+  received_.clear();
+}
+
+void SimulatedCanBus::setInterfacePresent(bool present) noexcept {
+  present_ = present;
+  forgetOfMaster();
+  if (present || !open_) return;
+  close();
+  last_error_ = "simulated CAN bus: the interface is gone";
+}
+
+void SimulatedCanBus::setInterfaceUp(bool up) noexcept {
+  up_ = up;
+  state_ = up ? link::CanState::kActive : link::CanState::kDown;
+  unacknowledged_ = 0;
+  last_error_ = up ? "" : "simulated CAN bus: the interface is down";
+  forgetOfMaster();
+}
+
+void SimulatedCanBus::setBusOff() noexcept {
+  state_ = link::CanState::kBusOff;
+  ++counters_.bus_off;
+  forgetOfMaster();
+}
+
+void SimulatedCanBus::restart() noexcept {
+  if (state_ == link::CanState::kBusOff) ++counters_.restarts;
+  state_ = up_ ? link::CanState::kActive : link::CanState::kDown;
+  unacknowledged_ = 0;
+}
+
+const char* SimulatedCanBus::advice() const noexcept {
+  switch (state_) {
+    case link::CanState::kBusOff:
+      return "the controller is bus-off: bit rate, termination and wiring?";
+    case link::CanState::kDown:
+      return "the interface is down";
+    case link::CanState::kPassive:
+      return "no other node acknowledges: are the drives powered and is the bus terminated?";
+    default:
+      return "";
+  }
+}
+
+bool SimulatedCanBus::controllerOnBus() const noexcept {
+  return present_ && up_ && state_ != link::CanState::kBusOff;
+}
+
+link::CanSend SimulatedCanBus::send(const CanFrame& frame) noexcept {
+  if (!open_ || !controllerOnBus()) return link::CanSend::kFailed;
+  if (queue_full_ || queuedOfMaster() >= settings_.send_queue || waiting_.full()) {
+    ++counters_.queue_full;
+    return link::CanSend::kQueueFull;
+  }
+  waiting_.push_back({frame, Sender::kMaster});
+  return link::CanSend::kSent;
+}
+
+bool SimulatedCanBus::receive(link::ReceivedCanFrame& received) noexcept {
+  if (received_.empty()) return false;
+  received = received_[0];
+  received_.eraseFront(1);
+  return true;
+}
+
+bool SimulatedCanBus::waitReadable(Instant until) noexcept {
+  until = std::min(until, now_ + kLongestWait);
+  while (received_.empty() && now_ < until) {
+    Instant next = std::min(until, now_ + kStep);
+    if (busy_) next = std::min(next, current_end_);
+    advanceTo(next);
+  }
+  return !received_.empty();
+}
+
+void SimulatedCanBus::advanceTo(Instant when) noexcept {
+  for (;;) {
+    if (busy_ && current_end_ <= when) {
+      now_ = current_end_;
+      stations_.advance(now_, *this);
+      endFrame();
+      continue;
+    }
+    if (!busy_ && startFrame()) continue;
+    if (now_ >= when) return;
+    Instant next = std::min(when, now_ + kStep);
+    if (busy_) next = std::min(next, current_end_);
+    now_ = next;
+    stations_.advance(now_, *this);
+  }
+}
+
+std::size_t SimulatedCanBus::queuedOfMaster() const noexcept {
+  return static_cast<std::size_t>(std::count_if(
+      waiting_.begin(), waiting_.end(), [](const Pending& pending) { return pending.sender == Sender::kMaster; }));
+}
+
+void SimulatedCanBus::forgetOfMaster() noexcept {
+  FixedVector<Pending, 256> kept;
+  for (const Pending& pending : waiting_) {
+    if (pending.sender != Sender::kMaster) kept.push_back(pending);
+  }
+  waiting_ = kept;
+  if (busy_ && current_.sender == Sender::kMaster) busy_ = false;
+}
+
+// The interface sends one frame after the other; of what is ready at the same time the lowest identifier wins.
+bool SimulatedCanBus::startFrame() noexcept {
+  std::size_t winner = waiting_.size();
+  bool master_seen = false;
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    const bool master = waiting_[i].sender == Sender::kMaster;
+    if (master && master_seen) continue;
+    master_seen = master_seen || master;
+    if (winner == waiting_.size() || waiting_[i].frame.id < waiting_[winner].frame.id) winner = i;
+  }
+  if (winner == waiting_.size()) return false;
+  current_ = waiting_[winner];
+  for (std::size_t i = winner; i + 1 < waiting_.size(); ++i) waiting_[i] = waiting_[i + 1];
+  waiting_.resize(waiting_.size() - 1);
+  current_end_ = now_ + frameTime(current_.frame);
+  busy_ = true;
+  return true;
+}
+
+Duration SimulatedCanBus::frameTime(const CanFrame& frame) const noexcept {
+  const unsigned data = frame.remote ? 0 : frame.size;
+  return bit_time_ * (kFrameBits + 8 * data + (frame.extended ? kExtendedBits : 0));
+}
+
+bool SimulatedCanBus::acknowledged() const noexcept {
+  if (current_.sender != Sender::kMaster) return controllerOnBus() || stations_.nodeCount() > 1 || foreign_;
+  return stations_.anyAlive() || foreign_;
+}
+
+void SimulatedCanBus::endFrame() noexcept {
+  busy_ = false;
+  const bool from_master = current_.sender == Sender::kMaster;
+  if (!acknowledged()) {
+    // Sent again and again until somebody acknowledges; a node that is alone drops it here, so that time can pass.
+    if (!from_master) return;
+    ++counters_.no_acknowledge;
+    if (++unacknowledged_ >= kPassiveAfter) state_ = link::CanState::kPassive;
+    busy_ = true;
+    current_end_ = now_ + frameTime(current_.frame) + bit_time_ * kErrorFrameBits;
+    return;
+  }
+  if (unacknowledged_ > 0) {
+    unacknowledged_ = 0;
+    state_ = link::CanState::kActive;
+  }
+  const bool disturbed = from_master ? disturbance_.requests : disturbance_.answers;
+  if (disturbed && happens(disturbance_.error)) {
+    ++counters_.bus_errors;
+    busy_ = true;
+    current_end_ = now_ + frameTime(current_.frame) + bit_time_ * kErrorFrameBits;
+    return;
+  }
+  unsigned times = disturbed && happens(disturbance_.duplicate) ? 2 : 1;
+  if (disturbed && happens(disturbance_.lose)) times = 0;
+  if (tap_) tap_(current_.frame, current_.sender, now_);
+  const CanFrame frame = current_.frame;
+  if (from_master) {
+    deliverFromMaster(frame, times);
+  } else {
+    deliverToMaster(frame, times);
+  }
+}
+
+void SimulatedCanBus::deliverFromMaster(const CanFrame& frame, unsigned times) noexcept {
+  if (lose_requests_ > 0) {
+    --lose_requests_;
+    times = 0;
+  }
+  if (times == 0) stations_.referee().masterFrame(frame);
+  for (unsigned i = 0; i < times; ++i) stations_.receive(frame, i == 0 ? Judge::kYes : Judge::kNo, *this);
+}
+
+void SimulatedCanBus::deliverToMaster(const CanFrame& frame, unsigned times) noexcept {
+  if (lose_answers_ > 0 && isNode(current_.sender)) {
+    --lose_answers_;
+    times = 0;
+  }
+  for (unsigned i = 0; i < times; ++i) {
+    const bool reached = controllerOnBus() && open_ && toQueue(frame);
+    if (isNode(current_.sender)) {
+      stations_.delivered(frame, reached, *this);
+    } else {
+      stations_.receive(frame, Judge::kNo, *this);
+    }
+  }
+}
+
+bool SimulatedCanBus::toQueue(const CanFrame& frame) noexcept {
+  if (overflow_ == 0 && received_.size() < settings_.receive_queue && received_.push_back({frame, now_})) return true;
+  if (overflow_ > 0) --overflow_;
+  ++counters_.dropped;
+  return false;
+}
+
+void SimulatedCanBus::transmit(const CanFrame& frame) noexcept {
+  waiting_.push_back({frame, Sender::kNode});  // a bus that cannot take it for so long is dead anyway
+}
+
+void SimulatedCanBus::inject(const CanFrame& frame) noexcept {
+  foreign_ = true;
+  waiting_.push_back({frame, Sender::kForeign});
+}
+
+void SimulatedCanBus::setDisturbance(const CanDisturbance& disturbance) noexcept {
+  disturbance_ = disturbance;
+  random_.seed(disturbance.seed);
+}
+
+bool SimulatedCanBus::happens(double probability) noexcept {
+  return probability > 0.0 && static_cast<double>(random_()) < probability * 4294967296.0;
+}
+
+}  // namespace nord_driver::sim

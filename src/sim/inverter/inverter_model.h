@@ -1,0 +1,180 @@
+// A simulated frequency inverter: status machine, ramps, parameter sets, faults and time-outs.
+//
+// Written from BU 2700 6.4 and 7.1.1 and BU 0020 7.3 and 8. It is fed with control words and time, and knows no bus:
+// the module (DpSlave) hands it what arrived, and says when its master or its link is gone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "nord_driver/core/time.h"
+#include "sim/inverter/motor.h"
+#include "sim/inverter/parameter_store.h"
+#include "sim/inverter/words.h"
+
+namespace nord_driver::sim {
+
+/// BU 2700 6.4.3, A to H; kOff: no mains.
+enum class InverterState : std::uint8_t {
+  kOff,
+  kNotReadyToSwitchOn,
+  kSwitchOnDisabled,
+  kReadyToSwitchOn,
+  kSwitchedOn,
+  kOperationEnabled,
+  kQuickStopActive,
+  kFaultReactionActive,
+  kFault,
+};
+
+const char* toString(InverterState state) noexcept;
+
+/// Control word and setpoints 1-3 of one telegram.
+struct ProcessData {
+  Word control = 0;
+  std::array<Word, 3> setpoints{};
+};
+
+/// Fault numbers as P700 shows them, ten times the printed number: BU 2700 8.3.
+namespace fault {
+constexpr std::uint16_t kBusTimeout = 100;  ///< E10.0 bus time-out: P513, node guarding (BU 0020 8)
+constexpr std::uint16_t kMasterLost = 102;  ///< E10.2 PROFIBUS watchdog
+constexpr std::uint16_t kTimeout = 103;     ///< E10.3 time-out by P151/P513
+constexpr std::uint16_t kModuleLink = 108;  ///< E10.8 connection to the bus interface interrupted
+constexpr std::uint16_t kNoModule = 109;    ///< E10.9 the same with a module on the system bus, by P120
+}  // namespace fault
+
+/// Why "switch-on disabled" or "not ready" is not left: P700[-03]. The bus manuals say that there is a reason (BU
+/// 0020 8), the list is in the inverters' own manuals: these numbers are the simulator's.
+namespace block {
+constexpr std::uint16_t kNone = 0;
+constexpr std::uint16_t kVoltageByTerminals = 1;
+constexpr std::uint16_t kQuickStopByTerminals = 2;
+constexpr std::uint16_t kVoltageByBus = 3;
+constexpr std::uint16_t kQuickStopByBus = 4;
+constexpr std::uint16_t kStandingEnable = 5;  ///< bit 0 is 1 already: shut down comes first
+constexpr std::uint16_t kCharging = 60;
+}  // namespace block
+
+struct InverterSettings {
+  double charging_time = 0.3;  ///< s, from mains on until the charging relay has engaged
+  /// s, a fault stands that long before P506 takes it. Not in the bus manuals: the simulator's.
+  double automatic_acknowledgement_delay = 0.1;
+  /// Behind SK CU4/TU4: P120 watches the link to the module, not P513 alone (BU 2700 8.1).
+  bool on_system_bus = false;
+  /// The value of P509 that gives control to the bus it is wired to; nothing: PROFIBUS, as the series numbers it.
+  std::optional<std::int32_t> bus_source;
+  std::uint16_t master_lost_fault = fault::kMasterLost;  ///< how a lost master shows
+  std::uint16_t timeout_fault = fault::kTimeout;         ///< how P513 shows
+};
+
+/// What is wired to the inverter. Coasting and quick stop act under bus control too (BU 0020 6, note).
+struct Terminals {
+  bool enable = false;
+  double frequency = 0.0;   ///< Hz, signed; also what an analogue input would say
+  bool coast = false;       ///< an input "disable voltage" is low
+  bool quick_stop = false;  ///< an input "quick stop" is low
+};
+
+class InverterModel {
+ public:
+  /// Both must outlive the model.
+  InverterModel(ParameterStore& parameters, Motor& motor, const InverterSettings& settings = InverterSettings{});
+
+  /// Lets `span` pass, in steps of at most a millisecond.
+  void advance(Duration span) noexcept;
+
+  void setPowered(bool on) noexcept;
+  bool powered() const noexcept { return state_ != InverterState::kOff; }
+
+  /// Process data from the bus module. With bit 10 = 0 they are not evaluated (BU 2700 6.4.1 note 2).
+  void receive(const ProcessData& data) noexcept;
+  /// The module's watchdog expired: E10.2, unless P513 = -0.1 (BU 2700 7.1.1).
+  void masterLost() noexcept;
+  /// A module on the system bus says that P151 is over: E10.3 (BU 2700 7.1.1).
+  void moduleTimeout() noexcept;
+  /// The connection to the module broke (E10.8, on the system bus E10.9 unless P120[-01] = 0; never with P513 = -0.1)
+  /// or is back.
+  void setModuleLink(bool intact) noexcept;
+
+  /// A fault by number (102 = E10.2). With `cause_stays` it cannot be acknowledged before `clearCause()`.
+  void trip(std::uint16_t number, bool cause_stays) noexcept;
+  void clearCause() noexcept { tripped_cause_ = false; }
+  /// As an input with function 12 or the keypad does it. False: no fault, or its cause stands.
+  bool acknowledge() noexcept;
+  /// A warning's number in P700[-02]; 0 ends it, a fault too (BU 0020 8).
+  void setWarning(std::uint16_t number) noexcept;
+
+  /// Control by the terminals: an input "remote control" is low, status bit 9 = 0.
+  void setLocalControl(bool on) noexcept { local_ = on; }
+  /// The same with terminals that enable the drive when `setpoint_hz` is not zero, else say OFF1.
+  void setLocalControl(bool on, double setpoint_hz) noexcept;
+  void setTerminals(const Terminals& terminals) noexcept { terminals_ = terminals; }
+  const Terminals& terminals() const noexcept { return terminals_; }
+
+  Word statusWord() const noexcept;
+  /// Actual value 1-3 (`n` = 0-2) by the function in P543-P545.
+  Word actualValue(unsigned n) const noexcept;
+
+  InverterState state() const noexcept { return state_; }
+  double frequency() const noexcept { return frequency_; }        ///< output frequency, Hz, signed
+  unsigned parameterSet() const noexcept { return set_; }         ///< 0-3
+  std::uint16_t faultNumber() const noexcept { return fault_; }   ///< 0 = none
+  Word setpoint1() const noexcept { return data_.setpoints[0]; }  ///< the last valid one
+  std::uint16_t warning() const noexcept { return warning_; }
+  /// Why it cannot be switched on: one of `block`.
+  std::uint16_t switchOnBlock() const noexcept;
+  std::uint64_t setSwitches() const noexcept { return set_switches_; }
+  /// The control word of the bus counts.
+  bool busControl() const noexcept;
+
+ private:
+  void step(double dt) noexcept;
+  void evaluate() noexcept;
+  void follow(double dt) noexcept;
+  void watchTimeout(double dt) noexcept;
+  void enter(InverterState next) noexcept;
+  void selectParameterSet(unsigned set) noexcept;
+  void waitForStart() noexcept;
+  void acknowledgeByItself() noexcept;
+  bool causeStands() const noexcept;
+  bool inputAcknowledges() const noexcept;
+  std::int32_t busSource() const noexcept;
+  bool ignoresBusErrors() const noexcept;
+  bool watchesModule() const noexcept;
+  bool busSetpoint() const noexcept;
+  Word command() const noexcept;
+  double setpointFrequency() const noexcept;
+  double busShare() const noexcept;
+  std::int32_t busFunction(unsigned first_number, unsigned n) const noexcept;
+  Word functionValue(std::int32_t function) const noexcept;
+
+  ParameterStore& parameters_;
+  Motor& motor_;
+  InverterSettings settings_;
+
+  InverterState state_ = InverterState::kOff;
+  double in_state_ = 0.0;  // s
+  bool commanded_ = false;
+  ProcessData data_;  // the last ones with bit 10 = 1
+  unsigned set_ = 0;
+  double frequency_ = 0.0;
+  double target_ = 0.0;
+
+  bool local_ = false;
+  Terminals terminals_;
+
+  std::uint16_t fault_ = 0;
+  std::uint16_t warning_ = 0;
+  bool tripped_cause_ = false;
+  bool master_lost_ = false;
+  bool timed_out_ = false;
+  bool link_broken_ = false;
+  bool link_fault_ = false;
+  double since_valid_ = 0.0;  // s since the last word with bit 10 = 1
+  int automatic_acknowledgements_ = 0;
+  std::uint64_t set_switches_ = 0;
+};
+
+}  // namespace nord_driver::sim

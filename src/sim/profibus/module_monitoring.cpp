@@ -1,0 +1,126 @@
+// What the module watches, how it tells its inverters, and what it shows of it: BU 2700 7.1.1, 7.1.3, 8.1 and BU
+// 0220 4.2.3.
+
+#include "sim/profibus/module_station.h"
+
+namespace nord_driver::sim {
+
+namespace {
+
+// P170: BU 0220 6.2.2.
+constexpr std::int32_t kBusTimeout = 1020;
+constexpr std::int32_t kProfibusTimeout = 5020;
+
+constexpr std::int32_t kWatchNothing = -1;  // P151; 0: only the control words are not watched (the table of 7.1.1)
+
+// P173.
+constexpr unsigned kPreoperational = 1u << 0;
+constexpr unsigned kOperational = 1u << 1;
+constexpr unsigned kWatchdogExpired = 1u << 2;
+constexpr unsigned kTimeout = 1u << 3;
+constexpr unsigned kOnline = 2;
+constexpr unsigned kLost = 3;
+
+}  // namespace
+
+// P151 > 0: no telegram with a valid control word for that long is E10.3 in every inverter.
+void ModuleStation::watch(Duration span) noexcept {
+  for (Place& place : places_) place.seen = place.seen || place.present();
+  const std::int32_t limit = parameters_.value(151);
+  if (limit > 0 && valid_data_seen_) {
+    since_valid_ += span;
+    if (since_valid_ >= std::chrono::milliseconds(limit)) {
+      valid_data_seen_ = false;  // starts anew with the next valid telegram
+      timeOut(kBusTimeout);
+    }
+  }
+  endTimeOut();
+  showStatus();
+}
+
+void ModuleStation::masterLost() noexcept {
+  valid_data_seen_ = false;
+  for (Place& place : places_) {
+    place.counters.control_before_loss = place.counters.last_control;
+    if (place.inverter != nullptr) place.counters.status_at_loss = place.inverter->statusWord();
+  }
+  if (parameters_.value(151) == kWatchNothing) return;
+  timeOut(kProfibusTimeout);
+}
+
+void ModuleStation::timeOut(std::int32_t error) noexcept {
+  timed_out_ = cause_stands_ = true;
+  error_ = error;
+  for (Place& place : places_) {
+    if (!place.present()) continue;
+    if (error == kProfibusTimeout) {
+      place.inverter->masterLost();
+    } else {
+      place.inverter->moduleTimeout();
+    }
+  }
+}
+
+// "As long as one of the inverters connected is still in the error state ... the technology box remains in the time-out
+// error state" (BU 0220 4.2.3.2). One that is switched off has no error any more.
+void ModuleStation::endTimeOut() noexcept {
+  if (!timed_out_ || cause_stands_) return;
+  for (const Place& place : places_) {
+    if (place.present() && place.inverter->faultNumber() != 0) return;
+  }
+  timed_out_ = false;
+  parameters_.preset(170, 0, 1, error_);
+  error_ = 0;
+}
+
+std::int32_t ModuleStation::moduleStatus() const noexcept {
+  unsigned status = state() == SlaveState::kDataExchange ? kOperational : kPreoperational;
+  if (error_ == kProfibusTimeout) status |= kWatchdogExpired;
+  if (error_ == kBusTimeout) status |= kTimeout;
+  for (unsigned place = 0; place < kInverters; ++place) {
+    const unsigned code = places_[place].present() ? kOnline : places_[place].seen ? kLost : 0u;
+    status |= code << (8 + 2 * place);
+  }
+  return static_cast<std::int32_t>(status);
+}
+
+void ModuleStation::showStatus() noexcept {
+  parameters_.show(170, 0, error_);
+  parameters_.show(173, 0, moduleStatus());
+  parameters_.show(174, 0, settings_.inputs);
+  parameters_.show(175, 0, outputs());
+  parameters_.show(177, 0, settings_.inputs);
+  const bool exchanging = state() == SlaveState::kDataExchange;
+  for (unsigned slot = 0; slot <= kInverters; ++slot) {
+    const bool there = exchanging && slot < configuration_.size();
+    parameters_.show(182, slot, there ? configuration_[slot] : 0);
+  }
+  for (unsigned place = 0; place < kInverters; ++place) {
+    const Place& there = places_[place];
+    if (!there.present()) continue;
+    parameters_.show(177, 1 + 4 * place, toSigned(there.inverter->statusWord()));
+    there.parameters->show(741, 0, there.inverter->statusWord());
+    for (unsigned n = 0; n < 3; ++n) {
+      const Word value = there.inverter->actualValue(n);
+      parameters_.show(177, 2 + 4 * place + n, toSigned(value));
+      there.parameters->show(741, 1 + n, value);
+    }
+  }
+}
+
+PkwWords ModuleStation::executeRecord(unsigned device, const PkwWords& order) noexcept {
+  if (device > 0) {
+    const Place& place = places_[device - 1];
+    if (!place.present()) return PkwServer::refusal(order, absence(place));
+    return place.pkw->executeNow(order);
+  }
+  showStatus();
+  const PkwWords answer = own_pkw_.executeNow(order);
+  if (parameters_.value(152) == 1) {  // goes back to 0 by itself
+    parameters_.resetToFactory();
+    parameters_.preset(153, 0, 1, 5);
+  }
+  return answer;
+}
+
+}  // namespace nord_driver::sim

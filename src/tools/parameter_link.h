@@ -1,0 +1,87 @@
+// One drive's parameters over the bus, for a program that comes, reads or writes, and goes.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "cycle/parameter_access.h"
+#include "drive/drive.h"
+#include "drive/parameter_session.h"
+#include "nord_driver/transport/transport.h"
+#include "tools/tool_config.h"
+
+namespace nord_driver::tools {
+
+/// It cannot be done now: one sentence.
+class Trouble : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct ParameterAnswer {
+  bool success = false;
+  bool refused = false;  ///< by inverter, catalogue or session; the drive is there
+  bool unknown = false;  ///< refused: the inverter has no parameter of this number
+  std::string message;   ///< why not; with success a note, or empty
+  std::int32_t raw = 0;
+  double value = 0.0;
+  const profile::ParameterInfo* info = nullptr;  ///< what the catalogue knows
+  std::uint8_t set = 0;                          ///< that was meant, 1..4; 0 where the parameter has no sets
+};
+
+/// Master of the bus from `connect` on. Moves nothing and stops nothing:
+///  - Until a status word has told state and parameter set, the word is 0000, which the inverter ignores (BU 2700 6.4.1
+///    note 2). A drive that runs then is left alone: `connect` refuses. One at rest gets the idle word 047E with its
+///    own set, so that P513 or P151 > 0 does not trip it (7.1.1).
+///  - The other drives of the bus are not talked to.
+///  - Nothing in the module watches for the end of the program, and nothing is sent on the bus of another master: the
+///    transport is told so (`ParametersOnly`).
+class ParameterLink {
+ public:
+  /// Configures `transport`. Throws ConfigError; Trouble when `transport` is no `ParametersOnly`.
+  ParameterLink(const ToolConfig& config, Transport& transport);
+  /// Ends the exchange; what was not ended by `finish` ends as it stands.
+  ~ParameterLink();
+  ParameterLink(const ParameterLink&) = delete;
+  ParameterLink& operator=(const ParameterLink&) = delete;
+
+  /// Looks for the drive until `limit`. Throws Trouble when it does not answer, or runs, or `end_asked`.
+  void connect(Duration limit, const std::atomic<bool>& end_asked);
+
+  ParameterAnswer read(const cycle::ParameterAddress& address);
+  /// Compared before and read back after; see ParameterSession.
+  ParameterAnswer write(const cycle::ParameterAddress& address, const cycle::ParameterWish& wish);
+
+  /// Puts back what is not to stay (P560, orders of the parameter channel) and ends the exchange. Returns sentences on
+  /// what the end means to the drive.
+  std::vector<std::string> finish();
+
+  const cycle::DriveSetup& drive() const noexcept { return config_.cycle.drives.front(); }
+  DriveIdentity identity() const { return transport_.identity(0); }
+
+ private:
+  void exchange() noexcept;
+  void runSession() noexcept;
+  void idle(int cycles) noexcept;
+  void refuseRunning() const;
+  std::string silence() const;
+  std::optional<drive::ParameterTaskResult> run(const drive::ParameterTask& task) noexcept;
+  bool waitForDrive() noexcept;
+  ParameterAnswer carryOut(const cycle::Request& request, const profile::ParameterInfo* info);
+
+  const ToolConfig& config_;
+  Transport& transport_;
+  std::vector<drive::Drive> drives_;
+  std::vector<profile::ProcessOutput> outputs_;
+  std::vector<DriveExchange> inputs_;
+  drive::ParameterSession session_;
+  std::uint32_t open_id_ = 0;  // of the request under way; 0: none
+  std::uint32_t last_id_ = 0;
+  bool connected_ = false;
+};
+
+}  // namespace nord_driver::tools

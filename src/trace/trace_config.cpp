@@ -1,0 +1,22 @@
+#include "trace/trace_config.h"
+
+#include "config/setting_checks.h"
+
+namespace nord_driver::cycle {
+
+std::optional<TraceConfig> readTraceConfig(const Settings& node) {
+  constexpr std::int64_t kMaxKept = 100'000;
+  TraceConfig config;
+  config.directory = node.text("trace_directory").value_or("");
+  config.keep =
+      static_cast<std::size_t>(integerOr(node, "trace_keep", static_cast<std::int64_t>(config.keep), 1, kMaxKept));
+  if (config.directory.empty()) return std::nullopt;
+  // Nobody expands "~" in a parameter, and the working directory of a node is anywhere.
+  if (config.directory.front() != '/') {
+    throw wrongSetting(node, "trace_directory", "\"" + config.directory + "\"",
+                       "an absolute path, such as /home/robot/trace, or nothing (no trace)");
+  }
+  return config;
+}
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,20 @@
+// Where traces are written and how many are kept.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "nord_driver/config/settings.h"
+
+namespace nord_driver::cycle {
+
+struct TraceConfig {
+  std::string directory;  ///< absolute
+  std::size_t keep = 20;  ///< traces; the oldest of more are removed
+};
+
+/// `trace_directory` and `trace_keep`; nothing when the directory is empty or absent. Throws ConfigError.
+std::optional<TraceConfig> readTraceConfig(const Settings& node);
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,55 @@
+#include "trace/trace_feed.h"
+
+namespace nord_driver::cycle {
+
+namespace {
+
+/// True for a stop nobody asked for.
+bool unasked(drive::StopCause cause) noexcept {
+  // OFF2 is the way of a stop, asked for or with a cause of its own.
+  return cause != drive::StopCause::kNone && cause != drive::StopCause::kQuickStop && cause != drive::StopCause::kCoast;
+}
+
+/// Remembers `now` and tells whether it has just become true.
+bool rises(bool& before, bool now) noexcept {
+  const bool rose = now && !before;
+  before = now;
+  return rose;
+}
+
+}  // namespace
+
+TraceFeed::TraceFeed(std::size_t drive_count) : history_(drive_count), drives_(drive_count) {}
+
+void TraceFeed::handleCycle(const std::vector<profile::ProcessOutput>& outputs,
+                            const std::vector<DriveExchange>& inputs, const CycleSnapshot& snapshot) noexcept {
+  TraceTrigger trigger;
+  trigger.time = snapshot.time;
+  trigger.cycle = history_.cycles();
+  history_.record(outputs, inputs, snapshot.time);
+  for (DriveIndex i = 0; i < drives_.size(); ++i) handleDrive(i, inputs[i], snapshot.drives[i], trigger);
+  if (rises(base_stopped_, unasked(snapshot.base.stop_cause))) {
+    trigger.kind = TraceTrigger::Kind::kStop;
+    trigger.drive = kAllDrives;
+    trigger.status_word = 0;
+    trigger.text = snapshot.base.text;
+    triggers_.push(trigger);
+  }
+}
+
+// A drive that is silent keeps its fault: it has not risen anew when the drive is back with it.
+void TraceFeed::handleDrive(DriveIndex drive, const DriveExchange& input, const DriveSnapshot& snapshot,
+                            TraceTrigger& trigger) noexcept {
+  Seen& seen = drives_[drive];
+  const bool fault = input.inverter_answers ? profile::StatusWord{input.input.status_word}.fault() : seen.fault;
+  const bool faulted = rises(seen.fault, fault);
+  const bool stopped = rises(seen.stopped, unasked(snapshot.stop_cause));
+  if (!faulted && !stopped) return;
+  trigger.kind = faulted ? TraceTrigger::Kind::kFault : TraceTrigger::Kind::kStop;
+  trigger.drive = drive;
+  trigger.status_word = snapshot.input.status_word;
+  trigger.text = snapshot.text;
+  triggers_.push(trigger);
+}
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,58 @@
+// What the bus cycle leaves for the trace: its process data, and the moments a trace is written for.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/event_ring.h"
+#include "cycle/request.h"
+#include "cycle/snapshot.h"
+#include "nord_driver/core/fixed_text.h"
+#include "nord_driver/core/time.h"
+#include "trace/process_data_history.h"
+
+namespace nord_driver::cycle {
+
+struct TraceTrigger {
+  enum class Kind : std::uint8_t {
+    kFault,  ///< the fault bit of a drive rose
+    kStop,   ///< a drive or the base stopped, and nobody had asked for it
+  };
+  Kind kind = Kind::kFault;
+  DriveIndex drive = kAllDrives;  ///< kAllDrives: the base
+  Instant time{};
+  std::uint64_t cycle = 0;
+  Word status_word = 0;  ///< of the drive; 0 for the base
+  Sentence text;         ///< why it stopped; may be empty
+};
+
+class TraceFeed {
+ public:
+  explicit TraceFeed(std::size_t drive_count);
+
+  /// The cycle's thread, once per cycle, with what was exchanged and what became of it. Neither waits nor allocates.
+  void handleCycle(const std::vector<profile::ProcessOutput>& outputs, const std::vector<DriveExchange>& inputs,
+                   const CycleSnapshot& snapshot) noexcept;
+
+  /// One outside thread only. When nobody takes them, the newest are lost.
+  std::optional<TraceTrigger> pollTrigger() noexcept { return triggers_.pop(); }
+  /// Any thread.
+  const ProcessDataHistory& history() const noexcept { return history_; }
+
+ private:
+  struct Seen {
+    bool fault = false;
+    bool stopped = false;
+  };
+
+  void handleDrive(DriveIndex drive, const DriveExchange& input, const DriveSnapshot& snapshot,
+                   TraceTrigger& trigger) noexcept;
+
+  ProcessDataHistory history_;
+  EventRing<TraceTrigger, 16> triggers_;
+  std::vector<Seen> drives_;
+  bool base_stopped_ = false;
+};
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,71 @@
+// One drive on a CANopen bus, as its master sees it: is it there, what did it send, and in which words.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "canopen/master.h"
+#include "nord_driver/core/fixed_vector.h"
+#include "nord_driver/transport/transport.h"
+#include "profile/cia402.h"
+#include "transport/canopen/canopen_config.h"
+#include "transport/canopen/canopen_parameters.h"
+#include "transport/canopen/module_link.h"
+
+namespace nord_driver {
+
+/// Each cycle: putOutput() before the exchange, takeInput() after it.
+class CanopenDriveState {
+ public:
+  /// `receive_id`: COB-ID of its RPDO.
+  CanopenDriveState(const CanopenDrive& config, std::uint32_t receive_id, std::uint16_t tag);
+
+  void putOutput(const profile::ProcessOutput& output, canopen::Master& master) noexcept;
+  /// The RPDO for a node that has fallen silent while it was operational: it may hear us without being heard, and the
+  /// master sends it nothing any more. None when there is nothing to command.
+  std::optional<CanFrame> darkFrame(const canopen::Master& master) const noexcept;
+  /// `bus_works`: frames can come and go at all.
+  void takeInput(const canopen::Master& master, bool bus_works, Instant now, DriveExchange& input) noexcept;
+
+  bool submit(const profile::ParameterRequest& request) noexcept;
+  std::optional<profile::ParameterResult> pollResult() noexcept;
+  CanopenParameters& parameters() noexcept { return parameters_; }
+  /// The bus is begun anew.
+  void handleRestart() noexcept;
+
+  const CanopenDrive& config() const noexcept { return config_; }
+  bool moduleAnswers() const noexcept { return module_answers_; }
+  bool inverterAnswers() const noexcept { return inverter_answers_; }
+  /// Why it does not answer; lives as long as this.
+  const char* note() const noexcept { return note_.c_str(); }
+  /// The emergency that stands, in words; empty when none does.
+  const Sentence& emergency() const noexcept { return emergency_text_; }
+
+ private:
+  bool decode(ByteView bytes, profile::ProcessInput& input) const noexcept;
+  void takeEmergencies(const canopen::NodeStatus& status) noexcept;
+  void forgetEmergency() noexcept;
+  bool moduleMissesInverter(const canopen::NodeStatus& status, const canopen::PdoValue& pdo, Word status_word,
+                            Instant now) noexcept;
+  Interruption takeInterruption(const canopen::NodeStatus& status) noexcept;
+  void explain(const canopen::NodeStatus& status, bool bus_works, bool ever_sent, bool overdue) noexcept;
+
+  CanopenDrive config_;
+  std::uint32_t receive_id_ = 0;
+  CanopenParameters parameters_;
+  profile::Cia402Scaling scaling_;
+  FixedVector<std::uint32_t, CanopenParameters::kCapacity> max_frequency_reads_;  // ids of P105 of set 1 under way
+  PdoBytes output_;                                                               // as of the last putOutput()
+  bool stops_ = false;                                                            // ... and it is a word that stops
+  std::optional<std::uint64_t> start_;  // which start of the node it is operational from; none: it is not
+  bool module_answers_ = false;
+  bool inverter_answers_ = false;
+  bool contested_ = false;  // another master commands it, too
+  std::uint64_t emergencies_seen_ = 0;
+  std::uint16_t emergency_code_ = 0;
+  ModuleLink module_link_;  // of an inverter behind a gateway
+  Sentence emergency_text_;
+  Sentence note_;
+};
+
+}  // namespace nord_driver

@@ -1,0 +1,119 @@
+#include "transport/profibus/profibus_text.h"
+
+#include <cstdio>
+
+namespace nord_driver {
+
+namespace {
+
+using profibus::DpEventKind;
+
+constexpr std::uint8_t kUnnamed = 126;
+
+const char* moduleName(std::uint16_t ident) noexcept {
+  if (ident == profile::kIdentTechnologyUnit) return " (SK TU1/2/3-PBR)";
+  if (ident == profile::kIdentCu4Tu4) return " (SK CU4/TU4-PBR)";
+  return "";
+}
+
+bool isGoodNews(DpEventKind kind) noexcept {
+  return kind == DpEventKind::kSlaveFound || kind == DpEventKind::kDataExchangeEntered;
+}
+
+}  // namespace
+
+ProfibusText::ProfibusText(const ProfibusDpConfig& config) : config_(config) {
+  for (std::size_t i = 0; i < config.stations.size(); ++i) {
+    std::string drives;
+    for (const std::size_t drive : config.stations[i].drives) {
+      drives += (drives.empty() ? "" : ", ") + config.drives[drive].name;
+    }
+    names_.push_back("PROFIBUS station " + std::to_string(config.slaves[i].address.value()) + " (" + drives + ")");
+  }
+}
+
+BusEvent ProfibusText::event(const profibus::DpEvent& event, const profibus::DpMaster& master) const noexcept {
+  BusEvent told;
+  told.warning = !isGoodNews(event.kind);
+  if (event.slave >= names_.size()) {
+    if (event.kind == DpEventKind::kForeignMaster) {
+      told.text.format("PROFIBUS address %u: %s", event.master, event.text);
+    } else {
+      told.text.format("PROFIBUS: %s", event.text);
+    }
+    return told;
+  }
+  const char* const name = names_[event.slave].c_str();
+  switch (event.kind) {
+    case DpEventKind::kDataExchangeEntered:
+      told.text.format("%s exchanges data", name);
+      break;
+    case DpEventKind::kConfigurationDiffers:
+    case DpEventKind::kConfigurationRead:
+      told.text.format("%s: %s", name, master.configurationText(event.slave).c_str());
+      break;
+    case DpEventKind::kLockedByMaster:
+      told.text.format("%s %s: address %u", name, event.text, event.master);
+      break;
+    case DpEventKind::kWrongIdent:
+    case DpEventKind::kConfigurationFault:
+      told.text.format("%s %s", name, note(event.slave, master).c_str());
+      break;
+    default:
+      told.text.format("%s %s", name, event.text);
+      break;
+  }
+  return told;
+}
+
+Sentence ProfibusText::note(std::size_t station, const profibus::DpMaster& master) const noexcept {
+  const profibus::SlaveStatus& status = master.status(station);
+  const std::uint16_t configured = config_.slaves[station].ident_number;
+  Sentence text;
+  text = status.note;
+  if (status.phase == profibus::SlavePhase::kDataExchange || status.phase == profibus::SlavePhase::kSilent) return text;
+  if (status.ident && *status.ident != configured) {
+    text.format("is another module than configured: it reports the ident number %04Xh%s, expected %04Xh%s",
+                *status.ident, moduleName(*status.ident), configured, moduleName(configured));
+  } else if (status.diagnosis.configurationFault() && !status.configuration.empty()) {
+    text.format("%s; %s", "refuses its configuration (Cfg_Fault)", master.configurationText(station).c_str());
+  } else if (status.diagnosis.owner() != profibus::kNoOwner && status.diagnosis.owner() != config_.bus.master.value()) {
+    text.format("%s: its address is %u", status.note, status.diagnosis.owner());
+  }
+  return text;
+}
+
+Sentence ProfibusText::named(std::size_t station, const char* what) const noexcept {
+  Sentence text;
+  text.format("%s %s", names_[station].c_str(), what);
+  return text;
+}
+
+Sentence ProfibusText::liveList(const profibus::BusScan& scan) noexcept {
+  Sentence text;
+  if (const auto master = scan.refusedBy()) {
+    text.format("nobody was asked: the master %u is on this segment", *master);
+    return text;
+  }
+  char list[200] = {};
+  std::size_t length = 0;
+  for (unsigned address = 0; address < profibus::BusScan::kAddresses && length < sizeof list; ++address) {
+    const profibus::ScannedStation& station = scan.station(static_cast<std::uint8_t>(address));
+    if (station.kind == profibus::ScannedStation::Kind::kSilent ||
+        station.kind == profibus::ScannedStation::Kind::kSelf) {
+      continue;
+    }
+    const char* what = "";
+    if (station.kind == profibus::ScannedStation::Kind::kMaster) what = " (a master)";
+    if (station.kind == profibus::ScannedStation::Kind::kGarbled) what = " (garbled)";
+    if (address == kUnnamed) what = " (not addressed yet: set its address to 3 to 125)";
+    const int written =
+        std::snprintf(list + length, sizeof list - length, "%s%u%s", length == 0 ? "" : ", ", address, what);
+    if (written > 0) length += static_cast<std::size_t>(written);
+  }
+  if (length == 0) return scan.lineBusy() ? "the line never fell silent" : "no station answered";
+  text.format("stations that answered: %s", list);
+  return text;
+}
+
+}  // namespace nord_driver

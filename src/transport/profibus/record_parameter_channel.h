@@ -1,0 +1,54 @@
+// Parameters through records of DP-V1: what a PKW carries in the cycle, carried beside it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "nord_driver/core/time.h"
+#include "profibus/record.h"
+#include "profile/pkw_channel.h"
+#include "transport/profibus/profibus_dp_config.h"
+
+namespace nord_driver {
+
+/// Refused with an error number from here on: the bus module refused the record itself; the low byte is Error_Code_1.
+constexpr std::uint16_t kRecordErrorBase = 0x8000;
+
+/// The parameters of one unit behind a module SK CU4/TU4-PBR: of the module itself (P150 to P199 are only reachable
+/// here, BU 0220 8.3.4.4) or of one inverter. An order is written as a record of eight bytes laid out as a PKW; the
+/// answer is read as another, until it is the one to the order. Sans-IO: `pollRecord()` when the station is free for a
+/// record, `handleRecord()` with its result.
+class RecordParameterChannel {
+ public:
+  static constexpr std::uint8_t kModule = 0;
+
+  /// `unit`: kModule, or the number of an inverter, 1..4.
+  RecordParameterChannel(std::uint8_t unit, RecordAddressing addressing, Duration answer_timeout);
+
+  /// As PkwChannel::submit().
+  bool submit(const profile::ParameterRequest& request, Instant now) noexcept { return pkw_.submit(request, now); }
+  std::optional<profile::ParameterResult> pollResult() noexcept { return pkw_.pollResult(); }
+  std::uint64_t stale() const noexcept { return pkw_.stale(); }
+
+  /// The next record, when there is an order and none is under way.
+  std::optional<profibus::RecordRequest> pollRecord(Instant now) noexcept;
+  void handleRecord(const profibus::RecordResult& result, Instant now) noexcept;
+  /// The station, or the inverter, is gone: all requests end as offline. A record under way still brings its result.
+  void handleOffline(Instant now) noexcept;
+  /// An order was written and has no answer yet: nobody else should use the station's records.
+  bool holdsStation() const noexcept { return under_way_ || written_ != profile::PkwWords{}; }
+
+ private:
+  profibus::RecordRequest address() const noexcept;
+  void handleAnswer(ByteView data, Instant now) noexcept;
+
+  std::uint8_t unit_;
+  RecordAddressing addressing_;
+  profile::PkwChannel pkw_;
+  profile::PkwWords order_{};    // of the record under way
+  profile::PkwWords written_{};  // the order the unit has; zeros: none
+  bool under_way_ = false;
+  bool forgotten_ = false;  // the record under way belongs to nobody any more
+};
+
+}  // namespace nord_driver

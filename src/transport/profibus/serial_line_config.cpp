@@ -1,0 +1,65 @@
+#include "transport/profibus/serial_line_config.h"
+
+#include <cmath>
+
+#include "config/setting_checks.h"
+
+namespace nord_driver {
+
+namespace {
+
+// The kernel takes whole milliseconds, and no more than 100 of them.
+std::uint32_t readDelay(const Settings& bus, const std::string& key) {
+  const double delay = numberOr(bus, key, 0.0, 0.0, 0.1, "s");
+  const double milliseconds = std::round(delay * 1e3);
+  if (std::abs(delay * 1e3 - milliseconds) > 1e-6) {
+    throw wrongSetting(bus, key, shortNumber(delay), "whole milliseconds, such as 0.001 s: Linux counts no others");
+  }
+  return static_cast<std::uint32_t>(milliseconds);
+}
+
+link::Rs485Settings readRs485(const Settings& bus) {
+  link::Rs485Settings rs485;
+  rs485.enabled = bus.boolean("rs485/enabled").value_or(rs485.enabled);
+  rs485.rts_on_send = bus.boolean("rs485/rts_on_send").value_or(rs485.rts_on_send);
+  rs485.rts_after_send = bus.boolean("rs485/rts_after_send").value_or(rs485.rts_after_send);
+  rs485.rx_during_tx = bus.boolean("rs485/rx_during_tx").value_or(rs485.rx_during_tx);
+  rs485.delay_before_ms = readDelay(bus, "rs485/delay_before");
+  rs485.delay_after_ms = readDelay(bus, "rs485/delay_after");
+  if (rs485.enabled && rs485.rts_on_send == rs485.rts_after_send) {
+    throw wrongSetting(bus, "rs485/rts_after_send", rs485.rts_after_send ? "true" : "false",
+                       "the opposite of rts_on_send: RTS would never switch the sender off");
+  }
+  return rs485;
+}
+
+std::optional<bool> asBoolean(const Settings& bus, const std::string& key) {
+  try {
+    return bus.boolean(key);
+  } catch (const ConfigError&) {
+    return std::nullopt;
+  }
+}
+
+link::EchoMode readEcho(const Settings& bus) {
+  // YAML makes a boolean of an unquoted on or off.
+  if (const auto flag = asBoolean(bus, "echo")) return *flag ? link::EchoMode::kOn : link::EchoMode::kOff;
+  const std::string text = bus.text("echo").value_or("auto");
+  if (text == "auto") return link::EchoMode::kAuto;
+  if (text == "off") return link::EchoMode::kOff;
+  if (text == "on") return link::EchoMode::kOn;
+  throw wrongSetting(bus, "echo", "\"" + text + "\"", "auto, off or on");
+}
+
+}  // namespace
+
+link::SerialSettings readSerialLine(const Settings& bus) {
+  link::SerialSettings line;
+  line.device = requiredText(bus, "device", "a serial device such as /dev/ttyUSB0");
+  line.rs485 = readRs485(bus);
+  line.echo = readEcho(bus);
+  line.follow_adapter = bus.boolean("follow_adapter").value_or(line.follow_adapter);
+  return line;
+}
+
+}  // namespace nord_driver

@@ -1,0 +1,105 @@
+// The driver's configuration read from files: kinds, groups, and files laid over each other.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "config/yaml_settings.h"
+
+namespace nord_driver::tools {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+YamlSettings settings(const char* text) {
+  return YamlSettings{"", YAML::Load(text)};
+}
+
+template <typename Action>
+std::string refusal(Action action) {
+  try {
+    action();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(YamlSettings, ReadsWhatIsThereAndNothingElse) {
+  const YamlSettings all = settings("{rate: 100, on_air: true, name: left, wheels: [a, b], bus: {baud_rate: 500000}}");
+  EXPECT_EQ(100.0, all.number("rate"));
+  EXPECT_EQ(100, all.integer("rate"));
+  EXPECT_EQ(true, all.boolean("on_air"));
+  EXPECT_EQ("left", all.text("name"));
+  EXPECT_THAT(all.texts("wheels").value(), ElementsAre("a", "b"));
+  EXPECT_THAT(all.texts("name").value(), ElementsAre("left"));
+  EXPECT_EQ(500'000, all.integer("bus/baud_rate"));
+  EXPECT_EQ(500'000, all.group("bus")->integer("baud_rate"));
+  EXPECT_EQ("bus/baud_rate", all.group("bus")->fullName("baud_rate"));
+  EXPECT_FALSE(all.has("nothing"));
+  EXPECT_EQ("bus", all.group("bus")->fullName("")) << "the group itself";
+  EXPECT_FALSE(all.number("bus/nothing"));
+  EXPECT_FALSE(all.group("nothing")->has("key"));
+  EXPECT_THAT(all.keys(), ElementsAre("bus", "name", "on_air", "rate", "wheels")) << "asking adds nothing";
+}
+
+// As rosparam sees them: what is quoted is a text, "yes" is true, 0x10 is 16, a whole fraction an integer.
+TEST(YamlSettings, TellsKindsAsRosparamDoes) {
+  const YamlSettings all =
+      settings("{quoted: '5', yes_word: yes, hex: 0x10, whole: 2.0, small: 1e-3, negative: -7, none: ~}");
+  EXPECT_EQ("5", all.text("quoted"));
+  EXPECT_THAT(refusal([&] { all.number("quoted"); }), HasSubstr("quoted: \"5\" is not valid, expected a number"));
+  EXPECT_EQ(true, all.boolean("yes_word"));
+  EXPECT_THAT(refusal([&] { all.text("yes_word"); }), HasSubstr("yes_word: yes is not valid, expected a text"));
+  EXPECT_EQ(16, all.integer("hex"));
+  EXPECT_EQ(16.0, all.number("hex"));
+  EXPECT_EQ(2, all.integer("whole"));
+  EXPECT_EQ(1e-3, all.number("small"));
+  EXPECT_EQ(-7, all.integer("negative"));
+  EXPECT_FALSE(all.has("none"));
+}
+
+TEST(YamlSettings, AWrongKindIsRefusedWithKeyValueAndExpectation) {
+  const YamlSettings all = settings("{rate: fast, bus: 3, list: [1, 2], part: 2.5, huge: 99999999999999999999}");
+  EXPECT_THAT(refusal([&] { all.number("rate"); }), HasSubstr("rate: \"fast\" is not valid, expected a number"));
+  EXPECT_THAT(refusal([&] { all.group("bus"); }), HasSubstr("bus: 3 is not valid, expected a group"));
+  EXPECT_THAT(refusal([&] { all.number("list"); }), HasSubstr("list: a list is not valid, expected a number"));
+  EXPECT_THAT(refusal([&] { all.texts("list"); }), HasSubstr("list: 1 is not valid, expected a list of texts"));
+  EXPECT_THAT(refusal([&] { all.integer("part"); }), HasSubstr("part: 2.5 is not valid, expected a whole number"));
+  EXPECT_THAT(refusal([&] { all.integer("huge"); }), HasSubstr("expected a whole number"));
+  EXPECT_THAT(refusal([&] { all.boolean("rate"); }), HasSubstr("expected true or false"));
+}
+
+// A group is told by a key in it as well: nobody has to ask for the group itself. One that is empty is absent.
+TEST(YamlSettings, AValueWhereAGroupBelongsIsRefused) {
+  const YamlSettings all = settings("{stop: coast, linear: {x: 5}, axes: [x], angular: ~, drives: {left: 3}}");
+  EXPECT_EQ("stop: \"coast\" is not valid, expected a group of keys and values",
+            refusal([&] { all.text("stop/on_fault"); }));
+  EXPECT_EQ("linear/x: 5 is not valid, expected a group of keys and values",
+            refusal([&] { all.has("linear/x/max_velocity"); }));
+  EXPECT_EQ("linear/x: 5 is not valid, expected a group of keys and values",
+            refusal([&] { all.group("linear")->number("x/max_velocity"); }));
+  EXPECT_EQ("axes: a list is not valid, expected a group of keys and values", refusal([&] { all.has("axes/x"); }));
+  EXPECT_EQ("drives/left: 3 is not valid, expected a group of keys and values",
+            refusal([&] { all.group("drives")->group("left"); }));
+  EXPECT_FALSE(all.has("angular/z/max_velocity"));
+  EXPECT_FALSE(all.group("angular")->has("z/max_velocity"));
+}
+
+TEST(YamlSettings, ALaterFileIsLaidOverAnEarlierOne) {
+  const std::string first = ::testing::TempDir() + "nord_first.yaml";
+  const std::string second = ::testing::TempDir() + "nord_second.yaml";
+  std::ofstream(first) << "bus: {device: a, baud_rate: 1}\n";
+  std::ofstream(second) << "bus: {device: b}\n";
+  const YamlSettings all{"", readYamlFiles({first, second})};
+  EXPECT_EQ("b", all.text("bus/device"));
+  EXPECT_EQ(1, all.integer("bus/baud_rate"));
+  std::remove(first.c_str());
+  std::remove(second.c_str());
+  EXPECT_THAT(refusal([&] { readYamlFiles({first}); }), HasSubstr(first));
+}
+
+}  // namespace
+}  // namespace nord_driver::tools

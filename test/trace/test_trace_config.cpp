@@ -1,0 +1,47 @@
+#include <gtest/gtest.h>
+
+#include "support/map_settings.h"
+#include "trace/trace_config.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using test::MapSettings;
+
+std::string refusal(const MapSettings& settings) {
+  try {
+    readTraceConfig(settings);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+// Without a directory there is no trace.
+TEST(TraceConfig, IsOffByDefault) {
+  EXPECT_FALSE(readTraceConfig(MapSettings{"~"}));
+  EXPECT_FALSE(readTraceConfig(MapSettings{"~", {{"trace_directory", std::string{}}}}));
+}
+
+TEST(TraceConfig, KeepsTwentyByDefault) {
+  const auto config = readTraceConfig(MapSettings{"~", {{"trace_directory", std::string{"/var/trace"}}}});
+  ASSERT_TRUE(config);
+  EXPECT_EQ("/var/trace", config->directory);
+  EXPECT_EQ(20u, config->keep);
+}
+
+// ROS expands no "~", and a relative path would lie wherever roslaunch was started.
+TEST(TraceConfig, WantsAnAbsolutePath) {
+  EXPECT_EQ(
+      "~trace_directory: \"~/trace\" is not valid, expected an absolute path, such as /home/robot/trace, or nothing "
+      "(no trace)",
+      refusal(MapSettings{"~", {{"trace_directory", std::string{"~/trace"}}}}));
+}
+
+TEST(TraceConfig, KeepsAtLeastOne) {
+  EXPECT_EQ("~trace_keep: 0 is not valid, expected a whole number from 1 to 100000",
+            refusal(MapSettings{"~", {{"trace_keep", 0}}}));
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

@@ -1,0 +1,335 @@
+// The PROFIBUS transport on a simulated segment: words there and back, and what it says when something is missing.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "sim/profibus/simulated_segment.h"
+#include "support/map_settings.h"
+#include "transport/profibus/profibus_dp.h"
+
+namespace nord_driver {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using test::MapSettings;
+using ::testing::HasSubstr;
+
+class OnASegment : public ::testing::Test {
+ protected:
+  void open(int ppo_type = 1, bool device_present = true) {
+    std::vector<DriveSettings> drives;
+    sim::SimConfig config;
+    for (const int address : {3, 4}) {
+      const std::string name = address == 3 ? "left" : "right";
+      auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
+      settings->set("address", address).set("series", "sk5xxe").set("ppo_type", ppo_type);
+      drives.push_back({name, settings});
+      sim::DriveConfig drive;
+      drive.name = name;
+      drive.slave.address = static_cast<std::uint8_t>(address);
+      drive.slave.ppo_type = ppo_type;
+      config.drives.push_back(drive);
+    }
+    if (change_) change_(config);
+    transport_ = std::make_unique<ProfibusDpTransport>([&](const link::SerialSettings& serial) {
+      EXPECT_EQ("/dev/ttyUSB0", serial.device);
+      auto segment = std::make_unique<sim::SimulatedSegment>(config);
+      segment->setDevicePresent(device_present);
+      segment_ = segment.get();
+      return segment;
+    });
+    transport_->configure(MapSettings{"~bus/", {{"device", std::string{"/dev/ttyUSB0"}}, {"slot_time", 0.0005}}},
+                          drives, 100.0);
+    transport_->setDriveTimeout(milliseconds{50});
+  }
+  void step() {
+    const Instant start = transport_->now();
+    transport_->exchange(outputs_, inputs_);
+    transport_->sleepUntil(start + milliseconds{10});
+  }
+  void run(Duration span) {
+    const Instant end = transport_->now() + span;
+    while (transport_->now() < end) step();
+  }
+  template <typename Condition>
+  bool runUntil(Condition done, Duration limit) {
+    const Instant end = transport_->now() + limit;
+    while (!done() && transport_->now() < end) step();
+    return done();
+  }
+  bool bothAnswer() const { return inputs_[0].inverter_answers && inputs_[1].inverter_answers; }
+  void bringUp(int ppo_type = 1) {
+    open(ppo_type);
+    ASSERT_TRUE(runUntil([this] { return bothAnswer(); }, seconds{2}));
+    for (auto& output : outputs_) output.control_word = 0x047E;
+    run(milliseconds{500});  // the inverters' charging relays engage
+  }
+  std::optional<profile::ParameterResult> ask(DriveIndex drive, std::uint16_t number) {
+    profile::ParameterRequest request;
+    request.id = 77;
+    request.number = number;
+    request.shape = profile::ParameterShape::kPerSet;
+    if (!transport_->submit(drive, request)) return std::nullopt;
+    for (int i = 0; i < 300; ++i) {
+      if (const auto result = transport_->pollResult()) return result;
+      step();
+    }
+    return std::nullopt;
+  }
+
+  std::function<void(sim::SimConfig&)> change_;  // of what is there, before it is built
+  sim::SimulatedSegment* segment_ = nullptr;
+  std::unique_ptr<ProfibusDpTransport> transport_;
+  std::vector<profile::ProcessOutput> outputs_{2};
+  std::vector<DriveExchange> inputs_{2};
+};
+
+TEST_F(OnASegment, CarriesEachDriveItsOwnWords) {
+  bringUp();
+  EXPECT_EQ(0x0B31, inputs_[0].input.status_word);
+  EXPECT_TRUE(transport_->connected());
+  EXPECT_TRUE(transport_->busText().empty());
+  EXPECT_STREQ("", transport_->note(0).text);
+  EXPECT_EQ(0x7531u, transport_->identNumber(0));
+  for (auto& output : outputs_) output.control_word = 0x047F;
+  outputs_[0].setpoints[0] = 0x2000;
+  outputs_[1].setpoints[0] = -0x1000;
+  run(seconds{4});
+  EXPECT_EQ(0x0B37, inputs_[0].input.status_word);
+  EXPECT_EQ(0x2000, inputs_[0].input.actual_values[0]);
+  EXPECT_EQ(-0x1000, inputs_[1].input.actual_values[0]);
+  EXPECT_EQ("no rule broken", segment_->referee().report());
+}
+
+TEST_F(OnASegment, CountsWhatHappensOnTheLine) {
+  bringUp();
+  const BusCounters before = transport_->counters();
+  EXPECT_EQ(0u, before.retries);
+  segment_->loseAnswers(1);
+  step();
+  segment_->spoilAnswers(1);
+  step();
+  const BusCounters after = transport_->counters();
+  EXPECT_EQ(2u, after.cycles - before.cycles);
+  EXPECT_EQ(2u, after.retries - before.retries);
+  EXPECT_GE(after.timeouts - before.timeouts, 1u);
+  EXPECT_EQ(6u, after.telegrams_sent - before.telegrams_sent) << "two a cycle, and a repetition in each";
+  EXPECT_TRUE(bothAnswer()) << "a repetition is enough";
+}
+
+TEST_F(OnASegment, SaysWhichDriveIsMissingAndWhatToLookAt) {
+  open();
+  segment_->drive(1).setPlugged(false);
+  run(seconds{1});
+  EXPECT_TRUE(transport_->connected()) << "one station is enough";
+  EXPECT_TRUE(inputs_[0].inverter_answers);
+  EXPECT_FALSE(inputs_[1].module_answers);
+  EXPECT_THAT(transport_->note(1).text, HasSubstr("check its power, its address"));
+  segment_->drive(0).setPlugged(false);
+  run(seconds{1});
+  EXPECT_FALSE(transport_->connected());
+  EXPECT_THAT(transport_->busText().c_str(), HasSubstr("/dev/ttyUSB0 is open, but no station answers"));
+}
+
+// A station that answers and refuses has been told by its reason: "no station answers" would send the technician to the
+// wires.
+class TrueReasons : public OnASegment {
+ protected:
+  std::set<std::string> told(Duration span) {
+    std::set<std::string> sentences;
+    const Instant end = transport_->now() + span;
+    while (transport_->now() < end) {
+      step();
+      EXPECT_FALSE(transport_->connected());
+      sentences.insert(transport_->busText().str());
+    }
+    return sentences;
+  }
+  void expectReason(const char* reason) {
+    run(milliseconds{500});
+    for (const std::string& sentence : told(seconds{5})) {
+      EXPECT_THAT(sentence, HasSubstr("PROFIBUS station 3 (left)"));
+      EXPECT_THAT(sentence, HasSubstr(reason));
+    }
+  }
+};
+
+TEST_F(TrueReasons, AnotherModuleThanConfigured) {
+  change_ = [](sim::SimConfig& config) {
+    for (sim::DriveConfig& drive : config.drives) drive.slave.ident = 0x1234;
+  };
+  open();
+  expectReason("it reports the ident number 1234h, expected 7531h");
+}
+
+TEST_F(TrueReasons, AnotherPpoTypeThanConfigured) {
+  change_ = [](sim::SimConfig& config) {
+    for (sim::DriveConfig& drive : config.drives) drive.slave.ppo_type = 2;
+  };
+  open();
+  expectReason("Cfg_Fault");
+}
+
+TEST_F(TrueReasons, LockedByAnotherMaster) {
+  open();
+  for (const std::size_t i : {0u, 1u}) {
+    sim::Telegram lock;  // Set_Prm of master 9, without a watchdog
+    lock.destination = segment_->drive(i).slave().address();
+    lock.source = 9;
+    lock.function = 0x6D;
+    lock.destination_sap = 61;
+    lock.source_sap = 62;
+    for (const int byte : {0x80, 0x00, 0x00, 0x0B, 0x75, 0x31, 0x00}) {
+      lock.data.push_back(static_cast<std::uint8_t>(byte));
+    }
+    segment_->drive(i).slave().handle(lock);
+  }
+  expectReason("is locked by another master: its address is 9");
+}
+
+// And when they are silent, they are silent: the reason of before is no longer one.
+TEST_F(TrueReasons, EndWithTheStation) {
+  change_ = [](sim::SimConfig& config) {
+    for (sim::DriveConfig& drive : config.drives) drive.slave.ident = 0x1234;
+  };
+  open();
+  run(seconds{2});
+  for (const std::size_t i : {0u, 1u}) segment_->drive(i).setPlugged(false);
+  run(seconds{3});
+  EXPECT_THAT(transport_->busText().c_str(), HasSubstr("is open, but no station answers"));
+}
+
+// A cycle that is lost is no news of the bus.
+TEST_F(OnASegment, IsConnectedThroughALostCycle) {
+  bringUp();
+  for (const std::size_t i : {0u, 1u}) segment_->drive(i).slave().setMute(true);
+  step();
+  EXPECT_FALSE(inputs_[0].module_answers);
+  EXPECT_TRUE(transport_->connected());
+  EXPECT_TRUE(transport_->busText().empty()) << transport_->busText().c_str();
+  run(milliseconds{300});
+  EXPECT_FALSE(transport_->connected());
+}
+
+// A module with 24 V of its own exchanges data for an inverter that is off (BU 0020 2.1.3): all zero.
+TEST_F(OnASegment, AnInverterThatIsOffDoesNotAnswerThoughItsModuleDoes) {
+  bringUp();
+  segment_->drive(0).setInverterPower(false);
+  run(milliseconds{100});
+  EXPECT_TRUE(inputs_[0].module_answers);
+  EXPECT_FALSE(inputs_[0].inverter_answers);
+  EXPECT_TRUE(inputs_[1].inverter_answers);
+  EXPECT_THAT(transport_->note(0).text, HasSubstr("is its mains supply on?"));
+}
+
+// Whoever waits for a parameter of an inverter that was switched off is told at once, not after a time-out; and an old
+// answer does not come after it is back.
+TEST_F(OnASegment, AParameterOfAnInverterThatIsSwitchedOffEndsAsOffline) {
+  bringUp();
+  segment_->drive(0).setInverterPower(false);
+  const Instant asked = transport_->now();
+  const auto result = ask(0, 105);
+  ASSERT_TRUE(result.has_value());
+  EXPECT_EQ(profile::ParameterOutcome::kOffline, result->outcome);
+  EXPECT_LT(transport_->now() - asked, milliseconds{100});
+}
+
+TEST_F(OnASegment, ReadsAParameterBesideTheProcessData) {
+  bringUp();
+  const auto result = ask(1, 105);
+  ASSERT_TRUE(result.has_value());
+  EXPECT_EQ(profile::ParameterOutcome::kDone, result->outcome);
+  EXPECT_EQ(77u, result->id);
+  EXPECT_EQ(500, result->raw) << "50.0 Hz";
+  EXPECT_EQ(0x0B31, inputs_[1].input.status_word);
+  EXPECT_EQ("no rule broken", segment_->referee().report());
+}
+
+TEST_F(OnASegment, PassesARefusalOn) {
+  bringUp();
+  const auto result = ask(0, 999);
+  ASSERT_TRUE(result.has_value());
+  EXPECT_EQ(profile::ParameterOutcome::kRefused, result->outcome);
+  EXPECT_EQ(0, result->error_number) << "invalid parameter number (BU 0020 7.5.1)";
+}
+
+// PPO 3 carries process data only (BU 0020 5.2.2): said at once, in a bounded number.
+TEST_F(OnASegment, Ppo3HasNoParameterChannel) {
+  bringUp(3);
+  EXPECT_EQ("none", transport_->identity(0).parameter_channel);
+  const auto result = ask(0, 105);
+  ASSERT_TRUE(result.has_value());
+  EXPECT_EQ(profile::ParameterOutcome::kNoChannel, result->outcome);
+  int taken = 0;
+  while (transport_->submit(0, {}) && taken < 1000) ++taken;
+  EXPECT_EQ(16, taken);
+  while (transport_->pollResult()) --taken;
+  EXPECT_EQ(0, taken);
+}
+
+// --- The device ------------------------------------------------------------------------------------------------------
+
+// The far end of the adapter is pulled: silent drives, a reason in words, and looked for at least every 2 s.
+TEST_F(OnASegment, ADeviceThatIsPulledIsLookedForUntilItIsBack) {
+  bringUp();
+  segment_->setDevicePresent(false);
+  run(seconds{3});
+  EXPECT_FALSE(transport_->connected());
+  EXPECT_FALSE(inputs_[0].module_answers);
+  EXPECT_FALSE(inputs_[0].inverter_answers);
+  EXPECT_STREQ("the bus device is not open", transport_->note(0).text);
+  EXPECT_THAT(transport_->busText().c_str(), HasSubstr("no such device"));
+  segment_->setDevicePresent(true);
+  EXPECT_TRUE(runUntil([this] { return bothAnswer(); }, seconds{2}));
+  EXPECT_TRUE(transport_->busText().empty());
+  EXPECT_EQ("no rule broken", segment_->referee().report());
+}
+
+TEST_F(OnASegment, ADeviceThatIsMissingAtStartIsWaitedFor) {
+  open(1, false);
+  run(seconds{1});
+  EXPECT_THAT(transport_->busText().c_str(), HasSubstr("no such device"));
+  segment_->setDevicePresent(true);
+  EXPECT_TRUE(runUntil([this] { return bothAnswer(); }, seconds{2}));
+}
+
+// Whoever waits for a parameter when the device goes is not left waiting.
+TEST_F(OnASegment, AParameterIsOfflineWhenTheDeviceGoes) {
+  bringUp();
+  segment_->setDevicePresent(false);
+  const auto result = ask(0, 105);
+  ASSERT_TRUE(result.has_value());
+  EXPECT_EQ(profile::ParameterOutcome::kOffline, result->outcome);
+}
+
+// A drive that took another station's place on the bus, or nothing at all: never a stale status word.
+TEST_F(OnASegment, WhatADriveSaidLastIsNotSaidAgainWhenItIsSilent) {
+  bringUp();
+  segment_->drive(0).slave().setMute(true);
+  step();
+  EXPECT_FALSE(inputs_[0].module_answers);
+  EXPECT_EQ(0x0000, inputs_[0].input.status_word);
+}
+
+TEST_F(OnASegment, TellsWhereADriveIsAndWhatProtectsIt) {
+  open();
+  EXPECT_EQ("PROFIBUS station 4", transport_->identity(1).address);
+  EXPECT_EQ("PKW", transport_->identity(1).parameter_channel);
+  EXPECT_THAT(transport_->identity(1).protected_by, HasSubstr("watchdog of 0.2 s"));
+}
+
+// After close() nothing is on the line any more.
+TEST_F(OnASegment, CloseEndsTheExchange) {
+  bringUp();
+  transport_->close();
+  EXPECT_FALSE(segment_->isOpen());
+  EXPECT_FALSE(transport_->connected());
+}
+
+}  // namespace
+}  // namespace nord_driver

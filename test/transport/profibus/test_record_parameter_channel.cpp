@@ -1,0 +1,203 @@
+// Parameters as records of eight bytes: written as an order, read as its answer.
+#include <gtest/gtest.h>
+
+#include "transport/profibus/record_parameter_channel.h"
+
+namespace nord_driver {
+namespace {
+
+using profibus::RecordOutcome;
+using profibus::RecordRequest;
+using profibus::RecordResult;
+using profile::ParameterOutcome;
+using std::chrono::milliseconds;
+
+class Records : public ::testing::Test {
+ protected:
+  RecordParameterChannel channel_{RecordParameterChannel::kModule, {}, std::chrono::seconds{2}};
+  Instant now_{std::chrono::seconds{100}};
+
+  bool submit(std::uint16_t number, std::uint32_t id = 7) {
+    profile::ParameterRequest request;
+    request.id = id;
+    request.number = number;
+    return channel_.submit(request, now_);
+  }
+  /// Polls cycle by cycle; none within five: no request.
+  std::optional<RecordRequest> next() {
+    for (int i = 0; i < 5; ++i, now_ += milliseconds{10}) {
+      if (auto request = channel_.pollRecord(now_)) return request;
+    }
+    return std::nullopt;
+  }
+  void expectWrite(const std::string& hex) {
+    const auto request = next();
+    ASSERT_TRUE(request);
+    EXPECT_TRUE(request->write);
+    EXPECT_EQ(hex, toHex(request->data));
+    last_ = *request;
+  }
+  void expectRead() {
+    const auto request = next();
+    ASSERT_TRUE(request);
+    EXPECT_FALSE(request->write);
+    EXPECT_EQ(8, request->length);
+    last_ = *request;
+  }
+  void answer(RecordOutcome outcome, const std::string& hex = "", std::uint8_t code1 = 0) {
+    RecordResult result;
+    result.write = last_.write;
+    result.outcome = outcome;
+    if (code1 != 0) result.error = {0x80, code1, 0};
+    for (const std::uint8_t byte : fromHex(hex)) result.data.push_back(byte);
+    channel_.handleRecord(result, now_);
+  }
+  profile::ParameterResult result() {
+    const auto result = channel_.pollResult();
+    EXPECT_TRUE(result) << "no result";
+    return result.value_or(profile::ParameterResult{});
+  }
+
+  RecordRequest last_;
+};
+
+// P151 of the module: slot 0, index 100 (BU 0220 4.2.1); order label 1, PNU 1151 = 47Fh; 200 ms = 00C8h.
+TEST_F(Records, ReadsAParameterOfTheModule) {
+  ASSERT_TRUE(submit(151));
+  expectWrite("14 7F 00 00 00 00 00 00");
+  EXPECT_EQ(0, last_.slot);
+  EXPECT_EQ(100, last_.index);
+  EXPECT_FALSE(channel_.pollRecord(now_)) << "one at a time";
+  answer(RecordOutcome::kDone);
+  expectRead();
+  EXPECT_EQ(100, last_.index);
+  answer(RecordOutcome::kDone, "14 7F 00 00 00 00 00 C8");
+  const auto read = result();
+  EXPECT_EQ(7u, read.id);
+  EXPECT_EQ(ParameterOutcome::kDone, read.outcome);
+  EXPECT_EQ(200, read.raw);
+  EXPECT_FALSE(next());
+  EXPECT_FALSE(channel_.holdsStation());
+}
+
+// The order is written once: an answer that is still the one before is read again, nothing is executed twice.
+TEST_F(Records, ReadsAgainUntilTheAnswerIsTheOneToTheOrder) {
+  ASSERT_TRUE(submit(151));
+  expectWrite("14 7F 00 00 00 00 00 00");
+  answer(RecordOutcome::kDone);
+  for (const char* other : {"00 00 00 00 00 00 00 00", "14 7E 00 00 00 00 00 01", ""}) {
+    expectRead();
+    answer(RecordOutcome::kDone, other);
+    EXPECT_TRUE(channel_.holdsStation());
+  }
+  expectRead();
+  answer(RecordOutcome::kDone, "14 7F 00 00 00 00 00 C8");
+  EXPECT_EQ(200, result().raw);
+}
+
+// The same question twice is two orders.
+TEST_F(Records, AnEqualOrderIsWrittenAnew) {
+  ASSERT_TRUE(submit(151, 1));
+  ASSERT_TRUE(submit(151, 2));
+  for (const std::uint32_t id : {1u, 2u}) {
+    expectWrite("14 7F 00 00 00 00 00 00");
+    answer(RecordOutcome::kDone);
+    expectRead();
+    answer(RecordOutcome::kDone, "14 7F 00 00 00 00 00 C8");
+    EXPECT_EQ(id, result().id);
+  }
+}
+
+// The module's own refusal, PKW error 2: beyond the limits.
+TEST_F(Records, PassesARefusalOn) {
+  ASSERT_TRUE(submit(151));
+  expectWrite("14 7F 00 00 00 00 00 00");
+  answer(RecordOutcome::kDone);
+  expectRead();
+  answer(RecordOutcome::kDone, "74 7F 00 00 00 00 00 02");
+  const auto refused = result();
+  EXPECT_EQ(ParameterOutcome::kRefused, refused.outcome);
+  EXPECT_EQ(2, refused.error_number);
+}
+
+// DF 80 B0: the record itself is refused; told with the code of DP-V1.
+TEST_F(Records, TellsWhenTheRecordIsRefused) {
+  ASSERT_TRUE(submit(151));
+  expectWrite("14 7F 00 00 00 00 00 00");
+  answer(RecordOutcome::kRefused, "", 0xB0);
+  const auto refused = result();
+  EXPECT_EQ(ParameterOutcome::kRefused, refused.outcome);
+  EXPECT_EQ(0x80B0, refused.error_number);
+  EXPECT_STREQ("the bus module refuses the acyclic access (32768 and the DP-V1 error code)",
+               profile::pkwErrorText(refused.error_number));
+}
+
+// DF 80 B5: busy. Nothing was taken, so it is written again; not for ever.
+TEST_F(Records, ABusyModuleIsAskedAgainUntilTheTimeIsOver) {
+  ASSERT_TRUE(submit(151));
+  int written = 0;
+  for (int i = 0; i < 300; ++i, now_ += milliseconds{10}) {
+    if (const auto request = channel_.pollRecord(now_)) {
+      EXPECT_TRUE(request->write);
+      last_ = *request;
+      ++written;
+      answer(RecordOutcome::kRefused, "", 0xB5);
+    }
+  }
+  EXPECT_GT(written, 10);
+  EXPECT_EQ(ParameterOutcome::kTimeout, result().outcome);
+  EXPECT_FALSE(channel_.holdsStation());
+}
+
+struct Ending {
+  RecordOutcome record;
+  ParameterOutcome parameter;
+};
+class RecordEndings : public Records, public ::testing::WithParamInterface<Ending> {};
+
+TEST_P(RecordEndings, BecomeTheOutcomeOfTheParameter) {
+  ASSERT_TRUE(submit(151));
+  expectWrite("14 7F 00 00 00 00 00 00");
+  answer(GetParam().record);
+  EXPECT_EQ(GetParam().parameter, result().outcome);
+  EXPECT_FALSE(next());
+  EXPECT_FALSE(channel_.holdsStation());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RecordEndings,
+                         ::testing::Values(Ending{RecordOutcome::kTimedOut, ParameterOutcome::kTimeout},
+                                           Ending{RecordOutcome::kNoAnswer, ParameterOutcome::kTimeout},
+                                           Ending{RecordOutcome::kNotSupported, ParameterOutcome::kNoChannel},
+                                           Ending{RecordOutcome::kNotActivated, ParameterOutcome::kNotActivated},
+                                           Ending{RecordOutcome::kOffline, ParameterOutcome::kOffline}));
+
+// The drive went while its record was under way: the late result belongs to nobody.
+TEST_F(Records, ALateResultIsNotTheNextOnes) {
+  ASSERT_TRUE(submit(151, 1));
+  expectWrite("14 7F 00 00 00 00 00 00");
+  channel_.handleOffline(now_);
+  EXPECT_EQ(ParameterOutcome::kOffline, result().outcome);
+  ASSERT_TRUE(submit(173, 2));
+  EXPECT_FALSE(next()) << "the station's one record is still under way";
+  answer(RecordOutcome::kDone);
+  expectWrite("14 95 00 00 00 00 00 00");
+}
+
+// Inverter 3 by BU 2700 6.5, and numbers as they are (BU 0220 5 speaks of cyclic access only): P508 = 1FCh.
+TEST_F(Records, AddressingAndNumbersCanBeSwitched) {
+  RecordAddressing addressing;
+  addressing.by_slot = true;
+  addressing.number_offset = false;
+  channel_ = RecordParameterChannel{3, addressing, std::chrono::seconds{2}};
+  ASSERT_TRUE(submit(508));
+  expectWrite("11 FC 00 00 00 00 00 00");
+  EXPECT_EQ(4, last_.slot);
+  EXPECT_EQ(103, last_.index);
+  answer(RecordOutcome::kDone);
+  expectRead();
+  answer(RecordOutcome::kDone, "11 FC 00 00 00 00 00 08");
+  EXPECT_EQ(8, result().raw);
+}
+
+}  // namespace
+}  // namespace nord_driver
