@@ -33,8 +33,11 @@ class Babbler {
         phase_ = 0;
         return fromHex(kNotActivated);
       default:
-        if (!bytes.empty())
-          bytes[below(static_cast<unsigned>(bytes.size()))] ^= static_cast<std::uint8_t>(1u << below(8));
+        if (!bytes.empty()) {
+          const unsigned bit = 1u << below(8);
+          std::uint8_t& byte = bytes[below(static_cast<unsigned>(bytes.size()))];
+          byte = static_cast<std::uint8_t>(byte ^ bit);
+        }
     }
     return bytes;
   }
