@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -73,6 +74,7 @@ class Recording {
 };
 
 void expectKnown(const CanRobot::Options& options) {
+  if (std::system("tshark --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "tshark is not installed";
   CanRobot robot{options};
   live(robot);
   const TelegramTrace& trace = *robot.transport().trace();
