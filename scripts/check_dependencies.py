@@ -111,7 +111,8 @@ def config_path(package):
 
 
 def cmake_uses():
-    for file, text in files("CMakeLists.txt", "cmake/*.cmake", "*/CMakeLists.txt", "*/*/CMakeLists.txt"):
+    for file, text in files("CMakeLists.txt", "cmake/*.cmake", "bench/CMakeLists.txt", "fuzz/CMakeLists.txt",
+                            "src/**/CMakeLists.txt", "test/**/CMakeLists.txt"):
         text = re.sub(r"#.*", "", text)
         for package, rest in re.findall(r"find_package\(\s*([\w-]+)([^)]*)\)", text):
             yield Use(f"find_package({package})", file, config_path(package))
