@@ -83,15 +83,15 @@ echo "== $command"
 $command
 if [[ \$suite == bookworm ]]; then exit 0; fi
 echo "== unit tests, built with \$(\$CXX -dumpfullversion), CMake \$(cmake --version | sed -n '1s/[^0-9]*//p')"
-out=/root/unit_tests
+out=\$PWD/out/demo log=/root/unit_tests.log # what the demo has built need not be built again
 {
-  cmake -S . -B \$out -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 &&
+  cmake -S . -B \$out -DCATKIN_ENABLE_TESTING=ON -DNORD_DRIVER_TEST_OPTIONS=-O0 &&
     cmake --build \$out -j "\$(nproc)" --target unit_tests
-} >\$out.log 2>&1 || { tail -n 60 \$out.log; exit 1; }
-sed -n '/^CMake Warning/,/^\$/p' \$out.log
+} >\$log 2>&1 || { tail -n 60 \$log; exit 1; }
+sed -n '/^CMake Warning/,/^\$/p' \$log
 status=0
-(cd \$out && ctest -R _gtest_ --no-tests=error --output-on-failure) >\$out.tests.log 2>&1 || status=\$?
-if ((status != 0)); then tail -n 200 \$out.tests.log; fi
+(cd \$out && ctest -R _gtest_ --no-tests=error --output-on-failure) >\$log 2>&1 || status=\$?
+if ((status != 0)); then grep -E '^[0-9 ]+/[0-9]+ Test|Failure\$' -A 6 \$log | tail -n 300; fi
 read -r passed failed skipped _ <<<"\$(python3 scripts/count_results.py \$out/test_results)"
 echo "unit tests: \$passed passed, \$failed failed, \$skipped skipped"
 echo "left out: the rostests (they take half an hour), lint, format, fuzz, workspace, the tests on SocketCAN"

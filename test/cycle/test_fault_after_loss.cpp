@@ -36,7 +36,8 @@ TEST_F(FaultAfterLoss, IsToldNoLongerOnceItIsGone) {
   EXPECT_THAT(ask(RequestKind::kEnable).message.c_str(), HasSubstr("a fault was seen and has not been acknowledged"));
   ASSERT_TRUE(ask(RequestKind::kAcknowledge, kLeft).success);
   run(100);  // its parameters are read again
-  ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  const Completion enabled = ask(RequestKind::kEnable);
+  ASSERT_TRUE(enabled.success) << enabled.message.c_str();
   for (int i = 0; i < 20; ++i) {
     commandBase(0.5);
     step();
