@@ -242,8 +242,9 @@ else
     check "lint" finish_lint
     check "workspace" "$root/scripts/check_workspace.sh"
     check "fuzz" "$root/scripts/fuzz.sh" 30
-    check_where_possible "fresh" "$root/scripts/check_fresh.sh" bookworm
   fi
   finish_socketcan
+  # Alone: how well the demo closes its square depends on what else the machine does.
+  if ! $quick; then check_where_possible "fresh" "$root/scripts/check_fresh.sh" bookworm; fi
 fi
 finish
