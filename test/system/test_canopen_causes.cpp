@@ -235,6 +235,7 @@ TEST_F(CanopenCauses, AnInterfaceThatIsPulledAndBack) {
   EXPECT_FALSE(robot_->snapshot().connected);
   EXPECT_EQ(robot_->bus().lastError(), robot_->busText());
   EXPECT_EQ("the CAN interface is not open", robot_->text(kLeft));
+  EXPECT_THAT(robot_->snapshot().base.text.c_str(), HasSubstr("fell silent")) << "nobody has reset anything";
   robot_->bus().setInterfacePresent(true);
   EXPECT_LT(toSeconds(timeUntilOnline(std::chrono::seconds{5})), 2.5);
   expectRestForGood();

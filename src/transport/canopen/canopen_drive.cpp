@@ -58,7 +58,7 @@ void CanopenDriveState::takeInput(const canopen::Master& master, bool bus_works,
   const canopen::PdoValue& pdo = master.transmitPdo(config_.node, config_.transmit_pdo);
   takeEmergencies(status);
   input = {};
-  input.interruption = takeInterruption(status);
+  input.interruption = takeInterruption(status, bus_works);
   module_answers_ = bus_works && status.state == canopen::NodeState::kOperational;
   const bool ever_sent = pdo.count != 0;
   contested_ = status.other_commands_at && now - *status.other_commands_at < kContested;
@@ -118,13 +118,14 @@ bool CanopenDriveState::moduleMissesInverter(const canopen::NodeStatus& status, 
 }
 
 // Said once, when a start the drive layer has seen is over.
-Interruption CanopenDriveState::takeInterruption(const canopen::NodeStatus& status) noexcept {
+Interruption CanopenDriveState::takeInterruption(const canopen::NodeStatus& status, bool bus_works) noexcept {
   const std::optional<std::uint64_t> before = start_;
   start_.reset();
   if (status.state == canopen::NodeState::kOperational) start_ = status.counters.boots;
   if (!before || start_ == before) return Interruption::kNone;
-  const bool silent = status.state == canopen::NodeState::kLost && status.nmt == canopen::NmtState::kOperational;
-  return silent ? Interruption::kSilent : Interruption::kUnasked;
+  // Without a bus nothing is known of the node, and nobody has asked it for anything.
+  const bool lost = status.state == canopen::NodeState::kLost && status.nmt == canopen::NmtState::kOperational;
+  return lost || !bus_works ? Interruption::kSilent : Interruption::kUnasked;
 }
 
 void CanopenDriveState::explain(const canopen::NodeStatus& status, bool bus_works, bool ever_sent,

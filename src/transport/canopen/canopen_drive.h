@@ -47,7 +47,7 @@ class CanopenDriveState {
   void forgetEmergency() noexcept;
   bool moduleMissesInverter(const canopen::NodeStatus& status, const canopen::PdoValue& pdo, Word status_word,
                             Instant now) noexcept;
-  Interruption takeInterruption(const canopen::NodeStatus& status) noexcept;
+  Interruption takeInterruption(const canopen::NodeStatus& status, bool bus_works) noexcept;
   void explain(const canopen::NodeStatus& status, bool bus_works, bool ever_sent, bool overdue) noexcept;
 
   CanopenDrive config_;
