@@ -53,7 +53,7 @@ class NodeBoot {
   void handleLoss(const Sentence& why, Instant now) noexcept;
   /// Another master told this node something.
   void handleForeignCommand(NmtCommand command, Instant now) noexcept;
-  /// Another master asked this node by SDO: answers that come too often are his.
+  /// Another master asked this node by SDO: answers that come too often are for that master.
   void handleForeignRequest() noexcept { answers_are_ours_ = false; }
   /// The node's first SDO server sent an answer nobody waits for.
   void handleStrayAnswer(Instant now) noexcept;

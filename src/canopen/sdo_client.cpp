@@ -108,7 +108,7 @@ SdoStep SdoClient::handleInitiated(const SdoBytes& response) noexcept {
   return request_.write ? beginDownload(response) : beginUpload(response);
 }
 
-// A server may answer a wish for blocks in plain (CiA 301 7.2.4.3.13, protocol switch).
+// A server may answer a block request with a segmented transfer (CiA 301 7.2.4.3.13, protocol switch).
 SdoStep SdoClient::beginUpload(const SdoBytes& response) noexcept {
   const Initiated initiated = readInitiated(response);
   size_told_ = initiated.size.has_value();

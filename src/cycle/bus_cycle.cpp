@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cycle/sentences.h"
+#include "cycle/user_messages.h"
 
 namespace nord_driver::cycle {
 
@@ -66,7 +66,7 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       drives_(makeDrives(config, transport)),
       supervisor_(config, drives_, auto_enable),
       command_watch_(ports, config.cmd_vel_timeout, config.base.has_value(), names_, membersOf(config)),
-      maintenance_(drives_, names_, modulesOf(config, transport)),
+      standstill_requests_(drives_, names_, modulesOf(config, transport)),
       outputs_(config.drives.size()),
       inputs_(config.drives.size()),
       snapshot_(config.drives.size()) {
@@ -92,9 +92,9 @@ void BusCycle::runOnce() noexcept {
   const Instant after = transport_.now();
   handleInputs(after);
   supervisor_.update(command_watch_.look(after), after);
-  maintenance_.update(after);
+  standstill_requests_.update(after);
   while (const auto completion = supervisor_.pollCompletion()) ports_.complete(*completion);
-  while (const auto completion = maintenance_.pollCompletion()) ports_.complete(*completion);
+  while (const auto completion = standstill_requests_.pollCompletion()) ports_.complete(*completion);
   runParameters(after);
   measure(after, last_input_ ? after - *last_input_ : Duration::zero());
   last_input_ = after;
@@ -126,7 +126,7 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
     case RequestKind::kWriteParameter:
       return accessParameter(request);
     case RequestKind::kAcknowledge:
-      return maintenance_.handleRequest(request, now);
+      return standstill_requests_.handleRequest(request, now);
     case RequestKind::kSelectParameterSet:
       return selectParameterSet(request, now);
     case RequestKind::kResetOdometry:
@@ -151,7 +151,7 @@ void BusCycle::accessParameter(const Request& request) noexcept {
 // A drive that is idle may still belong to a base that is on its way to rest: its set stays what it is until then.
 void BusCycle::selectParameterSet(const Request& request, Instant now) noexcept {
   if (supervisor_.groupOf(request.drive).report().phase == drive::GroupPhase::kDisabled) {
-    return maintenance_.handleRequest(request, now);
+    return standstill_requests_.handleRequest(request, now);
   }
   Sentence why;
   why.format("parameter sets are switched at standstill only: disable drive %s first", names_[request.drive].c_str());
@@ -306,20 +306,20 @@ void BusCycle::publish(Instant now) noexcept {
 
 // Against the snapshot of the last cycle.
 void BusCycle::tellChanges(Instant now) noexcept {
-  BusEvent news{false, {}};
+  BusEvent enabled{false, {}};
   if (base_ && supervisor_.base()->commandAllowed() && !snapshot_.base.enabled) {
-    news.text = "the base is enabled";
-    ports_.tell(news);
+    enabled.text = "the base is enabled";
+    ports_.tell(enabled);
   }
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     const drive::DriveReport& report = drives_[i].report();
     if (!supervisor_.inBase(i) && drive::isEnabled(report.phase) && !snapshot_.drives[i].enabled) {
-      news.text.format("drive %s is enabled", names_[i].c_str());
-      ports_.tell(news);
+      enabled.text.format("drive %s is enabled", names_[i].c_str());
+      ports_.tell(enabled);
     }
-    const auto finding = axes_[i].terminals.pollNews(now);
+    const auto finding = axes_[i].terminals.poll(now);
     if (!finding) continue;
-    BusEvent event{true, terminalSentence(names_[i].c_str(), *finding, report)};
+    BusEvent event{true, terminalMessage(names_[i].c_str(), *finding, report)};
     if (*finding == TerminalFinding::kNone) {
       event.warning = false;
       event.text.format("drive %s: the bus has control of it again", names_[i].c_str());
@@ -343,7 +343,7 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive) const noexcept {
   to.frequency = report.frequency.value;
   to.speed_deviation = axes_[drive].speed.deviation();
   to.at_speed = axes_[drive].speed.atSpeed();
-  to.astray = axes_[drive].speed.isAstray();
+  to.not_following = axes_[drive].speed.isNotFollowing();
   to.joint_position = axes_[drive].joint.position();
   to.fault_number = axes_[drive].parameters.faults().number();
   to.last_fault_number = axes_[drive].parameters.faults().lastNumber();
@@ -352,17 +352,17 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive) const noexcept {
   to.eeprom_writes = axes_[drive].parameters.eepromWrites();
   to.owes_eeprom_switch = axes_[drive].parameters.owesEepromSwitch();
   to.terminals = axes_[drive].terminals.finding();
-  to.terminals_text = terminalSentence(names_[drive].c_str(), to.terminals, report);
+  to.terminals_text = terminalMessage(names_[drive].c_str(), to.terminals, report);
   to.direction_contradiction = report.direction_contradiction;
   to.stopped = report.stop_cause != drive::StopCause::kNone || report.fault_latched;
   to.stop_cause = report.stop_cause;
   if (!report.online) {
     to.text = transport_.note(drive).text;
   } else {
-    to.text = stopSentence(names_[drive].c_str(), report.stop_cause, report);
+    to.text = stopMessage(names_[drive].c_str(), report.stop_cause, report);
     // Its bit may have vanished with our first idle word (BU 0020 8); enabling is refused for it all the same.
     if (to.text.empty() && report.fault_latched) {
-      to.text = refusalSentence(names_[drive].c_str(), drive::Refusal::kFaultLatched, report);
+      to.text = refusalMessage(names_[drive].c_str(), drive::Refusal::kFaultLatched, report);
     }
   }
   if (to.online) {

@@ -11,8 +11,8 @@
 #include "cycle/cycle_ports.h"
 #include "cycle/cycle_statistics.h"
 #include "cycle/drive_parameters.h"
-#include "cycle/maintenance.h"
 #include "cycle/speed_watch.h"
+#include "cycle/standstill_requests.h"
 #include "cycle/supervisor.h"
 #include "cycle/terminal_watch.h"
 #include "drive/drive.h"
@@ -75,7 +75,7 @@ class BusCycle {
   std::vector<DriveIndex> wheels_;  // the drives of the base, in the order of its wheel speeds
   Supervisor supervisor_;
   CommandWatch command_watch_;
-  Maintenance maintenance_;
+  StandstillRequests standstill_requests_;
   CycleStatistics statistics_;
   std::vector<profile::ProcessOutput> outputs_;
   std::vector<DriveExchange> inputs_;

@@ -25,14 +25,14 @@ struct DriveSetup {
   std::optional<double> rated_current;  ///< A
 };
 
-struct RealTimeWish {
+struct RealTimeOptions {
   int priority = 0;          ///< SCHED_FIFO priority 1..99; 0 = the ordinary scheduler
   bool lock_memory = false;  ///< mlockall
 };
 
 struct CycleConfig {
   double cycle_rate = 100.0;  ///< Hz
-  RealTimeWish real_time;
+  RealTimeOptions real_time;
   Duration service_timeout{};
   Duration shutdown_timeout{};
   Duration cmd_vel_timeout{};  ///< 0: never

@@ -8,17 +8,18 @@
 
 namespace nord_driver::cycle {
 
-CycleThread::CycleThread(BusCycle& cycle, Transport& transport, const RealTimeWish& wish)
+CycleThread::CycleThread(BusCycle& cycle, Transport& transport, const RealTimeOptions& options)
     : cycle_(cycle), transport_(transport) {
-  if (wish.lock_memory && mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
+  if (options.lock_memory && mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
     refused_ = "memory cannot be locked (the limit memlock is too small): the bus cycle may be late by page faults";
   }
   thread_ = std::thread([this] { run(); });
-  if (wish.priority > 0) {
+  if (options.priority > 0) {
     sched_param parameters{};
-    parameters.sched_priority = wish.priority;
+    parameters.sched_priority = options.priority;
     if (pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &parameters) != 0) {
-      refused_ += (refused_.empty() ? "" : "; ") + std::string("SCHED_FIFO priority ") + std::to_string(wish.priority) +
+      refused_ += (refused_.empty() ? "" : "; ") + std::string("SCHED_FIFO priority ") +
+                  std::to_string(options.priority) +
                   " is not allowed (the limit rtprio is too small): the bus cycle may be late under load";
     }
   }

@@ -12,12 +12,12 @@ namespace nord_driver::cycle {
 /// Destroying it ends the thread after the running cycle; whoever owns it has brought the drives to rest before.
 class CycleThread {
  public:
-  CycleThread(BusCycle& cycle, Transport& transport, const RealTimeWish& wish);
+  CycleThread(BusCycle& cycle, Transport& transport, const RealTimeOptions& options);
   ~CycleThread();
   CycleThread(const CycleThread&) = delete;
   CycleThread& operator=(const CycleThread&) = delete;
 
-  /// What of the wish the system refused, in words; empty when nothing.
+  /// What of the options the system refused, in words; empty when nothing.
   const std::string& refused() const noexcept { return refused_; }
 
  private:

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "cycle/parameter_access.h"
-#include "cycle/sentences.h"
+#include "cycle/user_messages.h"
 #include "profile/parameter_catalogue.h"
 
 namespace nord_driver::cycle {
@@ -170,7 +170,7 @@ void DriveParameters::refuse(const Request& request, profile::ParameterOutcome o
   drive::ParameterTaskResult result;
   result.id = request.id;
   result.outcome = outcome;
-  completions_.answer(request, false, parameterSentence(name_.c_str(), request.parameter.number, result));
+  completions_.answer(request, false, parameterMessage(name_.c_str(), request.parameter.number, result));
 }
 
 std::optional<profile::ParameterRequest> DriveParameters::pollRequest(Instant now) noexcept {
@@ -244,7 +244,7 @@ void DriveParameters::answer(Asker asker, const profile::ParameterResult& result
 // Parameters are written over a bus while P509 selects it (BU 0020 6.2.2, note); status bit 9 tells whether it does.
 Sentence DriveParameters::sentenceOf(const Request& request, const drive::ParameterTaskResult& result) const noexcept {
   const bool by_control_source = request.kind == RequestKind::kWriteParameter && !bus_control_;
-  return parameterSentence(name_.c_str(), request.parameter.number, result, by_control_source);
+  return parameterMessage(name_.c_str(), request.parameter.number, result, by_control_source);
 }
 
 void DriveParameters::collect() noexcept {

@@ -57,18 +57,18 @@ std::string addressParameter(const ParameterAddress& address, profile::Series se
   return "";
 }
 
-std::string addValue(const ParameterWish& wish, const profile::ParameterInfo* info, Request& request) {
+std::string addValue(const ParameterWrite& write, const profile::ParameterInfo* info, Request& request) {
   const std::string name = "P" + std::to_string(request.parameter.number);
-  if (info == nullptr && !wish.allow_raw) {
+  if (info == nullptr && !write.allow_raw) {
     return name + " is not in the catalogue: its unit is not known, and raw values need allow_raw_parameters: true";
   }
-  const auto raw = info != nullptr ? profile::toRaw(*info, wish.value) : rawValue(wish.value);
+  const auto raw = info != nullptr ? profile::toRaw(*info, write.value) : rawValue(write.value);
   if (!raw) {
-    return "the value " + shortNumber(wish.value) + " cannot be written to " + name + ", expected " + rangeOf(info);
+    return "the value " + shortNumber(write.value) + " cannot be written to " + name + ", expected " + rangeOf(info);
   }
   request.kind = RequestKind::kWriteParameter;
   request.parameter.action =
-      wish.persistent ? profile::ParameterAction::kWritePersistent : profile::ParameterAction::kWriteRam;
+      write.persistent ? profile::ParameterAction::kWritePersistent : profile::ParameterAction::kWriteRam;
   request.parameter.raw = *raw;
   return "";
 }

@@ -17,7 +17,7 @@ struct ParameterAddress {
   std::uint8_t index = 0;          ///< the manual's array index, [-01] = 1; 0: no array
 };
 
-struct ParameterWish {
+struct ParameterWrite {
   double value = 0.0;       ///< in the parameter's unit; raw where it is not in the catalogue
   bool persistent = false;  ///< EEPROM; otherwise RAM, lost at power off
   bool allow_raw = false;   ///< parameters that are not in the catalogue may be written
@@ -29,7 +29,7 @@ std::string addressParameter(const ParameterAddress& address, profile::Series se
                              const profile::ParameterInfo*& info);
 
 /// Makes it a request to write. Returns what is wrong with the value; empty when nothing is.
-std::string addValue(const ParameterWish& wish, const profile::ParameterInfo* info, Request& request);
+std::string addValue(const ParameterWrite& write, const profile::ParameterInfo* info, Request& request);
 
 /// The request as the session's task; `set_in_force` 1..4 is the drive's, 0: not known.
 drive::ParameterTask taskOf(const Request& request, std::uint8_t set_in_force) noexcept;

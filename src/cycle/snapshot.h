@@ -43,7 +43,7 @@ struct DriveSnapshot : DriveSample {
   drive::StopCause stop_cause = drive::StopCause::kNone;  ///< that cause
   double speed_deviation = 0.0;                        ///< rad/s, velocity minus velocity_command; 0 while not enabled
   bool at_speed = false;                               ///< enabled, and the deviation is small
-  bool astray = false;                                 ///< enabled, and far from its command for seconds
+  bool not_following = false;                          ///< enabled, and far from its command for seconds
   double joint_position = 0.0;                         ///< rad, continuous
   std::uint16_t last_fault_number = 0;                 ///< the last one there was, also when it vanished by itself
   std::optional<std::uint16_t> switch_on_reason;       ///< P700[-03] raw, while it keeps the drive from becoming ready

@@ -12,8 +12,8 @@ namespace nord_driver::cycle {
 /// has ramps longer than those of the commands.
 class SpeedWatch {
  public:
-  static constexpr double kAtSpeed = 0.02;  ///< of the maximum speed: as near counts as at speed
-  static constexpr double kAstray = 0.05;   ///< of the maximum speed: as far away counts as not following
+  static constexpr double kAtSpeed = 0.02;       ///< of the maximum speed: as near counts as at speed
+  static constexpr double kNotFollowing = 0.05;  ///< of the maximum speed: as far away counts as not following
   static constexpr Duration kPatience = std::chrono::seconds{3};
 
   /// Once a cycle. `command` and `actual` in rad/s at the joint, `maximum` the speed of 100 %. Without a maximum, and
@@ -22,30 +22,30 @@ class SpeedWatch {
     deviation_ = 0.0;
     at_speed_ = false;
     if (!enabled || !(maximum > 0.0)) {
-      astray_since_.reset();
-      astray_ = false;
+      not_following_since_.reset();
+      not_following_ = false;
       return;
     }
     deviation_ = actual - command;
     at_speed_ = std::abs(deviation_) <= kAtSpeed * maximum;
-    if (std::abs(deviation_) <= kAstray * maximum) {
-      astray_since_.reset();
-    } else if (!astray_since_) {
-      astray_since_ = now;
+    if (std::abs(deviation_) <= kNotFollowing * maximum) {
+      not_following_since_.reset();
+    } else if (!not_following_since_) {
+      not_following_since_ = now;
     }
-    astray_ = astray_since_ && now - *astray_since_ >= kPatience;
+    not_following_ = not_following_since_ && now - *not_following_since_ >= kPatience;
   }
 
   double deviation() const noexcept { return deviation_; }  ///< rad/s, actual minus command; 0 while not enabled
   bool atSpeed() const noexcept { return at_speed_; }
   /// Far from its command for kPatience without a break.
-  bool isAstray() const noexcept { return astray_; }
+  bool isNotFollowing() const noexcept { return not_following_; }
 
  private:
   double deviation_ = 0.0;
   bool at_speed_ = false;
-  bool astray_ = false;
-  std::optional<Instant> astray_since_;
+  bool not_following_ = false;
+  std::optional<Instant> not_following_since_;
 };
 
 }  // namespace nord_driver::cycle

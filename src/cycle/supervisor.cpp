@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cycle/sentences.h"
+#include "cycle/user_messages.h"
 
 namespace nord_driver::cycle {
 
@@ -155,7 +155,7 @@ void Supervisor::takeBack(const Request& request, Instant now) noexcept {
 
 Sentence Supervisor::refusalOf(const Group& group, const drive::GroupRefusal& refusal) const noexcept {
   const DriveIndex drive = group.members[refusal.member];
-  return refusalSentence(names_[drive].c_str(), refusal.refusal, drives_[drive].report());
+  return refusalMessage(names_[drive].c_str(), refusal.refusal, drives_[drive].report());
 }
 
 void Supervisor::update(const CommandState& commands, Instant now) noexcept {
@@ -261,7 +261,7 @@ Sentence Supervisor::unsettled(const Request& request) const noexcept {
       const bool done = request.kind == RequestKind::kEnable ? groups_[i].group.commandAllowed() : at_rest;
       if (done) continue;
       Sentence text;
-      text.format("not confirmed in time: %s", stateSentence(names_[member].c_str(), drives_[member].report()).c_str());
+      text.format("not confirmed in time: %s", stateMessage(names_[member].c_str(), drives_[member].report()).c_str());
       return text;
     }
   }
@@ -278,7 +278,7 @@ Sentence Supervisor::baseStopSentence() const noexcept {
   const drive::GroupReport& report = base.group.report();
   if (report.stop_cause == drive::StopCause::kCommandTimeout) return drive::toString(report.stop_cause);
   const DriveIndex member = base.members[report.stop_member];
-  return stopSentence(names_[member].c_str(), report.stop_cause, drives_[member].report());
+  return stopMessage(names_[member].c_str(), report.stop_cause, drives_[member].report());
 }
 
 }  // namespace nord_driver::cycle

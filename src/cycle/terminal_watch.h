@@ -21,8 +21,8 @@ enum class TerminalFinding : std::uint8_t {
 class TerminalWatch {
  public:
   static constexpr int kNearStandstill = 164;  ///< |actual value 1|, of 16384
-  /// A contact that flickers is news once in this time.
-  static constexpr Duration kNewsInterval = std::chrono::seconds{1};
+  /// A contact that flickers is told once in this time.
+  static constexpr Duration kTellInterval = std::chrono::seconds{1};
 
   /// Once a cycle, with what the drive has just said.
   void update(const drive::DriveReport& report) noexcept {
@@ -45,13 +45,13 @@ class TerminalWatch {
   }
   TerminalFinding finding() const noexcept { return finding_; }
 
-  /// The finding when it is news: at once when it is worse than what was told within kNewsInterval, else after it.
-  std::optional<TerminalFinding> pollNews(Instant now) noexcept {
+  /// The finding when it is to be told: at once when it is worse than what was told within kTellInterval, else after it.
+  std::optional<TerminalFinding> poll(Instant now) noexcept {
     if (now >= due_) worst_ = told_;
     if (finding_ == told_ || (now < due_ && finding_ <= worst_)) return std::nullopt;
     told_ = finding_;
     if (finding_ > worst_) worst_ = finding_;
-    due_ = now + kNewsInterval;
+    due_ = now + kTellInterval;
     return finding_;
   }
 

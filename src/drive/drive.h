@@ -7,7 +7,7 @@
 //  - 047E alone also says "parameter set 1". So 0000, which the inverter ignores, is sent until a status word has told
 //  the set
 //    in force; from then on never again while it is online.
-//  - An inverter that falls silent while it was not at rest may still hear us: the stop word goes on into the dark, for
+//  - An inverter that falls silent while it was not at rest may still hear us: the stop word is sent on unanswered, for
 //    shutdown_timeout; then the set is learned anew. When it answers it is idle, in the set it then reports.
 //  - One that is off behind a bus module that lives gets the idle word with the last set known of it: the module's P151
 //    runs out when all its control words are invalid (BU 0220 4.2.3.2). Never known: 0000, which does not start P151.
@@ -77,7 +77,7 @@ class Drive {
   /// Enabled: setpoint 0 with 047F from here on, whatever setVelocity() says. Enabling: as requestShutdown().
   void requestSetpointZero(Instant now) noexcept;
   void requestShutdown(Instant now) noexcept;
-  /// From every phase; offline it is what goes on into the dark.
+  /// From every phase; offline it is what is sent on unanswered.
   void requestQuickStop(Instant now) noexcept;
   /// OFF2: the output goes off at once and the motor coasts, without any braking. From every phase; nothing but
   /// "switch-on disabled" (or a fault) ends it, a quick stop neither.

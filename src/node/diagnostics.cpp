@@ -4,7 +4,7 @@
 
 #include "node/bus_publisher.h"
 #include "node/device_warnings.h"
-#include "node/way_on.h"
+#include "node/recovery_hint.h"
 #include "nord_driver/core/bytes.h"
 #include "profile/fault_text.h"
 
@@ -76,7 +76,7 @@ void Diagnostics::reportBase(DiagnosticStatusWrapper& status) const {
   const cycle::BaseSnapshot& base = snapshot_.base;
   if (base.stopped) {
     status.summary(DiagnosticStatus::ERROR, base.text.str());
-    status.add("to go on", wayOn(snapshot_, names_));
+    status.add("to go on", recoveryHint(snapshot_, names_));
   } else if (base.enabled) {
     status.summary(DiagnosticStatus::OK, "enabled");
   } else {
@@ -125,7 +125,7 @@ void Diagnostics::warn(std::size_t index, const ProtectionReport& protection, Di
   }
   const std::string slow_ramp = ramps_[index].assess(drive.device, drive.parameter_set);
   if (drive.online && !slow_ramp.empty()) status.mergeSummary(DiagnosticStatus::WARN, slow_ramp);
-  if (drive.astray) {
+  if (drive.not_following) {
     status.mergeSummaryf(DiagnosticStatus::WARN,
                          "it has been %.2f rad/s away from its setpoint for seconds: is the motor overloaded, or are "
                          "the inverter's ramps (P102, P103) longer than those of the commands?",

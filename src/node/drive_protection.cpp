@@ -17,7 +17,7 @@ void warn(ProtectionReport& report, const std::string& text) {
   report.text += "; " + text;
 }
 
-// No news before everything has been asked for.
+// Nothing is told before everything has been asked for.
 void sayUnknown(ProtectionReport& report, const cycle::DeviceData& device, const std::string& text) {
   if (device.complete) return warn(report, text);
   report.text += "; " + text;

@@ -67,7 +67,7 @@ void DrivePublisher::publishStatus(const cycle::DriveSample& sample, const cycle
   status_publisher_.publish(status_);
 }
 
-// Once all that can be read has been read: before, "not known" would be no news.
+// Once all that can be read has been read: before, "not known" would tell nothing.
 void DrivePublisher::logProtection(const cycle::DeviceData& device) {
   if (!device.complete) return;
   const ProtectionReport report = protection_.assess(device);

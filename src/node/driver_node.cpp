@@ -59,7 +59,7 @@ DriverNode::DriverNode()
 }
 
 DriverNode::~DriverNode() {
-  for (CallbackLane* lane : {&commands_, &private_commands_, &stops_}) lane->stop();  // they use what goes next
+  for (CallbackThreads* lane : {&commands_, &private_commands_, &stops_}) lane->stop();  // they use what goes next
   thread_.reset();
   tracing_.reset();  // after the bus: what happened last is in the last trace
   services_.reset();
@@ -164,7 +164,7 @@ void DriverNode::takeDriveCommand(DriveIndex drive, double velocity) {
 void DriverNode::run(const std::atomic<bool>& end_asked) {
   ros::AsyncSpinner spinner(kSpinnerThreads);
   spinner.start();
-  for (CallbackLane* lane : {&commands_, &private_commands_, &stops_}) lane->start();
+  for (CallbackThreads* lane : {&commands_, &private_commands_, &stops_}) lane->start();
   if (config_.cycle.cmd_vel_timeout == Duration::zero()) {
     ROS_WARN("nord_driver: cmd_vel_timeout is 0: the last command is followed for ever");
   }

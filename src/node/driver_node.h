@@ -19,7 +19,7 @@
 #include "node/base_publisher.h"
 #include "node/base_tuner.h"
 #include "node/bus_publisher.h"
-#include "node/callback_lane.h"
+#include "node/callback_threads.h"
 #include "node/diagnostics.h"
 #include "node/drive_publisher.h"
 #include "node/node_config.h"
@@ -55,9 +55,9 @@ class DriverNode {
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
-  CallbackLane commands_;          // cmd_vel
-  CallbackLane private_commands_;  // ~<drive>/command
-  CallbackLane stops_;             // ~quick_stop, ~<drive>/quick_stop, and ~enable, which stops, too
+  CallbackThreads commands_;          // cmd_vel
+  CallbackThreads private_commands_;  // ~<drive>/command
+  CallbackThreads stops_;             // ~quick_stop, ~<drive>/quick_stop, and ~enable, which stops, too
   RosSettings settings_;
   NodeConfig config_;
   pluginlib::ClassLoader<Transport> loader_;

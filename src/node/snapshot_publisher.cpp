@@ -84,11 +84,11 @@ void SnapshotPublisher::run() {
 
 // Says once what does not answer, and at once what has stopped.
 void SnapshotPublisher::logChanges(const cycle::CycleSnapshot& snapshot, Instant now) {
-  if (const auto news = bus_news_.poll(bus_.sentence(snapshot), busIsWell(snapshot), now)) {
-    if (news->good) {
-      ROS_INFO("nord_driver: %s", news->text.c_str());
+  if (const auto line = bus_log_.poll(bus_.sentence(snapshot), busIsWell(snapshot), now)) {
+    if (line->good) {
+      ROS_INFO("nord_driver: %s", line->text.c_str());
     } else {
-      ROS_WARN("nord_driver: %s", news->text.c_str());
+      ROS_WARN("nord_driver: %s", line->text.c_str());
     }
   }
   const std::string base = snapshot.base.text.str();

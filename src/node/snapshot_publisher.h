@@ -7,7 +7,7 @@
 
 #include "cycle/cycle_ports.h"
 #include "node/base_publisher.h"
-#include "node/bus_news.h"
+#include "node/bus_log_debouncer.h"
 #include "node/bus_publisher.h"
 #include "node/diagnostics.h"
 #include "node/drive_publisher.h"
@@ -38,7 +38,7 @@ class SnapshotPublisher {
   BusPublisher& bus_;
   Diagnostics& diagnostics_;
   Duration status_period_;
-  BusNews bus_news_;
+  BusLogDebouncer bus_log_;
   std::string last_base_text_;
   std::atomic<bool> stop_{false};
   std::atomic<bool> healthy_{true};

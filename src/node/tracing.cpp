@@ -20,7 +20,7 @@ Tracing::Tracing(ros::NodeHandle& private_node, const std::optional<cycle::Trace
   if (config) {
     writer_ = std::make_unique<cycle::TraceWriter>(*config, drives, telegrams, feed.history());
     tracer_ = std::make_unique<cycle::FaultTracer>(feed, *writer_);
-    told_ = writer_->obstacle();
+    told_ = writer_->whyNotWritable();
     if (!told_.empty()) ROS_WARN("nord_driver: %s", told_.c_str());
     thread_ = std::thread([this] { run(); });
   }

@@ -36,7 +36,7 @@ class Tracing {
 
   std::unique_ptr<cycle::TraceWriter> writer_;
   std::unique_ptr<cycle::FaultTracer> tracer_;
-  std::string told_;  // an obstacle is named once, not with every fault
+  std::string told_;  // an unusable directory is named once, not with every fault
   ros::ServiceServer server_;
   std::atomic<bool> stop_{false};
   std::thread thread_;

@@ -33,7 +33,7 @@ DpMaster::DpMaster(const BusParameters& bus, const std::vector<SlaveConfig>& sla
 
 void DpMaster::restart(Instant now) noexcept {
   requester_.restart(now);
-  for (DpSlave& slave : slaves_) slave.restart(now, events_);
+  for (SlaveHandler& slave : slaves_) slave.restart(now, events_);
   turn_ = Turn::kDone;
   last_operate_.reset();
   last_foreign_.reset();
@@ -46,7 +46,7 @@ void DpMaster::restart(Instant now) noexcept {
 void DpMaster::startCycle(Instant now) noexcept {
   if (!cycleDone()) return;
   ++requester_.counters().cycles;
-  for (DpSlave& slave : slaves_) slave.startCycle();
+  for (SlaveHandler& slave : slaves_) slave.startCycle();
   turn_ = Turn::kListen;
   listen_slice_ = std::min(now + kListenSlice, listen_.end());
   cursor_ = 0;
@@ -103,13 +103,13 @@ bool DpMaster::askNext(Instant now) noexcept {
     case Turn::kOperate:
       return askOperate(now);
     case Turn::kExchange:
-      return askFirst(now, [](const DpSlave& slave) { return slave.wantsExchange(); });
+      return askFirst(now, [](const SlaveHandler& slave) { return slave.wantsExchange(); });
     case Turn::kSynchronise:
       return askSynchronise(now);
     case Turn::kStartUp:
-      return askFirst(now, [now](const DpSlave& slave) { return slave.wantsStartUpStep(now); });
+      return askFirst(now, [now](const SlaveHandler& slave) { return slave.wantsStartUpStep(now); });
     case Turn::kDiagnosis:
-      return askFirst(now, [](const DpSlave& slave) { return slave.wantsDiagnosis(); });
+      return askFirst(now, [](const SlaveHandler& slave) { return slave.wantsDiagnosis(); });
     case Turn::kAcyclic:
       return askAcyclic(now);
     case Turn::kProbe:
@@ -136,7 +136,7 @@ bool DpMaster::setSynchronised(bool on) noexcept {
 }
 
 bool DpMaster::groupExchanged() const noexcept {
-  return std::all_of(slaves_.begin(), slaves_.end(), [](const DpSlave& slave) {
+  return std::all_of(slaves_.begin(), slaves_.end(), [](const SlaveHandler& slave) {
     return !slave.isSynchronised() || slave.status().exchanged_this_cycle;
   });
 }

@@ -13,10 +13,10 @@
 #include "profibus/counters.h"
 #include "profibus/dp_event.h"
 #include "profibus/dp_services.h"
-#include "profibus/dp_slave.h"
 #include "profibus/listen_first.h"
 #include "profibus/requester.h"
 #include "profibus/slave_config.h"
+#include "profibus/slave_handler.h"
 #include "profibus/slave_status.h"
 
 namespace nord_driver::profibus {
@@ -129,7 +129,7 @@ class DpMaster {
 
   BusParameters bus_;
   Requester requester_;
-  std::vector<DpSlave> slaves_;
+  std::vector<SlaveHandler> slaves_;
   DpEvents events_;
   FdlRequest operate_, sync_, unsync_;  // the same bytes every time
   ListenFirst listen_;

@@ -44,7 +44,7 @@ struct Options {
   std::string parameter;
   WholeNumber<1, 4> set;     ///< 0: not given
   WholeNumber<1, 99> index;  ///< 0: not given
-  WriteWish write;
+  WriteOptions write;
   std::string dump;
 };
 
@@ -130,8 +130,8 @@ int run(int argc, char** argv) {
   }
   if (line.asksFor(write)) {
     const auto address = addressOf(options.parameter, options.set.value, options.index.value);
-    const auto wish = checkedWish(options.write, address, config.cycle.drives.front().series);
-    task = [address, wish](ParameterLink& link) { return writeParameter(link, address, wish); };
+    const auto write = checkedWrite(options.write, address, config.cycle.drives.front().series);
+    task = [address, write](ParameterLink& link) { return writeParameter(link, address, write); };
   }
   return carryOut(config, options.timeout.value, task, end_asked);
 }

@@ -63,10 +63,10 @@ void printRefusal(const ParameterAnswer& answer) {
   std::fprintf(stderr, "nord_param: %s\n", answer.message.c_str());
 }
 
-double valueOf(const WriteWish& wish, const profile::ParameterInfo* info) {
-  const double value = parseValue(wish.value);
-  if (!wish.raw) return value;
-  if (std::trunc(value) != value) throw UsageError("--raw: " + wish.value + " is no whole number");
+double valueOf(const WriteOptions& write, const profile::ParameterInfo* info) {
+  const double value = parseValue(write.value);
+  if (!write.raw) return value;
+  if (std::trunc(value) != value) throw UsageError("--raw: " + write.value + " is no whole number");
   return info != nullptr ? value * info->resolution : value;
 }
 
@@ -108,32 +108,32 @@ bool readParameter(ParameterLink& link, const cycle::ParameterAddress& address) 
   return true;
 }
 
-cycle::ParameterWish checkedWish(const WriteWish& wish, const cycle::ParameterAddress& address,
-                                 profile::Series series) {
+cycle::ParameterWrite checkedWrite(const WriteOptions& write, const cycle::ParameterAddress& address,
+                                   profile::Series series) {
   cycle::Request request;
   const profile::ParameterInfo* info = nullptr;
   std::string wrong = cycle::addressParameter(address, series, request, info);
   if (!wrong.empty()) throw UsageError(wrong);
-  if (info == nullptr && !wish.raw) {
+  if (info == nullptr && !write.raw) {
     throw UsageError(parameterName(address) +
                      " is not in the catalogue, its unit is not known: write the raw value with --raw");
   }
-  cycle::ParameterWish checked;
-  checked.value = valueOf(wish, info);
-  checked.persistent = wish.persistent;
-  checked.allow_raw = wish.raw;
+  cycle::ParameterWrite checked;
+  checked.value = valueOf(write, info);
+  checked.persistent = write.persistent;
+  checked.allow_raw = write.raw;
   wrong = cycle::addValue(checked, info, request);
   if (!wrong.empty()) throw Trouble(wrong);
   return checked;
 }
 
-bool writeParameter(ParameterLink& link, const cycle::ParameterAddress& address, const cycle::ParameterWish& wish) {
-  const ParameterAnswer answer = link.write(address, wish);
+bool writeParameter(ParameterLink& link, const cycle::ParameterAddress& address, const cycle::ParameterWrite& write) {
+  const ParameterAnswer answer = link.write(address, write);
   if (!answer.success) {
     printRefusal(answer);
     return false;
   }
-  const char* where = wish.persistent ? ", in the EEPROM" : ", in RAM: lost at power off";
+  const char* where = write.persistent ? ", in the EEPROM" : ", in RAM: lost at power off";
   std::printf("%s%s\n", answerText(address, answer).c_str(), answer.message.empty() ? where : "");
   if (!answer.message.empty()) std::printf("%s\n", answer.message.c_str());
   return true;

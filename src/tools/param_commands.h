@@ -11,7 +11,7 @@
 
 namespace nord_driver::tools {
 
-struct WriteWish {
+struct WriteOptions {
   std::string value;  ///< as typed
   bool persistent = false;
   bool raw = false;
@@ -22,14 +22,15 @@ cycle::ParameterAddress addressOf(const std::string& name, int set, int index);
 
 /// What can be known of a write before the bus is touched: throws UsageError when the value is none, or raw values
 /// would be needed; Trouble when it is out of the catalogue's range.
-cycle::ParameterWish checkedWish(const WriteWish& wish, const cycle::ParameterAddress& address, profile::Series series);
+cycle::ParameterWrite checkedWrite(const WriteOptions& write, const cycle::ParameterAddress& address,
+                                   profile::Series series);
 
 /// Of all drives of the configuration, whose `transport` is configured; sends nothing.
 void printList(const ToolConfig& config, const Transport& transport);
 
 // On a connected link; false: refused or different, and said so on stderr or stdout.
 bool readParameter(ParameterLink& link, const cycle::ParameterAddress& address);
-bool writeParameter(ParameterLink& link, const cycle::ParameterAddress& address, const cycle::ParameterWish& wish);
+bool writeParameter(ParameterLink& link, const cycle::ParameterAddress& address, const cycle::ParameterWrite& write);
 bool dumpParameters(ParameterLink& link, const std::atomic<bool>& end_asked);
 bool compareParameters(ParameterLink& link, const Dump& reference, const std::atomic<bool>& end_asked);
 

@@ -2,7 +2,7 @@
 
 #include "config/setting_checks.h"
 #include "cycle/drive_parameters.h"
-#include "cycle/sentences.h"
+#include "cycle/user_messages.h"
 #include "profile/pkw.h"
 #include "profile/status_word.h"
 #include "transport/parameters_only.h"
@@ -134,11 +134,11 @@ ParameterAnswer ParameterLink::read(const cycle::ParameterAddress& address) {
   return carryOut(request, info);
 }
 
-ParameterAnswer ParameterLink::write(const cycle::ParameterAddress& address, const cycle::ParameterWish& wish) {
+ParameterAnswer ParameterLink::write(const cycle::ParameterAddress& address, const cycle::ParameterWrite& write) {
   cycle::Request request;
   const profile::ParameterInfo* info = nullptr;
   std::string wrong = cycle::addressParameter(address, drive().series, request, info);
-  if (wrong.empty()) wrong = cycle::addValue(wish, info, request);
+  if (wrong.empty()) wrong = cycle::addValue(write, info, request);
   if (!wrong.empty()) throw Trouble(wrong);
   // The terminals may turn a drive under local control at any time; setpoints are a share of P105.
   if (cycle::decidesMotion(request) && !drives_[0].isAtRest()) {
@@ -184,7 +184,7 @@ ParameterAnswer ParameterLink::carryOut(const cycle::Request& request, const pro
   answer.refused = result->outcome == ParameterOutcome::kRefused;
   answer.unknown = answer.refused && result->refused_number == task.number &&
                    result->error_number == profile::pkw_error::kInvalidNumber;
-  answer.message = cycle::parameterSentence(drive().name.c_str(), task.number, *result).str();
+  answer.message = cycle::parameterMessage(drive().name.c_str(), task.number, *result).str();
   answer.raw = result->raw;
   answer.value = cycle::valueOf(info, result->raw);
   answer.info = info;

@@ -54,7 +54,7 @@ class ParameterLink {
 
   ParameterAnswer read(const cycle::ParameterAddress& address);
   /// Compared before and read back after; see ParameterSession.
-  ParameterAnswer write(const cycle::ParameterAddress& address, const cycle::ParameterWish& wish);
+  ParameterAnswer write(const cycle::ParameterAddress& address, const cycle::ParameterWrite& write);
 
   /// Puts back what is not to stay (P560, orders of the parameter channel) and ends the exchange. Returns sentences on
   /// what the end means to the drive.

@@ -54,7 +54,7 @@ TraceWriter::TraceWriter(TraceConfig config, std::vector<TracedDrive> drives, co
                          const ProcessDataHistory& history)
     : config_(std::move(config)), drives_(std::move(drives)), telegrams_(telegrams), history_(history) {}
 
-std::string TraceWriter::obstacle() const {
+std::string TraceWriter::whyNotWritable() const {
   std::error_code error;
   if (!fs::is_directory(config_.directory, error)) {
     return "no trace can be written: trace_directory " + config_.directory + " is no directory";
@@ -74,7 +74,7 @@ TraceResult TraceWriter::write(const TraceCause& cause, const TraceClock& clock)
   if (telegrams_ != nullptr) page.telegrams = telegrams_->copy();
 
   TraceResult result;
-  result.message = obstacle();
+  result.message = whyNotWritable();
   if (!result.message.empty()) return result;
   const std::string stem = freeStem(cause, clock);
   std::string error;

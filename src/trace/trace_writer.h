@@ -35,7 +35,7 @@ class TraceWriter {
               const ProcessDataHistory& history);
 
   /// Why nothing could be written now: the directory is missing or read-only. Empty: nothing stands against it.
-  std::string obstacle() const;
+  std::string whyNotWritable() const;
   /// "<directory>/nord_driver_20261121T170503.123Z_fault_left.txt" and ".pcap", or neither.
   TraceResult write(const TraceCause& cause, const TraceClock& clock);
   /// On a user's request: now, with the last cycles there are.

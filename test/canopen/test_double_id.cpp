@@ -52,7 +52,7 @@ TEST_F(Doubled, IsNotSaidOfABadLine) {
   EXPECT_EQ(0u, run.count(CanopenEventKind::kDoubleId));
 }
 
-// Somebody else asks, too: the answers are his.
+// Somebody else asks, too: the answers are for that master.
 TEST_F(Doubled, IsNotSaidBesideAnotherMaster) {
   other_asks = true;
   answerTwice(1);

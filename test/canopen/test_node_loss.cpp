@@ -79,7 +79,7 @@ TEST(NodeLoss, ANodeThatIsResetIsNotOperational) {
   EXPECT_EQ(NmtState::kUnknown, run.master.status(0).nmt);
 }
 
-// What a node said before it was lost is no news of it when it is back: another state, another set, another speed.
+// What a node said before it was lost says nothing of it when it is back: another state, another set, another speed.
 TEST(NodeLoss, ItsLastWordsAreForgotten) {
   Operational run;
   run.say("181#370B0020");

@@ -49,11 +49,11 @@ class CycleBench {
     ports.commandBase({{linear, angular}, transport.time, true});
   }
   void commandLift(double velocity) { ports.commandDrive(kLift, {velocity, transport.time, true}); }
-  /// What was told since this was asked last, a line each: "warning: ..." or "news: ...".
+  /// What was told since this was asked last, a line each: "warning: ..." or "info: ...".
   std::vector<std::string> events() {
     std::vector<std::string> lines;
     while (const auto event = ports.pollBusEvent()) {
-      lines.push_back((event->warning ? "warning: " : "news: ") + event->text.str());
+      lines.push_back((event->warning ? "warning: " : "info: ") + event->text.str());
     }
     return lines;
   }

@@ -211,7 +211,7 @@ TEST(BaseConfig, TakesTheDistanceOfWheelsThatStandAlongX) {
 }
 
 // What crosses the direction of travel has no need of it, and no warning.
-TEST(BaseConfig, WheelsThatStandAcrossXAreNoNews) {
+TEST(BaseConfig, WheelsThatStandAcrossXAreNotNamed) {
   const auto base = readBaseConfig(robot().erase("wheel_separation"), kJoints, description());
   EXPECT_THAT(base->warnings, IsEmpty());
 }

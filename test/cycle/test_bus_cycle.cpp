@@ -118,7 +118,7 @@ TEST_F(BusCycleTest, NoSetIsSwitchedWhileTheBaseComesToRest) {
   EXPECT_EQ(0x047E, controlWord(kRight));
 }
 
-// The bus was held up for longer than the asker waited: he was told that it failed, and must not see it succeed now.
+// The bus was held up for longer than the asker waited: it was told that it failed, and must not see it succeed now.
 TEST_F(BusCycleTest, WhatNobodyWaitsForAnyMoreIsNotBegun) {
   bringUp();
   Request enable;

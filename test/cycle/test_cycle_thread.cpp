@@ -53,8 +53,8 @@ class PacedTransport final : public Transport {
 };
 
 struct Running {
-  explicit Running(const RealTimeWish& wish = {}) : ports{1}, cycle{config(), transport, ports, false} {
-    thread = std::make_unique<CycleThread>(cycle, transport, wish);
+  explicit Running(const RealTimeOptions& options = {}) : ports{1}, cycle{config(), transport, ports, false} {
+    thread = std::make_unique<CycleThread>(cycle, transport, options);
   }
   static CycleConfig config() {
     CycleConfig config;

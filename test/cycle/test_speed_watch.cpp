@@ -30,22 +30,22 @@ TEST_F(SpeedWatchTest, TellsTheDeviationAndWhetherItIsSmall) {
 // More than 5 % away for 3 s without a break; a ramp is shorter.
 TEST_F(SpeedWatchTest, NoticesADriveThatDoesNotFollowForLong) {
   run(5.0, 4.0, 2.9);
-  EXPECT_FALSE(watch_.isAstray());
+  EXPECT_FALSE(watch_.isNotFollowing());
   run(5.0, 4.0, 0.2);
-  EXPECT_TRUE(watch_.isAstray());
+  EXPECT_TRUE(watch_.isNotFollowing());
   run(5.0, 4.9, 0.02);
-  EXPECT_FALSE(watch_.isAstray());
+  EXPECT_FALSE(watch_.isNotFollowing());
   run(5.0, 4.0, 2.9);
-  EXPECT_FALSE(watch_.isAstray()) << "counted anew";
+  EXPECT_FALSE(watch_.isNotFollowing()) << "counted anew";
 }
 
 TEST_F(SpeedWatchTest, LooksOnlyWhileEnabledAndScaled) {
   run(5.0, 0.0, 10.0, false);
-  EXPECT_FALSE(watch_.isAstray());
+  EXPECT_FALSE(watch_.isNotFollowing());
   EXPECT_FALSE(watch_.atSpeed());
   EXPECT_EQ(0.0, watch_.deviation());
   watch_.update(true, 5.0, 0.0, 0.0, now_);
-  EXPECT_FALSE(watch_.isAstray());
+  EXPECT_FALSE(watch_.isNotFollowing());
   EXPECT_FALSE(watch_.atSpeed());
 }
 

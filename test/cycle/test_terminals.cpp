@@ -30,7 +30,7 @@ TEST_F(Terminals, LocalControlWhileIdleIsToldWhenItBegins) {
   EXPECT_THAT(events(), IsEmpty()) << "once";
   transport.inverters[kLeft].local = false;
   step();
-  EXPECT_THAT(events(), ElementsAre("news: drive left: the bus has control of it again"));
+  EXPECT_THAT(events(), ElementsAre("info: drive left: the bus has control of it again"));
 }
 
 // A loss tells what it has to tell by itself; what comes back under local control is told again.
@@ -75,7 +75,7 @@ TEST_F(Terminals, AFlickeringBitIsToldOnceASecondAtMost) {
   EXPECT_LE(events().size(), 4u);
 }
 
-// What the driver itself commands is no news: the way up, driving, and the ramp down.
+// What the driver itself commands is not told: the way up, driving, and the ramp down.
 TEST_F(Terminals, NothingIsToldOfMotionThatWasAskedFor) {
   ASSERT_TRUE(ask(RequestKind::kEnable).success);
   events();
@@ -95,7 +95,7 @@ TEST_F(Terminals, NothingIsToldOfMotionThatWasAskedFor) {
 
 TEST_F(Terminals, EnabledDrivesAreNamedInTheLog) {
   ASSERT_TRUE(ask(RequestKind::kEnable).success);
-  EXPECT_THAT(events(), ElementsAre("news: the base is enabled", "news: drive lift is enabled"));
+  EXPECT_THAT(events(), ElementsAre("info: the base is enabled", "info: drive lift is enabled"));
   ASSERT_TRUE(ask(RequestKind::kDisable).success);
   run(100);
   EXPECT_THAT(events(), IsEmpty());

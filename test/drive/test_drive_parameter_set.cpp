@@ -167,7 +167,7 @@ TEST_F(DriveTest, StopsInTheSetInForce) {
   EXPECT_EQ(0x047B, cycle(0x0B31));
 }
 
-// It was idle: nothing is sent into the dark, the set is learned anew, and nothing was stopped.
+// It was idle: nothing is sent unanswered, the set is learned anew, and nothing was stopped.
 TEST_F(DriveTest, EndsTheSwitchingOfASilentDrive) {
   start();
   drive_.requestParameterSet(3, now_);

@@ -255,7 +255,7 @@ TEST_F(DriveTest, BridgesShortSilence) {
   EXPECT_EQ(Phase::kEnabled, report().phase);
 }
 
-// A drive that does not answer may still hear: 0000 would let it run on, so 047E goes on into the dark. Then the set is
+// A drive that does not answer may still hear: 0000 would let it run on, so 047E is sent on unanswered. Then the set is
 // learned anew, and it stays disabled.
 TEST_F(DriveTest, StopsASilentDriveAndLearnsAgain) {
   run();
@@ -281,7 +281,7 @@ TEST_F(DriveTest, StopsASilentDriveAndLearnsAgain) {
   EXPECT_EQ(StopCause::kSilent, report().stop_cause);
 }
 
-// The set it comes back with is the one that counts, within the dark time too.
+// The set it comes back with is the one that counts, also while it does not answer.
 TEST_F(DriveTest, TakesTheSetOfADriveThatComesBackSoon) {
   run();
   fallSilent();

@@ -132,14 +132,14 @@ TEST_F(ParameterSessionTest, MakesARamWritePersistent) {
   EXPECT_EQ(1u, session_.eepromWrites());
 }
 
-// ... nor when somebody else may have written it: then the wish says so.
+// ... nor when somebody else may have written it: then the request says so.
 TEST_F(ParameterSessionTest, SavesWhatSomebodyElseMayHavePutIntoTheRam) {
-  ParameterTask wish = writePersistent(102, 200);
-  wish.even_if_same = true;
-  EXPECT_TRUE(run(wish).eeprom_written);
+  ParameterTask write = writePersistent(102, 200);
+  write.even_if_same = true;
+  EXPECT_TRUE(run(write).eeprom_written);
   EXPECT_EQ(200, inverter_.eeprom[102]);
-  wish.kind = ParameterTaskKind::kWriteRam;
-  EXPECT_FALSE(run(wish).eeprom_written) << "a RAM write is compared all the same";
+  write.kind = ParameterTaskKind::kWriteRam;
+  EXPECT_FALSE(run(write).eeprom_written) << "a RAM write is compared all the same";
   EXPECT_THAT(inverter_.asked, ElementsAre("P102?"));
 }
 
@@ -187,7 +187,7 @@ TEST_F(ParameterSessionTest, FallsBackToP560) {
   EXPECT_TRUE(run(writePersistent(102, 1100)).eeprom_written);
 }
 
-// P560 = 0 that somebody else set stays: it is his, and nothing reaches the EEPROM meanwhile.
+// P560 = 0 that somebody else set stays: it belongs to that client, and nothing reaches the EEPROM meanwhile.
 TEST_F(ParameterSessionTest, LeavesP560AsItWas) {
   inverter_.ram_orders = false;
   inverter_.ram[560] = 0;

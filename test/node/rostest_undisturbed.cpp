@@ -132,7 +132,7 @@ TEST_F(Undisturbed, RunsOnWhileTheClockOfRosStandsStill) {
       robot().waitForDiagnostics(
           "base", [](int level, const std::string&) { return level == diagnostic_msgs::DiagnosticStatus::ERROR; }),
       "")
-      << "no news of the stop";
+      << "nothing was told of the stop";
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ TEST(BusSentence, NamesEachDriveThatIsSilentWithItsReason) {
   EXPECT_EQ("drive right: no answer", busSentence(snapshot, kNames));
 }
 
-// When the bus itself is gone, its drives are no news.
+// When the bus itself is gone, its drives are not named.
 TEST(BusSentence, TheBusComesBeforeItsDrives) {
   cycle::CycleSnapshot snapshot{2};
   snapshot.bus_text = "/dev/ttyUSB0: no such device";

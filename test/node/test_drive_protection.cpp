@@ -61,7 +61,7 @@ TEST(DriveProtection, WhatCouldNotBeReadIsWarnedAbout) {
   EXPECT_THAT(module.text, HasSubstr("P120, by which the inverter watches its bus module, is not known"));
 }
 
-// Before everything has been asked for, "not known" would be no news.
+// Before everything has been asked for, "not known" would tell nothing.
 TEST(DriveProtection, WhatHasNotBeenAskedForYetIsNoWarning) {
   cycle::DeviceData device;
   EXPECT_EQ(Level::kFine, assess(identity(), device).level);

@@ -100,7 +100,7 @@ TEST_F(SocketCanController, DownAndUpAgain) {
   EXPECT_TRUE(reaches(link, CanState::kDown));
 }
 
-// The kernel's own answers to a wish to restart: EBUSY when it is not bus-off, EINVAL when restart-ms does it. The
+// The kernel's own answers to a request to restart: EBUSY when it is not bus-off, EINVAL when restart-ms does it. The
 // request is understood, then.
 TEST_F(SocketCanController, ARestartIsAskedForInTheKernelsWords) {
   up();

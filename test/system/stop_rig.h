@@ -17,8 +17,8 @@ struct WireWords {
   bool sent = false;  ///< in the last cycle, to this drive
   Word control = 0;
   std::int16_t setpoint = 0;
-  Instant status_at{};       ///< when the last status word came
-  std::optional<Word> news;  ///< the status word that came in the last cycle
+  Instant status_at{};               ///< when the last status word came
+  std::optional<Word> fresh_status;  ///< the status word that came in the last cycle
 };
 
 /// Another bus is one more of these, and a line that instantiates the table for it. Drive 0 is the left wheel, drive 1
@@ -40,8 +40,8 @@ class StopRig {
   virtual void passWithoutTheDriver(Duration span) = 0;
 
   virtual void setBusPresent(bool present) = 0;
-  /// The last cycle carried news of a node's state that the driver did not ask for.
-  virtual bool stateNews() const { return false; }
+  /// The last cycle carried a report of a node's state that the driver did not ask for.
+  virtual bool sawUnaskedState() const { return false; }
 
   /// How old the last status word may be before the bus takes it for missing; drive_timeout counts from there.
   virtual Duration silenceCounts() const = 0;
@@ -61,13 +61,13 @@ class StopRig {
   }
   void sawStatus(DriveIndex drive, Word status, Instant at) {
     WireWords& words = words_[drive];
-    words.news = status;
+    words.fresh_status = status;
     words.status_at = at;
   }
   void beginCycle() {
     for (WireWords& words : words_) {
       words.sent = false;
-      words.news.reset();
+      words.fresh_status.reset();
     }
   }
 

@@ -101,7 +101,7 @@ TEST_F(CanopenCauses, AGuardedNodeThatFallsSilentStopsTheBase) {
   expectRestForGood();
 }
 
-// A lost node may still hear us: the stop word goes on into the dark, but not for ever. After shutdown_timeout nothing
+// A lost node may still hear us: the stop word is sent on unanswered, but not for ever. After shutdown_timeout nothing
 // is sent that would keep its P513 time-out from tripping.
 TEST_F(CanopenCauses, AStopWordGoesIntoTheDarkForShutdownTimeoutOnly) {
   CanRobot::Options options;

@@ -111,7 +111,7 @@ TEST(CanopenKinds, AnInverterWhoseEmergencyIsNeverTakenBackComesBack) {
   EXPECT_EQ("", robot.busText()) << "nothing is reported any more";
 }
 
-// What a module has said before it was without power is no news of its inverters.
+// What a module has said before it was without power says nothing of its inverters.
 TEST(CanopenKinds, AGatewayThatWasWithoutPowerBeginsAnew) {
   CanRobot::Options options;
   options.gateway_inverters = 4;

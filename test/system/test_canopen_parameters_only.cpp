@@ -127,9 +127,9 @@ TEST(CanopenParametersOnly, ReadsAndWritesOnAQuietBus) {
   const auto read = tool.link().read(parameter(105));
   EXPECT_TRUE(read.success) << read.message;
   EXPECT_EQ(500, read.raw);
-  cycle::ParameterWish wish;
-  wish.value = 2.5;
-  const auto written = tool.link().write(parameter(102), wish);
+  cycle::ParameterWrite write;
+  write.value = 2.5;
+  const auto written = tool.link().write(parameter(102), write);
   EXPECT_TRUE(written.success) << written.message;
   EXPECT_EQ(250, tool.bus().drive(0).parameters().value(102, 0));
   EXPECT_THAT(tool.link().finish(), IsEmpty());

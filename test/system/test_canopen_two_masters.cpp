@@ -60,7 +60,7 @@ class TwoMasters : public ::testing::Test {
 };
 
 // A node that is driven by somebody else is not reset under way: who comes second says nothing, and says why. When the
-// first has ended he takes over, at rest.
+// first has ended it takes over, at rest.
 TEST_F(TwoMasters, ADriverThatStartsSecondWaits) {
   driveFirst();
   const std::uint64_t boot_ups = first_.node(kLeft).counters().boot_ups;
@@ -115,7 +115,7 @@ TEST_F(TwoMasters, OneThatStartsSecondAndDoesNotListenStopsTheBase) {
   EXPECT_GT(first_.snapshot().counters.unexpected, 10u);
   EXPECT_GT(second_->snapshot().counters.unexpected, 10u);
   expectRestForGood();
-  // He ends, and the first has its nodes back, at rest.
+  // It ends, and the first has its nodes back, at rest.
   second_->transport().close();
   second_.reset();
   ASSERT_TRUE(runUntil([this] { return bothOnline(first_); }, seconds{8}));
@@ -151,8 +151,8 @@ TEST_F(TwoMasters, BothAtOnceMoveNothing) {
   }
 }
 
-// Control words of somebody else for a drive of ours: it does what he says as much as what we say. The base stops, the
-// drive is named, and enabled again only when he has ended and somebody asks.
+// Control words of somebody else for a drive of ours: it does what that master says as much as what we say. The base stops, the
+// drive is named, and enabled again only when that master has ended and somebody asks.
 TEST_F(TwoMasters, ControlWordsOfSomebodyElseStopTheBase) {
   driveFirst();
   int cycles = 0;

@@ -196,7 +196,7 @@ TEST(UnaskedState, AStoppedNodeThatIsNeverResetComesBack) {
   unasked.expectBackAndAtRest();
 }
 
-// Lost by its guarding, with a drive_timeout beyond that: what goes on into the dark is a stop word.
+// Lost by its guarding, with a drive_timeout beyond that: what is sent on unanswered is a stop word.
 TEST(UnaskedState, ALostNodeGetsNoMoreSetpoints) {
   Unasked unasked{"guarding"};
   ASSERT_NO_FATAL_FAILURE(unasked.drive());

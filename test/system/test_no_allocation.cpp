@@ -87,7 +87,7 @@ class NoAllocation : public ::testing::TestWithParam<bool> {
     transport_.configure(bus, drives, config.cycle_rate);
     ports_ = std::make_unique<cycle::CyclePorts>(drives.size());
     cycle_ = std::make_unique<cycle::BusCycle>(config, transport_, *ports_, false);
-    thread_ = std::make_unique<cycle::CycleThread>(*cycle_, transport_, cycle::RealTimeWish{});
+    thread_ = std::make_unique<cycle::CycleThread>(*cycle_, transport_, cycle::RealTimeOptions{});
   }
 
   static sim::SimConfig simConfig() {

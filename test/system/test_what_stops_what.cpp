@@ -20,7 +20,7 @@ constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
 constexpr std::int16_t kHalfSetpoint = 0x2000;
 constexpr Word kIdle = 0x047E, kRun = 0x047F, kOff3 = 0x047B;
 constexpr int kBound = 2;          // bus cycles, of every row
-constexpr int kNewsLimit = 20;     // bus cycles until a simulated cause shows on the bus
+constexpr int kShowLimit = 20;     // bus cycles until a simulated cause shows on the bus
 constexpr double kRamp = 10431.0;  // of 16384 a second: 0.5 m/s2, where 100 % are 0.7854 m/s
 constexpr double kSlow = 5.0;      // rad/s at the motor: OFF1 takes the torque no earlier
 
@@ -83,20 +83,20 @@ Instant WhatStopsWhat::knownAt() {
   }
 }
 
-void WhatStopsWhat::waitForNews() {
-  for (int i = 0; i < kNewsLimit; ++i) {
+void WhatStopsWhat::waitUntilItShows() {
+  for (int i = 0; i < kShowLimit; ++i) {
     step();
-    const auto status = rig_->wire(kRight).news;
-    if (row().known == Known::kNodeState ? rig_->stateNews() : status && row().status_says(*status)) return;
+    const auto status = rig_->wire(kRight).fresh_status;
+    if (row().known == Known::kNodeState ? rig_->sawUnaskedState() : status && row().status_says(*status)) return;
   }
-  FAIL() << "the cause does not show on the bus within " << kNewsLimit << " cycles";
+  FAIL() << "the cause does not show on the bus within " << kShowLimit << " cycles";
 }
 
 void WhatStopsWhat::waitUntilKnown() {
   if (row().known == Known::kAtOnce) return;
-  if (row().known == Known::kOnTheWire || row().known == Known::kNodeState) return waitForNews();
+  if (row().known == Known::kOnTheWire || row().known == Known::kNodeState) return waitUntilItShows();
   if (row().known == Known::kZeros) {
-    ASSERT_NO_FATAL_FAILURE(waitForNews());
+    ASSERT_NO_FATAL_FAILURE(waitUntilItShows());
     zeros_since_ = rig_->wire(kRight).status_at;
   }
   const Instant give_up = now() + seconds{15};

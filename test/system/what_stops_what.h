@@ -37,7 +37,7 @@ class WhatStopsWhat : public ::testing::TestWithParam<std::tuple<StopBus, StopRo
   void step();
   /// Until the driver can know of the cause; it does not act before.
   void waitUntilKnown();
-  void waitForNews();
+  void waitUntilItShows();
   Instant knownAt();
   /// As seen on the wire in the last cycle.
   bool reacted();

@@ -32,7 +32,7 @@ class CanopenStopRig final : public StopRig {
     tells_state_ = false;
     robot_.step();
   }
-  bool stateNews() const override { return tells_state_; }
+  bool sawUnaskedState() const override { return tells_state_; }
   void passWithoutTheDriver(Duration span) override { robot_.bus().run(span); }
 
   void setBusPresent(bool present) override { robot_.bus().setInterfacePresent(present); }

@@ -199,7 +199,7 @@ class NordParamOnCan : public ::testing::Test {
   std::unique_ptr<Program> simulator_;
 };
 
-// The end of a run leaves no fault and a bus that is free. The referee is not asked: to him the node was never reset,
+// The end of a run leaves no fault and a bus that is free. The referee is not asked: it never saw the node reset,
 // and the 0000 of the next run comes after valid words.
 TEST_F(NordParamOnCan, ReadsAndWrites) {
   const Ended read = run({"read", "left", "P105"});

@@ -12,15 +12,15 @@ using ::testing::HasSubstr;
 
 constexpr auto kSeries = profile::Series::kSk5xxe;
 
-WriteWish wish(const std::string& value, bool raw = false) {
-  WriteWish made;
+WriteOptions write(const std::string& value, bool raw = false) {
+  WriteOptions made;
   made.value = value;
   made.raw = raw;
   return made;
 }
 
-double checked(const std::string& name, const WriteWish& wanted) {
-  return checkedWish(wanted, parseParameterName(name), kSeries).value;
+double checked(const std::string& name, const WriteOptions& wanted) {
+  return checkedWrite(wanted, parseParameterName(name), kSeries).value;
 }
 
 // The set and the element are in the name or in an option, not two different ones.
@@ -33,20 +33,20 @@ TEST(ParamCommands, TakesSetAndIndexFromNameOrOption) {
 }
 
 TEST(ParamCommands, ChecksAValueAgainstTheCatalogue) {
-  EXPECT_DOUBLE_EQ(2.5, checked("P102", wish("2.5")));
-  EXPECT_DOUBLE_EQ(2.5, checked("P102", wish("250", true)));
-  EXPECT_DOUBLE_EQ(-0.1, checked("P513", wish("-1", true)));
-  EXPECT_THROW(checked("P513", wish("-0.2")), Trouble);
-  EXPECT_THROW(checked("P513", wish("-2", true)), Trouble);
-  EXPECT_THROW(checked("P102", wish("fast")), UsageError);
-  EXPECT_THROW(checked("P102", wish("2.5", true)), UsageError) << "a raw value is a whole number";
+  EXPECT_DOUBLE_EQ(2.5, checked("P102", write("2.5")));
+  EXPECT_DOUBLE_EQ(2.5, checked("P102", write("250", true)));
+  EXPECT_DOUBLE_EQ(-0.1, checked("P513", write("-1", true)));
+  EXPECT_THROW(checked("P513", write("-0.2")), Trouble);
+  EXPECT_THROW(checked("P513", write("-2", true)), Trouble);
+  EXPECT_THROW(checked("P102", write("fast")), UsageError);
+  EXPECT_THROW(checked("P102", write("2.5", true)), UsageError) << "a raw value is a whole number";
 }
 
 // Without a unit nobody knows what a value means: raw, and only when it is said so.
 TEST(ParamCommands, WritesWhatTheCatalogueDoesNotKnowOnlyRaw) {
-  EXPECT_THROW(checked("P420", wish("1")), UsageError);
-  EXPECT_DOUBLE_EQ(1.0, checked("P420", wish("1", true)));
-  EXPECT_THROW(checked("P420", wish("5000000000", true)), Trouble);
+  EXPECT_THROW(checked("P420", write("1")), UsageError);
+  EXPECT_DOUBLE_EQ(1.0, checked("P420", write("1", true)));
+  EXPECT_THROW(checked("P420", write("5000000000", true)), Trouble);
 }
 
 }  // namespace

@@ -22,10 +22,10 @@ cycle::ParameterAddress parameter(std::uint16_t number, std::uint8_t set = 0, st
   return address;
 }
 
-cycle::ParameterWish value(double value) {
-  cycle::ParameterWish wish;
-  wish.value = value;
-  return wish;
+cycle::ParameterWrite value(double value) {
+  cycle::ParameterWrite write;
+  write.value = value;
+  return write;
 }
 
 // As a master that has died left it: P513 = 0 lets it run on (BU 2700 7.1.1).
@@ -98,10 +98,10 @@ TEST(ParameterLink, SavesWhatIsThereAlready) {
   LinkedDrive drive;
   drive.left().parameters().write(102, 0, 0, 250, sim::Storage::kRam);
   drive.connect();
-  cycle::ParameterWish wish = value(2.5);
-  EXPECT_THAT(drive.link().write(parameter(102), wish).message, HasSubstr("nothing was written"));
-  wish.persistent = true;
-  const ParameterAnswer saved = drive.link().write(parameter(102), wish);
+  cycle::ParameterWrite write = value(2.5);
+  EXPECT_THAT(drive.link().write(parameter(102), write).message, HasSubstr("nothing was written"));
+  write.persistent = true;
+  const ParameterAnswer saved = drive.link().write(parameter(102), write);
   EXPECT_TRUE(saved.success) << saved.message;
   EXPECT_EQ(1u, drive.left().parameters().eepromWrites());
   drive.left().parameters().restoreFromEeprom();

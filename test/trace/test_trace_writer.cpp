@@ -80,10 +80,10 @@ TEST_F(TraceWriterTest, KeepsTheNewest) {
 TEST_F(TraceWriterTest, NamesAMissingDirectory) {
   const std::string missing = directory_ + "/missing";
   TraceWriter traces{{missing, 2}, drives(), &trace_, feed_.history()};
-  EXPECT_EQ("no trace can be written: trace_directory " + missing + " is no directory", traces.obstacle());
+  EXPECT_EQ("no trace can be written: trace_directory " + missing + " is no directory", traces.whyNotWritable());
   const TraceResult result = traces.writeNow(clockAt(0));
   EXPECT_FALSE(result.written);
-  EXPECT_EQ(traces.obstacle(), result.message);
+  EXPECT_EQ(traces.whyNotWritable(), result.message);
 }
 
 // Nobody, not even root, can create a file in /proc.

@@ -63,7 +63,7 @@ struct DriveIdentity {
 
 /// Something that happened on the bus, told once: a sentence for a technician.
 struct BusEvent {
-  bool warning = true;  ///< false: good news
+  bool warning = true;  ///< false: for information
   Sentence text = {};
 };
 

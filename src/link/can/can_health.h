@@ -1,4 +1,4 @@
-// What the error frames of a controller and the news of its interface add up to: a state, counters, a sentence.
+// What the error frames of a controller and the kernel messages about its interface add up to: a state, counters, a sentence.
 #pragma once
 
 #include "link/can/can_interface.h"

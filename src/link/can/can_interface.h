@@ -18,7 +18,7 @@ struct CanInterface {
   InterfaceWord queue;  ///< queueing discipline ("pfifo_fast", "fq_codel", "noqueue")
   bool is_can = false;  ///< and not Ethernet, for example
   bool up = false;
-  bool removed = false;          ///< the message was a farewell
+  bool removed = false;          ///< the message said that the interface was removed
   bool has_controller = false;   ///< what follows was told
   bool listen_only = false;      ///< the controller may neither send nor acknowledge
   std::uint32_t bit_rate = 0;    ///< bit/s; 0: not told, or not set yet

@@ -27,9 +27,9 @@ struct CanReceipt {
 };
 
 struct CanReady {
-  bool socket = false;  ///< something to be read (an error of the socket, too), or room to write
-  bool news = false;    ///< the news have something
-  int error = 0;        ///< errno, EINTR included
+  bool socket = false;    ///< something to be read (an error of the socket, too), or room to write
+  bool messages = false;  ///< a kernel message about interfaces can be read
+  int error = 0;          ///< errno, EINTR included
 };
 
 /// Every function that can fail gives 0 (or a descriptor) and otherwise -errno. Nothing allocates and nothing throws.
@@ -44,10 +44,10 @@ class CanSystem {
   virtual int readInterface(const char* name, CanInterface& interface) noexcept = 0;
   /// Asks the controller to leave bus-off. -EPERM without CAP_NET_ADMIN.
   virtual int restart(int index) noexcept = 0;
-  /// A descriptor for the news of interfaces, not blocking.
-  virtual int openNews() noexcept = 0;
-  /// The next news; -EAGAIN: there are none. -ENOBUFS: some were lost.
-  virtual int readNews(int descriptor, CanInterface& interface) noexcept = 0;
+  /// A descriptor for kernel messages about interfaces, not blocking.
+  virtual int openInterfaceMessages() noexcept = 0;
+  /// The next message; -EAGAIN: there is none. -ENOBUFS: some were lost.
+  virtual int readInterfaceMessage(int descriptor, CanInterface& interface) noexcept = 0;
 
   /// Data frames with exactly these 11 bit identifiers.
   virtual int setFilters(int descriptor, const std::vector<std::uint32_t>& ids) noexcept = 0;
@@ -61,8 +61,8 @@ class CanSystem {
   virtual int receive(int descriptor, CanReceipt& receipt) noexcept = 0;
   /// Frames the kernel had no room for, since the socket was made.
   virtual int readDropCount(int descriptor, std::uint32_t& count) noexcept = 0;
-  /// `news` may be -1. `to_write`: room to write is waited for, and not something to be read.
-  virtual CanReady poll(int descriptor, int news, bool to_write, Duration timeout) noexcept = 0;
+  /// `messages` may be -1. `to_write`: room to write is waited for, and not something to be read.
+  virtual CanReady poll(int descriptor, int messages, bool to_write, Duration timeout) noexcept = 0;
 
   virtual Instant now() const noexcept = 0;
   virtual void sleepUntil(Instant when) noexcept = 0;

@@ -71,9 +71,9 @@ class LinuxCanSystem final : public CanSystem {
     return netlink::readInterface(name, interface);
   }
   int restart(int index) noexcept override { return netlink::restart(index); }
-  int openNews() noexcept override { return netlink::openNews(); }
-  int readNews(int descriptor, CanInterface& interface) noexcept override {
-    return netlink::readNews(descriptor, interface);
+  int openInterfaceMessages() noexcept override { return netlink::openInterfaceMessages(); }
+  int readInterfaceMessage(int descriptor, CanInterface& interface) noexcept override {
+    return netlink::readInterfaceMessage(descriptor, interface);
   }
 
   int setFilters(int descriptor, const std::vector<std::uint32_t>& ids) noexcept override {
@@ -133,17 +133,17 @@ class LinuxCanSystem final : public CanSystem {
     count = info[SK_MEMINFO_DROPS];
     return 0;
   }
-  CanReady poll(int descriptor, int news, bool to_write, Duration timeout) noexcept override {
+  CanReady poll(int descriptor, int messages, bool to_write, Duration timeout) noexcept override {
     const timespec left = toTimeout(timeout);
     const short wanted = to_write ? POLLOUT : POLLIN;
-    pollfd wait[] = {{descriptor, wanted, 0}, {news, POLLIN, 0}};
+    pollfd wait[] = {{descriptor, wanted, 0}, {messages, POLLIN, 0}};
     CanReady ready;
     if (::ppoll(wait, 2, &left, nullptr) < 0) {
       ready.error = errno;
       return ready;
     }
     ready.socket = wait[0].revents != 0;
-    ready.news = wait[1].revents != 0;
+    ready.messages = wait[1].revents != 0;
     return ready;
   }
 

@@ -144,7 +144,7 @@ int restart(int index) noexcept {
   return error == 1 ? -EPROTO : error;
 }
 
-int openNews() noexcept {
+int openInterfaceMessages() noexcept {
   Socket socket;
   if (socket.descriptor() < 0) return -errno;
   sockaddr_nl address{};
@@ -154,7 +154,7 @@ int openNews() noexcept {
   return socket.release();
 }
 
-int readNews(int descriptor, CanInterface& interface) noexcept {
+int readInterfaceMessage(int descriptor, CanInterface& interface) noexcept {
   alignas(nlmsghdr) std::uint8_t message[kLongestMessage];
   const ssize_t length = ::recv(descriptor, message, sizeof message, 0);
   if (length < 0) return -errno;

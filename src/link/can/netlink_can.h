@@ -8,7 +8,7 @@ namespace nord_driver::link::netlink {
 /// See CanSystem.
 int readInterface(const char* name, CanInterface& interface) noexcept;
 int restart(int index) noexcept;
-int openNews() noexcept;
-int readNews(int descriptor, CanInterface& interface) noexcept;
+int openInterfaceMessages() noexcept;
+int readInterfaceMessage(int descriptor, CanInterface& interface) noexcept;
 
 }  // namespace nord_driver::link::netlink

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kLongestError = 500;
 /// A controller that reports every single bit error must not hold the caller for ever.
 constexpr int kMostErrorFramesAtOnce = 64;
-constexpr int kMostNewsAtOnce = 64;
+constexpr int kMostMessagesAtOnce = 64;
 
 bool meansRemoved(int error) noexcept {
   return error == ENODEV || error == ENXIO;
@@ -51,8 +51,8 @@ void SocketCan::close() noexcept {
   if (descriptor_ < 0) return;
   readDropCount();  // the last ones before it goes
   system_.close(descriptor_);
-  if (news_ >= 0) system_.close(news_);
-  descriptor_ = news_ = -1;
+  if (interface_messages_ >= 0) system_.close(interface_messages_);
+  descriptor_ = interface_messages_ = -1;
   has_pending_ = queue_full_ = false;
 }
 
@@ -69,7 +69,7 @@ bool SocketCan::open() noexcept {
   if (descriptor < 0) return fail("no CAN socket", -descriptor);
   descriptor_ = descriptor;
   drop_count_ = 0;
-  news_ = system_.openNews();  // before the interface is read, so that no change is missed
+  interface_messages_ = system_.openInterfaceMessages();  // before the interface is read, so that no change is missed
   CanInterface interface;
   if (const int result = system_.readInterface(settings_.interface.c_str(), interface)) {
     return result == -ENODEV ? fail("there is no such interface: is the adapter plugged in? (ip link show type can)")
@@ -132,7 +132,7 @@ void SocketCan::failedCall(const char* what, int error) noexcept {
   }
 }
 
-/// The socket keeps this error until it is read: the interface may be up again by now, and that news be read already.
+/// The socket keeps this error until it is read: the interface may be up again by now, and that message be read already.
 void SocketCan::wentDown() noexcept {
   CanInterface interface;
   const int result = system_.readInterface(settings_.interface.c_str(), interface);
@@ -210,9 +210,9 @@ bool SocketCan::receive(ReceivedCanFrame& received) noexcept {
 bool SocketCan::waitReadable(Instant until) noexcept {
   while (descriptor_ >= 0) {
     if (has_pending_) return true;
-    const CanReady ready = system_.poll(descriptor_, news_, false, until - now());
+    const CanReady ready = system_.poll(descriptor_, interface_messages_, false, until - now());
     if (ready.error != 0 && ready.error != EINTR) return fail("cannot be waited for", ready.error);
-    if (ready.news) takeNews();
+    if (ready.messages) takeInterfaceMessages();
     if (ready.socket && takeNext(pending_)) has_pending_ = true;
     tendBusOff();
     if (!has_pending_ && now() >= until) return false;
@@ -236,10 +236,10 @@ bool SocketCan::waitWritable(Instant until) noexcept {
   }
 }
 
-void SocketCan::takeNews() noexcept {
-  for (int i = 0; i < kMostNewsAtOnce && news_ >= 0; ++i) {
+void SocketCan::takeInterfaceMessages() noexcept {
+  for (int i = 0; i < kMostMessagesAtOnce && interface_messages_ >= 0; ++i) {
     CanInterface interface;
-    int result = system_.readNews(news_, interface);
+    int result = system_.readInterfaceMessage(interface_messages_, interface);
     if (result == -EAGAIN) return;
     if (result == -ENOBUFS) {  // some were lost: ask
       result = system_.readInterface(settings_.interface.c_str(), interface);

@@ -54,7 +54,7 @@ class SocketCan final : public CanLink {
   void wentDown() noexcept;
   bool takeNext(ReceivedCanFrame& received) noexcept;
   Instant arrival(const CanReceipt& receipt) const noexcept;
-  void takeNews() noexcept;
+  void takeInterfaceMessages() noexcept;
   void tendBusOff() noexcept;
   void readDropCount() const noexcept;
 
@@ -63,7 +63,7 @@ class SocketCan final : public CanLink {
   Sentence problem_;  // with the settings
   std::string error_;
   int descriptor_ = -1;
-  int news_ = -1;
+  int interface_messages_ = -1;
   bool has_pending_ = false;
   bool queue_full_ = false;  // the interface's, which wakes nobody
   ReceivedCanFrame pending_;

@@ -79,7 +79,7 @@ void CanReferee::nmt(const CanFrame& frame) noexcept {
     if (node != 0 && i != node) continue;
     views_[i].started = command == kStart;
     views_[i].stopped = command == kStop;
-    views_[i].since_news = 0;
+    views_[i].since_told = 0;
   }
 }
 
@@ -90,7 +90,7 @@ void CanReferee::delivered(const CanFrame& frame) noexcept {
   const auto state = static_cast<NmtState>(frame.data[0] & ~unsigned{kToggleBit});
   if (state == NmtState::kOperational) return;
   if (state != NmtState::kStopped) view.stopped = false;
-  if (view.started) view.since_news = kRpdoTolerance;
+  if (view.started) view.since_told = kRpdoTolerance;
   view.started = false;
 }
 
@@ -98,8 +98,8 @@ void CanReferee::rpdo(std::uint8_t node, std::size_t length, std::size_t expecte
   if (length != expected) broken(CanRule::kRpdoLength);
   View& view = views_[node];
   if (view.started) return;
-  if (view.since_news > 0) {
-    --view.since_news;
+  if (view.since_told > 0) {
+    --view.since_told;
     return;
   }
   broken(CanRule::kRpdoBeforeOperational);

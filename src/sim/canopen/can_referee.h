@@ -40,7 +40,7 @@ const char* toString(CanRule rule) noexcept;
 class CanReferee {
  public:
   static constexpr std::size_t kNodes = 128;
-  /// RPDOs that may still follow the news that a node is no longer operational: they were on their way.
+  /// RPDOs that may still follow the message that a node is no longer operational: they were on their way.
   static constexpr unsigned kRpdoTolerance = 3;
 
   void broken(CanRule rule) noexcept { ++counts_[static_cast<std::size_t>(rule)]; }
@@ -69,7 +69,7 @@ class CanReferee {
     bool exists = false;
     bool started = false;  ///< by an NMT command
     bool stopped = false;
-    unsigned since_news = 0;  ///< RPDOs since the node told that it is not operational
+    unsigned since_told = 0;  ///< RPDOs since the node told that it is not operational
   };
 
   void nmt(const CanFrame& frame) noexcept;

@@ -79,7 +79,7 @@ void CanStations::receive(const CanFrame& frame, Judge judge, CanSink& sink) noe
 }
 
 void CanStations::delivered(const CanFrame& frame, bool to_master, CanSink& sink) noexcept {
-  // A heartbeat that waited for the bus may tell what is over already: it is no news to be judged by.
+  // A heartbeat that waited for the bus may tell what is over already: it is nothing to judge by.
   const CanNode* sender =
       frame.id > kErrorControl ? find(static_cast<std::uint8_t>(frame.id - kErrorControl)) : nullptr;
   const bool stale = sender != nullptr && sender->state() == NmtState::kOperational;

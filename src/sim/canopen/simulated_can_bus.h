@@ -81,7 +81,7 @@ class SimulatedCanBus : public link::CanLink, private CanSink {
   void loseAnswers(unsigned count) noexcept { lose_answers_ = count; }
   /// The next `count` received frames find no room.
   void overflow(unsigned count) noexcept { overflow_ = count; }
-  /// Someone else sends this as soon as the bus lets him.
+  /// Someone else sends this as soon as the bus is free.
   void inject(const CanFrame& frame) noexcept;
   void setTap(Tap tap) { tap_ = std::move(tap); }
 

@@ -62,7 +62,7 @@ Sentence CanListenFirst::text() const noexcept {
   Sentence text;
   if (heard_ && who_ == CanListener::kDriver) {
     text.format(
-        "another master works with these nodes: %03Xh was seen; nothing is sent until he has been silent for %d s",
+        "another master works with these nodes: %03Xh was seen; nothing is sent until it has been silent for %d s",
         static_cast<unsigned>(*heard_), static_cast<int>(kGone.count()));
   } else if (heard_) {
     text.format(

@@ -23,7 +23,7 @@ enum class CanListener : std::uint8_t {
 /// Silent from `restart()` on for as long as it listens, and for as long as somebody else has the bus.
 class CanListenFirst {
  public:
-  /// A driver's other master has ended when he was silent for so long: an RPDO or a question each second at least is
+  /// A driver's other master has ended when it was silent for so long: an RPDO or a question each second at least is
   /// what can be expected of one.
   static constexpr std::chrono::seconds kGone{2};
 

@@ -115,7 +115,7 @@ bool CanopenTransport::linkReady() noexcept {
 void CanopenTransport::restart() noexcept {
   const Instant now = link_->now();
   master_->restart(now);
-  // A driver whose interface was away has had the nodes: they may turn, and must hear from him at once.
+  // A driver whose interface was away has had the nodes: they may turn, and must hear from this driver at once.
   if (parameters_only_ || !opened_) listen_first_->restart(now);
   opened_ = true;
   for (CanopenDriveState& drive : drives_) drive.handleRestart();
@@ -303,7 +303,7 @@ BusCounters CanopenTransport::counters() const noexcept {
 DriveNote CanopenTransport::note(DriveIndex drive) const noexcept {
   if (!link_->isOpen()) return {"the CAN interface is not open"};
   if (!isSilent()) return {drives_[drive].note()};
-  return {listen_first_->heard() ? "another master has the bus: nothing is sent beside him"
+  return {listen_first_->heard() ? "another master has the bus: nothing is sent beside it"
                                  : "it is listened for other masters before anything is sent"};
 }
 

@@ -27,11 +27,11 @@ namespace nord_driver {
 /// is operational, its error control alive, and its event timer not overdue. In the pause between two cycles frames go
 /// in and out as well: parameters, error control and start-ups do not wait for the next cycle, nor does it for them.
 ///
-/// Before the first frame it listens: nodes that another master works with are not taken away from him, he is waited
+/// Before the first frame it listens: nodes that another master works with are not taken away from it, it is waited
 /// for. From then on it holds them, but a drive that somebody else commands as well does not count as answering.
 ///
 /// For parameters only: nothing is reset and nothing watched, and nothing is sent on a bus that somebody else works
-/// with, whether he was heard before the first frame or came later.
+/// with, whether it was heard before the first frame or came later.
 class CanopenTransport final : public Transport, public ParametersOnly {
  public:
   using LinkFactory = std::function<std::unique_ptr<link::CanLink>(const link::CanSettings&)>;

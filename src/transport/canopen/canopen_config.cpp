@@ -73,9 +73,9 @@ class Reader {
     drive.node = findOrAdd(settings, drive, node);
     canopen::NodeConfig& shared = config_.master.nodes[drive.node];
     addServer(settings, drive, shared);
-    const CanopenPdoWish wish = readPdoWish(settings, drive, defaults_);
-    addPdos(drive, wish, shared);
-    drive.transmit_limit = limit(wish);
+    const CanopenPdoOptions pdo = readPdoOptions(settings, drive, defaults_);
+    addPdos(drive, pdo, shared);
+    drive.transmit_limit = limit(pdo);
     shared.first_answer_timeout = std::max(shared.first_answer_timeout, firstAnswerTimeout(drive));
     config_.drives.push_back(drive);
   }
@@ -122,10 +122,10 @@ class Reader {
   }
 
   // Two and a half event times: one TPDO may be lost, and each may be late.
-  Duration limit(const CanopenPdoWish& wish) const {
-    if (wish.synchronous) return 3 * defaults_.period;
-    if (!wish.event_time || *wish.event_time == Duration::zero()) return Duration::zero();
-    return *wish.event_time * 5 / 2;
+  Duration limit(const CanopenPdoOptions& pdo) const {
+    if (pdo.synchronous) return 3 * defaults_.period;
+    if (!pdo.event_time || *pdo.event_time == Duration::zero()) return Duration::zero();
+    return *pdo.event_time * 5 / 2;
   }
 
   // A node that sends on changes only begins with what there is, or says nothing for a long time.

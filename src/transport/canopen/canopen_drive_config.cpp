@@ -197,22 +197,22 @@ NodeConfig readCanopenNode(const Settings& settings, const CanopenDrive& drive, 
   return node;
 }
 
-CanopenPdoWish readPdoWish(const Settings& settings, const CanopenDrive& drive, const CanopenBusDefaults& bus) {
+CanopenPdoOptions readPdoOptions(const Settings& settings, const CanopenDrive& drive, const CanopenBusDefaults& bus) {
   constexpr Duration kMaxInhibit = std::chrono::microseconds{6'553'500};  // 16 bits of 100 us
   constexpr Duration kDefaultEventTime = milliseconds{50};
-  CanopenPdoWish wish;
-  wish.synchronous = bus.sync;
+  CanopenPdoOptions pdo;
+  pdo.synchronous = bus.sync;
   const Duration inhibit = std::min<Duration>(std::chrono::round<milliseconds>(bus.period), kMaxInhibit);
-  wish.inhibit_time = seconds(numberOr(settings, "inhibit_time", toSeconds(inhibit), 0.0, toSeconds(kMaxInhibit), "s"));
+  pdo.inhibit_time = seconds(numberOr(settings, "inhibit_time", toSeconds(inhibit), 0.0, toSeconds(kMaxInhibit), "s"));
   const Duration event = std::max<Duration>(kDefaultEventTime, 2 * std::chrono::round<milliseconds>(bus.period));
-  wish.event_time = wholeMilliseconds(settings, "event_time", event, Duration::zero(), kMaxTime);
+  pdo.event_time = wholeMilliseconds(settings, "event_time", event, Duration::zero(), kMaxTime);
   const bool known = drive.process_values == 1 && drive.connection != CanopenConnection::kSystemBus;
-  wish.write_mapping = readChoice(settings, "pdo_mapping", known, kMappings);
-  if (!wish.write_mapping && drive.drive_profile == DriveProfile::kCia402) {
+  pdo.write_mapping = readChoice(settings, "pdo_mapping", known, kMappings);
+  if (!pdo.write_mapping && drive.drive_profile == DriveProfile::kCia402) {
     throw wrongSetting(settings, "pdo_mapping", "\"keep\"",
                        "write: profile cia402 needs 6040h, 6041h, 6042h and 6044h");
   }
-  return wish;
+  return pdo;
 }
 
 ParameterServers readParameterServers(const Settings& settings, const CanopenDrive& drive) {

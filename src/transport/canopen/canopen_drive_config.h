@@ -25,7 +25,7 @@ canopen::NodeConfig readCanopenNode(const Settings& settings, const CanopenDrive
 /// A further inverter behind a node that is there already: what it says of the module must be what the first one said.
 void checkSharedNode(const Settings& settings, const canopen::NodeConfig& node, const canopen::NodeConfig& first,
                      const std::string& first_name);
-CanopenPdoWish readPdoWish(const Settings& settings, const CanopenDrive& drive, const CanopenBusDefaults& bus);
+CanopenPdoOptions readPdoOptions(const Settings& settings, const CanopenDrive& drive, const CanopenBusDefaults& bus);
 /// The identifiers of the SDO server the drive's parameters are reached by. Throws ConfigError.
 canopen::SdoChannel readSdoServer(const Settings& settings, const CanopenDrive& drive, std::uint8_t node_id);
 ParameterServers readParameterServers(const Settings& settings, const CanopenDrive& drive);

@@ -74,10 +74,10 @@ PdoConfig disabledPdo(std::uint16_t number, std::uint32_t cob_id) {
 
 }  // namespace
 
-void addPdos(CanopenDrive& drive, const CanopenPdoWish& wish, canopen::NodeConfig& node) {
+void addPdos(CanopenDrive& drive, const CanopenPdoOptions& pdo, canopen::NodeConfig& node) {
   const bool cia402 = drive.drive_profile == DriveProfile::kCia402;
   const std::uint16_t number = pdoNumber(drive);
-  const std::uint8_t type = wish.synchronous ? kWithEverySync : kAtOnce;
+  const std::uint8_t type = pdo.synchronous ? kWithEverySync : kAtOnce;
 
   PdoConfig receive;
   receive.number = number;
@@ -87,9 +87,9 @@ void addPdos(CanopenDrive& drive, const CanopenPdoWish& wish, canopen::NodeConfi
   transmit.number = number;
   transmit.cob_id = cobId(kFirstTransmitPdo, number, node.id);
   transmit.transmission_type = type;
-  if (!wish.synchronous && wish.inhibit_time) transmit.inhibit_time = countOf<HundredMicroseconds>(*wish.inhibit_time);
-  if (!wish.synchronous && wish.event_time) transmit.event_timer = countOf<std::chrono::milliseconds>(*wish.event_time);
-  if (wish.write_mapping) {
+  if (!pdo.synchronous && pdo.inhibit_time) transmit.inhibit_time = countOf<HundredMicroseconds>(*pdo.inhibit_time);
+  if (!pdo.synchronous && pdo.event_time) transmit.event_timer = countOf<std::chrono::milliseconds>(*pdo.event_time);
+  if (pdo.write_mapping) {
     receive.mapping =
         cia402 ? cia402Mapping(kCia402ControlWord, kCia402TargetVelocity) : mapping(drive, kControlWord, kSetpoints);
     transmit.mapping =

@@ -23,7 +23,7 @@
 namespace nord_driver {
 
 /// What the PDOs of a drive shall be.
-struct CanopenPdoWish {
+struct CanopenPdoOptions {
   bool synchronous = false;              ///< with every SYNC, and not at once on a change
   std::optional<Duration> inhibit_time;  ///< none: left as it is
   std::optional<Duration> event_time;    ///< none: left as it is
@@ -31,7 +31,7 @@ struct CanopenPdoWish {
 };
 
 /// Adds the drive's PDOs to its node and notes in the drive which ones they are.
-void addPdos(CanopenDrive& drive, const CanopenPdoWish& wish, canopen::NodeConfig& node);
+void addPdos(CanopenDrive& drive, const CanopenPdoOptions& pdo, canopen::NodeConfig& node);
 
 using PdoBytes = FixedBytes<kCanDataLength>;
 

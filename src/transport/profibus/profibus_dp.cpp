@@ -14,7 +14,7 @@ namespace {
 
 constexpr Duration kReopenInterval = std::chrono::milliseconds{500};
 constexpr Duration kScanSlice = std::chrono::milliseconds{50};  // of one exchange()
-constexpr Duration kNewsLast = std::chrono::seconds{10};
+constexpr Duration kToldFor = std::chrono::seconds{10};
 
 // The manual wants an order repeated until it is answered (BU 2700 6.5); a healthy inverter takes a few cycles.
 Duration answerTimeout(double cycle_rate) {
@@ -349,19 +349,19 @@ Sentence ProfibusDpTransport::busText() const noexcept {
     text.format("%s", link_->lastError().empty() ? "the bus device is not open yet" : link_->lastError().c_str());
   } else if (scan_) {
     text = "every address is asked once (scan) before data are exchanged";
-  } else if (last_foreign_ && now - *last_foreign_ < kNewsLast) {
+  } else if (last_foreign_ && now - *last_foreign_ < kToldFor) {
     text.format("another master is on this segment%s: this driver must be the only one",
                 master_->isListening() ? ", and nothing is sent for as long as it is heard" : "");
   } else if (master_->isListening()) {
     text = "listens for other masters before it sends anything (listen_first)";
-  } else if (last_busy_ && now - *last_busy_ < kNewsLast) {
+  } else if (last_busy_ && now - *last_busy_ < kToldFor) {
     text =
         "the line never falls silent, so that nothing can be sent: check polarity, termination and biasing, or another "
         "station babbles";
   } else if (!connected()) {
     text = silenceText();
   } else if (std::all_of(drives_.begin(), drives_.end(), [](const DriveState& d) { return d.inverter_answers; })) {
-    text.format("%s", link_->warning());  // a silent drive is worse news, told by its note
+    text.format("%s", link_->warning());  // a silent drive is worse, and told by its note
   } else {
     text = live_list_;
   }

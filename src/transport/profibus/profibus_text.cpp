@@ -16,7 +16,7 @@ const char* moduleName(std::uint16_t ident) noexcept {
   return "";
 }
 
-bool isGoodNews(DpEventKind kind) noexcept {
+bool isInformation(DpEventKind kind) noexcept {
   return kind == DpEventKind::kSlaveFound || kind == DpEventKind::kDataExchangeEntered;
 }
 
@@ -34,7 +34,7 @@ ProfibusText::ProfibusText(const ProfibusDpConfig& config) : config_(config) {
 
 BusEvent ProfibusText::event(const profibus::DpEvent& event, const profibus::DpMaster& master) const noexcept {
   BusEvent told;
-  told.warning = !isGoodNews(event.kind);
+  told.warning = !isInformation(event.kind);
   if (event.slave >= names_.size()) {
     if (event.kind == DpEventKind::kForeignMaster) {
       told.text.format("PROFIBUS address %u: %s", event.master, event.text);

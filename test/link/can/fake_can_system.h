@@ -14,13 +14,13 @@ namespace nord_driver::link {
 class FakeCanSystem final : public CanSystem {
  public:
   static constexpr int kSocket = 7;
-  static constexpr int kNews = 8;
+  static constexpr int kMessages = 8;
 
   // The world.
   CanInterface interface;
   int open_error = 0;
   int read_interface_error = 0;
-  int news_error = 0;
+  int interface_messages_error = 0;
   int filter_error = 0;
   int bind_error = 0;
   int restart_error = 0;
@@ -30,12 +30,12 @@ class FakeCanSystem final : public CanSystem {
     int error = 0;
     CanReceipt receipt;
   };
-  struct News {
+  struct Message {
     int error = 0;
     CanInterface interface;
   };
   std::deque<Arrival> arrivals;
-  std::deque<News> news;
+  std::deque<Message> messages;
   std::deque<int> send_errors;
   std::deque<int> poll_errors;
   bool has_room = true;
@@ -82,15 +82,15 @@ class FakeCanSystem final : public CanSystem {
     ++restarts;
     return -restart_error;
   }
-  int openNews() noexcept override {
-    if (news_error != 0) return -news_error;
+  int openInterfaceMessages() noexcept override {
+    if (interface_messages_error != 0) return -interface_messages_error;
     ++open_descriptors;
-    return kNews;
+    return kMessages;
   }
-  int readNews(int, CanInterface& to) noexcept override {
-    if (news.empty()) return -EAGAIN;
-    const News first = news.front();
-    news.pop_front();
+  int readInterfaceMessage(int, CanInterface& to) noexcept override {
+    if (messages.empty()) return -EAGAIN;
+    const Message first = messages.front();
+    messages.pop_front();
     to = first.interface;
     return -first.error;
   }
@@ -139,7 +139,7 @@ class FakeCanSystem final : public CanSystem {
     return 0;
   }
   /// Time passes only here and in sleepUntil(): to the deadline, when nothing is there.
-  CanReady poll(int, int news_descriptor, bool to_write, Duration timeout) noexcept override {
+  CanReady poll(int, int messages_descriptor, bool to_write, Duration timeout) noexcept override {
     ++polls;
     CanReady ready;
     if (!poll_errors.empty()) {
@@ -148,8 +148,8 @@ class FakeCanSystem final : public CanSystem {
       return ready;
     }
     ready.socket = to_write ? has_room : !arrivals.empty();
-    ready.news = news_descriptor == kNews && !news.empty();
-    if (!ready.socket && !ready.news) time += std::max(timeout, Duration::zero());
+    ready.messages = messages_descriptor == kMessages && !messages.empty();
+    if (!ready.socket && !ready.messages) time += std::max(timeout, Duration::zero());
     return ready;
   }
   Instant now() const noexcept override { return time; }
@@ -172,8 +172,8 @@ class FakeCanSystem final : public CanSystem {
     receipt.error.data = data;
     arrivals.push_back({0, receipt});
   }
-  /// The interface as it is now is news.
-  void tell() { news.push_back({0, interface}); }
+  /// The state of the interface is sent as a message.
+  void tell() { messages.push_back({0, interface}); }
 };
 
 }  // namespace nord_driver::link

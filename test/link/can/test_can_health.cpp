@@ -119,7 +119,7 @@ TEST_F(CanHealthTest, BusOffAndRestarted) {
   EXPECT_EQ(1u, health.counters().restarts);
 }
 
-// The kernel tells of bus-off twice: as an error frame and as news of the interface.
+// The kernel tells of bus-off twice: as an error frame and as a message about the interface.
 TEST_F(CanHealthTest, BusOffToldTwiceIsOne) {
   interface.state = CanState::kBusOff;
   health.handleInterface(interface);
@@ -170,7 +170,7 @@ TEST_F(CanHealthTest, DownAndUpAgain) {
   EXPECT_EQ(0u, health.counters().restarts);
 }
 
-// Without news of interfaces a frame that went out is the proof.
+// Without messages about interfaces a frame that went out is the proof.
 TEST_F(CanHealthTest, ASentFrameProvesThatItIsUp) {
   health.handleDown();
   health.handleSent();

@@ -105,7 +105,7 @@ TEST(LinkMessage, AVirtualInterfaceHasNoController) {
   EXPECT_EQ(CanState::kUnknown, interface.state);
 }
 
-TEST(LinkMessage, AFarewellAndAnOtherKindOfInterface) {
+TEST(LinkMessage, ARemovalAndAnOtherKindOfInterface) {
   CanInterface interface;
   ASSERT_TRUE(parseLinkMessage(message(kDelLink, kCanType, 0, nameAndQueue()), interface));
   EXPECT_TRUE(interface.removed);

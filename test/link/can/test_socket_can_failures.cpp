@@ -100,11 +100,11 @@ TEST_F(SocketCanFailures, DownKeepsTheLinkOpen) {
   kernel.arrivals.push_back({ENETDOWN, {}});
   EXPECT_FALSE(link.receive(received));
   EXPECT_EQ(CanState::kDown, link.state());
-  EXPECT_EQ(CanSend::kSent, link.send(kFrame));  // without news this is the proof
+  EXPECT_EQ(CanSend::kSent, link.send(kFrame));  // without messages this is the proof
   EXPECT_EQ(CanState::kUnknown, link.state());
 }
 
-// The socket keeps the error until it is read: the news that it is up again may have been read before.
+// The socket keeps the error until it is read: the message that it is up again may have been read before.
 TEST_F(SocketCanFailures, AnOldErrorDoesNotHideThatItIsUpAgain) {
   ASSERT_TRUE(link.open());
   kernel.arrivals.push_back({ENETDOWN, {}});
@@ -154,31 +154,31 @@ TEST_F(SocketCanFailures, RemovedClosesAndReopensUnderTheSameName) {
   EXPECT_EQ(0, kernel.open_descriptors);
 }
 
-TEST_F(SocketCanFailures, NewsOfOtherInterfacesDoNotConcernUs) {
+TEST_F(SocketCanFailures, MessagesOfOtherInterfacesDoNotConcernUs) {
   ASSERT_TRUE(link.open());
-  FakeCanSystem::News other{0, kernel.interface};
+  FakeCanSystem::Message other{0, kernel.interface};
   other.interface.index = 4;
   other.interface.removed = true;
-  kernel.news = {other, {EPROTO, {}}};
+  kernel.messages = {other, {EPROTO, {}}};
   look();
   EXPECT_TRUE(link.isOpen());
 }
 
-// Too many news at once: the kernel threw some away, so it is asked.
-TEST_F(SocketCanFailures, LostNewsAreAskedFor) {
+// Too many messages at once: the kernel threw some away, so it is asked.
+TEST_F(SocketCanFailures, LostMessagesAreAskedFor) {
   ASSERT_TRUE(link.open());
   kernel.interface.up = false;
-  kernel.news = {{ENOBUFS, {}}};
+  kernel.messages = {{ENOBUFS, {}}};
   look();
   EXPECT_EQ(CanState::kDown, link.state());
   kernel.interface.name = "can1";
-  kernel.news = {{ENOBUFS, {}}};
+  kernel.messages = {{ENOBUFS, {}}};
   look();
   EXPECT_FALSE(link.isOpen());
 }
 
-TEST_F(SocketCanFailures, WithoutNewsItWorksAllTheSame) {
-  kernel.news_error = EPERM;
+TEST_F(SocketCanFailures, WithoutMessagesItWorksAllTheSame) {
+  kernel.interface_messages_error = EPERM;
   ASSERT_TRUE(link.open());
   kernel.arrive(kFrame);
   EXPECT_TRUE(link.waitReadable(kernel.time + milliseconds{1}));

@@ -59,7 +59,7 @@ TEST_F(CanRefereeTest, Lengths) {
 }
 
 // A node that fell back to pre-operational by itself: a few RPDOs were on their way, then the master must have noticed.
-TEST_F(CanRefereeTest, RpdoAfterTheNews) {
+TEST_F(CanRefereeTest, RpdoAfterTheNodeHasTold) {
   bus.sdo("2B 17 10 00 0A 00 00 00");  // heartbeat every 10 ms
   bus.start();
   bus.repeat("232#7E040000", milliseconds(100), "1B2");

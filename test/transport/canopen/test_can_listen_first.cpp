@@ -100,7 +100,7 @@ TEST(CanListenFirst, ADriverWaitsUntilTheOtherHasEnded) {
   listen.handleMaster(0x203, kStart + milliseconds{499});
   EXPECT_FALSE(listen.mayTalk(kStart + milliseconds{600}));
   listen.handleMaster(0x000, kStart + milliseconds{1000});
-  EXPECT_STREQ("another master works with these nodes: 000h was seen; nothing is sent until he has been silent for 2 s",
+  EXPECT_STREQ("another master works with these nodes: 000h was seen; nothing is sent until it has been silent for 2 s",
                listen.text().c_str());
   EXPECT_EQ(kStart + milliseconds{3000}, listen.nextDeadline());
   EXPECT_FALSE(listen.mayTalk(kStart + milliseconds{2999}));

@@ -92,11 +92,11 @@ TEST(CanopenMap, Cia402WordsAreLittleEndianToo) {
 TEST(CanopenMap, OneValueUsesPdoOne) {
   CanopenDrive config = drive();
   NodeConfig node = node50();
-  CanopenPdoWish wish;
-  wish.write_mapping = true;
-  wish.inhibit_time = milliseconds{10};
-  wish.event_time = milliseconds{50};
-  addPdos(config, wish, node);
+  CanopenPdoOptions pdo;
+  pdo.write_mapping = true;
+  pdo.inhibit_time = milliseconds{10};
+  pdo.event_time = milliseconds{50};
+  addPdos(config, pdo, node);
   ASSERT_EQ(1u, node.receive_pdos.size());
   ASSERT_EQ(1u, node.transmit_pdos.size());
   const PdoConfig& receive = node.receive_pdos[config.receive_pdo];
@@ -135,9 +135,9 @@ TEST(CanopenMap, ThreeValuesSwitchToPdoTwo) {
 TEST(CanopenMap, AMappingThatIsWrittenFollowsTheSeries) {
   CanopenDrive config = swapped();
   NodeConfig node = node50();
-  CanopenPdoWish wish;
-  wish.write_mapping = true;
-  addPdos(config, wish, node);
+  CanopenPdoOptions pdo;
+  pdo.write_mapping = true;
+  addPdos(config, pdo, node);
   const auto& mapping = node.receive_pdos[0].mapping;
   ASSERT_EQ(4u, mapping.size());
   EXPECT_EQ(0x30020110u, mapping[1].value());
@@ -149,10 +149,10 @@ TEST(CanopenMap, AMappingThatIsWrittenFollowsTheSeries) {
 TEST(CanopenMap, BehindAGatewayPdoNumberNIsInverterNs) {
   CanopenDrive second = behindGateway(2), fourth = behindGateway(4);
   NodeConfig node = node50();
-  CanopenPdoWish wish;
-  wish.write_mapping = true;
-  addPdos(second, wish, node);
-  addPdos(fourth, wish, node);
+  CanopenPdoOptions pdo;
+  pdo.write_mapping = true;
+  addPdos(second, pdo, node);
+  addPdos(fourth, pdo, node);
   ASSERT_EQ(2u, node.receive_pdos.size());
   ASSERT_EQ(2u, node.transmit_pdos.size());
   EXPECT_EQ(1u, fourth.receive_pdo);
@@ -171,9 +171,9 @@ TEST(CanopenMap, Cia402MapsItsOwnObjects) {
   CanopenDrive config = drive();
   config.drive_profile = DriveProfile::kCia402;
   NodeConfig node = node50();
-  CanopenPdoWish wish;
-  wish.write_mapping = true;
-  addPdos(config, wish, node);
+  CanopenPdoOptions pdo;
+  pdo.write_mapping = true;
+  addPdos(config, pdo, node);
   EXPECT_EQ(0x60400010u, node.receive_pdos[0].mapping[0].value());
   EXPECT_EQ(0x60420010u, node.receive_pdos[0].mapping[1].value());
   EXPECT_EQ(0x60410010u, node.transmit_pdos[0].mapping[0].value());
@@ -184,10 +184,10 @@ TEST(CanopenMap, Cia402MapsItsOwnObjects) {
 TEST(CanopenMap, SynchronousPdosHaveNoTimers) {
   CanopenDrive config = drive();
   NodeConfig node = node50();
-  CanopenPdoWish wish;
-  wish.synchronous = true;
-  wish.event_time = milliseconds{50};
-  addPdos(config, wish, node);
+  CanopenPdoOptions pdo;
+  pdo.synchronous = true;
+  pdo.event_time = milliseconds{50};
+  addPdos(config, pdo, node);
   EXPECT_EQ(1, node.receive_pdos[0].transmission_type);
   EXPECT_EQ(1, node.transmit_pdos[0].transmission_type);
   EXPECT_FALSE(node.transmit_pdos[0].event_timer.has_value());

@@ -204,7 +204,7 @@ TEST_F(TrueReasons, EndWithTheStation) {
   EXPECT_THAT(transport_->busText().c_str(), HasSubstr("is open, but no station answers"));
 }
 
-// A cycle that is lost is no news of the bus.
+// A cycle that is lost says nothing of the bus.
 TEST_F(OnASegment, IsConnectedThroughALostCycle) {
   bringUp();
   for (const std::size_t i : {0u, 1u}) segment_->drive(i).slave().setMute(true);

@@ -12,13 +12,13 @@
 namespace nord_driver::node {
 
 /// Must outlive what is subscribed and advertised with `handle()`.
-class CallbackLane {
+class CallbackThreads {
  public:
-  CallbackLane(const ros::NodeHandle& handle, std::uint32_t threads) : handle_(handle), spinner_(threads, &queue_) {
+  CallbackThreads(const ros::NodeHandle& handle, std::uint32_t threads) : handle_(handle), spinner_(threads, &queue_) {
     handle_.setCallbackQueue(&queue_);
   }
 
-  /// What is subscribed or advertised with it is called on this lane.
+  /// What is subscribed or advertised with it is called by these threads.
   ros::NodeHandle& handle() noexcept { return handle_; }
   void start() { spinner_.start(); }
   void stop() { spinner_.stop(); }

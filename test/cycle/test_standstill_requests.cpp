@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "cycle/maintenance.h"
+#include "cycle/standstill_requests.h"
 #include "drive/fake_inverter.h"
 
 namespace nord_driver::cycle {
@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 constexpr DriveIndex kLeft = 0, kRight = 1;
 
-class MaintenanceTest : public ::testing::Test {
+class StandstillRequestsTest : public ::testing::Test {
  protected:
   static drive::DriveConfig config() {
     drive::DriveConfig config;
@@ -29,7 +29,7 @@ class MaintenanceTest : public ::testing::Test {
       edge_seen_[i] = edge_seen_[i] || (output.control_word & 0x0080) != 0;
       drives_[i].handleInput(inverters_[i].exchange(output), true, now_);
     }
-    maintenance_.update(now_);
+    standstill_requests_.update(now_);
   }
   void run(int cycles) {
     for (int i = 0; i < cycles; ++i) step();
@@ -40,14 +40,14 @@ class MaintenanceTest : public ::testing::Test {
     request.kind = RequestKind::kAcknowledge;
     request.drive = drive;
     request.patience = std::chrono::seconds{3};
-    maintenance_.handleRequest(request, now_);
+    standstill_requests_.handleRequest(request, now_);
   }
   /// Acknowledges all drives.
   Completion acknowledge() {
     requestAcknowledge(kAllDrives);
     for (int i = 0; i < 400; ++i) {
       step();
-      if (const auto answer = maintenance_.pollCompletion()) return *answer;
+      if (const auto answer = standstill_requests_.pollCompletion()) return *answer;
     }
     Completion none;
     none.message = "no answer";
@@ -58,12 +58,12 @@ class MaintenanceTest : public ::testing::Test {
   std::vector<drive::Drive> drives_{drive::Drive{config()}, drive::Drive{config()}};
   std::array<drive::FakeInverter, 2> inverters_;
   std::array<bool, 2> edge_seen_{};
-  Maintenance maintenance_{drives_, {"left", "right"}};
+  StandstillRequests standstill_requests_{drives_, {"left", "right"}};
   Instant now_{std::chrono::hours{1}};
 };
 
 // A fault that stands gets its edge; one that has vanished by itself is taken away without.
-TEST_F(MaintenanceTest, OneRequestAcknowledgesAllDrives) {
+TEST_F(StandstillRequestsTest, OneRequestAcknowledgesAllDrives) {
   run(4);
   inverters_[kLeft].fault = inverters_[kRight].fault = true;
   run(2);
@@ -79,7 +79,7 @@ TEST_F(MaintenanceTest, OneRequestAcknowledgesAllDrives) {
 }
 
 // No while one cause stands, and whose it is; the other one's fault is gone nevertheless.
-TEST_F(MaintenanceTest, TheDriveWhoseCauseStandsIsNamed) {
+TEST_F(StandstillRequestsTest, TheDriveWhoseCauseStandsIsNamed) {
   run(4);
   inverters_[kLeft].fault = inverters_[kRight].fault = inverters_[kRight].cause = true;
   run(2);
@@ -92,7 +92,7 @@ TEST_F(MaintenanceTest, TheDriveWhoseCauseStandsIsNamed) {
 }
 
 // Without any fault there is nothing to do, and that is done: no edge is sent, and who runs runs on.
-TEST_F(MaintenanceTest, WithoutAFaultNothingIsDone) {
+TEST_F(StandstillRequestsTest, WithoutAFaultNothingIsDone) {
   run(4);
   drives_[kRight].requestEnable(now_);
   run(10);
@@ -105,15 +105,15 @@ TEST_F(MaintenanceTest, WithoutAFaultNothingIsDone) {
 }
 
 // A drive that has a fault and has not come to rest is not acknowledged: its stop goes first.
-TEST_F(MaintenanceTest, ADriveThatIsStoppedGoesOnStopping) {
+TEST_F(StandstillRequestsTest, ADriveThatIsStoppedGoesOnStopping) {
   run(4);
   inverters_[kRight].fault = true;
   run(2);
   inverters_[kRight].fault = false;
   drives_[kRight].requestQuickStop(now_);
   requestAcknowledge(kRight);
-  maintenance_.update(now_);
-  const auto answer = maintenance_.pollCompletion();
+  standstill_requests_.update(now_);
+  const auto answer = standstill_requests_.pollCompletion();
   ASSERT_TRUE(answer);
   EXPECT_FALSE(answer->success);
   EXPECT_EQ(Phase::kQuickStopping, drives_[kRight].report().phase);

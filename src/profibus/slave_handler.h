@@ -21,9 +21,9 @@ namespace nord_driver::profibus {
 /// The order of EN 50170-8: FDL status, Slave_Diag, Set_Prm, Chk_Cfg, Slave_Diag until ready, data exchange. Everything
 /// that goes wrong leads back to the beginning: at once when the slave left, when its silence has lasted, after a
 /// growing pause when it refused.
-class DpSlave {
+class SlaveHandler {
  public:
-  DpSlave(std::size_t index, const SlaveConfig& config, const BusParameters& bus);
+  SlaveHandler(std::size_t index, const SlaveConfig& config, const BusParameters& bus);
 
   /// The line was opened anew: from the beginning.
   void restart(Instant now, DpEvents& events) noexcept;

@@ -1,8 +1,8 @@
-#include "node/way_on.h"
+#include "node/recovery_hint.h"
 
 namespace nord_driver::node {
 
-std::string wayOn(const cycle::CycleSnapshot& snapshot, const std::vector<std::string>& drive_names) {
+std::string recoveryHint(const cycle::CycleSnapshot& snapshot, const std::vector<std::string>& drive_names) {
   if (!snapshot.connected) return "bring the bus back (see \"bus\"), then ~enable";
   for (std::size_t i = 0; i < drive_names.size(); ++i) {
     if (!snapshot.drives[i].online) {

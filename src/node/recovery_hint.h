@@ -9,6 +9,6 @@
 namespace nord_driver::node {
 
 /// "~enable", or what has to come before it; the first drive that stands in the way is named.
-std::string wayOn(const cycle::CycleSnapshot& snapshot, const std::vector<std::string>& drive_names);
+std::string recoveryHint(const cycle::CycleSnapshot& snapshot, const std::vector<std::string>& drive_names);
 
 }  // namespace nord_driver::node

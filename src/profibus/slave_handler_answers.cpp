@@ -1,8 +1,8 @@
 // What the answers of a slave mean.
 #include <algorithm>
 
-#include "profibus/dp_slave.h"
-#include "profibus/dp_slave_texts.h"
+#include "profibus/slave_handler.h"
+#include "profibus/slave_handler_texts.h"
 
 namespace nord_driver::profibus {
 
@@ -21,7 +21,7 @@ constexpr Duration kHasteLimit = 1s;
 
 }  // namespace
 
-void DpSlave::handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
+void SlaveHandler::handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
   if (asked_ != Service::kFdlStatus) frame_count_.answered();
   last_answer_ = now;
   status_.heard = true;
@@ -42,7 +42,7 @@ void DpSlave::handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& event
   }
 }
 
-void DpSlave::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) noexcept {
+void SlaveHandler::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) noexcept {
   if (asked_ == Service::kRecord || asked_ == Service::kGetCfg) return handleNoOptionalAnswer(events);
   status_.heard = false;
   if (status_.phase == SlavePhase::kDataExchange) return handleNoExchange(mismatch, now, events);
@@ -56,7 +56,7 @@ void DpSlave::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) n
 // The exchange or the diagnosis beside it. A slave stays in data exchange until its watchdog runs out: for as long as
 // the silence may last, the next cycle asks it again, and whether it took this request is not known, so that the frame
 // count begins anew. With another count it might take the new outputs for a repetition of the old.
-void DpSlave::handleNoExchange(Mismatch mismatch, Instant now, DpEvents& events) noexcept {
+void SlaveHandler::handleNoExchange(Mismatch mismatch, Instant now, DpEvents& events) noexcept {
   const bool exchange = asked_ == Service::kDataExchange;
   if (!exchange && !undiagnosed_since_) undiagnosed_since_ = now;
   const bool ended = now - (exchange ? last_answer_ : *undiagnosed_since_) >= silence_limit_;
@@ -80,7 +80,7 @@ void DpSlave::handleNoExchange(Mismatch mismatch, Instant now, DpEvents& events)
 
 // A service the exchange can do without. Whether the slave took the request is not known: the next one begins the frame
 // count anew. If the slave is gone, that one finds out.
-void DpSlave::handleNoOptionalAnswer(DpEvents& events) noexcept {
+void SlaveHandler::handleNoOptionalAnswer(DpEvents& events) noexcept {
   frame_count_.reset();
   if (asked_ == Service::kRecord) return records_.handleNoAnswer();
   if (status_.phase == SlavePhase::kDataExchange) {
@@ -90,7 +90,7 @@ void DpSlave::handleNoOptionalAnswer(DpEvents& events) noexcept {
   }
 }
 
-void DpSlave::onFdlStatus(const FdlAnswer& answer, Instant, DpEvents& events) noexcept {
+void SlaveHandler::onFdlStatus(const FdlAnswer& answer, Instant, DpEvents& events) noexcept {
   if (answer.kind != FdlAnswer::Kind::kAcknowledge) return;
   if (answer.station_type != StationType::kSlave) {
     status_.note = texts::kMasterThere;
@@ -107,7 +107,7 @@ void DpSlave::onFdlStatus(const FdlAnswer& answer, Instant, DpEvents& events) no
   told_found_ = true;
 }
 
-void DpSlave::onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
+void SlaveHandler::onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
   const bool exchanging = status_.phase == SlavePhase::kDataExchange;
   const auto diagnosis = answer.kind == FdlAnswer::Kind::kData ? Diagnosis::from(answer.data) : std::nullopt;
   if (!diagnosis) {
@@ -126,7 +126,7 @@ void DpSlave::onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events
 }
 
 // Beside data exchange a difference is only told: what works is not ended.
-void DpSlave::onConfiguration(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
+void SlaveHandler::onConfiguration(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
   const bool exchanging = status_.phase == SlavePhase::kDataExchange;
   status_.configuration.clear();
   for (const std::uint8_t byte : answer.data) status_.configuration.push_back(byte);
@@ -143,7 +143,7 @@ void DpSlave::onConfiguration(const FdlAnswer& answer, Instant now, DpEvents& ev
   if (!exchanging) status_.phase = SlavePhase::kParameters;
 }
 
-void DpSlave::onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
+void SlaveHandler::onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
   if (answer.kind != FdlAnswer::Kind::kAcknowledge) {
     return backOff({DpEventKind::kServiceRefused, texts::kServiceRefused}, now, events);
   }
@@ -156,7 +156,7 @@ void DpSlave::onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents& even
   ready_since_ = now;
 }
 
-void DpSlave::onExchange(const FdlAnswer& answer, Instant, DpEvents& events) noexcept {
+void SlaveHandler::onExchange(const FdlAnswer& answer, Instant, DpEvents& events) noexcept {
   if (answer.kind == FdlAnswer::Kind::kRefusal) {
     if (answer.code == ResponseCode::kNotActivated) {
       lose(LossCause::kLeftDataExchange, texts::kLeft, events);
@@ -174,7 +174,7 @@ void DpSlave::onExchange(const FdlAnswer& answer, Instant, DpEvents& events) noe
   status_.exchanged_this_cycle = true;
 }
 
-std::optional<DpSlave::Fault> DpSlave::strangerIn(const Diagnosis& diagnosis) const noexcept {
+std::optional<SlaveHandler::Fault> SlaveHandler::strangerIn(const Diagnosis& diagnosis) const noexcept {
   if (config_.expect_exact_ident && diagnosis.ident() != config_.ident_number) {
     return Fault{DpEventKind::kWrongIdent, texts::kWrongIdent};
   }
@@ -183,7 +183,7 @@ std::optional<DpSlave::Fault> DpSlave::strangerIn(const Diagnosis& diagnosis) co
   return std::nullopt;
 }
 
-std::optional<DpSlave::Fault> DpSlave::faultIn(const Diagnosis& diagnosis) const noexcept {
+std::optional<SlaveHandler::Fault> SlaveHandler::faultIn(const Diagnosis& diagnosis) const noexcept {
   if (const auto stranger = strangerIn(diagnosis)) return stranger;
   if (diagnosis.parameterFault()) return Fault{DpEventKind::kParameterFault, texts::kPrmFault};
   if (diagnosis.configurationFault()) return Fault{DpEventKind::kConfigurationFault, texts::kCfgFault};
@@ -191,14 +191,14 @@ std::optional<DpSlave::Fault> DpSlave::faultIn(const Diagnosis& diagnosis) const
 }
 
 // Faults shown here are those of an earlier start-up, perhaps of another master: Set_Prm takes them away.
-void DpSlave::judgeFirst(Instant now, DpEvents& events) noexcept {
+void SlaveHandler::judgeFirst(Instant now, DpEvents& events) noexcept {
   if (const auto stranger = strangerIn(status_.diagnosis)) return backOff(*stranger, now, events);
   const bool always = config_.configuration_check >= ConfigurationCheck::kTell;
   const bool doubted = configuration_doubted_ && config_.configuration_check == ConfigurationCheck::kAfterFault;
   status_.phase = always || doubted ? SlavePhase::kReadConfiguration : SlavePhase::kParameters;
 }
 
-void DpSlave::judgeReady(Instant now, DpEvents& events) noexcept {
+void SlaveHandler::judgeReady(Instant now, DpEvents& events) noexcept {
   const Diagnosis& diagnosis = status_.diagnosis;
   if (const auto fault = faultIn(diagnosis)) return backOff(*fault, now, events);
   const Duration waited = now - ready_since_;
@@ -216,7 +216,7 @@ void DpSlave::judgeReady(Instant now, DpEvents& events) noexcept {
   if (waited >= kAskOften) due_ = now + kAskRarely;
 }
 
-void DpSlave::judgeInExchange(Instant now, DpEvents& events) noexcept {
+void SlaveHandler::judgeInExchange(Instant now, DpEvents& events) noexcept {
   const Diagnosis& diagnosis = status_.diagnosis;
   if (const auto fault = faultIn(diagnosis)) {
     lose(LossCause::kParametersRequested, fault->text, events);

@@ -9,16 +9,16 @@
 
 namespace nord_driver::node {
 
-class BusNews {
+class BusLogDebouncer {
  public:
-  struct News {
+  struct Line {
     bool good = false;
     std::string text;
   };
 
-  /// The state at `now`: `good` when all drives answer. Trouble is news when it has lasted a second, then at most once
+  /// The state at `now`: `good` when all drives answer. Trouble is told when it has lasted a second, then at most once
   /// a second in other words; its end, and the first good state, at once.
-  std::optional<News> poll(const std::string& text, bool good, Instant now);
+  std::optional<Line> poll(const std::string& text, bool good, Instant now);
 
  private:
   std::string told_;

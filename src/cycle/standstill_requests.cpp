@@ -1,8 +1,8 @@
-#include "cycle/maintenance.h"
+#include "cycle/standstill_requests.h"
 
 #include <utility>
 
-#include "cycle/sentences.h"
+#include "cycle/user_messages.h"
 
 namespace nord_driver::cycle {
 
@@ -19,20 +19,20 @@ Sentence withNeighbour(const Sentence& answer, const char* neighbour) noexcept {
 
 }  // namespace
 
-Maintenance::Maintenance(std::vector<drive::Drive>& drives, std::vector<std::string> names,
-                         std::vector<std::optional<std::size_t>> modules)
+StandstillRequests::StandstillRequests(std::vector<drive::Drive>& drives, std::vector<std::string> names,
+                                       std::vector<std::optional<std::size_t>> modules)
     : drives_(drives), names_(std::move(names)), modules_(std::move(modules)) {
   modules_.resize(drives_.size());
 }
 
 template <typename Action>
-void Maintenance::forEach(const Request& request, Action action) noexcept {
+void StandstillRequests::forEach(const Request& request, Action action) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     if (request.drive == kAllDrives || request.drive == i) action(i);
   }
 }
 
-void Maintenance::handleRequest(const Request& request, Instant now) noexcept {
+void StandstillRequests::handleRequest(const Request& request, Instant now) noexcept {
   update(now);  // what a stop has just ended is answered before the drives' reports are about another request
   Job job{request, now + request.patience, ++last_token_, {}};
   if (jobs_.full()) return completions_.answer(request, false, "too many requests are being carried out already");
@@ -49,7 +49,7 @@ void Maintenance::handleRequest(const Request& request, Instant now) noexcept {
   jobs_.push_back(job);
 }
 
-Sentence Maintenance::othersRequest(RequestKind kind, DriveIndex drive) const noexcept {
+Sentence StandstillRequests::othersRequest(RequestKind kind, DriveIndex drive) const noexcept {
   const drive::DriveReport& report = drives_[drive].report();
   Sentence text;
   if (kind == RequestKind::kAcknowledge && report.phase == drive::Phase::kAcknowledging) {
@@ -61,7 +61,7 @@ Sentence Maintenance::othersRequest(RequestKind kind, DriveIndex drive) const no
   return text;
 }
 
-void Maintenance::update(Instant now) noexcept {
+void StandstillRequests::update(Instant now) noexcept {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
     if (!follow(jobs_[i], now)) jobs_[kept++] = jobs_[i];
@@ -69,23 +69,23 @@ void Maintenance::update(Instant now) noexcept {
   jobs_.resize(kept);
 }
 
-bool Maintenance::follow(const Job& job, Instant now) noexcept {
+bool StandstillRequests::follow(const Job& job, Instant now) noexcept {
   bool busy = false;
   Sentence refused = job.busy;
   forEach(job.request, [&](DriveIndex i) {
     const drive::RequestReport& report = reportOf(job.request, i);
     if (report.token != job.token) {  // of another request: this one's drive was busy
-      if (refused.empty()) refused = refusalSentence(names_[i].c_str(), drive::Refusal::kBusy, drives_[i].report());
+      if (refused.empty()) refused = refusalMessage(names_[i].c_str(), drive::Refusal::kBusy, drives_[i].report());
       return;
     }
     busy = busy || report.state == drive::RequestState::kRunning;
     if (refused.empty() && report.state == drive::RequestState::kRefused) {
-      refused = refusalSentence(names_[i].c_str(), report.refusal, drives_[i].report());
+      refused = refusalMessage(names_[i].c_str(), report.refusal, drives_[i].report());
     }
     // Acknowledged, and in the same cycle there is the next one.
     const bool again = job.request.kind == RequestKind::kAcknowledge && drives_[i].report().fault_latched;
     if (refused.empty() && report.state == drive::RequestState::kDone && again) {
-      refused = refusalSentence(names_[i].c_str(), drive::Refusal::kFault, drives_[i].report());
+      refused = refusalMessage(names_[i].c_str(), drive::Refusal::kFault, drives_[i].report());
     }
   });
   if (busy && now < job.deadline) return false;
@@ -107,7 +107,7 @@ bool Maintenance::follow(const Job& job, Instant now) noexcept {
   return true;
 }
 
-std::optional<DriveIndex> Maintenance::faultedNeighbour(const Request& request) const noexcept {
+std::optional<DriveIndex> StandstillRequests::faultedNeighbour(const Request& request) const noexcept {
   if (request.drive == kAllDrives || !modules_[request.drive]) return std::nullopt;
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     const drive::DriveReport& report = drives_[i].report();
@@ -116,7 +116,7 @@ std::optional<DriveIndex> Maintenance::faultedNeighbour(const Request& request) 
   return std::nullopt;
 }
 
-const drive::RequestReport& Maintenance::reportOf(const Request& request, DriveIndex drive) const noexcept {
+const drive::RequestReport& StandstillRequests::reportOf(const Request& request, DriveIndex drive) const noexcept {
   const drive::DriveReport& report = drives_[drive].report();
   return request.kind == RequestKind::kAcknowledge ? report.acknowledge : report.set_switch;
 }

@@ -1,4 +1,4 @@
-#include "cycle/sentences.h"
+#include "cycle/user_messages.h"
 
 #include "profile/parameter_error.h"
 
@@ -7,7 +7,7 @@ namespace nord_driver::cycle {
 using drive::Refusal;
 using drive::StopCause;
 
-Sentence refusalSentence(const char* drive, Refusal refusal, const drive::DriveReport& report) noexcept {
+Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveReport& report) noexcept {
   Sentence text;
   if (refusal == Refusal::kMinimumFrequency && report.minimum_frequency.value > 0.0) {
     text.format(
@@ -39,7 +39,7 @@ Sentence refusalSentence(const char* drive, Refusal refusal, const drive::DriveR
   return text;
 }
 
-Sentence stopSentence(const char* drive, StopCause cause, const drive::DriveReport& report) noexcept {
+Sentence stopMessage(const char* drive, StopCause cause, const drive::DriveReport& report) noexcept {
   Sentence text;
   if (cause == StopCause::kNone) return text;
   const char* const state = profile::toString(profile::StatusWord{report.stop_status_word}.state());
@@ -54,7 +54,7 @@ Sentence stopSentence(const char* drive, StopCause cause, const drive::DriveRepo
   return text;
 }
 
-Sentence stateSentence(const char* drive, const drive::DriveReport& report) noexcept {
+Sentence stateMessage(const char* drive, const drive::DriveReport& report) noexcept {
   Sentence text;
   if (report.online) {
     text.format("drive %s is %s, status word %04X", drive, profile::toString(report.state), report.status_word);
@@ -64,7 +64,7 @@ Sentence stateSentence(const char* drive, const drive::DriveReport& report) noex
   return text;
 }
 
-Sentence terminalSentence(const char* drive, TerminalFinding finding, const drive::DriveReport& report) noexcept {
+Sentence terminalMessage(const char* drive, TerminalFinding finding, const drive::DriveReport& report) noexcept {
   Sentence text;
   switch (finding) {
     case TerminalFinding::kNone:
@@ -85,8 +85,8 @@ Sentence terminalSentence(const char* drive, TerminalFinding finding, const driv
   return text;
 }
 
-Sentence parameterSentence(const char* drive, std::uint16_t number, const drive::ParameterTaskResult& result,
-                           bool no_bus_control) noexcept {
+Sentence parameterMessage(const char* drive, std::uint16_t number, const drive::ParameterTaskResult& result,
+                          bool no_bus_control) noexcept {
   const char* note = result.note;
   const char* joint = note[0] != '\0' ? "; " : "";
   Sentence text;

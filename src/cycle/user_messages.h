@@ -10,16 +10,16 @@
 namespace nord_driver::cycle {
 
 /// "drive left: the drive does not answer".
-Sentence refusalSentence(const char* drive, drive::Refusal refusal, const drive::DriveReport& report) noexcept;
+Sentence refusalMessage(const char* drive, drive::Refusal refusal, const drive::DriveReport& report) noexcept;
 /// "drive left stopped: a fault (status word 0238, fault)"; empty for StopCause::kNone.
-Sentence stopSentence(const char* drive, drive::StopCause cause, const drive::DriveReport& report) noexcept;
+Sentence stopMessage(const char* drive, drive::StopCause cause, const drive::DriveReport& report) noexcept;
 /// "drive left is operation enabled (status word 0B37)".
-Sentence stateSentence(const char* drive, const drive::DriveReport& report) noexcept;
+Sentence stateMessage(const char* drive, const drive::DriveReport& report) noexcept;
 /// "drive left is under local control ..."; empty for TerminalFinding::kNone.
-Sentence terminalSentence(const char* drive, TerminalFinding finding, const drive::DriveReport& report) noexcept;
+Sentence terminalMessage(const char* drive, TerminalFinding finding, const drive::DriveReport& report) noexcept;
 /// Why a parameter access failed, or what was done besides; empty when there is nothing to say. `no_bus_control`: it
 /// was a write, and the bus has no control (status bit 9 = 0), which may be why it was refused.
-Sentence parameterSentence(const char* drive, std::uint16_t number, const drive::ParameterTaskResult& result,
-                           bool no_bus_control = false) noexcept;
+Sentence parameterMessage(const char* drive, std::uint16_t number, const drive::ParameterTaskResult& result,
+                          bool no_bus_control = false) noexcept;
 
 }  // namespace nord_driver::cycle

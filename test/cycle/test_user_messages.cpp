@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cycle/sentences.h"
+#include "cycle/user_messages.h"
 
 namespace nord_driver::cycle {
 namespace {
@@ -18,17 +18,17 @@ drive::DriveReport onlineReport() {
 TEST(Sentences, ARefusalNamesDriveReasonAndStatusWord) {
   EXPECT_STREQ(
       "drive left: the inverter is under local control (status bit 9 = 0) (status word 0B31, ready to switch on)",
-      refusalSentence("left", drive::Refusal::kLocalControl, onlineReport()).c_str());
+      refusalMessage("left", drive::Refusal::kLocalControl, onlineReport()).c_str());
   EXPECT_STREQ("drive left: the inverter does not answer",
-               refusalSentence("left", drive::Refusal::kOffline, drive::DriveReport{}).c_str());
+               refusalMessage("left", drive::Refusal::kOffline, drive::DriveReport{}).c_str());
 }
 
 TEST(Sentences, AStopTellsTheStatusWordOfThatMoment) {
   drive::DriveReport report = onlineReport();
   report.stop_status_word = 0x0238;
   EXPECT_STREQ("drive left stopped: a fault of the inverter (status word 0238, fault)",
-               stopSentence("left", drive::StopCause::kFault, report).c_str());
-  EXPECT_TRUE(stopSentence("left", drive::StopCause::kNone, report).empty());
+               stopMessage("left", drive::StopCause::kFault, report).c_str());
+  EXPECT_TRUE(stopMessage("left", drive::StopCause::kNone, report).empty());
 }
 
 TEST(Sentences, ARefusalTellsTheInvertersOwnReason) {
@@ -36,14 +36,14 @@ TEST(Sentences, ARefusalTellsTheInvertersOwnReason) {
   report.status_word = 0x0B70;
   report.state = profile::DriveState::kSwitchOnDisabled;
   report.switch_on_reason = 181;
-  const std::string text = refusalSentence("left", drive::Refusal::kEnableTimeout, report).str();
+  const std::string text = refusalMessage("left", drive::Refusal::kEnableTimeout, report).str();
   EXPECT_THAT(text, ::testing::HasSubstr("status word 0B70, switch-on disabled"));
   EXPECT_THAT(text, ::testing::HasSubstr("P700[-03], is 18.1"));
 }
 
 TEST(Sentences, AStateTellsWhatTheDriveSaidLast) {
-  EXPECT_STREQ("drive left is ready to switch on, status word 0B31", stateSentence("left", onlineReport()).c_str());
-  EXPECT_STREQ("drive left does not answer", stateSentence("left", drive::DriveReport{}).c_str());
+  EXPECT_STREQ("drive left is ready to switch on, status word 0B31", stateMessage("left", onlineReport()).c_str());
+  EXPECT_STREQ("drive left does not answer", stateMessage("left", drive::DriveReport{}).c_str());
 }
 
 // 0 as the refused number stands for "not the inverter refused"; P000 is a number like others.
@@ -51,7 +51,7 @@ TEST(Sentences, P000IsRefusedInWordsToo) {
   drive::ParameterTaskResult result;
   result.outcome = profile::ParameterOutcome::kRefused;
   EXPECT_EQ("drive left refuses P000: error 0, the inverter has no parameter of this number",
-            parameterSentence("left", 0, result).str());
+            parameterMessage("left", 0, result).str());
 }
 
 std::string parameter(profile::ParameterOutcome outcome) {
@@ -59,7 +59,7 @@ std::string parameter(profile::ParameterOutcome outcome) {
   result.outcome = outcome;
   result.error_number = 201;
   result.refused_number = 5;
-  return parameterSentence("left", 5, result).str();
+  return parameterMessage("left", 5, result).str();
 }
 
 TEST(Sentences, AParameterThatCouldNotBeReadSaysWhy) {
@@ -85,7 +85,7 @@ TEST(Sentences, AMinimumFrequencyIsRefusedWithWhatToSet) {
       "drive left: P104 of parameter set 2 is 2.5 Hz: enabled, the motor would turn at that with setpoint 0; set P104 "
       "to "
       "0, or allow_minimum_frequency: true",
-      refusalSentence("left", drive::Refusal::kMinimumFrequency, report).c_str());
+      refusalMessage("left", drive::Refusal::kMinimumFrequency, report).c_str());
 }
 
 TEST(Sentences, AFunctionIsRefusedWithWhatToSet) {
@@ -93,7 +93,7 @@ TEST(Sentences, AFunctionIsRefusedWithWhatToSet) {
   report.commanded_set = 4;
   report.unexpected_function = drive::UnexpectedFunction{546, true, 5, 1};
   EXPECT_STREQ("drive left: P546 [-01] of parameter set 4 is 5, so that setpoint 1 is not the frequency; set it to 1",
-               refusalSentence("left", drive::Refusal::kUnexpectedFunction, report).c_str());
+               refusalMessage("left", drive::Refusal::kUnexpectedFunction, report).c_str());
 }
 
 // BU 0020 6.2.2: parameters are written over a bus only while P509 selects it.
@@ -105,10 +105,10 @@ TEST(Sentences, ARefusedWriteNamesP509) {
   EXPECT_EQ(
       "drive left refuses P102: error 1, the parameter cannot be changed (it is read-only, or P509 does not select "
       "this bus)",
-      parameterSentence("left", 102, result).str());
+      parameterMessage("left", 102, result).str());
   result.error_number = 202;
-  EXPECT_THAT(parameterSentence("left", 102, result).str(), ::testing::Not(::testing::HasSubstr("P509")));
-  EXPECT_THAT(parameterSentence("left", 102, result, true).str(),
+  EXPECT_THAT(parameterMessage("left", 102, result).str(), ::testing::Not(::testing::HasSubstr("P509")));
+  EXPECT_THAT(parameterMessage("left", 102, result, true).str(),
               ::testing::HasSubstr("the bus has no control (status bit 9 = 0): does P509 select it?"));
 }
 
@@ -116,16 +116,16 @@ TEST(Sentences, WhatTheSessionAddsIsPassedOn) {
   drive::ParameterTaskResult result;
   result.outcome = profile::ParameterOutcome::kDone;
   result.note = "nothing was written, the value was there already";
-  EXPECT_EQ("nothing was written, the value was there already", parameterSentence("left", 5, result).str());
+  EXPECT_EQ("nothing was written, the value was there already", parameterMessage("left", 5, result).str());
   result.outcome = profile::ParameterOutcome::kRefused;
   EXPECT_EQ("P005 of drive left: nothing was written, the value was there already",
-            parameterSentence("left", 5, result).str());
+            parameterMessage("left", 5, result).str());
   result.refused_number = 560;  // the error is about P560, not about the parameter asked for
   result.error_number = 1;
-  EXPECT_EQ(0u, parameterSentence("left", 5, result).str().find("drive left refuses P560: error 1, "));
+  EXPECT_EQ(0u, parameterMessage("left", 5, result).str().find("drive left refuses P560: error 1, "));
   // On CANopen by the code that is in its books.
   result.abort_code = 0x06010002;
-  EXPECT_EQ(0u, parameterSentence("left", 5, result).str().find("drive left refuses P560: SDO abort 06010002, "));
+  EXPECT_EQ(0u, parameterMessage("left", 5, result).str().find("drive left refuses P560: SDO abort 06010002, "));
 }
 
 }  // namespace

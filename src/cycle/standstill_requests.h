@@ -17,12 +17,12 @@ namespace nord_driver::cycle {
 /// Neither moves anything, so the drives of a base may be asked one by one. Each cycle: `handleRequest` for what has
 /// come, after the exchange `update`, then `pollCompletion`. A drive does one thing of a kind at a time: who asks for a
 /// second meanwhile is refused, and never answered by the outcome of the first.
-class Maintenance {
+class StandstillRequests {
  public:
   /// `drives` must outlive the object and not move.
   /// `modules`: drives with the same number are behind the same bus module; may be empty.
-  Maintenance(std::vector<drive::Drive>& drives, std::vector<std::string> names,
-              std::vector<std::optional<std::size_t>> modules = {});
+  StandstillRequests(std::vector<drive::Drive>& drives, std::vector<std::string> names,
+                     std::vector<std::optional<std::size_t>> modules = {});
 
   /// kAcknowledge and kSelectParameterSet.
   void handleRequest(const Request& request, Instant now) noexcept;

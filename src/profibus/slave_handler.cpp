@@ -1,10 +1,10 @@
 // The requests of a slave, and how it moves between its phases.
-#include "profibus/dp_slave.h"
+#include "profibus/slave_handler.h"
 
 #include <algorithm>
 
 #include "profibus/configuration_bytes.h"
-#include "profibus/dp_slave_texts.h"
+#include "profibus/slave_handler_texts.h"
 
 namespace nord_driver::profibus {
 
@@ -17,7 +17,7 @@ constexpr Duration kLongestPause = 2s;
 
 }  // namespace
 
-DpSlave::DpSlave(std::size_t index, const SlaveConfig& config, const BusParameters& bus)
+SlaveHandler::SlaveHandler(std::size_t index, const SlaveConfig& config, const BusParameters& bus)
     : index_(index),
       config_(config),
       services_(bus),
@@ -30,7 +30,7 @@ DpSlave::DpSlave(std::size_t index, const SlaveConfig& config, const BusParamete
   status_.note = texts::kNoAnswer;
 }
 
-void DpSlave::restart(Instant now, DpEvents& events) noexcept {
+void SlaveHandler::restart(Instant now, DpEvents& events) noexcept {
   if (status_.phase == SlavePhase::kDataExchange) lose(LossCause::kLinkRestarted, texts::kLinkOpened, events);
   forgetFaults();
   told_found_ = false;
@@ -38,29 +38,29 @@ void DpSlave::restart(Instant now, DpEvents& events) noexcept {
   fallSilent(now, texts::kNoAnswer);
 }
 
-void DpSlave::startCycle() noexcept {
+void SlaveHandler::startCycle() noexcept {
   stepped_ = false;
   status_.exchanged_this_cycle = false;
 }
 
-bool DpSlave::wantsExchange() const noexcept {
+bool SlaveHandler::wantsExchange() const noexcept {
   return status_.phase == SlavePhase::kDataExchange && !stepped_;
 }
 
-bool DpSlave::wantsStartUpStep(Instant now) const noexcept {
+bool SlaveHandler::wantsStartUpStep(Instant now) const noexcept {
   const bool starting = status_.phase != SlavePhase::kSilent && status_.phase != SlavePhase::kDataExchange;
   return starting && !stepped_ && now >= due_;
 }
 
-bool DpSlave::wantsDiagnosis() const noexcept {
+bool SlaveHandler::wantsDiagnosis() const noexcept {
   return status_.phase == SlavePhase::kDataExchange && stepped_ && status_.heard && diagnosis_due_;
 }
 
-bool DpSlave::wantsProbe(Instant now) const noexcept {
+bool SlaveHandler::wantsProbe(Instant now) const noexcept {
   return status_.phase == SlavePhase::kSilent && !stepped_ && now >= due_;
 }
 
-DpSlave::Service DpSlave::nextService() noexcept {
+SlaveHandler::Service SlaveHandler::nextService() noexcept {
   switch (status_.phase) {
     case SlavePhase::kSilent:
       return Service::kFdlStatus;
@@ -82,7 +82,7 @@ DpSlave::Service DpSlave::nextService() noexcept {
   return Service::kFdlStatus;
 }
 
-void DpSlave::prepare(FdlRequest& request, Instant now) noexcept {
+void SlaveHandler::prepare(FdlRequest& request, Instant now) noexcept {
   asked_ = nextService();
   stepped_ = true;
   switch (asked_) {
@@ -112,12 +112,12 @@ void DpSlave::prepare(FdlRequest& request, Instant now) noexcept {
   }
 }
 
-bool DpSlave::wantsAcyclic(Instant now) noexcept {
+bool SlaveHandler::wantsAcyclic(Instant now) noexcept {
   if (status_.phase != SlavePhase::kDataExchange || !status_.heard) return false;
   return configuration_wanted_ || records_.wantsTelegram(now);
 }
 
-void DpSlave::prepareAcyclic(FdlRequest& request, Instant now) noexcept {
+void SlaveHandler::prepareAcyclic(FdlRequest& request, Instant now) noexcept {
   if (configuration_wanted_) {
     configuration_wanted_ = false;
     asked_ = Service::kGetCfg;
@@ -127,24 +127,24 @@ void DpSlave::prepareAcyclic(FdlRequest& request, Instant now) noexcept {
   services_.record(request, config_.address, records_.pollTelegram(now), frame_count_.bits());
 }
 
-bool DpSlave::requestConfiguration() noexcept {
+bool SlaveHandler::requestConfiguration() noexcept {
   configuration_wanted_ = status_.phase == SlavePhase::kDataExchange;
   return configuration_wanted_;
 }
 
-Sentence DpSlave::configurationText() const noexcept {
+Sentence SlaveHandler::configurationText() const noexcept {
   if (status_.configuration.empty()) return "has not been asked for its configuration, or did not tell";
   return compareConfigurations(config_.configuration, status_.configuration);
 }
 
-bool DpSlave::submitRecord(const RecordRequest& request) noexcept {
+bool SlaveHandler::submitRecord(const RecordRequest& request) noexcept {
   std::optional<RecordOutcome> unusable;
   if (status_.phase != SlavePhase::kDataExchange) unusable = RecordOutcome::kOffline;
   if (!config_.dpv1) unusable = RecordOutcome::kNotSupported;
   return records_.submit(request, unusable);
 }
 
-void DpSlave::fallSilent(Instant due, const char* note) noexcept {
+void SlaveHandler::fallSilent(Instant due, const char* note) noexcept {
   diagnosis_due_ = false;
   undiagnosed_since_.reset();
   status_.phase = SlavePhase::kSilent;
@@ -154,7 +154,7 @@ void DpSlave::fallSilent(Instant due, const char* note) noexcept {
 }
 
 // The only way into a start-up: the first request has FCV = 0 and FCB = 1 again.
-void DpSlave::startOver(const char* note) noexcept {
+void SlaveHandler::startOver(const char* note) noexcept {
   frame_count_.reset();
   diagnosis_due_ = false;
   undiagnosed_since_.reset();
@@ -163,7 +163,7 @@ void DpSlave::startOver(const char* note) noexcept {
   due_ = Instant{};
 }
 
-void DpSlave::lose(LossCause cause, const char* text, DpEvents& events) noexcept {
+void SlaveHandler::lose(LossCause cause, const char* text, DpEvents& events) noexcept {
   ++status_.counters.losses;
   records_.handleOffline();
   configuration_wanted_ = false;
@@ -174,7 +174,7 @@ void DpSlave::lose(LossCause cause, const char* text, DpEvents& events) noexcept
   events.push(lost);
 }
 
-void DpSlave::backOff(const Fault& fault, Instant now, DpEvents& events) noexcept {
+void SlaveHandler::backOff(const Fault& fault, Instant now, DpEvents& events) noexcept {
   ++status_.counters.refusals;
   if (fault.kind == DpEventKind::kConfigurationFault) configuration_doubted_ = true;
   startOver(fault.text);
@@ -186,14 +186,14 @@ void DpSlave::backOff(const Fault& fault, Instant now, DpEvents& events) noexcep
   events.push(event(fault.kind, fault.text));
 }
 
-void DpSlave::forgetFaults() noexcept {
+void SlaveHandler::forgetFaults() noexcept {
   pause_ = kFirstPause;
   told_configuration_ = false;
   configuration_doubted_ = false;
   told_fault_.reset();
 }
 
-DpEvent DpSlave::event(DpEventKind kind, const char* text) const noexcept {
+DpEvent SlaveHandler::event(DpEventKind kind, const char* text) const noexcept {
   DpEvent told;
   told.kind = kind;
   told.slave = index_;
@@ -203,12 +203,12 @@ DpEvent DpSlave::event(DpEventKind kind, const char* text) const noexcept {
   return told;
 }
 
-void DpSlave::setSilenceLimit(Duration limit) noexcept {
+void SlaveHandler::setSilenceLimit(Duration limit) noexcept {
   const bool watched = config_.watchdog > Duration::zero();
   silence_limit_ = watched ? std::min(limit, config_.watchdog) : limit;
 }
 
-void DpSlave::setOutputs(ByteView outputs) noexcept {
+void SlaveHandler::setOutputs(ByteView outputs) noexcept {
   for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = i < outputs.size() ? outputs[i] : std::uint8_t{0};
 }
 
