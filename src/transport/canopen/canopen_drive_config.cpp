@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "canopen/nmt.h"
 #include "config/setting_checks.h"
@@ -62,12 +61,7 @@ constexpr Choice<bool> kMappings[] = {{"write", true}, {"keep", false}};
 
 Duration wholeMilliseconds(const Settings& settings, const std::string& key, Duration fallback, Duration min,
                            Duration max) {
-  const double value = numberOr(settings, key, toSeconds(fallback), toSeconds(min), toSeconds(max), "s");
-  const double count = std::round(value * 1e3);
-  if (std::abs(value * 1e3 - count) > 1e-6) {
-    throw wrongSetting(settings, key, shortNumber(value), "whole milliseconds, such as 0.1 s: the object counts them");
-  }
-  return milliseconds{static_cast<std::int64_t>(count)};
+  return wholeMillisecondsOr(settings, key, fallback, min, max, "0.1 s: the object counts them");
 }
 
 std::optional<std::uint32_t> readIdentity(const Settings& settings, const std::string& key) {
