@@ -11,8 +11,8 @@ using profile::StatusWord;
 
 namespace {
 
-// |IW1| from which its sign is held against the direction bits: 5 % of P105. Below it bit 11 is 1 at rest (BU
-// 2700 6.6.1: 0B31) and slip may turn the sign.
+// |IW1| from which its sign is held against the direction bits: 5 % of P105. Below it bit 11 is 1 at rest
+// (BU 2700 6.6.1: 0B31) and slip may turn the sign.
 constexpr int kClearlyTurning = 819;
 
 bool contradictsDirection(StatusWord status, std::int16_t actual_value) noexcept {
@@ -74,8 +74,7 @@ void Drive::refuse(Refusal refusal) noexcept {
   report_.refusal_state = report_.state;
 }
 
-// --- what the inverter says
-// ---------------------------------------------------------------------------------------------
+// --- what the inverter says ------------------------------------------------------------------------------------------
 
 void Drive::handleInput(const profile::ProcessInput& input, bool fresh, Instant now) noexcept {
   if (fresh && StatusWord(input.status_word).isUseful()) {
@@ -152,8 +151,8 @@ void Drive::checkStops(StatusWord status, Instant now) noexcept {
   if (!status.busControl()) {
     stop(StopCause::kLocalControl, now);
   } else if (status.parameterSet() != report_.commanded_set) {
-    // Setpoint 1 is a share of P105 of the set in force: a set that changes by itself is a step of the speed (BU
-    // 0020 7.3.5).
+    // Setpoint 1 is a share of P105 of the set in force: a set that changes by itself is a step of the speed
+    // (BU 0020 7.3.5).
     stop(StopCause::kParameterSet, now);
   } else if ((report_.phase == Phase::kEnabled || report_.phase == Phase::kHoldingZero) &&
              report_.state != DriveState::kOperationEnabled) {
@@ -314,8 +313,7 @@ void Drive::measure() noexcept {
       contradictsDirection(StatusWord(report_.status_word), report_.input.actual_values[0]);
 }
 
-// --- what goes to the inverter
-// ------------------------------------------------------------------------------------------
+// --- what goes to the inverter ---------------------------------------------------------------------------------------
 
 // Not before the module had time to find it: it might be turning in a set of its own.
 bool Drive::isMissing(Instant now) const noexcept {

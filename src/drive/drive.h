@@ -1,12 +1,10 @@
 // One inverter as the user sees it: decides, each cycle, the control word and the setpoints.
 //
 // Sans-IO and without a clock. Its rules, in one place:
-//  - Stop is the default, and the word that stops is 047E with the parameter set in force. Zeros stop nothing: with bit
-//  10 = 0
-//    the inverter carries on (BU 2700 6.4.1 note 2, 7.1.1).
+//  - Stop is the default, and the word that stops is 047E with the parameter set in force. Zeros stop nothing: with
+//    bit 10 = 0 the inverter carries on (BU 2700 6.4.1 note 2, 7.1.1).
 //  - 047E alone also says "parameter set 1". So 0000, which the inverter ignores, is sent until a status word has told
-//  the set
-//    in force; from then on never again while it is online.
+//    the set in force; from then on never again while it is online.
 //  - An inverter that falls silent while it was not at rest may still hear us: the stop word is sent on unanswered, for
 //    shutdown_timeout; then the set is learned anew. When it answers it is idle, in the set it then reports.
 //  - One that is off behind a bus module that lives gets the idle word with the last set known of it: the module's P151

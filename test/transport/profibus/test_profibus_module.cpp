@@ -196,8 +196,7 @@ TEST_F(OnAModule, WhoeverHasNoChannelIsToldSo) {
   EXPECT_LT(transport_->now() - asked, seconds{3});
 }
 
-// --- One inverter off behind a living module
-// ---------------------------------------------------------------------------
+// --- One inverter off behind a living module -------------------------------------------------------------------------
 
 TEST_F(OnAModule, OneInverterOffIsThatDriveOffline) {
   bringUp({1, 1, 1, 1});
