@@ -22,7 +22,6 @@ class BootScript {
   /// From the beginning: the first access asks for 1000h, which every node has.
   void begin() noexcept;
   /// The first access is still to be answered.
-  bool atBeginning() const noexcept { return stage_ == Stage::kDeviceType; }
 
   /// The access that comes next. Not when done.
   SdoRequest request() const noexcept;

@@ -70,8 +70,6 @@ void Drive::stop(StopCause cause, Instant now) noexcept {
 
 void Drive::refuse(Refusal refusal) noexcept {
   report_.refusal = refusal;
-  report_.refusal_status_word = report_.status_word;
-  report_.refusal_state = report_.state;
 }
 
 // --- what the inverter says ------------------------------------------------------------------------------------------
