@@ -10,7 +10,7 @@
 #include <mutex>
 #include <optional>
 
-#include "node/robot_under_test.h"
+#include "rostest/robot_under_test.h"
 
 namespace nord_driver::test {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <thread>
 
-#include "node/robot_under_test.h"
 #include "nord_driver/ReadParameter.h"
 #include "nord_driver/SimParameterChannel.h"
+#include "rostest/robot_under_test.h"
 #include "support/second_try.h"
 
 namespace nord_driver::test {

@@ -12,9 +12,9 @@
 #include <limits>
 #include <set>
 
-#include "node/lived_time.h"
-#include "node/robot_under_test.h"
 #include "nord_driver/SimTerminals.h"
+#include "rostest/lived_time.h"
+#include "rostest/robot_under_test.h"
 #include "support/second_try.h"
 
 namespace nord_driver::test {

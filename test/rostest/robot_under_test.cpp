@@ -1,4 +1,4 @@
-#include "node/robot_under_test.h"
+#include "rostest/robot_under_test.h"
 
 #include <signal.h>
 #include <std_srvs/SetBool.h>

@@ -1,8 +1,8 @@
 // From cmd_vel to odom over CANopen, on a virtual bus or on the kernel's.
 #include <gmock/gmock.h>
 
-#include "node/robot_under_test.h"
 #include "nord_driver/DeviceInfo.h"
+#include "rostest/robot_under_test.h"
 
 namespace nord_driver::test {
 namespace {

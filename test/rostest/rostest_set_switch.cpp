@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "node/robot_under_test.h"
 #include "nord_driver/SelectParameterSet.h"
+#include "rostest/robot_under_test.h"
 
 namespace nord_driver::test {
 namespace {

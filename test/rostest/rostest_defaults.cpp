@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "node/lived_time.h"
-#include "node/robot_under_test.h"
 #include "nord_driver/DeviceInfo.h"
+#include "rostest/lived_time.h"
+#include "rostest/robot_under_test.h"
 #include "support/second_try.h"
 
 namespace nord_driver::test {

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
-#include "node/robot_under_test.h"
 #include "nord_driver/DeviceInfo.h"
+#include "rostest/robot_under_test.h"
 
 namespace nord_driver::test {
 namespace {

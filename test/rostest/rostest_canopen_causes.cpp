@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <future>
 
-#include "node/robot_under_test.h"
 #include "nord_driver/SimAnswerDelay.h"
 #include "nord_driver/SimParameterChannel.h"
+#include "rostest/robot_under_test.h"
 #include "support/second_try.h"
 
 namespace nord_driver::test {

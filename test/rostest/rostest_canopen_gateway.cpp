@@ -1,8 +1,8 @@
 // Four inverters behind one CANopen node, and one of them is not there.
 #include <gmock/gmock.h>
 
-#include "node/lived_time.h"
-#include "node/robot_under_test.h"
+#include "rostest/lived_time.h"
+#include "rostest/robot_under_test.h"
 
 namespace nord_driver::test {
 namespace {

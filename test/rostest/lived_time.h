@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "node/robot_under_test.h"
+#include "rostest/robot_under_test.h"
 
 namespace nord_driver::test {
 

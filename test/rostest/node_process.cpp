@@ -1,4 +1,4 @@
-#include "node/node_process.h"
+#include "rostest/node_process.h"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "node/robot_under_test.h"
+#include "rostest/robot_under_test.h"
 
 namespace nord_driver::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "node/robot_under_test.h"
+#include "rostest/robot_under_test.h"
 #include "support/machine_watch.h"
 
 namespace nord_driver::test {

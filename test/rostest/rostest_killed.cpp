@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "node/robot_under_test.h"
+#include "rostest/robot_under_test.h"
 
 namespace nord_driver::test {
 namespace {

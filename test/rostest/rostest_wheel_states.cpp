@@ -5,8 +5,8 @@
 
 #include "node/base_publisher.h"
 #include "node/parameters.h"
-#include "node/topic.h"
 #include "node/wheel_state_publisher.h"
+#include "rostest/topic.h"
 
 namespace nord_driver::node {
 namespace {

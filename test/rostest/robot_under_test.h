@@ -14,12 +14,12 @@
 #include <memory>
 #include <string>
 
-#include "node/node_process.h"
-#include "node/topic.h"
 #include "nord_driver/BusStatus.h"
 #include "nord_driver/DriveStatus.h"
 #include "nord_driver/SimDrive.h"
 #include "ros_support/service_call.h"
+#include "rostest/node_process.h"
+#include "rostest/topic.h"
 
 namespace nord_driver::test {
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "node/lived_time.h"
-#include "node/robot_under_test.h"
+#include "rostest/lived_time.h"
+#include "rostest/robot_under_test.h"
 
 namespace nord_driver::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "node/robot_under_test.h"
+#include "rostest/robot_under_test.h"
 #include "support/map_settings.h"
 #include "transport/canopen/canopen.h"
 #include "transport/profibus/profibus_dp.h"

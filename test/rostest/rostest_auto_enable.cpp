@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "node/robot_under_test.h"
+#include "rostest/robot_under_test.h"
 #include "support/second_try.h"
 
 namespace nord_driver::test {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <memory>
 
-#include "node/robot_under_test.h"
 #include "nord_driver/ReadParameter.h"
 #include "nord_driver/WriteParameter.h"
+#include "rostest/robot_under_test.h"
 
 namespace nord_driver::test {
 namespace {

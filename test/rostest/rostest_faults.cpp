@@ -1,7 +1,7 @@
 // Faults as a user meets them: what stops, what is said, and what it takes to move again.
 #include <gmock/gmock.h>
 
-#include "node/robot_under_test.h"
+#include "rostest/robot_under_test.h"
 
 namespace nord_driver::test {
 namespace {

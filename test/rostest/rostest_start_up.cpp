@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "node/robot_under_test.h"
 #include "nord_driver/DeviceInfo.h"
+#include "rostest/robot_under_test.h"
 #include "support/second_try.h"
 
 namespace nord_driver::test {

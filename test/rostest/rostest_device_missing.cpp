@@ -4,8 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "node/lived_time.h"
-#include "node/robot_under_test.h"
+#include "rostest/lived_time.h"
+#include "rostest/robot_under_test.h"
 
 namespace nord_driver::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "node/topic.h"
+#include "rostest/topic.h"
 
 namespace nord_driver::test {
 
