@@ -21,7 +21,7 @@ class EarlierMaster {
     std::vector<DriveSettings> drives;
     for (const std::string name : {"left", "right"}) {
       auto settings = std::make_shared<MapSettings>(name + "/");
-      settings->set("address", name == "left" ? 3 : 4).set("series", "sk5xxe");
+      settings->set("address", name == "left" ? 3 : 4).set("series", "sk5xxe").set("pole_pairs", 2);
       if (!onCanopen()) settings->set("ppo_type", 1);
       drives.push_back({name, settings});
     }

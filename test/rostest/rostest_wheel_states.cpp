@@ -5,6 +5,7 @@
 
 #include "node/base_publisher.h"
 #include "node/parameters.h"
+#include "node/ros_settings.h"
 #include "node/wheel_state_publisher.h"
 #include "rostest/topic.h"
 

@@ -29,7 +29,7 @@ const std::map<std::string, Names>& table() {
       {"devicenet", {"core"}},
       {"interbus", {"core"}},
       {"link", {"core"}},
-      {"config", {"core"}},
+      {"config", {"core", "profile"}},
       {"trace", {"core", "profile", "config", "transport", "cycle"}},
       {"robot", {"core"}},
       {"transport", kTransport},
