@@ -72,7 +72,7 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       snapshot_(config.drives.size()) {
   for (const DriveSetup& setup : config.drives) {
     const DriveIndex drive = axes_.size();
-    axes_.emplace_back(drive, setup, transport.identity(drive).timeout_owner);
+    axes_.emplace_back(drive, setup, transport.identity(drive).timeout_owner, transport.parameterCapabilities(drive));
   }
   if (!config.base) return;
   base_.emplace(*config.base, config.cmd_vel_timeout);

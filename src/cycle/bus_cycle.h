@@ -36,8 +36,9 @@ class BusCycle {
  private:
   /// One drive with everything the cycle keeps beside it.
   struct Axis {
-    Axis(DriveIndex drive, const DriveSetup& setup, TimeoutOwner owner)
-        : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, owner) {}
+    Axis(DriveIndex drive, const DriveSetup& setup, TimeoutOwner owner,
+         const profile::ParameterCapabilities& capabilities)
+        : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, owner, capabilities) {}
     DriveParameters parameters;
     robot::JointPosition joint;
     SpeedWatch speed;

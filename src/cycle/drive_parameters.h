@@ -32,7 +32,8 @@ bool decidesMotion(const Request& request) noexcept;
 class DriveParameters {
  public:
   DriveParameters(DriveIndex drive, std::string name, profile::Series series, std::optional<double> typed_max_frequency,
-                  TimeoutOwner owner = TimeoutOwner::kInverter);
+                  TimeoutOwner owner = TimeoutOwner::kInverter,
+                  const profile::ParameterCapabilities& capabilities = {});
 
   /// Looks whether the drive is there and whether it has a fault; hands it P105 as it is known. Offline: all ends.
   void handleState(drive::Drive& drive, Instant now) noexcept;
@@ -65,7 +66,7 @@ class DriveParameters {
   void scale(drive::Drive& drive) const noexcept;
   void refuse(const Request& request, profile::ParameterOutcome outcome) noexcept;
   void collect() noexcept;
-  Sentence sentenceOf(const Request& request, const drive::ParameterTaskResult& result) const noexcept;
+  void answer(const Request& request, const profile::ParameterResult& result) noexcept;
   void readDeviceAgain() noexcept;
   void askMissingAgain(Instant now) noexcept;
   bool writesProcessData() const noexcept;
@@ -74,6 +75,7 @@ class DriveParameters {
   std::string name_;
   profile::Series series_;
   std::optional<double> typed_max_frequency_;
+  profile::ParameterCapabilities capabilities_;
   DeviceReader reader_;
   drive::FaultReader faults_;
   drive::ParameterSession session_;

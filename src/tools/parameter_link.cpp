@@ -3,7 +3,7 @@
 #include "config/setting_checks.h"
 #include "cycle/drive_parameters.h"
 #include "cycle/user_messages.h"
-#include "profile/pkw.h"
+#include "profile/parameter_queue.h"
 #include "profile/status_word.h"
 #include "transport/parameters_only.h"
 
@@ -27,10 +27,6 @@ bool isAtRest(DriveState state) noexcept {
          state == DriveState::kReadyToSwitchOn || state == DriveState::kFault;
 }
 
-bool hasSets(profile::ParameterShape shape) noexcept {
-  return shape == profile::ParameterShape::kPerSet || shape == profile::ParameterShape::kArrayPerSet;
-}
-
 }  // namespace
 
 ParameterLink::ParameterLink(const ToolConfig& config, Transport& transport)
@@ -44,6 +40,7 @@ ParameterLink::ParameterLink(const ToolConfig& config, Transport& transport)
   guest->serveParametersOnly();
   transport.configure(*config.bus, config.drives, config.cycle.cycle_rate);
   for (const cycle::DriveSetup& setup : config.cycle.drives) drives_.emplace_back(setup.drive);
+  session_ = drive::ParameterSession{transport.parameterCapabilities(0)};
 }
 
 ParameterLink::~ParameterLink() {
@@ -148,8 +145,8 @@ ParameterAnswer ParameterLink::write(const cycle::ParameterAddress& address, con
   return carryOut(request, info);
 }
 
-std::optional<drive::ParameterTaskResult> ParameterLink::run(const drive::ParameterTask& task) noexcept {
-  if (!session_.submit(task)) return std::nullopt;
+std::optional<profile::ParameterResult> ParameterLink::run(const profile::ParameterRequest& request) noexcept {
+  if (!session_.submit(request)) return std::nullopt;
   const Instant end = transport_.now() + kPatience;
   do {
     exchange();
@@ -168,27 +165,28 @@ bool ParameterLink::waitForDrive() noexcept {
 }
 
 ParameterAnswer ParameterLink::carryOut(const cycle::Request& request, const profile::ParameterInfo* info) {
-  drive::ParameterTask task = cycle::taskOf(request, drives_[0].report().parameter_set);
-  task.id = ++last_id_;
-  task.even_if_same = true;  // the run before may have put it into the RAM
-  std::optional<drive::ParameterTaskResult> result = run(task);
+  profile::ParameterRequest access = request.parameter;
+  access.id = ++last_id_;
+  access.even_if_same = true;  // the run before may have put it into the RAM
+  if (access.parameter_set == 0) access.parameter_set = drives_[0].report().parameter_set;
+  std::optional<profile::ParameterResult> result = run(access);
   // Nothing but the line was lost: a write compares first, so that it is not done twice.
   for (int i = 1; i < kAttempts && result && result->outcome == ParameterOutcome::kOffline; ++i) {
     if (result->eeprom_written || !waitForDrive()) break;
-    result = run(task);
+    result = run(access);
   }
   if (!result) throw Trouble("drive " + drive().name + " did not carry the access out");
 
   ParameterAnswer answer;
   answer.success = result->outcome == ParameterOutcome::kDone;
   answer.refused = result->outcome == ParameterOutcome::kRefused;
-  answer.unknown = answer.refused && result->refused_number == task.number &&
-                   result->error_number == profile::pkw_error::kInvalidNumber;
-  answer.message = cycle::parameterMessage(drive().name.c_str(), task.number, *result).str();
+  answer.unknown = answer.refused && result->refused_number == access.number &&
+                   result->reason == profile::ParameterReason::kNoSuchParameter;
+  answer.message = cycle::parameterMessage(drive().name.c_str(), access.number, *result).str();
   answer.raw = result->raw;
   answer.value = cycle::valueOf(info, result->raw);
   answer.info = info;
-  answer.set = hasSets(task.shape) ? task.set : std::uint8_t{0};
+  answer.set = profile::hasSets(access.shape) ? access.parameter_set : std::uint8_t{0};
   return answer;
 }
 

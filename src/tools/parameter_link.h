@@ -69,7 +69,7 @@ class ParameterLink {
   void idle(int cycles) noexcept;
   void refuseRunning() const;
   std::string silence() const;
-  std::optional<drive::ParameterTaskResult> run(const drive::ParameterTask& task) noexcept;
+  std::optional<profile::ParameterResult> run(const profile::ParameterRequest& request) noexcept;
   bool waitForDrive() noexcept;
   ParameterAnswer carryOut(const cycle::Request& request, const profile::ParameterInfo* info);
 

@@ -153,7 +153,7 @@ TEST_F(CanopenCauses, AnEmergencyIsToldAndP700SaysWhichFaultItIs) {
 TEST_F(CanopenCauses, AnSdoThatIsAbortedIsRefusedInWords) {
   Answer answer = robot().readParameter("left", 999);
   EXPECT_FALSE(answer.success);
-  EXPECT_THAT(answer.message, AllOf(HasSubstr("drive left refuses P999"), HasSubstr("SDO abort 06020000")));
+  EXPECT_THAT(answer.message, AllOf(HasSubstr("drive left refuses P999"), HasSubstr("SDO abort 0602 0000h")));
   SimParameterChannel::Request refuse;
   refuse.refuse = true;
   refuse.error = 101;

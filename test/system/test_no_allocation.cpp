@@ -156,7 +156,7 @@ TEST_P(NoAllocation, InTheCyclesThreadOverALossAndAParameterRead) {
   ASSERT_TRUE(runCycles(20));
 
   EXPECT_TRUE(waitFor([this] { return bothRead(); }));
-  EXPECT_EQ(500, ask(cycle::RequestKind::kReadParameter, 105).raw);
+  EXPECT_EQ(500, ask(cycle::RequestKind::kReadParameter, 105).parameter.raw);
   EXPECT_FALSE(ask(cycle::RequestKind::kReadParameter, 999).success);
   ports_->tuneBase({1.1, 0.9, 1.05, true});
   EXPECT_TRUE(ask(cycle::RequestKind::kEnable).success);

@@ -255,7 +255,7 @@ TEST_F(OnASegment, PassesARefusalOn) {
   const auto result = ask(0, 999);
   ASSERT_TRUE(result.has_value());
   EXPECT_EQ(profile::ParameterOutcome::kRefused, result->outcome);
-  EXPECT_EQ(0, result->error_number) << "invalid parameter number (BU 0020 7.5.1)";
+  EXPECT_EQ(profile::ParameterReason::kNoSuchParameter, result->reason) << "error 0 (BU 0020 7.5.1)";
 }
 
 // PPO 3 carries process data only (BU 0020 5.2.2): said at once, in a bounded number.
