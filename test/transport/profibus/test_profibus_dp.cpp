@@ -27,7 +27,7 @@ class OnASegment : public ::testing::Test {
     for (const int address : {3, 4}) {
       const std::string name = address == 3 ? "left" : "right";
       auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
-      settings->set("address", address).set("series", "sk5xxe").set("ppo_type", ppo_type);
+      settings->set("address", address).set("series", "sk5xxe").set("pole_pairs", 2).set("ppo_type", ppo_type);
       drives.push_back({name, settings});
       sim::DriveConfig drive;
       drive.name = name;
