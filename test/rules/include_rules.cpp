@@ -35,7 +35,7 @@ const std::map<std::string, Names>& table() {
       {"robot", {"core"}},
       {"transport", kTransport},
       {"drive", {"core", "profile"}},
-      {"cycle", {"core", "config", "profile", "drive", "transport", "robot", "trace"}},
+      {"cycle", {"core", "config", "profile", "drive", "transport", "robot"}},
       {"sim", {"core", "link"}},
       {"sim_node", {"core", "link", "sim", "ros_support"}},
       {"plugins", {"core", "transport"}},
