@@ -40,6 +40,7 @@ const std::map<std::string, Names>& table() {
       {"link/serial", {"core", "link"}},
       {"link/can", {"core", "link"}},
       {"config", {"core", "profile"}},
+      {"catalogue", {"core", "config", "profile"}},
       {"robot", {"core"}},
       {"trace/telegram_trace", {"core"}},  // the ring a transport fills: below the transports
       {"transport", transportWith({})},
@@ -55,9 +56,10 @@ const std::map<std::string, Names>& table() {
       {"sim/profibus", simulatorWith({"link/serial"})},
       {"sim/canopen", simulatorWith({"link/can"})},
       {"sim_node", {"core", "sim/*", "ros_support"}},
-      {"tools", {"core", "config", "profile", "transport", "robot", "drive", "cycle", "sim/*"}},
+      {"tools", {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "sim/*"}},
       {"node",
-       {"core", "config", "profile", "transport", "robot", "drive", "cycle", "trace/*", "tools", "ros_support"}},
+       {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "trace/*", "tools",
+        "ros_support"}},
       {"system", {"*"}},                             // tests of the whole stack, without ROS
       {"support", {"core", "config", "transport"}},  // what tests of several folders share
       {"ros_support", {}},                           // the same for those with ROS
