@@ -130,8 +130,8 @@ int run(int argc, char** argv) {
   }
   if (line.asksFor(write)) {
     const auto address = addressOf(options.parameter, options.set.value, options.index.value);
-    const auto write = checkedWrite(options.write, address, config.cycle.drives.front().series);
-    task = [address, write](ParameterLink& link) { return writeParameter(link, address, write); };
+    const auto change = checkedWrite(options.write, address, config.cycle.drives.front().series);
+    task = [address, change](ParameterLink& link) { return writeParameter(link, address, change); };
   }
   return carryOut(config, options.timeout.value, task, end_asked);
 }
