@@ -16,7 +16,7 @@ using diagnostic_updater::DiagnosticStatusWrapper;
 namespace {
 
 // What a transport opens, by whichever key it has.
-std::string busDevice(const RosSettings& bus) {
+std::string busDevice(const Settings& bus) {
   for (const char* key : {"device", "interface"}) {
     if (bus.has(key)) return bus.text(key).value_or("");
   }

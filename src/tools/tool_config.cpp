@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "config/driver_settings.h"
 #include "config/yaml_settings.h"
 
 namespace nord_driver::tools {
@@ -14,18 +15,6 @@ constexpr Duration kDriveTimeout = std::chrono::seconds{1};
 constexpr char kProfibus[] = "nord_driver/profibus_dp";
 constexpr char kCanopen[] = "nord_driver/canopen";
 
-std::string transportOf(const YamlSettings& settings) {
-  const std::string name = settings.text("transport").value_or(kProfibus);
-  return name.find('/') == std::string::npos ? "nord_driver/" + name : name;
-}
-
-std::vector<DriveSettings> drivesOf(const YamlSettings& settings) {
-  const auto group = settings.group("drives");
-  std::vector<DriveSettings> drives;
-  for (const std::string& name : group->keys()) drives.push_back({name, group->group(name)});
-  return drives;
-}
-
 // Of the cycle only its rate counts. The base may need a URDF, which there is none of without a roscore.
 YamlSettings rateOf(const YAML::Node& file) {
   YAML::Node rate{YAML::NodeType::Map};
@@ -35,7 +24,7 @@ YamlSettings rateOf(const YAML::Node& file) {
 
 ToolConfig read(const YAML::Node& file, const YamlSettings& settings, const std::vector<DriveSettings>& drives) {
   ToolConfig config;
-  config.transport = transportOf(settings);
+  config.transport = readTransportName(settings);
   config.bus = settings.group("bus");
   config.drives = drives;
   config.cycle = cycle::readCycleConfig(rateOf(file), drives);
@@ -48,7 +37,7 @@ ToolConfig read(const YAML::Node& file, const YamlSettings& settings, const std:
 // A transport wants to know what it opens before it tells anything of its drives.
 YAML::Node withAnyPort(const YAML::Node& file) {
   const YamlSettings settings{"", file};
-  const std::string transport = transportOf(settings);
+  const std::string transport = readTransportName(settings);
   const auto bus = settings.group("bus");
   YAML::Node complete = YAML::Clone(file);
   if (transport == kCanopen && !bus->has("interface")) complete["bus"]["interface"] = "can0";
@@ -60,7 +49,7 @@ YAML::Node withAnyPort(const YAML::Node& file) {
 
 void choosePort(YAML::Node& file, const BusPort& port) {
   const YamlSettings settings{"", file};
-  const std::string transport = transportOf(settings);
+  const std::string transport = readTransportName(settings);
   if (transport == kProfibus || transport == kCanopen) checkPort(port, transport == kCanopen);
   settings.group("bus");  // refuses a value where the group belongs
   if (!port.device.empty()) file["bus"]["device"] = port.device;
@@ -70,12 +59,12 @@ void choosePort(YAML::Node& file, const BusPort& port) {
 ToolConfig readToolConfig(const YAML::Node& file) {
   const YAML::Node complete = withAnyPort(file);
   const YamlSettings settings{"", complete};
-  return read(complete, settings, drivesOf(settings));
+  return read(complete, settings, readDriveList(settings));
 }
 
 ToolConfig readToolConfig(const YAML::Node& file, const std::string& name) {
   const YamlSettings settings{"", file};
-  const std::vector<DriveSettings> all = drivesOf(settings);
+  const std::vector<DriveSettings> all = readDriveList(settings);
   const auto asked =
       std::find_if(all.begin(), all.end(), [&](const DriveSettings& drive) { return drive.name == name; });
   if (asked == all.end()) {

@@ -117,6 +117,9 @@ class Transport {
   virtual bool submit(DriveIndex drive, const profile::ParameterRequest& request) noexcept = 0;
   /// The next finished access, whichever drive it was of.
   virtual std::optional<profile::ParameterResult> pollResult() noexcept = 0;
+  /// What the parameter channel of this drive can do; from configure() on, and always the same. As it stands here: what
+  /// PKW can.
+  virtual profile::ParameterCapabilities parameterCapabilities(DriveIndex /*drive*/) const noexcept { return {}; }
 
   /// The bus device is open and at least one station answers.
   virtual bool connected() const noexcept = 0;

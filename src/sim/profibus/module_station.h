@@ -9,7 +9,7 @@
 
 #include "sim/inverter/inverter_model.h"
 #include "sim/profibus/dp_station.h"
-#include "sim/profibus/module_parameters.h"
+#include "sim/module_parameters.h"
 #include "sim/profibus/pkw_server.h"
 
 namespace nord_driver::sim {
