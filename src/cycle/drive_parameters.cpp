@@ -64,15 +64,14 @@ bool decidesMotion(const Request& request) noexcept {
 }
 
 DriveParameters::DriveParameters(DriveIndex drive, std::string name, profile::Series series,
-                                 std::optional<double> typed_max_frequency, TimeoutOwner owner,
-                                 const profile::ParameterCapabilities& capabilities)
+                                 std::optional<double> typed_max_frequency, const ParameterChannelUse& channel)
     : drive_(drive),
       name_(std::move(name)),
       series_(series),
       typed_max_frequency_(typed_max_frequency),
-      capabilities_(capabilities),
-      reader_(series, owner),
-      session_(capabilities) {}
+      channel_(channel),
+      reader_(series, channel.timeout_owner),
+      session_(channel.capabilities) {}
 
 void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
   const drive::DriveReport& report = drive.report();
@@ -181,6 +180,7 @@ void DriveParameters::refuse(const Request& request, profile::ParameterOutcome o
 std::optional<profile::ParameterRequest> DriveParameters::pollRequest(Instant now) noexcept {
   for (std::size_t i = 0; i < kAskers; ++i) {
     if (open_ids_[i] != 0) continue;
+    if (channel_.users_only && static_cast<Asker>(i) != Asker::kSession) continue;
     auto request = ask(static_cast<Asker>(i), now);
     if (!request) continue;
     sequence_ += 1u << (kDriveBits + kAskerBits);
@@ -250,7 +250,7 @@ void DriveParameters::answer(Asker asker, const profile::ParameterResult& result
 // Where the bus has a code for it, its words say so already.
 void DriveParameters::answer(const Request& request, const profile::ParameterResult& result) noexcept {
   const bool by_control_source =
-      request.kind == RequestKind::kWriteParameter && !bus_control_ && !capabilities_.tells_missing_right;
+      request.kind == RequestKind::kWriteParameter && !bus_control_ && !channel_.capabilities.tells_missing_right;
   Completion completion =
       answerTo(request, result.outcome == profile::ParameterOutcome::kDone,
                parameterMessage(name_.c_str(), request.parameter.number, result, by_control_source));

@@ -26,14 +26,20 @@ bool changesProcessData(const Request& request) noexcept;
 /// be written while the drive is enabled.
 bool decidesMotion(const Request& request) noexcept;
 
+/// The way to the parameters of one drive, and who uses it.
+struct ParameterChannelUse {
+  TimeoutOwner timeout_owner = TimeoutOwner::kInverter;
+  profile::ParameterCapabilities capabilities;
+  bool users_only = false;  ///< nothing is read that no user has asked for: neither faults nor what scaling needs
+};
+
 /// Each cycle, after the exchange: `handleState`, then `pollRequest` until it is empty, then the transport's results by
 /// `handleResult`, then `pollCompletion`. Three askers, each with one question under way at most; a result is given
 /// only to the one whose latest question it answers.
 class DriveParameters {
  public:
   DriveParameters(DriveIndex drive, std::string name, profile::Series series, std::optional<double> typed_max_frequency,
-                  TimeoutOwner owner = TimeoutOwner::kInverter,
-                  const profile::ParameterCapabilities& capabilities = {});
+                  const ParameterChannelUse& channel = {});
 
   /// Looks whether the drive is there and whether it has a fault; hands it P105 as it is known. Offline: all ends.
   void handleState(drive::Drive& drive, Instant now) noexcept;
@@ -75,7 +81,7 @@ class DriveParameters {
   std::string name_;
   profile::Series series_;
   std::optional<double> typed_max_frequency_;
-  profile::ParameterCapabilities capabilities_;
+  ParameterChannelUse channel_;
   DeviceReader reader_;
   drive::FaultReader faults_;
   drive::ParameterSession session_;
