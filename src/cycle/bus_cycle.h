@@ -76,7 +76,7 @@ class BusCycle {
   void measureBase(Duration dt) noexcept;
   void publish(Instant now) noexcept;
   void tellChanges(Instant now) noexcept;
-  void fill(DriveSnapshot& to, DriveIndex drive) const noexcept;
+  void fill(DriveSnapshot& to, DriveIndex drive, Instant now) const noexcept;
 
   Transport& transport_;
   CyclePorts& ports_;

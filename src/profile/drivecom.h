@@ -34,11 +34,6 @@ constexpr bool drivecomLimitReached(Word status_word) noexcept {
   return (status_word >> 11 & 1u) != 0;
 }
 
-/// The state a status word of the profile spells.
-inline DriveState drivecomState(Word status_word) noexcept {
-  return cia402State(status_word);
-}
-
 class DrivecomScaling {
  public:
   /// `pole_pairs` > 0: of the motor. Without `max_frequency` (P105 of set 1) every speed is 0.

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "profile/drivecom.h"
+#include "profile/velocity_mode_state.h"
 
 namespace nord_driver::profile {
 namespace {
@@ -17,6 +18,11 @@ DrivecomScaling fiftyHertz() {
 
 DrivecomOutput output(Word control_word, std::int16_t setpoint = 0) {
   return fiftyHertz().toDrivecom({control_word, {setpoint, 0, 0}});
+}
+
+/// The state that the drive layer decodes from the translated word.
+DriveState translated(Word status_word) {
+  return StatusWord(fiftyHertz().fromDrivecom({status_word, 0}).status_word).state();
 }
 
 // BU 0070 6.4.2, object 6040: bits 0 to 7 are those of the control word without the profile; 8 to 10 are reserved.
@@ -79,17 +85,17 @@ TEST(Drivecom, ActualSpeedBecomesActualValueOne) {
   EXPECT_EQ(-0x4000, fiftyHertz().fromDrivecom({0x4637, -1500}).actual_values[0]);
 }
 
-TEST(Drivecom, StatesAreDecodedByMask) {
-  EXPECT_EQ(DriveState::kSwitchOnDisabled, drivecomState(0x0270));
-  EXPECT_EQ(DriveState::kReadyToSwitchOn, drivecomState(0x0631));
-  EXPECT_EQ(DriveState::kOperationEnabled, drivecomState(0x4E37));
-  EXPECT_EQ(DriveState::kFault, drivecomState(0x0218));
+TEST(Drivecom, StatesKeepTheirMeaning) {
+  EXPECT_EQ(DriveState::kSwitchOnDisabled, translated(0x0270));
+  EXPECT_EQ(DriveState::kReadyToSwitchOn, translated(0x0631));
+  EXPECT_EQ(DriveState::kOperationEnabled, translated(0x4E37));
+  EXPECT_EQ(DriveState::kFault, translated(0x0218));
 }
 
-// The drive layer decodes the translated word: it must see the state the inverter meant.
+// The same for every word: the drive layer sees the state that the inverter meant.
 RC_GTEST_PROP(Drivecom, TheTranslatedWordSpellsTheSameState, ()) {
   const auto word = static_cast<Word>(*rc::gen::inRange<unsigned>(1, 0x10000));
-  RC_ASSERT(StatusWord(fiftyHertz().fromDrivecom({word, 0}).status_word).state() == drivecomState(word));
+  RC_ASSERT(translated(word) == stateOf(word));
 }
 
 // Whatever the drive layer commands, bit 1 (voltage) falls only when it asked for it: the wheel never coasts by the way.

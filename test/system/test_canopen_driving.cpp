@@ -13,7 +13,6 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 
 // 50 % of P105 (25 Hz) is 3.92699 rad/s at the joint and 0.392699 m/s.
-constexpr double kHalfSpeed = 0.39269908169872414;
 
 /// What goes over the bus under one of the given identifiers, each frame once until it changes.
 class Changes {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/parameter_requests.h"
 #include "system/can_robot.h"
 
 namespace nord_driver::test {
@@ -9,8 +10,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
-
-constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
 
 void expectDrives(CanRobot& robot) {
   ASSERT_TRUE(robot.bringUpAndEnable());
@@ -34,14 +33,7 @@ TEST(CanopenKinds, FourInvertersBehindAGateway) {
   EXPECT_EQ(robot.transport().identity(0).shared_module, robot.transport().identity(2).shared_module);
   expectDrives(robot);
   // Parameters of inverter 2 are inverter 2's.
-  cycle::Request request;
-  request.kind = cycle::RequestKind::kWriteParameter;
-  request.drive = 1;
-  request.parameter.number = 103;
-  request.parameter.shape = profile::ParameterShape::kPerSet;
-  request.parameter.action = profile::ParameterAction::kWritePersistent;
-  request.parameter.raw = 321;
-  EXPECT_TRUE(robot.ask(request).success);
+  EXPECT_TRUE(robot.ask(writeRequest(1, 103, 321, profile::ParameterAction::kWritePersistent)).success);
   EXPECT_EQ(321, robot.unit(1).parameters().value(103, 0));
   EXPECT_NE(321, robot.unit(0).parameters().value(103, 0));
 }

@@ -13,7 +13,6 @@ namespace {
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 
-constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
 constexpr DriveIndex kLeft = 0, kRight = 1;
 
 enum class Base { kTwoDrives, kFourDrives, kFourBehindOneModule };

@@ -8,8 +8,6 @@ namespace {
 
 using std::chrono::seconds;
 
-constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
-
 struct Line {
   const char* name;
   double slot_time;  ///< s
