@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "sim/canopen/can_config.h"
 #include "sim/running_bus.h"
 #include "tools/bus_port.h"
 #include "tools/command_line.h"
@@ -30,10 +31,8 @@ SimConfig readConfig(const std::vector<std::string>& files, const BusPort& port)
       throw nord_driver::sim::ConfigError("--config " + file + ": " + error.what() + "; expected a readable YAML file");
     }
   }
-  SimConfig config = nord_driver::sim::readSimConfig(merged);
-  checkPort(port, config.can.has_value());
-  if (!port.device.empty()) config.device = port.device;
-  if (!port.interface.empty() && config.can) config.can->interface = port.interface;
+  const SimConfig config = nord_driver::sim::readSimConfig(merged, port.device.empty() ? port.interface : port.device);
+  checkPort(port, config.bus.is<nord_driver::sim::CanBusConfig>());
   return config;
 }
 

@@ -21,7 +21,7 @@ CanRobot::Options withTwin() {
     sim::DriveConfig twin = config.drives[kRight];
     twin.name = "twin";
     twin.joint = "twin_joint";
-    twin.can->doubled_id = true;
+    twin.bus.as<sim::CanDriveConfig>().doubled_id = true;
     config.drives.push_back(twin);
   };
   return options;

@@ -47,8 +47,8 @@ TEST(CanopenDriving, ATwistBecomesTheManualsFrames) {
   options.each = {{{"address", 50}}, {{"address", 51}}};
   options.simulate = [simulate = options.simulate](sim::SimConfig& config) {
     simulate(config);
-    config.drives[0].slave.address = 50;
-    config.drives[1].slave.address = 51;
+    config.drives[0].address = 50;
+    config.drives[1].address = 51;
   };
   CanRobot robot{options};
   Changes left{robot, {0x232, 0x1B2}};

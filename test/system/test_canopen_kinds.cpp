@@ -144,7 +144,7 @@ CanRobot::Options cia402() {
   CanRobot::Options options;
   options.drives = {{"profile", std::string{"cia402"}}};
   options.simulate = [](sim::SimConfig& config) {
-    for (sim::DriveConfig& drive : config.drives) drive.can->cia402 = true;
+    for (sim::DriveConfig& drive : config.drives) drive.bus.as<sim::CanDriveConfig>().cia402 = true;
   };
   return options;
 }
@@ -241,7 +241,8 @@ TEST(CanopenKinds, TheOwnCanPortOfSk5xxE) {
   CanRobot::Options options;
   options.drives = {{"connection", std::string{"onboard"}}};
   options.simulate = [](sim::SimConfig& config) {
-    for (sim::DriveConfig& drive : config.drives) drive.can->connection = sim::CanConnection::kOnboard;
+    for (sim::DriveConfig& drive : config.drives)
+      drive.bus.as<sim::CanDriveConfig>().connection = sim::CanConnection::kOnboard;
   };
   CanRobot robot{options};
   expectDrives(robot);
@@ -253,9 +254,10 @@ TEST(CanopenKinds, TheSystemBus) {
   options.drives = {{"connection", std::string{"system_bus"}}};
   options.each = {{{"address", 32}}, {{"address", 34}}};
   options.simulate = [](sim::SimConfig& config) {
-    config.drives[0].slave.address = 32;
-    config.drives[1].slave.address = 34;
-    for (sim::DriveConfig& drive : config.drives) drive.can->connection = sim::CanConnection::kSystemBus;
+    config.drives[0].address = 32;
+    config.drives[1].address = 34;
+    for (sim::DriveConfig& drive : config.drives)
+      drive.bus.as<sim::CanDriveConfig>().connection = sim::CanConnection::kSystemBus;
   };
   CanRobot robot{options};
   ASSERT_EQ(2u, robot.transport().warnings().size());
@@ -267,7 +269,7 @@ TEST(CanopenKinds, TheSystemBus) {
 TEST(CanopenKinds, AFixedMappingIsFine) {
   CanRobot::Options options;
   options.simulate = [](sim::SimConfig& config) {
-    for (sim::DriveConfig& drive : config.drives) drive.can->fixed_mapping = true;
+    for (sim::DriveConfig& drive : config.drives) drive.bus.as<sim::CanDriveConfig>().fixed_mapping = true;
   };
   CanRobot robot{options};
   expectDrives(robot);
@@ -277,7 +279,7 @@ TEST(CanopenKinds, ArraysByTheTable) {
   CanRobot::Options options;
   options.drives = {{"array_sub_index", std::string{"table"}}};
   options.simulate = [](sim::SimConfig& config) {
-    for (sim::DriveConfig& drive : config.drives) drive.can->array_sub_by_table = true;
+    for (sim::DriveConfig& drive : config.drives) drive.bus.as<sim::CanDriveConfig>().array_sub_by_table = true;
   };
   CanRobot robot{options};
   ASSERT_TRUE(robot.bringUpAndEnable());

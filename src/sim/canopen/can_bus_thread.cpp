@@ -17,7 +17,7 @@ constexpr int kMostInOneGo = 64;  // frames taken before the models run on
 
 std::unique_ptr<link::CanLink> linkOf(const SimConfig& config) {
   link::CanSettings settings;
-  settings.interface = config.can.value_or(CanBusConfig{}).interface;
+  settings.interface = config.bus.as<CanBusConfig>().interface;
   return link::makeCanLink(settings, link::CanRole::kOwner);
 }
 
@@ -26,10 +26,7 @@ std::unique_ptr<link::CanLink> linkOf(const SimConfig& config) {
 CanBusThread::CanBusThread(const SimConfig& config) : CanBusThread(config, linkOf(config)) {}
 
 CanBusThread::CanBusThread(const SimConfig& config, std::unique_ptr<link::CanLink> link)
-    : robot_(config),
-      stations_(robot_),
-      interface_(config.can.value_or(CanBusConfig{}).interface),
-      link_(std::move(link)) {
+    : robot_(config), stations_(robot_), interface_(config.bus.as<CanBusConfig>().interface), link_(std::move(link)) {
   if (!link_->open()) throw std::runtime_error("bus/interface: " + link_->lastError());
   stations_.advance(link_->now(), *this);
   thread_ = std::thread([this] { serve(); });

@@ -18,7 +18,7 @@ namespace nord_driver::sim {
 /// Serves from construction to destruction. An interface that is removed is opened again when it is back.
 class CanBusThread : public RunningBus, private CanSink {
  public:
-  /// On `config.can->interface`; "virtual:NAME" makes the bus itself. Throws std::runtime_error naming the interface
+  /// On `CanBusConfig::interface`; "virtual:NAME" makes the bus itself. Throws std::runtime_error naming the interface
   /// and the reason, and ConfigError as CanStations does.
   explicit CanBusThread(const SimConfig& config);
   /// On this link.

@@ -1,17 +1,18 @@
 // The CANopen nodes of a simulated robot and their referee: what sits on the CAN bus beside the master.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "sim/canopen/can_node.h"
+#include "sim/judge.h"
 #include "sim/robot/robot_sim.h"
 
 namespace nord_driver::sim {
 
 class CanStations {
  public:
-  /// One node for each node id of the configuration; the drives of a gateway share theirs. `robot` must outlive it.
+  /// Connects the drives of `robot`, with one node for each node id of the configuration; the drives of a gateway share
+  /// theirs. `robot` must outlive it.
   /// Throws ConfigError when two drives claim the same place.
   explicit CanStations(RobotSim& robot);
 
@@ -26,7 +27,7 @@ class CanStations {
 
   bool anyAlive() const noexcept;
   std::size_t nodeCount() const noexcept { return nodes_.size(); }
-  std::vector<std::unique_ptr<CanNode>>& nodes() noexcept { return nodes_; }
+  const std::vector<CanNode*>& nodes() const noexcept { return nodes_; }
   CanNode& node(std::size_t index) noexcept { return *nodes_[index]; }
   /// The node behind which a drive (index in the configuration) sits.
   CanNode& nodeOf(std::size_t drive) noexcept { return *nodes_[node_of_[drive]]; }
@@ -40,7 +41,7 @@ class CanStations {
  private:
   RobotSim& robot_;
   CanReferee referee_;
-  std::vector<std::unique_ptr<CanNode>> nodes_;
+  std::vector<CanNode*> nodes_;  // the robot's
   std::vector<std::size_t> node_of_;
   bool started_ = false;
   Instant now_{};

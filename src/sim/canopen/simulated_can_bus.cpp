@@ -23,7 +23,7 @@ SimulatedCanBus::SimulatedCanBus(const SimConfig& config, const CanBusSettings& 
     : robot_(config),
       stations_(robot_),
       settings_(settings),
-      bit_time_(std::chrono::nanoseconds{1'000'000'000} / config.can.value_or(CanBusConfig{}).bit_rate),
+      bit_time_(std::chrono::nanoseconds{1'000'000'000} / config.bus.as<CanBusConfig>().bit_rate),
       now_(settings.start) {
   stations_.advance(now_, *this);
 }

@@ -36,7 +36,7 @@ class SimulatedCanBus : public link::CanLink, private CanSink {
   /// Sees every frame that went over the bus, at its end.
   using Tap = std::function<void(const CanFrame&, Sender, Instant)>;
 
-  /// `config.can` gives the bit rate. Throws ConfigError as CanStations does.
+  /// `CanBusConfig` gives the bit rate. Throws ConfigError as CanStations does.
   explicit SimulatedCanBus(const SimConfig& config, const CanBusSettings& settings = CanBusSettings{});
 
   bool open() noexcept override;
