@@ -13,6 +13,7 @@
 
 #include "nord_driver/profile/process_data.h"
 #include "profile/cia402.h"
+#include "profile/status_word.h"
 
 namespace nord_driver::profile {
 
@@ -36,7 +37,7 @@ constexpr bool drivecomLimitReached(Word status_word) noexcept {
 
 /// The state a status word of the profile spells.
 inline DriveState drivecomState(Word status_word) noexcept {
-  return cia402State(status_word);
+  return StatusWord{status_word}.state();
 }
 
 class DrivecomScaling {
