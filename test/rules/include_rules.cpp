@@ -7,7 +7,6 @@
 #include <regex>
 #include <set>
 #include <string>
-#include <utility>
 
 namespace nord_driver::rules {
 namespace {
@@ -36,6 +35,8 @@ const std::map<std::string, Names>& table() {
       {"profile", {"core"}},
       {"profibus", {"core"}},
       {"canopen", {"core"}},
+      {"devicenet", {"core"}},
+      {"interbus", {"core"}},
       {"link", {"core"}},
       {"link/serial", {"core", "link"}},
       {"link/can", {"core", "link"}},
@@ -46,16 +47,21 @@ const std::map<std::string, Names>& table() {
       {"transport", transportWith({})},
       {"transport/profibus", transportWith({"profibus", "link", "link/serial"})},
       {"transport/canopen", transportWith({"canopen", "link", "link/can"})},
+      {"transport/devicenet", transportWith({"devicenet", "link", "link/can"})},
+      {"transport/interbus", transportWith({"interbus", "link"})},
       {"drive", {"core", "profile"}},
       {"cycle", {"core", "config", "profile", "transport", "robot", "drive"}},
       {"trace", {"core", "config", "profile", "transport", "cycle", "trace/telegram_trace"}},
       {"plugins", {"core", "transport/*"}},
-      {"sim", {"core", "link", "sim/*"}},
+      {"sim", {"core", "link", "sim/inverter", "sim/robot"}},
+      {"sim/bus_kinds", {"core", "sim/*"}},  // the table of buses
       {"sim/inverter", {"core", "sim"}},
-      {"sim/robot", {"core", "sim", "sim/inverter", "sim/profibus"}},
+      {"sim/robot", {"core", "sim", "sim/inverter"}},
       {"sim/profibus", simulatorWith({"link/serial"})},
       {"sim/canopen", simulatorWith({"link/can"})},
-      {"sim_node", {"core", "sim/*", "ros_support"}},
+      {"sim/devicenet", simulatorWith({"link/can"})},
+      {"sim/interbus", simulatorWith({})},
+      {"sim_node", {"core", "sim", "ros_support"}},
       {"tools", {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "sim/*"}},
       {"node",
        {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "trace/*", "tools",
@@ -70,17 +76,17 @@ const std::map<std::string, Names>& table() {
   return kTable;
 }
 
-/// Of two that are apart no file knows both, tests included.
+/// What only one bus needs, or only one kind of link: no file knows two of a set, tests included.
 bool areApart(const std::string& layer, const std::string& used) {
-  static const std::array<std::pair<const char*, const char*>, 2> kApart{{{"profibus", "canopen"}, {"serial", "can"}}};
+  static const std::array<Names, 2> kApart{{{"profibus", "canopen", "devicenet", "interbus"}, {"serial", "can"}}};
   const auto last = [](const std::string& name) { return name.substr(name.rfind('/') + 1); };
-  return std::any_of(kApart.begin(), kApart.end(), [&](const auto& pair) {
-    return (last(layer) == pair.first && last(used) == pair.second) ||
-           (last(layer) == pair.second && last(used) == pair.first);
-  });
+  const std::string one = last(layer), other = last(used);
+  return one != other && std::any_of(kApart.begin(), kApart.end(), [&](const Names& names) {
+           return names.count(one) != 0 && names.count(other) != 0;
+         });
 }
 
-const Names kPure{"core", "profile", "profibus", "canopen", "robot", "drive"};
+const Names kPure{"core", "profile", "profibus", "canopen", "devicenet", "interbus", "robot", "drive"};
 const Names kWithRos{"node", "sim_node", "plugins", "tools", "rostest", "ros_support"};
 const Names kForEveryTest{"sim", "link", "core", "support"};
 const Names kProgramTests{"node", "tools"};  // those of the programs bring a bus of their own
