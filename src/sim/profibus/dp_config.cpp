@@ -4,7 +4,7 @@
 
 #include "sim/bus_kind.h"
 #include "sim/config_parameters.h"
-#include "sim/profibus/module_parameters.h"
+#include "sim/module_parameters.h"
 #include "sim/profibus/pty_bus.h"
 
 namespace nord_driver::sim {

@@ -8,9 +8,9 @@
 #include <cstdint>
 
 #include "sim/inverter/pkw_server.h"
+#include "sim/module_parameters.h"
 #include "sim/profibus/dp_config.h"
 #include "sim/profibus/dp_station.h"
-#include "sim/profibus/module_parameters.h"
 
 namespace nord_driver::sim {
 
