@@ -269,14 +269,14 @@ TEST(ParameterLink, TellsARefusalOfTheRecordInTheWordsOfDpv1) {
   sim::SimConfig simulated;
   sim::DriveConfig drive;
   drive.name = "one";
-  drive.slave.address = 5;
-  drive.slave.ppo_type = 3;
+  drive.address = 5;
+  drive.bus.as<sim::DpDriveConfig>().ppo_type = 3;
   drive.device.series = sim::Series::kSk2xxe;
   drive.place = 1;
   simulated.drives.push_back(drive);
   sim::ModuleConfig module;
   module.settings.address = 5;
-  simulated.modules.push_back(module);
+  simulated.bus.as<sim::DpBusConfig>().modules.push_back(module);
   ProfibusDpTransport transport(
       [&](const link::SerialSettings&) { return std::make_unique<sim::SimulatedSegment>(simulated); });
   const ToolConfig config = readToolConfig(file, "one");

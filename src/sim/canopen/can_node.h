@@ -10,6 +10,7 @@
 #include "core/can_frame.h"
 #include "nord_driver/core/time.h"
 #include "sim/bus_module.h"
+#include "sim/can/can_participants.h"
 #include "sim/canopen/can_communication_objects.h"
 #include "sim/canopen/can_config.h"
 #include "sim/canopen/can_gateway_module.h"
@@ -21,13 +22,6 @@
 #include "sim/canopen/can_tpdo.h"
 
 namespace nord_driver::sim {
-
-/// Takes what the nodes send; whoever moves the frames implements it.
-class CanSink {
- public:
-  virtual ~CanSink() = default;
-  virtual void transmit(const CanFrame& frame) noexcept = 0;
-};
 
 struct CanNodeSettings {
   std::uint8_t node = 32;
