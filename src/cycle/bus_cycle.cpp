@@ -314,7 +314,7 @@ void BusCycle::publish(Instant now) noexcept {
     base.stopped = !base.text.empty();
     base.stop_cause = supervisor_.base()->report().stop_cause;
   }
-  ports_.trace().handleCycle(outputs_, inputs_, snapshot_);
+  ports_.observe(outputs_, inputs_, snapshot_);
   ports_.publish(snapshot_);
 }
 

@@ -106,7 +106,7 @@ void DriverNode::advertise() {
     base_tuner_ = std::make_unique<BaseTuner>(private_node_, config_, *ports_, *base_publisher_);
   }
   std::vector<std::string> names;
-  std::vector<cycle::TracedDrive> traced;
+  std::vector<trace::TracedDrive> traced;
   for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
     const cycle::DriveSetup& setup = config_.cycle.drives[i];
     names.push_back(setup.name);
@@ -124,7 +124,8 @@ void DriverNode::advertise() {
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
   diagnostics_ = std::make_unique<Diagnostics>(config_, identities_);
   services_ = std::make_unique<Services>(private_node_, stops_.handle(), config_, *broker_);
-  tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace(), ports_->trace());
+  tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace());
+  ports_->setObserver(&tracing_->feed());
   if (config_.cycle.base) {
     boost::function<void(const geometry_msgs::Twist&)> take = [this](const geometry_msgs::Twist& twist) {
       takeCommand(twist);

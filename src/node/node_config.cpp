@@ -85,7 +85,7 @@ NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot
     const std::vector<std::string>& of_base = config.cycle.base->warnings;
     config.warnings.insert(config.warnings.end(), of_base.begin(), of_base.end());
   }
-  config.trace = cycle::readTraceConfig(settings);
+  config.trace = trace::readTraceConfig(settings);
   return config;
 }
 

@@ -33,7 +33,7 @@ struct NodeConfig {
   bool allow_raw_parameters = false;
   PublishConfig publish;
   cycle::CycleConfig cycle;
-  std::optional<cycle::TraceConfig> trace;
+  std::optional<trace::TraceConfig> trace;
   std::vector<DriveSettings> drives;
   std::shared_ptr<TreeSettings> bus;
   std::vector<std::string> warnings;  ///< sentences on what is accepted but done in another way, or not

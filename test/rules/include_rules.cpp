@@ -16,11 +16,11 @@ using Names = std::set<std::string>;
 const std::map<std::string, Names>& table() {
   static const Names kTransport{"core",      "config",   "profile", "profibus", "canopen",
                                 "devicenet", "interbus", "link",    "trace"};
-  static const Names kTools{"core", "config",    "trace", "profile", "profibus", "canopen", "devicenet", "interbus",
-                            "link", "transport", "robot", "drive",   "cycle",    "sim",     "plugins"};
-  static const Names kNode{"core",      "config",   "trace",   "profile",   "profibus",   "canopen",
-                           "devicenet", "interbus", "link",    "transport", "robot",      "drive",
-                           "cycle",     "sim",      "plugins", "tools",     "ros_support"};
+  static const Names kTools{"core",     "config", "catalogue", "trace", "profile", "profibus", "canopen", "devicenet",
+                            "interbus", "link",   "transport", "robot", "drive",   "cycle",    "sim",     "plugins"};
+  static const Names kNode{"core",    "config",    "catalogue", "trace",   "profile",   "profibus",
+                           "canopen", "devicenet", "interbus",  "link",    "transport", "robot",
+                           "drive",   "cycle",     "sim",       "plugins", "tools",     "ros_support"};
   static const std::map<std::string, Names> kTable{
       {"core", {}},
       {"profile", {"core"}},
@@ -30,11 +30,12 @@ const std::map<std::string, Names>& table() {
       {"interbus", {"core"}},
       {"link", {"core"}},
       {"config", {"core", "profile"}},
+      {"catalogue", {"core", "config", "profile"}},
       {"trace", {"core", "profile", "config", "transport", "cycle"}},
       {"robot", {"core"}},
       {"transport", kTransport},
       {"drive", {"core", "profile"}},
-      {"cycle", {"core", "config", "profile", "drive", "transport", "robot", "trace"}},
+      {"cycle", {"core", "config", "profile", "drive", "transport", "robot"}},
       {"sim", {"core", "link"}},
       {"sim_node", {"core", "link", "sim", "ros_support"}},
       {"plugins", {"core", "transport"}},
