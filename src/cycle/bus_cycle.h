@@ -46,6 +46,7 @@ class BusCycle {
   /// A parameter that decides motion may be written.
   bool isAtRest(DriveIndex drive) noexcept;
   const GuestGate& gate() const noexcept { return gate_; }
+  void closeGate() noexcept { gate_.close(); }
 
  private:
   /// One drive with everything the cycle keeps beside it.

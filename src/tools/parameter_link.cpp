@@ -2,7 +2,7 @@
 
 #include "config/setting_checks.h"
 #include "cycle/drive_parameters.h"
-#include "profile/parameter_queue.h"
+#include "profile/parameter_shape.h"
 #include "transport/parameters_only.h"
 
 namespace nord_driver::tools {
@@ -55,6 +55,7 @@ void ParameterLink::refuseRunning() const {
 
 void ParameterLink::connect(Duration limit, const std::atomic<bool>& end_asked) {
   const Instant end = transport_.now() + limit;
+  cycle_->closeGate();
   while (!cycle_->gate().isOpen()) {
     exchange();
     refuseRunning();
