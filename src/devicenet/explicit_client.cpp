@@ -1,0 +1,209 @@
+#include "devicenet/explicit_client.h"
+
+#include "devicenet/identifier.h"
+
+namespace nord_driver::devicenet {
+namespace {
+
+constexpr std::uint8_t kFragmentBit = 0x80;
+constexpr std::uint8_t kTransactionBit = 0x40;
+constexpr std::uint8_t kMacMask = 0x3F;
+constexpr std::size_t kUnfragmentedBody = 7;
+constexpr std::size_t kPerFragment = 6;
+constexpr std::uint8_t kAccepted = 0;
+constexpr std::uint8_t kTooMuchData = 1;
+constexpr Duration kAcknowledgeTime = std::chrono::seconds{1};
+/// The device repeats a fragment whose acknowledge was lost after a second.
+constexpr Duration kFragmentTime = std::chrono::milliseconds{1200};
+
+}  // namespace
+
+bool ExplicitClient::start(const ExplicitRequest& request, ExplicitPort port, BodyFormat format, Duration timeout,
+                           Instant now) noexcept {
+  if (busy()) return false;
+  if (!encode(request, port == ExplicitPort::kUnconnected ? BodyFormat::k8Over8 : format, body_)) return false;
+  port_ = port;
+  id_ = request.id;
+  xid_ = !xid_;
+  offset_ = 0;
+  count_ = 0;
+  repeats_ = 0;
+  timeout_ = timeout;
+  phase_ = Phase::kToSend;
+  timers_.set(Timer::kReply, now + timeout);
+  return true;
+}
+
+void ExplicitClient::cancel() noexcept {
+  phase_ = Phase::kIdle;
+  timers_.stopAll();
+  receiver_.reset();
+  acknowledge_.reset();
+  answer_.reset();
+}
+
+bool ExplicitClient::fragmented() const noexcept {
+  return body_.size() > kUnfragmentedBody;
+}
+
+bool ExplicitClient::lastFragmentSent() const noexcept {
+  return phase_ == Phase::kAwaitAcknowledge && offset_ + kPerFragment >= body_.size();
+}
+
+// An answer says that the request arrived, whether or not its last acknowledge did.
+bool ExplicitClient::awaitsAnswer(bool xid) const noexcept {
+  const bool waits = phase_ == Phase::kAwaitAnswer || phase_ == Phase::kReceiving || lastFragmentSent() ||
+                     (phase_ == Phase::kToSend && repeats_ > 0 && !fragmented());
+  return waits && xid == xid_;
+}
+
+std::uint8_t ExplicitClient::header(bool fragment, bool xid) const noexcept {
+  return static_cast<std::uint8_t>((fragment ? kFragmentBit : 0u) | (xid ? kTransactionBit : 0u) | own_);
+}
+
+std::uint32_t ExplicitClient::requestId() const noexcept {
+  return identifier(port_ == ExplicitPort::kUnconnected ? Group2::kUnconnected : Group2::kMasterExplicit, device_);
+}
+
+Fragment ExplicitClient::fragment() const noexcept {
+  if (offset_ == 0) return {FragmentType::kFirst, 0};
+  return {offset_ + kPerFragment >= body_.size() ? FragmentType::kLast : FragmentType::kMiddle, count_};
+}
+
+CanFrame ExplicitClient::nextPiece() const noexcept {
+  FixedBytes<kCanDataLength> bytes;
+  ByteWriter<kCanDataLength> writer{bytes};
+  writer.u8(header(fragmented(), xid_));
+  if (fragmented()) {
+    writer.u8(fragment().byte());
+    writer.append(ByteView{body_}.sub(offset_, kPerFragment));
+  } else {
+    writer.append(ByteView{body_});
+  }
+  return dataFrame(requestId(), bytes);
+}
+
+bool ExplicitClient::pollTransmit(CanFrame& frame, Instant now) noexcept {
+  if (acknowledge_) {
+    frame = *acknowledge_;
+    acknowledge_.reset();
+    return true;
+  }
+  if (phase_ != Phase::kToSend) return false;
+  frame = nextPiece();
+  phase_ = fragmented() ? Phase::kAwaitAcknowledge : Phase::kAwaitAnswer;
+  timers_.set(Timer::kReply, now + (fragmented() ? kAcknowledgeTime : timeout_));
+  return true;
+}
+
+Heard ExplicitClient::handle(const CanFrame& frame, Instant now) noexcept {
+  const ByteView bytes = frame.bytes();
+  if (bytes.size() < 2) return Heard::kMalformed;
+  if ((bytes[0] & kMacMask) != own_) return Heard::kForeign;
+  const bool xid = (bytes[0] & kTransactionBit) != 0;
+  if ((bytes[0] & kFragmentBit) == 0) return awaitsAnswer(xid) ? handleBody(bytes.sub(1)) : Heard::kStale;
+  if (bytes.size() < 3) return Heard::kMalformed;
+  const Fragment fragment = Fragment::from(bytes[1]);
+  return fragment.type == FragmentType::kAcknowledge ? handleAcknowledge(xid, fragment, bytes.sub(2), now)
+                                                     : handleFragment(xid, fragment, bytes.sub(2), now);
+}
+
+Heard ExplicitClient::handleAcknowledge(bool xid, Fragment acknowledged, ByteView data, Instant now) noexcept {
+  if (data.size() != 1) return Heard::kMalformed;
+  const bool repeating = phase_ == Phase::kToSend && repeats_ > 0 && fragmented();
+  const bool waits = phase_ == Phase::kAwaitAcknowledge || repeating;
+  if (!waits || xid != xid_ || acknowledged.count != fragment().count) return Heard::kStale;
+  if (data[0] != kAccepted) {
+    finish(ExplicitEnd::kTooLong);
+    return Heard::kTaken;
+  }
+  repeats_ = 0;
+  if (offset_ + kPerFragment >= body_.size()) {
+    phase_ = Phase::kAwaitAnswer;
+  } else {
+    offset_ += kPerFragment;
+    count_ = acknowledged.nextCount();
+    phase_ = Phase::kToSend;
+  }
+  timers_.set(Timer::kReply, now + timeout_);
+  return Heard::kTaken;
+}
+
+Heard ExplicitClient::handleFragment(bool xid, Fragment received, ByteView data, Instant now) noexcept {
+  switch (receiver_.handle(xid, received, data, awaitsAnswer(xid))) {
+    case ExplicitReceiver::Result::kStray:
+      return Heard::kStale;
+    case ExplicitReceiver::Result::kRepeated:
+      acknowledge(xid, received, kAccepted);
+      return Heard::kStale;
+    case ExplicitReceiver::Result::kTooLong:
+      acknowledge(xid, received, kTooMuchData);
+      finish(ExplicitEnd::kTooLong);
+      return Heard::kTaken;
+    case ExplicitReceiver::Result::kAccepted:
+      acknowledge(xid, received, kAccepted);
+      phase_ = Phase::kReceiving;
+      timers_.set(Timer::kReply, now + kFragmentTime);
+      return Heard::kTaken;
+    case ExplicitReceiver::Result::kComplete:
+      break;
+  }
+  acknowledge(xid, received, kAccepted);
+  return handleBody(ByteView{receiver_.body()});
+}
+
+/// From the service code on.
+Heard ExplicitClient::handleBody(ByteView body) noexcept {
+  if ((body[0] & service::kResponse) == 0) return Heard::kMalformed;
+  ExplicitAnswer answer;
+  if (body[0] == (service::kError | service::kResponse)) {
+    if (body.size() != 3) return Heard::kMalformed;
+    answer.general = body[1];
+    answer.additional = body[2];
+    answer_ = answer;
+    finish(ExplicitEnd::kRefused);
+    return Heard::kTaken;
+  }
+  if (body[0] != (body_[0] | service::kResponse)) return Heard::kStale;
+  for (const std::uint8_t byte : body.sub(1)) {
+    if (answer.data.push_back(byte)) continue;
+    finish(ExplicitEnd::kTooLong);
+    return Heard::kTaken;
+  }
+  answer_ = answer;
+  finish(ExplicitEnd::kDone);
+  return Heard::kTaken;
+}
+
+void ExplicitClient::acknowledge(bool xid, Fragment received, std::uint8_t status) noexcept {
+  const Fragment back{FragmentType::kAcknowledge, received.count};
+  const std::array<std::uint8_t, 3> bytes{header(true, xid), back.byte(), status};
+  acknowledge_ = dataFrame(requestId(), bytes);
+}
+
+void ExplicitClient::poll(Instant now) noexcept {
+  if (!timers_.takeDue(Timer::kReply, now)) return;
+  // A request that the link never took is not repeated. A reset must not be done twice.
+  const bool asked = phase_ == Phase::kAwaitAcknowledge || (phase_ == Phase::kAwaitAnswer && !fragmented());
+  if (!asked || repeats_ > 0 || body_[0] == service::kReset) return finish(ExplicitEnd::kTimedOut);
+  ++repeats_;
+  phase_ = Phase::kToSend;
+  timers_.set(Timer::kReply, now + timeout_);
+}
+
+void ExplicitClient::finish(ExplicitEnd end) noexcept {
+  phase_ = Phase::kIdle;
+  timers_.stopAll();
+  receiver_.reset();
+  if (!answer_) answer_ = ExplicitAnswer{};
+  answer_->id = id_;
+  answer_->end = end;
+}
+
+std::optional<ExplicitAnswer> ExplicitClient::takeAnswer() noexcept {
+  const std::optional<ExplicitAnswer> answer = answer_;
+  answer_.reset();
+  return answer;
+}
+
+}  // namespace nord_driver::devicenet

@@ -1,0 +1,217 @@
+#include "devicenet/io_connection.h"
+
+namespace nord_driver::devicenet {
+namespace {
+
+/// Of the acknowledge handler (class 2Bh, attribute 1); 16 to 20 ms are usual.
+constexpr Duration kAcknowledgeTime = std::chrono::milliseconds{20};
+/// A device gives up after so many times the expected packet rate.
+constexpr int kRatesUntilTimeout = 4;
+
+}  // namespace
+
+IoConnection::IoConnection(const NodeConfig& config, std::uint8_t own_mac, Duration cycle, NodeReport& report) noexcept
+    : config_(config),
+      own_mac_(own_mac),
+      cycle_(cycle),
+      report_(report),
+      sender_(config.io.output_bytes),
+      receiver_(config.io.input_bytes) {}
+
+bool IoConnection::byChange() const noexcept {
+  return config_.io.kind == IoKind::kChangeOfState || config_.io.kind == IoKind::kCyclic;
+}
+
+void IoConnection::establish(Duration rate, Instant now) noexcept {
+  close();
+  established_ = true;
+  rate_ = rate;
+  timeout_ = config_.io.timeout.value_or(kRatesUntilTimeout * rate);
+  input_ = IoInput{};
+  // Such a device sends without being asked.
+  if (byChange()) timers_.set(Timer::kInput, now + timeout_);
+}
+
+void IoConnection::close() noexcept {
+  established_ = false;
+  timers_.stopAll();
+  output_ready_ = false;
+  sent_at_.reset();
+  sender_.drop();
+  receiver_.reset();
+  acknowledge_due_ = false;
+}
+
+void IoConnection::setOutput(ByteView bytes) noexcept {
+  if (!established_) return;
+  output_.clear();
+  for (const std::uint8_t byte : bytes.sub(0, config_.io.output_bytes)) output_.push_back(byte);
+  output_.resize(config_.io.output_bytes);
+  output_ready_ = true;
+}
+
+bool IoConnection::outputDue(Instant now) const noexcept {
+  if (!output_ready_ && config_.io.output_bytes > 0) return false;
+  switch (config_.io.kind) {
+    case IoKind::kNone:
+    case IoKind::kStrobe:
+      return false;
+    case IoKind::kPoll:
+      return true;
+    case IoKind::kChangeOfState:
+    case IoKind::kCyclic:
+      break;
+  }
+  if (config_.io.output_bytes == 0) return false;
+  if (!sent_at_) return true;
+  if (config_.io.kind == IoKind::kChangeOfState && output_ != sent_) return true;
+  // The next cycle would be too late. Nothing is sent between cycles: a value nobody renews must not stay alive.
+  return now + cycle_ > *sent_at_ + rate_;
+}
+
+void IoConnection::startCycle(Instant now) noexcept {
+  if (!established_) return;
+  if (config_.io.kind == IoKind::kPoll && timers_.running(Timer::kInput)) ++report_.status().counters.missed;
+  if (!outputDue(now)) return;
+  repeated_ = false;
+  send();
+}
+
+void IoConnection::send() noexcept {
+  dropOutput();
+  sent_ = output_;
+  sender_.start(ByteView{output_});
+}
+
+void IoConnection::noteStrobed(Instant now) noexcept {
+  if (timers_.running(Timer::kInput)) {
+    ++report_.status().counters.missed;
+  } else {
+    timers_.set(Timer::kInput, now + timeout_);
+  }
+}
+
+bool IoConnection::pollOutput(CanFrame& frame, Instant now) noexcept {
+  FramePayload payload;
+  if (!established_ || !sender_.next(payload)) return false;
+  frame = dataFrame(identifier(Group2::kMasterIo, config_.mac), payload);
+  if (sender_.pending()) return true;
+  ++report_.status().counters.outputs;
+  sent_at_ = now;
+  if (!byChange()) {
+    if (!timers_.running(Timer::kInput)) timers_.set(Timer::kInput, now + timeout_);
+  } else if (config_.io.acknowledge) {
+    timers_.set(Timer::kAcknowledge, now + kAcknowledgeTime);
+    if (!timers_.running(Timer::kHeard)) timers_.set(Timer::kHeard, now + timeout_);
+  }
+  return true;
+}
+
+void IoConnection::outputNotSent() noexcept {
+  if (!sender_.pending()) --report_.status().counters.outputs;
+  sender_.drop();
+  countSuperseded();
+}
+
+void IoConnection::dropOutput() noexcept {
+  if (sender_.pending()) countSuperseded();
+  sender_.drop();
+}
+
+void IoConnection::countSuperseded() noexcept {
+  ++report_.status().counters.superseded;
+  ++report_.busCounters().superseded;
+}
+
+bool IoConnection::pollAcknowledge(CanFrame& frame) noexcept {
+  if (!acknowledge_due_) return false;
+  acknowledge_due_ = false;
+  frame = dataFrame(identifier(Group2::kMasterAcknowledge, config_.mac), ByteView{});
+  return true;
+}
+
+bool IoConnection::takes(Group1 message) const noexcept {
+  switch (config_.io.kind) {
+    case IoKind::kNone:
+      break;
+    case IoKind::kPoll:
+      return message == Group1::kPollResponse;
+    case IoKind::kStrobe:
+      return message == Group1::kStrobeResponse;
+    case IoKind::kChangeOfState:
+    case IoKind::kCyclic:
+      return message == Group1::kChangeOfStateOrCyclic || (message == Group1::kPollResponse && config_.io.acknowledge);
+  }
+  return false;
+}
+
+void IoConnection::handle(std::uint8_t message, const CanFrame& frame, Instant now) noexcept {
+  // What comes before is of a connection that is none of ours any more.
+  if (!established_) return;
+  if (frame.remote) return report_.malformed(frame, "DeviceNet has no remote frames", now);
+  const auto group1 = static_cast<Group1>(message);
+  if (!takes(group1)) return report_.malformed(frame, "of a connection that is not allocated", now);
+  if (byChange() && group1 == Group1::kPollResponse) return handleAcknowledge(frame, now);
+  handleData(frame, now);
+}
+
+void IoConnection::handleData(const CanFrame& frame, Instant now) noexcept {
+  const IoReceiver::Result result = receiver_.handle(frame.bytes());
+  if (result == IoReceiver::Result::kNeedMore) return;
+  if (result == IoReceiver::Result::kBroken) {
+    if (config_.io.input_bytes <= kUnfragmented) return report_.malformed(frame, "longer than its connection", now);
+    ++report_.status().counters.broken_inputs;
+    return;
+  }
+  const std::size_t size = receiver_.message().size();
+  if (size != 0 && size != config_.io.input_bytes) {
+    return report_.malformed(frame, "shorter than its connection", now);
+  }
+  takeInput(now);
+}
+
+void IoConnection::takeInput(Instant now) noexcept {
+  report_.status().heard_at = now;
+  if (byChange()) {
+    timers_.set(Timer::kInput, now + timeout_);
+    acknowledge_due_ = config_.io.acknowledge;
+  } else {
+    timers_.stop(Timer::kInput);
+  }
+  if (receiver_.message().empty()) {
+    ++report_.status().counters.empty_inputs;
+    return;
+  }
+  input_.bytes = receiver_.message();
+  input_.at = now;
+  ++input_.count;
+  ++report_.status().counters.inputs;
+}
+
+void IoConnection::handleAcknowledge(const CanFrame& frame, Instant now) noexcept {
+  if (frame.size != 0) return report_.malformed(frame, "an acknowledge has no data", now);
+  report_.status().heard_at = now;
+  timers_.stop(Timer::kAcknowledge);
+  timers_.stop(Timer::kHeard);
+}
+
+bool IoConnection::poll(Instant now) noexcept {
+  if (!established_) return true;
+  if (timers_.takeDue(Timer::kInput, now)) {
+    loss_.format(byChange() ? "sent no data for %.0f ms" : "gave no answer to our commands for %.0f ms",
+                 toSeconds(timeout_) * 1e3);
+    return false;
+  }
+  if (timers_.takeDue(Timer::kHeard, now)) {
+    loss_.format("acknowledged no data for %.0f ms", toSeconds(timeout_) * 1e3);
+    return false;
+  }
+  if (!timers_.takeDue(Timer::kAcknowledge, now)) return true;
+  ++report_.status().counters.unacknowledged;
+  if (repeated_) return true;
+  repeated_ = true;
+  send();
+  return true;
+}
+
+}  // namespace nord_driver::devicenet

@@ -1,0 +1,101 @@
+// The process data of one device: what is sent to it and when, what comes back, and whether it still comes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/can_frame.h"
+#include "devicenet/identifier.h"
+#include "devicenet/io_fragments.h"
+#include "devicenet/node_config.h"
+#include "devicenet/node_report.h"
+#include "devicenet/timer_table.h"
+#include "nord_driver/core/time.h"
+
+namespace nord_driver::devicenet {
+
+/// What a device sent last while exchanging; `count` 0: nothing yet since it came to.
+struct IoInput {
+  IoBytes bytes;  ///< as long as configured
+  Instant at{};
+  std::uint64_t count = 0;
+};
+
+class IoConnection {
+ public:
+  /// `config` is complete and lives longer than this, like `report`. `cycle`: between two `startCycle()`.
+  IoConnection(const NodeConfig& config, std::uint8_t own_mac, Duration cycle, NodeReport& report) noexcept;
+
+  /// Both sides have agreed; `rate` is the expected packet rate the device answered.
+  void establish(Duration rate, Instant now) noexcept;
+  /// Nothing is sent or taken any more; outputs are forgotten.
+  void close() noexcept;
+  bool established() const noexcept { return established_; }
+
+  /// The newest outputs, cut or filled with zeros to their size.
+  void setOutput(ByteView bytes) noexcept;
+  const IoInput& input() const noexcept { return input_; }
+
+  /// Makes due what this cycle sends. What the last one left is dropped.
+  void startCycle(Instant now) noexcept;
+  /// Whether the strobe command of this cycle is for this device too, and its bit in it. With a bit of 1 a NORD module
+  /// keeps its last outputs (BU 0280 4.2.1).
+  bool takesStrobe() const noexcept { return established_ && config_.io.kind == IoKind::kStrobe; }
+  bool strobeBit() const noexcept { return !output_.empty() && (output_[0] & 1u) != 0; }
+  void noteStrobed(Instant now) noexcept;
+
+  /// Whether this connection uses that message of the device.
+  bool takes(Group1 message) const noexcept;
+  /// Group 1 messages Dh (change of state, cyclic), Eh (strobe) or Fh (poll, or an acknowledge).
+  void handle(std::uint8_t message, const CanFrame& frame, Instant now) noexcept;
+  /// False when the device is lost: `lossText()`.
+  bool poll(Instant now) noexcept;
+  const Sentence& lossText() const noexcept { return loss_; }
+
+  /// Our acknowledge of its change-of-state or cyclic data.
+  bool pollAcknowledge(CanFrame& frame) noexcept;
+  void acknowledgeNotSent() noexcept { acknowledge_due_ = true; }
+  bool pollOutput(CanFrame& frame, Instant now) noexcept;
+  /// The link did not take the last frame of `pollOutput()`: the message is dropped.
+  void outputNotSent() noexcept;
+  /// What is not given out yet of this cycle's message is not sent any more.
+  void dropOutput() noexcept;
+  std::optional<Instant> nextDeadline() const noexcept { return timers_.nextDeadline(); }
+
+ private:
+  enum class Timer : std::uint8_t {
+    kInput,        ///< data, or an answer to the oldest command without one
+    kAcknowledge,  ///< of the message sent last
+    kHeard,        ///< of the oldest message without one
+    kCount
+  };
+
+  bool byChange() const noexcept;
+  bool outputDue(Instant now) const noexcept;
+  void send() noexcept;
+  void countSuperseded() noexcept;
+  void handleData(const CanFrame& frame, Instant now) noexcept;
+  void handleAcknowledge(const CanFrame& frame, Instant now) noexcept;
+  void takeInput(Instant now) noexcept;
+
+  const NodeConfig& config_;
+  std::uint8_t own_mac_;
+  Duration cycle_;
+  NodeReport& report_;
+  bool established_ = false;
+  Duration rate_{};
+  Duration timeout_{};
+  TimerTable<Timer> timers_;
+  bool output_ready_ = false;
+  IoBytes output_;
+  IoBytes sent_;
+  std::optional<Instant> sent_at_;
+  bool repeated_ = false;
+  IoSender sender_;
+  IoReceiver receiver_;
+  IoInput input_;
+  bool acknowledge_due_ = false;
+  Sentence loss_;
+};
+
+}  // namespace nord_driver::devicenet

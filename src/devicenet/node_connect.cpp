@@ -1,0 +1,195 @@
+#include "devicenet/node_connect.h"
+
+#include "devicenet/error_codes.h"
+
+namespace nord_driver::devicenet {
+namespace {
+
+/// Bits of a choice that name connections.
+constexpr std::uint8_t kConnections = 0x3F;
+
+}  // namespace
+
+NodeConnect::NodeConnect(const NodeConfig& config, const ScannerConfig& bus, NodeReport& report,
+                         ExplicitChannel& channel) noexcept
+    : config_(config),
+      bus_(bus),
+      report_(report),
+      channel_(channel),
+      io_choice_(ioChoice(config.io)),
+      instance_(connectionInstance(config.io.kind)) {}
+
+void NodeConnect::start(Instant now) noexcept {
+  failures_ = 0;
+  foreign_mac_.reset();
+  channel_.close();
+  timers_.stopAll();
+  report_.status().owner.reset();
+  report_.enter(NodeState::kAbsent, Sentence{}, now);
+  beginTry(now);
+}
+
+void NodeConnect::beginTry(Instant now) noexcept {
+  held_ = 0;
+  conflicts_ = 0;
+  enter(Phase::kAllocateExplicit, now);
+}
+
+void NodeConnect::stop(const Sentence& why, Instant now) noexcept {
+  const bool was_exchanging = exchanging();
+  const NodeState state = report_.status().state;
+  held_ = 0;
+  channel_.close();
+  channel_.cancelOwn();
+  timers_.stopAll();
+  phase_ = Phase::kOff;
+  if (was_exchanging) {
+    ++report_.status().counters.losses;
+    report_.tell(DevicenetEventKind::kNodeLost, why, 0, now);
+  }
+  report_.enter(state == NodeState::kAbsent ? state : NodeState::kLost, why, now);
+}
+
+void NodeConnect::release(Instant now) noexcept {
+  channel_.close();
+  timers_.stopAll();
+  report_.enter(NodeState::kReleased, Sentence{}, now);
+  if (held_ == 0 || phase_ == Phase::kOff) {
+    channel_.cancelOwn();
+    phase_ = Phase::kReleased;
+  } else {
+    enter(Phase::kReleasing, now);
+  }
+}
+
+void NodeConnect::enter(Phase phase, Instant now) noexcept {
+  phase_ = phase;
+  if (phase == Phase::kAllocateExplicit) held_ |= choice::kExplicit;
+  if (phase == Phase::kAllocateIo) held_ |= io_choice_;
+  const std::optional<ConnectRequest> asked = requestOf(phase);
+  if (asked) channel_.ask(asked->request, asked->port, config_.connect_timeout, now);
+}
+
+std::optional<ConnectRequest> NodeConnect::requestOf(Phase phase) const noexcept {
+  switch (phase) {
+    case Phase::kAllocateExplicit:
+    case Phase::kReopen:
+      return allocateRequest(choice::kExplicit, bus_.mac);
+    case Phase::kAskOwner:
+      return ownerRequest(ExplicitPort::kUnconnected);
+    case Phase::kAskOwnerConnected:
+      return ownerRequest(ExplicitPort::kConnected);
+    case Phase::kReleaseStale:
+      return releaseRequest(stale_);
+    case Phase::kVendorId:
+      return identityRequest(identity_attribute::kVendorId);
+    case Phase::kDeviceType:
+      return identityRequest(identity_attribute::kDeviceType);
+    case Phase::kProductCode:
+      return identityRequest(identity_attribute::kProductCode);
+    case Phase::kRevision:
+      return identityRequest(identity_attribute::kRevision);
+    case Phase::kExplicitRate:
+      return connectionRequest(kExplicitInstance, connection_attribute::kExpectedPacketRate);
+    case Phase::kAllocateIo:
+      return allocateRequest(io_choice_, bus_.mac);
+    case Phase::kReleaseStaleIo:
+    case Phase::kReleaseIo:
+      return releaseRequest(io_choice_ & kConnections);
+    case Phase::kProducedSize:
+      return connectionRequest(instance_, connection_attribute::kProducedSize);
+    case Phase::kConsumedSize:
+      return connectionRequest(instance_, connection_attribute::kConsumedSize);
+    case Phase::kWriteRate:
+      return rateRequest(instance_,
+                         static_cast<std::uint16_t>(*config_.io.expected_packet_rate / std::chrono::milliseconds{1}));
+    case Phase::kReadRate:
+      return connectionRequest(instance_, connection_attribute::kExpectedPacketRate);
+    case Phase::kKeepAlive:
+      return connectionRequest(instance_, connection_attribute::kState);
+    case Phase::kReleaseAll:
+    case Phase::kReleasing:
+      return releaseRequest(held_ & kConnections);
+    case Phase::kOff:
+    case Phase::kPause:
+    case Phase::kRunning:
+    case Phase::kRefusedPause:
+    case Phase::kReleased:
+      break;
+  }
+  return std::nullopt;
+}
+
+void NodeConnect::poll(Instant now) noexcept {
+  if (timers_.takeDue(Timer::kRetry, now)) {
+    if (phase_ == Phase::kRefusedPause) {
+      conflicts_ = 0;
+      enter(Phase::kAllocateIo, now);
+    } else {
+      beginTry(now);
+    }
+  }
+  pollKeepAlive(now);
+  while (const auto answer = channel_.takeOwnAnswer()) handleAnswer(*answer, now);
+}
+
+void NodeConnect::handleAnswer(const ExplicitAnswer& answer, Instant now) noexcept {
+  if (answer.end == ExplicitEnd::kTimedOut) ++report_.busCounters().request_timeouts;
+  if (answer.end == ExplicitEnd::kRefused) ++report_.busCounters().request_errors;
+  switch (phase_) {
+    case Phase::kAllocateExplicit:
+      return handleAllocated(answer, now);
+    case Phase::kAskOwner:
+    case Phase::kAskOwnerConnected:
+      return handleOwner(answer, now);
+    case Phase::kReleaseStale:
+      if (answer.end == ExplicitEnd::kTimedOut) return fail("gave no answer to a release", now);
+      if (answer.end == ExplicitEnd::kRefused && answer.additional == allocate_error::kConflict) {
+        return refuse("is allocated to another master and does not tell to which", now);
+      }
+      held_ = 0;
+      ++conflicts_;
+      return enter(Phase::kAllocateExplicit, now);
+    case Phase::kVendorId:
+    case Phase::kDeviceType:
+    case Phase::kProductCode:
+    case Phase::kRevision:
+      return handleIdentity(answer, now);
+    case Phase::kExplicitRate:
+      return handleExplicitRate(answer, now);
+    case Phase::kAllocateIo:
+      return handleIoAllocated(answer, now);
+    case Phase::kReleaseStaleIo:
+      if (answer.end == ExplicitEnd::kTimedOut) return fail("gave no answer to a release", now);
+      ++conflicts_;
+      return enter(Phase::kAllocateIo, now);
+    case Phase::kProducedSize:
+    case Phase::kConsumedSize:
+      return handleSize(answer, now);
+    case Phase::kWriteRate:
+    case Phase::kReadRate:
+      return handleRate(answer, now);
+    case Phase::kKeepAlive:
+      return handleState(answer, now);
+    case Phase::kReopen:
+      return handleReopened(answer, now);
+    case Phase::kReleaseIo:
+      held_ = static_cast<std::uint8_t>(held_ & ~io_choice_);
+      phase_ = Phase::kRefusedPause;
+      return timers_.set(Timer::kRetry, now + bus_.longest_retry);
+    case Phase::kReleaseAll:
+      return handleLetGo(answer, now);
+    case Phase::kReleasing:
+      held_ = 0;
+      phase_ = Phase::kReleased;
+      return;
+    case Phase::kOff:
+    case Phase::kPause:
+    case Phase::kRunning:
+    case Phase::kRefusedPause:
+    case Phase::kReleased:
+      return;
+  }
+}
+
+}  // namespace nord_driver::devicenet

@@ -1,0 +1,130 @@
+// How a device is brought to exchange, kept there and let go: allocate its explicit connection, read and compare its
+// identity, allocate its I/O connection, read and compare its sizes, write its expected packet rate and use what it
+// answers; keep the explicit connection alive; release what was allocated after a loss, and begin again.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "devicenet/connect_requests.h"
+#include "devicenet/explicit_channel.h"
+#include "devicenet/node_config.h"
+#include "devicenet/node_report.h"
+#include "devicenet/scanner_config.h"
+#include "devicenet/timer_table.h"
+#include "nord_driver/core/time.h"
+
+namespace nord_driver::devicenet {
+
+class NodeConnect {
+ public:
+  /// The references live longer than this.
+  NodeConnect(const NodeConfig& config, const ScannerConfig& bus, NodeReport& report,
+              ExplicitChannel& channel) noexcept;
+
+  /// We are on-line: from the beginning.
+  void start(Instant now) noexcept;
+  /// Nothing may be sent any more, until `start()`.
+  void stop(const Sentence& why, Instant now) noexcept;
+  /// Lets go what is allocated; then nothing, until `start()`.
+  void release(Instant now) noexcept;
+  bool released() const noexcept { return phase_ == Phase::kReleased || phase_ == Phase::kOff; }
+
+  /// The exchange failed: what was allocated is released, and everything begins again.
+  void handleLoss(const Sentence& why, Instant now) noexcept;
+  /// Another master was heard to ask this device.
+  void handleForeignMaster(std::uint8_t mac, Instant now) noexcept;
+  /// The device gave a sign of life beside its connections: it is tried soon.
+  void handleSign(Instant now) noexcept;
+  /// Something speaks for the connection being gone: the device is asked now.
+  void checkSoon(Instant now) noexcept;
+  /// Goes on with what came and what is due.
+  void poll(Instant now) noexcept;
+  std::optional<Instant> nextDeadline() const noexcept { return timers_.nextDeadline(); }
+
+  /// Process data are exchanged; with explicit messaging alone: requests are taken.
+  bool exchanging() const noexcept {
+    return phase_ == Phase::kRunning || phase_ == Phase::kKeepAlive || phase_ == Phase::kReopen;
+  }
+  /// Of the process data, as the device answered.
+  Duration rate() const noexcept { return rate_; }
+
+ private:
+  enum class Phase : std::uint8_t {
+    kOff,
+    kPause,  ///< before the next try
+    kAllocateExplicit,
+    kAskOwner,           ///< whose it is, on the unconnected port
+    kAskOwnerConnected,  ///< the same on the explicit connection, which may be ours from before
+    kReleaseStale,       ///< what is ours from before
+    kVendorId,
+    kDeviceType,
+    kProductCode,
+    kRevision,
+    kExplicitRate,
+    kAllocateIo,
+    kReleaseStaleIo,
+    kProducedSize,
+    kConsumedSize,
+    kWriteRate,
+    kReadRate,  ///< when it did not answer the write with its value
+    kRunning,
+    kKeepAlive,  ///< running, and asked for the state of its connection
+    kReopen,     ///< running, and its explicit connection is allocated again
+    kReleaseIo,  ///< refused; the explicit connection stays
+    kRefusedPause,
+    kReleaseAll,  ///< before the next try
+    kReleasing,   ///< for good
+    kReleased
+  };
+  enum class Timer : std::uint8_t { kRetry, kKeepAlive, kCount };
+
+  void enter(Phase phase, Instant now) noexcept;
+  void beginTry(Instant now) noexcept;
+  std::optional<ConnectRequest> requestOf(Phase phase) const noexcept;
+  void handleAnswer(const ExplicitAnswer& answer, Instant now) noexcept;
+  void handleAllocated(const ExplicitAnswer& answer, Instant now) noexcept;
+  void handleOwner(const ExplicitAnswer& answer, Instant now) noexcept;
+  void handleIdentity(const ExplicitAnswer& answer, Instant now) noexcept;
+  void compareIdentity(Instant now) noexcept;
+  void handleExplicitRate(const ExplicitAnswer& answer, Instant now) noexcept;
+  void handleIoAllocated(const ExplicitAnswer& answer, Instant now) noexcept;
+  void handleSize(const ExplicitAnswer& answer, Instant now) noexcept;
+  void compareSizes(Instant now) noexcept;
+  void handleRate(const ExplicitAnswer& answer, Instant now) noexcept;
+  void useRate(Duration rate, Instant now) noexcept;
+  void handleState(const ExplicitAnswer& answer, Instant now) noexcept;
+  void handleLetGo(const ExplicitAnswer& answer, Instant now) noexcept;
+  void handleReopened(const ExplicitAnswer& answer, Instant now) noexcept;
+  void run(Instant now) noexcept;
+  void armKeepAlive(Instant now) noexcept;
+  void pollKeepAlive(Instant now) noexcept;
+  void pause(Duration span, Instant now) noexcept;
+  Duration retryPause() const noexcept;
+  /// The connecting failed: it fell silent.
+  void fail(const Sentence& why, Instant now) noexcept;
+  void tellRefused(const Sentence& why, Instant now) noexcept;
+  /// Refused and let go.
+  void refuse(const Sentence& why, Instant now) noexcept;
+  /// Refused, but parameters stay in reach: the reason may be one of them.
+  void refuseIo(const Sentence& why, Instant now) noexcept;
+  void letGo(Instant now) noexcept;
+
+  const NodeConfig& config_;
+  const ScannerConfig& bus_;
+  NodeReport& report_;
+  ExplicitChannel& channel_;
+  std::uint8_t io_choice_;
+  std::uint8_t instance_;
+  Phase phase_ = Phase::kOff;
+  TimerTable<Timer> timers_;
+  std::uint8_t held_ = 0;   // what the device may have allocated to us
+  std::uint8_t stale_ = 0;  // what is to be released of before
+  unsigned failures_ = 0;   // tries without success, since it last ran
+  unsigned conflicts_ = 0;  // of this try
+  Duration rate_{};
+  std::optional<std::uint8_t> foreign_mac_;
+  Instant foreign_at_{};
+};
+
+}  // namespace nord_driver::devicenet

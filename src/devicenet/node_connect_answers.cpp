@@ -1,0 +1,326 @@
+// What a device's answers lead to, step by step.
+#include <algorithm>
+#include <cstring>
+
+#include "devicenet/error_codes.h"
+#include "devicenet/node_connect.h"
+
+namespace nord_driver::devicenet {
+namespace {
+
+/// Bits of a choice that name connections.
+constexpr std::uint8_t kConnections = 0x3F;
+/// The master's MAC id of a device that has none.
+constexpr std::uint8_t kNobody = 0xFF;
+/// So long after a frame of another master the device is taken to be its.
+constexpr Duration kForeignMemory = std::chrono::seconds{5};
+/// Of an explicit connection, unless the device says otherwise.
+constexpr Duration kUsualExplicitRate = std::chrono::milliseconds{2500};
+/// Without process data the questions are all that tells whether the device is there.
+constexpr Duration kExplicitOnlyRate = std::chrono::seconds{1};
+constexpr int kRatesUntilTimeout = 4;
+constexpr unsigned kMostDoublings = 10;
+
+Sentence sentence(const char* what, const ExplicitAnswer& answer, std::uint8_t asked) noexcept {
+  Sentence text;
+  text.format("%s: %.200s", what, explicitText(answer, asked).c_str());
+  return text;
+}
+
+}  // namespace
+
+void NodeConnect::handleAllocated(const ExplicitAnswer& answer, Instant now) noexcept {
+  if (answer.end == ExplicitEnd::kTimedOut) return fail("does not answer", now);
+  if (!answer.ok()) {
+    held_ = 0;
+    if (saysAllocated(answer) && conflicts_ == 0) return enter(Phase::kAskOwner, now);
+    return refuse(sentence("does not let itself be allocated", answer, service::kAllocate), now);
+  }
+  if (answer.data.size() != 1 || answer.data[0] >= kKnownBodyFormats) {
+    Sentence why;
+    why.format("wants explicit messages of body format %u in %zu bytes; 0 to 3 in one byte is spoken here",
+               answer.data.empty() ? 0u : unsigned{answer.data[0]}, answer.data.size());
+    return refuse(why, now);
+  }
+  channel_.open(static_cast<BodyFormat>(answer.data[0]));
+  NodeStatus& status = report_.status();
+  ++status.counters.allocations;
+  status.owner.reset();
+  status.heard_at = now;
+  if (status.state == NodeState::kAbsent || status.state == NodeState::kLost) {
+    report_.tell(DevicenetEventKind::kNodeFound, "answers", 0, now);
+    report_.enter(NodeState::kConnecting, Sentence{}, now);
+  }
+  enter(Phase::kVendorId, now);
+}
+
+void NodeConnect::handleOwner(const ExplicitAnswer& answer, Instant now) noexcept {
+  const bool foreign = foreign_mac_ && now - foreign_at_ < kForeignMemory;
+  if (!answer.ok() || answer.data.size() != 2) {
+    if (foreign) {
+      report_.status().owner = foreign_mac_;
+    } else if (phase_ == Phase::kAskOwner) {
+      return enter(Phase::kAskOwnerConnected, now);
+    }
+  } else if (answer.data[1] != kNobody) {
+    report_.status().owner = answer.data[1];
+  }
+  const std::optional<std::uint8_t> owner = report_.status().owner;
+  if (owner && *owner != bus_.mac) {
+    Sentence why;
+    why.format("is allocated to another master, MAC id %u", unsigned{*owner});
+    return refuse(why, now);
+  }
+  // Ours from before, as far as anybody knows: released with the bits that are allocated.
+  const bool told = answer.ok() && answer.data.size() == 2 && (answer.data[0] & kConnections) != 0;
+  stale_ = told ? static_cast<std::uint8_t>(answer.data[0] & kConnections)
+                : static_cast<std::uint8_t>((io_choice_ & kConnections) | choice::kExplicit);
+  enter(Phase::kReleaseStale, now);
+}
+
+void NodeConnect::handleIdentity(const ExplicitAnswer& answer, Instant now) noexcept {
+  if (answer.end == ExplicitEnd::kTimedOut) return fail("does not tell its identity", now);
+  NodeStatus& status = report_.status();
+  if (phase_ == Phase::kRevision) {
+    // Not every device has it.
+    if (answer.ok() && answer.data.size() == 2) {
+      status.major_revision = answer.data[0];
+      status.minor_revision = answer.data[1];
+    }
+    return compareIdentity(now);
+  }
+  if (!answer.ok() || answer.data.size() != 2) {
+    return refuse(sentence("does not tell its identity", answer, service::kGetAttributeSingle), now);
+  }
+  const auto value = static_cast<std::uint16_t>(*answer.number());
+  switch (phase_) {
+    case Phase::kVendorId:
+      status.vendor_id = value;
+      return enter(Phase::kDeviceType, now);
+    case Phase::kDeviceType:
+      status.device_type = value;
+      return enter(Phase::kProductCode, now);
+    default:
+      status.product_code = value;
+      return enter(Phase::kRevision, now);
+  }
+}
+
+void NodeConnect::compareIdentity(Instant now) noexcept {
+  const NodeStatus& status = report_.status();
+  const bool same = config_.vendor_id.value_or(status.vendor_id) == status.vendor_id &&
+                    config_.device_type.value_or(status.device_type) == status.device_type &&
+                    config_.product_code.value_or(status.product_code) == status.product_code;
+  if (same) return enter(Phase::kExplicitRate, now);
+  Sentence why;
+  why.format(
+      "is another device than configured: vendor %u, device type %u, product code %u; expected vendor %u, device type "
+      "%u, product code %u",
+      unsigned{status.vendor_id}, unsigned{status.device_type}, unsigned{status.product_code},
+      unsigned{config_.vendor_id.value_or(status.vendor_id)},
+      unsigned{config_.device_type.value_or(status.device_type)},
+      unsigned{config_.product_code.value_or(status.product_code)});
+  refuse(why, now);
+}
+
+void NodeConnect::handleExplicitRate(const ExplicitAnswer& answer, Instant now) noexcept {
+  if (answer.end == ExplicitEnd::kTimedOut) return fail("does not tell the rate of its explicit connection", now);
+  const std::uint32_t told = answer.number().value_or(0);
+  report_.status().explicit_rate = told == 0 ? kUsualExplicitRate : Duration{std::chrono::milliseconds{told}};
+  if (config_.io.kind == IoKind::kNone) return run(now);
+  enter(Phase::kAllocateIo, now);
+}
+
+void NodeConnect::handleIoAllocated(const ExplicitAnswer& answer, Instant now) noexcept {
+  if (answer.end == ExplicitEnd::kTimedOut) return fail("gave no answer to the allocation of its process data", now);
+  if (answer.ok()) return enter(Phase::kProducedSize, now);
+  // The explicit connection is ours: so is this one, from before.
+  if (saysAllocated(answer) && conflicts_ == 0) return enter(Phase::kReleaseStaleIo, now);
+  held_ = static_cast<std::uint8_t>(held_ & ~io_choice_);
+  Sentence what;
+  what.format("does not exchange process data by %s", toText(config_.io.kind));
+  refuseIo(sentence(what.c_str(), answer, service::kAllocate), now);
+}
+
+void NodeConnect::handleSize(const ExplicitAnswer& answer, Instant now) noexcept {
+  if (answer.end == ExplicitEnd::kTimedOut) return fail("does not tell the sizes of its process data", now);
+  if (!answer.ok() || answer.data.size() != 2) {
+    return refuseIo(sentence("does not tell the sizes of its process data", answer, service::kGetAttributeSingle), now);
+  }
+  const auto size = static_cast<std::uint16_t>(*answer.number());
+  if (phase_ == Phase::kProducedSize) {
+    report_.status().produced_size = size;
+    return enter(Phase::kConsumedSize, now);
+  }
+  report_.status().consumed_size = size;
+  compareSizes(now);
+}
+
+void NodeConnect::compareSizes(Instant now) noexcept {
+  const NodeStatus& status = report_.status();
+  if (status.produced_size == config_.io.input_bytes && status.consumed_size == consumedSize(config_.io)) {
+    return enter(Phase::kWriteRate, now);
+  }
+  Sentence why;
+  why.format("sends %u and takes %u bytes of process data by %s; %zu and %zu are configured",
+             unsigned{status.produced_size}, unsigned{status.consumed_size}, toText(config_.io.kind),
+             config_.io.input_bytes, consumedSize(config_.io));
+  refuseIo(why, now);
+}
+
+void NodeConnect::handleRate(const ExplicitAnswer& answer, Instant now) noexcept {
+  if (answer.end == ExplicitEnd::kTimedOut) return fail("gave no answer to its expected packet rate", now);
+  if (answer.ok() && answer.data.empty() && phase_ == Phase::kWriteRate) return enter(Phase::kReadRate, now);
+  if (!answer.ok() || answer.data.size() != 2) {
+    return refuseIo(sentence("does not take its expected packet rate", answer, service::kSetAttributeSingle), now);
+  }
+  useRate(std::chrono::milliseconds{*answer.number()}, now);
+}
+
+void NodeConnect::useRate(Duration rate, Instant now) noexcept {
+  rate_ = rate;
+  report_.status().packet_rate = rate;
+  Sentence why;
+  if (rate == Duration::zero()) {
+    why = "answers an expected packet rate of 0: it would never notice that we are gone";
+  } else if (kRatesUntilTimeout * rate < 2 * bus_.cycle_time) {
+    why.format(
+        "answers an expected packet rate of %.0f ms: it gives up after four times that, less than two of our "
+        "cycles of %.1f ms",
+        toSeconds(rate) * 1e3, toSeconds(bus_.cycle_time) * 1e3);
+  } else {
+    return run(now);
+  }
+  refuseIo(why, now);
+}
+
+void NodeConnect::run(Instant now) noexcept {
+  phase_ = Phase::kRunning;
+  failures_ = 0;
+  ++report_.status().counters.connections;
+  report_.enter(NodeState::kExchanging, Sentence{}, now);
+  Sentence text;
+  if (config_.io.kind == IoKind::kNone) {
+    text = "is connected for explicit messages";
+  } else {
+    text.format("exchanges process data by %s, expected packet rate %.0f ms", toText(config_.io.kind),
+                toSeconds(rate_) * 1e3);
+  }
+  report_.tell(DevicenetEventKind::kNodeExchanging, text, 0, now);
+  armKeepAlive(now);
+}
+
+void NodeConnect::armKeepAlive(Instant now) noexcept {
+  Duration span = report_.status().explicit_rate;
+  if (config_.io.kind == IoKind::kNone) span = std::min(span, kExplicitOnlyRate);
+  timers_.set(Timer::kKeepAlive, std::max(now, channel_.usedAt() + span));
+}
+
+void NodeConnect::pollKeepAlive(Instant now) noexcept {
+  if (!timers_.takeDue(Timer::kKeepAlive, now) || phase_ != Phase::kRunning) return;
+  const Duration idle = now - channel_.usedAt();
+  if (idle < std::min(report_.status().explicit_rate, kExplicitOnlyRate)) return armKeepAlive(now);
+  ++report_.status().counters.keep_alives;
+  enter(Phase::kKeepAlive, now);
+}
+
+void NodeConnect::checkSoon(Instant now) noexcept {
+  if (phase_ != Phase::kRunning) return;
+  timers_.stop(Timer::kKeepAlive);
+  enter(Phase::kKeepAlive, now);
+}
+
+void NodeConnect::handleState(const ExplicitAnswer& answer, Instant now) noexcept {
+  if (answer.end == ExplicitEnd::kTimedOut) return enter(Phase::kReopen, now);
+  const bool gone = answer.end == ExplicitEnd::kRefused && answer.general == general_error::kNoObject;
+  if (gone || (answer.ok() && answer.number().value_or(kEstablished) != kEstablished)) {
+    Sentence why;
+    why.format("says that its connection for %s is %s", toText(config_.io.kind),
+               gone ? "gone" : connectionStateText(static_cast<std::uint8_t>(*answer.number())));
+    return handleLoss(why, now);
+  }
+  phase_ = Phase::kRunning;
+  armKeepAlive(now);
+}
+
+// The explicit connection can be gone while process data are exchanged: those have a time-out of their own.
+void NodeConnect::handleReopened(const ExplicitAnswer& answer, Instant now) noexcept {
+  const bool there = answer.ok() || saysAllocated(answer);
+  if (!there && config_.io.kind == IoKind::kNone) return handleLoss("does not answer", now);
+  if (answer.ok()) ++report_.status().counters.reopened;
+  phase_ = Phase::kRunning;
+  timers_.set(Timer::kKeepAlive, now + report_.status().explicit_rate);
+}
+
+void NodeConnect::handleLoss(const Sentence& why, Instant now) noexcept {
+  if (!exchanging()) return;
+  ++report_.status().counters.losses;
+  report_.enter(NodeState::kLost, why, now);
+  report_.tell(DevicenetEventKind::kNodeLost, why, 0, now);
+  failures_ = 0;
+  letGo(now);
+}
+
+void NodeConnect::handleForeignMaster(std::uint8_t mac, Instant now) noexcept {
+  foreign_mac_ = mac;
+  foreign_at_ = now;
+}
+
+void NodeConnect::handleSign(Instant now) noexcept {
+  if (phase_ == Phase::kPause && report_.status().state != NodeState::kRefused) timers_.set(Timer::kRetry, now);
+}
+
+Duration NodeConnect::retryPause() const noexcept {
+  const unsigned doublings = std::min(failures_ > 0 ? failures_ - 1 : 0u, kMostDoublings);
+  return std::min(bus_.longest_retry, bus_.first_retry * (1 << doublings));
+}
+
+void NodeConnect::pause(Duration span, Instant now) noexcept {
+  phase_ = Phase::kPause;
+  timers_.set(Timer::kRetry, now + span);
+}
+
+void NodeConnect::fail(const Sentence& why, Instant now) noexcept {
+  const NodeState state = report_.status().state;
+  ++failures_;
+  report_.enter(state == NodeState::kAbsent ? state : NodeState::kLost, why, now);
+  if (!channel_.isOpen()) return pause(retryPause(), now);
+  letGo(now);
+}
+
+void NodeConnect::tellRefused(const Sentence& why, Instant now) noexcept {
+  NodeStatus& status = report_.status();
+  const bool known = status.state == NodeState::kRefused && std::strcmp(status.reason.c_str(), why.c_str()) == 0;
+  ++status.counters.refusals;
+  report_.enter(NodeState::kRefused, why, now);
+  if (!known) report_.tell(DevicenetEventKind::kNodeRefused, why, 0, now);
+}
+
+void NodeConnect::refuse(const Sentence& why, Instant now) noexcept {
+  tellRefused(why, now);
+  ++failures_;
+  if (channel_.isOpen()) return letGo(now);
+  pause(bus_.longest_retry, now);
+}
+
+void NodeConnect::refuseIo(const Sentence& why, Instant now) noexcept {
+  tellRefused(why, now);
+  if ((held_ & io_choice_ & kConnections) != 0) return enter(Phase::kReleaseIo, now);
+  phase_ = Phase::kRefusedPause;
+  timers_.set(Timer::kRetry, now + bus_.longest_retry);
+}
+
+void NodeConnect::letGo(Instant now) noexcept {
+  timers_.stopAll();
+  channel_.close();
+  enter(Phase::kReleaseAll, now);
+}
+
+void NodeConnect::handleLetGo(const ExplicitAnswer& answer, Instant now) noexcept {
+  held_ = 0;
+  if (answer.end == ExplicitEnd::kTimedOut) ++failures_;
+  if (failures_ == 0) return beginTry(now);
+  pause(report_.status().state == NodeState::kRefused ? bus_.longest_retry : retryPause(), now);
+}
+
+}  // namespace nord_driver::devicenet

@@ -1,0 +1,97 @@
+// The far end of a scanner, written from BU 0280 and from the rules of the predefined master/slave connection set: a
+// Group-2-only server that lets itself be allocated, answers explicit messages 8/8, exchanges process data, times out,
+// and notes what a scanner must not do. It uses no encoder of the scanner.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/can_frame.h"
+#include "nord_driver/core/time.h"
+
+namespace nord_driver::devicenet {
+
+class FakeDevice {
+ public:
+  using Bytes = std::vector<std::uint8_t>;
+  using Address = std::tuple<unsigned, unsigned, unsigned>;  // class, instance, attribute
+
+  explicit FakeDevice(std::uint8_t mac);
+
+  // What it is.
+  std::uint8_t mac;
+  std::uint16_t vendor = 389, type = 2, product = 7;
+  std::size_t produced = 5, consumed = 5;
+  unsigned rate_step = 10;   ///< ms: rounds the expected packet rate up to such steps
+  bool answers_rate = true;  ///< to the write itself
+  bool tells_owner = true;   ///< on the unconnected port
+  bool strict_about_sizes = true;
+  std::map<Address, Bytes> attributes;  ///< beside identity and connections
+  std::uint8_t error = 0x14;            ///< to a question for an attribute it does not have
+  // What goes wrong.
+  bool powered = true;
+  bool deaf_to_explicit = false;
+  bool deaf_to_io = false;
+  bool mute_acknowledges = false;  ///< of fragments and of change of state
+
+  // What happened.
+  std::uint8_t held = 0;  ///< allocation choice
+  std::uint8_t master = 0xFF;
+  bool established = false;
+  bool timed_out = false;
+  Bytes output;
+  Bytes input;
+  std::size_t outputs = 0, polls = 0, produced_count = 0, repeated_productions = 0;
+  std::size_t explicit_requests = 0, explicit_deaths = 0, io_deaths = 0;
+  std::uint8_t allocated_last = 0, released_last = 0;
+  unsigned rate = 0, explicit_rate = 2500;
+  std::vector<std::string> violations;
+
+  /// Was allocated before, by whom.
+  void belongsTo(std::uint8_t whom, std::uint8_t choice, Instant now);
+  void powerOff();
+  void powerOn();
+  void receive(const CanFrame& frame, Instant now);
+  void tick(Instant now);
+  bool next(CanFrame& frame);
+  /// Something to send as it is.
+  void say(const CanFrame& frame) { out_.push_back(frame); }
+  void sendFragmented(const Bytes& body, bool xid);
+
+ private:
+  void unconnected(const CanFrame& frame, Instant now);
+  void explicitRequest(const CanFrame& frame, Instant now);
+  void answer(const Bytes& body, bool xid, Instant now);
+  Bytes serve(const Bytes& body);
+  Bytes getAttribute(const Address& address) const;
+  Bytes setAttribute(const Address& address, const Bytes& data);
+  void ioCommand(const CanFrame& frame, Instant now);
+  void takeOutput(Instant now);
+  void produce(unsigned message);
+  void fragments(std::uint32_t id, const Bytes& message);
+  void nextAnswerFragment(Instant now);
+  void put(std::uint32_t id, const Bytes& bytes);
+  void violation(const std::string& what) { violations.push_back("MAC " + std::to_string(mac) + ": " + what); }
+  bool byChange() const { return (held & 0x30) != 0; }
+  unsigned instance() const { return (held & 2) != 0 ? 2u : (held & 4) != 0 ? 3u : 4u; }
+
+  std::deque<CanFrame> out_;
+  Instant now_{};
+  Instant explicit_at_{}, io_at_{}, produced_at_{}, answer_at_{};
+  Bytes request_;  // fragments of a request
+  int request_count_ = -1;
+  Bytes answer_;  // fragmented answer under way
+  std::size_t answer_offset_ = 0;
+  unsigned answer_count_ = 0, answer_tries_ = 0;
+  bool answer_xid_ = false;
+  Bytes io_;  // fragments of an output
+  int io_count_ = -1;
+  Bytes last_produced_;
+  bool acknowledge_awaited_ = false, repeated_ = false;
+};
+
+}  // namespace nord_driver::devicenet

@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+
+#include "devicenet/scanner_run.h"
+
+namespace nord_driver::devicenet {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+std::size_t sentInAll(const ScannerRun& run) {
+  std::size_t found = 0;
+  for (const std::string& line : run.seen) found += line[0] == '>' ? 1 : 0;
+  return found;
+}
+
+// Facts 3.2: request or response with our MAC id within the check is a communication fault, named, and silence.
+TEST(DuplicateMac, DuringTheCheck) {
+  for (const char* other : {"407#00850178563412", "407#80850178563412"}) {
+    ScannerRun run{busConfig(1)};
+    run.begin();
+    run.run(milliseconds{500});
+    run.say(other);
+    const std::size_t sent = sentInAll(run);
+    EXPECT_EQ(BusState::kCommunicationFault, run.scanner.busState());
+    EXPECT_STREQ("communication fault: another device has our MAC id 0, vendor 389, serial number 12345678h",
+                 run.scanner.busReason().c_str());
+    run.run(milliseconds{900});
+    EXPECT_EQ(sent, sentInAll(run)) << "silent";
+    EXPECT_EQ(1u, run.count(DevicenetEventKind::kCommunicationFault));
+  }
+}
+
+// It is asked again; when the other one is gone we come back by ourselves.
+TEST(DuplicateMac, ComesBackWhenTheOtherIsGone) {
+  ScannerRun run{busConfig(1)};
+  bool other = true;
+  run.on_sent = [&](const CanFrame& sent) {
+    if (other && sent.id == 0x407 && sent.data[0] == 0) run.devices[0]->say(frame("407#80850178563412"));
+  };
+  run.begin();
+  run.run(seconds{20});
+  EXPECT_EQ(0u, run.count(DevicenetEventKind::kOnline));
+  EXPECT_LT(8u, run.scanner.counters().own_mac_used);
+  other = false;
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{4}));
+}
+
+// On-line every request is answered, and goes on undisturbed.
+TEST(DuplicateMac, AnswersRequestsOfOthers) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  run.say("407#00850178563412");
+  run.step();
+  EXPECT_EQ(1u, run.scanner.counters().mac_answers);
+  bool answered = false;
+  for (const std::string& line : run.seen) answered = answered || line == "> 407#80341244332211";
+  EXPECT_TRUE(answered);
+  run.run(seconds{1});
+  EXPECT_TRUE(run.allExchanging());
+  EXPECT_EQ(0u, run.count(DevicenetEventKind::kNodeLost));
+}
+
+// A response for our own MAC id while on-line: somebody else has it. Everything stops at once.
+TEST(DuplicateMac, ResponseWhileOnline) {
+  ScannerRun run{busConfig(2)};
+  ASSERT_TRUE(run.starts());
+  const ExplicitRequest request = getAttribute(7, 101, 1, 2);
+  ASSERT_TRUE(run.scanner.submit(0, request));
+  run.say("407#80850178563412");
+  EXPECT_EQ(NodeState::kLost, run.scanner.status(0).state);
+  EXPECT_EQ(NodeState::kLost, run.scanner.status(1).state);
+  CanFrame frame;
+  EXPECT_FALSE(run.scanner.pollTransmit(frame));
+  const auto answer = run.scanner.pollAnswer();
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(7u, answer->answer.id);
+  EXPECT_EQ(ExplicitEnd::kNotConnected, answer->answer.end);
+  run.step();
+  EXPECT_EQ(2u, run.count(DevicenetEventKind::kNodeLost));
+  EXPECT_TRUE(run.runUntil([&] { return run.allExchanging(); }, seconds{5}));
+}
+
+// The second of silence begins when the link has taken the request, not before.
+TEST(DuplicateMac, WaitsForTheLink) {
+  ScannerRun run{busConfig(1)};
+  run.link_full = true;
+  run.begin();
+  run.run(seconds{10});
+  EXPECT_EQ(BusState::kCheckingMac, run.scanner.busState());
+  run.link_full = false;
+  run.run(milliseconds{1990});
+  EXPECT_EQ(BusState::kCheckingMac, run.scanner.busState());
+  run.run(milliseconds{20});
+  EXPECT_EQ(BusState::kOnline, run.scanner.busState());
+}
+
+// Messages of a wrong length say nothing about whose MAC id it is.
+TEST(DuplicateMac, MalformedIsNoFault) {
+  ScannerRun run{busConfig(1)};
+  run.begin();
+  for (const char* bad : {"407#", "407#00", "407#008501785634", "407#0085017856341200", "407#R7"}) run.say(bad);
+  run.step();
+  EXPECT_EQ(BusState::kCheckingMac, run.scanner.busState());
+  EXPECT_EQ(5u, run.scanner.counters().malformed);
+  EXPECT_EQ(1u, run.count(DevicenetEventKind::kMalformed));
+}
+
+// Two devices with one MAC id: the one that is on-line tells the other.
+TEST(DuplicateMac, OfADevice) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  run.say("42F#80850178563412");
+  run.step();
+  EXPECT_EQ("a second device with MAC id 5 was told that it is taken, by vendor 389, serial number 12345678h",
+            run.eventText(DevicenetEventKind::kDoubleMac));
+  run.say("437#00850178563412");
+  run.say("437#00850178563412");
+  run.step();
+  EXPECT_EQ(1u, run.count(DevicenetEventKind::kForeignNode)) << "told once";
+}
+
+// Bus-off, or the interface is gone: every device is lost, nothing is sent; who was off the bus checks its MAC id again.
+TEST(DuplicateMac, AgainAfterTheBusWasLost) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  run.scanner.handleBusLost("can0: bus-off", run.now);
+  EXPECT_EQ(NodeState::kLost, run.scanner.status(0).state);
+  EXPECT_STREQ("can0: bus-off", run.scanner.status(0).reason.c_str());
+  EXPECT_EQ(BusState::kLost, run.scanner.busState());
+  const std::size_t sent = sentInAll(run);
+  run.run(seconds{5});
+  EXPECT_EQ(sent, sentInAll(run));
+  EXPECT_EQ(1u, run.count(DevicenetEventKind::kBusLost));
+  const Instant again = run.now;
+  run.begin();
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{4}));
+  EXPECT_GE(run.now - again, seconds{2});
+  EXPECT_LE(run.now - again, milliseconds{2500});
+}
+
+}  // namespace
+}  // namespace nord_driver::devicenet

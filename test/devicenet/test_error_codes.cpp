@@ -1,0 +1,50 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "devicenet/error_codes.h"
+#include "devicenet/explicit_message.h"
+
+namespace nord_driver::devicenet {
+namespace {
+
+// Facts 3.3: every code that is known says something of its own.
+TEST(ErrorCodes, EachHasASentence) {
+  std::set<std::string> texts;
+  for (unsigned code = 0; code <= 0x2A; ++code) {
+    const char* meaning = generalErrorMeaning(static_cast<std::uint8_t>(code));
+    ASSERT_NE(nullptr, meaning) << code;
+    EXPECT_TRUE(texts.insert(meaning).second) << meaning;
+  }
+  for (std::uint8_t code = 1; code <= 4; ++code) {
+    const char* meaning = additionalErrorMeaning(service::kAllocate, code);
+    ASSERT_NE(nullptr, meaning);
+    EXPECT_STREQ(meaning, additionalErrorMeaning(service::kRelease, code));
+    EXPECT_TRUE(texts.insert(meaning).second) << meaning;
+  }
+  EXPECT_EQ(nullptr, generalErrorMeaning(0x2B));
+  EXPECT_EQ(nullptr, additionalErrorMeaning(service::kGetAttributeSingle, 1));
+}
+
+TEST(ErrorCodes, Sentences) {
+  EXPECT_STREQ("refuses: the attribute is not supported (14h)",
+               errorText(service::kGetAttributeSingle, 0x14, 0xFF).c_str());
+  EXPECT_STREQ("refuses: a resource that is needed is unavailable (02h): it is allocated already (additional code 01h)",
+               errorText(service::kAllocate, 0x02, 0x01).c_str());
+  EXPECT_STREQ("refuses: an error of the manufacturer's own (1Fh), additional code 05h",
+               errorText(service::kSetAttributeSingle, 0x1F, 0x05).c_str());
+  EXPECT_STREQ("refuses: an error code that is reserved (C3h)", errorText(0x10, 0xC3, 0xFF).c_str());
+}
+
+TEST(ErrorCodes, OfEveryEnd) {
+  std::set<std::string> texts;
+  for (const ExplicitEnd end : {ExplicitEnd::kDone, ExplicitEnd::kRefused, ExplicitEnd::kTimedOut,
+                                ExplicitEnd::kTooLong, ExplicitEnd::kNotConnected}) {
+    ExplicitAnswer answer;
+    answer.end = end;
+    EXPECT_TRUE(texts.insert(explicitText(answer, service::kGetAttributeSingle).str()).second);
+  }
+}
+
+}  // namespace
+}  // namespace nord_driver::devicenet

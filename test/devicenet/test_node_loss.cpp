@@ -1,0 +1,165 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "devicenet/scanner_run.h"
+
+namespace nord_driver::devicenet {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::HasSubstr;
+
+// Silent process data: lost after four times the rate it answered, let go with the bits that are allocated, and back
+// when it answers again.
+TEST(NodeLoss, SilentProcessData) {
+  ScannerRun run{busConfig(2)};
+  ASSERT_TRUE(run.starts());
+  run.devices[0]->deaf_to_io = true;
+  const Instant silent = run.now;
+  ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{1}));
+  EXPECT_GE(run.now - silent, milliseconds{110});
+  EXPECT_LE(run.now - silent, milliseconds{135});
+  EXPECT_EQ("gave no answer to our commands for 120 ms", run.eventText(DevicenetEventKind::kNodeLost));
+  run.run(milliseconds{5});
+  EXPECT_EQ(0x03, run.devices[0]->released_last);
+  EXPECT_EQ(NodeState::kExchanging, run.scanner.status(1).state) << "the other is not concerned";
+  run.devices[0]->deaf_to_io = false;
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
+  EXPECT_THAT(run.violations(), testing::IsEmpty());
+}
+
+// Switched off and on: it knows nothing of us any more.
+TEST(NodeLoss, PowerCycle) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  run.devices[0]->powerOff();
+  ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{1}));
+  run.run(seconds{10});
+  EXPECT_EQ(NodeState::kLost, run.scanner.status(0).state);
+  EXPECT_EQ(1u, run.scanner.status(0).counters.losses);
+  run.devices[0]->powerOn();
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
+  EXPECT_EQ(0x02, run.devices[0]->allocated_last);
+}
+
+// After a loss the outputs of before are not sent: the first poll needs a new value.
+TEST(NodeLoss, OutputsAreForgotten) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  run.sets_outputs = false;
+  run.devices[0]->powerOff();
+  ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{1}));
+  run.devices[0]->powerOn();
+  ASSERT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
+  const std::size_t polls = run.sentTo("42D");
+  run.run(milliseconds{50});
+  EXPECT_EQ(polls, run.sentTo("42D"));
+  EXPECT_EQ(0u, run.scanner.input(0).count);
+}
+
+// An idle explicit connection dies after four times its rate (2.5 s): it is kept alive.
+TEST(NodeLoss, ExplicitConnectionIsKeptAlive) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  run.run(std::chrono::minutes{5});
+  EXPECT_EQ(0u, run.devices[0]->explicit_deaths);
+  EXPECT_THAT(run.scanner.status(0).counters.keep_alives, testing::AllOf(testing::Ge(100u), testing::Le(130u)));
+  EXPECT_EQ(1u, run.scanner.status(0).counters.connections);
+}
+
+// It died all the same: it is allocated again, beside process data that go on.
+TEST(NodeLoss, ExplicitConnectionIsReopened) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  run.devices[0]->held &= 0xFE;
+  run.run(seconds{5});
+  EXPECT_EQ(0x03, run.devices[0]->held);
+  EXPECT_EQ(1u, run.scanner.status(0).counters.reopened);
+  EXPECT_EQ(0u, run.scanner.status(0).counters.losses);
+}
+
+// The device says that its connection is not established any more, or has none.
+TEST(NodeLoss, ConnectionGoneByItsOwnWord) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  run.before_cycle = [&] {
+    run.devices[0]->say(dataFrame(0x3C5, FixedBytes<8>{0, 0, 0, 0, 0}));  // as if it answered
+    run.devices[0]->established = false;
+    run.devices[0]->timed_out = true;
+  };
+  ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{4}));
+  EXPECT_EQ("says that its connection for poll is timed out", run.eventText(DevicenetEventKind::kNodeLost));
+}
+
+// Another one releases in our name: the device is asked at once.
+TEST(NodeLoss, ReleasedByAnother) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  const auto foreign = frame("42E#004C030103");
+  run.devices[0]->receive(foreign, run.now);
+  run.scanner.handleFrame(foreign, run.now);
+  ASSERT_EQ(0, run.devices[0]->held);
+  ASSERT_TRUE(run.reaches(NodeState::kLost, milliseconds{200}));
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
+}
+
+// Facts 3.5: heartbeat 4Dh and shutdown 4Eh on the identifier of explicit responses, with the device's own MAC id.
+TEST(NodeLoss, HeartbeatAndShutdown) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  run.say("42B#05CD010003000000");
+  run.say("42B#05CD010003000000");
+  run.step();
+  EXPECT_EQ(1u, run.count(DevicenetEventKind::kHeartbeat)) << "told when it changes";
+  EXPECT_EQ(2u, run.scanner.status(0).counters.heartbeats);
+  EXPECT_EQ(std::uint8_t{3}, run.scanner.status(0).device_state);
+  run.events.clear();
+  run.say("42B#05CD010004040000");
+  run.step();
+  EXPECT_EQ("says in its heartbeat that its state is \"major fault, recoverable\" (4), fault flags 04h",
+            run.eventText(DevicenetEventKind::kHeartbeat));
+  run.say("42B#05CD0100");
+  EXPECT_EQ(1u, run.scanner.status(0).counters.malformed);
+  run.say("42B#05CE010001000200");
+  EXPECT_EQ(NodeState::kLost, run.scanner.status(0).state);
+  EXPECT_STREQ("says that it shuts down: class 1, instance 1, code 0002h", run.scanner.status(0).reason.c_str());
+  run.step();
+  EXPECT_EQ(1u, run.count(DevicenetEventKind::kShutdown));
+}
+
+// A device that starts is tried at once, not after the rest of the pause.
+TEST(NodeLoss, AStartingDeviceIsTriedSoon) {
+  ScannerRun run{busConfig(1)};
+  run.devices[0]->powerOff();
+  run.begin();
+  run.run(seconds{20});
+  std::size_t asked = run.sentTo("42E");
+  ASSERT_TRUE(run.runUntil([&] { return run.sentTo("42E") == asked + 2; }, seconds{3}));
+  run.run(milliseconds{300});
+  asked = run.sentTo("42E");
+  run.devices[0]->powerOn();
+  run.say("42F#00850178563412");
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, milliseconds{60}));
+}
+
+// The clean exit: process data end at once, what is allocated is released.
+TEST(NodeLoss, ReleaseAll) {
+  ScannerRun run{busConfig(3)};
+  run.devices[2]->powerOff();
+  run.begin();
+  run.run(seconds{4});
+  run.scanner.releaseAll(run.now);
+  EXPECT_FALSE(run.scanner.released());
+  const std::size_t polls = run.sentTo("42D");
+  EXPECT_TRUE(run.runUntil([&] { return run.scanner.released(); }, seconds{1}));
+  EXPECT_EQ(0, run.devices[0]->held | run.devices[1]->held);
+  EXPECT_EQ(0x03, run.devices[0]->released_last);
+  run.run(seconds{5});
+  EXPECT_EQ(polls, run.sentTo("42D"));
+  EXPECT_EQ(NodeState::kReleased, run.scanner.status(0).state);
+  EXPECT_EQ(0u, run.count(DevicenetEventKind::kNodeLost));
+}
+
+}  // namespace
+}  // namespace nord_driver::devicenet
