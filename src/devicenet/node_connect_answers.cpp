@@ -42,7 +42,7 @@ void NodeConnect::handleAllocated(const ExplicitAnswer& answer, Instant now) noe
                answer.data.empty() ? 0u : unsigned{answer.data[0]}, answer.data.size());
     return refuse(why, now);
   }
-  channel_.open(static_cast<BodyFormat>(answer.data[0]));
+  channel_.setFormat(static_cast<BodyFormat>(answer.data[0]));
   NodeStatus& status = report_.status();
   ++status.counters.allocations;
   status.owner.reset();
@@ -196,6 +196,7 @@ void NodeConnect::useRate(Duration rate, Instant now) noexcept {
 
 void NodeConnect::run(Instant now) noexcept {
   phase_ = Phase::kRunning;
+  channel_.open();
   failures_ = 0;
   ++report_.status().counters.connections;
   report_.enter(NodeState::kExchanging, Sentence{}, now);
@@ -284,7 +285,7 @@ void NodeConnect::fail(const Sentence& why, Instant now) noexcept {
   const NodeState state = report_.status().state;
   ++failures_;
   report_.enter(state == NodeState::kAbsent ? state : NodeState::kLost, why, now);
-  if (!channel_.isOpen()) return pause(retryPause(), now);
+  if (!explicitHeld()) return pause(retryPause(), now);
   letGo(now);
 }
 
@@ -299,12 +300,13 @@ void NodeConnect::tellRefused(const Sentence& why, Instant now) noexcept {
 void NodeConnect::refuse(const Sentence& why, Instant now) noexcept {
   tellRefused(why, now);
   ++failures_;
-  if (channel_.isOpen()) return letGo(now);
+  if (explicitHeld()) return letGo(now);
   pause(bus_.longest_retry, now);
 }
 
 void NodeConnect::refuseIo(const Sentence& why, Instant now) noexcept {
   tellRefused(why, now);
+  channel_.open();
   if ((held_ & io_choice_ & kConnections) != 0) return enter(Phase::kReleaseIo, now);
   phase_ = Phase::kRefusedPause;
   timers_.set(Timer::kRetry, now + bus_.longest_retry);
@@ -318,9 +320,13 @@ void NodeConnect::letGo(Instant now) noexcept {
 
 void NodeConnect::handleLetGo(const ExplicitAnswer& answer, Instant now) noexcept {
   held_ = 0;
-  if (answer.end == ExplicitEnd::kTimedOut) ++failures_;
+  if (answer.end == ExplicitEnd::kTimedOut) {
+    ++failures_;
+    return pause(retryPause(), now);
+  }
+  // It is there. After a loss there is nothing to wait for.
   if (failures_ == 0) return beginTry(now);
-  pause(report_.status().state == NodeState::kRefused ? bus_.longest_retry : retryPause(), now);
+  pause(report_.status().state == NodeState::kRefused ? bus_.longest_retry : bus_.first_retry, now);
 }
 
 }  // namespace nord_driver::devicenet
