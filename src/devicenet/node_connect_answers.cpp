@@ -19,6 +19,8 @@ constexpr Duration kUsualExplicitRate = std::chrono::milliseconds{2500};
 /// Without process data the questions are all that tells whether the device is there.
 constexpr Duration kExplicitOnlyRate = std::chrono::seconds{1};
 constexpr int kRatesUntilTimeout = 4;
+/// Devices round their expected packet rate to steps of 2, 10 or 100 ms.
+constexpr Duration kCoarsestStep = std::chrono::milliseconds{100};
 constexpr unsigned kMostDoublings = 10;
 
 Sentence sentence(const char* what, const ExplicitAnswer& answer, std::uint8_t asked) noexcept {
@@ -188,6 +190,12 @@ void NodeConnect::useRate(Duration rate, Instant now) noexcept {
         "answers an expected packet rate of %.0f ms: it gives up after four times that, less than two of our "
         "cycles of %.1f ms",
         toSeconds(rate) * 1e3, toSeconds(bus_.cycle_time) * 1e3);
+  } else if (rate > *config_.io.expected_packet_rate + kCoarsestStep) {
+    why.format(
+        "answers an expected packet rate of %.0f ms where %.0f ms was asked for: it would stop only %.0f ms after "
+        "we are gone",
+        toSeconds(rate) * 1e3, toSeconds(*config_.io.expected_packet_rate) * 1e3,
+        toSeconds(kRatesUntilTimeout * rate) * 1e3);
   } else {
     return run(now);
   }

@@ -160,6 +160,17 @@ TEST(Refusals, RatesThatDoNotProtect) {
       refusal(run));
 }
 
+TEST(Refusals, RateThatIsNoRounding) {
+  ScannerRun run{busConfig(1)};
+  run.devices[0]->rate_step = 1000;
+  EXPECT_EQ(
+      "answers an expected packet rate of 1000 ms where 25 ms was asked for: it would stop only 4000 ms after we are "
+      "gone",
+      refusal(run));
+  run.devices[0]->rate_step = 100;
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
+}
+
 TEST(Refusals, NoRateAtAll) {
   ScannerRun run{busConfig(1)};
   run.loses = [&](const CanFrame& frame) {
