@@ -152,6 +152,12 @@ std::shared_ptr<RosSettings> RosSettings::group(const std::string& key) const {
   return std::make_shared<RosSettings>(fullName(key), value.value_or(XmlRpcValue{}));
 }
 
+std::shared_ptr<RosSettings> RosSettings::with(const std::string& key, const std::string& text) const {
+  XmlRpcValue changed = value_;
+  changed[key] = text;
+  return std::make_shared<RosSettings>(prefix_, changed);
+}
+
 std::vector<std::string> RosSettings::keys() const {
   std::vector<std::string> names;
   if (!value_.valid()) return names;

@@ -32,6 +32,8 @@ class RosSettings final : public Settings {
   std::optional<std::vector<double>> numbers(const std::string& key) const;
   /// The group below `key`; an empty one when it is absent.
   std::shared_ptr<RosSettings> group(const std::string& key) const;
+  /// The same group with `text` at `key`.
+  std::shared_ptr<RosSettings> with(const std::string& key, const std::string& text) const;
   /// Marks a key as known without reading it.
   void accept(const std::string& key) const { asked_.insert(key); }
 

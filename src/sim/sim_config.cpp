@@ -297,6 +297,10 @@ SimConfig readSimConfig(const YAML::Node& node) {
     config.baud_rate =
         static_cast<std::uint32_t>(bus.integer("baud_rate", static_cast<int>(config.baud_rate), 9600, 12000000));
   }
+  if (root.has("bus_end_point")) {
+    *config.endPoint().value = root.get<std::string>("bus_end_point", "", "where the bus is",
+                                                     [](const std::string& value) { return !value.empty(); });
+  }
   if (!root.has("drives") || !node["drives"].IsMap() || node["drives"].size() == 0) {
     throw ConfigError("drives: nothing is configured; expected a group with at least one drive");
   }

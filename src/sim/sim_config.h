@@ -95,7 +95,18 @@ struct CanBusConfig {
   std::uint32_t bit_rate = 250000;
 };
 
+/// Where a driver finds the simulated bus.
+struct SimEndPoint {
+  const char* transport;  ///< that drives such a bus: "profibus_dp"
+  const char* key;        ///< of the group `bus` that says where
+  std::string* value;     ///< of that key, in the configuration
+};
+
 struct SimConfig {
+  SimEndPoint endPoint() noexcept {
+    return can ? SimEndPoint{"canopen", "interface", &can->interface} : SimEndPoint{"profibus_dp", "device", &device};
+  }
+
   std::string device = "/tmp/nord_sim_bus";  ///< the link the programs put to their pty
   std::uint32_t baud_rate = 500000;
   std::optional<CanBusConfig> can;  ///< the bus is a CAN bus

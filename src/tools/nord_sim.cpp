@@ -31,9 +31,9 @@ SimConfig readConfig(const std::vector<std::string>& files, const BusPort& port)
     }
   }
   SimConfig config = nord_driver::sim::readSimConfig(merged);
-  checkPort(port, config.can.has_value());
-  if (!port.device.empty()) config.device = port.device;
-  if (!port.interface.empty() && config.can) config.can->interface = port.interface;
+  const nord_driver::sim::SimEndPoint end_point = config.endPoint();
+  const std::string value = chosenPort(port, end_point.transport, end_point.key);
+  if (!value.empty()) *end_point.value = value;
   return config;
 }
 
@@ -61,10 +61,11 @@ int run(int argc, char** argv) {
       "Exit code: 0 ended when asked to, 1 wrong configuration or another error, 2 wrong usage."};
   line.addOptions()("config", po::value(&files)->value_name("FILE...")->multitoken()->required(),
                     "YAML file with bus, drives and body; a later file is laid over an earlier one; required")(
-      "device", po::value(&port.device)->value_name("PATH"),
-      "PROFIBUS: where to put the link to the pseudo-terminal, instead of bus/device")(
-      "interface", po::value(&port.interface)->value_name("NAME"),
-      "CANopen: interface (can0, vcan0, virtual:NAME), instead of bus/interface")(
+      "bus", po::value(&port.bus)->value_name("VALUE"),
+      "where the bus is, in place of what the file says: where to put the link to the pseudo-terminal, or the CAN "
+      "interface (can0, vcan0, virtual:NAME)")("device", po::value(&port.device)->value_name("PATH"),
+                                               "the same for a bus with bus/device")(
+      "interface", po::value(&port.interface)->value_name("NAME"), "the same for a bus with bus/interface")(
       "duration", po::value(&duration)->value_name("SECONDS"), "seconds to run; without it until SIGINT or SIGTERM");
   if (const auto code = line.parse(argc, argv)) return *code;
 

@@ -5,7 +5,6 @@
 #include "cycle/user_messages.h"
 #include "profile/pkw.h"
 #include "profile/status_word.h"
-#include "transport/parameters_only.h"
 
 namespace nord_driver::tools {
 
@@ -35,13 +34,11 @@ bool hasSets(profile::ParameterShape shape) noexcept {
 
 ParameterLink::ParameterLink(const ToolConfig& config, Transport& transport)
     : config_(config), transport_(transport), outputs_(config.drives.size()), inputs_(config.drives.size()) {
-  auto* const guest = dynamic_cast<ParametersOnly*>(&transport);
-  if (guest == nullptr) {
+  if (!transport.serveParametersOnly()) {
     throw Trouble("transport " + config.transport +
                   " does not serve a program for parameters only, and its start-up might stop a drive that runs: ask "
                   "the driver (~<drive>/read_parameter)");
   }
-  guest->serveParametersOnly();
   transport.configure(*config.bus, config.drives, config.cycle.cycle_rate);
   for (const cycle::DriveSetup& setup : config.cycle.drives) drives_.emplace_back(setup.drive);
 }

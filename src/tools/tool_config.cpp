@@ -11,12 +11,12 @@ namespace {
 // A drive that is late is waited for: nothing turns that would have to be stopped.
 constexpr Duration kDriveTimeout = std::chrono::seconds{1};
 
-constexpr char kProfibus[] = "nord_driver/profibus_dp";
-constexpr char kCanopen[] = "nord_driver/canopen";
+constexpr char kDefaultTransport[] = "nord_driver/profibus_dp";
+constexpr char kPrefix[] = "nord_driver/";
 
 std::string transportOf(const YamlSettings& settings) {
-  const std::string name = settings.text("transport").value_or(kProfibus);
-  return name.find('/') == std::string::npos ? "nord_driver/" + name : name;
+  const std::string name = settings.text("transport").value_or(kDefaultTransport);
+  return name.find('/') == std::string::npos ? kPrefix + name : name;
 }
 
 std::vector<DriveSettings> drivesOf(const YamlSettings& settings) {
@@ -45,30 +45,36 @@ ToolConfig read(const YAML::Node& file, const YamlSettings& settings, const std:
   return config;
 }
 
+// As users write it: those of this package need no prefix.
+std::string shortName(const std::string& transport) {
+  const std::string prefix = kPrefix;
+  return transport.compare(0, prefix.size(), prefix) == 0 ? transport.substr(prefix.size()) : transport;
+}
+
 // A transport wants to know what it opens before it tells anything of its drives.
-YAML::Node withAnyPort(const YAML::Node& file) {
-  const YamlSettings settings{"", file};
-  const std::string transport = transportOf(settings);
-  const auto bus = settings.group("bus");
+YAML::Node withAnyPort(const YAML::Node& file, const EndPoint& end_point) {
+  const auto bus = YamlSettings{"", file}.group("bus");
   YAML::Node complete = YAML::Clone(file);
-  if (transport == kCanopen && !bus->has("interface")) complete["bus"]["interface"] = "can0";
-  if (transport == kProfibus && !bus->has("device")) complete["bus"]["device"] = "/dev/null";
+  if (!end_point.isNone() && !bus->has(end_point.key)) complete["bus"][end_point.key] = end_point.example;
   return complete;
 }
 
 }  // namespace
 
-void choosePort(YAML::Node& file, const BusPort& port) {
-  const YamlSettings settings{"", file};
-  const std::string transport = transportOf(settings);
-  if (transport == kProfibus || transport == kCanopen) checkPort(port, transport == kCanopen);
-  settings.group("bus");  // refuses a value where the group belongs
-  if (!port.device.empty()) file["bus"]["device"] = port.device;
-  if (!port.interface.empty()) file["bus"]["interface"] = port.interface;
+std::string transportOf(const YAML::Node& file) {
+  return transportOf(YamlSettings{"", file});
 }
 
-ToolConfig readToolConfig(const YAML::Node& file) {
-  const YAML::Node complete = withAnyPort(file);
+void choosePort(YAML::Node& file, const BusPort& port, const EndPoint& end_point) {
+  const YamlSettings settings{"", file};
+  std::string value = chosenPort(port, shortName(transportOf(settings)), end_point.key);
+  settings.group("bus");  // refuses a value where the group belongs
+  if (value.empty()) value = settings.text("bus_end_point").value_or("");
+  if (!value.empty() && !end_point.isNone()) file["bus"][end_point.key] = value;
+}
+
+ToolConfig readToolConfig(const YAML::Node& file, const EndPoint& end_point) {
+  const YAML::Node complete = withAnyPort(file, end_point);
   const YamlSettings settings{"", complete};
   return read(complete, settings, drivesOf(settings));
 }
