@@ -119,6 +119,7 @@ std::string layerOf(const std::string& header, bool quoted, const std::string& o
 bool mayUse(const Place& place, const std::string& used) {
   if (used == place.layer) return true;
   if (place.is_test && place.layer == "node") return true;
+  if (place.is_test && place.layer == "plugins" && used == "node") return true;  // a rostest, with the helpers of those
   if (place.is_test && place.layer != "rules" && kForEveryTest.count(used) != 0) return true;
   return table().at(place.layer).count(used) != 0;
 }
