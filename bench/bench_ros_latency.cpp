@@ -15,7 +15,7 @@
 #include <string>
 
 #include "measure.h"
-#include "node/node_process.h"
+#include "rostest/node_process.h"
 #include "sim/profibus/pty_bus.h"
 
 namespace {

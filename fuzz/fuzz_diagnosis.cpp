@@ -15,7 +15,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     DiagnosisBlocks blocks{diagnosis->extendedBytes()};
     while (const auto block = blocks.next()) {
       fuzz::require(!block->bytes.empty() && !describe(*block).empty());
-      for (std::size_t module = 0; module < 600; module += 7) block->isModuleAffected(module);
       broken = broken || block->isInverterLinkBroken();
       seen += block->bytes.size();
     }

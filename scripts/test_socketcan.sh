@@ -9,7 +9,7 @@ programs=(test_socketcan)
 # time_factor:=N (1, or 10 where everything is emulated), so they have these two <arg>s and multiply their time limits
 # with the latter.
 rostests=(
-  node/rostest_canopen_drive.test
+  rostest/rostest_canopen_drive.test
   socketcan/rostest_socketcan.test
 )
 

@@ -21,9 +21,6 @@ class BootScript {
 
   /// From the beginning: the first access asks for 1000h, which every node has.
   void begin() noexcept;
-  /// The first access is still to be answered.
-  bool atBeginning() const noexcept { return stage_ == Stage::kDeviceType; }
-
   /// The access that comes next. Not when done.
   SdoRequest request() const noexcept;
   /// `answer`: to `request()`, and no time-out. What was read of the identity is noted in `status`.

@@ -9,9 +9,7 @@ constexpr Duration kPause = std::chrono::seconds{1};
 
 void BusWatch::restart() noexcept {
   told_nodes_.reset();
-  told_master_.reset();
-  told_own_id_.reset();
-  told_malformed_.reset();
+  pauses_.stopAll();
 }
 
 void BusWatch::foreignNode(std::uint8_t id, Instant now) noexcept {
@@ -25,7 +23,7 @@ void BusWatch::foreignNode(std::uint8_t id, Instant now) noexcept {
 
 void BusWatch::secondMaster(const CanFrame& frame, CobIdUse::Kind kind, Instant now) noexcept {
   ++counters_.second_master;
-  if (!again(told_master_, now)) return;
+  if (!mayTell(Finding::kSecondMaster, now)) return;
   Sentence text;
   if (kind == CobIdUse::Kind::kNmt) {
     FixedText<16> whom{"all nodes"};
@@ -40,7 +38,7 @@ void BusWatch::secondMaster(const CanFrame& frame, CobIdUse::Kind kind, Instant 
 
 void BusWatch::ownIdUsed(const CanFrame& frame, Instant now) noexcept {
   ++counters_.own_id_used;
-  if (!again(told_own_id_, now)) return;
+  if (!mayTell(Finding::kOwnIdUsed, now)) return;
   Sentence text;
   text.format("another node has our own node id %u", static_cast<unsigned>(frame.id - kErrorControlBase));
   tell(CanopenEventKind::kOwnIdUsed, text, frame.id - kErrorControlBase, now);
@@ -48,7 +46,7 @@ void BusWatch::ownIdUsed(const CanFrame& frame, Instant now) noexcept {
 
 void BusWatch::malformedNmt(const CanFrame& frame, Instant now) noexcept {
   ++counters_.malformed;
-  if (!again(told_malformed_, now)) return;
+  if (!mayTell(Finding::kMalformedNmt, now)) return;
   Sentence text;
   text.format("somebody sent a malformed NMT command (%u bytes%s)", unsigned{frame.size},
               frame.remote ? ", remote" : "");
@@ -64,9 +62,9 @@ void BusWatch::tell(CanopenEventKind kind, const Sentence& text, std::uint32_t v
   events_.push(event);
 }
 
-bool BusWatch::again(std::optional<Instant>& told, Instant now) noexcept {
-  if (told && now - *told < kPause) return false;
-  told = now;
+bool BusWatch::mayTell(Finding finding, Instant now) noexcept {
+  if (pauses_.isRunning(finding, now)) return false;
+  pauses_.set(finding, now + kPause);
   return true;
 }
 

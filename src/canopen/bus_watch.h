@@ -4,13 +4,13 @@
 
 #include <bitset>
 #include <cstdint>
-#include <optional>
 
 #include "canopen/canopen_event.h"
 #include "canopen/cob_id_table.h"
 #include "canopen/counters.h"
 #include "canopen/nmt.h"
 #include "core/can_frame.h"
+#include "core/timer_table.h"
 #include "nord_driver/core/fixed_text.h"
 #include "nord_driver/core/time.h"
 
@@ -31,13 +31,15 @@ class BusWatch {
   void malformedNmt(const CanFrame& frame, Instant now) noexcept;
 
  private:
+  enum class Finding : std::uint8_t { kSecondMaster, kOwnIdUsed, kMalformedNmt, kCount };
+
   void tell(CanopenEventKind kind, const Sentence& text, std::uint32_t value, Instant now) noexcept;
-  static bool again(std::optional<Instant>& told, Instant now) noexcept;
+  bool mayTell(Finding finding, Instant now) noexcept;
 
   Counters& counters_;
   CanopenEvents& events_;
   std::bitset<kMaxNodeId + 1> told_nodes_;
-  std::optional<Instant> told_master_, told_own_id_, told_malformed_;
+  TimerTable<Finding> pauses_;  // until then the same finding is not told again
 };
 
 }  // namespace nord_driver::canopen

@@ -230,7 +230,7 @@ std::optional<Instant> Master::nextDeadline() const noexcept {
 }
 
 void Master::expect(std::optional<Instant> deadline) noexcept {
-  if (deadline && (!deadline_ || *deadline < *deadline_)) deadline_ = deadline;
+  deadline_ = earlier(deadline_, deadline);
 }
 
 void Master::touched(const Node& node) noexcept {

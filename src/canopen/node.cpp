@@ -12,10 +12,6 @@ std::vector<SdoPort> portsOf(const NodeConfig& config) {
   return ports;
 }
 
-void takeEarlier(std::optional<Instant>& earliest, std::optional<Instant> other) noexcept {
-  if (other && (!earliest || *other < *earliest)) earliest = other;
-}
-
 }  // namespace
 
 Node::Node(std::size_t index, const NodeConfig& config, std::uint8_t own_id, Duration ask_interval, Counters& counters,
@@ -23,9 +19,8 @@ Node::Node(std::size_t index, const NodeConfig& config, std::uint8_t own_id, Dur
     : config_(config),
       report_(index, counters, events),
       ports_(portsOf(config)),
-      boot_(config, own_id, ask_interval, report_, ports_.front()),
-      heartbeat_(config.error_control.heartbeat_timeout),
-      guard_(config.id, config.error_control.guard_time, config.error_control.life_time_factor) {
+      boot_(config, own_id, ask_interval, report_, ports_.front(), timers_),
+      guard_(config.id, config.error_control.guard_time, config.error_control.life_time_factor, timers_) {
   for (const PdoConfig& pdo : config.receive_pdos) receive_pdos_.emplace_back(pdo);
   for (const PdoConfig& pdo : config.transmit_pdos) transmit_pdos_.push_back({mappedLength(pdo), pdo.enabled, {}});
 }
@@ -43,7 +38,7 @@ void Node::restart(Instant now) noexcept {
 }
 
 bool Node::takesReceivePdos(Instant now) noexcept {
-  if (answered_ || now - operational_since_ >= config_.first_answer_timeout) return true;
+  if (answered_ || now - report_.status().since >= config_.first_answer_timeout) return true;
   // Not in this cycle: its answer would replace the first one before anybody has read that.
   answered_ = std::none_of(transmit_pdos_.begin(), transmit_pdos_.end(),
                            [](const TransmitPdo& pdo) { return pdo.enabled && pdo.value.count == 0; });
@@ -73,7 +68,9 @@ void Node::handleStateByte(std::uint8_t value, Instant now) noexcept {
   // same.
   const bool left = operational() && nmtStateOf(value) != NmtState::kOperational;
   if (!alive && !left) return;
-  if (alive) heartbeat_.heard(now);
+  if (alive && timers_.isSet(NodeTimer::kHeartbeat)) {
+    timers_.set(NodeTimer::kHeartbeat, now + config_.error_control.heartbeat_timeout);
+  }
   boot_.handleState(nmtStateOf(value), now);
 }
 
@@ -158,9 +155,9 @@ void Node::poll(Instant now) noexcept {
 
 void Node::tellLoss(Instant now) noexcept {
   Sentence why;
-  if (heartbeat_.expired(now)) {
+  if (timers_.isOver(NodeTimer::kHeartbeat, now)) {
     why.format("sent no heartbeat for %.0f ms", toSeconds(config_.error_control.heartbeat_timeout) * 1e3);
-  } else if (guard_.expired(now)) {
+  } else if (guard_.expired()) {
     why.format("gave no good answer to guarding for %.0f ms",
                toSeconds(config_.error_control.guard_time * config_.error_control.life_time_factor) * 1e3);
   } else {
@@ -189,22 +186,19 @@ void Node::followWatch(Instant now) noexcept {
     answered_ = false;
     if (mode == ErrorControlMode::kGuarding) guard_.start(boot_.fresh(), now);
   }
-  if (watch == NodeBoot::Watch::kWatch) {
-    operational_since_ = now;
-    if (mode == ErrorControlMode::kHeartbeat) heartbeat_.start(now);
+  if (watch == NodeBoot::Watch::kWatch && mode == ErrorControlMode::kHeartbeat) {
+    timers_.set(NodeTimer::kHeartbeat, now + config_.error_control.heartbeat_timeout);
   }
   if (watch != NodeBoot::Watch::kOff) return;
-  heartbeat_.stop();
+  timers_.stop(NodeTimer::kHeartbeat);
   guard_.stop();
   for (ReceivePdoSlot& pdo : receive_pdos_) pdo.forget();
 }
 
 std::optional<Instant> Node::nextDeadline() const noexcept {
-  std::optional<Instant> earliest = boot_.nextDeadline();
-  takeEarlier(earliest, heartbeat_.nextDeadline());
-  takeEarlier(earliest, guard_.nextDeadline());
-  for (const SdoPort& port : ports_) takeEarlier(earliest, port.nextDeadline());
-  return earliest;
+  std::optional<Instant> next = timers_.nextTimeout();
+  for (const SdoPort& port : ports_) next = earlier(next, port.nextDeadline());
+  return next;
 }
 
 }  // namespace nord_driver::canopen

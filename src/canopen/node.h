@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "canopen/heartbeat_consumer.h"
 #include "canopen/node_boot.h"
 #include "canopen/node_config.h"
 #include "canopen/node_guard.h"
 #include "canopen/node_report.h"
+#include "canopen/node_timers.h"
 #include "canopen/pdo_value.h"
 #include "canopen/receive_pdo_slot.h"
 #include "canopen/sdo_port.h"
@@ -74,11 +74,10 @@ class Node {
   std::vector<SdoPort> ports_;
   std::vector<ReceivePdoSlot> receive_pdos_;
   std::vector<TransmitPdo> transmit_pdos_;
+  NodeTimers timers_;
   NodeBoot boot_;
-  HeartbeatConsumer heartbeat_;
   NodeGuard guard_;
   NodeBoot::Watch watch_ = NodeBoot::Watch::kOff;
-  Instant operational_since_{};
   bool answered_ = false;  // its first TPDOs had come when a cycle began
   bool told_toggle_ = false;
 };

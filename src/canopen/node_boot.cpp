@@ -11,13 +11,6 @@ namespace {
 constexpr Duration kFirstAskPause = std::chrono::milliseconds{100};
 constexpr Duration kFirstRefusePause = std::chrono::seconds{1};
 constexpr Duration kLongestRefusePause = std::chrono::seconds{4};
-/// Boot-ups closer together than this belong together; more than so many of them are no start any more.
-constexpr Duration kBootUpsBelongTogether = std::chrono::seconds{2};
-constexpr std::uint32_t kMostBootUps = 3;
-
-/// A frame may be received twice (ISO 11898-1: an error in its last bit but one), but not most of the answers.
-constexpr std::uint32_t kSurplusOfTwoNodes = 4;
-
 /// Two nodes with one id get stop words for so long.
 constexpr Duration kStopBoth = std::chrono::seconds{4};
 
@@ -45,28 +38,24 @@ Duration startTimeout(const NodeConfig& config) noexcept {
 }  // namespace
 
 NodeBoot::NodeBoot(const NodeConfig& config, std::uint8_t own_id, Duration ask_interval, NodeReport& report,
-                   SdoPort& port) noexcept
+                   SdoPort& port, NodeTimers& timers) noexcept
     : config_(config),
-      ask_interval_(ask_interval),
       report_(report),
       port_(port),
+      timers_(timers),
       script_(config, own_id),
-      release_script_(config.error_control) {}
+      release_script_(config.error_control),
+      ask_pause_(kFirstAskPause, ask_interval),
+      refuse_pause_(kFirstRefusePause, kLongestRefusePause) {}
 
 void NodeBoot::restart(Instant now) noexcept {
   report_.enter(NodeState::kAbsent, {}, now);
   report_.status().nmt = NmtState::kUnknown;
   command_.reset();
-  fresh_ = false;
-  was_operational_ = false;
-  doubled_ = false;
-  lost_why_.clear();
-  boot_ups_in_a_row_ = 0;
-  last_boot_up_.reset();
-  ask_pause_ = kFirstAskPause;
-  refuse_pause_ = kFirstRefusePause;
-  reset_due_ = config_.reset != BootReset::kNone;
-  if (reset_due_) {
+  past_ = Past{};
+  ask_pause_.reset();
+  refuse_pause_.reset();
+  if (config_.reset != BootReset::kNone) {
     reset(now);
   } else {
     ask(now);
@@ -78,53 +67,49 @@ void NodeBoot::release(Instant now) noexcept {
   const bool ever_there = report_.status().state != NodeState::kAbsent;
   report_.enter(NodeState::kReleased, {}, now);
   if (config_.reset != BootReset::kNone) return endRelease(NmtCommand::kResetCommunication, now);
-  guards_ = watch() != Watch::kOff;
+  const Release release{watch() != Watch::kOff};
   release_script_.begin();
   if (!ever_there || release_script_.done()) return endRelease(NmtCommand::kEnterPreOperational, now);
-  phase_ = Phase::kRelease;
+  phase_ = release;
   command_.reset();
-  deadline_ = now + kLongestRelease;
+  timers_.set(NodeTimer::kBoot, now + kLongestRelease);
   submit(release_script_.request(), now);
 }
 
 void NodeBoot::endRelease(NmtCommand command, Instant now) noexcept {
   port_.cancel(SdoOwner::kBoot, now);
-  phase_ = Phase::kOff;
-  deadline_.reset();
+  phase_ = Off{};
+  timers_.stop(NodeTimer::kBoot);
   command_ = command;
 }
 
 NodeBoot::Watch NodeBoot::watch() const noexcept {
-  if (phase_ == Phase::kStart || (phase_ == Phase::kRelease && guards_)) return Watch::kVerify;
-  return phase_ == Phase::kRunning ? Watch::kWatch : Watch::kOff;
+  if (isIn<Running>()) return Watch::kWatch;
+  const Release* const release = std::get_if<Release>(&phase_);
+  const bool verify = isIn<Start>() || (release != nullptr && release->error_control);
+  return verify ? Watch::kVerify : Watch::kOff;
 }
 
 void NodeBoot::reset(Instant now) noexcept {
-  reset_due_ = false;
+  past_.reset_due = false;
   port_.cancel(SdoOwner::kBoot, now);
   command_ = resetCommand(config_.reset);
   report_.status().nmt = NmtState::kUnknown;  // it hears no RPDO any more, also before its boot-up says so
-  phase_ = Phase::kAwaitBootUp;
-  deadline_ = now + config_.boot_up_timeout;
+  phase_ = AwaitBootUp{};
+  timers_.set(NodeTimer::kBoot, now + config_.boot_up_timeout);
 }
 
 void NodeBoot::ask(Instant now) noexcept {
   port_.cancel(SdoOwner::kBoot, now);
-  phase_ = Phase::kScript;
-  deadline_.reset();
-  answered_ = false;
-  answers_are_ours_ = true;
-  answers_ = 0;
-  surplus_answers_ = 0;
-  two_answer_ = false;
+  phase_ = Script{};
+  timers_.stop(NodeTimer::kBoot);
   script_.begin();
-  tries_left_ = 0;
   submit(script_.request(), now);
 }
 
 void NodeBoot::submit(const SdoRequest& request, Instant now) noexcept {
   request_ = request;
-  guard_question_ = guard_question_ || (phase_ == Phase::kScript && !fresh_ && setsLifeTime(request));
+  guard_question_ = guard_question_ || (isIn<Script>() && !past_.fresh && setsLifeTime(request));
   port_.submit(SdoOwner::kBoot, request, now);
 }
 
@@ -132,87 +117,82 @@ void NodeBoot::handleBootUp(Instant now) noexcept {
   ++report_.status().counters.boot_ups;
   report_.status().nmt = NmtState::kBootUp;
   report_.status().booted_up_at = now;
-  if (phase_ == Phase::kOff) return;
+  if (isIn<Off>()) return;
   // It has forgotten whom it watched.
-  if (phase_ == Phase::kRelease) return endRelease(NmtCommand::kEnterPreOperational, now);
+  if (isIn<Release>()) return endRelease(NmtCommand::kEnterPreOperational, now);
   Sentence why;
-  if (phase_ == Phase::kRunning) {
+  if (isIn<Running>()) {
     why.format("has restarted by itself: it sent its boot-up");
     leave(why, now);
   }
-  if (repeated(now)) {
+  if (past_.boot_ups.handleBootUp(now)) {
     why.format(
         "sends its boot-up again and again: two nodes with this id, or a heartbeat that says 0, or a supply that "
         "breaks down");
     if (report_.status().state != NodeState::kRefused) report_.tell(CanopenEventKind::kBootUpRepeated, why, 0, now);
-    refuse_pause_ = kFirstRefusePause;
+    refuse_pause_.reset();
     return refuse(why, now);
   }
-  fresh_ = true;
-  reset_due_ = false;
-  refuse_pause_ = kFirstRefusePause;
+  past_.fresh = true;
+  past_.reset_due = false;
+  refuse_pause_.reset();
   command_.reset();
   if (report_.status().state == NodeState::kRefused) report_.enter(NodeState::kBooting, {}, now);
   found(now);
   ask(now);
 }
 
-bool NodeBoot::repeated(Instant now) noexcept {
-  const bool together = last_boot_up_ && now - *last_boot_up_ < kBootUpsBelongTogether;
-  boot_ups_in_a_row_ = together ? boot_ups_in_a_row_ + 1 : 1;
-  last_boot_up_ = now;
-  return boot_ups_in_a_row_ > kMostBootUps;
-}
-
 void NodeBoot::handleState(NmtState state, Instant now) noexcept {
   report_.status().nmt = state;
-  if (phase_ == Phase::kStart) {
-    heard_ = true;
+  if (Start* const started = std::get_if<Start>(&phase_)) {
+    started->heard = true;
     if (state == NmtState::kOperational) run(now);
-  } else if (phase_ == Phase::kRunning && state != NmtState::kOperational) {
+  } else if (isIn<Running>() && state != NmtState::kOperational) {
     Sentence why;
     why.format("is %s now, which we did not tell it", toText(state));
     leave(why, now);
     ask(now);
     leadBack();
-  } else if (phase_ == Phase::kSilent) {
+  } else if (isIn<Silent>()) {
     ask(now);
     leadBack();
   }
 }
 
+void NodeBoot::handleForeignRequest() noexcept {
+  if (Script* const script = std::get_if<Script>(&phase_)) script->ids.giveUp();
+}
+
 void NodeBoot::handleStrayAnswer(Instant now) noexcept {
-  if (phase_ != Phase::kScript || !answers_are_ours_ || two_answer_) return;
-  ++surplus_answers_;
-  if (surplus_answers_ < kSurplusOfTwoNodes || 2 * surplus_answers_ < answers_) return;
-  two_answer_ = true;
-  if (report_.status().state != NodeState::kRefused && !doubled_) {
+  Script* const script = std::get_if<Script>(&phase_);
+  if (script == nullptr || !script->ids.handleSurplus()) return;
+  if (report_.status().state != NodeState::kRefused && !past_.doubled) {
     report_.tell(CanopenEventKind::kDoubleId, doubleId(), 0, now);
   }
-  if (!was_operational_ || doubled_) refuseBoth(now);
+  if (!past_.was_operational || past_.doubled) refuseBoth(now);
 }
 
 // Two nodes with one id take the same control words: they must not run. One that was in operation may turn, though, and
 // hears a stop word in no other state.
 void NodeBoot::refuseBoth(Instant now) noexcept {
-  was_operational_ = false;
-  doubled_ = false;
+  past_.was_operational = false;
+  past_.doubled = false;
   refuse(doubleId(), now);
 }
 
 void NodeBoot::handleLoss(const Sentence& why, Instant now) noexcept {
-  if (phase_ != Phase::kRunning) return;
+  if (!isIn<Running>()) return;
   leave(why, now);
   report_.enter(NodeState::kLost, why, now);
-  reset_due_ = config_.reset != BootReset::kNone;
+  past_.reset_due = config_.reset != BootReset::kNone;
   ask(now);
 }
 
 // What it was told it does at once: its next RPDO would go nowhere. Error control tells a guard time later, or never.
 void NodeBoot::handleForeignCommand(NmtCommand command, Instant now) noexcept {
-  if (command == NmtCommand::kStart || phase_ == Phase::kOff || phase_ == Phase::kRelease) return;
+  if (command == NmtCommand::kStart || isIn<Off>() || isIn<Release>()) return;
   report_.status().nmt = stateAfter(command);
-  if (phase_ == Phase::kRunning) {
+  if (isIn<Running>()) {
     Sentence why;
     why.format("was told \"%s\" by another master", toText(command));
     leave(why, now);
@@ -228,25 +208,27 @@ void NodeBoot::leadBack() noexcept {
 
 void NodeBoot::poll(Instant now) noexcept {
   while (const std::optional<SdoAnswer> answer = port_.take(SdoOwner::kBoot)) handleAnswer(*answer, now);
-  if (!deadline_ || now < *deadline_) return;
-  deadline_.reset();
+  if (!timers_.isOver(NodeTimer::kBoot, now)) return;
+  timers_.stop(NodeTimer::kBoot);
   handleDeadline(now);
 }
 
 void NodeBoot::handleDeadline(Instant now) noexcept {
-  if (phase_ == Phase::kRelease) return endRelease(NmtCommand::kEnterPreOperational, now);
-  if (phase_ == Phase::kRunning) report_.enter(NodeState::kBooting, doubleId(), now);
-  if (phase_ != Phase::kStart) return ask(now);
-  if (tries_left_ == 0) return diagnose(now);
-  --tries_left_;
+  if (isIn<Release>()) return endRelease(NmtCommand::kEnterPreOperational, now);
+  if (isIn<Running>()) report_.enter(NodeState::kBooting, doubleId(), now);
+  Start* const started = std::get_if<Start>(&phase_);
+  if (started == nullptr) return ask(now);
+  if (started->tries_left == 0) return diagnose(started->heard, now);
+  --started->tries_left;
   command_ = NmtCommand::kStart;
-  deadline_ = now + startTimeout(config_);
+  timers_.set(NodeTimer::kBoot, now + startTimeout(config_));
 }
 
 void NodeBoot::handleAnswer(const SdoAnswer& answer, Instant now) noexcept {
   NodeCounters& counters = report_.status().counters;
-  ++answers_;
-  if (phase_ == Phase::kRelease) {
+  Script* const script = std::get_if<Script>(&phase_);
+  if (script != nullptr) script->ids.handleAnswer();
+  if (isIn<Release>()) {
     release_script_.handle(answer);
     if (release_script_.done()) return endRelease(NmtCommand::kEnterPreOperational, now);
     return submit(release_script_.request(), now);
@@ -260,48 +242,54 @@ void NodeBoot::handleAnswer(const SdoAnswer& answer, Instant now) noexcept {
     ++counters.sdo_aborts;
     ++report_.busCounters().sdo_aborts;
   }
-  if (phase_ == Phase::kScript) return handleScriptAnswer(answer, now);
-  if (phase_ == Phase::kReadErrorRegister) {
-    if (const auto value = numberOf(answer, 1)) error_register_ = static_cast<std::uint8_t>(*value);
-    phase_ = Phase::kReadErrorField;
-    return submit(sdoRead(0, kErrorFieldIndex, 1), now);
-  }
-  if (const auto value = numberOf(answer, 4)) last_error_ = static_cast<std::uint16_t>(*value & 0xFFFFu);
-  refuseStart(now);
+  if (script != nullptr) return handleScriptAnswer(*script, answer, now);
+  if (Diagnose* const diagnose = std::get_if<Diagnose>(&phase_)) handleDiagnosis(*diagnose, answer, now);
 }
 
-void NodeBoot::handleScriptAnswer(const SdoAnswer& answer, Instant now) noexcept {
-  if (!answered_) {
-    answered_ = true;
-    if (reset_due_) return reset(now);
+void NodeBoot::handleScriptAnswer(Script& script, const SdoAnswer& answer, Instant now) noexcept {
+  if (!script.answered) {
+    script.answered = true;
+    if (past_.reset_due) return reset(now);
     found(now);
     // PDOs may be changed in this state only. A node that sent its boot-up is there by itself.
-    if (!fresh_) command_ = NmtCommand::kEnterPreOperational;
+    if (!past_.fresh) command_ = NmtCommand::kEnterPreOperational;
   }
   switch (script_.handle(answer, report_.status())) {
     case Progress::kGoOn:
-      tries_left_ = config_.sdo_retries;
+      script.tries_left = config_.sdo_retries;
       return submit(script_.request(), now);
     case Progress::kFailed:
       return refuse(script_.reason(), now);
     case Progress::kDone:
-      return start(now);
+      return start(script.ids.found(), now);
   }
 }
 
+void NodeBoot::handleDiagnosis(Diagnose& diagnose, const SdoAnswer& answer, Instant now) noexcept {
+  if (!diagnose.register_asked) {
+    diagnose.register_asked = true;
+    if (const auto value = numberOf(answer, 1)) diagnose.error_register = static_cast<std::uint8_t>(*value);
+    return submit(sdoRead(0, kErrorFieldIndex, 1), now);
+  }
+  if (const auto value = numberOf(answer, 4)) diagnose.last_error = static_cast<std::uint16_t>(*value & 0xFFFFu);
+  refuseStart(diagnose, now);
+}
+
 void NodeBoot::handleNoAnswer(Instant now) noexcept {
-  answers_are_ours_ = false;  // some may come late
-  if (phase_ == Phase::kReadErrorRegister || phase_ == Phase::kReadErrorField) return refuseStart(now);
-  if (tries_left_ > 0) {
-    --tries_left_;
+  if (const Diagnose* const diagnose = std::get_if<Diagnose>(&phase_)) return refuseStart(*diagnose, now);
+  Script* const script = std::get_if<Script>(&phase_);
+  if (script == nullptr) return;
+  script->ids.giveUp();  // some may come late
+  if (script->tries_left > 0) {
+    --script->tries_left;
     return submit(request_, now);
   }
   Sentence why;
-  if (answered_) {
+  if (script->answered) {
     why.format("stopped answering in its start-up (SDO %04Xh:%u)", unsigned{request_.index},
                unsigned{request_.sub_index});
-  } else if (!lost_why_.empty()) {
-    why.format("%s; since then it does not answer: is it powered and connected?", lost_why_.c_str());
+  } else if (!past_.lost_why.empty()) {
+    why.format("%s; since then it does not answer: is it powered and connected?", past_.lost_why.c_str());
   } else {
     why.format("does not answer: is it powered, and are its node id and bit rate right?");
   }
@@ -309,8 +297,8 @@ void NodeBoot::handleNoAnswer(Instant now) noexcept {
 }
 
 void NodeBoot::found(Instant now) noexcept {
-  lost_why_.clear();
-  ask_pause_ = kFirstAskPause;
+  past_.lost_why.clear();
+  ask_pause_.reset();
   const NodeState state = report_.status().state;
   if (state == NodeState::kRefused) return;  // with its reason, until it gets further
   const bool was_there = state == NodeState::kBooting;
@@ -319,68 +307,65 @@ void NodeBoot::found(Instant now) noexcept {
 }
 
 void NodeBoot::silent(const Sentence& why, Instant now) noexcept {
-  report_.enter(was_operational_ ? NodeState::kLost : NodeState::kAbsent, why, now);
-  fresh_ = false;
-  phase_ = Phase::kSilent;
-  deadline_ = now + ask_pause_;
-  ask_pause_ = std::min(ask_pause_ * 2, ask_interval_);
+  report_.enter(past_.was_operational ? NodeState::kLost : NodeState::kAbsent, why, now);
+  past_.fresh = false;
+  phase_ = Silent{};
+  timers_.set(NodeTimer::kBoot, now + ask_pause_.next());
 }
 
-void NodeBoot::start(Instant now) noexcept {
-  doubled_ = two_answer_;
+void NodeBoot::start(bool doubled, Instant now) noexcept {
+  past_.doubled = doubled;
   command_ = NmtCommand::kStart;
-  heard_ = false;
   if (config_.error_control.mode == ErrorControlMode::kNone) return run(now);
-  phase_ = Phase::kStart;
-  tries_left_ = 1;
-  deadline_ = now + startTimeout(config_);
+  phase_ = Start{};
+  timers_.set(NodeTimer::kBoot, now + startTimeout(config_));
 }
 
 void NodeBoot::run(Instant now) noexcept {
-  phase_ = Phase::kRunning;
-  deadline_.reset();
-  fresh_ = false;
-  was_operational_ = true;
-  refuse_pause_ = kFirstRefusePause;
+  phase_ = Running{};
+  timers_.stop(NodeTimer::kBoot);
+  past_.fresh = false;
+  past_.was_operational = true;
+  refuse_pause_.reset();
   ++report_.status().counters.boots;
-  report_.enter(NodeState::kOperational, doubled_ ? doubleId() : Sentence{}, now);
-  report_.status().doubled = doubled_;
-  if (doubled_) deadline_ = now + kStopBoth;
+  report_.enter(NodeState::kOperational, past_.doubled ? doubleId() : Sentence{}, now);
+  report_.status().doubled = past_.doubled;
+  if (past_.doubled) timers_.set(NodeTimer::kBoot, now + kStopBoth);
   report_.tell(CanopenEventKind::kNodeOperational, Sentence{"is operational"}, 0, now);
 }
 
 void NodeBoot::leave(const Sentence& why, Instant now) noexcept {
-  phase_ = Phase::kSilent;
-  fresh_ = false;
-  ask_pause_ = kFirstAskPause;
-  lost_why_ = why;
+  phase_ = Silent{};
+  past_.fresh = false;
+  ask_pause_.reset();
+  past_.lost_why = why;
   ++report_.status().counters.losses;
   report_.enter(NodeState::kBooting, why, now);
   report_.tell(CanopenEventKind::kNodeLost, why, 0, now);
 }
 
-void NodeBoot::diagnose(Instant now) noexcept {
-  phase_ = Phase::kReadErrorRegister;
-  error_register_.reset();
-  last_error_.reset();
+void NodeBoot::diagnose(bool heard, Instant now) noexcept {
+  Diagnose begun;
+  begun.heard = heard;
+  phase_ = begun;
   submit(sdoRead(0, kErrorRegisterIndex, 0), now);
 }
 
-void NodeBoot::refuseStart(Instant now) noexcept {
+void NodeBoot::refuseStart(const Diagnose& diagnose, Instant now) noexcept {
   Sentence why;
-  if (heard_) {
+  if (diagnose.heard) {
     why.format("does not become operational after NMT start: it stays %s", toText(report_.status().nmt));
   } else {
     why.format("was started, but is not heard by %s",
                config_.error_control.mode == ErrorControlMode::kHeartbeat ? "heartbeat" : "guarding");
   }
-  if (error_register_) {
+  if (diagnose.error_register) {
     const Sentence state = why;
-    why.format("%s, error register %02Xh", state.c_str(), unsigned{*error_register_});
+    why.format("%s, error register %02Xh", state.c_str(), unsigned{*diagnose.error_register});
   }
-  if (last_error_) {
+  if (diagnose.last_error) {
     const Sentence state = why;
-    why.format("%s, last error %04Xh", state.c_str(), unsigned{*last_error_});
+    why.format("%s, last error %04Xh", state.c_str(), unsigned{*diagnose.last_error});
   }
   refuse(why, now);
 }
@@ -392,9 +377,8 @@ void NodeBoot::refuse(const Sentence& why, Instant now) noexcept {
   const bool told = status.state == NodeState::kRefused && std::strcmp(status.reason.c_str(), why.c_str()) == 0;
   report_.enter(NodeState::kRefused, why, now);
   if (!told) report_.tell(CanopenEventKind::kNodeRefused, why, 0, now);
-  phase_ = Phase::kRefused;
-  deadline_ = now + refuse_pause_;
-  refuse_pause_ = std::min(refuse_pause_ * 2, kLongestRefusePause);
+  phase_ = Refused{};
+  timers_.set(NodeTimer::kBoot, now + refuse_pause_.next());
 }
 
 }  // namespace nord_driver::canopen

@@ -11,12 +11,12 @@ constexpr std::uint8_t kToggle = 0x80;
 
 }  // namespace
 
-NodeGuard::NodeGuard(std::uint8_t node, Duration guard_time, std::uint8_t life_time_factor) noexcept
-    : node_(node), guard_time_(guard_time), life_time_(guard_time * life_time_factor) {}
+NodeGuard::NodeGuard(std::uint8_t node, Duration guard_time, std::uint8_t life_time_factor, NodeTimers& timers) noexcept
+    : node_(node), guard_time_(guard_time), life_time_(guard_time * life_time_factor), timers_(timers) {}
 
 void NodeGuard::start(bool fresh, Instant now) noexcept {
-  next_question_ = now + guard_time_;
-  life_end_ = now + life_time_;
+  timers_.set(NodeTimer::kGuardQuestion, now + guard_time_);
+  timers_.set(NodeTimer::kGuardLife, now + life_time_);
   over_ = false;
   due_ = true;
   open_ = false;
@@ -25,7 +25,9 @@ void NodeGuard::start(bool fresh, Instant now) noexcept {
 }
 
 void NodeGuard::stop() noexcept {
-  next_question_.reset();
+  timers_.stop(NodeTimer::kGuardQuestion);
+  timers_.stop(NodeTimer::kGuardLife);
+  over_ = false;
   due_ = false;
   open_ = false;
 }
@@ -36,16 +38,20 @@ GuardAnswer NodeGuard::handle(std::uint8_t value, Instant now) noexcept {
   const std::uint8_t toggle = value & kToggle;
   if (expected_toggle_ && *expected_toggle_ != toggle) return GuardAnswer::kWrongToggle;
   expected_toggle_ = static_cast<std::uint8_t>(toggle ^ kToggle);
-  life_end_ = now + life_time_;
+  timers_.set(NodeTimer::kGuardLife, now + life_time_);
   over_ = false;
   return GuardAnswer::kAccepted;
 }
 
 bool NodeGuard::poll(Instant now) noexcept {
-  over_ = expired(now);
-  if (!running() || now < *next_question_) return false;
+  if (timers_.isOver(NodeTimer::kGuardLife, now)) {
+    timers_.stop(NodeTimer::kGuardLife);
+    over_ = true;
+  }
+  if (!timers_.isOver(NodeTimer::kGuardQuestion, now)) return false;
   // A late look asks once, not once for each time that was missed.
-  next_question_ = std::max(*next_question_ + guard_time_, now + guard_time_ / 2);
+  const Instant next = *timers_.at(NodeTimer::kGuardQuestion) + guard_time_;
+  timers_.set(NodeTimer::kGuardQuestion, std::max(next, now + guard_time_ / 2));
   const bool missed = open_;
   // The node may have toggled in an answer that did not reach us: the next one sets the bit anew.
   if (missed) expected_toggle_.reset();
@@ -60,11 +66,6 @@ bool NodeGuard::pollTransmit(CanFrame& frame) noexcept {
   open_ = true;
   frame = remoteFrame(kErrorControlBase + node_, 1);
   return true;
-}
-
-std::optional<Instant> NodeGuard::nextDeadline() const noexcept {
-  if (!running() || over_) return next_question_;
-  return std::min(*next_question_, life_end_);
 }
 
 }  // namespace nord_driver::canopen

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "canopen/node_timers.h"
 #include "core/can_frame.h"
 #include "nord_driver/core/time.h"
 
@@ -19,21 +20,22 @@ enum class GuardAnswer : std::uint8_t {
 /// time factor: without a good answer for so long it is lost; without a question for so long it counts us as lost.
 class NodeGuard {
  public:
-  NodeGuard(std::uint8_t node, Duration guard_time, std::uint8_t life_time_factor) noexcept;
+  /// `timers`: of the node; they live longer than this.
+  NodeGuard(std::uint8_t node, Duration guard_time, std::uint8_t life_time_factor, NodeTimers& timers) noexcept;
 
   /// Asks from now on, the first time at once. `fresh`: the node has just been reset, its toggle bit begins with 0.
   void start(bool fresh, Instant now) noexcept;
   void stop() noexcept;
   /// One question now, without watching for its answer.
   void askOnce() noexcept { due_ = true; }
-  bool running() const noexcept { return next_question_.has_value(); }
+  bool running() const noexcept { return timers_.isSet(NodeTimer::kGuardQuestion); }
 
   /// `value`: the data byte.
   GuardAnswer handle(std::uint8_t value, Instant now) noexcept;
   /// Makes the next question due. True once for each question that stayed without an answer.
   bool poll(Instant now) noexcept;
-  /// No good answer for the node life time.
-  bool expired(Instant now) const noexcept { return running() && now >= life_end_; }
+  /// No good answer for the node life time, as `poll()` saw it.
+  bool expired() const noexcept { return over_; }
 
   /// The question, when one is due.
   bool pollTransmit(CanFrame& frame) noexcept;
@@ -43,15 +45,13 @@ class NodeGuard {
     open_ = false;
   }
   bool due() const noexcept { return due_; }
-  std::optional<Instant> nextDeadline() const noexcept;
 
  private:
   std::uint8_t node_;
   Duration guard_time_;
   Duration life_time_;
-  std::optional<Instant> next_question_;
-  Instant life_end_{};
-  bool over_ = false;  // the life time is over, and this was seen
+  NodeTimers& timers_;
+  bool over_ = false;  // the life time is over
   bool due_ = false;   // a question waits to be sent
   bool open_ = false;  // a question was sent and not answered
   std::optional<std::uint8_t> expected_toggle_;

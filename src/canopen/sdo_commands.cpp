@@ -24,8 +24,8 @@ SdoBytes objectFrame(std::uint8_t first, const SdoRequest& request) noexcept {
   return bytes;
 }
 
-// Low byte of the index first: one read example prints them the other way round, the write example does not
-// (BU 0060 p. 61 and 62).
+// Low byte of the index first: one read example prints them the other way round, the write example does not (BU 0060
+// p. 61 and 62).
 bool namesObject(const SdoBytes& bytes, const SdoRequest& request) noexcept {
   return bytes[1] == (request.index & 0xFFu) && bytes[2] == request.index >> 8 && bytes[3] == request.sub_index;
 }

@@ -53,6 +53,17 @@ double requiredNumber(const Settings& settings, const std::string& key, double m
   return checkedNumber(settings, key, *value, min, max, unit);
 }
 
+Duration wholeMillisecondsOr(const Settings& settings, const std::string& key, Duration fallback, Duration min,
+                             Duration max, const std::string& example) {
+  constexpr double kTolerance = 1e-6;  // ms
+  const double value = numberOr(settings, key, toSeconds(fallback), toSeconds(min), toSeconds(max), "s");
+  const double count = std::round(value * 1e3);
+  if (std::abs(value * 1e3 - count) > kTolerance) {
+    throw wrongSetting(settings, key, shortNumber(value), "whole milliseconds, such as " + example);
+  }
+  return std::chrono::milliseconds{static_cast<std::int64_t>(count)};
+}
+
 std::int64_t integerOr(const Settings& settings, const std::string& key, std::int64_t fallback, std::int64_t min,
                        std::int64_t max) {
   return checkedInteger(settings, key, settings.integer(key).value_or(fallback), min, max);

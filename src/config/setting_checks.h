@@ -5,6 +5,7 @@
 #include <string>
 
 #include "nord_driver/config/settings.h"
+#include "nord_driver/core/time.h"
 
 namespace nord_driver {
 
@@ -24,6 +25,11 @@ double numberOr(const Settings& settings, const std::string& key, double fallbac
 /// The number at `key`, which must be there.
 double requiredNumber(const Settings& settings, const std::string& key, double min, double max,
                       const std::string& unit);
+
+/// The time in s at `key` as the whole milliseconds something counts; `example` and who counts them are named when
+/// it is none: "0.1 s: the object counts them".
+Duration wholeMillisecondsOr(const Settings& settings, const std::string& key, Duration fallback, Duration min,
+                             Duration max, const std::string& example);
 
 std::int64_t integerOr(const Settings& settings, const std::string& key, std::int64_t fallback, std::int64_t min,
                        std::int64_t max);

@@ -13,18 +13,10 @@ struct Hertz {
   double value = 0.0;
 };
 
-/// A share of a nominal size: 1.0 = 100 %.
-struct Ratio {
-  double value = 0.0;
-};
-
 constexpr bool operator==(RadPerSec a, RadPerSec b) noexcept {
   return a.value == b.value;
 }
 constexpr bool operator==(Hertz a, Hertz b) noexcept {
-  return a.value == b.value;
-}
-constexpr bool operator==(Ratio a, Ratio b) noexcept {
   return a.value == b.value;
 }
 

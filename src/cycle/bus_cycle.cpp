@@ -57,9 +57,10 @@ std::vector<drive::Drive> makeDrives(const CycleConfig& config, Transport& trans
 
 }  // namespace
 
-BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& ports, bool auto_enable)
+BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& ports, bool auto_enable, CycleRole role)
     : transport_(transport),
       ports_(ports),
+      gate_(role == CycleRole::kGuest),
       period_(config.period()),
       cmd_vel_timeout_(config.cmd_vel_timeout),
       names_(namesOf(config)),
@@ -72,7 +73,11 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       snapshot_(config.drives.size()) {
   for (const DriveSetup& setup : config.drives) {
     const DriveIndex drive = axes_.size();
-    axes_.emplace_back(drive, setup, transport.identity(drive).timeout_owner);
+    ParameterChannelUse channel;
+    channel.timeout_owner = transport.identity(drive).timeout_owner;
+    channel.capabilities = transport.parameterCapabilities(drive);
+    channel.users_only = role == CycleRole::kGuest;
+    axes_.emplace_back(drive, setup, channel);
   }
   if (!config.base) return;
   base_.emplace(*config.base, config.cmd_vel_timeout);
@@ -87,7 +92,9 @@ void BusCycle::runOnce() noexcept {
   last_command_ = now;
 
   for (DriveIndex i = 0; i < drives_.size(); ++i) outputs_[i] = drives_[i].pollOutput(now);
+  gate_.holdBack(outputs_);
   transport_.exchange(outputs_, inputs_);
+  gate_.handleInputs(inputs_);
 
   const Instant after = transport_.now();
   handleInputs(after);
@@ -141,11 +148,18 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
 
 // Written while it turns, P105 would be a step of the speed (the setpoint is a share of it), P104 a motion of its own.
 void BusCycle::accessParameter(const Request& request) noexcept {
-  const bool at_rest = supervisor_.groupOf(request.drive).report().phase == drive::GroupPhase::kDisabled &&
-                       drives_[request.drive].isAtRest();
   DriveParameters& parameters = axes_[request.drive].parameters;
-  if (at_rest || !decidesMotion(request)) return parameters.handleRequest(request, drives_[request.drive]);
-  ports_.complete(answerTo(request, false, parameters.notWhileEnabled(request)));
+  if (!decidesMotion(request) || isAtRest(request.drive)) {
+    return parameters.handleRequest(request, drives_[request.drive]);
+  }
+  Completion refused = answerTo(request, false, parameters.notWhileEnabled(request));
+  refused.parameter.outcome = profile::ParameterOutcome::kRefused;
+  refused.parameter.reason = profile::ParameterReason::kDriver;
+  ports_.complete(refused);
+}
+
+bool BusCycle::isAtRest(DriveIndex drive) noexcept {
+  return supervisor_.groupOf(drive).report().phase == drive::GroupPhase::kDisabled && drives_[drive].isAtRest();
 }
 
 // A drive that is idle may still belong to a base that is on its way to rest: its set stays what it is until then.
@@ -300,7 +314,7 @@ void BusCycle::publish(Instant now) noexcept {
     base.stopped = !base.text.empty();
     base.stop_cause = supervisor_.base()->report().stop_cause;
   }
-  ports_.trace().handleCycle(outputs_, inputs_, snapshot_);
+  ports_.observe(outputs_, inputs_, snapshot_);
   ports_.publish(snapshot_);
 }
 

@@ -11,6 +11,7 @@
 #include "cycle/cycle_ports.h"
 #include "cycle/cycle_statistics.h"
 #include "cycle/drive_parameters.h"
+#include "cycle/guest_gate.h"
 #include "cycle/speed_watch.h"
 #include "cycle/standstill_requests.h"
 #include "cycle/supervisor.h"
@@ -22,22 +23,35 @@
 
 namespace nord_driver::cycle {
 
+enum class CycleRole : std::uint8_t {
+  kDriver,
+  /// Of a program that only reads and writes parameters: a GuestGate stands before the first word that acts, and the
+  /// driver asks for no parameter but its users'. Without those nothing can be enabled.
+  kGuest,
+};
+
 /// Owns the drives and runs them over a configured transport. `runOnce` never waits for anybody but the bus, throws
 /// nothing and, once every drive has been in data exchange, allocates nothing.
 class BusCycle {
  public:
   /// `transport` is configured.
-  BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& ports, bool auto_enable);
+  BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& ports, bool auto_enable,
+           CycleRole role = CycleRole::kDriver);
 
   void runOnce() noexcept;
   Duration period() const noexcept { return period_; }
   bool inBase(DriveIndex drive) const noexcept { return supervisor_.inBase(drive); }
 
+  // For a program that calls runOnce() itself.
+  /// A parameter that decides motion may be written.
+  bool isAtRest(DriveIndex drive) noexcept;
+  const GuestGate& gate() const noexcept { return gate_; }
+
  private:
   /// One drive with everything the cycle keeps beside it.
   struct Axis {
-    Axis(DriveIndex drive, const DriveSetup& setup, TimeoutOwner owner)
-        : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, owner) {}
+    Axis(DriveIndex drive, const DriveSetup& setup, const ParameterChannelUse& channel)
+        : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, channel) {}
     DriveParameters parameters;
     robot::JointPosition joint;
     SpeedWatch speed;
@@ -66,6 +80,7 @@ class BusCycle {
 
   Transport& transport_;
   CyclePorts& ports_;
+  GuestGate gate_;
   Duration period_;
   Duration cmd_vel_timeout_;
   std::vector<std::string> names_;

@@ -22,7 +22,7 @@ struct CommandState {
 };
 
 /// A commander that is talking when this node starts is heard 0.1 to 0.25 s later (ROS connects it first): until
-/// `listeningTime` has passed, "none received yet" says nothing.
+/// `cmd_vel_timeout`, at least kLeast, has passed, "none received yet" says nothing.
 class CommandWatch {
  public:
   static constexpr Duration kLeast = std::chrono::milliseconds{500};
@@ -33,8 +33,6 @@ class CommandWatch {
 
   /// Each cycle; the first call begins the listening.
   CommandState look(Instant now) noexcept;
-  /// `cmd_vel_timeout`, at least kLeast.
-  Duration listeningTime() const noexcept { return listening_time_; }
 
  private:
   Sentence moving(Instant now) noexcept;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "config/drive_common.h"
 #include "config/setting_checks.h"
 
 namespace nord_driver::cycle {
@@ -19,38 +20,22 @@ bool isRosName(const std::string& name) {
                      [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; });
 }
 
-profile::Series readSeries(const Settings& settings) {
-  std::string names;
-  for (const profile::Series series : profile::kAllSeries) {
-    names += (names.empty() ? "" : ", ") + std::string(profile::toString(series));
-  }
-  const std::string text = requiredText(settings, "series", "one of " + names);
-  const auto series = profile::seriesFrom(text);
-  if (!series) throw wrongSetting(settings, "series", "\"" + text + "\"", "one of " + names);
-  return *series;
-}
-
 DriveSetup readDrive(const DriveSettings& source, const CycleConfig& config, Duration drive_timeout) {
   const Settings& settings = *source.settings;
   if (!isRosName(source.name)) {
     throw ConfigError(settings.fullName("") + ": \"" + source.name +
                       "\" is not valid, expected a name of letters, digits and underscores that begins with a letter");
   }
+  const DriveCommon common = readDriveCommon(source);
   DriveSetup setup;
-  setup.name = source.name;
-  setup.joint = settings.text("joint").value_or("");
-  setup.series = readSeries(settings);
-  setup.drive.joint.gear_ratio = numberOr(settings, "gear_ratio", 1.0, 1e-3, 1e5, "");
-  setup.drive.joint.pole_pairs = static_cast<int>(requiredInteger(settings, "pole_pairs", 1, 64));
-  setup.drive.joint.inverted = settings.boolean("inverted").value_or(false);
-  if (settings.has("max_frequency")) {
-    // P105 has 0.1 Hz steps; 400 Hz is the most any of the series turns.
-    setup.typed_max_frequency = requiredNumber(settings, "max_frequency", 0.1, 400.0, "Hz");
-  }
-  setup.drive.allow_minimum_frequency = settings.boolean("allow_minimum_frequency").value_or(false);
-  if (settings.has("rated_current")) {
-    setup.rated_current = requiredNumber(settings, "rated_current", 0.01, 10'000.0, "A");
-  }
+  setup.name = common.name;
+  setup.joint = common.joint;
+  setup.series = common.series;
+  setup.address = common.address;
+  if (common.typed_max_frequency) setup.typed_max_frequency = common.typed_max_frequency->value;
+  setup.rated_current = common.rated_current;
+  setup.drive.joint = common.scaling;
+  setup.drive.allow_minimum_frequency = common.allow_minimum_frequency;
   setup.drive.drive_timeout = drive_timeout;
   setup.drive.enable_timeout = config.service_timeout;
   setup.drive.shutdown_timeout = config.shutdown_timeout;

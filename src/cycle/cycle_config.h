@@ -1,6 +1,7 @@
 // The part of the configuration the bus cycle runs on.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct DriveSetup {
   std::string joint;
   profile::Series series = profile::Series::kSk5xxe;
   drive::DriveConfig drive;
+  std::optional<std::int64_t> address;  ///< as configured
   /// Hz. Counts where the drive does not tell P105, and not before it was asked: one that is wrong would move it at
   /// another speed than commanded.
   std::optional<double> typed_max_frequency;

@@ -7,8 +7,7 @@
 
 namespace nord_driver::cycle {
 
-CyclePorts::CyclePorts(std::size_t drive_count)
-    : drives_moved_(drive_count), snapshot_(CycleSnapshot{drive_count}), trace_(drive_count) {
+CyclePorts::CyclePorts(std::size_t drive_count) : drives_moved_(drive_count), snapshot_(CycleSnapshot{drive_count}) {
   for (std::size_t i = 0; i < drive_count; ++i) {
     drive_commands_.push_back(std::make_unique<LatestValue<JointCommand>>());
   }

@@ -10,9 +10,9 @@
 #include "core/event_ring.h"
 #include "core/latest_value.h"
 #include "cycle/commands.h"
+#include "cycle/cycle_observer.h"
 #include "cycle/request.h"
 #include "cycle/snapshot.h"
-#include "trace/trace_feed.h"
 
 namespace nord_driver::cycle {
 
@@ -39,8 +39,8 @@ class CyclePorts {
   const CycleSnapshot& readSnapshot() { return snapshot_.read(); }
   /// What happened on the bus. One thread only.
   std::optional<BusEvent> pollBusEvent() noexcept { return bus_events_.pop(); }
-  /// What each side may do with it stands at its functions.
-  TraceFeed& trace() noexcept { return trace_; }
+  /// Before the first cycle, or after the last one; nullptr: nobody looks on. It must outlive the cycle.
+  void setObserver(CycleObserver* observer) noexcept { observer_ = observer; }
 
   // The cycle's thread.
   const TwistCommand& newestBaseCommand() { return base_command_.read(); }
@@ -51,6 +51,10 @@ class CyclePorts {
   std::optional<Request> pollRequest() noexcept { return requests_.pop(); }
   /// Comes out of `waitCompletion` once the next snapshot is published: who has an answer finds its effect there.
   void complete(const Completion& completion) noexcept;
+  void observe(const std::vector<profile::ProcessOutput>& outputs, const std::vector<DriveExchange>& inputs,
+               const CycleSnapshot& snapshot) noexcept {
+    if (observer_ != nullptr) observer_->handleCycle(outputs, inputs, snapshot);
+  }
   void publish(const CycleSnapshot& snapshot) noexcept;
   /// What nobody fetches in time is lost.
   void tell(const BusEvent& event) noexcept { bus_events_.push(event); }
@@ -69,7 +73,7 @@ class CyclePorts {
   sem_t completed_;
   LatestValue<CycleSnapshot> snapshot_;
   EventRing<BusEvent, 256> bus_events_;
-  TraceFeed trace_;
+  CycleObserver* observer_ = nullptr;
 };
 
 }  // namespace nord_driver::cycle

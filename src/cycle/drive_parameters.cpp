@@ -64,12 +64,14 @@ bool decidesMotion(const Request& request) noexcept {
 }
 
 DriveParameters::DriveParameters(DriveIndex drive, std::string name, profile::Series series,
-                                 std::optional<double> typed_max_frequency, TimeoutOwner owner)
+                                 std::optional<double> typed_max_frequency, const ParameterChannelUse& channel)
     : drive_(drive),
       name_(std::move(name)),
       series_(series),
       typed_max_frequency_(typed_max_frequency),
-      reader_(series, owner) {}
+      channel_(channel),
+      reader_(series, channel.timeout_owner),
+      session_(channel.capabilities) {}
 
 void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
   const drive::DriveReport& report = drive.report();
@@ -159,23 +161,26 @@ void DriveParameters::readDeviceAgain() noexcept {
 void DriveParameters::handleRequest(const Request& request, drive::Drive& drive) noexcept {
   const drive::DriveReport& report = drive.report();
   if (!report.online) return refuse(request, profile::ParameterOutcome::kOffline);
-  if (pending_.full() || !session_.submit(taskOf(request, report.parameter_set))) {
-    return refuse(request, profile::ParameterOutcome::kBusy);
-  }
+  profile::ParameterRequest access = request.parameter;
+  access.id = request.id;
+  if (request.kind == RequestKind::kReadParameter) access.action = profile::ParameterAction::kRead;
+  if (access.parameter_set == 0) access.parameter_set = report.parameter_set;
+  if (pending_.full() || !session_.submit(access)) return refuse(request, profile::ParameterOutcome::kBusy);
   pending_.push_back(request);
   if (changesProcessData(request)) forgetScale(drive);
 }
 
 void DriveParameters::refuse(const Request& request, profile::ParameterOutcome outcome) noexcept {
-  drive::ParameterTaskResult result;
+  profile::ParameterResult result;
   result.id = request.id;
   result.outcome = outcome;
-  completions_.answer(request, false, parameterMessage(name_.c_str(), request.parameter.number, result));
+  answer(request, result);
 }
 
 std::optional<profile::ParameterRequest> DriveParameters::pollRequest(Instant now) noexcept {
   for (std::size_t i = 0; i < kAskers; ++i) {
     if (open_ids_[i] != 0) continue;
+    if (channel_.users_only && static_cast<Asker>(i) != Asker::kSession) continue;
     auto request = ask(static_cast<Asker>(i), now);
     if (!request) continue;
     sequence_ += 1u << (kDriveBits + kAskerBits);
@@ -242,19 +247,22 @@ void DriveParameters::answer(Asker asker, const profile::ParameterResult& result
 }
 
 // Parameters are written over a bus while P509 selects it (BU 0020 6.2.2, note); status bit 9 tells whether it does.
-Sentence DriveParameters::sentenceOf(const Request& request, const drive::ParameterTaskResult& result) const noexcept {
-  const bool by_control_source = request.kind == RequestKind::kWriteParameter && !bus_control_;
-  return parameterMessage(name_.c_str(), request.parameter.number, result, by_control_source);
+// Where the bus has a code for it, its words say so already.
+void DriveParameters::answer(const Request& request, const profile::ParameterResult& result) noexcept {
+  const bool by_control_source =
+      request.kind == RequestKind::kWriteParameter && !bus_control_ && !channel_.capabilities.tells_missing_right;
+  Completion completion =
+      answerTo(request, result.outcome == profile::ParameterOutcome::kDone,
+               parameterMessage(name_.c_str(), request.parameter.number, result, by_control_source));
+  completion.parameter = result;
+  completions_.add(completion);
 }
 
 void DriveParameters::collect() noexcept {
   while (const auto result = session_.pollResult()) {
     for (std::size_t i = 0; i < pending_.size(); ++i) {
       if (pending_[i].id != result->id) continue;
-      Completion completion =
-          answerTo(pending_[i], result->outcome == profile::ParameterOutcome::kDone, sentenceOf(pending_[i], *result));
-      completion.raw = result->raw;
-      completions_.add(completion);
+      answer(pending_[i], *result);
       // Whatever became of it: a write without an answer may have been carried out.
       if (changesProcessData(pending_[i])) readDeviceAgain();
       for (std::size_t j = i + 1; j < pending_.size(); ++j) pending_[j - 1] = pending_[j];

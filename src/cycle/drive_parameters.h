@@ -26,13 +26,20 @@ bool changesProcessData(const Request& request) noexcept;
 /// be written while the drive is enabled.
 bool decidesMotion(const Request& request) noexcept;
 
+/// The way to the parameters of one drive, and who uses it.
+struct ParameterChannelUse {
+  TimeoutOwner timeout_owner = TimeoutOwner::kInverter;
+  profile::ParameterCapabilities capabilities;
+  bool users_only = false;  ///< nothing is read that no user has asked for: neither faults nor what scaling needs
+};
+
 /// Each cycle, after the exchange: `handleState`, then `pollRequest` until it is empty, then the transport's results by
 /// `handleResult`, then `pollCompletion`. Three askers, each with one question under way at most; a result is given
 /// only to the one whose latest question it answers.
 class DriveParameters {
  public:
   DriveParameters(DriveIndex drive, std::string name, profile::Series series, std::optional<double> typed_max_frequency,
-                  TimeoutOwner owner = TimeoutOwner::kInverter);
+                  const ParameterChannelUse& channel = {});
 
   /// Looks whether the drive is there and whether it has a fault; hands it P105 as it is known. Offline: all ends.
   void handleState(drive::Drive& drive, Instant now) noexcept;
@@ -65,7 +72,7 @@ class DriveParameters {
   void scale(drive::Drive& drive) const noexcept;
   void refuse(const Request& request, profile::ParameterOutcome outcome) noexcept;
   void collect() noexcept;
-  Sentence sentenceOf(const Request& request, const drive::ParameterTaskResult& result) const noexcept;
+  void answer(const Request& request, const profile::ParameterResult& result) noexcept;
   void readDeviceAgain() noexcept;
   void askMissingAgain(Instant now) noexcept;
   bool writesProcessData() const noexcept;
@@ -74,6 +81,7 @@ class DriveParameters {
   std::string name_;
   profile::Series series_;
   std::optional<double> typed_max_frequency_;
+  ParameterChannelUse channel_;
   DeviceReader reader_;
   drive::FaultReader faults_;
   drive::ParameterSession session_;

@@ -49,11 +49,10 @@ std::string addressParameter(const ParameterAddress& address, profile::Series se
   } else {
     request.parameter.number = address.number;
     request.parameter.shape = shapeOfUnknown(address.parameter_set, address.index);
-    request.parameter.parameter_set = address.parameter_set == 0 ? 1 : address.parameter_set;
+    request.parameter.parameter_set = address.parameter_set;
     request.parameter.index = index;
   }
   request.kind = RequestKind::kReadParameter;
-  request.active_set = address.parameter_set == 0;
   return "";
 }
 
@@ -71,23 +70,6 @@ std::string addValue(const ParameterWrite& write, const profile::ParameterInfo* 
       write.persistent ? profile::ParameterAction::kWritePersistent : profile::ParameterAction::kWriteRam;
   request.parameter.raw = *raw;
   return "";
-}
-
-drive::ParameterTask taskOf(const Request& request, std::uint8_t set_in_force) noexcept {
-  const profile::ParameterRequest& from = request.parameter;
-  drive::ParameterTask task;
-  task.id = request.id;
-  if (request.kind == RequestKind::kWriteParameter) {
-    task.kind = from.action == profile::ParameterAction::kWritePersistent ? drive::ParameterTaskKind::kWritePersistent
-                                                                          : drive::ParameterTaskKind::kWriteRam;
-  }
-  task.number = from.number;
-  task.shape = from.shape;
-  task.set = request.active_set && set_in_force != 0 ? set_in_force : from.parameter_set;
-  task.index = from.index;
-  task.double_word = from.double_word;
-  task.raw = from.raw;
-  return task;
 }
 
 double valueOf(const profile::ParameterInfo* info, std::int32_t raw) {

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "cycle/request.h"
-#include "drive/parameter_task.h"
 #include "nord_driver/profile/series.h"
 #include "profile/parameter_catalogue.h"
 
@@ -30,9 +29,6 @@ std::string addressParameter(const ParameterAddress& address, profile::Series se
 
 /// Makes it a request to write. Returns what is wrong with the value; empty when nothing is.
 std::string addValue(const ParameterWrite& write, const profile::ParameterInfo* info, Request& request);
-
-/// The request as the session's task; `set_in_force` 1..4 is the drive's, 0: not known.
-drive::ParameterTask taskOf(const Request& request, std::uint8_t set_in_force) noexcept;
 
 /// The value behind a raw one; the raw one itself where the catalogue knows nothing.
 double valueOf(const profile::ParameterInfo* info, std::int32_t raw);

@@ -31,16 +31,15 @@ struct Request {
   DriveIndex drive = kAllDrives;
   Duration patience{};  ///< the longest the asker waits
   Instant asked{};      ///< when, by the clock of the bus; the patience counts from then. {}: from when it is taken
-  profile::ParameterRequest parameter;
-  bool active_set = false;         ///< the parameter's set is the one in force, whichever that is
-  std::uint8_t parameter_set = 0;  ///< for kSelectParameterSet, 1..4
+  profile::ParameterRequest parameter;  ///< its set 0: the one in force, whichever that is
+  std::uint8_t parameter_set = 0;       ///< for kSelectParameterSet, 1..4
 };
 
 struct Completion {
   std::uint32_t id = 0;
   bool success = false;
   Sentence message;
-  std::int32_t raw = 0;  ///< the parameter's value, read or read back
+  profile::ParameterResult parameter;  ///< of an access; `message` says in a sentence what it says in clauses
 };
 
 }  // namespace nord_driver::cycle

@@ -8,8 +8,8 @@ namespace nord_driver::cycle {
 
 namespace {
 
-// One P151 watches up to four inverters, and the module stays in its time-out until all of them are acknowledged (BU
-// 0220 4.2.3.2).
+// One P151 watches up to four inverters, and the module stays in its time-out until all of them are acknowledged
+// (BU 0220 4.2.3.2).
 Sentence withNeighbour(const Sentence& answer, const char* neighbour) noexcept {
   Sentence text;
   text.format("%.120s; drive %s behind the same bus module has a fault too: after a time-out all must be acknowledged",

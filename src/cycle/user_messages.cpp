@@ -1,7 +1,5 @@
 #include "cycle/user_messages.h"
 
-#include "profile/parameter_error.h"
-
 namespace nord_driver::cycle {
 
 using drive::Refusal;
@@ -85,48 +83,37 @@ Sentence terminalMessage(const char* drive, TerminalFinding finding, const drive
   return text;
 }
 
-Sentence parameterMessage(const char* drive, std::uint16_t number, const drive::ParameterTaskResult& result,
+Sentence parameterMessage(const char* drive, std::uint16_t number, const profile::ParameterResult& result,
                           bool no_bus_control) noexcept {
-  const char* note = result.note;
-  const char* joint = note[0] != '\0' ? "; " : "";
+  const char* const note = result.note;
+  const char* const joint = note[0] != '\0' ? "; " : "";
+  const char* const words = result.text.empty() ? profile::toString(result.reason) : result.text.c_str();
+  const char* const colon = words[0] != '\0' ? ": " : "";
   Sentence text;
   switch (result.outcome) {
     case profile::ParameterOutcome::kDone:
       text.format("%s", note);
       break;
     case profile::ParameterOutcome::kRefused:
-      if (result.refused_number == 0 && number != 0) {
+      if (result.reason == profile::ParameterReason::kDriver) {
         text.format("P%03u of drive %s: %s", number, drive, note);
-      } else if (result.abort_code != 0) {
-        text.format("drive %s refuses P%03u: SDO abort %08X, %s%s%s", drive, result.refused_number, result.abort_code,
-                    profile::parameterErrorText(result.error_number), joint, note);
       } else {
-        // On CANopen a code of its own says so.
-        const char* source = no_bus_control
-                                 ? "; the bus has no control (status bit 9 = 0): does P509 select it? Parameters are "
-                                   "written over a bus only while it does (BU 0020 6.2.2)"
-                                 : "";
-        text.format("drive %s refuses P%03u: error %u, %s%s%s%s", drive, result.refused_number, result.error_number,
-                    profile::parameterErrorText(result.error_number), source, joint, note);
+        const char* const source =
+            no_bus_control ? "; the bus has no control (status bit 9 = 0): does P509 select it? Parameters are "
+                             "written over a bus only while it does (BU 0020 6.2.2)"
+                           : "";
+        text.format("drive %s refuses P%03u%s%s%s%s%s", drive, result.refused_number, colon, words, source, joint,
+                    note);
       }
       break;
     case profile::ParameterOutcome::kTimeout:
-      text.format("drive %s gave no answer for P%03u%s%s", drive, number, joint, note);
+      text.format("drive %s gave no answer for P%03u%s%s%s%s", drive, number, colon, words, joint, note);
       break;
     case profile::ParameterOutcome::kOffline:
       text.format("drive %s does not answer%s%s", drive, joint, note);
       break;
     case profile::ParameterOutcome::kNoChannel:
-      text.format(
-          "drive %s has no parameter channel: PPO types 3 and 4 carry process data only, and its bus module takes no "
-          "acyclic requests (DP-V1)",
-          drive);
-      break;
-    case profile::ParameterOutcome::kNotActivated:
-      text.format(
-          "the bus module of drive %s refuses acyclic requests (DP-V1): it answers RS, not activated, at access point "
-          "51; PPO types 1 and 2 reach the inverter's parameters without them",
-          drive);
+      text.format("no parameter channel reaches P%03u of drive %s%s%s", number, drive, colon, words);
       break;
     case profile::ParameterOutcome::kBusy:
       text.format("drive %s has too many parameter requests waiting already", drive);

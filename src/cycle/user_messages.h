@@ -4,8 +4,8 @@
 #include "cycle/request.h"
 #include "cycle/terminal_watch.h"
 #include "drive/drive_report.h"
-#include "drive/parameter_task.h"
 #include "nord_driver/core/fixed_text.h"
+#include "nord_driver/profile/parameter_request.h"
 
 namespace nord_driver::cycle {
 
@@ -17,9 +17,9 @@ Sentence stopMessage(const char* drive, drive::StopCause cause, const drive::Dri
 Sentence stateMessage(const char* drive, const drive::DriveReport& report) noexcept;
 /// "drive left is under local control ..."; empty for TerminalFinding::kNone.
 Sentence terminalMessage(const char* drive, TerminalFinding finding, const drive::DriveReport& report) noexcept;
-/// Why a parameter access failed, or what was done besides; empty when there is nothing to say. `no_bus_control`: it
-/// was a write, and the bus has no control (status bit 9 = 0), which may be why it was refused.
-Sentence parameterMessage(const char* drive, std::uint16_t number, const drive::ParameterTaskResult& result,
+/// Why the access to parameter `number` failed, or what was done besides; empty when there is nothing to say.
+/// `no_bus_control`: it was a write, and the bus has no control (status bit 9 = 0), which may be why it was refused.
+Sentence parameterMessage(const char* drive, std::uint16_t number, const profile::ParameterResult& result,
                           bool no_bus_control = false) noexcept;
 
 }  // namespace nord_driver::cycle

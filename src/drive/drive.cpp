@@ -11,8 +11,8 @@ using profile::StatusWord;
 
 namespace {
 
-// |IW1| from which its sign is held against the direction bits: 5 % of P105. Below it bit 11 is 1 at rest (BU
-// 2700 6.6.1: 0B31) and slip may turn the sign.
+// |IW1| from which its sign is held against the direction bits: 5 % of P105. Below it bit 11 is 1 at rest
+// (BU 2700 6.6.1: 0B31) and slip may turn the sign.
 constexpr int kClearlyTurning = 819;
 
 bool contradictsDirection(StatusWord status, std::int16_t actual_value) noexcept {
@@ -29,6 +29,11 @@ StopCause exitCause(StatusWord status) noexcept {
 }
 
 }  // namespace
+
+Drive::Drive(const DriveConfig& config)
+    : config_(config), edge_(config.acknowledge_time), missing_(config.drive_timeout) {
+  for (std::size_t i = 0; i < sets_.size(); ++i) sets_[i].max_frequency = config.max_frequency[i];
+}
 
 bool Drive::isRunning() const noexcept {
   return isEnabled(report_.phase) || report_.phase == Phase::kEnabling || report_.phase == Phase::kHoldingZero;
@@ -48,12 +53,11 @@ bool Drive::isAtRest() const noexcept {
   }
 }
 
-void Drive::enter(Phase phase, Instant now) noexcept {
+void Drive::enter(Phase phase, Instant now, RadPerSec wanted) noexcept {
   report_.phase = phase;
-  phase_since_ = now;
-  ready_seen_ = false;
-  sent_ = false;
-  wanted_ = {};
+  phase_ = PhaseData{};
+  phase_.since = now;
+  phase_.wanted = wanted;
 }
 
 void Drive::latch(StopCause cause) noexcept {
@@ -70,12 +74,9 @@ void Drive::stop(StopCause cause, Instant now) noexcept {
 
 void Drive::refuse(Refusal refusal) noexcept {
   report_.refusal = refusal;
-  report_.refusal_status_word = report_.status_word;
-  report_.refusal_state = report_.state;
 }
 
-// --- what the inverter says
-// ---------------------------------------------------------------------------------------------
+// --- what the inverter says ------------------------------------------------------------------------------------------
 
 void Drive::handleInput(const profile::ProcessInput& input, bool fresh, Instant now) noexcept {
   if (fresh && StatusWord(input.status_word).isUseful()) {
@@ -87,10 +88,7 @@ void Drive::handleInput(const profile::ProcessInput& input, bool fresh, Instant 
 }
 
 void Drive::handleModule(bool inverter_missing, Instant now) noexcept {
-  if (!inverter_missing) return;
-  const Instant heard = last_missing_ ? std::max(last_useful_, *last_missing_) : last_useful_;
-  if (now - heard > config_.drive_timeout) module_back_ = now;
-  last_missing_ = now;
+  if (inverter_missing) missing_.handle(last_useful_, now);
 }
 
 void Drive::handleUseful(const profile::ProcessInput& input, Instant now) noexcept {
@@ -122,12 +120,11 @@ void Drive::handleInterruption(StopCause cause, Instant now) noexcept {
 }
 
 void Drive::goOffline(StopCause cause, Instant now) noexcept {
-  dark_until_ = now;
+  unanswered_.until = now;
   breakOff(Refusal::kOffline);
   if (!isAtRest() && report_.phase != Phase::kSwitchingSet) {
     // It may hear us without being heard: with 0000 it would carry on at its last setpoint, or trip by its time-out.
-    dark_until_ = now + config_.shutdown_timeout;
-    dark_command_ = isRunning() ? Command::kShutdown : command(now);
+    unanswered_ = {isRunning() ? Command::kShutdown : command(now), now + config_.shutdown_timeout};
     if (report_.phase != Phase::kIdle && report_.phase != Phase::kAcknowledging) latch(cause);
   }
   const bool was_enabling = report_.phase == Phase::kEnabling;
@@ -152,8 +149,8 @@ void Drive::checkStops(StatusWord status, Instant now) noexcept {
   if (!status.busControl()) {
     stop(StopCause::kLocalControl, now);
   } else if (status.parameterSet() != report_.commanded_set) {
-    // Setpoint 1 is a share of P105 of the set in force: a set that changes by itself is a step of the speed (BU
-    // 0020 7.3.5).
+    // Setpoint 1 is a share of P105 of the set in force: a set that changes by itself is a step of the speed
+    // (BU 0020 7.3.5).
     stop(StopCause::kParameterSet, now);
   } else if ((report_.phase == Phase::kEnabled || report_.phase == Phase::kHoldingZero) &&
              report_.state != DriveState::kOperationEnabled) {
@@ -192,21 +189,18 @@ void Drive::followResting(StatusWord status, Instant now) noexcept {
   const bool expected =
       ramps_down || report_.state == DriveState::kSwitchedOn || report_.state == DriveState::kReadyToSwitchOn;
   if (!expected) return stop(exitCause(status), now);
-  ready_seen_ = sent_ && report_.state == DriveState::kReadyToSwitchOn;
-  if (!ramps_down) phase_since_ = now;
+  phase_.ready_seen = phase_.sent && report_.state == DriveState::kReadyToSwitchOn;
+  if (!ramps_down) phase_.since = now;
   boundRamp(now);
 }
 
 void Drive::followResuming(StatusWord status, Instant now) noexcept {
-  const RadPerSec wanted = wanted_;
   switch (report_.state) {
     case DriveState::kOperationEnabled:
-      enter(Phase::kEnabled, now);
-      wanted_ = wanted;
-      return;
+      return enter(Phase::kEnabled, now, phase_.wanted);
     case DriveState::kReadyToSwitchOn:
     case DriveState::kSwitchedOn:
-      if (now - phase_since_ >= config_.enable_timeout) stop(StopCause::kNotResumed, now);
+      if (now - phase_.since >= config_.enable_timeout) stop(StopCause::kNotResumed, now);
       return;
     default:
       return stop(exitCause(status), now);
@@ -216,48 +210,48 @@ void Drive::followResuming(StatusWord status, Instant now) noexcept {
 // Idle commands OFF1 as well, to a drive that stopped for a reason of its own or was found turning: a ramp that does
 // not end is escalated as in kStopping. Without bus control no word is evaluated, and the time has not begun.
 void Drive::followIdle(StatusWord status, Instant now) noexcept {
-  const bool ramps_down = sent_ && status.busControl() && report_.state == DriveState::kOperationEnabled;
-  if (!ramps_down) phase_since_ = now;
+  const bool ramps_down = phase_.sent && status.busControl() && report_.state == DriveState::kOperationEnabled;
+  if (!ramps_down) phase_.since = now;
   boundRamp(now);
 }
 
 void Drive::boundRamp(Instant now) noexcept {
-  if (now - phase_since_ < config_.shutdown_timeout) return;
+  if (now - phase_.since < config_.shutdown_timeout) return;
   latch(StopCause::kShutdownTimeout);
   enter(Phase::kQuickStopping, now);
 }
 
 void Drive::followEnabling(StatusWord status, Instant now) noexcept {
   const DriveState state = report_.state;
-  if (ready_seen_ && state == DriveState::kOperationEnabled) return enter(Phase::kEnabled, now);
-  if (ready_seen_ && state != DriveState::kReadyToSwitchOn && state != DriveState::kSwitchedOn) {
+  if (phase_.ready_seen && state == DriveState::kOperationEnabled) return enter(Phase::kEnabled, now);
+  if (phase_.ready_seen && state != DriveState::kReadyToSwitchOn && state != DriveState::kSwitchedOn) {
     // Back behind "ready" without being asked, by terminals for example: an enable sequence never repeats itself.
     return stop(exitCause(status), now);
   }
   // Only once 047E went out: bits 0 and 3 come after an answered "shut down", never in place of one.
-  if (sent_ && state == DriveState::kReadyToSwitchOn) {
+  if (phase_.sent && state == DriveState::kReadyToSwitchOn) {
     // With P104 > 0 it would turn as soon as it is "operation enabled": that waits for the first velocity.
     if (restsAtZero()) return enter(Phase::kResting, now);
-    ready_seen_ = true;
+    phase_.ready_seen = true;
   }
-  if (now - phase_since_ < config_.enable_timeout) return;
+  if (now - phase_.since < config_.enable_timeout) return;
   refuse(Refusal::kEnableTimeout);
   // Once 047F was sent it may still come to act: leave as from "enabled", with OFF1 until "ready to switch on" is seen.
-  enter(ready_seen_ ? Phase::kStopping : Phase::kIdle, now);
+  enter(phase_.ready_seen ? Phase::kStopping : Phase::kIdle, now);
 }
 
 void Drive::followStopping(DriveState state, Instant now) noexcept {
   // OFF1 is no latch: bits 0 and 3 set again during the ramp would run the motor up. So nothing ends it but the state.
   const bool ended = state == DriveState::kReadyToSwitchOn || state == DriveState::kSwitchOnDisabled ||
                      state == DriveState::kNotReadyToSwitchOn;
-  if (sent_ && ended) return enter(Phase::kIdle, now);
+  if (phase_.sent && ended) return enter(Phase::kIdle, now);
   boundRamp(now);
 }
 
 void Drive::followQuickStop(DriveState state, Instant now) noexcept {
   // Ends in "switch-on disabled" by itself at f = 0 (BU 2700 6.4.1 bit 2), or at once from "ready" (6.4.3 no. 7).
   const bool ended = state == DriveState::kSwitchOnDisabled || state == DriveState::kNotReadyToSwitchOn;
-  if (sent_ && ended) enter(Phase::kIdle, now);
+  if (phase_.sent && ended) enter(Phase::kIdle, now);
 }
 
 void Drive::followAcknowledging(StatusWord status, Instant now) noexcept {
@@ -273,13 +267,13 @@ void Drive::followAcknowledging(StatusWord status, Instant now) noexcept {
 }
 
 void Drive::followSwitchingSet(StatusWord status, Instant now) noexcept {
-  if (sent_ && status.parameterSet() == report_.commanded_set && status.busControl() && !status.fault()) {
+  if (phase_.sent && status.parameterSet() == report_.commanded_set && status.busControl() && !status.fault()) {
     end(report_.set_switch, Refusal::kNone);
   } else if (status.fault()) {
     breakOff(Refusal::kFault);
   } else if (!status.busControl()) {
     breakOff(Refusal::kLocalControl);
-  } else if (now - phase_since_ >= config_.enable_timeout) {
+  } else if (now - phase_.since >= config_.enable_timeout) {
     breakOff(Refusal::kSetNotConfirmed);
   } else {
     return;
@@ -289,14 +283,13 @@ void Drive::followSwitchingSet(StatusWord status, Instant now) noexcept {
 
 void Drive::followCoasting(DriveState state, Instant now) noexcept {
   const bool ended = state == DriveState::kSwitchOnDisabled || state == DriveState::kNotReadyToSwitchOn;
-  if (sent_ && ended) enter(Phase::kIdle, now);
+  if (phase_.sent && ended) enter(Phase::kIdle, now);
 }
 
 void Drive::tellSet() noexcept {
-  const std::size_t set = report_.commanded_set;
-  const bool known = set >= 1 && set <= min_frequency_.size();
-  report_.minimum_frequency = known ? min_frequency_[set - 1] : Hertz{};
-  report_.unexpected_function = known ? unexpected_[set - 1] : std::nullopt;
+  const ParameterSet* const set = parameterSet(report_.commanded_set);
+  report_.minimum_frequency = set != nullptr ? set->min_frequency : Hertz{};
+  report_.unexpected_function = set != nullptr ? set->unexpected_function : std::nullopt;
 }
 
 void Drive::measure() noexcept {
@@ -314,23 +307,16 @@ void Drive::measure() noexcept {
       contradictsDirection(StatusWord(report_.status_word), report_.input.actual_values[0]);
 }
 
-// --- what goes to the inverter
-// ------------------------------------------------------------------------------------------
-
-// Not before the module had time to find it: it might be turning in a set of its own.
-bool Drive::isMissing(Instant now) const noexcept {
-  if (!last_missing_ || now - *last_missing_ > config_.drive_timeout) return false;
-  return !module_back_ || now - *module_back_ > config_.drive_timeout;
-}
+// --- what goes to the inverter ---------------------------------------------------------------------------------------
 
 Command Drive::command(Instant now) const noexcept {
   switch (report_.phase) {
     case Phase::kOffline:
       if (report_.commanded_set == 0) return Command::kIgnored;
-      if (now < dark_until_) return dark_command_;
-      return isMissing(now) ? Command::kShutdown : Command::kIgnored;
+      if (now < unanswered_.until) return unanswered_.command;
+      return missing_.isCertain(now) ? Command::kShutdown : Command::kIgnored;
     case Phase::kEnabling:
-      return ready_seen_ ? Command::kEnableOperation : Command::kShutdown;
+      return phase_.ready_seen ? Command::kEnableOperation : Command::kShutdown;
     case Phase::kEnabled:
     case Phase::kHoldingZero:
     case Phase::kResuming:
@@ -351,14 +337,12 @@ Command Drive::command(Instant now) const noexcept {
 
 // The setpoint goes out with 047F from the first word on: at setpoint 0 the motor would turn to the right meanwhile.
 void Drive::restOrResume(const profile::Setpoint& setpoint, Instant now) noexcept {
-  const RadPerSec wanted = wanted_;
   const bool running = report_.phase == Phase::kEnabled || report_.phase == Phase::kResuming;
   if (running && restsAtZero() && setpoint.word == 0) {
-    enter(Phase::kResting, now);
-  } else if (report_.phase == Phase::kResting && ready_seen_ && setpoint.word != 0) {
-    enter(Phase::kResuming, now);
+    enter(Phase::kResting, now, phase_.wanted);
+  } else if (report_.phase == Phase::kResting && phase_.ready_seen && setpoint.word != 0) {
+    enter(Phase::kResuming, now, phase_.wanted);
   }
-  wanted_ = wanted;
 }
 
 profile::ProcessOutput Drive::pollOutput(Instant now) noexcept {
@@ -368,7 +352,7 @@ profile::ProcessOutput Drive::pollOutput(Instant now) noexcept {
   if (isEnabled(report_.phase)) {
     // Enabled without P105 cannot be; were it so, the setpoint would be 0.
     const Hertz maximum = maxFrequency(report_.commanded_set).value_or(Hertz{});
-    const profile::Setpoint setpoint = profile::toSetpoint1(profile::toHertz(wanted_, config_.joint), maximum);
+    const profile::Setpoint setpoint = profile::toSetpoint1(profile::toHertz(phase_.wanted, config_.joint), maximum);
     restOrResume(setpoint, now);
     if (report_.phase != Phase::kResting) output.setpoints[0] = setpoint.word;
     const double frequency = std::fabs(profile::fromActualValue1(setpoint.word, maximum).value);
@@ -384,7 +368,7 @@ profile::ProcessOutput Drive::pollOutput(Instant now) noexcept {
     output.control_word |= profile::control_bit::kAcknowledge;
   }
   report_.output = output;
-  sent_ = true;
+  phase_.sent = true;
   return output;
 }
 

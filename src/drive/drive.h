@@ -1,12 +1,10 @@
 // One inverter as the user sees it: decides, each cycle, the control word and the setpoints.
 //
 // Sans-IO and without a clock. Its rules, in one place:
-//  - Stop is the default, and the word that stops is 047E with the parameter set in force. Zeros stop nothing: with bit
-//  10 = 0
-//    the inverter carries on (BU 2700 6.4.1 note 2, 7.1.1).
+//  - Stop is the default, and the word that stops is 047E with the parameter set in force. Zeros stop nothing: with
+//    bit 10 = 0 the inverter carries on (BU 2700 6.4.1 note 2, 7.1.1).
 //  - 047E alone also says "parameter set 1". So 0000, which the inverter ignores, is sent until a status word has told
-//  the set
-//    in force; from then on never again while it is online.
+//    the set in force; from then on never again while it is online.
 //  - An inverter that falls silent while it was not at rest may still hear us: the stop word is sent on unanswered, for
 //    shutdown_timeout; then the set is learned anew. When it answers it is idle, in the set it then reports.
 //  - One that is off behind a bus module that lives gets the idle word with the last set known of it: the module's P151
@@ -27,6 +25,7 @@
 #include "core/units.h"
 #include "drive/acknowledge_edge.h"
 #include "drive/drive_report.h"
+#include "drive/missing_inverter.h"
 #include "nord_driver/core/time.h"
 #include "nord_driver/profile/process_data.h"
 #include "profile/control_word.h"
@@ -56,8 +55,7 @@ struct DriveConfig {
 /// answer to a request stands in report(): the phase, or the refusal.
 class Drive {
  public:
-  explicit Drive(const DriveConfig& config)
-      : config_(config), max_frequency_(config.max_frequency), edge_(config.acknowledge_time) {}
+  explicit Drive(const DriveConfig& config);
 
   /// `fresh`: the inverter answered in this cycle. An all-zero status word counts as no answer.
   void handleInput(const profile::ProcessInput& input, bool fresh, Instant now) noexcept;
@@ -110,13 +108,32 @@ class Drive {
   /// The joint speed P104 of the commanded set stands for: below it the motor turns at it all the same. 0: none known.
   RadPerSec minVelocity() const noexcept;
   /// On the way to rest by OFF1, for P104 > 0: a velocity would not be followed yet.
-  bool comesToRest() const noexcept { return report_.phase == Phase::kResting && !ready_seen_; }
+  bool comesToRest() const noexcept { return report_.phase == Phase::kResting && !phase_.ready_seen; }
 
   const DriveReport& report() const noexcept { return report_; }
   /// Nothing is being driven or stopped: idle (or offline), and the inverter confirms it by its state.
   bool isAtRest() const noexcept;
 
  private:
+  /// What is known of one parameter set of the inverter.
+  struct ParameterSet {
+    std::optional<Hertz> max_frequency;  // P105
+    Hertz min_frequency;                 // P104; 0: nothing to heed, or not known
+    std::optional<UnexpectedFunction> unexpected_function;
+  };
+  /// What begins anew with every phase.
+  struct PhaseData {
+    Instant since{};
+    bool sent = false;        // its word went out at least once
+    bool ready_seen = false;  // enabling, resting: "ready to switch on" was seen after the request
+    RadPerSec wanted{};       // enabled: the velocity
+  };
+  /// Offline: the word that stops goes on without an answer.
+  struct UnansweredWord {
+    profile::Command command = profile::Command::kIgnored;
+    Instant until{};
+  };
+
   void handleUseful(const profile::ProcessInput& input, Instant now) noexcept;
   void handleSilence(Instant now) noexcept;
   void goOffline(StopCause cause, Instant now) noexcept;
@@ -142,30 +159,25 @@ class Drive {
   /// Between resting and driving, by the velocity wanted.
   void restOrResume(const profile::Setpoint& setpoint, Instant now) noexcept;
   bool restsAtZero() const noexcept { return report_.minimum_frequency.value > 0.0; }
-  void enter(Phase phase, Instant now) noexcept;
+  void enter(Phase phase, Instant now, RadPerSec wanted = {}) noexcept;
   void stop(StopCause cause, Instant now) noexcept;
   void latch(StopCause cause) noexcept;
   void refuse(Refusal refusal) noexcept;
   profile::Command command(Instant now) const noexcept;
   bool isRunning() const noexcept;  // 047F may be on the wire, or come by itself
-  bool isMissing(Instant now) const noexcept;
+  /// `set`: 1..4, else nullptr.
+  ParameterSet* parameterSet(std::uint8_t set) noexcept;
+  const ParameterSet* parameterSet(std::uint8_t set) const noexcept;
 
   DriveConfig config_;
-  std::array<std::optional<Hertz>, 4> max_frequency_;
-  std::array<Hertz, 4> min_frequency_{};
-  std::array<std::optional<UnexpectedFunction>, 4> unexpected_{};
+  std::array<ParameterSet, 4> sets_{};
   bool parameters_awaited_ = false;
   DriveReport report_;
+  PhaseData phase_;  // of report_.phase
+  UnansweredWord unanswered_;
   AcknowledgeEdge edge_;
-  Instant phase_since_{};
+  MissingInverter missing_;
   Instant last_useful_{};
-  Instant dark_until_{};  // offline: the stop word goes on until then
-  profile::Command dark_command_ = profile::Command::kIgnored;
-  std::optional<Instant> last_missing_;  // behind a module that answers
-  std::optional<Instant> module_back_;   // its module answered again after a silence of its own
-  RadPerSec wanted_{};
-  bool ready_seen_ = false;  // enabling: "ready to switch on" was seen after the request
-  bool sent_ = false;        // this phase's word went out at least once
 };
 
 }  // namespace nord_driver::drive

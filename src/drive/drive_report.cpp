@@ -113,17 +113,4 @@ const char* toString(Refusal refusal) noexcept {
   return "";
 }
 
-std::string refusalText(const DriveReport& report) {
-  if (report.refusal == Refusal::kNone) return {};
-  return std::string(toString(report.refusal)) + "; the last status word was " + toHexWord(report.refusal_status_word) +
-         " (" + profile::toString(report.refusal_state) + ")";
-}
-
-std::string stopText(const DriveReport& report) {
-  if (report.stop_cause == StopCause::kNone) return {};
-  return std::string("stopped: ") + toString(report.stop_cause) + "; the last status word was " +
-         toHexWord(report.stop_status_word) + " (" +
-         profile::toString(profile::StatusWord(report.stop_status_word).state()) + ")";
-}
-
 }  // namespace nord_driver::drive

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string>
 
 #include "core/units.h"
 #include "nord_driver/core/bytes.h"
@@ -116,8 +115,6 @@ struct DriveReport {
   Word stop_status_word = 0;  ///< the last status word at that moment
 
   Refusal refusal = Refusal::kNone;  ///< of the last request
-  Word refusal_status_word = 0;      ///< the last status word at that moment
-  profile::DriveState refusal_state = profile::DriveState::kUnknown;
 
   Hertz minimum_frequency;                                ///< P104 of the commanded set; 0 where it is not known
   std::optional<UnexpectedFunction> unexpected_function;  ///< of the commanded set
@@ -133,10 +130,5 @@ const char* toString(Phase phase) noexcept;
 const char* toString(StopCause cause) noexcept;
 /// A clause: "the drive does not answer".
 const char* toString(Refusal refusal) noexcept;
-
-/// The last refusal as a sentence with what the drive said at that moment; empty when there was none. Allocates.
-std::string refusalText(const DriveReport& report);
-/// The stop as a sentence; empty when there was none. Allocates.
-std::string stopText(const DriveReport& report);
 
 }  // namespace nord_driver::drive

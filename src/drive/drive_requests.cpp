@@ -10,6 +10,14 @@ using profile::Command;
 using profile::DriveState;
 using profile::StatusWord;
 
+namespace {
+
+bool isPositive(Hertz frequency) noexcept {
+  return std::isfinite(frequency.value) && frequency.value > 0.0;
+}
+
+}  // namespace
+
 Refusal Drive::enableRefusal() const noexcept {
   switch (report_.phase) {
     case Phase::kOffline:
@@ -72,8 +80,7 @@ void Drive::requestQuickStop(Instant now) noexcept {
   breakOff(Refusal::kStopped);
   latch(StopCause::kQuickStop);
   if (report_.phase == Phase::kOffline) {
-    dark_command_ = Command::kQuickStop;
-    dark_until_ = now + config_.shutdown_timeout;
+    unanswered_ = {Command::kQuickStop, now + config_.shutdown_timeout};
   } else if (report_.phase != Phase::kQuickStopping && report_.phase != Phase::kCoasting) {
     enter(Phase::kQuickStopping, now);
   }
@@ -84,8 +91,7 @@ void Drive::requestCoast(Instant now) noexcept {
   breakOff(Refusal::kStopped);
   latch(StopCause::kCoast);
   if (report_.phase == Phase::kOffline) {
-    dark_command_ = Command::kDisableVoltage;
-    dark_until_ = now + config_.shutdown_timeout;
+    unanswered_ = {Command::kDisableVoltage, now + config_.shutdown_timeout};
   } else if (report_.phase != Phase::kCoasting) {
     enter(Phase::kCoasting, now);
   }
@@ -150,29 +156,35 @@ void Drive::requestParameterSet(std::uint8_t set, Instant now, std::uint32_t tok
 }
 
 void Drive::setVelocity(RadPerSec joint) noexcept {
-  if (isEnabled(report_.phase)) wanted_ = joint;
+  if (isEnabled(report_.phase)) phase_.wanted = joint;
+}
+
+const Drive::ParameterSet* Drive::parameterSet(std::uint8_t set) const noexcept {
+  return set >= 1 && set <= sets_.size() ? &sets_[set - 1u] : nullptr;
+}
+
+Drive::ParameterSet* Drive::parameterSet(std::uint8_t set) noexcept {
+  return set >= 1 && set <= sets_.size() ? &sets_[set - 1u] : nullptr;
 }
 
 void Drive::setMaxFrequency(std::uint8_t set, Hertz frequency) noexcept {
-  if (set < 1 || set > 4) return;
-  const bool usable = std::isfinite(frequency.value) && frequency.value > 0.0;
-  max_frequency_[set - 1u] = usable ? std::optional<Hertz>(frequency) : std::nullopt;
+  if (ParameterSet* const known = parameterSet(set)) {
+    known->max_frequency = isPositive(frequency) ? std::optional<Hertz>(frequency) : std::nullopt;
+  }
 }
 
 std::optional<Hertz> Drive::maxFrequency(std::uint8_t set) const noexcept {
-  if (set < 1 || set > 4) return std::nullopt;
-  return max_frequency_[set - 1u];
+  const ParameterSet* const known = parameterSet(set);
+  return known != nullptr ? known->max_frequency : std::nullopt;
 }
 
 void Drive::setMinimumFrequency(std::uint8_t set, Hertz frequency) noexcept {
-  if (set < 1 || set > 4) return;
-  min_frequency_[set - 1u] = std::isfinite(frequency.value) && frequency.value > 0.0 ? frequency : Hertz{};
+  if (ParameterSet* const known = parameterSet(set)) known->min_frequency = isPositive(frequency) ? frequency : Hertz{};
   tellSet();
 }
 
 void Drive::setUnexpectedFunction(std::uint8_t set, const std::optional<UnexpectedFunction>& function) noexcept {
-  if (set < 1 || set > 4) return;
-  unexpected_[set - 1u] = function;
+  if (ParameterSet* const known = parameterSet(set)) known->unexpected_function = function;
   tellSet();
 }
 

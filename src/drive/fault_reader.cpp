@@ -86,8 +86,7 @@ void FaultReader::handleReason(const profile::ParameterResult& result) noexcept 
     reason_ = word(result.raw);
     reason_state_ = ReasonState::kKnown;
     retry_at_ = {};
-  } else if (result.outcome == ParameterOutcome::kRefused || result.outcome == ParameterOutcome::kNoChannel ||
-             result.outcome == ParameterOutcome::kNotActivated) {
+  } else if (result.outcome == ParameterOutcome::kRefused || result.outcome == ParameterOutcome::kNoChannel) {
     reason_state_ = ReasonState::kNotAvailable;
     retry_at_ = {};
   }

@@ -1,8 +1,8 @@
 // Reads from an inverter which fault it has, when its fault bit rises, and on request why it cannot be switched on.
 //
-// Sans-IO, one access at a time. P700 [-01] is the fault, [-03] the reason of "switch-on disabled" (BU 0020 8, BU
-// 2700 7.2). P700 is an array from firmware V1.9 on; the first element of an older one is read all the same, the third
-// is not there.
+// Sans-IO, one access at a time. P700 [-01] is the fault, [-03] the reason of "switch-on disabled" (BU 0020 8,
+// BU 2700 7.2). P700 is an array from firmware V1.9 on; the first element of an older one is read all the same, the
+// third is not there.
 #pragma once
 
 #include <cstdint>

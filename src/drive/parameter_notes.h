@@ -8,7 +8,6 @@ constexpr char kNotRead[] = "the present value could not be read, so nothing was
 constexpr char kWriteUnanswered[] = "whether the inverter carried the write out is not known";
 constexpr char kDiffers[] = "the inverter accepted the value, but reads back another one";
 constexpr char kNotReadBack[] = "the inverter accepted the value, but it could not be read back";
-constexpr char kTooWide[] = "the answer does not fit this process data type: use PPO 2 or acyclic access";
 constexpr char kToggled[] =
     "this inverter has no order that spares the EEPROM: P560 was set to 0 for the write and put back to 1 (counted as "
     "two EEPROM writes)";

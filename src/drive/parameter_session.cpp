@@ -1,12 +1,12 @@
 #include "drive/parameter_session.h"
 
 #include "drive/parameter_notes.h"
-#include "profile/pkw.h"
 
 namespace nord_driver::drive {
 
 using profile::ParameterAction;
 using profile::ParameterOutcome;
+using profile::ParameterReason;
 using profile::ParameterRequest;
 using profile::ParameterResult;
 using profile::ParameterShape;
@@ -17,47 +17,43 @@ constexpr std::uint16_t kSaveInEeprom = 560;
 constexpr std::uint8_t kSwitchTries = 2;
 
 // A word comes back with its high word 0 or, negative, FFFF; with anything else there the parameter is a double word.
-bool isValue(const ParameterTask& task, std::int32_t raw) noexcept {
-  if (task.double_word) return raw == task.raw;
+bool isValue(const ParameterRequest& request, std::int32_t raw) noexcept {
+  if (request.double_word) return raw == request.raw;
   const std::uint32_t high = static_cast<std::uint32_t>(raw) >> 16;
-  const std::uint32_t difference = static_cast<std::uint32_t>(raw) ^ static_cast<std::uint32_t>(task.raw);
+  const std::uint32_t difference = static_cast<std::uint32_t>(raw) ^ static_cast<std::uint32_t>(request.raw);
   return (high == 0 || high == 0xFFFFu) && (difference & 0xFFFFu) == 0;
 }
 
 // Not carried out for certain; everything else may have been.
 bool surelyNotDone(ParameterOutcome outcome) noexcept {
   return outcome == ParameterOutcome::kRefused || outcome == ParameterOutcome::kBusy ||
-         outcome == ParameterOutcome::kNoChannel || outcome == ParameterOutcome::kNotActivated;
+         outcome == ParameterOutcome::kNoChannel;
 }
 
 bool isDone(const ParameterResult& result) noexcept {
   return result.outcome == ParameterOutcome::kDone;
 }
 
-bool isError(const ParameterResult& result, std::uint16_t number) noexcept {
-  return result.outcome == ParameterOutcome::kRefused && result.error_number == number;
+bool isRefused(const ParameterResult& result, ParameterReason reason) noexcept {
+  return result.outcome == ParameterOutcome::kRefused && result.reason == reason;
 }
 
 }  // namespace
 
-bool ParameterSession::submit(const ParameterTask& task) noexcept {
-  if (!tasks_.submit(task)) return false;
-  if (tasks_.size() == 1) try_recovery_ = owes_switch_;
+bool ParameterSession::submit(const ParameterRequest& request) noexcept {
+  if (!requests_.submit(request)) return false;
+  if (requests_.size() == 1 && owesEepromSwitch()) switch_ = EepromSwitch::kRetryDue;
   return true;
 }
 
 // --- Handing out
 
 void ParameterSession::begin() noexcept {
-  failed_ = false;
-  no_index_ = false;
-  switch_was_off_ = false;
-  switch_tries_ = 0;
-  recovering_ = owes_switch_ && try_recovery_;
-  if (recovering_) {
+  run_ = {};
+  run_.recovery = switch_ == EepromSwitch::kRetryDue;
+  if (run_.recovery) {
     step_ = Step::kReadSwitch;
-  } else if (!tasks_.empty()) {
-    result_ = {};
+  } else if (!requests_.empty()) {
     step_ = Step::kReadValue;
   }
 }
@@ -66,7 +62,7 @@ std::optional<ParameterRequest> ParameterSession::pollRequest() noexcept {
   if (under_way_) return std::nullopt;
   if (step_ == Step::kNone) begin();
   if (step_ == Step::kNone) return std::nullopt;
-  if (step_ == Step::kSwitchOff) owes_switch_ = true;
+  if (step_ == Step::kSwitchOff && !owesEepromSwitch()) switch_ = EepromSwitch::kOwed;
   under_way_ = true;
   return requestFor(step_);
 }
@@ -96,14 +92,14 @@ ParameterRequest ParameterSession::requestFor(Step step) const noexcept {
       request.action = ParameterAction::kWritePersistent;
       break;
   }
-  const ParameterTask& task = tasks_.front();
-  request.number = task.number;
-  request.shape = no_index_ ? ParameterShape::kPlain : task.shape;
-  request.parameter_set = task.set;
-  request.index = task.index;
+  const ParameterRequest& asked = requests_.front();
+  request.number = asked.number;
+  request.shape = run_.no_index ? ParameterShape::kPlain : asked.shape;
+  request.parameter_set = asked.parameter_set;
+  request.index = asked.index;
   if (request.action != ParameterAction::kRead) {
-    request.double_word = task.double_word;
-    request.raw = task.raw;
+    request.double_word = asked.double_word;
+    request.raw = asked.raw;
   }
   return request;
 }
@@ -121,7 +117,7 @@ void ParameterSession::handleResult(const ParameterResult& result) noexcept {
     case Step::kWriteRam:
       return handleRamWrite(result);
     case Step::kReadSwitch:
-      return handleSwitch(result);
+      return run_.recovery ? handleRecoverySwitch(result) : handleSwitch(result);
     case Step::kSwitchOff:
     case Step::kCheckSwitchOff:
       return handleSwitchOff(result);
@@ -136,27 +132,27 @@ void ParameterSession::handleResult(const ParameterResult& result) noexcept {
 }
 
 void ParameterSession::handleValue(const ParameterResult& result) noexcept {
-  const ParameterTask& task = tasks_.front();
-  const bool write = task.kind != ParameterTaskKind::kRead;
+  const ParameterRequest& request = requests_.front();
+  const bool write = request.action != ParameterAction::kRead;
   if (!isDone(result)) {
-    fail(result, task.number, write ? kNotRead : "");
+    fail(result, request.number, write ? kNotRead : "");
     return finish();
   }
-  result_.raw = result.raw;
-  const bool persistent = task.kind == ParameterTaskKind::kWritePersistent;
-  const bool may_be_ram = persistent && (task.even_if_same || ram_only_.holds(task));
-  const bool same = write && isValue(task, result.raw) && !may_be_ram;
+  run_.result.raw = result.raw;
+  const bool persistent = request.action == ParameterAction::kWritePersistent;
+  const bool may_be_ram = persistent && (request.even_if_same || ram_only_.holds(request));
+  const bool same = write && isValue(request, result.raw) && !may_be_ram;
   if (!write || same) {
-    result_.outcome = ParameterOutcome::kDone;
-    if (same) result_.note = kSame;
+    run_.result.outcome = ParameterOutcome::kDone;
+    if (same) run_.result.note = kSame;
     return finish();
   }
-  if (persistent && task.number == kSaveInEeprom) {
-    owes_switch_ = false;  // the user decides over it now
+  if (persistent && request.number == kSaveInEeprom) {
+    switch_ = EepromSwitch::kNotOurs;  // the user decides over it now
     step_ = Step::kWrite;
   } else if (persistent) {
     step_ = Step::kReadSwitch;
-  } else if (ram_orders_) {
+  } else if (ram_writes_) {
     step_ = Step::kWriteRam;
   } else {
     writePlainly();
@@ -164,20 +160,20 @@ void ParameterSession::handleValue(const ParameterResult& result) noexcept {
 }
 
 void ParameterSession::handleRamWrite(const ParameterResult& result) noexcept {
-  if (!surelyNotDone(result.outcome)) ram_only_.mark(tasks_.front());
+  if (!surelyNotDone(result.outcome)) ram_only_.mark(requests_.front());
   if (isDone(result)) {
     step_ = Step::kReadBack;
-  } else if (isError(result, profile::pkw_error::kInvalidOrder)) {
-    ram_orders_ = false;
+  } else if (isRefused(result, ParameterReason::kNotSupported)) {
+    ram_writes_ = false;
     writePlainly();
   } else if (!retryWithoutIndex(result)) {
-    fail(result, tasks_.front().number, surelyNotDone(result.outcome) ? "" : kWriteUnanswered);
+    fail(result, requests_.front().number, surelyNotDone(result.outcome) ? "" : kWriteUnanswered);
     finish();
   }
 }
 
 void ParameterSession::writePlainly() noexcept {
-  if (tasks_.front().number != kSaveInEeprom) {
+  if (requests_.front().number != kSaveInEeprom) {
     step_ = Step::kReadSwitch;
     return;
   }
@@ -185,22 +181,22 @@ void ParameterSession::writePlainly() noexcept {
   finish();
 }
 
-void ParameterSession::handleSwitch(const ParameterResult& result) noexcept {
-  if (recovering_) {
-    if (isDone(result) && result.raw != 0) owes_switch_ = false;
-    if (isDone(result) && result.raw == 0) {
-      step_ = Step::kSwitchOn;
-    } else {
-      finish();
-    }
+void ParameterSession::handleRecoverySwitch(const ParameterResult& result) noexcept {
+  if (isDone(result) && result.raw == 0) {
+    step_ = Step::kSwitchOn;
     return;
   }
-  const bool persistent = tasks_.front().kind == ParameterTaskKind::kWritePersistent;
+  if (isDone(result)) switch_ = EepromSwitch::kNotOurs;
+  finish();
+}
+
+void ParameterSession::handleSwitch(const ParameterResult& result) noexcept {
+  const bool persistent = requests_.front().action == ParameterAction::kWritePersistent;
   const bool off = isDone(result) && result.raw == 0;
-  if (isDone(result) && !off) owes_switch_ = false;
-  if (isError(result, profile::pkw_error::kInvalidNumber)) {
+  if (isDone(result) && !off) switch_ = EepromSwitch::kNotOurs;
+  if (isRefused(result, ParameterReason::kNoSuchParameter)) {
     if (persistent) {
-      result_.note = kNoSwitch;
+      run_.result.note = kNoSwitch;
       step_ = Step::kWrite;
       return;
     }
@@ -212,11 +208,11 @@ void ParameterSession::handleSwitch(const ParameterResult& result) noexcept {
     return finish();
   }
   if (persistent && off) {
-    refuse(owes_switch_ ? kNotPutBack : kWouldBeLost);
+    refuse(owesEepromSwitch() ? kNotPutBack : kWouldBeLost);
     return finish();
   }
-  switch_was_off_ = off && !owes_switch_;
-  if (switch_was_off_) result_.note = kWasOff;
+  run_.switch_was_off = off && !owesEepromSwitch();
+  if (run_.switch_was_off) run_.result.note = kWasOff;
   step_ = persistent || off ? Step::kWrite : Step::kSwitchOff;
 }
 
@@ -232,7 +228,7 @@ void ParameterSession::handleSwitchOff(const ParameterResult& result) noexcept {
   } else {
     fail(result, kSaveInEeprom, kNotSet);
   }
-  if (write && surelyNotDone(result.outcome)) owes_switch_ = false;
+  if (write && surelyNotDone(result.outcome)) switch_ = EepromSwitch::kNotOurs;
   putBackOrFinish();
 }
 
@@ -240,16 +236,16 @@ void ParameterSession::handleWrite(const ParameterResult& result) noexcept {
   countValueWrite(result);
   if (!isDone(result)) {
     if (retryWithoutIndex(result)) return;
-    fail(result, tasks_.front().number, surelyNotDone(result.outcome) ? "" : kWriteUnanswered);
+    fail(result, requests_.front().number, surelyNotDone(result.outcome) ? "" : kWriteUnanswered);
   }
   putBackOrFinish();
 }
 
 // The value has been written, or not: first of all P560 goes back to what it was.
 void ParameterSession::putBackOrFinish() noexcept {
-  if (owes_switch_) {
+  if (owesEepromSwitch()) {
     step_ = Step::kSwitchOn;
-  } else if (failed_) {
+  } else if (run_.failed) {
     finish();
   } else {
     step_ = Step::kReadBack;
@@ -264,79 +260,74 @@ void ParameterSession::handleSwitchOn(const ParameterResult& result) noexcept {
     return;
   }
   if (isDone(result) && result.raw != 0) {
-    owes_switch_ = false;
-    if (recovering_) return finish();
-    if (!failed_) result_.note = kToggled;
+    switch_ = EepromSwitch::kNotOurs;
+    if (run_.recovery) return finish();
+    if (!run_.failed) run_.result.note = kToggled;
     return putBackOrFinish();
   }
-  if (++switch_tries_ < kSwitchTries) {
+  if (++run_.switch_tries < kSwitchTries) {
     step_ = Step::kSwitchOn;
     return;
   }
-  if (!recovering_) {
-    if (!failed_) isDone(result) ? refuse(kNotPutBack) : fail(result, kSaveInEeprom, kNotPutBack);
-    result_.note = kNotPutBack;
+  if (!run_.recovery) {
+    if (!run_.failed) isDone(result) ? refuse(kNotPutBack) : fail(result, kSaveInEeprom, kNotPutBack);
+    run_.result.note = kNotPutBack;
   }
   finish();
 }
 
 void ParameterSession::handleReadBack(const ParameterResult& result) noexcept {
-  const ParameterTask& task = tasks_.front();
+  const ParameterRequest& request = requests_.front();
   if (!isDone(result)) {
-    fail(result, task.number, kNotReadBack);
+    fail(result, request.number, kNotReadBack);
   } else {
-    result_.raw = result.raw;
-    result_.outcome = ParameterOutcome::kDone;
-    if (!isValue(task, result.raw)) refuse(kDiffers);
+    run_.result.raw = result.raw;
+    run_.result.outcome = ParameterOutcome::kDone;
+    if (!isValue(request, result.raw)) refuse(kDiffers);
   }
-  if (!failed_ && task.kind == ParameterTaskKind::kWritePersistent) ram_only_.unmark(tasks_.front());
+  if (!run_.failed && request.action == ParameterAction::kWritePersistent) ram_only_.unmark(request);
   finish();
 }
 
-// A parameter that was taken for set-dependent and is not answers a write with error 4; reads fall back by themselves.
+// A parameter that was taken for set-dependent and is not; reads fall back by themselves.
 bool ParameterSession::retryWithoutIndex(const ParameterResult& result) noexcept {
-  if (no_index_ || !isError(result, profile::pkw_error::kNoArray)) return false;
-  no_index_ = tasks_.front().shape == ParameterShape::kPerSet;
-  return no_index_;
+  if (run_.no_index || !isRefused(result, ParameterReason::kNotIndexed)) return false;
+  run_.no_index = requests_.front().shape == ParameterShape::kPerSet;
+  return run_.no_index;
 }
 
 void ParameterSession::fail(const ParameterResult& result, std::uint16_t number, const char* note) noexcept {
-  failed_ = true;
-  result_.outcome = result.outcome;
-  result_.note = note;
-  if (result.outcome != ParameterOutcome::kRefused) return;
-  result_.error_number = result.error_number;
-  result_.abort_code = result.abort_code;
-  result_.refused_number = number;
-  if (result.error_number == profile::pkw_error::kNotRepresentable) result_.note = kTooWide;
+  run_.failed = true;
+  run_.result.outcome = result.outcome;
+  run_.result.reason = result.reason;
+  run_.result.text = result.text;
+  run_.result.note = note;
+  if (result.outcome == ParameterOutcome::kRefused) run_.result.refused_number = number;
 }
 
 void ParameterSession::refuse(const char* note) noexcept {
-  failed_ = true;
-  result_.outcome = ParameterOutcome::kRefused;
-  result_.note = note;
+  run_.failed = true;
+  run_.result.outcome = ParameterOutcome::kRefused;
+  run_.result.reason = ParameterReason::kDriver;
+  run_.result.note = note;
 }
 
 void ParameterSession::finish() noexcept {
   step_ = Step::kNone;
-  if (recovering_) {
-    recovering_ = false;
-    try_recovery_ = false;
-    return;
-  }
-  try_recovery_ = owes_switch_ && tasks_.size() > 1;
-  tasks_.finish(result_);
+  const bool others_wait = !run_.recovery && requests_.size() > 1;
+  if (owesEepromSwitch()) switch_ = others_wait ? EepromSwitch::kRetryDue : EepromSwitch::kOwed;
+  if (!run_.recovery) requests_.finish(run_.result);
 }
 
 void ParameterSession::countWrite(const ParameterResult& result) noexcept {
   if (surelyNotDone(result.outcome)) return;
   ++eeprom_writes_;
-  result_.eeprom_written = true;
+  run_.result.eeprom_written = true;
 }
 
 void ParameterSession::countValueWrite(const ParameterResult& result) noexcept {
-  if (!owes_switch_ && !switch_was_off_) return countWrite(result);
-  if (!surelyNotDone(result.outcome)) ram_only_.mark(tasks_.front());
+  if (!owesEepromSwitch() && !run_.switch_was_off) return countWrite(result);
+  if (!surelyNotDone(result.outcome)) ram_only_.mark(requests_.front());
 }
 
 void ParameterSession::handleOffline() noexcept {
@@ -346,23 +337,22 @@ void ParameterSession::handleOffline() noexcept {
   if (under_way_) {
     if (step_ == Step::kSwitchOff || step_ == Step::kSwitchOn) countWrite(offline);
     if (step_ == Step::kWrite) countValueWrite(offline);
-    if (step_ == Step::kWriteRam) ram_only_.mark(tasks_.front());
+    if (step_ == Step::kWriteRam) ram_only_.mark(requests_.front());
   }
   under_way_ = false;
-  ram_orders_ = true;
-  if (step_ != Step::kNone && !recovering_) {
-    if (!failed_) fail(offline, 0, step_ == Step::kWrite || step_ == Step::kWriteRam ? kWriteUnanswered : "");
-    if (owes_switch_) result_.note = kNotPutBack;
+  ram_writes_ = capabilities_.ram_writes;
+  if (step_ != Step::kNone && !run_.recovery) {
+    if (!run_.failed) fail(offline, 0, step_ == Step::kWrite || step_ == Step::kWriteRam ? kWriteUnanswered : "");
+    if (owesEepromSwitch()) run_.result.note = kNotPutBack;
     finish();
   }
   step_ = Step::kNone;
-  recovering_ = false;
-  while (!tasks_.empty()) {
-    result_ = {};
+  while (!requests_.empty()) {
+    run_ = {};
     fail(offline, 0, "");
     finish();
   }
-  try_recovery_ = owes_switch_;
+  if (owesEepromSwitch()) switch_ = EepromSwitch::kRetryDue;
 }
 
 }  // namespace nord_driver::drive

@@ -3,9 +3,10 @@
 // Sans-IO: hands out one parameter request at a time and is told its result; the transport does the rest. Its rules:
 //  - Nothing is written that is there already: each write first reads. The exception is a persistent write of what this
 //    session has only put into the RAM, or somebody else may have (`even_if_same`).
-//  - A RAM write uses the orders that spare the EEPROM (AK 11..14). Not every inverter has them: BU 0020 7.5.1 grants
-//    them to SK 2xxE and bus modules, BU 2700 6.5.1.1 to all. On error 201 the session remembers that, and writes with
-//    the plain orders while P560 = 0, reading P560 before and putting it back after, also when the write fails.
+//  - A RAM write uses the order that spares the EEPROM, where the transport has one (`ram_writes`). Not every inverter
+//    knows it: BU 0020 7.5.1 grants it to SK 2xxE and bus modules, BU 2700 6.5.1.1 to all. Refused with kNotSupported,
+//    the session remembers that, and writes with the plain orders while P560 = 0, reading P560 before and putting it
+//    back after, also when the write fails.
 //  - A persistent write needs P560 = 1; with 0 it would look right and be lost at power off, so it is refused.
 //  - After each write the value is read back and compared.
 //  - Every write that may reach the EEPROM is counted. No manual says where P560 itself is stored: it counts, too.
@@ -15,7 +16,6 @@
 #include <optional>
 
 #include "core/request_queue.h"
-#include "drive/parameter_task.h"
 #include "drive/ram_only_values.h"
 #include "nord_driver/profile/parameter_request.h"
 
@@ -24,24 +24,29 @@ namespace nord_driver::drive {
 /// Each cycle: pollRequest(), and handleResult() when the transport has the answer; pollResult() at any time.
 class ParameterSession {
  public:
-  /// The most tasks waiting, running, or finished and not fetched.
+  /// The most requests waiting, running, or finished and not fetched.
   static constexpr std::size_t kCapacity = 8;
 
-  /// False: full.
-  bool submit(const ParameterTask& task) noexcept;
+  explicit ParameterSession(const profile::ParameterCapabilities& capabilities = {}) noexcept
+      : capabilities_(capabilities), ram_writes_(capabilities.ram_writes) {}
+
+  /// A user's request, its set 1..4 where it has one. False: full.
+  bool submit(const profile::ParameterRequest& request) noexcept;
   /// The next access, when none is under way; its id is for the caller to choose.
   std::optional<profile::ParameterRequest> pollRequest() noexcept;
   /// The result of the request handed out last.
   void handleResult(const profile::ParameterResult& result) noexcept;
-  std::optional<ParameterTaskResult> pollResult() noexcept { return tasks_.pollResult(); }
-  /// Ends all tasks as offline. The inverter that comes back may be another one: what was learned of it is forgotten.
+  /// Of a user's request, by its id: the transport's, and what this session adds to it.
+  std::optional<profile::ParameterResult> pollResult() noexcept { return requests_.pollResult(); }
+  /// Ends all requests as offline. The inverter that comes back may be another one: what was learned of it is
+  /// forgotten.
   void handleOffline() noexcept;
 
   /// Writes that reached the EEPROM, or may have, since construction.
   std::uint64_t eepromWrites() const noexcept { return eeprom_writes_; }
-  /// P560 stands at 0 because of this session and could not be put back yet. Tried again before the next task, and when
-  /// the inverter has come back.
-  bool owesEepromSwitch() const noexcept { return owes_switch_; }
+  /// P560 stands at 0 because of this session and could not be put back yet. Tried again before the next request, and
+  /// when the inverter has come back.
+  bool owesEepromSwitch() const noexcept { return switch_ != EepromSwitch::kNotOurs; }
 
  private:
   enum class Step : std::uint8_t {
@@ -56,12 +61,28 @@ class ParameterSession {
     kCheckSwitchOn,
     kReadBack,
   };
+  /// What becomes of P560.
+  enum class EepromSwitch : std::uint8_t {
+    kNotOurs,   // it stands as its owner wants it
+    kOwed,      // 0 because of us, or it may be
+    kRetryDue,  // ... and is put back before anything else is begun
+  };
+  /// One way through the steps, begun with defaults.
+  struct Run {
+    bool recovery = false;        // puts P560 back, for no request
+    bool failed = false;          // only P560 is still to be put back
+    bool no_index = false;        // the parameter turned out to have no sets
+    bool switch_was_off = false;  // P560 = 0 was there before us
+    std::uint8_t switch_tries = 0;
+    profile::ParameterResult result;  // as far as it is known
+  };
 
   void begin() noexcept;
   profile::ParameterRequest requestFor(Step step) const noexcept;
   void handleValue(const profile::ParameterResult& result) noexcept;
   void handleRamWrite(const profile::ParameterResult& result) noexcept;
   void handleSwitch(const profile::ParameterResult& result) noexcept;
+  void handleRecoverySwitch(const profile::ParameterResult& result) noexcept;
   void handleSwitchOff(const profile::ParameterResult& result) noexcept;
   void handleWrite(const profile::ParameterResult& result) noexcept;
   void handleSwitchOn(const profile::ParameterResult& result) noexcept;
@@ -75,18 +96,13 @@ class ParameterSession {
   void countWrite(const profile::ParameterResult& result) noexcept;
   void countValueWrite(const profile::ParameterResult& result) noexcept;
 
-  RequestQueue<ParameterTask, ParameterTaskResult, kCapacity> tasks_;
-  ParameterTaskResult result_;  // of the running task, as far as it is known
+  profile::ParameterCapabilities capabilities_;
+  RequestQueue<profile::ParameterRequest, profile::ParameterResult, kCapacity> requests_;
   Step step_ = Step::kNone;
-  bool under_way_ = false;       // a request is handed out
-  bool recovering_ = false;      // the steps put P560 back, for no task
-  bool try_recovery_ = false;    // ... and shall, before the next task
-  bool failed_ = false;          // the running task has failed; only P560 is still to be put back
-  bool no_index_ = false;        // the running task's parameter turned out to have no sets
-  bool ram_orders_ = true;       // false: this inverter answers AK 11..14 with error 201
-  bool owes_switch_ = false;     // P560 = 0 may stand because of us
-  bool switch_was_off_ = false;  // P560 = 0 was there before us
-  std::uint8_t switch_tries_ = 0;
+  bool under_way_ = false;  // the request of this step is handed out
+  Run run_;                 // while step_ is not kNone
+  EepromSwitch switch_ = EepromSwitch::kNotOurs;
+  bool ram_writes_;  // false: this inverter, or the way to it, knows no write that spares the EEPROM
   RamOnlyValues ram_only_;
   std::uint64_t eeprom_writes_ = 0;
 };

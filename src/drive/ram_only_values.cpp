@@ -1,21 +1,19 @@
 #include "drive/ram_only_values.h"
 
+#include "profile/parameter_queue.h"
+
 namespace nord_driver::drive {
 
-using profile::ParameterShape;
-
-RamOnlyValues::Key RamOnlyValues::keyOf(const ParameterTask& task) noexcept {
-  const bool has_sets = task.shape == ParameterShape::kPerSet || task.shape == ParameterShape::kArrayPerSet;
-  const bool is_array = task.shape == ParameterShape::kArray || task.shape == ParameterShape::kArrayPerSet;
+RamOnlyValues::Key RamOnlyValues::keyOf(const profile::ParameterRequest& request) noexcept {
   Key key;
-  key.number = task.number;
-  if (has_sets) key.set = task.set;
-  if (is_array) key.index = task.index;
+  key.number = request.number;
+  if (profile::hasSets(request.shape)) key.set = request.parameter_set;
+  if (profile::isArray(request.shape)) key.index = request.index;
   return key;
 }
 
-std::size_t RamOnlyValues::find(const ParameterTask& task) const noexcept {
-  const Key key = keyOf(task);
+std::size_t RamOnlyValues::find(const profile::ParameterRequest& request) const noexcept {
+  const Key key = keyOf(request);
   std::size_t i = 0;
   while (i < keys_.size() &&
          (keys_[i].number != key.number || keys_[i].set != key.set || keys_[i].index != key.index)) {
@@ -24,16 +22,16 @@ std::size_t RamOnlyValues::find(const ParameterTask& task) const noexcept {
   return i;
 }
 
-bool RamOnlyValues::holds(const ParameterTask& task) const noexcept {
-  return overflow_ || find(task) < keys_.size();
+bool RamOnlyValues::holds(const profile::ParameterRequest& request) const noexcept {
+  return overflow_ || find(request) < keys_.size();
 }
 
-void RamOnlyValues::mark(const ParameterTask& task) noexcept {
-  if (!holds(task) && !keys_.push_back(keyOf(task))) overflow_ = true;
+void RamOnlyValues::mark(const profile::ParameterRequest& request) noexcept {
+  if (!holds(request) && !keys_.push_back(keyOf(request))) overflow_ = true;
 }
 
-void RamOnlyValues::unmark(const ParameterTask& task) noexcept {
-  const std::size_t i = find(task);
+void RamOnlyValues::unmark(const profile::ParameterRequest& request) noexcept {
+  const std::size_t i = find(request);
   if (i == keys_.size()) return;
   keys_[i] = keys_[keys_.size() - 1];
   keys_.resize(keys_.size() - 1);

@@ -4,17 +4,17 @@
 
 #include <cstdint>
 
-#include "drive/parameter_task.h"
 #include "nord_driver/core/fixed_vector.h"
+#include "nord_driver/profile/parameter_request.h"
 
 namespace nord_driver::drive {
 
 /// Remembers 32 values; beyond them it holds every value to be one, which costs a write that was not needed.
 class RamOnlyValues {
  public:
-  void mark(const ParameterTask& task) noexcept;
-  void unmark(const ParameterTask& task) noexcept;
-  bool holds(const ParameterTask& task) const noexcept;
+  void mark(const profile::ParameterRequest& request) noexcept;
+  void unmark(const profile::ParameterRequest& request) noexcept;
+  bool holds(const profile::ParameterRequest& request) const noexcept;
 
  private:
   struct Key {
@@ -22,8 +22,8 @@ class RamOnlyValues {
     std::uint8_t set = 0;
     std::uint8_t index = 0;
   };
-  static Key keyOf(const ParameterTask& task) noexcept;
-  std::size_t find(const ParameterTask& task) const noexcept;
+  static Key keyOf(const profile::ParameterRequest& request) noexcept;
+  std::size_t find(const profile::ParameterRequest& request) const noexcept;
 
   FixedVector<Key, 32> keys_;
   bool overflow_ = false;

@@ -39,8 +39,8 @@ DrivePublisher::DrivePublisher(ros::NodeHandle& private_node, const cycle::Drive
   info_publisher_ = private_node.advertise<DeviceInfo>(setup.name + "/device_info", 1, true);
 }
 
-// Only function 3, "current", is a share of the rated current; torque current (4) is one of P112 (BU
-// 0020 6.2.2, 7.3.7).
+// Only function 3, "current", is a share of the rated current; torque current (4) is one of P112
+// (BU 0020 6.2.2, 7.3.7).
 double DrivePublisher::currentOf(const cycle::DriveSample& sample, const cycle::DeviceData& device) const {
   constexpr std::uint16_t kCurrent = 3;
   const auto& functions = device.actual_value_functions;

@@ -94,7 +94,7 @@ void DriverNode::warnOfUnknownKeys() const {
   for (const std::string& sentence : settings_.unknownKeys()) sentences.push_back(sentence);
   for (const std::string& sentence : config_.bus->unknownKeys()) sentences.push_back(sentence);
   for (const DriveSettings& drive : config_.drives) {
-    for (const std::string& sentence : static_cast<const RosSettings&>(*drive.settings).unknownKeys()) {
+    for (const std::string& sentence : static_cast<const TreeSettings&>(*drive.settings).unknownKeys()) {
       sentences.push_back(sentence);
     }
   }
@@ -107,16 +107,15 @@ void DriverNode::advertise() {
     base_tuner_ = std::make_unique<BaseTuner>(private_node_, config_, *ports_, *base_publisher_);
   }
   std::vector<std::string> names;
-  std::vector<cycle::TracedDrive> traced;
+  std::vector<trace::TracedDrive> traced;
   for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
     const cycle::DriveSetup& setup = config_.cycle.drives[i];
     names.push_back(setup.name);
     traced.push_back({setup.name, identities_[i].address});
-    const auto address = config_.drives[i].settings->integer("address").value_or(0);
     drive_publishers_.emplace_back(private_node_, setup, identities_[i],
                                    DriveProtection{identities_[i], config_.cycle.drives[i].series,
                                                    config_.cycle.cmd_vel_timeout, config_.cycle.period()},
-                                   static_cast<std::uint16_t>(address));
+                                   static_cast<std::uint16_t>(setup.address.value_or(0)));
     if (cycle_->inBase(i)) continue;
     boost::function<void(const std_msgs::Float64&)> take = [this, i](const std_msgs::Float64& velocity) {
       takeDriveCommand(i, velocity.data);
@@ -126,7 +125,8 @@ void DriverNode::advertise() {
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
   diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, where_);
   services_ = std::make_unique<Services>(private_node_, stops_.handle(), config_, *broker_);
-  tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace(), ports_->trace());
+  tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace());
+  ports_->setObserver(&tracing_->feed());
   if (config_.cycle.base) {
     boost::function<void(const geometry_msgs::Twist&)> take = [this](const geometry_msgs::Twist& twist) {
       takeCommand(twist);

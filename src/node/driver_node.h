@@ -24,6 +24,7 @@
 #include "node/drive_publisher.h"
 #include "node/node_config.h"
 #include "node/request_broker.h"
+#include "node/ros_settings.h"
 #include "node/services.h"
 #include "node/snapshot_publisher.h"
 #include "node/tracing.h"

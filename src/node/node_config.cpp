@@ -1,5 +1,6 @@
 #include "node/node_config.h"
 
+#include "config/driver_settings.h"
 #include "config/setting_checks.h"
 #include "node/wheel_state_publisher.h"
 
@@ -10,7 +11,7 @@ namespace {
 // A base whose pose comes from wheels alone: sure of what it cannot do (z, roll, pitch), unsure of its heading.
 constexpr std::array<double, 6> kDefaultCovariance{1e-3, 1e-3, 1e6, 1e6, 1e6, 3e-2};
 
-std::array<double, 6> readCovariance(const RosSettings& settings, const std::string& key) {
+std::array<double, 6> readCovariance(const TreeSettings& settings, const std::string& key) {
   const auto values = settings.numbers(key);
   if (!values) return kDefaultCovariance;
   std::array<double, 6> diagonal{};
@@ -27,18 +28,13 @@ std::array<double, 6> readCovariance(const RosSettings& settings, const std::str
   return diagonal;
 }
 
-std::string readTransport(const RosSettings& settings) {
-  const std::string name = settings.text("transport").value_or("nord_driver/profibus_dp");
-  return name.find('/') == std::string::npos ? "nord_driver/" + name : name;
-}
-
 // What a controller file may hold that means nothing here.
-void acceptControllerKeys(const RosSettings& settings) {
+void acceptControllerKeys(const TreeSettings& settings) {
   settings.accept("type");                             // a plugin class
   settings.accept("estimate_velocity_from_position");  // older controllers; inverters tell velocities
 }
 
-bool readWheelStates(const RosSettings& settings, std::vector<std::string>& warnings) {
+bool readWheelStates(const TreeSettings& settings, std::vector<std::string>& warnings) {
   const bool wanted = settings.boolean("publish_wheel_joint_controller_state").value_or(false);
   if (!wanted || WheelStatePublisher::isOffered()) return wanted;
   warnings.push_back(settings.fullName("publish_wheel_joint_controller_state") +
@@ -47,13 +43,13 @@ bool readWheelStates(const RosSettings& settings, std::vector<std::string>& warn
   return false;
 }
 
-std::string readFrame(const RosSettings& settings, const char* key, const std::string& fallback) {
+std::string readFrame(const TreeSettings& settings, const char* key, const std::string& fallback) {
   std::string frame = settings.text(key).value_or(fallback);
   if (frame.empty()) throw wrongSetting(settings, key, "\"\"", "the name of a frame");
   return frame;
 }
 
-PublishConfig readPublish(const RosSettings& settings) {
+PublishConfig readPublish(const TreeSettings& settings) {
   PublishConfig publish;
   publish.publish_rate = numberOr(settings, "publish_rate", publish.publish_rate, 0.0, 2000.0, "Hz");
   publish.status_rate = numberOr(settings, "status_rate", publish.status_rate, 0.1, 1000.0, "Hz");
@@ -74,9 +70,9 @@ PublishConfig readPublish(const RosSettings& settings) {
 
 }  // namespace
 
-NodeConfig readNodeConfig(const RosSettings& settings, const std::string& robot_description) {
+NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot_description) {
   NodeConfig config;
-  config.transport = readTransport(settings);
+  config.transport = readTransportName(settings);
   config.bus_end_point = settings.text("bus_end_point").value_or("");
   config.auto_enable = settings.boolean("auto_enable").value_or(false);
   config.allow_raw_parameters = settings.boolean("allow_raw_parameters").value_or(false);
@@ -84,14 +80,13 @@ NodeConfig readNodeConfig(const RosSettings& settings, const std::string& robot_
   config.publish = readPublish(settings);
   config.publish.publish_wheel_states = readWheelStates(settings, config.warnings);
   config.bus = settings.group("bus");
-  const auto drives = settings.group("drives");
-  for (const std::string& name : drives->keys()) config.drives.push_back({name, drives->group(name)});
+  config.drives = readDriveList(settings);
   config.cycle = cycle::readCycleConfig(settings, config.drives, robot_description);
   if (config.cycle.base) {
     const std::vector<std::string>& of_base = config.cycle.base->warnings;
     config.warnings.insert(config.warnings.end(), of_base.begin(), of_base.end());
   }
-  config.trace = cycle::readTraceConfig(settings);
+  config.trace = trace::readTraceConfig(settings);
   return config;
 }
 

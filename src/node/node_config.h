@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "config/tree_settings.h"
 #include "cycle/cycle_config.h"
-#include "node/ros_settings.h"
 #include "nord_driver/config/settings.h"
 #include "nord_driver/transport/bus_report.h"
 #include "trace/trace_config.h"
@@ -35,9 +35,9 @@ struct NodeConfig {
   bool allow_raw_parameters = false;
   PublishConfig publish;
   cycle::CycleConfig cycle;
-  std::optional<cycle::TraceConfig> trace;
+  std::optional<trace::TraceConfig> trace;
   std::vector<DriveSettings> drives;
-  std::shared_ptr<RosSettings> bus;
+  std::shared_ptr<TreeSettings> bus;
   std::vector<std::string> warnings;  ///< sentences on what is accepted but done in another way, or not
 };
 
@@ -46,6 +46,6 @@ struct NodeConfig {
 std::string applyEndPoint(NodeConfig& config, const EndPoint& end_point);
 
 /// Everything except what the transport itself reads (`bus`, and each drive's address). Throws ConfigError.
-NodeConfig readNodeConfig(const RosSettings& settings, const std::string& robot_description = {});
+NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot_description = {});
 
 }  // namespace nord_driver::node

@@ -105,8 +105,8 @@ void Services::readParameter(DriveIndex drive, ReadParameter::Request& request, 
   response.success = answer.success;
   response.message = answer.message.str();
   if (!answer.success) return;
-  response.raw = answer.raw;
-  response.value = cycle::valueOf(info, answer.raw);
+  response.raw = answer.parameter.raw;
+  response.value = cycle::valueOf(info, answer.parameter.raw);
   if (info != nullptr) {
     response.unit = info->unit;
     response.name = info->name;
@@ -124,8 +124,8 @@ void Services::writeParameter(DriveIndex drive, WriteParameter::Request& request
   const cycle::Completion answer = broker_.call(access);
   response.success = answer.success;
   response.message = answer.message.str();
-  response.raw = answer.raw;
-  response.value = cycle::valueOf(info, answer.raw);
+  response.raw = answer.parameter.raw;
+  response.value = cycle::valueOf(info, answer.parameter.raw);
 }
 
 }  // namespace nord_driver::node

@@ -8,18 +8,18 @@ namespace {
 
 constexpr Duration kPollPeriod = std::chrono::milliseconds{50};
 
-cycle::TraceClock clockNow() {
+trace::TraceClock clockNow() {
   return {std::chrono::steady_clock::now(), std::chrono::system_clock::now()};
 }
 
 }  // namespace
 
-Tracing::Tracing(ros::NodeHandle& private_node, const std::optional<cycle::TraceConfig>& config,
-                 const std::vector<cycle::TracedDrive>& drives, const TelegramTrace* telegrams,
-                 cycle::TraceFeed& feed) {
+Tracing::Tracing(ros::NodeHandle& private_node, const std::optional<trace::TraceConfig>& config,
+                 const std::vector<trace::TracedDrive>& drives, const TelegramTrace* telegrams)
+    : feed_(drives.size()) {
   if (config) {
-    writer_ = std::make_unique<cycle::TraceWriter>(*config, drives, telegrams, feed.history());
-    tracer_ = std::make_unique<cycle::FaultTracer>(feed, *writer_);
+    writer_ = std::make_unique<trace::TraceWriter>(*config, drives, telegrams, feed_.history());
+    tracer_ = std::make_unique<trace::FaultTracer>(feed_, *writer_);
     told_ = writer_->whyNotWritable();
     if (!told_.empty()) ROS_WARN("nord_driver: %s", told_.c_str());
     thread_ = std::thread([this] { run(); });
@@ -51,13 +51,13 @@ void Tracing::answer(std_srvs::Trigger::Response& response) {
     response.message = "trace_directory is not set: give it an absolute path and start the node again";
     return;
   }
-  const cycle::TraceResult result = writer_->writeNow(clockNow());
+  const trace::TraceResult result = writer_->writeNow(clockNow());
   response.success = result.written;
   response.message = result.message;
   if (!result.warning.empty()) response.message += " (" + result.warning + ")";
 }
 
-void Tracing::log(const cycle::TraceResult& result) {
+void Tracing::log(const trace::TraceResult& result) {
   if (result.written) ROS_WARN("nord_driver: a trace is written: %s", result.message.c_str());
   const std::string& trouble = result.written ? result.warning : result.message;
   if (trouble != told_ && !trouble.empty()) ROS_ERROR("nord_driver: %s", trouble.c_str());

@@ -22,20 +22,24 @@ namespace nord_driver::node {
 /// From construction to destruction. Without a configuration only the service is there, and refuses.
 class Tracing {
  public:
-  /// `feed` and `telegrams` (nullptr: none) must outlive it.
-  Tracing(ros::NodeHandle& private_node, const std::optional<cycle::TraceConfig>& config,
-          const std::vector<cycle::TracedDrive>& drives, const TelegramTrace* telegrams, cycle::TraceFeed& feed);
+  /// `telegrams` (nullptr: none) must outlive it.
+  Tracing(ros::NodeHandle& private_node, const std::optional<trace::TraceConfig>& config,
+          const std::vector<trace::TracedDrive>& drives, const TelegramTrace* telegrams);
   ~Tracing();
   Tracing(const Tracing&) = delete;
   Tracing& operator=(const Tracing&) = delete;
 
+  /// What the bus cycle fills.
+  trace::TraceFeed& feed() noexcept { return feed_; }
+
  private:
   void run();
   void answer(std_srvs::Trigger::Response& response);
-  void log(const cycle::TraceResult& result);
+  void log(const trace::TraceResult& result);
 
-  std::unique_ptr<cycle::TraceWriter> writer_;
-  std::unique_ptr<cycle::FaultTracer> tracer_;
+  trace::TraceFeed feed_;
+  std::unique_ptr<trace::TraceWriter> writer_;
+  std::unique_ptr<trace::FaultTracer> tracer_;
   std::string told_;  // an unusable directory is named once, not with every fault
   ros::ServiceServer server_;
   std::atomic<bool> stop_{false};

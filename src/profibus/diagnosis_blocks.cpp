@@ -53,11 +53,6 @@ bool DiagnosisBlock::isInverterLinkBroken() const noexcept {
   return kind == DiagnosisBlockKind::kDevice && bytes.size() == 2 && bytes[1] == 0x04;
 }
 
-bool DiagnosisBlock::isModuleAffected(std::size_t module) const noexcept {
-  if (kind != DiagnosisBlockKind::kIdentifier || module / 8 >= content().size()) return false;
-  return (content()[module / 8] >> module % 8 & 1u) != 0;
-}
-
 std::optional<DiagnosisBlock> DiagnosisBlocks::next() noexcept {
   if (rest_.empty()) return std::nullopt;
   DiagnosisBlock block;

@@ -35,11 +35,9 @@ void DpMaster::restart(Instant now) noexcept {
   requester_.restart(now);
   for (SlaveHandler& slave : slaves_) slave.restart(now, events_);
   turn_ = Turn::kDone;
-  last_operate_.reset();
-  last_foreign_.reset();
+  timers_.stopAll();
   told_busy_ = false;
   synchronised_ = false;
-  next_probe_ = next_urgent_probe_ = Instant{};
   listen_.restart(now);
 }
 
@@ -48,7 +46,7 @@ void DpMaster::startCycle(Instant now) noexcept {
   ++requester_.counters().cycles;
   for (SlaveHandler& slave : slaves_) slave.startCycle();
   turn_ = Turn::kListen;
-  listen_slice_ = std::min(now + kListenSlice, listen_.end());
+  timers_.set(Timer::kListenSlice, std::min(now + kListenSlice, listen_.end()));
   cursor_ = 0;
   advance(now);
 }
@@ -61,14 +59,14 @@ void DpMaster::handleBytes(ByteView bytes, Instant now) noexcept {
 }
 
 void DpMaster::handleTimeout(Instant now) noexcept {
-  if (turn_ == Turn::kListen && now >= listen_slice_ && !listen_.mayTalk(now)) turn_ = Turn::kDone;
+  if (turn_ == Turn::kListen && timers_.isOver(Timer::kListenSlice, now) && !listen_.mayTalk(now)) turn_ = Turn::kDone;
   switch (requester_.handleTimeout(now)) {
     case Requester::Outcome::kNone:
       break;
     case Requester::Outcome::kNoAnswer:
       if (turn_ == Turn::kProbe) {
-        next_probe_ = now + kRestAfterProbe * bus_.slotTime();
-        next_urgent_probe_ = now + kRestAfterUrgentProbe * bus_.slotTime();
+        timers_.set(Timer::kNextProbe, now + kRestAfterProbe * bus_.slotTime());
+        timers_.set(Timer::kNextUrgentProbe, now + kRestAfterUrgentProbe * bus_.slotTime());
       }
       slaves_[asked_].handleNoAnswer(requester_.lastMismatch(), now, events_);
       break;
@@ -122,8 +120,8 @@ bool DpMaster::askNext(Instant now) noexcept {
 
 bool DpMaster::askOperate(Instant now) noexcept {
   const bool wanted = bus_.operate_interval > Duration::zero();
-  if (!wanted || (last_operate_ && now - *last_operate_ < bus_.operate_interval)) return false;
-  last_operate_ = now;
+  if (!wanted || timers_.isRunning(Timer::kNextOperate, now)) return false;
+  timers_.set(Timer::kNextOperate, now + bus_.operate_interval);
   requester_.begin(operate_, nullptr, now);
   return true;
 }
@@ -196,8 +194,8 @@ std::optional<RecordResult> DpMaster::pollRecord() noexcept {
 // are silent, the others keep nine tenths of the time; half of it, for as long as a lost slave's watchdog may be saved.
 bool DpMaster::askProbe(Instant now) noexcept {
   if (cursor_ != 0) return false;
-  if (now >= next_urgent_probe_ && askProbe(true, now)) return true;
-  return now >= next_probe_ && askProbe(false, now);
+  if (!timers_.isRunning(Timer::kNextUrgentProbe, now) && askProbe(true, now)) return true;
+  return !timers_.isRunning(Timer::kNextProbe, now) && askProbe(false, now);
 }
 
 bool DpMaster::askProbe(bool urgent, Instant now) noexcept {
@@ -226,7 +224,7 @@ void DpMaster::nextTurn() noexcept {
 // Nothing was sent: what the slaves did is not known, and the next cycle asks them again.
 void DpMaster::abandonCycle() noexcept {
   turn_ = Turn::kDone;
-  last_operate_.reset();
+  timers_.stop(Timer::kNextOperate);
   synchronised_ = false;
   if (told_busy_) return;
   told_busy_ = true;
@@ -239,8 +237,8 @@ void DpMaster::abandonCycle() noexcept {
 void DpMaster::onForeign(std::uint8_t master, bool certain, Instant now) noexcept {
   listen_.handleForeign(master, certain, now);
   if (!certain) return;
-  if (last_foreign_ && foreign_ == master && now - *last_foreign_ < kTellForeignAgain) return;
-  last_foreign_ = now;
+  if (foreign_ == master && timers_.isRunning(Timer::kTellForeignAgain, now)) return;
+  timers_.set(Timer::kTellForeignAgain, now + kTellForeignAgain);
   foreign_ = master;
   DpEvent foreign;
   foreign.kind = DpEventKind::kForeignMaster;

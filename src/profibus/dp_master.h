@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/timer_table.h"
 #include "nord_driver/core/bytes.h"
 #include "nord_driver/core/time.h"
 #include "profibus/bus_parameters.h"
@@ -34,10 +35,9 @@ namespace nord_driver::profibus {
 ///     while (auto event = master.pollEvent()) ...
 ///
 /// A cycle holds, in this order: Global_Control Operate when it is due; one exchange with each slave in data exchange;
-/// SYNC or UNSYNC, where the bus uses it;
-/// one step with each slave in its start-up; the diagnosis a slave announced in its exchange; at most one acyclic
-/// telegram; a look for one silent slave. Bytes that come between cycles are given to `handleBytes()` too: they are
-/// counted, and the pause counts from them.
+/// SYNC or UNSYNC, where the bus uses it; one step with each slave in its start-up; the diagnosis a slave announced in
+/// its exchange; at most one acyclic telegram; a look for one silent slave. Bytes that come between cycles are given to
+/// `handleBytes()` too: they are counted, and the pause counts from them.
 class DpMaster {
  public:
   /// Throws std::invalid_argument with a sentence: a value out of range, an address twice, a watchdog no slave can be
@@ -58,7 +58,7 @@ class DpMaster {
   ByteView pollTransmit(Instant now) noexcept;
   /// The end of the slot, or the moment the pause is over and `pollTransmit()` has something; nothing between cycles.
   std::optional<Instant> nextDeadline() const noexcept {
-    return turn_ == Turn::kListen ? listen_slice_ : requester_.nextDeadline();
+    return turn_ == Turn::kListen ? timers_.at(Timer::kListenSlice) : requester_.nextDeadline();
   }
   std::optional<DpEvent> pollEvent() noexcept { return events_.pop(); }
 
@@ -111,6 +111,14 @@ class DpMaster {
     kProbe,
     kDone
   };
+  enum class Timer : std::uint8_t {
+    kListenSlice,       ///< a cycle listens no longer than that
+    kNextProbe,         ///< silent slaves take a tenth of the time at most
+    kNextUrgentProbe,   ///< those whose watchdog has not run out yet: a half
+    kNextOperate,       ///< until then Global_Control Operate need not be repeated
+    kTellForeignAgain,  ///< until then the same foreign master is not told
+    kCount
+  };
 
   void advance(Instant now) noexcept;
   bool askNext(Instant now) noexcept;
@@ -133,7 +141,7 @@ class DpMaster {
   DpEvents events_;
   FdlRequest operate_, sync_, unsync_;  // the same bytes every time
   ListenFirst listen_;
-  Instant listen_slice_{};  // a cycle listens no longer than that
+  TimerTable<Timer> timers_;
   bool synchronised_ = false;
   FdlRequest request_;
   Turn turn_ = Turn::kDone;
@@ -142,10 +150,6 @@ class DpMaster {
   std::size_t acyclic_cursor_ = 0;
   std::size_t record_cursor_ = 0;  // results are fetched in turns
   std::size_t probe_cursor_ = 0;   // silent slaves take turns
-  Instant next_probe_{};           // silent slaves take a tenth of the time at most
-  Instant next_urgent_probe_{};    // those whose watchdog has not run out yet: a half
-  std::optional<Instant> last_operate_;
-  std::optional<Instant> last_foreign_;
   std::uint8_t foreign_ = kNoOwner;
   bool told_busy_ = false;
 };

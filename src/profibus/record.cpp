@@ -11,14 +11,33 @@ constexpr std::uint8_t kNegativeBit = 0x80;
 constexpr std::size_t kHeader = 4;
 constexpr std::uint8_t kMaxNumber = 254;  // 255 is reserved
 
-constexpr std::uint8_t kDecodeDpv1 = 0x80;
-
 std::uint8_t function(const RecordRequest& request) noexcept {
   return request.write ? kWrite : kRead;
 }
 
-const char* reason(const RecordError& error) noexcept {
-  if (error.decode != kDecodeDpv1) return "an error of another protocol than DP-V1";
+bool isOutOfRange(const RecordRequest& request) noexcept {
+  if (request.slot > kMaxNumber || request.index > kMaxNumber) return true;
+  const std::size_t length = request.write ? request.data.size() : request.length;
+  return length == 0 || length > kMaxRecordLength;
+}
+
+RecordAnswer positive(ByteView pdu, const RecordRequest& request, RecordResult& result) noexcept {
+  if (pdu.size() < kHeader || pdu[1] != request.slot || pdu[2] != request.index) return RecordAnswer::kOther;
+  const ByteView data = pdu.sub(kHeader);
+  if (request.write) {
+    // The length written is repeated, without data.
+    return pdu[3] == request.data.size() && data.empty() ? RecordAnswer::kPositive : RecordAnswer::kOther;
+  }
+  if (pdu[3] != data.size() || data.size() > request.length) return RecordAnswer::kOther;
+  result.data.clear();
+  for (const std::uint8_t byte : data) result.data.push_back(byte);
+  return RecordAnswer::kPositive;
+}
+
+}  // namespace
+
+const char* meaningOf(const RecordError& error) noexcept {
+  if (!error.isOfDpv1()) return "an error of another protocol than DP-V1";
   switch (error.code1) {
     case 0xA0:
       return "read error";
@@ -73,27 +92,6 @@ const char* reason(const RecordError& error) noexcept {
   }
 }
 
-bool isOutOfRange(const RecordRequest& request) noexcept {
-  if (request.slot > kMaxNumber || request.index > kMaxNumber) return true;
-  const std::size_t length = request.write ? request.data.size() : request.length;
-  return length == 0 || length > kMaxRecordLength;
-}
-
-RecordAnswer positive(ByteView pdu, const RecordRequest& request, RecordResult& result) noexcept {
-  if (pdu.size() < kHeader || pdu[1] != request.slot || pdu[2] != request.index) return RecordAnswer::kOther;
-  const ByteView data = pdu.sub(kHeader);
-  if (request.write) {
-    // The length written is repeated, without data.
-    return pdu[3] == request.data.size() && data.empty() ? RecordAnswer::kPositive : RecordAnswer::kOther;
-  }
-  if (pdu[3] != data.size() || data.size() > request.length) return RecordAnswer::kOther;
-  result.data.clear();
-  for (const std::uint8_t byte : data) result.data.push_back(byte);
-  return RecordAnswer::kPositive;
-}
-
-}  // namespace
-
 Sentence describe(const RecordResult& result) noexcept {
   const char* const verb = result.write ? "write" : "read";
   Sentence text;
@@ -103,7 +101,7 @@ Sentence describe(const RecordResult& result) noexcept {
       break;
     case RecordOutcome::kRefused:
       text.format("refused to %s slot %u, index %u: %s (%02X %02X %02X)", verb, result.slot, result.index,
-                  reason(result.error), result.error.decode, result.error.code1, result.error.code2);
+                  meaningOf(result.error), result.error.decode, result.error.code1, result.error.code2);
       break;
     case RecordOutcome::kTimedOut:
       text.format("did not %s slot %u, index %u in time%s", verb, result.slot, result.index,

@@ -38,8 +38,12 @@ struct RecordError {
   std::uint8_t code1 = 0;   ///< class in the high nibble, reason in the low one
   std::uint8_t code2 = 0;   ///< of the device
 
-  bool isBusy() const noexcept { return decode == 0x80 && code1 == 0xB5; }  ///< state conflict: ask again
+  bool isOfDpv1() const noexcept { return decode == 0x80; }
+  bool isBusy() const noexcept { return isOfDpv1() && code1 == 0xB5; }  ///< state conflict: ask again
 };
+
+/// What the codes mean, as a clause.
+const char* meaningOf(const RecordError& error) noexcept;
 
 struct RecordResult {
   std::size_t slave = 0;  ///< index as configured

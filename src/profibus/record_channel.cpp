@@ -19,8 +19,8 @@ bool RecordChannel::submit(const RecordRequest& request, std::optional<RecordOut
   result_.slot = request.slot;
   result_.index = request.index;
   result_.write = request.write;
-  response_due_.reset();
-  busy_until_.reset();
+  timers_.stop(Timer::kResponse);
+  timers_.stop(Timer::kBusy);
   state_ = State::kToSend;
   if (unusable) end(*unusable);
   return true;
@@ -33,11 +33,10 @@ std::optional<RecordResult> RecordChannel::pollResult() noexcept {
 }
 
 bool RecordChannel::wantsTelegram(Instant now) noexcept {
-  if (drain_until_ && now >= *drain_until_) drain_until_.reset();
   const bool waiting = state_ == State::kToSend || state_ == State::kPolling;
-  if (waiting && response_due_ && now >= *response_due_) {
+  if (waiting && timers_.isOver(Timer::kResponse, now)) {
     // Its response may still come, and must not be taken for that to the next request.
-    if (state_ == State::kPolling) drain_until_ = now + response_timeout_;
+    if (state_ == State::kPolling) timers_.set(Timer::kDrain, now + response_timeout_);
     end(RecordOutcome::kTimedOut);
   }
   return state_ == State::kToSend || state_ == State::kPolling || isDraining(now);
@@ -46,8 +45,8 @@ bool RecordChannel::wantsTelegram(Instant now) noexcept {
 ByteView RecordChannel::pollTelegram(Instant now) noexcept {
   sent_request_ = state_ == State::kToSend && !isDraining(now);
   if (!sent_request_) return {};
-  if (!response_due_) response_due_ = now + response_timeout_;
-  if (!busy_until_) busy_until_ = now + std::max(kBusyTime, response_timeout_);
+  if (!timers_.isSet(Timer::kResponse)) timers_.set(Timer::kResponse, now + response_timeout_);
+  if (!timers_.isSet(Timer::kBusy)) timers_.set(Timer::kBusy, now + std::max(kBusyTime, response_timeout_));
   return pdu_;
 }
 
@@ -61,14 +60,14 @@ void RecordChannel::handleAnswer(const FdlAnswer& answer, Instant now) noexcept 
       return handleResponse(answer.data, now);
     case FdlAnswer::Kind::kRefusal:
       if (answer.code != ResponseCode::kNotActivated) return;  // no resource for the moment: once more, until the end
-      drain_until_.reset();
+      timers_.stop(Timer::kDrain);
       return end(RecordOutcome::kNotActivated);
   }
 }
 
 void RecordChannel::handleResponse(ByteView pdu, Instant now) noexcept {
   if (isDraining(now) && !sent_request_) {
-    drain_until_.reset();  // the late one
+    timers_.stop(Timer::kDrain);  // the late one
     return;
   }
   switch (parseRecordAnswer(pdu, request_, result_)) {
@@ -81,9 +80,9 @@ void RecordChannel::handleResponse(ByteView pdu, Instant now) noexcept {
       break;
   }
   if (request_.write || !result_.error.isBusy()) return end(RecordOutcome::kRefused);
-  if (now >= *busy_until_) return end(RecordOutcome::kTimedOut);
+  if (timers_.isOver(Timer::kBusy, now)) return end(RecordOutcome::kTimedOut);
   state_ = State::kToSend;
-  response_due_ = std::min(now + response_timeout_, *busy_until_);
+  timers_.set(Timer::kResponse, *earlier(now + response_timeout_, timers_.at(Timer::kBusy)));
 }
 
 void RecordChannel::handleNoAnswer() noexcept {
@@ -91,7 +90,7 @@ void RecordChannel::handleNoAnswer() noexcept {
 }
 
 void RecordChannel::handleOffline() noexcept {
-  drain_until_.reset();  // the slave forgets its acyclic channel when it leaves data exchange
+  timers_.stop(Timer::kDrain);  // the slave forgets its acyclic channel when it leaves data exchange
   end(RecordOutcome::kOffline);
 }
 

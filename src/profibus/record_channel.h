@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/timer_table.h"
 #include "nord_driver/core/time.h"
 #include "profibus/fdl_request.h"
 #include "profibus/record.h"
@@ -45,9 +46,16 @@ class RecordChannel {
     kEnded  ///< the result waits to be fetched
   };
 
+  enum class Timer : std::uint8_t {
+    kResponse,  ///< set by the first sending
+    kBusy,      ///< likewise: no repetition of a busy read beyond
+    kDrain,     ///< the response to a request given up may still come
+    kCount
+  };
+
   void handleResponse(ByteView pdu, Instant now) noexcept;
   void end(RecordOutcome outcome) noexcept;
-  bool isDraining(Instant now) const noexcept { return drain_until_ && now < *drain_until_; }
+  bool isDraining(Instant now) const noexcept { return timers_.isRunning(Timer::kDrain, now); }
 
   std::size_t slave_;
   Duration response_timeout_;
@@ -55,10 +63,8 @@ class RecordChannel {
   RecordRequest request_;
   RecordPdu pdu_;
   RecordResult result_;
-  std::optional<Instant> response_due_;  // set by the first sending
-  std::optional<Instant> busy_until_;    // likewise: no repetition of a busy read beyond
-  std::optional<Instant> drain_until_;   // the response to a request given up may still come
-  bool sent_request_ = false;            // the telegram under way carried the request
+  TimerTable<Timer> timers_;
+  bool sent_request_ = false;  // the telegram under way carried the request
 };
 
 }  // namespace nord_driver::profibus

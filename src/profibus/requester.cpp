@@ -11,7 +11,7 @@ void Requester::restart(Instant now) noexcept {
   receiver_.discard();
   tokens_.forget();
   takeReceiverCounters();
-  silent_from_ = now + bus_.idleTime();
+  timers_.set(Timer::kLineIdle, now + bus_.idleTime());
 }
 
 void Requester::begin(const FdlRequest& request, SlaveCounters* slave, Instant now) noexcept {
@@ -25,11 +25,12 @@ void Requester::begin(const FdlRequest& request, SlaveCounters* slave, Instant n
 // Whoever talks now may finish the longest telegram; a line that is not silent after that has a fault.
 void Requester::queue(Instant now) noexcept {
   state_ = State::kToSend;
-  give_up_ = std::max(now, silent_from_) + bus_.baud.characters(kMaxTelegramLength) + 2 * bus_.slotTime();
+  const Instant idle = std::max(now, timers_.at(Timer::kLineIdle).value_or(now));
+  timers_.set(Timer::kGiveUp, idle + bus_.baud.characters(kMaxTelegramLength) + 2 * bus_.slotTime());
 }
 
 ByteView Requester::pollTransmit(Instant now) noexcept {
-  if (state_ != State::kToSend || now < silent_from_) return {};
+  if (state_ != State::kToSend || timers_.isRunning(Timer::kLineIdle, now)) return {};
   // Bytes from before the pause belong to no answer.
   receiver_.discard();
   takeReceiverCounters();
@@ -45,12 +46,13 @@ ByteView Requester::pollTransmit(Instant now) noexcept {
   const Instant sent = now + bus_.baud.characters(request_->frame.size());
   if (request_->answered) {
     state_ = State::kAwaitAnswer;
-    silent_from_ = sent + bus_.idleTime();
-    slot_end_ = sent + bus_.slotTime();
-    answer_limit_ = slot_end_ + bus_.baud.characters(kMaxTelegramLength) + bus_.slotTime();
+    const Instant slot_end = sent + bus_.slotTime();
+    timers_.set(Timer::kLineIdle, sent + bus_.idleTime());
+    timers_.set(Timer::kSlot, slot_end);
+    timers_.set(Timer::kLongestSlot, slot_end + bus_.baud.characters(kMaxTelegramLength) + bus_.slotTime());
   } else {
     state_ = State::kIdle;
-    silent_from_ = sent + bus_.broadcastIdleTime();
+    timers_.set(Timer::kLineIdle, sent + bus_.broadcastIdleTime());
   }
   return request_->frame;
 }
@@ -60,20 +62,20 @@ std::optional<Instant> Requester::nextDeadline() const noexcept {
     case State::kIdle:
       return std::nullopt;
     case State::kToSend:
-      return std::min(silent_from_, give_up_);
+      return earlier(timers_.at(Timer::kLineIdle), timers_.at(Timer::kGiveUp));
     case State::kAwaitAnswer:
-      return slot_end_;
+      return timers_.at(Timer::kSlot);
   }
   return std::nullopt;
 }
 
 Requester::Outcome Requester::handleTimeout(Instant now) noexcept {
-  if (state_ == State::kToSend && now >= give_up_ && now < silent_from_) {
+  if (state_ == State::kToSend && timers_.isOver(Timer::kGiveUp, now) && timers_.isRunning(Timer::kLineIdle, now)) {
     state_ = State::kIdle;
     ++counters_.busy;
     return sendings_ == 0 ? Outcome::kLineBusy : Outcome::kNoAnswer;
   }
-  if (state_ != State::kAwaitAnswer || now < slot_end_) return Outcome::kNone;
+  if (state_ != State::kAwaitAnswer || timers_.isRunning(Timer::kSlot, now)) return Outcome::kNone;
 
   ++counters_.timeouts;
   if (slave_ != nullptr) ++slave_->timeouts;
@@ -90,10 +92,9 @@ Requester::Outcome Requester::handleTimeout(Instant now) noexcept {
 // The slot time is the time to the first character of an answer. A longer answer, or one that an adapter hands over in
 // pieces, takes its time: every piece prolongs the slot, up to the longest telegram there is.
 void Requester::noteActivity(Instant now) noexcept {
-  silent_from_ = std::max(silent_from_, now + bus_.idleTime());
-  if (state_ == State::kAwaitAnswer) {
-    slot_end_ = std::max(slot_end_, std::min(now + bus_.slotTime(), answer_limit_));
-  }
+  timers_.prolong(Timer::kLineIdle, now + bus_.idleTime());
+  if (state_ != State::kAwaitAnswer) return;
+  timers_.prolong(Timer::kSlot, std::min(now + bus_.slotTime(), *timers_.at(Timer::kLongestSlot)));
 }
 
 bool Requester::isForeign(const Telegram& telegram) const noexcept {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/timer_table.h"
 #include "nord_driver/core/bytes.h"
 #include "nord_driver/core/time.h"
 #include "profibus/bus_parameters.h"
@@ -66,6 +67,13 @@ class Requester {
 
  private:
   enum class State : std::uint8_t { kIdle, kToSend, kAwaitAnswer };
+  enum class Timer : std::uint8_t {
+    kLineIdle,     ///< the line has been idle for long enough at this moment
+    kGiveUp,       ///< kToSend: if it is not idle by then, it never will be
+    kSlot,         ///< kAwaitAnswer
+    kLongestSlot,  ///< kAwaitAnswer: the slot is not prolonged beyond
+    kCount
+  };
 
   void noteActivity(Instant now) noexcept;
   bool isForeign(const Telegram& telegram) const noexcept;
@@ -84,10 +92,7 @@ class Requester {
   SlaveCounters* slave_ = nullptr;
   std::uint32_t sendings_ = 0;
   Mismatch mismatch_ = Mismatch::kNone;
-  Instant silent_from_{};   // the line has been idle for long enough at this moment
-  Instant give_up_{};       // ToSend: if it is not idle by then, it never will be
-  Instant slot_end_{};      // AwaitAnswer
-  Instant answer_limit_{};  // AwaitAnswer: the slot is not prolonged beyond
+  TimerTable<Timer> timers_;
 };
 
 }  // namespace nord_driver::profibus

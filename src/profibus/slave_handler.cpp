@@ -26,7 +26,7 @@ SlaveHandler::SlaveHandler(std::size_t index, const SlaveConfig& config, const B
       records_(index, config.record_timeout),
       outputs_(config.output_length, 0),
       inputs_(config.input_length, 0),
-      pause_(kFirstPause) {
+      back_off_(kFirstPause, kLongestPause) {
   status_.note = texts::kNoAnswer;
 }
 
@@ -49,7 +49,7 @@ bool SlaveHandler::wantsExchange() const noexcept {
 
 bool SlaveHandler::wantsStartUpStep(Instant now) const noexcept {
   const bool starting = status_.phase != SlavePhase::kSilent && status_.phase != SlavePhase::kDataExchange;
-  return starting && !stepped_ && now >= due_;
+  return starting && !stepped_ && !timers_.isRunning(Timer::kNextRequest, now);
 }
 
 bool SlaveHandler::wantsDiagnosis() const noexcept {
@@ -57,7 +57,7 @@ bool SlaveHandler::wantsDiagnosis() const noexcept {
 }
 
 bool SlaveHandler::wantsProbe(Instant now) const noexcept {
-  return status_.phase == SlavePhase::kSilent && !stepped_ && now >= due_;
+  return status_.phase == SlavePhase::kSilent && !stepped_ && !timers_.isRunning(Timer::kNextRequest, now);
 }
 
 SlaveHandler::Service SlaveHandler::nextService() noexcept {
@@ -89,7 +89,7 @@ void SlaveHandler::prepare(FdlRequest& request, Instant now) noexcept {
     case Service::kRecord:  // prepareAcyclic()
       break;
     case Service::kFdlStatus:
-      due_ = isUrgent(now) ? now : now + probe_interval_;
+      timers_.set(Timer::kNextRequest, isUrgent(now) ? now : now + probe_interval_);
       services_.fdlStatus(request, config_.address);
       break;
     case Service::kSlaveDiag:
@@ -146,21 +146,21 @@ bool SlaveHandler::submitRecord(const RecordRequest& request) noexcept {
 
 void SlaveHandler::fallSilent(Instant due, const char* note) noexcept {
   diagnosis_due_ = false;
-  undiagnosed_since_.reset();
+  timers_.stop(Timer::kUndiagnosedLimit);
   status_.phase = SlavePhase::kSilent;
   status_.heard = false;
   status_.note = note;
-  due_ = due;
+  timers_.set(Timer::kNextRequest, due);
 }
 
 // The only way into a start-up: the first request has FCV = 0 and FCB = 1 again.
 void SlaveHandler::startOver(const char* note) noexcept {
   frame_count_.reset();
   diagnosis_due_ = false;
-  undiagnosed_since_.reset();
+  timers_.stop(Timer::kUndiagnosedLimit);
   status_.phase = SlavePhase::kFirstDiagnosis;
   status_.note = note;
-  due_ = Instant{};
+  timers_.stop(Timer::kNextRequest);
 }
 
 void SlaveHandler::lose(LossCause cause, const char* text, DpEvents& events) noexcept {
@@ -179,15 +179,14 @@ void SlaveHandler::backOff(const Fault& fault, Instant now, DpEvents& events) no
   if (fault.kind == DpEventKind::kConfigurationFault) configuration_doubted_ = true;
   startOver(fault.text);
   status_.phase = SlavePhase::kBackOff;
-  due_ = now + pause_;
-  pause_ = std::min(2 * pause_, kLongestPause);
+  timers_.set(Timer::kNextRequest, now + back_off_.next());
   if (told_fault_ == fault.kind) return;
   told_fault_ = fault.kind;
   events.push(event(fault.kind, fault.text));
 }
 
 void SlaveHandler::forgetFaults() noexcept {
-  pause_ = kFirstPause;
+  back_off_.reset();
   told_configuration_ = false;
   configuration_doubted_ = false;
   told_fault_.reset();

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/growing_pause.h"
+#include "core/timer_table.h"
 #include "nord_driver/core/bytes.h"
 #include "nord_driver/core/time.h"
 #include "profibus/dp_event.h"
@@ -36,7 +38,9 @@ class SlaveHandler {
   bool wantsDiagnosis() const noexcept;
   bool wantsProbe(Instant now) const noexcept;
   /// Its watchdog runs since it fell silent: found again before it runs out, the drive behind does not trip.
-  bool isUrgent(Instant now) const noexcept { return status_.phase == SlavePhase::kSilent && now < save_until_; }
+  bool isUrgent(Instant now) const noexcept {
+    return status_.phase == SlavePhase::kSilent && timers_.isRunning(Timer::kWatchdog, now);
+  }
   /// Of an acyclic telegram beside data exchange.
   bool wantsAcyclic(Instant now) noexcept;
   void prepareAcyclic(FdlRequest& request, Instant now) noexcept;
@@ -66,6 +70,16 @@ class SlaveHandler {
   struct Fault {
     DpEventKind kind;
     const char* text;
+  };
+  enum class Timer : std::uint8_t {
+    kNextRequest,  ///< none before: probes, back-off, slow polling
+    // From the acknowledgement of Chk_Cfg on:
+    kAskOften,          ///< asked once per cycle until then
+    kOwnerLimit,        ///< until then it may not have taken us for its master
+    kReadyLimit,        ///< until then it may not be ready
+    kWatchdog,          ///< since it fell silent, its watchdog has not run out: see isUrgent()
+    kUndiagnosedLimit,  ///< in data exchange, set when Slave_Diag was not answered
+    kCount
   };
   enum class Service : std::uint8_t { kFdlStatus, kSlaveDiag, kGetCfg, kSetPrm, kChkCfg, kDataExchange, kRecord };
 
@@ -103,17 +117,14 @@ class SlaveHandler {
   RecordChannel records_;
   std::vector<std::uint8_t> outputs_, inputs_;  // sized once, in the constructor
   Service asked_ = Service::kFdlStatus;
-  bool stepped_ = false;                      // had its request of this cycle
-  bool diagnosis_due_ = false;                // in data exchange: DH was seen
-  Instant due_{};                             // no request before (probes, back-off, slow polling)
-  Instant ready_since_{};                     // AwaitReady was entered
-  Instant last_answer_{};                     // of whatever kind: its watchdog runs from there at the earliest
-  Instant save_until_{};                      // see isUrgent()
-  Duration silence_limit_{};                  // of data exchange without an answer
-  std::optional<Instant> undiagnosed_since_;  // in data exchange: Slave_Diag was not answered
-  Duration pause_{};                          // of the next back-off
-  bool configuration_wanted_ = false;         // by requestConfiguration()
-  bool configuration_doubted_ = false;        // Cfg_Fault was seen
+  bool stepped_ = false;        // had its request of this cycle
+  bool diagnosis_due_ = false;  // in data exchange: DH was seen
+  TimerTable<Timer> timers_;
+  Instant last_answer_{};     // of whatever kind: its watchdog runs from there at the earliest
+  Duration silence_limit_{};  // of data exchange without an answer
+  GrowingPause back_off_;
+  bool configuration_wanted_ = false;   // by requestConfiguration()
+  bool configuration_doubted_ = false;  // Cfg_Fault was seen
   bool told_configuration_ = false;
   bool told_found_ = false;
   std::optional<DpEventKind> told_fault_;

@@ -49,7 +49,7 @@ void SlaveHandler::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& even
   if (status_.phase == SlavePhase::kSilent) {
     status_.note = texts::kNoAnswer;
   } else {
-    fallSilent(now < save_until_ ? now : now + probe_interval_, texts::kNoAnswer);
+    fallSilent(timers_.isRunning(Timer::kWatchdog, now) ? now : now + probe_interval_, texts::kNoAnswer);
   }
 }
 
@@ -58,8 +58,10 @@ void SlaveHandler::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& even
 // count begins anew. With another count it might take the new outputs for a repetition of the old.
 void SlaveHandler::handleNoExchange(Mismatch mismatch, Instant now, DpEvents& events) noexcept {
   const bool exchange = asked_ == Service::kDataExchange;
-  if (!exchange && !undiagnosed_since_) undiagnosed_since_ = now;
-  const bool ended = now - (exchange ? last_answer_ : *undiagnosed_since_) >= silence_limit_;
+  if (!exchange && !timers_.isSet(Timer::kUndiagnosedLimit)) {
+    timers_.set(Timer::kUndiagnosedLimit, now + silence_limit_);
+  }
+  const bool ended = exchange ? now - last_answer_ >= silence_limit_ : timers_.isOver(Timer::kUndiagnosedLimit, now);
   // A telegram of another length has its checksum; E5 is a single byte, which noise makes, too.
   if (exchange && (mismatch == Mismatch::kLength || (ended && mismatch == Mismatch::kAcknowledge))) {
     lose(LossCause::kWrongAnswers, texts::kWrongLength, events);
@@ -74,7 +76,7 @@ void SlaveHandler::handleNoExchange(Mismatch mismatch, Instant now, DpEvents& ev
   } else {
     lose(LossCause::kWrongAnswers, texts::kGarbled, events);
   }
-  save_until_ = last_answer_ + std::min(config_.watchdog, kHasteLimit);
+  timers_.set(Timer::kWatchdog, last_answer_ + std::min(config_.watchdog, kHasteLimit));
   fallSilent(now, texts::kNoAnswer);  // asked again in the next cycle: most silences are short
 }
 
@@ -117,7 +119,7 @@ void SlaveHandler::onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& e
     return startOver(texts::kLeft);
   }
   ++status_.counters.diagnoses;
-  undiagnosed_since_.reset();
+  timers_.stop(Timer::kUndiagnosedLimit);
   status_.diagnosis = *diagnosis;
   status_.ident = diagnosis->ident();
   if (exchanging) return judgeInExchange(now, events);
@@ -153,7 +155,9 @@ void SlaveHandler::onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents&
   }
   // That SC came says nothing about the content: the next diagnosis does.
   status_.phase = SlavePhase::kAwaitReady;
-  ready_since_ = now;
+  timers_.set(Timer::kAskOften, now + kAskOften);
+  timers_.set(Timer::kOwnerLimit, now + kOwnerLimit);
+  timers_.set(Timer::kReadyLimit, now + kReadyLimit);
 }
 
 void SlaveHandler::onExchange(const FdlAnswer& answer, Instant, DpEvents& events) noexcept {
@@ -201,7 +205,6 @@ void SlaveHandler::judgeFirst(Instant now, DpEvents& events) noexcept {
 void SlaveHandler::judgeReady(Instant now, DpEvents& events) noexcept {
   const Diagnosis& diagnosis = status_.diagnosis;
   if (const auto fault = faultIn(diagnosis)) return backOff(*fault, now, events);
-  const Duration waited = now - ready_since_;
   const bool ours = !diagnosis.parameterRequest() && diagnosis.owner() == master_;
   if (ours && !diagnosis.notReady() && !diagnosis.staticDiagnosis()) {
     status_.phase = SlavePhase::kDataExchange;
@@ -210,10 +213,14 @@ void SlaveHandler::judgeReady(Instant now, DpEvents& events) noexcept {
     events.push(event(DpEventKind::kDataExchangeEntered, ""));
     return;
   }
-  if (!ours && waited >= kOwnerLimit) return backOff({DpEventKind::kNotReady, texts::kForgot}, now, events);
-  if (waited >= kReadyLimit) return backOff({DpEventKind::kNotReady, texts::kNotReady}, now, events);
+  if (!ours && timers_.isOver(Timer::kOwnerLimit, now)) {
+    return backOff({DpEventKind::kNotReady, texts::kForgot}, now, events);
+  }
+  if (timers_.isOver(Timer::kReadyLimit, now)) {
+    return backOff({DpEventKind::kNotReady, texts::kNotReady}, now, events);
+  }
   status_.note = diagnosis.staticDiagnosis() ? texts::kNoValidData : texts::kWaiting;
-  if (waited >= kAskOften) due_ = now + kAskRarely;
+  if (timers_.isOver(Timer::kAskOften, now)) timers_.set(Timer::kNextRequest, now + kAskRarely);
 }
 
 void SlaveHandler::judgeInExchange(Instant now, DpEvents& events) noexcept {

@@ -29,33 +29,6 @@ std::int16_t toInt16(double value) noexcept {
 
 }  // namespace
 
-DriveState cia402State(Word status_word) noexcept {
-  switch (status_word & 0x4Fu) {
-    case 0x00:
-      return DriveState::kNotReadyToSwitchOn;
-    case 0x40:
-      return DriveState::kSwitchOnDisabled;
-    case 0x0F:
-      return DriveState::kFaultReactionActive;
-    case 0x08:
-      return DriveState::kFault;
-    default:
-      break;
-  }
-  switch (status_word & 0x6Fu) {
-    case 0x21:
-      return DriveState::kReadyToSwitchOn;
-    case 0x23:
-      return DriveState::kSwitchedOn;
-    case 0x27:
-      return DriveState::kOperationEnabled;
-    case 0x07:
-      return DriveState::kQuickStopActive;
-    default:
-      return DriveState::kUnknown;
-  }
-}
-
 double Cia402Scaling::rpmOfHundredPercent() const noexcept {
   return max_frequency_ ? 60.0 * max_frequency_->value / pole_pairs_ : 0.0;
 }

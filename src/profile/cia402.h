@@ -13,7 +13,6 @@
 
 #include "core/units.h"
 #include "nord_driver/profile/process_data.h"
-#include "profile/status_word.h"
 
 namespace nord_driver::profile {
 
@@ -28,9 +27,6 @@ struct Cia402Input {
   Word status_word = 0;
   std::int16_t actual_velocity = 0;  ///< rpm
 };
-
-/// The state a 6041h word spells (CiA 402-2, "state coding"); kUnknown: no row fits.
-DriveState cia402State(Word status_word) noexcept;
 
 /// rpm are those of the field, 60 * frequency / pole pairs: no manual says whether the inverter counts slip in.
 class Cia402Scaling {

@@ -39,8 +39,7 @@ constexpr ParameterInfo kCatalogue[] = {
     {112, kAll, "Torque current limit", "", 1.0, false, kPerSet, 1, 0, kMaxUnsigned},
     {120, kSk12 | kSk54, "Option monitoring", "", 1.0, false, kArray, 4, 0, 2},
     // Of the bus module SK CU4/TU4, which stands in front of these series (BU 2700 7.1, BU 0220 5.2); P151 = -1: it heeds
-    // nothing. P152, factory setting,
-    // is not here: nothing that goes through the catalogue may reset a module.
+    // nothing. P152, factory setting, is not here: nothing that goes through the catalogue may reset a module.
     {150, kCu4, "Set relay", "", 1.0, false, kPlain, 1, 0, 4},
     {151, kCu4, "Timeout for external bus", "s", 0.001, true, kPlain, 1, -1, 32767},
     {153, kCu4, "Min. system bus cycle", "s", 0.001, false, kArray, 2, 0, 250},

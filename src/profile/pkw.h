@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "nord_driver/core/bytes.h"
+#include "nord_driver/core/fixed_text.h"
 #include "nord_driver/profile/parameter_request.h"
 
 namespace nord_driver::profile {
@@ -42,19 +43,10 @@ enum class AnswerLabel : std::uint8_t {
 /// Names of labels 0..15, reserved ones included, for traces.
 const char* orderText(std::uint8_t label) noexcept;
 const char* answerText(std::uint8_t label) noexcept;
-/// The meaning of an error number in an answer 7, as a clause.
-const char* pkwErrorText(std::uint16_t number) noexcept;
-
-/// Error numbers the driver itself reacts to.
-namespace pkw_error {
-constexpr std::uint16_t kInvalidNumber = 0;
-constexpr std::uint16_t kWrongSubIndex = 3;
-constexpr std::uint16_t kNoArray = 4;
-constexpr std::uint16_t kNoInverter = 101;        ///< behind a bus module: the addressed one does not exist
-constexpr std::uint16_t kNoInverterEither = 102;  ///< the same
-constexpr std::uint16_t kInvalidOrder = 201;
-constexpr std::uint16_t kNotRepresentable = 202;
-}  // namespace pkw_error
+/// An error number in an answer 7 as a clause: "PKW error 3, the sub-index is wrong".
+Sentence pkwErrorText(std::uint16_t number) noexcept;
+/// What it means to the driver.
+ParameterReason pkwReason(std::uint16_t number) noexcept;
 
 struct PkwOrder {
   OrderLabel label = OrderLabel::kNone;

@@ -4,7 +4,6 @@ namespace nord_driver::profile {
 
 namespace {
 
-constexpr std::uint16_t kLastNumber = 999;
 constexpr std::uint16_t kFaultNumber = 700;
 
 OrderLabel labelFor(const ParameterRequest& request) noexcept {
@@ -31,33 +30,11 @@ PkwOrder orderFor(const ParameterRequest& request) noexcept {
   return order;
 }
 
-bool hasSets(ParameterShape shape) noexcept {
-  return shape == ParameterShape::kPerSet || shape == ParameterShape::kArrayPerSet;
-}
-
-bool isArray(ParameterShape shape) noexcept {
-  return shape == ParameterShape::kArray || shape == ParameterShape::kArrayPerSet;
-}
-
-bool indexIsPossible(const ParameterRequest& request) noexcept {
-  if (hasSets(request.shape) && (request.parameter_set < 1 || request.parameter_set > 4)) return false;
-  if (!isArray(request.shape)) return true;
-  if (request.index == 0) return false;
-  // Six bits of the index are left for the element of a set-dependent array (BU 2700 6.5.1.2).
-  return request.shape == ParameterShape::kArray || request.index <= 64;
-}
-
 }  // namespace
 
 bool PkwChannel::submit(const ParameterRequest& request, Instant now) noexcept {
-  if (request.number > kLastNumber || !indexIsPossible(request)) {
-    ParameterResult result;
-    result.outcome = ParameterOutcome::kRefused;
-    result.error_number = request.number > kLastNumber ? pkw_error::kInvalidNumber : pkw_error::kWrongSubIndex;
-    return requests_.answer(request, result);
-  }
   if (!requests_.submit(request)) return false;
-  if (requests_.size() == 1) startNext(now);
+  if (requests_.size() == 1 && !prepared_) startNext(now);
   return true;
 }
 
@@ -86,7 +63,8 @@ PkwWords PkwChannel::pollWords(Instant now) noexcept {
     if (!prepared_) startNext(now);
     if (now < deadline_) break;
     last_unanswered_ = last_unanswered_ || phase_ == Phase::kOrder;
-    finish(ParameterOutcome::kTimeout, 0, 0);
+    requests_.fail(ParameterOutcome::kTimeout);
+    handleEnd();
   }
   if (!requests_.empty() && phase_ == Phase::kPause && mayStart()) {
     phase_ = Phase::kOrder;
@@ -116,9 +94,11 @@ void PkwChannel::handleWords(const PkwWords& words, Instant now) noexcept {
   }
   last_unanswered_ = false;
   if (answer.label != static_cast<std::uint8_t>(AnswerLabel::kError)) {
-    finish(ParameterOutcome::kDone, answer.value, 0);
+    requests_.done(answer.value);
+    handleEnd();
   } else if (!fallBack(answer.error_number)) {
-    finish(ParameterOutcome::kRefused, 0, answer.error_number);
+    requests_.refuse(pkwReason(answer.error_number), pkwErrorText(answer.error_number));
+    handleEnd();
   }
   if (!requests_.empty() && !prepared_) startNext(now);
 }
@@ -134,8 +114,9 @@ bool PkwChannel::fallBack(std::uint16_t error_number) noexcept {
   // (BU 0020 8). Label 1 ignores the index, so only the first element may be read with it: the third one of P700 would
   // come back as the number of a fault.
   if (fell_back_ || order_.label != OrderLabel::kReadArray) return false;
-  const bool no_array = error_number == pkw_error::kNoArray ||
-                        (error_number == pkw_error::kWrongSubIndex && order_.number == kFaultNumber);
+  const ParameterReason reason = pkwReason(error_number);
+  const bool no_array = reason == ParameterReason::kNotIndexed ||
+                        (reason == ParameterReason::kNoSuchElement && order_.number == kFaultNumber);
   const ParameterRequest& request = requests_.front();
   if (!no_array || (isArray(request.shape) && request.index != 1)) return false;
   fell_back_ = true;
@@ -145,24 +126,29 @@ bool PkwChannel::fallBack(std::uint16_t error_number) noexcept {
   return true;
 }
 
-void PkwChannel::handleFailure(ParameterOutcome outcome, std::uint16_t error_number) noexcept {
+void PkwChannel::handleRefusal(ParameterReason reason, const Sentence& text) noexcept {
   if (requests_.empty()) return;
   last_unanswered_ = last_unanswered_ || phase_ == Phase::kOrder;
-  finish(outcome, 0, error_number);
+  requests_.refuse(reason, text);
+  handleEnd();
+}
+
+void PkwChannel::handleFailure(ParameterOutcome outcome, const Sentence& text) noexcept {
+  if (requests_.empty()) return;
+  last_unanswered_ = last_unanswered_ || phase_ == Phase::kOrder;
+  requests_.fail(outcome, text);
+  handleEnd();
 }
 
 void PkwChannel::handleOffline(Instant) noexcept {
   last_unanswered_ = true;
+  requests_.failAll(ParameterOutcome::kOffline);
+  prepared_ = false;
   pause();
-  while (!requests_.empty()) finish(ParameterOutcome::kOffline, 0, 0);
 }
 
-void PkwChannel::finish(ParameterOutcome outcome, std::int32_t raw, std::uint16_t error_number) noexcept {
-  ParameterResult result;
-  result.outcome = outcome;
-  result.raw = raw;
-  result.error_number = error_number;
-  requests_.finish(result);
+// The running request has got its result.
+void PkwChannel::handleEnd() noexcept {
   prepared_ = false;
   if (phase_ == Phase::kOrder) pause();
 }

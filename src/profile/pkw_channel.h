@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/request_queue.h"
 #include "nord_driver/core/time.h"
 #include "nord_driver/profile/parameter_request.h"
+#include "profile/parameter_queue.h"
 #include "profile/pkw.h"
 
 namespace nord_driver::profile {
@@ -21,20 +21,21 @@ namespace nord_driver::profile {
 class PkwChannel {
  public:
   /// The most requests waiting, running, or finished and not fetched.
-  static constexpr std::size_t kCapacity = 8;
+  static constexpr std::size_t kCapacity = ParameterQueue::kCapacity;
 
   /// `answer_timeout`: how long an order, with the pause before it, may last from the moment it is the first in the
   /// queue.
   explicit PkwChannel(Duration answer_timeout) : answer_timeout_(answer_timeout) {}
 
-  /// False: full. A number above 999, a set beyond 1..4 or an element 0 is refused without asking the inverter.
+  /// As ParameterQueue::submit().
   bool submit(const ParameterRequest& request, Instant now) noexcept;
   /// The words of this exchange's request.
   PkwWords pollWords(Instant now) noexcept;
   /// The words of its response.
   void handleWords(const PkwWords& words, Instant now) noexcept;
-  /// Ends the running request: what carries the words has failed or refused. Nothing happens when none runs.
-  void handleFailure(ParameterOutcome outcome, std::uint16_t error_number) noexcept;
+  /// Ends the running request: what carries the words has refused, or failed. Nothing happens when none runs.
+  void handleRefusal(ParameterReason reason, const Sentence& text) noexcept;
+  void handleFailure(ParameterOutcome outcome, const Sentence& text = {}) noexcept;
   /// Ends all pending requests as offline.
   void handleOffline(Instant now) noexcept;
   std::optional<ParameterResult> pollResult() noexcept { return requests_.pollResult(); }
@@ -50,10 +51,10 @@ class PkwChannel {
   bool mayStart() const noexcept;
   void countStale(const PkwWords& words, const PkwAnswer& answer) noexcept;
   bool fallBack(std::uint16_t error_number) noexcept;
-  void finish(ParameterOutcome outcome, std::int32_t raw, std::uint16_t error_number) noexcept;
+  void handleEnd() noexcept;
 
   Duration answer_timeout_;
-  RequestQueue<ParameterRequest, ParameterResult, kCapacity> requests_;
+  ParameterQueue requests_;
   PkwOrder order_;
   PkwOrder sent_;      // the last order that went out: order_, while it runs
   PkwOrder previous_;  // the one before it

@@ -3,6 +3,36 @@
 
 namespace nord_driver::profile {
 
+namespace {
+
+struct ErrorRow {
+  std::uint16_t number;
+  ParameterReason reason;
+  const char* meaning;
+};
+
+constexpr ErrorRow kErrors[] = {
+    {0, ParameterReason::kNoSuchParameter, "the inverter has no parameter of this number"},
+    {1, ParameterReason::kReadOnly,
+     "the parameter cannot be changed (it is read-only, or P509 does not select this bus)"},
+    {2, ParameterReason::kOutOfLimits, "the value is beyond the lower or upper limit"},
+    {3, ParameterReason::kNoSuchElement, "the sub-index is wrong"},
+    {4, ParameterReason::kNotIndexed, "the parameter is no array"},
+    {5, ParameterReason::kWrongType, "the data type is wrong"},
+    {6, ParameterReason::kOutOfLimits, "the parameter can only be reset (only 0 may be written)"},
+    {7, ParameterReason::kReadOnly, "the description element cannot be changed"},
+    {9, ParameterReason::kOther, "there are no description data (acyclic: a READ came without a WRITE before it)"},
+    {101, ParameterReason::kNoInverter, "the addressed inverter does not exist"},
+    {102, ParameterReason::kNoInverter, "the addressed inverter does not exist"},
+    {103, ParameterReason::kNotNow, "the addressed inverter exists, but another bus participant blocks the access"},
+    {201, ParameterReason::kNotSupported, "the order label of the last order is invalid"},
+    {202, ParameterReason::kUnreadable,
+     "the internal answer label cannot be represented: the answer does not fit this process data type, use PPO 2 or "
+     "acyclic access"},
+};
+
+}  // namespace
+
 const char* orderText(std::uint8_t label) noexcept {
   static constexpr const char* kTexts[] = {
       "no order",
@@ -38,40 +68,21 @@ const char* answerText(std::uint8_t label) noexcept {
   return label < sizeof(kTexts) / sizeof(kTexts[0]) ? kTexts[label] : "unknown answer";
 }
 
-const char* pkwErrorText(std::uint16_t number) noexcept {
-  switch (number) {
-    case 0:
-      return "the inverter has no parameter of this number";
-    case 1:
-      return "the parameter cannot be changed (it is read-only, or P509 does not select this bus)";
-    case 2:
-      return "the value is beyond the lower or upper limit";
-    case 3:
-      return "the sub-index is wrong";
-    case 4:
-      return "the parameter is no array";
-    case 5:
-      return "the data type is wrong";
-    case 6:
-      return "the parameter can only be reset (only 0 may be written)";
-    case 7:
-      return "the description element cannot be changed";
-    case 9:
-      return "there are no description data (acyclic: a READ came without a WRITE before it)";
-    case 101:
-    case 102:
-      return "the addressed inverter does not exist";
-    case 103:
-      return "the addressed inverter exists, but another bus participant blocks the access";
-    case 201:
-      return "the order label of the last order is invalid";
-    case 202:
-      return "the internal answer label cannot be represented (try PPO 2 or acyclic access)";
-    default:
-      // A number of the bus, not of the inverter: 8000h and Error_Code_1 of DP-V1.
-      if (number >= 0x8000) return "the bus module refuses the acyclic access (32768 and the DP-V1 error code)";
-      return "an error number the manuals do not list";
+Sentence pkwErrorText(std::uint16_t number) noexcept {
+  const char* meaning = "an error number the manuals do not list";
+  for (const ErrorRow& row : kErrors) {
+    if (row.number == number) meaning = row.meaning;
   }
+  Sentence text;
+  text.format("PKW error %u, %s", unsigned{number}, meaning);
+  return text;
+}
+
+ParameterReason pkwReason(std::uint16_t number) noexcept {
+  for (const ErrorRow& row : kErrors) {
+    if (row.number == number) return row.reason;
+  }
+  return ParameterReason::kOther;
 }
 
 }  // namespace nord_driver::profile

@@ -28,10 +28,6 @@ class DiffDriveKinematics final : public BaseKinematics {
   Twist2d twist(const WheelSpeeds& wheels) const noexcept override;
   bool setGeometry(const BaseGeometry& geometry) noexcept override;
 
-  double wheelSeparation() const noexcept { return separation_; }     ///< m, multiplier included
-  double leftWheelRadius() const noexcept { return left_radius_; }    ///< m, multiplier included
-  double rightWheelRadius() const noexcept { return right_radius_; }  ///< m, multiplier included
-
  private:
   double separation_;
   double left_radius_;

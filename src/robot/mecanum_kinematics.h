@@ -28,8 +28,6 @@ class MecanumKinematics final : public BaseKinematics {
   Twist2d twist(const WheelSpeeds& wheels) const noexcept override;
   bool setGeometry(const BaseGeometry& geometry) noexcept override;
 
-  double lever() const noexcept { return lever_; }  ///< m, see mecanumLeverOf
-
  private:
   double lever_;
   double left_radius_;

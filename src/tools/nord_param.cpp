@@ -109,7 +109,7 @@ int run(int argc, char** argv) {
 
   // A write that is under way is not cut off: P560 may have to be put back.
   const std::atomic<bool>& end_asked = catchEndSignals();
-  YAML::Node file = readYamlFiles(options.files);
+  YAML::Node file = nord_driver::readYamlFiles(options.files);
   TransportLoader loader;
   const auto transport = loader.load(transportOf(file));
   choosePort(file, options.port, transport->endPoint());

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "cycle/bus_cycle.h"
+#include "cycle/cycle_ports.h"
 #include "cycle/parameter_access.h"
-#include "drive/drive.h"
-#include "drive/parameter_session.h"
 #include "nord_driver/transport/transport.h"
 #include "tools/tool_config.h"
 
@@ -33,7 +33,8 @@ struct ParameterAnswer {
   std::uint8_t set = 0;                          ///< that was meant, 1..4; 0 where the parameter has no sets
 };
 
-/// Master of the bus from `connect` on. Moves nothing and stops nothing:
+/// Master of the bus from `connect` on, by the same cycle as the driver's node (`CycleRole::kGuest`). Moves nothing and
+/// stops nothing:
 ///  - Until a status word has told state and parameter set, the word is 0000, which the inverter ignores (BU 2700 6.4.1
 ///    note 2). A drive that runs then is left alone: `connect` refuses. One at rest gets the idle word 047E with its
 ///    own set, so that P513 or P151 > 0 does not trip it (7.1.1).
@@ -65,21 +66,19 @@ class ParameterLink {
 
  private:
   void exchange() noexcept;
-  void runSession() noexcept;
+  /// Of the last cycle.
+  const cycle::DriveSnapshot& snapshot() noexcept { return ports_.readSnapshot().drives.front(); }
   void idle(int cycles) noexcept;
   void refuseRunning() const;
   std::string silence() const;
-  std::optional<drive::ParameterTaskResult> run(const drive::ParameterTask& task) noexcept;
+  std::optional<cycle::Completion> run(cycle::Request& request);
   bool waitForDrive() noexcept;
-  ParameterAnswer carryOut(const cycle::Request& request, const profile::ParameterInfo* info);
+  ParameterAnswer carryOut(cycle::Request request, const profile::ParameterInfo* info);
 
   const ToolConfig& config_;
   Transport& transport_;
-  std::vector<drive::Drive> drives_;
-  std::vector<profile::ProcessOutput> outputs_;
-  std::vector<DriveExchange> inputs_;
-  drive::ParameterSession session_;
-  std::uint32_t open_id_ = 0;  // of the request under way; 0: none
+  cycle::CyclePorts ports_;
+  std::optional<cycle::BusCycle> cycle_;  // from the constructor on
   std::uint32_t last_id_ = 0;
   bool connected_ = false;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "config/driver_settings.h"
 #include "config/yaml_settings.h"
 
 namespace nord_driver::tools {
@@ -10,21 +11,6 @@ namespace {
 
 // A drive that is late is waited for: nothing turns that would have to be stopped.
 constexpr Duration kDriveTimeout = std::chrono::seconds{1};
-
-constexpr char kDefaultTransport[] = "nord_driver/profibus_dp";
-constexpr char kPrefix[] = "nord_driver/";
-
-std::string transportOf(const YamlSettings& settings) {
-  const std::string name = settings.text("transport").value_or(kDefaultTransport);
-  return name.find('/') == std::string::npos ? kPrefix + name : name;
-}
-
-std::vector<DriveSettings> drivesOf(const YamlSettings& settings) {
-  const auto group = settings.group("drives");
-  std::vector<DriveSettings> drives;
-  for (const std::string& name : group->keys()) drives.push_back({name, group->group(name)});
-  return drives;
-}
 
 // Of the cycle only its rate counts. The base may need a URDF, which there is none of without a roscore.
 YamlSettings rateOf(const YAML::Node& file) {
@@ -35,7 +21,7 @@ YamlSettings rateOf(const YAML::Node& file) {
 
 ToolConfig read(const YAML::Node& file, const YamlSettings& settings, const std::vector<DriveSettings>& drives) {
   ToolConfig config;
-  config.transport = transportOf(settings);
+  config.transport = readTransportName(settings);
   config.bus = settings.group("bus");
   config.drives = drives;
   config.cycle = cycle::readCycleConfig(rateOf(file), drives);
@@ -43,12 +29,6 @@ ToolConfig read(const YAML::Node& file, const YamlSettings& settings, const std:
     setup.drive.drive_timeout = std::max(setup.drive.drive_timeout, kDriveTimeout);
   }
   return config;
-}
-
-// As users write it: those of this package need no prefix.
-std::string shortName(const std::string& transport) {
-  const std::string prefix = kPrefix;
-  return transport.compare(0, prefix.size(), prefix) == 0 ? transport.substr(prefix.size()) : transport;
 }
 
 // A transport wants to know what it opens before it tells anything of its drives.
@@ -62,12 +42,12 @@ YAML::Node withAnyPort(const YAML::Node& file, const EndPoint& end_point) {
 }  // namespace
 
 std::string transportOf(const YAML::Node& file) {
-  return transportOf(YamlSettings{"", file});
+  return readTransportName(YamlSettings{"", file});
 }
 
 void choosePort(YAML::Node& file, const BusPort& port, const EndPoint& end_point) {
   const YamlSettings settings{"", file};
-  std::string value = chosenPort(port, shortName(transportOf(settings)), end_point.key);
+  std::string value = chosenPort(port, shortTransportName(readTransportName(settings)), end_point.key);
   settings.group("bus");  // refuses a value where the group belongs
   if (value.empty()) value = settings.text("bus_end_point").value_or("");
   if (!value.empty() && !end_point.isNone()) file["bus"][end_point.key] = value;
@@ -76,12 +56,12 @@ void choosePort(YAML::Node& file, const BusPort& port, const EndPoint& end_point
 ToolConfig readToolConfig(const YAML::Node& file, const EndPoint& end_point) {
   const YAML::Node complete = withAnyPort(file, end_point);
   const YamlSettings settings{"", complete};
-  return read(complete, settings, drivesOf(settings));
+  return read(complete, settings, readDriveList(settings));
 }
 
 ToolConfig readToolConfig(const YAML::Node& file, const std::string& name) {
   const YamlSettings settings{"", file};
-  const std::vector<DriveSettings> all = drivesOf(settings);
+  const std::vector<DriveSettings> all = readDriveList(settings);
   const auto asked =
       std::find_if(all.begin(), all.end(), [&](const DriveSettings& drive) { return drive.name == name; });
   if (asked == all.end()) {

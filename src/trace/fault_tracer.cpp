@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <string>
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 
 namespace {
 
 std::string sentenceOf(const TraceTrigger& trigger, const std::string& name) {
   if (!trigger.text.empty()) return trigger.text.str();
-  if (trigger.drive == kAllDrives) return "the base stopped";
+  if (trigger.drive == cycle::kAllDrives) return "the base stopped";
   const char* what = trigger.kind == TraceTrigger::Kind::kFault ? ": a fault" : " stopped";
   return "drive " + name + what + " (status word " + toHexWord(trigger.status_word) + ")";
 }
@@ -30,7 +30,7 @@ std::optional<TraceResult> FaultTracer::finish(const TraceClock& clock) {
 
 void FaultTracer::take() {
   while (const auto trigger = feed_.pollTrigger()) {
-    const std::string name = trigger->drive == kAllDrives ? "base" : writer_.drives()[trigger->drive].name;
+    const std::string name = trigger->drive == cycle::kAllDrives ? "base" : writer_.drives()[trigger->drive].name;
     const std::string sentence = sentenceOf(*trigger, name);
     if (!waiting_) {
       const char* kind = trigger->kind == TraceTrigger::Kind::kFault ? "fault_" : "stop_";
@@ -47,4 +47,4 @@ std::optional<TraceResult> FaultTracer::write(const TraceClock& clock) {
   return writer_.write(cause, clock);
 }
 
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

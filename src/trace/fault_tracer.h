@@ -6,7 +6,7 @@
 #include "trace/trace_feed.h"
 #include "trace/trace_writer.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 
 /// A fault often brings others (the base stops, the next drive trips): what follows the first within 0.2 s stands in
 /// the same trace. One thread.
@@ -31,4 +31,4 @@ class FaultTracer {
   std::optional<TraceCause> waiting_;
 };
 
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

@@ -1,6 +1,6 @@
 #include "trace/pcap.h"
 
-namespace nord_driver {
+namespace nord_driver::trace {
 
 namespace {
 
@@ -38,4 +38,4 @@ void Pcap::u32(std::uint32_t value) {
   u16(value >> 16);
 }
 
-}  // namespace nord_driver
+}  // namespace nord_driver::trace

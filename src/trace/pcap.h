@@ -7,7 +7,7 @@
 
 #include "nord_driver/core/bytes.h"
 
-namespace nord_driver {
+namespace nord_driver::trace {
 
 /// Collects the bytes of one file: its header, then a record per packet.
 class Pcap {
@@ -26,4 +26,4 @@ class Pcap {
   std::string bytes_;
 };
 
-}  // namespace nord_driver
+}  // namespace nord_driver::trace

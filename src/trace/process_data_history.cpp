@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 
 namespace {
 
@@ -37,4 +37,4 @@ std::vector<ProcessDataRecord> ProcessDataHistory::upTo(std::uint64_t last) cons
   return records;
 }
 
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

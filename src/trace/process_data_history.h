@@ -9,7 +9,7 @@
 #include "nord_driver/profile/process_data.h"
 #include "nord_driver/transport/transport.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 
 /// One drive in one cycle.
 struct ProcessDataRecord {
@@ -44,4 +44,4 @@ class ProcessDataHistory {
   HistoryRing<ProcessDataRecord> ring_;
 };
 
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

@@ -2,7 +2,7 @@
 
 #include "config/setting_checks.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 
 std::optional<TraceConfig> readTraceConfig(const Settings& node) {
   constexpr std::int64_t kMaxKept = 100'000;
@@ -19,4 +19,4 @@ std::optional<TraceConfig> readTraceConfig(const Settings& node) {
   return config;
 }
 
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

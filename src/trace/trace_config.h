@@ -7,7 +7,7 @@
 
 #include "nord_driver/config/settings.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 
 struct TraceConfig {
   std::string directory;  ///< absolute
@@ -17,4 +17,4 @@ struct TraceConfig {
 /// `trace_directory` and `trace_keep`; nothing when the directory is empty or absent. Throws ConfigError.
 std::optional<TraceConfig> readTraceConfig(const Settings& node);
 
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

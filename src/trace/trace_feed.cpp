@@ -1,6 +1,6 @@
 #include "trace/trace_feed.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 
 namespace {
 
@@ -22,27 +22,25 @@ bool rises(bool& before, bool now) noexcept {
 TraceFeed::TraceFeed(std::size_t drive_count) : history_(drive_count), drives_(drive_count) {}
 
 void TraceFeed::handleCycle(const std::vector<profile::ProcessOutput>& outputs,
-                            const std::vector<DriveExchange>& inputs, const CycleSnapshot& snapshot) noexcept {
+                            const std::vector<DriveExchange>& inputs, const cycle::CycleSnapshot& snapshot) noexcept {
   TraceTrigger trigger;
   trigger.time = snapshot.time;
   trigger.cycle = history_.cycles();
   history_.record(outputs, inputs, snapshot.time);
-  for (DriveIndex i = 0; i < drives_.size(); ++i) handleDrive(i, inputs[i], snapshot.drives[i], trigger);
+  for (DriveIndex i = 0; i < drives_.size(); ++i) handleDrive(i, snapshot.drives[i], trigger);
   if (rises(base_stopped_, unasked(snapshot.base.stop_cause))) {
     trigger.kind = TraceTrigger::Kind::kStop;
-    trigger.drive = kAllDrives;
+    trigger.drive = cycle::kAllDrives;
     trigger.status_word = 0;
     trigger.text = snapshot.base.text;
     triggers_.push(trigger);
   }
 }
 
-// A drive that is silent keeps its fault: it has not risen anew when the drive is back with it.
-void TraceFeed::handleDrive(DriveIndex drive, const DriveExchange& input, const DriveSnapshot& snapshot,
-                            TraceTrigger& trigger) noexcept {
+void TraceFeed::handleDrive(DriveIndex drive, const cycle::DriveSnapshot& snapshot, TraceTrigger& trigger) noexcept {
   Seen& seen = drives_[drive];
-  const bool fault = input.inverter_answers ? profile::StatusWord{input.input.status_word}.fault() : seen.fault;
-  const bool faulted = rises(seen.fault, fault);
+  const bool faulted = snapshot.faults != seen.faults;
+  seen.faults = snapshot.faults;
   const bool stopped = rises(seen.stopped, unasked(snapshot.stop_cause));
   if (!faulted && !stopped) return;
   trigger.kind = faulted ? TraceTrigger::Kind::kFault : TraceTrigger::Kind::kStop;
@@ -52,4 +50,4 @@ void TraceFeed::handleDrive(DriveIndex drive, const DriveExchange& input, const 
   triggers_.push(trigger);
 }
 
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "core/event_ring.h"
+#include "cycle/cycle_observer.h"
 #include "cycle/request.h"
 #include "cycle/snapshot.h"
 #include "nord_driver/core/fixed_text.h"
 #include "nord_driver/core/time.h"
 #include "trace/process_data_history.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 
 struct TraceTrigger {
   enum class Kind : std::uint8_t {
@@ -20,20 +21,19 @@ struct TraceTrigger {
     kStop,   ///< a drive or the base stopped, and nobody had asked for it
   };
   Kind kind = Kind::kFault;
-  DriveIndex drive = kAllDrives;  ///< kAllDrives: the base
+  DriveIndex drive = cycle::kAllDrives;  ///< kAllDrives: the base
   Instant time{};
   std::uint64_t cycle = 0;
   Word status_word = 0;  ///< of the drive; 0 for the base
   Sentence text;         ///< why it stopped; may be empty
 };
 
-class TraceFeed {
+class TraceFeed final : public cycle::CycleObserver {
  public:
   explicit TraceFeed(std::size_t drive_count);
 
-  /// The cycle's thread, once per cycle, with what was exchanged and what became of it. Neither waits nor allocates.
   void handleCycle(const std::vector<profile::ProcessOutput>& outputs, const std::vector<DriveExchange>& inputs,
-                   const CycleSnapshot& snapshot) noexcept;
+                   const cycle::CycleSnapshot& snapshot) noexcept override;
 
   /// One outside thread only. When nobody takes them, the newest are lost.
   std::optional<TraceTrigger> pollTrigger() noexcept { return triggers_.pop(); }
@@ -42,12 +42,11 @@ class TraceFeed {
 
  private:
   struct Seen {
-    bool fault = false;
+    std::uint64_t faults = 0;
     bool stopped = false;
   };
 
-  void handleDrive(DriveIndex drive, const DriveExchange& input, const DriveSnapshot& snapshot,
-                   TraceTrigger& trigger) noexcept;
+  void handleDrive(DriveIndex drive, const cycle::DriveSnapshot& snapshot, TraceTrigger& trigger) noexcept;
 
   ProcessDataHistory history_;
   EventRing<TraceTrigger, 16> triggers_;
@@ -55,4 +54,4 @@ class TraceFeed {
   bool base_stopped_ = false;
 };
 
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

@@ -6,7 +6,7 @@
 
 #include "core/version.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 
 namespace {
 
@@ -88,4 +88,4 @@ std::string traceText(const TracePage& page, const std::vector<TracedDrive>& dri
   return text;
 }
 
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

@@ -9,7 +9,7 @@
 #include "nord_driver/trace/telegram_trace.h"
 #include "trace/process_data_history.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 
 /// The same moment on the clock of the bus and on the wall.
 struct TraceClock {
@@ -39,4 +39,4 @@ std::string utcText(std::chrono::microseconds since_1970);
 std::string traceText(const TracePage& page, const std::vector<TracedDrive>& drives, const TelegramTrace* trace,
                       const TraceClock& clock);
 
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

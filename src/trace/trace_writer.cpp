@@ -13,7 +13,7 @@
 
 #include "trace/pcap.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 
 namespace {
 
@@ -138,4 +138,4 @@ std::string TraceWriter::removeOldest() const {
   return warning;
 }
 
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

@@ -11,7 +11,7 @@
 #include "trace/trace_config.h"
 #include "trace/trace_text.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 
 /// What a trace is written for.
 struct TraceCause {
@@ -55,4 +55,4 @@ class TraceWriter {
   std::mutex mutex_;
 };
 
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

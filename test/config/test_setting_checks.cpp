@@ -87,5 +87,22 @@ TEST(SettingChecks, NumbersArePrintedAsPeopleWriteThem) {
   EXPECT_EQ("-0.1", shortNumber(-0.1));
 }
 
+TEST(SettingChecks, TimesThatAreCountedInMilliseconds) {
+  using std::chrono::milliseconds;
+  MapSettings settings{"~bus/", {}};
+  const auto read = [&] {
+    return wholeMillisecondsOr(settings, "pause", milliseconds{20}, milliseconds{10}, milliseconds{500},
+                               "0.1 s: it counts them");
+  };
+  EXPECT_EQ(milliseconds{20}, read());
+  settings.set("pause", 0.123);
+  EXPECT_EQ(milliseconds{123}, read());
+  settings.set("pause", 0.0125);
+  EXPECT_EQ("~bus/pause: 0.0125 is not valid, expected whole milliseconds, such as 0.1 s: it counts them",
+            refusal(read));
+  settings.set("pause", 0.6);
+  EXPECT_EQ("~bus/pause: 0.6 is not valid, expected a number from 0.01 to 0.5 s", refusal(read));
+}
+
 }  // namespace
 }  // namespace nord_driver

@@ -7,7 +7,7 @@
 
 #include "config/yaml_settings.h"
 
-namespace nord_driver::tools {
+namespace nord_driver {
 namespace {
 
 using ::testing::ElementsAre;
@@ -102,4 +102,4 @@ TEST(YamlSettings, ALaterFileIsLaidOverAnEarlierOne) {
 }
 
 }  // namespace
-}  // namespace nord_driver::tools
+}  // namespace nord_driver

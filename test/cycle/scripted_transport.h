@@ -61,17 +61,24 @@ class ScriptedTransport final : public Transport {
     profile::ParameterResult result;
     result.id = request.id;
     result.outcome = profile::ParameterOutcome::kRefused;
+    result.reason = profile::ParameterReason::kNoSuchParameter;
+    result.text = "scripted error 0, the transport's own words";
     auto at = parameters.find(request.number + 1000 * request.parameter_set);
     if (at == parameters.end()) at = parameters.find(request.number);
     const auto own = of_drive[drive].find(request.number);
     if (own != of_drive[drive].end()) {
-      result.outcome = profile::ParameterOutcome::kDone;
-      result.raw = own->second;
+      result = done(request.id, own->second);
     } else if (at != parameters.end()) {
-      result.outcome = profile::ParameterOutcome::kDone;
-      result.raw = at->second;
+      result = done(request.id, at->second);
     }
     results.push_back(result);
+  }
+  static profile::ParameterResult done(std::uint32_t id, std::int32_t raw) {
+    profile::ParameterResult result;
+    result.id = id;
+    result.outcome = profile::ParameterOutcome::kDone;
+    result.raw = raw;
+    return result;
   }
 
   bool connected() const noexcept override { return is_connected; }

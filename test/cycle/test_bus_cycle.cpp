@@ -172,7 +172,7 @@ TEST_F(BusCycleTest, AParameterIsReadWhileAFaultIsAcknowledged) {
   run(60);
   EXPECT_TRUE(completions[501].success) << completions[501].message.c_str();
   EXPECT_TRUE(completions[502].success) << completions[502].message.c_str();
-  EXPECT_EQ(100, completions[502].raw);
+  EXPECT_EQ(100, completions[502].parameter.raw);
   EXPECT_EQ(0x047E, controlWord(kLift)) << "the acknowledge bit does not stay";
 }
 
@@ -331,8 +331,7 @@ Request read(DriveIndex drive, std::uint16_t number, std::uint8_t set = 1, bool 
   request.drive = drive;
   request.parameter.number = number;
   request.parameter.shape = profile::ParameterShape::kPerSet;
-  request.parameter.parameter_set = set;
-  request.active_set = active;
+  request.parameter.parameter_set = active ? std::uint8_t{0} : set;
   return request;
 }
 
@@ -341,14 +340,15 @@ TEST_F(BusCycleTest, ReadsAParameterForACaller) {
   transport.parameters[102] = 250;
   const Completion answer = ask(read(kRight, 102));
   EXPECT_TRUE(answer.success);
-  EXPECT_EQ(250, answer.raw);
+  EXPECT_EQ(250, answer.parameter.raw);
 }
 
 TEST_F(BusCycleTest, TellsWhyAParameterCannotBeRead) {
   bringUp();
   Completion answer = ask(read(kRight, 102));
   EXPECT_FALSE(answer.success);
-  EXPECT_THAT(answer.message.c_str(), HasSubstr("drive right refuses P102: error 0"));
+  EXPECT_THAT(answer.message.c_str(),
+              HasSubstr("drive right refuses P102: scripted error 0, the transport's own words"));
   transport.queue_full = true;
   EXPECT_THAT(ask(read(kRight, 102)).message.c_str(), HasSubstr("too many parameter requests waiting"));
   transport.queue_full = false;
@@ -387,7 +387,7 @@ TEST_F(BusCycleTest, AnswersEachParameterRequestWithItsOwnResult) {
   }
   for (std::uint32_t i = 0; i < 8; ++i) {
     ASSERT_TRUE(completions.at(500 + i).success);
-    EXPECT_EQ(9000 + static_cast<int>(i), completions.at(500 + i).raw);
+    EXPECT_EQ(9000 + static_cast<int>(i), completions.at(500 + i).parameter.raw);
   }
 }
 

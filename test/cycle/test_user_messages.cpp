@@ -46,35 +46,45 @@ TEST(Sentences, AStateTellsWhatTheDriveSaidLast) {
   EXPECT_STREQ("drive left does not answer", stateMessage("left", drive::DriveReport{}).c_str());
 }
 
-// 0 as the refused number stands for "not the inverter refused"; P000 is a number like others.
-TEST(Sentences, P000IsRefusedInWordsToo) {
-  drive::ParameterTaskResult result;
+profile::ParameterResult refused(std::uint16_t number, const char* text) {
+  profile::ParameterResult result;
   result.outcome = profile::ParameterOutcome::kRefused;
-  EXPECT_EQ("drive left refuses P000: error 0, the inverter has no parameter of this number",
-            parameterMessage("left", 0, result).str());
+  result.reason = profile::ParameterReason::kOther;
+  result.refused_number = number;
+  result.text = text;
+  return result;
 }
 
-std::string parameter(profile::ParameterOutcome outcome) {
-  drive::ParameterTaskResult result;
+// P000 is a number like others.
+TEST(Sentences, P000IsRefusedInWordsToo) {
+  EXPECT_EQ("drive left refuses P000: PKW error 0, the inverter has no parameter of this number",
+            parameterMessage("left", 0, refused(0, "PKW error 0, the inverter has no parameter of this number")).str());
+}
+
+std::string parameter(profile::ParameterOutcome outcome, const char* text = "") {
+  profile::ParameterResult result = refused(5, text);
   result.outcome = outcome;
-  result.error_number = 201;
-  result.refused_number = 5;
+  result.reason = outcome == profile::ParameterOutcome::kRefused ? profile::ParameterReason::kReadOnly
+                                                                 : profile::ParameterReason::kNone;
   return parameterMessage("left", 5, result).str();
 }
 
 TEST(Sentences, AParameterThatCouldNotBeReadSaysWhy) {
   using Outcome = profile::ParameterOutcome;
   EXPECT_EQ("", parameter(Outcome::kDone));
-  EXPECT_EQ(0u, parameter(Outcome::kRefused).find("drive left refuses P005: error 201, "));
+  EXPECT_EQ("drive left refuses P005: Modbus exception 2, illegal address",
+            parameter(Outcome::kRefused, "Modbus exception 2, illegal address"));
   EXPECT_EQ("drive left gave no answer for P005", parameter(Outcome::kTimeout));
   EXPECT_EQ("drive left does not answer", parameter(Outcome::kOffline));
-  EXPECT_EQ(
-      "drive left has no parameter channel: PPO types 3 and 4 carry process data only, and its bus module takes no "
-      "acyclic requests (DP-V1)",
-      parameter(Outcome::kNoChannel));
-  EXPECT_EQ(0u,
-            parameter(Outcome::kNotActivated).find("the bus module of drive left refuses acyclic requests (DP-V1): "));
+  EXPECT_EQ("no parameter channel reaches P005 of drive left: PPO types 3 and 4 carry process data only",
+            parameter(Outcome::kNoChannel, "PPO types 3 and 4 carry process data only"));
   EXPECT_EQ("drive left has too many parameter requests waiting already", parameter(Outcome::kBusy));
+}
+
+// The plugin of somebody else need not have words for it.
+TEST(Sentences, AReasonWithoutWordsOfTheTransportHasItsOwn) {
+  EXPECT_EQ("drive left refuses P005: the parameter is read-only", parameter(profile::ParameterOutcome::kRefused));
+  EXPECT_EQ("no parameter channel reaches P005 of drive left", parameter(profile::ParameterOutcome::kNoChannel));
 }
 
 TEST(Sentences, AMinimumFrequencyIsRefusedWithWhatToSet) {
@@ -98,34 +108,26 @@ TEST(Sentences, AFunctionIsRefusedWithWhatToSet) {
 
 // BU 0020 6.2.2: parameters are written over a bus only while P509 selects it.
 TEST(Sentences, ARefusedWriteNamesP509) {
-  drive::ParameterTaskResult result;
-  result.outcome = profile::ParameterOutcome::kRefused;
-  result.refused_number = 102;
-  result.error_number = 1;
-  EXPECT_EQ(
-      "drive left refuses P102: error 1, the parameter cannot be changed (it is read-only, or P509 does not select "
-      "this bus)",
-      parameterMessage("left", 102, result).str());
-  result.error_number = 202;
+  const profile::ParameterResult result = refused(102, "PKW error 2, the value is beyond the lower or upper limit");
   EXPECT_THAT(parameterMessage("left", 102, result).str(), ::testing::Not(::testing::HasSubstr("P509")));
   EXPECT_THAT(parameterMessage("left", 102, result, true).str(),
               ::testing::HasSubstr("the bus has no control (status bit 9 = 0): does P509 select it?"));
 }
 
 TEST(Sentences, WhatTheSessionAddsIsPassedOn) {
-  drive::ParameterTaskResult result;
+  profile::ParameterResult result;
   result.outcome = profile::ParameterOutcome::kDone;
   result.note = "nothing was written, the value was there already";
   EXPECT_EQ("nothing was written, the value was there already", parameterMessage("left", 5, result).str());
   result.outcome = profile::ParameterOutcome::kRefused;
+  result.reason = profile::ParameterReason::kDriver;
   EXPECT_EQ("P005 of drive left: nothing was written, the value was there already",
             parameterMessage("left", 5, result).str());
-  result.refused_number = 560;  // the error is about P560, not about the parameter asked for
-  result.error_number = 1;
-  EXPECT_EQ(0u, parameterMessage("left", 5, result).str().find("drive left refuses P560: error 1, "));
-  // On CANopen by the code that is in its books.
-  result.abort_code = 0x06010002;
-  EXPECT_EQ(0u, parameterMessage("left", 5, result).str().find("drive left refuses P560: SDO abort 06010002, "));
+  result = refused(560, "PKW error 1, it is read-only");  // about P560, not about the parameter asked for
+  result.note = "P560 could not be set to 0, so the value was not written";
+  EXPECT_EQ(
+      "drive left refuses P560: PKW error 1, it is read-only; P560 could not be set to 0, so the value was not written",
+      parameterMessage("left", 5, result).str());
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ class FakeParameters {
   using Request = profile::ParameterRequest;
   using Result = profile::ParameterResult;
 
-  bool ram_orders = true;  ///< AK 11..14 are known
+  bool ram_orders = true;  ///< writes that spare the EEPROM are known
   std::map<std::uint16_t, std::int32_t> ram{{102, 200}, {105, 500}, {560, 1}};
   std::map<std::uint16_t, std::int32_t> eeprom = ram;
   std::map<std::string, Result> scripted;  ///< answers by record ("P102?", "P560=1"), instead of carrying it out
@@ -35,10 +35,11 @@ class FakeParameters {
     }
     return name + "=" + std::to_string(request.raw);
   }
-  static Result refusal(std::uint16_t error_number) {
+  static Result refusal(profile::ParameterReason reason) {
     Result result;
     result.outcome = profile::ParameterOutcome::kRefused;
-    result.error_number = error_number;
+    result.reason = reason;
+    result.text = "its own words";
     return result;
   }
   static Result failure(profile::ParameterOutcome outcome) {
@@ -51,7 +52,7 @@ class FakeParameters {
     asked.push_back(record(request));
     const auto script = scripted.find(asked.back());
     if (script != scripted.end()) return script->second;
-    if (ram.count(request.number) == 0) return refusal(0);
+    if (ram.count(request.number) == 0) return refusal(profile::ParameterReason::kNoSuchParameter);
     Result result;
     result.outcome = profile::ParameterOutcome::kDone;
     if (request.action == profile::ParameterAction::kRead) {
@@ -59,7 +60,7 @@ class FakeParameters {
       return result;
     }
     if (request.action == profile::ParameterAction::kWriteRam) {
-      if (!ram_orders) return refusal(201);
+      if (!ram_orders) return refusal(profile::ParameterReason::kNotSupported);
     } else if (ram[560] != 0) {
       eeprom[request.number] = request.raw;
       ++eeprom_cycles;

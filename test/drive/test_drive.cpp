@@ -87,9 +87,6 @@ TEST_F(DriveTest, GoesBackToIdleWhenTheInverterDoesNotFollow) {
     EXPECT_EQ(0, setpoint_);
   }
   EXPECT_EQ(Refusal::kEnableTimeout, report().refusal);
-  EXPECT_EQ(
-      "the inverter did not reach \"operation enabled\" in time; the last status word was 0B31 (ready to switch on)",
-      refusalText(report()));
   EXPECT_EQ(0x047E, cycle(0x0B31));
   EXPECT_EQ(Phase::kIdle, report().phase);
 }
@@ -121,7 +118,7 @@ class RefusalTest : public DriveTest {
     drive_.requestEnable(now_);
     const Refusal refusal = report().refusal;
     EXPECT_EQ(0x0E, drive_.pollOutput(now_).control_word & 0x0F);
-    EXPECT_FALSE(refusalText(report()).empty());
+    EXPECT_STRNE("nothing", toString(refusal));
     return refusal;
   }
 };
@@ -178,7 +175,6 @@ TEST_F(RefusalTest, WithoutP105OfTheSetInForce) {
   drive_.setMaxFrequency(2, {70.0});
   drive_.requestEnable(now_);
   EXPECT_EQ(Refusal::kNone, report().refusal);
-  EXPECT_EQ("", refusalText(report()));
 }
 
 TEST_F(RefusalTest, WhileStopping) {

@@ -65,9 +65,6 @@ TEST_F(DriveTest, GoesBackToTheSetInForce) {
   EXPECT_EQ(0x047E, cycle(0x0B31));
   EXPECT_EQ(RequestState::kRefused, report().set_switch.state);
   EXPECT_EQ(Refusal::kSetNotConfirmed, report().set_switch.refusal);
-  EXPECT_EQ(
-      "the inverter did not confirm the new parameter set in time; the last status word was 0B31 (ready to switch on)",
-      refusalText(report()));
 }
 
 // Setpoint and actual value are shares of P105 of the set (BU 0020 7.3.5): only at standstill, and only while idle.
@@ -79,7 +76,7 @@ class SetRefusalTest : public DriveTest {
     EXPECT_EQ(before, report().phase);
     EXPECT_EQ(RequestState::kRefused, report().set_switch.state);
     EXPECT_EQ(report().refusal, report().set_switch.refusal);
-    EXPECT_FALSE(refusalText(report()).empty());
+    EXPECT_STRNE("nothing", toString(report().refusal));
     EXPECT_LE(drive_.pollOutput(now_).control_word, 0x3FFF);
     return report().set_switch.refusal;
   }

@@ -12,27 +12,31 @@
 namespace nord_driver::drive {
 namespace {
 
+using profile::ParameterAction;
 using profile::ParameterOutcome;
+using profile::ParameterReason;
+using profile::ParameterRequest;
+using profile::ParameterResult;
 using profile::ParameterShape;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-ParameterTask task(ParameterTaskKind kind, std::uint16_t number, std::int32_t raw = 0) {
-  ParameterTask result;
-  result.id = 7;
-  result.kind = kind;
-  result.number = number;
-  result.raw = raw;
-  return result;
+ParameterRequest access(ParameterAction action, std::uint16_t number, std::int32_t raw = 0) {
+  ParameterRequest request;
+  request.id = 7;
+  request.action = action;
+  request.number = number;
+  request.raw = raw;
+  return request;
 }
-ParameterTask read(std::uint16_t number) {
-  return task(ParameterTaskKind::kRead, number);
+ParameterRequest read(std::uint16_t number) {
+  return access(ParameterAction::kRead, number);
 }
-ParameterTask writeRam(std::uint16_t number, std::int32_t raw) {
-  return task(ParameterTaskKind::kWriteRam, number, raw);
+ParameterRequest writeRam(std::uint16_t number, std::int32_t raw) {
+  return access(ParameterAction::kWriteRam, number, raw);
 }
-ParameterTask writePersistent(std::uint16_t number, std::int32_t raw) {
-  return task(ParameterTaskKind::kWritePersistent, number, raw);
+ParameterRequest writePersistent(std::uint16_t number, std::int32_t raw) {
+  return access(ParameterAction::kWritePersistent, number, raw);
 }
 
 class ParameterSessionTest : public ::testing::Test {
@@ -47,14 +51,14 @@ class ParameterSessionTest : public ::testing::Test {
     }
     FAIL() << "does not come to an end";
   }
-  ParameterTaskResult run(const ParameterTask& what) {
+  ParameterResult run(const ParameterRequest& what) {
     inverter_.asked.clear();
     EXPECT_TRUE(session_.submit(what));
     settle();
     const auto result = session_.pollResult();
     EXPECT_TRUE(result.has_value());
     EXPECT_FALSE(session_.pollResult().has_value());
-    return result.value_or(ParameterTaskResult{});
+    return result.value_or(ParameterResult{});
   }
   /// Hands the next `count` requests to the inverter.
   void steps(int count) {
@@ -66,7 +70,7 @@ class ParameterSessionTest : public ::testing::Test {
 };
 
 TEST_F(ParameterSessionTest, Reads) {
-  const ParameterTaskResult result = run(read(105));
+  const ParameterResult result = run(read(105));
   EXPECT_EQ(7u, result.id);
   EXPECT_EQ(ParameterOutcome::kDone, result.outcome);
   EXPECT_EQ(500, result.raw);
@@ -74,15 +78,16 @@ TEST_F(ParameterSessionTest, Reads) {
 }
 
 TEST_F(ParameterSessionTest, TellsWhatTheInverterRefuses) {
-  const ParameterTaskResult result = run(read(999));
+  const ParameterResult result = run(read(999));
   EXPECT_EQ(ParameterOutcome::kRefused, result.outcome);
-  EXPECT_EQ(0, result.error_number);
+  EXPECT_EQ(ParameterReason::kNoSuchParameter, result.reason);
+  EXPECT_EQ("its own words", result.text.str());
   EXPECT_EQ(999, result.refused_number);
 }
 
 // Write to the RAM: compared before, by the order that spares the EEPROM, read back after.
 TEST_F(ParameterSessionTest, WritesToTheRam) {
-  const ParameterTaskResult result = run(writeRam(102, 1000));
+  const ParameterResult result = run(writeRam(102, 1000));
   EXPECT_EQ(ParameterOutcome::kDone, result.outcome);
   EXPECT_EQ(1000, result.raw);
   EXPECT_FALSE(result.eeprom_written);
@@ -92,8 +97,8 @@ TEST_F(ParameterSessionTest, WritesToTheRam) {
 }
 
 TEST_F(ParameterSessionTest, WritesNothingThatIsThereAlready) {
-  for (const ParameterTask& same : {writeRam(102, 200), writePersistent(102, 200)}) {
-    const ParameterTaskResult result = run(same);
+  for (const ParameterRequest& same : {writeRam(102, 200), writePersistent(102, 200)}) {
+    const ParameterResult result = run(same);
     EXPECT_EQ(ParameterOutcome::kDone, result.outcome);
     EXPECT_EQ(200, result.raw);
     EXPECT_THAT(result.note, HasSubstr("nothing was written"));
@@ -103,7 +108,7 @@ TEST_F(ParameterSessionTest, WritesNothingThatIsThereAlready) {
 
 // One EEPROM cycle per persistent change (BU 2700 6.5), and P560 looked at: with 0 the value would be lost.
 TEST_F(ParameterSessionTest, WritesPersistently) {
-  const ParameterTaskResult result = run(writePersistent(102, 1000));
+  const ParameterResult result = run(writePersistent(102, 1000));
   EXPECT_EQ(ParameterOutcome::kDone, result.outcome);
   EXPECT_TRUE(result.eeprom_written);
   EXPECT_THAT(inverter_.asked, ElementsAre("P102?", "P560?", "P102=1000", "P102?"));
@@ -114,9 +119,9 @@ TEST_F(ParameterSessionTest, WritesPersistently) {
 
 TEST_F(ParameterSessionTest, RefusesAPersistentWriteThatWouldBeLost) {
   inverter_.ram[560] = 0;
-  const ParameterTaskResult result = run(writePersistent(102, 1000));
+  const ParameterResult result = run(writePersistent(102, 1000));
   EXPECT_EQ(ParameterOutcome::kRefused, result.outcome);
-  EXPECT_EQ(0, result.refused_number);
+  EXPECT_EQ(ParameterReason::kDriver, result.reason);
   EXPECT_THAT(result.note, HasSubstr("P560 = 0"));
   EXPECT_EQ(200, inverter_.ram[102]);
   EXPECT_EQ(ParameterOutcome::kDone, run(writePersistent(560, 1)).outcome);
@@ -134,34 +139,34 @@ TEST_F(ParameterSessionTest, MakesARamWritePersistent) {
 
 // ... nor when somebody else may have written it: then the request says so.
 TEST_F(ParameterSessionTest, SavesWhatSomebodyElseMayHavePutIntoTheRam) {
-  ParameterTask write = writePersistent(102, 200);
+  ParameterRequest write = writePersistent(102, 200);
   write.even_if_same = true;
   EXPECT_TRUE(run(write).eeprom_written);
   EXPECT_EQ(200, inverter_.eeprom[102]);
-  write.kind = ParameterTaskKind::kWriteRam;
+  write.action = ParameterAction::kWriteRam;
   EXPECT_FALSE(run(write).eeprom_written) << "a RAM write is compared all the same";
   EXPECT_THAT(inverter_.asked, ElementsAre("P102?"));
 }
 
 // A write that was refused has not put anything into the RAM.
 TEST_F(ParameterSessionTest, TakesARefusedRamWriteForNone) {
-  inverter_.scripted["P102~1000"] = FakeParameters::refusal(2);
-  const ParameterTaskResult refused = run(writeRam(102, 1000));
-  EXPECT_EQ(2, refused.error_number);
+  inverter_.scripted["P102~1000"] = FakeParameters::refusal(ParameterReason::kOutOfLimits);
+  const ParameterResult refused = run(writeRam(102, 1000));
+  EXPECT_EQ(ParameterReason::kOutOfLimits, refused.reason);
   EXPECT_EQ(102, refused.refused_number);
   EXPECT_FALSE(run(writePersistent(102, 200)).eeprom_written);
 }
 
 // A set is a value of its own, and more values than can be remembered are all held to be in the RAM only.
 TEST_F(ParameterSessionTest, RemembersRamWritesBySet) {
-  ParameterTask what = writeRam(102, 1000);
+  ParameterRequest what = writeRam(102, 1000);
   what.shape = ParameterShape::kPerSet;
-  what.set = 2;
+  what.parameter_set = 2;
   run(what);
-  what.kind = ParameterTaskKind::kWritePersistent;
-  what.set = 3;
+  what.action = ParameterAction::kWritePersistent;
+  what.parameter_set = 3;
   EXPECT_FALSE(run(what).eeprom_written);
-  what.set = 2;
+  what.parameter_set = 2;
   EXPECT_TRUE(run(what).eeprom_written);
   for (std::uint16_t number = 300; number < 333; ++number) {
     inverter_.ram[number] = 0;
@@ -170,10 +175,10 @@ TEST_F(ParameterSessionTest, RemembersRamWritesBySet) {
   EXPECT_TRUE(run(writePersistent(105, 500)).eeprom_written);
 }
 
-// Error 201: no AK 11..14 here. P560 = 0 for the time of a plain write, and back; remembered for the next write.
+// No write that spares the EEPROM here: P560 = 0 for the time of a plain write, and back; remembered for the next write.
 TEST_F(ParameterSessionTest, FallsBackToP560) {
   inverter_.ram_orders = false;
-  const ParameterTaskResult result = run(writeRam(102, 1000));
+  const ParameterResult result = run(writeRam(102, 1000));
   EXPECT_EQ(ParameterOutcome::kDone, result.outcome);
   EXPECT_THAT(inverter_.asked,
               ElementsAre("P102?", "P102~1000", "P560?", "P560=0", "P560?", "P102=1000", "P560=1", "P560?", "P102?"));
@@ -191,7 +196,7 @@ TEST_F(ParameterSessionTest, FallsBackToP560) {
 TEST_F(ParameterSessionTest, LeavesP560AsItWas) {
   inverter_.ram_orders = false;
   inverter_.ram[560] = 0;
-  const ParameterTaskResult result = run(writeRam(102, 1000));
+  const ParameterResult result = run(writeRam(102, 1000));
   EXPECT_EQ(ParameterOutcome::kDone, result.outcome);
   EXPECT_THAT(inverter_.asked, ElementsAre("P102?", "P102~1000", "P560?", "P102=1000", "P102?"));
   EXPECT_THAT(result.note, HasSubstr("P560 = 0"));
@@ -202,10 +207,10 @@ TEST_F(ParameterSessionTest, LeavesP560AsItWas) {
 // Whatever becomes of the write: P560 goes back.
 TEST_F(ParameterSessionTest, PutsP560BackWhenTheWriteFails) {
   inverter_.ram_orders = false;
-  inverter_.scripted["P102=1000"] = FakeParameters::refusal(2);
-  ParameterTaskResult result = run(writeRam(102, 1000));
+  inverter_.scripted["P102=1000"] = FakeParameters::refusal(ParameterReason::kOutOfLimits);
+  ParameterResult result = run(writeRam(102, 1000));
   EXPECT_EQ(ParameterOutcome::kRefused, result.outcome);
-  EXPECT_EQ(2, result.error_number);
+  EXPECT_EQ(ParameterReason::kOutOfLimits, result.reason);
   EXPECT_EQ(102, result.refused_number);
   EXPECT_EQ(1, inverter_.ram[560]);
   inverter_.scripted["P102=1000"] = FakeParameters::failure(ParameterOutcome::kTimeout);
@@ -220,7 +225,7 @@ TEST_F(ParameterSessionTest, PutsP560BackWhenTheWriteFails) {
 TEST_F(ParameterSessionTest, PutsP560BackWhenItsOwnAnswerIsMissing) {
   inverter_.ram_orders = false;
   inverter_.scripted["P560=0"] = FakeParameters::failure(ParameterOutcome::kTimeout);
-  const ParameterTaskResult result = run(writeRam(102, 1000));
+  const ParameterResult result = run(writeRam(102, 1000));
   EXPECT_EQ(ParameterOutcome::kTimeout, result.outcome);
   EXPECT_THAT(result.note, HasSubstr("not written"));
   EXPECT_EQ("P560=1", inverter_.asked.at(4));
@@ -231,7 +236,7 @@ TEST_F(ParameterSessionTest, PutsP560BackWhenItsOwnAnswerIsMissing) {
 TEST_F(ParameterSessionTest, SaysWhenP560CannotBePutBack) {
   inverter_.ram_orders = false;
   inverter_.scripted["P560=1"] = FakeParameters::failure(ParameterOutcome::kTimeout);
-  const ParameterTaskResult result = run(writeRam(102, 1000));
+  const ParameterResult result = run(writeRam(102, 1000));
   EXPECT_EQ(ParameterOutcome::kTimeout, result.outcome);
   EXPECT_THAT(result.note, HasSubstr("could not be put back"));
   EXPECT_TRUE(session_.owesEepromSwitch());
@@ -273,36 +278,51 @@ TEST_F(ParameterSessionTest, CountsP560WhenTheInverterGoes) {
 
 TEST_F(ParameterSessionTest, TellsWhenAnotherValueIsReadBack) {
   inverter_.scripted["P102~1000"] = FakeParameters::failure(ParameterOutcome::kDone);
-  const ParameterTaskResult result = run(writeRam(102, 1000));
+  const ParameterResult result = run(writeRam(102, 1000));
   EXPECT_EQ(ParameterOutcome::kRefused, result.outcome);
-  EXPECT_EQ(0, result.refused_number);
+  EXPECT_EQ(ParameterReason::kDriver, result.reason);
   EXPECT_EQ(200, result.raw);
   EXPECT_THAT(result.note, HasSubstr("reads back another"));
 }
 
-TEST_F(ParameterSessionTest, NamesTheWayOutOfError202) {
-  inverter_.scripted["P102?"] = FakeParameters::refusal(202);
-  for (const ParameterTask& what : {read(102), writeRam(102, 5)}) {
-    const ParameterTaskResult result = run(what);
-    EXPECT_EQ(202, result.error_number);
-    EXPECT_THAT(result.note, HasSubstr("PPO 2 or acyclic"));
+// Who carries the answer says what to do about it; the session adds what became of the write.
+TEST_F(ParameterSessionTest, PassesTheTransportsWordsOn) {
+  inverter_.scripted["P102?"] = FakeParameters::refusal(ParameterReason::kUnreadable);
+  ParameterResult result = run(read(102));
+  EXPECT_EQ(ParameterReason::kUnreadable, result.reason);
+  EXPECT_EQ("its own words", result.text.str());
+  EXPECT_STREQ("", result.note);
+  result = run(writeRam(102, 5));
+  EXPECT_EQ("its own words", result.text.str());
+  EXPECT_THAT(result.note, HasSubstr("nothing was written"));
+}
+
+// Said beforehand by the transport, also after the inverter has been exchanged: no order is tried that it cannot send.
+TEST_F(ParameterSessionTest, NeverAsksForWhatTheTransportCannotDo) {
+  session_ = ParameterSession{profile::ParameterCapabilities{false, true}};
+  for (int i = 0; i < 2; ++i) {
+    const ParameterResult result = run(writeRam(102, 1000 + i));
+    EXPECT_EQ(ParameterOutcome::kDone, result.outcome);
+    EXPECT_THAT(inverter_.asked, ElementsAre("P102?", "P560?", "P560=0", "P560?", "P102=" + std::to_string(1000 + i),
+                                             "P560=1", "P560?", "P102?"));
+    session_.handleOffline();
   }
 }
 
-// Error 4 to a write with an index: the parameter has no sets here; plain orders from then on.
+// "Not indexed" to a write with an index: the parameter has no sets here; plain orders from then on.
 TEST_F(ParameterSessionTest, WritesWithoutIndexWhatHasNoSets) {
-  ParameterTask what = writeRam(102, 1000);
+  ParameterRequest what = writeRam(102, 1000);
   what.shape = ParameterShape::kPerSet;
-  what.set = 3;
+  what.parameter_set = 3;
   session_.submit(what);
   steps(1);
   const auto indexed = session_.pollRequest();
   EXPECT_EQ(ParameterShape::kPerSet, indexed->shape);
   EXPECT_EQ(3, indexed->parameter_set);
-  session_.handleResult(FakeParameters::refusal(4));
+  session_.handleResult(FakeParameters::refusal(ParameterReason::kNotIndexed));
   EXPECT_EQ(ParameterShape::kPlain, session_.pollRequest()->shape);
-  session_.handleResult(FakeParameters::refusal(4));
-  EXPECT_EQ(4, session_.pollResult().value().error_number);
+  session_.handleResult(FakeParameters::refusal(ParameterReason::kNotIndexed));
+  EXPECT_EQ(ParameterReason::kNotIndexed, session_.pollResult().value().reason);
 }
 
 // A word may come back signed or not; a wider value is not equal because its low word is.
@@ -312,7 +332,7 @@ TEST_F(ParameterSessionTest, ComparesWordsAsWords) {
   inverter_.ram[613] = 0x10005;
   run(writeRam(613, 5));
   EXPECT_EQ("P613~5", inverter_.asked.at(1));
-  ParameterTask wide = writeRam(613, 0x20005);
+  ParameterRequest wide = writeRam(613, 0x20005);
   wide.double_word = true;
   run(wide);
   EXPECT_EQ("P613~131077", inverter_.asked.at(1));
@@ -320,7 +340,7 @@ TEST_F(ParameterSessionTest, ComparesWordsAsWords) {
 
 TEST_F(ParameterSessionTest, EndsEverythingWhenTheInverterIsGone) {
   for (std::uint32_t i = 0; i < 8; ++i) {
-    ParameterTask what = writePersistent(102, 1000);
+    ParameterRequest what = writePersistent(102, 1000);
     what.id = i;
     EXPECT_TRUE(session_.submit(what));
   }
@@ -330,7 +350,7 @@ TEST_F(ParameterSessionTest, EndsEverythingWhenTheInverterIsGone) {
   session_.handleOffline();
   EXPECT_EQ(1u, session_.eepromWrites());
   for (std::uint32_t i = 0; i < 8; ++i) {
-    const ParameterTaskResult result = session_.pollResult().value();
+    const ParameterResult result = session_.pollResult().value();
     EXPECT_EQ(i, result.id);
     EXPECT_EQ(ParameterOutcome::kOffline, result.outcome);
     EXPECT_EQ(i == 0, result.eeprom_written);
@@ -347,7 +367,7 @@ RC_GTEST_PROP(ParameterSessionProperty, NeverForgetsP560, ()) {
   inverter.ram_orders = *rc::gen::arbitrary<bool>();
   const auto kinds = *rc::gen::container<std::vector<int>>(5, rc::gen::inRange(0, 3));
   for (const int kind : kinds) {
-    RC_ASSERT(session.submit(task(static_cast<ParameterTaskKind>(kind), 102, *rc::gen::inRange(0, 4))));
+    RC_ASSERT(session.submit(access(static_cast<ParameterAction>(kind), 102, *rc::gen::inRange(0, 4))));
   }
   for (int i = 0; i < 400; ++i) {
     const auto request = session.pollRequest();
@@ -356,7 +376,7 @@ RC_GTEST_PROP(ParameterSessionProperty, NeverForgetsP560, ()) {
     if (fate == 0) {
       session.handleResult(inverter.carryOut(*request));
     } else if (fate == 1) {
-      session.handleResult(FakeParameters::refusal(2));
+      session.handleResult(FakeParameters::refusal(ParameterReason::kOutOfLimits));
     } else if (fate == 2) {  // carried out, but the answer is lost
       inverter.carryOut(*request);
       session.handleResult(FakeParameters::failure(ParameterOutcome::kTimeout));

@@ -4,6 +4,7 @@
 
 #include "node/node_config.h"
 #include "node/parameters.h"
+#include "node/ros_settings.h"
 #include "node/wheel_state_publisher.h"
 
 namespace nord_driver::node {

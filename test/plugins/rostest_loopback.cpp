@@ -10,9 +10,9 @@
 #include <cmath>
 #include <string>
 
-#include "node/robot_under_test.h"
 #include "nord_driver/ReadParameter.h"
 #include "nord_driver/WriteParameter.h"
+#include "rostest/robot_under_test.h"
 
 namespace nord_driver::test {
 namespace {
@@ -105,7 +105,7 @@ TEST_F(ForeignTransport, ItsEndPointIsTheOneOfTheLaunchFile) {
   EXPECT_EQ("loopback place 7", diagnosticsOf("drive belt", "address"));
 }
 
-TEST_F(ForeignTransport, ItsParameterErrorsReachTheUser) {
+TEST_F(ForeignTransport, ItsParameterErrorsAreToldInItsOwnWords) {
   ReadParameter read;
   read.request.number = 105;
   EXPECT_TRUE(callService("nord_driver/belt/read_parameter", read).success);
@@ -113,13 +113,13 @@ TEST_F(ForeignTransport, ItsParameterErrorsReachTheUser) {
   read.request.number = 999;
   const Answer unknown = callService("nord_driver/belt/read_parameter", read);
   EXPECT_FALSE(unknown.success);
-  EXPECT_THAT(unknown.message, HasSubstr("drive belt refuses P999"));
+  EXPECT_THAT(unknown.message, HasSubstr("loopback error 1, nobody has told this drive of such a parameter"));
   WriteParameter write;
   write.request.number = 102;
   write.request.value = 200.0;
   const Answer refused = callService("nord_driver/belt/write_parameter", write);
   EXPECT_FALSE(refused.success);
-  EXPECT_THAT(refused.message, HasSubstr("drive belt refuses P102"));
+  EXPECT_THAT(refused.message, HasSubstr("loopback error 2, that is more than this drive can remember"));
 }
 
 }  // namespace

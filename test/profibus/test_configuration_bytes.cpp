@@ -11,8 +11,8 @@ std::string lengths(const char* configuration) {
   return std::to_string(found->outputs) + " out, " + std::to_string(found->inputs) + " in";
 }
 
-// PPO 1 to 4 of a module with ident 7531h: 12, 20, 4 and 12 bytes (BU 0020 7.2); of 0BA8h: 12, 16, 4 and 8 (BU
-// 0220 8.2, P182).
+// PPO 1 to 4 of a module with ident 7531h: 12, 20, 4 and 12 bytes (BU 0020 7.2); of 0BA8h: 12, 16, 4 and 8
+// (BU 0220 8.2, P182).
 TEST(ConfigurationBytes, OfNordModules) {
   EXPECT_EQ("12 out, 12 in", lengths("F3 F1"));
   EXPECT_EQ("20 out, 20 in", lengths("F3 F5"));

@@ -24,7 +24,7 @@ TEST(DiagnosisBlocks, OfAModularStation) {
   const auto identifier = source.next();
   ASSERT_TRUE(identifier);
   EXPECT_EQ(DiagnosisBlockKind::kIdentifier, identifier->kind);
-  for (std::size_t module = 0; module < 40; ++module) EXPECT_EQ(module == 8, identifier->isModuleAffected(module));
+  EXPECT_EQ(fromHex("00 01 00"), identifier->content());
   const auto channel = source.next();
   ASSERT_TRUE(channel);
   EXPECT_EQ(DiagnosisBlockKind::kChannel, channel->kind);

@@ -67,9 +67,9 @@ class Trouble {
 };
 
 // The master alone; with drives and a base on top of it: test/system/test_fault_sequences.cpp. Lost, doubled and turned
-// bytes, late answers, slaves gone and back, in 3000 repeatable sequences. After each: both
-// slaves are in data exchange again within the longest pause (2 s) and a start-up; every loss was counted and told;
-// every request was answered or timed out; every byte was in a telegram or discarded.
+// bytes, late answers, slaves gone and back, in 3000 repeatable sequences. After each: both slaves are in
+// data exchange again within the longest pause (2 s) and a start-up; every loss was counted and told; every request
+// was answered or timed out; every byte was in a telegram or discarded.
 TEST(FaultSequences, ServiceIsRestoredAndEverythingCounted) {
   std::uint64_t losses = 0, retries = 0, refusals = 0, unexpected = 0;
   for (std::uint32_t seed = 1; seed <= kSequences && !testing::Test::HasFailure(); ++seed) {

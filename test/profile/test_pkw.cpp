@@ -90,7 +90,6 @@ TEST(Pkw, TakesNoAnswerOfAnotherOrder) {
 TEST(Pkw, ReadsTheErrorNumber) {
   const PkwAnswer answer = toAnswer({0x744E, 0x0200, 0, 201});
   EXPECT_EQ(201, answer.error_number);
-  EXPECT_STRNE(pkwErrorText(201), pkwErrorText(8));
   EXPECT_TRUE(answers(order(OrderLabel::kWriteArrayWordRam, 102, 0x0200, 7), answer));
 }
 
@@ -101,8 +100,25 @@ TEST(Pkw, HasWordsForEveryListedLabelAndError) {
   EXPECT_STREQ("unknown answer", answerText(8));
   const std::uint16_t listed[] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 101, 102, 103, 201, 202};
   for (const std::uint16_t number : listed) {
-    EXPECT_STRNE(pkwErrorText(8), pkwErrorText(number)) << number;
+    EXPECT_EQ(std::string::npos, pkwErrorText(number).str().find("do not list")) << number;
+    EXPECT_NE(ParameterReason::kNone, pkwReason(number)) << number;
   }
+  EXPECT_EQ("PKW error 8, an error number the manuals do not list", pkwErrorText(8).str());
+  EXPECT_EQ(ParameterReason::kOther, pkwReason(8));
+}
+
+// What the driver acts on (BU 2700 6.5.1.1, the table of error messages in PWE2).
+TEST(Pkw, TellsTheReasonOfAnError) {
+  EXPECT_EQ(ParameterReason::kNoSuchParameter, pkwReason(0));
+  EXPECT_EQ(ParameterReason::kReadOnly, pkwReason(1));
+  EXPECT_EQ(ParameterReason::kOutOfLimits, pkwReason(2));
+  EXPECT_EQ(ParameterReason::kNoSuchElement, pkwReason(3));
+  EXPECT_EQ(ParameterReason::kNotIndexed, pkwReason(4));
+  EXPECT_EQ(ParameterReason::kNoInverter, pkwReason(101));
+  EXPECT_EQ(ParameterReason::kNoInverter, pkwReason(102));
+  EXPECT_EQ(ParameterReason::kNotSupported, pkwReason(201)) << "no order that spares the EEPROM";
+  EXPECT_EQ(ParameterReason::kUnreadable, pkwReason(202));
+  EXPECT_NE(std::string::npos, pkwErrorText(202).str().find("use PPO 2 or acyclic access")) << "the way out of it";
 }
 
 }  // namespace

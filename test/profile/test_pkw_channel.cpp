@@ -182,7 +182,8 @@ TEST_F(PkwChannelTest, ReportsTheInvertersRefusal) {
   const auto result = channel_.pollResult();
   ASSERT_TRUE(result.has_value());
   EXPECT_EQ(ParameterOutcome::kRefused, result->outcome);
-  EXPECT_EQ(201, result->error_number);
+  EXPECT_EQ(ParameterReason::kNotSupported, result->reason);
+  EXPECT_EQ(pkwErrorText(201).str(), result->text.str());
 }
 
 // Error 4, "no array": the parameter has no sets in this inverter; read once more without an index.
@@ -244,11 +245,27 @@ TEST_F(PkwChannelTest, RefusesWhatNoOrderCanSay) {
   request = read(105, ParameterShape::kPerSet);
   request.parameter_set = 5;
   channel_.submit(request, now_);
-  EXPECT_EQ(3, channel_.pollResult()->error_number);
+  EXPECT_EQ(ParameterReason::kNoSuchElement, channel_.pollResult()->reason);
   request = read(546, ParameterShape::kArrayPerSet);
   request.index = 65;
   channel_.submit(request, now_);
-  EXPECT_EQ(3, channel_.pollResult()->error_number);
+  EXPECT_EQ(ParameterReason::kNoSuchElement, channel_.pollResult()->reason);
+}
+
+// A request that is refused at once takes nothing from the one that runs: neither its time nor its fall-back.
+TEST_F(PkwChannelTest, ARefusalAtOnceLeavesTheRunningRequestItsDeadline) {
+  channel_.submit(read(105, ParameterShape::kPerSet, 1), now_);
+  const Instant start = now_;
+  std::optional<ParameterResult> ended;
+  while (!ended) {
+    ASSERT_LE(now_ - start, kTimeout + kCycle);
+    exchange(kNothing);
+    channel_.submit(read(1000, ParameterShape::kPlain, 2), now_);
+    while (const auto result = channel_.pollResult()) {
+      if (result->id == 1) ended = result;
+    }
+  }
+  EXPECT_EQ(ParameterOutcome::kTimeout, ended->outcome);
 }
 
 // An order that went out before the inverter was lost may still be answered: nothing is asked before "no answer".

@@ -56,12 +56,12 @@ TEST(DiffDriveKinematics, MultipliersAct) {
   changed.left_wheel_radius_multiplier = 0.5;
   changed.right_wheel_radius_multiplier = 2.0;
   const DiffDriveKinematics kinematics{changed};
-  EXPECT_DOUBLE_EQ(1.0, kinematics.wheelSeparation());
-  EXPECT_DOUBLE_EQ(0.05, kinematics.leftWheelRadius());
-  EXPECT_DOUBLE_EQ(0.2, kinematics.rightWheelRadius());
   const WheelSpeeds wheels = kinematics.wheels({1.0, 0.0});
   EXPECT_DOUBLE_EQ(20.0, wheels[0]);
   EXPECT_DOUBLE_EQ(5.0, wheels[1]);
+  const WheelSpeeds turning = kinematics.wheels({0.0, 1.0});
+  EXPECT_DOUBLE_EQ(-10.0, turning[0]);
+  EXPECT_DOUBLE_EQ(2.5, turning[1]);
 }
 
 // Taken over as if built so; sizes that cannot be leave it as it was.

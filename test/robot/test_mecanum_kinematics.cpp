@@ -68,8 +68,8 @@ TEST(MecanumKinematics, MultipliersAct) {
   changed.wheel_separation_multiplier = 2.0;
   changed.left_wheel_radius_multiplier = 0.5;
   const MecanumKinematics kinematics{changed};
-  EXPECT_DOUBLE_EQ(1.0, kinematics.lever());
   EXPECT_EQ((WheelSpeeds{20.0, 20.0, 10.0, 10.0}), kinematics.wheels({1.0, 0.0}));
+  EXPECT_EQ((WheelSpeeds{-20.0, -20.0, 10.0, 10.0}), kinematics.wheels({0.0, 1.0}));
 }
 
 // Taken over as if built so; sizes that cannot be leave it as it was.

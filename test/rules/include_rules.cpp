@@ -16,11 +16,11 @@ using Names = std::set<std::string>;
 const std::map<std::string, Names>& table() {
   static const Names kTransport{"core",      "config",   "profile", "profibus", "canopen",
                                 "devicenet", "interbus", "link",    "trace"};
-  static const Names kTools{"core", "config",    "trace", "profile", "profibus", "canopen", "devicenet", "interbus",
-                            "link", "transport", "robot", "drive",   "cycle",    "sim",     "plugins"};
-  static const Names kNode{"core",      "config",   "trace",   "profile",   "profibus",   "canopen",
-                           "devicenet", "interbus", "link",    "transport", "robot",      "drive",
-                           "cycle",     "sim",      "plugins", "tools",     "ros_support"};
+  static const Names kTools{"core",     "config", "catalogue", "trace", "profile", "profibus", "canopen", "devicenet",
+                            "interbus", "link",   "transport", "robot", "drive",   "cycle",    "sim",     "plugins"};
+  static const Names kNode{"core",    "config",    "catalogue", "trace",   "profile",   "profibus",
+                           "canopen", "devicenet", "interbus",  "link",    "transport", "robot",
+                           "drive",   "cycle",     "sim",       "plugins", "tools",     "ros_support"};
   static const std::map<std::string, Names> kTable{
       {"core", {}},
       {"profile", {"core"}},
@@ -29,28 +29,30 @@ const std::map<std::string, Names>& table() {
       {"devicenet", {"core"}},
       {"interbus", {"core"}},
       {"link", {"core"}},
-      {"config", {"core"}},
+      {"config", {"core", "profile"}},
+      {"catalogue", {"core", "config", "profile"}},
       {"trace", {"core", "profile", "config", "transport", "cycle"}},
       {"robot", {"core"}},
       {"transport", kTransport},
       {"drive", {"core", "profile"}},
-      {"cycle", {"core", "config", "profile", "drive", "transport", "robot", "trace"}},
+      {"cycle", {"core", "config", "profile", "drive", "transport", "robot"}},
       {"sim", {"core", "link"}},
       {"sim_node", {"core", "link", "sim", "ros_support"}},
       {"plugins", {"core", "transport"}},
       {"tools", kTools},
       {"node", kNode},
-      {"system", kNode},                             // tests of the whole stack, without ROS
-      {"support", {"core", "config", "transport"}},  // what tests of several folders share
-      {"ros_support", {}},                           // the same for those with ROS
-      {"socketcan", {"node"}},                       // tests of link/ and of the nodes that need a kernel with CAN
+      {"system", kNode},                                // tests of the whole stack, without ROS
+      {"support", {"core", "config", "transport"}},     // what tests of several folders share
+      {"ros_support", {}},                              // the same for those with ROS
+      {"rostest", {"node", "support", "ros_support"}},  // the programs as their users meet them
+      {"socketcan", {"rostest"}},                       // tests of link/ and of the nodes that need a kernel with CAN
       {"rules", {}},
   };
   return kTable;
 }
 
 const Names kPure{"core", "profile", "profibus", "canopen", "devicenet", "interbus", "robot", "drive"};
-const Names kWithRos{"node", "sim_node", "plugins", "tools", "ros_support"};
+const Names kWithRos{"node", "sim_node", "plugins", "tools", "rostest", "ros_support"};
 const Names kForEveryTest{"sim", "link", "core", "support"};
 const Names kThreads{"thread", "mutex", "shared_mutex", "condition_variable", "future"};
 
@@ -118,15 +120,17 @@ std::string layerOf(const std::string& header, bool quoted, const std::string& o
 /// simulator's own tests, like the simulator, stay away from the driver.
 bool mayUse(const Place& place, const std::string& used) {
   if (used == place.layer) return true;
-  if (place.is_test && place.layer == "node") return true;
-  if (place.is_test && place.layer == "plugins" && used == "node") return true;  // a rostest, with the helpers of those
+  if (place.is_test && (place.layer == "node" || place.layer == "rostest")) return true;
+  if (place.is_test && place.layer == "plugins" && used == "rostest") return true;  // one of its own
   if (place.is_test && place.layer != "rules" && kForEveryTest.count(used) != 0) return true;
   return table().at(place.layer).count(used) != 0;
 }
 
 std::string reasonAgainst(const Place& place, const std::string& header, bool quoted) {
   if (header.find("..") != std::string::npos) return "goes up by '..'; name the header from its root";
-  if (isRos(header)) {
+  // rostest is a package of ROS and a folder of ours.
+  const bool own_rostest = quoted && startsWith(header, "rostest/");
+  if (isRos(header) && !own_rostest) {
     return kWithRos.count(place.layer) != 0 ? "" : "is ROS, which " + place.layer + "/ must not know";
   }
   const std::string used = layerOf(header, quoted, place.layer);

@@ -71,6 +71,9 @@ TEST(IncludeRules, RosOutsideItsFoldersIsFound) {
     EXPECT_THAT(about("src/node/node.cpp", "#include <" + std::string(header) + ">"), IsEmpty()) << header;
   }
   EXPECT_THAT(about("test/profile/test_word.cpp", "#include <ros/ros.h>"), ElementsAre(HasSubstr("is ROS")));
+  EXPECT_THAT(about("test/profile/test_word.cpp", "#include <rostest/permuter.h>"), ElementsAre(HasSubstr("is ROS")));
+  EXPECT_THAT(about("test/profile/test_word.cpp", "#include \"rostest/topic.h\""),
+              ElementsAre(HasSubstr("rostest/, which profile/ must not use")));
 }
 
 // The pure layers are handed everything: no thread, no socket, no clock, no waiting.

@@ -6,6 +6,7 @@
 
 #include "rules/build_rules.h"
 #include "rules/dependency_rules.h"
+#include "rules/document_rules.h"
 #include "rules/include_rules.h"
 #include "rules/name_rules.h"
 #include "rules/source_tree.h"
@@ -65,6 +66,11 @@ TEST(Project, EverySourceIsListed) {
 // What rosdep, apt and CMake are told is the same.
 TEST(Project, DependenciesAreNamedAlikeEverywhere) {
   EXPECT_EQ("", list(checkDependencies(project(), dependencies())));
+}
+
+// Whoever follows a document finds what it names.
+TEST(Project, DocumentsNameOnlyWhatExists) {
+  EXPECT_EQ("", list(checkDocuments(project(), foreignNames())));
 }
 
 }  // namespace

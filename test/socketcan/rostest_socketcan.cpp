@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "node/robot_under_test.h"
+#include "rostest/robot_under_test.h"
 #include "socketcan/network.h"
 
 namespace nord_driver::test {

@@ -49,7 +49,7 @@ void expectSharedTimeout(DrivenRobot& robot, Module& module) {
   EXPECT_TRUE(answer.success) << answer.message.c_str();
   answer = parameter(robot, cycle::RequestKind::kReadParameter, kRearLeft, 151);
   EXPECT_TRUE(answer.success) << answer.message.c_str();
-  EXPECT_EQ(500, answer.raw);
+  EXPECT_EQ(500, answer.parameter.raw);
   EXPECT_EQ(500, module.parameters().value(151));
 }
 

@@ -121,7 +121,7 @@ TEST_P(FourInvertersOnCan, HaveParametersOfTheirOwn) {
   }
   for (const DriveIndex drive : {kLeft, kRight, kRearLeft, kRearRight}) {
     EXPECT_EQ(static_cast<std::int32_t>(300 + 10 * drive), robot_.unit(drive).parameters().value(103, 0));
-    EXPECT_EQ(static_cast<std::int32_t>(300 + 10 * drive), read(drive, 103, Shape::kPerSet).raw);
+    EXPECT_EQ(static_cast<std::int32_t>(300 + 10 * drive), read(drive, 103, Shape::kPerSet).parameter.raw);
   }
   robot_.unit(kRearLeft).parameters().preset(420, 0, 1, 10);
   cycle::Request request;
@@ -133,8 +133,8 @@ TEST_P(FourInvertersOnCan, HaveParametersOfTheirOwn) {
   request.parameter.action = profile::ParameterAction::kRead;
   const cycle::Completion answer = robot_.ask(request);
   EXPECT_TRUE(answer.success) << answer.message.c_str();
-  EXPECT_EQ(10, answer.raw);
-  EXPECT_THAT(read(kRearLeft, 508).message.c_str(), HasSubstr("SDO abort 06020000"))
+  EXPECT_EQ(10, answer.parameter.raw);
+  EXPECT_THAT(read(kRearLeft, 508).message.c_str(), HasSubstr("SDO abort 0602 0000h"))
       << "the PROFIBUS address is the module's, not the inverter's";
 }
 

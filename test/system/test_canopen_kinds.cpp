@@ -184,7 +184,7 @@ TEST(CanopenKinds, Cia402IsNotScaledByAReadOfTheUser) {
     request.parameter.parameter_set = set;
     robot.ports().submit(request);
     robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{1});
-    ASSERT_EQ(1000, robot.completions().back().raw);
+    ASSERT_EQ(1000, robot.completions().back().parameter.raw);
   };
   readWhileDriving(3);
   readWhileDriving(1);

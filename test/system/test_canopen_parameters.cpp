@@ -34,7 +34,7 @@ TEST(CanopenParameterAccess, AWriteIsTheManualsFrame) {
   });
   const auto answer = robot.ask(access(kAccelerationTime, 103, profile::ParameterAction::kWritePersistent));
   EXPECT_TRUE(answer.success) << answer.message.c_str();
-  EXPECT_EQ(103, answer.raw);
+  EXPECT_EQ(103, answer.parameter.raw);
   EXPECT_THAT(frames, ::testing::Contains("2B 66 20 01 67 00 00 00"));
   EXPECT_EQ(103, robot.unit(0).parameters().value(kAccelerationTime, 0));
 }
@@ -80,11 +80,11 @@ TEST(CanopenParameterAccess, AnAbortIsToldInWords) {
   const auto limits = robot.ask(access(kAccelerationTime, -5, profile::ParameterAction::kWritePersistent));
   EXPECT_FALSE(limits.success);
   EXPECT_THAT(limits.message.c_str(),
-              HasSubstr("drive left refuses P102: SDO abort 06090032, the value is beyond the lower or upper limit"));
+              HasSubstr("drive left refuses P102: SDO abort 0609 0032h, the value is below the lower limit"));
   const auto unknown = robot.ask(access(999, 0, profile::ParameterAction::kRead));
   EXPECT_FALSE(unknown.success);
   EXPECT_THAT(unknown.message.c_str(),
-              HasSubstr("drive left refuses P999: SDO abort 06020000, the inverter has no parameter of this number"));
+              HasSubstr("drive left refuses P999: SDO abort 0602 0000h, the inverter has no parameter of this number"));
 }
 
 // Answers that take a quarter of a second: the cycle goes on, and the answer comes when it comes.
@@ -106,7 +106,7 @@ TEST(CanopenParameterAccess, ASlowServerDelaysNoCycle) {
   }
   EXPECT_LE(longest, milliseconds{3});
   EXPECT_TRUE(robot.snapshot().base.enabled);
-  EXPECT_EQ(200, robot.ask(access(kAccelerationTime, 0, profile::ParameterAction::kRead)).raw);
+  EXPECT_EQ(200, robot.ask(access(kAccelerationTime, 0, profile::ParameterAction::kRead)).parameter.raw);
 }
 
 // A server that never answers: a time-out in words, the drive stays.

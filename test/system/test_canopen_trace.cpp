@@ -37,7 +37,7 @@ void live(CanRobot& robot) {
 }
 
 std::string pcapOf(const TelegramTrace& trace) {
-  Pcap pcap{trace.linkType()};
+  trace::Pcap pcap{trace.linkType()};
   for (const TraceRecord& record : trace.copy()) {
     pcap.add(std::chrono::floor<std::chrono::microseconds>(record.time.time_since_epoch()), record.view());
   }

@@ -26,8 +26,8 @@ TEST(Driving, BeyondFullSpeedTheWholeBaseIsScaled) {
   EXPECT_EQ("no rule broken", robot.segment().referee().report());
 }
 
-// At most 1 cm in 1 m, with slip, ramps and friction; the odometry's velocity is the output frequency's (BU
-// 2700 6.4.4).
+// At most 1 cm in 1 m, with slip, ramps and friction; the odometry's velocity is the output frequency's
+// (BU 2700 6.4.4).
 TEST(Driving, TheWayIsTrueToACentimetreInAMetre) {
   for (const int wheels_a_side : {1, 2}) {
     SimulatedRobot::Options options;

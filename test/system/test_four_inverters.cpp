@@ -52,7 +52,7 @@ TEST_F(FourInverters, TellWhatWatchesTheBus) {
 TEST_F(FourInverters, ShareTheParametersOfTheirModule) {
   expectSharedTimeout(robot_, module());
   const cycle::Completion answer = parameter(robot_, cycle::RequestKind::kReadParameter, kRearLeft, 199);
-  EXPECT_THAT(answer.message.c_str(), HasSubstr("drive rear_left refuses P199: error 0"));
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("drive rear_left refuses P199: PKW error 0"));
 }
 
 // As long as one of them is not acknowledged, the module stays in its time-out.

@@ -65,8 +65,8 @@ TEST_F(LongRun, AnHourOfRamWritesAndSetSwitchingLeavesTheEepromAlone) {
     ASSERT_TRUE(written.success) << written.message.c_str();
     const cycle::Completion seen = read(drive, set);
     ASSERT_TRUE(seen.success) << seen.message.c_str();
-    ASSERT_EQ(static_cast<std::int32_t>(seconds * 100), seen.raw);
-    ASSERT_EQ(seen.raw, robot_.unit(drive).parameters().value(kAccelerationTime, set - 1u));
+    ASSERT_EQ(static_cast<std::int32_t>(seconds * 100), seen.parameter.raw);
+    ASSERT_EQ(seen.parameter.raw, robot_.unit(drive).parameters().value(kAccelerationTime, set - 1u));
   }
   EXPECT_LT(3600u, rounds) << "more than one a second";
   for (const DriveIndex drive : {kLeft, kRight}) {

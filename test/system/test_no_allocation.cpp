@@ -17,6 +17,7 @@
 #include "sim/profibus/pty_bus.h"
 #include "support/count_allocations.h"
 #include "support/map_settings.h"
+#include "trace/trace_feed.h"
 #include "transport/profibus/profibus_dp.h"
 
 namespace nord_driver::test {
@@ -86,6 +87,7 @@ class NoAllocation : public ::testing::TestWithParam<bool> {
     const MapSettings bus{"~bus/", {{"device", bus_.devicePath()}, {"watchdog", 5.0}, {"slot_time", 0.05}}};
     transport_.configure(bus, drives, config.cycle_rate);
     ports_ = std::make_unique<cycle::CyclePorts>(drives.size());
+    ports_->setObserver(&feed_);
     cycle_ = std::make_unique<cycle::BusCycle>(config, transport_, *ports_, false);
     thread_ = std::make_unique<cycle::CycleThread>(*cycle_, transport_, cycle::RealTimeOptions{});
   }
@@ -138,6 +140,7 @@ class NoAllocation : public ::testing::TestWithParam<bool> {
   std::string link_path_;
   sim::PtyBus bus_;
   CountingTransport transport_;
+  trace::TraceFeed feed_{2};
   std::unique_ptr<cycle::CyclePorts> ports_;
   std::unique_ptr<cycle::BusCycle> cycle_;
   std::unique_ptr<cycle::CycleThread> thread_;
@@ -153,7 +156,7 @@ TEST_P(NoAllocation, InTheCyclesThreadOverALossAndAParameterRead) {
   ASSERT_TRUE(runCycles(20));
 
   EXPECT_TRUE(waitFor([this] { return bothRead(); }));
-  EXPECT_EQ(500, ask(cycle::RequestKind::kReadParameter, 105).raw);
+  EXPECT_EQ(500, ask(cycle::RequestKind::kReadParameter, 105).parameter.raw);
   EXPECT_FALSE(ask(cycle::RequestKind::kReadParameter, 999).success);
   ports_->tuneBase({1.1, 0.9, 1.05, true});
   EXPECT_TRUE(ask(cycle::RequestKind::kEnable).success);

@@ -6,6 +6,7 @@
 
 #include "support/count_allocations.h"
 #include "system/can_robot.h"
+#include "trace/trace_feed.h"
 
 namespace nord_driver::test {
 namespace {
@@ -13,6 +14,8 @@ namespace {
 TEST(CanopenNoAllocation, InTheCycle) {
   if (!kCanCountAllocations) GTEST_SKIP();
   CanRobot robot;
+  trace::TraceFeed feed{2};
+  robot.ports().setObserver(&feed);
   ASSERT_TRUE(robot.bringUpAndEnable());
   robot.drive(0.2, 0.1, std::chrono::seconds{1});
   const auto driveCounted = [&](Duration span) { return countAllocations([&] { robot.drive(0.2, 0.1, span); }); };

@@ -69,22 +69,25 @@ TEST_P(ParameterErrors, OfAnOrderAreTold) {
 INSTANTIATE_TEST_SUITE_P(
     Bu2700, ParameterErrors,
     ::testing::Values(
-        ByAnOrder{0, {999}, {}, "drive left refuses P999: error 0, the inverter has no parameter of this number"},
-        ByAnOrder{1,
-                  {743, 0, 9.0},
-                  {},
-                  "drive left refuses P743: error 1, the parameter cannot be changed (it is read-only, or P509 does "
-                  "not select this bus)"},
+        ByAnOrder{0, {999}, {}, "drive left refuses P999: PKW error 0, the inverter has no parameter of this number"},
         ByAnOrder{
-            2, {102, 0, 400.0}, {}, "drive left refuses P102: error 2, the value is beyond the lower or upper limit"},
-        ByAnOrder{3, {701, 6}, {}, "drive left refuses P701: error 3, the sub-index is wrong"},
-        ByAnOrder{4, {420, 2}, {}, "drive left refuses P420: error 4, the parameter is no array"},
-        ByAnOrder{5, {613, 0, 1.0}, {}, "drive left refuses P613: error 5, the data type is wrong"},
+            1,
+            {743, 0, 9.0},
+            {},
+            "drive left refuses P743: PKW error 1, the parameter cannot be changed (it is read-only, or P509 does "
+            "not select this bus)"},
+        ByAnOrder{2,
+                  {102, 0, 400.0},
+                  {},
+                  "drive left refuses P102: PKW error 2, the value is beyond the lower or upper limit"},
+        ByAnOrder{3, {701, 6}, {}, "drive left refuses P701: PKW error 3, the sub-index is wrong"},
+        ByAnOrder{4, {420, 2}, {}, "drive left refuses P420: PKW error 4, the parameter is no array"},
+        ByAnOrder{5, {613, 0, 1.0}, {}, "drive left refuses P613: PKW error 5, the data type is wrong"},
         ByAnOrder{202,
                   {613},
                   withoutDoubleWords(),
-                  "drive left refuses P613: error 202, the internal answer label cannot be represented (try PPO 2 or "
-                  "acyclic access); the answer does not fit this process data type: use PPO 2 or acyclic access"}),
+                  "drive left refuses P613: PKW error 202, the internal answer label cannot be represented: the answer "
+                  "does not fit this process data type, use PPO 2 or acyclic access"}),
     [](const auto& test) { return "Error" + std::to_string(test.param.error); });
 
 // 201 is no end of it: the write goes the other way, and the user is told what that cost.
@@ -134,7 +137,7 @@ TEST_P(AnsweredErrors, AreTold) {
   robot.unit(kLeft).setParameterSwitches(switches);
   // An inverter that is not there is not asked any more.
   const bool absent = row.error == 101 || row.error == 102;
-  const std::string head = "drive left refuses P103: error " + std::to_string(row.error) + ", ";
+  const std::string head = "drive left refuses P103: PKW error " + std::to_string(row.error) + ", ";
   EXPECT_EQ(head + row.told, answerTo(robot, {103}));
   // Nothing that was not read is written over.
   EXPECT_EQ((absent ? "drive left does not answer" : head + row.told) +

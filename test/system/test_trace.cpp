@@ -14,6 +14,7 @@
 
 #include "system/simulated_robot.h"
 #include "trace/fault_tracer.h"
+#include "trace/trace_feed.h"
 #include "trace/trace_writer.h"
 
 namespace nord_driver::test {
@@ -31,16 +32,17 @@ class TraceOfARobot : public ::testing::Test {
   TraceOfARobot() {
     char name[] = "/tmp/nord_driver_system_trace.XXXXXX";
     directory_ = mkdtemp(name);
+    robot_.ports().setObserver(&feed_);
   }
   ~TraceOfARobot() override { std::filesystem::remove_all(directory_); }
 
-  cycle::TraceClock clock() {
+  trace::TraceClock clock() {
     const Instant now = robot_.transport().now();
     return {now, std::chrono::system_clock::time_point{std::chrono::seconds{1'700'000'000}}};
   }
   /// Drives on for `span` and returns what was written meanwhile.
-  std::vector<cycle::TraceResult> drive(cycle::FaultTracer& tracer, Duration span) {
-    std::vector<cycle::TraceResult> results;
+  std::vector<trace::TraceResult> drive(trace::FaultTracer& tracer, Duration span) {
+    std::vector<trace::TraceResult> results;
     const Instant end = robot_.transport().now() + span;
     while (robot_.transport().now() < end) {
       robot_.drive(kHalfSpeed, 0.0, std::chrono::milliseconds{10});
@@ -61,17 +63,18 @@ class TraceOfARobot : public ::testing::Test {
 
   std::string directory_;
   SimulatedRobot robot_;
+  trace::TraceFeed feed_{2};
 };
 
 // One fault, one trace, with the 32 cycles before it and the telegrams on both sides of it.
 TEST_F(TraceOfARobot, AFaultIsWrittenWithItsPast) {
   ASSERT_TRUE(robot_.bringUpAndEnable());
-  cycle::TraceWriter writer{
+  trace::TraceWriter writer{
       {directory_, 20},
       {{"left", robot_.transport().identity(0).address}, {"right", robot_.transport().identity(1).address}},
       robot_.transport().trace(),
-      robot_.ports().trace().history()};
-  cycle::FaultTracer tracer{robot_.ports().trace(), writer};
+      feed_.history()};
+  trace::FaultTracer tracer{feed_, writer};
   EXPECT_TRUE(drive(tracer, std::chrono::seconds{4}).empty());
 
   robot_.unit(0).inverter().trip(kOvercurrent, false);
@@ -113,8 +116,8 @@ TEST_F(TraceOfARobot, AFaultIsWrittenWithItsPast) {
 TEST_F(TraceOfARobot, TcpdumpReadsThePcap) {
   if (std::system("tcpdump --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "tcpdump is not installed";
   ASSERT_TRUE(robot_.bringUp());
-  cycle::TraceWriter writer{
-      {directory_, 20}, {{"left", ""}, {"right", ""}}, robot_.transport().trace(), robot_.ports().trace().history()};
+  trace::TraceWriter writer{
+      {directory_, 20}, {{"left", ""}, {"right", ""}}, robot_.transport().trace(), feed_.history()};
   std::string path = writer.writeNow(clock()).message;
   path.replace(path.size() - 3, 3, "pcap");
   std::string said;

@@ -93,8 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Canopen, WhatStopsWhat,
                                             ::testing::ValuesIn(stopRows())),
                          nameOfStop);
 
-/// "A node changes state unasked": here by the commands of others, and by a
-/// restart of its own.
+/// "A node changes state unasked": here by the commands of others, and by a restart of its own.
 StopRow stateRow(const char* name, void (*cause)(WhatStopsWhat&)) {
   return {name, Known::kNodeState, Reaction::kOneIsGone, After::kLatched, kInterrupted, cause};
 }

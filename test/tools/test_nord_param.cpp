@@ -109,11 +109,11 @@ TEST_F(NordParam, WritesIntoTheRamAndNotTwice) {
 TEST_F(NordParam, NamesWhatTheInverterRefuses) {
   const Ended read = run({"read", "left", "P999"});
   EXPECT_EQ(1, read.code);
-  EXPECT_EQ("nord_param: drive left refuses P999: error 0, the inverter has no parameter of this number\n",
+  EXPECT_EQ("nord_param: drive left refuses P999: PKW error 0, the inverter has no parameter of this number\n",
             read.errors);
   const Ended write = run({"write", "left", "P105", "6000"});
   EXPECT_EQ(1, write.code);
-  EXPECT_THAT(write.errors, StartsWith("nord_param: drive left refuses P105: error 2, "));
+  EXPECT_THAT(write.errors, StartsWith("nord_param: drive left refuses P105: PKW error 2, "));
 }
 
 TEST_F(NordParam, RefusesAValueBeyondTheCatalogue) {

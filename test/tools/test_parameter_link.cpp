@@ -246,7 +246,37 @@ TEST(ParameterLink, NamesAModuleThatRefusesRecords) {
   link.connect(seconds{5}, not_asked);
   const ParameterAnswer answer = link.read(parameter(105));
   EXPECT_FALSE(answer.success);
-  EXPECT_THAT(answer.message, HasSubstr("the bus module of drive one refuses acyclic requests (DP-V1): it answers RS"));
+  EXPECT_THAT(
+      answer.message,
+      HasSubstr("no parameter channel reaches P105 of drive one: its bus module refuses acyclic requests (DP-V1): it "
+                "answers RS"));
+}
+
+// The records are addressed in the way this module does not know: refused in the words of DP-V1, not of another bus.
+TEST(ParameterLink, TellsARefusalOfTheRecordInTheWordsOfDpv1) {
+  const YAML::Node file = YAML::Load(
+      "{cycle_rate: 100, bus: {device: simulated, baud_rate: 500000, slot_time: 0.0005, record_addressing: slot},"
+      " drives: {one: {address: 5, inverter: 1, series: sk2xxe, ppo_type: 3, pole_pairs: 2, max_frequency: 50.0}}}");
+  sim::SimConfig simulated;
+  sim::DriveConfig drive;
+  drive.name = "one";
+  drive.slave.address = 5;
+  drive.slave.ppo_type = 3;
+  drive.device.series = sim::Series::kSk2xxe;
+  drive.place = 1;
+  simulated.drives.push_back(drive);
+  sim::ModuleConfig module;
+  module.settings.address = 5;
+  simulated.modules.push_back(module);
+  ProfibusDpTransport transport(
+      [&](const link::SerialSettings&) { return std::make_unique<sim::SimulatedSegment>(simulated); });
+  const ToolConfig config = readToolConfig(file, "one");
+  ParameterLink link{config, transport};
+  const std::atomic<bool> not_asked{false};
+  link.connect(seconds{5}, not_asked);
+  const ParameterAnswer answer = link.read(parameter(105));
+  EXPECT_TRUE(answer.refused);
+  EXPECT_EQ("drive one refuses P105: DP-V1 error B2, invalid slot (80 B2 00)", answer.message);
 }
 
 // An order left standing is executed for ever (BU 2700 6.5).

@@ -3,7 +3,7 @@
 #include "trace/fault_tracer.h"
 #include "trace/trace_fixture.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 namespace {
 
 using ::testing::ElementsAre;
@@ -68,4 +68,4 @@ TEST_F(FaultTracerTest, TheEndWritesWhatWaits) {
 }
 
 }  // namespace
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

@@ -4,7 +4,7 @@
 
 #include "trace/pcap.h"
 
-namespace nord_driver {
+namespace nord_driver::trace {
 namespace {
 
 std::string hexOf(const std::string& bytes) {
@@ -25,4 +25,4 @@ TEST(Pcap, AddsARecordPerPacket) {
 }
 
 }  // namespace
-}  // namespace nord_driver
+}  // namespace nord_driver::trace

@@ -2,7 +2,7 @@
 
 #include "trace/process_data_history.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 namespace {
 
 /// Cycle n: setpoint n, status word n on the first drive; the second is silent.
@@ -53,4 +53,4 @@ TEST(ProcessDataHistory, WaitsForASlowReader) {
 }
 
 }  // namespace
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

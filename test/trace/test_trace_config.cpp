@@ -3,7 +3,7 @@
 #include "support/map_settings.h"
 #include "trace/trace_config.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 namespace {
 
 using test::MapSettings;
@@ -44,4 +44,4 @@ TEST(TraceConfig, KeepsAtLeastOne) {
 }
 
 }  // namespace
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

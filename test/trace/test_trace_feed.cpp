@@ -1,7 +1,7 @@
 #include "trace/trace_feed.h"
 #include "trace/trace_fixture.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 namespace {
 
 constexpr Word kRunning = 0x0B37, kFaulted = 0x0B38;
@@ -50,7 +50,7 @@ TEST_F(TraceFeedTest, TheBaseAsksWhenItStopsByItself) {
   const auto trigger = feed_.pollTrigger();
   ASSERT_TRUE(trigger);
   EXPECT_EQ(TraceTrigger::Kind::kStop, trigger->kind);
-  EXPECT_EQ(kAllDrives, trigger->drive);
+  EXPECT_EQ(cycle::kAllDrives, trigger->drive);
   EXPECT_EQ("drive left stopped: the drive fell silent", trigger->text.str());
   EXPECT_FALSE(feed_.pollTrigger());
 }
@@ -66,4 +66,4 @@ TEST_F(TraceFeedTest, ADriveAsksWhenItStopsByItself) {
 }
 
 }  // namespace
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

@@ -2,7 +2,7 @@
 #include "trace/trace_fixture.h"
 #include "trace/trace_text.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 namespace {
 
 class TraceTextTest : public TraceTest {};
@@ -63,4 +63,4 @@ TEST_F(TraceTextTest, TimesOnTheWall) {
 }
 
 }  // namespace
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

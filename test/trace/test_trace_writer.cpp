@@ -5,7 +5,7 @@
 #include "trace/trace_fixture.h"
 #include "trace/trace_writer.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 namespace {
 
 using ::testing::ElementsAre;
@@ -113,4 +113,4 @@ TEST_F(TraceWriterTest, LeavesNoHalfOfATrace) {
 }
 
 }  // namespace
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

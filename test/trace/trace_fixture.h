@@ -14,7 +14,7 @@
 #include "trace/trace_feed.h"
 #include "trace/trace_writer.h"
 
-namespace nord_driver::cycle {
+namespace nord_driver::trace {
 
 class TraceTest : public ::testing::Test {
  protected:
@@ -45,7 +45,12 @@ class TraceTest : public ::testing::Test {
       inputs[i].module_answers = inputs[i].inverter_answers = status != 0;
       inputs[i].input.status_word = status;
       inputs[i].input.actual_values[0] = status != 0 ? setpoint : std::int16_t{0};
-      if (status != 0) snapshot_.drives[i].input = inputs[i].input;
+      if (status == 0) continue;
+      cycle::DriveSnapshot& drive = snapshot_.drives[i];
+      const bool fault = profile::StatusWord{status}.fault();
+      if (fault && !drive.fault) ++drive.faults;
+      drive.fault = fault;
+      drive.input = inputs[i].input;
     }
     feed_.handleCycle(outputs, inputs, snapshot_);
   }
@@ -65,8 +70,8 @@ class TraceTest : public ::testing::Test {
   }
 
   std::string directory_;
-  CycleSnapshot snapshot_{2};
+  cycle::CycleSnapshot snapshot_{2};
   TraceFeed feed_{2};
 };
 
-}  // namespace nord_driver::cycle
+}  // namespace nord_driver::trace

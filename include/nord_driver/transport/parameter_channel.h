@@ -22,6 +22,9 @@ class ParameterChannel {
   /// The next finished access, whichever drive it was of; nothing when there is none.
   virtual std::optional<profile::ParameterResult> pollResult() noexcept;
 
+  /// What the parameter channel of this drive can do; from configure() on, and always the same. Default: what PKW can.
+  virtual profile::ParameterCapabilities parameterCapabilities(DriveIndex /*drive*/) const noexcept { return {}; }
+
   /// Asked before configure() by a program that only reads and writes parameters and then ends (nord_param). True: the
   /// transport serves it. Then the exchange starts no time-out in the bus modules that would trip the inverters when
   /// the program has ended, and listens for other masters before its first telegram. Never for a driver that enables:

@@ -2,7 +2,6 @@
 
 #include <limits.h>
 #include <stdlib.h>
-#include <sys/stat.h>
 #include <sys/sysmacros.h>
 
 #include <cstring>
@@ -12,11 +11,6 @@ namespace nord_driver::link {
 // Linux' Documentation/admin-guide/devices.txt: majors 136-143 are the slave ends of ptys.
 bool isPtyNumber(std::uint64_t device_number) noexcept {
   return major(device_number) >= 136 && major(device_number) <= 143;
-}
-
-bool isPty(const std::string& device) noexcept {
-  struct stat status {};
-  return ::stat(device.c_str(), &status) == 0 && S_ISCHR(status.st_mode) && isPtyNumber(status.st_rdev);
 }
 
 bool isNativeUart(const std::string& device) noexcept {

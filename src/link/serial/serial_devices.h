@@ -6,10 +6,8 @@
 
 namespace nord_driver::link {
 
-/// True for a pty: it moves bytes without any time of its own; no rate, no parity, no pauses to be seen.
-bool isPty(const std::string& device) noexcept;
-
-/// The same, by the number of the device (`stat::st_rdev`).
+/// True for a pty, by the number of the device (`stat::st_rdev`): it moves bytes without any time of its own; no rate, no
+/// parity, no pauses to be seen.
 bool isPtyNumber(std::uint64_t device_number) noexcept;
 
 /// True for a UART of the board itself, whose bytes reach the driver within a few characters. False for USB adapters

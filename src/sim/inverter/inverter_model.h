@@ -45,8 +45,8 @@ constexpr std::uint16_t kModuleLink = 108;  ///< E10.8 connection to the bus int
 constexpr std::uint16_t kNoModule = 109;    ///< E10.9 the same with a module on the system bus, by P120
 }  // namespace fault
 
-/// Why "switch-on disabled" or "not ready" is not left: P700[-03]. The bus manuals say that there is a reason (BU
-/// 0020 8), the list is in the inverters' own manuals: these numbers are the simulator's.
+/// Why "switch-on disabled" or "not ready" is not left: P700[-03]. The bus manuals say that there is a reason
+/// (BU 0020 8), the list is in the inverters' own manuals: these numbers are the simulator's.
 namespace block {
 constexpr std::uint16_t kNone = 0;
 constexpr std::uint16_t kVoltageByTerminals = 1;

@@ -126,8 +126,8 @@ void makeOlderSeries(Definitions& definitions, Series series) {
   definitions.setElements(746, 3);
 }
 
-// SK 1x0E and 2xxE: inputs, setpoints and actual values are arrays, address and PPO type are the module's (BU
-// 0220 5.1).
+// SK 1x0E and 2xxE: inputs, setpoints and actual values are arrays, address and PPO type are the module's
+// (BU 0220 5.1).
 void makeDecentral(Definitions& definitions) {
   for (const int number : {421, 422, 423, 424, 425, 507, 508, 544, 545, 547, 548, 613, 744, 745, 746}) {
     definitions.remove(number);

@@ -1,5 +1,5 @@
-// The bits of control word (STW) and status word (ZSW) as the simulated inverter reads and writes them: BU
-// 2700 6.4.1, 6.4.2.
+// The bits of control word (STW) and status word (ZSW) as the simulated inverter reads and writes them:
+// BU 2700 6.4.1, 6.4.2.
 #pragma once
 
 #include "nord_driver/core/bytes.h"

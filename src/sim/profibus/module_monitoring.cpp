@@ -1,5 +1,5 @@
-// What the module watches, how it tells its inverters, and what it shows of it: BU 2700 7.1.1, 7.1.3, 8.1 and BU
-// 0220 4.2.3.
+// What the module watches, how it tells its inverters, and what it shows of it: BU 2700 7.1.1, 7.1.3, 8.1 and
+// BU 0220 4.2.3.
 
 #include "sim/profibus/module_station.h"
 

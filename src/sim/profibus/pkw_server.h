@@ -35,8 +35,8 @@ struct PkwRefusal {
   std::optional<unsigned> number;  ///< orders for this parameter only
 };
 
-/// "As long as an order has not been executed, the inverter sends the response for the previous order" (BU
-/// 2700 6.5.1.1).
+/// "As long as an order has not been executed, the inverter sends the response for the previous order"
+/// (BU 2700 6.5.1.1).
 ///
 /// The error numbers and how to get them:
 ///

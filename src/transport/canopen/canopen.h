@@ -49,6 +49,9 @@ class CanopenTransport final : public Transport {
                 std::vector<DriveExchange>& inputs) noexcept override;
   bool submit(DriveIndex drive, const profile::ParameterRequest& request) noexcept override;
   std::optional<profile::ParameterResult> pollResult() noexcept override;
+  profile::ParameterCapabilities parameterCapabilities(DriveIndex /*drive*/) const noexcept override {
+    return CanopenParameters::capabilities();
+  }
   bool connected() const noexcept override;
   BusCounters counters() const noexcept override;
   DriveNote note(DriveIndex drive) const noexcept override;

@@ -68,7 +68,7 @@ class Reader {
   void add(const DriveSettings& source) {
     const Settings& settings = *source.settings;
     CanopenDrive drive = readCanopenDrive(source);
-    const canopen::NodeConfig node = readCanopenNode(settings, drive, defaults_);
+    const canopen::NodeConfig node = readCanopenNode(source, drive, defaults_);
     checkOwnId(settings, node);
     drive.node = findOrAdd(settings, drive, node);
     canopen::NodeConfig& shared = config_.master.nodes[drive.node];

@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "canopen/master_config.h"
-#include "core/units.h"
+#include "config/drive_common.h"
 #include "nord_driver/config/settings.h"
 #include "nord_driver/core/time.h"
-#include "nord_driver/profile/series.h"
 
 namespace nord_driver {
 
@@ -41,19 +40,17 @@ enum class ParameterServers : std::uint8_t {
   kIndexOffset,  ///< one server, an own range of indices each, as on EtherCAT (BU 0270 p. 43)
 };
 
-struct CanopenDrive {
-  std::string name;
-  profile::Series series = profile::Series::kSk5xxe;
+struct CanopenDrive : DriveCommon {
+  CanopenDrive() = default;
+  explicit CanopenDrive(const DriveCommon& common) : DriveCommon(common) {}
+
   CanopenConnection connection = CanopenConnection::kOption;
   DriveProfile drive_profile = DriveProfile::kNord;
   std::size_t node = 0;         ///< index into `master.nodes`
-  std::uint8_t inverter = 1;    ///< 1..4, behind a gateway
   std::size_t receive_pdo = 0;  ///< indices into the node's lists
   std::size_t transmit_pdo = 0;
   std::uint8_t process_values = 1;  ///< setpoints and actual values in the PDO: 1 or 3
   bool third_before_second = false;
-  int pole_pairs = 2;                          ///< CiA 402 counts in rpm
-  std::optional<Hertz> typed_max_frequency{};  ///< until P105 is read
   std::size_t sdo_server = 0;
   std::uint16_t parameter_base = 0x2000;  ///< index = base + parameter number (BU 0060 p. 61)
   ArraySubIndex array_sub_index = ArraySubIndex::kElement;

@@ -25,7 +25,7 @@ constexpr Word kRuns = 0x000F;
 }  // namespace
 
 CanopenDriveState::CanopenDriveState(const CanopenDrive& config, std::uint32_t receive_id, std::uint16_t tag)
-    : config_(config), receive_id_(receive_id), parameters_(config, tag), scaling_(config.pole_pairs) {
+    : config_(config), receive_id_(receive_id), parameters_(config, tag), scaling_(config.scaling.pole_pairs) {
   scaling_.setMaxFrequency(config.typed_max_frequency);
 }
 

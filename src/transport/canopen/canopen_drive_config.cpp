@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "canopen/nmt.h"
 #include "config/setting_checks.h"
-#include "transport/profibus/ppo.h"
+#include "profile/process_data_order.h"
 
 namespace nord_driver {
 
@@ -62,12 +61,7 @@ constexpr Choice<bool> kMappings[] = {{"write", true}, {"keep", false}};
 
 Duration wholeMilliseconds(const Settings& settings, const std::string& key, Duration fallback, Duration min,
                            Duration max) {
-  const double value = numberOr(settings, key, toSeconds(fallback), toSeconds(min), toSeconds(max), "s");
-  const double count = std::round(value * 1e3);
-  if (std::abs(value * 1e3 - count) > 1e-6) {
-    throw wrongSetting(settings, key, shortNumber(value), "whole milliseconds, such as 0.1 s: the object counts them");
-  }
-  return milliseconds{static_cast<std::int64_t>(count)};
+  return wholeMillisecondsOr(settings, key, fallback, min, max, "0.1 s: the object counts them");
 }
 
 std::optional<std::uint32_t> readIdentity(const Settings& settings, const std::string& key) {
@@ -132,25 +126,17 @@ std::uint8_t readProcessValues(const Settings& settings, const CanopenDrive& dri
 
 CanopenDrive readCanopenDrive(const DriveSettings& source) {
   const Settings& settings = *source.settings;
-  CanopenDrive drive;
-  drive.name = source.name;
-  drive.series = profile::seriesFrom(settings.text("series").value_or("")).value_or(Series::kSk5xxe);
+  CanopenDrive drive{readDriveCommon(source)};
   drive.connection = readChoice(settings, "connection", CanopenConnection::kOption, kConnections);
   checkSeries(settings, drive);
   drive.drive_profile = readChoice(settings, "profile", DriveProfile::kNord, kProfiles);
   checkCia402(settings, drive);
-  const bool gateway = drive.connection == CanopenConnection::kGateway;
-  if (!gateway && integerOr(settings, "inverter", 1, 1, 4) != 1) {
-    throw wrongSetting(settings, "inverter", std::to_string(settings.integer("inverter").value_or(0)),
+  if (drive.connection != CanopenConnection::kGateway && drive.inverter != 1) {
+    throw wrongSetting(settings, "inverter", std::to_string(drive.inverter),
                        "1: only a gateway has several inverters behind one node");
   }
-  drive.inverter = static_cast<std::uint8_t>(integerOr(settings, "inverter", 1, 1, 4));
   drive.process_values = readProcessValues(settings, drive);
   drive.third_before_second = profile::thirdBeforeSecond(drive.series);
-  drive.pole_pairs = static_cast<int>(integerOr(settings, "pole_pairs", 2, 1, 64));
-  if (settings.has("max_frequency")) {
-    drive.typed_max_frequency = Hertz{requiredNumber(settings, "max_frequency", 0.1, 400.0, "Hz")};
-  }
   drive.array_sub_index = readChoice(settings, "array_sub_index", ArraySubIndex::kElement, kArraySubIndices);
   drive.parameter_base = kParameters;
   if (readParameterServers(settings, drive) == ParameterServers::kIndexOffset) {
@@ -159,9 +145,10 @@ CanopenDrive readCanopenDrive(const DriveSettings& source) {
   return drive;
 }
 
-NodeConfig readCanopenNode(const Settings& settings, const CanopenDrive& drive, const CanopenBusDefaults& bus) {
+NodeConfig readCanopenNode(const DriveSettings& source, const CanopenDrive& drive, const CanopenBusDefaults& bus) {
+  const Settings& settings = *source.settings;
   NodeConfig node;
-  node.id = static_cast<std::uint8_t>(requiredInteger(settings, "address", 1, canopen::kMaxNodeId));
+  node.id = static_cast<std::uint8_t>(requiredAddress(source, 1, canopen::kMaxNodeId));
   const bool system_bus = drive.connection == CanopenConnection::kSystemBus;
   if (system_bus && std::find(kSystemBusIds.begin(), kSystemBusIds.end(), node.id) == kSystemBusIds.end()) {
     throw wrongSetting(settings, "address", std::to_string(node.id),

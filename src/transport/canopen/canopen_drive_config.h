@@ -21,7 +21,8 @@ struct CanopenBusDefaults {
 /// All but `node`, the PDOs and the SDO server. Throws ConfigError.
 CanopenDrive readCanopenDrive(const DriveSettings& source);
 /// The node below `address`. Throws ConfigError.
-canopen::NodeConfig readCanopenNode(const Settings& settings, const CanopenDrive& drive, const CanopenBusDefaults& bus);
+canopen::NodeConfig readCanopenNode(const DriveSettings& source, const CanopenDrive& drive,
+                                    const CanopenBusDefaults& bus);
 /// A further inverter behind a node that is there already: what it says of the module must be what the first one said.
 void checkSharedNode(const Settings& settings, const canopen::NodeConfig& node, const canopen::NodeConfig& first,
                      const std::string& first_name);

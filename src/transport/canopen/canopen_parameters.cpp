@@ -1,40 +1,35 @@
 #include "transport/canopen/canopen_parameters.h"
 
 #include "canopen/sdo_abort.h"
-#include "profile/parameter_error.h"
-#include "profile/pkw.h"
+#include "transport/canopen/sdo_refusal.h"
 
 namespace nord_driver {
 
 using profile::ParameterAction;
 using profile::ParameterOutcome;
+using profile::ParameterReason;
 using profile::ParameterRequest;
-using profile::ParameterResult;
 using profile::ParameterShape;
 
 bool CanopenParameters::submit(const ParameterRequest& request) noexcept {
+  const bool idle = requests_.empty();
   if (!requests_.submit(request)) return false;
-  if (requests_.size() == 1) next();
+  if (idle) next();
   return true;
 }
 
-// What no server need be asked for is answered here.
+// The running request's turn. What no server need be asked for is answered here.
 void CanopenParameters::next() noexcept {
   plain_ = false;
   ++sequence_;
   while (!requests_.empty()) {
-    const ParameterRequest& request = requests_.front();
-    ParameterResult refused;
-    refused.outcome = ParameterOutcome::kRefused;
-    if (!parameterObject(drive_, request)) {
-      const bool number = request.number > 999;
-      refused.error_number = number ? profile::pkw_error::kInvalidNumber : profile::pkw_error::kWrongSubIndex;
-    } else if (request.action == ParameterAction::kWriteRam) {
-      refused.error_number = profile::pkw_error::kInvalidOrder;
+    if (requests_.front().action == ParameterAction::kWriteRam) {
+      requests_.refuse(ParameterReason::kNotSupported, "SDO has no write that spares the EEPROM");
+    } else if (!parameterObject(drive_, requests_.front())) {
+      requests_.refuse(ParameterReason::kNoSuchElement, "no sub-index reaches this array element");
     } else {
       return;
     }
-    requests_.finish(refused);
   }
 }
 
@@ -54,15 +49,19 @@ void CanopenParameters::handleAnswer(const canopen::SdoAnswer& answer) noexcept 
   under_way_ = false;
   switch (answer.end) {
     case canopen::SdoEnd::kDone:
-      return handleValue(answer);
+      takeValue(answer);
+      break;
     case canopen::SdoEnd::kAbortedByServer:
       if (fallBack(answer.abort_code)) return;
       [[fallthrough]];
     case canopen::SdoEnd::kAbortedByUs:
-      return refuse(profile::errorNumberOfAbort(answer.abort_code, requests_.front()), answer.abort_code);
+      requests_.refuse(reasonOfAbort(answer.abort_code, requests_.front()), abortSentence(answer.abort_code));
+      break;
     case canopen::SdoEnd::kTimedOut:
-      return finish(ParameterOutcome::kTimeout);
+      requests_.fail(ParameterOutcome::kTimeout);
+      break;
   }
+  next();
 }
 
 // As on PKW: a parameter without sets may be read without one, and so may the first element of what older firmware
@@ -77,35 +76,22 @@ bool CanopenParameters::fallBack(std::uint32_t abort_code) noexcept {
   return true;
 }
 
-void CanopenParameters::handleValue(const canopen::SdoAnswer& answer) noexcept {
+void CanopenParameters::takeValue(const canopen::SdoAnswer& answer) noexcept {
   const ParameterRequest& request = requests_.front();
-  if (request.action != ParameterAction::kRead) return finish(ParameterOutcome::kDone, request.raw);
-  const auto number = answer.number();
-  if (!number) return refuse(profile::pkw_error::kNotRepresentable, 0);
-  // Whether a 16 bit word is signed only the parameter's own description knows.
-  finish(ParameterOutcome::kDone, static_cast<std::int32_t>(*number));
-}
-
-void CanopenParameters::finish(ParameterOutcome outcome, std::int32_t raw) noexcept {
-  ParameterResult result;
-  result.outcome = outcome;
-  result.raw = raw;
-  requests_.finish(result);
-  next();
-}
-
-void CanopenParameters::refuse(std::uint16_t error_number, std::uint32_t abort_code) noexcept {
-  ParameterResult result;
-  result.outcome = ParameterOutcome::kRefused;
-  result.error_number = error_number;
-  result.abort_code = abort_code;
-  requests_.finish(result);
-  next();
+  if (request.action != ParameterAction::kRead) return requests_.done(request.raw);
+  if (const auto number = answer.number()) {
+    // Whether a 16 bit word is signed only the parameter's own description knows.
+    return requests_.done(static_cast<std::int32_t>(*number));
+  }
+  Sentence text;
+  text.format("the SDO answer is %u bytes long, which no parameter's value is",
+              static_cast<unsigned>(answer.data.size()));
+  requests_.refuse(ParameterReason::kUnreadable, text);
 }
 
 void CanopenParameters::handleOffline() noexcept {
   under_way_ = false;
-  while (!requests_.empty()) finish(ParameterOutcome::kOffline);
+  requests_.failAll(ParameterOutcome::kOffline);
 }
 
 }  // namespace nord_driver

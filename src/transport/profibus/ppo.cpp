@@ -1,5 +1,7 @@
 #include "transport/profibus/ppo.h"
 
+#include "profile/process_data_order.h"
+
 namespace nord_driver::profile {
 
 namespace {
@@ -38,11 +40,6 @@ std::size_t position(const PpoLayout& layout, std::size_t value) noexcept {
 }
 
 }  // namespace
-
-// BU 0020 7.2.2: STW SW1 SW3 SW2 on these; 7.2.3, BU 2700 6.2: STW SW1 SW2 SW3 on all others.
-bool thirdBeforeSecond(Series series) noexcept {
-  return series == Series::kSk300e || series == Series::kSk700e || series == Series::kSk750e;
-}
 
 std::optional<PpoLayout> ppoLayout(std::uint8_t type, std::uint16_t ident, Series series) noexcept {
   const Row* row = findRow(type, ident);

@@ -31,10 +31,6 @@ struct PpoLayout {
   std::size_t bytes() const noexcept { return 2 * words(); }
 };
 
-/// SK 300E, 700E and 750E put SW3 and IW3 before SW2 and IW2, on every bus (BU 0020 7.2.2, BU 0070 4.2.2, BU 0060 p.
-/// 59).
-bool thirdBeforeSecond(Series series) noexcept;
-
 /// The layout of PPO `type` (1..4) on the module with this ident number; none for another type or module.
 std::optional<PpoLayout> ppoLayout(std::uint8_t type, std::uint16_t ident, Series series) noexcept;
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "config/drive_common.h"
 #include "link/serial/serial_settings.h"
 #include "nord_driver/config/settings.h"
 #include "nord_driver/core/time.h"
-#include "nord_driver/profile/series.h"
 #include "profibus/bus_parameters.h"
 #include "profibus/dp_master.h"
 #include "transport/profibus/ppo.h"
@@ -22,13 +22,13 @@ enum class ProfibusModule : std::uint8_t {
   kSkCu4,  ///< SK CU4/TU4-PBR, ident 0BA8h: modular, up to four inverters, DP-V1
 };
 
-struct ProfibusDrive {
-  std::string name;
-  profile::Series series = profile::Series::kSk5xxe;
+struct ProfibusDrive : DriveCommon {
+  ProfibusDrive() = default;
+  explicit ProfibusDrive(const DriveCommon& common) : DriveCommon(common) {}
+
   profile::PpoLayout ppo;
-  std::size_t slave = 0;      ///< index into `slaves` and `stations`
-  std::uint8_t inverter = 1;  ///< 1..4 behind its module
-  std::size_t offset = 0;     ///< of its words in outputs and inputs of the station; odd behind an I/O byte
+  std::size_t slave = 0;   ///< index into `slaves` and `stations`
+  std::size_t offset = 0;  ///< of its words in outputs and inputs of the station; odd behind an I/O byte
 };
 
 /// What is known of a station besides what its master needs.

@@ -16,8 +16,7 @@ bool isOfModule(std::uint16_t number) noexcept {
 
 bool tellsAbsence(const profile::ParameterResult& result) noexcept {
   return result.outcome == profile::ParameterOutcome::kRefused &&
-         (result.error_number == profile::pkw_error::kNoInverter ||
-          result.error_number == profile::pkw_error::kNoInverterEither);
+         result.reason == profile::ParameterReason::kNoInverter;
 }
 
 }  // namespace
@@ -47,7 +46,9 @@ bool ProfibusParameters::submit(DriveIndex drive, const profile::ParameterReques
   if (drives_[drive].records) return drives_[drive].records->submit(request, now);
   profile::ParameterResult result;
   result.id = request.id;
-  result.outcome = profile::ParameterOutcome::kNoChannel;  // PPO 3 and 4 carry process data only (BU 0020 7.2)
+  result.outcome = profile::ParameterOutcome::kNoChannel;
+  // BU 0020 7.2.
+  result.text = "PPO types 3 and 4 carry process data only, and its bus module takes no acyclic requests (DP-V1)";
   return refused_.push_back(result);
 }
 

@@ -22,17 +22,13 @@ constexpr const char* kCuName = "SK CU4/TU4-PBR";
 /// One drive as configured, before its station is known as a whole.
 struct Plan {
   const DriveSettings* source = nullptr;
+  DriveCommon drive;
   ProfibusModule module = ProfibusModule::kSkTu3;
   profibus::StationAddress address;
-  std::uint8_t inverter = 1;
   std::uint8_t ppo_type = 1;
   std::optional<bool> io_byte;
   std::optional<std::string> user_parameters, gsd;
 };
-
-Series readSeries(const Settings& settings) {
-  return profile::seriesFrom(settings.text("series").value_or("")).value_or(Series::kSk5xxe);
-}
 
 // SK 1x0E and SK 2xxE reach PROFIBUS only through SK CU4/TU4-PBR, SK 300E and 7x0E only through their own technology
 // units; SK 5xxE and SK 54xE have both ways, and mostly SK TU3-PBR (BU 2700 3.1).
@@ -52,30 +48,30 @@ ProfibusModule readModule(const Settings& settings, Series series) {
 }
 
 // BU 2700 5.2.4.
-profibus::StationAddress readAddress(const Settings& settings) {
+profibus::StationAddress readAddress(const DriveSettings& source, const DriveCommon& drive) {
   constexpr std::int64_t kFirst = 3, kLast = 125, kFactory = 126;
-  if (settings.integer("address") == kFactory) {
-    throw wrongSetting(settings, "address", std::to_string(kFactory),
+  if (drive.address == kFactory) {
+    throw wrongSetting(*source.settings, "address", std::to_string(kFactory),
                        "a whole number from 3 to 125: 126 is what a module has from the factory, give it an address of "
                        "its own");
   }
-  return *profibus::StationAddress::from(static_cast<int>(requiredInteger(settings, "address", kFirst, kLast)));
+  return *profibus::StationAddress::from(static_cast<int>(requiredAddress(source, kFirst, kLast)));
 }
 
 Plan readPlan(const DriveSettings& source) {
   const Settings& settings = *source.settings;
   Plan plan;
   plan.source = &source;
-  plan.module = readModule(settings, readSeries(settings));
-  plan.address = readAddress(settings);
-  plan.inverter = static_cast<std::uint8_t>(integerOr(settings, "inverter", 1, 1, 4));
+  plan.drive = readDriveCommon(source);
+  plan.module = readModule(settings, plan.drive.series);
+  plan.address = readAddress(source, plan.drive);
   plan.ppo_type = static_cast<std::uint8_t>(integerOr(settings, "ppo_type", 1, 1, 4));
   plan.io_byte = settings.boolean("io_byte");
   plan.user_parameters = settings.text("user_parameters");
   plan.gsd = settings.text("gsd");
   if (plan.module == ProfibusModule::kSkTu3) {
-    if (plan.inverter != 1) {
-      throw wrongSetting(settings, "inverter", std::to_string(plan.inverter),
+    if (plan.drive.inverter != 1) {
+      throw wrongSetting(settings, "inverter", std::to_string(plan.drive.inverter),
                          std::string{"1: "} + kTuName + " serves one inverter");
     }
     if (plan.io_byte.value_or(false)) {
@@ -152,7 +148,7 @@ class StationBuilder {
     if (modular) addSlot(slave, station.io_byte ? kIoSlot : kEmptySlot, station.io_byte ? 1 : 0);
     std::uint8_t slot_inverter = 1;
     for (std::size_t i = 0; i < plans.size(); ++i) {
-      for (; slot_inverter < plans[i].inverter; ++slot_inverter) addSlot(slave, kEmptySlot, 0);
+      for (; slot_inverter < plans[i].drive.inverter; ++slot_inverter) addSlot(slave, kEmptySlot, 0);
       addInverter(plans[i], config_.drives[drives[i]], slave);
       ++slot_inverter;
     }
@@ -206,7 +202,6 @@ class StationBuilder {
     const std::uint16_t layout_ident =
         plan.module == ProfibusModule::kSkCu4 ? profile::kIdentCu4Tu4 : profile::kIdentTechnologyUnit;
     drive.ppo = *profile::ppoLayout(plan.ppo_type, layout_ident, drive.series);
-    drive.inverter = plan.inverter;
     drive.offset = slave.output_length;
     std::vector<std::uint8_t> identifiers(drive.ppo.identifiers.begin(), drive.ppo.identifiers.end());
     if (gsd_ != nullptr && !gsd_->file.modules.empty()) {
@@ -281,9 +276,9 @@ std::size_t stationOf(const Plan& plan, const std::vector<Plan>& others, Profibu
       throw wrongSetting(settings, "address", number, "another address than drive \"" + other.source->name + "\" has");
     }
     for (const Plan& neighbour : others) {
-      if (neighbour.address != plan.address || neighbour.inverter != plan.inverter) continue;
+      if (neighbour.address != plan.address || neighbour.drive.inverter != plan.drive.inverter) continue;
       throw wrongSetting(
-          settings, "inverter", std::to_string(plan.inverter),
+          settings, "inverter", std::to_string(plan.drive.inverter),
           "another number from 1 to 4 than drive \"" + neighbour.source->name + "\" behind the same module has");
     }
     return config.drives[i].slave;
@@ -300,9 +295,7 @@ void readStations(const Settings& bus, const std::vector<DriveSettings>& drives,
   std::vector<Plan> plans;
   for (const DriveSettings& source : drives) {
     const Plan plan = readPlan(source);
-    ProfibusDrive drive;
-    drive.name = source.name;
-    drive.series = readSeries(*source.settings);
+    ProfibusDrive drive{plan.drive};
     drive.slave = stationOf(plan, plans, config);
     config.drives.push_back(drive);
     plans.push_back(plan);
@@ -314,7 +307,7 @@ void readStations(const Settings& bus, const std::vector<DriveSettings>& drives,
       if (config.drives[i].slave == station) members.push_back(i);
     }
     std::sort(members.begin(), members.end(),
-              [&](std::size_t a, std::size_t b) { return plans[a].inverter < plans[b].inverter; });
+              [&](std::size_t a, std::size_t b) { return plans[a].drive.inverter < plans[b].drive.inverter; });
     std::vector<Plan> own;
     own.reserve(members.size());
     for (const std::size_t member : members) own.push_back(plans[member]);

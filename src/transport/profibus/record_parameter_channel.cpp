@@ -1,5 +1,7 @@
 #include "transport/profibus/record_parameter_channel.h"
 
+#include "transport/profibus/record_refusal.h"
+
 namespace nord_driver {
 
 namespace {
@@ -65,18 +67,19 @@ void RecordParameterChannel::handleRecord(const profibus::RecordResult& result, 
       return;
     case profibus::RecordOutcome::kRefused:
       if (result.error.isBusy()) return;  // not taken: the same once more, until the time for an answer is over
-      pkw_.handleFailure(profile::ParameterOutcome::kRefused,
-                         static_cast<std::uint16_t>(kRecordErrorBase | result.error.code1));
+      pkw_.handleRefusal(reasonOf(result.error), refusalText(result.error));
       break;
     case profibus::RecordOutcome::kTimedOut:
     case profibus::RecordOutcome::kNoAnswer:
-      pkw_.handleFailure(profile::ParameterOutcome::kTimeout, 0);
+      pkw_.handleFailure(profile::ParameterOutcome::kTimeout);
       break;
     case profibus::RecordOutcome::kNotSupported:
-      pkw_.handleFailure(profile::ParameterOutcome::kNoChannel, 0);
+      pkw_.handleFailure(profile::ParameterOutcome::kNoChannel, "its bus module takes no acyclic requests (DP-V1)");
       break;
     case profibus::RecordOutcome::kNotActivated:
-      pkw_.handleFailure(profile::ParameterOutcome::kNotActivated, 0);
+      pkw_.handleFailure(profile::ParameterOutcome::kNoChannel,
+                         "its bus module refuses acyclic requests (DP-V1): it answers RS, not activated, at access "
+                         "point 51; PPO types 1 and 2 reach the inverter's parameters without them");
       break;
     case profibus::RecordOutcome::kOffline:
       pkw_.handleOffline(now);

@@ -11,9 +11,6 @@
 
 namespace nord_driver {
 
-/// Refused with an error number from here on: the bus module refused the record itself; the low byte is Error_Code_1.
-constexpr std::uint16_t kRecordErrorBase = 0x8000;
-
 /// The parameters of one unit behind a module SK CU4/TU4-PBR: of the module itself (P150 to P199 are only reachable
 /// here, BU 0220 8.3.4.4) or of one inverter. An order is written as a record of eight bytes laid out as a PKW; the
 /// answer is read as another, until it is the one to the order. Sans-IO: `pollRecord()` when the station is free for a

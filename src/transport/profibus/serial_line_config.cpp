@@ -1,7 +1,5 @@
 #include "transport/profibus/serial_line_config.h"
 
-#include <cmath>
-
 #include "config/setting_checks.h"
 
 namespace nord_driver {
@@ -10,12 +8,9 @@ namespace {
 
 // The kernel takes whole milliseconds, and no more than 100 of them.
 std::uint32_t readDelay(const Settings& bus, const std::string& key) {
-  const double delay = numberOr(bus, key, 0.0, 0.0, 0.1, "s");
-  const double milliseconds = std::round(delay * 1e3);
-  if (std::abs(delay * 1e3 - milliseconds) > 1e-6) {
-    throw wrongSetting(bus, key, shortNumber(delay), "whole milliseconds, such as 0.001 s: Linux counts no others");
-  }
-  return static_cast<std::uint32_t>(milliseconds);
+  const Duration delay = wholeMillisecondsOr(bus, key, Duration::zero(), Duration::zero(),
+                                             std::chrono::milliseconds{100}, "0.001 s: Linux counts no others");
+  return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::milliseconds>(delay).count());
 }
 
 link::Rs485Settings readRs485(const Settings& bus) {

@@ -13,6 +13,7 @@ namespace loopback {
 using namespace nord_driver;
 using profile::ParameterRequest;
 using profile::ParameterResult;
+using Reason = profile::ParameterReason;
 
 /// What a NORD inverter does with control words (BU 2700 6.4.3), in its plainest form.
 class Drive {
@@ -46,9 +47,13 @@ class Drive {
     ParameterResult result;
     result.id = request.id;
     const auto found = parameters_.find(request.number);
-    if (found == parameters_.end()) return refused(result, 1, "nobody has told this drive of such a parameter");
+    if (found == parameters_.end()) {
+      return refused(result, Reason::kNoSuchParameter, 1, "nobody has told this drive of such a parameter");
+    }
     const bool write = request.action != profile::ParameterAction::kRead;
-    if (write && request.raw > kLargest) return refused(result, 2, "that is more than this drive can remember");
+    if (write && request.raw > kLargest) {
+      return refused(result, Reason::kOutOfLimits, 2, "that is more than this drive can remember");
+    }
     if (write) found->second = request.raw;
     result.outcome = profile::ParameterOutcome::kDone;
     result.raw = found->second;
@@ -63,8 +68,10 @@ class Drive {
     kOperationEnabled = 0x37
   };
 
-  static ParameterResult refused(ParameterResult result, unsigned /*code*/, const char* /*why*/) {
+  static ParameterResult refused(ParameterResult result, Reason reason, int code, const char* why) {
     result.outcome = profile::ParameterOutcome::kRefused;
+    result.reason = reason;
+    result.text.format("loopback error %d, %s", code, why);
     return result;
   }
   void rampTo(std::int16_t setpoint) {

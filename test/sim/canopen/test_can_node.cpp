@@ -96,8 +96,8 @@ void driveOn(CanConversation& bus) {
   ASSERT_EQ(InverterState::kOperationEnabled, bus.drive().inverter().state());
 }
 
-// Life guarding: 100Ch x 100Dh without a request, and the inverter trips with E10.0: 8100h, register 01 (BU 0060 p.
-// 93).
+// Life guarding: 100Ch x 100Dh without a request, and the inverter trips with E10.0: 8100h, register 01
+// (BU 0060 p. 93).
 TEST(CanNode, LifeGuardingStopsTheDrive) {
   CanConversation bus;
   bus.boot();

@@ -10,6 +10,7 @@ using canopen::SdoAnswer;
 using canopen::SdoEnd;
 using profile::ParameterAction;
 using profile::ParameterOutcome;
+using profile::ParameterReason;
 using profile::ParameterRequest;
 using profile::ParameterShape;
 
@@ -92,14 +93,15 @@ TEST(CanopenParametersTest, AReadTellsTheValue) {
   EXPECT_EQ(-2, channel.result().raw);
 }
 
-// SDO has no order that spares the EEPROM: the parameter session then takes the way over P560.
-TEST(CanopenParametersTest, ARamWriteIsRefusedAsPkwWould) {
+// SDO has no order that spares the EEPROM: that is said beforehand, and who asks all the same is refused.
+TEST(CanopenParametersTest, ARamWriteIsNoneOfItsCapabilities) {
+  EXPECT_FALSE(CanopenParameters::capabilities().ram_writes);
   Channel channel;
   channel.parameters.submit(requestOf(102, ParameterShape::kPerSet, ParameterAction::kWriteRam, 103));
   EXPECT_FALSE(channel.parameters.pendingAccess().has_value());
   const auto result = channel.result();
   EXPECT_EQ(ParameterOutcome::kRefused, result.outcome);
-  EXPECT_EQ(201, result.error_number);
+  EXPECT_EQ(ParameterReason::kNotSupported, result.reason);
 }
 
 // One server, one access: the next starts when the first has ended.
@@ -132,17 +134,17 @@ TEST(CanopenParametersTest, AMissingSubIndexIsTriedWithoutOne) {
   third.index = 3;
   channel.parameters.submit(third);
   channel.abort(channel.start(), 0x06090011);
-  EXPECT_EQ(3, channel.result().error_number);
+  EXPECT_EQ(ParameterReason::kNoSuchElement, channel.result().reason);
 }
 
-TEST(CanopenParametersTest, AnAbortIsARefusalWithItsNumber) {
+TEST(CanopenParametersTest, AnAbortIsARefusalWithItsCode) {
   Channel channel;
   channel.parameters.submit(requestOf(102, ParameterShape::kPerSet, ParameterAction::kWritePersistent, 103));
   channel.abort(channel.start(), 0x06090031);
   const auto result = channel.result();
   EXPECT_EQ(ParameterOutcome::kRefused, result.outcome);
-  EXPECT_EQ(2, result.error_number);
-  EXPECT_EQ(0x06090031u, result.abort_code);
+  EXPECT_EQ(ParameterReason::kOutOfLimits, result.reason);
+  EXPECT_EQ("SDO abort 0609 0031h, the value is above the upper limit", result.text.str());
 }
 
 TEST(CanopenParametersTest, ASilentServerIsATimeOut) {
@@ -175,17 +177,20 @@ TEST(CanopenParametersTest, AValueOfAnotherSizeIsRefused) {
   Channel channel;
   channel.parameters.submit(readOf(102, ParameterShape::kPerSet));
   channel.answer(channel.start(), {1, 2, 3, 4, 5});
-  EXPECT_EQ(ParameterOutcome::kRefused, channel.result().outcome);
+  const auto result = channel.result();
+  EXPECT_EQ(ParameterOutcome::kRefused, result.outcome);
+  EXPECT_EQ(ParameterReason::kUnreadable, result.reason);
+  EXPECT_EQ("the SDO answer is 5 bytes long, which no parameter's value is", result.text.str());
 }
 
 TEST(CanopenParametersTest, WhatIsNoParameterIsRefusedWithoutAsking) {
   Channel channel;
   channel.parameters.submit(readOf(1000, ParameterShape::kPlain));
-  EXPECT_EQ(0, channel.result().error_number);
+  EXPECT_EQ(ParameterReason::kNoSuchParameter, channel.result().reason);
   ParameterRequest request = readOf(102, ParameterShape::kPerSet);
   request.parameter_set = 5;
   channel.parameters.submit(request);
-  EXPECT_EQ(3, channel.result().error_number);
+  EXPECT_EQ(ParameterReason::kNoSuchElement, channel.result().reason);
   EXPECT_FALSE(channel.parameters.pendingAccess().has_value());
 }
 

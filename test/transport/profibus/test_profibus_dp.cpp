@@ -27,7 +27,7 @@ class OnASegment : public ::testing::Test {
     for (const int address : {3, 4}) {
       const std::string name = address == 3 ? "left" : "right";
       auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
-      settings->set("address", address).set("series", "sk5xxe").set("ppo_type", ppo_type);
+      settings->set("address", address).set("series", "sk5xxe").set("pole_pairs", 2).set("ppo_type", ppo_type);
       drives.push_back({name, settings});
       sim::DriveConfig drive;
       drive.name = name;
@@ -256,7 +256,7 @@ TEST_F(OnASegment, PassesARefusalOn) {
   const auto result = ask(0, 999);
   ASSERT_TRUE(result.has_value());
   EXPECT_EQ(profile::ParameterOutcome::kRefused, result->outcome);
-  EXPECT_EQ(0, result->error_number) << "invalid parameter number (BU 0020 7.5.1)";
+  EXPECT_EQ(profile::ParameterReason::kNoSuchParameter, result->reason) << "error 0 (BU 0020 7.5.1)";
 }
 
 // PPO 3 carries process data only (BU 0020 5.2.2): said at once, in a bounded number.

@@ -27,7 +27,7 @@ class OnAModule : public ::testing::Test {
     for (std::size_t i = 0; i < ppo_types.size(); ++i) {
       const std::string name = "fi" + std::to_string(i + 1);
       auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
-      settings->set("address", 3).set("series", "sk2xxe").set("ppo_type", ppo_types[i]);
+      settings->set("address", 3).set("series", "sk2xxe").set("pole_pairs", 2).set("ppo_type", ppo_types[i]);
       settings->set("inverter", static_cast<int>(i + 1)).set("io_byte", io_byte);
       drives.push_back({name, settings});
       sim::DriveConfig drive;
@@ -196,8 +196,7 @@ TEST_F(OnAModule, WhoeverHasNoChannelIsToldSo) {
   EXPECT_LT(transport_->now() - asked, seconds{3});
 }
 
-// --- One inverter off behind a living module
-// ---------------------------------------------------------------------------
+// --- One inverter off behind a living module -------------------------------------------------------------------------
 
 TEST_F(OnAModule, OneInverterOffIsThatDriveOffline) {
   bringUp({1, 1, 1, 1});
@@ -232,7 +231,7 @@ TEST_F(OnAModule, AnotherModuleThanConfiguredIsNamed) {
   drive.slave.address = 3;
   config.drives.push_back(drive);  // SK TU3-PBR, 7531h
   auto settings = std::make_shared<MapSettings>("~drives/fi1/");
-  settings->set("address", 3).set("series", "sk2xxe");
+  settings->set("address", 3).set("series", "sk2xxe").set("pole_pairs", 2);
   transport_ = std::make_unique<ProfibusDpTransport>(
       [&](const link::SerialSettings&) { return std::make_unique<sim::SimulatedSegment>(config); });
   transport_->configure(bus_.set("device", "simulated").set("slot_time", 0.0005), {{"fi1", settings}}, 100.0);

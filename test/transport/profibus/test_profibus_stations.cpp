@@ -21,7 +21,7 @@ struct Module {
   MapSettings& add(int inverter, int ppo_type, int address = 3) {
     const std::string name = "fi" + std::to_string(settings.size() + 1);
     settings.push_back(std::make_shared<MapSettings>("~drives/" + name + "/"));
-    settings.back()->set("address", address).set("series", "sk2xxe").set("ppo_type", ppo_type);
+    settings.back()->set("address", address).set("series", "sk2xxe").set("pole_pairs", 2).set("ppo_type", ppo_type);
     settings.back()->set("inverter", inverter);
     drives.push_back({name, settings.back()});
     return *settings.back();

@@ -117,7 +117,8 @@ TEST_F(Records, PassesARefusalOn) {
   answer(RecordOutcome::kDone, "74 7F 00 00 00 00 00 02");
   const auto refused = result();
   EXPECT_EQ(ParameterOutcome::kRefused, refused.outcome);
-  EXPECT_EQ(2, refused.error_number);
+  EXPECT_EQ(profile::ParameterReason::kOutOfLimits, refused.reason);
+  EXPECT_EQ(profile::pkwErrorText(2).str(), refused.text.str());
 }
 
 // DF 80 B0: the record itself is refused; told with the code of DP-V1.
@@ -127,9 +128,7 @@ TEST_F(Records, TellsWhenTheRecordIsRefused) {
   answer(RecordOutcome::kRefused, "", 0xB0);
   const auto refused = result();
   EXPECT_EQ(ParameterOutcome::kRefused, refused.outcome);
-  EXPECT_EQ(0x80B0, refused.error_number);
-  EXPECT_STREQ("the bus module refuses the acyclic access (32768 and the DP-V1 error code)",
-               profile::pkwErrorText(refused.error_number));
+  EXPECT_EQ("DP-V1 error B0, invalid index (80 B0 00)", refused.text.str());
 }
 
 // DF 80 B5: busy. Nothing was taken, so it is written again; not for ever.
@@ -168,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(All, RecordEndings,
                          ::testing::Values(Ending{RecordOutcome::kTimedOut, ParameterOutcome::kTimeout},
                                            Ending{RecordOutcome::kNoAnswer, ParameterOutcome::kTimeout},
                                            Ending{RecordOutcome::kNotSupported, ParameterOutcome::kNoChannel},
-                                           Ending{RecordOutcome::kNotActivated, ParameterOutcome::kNotActivated},
+                                           Ending{RecordOutcome::kNotActivated, ParameterOutcome::kNoChannel},
                                            Ending{RecordOutcome::kOffline, ParameterOutcome::kOffline}));
 
 // The drive went while its record was under way: the late result belongs to nobody.

@@ -15,7 +15,7 @@ class SerialLineConfig : public ::testing::Test {
  protected:
   link::SerialSettings read() const {
     const auto drive = std::make_shared<MapSettings>("~drives/left/");
-    drive->set("address", 3).set("series", "sk5xxe");
+    drive->set("address", 3).set("series", "sk5xxe").set("pole_pairs", 2);
     return readProfibusDpConfig(bus, {{"left", drive}}, 20.0).line;
   }
   std::string refusal() const {

@@ -1,0 +1,166 @@
+#include "config/tree_settings.h"
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "config/nearest_name.h"
+
+namespace nord_driver {
+
+namespace {
+
+using Kind = SettingValue::Kind;
+
+constexpr const char* kAGroup = "a group of keys and values";
+
+// An integer is a number all the same: rosparam makes one of "1".
+bool isNumber(const SettingValue& value) {
+  return value.kind == Kind::kInteger || value.kind == Kind::kFraction;
+}
+
+void collectLeaves(const SettingValue& group, const std::string& prefix, std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < group.names.size(); ++i) {
+    const std::string name = prefix + group.names[i];
+    if (group.items[i].kind == Kind::kGroup) {
+      collectLeaves(group.items[i], name + "/", names);
+    } else {
+      names.push_back(name);
+    }
+  }
+}
+
+}  // namespace
+
+TreeSettings::TreeSettings(std::string prefix, SettingValue value)
+    : prefix_(std::move(prefix)), value_(std::move(value)) {
+  if (value_.kind != Kind::kGroup && value_.kind != Kind::kNone) throw wrongKind("", value_, kAGroup);
+}
+
+const SettingValue* TreeSettings::find(const std::string& key) const {
+  asked_.insert(key);
+  const SettingValue* at = &value_;
+  std::istringstream parts(key);
+  std::string path;
+  for (std::string part; std::getline(parts, part, '/'); path += (path.empty() ? "" : "/") + part) {
+    if (at->kind == Kind::kNone) return nullptr;
+    if (at->kind != Kind::kGroup) throw wrongKind(path, *at, kAGroup);
+    at = at->find(part);
+    if (at == nullptr) return nullptr;
+  }
+  return at->kind == Kind::kNone ? nullptr : at;
+}
+
+ConfigError TreeSettings::wrongKind(const std::string& key, const SettingValue& value,
+                                    const std::string& expected) const {
+  return ConfigError(fullName(key) + ": " + value.printed() + " is not valid, expected " + expected);
+}
+
+bool TreeSettings::has(const std::string& key) const {
+  return find(key) != nullptr;
+}
+
+std::optional<double> TreeSettings::number(const std::string& key) const {
+  const SettingValue* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (!isNumber(*value)) throw wrongKind(key, *value, "a number");
+  return value->number;
+}
+
+std::optional<std::vector<double>> TreeSettings::numbers(const std::string& key) const {
+  const SettingValue* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->kind != Kind::kList) throw wrongKind(key, *value, "a list of numbers");
+  std::vector<double> list;
+  for (const SettingValue& item : value->items) {
+    if (!isNumber(item)) throw wrongKind(key, item, "a list of numbers");
+    list.push_back(item.number);
+  }
+  return list;
+}
+
+std::optional<std::int64_t> TreeSettings::integer(const std::string& key) const {
+  const SettingValue* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->kind == Kind::kInteger) return value->integer;
+  if (value->kind == Kind::kFraction) {
+    // Beyond 2^53 not every whole number is a double, and a cast is undefined where none fits.
+    constexpr double kLargest = 9007199254740992.0;
+    const double number = value->number;
+    if (std::abs(number) <= kLargest && std::trunc(number) == number) return static_cast<std::int64_t>(number);
+  }
+  throw wrongKind(key, *value, "a whole number");
+}
+
+std::optional<bool> TreeSettings::boolean(const std::string& key) const {
+  const SettingValue* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->kind != Kind::kBoolean) throw wrongKind(key, *value, "true or false");
+  return value->boolean;
+}
+
+std::optional<std::string> TreeSettings::text(const std::string& key) const {
+  const SettingValue* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->kind != Kind::kText) throw wrongKind(key, *value, "a text");
+  return value->text;
+}
+
+std::optional<std::vector<std::string>> TreeSettings::texts(const std::string& key) const {
+  const SettingValue* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->kind == Kind::kText) return std::vector<std::string>{value->text};
+  if (value->kind != Kind::kList) throw wrongKind(key, *value, "a text or a list of texts");
+  std::vector<std::string> list;
+  for (const SettingValue& item : value->items) {
+    if (item.kind != Kind::kText) throw wrongKind(key, item, "a list of texts");
+    list.push_back(item.text);
+  }
+  return list;
+}
+
+std::string TreeSettings::fullName(const std::string& key) const {
+  return prefix_ + (prefix_ == "~" || prefix_.empty() || key.empty() ? "" : "/") + key;
+}
+
+std::shared_ptr<TreeSettings> TreeSettings::group(const std::string& key) const {
+  const SettingValue* value = find(key);
+  return std::make_shared<TreeSettings>(fullName(key), value == nullptr ? SettingValue{} : *value);
+}
+
+std::shared_ptr<TreeSettings> TreeSettings::with(const std::string& key, const std::string& text) const {
+  SettingValue changed = SettingValue::group();
+  for (std::size_t i = 0; i < value_.names.size(); ++i) {
+    if (value_.names[i] != key) changed.add(value_.names[i], value_.items[i]);
+  }
+  changed.add(key, SettingValue::ofText(text));
+  return std::make_shared<TreeSettings>(prefix_, std::move(changed));
+}
+
+std::vector<std::string> TreeSettings::keys() const {
+  return value_.names;
+}
+
+// It was asked for itself, or a group it lies in was handed out.
+bool TreeSettings::isKnown(const std::string& leaf) const {
+  bool known = asked_.count(leaf) != 0;
+  for (std::size_t slash = leaf.find('/'); slash != std::string::npos && !known; slash = leaf.find('/', slash + 1)) {
+    known = asked_.count(leaf.substr(0, slash)) != 0;
+  }
+  return known;
+}
+
+std::vector<std::string> TreeSettings::unknownKeys() const {
+  std::vector<std::string> sentences;
+  std::vector<std::string> leaves;
+  collectLeaves(value_, "", leaves);
+  for (const std::string& name : leaves) {
+    if (isKnown(name)) continue;
+    const std::string nearest = nearestName(name, {asked_.begin(), asked_.end()});
+    sentences.push_back(fullName(name) + " is not known and is ignored" +
+                        (nearest.empty() ? "" : "; did you mean " + fullName(nearest) + "?"));
+  }
+  return sentences;
+}
+
+}  // namespace nord_driver

@@ -1,0 +1,53 @@
+// Settings over a tree of values: what the parameter server and a file have in common.
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "config/setting_value.h"
+#include "nord_driver/config/settings.h"
+
+namespace nord_driver {
+
+/// A group of the configuration ("~", "~bus", "drives/left"), taken once. Keys may hold slashes
+/// ("linear/x/max_velocity"). Remembers what was asked for. Not thread-safe: used while configuring.
+class TreeSettings : public Settings {
+ public:
+  /// `value` is a group, or kNone for an absent one. Throws ConfigError when it is anything else.
+  TreeSettings(std::string prefix, SettingValue value);
+
+  bool has(const std::string& key) const override;
+  std::optional<double> number(const std::string& key) const override;
+  std::optional<std::int64_t> integer(const std::string& key) const override;
+  std::optional<bool> boolean(const std::string& key) const override;
+  std::optional<std::string> text(const std::string& key) const override;
+  std::optional<std::vector<std::string>> texts(const std::string& key) const override;
+  /// Sorted.
+  std::vector<std::string> keys() const override;
+  std::string fullName(const std::string& key) const override;
+
+  /// A list of numbers.
+  std::optional<std::vector<double>> numbers(const std::string& key) const;
+  /// The group below `key`; an empty one when it is absent.
+  std::shared_ptr<TreeSettings> group(const std::string& key) const;
+  /// The same group with `text` at `key`, which is no path.
+  std::shared_ptr<TreeSettings> with(const std::string& key, const std::string& text) const;
+  /// Marks a key as known without reading it.
+  void accept(const std::string& key) const { asked_.insert(key); }
+
+  /// One sentence per key that is there and that nobody asked for, with the nearest known name.
+  std::vector<std::string> unknownKeys() const;
+
+ private:
+  const SettingValue* find(const std::string& key) const;  // nullptr when it is absent or has no value
+  ConfigError wrongKind(const std::string& key, const SettingValue& value, const std::string& expected) const;
+  bool isKnown(const std::string& leaf) const;
+
+  std::string prefix_;
+  SettingValue value_;
+  mutable std::set<std::string> asked_;
+};
+
+}  // namespace nord_driver

@@ -1,0 +1,40 @@
+#include "cycle/guest_gate.h"
+
+namespace nord_driver::cycle {
+
+using profile::DriveState;
+
+namespace {
+
+constexpr int kCyclesToSeeAll = 3;  // inverters behind one module do not answer in the same cycle
+
+bool isAtRest(DriveState state) noexcept {
+  return state == DriveState::kNotReadyToSwitchOn || state == DriveState::kSwitchOnDisabled ||
+         state == DriveState::kReadyToSwitchOn || state == DriveState::kFault;
+}
+
+}  // namespace
+
+void GuestGate::holdBack(std::vector<profile::ProcessOutput>& outputs) const noexcept {
+  if (open_) return;
+  for (profile::ProcessOutput& output : outputs) output = {};
+}
+
+void GuestGate::handleInputs(std::vector<DriveExchange>& inputs) noexcept {
+  if (open_) return;
+  look(inputs);
+  for (DriveExchange& input : inputs) input = {};
+}
+
+void GuestGate::look(const std::vector<DriveExchange>& inputs) noexcept {
+  heard_ = !inputs.empty() && inputs.front().inverter_answers;
+  if (heard_) ++cycles_heard_;
+  for (DriveIndex i = 0; i < inputs.size() && !running_; ++i) {
+    if (!inputs[i].inverter_answers) continue;
+    const DriveState state = profile::StatusWord{inputs[i].input.status_word}.state();
+    if (!isAtRest(state)) running_ = Running{i, state};
+  }
+  open_ = cycles_heard_ >= kCyclesToSeeAll && !running_;
+}
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,46 @@
+// Keeps a program that only reads and writes parameters from stopping a drive that runs.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "nord_driver/profile/process_data.h"
+#include "nord_driver/transport/transport.h"
+#include "profile/status_word.h"
+
+namespace nord_driver::cycle {
+
+/// The cycle's first word that acts, 047E, stops a drive. A driver is there to do that; a guest is not: until the first
+/// drive has answered for a while and no drive was seen running, all words are 0000, which inverters ignore (BU 2700
+/// 6.4.1 note 2), and the drive layer hears nothing. One that runs keeps the gate closed for ever.
+class GuestGate {
+ public:
+  struct Running {
+    DriveIndex drive = 0;
+    profile::DriveState state = profile::DriveState::kUnknown;
+  };
+
+  /// `guest` false: open from the beginning.
+  explicit GuestGate(bool guest) noexcept : open_(!guest) {}
+
+  /// Before the exchange.
+  void holdBack(std::vector<profile::ProcessOutput>& outputs) const noexcept;
+  /// After it; while the gate is closed the drives look silent from here on.
+  void handleInputs(std::vector<DriveExchange>& inputs) noexcept;
+
+  bool isOpen() const noexcept { return open_; }
+  /// The first drive answered in the last cycle with the gate closed.
+  bool heard() const noexcept { return heard_; }
+  /// A drive that is not at rest.
+  const std::optional<Running>& running() const noexcept { return running_; }
+
+ private:
+  void look(const std::vector<DriveExchange>& inputs) noexcept;
+
+  bool open_;
+  bool heard_ = false;
+  int cycles_heard_ = 0;
+  std::optional<Running> running_;
+};
+
+}  // namespace nord_driver::cycle

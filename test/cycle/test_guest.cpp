@@ -1,0 +1,114 @@
+// The cycle of a program that only reads and writes parameters: what it sends before it knows that no drive runs, and
+// what it does not ask for.
+#include <gtest/gtest.h>
+
+#include "cycle/bus_cycle.h"
+#include "cycle/cycle_ports.h"
+#include "cycle/scripted_transport.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+struct Guest {
+  Guest() : transport{2}, ports{2}, cycle{config(), transport, ports, false, CycleRole::kGuest} {}
+
+  static CycleConfig config() {
+    CycleConfig config;
+    for (const char* name : {"first", "second"}) {
+      DriveSetup setup;
+      setup.name = name;
+      setup.drive.joint.pole_pairs = 2;
+      config.drives.push_back(setup);
+    }
+    return config;
+  }
+  void run(int cycles = 1) {
+    for (int i = 0; i < cycles; ++i) {
+      cycle.runOnce();
+      transport.sleepUntil(transport.time + cycle.period());
+    }
+  }
+  Word sent(DriveIndex drive) const { return transport.outputs[drive].control_word; }
+
+  ScriptedTransport transport;
+  CyclePorts ports;
+  BusCycle cycle;
+};
+
+// 0000 until the first drive has answered in three cycles, and then the idle word.
+TEST(Guest, SaysNothingThatActsBeforeItHasSeenTheDrivesAtRest) {
+  Guest guest;
+  guest.transport.inverters[0].silent = true;
+  guest.run(10);
+  EXPECT_FALSE(guest.cycle.gate().isOpen()) << "the first drive is silent";
+  EXPECT_FALSE(guest.cycle.gate().heard());
+  guest.transport.inverters[0].silent = false;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FALSE(guest.cycle.gate().isOpen()) << i;
+    guest.run();
+    EXPECT_TRUE(guest.cycle.gate().heard()) << i;
+    EXPECT_EQ(0x0000, guest.sent(0)) << i;
+    EXPECT_EQ(0x0000, guest.sent(1)) << i;
+  }
+  EXPECT_TRUE(guest.cycle.gate().isOpen());
+  guest.run(2);
+  EXPECT_EQ(0x047E, guest.sent(0));
+}
+
+TEST(Guest, LeavesADriveThatRunsAloneForEver) {
+  Guest guest;
+  guest.transport.inverters[1].exchange({0x047E, {}});
+  for (int i = 0; i < 3; ++i) guest.transport.inverters[1].exchange({0x047F, {}});
+  guest.run(50);
+  EXPECT_FALSE(guest.cycle.gate().isOpen());
+  ASSERT_TRUE(guest.cycle.gate().running().has_value());
+  EXPECT_EQ(1u, guest.cycle.gate().running()->drive);
+  EXPECT_EQ(profile::DriveState::kOperationEnabled, guest.cycle.gate().running()->state);
+  EXPECT_EQ(0x0000, guest.sent(0));
+  EXPECT_EQ(0x0000, guest.sent(1));
+  EXPECT_FALSE(guest.ports.readSnapshot().drives[1].online);
+}
+
+// What a driver reads for itself would only make its users wait.
+TEST(Guest, AsksForNothingButWhatItsUsersWant) {
+  Guest guest;
+  guest.transport.hold_answers = true;
+  guest.run(20);
+  ASSERT_TRUE(guest.cycle.gate().isOpen());
+  EXPECT_TRUE(guest.transport.submitted.empty());
+  Request request;
+  request.id = 1;
+  request.kind = RequestKind::kReadParameter;
+  request.drive = 0;
+  request.parameter.number = 105;
+  request.patience = std::chrono::seconds{1};
+  guest.ports.submit(request);
+  guest.run(2);
+  ASSERT_EQ(1u, guest.transport.submitted.size());
+  guest.transport.answerFirst();
+  guest.run(2);
+  const auto answer = guest.ports.waitCompletion(Duration::zero());
+  ASSERT_TRUE(answer.has_value());
+  EXPECT_EQ(500, answer->parameter.raw);
+}
+
+TEST(Guest, EnablesNothing) {
+  Guest guest;
+  guest.run(20);
+  Request request;
+  request.id = 1;
+  request.kind = RequestKind::kEnable;
+  request.drive = 0;
+  request.patience = std::chrono::seconds{5};
+  guest.ports.submit(request);
+  for (int i = 0; i < 200; ++i) {
+    guest.run();
+    EXPECT_NE(0x047F, guest.sent(0));
+  }
+  const auto answer = guest.ports.waitCompletion(Duration::zero());
+  ASSERT_TRUE(answer.has_value());
+  EXPECT_FALSE(answer->success);
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

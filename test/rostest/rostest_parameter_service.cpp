@@ -1,0 +1,209 @@
+// Parameters over the services: what is read, what is written where, and every refusal in words.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <limits>
+#include <memory>
+
+#include "nord_driver/ReadParameter.h"
+#include "nord_driver/WriteParameter.h"
+#include "rostest/robot_under_test.h"
+
+namespace nord_driver::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// How a refusal names its reason: CANopen by the abort code, PROFIBUS by the error number of the PKW.
+std::string reason(const char* abort_code, int error_number) {
+  return onCanopen() ? std::string("SDO abort ") + abort_code : "PKW error " + std::to_string(error_number);
+}
+
+struct Read : Answer {
+  ReadParameter::Response response;
+};
+struct Written : Answer {
+  WriteParameter::Response response;
+};
+
+/// With a driver of its own for all tests of a suite.
+class ParameterService : public RobotTest {
+ protected:
+  static void SetUpTestSuite() {
+    ros::param::set("nord_driver/allow_raw_parameters", false);
+    start();
+  }
+  static void TearDownTestSuite() {
+    shared_driver->signal(SIGTERM);
+    EXPECT_TRUE(shared_driver->waitEnd(kPatience));
+    shared_driver.reset();
+  }
+  static void start() {
+    shared_driver = std::make_unique<NodeProcess>(kDriverProgram, std::vector<std::string>{"__name:=nord_driver"});
+  }
+  void SetUp() override {
+    RobotTest::SetUp();
+    ASSERT_TRUE(robot().waitForDrivesOnline());
+  }
+  static Read read(const std::string& drive, int number, int set = 0, int index = 0) {
+    ReadParameter service;
+    service.request.number = static_cast<std::uint16_t>(number);
+    service.request.parameter_set = static_cast<std::uint8_t>(set);
+    service.request.index = static_cast<std::uint8_t>(index);
+    Read result;
+    static_cast<Answer&>(result) = callService("nord_driver/" + drive + "/read_parameter", service);
+    result.response = service.response;
+    return result;
+  }
+  static Written write(const std::string& drive, int number, double value, bool persistent, int set = 0,
+                       int index = 0) {
+    WriteParameter service;
+    service.request.number = static_cast<std::uint16_t>(number);
+    service.request.parameter_set = static_cast<std::uint8_t>(set);
+    service.request.index = static_cast<std::uint8_t>(index);
+    service.request.value = value;
+    service.request.persistent = persistent;
+    Written result;
+    static_cast<Answer&>(result) = callService("nord_driver/" + drive + "/write_parameter", service);
+    result.response = service.response;
+    return result;
+  }
+  static DriveTopics& topics(const std::string& drive) { return drive == "left" ? robot().left : robot().right; }
+  static std::uint64_t eepromWrites(const std::string& drive) { return topics(drive).truth.next()->eeprom_writes; }
+
+  static std::unique_ptr<NodeProcess> shared_driver;
+};
+std::unique_ptr<NodeProcess> ParameterService::shared_driver;
+
+class RawParameters : public ParameterService {
+ protected:
+  static void SetUpTestSuite() {
+    ros::param::set("nord_driver/allow_raw_parameters", true);
+    start();
+  }
+};
+
+// Set 0 is the active set: the driver's, 1 here. P105 of set 3 differs (common.launch).
+TEST_F(ParameterService, ReadsASetDependentParameterOfTheSetAskedFor) {
+  Read p105 = read("left", 105);
+  ASSERT_TRUE(p105.success) << p105;
+  EXPECT_EQ(p105.response.raw, 500);
+  EXPECT_DOUBLE_EQ(p105.response.value, 50.0);
+  EXPECT_EQ(p105.response.unit, "Hz");
+  EXPECT_EQ(p105.response.name, "Maximum frequency");
+  p105 = read("left", 105, 3);
+  ASSERT_TRUE(p105.success) << p105;
+  EXPECT_EQ(p105.response.raw, 250);
+  EXPECT_DOUBLE_EQ(p105.response.value, 25.0);
+}
+
+TEST_F(ParameterService, ReadsANegativeValueAndASetThatDoesNotMatter) {
+  // P513 does not depend on the set: a set is ignored.
+  const Read p513 = read("left", 513, 2);
+  ASSERT_TRUE(p513.success) << p513;
+  EXPECT_EQ(p513.response.raw, 0);
+  EXPECT_EQ(p513.response.unit, "s");
+}
+
+// [-01] is 1: version, revision (BU 0020 6.2, P707).
+TEST_F(ParameterService, ReadsAnArrayElementByItsPrintedIndex) {
+  const Read version = read("left", 707, 0, 1);
+  ASSERT_TRUE(version.success) << version;
+  EXPECT_EQ(version.response.raw, 20);
+  EXPECT_TRUE(read("left", 707, 0, 2).success);
+  const Read none = read("left", 707, 0, 9);
+  EXPECT_FALSE(none.success);
+  EXPECT_THAT(none.message, AllOf(HasSubstr("drive left refuses P707"), HasSubstr(reason("0609 0011h", 3))));
+}
+
+// P420 is in no catalogue of the driver: as transferred, without unit and name.
+TEST_F(ParameterService, ReadsAnUnknownParameterRaw) {
+  const Read p420 = read("left", 420);
+  ASSERT_TRUE(p420.success) << p420;
+  EXPECT_DOUBLE_EQ(p420.response.value, p420.response.raw);
+  EXPECT_EQ(p420.response.unit, "");
+  EXPECT_EQ(p420.response.name, "");
+}
+
+TEST_F(ParameterService, SaysInWordsWhatDoesNotExist) {
+  EXPECT_THAT(read("left", 1000).message, AllOf(HasSubstr("parameter 1000 does not exist"), HasSubstr("0 to 999")));
+  EXPECT_THAT(read("left", 105, 5).message, AllOf(HasSubstr("parameter set 5 does not exist"), HasSubstr("0 to 4")));
+  const Read unknown = read("left", 999);
+  EXPECT_FALSE(unknown.success);
+  EXPECT_THAT(unknown.message, AllOf(HasSubstr("drive left refuses P999"), HasSubstr(reason("0602 0000h", 0))));
+}
+
+// RAM orders spare the EEPROM (BU 2700 6.5.1.1, AK 11 to 14). An SDO knows none: there it is P560, off and on.
+TEST_F(ParameterService, WritesToRamWithoutTheEeprom) {
+  const std::uint64_t before = eepromWrites("left");
+  const Written ramp = write("left", 102, 1.5, false, 2);
+  ASSERT_TRUE(ramp.success) << ramp;
+  EXPECT_EQ(ramp.response.raw, 150);
+  EXPECT_DOUBLE_EQ(ramp.response.value, 1.5);
+  EXPECT_DOUBLE_EQ(read("left", 102, 2).response.value, 1.5);
+  EXPECT_DOUBLE_EQ(read("left", 102, 1).response.value, 0.5) << "the other sets stay";
+  EXPECT_LE(eepromWrites("left"), before + (onCanopen() ? 2 : 0));
+}
+
+TEST_F(ParameterService, WritesPersistentlyOnceAndTheSameValueNotAtAll) {
+  const std::uint64_t before = eepromWrites("left");
+  const Written first = write("left", 102, 2.5, true, 4);
+  ASSERT_TRUE(first.success) << first;
+  EXPECT_EQ(first.response.raw, 250);
+  EXPECT_EQ(eepromWrites("left"), before + 1);
+
+  const Written again = write("left", 102, 2.5, true, 4);
+  ASSERT_TRUE(again.success) << again;
+  EXPECT_THAT(again.message, HasSubstr("nothing was written"));
+  EXPECT_EQ(again.response.raw, 250);
+  EXPECT_EQ(eepromWrites("left"), before + 1);
+}
+
+// Beyond the catalogue the driver says no, beyond its own range the inverter does. Nothing is written.
+TEST_F(ParameterService, RefusesAValueOutOfRangeInWords) {
+  const std::uint64_t before = eepromWrites("left");
+  const Written too_long = write("left", 513, 200.0, true);
+  EXPECT_FALSE(too_long.success);
+  EXPECT_THAT(too_long.message, AllOf(HasSubstr("200"), HasSubstr("P513"), HasSubstr("-0.1 to 100 s")));
+  const Written nan = write("left", 102, std::numeric_limits<double>::quiet_NaN(), true);
+  EXPECT_FALSE(nan.success);
+  EXPECT_THAT(nan.message, HasSubstr("expected"));
+  const Written by_the_inverter = write("left", 102, 400.0, false);
+  EXPECT_FALSE(by_the_inverter.success);
+  EXPECT_THAT(by_the_inverter.message, AllOf(HasSubstr("drive left refuses P102"), HasSubstr(reason("0609 0032h", 2))));
+  EXPECT_DOUBLE_EQ(read("left", 102).response.value, 0.5);
+  const Written read_only = write("left", 743, 5.0, false);
+  EXPECT_FALSE(read_only.success);
+  EXPECT_THAT(read_only.message, AllOf(HasSubstr("drive left refuses P743"), HasSubstr(reason("0601 0002h", 1))));
+  EXPECT_LE(eepromWrites("left"), before + (onCanopen() ? 2 : 0)) << "P560 off and on";
+}
+
+// Without a unit nobody knows what 12 is: a key of the configuration has to allow it.
+TEST_F(ParameterService, RefusesToWriteAnUnknownParameter) {
+  const Written p420 = write("left", 420, 12.0, false);
+  EXPECT_FALSE(p420.success);
+  EXPECT_THAT(p420.message, AllOf(HasSubstr("P420 is not in the catalogue"), HasSubstr("allow_raw_parameters: true")));
+  EXPECT_EQ(read("left", 420).response.raw, 0);
+}
+
+TEST_F(RawParameters, WritesAnUnknownParameterWhereItIsAllowed) {
+  const Written p420 = write("left", 420, 12.0, false);
+  ASSERT_TRUE(p420.success) << p420;
+  EXPECT_EQ(p420.response.raw, 12);
+  EXPECT_EQ(read("left", 420).response.raw, 12);
+}
+
+// An inverter without AK 11 to 14 (BU 2700 6.5.1.1: some do not know them): P560 spares the EEPROM, and is put back.
+TEST_F(ParameterService, WritesToRamThroughP560WhereThereAreNoRamOrders) {
+  const std::uint64_t before = eepromWrites("right");
+  const Written ramp = write("right", 102, 1.5, false, 2);
+  ASSERT_TRUE(ramp.success) << ramp;
+  EXPECT_THAT(ramp.message, AllOf(HasSubstr("P560 was set to 0"), HasSubstr("put back to 1")));
+  EXPECT_DOUBLE_EQ(read("right", 102, 2).response.value, 1.5);
+  EXPECT_EQ(read("right", 560).response.raw, 1);
+  EXPECT_LE(eepromWrites("right"), before + 2) << "P560 off and on, the value not";
+}
+
+}  // namespace
+}  // namespace nord_driver::test
