@@ -139,7 +139,7 @@ class Robot {
     for (std::uint8_t i = 0; i < 2; ++i) {
       sim::DriveConfig drive;
       drive.name = i == 0 ? "left" : "right";
-      drive.slave.address = static_cast<std::uint8_t>(kFirstStation + i);
+      drive.address = static_cast<std::uint8_t>(kFirstStation + i);
       config.drives.push_back(drive);
     }
     return config;

@@ -83,11 +83,11 @@ class PacedLine {
  private:
   static sim::SimConfig simulation(std::uint32_t rate, std::size_t stations) {
     sim::SimConfig config;
-    config.baud_rate = rate;
+    config.bus.as<sim::DpBusConfig>().baud_rate = rate;
     for (std::size_t i = 0; i < stations; ++i) {
       sim::DriveConfig drive;
       drive.name = "drive" + std::to_string(i);
-      drive.slave.address = static_cast<std::uint8_t>(kFirstStation + i);
+      drive.address = static_cast<std::uint8_t>(kFirstStation + i);
       config.drives.push_back(drive);
     }
     return config;

@@ -59,7 +59,7 @@ sim::SimConfig simulated() {
   for (const char* name : {"left", "right"}) {
     sim::DriveConfig drive;
     drive.name = name;
-    drive.slave.address = static_cast<std::uint8_t>(kFirstStation + config.drives.size());
+    drive.address = static_cast<std::uint8_t>(kFirstStation + config.drives.size());
     config.drives.push_back(drive);
   }
   return config;

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "canopen/eds_lines.h"
+#include "core/text.h"
 
 namespace nord_driver::canopen {
 
@@ -183,7 +184,7 @@ class EdsReader {
     elements.text = std::to_string(count);
     elements.line = values.line;
     file_.objects.push_back(elements);
-    const EdsSection* own = section(edsLowerCase(objectName(index, std::nullopt).substr(0, 4)) + "value");
+    const EdsSection* own = section(lowerCase(objectName(index, std::nullopt).substr(0, 4)) + "value");
     for (unsigned sub_index = 1; sub_index <= count; ++sub_index) {
       takeObject(index, static_cast<std::uint8_t>(sub_index), true, values);
       const EdsValue* value = own == nullptr ? nullptr : own->find(std::to_string(sub_index));
@@ -202,7 +203,7 @@ class EdsReader {
                                                                        {"rwr", EdsAccess::kReadWriteInput},
                                                                        {"rww", EdsAccess::kReadWriteOutput},
                                                                        {"const", EdsAccess::kConst}}};
-    const std::string word = edsLowerCase(value->text);
+    const std::string word = lowerCase(value->text);
     for (const auto& known : kWords) {
       if (word == known.first) return known.second;
     }

@@ -1,21 +1,13 @@
 #include "canopen/eds_lines.h"
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
+
+#include "core/text.h"
 
 namespace nord_driver::canopen {
 
 namespace {
-
-constexpr char kWhiteSpace[] = " \t\r\n\v\f";
-constexpr char kByteOrderMark[] = "\xEF\xBB\xBF";
-
-std::string withoutSpace(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(kWhiteSpace);
-  if (begin == std::string::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kWhiteSpace) - begin + 1);
-}
 
 int digitOf(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -47,7 +39,7 @@ std::optional<std::uint64_t> unsignedNumber(const std::string& text) {
 std::optional<std::uint64_t> plainNumber(const std::string& text) {
   const bool negative = !text.empty() && text[0] == '-';
   const bool sign = negative || (!text.empty() && text[0] == '+');
-  const auto magnitude = unsignedNumber(sign ? withoutSpace(text.substr(1)) : text);
+  const auto magnitude = unsignedNumber(sign ? trimmed(text.substr(1)) : text);
   if (!magnitude || !negative) return magnitude;
   if (*magnitude > std::uint64_t{1} << 63) return std::nullopt;
   return ~*magnitude + 1;
@@ -60,28 +52,22 @@ const EdsValue* EdsSection::find(const std::string& key) const noexcept {
   return found == values.end() || found->second.text.empty() ? nullptr : &found->second;
 }
 
-std::string edsLowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 EdsSections splitEds(const std::string& text, std::vector<EdsProblem>& problems) {
   EdsSections sections;
   EdsSection* section = nullptr;
   std::string section_name;
   std::size_t number = 0;
-  for (std::size_t begin = text.compare(0, 3, kByteOrderMark) == 0 ? 3 : 0; begin < text.size();) {
+  for (std::size_t begin = textBegin(text); begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string line = withoutSpace(text.substr(begin, end - begin));
+    const std::string line = trimmed(text.substr(begin, end - begin));
     begin = end + 1;
     ++number;
     if (line.empty() || line[0] == ';') continue;
     if (line[0] == '[') {
       const std::size_t close = line.find(']');
       if (close == std::string::npos) problems.push_back({number, "\"" + line + "\" has no closing bracket"});
-      section_name = withoutSpace(line.substr(1, close == std::string::npos ? close : close - 1));
-      const auto made = sections.try_emplace(edsLowerCase(section_name));
+      section_name = trimmed(line.substr(1, close == std::string::npos ? close : close - 1));
+      const auto made = sections.try_emplace(lowerCase(section_name));
       section = &made.first->second;
       if (made.second) {
         section->line = number;
@@ -97,9 +83,9 @@ EdsSections splitEds(const std::string& text, std::vector<EdsProblem>& problems)
     } else if (section == nullptr) {
       problems.push_back({number, "\"" + line + "\" stands before the first section"});
     } else {
-      const std::string key = withoutSpace(line.substr(0, equals));
-      const EdsValue value{number, withoutSpace(line.substr(equals + 1))};
-      const auto made = section->values.try_emplace(edsLowerCase(key), value);
+      const std::string key = trimmed(line.substr(0, equals));
+      const EdsValue value{number, trimmed(line.substr(equals + 1))};
+      const auto made = section->values.try_emplace(lowerCase(key), value);
       if (!made.second) {
         problems.push_back({number, key + " stands twice in [" + section_name + "]; the first one (line " +
                                         std::to_string(made.first->second.line) + ") holds"});
@@ -111,17 +97,17 @@ EdsSections splitEds(const std::string& text, std::vector<EdsProblem>& problems)
 
 std::optional<EdsNumber> edsNumber(const std::string& text) {
   constexpr char kNodeId[] = "$nodeid";
-  std::string rest = edsLowerCase(withoutSpace(text.substr(0, text.find(';'))));
+  std::string rest = lowerCase(trimmed(text.substr(0, text.find(';'))));
   EdsNumber number;
   const std::size_t at = rest.find(kNodeId);
   if (at != std::string::npos) {
     number.plus_node_id = true;
     rest.erase(at, sizeof kNodeId - 1);
-    rest = withoutSpace(rest);
+    rest = trimmed(rest);
     if (rest.empty()) return number;
     const std::size_t plus = at == 0 ? 0 : rest.size() - 1;
     if (rest[plus] != '+') return std::nullopt;
-    rest = withoutSpace(rest.erase(plus, 1));
+    rest = trimmed(rest.erase(plus, 1));
   }
   const auto value = plainNumber(rest);
   if (!value) return std::nullopt;

@@ -34,6 +34,4 @@ EdsSections splitEds(const std::string& text, std::vector<EdsProblem>& problems)
 /// semicolon is no part of it. Nothing when it is no number of at most 64 bits.
 std::optional<EdsNumber> edsNumber(const std::string& text);
 
-std::string edsLowerCase(std::string text);
-
 }  // namespace nord_driver::canopen

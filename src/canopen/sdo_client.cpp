@@ -30,9 +30,9 @@ void SdoClient::arm(Instant now) noexcept {
 
 bool SdoClient::pollTransmit(CanFrame& frame) noexcept {
   SdoBytes bytes{};
-  if (parting_) {
-    bytes = *parting_;
-    parting_.reset();
+  if (closing_frame_) {
+    bytes = *closing_frame_;
+    closing_frame_.reset();
   } else if (!pollRequest(bytes)) {
     return false;
   }
@@ -89,7 +89,7 @@ SdoStep SdoClient::handleResponse(const SdoBytes& response) noexcept {
       return segmented_download_.handle(response, buffer_);
     case Phase::kBlockUpload: {
       const SdoStep step = block_upload_.handle(response, buffer_);
-      if (step.kind == SdoStep::Kind::kDone) parting_ = BlockUpload::confirmation();
+      if (step.kind == SdoStep::Kind::kDone) closing_frame_ = BlockUpload::confirmation();
       return step;
     }
     case Phase::kBlockDownload:
@@ -201,8 +201,8 @@ void SdoClient::cancel() noexcept {
 
 void SdoClient::abort(SdoEnd end, std::uint32_t code) noexcept {
   if (known_to_server_) {
-    parting_ = objectFrame(kAbort, request_);
-    putU32(*parting_, code);
+    closing_frame_ = objectFrame(kAbort, request_);
+    putU32(*closing_frame_, code);
   }
   finish(end, code);
 }

@@ -98,7 +98,7 @@ class SdoClient {
   bool known_to_server_ = false;   // a frame of this transfer was given out
   std::size_t segments_seen_ = 0;  // of a block download, sent when its deadline was set
   Instant deadline_;
-  std::optional<SdoBytes> parting_;  // the last frame of a transfer that is over here: nobody answers it
+  std::optional<SdoBytes> closing_frame_;  // the last frame of a transfer that is over here: nobody answers it
   std::optional<SdoAnswer> answer_;
   SdoCounters counters_;
 };

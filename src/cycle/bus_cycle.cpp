@@ -23,10 +23,9 @@ std::vector<std::optional<std::size_t>> modulesOf(const CycleConfig& config, con
   return modules;
 }
 
-std::vector<bool> membersOf(const CycleConfig& config) {
-  std::vector<bool> members(config.drives.size(), false);
-  if (!config.base) return members;
-  for (const DriveIndex wheel : config.base->wheels()) members[wheel] = true;
+std::vector<bool> membersOfBase(const Supervisor& supervisor, std::size_t drives) {
+  std::vector<bool> members;
+  for (DriveIndex i = 0; i < drives; ++i) members.push_back(supervisor.inBase(i));
   return members;
 }
 
@@ -66,7 +65,8 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       names_(namesOf(config)),
       drives_(makeDrives(config, transport)),
       supervisor_(config, drives_, auto_enable),
-      command_watch_(ports, config.cmd_vel_timeout, config.base.has_value(), names_, membersOf(config)),
+      command_watch_(ports, config.cmd_vel_timeout, config.base.has_value(), names_,
+                     membersOfBase(supervisor_, config.drives.size())),
       standstill_requests_(drives_, names_, modulesOf(config, transport)),
       outputs_(config.drives.size()),
       inputs_(config.drives.size()),
@@ -296,10 +296,7 @@ void BusCycle::publish(Instant now) noexcept {
   snapshot_.bus_text = transport_.busText();
   while (const auto event = transport_.pollEvent()) ports_.tell(*event);
   tellChanges(now);
-  for (DriveIndex i = 0; i < drives_.size(); ++i) {
-    snapshot_.drives[i].time = now;
-    fill(snapshot_.drives[i], i);
-  }
+  for (DriveIndex i = 0; i < drives_.size(); ++i) fill(snapshot_.drives[i], i, now);
   if (base_) {
     BaseSnapshot& base = snapshot_.base;
     base.known = true;
@@ -342,8 +339,9 @@ void BusCycle::tellChanges(Instant now) noexcept {
   }
 }
 
-void BusCycle::fill(DriveSnapshot& to, DriveIndex drive) const noexcept {
+void BusCycle::fill(DriveSnapshot& to, DriveIndex drive, Instant now) const noexcept {
   const drive::DriveReport& report = drives_[drive].report();
+  to.time = now;
   to.online = report.online;
   to.module_answers = inputs_[drive].module_answers;
   to.enabled = drive::isEnabled(report.phase);

@@ -46,6 +46,7 @@ class BusCycle {
   /// A parameter that decides motion may be written.
   bool isAtRest(DriveIndex drive) noexcept;
   const GuestGate& gate() const noexcept { return gate_; }
+  void closeGate() noexcept { gate_.close(); }
 
  private:
   /// One drive with everything the cycle keeps beside it.
@@ -76,7 +77,7 @@ class BusCycle {
   void measureBase(Duration dt) noexcept;
   void publish(Instant now) noexcept;
   void tellChanges(Instant now) noexcept;
-  void fill(DriveSnapshot& to, DriveIndex drive) const noexcept;
+  void fill(DriveSnapshot& to, DriveIndex drive, Instant now) const noexcept;
 
   Transport& transport_;
   CyclePorts& ports_;

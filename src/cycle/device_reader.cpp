@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "profile/parameter_catalogue.h"
+#include "profile/parameter_shape.h"
 
 namespace nord_driver::cycle {
 
@@ -16,10 +17,6 @@ constexpr std::uint8_t kSets = 4;
 constexpr std::uint16_t kAccelerationTime = 102, kDecelerationTime = 103;
 // s: the bus manuals name no unit of P103, which is set in the steps of P102 on the inverter.
 constexpr double kRampStep = 0.01;
-
-bool isArray(profile::ParameterShape shape) noexcept {
-  return shape == profile::ParameterShape::kArray || shape == profile::ParameterShape::kArrayPerSet;
-}
 
 }  // namespace
 
@@ -54,7 +51,7 @@ void DeviceReader::add(std::uint16_t number, std::uint8_t set, std::uint8_t inde
 void DeviceReader::addFunction(std::uint16_t first_number, std::uint8_t place, std::uint8_t set) noexcept {
   const profile::ParameterInfo* info = profile::findParameter(first_number, series_);
   if (info == nullptr) return;
-  if (isArray(info->shape)) {
+  if (profile::isArray(info->shape)) {
     add(first_number, set, static_cast<std::uint8_t>(place + 1));
   } else {
     add(static_cast<std::uint16_t>(first_number + place), set, 1);

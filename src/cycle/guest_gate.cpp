@@ -15,6 +15,13 @@ bool isAtRest(DriveState state) noexcept {
 
 }  // namespace
 
+void GuestGate::close() noexcept {
+  open_ = false;
+  heard_ = false;
+  cycles_heard_ = 0;
+  running_.reset();
+}
+
 void GuestGate::holdBack(std::vector<profile::ProcessOutput>& outputs) const noexcept {
   if (open_) return;
   for (profile::ProcessOutput& output : outputs) output = {};

@@ -23,6 +23,8 @@ class GuestGate {
   /// `guest` false: open from the beginning.
   explicit GuestGate(bool guest) noexcept : open_(!guest) {}
 
+  /// Begins anew: nothing is known of the drives any more.
+  void close() noexcept;
   /// Before the exchange.
   void holdBack(std::vector<profile::ProcessOutput>& outputs) const noexcept;
   /// After it; while the gate is closed the drives look silent from here on.

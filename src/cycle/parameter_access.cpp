@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "config/setting_checks.h"
+#include "profile/parameter_shape.h"
 
 namespace nord_driver::cycle {
 
@@ -37,8 +38,7 @@ std::string addressParameter(const ParameterAddress& address, profile::Series se
     return "parameter set " + std::to_string(address.parameter_set) + " does not exist, expected 0 to 4";
   }
   info = profile::findParameter(address.number, series);
-  const bool array = info == nullptr || info->shape == profile::ParameterShape::kArray ||
-                     info->shape == profile::ParameterShape::kArrayPerSet;
+  const bool array = info == nullptr || profile::isArray(info->shape);
   if (!array && address.index > 1) {
     return "P" + std::to_string(address.number) + " is no array, expected index 0, not " +
            std::to_string(address.index);

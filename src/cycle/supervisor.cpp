@@ -1,6 +1,7 @@
 #include "cycle/supervisor.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "cycle/user_messages.h"
 
@@ -11,6 +12,7 @@ using drive::Refusal;
 
 namespace {
 
+constexpr std::size_t kNoGroup = std::numeric_limits<std::size_t>::max();
 constexpr const char* kDisabledAgain = "disabled again before all drives were enabled";
 
 Sentence notHeardYet(const CommandState& commands, bool has_base) noexcept {
@@ -23,16 +25,14 @@ Sentence notHeardYet(const CommandState& commands, bool has_base) noexcept {
 }  // namespace
 
 Supervisor::Supervisor(const CycleConfig& config, std::vector<drive::Drive>& drives, bool auto_enable)
-    : drives_(drives), group_of_(drives.size()), has_base_(config.base.has_value()), auto_enable_(auto_enable) {
+    : drives_(drives),
+      group_of_(drives.size(), kNoGroup),
+      has_base_(config.base.has_value()),
+      auto_enable_(auto_enable) {
   for (const DriveSetup& setup : config.drives) names_.push_back(setup.name);
-  std::vector<bool> taken(drives.size(), false);
-  if (config.base) {
-    std::vector<DriveIndex> members = config.base->wheels();
-    for (const DriveIndex member : members) taken[member] = true;
-    addGroup(members, config);
-  }
+  if (config.base) addGroup(config.base->wheels(), config);
   for (DriveIndex i = 0; i < drives.size(); ++i) {
-    if (!taken[i]) addGroup({i}, config);
+    if (group_of_[i] == kNoGroup) addGroup({i}, config);
   }
 }
 

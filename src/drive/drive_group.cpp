@@ -248,24 +248,4 @@ bool DriveGroup::settled() const noexcept {
   return true;
 }
 
-const char* toString(GroupPhase phase) noexcept {
-  switch (phase) {
-    case GroupPhase::kDisabled:
-      return "disabled";
-    case GroupPhase::kEnabling:
-      return "enabling";
-    case GroupPhase::kEnabled:
-      return "enabled";
-    case GroupPhase::kRampingDown:
-      return "ramping down";
-    case GroupPhase::kHalting:
-      return "halting: a drive has stopped";
-    case GroupPhase::kStopping:
-      return "stopping";
-    case GroupPhase::kQuickStopping:
-      return "quick stopping (OFF3)";
-  }
-  return "";
-}
-
 }  // namespace nord_driver::drive

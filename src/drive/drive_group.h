@@ -109,6 +109,4 @@ class DriveGroup {
   bool followed_ = false;  // a fresh command, since the group is enabled
 };
 
-const char* toString(GroupPhase phase) noexcept;
-
 }  // namespace nord_driver::drive

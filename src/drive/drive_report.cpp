@@ -2,36 +2,6 @@
 
 namespace nord_driver::drive {
 
-const char* toString(Phase phase) noexcept {
-  switch (phase) {
-    case Phase::kOffline:
-      return "offline";
-    case Phase::kIdle:
-      return "idle";
-    case Phase::kAcknowledging:
-      return "acknowledging a fault";
-    case Phase::kEnabling:
-      return "enabling";
-    case Phase::kEnabled:
-      return "enabled";
-    case Phase::kHoldingZero:
-      return "running down to setpoint 0";
-    case Phase::kStopping:
-      return "stopping (OFF1)";
-    case Phase::kQuickStopping:
-      return "quick stopping (OFF3)";
-    case Phase::kSwitchingSet:
-      return "switching the parameter set";
-    case Phase::kCoasting:
-      return "coasting (OFF2)";
-    case Phase::kResting:
-      return "enabled, at rest by OFF1 (P104 > 0)";
-    case Phase::kResuming:
-      return "enabled, on the way from rest (P104 > 0)";
-  }
-  return "";
-}
-
 const char* toString(StopCause cause) noexcept {
   switch (cause) {
     case StopCause::kNone:

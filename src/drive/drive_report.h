@@ -125,7 +125,6 @@ struct DriveReport {
   RequestReport set_switch;   ///< the last switching of the parameter set
 };
 
-const char* toString(Phase phase) noexcept;
 /// A clause: "a fault", "the drive fell silent".
 const char* toString(StopCause cause) noexcept;
 /// A clause: "the drive does not answer".

@@ -1,6 +1,6 @@
 #include "drive/ram_only_values.h"
 
-#include "profile/parameter_queue.h"
+#include "profile/parameter_shape.h"
 
 namespace nord_driver::drive {
 

@@ -2,25 +2,11 @@
 
 #include <cctype>
 
+#include "core/text.h"
+
 namespace nord_driver::profibus {
 
 namespace {
-
-bool isSpace(char c) {
-  return std::isspace(static_cast<unsigned char>(c)) != 0;
-}
-
-std::string trimmed(const std::string& text) {
-  std::size_t begin = 0, end = text.size();
-  while (begin < end && isSpace(text[begin])) ++begin;
-  while (end > begin && isSpace(text[end - 1])) --end;
-  return text.substr(begin, end - begin);
-}
-
-std::string lowerCase(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 /// Up to the comment, which begins with a semicolon outside quotes.
 std::string withoutComment(const std::string& line) {
@@ -61,8 +47,7 @@ std::vector<GsdStatement> splitGsd(const std::string& text) {
   std::string joined;
   std::size_t first = 0, number = 0;
   bool continued = false;
-  constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";  // of UTF-8, as editors on Windows put it before a text
-  for (std::size_t begin = text.rfind(kByteOrderMark, 0) == 0 ? 3 : 0; begin < text.size();) {
+  for (std::size_t begin = textBegin(text); begin < text.size();) {
     std::size_t end = text.find('\n', begin);
     if (end == std::string::npos) end = text.size();
     ++number;

@@ -92,37 +92,6 @@ const char* meaningOf(const RecordError& error) noexcept {
   }
 }
 
-Sentence describe(const RecordResult& result) noexcept {
-  const char* const verb = result.write ? "write" : "read";
-  Sentence text;
-  switch (result.outcome) {
-    case RecordOutcome::kDone:
-      text.format("did %s slot %u, index %u", verb, result.slot, result.index);
-      break;
-    case RecordOutcome::kRefused:
-      text.format("refused to %s slot %u, index %u: %s (%02X %02X %02X)", verb, result.slot, result.index,
-                  meaningOf(result.error), result.error.decode, result.error.code1, result.error.code2);
-      break;
-    case RecordOutcome::kTimedOut:
-      text.format("did not %s slot %u, index %u in time%s", verb, result.slot, result.index,
-                  result.error.isBusy() ? ": it was busy to the end" : "");
-      break;
-    case RecordOutcome::kNoAnswer:
-      text.format("does not answer acyclic requests, but exchanges data");
-      break;
-    case RecordOutcome::kNotSupported:
-      text.format("is configured without an acyclic channel (DP-V1 class 1)");
-      break;
-    case RecordOutcome::kNotActivated:
-      text.format("refuses acyclic requests: it answers RS, not activated, at access point 51 (DP-V1 class 1)");
-      break;
-    case RecordOutcome::kOffline:
-      text.format("is not in data exchange: DP-V1 class 1 lives on it");
-      break;
-  }
-  return text;
-}
-
 bool encodeRecord(const RecordRequest& request, RecordPdu& pdu) noexcept {
   pdu.clear();
   if (isOutOfRange(request)) return false;

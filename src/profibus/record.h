@@ -55,9 +55,6 @@ struct RecordResult {
   FixedBytes<kMaxRecordLength> data{};  ///< kDone of a read
 };
 
-/// A sentence for a technician, subject left out: "refused to read slot 0, index 101: invalid index (80 B0 00)".
-Sentence describe(const RecordResult& result) noexcept;
-
 using RecordPdu = FixedBytes<kMaxRecordLength + 4>;
 
 /// Read.req and Write.req. False (and `pdu` is empty) when a number or a length is out of range.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "profile/parameter_shape.h"
+
 namespace nord_driver::profile {
 
 namespace {
@@ -116,10 +118,6 @@ constexpr ParameterInfo kCatalogue[] = {
     {749, kSk12, "DIP switches", "", 1.0, false, kPlain, 1, 0, 0x1FF},
     // clang-format on
 };
-
-constexpr bool isArray(ParameterShape shape) noexcept {
-  return shape == kArray || shape == kArrayPerSet;
-}
 
 }  // namespace
 

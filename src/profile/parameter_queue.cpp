@@ -1,5 +1,7 @@
 #include "profile/parameter_queue.h"
 
+#include "profile/parameter_shape.h"
+
 namespace nord_driver::profile {
 
 namespace {
@@ -34,14 +36,6 @@ std::optional<ParameterResult> refusalOf(const ParameterRequest& request) noexce
 }
 
 }  // namespace
-
-bool hasSets(ParameterShape shape) noexcept {
-  return shape == ParameterShape::kPerSet || shape == ParameterShape::kArrayPerSet;
-}
-
-bool isArray(ParameterShape shape) noexcept {
-  return shape == ParameterShape::kArray || shape == ParameterShape::kArrayPerSet;
-}
 
 bool ParameterQueue::submit(const ParameterRequest& request) noexcept {
   const auto refused = refusalOf(request);

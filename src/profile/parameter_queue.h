@@ -41,8 +41,4 @@ class ParameterQueue {
   RequestQueue<ParameterRequest, ParameterResult, kCapacity> requests_;
 };
 
-/// Whether the index of the request is built from parameter sets, and from array elements.
-bool hasSets(ParameterShape shape) noexcept;
-bool isArray(ParameterShape shape) noexcept;
-
 }  // namespace nord_driver::profile

@@ -40,9 +40,6 @@ enum class AnswerLabel : std::uint8_t {
   kError = 7,
 };
 
-/// Names of labels 0..15, reserved ones included, for traces.
-const char* orderText(std::uint8_t label) noexcept;
-const char* answerText(std::uint8_t label) noexcept;
 /// An error number in an answer 7 as a clause: "PKW error 3, the sub-index is wrong".
 Sentence pkwErrorText(std::uint16_t number) noexcept;
 /// What it means to the driver.

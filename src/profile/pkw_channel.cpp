@@ -1,5 +1,7 @@
 #include "profile/pkw_channel.h"
 
+#include "profile/parameter_shape.h"
+
 namespace nord_driver::profile {
 
 namespace {

@@ -1,4 +1,4 @@
-// The words of the parameter channel's labels and error numbers (BU 2700 6.5.1.1, BU 0020 7.5.1).
+// The words of the parameter channel's error numbers (BU 2700 6.5.1.1, BU 0020 7.5.1).
 #include "profile/pkw.h"
 
 namespace nord_driver::profile {
@@ -32,41 +32,6 @@ constexpr ErrorRow kErrors[] = {
 };
 
 }  // namespace
-
-const char* orderText(std::uint8_t label) noexcept {
-  static constexpr const char* kTexts[] = {
-      "no order",
-      "read",
-      "write word",
-      "write double word",
-      "reserved order 4",
-      "reserved order 5",
-      "read array",
-      "write array word",
-      "write array double word",
-      "read number of array elements",
-      "reserved order 10",
-      "write array double word to RAM",
-      "write array word to RAM",
-      "write double word to RAM",
-      "write word to RAM",
-  };
-  return label < sizeof(kTexts) / sizeof(kTexts[0]) ? kTexts[label] : "unknown order";
-}
-
-const char* answerText(std::uint8_t label) noexcept {
-  static constexpr const char* kTexts[] = {
-      "no answer",
-      "word",
-      "double word",
-      "reserved answer 3",
-      "array word",
-      "array double word",
-      "number of array elements",
-      "order cannot be executed",
-  };
-  return label < sizeof(kTexts) / sizeof(kTexts[0]) ? kTexts[label] : "unknown answer";
-}
 
 Sentence pkwErrorText(std::uint16_t number) noexcept {
   const char* meaning = "an error number the manuals do not list";

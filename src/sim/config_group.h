@@ -76,12 +76,4 @@ class Group {
   std::string name_;
 };
 
-/// `bus: {transport: canopen, interface: virtual:NAME, bit_rate: 250000}`, or the driver's own `transport`; nothing
-/// when the bus is none of CAN.
-std::optional<CanBusConfig> readCanBus(const Group& root);
-/// connection, inverter, profile and what only the simulator needs; the series and the address are read.
-void readCanDrive(const Group& group, DriveConfig& drive);
-/// One node for each drive, or a place of its own behind a gateway.
-void checkCanNodes(const std::vector<DriveConfig>& drives);
-
 }  // namespace nord_driver::sim

@@ -1,15 +1,15 @@
-// One simulated drive: inverter, motor, parameters, bus module, and the switches an experimenter has.
+// One simulated drive: inverter, motor, parameters, and the switches an experimenter has. Its bus is that of its module.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "sim/bus_module.h"
 #include "sim/inverter/inverter_model.h"
 #include "sim/inverter/motor.h"
 #include "sim/inverter/parameter_store.h"
-#include "sim/profibus/dp_slave.h"
-#include "sim/profibus/module_station.h"
-#include "sim/profibus/pkw_server.h"
+#include "sim/inverter/pkw_server.h"
 #include "sim/sim_config.h"
 
 namespace nord_driver::sim {
@@ -21,34 +21,40 @@ struct ParameterSwitches {
   unsigned delay = 0;                ///< telegrams they wait; over CAN milliseconds more
 };
 
+/// What makes an inverter one of a certain bus.
+struct Commissioning {
+  BusWiring wiring;
+  std::vector<ParameterPreset> parameters;  ///< P509 and what else the manual of the bus has set before it is used
+};
+
 class DriveUnit {
  public:
-  /// With a module of its own. `referee` must outlive the drive.
-  DriveUnit(const DriveConfig& config, Referee& referee);
-  /// Behind a module that others share; it must outlive the drive.
-  DriveUnit(const DriveConfig& config, ModuleStation& module);
+  /// It is in the shop: no mains, no module.
+  explicit DriveUnit(const DriveConfig& config);
   DriveUnit(const DriveUnit&) = delete;
   DriveUnit& operator=(const DriveUnit&) = delete;
 
-  void advance(Duration span) noexcept;
+  /// Commissions it, puts it behind its module at the configured place, and switches its mains on; once. `module` must
+  /// outlive the drive's use. Throws ConfigError when the configuration sets a parameter that is not there.
+  void connect(BusModule& module, const Commissioning& commissioning);
 
-  /// Mains and the module's 24 V both off: the station is silent, the wheel coasts. A module that others share lives
-  /// on.
+  void advance(Duration span) noexcept { inverter_.advance(span); }
+
+  /// Mains and the supply of a module that has none of its own both off: the station is silent, the wheel coasts. A
+  /// module that others share lives on.
   void setPlugged(bool plugged) noexcept;
   /// Mains of the inverter behind a module with its own 24 V supply (BU 0020 2.1.3).
   void setInverterPower(bool on) noexcept;
   /// The connection between this inverter and its module.
-  void setInverterLink(bool intact) noexcept;
-  bool inverterLink() const noexcept { return inverter_link_; }
-  /// The module works, its answers are lost.
-  void setMute(bool mute) noexcept;
-  bool mute() const noexcept { return mute_; }
+  void setInverterLink(bool intact) noexcept { module_->setInverterLink(place(), intact); }
+  bool inverterLink() const noexcept { return module_->inverterLink(place()); }
+  /// The module works, its answers are lost; those of the whole station.
+  void setMute(bool mute) noexcept { module_->setMute(mute); }
+  /// Answers come later by this much than the bus makes them; those of the whole station.
+  void setAnswerDelay(Duration delay) noexcept { module_->setAnswerDelay(delay); }
   /// How parameter orders fare, over whatever bus they come.
   void setParameterSwitches(const ParameterSwitches& switches) noexcept;
   const ParameterSwitches& parameterSwitches() const noexcept { return switches_; }
-  /// Answers come later by this much than the segment makes them; those of the whole station.
-  void setAnswerDelay(Duration delay) noexcept { station().setAnswerDelay(delay); }
-  Duration answerDelay() const noexcept { return slave().answerDelay(); }
 
   const DriveConfig& config() const noexcept { return config_; }
   const std::string& name() const noexcept { return config_.name; }
@@ -63,23 +69,19 @@ class DriveUnit {
   const ParameterStore& parameters() const noexcept { return parameters_; }
   InverterModel& inverter() noexcept { return inverter_; }
   const InverterModel& inverter() const noexcept { return inverter_; }
-  /// The bus module: its own, or the one it shares.
-  DpStation& slave() noexcept { return station(); }
-  const DpStation& slave() const noexcept {
-    return module_ != nullptr ? static_cast<const DpStation&>(*module_) : *own_;
-  }
-  bool sharesModule() const noexcept { return module_ != nullptr; }
-  /// Of its station, and of what came for this inverter.
-  SlaveCounters counters() const noexcept;
-  /// Its process data move: in data exchange, its node operational.
-  bool inDataExchange() const noexcept;
-  /// What the node of a drive on a CAN bus tells of the exchange.
-  void showExchange(bool moving, const SlaveCounters& counters) noexcept;
   PkwServer& pkw() noexcept { return pkw_; }
+  const PkwServer& pkw() const noexcept { return pkw_; }
+
+  /// The bus module: its own, or the one it shares.
+  BusModule& module() noexcept { return *module_; }
+  const BusModule& module() const noexcept { return *module_; }
+  /// Its process data move.
+  bool inDataExchange() const noexcept { return module_->inDataExchange(); }
+  /// Of its station, and of what came for this inverter.
+  ExchangeCounters counters() const noexcept { return module_->countersOf(place()); }
 
  private:
-  DpStation& station() noexcept { return module_ != nullptr ? static_cast<DpStation&>(*module_) : *own_; }
-  unsigned place() const noexcept { return config_.place - 1; }
+  unsigned place() const noexcept { return config_.place > 0 ? config_.place - 1 : 0; }
   double ratio() const noexcept { return config_.inverted ? -config_.gear_ratio : config_.gear_ratio; }
 
   DriveConfig config_;
@@ -87,13 +89,8 @@ class DriveUnit {
   Motor motor_;
   InverterModel inverter_;
   PkwServer pkw_;
-  std::optional<DpSlave> own_;
-  ModuleStation* module_ = nullptr;
+  BusModule* module_ = nullptr;
   bool plugged_ = true;
-  bool inverter_link_ = true;
-  bool mute_ = false;
-  bool exchanging_ = false;  // on a CAN bus
-  SlaveCounters exchanged_;  // on a CAN bus
   ParameterSwitches switches_;
 };
 

@@ -40,7 +40,7 @@ class RunningBus {
   InheritingMutex mutex_;
 };
 
-/// The bus the configuration asks for. Throws std::runtime_error when it cannot be opened, and ConfigError.
+/// The bus the configuration asks for, by the table of bus_kinds.cpp. Throws std::runtime_error when it cannot be opened, and ConfigError.
 std::unique_ptr<RunningBus> runBus(const SimConfig& config);
 
 }  // namespace nord_driver::sim

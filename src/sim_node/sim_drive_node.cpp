@@ -21,6 +21,13 @@ std::string inWords(double number) {
   return text;
 }
 
+/// Why `power_module` finds nothing to switch.
+std::string withoutSupply(sim::Supply supply) {
+  return supply == sim::Supply::kPartOfInverter
+             ? "its bus port is part of the inverter; unplug takes the power from both"
+             : "has a module of its own; unplug takes the power from both";
+}
+
 }  // namespace
 
 SimDriveNode::SimDriveNode(ros::NodeHandle& handle, sim::RunningBus& bus, std::size_t index, const std::string& name)
@@ -87,9 +94,10 @@ void SimDriveNode::serveStation() {
       "power_inverter", [](sim::DriveUnit& drive, bool on) { drive.setInverterPower(on); }, "mains of the inverter on",
       "mains of the inverter off, the module lives on 24 V");
   serve<std_srvs::SetBool>("power_module", [](sim::DriveUnit& drive, const auto& request, auto& response) {
-    response.success = drive.sharesModule();
-    if (!drive.sharesModule()) return std::string("has a module of its own; unplug takes the power from both");
-    drive.slave().setPowered(request.data != 0);
+    sim::BusModule& module = drive.module();
+    response.success = module.supply() == sim::Supply::kOwn;
+    if (!response.success) return withoutSupply(module.supply());
+    module.setPowered(request.data != 0);
     return std::string(request.data != 0 ? "24 V of its module on" : "24 V of its module off, the station is silent");
   });
   serveSwitch(
@@ -172,7 +180,7 @@ void SimDriveNode::serveControl() {
 
 SimDrive SimDriveNode::truthOf(const sim::DriveUnit& drive) {
   const sim::InverterModel& inverter = drive.inverter();
-  const sim::SlaveCounters counters = drive.counters();
+  const sim::ExchangeCounters counters = drive.counters();
   SimDrive truth;
   truth.powered = inverter.powered();
   truth.in_data_exchange = drive.inDataExchange();

@@ -1,9 +1,10 @@
 // nord_sim: simulated NORD drives on a pseudo-terminal or a CAN bus, without ROS.
 
-#include <signal.h>
 #include <yaml-cpp/yaml.h>
 
+#include <atomic>
 #include <boost/program_options.hpp>
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -11,9 +12,11 @@
 #include <thread>
 #include <vector>
 
+#include "sim/bus_kind.h"
 #include "sim/running_bus.h"
 #include "tools/bus_port.h"
 #include "tools/command_line.h"
+#include "tools/end_signals.h"
 
 namespace {
 
@@ -30,24 +33,19 @@ SimConfig readConfig(const std::vector<std::string>& files, const BusPort& port)
       throw nord_driver::sim::ConfigError("--config " + file + ": " + error.what() + "; expected a readable YAML file");
     }
   }
-  SimConfig config = nord_driver::sim::readSimConfig(merged);
-  const nord_driver::sim::SimEndPoint end_point = config.endPoint();
-  const std::string value = chosenPort(port, end_point.transport, end_point.key);
-  if (!value.empty()) *end_point.value = value;
-  return config;
+  using nord_driver::sim::Group;
+  const nord_driver::sim::BusKind& kind = nord_driver::sim::busKindOf(Group(merged, ""));
+  return nord_driver::sim::readSimConfig(merged, chosenPort(port, kind.transport, kind.end_point));
 }
 
-/// Waits for SIGINT or SIGTERM, or until `duration` (s) is over; 0 = no limit.
-void waitForEnd(const sigset_t& signals, double duration) {
-  if (duration <= 0.0) {
-    int signal = 0;
-    sigwait(&signals, &signal);
-    return;
+/// Waits until the end is asked for, or until `duration` (s) is over; 0 = no limit.
+void waitForEnd(const std::atomic<bool>& end_asked, double duration) {
+  constexpr std::chrono::milliseconds kLook{20};
+  const auto begun = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> limit{duration};
+  while (!end_asked && (duration <= 0.0 || std::chrono::steady_clock::now() - begun < limit)) {
+    std::this_thread::sleep_for(kLook);
   }
-  timespec limit{};
-  limit.tv_sec = static_cast<time_t>(duration);
-  limit.tv_nsec = static_cast<long>((duration - static_cast<double>(limit.tv_sec)) * 1e9);
-  static_cast<void>(sigtimedwait(&signals, nullptr, &limit));
 }
 
 int run(int argc, char** argv) {
@@ -66,21 +64,17 @@ int run(int argc, char** argv) {
       "interface (can0, vcan0, virtual:NAME)")("device", po::value(&port.device)->value_name("PATH"),
                                                "the same for a bus with bus/device")(
       "interface", po::value(&port.interface)->value_name("NAME"), "the same for a bus with bus/interface")(
-      "duration", po::value(&duration)->value_name("SECONDS"), "seconds to run; without it until SIGINT or SIGTERM");
+      "duration", po::value(&duration)->value_name("SECONDS"),
+      "seconds to run; without it until SIGINT, SIGTERM or SIGHUP");
   if (const auto code = line.parse(argc, argv)) return *code;
 
-  // Blocked before the bus starts its thread, so that only the wait below sees them.
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  const std::atomic<bool>& end_asked = catchEndSignals();
   const SimConfig config = readConfig(files, port);
   for (const std::string& warning : config.warnings) std::fprintf(stderr, "nord_sim: %s\n", warning.c_str());
   const std::unique_ptr<RunningBus> bus = nord_driver::sim::runBus(config);
   std::printf("%s\n", bus->where().c_str());
   std::fflush(stdout);
-  waitForEnd(signals, duration.value);
+  waitForEnd(end_asked, duration.value);
   std::printf("referee: %s\n", bus->refereeReport().c_str());
   return kDone;
 }

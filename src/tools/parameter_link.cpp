@@ -2,7 +2,7 @@
 
 #include "config/setting_checks.h"
 #include "cycle/drive_parameters.h"
-#include "profile/parameter_queue.h"
+#include "profile/parameter_shape.h"
 
 namespace nord_driver::tools {
 
@@ -52,6 +52,7 @@ void ParameterLink::refuseRunning() const {
 
 void ParameterLink::connect(Duration limit, const std::atomic<bool>& end_asked) {
   const Instant end = transport_.now() + limit;
+  cycle_->closeGate();
   while (!cycle_->gate().isOpen()) {
     exchange();
     refuseRunning();

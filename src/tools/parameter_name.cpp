@@ -4,10 +4,11 @@
 #include <cstdlib>
 #include <regex>
 
+#include "profile/parameter_shape.h"
+
 namespace nord_driver::tools {
 
 using cycle::ParameterAddress;
-using profile::ParameterShape;
 
 namespace {
 
@@ -65,8 +66,8 @@ std::vector<ParameterAddress> knownParameters(profile::Series series) {
   for (std::uint16_t number = 0; number <= kLastNumber; ++number) {
     const profile::ParameterInfo* info = profile::findParameter(number, series);
     if (info == nullptr || resets(number)) continue;
-    const bool array = info->shape == ParameterShape::kArray || info->shape == ParameterShape::kArrayPerSet;
-    const bool sets = info->shape == ParameterShape::kPerSet || info->shape == ParameterShape::kArrayPerSet;
+    const bool array = profile::isArray(info->shape);
+    const bool sets = profile::hasSets(info->shape);
     const int elements = array ? info->elements : 1;
     for (int element = 1; element <= elements; ++element) {
       for (int set = 1; set <= (sets ? 4 : 1); ++set) {

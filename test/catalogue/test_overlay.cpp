@@ -52,6 +52,13 @@ TEST(Overlay, CorrectsNamesOneByOne) {
   EXPECT_EQ("0609h: Bus interface ready, New bit, Low half 6", valueText(*state, 0x0609));
 }
 
+// A bit takes the place of the group it belonged to.
+TEST(Overlay, ABitReplacesItsGroup) {
+  const Catalogue own = with("devices: [sk5xxe]\nparameters:\n  - number: 746\n    bits: {9: My bit}\n");
+  EXPECT_EQ("0603h: Bus interface ready, Connected to the master, My bit",
+            valueText(*own.find(Series::kSk5xxe, 746), 0x0603));
+}
+
 // A value in the middle of reserved ones gets a name of its own.
 TEST(Overlay, NamesAReservedValue) {
   const Catalogue own = with("devices: [sk5xxe]\nparameters:\n  - number: 543\n    values: {14: My value}\n");

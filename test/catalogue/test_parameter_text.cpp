@@ -121,6 +121,7 @@ TEST(ParameterText, NamesThatMovedAreNotTakenForNumbers) {
 TEST(ParameterText, ReservedIsNoName) {
   EXPECT_EQ("P543 = 14 reserved", shown(Series::kSk5xxe, 543, 14));
   EXPECT_EQ(std::nullopt, typed(Series::kSk5xxe, 543, "reserved").raw);
+  EXPECT_EQ(std::nullopt, typed(Series::kSk5xxe, 546, "reserved").raw);  // 12 alone is called so
 }
 
 TEST(ParameterText, WhatMayNotBeWritten) {

@@ -55,6 +55,19 @@ TEST(Guest, SaysNothingThatActsBeforeItHasSeenTheDrivesAtRest) {
   EXPECT_EQ(0x047E, guest.sent(0));
 }
 
+// Whoever looks for the drives anew knows nothing of them.
+TEST(Guest, HoldsAllBackAgainOnceTheGateIsClosed) {
+  Guest guest;
+  guest.run(10);
+  ASSERT_EQ(0x047E, guest.sent(0));
+  guest.cycle.closeGate();
+  guest.run();
+  EXPECT_EQ(0x0000, guest.sent(0));
+  EXPECT_FALSE(guest.cycle.gate().isOpen());
+  guest.run(10);
+  EXPECT_TRUE(guest.cycle.gate().isOpen());
+}
+
 TEST(Guest, LeavesADriveThatRunsAloneForEver) {
   Guest guest;
   guest.transport.inverters[1].exchange({0x047E, {}});

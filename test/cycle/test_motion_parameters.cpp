@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cycle/cycle_bench.h"
+#include "support/parameter_requests.h"
 
 namespace nord_driver::cycle {
 namespace {
@@ -12,14 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 Request write(int number, std::int32_t raw) {
-  Request request;
-  request.kind = RequestKind::kWriteParameter;
-  request.drive = CycleBench::kLift;
-  request.parameter.number = static_cast<std::uint16_t>(number);
-  request.parameter.shape = profile::ParameterShape::kPerSet;
-  request.parameter.action = profile::ParameterAction::kWriteRam;
-  request.parameter.raw = raw;
-  return request;
+  return test::writeRequest(CycleBench::kLift, static_cast<std::uint16_t>(number), raw);
 }
 
 class MotionParameters : public ::testing::Test, protected CycleBench {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cycle/cycle_bench.h"
+#include "support/parameter_requests.h"
 
 namespace nord_driver::cycle {
 namespace {
@@ -62,14 +63,8 @@ TEST_F(P105ReadsBesideATypedOne, AreNotTriedAgain) {
 class P105Writes : public ::testing::Test, protected CycleBench {
  protected:
   static Request write(DriveIndex drive) {
-    Request request;
-    request.kind = RequestKind::kWriteParameter;
-    request.drive = drive;
-    request.parameter.number = 105;
-    request.parameter.shape = profile::ParameterShape::kPerSet;
+    Request request = test::writeRequest(drive, 105, 1000);
     request.parameter.parameter_set = 1;
-    request.parameter.action = profile::ParameterAction::kWriteRam;
-    request.parameter.raw = 1000;
     return request;
   }
 };

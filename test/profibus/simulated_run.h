@@ -60,12 +60,12 @@ class SimulatedRun {
  private:
   static sim::SimConfig simulation(const BusParameters& bus, const std::vector<SlaveConfig>& slaves) {
     sim::SimConfig config;
-    config.baud_rate = bus.baud.bitsPerSecond();
+    config.bus.as<sim::DpBusConfig>().baud_rate = bus.baud.bitsPerSecond();
     for (const SlaveConfig& slave : slaves) {
       sim::DriveConfig drive;
       drive.name = "drive" + std::to_string(slave.address.value());
       drive.joint = drive.name;
-      drive.slave.address = slave.address.value();
+      drive.address = slave.address.value();
       config.drives.push_back(drive);
     }
     return config;

@@ -20,7 +20,7 @@ class Trouble {
 
   /// Something goes wrong, for one cycle or until `end()`.
   void strike(SimulatedRun& run) {
-    sim::DpStation& slave = run.segment.drive(below(2)).slave();
+    sim::DpStation& slave = run.segment.station(below(2));
     switch (below(9)) {
       case 0:
         return run.segment.loseAnswers(1 + below(4));
@@ -56,9 +56,9 @@ class Trouble {
     run.segment.loseRequests(0);
     run.segment.spoilAnswers(0);
     for (std::size_t i = 0; i < 2; ++i) {
-      run.segment.drive(i).slave().setPowered(true);
-      run.segment.drive(i).slave().setMute(false);
-      run.segment.drive(i).slave().setInverterLink(true);
+      run.segment.station(i).setPowered(true);
+      run.segment.station(i).setMute(false);
+      run.segment.station(i).setInverterLink(true);
     }
   }
 

@@ -41,7 +41,7 @@ TEST(ManySlaves, OfflineOnesCostLittle) {
   BusParameters bus = fastBus(1'500'000);
   bus.slot_time = 20ms;  // a USB adapter
   SimulatedRun run{bus, modules(125)};
-  for (std::size_t i = 1; i < 125; ++i) run.segment.drive(i).slave().setPowered(false);
+  for (std::size_t i = 1; i < 125; ++i) run.segment.station(i).setPowered(false);
   for (int cycles = 0; !run.master.status(0).exchanged_this_cycle; ++cycles) {
     ASSERT_LT(cycles, 10'000) << "20 s after the start the slave that is there does not exchange data";
     run.cycle(2ms);

@@ -32,7 +32,7 @@ struct Adapter : SimulatedRun {
     while (now() < end) cycle(kPeriod);
     segment.drive(0).setPlugged(true);
   }
-  std::uint64_t trips() { return segment.drive(0).slave().counters().watchdog_trips; }
+  std::uint64_t trips() { return segment.station(0).counters().watchdog_trips; }
 };
 
 class Gap : public testing::TestWithParam<int> {};
@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Milliseconds, Gap, testing::Values(60, 100, 140, 160));
 // The one that is there is exchanged with in every cycle meanwhile, and keeps half of the time.
 TEST(SavedWatchdog, TheOthersKeepHalfOfTheTime) {
   Adapter run;
-  run.segment.drive(0).slave().setMute(true);
+  run.segment.station(0).setMute(true);
   run.cycle(kPeriod);  // two slots of 20 ms in it
   const Instant begin = run.now();
   Duration busy{};
@@ -84,7 +84,7 @@ TEST(SavedWatchdog, TheOthersKeepHalfOfTheTime) {
 // Whoever stays away costs little again: a tenth of the time, as before.
 TEST(SavedWatchdog, TheHasteEndsWithTheWatchdog) {
   Adapter run;
-  run.segment.drive(0).slave().setMute(true);
+  run.segment.station(0).setMute(true);
   const Instant lost = run.now();
   while (run.now() < lost + 300ms) run.cycle(kPeriod);
   const Instant begin = run.now();

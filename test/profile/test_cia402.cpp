@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "profile/cia402.h"
-#include "profile/status_word.h"
+#include "profile/velocity_mode_state.h"
 
 namespace nord_driver::profile {
 namespace {
@@ -14,34 +14,6 @@ Cia402Scaling fiftyHertz() {
   Cia402Scaling scaling{2};
   scaling.setMaxFrequency(Hertz{50.0});
   return scaling;
-}
-
-/// The state that a 6041h word means by itself (CiA 402-2, "state coding").
-DriveState stateOf(Word status_word) {
-  switch (status_word & 0x4Fu) {
-    case 0x00:
-      return DriveState::kNotReadyToSwitchOn;
-    case 0x40:
-      return DriveState::kSwitchOnDisabled;
-    case 0x0F:
-      return DriveState::kFaultReactionActive;
-    case 0x08:
-      return DriveState::kFault;
-    default:
-      break;
-  }
-  switch (status_word & 0x6Fu) {
-    case 0x21:
-      return DriveState::kReadyToSwitchOn;
-    case 0x23:
-      return DriveState::kSwitchedOn;
-    case 0x27:
-      return DriveState::kOperationEnabled;
-    case 0x07:
-      return DriveState::kQuickStopActive;
-    default:
-      return DriveState::kUnknown;
-  }
 }
 
 /// The state that the drive layer decodes from the translated word.

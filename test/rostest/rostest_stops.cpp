@@ -100,8 +100,7 @@ class Stops : public RobotTest {
   void stopBy(const std::string& name, Service service, const std::string& said,
               const std::function<void(ros::Time asked, int& cycles)>& expectStop) {
     // Connected before, as any client that means it.
-    constexpr bool kPersistent = true;
-    ros::ServiceClient client = ros::NodeHandle().serviceClient<Service>("nord_driver/" + name, kPersistent);
+    ros::ServiceClient client = connectTo<Service>("nord_driver/" + name);
     int cycles = 0;
     const auto attempt = [&] {
       const ros::Time asked = ros::Time::now();

@@ -1,6 +1,7 @@
 #include "rules/include_rules.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <regex>
@@ -12,15 +13,23 @@ namespace {
 
 using Names = std::set<std::string>;
 
-/// The table: what a layer may use beside itself.
+/// What every transport may use beside the engine and the link of its bus.
+Names transportWith(const Names& own) {
+  Names names{"core", "config", "profile", "transport", "trace/telegram_trace"};
+  names.insert(own.begin(), own.end());
+  return names;
+}
+
+/// The same for the far ends of the simulator.
+Names simulatorWith(const Names& own) {
+  Names names{"core", "sim", "sim/inverter", "sim/robot", "link"};
+  names.insert(own.begin(), own.end());
+  return names;
+}
+
+/// The table: what a layer may use beside itself. A layer is a folder, or a sub-folder that has a row of its own, or a
+/// single file that has one. "sim/*" is sim and all rows below it; "*" is everything.
 const std::map<std::string, Names>& table() {
-  static const Names kTransport{"core",      "config",   "profile", "profibus", "canopen",
-                                "devicenet", "interbus", "link",    "trace"};
-  static const Names kTools{"core",     "config", "catalogue", "trace", "profile", "profibus", "canopen", "devicenet",
-                            "interbus", "link",   "transport", "robot", "drive",   "cycle",    "sim",     "plugins"};
-  static const Names kNode{"core",    "config",    "catalogue", "trace",   "profile",   "profibus",
-                           "canopen", "devicenet", "interbus",  "link",    "transport", "robot",
-                           "drive",   "cycle",     "sim",       "plugins", "tools",     "ros_support"};
   static const std::map<std::string, Names> kTable{
       {"core", {}},
       {"profile", {"core"}},
@@ -29,43 +38,90 @@ const std::map<std::string, Names>& table() {
       {"devicenet", {"core"}},
       {"interbus", {"core"}},
       {"link", {"core"}},
+      {"link/serial", {"core", "link"}},
+      {"link/can", {"core", "link"}},
       {"config", {"core", "profile"}},
       {"catalogue", {"core", "config", "profile"}},
-      {"trace", {"core", "profile", "config", "transport", "cycle"}},
       {"robot", {"core"}},
-      {"transport", kTransport},
+      {"trace/telegram_trace", {"core"}},  // the ring a transport fills: below the transports
+      {"transport", transportWith({})},
+      {"transport/profibus", transportWith({"profibus", "link", "link/serial"})},
+      {"transport/canopen", transportWith({"canopen", "link", "link/can"})},
+      {"transport/devicenet", transportWith({"devicenet", "link", "link/can"})},
+      {"transport/interbus", transportWith({"interbus", "link"})},
       {"drive", {"core", "profile"}},
-      {"cycle", {"core", "config", "profile", "drive", "transport", "robot"}},
-      {"sim", {"core", "link"}},
-      {"sim_node", {"core", "link", "sim", "ros_support"}},
-      {"plugins", {"core", "transport"}},
-      {"tools", kTools},
-      {"node", kNode},
-      {"system", kNode},                                // tests of the whole stack, without ROS
-      {"support", {"core", "config", "transport"}},     // what tests of several folders share
-      {"ros_support", {}},                              // the same for those with ROS
-      {"rostest", {"node", "support", "ros_support"}},  // the programs as their users meet them
-      {"socketcan", {"rostest"}},                       // tests of link/ and of the nodes that need a kernel with CAN
+      {"cycle", {"core", "config", "profile", "transport", "robot", "drive"}},
+      {"trace", {"core", "config", "profile", "transport", "cycle", "trace/telegram_trace"}},
+      {"plugins", {"core", "transport/*"}},
+      {"sim", {"core", "link", "sim/inverter", "sim/robot"}},
+      {"sim/bus_kinds", {"core", "sim/*"}},  // the table of buses
+      {"sim/inverter", {"core", "sim"}},
+      {"sim/robot", {"core", "sim", "sim/inverter"}},
+      {"sim/profibus", simulatorWith({"link/serial"})},
+      {"sim/canopen", simulatorWith({"link/can"})},
+      {"sim/devicenet", simulatorWith({"link/can"})},
+      {"sim/interbus", simulatorWith({})},
+      {"sim_node", {"core", "sim", "ros_support"}},
+      {"tools", {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "sim/*"}},
+      {"node",
+       {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "trace/*", "tools",
+        "ros_support"}},
+      {"system", {"*"}},                             // tests of the whole stack, without ROS
+      {"support", {"core", "config", "transport"}},  // what tests of several folders share
+      {"ros_support", {}},                           // the same for those with ROS
+      {"rostest", {"*"}},                            // the programs as their users meet them
+      {"socketcan", {"rostest"}},                    // tests of link/ and of the nodes that need a kernel with CAN
       {"rules", {}},
   };
   return kTable;
 }
 
+/// What only one bus needs, or only one kind of link: no file knows two of a set, tests included.
+bool areApart(const std::string& layer, const std::string& used) {
+  static const std::array<Names, 2> kApart{{{"profibus", "canopen", "devicenet", "interbus"}, {"serial", "can"}}};
+  const auto last = [](const std::string& name) { return name.substr(name.rfind('/') + 1); };
+  const std::string one = last(layer), other = last(used);
+  return one != other && std::any_of(kApart.begin(), kApart.end(), [&](const Names& names) {
+           return names.count(one) != 0 && names.count(other) != 0;
+         });
+}
+
 const Names kPure{"core", "profile", "profibus", "canopen", "devicenet", "interbus", "robot", "drive"};
 const Names kWithRos{"node", "sim_node", "plugins", "tools", "rostest", "ros_support"};
 const Names kForEveryTest{"sim", "link", "core", "support"};
+const Names kProgramTests{"node", "tools"};  // those of the programs bring a bus of their own
 const Names kThreads{"thread", "mutex", "shared_mutex", "condition_variable", "future"};
 
 struct Place {
   bool is_test = false;
-  std::string layer;  ///< empty: outside the table's folders
+  std::string folder;  ///< "transport/canopen"; empty: outside the table's folders
+  std::string layer;   ///< the row of the table it falls under; empty: there is none
 };
 
+std::string folderOf(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? std::string{} : path.substr(0, slash);
+}
+
+/// The first folder of a layer: "transport" of "transport/canopen".
+std::string groupOf(const std::string& layer) {
+  return layer.substr(0, layer.find('/'));
+}
+
+/// The nearest row above a path without its root: "transport/canopen/canopen.h" -> "transport/canopen".
+std::string rowOf(const std::string& path) {
+  std::string name = path.substr(0, path.rfind('.'));
+  while (!name.empty() && table().count(name) == 0) name = folderOf(name);
+  return name;
+}
+
 Place placeOf(const std::string& path) {
-  const std::vector<std::string> parts = partsOf(path);
-  if (parts.size() >= 4 && parts[0] == "include" && parts[1] == "nord_driver") return {false, parts[2]};
-  if (parts.size() >= 3 && parts[0] == "src") return {false, parts[1]};
-  if (parts.size() >= 3 && parts[0] == "test") return {true, parts[1]};
+  for (const char* root : {"include/nord_driver/", "src/", "test/"}) {
+    if (!startsWith(path, root)) continue;
+    const std::string inside = path.substr(std::string{root}.size());
+    if (folderOf(inside).empty()) return {};
+    return {startsWith(path, "test/"), folderOf(inside), rowOf(inside)};
+  }
   return {};
 }
 
@@ -107,23 +163,29 @@ bool isStandard(const std::string& header) {
   return header.find_first_of("./") == std::string::npos;
 }
 
-/// Which of our folders a header belongs to; empty when it is not ours. `own` is the including file's layer.
+/// Which row a header falls under; its first folder when that has none; empty when it is not ours. `own` is the
+/// including file's layer.
 std::string layerOf(const std::string& header, bool quoted, const std::string& own) {
   const std::vector<std::string> parts = partsOf(header);
-  if (parts.size() >= 3 && parts[0] == "nord_driver") return parts[1];
-  if (!quoted) return {};
+  const bool installed = parts.size() >= 3 && parts[0] == "nord_driver";
+  if (!installed && !quoted) return {};
   if (parts.size() == 1) return own;
-  return table().count(parts[0]) != 0 ? parts[0] : std::string{};
+  const std::string inside = installed ? header.substr(header.find('/') + 1) : header;
+  const std::string row = rowOf(inside);
+  return row.empty() && installed ? parts[1] : row;
 }
 
 /// Tests may use what their layer may, the layer itself, helpers of its folder and the simulated far end; the
 /// simulator's own tests, like the simulator, stay away from the driver.
 bool mayUse(const Place& place, const std::string& used) {
   if (used == place.layer) return true;
-  if (place.is_test && (place.layer == "node" || place.layer == "rostest")) return true;
-  if (place.is_test && place.layer == "plugins" && used == "rostest") return true;  // one of its own
-  if (place.is_test && place.layer != "rules" && kForEveryTest.count(used) != 0) return true;
-  return table().at(place.layer).count(used) != 0;
+  if (areApart(place.layer, used)) return false;
+  const std::string group = groupOf(used);
+  if (place.is_test && place.layer == "plugins" && group == "rostest") return true;  // one of its own
+  if (place.is_test && (kProgramTests.count(place.layer) != 0 || group == place.layer)) return true;
+  if (place.is_test && place.layer != "rules" && kForEveryTest.count(group) != 0) return true;
+  const Names& row = table().at(place.layer);
+  return row.count("*") != 0 || row.count(used) != 0 || row.count(group + "/*") != 0;
 }
 
 std::string reasonAgainst(const Place& place, const std::string& header, bool quoted) {
@@ -174,10 +236,11 @@ Violations checkIncludes(const std::vector<SourceFile>& files) {
   std::size_t read = 0;
   for (const SourceFile& file : files) {
     const Place place = placeOf(file.path);
-    if (!isCpp(file) || place.layer.empty()) continue;
+    if (!isCpp(file) || place.folder.empty()) continue;
     ++read;
-    if (table().count(place.layer) == 0) {
-      violations.push_back(file.path + ": the folder " + place.layer + "/ has no row in the table of layers");
+    // A row of its own for every folder, so that a new bus's does not go by what its neighbours may.
+    if (place.layer.empty() || (!place.is_test && table().count(place.folder) == 0)) {
+      violations.push_back(file.path + ": the folder " + place.folder + "/ has no row in the table of layers");
     } else {
       checkFile(file, place, violations);
     }

@@ -28,7 +28,10 @@ TEST(IncludeRules, AllowedIncludesPass) {
   EXPECT_THAT(about("src/profile/scaling.cpp", "#include \"nord_driver/profile/scaling.h\""), IsEmpty());
   EXPECT_THAT(about("src/profile/scaling.cpp", "#include \"table.h\""), IsEmpty());
   EXPECT_THAT(about("src/link/serial.cpp", "#include <termios.h>"), IsEmpty());
-  EXPECT_THAT(about("src/transport/dp.cpp", "#include \"nord_driver/profibus/master.h\""), IsEmpty());
+  EXPECT_THAT(about("src/transport/profibus/dp.cpp", "#include \"profibus/master.h\""), IsEmpty());
+  EXPECT_THAT(about("src/transport/profibus/dp.cpp", "#include \"nord_driver/transport/transport.h\""), IsEmpty());
+  EXPECT_THAT(about("src/transport/canopen/can.cpp", "#include \"link/can/can_link.h\""), IsEmpty());
+  EXPECT_THAT(about("src/sim/bus_kinds.cpp", "#include \"sim/canopen/stations.h\""), IsEmpty());
   EXPECT_THAT(about("src/cycle/cycle.cpp", "#include <thread>"), IsEmpty());
   EXPECT_THAT(about("src/cycle/cycle.cpp", "auto now = std::chrono::steady_clock::now();"), IsEmpty());
   EXPECT_THAT(about("src/robot/geometry.cpp", "#include <urdf_parser/urdf_parser.h>"), IsEmpty());
@@ -57,6 +60,48 @@ TEST(IncludeRules, ForbiddenLayersAreFound) {
               ElementsAre(HasSubstr("transport/, which drive/")));
   EXPECT_THAT(about("src/tools/nord_param.cpp", "#include \"node/parameters.h\""),
               ElementsAre(HasSubstr("node/, which tools/")));
+}
+
+// What only one bus needs stays apart from what only the other one needs, in tests as well.
+TEST(IncludeRules, BusesAreApart) {
+  const auto forbidden = [](const std::string& path, const std::string& header) {
+    return about(path, "#include \"" + header + "\"").size();
+  };
+  EXPECT_EQ(1u, forbidden("src/transport/profibus/a.cpp", "transport/canopen/canopen.h"));
+  EXPECT_EQ(1u, forbidden("src/transport/canopen/a.cpp", "transport/profibus/ppo.h"));
+  EXPECT_EQ(1u, forbidden("src/transport/canopen/a.cpp", "profibus/telegram.h"));
+  EXPECT_EQ(1u, forbidden("src/transport/canopen/a.cpp", "link/serial/serial_port.h"));
+  EXPECT_EQ(1u, forbidden("src/sim/profibus/a.cpp", "sim/canopen/can_node.h"));
+  EXPECT_EQ(1u, forbidden("src/sim/canopen/a.cpp", "sim/profibus/dp_slave.h"));
+  EXPECT_EQ(1u, forbidden("src/link/serial/a.cpp", "link/can/can_link.h"));
+  EXPECT_EQ(1u, forbidden("src/link/can/a.cpp", "link/serial/byte_link.h"));
+  EXPECT_EQ(1u, forbidden("test/transport/profibus/test_a.cpp", "sim/canopen/can_node.h"));
+  EXPECT_EQ(1u, forbidden("test/canopen/test_a.cpp", "sim/profibus/dp_slave.h"));
+  EXPECT_EQ(1u, forbidden("test/link/can/test_a.cpp", "link/serial/byte_link.h"));
+  EXPECT_EQ(1u, forbidden("test/devicenet/test_a.cpp", "sim/canopen/can_node.h"));
+  EXPECT_EQ(0u, forbidden("test/link/test_a.cpp", "link/serial/byte_link.h"));
+  EXPECT_EQ(0u, forbidden("test/system/test_a.cpp", "sim/canopen/can_node.h"));
+}
+
+// Above the transports nobody knows a bus: what they have in common is all there is.
+TEST(IncludeRules, BusesEndAtTheirTransport) {
+  for (const char* header : {"transport/profibus/ppo.h", "canopen/node.h", "link/can/can_link.h"}) {
+    for (const char* path : {"src/cycle/a.cpp", "src/node/a.cpp", "src/tools/a.cpp", "src/transport/a.cpp",
+                             "include/nord_driver/transport/a.h", "src/trace/a.cpp", "src/config/a.cpp"}) {
+      EXPECT_EQ(1u, about(path, "#include \"" + std::string{header} + "\"").size()) << path << " " << header;
+    }
+  }
+}
+
+// A transport fills the ring of telegrams; what is made of it comes after the cycle, which does not know of it.
+TEST(IncludeRules, TheTraceLooksOnFromAbove) {
+  EXPECT_THAT(about("src/transport/canopen/a.cpp", "#include \"nord_driver/trace/telegram_trace.h\""), IsEmpty());
+  EXPECT_THAT(about("src/trace/trace_feed.h", "#include \"cycle/cycle_observer.h\""), IsEmpty());
+  EXPECT_THAT(about("src/transport/canopen/a.cpp", "#include \"trace/trace_feed.h\""),
+              ElementsAre(HasSubstr("trace/, which transport/canopen/ must not use")));
+  EXPECT_THAT(about("src/cycle/a.cpp", "#include \"trace/trace_feed.h\""),
+              ElementsAre(HasSubstr("trace/, which cycle")));
+  EXPECT_THAT(about("src/trace/telegram_trace.cpp", "#include \"cycle/snapshot.h\""), ElementsAre(HasSubstr("cycle/")));
 }
 
 // ROS stays in the folders made for it.
@@ -101,6 +146,8 @@ TEST(IncludeRules, CommentsDoNotCount) {
 // A folder nobody put into the table, as a place or as a target, and a way up are found.
 TEST(IncludeRules, UnknownFoldersAreFound) {
   EXPECT_THAT(about("src/extras/a.cpp", "#include <array>"), ElementsAre(HasSubstr("extras/ has no row")));
+  EXPECT_THAT(about("src/transport/token_ring/a.cpp", "#include <array>"),
+              ElementsAre(HasSubstr("transport/token_ring/ has no row")));
   EXPECT_THAT(about("src/node/a.cpp", "#include \"nord_driver/extras/a.h\""), ElementsAre(HasSubstr("without a row")));
   EXPECT_THAT(about("src/node/a.cpp", "#include \"../node/a.h\""), ElementsAre(HasSubstr("'..'")));
 }

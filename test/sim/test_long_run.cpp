@@ -33,7 +33,7 @@ TEST(LongRun, AnHourOfRamWritesAndSetSwitchingLeavesTheEepromAlone) {
   EXPECT_EQ(1000, bus.drive().parameters().value(102, 2));
   EXPECT_EQ(201, bus.drive().parameters().value(102, 0));
   EXPECT_EQ(0u, bus.drive().parameters().eepromWrites());
-  EXPECT_EQ(0u, bus.drive().slave().counters().watchdog_trips);
+  EXPECT_EQ(0u, bus.station().counters().watchdog_trips);
   EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
 
   order(bus, "744E 0200 0000 03E9", idle[0]);

@@ -64,7 +64,7 @@ TEST(NoAllocation, AfterConstruction) {
 TEST(NoAllocation, OfAModule) {
   if (!test::kCanCountAllocations) GTEST_SKIP() << "the sanitizers have replaced malloc";
   Conversation bus{oneModule(2)};
-  bus.segment.robot().module(0).parameters().preset(151, 0, 0, 100);
+  bus.segment.stations().module(0).parameters().preset(151, 0, 0, 100);
   std::vector<std::vector<std::uint8_t>> requests;
   requests.push_back(Conversation::variable(0x88, 0x81, 0x6D, fromHex("3C 3E")));
   requests.push_back(Conversation::variable(0x88, 0x81, 0x5D, fromHex("3D 3E A8 0A 01 0B 0B A8 00 80 00 00")));
@@ -98,7 +98,7 @@ TEST(NoAllocation, OfAModule) {
     }
     bus.segment.run(milliseconds(120));
     bus.drive().setPlugged(round % 2 != 0);
-    bus.segment.robot().module(0).setPowered(round % 3 != 0);
+    bus.segment.stations().module(0).setPowered(round % 3 != 0);
   }
   test::countThisThread(false);
 

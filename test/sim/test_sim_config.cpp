@@ -2,7 +2,8 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
-#include "sim/robot/robot_sim.h"
+#include "sim/canopen/can_config.h"
+#include "sim/profibus/dp_stations.h"
 #include "sim/sim_config.h"
 
 namespace nord_driver::sim {
@@ -22,11 +23,11 @@ drives:
 // The driver's own file is a configuration of the simulator.
 TEST(SimConfig, ReadsTheDriversFile) {
   const SimConfig config = readSimConfig(YAML::Load(kRobot));
-  EXPECT_EQ("/tmp/x", config.device);
-  EXPECT_EQ(93750u, config.baud_rate);
+  EXPECT_EQ("/tmp/x", config.bus.as<DpBusConfig>().device);
+  EXPECT_EQ(93750u, config.bus.as<DpBusConfig>().baud_rate);
   ASSERT_EQ(2u, config.drives.size());
   EXPECT_EQ("left", config.drives[0].name);
-  EXPECT_EQ(4, config.drives[1].slave.address);
+  EXPECT_EQ(4, config.drives[1].address);
   EXPECT_TRUE(config.drives[1].inverted);
   EXPECT_EQ(3.0, config.drives[1].motor.slip);
   ASSERT_TRUE(config.body.has_value());
@@ -35,6 +36,7 @@ TEST(SimConfig, ReadsTheDriversFile) {
   EXPECT_TRUE(config.warnings.empty());
 
   RobotSim robot{config};
+  DpStations stations{robot};
   EXPECT_EQ(700, robot.drive(0).parameters().value(105, 3));
   EXPECT_EQ(800, robot.drive(1).parameters().value(105, 3));
   EXPECT_EQ(500, robot.drive(1).parameters().value(105, 0));
@@ -69,6 +71,7 @@ TEST(SimConfig, ReadsWhatTheInverterCan) {
   EXPECT_EQ(7u, config.drives[0].pkw.delay);
   EXPECT_EQ(2.0, config.drives[0].inverter.automatic_acknowledgement_delay);
   RobotSim robot{config};
+  DpStations stations{robot};
   EXPECT_EQ(18, robot.drive(0).parameters().value(707));
   EXPECT_EQ(nullptr, robot.drive(0).parameters().find(749));
   EXPECT_EQ(10, robot.drive(0).parameters().value(509));  // PROFIBUS, on this series
@@ -89,6 +92,7 @@ TEST(SimConfig, ReadsAMecanumBody) {
     ASSERT_TRUE(config.body.has_value()) << body;
     EXPECT_EQ(BodyKind::kMecanum, config.body->kind);
     RobotSim robot{config};
+    DpStations stations{robot};
     ASSERT_NE(nullptr, robot.body());
     // Front right and rear left forward, the other two backward, by their terminals: to the left.
     Instant now{seconds(1.0)};
@@ -117,17 +121,18 @@ TEST(SimConfig, ReadsModulesWithSlots) {
       "record_polls: 4, record_busy: 3, record_by_slot: true, record_plain_numbers: true, parameters: {P151: 500}}}}"));
   EXPECT_TRUE(config.warnings.empty()) << config.warnings.front();
   RobotSim robot{config};
-  ASSERT_EQ(3u, robot.modules().size());
-  EXPECT_EQ(5, robot.module(0).address());
-  EXPECT_TRUE(robot.drive(0).sharesModule());
-  EXPECT_FALSE(robot.drive(3).sharesModule());
-  EXPECT_EQ(&robot.drive(0).slave(), &robot.drive(1).slave());
-  EXPECT_EQ(500, robot.module(1).parameters().value(151));
-  EXPECT_EQ(6, robot.module(1).parameters().value(181));  // 93.75 kbit/s
-  EXPECT_EQ(4u, robot.module(1).recordSettings().polls);
-  EXPECT_EQ(3u, robot.module(1).recordSettings().busy);
-  EXPECT_TRUE(robot.module(1).recordSettings().by_slot);
-  EXPECT_TRUE(robot.module(1).recordSettings().plain_numbers);
+  DpStations stations{robot};
+  ASSERT_EQ(3u, stations.modules().size());
+  EXPECT_EQ(5, stations.module(0).address());
+  EXPECT_EQ(Supply::kOwn, robot.drive(0).module().supply());
+  EXPECT_EQ(Supply::kInverter, robot.drive(3).module().supply());
+  EXPECT_EQ(&robot.drive(0).module(), &robot.drive(1).module());
+  EXPECT_EQ(500, stations.module(1).parameters().value(151));
+  EXPECT_EQ(6, stations.module(1).parameters().value(181));  // 93.75 kbit/s
+  EXPECT_EQ(4u, stations.module(1).recordSettings().polls);
+  EXPECT_EQ(3u, stations.module(1).recordSettings().busy);
+  EXPECT_TRUE(stations.module(1).recordSettings().by_slot);
+  EXPECT_TRUE(stations.module(1).recordSettings().plain_numbers);
   // The control word comes over the system bus: P509 = 3, of an SK 5xxE 6 (BU 2700 7.2).
   EXPECT_EQ(3, robot.drive(0).parameters().value(509));
   EXPECT_EQ(6, robot.drive(2).parameters().value(509));

@@ -47,10 +47,10 @@ TEST_P(TimeoutTable, OverTheBus) {
       break;
     case Cause::kMasterLost:
       bus.segment.run(seconds(3.0));
-      EXPECT_EQ(SlaveState::kWaitParameters, bus.drive().slave().state());
+      EXPECT_EQ(SlaveState::kWaitParameters, bus.station().state());
       break;
     case Cause::kLinkInterrupted:
-      bus.drive().slave().setInverterLink(false);
+      bus.station().setInverterLink(false);
       EXPECT_EQ("00 00 00 00", bus.pzdFor("047F 2000", seconds(3.0)));
       break;
   }
@@ -64,7 +64,7 @@ TEST_P(TimeoutTable, OverTheBus) {
   EXPECT_EQ(0.0, inverter.frequency());
 
   // The cause is gone with the next good telegram; an edge of bit 7 acknowledges, 047E is ready to be switched on.
-  bus.drive().slave().setInverterLink(true);
+  bus.station().setInverterLink(true);
   if (row.cause == Cause::kMasterLost) bus.startUp(20);
   EXPECT_EQ("0B 38 00 00", bus.pzdFor("047E 0000", milliseconds(10)));
   EXPECT_EQ("0B 31 00 00", bus.pzdFor("04FE 0000", milliseconds(10)));

@@ -65,5 +65,20 @@ TEST_F(Canopen, ParametersAndSilence) {
   EXPECT_TRUE(comes("732#R1", "732#7F"));
 }
 
+// The 24 V of a gateway off: its node is silent, and with it both inverters; on again it boots up. What no source gives a
+// supply of its own has none.
+TEST_F(Canopen, PowerModule) {
+  const std::string reads_lift = "628#4066200100000000";
+  ASSERT_TRUE(comes(reads_lift, "5A8#4B662001C8000000"));
+  EXPECT_EQ("yes, lift: 24 V of its module off, the station is silent", set("lift/power_module", false));
+  EXPECT_FALSE(comes("728#R1", "728#7F", seconds(0.5)));
+  EXPECT_FALSE(comes(reads_lift, "5A8#4B662001C8000000", seconds(0.5)));
+  EXPECT_EQ("yes, tilt: 24 V of its module on", set("tilt/power_module", true));
+  EXPECT_TRUE(comes("728#R1", "728#00")) << "the boot-up message";
+  EXPECT_TRUE(comes(reads_lift, "5A8#4B662001C8000000"));
+  EXPECT_EQ("no, left: has a module of its own; unplug takes the power from both", set("left/power_module", false));
+  EXPECT_TRUE(comes("732#R1", "732#7F"));
+}
+
 }  // namespace
 }  // namespace nord_driver::sim_node

@@ -107,28 +107,25 @@ class CanRobot : public DrivenRobot {
   }
   static sim::SimConfig simConfig(const Options& options) {
     sim::SimConfig config;
-    config.can = sim::CanBusConfig{};
+    config.bus = sim::CanBusConfig{};
     const bool gateway = options.gateway_inverters != 0;
     for (std::size_t i = 0; i < (gateway ? options.gateway_inverters : 2); ++i) {
       sim::DriveConfig drive;
       drive.name = nameOf(i);
       drive.joint = drive.name + "_wheel_joint";
-      drive.slave.address = static_cast<std::uint8_t>(gateway ? 10 : 3 + i);
+      drive.address = static_cast<std::uint8_t>(gateway ? 10 : 3 + i);
       drive.gear_ratio = 20.0;
       drive.inverted = i == 1;
       drive.motor.slip = 2.0;
-      drive.can = sim::CanDriveConfig{};
+      drive.bus = sim::CanDriveConfig{};
       if (gateway) {
-        drive.can->connection = sim::CanConnection::kGateway;
-        drive.can->inverter = static_cast<unsigned>(i + 1);
+        drive.bus.as<sim::CanDriveConfig>().connection = sim::CanConnection::kGateway;
+        drive.place = static_cast<unsigned>(i + 1);
       }
       config.drives.push_back(drive);
     }
     config.body = sim::BodyConfig{{0}, {1}, 0.1, 0.5};
     if (options.simulate) options.simulate(config);
-    for (sim::DriveConfig& drive : config.drives) {
-      drive.inverter = sim::canInverterSettings(drive.can->connection, drive.device);
-    }
     return config;
   }
 

@@ -13,6 +13,9 @@
 
 namespace nord_driver::test {
 
+/// m/s of the robots of these tests: 25 Hz, half of P105.
+inline constexpr double kHalfSpeed = 0.39269908169872414;
+
 /// The driver below ROS on a transport in simulated time. A robot derives from it and calls `start()` once.
 class DrivenRobot {
  public:

@@ -10,7 +10,6 @@
 
 namespace nord_driver::test {
 
-inline constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
 inline constexpr DriveIndex kLeft = 0, kRight = 1, kRearLeft = 2, kRearRight = 3;
 
 inline cycle::Completion parameter(DrivenRobot& robot, cycle::RequestKind kind, DriveIndex drive, std::uint16_t number,

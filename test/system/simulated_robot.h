@@ -103,19 +103,19 @@ class SimulatedRobot : public DrivenRobot {
   }
   static sim::SimConfig simConfig(const Options& options) {
     sim::SimConfig config;
-    config.baud_rate = 500'000;
+    config.bus.as<sim::DpBusConfig>().baud_rate = 500'000;
     config.body = sim::BodyConfig{{}, {}, 0.1, 0.5};
-    config.modules = options.modules;
+    config.bus.as<sim::DpBusConfig>().modules = options.modules;
     for (const std::string& name : names(options)) {
       const std::size_t number = config.drives.size();
       sim::DriveConfig drive;
       drive.name = name;
       drive.joint = name + "_wheel_joint";
-      drive.slave.address = static_cast<std::uint8_t>(options.one_module ? 3 : 3 + number);
+      drive.address = static_cast<std::uint8_t>(options.one_module ? 3 : 3 + number);
       drive.gear_ratio = 20.0;
       drive.inverted = isRight(name);
       drive.motor.slip = options.slip;
-      drive.slave.ppo_type = options.ppo_type;
+      drive.bus.as<sim::DpDriveConfig>().ppo_type = options.ppo_type;
       drive.parameters = options.parameters;
       drive.pkw = options.pkw;
       if (options.one_module) {

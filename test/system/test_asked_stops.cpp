@@ -14,8 +14,6 @@ using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
-
 SimulatedRobot::Options withDeceleration(bool one_module) {
   SimulatedRobot::Options options;
   options.one_module = one_module;

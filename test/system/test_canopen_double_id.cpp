@@ -11,7 +11,6 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
 
-constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
 constexpr DriveIndex kLeft = 0, kRight = 1;
 constexpr std::size_t kTwin = 2;  // answers as the right one
 
@@ -21,7 +20,7 @@ CanRobot::Options withTwin() {
     sim::DriveConfig twin = config.drives[kRight];
     twin.name = "twin";
     twin.joint = "twin_joint";
-    twin.can->doubled_id = true;
+    twin.bus.as<sim::CanDriveConfig>().doubled_id = true;
     config.drives.push_back(twin);
   };
   return options;

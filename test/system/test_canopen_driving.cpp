@@ -13,7 +13,6 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 
 // 50 % of P105 (25 Hz) is 3.92699 rad/s at the joint and 0.392699 m/s.
-constexpr double kHalfSpeed = 0.39269908169872414;
 
 /// What goes over the bus under one of the given identifiers, each frame once until it changes.
 class Changes {
@@ -47,8 +46,8 @@ TEST(CanopenDriving, ATwistBecomesTheManualsFrames) {
   options.each = {{{"address", 50}}, {{"address", 51}}};
   options.simulate = [simulate = options.simulate](sim::SimConfig& config) {
     simulate(config);
-    config.drives[0].slave.address = 50;
-    config.drives[1].slave.address = 51;
+    config.drives[0].address = 50;
+    config.drives[1].address = 51;
   };
   CanRobot robot{options};
   Changes left{robot, {0x232, 0x1B2}};

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/parameter_requests.h"
 #include "system/can_robot.h"
 
 namespace nord_driver::test {
@@ -9,8 +10,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
-
-constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
 
 void expectDrives(CanRobot& robot) {
   ASSERT_TRUE(robot.bringUpAndEnable());
@@ -34,14 +33,7 @@ TEST(CanopenKinds, FourInvertersBehindAGateway) {
   EXPECT_EQ(robot.transport().identity(0).shared_module, robot.transport().identity(2).shared_module);
   expectDrives(robot);
   // Parameters of inverter 2 are inverter 2's.
-  cycle::Request request;
-  request.kind = cycle::RequestKind::kWriteParameter;
-  request.drive = 1;
-  request.parameter.number = 103;
-  request.parameter.shape = profile::ParameterShape::kPerSet;
-  request.parameter.action = profile::ParameterAction::kWritePersistent;
-  request.parameter.raw = 321;
-  EXPECT_TRUE(robot.ask(request).success);
+  EXPECT_TRUE(robot.ask(writeRequest(1, 103, 321, profile::ParameterAction::kWritePersistent)).success);
   EXPECT_EQ(321, robot.unit(1).parameters().value(103, 0));
   EXPECT_NE(321, robot.unit(0).parameters().value(103, 0));
 }
@@ -144,7 +136,7 @@ CanRobot::Options cia402() {
   CanRobot::Options options;
   options.drives = {{"profile", std::string{"cia402"}}};
   options.simulate = [](sim::SimConfig& config) {
-    for (sim::DriveConfig& drive : config.drives) drive.can->cia402 = true;
+    for (sim::DriveConfig& drive : config.drives) drive.bus.as<sim::CanDriveConfig>().cia402 = true;
   };
   return options;
 }
@@ -241,7 +233,8 @@ TEST(CanopenKinds, TheOwnCanPortOfSk5xxE) {
   CanRobot::Options options;
   options.drives = {{"connection", std::string{"onboard"}}};
   options.simulate = [](sim::SimConfig& config) {
-    for (sim::DriveConfig& drive : config.drives) drive.can->connection = sim::CanConnection::kOnboard;
+    for (sim::DriveConfig& drive : config.drives)
+      drive.bus.as<sim::CanDriveConfig>().connection = sim::CanConnection::kOnboard;
   };
   CanRobot robot{options};
   expectDrives(robot);
@@ -253,9 +246,10 @@ TEST(CanopenKinds, TheSystemBus) {
   options.drives = {{"connection", std::string{"system_bus"}}};
   options.each = {{{"address", 32}}, {{"address", 34}}};
   options.simulate = [](sim::SimConfig& config) {
-    config.drives[0].slave.address = 32;
-    config.drives[1].slave.address = 34;
-    for (sim::DriveConfig& drive : config.drives) drive.can->connection = sim::CanConnection::kSystemBus;
+    config.drives[0].address = 32;
+    config.drives[1].address = 34;
+    for (sim::DriveConfig& drive : config.drives)
+      drive.bus.as<sim::CanDriveConfig>().connection = sim::CanConnection::kSystemBus;
   };
   CanRobot robot{options};
   ASSERT_EQ(2u, robot.transport().warnings().size());
@@ -267,7 +261,7 @@ TEST(CanopenKinds, TheSystemBus) {
 TEST(CanopenKinds, AFixedMappingIsFine) {
   CanRobot::Options options;
   options.simulate = [](sim::SimConfig& config) {
-    for (sim::DriveConfig& drive : config.drives) drive.can->fixed_mapping = true;
+    for (sim::DriveConfig& drive : config.drives) drive.bus.as<sim::CanDriveConfig>().fixed_mapping = true;
   };
   CanRobot robot{options};
   expectDrives(robot);
@@ -277,7 +271,7 @@ TEST(CanopenKinds, ArraysByTheTable) {
   CanRobot::Options options;
   options.drives = {{"array_sub_index", std::string{"table"}}};
   options.simulate = [](sim::SimConfig& config) {
-    for (sim::DriveConfig& drive : config.drives) drive.can->array_sub_by_table = true;
+    for (sim::DriveConfig& drive : config.drives) drive.bus.as<sim::CanDriveConfig>().array_sub_by_table = true;
   };
   CanRobot robot{options};
   ASSERT_TRUE(robot.bringUpAndEnable());

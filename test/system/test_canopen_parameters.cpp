@@ -58,7 +58,7 @@ TEST(CanopenParameterAccess, AnAnswerInTheSocketIsNoTimeOut) {
   options.node = {{"drive_timeout", 0.5}};
   CanRobot robot{options};
   ASSERT_TRUE(robot.bringUp());
-  robot.node(0).setSdoDelay(milliseconds{40});
+  robot.node(0).setAnswerDelay(milliseconds{40});
   cycle::Request request = access(kAccelerationTime, 0, profile::ParameterAction::kRead);
   request.id = 77;
   request.patience = std::chrono::seconds{3};
@@ -91,7 +91,7 @@ TEST(CanopenParameterAccess, AnAbortIsToldInWords) {
 TEST(CanopenParameterAccess, ASlowServerDelaysNoCycle) {
   CanRobot robot;
   ASSERT_TRUE(robot.bringUpAndEnable());
-  robot.node(0).setSdoDelay(milliseconds{250});
+  robot.node(0).setAnswerDelay(milliseconds{250});
   cycle::Request request = access(kAccelerationTime, 0, profile::ParameterAction::kRead);
   request.id = 4711;
   request.patience = std::chrono::seconds{3};
@@ -113,7 +113,7 @@ TEST(CanopenParameterAccess, ASlowServerDelaysNoCycle) {
 TEST(CanopenParameterAccess, ASilentServerIsATimeOut) {
   CanRobot robot;
   ASSERT_TRUE(robot.bringUpAndEnable());
-  robot.node(0).setSdoDelay(std::chrono::seconds{30});
+  robot.node(0).setAnswerDelay(std::chrono::seconds{30});
   const auto answer = robot.ask(access(kAccelerationTime, 0, profile::ParameterAction::kRead));
   EXPECT_FALSE(answer.success);
   EXPECT_THAT(answer.message.c_str(), HasSubstr("drive left gave no answer for P102"));

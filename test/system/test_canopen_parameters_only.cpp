@@ -90,14 +90,13 @@ class CanTool {
  private:
   static sim::SimConfig simulated(const std::vector<sim::ParameterPreset>& parameters) {
     sim::SimConfig config;
-    config.can = sim::CanBusConfig{};
+    config.bus = sim::CanBusConfig{};
     for (const std::uint8_t address : {std::uint8_t{3}, std::uint8_t{4}}) {
       sim::DriveConfig drive;
       drive.name = address == 3 ? "left" : "right";
-      drive.slave.address = address;
-      drive.can = sim::CanDriveConfig{};
+      drive.address = address;
+      drive.bus = sim::CanDriveConfig{};
       drive.parameters = parameters;
-      drive.inverter = sim::canInverterSettings(drive.can->connection, drive.device);
       config.drives.push_back(drive);
     }
     return config;

@@ -11,7 +11,6 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
 
-constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
 constexpr DriveIndex kLeft = 0, kRight = 1;
 
 class TwoMasters : public ::testing::Test {

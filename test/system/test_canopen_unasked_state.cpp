@@ -17,7 +17,6 @@ using std::chrono::seconds;
 using ::testing::Each;
 using ::testing::HasSubstr;
 
-constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
 constexpr DriveIndex kLeft = 0, kRight = 1;
 constexpr std::uint8_t kRightNode = 4;
 constexpr std::uint32_t kRightReceivePdo = 0x204, kRightErrorControl = 0x704;

@@ -13,7 +13,6 @@ namespace {
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 
-constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
 constexpr DriveIndex kLeft = 0, kRight = 1;
 
 enum class Base { kTwoDrives, kFourDrives, kFourBehindOneModule };
@@ -191,10 +190,10 @@ TEST_P(CauseAtADrive, AnInverterThatIsOffBehindItsModuleStopsTheBase) {
 // Two cycles with all their retries unanswered are shorter than drive_timeout: data exchange goes on, and so does the
 // base.
 TEST_P(CauseAtADrive, TwoLostCyclesStopNothing) {
-  robot_.unit(kRight).slave().setMute(true);
+  robot_.unit(kRight).setMute(true);
   step();
   step();
-  robot_.unit(kRight).slave().setMute(false);
+  robot_.unit(kRight).setMute(false);
   for (int i = 0; i < 50; ++i) {
     step();
     ASSERT_TRUE(robot_.snapshot().base.enabled) << i << ": " << stopText();
@@ -207,9 +206,9 @@ TEST_P(CauseAtADrive, TwoLostCyclesStopNothing) {
 // Silent for longer than drive_timeout: the slave is parameterised anew. Back within 2 s, at rest, and enabled only
 // when asked.
 TEST_P(CauseAtADrive, ADriveThatIsBackDoesNotMoveBeforeItIsEnabled) {
-  robot_.unit(kRight).slave().setMute(true);
+  robot_.unit(kRight).setMute(true);
   for (int i = 0; i < 10 && robot_.snapshot().drives[kRight].online; ++i) step();
-  robot_.unit(kRight).slave().setMute(false);
+  robot_.unit(kRight).setMute(false);
   ASSERT_FALSE(robot_.snapshot().drives[kRight].online);
   const Instant back = robot_.transport().now();
   while (!robot_.snapshot().drives[kRight].online && robot_.transport().now() - back < std::chrono::seconds{5}) step();
@@ -244,8 +243,8 @@ TEST_P(CauseAtADrive, TheBusLostAndBackLeavesTheBaseDisabled) {
   for (int i = 0; i < 100; ++i) step();
   EXPECT_FALSE(robot_.snapshot().connected);
   EXPECT_THAT(robot_.snapshot().bus_text.c_str(), HasSubstr("simulated segment: no such device"));
-  EXPECT_EQ(1u, robot_.unit(kLeft).slave().counters().watchdog_trips);
-  EXPECT_EQ(1u, robot_.unit(kRight).slave().counters().watchdog_trips);
+  EXPECT_EQ(1u, robot_.unit(kLeft).counters().watchdog_trips);
+  EXPECT_EQ(1u, robot_.unit(kRight).counters().watchdog_trips);
   robot_.segment().setDevicePresent(true);
   const Instant back = robot_.transport().now();
   const auto all_online = [this] {

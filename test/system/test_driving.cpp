@@ -85,8 +85,8 @@ INSTANTIATE_TEST_SUITE_P(
                            [](SimulatedRobot& robot) { robot.unit(1).setPlugged(true); }},
                       Loss{"InverterOff", [](SimulatedRobot& robot) { robot.unit(1).setInverterPower(false); },
                            [](SimulatedRobot& robot) { robot.unit(1).setInverterPower(true); }},
-                      Loss{"Mute", [](SimulatedRobot& robot) { robot.unit(1).slave().setMute(true); },
-                           [](SimulatedRobot& robot) { robot.unit(1).slave().setMute(false); }},
+                      Loss{"Mute", [](SimulatedRobot& robot) { robot.unit(1).setMute(true); },
+                           [](SimulatedRobot& robot) { robot.unit(1).setMute(false); }},
                       Loss{"BusDevice", [](SimulatedRobot& robot) { robot.segment().setDevicePresent(false); },
                            [](SimulatedRobot& robot) { robot.segment().setDevicePresent(true); }}),
     [](const auto& test) { return std::string{test.param.name}; });

@@ -34,7 +34,7 @@ class Trouble {
   /// Something goes wrong, until `end()`.
   void strike(SimulatedRobot& robot) {
     const std::size_t drive = below(2);
-    sim::DpStation& slave = robot.unit(drive).slave();
+    sim::BusModule& slave = robot.unit(drive).module();
     switch (below(11)) {
       case 0:
         return robot.segment().loseAnswers(1 + below(12));
@@ -75,9 +75,9 @@ class Trouble {
     robot.segment().spoilAnswers(0);
     robot.segment().setDevicePresent(true);
     for (const std::size_t i : {0u, 1u}) {
-      robot.unit(i).slave().setPowered(true);
-      robot.unit(i).slave().setMute(false);
-      robot.unit(i).slave().setInverterLink(true);
+      robot.unit(i).module().setPowered(true);
+      robot.unit(i).module().setMute(false);
+      robot.unit(i).module().setInverterLink(true);
       robot.unit(i).setInverterPower(true);
     }
   }
@@ -198,7 +198,7 @@ TEST(FaultSequences, LossesShorterThanDriveTimeoutStopNothing) {
         if (kind == 0) watched.robot.segment().loseAnswers(telegrams);
         if (kind == 1) watched.robot.segment().loseRequests(telegrams);
         if (kind == 2) watched.robot.segment().spoilAnswers(telegrams);
-        if (kind == 3) watched.robot.unit(drive).slave().setMute(true);
+        if (kind == 3) watched.robot.unit(drive).setMute(true);
         watched.step();
       }
       Trouble::end(watched.robot);

@@ -13,7 +13,6 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 // 50 % of P105 (25 Hz) is 3.92699 rad/s at the joint and 0.392699 m/s.
-constexpr double kHalfSpeed = 0.39269908169872414;
 
 TEST(FollowACmdVel, FromATwistToTheManualsBytesAndBackToOdometry) {
   SimulatedRobot::Options options;

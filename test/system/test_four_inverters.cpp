@@ -23,7 +23,7 @@ class FourInverters : public ::testing::Test {
   void SetUp() override { ASSERT_TRUE(robot_.bringUp()); }
   void TearDown() override { EXPECT_EQ("no rule broken", robot_.segment().referee().report()); }
 
-  sim::ModuleStation& module() { return static_cast<sim::ModuleStation&>(robot_.unit(0).slave()); }
+  sim::ModuleStation& module() { return robot_.segment().stations().module(0); }
 
   SimulatedRobot robot_{options()};
 };

@@ -73,7 +73,7 @@ TEST_F(LongRun, AnHourOfRamWritesAndSetSwitchingLeavesTheEepromAlone) {
     EXPECT_EQ(0u, eepromWrites(drive));
     EXPECT_EQ(0u, robot_.snapshot().drives[drive].eeprom_writes) << "as the driver counts";
     EXPECT_LT(1800u, robot_.unit(drive).inverter().setSwitches());
-    EXPECT_EQ(0u, robot_.unit(drive).slave().counters().watchdog_trips);
+    EXPECT_EQ(0u, robot_.unit(drive).counters().watchdog_trips);
     EXPECT_EQ(0, robot_.unit(drive).inverter().faultNumber());
   }
 }

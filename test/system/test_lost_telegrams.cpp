@@ -8,8 +8,6 @@ namespace {
 
 using std::chrono::seconds;
 
-constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
-
 struct Line {
   const char* name;
   double slot_time;  ///< s
@@ -56,12 +54,12 @@ INSTANTIATE_TEST_SUITE_P(Behind, LostTelegrams,
 
 // The answers of one station, all retries included, in two cycles running.
 TEST_P(LostTelegrams, TheAnswersOfTwoCyclesStopNothing) {
-  robot_.unit(1).slave().setMute(true);
+  robot_.unit(1).setMute(true);
   step();
   step();
-  robot_.unit(1).slave().setMute(false);
+  robot_.unit(1).setMute(false);
   expectDrivesOn();
-  EXPECT_EQ(0u, robot_.unit(1).slave().counters().watchdog_trips);
+  EXPECT_EQ(0u, robot_.unit(1).counters().watchdog_trips);
 }
 
 /// Two cycles in which nothing of the line's one direction arrives, at both stations.

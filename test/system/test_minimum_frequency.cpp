@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "support/parameter_requests.h"
 #include "system/simulated_robot.h"
 
 namespace nord_driver::test {
@@ -11,24 +12,11 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
-
 SimulatedRobot::Options withP104(std::int32_t raw, bool allowed) {
   SimulatedRobot::Options options;
   options.parameters = {{104, 0, 0, raw}};
   if (allowed) options.drives = {{"allow_minimum_frequency", true}};
   return options;
-}
-
-cycle::Request writeP104(DriveIndex drive, std::int32_t raw) {
-  cycle::Request request;
-  request.kind = cycle::RequestKind::kWriteParameter;
-  request.drive = drive;
-  request.parameter.number = 104;
-  request.parameter.shape = profile::ParameterShape::kPerSet;
-  request.parameter.action = profile::ParameterAction::kWriteRam;
-  request.parameter.raw = raw;
-  return request;
 }
 
 TEST(MinimumFrequency, RefusesToEnable) {
@@ -111,18 +99,18 @@ TEST(MinimumFrequency, IsReadAgainAfterItWasWritten) {
   SimulatedRobot robot;
   ASSERT_TRUE(robot.bringUpAndEnable());
   robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{2});
-  const cycle::Completion enabled = robot.ask(writeP104(0, 30));
+  const cycle::Completion enabled = robot.ask(writeRequest(0, 104, 30));
   EXPECT_FALSE(enabled.success);
   EXPECT_THAT(enabled.message.c_str(), HasSubstr("P104"));
   EXPECT_THAT(enabled.message.c_str(), HasSubstr("disable drive left first"));
   EXPECT_EQ(0, robot.unit(0).parameters().value(104));
   robot.run(std::chrono::seconds{4});
   ASSERT_TRUE(robot.ask(cycle::RequestKind::kDisable).success);
-  ASSERT_TRUE(robot.ask(writeP104(0, 30)).success);
+  ASSERT_TRUE(robot.ask(writeRequest(0, 104, 30)).success);
   EXPECT_FALSE(robot.ask(cycle::RequestKind::kEnable).success) << "not before it is read";
   ASSERT_TRUE(robot.bringUp());
   EXPECT_THAT(robot.ask(cycle::RequestKind::kEnable).message.c_str(), HasSubstr("P104 of parameter set 1 is 3.0 Hz"));
-  ASSERT_TRUE(robot.ask(writeP104(0, 0)).success);
+  ASSERT_TRUE(robot.ask(writeRequest(0, 104, 0)).success);
   robot.run(std::chrono::milliseconds{50});
   ASSERT_TRUE(robot.bringUp());
   EXPECT_TRUE(robot.ask(cycle::RequestKind::kEnable).success);

@@ -98,7 +98,7 @@ class NoAllocation : public ::testing::TestWithParam<bool> {
       sim::DriveConfig drive;
       drive.name = name;
       const bool left = name == std::string{"left"};
-      drive.slave.address = left || GetParam() ? 3 : 4;
+      drive.address = left || GetParam() ? 3 : 4;
       if (GetParam()) drive.place = left ? 1 : 2;
       config.drives.push_back(drive);
     }

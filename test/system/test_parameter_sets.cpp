@@ -2,14 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/parameter_requests.h"
 #include "system/simulated_robot.h"
 
 namespace nord_driver::test {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
 
 /// An earlier node commanded set 3 and died; with `turning` it was driving at half of P105.
 void leaveInSet3(SimulatedRobot& robot, bool turning) {
@@ -112,23 +111,12 @@ TEST(ParameterSets, ASetThatChangesByItselfStopsTheBase) {
   EXPECT_TRUE(robot.standsStill());
 }
 
-cycle::Request writeP105(DriveIndex drive, std::int32_t raw) {
-  cycle::Request request;
-  request.kind = cycle::RequestKind::kWriteParameter;
-  request.drive = drive;
-  request.parameter.number = 105;
-  request.parameter.shape = profile::ParameterShape::kPerSet;
-  request.parameter.action = profile::ParameterAction::kWriteRam;
-  request.parameter.raw = raw;
-  return request;
-}
-
 // Written over the driver's own service, the new P105 counts from the first movement on.
 TEST(ParameterSets, AP105ThatTheUserHasWrittenScalesFromThenOn) {
   SimulatedRobot robot;
   ASSERT_TRUE(robot.bringUp());
   for (DriveIndex drive = 0; drive < 2; ++drive) {
-    const cycle::Completion written = robot.ask(writeP105(drive, 1000));
+    const cycle::Completion written = robot.ask(writeRequest(drive, 105, 1000));
     ASSERT_TRUE(written.success) << written.message.c_str();
   }
   EXPECT_THAT(robot.ask(cycle::RequestKind::kEnable).message.c_str(),
@@ -147,7 +135,7 @@ TEST(ParameterSets, P105IsNotWrittenWhileTheDriveIsEnabled) {
   SimulatedRobot robot;
   ASSERT_TRUE(robot.bringUpAndEnable());
   robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{5});
-  const cycle::Completion answer = robot.ask(writeP105(0, 1000));
+  const cycle::Completion answer = robot.ask(writeRequest(0, 105, 1000));
   EXPECT_FALSE(answer.success);
   EXPECT_THAT(answer.message.c_str(), HasSubstr("P105 decides what setpoints and actual values mean: disable drive"));
   EXPECT_EQ(500, robot.unit(0).parameters().value(105));

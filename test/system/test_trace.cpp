@@ -25,7 +25,6 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 constexpr std::uint16_t kOvercurrent = 40;  // E4.0
-constexpr double kHalfSpeed = 0.39269908169872414;
 
 class TraceOfARobot : public ::testing::Test {
  protected:

@@ -16,7 +16,6 @@ using ::testing::HasSubstr;
 
 namespace {
 
-constexpr double kHalfSpeed = 0.39269908169872414;  // 25 Hz
 constexpr std::int16_t kHalfSetpoint = 0x2000;
 constexpr Word kIdle = 0x047E, kRun = 0x047F, kOff3 = 0x047B;
 constexpr int kBound = 2;          // bus cycles, of every row

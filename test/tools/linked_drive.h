@@ -60,8 +60,8 @@ class LinkedDrive {
     for (const int address : {3, 4}) {
       sim::DriveConfig drive;
       drive.name = address == 3 ? "left" : "right";
-      drive.slave.address = static_cast<std::uint8_t>(address);
-      drive.slave.ppo_type = ppo_type;
+      drive.address = static_cast<std::uint8_t>(address);
+      drive.bus.as<sim::DpDriveConfig>().ppo_type = ppo_type;
       drive.pkw.ram_orders = ram_orders;
       drive.parameters = parameters;
       config.drives.push_back(drive);

@@ -120,7 +120,7 @@ TEST(ParameterLink, LeavesADriveThatRunsAlone) {
   drive.segment().run(seconds{60});
   EXPECT_EQ(InverterState::kOperationEnabled, drive.left().inverter().state());
   EXPECT_DOUBLE_EQ(25.0, drive.left().inverter().frequency());
-  EXPECT_EQ(0x0000, drive.left().slave().counters().last_control);
+  EXPECT_EQ(0x0000, drive.left().counters().last_control);
 }
 
 // Under local control the terminals turn it; it is left alone all the same.
@@ -141,7 +141,7 @@ TEST(ParameterLink, SaysNothingToTheOtherDrivesOfTheBus) {
   drive.connect();
   drive.link().read(parameter(105));
   drive.link().finish();
-  EXPECT_EQ(0u, drive.right().slave().counters().telegrams);
+  EXPECT_EQ(0u, drive.right().counters().telegrams);
 }
 
 // Another master would be heard meanwhile.
@@ -167,7 +167,7 @@ TEST(ParameterLink, KeepsTheParameterSetInForce) {
   EXPECT_EQ(3, drive.link().read(parameter(105)).set);
   drive.link().finish();
   EXPECT_EQ(switches, drive.left().inverter().setSwitches());
-  EXPECT_EQ(0x847E, drive.left().slave().counters().last_control);
+  EXPECT_EQ(0x847E, drive.left().counters().last_control);
 }
 
 // P513 > 0 trips on control words with bit 10 = 0 (E10.3): the idle word keeps it quiet as long as the program runs.
@@ -193,7 +193,7 @@ TEST(ParameterLink, NamesTheTimeoutOfAModuleThatServesSeveral) {
   for (const unsigned place : {1u, 2u}) {
     sim::DriveConfig drive;
     drive.name = place == 1 ? "one" : "two";
-    drive.slave.address = 5;
+    drive.address = 5;
     drive.device.series = sim::Series::kSk2xxe;
     drive.place = place;
     simulated.drives.push_back(drive);
@@ -201,7 +201,7 @@ TEST(ParameterLink, NamesTheTimeoutOfAModuleThatServesSeveral) {
   sim::ModuleConfig module;
   module.settings.address = 5;
   module.parameters = {{151, 0, 0, 1000}};
-  simulated.modules.push_back(module);
+  simulated.bus.as<sim::DpBusConfig>().modules.push_back(module);
   sim::SimulatedSegment* segment = nullptr;
   ProfibusDpTransport transport([&](const link::SerialSettings&) {
     auto made = std::make_unique<sim::SimulatedSegment>(simulated);
@@ -229,15 +229,15 @@ TEST(ParameterLink, NamesAModuleThatRefusesRecords) {
   sim::SimConfig simulated;
   sim::DriveConfig drive;
   drive.name = "one";
-  drive.slave.address = 5;
-  drive.slave.ppo_type = 3;
+  drive.address = 5;
+  drive.bus.as<sim::DpDriveConfig>().ppo_type = 3;
   drive.device.series = sim::Series::kSk2xxe;
   drive.place = 1;
   simulated.drives.push_back(drive);
   sim::ModuleConfig module;
   module.settings.address = 5;
   module.settings.records.active = false;
-  simulated.modules.push_back(module);
+  simulated.bus.as<sim::DpBusConfig>().modules.push_back(module);
   ProfibusDpTransport transport(
       [&](const link::SerialSettings&) { return std::make_unique<sim::SimulatedSegment>(simulated); });
   const ToolConfig config = readToolConfig(file, "one");
@@ -260,14 +260,14 @@ TEST(ParameterLink, TellsARefusalOfTheRecordInTheWordsOfDpv1) {
   sim::SimConfig simulated;
   sim::DriveConfig drive;
   drive.name = "one";
-  drive.slave.address = 5;
-  drive.slave.ppo_type = 3;
+  drive.address = 5;
+  drive.bus.as<sim::DpDriveConfig>().ppo_type = 3;
   drive.device.series = sim::Series::kSk2xxe;
   drive.place = 1;
   simulated.drives.push_back(drive);
   sim::ModuleConfig module;
   module.settings.address = 5;
-  simulated.modules.push_back(module);
+  simulated.bus.as<sim::DpBusConfig>().modules.push_back(module);
   ProfibusDpTransport transport(
       [&](const link::SerialSettings&) { return std::make_unique<sim::SimulatedSegment>(simulated); });
   const ToolConfig config = readToolConfig(file, "one");

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include "link/can/packet_socket.h"
-#include "link/waiting.h"
 
 namespace nord_driver::link {
 
@@ -16,38 +15,24 @@ constexpr int kRoomToSend = 64;
 
 }  // namespace
 
-VirtualCan::VirtualCan(const CanSettings& settings) : settings_(settings), filter_(settings.ids) {
-  error_.reserve(packet_socket::kLongestError);  // so that naming an error in the bus cycle does not allocate
-  static_cast<void>(checkCanSettings(settings_, problem_));
-}
+VirtualCan::VirtualCan(const CanSettings& settings) : VirtualCanEnd(settings) {}
 
 VirtualCan::~VirtualCan() {
   close();
 }
 
-bool VirtualCan::fail(const char* what, int error) noexcept {
-  close();
-  packet_socket::describe(error_, settings_.interface, what, error);
-  return false;
-}
-
 bool VirtualCan::open() noexcept {
   close();
-  if (!problem_.empty()) {
-    error_.assign(problem_.c_str());
-    return false;
-  }
-  const int descriptor = packet_socket::open();
-  if (descriptor < 0) return fail("no socket", -descriptor);
-  descriptor_ = descriptor;
+  descriptor_ = openSocket();
+  if (descriptor_ < 0) return false;
   packet_socket::setRoom(descriptor_, kRoomToSend);
-  if (const int result = packet_socket::connect(descriptor_, settings_.interface)) {
+  if (const int result = packet_socket::connect(descriptor_, interface())) {
     return result == -ECONNREFUSED || result == -ENOENT
                ? fail("there is no such virtual bus: is the simulator running?")
                : fail("the virtual bus does not let us in", -result);
   }
   next_number_ = 0;
-  error_.clear();
+  opened();
   return true;
 }
 
@@ -55,7 +40,7 @@ void VirtualCan::close() noexcept {
   if (descriptor_ < 0) return;
   ::close(descriptor_);
   descriptor_ = -1;
-  has_pending_ = false;
+  forgetKept();
 }
 
 CanSend VirtualCan::send(const CanFrame& frame) noexcept {
@@ -80,39 +65,23 @@ bool VirtualCan::takeNext(ReceivedCanFrame& received) noexcept {
     if (!numbered) return fail("the virtual bus speaks another version");
     counters_.dropped += static_cast<std::uint16_t>(numbered->number - next_number_);
     next_number_ = static_cast<std::uint16_t>(numbered->number + 1);
-    if (!filter_.passes(numbered->frame)) continue;
+    if (!passes(numbered->frame)) continue;
     received = {numbered->frame, now()};
     return true;
   }
   return false;
 }
 
-bool VirtualCan::receive(ReceivedCanFrame& received) noexcept {
-  if (!has_pending_) return takeNext(received);
-  received = pending_;
-  has_pending_ = false;
-  return true;
-}
-
 bool VirtualCan::waitReadable(Instant until) noexcept {
-  while (descriptor_ >= 0 && !has_pending_) {
+  while (descriptor_ >= 0 && !hasKept()) {
     if (!packet_socket::wait(descriptor_, POLLIN, until)) return false;
-    has_pending_ = takeNext(pending_);
-    if (!has_pending_ && now() >= until) return false;
+    if (!keepNext() && now() >= until) return false;
   }
-  return has_pending_;
+  return hasKept();
 }
 
 bool VirtualCan::waitWritable(Instant until) noexcept {
   return descriptor_ >= 0 && packet_socket::wait(descriptor_, POLLOUT, until);
-}
-
-void VirtualCan::sleepUntil(Instant when) noexcept {
-  sleepUntilInstant(when);
-}
-
-Instant VirtualCan::now() const noexcept {
-  return std::chrono::steady_clock::now();
 }
 
 }  // namespace nord_driver::link

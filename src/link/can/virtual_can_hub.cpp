@@ -19,47 +19,34 @@ constexpr int kRoomPerMember = 512;
 
 }  // namespace
 
-VirtualCanHub::VirtualCanHub(const CanSettings& settings) : settings_(settings), filter_(settings.ids) {
-  error_.reserve(packet_socket::kLongestError);  // so that naming an error later does not allocate
-  if (!checkCanSettings(settings_, problem_)) return;
-  if (!isVirtualCan(settings_.interface)) problem_.format("%s is no virtual bus", settings_.interface.c_str());
+VirtualCanHub::VirtualCanHub(const CanSettings& settings) : VirtualCanEnd(settings) {
+  if (problem_.empty() && !isVirtualCan(interface())) problem_.format("%s is no virtual bus", interface().c_str());
 }
 
 VirtualCanHub::~VirtualCanHub() {
   close();
 }
 
-bool VirtualCanHub::fail(const char* what, int error) noexcept {
-  close();
-  packet_socket::describe(error_, settings_.interface, what, error);
-  return false;
-}
-
 bool VirtualCanHub::open() noexcept {
   close();
-  if (!problem_.empty()) {
-    error_.assign(problem_.c_str());
-    return false;
-  }
-  const int descriptor = packet_socket::open();
-  if (descriptor < 0) return fail("no socket", -descriptor);
-  listener_ = descriptor;
-  if (const int result = packet_socket::listen(listener_, settings_.interface)) {
+  listener_ = openSocket();
+  if (listener_ < 0) return false;
+  if (const int result = packet_socket::listen(listener_, interface())) {
     return result == -EADDRINUSE ? fail("another process has made a virtual bus of this name")
                                  : fail("the virtual bus cannot be made", -result);
   }
-  error_.clear();
+  opened();
   return true;
 }
 
 void VirtualCanHub::close() noexcept {
   if (listener_ < 0) return;
   for (Member& member : members_) {
-    if (member.descriptor >= 0) part(member, hub_counters_.left);
+    if (member.descriptor >= 0) disconnect(member, hub_counters_.left);
   }
   ::close(listener_);
   listener_ = -1;
-  has_pending_ = false;
+  forgetKept();
 }
 
 std::size_t VirtualCanHub::members() const noexcept {
@@ -94,7 +81,7 @@ void VirtualCanHub::join(int descriptor) noexcept {
   ++hub_counters_.joined;
 }
 
-void VirtualCanHub::part(Member& member, std::uint64_t& reason) noexcept {
+void VirtualCanHub::disconnect(Member& member, std::uint64_t& reason) noexcept {
   ::close(member.descriptor);
   member.descriptor = -1;
   ++reason;
@@ -105,10 +92,10 @@ void VirtualCanHub::deliverTo(Member& member, const CanFrame& frame) noexcept {
   if (result == 0) {
     member.lost_in_a_row = 0;
   } else if (result != -EAGAIN) {
-    part(member, hub_counters_.left);
+    disconnect(member, hub_counters_.left);
   } else {
     ++hub_counters_.lost;
-    if (++member.lost_in_a_row >= kLostToPartWith) part(member, hub_counters_.stuck);
+    if (++member.lost_in_a_row >= kLostToDisconnect) disconnect(member, hub_counters_.stuck);
   }
 }
 
@@ -130,12 +117,12 @@ bool VirtualCanHub::takeFrom(Member& member, CanFrame& frame) noexcept {
   const long length = packet_socket::receive(member.descriptor, packet);
   if (length == -EAGAIN) return false;
   if (length <= 0) {
-    part(member, hub_counters_.left);
+    disconnect(member, hub_counters_.left);
     return false;
   }
   const auto numbered = length == kCanPacketLength ? fromPacket(packet) : std::nullopt;
   if (!numbered) {
-    part(member, hub_counters_.malformed);
+    disconnect(member, hub_counters_.malformed);
     return false;
   }
   frame = numbered->frame;
@@ -155,22 +142,15 @@ bool VirtualCanHub::takeNext(ReceivedCanFrame& received) noexcept {
     }
     quiet = 0;
     deliver(frame, &member);
-    if (!filter_.passes(frame)) continue;
+    if (!passes(frame)) continue;
     received = {frame, now()};
     return true;
   }
   return false;
 }
 
-bool VirtualCanHub::receive(ReceivedCanFrame& received) noexcept {
-  if (!has_pending_) return takeNext(received);
-  received = pending_;
-  has_pending_ = false;
-  return true;
-}
-
 bool VirtualCanHub::waitReadable(Instant until) noexcept {
-  while (listener_ >= 0 && !has_pending_) {
+  while (listener_ >= 0 && !hasKept()) {
     pollfd wait[kMostMembers + 1];
     for (std::size_t i = 0; i < kMostMembers; ++i) wait[i] = {members_[i].descriptor, POLLIN, 0};
     wait[kMostMembers] = {listener_, POLLIN, 0};
@@ -178,18 +158,9 @@ bool VirtualCanHub::waitReadable(Instant until) noexcept {
     if (::ppoll(wait, kMostMembers + 1, &left, nullptr) < 0 && errno != EINTR) {
       return fail("cannot be waited for", errno);
     }
-    has_pending_ = takeNext(pending_);
-    if (!has_pending_ && now() >= until) return false;
+    if (!keepNext() && now() >= until) return false;
   }
-  return has_pending_;
-}
-
-void VirtualCanHub::sleepUntil(Instant when) noexcept {
-  sleepUntilInstant(when);
-}
-
-Instant VirtualCanHub::now() const noexcept {
-  return std::chrono::steady_clock::now();
+  return hasKept();
 }
 
 }  // namespace nord_driver::link

@@ -1,9 +1,11 @@
+#include "sim/canopen/can_config.h"
+
 #include <algorithm>
 #include <array>
 #include <map>
 
-#include "sim/config_group.h"
-#include "sim/sim_config.h"
+#include "sim/bus_kind.h"
+#include "sim/canopen/can_bus_thread.h"
 
 namespace nord_driver::sim {
 
@@ -17,15 +19,6 @@ constexpr std::int32_t kSystemBus = 3;  // SK 1x0E and 2xxE: BU 0280
 
 // P514: BU 0280; 800 kbit/s is not among them.
 constexpr std::array<unsigned, 8> kBitRates{10'000, 20'000, 50'000, 100'000, 125'000, 250'000, 500'000, 1'000'000};
-
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-bool isCanopen(const Group& group) {
-  return group.has("transport") &&
-         endsWith(group.get<std::string>("transport", "", "the name of a transport"), "canopen");
-}
 
 CanConnection readConnection(const Group& group, const Device& device) {
   static const std::map<std::string, CanConnection> kConnections{{"option", CanConnection::kOption},
@@ -52,27 +45,8 @@ CanConnection readConnection(const Group& group, const Device& device) {
   return connection;
 }
 
-}  // namespace
-
-InverterSettings canInverterSettings(CanConnection connection, const Device& device) {
-  InverterSettings settings;
-  settings.bus_source = device.isOlderSeries() ? kCanopenOlderSeries : device.isDecentral() ? kSystemBus : kCanopen;
-  settings.on_system_bus = connection == CanConnection::kGateway;
-  if (connection != CanConnection::kGateway) {
-    settings.master_lost_fault = fault::kBusTimeout;
-    settings.timeout_fault = fault::kBusTimeout;
-  }
-  return settings;
-}
-
-std::optional<CanBusConfig> readCanBus(const Group& root) {
+void readBus(const Group& root, SimConfig& simulated) {
   const Group bus(root.has("bus") ? root["bus"] : YAML::Node{}, "bus");
-  const bool interface = bus.has("interface");
-  if (!isCanopen(root) && !isCanopen(bus)) {
-    if (!interface) return std::nullopt;
-    throw ConfigError("bus/interface: " + bus.get<std::string>("interface", "", "the name of a CAN interface") +
-                      " needs a CAN transport; expected transport: canopen, or bus/device");
-  }
   CanBusConfig config;
   config.interface = bus.get<std::string>("interface", config.interface, "can0, vcan0 or virtual:NAME",
                                           [](const std::string& name) { return !name.empty(); });
@@ -81,14 +55,14 @@ std::optional<CanBusConfig> readCanBus(const Group& root) {
       [](const int& rate) {
         return std::find(kBitRates.begin(), kBitRates.end(), static_cast<unsigned>(rate)) != kBitRates.end();
       }));
-  return config;
+  simulated.bus = config;
 }
 
-void readCanDrive(const Group& group, DriveConfig& drive) {
+void readDrive(const Group& group, DriveConfig& drive) {
   CanDriveConfig can;
   can.connection = readConnection(group, drive.device);
   if (can.connection == CanConnection::kGateway) {
-    can.inverter = static_cast<unsigned>(group.integer("inverter", 1, 1, 4));
+    drive.place = static_cast<unsigned>(group.integer("inverter", 1, 1, 4));
   } else if (group.integer("inverter", 1, 1, 4) != 1) {
     refuse(group.keyName("inverter"), group["inverter"], "1: only a gateway has more than one");
   }
@@ -108,34 +82,73 @@ void readCanDrive(const Group& group, DriveConfig& drive) {
   can.array_sub_by_table = sub_index == "table";
   can.servers_set = group.get<bool>("sdo_servers_set", false, "true or false");
   can.identity.product = static_cast<std::uint32_t>(can.connection) + 1;
-  can.identity.serial = drive.slave.address;
+  can.identity.serial = drive.address;
   can.identity.vendor = group.get<std::uint32_t>("vendor_id", can.identity.vendor, "a number of 32 bits");
   can.identity.product = group.get<std::uint32_t>("product_code", can.identity.product, "a number of 32 bits");
   can.identity.revision = group.get<std::uint32_t>("revision_number", can.identity.revision, "a number of 32 bits");
   can.identity.serial = group.get<std::uint32_t>("serial_number", can.identity.serial, "a number of 32 bits");
   if (group.has("device_type")) can.device_type = group.get<std::uint32_t>("device_type", 0, "a number of 32 bits");
-  drive.inverter = canInverterSettings(can.connection, drive.device);
-  drive.can = can;
+  drive.bus = can;
 }
 
-void checkCanNodes(const std::vector<DriveConfig>& drives) {
+bool behindGateway(const DriveConfig& drive) {
+  return drive.bus.as<CanDriveConfig>().connection == CanConnection::kGateway;
+}
+
+/// One node for each drive, or a place of its own behind a gateway.
+void checkNodes(const Group& /*root*/, SimConfig& config) {
+  const std::vector<DriveConfig>& drives = config.drives;
   for (std::size_t i = 0; i < drives.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (drives[k].slave.address != drives[i].slave.address) continue;
-      const bool gateway =
-          drives[k].can->connection == CanConnection::kGateway && drives[i].can->connection == CanConnection::kGateway;
+      if (drives[k].address != drives[i].address) continue;
       const std::string path = "drives/" + drives[i].name;
-      if (!gateway) {
-        throw ConfigError(path + "/address: " + std::to_string(drives[i].slave.address) +
+      if (!behindGateway(drives[k]) || !behindGateway(drives[i])) {
+        throw ConfigError(path + "/address: " + std::to_string(drives[i].address) +
                           " is not valid; expected a node id of its own, drive " + drives[k].name + " has it");
       }
-      if (drives[k].can->inverter == drives[i].can->inverter) {
-        throw ConfigError(path + "/inverter: " + std::to_string(drives[i].can->inverter) +
+      if (drives[k].place == drives[i].place) {
+        throw ConfigError(path + "/inverter: " + std::to_string(drives[i].place) +
                           " is not valid; expected another one, drive " + drives[k].name +
                           " has it behind this gateway");
       }
     }
   }
+}
+
+std::unique_ptr<RunningBus> run(const SimConfig& config) {
+  return std::make_unique<CanBusThread>(config);
+}
+
+}  // namespace
+
+BusWiring canWiring(CanConnection connection, const Device& device) {
+  BusWiring wiring;
+  wiring.source = device.isOlderSeries() ? kCanopenOlderSeries : device.isDecentral() ? kSystemBus : kCanopen;
+  wiring.on_system_bus = connection == CanConnection::kGateway;
+  if (connection != CanConnection::kGateway) {
+    wiring.master_lost_fault = fault::kBusTimeout;
+    wiring.timeout_fault = fault::kBusTimeout;
+  }
+  return wiring;
+}
+
+BusKind canopenKind() {
+  BusKind kind;
+  kind.transport = "canopen";
+  kind.settings = &typeid(CanBusConfig);
+  kind.end_point = "interface";
+  kind.keys = {// the driver's; those of the identity are the simulator's, too
+               "connection", "profile", "array_sub_index", "boot_reset", "device_type", "error_control", "event_time",
+               "guard_time", "heartbeat_time", "heartbeat_timeout", "inhibit_time", "life_time_factor",
+               "parameter_servers", "pdo_mapping", "process_values", "product_code", "revision_number", "sdo_answer_id",
+               "sdo_request_id", "sdo_timeout", "vendor_id", "watch_master",
+               // the simulator's
+               "fixed_mapping", "sdo_servers_set", "serial_number"};
+  kind.readBus = readBus;
+  kind.readDrive = readDrive;
+  kind.readModules = checkNodes;
+  kind.run = run;
+  return kind;
 }
 
 }  // namespace nord_driver::sim

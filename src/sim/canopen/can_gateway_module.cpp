@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/profibus/module_parameters.h"
+#include "sim/module_parameters.h"
 
 namespace nord_driver::sim {
 

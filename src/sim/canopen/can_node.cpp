@@ -41,6 +41,22 @@ CanNode::CanNode(const CanNodeSettings& settings, const Drives& drives, CanRefer
   referee_.nodeExists(settings_.node);
 }
 
+Supply CanNode::supply() const noexcept {
+  switch (settings_.can.connection) {
+    case CanConnection::kGateway:
+      return Supply::kOwn;
+    case CanConnection::kOption:
+      return Supply::kInverter;
+    default:
+      return Supply::kPartOfInverter;
+  }
+}
+
+void CanNode::setPowered(bool on) noexcept {
+  supply_ = on;
+  showLinks();
+}
+
 bool CanNode::hasSupply() const noexcept {
   return supply_ &&
          std::any_of(drives_.begin(), drives_.end(), [](DriveUnit* drive) { return drive && drive->plugged(); });
@@ -271,22 +287,23 @@ void CanNode::showStatus() noexcept {
   for (std::size_t place = 0; place < drives_.size(); ++place) {
     DriveUnit* drive = drives_[place];
     if (drive == nullptr) continue;
-    SlaveCounters counters = exchanged_[place];
-    counters.telegrams = counters_.rpdos + counters_.sdo_requests;
-    counters.data_exchanges = counters_.rpdos;
-    counters.watchdog_trips = counters_.masters_lost;
-    counters.zero_control_words = counters_.zero_control_words;
-    counters.last_control = process_.control(place);
-    drive->showExchange(operational, counters);
     drive->parameters().show(746, 0, 0x0C01 | (operational ? 2 : 0));
     drive->parameters().show(748, 0, 0x0141 | nmt << 9);
   }
 }
 
+ExchangeCounters CanNode::countersOf(unsigned place) const noexcept {
+  ExchangeCounters counters = exchanged_[place];
+  counters.telegrams = counters_.rpdos + counters_.sdo_requests;
+  counters.data_exchanges = counters_.rpdos;
+  counters.watchdog_trips = counters_.masters_lost;
+  counters.zero_control_words = counters_.zero_control_words;
+  counters.last_control = process_.control(place);
+  return counters;
+}
+
 void CanNode::send(std::uint32_t id, ByteView data, CanSink& sink) noexcept {
-  const bool lost =
-      mute_ || std::any_of(drives_.begin(), drives_.end(), [](const DriveUnit* d) { return d && d->mute(); });
-  if (!lost) sink.transmit(dataFrame(id, data));
+  if (!mute()) sink.transmit(dataFrame(id, data));
 }
 
 void CanNode::mappingOrderBroken() noexcept {

@@ -9,7 +9,10 @@
 
 #include "core/can_frame.h"
 #include "nord_driver/core/time.h"
+#include "sim/bus_module.h"
+#include "sim/can/can_participants.h"
 #include "sim/canopen/can_communication_objects.h"
+#include "sim/canopen/can_config.h"
 #include "sim/canopen/can_gateway_module.h"
 #include "sim/canopen/can_parameter_objects.h"
 #include "sim/canopen/can_pdo_objects.h"
@@ -19,13 +22,6 @@
 #include "sim/canopen/can_tpdo.h"
 
 namespace nord_driver::sim {
-
-/// Takes what the nodes send; whoever moves the frames implements it.
-class CanSink {
- public:
-  virtual ~CanSink() = default;
-  virtual void transmit(const CanFrame& frame) noexcept = 0;
-};
 
 struct CanNodeSettings {
   std::uint8_t node = 32;
@@ -49,14 +45,13 @@ struct CanNodeCounters {
   std::uint64_t zero_control_words = 0;  ///< bit 10 = 0 after valid process data
 };
 
-class CanNode : private CanPdoContext {
+class CanNode final : public BusModule, private CanPdoContext {
  public:
   using Drives = CanProcessObjects::Drives;
 
   /// The drives and `referee` must outlive the node. One drive at place 0, of a gateway up to four (null = none).
+  /// They are to be connected to it.
   CanNode(const CanNodeSettings& settings, const Drives& drives, CanReferee& referee);
-  CanNode(const CanNode&) = delete;
-  CanNode& operator=(const CanNode&) = delete;
 
   /// A frame of somebody else; `judged`: the referee sees it.
   void receive(const CanFrame& frame, bool judged, CanSink& sink) noexcept;
@@ -69,15 +64,15 @@ class CanNode : private CanPdoContext {
   /// Whether this node listens to an identifier, or sends with it.
   Claim claim(std::uint32_t id) const noexcept;
 
-  /// The module's own supply. It also goes off when all drives are unplugged.
-  void setPowered(bool on) noexcept { supply_ = on; }
-  /// Its frames are lost.
-  void setMute(bool mute) noexcept { mute_ = mute; }
+  Supply supply() const noexcept override;
+  /// Of a gateway. It also goes off when all of its inverters are unplugged.
+  void setPowered(bool on) noexcept override;
+  bool powered() const noexcept override { return supply_; }
+  bool inDataExchange() const noexcept override { return state_ == NmtState::kOperational; }
+  ExchangeCounters countersOf(unsigned place) const noexcept override;
+
   void setIdentity(const CanIdentity& identity) noexcept { identity_ = identity; }
   const CanIdentity& identity() const noexcept { return identity_; }
-  /// How long the SDO servers take for an answer; also `DriveUnit::setAnswerDelay()` counts.
-  void setSdoDelay(Duration delay) noexcept { sdo_delay_ = delay; }
-
   /// Of a gateway.
   void setModuleInputs(std::uint8_t inputs) noexcept { process_.setModuleInputs(inputs); }
   std::uint8_t moduleOutputs() const noexcept { return process_.moduleOutputs(); }
@@ -160,11 +155,9 @@ class CanNode : private CanPdoContext {
 
   std::optional<bool> factory_for_cia402_;
   bool supply_ = true;
-  bool mute_ = false;
   bool alive_ = false;
   NmtState state_ = NmtState::kInitialising;
   Duration starting_{0};
-  Duration sdo_delay_{0};
   Duration master_may_look_{0};
   bool judged_ = false;  // the request being executed is the master's
 
@@ -179,7 +172,7 @@ class CanNode : private CanPdoContext {
   std::array<Consumer, CanCommunication::kConsumers> consumers_{};
   Duration since_sample_{0};
   std::array<std::uint16_t, CanProcessObjects::kInverters> told_faults_{};
-  std::array<SlaveCounters, CanProcessObjects::kInverters> exchanged_{};
+  std::array<ExchangeCounters, CanProcessObjects::kInverters> exchanged_{};
   CanNodeCounters counters_;
 };
 

@@ -58,9 +58,8 @@ void CanNode::answerSdo(Server& server, const SdoCobIds& ids, const CanFrame& fr
   const bool parameter = CanParameterObjects::has(server.protocol.object().index);
   const std::size_t place = static_cast<std::size_t>(&server - servers_.data());
   const DriveUnit* drive = drives_[place] != nullptr ? drives_[place] : drives_[0];
-  server.remaining = sdo_delay_ + (parameter ? settings_.parameter_time : settings_.object_time);
+  server.remaining = answerDelay() + (parameter ? settings_.parameter_time : settings_.object_time);
   if (drive != nullptr) {
-    server.remaining += drive->answerDelay();
     if (parameter && drive->parameterSwitches().silent) return;
     if (parameter) server.remaining += std::chrono::milliseconds{drive->parameterSwitches().delay};
   }

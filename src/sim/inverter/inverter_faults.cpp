@@ -16,7 +16,7 @@ constexpr double kWaitForModule = 5.0;          // s in "not ready", BU 0280 5.1
 void InverterModel::masterLost() noexcept {
   if (!powered() || ignoresBusErrors()) return;
   master_lost_ = true;
-  trip(settings_.master_lost_fault, false);
+  trip(wiring_.master_lost_fault, false);
 }
 
 void InverterModel::moduleTimeout() noexcept {
@@ -31,19 +31,19 @@ void InverterModel::setModuleLink(bool intact) noexcept {
   if (intact) link_fault_ = false;
   if (intact || was_broken || !powered() || !watchesModule()) return;
   link_fault_ = true;
-  trip(settings_.on_system_bus ? fault::kNoModule : fault::kModuleLink, false);
+  trip(wiring_.on_system_bus ? fault::kNoModule : fault::kModuleLink, false);
 }
 
 // A module on the rack is always watched; on the system bus P120[-01] decides: 0 off, 1 once it was there, 2 from mains
 // on (BU 0280 5.1.1).
 bool InverterModel::watchesModule() const noexcept {
   if (ignoresBusErrors()) return false;
-  return !settings_.on_system_bus || parameters_.value(120) != 0;
+  return !wiring_.on_system_bus || parameters_.value(120) != 0;
 }
 
 void InverterModel::waitForStart() noexcept {
   const bool module_missing =
-      settings_.on_system_bus && link_broken_ && watchesModule() && parameters_.value(120) == kWatchFromStart;
+      wiring_.on_system_bus && link_broken_ && watchesModule() && parameters_.value(120) == kWatchFromStart;
   if (module_missing) {
     if (in_state_ < kWaitForModule) return;
     link_fault_ = true;
@@ -55,12 +55,12 @@ void InverterModel::waitForStart() noexcept {
 // P513 > 0: no control word with bit 10 = 1 for that long is E10.3 (BU 2700 7.1.1, 8.3). Behind SK CU4/TU4 it is P151
 // of the module that watches the field bus (8.1).
 void InverterModel::watchTimeout(double dt) noexcept {
-  if (settings_.on_system_bus) return;
+  if (wiring_.on_system_bus) return;
   since_valid_ += dt;
   const double limit = parameters_.scaled(513);
   if (!commanded_ || limit <= 0.0 || timed_out_ || since_valid_ < limit) return;
   timed_out_ = true;
-  trip(settings_.timeout_fault, false);
+  trip(wiring_.timeout_fault, false);
 }
 
 bool InverterModel::ignoresBusErrors() const noexcept {

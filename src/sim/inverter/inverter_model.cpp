@@ -198,7 +198,7 @@ Word InverterModel::command() const noexcept {
 bool InverterModel::busControl() const noexcept {
   if (local_) return false;
   const std::int32_t source = parameters_.value(509);
-  if (settings_.bus_source) return source == *settings_.bus_source;
+  if (wiring_.source) return source == *wiring_.source;
   if (!parameters_.device().isOlderSeries()) return source == busSource();
   return source == kOlderProfibus || source == kOlderControlWord;
 }
@@ -206,15 +206,15 @@ bool InverterModel::busControl() const noexcept {
 bool InverterModel::busSetpoint() const noexcept {
   if (local_) return false;
   const std::int32_t source = parameters_.value(509);
-  if (settings_.bus_source && parameters_.device().isOlderSeries()) return source == *settings_.bus_source;
+  if (wiring_.source && parameters_.device().isOlderSeries()) return source == *wiring_.source;
   if (parameters_.device().isOlderSeries()) return source == kOlderProfibus || source == kOlderSetpoint;
   const std::int32_t setpoint_source = parameters_.value(510);  // P510[-01], 0 = as P509
   return (setpoint_source == 0 ? source : setpoint_source) == busSource();
 }
 
 std::int32_t InverterModel::busSource() const noexcept {
-  if (settings_.bus_source) return *settings_.bus_source;
-  if (!settings_.on_system_bus) return kProfibus;
+  if (wiring_.source) return *wiring_.source;
+  if (!wiring_.on_system_bus) return kProfibus;
   return parameters_.device().isDecentral() ? kSystemBus : kCanopen;
 }
 

@@ -1,7 +1,7 @@
 // A simulated frequency inverter: status machine, ramps, parameter sets, faults and time-outs.
 //
 // Written from BU 2700 6.4 and 7.1.1 and BU 0020 7.3 and 8. It is fed with control words and time, and knows no bus:
-// the module (DpSlave) hands it what arrived, and says when its master or its link is gone.
+// the module hands it what arrived, and says when its master or its link is gone.
 #pragma once
 
 #include <array>
@@ -61,10 +61,14 @@ struct InverterSettings {
   double charging_time = 0.3;  ///< s, from mains on until the charging relay has engaged
   /// s, a fault stands that long before P506 takes it. Not in the bus manuals: the simulator's.
   double automatic_acknowledgement_delay = 0.1;
+};
+
+/// How a bus is wired to the inverter.
+struct BusWiring {
   /// Behind SK CU4/TU4: P120 watches the link to the module, not P513 alone (BU 2700 8.1).
   bool on_system_bus = false;
-  /// The value of P509 that gives control to the bus it is wired to; nothing: PROFIBUS, as the series numbers it.
-  std::optional<std::int32_t> bus_source;
+  /// The value of P509 that gives control to this bus; nothing: PROFIBUS, as the series numbers it.
+  std::optional<std::int32_t> source;
   std::uint16_t master_lost_fault = fault::kMasterLost;  ///< how a lost master shows
   std::uint16_t timeout_fault = fault::kTimeout;         ///< how P513 shows
 };
@@ -81,6 +85,9 @@ class InverterModel {
  public:
   /// Both must outlive the model.
   InverterModel(ParameterStore& parameters, Motor& motor, const InverterSettings& settings = InverterSettings{});
+
+  /// Which bus it hangs on; PROFIBUS with a module of its own unless told otherwise.
+  void wire(const BusWiring& wiring) noexcept { wiring_ = wiring; }
 
   /// Lets `span` pass, in steps of at most a millisecond.
   void advance(Duration span) noexcept;
@@ -153,6 +160,7 @@ class InverterModel {
   ParameterStore& parameters_;
   Motor& motor_;
   InverterSettings settings_;
+  BusWiring wiring_;
 
   InverterState state_ = InverterState::kOff;
   double in_state_ = 0.0;  // s

@@ -12,14 +12,13 @@ constexpr std::int32_t kModuleConnected = 0x0603;
 
 }  // namespace
 
-DpSlave::DpSlave(const SlaveSettings& settings, ParameterStore& parameters, InverterModel& inverter, PkwServer& pkw,
-                 Referee* referee)
-    : DpStation(settings.address, settings.ident, referee),
-      settings_(settings),
-      parameters_(parameters),
-      inverter_(inverter),
-      pkw_(pkw) {
-  if (referee != nullptr) referee->outputLength(settings_.address, DpSlave::dataLength());
+DpSlave::DpSlave(DriveUnit& drive, Referee* referee)
+    : DpStation(drive.config().address, drive.config().bus.as<DpDriveConfig>().ident, referee),
+      settings_(drive.config().bus.as<DpDriveConfig>()),
+      parameters_(drive.parameters()),
+      inverter_(drive.inverter()),
+      pkw_(drive.pkw()) {
+  if (referee != nullptr) referee->outputLength(address(), DpSlave::dataLength());
 }
 
 bool DpSlave::takeConfiguration(ByteView identifiers) noexcept {
@@ -41,8 +40,8 @@ void DpSlave::appendInputs(Data& data) const noexcept {
     writer.u16be(inverter_.statusWord());
     writer.u16be(inverter_.actualValue(0));
     if (data.size() < length) {
-      writer.u16be(inverter_.actualValue(settings_.swap_words_3_4 ? 2 : 1));
-      writer.u16be(inverter_.actualValue(settings_.swap_words_3_4 ? 1 : 2));
+      writer.u16be(inverter_.actualValue(swapsWords() ? 2 : 1));
+      writer.u16be(inverter_.actualValue(swapsWords() ? 1 : 2));
     }
   }
   data.resize(length);  // words without use, and everything of an inverter that is off, are zero
@@ -58,7 +57,7 @@ void DpSlave::takeOutputs(ByteView data) noexcept {
     order.pwe1 = reader.u16be();
     order.pwe2 = reader.u16be();
     if (!missing) {
-      if (referee() != nullptr) referee()->parameterChannel(settings_.address, order, pkw_.hasAnswered(order));
+      if (referee() != nullptr) referee()->parameterChannel(address(), order, pkw_.hasAnswered(order));
       pkw_.receive(order);
     }
   }
@@ -66,8 +65,8 @@ void DpSlave::takeOutputs(ByteView data) noexcept {
   process.control = reader.u16be();
   process.setpoints[0] = reader.u16be();
   if (reader.remaining() >= 4) {
-    process.setpoints[settings_.swap_words_3_4 ? 2 : 1] = reader.u16be();
-    process.setpoints[settings_.swap_words_3_4 ? 1 : 2] = reader.u16be();
+    process.setpoints[swapsWords() ? 2 : 1] = reader.u16be();
+    process.setpoints[swapsWords() ? 1 : 2] = reader.u16be();
   }
   counted().last_control = process.control;
   if (missing) {
@@ -108,12 +107,7 @@ void DpSlave::clearOutputs() noexcept {
 void DpSlave::masterLost() noexcept {
   counted().control_before_loss = counters().last_control;
   counted().status_at_loss = inverter_.statusWord();
-  if (inverter_link_) inverter_.masterLost();
-}
-
-void DpSlave::setInverterLink(bool intact) noexcept {
-  inverter_link_ = intact;
-  inverter_.setModuleLink(intact);
+  if (inverterLink(0)) inverter_.masterLost();
 }
 
 // BU 0020 7.2 with the ident number 7531h: PPO types 2 and 4 reserve six words for the process data, two of them

@@ -5,29 +5,19 @@
 
 #include <cstdint>
 
-#include "sim/inverter/inverter_model.h"
+#include "sim/drive_unit.h"
+#include "sim/profibus/dp_config.h"
 #include "sim/profibus/dp_station.h"
-#include "sim/profibus/pkw_server.h"
 
 namespace nord_driver::sim {
 
-struct SlaveSettings {
-  std::uint8_t address = 126;
-  int ppo_type = 1;              ///< 1-4, set by switch or P507; behind a module with slots the master chooses
-  bool swap_words_3_4 = false;   ///< SK 300E/7x0E: SW3 and IW3 come before SW2 and IW2 (BU 0020 7.2.2)
-  std::uint16_t ident = 0x7531;  ///< BU 0020 10.2
-};
-
 class DpSlave final : public DpStation {
  public:
-  /// All must outlive the slave; `referee` may be null.
-  DpSlave(const SlaveSettings& settings, ParameterStore& parameters, InverterModel& inverter, PkwServer& pkw,
-          Referee* referee);
+  /// For this drive, which is to be connected to it; both must outlive the slave. `referee` may be null.
+  DpSlave(DriveUnit& drive, Referee* referee);
 
-  /// The connection between module and inverter: E10.8 in the inverter, diagnosis 02 04 in the module.
-  void setInverterLink(bool intact) noexcept override;
-
-  const SlaveSettings& settings() const noexcept { return settings_; }
+  Supply supply() const noexcept override { return Supply::kInverter; }
+  void inverterPlugged(bool plugged) noexcept override { setPowered(plugged); }
 
  private:
   bool takeConfiguration(ByteView identifiers) noexcept override;
@@ -37,17 +27,19 @@ class DpSlave final : public DpStation {
   void takeOutputs(ByteView data) noexcept override;
   void clearOutputs() noexcept override;
   void enterDataExchange() noexcept override { valid_data_seen_ = false; }
-  bool inverterMissing() const noexcept override { return !inverter_link_ || !inverter_.powered(); }
+  /// E10.8 in an inverter whose link is broken, diagnosis 02 04 in the module.
+  bool inverterMissing() const noexcept override { return !present(0); }
   void masterLost() noexcept override;
   void supplyChanged(bool /*on*/) noexcept override { valid_data_seen_ = false; }
   void showStatus() noexcept override;
   unsigned displayElement(unsigned value) const noexcept;
+  /// SK 300E/7x0E: SW3 and IW3 come before SW2 and IW2 (BU 0020 7.2.2).
+  bool swapsWords() const noexcept { return parameters_.device().isOlderSeries(); }
 
-  SlaveSettings settings_;
+  DpDriveConfig settings_;
   ParameterStore& parameters_;
   InverterModel& inverter_;
   PkwServer& pkw_;
-  bool inverter_link_ = true;
   bool valid_data_seen_ = false;
 };
 

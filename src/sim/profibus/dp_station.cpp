@@ -31,11 +31,11 @@ std::optional<WireBytes> DpStation::handle(const Telegram& request) noexcept {
   if (!own) return std::nullopt;
   ++counters_.telegrams;
   if (code == kFdlStatus) {
-    if (mute_) return std::nullopt;
+    if (mute()) return std::nullopt;
     return answerWithout(request, kAnswerOk);  // station type 00: slave
   }
   if (!carriesFrameCount(code)) {
-    if (mute_) return std::nullopt;
+    if (mute()) return std::nullopt;
     return answerWithout(request, kUserError);
   }
 
@@ -47,7 +47,7 @@ std::optional<WireBytes> DpStation::handle(const Telegram& request) noexcept {
     if (request.fcb() == frame_count_) {  // repeated: answered from the store, not executed again
       ++counters_.repeated;
       if (request.source == owner_) silence_ = Duration::zero();
-      if (mute_) return std::nullopt;
+      if (mute()) return std::nullopt;
       return stored_answer_;
     }
   }
@@ -57,7 +57,7 @@ std::optional<WireBytes> DpStation::handle(const Telegram& request) noexcept {
   if (request.source == owner_) silence_ = Duration::zero();
   stored_answer_ = execute(request);
   showStatus();
-  if (mute_) return std::nullopt;
+  if (mute()) return std::nullopt;
   return stored_answer_;
 }
 

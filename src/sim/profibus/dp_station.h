@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "nord_driver/core/time.h"
+#include "sim/bus_module.h"
 #include "sim/inverter/words.h"
 #include "sim/profibus/record_server.h"
 #include "sim/profibus/referee.h"
@@ -17,48 +18,31 @@ namespace nord_driver::sim {
 
 enum class SlaveState : std::uint8_t { kOff, kWaitParameters, kWaitConfiguration, kDataExchange };
 
-/// What an observer wants to know of the exchange.
-struct SlaveCounters {
-  std::uint64_t telegrams = 0;       ///< requests to this station
-  std::uint64_t data_exchanges = 0;  ///< executed ones
-  std::uint64_t repeated = 0;        ///< answered from the store: same FCB again
+struct SlaveCounters : ExchangeCounters {
+  std::uint64_t repeated = 0;  ///< answered from the store: same FCB again
   std::uint64_t global_controls = 0;
-  std::uint64_t watchdog_trips = 0;
-  std::uint64_t zero_control_words = 0;  ///< bit 10 = 0 after valid process data
-  Word last_control = 0;
-  Word control_before_loss = 0;  ///< last control word before the watchdog expired
-  Word status_at_loss = 0;       ///< status word at that moment
 };
 
-class DpStation {
+class DpStation : public BusModule {
  public:
   /// One identifier for each of the five slots at most.
   using Configuration = FixedBytes<8>;
   using Data = FixedBytes<246>;
-
-  virtual ~DpStation() = default;
-  DpStation(const DpStation&) = delete;
-  DpStation& operator=(const DpStation&) = delete;
 
   /// The master's telegram has arrived. The answer, or nothing.
   std::optional<WireBytes> handle(const Telegram& request) noexcept;
   /// Lets time pass for the watchdog, and for what the module watches itself.
   void advance(Duration span) noexcept;
 
-  /// The module's own supply. Off: it answers nothing and forgets everything.
-  void setPowered(bool on) noexcept;
-  /// The module works, its answers are lost.
-  void setMute(bool mute) noexcept { mute_ = mute; }
-  /// Answers come later by this much than the segment makes them.
-  void setAnswerDelay(Duration delay) noexcept { answer_delay_ = delay; }
-  Duration answerDelay() const noexcept { return answer_delay_; }
-  /// The connection between module and inverter, of a module with several: to all of them.
-  virtual void setInverterLink(bool intact) noexcept = 0;
+  /// Off: it answers nothing and forgets everything.
+  void setPowered(bool on) noexcept override;
+  bool powered() const noexcept override { return state_ != SlaveState::kOff; }
+  bool inDataExchange() const noexcept override { return state_ == SlaveState::kDataExchange; }
+  ExchangeCounters countersOf(unsigned /*place*/) const noexcept override { return counters_; }
 
   std::uint8_t address() const noexcept { return address_; }
   SlaveState state() const noexcept { return state_; }
   const SlaveCounters& counters() const noexcept { return counters_; }
-  bool powered() const noexcept { return state_ != SlaveState::kOff; }
   bool inSyncMode() const noexcept { return sync_; }
   bool inFreezeMode() const noexcept { return freeze_; }
 
@@ -112,8 +96,6 @@ class DpStation {
   Referee* referee_;
 
   SlaveState state_ = SlaveState::kOff;
-  bool mute_ = false;
-  Duration answer_delay_{0};
   bool parameter_fault_ = false;
   bool configuration_fault_ = false;
   bool reported_missing_ = false;  // as the last diagnosis said

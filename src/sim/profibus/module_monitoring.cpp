@@ -1,6 +1,7 @@
 // What the module watches, how it tells its inverters, and what it shows of it: BU 2700 7.1.1, 7.1.3, 8.1 and
 // BU 0220 4.2.3.
 
+#include "sim/drive_unit.h"
 #include "sim/profibus/module_station.h"
 
 namespace nord_driver::sim {
@@ -25,7 +26,7 @@ constexpr unsigned kLost = 3;
 
 // P151 > 0: no telegram with a valid control word for that long is E10.3 in every inverter.
 void ModuleStation::watch(Duration span) noexcept {
-  for (Place& place : places_) place.seen = place.seen || place.present();
+  for (unsigned place = 0; place < kPlaces; ++place) places_[place].seen = places_[place].seen || present(place);
   const std::int32_t limit = parameters_.value(151);
   if (limit > 0 && valid_data_seen_) {
     since_valid_ += span;
@@ -40,9 +41,10 @@ void ModuleStation::watch(Duration span) noexcept {
 
 void ModuleStation::masterLost() noexcept {
   valid_data_seen_ = false;
-  for (Place& place : places_) {
-    place.counters.control_before_loss = place.counters.last_control;
-    if (place.inverter != nullptr) place.counters.status_at_loss = place.inverter->statusWord();
+  for (unsigned place = 0; place < kPlaces; ++place) {
+    ExchangeCounters& counters = places_[place].counters;
+    counters.control_before_loss = counters.last_control;
+    if (driveAt(place) != nullptr) counters.status_at_loss = driveAt(place)->inverter().statusWord();
   }
   if (parameters_.value(151) == kWatchNothing) return;
   timeOut(kProfibusTimeout);
@@ -51,12 +53,12 @@ void ModuleStation::masterLost() noexcept {
 void ModuleStation::timeOut(std::int32_t error) noexcept {
   timed_out_ = cause_stands_ = true;
   error_ = error;
-  for (Place& place : places_) {
-    if (!place.present()) continue;
+  for (unsigned place = 0; place < kPlaces; ++place) {
+    if (!present(place)) continue;
     if (error == kProfibusTimeout) {
-      place.inverter->masterLost();
+      driveAt(place)->inverter().masterLost();
     } else {
-      place.inverter->moduleTimeout();
+      driveAt(place)->inverter().moduleTimeout();
     }
   }
 }
@@ -65,8 +67,8 @@ void ModuleStation::timeOut(std::int32_t error) noexcept {
 // error state" (BU 0220 4.2.3.2). One that is switched off has no error any more.
 void ModuleStation::endTimeOut() noexcept {
   if (!timed_out_ || cause_stands_) return;
-  for (const Place& place : places_) {
-    if (place.present() && place.inverter->faultNumber() != 0) return;
+  for (unsigned place = 0; place < kPlaces; ++place) {
+    if (present(place) && driveAt(place)->inverter().faultNumber() != 0) return;
   }
   timed_out_ = false;
   parameters_.preset(170, 0, 1, error_);
@@ -77,8 +79,8 @@ std::int32_t ModuleStation::moduleStatus() const noexcept {
   unsigned status = state() == SlaveState::kDataExchange ? kOperational : kPreoperational;
   if (error_ == kProfibusTimeout) status |= kWatchdogExpired;
   if (error_ == kBusTimeout) status |= kTimeout;
-  for (unsigned place = 0; place < kInverters; ++place) {
-    const unsigned code = places_[place].present() ? kOnline : places_[place].seen ? kLost : 0u;
+  for (unsigned place = 0; place < kPlaces; ++place) {
+    const unsigned code = present(place) ? kOnline : places_[place].seen ? kLost : 0u;
     status |= code << (8 + 2 * place);
   }
   return static_cast<std::int32_t>(status);
@@ -91,28 +93,29 @@ void ModuleStation::showStatus() noexcept {
   parameters_.show(175, 0, outputs());
   parameters_.show(177, 0, settings_.inputs);
   const bool exchanging = state() == SlaveState::kDataExchange;
-  for (unsigned slot = 0; slot <= kInverters; ++slot) {
+  for (unsigned slot = 0; slot <= kPlaces; ++slot) {
     const bool there = exchanging && slot < configuration_.size();
     parameters_.show(182, slot, there ? configuration_[slot] : 0);
   }
-  for (unsigned place = 0; place < kInverters; ++place) {
-    const Place& there = places_[place];
-    if (!there.present()) continue;
-    parameters_.show(177, 1 + 4 * place, toSigned(there.inverter->statusWord()));
-    there.parameters->show(741, 0, there.inverter->statusWord());
+  for (unsigned place = 0; place < kPlaces; ++place) {
+    if (!present(place)) continue;
+    const InverterModel& inverter = driveAt(place)->inverter();
+    ParameterStore& parameters = driveAt(place)->parameters();
+    parameters_.show(177, 1 + 4 * place, toSigned(inverter.statusWord()));
+    parameters.show(741, 0, inverter.statusWord());
     for (unsigned n = 0; n < 3; ++n) {
-      const Word value = there.inverter->actualValue(n);
+      const Word value = inverter.actualValue(n);
       parameters_.show(177, 2 + 4 * place + n, toSigned(value));
-      there.parameters->show(741, 1 + n, value);
+      parameters.show(741, 1 + n, value);
     }
   }
 }
 
 PkwWords ModuleStation::executeRecord(unsigned device, const PkwWords& order) noexcept {
   if (device > 0) {
-    const Place& place = places_[device - 1];
-    if (!place.present()) return PkwServer::refusal(order, absence(place));
-    return place.pkw->executeNow(order);
+    const unsigned place = device - 1;
+    if (!present(place)) return PkwServer::refusal(order, absence(place));
+    return driveAt(place)->pkw().executeNow(order);
   }
   showStatus();
   const PkwWords answer = own_pkw_.executeNow(order);

@@ -1,5 +1,7 @@
 #include "sim/profibus/module_station.h"
 
+#include "sim/drive_unit.h"
+
 namespace nord_driver::sim {
 
 namespace {
@@ -47,31 +49,26 @@ ModuleStation::ModuleStation(const ModuleSettings& settings, Referee* referee)
   beginAsBuilt();
 }
 
-void ModuleStation::attach(unsigned place, ParameterStore& parameters, InverterModel& inverter, PkwServer& pkw,
-                           int ppo_type) {
-  places_[place].parameters = &parameters;
-  places_[place].inverter = &inverter;
-  places_[place].pkw = &pkw;
-  places_[place].ppo_type = ppo_type;
-  if (!powered()) inverter.setModuleLink(false);
+void ModuleStation::connected(unsigned place) noexcept {
+  places_[place].ppo_type = driveAt(place)->config().bus.as<DpDriveConfig>().ppo_type;
   beginAsBuilt();
 }
 
 void ModuleStation::beginAsBuilt() noexcept {
   configuration_ = {settings_.io_byte ? kIoByte : kEmpty};
   unsigned last = 0;
-  for (unsigned place = 0; place < kInverters; ++place) {
-    if (places_[place].inverter != nullptr) last = place + 1;
+  for (unsigned place = 0; place < kPlaces; ++place) {
+    if (driveAt(place) != nullptr) last = place + 1;
   }
   for (unsigned place = 0; place < last; ++place) {
-    const Place& there = places_[place];
-    configuration_.push_back(there.inverter == nullptr ? kEmpty : kPpo[static_cast<std::size_t>(there.ppo_type - 1)]);
+    const auto ppo = static_cast<std::size_t>(places_[place].ppo_type - 1);
+    configuration_.push_back(driveAt(place) == nullptr ? kEmpty : kPpo[ppo]);
   }
 }
 
 // Slot 1 has to be there, the I/O byte or empty; the module finds the PPO types out by itself (BU 0220 1.1, 4.2.2.4).
 bool ModuleStation::takeConfiguration(ByteView identifiers) noexcept {
-  if (identifiers.empty() || identifiers.size() > 1 + kInverters) return false;
+  if (identifiers.empty() || identifiers.size() > 1 + kPlaces) return false;
   if (identifiers[0] != kIoByte && identifiers[0] != kEmpty) return false;
   bool anything = identifiers[0] == kIoByte;
   for (const std::uint8_t identifier : identifiers.sub(1)) {
@@ -93,21 +90,22 @@ std::size_t ModuleStation::dataLength() const noexcept {
 void ModuleStation::appendInputs(Data& data) const noexcept {
   ByteWriter<Data::capacity()> writer{data};
   if (hasIoByte()) writer.u8(settings_.inputs);
-  for (unsigned place = 0; place < kInverters; ++place) {
+  for (unsigned place = 0; place < kPlaces; ++place) {
     if (!configured(place)) continue;
-    const Place& there = places_[place];
+    const bool there = present(place);
     const std::uint8_t identifier = configuration_[place + 1];
     const std::size_t end = data.size() + lengthOf(identifier);
     if (carriesParameters(identifier)) {
-      const PkwWords& answer = there.present() ? there.pkw->answer() : there.refused;
+      const PkwWords& answer = there ? driveAt(place)->pkw().answer() : places_[place].refused;
       writer.u16be(answer.pke);
       writer.u16be(answer.ind);
       writer.u16be(answer.pwe1);
       writer.u16be(answer.pwe2);
     }
-    if (there.present()) {
-      writer.u16be(there.inverter->statusWord());
-      for (unsigned n = 0; data.size() < end; ++n) writer.u16be(there.inverter->actualValue(n));
+    if (there) {
+      const InverterModel& inverter = driveAt(place)->inverter();
+      writer.u16be(inverter.statusWord());
+      for (unsigned n = 0; data.size() < end; ++n) writer.u16be(inverter.actualValue(n));
     }
     data.resize(end);  // the process data of an inverter that is off are zero
   }
@@ -133,7 +131,7 @@ ModuleStation::Slot ModuleStation::readSlot(std::uint8_t identifier, ByteReader&
 void ModuleStation::outputsArrived(ByteView data) noexcept {
   ByteReader reader{data};
   if (hasIoByte()) reader.u8();
-  for (unsigned place = 0; place < kInverters; ++place) {
+  for (unsigned place = 0; place < kPlaces; ++place) {
     if (!configured(place)) continue;
     const Slot slot = readSlot(configuration_[place + 1], reader);
     if ((slot.process.control & stw::kDataValid) == 0) continue;
@@ -149,7 +147,7 @@ void ModuleStation::takeOutputs(ByteView data) noexcept {
     output_byte_ = reader.u8();
     parameters_.show(176, 0, output_byte_);
   }
-  for (unsigned place = 0; place < kInverters; ++place) {
+  for (unsigned place = 0; place < kPlaces; ++place) {
     if (configured(place)) command(place, readSlot(configuration_[place + 1], reader));
   }
   endTimeOut();
@@ -162,7 +160,7 @@ void ModuleStation::command(unsigned place, const Slot& slot) noexcept {
   there.counters.last_control = control;
   parameters_.show(176, 1 + 4 * place, toSigned(control));
   for (unsigned n = 0; n < 3; ++n) parameters_.show(176, 2 + 4 * place + n, toSigned(slot.process.setpoints[n]));
-  if (!there.present()) {
+  if (!present(place)) {
     there.valid_data_seen = false;  // one that comes back begins anew: the master may look before it commands
     return;
   }
@@ -173,35 +171,37 @@ void ModuleStation::command(unsigned place, const Slot& slot) noexcept {
     if (referee() != nullptr) referee()->broken(Rule::kZeroControlWord);
   }
   // In its time-out the module lets through what an acknowledgement needs, and nothing that would start a motor.
-  if (timed_out_ && there.inverter->faultNumber() == 0) return;
-  there.inverter->receive(slot.process);
-  there.parameters->show(740, 0, control);
-  for (unsigned n = 0; n < 3; ++n) there.parameters->show(740, 1 + n, slot.process.setpoints[n]);
+  DriveUnit& drive = *driveAt(place);
+  if (timed_out_ && drive.inverter().faultNumber() == 0) return;
+  drive.inverter().receive(slot.process);
+  drive.parameters().show(740, 0, control);
+  for (unsigned n = 0; n < 3; ++n) drive.parameters().show(740, 1 + n, slot.process.setpoints[n]);
 }
 
 void ModuleStation::order(unsigned place, const PkwWords& order) noexcept {
-  Place& there = places_[place];
-  there.refused = PkwWords{};
-  if (there.present()) {
-    if (referee() != nullptr) referee()->parameterChannel(address(), order, there.pkw->hasAnswered(order), place);
-    there.pkw->receive(order);
+  places_[place].refused = PkwWords{};
+  if (present(place)) {
+    PkwServer& pkw = driveAt(place)->pkw();
+    if (referee() != nullptr) referee()->parameterChannel(address(), order, pkw.hasAnswered(order), place);
+    pkw.receive(order);
   } else if (order.label() != 0) {
-    there.refused = PkwServer::refusal(order, absence(there));
+    places_[place].refused = PkwServer::refusal(order, absence(place));
   }
 }
 
-Word ModuleStation::absence(const Place& place) const noexcept {
-  return place.seen ? kInverterLost : kNoSuchInverter;
+Word ModuleStation::absence(unsigned place) const noexcept {
+  return places_[place].seen ? kInverterLost : kNoSuchInverter;
 }
 
 // BU 0220 4.2.3.1: the module switches all its own outputs to 0.
 void ModuleStation::clearOutputs() noexcept {
   output_byte_ = 0;
-  for (Place& place : places_) {
-    place.refused = PkwWords{};
-    if (place.inverter == nullptr) continue;
-    place.inverter->receive(ProcessData{});
-    place.pkw->receive(PkwWords{});
+  for (unsigned place = 0; place < kPlaces; ++place) {
+    places_[place].refused = PkwWords{};
+    DriveUnit* drive = driveAt(place);
+    if (drive == nullptr) continue;
+    drive->inverter().receive(ProcessData{});
+    drive->pkw().receive(PkwWords{});
   }
 }
 
@@ -210,34 +210,22 @@ void ModuleStation::enterDataExchange() noexcept {
 }
 
 bool ModuleStation::inverterMissing() const noexcept {
-  for (unsigned place = 0; place < kInverters; ++place) {
-    const bool expected = configured(place) || places_[place].inverter != nullptr;
-    if (expected && !places_[place].present()) return true;
+  for (unsigned place = 0; place < kPlaces; ++place) {
+    const bool expected = configured(place) || driveAt(place) != nullptr;
+    if (expected && !present(place)) return true;
   }
   return false;
 }
 
-void ModuleStation::setInverterLink(bool intact) noexcept {
-  for (unsigned place = 0; place < kInverters; ++place) setInverterLink(place, intact);
-}
-
-void ModuleStation::setInverterLink(unsigned place, bool intact) noexcept {
-  Place& there = places_[place];
-  there.link = intact;
-  if (there.inverter != nullptr) there.inverter->setModuleLink(intact && powered());
-}
-
-void ModuleStation::supplyChanged(bool on) noexcept {
+void ModuleStation::supplyChanged(bool /*on*/) noexcept {
   output_byte_ = 0;
   valid_data_seen_ = cause_stands_ = timed_out_ = false;
   error_ = 0;
   parameters_.restoreFromEeprom();
   parameters_.show(180, 0, settings_.address);
   parameters_.show(181, 0, moduleBaudRateCode(settings_.baud_rate));
-  for (Place& place : places_) {
-    place.seen = place.valid_data_seen = false;
-    if (place.inverter != nullptr) place.inverter->setModuleLink(on && place.link);
-  }
+  for (Place& place : places_) place.seen = place.valid_data_seen = false;
+  showLinks();
   beginAsBuilt();
 }
 
@@ -257,9 +245,9 @@ std::uint8_t ModuleStation::outputs() const noexcept {
   }
 }
 
-SlaveCounters ModuleStation::countersOf(unsigned place) const noexcept {
-  SlaveCounters both = counters();
-  const SlaveCounters& own = places_[place].counters;
+ExchangeCounters ModuleStation::countersOf(unsigned place) const noexcept {
+  ExchangeCounters both = counters();
+  const ExchangeCounters& own = places_[place].counters;
   both.zero_control_words = own.zero_control_words;
   both.last_control = own.last_control;
   both.control_before_loss = own.control_before_loss;

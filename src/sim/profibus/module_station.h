@@ -7,37 +7,20 @@
 #include <array>
 #include <cstdint>
 
-#include "sim/inverter/inverter_model.h"
+#include "sim/inverter/pkw_server.h"
+#include "sim/module_parameters.h"
+#include "sim/profibus/dp_config.h"
 #include "sim/profibus/dp_station.h"
-#include "sim/profibus/module_parameters.h"
-#include "sim/profibus/pkw_server.h"
 
 namespace nord_driver::sim {
 
-struct ModuleSettings {
-  std::uint8_t address = 126;
-  /// What Get_Cfg says before a master has configured the module: slot 1 is 30h.
-  bool io_byte = false;
-  std::uint8_t inputs = 0;           ///< DIN1-DIN4 in bits 0-3
-  std::uint32_t baud_rate = 500000;  ///< what P181 shows
-  RecordSettings records;
-};
-
 class ModuleStation final : public DpStation, private RecordDevices {
  public:
-  static constexpr unsigned kInverters = 4;
-
   /// `referee` may be null and must outlive the station.
   ModuleStation(const ModuleSettings& settings, Referee* referee);
 
-  /// Connects an inverter to the system bus as FI1 to FI4 (`place` 0-3); all must outlive the station. `ppo_type` is
-  /// what Get_Cfg says before a master has chosen.
-  void attach(unsigned place, ParameterStore& parameters, InverterModel& inverter, PkwServer& pkw, int ppo_type);
-
-  /// The system bus to all inverters.
-  void setInverterLink(bool intact) noexcept override;
-  /// The system bus to one of them: E10.9 in the inverter (P120), diagnosis 02 04 in the module.
-  void setInverterLink(unsigned place, bool intact) noexcept;
+  Supply supply() const noexcept override { return Supply::kOwn; }
+  ExchangeCounters countersOf(unsigned place) const noexcept override;
 
   /// DO1 and DO2 in bits 0 and 1: by the bus, by P150, 0 in a time-out.
   std::uint8_t outputs() const noexcept;
@@ -46,22 +29,15 @@ class ModuleStation final : public DpStation, private RecordDevices {
   bool timedOut() const noexcept { return timed_out_; }
   ParameterStore& parameters() noexcept { return parameters_; }
   RecordSettings& recordSettings() noexcept { return records_.settings(); }
-  /// The station's counters with what belongs to one inverter.
-  SlaveCounters countersOf(unsigned place) const noexcept;
 
  private:
+  /// FI1 to FI4; a broken link to one of them is E10.9 in the inverter (P120), diagnosis 02 04 in the module.
   struct Place {
-    ParameterStore* parameters = nullptr;
-    InverterModel* inverter = nullptr;  // null: nothing is connected
-    PkwServer* pkw = nullptr;
-    int ppo_type = 1;
-    bool link = true;
+    int ppo_type = 1;   // what Get_Cfg says before a master has chosen
     bool seen = false;  // was there since the module has its 24 V
     bool valid_data_seen = false;
     PkwWords refused;  // what the module answers itself to an order for an inverter that is not there
-    SlaveCounters counters;
-
-    bool present() const noexcept { return inverter != nullptr && link && inverter->powered(); }
+    ExchangeCounters counters;
   };
   /// What lies in a telegram for one slot.
   struct Slot {
@@ -70,6 +46,7 @@ class ModuleStation final : public DpStation, private RecordDevices {
     ProcessData process;
   };
 
+  void connected(unsigned place) noexcept override;
   bool takeConfiguration(ByteView identifiers) noexcept override;
   Configuration configuration() const noexcept override { return configuration_; }
   std::size_t dataLength() const noexcept override;
@@ -93,7 +70,7 @@ class ModuleStation final : public DpStation, private RecordDevices {
   static Slot readSlot(std::uint8_t identifier, ByteReader& reader) noexcept;
   void command(unsigned place, const Slot& slot) noexcept;
   void order(unsigned place, const PkwWords& order) noexcept;
-  Word absence(const Place& place) const noexcept;
+  Word absence(unsigned place) const noexcept;
   void timeOut(std::int32_t error) noexcept;
   void endTimeOut() noexcept;
   void beginAsBuilt() noexcept;
@@ -103,7 +80,7 @@ class ModuleStation final : public DpStation, private RecordDevices {
   ParameterStore parameters_;
   PkwServer own_pkw_;
   RecordServer records_;
-  std::array<Place, kInverters> places_{};
+  std::array<Place, kPlaces> places_{};
   Configuration configuration_;
   std::uint8_t output_byte_ = 0;
 

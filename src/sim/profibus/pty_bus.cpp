@@ -29,7 +29,8 @@ constexpr Duration kPartialLife = std::chrono::milliseconds(100);
 
 }  // namespace
 
-PtyBus::PtyBus(const SimConfig& config, const std::string& link_path) : robot_(config), link_path_(link_path) {
+PtyBus::PtyBus(const SimConfig& config, const std::string& link_path)
+    : robot_(config), stations_(robot_), link_path_(link_path) {
   try {
     openPty();
     putLink();
@@ -37,7 +38,7 @@ PtyBus::PtyBus(const SimConfig& config, const std::string& link_path) : robot_(c
     closePty();
     throw;
   }
-  robot_.advance(std::chrono::steady_clock::now());
+  stations_.advance(std::chrono::steady_clock::now());
   thread_ = std::thread([this] { serve(); });
 }
 
@@ -100,10 +101,10 @@ void PtyBus::serve() noexcept {
     if (ready > 0 && (descriptor.revents & POLLIN) != 0) {
       takeInput(model_now);
       last_input = model_now;
-    } else if (robot_.hasPartial() && model_now - last_input > kPartialLife) {
-      robot_.forgetPartial();
+    } else if (stations_.hasPartial() && model_now - last_input > kPartialLife) {
+      stations_.forgetPartial();
     }
-    robot_.advance(model_now);
+    stations_.advance(model_now);
     sendDue(model_now);
   }
 }
@@ -113,7 +114,7 @@ void PtyBus::takeInput(Instant model_now) noexcept {
   const ssize_t count = ::read(master_, buffer.data(), buffer.size());
   if (count <= 0) return;
   answer_from_ = model_now;
-  robot_.receive(ByteView{buffer.data(), static_cast<std::size_t>(count)}, model_now, Judge::kYes, *this);
+  stations_.receive(ByteView{buffer.data(), static_cast<std::size_t>(count)}, model_now, Judge::kYes, *this);
 }
 
 void PtyBus::answer(const WireBytes& bytes, Duration delay) noexcept {
@@ -133,7 +134,7 @@ void PtyBus::sendDue(Instant now) noexcept {
 
 void PtyBus::send(const WireBytes& bytes) noexcept {
   // A full buffer means that nobody reads: an answer more or less does not matter then.
-  if (::write(master_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size())) robot_.delivered(bytes);
+  if (::write(master_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size())) stations_.delivered(bytes);
 }
 
 }  // namespace nord_driver::sim

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "sim/robot/robot_sim.h"
+#include "sim/profibus/dp_stations.h"
 #include "sim/running_bus.h"
 
 namespace nord_driver::sim {
@@ -17,7 +17,7 @@ namespace nord_driver::sim {
 class PtyBus : public RunningBus, private AnswerSink {
  public:
   /// Puts a symbolic link to the pty at `link_path`; a link that is there already is replaced. Throws
-  /// std::runtime_error naming path and reason, and ConfigError as RobotSim does.
+  /// std::runtime_error naming path and reason, and ConfigError as DpStations does.
   PtyBus(const SimConfig& config, const std::string& link_path);
   ~PtyBus() override;
   PtyBus(const PtyBus&) = delete;
@@ -28,6 +28,12 @@ class PtyBus : public RunningBus, private AnswerSink {
   const std::string& devicePath() const noexcept { return device_path_; }
 
   std::string where() const override { return link_path_; }
+  /// Runs `function(DpStations&)` while the models stand still. Any thread.
+  template <typename Function>
+  auto withStations(Function&& function) {
+    const std::lock_guard<InheritingMutex> lock(mutex_);
+    return std::forward<Function>(function)(stations_);
+  }
 
  private:
   struct Delayed {
@@ -36,7 +42,7 @@ class PtyBus : public RunningBus, private AnswerSink {
   };
 
   RobotSim& robot() noexcept override { return robot_; }
-  std::string report() const override { return robot_.referee().report(); }
+  std::string report() const override { return stations_.report(); }
   void answer(const WireBytes& bytes, Duration delay) noexcept override;
   void openPty();
   void putLink();
@@ -47,6 +53,7 @@ class PtyBus : public RunningBus, private AnswerSink {
   void sendDue(Instant now) noexcept;
 
   RobotSim robot_;
+  DpStations stations_;
   std::string link_path_;
   std::string device_path_;
   int master_ = -1;

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "nord_driver/core/bytes.h"
-#include "sim/profibus/pkw_server.h"
+#include "sim/inverter/pkw_server.h"
 
 namespace nord_driver::sim {
 

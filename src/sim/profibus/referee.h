@@ -9,7 +9,7 @@
 #include <string>
 
 #include "nord_driver/core/time.h"
-#include "sim/profibus/pkw_server.h"
+#include "sim/inverter/pkw_server.h"
 #include "sim/profibus/telegram.h"
 
 namespace nord_driver::sim {

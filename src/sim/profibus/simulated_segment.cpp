@@ -13,8 +13,12 @@ constexpr Duration kLongestWait = std::chrono::hours(24);  // a wait without end
 }  // namespace
 
 SimulatedSegment::SimulatedSegment(const SimConfig& config, const SegmentSettings& settings)
-    : robot_(config), baud_rate_(config.baud_rate), tsdr_bits_(settings.tsdr_bits), now_(settings.start) {
-  robot_.advance(now_);
+    : robot_(config),
+      stations_(robot_),
+      baud_rate_(config.bus.as<DpBusConfig>().baud_rate),
+      tsdr_bits_(settings.tsdr_bits),
+      now_(settings.start) {
+  stations_.advance(now_);
 }
 
 bool SimulatedSegment::open() noexcept {
@@ -94,26 +98,26 @@ void SimulatedSegment::advanceTo(Instant when) noexcept {
     deliverRequest();
   }
   now_ = std::max(now_, when);
-  robot_.advance(now_);
+  stations_.advance(now_);
 }
 
 void SimulatedSegment::deliverRequest() noexcept {
   request_pending_ = false;
-  robot_.advance(now_);
+  stations_.advance(now_);
   if (lose_requests_ > 0) {
     --lose_requests_;
-    robot_.judgeOnly(request_);
+    stations_.judgeOnly(request_);
     return;
   }
   const FixedBytes<512> received = disturbed(request_, disturbance_.requests);
   if (received == request_) {
-    robot_.receive(received, now_, Judge::kYes, *this);
-    if (robot_.hasPartial()) referee().broken(Rule::kNoTelegram);
+    stations_.receive(received, now_, Judge::kYes, *this);
+    if (stations_.hasPartial()) referee().broken(Rule::kNoTelegram);
   } else {
-    robot_.judgeOnly(request_);
-    robot_.receive(received, now_, Judge::kNo, *this);
+    stations_.judgeOnly(request_);
+    stations_.receive(received, now_, Judge::kNo, *this);
   }
-  robot_.forgetPartial();  // the pause after it ends a telegram
+  stations_.forgetPartial();  // the pause after it ends a telegram
 }
 
 void SimulatedSegment::answer(const WireBytes& bytes, Duration delay) noexcept {
@@ -132,7 +136,7 @@ void SimulatedSegment::answer(const WireBytes& bytes, Duration delay) noexcept {
     arriving_.push_back({answer_start_ + baud_rate_.characters(i + 1), sent[i]});
   }
   answer_end_ = answer_start_ + baud_rate_.characters(bytes.size());  // noise is no activity of the station
-  if (ByteView{sent} == ByteView{bytes}) robot_.delivered(bytes);
+  if (ByteView{sent} == ByteView{bytes}) stations_.delivered(bytes);
 }
 
 bool SimulatedSegment::happens(double probability) noexcept {

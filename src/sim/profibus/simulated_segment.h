@@ -10,7 +10,7 @@
 
 #include "core/baud_rate.h"
 #include "link/serial/byte_link.h"
-#include "sim/robot/robot_sim.h"
+#include "sim/profibus/dp_stations.h"
 
 namespace nord_driver::sim {
 
@@ -31,6 +31,7 @@ struct Disturbance {
 
 class SimulatedSegment : public link::ByteLink, private AnswerSink {
  public:
+  /// Throws ConfigError as DpStations does.
   explicit SimulatedSegment(const SimConfig& config, const SegmentSettings& settings = SegmentSettings{});
 
   bool open() noexcept override;
@@ -49,8 +50,11 @@ class SimulatedSegment : public link::ByteLink, private AnswerSink {
   void run(Duration span) noexcept { advanceTo(now_ + span); }
 
   RobotSim& robot() noexcept { return robot_; }
-  Referee& referee() noexcept { return robot_.referee(); }
+  DpStations& stations() noexcept { return stations_; }
+  Referee& referee() noexcept { return stations_.referee(); }
   DriveUnit& drive(std::size_t index) noexcept { return robot_.drive(index); }
+  /// The station of drive `index`.
+  DpStation& station(std::size_t index) noexcept { return stations_.stationOf(index); }
   BaudRate baudRate() const noexcept { return baud_rate_; }
 
   /// Pulls or puts back the adapter: an open link fails, `open()` fails until it is back.
@@ -77,6 +81,7 @@ class SimulatedSegment : public link::ByteLink, private AnswerSink {
   bool happens(double probability) noexcept;
 
   RobotSim robot_;
+  DpStations stations_;
   BaudRate baud_rate_;
   std::uint64_t tsdr_bits_;
   Instant now_;

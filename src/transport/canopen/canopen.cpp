@@ -101,8 +101,7 @@ Instant CanopenTransport::now() const noexcept {
 
 void CanopenTransport::sleepUntil(Instant when) noexcept {
   if (link_->isOpen()) {
-    receive();
-    run(when, false);
+    run(receive(), when, false);
   }
   link_->sleepUntil(when);
 }
@@ -143,14 +142,14 @@ void CanopenTransport::exchange(const std::vector<profile::ProcessOutput>& outpu
                                 std::vector<DriveExchange>& inputs) noexcept {
   if (linkReady()) {
     cycle_start_ = link_->now();
-    receive();  // what came while nobody looked is older than this cycle's answers
+    const Instant received = receive();  // what came while nobody looked is older than this cycle's answers
     for (DriveIndex i = 0; i < drives_.size(); ++i) {
       drives_[i].putOutput(outputs[i], *master_);
       answered_[i] = master_->transmitPdo(config_.drives[i].node, config_.drives[i].transmit_pdo).count;
     }
     master_->startCycle(cycle_start_);
-    if (!isSilent()) sendIntoTheDark();
-    run(cycle_start_ + config_.answer_window, true);
+    if (!isSilent()) commandUnheardNodes();
+    run(received, cycle_start_ + config_.answer_window, true);
   }
   takeLineCounters();
   const bool works = busWorks() && !isSilent();
@@ -167,14 +166,13 @@ bool CanopenTransport::allAnswered() const noexcept {
   return true;
 }
 
-// What had come at `looked_` was received: the clock may be later by now, but no time-out may be seen ahead of what has
-// come since.
-void CanopenTransport::run(Instant until, bool until_answered) noexcept {
+// The clock may be later than `received` by now, but no time-out may be seen ahead of what has come since.
+void CanopenTransport::run(Instant received, Instant until, bool until_answered) noexcept {
   while (link_->isOpen()) {
     takeEvents();
-    const bool talks = mayTalk(looked_);
+    const bool talks = mayTalk(received);
     if (talks) {
-      master_->poll(looked_);
+      master_->poll(received);
       runParameters();
       send(std::max(until, cycle_start_ + period_ / 2));
       takeEvents();
@@ -184,7 +182,7 @@ void CanopenTransport::run(Instant until, bool until_answered) noexcept {
     const Instant due = (talks ? master_->nextDeadline() : listen_first_->nextDeadline()).value_or(until);
     // Time must pass, also where something is due that cannot be sent.
     if (!link_->waitReadable(std::min(until, std::max(due, now + kShortestWait))) && link_->now() >= until) break;
-    receive();
+    received = receive();
   }
   if (link_->isOpen()) return;
   // Gone in the middle of a cycle: nobody exchanges until it is back.
@@ -192,9 +190,9 @@ void CanopenTransport::run(Instant until, bool until_answered) noexcept {
   next_open_ = link_->now() + kReopenInterval;
 }
 
-void CanopenTransport::receive() noexcept {
+Instant CanopenTransport::receive() noexcept {
   link::ReceivedCanFrame received;
-  looked_ = link_->now();
+  const Instant looked = link_->now();
   for (int count = 0; count < kFramesAtOnce && link_->receive(received); ++count) {
     trace_->record(TraceKind::kReceived, toPacket(received.frame), received.at);
     if (!isSilent()) {
@@ -205,6 +203,7 @@ void CanopenTransport::receive() noexcept {
       listen_first_->handleMaster(received.frame.id, received.at);
     }
   }
+  return looked;
 }
 
 // A burst longer than the interface's queue is waited out, but not beyond `until`: the setpoints of this cycle are
@@ -224,9 +223,9 @@ void CanopenTransport::send(Instant until) noexcept {
 }
 
 // Words that stop, as long as the drive layer gives any; never an old one.
-void CanopenTransport::sendIntoTheDark() noexcept {
+void CanopenTransport::commandUnheardNodes() noexcept {
   for (const CanopenDriveState& drive : drives_) {
-    const auto frame = drive.darkFrame(*master_);
+    const auto frame = drive.unheardCommand(*master_);
     if (!frame || link_->send(*frame) != link::CanSend::kSent) continue;
     trace_->record(TraceKind::kSent, toPacket(*frame), link_->now());
   }
@@ -358,17 +357,16 @@ DriveIdentity CanopenTransport::identity(DriveIndex drive) const {
 
 // Guarding that simply ended would be a loss to the node, and leave E10.0 in every inverter.
 void CanopenTransport::release() noexcept {
-  looked_ = link_->now();
-  const Instant until = looked_ + kLongestRelease;
-  master_->releaseAll(looked_);
+  const Instant begun = link_->now();
+  const Instant until = begun + kLongestRelease;
+  master_->releaseAll(begun);
   for (;;) {
     send(until);
     const Instant now = link_->now();
     if (master_->released() || now >= until || !link_->isOpen()) return;
     const Instant due = master_->nextDeadline().value_or(until);
     link_->waitReadable(std::min(until, std::max(due, now + kShortestWait)));
-    receive();
-    master_->poll(looked_);
+    master_->poll(receive());
   }
 }
 

@@ -72,10 +72,13 @@ class CanopenTransport final : public Transport {
   void restart() noexcept;
   bool isSilent() const noexcept { return listen_first_->isSilent(); }
   bool mayTalk(Instant now) noexcept;
-  void run(Instant until, bool until_answered) noexcept;
-  void receive() noexcept;
+  /// `received`: what had come until then was received.
+  void run(Instant received, Instant until, bool until_answered) noexcept;
+  /// Takes in what has come; the moment before the first look.
+  Instant receive() noexcept;
   void send(Instant until) noexcept;
-  void sendIntoTheDark() noexcept;
+  /// To nodes that fell silent and may hear us all the same.
+  void commandUnheardNodes() noexcept;
   void runParameters() noexcept;
   void takeEvents() noexcept;
   void takeLineCounters() noexcept;
@@ -94,7 +97,6 @@ class CanopenTransport final : public Transport {
   std::vector<CanopenDriveState> drives_;
   std::vector<std::uint64_t> answered_;  // TPDOs of each drive when the cycle began
   Instant cycle_start_{};
-  Instant looked_{};  // before what was there was received
   Instant next_open_{};
   DriveIndex result_cursor_ = 0;
   CanopenBusEvents events_;

@@ -42,7 +42,7 @@ void CanopenDriveState::putOutput(const profile::ProcessOutput& output, canopen:
   master.setReceivePdo(config_.node, config_.receive_pdo, output_);
 }
 
-std::optional<CanFrame> CanopenDriveState::darkFrame(const canopen::Master& master) const noexcept {
+std::optional<CanFrame> CanopenDriveState::unheardCommand(const canopen::Master& master) const noexcept {
   const canopen::NodeStatus& status = master.status(config_.node);
   if (!fellSilent(status) || !stops_) return std::nullopt;
   return dataFrame(receive_id_, output_);

@@ -23,7 +23,7 @@ class CanopenDriveState {
   void putOutput(const profile::ProcessOutput& output, canopen::Master& master) noexcept;
   /// The RPDO for a node that has fallen silent while it was operational: it may hear us without being heard, and the
   /// master sends it nothing any more. None when there is nothing to command.
-  std::optional<CanFrame> darkFrame(const canopen::Master& master) const noexcept;
+  std::optional<CanFrame> unheardCommand(const canopen::Master& master) const noexcept;
   /// `bus_works`: frames can come and go at all.
   void takeInput(const canopen::Master& master, bool bus_works, Instant now, DriveExchange& input) noexcept;
 

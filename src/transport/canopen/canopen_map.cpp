@@ -1,6 +1,7 @@
 #include "transport/canopen/canopen_map.h"
 
 #include "nord_driver/core/time.h"
+#include "profile/parameter_shape.h"
 
 namespace nord_driver {
 
@@ -144,8 +145,8 @@ std::optional<ObjectAddress> parameterObject(const CanopenDrive& drive,
                                              const profile::ParameterRequest& request) noexcept {
   using Shape = profile::ParameterShape;
   const unsigned set = request.parameter_set, element = request.index;
-  const bool has_set = request.shape == Shape::kPerSet || request.shape == Shape::kArrayPerSet;
-  const bool has_element = request.shape == Shape::kArray || request.shape == Shape::kArrayPerSet;
+  const bool has_set = profile::hasSets(request.shape);
+  const bool has_element = profile::isArray(request.shape);
   if (request.number > kMaxParameter || (has_set && (set < 1 || set > 4)) || (has_element && element < 1)) {
     return std::nullopt;
   }

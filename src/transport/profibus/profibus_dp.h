@@ -16,7 +16,7 @@
 #include "nord_driver/transport/transport.h"
 #include "profibus/bus_scan.h"
 #include "profibus/dp_master.h"
-#include "transport/canopen/inverter_presence.h"
+#include "transport/profibus/inverter_presence.h"
 #include "transport/profibus/profibus_dp_config.h"
 #include "transport/profibus/profibus_parameters.h"
 #include "transport/profibus/profibus_recorder.h"

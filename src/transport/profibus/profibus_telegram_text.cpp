@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "profibus/diagnosis.h"
+#include "profibus/diagnosis_blocks.h"
 #include "profibus/function_code.h"
 
 namespace nord_driver {
@@ -60,6 +61,8 @@ std::string diagnosisText(ByteView data) {
   add(diagnosis->staticDiagnosis(), "Stat_Diag");
   add(diagnosis->watchdogOn(), "watchdog on");
   if (!diagnosis->extendedBytes().empty()) text += ", extended " + toHex(diagnosis->extendedBytes());
+  profibus::DiagnosisBlocks blocks{diagnosis->extendedBytes()};
+  while (const auto block = blocks.next()) text += std::string(", ") + describe(*block).c_str();
   return text;
 }
 

@@ -219,7 +219,7 @@ TEST_F(VirtualCanTest, AStuckMemberIsPartedWith) {
   for (int i = 0; i < 3000 && hub.members() > 0; ++i) hub.send(frame(0x100, 0));
   EXPECT_EQ(0u, hub.members());
   EXPECT_EQ(1u, hub.hubCounters().stuck);
-  EXPECT_EQ(VirtualCanHub::kLostToPartWith, hub.hubCounters().lost);
+  EXPECT_EQ(VirtualCanHub::kLostToDisconnect, hub.hubCounters().lost);
   EXPECT_EQ(CanSend::kFailed, stuck.send(frame(1, 1)));
   EXPECT_FALSE(stuck.isOpen());
 }

@@ -11,12 +11,11 @@ namespace nord_driver::sim {
 /// Node 50 = 32h, as in the trace of BU 0060 p. 96.
 inline SimConfig oneCanDrive(const CanDriveConfig& can = CanDriveConfig{}, int node = 50) {
   SimConfig config;
-  config.can = CanBusConfig{};
+  config.bus = CanBusConfig{};
   DriveConfig drive;
   drive.name = "left";
-  drive.slave.address = static_cast<std::uint8_t>(node);
-  drive.can = can;
-  drive.inverter = canInverterSettings(can.connection, drive.device);
+  drive.address = static_cast<std::uint8_t>(node);
+  drive.bus = can;
   config.drives.push_back(drive);
   return config;
 }

@@ -17,7 +17,7 @@ namespace {
 
 SimConfig onVirtualBus() {
   SimConfig config = oneCanDrive();
-  config.can->interface = "virtual:sim_test_" + std::to_string(::getpid());
+  config.bus.as<CanBusConfig>().interface = "virtual:sim_test_" + std::to_string(::getpid());
   return config;
 }
 
@@ -98,8 +98,8 @@ class JumpingLink : public link::CanLink {
 TEST(CanBusThread, ServesAVirtualBus) {
   const SimConfig config = onVirtualBus();
   CanBusThread bus{config};
-  EXPECT_EQ(config.can->interface, bus.where());
-  Client client{config.can->interface};
+  EXPECT_EQ(config.bus.as<CanBusConfig>().interface, bus.where());
+  Client client{config.bus.as<CanBusConfig>().interface};
   ASSERT_TRUE(client.opened());
   EXPECT_TRUE(client.sees("732#R1", "732#7F"));
   EXPECT_TRUE(client.learns("632#4018100200000000", "5B2#4318100201000000"));
@@ -114,10 +114,10 @@ TEST(CanBusThread, ServesAVirtualBus) {
 // nodes for lost and looks before it commands again (0000) breaks no rule, though they are operational as before.
 TEST(CanBusThread, ItsOwnStandstillIsNotTheMastersFault) {
   const SimConfig config = onVirtualBus();
-  auto own_link = std::make_unique<JumpingLink>(config.can->interface);
+  auto own_link = std::make_unique<JumpingLink>(config.bus.as<CanBusConfig>().interface);
   JumpingLink& link = *own_link;
   CanBusThread bus{config, std::move(own_link)};
-  Client client{config.can->interface};
+  Client client{config.bus.as<CanBusConfig>().interface};
   ASSERT_TRUE(client.opened());
   ASSERT_TRUE(client.sees("732#R1", "732#7F"));
   client.send("000#0132");
@@ -138,7 +138,7 @@ TEST(CanBusThread, ItsOwnStandstillIsNotTheMastersFault) {
 TEST(CanBusThread, RunsWhatTheConfigurationAsksFor) {
   const SimConfig config = onVirtualBus();
   const std::unique_ptr<RunningBus> bus = runBus(config);
-  EXPECT_EQ(config.can->interface, bus->where());
+  EXPECT_EQ(config.bus.as<CanBusConfig>().interface, bus->where());
   try {
     CanBusThread second{config};
     FAIL() << "two simulators on one bus";

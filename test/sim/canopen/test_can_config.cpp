@@ -24,17 +24,17 @@ drives:
   f: {address: 127, series: sk5xxe, profile: cia402}
 )");
   EXPECT_TRUE(config.warnings.empty()) << config.warnings.front();
-  ASSERT_TRUE(config.can);
-  EXPECT_EQ("virtual:demo", config.can->interface);
-  EXPECT_EQ(125000u, config.can->bit_rate);
-  EXPECT_EQ(CanConnection::kOption, config.drives[0].can->connection);
-  EXPECT_EQ(CanConnection::kOnboard, config.drives[1].can->connection);
-  EXPECT_EQ(CanConnection::kGateway, config.drives[2].can->connection);
-  EXPECT_TRUE(config.drives[2].can->array_sub_by_table);
-  EXPECT_EQ(3u, config.drives[3].can->inverter);
-  EXPECT_EQ(0x12345678u, config.drives[3].can->identity.vendor);
-  EXPECT_EQ(CanConnection::kSystemBus, config.drives[4].can->connection);
-  EXPECT_TRUE(config.drives[5].can->cia402);
+  ASSERT_TRUE(config.bus.is<CanBusConfig>());
+  EXPECT_EQ("virtual:demo", config.bus.as<CanBusConfig>().interface);
+  EXPECT_EQ(125000u, config.bus.as<CanBusConfig>().bit_rate);
+  EXPECT_EQ(CanConnection::kOption, config.drives[0].bus.as<CanDriveConfig>().connection);
+  EXPECT_EQ(CanConnection::kOnboard, config.drives[1].bus.as<CanDriveConfig>().connection);
+  EXPECT_EQ(CanConnection::kGateway, config.drives[2].bus.as<CanDriveConfig>().connection);
+  EXPECT_TRUE(config.drives[2].bus.as<CanDriveConfig>().array_sub_by_table);
+  EXPECT_EQ(3u, config.drives[3].place);
+  EXPECT_EQ(0x12345678u, config.drives[3].bus.as<CanDriveConfig>().identity.vendor);
+  EXPECT_EQ(CanConnection::kSystemBus, config.drives[4].bus.as<CanDriveConfig>().connection);
+  EXPECT_TRUE(config.drives[5].bus.as<CanDriveConfig>().cia402);
   RobotSim robot{config};
   CanStations stations{robot};
   ASSERT_EQ(5u, stations.nodes().size());
@@ -42,16 +42,16 @@ drives:
   // P509: CANopen, of the SK 1x0E and 2xxE the system bus; P515 the node id; P551 the profile.
   EXPECT_EQ(6, robot.drive(1).parameters().value(509));
   EXPECT_EQ(3, robot.drive(2).parameters().value(509));
-  EXPECT_EQ(32, robot.drive(0).config().slave.address);
+  EXPECT_EQ(32, robot.drive(0).config().address);
   EXPECT_EQ(33, robot.drive(1).parameters().value(515));
   EXPECT_EQ(1, robot.drive(5).parameters().value(551));
 }
 
 // The driver's file names its transport at the top.
 TEST(CanConfig, TransportOfTheDriver) {
-  EXPECT_TRUE(read("{transport: nord_driver/canopen, drives: {a: {address: 3}}}").can);
-  EXPECT_TRUE(read("{transport: canopen, drives: {a: {address: 3}}}").can);
-  EXPECT_FALSE(read("{transport: nord_driver/profibus_dp, drives: {a: {address: 3}}}").can);
+  EXPECT_TRUE(read("{transport: nord_driver/canopen, drives: {a: {address: 3}}}").bus.is<CanBusConfig>());
+  EXPECT_TRUE(read("{transport: canopen, drives: {a: {address: 3}}}").bus.is<CanBusConfig>());
+  EXPECT_FALSE(read("{transport: nord_driver/profibus_dp, drives: {a: {address: 3}}}").bus.is<CanBusConfig>());
 }
 
 TEST(CanConfig, RefusesInWords) {

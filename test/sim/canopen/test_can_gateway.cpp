@@ -15,14 +15,13 @@ SimConfig gateway(bool servers_set = false) {
   for (const unsigned inverter : {1u, 2u, 4u}) {
     DriveConfig drive;
     drive.name = "fi" + std::to_string(inverter);
-    drive.slave.address = 5;
+    drive.address = 5;
     drive.device.series = Series::kSk2xxe;
     CanDriveConfig can;
     can.connection = CanConnection::kGateway;
-    can.inverter = inverter;
+    drive.place = inverter;
     can.servers_set = servers_set;
-    drive.can = can;
-    drive.inverter = canInverterSettings(can.connection, drive.device);
+    drive.bus = can;
     config.drives.push_back(drive);
   }
   return config;
@@ -129,6 +128,46 @@ TEST_F(CanGateway, OneInverterMissing) {
   EXPECT_EQ("", sdo("4001100000000000")) << "nobody is there any more";
 }
 
+// The 24 V of the gateway off: it says and hears nothing, and its inverters miss it, each with E10.9 (P120), as behind
+// the sister modules; on again it boots up with what is stored. The inverters have their mains all the while.
+TEST_F(CanGateway, ItsOwnSupply) {
+  bus.send("000#0105");
+  bus.bus.run(milliseconds(20));
+  EXPECT_TRUE(bus.drive(0).inDataExchange());
+  EXPECT_EQ(Supply::kOwn, bus.drive(0).module().supply());
+  EXPECT_EQ(&bus.drive(0).module(), &bus.drive(2).module());
+  bus.drive(0).module().setPowered(false);
+  bus.take();
+  EXPECT_EQ(Frames{}, bus.takeAfter(seconds(1.0)));
+  EXPECT_EQ("", sdo("4001100000000000"));
+  EXPECT_EQ("", bus.ask("705#R1"));
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_TRUE(bus.drive(i).inverter().powered());
+    EXPECT_FALSE(bus.drive(i).inDataExchange());
+    EXPECT_EQ(fault::kNoModule, bus.drive(i).inverter().faultNumber());
+  }
+  bus.drive(2).module().setPowered(true);
+  EXPECT_EQ("705#00", bus.takeAfter(milliseconds(150)).front()) << "the boot-up message";
+  EXPECT_EQ("4F01100001000000", sdo("4001100000000000"));
+  EXPECT_TRUE(bus.drive(1).inverter().acknowledge()) << "the cause is gone";
+  EXPECT_EQ("60", sdo("2B0C1000FA000000").substr(0, 2));
+  bus.send("000#0105");
+  EXPECT_EQ("310B000000000000", ask("305#7E04000000000000", "285"));
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
+}
+
+// Its answers are lost or late, whichever of its drives is asked to do so.
+TEST_F(CanGateway, MuteAndLate) {
+  bus.drive(1).setMute(true);
+  EXPECT_TRUE(bus.node().mute());
+  EXPECT_EQ("", sdo("4001100000000000"));
+  bus.drive(2).setMute(false);
+  EXPECT_EQ("4F01100000000000", sdo("4001100000000000"));
+  bus.drive(1).setAnswerDelay(milliseconds(50));
+  EXPECT_EQ("", sdo("4001100000000000"));
+  EXPECT_EQ(Frames{"585#4F01100000000000"}, bus.takeAfter(milliseconds(50)));
+}
+
 // 1010h stores, 1011h brings back what was delivered (BU 0260 p. 50), both counted from the next reset.
 TEST_F(CanGateway, StoreAndRestore) {
   EXPECT_EQ("60", sdo("2B0C1000FA000000").substr(0, 2));
@@ -215,7 +254,6 @@ TEST(CanNodeOnTheSystemBus, AsItsOwnPort) {
   can.connection = CanConnection::kSystemBus;
   SimConfig config = oneCanDrive(can, 34);
   config.drives[0].device.series = Series::kSk2xxe;
-  config.drives[0].inverter = canInverterSettings(can.connection, config.drives[0].device);
   CanConversation bus{config};
   bus.boot();
   bus.send("000#0122");

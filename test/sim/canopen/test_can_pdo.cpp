@@ -40,8 +40,6 @@ TEST_F(CanPdo, AsDelivered) {
 TEST(CanPdoOfTheOlderSeries, WordOrder) {
   SimConfig config = oneCanDrive();
   config.drives[0].device.series = Series::kSk700e;
-  config.drives[0].inverter = canInverterSettings(CanConnection::kOption, config.drives[0].device);
-  config.drives[0].slave.swap_words_3_4 = true;
   CanConversation bus{config};
   bus.boot();
   EXPECT_EQ("43011A0310030330", bus.sdo("40 01 1A 03 00 00 00 00"));

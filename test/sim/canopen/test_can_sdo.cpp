@@ -94,7 +94,7 @@ TEST_F(CanSdo, SegmentedDownload) {
 
 // One request at a time: what comes before the answer is lost, and the referee saw it. An abort ends the wait.
 TEST_F(CanSdo, OneRequestAtATime) {
-  bus.node().setSdoDelay(milliseconds(50));
+  bus.node().setAnswerDelay(milliseconds(50));
   bus.send("632#4066200100000000");
   bus.bus.run(milliseconds(10));
   bus.send("632#4067200100000000");

@@ -123,9 +123,10 @@ TEST(InverterOnTheSystemBus, WatchesItsModuleByP120) {
     parameters.preset(509, 0, 0, 4);
     parameters.preset(120, 0, 0, row.p120);
     Motor motor{MotorSettings{}};
-    InverterSettings settings;
-    settings.on_system_bus = true;
-    InverterModel model{parameters, motor, settings};
+    BusWiring wiring;
+    wiring.on_system_bus = true;
+    InverterModel model{parameters, motor};
+    model.wire(wiring);
     model.setModuleLink(row.present_at_start);
     model.setPowered(true);
     model.advance(seconds(4.9));

@@ -11,10 +11,10 @@ namespace nord_driver::sim {
 
 inline SimConfig oneDrive(int address = 8) {
   SimConfig config;
-  config.baud_rate = 500000;
+  config.bus.as<DpBusConfig>().baud_rate = 500000;
   DriveConfig drive;
   drive.name = "left";
-  drive.slave.address = static_cast<std::uint8_t>(address);
+  drive.address = static_cast<std::uint8_t>(address);
   drive.pkw.delay = 0;
   config.drives.push_back(drive);
   return config;
@@ -23,11 +23,11 @@ inline SimConfig oneDrive(int address = 8) {
 /// An SK CU4-PBR with so many inverters of the series SK 2xxE behind it.
 inline SimConfig oneModule(unsigned inverters, int address = 8) {
   SimConfig config;
-  config.baud_rate = 500000;
+  config.bus.as<DpBusConfig>().baud_rate = 500000;
   for (unsigned place = 1; place <= inverters; ++place) {
     DriveConfig drive;
     drive.name = "fi" + std::to_string(place);
-    drive.slave.address = static_cast<std::uint8_t>(address);
+    drive.address = static_cast<std::uint8_t>(address);
     drive.device.series = Series::kSk2xxe;
     drive.place = place;
     drive.pkw.delay = 0;
@@ -160,6 +160,7 @@ class Conversation {
   }
 
   DriveUnit& drive() { return segment.drive(0); }
+  DpStation& station() { return segment.station(0); }
   Referee& referee() { return segment.referee(); }
 
   SimulatedSegment segment;

@@ -55,7 +55,7 @@ TEST(DpSlave, RefusesAWrongIdent) {
   bus.service(60, {});
   EXPECT_EQ("E5", bus.service(61, {0x88, 10, 1, 11, 0x0B, 0xA8, 0}));
   EXPECT_EQ("68 0B 0B 68 81 88 08 3E 3C 42 05 00 FF 75 31 77 16", bus.service(60, {}));
-  EXPECT_EQ(SlaveState::kWaitParameters, bus.drive().slave().state());
+  EXPECT_EQ(SlaveState::kWaitParameters, bus.station().state());
 }
 
 // Set_Prm without Lock_Req does not lead to data exchange.
@@ -63,7 +63,7 @@ TEST(DpSlave, NeedsTheLock) {
   Conversation bus;
   bus.service(60, {});
   bus.service(61, {0x08, 10, 1, 11, 0x75, 0x31, 0});
-  EXPECT_EQ(SlaveState::kWaitParameters, bus.drive().slave().state());
+  EXPECT_EQ(SlaveState::kWaitParameters, bus.station().state());
 }
 
 // A configuration other than the module's PPO type is a configuration fault.
@@ -81,7 +81,7 @@ TEST(DpSlave, KnowsTheOtherPpoTypes) {
   const std::vector<std::size_t> lengths{12, 20, 4, 12};
   for (int ppo = 1; ppo <= 4; ++ppo) {
     SimConfig config = oneDrive();
-    config.drives[0].slave.ppo_type = ppo;
+    config.drives[0].bus.as<DpDriveConfig>().ppo_type = ppo;
     Conversation bus{config};
     bus.service(60, {});
     bus.service(61, {0x88, 10, 1, 11, 0x75, 0x31, 0});
@@ -103,12 +103,12 @@ TEST(DpSlave, DoesNotExecuteARepetition) {
   const auto telegram = Conversation::variable(0x08, 0x01, bus.frameCount(), fromHex("744E 0200 0000 03E8 047E 0000"));
   const std::string first = bus.askBytes(telegram);
   const std::uint64_t writes = bus.drive().parameters().eepromWrites();
-  const std::uint64_t exchanges = bus.drive().slave().counters().data_exchanges;
+  const std::uint64_t exchanges = bus.station().counters().data_exchanges;
   bus.segment.run(milliseconds(5));
   EXPECT_EQ(first, bus.askBytes(telegram));
   EXPECT_EQ(writes, bus.drive().parameters().eepromWrites());
-  EXPECT_EQ(exchanges, bus.drive().slave().counters().data_exchanges);
-  EXPECT_EQ(1u, bus.drive().slave().counters().repeated);
+  EXPECT_EQ(exchanges, bus.station().counters().data_exchanges);
+  EXPECT_EQ(1u, bus.station().counters().repeated);
   EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
 }
 
@@ -129,12 +129,12 @@ TEST(DpSlave, WatchdogTripsTheInverterAndTheWheelCoasts) {
   const double speed = bus.drive().shaftSpeed();
   ASSERT_GT(speed, 70.0);
   bus.segment.run(milliseconds(98));
-  EXPECT_EQ(SlaveState::kDataExchange, bus.drive().slave().state());
+  EXPECT_EQ(SlaveState::kDataExchange, bus.station().state());
   bus.segment.run(milliseconds(20));
-  EXPECT_EQ(SlaveState::kWaitParameters, bus.drive().slave().state());
+  EXPECT_EQ(SlaveState::kWaitParameters, bus.station().state());
   EXPECT_EQ(102, bus.drive().inverter().faultNumber());
-  EXPECT_EQ(0x047F, bus.drive().slave().counters().control_before_loss);
-  EXPECT_EQ(0x0B37, bus.drive().slave().counters().status_at_loss);
+  EXPECT_EQ(0x047F, bus.station().counters().control_before_loss);
+  EXPECT_EQ(0x0B37, bus.station().counters().status_at_loss);
   EXPECT_EQ(0.0, bus.drive().inverter().frequency());
   EXPECT_GT(bus.drive().shaftSpeed(), 0.9 * speed);
   bus.segment.run(seconds(60.0));
@@ -184,7 +184,7 @@ TEST(DpSlave, IsSilentWithoutPower) {
   EXPECT_EQ("", bus.ask("10 08 01 49 52 16"));
   bus.drive().setPlugged(true);
   EXPECT_EQ("10 01 08 00 09 16", bus.ask("10 08 01 49 52 16"));
-  EXPECT_EQ(SlaveState::kWaitParameters, bus.drive().slave().state());
+  EXPECT_EQ(SlaveState::kWaitParameters, bus.station().state());
 }
 
 // Global_Control is a broadcast without answer; a token to oneself is nobody's business.
@@ -192,7 +192,7 @@ TEST(DpSlave, IsSilentToBroadcastsAndTokens) {
   Conversation bus;
   EXPECT_EQ("", bus.ask("68 07 07 68 FF 81 46 3A 3E 00 00 3E 16"));
   EXPECT_EQ("", bus.ask("DC 01 01"));
-  EXPECT_EQ(1u, bus.drive().slave().counters().global_controls);
+  EXPECT_EQ(1u, bus.station().counters().global_controls);
   EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
 }
 

@@ -17,7 +17,7 @@ class Records : public ::testing::Test {
     ModuleConfig module;
     module.settings.address = 8;
     module.settings.records = settings;
-    config.modules.push_back(module);
+    config.bus.as<DpBusConfig>().modules.push_back(module);
     return config;
   }
   /// One telegram to SAP 51.
@@ -32,7 +32,7 @@ class Records : public ::testing::Test {
     for (int polls = 0; answer == "E5" && polls < 100; ++polls) answer = send("");
     return answer.size() > 33 ? answer.substr(27, answer.size() - 33) : answer;
   }
-  ModuleStation& module() { return bus.segment.robot().module(0); }
+  ModuleStation& module() { return bus.segment.stations().module(0); }
 
   Conversation bus;
 };

@@ -56,7 +56,7 @@ TEST(ModuleStation, RefusesWrongConfigurations) {
         Identifiers{}}) {
     Conversation bus{oneModule(4)};
     bus.startUpModule(wrong);
-    EXPECT_EQ(SlaveState::kWaitParameters, bus.drive().slave().state()) << toHex(wrong);
+    EXPECT_EQ(SlaveState::kWaitParameters, bus.station().state()) << toHex(wrong);
     // Cfg_Fault and not ready, Prm_Req, no owner.
     EXPECT_EQ("06 05 00 FF 0B A8", bus.service(60, {}).substr(27, 17)) << toHex(wrong);
   }
@@ -65,13 +65,13 @@ TEST(ModuleStation, RefusesWrongConfigurations) {
 // Before a master has configured it, Get_Cfg says what is connected.
 TEST(ModuleStation, SaysWhatIsConnected) {
   SimConfig config = oneModule(2);
-  config.drives[0].slave.ppo_type = 2;
-  config.drives[1].slave.ppo_type = 4;
+  config.drives[0].bus.as<DpDriveConfig>().ppo_type = 2;
+  config.drives[1].bus.as<DpDriveConfig>().ppo_type = 4;
   config.drives[1].place = 4;
   ModuleConfig module;
   module.settings.address = 8;
   module.settings.io_byte = true;
-  config.modules.push_back(module);
+  config.bus.as<DpBusConfig>().modules.push_back(module);
   Conversation bus{config};
   EXPECT_EQ("30 F7 00 00 F3", bus.service(59, {}).substr(27, 14));
 }
@@ -79,21 +79,21 @@ TEST(ModuleStation, SaysWhatIsConnected) {
 // With the I/O byte the first PKE is at offset 1; inputs come in it, outputs go out with it, other bits are not used.
 TEST(ModuleStation, HasItsOwnInputsAndOutputs) {
   Conversation bus{oneModule(1)};
-  bus.segment.robot().module(0).setInputs(0x0A);
+  bus.segment.stations().module(0).setInputs(0x0A);
   bus.startUpModule({0x30, 0xF5});
   EXPECT_EQ("0A 00 00 00 00 00 00 00 00 0B 70 00 00", bus.outputs("FE 0000 0000 0000 0000 047E 0000"));
-  EXPECT_EQ(2, bus.segment.robot().module(0).outputs());
+  EXPECT_EQ(2, bus.segment.stations().module(0).outputs());
   // P509 (15E5h) is 3: the system bus.
   EXPECT_EQ("0A 00 00 00 00 00 00 00 00 0B 31 00 00", bus.outputs("01 15E5 0000 0000 0000 047E 0000"));
   EXPECT_EQ("0A 15 E5 00 00 00 00 00 03 0B 31 00 00", bus.outputs("01 15E5 0000 0000 0000 047E 0000"));
-  EXPECT_EQ(1, bus.segment.robot().module(0).outputs());
+  EXPECT_EQ(1, bus.segment.stations().module(0).outputs());
   EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
 }
 
 // P150 takes the outputs away from the bus; a watchdog that expires switches them off (BU 0220 4.2.3.1, 5.2.1).
 TEST(ModuleStation, OutputsFollowP150AndTheWatchdog) {
   Conversation bus{oneModule(1)};
-  ModuleStation& module = bus.segment.robot().module(0);
+  ModuleStation& module = bus.segment.stations().module(0);
   bus.startUpModule({0x30, 0xF1});
   bus.outputs("02 047E 0000");
   for (const auto& [value, outputs] : {std::pair{0, 2}, {1, 0}, {2, 1}, {3, 2}, {4, 3}}) {
@@ -132,7 +132,7 @@ TEST(ModuleStation, LivesOnWithAnInverterOff) {
   EXPECT_EQ("75 E5 00 00 00 00 00 66 00 00 00 00 0B 31 00 00", bus.outputs("15E5 0000 0000 0000 0000 0000 047E 0000"));
   EXPECT_EQ("00 00 00 00 00 00 00 00 00 00 00 00 0B 31 00 00",
             bus.outputsFor("0000 0000 0000 0000 0000 0000 047E 0000", seconds(12.0)));
-  EXPECT_EQ(SlaveState::kDataExchange, bus.drive().slave().state());
+  EXPECT_EQ(SlaveState::kDataExchange, bus.station().state());
 
   bus.segment.drive(0).setInverterPower(true);
   bus.segment.run(milliseconds(5));

@@ -30,7 +30,7 @@ SimConfig twoInverters(std::int32_t p151, std::int32_t p513 = 0) {
   timeout.number = 151;
   timeout.raw = p151;
   module.parameters.push_back(timeout);
-  config.modules.push_back(module);
+  config.bus.as<DpBusConfig>().modules.push_back(module);
   return config;
 }
 
@@ -43,7 +43,7 @@ class DrivingModule {
     bus.outputsFor(kDriving, seconds(2.0));
   }
   InverterModel& inverter(std::size_t place) { return bus.segment.drive(place).inverter(); }
-  ModuleStation& module() { return bus.segment.robot().module(0); }
+  ModuleStation& module() { return bus.segment.stations().module(0); }
 
   Conversation bus;
 };

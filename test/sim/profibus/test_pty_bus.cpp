@@ -74,7 +74,7 @@ TEST_F(PtyBusTest, ServesClients) {
                 ask(client, "68 05 05 68 88 81 6D 3C 3E F0 16", 17));
       ::close(client);
     }
-    EXPECT_TRUE(bus.withModel([](RobotSim& robot) { return robot.referee().content(); }));
+    EXPECT_TRUE(bus.withStations([](DpStations& stations) { return stations.referee().content(); }));
   }
   EXPECT_FALSE(linkExists());
 }
@@ -131,12 +131,12 @@ TEST_F(PtyBusTest, SurvivesAClientThatDoesNotRead) {
   std::uint64_t taken = 0;
   while (taken < 2000 && std::chrono::steady_clock::now() < deadline) {
     std::this_thread::yield();
-    taken = bus.withModel([](RobotSim& robot) { return robot.drive(0).slave().counters().telegrams; });
+    taken = bus.withModel([](RobotSim& robot) { return robot.drive(0).counters().telegrams; });
   }
   EXPECT_EQ(2000u, taken);
   ::tcflush(client, TCIFLUSH);
   EXPECT_EQ("10 01 08 00 09 16", ask(client, "10 08 01 49 52 16", 6));
-  EXPECT_TRUE(bus.withModel([](RobotSim& robot) { return robot.referee().content(); }));
+  EXPECT_TRUE(bus.withStations([](DpStations& stations) { return stations.referee().content(); }));
   ::close(client);
 }
 

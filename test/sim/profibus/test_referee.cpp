@@ -160,7 +160,7 @@ TEST_F(RefereeTest, WrongDataLength) {
   bus.startUp();
   bus.askBytes(dataExchange(bus.frameCount(), "047E 0000"));
   expectOnly(Rule::kWrongDataLength);
-  EXPECT_EQ(SlaveState::kWaitParameters, bus.drive().slave().state());
+  EXPECT_EQ(SlaveState::kWaitParameters, bus.station().state());
 }
 
 TEST_F(RefereeTest, WriteOrderLeftStanding) {
@@ -179,7 +179,7 @@ TEST_F(RefereeTest, ZeroControlWord) {
   EXPECT_TRUE(bus.referee().content());
   bus.pzd("0000 0000");
   expectOnly(Rule::kZeroControlWord);
-  EXPECT_EQ(1u, bus.drive().slave().counters().zero_control_words);
+  EXPECT_EQ(1u, bus.station().counters().zero_control_words);
 }
 
 TEST_F(RefereeTest, ReportsInWords) {

@@ -31,7 +31,7 @@ class SyncFreeze : public ::testing::Test {
 TEST_F(SyncFreeze, SyncHoldsTheStopWord) {
   start(0x88 | 0x20);
   control(0x20);
-  EXPECT_TRUE(bus.drive().slave().inSyncMode());
+  EXPECT_TRUE(bus.station().inSyncMode());
   bus.pzdFor("047E 0000", seconds(3.0));
   EXPECT_EQ(25.0, frequency());
   EXPECT_EQ(0, bus.drive().inverter().faultNumber());
@@ -47,10 +47,10 @@ TEST_F(SyncFreeze, UnsyncEndsIt) {
   control(0x20);
   bus.pzdFor("047E 0000", milliseconds(100));
   control(0x30);
-  EXPECT_FALSE(bus.drive().slave().inSyncMode());
+  EXPECT_FALSE(bus.station().inSyncMode());
   bus.segment.run(milliseconds(5));
   EXPECT_LT(frequency(), 25.0);
-  EXPECT_EQ(0x047E, bus.drive().slave().counters().last_control);
+  EXPECT_EQ(0x047E, bus.station().counters().last_control);
 }
 
 // Without Sync_Req in Set_Prm, for another group, or from nobody's master it is not for this station.
@@ -58,16 +58,16 @@ TEST_F(SyncFreeze, IsTakenOnlyWhenMeant) {
   start(0x88);
   control(0x20);
   control(0x08);
-  EXPECT_FALSE(bus.drive().slave().inSyncMode());
-  EXPECT_FALSE(bus.drive().slave().inFreezeMode());
+  EXPECT_FALSE(bus.station().inSyncMode());
+  EXPECT_FALSE(bus.station().inFreezeMode());
   start(0x88 | 0x30);
   control(0x28, 0x02);
-  EXPECT_FALSE(bus.drive().slave().inSyncMode());
+  EXPECT_FALSE(bus.station().inSyncMode());
   bus.askBytes(Conversation::variable(0xFF, 0x82, 0x46, {58, 62, 0x28, 0}), 40, 100);
-  EXPECT_FALSE(bus.drive().slave().inSyncMode());
+  EXPECT_FALSE(bus.station().inSyncMode());
   control(0x28, 0x01);
-  EXPECT_TRUE(bus.drive().slave().inSyncMode());
-  EXPECT_TRUE(bus.drive().slave().inFreezeMode());
+  EXPECT_TRUE(bus.station().inSyncMode());
+  EXPECT_TRUE(bus.station().inFreezeMode());
   // Watchdog, freeze and sync in the second byte of the diagnosis.
   EXPECT_EQ("00 3C 00 01 75 31", bus.service(60, {}).substr(27, 17));
 }
@@ -92,8 +92,8 @@ TEST_F(SyncFreeze, EndsWithDataExchange) {
   control(0x28);
   bus.segment.run(milliseconds(150));
   EXPECT_EQ(102, bus.drive().inverter().faultNumber());
-  EXPECT_FALSE(bus.drive().slave().inSyncMode());
-  EXPECT_FALSE(bus.drive().slave().inFreezeMode());
+  EXPECT_FALSE(bus.station().inSyncMode());
+  EXPECT_FALSE(bus.station().inFreezeMode());
 }
 
 // Clear_Data is no stop: bit 10 of a zero is 0, the drive runs on (BU 2700 7.1.1).

@@ -45,13 +45,12 @@ class OnAnAskedBus : public ::testing::Test {
   }
   static sim::SimConfig simConfig() {
     sim::SimConfig config;
-    config.can = sim::CanBusConfig{};
+    config.bus = sim::CanBusConfig{};
     for (std::uint8_t i = 0; i < 2; ++i) {
       sim::DriveConfig drive;
       drive.name = i == 0 ? "drive0" : "drive1";
-      drive.slave.address = static_cast<std::uint8_t>(3 + i);
-      drive.can = sim::CanDriveConfig{};
-      drive.inverter = sim::canInverterSettings(drive.can->connection, drive.device);
+      drive.address = static_cast<std::uint8_t>(3 + i);
+      drive.bus = sim::CanDriveConfig{};
       config.drives.push_back(drive);
     }
     return config;

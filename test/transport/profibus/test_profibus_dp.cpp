@@ -31,8 +31,8 @@ class OnASegment : public ::testing::Test {
       drives.push_back({name, settings});
       sim::DriveConfig drive;
       drive.name = name;
-      drive.slave.address = static_cast<std::uint8_t>(address);
-      drive.slave.ppo_type = ppo_type;
+      drive.address = static_cast<std::uint8_t>(address);
+      drive.bus.as<sim::DpDriveConfig>().ppo_type = ppo_type;
       config.drives.push_back(drive);
     }
     if (change_) change_(config);
@@ -162,7 +162,7 @@ class TrueReasons : public OnASegment {
 
 TEST_F(TrueReasons, AnotherModuleThanConfigured) {
   change_ = [](sim::SimConfig& config) {
-    for (sim::DriveConfig& drive : config.drives) drive.slave.ident = 0x1234;
+    for (sim::DriveConfig& drive : config.drives) drive.bus.as<sim::DpDriveConfig>().ident = 0x1234;
   };
   open();
   expectReason("it reports the ident number 1234h, expected 7531h");
@@ -170,7 +170,7 @@ TEST_F(TrueReasons, AnotherModuleThanConfigured) {
 
 TEST_F(TrueReasons, AnotherPpoTypeThanConfigured) {
   change_ = [](sim::SimConfig& config) {
-    for (sim::DriveConfig& drive : config.drives) drive.slave.ppo_type = 2;
+    for (sim::DriveConfig& drive : config.drives) drive.bus.as<sim::DpDriveConfig>().ppo_type = 2;
   };
   open();
   expectReason("Cfg_Fault");
@@ -180,7 +180,7 @@ TEST_F(TrueReasons, LockedByAnotherMaster) {
   open();
   for (const std::size_t i : {0u, 1u}) {
     sim::Telegram lock;  // Set_Prm of master 9, without a watchdog
-    lock.destination = segment_->drive(i).slave().address();
+    lock.destination = segment_->station(i).address();
     lock.source = 9;
     lock.function = 0x6D;
     lock.destination_sap = 61;
@@ -188,7 +188,7 @@ TEST_F(TrueReasons, LockedByAnotherMaster) {
     for (const int byte : {0x80, 0x00, 0x00, 0x0B, 0x75, 0x31, 0x00}) {
       lock.data.push_back(static_cast<std::uint8_t>(byte));
     }
-    segment_->drive(i).slave().handle(lock);
+    segment_->station(i).handle(lock);
   }
   expectReason("is locked by another master: its address is 9");
 }
@@ -196,7 +196,7 @@ TEST_F(TrueReasons, LockedByAnotherMaster) {
 // And when they are silent, they are silent: the reason of before is no longer one.
 TEST_F(TrueReasons, EndWithTheStation) {
   change_ = [](sim::SimConfig& config) {
-    for (sim::DriveConfig& drive : config.drives) drive.slave.ident = 0x1234;
+    for (sim::DriveConfig& drive : config.drives) drive.bus.as<sim::DpDriveConfig>().ident = 0x1234;
   };
   open();
   run(seconds{2});
@@ -208,7 +208,7 @@ TEST_F(TrueReasons, EndWithTheStation) {
 // A cycle that is lost says nothing of the bus.
 TEST_F(OnASegment, IsConnectedThroughALostCycle) {
   bringUp();
-  for (const std::size_t i : {0u, 1u}) segment_->drive(i).slave().setMute(true);
+  for (const std::size_t i : {0u, 1u}) segment_->station(i).setMute(true);
   step();
   EXPECT_FALSE(inputs_[0].module_answers);
   EXPECT_TRUE(transport_->connected());
@@ -311,7 +311,7 @@ TEST_F(OnASegment, AParameterIsOfflineWhenTheDeviceGoes) {
 // A drive that took another station's place on the bus, or nothing at all: never a stale status word.
 TEST_F(OnASegment, WhatADriveSaidLastIsNotSaidAgainWhenItIsSilent) {
   bringUp();
-  segment_->drive(0).slave().setMute(true);
+  segment_->station(0).setMute(true);
   step();
   EXPECT_FALSE(inputs_[0].module_answers);
   EXPECT_EQ(0x0000, inputs_[0].input.status_word);

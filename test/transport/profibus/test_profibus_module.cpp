@@ -32,7 +32,7 @@ class OnAModule : public ::testing::Test {
       drives.push_back({name, settings});
       sim::DriveConfig drive;
       drive.name = name;
-      drive.slave.address = simulated_address;
+      drive.address = simulated_address;
       drive.device.series = sim::Series::kSk2xxe;
       drive.place = static_cast<unsigned>(i + 1);
       config.drives.push_back(drive);
@@ -179,7 +179,7 @@ TEST_F(OnAModule, ReadsInverterParametersByPkwOrByRecord) {
 TEST_F(OnAModule, TheOtherAddressingIsASwitch) {
   bus_.set("record_addressing", "slot").set("record_number_offset", false);
   open({3});
-  auto& module = static_cast<sim::ModuleStation&>(segment_->drive(0).slave());
+  auto& module = segment_->stations().module(0);
   module.recordSettings().by_slot = true;
   module.recordSettings().plain_numbers = true;
   for (int i = 0; i < 200 && !allAnswer(); ++i) step();
@@ -190,7 +190,7 @@ TEST_F(OnAModule, TheOtherAddressingIsASwitch) {
 // A module with DP-V1 switched off has no way to its parameters: said in words, not waited for.
 TEST_F(OnAModule, WhoeverHasNoChannelIsToldSo) {
   bringUp({3});
-  static_cast<sim::ModuleStation&>(segment_->drive(0).slave()).recordSettings().busy = 1000;
+  segment_->stations().module(0).recordSettings().busy = 1000;
   const Instant asked = transport_->now();
   EXPECT_EQ(ParameterOutcome::kTimeout, ask(0, 151).outcome);
   EXPECT_LT(transport_->now() - asked, seconds{3});
@@ -216,7 +216,7 @@ TEST_F(OnAModule, OneInverterOffIsThatDriveOffline) {
 
 TEST_F(OnAModule, TheModuleGoneIsAllDrivesOffline) {
   bringUp({1, 3});
-  static_cast<sim::ModuleStation&>(segment_->drive(0).slave()).setMute(true);
+  segment_->stations().module(0).setMute(true);
   run(milliseconds{50});
   for (const DriveExchange& input : inputs_) EXPECT_FALSE(input.module_answers);
   EXPECT_EQ(ParameterOutcome::kOffline, ask(0, 151).outcome);
@@ -228,7 +228,7 @@ TEST_F(OnAModule, TheModuleGoneIsAllDrivesOffline) {
 TEST_F(OnAModule, AnotherModuleThanConfiguredIsNamed) {
   sim::SimConfig config;
   sim::DriveConfig drive;
-  drive.slave.address = 3;
+  drive.address = 3;
   config.drives.push_back(drive);  // SK TU3-PBR, 7531h
   auto settings = std::make_shared<MapSettings>("~drives/fi1/");
   settings->set("address", 3).set("series", "sk2xxe").set("pole_pairs", 2);
@@ -250,7 +250,7 @@ TEST_F(OnAModule, TellsWhatHappensOnTheBus) {
   EXPECT_THAT(events_, Contains("PROFIBUS station 3 (fi1, fi2) answers, and is being parameterised"));
   EXPECT_THAT(events_, Contains("PROFIBUS station 3 (fi1, fi2) exchanges data"));
   events_.clear();
-  segment_->drive(0).slave().setMute(true);
+  segment_->station(0).setMute(true);
   run(milliseconds{100});
   EXPECT_THAT(events_, Contains("PROFIBUS station 3 (fi1, fi2) fell silent: check its power and the cable"));
 }

@@ -94,6 +94,15 @@ TEST(ProfibusTelegramText, NamesTheServicesOfTheStartUp) {
   EXPECT_EQ("token 2 <- 1", textOf("DC 02 01", TraceKind::kReceived));
 }
 
+// What stands behind the six standard bytes is told in words, too: here a module whose inverter is off (BU 0020 8.2).
+TEST(ProfibusTelegramText, TellsTheBlocksOfADiagnosis) {
+  EXPECT_EQ(
+      "diag 1 <- 3 ident 7531, owner 1, watchdog on, extended 02 04, has no connection to its inverter: the inverter "
+      "is "
+      "off, or the link to it is broken (02 04)",
+      textOf("68 0D 0D 68 81 83 08 3E 3C 08 0C 00 01 75 31 02 04 47 16"));
+}
+
 // Data of a station that is not ours, or of an unexpected length, are bytes.
 TEST(ProfibusTelegramText, LeavesStrangeDataAsBytes) {
   EXPECT_EQ("DX 5 <- 2 12 34", textOf("68 05 05 68 05 02 5D 12 34 AA 16", TraceKind::kReceived));

@@ -1,4 +1,4 @@
-#include "sim/profibus/module_parameters.h"
+#include "sim/module_parameters.h"
 
 #include <array>
 #include <cstddef>

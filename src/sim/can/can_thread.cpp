@@ -1,4 +1,4 @@
-#include "sim/canopen/can_bus_thread.h"
+#include "sim/can/can_thread.h"
 
 #include <stdexcept>
 
@@ -15,32 +15,30 @@ constexpr Duration kOpenAgain = std::chrono::milliseconds(100);
 constexpr Duration kLostAfter = std::chrono::milliseconds(100);
 constexpr int kMostInOneGo = 64;  // frames taken before the models run on
 
-std::unique_ptr<link::CanLink> linkOf(const SimConfig& config) {
+}  // namespace
+
+CanThread::CanThread(const std::string& interface, std::unique_ptr<link::CanLink> link)
+    : interface_(interface), link_(std::move(link)) {}
+
+std::unique_ptr<link::CanLink> CanThread::linkTo(const std::string& interface) {
   link::CanSettings settings;
-  settings.interface = config.can.value_or(CanBusConfig{}).interface;
+  settings.interface = interface;
   return link::makeCanLink(settings, link::CanRole::kOwner);
 }
 
-}  // namespace
-
-CanBusThread::CanBusThread(const SimConfig& config) : CanBusThread(config, linkOf(config)) {}
-
-CanBusThread::CanBusThread(const SimConfig& config, std::unique_ptr<link::CanLink> link)
-    : robot_(config),
-      stations_(robot_),
-      interface_(config.can.value_or(CanBusConfig{}).interface),
-      link_(std::move(link)) {
+void CanThread::start(CanParticipants& stations) {
+  stations_ = &stations;
   if (!link_->open()) throw std::runtime_error("bus/interface: " + link_->lastError());
-  stations_.advance(link_->now(), *this);
+  stations_->advance(link_->now(), *this);
   thread_ = std::thread([this] { serve(); });
 }
 
-CanBusThread::~CanBusThread() {
+void CanThread::stop() noexcept {
   stop_ = true;
   if (thread_.joinable()) thread_.join();
 }
 
-void CanBusThread::serve() noexcept {
+void CanThread::serve() noexcept {
   becomeRealTime();
   ModelClock clock{link_->now()};
   while (!stop_) {
@@ -51,33 +49,33 @@ void CanBusThread::serve() noexcept {
       link_->sleepUntil(before + kStep);
     }
     const std::lock_guard<InheritingMutex> lock(mutex_);
-    stations_.advance(clock.tick(link_->now()), *this);
-    if (clock.stoodStill() > kLostAfter) stations_.stoodStill();
+    stations_->advance(clock.tick(link_->now()), *this);
+    if (clock.stoodStill() > kLostAfter) stations_->stoodStill();
     takeInput();
     sendWaiting();
   }
 }
 
-bool CanBusThread::linkReady(Instant now) noexcept {
+bool CanThread::linkReady(Instant now) noexcept {
   if (link_->isOpen()) return true;
   if (now < next_open_) return false;
   next_open_ = now + kOpenAgain;
   return link_->open();
 }
 
-void CanBusThread::takeInput() noexcept {
+void CanThread::takeInput() noexcept {
   link::ReceivedCanFrame received;
   for (int i = 0; i < kMostInOneGo && link_->isOpen() && link_->receive(received); ++i) {
-    stations_.receive(received.frame, Judge::kYes, *this);
+    stations_->receive(received.frame, Judge::kYes, *this);
   }
 }
 
 // At once, and heard by the other nodes too: a socket does not give its own frames back.
-void CanBusThread::transmit(const CanFrame& frame) noexcept {
+void CanThread::transmit(const CanFrame& frame) noexcept {
   static_cast<void>(waiting_.push_back(frame));
 }
 
-void CanBusThread::sendWaiting() noexcept {
+void CanThread::sendWaiting() noexcept {
   std::size_t sent = 0;
   while (sent < waiting_.size()) {
     const CanFrame frame = waiting_[sent];
@@ -87,7 +85,7 @@ void CanBusThread::sendWaiting() noexcept {
       return;
     }
     if (result == link::CanSend::kQueueFull) break;  // again in a moment
-    stations_.delivered(frame, true, *this);
+    stations_->delivered(frame, true, *this);
     ++sent;
   }
   waiting_.eraseFront(sent);

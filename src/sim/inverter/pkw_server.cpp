@@ -1,4 +1,4 @@
-#include "sim/profibus/pkw_server.h"
+#include "sim/inverter/pkw_server.h"
 
 namespace nord_driver::sim {
 

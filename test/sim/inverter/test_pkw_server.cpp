@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "sim/profibus/pkw_server.h"
+#include "sim/inverter/pkw_server.h"
 
 namespace nord_driver::sim {
 namespace {

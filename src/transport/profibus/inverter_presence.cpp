@@ -1,4 +1,4 @@
-#include "transport/canopen/inverter_presence.h"
+#include "transport/profibus/inverter_presence.h"
 
 namespace nord_driver {
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "transport/canopen/inverter_presence.h"
+#include "transport/profibus/inverter_presence.h"
 
 namespace nord_driver {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/canopen/simulated_can_bus.h"
+#include "sim/can/timed_can_bus.h"
 
 #include <algorithm>
 
@@ -13,22 +13,21 @@ constexpr unsigned kExtendedBits = 20;
 constexpr unsigned kErrorFrameBits = 20;
 constexpr unsigned kPassiveAfter = 16;  // unacknowledged frames until the error counter is above 127 (8 each)
 
-bool isNode(SimulatedCanBus::Sender sender) noexcept {
-  return sender == SimulatedCanBus::Sender::kNode;
+bool isNode(TimedCanBus::Sender sender) noexcept {
+  return sender == TimedCanBus::Sender::kNode;
 }
 
 }  // namespace
 
-SimulatedCanBus::SimulatedCanBus(const SimConfig& config, const CanBusSettings& settings)
-    : robot_(config),
-      stations_(robot_),
-      settings_(settings),
-      bit_time_(std::chrono::nanoseconds{1'000'000'000} / config.can.value_or(CanBusConfig{}).bit_rate),
-      now_(settings.start) {
-  stations_.advance(now_, *this);
+TimedCanBus::TimedCanBus(std::uint32_t bit_rate, const CanBusSettings& settings)
+    : settings_(settings), bit_time_(std::chrono::nanoseconds{1'000'000'000} / bit_rate), now_(settings.start) {}
+
+void TimedCanBus::start(CanParticipants& stations) noexcept {
+  stations_ = &stations;
+  stations_->advance(now_, *this);
 }
 
-bool SimulatedCanBus::open() noexcept {
+bool TimedCanBus::open() noexcept {
   if (!present_) {
     last_error_ = "simulated CAN bus: no such interface";
     return false;
@@ -39,12 +38,12 @@ bool SimulatedCanBus::open() noexcept {
   return true;
 }
 
-void SimulatedCanBus::close() noexcept {
+void TimedCanBus::close() noexcept {
   open_ = false;
   received_.clear();
 }
 
-void SimulatedCanBus::setInterfacePresent(bool present) noexcept {
+void TimedCanBus::setInterfacePresent(bool present) noexcept {
   present_ = present;
   forgetOfMaster();
   if (present || !open_) return;
@@ -52,7 +51,7 @@ void SimulatedCanBus::setInterfacePresent(bool present) noexcept {
   last_error_ = "simulated CAN bus: the interface is gone";
 }
 
-void SimulatedCanBus::setInterfaceUp(bool up) noexcept {
+void TimedCanBus::setInterfaceUp(bool up) noexcept {
   up_ = up;
   state_ = up ? link::CanState::kActive : link::CanState::kDown;
   unacknowledged_ = 0;
@@ -60,19 +59,19 @@ void SimulatedCanBus::setInterfaceUp(bool up) noexcept {
   forgetOfMaster();
 }
 
-void SimulatedCanBus::setBusOff() noexcept {
+void TimedCanBus::setBusOff() noexcept {
   state_ = link::CanState::kBusOff;
   ++counters_.bus_off;
   forgetOfMaster();
 }
 
-void SimulatedCanBus::restart() noexcept {
+void TimedCanBus::restart() noexcept {
   if (state_ == link::CanState::kBusOff) ++counters_.restarts;
   state_ = up_ ? link::CanState::kActive : link::CanState::kDown;
   unacknowledged_ = 0;
 }
 
-const char* SimulatedCanBus::advice() const noexcept {
+const char* TimedCanBus::advice() const noexcept {
   switch (state_) {
     case link::CanState::kBusOff:
       return "the controller is bus-off: bit rate, termination and wiring?";
@@ -85,11 +84,11 @@ const char* SimulatedCanBus::advice() const noexcept {
   }
 }
 
-bool SimulatedCanBus::controllerOnBus() const noexcept {
+bool TimedCanBus::controllerOnBus() const noexcept {
   return present_ && up_ && state_ != link::CanState::kBusOff;
 }
 
-link::CanSend SimulatedCanBus::send(const CanFrame& frame) noexcept {
+link::CanSend TimedCanBus::send(const CanFrame& frame) noexcept {
   if (!open_ || !controllerOnBus()) return link::CanSend::kFailed;
   if (queue_full_ || queuedOfMaster() >= settings_.send_queue || waiting_.full()) {
     ++counters_.queue_full;
@@ -99,14 +98,14 @@ link::CanSend SimulatedCanBus::send(const CanFrame& frame) noexcept {
   return link::CanSend::kSent;
 }
 
-bool SimulatedCanBus::receive(link::ReceivedCanFrame& received) noexcept {
+bool TimedCanBus::receive(link::ReceivedCanFrame& received) noexcept {
   if (received_.empty()) return false;
   received = received_[0];
   received_.eraseFront(1);
   return true;
 }
 
-bool SimulatedCanBus::waitReadable(Instant until) noexcept {
+bool TimedCanBus::waitReadable(Instant until) noexcept {
   until = std::min(until, now_ + kLongestWait);
   while (received_.empty() && now_ < until) {
     Instant next = std::min(until, now_ + kStep);
@@ -116,11 +115,11 @@ bool SimulatedCanBus::waitReadable(Instant until) noexcept {
   return !received_.empty();
 }
 
-void SimulatedCanBus::advanceTo(Instant when) noexcept {
+void TimedCanBus::advanceTo(Instant when) noexcept {
   for (;;) {
     if (busy_ && current_end_ <= when) {
       now_ = current_end_;
-      stations_.advance(now_, *this);
+      stations_->advance(now_, *this);
       endFrame();
       continue;
     }
@@ -129,16 +128,16 @@ void SimulatedCanBus::advanceTo(Instant when) noexcept {
     Instant next = std::min(when, now_ + kStep);
     if (busy_) next = std::min(next, current_end_);
     now_ = next;
-    stations_.advance(now_, *this);
+    stations_->advance(now_, *this);
   }
 }
 
-std::size_t SimulatedCanBus::queuedOfMaster() const noexcept {
+std::size_t TimedCanBus::queuedOfMaster() const noexcept {
   return static_cast<std::size_t>(std::count_if(
       waiting_.begin(), waiting_.end(), [](const Pending& pending) { return pending.sender == Sender::kMaster; }));
 }
 
-void SimulatedCanBus::forgetOfMaster() noexcept {
+void TimedCanBus::forgetOfMaster() noexcept {
   FixedVector<Pending, 256> kept;
   for (const Pending& pending : waiting_) {
     if (pending.sender != Sender::kMaster) kept.push_back(pending);
@@ -148,7 +147,7 @@ void SimulatedCanBus::forgetOfMaster() noexcept {
 }
 
 // The interface sends one frame after the other; of what is ready at the same time the lowest identifier wins.
-bool SimulatedCanBus::startFrame() noexcept {
+bool TimedCanBus::startFrame() noexcept {
   std::size_t winner = waiting_.size();
   bool master_seen = false;
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
@@ -166,17 +165,17 @@ bool SimulatedCanBus::startFrame() noexcept {
   return true;
 }
 
-Duration SimulatedCanBus::frameTime(const CanFrame& frame) const noexcept {
+Duration TimedCanBus::frameTime(const CanFrame& frame) const noexcept {
   const unsigned data = frame.remote ? 0 : frame.size;
   return bit_time_ * (kFrameBits + 8 * data + (frame.extended ? kExtendedBits : 0));
 }
 
-bool SimulatedCanBus::acknowledged() const noexcept {
-  if (current_.sender != Sender::kMaster) return controllerOnBus() || stations_.nodeCount() > 1 || foreign_;
-  return stations_.anyAlive() || foreign_;
+bool TimedCanBus::acknowledged() const noexcept {
+  if (current_.sender != Sender::kMaster) return controllerOnBus() || stations_->nodeCount() > 1 || foreign_;
+  return stations_->anyAlive() || foreign_;
 }
 
-void SimulatedCanBus::endFrame() noexcept {
+void TimedCanBus::endFrame() noexcept {
   busy_ = false;
   const bool from_master = current_.sender == Sender::kMaster;
   if (!acknowledged()) {
@@ -210,16 +209,16 @@ void SimulatedCanBus::endFrame() noexcept {
   }
 }
 
-void SimulatedCanBus::deliverFromMaster(const CanFrame& frame, unsigned times) noexcept {
+void TimedCanBus::deliverFromMaster(const CanFrame& frame, unsigned times) noexcept {
   if (lose_requests_ > 0) {
     --lose_requests_;
     times = 0;
   }
-  if (times == 0) stations_.referee().masterFrame(frame);
-  for (unsigned i = 0; i < times; ++i) stations_.receive(frame, i == 0 ? Judge::kYes : Judge::kNo, *this);
+  if (times == 0) stations_->judgeOnly(frame);
+  for (unsigned i = 0; i < times; ++i) stations_->receive(frame, i == 0 ? Judge::kYes : Judge::kNo, *this);
 }
 
-void SimulatedCanBus::deliverToMaster(const CanFrame& frame, unsigned times) noexcept {
+void TimedCanBus::deliverToMaster(const CanFrame& frame, unsigned times) noexcept {
   if (lose_answers_ > 0 && isNode(current_.sender)) {
     --lose_answers_;
     times = 0;
@@ -227,35 +226,35 @@ void SimulatedCanBus::deliverToMaster(const CanFrame& frame, unsigned times) noe
   for (unsigned i = 0; i < times; ++i) {
     const bool reached = controllerOnBus() && open_ && toQueue(frame);
     if (isNode(current_.sender)) {
-      stations_.delivered(frame, reached, *this);
+      stations_->delivered(frame, reached, *this);
     } else {
-      stations_.receive(frame, Judge::kNo, *this);
+      stations_->receive(frame, Judge::kNo, *this);
     }
   }
 }
 
-bool SimulatedCanBus::toQueue(const CanFrame& frame) noexcept {
+bool TimedCanBus::toQueue(const CanFrame& frame) noexcept {
   if (overflow_ == 0 && received_.size() < settings_.receive_queue && received_.push_back({frame, now_})) return true;
   if (overflow_ > 0) --overflow_;
   ++counters_.dropped;
   return false;
 }
 
-void SimulatedCanBus::transmit(const CanFrame& frame) noexcept {
+void TimedCanBus::transmit(const CanFrame& frame) noexcept {
   waiting_.push_back({frame, Sender::kNode});  // a bus that cannot take it for so long is dead anyway
 }
 
-void SimulatedCanBus::inject(const CanFrame& frame) noexcept {
+void TimedCanBus::inject(const CanFrame& frame) noexcept {
   foreign_ = true;
   waiting_.push_back({frame, Sender::kForeign});
 }
 
-void SimulatedCanBus::setDisturbance(const CanDisturbance& disturbance) noexcept {
+void TimedCanBus::setDisturbance(const CanDisturbance& disturbance) noexcept {
   disturbance_ = disturbance;
   random_.seed(disturbance.seed);
 }
 
-bool SimulatedCanBus::happens(double probability) noexcept {
+bool TimedCanBus::happens(double probability) noexcept {
   return probability > 0.0 && static_cast<double>(random_()) < probability * 4294967296.0;
 }
 
