@@ -148,9 +148,12 @@ std::optional<BodyConfig> readBody(const Group& root, const YAML::Node& node, co
 
 SimConfig readSimConfig(const YAML::Node& configuration, const std::string& end_point) {
   YAML::Node node = configuration;
-  if (!end_point.empty()) {
+  const Group given(configuration, "");
+  const std::string where =
+      end_point.empty() ? given.get<std::string>("bus_end_point", "", "where the bus is") : end_point;
+  if (!where.empty()) {
     node = YAML::Clone(configuration);
-    node["bus"][busKindOf(Group(node, "")).end_point] = end_point;
+    node["bus"][busKindOf(given).end_point] = where;
   }
   const Group root(node, "");
   SimConfig config;
