@@ -148,9 +148,13 @@ std::optional<BodyConfig> readBody(const Group& root, const YAML::Node& node, co
 
 SimConfig readSimConfig(const YAML::Node& configuration, const std::string& end_point) {
   YAML::Node node = configuration;
-  if (!end_point.empty()) {
-    node = YAML::Clone(configuration);
-    node["bus"][busKindOf(Group(node, "")).end_point] = end_point;
+  const std::string chosen =
+      !end_point.empty() ? end_point
+                         : Group(node, "").get<std::string>("bus_end_point", "", "where the bus is",
+                                                            [](const std::string& value) { return !value.empty(); });
+  if (!chosen.empty()) {
+    node.reset(YAML::Clone(configuration));  // an assignment would go through to the caller's
+    node["bus"][busKindOf(node).end_point] = chosen;
   }
   const Group root(node, "");
   SimConfig config;

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "sim/canopen/can_config.h"
+#include "sim/bus_kind.h"
 #include "sim/running_bus.h"
 #include "tools/bus_port.h"
 #include "tools/command_line.h"
@@ -33,9 +33,8 @@ SimConfig readConfig(const std::vector<std::string>& files, const BusPort& port)
       throw nord_driver::sim::ConfigError("--config " + file + ": " + error.what() + "; expected a readable YAML file");
     }
   }
-  const SimConfig config = nord_driver::sim::readSimConfig(merged, port.device.empty() ? port.interface : port.device);
-  checkPort(port, config.bus.is<nord_driver::sim::CanBusConfig>());
-  return config;
+  checkPort(port, std::string{nord_driver::sim::busKindOf(merged).end_point} == "interface");
+  return nord_driver::sim::readSimConfig(merged, port.device.empty() ? port.interface : port.device);
 }
 
 /// Waits until the end is asked for, or until `duration` (s) is over; 0 = no limit.
