@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The ordinary ROS way in a workspace made for it: catkin_make, catkin_make install; then, from the devel space and from an
 # install space left alone (sources and devel space moved away), every program answers --version, the launch files parse
-# and the plugin description is found.
+# and the plugin description is found. Last, a transport from a package of its own (test/plugins/loopback) is built against the
+# install space alone, and nord_param talks over it.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -73,3 +74,26 @@ step "catkin_make install" "${make[@]}" install
 mkdir "$workspace/away"
 mv "$workspace/src" "$workspace/devel" "$workspace/build" "$workspace/away/"
 look_into "$workspace/install"
+
+# A transport of somebody else, in a workspace that has never seen the sources: built against what is installed, and loaded.
+foreign=$workspace/foreign
+mkdir -p "$foreign/src"
+cp -r "$root/test/plugins/loopback" "$foreign/src/nord_driver_loopback"
+build_foreign() {
+  in_space "$workspace/install/setup.bash" "catkin_make -C '$foreign' -DPYTHON_EXECUTABLE=/usr/bin/python3 install"
+}
+step "a foreign transport against the install space" build_foreign
+rm -r "$foreign/src" "$foreign/devel" "$foreign/build"
+# foreign_says ANSWER ARGUMENTS...: of nord_param with that transport.
+foreign_says() {
+  local answer
+  answer=$(in_space "$foreign/install/setup.bash" "timeout 60 rosrun nord_driver nord_param \
+    --config \$(rospack find nord_driver_loopback)/loopback.yaml --bus B ${*:2}" 2>&1) || true
+  grep -qF "$1" <<<"$answer" || {
+    echo "check_workspace: nord_param ${*:2} over a foreign transport says, where \"$1\" was expected: $answer"
+    exit 1
+  }
+}
+foreign_says "loopback place 7" list
+foreign_says "Maximum frequency = 50 Hz" read belt P105
+foreign_says "loopback error 1, nobody has told this drive of such a parameter" read belt P999

@@ -44,8 +44,8 @@ port=$(free_port)
 export ROS_MASTER_URI="http://127.0.0.1:$port" ROS_IP=127.0.0.1
 unset ROS_HOSTNAME
 
-device="/tmp/nord_driver_demo_bus.$$"
-roslaunch --port "$port" nord_driver demo.launch output:=log device:="$device" >>"$log" 2>&1 &
+bus="/tmp/nord_driver_demo_bus.$$"
+roslaunch --port "$port" nord_driver demo.launch output:=log bus:="$bus" >>"$log" 2>&1 &
 launch=$!
 # TERM: a shell that is no terminal's starts what is beside it deaf to INT.
 stop() {

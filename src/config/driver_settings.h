@@ -12,6 +12,9 @@ namespace nord_driver {
 /// absent key. Throws ConfigError when it is no text.
 std::string readTransportName(const Settings& settings);
 
+/// As users write it: what this package brings needs no prefix.
+std::string shortTransportName(const std::string& name);
+
 /// The groups below `drives`, sorted by name. Throws ConfigError when one of them is no group.
 std::vector<DriveSettings> readDriveList(const TreeSettings& settings);
 

@@ -128,6 +128,15 @@ std::shared_ptr<TreeSettings> TreeSettings::group(const std::string& key) const 
   return std::make_shared<TreeSettings>(fullName(key), value == nullptr ? SettingValue{} : *value);
 }
 
+std::shared_ptr<TreeSettings> TreeSettings::with(const std::string& key, const std::string& text) const {
+  SettingValue changed = SettingValue::group();
+  for (std::size_t i = 0; i < value_.names.size(); ++i) {
+    if (value_.names[i] != key) changed.add(value_.names[i], value_.items[i]);
+  }
+  changed.add(key, SettingValue::ofText(text));
+  return std::make_shared<TreeSettings>(prefix_, std::move(changed));
+}
+
 std::vector<std::string> TreeSettings::keys() const {
   return value_.names;
 }

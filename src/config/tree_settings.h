@@ -32,6 +32,8 @@ class TreeSettings : public Settings {
   std::optional<std::vector<double>> numbers(const std::string& key) const;
   /// The group below `key`; an empty one when it is absent.
   std::shared_ptr<TreeSettings> group(const std::string& key) const;
+  /// The same group with `text` at `key`, which is no path.
+  std::shared_ptr<TreeSettings> with(const std::string& key, const std::string& text) const;
   /// Marks a key as known without reading it.
   void accept(const std::string& key) const { asked_.insert(key); }
 

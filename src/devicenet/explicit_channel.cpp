@@ -2,12 +2,8 @@
 
 namespace nord_driver::devicenet {
 
-void ExplicitChannel::open(BodyFormat format) noexcept {
-  format_ = format;
-}
-
 void ExplicitChannel::close() noexcept {
-  format_.reset();
+  open_ = false;
   if (owner_ == Owner::kUser) cancel();
   while (!users_.empty()) endUser(ExplicitEnd::kNotConnected);
 }
@@ -92,7 +88,7 @@ void ExplicitChannel::startOwn(Instant now) noexcept {
   const Own own = *own_;
   own_.reset();
   last_ = Owner::kEngine;
-  if (client_.start(own.request, own.port, format_.value_or(BodyFormat::k8Over8), own.timeout, now)) {
+  if (client_.start(own.request, own.port, format_, own.timeout, now)) {
     owner_ = Owner::kEngine;
   } else {
     own_answer_ = ExplicitAnswer{};
@@ -102,7 +98,7 @@ void ExplicitChannel::startOwn(Instant now) noexcept {
 
 void ExplicitChannel::startUser(Instant now) noexcept {
   last_ = Owner::kUser;
-  if (client_.start(users_.front(), ExplicitPort::kConnected, *format_, timeout_, now)) {
+  if (client_.start(users_.front(), ExplicitPort::kConnected, format_, timeout_, now)) {
     owner_ = Owner::kUser;
   } else {
     endUser(ExplicitEnd::kTooLong);

@@ -22,10 +22,13 @@ class ExplicitChannel {
   ExplicitChannel(std::uint8_t own_mac, std::uint8_t device_mac, Duration timeout) noexcept
       : client_(own_mac, device_mac), timeout_(timeout) {}
 
-  /// Whether the device has an explicit connection with us. Without one every request is answered kNotConnected.
-  void open(BodyFormat format) noexcept;
+  /// Of the explicit connection, as the device chose when it was allocated.
+  void setFormat(BodyFormat format) noexcept { format_ = format; }
+  /// Whether requests of the layer above are taken. Otherwise each is answered kNotConnected: while a device is being
+  /// connected they would hold it up.
+  void open() noexcept { open_ = true; }
   void close() noexcept;
-  bool isOpen() const noexcept { return format_.has_value(); }
+  bool isOpen() const noexcept { return open_; }
 
   /// False when kRequestQueueLength are under way. Otherwise exactly one answer follows.
   bool submit(const ExplicitRequest& request, Instant now) noexcept;
@@ -63,7 +66,8 @@ class ExplicitChannel {
 
   ExplicitClient client_;
   Duration timeout_;
-  std::optional<BodyFormat> format_;
+  BodyFormat format_ = BodyFormat::k8Over8;
+  bool open_ = false;
   Owner owner_ = Owner::kNobody;  // of what the client does
   Owner last_ = Owner::kUser;     // whose turn it was
   std::optional<Own> own_;

@@ -123,8 +123,10 @@ std::optional<ConnectRequest> NodeConnect::requestOf(Phase phase) const noexcept
 void NodeConnect::poll(Instant now) noexcept {
   if (timers_.takeDue(Timer::kRetry, now)) {
     if (phase_ == Phase::kRefusedPause) {
+      // Another one may stand there by now, or the explicit connection may be gone.
+      channel_.close();
       conflicts_ = 0;
-      enter(Phase::kAllocateIo, now);
+      enter(Phase::kVendorId, now);
     } else {
       beginTry(now);
     }

@@ -101,6 +101,8 @@ class NodeConnect {
   void pollKeepAlive(Instant now) noexcept;
   void pause(Duration span, Instant now) noexcept;
   Duration retryPause() const noexcept;
+  /// The explicit connection was allocated in this try.
+  bool explicitHeld() const noexcept { return phase_ >= Phase::kVendorId; }
   /// The connecting failed: it fell silent.
   void fail(const Sentence& why, Instant now) noexcept;
   void tellRefused(const Sentence& why, Instant now) noexcept;

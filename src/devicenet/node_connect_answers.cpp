@@ -19,6 +19,8 @@ constexpr Duration kUsualExplicitRate = std::chrono::milliseconds{2500};
 /// Without process data the questions are all that tells whether the device is there.
 constexpr Duration kExplicitOnlyRate = std::chrono::seconds{1};
 constexpr int kRatesUntilTimeout = 4;
+/// Devices round their expected packet rate to steps of 2, 10 or 100 ms.
+constexpr Duration kCoarsestStep = std::chrono::milliseconds{100};
 constexpr unsigned kMostDoublings = 10;
 
 Sentence sentence(const char* what, const ExplicitAnswer& answer, std::uint8_t asked) noexcept {
@@ -42,7 +44,7 @@ void NodeConnect::handleAllocated(const ExplicitAnswer& answer, Instant now) noe
                answer.data.empty() ? 0u : unsigned{answer.data[0]}, answer.data.size());
     return refuse(why, now);
   }
-  channel_.open(static_cast<BodyFormat>(answer.data[0]));
+  channel_.setFormat(static_cast<BodyFormat>(answer.data[0]));
   NodeStatus& status = report_.status();
   ++status.counters.allocations;
   status.owner.reset();
@@ -188,6 +190,12 @@ void NodeConnect::useRate(Duration rate, Instant now) noexcept {
         "answers an expected packet rate of %.0f ms: it gives up after four times that, less than two of our "
         "cycles of %.1f ms",
         toSeconds(rate) * 1e3, toSeconds(bus_.cycle_time) * 1e3);
+  } else if (rate > *config_.io.expected_packet_rate + kCoarsestStep) {
+    why.format(
+        "answers an expected packet rate of %.0f ms where %.0f ms was asked for: it would stop only %.0f ms after "
+        "we are gone",
+        toSeconds(rate) * 1e3, toSeconds(*config_.io.expected_packet_rate) * 1e3,
+        toSeconds(kRatesUntilTimeout * rate) * 1e3);
   } else {
     return run(now);
   }
@@ -196,6 +204,7 @@ void NodeConnect::useRate(Duration rate, Instant now) noexcept {
 
 void NodeConnect::run(Instant now) noexcept {
   phase_ = Phase::kRunning;
+  channel_.open();
   failures_ = 0;
   ++report_.status().counters.connections;
   report_.enter(NodeState::kExchanging, Sentence{}, now);
@@ -284,7 +293,7 @@ void NodeConnect::fail(const Sentence& why, Instant now) noexcept {
   const NodeState state = report_.status().state;
   ++failures_;
   report_.enter(state == NodeState::kAbsent ? state : NodeState::kLost, why, now);
-  if (!channel_.isOpen()) return pause(retryPause(), now);
+  if (!explicitHeld()) return pause(retryPause(), now);
   letGo(now);
 }
 
@@ -299,12 +308,13 @@ void NodeConnect::tellRefused(const Sentence& why, Instant now) noexcept {
 void NodeConnect::refuse(const Sentence& why, Instant now) noexcept {
   tellRefused(why, now);
   ++failures_;
-  if (channel_.isOpen()) return letGo(now);
+  if (explicitHeld()) return letGo(now);
   pause(bus_.longest_retry, now);
 }
 
 void NodeConnect::refuseIo(const Sentence& why, Instant now) noexcept {
   tellRefused(why, now);
+  channel_.open();
   if ((held_ & io_choice_ & kConnections) != 0) return enter(Phase::kReleaseIo, now);
   phase_ = Phase::kRefusedPause;
   timers_.set(Timer::kRetry, now + bus_.longest_retry);
@@ -318,9 +328,13 @@ void NodeConnect::letGo(Instant now) noexcept {
 
 void NodeConnect::handleLetGo(const ExplicitAnswer& answer, Instant now) noexcept {
   held_ = 0;
-  if (answer.end == ExplicitEnd::kTimedOut) ++failures_;
+  if (answer.end == ExplicitEnd::kTimedOut) {
+    ++failures_;
+    return pause(retryPause(), now);
+  }
+  // It is there. After a loss there is nothing to wait for.
   if (failures_ == 0) return beginTry(now);
-  pause(report_.status().state == NodeState::kRefused ? bus_.longest_retry : retryPause(), now);
+  pause(report_.status().state == NodeState::kRefused ? bus_.longest_retry : bus_.first_retry, now);
 }
 
 }  // namespace nord_driver::devicenet

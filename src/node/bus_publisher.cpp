@@ -16,20 +16,31 @@ void BusPublisher::publish(const cycle::CycleSnapshot& snapshot, ros::Time stamp
   status.cycle_time_mean = snapshot.times.mean;
   status.cycle_time_p99 = snapshot.times.p99;
   status.cycle_time_max = snapshot.times.max;
-  status.cycles = snapshot.counters.cycles;
-  status.retries = snapshot.counters.retries;
-  status.timeouts = snapshot.counters.timeouts;
-  status.checksum_errors = snapshot.counters.checksum_errors;
-  status.parity_errors = snapshot.counters.parity_errors;
-  status.overruns = snapshot.counters.overruns;
-  status.discarded_bytes = snapshot.counters.discarded_bytes;
-  status.unexpected = snapshot.counters.unexpected;
-  status.stale = snapshot.counters.stale;
+  addCounters(snapshot.counters, status);
   for (std::size_t i = 0; i < names_.size(); ++i) {
     (snapshot.drives[i].online ? status.online : status.offline).push_back(names_[i]);
   }
   status.text = busSentence(snapshot, names_);
   publisher_.publish(status);
+}
+
+void addCounters(const BusCounters& counters, BusStatus& status) {
+  status.cycles = counters.value(bus_counter::kCycles);
+  status.retries = counters.value(bus_counter::kRetries);
+  status.timeouts = counters.value(bus_counter::kTimeouts);
+  status.checksum_errors = counters.value(bus_counter::kChecksumErrors);
+  status.parity_errors = counters.value(bus_counter::kParityErrors);
+  status.overruns = counters.value(bus_counter::kOverruns);
+  status.discarded_bytes = counters.value(bus_counter::kDiscardedBytes);
+  status.unexpected = counters.value(bus_counter::kUnexpected);
+  status.stale = counters.value(bus_counter::kStale);
+  status.counters.reserve(counters.size());
+  for (const NamedCounter& counter : counters) {
+    status.counters.emplace_back();
+    status.counters.back().name = counter.name;
+    status.counters.back().value = counter.value;
+    status.counters.back().meaning = counter.meaning;
+  }
 }
 
 std::string busSentence(const cycle::CycleSnapshot& snapshot, const std::vector<std::string>& drive_names) {

@@ -18,6 +18,9 @@ std::string busSentence(const cycle::CycleSnapshot& snapshot, const std::vector<
 /// until drive_timeout has passed.
 bool busIsWell(const cycle::CycleSnapshot& snapshot);
 
+/// All of them by name, and those that have a field of their own there, too.
+void addCounters(const BusCounters& counters, BusStatus& status);
+
 class BusPublisher {
  public:
   BusPublisher(ros::NodeHandle& private_node, std::vector<std::string> drive_names);

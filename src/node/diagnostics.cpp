@@ -1,5 +1,6 @@
 #include "node/diagnostics.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "node/bus_publisher.h"
@@ -15,18 +16,17 @@ using diagnostic_updater::DiagnosticStatusWrapper;
 
 namespace {
 
-// What a transport opens, by whichever key it has.
-std::string busDevice(const Settings& bus) {
-  for (const char* key : {"device", "interface"}) {
-    if (bus.has(key)) return bus.text(key).value_or("");
-  }
-  return "";
+// "checksum_errors" as a line of /diagnostics.
+std::string inWords(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 }  // namespace
 
-Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities)
-    : identities_(identities), device_(busDevice(*config.bus)), snapshot_(config.drives.size()) {
+Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities,
+                         const std::string& where)
+    : identities_(identities), device_(where), snapshot_(config.drives.size()) {
   updater_.setHardwareID(device_);
   updater_.add("bus", [this](DiagnosticStatusWrapper& status) { reportBus(status); });
   if (config.cycle.base) updater_.add("base", [this](DiagnosticStatusWrapper& status) { reportBase(status); });
@@ -57,19 +57,10 @@ void Diagnostics::reportBus(DiagnosticStatusWrapper& status) const {
                                           : DiagnosticStatus::WARN;
   status.summary(level, busSentence(snapshot_, names_));
   status.add("device", device_);
-  status.add("cycles", snapshot_.counters.cycles);
   status.add("cycle time mean (s)", snapshot_.times.mean);
   status.add("cycle time p99 (s)", snapshot_.times.p99);
   status.add("cycle time max (s)", snapshot_.times.max);
-  status.add("retries", snapshot_.counters.retries);
-  status.add("timeouts", snapshot_.counters.timeouts);
-  status.add("checksum errors", snapshot_.counters.checksum_errors);
-  status.add("parity errors", snapshot_.counters.parity_errors);
-  status.add("framing errors", snapshot_.counters.framing_errors);
-  status.add("overruns", snapshot_.counters.overruns);
-  status.add("discarded bytes", snapshot_.counters.discarded_bytes);
-  status.add("unexpected telegrams", snapshot_.counters.unexpected);
-  status.add("stale parameter answers", snapshot_.counters.stale);
+  for (const NamedCounter& counter : snapshot_.counters) status.add(inWords(counter.name), counter.value);
 }
 
 void Diagnostics::reportBase(DiagnosticStatusWrapper& status) const {

@@ -18,7 +18,8 @@ namespace nord_driver::node {
 /// Reports the snapshot it was given last. `update` runs the tasks when they are due (once a second).
 class Diagnostics {
  public:
-  Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities);
+  /// `where`: what the transport opens, as configured.
+  Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities, const std::string& where);
   void update(const cycle::CycleSnapshot& snapshot);
 
  private:

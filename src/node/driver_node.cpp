@@ -76,6 +76,7 @@ void DriverNode::loadTransport() {
                       (known.empty() ? "none (is the package's setup file sourced?)" : known));
   }
   transport_ = loader_.createInstance(config_.transport);
+  where_ = applyEndPoint(config_, transport_->endPoint());
   transport_->configure(*config_.bus, config_.drives, config_.cycle.cycle_rate);
   for (const std::string& sentence : transport_->warnings()) ROS_WARN("nord_driver: %s", sentence.c_str());
   for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
@@ -122,7 +123,7 @@ void DriverNode::advertise() {
     subscribers_.push_back(private_commands_.handle().subscribe<std_msgs::Float64>(setup.name + "/command", 1, take));
   }
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
-  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_);
+  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, where_);
   services_ = std::make_unique<Services>(private_node_, stops_.handle(), config_, *broker_);
   tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace());
   ports_->setObserver(&tracing_->feed());

@@ -63,6 +63,7 @@ class DriverNode {
   NodeConfig config_;
   pluginlib::ClassLoader<Transport> loader_;
   boost::shared_ptr<Transport> transport_;
+  std::string where_;  // what the transport opens, as configured
   std::vector<DriveIdentity> identities_;
 
   std::unique_ptr<cycle::CyclePorts> ports_;

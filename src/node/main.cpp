@@ -12,8 +12,7 @@
 namespace {
 
 constexpr char kUsage[] =
-    "Drives NORD frequency inverters over PROFIBUS DP or CANopen. A ROS node: its configuration is its private\n"
-    "parameters.\n"
+    "Drives NORD frequency inverters over a field bus. A ROS node: its configuration is its private parameters.\n"
     "  roslaunch nord_driver nord_driver.launch config:=$PWD/my_robot.yaml\n"
     "  nord_driver_node [--help] [--version] [NAME:=VALUE ...]\n"
     "Exit code: 0 ended when asked to (the log names a drive that nobody saw at rest); 1 wrong configuration; 2 "

@@ -73,6 +73,7 @@ PublishConfig readPublish(const TreeSettings& settings) {
 NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot_description) {
   NodeConfig config;
   config.transport = readTransportName(settings);
+  config.bus_end_point = settings.text("bus_end_point").value_or("");
   config.auto_enable = settings.boolean("auto_enable").value_or(false);
   config.allow_raw_parameters = settings.boolean("allow_raw_parameters").value_or(false);
   acceptControllerKeys(settings);
@@ -87,6 +88,16 @@ NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot
   }
   config.trace = trace::readTraceConfig(settings);
   return config;
+}
+
+std::string applyEndPoint(NodeConfig& config, const EndPoint& end_point) {
+  if (end_point.isNone()) {
+    if (config.bus_end_point.empty()) return "";
+    throw ConfigError("~bus_end_point: \"" + config.bus_end_point + "\" is not valid, expected none: the transport " +
+                      config.transport + " opens nothing");
+  }
+  if (!config.bus_end_point.empty()) config.bus = config.bus->with(end_point.key, config.bus_end_point);
+  return config.bus->text(end_point.key).value_or("");  // whether it has to be there, the transport decides
 }
 
 }  // namespace nord_driver::node

@@ -10,6 +10,7 @@
 #include "config/tree_settings.h"
 #include "cycle/cycle_config.h"
 #include "nord_driver/config/settings.h"
+#include "nord_driver/transport/bus_report.h"
 #include "trace/trace_config.h"
 
 namespace nord_driver::node {
@@ -28,7 +29,8 @@ struct PublishConfig {
 };
 
 struct NodeConfig {
-  std::string transport;  ///< plugin name with its prefix
+  std::string transport;      ///< plugin name with its prefix
+  std::string bus_end_point;  ///< in place of what `bus` says; empty: as `bus` says
   bool auto_enable = false;
   bool allow_raw_parameters = false;
   PublishConfig publish;
@@ -38,6 +40,10 @@ struct NodeConfig {
   std::shared_ptr<TreeSettings> bus;
   std::vector<std::string> warnings;  ///< sentences on what is accepted but done in another way, or not
 };
+
+/// Puts ~bus_end_point in place of the key of `bus` where this transport looks for its bus. Returns what it will open,
+/// as configured; empty when nothing is. Throws ConfigError when it is given and the transport opens nothing.
+std::string applyEndPoint(NodeConfig& config, const EndPoint& end_point);
 
 /// Everything except what the transport itself reads (`bus`, and each drive's address). Throws ConfigError.
 NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot_description = {});

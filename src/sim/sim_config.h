@@ -88,8 +88,8 @@ struct SimConfig {
 /// Parameters are in the manual's unit, a list gives the four sets or the array elements. A body of the kind mecanum
 /// has two drives a side and wheel_base, too. Without `body` the driver's keys base_type, left_wheel, right_wheel
 /// (joints), wheel_radius, wheel_separation and wheel_base are taken when all are there; without these there is no
-/// body. `end_point`, when it is not empty, takes the place of what the configuration says about where the bus is:
-/// `bus/device`, `bus/interface`. Throws ConfigError.
+/// body. `end_point`, or else the key bus_end_point, when it is not empty, takes the place of what the configuration
+/// says about where the bus is: `bus/device`, `bus/interface`. Throws ConfigError.
 SimConfig readSimConfig(const YAML::Node& root, const std::string& end_point = "");
 
 /// `later` laid over `earlier`: maps are merged key by key, everything else is replaced.

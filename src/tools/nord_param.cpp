@@ -48,20 +48,17 @@ struct Options {
   std::string dump;
 };
 
-void list(const YAML::Node& file) {
-  const ToolConfig config = readToolConfig(file);
-  TransportLoader loader;
-  const auto transport = loader.load(config.transport);
-  transport->configure(*config.bus, config.drives, config.cycle.cycle_rate);
-  printList(config, *transport);
+void list(const YAML::Node& file, nord_driver::Transport& transport) {
+  const ToolConfig config = readToolConfig(file, transport.endPoint());
+  transport.configure(*config.bus, config.drives, config.cycle.cycle_rate);
+  printList(config, transport);
 }
 
 using Task = std::function<bool(ParameterLink&)>;
 
-int carryOut(const ToolConfig& config, double timeout, const Task& task, const std::atomic<bool>& end_asked) {
-  TransportLoader loader;
-  const auto transport = loader.load(config.transport);
-  ParameterLink link{config, *transport};
+int carryOut(const ToolConfig& config, nord_driver::Transport& transport, double timeout, const Task& task,
+             const std::atomic<bool>& end_asked) {
+  ParameterLink link{config, transport};
   link.connect(nord_driver::seconds(timeout), end_asked);
   bool done = false;
   std::exception_ptr stopped;
@@ -81,11 +78,13 @@ int run(int argc, char** argv) {
   CommandLine line{"nord_param", nord_driver::kVersion, kAbout, kFooter};
   line.addOptions()("config", po::value(&options.files)->value_name("FILE")->required(),
                     "the driver's YAML file; a later file is laid over an earlier one; required")(
-      "device", po::value(&options.port.device)->value_name("PATH"),
-      "PROFIBUS: serial device, in place of the file's bus/device")(
+      "bus", po::value(&options.port.bus)->value_name("VALUE"),
+      "where the bus is: a serial device, a CAN interface or whatever else the file's transport opens, in place of "
+      "what the file says")("device", po::value(&options.port.device)->value_name("PATH"),
+                            "the same for a transport with bus/device")(
       "interface", po::value(&options.port.interface)->value_name("NAME"),
-      "CANopen: interface (can0, virtual:NAME), in place of the file's bus/interface")(
-      "timeout", po::value(&options.timeout)->value_name("SECONDS"), "s to wait for the drive to answer (5)");
+      "the same for a transport with bus/interface")("timeout", po::value(&options.timeout)->value_name("SECONDS"),
+                                                     "s to wait for the drive to answer (5)");
 
   Command& list_command = line.addCommand("list", "the drives of the file, and every known parameter");
   Command& read = line.addCommand("read", "read one parameter");
@@ -110,10 +109,12 @@ int run(int argc, char** argv) {
 
   // A write that is under way is not cut off: P560 may have to be put back.
   const std::atomic<bool>& end_asked = catchEndSignals();
-  YAML::Node file = readYamlFiles(options.files);
-  choosePort(file, options.port);
+  YAML::Node file = nord_driver::readYamlFiles(options.files);
+  TransportLoader loader;
+  const auto transport = loader.load(transportOf(file));
+  choosePort(file, options.port, transport->endPoint());
   if (line.asksFor(list_command)) {
-    list(file);
+    list(file, *transport);
     return kDone;
   }
   const ToolConfig config = readToolConfig(file, options.drive);
@@ -133,7 +134,7 @@ int run(int argc, char** argv) {
     const auto change = checkedWrite(options.write, address, config.cycle.drives.front().series);
     task = [address, change](ParameterLink& link) { return writeParameter(link, address, change); };
   }
-  return carryOut(config, options.timeout.value, task, end_asked);
+  return carryOut(config, *transport, options.timeout.value, task, end_asked);
 }
 
 }  // namespace

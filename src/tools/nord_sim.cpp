@@ -33,8 +33,9 @@ SimConfig readConfig(const std::vector<std::string>& files, const BusPort& port)
       throw nord_driver::sim::ConfigError("--config " + file + ": " + error.what() + "; expected a readable YAML file");
     }
   }
-  checkPort(port, std::string{nord_driver::sim::busKindOf(merged).end_point} == "interface");
-  return nord_driver::sim::readSimConfig(merged, port.device.empty() ? port.interface : port.device);
+  using nord_driver::sim::Group;
+  const nord_driver::sim::BusKind& kind = nord_driver::sim::busKindOf(Group(merged, ""));
+  return nord_driver::sim::readSimConfig(merged, chosenPort(port, kind.transport, kind.end_point));
 }
 
 /// Waits until the end is asked for, or until `duration` (s) is over; 0 = no limit.
@@ -58,10 +59,11 @@ int run(int argc, char** argv) {
       "Exit code: 0 ended when asked to, 1 wrong configuration or another error, 2 wrong usage."};
   line.addOptions()("config", po::value(&files)->value_name("FILE...")->multitoken()->required(),
                     "YAML file with bus, drives and body; a later file is laid over an earlier one; required")(
-      "device", po::value(&port.device)->value_name("PATH"),
-      "PROFIBUS: where to put the link to the pseudo-terminal, instead of bus/device")(
-      "interface", po::value(&port.interface)->value_name("NAME"),
-      "CANopen: interface (can0, vcan0, virtual:NAME), instead of bus/interface")(
+      "bus", po::value(&port.bus)->value_name("VALUE"),
+      "where the bus is, in place of what the file says: where to put the link to the pseudo-terminal, or the CAN "
+      "interface (can0, vcan0, virtual:NAME)")("device", po::value(&port.device)->value_name("PATH"),
+                                               "the same for a bus with bus/device")(
+      "interface", po::value(&port.interface)->value_name("NAME"), "the same for a bus with bus/interface")(
       "duration", po::value(&duration)->value_name("SECONDS"),
       "seconds to run; without it until SIGINT, SIGTERM or SIGHUP");
   if (const auto code = line.parse(argc, argv)) return *code;

@@ -3,7 +3,6 @@
 #include "config/setting_checks.h"
 #include "cycle/drive_parameters.h"
 #include "profile/parameter_shape.h"
-#include "transport/parameters_only.h"
 
 namespace nord_driver::tools {
 
@@ -23,13 +22,11 @@ constexpr std::uint16_t kTelegramTimeout = 513, kModuleTimeout = 151;
 
 ParameterLink::ParameterLink(const ToolConfig& config, Transport& transport)
     : config_(config), transport_(transport), ports_(config.drives.size()) {
-  auto* const guest = dynamic_cast<ParametersOnly*>(&transport);
-  if (guest == nullptr) {
+  if (!transport.serveParametersOnly()) {
     throw Trouble("transport " + config.transport +
                   " does not serve a program for parameters only, and its start-up might stop a drive that runs: ask "
                   "the driver (~<drive>/read_parameter)");
   }
-  guest->serveParametersOnly();
   transport.configure(*config.bus, config.drives, config.cycle.cycle_rate);
   cycle_.emplace(config.cycle, transport, ports_, false, cycle::CycleRole::kGuest);
 }

@@ -40,10 +40,10 @@ struct ParameterAnswer {
 ///    own set, so that P513 or P151 > 0 does not trip it (7.1.1).
 ///  - The other drives of the bus are not talked to.
 ///  - Nothing in the module watches for the end of the program, and nothing is sent on the bus of another master: the
-///    transport is told so (`ParametersOnly`).
+///    transport is told so (`serveParametersOnly()`).
 class ParameterLink {
  public:
-  /// Configures `transport`. Throws ConfigError; Trouble when `transport` is no `ParametersOnly`.
+  /// Configures `transport`. Throws ConfigError; Trouble when `transport` does not serve parameters only.
   ParameterLink(const ToolConfig& config, Transport& transport);
   /// Ends the exchange; what was not ended by `finish` ends as it stands.
   ~ParameterLink();

@@ -12,9 +12,6 @@ namespace {
 // A drive that is late is waited for: nothing turns that would have to be stopped.
 constexpr Duration kDriveTimeout = std::chrono::seconds{1};
 
-constexpr char kProfibus[] = "nord_driver/profibus_dp";
-constexpr char kCanopen[] = "nord_driver/canopen";
-
 // Of the cycle only its rate counts. The base may need a URDF, which there is none of without a roscore.
 YamlSettings rateOf(const YAML::Node& file) {
   YAML::Node rate{YAML::NodeType::Map};
@@ -35,29 +32,29 @@ ToolConfig read(const YAML::Node& file, const YamlSettings& settings, const std:
 }
 
 // A transport wants to know what it opens before it tells anything of its drives.
-YAML::Node withAnyPort(const YAML::Node& file) {
-  const YamlSettings settings{"", file};
-  const std::string transport = readTransportName(settings);
-  const auto bus = settings.group("bus");
+YAML::Node withAnyPort(const YAML::Node& file, const EndPoint& end_point) {
+  const auto bus = YamlSettings{"", file}.group("bus");
   YAML::Node complete = YAML::Clone(file);
-  if (transport == kCanopen && !bus->has("interface")) complete["bus"]["interface"] = "can0";
-  if (transport == kProfibus && !bus->has("device")) complete["bus"]["device"] = "/dev/null";
+  if (!end_point.isNone() && !bus->has(end_point.key)) complete["bus"][end_point.key] = end_point.example;
   return complete;
 }
 
 }  // namespace
 
-void choosePort(YAML::Node& file, const BusPort& port) {
-  const YamlSettings settings{"", file};
-  const std::string transport = readTransportName(settings);
-  if (transport == kProfibus || transport == kCanopen) checkPort(port, transport == kCanopen);
-  settings.group("bus");  // refuses a value where the group belongs
-  if (!port.device.empty()) file["bus"]["device"] = port.device;
-  if (!port.interface.empty()) file["bus"]["interface"] = port.interface;
+std::string transportOf(const YAML::Node& file) {
+  return readTransportName(YamlSettings{"", file});
 }
 
-ToolConfig readToolConfig(const YAML::Node& file) {
-  const YAML::Node complete = withAnyPort(file);
+void choosePort(YAML::Node& file, const BusPort& port, const EndPoint& end_point) {
+  const YamlSettings settings{"", file};
+  std::string value = chosenPort(port, shortTransportName(readTransportName(settings)), end_point.key);
+  settings.group("bus");  // refuses a value where the group belongs
+  if (value.empty()) value = settings.text("bus_end_point").value_or("");
+  if (!value.empty() && !end_point.isNone()) file["bus"][end_point.key] = value;
+}
+
+ToolConfig readToolConfig(const YAML::Node& file, const EndPoint& end_point) {
+  const YAML::Node complete = withAnyPort(file, end_point);
   const YamlSettings settings{"", complete};
   return read(complete, settings, readDriveList(settings));
 }

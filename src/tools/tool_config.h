@@ -9,6 +9,7 @@
 
 #include "cycle/cycle_config.h"
 #include "nord_driver/config/settings.h"
+#include "nord_driver/transport/bus_report.h"
 #include "tools/bus_port.h"
 
 namespace nord_driver::tools {
@@ -20,12 +21,15 @@ struct ToolConfig {
   cycle::CycleConfig cycle;           ///< without a base
 };
 
-/// Puts the port in place of the file's. Throws UsageError when it is one of another transport than the file's; what a
-/// transport that is not of this package opens is not known here. Throws ConfigError as below.
-void choosePort(YAML::Node& file, const BusPort& port);
+/// The plugin name of the file's transport, with its prefix. Throws ConfigError.
+std::string transportOf(const YAML::Node& file);
+
+/// Puts the port, or the file's bus_end_point, in place of the file's bus/<key>, where the transport has its
+/// `end_point`. Throws UsageError when the port is one of another bus, and ConfigError as below.
+void choosePort(YAML::Node& file, const BusPort& port, const EndPoint& end_point);
 
 /// All drives of the file, to look at them: a file without a port is given one that means nothing. Throws ConfigError.
-ToolConfig readToolConfig(const YAML::Node& file);
+ToolConfig readToolConfig(const YAML::Node& file, const EndPoint& end_point);
 
 /// The drive `name` first, and after it those behind the same bus module: its words are in the same telegrams. The
 /// other drives of the bus are not talked to. Throws ConfigError when there is no such drive, or its settings are

@@ -188,11 +188,11 @@ TEST_F(BusCycleTest, AnInverterThatIsOffBehindItsModuleIsOffline) {
 
 TEST_F(BusCycleTest, PassesTheStateOfTheBusOn) {
   transport.bus_text = "the wire is cut";
-  transport.bus_counters.retries = 7;
+  transport.bus_counters.add(bus_counter::kRetries, 7);
   transport.is_connected = false;
   step();
   EXPECT_STREQ("the wire is cut", snapshot().bus_text.c_str());
-  EXPECT_EQ(7u, snapshot().counters.retries);
+  EXPECT_EQ(7u, snapshot().counters.value(bus_counter::kRetries));
   EXPECT_FALSE(snapshot().connected);
   EXPECT_EQ(0x7531u, snapshot().drives[kLeft].device.ident);
 }

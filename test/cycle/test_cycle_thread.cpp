@@ -27,15 +27,8 @@ class PacedTransport final : public Transport {
     time_ += starts_.size() == kLateCycle ? milliseconds{35} : milliseconds{2};
     if (starts_.size() == kNoted) enough_.notify_all();
   }
-  bool submit(DriveIndex, const profile::ParameterRequest&) noexcept override { return false; }
-  std::optional<profile::ParameterResult> pollResult() noexcept override { return std::nullopt; }
   bool connected() const noexcept override { return true; }
-  BusCounters counters() const noexcept override { return {}; }
-  DriveNote note(DriveIndex) const noexcept override { return {}; }
-  std::uint32_t identNumber(DriveIndex) const noexcept override { return 0; }
-  Sentence busText() const noexcept override { return {}; }
   DriveIdentity identity(DriveIndex) const override { return {}; }
-  void close() noexcept override {}
 
   /// The first starts, as soon as there are enough of them.
   std::vector<Instant> starts() {

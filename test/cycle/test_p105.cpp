@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cycle/cycle_bench.h"
-#include "support/parameter_requests.h"
+#include "cycle/parameter_requests.h"
 
 namespace nord_driver::cycle {
 namespace {

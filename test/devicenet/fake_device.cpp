@@ -84,7 +84,10 @@ void FakeDevice::unconnected(const CanFrame& frame, Instant now) {
     if ((choice & 0x40) != 0 && (choice & 0x30) == 0) violation("acknowledge suppression alone");
     if (held != 0 && master != from) return reply({0x94, 0x02, 0x01});
     if ((held & choice & 0x3F) != 0) return reply({0x94, 0x0B, 0x02});
-    if ((choice & 1) == 0 && (held & 1) == 0) violation("process data allocated before the explicit connection");
+    if ((choice & 1) == 0 && (held & 1) == 0) {
+      ++io_before_explicit;
+      return reply({0x94, 0x0C, 0x02});
+    }
     held = static_cast<std::uint8_t>(held | choice);
     master = from;
     allocated_last = choice;

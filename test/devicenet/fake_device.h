@@ -46,7 +46,7 @@ class FakeDevice {
   Bytes output;
   Bytes input;
   std::size_t outputs = 0, polls = 0, produced_count = 0, repeated_productions = 0;
-  std::size_t explicit_requests = 0, explicit_deaths = 0, io_deaths = 0;
+  std::size_t explicit_requests = 0, explicit_deaths = 0, io_deaths = 0, io_before_explicit = 0;
   std::uint8_t allocated_last = 0, released_last = 0;
   unsigned rate = 0, explicit_rate = 2500;
   std::vector<std::string> violations;

@@ -53,6 +53,19 @@ TEST(Refusals, WrongSizes) {
   EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
 }
 
+// Refused, and switched off and on meanwhile: its explicit connection is gone, which is noticed without anybody asking.
+TEST(Refusals, PowerCycleWhileRefused) {
+  ScannerRun run{busConfig(1)};
+  run.devices[0]->produced = 8;
+  refusal(run);
+  run.devices[0]->powerOff();
+  run.run(milliseconds{100});
+  run.devices[0]->powerOn();
+  run.devices[0]->produced = 5;
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
+  EXPECT_EQ(0u, run.devices[0]->io_before_explicit);
+}
+
 TEST(Refusals, NoSuchConnection) {
   ScannerConfig config = busConfig(1);
   config.nodes[0].io.kind = IoKind::kStrobe;
@@ -145,6 +158,17 @@ TEST(Refusals, RatesThatDoNotProtect) {
       "answers an expected packet rate of 40 ms: it gives up after four times that, less than two of our cycles of "
       "100.0 ms",
       refusal(run));
+}
+
+TEST(Refusals, RateThatIsNoRounding) {
+  ScannerRun run{busConfig(1)};
+  run.devices[0]->rate_step = 1000;
+  EXPECT_EQ(
+      "answers an expected packet rate of 1000 ms where 25 ms was asked for: it would stop only 4000 ms after we are "
+      "gone",
+      refusal(run));
+  run.devices[0]->rate_step = 100;
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
 }
 
 TEST(Refusals, NoRateAtAll) {

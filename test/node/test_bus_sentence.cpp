@@ -45,5 +45,21 @@ TEST(BusSentence, ALostBusIsNotWellWhileItsDrivesStillCountAsOnline) {
   EXPECT_FALSE(busIsWell(snapshot));
 }
 
+// Whatever a transport counts is there by its name; what has a field of its own fills that, too.
+TEST(BusStatusCounters, HoldEveryCounterOfTheTransport) {
+  BusCounters counters;
+  counters.add(bus_counter::kRetries, 7);
+  counters.add({"lamps", "lamps that went out"}, 2);
+  BusStatus status;
+  addCounters(counters, status);
+  EXPECT_EQ(7u, status.retries);
+  EXPECT_EQ(0u, status.timeouts);
+  ASSERT_EQ(2u, status.counters.size());
+  EXPECT_EQ("retries", status.counters[0].name);
+  EXPECT_EQ("lamps", status.counters[1].name);
+  EXPECT_EQ(2u, status.counters[1].value);
+  EXPECT_EQ("lamps that went out", status.counters[1].meaning);
+}
+
 }  // namespace
 }  // namespace nord_driver::node

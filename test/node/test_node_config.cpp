@@ -51,6 +51,42 @@ TEST(NodeConfigTest, ATransportMayLeaveItsPrefixOut) {
   EXPECT_EQ("my_package/my_card", readNodeConfig(RosSettings{"~", value}).transport);
 }
 
+// One parameter for every bus: the transport says which key of `bus` it stands for.
+TEST(NodeConfigTest, TheEndPointReplacesTheKeyOfTheTransport) {
+  const EndPoint device{"device", "serial device", "/dev/ttyUSB0"};
+  const EndPoint gateway{"gateway", "Modbus/TCP server", "192.168.0.10:502"};
+  XmlRpcValue value = robotParameters();
+  NodeConfig config = readNodeConfig(RosSettings{"~", value});
+  EXPECT_EQ("/dev/ttyUSB0", applyEndPoint(config, device));
+  EXPECT_EQ("", applyEndPoint(config, gateway)) << "nothing says where";
+  EXPECT_EQ("", applyEndPoint(config, {}));
+  value["bus_end_point"] = std::string{"here"};
+  const RosSettings settings{"~", value};
+  config = readNodeConfig(settings);
+  EXPECT_THAT(settings.unknownKeys(), IsEmpty());
+  EXPECT_EQ("here", applyEndPoint(config, device));
+  EXPECT_EQ("here", config.bus->text("device").value());
+  EXPECT_EQ("~bus/device", config.bus->fullName("device"));
+  EXPECT_EQ("here", applyEndPoint(config, gateway));
+  try {
+    applyEndPoint(config, {});
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(
+        "~bus_end_point: \"here\" is not valid, expected none: the transport nord_driver/profibus_dp opens nothing",
+        error.what());
+  }
+}
+
+TEST(NodeConfigTest, TheEndPointNeedsNoGroupOfTheBus) {
+  XmlRpcValue value = robotParameters();
+  value["bus"] = XmlRpcValue{};
+  value["bus_end_point"] = std::string{"here"};
+  NodeConfig config = readNodeConfig(RosSettings{"~", value});
+  EXPECT_EQ("here", applyEndPoint(config, {"device", "serial device", "/dev/ttyUSB0"}));
+  EXPECT_EQ("here", config.bus->text("device").value());
+}
+
 TEST(NodeConfigTest, TakesWhatIsGiven) {
   XmlRpcValue value = robotParameters();
   value["auto_enable"] = true;

@@ -19,7 +19,7 @@ struct Dependency {
 const std::vector<Dependency>& dependencies();
 
 /// Each name of `table` is in its file, and each name of the files is in `table`. CMake files below fuzz and bench do
-/// not count: they are for tests only.
+/// not count, they are for tests only, and none of packages of their own.
 Violations checkDependencies(const std::vector<SourceFile>& files, const std::vector<Dependency>& table);
 
 }  // namespace nord_driver::rules

@@ -58,7 +58,7 @@ const std::map<std::string, Names>& table() {
       {"sim/inverter", {"core", "sim"}},
       {"sim/robot", {"core", "sim", "sim/inverter"}},
       {"sim/profibus", simulatorWith({"link/serial"})},
-      {"sim/can", simulatorWith({"link/can"})},
+      {"sim/can", simulatorWith({"link/can"})},  // what every protocol on CAN needs of its bus
       {"sim/canopen", simulatorWith({"link/can", "sim/can"})},
       {"sim/devicenet", simulatorWith({"link/can", "sim/can"})},
       {"sim/interbus", simulatorWith({})},
@@ -67,11 +67,11 @@ const std::map<std::string, Names>& table() {
       {"node",
        {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "trace/*", "tools",
         "ros_support"}},
-      {"system", {"*"}},                             // tests of the whole stack, without ROS
-      {"support", {"core", "config", "transport"}},  // what tests of several folders share
-      {"ros_support", {}},                           // the same for those with ROS
-      {"rostest", {"*"}},                            // the programs as their users meet them
-      {"socketcan", {"rostest"}},                    // tests of link/ and of the nodes that need a kernel with CAN
+      {"system", {"*"}},                                                 // tests of the whole stack, without ROS
+      {"support", {"core", "config", "profile", "transport", "cycle"}},  // what tests of several folders share
+      {"ros_support", {}},                                               // the same for those with ROS
+      {"rostest", {"*"}},                                                // the programs as their users meet them
+      {"socketcan", {"rostest"}},  // tests of link/ and of the nodes that need a kernel with CAN
       {"rules", {}},
   };
   return kTable;
@@ -182,6 +182,7 @@ bool mayUse(const Place& place, const std::string& used) {
   if (used == place.layer) return true;
   if (areApart(place.layer, used)) return false;
   const std::string group = groupOf(used);
+  if (place.is_test && place.layer == "plugins" && group == "rostest") return true;  // one of its own
   if (place.is_test && (kProgramTests.count(place.layer) != 0 || group == place.layer)) return true;
   if (place.is_test && place.layer != "rules" && kForEveryTest.count(group) != 0) return true;
   const Names& row = table().at(place.layer);

@@ -8,6 +8,7 @@
 #include "rules/dependency_rules.h"
 #include "rules/document_rules.h"
 #include "rules/include_rules.h"
+#include "rules/name_rules.h"
 #include "rules/source_tree.h"
 #include "rules/text_rules.h"
 
@@ -40,6 +41,11 @@ TEST(Project, IsRead) {
 // Architecture: which folder may use which.
 TEST(Project, EveryIncludeKeepsTheLayers) {
   EXPECT_EQ("", list(checkIncludes(project())));
+}
+
+// A bus that is added needs no change above its transport.
+TEST(Project, NoLayerAboveTheTransportsNamesABus) {
+  EXPECT_EQ("", list(checkBusNames(project(), namedBuses())));
 }
 
 // Small files, one idea each; every header says what it is for.

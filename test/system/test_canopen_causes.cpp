@@ -294,16 +294,16 @@ TEST_F(CanopenCauses, NoStaleSetpointLeavesAfterAStall) {
   robot_->step();
   ASSERT_EQ(1u, sent.size()) << "one control word per cycle, not those of the cycles before";
   EXPECT_EQ("7F 04 00 00", sent[0]);
-  EXPECT_GT(robot_->snapshot().counters.stale, 0u) << "superseded RPDOs are counted";
+  EXPECT_GT(robot_->snapshot().counters.value(bus_counter::kStale), 0u) << "superseded RPDOs are counted";
 }
 
 // Frames the interface had no room for are counted; the drives stay.
 TEST_F(CanopenCauses, AnOverflowIsCountedAndSurvived) {
   start();
-  const std::uint64_t before = robot_->snapshot().counters.overruns;
+  const std::uint64_t before = robot_->snapshot().counters.value(bus_counter::kOverruns);
   robot_->bus().overflow(3);
   robot_->drive(kHalfSpeed, 0.0, milliseconds{1500});
-  EXPECT_EQ(before + 3, robot_->snapshot().counters.overruns);
+  EXPECT_EQ(before + 3, robot_->snapshot().counters.value(bus_counter::kOverruns));
   EXPECT_EQ("can0: received frames were lost, 3 since the start: this computer took them too late", robot_->busText());
   EXPECT_TRUE(robot_->online(kLeft));
   EXPECT_TRUE(robot_->snapshot().base.enabled);
@@ -326,7 +326,7 @@ TEST_F(CanopenCauses, ABadLineIsSurvived) {
 
 TEST_F(CanopenCauses, StrangersAreCountedAndNamedAndChangeNothing) {
   start();
-  const std::uint64_t before = robot_->snapshot().counters.unexpected;
+  const std::uint64_t before = robot_->snapshot().counters.value(bus_counter::kUnexpected);
   const FixedBytes<8> zeros{0, 0, 0, 0, 0, 0, 0, 0};
   CanFrame extended = dataFrame(0x18DAF110, ByteView{zeros});
   extended.extended = true;
@@ -337,7 +337,7 @@ TEST_F(CanopenCauses, StrangersAreCountedAndNamedAndChangeNothing) {
     robot_->bus().inject(frame);
     robot_->drive(kHalfSpeed, 0.0, milliseconds{50});
   }
-  EXPECT_GT(robot_->snapshot().counters.unexpected, before + 3);
+  EXPECT_GT(robot_->snapshot().counters.value(bus_counter::kUnexpected), before + 3);
   EXPECT_TRUE(robot_->snapshot().base.enabled) << stopText();
 }
 

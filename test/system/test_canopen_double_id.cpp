@@ -57,7 +57,7 @@ TEST_P(DoubleId, FromTheStartIsRefusedInWords) {
   robot_.run(seconds{3});
   expectNamed();
   EXPECT_EQ(0u, robot_.node(kRight).counters().rpdos);
-  EXPECT_GT(robot_.snapshot().counters.stale, 0u) << "SDO answers nobody waited for";
+  EXPECT_GT(robot_.snapshot().counters.value(bus_counter::kStale), 0u) << "SDO answers nobody waited for";
   EXPECT_FALSE(robot_.ask(cycle::RequestKind::kEnable).success);
   expectNothingMoves(seconds{10});
   EXPECT_THAT(robot_.text(kRight), HasSubstr("two nodes"));

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/parameter_requests.h"
+#include "cycle/parameter_requests.h"
 #include "system/can_robot.h"
 
 namespace nord_driver::test {
@@ -222,9 +222,9 @@ TEST(CanopenKinds, ACycleReadsNoOftenerThanItMust) {
   ASSERT_TRUE(robot.bringUpAndEnable());
   robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{2});
   const std::size_t before = robot.link().emptyReads();
-  const std::uint64_t cycles = robot.snapshot().counters.cycles;
+  const std::uint64_t cycles = robot.snapshot().counters.value(bus_counter::kCycles);
   robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{1});
-  const std::uint64_t of = robot.snapshot().counters.cycles - cycles;
+  const std::uint64_t of = robot.snapshot().counters.value(bus_counter::kCycles) - cycles;
   ASSERT_GE(of, 99u);
   EXPECT_LE(static_cast<double>(robot.link().emptyReads() - before) / static_cast<double>(of), 4.1);
 }

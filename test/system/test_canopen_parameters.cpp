@@ -64,14 +64,14 @@ TEST(CanopenParameterAccess, AnAnswerInTheSocketIsNoTimeOut) {
   request.patience = std::chrono::seconds{3};
   ASSERT_TRUE(robot.ports().submit(request));
   robot.run(milliseconds{20});
-  const std::uint64_t before = robot.transport().counters().timeouts;
+  const std::uint64_t before = robot.transport().counters().value(bus_counter::kTimeouts);
   robot.link().holdUp(milliseconds{100});
   robot.run(milliseconds{500});
   ASSERT_FALSE(robot.completions().empty());
   const cycle::Completion& answer = robot.completions().back();
   EXPECT_EQ(77u, answer.id);
   EXPECT_TRUE(answer.success) << answer.message.c_str();
-  EXPECT_EQ(before, robot.transport().counters().timeouts);
+  EXPECT_EQ(before, robot.transport().counters().value(bus_counter::kTimeouts));
 }
 
 TEST(CanopenParameterAccess, AnAbortIsToldInWords) {

@@ -207,7 +207,7 @@ TEST(FaultSequences, LossesShorterThanDriveTimeoutStopNothing) {
       ASSERT_TRUE(watched.runs()) << "loss " << i << " of kind " << kind << ", " << cycles
                                   << " cycles: " << watched.robot.snapshot().base.text.c_str();
     }
-    retries += watched.robot.transport().counters().retries;
+    retries += watched.robot.transport().counters().value(bus_counter::kRetries);
     EXPECT_EQ("no rule broken", watched.robot.segment().referee().report());
   }
   EXPECT_GT(retries, 300u);

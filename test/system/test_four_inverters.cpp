@@ -31,9 +31,9 @@ class FourInverters : public ::testing::Test {
 // One exchange a cycle for all four, and the base drives as with modules of their own.
 TEST_F(FourInverters, DriveTheBase) {
   ASSERT_STREQ("enabled", robot_.ask(cycle::RequestKind::kEnable).message.c_str());
-  const std::uint64_t before = robot_.transport().counters().telegrams_sent;
+  const std::uint64_t before = robot_.transport().counters().value(bus_counter::kTelegramsSent);
   robot_.step();
-  EXPECT_EQ(before + 1, robot_.transport().counters().telegrams_sent);
+  EXPECT_EQ(before + 1, robot_.transport().counters().value(bus_counter::kTelegramsSent));
   robot_.drive(kHalfSpeed, 0.0, seconds{3});
   for (const DriveIndex drive : {kLeft, kRearLeft}) EXPECT_EQ(0x2000, robot_.setpoint(drive));
   for (const DriveIndex drive : {kRight, kRearRight}) EXPECT_EQ(-0x2000, robot_.setpoint(drive));

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "support/parameter_requests.h"
+#include "cycle/parameter_requests.h"
 #include "system/simulated_robot.h"
 
 namespace nord_driver::test {

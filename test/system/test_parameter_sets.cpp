@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/parameter_requests.h"
+#include "cycle/parameter_requests.h"
 #include "system/simulated_robot.h"
 
 namespace nord_driver::test {

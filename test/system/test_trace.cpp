@@ -136,9 +136,9 @@ TEST_F(TraceOfARobot, HoldsEveryTelegramTheCountersCount) {
   for (const TraceRecord& record : robot_.transport().trace()->copy()) {
     ++(record.kind == TraceKind::kSent ? sent : received);
   }
-  EXPECT_GT(robot_.transport().counters().timeouts, 0u);
-  EXPECT_EQ(robot_.transport().counters().telegrams_sent, sent);
-  EXPECT_EQ(robot_.transport().counters().telegrams_received, received);
+  EXPECT_GT(robot_.transport().counters().value(bus_counter::kTimeouts), 0u);
+  EXPECT_EQ(robot_.transport().counters().value(bus_counter::kTelegramsSent), sent);
+  EXPECT_EQ(robot_.transport().counters().value(bus_counter::kTelegramsReceived), received);
 }
 
 }  // namespace

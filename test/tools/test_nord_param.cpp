@@ -224,6 +224,7 @@ TEST_F(NordParamOnCan, TakesTheInterfaceOfTheCommandLine) {
   const Ended read = with("--interface", interface_);
   EXPECT_EQ(0, read.code) << read.errors;
   EXPECT_EQ("P105 set 1 Maximum frequency = 50 Hz (raw 500)\n", read.output);
+  EXPECT_EQ(read.output, with("--bus", interface_).output);
   const Ended device = with("--device", "/dev/ttyUSB0");
   EXPECT_EQ(2, device.code);
   EXPECT_EQ("nord_param: --device does not fit the transport canopen, expected --interface\n", device.errors);

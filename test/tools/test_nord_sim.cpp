@@ -56,10 +56,28 @@ TEST_F(NordSim, ATimeThatIsNoneIsRefusedInShortWords) {
   EXPECT_THAT(endless.errors, StartsWith("--duration: inf is not valid, expected at most 1000000000 s\n"));
 }
 
+// --bus and the key bus_end_point say it for every kind of bus.
+TEST_F(NordSim, IsFoundWhereTheBusOptionSays) {
+  const auto start = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> command{NORD_SIM_PROGRAM, "--config", config_, "--duration", "0.01"};
+    command.insert(command.end(), words.begin(), words.end());
+    return runProgram(command);
+  };
+  EXPECT_THAT(start({"--bus", base_ + "_pty"}).output, StartsWith(base_ + "_pty\n"));
+  std::ofstream(config_) << "{transport: canopen, drives: {left: {address: 3}}}\n";
+  EXPECT_THAT(start({"--bus", "virtual:" + std::to_string(::getpid())}).output,
+              StartsWith("virtual:" + std::to_string(::getpid()) + "\n"));
+  std::ofstream(config_) << "{bus_end_point: " << base_ << "_key, drives: {left: {address: 3}}}\n";
+  EXPECT_THAT(start({}).output, StartsWith(base_ + "_key\n"));
+}
+
 TEST_F(NordSim, ThePortOfTheOtherTransportIsRefused) {
   const Ended profibus = run({"--interface", "virtual:x", "--duration", "0.01"});
   EXPECT_EQ(2, profibus.code);
   EXPECT_EQ("nord_sim: --interface does not fit the transport profibus_dp, expected --device\n", profibus.errors);
+  const Ended both = run({"--bus", "/tmp/x", "--duration", "0.01"});
+  EXPECT_EQ(2, both.code);
+  EXPECT_EQ("nord_sim: --bus and --device both say where the bus is, expected one of them\n", both.errors);
   std::ofstream(config_) << "{transport: canopen, drives: {left: {address: 3}}}\n";
   const Ended canopen = run({"--duration", "0.01"});
   EXPECT_EQ(2, canopen.code);

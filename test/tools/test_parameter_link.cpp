@@ -46,18 +46,9 @@ void letRun(LinkedDrive& drive) {
 class DriversOnly final : public Transport {
  public:
   void configure(const Settings&, const std::vector<DriveSettings>&, double) override { configured = true; }
-  Instant now() const noexcept override { return {}; }
-  void sleepUntil(Instant) noexcept override {}
   void exchange(const std::vector<profile::ProcessOutput>&, std::vector<DriveExchange>&) noexcept override {}
-  bool submit(DriveIndex, const profile::ParameterRequest&) noexcept override { return false; }
-  std::optional<profile::ParameterResult> pollResult() noexcept override { return std::nullopt; }
   bool connected() const noexcept override { return false; }
-  BusCounters counters() const noexcept override { return {}; }
-  DriveNote note(DriveIndex) const noexcept override { return {}; }
-  std::uint32_t identNumber(DriveIndex) const noexcept override { return 0; }
-  Sentence busText() const noexcept override { return {}; }
   DriveIdentity identity(DriveIndex) const override { return {}; }
-  void close() noexcept override {}
 
   bool configured = false;
 };

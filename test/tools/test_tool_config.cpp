@@ -22,6 +22,9 @@ drives:
   mate:  {address: 7, inverter: 2, series: sk2xxe, pole_pairs: 2}
 )";
 
+const EndPoint kDevice{"device", "serial device", "/dev/ttyUSB0"};
+const EndPoint kInterface{"interface", "CAN interface", "can0"};
+
 std::vector<std::string> namesOf(const ToolConfig& config) {
   std::vector<std::string> names;
   for (const DriveSettings& drive : config.drives) names.push_back(drive.name);
@@ -43,7 +46,7 @@ TEST(ToolConfig, TakesTheDriveAndItsStation) {
   const YAML::Node file = YAML::Load(kFile);
   EXPECT_THAT(namesOf(readToolConfig(file, "mate")), ElementsAre("mate", "near"));
   EXPECT_THAT(namesOf(readToolConfig(file, "far")), ElementsAre("far"));
-  EXPECT_THAT(namesOf(readToolConfig(file)), ElementsAre("far", "mate", "near"));
+  EXPECT_THAT(namesOf(readToolConfig(file, kInterface)), ElementsAre("far", "mate", "near"));
 }
 
 // The base's sizes may be in a URDF, which is not there.
@@ -60,7 +63,7 @@ TEST(ToolConfig, NeedsNothingOfTheBase) {
 TEST(ToolConfig, TheTransportIsProfibusWhenNoneIsNamed) {
   YAML::Node file = YAML::Load(kFile);
   file.remove("transport");
-  EXPECT_EQ("nord_driver/profibus_dp", readToolConfig(file).transport);
+  EXPECT_EQ("nord_driver/profibus_dp", readToolConfig(file, kDevice).transport);
 }
 
 TEST(ToolConfig, NamesWhatIsWrong) {
@@ -74,18 +77,19 @@ TEST(ToolConfig, NamesWhatIsWrong) {
   EXPECT_THAT(refusal([&] { readToolConfig(file, "near"); }), HasSubstr("transport: 5 is not valid"));
   EXPECT_THAT(refusal([] { readToolConfig(YAML::Load("{bus: {}}"), "left"); }),
               HasSubstr("expected one that has drives"));
-  EXPECT_EQ("bus: 5 is not valid, expected a group of keys and values",
-            refusal([] { readToolConfig(YAML::Load("{bus: 5, drives: {left: {series: sk5xxe, pole_pairs: 2}}}")); }));
-  EXPECT_THAT(refusal([] { readToolConfig(YAML::Load("{drives: {2nd: {}}}")); }),
+  EXPECT_EQ("bus: 5 is not valid, expected a group of keys and values", refusal([] {
+              readToolConfig(YAML::Load("{bus: 5, drives: {left: {series: sk5xxe, pole_pairs: 2}}}"), kDevice);
+            }));
+  EXPECT_THAT(refusal([] { readToolConfig(YAML::Load("{drives: {2nd: {}}}"), kDevice); }),
               StartsWith("drives/2nd: \"2nd\" is not valid, expected a name of letters"));
-  EXPECT_THAT(refusal([] { readToolConfig(YAML::Load("{bus: {}}")); }), HasSubstr("drives is missing"));
+  EXPECT_THAT(refusal([] { readToolConfig(YAML::Load("{bus: {}}"), kDevice); }), HasSubstr("drives is missing"));
 }
 
-/// `file` with this on the command line, or why not.
-std::string portOf(const char* file, const BusPort& port) {
+/// `file` with this on the command line and a bus that is found there, or why not.
+std::string portOf(const char* file, const BusPort& port, const EndPoint& end_point) {
   YAML::Node node = YAML::Load(file);
   try {
-    choosePort(node, port);
+    choosePort(node, port, end_point);
   } catch (const UsageError& error) {
     return error.what();
   }
@@ -93,32 +97,48 @@ std::string portOf(const char* file, const BusPort& port) {
 }
 
 TEST(ToolConfig, ThePortOfTheCommandLineReplacesTheFiles) {
-  EXPECT_EQ("{device: b}", portOf("bus: {device: a}", {"b", ""}));
-  EXPECT_EQ("{device: a}", portOf("bus: {device: a}", {"", ""}));
-  EXPECT_EQ("device: b", portOf("bus: ~", {"b", ""}));
-  EXPECT_EQ("{interface: can1}", portOf("{transport: canopen, bus: {interface: can0}}", {"", "can1"}));
+  EXPECT_EQ("{device: b}", portOf("bus: {device: a}", {"b", "", ""}, kDevice));
+  EXPECT_EQ("{device: b}", portOf("bus: {device: a}", {"", "", "b"}, kDevice));
+  EXPECT_EQ("{device: a}", portOf("bus: {device: a}", {}, kDevice));
+  EXPECT_EQ("device: b", portOf("bus: ~", {"b", "", ""}, kDevice));
+  EXPECT_EQ("{interface: can1}", portOf("{transport: canopen, bus: {interface: can0}}", {"", "can1", ""}, kInterface));
+  EXPECT_EQ("{interface: can1}", portOf("{transport: canopen, bus: {interface: can0}}", {"", "", "can1"}, kInterface));
 }
 
-// What would be ignored looks taken. Of a transport from elsewhere nobody knows here what it opens.
-TEST(ToolConfig, ThePortOfTheOtherTransportIsRefused) {
+// A transport of any kind says itself where its bus is.
+TEST(ToolConfig, TheBusOptionFitsEveryTransport) {
+  const EndPoint gateway{"gateway", "Modbus/TCP server", "192.168.0.10:502"};
+  EXPECT_EQ("{gateway: 10.0.0.1:502}",
+            portOf("{transport: a/b, bus: {gateway: x}}", {"", "", "10.0.0.1:502"}, gateway));
+  EXPECT_EQ("gateway: y", portOf("{transport: a/b, bus_end_point: y}", {}, gateway));
+  EXPECT_EQ("gateway: z", portOf("{transport: a/b, bus_end_point: y}", {"", "", "z"}, gateway));
+}
+
+// What would be ignored looks taken.
+TEST(ToolConfig, ThePortOfAnotherTransportIsRefused) {
   EXPECT_EQ("--device does not fit the transport canopen, expected --interface",
-            portOf("{transport: canopen, bus: {interface: can0}}", {"/dev/ttyUSB0", ""}));
+            portOf("{transport: canopen, bus: {interface: can0}}", {"/dev/ttyUSB0", "", ""}, kInterface));
   EXPECT_EQ("--device does not fit the transport canopen, expected --interface",
-            portOf("transport: nord_driver/canopen", {"/dev/ttyUSB0", "can0"}));
+            portOf("transport: nord_driver/canopen", {"/dev/ttyUSB0", "can0", ""}, kInterface));
   EXPECT_EQ("--interface does not fit the transport profibus_dp, expected --device",
-            portOf("bus: {device: a}", {"", "can0"}));
-  EXPECT_EQ("device: a\ninterface: b", portOf("transport: my_package/my_card", {"a", "b"}));
+            portOf("bus: {device: a}", {"", "can0", ""}, kDevice));
+  EXPECT_EQ("--bus and --device both say where the bus is, expected one of them",
+            portOf("bus: {device: a}", {"b", "", "c"}, kDevice));
+  EXPECT_EQ("--device does not fit the transport my_package/my_card, expected --bus",
+            portOf("transport: my_package/my_card", {"a", "", ""}, {"card", "card", "1"}));
+  EXPECT_EQ("--bus does not fit the transport my_package/my_card, expected none: it opens nothing",
+            portOf("transport: my_package/my_card", {"", "", "a"}, {}));
 }
 
 // To look at the drives nothing is opened, so that what would be opened need not be known.
 TEST(ToolConfig, ToLookAtThemTheDrivesNeedNoPort) {
   YAML::Node file = YAML::Load(kFile);
-  EXPECT_TRUE(readToolConfig(file).bus->has("interface"));
+  EXPECT_EQ("can0", readToolConfig(file, kInterface).bus->text("interface"));
   EXPECT_FALSE(readToolConfig(file, "far").bus->has("interface"));
-  file.remove("transport");
-  EXPECT_TRUE(readToolConfig(file).bus->has("device"));
+  EXPECT_TRUE(readToolConfig(file, kDevice).bus->has("device"));
   file["bus"]["device"] = "a";
-  EXPECT_EQ("a", readToolConfig(file).bus->text("device"));
+  EXPECT_EQ("a", readToolConfig(file, kDevice).bus->text("device"));
+  EXPECT_THAT(readToolConfig(file, EndPoint{}).bus->keys(), ElementsAre("baud_rate", "device"));
 }
 
 }  // namespace

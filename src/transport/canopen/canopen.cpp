@@ -7,6 +7,7 @@
 #include "config/setting_checks.h"
 #include "link/can/make_can_link.h"
 #include "transport/canopen/can_trace.h"
+#include "transport/canopen/canopen_counters.h"
 #include "transport/canopen/canopen_frame_text.h"
 
 namespace nord_driver {
@@ -87,6 +88,11 @@ void CanopenTransport::configure(const Settings& bus, const std::vector<DriveSet
   }
   answered_.assign(drives_.size(), 0);
   link_ = make_link_(settings);
+}
+
+bool CanopenTransport::serveParametersOnly() noexcept {
+  parameters_only_ = true;
+  return true;
 }
 
 Instant CanopenTransport::now() const noexcept {
@@ -283,20 +289,7 @@ bool CanopenTransport::connected() const noexcept {
 }
 
 BusCounters CanopenTransport::counters() const noexcept {
-  const canopen::Counters& from = master_->counters();
-  BusCounters to;
-  to.cycles = from.cycles;
-  to.telegrams_sent = from.frames_sent;
-  to.telegrams_received = from.frames_received;
-  to.retries = from.not_sent;
-  to.timeouts = from.sdo_timeouts;
-  to.checksum_errors = line_.bus_errors + line_.no_acknowledge;
-  to.discarded_bytes = 0;
-  to.unexpected = from.foreign + from.malformed + from.second_master + from.own_id_used;
-  to.overruns = line_.dropped;
-  to.stale = from.superseded + from.stray_sdo;
-  for (std::size_t i = 0; i < master_->nodeCount(); ++i) to.timeouts += master_->status(i).counters.missed_guards;
-  return to;
+  return canopenCounters(*master_, line_);
 }
 
 DriveNote CanopenTransport::note(DriveIndex drive) const noexcept {

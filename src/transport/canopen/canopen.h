@@ -15,7 +15,6 @@
 #include "transport/canopen/canopen_bus_events.h"
 #include "transport/canopen/canopen_config.h"
 #include "transport/canopen/canopen_drive.h"
-#include "transport/parameters_only.h"
 
 namespace nord_driver {
 
@@ -32,7 +31,7 @@ namespace nord_driver {
 ///
 /// For parameters only: nothing is reset and nothing watched, and nothing is sent on a bus that somebody else works
 /// with, whether it was heard before the first frame or came later.
-class CanopenTransport final : public Transport, public ParametersOnly {
+class CanopenTransport final : public Transport {
  public:
   using LinkFactory = std::function<std::unique_ptr<link::CanLink>(const link::CanSettings&)>;
 
@@ -41,7 +40,8 @@ class CanopenTransport final : public Transport, public ParametersOnly {
   /// On whatever the factory makes: a simulated bus in tests.
   explicit CanopenTransport(LinkFactory make_link);
 
-  void serveParametersOnly() noexcept override { parameters_only_ = true; }
+  bool serveParametersOnly() noexcept override;
+  EndPoint endPoint() const noexcept override { return {"interface", "CAN interface", "can0"}; }
   void configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) override;
   Instant now() const noexcept override;
   void sleepUntil(Instant when) noexcept override;

@@ -6,6 +6,7 @@
 
 #include "config/setting_checks.h"
 #include "profile/status_word.h"
+#include "transport/profibus/profibus_counters.h"
 #include "transport/profibus/profibus_telegram_text.h"
 
 namespace nord_driver {
@@ -63,6 +64,11 @@ void ProfibusDpTransport::configure(const Settings& bus, const std::vector<Drive
 
 void ProfibusDpTransport::setDriveTimeout(Duration timeout) noexcept {
   for (std::size_t station = 0; station < presence_.size(); ++station) master_->setSilenceLimit(station, timeout);
+}
+
+bool ProfibusDpTransport::serveParametersOnly() noexcept {
+  parameters_only_ = true;
+  return true;
 }
 
 Instant ProfibusDpTransport::now() const noexcept {
@@ -297,22 +303,7 @@ bool ProfibusDpTransport::connected() const noexcept {
 }
 
 BusCounters ProfibusDpTransport::counters() const noexcept {
-  const profibus::Counters& from = master_->counters();
-  BusCounters to;
-  to.cycles = from.cycles;
-  to.telegrams_sent = from.telegrams_sent;
-  to.telegrams_received = from.telegrams_received;
-  to.retries = from.retries;
-  to.timeouts = from.timeouts;
-  to.checksum_errors = from.checksum_errors;
-  const link::LineCounters line = link_->lineCounters();
-  to.parity_errors = line.parity_errors;
-  to.framing_errors = line.framing_errors;
-  to.overruns = line.overruns;
-  to.discarded_bytes = from.discarded_bytes;
-  to.unexpected = from.unexpected + line.collisions;
-  to.stale = parameters_->stale();
-  return to;
+  return profibusCounters(master_->counters(), link_->lineCounters(), parameters_->stale());
 }
 
 DriveNote ProfibusDpTransport::note(DriveIndex drive) const noexcept {

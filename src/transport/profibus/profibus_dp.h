@@ -16,7 +16,6 @@
 #include "nord_driver/transport/transport.h"
 #include "profibus/bus_scan.h"
 #include "profibus/dp_master.h"
-#include "transport/parameters_only.h"
 #include "transport/profibus/inverter_presence.h"
 #include "transport/profibus/profibus_dp_config.h"
 #include "transport/profibus/profibus_parameters.h"
@@ -30,7 +29,7 @@ namespace nord_driver {
 ///
 /// It owns the digital outputs of a module with an I/O byte (SK TU4-PBR: DO1, DO2) and holds them at 0: nobody switches
 /// anything with them, whatever the drives do.
-class ProfibusDpTransport final : public Transport, public ParametersOnly {
+class ProfibusDpTransport final : public Transport {
  public:
   using LinkFactory = std::function<std::unique_ptr<link::ByteLink>(const link::SerialSettings&)>;
 
@@ -39,7 +38,8 @@ class ProfibusDpTransport final : public Transport, public ParametersOnly {
   /// On whatever the factory makes: a simulated segment in tests.
   explicit ProfibusDpTransport(LinkFactory make_link);
 
-  void serveParametersOnly() noexcept override { parameters_only_ = true; }
+  bool serveParametersOnly() noexcept override;
+  EndPoint endPoint() const noexcept override { return {"device", "serial device", "/dev/ttyUSB0"}; }
   void configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) override;
   void setDriveTimeout(Duration timeout) noexcept override;
   Instant now() const noexcept override;

@@ -83,7 +83,7 @@ TEST_F(OnAnAskedBus, LostFramesAreToldWithinASecond) {
   for (const unsigned all : {1u, 2u, 3u}) {
     bus_->overflow(1);
     run(seconds{1});
-    EXPECT_EQ(all, counters_.overruns);
+    EXPECT_EQ(all, counters_.value(bus_counter::kOverruns));
     const auto told = transport_.pollEvent();
     ASSERT_TRUE(told);
     EXPECT_EQ("can0: received frames were lost, " + std::to_string(all) +
@@ -99,7 +99,7 @@ TEST_F(OnAnAskedBus, TheLastOnesBeforeItGoesAreCounted) {
   run(milliseconds{100});
   bus_->setInterfacePresent(false);
   run(seconds{1});
-  EXPECT_EQ(2u, counters_.overruns);
+  EXPECT_EQ(2u, counters_.value(bus_counter::kOverruns));
 }
 
 }  // namespace

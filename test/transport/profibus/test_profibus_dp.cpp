@@ -109,16 +109,17 @@ TEST_F(OnASegment, CarriesEachDriveItsOwnWords) {
 TEST_F(OnASegment, CountsWhatHappensOnTheLine) {
   bringUp();
   const BusCounters before = transport_->counters();
-  EXPECT_EQ(0u, before.retries);
+  EXPECT_EQ(0u, before.value(bus_counter::kRetries));
   segment_->loseAnswers(1);
   step();
   segment_->spoilAnswers(1);
   step();
   const BusCounters after = transport_->counters();
-  EXPECT_EQ(2u, after.cycles - before.cycles);
-  EXPECT_EQ(2u, after.retries - before.retries);
-  EXPECT_GE(after.timeouts - before.timeouts, 1u);
-  EXPECT_EQ(6u, after.telegrams_sent - before.telegrams_sent) << "two a cycle, and a repetition in each";
+  EXPECT_EQ(2u, after.value(bus_counter::kCycles) - before.value(bus_counter::kCycles));
+  EXPECT_EQ(2u, after.value(bus_counter::kRetries) - before.value(bus_counter::kRetries));
+  EXPECT_GE(after.value(bus_counter::kTimeouts) - before.value(bus_counter::kTimeouts), 1u);
+  EXPECT_EQ(6u, after.value(bus_counter::kTelegramsSent) - before.value(bus_counter::kTelegramsSent))
+      << "two a cycle, and a repetition in each";
   EXPECT_TRUE(bothAnswer()) << "a repetition is enough";
 }
 
