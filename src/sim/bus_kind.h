@@ -32,6 +32,10 @@ struct BusKind {
 /// The kind the configuration names by `transport` or `bus/transport`, with or without a prefix; else the first one of
 /// the table.
 const BusKind& busKindOf(const Group& root);
+/// The same, for who has the configuration as it was read from its files.
+inline const BusKind& busKindOf(const YAML::Node& root) {
+  return busKindOf(Group(root, ""));
+}
 /// All kinds, the first one is taken when none is named.
 const std::vector<BusKind>& busKinds();
 

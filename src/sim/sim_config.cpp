@@ -148,12 +148,13 @@ std::optional<BodyConfig> readBody(const Group& root, const YAML::Node& node, co
 
 SimConfig readSimConfig(const YAML::Node& configuration, const std::string& end_point) {
   YAML::Node node = configuration;
-  const Group given(configuration, "");
-  const std::string where =
-      end_point.empty() ? given.get<std::string>("bus_end_point", "", "where the bus is") : end_point;
-  if (!where.empty()) {
-    node = YAML::Clone(configuration);
-    node["bus"][busKindOf(given).end_point] = where;
+  const std::string chosen =
+      !end_point.empty() ? end_point
+                         : Group(node, "").get<std::string>("bus_end_point", "", "where the bus is",
+                                                            [](const std::string& value) { return !value.empty(); });
+  if (!chosen.empty()) {
+    node.reset(YAML::Clone(configuration));  // an assignment would go through to the caller's
+    node["bus"][busKindOf(node).end_point] = chosen;
   }
   const Group root(node, "");
   SimConfig config;

@@ -112,6 +112,17 @@ TEST(SimConfig, ReadsAMecanumBody) {
   }
 }
 
+// Where the bus is can be said for every kind of bus, in the file and by who reads it; the latter wins.
+TEST(SimConfig, ReadsTheEndPointOfAnyBus) {
+  const YAML::Node profibus = YAML::Load("{bus_end_point: /tmp/a, bus: {device: /tmp/x}, drives: {a: {address: 3}}}");
+  EXPECT_EQ("/tmp/a", readSimConfig(profibus).bus.as<DpBusConfig>().device);
+  EXPECT_EQ("/tmp/b", readSimConfig(profibus, "/tmp/b").bus.as<DpBusConfig>().device);
+  EXPECT_EQ("/tmp/x", profibus["bus"]["device"].as<std::string>()) << "not touched";
+  const YAML::Node canopen = YAML::Load("{transport: nord_driver/canopen, drives: {a: {address: 3}}}");
+  EXPECT_EQ("virtual:nord_sim", readSimConfig(canopen).bus.as<CanBusConfig>().interface);
+  EXPECT_EQ("can1", readSimConfig(canopen, "can1").bus.as<CanBusConfig>().interface);
+}
+
 // Drives behind one module share its address and differ in their place; what the module has is a group of its own.
 TEST(SimConfig, ReadsModulesWithSlots) {
   const SimConfig config = readSimConfig(YAML::Load(
