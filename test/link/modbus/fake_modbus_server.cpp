@@ -201,12 +201,14 @@ void FakeModbusServer::react(int client, const Bytes& request, const Reaction& r
       return send(client, good);
     case Reaction::kTransaction:
       good[1] = static_cast<std::uint8_t>(good[1] + reaction.value);
+      good.back() ^= 0xFF;  // nor are its data those asked for
       return send(client, good);
     case Reaction::kProtocol:
       good[3] = static_cast<std::uint8_t>(reaction.value);
       return send(client, good);
     case Reaction::kUnit:
       good[6] = static_cast<std::uint8_t>(reaction.value);
+      good.back() ^= 0xFF;
       return send(client, good);
     case Reaction::kFunction:
       good[7] = static_cast<std::uint8_t>(reaction.value);

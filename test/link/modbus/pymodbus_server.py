@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A Modbus/TCP server of other hands (pymodbus) for the test of our link.
+"""An independent Modbus/TCP server (pymodbus) for the test of our link.
 
 Prints its port. Input register i holds 1000 + i, holding register i holds 2000 + i until it is written. Ends when its
 standard input is closed. Ends with 77 when there is no pymodbus, or one before 3.0.
