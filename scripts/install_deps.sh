@@ -21,7 +21,7 @@ packages=(
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
   libtf2-dev libtf2-ros-dev
   liburdfdom-dev liburdfdom-headers-dev
-  libboost-program-options-dev libyaml-cpp-dev
+  libboost-program-options-dev libmodbus-dev libyaml-cpp-dev
   ros-robot-state-publisher python3-rosbag
   librostest-dev python3-rostest
   python3-rospy python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-std-srvs
@@ -30,6 +30,7 @@ packages=(
 test_packages=(
   clang-format-14 clang-tidy-14 clang-14 libclang-rt-14-dev tcpdump
   can-utils iproute2 tshark
+  python3-pymodbus # an independent server for the tests of link/modbus
   git mmdebstrap # scripts/check_fresh.sh
   qemu-system-x86 busybox-static cpio kmod # the emulated machine of scripts/can_machine.sh
 )

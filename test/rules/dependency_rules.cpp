@@ -78,6 +78,7 @@ const std::vector<Dependency>& dependencies() {
       {"google-mock", {"libgmock-dev"}, {}},
       {"gtest", {"libgtest-dev"}, {}},
       {"libboost-program-options-dev", {"libboost-program-options-dev"}, {"Boost", "program_options"}},
+      {"libmodbus-dev", {"libmodbus-dev"}, {"modbus"}},
       {"liburdfdom-dev", {"liburdfdom-dev"}, {"urdfdom"}},
       {"liburdfdom-headers-dev", {"liburdfdom-headers-dev"}, {"urdfdom_headers"}},
       {"message_generation", {"ros-core-dev"}, {"message_generation"}},

@@ -1,0 +1,153 @@
+#include "link/modbus/modbus_exchange.h"
+
+#include <algorithm>
+
+namespace nord_driver::link {
+
+namespace {
+
+Word wordAt(const RegisterImage& image, std::size_t i) noexcept {
+  return i < image.size() ? image[i] : Word{0};
+}
+
+WordRange registersOf(const RegisterBlock& block, std::size_t part) noexcept {
+  return {static_cast<std::uint16_t>(block.address + block.parts[part].first), block.parts[part].count};
+}
+
+}  // namespace
+
+PartOrder stopsFirst(const ModbusSettings& settings, const RegisterImage& written, const RegisterImage& next) noexcept {
+  const auto& parts = settings.outputs.parts;
+  const auto stops = [&](std::uint8_t part) noexcept {
+    const auto in_part = [&](std::uint16_t word) { return word >= parts[part].first && word < parts[part].end(); };
+    const auto runs = [&](const RegisterImage& image, std::uint16_t word) {
+      return (wordAt(image, word) & settings.run_bits) == settings.run_bits;
+    };
+    return std::count_if(settings.control_words.begin(), settings.control_words.end(),
+                         [&](std::uint16_t word) { return in_part(word) && runs(written, word) && !runs(next, word); });
+  };
+  PartOrder order;
+  for (std::size_t i = 0; i < parts.size(); ++i) order.push_back(static_cast<std::uint8_t>(i));
+  // Insertion: stable, and without the memory std::stable_sort takes.
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    for (std::size_t k = i; k > 0 && stops(order[k]) > stops(order[k - 1]); --k) std::swap(order[k], order[k - 1]);
+  }
+  return order;
+}
+
+bool ModbusExchange::ask(const ModbusRequest& request, const Wakeup& stop) noexcept {
+  if (!connection_.exchange(request, stop)) {
+    reason_ = connection_.reason();
+    return false;
+  }
+  ++requests_;
+  return true;
+}
+
+bool ModbusExchange::start(const Wakeup& stop) noexcept {
+  written_.clear();
+  if (!settings_.watchdog) return true;
+  const WatchdogRegister& watchdog = *settings_.watchdog;
+  ModbusRequest write;
+  write.function = ModbusFunction::kWriteRegisters;
+  write.write = {watchdog.address, 1};
+  write.values = &watchdog.value;
+  ModbusRequest read;
+  read.function = ModbusFunction::kReadHoldingRegisters;
+  read.read = {watchdog.address, 1};
+  if (!ask(write, stop) || !ask(read, stop)) {
+    Sentence why = reason_;
+    reason_.format("the watchdog of the gateway was not set: %.200s", why.c_str());
+    return false;
+  }
+  if (connection_.answered(0) == watchdog.value) return true;
+  reason_.format(
+      "%s holds %u in its watchdog register %u after %u was written there: it would not stop the drives as "
+      "configured",
+      settings_.server.c_str(), connection_.answered(0), watchdog.address, watchdog.value);
+  return false;
+}
+
+void ModbusExchange::addWrite(std::size_t part, const RegisterImage& outputs, ModbusRequest& request) const noexcept {
+  request.function = settings_.outputs.function;
+  request.write = registersOf(settings_.outputs, part);
+  request.values = outputs.data() + settings_.outputs.parts[part].first;
+}
+
+void ModbusExchange::addRead(std::size_t part, ModbusRequest& request) const noexcept {
+  request.function = settings_.inputs.function;
+  request.read = registersOf(settings_.inputs, part);
+}
+
+void ModbusExchange::noteWritten(std::size_t part, const RegisterImage& outputs) noexcept {
+  const WordRange& range = settings_.outputs.parts[part];
+  written_.resize(std::max<std::size_t>(written_.size(), range.end()));
+  std::copy(outputs.begin() + range.first, outputs.begin() + range.end(), written_.begin() + range.first);
+}
+
+void ModbusExchange::takeRead(std::size_t part, RegisterInputs& inputs) noexcept {
+  const WordRange& range = settings_.inputs.parts[part];
+  inputs.words.resize(std::max<std::size_t>(inputs.words.size(), range.end()));
+  for (std::size_t i = 0; i < range.count; ++i) inputs.words[range.first + i] = connection_.answered(i);
+}
+
+bool ModbusExchange::moveImages(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept {
+  const PartOrder order = stopsFirst(settings_, written_, outputs);
+  const std::size_t reads = settings_.inputs.parts.size();
+  if (settings_.inputs.function == ModbusFunction::kReadWriteRegisters) {
+    // Each request does both: the shorter image's last part is moved again, which changes nothing.
+    for (std::size_t i = 0; i < std::max(order.size(), reads); ++i) {
+      const std::size_t write_part = order[std::min(i, order.size() - 1)], read_part = std::min(i, reads - 1);
+      ModbusRequest request;
+      addWrite(write_part, outputs, request);
+      addRead(read_part, request);
+      if (!ask(request, stop)) return false;
+      noteWritten(write_part, outputs);
+      takeRead(read_part, inputs);
+    }
+    return true;
+  }
+  for (const std::uint8_t part : order) {
+    ModbusRequest request;
+    addWrite(part, outputs, request);
+    if (!ask(request, stop)) return false;
+    noteWritten(part, outputs);
+  }
+  inputs.asked = std::chrono::steady_clock::now();
+  for (std::size_t part = 0; part < reads; ++part) {
+    ModbusRequest request;
+    addRead(part, request);
+    if (!ask(request, stop)) return false;
+    takeRead(part, inputs);
+  }
+  return true;
+}
+
+bool ModbusExchange::askRunning(RegisterInputs& inputs, const Wakeup& stop) noexcept {
+  inputs.bus_runs = true;
+  if (!settings_.running) return true;
+  const RunningFlag& flag = *settings_.running;
+  ModbusRequest request;
+  request.function = flag.function;
+  request.read = {flag.address, 1};
+  if (!ask(request, stop)) return false;
+  inputs.running = connection_.answered(0);
+  inputs.bus_runs = (inputs.running & flag.mask) == flag.value;
+  return true;
+}
+
+bool ModbusExchange::run(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept {
+  for (const WordRange& part : settings_.outputs.parts) {
+    if (part.end() <= outputs.size()) continue;
+    reason_.format("the output image has %zu words, expected %u", outputs.size(), part.end());
+    return false;
+  }
+  inputs.words.clear();
+  inputs.asked = std::chrono::steady_clock::now();
+  // The bus first: whether it ran is to be known of the time in which the inputs were read.
+  if (!moveImages(outputs, inputs, stop) || !askRunning(inputs, stop)) return false;
+  inputs.received = std::chrono::steady_clock::now();
+  return true;
+}
+
+}  // namespace nord_driver::link

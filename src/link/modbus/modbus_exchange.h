@@ -1,0 +1,49 @@
+// One exchange of images with the server: writes first, then reads, in as few requests as they fit into.
+#pragma once
+
+#include <cstddef>
+
+#include "link/modbus/modbus_connection.h"
+#include "link/modbus/register_link.h"
+
+namespace nord_driver::link {
+
+/// The parts of an image, each by its place in the settings.
+using PartOrder = FixedVector<std::uint8_t, kMostImageWords>;
+
+/// In which order to write: the part in which most control words stop to allow motion goes first, the others keep
+/// their order.
+PartOrder stopsFirst(const ModbusSettings& settings, const RegisterImage& written, const RegisterImage& next) noexcept;
+
+class ModbusExchange {
+ public:
+  /// Both are kept by reference.
+  ModbusExchange(const ModbusSettings& settings, ModbusConnection& connection) noexcept
+      : settings_(settings), connection_(connection) {}
+
+  /// Once on each connection, before anything else: writes the watchdog and reads it back. A server that does not hold
+  /// it is not used, for it would not do what was counted on. False: `reason()`.
+  bool start(const Wakeup& stop) noexcept;
+  /// Writes `outputs`, reads `inputs`. False: `inputs` are of no use, `reason()`.
+  bool run(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept;
+
+  const Sentence& reason() const noexcept { return reason_; }
+  std::uint64_t requests() const noexcept { return requests_; }
+
+ private:
+  bool ask(const ModbusRequest& request, const Wakeup& stop) noexcept;
+  void addWrite(std::size_t part, const RegisterImage& outputs, ModbusRequest& request) const noexcept;
+  void addRead(std::size_t part, ModbusRequest& request) const noexcept;
+  void noteWritten(std::size_t part, const RegisterImage& outputs) noexcept;
+  void takeRead(std::size_t part, RegisterInputs& inputs) noexcept;
+  bool moveImages(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept;
+  bool askRunning(RegisterInputs& inputs, const Wakeup& stop) noexcept;
+
+  const ModbusSettings& settings_;
+  ModbusConnection& connection_;
+  RegisterImage written_;
+  Sentence reason_;
+  std::uint64_t requests_ = 0;
+};
+
+}  // namespace nord_driver::link
