@@ -102,6 +102,7 @@ Heard ExplicitClient::handle(const CanFrame& frame, Instant now) noexcept {
   if ((bytes[0] & kMacMask) != own_) return Heard::kForeign;
   const bool xid = (bytes[0] & kTransactionBit) != 0;
   if ((bytes[0] & kFragmentBit) == 0) return awaitsAnswer(xid) ? handleBody(bytes.sub(1)) : Heard::kStale;
+  // Neither an acknowledge nor a part of a message is empty.
   if (bytes.size() < 3) return Heard::kMalformed;
   const Fragment fragment = Fragment::from(bytes[1]);
   return fragment.type == FragmentType::kAcknowledge ? handleAcknowledge(xid, fragment, bytes.sub(2), now)

@@ -8,8 +8,7 @@ ExplicitReceiver::Result ExplicitReceiver::handle(bool xid, Fragment fragment, B
   if (last_ && last_->xid == xid && last_->byte == fragment.byte() && !(first && !assembling_)) {
     return Result::kRepeated;
   }
-  // An empty fragment would let a message go on for ever.
-  if (!expected || data.empty()) return Result::kStray;
+  if (!expected) return Result::kStray;
   if (first) {
     if (fragment.count != 0) return Result::kStray;
     body_.clear();

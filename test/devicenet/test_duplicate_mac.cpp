@@ -95,6 +95,19 @@ TEST(DuplicateMac, WaitsForTheLink) {
   EXPECT_EQ(BusState::kOnline, run.scanner.busState());
 }
 
+TEST(DuplicateMac, ARequestThatWasNotSentDoesNotCount) {
+  DuplicateMacCheck check{0, {1, 2}, seconds{1}};
+  Instant now{std::chrono::hours{1}};
+  check.restart();
+  CanFrame frame;
+  ASSERT_TRUE(check.pollTransmit(frame, now));
+  check.notSent(frame);
+  now += seconds{5};
+  check.poll(now);
+  EXPECT_EQ(DuplicateMacCheck::State::kFirst, check.state());
+  EXPECT_TRUE(check.pollTransmit(frame, now)) << "it comes again";
+}
+
 // Messages of a wrong length say nothing about whose MAC id it is.
 TEST(DuplicateMac, MalformedIsNoFault) {
   ScannerRun run{busConfig(1)};

@@ -96,11 +96,11 @@ TEST(NodeLoss, ConnectionGoneByItsOwnWord) {
 TEST(NodeLoss, ReleasedByAnother) {
   ScannerRun run{busConfig(1)};
   ASSERT_TRUE(run.starts());
-  const auto foreign = frame("42E#004C030103");
+  const auto foreign = frame("42E#004C030102");
   run.devices[0]->receive(foreign, run.now);
   run.scanner.handleFrame(foreign, run.now);
-  ASSERT_EQ(0, run.devices[0]->held);
-  ASSERT_TRUE(run.reaches(NodeState::kLost, milliseconds{200}));
+  ASSERT_EQ(0, run.devices[0]->held & 2);
+  ASSERT_TRUE(run.reaches(NodeState::kLost, milliseconds{20})) << "two cycles";
   EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
 }
 
@@ -119,6 +119,10 @@ TEST(NodeLoss, HeartbeatAndShutdown) {
   run.step();
   EXPECT_EQ("says in its heartbeat that its state is \"major fault, recoverable\" (4), fault flags 04h",
             run.eventText(DevicenetEventKind::kHeartbeat));
+  run.events.clear();
+  run.say("42B#06CD010003000000");  // the header names another device
+  run.step();
+  EXPECT_EQ(0u, run.count(DevicenetEventKind::kHeartbeat));
   run.say("42B#05CD0100");
   EXPECT_EQ(1u, run.scanner.status(0).counters.malformed);
   run.say("42B#05CE010001000200");

@@ -145,6 +145,31 @@ TEST(ProcessData, Unacknowledged) {
   EXPECT_EQ("acknowledged no data for 120 ms", run.eventText(DevicenetEventKind::kNodeLost));
 }
 
+// However long nobody acknowledges: each message is sent twice, never more often.
+TEST(ProcessData, RepeatedOnce) {
+  ScannerConfig config = oneOf(IoKind::kChangeOfState, 5, 5);
+  config.nodes[0].io.expected_packet_rate = milliseconds{200};
+  ScannerRun run{config};
+  ASSERT_TRUE(run.starts());
+  run.run(milliseconds{50});
+  run.devices[0]->mute_acknowledges = true;
+  run.output[4] = 0x55;
+  const std::size_t before = run.sentTo("42D");
+  run.run(milliseconds{100});
+  EXPECT_EQ(before + 2, run.sentTo("42D"));
+  EXPECT_EQ(2u, run.scanner.status(0).counters.unacknowledged);
+}
+
+// A message that was not given out before the next cycle is dropped, and counted.
+TEST(ProcessData, SupersededByTheNextCycle) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  run.scanner.startCycle(run.now);
+  run.scanner.startCycle(run.now + milliseconds{10});
+  EXPECT_EQ(1u, run.scanner.counters().superseded);
+  EXPECT_EQ(1u, run.scanner.status(0).counters.superseded);
+}
+
 // Suppressed: allocated so, nobody acknowledges, nobody waits for it.
 TEST(ProcessData, AcknowledgeSuppressed) {
   ScannerRun run{oneOf(IoKind::kChangeOfState, 5, 5, false)};
