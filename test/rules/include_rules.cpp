@@ -40,6 +40,7 @@ const std::map<std::string, Names>& table() {
       {"link", {"core"}},
       {"link/serial", {"core", "link"}},
       {"link/can", {"core", "link"}},
+      {"link/modbus", {"core", "link"}},
       {"config", {"core", "profile"}},
       {"catalogue", {"core", "config", "profile"}},
       {"robot", {"core"}},
