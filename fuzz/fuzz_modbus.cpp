@@ -21,10 +21,27 @@ ModbusRequest asked(fuzz::Choices& choices, const Word* values) {
   request.function = kFunctions[choices.below(4)];
   request.unit = choices.byte();
   request.transaction = choices.byte();
-  request.read = {choices.byte(), static_cast<std::uint16_t>(1 + choices.below(kMostReadRegisters))};
+  request.read = {choices.byte(), static_cast<std::uint16_t>(1 + choices.below(kMostReadRegisters - 2))};
   request.write = {choices.byte(), static_cast<std::uint16_t>(1 + choices.below(kMostReadWriteWrites))};
   request.values = values;
   return request;
+}
+
+/// The first `most` bytes of the answer a server gives whose registers are all 0.
+FixedBytes<256> good(const ModbusRequest& request, std::size_t most) {
+  const ModbusAdu sent = toBytes(request);
+  FixedBytes<256> bytes;
+  for (const std::uint8_t byte : ByteView{sent}.sub(0, kHeader)) bytes.push_back(byte);
+  if (request.function == ModbusFunction::kWriteRegisters) {
+    for (const std::uint8_t byte : ByteView{sent}.sub(kHeader, 4)) bytes.push_back(byte);
+  } else {
+    bytes.push_back(static_cast<std::uint8_t>(2 * request.read.count));
+    bytes.resize(bytes.size() + 2u * request.read.count);
+  }
+  bytes[4] = 0;
+  bytes[5] = static_cast<std::uint8_t>(bytes.size() - 6);
+  if (bytes.size() > most) bytes.resize(most);
+  return bytes;
 }
 
 /// The answer as libmodbus takes it from a socket; empty when it refuses.
@@ -66,13 +83,18 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Choices choices{data, size};
   const ModbusRequest request = asked(choices, values);
   FixedBytes<256> bytes;
-  // Half of the answers begin with the header of a good one.
-  if (choices.below(2) == 0) {
-    const ModbusAdu sent = toBytes(request);
-    for (const std::uint8_t byte : ByteView{sent}.sub(0, kHeader)) bytes.push_back(byte);
-    bytes[5] = choices.byte();
+  const std::uint8_t kind = choices.below(3);
+  if (kind > 0) bytes = good(request, kind == 1 ? kHeader : 256);
+  // A few bytes of a good answer are changed; behind its header alone follows anything, as it does behind nothing.
+  unsigned changed = 0;
+  for (; kind == 2 && changed < 3 && !choices.empty(); ++changed) {
+    std::uint8_t& byte = bytes[choices.byte() % bytes.size()];
+    byte = static_cast<std::uint8_t>(byte + 1 + choices.below(255));
   }
-  for (const std::uint8_t byte : choices.bytes(256)) bytes.push_back(byte);
+  if (kind < 2) {
+    for (const std::uint8_t byte : choices.bytes(256)) bytes.push_back(byte);
+  }
+  fuzz::require(kind < 2 || changed > 0 || judge(request, ByteView{bytes}).good());
   check(request, ByteView{bytes});
   const ModbusAdu taken = read(bytes);
   check(request, ByteView{taken});
