@@ -43,6 +43,13 @@ void ExplicitChannel::cancelOwn() noexcept {
   own_answer_.reset();
 }
 
+void ExplicitChannel::silence() noexcept {
+  close();
+  cancelOwn();
+  cancel();
+  client_.silence();
+}
+
 std::optional<ExplicitAnswer> ExplicitChannel::takeOwnAnswer() noexcept {
   const std::optional<ExplicitAnswer> answer = own_answer_;
   own_answer_.reset();

@@ -39,6 +39,8 @@ class ExplicitChannel {
   std::optional<ExplicitAnswer> takeOwnAnswer() noexcept;
   /// Ends the engine's request without an answer.
   void cancelOwn() noexcept;
+  /// Closed, and nothing that is left is sent.
+  void silence() noexcept;
 
   Heard handle(const CanFrame& frame, Instant now) noexcept;
   void poll(Instant now) noexcept;

@@ -42,6 +42,11 @@ void ExplicitClient::cancel() noexcept {
   answer_.reset();
 }
 
+void ExplicitClient::silence() noexcept {
+  cancel();
+  receiver_.forget();
+}
+
 bool ExplicitClient::fragmented() const noexcept {
   return body_.size() > kUnfragmentedBody;
 }

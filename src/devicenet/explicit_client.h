@@ -43,6 +43,8 @@ class ExplicitClient {
   bool busy() const noexcept { return phase_ != Phase::kIdle || answer_.has_value(); }
   /// Ends the request without an answer; an answer not taken is dropped.
   void cancel() noexcept;
+  /// The same, and fragments that come again are not acknowledged any more.
+  void silence() noexcept;
 
   /// A frame on the device's explicit response identifier.
   Heard handle(const CanFrame& frame, Instant now) noexcept;

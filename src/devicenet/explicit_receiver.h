@@ -23,6 +23,11 @@ class ExplicitReceiver {
 
   /// What was being put together is dropped. A repetition of the last fragment is still known.
   void reset() noexcept { assembling_ = false; }
+  /// Nothing is known any more.
+  void forget() noexcept {
+    assembling_ = false;
+    last_.reset();
+  }
   /// `data`: behind the fragment byte, not empty: a message of empty fragments would have no end. `expected`: somebody waits for a message with this transaction id.
   Result handle(bool xid, Fragment fragment, ByteView data, bool expected) noexcept;
   const ExplicitBody& body() const noexcept { return body_; }

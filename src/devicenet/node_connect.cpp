@@ -39,8 +39,7 @@ void NodeConnect::stop(const Sentence& why, Instant now) noexcept {
   const bool was_exchanging = exchanging();
   const NodeState state = report_.status().state;
   held_ = 0;
-  channel_.close();
-  channel_.cancelOwn();
+  channel_.silence();
   timers_.stopAll();
   phase_ = Phase::kOff;
   if (was_exchanging) {

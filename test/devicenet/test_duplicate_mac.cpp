@@ -81,6 +81,29 @@ TEST(DuplicateMac, ResponseWhileOnline) {
   EXPECT_TRUE(run.runUntil([&] { return run.allExchanging(); }, seconds{5}));
 }
 
+// Not even an acknowledge that was due, nor one for a fragment that comes again, now or when we are back.
+TEST(DuplicateMac, SilenceIsWhole) {
+  ScannerRun run{busConfig(1)};
+  run.devices[0]->attributes[{1, 1, 7}] = std::vector<std::uint8_t>(20, 0x41);
+  ASSERT_TRUE(run.starts());
+  ASSERT_TRUE(run.scanner.submit(0, getAttribute(1, 1, 1, 7)));
+  CanFrame sent, fragment;
+  for (bool answered = false; !answered; answered = run.scanner.pollAnswer().has_value()) {
+    while (run.scanner.pollTransmit(sent)) run.devices[0]->receive(sent, run.now);
+    while (run.devices[0]->next(fragment)) run.scanner.handleFrame(fragment, run.now);
+  }
+  ASSERT_EQ("42B#", text(fragment).substr(0, 4));
+  ASSERT_EQ(0x80, fragment.data[0] & 0x80) << "the last fragment: its acknowledge is due";
+  run.say("407#80850178563412");
+  EXPECT_FALSE(run.scanner.pollTransmit(sent));
+  run.scanner.handleFrame(fragment, run.now);
+  EXPECT_FALSE(run.scanner.pollTransmit(sent));
+  run.seen.clear();
+  run.devices[0]->powerOff();
+  run.run(seconds{4});
+  for (const std::string& line : run.seen) EXPECT_NE("> 42C#", line.substr(0, 6)) << line;
+}
+
 // The second of silence begins when the link has taken the request, not before.
 TEST(DuplicateMac, WaitsForTheLink) {
   ScannerRun run{busConfig(1)};

@@ -32,6 +32,9 @@ class Chaos {
  public:
   explicit Chaos(std::uint32_t seed) : random_{seed}, run_{mixed(seed)} {
     run_.loses = [this](const CanFrame& frame) { return loses(frame); };
+    run_.on_sent = [this](const CanFrame& frame) {
+      EXPECT_TRUE(frame.id == 0x407 || run_.scanner.busState() == BusState::kOnline) << text(frame);
+    };
     run_.doubles = [this](const CanFrame&) { return !calm_ && chance(15); };
     for (auto& device : run_.devices) {
       device->attributes[{4, 100, 3}] = std::vector<std::uint8_t>(33, 1);
