@@ -118,6 +118,8 @@ def cmake_uses():
             yield Use(f"find_package({package})", file, config_path(package))
             components = rest.partition("COMPONENTS")[2].split()
             for component in components:
+                if component == "nord_driver":  # this package itself, for one that is built against it
+                    continue
                 name = f"boost_{component}" if package == "Boost" else component
                 yield Use(f"find_package({package} {component})", file, config_path(name))
         for library in re.findall(r"find_library\(\s*\w+\s+([\w-]+)", text):
