@@ -150,15 +150,20 @@ bool TreeSettings::isKnown(const std::string& leaf) const {
   return known;
 }
 
-std::vector<std::string> TreeSettings::unknownKeys() const {
+std::vector<std::string> TreeSettings::unknownKeys(const std::string& node) const {
   std::vector<std::string> sentences;
   std::vector<std::string> leaves;
   collectLeaves(value_, "", leaves);
   for (const std::string& name : leaves) {
     if (isKnown(name)) continue;
     const std::string nearest = nearestName(name, {asked_.begin(), asked_.end()});
-    sentences.push_back(fullName(name) + " is not known and is ignored" +
-                        (nearest.empty() ? "" : "; did you mean " + fullName(nearest) + "?"));
+    std::string sentence = fullName(name) + " is not known and is ignored";
+    if (!nearest.empty()) sentence += "; did you mean " + fullName(nearest) + "?";
+    if (!node.empty()) {
+      sentence += (nearest.empty() ? "; left" : " Left") +
+                  std::string(" over from an earlier start? rosparam delete ") + node + "/" + fullName(name).substr(1);
+    }
+    sentences.push_back(sentence);
   }
   return sentences;
 }

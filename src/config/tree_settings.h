@@ -37,8 +37,10 @@ class TreeSettings : public Settings {
   /// Marks a key as known without reading it.
   void accept(const std::string& key) const { asked_.insert(key); }
 
-  /// One sentence per key that is there and that nobody asked for, with the nearest known name.
-  std::vector<std::string> unknownKeys() const;
+  /// One sentence per key that is there and that nobody asked for, with the nearest known name. `node`: whose
+  /// parameters they are, if any node's: parameters outlive the node that had them, so the sentence says how to delete
+  /// one.
+  std::vector<std::string> unknownKeys(const std::string& node = {}) const;
 
  private:
   const SettingValue* find(const std::string& key) const;  // nullptr when it is absent or has no value

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "config/setting_checks.h"
+#include "node/start_sentence.h"
 #include "nord_driver/profile/series.h"
 
 namespace nord_driver::node {
@@ -52,6 +53,7 @@ DriverNode::DriverNode()
       loader_("nord_driver", "nord_driver::Transport") {
   loadTransport();
   warnOfUnknownKeys();
+  ROS_INFO("nord_driver: %s", startSentence(config_, identities_, where_).c_str());
   ports_ = std::make_unique<cycle::CyclePorts>(config_.drives.size());
   cycle_ = std::make_unique<cycle::BusCycle>(config_.cycle, *transport_, *ports_, config_.auto_enable);
   broker_ = std::make_unique<RequestBroker>(*ports_);
@@ -91,12 +93,12 @@ void DriverNode::loadTransport() {
 
 void DriverNode::warnOfUnknownKeys() const {
   std::vector<std::string> sentences = config_.warnings;
-  for (const std::string& sentence : settings_.unknownKeys()) sentences.push_back(sentence);
-  for (const std::string& sentence : config_.bus->unknownKeys()) sentences.push_back(sentence);
+  std::vector<const TreeSettings*> groups{&settings_, config_.bus.get()};
   for (const DriveSettings& drive : config_.drives) {
-    for (const std::string& sentence : static_cast<const TreeSettings&>(*drive.settings).unknownKeys()) {
-      sentences.push_back(sentence);
-    }
+    groups.push_back(static_cast<const TreeSettings*>(drive.settings.get()));
+  }
+  for (const TreeSettings* group : groups) {
+    for (const std::string& sentence : group->unknownKeys(ros::this_node::getName())) sentences.push_back(sentence);
   }
   for (const std::string& sentence : sentences) ROS_WARN("nord_driver: %s", sentence.c_str());
 }
