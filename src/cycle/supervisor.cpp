@@ -261,12 +261,10 @@ bool Supervisor::followStop(const Job& job) noexcept {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     if (concerns(job.request, i) && !groups_[i].group.settled()) return false;
   }
-  const auto silent = silentMember(job.request);
-  if (silent && job.request.kind != RequestKind::kShutDown) return false;  // it may be back before the deadline
-  if (silent) {
-    Sentence text;
-    text.format("drive %s does not answer: nobody has seen it stop", names_[*silent].c_str());
-    completions_.answer(job.request, false, text);
+  const Sentence silent = silentMembers(job.request);
+  if (!silent.empty() && job.request.kind != RequestKind::kShutDown) return false;  // back before the deadline, maybe
+  if (!silent.empty()) {
+    completions_.answer(job.request, false, silent);
     return true;
   }
   const bool quick = job.request.kind == RequestKind::kQuickStop;
@@ -275,14 +273,20 @@ bool Supervisor::followStop(const Job& job) noexcept {
 }
 
 // A group counts a silent drive as settled, for nothing more can be done with it; confirmed it has nothing.
-std::optional<DriveIndex> Supervisor::silentMember(const Request& request) const noexcept {
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    if (!concerns(request, i)) continue;
-    for (const DriveIndex member : groups_[i].members) {
-      if (!drives_[member].report().online) return member;
-    }
+Sentence Supervisor::silentMembers(const Request& request) const noexcept {
+  Sentence who;
+  int count = 0;
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    if (!concerns(request, group_of_[i]) || drives_[i].report().online) continue;
+    Sentence longer;
+    longer.format("%.150s%s%s", who.c_str(), count == 0 ? "" : ", ", names_[i].c_str());
+    who = longer;
+    ++count;
   }
-  return std::nullopt;
+  Sentence text;
+  if (count == 1) text.format("drive %s does not answer: nobody has seen it stop", who.c_str());
+  if (count > 1) text.format("drives %.180s do not answer: nobody has seen them stop", who.c_str());
+  return text;
 }
 
 Sentence Supervisor::unsettled(const Request& request) const noexcept {

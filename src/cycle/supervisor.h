@@ -74,8 +74,8 @@ class Supervisor {
   bool followStop(const Job& job) noexcept;
   void takeBack(const Request& request, Instant now) noexcept;
   Sentence refusalOf(const Group& group, const drive::GroupRefusal& refusal) const noexcept;
-  /// A drive the request concerns and that does not answer.
-  std::optional<DriveIndex> silentMember(const Request& request) const noexcept;
+  /// Names the drives the request concerns and that do not answer; empty when all do.
+  Sentence silentMembers(const Request& request) const noexcept;
   Sentence unsettled(const Request& request) const noexcept;
   void autoEnable(const CommandState& commands, Instant now) noexcept;
 

@@ -176,7 +176,8 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
 
   // Whatever ends the node, the drives come to rest first: an exchange that simply ends lets the wheels coast.
   try {
-    publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_);
+    publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_,
+                       loggedDrives());
     // roscpp is "ok" until it has unregistered every topic: tenths of a second in which the robot would drive on.
     while (!end_asked && ros::ok() && !ros::isShuttingDown() && publisher_->healthy()) {
       noteCommanders();
@@ -188,6 +189,16 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
     throw;
   }
   bringToRest();
+}
+
+LoggedDrives DriverNode::loggedDrives() const {
+  LoggedDrives drives;
+  drives.node = ros::this_node::getName();
+  for (DriveIndex i = 0; i < config_.cycle.drives.size(); ++i) {
+    drives.names.push_back(config_.cycle.drives[i].name);
+    drives.in_base.push_back(cycle_->inBase(i));
+  }
+  return drives;
 }
 
 void DriverNode::noteCommanders() {
