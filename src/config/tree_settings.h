@@ -28,6 +28,8 @@ class TreeSettings : public Settings {
   std::vector<std::string> keys() const override;
   std::string fullName(const std::string& key) const override;
 
+  /// Of the group at `key`, which is no path; empty when it is none. Does not count as asking.
+  std::vector<std::string> keysBelow(const std::string& key) const;
   /// A list of numbers.
   std::optional<std::vector<double>> numbers(const std::string& key) const;
   /// The group below `key`; an empty one when it is absent.
@@ -45,6 +47,8 @@ class TreeSettings : public Settings {
  private:
   const SettingValue* find(const std::string& key) const;  // nullptr when it is absent or has no value
   ConfigError wrongKind(const std::string& key, const SettingValue& value, const std::string& expected) const;
+  /// The same for an item of a list.
+  ConfigError wrongItem(const std::string& key, const SettingValue& item, const std::string& expected) const;
   bool isKnown(const std::string& leaf) const;
 
   std::string prefix_;

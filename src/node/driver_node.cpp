@@ -3,6 +3,7 @@
 #include <boost/function.hpp>
 #include <cmath>
 
+#include "config/driver_settings.h"
 #include "config/setting_checks.h"
 #include "node/start_sentence.h"
 #include "nord_driver/profile/series.h"
@@ -71,11 +72,7 @@ DriverNode::~DriverNode() {
 
 void DriverNode::loadTransport() {
   if (!loader_.isClassAvailable(config_.transport)) {
-    std::string known;
-    for (const std::string& name : loader_.getDeclaredClasses()) known += (known.empty() ? "" : ", ") + name;
-    throw ConfigError("~transport: \"" + config_.transport +
-                      "\" is not valid, expected one of the declared transports: " +
-                      (known.empty() ? "none (is the package's setup file sourced?)" : known));
+    throw unknownTransport(settings_, config_.transport, loader_.getDeclaredClasses());
   }
   transport_ = loader_.createInstance(config_.transport);
   where_ = applyEndPoint(config_, transport_->endPoint());
@@ -194,6 +191,8 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
 LoggedDrives DriverNode::loggedDrives() const {
   LoggedDrives drives;
   drives.node = ros::this_node::getName();
+  drives.bus = where_;
+  if (!where_.empty()) drives.bus_key = config_.bus->fullName(transport_->endPoint().key);
   for (DriveIndex i = 0; i < config_.cycle.drives.size(); ++i) {
     drives.names.push_back(config_.cycle.drives[i].name);
     drives.in_base.push_back(cycle_->inBase(i));

@@ -32,7 +32,10 @@ std::vector<LogLine> StateLog::poll(const cycle::CycleSnapshot& snapshot, Instan
 }
 
 void StateLog::pollBus(const cycle::CycleSnapshot& snapshot, Instant now, std::vector<LogLine>& lines) {
-  const auto line = bus_.poll(busSentence(snapshot, drives_.names), busIsWell(snapshot), now);
+  std::string text = busSentence(snapshot, drives_.names);
+  const bool of_the_device = !drives_.bus.empty() && text.compare(0, drives_.bus.size(), drives_.bus) == 0;
+  if (!snapshot.connected && of_the_device) text += "; trying again (" + drives_.bus_key + ")";
+  const auto line = bus_.poll(text, busIsWell(snapshot), now);
   if (line) lines.push_back({line->good ? Level::kInfo : Level::kWarn, line->text});
 }
 

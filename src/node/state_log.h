@@ -22,6 +22,8 @@ struct LoggedDrives {
   std::string node;  ///< its full name: "/nord_driver"
   std::vector<std::string> names;
   std::vector<bool> in_base;  ///< one per drive: acknowledged and enabled with the others
+  std::string bus = {};       ///< what the transport opens, as configured; empty: nothing
+  std::string bus_key = {};   ///< where that is configured: "~bus/device"
 };
 
 /// Polled with the newest snapshot; what came and went between two of them is not lost where it is counted.

@@ -34,7 +34,7 @@ class StateLogTest : public ::testing::Test {
   }
 
   cycle::CycleSnapshot snapshot_{3};
-  StateLog log_{{"/nord_driver", {"left", "right", "lift"}, {true, true, false}}};
+  StateLog log_{{"/nord_driver", {"left", "right", "lift"}, {true, true, false}, "/dev/ttyUSB0", "~bus/device"}};
   Instant now_ = Instant{} + std::chrono::hours{1};
 };
 
@@ -124,7 +124,7 @@ TEST_F(StateLogTest, TheLossOfTheWholeBusIsAWarning) {
   const auto lines = during(milliseconds{1500});
   ASSERT_EQ(1u, lines.size());
   EXPECT_EQ(Level::kWarn, lines[0].level);
-  EXPECT_EQ("/dev/ttyUSB0 is open, but no station answers", lines[0].text);
+  EXPECT_EQ("/dev/ttyUSB0 is open, but no station answers; trying again (~bus/device)", lines[0].text);
 }
 
 }  // namespace
