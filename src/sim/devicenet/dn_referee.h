@@ -95,6 +95,7 @@ class DnReferee {
   /// What the scanner can know of a node.
   struct View {
     bool exists = false;
+    bool refused = false;     ///< an allocation was: it may still have one of before
     std::uint8_t choice = 0;  ///< allocated
     unsigned on_their_way = 0;
     std::optional<Request> pending;
