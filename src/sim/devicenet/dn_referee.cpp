@@ -14,7 +14,7 @@ constexpr Duration kCheckTolerance = milliseconds(50);  // a frame waits for the
 constexpr Duration kAnswerTime = milliseconds(500);
 constexpr Duration kFragmentTime = milliseconds(1000);
 constexpr Duration kChangeTime = milliseconds(100);
-constexpr Duration kRequestTime = milliseconds(500);  // an answer may be lost: it is asked again
+constexpr Duration kRequestTime = milliseconds(150);  // then the answer is lost, and it may be asked again
 constexpr unsigned kTimeoutMultiplier = 4;
 
 constexpr std::uint8_t kDeviceNetClass = 3;

@@ -66,7 +66,7 @@ class DnReferee {
   void delivered(const CanFrame& frame) noexcept;
   /// A frame of somebody who is neither.
   void foreignFrame(const CanFrame& frame) noexcept;
-  /// The bus stood still: what is late is nobody's mistake.
+  /// Simulator or bus stood still: what is late is nobody's mistake.
   void stoodStill() noexcept;
 
   std::optional<std::uint8_t> master() const noexcept { return master_; }

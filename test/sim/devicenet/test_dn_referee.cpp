@@ -195,6 +195,18 @@ TEST_F(DnRefereeTest, PollsAfterTheModuleStartedAnew) {
   EXPECT_EQ(1u, only(DnRule::kIoBeforeAllocation)) << said;
 }
 
+// Nobody is there to acknowledge: the frame that is repeated meanwhile goes out when the module is back.
+TEST_F(DnRefereeTest, FrameThatWaitedForAnAcknowledge) {
+  bus.connect();
+  bus.poll("44D#00 7E 04 00 00", milliseconds(100));
+  bus.drive().setPlugged(false);
+  bus.send("44D#00 7E 04 00 00");
+  bus.bus.run(milliseconds(2000));
+  bus.drive().setPlugged(true);
+  bus.bus.run(milliseconds(2500));
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
+}
+
 TEST_F(DnRefereeTest, Fragments) {
   DnConversation four{dnGateway(4, 102)};
   four.connect();
