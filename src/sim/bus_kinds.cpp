@@ -2,6 +2,7 @@
 
 #include "sim/bus_kind.h"
 #include "sim/canopen/can_config.h"
+#include "sim/interbus/ibs_config.h"
 #include "sim/profibus/dp_config.h"
 
 namespace nord_driver::sim {
@@ -22,6 +23,7 @@ const std::vector<BusKind>& busKinds() {
   static const std::vector<BusKind> kKinds{
       profibusKind(),
       canopenKind(),
+      interbusKind(),
   };
   return kKinds;
 }
