@@ -53,6 +53,7 @@ class DriverNode {
   void noteCommanders();
   void tellBusEvents();
   void bringToRest();
+  LoggedDrives loggedDrives() const;
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;

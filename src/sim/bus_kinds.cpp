@@ -2,6 +2,7 @@
 
 #include "sim/bus_kind.h"
 #include "sim/canopen/can_config.h"
+#include "sim/devicenet/dn_config.h"
 #include "sim/interbus/ibs_config.h"
 #include "sim/profibus/dp_config.h"
 
@@ -23,6 +24,7 @@ const std::vector<BusKind>& busKinds() {
   static const std::vector<BusKind> kKinds{
       profibusKind(),
       canopenKind(),
+      devicenetKind(),
       interbusKind(),
   };
   return kKinds;

@@ -62,7 +62,7 @@ struct BodyConfig {
 };
 
 struct SimConfig {
-  BusSettings bus;  ///< DpBusConfig, CanBusConfig; by its type the kind of bus is known, nothing: PROFIBUS
+  BusSettings bus;  ///< DpBusConfig, CanBusConfig, DnBusConfig; by its type the kind of bus is known, nothing: PROFIBUS
   std::vector<DriveConfig> drives;
   std::optional<BodyConfig> body;
   std::vector<std::string> warnings;  ///< keys nobody knows

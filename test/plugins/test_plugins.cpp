@@ -48,6 +48,7 @@ TEST(Plugins, EveryDeclaredTransportCanBeCreated) {
   ASSERT_THAT(names, Not(IsEmpty()));
   EXPECT_THAT(names, Contains("nord_driver/profibus_dp"));
   EXPECT_THAT(names, Contains("nord_driver/canopen"));
+  EXPECT_THAT(names, Contains("nord_driver/devicenet"));
   EXPECT_THAT(names, Contains("nord_driver/interbus"));
   pluginlib::ClassLoader<Transport> loader("nord_driver", "nord_driver::Transport");
   for (const std::string& name : names) {

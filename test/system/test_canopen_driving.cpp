@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "system/can_robot.h"
-#include "transport/canopen/can_trace.h"
+#include "core/can_trace.h"
 
 namespace nord_driver::test {
 namespace {

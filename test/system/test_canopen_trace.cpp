@@ -11,7 +11,7 @@
 
 #include "system/can_robot.h"
 #include "trace/pcap.h"
-#include "transport/canopen/can_trace.h"
+#include "core/can_trace.h"
 
 namespace nord_driver::test {
 namespace {

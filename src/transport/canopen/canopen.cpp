@@ -6,7 +6,7 @@
 
 #include "config/setting_checks.h"
 #include "link/can/make_can_link.h"
-#include "transport/canopen/can_trace.h"
+#include "core/can_trace.h"
 #include "transport/canopen/canopen_counters.h"
 #include "transport/canopen/canopen_frame_text.h"
 

@@ -5,7 +5,7 @@
 #include "canopen/emergency.h"
 #include "canopen/nmt.h"
 #include "canopen/sdo_abort.h"
-#include "transport/canopen/can_trace.h"
+#include "core/can_trace.h"
 #include "transport/canopen/canopen_map.h"
 #include "transport/canopen/emergency.h"
 

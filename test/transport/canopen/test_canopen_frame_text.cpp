@@ -1,7 +1,7 @@
 // What the trace says beside each CANopen frame.
 #include <gtest/gtest.h>
 
-#include "transport/canopen/can_trace.h"
+#include "core/can_trace.h"
 #include "transport/canopen/canopen_frame_text.h"
 #include "transport/canopen/canopen_map.h"
 

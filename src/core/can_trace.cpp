@@ -1,4 +1,4 @@
-#include "transport/canopen/can_trace.h"
+#include "core/can_trace.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "transport/canopen/can_trace.h"
+#include "core/can_trace.h"
 
 namespace nord_driver {
 namespace {

@@ -1,0 +1,69 @@
+// What is configured of simulated DeviceNet modules beside their drives.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "nord_driver/core/time.h"
+#include "sim/sim_config.h"
+
+namespace nord_driver::sim {
+
+struct BusKind;
+
+/// SK TU1/TU2/TU3-DEV sit on one inverter and live by its mains; SK CU4-DEV and SK TU4-DEV have 24 V of their own and
+/// up to four inverters on their system bus.
+enum class DnModuleKind : std::uint8_t { kOnInverter, kGateway };
+
+/// Class 1. NORD's vendor id and product codes are printed nowhere at hand: these are the simulator's.
+struct DnIdentity {
+  std::uint16_t vendor = 1000;
+  std::uint16_t device_type = 2;  ///< AC drive
+  std::uint16_t product = 1;      ///< SK TUx-DEV 1, SK CU4/TU4-DEV 2
+  std::uint8_t major = 1;
+  std::uint8_t minor = 2;
+  std::uint32_t serial = 0;
+};
+
+/// `DriveConfig::bus` of a drive on DeviceNet. Its address is the MAC id, `DriveConfig::place` which one it is.
+struct DnDriveConfig {
+  DnModuleKind kind = DnModuleKind::kOnInverter;
+  unsigned assembly = 100;  ///< instance of the outputs
+  unsigned control_bytes = 4;
+  unsigned status_bytes = 4;
+  unsigned profile = 2;  ///< P162[-03]
+};
+
+struct DnModuleSettings {
+  std::uint8_t mac = 5;
+  DnModuleKind kind = DnModuleKind::kOnInverter;
+  std::string name = "SK TU3-DEV";  ///< class 1, attribute 7
+  DnIdentity identity;
+  std::uint32_t bit_rate = 500000;
+  std::uint8_t inputs = 0;                  ///< DIN1 to DIN4
+  unsigned packet_rate_steps = 10;          ///< ms; the expected packet rate is rounded up to them
+  std::vector<ParameterPreset> parameters;  ///< P150 to P165
+  /// Times of the simulator's choice.
+  Duration parameter_time = std::chrono::milliseconds{5};
+  Duration object_time = std::chrono::milliseconds{1};
+  Duration start_time = std::chrono::milliseconds{100};  ///< from power on to the first duplicate-MAC request
+};
+
+/// `SimConfig::bus` of a DeviceNet bus.
+struct DnBusConfig {
+  std::string interface = "virtual:nord_sim";
+  std::uint32_t bit_rate = 500000;
+  std::vector<DnModuleSettings> modules;  ///< those of which more is said than their drives do; by `mac`
+};
+
+/// What a DeviceNet module makes of an inverter: P509.
+BusWiring dnWiring(DnModuleKind kind, const Device& device);
+
+/// Parameters P150 to P181 of SK CU4-DEV and SK TU4-DEV (BU 0280 5.2).
+std::vector<ParameterDefinition> dnModuleParameterDefinitions();
+
+/// `bus: {interface: virtual:NAME, bit_rate: 500000}`, of a drive module, inverter and assembly.
+BusKind devicenetKind();
+
+}  // namespace nord_driver::sim

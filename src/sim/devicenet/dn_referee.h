@@ -1,0 +1,131 @@
+// The referee of a DeviceNet bus: counts what a scanner must not do.
+//
+// It judges by the frames alone and by what the scanner can know: a module that let go of a connection by itself is no
+// mistake of the scanner, polling on after it was told is.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/can_frame.h"
+#include "nord_driver/core/time.h"
+#include "sim/devicenet/dn_identifiers.h"
+
+namespace nord_driver::sim {
+
+enum class DnRule : std::uint8_t {
+  kExtendedFrame,
+  kRemoteFrame,
+  kIdOfANode,
+  kUnknownId,
+  kDuplicateMacLength,
+  kBeforeDuplicateCheck,
+  kDuplicateMacUnanswered,
+  kSecondMaster,
+  kHeaderMac,
+  kUnconnectedService,
+  kChoice,
+  kReleaseChoice,
+  kExplicitBeforeAllocation,
+  kExplicitLength,
+  kExplicitWhilePending,
+  kFragmentOrder,
+  kFragmentUnacknowledged,
+  kIoBeforeAllocation,
+  kIoBeforePacketRate,
+  kIoSizesUnread,
+  kIoSize,
+  kIoFragments,
+  kIoAfterTimeout,
+  kNoPacketRate,
+  kStrobeLength,
+  kAcknowledgeUnasked,
+  kChangeUnacknowledged,
+  kZeroControlWord,
+  kCount,
+};
+
+/// One sentence on the rule.
+const char* toString(DnRule rule) noexcept;
+
+class DnReferee {
+ public:
+  /// I/O messages that may still follow what ends a connection: they were on their way.
+  static constexpr unsigned kTolerance = 3;
+
+  void broken(DnRule rule) noexcept { ++counts_[static_cast<std::size_t>(rule)]; }
+
+  void nodeExists(std::uint8_t mac) noexcept { views_[mac].exists = true; }
+  /// The time of what is told next.
+  void advance(Instant now) noexcept;
+  /// A frame of the scanner, whether it reached anybody or not.
+  void masterFrame(const CanFrame& frame) noexcept;
+  /// A frame of a node that reached the scanner.
+  void delivered(const CanFrame& frame) noexcept;
+  /// A frame of somebody who is neither.
+  void foreignFrame(const CanFrame& frame) noexcept;
+  /// The bus stood still: what is late is nobody's mistake.
+  void stoodStill() noexcept;
+
+  std::optional<std::uint8_t> master() const noexcept { return master_; }
+  std::uint64_t count(DnRule rule) const noexcept { return counts_[static_cast<std::size_t>(rule)]; }
+  std::uint64_t total() const noexcept;
+  bool content() const noexcept { return total() == 0; }
+  /// "no rule broken", or each broken rule with its count.
+  std::string report() const;
+  void forget() noexcept { counts_.fill(0); }
+
+ private:
+  /// One I/O connection as the scanner knows it.
+  struct Io {
+    std::uint16_t packet_rate = 0;  ///< ms, as answered
+    bool running = false;           ///< the packet rate was answered
+    std::optional<std::uint16_t> produced, consumed;
+    std::optional<Instant> last;
+    std::uint8_t next_fragment = 0;
+    std::size_t collected = 0;
+  };
+  struct Request {
+    std::uint8_t service = 0, class_id = 0, instance = 0, attribute = 0;
+    std::uint16_t value = 0;
+    bool unconnected = false;
+  };
+  /// What the scanner can know of a node.
+  struct View {
+    bool exists = false;
+    std::uint8_t choice = 0;  ///< allocated
+    unsigned on_their_way = 0;
+    std::optional<Request> pending;
+    Instant asked{};
+    std::optional<std::uint8_t> sent_fragment;      ///< not acknowledged yet
+    std::optional<std::uint8_t> received_fragment;  ///< to be acknowledged
+    Instant fragment_due{};
+    std::optional<Instant> change_due;
+    std::array<Io, 3> io{};  ///< poll, strobe, change of state
+  };
+
+  void duplicateMac(const CanFrame& frame) noexcept;
+  void judgeOnline(const CanFrame& frame) noexcept;
+  void unconnected(View& view, const CanFrame& frame) noexcept;
+  void explicitMessage(View& view, const CanFrame& frame) noexcept;
+  void io(View& view, unsigned which, const CanFrame& frame) noexcept;
+  void ioMessage(Io& io, std::size_t size) noexcept;
+  void strobe(const CanFrame& frame) noexcept;
+  void answer(View& view, const CanFrame& frame) noexcept;
+  void answered(View& view, const Request& request, ByteView data) noexcept;
+  static void begin(View& view, std::uint8_t choice) noexcept;
+  static void end(View& view, std::uint8_t choice) noexcept;
+
+  std::array<std::uint64_t, static_cast<std::size_t>(DnRule::kCount)> counts_{};
+  std::array<View, dn::kMacs> views_{};
+  Instant now_{};
+  std::optional<std::uint8_t> master_;
+  unsigned checks_ = 0;  // duplicate-MAC requests of the master
+  Instant last_check_{};
+  bool online_ = false;
+  std::optional<Instant> answer_due_;
+};
+
+}  // namespace nord_driver::sim

@@ -1,0 +1,127 @@
+#include "sim/devicenet/dn_stations.h"
+
+#include <algorithm>
+
+#include "sim/devicenet/dn_identifiers.h"
+#include "sim/devicenet/dn_layout.h"
+
+namespace nord_driver::sim {
+
+namespace {
+
+constexpr Duration kStep = std::chrono::milliseconds(1);
+
+/// P509 DeviceNet; on a technology unit P507 the assembly.
+Commissioning commissioningOf(const DriveConfig& config) {
+  const DnDriveConfig& dn = config.bus.as<DnDriveConfig>();
+  Commissioning commissioning;
+  commissioning.wiring = dnWiring(dn.kind, config.device);
+  if (commissioning.wiring.source) commissioning.parameters.push_back({509, 0, 0, *commissioning.wiring.source});
+  if (dn.kind == DnModuleKind::kOnInverter) {
+    commissioning.parameters.push_back({507, 0, 0, dnSelectionOfInstance(dn.assembly)});
+  }
+  return commissioning;
+}
+
+/// What the drives behind a module make of it.
+void describe(DnModuleSettings& settings, const DriveConfig& drive) {
+  const DnDriveConfig& dn = drive.bus.as<DnDriveConfig>();
+  if (dn.kind == DnModuleKind::kOnInverter) return;
+  // Before what the configuration says of the module itself: the last one counts.
+  std::vector<ParameterPreset> presets{{160, 0, 0, dnSelectionOfInstance(dn.assembly)}};
+  if (dn.assembly == 120) {
+    const auto number = static_cast<std::uint16_t>(162 + (drive.place > 0 ? drive.place - 1 : 0));
+    presets.push_back({number, 0, 0, static_cast<std::int32_t>(dn.status_bytes)});
+    presets.push_back({number, 0, 1, static_cast<std::int32_t>(dn.control_bytes)});
+    presets.push_back({number, 0, 2, static_cast<std::int32_t>(dn.profile)});
+  }
+  settings.parameters.insert(settings.parameters.begin(), presets.begin(), presets.end());
+}
+
+}  // namespace
+
+DnStations::DnStations(RobotSim& robot) : robot_(robot) {
+  const DnBusConfig& bus = robot_.config().bus.as<DnBusConfig>();
+  std::vector<DnModuleSettings> plan;
+  std::vector<std::array<bool, BusModule::kPlaces>> taken;
+  for (std::size_t i = 0; i < robot_.drives().size(); ++i) {
+    const DriveConfig& config = robot_.drive(i).config();
+    const DnDriveConfig& dn = config.bus.as<DnDriveConfig>();
+    const std::size_t place = config.place > 0 ? config.place - 1 : 0;
+    auto at = std::find_if(plan.begin(), plan.end(),
+                           [&](const DnModuleSettings& settings) { return settings.mac == config.address; });
+    if (at == plan.end()) {
+      const auto said = std::find_if(bus.modules.begin(), bus.modules.end(),
+                                     [&](const DnModuleSettings& settings) { return settings.mac == config.address; });
+      DnModuleSettings settings = said == bus.modules.end() ? DnModuleSettings{} : *said;
+      settings.mac = config.address;
+      settings.kind = dn.kind;
+      settings.bit_rate = bus.bit_rate;
+      if (dn.kind == DnModuleKind::kGateway && said == bus.modules.end()) {
+        settings.name = "SK TU4-DEV";
+        settings.identity.product = 2;
+      }
+      plan.push_back(settings);
+      taken.push_back({});
+      at = plan.end() - 1;
+    } else if (dn.kind != DnModuleKind::kGateway || at->kind != DnModuleKind::kGateway) {
+      throw ConfigError("drive " + config.name + ": MAC id " + std::to_string(config.address) +
+                        " is taken; expected a module of its own, or an inverter number of its own behind one gateway");
+    }
+    const auto index = static_cast<std::size_t>(at - plan.begin());
+    if (taken[index][place]) {
+      throw ConfigError("drive " + config.name + ": inverter " + std::to_string(place + 1) + " behind MAC id " +
+                        std::to_string(config.address) + " is taken; expected a number of its own");
+    }
+    taken[index][place] = true;
+    describe(*at, config);
+    module_of_.push_back(index);
+  }
+  for (const DnModuleSettings& settings : plan) {
+    modules_.push_back(&robot_.add(std::make_unique<DnModule>(settings, referee_)));
+  }
+  for (std::size_t i = 0; i < module_of_.size(); ++i) {
+    DriveUnit& drive = robot_.drive(i);
+    drive.connect(moduleOf(i), commissioningOf(drive.config()));
+  }
+}
+
+void DnStations::advance(Instant now, CanSink& sink) noexcept {
+  if (!started_) {
+    started_ = true;
+    now_ = now;
+    robot_.advance(now);
+  }
+  while (now_ < now) {
+    const Duration span = std::min(kStep, now - now_);
+    now_ += span;
+    robot_.advance(now_);
+    for (DnModule* module : modules_) module->advance(span, sink);
+  }
+  referee_.advance(now_);
+}
+
+void DnStations::receive(const CanFrame& frame, Judge judge, CanSink& sink) noexcept {
+  const bool judged = judge == Judge::kYes;
+  judged ? referee_.masterFrame(frame) : referee_.foreignFrame(frame);
+  for (DnModule* module : modules_) module->receive(frame, judged, sink);
+}
+
+void DnStations::delivered(const CanFrame& frame, bool to_master, CanSink& sink) noexcept {
+  if (to_master) referee_.delivered(frame);
+  for (DnModule* module : modules_) {
+    // A node does not hear its own request for its MAC id.
+    if (frame.id != dn::group2(dn::kDuplicateMac, module->mac())) module->receive(frame, false, sink);
+  }
+}
+
+void DnStations::stoodStill() noexcept {
+  referee_.stoodStill();
+  for (DnModule* module : modules_) module->stoodStill();
+}
+
+bool DnStations::anyAlive() const noexcept {
+  return std::any_of(modules_.begin(), modules_.end(), [](const DnModule* module) { return module->alive(); });
+}
+
+}  // namespace nord_driver::sim

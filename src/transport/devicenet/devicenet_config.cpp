@@ -1,0 +1,162 @@
+#include "transport/devicenet/devicenet_config.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "config/setting_checks.h"
+#include "devicenet/identifier.h"
+#include "transport/devicenet/assembly.h"
+#include "transport/devicenet/devicenet_drive_config.h"
+#include "transport/devicenet/machine_serial.h"
+
+namespace nord_driver {
+
+namespace {
+
+// BU 0280 P181; the slowest is assumed where nobody says which one it is.
+constexpr std::array<std::uint32_t, 3> kBitRates{125'000, 250'000, 500'000};
+constexpr double kMostLoad = 0.8;  // of the cycle: explicit messages need some, too
+
+std::uint32_t readBitRate(const Settings& bus) {
+  if (!bus.has("bit_rate")) return 0;
+  const std::int64_t rate = integerOr(bus, "bit_rate", 0, 0, 1'000'000);
+  if (std::find(kBitRates.begin(), kBitRates.end(), rate) != kBitRates.end()) return static_cast<std::uint32_t>(rate);
+  throw wrongSetting(bus, "bit_rate", std::to_string(rate), "125000, 250000 or 500000 bit/s, as DeviceNet has them");
+}
+
+void readOwn(const Settings& bus, devicenet::ScannerConfig& scanner) {
+  scanner.mac = static_cast<std::uint8_t>(integerOr(bus, "mac_id", 0, 0, devicenet::kMacIds - 1));
+  scanner.own.vendor_id = static_cast<std::uint16_t>(integerOr(bus, "vendor_id", 0xFFFF, 0, 0xFFFF));
+  scanner.own.serial_number = bus.has("serial_number")
+                                  ? static_cast<std::uint32_t>(requiredInteger(bus, "serial_number", 0, 0xFFFFFFFF))
+                                  : machineSerialNumber();
+}
+
+std::optional<Duration> readPacketRate(const Settings& bus) {
+  using std::chrono::milliseconds;
+  if (numberOr(bus, "expected_packet_rate", 0.0, 0.0, 65.535, "s") == 0.0) return std::nullopt;
+  return wholeMillisecondsOr(bus, "expected_packet_rate", Duration::zero(), milliseconds{1}, milliseconds{65'535},
+                             "0.025 s: the modules count them");
+}
+
+class Reader {
+ public:
+  Reader(const Settings& bus, DevicenetConfig& config, std::optional<Duration> packet_rate)
+      : bus_(bus), config_(config), packet_rate_(packet_rate) {}
+
+  void add(const DriveSettings& source) {
+    const Settings& settings = *source.settings;
+    const auto mac = requiredAddress(source, 0, devicenet::kMacIds - 1);
+    const DevicenetDrive* first = firstAt(mac);
+    const bool follows = first != nullptr && !settings.has("assembly");
+    const unsigned assembly = follows ? config_.modules[first->module].assembly : readAssembly(settings);
+    DevicenetDrive drive = readDevicenetDrive(source, assembly);
+    if (drive.mac == config_.scanner.mac) {
+      throw wrongSetting(settings, "address", std::to_string(drive.mac),
+                         "another MAC id than ours, " + bus_.fullName("mac_id"));
+    }
+    devicenet::NodeConfig node;
+    node.io.expected_packet_rate = packet_rate_;
+    const DevicenetModule module = readDevicenetModule(settings, drive, assembly, node);
+    if (first == nullptr) {
+      drive.module = config_.modules.size();
+      config_.modules.push_back(module);
+      config_.scanner.nodes.push_back(node);
+    } else {
+      drive.module = first->module;
+      checkNeighbours(settings, drive);
+      checkSharedModule(settings, module, node, config_.modules[drive.module], config_.scanner.nodes[drive.module],
+                        first->name);
+    }
+    config_.modules[drive.module].drives.push_back(config_.drives.size());
+    config_.drives.push_back(drive);
+  }
+
+ private:
+  const DevicenetDrive* firstAt(std::int64_t mac) const {
+    for (const DevicenetDrive& drive : config_.drives) {
+      if (drive.mac == mac) return &drive;
+    }
+    return nullptr;
+  }
+
+  void checkNeighbours(const Settings& settings, const DevicenetDrive& drive) const {
+    for (const DevicenetDrive& other : config_.drives) {
+      if (other.mac != drive.mac) continue;
+      const bool gateways = drive.connection == DevicenetConnection::kGateway && other.connection == drive.connection;
+      if (!gateways) {
+        throw wrongSetting(
+            settings, "address", std::to_string(drive.mac),
+            "another MAC id than drive \"" + other.name + "\" has; only inverters behind one gateway share theirs");
+      }
+      if (other.inverter == drive.inverter) {
+        throw wrongSetting(settings, "inverter", std::to_string(drive.inverter),
+                           "another one of 1 to 4 than drive \"" + other.name + "\" has at the same MAC id, " +
+                               std::to_string(drive.mac) + "; or another address");
+      }
+    }
+  }
+
+  const Settings& bus_;
+  DevicenetConfig& config_;
+  std::optional<Duration> packet_rate_;
+};
+
+void checkSizes(const Settings& bus, const DevicenetConfig& config) {
+  for (std::size_t i = 0; i < config.modules.size(); ++i) {
+    const devicenet::IoConfig& io = config.scanner.nodes[i].io;
+    const std::size_t longest = std::max(io.input_bytes, io.output_bytes);
+    if (longest <= kLongestAssembly) continue;
+    throw ConfigError(bus.fullName("") + ": the inverters at MAC id " + std::to_string(config.modules[i].mac) +
+                      " have " + std::to_string(longest) + " bytes of process data, an assembly holds at most " +
+                      std::to_string(kLongestAssembly));
+  }
+}
+
+void checkLoad(const Settings& bus, const DevicenetConfig& config, double cycle_rate) {
+  const double wire = toSeconds(devicenet::cycleOnWire(config.scanner));
+  if (wire <= kMostLoad / cycle_rate) return;
+  const std::string rate = std::to_string(config.scanner.bit_rate);
+  throw ConfigError(bus.fullName("bit_rate") + ": " + rate + " bit/s is too slow for " +
+                    std::to_string(config.drives.size()) + " drives at " + shortNumber(cycle_rate) +
+                    " Hz, their process data alone take up to " + shortNumber(std::ceil(wire * 1e4) / 1e4) +
+                    " s of each " + shortNumber(1.0 / cycle_rate) + " s: expected a cycle_rate of at most " +
+                    shortNumber(std::floor(kMostLoad / wire)) + " Hz, or the faster bit_rate the bus runs at" +
+                    (config.bit_rate == 0 ? " (it is not configured, so the slowest is assumed)" : ""));
+}
+
+// A fragmented answer is on its way for a while.
+Duration answerWindow(const Settings& bus, const DevicenetConfig& config, double cycle_rate) {
+  const double wire = 1.5 * toSeconds(devicenet::cycleOnWire(config.scanner));
+  const double usual = std::max(std::min(0.25 / cycle_rate, 0.005), wire);
+  const double most = 0.9 / cycle_rate;
+  return seconds(numberOr(bus, "answer_window", std::min(usual, most), 0.0, most, "s"));
+}
+
+}  // namespace
+
+DevicenetConfig readDevicenetConfig(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) {
+  DevicenetConfig config;
+  config.interface = requiredText(bus, "interface", "a CAN interface such as can0, or virtual:NAME");
+  config.bit_rate = readBitRate(bus);
+  config.scanner.bit_rate = config.bit_rate != 0 ? config.bit_rate : kBitRates[0];
+  config.scanner.cycle_time = seconds(1.0 / cycle_rate);
+  readOwn(bus, config.scanner);
+  Reader reader{bus, config, readPacketRate(bus)};
+  for (const DriveSettings& source : drives) reader.add(source);
+  layOut(config);
+  checkSizes(bus, config);
+  checkLoad(bus, config, cycle_rate);
+  config.answer_window = answerWindow(bus, config, cycle_rate);
+  config.scanner = devicenet::completed(config.scanner);
+  try {
+    devicenet::checkConfig(config.scanner);
+  } catch (const std::invalid_argument& error) {
+    throw ConfigError(bus.fullName("") + ": " + error.what());
+  }
+  return config;
+}
+
+}  // namespace nord_driver

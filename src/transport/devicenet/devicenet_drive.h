@@ -1,0 +1,73 @@
+// One drive on a DeviceNet bus, as the scanner sees it: is it there, what did it send, and in which words.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "devicenet/scanner.h"
+#include "nord_driver/core/fixed_vector.h"
+#include "nord_driver/transport/transport.h"
+#include "profile/ac_drive.h"
+#include "transport/devicenet/devicenet_config.h"
+#include "transport/devicenet/devicenet_parameters.h"
+#include "transport/devicenet/state_probe.h"
+
+namespace nord_driver {
+
+/// Each cycle: putOutput() before the exchange, takeInput() after it.
+class DevicenetDriveState {
+ public:
+  /// Tags of the explicit requests: `tag` of the parameters, with kProbeTag of the probe.
+  static constexpr std::uint16_t kProbeTag = 0x8000;
+
+  /// `guest`: no process data are exchanged. `period`: of the bus cycle.
+  DevicenetDriveState(const DevicenetDrive& config, const devicenet::IoConfig& io, Duration period, std::uint16_t tag,
+                      bool guest);
+
+  /// Into the outputs of its module.
+  void putOutput(const profile::ProcessOutput& output, devicenet::IoBytes& bytes) const noexcept;
+  /// `bus_works`: frames can come and go at all.
+  void takeInput(const devicenet::Scanner& scanner, bool bus_works, Instant now, DriveExchange& input) noexcept;
+  /// It has sent data since `count`, or none can be expected of it.
+  bool answered(const devicenet::Scanner& scanner, std::uint64_t count) const noexcept;
+
+  bool submit(const profile::ParameterRequest& request) noexcept;
+  std::optional<profile::ParameterResult> pollResult() noexcept;
+  /// The explicit requests to start next.
+  void runRequests(devicenet::Scanner& scanner, Instant now) noexcept;
+  void handleAnswer(const devicenet::ExplicitAnswer& answer, Instant now) noexcept;
+  /// The bus is begun anew.
+  void handleRestart() noexcept;
+
+  const DevicenetDrive& config() const noexcept { return config_; }
+  bool moduleAnswers() const noexcept { return module_answers_; }
+  bool inverterAnswers() const noexcept { return inverter_answers_; }
+  /// Why it does not answer; lives as long as this.
+  const char* note() const noexcept { return note_.c_str(); }
+
+ private:
+  bool decode(ByteView bytes, profile::ProcessInput& input) const noexcept;
+  bool takeProcessData(const devicenet::Scanner& scanner, const devicenet::NodeStatus& status, Instant now,
+                       DriveExchange& input) noexcept;
+  Interruption takeInterruption(const devicenet::NodeStatus& status, bool bus_works, Instant now) noexcept;
+  void watchOthers(const devicenet::NodeStatus& status, Instant now) noexcept;
+  void explain(const devicenet::NodeStatus& status, bool bus_works) noexcept;
+
+  DevicenetDrive config_;
+  devicenet::IoConfig io_;
+  Duration period_;
+  bool guest_;
+  DevicenetParameters parameters_;
+  StateProbe probe_;
+  profile::AcDriveScaling scaling_;
+  FixedVector<std::uint32_t, DevicenetParameters::kCapacity> max_frequency_reads_;  // ids of P105 of set 1 under way
+  std::optional<std::uint64_t> connection_;  // which connection of the module it exchanges by; none: it does not
+  std::uint64_t foreign_seen_ = 0;
+  std::optional<Instant> contested_at_;
+  bool contested_ = false;  // another scanner works with it, too
+  bool module_answers_ = false;
+  bool inverter_answers_ = false;
+  Sentence note_;
+};
+
+}  // namespace nord_driver

@@ -1,0 +1,212 @@
+#include "transport/devicenet/devicenet_drive_config.h"
+
+#include <algorithm>
+#include <array>
+
+#include "config/setting_checks.h"
+#include "devicenet/identifier.h"
+#include "profile/process_data_order.h"
+#include "transport/devicenet/assembly.h"
+
+namespace nord_driver {
+
+namespace {
+
+using devicenet::IoKind;
+using profile::Series;
+
+template <typename Value>
+struct Choice {
+  const char* word;
+  Value value;
+};
+
+template <typename Value, std::size_t N>
+Value readChoice(const Settings& settings, const std::string& key, Value fallback, const Choice<Value> (&choices)[N]) {
+  const auto text = settings.text(key);
+  if (!text) return fallback;
+  std::string words;
+  for (const auto& choice : choices) {
+    if (*text == choice.word) return choice.value;
+    words += (words.empty() ? "" : ", ") + std::string(choice.word);
+  }
+  throw wrongSetting(settings, key, "\"" + *text + "\"", "one of " + words);
+}
+
+constexpr Choice<DevicenetConnection> kConnections[] = {{"gateway", DevicenetConnection::kGateway},
+                                                        {"option", DevicenetConnection::kOption}};
+constexpr Choice<DevicenetProfile> kProfiles[] = {{"nord", DevicenetProfile::kNord},
+                                                  {"ac_drive", DevicenetProfile::kAcDrive},
+                                                  {"ac_drive_extended", DevicenetProfile::kAcDriveExtended}};
+constexpr Choice<IoKind> kIoKinds[] = {
+    {"poll", IoKind::kPoll}, {"cos", IoKind::kChangeOfState}, {"cyclic", IoKind::kCyclic}, {"strobe", IoKind::kStrobe}};
+constexpr Choice<ParameterObjects> kParameterObjects[] = {{"numbered", ParameterObjects::kNumbered},
+                                                          {"index_object", ParameterObjects::kIndexObject}};
+
+// Those that have no system bus sit behind a technology unit of their own.
+bool needsOption(Series series) noexcept {
+  return series == Series::kSk300e || series == Series::kSk700e || series == Series::kSk750e;
+}
+bool needsGateway(Series series) noexcept {
+  return series == Series::kSk1x0e || series == Series::kSk2xxe;
+}
+
+DevicenetConnection readConnection(const Settings& settings, Series series) {
+  const auto usual = needsOption(series) ? DevicenetConnection::kOption : DevicenetConnection::kGateway;
+  const auto connection = readChoice(settings, "connection", usual, kConnections);
+  const std::string text =
+      std::string("\"") + (connection == DevicenetConnection::kOption ? "option" : "gateway") + "\"";
+  if (connection == DevicenetConnection::kGateway && needsOption(series)) {
+    throw wrongSetting(settings, "connection", text,
+                       std::string("option: ") + profile::toString(series) + " takes SK TU1/2/3-DEV only");
+  }
+  if (connection == DevicenetConnection::kOption && needsGateway(series)) {
+    throw wrongSetting(settings, "connection", text,
+                       std::string("gateway: ") + profile::toString(series) + " sits behind SK CU4-DEV or SK TU4-DEV");
+  }
+  return connection;
+}
+
+void checkPlace(const Settings& settings, const DevicenetDrive& drive, unsigned assembly) {
+  if (drive.inverter == 1) return;
+  const std::string inverter = std::to_string(drive.inverter);
+  if (drive.connection == DevicenetConnection::kOption) {
+    throw wrongSetting(settings, "inverter", inverter, "1: SK TU1/2/3-DEV has one inverter");
+  }
+  const AssemblyLayout& layout = *findAssembly(assembly);
+  if (layout.inverters >= drive.inverter) return;
+  throw wrongSetting(
+      settings, "inverter", inverter,
+      "1: assembly " + std::to_string(assembly) + " has " + std::to_string(layout.bytes) +
+          " bytes, which are those of one inverter; four need assembly 102 (P160 = 5) or 120 (P160 = 0)");
+}
+
+// With P160 = 0 each inverter has its own lengths and profile (BU 0280 4.2.5).
+std::size_t readLength(const Settings& settings, const char* key, const DevicenetDrive& drive, const char* index) {
+  const std::int64_t bytes = integerOr(settings, key, 4, 0, 8);
+  const bool words = bytes >= 4 && bytes % 2 == 0;
+  const bool nord = drive.drive_profile == DevicenetProfile::kNord;
+  if (nord && !words) {
+    throw wrongSetting(settings, key, std::to_string(bytes),
+                       "4, 6 or 8: a word and one to three values, as P" + std::to_string(161 + drive.inverter) + " " +
+                           index + " says");
+  }
+  if (!nord && bytes != 4) {
+    throw wrongSetting(settings, key, std::to_string(bytes), "4: the AC drive profile has four bytes each way");
+  }
+  return static_cast<std::size_t>(bytes);
+}
+
+void readVariable(const Settings& settings, DevicenetDrive& drive) {
+  drive.drive_profile = readChoice(settings, "profile", DevicenetProfile::kNord, kProfiles);
+  drive.control_bytes = readLength(settings, "control_bytes", drive, "[-02]");
+  drive.status_bytes = readLength(settings, "status_bytes", drive, "[-01]");
+}
+
+void readFixed(const Settings& settings, DevicenetDrive& drive, unsigned assembly) {
+  const AssemblyLayout& layout = *findAssembly(assembly);
+  drive.drive_profile = readChoice(settings, "profile", layout.profile, kProfiles);
+  const std::string name = "assembly " + std::to_string(assembly);
+  if (drive.drive_profile != layout.profile) {
+    throw wrongSetting(settings, "profile", "\"" + *settings.text("profile") + "\"",
+                       "no such key: " + name + " implies it; only 120 lets each inverter have its own");
+  }
+  drive.control_bytes = layout.inverter_bytes;
+  drive.status_bytes = layout.inverter_bytes;
+  for (const char* key : {"control_bytes", "status_bytes"}) {
+    const std::int64_t bytes = integerOr(settings, key, static_cast<std::int64_t>(layout.inverter_bytes), 0, 8);
+    if (bytes == static_cast<std::int64_t>(layout.inverter_bytes)) continue;
+    throw wrongSetting(settings, key, std::to_string(bytes),
+                       std::to_string(layout.inverter_bytes) + ", as " + name + " has them; only 120 is free");
+  }
+}
+
+bool readModuleByte(const Settings& settings, const char* key, const AssemblyLayout& layout) {
+  const std::int64_t implied = layout.module_byte ? 1 : 0;
+  const std::int64_t bytes = integerOr(settings, key, implied, 0, 1);
+  if (bytes != implied && layout.output != kVariableAssembly) {
+    throw wrongSetting(settings, key, std::to_string(bytes),
+                       std::to_string(implied) + ", as assembly " + std::to_string(layout.output) + " has it");
+  }
+  return bytes == 1;
+}
+
+std::optional<std::uint16_t> readIdentity(const Settings& settings, const std::string& key) {
+  if (!settings.has(key)) return std::nullopt;
+  return static_cast<std::uint16_t>(requiredInteger(settings, key, 0, 0xFFFF));
+}
+
+}  // namespace
+
+unsigned readAssembly(const Settings& settings) {
+  const std::int64_t instance = integerOr(settings, "assembly", 100, 0, 255);
+  if (findAssembly(static_cast<unsigned>(instance)) == nullptr) {
+    throw wrongSetting(settings, "assembly", std::to_string(instance),
+                       "20, 21, 100, 101, 102 or 120: the output instance P160 selects");
+  }
+  return static_cast<unsigned>(instance);
+}
+
+DevicenetDrive readDevicenetDrive(const DriveSettings& source, unsigned assembly) {
+  const Settings& settings = *source.settings;
+  DevicenetDrive drive{readDriveCommon(source)};
+  drive.mac = static_cast<std::uint8_t>(requiredAddress(source, 0, devicenet::kMacIds - 1));
+  drive.connection = readConnection(settings, drive.series);
+  checkPlace(settings, drive, assembly);
+  if (assembly == kVariableAssembly) {
+    readVariable(settings, drive);
+  } else {
+    readFixed(settings, drive, assembly);
+  }
+  drive.third_before_second = profile::thirdBeforeSecond(drive.series);
+  drive.parameter_objects = readChoice(settings, "parameter_objects", ParameterObjects::kNumbered, kParameterObjects);
+  return drive;
+}
+
+DevicenetModule readDevicenetModule(const Settings& settings, const DevicenetDrive& drive, unsigned assembly,
+                                    devicenet::NodeConfig& node) {
+  const AssemblyLayout& layout = *findAssembly(assembly);
+  DevicenetModule module;
+  module.mac = drive.mac;
+  module.assembly = assembly;
+  module.output_byte = readModuleByte(settings, "module_output_bytes", layout);
+  module.input_byte = readModuleByte(settings, "module_input_bytes", layout);
+  node.mac = drive.mac;
+  node.io.kind = readChoice(settings, "io", IoKind::kPoll, kIoKinds);
+  if (node.io.kind == IoKind::kStrobe) {
+    throw wrongSetting(settings, "io", "\"strobe\"",
+                       layout.bytes > devicenet::kStrobeCommandLength
+                           ? "poll, cos or cyclic: assembly " + std::to_string(assembly) + " has " +
+                                 std::to_string(layout.bytes) + " bytes, and a bit strobe brings back at most 8"
+                           : "poll, cos or cyclic: a bit strobe carries no control word, and keeps P151 quiet all the "
+                             "same (BU 0280 4.1.3)");
+  }
+  node.vendor_id = readIdentity(settings, "vendor_id");
+  node.device_type = readIdentity(settings, "device_type");
+  node.product_code = readIdentity(settings, "product_code");
+  return module;
+}
+
+void checkSharedModule(const Settings& settings, const DevicenetModule& module, const devicenet::NodeConfig& node,
+                       const DevicenetModule& first, const devicenet::NodeConfig& first_node,
+                       const std::string& first_name) {
+  const struct {
+    const char* key;
+    bool same;
+  } kShared[] = {
+      {"assembly", module.assembly == first.assembly},
+      {"io", node.io.kind == first_node.io.kind},
+      {"module_output_bytes", module.output_byte == first.output_byte},
+      {"module_input_bytes", module.input_byte == first.input_byte},
+      {"vendor_id", node.vendor_id == first_node.vendor_id},
+      {"device_type", node.device_type == first_node.device_type},
+      {"product_code", node.product_code == first_node.product_code},
+  };
+  for (const auto& shared : kShared) {
+    if (shared.same || !settings.has(shared.key)) continue;
+    throw ConfigError(settings.fullName(shared.key) + " differs from that of drive \"" + first_name +
+                      "\", expected the same: both are inverters behind one module, which has it only once");
+  }
+}
+
+}  // namespace nord_driver

@@ -1,0 +1,220 @@
+#include <gtest/gtest.h>
+
+#include "sim/devicenet/dn_conversation.h"
+
+namespace nord_driver::sim {
+namespace {
+
+using std::chrono::milliseconds;
+
+class DnRefereeTest : public testing::Test {
+ protected:
+  /// How often `rule` was broken, when nothing else was.
+  std::uint64_t only(DnRule rule) {
+    bus.bus.run(milliseconds(20));
+    const std::uint64_t count = bus.referee().total() == bus.referee().count(rule) ? bus.referee().count(rule) : 0;
+    said = bus.referee().report();
+    bus.referee().forget();
+    return count;
+  }
+  DnConversation bus;
+  std::string said;
+};
+
+TEST_F(DnRefereeTest, StartsWithTheDuplicateMacCheck) {
+  bus.send("44E#0A 4B 03 01 01 0A");
+  EXPECT_EQ(1u, only(DnRule::kBeforeDuplicateCheck)) << said;
+  bus.send("457#00 FF FF 01 00 00 00");
+  bus.bus.run(milliseconds(1000));
+  bus.send("44E#0A 4B 03 01 01 0A");
+  EXPECT_EQ(1u, only(DnRule::kBeforeDuplicateCheck)) << "one request";
+  bus.send("457#00 FF FF 01 00 00 00");
+  bus.bus.run(milliseconds(500));
+  bus.send("44E#0A 4B 03 01 01 0A");
+  EXPECT_EQ(1u, only(DnRule::kBeforeDuplicateCheck)) << "half a second";
+  bus.bus.run(milliseconds(500));
+  bus.send("44E#0A 4B 03 01 01 0A");
+  bus.bus.run(milliseconds(20));
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
+}
+
+TEST_F(DnRefereeTest, RequestsTooSoonAfterEachOther) {
+  bus.send("457#00 FF FF 01 00 00 00");
+  bus.bus.run(milliseconds(500));
+  bus.send("457#00 FF FF 01 00 00 00");
+  EXPECT_EQ(1u, only(DnRule::kBeforeDuplicateCheck)) << said;
+}
+
+TEST_F(DnRefereeTest, LengthOfTheDuplicateMacMessage) {
+  bus.send("457#00 FF FF 01 00");
+  EXPECT_EQ(1u, only(DnRule::kDuplicateMacLength)) << said;
+}
+
+TEST_F(DnRefereeTest, SomebodyElseAsksForItsMacId) {
+  bus.goOnline();
+  bus.bus.inject(fromDnText("457#00 34 12 02 00 00 00"));
+  bus.bus.run(milliseconds(50));
+  bus.send("457#80 FF FF 01 00 00 00");
+  bus.bus.run(milliseconds(1000));
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
+  bus.bus.inject(fromDnText("457#00 34 12 02 00 00 00"));
+  bus.bus.run(milliseconds(600));
+  EXPECT_EQ(1u, only(DnRule::kDuplicateMacUnanswered)) << said;
+}
+
+TEST_F(DnRefereeTest, Identifiers) {
+  bus.goOnline();
+  CanFrame frame = fromDnText("44E#0A 4B 03 01 01 0A");
+  frame.extended = true;
+  bus.bus.send(frame);
+  EXPECT_EQ(1u, only(DnRule::kExtendedFrame)) << said;
+  bus.bus.send(remoteFrame(0x44E, 4));
+  EXPECT_EQ(1u, only(DnRule::kRemoteFrame)) << said;
+  for (const char* text : {"3C9#00", "44B#0A 90", "44F#00 FF FF 01 00 00 00"}) bus.send(text);
+  EXPECT_EQ(3u, only(DnRule::kIdOfANode)) << said;
+  for (const char* text : {"7F0#", "70A#00", "454#0A 0E 01 01 01"}) bus.send(text);
+  EXPECT_EQ(3u, only(DnRule::kUnknownId)) << said;
+  bus.send("42E#0A 4B 03 01 01 0A");
+  bus.bus.run(milliseconds(20));
+  EXPECT_TRUE(bus.referee().content()) << "asking for a slave that is not there: " << bus.referee().report();
+}
+
+TEST_F(DnRefereeTest, Allocation) {
+  bus.goOnline();
+  for (const char* choice : {"00", "09", "81", "31", "41", "02"})
+    bus.send(std::string("44E#0A 4B 03 01 ") + choice + " 0A");
+  EXPECT_EQ(6u, only(DnRule::kChoice)) << said;
+  bus.send("44E#0B 4B 03 01 01 0A");
+  EXPECT_EQ(1u, only(DnRule::kHeaderMac)) << said;
+  bus.send("44E#0A 4C 03 01 01");
+  EXPECT_EQ(0u, only(DnRule::kReleaseChoice)) << "what it was given";
+  bus.send("44E#0A 4B 03 01 01 0B");
+  EXPECT_EQ(1u, only(DnRule::kSecondMaster)) << said;
+  bus.send("44E#0A 0E 03 01 05");
+  EXPECT_EQ(1u, only(DnRule::kUnconnectedService)) << said;
+  bus.send("44E#0A 4B 03 01 01");
+  EXPECT_EQ(1u, only(DnRule::kExplicitLength)) << said;
+}
+
+TEST_F(DnRefereeTest, ReleaseOfWhatIsNotAllocated) {
+  bus.connect();
+  bus.send("44E#0A 4C 03 01 07");
+  EXPECT_EQ(1u, only(DnRule::kReleaseChoice)) << said;
+}
+
+TEST_F(DnRefereeTest, ASecondScanner) {
+  bus.goOnline();
+  bus.send("45F#00 FF FF 02 00 00 00");
+  EXPECT_EQ(1u, only(DnRule::kSecondMaster)) << said;
+}
+
+TEST_F(DnRefereeTest, ExplicitMessages) {
+  bus.goOnline();
+  bus.send("44C#0A 0E 01 01 01");
+  EXPECT_EQ(1u, only(DnRule::kExplicitBeforeAllocation)) << said;
+  bus.ask("44E#0A 4B 03 01 01 0A");
+  bus.send("44C#0B 0E 01 01 01");
+  EXPECT_EQ(1u, only(DnRule::kHeaderMac)) << said;
+  bus.bus.run(milliseconds(600));
+  bus.send("44C#0A 0E 65 01 05");
+  bus.send("44C#0A 0E 65 01 03");
+  EXPECT_EQ(1u, only(DnRule::kExplicitWhilePending)) << said;
+  bus.send("44C#0A 0E");
+  EXPECT_EQ(1u, only(DnRule::kExplicitLength)) << said;
+  bus.bus.run(milliseconds(600));
+  bus.drive().setMute(true);
+  for (const char* text : {"44C#8A 00 10 04 65 03 7E 04", "44C#8A 41 00 20 00 00 00 00"}) bus.send(text);
+  EXPECT_EQ(1u, only(DnRule::kFragmentOrder)) << "not acknowledged yet: " << said;
+}
+
+TEST_F(DnRefereeTest, ProcessData) {
+  bus.goOnline();
+  bus.send("44D#00 7E 04 00 00");
+  EXPECT_EQ(1u, only(DnRule::kIoBeforeAllocation)) << said;
+  bus.ask("44E#0A 4B 03 01 03 0A");
+  bus.send("44D#00 7E 04 00 00");
+  EXPECT_EQ(1u, only(DnRule::kIoBeforePacketRate)) << said;
+  bus.request("10 05 02 09 64 00");
+  bus.send("44D#00 7E 04 00 00");
+  EXPECT_EQ(1u, only(DnRule::kIoSizesUnread)) << said;
+  bus.request("0E 05 02 08");
+  bus.send("44D#00 7E 04 00");
+  EXPECT_EQ(1u, only(DnRule::kIoSize)) << said;
+  bus.send("44D#00 7E 04 00 00");
+  bus.bus.run(milliseconds(410));
+  bus.send("44D#00 7E 04 00 00");
+  EXPECT_EQ(1u, only(DnRule::kIoAfterTimeout)) << said;
+}
+
+TEST_F(DnRefereeTest, PacketRateOfZero) {
+  bus.goOnline();
+  bus.ask("44E#0A 4B 03 01 03 0A");
+  bus.request("10 05 02 09 00 00");
+  EXPECT_EQ(1u, only(DnRule::kNoPacketRate)) << said;
+}
+
+TEST_F(DnRefereeTest, ZeroControlWord) {
+  bus.connect();
+  bus.send("44D#00 00 00 00 00");
+  EXPECT_EQ(0u, only(DnRule::kZeroControlWord)) << "it may look before it commands";
+  bus.send("44D#00 7E 04 00 00");
+  bus.send("44D#00 00 00 00 00");
+  EXPECT_EQ(1u, only(DnRule::kZeroControlWord)) << said;
+}
+
+// A module that starts anew tells it by its duplicate-MAC request; what was on its way is no mistake.
+TEST_F(DnRefereeTest, PollsAfterTheModuleStartedAnew) {
+  bus.connect();
+  bus.send("44D#00 7E 04 00 00");
+  bus.bus.run(milliseconds(10));
+  bus.drive().setPlugged(false);
+  bus.bus.run(milliseconds(10));
+  bus.drive().setPlugged(true);
+  for (int i = 0; i < 20; ++i) {
+    bus.send("44D#00 7E 04 00 00");
+    bus.bus.run(milliseconds(4));
+  }
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
+  bus.bus.run(milliseconds(50));
+  for (unsigned i = 0; i < DnReferee::kTolerance; ++i) bus.send("44D#00 7E 04 00 00");
+  bus.bus.run(milliseconds(10));
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
+  bus.send("44D#00 7E 04 00 00");
+  EXPECT_EQ(1u, only(DnRule::kIoBeforeAllocation)) << said;
+}
+
+TEST_F(DnRefereeTest, Fragments) {
+  DnConversation four{dnGateway(4, 102)};
+  four.connect();
+  four.send("44D#00 00 7E 04 00 00 00 00");
+  four.send("44D#42 00 00 00 7E 04 00 00");
+  four.bus.run(milliseconds(20));
+  EXPECT_EQ(1u, four.referee().count(DnRule::kIoFragments)) << four.referee().report();
+}
+
+TEST_F(DnRefereeTest, ChangeOfStateAndStrobe) {
+  bus.goOnline();
+  bus.ask("44E#0A 4B 03 01 11 0A");
+  bus.request("10 05 04 09 E8 03");
+  bus.bus.run(milliseconds(150));
+  EXPECT_EQ(1u, only(DnRule::kChangeUnacknowledged)) << said;
+  bus.send("450#00 00");
+  EXPECT_EQ(0u, only(DnRule::kStrobeLength)) << "and nobody has allocated it";
+  bus.send("44E#0A 4C 03 01 10");
+  bus.send("44A#");
+  EXPECT_EQ(1u, only(DnRule::kAcknowledgeUnasked)) << said;
+}
+
+TEST_F(DnRefereeTest, Report) {
+  EXPECT_EQ("no rule broken", bus.referee().report());
+  for (std::size_t i = 0; i < static_cast<std::size_t>(DnRule::kCount); ++i) {
+    EXPECT_STRNE("?", toString(static_cast<DnRule>(i))) << i;
+  }
+  bus.goOnline();
+  bus.bus.send(remoteFrame(0x44E, 4));
+  bus.bus.run(milliseconds(5));
+  EXPECT_EQ("1 x a remote frame: DeviceNet has none", bus.referee().report());
+}
+
+}  // namespace
+}  // namespace nord_driver::sim

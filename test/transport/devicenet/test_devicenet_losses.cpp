@@ -1,0 +1,166 @@
+// The DeviceNet transport when modules, the interface or others on the bus do what they should not, and as a guest.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "profile/status_word.h"
+#include "transport/devicenet/devicenet_rig.h"
+
+namespace nord_driver {
+namespace {
+
+using profile::ParameterShape;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using test::readOf;
+using Rig = test::DevicenetRig;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// --- Losses ----------------------------------------------------------------------------------------------------------
+
+TEST(DeviceNetTransportTest, ASilentModuleIsNamedAndComesBack) {
+  Rig rig{test::DevicenetSettings{2}};
+  ASSERT_TRUE(rig.starts());
+  rig.device(1).powerOff();
+  EXPECT_LE(rig.until([&] { return !rig.inputs[1].inverter_answers; }), milliseconds{50});
+  rig.run(milliseconds{300});
+  EXPECT_TRUE(rig.inputs[0].inverter_answers);
+  EXPECT_FALSE(rig.inputs[1].module_answers || rig.inputs[1].inverter_missing);
+  EXPECT_EQ(1, rig.silences);
+  EXPECT_STRNE("", rig.transport.note(1).text);
+  rig.device(1).powerOn();
+  EXPECT_LE(rig.until([&] { return rig.allAnswer(); }), seconds{2});
+  EXPECT_EQ(0, rig.unasked);
+  EXPECT_THAT(rig.violations(), IsEmpty());
+}
+
+TEST(DeviceNetTransportTest, AConnectionReleasedByOthersIsUnasked) {
+  Rig rig;
+  ASSERT_TRUE(rig.starts());
+  // Somebody with our MAC id in its header takes the poll connection away.
+  rig.bus->say("42E#004C030102");
+  rig.device().held = 0x01;
+  rig.device().established = false;
+  EXPECT_LE(rig.until([&] { return rig.unasked > 0; }), milliseconds{300});
+  EXPECT_EQ(0, rig.silences);
+}
+
+TEST(DeviceNetTransportTest, AShutdownMessageIsUnaskedAndTold) {
+  Rig rig;
+  ASSERT_TRUE(rig.starts());
+  rig.bus->say("42B#05CE010001000300");
+  rig.cycle();
+  rig.cycle();
+  EXPECT_EQ(1, rig.unasked);
+  EXPECT_THAT(rig.told, Contains(HasSubstr("MAC id 5: says that it shuts down")));
+}
+
+// Who has been off the bus checks its MAC id again.
+TEST(DeviceNetTransportTest, BusOffEndsTheExchangeUntilTheMacIsCheckedAgain) {
+  Rig rig;
+  ASSERT_TRUE(rig.starts());
+  rig.bus->controller = link::CanState::kBusOff;
+  rig.cycle();
+  rig.cycle();
+  EXPECT_FALSE(rig.transport.connected());
+  EXPECT_FALSE(rig.inputs[0].module_answers);
+  EXPECT_EQ(1, rig.silences);
+  EXPECT_EQ("can0: the controller is bus-off", rig.transport.busText().str());
+  rig.run(seconds{1});
+  rig.bus->controller = link::CanState::kActive;
+  const Duration took = rig.until([&] { return rig.allAnswer(); });
+  EXPECT_GE(took, milliseconds{1990});
+  EXPECT_LE(took, milliseconds{2300});
+}
+
+TEST(DeviceNetTransportTest, AnInterfaceThatWasPulledIsOpenedAgain) {
+  Rig rig;
+  ASSERT_TRUE(rig.starts());
+  rig.bus->present = false;
+  rig.run(seconds{1});
+  EXPECT_FALSE(rig.transport.connected());
+  EXPECT_STREQ("the CAN interface is not open", rig.transport.note(0).text);
+  rig.bus->present = true;
+  EXPECT_LE(rig.until([&] { return rig.allAnswer(); }), milliseconds{2800});
+}
+
+// --- Others on the bus -----------------------------------------------------------------------------------------------
+
+TEST(DeviceNetTransportTest, ADeviceWithOurMacIdIsACommunicationFault) {
+  Rig rig;
+  rig.run(milliseconds{500});
+  rig.bus->say("407#80850178563412");
+  rig.run(milliseconds{100});
+  EXPECT_THAT(rig.transport.busText().str(), HasSubstr("another device has our MAC id 0"));
+  EXPECT_THAT(rig.transport.note(0).text, HasSubstr("communication fault"));
+  EXPECT_EQ(0u, rig.bus->sentTo("42E"));
+  EXPECT_TRUE(rig.starts()) << "it is checked again";
+}
+
+// Its modules are not taken away from a scanner that has them.
+TEST(DeviceNetTransportTest, AModuleOfAnotherScannerIsNamedAndLeftAlone) {
+  Rig rig;
+  rig.device().belongsTo(17, 0x03, rig.transport.now());
+  rig.until([&] { return rig.transport.busText().str().find("another master") != std::string::npos; });
+  rig.cycle();
+  EXPECT_EQ("MAC id 5 is allocated to another master, MAC id 17", rig.transport.busText().str());
+  EXPECT_STREQ("is allocated to another master, MAC id 17", rig.transport.note(0).text);
+  EXPECT_EQ(0u, rig.bus->sentTo("42D"));
+  EXPECT_EQ(0x03, rig.device().held);
+}
+
+// The module does what the last poll said, whoever sent it.
+TEST(DeviceNetTransportTest, AModuleThatAnotherScannerPollsDoesNotCount) {
+  Rig rig;
+  ASSERT_TRUE(rig.starts());
+  rig.bus->say("42D#007F040020");
+  rig.cycle();
+  rig.cycle();
+  EXPECT_FALSE(rig.inputs[0].inverter_answers || rig.inputs[0].inverter_missing);
+  EXPECT_STREQ("another scanner works with it, too: end one of the two", rig.transport.note(0).text);
+  EXPECT_THAT(rig.transport.busText().str(), HasSubstr("another master is on the bus"));
+  const Duration away = rig.until([&] { return rig.allAnswer(); });
+  EXPECT_GE(away, milliseconds{900});
+  EXPECT_LE(away, milliseconds{1100});
+}
+
+TEST(DeviceNetTransportTest, AModuleWithAnotherAssemblyIsNotPolled) {
+  Rig rig;
+  rig.device().produced = rig.device().consumed = 8;
+  rig.until([&] { return rig.transport.busText().str().find("bytes") != std::string::npos; });
+  rig.cycle();
+  EXPECT_THAT(rig.transport.note(0).text,
+              HasSubstr("sends 8 and takes 8 bytes of process data by poll; 5 and 5 are configured; P160 selects"));
+  EXPECT_EQ(0u, rig.bus->sentTo("42D"));
+}
+
+// --- For parameters only ---------------------------------------------------------------------------------------------
+
+// No process data are exchanged: nothing starts P151, and the end trips nobody.
+TEST(DeviceNetGuestTest, ReadsWithoutExchangingProcessData) {
+  Rig rig{test::DevicenetSettings{1}, true};
+  EXPECT_THAT(rig.until([&] { return rig.allAnswer(); }), ::testing::Lt(seconds{3}));
+  EXPECT_EQ(profile::DriveState::kReadyToSwitchOn, profile::StatusWord{rig.inputs[0].input.status_word}.state());
+  EXPECT_EQ(500, rig.ask(readOf(105, ParameterShape::kPerSet)).raw);
+  EXPECT_EQ(0u, rig.bus->sentTo("42D"));
+  EXPECT_EQ(0x01, rig.device().held);
+  rig.device().attributes[{41, 1, 6}] = {4};
+  rig.run(milliseconds{400});
+  EXPECT_EQ(profile::DriveState::kOperationEnabled, profile::StatusWord{rig.inputs[0].input.status_word}.state());
+  EXPECT_EQ("", rig.transport.identity(0).protected_by);
+  rig.transport.close();
+  EXPECT_EQ(0x00, rig.device().held) << "released";
+}
+
+TEST(DeviceNetGuestTest, KeepsOffABusThatIsInUse) {
+  Rig rig{test::DevicenetSettings{1}, true};
+  rig.run(milliseconds{100});
+  rig.bus->say("42D#007E040000");
+  rig.run(seconds{5});
+  EXPECT_THAT(rig.transport.busText().str(), HasSubstr("the bus is in use: 42Dh was seen"));
+  for (const std::string& line : rig.bus->seen) EXPECT_NE('>', line[0]) << line;
+}
+
+}  // namespace
+}  // namespace nord_driver
