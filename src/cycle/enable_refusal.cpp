@@ -86,7 +86,8 @@ Sentence clauseOf(Refusal refusal, const std::vector<std::string>& names, const 
 Sentence shortened(const Sentence& commands) noexcept {
   Sentence text;
   const char* const detail = std::strpbrk(commands.c_str(), "(:");
-  std::size_t length = detail == nullptr ? std::strlen(commands.c_str()) : detail - commands.c_str();
+  std::size_t length =
+      detail == nullptr ? std::strlen(commands.c_str()) : static_cast<std::size_t>(detail - commands.c_str());
   while (length > 0 && commands.c_str()[length - 1] == ' ') --length;
   text.format("%.*s", static_cast<int>(length), commands.c_str());
   return text;

@@ -53,7 +53,7 @@ TEST_F(Killed, TheDrivesSwitchOffByTheirWatchdogAndTheNextNodeNamesTheFault) {
   EXPECT_THAT(robot().waitForDiagnostics("drive left", error), HasSubstr("fault"));
   const Answer refused = robot().enable(true);
   EXPECT_FALSE(refused.success);
-  EXPECT_THAT(refused.message, AllOf(HasSubstr("drive "), HasSubstr("fault")));
+  EXPECT_THAT(refused.message, AllOf(HasSubstr("drives left, right"), HasSubstr("fault")));
   EXPECT_EQ(robot().left.truth.next()->control_word, 0x047E);
   for (const auto& truth : robot().left.truth.since(left_again)) {
     ASSERT_FALSE(truth->operation_enabled);
