@@ -34,8 +34,8 @@ class PairSystem final : public link::CanSystem {
     return 0;
   }
   int restart(int /*index*/) noexcept override { return 0; }
-  int openNews() noexcept override { return -1; }
-  int readNews(int /*descriptor*/, link::CanInterface& /*interface*/) noexcept override { return -EAGAIN; }
+  int openInterfaceMessages() noexcept override { return -1; }
+  int readInterfaceMessage(int /*descriptor*/, link::CanInterface& /*interface*/) noexcept override { return -EAGAIN; }
   int setFilters(int /*descriptor*/, const std::vector<std::uint32_t>& /*ids*/) noexcept override { return 0; }
   int setErrorFilter(int /*descriptor*/, std::uint32_t /*classes*/) noexcept override { return 0; }
   int setBuffers(int /*descriptor*/, int /*receive*/, int /*send*/) noexcept override { return 0; }
@@ -50,8 +50,8 @@ class PairSystem final : public link::CanSystem {
   int receive(int descriptor, link::CanReceipt& receipt) noexcept override {
     return linux_.receive(descriptor, receipt);
   }
-  link::CanReady poll(int descriptor, int news, bool to_write, Duration timeout) noexcept override {
-    return linux_.poll(descriptor, news, to_write, timeout);
+  link::CanReady poll(int descriptor, int messages, bool to_write, Duration timeout) noexcept override {
+    return linux_.poll(descriptor, messages, to_write, timeout);
   }
   Instant now() const noexcept override { return linux_.now(); }
   void sleepUntil(Instant when) noexcept override { linux_.sleepUntil(when); }

@@ -70,7 +70,7 @@ void NodeBoot::release(Instant now) noexcept {
   const Release release{watch() != Watch::kOff};
   release_script_.begin();
   if (!ever_there || release_script_.done()) return endRelease(NmtCommand::kEnterPreOperational, now);
-  phase_ = release;
+  phase_ = Phase{release};
   command_.reset();
   timers_.set(NodeTimer::kBoot, now + kLongestRelease);
   submit(release_script_.request(), now);
@@ -78,7 +78,7 @@ void NodeBoot::release(Instant now) noexcept {
 
 void NodeBoot::endRelease(NmtCommand command, Instant now) noexcept {
   port_.cancel(SdoOwner::kBoot, now);
-  phase_ = Off{};
+  phase_ = Phase{Off{}};
   timers_.stop(NodeTimer::kBoot);
   command_ = command;
 }
@@ -95,13 +95,13 @@ void NodeBoot::reset(Instant now) noexcept {
   port_.cancel(SdoOwner::kBoot, now);
   command_ = resetCommand(config_.reset);
   report_.status().nmt = NmtState::kUnknown;  // it hears no RPDO any more, also before its boot-up says so
-  phase_ = AwaitBootUp{};
+  phase_ = Phase{AwaitBootUp{}};
   timers_.set(NodeTimer::kBoot, now + config_.boot_up_timeout);
 }
 
 void NodeBoot::ask(Instant now) noexcept {
   port_.cancel(SdoOwner::kBoot, now);
-  phase_ = Script{};
+  phase_ = Phase{Script{}};
   timers_.stop(NodeTimer::kBoot);
   script_.begin();
   submit(script_.request(), now);
@@ -309,7 +309,7 @@ void NodeBoot::found(Instant now) noexcept {
 void NodeBoot::silent(const Sentence& why, Instant now) noexcept {
   report_.enter(past_.was_operational ? NodeState::kLost : NodeState::kAbsent, why, now);
   past_.fresh = false;
-  phase_ = Silent{};
+  phase_ = Phase{Silent{}};
   timers_.set(NodeTimer::kBoot, now + ask_pause_.next());
 }
 
@@ -317,12 +317,12 @@ void NodeBoot::start(bool doubled, Instant now) noexcept {
   past_.doubled = doubled;
   command_ = NmtCommand::kStart;
   if (config_.error_control.mode == ErrorControlMode::kNone) return run(now);
-  phase_ = Start{};
+  phase_ = Phase{Start{}};
   timers_.set(NodeTimer::kBoot, now + startTimeout(config_));
 }
 
 void NodeBoot::run(Instant now) noexcept {
-  phase_ = Running{};
+  phase_ = Phase{Running{}};
   timers_.stop(NodeTimer::kBoot);
   past_.fresh = false;
   past_.was_operational = true;
@@ -335,7 +335,7 @@ void NodeBoot::run(Instant now) noexcept {
 }
 
 void NodeBoot::leave(const Sentence& why, Instant now) noexcept {
-  phase_ = Silent{};
+  phase_ = Phase{Silent{}};
   past_.fresh = false;
   ask_pause_.reset();
   past_.lost_why = why;
@@ -347,7 +347,7 @@ void NodeBoot::leave(const Sentence& why, Instant now) noexcept {
 void NodeBoot::diagnose(bool heard, Instant now) noexcept {
   Diagnose begun;
   begun.heard = heard;
-  phase_ = begun;
+  phase_ = Phase{begun};
   submit(sdoRead(0, kErrorRegisterIndex, 0), now);
 }
 
@@ -377,7 +377,7 @@ void NodeBoot::refuse(const Sentence& why, Instant now) noexcept {
   const bool told = status.state == NodeState::kRefused && std::strcmp(status.reason.c_str(), why.c_str()) == 0;
   report_.enter(NodeState::kRefused, why, now);
   if (!told) report_.tell(CanopenEventKind::kNodeRefused, why, 0, now);
-  phase_ = Refused{};
+  phase_ = Phase{Refused{}};
   timers_.set(NodeTimer::kBoot, now + refuse_pause_.next());
 }
 

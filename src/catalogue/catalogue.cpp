@@ -37,7 +37,7 @@ Catalogue Catalogue::load(const std::vector<std::string>& files) {
   return catalogue;
 }
 
-const ParameterEntry* Catalogue::find(const Device& device, std::uint16_t number) const noexcept {
+const ParameterEntry* Catalogue::find(const Device& device, std::uint16_t number) const {
   const auto entries = entries_.find(device);
   if (entries == entries_.end()) return nullptr;
   const auto entry = entries->second.find(number);

@@ -25,7 +25,7 @@ class Catalogue {
   static Catalogue load(const std::vector<std::string>& files);
 
   /// nullptr: not described.
-  const ParameterEntry* find(const Device& device, std::uint16_t number) const noexcept;
+  const ParameterEntry* find(const Device& device, std::uint16_t number) const;
   /// By what somebody typed: "509", "P509", "0x6042", or the name in any case.
   Lookup look(const Device& device, const std::string& text) const;
   /// Every parameter of a device in the order of the numbers.

@@ -142,14 +142,14 @@ FaultCatalogue FaultCatalogue::load(const std::vector<std::string>& files) {
   return catalogue;
 }
 
-const FaultEntry* FaultCatalogue::find(FaultCodes codes, std::uint32_t number) const noexcept {
+const FaultEntry* FaultCatalogue::find(FaultCodes codes, std::uint32_t number) const {
   const auto entries = entries_.find({codes, std::nullopt});
   if (entries == entries_.end()) return nullptr;
   const auto entry = entries->second.find(number);
   return entry == entries->second.end() ? nullptr : &entry->second;
 }
 
-const FaultEntry* FaultCatalogue::find(FaultCodes codes, std::uint32_t number, const Device& device) const noexcept {
+const FaultEntry* FaultCatalogue::find(FaultCodes codes, std::uint32_t number, const Device& device) const {
   const auto entries = entries_.find({codes, device});
   if (entries != entries_.end()) {
     const auto entry = entries->second.find(number);

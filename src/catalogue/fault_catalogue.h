@@ -62,9 +62,9 @@ class FaultCatalogue {
   static FaultCatalogue load(const std::vector<std::string>& files);
 
   /// The entry of a number that holds for every device; nullptr: not described.
-  const FaultEntry* find(FaultCodes codes, std::uint32_t number) const noexcept;
+  const FaultEntry* find(FaultCodes codes, std::uint32_t number) const;
   /// That of the device, or the one that holds for every device.
-  const FaultEntry* find(FaultCodes codes, std::uint32_t number, const Device& device) const noexcept;
+  const FaultEntry* find(FaultCodes codes, std::uint32_t number, const Device& device) const;
   /// Those that hold for every device, in the order of the numbers; with a device those of this device alone.
   std::vector<const FaultEntry*> all(FaultCodes codes, const std::optional<Device>& device = std::nullopt) const;
 

@@ -117,6 +117,7 @@ RawValue fromName(const ParameterEntry& entry, const std::string& text, unsigned
     const std::string range = rangeText(entry, index);
     if (names.empty()) return refused(entry, index, text, range);
     std::vector<std::string> lower;
+    lower.reserve(names.size());
     for (const std::string& name : names) lower.push_back(lowerCase(name));
     const std::string nearest = nearestName(wanted, lower);
     if (!nearest.empty()) {
@@ -182,7 +183,7 @@ RawValue rawFrom(const ParameterEntry& entry, const std::string& typed, unsigned
   if (!numbersOf(entry.valuesOf(index), lowerCase(text)).empty()) return fromName(entry, text, index);
   const std::size_t colon = entry.bits.empty() ? std::string::npos : text.find(": ");
   if (colon != std::string::npos) {
-    const RawValue value = rawFrom(entry, text.substr(0, colon), index);
+    RawValue value = rawFrom(entry, text.substr(0, colon), index);
     if (!value.raw || lowerCase(text) == lowerCase(valueText(entry, *value.raw, index))) return value;
     return refused(entry, index, text, "\"" + valueText(entry, *value.raw, index) + "\", or the number alone");
   }
@@ -208,7 +209,7 @@ RawValue rawFrom(const ParameterEntry& entry, const std::string& typed, unsigned
     return refused(entry, index, text, "a multiple of " + shortNumber(entry.step()) + (unit.empty() ? "" : " " + unit));
   }
   if (std::abs(steps) > 1e12) return refused(entry, index, text, rangeText(entry, index));
-  const RawValue result = checked(entry, text, std::llround(steps), index);
+  RawValue result = checked(entry, text, std::llround(steps), index);
   if (!result.raw || rest.empty() || rest == unit) return result;
   const std::string full = valueText(entry, *result.raw, index);
   if (lowerCase(text) == lowerCase(full)) return result;

@@ -64,8 +64,8 @@ std::optional<double> decimalNumber(const std::string& text) {
   return YAML::Node(text).as<double>();
 }
 
-YamlMap::YamlMap(std::string file, std::string path, YAML::Node node)
-    : file_(std::move(file)), path_(std::move(path)), node_(std::move(node)) {
+YamlMap::YamlMap(std::string file, std::string path, const YAML::Node& node)
+    : file_(std::move(file)), path_(std::move(path)), node_(node) {
   if (!node_.IsMap()) throw wrongValue(file_, node_, path_, "a group of keys and values");
   std::vector<std::string> keys;
   for (const auto& member : node_) {

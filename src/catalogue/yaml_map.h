@@ -39,7 +39,7 @@ class YamlMap {
  public:
   /// `path` names the map in sentences ("P509"); empty for the whole file. Throws when `node` is no map or holds a key
   /// twice.
-  YamlMap(std::string file, std::string path, YAML::Node node);
+  YamlMap(std::string file, std::string path, const YAML::Node& node);
 
   /// Every getter throws ConfigError when the value is there but of another kind, and remembers the key.
   std::optional<std::string> text(const std::string& key);

@@ -1,6 +1,7 @@
 #include "config/tree_settings.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 #include <utility>
 
@@ -17,6 +18,21 @@ constexpr const char* kAGroup = "a group of keys and values";
 // An integer is a number all the same: rosparam makes one of "1".
 bool isNumber(const SettingValue& value) {
   return value.kind == Kind::kInteger || value.kind == Kind::kFraction;
+}
+
+bool readsAsNumber(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0';
+}
+
+// What to do about the slips of YAML that are made most.
+std::string remedyOf(const SettingValue& value, const std::string& expected) {
+  const bool quoted_number = expected.find("number") != std::string::npos && readsAsNumber(value.text);
+  const bool quoted_flag = expected == "true or false" && (value.text == "true" || value.text == "false");
+  if (value.kind == Kind::kText && (quoted_number || quoted_flag)) return ": write " + value.text + " without quotes";
+  if (value.kind == Kind::kList && expected == kAGroup) return ": write \"name: ...\" in place of \"- ...\"";
+  return "";
 }
 
 void collectLeaves(const SettingValue& group, const std::string& prefix, std::vector<std::string>& names) {
@@ -53,7 +69,15 @@ const SettingValue* TreeSettings::find(const std::string& key) const {
 
 ConfigError TreeSettings::wrongKind(const std::string& key, const SettingValue& value,
                                     const std::string& expected) const {
-  return ConfigError(fullName(key) + ": " + value.printed() + " is not valid, expected " + expected);
+  return ConfigError(fullName(key) + ": " + value.printed() + " is not valid, expected " + expected +
+                     remedyOf(value, expected));
+}
+
+ConfigError TreeSettings::wrongItem(const std::string& key, const SettingValue& item,
+                                    const std::string& expected) const {
+  if (item.kind != Kind::kList) return wrongKind(key, item, expected);
+  return ConfigError(fullName(key) + ": a list of lists is not valid, expected " + expected +
+                     ": take one pair of brackets away");
 }
 
 bool TreeSettings::has(const std::string& key) const {
@@ -73,7 +97,7 @@ std::optional<std::vector<double>> TreeSettings::numbers(const std::string& key)
   if (value->kind != Kind::kList) throw wrongKind(key, *value, "a list of numbers");
   std::vector<double> list;
   for (const SettingValue& item : value->items) {
-    if (!isNumber(item)) throw wrongKind(key, item, "a list of numbers");
+    if (!isNumber(item)) throw wrongItem(key, item, "a list of numbers");
     list.push_back(item.number);
   }
   return list;
@@ -113,7 +137,7 @@ std::optional<std::vector<std::string>> TreeSettings::texts(const std::string& k
   if (value->kind != Kind::kList) throw wrongKind(key, *value, "a text or a list of texts");
   std::vector<std::string> list;
   for (const SettingValue& item : value->items) {
-    if (item.kind != Kind::kText) throw wrongKind(key, item, "a list of texts");
+    if (item.kind != Kind::kText) throw wrongItem(key, item, "a list of texts");
     list.push_back(item.text);
   }
   return list;
@@ -141,6 +165,11 @@ std::vector<std::string> TreeSettings::keys() const {
   return value_.names;
 }
 
+std::vector<std::string> TreeSettings::keysBelow(const std::string& key) const {
+  const SettingValue* const value = value_.find(key);
+  return value == nullptr || value->kind != Kind::kGroup ? std::vector<std::string>{} : value->names;
+}
+
 // It was asked for itself, or a group it lies in was handed out.
 bool TreeSettings::isKnown(const std::string& leaf) const {
   bool known = asked_.count(leaf) != 0;
@@ -150,15 +179,20 @@ bool TreeSettings::isKnown(const std::string& leaf) const {
   return known;
 }
 
-std::vector<std::string> TreeSettings::unknownKeys() const {
+std::vector<std::string> TreeSettings::unknownKeys(const std::string& node) const {
   std::vector<std::string> sentences;
   std::vector<std::string> leaves;
   collectLeaves(value_, "", leaves);
   for (const std::string& name : leaves) {
     if (isKnown(name)) continue;
     const std::string nearest = nearestName(name, {asked_.begin(), asked_.end()});
-    sentences.push_back(fullName(name) + " is not known and is ignored" +
-                        (nearest.empty() ? "" : "; did you mean " + fullName(nearest) + "?"));
+    std::string sentence = fullName(name) + " is not known and is ignored";
+    if (!nearest.empty()) sentence += "; did you mean " + fullName(nearest) + "?";
+    if (!node.empty()) {
+      sentence += (nearest.empty() ? "; left" : " Left") +
+                  std::string(" over from an earlier start? rosparam delete ") + node + "/" + fullName(name).substr(1);
+    }
+    sentences.push_back(sentence);
   }
   return sentences;
 }

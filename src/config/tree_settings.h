@@ -28,6 +28,8 @@ class TreeSettings : public Settings {
   std::vector<std::string> keys() const override;
   std::string fullName(const std::string& key) const override;
 
+  /// Of the group at `key`, which is no path; empty when it is none. Does not count as asking.
+  std::vector<std::string> keysBelow(const std::string& key) const;
   /// A list of numbers.
   std::optional<std::vector<double>> numbers(const std::string& key) const;
   /// The group below `key`; an empty one when it is absent.
@@ -37,12 +39,16 @@ class TreeSettings : public Settings {
   /// Marks a key as known without reading it.
   void accept(const std::string& key) const { asked_.insert(key); }
 
-  /// One sentence per key that is there and that nobody asked for, with the nearest known name.
-  std::vector<std::string> unknownKeys() const;
+  /// One sentence per key that is there and that nobody asked for, with the nearest known name. `node`: whose
+  /// parameters they are, if any node's: parameters outlive the node that had them, so the sentence says how to delete
+  /// one.
+  std::vector<std::string> unknownKeys(const std::string& node = {}) const;
 
  private:
   const SettingValue* find(const std::string& key) const;  // nullptr when it is absent or has no value
   ConfigError wrongKind(const std::string& key, const SettingValue& value, const std::string& expected) const;
+  /// The same for an item of a list.
+  ConfigError wrongItem(const std::string& key, const SettingValue& item, const std::string& expected) const;
   bool isKnown(const std::string& leaf) const;
 
   std::string prefix_;

@@ -54,6 +54,16 @@ robot::SpeedLimits readLimits(const Settings& settings, const std::string& axis)
   return limits;
 }
 
+/// Who types a limit in means it to hold; a file that says `false` is taken at its word.
+void warnOfLimitsThatAreOff(const Settings& settings, const std::string& axis, std::vector<std::string>& warnings) {
+  for (const std::string kind : {"velocity", "acceleration", "jerk"}) {
+    const std::string limit = axis + "/max_" + kind, flag = axis + "/has_" + kind + "_limits";
+    if (!settings.has(limit) || settings.has(flag)) continue;
+    warnings.push_back(settings.fullName(limit) + " limits nothing as long as " + settings.fullName(flag) +
+                       " is not true");
+  }
+}
+
 robot::BaseKind readKind(const Settings& settings) {
   const std::string kind = settings.text("base_type").value_or("differential");
   if (kind == "differential") return robot::BaseKind::kDifferential;
@@ -65,8 +75,11 @@ robot::BaseKind readKind(const Settings& settings) {
 template <typename LookUp>
 double readSize(const Settings& settings, const char* key, bool has_description, LookUp look_up) {
   constexpr double kSmallest = 1e-3, kLargest = 100.0;
-  if (settings.has(key) || !has_description) return requiredNumber(settings, key, kSmallest, kLargest, "m");
-  return look_up();
+  if (settings.has(key)) return requiredNumber(settings, key, kSmallest, kLargest, "m");
+  if (has_description) return look_up();
+  throw missingSetting(settings, key,
+                       "a number from " + shortNumber(kSmallest) + " to " + shortNumber(kLargest) +
+                           " m, or the robot's URDF in robot_description, which it is taken from then");
 }
 
 /// The joints' limits of a description nothing else is taken from: it may be of another part of the robot, without our
@@ -184,6 +197,9 @@ std::optional<BaseConfig> readBaseConfig(const Settings& settings, const JointNa
   base.limits.linear_x = readLimits(settings, "linear/x");
   base.limits.angular_z = readLimits(settings, "angular/z");
   if (base.kind == robot::BaseKind::kMecanum) base.limits.linear_y = readLimits(settings, "linear/y");
+  warnOfLimitsThatAreOff(settings, "linear/x", base.warnings);
+  warnOfLimitsThatAreOff(settings, "angular/z", base.warnings);
+  if (base.kind == robot::BaseKind::kMecanum) warnOfLimitsThatAreOff(settings, "linear/y", base.warnings);
   base.limits.limit_axes_independently = settings.boolean("limit_axes_independently").value_or(false);
   base.open_loop = settings.boolean("open_loop").value_or(false);
   base.velocity_rolling_window_size =

@@ -17,6 +17,10 @@ Sentence withNeighbour(const Sentence& answer, const char* neighbour) noexcept {
   return text;
 }
 
+bool hasFault(const drive::DriveReport& report) noexcept {
+  return report.fault_latched || (report.online && profile::StatusWord{report.status_word}.fault());
+}
+
 }  // namespace
 
 StandstillRequests::StandstillRequests(std::vector<drive::Drive>& drives, std::vector<std::string> names,
@@ -34,9 +38,10 @@ void StandstillRequests::forEach(const Request& request, Action action) noexcept
 
 void StandstillRequests::handleRequest(const Request& request, Instant now) noexcept {
   update(now);  // what a stop has just ended is answered before the drives' reports are about another request
-  Job job{request, now + request.patience, ++last_token_, {}};
+  Job job{request, now + request.patience, ++last_token_, {}, false};
   if (jobs_.full()) return completions_.answer(request, false, "too many requests are being carried out already");
   forEach(request, [&](DriveIndex i) {
+    job.fault_stood = job.fault_stood || hasFault(drives_[i].report());
     const Sentence busy = othersRequest(request.kind, i);
     if (!busy.empty()) {
       if (job.busy.empty()) job.busy = busy;
@@ -92,8 +97,7 @@ bool StandstillRequests::follow(const Job& job, Instant now) noexcept {
   if (busy) {
     completions_.answer(job.request, false, "not confirmed in time");
   } else if (job.request.kind == RequestKind::kAcknowledge) {
-    const Sentence answer =
-        refused.empty() ? "no fault stands; the drives stay disabled until they are enabled" : refused;
+    const Sentence answer = refused.empty() ? acknowledged(job) : refused;
     const auto neighbour = faultedNeighbour(job.request);
     completions_.answer(job.request, refused.empty(),
                         neighbour ? withNeighbour(answer, names_[*neighbour].c_str()) : answer);
@@ -105,6 +109,15 @@ bool StandstillRequests::follow(const Job& job, Instant now) noexcept {
     completions_.answer(job.request, true, text);
   }
   return true;
+}
+
+const char* StandstillRequests::acknowledged(const Job& job) noexcept {
+  if (!job.fault_stood) return "no fault stood, and nothing was done";
+  bool one_is_enabled = false;
+  forEach(job.request,
+          [&](DriveIndex i) { one_is_enabled = one_is_enabled || drive::isEnabled(drives_[i].report().phase); });
+  return one_is_enabled ? "no fault stands; the drive that had one stays disabled until it is enabled"
+                        : "no fault stands; the drives stay disabled until they are enabled";
 }
 
 std::optional<DriveIndex> StandstillRequests::faultedNeighbour(const Request& request) const noexcept {

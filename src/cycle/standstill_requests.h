@@ -33,14 +33,17 @@ class StandstillRequests {
   struct Job {
     Request request;
     Instant deadline{};
-    std::uint32_t token = 0;  // what the drives' reports carry while they are about this one
-    Sentence busy;            // a drive that was busy with another's request, and was not asked
+    std::uint32_t token = 0;   // what the drives' reports carry while they are about this one
+    Sentence busy;             // a drive that was busy with another's request, and was not asked
+    bool fault_stood = false;  // when it was asked, at one of the drives
   };
 
   template <typename Action>
   void forEach(const Request& request, Action action) noexcept;
   /// True when the job has ended.
   bool follow(const Job& job, Instant now) noexcept;
+  /// What to answer when no fault stands any more.
+  const char* acknowledged(const Job& job) noexcept;
   /// A drive with a fault behind the same bus module as those of the request, and not one of them.
   std::optional<DriveIndex> faultedNeighbour(const Request& request) const noexcept;
   /// What another's request keeps the drive busy with, in words; empty when nothing does.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "cycle/enable_refusal.h"
 #include "cycle/user_messages.h"
 
 namespace nord_driver::cycle {
@@ -27,6 +28,7 @@ Sentence notHeardYet(const CommandState& commands, bool has_base) noexcept {
 Supervisor::Supervisor(const CycleConfig& config, std::vector<drive::Drive>& drives, bool auto_enable)
     : drives_(drives),
       group_of_(drives.size(), kNoGroup),
+      refusals_(drives.size(), Refusal::kNone),
       has_base_(config.base.has_value()),
       auto_enable_(auto_enable) {
   for (const DriveSetup& setup : config.drives) names_.push_back(setup.name);
@@ -46,6 +48,11 @@ void Supervisor::addGroup(const std::vector<DriveIndex>& members, const CycleCon
   group.shutdown_timeout = config.shutdown_timeout;
   group.ways = config.stop_ways;
   groups_.push_back({drive::DriveGroup{pointers, group}, members});
+}
+
+bool Supervisor::enabledOrEnabling(const Group& group) noexcept {
+  const GroupPhase phase = group.group.report().phase;
+  return phase == GroupPhase::kEnabled || phase == GroupPhase::kEnabling;
 }
 
 bool Supervisor::concerns(const Request& request, std::size_t group) const noexcept {
@@ -113,8 +120,14 @@ void Supervisor::followUp(const Request& request, Instant now, bool begun) noexc
 
 bool Supervisor::nothingToEnable(const Request& request) const noexcept {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
-    const GroupPhase phase = groups_[i].group.report().phase;
-    if (concerns(request, i) && phase != GroupPhase::kEnabled && phase != GroupPhase::kEnabling) return false;
+    if (concerns(request, i) && !enabledOrEnabling(groups_[i])) return false;
+  }
+  return true;
+}
+
+bool Supervisor::isEnabled(const Request& request) const noexcept {
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    if (concerns(request, i) && !groups_[i].group.commandAllowed()) return false;
   }
   return true;
 }
@@ -123,18 +136,40 @@ void Supervisor::startEnable(const Request& request, const CommandState& command
   auto_enable_ = false;  // somebody has taken over
   if (shutting_down_) return completions_.answer(request, false, "the node is ending");
   if (jobs_.full()) return completions_.answer(request, false, "too many requests are being carried out already");
+  if (isEnabled(request)) return completions_.answer(request, true, "already enabled");
   if (nothingToEnable(request)) return followUp(request, now);
-  if (!commands.moving.empty()) return completions_.answer(request, false, commands.moving);
-  if (commands.to_hear > request.patience) return completions_.answer(request, false, notHeardYet(commands, has_base_));
+  if (!commands.moving.empty()) return completions_.answer(request, false, reasonsAgainst(request, commands.moving));
+  if (commands.to_hear > request.patience) {
+    return completions_.answer(request, false, reasonsAgainst(request, notHeardYet(commands, has_base_)));
+  }
   if (commands.to_hear > Duration::zero()) return followUp(request, now, false);
   if (enableAll(request, now)) followUp(request, now);
 }
 
+Sentence Supervisor::reasonsAgainst(const Request& request, const Sentence& commands) noexcept {
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    const bool asked = concerns(request, i) && !enabledOrEnabling(groups_[i]);
+    bool stopping = asked && groups_[i].group.report().phase != GroupPhase::kDisabled;
+    for (const DriveIndex member : groups_[i].members) {
+      Refusal& refusal = refusals_[member];
+      refusal = asked ? drives_[member].enableRefusal() : Refusal::kNone;
+      stopping = stopping && refusal == Refusal::kNone;
+    }
+    if (stopping) refusals_[groups_[i].members.front()] = Refusal::kStopping;
+  }
+  return enableRefusalMessage(names_, drives_, refusals_, commands);
+}
+
 bool Supervisor::enableAll(const Request& request, Instant now) noexcept {
+  const Sentence reasons = reasonsAgainst(request, {});
+  if (!reasons.empty()) {
+    takeBack(request, now);
+    completions_.answer(request, false, reasons);
+    return false;
+  }
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& group = groups_[i];
-    const GroupPhase phase = group.group.report().phase;
-    if (!concerns(request, i) || phase == GroupPhase::kEnabled || phase == GroupPhase::kEnabling) continue;
+    if (!concerns(request, i) || enabledOrEnabling(group)) continue;
     const drive::GroupRefusal refusal = group.group.requestEnable(now);
     if (refusal.accepted()) continue;
     takeBack(request, now);
@@ -146,10 +181,7 @@ bool Supervisor::enableAll(const Request& request, Instant now) noexcept {
 
 void Supervisor::takeBack(const Request& request, Instant now) noexcept {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
-    const GroupPhase phase = groups_[i].group.report().phase;
-    if (concerns(request, i) && (phase == GroupPhase::kEnabled || phase == GroupPhase::kEnabling)) {
-      groups_[i].group.requestDisable(now);
-    }
+    if (concerns(request, i) && enabledOrEnabling(groups_[i])) groups_[i].group.requestDisable(now);
   }
 }
 
@@ -186,7 +218,7 @@ void Supervisor::autoEnable(const CommandState& commands, Instant now) noexcept 
 
 bool Supervisor::followWaiting(Job& job, const CommandState& commands, Instant now) noexcept {
   if (!commands.moving.empty()) {
-    completions_.answer(job.request, false, commands.moving);
+    completions_.answer(job.request, false, reasonsAgainst(job.request, commands.moving));
     return true;
   }
   if (commands.to_hear > Duration::zero()) {
@@ -229,12 +261,10 @@ bool Supervisor::followStop(const Job& job) noexcept {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     if (concerns(job.request, i) && !groups_[i].group.settled()) return false;
   }
-  const auto silent = silentMember(job.request);
-  if (silent && job.request.kind != RequestKind::kShutDown) return false;  // it may be back before the deadline
-  if (silent) {
-    Sentence text;
-    text.format("drive %s does not answer: nobody has seen it stop", names_[*silent].c_str());
-    completions_.answer(job.request, false, text);
+  const Sentence silent = silentMembers(job.request);
+  if (!silent.empty() && job.request.kind != RequestKind::kShutDown) return false;  // back before the deadline, maybe
+  if (!silent.empty()) {
+    completions_.answer(job.request, false, silent);
     return true;
   }
   const bool quick = job.request.kind == RequestKind::kQuickStop;
@@ -243,14 +273,20 @@ bool Supervisor::followStop(const Job& job) noexcept {
 }
 
 // A group counts a silent drive as settled, for nothing more can be done with it; confirmed it has nothing.
-std::optional<DriveIndex> Supervisor::silentMember(const Request& request) const noexcept {
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    if (!concerns(request, i)) continue;
-    for (const DriveIndex member : groups_[i].members) {
-      if (!drives_[member].report().online) return member;
-    }
+Sentence Supervisor::silentMembers(const Request& request) const noexcept {
+  Sentence who;
+  int count = 0;
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    if (!concerns(request, group_of_[i]) || drives_[i].report().online) continue;
+    Sentence longer;
+    longer.format("%.150s%s%s", who.c_str(), count == 0 ? "" : ", ", names_[i].c_str());
+    who = longer;
+    ++count;
   }
-  return std::nullopt;
+  Sentence text;
+  if (count == 1) text.format("drive %s does not answer: nobody has seen it stop", who.c_str());
+  if (count > 1) text.format("drives %.180s do not answer: nobody has seen them stop", who.c_str());
+  return text;
 }
 
 Sentence Supervisor::unsettled(const Request& request) const noexcept {

@@ -58,6 +58,10 @@ class Supervisor {
   void startEnable(const Request& request, const CommandState& commands, Instant now) noexcept;
   /// All drives of the request, or none: false when one refuses, and answered.
   bool enableAll(const Request& request, Instant now) noexcept;
+  static bool enabledOrEnabling(const Group& group) noexcept;
+  /// Everything that is against enabling what it asks for, `commands` included; empty when nothing is.
+  Sentence reasonsAgainst(const Request& request, const Sentence& commands) noexcept;
+  bool isEnabled(const Request& request) const noexcept;
   /// All it asks for is enabled, or on its way there.
   bool nothingToEnable(const Request& request) const noexcept;
   void stop(const Request& request, Instant now) noexcept;
@@ -70,8 +74,8 @@ class Supervisor {
   bool followStop(const Job& job) noexcept;
   void takeBack(const Request& request, Instant now) noexcept;
   Sentence refusalOf(const Group& group, const drive::GroupRefusal& refusal) const noexcept;
-  /// A drive the request concerns and that does not answer.
-  std::optional<DriveIndex> silentMember(const Request& request) const noexcept;
+  /// Names the drives the request concerns and that do not answer; empty when all do.
+  Sentence silentMembers(const Request& request) const noexcept;
   Sentence unsettled(const Request& request) const noexcept;
   void autoEnable(const CommandState& commands, Instant now) noexcept;
 
@@ -79,6 +83,7 @@ class Supervisor {
   std::vector<std::string> names_;
   std::vector<Group> groups_;  // the base first
   std::vector<std::size_t> group_of_;
+  std::vector<drive::Refusal> refusals_;  // one per drive, filled anew for each sentence
   bool has_base_ = false;
   bool auto_enable_;
   bool shutting_down_ = false;

@@ -5,6 +5,16 @@ namespace nord_driver::cycle {
 using drive::Refusal;
 using drive::StopCause;
 
+namespace {
+
+const char* nextCall(Refusal refusal) noexcept {
+  if (refusal == Refusal::kFaultLatched) return "; call ~acknowledge_faults";
+  if (refusal == Refusal::kFault) return "; when its cause is gone, call ~acknowledge_faults";
+  return "";
+}
+
+}  // namespace
+
 Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveReport& report) noexcept {
   Sentence text;
   if (refusal == Refusal::kMinimumFrequency && report.minimum_frequency.value > 0.0) {
@@ -25,12 +35,12 @@ Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveRe
   }
   if (report.online && report.switch_on_reason) {
     const unsigned reason = *report.switch_on_reason;
-    text.format("drive %s: %s (status word %04X, %s; the inverter's own reason, P700[-03], is %u.%u)", drive,
-                drive::toString(refusal), report.status_word, profile::toString(report.state), reason / 10,
-                reason % 10);
+    text.format("drive %s: %s%s (status word %04X, %s; the inverter's own reason, P700[-03], is %u.%u)", drive,
+                drive::toString(refusal), nextCall(refusal), report.status_word, profile::toString(report.state),
+                reason / 10, reason % 10);
   } else if (report.online) {
-    text.format("drive %s: %s (status word %04X, %s)", drive, drive::toString(refusal), report.status_word,
-                profile::toString(report.state));
+    text.format("drive %s: %s%s (status word %04X, %s)", drive, drive::toString(refusal), nextCall(refusal),
+                report.status_word, profile::toString(report.state));
   } else {
     text.format("drive %s: %s", drive, drive::toString(refusal));
   }

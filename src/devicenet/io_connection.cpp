@@ -10,9 +10,8 @@ constexpr int kRatesUntilTimeout = 4;
 
 }  // namespace
 
-IoConnection::IoConnection(const NodeConfig& config, std::uint8_t own_mac, Duration cycle, NodeReport& report) noexcept
+IoConnection::IoConnection(const NodeConfig& config, Duration cycle, NodeReport& report) noexcept
     : config_(config),
-      own_mac_(own_mac),
       cycle_(cycle),
       report_(report),
       sender_(config.io.output_bytes),

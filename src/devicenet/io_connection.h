@@ -24,7 +24,7 @@ struct IoInput {
 class IoConnection {
  public:
   /// `config` is complete and lives longer than this, like `report`. `cycle`: between two `startCycle()`.
-  IoConnection(const NodeConfig& config, std::uint8_t own_mac, Duration cycle, NodeReport& report) noexcept;
+  IoConnection(const NodeConfig& config, Duration cycle, NodeReport& report) noexcept;
 
   /// Both sides have agreed; `rate` is the expected packet rate the device answered.
   void establish(Duration rate, Instant now) noexcept;
@@ -79,7 +79,6 @@ class IoConnection {
   void takeInput(Instant now) noexcept;
 
   const NodeConfig& config_;
-  std::uint8_t own_mac_;
   Duration cycle_;
   NodeReport& report_;
   bool established_ = false;

@@ -12,10 +12,9 @@ constexpr std::uint8_t kMacMask = 0x3F;
 NodeHandler::NodeHandler(std::size_t index, const ScannerConfig& bus, Counters& counters,
                          DevicenetEvents& events) noexcept
     : config_(bus.nodes[index]),
-      own_mac_(bus.mac),
       report_(index, counters, events),
       channel_(bus.mac, config_.mac, config_.request_timeout),
-      io_(config_, bus.mac, bus.cycle_time, report_),
+      io_(config_, bus.cycle_time, report_),
       connect_(config_, bus, report_, channel_) {}
 
 void NodeHandler::start(Instant now) noexcept {

@@ -54,7 +54,6 @@ class NodeHandler {
   void settle(Instant now) noexcept;
 
   const NodeConfig& config_;
-  std::uint8_t own_mac_;
   NodeReport report_;
   ExplicitChannel channel_;
   IoConnection io_;

@@ -3,7 +3,9 @@
 #include <boost/function.hpp>
 #include <cmath>
 
+#include "config/driver_settings.h"
 #include "config/setting_checks.h"
+#include "node/start_sentence.h"
 #include "nord_driver/profile/series.h"
 
 namespace nord_driver::node {
@@ -52,6 +54,7 @@ DriverNode::DriverNode()
       loader_("nord_driver", "nord_driver::Transport") {
   loadTransport();
   warnOfUnknownKeys();
+  ROS_INFO("nord_driver: %s", startSentence(config_, identities_, where_).c_str());
   ports_ = std::make_unique<cycle::CyclePorts>(config_.drives.size());
   cycle_ = std::make_unique<cycle::BusCycle>(config_.cycle, *transport_, *ports_, config_.auto_enable);
   broker_ = std::make_unique<RequestBroker>(*ports_);
@@ -69,11 +72,7 @@ DriverNode::~DriverNode() {
 
 void DriverNode::loadTransport() {
   if (!loader_.isClassAvailable(config_.transport)) {
-    std::string known;
-    for (const std::string& name : loader_.getDeclaredClasses()) known += (known.empty() ? "" : ", ") + name;
-    throw ConfigError("~transport: \"" + config_.transport +
-                      "\" is not valid, expected one of the declared transports: " +
-                      (known.empty() ? "none (is the package's setup file sourced?)" : known));
+    throw unknownTransport(settings_, config_.transport, loader_.getDeclaredClasses());
   }
   transport_ = loader_.createInstance(config_.transport);
   where_ = applyEndPoint(config_, transport_->endPoint());
@@ -91,12 +90,12 @@ void DriverNode::loadTransport() {
 
 void DriverNode::warnOfUnknownKeys() const {
   std::vector<std::string> sentences = config_.warnings;
-  for (const std::string& sentence : settings_.unknownKeys()) sentences.push_back(sentence);
-  for (const std::string& sentence : config_.bus->unknownKeys()) sentences.push_back(sentence);
+  std::vector<const TreeSettings*> groups{&settings_, config_.bus.get()};
   for (const DriveSettings& drive : config_.drives) {
-    for (const std::string& sentence : static_cast<const TreeSettings&>(*drive.settings).unknownKeys()) {
-      sentences.push_back(sentence);
-    }
+    groups.push_back(static_cast<const TreeSettings*>(drive.settings.get()));
+  }
+  for (const TreeSettings* group : groups) {
+    for (const std::string& sentence : group->unknownKeys(ros::this_node::getName())) sentences.push_back(sentence);
   }
   for (const std::string& sentence : sentences) ROS_WARN("nord_driver: %s", sentence.c_str());
 }
@@ -105,6 +104,8 @@ void DriverNode::advertise() {
   base_publisher_ = std::make_unique<BasePublisher>(node_, config_);
   if (config_.cycle.base) {
     base_tuner_ = std::make_unique<BaseTuner>(private_node_, config_, *ports_, *base_publisher_);
+  } else {
+    nothing_to_tune_ = std::make_unique<NothingToTune>(private_node_);
   }
   std::vector<std::string> names;
   std::vector<trace::TracedDrive> traced;
@@ -174,7 +175,8 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
 
   // Whatever ends the node, the drives come to rest first: an exchange that simply ends lets the wheels coast.
   try {
-    publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_);
+    publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_,
+                       loggedDrives());
     // roscpp is "ok" until it has unregistered every topic: tenths of a second in which the robot would drive on.
     while (!end_asked && ros::ok() && !ros::isShuttingDown() && publisher_->healthy()) {
       noteCommanders();
@@ -186,6 +188,18 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
     throw;
   }
   bringToRest();
+}
+
+LoggedDrives DriverNode::loggedDrives() const {
+  LoggedDrives drives;
+  drives.node = ros::this_node::getName();
+  drives.bus = where_;
+  if (!where_.empty()) drives.bus_key = config_.bus->fullName(transport_->endPoint().key);
+  for (DriveIndex i = 0; i < config_.cycle.drives.size(); ++i) {
+    drives.names.push_back(config_.cycle.drives[i].name);
+    drives.in_base.push_back(cycle_->inBase(i));
+  }
+  return drives;
 }
 
 void DriverNode::noteCommanders() {

@@ -9,7 +9,7 @@ using XmlRpc::XmlRpcValue;
 
 namespace {
 
-std::string written(XmlRpcValue value) {  // a copy: some versions write only one that is not const
+std::string written(const XmlRpcValue& value) {
   std::ostringstream text;
   value.write(text);
   return text.str();

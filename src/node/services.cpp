@@ -9,6 +9,19 @@ namespace nord_driver::node {
 using cycle::kAllDrives;
 using cycle::RequestKind;
 
+namespace {
+
+// Who reads the log later sees who moved the robot, and what was answered.
+void tellOutcome(const std::string& call, const cycle::Completion& answer) {
+  if (answer.success) {
+    ROS_INFO("nord_driver: ~%s: %s", call.c_str(), answer.message.c_str());
+  } else {
+    ROS_WARN("nord_driver: ~%s is refused, or failed: %s", call.c_str(), answer.message.c_str());
+  }
+}
+
+}  // namespace
+
 /// Which parameter a request names. Returns what is wrong with it; empty when nothing is.
 template <typename RosRequest>
 std::string Services::addressParameter(DriveIndex drive, const RosRequest& from, cycle::Request& to,
@@ -35,12 +48,21 @@ Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, co
     : config_(config), broker_(broker) {
   const auto addTrigger = [&](const std::string& name, RequestKind kind, DriveIndex drive) {
     ros::NodeHandle& node = kind == RequestKind::kQuickStop ? stop_node : private_node;
-    advertise<std_srvs::Trigger>(node, name,
-                                 [this, kind, drive](auto&, auto& response) { trigger(kind, drive, response); });
+    advertise<std_srvs::Trigger>(node, name, [this, kind, drive, name](auto&, auto& response) {
+      const cycle::Completion answer = ask(kind, drive);
+      tellOutcome(name, answer);
+      response.success = answer.success;
+      response.message = answer.message.str();
+    });
   };
   const auto addEnable = [&](const std::string& name, DriveIndex drive) {
-    advertise<std_srvs::SetBool>(stop_node, name,
-                                 [this, drive](auto& request, auto& response) { enable(drive, request, response); });
+    advertise<std_srvs::SetBool>(stop_node, name, [this, drive, name](auto& request, auto& response) {
+      const bool on = request.data != 0;
+      const cycle::Completion answer = ask(on ? RequestKind::kEnable : RequestKind::kDisable, drive);
+      tellOutcome(name + (on ? " true" : " false"), answer);
+      response.success = answer.success;
+      response.message = answer.message.str();
+    });
   };
   addEnable("enable", kAllDrives);
   addTrigger("quick_stop", RequestKind::kQuickStop, kAllDrives);
@@ -66,18 +88,6 @@ cycle::Completion Services::ask(RequestKind kind, DriveIndex drive) {
   request.drive = drive;
   request.patience = config_.cycle.service_timeout;
   return broker_.call(request);
-}
-
-void Services::enable(DriveIndex drive, std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
-  const cycle::Completion answer = ask(request.data ? RequestKind::kEnable : RequestKind::kDisable, drive);
-  response.success = answer.success;
-  response.message = answer.message.str();
-}
-
-void Services::trigger(RequestKind kind, DriveIndex drive, std_srvs::Trigger::Response& response) {
-  const cycle::Completion answer = ask(kind, drive);
-  response.success = answer.success;
-  response.message = answer.message.str();
 }
 
 void Services::selectSet(DriveIndex drive, SelectParameterSet::Request& request,

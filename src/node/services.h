@@ -26,8 +26,6 @@ class Services {
   template <typename Service, typename Handler>
   void advertise(ros::NodeHandle& node, const std::string& name, Handler handler);
   cycle::Completion ask(cycle::RequestKind kind, DriveIndex drive);
-  void enable(DriveIndex drive, std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
-  void trigger(cycle::RequestKind kind, DriveIndex drive, std_srvs::Trigger::Response& response);
   template <typename RosRequest>
   std::string addressParameter(DriveIndex drive, const RosRequest& from, cycle::Request& to,
                                const profile::ParameterInfo*& info) const;

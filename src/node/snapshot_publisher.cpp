@@ -1,6 +1,7 @@
 #include "node/snapshot_publisher.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace nord_driver::node {
 
@@ -25,13 +26,15 @@ bool isDue(Instant& next, Duration period, Instant now) {
 }  // namespace
 
 SnapshotPublisher::SnapshotPublisher(cycle::CyclePorts& ports, const PublishConfig& config, BasePublisher& base,
-                                     std::vector<DrivePublisher>& drives, BusPublisher& bus, Diagnostics& diagnostics)
+                                     std::vector<DrivePublisher>& drives, BusPublisher& bus, Diagnostics& diagnostics,
+                                     LoggedDrives logged)
     : ports_(ports),
       base_(base),
       drives_(drives),
       bus_(bus),
       diagnostics_(diagnostics),
       status_period_(seconds(1.0 / config.status_rate)),
+      log_(std::move(logged)),
       thread_([this] {
         try {
           run();
@@ -82,19 +85,19 @@ void SnapshotPublisher::run() {
   }
 }
 
-// Says once what does not answer, and at once what has stopped.
 void SnapshotPublisher::logChanges(const cycle::CycleSnapshot& snapshot, Instant now) {
-  if (const auto line = bus_log_.poll(bus_.sentence(snapshot), busIsWell(snapshot), now)) {
-    if (line->good) {
-      ROS_INFO("nord_driver: %s", line->text.c_str());
-    } else {
-      ROS_WARN("nord_driver: %s", line->text.c_str());
+  for (const LogLine& line : log_.poll(snapshot, now)) {
+    switch (line.level) {
+      case LogLine::Level::kInfo:
+        ROS_INFO("nord_driver: %s", line.text.c_str());
+        break;
+      case LogLine::Level::kWarn:
+        ROS_WARN("nord_driver: %s", line.text.c_str());
+        break;
+      case LogLine::Level::kError:
+        ROS_ERROR("nord_driver: %s", line.text.c_str());
+        break;
     }
-  }
-  const std::string base = snapshot.base.text.str();
-  if (base != last_base_text_) {
-    if (snapshot.base.stopped) ROS_ERROR("nord_driver: the base is stopped: %s", base.c_str());
-    last_base_text_ = base;
   }
 }
 

@@ -7,11 +7,11 @@
 
 #include "cycle/cycle_ports.h"
 #include "node/base_publisher.h"
-#include "node/bus_log_debouncer.h"
 #include "node/bus_publisher.h"
 #include "node/diagnostics.h"
 #include "node/drive_publisher.h"
 #include "node/node_config.h"
+#include "node/state_log.h"
 
 namespace nord_driver::node {
 
@@ -20,7 +20,8 @@ namespace nord_driver::node {
 class SnapshotPublisher {
  public:
   SnapshotPublisher(cycle::CyclePorts& ports, const PublishConfig& config, BasePublisher& base,
-                    std::vector<DrivePublisher>& drives, BusPublisher& bus, Diagnostics& diagnostics);
+                    std::vector<DrivePublisher>& drives, BusPublisher& bus, Diagnostics& diagnostics,
+                    LoggedDrives logged);
   ~SnapshotPublisher();
   SnapshotPublisher(const SnapshotPublisher&) = delete;
   SnapshotPublisher& operator=(const SnapshotPublisher&) = delete;
@@ -38,8 +39,7 @@ class SnapshotPublisher {
   BusPublisher& bus_;
   Diagnostics& diagnostics_;
   Duration status_period_;
-  BusLogDebouncer bus_log_;
-  std::string last_base_text_;
+  StateLog log_;
   std::atomic<bool> stop_{false};
   std::atomic<bool> healthy_{true};
   std::thread thread_;

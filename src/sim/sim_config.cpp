@@ -3,7 +3,9 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
+#include <regex>
 
 #include "sim/bus_kind.h"
 #include "sim/config_group.h"
@@ -39,12 +41,29 @@ const std::vector<std::string>& driveKeys() {
   return kKeys;
 }
 
+// As the driver's file may have it: the series, or the type on the nameplate of one ("SK 535E-750-340-A").
+std::string seriesName(const std::string& written) {
+  std::string name;
+  for (const char c : written) {
+    if (c == '-') break;
+    if (c != ' ') name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  static const std::vector<std::pair<std::regex, std::string>> kPlates{{std::regex("sk1[89]0e"), "sk1x0e"},
+                                                                       {std::regex("sk2[0-3][0-9]e"), "sk2xxe"},
+                                                                       {std::regex("sk54[0-9]e"), "sk54xe"},
+                                                                       {std::regex("sk5[0-3][0-9]e"), "sk5xxe"}};
+  for (const auto& [plate, series] : kPlates) {
+    if (std::regex_match(name, plate)) return series;
+  }
+  return name;
+}
+
 void readSeries(const Group& group, DriveConfig& drive) {
   static const std::map<std::string, Series> kSeries{{"sk300e", Series::kSk300e}, {"sk5xxe", Series::kSk5xxe},
                                                      {"sk54xe", Series::kSk54xe}, {"sk700e", Series::kSk700e},
                                                      {"sk750e", Series::kSk750e}, {"sk1x0e", Series::kSk1x0e},
                                                      {"sk2xxe", Series::kSk2xxe}};
-  const auto series = kSeries.find(group.get<std::string>("series", "sk5xxe", "a series"));
+  const auto series = kSeries.find(seriesName(group.get<std::string>("series", "sk5xxe", "a series")));
   if (series == kSeries.end()) {
     refuse(group.keyName("series"), group["series"], "sk1x0e, sk2xxe, sk300e, sk5xxe, sk54xe, sk700e or sk750e");
   }

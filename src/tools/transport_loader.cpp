@@ -2,6 +2,9 @@
 
 #include <stdexcept>
 
+#include "config/driver_settings.h"
+#include "config/yaml_settings.h"
+
 namespace nord_driver::tools {
 
 boost::shared_ptr<Transport> TransportLoader::load(const std::string& name) {
@@ -12,10 +15,7 @@ boost::shared_ptr<Transport> TransportLoader::load(const std::string& name) {
   } catch (const pluginlib::PluginlibException& error) {
     throw std::runtime_error(std::string(error.what()) + " (" + kHint + ")");
   }
-  std::string known;
-  for (const std::string& declared : loader_->getDeclaredClasses()) known += (known.empty() ? "" : ", ") + declared;
-  throw ConfigError("transport: \"" + name + "\" is not valid, expected one of the declared transports: " +
-                    (known.empty() ? std::string("none (") + kHint + ")" : known));
+  throw unknownTransport(YamlSettings{"", {}}, name, loader_->getDeclaredClasses());
 }
 
 }  // namespace nord_driver::tools

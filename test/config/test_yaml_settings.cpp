@@ -45,6 +45,23 @@ TEST(YamlSettings, ReadsWhatIsThereAndNothingElse) {
   EXPECT_THAT(all.keys(), ElementsAre("bus", "name", "on_air", "rate", "wheels")) << "asking adds nothing";
 }
 
+// The slips that are made most are told with what to do about them.
+TEST(YamlSettings, SaysWhatToDoAboutQuotesAndBrackets) {
+  const YamlSettings all = settings("{a: '3', b: 'true', c: 'fast', d: [[x, y]], e: [[1, 2]], f: [{address: 3}]}");
+  EXPECT_EQ("a: \"3\" is not valid, expected a whole number: write 3 without quotes",
+            refusal([&] { all.integer("a"); }));
+  EXPECT_EQ("a: \"3\" is not valid, expected a number: write 3 without quotes", refusal([&] { all.number("a"); }));
+  EXPECT_EQ("b: \"true\" is not valid, expected true or false: write true without quotes",
+            refusal([&] { all.boolean("b"); }));
+  EXPECT_EQ("c: \"fast\" is not valid, expected a number", refusal([&] { all.number("c"); }));
+  EXPECT_EQ("d: a list of lists is not valid, expected a list of texts: take one pair of brackets away",
+            refusal([&] { all.texts("d"); }));
+  EXPECT_EQ("e: a list of lists is not valid, expected a list of numbers: take one pair of brackets away",
+            refusal([&] { all.numbers("e"); }));
+  EXPECT_EQ("f: a list is not valid, expected a group of keys and values: write \"name: ...\" in place of \"- ...\"",
+            refusal([&] { all.group("f"); }));
+}
+
 // As rosparam sees them: what is quoted is a text, "yes" is true, 0x10 is 16, a whole fraction an integer.
 TEST(YamlSettings, TellsKindsAsRosparamDoes) {
   const YamlSettings all =
@@ -81,7 +98,8 @@ TEST(YamlSettings, AValueWhereAGroupBelongsIsRefused) {
             refusal([&] { all.has("linear/x/max_velocity"); }));
   EXPECT_EQ("linear/x: 5 is not valid, expected a group of keys and values",
             refusal([&] { all.group("linear")->number("x/max_velocity"); }));
-  EXPECT_EQ("axes: a list is not valid, expected a group of keys and values", refusal([&] { all.has("axes/x"); }));
+  EXPECT_EQ("axes: a list is not valid, expected a group of keys and values: write \"name: ...\" in place of \"- ...\"",
+            refusal([&] { all.has("axes/x"); }));
   EXPECT_EQ("drives/left: 3 is not valid, expected a group of keys and values",
             refusal([&] { all.group("drives")->group("left"); }));
   EXPECT_FALSE(all.has("angular/z/max_velocity"));

@@ -97,6 +97,25 @@ TEST(BaseConfig, RefusalsNameKeyValueAndExpectation) {
               HasSubstr("linear/x/max_velocity"));
 }
 
+// A size may be typed in or drawn.
+TEST(BaseConfig, AMissingSizeNamesTheUrdfAsTheOtherWay) {
+  EXPECT_EQ(
+      "~wheel_separation is missing: expected a number from 0.001 to 100 m, or the robot's URDF in robot_description, "
+      "which it is taken from then",
+      refusal(robot().erase("wheel_separation")));
+}
+
+TEST(BaseConfig, WarnsOfALimitThatIsNotSwitchedOn) {
+  auto settings = robot();
+  settings.set("linear/x/max_velocity", 1.0).set("angular/z/max_acceleration", 2.0);
+  EXPECT_THAT(readBaseConfig(settings, kJoints)->warnings,
+              ElementsAre("~linear/x/max_velocity limits nothing as long as ~linear/x/has_velocity_limits is not true",
+                          "~angular/z/max_acceleration limits nothing as long as ~angular/z/has_acceleration_limits is "
+                          "not true"));
+  settings.set("linear/x/has_velocity_limits", false).set("angular/z/has_acceleration_limits", true);
+  EXPECT_THAT(readBaseConfig(settings, kJoints)->warnings, IsEmpty()) << "said so";
+}
+
 /// Wheels of 0.2 m, 0.8 m apart; the right one may turn at 12 rad/s.
 std::string description(const std::string& shape = "cylinder radius=\"0.2\" length=\"0.1\"") {
   const auto wheel = [&](const std::string& side, const std::string& y, const std::string& inside) {

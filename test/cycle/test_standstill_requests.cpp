@@ -97,10 +97,25 @@ TEST_F(StandstillRequestsTest, WithoutAFaultNothingIsDone) {
   drives_[kRight].requestEnable(now_);
   run(10);
   ASSERT_EQ(Phase::kEnabled, drives_[kRight].report().phase);
-  EXPECT_TRUE(acknowledge().success);
+  const Completion answer = acknowledge();
+  EXPECT_TRUE(answer.success);
+  EXPECT_STREQ("no fault stood, and nothing was done", answer.message.c_str());
   run(10);
   EXPECT_FALSE(edge_seen_[kLeft] || edge_seen_[kRight]);
   EXPECT_EQ(Phase::kIdle, drives_[kLeft].report().phase);
+  EXPECT_EQ(Phase::kEnabled, drives_[kRight].report().phase);
+}
+
+// "The drives stay disabled" is said of those that had a fault only: the other one turns.
+TEST_F(StandstillRequestsTest, ADriveThatTurnsBesideIsNotSaidToBeDisabled) {
+  run(4);
+  drives_[kRight].requestEnable(now_);
+  inverters_[kLeft].fault = true;
+  run(10);
+  ASSERT_EQ(Phase::kEnabled, drives_[kRight].report().phase);
+  EXPECT_STREQ("no fault stands; the drive that had one stays disabled until it is enabled",
+               acknowledge().message.c_str());
+  EXPECT_FALSE(latched(kLeft));
   EXPECT_EQ(Phase::kEnabled, drives_[kRight].report().phase);
 }
 

@@ -71,6 +71,44 @@ TEST_F(SupervisorEnable, RefusesWhileTheNewestCommandMoves) {
   EXPECT_TRUE(noneRuns());
 }
 
+// Who has sent zero shall not learn only then of the fault, and after it of the drive that is off.
+TEST_F(SupervisorEnable, NamesEveryReasonFaultAndAbsenceFirst) {
+  inverters[kRight].fault = inverters[kLift].silent = true;
+  bringUp();
+  moving = "the newest cmd_vel is not zero (0.250 m/s, 0.500 rad/s, 0.02 s old): send zero first";
+  const Completion answer = ask(RequestKind::kEnable);
+  EXPECT_FALSE(answer.success);
+  EXPECT_STREQ(
+      "drive right: the inverter reports a fault (when its cause is gone: ~acknowledge_faults); drive lift: the "
+      "inverter "
+      "does not answer; the newest cmd_vel is not zero",
+      answer.message.c_str());
+  EXPECT_TRUE(noneRuns());
+}
+
+TEST_F(SupervisorEnable, NamesDrivesWithOneReasonTogether) {
+  inverters[kRight].silent = inverters[kLift].silent = true;
+  inverters[kLeft].local = true;
+  bringUp();
+  EXPECT_STREQ(
+      "drives right, lift: the inverter does not answer; drive left: the inverter is under local control (status bit 9 "
+      "= 0)",
+      ask(RequestKind::kEnable).message.c_str());
+  EXPECT_STREQ("drive lift: the inverter does not answer", ask(RequestKind::kEnable, kLift).message.c_str())
+      << "of the drives that were asked";
+}
+
+// Both wheels and the lift have a fault that went by itself.
+TEST_F(SupervisorEnable, NamesTheServiceThatIsDueForALatchedFault) {
+  bringUp();
+  for (auto& inverter : inverters) inverter.fault = true;
+  run(2);
+  for (auto& inverter : inverters) inverter.fault = false;
+  run(2);
+  EXPECT_STREQ("drives left, right, lift: a fault was seen and has not been acknowledged (~acknowledge_faults)",
+               ask(RequestKind::kEnable).message.c_str());
+}
+
 TEST_F(SupervisorEnable, RefusesUnderLocalControlAndOverAFault) {
   inverters[kLeft].local = true;
   bringUp();
@@ -114,7 +152,9 @@ TEST_F(SupervisorEnable, EnablingWhatIsEnabledIsGrantedWhileItDrives) {
   moving = "the newest cmd_vel is not zero";
   velocity = 3.0;
   run(5);
-  EXPECT_STREQ("enabled", ask(RequestKind::kEnable).message.c_str());
+  const Completion again = ask(RequestKind::kEnable);
+  EXPECT_TRUE(again.success);
+  EXPECT_STREQ("already enabled", again.message.c_str());
   EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);
   run(5);
   EXPECT_TRUE(allEnabled());

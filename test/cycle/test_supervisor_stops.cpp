@@ -119,6 +119,14 @@ TEST_F(SupervisorStops, ShutDownWaitsForNoDriveThatDoesNotAnswer) {
   EXPECT_STREQ("drive lift does not answer: nobody has seen it stop", answer.message.c_str());
 }
 
+TEST_F(SupervisorStops, ShutDownNamesEveryDriveThatDoesNotAnswer) {
+  inverters[kLift].silent = inverters[kLeft].silent = true;
+  run(60);
+  const Completion answer = ask(RequestKind::kShutDown);
+  EXPECT_FALSE(answer.success);
+  EXPECT_STREQ("drives left, lift do not answer: nobody has seen them stop", answer.message.c_str());
+}
+
 // Whichever of the two comes first in a cycle: nothing is enabled afterwards, and the asker of the enable is told.
 TEST_F(SupervisorStops, AStopBesideAnEnableWins) {
   for (const RequestKind stop : {RequestKind::kQuickStop, RequestKind::kDisable, RequestKind::kShutDown}) {

@@ -23,6 +23,18 @@ TEST(Sentences, ARefusalNamesDriveReasonAndStatusWord) {
                refusalMessage("left", drive::Refusal::kOffline, drive::DriveReport{}).c_str());
 }
 
+TEST(Sentences, ARefusalForAFaultNamesTheService) {
+  EXPECT_STREQ(
+      "drive left: a fault was seen and has not been acknowledged; call ~acknowledge_faults (status word 0B31, ready "
+      "to "
+      "switch on)",
+      refusalMessage("left", drive::Refusal::kFaultLatched, onlineReport()).c_str());
+  EXPECT_STREQ(
+      "drive left: the inverter reports a fault; when its cause is gone, call ~acknowledge_faults (status word 0B31, "
+      "ready to switch on)",
+      refusalMessage("left", drive::Refusal::kFault, onlineReport()).c_str());
+}
+
 TEST(Sentences, AStopTellsTheStatusWordOfThatMoment) {
   drive::DriveReport report = onlineReport();
   report.stop_status_word = 0x0238;

@@ -125,6 +125,22 @@ TEST(RosSettingsTest, UnknownKeysAreNamedWithTheNearestKnownOne) {
                           "~linear/x/max_velocty is not known and is ignored; did you mean ~linear/x/max_velocity?"));
 }
 
+// Parameters outlive the node that had them: the next one finds what it does not know.
+TEST(RosSettingsTest, AnUnknownKeyOfANodeMayBeLeftOver) {
+  XmlRpcValue value;
+  value["cycle_rat"] = 50;
+  value["bus"]["interfac"] = std::string{"can0"};
+  const RosSettings settings{"~", value};
+  settings.number("cycle_rate");
+  const auto bus = settings.group("bus");
+  EXPECT_THAT(settings.unknownKeys("/nord_driver"),
+              ElementsAre("~cycle_rat is not known and is ignored; did you mean ~cycle_rate? Left over from an earlier "
+                          "start? rosparam delete /nord_driver/cycle_rat"));
+  EXPECT_THAT(bus->unknownKeys("/robot/nord_driver"),
+              ElementsAre("~bus/interfac is not known and is ignored; left over from an earlier start? rosparam delete "
+                          "/robot/nord_driver/bus/interfac"));
+}
+
 TEST(RosSettingsTest, KeysThatWereAskedForOrHandedOutAreKnown) {
   XmlRpcValue value;
   value["a"] = 1;

@@ -1,5 +1,6 @@
 // Faults as a user meets them: what stops, what is said, and what it takes to move again.
 #include <gmock/gmock.h>
+#include <rosgraph_msgs/Log.h>
 
 #include "rostest/robot_under_test.h"
 
@@ -146,6 +147,42 @@ TEST_F(Faults, AFaultThatMainsOffAndOnTookAwayIsNoErrorAnyMore) {
   EXPECT_EQ(robot().left.status.next()->fault_number, 0) << "while it drives";
   const auto no_error = [](int level, const std::string& message) { return !isError(level, message); };
   EXPECT_NE(robot().waitForDiagnostics("drive left", no_error), "");
+}
+
+// Who has the log only: what happened, why, which calls come next, and who has called them.
+TEST_F(Faults, TheLogLeadsFromTheFaultToTheNextMotion) {
+  using rosgraph_msgs::Log;
+  ros::NodeHandle node;
+  Topic<Log> log(node, "/rosout");
+  const auto isSaid = [&](std::uint8_t level, const std::string& text) {
+    for (const auto& line : log.since(0)) {
+      if (line->name == "/nord_driver" && line->level == level && line->msg.find(text) != std::string::npos)
+        return true;
+    }
+    return false;
+  };
+  ASSERT_TRUE(eventually([&] {  // from then on nothing is missed
+    robot().trigger("acknowledge_faults");
+    return isSaid(Log::INFO, "~acknowledge_faults: no fault stood, and nothing was done");
+  }));
+  ASSERT_TRUE(robot().trip("left", kMotorHot, true).success);
+  ASSERT_TRUE(
+      eventually([&] { return isSaid(Log::ERROR, "drive left: E2.1, motor overtemperature (I2t); likely cause: "); }));
+  EXPECT_TRUE(isSaid(Log::ERROR, "; remedy: let it cool down"));
+  EXPECT_TRUE(isSaid(Log::ERROR,
+                     "rosservice call /nord_driver/acknowledge_faults and enable: rosservice call "
+                     "/nord_driver/enable true"));
+  robot().drive(0.0);
+  EXPECT_THAT(refusalOfEnable(), HasSubstr("~acknowledge_faults"));
+  EXPECT_TRUE(eventually([&] { return isSaid(Log::WARN, "~enable true is refused, or failed: drive left: "); }));
+  ASSERT_TRUE(robot().clearCause("left").success);
+  ASSERT_TRUE(eventually([] { return robot().trigger("acknowledge_faults").success; }));
+  enableAndDrive(0.3);
+  ASSERT_TRUE(robot().trigger("quick_stop").success);
+  EXPECT_TRUE(eventually([&] { return isSaid(Log::INFO, "~quick_stop: stopped and disabled"); }));
+  EXPECT_TRUE(isSaid(Log::INFO, "~enable true: enabled"));
+  EXPECT_TRUE(eventually([&] { return isSaid(Log::INFO, "a quick stop was asked for"); }));
+  EXPECT_FALSE(isSaid(Log::ERROR, "a quick stop was asked for"));
 }
 
 // Nothing to acknowledge is no failure, and does not disturb a robot that drives.

@@ -53,6 +53,11 @@ TEST(Project, CppFilesAreSmallAndHeadersSayWhatTheyAreFor) {
   EXPECT_EQ("", list(checkCppFiles(project())));
 }
 
+// A start knows nothing of the one before it.
+TEST(Project, EveryStartForgetsTheParametersOfTheLast) {
+  EXPECT_EQ("", list(checkLaunchFiles(project())));
+}
+
 // The project stands alone and leaves no work for later.
 TEST(Project, HoldsNoForbiddenWord) {
   EXPECT_EQ("", list(checkWords(project())));

@@ -32,6 +32,15 @@ TEST(TextRules, LongFiles) {
   EXPECT_THAT(checkCppFiles({{"a.cpp", text + "\n"}}), ElementsAre("a.cpp: 401 lines, at most 400"));
 }
 
+// Parameters of an earlier start are no part of this one.
+TEST(TextRules, LaunchFiles) {
+  const std::string node = "<launch><node pkg=\"nord_driver\" type=\"nord_driver_node\"";
+  EXPECT_THAT(checkLaunchFiles({{"launch/a.launch", node + "\n  clear_params=\"true\">"}}), IsEmpty());
+  EXPECT_THAT(checkLaunchFiles({{"launch/a.launch", node + "/><!-- clear_params=\"true\" -->"}}),
+              ElementsAre(HasSubstr("launch/a.launch: ")));
+  EXPECT_THAT(checkLaunchFiles({{"test/a.launch", node + "/>"}}), ElementsAre("no node in launch/ at all"));
+}
+
 // Nothing is left for later, and nothing outside the project is named; the words are put together here too.
 TEST(TextRules, ForbiddenWords) {
   EXPECT_THAT(checkWords({{"a.md", "to do\n"}}), IsEmpty());

@@ -28,6 +28,23 @@ Violations checkCppFiles(const std::vector<SourceFile>& files) {
   return violations;
 }
 
+Violations checkLaunchFiles(const std::vector<SourceFile>& files) {
+  Violations violations;
+  std::size_t nodes = 0;
+  for (const SourceFile& file : files) {
+    if (!startsWith(file.path, "launch/")) continue;
+    for (std::size_t at = file.text.find("<node "); at != std::string::npos; at = file.text.find("<node ", at + 1)) {
+      const std::string tag = file.text.substr(at, file.text.find('>', at) - at);
+      if (tag.find("pkg=\"nord_driver\"") == std::string::npos) continue;
+      ++nodes;
+      if (tag.find("clear_params=\"true\"") != std::string::npos) continue;
+      violations.push_back(file.path + ": a node of this package without clear_params=\"true\"");
+    }
+  }
+  if (nodes == 0) violations.emplace_back("no node in launch/ at all");
+  return violations;
+}
+
 Violations checkWords(const std::vector<SourceFile>& files) {
   // Put together here, so that this file does not hold them.
   const std::array<std::string, 5> kWords{std::string("TO") + "DO", std::string("FIX") + "ME",

@@ -175,7 +175,8 @@ TEST(SimConfig, RefusesInWords) {
             refusal("drives: {a: {address: 3, ppo_type: many}}"));
   EXPECT_EQ("drives/a/inverted: 7 is not valid; expected true or false",
             refusal("drives: {a: {address: 3, inverted: 7}}"));
-  EXPECT_THAT(refusal("drives: {a: {address: 3, series: sk200e}}"), testing::HasSubstr("drives/a/series: sk200e"));
+  EXPECT_THAT(refusal("drives: {a: {address: 3, series: sk800e}}"), testing::HasSubstr("drives/a/series: sk800e"));
+  EXPECT_EQ("accepted", refusal("drives: {a: {address: 3, series: SK 205E-550-340}}")) << "as on the nameplate";
   EXPECT_THAT(refusal("drives: {a/b: {address: 3}}"), testing::HasSubstr("a/b is not valid; expected a name"));
   EXPECT_EQ("drives/a/parameters/P513: -1 is not valid; expected a number from -0.1 to 100",
             refusal("drives: {a: {address: 3, parameters: {P513: -1}}}"));

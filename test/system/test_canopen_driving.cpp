@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "system/can_robot.h"
 #include "core/can_trace.h"
+#include "system/can_robot.h"
 
 namespace nord_driver::test {
 namespace {

@@ -9,9 +9,9 @@
 #include <map>
 #include <sstream>
 
+#include "core/can_trace.h"
 #include "system/can_robot.h"
 #include "trace/pcap.h"
-#include "core/can_trace.h"
 
 namespace nord_driver::test {
 namespace {

@@ -16,7 +16,8 @@ constexpr std::array<Series, 7> kAllSeries{Series::kSk1x0e, Series::kSk2xxe, Ser
 /// "sk5xxe", as configurations write it.
 const char* toString(Series series) noexcept;
 
-/// The series of a configuration's word; none when the word is unknown.
+/// The series of a configuration's word: "sk5xxe", "SK5XXE", or what the nameplate says, "SK 535E-750-340-A". None when
+/// the word is unknown, or could mean two series.
 std::optional<Series> seriesFrom(const std::string& name);
 
 }  // namespace nord_driver::profile

@@ -12,7 +12,7 @@
 #include "link/modbus/modbus_telegram.h"
 #include "link/modbus/wakeup.h"
 
-struct _modbus;
+struct _modbus;  // NOLINT(bugprone-reserved-identifier): the name libmodbus gives it
 
 namespace nord_driver::link {
 

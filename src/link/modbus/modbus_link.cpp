@@ -21,7 +21,8 @@ ModbusLink::~ModbusLink() {
 bool ModbusLink::open() noexcept {
   if (isOpen()) return true;
   report_.text = problem_;
-  if (fresh_.descriptor() < 0 || news_.descriptor() < 0 || stop_.descriptor() < 0) report_.text = "no descriptor left for a link to a gateway";
+  if (fresh_.descriptor() < 0 || news_.descriptor() < 0 || stop_.descriptor() < 0)
+    report_.text = "no descriptor left for a link to a gateway";
   if (report_.text.empty()) {
     stop_.take();
     fresh_.take();
@@ -56,6 +57,10 @@ bool ModbusLink::waitNews(Instant until) noexcept {
   const timespec left = toTimeout(until - now());
   ::ppoll(&wait, 1, &left, nullptr);
   return news_.take();
+}
+
+void ModbusLink::sleepUntil(Instant when) noexcept {
+  sleepUntilInstant(when);
 }
 
 void ModbusLink::work() noexcept {

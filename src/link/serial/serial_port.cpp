@@ -17,6 +17,12 @@ bool meansUnplugged(long error) noexcept {
   return error == EIO || error == ENXIO || error == ENODEV || error == EPIPE;
 }
 
+const char* remedyOf(int error) noexcept {
+  if (error == ENOENT) return " (the adapters that are there: ls /dev/serial/by-id)";
+  if (error == EACCES) return " (only the group dialout may: sudo usermod -aG dialout $USER, then log in again)";
+  return "";
+}
+
 }  // namespace
 
 SerialPort::SerialPort(const SerialSettings& settings, SerialSystem& system)
@@ -28,13 +34,13 @@ SerialPort::~SerialPort() {
   close();
 }
 
-bool SerialPort::fail(const char* what, int error) noexcept {
+bool SerialPort::fail(const char* what, int error, const char* remedy) noexcept {
   char text[kLongestError];
   const std::string& configured = finder_.configured();
   const bool renamed = !device_.empty() && configured != device_.c_str();
-  std::snprintf(text, sizeof text, "%s%s%s%s: %s%s%s", configured.c_str(), renamed ? " (" : "",
+  std::snprintf(text, sizeof text, "%s%s%s%s: %s%s%s%s", configured.c_str(), renamed ? " (" : "",
                 renamed ? device_.c_str() : "", renamed ? ")" : "", what, error != 0 ? ": " : "",
-                error != 0 ? ErrorText{error}.c_str() : "");
+                error != 0 ? ErrorText{error}.c_str() : "", remedy);
   close();
   error_.assign(text);
   return false;
@@ -47,7 +53,7 @@ bool SerialPort::open() noexcept {
   Sentence reason;
   if (!finder_.find(system_, device_, reason)) return fail(reason.c_str());
   const int descriptor = system_.open(device_.c_str());
-  if (descriptor < 0) return fail("cannot be opened", -descriptor);
+  if (descriptor < 0) return fail("cannot be opened", -descriptor, remedyOf(-descriptor));
   descriptor_ = descriptor;
   if (!setUp()) return false;
   finder_.opened(system_, device_);

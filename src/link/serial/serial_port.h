@@ -42,7 +42,7 @@ class SerialPort final : public ByteLink {
   bool setUp() noexcept;
   long receive(std::uint8_t* buffer, std::size_t capacity) noexcept;
   void receiveThroughFilter() noexcept;
-  bool fail(const char* what, int error = 0) noexcept;
+  bool fail(const char* what, int error = 0, const char* remedy = "") noexcept;
 
   SerialSettings settings_;
   SerialSystem& system_;

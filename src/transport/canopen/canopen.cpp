@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "config/setting_checks.h"
-#include "link/can/make_can_link.h"
 #include "core/can_trace.h"
+#include "link/can/make_can_link.h"
 #include "transport/canopen/canopen_counters.h"
 #include "transport/canopen/canopen_frame_text.h"
 

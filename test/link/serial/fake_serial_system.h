@@ -37,6 +37,7 @@ class FakeSerialSystem final : public SerialSystem {
 
   // The line. An element of `incoming` is what one read brings; `read_errors` come first.
   std::deque<Bytes> incoming;
+  int open_error = 0;  ///< of a device that is there
   std::deque<int> read_errors;
   std::deque<int> poll_errors;
   std::deque<long> write_results;  ///< instead of taking everything
@@ -56,6 +57,7 @@ class FakeSerialSystem final : public SerialSystem {
   int open(const char* path) noexcept override {
     DevicePath target;
     if (resolve(path, target) != 0) return -ENOENT;
+    if (open_error != 0) return -open_error;
     opened.push_back(target.c_str());
     kind_ = devices.at(target.c_str());
     ++open_descriptors;

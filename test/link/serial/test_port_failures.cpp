@@ -113,6 +113,23 @@ TEST_F(PortFailures, OpeningDiscardsWhatArrivedBefore) {
   }
 }
 
+// What to do about the two that everybody meets on the first day.
+TEST_F(PortFailures, ADeviceThatIsNotThereOrNotAllowedIsToldWithTheRemedy) {
+  port.close();
+  system.open_error = EACCES;
+  EXPECT_FALSE(port.open());
+  EXPECT_EQ(
+      "/dev/ttyUSB0: cannot be opened: Permission denied (only the group dialout may: sudo usermod -aG dialout $USER, "
+      "then log in again)",
+      port.lastError());
+  settings.device = "/dev/ttyUSB7";
+  SerialPort missing{settings, system};
+  EXPECT_FALSE(missing.open());
+  EXPECT_EQ(
+      "/dev/ttyUSB7: cannot be opened: No such file or directory (the adapters that are there: ls /dev/serial/by-id)",
+      missing.lastError());
+}
+
 // A character with a wrong parity bit reaches the reader as a zero: the UART's own counters tell it from noise.
 TEST_F(PortFailures, ErrorsOfTheLineAreCountedFromTheOpening) {
   port.close();

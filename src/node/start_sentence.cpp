@@ -1,0 +1,19 @@
+#include "node/start_sentence.h"
+
+#include "config/driver_settings.h"
+
+namespace nord_driver::node {
+
+std::string startSentence(const NodeConfig& config, const std::vector<DriveIdentity>& identities,
+                          const std::string& where) {
+  std::string text = "transport " + shortTransportName(config.transport);
+  if (!where.empty()) text += " at " + where;
+  text += ", " + std::to_string(identities.size()) + (identities.size() == 1 ? " drive: " : " drives: ");
+  for (std::size_t i = 0; i < identities.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + config.cycle.drives[i].name + " (" + identities[i].address + ")";
+  }
+  if (!config.cycle.base) return text + ", no base";
+  return text + (config.cycle.base->kind == robot::BaseKind::kMecanum ? ", base mecanum" : ", base differential");
+}
+
+}  // namespace nord_driver::node
