@@ -33,6 +33,7 @@ void IoConnection::establish(Duration rate, Instant now) noexcept {
 
 void IoConnection::close() noexcept {
   established_ = false;
+  overdue_ = false;
   timers_.stopAll();
   output_ready_ = false;
   sent_at_.reset();
@@ -70,6 +71,9 @@ bool IoConnection::outputDue(Instant now) const noexcept {
 
 void IoConnection::startCycle(Instant now) noexcept {
   if (!established_) return;
+  // We were kept from running: the device has given up, and what comes now would come to nobody.
+  overdue_ = sent_at_ && now - *sent_at_ >= kRatesUntilTimeout * rate_;
+  if (overdue_) return timers_.set(Timer::kInput, now);
   if (config_.io.kind == IoKind::kPoll && timers_.running(Timer::kInput)) ++report_.status().counters.missed;
   if (!outputDue(now)) return;
   repeated_ = false;
@@ -197,6 +201,11 @@ void IoConnection::handleAcknowledge(const CanFrame& frame, Instant now) noexcep
 bool IoConnection::poll(Instant now) noexcept {
   if (!established_) return true;
   if (timers_.takeDue(Timer::kInput, now)) {
+    if (overdue_) {
+      loss_.format("was sent nothing for more than %.0f ms, four times its expected packet rate",
+                   toSeconds(kRatesUntilTimeout * rate_) * 1e3);
+      return false;
+    }
     loss_.format(byChange() ? "sent no data for %.0f ms" : "gave no answer to our commands for %.0f ms",
                  toSeconds(timeout_) * 1e3);
     return false;

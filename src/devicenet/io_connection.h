@@ -89,6 +89,7 @@ class IoConnection {
   IoBytes output_;
   IoBytes sent_;
   std::optional<Instant> sent_at_;
+  bool overdue_ = false;  // nothing was sent for so long that the device has given up
   bool repeated_ = false;
   IoSender sender_;
   IoReceiver receiver_;

@@ -30,6 +30,7 @@ void NodeConnect::start(Instant now) noexcept {
 }
 
 void NodeConnect::beginTry(Instant now) noexcept {
+  let_go_first_ = false;
   held_ = 0;
   conflicts_ = 0;
   enter(Phase::kAllocateExplicit, now);
@@ -126,6 +127,10 @@ void NodeConnect::poll(Instant now) noexcept {
       channel_.close();
       conflicts_ = 0;
       enter(Phase::kVendorId, now);
+    } else if (held_ != 0) {
+      // It may be held, and nobody has said so: what was asked for last was not answered.
+      let_go_first_ = true;
+      letGo(now);
     } else {
       beginTry(now);
     }

@@ -30,8 +30,13 @@ class NodeConnect {
   void release(Instant now) noexcept;
   bool released() const noexcept { return phase_ == Phase::kReleased || phase_ == Phase::kOff; }
 
+  /// How the exchange failed.
+  enum class Loss : std::uint8_t {
+    kTold,   ///< the device said so: it is let go at once
+    kSilent  ///< it may hear us without being heard: its own time-out is waited for, then it is let go
+  };
   /// The exchange failed: what was allocated is released, and everything begins again.
-  void handleLoss(const Sentence& why, Instant now) noexcept;
+  void handleLoss(const Sentence& why, Instant now, Loss loss = Loss::kTold) noexcept;
   /// Another master was heard to ask this device.
   void handleForeignMaster(std::uint8_t mac, Instant now) noexcept;
   /// The device gave a sign of life beside its connections: it is tried soon.
@@ -118,6 +123,7 @@ class NodeConnect {
   ExplicitChannel& channel_;
   std::uint8_t io_choice_;
   std::uint8_t instance_;
+  bool let_go_first_ = false;  // a try that begins with a release
   Phase phase_ = Phase::kOff;
   TimerTable<Timer> timers_;
   std::uint8_t held_ = 0;   // what the device may have allocated to us

@@ -261,13 +261,18 @@ void NodeConnect::handleReopened(const ExplicitAnswer& answer, Instant now) noex
   timers_.set(Timer::kKeepAlive, now + report_.status().explicit_rate);
 }
 
-void NodeConnect::handleLoss(const Sentence& why, Instant now) noexcept {
+void NodeConnect::handleLoss(const Sentence& why, Instant now, Loss loss) noexcept {
   if (!exchanging()) return;
   ++report_.status().counters.losses;
   report_.enter(NodeState::kLost, why, now);
   report_.tell(DevicenetEventKind::kNodeLost, why, 0, now);
   failures_ = 0;
-  letGo(now);
+  if (loss == Loss::kTold) return letGo(now);
+  // It may hear us all the same. Released it would be watched by nobody, with the last words it has heard: its own
+  // time-out comes first.
+  timers_.stopAll();
+  channel_.close();
+  pause(kRatesUntilTimeout * rate_, now);
 }
 
 void NodeConnect::handleForeignMaster(std::uint8_t mac, Instant now) noexcept {
@@ -333,7 +338,7 @@ void NodeConnect::handleLetGo(const ExplicitAnswer& answer, Instant now) noexcep
     return pause(retryPause(), now);
   }
   // It is there. After a loss there is nothing to wait for.
-  if (failures_ == 0) return beginTry(now);
+  if (failures_ == 0 || let_go_first_) return beginTry(now);
   pause(report_.status().state == NodeState::kRefused ? bus_.longest_retry : bus_.first_retry, now);
 }
 

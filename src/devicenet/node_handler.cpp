@@ -117,7 +117,7 @@ void NodeHandler::handleForeignRequest(const CanFrame& frame, Group2 message, In
 
 void NodeHandler::poll(Instant now) noexcept {
   channel_.poll(now);
-  if (!io_.poll(now)) connect_.handleLoss(io_.lossText(), now);
+  if (!io_.poll(now)) connect_.handleLoss(io_.lossText(), now, NodeConnect::Loss::kSilent);
   settle(now);
 }
 

@@ -106,6 +106,7 @@ void Scanner::startCycle(Instant now) noexcept {
   for (const auto& node : nodes_) {
     strobe_due_ = strobe_due_ || node->io().takesStrobe();
     node->io().startCycle(now);
+    takeEarlier(deadline_, node->io().nextDeadline());
   }
   output_maybe_ = true;
 }

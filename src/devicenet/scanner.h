@@ -60,6 +60,9 @@ enum class BusState : std::uint8_t {
 /// `pollTransmit()` gives out the duplicate-MAC check first, then acknowledges of process data, the bit strobe command
 /// and process data, then explicit messages. Frames of one fragmented message come in one piece.
 ///
+/// A device that fell silent is not released before its own time-out has run out: it may hear us without being heard, and
+/// released it would go on with the last words it has heard, and nobody to watch it.
+///
 /// What the link did not take is not lost, and not stale: everything but process data is given out again by the next
 /// `pollTransmit()`; process data of this cycle are dropped, the next cycle sends the values of its own.
 class Scanner {

@@ -21,7 +21,10 @@ TEST(NodeLoss, SilentProcessData) {
   EXPECT_GE(run.now - silent, milliseconds{110});
   EXPECT_LE(run.now - silent, milliseconds{135});
   EXPECT_EQ("gave no answer to our commands for 120 ms", run.eventText(DevicenetEventKind::kNodeLost));
-  run.run(milliseconds{5});
+  // Released at once it would have nobody who watches it, if it hears us: it gives up by itself first.
+  run.run(milliseconds{100});
+  EXPECT_EQ(0x00, run.devices[0]->released_last);
+  run.run(milliseconds{25});
   EXPECT_EQ(0x03, run.devices[0]->released_last);
   EXPECT_EQ(NodeState::kExchanging, run.scanner.status(1).state) << "the other is not concerned";
   run.devices[0]->deaf_to_io = false;
@@ -163,6 +166,24 @@ TEST(NodeLoss, ReleaseAll) {
   EXPECT_EQ(polls, run.sentTo("42D"));
   EXPECT_EQ(NodeState::kReleased, run.scanner.status(0).state);
   EXPECT_EQ(0u, run.count(DevicenetEventKind::kNodeLost));
+}
+
+// This computer stood still for longer than the device waits: it has given up, and the words that were current before
+// must not reach anybody. It is connected anew.
+TEST(NodeLoss, AfterAStandstillOfOursNothingOldIsSent) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  run.run(milliseconds{100});
+  const std::size_t polls = run.sentTo("42D");
+  run.now += milliseconds{150};
+  run.step();
+  while (run.scanner.status(0).state == NodeState::kExchanging && run.sentTo("42D") == polls) run.step();
+  EXPECT_EQ(polls, run.sentTo("42D"));
+  EXPECT_EQ(NodeState::kLost, run.scanner.status(0).state);
+  EXPECT_THAT(run.eventText(DevicenetEventKind::kNodeLost),
+              testing::HasSubstr("was sent nothing for more than 120 ms"));
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, milliseconds{500}));
+  EXPECT_THAT(run.violations(), testing::IsEmpty());
 }
 
 }  // namespace

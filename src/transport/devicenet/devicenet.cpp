@@ -133,7 +133,7 @@ void DeviceNetTransport::setOutputs(const std::vector<profile::ProcessOutput>& o
     outputs_[i].resize(config_.scanner.nodes[i].io.output_bytes);
   }
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
-    drives_[i].putOutput(outputs[i], outputs_[config_.drives[i].module]);
+    drives_[i].putOutput(outputs[i], *scanner_, outputs_[config_.drives[i].module]);
   }
   for (std::size_t i = 0; i < outputs_.size(); ++i) scanner_->setOutput(i, outputs_[i]);
 }
@@ -249,7 +249,7 @@ std::vector<std::string> DeviceNetTransport::warnings() const {
   for (const DevicenetDrive& drive : config_.drives) {
     if (drive.connection == DevicenetConnection::kOption) {
       sentences.push_back("drive " + drive.name +
-                          ": connection option is experimental, no manual we have lists the objects of SK TU1/2/3-DEV; "
+                          ": SK TU1/2/3-DEV is experimental, no manual we have lists its objects; "
                           "they are taken to be those of SK CU4-DEV");
     }
     if (drive.drive_profile == DevicenetProfile::kAcDrive) {

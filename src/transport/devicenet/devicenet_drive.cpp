@@ -39,9 +39,12 @@ DevicenetDriveState::DevicenetDriveState(const DevicenetDrive& config, const dev
   scaling_.setMaxFrequency(config.typed_max_frequency);
 }
 
-void DevicenetDriveState::putOutput(const profile::ProcessOutput& output, devicenet::IoBytes& bytes) const noexcept {
+// On a new connection the first words are 0000, which the inverter ignores: a stop word takes the enable away, and so
+// would acknowledge a fault that nobody has seen yet (BU 0020 8). The AC drive profile has no such word.
+void DevicenetDriveState::putOutput(const profile::ProcessOutput& output, const devicenet::Scanner& scanner,
+                                    devicenet::IoBytes& bytes) const noexcept {
   if (config_.drive_profile == DevicenetProfile::kNord) {
-    packWords(config_, output, bytes);
+    if (scanner.input(config_.module).count != 0) packWords(config_, output, bytes);
   } else {
     packAcDrive(config_, scaling_.toAcDrive(output), bytes);
   }

@@ -24,8 +24,9 @@ class DevicenetDriveState {
   DevicenetDriveState(const DevicenetDrive& config, const devicenet::IoConfig& io, Duration period, std::uint16_t tag,
                       bool guest);
 
-  /// Into the outputs of its module.
-  void putOutput(const profile::ProcessOutput& output, devicenet::IoBytes& bytes) const noexcept;
+  /// Into the outputs of its module, which are zeros.
+  void putOutput(const profile::ProcessOutput& output, const devicenet::Scanner& scanner,
+                 devicenet::IoBytes& bytes) const noexcept;
   /// `bus_works`: frames can come and go at all.
   void takeInput(const devicenet::Scanner& scanner, bool bus_works, Instant now, DriveExchange& input) noexcept;
   /// It has sent data since `count`, or none can be expected of it.

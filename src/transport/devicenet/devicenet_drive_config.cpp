@@ -33,8 +33,11 @@ Value readChoice(const Settings& settings, const std::string& key, Value fallbac
   throw wrongSetting(settings, key, "\"" + *text + "\"", "one of " + words);
 }
 
-constexpr Choice<DevicenetConnection> kConnections[] = {{"gateway", DevicenetConnection::kGateway},
-                                                        {"option", DevicenetConnection::kOption}};
+constexpr Choice<DevicenetConnection> kModules[] = {{"sk_cu4", DevicenetConnection::kGateway},
+                                                    {"sk_tu4", DevicenetConnection::kGateway},
+                                                    {"sk_tu1", DevicenetConnection::kOption},
+                                                    {"sk_tu2", DevicenetConnection::kOption},
+                                                    {"sk_tu3", DevicenetConnection::kOption}};
 constexpr Choice<DevicenetProfile> kProfiles[] = {{"nord", DevicenetProfile::kNord},
                                                   {"ac_drive", DevicenetProfile::kAcDrive},
                                                   {"ac_drive_extended", DevicenetProfile::kAcDriveExtended}};
@@ -52,17 +55,14 @@ bool needsGateway(Series series) noexcept {
 }
 
 DevicenetConnection readConnection(const Settings& settings, Series series) {
-  const auto usual = needsOption(series) ? DevicenetConnection::kOption : DevicenetConnection::kGateway;
-  const auto connection = readChoice(settings, "connection", usual, kConnections);
-  const std::string text =
-      std::string("\"") + (connection == DevicenetConnection::kOption ? "option" : "gateway") + "\"";
+  const auto usual = needsGateway(series) ? DevicenetConnection::kGateway : DevicenetConnection::kOption;
+  const auto connection = readChoice(settings, "module", usual, kModules);
+  const std::string text = "\"" + settings.text("module").value_or("") + "\"";
   if (connection == DevicenetConnection::kGateway && needsOption(series)) {
-    throw wrongSetting(settings, "connection", text,
-                       std::string("option: ") + profile::toString(series) + " takes SK TU1/2/3-DEV only");
+    throw wrongSetting(settings, "module", text, "sk_tu1, sk_tu2 or sk_tu3: this series is only behind SK TU1/2/3-DEV");
   }
   if (connection == DevicenetConnection::kOption && needsGateway(series)) {
-    throw wrongSetting(settings, "connection", text,
-                       std::string("gateway: ") + profile::toString(series) + " sits behind SK CU4-DEV or SK TU4-DEV");
+    throw wrongSetting(settings, "module", text, "sk_cu4 or sk_tu4: this series is only behind SK CU4/TU4-DEV");
   }
   return connection;
 }
@@ -71,7 +71,8 @@ void checkPlace(const Settings& settings, const DevicenetDrive& drive, unsigned 
   if (drive.inverter == 1) return;
   const std::string inverter = std::to_string(drive.inverter);
   if (drive.connection == DevicenetConnection::kOption) {
-    throw wrongSetting(settings, "inverter", inverter, "1: SK TU1/2/3-DEV has one inverter");
+    throw wrongSetting(settings, "inverter", inverter,
+                       "1: SK TU1/2/3-DEV has one inverter (module: sk_cu4 has up to four)");
   }
   const AssemblyLayout& layout = *findAssembly(assembly);
   if (layout.inverters >= drive.inverter) return;

@@ -181,8 +181,11 @@ TEST(DevicenetConfigTest, OneModuleHasItsSettingsOnce) {
 
 TEST(DevicenetConfigTest, ASeriesSitsWhereItCan) {
   Bus bus{1};
-  bus.drive().set("connection", "option");
-  EXPECT_THAT(bus.refusal(), HasSubstr("sk2xxe sits behind SK CU4-DEV or SK TU4-DEV"));
+  bus.drive().set("module", "sk_tu3");
+  EXPECT_EQ(
+      "~drives/drive0/module: \"sk_tu3\" is not valid, expected sk_cu4 or sk_tu4: this series is only behind "
+      "SK CU4/TU4-DEV",
+      bus.refusal());
   bus.drive().set("series", "sk700e");
   EXPECT_EQ("accepted", bus.refusal());
   bus.drive().set("inverter", 2).set("assembly", 102);

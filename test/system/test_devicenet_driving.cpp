@@ -1,0 +1,183 @@
+// The whole way of a command over DeviceNet: from a twist to the frames of BU 0280 4.2.4, and back to odometry.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/can_trace.h"
+#include "system/devicenet_robot.h"
+#include "system/four_inverters.h"
+
+namespace nord_driver::test {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+/// What goes over the bus under one of the given identifiers, each frame once until it changes.
+class Changes {
+ public:
+  Changes(DevicenetRobot& robot, std::vector<std::uint32_t> ids) : ids_(std::move(ids)) {
+    robot.bus().setTap([this](const CanFrame& frame, sim::SimulatedDnBus::Sender, Instant) {
+      if (std::find(ids_.begin(), ids_.end(), frame.id) == ids_.end() || frame.remote) return;
+      const std::string text = candumpText(frame);
+      if (last_[frame.id] != text) seen.push_back(text);
+      last_[frame.id] = text;
+    });
+  }
+  std::vector<std::string> seen;
+
+ private:
+  std::vector<std::uint32_t> ids_;
+  std::map<std::uint32_t, std::string> last_;
+};
+
+DevicenetRobot::Options withoutSlip(DevicenetRobot::Options options = {}) {
+  options.simulate = [](sim::SimConfig& config) {
+    for (sim::DriveConfig& drive : config.drives) drive.motor.slip = 0.001;
+  };
+  return options;
+}
+
+// 50 % of P105: setpoint 2000h, low byte first; 7E 04 idle, 7F 04 run; 31 0B and 37 0B back.
+TEST(DevicenetDriving, ATwistBecomesTheManualsFrames) {
+  DevicenetRobot robot{withoutSlip()};
+  Changes left{robot, {0x42D, 0x3C5}};
+  ASSERT_TRUE(robot.bringUp());
+  EXPECT_THAT(left.seen, Contains("42D#007E040000"));
+  EXPECT_EQ("3C5#00310B0000", left.seen.back());
+  ASSERT_TRUE(robot.ask(cycle::RequestKind::kEnable).success);
+  robot.drive(kHalfSpeed, 0.0, seconds{5});
+  EXPECT_THAT(left.seen, Contains("42D#007F040020"));
+  EXPECT_EQ("3C5#00370B0020", left.seen.back());
+  // The right motor is mounted the other way round.
+  EXPECT_EQ(-0x2000, robot.setpoint(1));
+  const cycle::CycleSnapshot& seen = robot.snapshot();
+  EXPECT_DOUBLE_EQ(25.0, seen.drives[0].frequency);
+  EXPECT_NEAR(kHalfSpeed, seen.base.velocity.linear_x, 1e-9);
+  ASSERT_TRUE(robot.ask(cycle::RequestKind::kDisable).success);
+  const double way = robot.unit(0).wheelAngle() * 0.1;
+  EXPECT_GT(way, 1.0);
+  EXPECT_NEAR(way, robot.snapshot().base.pose.x, 0.01);
+  EXPECT_EQ("no rule broken", robot.bus().referee().report());
+}
+
+// Every way of exchange and every assembly that can drive.
+class DevicenetKinds : public ::testing::TestWithParam<std::pair<const char*, int>> {};
+
+TEST_P(DevicenetKinds, Drive) {
+  DevicenetRobot::Options options;
+  options.assembly = GetParam().second;
+  options.drives = {{"io", std::string{GetParam().first}}};
+  if (options.assembly == 102) options.node = {{"cycle_rate", 50.0}};
+  DevicenetRobot robot{withoutSlip(options)};
+  ASSERT_TRUE(robot.bringUpAndEnable()) << robot.text(0) << " / " << robot.busText();
+  robot.drive(kHalfSpeed, 0.0, seconds{5});
+  EXPECT_NEAR(kHalfSpeed, robot.snapshot().base.velocity.linear_x, 2e-3);
+  EXPECT_GT(robot.unit(0).wheelAngle(), 10.0);
+  ASSERT_TRUE(robot.ask(cycle::RequestKind::kDisable).success);
+  robot.run(seconds{2});
+  EXPECT_TRUE(robot.standsStill());
+  EXPECT_EQ("no rule broken", robot.bus().referee().report());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DevicenetKinds,
+                         ::testing::Values(std::make_pair("poll", 100), std::make_pair("poll", 101),
+                                           std::make_pair("poll", 102), std::make_pair("poll", 21),
+                                           std::make_pair("cos", 100), std::make_pair("cyclic", 101)),
+                         [](const auto& test) {
+                           return std::string{test.param.first} + std::to_string(test.param.second);
+                         });
+
+// One module, four inverters in 33 bytes: P151 is shared, sets are each one's own.
+TEST(DevicenetFourInverters, ShareAModule) {
+  DevicenetRobot::Options options;
+  options.assembly = 102;
+  options.gateway_inverters = 4;
+  options.node = {{"cycle_rate", 50.0}};
+  DevicenetRobot robot{options};
+  ASSERT_TRUE(robot.bringUp()) << robot.text(0) << " / " << robot.busText();
+  expectMonitoringKnown(robot);
+  expectSharedTimeout(robot, robot.module(0));
+  expectSetsOfTheirOwn(robot);
+  EXPECT_EQ("no rule broken", robot.bus().referee().report());
+}
+
+TEST(DevicenetFourInverters, OneThatIsOffIsNamedAlone) {
+  DevicenetRobot::Options options;
+  options.assembly = 102;
+  options.gateway_inverters = 4;
+  options.node = {{"cycle_rate", 50.0}};
+  DevicenetRobot robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.unit(2).setInverterPower(false);
+  ASSERT_TRUE(robot.runUntil([&] { return !robot.online(2); }, seconds{3}));
+  EXPECT_TRUE(robot.online(0) && robot.online(1) && robot.online(3));
+  EXPECT_THAT(robot.text(2), HasSubstr("the inverter behind it does not"));
+  robot.unit(2).setInverterPower(true);
+  EXPECT_TRUE(robot.runUntil([&] { return robot.online(2); }, seconds{5}));
+}
+
+// Explicit messages have no order that spares the EEPROM: P560 is set to 0 for the write, and put back.
+TEST(DevicenetParameterAccess, ARamWriteGoesByP560) {
+  for (const char* objects : {"numbered", "index_object"}) {
+    DevicenetRobot::Options options;
+    options.drives = {{"parameter_objects", std::string{objects}}};
+    DevicenetRobot robot{options};
+    ASSERT_TRUE(robot.bringUp()) << objects;
+    cycle::Request request;
+    request.kind = cycle::RequestKind::kWriteParameter;
+    request.drive = 0;
+    request.parameter.number = 102;
+    request.parameter.shape = profile::ParameterShape::kPerSet;
+    request.parameter.action = profile::ParameterAction::kWriteRam;
+    request.parameter.raw = 150;
+    const auto answer = robot.ask(request);
+    EXPECT_TRUE(answer.success) << answer.message.c_str();
+    EXPECT_EQ(150, robot.unit(0).parameters().value(102, 0)) << objects;
+    EXPECT_EQ(1, robot.unit(0).parameters().value(560, 0)) << objects;
+  }
+}
+
+// The computer dies: DeviceNet's own time-out stops the drives, E10.2, and the wheel coasts.
+TEST(DevicenetStops, WhenTheComputerDies) {
+  DevicenetRobot robot;
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.drive(kHalfSpeed, 0.0, seconds{3});
+  robot.bus().run(milliseconds{200});
+  EXPECT_EQ(102, robot.unit(0).parameters().value(700, 0, 0)) << "E10.2 in steps of 0.1";
+  robot.bus().run(seconds{10});
+  EXPECT_TRUE(robot.standsStill());
+}
+
+// After a clean exit the modules are released, and no inverter has tripped by it.
+TEST(DevicenetStops, ACleanExitReleases) {
+  DevicenetRobot robot;
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.drive(kHalfSpeed, 0.0, seconds{2});
+  ASSERT_TRUE(robot.ask(cycle::RequestKind::kDisable).success);
+  robot.run(seconds{2});
+  robot.transport().close();
+  EXPECT_FALSE(robot.module(0).inDataExchange());
+  EXPECT_EQ("no rule broken", robot.bus().referee().report());
+}
+
+// A module that loses its supply and comes back is connected again; nothing moves until it is enabled.
+TEST(DevicenetStops, AModuleThatWasWithoutSupplyComesBack) {
+  DevicenetRobot robot;
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.drive(kHalfSpeed, 0.0, seconds{2});
+  robot.module(1).setPowered(false);
+  robot.drive(kHalfSpeed, 0.0, seconds{1});
+  EXPECT_FALSE(robot.online(1));
+  robot.module(1).setPowered(true);
+  EXPECT_TRUE(robot.runUntil([&] { return robot.online(1); }, seconds{6})) << robot.text(1);
+  robot.drive(kHalfSpeed, 0.0, seconds{20});  // it coasts, and coasts long
+  EXPECT_TRUE(robot.standsStill());
+  EXPECT_EQ("no rule broken", robot.bus().referee().report());
+}
+
+}  // namespace
+}  // namespace nord_driver::test
