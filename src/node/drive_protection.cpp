@@ -65,6 +65,11 @@ ProtectionReport DriveProtection::assess(const cycle::DeviceData& device) const 
   const bool bus_acts = !identity_.protected_by.empty();
   if (!own_acts && !bus_acts) {
     if (own) return {Level::kError, "nothing: the bus watches nothing, and " + name + " = 0: it would run on"};
+    if (identity_.parameter_channel == "none") {
+      return {
+          Level::kError,
+          "nothing that is known: the bus watches nothing, and there is no parameter channel to read " + name + " by"};
+    }
     return {Level::kWarning, "not known: the bus watches nothing, and " + name + " could not be read"};
   }
 

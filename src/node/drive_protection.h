@@ -23,7 +23,8 @@ struct ProtectionReport {
 };
 
 /// Compares with P513 in the inverter, or with P151 in a module SK CU4/TU4 and what watches the way from there to the
-/// inverter: P513 in SK 511E to 535E, P120 in the others (BU 2700 7.1.1, 8.1). What could not be read is a warning.
+/// inverter: P513 in SK 511E to 535E, P120 in the others (BU 2700 7.1.1, 8.1). What could not be read is a warning;
+/// where nothing ever can be read, and the bus watches nothing either, an error.
 class DriveProtection {
  public:
   DriveProtection(DriveIdentity identity, profile::Series series, Duration cmd_vel_timeout, Duration period);

@@ -3,6 +3,7 @@
 #include "sim/bus_kind.h"
 #include "sim/canopen/can_config.h"
 #include "sim/devicenet/dn_config.h"
+#include "sim/interbus/ibs_config.h"
 #include "sim/profibus/dp_config.h"
 
 namespace nord_driver::sim {
@@ -24,6 +25,7 @@ const std::vector<BusKind>& busKinds() {
       profibusKind(),
       canopenKind(),
       devicenetKind(),
+      interbusKind(),
   };
   return kKinds;
 }

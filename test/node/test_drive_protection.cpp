@@ -19,6 +19,7 @@ DriveIdentity identity(TimeoutOwner owner = TimeoutOwner::kInverter, const char*
   identity.protected_by = by;
   identity.protection_time = time;
   identity.timeout_owner = owner;
+  identity.parameter_channel = "PKW";
   return identity;
 }
 
@@ -112,6 +113,19 @@ TEST(DriveProtection, WithoutAWatchdogOnTheBusTheDrivesOwnTimeoutMustAct) {
   EXPECT_THAT(assess(bare, withP513(0.3)).text, StartsWith("P513 of 0.3 s"));
   EXPECT_EQ(Level::kError, assess(bare, withP513(0.0)).level);
   EXPECT_EQ(Level::kWarning, assess(bare, withP513(std::nullopt)).level);
+}
+
+// Nobody will ever know: what stops the drive has to be configured.
+TEST(DriveProtection, WithoutAWatchdogAndWithoutAParameterChannelNothingIsKnownToStopIt) {
+  DriveIdentity bare = identity(TimeoutOwner::kInverter, "", 0.0);
+  bare.parameter_channel = "none";
+  const ProtectionReport report = assess(bare, withP513(std::nullopt));
+  EXPECT_EQ(Level::kError, report.level);
+  EXPECT_EQ("nothing that is known: the bus watches nothing, and there is no parameter channel to read P513 by",
+            report.text);
+  DriveIdentity watched = identity();
+  watched.parameter_channel = "none";
+  EXPECT_EQ(Level::kWarning, assess(watched, withP513(std::nullopt)).level);
 }
 
 // A robot must not drive on for longer without a computer than without a command.

@@ -49,6 +49,7 @@ TEST(Plugins, EveryDeclaredTransportCanBeCreated) {
   EXPECT_THAT(names, Contains("nord_driver/profibus_dp"));
   EXPECT_THAT(names, Contains("nord_driver/canopen"));
   EXPECT_THAT(names, Contains("nord_driver/devicenet"));
+  EXPECT_THAT(names, Contains("nord_driver/interbus"));
   pluginlib::ClassLoader<Transport> loader("nord_driver", "nord_driver::Transport");
   for (const std::string& name : names) {
     EXPECT_TRUE(loader.isClassAvailable(name)) << name << "; " << whereItLooked(loader);

@@ -49,7 +49,7 @@ const std::map<std::string, Names>& table() {
       {"transport/profibus", transportWith({"profibus", "link", "link/serial"})},
       {"transport/canopen", transportWith({"canopen", "link", "link/can"})},
       {"transport/devicenet", transportWith({"devicenet", "link", "link/can"})},
-      {"transport/interbus", transportWith({"interbus", "link"})},
+      {"transport/interbus", transportWith({"interbus", "link", "link/modbus"})},
       {"drive", {"core", "profile"}},
       {"cycle", {"core", "config", "profile", "transport", "robot", "drive"}},
       {"trace", {"core", "config", "profile", "transport", "cycle", "trace/telegram_trace"}},

@@ -59,6 +59,10 @@ bool ModbusLink::waitNews(Instant until) noexcept {
   return news_.take();
 }
 
+void ModbusLink::sleepUntil(Instant when) noexcept {
+  sleepUntilInstant(when);
+}
+
 void ModbusLink::work() noexcept {
   while (!ending()) {
     if (!started_ && !connect()) {

@@ -32,6 +32,7 @@ class ModbusLink final : public RegisterLink {
   const LinkReport& report() noexcept override { return reports_.read(); }
   bool waitNews(Instant until) noexcept override;
   Instant now() const noexcept override { return std::chrono::steady_clock::now(); }
+  void sleepUntil(Instant when) noexcept override;
 
  private:
   struct Outputs {

@@ -72,6 +72,8 @@ class RegisterLink {
   /// False: it has come.
   virtual bool waitNews(Instant until) noexcept = 0;
   virtual Instant now() const noexcept = 0;
+  /// Waits until `when`, whatever comes meanwhile.
+  virtual void sleepUntil(Instant when) noexcept = 0;
 };
 
 }  // namespace nord_driver::link

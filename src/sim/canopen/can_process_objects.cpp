@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sim/canopen/can_emergency.h"
-#include "sim/canopen/cia402_words.h"
+#include "sim/cia402_words.h"
 
 namespace nord_driver::sim {
 

@@ -1,4 +1,4 @@
-#include "sim/canopen/cia402_words.h"
+#include "sim/cia402_words.h"
 
 #include <algorithm>
 #include <cmath>

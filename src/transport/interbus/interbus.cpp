@@ -1,0 +1,192 @@
+#include "transport/interbus/interbus.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "link/modbus/modbus_link.h"
+
+namespace nord_driver {
+
+namespace {
+
+constexpr Duration kReopenInterval = std::chrono::milliseconds{500};
+
+std::unique_ptr<link::RegisterLink> connectTo(const link::ModbusSettings& settings) {
+  return std::make_unique<link::ModbusLink>(settings);
+}
+
+std::string rangeText(unsigned first, unsigned end) {
+  return std::to_string(first) + (end - first == 1 ? "" : " to " + std::to_string(end - 1));
+}
+
+}  // namespace
+
+InterbusTransport::InterbusTransport() : InterbusTransport(connectTo) {}
+
+InterbusTransport::InterbusTransport(LinkFactory make_link) : make_link_(std::move(make_link)) {}
+
+void InterbusTransport::configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) {
+  config_ = readInterbusConfig(bus, drives, cycle_rate);
+  drives_.clear();
+  for (const InterbusDrive& drive : config_.drives) drives_.emplace_back(drive);
+  image_.resize(config_.map->outputWords());
+  link_ = make_link_(config_.server);
+}
+
+// The link connects, and connects again, by itself; only a computer out of threads keeps it from opening.
+bool InterbusTransport::linkReady() noexcept {
+  const Instant now = link_->now();
+  if (now < next_open_) return false;
+  if (link_->open()) return true;
+  next_open_ = now + kReopenInterval;
+  return false;
+}
+
+void InterbusTransport::exchange(const std::vector<profile::ProcessOutput>& outputs,
+                                 std::vector<DriveExchange>& inputs) noexcept {
+  ++counts_.cycles;
+  const Instant begin = link_->now();
+  if (linkReady()) {
+    const bool all_answered = link_->take().outputs == given_;
+    giveOutputs(outputs);
+    if (all_answered) waitForAnswer(begin + config_.answer_window);
+  }
+  report_ = link_->report();
+  takeInputs(inputs);
+}
+
+void InterbusTransport::giveOutputs(const std::vector<profile::ProcessOutput>& outputs) noexcept {
+  for (DriveIndex i = 0; i < drives_.size(); ++i) config_.map->put(i, drives_[i].toWords(outputs[i]), image_);
+  given_ = link_->give(image_);
+}
+
+void InterbusTransport::waitForAnswer(Instant until) noexcept {
+  while (link_->report().state == link::LinkState::kConnected && link_->take().outputs != given_ &&
+         link_->now() < until) {
+    link_->waitNews(until);
+  }
+}
+
+void InterbusTransport::takeInputs(std::vector<DriveExchange>& inputs) noexcept {
+  const link::RegisterInputs& newest = link_->take();
+  const InputWorth before = watch_.worth();
+  watch_.handle(newest, link_->now());
+  running_ = newest.running;
+  if (!watch_.isFresh()) ++counts_.without_inputs;
+  tellRing(before);
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    drives_[i].takeInput(config_.map->get(i, newest.words), watch_, inputs[i]);
+  }
+}
+
+// A gateway that falls silent meanwhile says nothing of its ring.
+void InterbusTransport::tellRing(InputWorth before) noexcept {
+  const InputWorth worth = watch_.worth();
+  const bool stands = worth == InputWorth::kRingStands;
+  if (worth == before || (!stands && worth != InputWorth::kGood) || stands == ring_stood_) return;
+  ring_stood_ = stands;
+  BusEvent event;
+  event.warning = stands;
+  if (stands) {
+    ++counts_.ring_stops;
+    event.text.format("the ring behind %s stands: register %u holds %04Xh", config_.server.server.c_str(),
+                      config_.server.running ? config_.server.running->address : 0u, running_);
+  } else {
+    event.text.format("the ring behind %s runs again", config_.server.server.c_str());
+  }
+  events_.push_back(event);
+}
+
+bool InterbusTransport::submit(DriveIndex /*drive*/, const profile::ParameterRequest& request) noexcept {
+  return unserved_.push_back(request.id);
+}
+
+std::optional<profile::ParameterResult> InterbusTransport::pollResult() noexcept {
+  const auto id = unserved_.takeFront();
+  if (!id) return std::nullopt;
+  profile::ParameterResult result;
+  result.id = *id;
+  result.outcome = profile::ParameterOutcome::kNoChannel;
+  result.text =
+      "its gateway carries process data only, no PCP; read or set it at the inverter (ControlBox, ParameterBox, NORD "
+      "CON)";
+  return result;
+}
+
+DriveNote InterbusTransport::note(DriveIndex drive) const noexcept {
+  return {drives_[drive].note(watch_)};
+}
+
+Sentence InterbusTransport::busText() const noexcept {
+  const char* server = config_.server.server.c_str();
+  Sentence text = report_.text;
+  if (!text.empty()) return text;
+  switch (watch_.worth()) {
+    case InputWorth::kNone:
+      text.format("waits for the gateway %s", server);
+      break;
+    case InputWorth::kOld:
+      text.format("the inputs of %s are %.0f ms old, more than drive_timeout (%.0f ms)", server,
+                  1e3 * toSeconds(watch_.age()), 1e3 * toSeconds(watch_.timeout()));
+      break;
+    case InputWorth::kRingStands:
+      text.format("%s answers, but says that its ring does not run (register %u holds %04Xh)", server,
+                  config_.server.running ? config_.server.running->address : 0u, running_);
+      break;
+    case InputWorth::kGood: {
+      const auto answers = [](const InterbusDriveState& drive) { return drive.answers(); };
+      if (std::any_of(drives_.begin(), drives_.end(), answers)) break;
+      text.format(
+          "%s answers, but every status word is 0: are the inverters on, does the ring run, are function, address and "
+          "offsets of the inputs right?",
+          server);
+      break;
+    }
+  }
+  return text;
+}
+
+// P513 watches what comes from the ring (BU 0070 5.1), and a gateway may keep the ring going for a computer that is
+// dead: only when it ends its outputs does P513 come to act. 0 as a control word stops nothing by itself.
+DriveIdentity InterbusTransport::identity(DriveIndex drive) const {
+  const InterbusDrive& config = config_.drives[drive];
+  DriveIdentity identity;
+  identity.address = "InterBus position " + std::to_string(config.position);
+  if (config.drive_profile == InterbusProfile::kDrivecom) identity.address += ", DRIVECOM 21";
+  identity.process_values = config.ppo_type == 1 ? 1 : 3;
+  if (config_.server.watchdog) {
+    identity.protected_by = "watchdog of the gateway (register " + std::to_string(config_.server.watchdog->address) +
+                            " = " + std::to_string(config_.server.watchdog->value) +
+                            "), which ends its outputs: with P513 > 0 the inverter trips E10 and the motor coasts";
+  }
+  return identity;
+}
+
+std::vector<std::string> InterbusTransport::warnings() const {
+  std::vector<std::string> sentences;
+  const link::ModbusSettings& server = config_.server;
+  if (!server.running) {
+    sentences.emplace_back(
+        "bus/running is not configured: where the ring stands and the gateway goes on answering, old status words look "
+        "like new ones");
+  }
+  if (!server.watchdog) {
+    sentences.emplace_back(
+        "bus/watchdog is not configured: when this computer dies, a gateway that keeps its ring going repeats the last "
+        "control words for ever, and P513 of the inverters does not notice");
+  }
+  for (const WordRange& words : config_.map->unclaimedOutputs(link::mostRegistersWritten(server.outputs.function))) {
+    const unsigned address = server.outputs.address;
+    sentences.push_back("output words " + rangeText(words.first, words.end()) + " of the image (registers " +
+                        rangeText(address + words.first, address + words.end()) +
+                        ") lie between two drives, belong to none and are written as 0 in each cycle: whatever else is "
+                        "connected there is switched off");
+  }
+  return sentences;
+}
+
+void InterbusTransport::close() noexcept {
+  if (link_) link_->close();
+}
+
+}  // namespace nord_driver

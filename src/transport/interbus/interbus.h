@@ -1,0 +1,87 @@
+// InterBus as a transport: a ring of technology units behind a gateway that shows it as Modbus/TCP registers.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/register_image.h"
+#include "link/modbus/register_link.h"
+#include "nord_driver/core/fixed_vector.h"
+#include "nord_driver/transport/transport.h"
+#include "transport/interbus/input_watch.h"
+#include "transport/interbus/interbus_config.h"
+#include "transport/interbus/interbus_counters.h"
+#include "transport/interbus/interbus_drive.h"
+
+namespace nord_driver {
+
+/// Joins a link to a gateway (link/modbus/), the map of its image (interbus/) and what the words mean (profile/).
+///
+/// The cycle never waits for the network. It hands its outputs over at its beginning, then waits for the inputs that
+/// answer them, for `bus/answer_window` at most, and takes the newest there are. While an image given earlier is still
+/// unanswered it does not wait at all: a gateway that stalls costs the window once, and no cycle begins later for it.
+///
+/// `module_answers` says that the newest inputs are younger than the drive's time-out and the ring runs,
+/// `inverter_answers` that such inputs came in this cycle and the status word is not zero. Good inputs end with an
+/// interruption: kUnasked when the ring stands, kSilent when they are too old. `inverter_missing` is never said.
+///
+/// There is no parameter channel: over Modbus/TCP gateways carry process data only.
+class InterbusTransport final : public Transport {
+ public:
+  using LinkFactory = std::function<std::unique_ptr<link::RegisterLink>(const link::ModbusSettings&)>;
+
+  /// To a gateway in the network.
+  InterbusTransport();
+  /// To whatever the factory makes: a gateway in simulated time in tests.
+  explicit InterbusTransport(LinkFactory make_link);
+
+  EndPoint endPoint() const noexcept override { return {"gateway", "Modbus/TCP gateway", "192.168.0.10:502"}; }
+  void configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) override;
+  void setDriveTimeout(Duration timeout) noexcept override { watch_.setTimeout(timeout); }
+  Instant now() const noexcept override { return link_->now(); }
+  void sleepUntil(Instant when) noexcept override { link_->sleepUntil(when); }
+  void exchange(const std::vector<profile::ProcessOutput>& outputs,
+                std::vector<DriveExchange>& inputs) noexcept override;
+  bool submit(DriveIndex drive, const profile::ParameterRequest& request) noexcept override;
+  std::optional<profile::ParameterResult> pollResult() noexcept override;
+  bool connected() const noexcept override { return watch_.isGood(); }
+  BusCounters counters() const noexcept override { return interbusCounters(counts_, report_.counters); }
+  DriveNote note(DriveIndex drive) const noexcept override;
+  Sentence busText() const noexcept override;
+  DriveIdentity identity(DriveIndex drive) const override;
+  std::vector<std::string> warnings() const override;
+  std::optional<BusEvent> pollEvent() noexcept override { return events_.takeFront(); }
+  void close() noexcept override;
+
+  const InterbusConfig& config() const noexcept { return config_; }
+
+ private:
+  static constexpr std::size_t kRequests = 256;
+
+  bool linkReady() noexcept;
+  void giveOutputs(const std::vector<profile::ProcessOutput>& outputs) noexcept;
+  void waitForAnswer(Instant until) noexcept;
+  void takeInputs(std::vector<DriveExchange>& inputs) noexcept;
+  void tellRing(InputWorth before) noexcept;
+
+  LinkFactory make_link_;
+  InterbusConfig config_;
+  std::unique_ptr<link::RegisterLink> link_;
+  std::vector<InterbusDriveState> drives_;
+  RegisterImage image_;  // the outputs
+  std::uint64_t given_ = 0;
+  InputWatch watch_;
+  Word running_ = 0;  // the register that says whether the ring runs
+  bool ring_stood_ = false;
+  link::LinkReport report_;
+  Instant next_open_{};
+  InterbusCounts counts_;
+  FixedVector<std::uint32_t, kRequests> unserved_;  // ids of parameter requests
+  FixedVector<BusEvent, 8> events_;                 // what does not fit is in the counters
+};
+
+}  // namespace nord_driver
