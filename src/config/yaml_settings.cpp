@@ -1,6 +1,8 @@
 #include "config/yaml_settings.h"
 
+#include <filesystem>
 #include <regex>
+#include <system_error>
 #include <utility>
 
 namespace nord_driver {
@@ -58,6 +60,11 @@ YAML::Node readYamlFiles(const std::vector<std::string>& files) {
       const YAML::Node node = YAML::LoadFile(file);
       if (!node.IsMap()) throw ConfigError("--config " + file + ": expected a file of keys and values");
       all.reset(laidOver(all, node));
+    } catch (const YAML::BadFile&) {
+      std::error_code unreadable;
+      throw ConfigError(
+          "--config " + file + ": " +
+          (std::filesystem::exists(file, unreadable) ? "this file cannot be read" : "there is no such file"));
     } catch (const YAML::Exception& error) {
       throw ConfigError("--config " + file + ": " + error.what() + "; expected a readable YAML file");
     }

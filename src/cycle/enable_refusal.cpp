@@ -40,21 +40,45 @@ class Clauses {
   bool left_out_ = false;
 };
 
-// "drives left, right: the inverter does not answer"
-Sentence clauseOf(Refusal refusal, const std::vector<std::string>& names,
-                  const std::vector<Refusal>& refusals) noexcept {
+Sentence namesOf(Refusal refusal, const std::vector<std::string>& names, const std::vector<Refusal>& refusals,
+                 std::size_t from) noexcept {
   Sentence who;
   int count = 0;
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::size_t i = from; i < names.size(); ++i) {
     if (refusals[i] != refusal) continue;
     Sentence longer;
     longer.format("%.100s%s%s", who.c_str(), count == 0 ? "" : ", ", names[i].c_str());
     who = longer;
     ++count;
   }
+  Sentence text;
+  if (count != 0) text.format("drive%s %.120s", count == 1 ? "" : "s", who.c_str());
+  return text;
+}
+
+// What to set is told by its value only.
+bool hasAValue(Refusal refusal) noexcept {
+  return refusal == Refusal::kMinimumFrequency || refusal == Refusal::kUnexpectedFunction;
+}
+
+const char* nextCall(Refusal refusal) noexcept {
+  if (refusal == Refusal::kFaultLatched) return " (~acknowledge_faults)";
+  return refusal == Refusal::kFault ? " (when its cause is gone: ~acknowledge_faults)" : "";
+}
+
+// "drives left, right: the inverter does not answer"
+Sentence clauseOf(Refusal refusal, const std::vector<std::string>& names, const std::vector<drive::Drive>& drives,
+                  const std::vector<Refusal>& refusals) noexcept {
   Sentence clause;
-  clause.format("drive%s %.120s: %s%s", count == 1 ? "" : "s", who.c_str(), drive::toString(refusal),
-                refusal == Refusal::kFaultLatched ? " (~acknowledge_faults)" : "");
+  if (!hasAValue(refusal)) {
+    clause.format("%.130s: %s%s", namesOf(refusal, names, refusals, 0).c_str(), drive::toString(refusal),
+                  nextCall(refusal));
+    return clause;
+  }
+  const auto first = static_cast<std::size_t>(std::find(refusals.begin(), refusals.end(), refusal) - refusals.begin());
+  const Sentence others = namesOf(refusal, names, refusals, first + 1);
+  clause.format("%.190s%s%.50s%s", refusalMessage(names[first].c_str(), refusal, drives[first].report()).c_str(),
+                others.empty() ? "" : "; ", others.c_str(), others.empty() ? "" : ": the same");
   return clause;
 }
 
@@ -62,7 +86,8 @@ Sentence clauseOf(Refusal refusal, const std::vector<std::string>& names,
 Sentence shortened(const Sentence& commands) noexcept {
   Sentence text;
   const char* const detail = std::strpbrk(commands.c_str(), "(:");
-  const std::size_t length = detail == nullptr ? std::strlen(commands.c_str()) : detail - commands.c_str();
+  std::size_t length = detail == nullptr ? std::strlen(commands.c_str()) : detail - commands.c_str();
+  while (length > 0 && commands.c_str()[length - 1] == ' ') --length;
   text.format("%.*s", static_cast<int>(length), commands.c_str());
   return text;
 }
@@ -82,11 +107,11 @@ Sentence enableRefusalMessage(const std::vector<std::string>& names, const std::
   Clauses clauses;
   for (const Refusal refusal : kFirst) {
     if (std::find(refusals.begin(), refusals.end(), refusal) == refusals.end()) continue;
-    clauses.add(clauseOf(refusal, names, refusals).c_str());
+    clauses.add(clauseOf(refusal, names, drives, refusals).c_str());
   }
   for (auto i = refusals.begin(); i != refusals.end(); ++i) {
     if (!refuses(*i) || comesFirst(*i) || std::find(refusals.begin(), i, *i) != i) continue;
-    clauses.add(clauseOf(*i, names, refusals).c_str());
+    clauses.add(clauseOf(*i, names, drives, refusals).c_str());
   }
   if (!commands.empty()) clauses.add(shortened(commands).c_str());
   return clauses.text();

@@ -11,6 +11,7 @@ void fillDriveStatus(const cycle::DriveSample& sample, DriveStatus& status) {
   const profile::StatusWord word{sample.online ? sample.input.status_word : Word{0}};
   status.online = sample.online;
   status.state = static_cast<std::uint8_t>(sample.online ? sample.state : profile::DriveState::kUnknown);
+  status.state_text = profile::toString(sample.online ? sample.state : profile::DriveState::kUnknown);
   status.status_word = sample.input.status_word;
   status.control_word = sample.output.control_word;
   status.ready_to_switch_on = word.readyToSwitchOn();

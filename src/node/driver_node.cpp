@@ -104,6 +104,8 @@ void DriverNode::advertise() {
   base_publisher_ = std::make_unique<BasePublisher>(node_, config_);
   if (config_.cycle.base) {
     base_tuner_ = std::make_unique<BaseTuner>(private_node_, config_, *ports_, *base_publisher_);
+  } else {
+    nothing_to_tune_ = std::make_unique<NothingToTune>(private_node_);
   }
   std::vector<std::string> names;
   std::vector<trace::TracedDrive> traced;

@@ -23,6 +23,7 @@
 #include "node/diagnostics.h"
 #include "node/drive_publisher.h"
 #include "node/node_config.h"
+#include "node/nothing_to_tune.h"
 #include "node/request_broker.h"
 #include "node/ros_settings.h"
 #include "node/services.h"
@@ -73,7 +74,8 @@ class DriverNode {
   std::unique_ptr<RequestBroker> broker_;
 
   std::unique_ptr<BasePublisher> base_publisher_;
-  std::unique_ptr<BaseTuner> base_tuner_;
+  std::unique_ptr<BaseTuner> base_tuner_;           // with a base
+  std::unique_ptr<NothingToTune> nothing_to_tune_;  // without one
   std::vector<DrivePublisher> drive_publishers_;
   std::unique_ptr<BusPublisher> bus_publisher_;
   std::unique_ptr<Diagnostics> diagnostics_;

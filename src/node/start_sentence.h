@@ -8,8 +8,7 @@
 
 namespace nord_driver::node {
 
-/// "transport profibus_dp at /dev/ttyUSB0, 2 drives: left (PROFIBUS station 3), right (PROFIBUS station 4), base
-/// differential": who sees more drives than the robot has looks for parameters left over from an earlier start.
+/// "transport my_card at /dev/ttyUSB0, 2 drives: left (station 3), right (station 4), base differential": who sees more drives than the robot has looks for parameters left over from an earlier start.
 /// `identities`: one per drive. `where`: what the transport opens, as configured; may be empty.
 std::string startSentence(const NodeConfig& config, const std::vector<DriveIdentity>& identities,
                           const std::string& where);

@@ -1,6 +1,9 @@
 #include "node/tracing.h"
 
 #include <boost/function.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
 
 namespace nord_driver::node {
 
@@ -23,6 +26,11 @@ Tracing::Tracing(ros::NodeHandle& private_node, const std::optional<trace::Trace
     told_ = writer_->whyNotWritable();
     if (!told_.empty()) ROS_WARN("nord_driver: %s", told_.c_str());
     thread_ = std::thread([this] { run(); });
+  } else {
+    trace::TraceConfig by_hand;
+    by_hand.directory = trace::directoryByHand(std::getenv("ROS_HOME"), std::getenv("HOME"));
+    by_hand_ = by_hand.directory;
+    writer_ = std::make_unique<trace::TraceWriter>(by_hand, drives, telegrams, feed_.history());
   }
   boost::function<bool(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&)> callback =
       [this](std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
@@ -47,9 +55,15 @@ void Tracing::run() {
 }
 
 void Tracing::answer(std_srvs::Trigger::Response& response) {
-  if (!writer_) {
-    response.message = "trace_directory is not set: give it an absolute path and start the node again";
-    return;
+  if (!tracer_) {
+    if (by_hand_.empty()) {
+      response.message =
+          "there is nowhere to write to: neither trace_directory nor ROS_HOME nor HOME is set; give trace_directory an "
+          "absolute path and start the node again";
+      return;
+    }
+    std::error_code told_by_the_writer;
+    std::filesystem::create_directories(by_hand_, told_by_the_writer);
   }
   const trace::TraceResult result = writer_->writeNow(clockNow());
   response.success = result.written;

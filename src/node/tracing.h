@@ -19,7 +19,7 @@
 
 namespace nord_driver::node {
 
-/// From construction to destruction. Without a configuration only the service is there, and refuses.
+/// From construction to destruction. Without a configuration only the service writes, into the home of ROS.
 class Tracing {
  public:
   /// `telegrams` (nullptr: none) must outlive it.
@@ -39,8 +39,9 @@ class Tracing {
 
   trace::TraceFeed feed_;
   std::unique_ptr<trace::TraceWriter> writer_;
-  std::unique_ptr<trace::FaultTracer> tracer_;
-  std::string told_;  // an unusable directory is named once, not with every fault
+  std::unique_ptr<trace::FaultTracer> tracer_;  // with a configuration
+  std::string by_hand_;                         // the directory without one
+  std::string told_;                            // an unusable directory is named once, not with every fault
   ros::ServiceServer server_;
   std::atomic<bool> stop_{false};
   std::thread thread_;

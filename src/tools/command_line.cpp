@@ -109,7 +109,9 @@ std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
     store(words, given.others);
     return std::nullopt;
   } catch (const po::error& error) {
-    std::fprintf(stderr, "%s\nRun with --help for more information.\n", error.what());
+    const std::string unknown = chosen_ == nullptr ? unknownCommand(words) : "";
+    std::fprintf(stderr, "%s\nRun with --help for more information.\n",
+                 unknown.empty() ? error.what() : unknown.c_str());
   } catch (const UsageError& error) {
     std::fprintf(stderr, "%s\nRun with --help for more information.\n", error.what());
   }
@@ -150,6 +152,23 @@ void CommandLine::choose(const std::vector<std::string>& others) {
   if (chosen_ != nullptr) return;
   throw UsageError(others.empty() ? "a command is missing, expected one of " + names
                                   : "\"" + others.front() + "\" is no command, expected one of " + names);
+}
+
+// Of words that could not be read: what is wrong with the options of a command nobody knows does not matter.
+std::string CommandLine::unknownCommand(const std::vector<std::string>& words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i].compare(0, 1, "-") != 0) {
+      try {
+        choose({words[i]});
+      } catch (const UsageError& error) {
+        return error.what();
+      }
+      return "";
+    }
+    const auto* const option = options_.find_nothrow(words[i].substr(words[i].find_first_not_of('-')), false);
+    if (option != nullptr && option->semantic()->max_tokens() > 0) ++i;
+  }
+  return "";
 }
 
 void CommandLine::store(const std::vector<std::string>& words, const std::vector<std::string>& others) const {

@@ -65,6 +65,8 @@ class CommandLine {
 
   Words read(const std::vector<std::string>& words) const;
   void choose(const std::vector<std::string>& others);
+  /// What `choose` says of the first word that is neither an option nor the value of one; empty when it is a command.
+  std::string unknownCommand(const std::vector<std::string>& words);
   void store(const std::vector<std::string>& words, const std::vector<std::string>& others) const;
   std::string help() const;
 

@@ -11,6 +11,7 @@
 #include "core/version.h"
 #include "tools/command_line.h"
 #include "tools/end_signals.h"
+#include "tools/lock_owner.h"
 #include "tools/param_commands.h"
 #include "tools/parameter_dump.h"
 #include "tools/parameter_name.h"
@@ -56,8 +57,21 @@ void list(const YAML::Node& file, nord_driver::Transport& transport) {
 
 using Task = std::function<bool(ParameterLink&)>;
 
+// Whoever has the device does not give it away while this program waits.
+void refuseBusInUse(const ToolConfig& config, const nord_driver::EndPoint& end_point) {
+  if (end_point.isNone()) return;
+  const std::string where = config.bus->text(end_point.key).value_or("");
+  const auto owner = lockOwner(where);
+  if (!owner) return;
+  throw Trouble(where + " is in use by " + (owner->name.empty() ? "a program" : owner->name) + " (process " +
+                std::to_string(owner->process) +
+                "): end it first; or ask the driver while it runs: rosservice call /nord_driver/" +
+                config.drives.front().name + "/read_parameter, or write_parameter");
+}
+
 int carryOut(const ToolConfig& config, nord_driver::Transport& transport, double timeout, const Task& task,
              const std::atomic<bool>& end_asked) {
+  refuseBusInUse(config, transport.endPoint());
   ParameterLink link{config, transport};
   link.connect(nord_driver::seconds(timeout), end_asked);
   bool done = false;

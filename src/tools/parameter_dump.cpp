@@ -2,7 +2,9 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <filesystem>
 #include <optional>
+#include <system_error>
 
 #include "config/setting_checks.h"
 #include "profile/parameter_catalogue.h"
@@ -99,6 +101,10 @@ std::string dumpText(const Dump& dump, const std::string& drive, const std::stri
 Dump readDump(const std::string& file) {
   try {
     return parse(YAML::LoadFile(file));
+  } catch (const YAML::BadFile&) {
+    std::error_code unreadable;
+    throw UsageError(
+        file + (std::filesystem::exists(file, unreadable) ? ": this file cannot be read" : ": there is no such file"));
   } catch (const YAML::Exception& error) {
     throw UsageError(file + " is no dump of nord_param: " + error.what());
   } catch (const UsageError& error) {

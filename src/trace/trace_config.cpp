@@ -19,4 +19,9 @@ std::optional<TraceConfig> readTraceConfig(const Settings& node) {
   return config;
 }
 
+std::string directoryByHand(const char* ros_home, const char* home) {
+  if (ros_home != nullptr && *ros_home != '\0') return ros_home;
+  return home != nullptr && *home != '\0' ? std::string(home) + "/.ros" : "";
+}
+
 }  // namespace nord_driver::trace

@@ -52,7 +52,7 @@ TEST(DriverSettings, ATransportNobodyHasIsToldTheNearest) {
   EXPECT_EQ(
       "transport: \"profibus\" is not valid, expected one of the declared transports: profibus_dp, canopen, "
       "my_package/my_card; did you mean profibus_dp?",
-      unknownTransport(settings("{}"), "nord_driver/profibus", declared).what());
+      unknownTransport(settings("{}"), "nord_driver/profibus", declared).what() + std::string{});
   EXPECT_EQ(
       "transport: \"modem\" is not valid, expected one of the declared transports: none (is the workspace's "
       "setup file sourced?)",

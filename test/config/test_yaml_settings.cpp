@@ -98,7 +98,8 @@ TEST(YamlSettings, AValueWhereAGroupBelongsIsRefused) {
             refusal([&] { all.has("linear/x/max_velocity"); }));
   EXPECT_EQ("linear/x: 5 is not valid, expected a group of keys and values",
             refusal([&] { all.group("linear")->number("x/max_velocity"); }));
-  EXPECT_EQ("axes: a list is not valid, expected a group of keys and values", refusal([&] { all.has("axes/x"); }));
+  EXPECT_EQ("axes: a list is not valid, expected a group of keys and values: write \"name: ...\" in place of \"- ...\"",
+            refusal([&] { all.has("axes/x"); }));
   EXPECT_EQ("drives/left: 3 is not valid, expected a group of keys and values",
             refusal([&] { all.group("drives")->group("left"); }));
   EXPECT_FALSE(all.has("angular/z/max_velocity"));

@@ -79,8 +79,9 @@ TEST_F(SupervisorEnable, NamesEveryReasonFaultAndAbsenceFirst) {
   const Completion answer = ask(RequestKind::kEnable);
   EXPECT_FALSE(answer.success);
   EXPECT_STREQ(
-      "drive right: the inverter reports a fault; drive lift: the inverter does not answer; the newest cmd_vel is not "
-      "zero",
+      "drive right: the inverter reports a fault (when its cause is gone: ~acknowledge_faults); drive lift: the "
+      "inverter "
+      "does not answer; the newest cmd_vel is not zero",
       answer.message.c_str());
   EXPECT_TRUE(noneRuns());
 }

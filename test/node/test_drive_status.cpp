@@ -57,6 +57,7 @@ class DriveStatusTest : public ::testing::Test {
 TEST_F(DriveStatusTest, OnlineItTellsBitsAndValues) {
   EXPECT_TRUE(status.online);
   EXPECT_EQ(DriveStatus::OPERATION_ENABLED, status.state);
+  EXPECT_EQ("operation enabled", status.state_text);
   EXPECT_TRUE(status.operation_enabled && status.bus_control && status.setpoint_reached && status.direction_left);
   EXPECT_FALSE(status.fault || status.switch_on_disabled);
   EXPECT_EQ(0x2000, status.actual_values.at(0));
@@ -68,6 +69,7 @@ TEST_F(DriveStatusTest, OfflineNothingIsToldAsIfItWereSoNow) {
   vanish();
   EXPECT_FALSE(status.online);
   EXPECT_EQ(DriveStatus::UNKNOWN, status.state);
+  EXPECT_EQ("unknown", status.state_text);
   EXPECT_THAT(bits(), Each(false));
   EXPECT_THAT(status.actual_values, SizeIs(values)) << "whoever reads the first needs no test";
   EXPECT_THAT(status.actual_values, Each(0));

@@ -1,10 +1,14 @@
 // Drives that belong to no base: each with its own command, its own enable and its own stop.
+#include <dynamic_reconfigure/ConfigDescription.h>
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <std_msgs/Float64.h>
 #include <std_srvs/SetBool.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -16,8 +20,10 @@ namespace nord_driver::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 constexpr double kVelocity = 3.0;  // rad/s
+const std::string kRosHome = ::testing::TempDir() + "ros_home_" + std::to_string(::getpid());
 
 bool isIdle(const DriveStatus& status) {
   return status.control_word == 0x047E;
@@ -33,6 +39,7 @@ class SingleDrives : public RobotTest {
   /// The same robot, but for the driver two drives that know nothing of each other.
   static void SetUpTestSuite() {
     for (const char* key : {"left_wheel", "right_wheel"}) ros::param::del(std::string("/nord_driver/") + key);
+    ASSERT_EQ(0, ::setenv("ROS_HOME", kRosHome.c_str(), 1));
     shared_driver = std::make_unique<NodeProcess>(kDriverProgram, std::vector<std::string>{"__name:=nord_driver"});
   }
   static void TearDownTestSuite() {
@@ -158,6 +165,26 @@ TEST_F(SingleDrives, WhatIsNoNumberIsIgnored) {
     EXPECT_LE(status->velocity_command, kVelocity + 0.01);
   }
   EXPECT_EQ(robot().right.status.next()->velocity_command, 0.0);
+}
+
+// Who asks by hand gets a trace, though none is configured.
+TEST_F(SingleDrives, ATraceAskedForByHandIsWrittenToTheHomeOfRos) {
+  const Answer answer = robot().trigger("write_trace");
+  EXPECT_TRUE(answer.success) << answer;
+  EXPECT_THAT(answer.message, StartsWith(kRosHome + "/nord_driver_"));
+  EXPECT_TRUE(std::filesystem::exists(answer.message));
+  std::filesystem::remove_all(kRosHome);
+}
+
+// A client of dynamic_reconfigure finds a server that knows no parameter, instead of waiting for one for ever.
+TEST_F(SingleDrives, WithoutABaseThereIsNothingToTune) {
+  ros::NodeHandle node;
+  Topic<dynamic_reconfigure::ConfigDescription> description(node, "/nord_driver/parameter_descriptions");
+  const auto told = description.waitFrom(0, [](const auto&) { return true; });
+  ASSERT_TRUE(told);
+  ASSERT_EQ(told->groups.size(), 1u);
+  EXPECT_TRUE(told->groups[0].parameters.empty());
+  EXPECT_TRUE(ros::service::exists("/nord_driver/set_parameters", false));
 }
 
 }  // namespace

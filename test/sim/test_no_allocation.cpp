@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/canopen/can_conversation.h"
+#include "sim/devicenet/dn_conversation.h"
 #include "sim/profibus/conversation.h"
 #include "support/count_allocations.h"
 
@@ -142,6 +143,47 @@ TEST(NoAllocation, OnACanBus) {
 
   EXPECT_EQ(0u, test::allocations);
   EXPECT_LT(200u, received);
+}
+
+// The same of the DeviceNet modules: fragments both ways, parameters, a time-out, the supply.
+TEST(NoAllocation, OnADeviceNetBus) {
+  if (!test::kCanCountAllocations) GTEST_SKIP() << "the sanitizers have replaced malloc";
+  DnConversation bus{dnGateway(4, 102)};
+  bus.connect();
+  std::vector<CanFrame> requests;
+  for (const char* text :
+       {"44E#0A 4C 03 01 03", "44E#0A 4B 03 01 03 0A", "44C#0A 10 05 02 09 64 00", "44D#00 00 7E 04 00 00 00 00",
+        "44D#41 00 00 7E 04 00 00 00", "44D#42 00 00 00 7E 04 00 00", "44D#43 00 00 00 00 7E 04 00",
+        "44D#84 00 00 00 00 00", "44C#0A 0E 01 01 07", "44C#8A C0 00", "44C#8A C1 00", "44C#0A 10 65 01 03 64 00",
+        "44C#0A 0E 6F 01 05", "457#80 FF FF 01 00 00 00"}) {
+    requests.push_back(fromDnText(text));
+  }
+  CanDisturbance noise;
+  noise.lose = noise.error = noise.duplicate = 0.05;
+  std::size_t received = 0;
+
+  test::allocations = 0;
+  test::countThisThread(true);
+  for (int round = 0; round < 20; ++round) {
+    if (round == 10) bus.bus.setDisturbance(noise);
+    for (const CanFrame& request : requests) {
+      bus.bus.send(request);
+      const Instant until = bus.bus.now() + milliseconds(10);
+      while (bus.bus.waitReadable(until)) {
+        link::ReceivedCanFrame frame;
+        while (bus.bus.receive(frame)) ++received;
+      }
+    }
+    bus.drive().inverter().trip(30, false);
+    bus.bus.run(milliseconds(500));
+    bus.drive().setPlugged(round % 2 != 0);
+    bus.module().setPowered(round % 4 != 0);
+    bus.bus.run(milliseconds(2500));
+  }
+  test::countThisThread(false);
+
+  EXPECT_EQ(0u, test::allocations);
+  EXPECT_LT(100u, received);
 }
 
 }  // namespace

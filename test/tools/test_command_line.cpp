@@ -121,6 +121,15 @@ TEST_F(CommandLineTest, NamesWhatIsMissing) {
             refusal({"--config", "a", "show", "left", "--device"}));
 }
 
+// Whatever is wrong besides: an option of a command there is not, or --config that has no value yet.
+TEST_F(CommandLineTest, AnUnknownCommandIsToldBeforeItsOptions) {
+  constexpr const char* kUnknown = "\"turn\" is no command, expected one of show, change";
+  EXPECT_EQ(kUnknown, refusal({"turn"}));
+  EXPECT_EQ(kUnknown, refusal({"turn", "--far", "3"}));
+  EXPECT_EQ(kUnknown, refusal({"--device", "show", "turn", "--config"}));
+  EXPECT_EQ("unrecognised option '--far'", refusal({"show", "--far", "3"}));
+}
+
 // An option of another command, an abbreviation and a short option are not known either.
 TEST_F(CommandLineTest, NamesWhatIsTooMuch) {
   EXPECT_EQ("\"turn\" is no command, expected one of show, change", refusal({"--config", "a", "turn"}));

@@ -140,6 +140,15 @@ TEST_F(NordParam, SaysWhatIsWrongWithTheCommandLine) {
   EXPECT_THAT(unknown.errors, HasSubstr("write the raw value with --raw"));
 }
 
+TEST_F(NordParam, NamesAFileThatIsMissing) {
+  const Ended list = runProgram({NORD_PARAM_PROGRAM, "--config", "/tmp/is_not_there.yaml", "list"});
+  EXPECT_EQ(2, list.code);
+  EXPECT_EQ("nord_param: --config /tmp/is_not_there.yaml: there is no such file\n", list.errors);
+  const Ended dump = run({"compare", "left", "/tmp/is_not_there.yaml"});
+  EXPECT_EQ(2, dump.code);
+  EXPECT_EQ("nord_param: /tmp/is_not_there.yaml: there is no such file\n", dump.errors);
+}
+
 TEST_F(NordParam, NamesADeviceThatIsMissing) {
   const Ended read = run({"--timeout", "0.2", "read", "left", "P105"}, "/dev/is_not_there");
   EXPECT_EQ(1, read.code);
@@ -150,9 +159,14 @@ TEST_F(NordParam, NamesADeviceThatIsMissing) {
 TEST_F(NordParam, LeavesADeviceInUseAlone) {
   const int driver = ::open(device_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
   ASSERT_EQ(0, ::flock(driver, LOCK_EX | LOCK_NB));
-  const Ended read = run({"--timeout", "0.2", "read", "left", "P105"});
+  // At once: what would be waited for does not come.
+  const Ended read = run({"--timeout", "1000", "read", "left", "P105"});
   EXPECT_EQ(1, read.code);
-  EXPECT_THAT(read.errors, HasSubstr("is in use by another process"));
+  EXPECT_EQ(
+      "nord_param: " + device_ + " is in use by test_nord_param (process " + std::to_string(::getpid()) +
+          "): end it first; or ask the driver while it runs: rosservice call /nord_driver/left/read_parameter, or "
+          "write_parameter\n",
+      read.errors);
   ::close(driver);
 }
 

@@ -30,6 +30,14 @@ TEST(TraceConfig, KeepsTwentyByDefault) {
   EXPECT_EQ(20u, config->keep);
 }
 
+// As ROS finds the folder of its logs.
+TEST(TraceConfig, ATraceAskedForByHandGoesToTheHomeOfRos) {
+  EXPECT_EQ("/var/ros", directoryByHand("/var/ros", "/home/robot"));
+  EXPECT_EQ("/home/robot/.ros", directoryByHand(nullptr, "/home/robot"));
+  EXPECT_EQ("/home/robot/.ros", directoryByHand("", "/home/robot"));
+  EXPECT_EQ("", directoryByHand(nullptr, nullptr));
+}
+
 // ROS expands no "~", and a relative path would lie wherever roslaunch was started.
 TEST(TraceConfig, WantsAnAbsolutePath) {
   EXPECT_EQ(

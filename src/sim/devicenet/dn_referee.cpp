@@ -14,7 +14,7 @@ constexpr Duration kCheckTolerance = milliseconds(50);  // a frame waits for the
 constexpr Duration kAnswerTime = milliseconds(500);
 constexpr Duration kFragmentTime = milliseconds(1000);
 constexpr Duration kChangeTime = milliseconds(100);
-constexpr Duration kRequestTime = milliseconds(500);  // an answer may be lost: it is asked again
+constexpr Duration kRequestTime = milliseconds(150);  // then the answer is lost, and it may be asked again
 constexpr unsigned kTimeoutMultiplier = 4;
 
 constexpr std::uint8_t kDeviceNetClass = 3;
@@ -137,6 +137,8 @@ void DnReferee::unconnected(View& view, const CanFrame& frame) noexcept {
   const std::uint8_t service = frame.data[1];
   const bool allocate = service == dn::kAllocate;
   const bool known = allocate || service == dn::kRelease;
+  // Whose it is: a module may refuse to tell it here, asking is no harm.
+  if (service == dn::kGetSingle && frame.size == 5 && frame.data[2] == kDeviceNetClass && frame.data[4] == 5) return;
   if (!known || (header & dn::kFragmented) != 0 || frame.data[2] != kDeviceNetClass || frame.data[3] != 1) {
     return broken(DnRule::kUnconnectedService);
   }
@@ -169,6 +171,7 @@ void DnReferee::explicitMessage(View& view, const CanFrame& frame) noexcept {
   const std::uint8_t header = frame.data[0];
   if (master_ && (header & dn::kMacMask) != *master_) broken(DnRule::kHeaderMac);
   if ((view.choice & dn::kChoiceExplicit) == 0) {
+    if (view.refused) return;
     if (view.on_their_way == 0) return broken(DnRule::kExplicitBeforeAllocation);
     --view.on_their_way;
     return;
@@ -321,6 +324,7 @@ void DnReferee::answer(View& view, const CanFrame& frame) noexcept {
   const Request request = *view.pending;
   view.pending.reset();
   const std::uint8_t service = frame.data[1];
+  if (request.service == dn::kAllocate) view.refused = service == (dn::kError | dn::kAnswer);
   if (service != (request.service | dn::kAnswer)) return;
   answered(view, request, frame.bytes().sub(2));
 }

@@ -66,7 +66,7 @@ class DnReferee {
   void delivered(const CanFrame& frame) noexcept;
   /// A frame of somebody who is neither.
   void foreignFrame(const CanFrame& frame) noexcept;
-  /// The bus stood still: what is late is nobody's mistake.
+  /// Simulator or bus stood still: what is late is nobody's mistake.
   void stoodStill() noexcept;
 
   std::optional<std::uint8_t> master() const noexcept { return master_; }
@@ -95,6 +95,7 @@ class DnReferee {
   /// What the scanner can know of a node.
   struct View {
     bool exists = false;
+    bool refused = false;     ///< an allocation was: it may still have one of before
     std::uint8_t choice = 0;  ///< allocated
     unsigned on_their_way = 0;
     std::optional<Request> pending;

@@ -99,6 +99,8 @@ void DnStations::advance(Instant now, CanSink& sink) noexcept {
     for (DnModule* module : modules_) module->advance(span, sink);
   }
   referee_.advance(now_);
+  // Nobody acknowledges: the controller repeats one frame until somebody is there again.
+  if (!anyAlive()) referee_.stoodStill();
 }
 
 void DnStations::receive(const CanFrame& frame, Judge judge, CanSink& sink) noexcept {

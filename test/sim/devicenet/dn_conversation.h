@@ -1,4 +1,5 @@
-// A DeviceNet scanner of a few lines for the tests of the simulator: it sends what it is told and notes what comes back.
+// A DeviceNet scanner of a few lines for the tests of the simulator: it sends what it is told and notes what comes
+// back.
 // Scanner 0Ah and slave 9 are those of the golden vectors.
 #pragma once
 

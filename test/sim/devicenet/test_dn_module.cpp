@@ -1,4 +1,5 @@
-// Start, allocation, connections: the golden vectors of ICP DAS (scanner 0Ah, slave 9), and what follows from the rules.
+// Start, allocation, connections: the golden vectors of ICP DAS (scanner 0Ah, slave 9), and what follows from the
+// rules.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -90,10 +90,22 @@ TEST_F(DnRefereeTest, Allocation) {
   EXPECT_EQ(0u, only(DnRule::kReleaseChoice)) << "what it was given";
   bus.send("44E#0A 4B 03 01 01 0B");
   EXPECT_EQ(1u, only(DnRule::kSecondMaster)) << said;
-  bus.send("44E#0A 0E 03 01 05");
+  bus.send("44E#0A 0E 03 01 01");
   EXPECT_EQ(1u, only(DnRule::kUnconnectedService)) << said;
   bus.send("44E#0A 4B 03 01 01");
   EXPECT_EQ(1u, only(DnRule::kExplicitLength)) << said;
+}
+
+// A scanner that was killed left its connections behind: it may ask whose they are, on either port.
+TEST_F(DnRefereeTest, ConnectionsOfBefore) {
+  bus.connect();
+  bus.goOnline();
+  EXPECT_EQ("44B#0A940B02", bus.ask("44E#0A 4B 03 01 01 0A"));
+  EXPECT_EQ("44B#0A940803", bus.ask("44E#0A 0E 03 01 05"));
+  EXPECT_EQ("44B#0A8E030A", bus.ask("44C#0A 0E 03 01 05"));
+  EXPECT_EQ("44B#0ACC", bus.ask("44E#0A 4C 03 01 03"));
+  EXPECT_EQ("44B#0ACB00", bus.ask("44E#0A 4B 03 01 01 0A"));
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
 }
 
 TEST_F(DnRefereeTest, ReleaseOfWhatIsNotAllocated) {
@@ -181,6 +193,18 @@ TEST_F(DnRefereeTest, PollsAfterTheModuleStartedAnew) {
   EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
   bus.send("44D#00 7E 04 00 00");
   EXPECT_EQ(1u, only(DnRule::kIoBeforeAllocation)) << said;
+}
+
+// Nobody is there to acknowledge: the frame that is repeated meanwhile goes out when the module is back.
+TEST_F(DnRefereeTest, FrameThatWaitedForAnAcknowledge) {
+  bus.connect();
+  bus.poll("44D#00 7E 04 00 00", milliseconds(100));
+  bus.drive().setPlugged(false);
+  bus.send("44D#00 7E 04 00 00");
+  bus.bus.run(milliseconds(2000));
+  bus.drive().setPlugged(true);
+  bus.bus.run(milliseconds(2500));
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
 }
 
 TEST_F(DnRefereeTest, Fragments) {
