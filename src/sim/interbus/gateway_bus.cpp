@@ -98,6 +98,7 @@ void GatewayBus::accept() noexcept {
     const int on = 1;
     ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
     client.socket = socket;
+    ring_.masterBegins();
     return;
   }
   ::close(socket);

@@ -53,6 +53,7 @@ IbsIdentity IbsModule::expected() const noexcept {
 void IbsModule::ringStarts() noexcept {
   restarted_ = false;
   in_ring_ = true;
+  masterBegins();
 }
 
 IbsWords IbsModule::exchange(const IbsWords& words) noexcept {

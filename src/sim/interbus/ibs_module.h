@@ -45,6 +45,8 @@ class IbsModule final : public BusModule {
   /// It has begun anew since the ring was started, or has no power: the ring stands.
   bool breaksRing() const noexcept { return !powered_ || restarted_; }
   void ringStarts() noexcept;
+  /// Whoever commands it begins anew, and may look before it commands: the next words without bit 10 break no rule.
+  void masterBegins() noexcept { valid_seen_ = false; }
   void ringStops() noexcept { in_ring_ = false; }
   /// One ring cycle: takes the words to the inverter, and returns those from it.
   IbsWords exchange(const IbsWords& words) noexcept;

@@ -100,6 +100,10 @@ void IbsRing::advance(Instant now) noexcept {
   }
 }
 
+void IbsRing::masterBegins() noexcept {
+  for (const Subscriber& subscriber : subscribers_) subscriber.module->masterBegins();
+}
+
 bool IbsRing::mayRun() const noexcept {
   return !cut_ && std::all_of(subscribers_.begin(), subscribers_.end(), [](const Subscriber& subscriber) {
     return subscriber.module->powered() && subscriber.module->identity() == subscriber.module->expected();

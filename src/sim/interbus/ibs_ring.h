@@ -23,6 +23,8 @@ class IbsRing {
   /// The ring runs: words move. It stands while a subscriber has no power or begins anew, or has another length or ID
   /// code than the master knows; then the inputs stay as they were.
   bool runs() const noexcept { return runs_; }
+  /// Another one commands the drives from here on, or nobody.
+  void masterBegins() noexcept;
   /// A cut cable: the ring stands until it is whole again.
   void setCut(bool cut) noexcept { cut_ = cut; }
   /// BU 0070 4.3 and the usual formula: 0.2 ms + (13 * (6 + bytes) + 1.5 * subscribers) bits at 500 kBd.

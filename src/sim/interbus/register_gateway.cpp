@@ -28,6 +28,7 @@ Word RegisterGateway::turned(Word word) const noexcept {
 void RegisterGateway::advance(Instant now) noexcept {
   if (watchdog_ == 0 || !last_write_ || now - *last_write_ <= std::chrono::milliseconds(watchdog_)) return;
   std::fill(ring_.outputs().begin(), ring_.outputs().end(), Word{0});
+  ring_.masterBegins();
   last_write_.reset();
   ++watchdog_trips_;
 }

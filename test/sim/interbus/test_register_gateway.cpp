@@ -90,6 +90,8 @@ TEST_F(RegisterGatewayTest, TheWatchdogEndsTheOutputs) {
   run(milliseconds{1});
   EXPECT_EQ(0, ring.outputs()[0]) << "reading feeds it not";
   EXPECT_EQ(1u, gateway.watchdogTrips());
+  run(milliseconds{100});
+  EXPECT_EQ("no rule broken", ring.report()) << "the zeros are the gateway's own";
 }
 
 TEST_F(RegisterGatewayTest, SwitchesSpoilTheAnswers) {
