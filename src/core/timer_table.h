@@ -32,6 +32,12 @@ class TimerTable {
   bool isSet(Timer timer) const noexcept { return at(timer).has_value(); }
   bool isRunning(Timer timer, Instant now) const noexcept { return isSet(timer) && now < *at(timer); }
   bool isOver(Timer timer, Instant now) const noexcept { return isSet(timer) && now >= *at(timer); }
+  /// True once when it is over: it is stopped then.
+  bool takeDue(Timer timer, Instant now) noexcept {
+    if (!isOver(timer, now)) return false;
+    stop(timer);
+    return true;
+  }
   /// The earliest of all that are set, those that are over included.
   std::optional<Instant> nextTimeout() const noexcept {
     std::optional<Instant> next;

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/can_frame.h"
-#include "devicenet/timer_table.h"
+#include "core/timer_table.h"
 #include "nord_driver/core/time.h"
 
 namespace nord_driver::devicenet {
@@ -48,7 +48,7 @@ class DuplicateMacCheck {
   bool pollTransmit(CanFrame& frame, Instant now) noexcept;
   /// The link did not take the frame given out last: it comes again.
   void notSent(const CanFrame& frame) noexcept;
-  std::optional<Instant> nextDeadline() const noexcept { return timers_.nextDeadline(); }
+  std::optional<Instant> nextDeadline() const noexcept { return timers_.nextTimeout(); }
 
   State state() const noexcept { return state_; }
   bool online() const noexcept { return state_ == State::kOnline; }

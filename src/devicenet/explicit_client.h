@@ -11,9 +11,9 @@
 #include <optional>
 
 #include "core/can_frame.h"
+#include "core/timer_table.h"
 #include "devicenet/explicit_message.h"
 #include "devicenet/explicit_receiver.h"
-#include "devicenet/timer_table.h"
 #include "nord_driver/core/time.h"
 
 namespace nord_driver::devicenet {
@@ -51,7 +51,7 @@ class ExplicitClient {
   void poll(Instant now) noexcept;
   bool pollTransmit(CanFrame& frame, Instant now) noexcept;
   std::optional<ExplicitAnswer> takeAnswer() noexcept;
-  std::optional<Instant> nextDeadline() const noexcept { return timers_.nextDeadline(); }
+  std::optional<Instant> nextDeadline() const noexcept { return timers_.nextTimeout(); }
 
  private:
   enum class Phase : std::uint8_t {

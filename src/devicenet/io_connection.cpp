@@ -74,7 +74,7 @@ void IoConnection::startCycle(Instant now) noexcept {
   // We were kept from running: the device has given up, and what comes now would come to nobody.
   overdue_ = sent_at_ && now - *sent_at_ >= kRatesUntilTimeout * rate_;
   if (overdue_) return timers_.set(Timer::kInput, now);
-  if (config_.io.kind == IoKind::kPoll && timers_.running(Timer::kInput)) ++report_.status().counters.missed;
+  if (config_.io.kind == IoKind::kPoll && timers_.isSet(Timer::kInput)) ++report_.status().counters.missed;
   if (!outputDue(now)) return;
   repeated_ = false;
   send();
@@ -87,7 +87,7 @@ void IoConnection::send() noexcept {
 }
 
 void IoConnection::noteStrobed(Instant now) noexcept {
-  if (timers_.running(Timer::kInput)) {
+  if (timers_.isSet(Timer::kInput)) {
     ++report_.status().counters.missed;
   } else {
     timers_.set(Timer::kInput, now + timeout_);
@@ -102,10 +102,10 @@ bool IoConnection::pollOutput(CanFrame& frame, Instant now) noexcept {
   ++report_.status().counters.outputs;
   sent_at_ = now;
   if (!byChange()) {
-    if (!timers_.running(Timer::kInput)) timers_.set(Timer::kInput, now + timeout_);
+    if (!timers_.isSet(Timer::kInput)) timers_.set(Timer::kInput, now + timeout_);
   } else if (config_.io.acknowledge) {
     timers_.set(Timer::kAcknowledge, now + kAcknowledgeTime);
-    if (!timers_.running(Timer::kHeard)) timers_.set(Timer::kHeard, now + timeout_);
+    if (!timers_.isSet(Timer::kHeard)) timers_.set(Timer::kHeard, now + timeout_);
   }
   return true;
 }

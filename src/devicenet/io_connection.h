@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "core/can_frame.h"
+#include "core/timer_table.h"
 #include "devicenet/identifier.h"
 #include "devicenet/io_fragments.h"
 #include "devicenet/node_config.h"
 #include "devicenet/node_report.h"
-#include "devicenet/timer_table.h"
 #include "nord_driver/core/time.h"
 
 namespace nord_driver::devicenet {
@@ -60,7 +60,7 @@ class IoConnection {
   void outputNotSent() noexcept;
   /// What is not given out yet of this cycle's message is not sent any more.
   void dropOutput() noexcept;
-  std::optional<Instant> nextDeadline() const noexcept { return timers_.nextDeadline(); }
+  std::optional<Instant> nextDeadline() const noexcept { return timers_.nextTimeout(); }
 
  private:
   enum class Timer : std::uint8_t {

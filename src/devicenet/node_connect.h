@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/timer_table.h"
 #include "devicenet/connect_requests.h"
 #include "devicenet/explicit_channel.h"
 #include "devicenet/node_config.h"
 #include "devicenet/node_report.h"
 #include "devicenet/scanner_config.h"
-#include "devicenet/timer_table.h"
 #include "nord_driver/core/time.h"
 
 namespace nord_driver::devicenet {
@@ -45,7 +45,7 @@ class NodeConnect {
   void checkSoon(Instant now) noexcept;
   /// Goes on with what came and what is due.
   void poll(Instant now) noexcept;
-  std::optional<Instant> nextDeadline() const noexcept { return timers_.nextDeadline(); }
+  std::optional<Instant> nextDeadline() const noexcept { return timers_.nextTimeout(); }
 
   /// Process data are exchanged; with explicit messaging alone: requests are taken.
   bool exchanging() const noexcept {

@@ -133,8 +133,8 @@ void NodeHandler::settle(Instant now) noexcept {
 
 std::optional<Instant> NodeHandler::nextDeadline() const noexcept {
   std::optional<Instant> earliest = connect_.nextDeadline();
-  takeEarlier(earliest, channel_.nextDeadline());
-  takeEarlier(earliest, io_.nextDeadline());
+  earliest = earlier(earliest, channel_.nextDeadline());
+  earliest = earlier(earliest, io_.nextDeadline());
   return earliest;
 }
 

@@ -75,7 +75,7 @@ bool Scanner::released() const noexcept {
 }
 
 void Scanner::followCheck(Instant now) noexcept {
-  takeEarlier(deadline_, check_.nextDeadline());
+  deadline_ = earlier(deadline_, check_.nextDeadline());
   if (check_.state() == DuplicateMacCheck::State::kFirst && bus_state_ == BusState::kCommunicationFault) {
     enterBusState(BusState::kCheckingMac, bus_reason_);
   }
@@ -94,7 +94,7 @@ void Scanner::followCheck(Instant now) noexcept {
   why.format("communication fault: another device has our MAC id %u, vendor %u, serial number %08Xh",
              unsigned{config_.mac}, unsigned{check_.rival().vendor_id}, check_.rival().serial_number);
   stopNodes(why, now);
-  takeEarlier(deadline_, check_.nextDeadline());
+  deadline_ = earlier(deadline_, check_.nextDeadline());
   enterBusState(BusState::kCommunicationFault, why);
   watch_.tell(DevicenetEventKind::kCommunicationFault, why, check_.rival().serial_number, now);
 }
@@ -106,7 +106,7 @@ void Scanner::startCycle(Instant now) noexcept {
   for (const auto& node : nodes_) {
     strobe_due_ = strobe_due_ || node->io().takesStrobe();
     node->io().startCycle(now);
-    takeEarlier(deadline_, node->io().nextDeadline());
+    deadline_ = earlier(deadline_, node->io().nextDeadline());
   }
   output_maybe_ = true;
 }
@@ -195,7 +195,7 @@ void Scanner::poll(Instant now) noexcept {
 }
 
 void Scanner::touched(const NodeHandler& node) noexcept {
-  takeEarlier(deadline_, node.nextDeadline());
+  deadline_ = earlier(deadline_, node.nextDeadline());
   output_maybe_ = true;
   explicit_maybe_ = true;
 }
@@ -220,7 +220,7 @@ bool Scanner::give(Given::Kind kind, std::size_t node) noexcept {
 
 bool Scanner::pollDuplicateMac() noexcept {
   if (!check_.pollTransmit(given_.frame, now_)) return false;
-  takeEarlier(deadline_, check_.nextDeadline());
+  deadline_ = earlier(deadline_, check_.nextDeadline());
   return give(Given::Kind::kDuplicateMac, 0);
 }
 
@@ -254,7 +254,7 @@ bool Scanner::pollOutput() noexcept {
   for (std::size_t tried = 0; tried < nodes_.size(); ++tried) {
     NodeHandler& node = *nodes_[next_output_];
     if (node.io().pollOutput(given_.frame, now_)) {
-      takeEarlier(deadline_, node.nextDeadline());
+      deadline_ = earlier(deadline_, node.nextDeadline());
       return give(Given::Kind::kOutput, next_output_);
     }
     next_output_ = (next_output_ + 1) % nodes_.size();
@@ -270,7 +270,7 @@ bool Scanner::pollExplicit() noexcept {
     const std::size_t i = next_explicit_;
     next_explicit_ = (next_explicit_ + 1) % nodes_.size();
     if (!nodes_[i]->channel().pollTransmit(given_.frame, now_)) continue;
-    takeEarlier(deadline_, nodes_[i]->nextDeadline());
+    deadline_ = earlier(deadline_, nodes_[i]->nextDeadline());
     return give(Given::Kind::kExplicit, i);
   }
   explicit_maybe_ = false;

@@ -30,6 +30,17 @@ TEST(TimerTable, ATimerIsOverFromItsMomentOn) {
   EXPECT_FALSE(timers.isOver(Timer::kPause, due));
 }
 
+TEST(TimerTable, WhatIsDueIsTakenOnce) {
+  TimerTable<Timer> timers;
+  const Instant due = Instant{} + milliseconds{5};
+  EXPECT_FALSE(timers.takeDue(Timer::kPause, due));
+  timers.set(Timer::kPause, due);
+  EXPECT_FALSE(timers.takeDue(Timer::kPause, due - milliseconds{1}));
+  EXPECT_TRUE(timers.takeDue(Timer::kPause, due));
+  EXPECT_FALSE(timers.takeDue(Timer::kPause, due));
+  EXPECT_FALSE(timers.isSet(Timer::kPause));
+}
+
 TEST(TimerTable, TheEarliestIsNext) {
   TimerTable<Timer> timers;
   const Instant now{milliseconds{100}};
