@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the benchmarks (optimised, out/bench) and runs them one after the other. Ends with 0 when every bound is kept, and
+# Builds the benchmarks (optimised, build/bench) and runs them one after the other. Ends with 0 when every bound is kept, and
 # when the figures that have none, those over the kernel's CAN, could be taken.
 # A machine that does other things at the same time makes the figures worse: stop the rest, or repeat.
 set -euo pipefail
@@ -11,7 +11,7 @@ if (($# > 0)); then
   exit
 fi
 
-out=$root/out/bench
+out=$root/build/bench
 mkdir -p "$out"
 configure "$out" -DCMAKE_BUILD_TYPE=Release -DNORD_DRIVER_BENCH=ON -DNORD_DRIVER_STRICT=ON >"$out/configure.log" 2>&1 ||
   { tail -n 40 "$out/configure.log"; exit 1; }

@@ -49,7 +49,7 @@ def run(*command):
 def files(*patterns):
     """(path below the project, text), in order."""
     found = sorted({path for pattern in patterns for path in ROOT.glob(pattern) if path.is_file()})
-    return [(str(path.relative_to(ROOT)), path.read_text()) for path in found if not str(path.relative_to(ROOT)).startswith("out")]
+    return [(str(path.relative_to(ROOT)), path.read_text()) for path in found if not str(path.relative_to(ROOT)).startswith(("out", "build"))]
 
 
 def first_of(patterns):

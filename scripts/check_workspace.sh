@@ -12,7 +12,7 @@ export ROS_HOME=$workspace/ros_home
 
 version=$(sed -n 's:.*<version>\(.*\)</version>.*:\1:p' "$root/package.xml")
 mkdir -p "$workspace/src/nord_driver"
-tar -C "$root" --exclude=./out --exclude='./out-*' --exclude=./.git -cf - . | tar -C "$workspace/src/nord_driver" -xf -
+tar -C "$root" --exclude=./out --exclude=./build --exclude='./out-*' --exclude=./.git -cf - . | tar -C "$workspace/src/nord_driver" -xf -
 
 # step NAME COMMAND...: quiet while it works.
 step() {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the fuzz targets of the protocol engines in out/fuzz and runs each for a time, one on each processor. Ends with 1
-# when one of them crashed; the input that did it stays in out/fuzz.
+# Builds the fuzz targets of the protocol engines in build/fuzz and runs each for a time, one on each processor. Ends with 1
+# when one of them crashed; the input that did it stays in build/fuzz.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -10,7 +10,7 @@ if (($# > 1)) || [[ ! $seconds =~ ^[1-9][0-9]*$ ]]; then
   exit 2
 fi
 
-out=$root/out/fuzz
+out=$root/build/fuzz
 mkdir -p "$out"
 configure "$out" -DNORD_DRIVER_FUZZ=ON -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 \
   >"$out/configure.log" 2>&1 || {

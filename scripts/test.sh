@@ -9,7 +9,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 usage() {
   cat <<'TEXT'
 usage: test.sh [--sanitize] [--quick]
-  --sanitize  the tests in a Debug build with AddressSanitizer and UndefinedBehaviorSanitizer (out/sanitize); those on
+  --sanitize  the tests in a Debug build with AddressSanitizer and UndefinedBehaviorSanitizer (build/sanitize); those on
               SocketCAN count as skipped
   --quick     the tests, format and dependencies only; lint, fuzz, workspace and fresh count as skipped
 TEXT
@@ -26,13 +26,13 @@ for argument in "$@"; do
   esac
 done
 
-out=$root/out/test
+out=$root/build/test # rosrun does not look below build/
 # Light optimisation builds in half the time, and without NDEBUG the assertions of the code are tested, too. The benchmarks
 # are built, so that they go on building; scripts/bench.sh runs them.
 options=(-DNORD_DRIVER_STRICT=ON -DNORD_DRIVER_BENCH=ON -DNORD_DRIVER_PRECOMPILE=ON "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1"
   -DNORD_DRIVER_TEST_OPTIONS=-O0)
 if $sanitize; then
-  out=$root/out/sanitize
+  out=$root/build/sanitize
   options+=(-DCMAKE_BUILD_TYPE=Debug -DNORD_DRIVER_SANITIZE=ON)
 fi
 export CTEST_OUTPUT_ON_FAILURE=1

@@ -62,4 +62,21 @@ Violations checkSourceLists(const std::vector<SourceFile>& files) {
   return violations;
 }
 
+Violations checkBuildFolders(const std::vector<SourceFile>& files) {
+  Violations violations;
+  std::size_t folders = 0;
+  for (const SourceFile& file : files) {
+    if (!startsWith(file.path, "scripts/") || !endsWith(file.path, ".sh")) continue;
+    for (const std::string& line : linesOf(file.text)) {
+      const std::size_t at = line.find("out=");
+      if (at == std::string::npos || line.find("$root/", at) == std::string::npos) continue;
+      ++folders;
+      if (file.path == "scripts/demo.sh" || line.find("$root/build/", at) != std::string::npos) continue;
+      violations.push_back(file.path + ": builds where rosrun looks, expected a folder below build/: " + line);
+    }
+  }
+  if (folders == 0) violations.emplace_back("no script that builds");
+  return violations;
+}
+
 }  // namespace nord_driver::rules

@@ -11,4 +11,8 @@ namespace nord_driver::rules {
 /// CMakeLists.txt is named in the nearest one above that.
 Violations checkSourceLists(const std::vector<SourceFile>& files);
 
+/// Of the scripts only demo.sh builds where rosrun looks: below the package it finds the programs of every folder but
+/// build/, and asks which is meant as soon as there are two.
+Violations checkBuildFolders(const std::vector<SourceFile>& files);
+
 }  // namespace nord_driver::rules

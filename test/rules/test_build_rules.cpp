@@ -46,5 +46,15 @@ TEST(BuildRules, ForgottenFoldersAreFound) {
               ElementsAre("test/plugins: not named in test/CMakeLists.txt"));
 }
 
+// rosrun finds the programs of the demo, and no others.
+TEST(BuildRules, ProgramsOfTestsAreBuiltWhereRosrunDoesNotLook) {
+  EXPECT_THAT(checkBuildFolders({{"scripts/demo.sh", "out=\"$root/out/demo\"\n"},
+                                 {"scripts/test.sh", "out=$root/build/test\nif a; then\n  out=$root/build/b\nfi\n"}}),
+              IsEmpty());
+  EXPECT_THAT(checkBuildFolders({{"scripts/test.sh", "out=$root/out/test\n"}}),
+              ElementsAre(HasSubstr("scripts/test.sh")));
+  EXPECT_THAT(checkBuildFolders({}), ElementsAre("no script that builds"));
+}
+
 }  // namespace
 }  // namespace nord_driver::rules

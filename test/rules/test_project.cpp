@@ -58,6 +58,11 @@ TEST(Project, EveryStartForgetsTheParametersOfTheLast) {
   EXPECT_EQ("", list(checkLaunchFiles(project())));
 }
 
+// Who has run the demo and the tests is not asked by rosrun which of them is meant.
+TEST(Project, ProgramsOfTestsAreBuiltWhereRosrunDoesNotLook) {
+  EXPECT_EQ("", list(checkBuildFolders(project())));
+}
+
 // The project stands alone and leaves no work for later.
 TEST(Project, HoldsNoForbiddenWord) {
   EXPECT_EQ("", list(checkWords(project())));
