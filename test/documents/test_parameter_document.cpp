@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 
 #include "documents/parameter_document.h"
@@ -43,8 +44,13 @@ class Slips : public ::testing::Test {
 TEST(ParameterDocument, IsThatOfTheCode) {
   const Document document = documentOf(kFolder);
   EXPECT_THAT(document.problems, IsEmpty());
-  EXPECT_EQ(document.text, fileOf("doc/parameters.md"))
-      << "doc/parameters.md is old: build and run write_parameters (test/documents)";
+  std::istringstream expected{document.text}, found{fileOf("doc/parameters.md")};
+  for (std::string line, written; std::getline(expected, line);) {
+    std::getline(found, written);
+    ASSERT_EQ(line, written) << "doc/parameters.md is old: build and run write_parameters (test/documents)";
+    written.clear();
+  }
+  EXPECT_EQ(found.tellg(), document.text.size()) << "doc/parameters.md has more lines than the code knows";
 }
 
 /// The group of a configuration, without this key; empty: it was not there.
