@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "canopen/can_text.h"
+#include "support/can_text.h"
 #include "canopen/master.h"
 #include "canopen/scripted_node.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "devicenet/can_text.h"
+#include "support/can_text.h"
 #include "devicenet/fake_device.h"
 #include "devicenet/scanner.h"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "devicenet/can_text.h"
+#include "support/can_text.h"
 #include "devicenet/explicit_client.h"
 
 namespace nord_driver::devicenet {

@@ -24,11 +24,11 @@ class Canopen : public SimNodeTest {
   /// Repeats `request` every 50 ms until this very frame comes, for at most ten seconds.
   bool comes(const std::string& request, const std::string& answer, Duration limit = seconds(10.0)) {
     for (const Instant end = can->now() + limit; can->now() < end;) {
-      can->send(sim::fromText(request));
+      can->send(nord_driver::frame(request));
       const Instant until = can->now() + std::chrono::milliseconds{50};
       link::ReceivedCanFrame received;
       while (can->waitReadable(until) && can->receive(received)) {
-        if (sim::inText(received.frame) == answer) return true;
+        if (nord_driver::text(received.frame) == answer) return true;
       }
     }
     return false;
@@ -38,7 +38,7 @@ class Canopen : public SimNodeTest {
 
 // A trip shows as an emergency message, the exchange in the truth; the referee watches the CAN bus.
 TEST_F(Canopen, FaultsAndTruth) {
-  can->send(sim::fromText("000#0132"));
+  can->send(nord_driver::frame("000#0132"));
   EXPECT_TRUE(comes("232#7E040000", "1B2#310B0000"));
   EXPECT_TRUE(eventually([](const SimDrive& drive) { return drive.in_data_exchange && drive.control_word == 0x047E; }));
   EXPECT_EQ("yes, no rule broken", trigger("referee"));
@@ -46,7 +46,7 @@ TEST_F(Canopen, FaultsAndTruth) {
   request.number = 30;
   EXPECT_EQ("left: tripped with fault 30", call<SimTrip>("left/trip", request).message);
   EXPECT_TRUE(comes("232#7E040000", "0B2#1023010000000000"));
-  can->send(sim::fromText("000#0332"));
+  can->send(nord_driver::frame("000#0332"));
   EXPECT_TRUE(comes("732#R1", "732#05"));
   EXPECT_THAT(trigger("referee"), testing::StartsWith("no, 1 x an NMT command"));
 }

@@ -19,7 +19,7 @@ class Devicenet : public SimNodeTest {
     can = link::makeCanLink(settings);
     ASSERT_TRUE(can->open()) << can->lastError();
     for (int i = 0; i < 2; ++i) {  // the duplicate-MAC check of scanner 0Ah
-      can->send(sim::fromDnText("457#00 FF FF 01 00 00 00"));
+      can->send(nord_driver::frame("457#00 FF FF 01 00 00 00"));
       can->sleepUntil(can->now() + std::chrono::milliseconds{1100});
     }
     ASSERT_TRUE(comes("44E#0A 4B 03 01 03 0A", "44B#0ACB00"));
@@ -30,11 +30,11 @@ class Devicenet : public SimNodeTest {
   /// Repeats `request` every 500 ms until this very frame comes, for at most ten seconds.
   bool comes(const std::string& request, const std::string& answer, Duration limit = seconds(10.0)) {
     for (const Instant end = can->now() + limit; can->now() < end;) {
-      can->send(sim::fromDnText(request));
+      can->send(nord_driver::frame(request));
       const Instant until = can->now() + std::chrono::milliseconds{500};
       link::ReceivedCanFrame received;
       while (can->waitReadable(until) && can->receive(received)) {
-        if (sim::inDnText(received.frame) == answer) return true;
+        if (nord_driver::text(received.frame) == answer) return true;
       }
     }
     return false;
@@ -52,7 +52,7 @@ TEST_F(Devicenet, FaultsAndTruth) {
   EXPECT_EQ("left: tripped with fault 30", call<SimTrip>("left/trip", request).message);
   EXPECT_TRUE(eventually([](const SimDrive& drive) { return (drive.status_word & 8) != 0; }));
   EXPECT_TRUE(comes("44C#0A 0E 6B 01 00", "44B#0A8E1E00")) << "P700";
-  can->send(sim::fromDnText("44E#0A 4B 03 01 31 0A"));
+  can->send(nord_driver::frame("44E#0A 4B 03 01 31 0A"));
   EXPECT_TRUE(comes("44C#0A 0E 03 01 01", "44B#0A8E09"));
   EXPECT_THAT(trigger("referee"), testing::StartsWith("no, 1 x an allocation with choice bits that cannot be"));
 }
