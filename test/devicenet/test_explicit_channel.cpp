@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "support/can_text.h"
 #include "devicenet/explicit_channel.h"
+#include "support/can_text.h"
 
 namespace nord_driver::devicenet {
 namespace {

@@ -46,9 +46,8 @@ Sentence CanListenFirst::text() const noexcept {
         "another master works with these nodes: %03Xh was seen; nothing is sent until it has been silent for %d s",
         static_cast<unsigned>(*heard_), static_cast<int>(kGone.count()));
   } else if (heard_) {
-    text.format(
-"the bus is in use: %03Xh was seen; nothing is sent beside %s",
-        static_cast<unsigned>(*heard_), rules_.beside);
+    text.format("the bus is in use: %03Xh was seen; nothing is sent beside %s", static_cast<unsigned>(*heard_),
+                rules_.beside);
   } else if (listening_) {
     text = "listens for others on the bus before anything is sent";
   }

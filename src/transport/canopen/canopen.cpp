@@ -14,7 +14,7 @@ namespace nord_driver {
 namespace {
 
 constexpr Duration kLongestRelease = std::chrono::milliseconds{1100};  // the master ends before
-constexpr Duration kListenFirst = std::chrono::milliseconds{500};  // a driver guards or sends more often than that
+constexpr Duration kListenFirst = std::chrono::milliseconds{500};      // a driver guards or sends more often than that
 
 // A node watches its master from the first question or heartbeat on (CiA 301 7.2.8.3.2): where none came, the end is no
 // loss, whatever times a driver has left in 100Ch, 100Dh and 1016h.
@@ -144,7 +144,7 @@ bool CanopenTransport::submit(DriveIndex drive, const profile::ParameterRequest&
 
 bool CanopenTransport::connected() const noexcept {
   return linkWorks() && std::any_of(drives_.begin(), drives_.end(),
-                                   [](const CanopenDriveState& drive) { return drive.moduleAnswers(); });
+                                    [](const CanopenDriveState& drive) { return drive.moduleAnswers(); });
 }
 
 BusCounters CanopenTransport::counters() const noexcept {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "canopen/nmt.h"
+#include "config/choices.h"
 #include "config/setting_checks.h"
 #include "profile/process_data_order.h"
 
@@ -23,24 +24,6 @@ constexpr std::uint16_t kOffsetPerInverter = 0x0800;  // BU 0270 p. 43
 constexpr Duration kMaxTime = milliseconds{65'535};   // 16 bits of milliseconds
 constexpr Duration kMinPause = milliseconds{10};
 constexpr double kMaxSdoTimeout = 60.0;
-
-template <typename Value>
-struct Choice {
-  const char* word;
-  Value value;
-};
-
-template <typename Value, std::size_t N>
-Value readChoice(const Settings& settings, const std::string& key, Value fallback, const Choice<Value> (&choices)[N]) {
-  const auto text = settings.text(key);
-  if (!text) return fallback;
-  std::string words;
-  for (const auto& choice : choices) {
-    if (*text == choice.word) return choice.value;
-    words += (words.empty() ? "" : ", ") + std::string(choice.word);
-  }
-  throw wrongSetting(settings, key, "\"" + *text + "\"", "one of " + words);
-}
 
 constexpr Choice<CanopenConnection> kConnections[] = {{"option", CanopenConnection::kOption},
                                                       {"onboard", CanopenConnection::kOnboard},

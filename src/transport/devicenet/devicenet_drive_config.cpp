@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "config/choices.h"
 #include "config/setting_checks.h"
 #include "devicenet/identifier.h"
 #include "profile/process_data_order.h"
@@ -14,24 +15,6 @@ namespace {
 
 using devicenet::IoKind;
 using profile::Series;
-
-template <typename Value>
-struct Choice {
-  const char* word;
-  Value value;
-};
-
-template <typename Value, std::size_t N>
-Value readChoice(const Settings& settings, const std::string& key, Value fallback, const Choice<Value> (&choices)[N]) {
-  const auto text = settings.text(key);
-  if (!text) return fallback;
-  std::string words;
-  for (const auto& choice : choices) {
-    if (*text == choice.word) return choice.value;
-    words += (words.empty() ? "" : ", ") + std::string(choice.word);
-  }
-  throw wrongSetting(settings, key, "\"" + *text + "\"", "one of " + words);
-}
 
 constexpr Choice<DevicenetConnection> kModules[] = {{"sk_cu4", DevicenetConnection::kGateway},
                                                     {"sk_tu4", DevicenetConnection::kGateway},

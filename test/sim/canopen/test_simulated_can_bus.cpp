@@ -41,7 +41,8 @@ TEST(SimulatedCanBus, LowestIdentifierWins) {
   CanConversation bus;
   bus.boot();
   Frames order;
-  bus.bus.setTap([&](const CanFrame& frame, SimulatedCanBus::Sender, Instant) { order.push_back(nord_driver::text(frame)); });
+  bus.bus.setTap(
+      [&](const CanFrame& frame, SimulatedCanBus::Sender, Instant) { order.push_back(nord_driver::text(frame)); });
   bus.send("000#8032");
   bus.send("632#4001100000000000");
   bus.bus.inject(nord_driver::frame("701#05"));

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "support/can_text.h"
 #include "devicenet/fake_device.h"
 #include "link/can/can_link.h"
+#include "support/can_text.h"
 
 namespace nord_driver::test {
 
