@@ -24,9 +24,10 @@ namespace nord_driver::test {
 class InterbusRobot : public DrivenRobot {
  public:
   struct Options {
-    std::map<std::string, MapSettings::Value> node;    ///< on top of the robot's own settings
-    std::map<std::string, MapSettings::Value> bus;     ///< of the bus, on top of its own
-    std::map<std::string, MapSettings::Value> drives;  ///< of all drives, on top of their own
+    std::map<std::string, MapSettings::Value> node;               ///< on top of the robot's own settings
+    std::map<std::string, MapSettings::Value> bus;                ///< of the bus, on top of its own
+    std::map<std::string, MapSettings::Value> drives;             ///< of all drives, on top of their own
+    std::vector<std::map<std::string, MapSettings::Value>> each;  ///< of single drives, on top of these
     std::string series = "sk5xxe";
     int ppo_type = 1;
     bool drivecom = false;  ///< P551 on
@@ -78,6 +79,9 @@ class InterbusRobot : public DrivenRobot {
       settings->set("inverted", i == 1).set("ppo_type", options.ppo_type);
       if (options.drivecom) settings->set("profile", "drivecom");
       for (const auto& [key, value] : options.drives) settings->set(key, value);
+      if (i < options.each.size()) {
+        for (const auto& [key, value] : options.each[i]) settings->set(key, value);
+      }
       drives.push_back({name, settings});
     }
     return drives;
