@@ -73,6 +73,7 @@ const std::map<std::string, Names>& table() {
       {"ros_support", {}},                           // the same for those with ROS
       {"rostest", {"*"}},                            // the programs as their users meet them
       {"socketcan", {"rostest"}},                    // tests of link/ and of the nodes that need a kernel with CAN
+      {"documents", {"*"}},                          // what documents say of the code
       {"rules", {}},
   };
   return kTable;

@@ -30,7 +30,7 @@ std::string readFile(const Settings& settings, const std::string& path) {
 }  // namespace
 
 void applyEds(const Settings& settings, std::uint32_t bit_rate, canopen::NodeConfig& node) {
-  if (!settings.has(kKey)) return;
+  if (!settings.text(kKey)) return;
   const std::string path = requiredText(settings, kKey, "the path of an EDS file");
   const canopen::EdsFile file = canopen::parseEds(readFile(settings, path));
   if (file.objects.empty()) {
