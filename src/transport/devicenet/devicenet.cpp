@@ -245,7 +245,7 @@ void DeviceNetTransport::takeLineCounters() noexcept {
 }
 
 std::vector<std::string> DeviceNetTransport::warnings() const {
-  std::vector<std::string> sentences;
+  std::vector<std::string> sentences = config_.warnings;
   for (const DevicenetDrive& drive : config_.drives) {
     if (drive.connection == DevicenetConnection::kOption) {
       sentences.push_back("drive " + drive.name +

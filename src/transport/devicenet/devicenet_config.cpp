@@ -9,6 +9,7 @@
 #include "devicenet/identifier.h"
 #include "transport/devicenet/assembly.h"
 #include "transport/devicenet/devicenet_drive_config.h"
+#include "transport/devicenet/devicenet_eds.h"
 #include "transport/devicenet/machine_serial.h"
 
 namespace nord_driver {
@@ -160,6 +161,7 @@ DevicenetConfig readDevicenetConfig(const Settings& bus, const std::vector<Drive
   for (const DriveSettings& source : drives) reader.add(source);
   layOut(config);
   checkSizes(bus, config, drives);
+  applyEds(config, drives);
   checkLoad(bus, config, cycle_rate);
   config.answer_window = answerWindow(bus, config, cycle_rate);
   config.scanner = devicenet::completed(config.scanner);
