@@ -21,7 +21,7 @@ ModbusLink::~ModbusLink() {
 bool ModbusLink::open() noexcept {
   if (isOpen()) return true;
   report_.text = problem_;
-  if (fresh_.descriptor() < 0 || news_.descriptor() < 0 || stop_.descriptor() < 0)
+  if (fresh_.descriptor() < 0 || answers_.descriptor() < 0 || stop_.descriptor() < 0)
     report_.text = "no descriptor left for a link to a gateway";
   if (report_.text.empty()) {
     stop_.take();
@@ -52,11 +52,11 @@ std::uint64_t ModbusLink::give(const RegisterImage& outputs) noexcept {
   return given_;
 }
 
-bool ModbusLink::waitNews(Instant until) noexcept {
-  pollfd wait{news_.descriptor(), POLLIN, 0};
+bool ModbusLink::waitAnswers(Instant until) noexcept {
+  pollfd wait{answers_.descriptor(), POLLIN, 0};
   const timespec left = toTimeout(until - now());
   ::ppoll(&wait, 1, &left, nullptr);
-  return news_.take();
+  return answers_.take();
 }
 
 void ModbusLink::sleepUntil(Instant when) noexcept {
@@ -183,7 +183,7 @@ void ModbusLink::count(ModbusTrouble trouble) noexcept {
 void ModbusLink::tell(LinkState state) noexcept {
   report_.state = state;
   reports_.write(report_);
-  news_.signal();
+  answers_.signal();
 }
 
 }  // namespace nord_driver::link

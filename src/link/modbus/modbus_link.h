@@ -30,7 +30,7 @@ class ModbusLink final : public RegisterLink {
   std::uint64_t give(const RegisterImage& outputs) noexcept override;
   const RegisterInputs& take() noexcept override { return inputs_.read(); }
   const LinkReport& report() noexcept override { return reports_.read(); }
-  bool waitNews(Instant until) noexcept override;
+  bool waitAnswers(Instant until) noexcept override;
   Instant now() const noexcept override { return std::chrono::steady_clock::now(); }
   void sleepUntil(Instant when) noexcept override;
 
@@ -63,8 +63,8 @@ class ModbusLink final : public RegisterLink {
   LatestValue<Outputs> outputs_;
   LatestValue<RegisterInputs> inputs_;
   LatestValue<LinkReport> reports_;
-  Wakeup fresh_;  // outputs were given
-  Wakeup news_;   // inputs or a report
+  Wakeup fresh_;    // outputs were given
+  Wakeup answers_;  // inputs or a report
   Wakeup stop_;
   std::atomic<bool> ending_{false};
 

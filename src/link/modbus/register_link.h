@@ -70,7 +70,7 @@ class RegisterLink {
   virtual const LinkReport& report() noexcept = 0;
   /// For who may wait: until there are newer inputs or a newer report than at the last return, or `until` has come.
   /// False: it has come.
-  virtual bool waitNews(Instant until) noexcept = 0;
+  virtual bool waitAnswers(Instant until) noexcept = 0;
   virtual Instant now() const noexcept = 0;
   /// Waits until `when`, whatever comes meanwhile.
   virtual void sleepUntil(Instant when) noexcept = 0;

@@ -63,7 +63,7 @@ void InterbusTransport::giveOutputs(const std::vector<profile::ProcessOutput>& o
 void InterbusTransport::waitForAnswer(Instant until) noexcept {
   while (link_->report().state == link::LinkState::kConnected && link_->take().outputs != given_ &&
          link_->now() < until) {
-    link_->waitNews(until);
+    link_->waitAnswers(until);
   }
 }
 

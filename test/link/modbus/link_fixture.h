@@ -34,11 +34,11 @@ class ModbusLinkTest : public ::testing::Test {
     link = std::make_unique<ModbusLink>(settings);
     ASSERT_TRUE(link->open()) << link->report().text.c_str();
   }
-  /// Waits until the condition holds; it is asked at each news of the link.
+  /// Waits until the condition holds; it is asked whenever the link has something new.
   bool waitUntil(const std::function<bool()>& condition) {
     const Instant until = link->now() + kPatience;
     while (!condition()) {
-      if (!link->waitNews(until) && link->now() >= until) return false;
+      if (!link->waitAnswers(until) && link->now() >= until) return false;
     }
     return true;
   }

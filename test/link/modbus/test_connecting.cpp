@@ -90,7 +90,7 @@ TEST(Connecting, WaitingForAConnectionCanBeEnded) {
   FullListener nobody;
   ModbusLink link{fourWords(nobody.address())};
   ASSERT_TRUE(link.open());
-  ASSERT_TRUE(link.waitNews(in(kPatience)));  // it has begun
+  ASSERT_TRUE(link.waitAnswers(in(kPatience)));  // it has begun
   const Instant before = link.now();
   link.close();
   EXPECT_LT(link.now() - before, milliseconds{1500});  // TCP_USER_TIMEOUT would end it after 2 s
@@ -187,7 +187,7 @@ TEST(Connecting, TheLinkEndsBeforeALookUpThatHangs) {
                       return EAI_AGAIN;
                     }};
     ASSERT_TRUE(link.open());
-    ASSERT_TRUE(link.waitNews(in(kPatience)));
+    ASSERT_TRUE(link.waitAnswers(in(kPatience)));
     const Instant before = link.now();
     link.close();
     EXPECT_LT(link.now() - before, kPatience / 4);

@@ -106,7 +106,7 @@ TEST_F(Link, WithoutNewOutputsNothingIsSent) {
   start();
   ASSERT_TRUE(waitConnected());
   ASSERT_TRUE(exchange({1, 2, 3, 4}));
-  EXPECT_FALSE(link->waitNews(link->now() + std::chrono::milliseconds{50}) && link->take().number > 1);
+  EXPECT_FALSE(link->waitAnswers(link->now() + std::chrono::milliseconds{50}) && link->take().number > 1);
   EXPECT_EQ(2u, server.requests().size());
 }
 

@@ -17,7 +17,7 @@ TEST_F(ModbusLinkTest, TheCycleTakesNoMemory) {
   const auto cycle = [&] {
     for (int i = 0; i < 100; ++i) {
       link->give(outputs);
-      link->waitNews(link->now() + std::chrono::milliseconds{1});
+      link->waitAnswers(link->now() + std::chrono::milliseconds{1});
       seen += link->take().words.size() + link->report().text.empty();
     }
   };

@@ -100,11 +100,11 @@ class FakeRegisterLink final : public link::RegisterLink {
     report_.text = gateway_.text;
     return report_;
   }
-  bool waitNews(Instant until) noexcept override {
+  bool waitAnswers(Instant until) noexcept override {
     const auto due = gateway_.nextDue();
-    const bool news = due && *due <= until;
-    gateway_.advance(news ? *due : until);
-    return news;
+    const bool answered = due && *due <= until;
+    gateway_.advance(answered ? *due : until);
+    return answered;
   }
   Instant now() const noexcept override { return gateway_.now(); }
   void sleepUntil(Instant when) noexcept override { gateway_.advance(when); }
