@@ -1,5 +1,5 @@
-// Any text as an EDS file of CANopen and of DeviceNet: read to its end, every problem names a line of it, and a configuration filled from it and
-// checked against it holds nothing that could not be sent.
+// Any text as an EDS file of CANopen and of DeviceNet: read to its end, every problem names a line of it, and a
+// configuration filled from it and checked against it holds nothing that could not be sent.
 #include <algorithm>
 #include <string>
 
