@@ -46,7 +46,7 @@ until rosservice call /nord_driver/enable true 2>/dev/null | grep -q 'success: T
   kill -0 "$launch" 2>/dev/null || fail "roslaunch has ended"
   ((SECONDS < deadline)) || fail "the drives were not enabled within 60 s"
 done
-before=$(true_x)
+before=$(true_x) || fail "nothing comes on /nord_sim/truth/odom"
 timeout 60 rostopic pub -r 20 /cmd_vel geometry_msgs/Twist '{linear: {x: 0.3}}' >/dev/null 2>&1 &
 deadline=$((SECONDS + 60))
 until now=$(true_x) && python3 -c "import sys; sys.exit(not float('$now') > float('$before') + 0.3)"; do
