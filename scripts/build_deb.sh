@@ -59,7 +59,7 @@ cp "$root"/install/systemd/*.service "$source/debian/"
 cp "$root/install/udev/70-nord-driver.rules" "$source/debian/nord-driver.udev"
 cp -r "$root/doc" "$root/README.md" "$source/"
 echo "3.0 (native)" >"$source/debian/source/format"
-date=$(git -C "$root" -c "safe.directory=$root" log -1 --format=%cD 2>/dev/null || date -R -r "$root/package.xml")
+date=$(date -R -r "$root/package.xml")
 cat >"$source/debian/changelog" <<TEXT
 nord-driver ($version) unstable; urgency=medium
 

@@ -33,6 +33,7 @@ test_packages=(
   can-utils iproute2 tshark
   python3-pymodbus # an independent server for the tests of link/modbus
   git mmdebstrap # scripts/check_fresh.sh
+  debhelper lintian # scripts/check_deb.sh
   man-db systemd udev # what reads the manual pages, the units and the rules of install/
   qemu-system-x86 busybox-static cpio kmod # the emulated machine of scripts/can_machine.sh
 )
