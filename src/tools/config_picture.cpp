@@ -124,14 +124,19 @@ Branch axis(const char* name, double full, const robot::SpeedLimits& limits, con
   return {text, {}};
 }
 
+std::string corrected(double multiplier) {
+  return multiplier == 1.0 ? "" : " x " + number(multiplier);
+}
+
 Branch branchOf(const CheckedBase& base) {
   const bool mecanum = base.kind == robot::BaseKind::kMecanum;
   const robot::BaseGeometry& sizes = base.geometry;
   Branch branch{mecanum ? "base, mecanum" : base.left.size() > 1 ? "base, skid steer" : "base, two wheels", {}};
   branch.twigs.push_back({"left: " + listed(base.left), {}});
   branch.twigs.push_back({"right: " + listed(base.right), {}});
-  branch.twigs.push_back({"wheel radius " + number(sizes.left_wheel_radius) + " m, separation " +
-                              number(sizes.wheel_separation) + " m" +
+  branch.twigs.push_back({"wheel radius " + number(sizes.left_wheel_radius) + " m" +
+                              corrected(sizes.left_wheel_radius_multiplier) + ", separation " +
+                              number(sizes.wheel_separation) + " m" + corrected(sizes.wheel_separation_multiplier) +
                               (mecanum ? ", wheel base " + number(sizes.wheel_base) + " m" : ""),
                           {}});
   branch.twigs.push_back(axis("straight on", base.linear_x, base.limits.linear_x, "m"));
