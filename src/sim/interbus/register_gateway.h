@@ -8,6 +8,7 @@
 
 #include "nord_driver/core/bytes.h"
 #include "sim/interbus/ibs_ring.h"
+#include "sim/interbus/pcp_server.h"
 
 namespace nord_driver::sim {
 
@@ -29,7 +30,7 @@ struct GatewaySwitches {
 class RegisterGateway {
  public:
   /// `ring` must outlive it.
-  RegisterGateway(const IbsBusConfig& config, IbsRing& ring) noexcept : config_(config), ring_(ring) {}
+  RegisterGateway(const IbsBusConfig& config, IbsRing& ring);
 
   /// The watchdog: without a write for its time the outputs become 0.
   void advance(Instant now) noexcept;
@@ -38,6 +39,8 @@ class RegisterGateway {
 
   void setSwitches(const GatewaySwitches& switches) noexcept { switches_ = switches; }
   const GatewaySwitches& switches() const noexcept { return switches_; }
+  /// Requests that write registers, since the beginning.
+  std::uint64_t writes() const noexcept { return writes_; }
   std::uint64_t watchdogTrips() const noexcept { return watchdog_trips_; }
 
  private:
@@ -54,6 +57,8 @@ class RegisterGateway {
   Word watchdog_ = 0;  // ms
   std::optional<Instant> last_write_;
   std::uint64_t watchdog_trips_ = 0;
+  std::uint64_t writes_ = 0;
+  std::optional<PcpServer> pcp_;
 };
 
 }  // namespace nord_driver::sim

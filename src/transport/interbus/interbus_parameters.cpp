@@ -79,6 +79,9 @@ bool InterbusParameters::startNext(Instant now) noexcept {
     plain_ = false;
     trouble_.clear();
     deadline_ = now + map_.timeout;
+    // One that belongs to nobody is not waited for: the next one takes its place.
+    if (under_way_) phase_ = Phase::kClear;
+    under_way_ = foreign_ = false;
     return true;
   }
   return false;
