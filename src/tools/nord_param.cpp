@@ -11,6 +11,7 @@
 #include "core/version.h"
 #include "tools/command_line.h"
 #include "tools/end_signals.h"
+#include "tools/image_command.h"
 #include "tools/lock_owner.h"
 #include "tools/param_commands.h"
 #include "tools/parameter_dump.h"
@@ -47,6 +48,8 @@ struct Options {
   WholeNumber<1, 99> index;  ///< 0: not given
   WriteOptions write;
   std::string dump;
+  ImageOptions image;
+  WholeNumber<1, 256> words;  ///< 0: not given
 };
 
 void list(const YAML::Node& file, nord_driver::Transport& transport) {
@@ -105,6 +108,8 @@ int run(int argc, char** argv) {
   Command& write = line.addCommand("write", "write one parameter, in RAM unless told otherwise");
   Command& dump = line.addCommand("dump", "print every known parameter as YAML");
   Command& compare = line.addCommand("compare", "tell how the settings of a drive differ from a dump");
+  Command& image =
+      line.addCommand("image", "show the words of a gateway's image and those that change; writes nothing");
   for (Command* command : {&read, &write, &dump, &compare}) {
     command->arguments.push_back({"DRIVE", "its name in the file", &options.drive});
   }
@@ -119,6 +124,10 @@ int run(int argc, char** argv) {
                               "save it in the EEPROM, which endures 100 000 writes; writes even what is there")(
       "raw", po::bool_switch(&options.write.raw), "VALUE is as transferred; needed where the unit is not known");
   compare.arguments.push_back({"FILE", "what dump has printed", &options.dump});
+  image.options.add_options()("once", po::bool_switch(&options.image.once), "show it once, and end")(
+      "json", po::bool_switch(&options.image.json), "one JSON object a line")(
+      "words", po::value(&options.words)->value_name("COUNT"),
+      "so many words at least; without it up to the last one of a drive");
   if (const auto code = line.parse(argc, argv)) return *code;
 
   // A write that is under way is not cut off: P560 may have to be put back.
@@ -130,6 +139,11 @@ int run(int argc, char** argv) {
   if (line.asksFor(list_command)) {
     list(file, *transport);
     return kDone;
+  }
+  if (line.asksFor(image)) {
+    options.image.words = static_cast<std::size_t>(options.words.value);
+    options.image.patience = nord_driver::seconds(options.timeout.value);
+    return showImage(file, *transport, options.image, end_asked) ? kDone : kFailed;
   }
   const ToolConfig config = readToolConfig(file, options.drive);
   Task task = [&end_asked](ParameterLink& link) { return dumpParameters(link, end_asked); };

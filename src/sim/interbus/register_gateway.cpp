@@ -121,7 +121,8 @@ std::optional<Word> RegisterGateway::registerAt(unsigned address, bool holding) 
 }
 
 std::uint8_t RegisterGateway::read(unsigned first, unsigned count, bool holding,
-                                   ByteWriter<kLongestModbus>& answer) const noexcept {
+                                   ByteWriter<kLongestModbus>& answer) noexcept {
+  ++reads_;
   answer.u8(static_cast<std::uint8_t>(2 * count));
   for (unsigned i = 0; i < count; ++i) {
     const auto word = registerAt(first + i, holding);

@@ -41,12 +41,14 @@ class RegisterGateway {
   const GatewaySwitches& switches() const noexcept { return switches_; }
   /// Requests that write registers, since the beginning.
   std::uint64_t writes() const noexcept { return writes_; }
+  /// Requests that read registers.
+  std::uint64_t reads() const noexcept { return reads_; }
   std::uint64_t watchdogTrips() const noexcept { return watchdog_trips_; }
 
  private:
   std::uint8_t execute(ByteReader& request, std::uint8_t function, ByteWriter<kLongestModbus>& answer,
                        Instant now) noexcept;
-  std::uint8_t read(unsigned first, unsigned count, bool holding, ByteWriter<kLongestModbus>& answer) const noexcept;
+  std::uint8_t read(unsigned first, unsigned count, bool holding, ByteWriter<kLongestModbus>& answer) noexcept;
   std::uint8_t write(unsigned first, unsigned count, ByteReader& values, Instant now) noexcept;
   std::optional<Word> registerAt(unsigned address, bool holding) const noexcept;
   Word turned(Word word) const noexcept;
@@ -58,6 +60,7 @@ class RegisterGateway {
   std::optional<Instant> last_write_;
   std::uint64_t watchdog_trips_ = 0;
   std::uint64_t writes_ = 0;
+  std::uint64_t reads_ = 0;
   std::optional<PcpServer> pcp_;
 };
 

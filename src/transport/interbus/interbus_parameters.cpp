@@ -123,8 +123,8 @@ link::RegisterOrder InterbusParameters::read() const noexcept {
 
 std::optional<link::RegisterOrder> InterbusParameters::pollOrder(Instant now) noexcept {
   if (running_ && now >= deadline_) giveUp();
-  // Without a request the block is cleared, once.
-  if (!running_ && !startNext(now) && (phase_ == Phase::kInvoke || !trouble_.empty())) return std::nullopt;
+  // Without a request only what was invoked is cleared: who asks nothing writes nothing.
+  if (!running_ && !startNext(now) && (!invoked_ || !trouble_.empty())) return std::nullopt;
   if (under_way_) return std::nullopt;
   under_way_ = true;
   switch (phase_) {
@@ -133,6 +133,7 @@ std::optional<link::RegisterOrder> InterbusParameters::pollOrder(Instant now) no
     case Phase::kInvoke:
       if (running_) {
         invocation_ = invocation();
+        invoked_ = true;
         return write(invocation_);
       }
       [[fallthrough]];
@@ -195,7 +196,9 @@ void InterbusParameters::handleAnswer(const link::RegisterAnswer& answer) noexce
 
 void InterbusParameters::handleResult(const PcpResult& result) noexcept {
   if (phase_ == Phase::kCleared) {
-    if (result.service == 0) phase_ = Phase::kInvoke;
+    if (result.service != 0) return;
+    phase_ = Phase::kInvoke;
+    invoked_ = false;
     return;
   }
   if (!running_) return;

@@ -83,6 +83,7 @@ class InterbusParameters {
   std::optional<std::size_t> running_;  // the drive whose request runs
   std::size_t next_ = 0;                // whose turn it is
   Phase phase_ = Phase::kClear;
+  bool invoked_ = false;    // since the block was last seen cleared
   bool under_way_ = false;  // an order
   bool foreign_ = false;    // it belongs to a request that has ended
   bool plain_ = false;      // the running request is asked for with sub-index 0

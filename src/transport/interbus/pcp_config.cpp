@@ -41,13 +41,13 @@ std::string registersText(unsigned first, unsigned words) {
 }  // namespace
 
 std::optional<PcpMap> readPcp(const Settings& bus) {
-  static const char* const kGroups[] = {"pcp/", "pcp/invoke/", "pcp/result/"};
-  static const char* const kKeys[] = {"address",   "function", "service",        "reference",  "index",
-                                      "sub_index", "error",    "length",         "additional", "data",
-                                      "initiate",  "timeout",  "first_reference"};
-  const bool there = std::any_of(std::begin(kGroups), std::end(kGroups), [&](const std::string& group) {
-    return std::any_of(std::begin(kKeys), std::end(kKeys), [&](const char* key) { return bus.has(group + key); });
-  });
+  static const char* const kKeys[] = {"invoke/address",    "invoke/service", "invoke/reference", "invoke/index",
+                                      "invoke/sub_index",  "invoke/length",  "invoke/data",      "result/address",
+                                      "result/function",   "result/service", "result/reference", "result/error",
+                                      "result/additional", "result/length",  "result/data",      "initiate",
+                                      "timeout",           "first_reference"};
+  const bool there = std::any_of(std::begin(kKeys), std::end(kKeys),
+                                 [&](const char* key) { return bus.has(std::string("pcp/") + key); });
   if (!there) return std::nullopt;
   PcpMap map;
   map.invoke_address = static_cast<std::uint16_t>(requiredInteger(bus, "pcp/invoke/address", 0, kLastRegister));
@@ -71,7 +71,7 @@ std::optional<PcpMap> readPcp(const Settings& bus) {
               {"data", &result.data}});
   refuseLayout(bus, "pcp/invoke/", layoutFault(invoke));
   refuseLayout(bus, "pcp/result/", layoutFault(result));
-  map.initiate = bus.boolean("pcp/initiate").value_or(map.initiate);
+  map.initiate = booleanOr(bus, "pcp/initiate", map.initiate);
   map.timeout = seconds(numberOr(bus, "pcp/timeout", toSeconds(map.timeout), 0.1, 60.0, "s"));
   return map;
 }
