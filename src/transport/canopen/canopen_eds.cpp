@@ -14,7 +14,7 @@ constexpr const char* kKey = "eds";
 }  // namespace
 
 void applyEds(const Settings& settings, std::uint32_t bit_rate, canopen::NodeConfig& node) {
-  if (!settings.has(kKey)) return;
+  if (!settings.text(kKey)) return;
   const std::string path = requiredText(settings, kKey, "the path of an EDS file");
   const canopen::EdsFile file = canopen::parseEds(readTextFile(settings, kKey, path, "an EDS file"));
   if (file.objects.empty()) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "config/setting_checks.h"
+#include "config/setting_note.h"
 #include "devicenet/identifier.h"
 #include "transport/devicenet/assembly.h"
 #include "transport/devicenet/devicenet_drive_config.h"
@@ -21,8 +22,9 @@ constexpr std::array<std::uint32_t, 3> kBitRates{125'000, 250'000, 500'000};
 constexpr double kMostLoad = 0.8;  // of the cycle: explicit messages need some, too
 
 std::uint32_t readBitRate(const Settings& bus) {
+  noteSetting(bus, "bit_rate", {"one of 125000, 250000, 500000", "", "bit/s", ""});
   if (!bus.has("bit_rate")) return 0;
-  const std::int64_t rate = integerOr(bus, "bit_rate", 0, 0, 1'000'000);
+  const std::int64_t rate = *bus.integer("bit_rate");
   if (std::find(kBitRates.begin(), kBitRates.end(), rate) != kBitRates.end()) return static_cast<std::uint32_t>(rate);
   throw wrongSetting(bus, "bit_rate", std::to_string(rate), "125000, 250000 or 500000 bit/s, as DeviceNet has them");
 }

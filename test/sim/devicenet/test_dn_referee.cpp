@@ -52,19 +52,19 @@ TEST_F(DnRefereeTest, LengthOfTheDuplicateMacMessage) {
 
 TEST_F(DnRefereeTest, SomebodyElseAsksForItsMacId) {
   bus.goOnline();
-  bus.bus.inject(fromDnText("457#00 34 12 02 00 00 00"));
+  bus.bus.inject(nord_driver::frame("457#00 34 12 02 00 00 00"));
   bus.bus.run(milliseconds(50));
   bus.send("457#80 FF FF 01 00 00 00");
   bus.bus.run(milliseconds(1000));
   EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
-  bus.bus.inject(fromDnText("457#00 34 12 02 00 00 00"));
+  bus.bus.inject(nord_driver::frame("457#00 34 12 02 00 00 00"));
   bus.bus.run(milliseconds(600));
   EXPECT_EQ(1u, only(DnRule::kDuplicateMacUnanswered)) << said;
 }
 
 TEST_F(DnRefereeTest, Identifiers) {
   bus.goOnline();
-  CanFrame frame = fromDnText("44E#0A 4B 03 01 01 0A");
+  CanFrame frame = nord_driver::frame("44E#0A 4B 03 01 01 0A");
   frame.extended = true;
   bus.bus.send(frame);
   EXPECT_EQ(1u, only(DnRule::kExtendedFrame)) << said;
