@@ -20,6 +20,7 @@
 #include "tools/config_check.h"
 #include "tools/config_picture.h"
 #include "tools/end_signals.h"
+#include "tools/image_command.h"
 #include "tools/lock_owner.h"
 #include "tools/param_commands.h"
 #include "tools/parameter_dump.h"
@@ -59,6 +60,8 @@ struct Options {
   std::string checked;  ///< file
   std::string urdf;     ///< file
   bool json = false;
+  ImageOptions image;
+  WholeNumber<1, 256> words;  ///< 0: not given
 };
 
 void list(const YAML::Node& file, nord_driver::Transport& transport) {
@@ -126,6 +129,8 @@ int run(int argc, char** argv) {
   namespace po = boost::program_options;
   Options options;
   CommandLine line{"nord_param", nord_driver::kVersion, kAbout, kFooter};
+  line.setBrief("parameters of NORD inverters over their bus, without ROS");
+  line.offer("SET", {"1", "2", "3", "4"});
   line.addOptions()("config", po::value(&options.files)->value_name("FILE"),
                     "the driver's YAML file; a later file is laid over an earlier one; required, but for check-config")(
       "bus", po::value(&options.port.bus)->value_name("VALUE"),
@@ -141,6 +146,8 @@ int run(int argc, char** argv) {
   Command& write = line.addCommand("write", "write one parameter, in RAM unless told otherwise");
   Command& dump = line.addCommand("dump", "print every known parameter as YAML");
   Command& compare = line.addCommand("compare", "tell how the settings of a drive differ from a dump");
+  Command& image =
+      line.addCommand("image", "show the words of a gateway's image and those that change; writes nothing");
   for (Command* command : {&read, &write, &dump, &compare}) {
     command->arguments.push_back({"DRIVE", "its name in the file", &options.drive});
   }
@@ -161,6 +168,10 @@ int run(int argc, char** argv) {
   check_config.options.add_options()("json", po::bool_switch(&options.json), "for programs")(
       "urdf", po::value(&options.urdf)->value_name("FILE"),
       "the robot's URDF, what robot_description is to the driver");
+  image.options.add_options()("once", po::bool_switch(&options.image.once), "show it once, and end")(
+      "json", po::bool_switch(&options.image.json), "one JSON object a line")(
+      "words", po::value(&options.words)->value_name("COUNT"),
+      "so many words at least; without it up to the last one of a drive");
   if (const auto code = line.parse(argc, argv)) return *code;
   if (line.asksFor(check_config)) return check(options);
   if (options.files.empty()) throw UsageError("the option '--config' is required but missing");
@@ -174,6 +185,11 @@ int run(int argc, char** argv) {
   if (line.asksFor(list_command)) {
     list(file, *transport);
     return kDone;
+  }
+  if (line.asksFor(image)) {
+    options.image.words = static_cast<std::size_t>(options.words.value);
+    options.image.patience = nord_driver::seconds(options.timeout.value);
+    return showImage(file, *transport, options.image, end_asked) ? kDone : kFailed;
   }
   const ToolConfig config = readToolConfig(file, options.drive);
   Task task = [&end_asked](ParameterLink& link) { return dumpParameters(link, end_asked); };
