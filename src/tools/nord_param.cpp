@@ -49,7 +49,7 @@ struct Options {
   WriteOptions write;
   std::string dump;
   ImageOptions image;
-  WholeNumber<1, 256> words;  ///< 0: not given
+  WholeNumber<1, 256> count;  ///< 0: not given
 };
 
 void list(const YAML::Node& file, nord_driver::Transport& transport) {
@@ -126,7 +126,7 @@ int run(int argc, char** argv) {
   compare.arguments.push_back({"FILE", "what dump has printed", &options.dump});
   image.options.add_options()("once", po::bool_switch(&options.image.once), "show it once, and end")(
       "json", po::bool_switch(&options.image.json), "one JSON object a line")(
-      "words", po::value(&options.words)->value_name("COUNT"),
+      "count", po::value(&options.count)->value_name("COUNT"),
       "so many words at least; without it up to the last one of a drive");
   if (const auto code = line.parse(argc, argv)) return *code;
 
@@ -141,7 +141,7 @@ int run(int argc, char** argv) {
     return kDone;
   }
   if (line.asksFor(image)) {
-    options.image.words = static_cast<std::size_t>(options.words.value);
+    options.image.words = static_cast<std::size_t>(options.count.value);
     options.image.patience = nord_driver::seconds(options.timeout.value);
     return showImage(file, *transport, options.image, end_asked) ? kDone : kFailed;
   }
