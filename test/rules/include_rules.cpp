@@ -47,8 +47,9 @@ const std::map<std::string, Names>& table() {
       {"trace/telegram_trace", {"core"}},  // the ring a transport fills: below the transports
       {"transport", transportWith({})},
       {"transport/profibus", transportWith({"profibus", "link", "link/serial"})},
-      {"transport/canopen", transportWith({"canopen", "link", "link/can"})},
-      {"transport/devicenet", transportWith({"devicenet", "link", "link/can"})},
+      {"transport/can", transportWith({"link", "link/can"})},  // what transports on a CAN bus share
+      {"transport/canopen", transportWith({"canopen", "link", "link/can", "transport/can"})},
+      {"transport/devicenet", transportWith({"devicenet", "link", "link/can", "transport/can"})},
       {"transport/interbus", transportWith({"interbus", "link", "link/modbus"})},
       {"drive", {"core", "profile"}},
       {"cycle", {"core", "config", "profile", "transport", "robot", "drive"}},
