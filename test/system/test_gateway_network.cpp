@@ -74,8 +74,11 @@ class LinkedRobot : public DrivenRobot {
   void enableAndDrive() {
     ASSERT_TRUE(runUntil([this] { return online(); })) << transport().busText().c_str();
     run(milliseconds{250});  // the last command is too old by then
-    ask(cycle::RequestKind::kAcknowledge);
-    const cycle::Completion answer = ask(cycle::RequestKind::kEnable);
+    cycle::Completion answer;
+    for (const Instant end = transport().now() + seconds{20}; !answer.success && transport().now() < end;) {
+      ask(cycle::RequestKind::kAcknowledge);
+      answer = ask(cycle::RequestKind::kEnable);  // not before the inverters have charged, and are down their ramps
+    }
     ASSERT_TRUE(answer.success) << answer.message.c_str();
     drive(kHalfSpeed, 0.0, milliseconds{500});
     ASSERT_TRUE(snapshot().base.enabled) << snapshot().base.text.c_str();
