@@ -351,14 +351,6 @@ TEST_F(OnAGateway, IdentityNamesPlaceAndProtection) {
       transport.identity(1).protected_by);
   EXPECT_FALSE(transport.identity(1).timeout_notices);
   EXPECT_TRUE(transport.identity(1).timeout_needed);
-  settings.drive(1).set("profile", "drivecom");
-  start();
-  EXPECT_EQ(
-      "watchdog of the gateway (register 2000 = 500), which ends its outputs: zeros are DRIVECOM's \"voltage "
-      "disabled\", "
-      "and the motor coasts",
-      transport.identity(1).protected_by);
-  EXPECT_FALSE(transport.identity(1).timeout_needed);
   EXPECT_STREQ("gateway", transport.endPoint().key);
 }
 
