@@ -51,7 +51,7 @@ def draw():
     picture.text(124, 196, "terminator on", 13, bold=True)
     picture.text(250, 222, "Sys + (77)", 13, bold=True, colour=ORANGE)
     picture.text(345, 276, "Sys - (78)", 13, "end", bold=True, colour=BLUE)
-    picture.text(976, 208, "system bus: CAN, 250 kbit/s (P514), inside the machine; on at its two ends only", 13, "end", colour=MUTED)
+    picture.text(976, 208, "system bus: CAN, 250 kbit/s, 120 ohm at its two ends and nowhere else", 13, "end", colour=MUTED)
     for number, each in enumerate(INVERTERS):
         inverter(picture, number, *each)
 

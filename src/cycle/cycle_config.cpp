@@ -6,6 +6,7 @@
 #include "config/drive_common.h"
 #include "config/setting_checks.h"
 #include "config/setting_note.h"
+#include "cycle/joint_limits.h"
 
 namespace nord_driver::cycle {
 
@@ -50,6 +51,18 @@ void refuseJointsUsedTwice(const std::vector<DriveSettings>& sources, const std:
         throw wrongSetting(*sources[i].settings, "joint", "\"" + drives[i].joint + "\"",
                            "a joint that drive \"" + drives[j].name + "\" does not turn already");
       }
+    }
+  }
+}
+
+void readLimitsOfSingles(const std::vector<DriveSettings>& sources, CycleConfig& config) {
+  const std::vector<DriveIndex> wheels = config.base ? config.base->wheels() : std::vector<DriveIndex>{};
+  for (DriveIndex i = 0; i < sources.size(); ++i) {
+    const Settings& settings = *sources[i].settings;
+    if (std::find(wheels.begin(), wheels.end(), i) == wheels.end()) {
+      config.drives[i].limits = readJointLimits(settings);
+    } else {
+      refuseJointLimits(settings);
     }
   }
 }
@@ -103,6 +116,7 @@ CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSetting
   }
   refuseJointsUsedTwice(drives, config.drives);
   config.base = readBaseConfig(node, joints, robot_description);
+  readLimitsOfSingles(drives, config);
   return config;
 }
 

@@ -70,7 +70,7 @@ class Scanner final : public CanEngine {
   std::optional<Instant> nextDeadline() const noexcept override { return deadline_; }
 
   /// Kept, and sent in every cycle in which the device exchanges; before the first call, and after a loss, nothing is
-  /// sent. Cut or filled with zeros to its size. Bit strobe: the lowest bit of the first byte is its bit.
+  /// sent. Cut or filled with zeros to its size. Bit strobe without outputs: the lowest bit of the first byte is its bit.
   void setOutput(std::size_t node, ByteView bytes) noexcept { nodes_[node]->io().setOutput(bytes); }
   /// What it sent last while exchanging; `count` 0: nothing yet since it came to.
   const IoInput& input(std::size_t node) const noexcept { return nodes_[node]->io().input(); }

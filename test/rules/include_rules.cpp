@@ -63,7 +63,7 @@ const std::map<std::string, Names>& table() {
       {"sim/can", simulatorWith({"link/can"})},  // what every protocol on CAN needs of its bus
       {"sim/canopen", simulatorWith({"link/can", "sim/can"})},
       {"sim/devicenet", simulatorWith({"link/can", "sim/can"})},
-      {"sim/interbus", simulatorWith({})},
+      {"sim/interbus", simulatorWith({"link/modbus"})},
       {"sim_node", {"core", "sim", "ros_support"}},
       {"tools", {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "sim"}},
       {"node",

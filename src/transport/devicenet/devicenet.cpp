@@ -114,7 +114,7 @@ void DeviceNetTransport::takeEvents() noexcept {
 }
 
 std::vector<std::string> DeviceNetTransport::warnings() const {
-  std::vector<std::string> sentences;
+  std::vector<std::string> sentences = config_.warnings;
   for (const DevicenetDrive& drive : config_.drives) {
     if (drive.connection == DevicenetConnection::kOption) {
       sentences.push_back("drive " + drive.name +

@@ -158,14 +158,6 @@ DevicenetModule readDevicenetModule(const Settings& settings, const DevicenetDri
   module.input_byte = readModuleByte(settings, "module_input_bytes", layout);
   node.mac = drive.mac;
   node.io.kind = choiceOr(settings, "io", IoKind::kPoll, kIoKinds);
-  if (node.io.kind == IoKind::kStrobe) {
-    throw wrongSetting(settings, "io", "\"strobe\"",
-                       layout.bytes > devicenet::kStrobeCommandLength
-                           ? "poll, cos or cyclic: assembly " + std::to_string(assembly) + " has " +
-                                 std::to_string(layout.bytes) + " bytes, and a bit strobe brings back at most 8"
-                           : "poll, cos or cyclic: a bit strobe carries no control word, and keeps P151 quiet all the "
-                             "same (BU 0280 4.1.3)");
-  }
   node.vendor_id = readIdentity(settings, "vendor_id");
   node.device_type = readIdentity(settings, "device_type");
   node.product_code = readIdentity(settings, "product_code");

@@ -229,6 +229,25 @@ TEST_F(DnRefereeTest, ChangeOfStateAndStrobe) {
   EXPECT_EQ(1u, only(DnRule::kAcknowledgeUnasked)) << said;
 }
 
+// The outputs of a module that is polled beside the strobe are the poll's: with its bit at 1 they would not be forwarded.
+TEST_F(DnRefereeTest, StrobeBesideAPoll) {
+  bus.goOnline();
+  bus.ask("44E#0A 4B 03 01 07 0A");
+  bus.send("450#00 00 00 00 00 00 00 00");
+  EXPECT_EQ(1u, only(DnRule::kIoBeforePacketRate)) << said;
+  for (const char* instance : {"02", "03"}) {
+    bus.request(std::string{"0E 05 "} + instance + " 07");
+    bus.request(std::string{"0E 05 "} + instance + " 08");
+    bus.request(std::string{"10 05 "} + instance + " 09 64 00");
+  }
+  bus.send("450#00 00 00 00 00 00 00 00");
+  bus.send("44D#00 7E 04 00 00");
+  bus.bus.run(milliseconds(20));
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
+  bus.send("450#00 02 00 00 00 00 00 00");  // bit 9, its MAC id
+  EXPECT_EQ(1u, only(DnRule::kStrobeBit)) << said;
+}
+
 TEST_F(DnRefereeTest, Report) {
   EXPECT_EQ("no rule broken", bus.referee().report());
   for (std::size_t i = 0; i < static_cast<std::size_t>(DnRule::kCount); ++i) {
