@@ -109,7 +109,8 @@ TEST_F(ParameterService, ReadsAnArrayElementByItsPrintedIndex) {
   EXPECT_TRUE(read("left", 707, 0, 2).success);
   const Read none = read("left", 707, 0, 9);
   EXPECT_FALSE(none.success);
-  EXPECT_THAT(none.message, AllOf(HasSubstr("drive left refuses P707"), HasSubstr(bus().refusal(Refusal::kNoSuchIndex))));
+  EXPECT_THAT(none.message,
+              AllOf(HasSubstr("drive left refuses P707"), HasSubstr(bus().refusal(Refusal::kNoSuchIndex))));
 }
 
 // P420 is in no catalogue of the driver: as transferred, without unit and name.
