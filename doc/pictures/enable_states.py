@@ -6,7 +6,7 @@ STATES = (
     (24, 60, 226, 116, ("On the wire", "047E: OFF1, and the idle word", "047F: run to setpoint 1", "047B: OFF3, quick stop",
                         "bits 14, 15: parameter set"), "plain"),
     (370, 60, 240, 90, ("Enabling", "047E, then 047F", "until every drive confirms"), "driver"),
-    (740, 60, 236, 90, ("Enabled", "047F and setpoint 1", "follows commands"), "driver"),
+    (740, 60, 236, 90, ("Enabled", "047F and setpoint 1, follows", "commands; too old: setpoint 0"), "driver"),
     (24, 270, 210, 90, ("Offline", "0000 before any answer,", "the stop word after a loss"), "device"),
     (370, 270, 240, 90, ("Disabled", "047E, the idle word", "no torque, waits for ~enable"), "ros"),
     (740, 270, 236, 90, ("Ramping down", "047F to setpoint 0, then 047E", "until \"ready to switch on\""), "bus"),
