@@ -61,7 +61,7 @@ struct Options {
   std::string urdf;     ///< file
   bool json = false;
   ImageOptions image;
-  WholeNumber<1, 256> words;  ///< 0: not given
+  WholeNumber<1, 256> count;  ///< 0: not given
 };
 
 void list(const YAML::Node& file, nord_driver::Transport& transport) {
@@ -170,7 +170,7 @@ int run(int argc, char** argv) {
       "the robot's URDF, what robot_description is to the driver");
   image.options.add_options()("once", po::bool_switch(&options.image.once), "show it once, and end")(
       "json", po::bool_switch(&options.image.json), "one JSON object a line")(
-      "words", po::value(&options.words)->value_name("COUNT"),
+      "count", po::value(&options.count)->value_name("COUNT"),
       "so many words at least; without it up to the last one of a drive");
   if (const auto code = line.parse(argc, argv)) return *code;
   if (line.asksFor(check_config)) return check(options);
@@ -187,7 +187,7 @@ int run(int argc, char** argv) {
     return kDone;
   }
   if (line.asksFor(image)) {
-    options.image.words = static_cast<std::size_t>(options.words.value);
+    options.image.words = static_cast<std::size_t>(options.count.value);
     options.image.patience = nord_driver::seconds(options.timeout.value);
     return showImage(file, *transport, options.image, end_asked) ? kDone : kFailed;
   }

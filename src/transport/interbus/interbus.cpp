@@ -268,10 +268,14 @@ DriveIdentity InterbusTransport::identity(DriveIndex drive) const {
   if (config.drive_profile == InterbusProfile::kDrivecom) identity.address += ", DRIVECOM 21";
   identity.process_values = config.ppo_type == 1 ? 1 : 3;
   if (parameters_) identity.parameter_channel = "PCP (experimental)";
+  identity.timeout_notices = false;
   if (config_.server.watchdog) {
+    const bool drivecom = config.drive_profile == InterbusProfile::kDrivecom;
+    identity.timeout_needed = !drivecom;
     identity.protected_by = "watchdog of the gateway (register " + std::to_string(config_.server.watchdog->address) +
-                            " = " + std::to_string(config_.server.watchdog->value) +
-                            "), which ends its outputs: with P513 > 0 the inverter trips E10 and the motor coasts";
+                            " = " + std::to_string(config_.server.watchdog->value) + "), which ends its outputs: " +
+                            (drivecom ? "zeros are DRIVECOM's \"voltage disabled\", and the motor coasts"
+                                      : "with P513 > 0 the inverter trips E10 and the motor coasts");
   }
   return identity;
 }

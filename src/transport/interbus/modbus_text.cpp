@@ -77,7 +77,7 @@ std::string ModbusText::answer(ByteView bytes, unsigned first) const {
 
 // Words of drives by their names; what else there is by its value.
 std::string ModbusText::words(ByteView values, unsigned first, bool written) const {
-  const std::string named = drives(values, first, written);
+  std::string named = drives(values, first, written);
   if (!named.empty()) return named;
   std::string text;
   const std::size_t count = values.size() / 2;

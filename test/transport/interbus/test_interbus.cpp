@@ -348,6 +348,8 @@ TEST_F(OnAGateway, IdentityNamesPlaceAndProtection) {
       "watchdog of the gateway (register 2000 = 500), which ends its outputs: with P513 > 0 the inverter trips E10 and "
       "the motor coasts",
       transport.identity(1).protected_by);
+  EXPECT_FALSE(transport.identity(1).timeout_notices);
+  EXPECT_TRUE(transport.identity(1).timeout_needed);
   EXPECT_STREQ("gateway", transport.endPoint().key);
 }
 
