@@ -335,7 +335,6 @@ TEST_F(OnAGateway, AParameterRequestIsAnsweredInWords) {
   EXPECT_THAT(result->text.str(), StartsWith("its gateway carries process data only"));
   EXPECT_FALSE(transport.pollResult());
   EXPECT_EQ("none", transport.identity(1).parameter_channel);
-  EXPECT_FALSE(transport.serveParametersOnly());
 }
 
 TEST_F(OnAGateway, IdentityNamesPlaceAndProtection) {
