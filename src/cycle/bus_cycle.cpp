@@ -46,7 +46,9 @@ std::vector<drive::Drive> makeDrives(const CycleConfig& config, Transport& trans
   Duration shortest = Duration::max();
   for (const DriveSetup& setup : config.drives) {
     drive::DriveConfig drive = setup.drive;
-    drive.drive_timeout = driveTimeout(config, setup, transport.identity(drives.size()));
+    const DriveIdentity identity = transport.identity(drives.size());
+    drive.drive_timeout = driveTimeout(config, setup, identity);
+    drive.parameter_sets = identity.parameter_sets;
     shortest = std::min(shortest, drive.drive_timeout);
     drives.emplace_back(drive);
   }

@@ -45,6 +45,8 @@ struct DriveConfig {
   Duration acknowledge_time = seconds(0.1);
   /// |actual value 1| that counts as standstill for switching the parameter set, of 16384.
   std::int16_t near_standstill = 164;
+  /// How many parameter sets can be commanded: 4, or 1.
+  std::uint8_t parameter_sets = 4;
   /// P104 > 0 is no reason to refuse enabling.
   bool allow_minimum_frequency = false;
   /// Cross-check the sign of actual value 1 with status bits 11 and 12. No manual defines that sign in left rotation.

@@ -77,6 +77,8 @@ const char* toString(Refusal refusal) noexcept {
       return "the parameter set is switched at standstill only, and the motor turns";
     case Refusal::kNoSuchSet:
       return "there are parameter sets 1 to 4 only";
+    case Refusal::kOnlySet1:
+      return "its drive profile has parameter set 1 only: no other one can be selected over this bus";
     case Refusal::kSetNotConfirmed:
       return "the inverter did not confirm the new parameter set in time";
   }

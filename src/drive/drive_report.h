@@ -72,6 +72,7 @@ enum class Refusal : std::uint8_t {
   kNotDisabled,          ///< switching the set: the drive is enabled or being stopped
   kTurning,              ///< switching the set: actual value 1 is not near zero
   kNoSuchSet,            ///< the parameter sets are 1..4
+  kOnlySet1,             ///< the profile it is commanded by has no bits for parameter sets
   kSetNotConfirmed,      ///< status bits 14 and 15 did not show the new set within enable_timeout
 };
 

@@ -133,6 +133,7 @@ void Drive::requestAcknowledge(Instant now, std::uint32_t token) noexcept {
 
 Refusal Drive::setRefusal(std::uint8_t set) const noexcept {
   if (set < 1 || set > 4) return Refusal::kNoSuchSet;
+  if (set > config_.parameter_sets) return Refusal::kOnlySet1;
   if (report_.phase == Phase::kOffline) return Refusal::kOffline;
   if (report_.phase == Phase::kAcknowledging || report_.phase == Phase::kSwitchingSet) return Refusal::kBusy;
   if (report_.phase != Phase::kIdle) return Refusal::kNotDisabled;

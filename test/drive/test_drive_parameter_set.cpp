@@ -92,6 +92,18 @@ TEST_F(SetRefusalTest, OfASetThatIsNone) {
   EXPECT_EQ(Refusal::kNoSuchSet, ask(5));
 }
 
+// A profile without bits for sets: DRIVECOM.
+TEST_F(SetRefusalTest, OfAnotherSetThan1WhereThereIsNoOther) {
+  DriveConfig set_1_only = config();
+  set_1_only.parameter_sets = 1;
+  drive_ = Drive{set_1_only};
+  start();
+  EXPECT_EQ(Refusal::kOnlySet1, ask(2));
+  EXPECT_EQ(Refusal::kNoSuchSet, ask(5));
+  drive_.requestParameterSet(1, now_);
+  EXPECT_EQ(RequestState::kRunning, report().set_switch.state);
+}
+
 TEST_F(SetRefusalTest, WhileEnabledOrStopping) {
   run();
   EXPECT_EQ(Refusal::kNotDisabled, ask());

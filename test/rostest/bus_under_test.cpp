@@ -23,9 +23,11 @@ const BusUnderTest kProfibus{
     "device",
     true,
     "PKW",
+    3,
     0x7531,
     "watchdog of 1 s",
     "watchdog of 0.2 s",
+    false,
     false,
     102,
     true,
@@ -41,10 +43,12 @@ const BusUnderTest kCanopen{
     "interface",
     false,
     "SDO",
+    3,
     0x004E0001,
     "node guarding",
     "node guarding",
     true,
+    false,
     100,
     false,
     0.6,
@@ -58,10 +62,12 @@ const BusUnderTest kDevicenet{
     "interface",
     false,
     "explicit messages",
+    3,
     0x03E80001,
     "DeviceNet time-out of 1 s",
     "DeviceNet time-out of 0.1 s",
     true,
+    false,
     102,
     false,
     0.95,
@@ -71,16 +77,37 @@ const BusUnderTest kDevicenet{
     [](MapSettings& bus) { bus.set("bit_rate", 500'000).set("expected_packet_rate", 0.25); },
     nothing};
 
-// No parameter channel: a program that asks for one does not run here.
-const BusUnderTest kInterbus{
-    "gateway", false,  "none", 0, "", "", false, 102, false, 0.95, 0.0, {"", "", "", ""}, make<InterbusTransport>,
-    nothing,   nothing};
+BusUnderTest interbus(const char* parameter_channel) {
+  return {"gateway",
+          false,
+          parameter_channel,
+          1,
+          0,
+          "watchdog of the gateway (register 300 = 1000)",
+          "",
+          false,
+          true,
+          100,
+          false,
+          0.95,
+          0.0,
+          {"PCP error 6/7", "PCP error 6/3", "PCP error 8/0", "PCP error 6/5"},
+          make<InterbusTransport>,
+          nothing,
+          nothing};
+}
+
+// A program that asks for parameters runs with PCP only.
+const BusUnderTest kInterbus = interbus("none");
+const BusUnderTest kInterbusWithPcp = interbus("PCP (experimental)");
 
 const BusUnderTest& busOf(const std::string& transport) {
   if (transport == "nord_driver/profibus_dp") return kProfibus;
   if (transport == "nord_driver/canopen") return kCanopen;
   if (transport == "nord_driver/devicenet") return kDevicenet;
-  if (transport == "nord_driver/interbus") return kInterbus;
+  if (transport == "nord_driver/interbus") {
+    return ros::param::has("nord_driver/bus/pcp") ? kInterbusWithPcp : kInterbus;
+  }
   throw std::invalid_argument("no rostest knows the transport \"" + transport + "\"");
 }
 

@@ -17,11 +17,15 @@ struct BusUnderTest {
   const char* end_point;   ///< key of the group `bus`
   bool end_point_is_file;  ///< seen in the file system, and to be removed from it
   const char* parameter_channel;
-  std::uint32_t ident;             ///< of the simulated modules
+  unsigned first_address;          ///< of drive left; drive right has the next one
+  std::uint32_t ident;             ///< of the simulated modules; 0: nobody tells it
   const char* protection;          ///< what of this bus stops a drive, with the times of these tests
   const char* default_protection;  ///< the same with those of the driver
   /// A drive that is left at the driver's end is let go before it could miss anybody; otherwise its watchdog expires.
   bool lets_go;
+  /// What stands between the driver and a drive goes on without the driver: until its watchdog acts it repeats the last
+  /// words, afterwards zeros, and a drive takes part all the time.
+  bool goes_on;
   /// The fault of a drive whose master has died, as P700 shows it.
   std::uint16_t master_lost;
   /// Parameters can be written to RAM alone; otherwise P560 is switched off and on, which are two writes.

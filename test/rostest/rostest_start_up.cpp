@@ -97,7 +97,7 @@ TEST_F(StartUp, DeviceInfoIsLatched) {
     const auto info = topic.waitFrom(0, known);
     ASSERT_TRUE(info) << drive;
     EXPECT_EQ(info->name, drive);
-    EXPECT_EQ(info->address, drive == "left" ? 3 : 4);
+    EXPECT_EQ(info->address, bus().first_address + (drive == "left" ? 0 : 1));
     EXPECT_THAT(info->max_frequency, ElementsAre(50.0, 50.0, 25.0, 50.0));
     EXPECT_EQ(info->ident, bus().ident) << "vendor and product, or the module's ident number";
     EXPECT_EQ(info->parameter_channel, bus().parameter_channel);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,7 +21,7 @@ namespace nord_driver::test {
 
 /// Two wheels of 0.1 m, 0.5 m apart, each behind an SK TU3-IBS; P105 = 50 Hz, 20:1, two pole pairs: 100 % is 7.854
 /// rad/s or 0.785 m/s. Inputs from register 0 on, outputs from 100 on; register 200 says that the ring runs, 300 is the
-/// watchdog, 200 ms; P513 is 0.2 s.
+/// watchdog, 200 ms; P513 is 0.2 s. No parameter channel, unless asked for.
 class InterbusRobot : public DrivenRobot {
  public:
   struct Options {
@@ -33,13 +34,15 @@ class InterbusRobot : public DrivenRobot {
     bool drivecom = false;  ///< P551 on
     bool swapped = false;   ///< the bytes of each word
     bool pcp_word = false;
+    bool pcp = false;                               ///< parameters by Compact PCP, its blocks at registers 500 and 600
+    std::optional<double> max_frequency = 50.0;     ///< as typed in, Hz
     bool running = true;                            ///< register 200 is configured
     bool watchdog = true;                           ///< register 300 is configured
     int telegram_timeout = 2;                       ///< P513 in 0.1 s
     double slip = 2.0;                              ///< Hz at rated torque
     std::function<void(sim::SimConfig&)> simulate;  ///< changes of the simulated side
   };
-  static constexpr int kOutputs = 100, kRunning = 200, kWatchdog = 300;
+  static constexpr int kOutputs = 100, kRunning = 200, kWatchdog = 300, kInvoke = 500, kResult = 600;
 
   InterbusRobot() : InterbusRobot(Options{}) {}
   explicit InterbusRobot(const Options& options) {
@@ -74,7 +77,8 @@ class InterbusRobot : public DrivenRobot {
     for (std::size_t i = 0; i < 2; ++i) {
       const std::string name = nameOf(i);
       auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
-      settings->set("address", static_cast<int>(1 + i)).set("series", options.series).set("max_frequency", 50.0);
+      settings->set("address", static_cast<int>(1 + i)).set("series", options.series);
+      if (options.max_frequency) settings->set("max_frequency", *options.max_frequency);
       settings->set("joint", name + "_wheel_joint").set("gear_ratio", 20.0).set("pole_pairs", 2);
       settings->set("inverted", i == 1).set("ppo_type", options.ppo_type);
       if (options.drivecom) settings->set("profile", "drivecom");
@@ -101,6 +105,7 @@ class InterbusRobot : public DrivenRobot {
     if (options.watchdog) bus.set("watchdog/address", kWatchdog).set("watchdog/value", 200);
     if (options.swapped) bus.set("word_order", "swapped");
     if (options.pcp_word) bus.set("pcp_word", true);
+    if (options.pcp) bus.set("pcp/invoke/address", kInvoke).set("pcp/result/address", kResult);
     for (const auto& [key, value] : options.bus) bus.set(key, value);
     return bus;
   }
@@ -112,6 +117,7 @@ class InterbusRobot : public DrivenRobot {
     bus.watchdog = kWatchdog;
     bus.swapped = options.swapped;
     bus.pcp_word = options.pcp_word;
+    if (options.pcp) bus.pcp = sim::IbsPcp{kInvoke, kResult, 2, true};
     config.bus = bus;
     for (std::size_t i = 0; i < 2; ++i) {
       sim::DriveConfig drive;

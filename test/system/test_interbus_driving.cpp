@@ -154,21 +154,6 @@ TEST(InterbusDriving, BeyondFullSpeedTheWholeBaseIsScaled) {
   }
 }
 
-// --- What a gateway does not carry ---
-
-TEST(InterbusDriving, AParameterIsRefusedInWords) {
-  InterbusRobot robot;
-  ASSERT_TRUE(robot.bringUp());
-  cycle::Request request;
-  request.kind = cycle::RequestKind::kReadParameter;
-  request.drive = 0;
-  request.parameter.number = 102;
-  request.parameter.shape = profile::ParameterShape::kPerSet;
-  const cycle::Completion answer = robot.ask(request);
-  EXPECT_FALSE(answer.success);
-  EXPECT_THAT(answer.message.str(), HasSubstr("its gateway carries process data only, no PCP"));
-}
-
 // --- The ring ---
 
 // Nobody says that the ring stands, and the gateway goes on answering with what it last had from it: the driver warns of

@@ -2,6 +2,20 @@
 
 namespace nord_driver::link {
 
+ModbusRequest requestOf(const RegisterOrder& order) noexcept {
+  ModbusRequest request;
+  if (order.write) {
+    request.function = ModbusFunction::kWriteRegisters;
+    request.write = order.registers;
+    request.values = order.values.data();
+  } else {
+    request.function =
+        order.input_registers ? ModbusFunction::kReadInputRegisters : ModbusFunction::kReadHoldingRegisters;
+    request.read = order.registers;
+  }
+  return request;
+}
+
 bool ModbusAcyclic::ask(const ModbusRequest& request, const Wakeup& stop) noexcept {
   if (!connection_.exchange(request, stop)) {
     reason_ = connection_.reason();
@@ -61,17 +75,7 @@ bool ModbusAcyclic::readRunning(RunningState& state, const Wakeup& stop) noexcep
 }
 
 bool ModbusAcyclic::carryOut(const RegisterOrder& order, RegisterAnswer& answer, const Wakeup& stop) noexcept {
-  ModbusRequest request;
-  if (order.write) {
-    request.function = ModbusFunction::kWriteRegisters;
-    request.write = order.registers;
-    request.values = order.values.data();
-  } else {
-    request.function =
-        order.input_registers ? ModbusFunction::kReadInputRegisters : ModbusFunction::kReadHoldingRegisters;
-    request.read = order.registers;
-  }
-  answer.good = ask(request, stop);
+  answer.good = ask(requestOf(order), stop);
   if (!answer.good) {
     answer.text = reason_;
     return false;

@@ -16,6 +16,9 @@ struct RunningState {
   Word value = 0;
 };
 
+/// `order` is kept by reference where it writes.
+ModbusRequest requestOf(const RegisterOrder& order) noexcept;
+
 class ModbusAcyclic {
  public:
   /// Both are kept by reference.

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 
+#include "link/modbus/modbus_acyclic.h"
+#include "link/modbus/trouble_counters.h"
+
 namespace nord_driver::sim {
 
 namespace {
 
 using link::ModbusFunction;
+using link::ModbusTrouble;
 
 constexpr Duration kStep = std::chrono::milliseconds(1);  // at most so late the gateway's watchdog acts
 
@@ -25,12 +29,14 @@ SimulatedGateway::SimulatedGateway(const SimConfig& config, link::ModbusSettings
       robot_(config),
       ring_(robot_),
       gateway_(config.bus.as<IbsBusConfig>(), ring_),
-      pause_(settings_.first_pause) {
+      backoff_(settings_.first_pause, settings_.longest_pause) {
   ring_.advance(now_);
 }
 
 bool SimulatedGateway::open() noexcept {
-  if (doing_ == Doing::kNothing) connect();
+  if (doing_ != Doing::kNothing) return true;
+  backoff_.succeeded();
+  connect();
   return true;
 }
 
@@ -50,6 +56,13 @@ std::uint64_t SimulatedGateway::give(const RegisterImage& outputs) noexcept {
   return given_;
 }
 
+std::uint64_t SimulatedGateway::order(const link::RegisterOrder& order) noexcept {
+  next_order_ = order;
+  ++ordered_;
+  if (doing_ == Doing::kIdle) startOrder();
+  return ordered_;
+}
+
 bool SimulatedGateway::waitAnswers(Instant until) noexcept {
   if (!answers_) advanceTo(until, true);
   return std::exchange(answers_, false);
@@ -67,9 +80,11 @@ void SimulatedGateway::setNetwork(const NetworkState& network) noexcept {
 
 void SimulatedGateway::resetConnection() noexcept {
   connected_ = false;
-  if (doing_ == Doing::kExchanges || doing_ == Doing::kSetsWatchdog) {
-    fail(Failure::kClosed, "has closed the connection instead of answering");
-  }
+  if (isAsking()) fail(ModbusTrouble::kClosed, "has closed the connection instead of answering");
+}
+
+bool SimulatedGateway::isAsking() const noexcept {
+  return doing_ == Doing::kSetsWatchdog || doing_ == Doing::kExchanges || doing_ == Doing::kServes;
 }
 
 // --- Time ---
@@ -122,14 +137,13 @@ bool SimulatedGateway::handleEvent() noexcept {
     if (!connected_ || !watchdog_set_) {
       connect();
     } else {
-      doing_ = Doing::kIdle;
       tell(link::LinkState::kConnected);
-      if (given_ != last_outputs_) startExchange();
+      rest();
     }
   } else {
     Sentence what;
     what.format("has not answered %s within %.3f s", describe(request_).c_str(), toSeconds(settings_.response_timeout));
-    fail(Failure::kSilent, what.c_str());
+    fail(ModbusTrouble::kSilent, what.c_str());
   }
   return true;
 }
@@ -145,9 +159,9 @@ void SimulatedGateway::connect() noexcept {
 void SimulatedGateway::handleConnect() noexcept {
   if (!connected_) {
     if (!network_.carries_requests || !network_.carries_answers) {
-      return fail(Failure::kConnect, "does not answer an attempt to connect");
+      return fail(ModbusTrouble::kNoConnection, "does not answer an attempt to connect");
     }
-    if (!network_.port_open) return fail(Failure::kConnect, "refuses the connection");
+    if (!network_.port_open) return fail(ModbusTrouble::kNoConnection, "refuses the connection");
     connected_ = true;
     ++report_.counters.connections;
     ring_.masterBegins();
@@ -158,15 +172,36 @@ void SimulatedGateway::handleConnect() noexcept {
   sendNext();
 }
 
-// --- Exchanges, as link::ModbusExchange makes them ---
+// --- Exchanges, as link::ModbusExchange makes them, and orders behind them ---
+
+// What came meanwhile is next.
+void SimulatedGateway::rest() noexcept {
+  doing_ = Doing::kIdle;
+  if (given_ != last_outputs_) return startExchange();
+  if (ordersWait()) startOrder();
+}
+
+void SimulatedGateway::startOrder() noexcept {
+  running_order_ = next_order_;
+  served_ = ordered_;
+  doing_ = Doing::kServes;
+  if (!connected_) return fail(ModbusTrouble::kClosed, "has closed the connection");
+  step_ = 0;
+  sendNext();
+}
+
+void SimulatedGateway::answerOrder(const link::RegisterAnswer& answer) noexcept {
+  order_answer_ = answer;
+  order_answer_.number = served_;
+}
 
 void SimulatedGateway::startExchange() noexcept {
   report_.counters.skipped_outputs += given_ - last_outputs_ - 1;
   last_outputs_ = given_;
   sent_ = given_image_;
   doing_ = Doing::kExchanges;
-  if (!connected_) return fail(Failure::kClosed, "has closed the connection");
-  order_ = link::stopsFirst(settings_, written_, sent_);
+  if (!connected_) return fail(ModbusTrouble::kClosed, "has closed the connection");
+  part_order_ = link::stopsFirst(settings_, written_, sent_);
   coming_.words.clear();
   coming_.bus_runs = true;
   coming_.asked = now_;
@@ -186,10 +221,10 @@ bool SimulatedGateway::makeWatchdogRequest(link::ModbusRequest& request) noexcep
 bool SimulatedGateway::makeImageRequest(link::ModbusRequest& request) noexcept {
   const std::size_t reads_left = settings_.inputs.parts.size();
   const bool both = settings_.inputs.function == ModbusFunction::kReadWriteRegisters;
-  const std::size_t writes = both ? std::max(order_.size(), reads_left) : order_.size();
+  const std::size_t writes = both ? std::max(part_order_.size(), reads_left) : part_order_.size();
   std::size_t step = step_;
   if (step < writes) {
-    const std::size_t part = order_[std::min(step, order_.size() - 1)];
+    const std::size_t part = part_order_[std::min(step, part_order_.size() - 1)];
     request.function = settings_.outputs.function;
     request.write = registersOf(settings_.outputs, part);
     request.values = sent_.data() + settings_.outputs.parts[part].first;
@@ -210,11 +245,20 @@ bool SimulatedGateway::makeImageRequest(link::ModbusRequest& request) noexcept {
   return true;
 }
 
+bool SimulatedGateway::makeOrderRequest(link::ModbusRequest& request) noexcept {
+  if (step_ > 0) return false;
+  request = requestOf(running_order_);
+  return true;
+}
+
 bool SimulatedGateway::makeRequest(link::ModbusRequest& request) noexcept {
   request = {};
+  const bool there = doing_ == Doing::kSetsWatchdog ? makeWatchdogRequest(request)
+                     : doing_ == Doing::kServes     ? makeOrderRequest(request)
+                                                    : makeImageRequest(request);
   request.unit = settings_.unit;
   request.transaction = ++transaction_;
-  return doing_ == Doing::kSetsWatchdog ? makeWatchdogRequest(request) : makeImageRequest(request);
+  return there;
 }
 
 void SimulatedGateway::sendNext() noexcept {
@@ -238,20 +282,40 @@ void SimulatedGateway::handleAnswer() noexcept {
   answered_.reset();
   if (tap_) tap_(ByteView{answer_}, Sender::kGateway, now_);
   const link::AnswerVerdict verdict = judge(request_, ByteView{answer_});
-  if (!verdict.good()) {
-    const bool refused = verdict.fault == link::AnswerFault::kException;
-    return fail(refused ? Failure::kException : Failure::kBadAnswer, describe(request_, verdict).c_str());
-  }
+  if (!verdict.good()) return handleRefusal(verdict);
   ++report_.counters.requests;
   if (doing_ == Doing::kSetsWatchdog) {
     if (step_ == 1 && link::answerRegister(ByteView{answer_}, 0) != settings_.watchdog->value) {
-      return fail(Failure::kWatchdog, "does not hold what was written into its watchdog register");
+      return fail(ModbusTrouble::kNone, "does not hold what was written into its watchdog register");
     }
+  } else if (doing_ == Doing::kServes) {
+    useOrdered(ByteView{answer_});
   } else {
     use(ByteView{answer_});
   }
   ++step_;
   sendNext();
+}
+
+// An order the server refuses in due form is answered, and nothing else happens.
+void SimulatedGateway::handleRefusal(const link::AnswerVerdict& verdict) noexcept {
+  const bool refused = verdict.fault == link::AnswerFault::kException;
+  const Sentence what = describe(request_, verdict);
+  if (!refused || doing_ != Doing::kServes) {
+    return fail(refused ? ModbusTrouble::kException : ModbusTrouble::kBadAnswer, what.c_str());
+  }
+  countTrouble(ModbusTrouble::kException, report_.counters);
+  link::RegisterAnswer answer;
+  answer.text.format("%s %s", settings_.server.c_str(), what.c_str());
+  answerOrder(answer);
+  rest();
+}
+
+void SimulatedGateway::useOrdered(ByteView answer) noexcept {
+  link::RegisterAnswer good;
+  good.good = true;
+  for (std::size_t i = 0; i < request_.read.count; ++i) good.values[i] = link::answerRegister(answer, i);
+  answerOrder(good);
 }
 
 void SimulatedGateway::use(ByteView answer) noexcept {
@@ -265,8 +329,8 @@ void SimulatedGateway::use(ByteView answer) noexcept {
   if (!reads(request_.function)) return;
   const std::size_t writes_and_reads = step_ + 1;
   const std::size_t parts = settings_.inputs.function == ModbusFunction::kReadWriteRegisters
-                                ? std::max(order_.size(), settings_.inputs.parts.size())
-                                : order_.size() + settings_.inputs.parts.size();
+                                ? std::max(part_order_.size(), settings_.inputs.parts.size())
+                                : part_order_.size() + settings_.inputs.parts.size();
   if (writes_and_reads > parts) {
     coming_.running = link::answerRegister(answer, 0);
     coming_.bus_runs = (coming_.running & settings_.running->mask) == settings_.running->value;
@@ -278,6 +342,7 @@ void SimulatedGateway::use(ByteView answer) noexcept {
 }
 
 void SimulatedGateway::finish() noexcept {
+  if (doing_ == Doing::kServes) return rest();
   if (doing_ == Doing::kSetsWatchdog) {
     watchdog_set_ = true;
     last_outputs_ = given_;  // what was meant for the time before is not sent
@@ -289,43 +354,30 @@ void SimulatedGateway::finish() noexcept {
   coming_.number = newest_.number + 1;
   newest_ = coming_;
   ++report_.counters.exchanges;
-  pause_ = settings_.first_pause;
+  backoff_.succeeded();
   report_.text.clear();
   doing_ = Doing::kIdle;
   tell(link::LinkState::kConnected);
-  if (given_ != last_outputs_) startExchange();
+  ordersWait() ? startOrder() : rest();
 }
 
-void SimulatedGateway::fail(Failure failure, const char* what) noexcept {
-  link::LinkCounters& counters = report_.counters;
-  switch (failure) {
-    case Failure::kConnect:
-      ++counters.connect_failures;
-      break;
-    case Failure::kClosed:
-      ++counters.closed;
-      break;
-    case Failure::kSilent:
-      ++counters.timeouts;
-      break;
-    case Failure::kBadAnswer:
-      ++counters.bad_answers;
-      break;
-    case Failure::kException:
-      ++counters.exceptions;
-      break;
-    case Failure::kWatchdog:
-      break;
-  }
+void SimulatedGateway::fail(ModbusTrouble trouble, const char* what) noexcept {
+  countTrouble(trouble, report_.counters);
   arrives_.reset();
   answered_.reset();
   report_.text.format("%s %s", settings_.server.c_str(), what);
-  const bool usable = failure == Failure::kException || failure == Failure::kWatchdog;
-  connected_ = connected_ && usable;
-  watchdog_set_ = watchdog_set_ && usable;
+  if (order_answer_.number != ordered_) {
+    served_ = ordered_;
+    link::RegisterAnswer given_up;
+    given_up.text = report_.text;
+    answerOrder(given_up);
+  }
+  // A server that refuses in due form stays connected.
+  const bool is_usable = trouble == ModbusTrouble::kException || trouble == ModbusTrouble::kNone;
+  connected_ = connected_ && is_usable;
+  watchdog_set_ = watchdog_set_ && is_usable;
   doing_ = Doing::kPauses;
-  due_ = now_ + pause_;
-  pause_ = std::min(2 * pause_, settings_.longest_pause);
+  due_ = backoff_.failed(now_);
   tell(link::LinkState::kPausing);
 }
 

@@ -1,8 +1,9 @@
 // A gateway and its ring in simulated time behind the link interface: a minute of driving runs in milliseconds.
 //
 // No TCP and no thread. It goes through the states of link::ModbusLink: connects, sets the watchdog, exchanges once for
-// each image, and connects again after pauses that grow. Each request is a whole Modbus telegram to the simulated
-// registers, and its answer is judged as that of a real gateway is.
+// each image, carries out orders behind them, and connects again after pauses that grow. Each request is a whole Modbus
+// telegram to the simulated registers, and its answer is judged as that of a real gateway is. There is one connection
+// for everything, whatever the settings say of a second one.
 #pragma once
 
 #include <functional>
@@ -10,9 +11,12 @@
 #include <utility>
 #include <vector>
 
+#include "link/modbus/backoff.h"
+#include "link/modbus/modbus_connection.h"
 #include "link/modbus/modbus_exchange.h"
 #include "link/modbus/modbus_telegram.h"
 #include "link/modbus/register_link.h"
+#include "link/modbus/register_order.h"
 #include "sim/interbus/ibs_ring.h"
 #include "sim/interbus/register_gateway.h"
 
@@ -40,6 +44,8 @@ class SimulatedGateway final : public link::RegisterLink {
   bool open() noexcept override;
   void close() noexcept override;
   std::uint64_t give(const RegisterImage& outputs) noexcept override;
+  std::uint64_t order(const link::RegisterOrder& order) noexcept override;
+  const link::RegisterAnswer& answer() noexcept override { return order_answer_; }
   const link::RegisterInputs& take() noexcept override { return newest_; }
   const link::LinkReport& report() noexcept override { return report_; }
   bool waitAnswers(Instant until) noexcept override;
@@ -63,8 +69,7 @@ class SimulatedGateway final : public link::RegisterLink {
   DriveUnit& drive(std::size_t index) noexcept { return robot_.drive(index); }
 
  private:
-  enum class Doing : std::uint8_t { kNothing, kConnects, kSetsWatchdog, kIdle, kExchanges, kPauses };
-  enum class Failure : std::uint8_t { kConnect, kClosed, kSilent, kBadAnswer, kException, kWatchdog };
+  enum class Doing : std::uint8_t { kNothing, kConnects, kSetsWatchdog, kIdle, kExchanges, kServes, kPauses };
 
   void advanceTo(Instant when, bool stop_at_answer) noexcept;
   Instant nextEvent() const noexcept;
@@ -73,16 +78,24 @@ class SimulatedGateway final : public link::RegisterLink {
 
   void connect() noexcept;
   void handleConnect() noexcept;
+  bool isAsking() const noexcept;
+  void rest() noexcept;
   void startExchange() noexcept;
+  void startOrder() noexcept;
+  bool ordersWait() const noexcept { return ordered_ != served_; }
+  void answerOrder(const link::RegisterAnswer& answer) noexcept;
   bool makeRequest(link::ModbusRequest& request) noexcept;
   bool makeWatchdogRequest(link::ModbusRequest& request) noexcept;
   bool makeImageRequest(link::ModbusRequest& request) noexcept;
+  bool makeOrderRequest(link::ModbusRequest& request) noexcept;
   void sendNext() noexcept;
   void arrive() noexcept;
   void handleAnswer() noexcept;
+  void handleRefusal(const link::AnswerVerdict& verdict) noexcept;
   void use(ByteView answer) noexcept;
+  void useOrdered(ByteView answer) noexcept;
   void finish() noexcept;
-  void fail(Failure failure, const char* what) noexcept;
+  void fail(link::ModbusTrouble trouble, const char* what) noexcept;
   void tell(link::LinkState state) noexcept;
 
   link::ModbusSettings settings_;
@@ -98,18 +111,24 @@ class SimulatedGateway final : public link::RegisterLink {
   bool connected_ = false;
   bool watchdog_set_ = false;
   Instant due_{};  // of what it does when it connects or pauses; of a request: its time-out
-  Duration pause_{};
+  link::Backoff backoff_;
 
   // The request under way.
-  unsigned step_ = 0;  // of the exchange, or of setting the watchdog
+  unsigned step_ = 0;  // of the exchange, of setting the watchdog or of the order
   link::ModbusRequest request_;
   std::optional<Instant> arrives_;
   std::optional<Instant> answered_;
   ModbusBytes answer_;
   std::uint16_t transaction_ = 0;
 
+  // The order that waits, the one under way and the answer to the last one.
+  link::RegisterOrder next_order_, running_order_;
+  std::uint64_t ordered_ = 0;
+  std::uint64_t served_ = 0;
+  link::RegisterAnswer order_answer_;
+
   // The exchange under way.
-  link::PartOrder order_;
+  link::PartOrder part_order_;
   RegisterImage sent_;     // the outputs of this exchange
   RegisterImage written_;  // what the gateway has of the exchanges before
   link::RegisterInputs coming_;

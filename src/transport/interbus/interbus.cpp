@@ -265,7 +265,10 @@ DriveIdentity InterbusTransport::identity(DriveIndex drive) const {
   const InterbusDrive& config = config_.drives[drive];
   DriveIdentity identity;
   identity.address = "InterBus position " + std::to_string(config.position);
-  if (config.drive_profile == InterbusProfile::kDrivecom) identity.address += ", DRIVECOM 21";
+  if (config.drive_profile == InterbusProfile::kDrivecom) {
+    identity.address += ", DRIVECOM 21";
+    identity.parameter_sets = 1;
+  }
   identity.process_values = config.ppo_type == 1 ? 1 : 3;
   if (parameters_) identity.parameter_channel = "PCP (experimental)";
   identity.timeout_notices = false;
