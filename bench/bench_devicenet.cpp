@@ -85,6 +85,7 @@ class ScannerBus {
       scanner_.setOutput(i, kStandby);
       counts_[i] = scanner_.input(i).count;
     }
+    answered_ = 0;
     scanner_.startCycle(line_.port.now());
     turn(1s);
   }
@@ -124,11 +125,9 @@ class ScannerBus {
       return;
     }
   }
-  bool allAnswered() const {
-    for (std::size_t i = 0; i < counts_.size(); ++i) {
-      if (scanner_.input(i).count == counts_[i]) return false;
-    }
-    return true;
+  bool allAnswered() {
+    while (answered_ < counts_.size() && scanner_.input(answered_).count != counts_[answered_]) ++answered_;
+    return answered_ == counts_.size();
   }
   bool allExchange() const {
     for (std::size_t i = 0; i < scanner_.nodeCount(); ++i) {
@@ -140,6 +139,7 @@ class ScannerBus {
   devicenet::Scanner scanner_;
   Line line_;
   std::vector<std::uint64_t> counts_;  // messages of each device when the cycle began
+  std::size_t answered_ = 0;           // the first devices that have answered in this cycle
   std::uint64_t late_ = 0;
 };
 

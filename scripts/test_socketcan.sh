@@ -5,12 +5,13 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 # GoogleTest programs.
 programs=(test_socketcan)
-# rostests, each a file below test/: one line each. They are handed interface:=vcan0 (or make interfaces of their own) and
-# time_factor:=N (1, or 10 where everything is emulated), so they have these two <arg>s and multiply their time limits
-# with the latter.
+# rostests: a line each, a file below test/ and what it is handed. All are handed interface:=vcan0 (or make interfaces of
+# their own) and time_factor:=N (1, or 10 where everything is emulated), so they have these two <arg>s and multiply their
+# time limits with the latter.
 rostests=(
   rostest/rostest_canopen_drive.test
-  socketcan/rostest_socketcan.test
+  "socketcan/rostest_socketcan.test transport:=canopen"
+  "socketcan/rostest_socketcan.test transport:=devicenet"
 )
 
 usage() {
@@ -24,7 +25,8 @@ TEXT
 
 # Called by itself, in the place with CAN.
 inside() {
-  local build=$1 results=$2 program file name status=0
+  local build=$1 results=$2 program line word name start status=0
+  local -a words
   shift 2
   for program in "${programs[@]}"; do
     echo "-- $program"
@@ -35,11 +37,15 @@ inside() {
   set +u # ROS' own file
   source "$build/devel/setup.bash"
   set -u
-  for file in "${rostests[@]}"; do
-    name=$(basename "$file" .test)
+  for line in "${rostests[@]}"; do
+    read -r -a words <<<"$line"
+    name=$(basename "${words[0]}" .test)
+    for word in "${words[@]:1}"; do name+=_${word#*:=}; done
+    start=$SECONDS
     echo "-- $name"
     rostest --pkgdir="$root" --package=nord_driver --results-filename="$name.xml" --results-base-dir="$results" \
-      "$root/test/$file" interface:=vcan0 "time_factor:=$NORD_TIME_FACTOR" || status=1
+      "$root/test/${words[0]}" "${words[@]:1}" interface:=vcan0 "time_factor:=$NORD_TIME_FACTOR" || status=1
+    echo "-- $name: $((SECONDS - start)) s"
   done
   return "$status"
 }

@@ -86,7 +86,7 @@ void IoConnection::startCycle(Instant now) noexcept {
 
 void IoConnection::send() noexcept {
   dropOutput();
-  sent_ = output_;
+  if (config_.io.kind == IoKind::kChangeOfState) sent_ = output_;
   sender_.start(ByteView{output_});
 }
 

@@ -55,6 +55,7 @@ class IoConnection {
   const Sentence& lossText() const noexcept { return loss_; }
 
   /// Our acknowledge of its change-of-state or cyclic data.
+  bool acknowledgeDue() const noexcept { return acknowledge_due_; }
   bool pollAcknowledge(CanFrame& frame) noexcept;
   void acknowledgeNotSent() noexcept { acknowledge_due_ = true; }
   bool pollOutput(CanFrame& frame, Instant now) noexcept;

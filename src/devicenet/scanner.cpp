@@ -127,9 +127,11 @@ void Scanner::handleFrame(const CanFrame& frame, Instant now) noexcept {
   if (id->group == 2) return handleGroup2(*id, frame, now);
   NodeHandler* node = id->group == 4 ? nullptr : nodeOf(id->mac);
   if (node != nullptr && id->group == 1 && id->message >= static_cast<std::uint8_t>(Group1::kChangeOfStateOrCyclic)) {
+    // It gives process data or takes a timer forward: there is nothing to send but an acknowledge.
     node->handleIo(id->message, frame, now);
-    acknowledge_maybe_ = true;
-    return touched(*node);
+    acknowledge_maybe_ = acknowledge_maybe_ || node->io().acknowledgeDue();
+    deadline_ = earlier(deadline_, node->io().nextDeadline());
+    return;
   }
   if (node != nullptr && id->group == 3 && id->message == kUnconnectedResponse && isDeviceMessage(frame, node->mac())) {
     node->handleExplicit(frame, now);
@@ -254,7 +256,7 @@ bool Scanner::pollOutput() noexcept {
   for (std::size_t tried = 0; tried < nodes_.size(); ++tried) {
     NodeHandler& node = *nodes_[next_output_];
     if (node.io().pollOutput(given_.frame, now_)) {
-      deadline_ = earlier(deadline_, node.nextDeadline());
+      deadline_ = earlier(deadline_, node.io().nextDeadline());
       return give(Given::Kind::kOutput, next_output_);
     }
     next_output_ = (next_output_ + 1) % nodes_.size();

@@ -73,17 +73,21 @@ BareSocket::~BareSocket() {
 }
 
 void BareSocket::sendError(std::uint32_t classes, const std::array<std::uint8_t, 8>& data) {
-  send(classes | CAN_ERR_FLAG, data);
+  write(classes | CAN_ERR_FLAG, data);
 }
 
 void BareSocket::sendZeros(std::uint32_t id) {
-  send(id, {});
+  write(id, std::array<std::uint8_t, 8>{});
 }
 
-void BareSocket::send(std::uint32_t id, const std::array<std::uint8_t, 8>& data) {
+void BareSocket::send(const CanFrame& frame) {
+  write(frame.id, frame.bytes());
+}
+
+void BareSocket::write(std::uint32_t id, ByteView data) {
   can_frame raw{};
   raw.can_id = id;
-  raw.can_dlc = 8;
+  raw.can_dlc = static_cast<__u8>(data.size());
   std::copy(data.begin(), data.end(), raw.data);
   EXPECT_EQ(static_cast<ssize_t>(sizeof raw), ::write(descriptor_, &raw, sizeof raw));
 }

@@ -33,7 +33,7 @@ class VcanInterface {
 
 CanSettings settingsFor(const std::string& interface, std::vector<std::uint32_t> ids = {});
 
-/// Sends what a link does not: error frames, as a driver of a controller would.
+/// Sends what a link does not: error frames, as a driver of a controller would, and what others on the bus might say.
 class BareSocket {
  public:
   explicit BareSocket(const std::string& interface);
@@ -44,13 +44,14 @@ class BareSocket {
   void sendError(std::uint32_t classes, const std::array<std::uint8_t, 8>& data = {});
   /// A frame with eight zeros.
   void sendZeros(std::uint32_t id);
+  void send(const CanFrame& frame);
   /// What is sent from now on is heard at the other end of a pair only, not by other sockets on this interface.
   void sendOutOnly();
   /// True when a filter of `count` identifiers is taken.
   bool takesFilters(std::size_t count);
 
  private:
-  void send(std::uint32_t id, const std::array<std::uint8_t, 8>& data);
+  void write(std::uint32_t id, ByteView data);
 
   int descriptor_ = -1;
 };

@@ -4,8 +4,12 @@
 #include <linux/can/error.h>
 #include <signal.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
+#include "link/can/socket_can.h"
+#include "nord_driver/WriteParameter.h"
 #include "rostest/robot_under_test.h"
 #include "socketcan/network.h"
 
@@ -21,19 +25,43 @@ using ::testing::HasSubstr;
 // The driver's end and the drives' end; the launch file has the names, too.
 constexpr const char* kNear = "nord_near";
 constexpr const char* kFar = "nord_far";
-constexpr std::uint16_t kMasterLost = 100;  // E10.0 as P700 shows it
-constexpr double kSpeed = 0.3;              // m/s
-constexpr double kTurning = 1.0;            // rad/s at the wheel
+constexpr double kSpeed = 0.3;    // m/s
+constexpr double kTurning = 1.0;  // rad/s at the wheel
+
+/// What the bus of this run carries, beside `BusUnderTest`. The drives have the addresses 3 and 4.
+struct OnTheWire {
+  std::vector<std::uint32_t> of_driver;  ///< identifiers nobody but the driver sends on
+  std::vector<std::uint32_t> first;      ///< on which it sends before anything else
+  Seconds pause;                         ///< after each of these, at least
+  CanFrame of_another_master;            ///< process data for the right drive; control word 0 changes nothing
+};
+
+const OnTheWire& wire() {
+  static const OnTheWire canopen{
+      {0x000, 0x203, 0x204, 0x603, 0x604}, {0x000}, Seconds{0}, dataFrame(0x204, std::array<std::uint8_t, 4>{})};
+  // Explicit requests, polls and requests to allocate; the duplicate-MAC check of MAC id 0, one second twice, of which the
+  // stamps may lack what the machine stood still before the first was sent.
+  static const OnTheWire devicenet{{0x407, 0x41C, 0x41D, 0x41E, 0x424, 0x425, 0x426},
+                                   {0x407, 0x407},
+                                   Seconds{0.5},
+                                   dataFrame(0x425, std::array<std::uint8_t, 5>{})};
+  return ros::param::param("nord_driver/transport", std::string{}) == "nord_driver/devicenet" ? devicenet : canopen;
+}
 
 /// Each test finds the robot driving, takes the bus away, and leaves it at rest with a bus that works.
 class SocketCanRobot : public RobotTest {
  protected:
   static void SetUpTestSuite() {
     addPair();
+    // What is not read stays: the first frames are the start of the driver, whatever comes later.
+    link::SocketCan beside{link::settingsFor(kFar, wire().of_driver)};
+    ASSERT_TRUE(beside.open()) << beside.lastError();
     simulator = std::make_unique<NodeProcess>(kSimulatorProgram, std::vector<std::string>{"__name:=nord_sim"});
     driver = std::make_unique<NodeProcess>(kDriverProgram, std::vector<std::string>{"__name:=nord_driver"});
     // An emulated machine takes a minute to start them.
     EXPECT_TRUE(robot().waitForDrivesOnline(2.0 * kPatience)) << simulator->errorText() << driver->errorText();
+    link::ReceivedCanFrame frame;
+    while (start.size() <= wire().first.size() && beside.receive(frame)) start.push_back(frame);
   }
   static void TearDownTestSuite() {
     driver.reset();
@@ -59,14 +87,14 @@ class SocketCanRobot : public RobotTest {
   }
   static void removePair() { ip(std::string("link del ") + kNear); }
 
-  /// Nobody guards the nodes any more: the inverters trip E10.0 and the wheels coast to rest.
+  /// Nobody works with the nodes any more: the inverters trip E10.0 or E10.2, and the wheels coast to rest.
   void expectDrivesStopThemselves() {
     const std::array<DriveTopics*, 2> drives{&robot().left, &robot().right};
     for (std::size_t i = 0; i < drives.size(); ++i) {
       const auto off =
           drives[i]->truth.waitFrom(from_[i], [](const SimDrive& truth) { return !truth.operation_enabled; });
       ASSERT_TRUE(off);
-      EXPECT_EQ(off->fault_number, kMasterLost);
+      EXPECT_EQ(off->fault_number, bus().master_lost);
       EXPECT_GT(std::fabs(off->wheel_velocity), kTurning) << "it coasts";
     }
     EXPECT_TRUE(robot().waitForStandstill());
@@ -93,15 +121,66 @@ class SocketCanRobot : public RobotTest {
       EXPECT_FALSE(truth->operation_enabled);
       EXPECT_LT(std::fabs(truth->wheel_velocity), 1e-2);
     }
+    acknowledge();
+  }
+  static void acknowledge() {
     Answer answer;
     EXPECT_TRUE(eventually([&] { return (answer = robot().trigger("acknowledge_faults")).success; })) << answer;
     EXPECT_TRUE(robot().waitForRest());
   }
 
   static std::unique_ptr<NodeProcess> simulator, driver;
-  std::array<std::size_t, 2> from_{};  // in the truth of left and right
+  static std::vector<link::ReceivedCanFrame> start;  // of the driver, on the wire
+  std::array<std::size_t, 2> from_{};                // in the truth of left and right
 };
 std::unique_ptr<NodeProcess> SocketCanRobot::simulator, SocketCanRobot::driver;
+std::vector<link::ReceivedCanFrame> SocketCanRobot::start;
+
+// On DeviceNet nothing but two questions for its MAC id, each followed by a second of silence.
+TEST_F(SocketCanRobot, StartsAsItsBusDemands) {
+  const std::vector<std::uint32_t>& first = wire().first;
+  ASSERT_EQ(start.size(), first.size() + 1);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(start[i].frame.id, first[i]);
+    EXPECT_GE(toSeconds(start[i + 1].at - start[i].at), wire().pause.count()) << "after frame " << i;
+  }
+}
+
+TEST_F(SocketCanRobot, AParameterIsWrittenUnderWay) {
+  const std::uint64_t before = robot().left.truth.next()->eeprom_writes;
+  WriteParameter service;
+  service.request.number = 102;
+  service.request.parameter_set = 2;
+  service.request.value = 1.5;
+  service.request.persistent = true;
+  const Answer answer = callService("nord_driver/left/write_parameter", service);
+  ASSERT_TRUE(answer.success) << answer;
+  EXPECT_EQ(service.response.raw, 150) << "read back";
+  EXPECT_TRUE(robot().left.truth.waitNext([&](const SimDrive& truth) { return truth.eeprom_writes == before + 1; }));
+}
+
+// It sends process data for one of our drives, which ignores them; the next ones may be others. The base stops, and does
+// not start by itself when the other has ended.
+TEST_F(SocketCanRobot, AnotherMasterIsNamedAndStopsTheBase) {
+  const auto is_off = [](const SimDrive& truth) { return !truth.operation_enabled; };
+  BareSocket other{kFar};
+  const auto both_off = [&] {
+    other.send(wire().of_another_master);
+    const Seconds pause{0.1};
+    return robot().left.truth.waitNext(is_off, pause) && robot().right.truth.waitNext(is_off, pause);
+  };
+  EXPECT_TRUE(eventually(both_off));
+  other.send(wire().of_another_master);
+  EXPECT_TRUE(robot().bus_status.waitNext([](const BusStatus& bus) {
+    return bus.text.find("another master is on the bus: it sends") != std::string::npos;
+  })) << robot().bus_status.next()->text;
+  EXPECT_THAT(robot().waitForDiagnostics("base", isError), HasSubstr("drive right stopped"));
+  EXPECT_TRUE(robot().waitForStandstill());
+  EXPECT_TRUE(robot().waitForDrivesOnline());
+  robot().drive(0.0);
+  ASSERT_NO_FATAL_FAILURE(acknowledge());
+  for (DriveTopics* drive : {&robot().left, &robot().right}) EXPECT_FALSE(drive->truth.next()->operation_enabled);
+}
 
 // As the driver of a controller reports it (linux/can/error.h).
 TEST_F(SocketCanRobot, BusOffAndRestarted) {
@@ -155,8 +234,7 @@ TEST_F(SocketCanRobot, AQueueThatStaysFull) {
   tc(std::string("qdisc del dev ") + kNear + " root");
   EXPECT_TRUE(robot().waitForDrivesOnline());
   robot().drive(0.0);
-  EXPECT_TRUE(eventually([] { return robot().trigger("acknowledge_faults").success; }));
-  EXPECT_TRUE(robot().waitForRest());
+  ASSERT_NO_FATAL_FAILURE(acknowledge());
 }
 
 // A computer that stands still while the bus goes on: what did not fit into the receive buffer is counted and told. The

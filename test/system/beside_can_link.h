@@ -6,7 +6,7 @@
 #include <string>
 
 #include "link/can/can_link.h"
-#include "sim/canopen/simulated_can_bus.h"
+#include "sim/can/timed_can_bus.h"
 
 namespace nord_driver::test {
 
@@ -14,7 +14,7 @@ namespace nord_driver::test {
 /// that are injected. Time passes for both computers when either waits.
 class BesideCanLink final : public link::CanLink {
  public:
-  explicit BesideCanLink(sim::SimulatedCanBus& bus) : bus_(bus) {}
+  explicit BesideCanLink(sim::TimedCanBus& bus) : bus_(bus) {}
   ~BesideCanLink() override { bus_.setTap(nullptr); }
 
   /// Its receiver is broken.
@@ -23,8 +23,8 @@ class BesideCanLink final : public link::CanLink {
 
   bool open() noexcept override {
     open_ = true;
-    bus_.setTap([this](const CanFrame& frame, sim::SimulatedCanBus::Sender sender, Instant at) {
-      if (open_ && !deaf_ && sender != sim::SimulatedCanBus::Sender::kForeign) received_.push_back({frame, at});
+    bus_.setTap([this](const CanFrame& frame, sim::TimedCanBus::Sender sender, Instant at) {
+      if (open_ && !deaf_ && sender != sim::TimedCanBus::Sender::kForeign) received_.push_back({frame, at});
     });
     return true;
   }
@@ -55,7 +55,7 @@ class BesideCanLink final : public link::CanLink {
   const char* advice() const noexcept override { return ""; }
 
  private:
-  sim::SimulatedCanBus& bus_;
+  sim::TimedCanBus& bus_;
   bool open_ = false;
   bool deaf_ = false;
   std::size_t sent_ = 0;

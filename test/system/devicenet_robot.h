@@ -13,6 +13,7 @@
 #include "cycle/cycle_config.h"
 #include "sim/devicenet/simulated_dn_bus.h"
 #include "support/map_settings.h"
+#include "system/beside_can_link.h"
 #include "system/driven_robot.h"
 #include "transport/devicenet/devicenet.h"
 
@@ -32,6 +33,8 @@ class DevicenetRobot : public DrivenRobot {
     /// Each wheel an SK 5xxE behind its own SK TU3-DEV, which lives by its mains.
     bool on_inverter = false;
     std::function<void(sim::SimConfig&)> simulate;  ///< changes of the simulated side
+    /// A second driver on this bus, which outlives it; `bus()`, `unit()` and `module()` are the first one's.
+    sim::SimulatedDnBus* beside = nullptr;
   };
 
   DevicenetRobot() : DevicenetRobot(Options{}) {}
@@ -39,11 +42,17 @@ class DevicenetRobot : public DrivenRobot {
     const auto drives = driveSettings(options);
     const MapSettings node{"~", nodeSettings(options)};
     const cycle::CycleConfig config = cycle::readCycleConfig(node, drives);
-    auto transport = std::make_unique<DeviceNetTransport>([this, options](const link::CanSettings&) {
-      auto bus = std::make_unique<sim::SimulatedDnBus>(simConfig(options));
-      bus_ = bus.get();
-      return bus;
-    });
+    auto transport = std::make_unique<DeviceNetTransport>(
+        [this, options](const link::CanSettings&) -> std::unique_ptr<link::CanLink> {
+          if (options.beside != nullptr) {
+            auto beside = std::make_unique<BesideCanLink>(*options.beside);
+            beside_ = beside.get();
+            return beside;
+          }
+          auto bus = std::make_unique<sim::SimulatedDnBus>(simConfig(options));
+          bus_ = bus.get();
+          return bus;
+        });
     MapSettings bus{"~bus/", {{"interface", std::string{"can0"}}, {"bit_rate", 500'000}}};
     for (const auto& [key, value] : options.bus) bus.set(key, value);
     transport->configure(bus, drives, config.cycle_rate);
@@ -56,6 +65,8 @@ class DevicenetRobot : public DrivenRobot {
   bool standsStill() { return std::abs(unit(0).shaftSpeed()) < 0.1 && std::abs(unit(1).shaftSpeed()) < 0.1; }
 
   sim::SimulatedDnBus& bus() { return *bus_; }
+  /// Of a second driver.
+  BesideCanLink& beside() { return *beside_; }
   sim::DriveUnit& unit(std::size_t drive) { return bus_->drive(drive); }
   sim::DnModule& module(std::size_t drive) { return bus_->module(drive); }
 
@@ -115,6 +126,7 @@ class DevicenetRobot : public DrivenRobot {
   }
 
   sim::SimulatedDnBus* bus_ = nullptr;
+  BesideCanLink* beside_ = nullptr;
 };
 
 }  // namespace nord_driver::test

@@ -66,6 +66,25 @@ void expectSetsOfTheirOwn(Robot& robot) {
   EXPECT_EQ(0x047E, robot.controlWord(kRearLeft));
 }
 
+/// The mains of all four go, the module lives on its 24 V: the idle word goes on, and P151 does not run out.
+template <typename Robot, typename Module>
+void expectAllOffAreNoTimeout(Robot& robot, Module& module) {
+  module.parameters().preset(151, 0, 0, 100);
+  for (DriveIndex i = 0; i < 4; ++i) robot.unit(i).setInverterPower(false);
+  for (int i = 0; i < 300; ++i) {
+    robot.step();
+    ASSERT_FALSE(module.timedOut()) << i;
+  }
+  for (DriveIndex drive = 0; drive < 4; ++drive) {
+    EXPECT_FALSE(robot.online(drive));
+    EXPECT_EQ(0x047E, robot.controlWord(drive)) << drive;
+  }
+  for (DriveIndex i = 0; i < 4; ++i) robot.unit(i).setInverterPower(true);
+  ASSERT_TRUE(robot.runUntil([&robot] { return allOnline(robot); }, std::chrono::seconds{5}));
+  robot.run(std::chrono::seconds{1});
+  EXPECT_STREQ("enabled", robot.ask(cycle::RequestKind::kEnable).message.c_str());
+}
+
 /// The module stays in its time-out until all its inverters are acknowledged (BU 0220 4.2.3.2): the answer says who is
 /// missing, and acknowledging all of them ends it.
 template <typename Module>

@@ -1,9 +1,7 @@
-// What stops the base because somebody wants it to: the first two rows of "What stops what" and quick stop.
+// What stops the base because somebody wants it to: the first two rows of "What stops what" and quick stop. The end of the
+// node from every moment is in test_node_ends.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <optional>
-#include <ostream>
 
 #include "system/simulated_robot.h"
 
@@ -121,137 +119,6 @@ TEST_P(AskedStops, ShutDownRampsAndEndsInReadyToSwitchOn) {
   robot_.segment().run(std::chrono::seconds{1});
   EXPECT_TRUE(robot_.standsStill());
 }
-
-/// What is going on when the node is asked to end. The robot drives before.
-struct Moment {
-  const char* name;
-  void (*bring)(SimulatedRobot&);
-  bool all_seen = true;  ///< every drive can be seen to rest
-};
-
-void PrintTo(const Moment& moment, std::ostream* out) {
-  *out << moment.name;
-}
-
-void submitTo(SimulatedRobot& robot, cycle::RequestKind kind, DriveIndex drive = cycle::kAllDrives) {
-  cycle::Request request;
-  request.kind = kind;
-  request.drive = drive;
-  request.parameter_set = 2;
-  request.patience = std::chrono::seconds{3};
-  robot.ports().submit(request);
-}
-
-void comeToRest(SimulatedRobot& robot) {
-  ASSERT_TRUE(robot.ask(cycle::RequestKind::kDisable).success);
-  robot.run(milliseconds{600});  // the last command is too old by then
-}
-
-void steps(SimulatedRobot& robot, int count) {
-  for (int i = 0; i < count; ++i) robot.step();
-}
-
-class EndFrom : public ::testing::TestWithParam<Moment> {};
-
-// Whenever it comes: nothing runs up any more, the idle word is the last one, and nobody is called at rest unseen.
-TEST_P(EndFrom, LeavesTheDrivesAtRest) {
-  SimulatedRobot robot{withDeceleration(false)};
-  ASSERT_TRUE(robot.bringUpAndEnable());
-  robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{2});
-  ASSERT_NO_FATAL_FAILURE(GetParam().bring(robot));
-
-  cycle::Request request;
-  request.kind = cycle::RequestKind::kShutDown;
-  request.id = 4711;
-  request.patience = std::chrono::seconds{13};
-  robot.ports().submit(request);
-  const Instant asked = robot.transport().now();
-  std::optional<cycle::Completion> answer;
-  bool left[2] = {false, false};
-  while (!answer && robot.transport().now() - asked < std::chrono::seconds{12}) {
-    robot.command(kHalfSpeed);  // somebody goes on commanding
-    robot.step();
-    for (DriveIndex i = 0; i < 2; ++i) {
-      const bool enabled = (robot.controlWord(i) & 0x3FFF) == 0x047F;
-      EXPECT_FALSE(enabled && left[i]) << "enabled again, drive " << i;
-      left[i] = left[i] || !enabled;
-    }
-    for (const auto& completion : robot.completions()) {
-      if (completion.id == request.id) answer = completion;
-    }
-  }
-  ASSERT_TRUE(answer) << "it does not end";
-  EXPECT_EQ(GetParam().all_seen, answer->success) << answer->message.c_str();
-  robot.step();  // before the node has heard of it
-  for (DriveIndex i = 0; i < 2; ++i) {
-    if (!robot.snapshot().drives[i].online) continue;
-    EXPECT_EQ(0x047E, robot.controlWord(i) & 0x3FFF) << i;
-    EXPECT_EQ(0, robot.statusWord(i) & 0x0004) << i << " is enabled";
-  }
-  robot.transport().close();
-  robot.segment().run(std::chrono::seconds{20});  // who coasts, coasts long
-  EXPECT_TRUE(robot.standsStill());
-}
-
-INSTANTIATE_TEST_SUITE_P(Moments, EndFrom,
-                         ::testing::Values(Moment{"Enabling",
-                                                  [](SimulatedRobot& robot) {
-                                                    comeToRest(robot);
-                                                    submitTo(robot, cycle::RequestKind::kEnable);
-                                                    steps(robot, 1);
-                                                  }},
-                                           Moment{"Disabling",
-                                                  [](SimulatedRobot& robot) {
-                                                    submitTo(robot, cycle::RequestKind::kDisable);
-                                                    steps(robot, 5);
-                                                  }},
-                                           Moment{"QuickStopping",
-                                                  [](SimulatedRobot& robot) {
-                                                    submitTo(robot, cycle::RequestKind::kQuickStop);
-                                                    steps(robot, 2);
-                                                  }},
-                                           Moment{"AFaultHasStoppedOne",
-                                                  [](SimulatedRobot& robot) {
-                                                    robot.unit(1).inverter().trip(30, true);
-                                                    steps(robot, 3);
-                                                  }},
-                                           Moment{"Acknowledging",
-                                                  [](SimulatedRobot& robot) {
-                                                    robot.unit(1).inverter().trip(30, true);
-                                                    robot.run(std::chrono::seconds{3});
-                                                    submitTo(robot, cycle::RequestKind::kAcknowledge);
-                                                    steps(robot, 12);
-                                                  }},
-                                           Moment{"SwitchingTheSet",
-                                                  [](SimulatedRobot& robot) {
-                                                    comeToRest(robot);
-                                                    submitTo(robot, cycle::RequestKind::kSelectParameterSet, 1);
-                                                    steps(robot, 1);
-                                                  }},
-                                           Moment{"LocalControl",
-                                                  [](SimulatedRobot& robot) {
-                                                    robot.unit(1).inverter().setLocalControl(true, 0.0);
-                                                    steps(robot, 3);
-                                                  }},
-                                           Moment{"OneIsSilentAndNobodyKnows",
-                                                  [](SimulatedRobot& robot) {
-                                                    robot.unit(1).setMute(true);
-                                                    steps(robot, 1);
-                                                  },
-                                                  false},
-                                           Moment{"OneIsSilent",
-                                                  [](SimulatedRobot& robot) {
-                                                    robot.unit(1).setMute(true);
-                                                    steps(robot, 10);
-                                                  },
-                                                  false},
-                                           Moment{"TheBusIsLost",
-                                                  [](SimulatedRobot& robot) {
-                                                    robot.segment().setDevicePresent(false);
-                                                    steps(robot, 10);
-                                                  },
-                                                  false}),
-                         [](const auto& test) { return test.param.name; });
 
 // A ramp that does not end in shutdown_timeout becomes a quick stop.
 TEST(ShutdownTimeout, TurnsTheRampIntoAQuickStop) {

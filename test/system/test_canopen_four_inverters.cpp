@@ -175,22 +175,8 @@ TEST_P(FourInvertersOnCan, AreAcknowledgedTogetherAfterATimeout) {
   expectAcknowledgedTogether(robot_, *robot_.node(kLeft).module());
 }
 
-// The mains of all four go, the module lives on its 24 V: the idle word goes on, and P151 does not run out.
 TEST_P(FourInvertersOnCan, AllOffAreNoTimeoutOfTheirModule) {
-  robot_.node(kLeft).module()->parameters().preset(151, 0, 0, 100);
-  for (DriveIndex i = 0; i < 4; ++i) robot_.unit(i).setInverterPower(false);
-  for (int i = 0; i < 300; ++i) {
-    robot_.step();
-    ASSERT_FALSE(robot_.node(kLeft).module()->timedOut()) << i;
-  }
-  for (DriveIndex drive = 0; drive < 4; ++drive) {
-    EXPECT_FALSE(robot_.online(drive));
-    EXPECT_EQ(0x047E, robot_.controlWord(drive)) << drive;
-  }
-  for (DriveIndex i = 0; i < 4; ++i) robot_.unit(i).setInverterPower(true);
-  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(robot_); }, seconds{5}));
-  robot_.run(seconds{1});
-  EXPECT_STREQ("enabled", robot_.ask(cycle::RequestKind::kEnable).message.c_str());
+  expectAllOffAreNoTimeout(robot_, *robot_.node(kLeft).module());
 }
 
 // The module is gone: four drives at once, and all of them back, at rest.

@@ -93,33 +93,53 @@ INSTANTIATE_TEST_SUITE_P(All, DevicenetKinds,
                            return std::string{test.param.first} + std::to_string(test.param.second);
                          });
 
-// One module, four inverters in 33 bytes: P151 is shared, sets are each one's own.
-TEST(DevicenetFourInverters, ShareAModule) {
-  DevicenetRobot::Options options;
-  options.assembly = 102;
-  options.gateway_inverters = 4;
-  options.node = {{"cycle_rate", 50.0}};
-  DevicenetRobot robot{options};
-  ASSERT_TRUE(robot.bringUp()) << robot.text(0) << " / " << robot.busText();
-  expectMonitoringKnown(robot);
-  expectSharedTimeout(robot, robot.module(0));
-  expectSetsOfTheirOwn(robot);
-  EXPECT_EQ("no rule broken", robot.bus().referee().report());
+/// One module, four inverters in 33 bytes.
+class DevicenetFourInverters : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(robot_.bringUp()) << robot_.text(0) << " / " << robot_.busText(); }
+  void TearDown() override { EXPECT_EQ("no rule broken", robot_.bus().referee().report()); }
+  static DevicenetRobot::Options options() {
+    DevicenetRobot::Options options;
+    options.assembly = 102;
+    options.gateway_inverters = 4;
+    options.node = {{"cycle_rate", 50.0}};
+    return options;
+  }
+
+  DevicenetRobot robot_{options()};
+};
+
+// P151 is shared, sets are each one's own.
+TEST_F(DevicenetFourInverters, ShareAModule) {
+  expectMonitoringKnown(robot_);
+  expectSharedTimeout(robot_, robot_.module(0));
+  expectSetsOfTheirOwn(robot_);
 }
 
-TEST(DevicenetFourInverters, OneThatIsOffIsNamedAlone) {
-  DevicenetRobot::Options options;
-  options.assembly = 102;
-  options.gateway_inverters = 4;
-  options.node = {{"cycle_rate", 50.0}};
-  DevicenetRobot robot{options};
-  ASSERT_TRUE(robot.bringUpAndEnable());
-  robot.unit(2).setInverterPower(false);
-  ASSERT_TRUE(robot.runUntil([&] { return !robot.online(2); }, seconds{3}));
-  EXPECT_TRUE(robot.online(0) && robot.online(1) && robot.online(3));
-  EXPECT_THAT(robot.text(2), HasSubstr("the inverter behind it does not"));
-  robot.unit(2).setInverterPower(true);
-  EXPECT_TRUE(robot.runUntil([&] { return robot.online(2); }, seconds{5}));
+TEST_F(DevicenetFourInverters, OneThatIsOffIsNamedAlone) {
+  ASSERT_TRUE(robot_.ask(cycle::RequestKind::kEnable).success);
+  robot_.unit(2).setInverterPower(false);
+  ASSERT_TRUE(robot_.runUntil([&] { return !robot_.online(2); }, seconds{3}));
+  EXPECT_TRUE(robot_.online(0) && robot_.online(1) && robot_.online(3));
+  EXPECT_THAT(robot_.text(2), HasSubstr("the inverter behind it does not"));
+  robot_.unit(2).setInverterPower(true);
+  EXPECT_TRUE(robot_.runUntil([&] { return robot_.online(2); }, seconds{5}));
+}
+
+TEST_F(DevicenetFourInverters, AllOffAreNoTimeoutOfTheirModule) {
+  expectAllOffAreNoTimeout(robot_, robot_.module(0));
+}
+
+// Nobody asks the module any more: E10.2 in all four. It stays in its time-out until all are acknowledged.
+TEST_F(DevicenetFourInverters, AreAcknowledgedTogetherAfterATimeout) {
+  robot_.run(seconds{1});  // disabled: the end of an enable would acknowledge by itself
+  robot_.bus().run(milliseconds{800});
+  for (DriveIndex drive = 0; drive < 4; ++drive) {
+    EXPECT_EQ(102, robot_.unit(drive).inverter().faultNumber()) << drive;
+  }
+  ASSERT_TRUE(robot_.runUntil([this] { return allOnline(robot_); }, seconds{5}));
+  robot_.run(seconds{1});
+  expectAcknowledgedTogether(robot_, robot_.module(0));
 }
 
 // Explicit messages have no order that spares the EEPROM: P560 is set to 0 for the write, and put back.

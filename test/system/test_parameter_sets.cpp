@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cycle/parameter_requests.h"
-#include "system/simulated_robot.h"
+#include "system/every_robot.h"
 
 namespace nord_driver::test {
 namespace {
@@ -11,16 +11,21 @@ namespace {
 using ::testing::HasSubstr;
 
 /// An earlier node commanded set 3 and died; with `turning` it was driving at half of P105.
-void leaveInSet3(SimulatedRobot& robot, bool turning) {
+template <typename Robot>
+void leaveInSet3(Robot& robot, bool turning) {
   for (std::size_t i = 0; i < 2; ++i) robot.unit(i).inverter().receive({0x847E, {}});
-  robot.segment().run(std::chrono::seconds{1});
+  busOf(robot).run(std::chrono::seconds{1});
   if (!turning) return;
   for (std::size_t i = 0; i < 2; ++i) robot.unit(i).inverter().receive({0x847F, {0x2000}});
-  robot.segment().run(std::chrono::seconds{5});
+  busOf(robot).run(std::chrono::seconds{5});
 }
 
-TEST(ParameterSets, ADriveLeftInSet3IsToldToIdleInSet3) {
-  SimulatedRobot robot;
+template <typename Robot>
+class LeftInSet3 : public ::testing::Test {};
+TYPED_TEST_SUITE(LeftInSet3, EveryRobot, BusName);
+
+TYPED_TEST(LeftInSet3, ADriveIsToldToIdleInIt) {
+  TypeParam robot;
   leaveInSet3(robot, false);
   const auto switches = robot.unit(0).inverter().setSwitches();
   ASSERT_TRUE(robot.bringUp());
@@ -31,12 +36,12 @@ TEST(ParameterSets, ADriveLeftInSet3IsToldToIdleInSet3) {
   ASSERT_TRUE(robot.ask(cycle::RequestKind::kEnable).success);
   EXPECT_EQ(0x847F, robot.controlWord(0));
   EXPECT_EQ(switches, robot.unit(0).inverter().setSwitches());
-  EXPECT_EQ("no rule broken", robot.segment().referee().report());
+  EXPECT_EQ("no rule broken", busOf(robot).referee().report());
 }
 
 // A node restarted over turning drives: 047E alone would switch to the ramps and P105 of set 1 in full run.
-TEST(ParameterSets, ADriveLeftTurningInSet3IsStoppedInSet3) {
-  SimulatedRobot robot;
+TYPED_TEST(LeftInSet3, ADriveThatTurnsIsStoppedInIt) {
+  TypeParam robot;
   leaveInSet3(robot, true);
   ASSERT_GT(robot.unit(0).shaftSpeed(), 50.0);
   const auto switches = robot.unit(0).inverter().setSwitches();
@@ -47,7 +52,7 @@ TEST(ParameterSets, ADriveLeftTurningInSet3IsStoppedInSet3) {
   EXPECT_EQ(switches, robot.unit(0).inverter().setSwitches());
   EXPECT_FALSE(robot.snapshot().drives[0].enabled);
   EXPECT_EQ(0x847E, robot.controlWord(0));
-  EXPECT_EQ("no rule broken", robot.segment().referee().report());
+  EXPECT_EQ("no rule broken", busOf(robot).referee().report());
 }
 
 // SW1 and IW1 are shares of P105 of the set in force (BU 0020 7.3.5): 100 Hz in set 3, 50 Hz in set 1.

@@ -2,15 +2,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "system/simulated_robot.h"
+#include "system/every_robot.h"
 
 namespace nord_driver::test {
 namespace {
 
 using ::testing::HasSubstr;
 
-TEST(RefusalReason, IsReadBeforeAnybodyAsksAndToldWithTheRefusal) {
-  SimulatedRobot robot;
+template <typename Robot>
+class RefusalReason : public ::testing::Test {};
+TYPED_TEST_SUITE(RefusalReason, EveryRobot, BusName);
+
+TYPED_TEST(RefusalReason, IsReadBeforeAnybodyAsksAndToldWithTheRefusal) {
+  TypeParam robot;
   ASSERT_TRUE(robot.bringUp());
   sim::Terminals terminals;
   terminals.coast = true;  // an input "disable voltage" is low

@@ -3,6 +3,7 @@
 
 #include "nord_driver/core/bytes.h"
 #include "system/can_robot.h"
+#include "system/node_ends.h"
 #include "system/what_stops_what.h"
 
 namespace nord_driver::test {
@@ -92,6 +93,11 @@ INSTANTIATE_TEST_SUITE_P(Canopen, WhatStopsWhat,
                                                               StopBus{"25Hz", makeRig<25>}),
                                             ::testing::ValuesIn(stopRows())),
                          nameOfStop);
+
+INSTANTIATE_TEST_SUITE_P(Canopen, NodeEnds,
+                         ::testing::Combine(::testing::Values(StopBus{"100Hz", makeRig<100>}),
+                                            ::testing::ValuesIn(endMoments())),
+                         nameOfEnd);
 
 /// "A node changes state unasked": here by the commands of others, and by a restart of its own.
 StopRow stateRow(const char* name, void (*cause)(WhatStopsWhat&)) {

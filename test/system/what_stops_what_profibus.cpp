@@ -1,5 +1,6 @@
 // "What stops what" over PROFIBUS: each wheel behind an SK TU3-PBR.
 #include "nord_driver/core/bytes.h"
+#include "system/node_ends.h"
 #include "system/simulated_robot.h"
 #include "system/what_stops_what.h"
 
@@ -64,6 +65,11 @@ INSTANTIATE_TEST_SUITE_P(Profibus, WhatStopsWhat,
                                                               StopBus{"25Hz", makeRig<25>}),
                                             ::testing::ValuesIn(stopRows())),
                          nameOfStop);
+
+INSTANTIATE_TEST_SUITE_P(Profibus, NodeEnds,
+                         ::testing::Combine(::testing::Values(StopBus{"100Hz", makeRig<100>}),
+                                            ::testing::ValuesIn(endMoments())),
+                         nameOfEnd);
 
 }  // namespace
 }  // namespace nord_driver::test
