@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "link/can/socket_can.h"
-#include "nord_driver/WriteParameter.h"
 #include "rostest/robot_under_test.h"
+#include "rostest/write_parameter.h"
 #include "socketcan/network.h"
 
 namespace nord_driver::test {
@@ -148,14 +148,9 @@ TEST_F(SocketCanRobot, StartsAsItsBusDemands) {
 
 TEST_F(SocketCanRobot, AParameterIsWrittenUnderWay) {
   const std::uint64_t before = robot().left.truth.next()->eeprom_writes;
-  WriteParameter service;
-  service.request.number = 102;
-  service.request.parameter_set = 2;
-  service.request.value = 1.5;
-  service.request.persistent = true;
-  const Answer answer = callService("nord_driver/left/write_parameter", service);
-  ASSERT_TRUE(answer.success) << answer;
-  EXPECT_EQ(service.response.raw, 150) << "read back";
+  const WrittenParameter written = writeToEeprom("left", 102, 2, 1.5);
+  ASSERT_TRUE(written.answer.success) << written.answer;
+  EXPECT_EQ(written.raw, 150) << "read back";
   EXPECT_TRUE(robot().left.truth.waitNext([&](const SimDrive& truth) { return truth.eeprom_writes == before + 1; }));
 }
 
