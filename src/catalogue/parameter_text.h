@@ -34,7 +34,7 @@ RawValue rawFrom(const ParameterEntry& entry, const std::string& text, unsigned 
 /// Why nobody may write the parameter; empty when it may be written.
 std::string whyNotWritable(const ParameterEntry& entry);
 
-/// What may be written, for sentences and help: "0 ... 10" or "-0.1 ... 100 s".
+/// What may be written, for sentences and help: "0 to 10" or "-0.1 to 100 s".
 std::string rangeText(const ParameterEntry& entry, unsigned index = 1);
 
 }  // namespace nord_driver::catalogue

@@ -7,6 +7,7 @@
 #include "config/setting_checks.h"
 #include "node/start_sentence.h"
 #include "nord_driver/profile/series.h"
+#include "tools/installed_catalogues.h"
 
 namespace nord_driver::node {
 
@@ -51,6 +52,7 @@ DriverNode::DriverNode()
       stops_(private_node_, kStopThreads),
       settings_("~", privateParameters()),
       config_(readNodeConfig(settings_, robotDescription())),
+      catalogues_(tools::installedCatalogues(config_.parameter_files)),
       loader_("nord_driver", "nord_driver::Transport") {
   loadTransport();
   warnOfUnknownKeys();
@@ -88,6 +90,16 @@ void DriverNode::loadTransport() {
   }
 }
 
+std::vector<catalogue::DriveCatalogue> DriverNode::knownDrives() const {
+  std::vector<catalogue::DriveCatalogue> known;
+  for (DriveIndex i = 0; i < config_.cycle.drives.size(); ++i) {
+    known.push_back(catalogue::driveCatalogue(catalogues_, config_.cycle.drives[i].series,
+                                              shortTransportName(config_.transport),
+                                              identities_[i].timeout_owner == TimeoutOwner::kModule));
+  }
+  return known;
+}
+
 void DriverNode::warnOfUnknownKeys() const {
   std::vector<std::string> sentences = config_.warnings;
   std::vector<const TreeSettings*> groups{&settings_, config_.bus.get()};
@@ -107,6 +119,8 @@ void DriverNode::advertise() {
   } else {
     nothing_to_tune_ = std::make_unique<NothingToTune>(private_node_);
   }
+  const std::vector<catalogue::DriveCatalogue> known = knownDrives();
+  for (const catalogue::DriveCatalogue& drive : known) faults_.push_back(drive.faults());
   std::vector<std::string> names;
   std::vector<trace::TracedDrive> traced;
   for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
@@ -116,7 +130,7 @@ void DriverNode::advertise() {
     drive_publishers_.emplace_back(private_node_, setup, identities_[i],
                                    DriveProtection{identities_[i], config_.cycle.drives[i].series,
                                                    config_.cycle.cmd_vel_timeout, config_.cycle.period()},
-                                   static_cast<std::uint16_t>(setup.address.value_or(0)));
+                                   faults_[i], static_cast<std::uint16_t>(setup.address.value_or(0)));
     if (cycle_->inBase(i)) continue;
     boost::function<void(const std_msgs::Float64&)> take = [this, i](const std_msgs::Float64& velocity) {
       takeDriveCommand(i, velocity.data);
@@ -124,8 +138,8 @@ void DriverNode::advertise() {
     subscribers_.push_back(private_commands_.handle().subscribe<std_msgs::Float64>(setup.name + "/command", 1, take));
   }
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
-  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, where_);
-  services_ = std::make_unique<Services>(private_node_, stops_.handle(), config_, *broker_);
+  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, faults_, where_);
+  services_ = std::make_unique<Services>(private_node_, stops_.handle(), config_, known, *broker_);
   tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace());
   ports_->setObserver(&tracing_->feed());
   if (config_.cycle.base) {
@@ -193,6 +207,7 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
 LoggedDrives DriverNode::loggedDrives() const {
   LoggedDrives drives;
   drives.node = ros::this_node::getName();
+  drives.faults = faults_;
   drives.bus = where_;
   if (!where_.empty()) drives.bus_key = config_.bus->fullName(transport_->endPoint().key);
   for (DriveIndex i = 0; i < config_.cycle.drives.size(); ++i) {

@@ -76,6 +76,7 @@ NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot
   config.bus_end_point = settings.text("bus_end_point").value_or("");
   config.auto_enable = settings.boolean("auto_enable").value_or(false);
   config.allow_raw_parameters = settings.boolean("allow_raw_parameters").value_or(false);
+  config.parameter_files = settings.texts("parameter_files").value_or(std::vector<std::string>{});
   acceptControllerKeys(settings);
   config.publish = readPublish(settings);
   config.publish.publish_wheel_states = readWheelStates(settings, config.warnings);
