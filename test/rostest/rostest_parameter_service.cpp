@@ -118,9 +118,9 @@ TEST_F(ParameterService, ReadsAnArrayElementByItsPrintedIndex) {
   EXPECT_THAT(none.message, AllOf(HasSubstr("drive left refuses P707"), HasSubstr(reason("0609 0011h", 3))));
 }
 
-// P113 is in no file of the catalogue: as transferred, without unit and name.
+// P113 is in no file of the catalogue, so that the set has to be named: as transferred, without unit and name.
 TEST_F(ParameterService, ReadsAnUnknownParameterRaw) {
-  const Read p113 = read("left", 113);
+  const Read p113 = read("left", 113, 1);
   ASSERT_TRUE(p113.success) << p113;
   EXPECT_DOUBLE_EQ(p113.response.value, p113.response.raw);
   EXPECT_EQ(p113.response.unit, "");
@@ -195,17 +195,17 @@ TEST_F(ParameterService, RefusesAValueOutOfRangeInWords) {
 
 // Without a unit nobody knows what 12 is: a key of the configuration has to allow it.
 TEST_F(ParameterService, RefusesToWriteAnUnknownParameter) {
-  const Written p113 = write("left", 113, 12.0, false);
+  const Written p113 = write("left", 113, 12.0, false, 1);
   EXPECT_FALSE(p113.success);
   EXPECT_THAT(p113.message, AllOf(HasSubstr("P113 is not in the catalogue"), HasSubstr("allow_raw_parameters: true")));
-  EXPECT_EQ(read("left", 113).response.raw, 0);
+  EXPECT_EQ(read("left", 113, 1).response.raw, 0);
 }
 
 TEST_F(RawParameters, WritesAnUnknownParameterWhereItIsAllowed) {
-  const Written p113 = write("left", 113, 12.0, false);
+  const Written p113 = write("left", 113, 12.0, false, 1);
   ASSERT_TRUE(p113.success) << p113;
   EXPECT_EQ(p113.response.raw, 12);
-  EXPECT_EQ(read("left", 113).response.raw, 12);
+  EXPECT_EQ(read("left", 113, 1).response.raw, 12);
 }
 
 // An inverter without AK 11 to 14 (BU 2700 6.5.1.1: some do not know them): P560 spares the EEPROM, and is put back.
