@@ -1,9 +1,7 @@
 // A whole CANopen master against any frames: it never stops asking, never floods the bus, and every SDO access gets its
 // answer.
-#include <algorithm>
-
+#include "can_game.h"
 #include "canopen/master.h"
-#include "fuzz.h"
 
 namespace {
 
@@ -46,39 +44,17 @@ MasterConfig bus(std::uint8_t options) {
   return completed(config);
 }
 
-class Game {
+class Game final : public fuzz::CanGame {
  public:
-  Game(const std::uint8_t* data, std::size_t size)
-      : choices_(data, size), options_(choices_.byte()), master_(bus(options_)) {
-    const auto ids = master_.receivedIds();
-    fuzz::require(std::is_sorted(ids.begin(), ids.end()) && ids.back() <= 0x7FF);
-    master_.restart(now_);
-    if ((options_ & 4u) == 0) boot();
-  }
-
-  void play() {
-    well_behaved_ = false;
-    while (!choices_.empty()) {
-      act();
-      settle();
-    }
-    // Silence: what is still asked for is answered within the time-outs.
-    for (int i = 0; pending_ > 0; ++i) {
-      fuzz::require(i < 5000 && master_.nextDeadline());
-      now_ = std::max(now_, *master_.nextDeadline());
-      settle();
-    }
-    for (std::size_t i = 0; i < master_.nodeCount(); ++i) {
-      const NodeStatus& status = master_.status(i);
-      fuzz::require(status.state != NodeState::kRefused || !status.reason.empty());
-      fuzz::require(status.counters.losses <= status.counters.boots);
-    }
+  Game(fuzz::Choices& choices, std::uint8_t options) : CanGame(choices, master_), master_(bus(options)) {
+    begin(master_.receivedIds(), 0x7FF);
+    if ((options & 4u) == 0) boot();
   }
 
  private:
   /// Nodes that do as they are told, until all run.
   void boot() {
-    for (int i = 0; i < 500 && !allOperational(); ++i) {
+    for (int i = 0; i < 500 && !fuzz::allAre(master_, NodeState::kOperational); ++i) {
       now_ += 5ms;
       settle();
       for (CanFrame& asked : asked_) {
@@ -87,17 +63,9 @@ class Game {
       const std::uint8_t state = states_[0];
       hear(dataFrame(0x701, ByteView{&state, 1}));
     }
-    fuzz::require(allOperational());
+    fuzz::require(fuzz::allAre(master_, NodeState::kOperational));
   }
-  bool allOperational() const {
-    for (std::size_t i = 0; i < master_.nodeCount(); ++i) {
-      if (master_.status(i).state != NodeState::kOperational) return false;
-    }
-    return true;
-  }
-
-  void act() {
-    now_ += std::chrono::milliseconds{choices_.below(60)};
+  void act() override {
     const std::size_t which = choices_.below(3);
     switch (choices_.below(16)) {
       case 0:
@@ -121,14 +89,9 @@ class Game {
       case 6:
         master_.startCycle(now_);
         break;
-      case 7: {  // anything
-        CanFrame frame =
-            dataFrame((choices_.byte() << 3u | choices_.below(8)) & 0x7FFu, choices_.bytes(choices_.below(9)));
-        frame.remote = choices_.below(16) == 0;
-        frame.extended = choices_.below(16) == 0;
-        hear(frame);
+      case 7:
+        hearAnything();
         break;
-      }
       case 8: {  // error control of one of ours
         constexpr std::uint8_t kStates[] = {0x00, 0x04, 0x05, 0x7F, 0x85, 0xFF, 0x84};
         const std::uint8_t state = kStates[choices_.below(sizeof kStates)];
@@ -171,14 +134,7 @@ class Game {
     for (std::size_t i = 0; i < 4; ++i) frame.data[4 + i] = static_cast<std::uint8_t>(value >> 8 * i);
   }
 
-  void hear(const CanFrame& frame) { master_.handleFrame(frame, now_); }
-
-  void settle() {
-    for (int i = 0; i == 0 || (master_.nextDeadline() && *master_.nextDeadline() <= now_); ++i) {
-      fuzz::require(i < 100);
-      master_.poll(now_);
-      send();
-    }
+  void takeAnswers() override {
     while (const auto event = master_.pollEvent()) fuzz::require(event->node < 3 || event->node == kNoNode);
     while (const auto answer = master_.pollSdo()) {
       fuzz::require(pending_ > 0 && answer->node < 3 && answer->server < 2);
@@ -186,22 +142,22 @@ class Game {
     }
   }
 
-  void send() {
-    CanFrame frame;
-    for (int i = 0; master_.pollTransmit(frame); ++i) {
-      fuzz::require(i < 100 && !frame.extended && frame.id <= 0x7FF && frame.size <= 8);
-      if (!well_behaved_ && choices_.below(64) == 63) {
-        master_.notSent();
-        return;
-      }
-      const bool request = (frame.id >= 0x601 && frame.id <= 0x603) || frame.id == 0x640;
-      if (request && frame.data[0] != 0x80) asked_[frame.id & 3u] = frame;
-      if (frame.id == 0) command(frame);
-      if (frame.remote && frame.id == 0x702 && well_behaved_) {
-        const auto state = static_cast<std::uint8_t>(states_[1] | toggle_);
-        toggle_ ^= 0x80u;
-        hear(dataFrame(0x702, ByteView{&state, 1}));
-      }
+  void checkEnd() override {
+    for (std::size_t i = 0; i < master_.nodeCount(); ++i) {
+      const NodeStatus& status = master_.status(i);
+      fuzz::require(status.state != NodeState::kRefused || !status.reason.empty());
+      fuzz::require(status.counters.losses <= status.counters.boots);
+    }
+  }
+
+  void handleSent(const CanFrame& frame) override {
+    const bool request = (frame.id >= 0x601 && frame.id <= 0x603) || frame.id == 0x640;
+    if (request && frame.data[0] != 0x80) asked_[frame.id & 3u] = frame;
+    if (frame.id == 0) command(frame);
+    if (frame.remote && frame.id == 0x702 && well_behaved_) {
+      const auto state = static_cast<std::uint8_t>(states_[1] | toggle_);
+      toggle_ ^= 0x80u;
+      hear(dataFrame(0x702, ByteView{&state, 1}));
     }
   }
   void command(const CanFrame& frame) {
@@ -214,20 +170,17 @@ class Game {
     }
   }
 
-  fuzz::Choices choices_;
-  std::uint8_t options_;
-  Instant now_{std::chrono::hours{1}};
-  std::size_t pending_ = 0;
   std::array<CanFrame, 4> asked_;  // SDO requests not answered, by server
   std::array<std::uint8_t, 3> states_{0x7F, 0x7F, 0x7F};
   unsigned toggle_ = 0;  // of node 2, which is guarded
-  bool well_behaved_ = true;
   Master master_;
 };
 
 }  // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  Game{data, size}.play();
+  fuzz::Choices choices{data, size};
+  const std::uint8_t options = choices.byte();
+  Game{choices, options}.play();
   return 0;
 }

@@ -2,8 +2,8 @@
 // floods the bus, sends process data only to who exchanges, and every request gets its answer.
 #include <algorithm>
 
+#include "can_game.h"
 #include "devicenet/scanner.h"
-#include "fuzz.h"
 
 namespace {
 
@@ -74,54 +74,25 @@ void playClient(fuzz::Choices& choices) {
   fuzz::require(!client.busy());
 }
 
-class Game {
+class Game final : public fuzz::CanGame {
  public:
-  Game(fuzz::Choices& choices, std::uint8_t options) : choices_(choices), options_(options), scanner_(bus(options)) {
-    const auto ids = scanner_.receivedIds();
-    fuzz::require(std::is_sorted(ids.begin(), ids.end()) && ids.back() <= 0x7EF);
-    scanner_.restart(now_);
-    if ((options_ & 4u) == 0) connect();
-  }
-
-  void play() {
-    well_behaved_ = false;
-    while (!choices_.empty()) {
-      act();
-      settle();
-    }
-    // Silence: what is still asked for is answered within the time-outs.
-    for (int i = 0; pending_ > 0; ++i) {
-      fuzz::require(i < 5000 && scanner_.nextDeadline());
-      now_ = std::max(now_, *scanner_.nextDeadline());
-      settle();
-    }
-    for (std::size_t i = 0; i < scanner_.nodeCount(); ++i) {
-      const NodeStatus& status = scanner_.status(i);
-      fuzz::require(status.state != NodeState::kRefused || !status.reason.empty());
-      fuzz::require(status.counters.losses <= status.counters.connections);
-    }
+  Game(fuzz::Choices& choices, std::uint8_t options) : CanGame(choices, scanner_), scanner_(bus(options)) {
+    begin(scanner_.receivedIds(), 0x7EF);
+    if ((options & 4u) == 0) connect();
   }
 
  private:
   void connect() {
-    for (int i = 0; i < 3000 && !allExchanging(); ++i) {
+    for (int i = 0; i < 3000 && !fuzz::allAre(scanner_, NodeState::kExchanging); ++i) {
       now_ += 1ms;
       settle();
       for (CanFrame& asked : asked_) {
         if (asked.size != 0) answer(asked);
       }
     }
-    fuzz::require(allExchanging());
+    fuzz::require(fuzz::allAre(scanner_, NodeState::kExchanging));
   }
-  bool allExchanging() const {
-    for (std::size_t i = 0; i < scanner_.nodeCount(); ++i) {
-      if (scanner_.status(i).state != NodeState::kExchanging) return false;
-    }
-    return true;
-  }
-
-  void act() {
-    now_ += std::chrono::milliseconds{choices_.below(60)};
+  void act() override {
     const std::size_t which = choices_.below(4);
     const auto mac = static_cast<std::uint8_t>(which + 1);
     switch (choices_.below(16)) {
@@ -144,14 +115,9 @@ class Game {
       case 5:
         scanner_.startCycle(now_);
         break;
-      case 6: {  // anything
-        CanFrame frame =
-            dataFrame((choices_.byte() << 3u | choices_.below(8)) & 0x7FFu, choices_.bytes(choices_.below(9)));
-        frame.remote = choices_.below(16) == 0;
-        frame.extended = choices_.below(16) == 0;
-        hear(frame);
+      case 6:
+        hearAnything();
         break;
-      }
       case 7:  // process data
         hear(dataFrame((0xDu + choices_.below(3)) << 6u | mac, choices_.bytes(choices_.below(9))));
         break;
@@ -202,14 +168,7 @@ class Game {
     return request.data[4] == 1 ? 3 : 25;
   }
 
-  void hear(const CanFrame& frame) { scanner_.handleFrame(frame, now_); }
-
-  void settle() {
-    for (int i = 0; i == 0 || (scanner_.nextDeadline() && *scanner_.nextDeadline() <= now_); ++i) {
-      fuzz::require(i < 100);
-      scanner_.poll(now_);
-      if (send()) break;
-    }
+  void takeAnswers() override {
     while (const auto event = scanner_.pollEvent()) fuzz::require(event->node < 4 || event->node == kNoNode);
     while (const auto answer = scanner_.pollAnswer()) {
       fuzz::require(pending_ > 0 && answer->node < 4);
@@ -217,30 +176,24 @@ class Game {
     }
   }
 
-  /// True when the link took no more.
-  bool send() {
-    CanFrame frame;
-    for (int i = 0; scanner_.pollTransmit(frame); ++i) {
-      fuzz::require(i < 100 && !frame.extended && !frame.remote && frame.id <= 0x7EF && frame.size <= 8);
-      if (!well_behaved_ && choices_.below(64) == 63) {
-        scanner_.notSent();
-        return true;
-      }
-      const std::size_t mac = frame.id >> 3u & 0x3Fu;
-      const std::uint32_t message = frame.id & 7u;
-      if (message == 5) fuzz::require(scanner_.status(mac - 1).state == NodeState::kExchanging);
-      const bool acknowledge = frame.size == 3 && (frame.data[0] & 0x80u) != 0 && (frame.data[1] & 0xC0u) == 0xC0u;
-      if ((message == 4 || message == 6) && !acknowledge) asked_[mac & 7u] = frame;
+  void checkEnd() override {
+    for (std::size_t i = 0; i < scanner_.nodeCount(); ++i) {
+      const NodeStatus& status = scanner_.status(i);
+      fuzz::require(status.state != NodeState::kRefused || !status.reason.empty());
+      fuzz::require(status.counters.losses <= status.counters.connections);
     }
-    return false;
   }
 
-  fuzz::Choices& choices_;
-  std::uint8_t options_;
-  Instant now_{std::chrono::hours{1}};
-  std::size_t pending_ = 0;
+  void handleSent(const CanFrame& frame) override {
+    fuzz::require(!frame.remote);
+    const std::size_t mac = frame.id >> 3u & 0x3Fu;
+    const std::uint32_t message = frame.id & 7u;
+    if (message == 5) fuzz::require(scanner_.status(mac - 1).state == NodeState::kExchanging);
+    const bool acknowledge = frame.size == 3 && (frame.data[0] & 0x80u) != 0 && (frame.data[1] & 0xC0u) == 0xC0u;
+    if ((message == 4 || message == 6) && !acknowledge) asked_[mac & 7u] = frame;
+  }
+
   std::array<CanFrame, 8> asked_;  // explicit requests not answered, by MAC id
-  bool well_behaved_ = true;
   Scanner scanner_;
 };
 

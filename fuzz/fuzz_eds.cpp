@@ -1,9 +1,10 @@
-// Any text as an EDS file: read to its end, every problem names a line of it, and a configuration filled from it and
-// checked against it holds nothing that could not be sent.
+// Any text as an EDS file of CANopen and of DeviceNet: read to its end, every problem names a line of it, and a
+// configuration filled from it and checked against it holds nothing that could not be sent.
 #include <algorithm>
 #include <string>
 
 #include "canopen/eds_check.h"
+#include "devicenet/eds_check.h"
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -29,6 +30,17 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   for (const canopen::PdoConfig& pdo : config.receive_pdos) fuzz::require(pdo.cob_id <= 0x7FF);
   for (const std::string& sentence : canopen::checkAgainstEds(config, file, 250'000)) {
     fuzz::require(!sentence.empty());
+  }
+  const devicenet::EdsFile device = devicenet::parseEds(text);
+  for (const devicenet::EdsProblem& problem : device.problems) {
+    fuzz::require(problem.line >= 1 && problem.line <= lines && !problem.text.empty());
+  }
+  devicenet::NodeConfig module;
+  module.mac = 5;
+  module.io.input_bytes = module.io.output_bytes = 5;
+  module = devicenet::filledFromEds(module, device);
+  for (const std::string& sentence : devicenet::checkAgainstEds(module, {110, 100, false}, device)) {
+    fuzz::require(sentence.compare(0, 5, "line ") == 0);
   }
   return 0;
 }

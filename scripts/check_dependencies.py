@@ -24,7 +24,7 @@ OWN = "nord_driver"
 FOR_TESTS = (".ci/", "bench/", "fuzz/", "scripts/bench.sh", "scripts/can_machine", "scripts/check_", "scripts/common.sh",
              "scripts/count_results.py", "scripts/fuzz.sh", "scripts/test", "test/link/modbus/pymodbus_server.py")
 # What a user is told to install himself.
-LEFT_TO_THE_USER = {"node rviz/rviz"}
+LEFT_TO_THE_USER = {"node rviz/rviz", "program import"}
 # Used where it is found; Debian has no package of it.
 OPTIONAL = {"find_package(control_msgs)", "#include <control_msgs/JointTrajectoryControllerState.h>"}
 

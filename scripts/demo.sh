@@ -37,27 +37,11 @@ set +u # catkin's setup files read variables that may be unset
 source "$out/devel/setup.bash"
 set -u
 
-free_port() {
-  python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'
-}
-port=$(free_port)
-export ROS_MASTER_URI="http://127.0.0.1:$port" ROS_IP=127.0.0.1
-unset ROS_HOSTNAME
-
-bus="/tmp/nord_driver_demo_bus.$$"
-roslaunch --port "$port" nord_driver demo.launch output:=log bus:="$bus" >>"$log" 2>&1 &
-launch=$!
-# TERM: a shell that is no terminal's starts what is beside it deaf to INT.
-stop() {
-  kill -TERM "$launch" 2>/dev/null || true
-  wait "$launch" 2>/dev/null || true
-}
-trap stop EXIT
-for _ in $(seq 100); do # until the master answers
-  python3 -c 'import rosgraph, sys; sys.exit(not rosgraph.is_master_online())' 2>>"$log" && break
-  kill -0 "$launch" 2>/dev/null || break
-  sleep 0.2
-done
+# shellcheck disable=SC1091
+source "$root/scripts/demo_launch.sh"
+launch=
+trap stop_demo EXIT
+start_demo "$log" bus:="/tmp/nord_driver_demo_bus.$$"
 
 status=0
 python3 "$root/scripts/drive_square.py" || status=$?

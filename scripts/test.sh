@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test and check. The last line is "N passed, N failed, N skipped": test cases, and each
-# check (format, dependencies, lint, fuzz, workspace, fresh) as one. The lines before say where the tests on SocketCAN ran,
-# and how often a test was tried again since the machine had stood still. Ends with 0 only when nothing failed and something
-# passed.
+# check (format, dependencies, pictures, lint, fuzz, workspace, fresh) as one. The lines before say where the tests on
+# SocketCAN ran, and how often a test was tried again since the machine had stood still. Ends with 0 only when nothing failed
+# and something passed.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -11,7 +11,7 @@ usage() {
 usage: test.sh [--sanitize] [--quick]
   --sanitize  the tests in a Debug build with AddressSanitizer and UndefinedBehaviorSanitizer (build/sanitize); those on
               SocketCAN count as skipped
-  --quick     the tests, format and dependencies only; lint, fuzz, workspace and fresh count as skipped
+  --quick     the tests, format, dependencies and pictures only; lint, fuzz, workspace and fresh count as skipped
 TEXT
 }
 
@@ -122,6 +122,19 @@ dependencies() {
   fi
 }
 
+# Shows as well that it can fail: a picture that was changed by hand.
+pictures() {
+  "$root/scripts/draw_pictures.sh" --check || return 1
+  local copy=$out/pictures_check
+  rm -rf "$copy"
+  mkdir -p "$copy" && cp -r "$root/doc" "$root/README.md" "$copy/"
+  sed -i 's/390 ohm/391 ohm/' "$copy/doc/pictures/wiring_rs485.svg"
+  if /usr/bin/python3 "$copy/doc/pictures/draw.py" --check >/dev/null; then
+    echo "draw_pictures.sh does not notice a picture that was changed by hand"
+    return 1
+  fi
+}
+
 lint() {
   [[ -s $out/compile_commands.json ]] || {
     echo "$out/compile_commands.json is missing"
@@ -165,11 +178,12 @@ count_cases() {
   fi
 }
 
-# Two at a time: the ones that need the machine for themselves say RUN_SERIAL.
+# Four at a time: they wait for events most of the time (two processors are idle for two thirds of it). The ones that need the
+# machine for themselves say RUN_SERIAL.
 run_tests() {
   local results=$out/test_results status=0
   rm -rf "$results"
-  (cd "$out" && ctest -j 2 --no-tests=error) || status=$?
+  (cd "$out" && ctest -j 4 --no-tests=error) || status=$?
   count_cases "$results" "$status"
 }
 
@@ -230,13 +244,14 @@ start=$SECONDS
 run_tests
 echo "== tests: $((SECONDS - start)) s"
 if $sanitize; then
-  for name in format dependencies lint fuzz workspace fresh socketcan; do
+  for name in format dependencies pictures lint fuzz workspace fresh socketcan; do
     skip $name "the run without --sanitize does it"
   done
 else
   start_socketcan
   check "format" format
   check "dependencies" dependencies
+  check "pictures" pictures
   if $quick; then
     for name in lint fuzz workspace fresh; do skip $name "--quick"; done
   else

@@ -1,29 +1,18 @@
 #include "canopen/bus_watch.h"
 
 namespace nord_driver::canopen {
-namespace {
-
-constexpr Duration kPause = std::chrono::seconds{1};
-
-}  // namespace
-
-void BusWatch::restart() noexcept {
-  told_nodes_.reset();
-  pauses_.stopAll();
-}
 
 void BusWatch::foreignNode(std::uint8_t id, Instant now) noexcept {
   ++counters_.foreign;
-  if (told_nodes_[id]) return;
-  told_nodes_[id] = true;
+  if (!findings_.isNew(id)) return;
   Sentence text;
   text.format("node %u is on the bus, but is not configured", unsigned{id});
-  tell(CanopenEventKind::kForeignNode, text, id, now);
+  findings_.tell(CanopenEventKind::kForeignNode, text, id, now);
 }
 
 void BusWatch::secondMaster(const CanFrame& frame, CobIdUse::Kind kind, Instant now) noexcept {
   ++counters_.second_master;
-  if (!mayTell(Finding::kSecondMaster, now)) return;
+  if (!findings_.mayTell(Finding::kSecondMaster, now)) return;
   Sentence text;
   if (kind == CobIdUse::Kind::kNmt) {
     FixedText<16> whom{"all nodes"};
@@ -33,39 +22,24 @@ void BusWatch::secondMaster(const CanFrame& frame, CobIdUse::Kind kind, Instant 
     text.format("another master is on the bus: it sends %s (%03Xh), which only we should", toText(kind),
                 static_cast<unsigned>(frame.id));
   }
-  tell(CanopenEventKind::kSecondMaster, text, frame.id, now);
+  findings_.tell(CanopenEventKind::kSecondMaster, text, frame.id, now);
 }
 
 void BusWatch::ownIdUsed(const CanFrame& frame, Instant now) noexcept {
   ++counters_.own_id_used;
-  if (!mayTell(Finding::kOwnIdUsed, now)) return;
+  if (!findings_.mayTell(Finding::kOwnIdUsed, now)) return;
   Sentence text;
   text.format("another node has our own node id %u", static_cast<unsigned>(frame.id - kErrorControlBase));
-  tell(CanopenEventKind::kOwnIdUsed, text, frame.id - kErrorControlBase, now);
+  findings_.tell(CanopenEventKind::kOwnIdUsed, text, frame.id - kErrorControlBase, now);
 }
 
 void BusWatch::malformedNmt(const CanFrame& frame, Instant now) noexcept {
   ++counters_.malformed;
-  if (!mayTell(Finding::kMalformedNmt, now)) return;
+  if (!findings_.mayTell(Finding::kMalformedNmt, now)) return;
   Sentence text;
   text.format("somebody sent a malformed NMT command (%u bytes%s)", unsigned{frame.size},
               frame.remote ? ", remote" : "");
-  tell(CanopenEventKind::kMalformed, text, frame.id, now);
-}
-
-void BusWatch::tell(CanopenEventKind kind, const Sentence& text, std::uint32_t value, Instant now) noexcept {
-  CanopenEvent event;
-  event.kind = kind;
-  event.value = value;
-  event.at = now;
-  event.text = text;
-  events_.push(event);
-}
-
-bool BusWatch::mayTell(Finding finding, Instant now) noexcept {
-  if (pauses_.isRunning(finding, now)) return false;
-  pauses_.set(finding, now + kPause);
-  return true;
+  findings_.tell(CanopenEventKind::kMalformed, text, frame.id, now);
 }
 
 }  // namespace nord_driver::canopen

@@ -2,16 +2,14 @@
 // told once per node or once per second.
 #pragma once
 
-#include <bitset>
 #include <cstdint>
 
 #include "canopen/canopen_event.h"
 #include "canopen/cob_id_table.h"
 #include "canopen/counters.h"
 #include "canopen/nmt.h"
+#include "core/bus_findings.h"
 #include "core/can_frame.h"
-#include "core/timer_table.h"
-#include "nord_driver/core/fixed_text.h"
 #include "nord_driver/core/time.h"
 
 namespace nord_driver::canopen {
@@ -19,10 +17,10 @@ namespace nord_driver::canopen {
 class BusWatch {
  public:
   /// The references live longer than this.
-  BusWatch(Counters& counters, CanopenEvents& events) noexcept : counters_(counters), events_(events) {}
+  BusWatch(Counters& counters, CanopenEvents& events) noexcept : counters_(counters), findings_(events) {}
 
   /// Everything is told again.
-  void restart() noexcept;
+  void restart() noexcept { findings_.restart(); }
   /// `id`: of a node that is not configured.
   void foreignNode(std::uint8_t id, Instant now) noexcept;
   void secondMaster(const CanFrame& frame, CobIdUse::Kind kind, Instant now) noexcept;
@@ -33,13 +31,8 @@ class BusWatch {
  private:
   enum class Finding : std::uint8_t { kSecondMaster, kOwnIdUsed, kMalformedNmt, kCount };
 
-  void tell(CanopenEventKind kind, const Sentence& text, std::uint32_t value, Instant now) noexcept;
-  bool mayTell(Finding finding, Instant now) noexcept;
-
   Counters& counters_;
-  CanopenEvents& events_;
-  std::bitset<kMaxNodeId + 1> told_nodes_;
-  TimerTable<Finding> pauses_;  // until then the same finding is not told again
+  BusFindings<CanopenEvents, Finding> findings_;
 };
 
 }  // namespace nord_driver::canopen

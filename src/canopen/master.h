@@ -18,6 +18,7 @@
 #include "canopen/pdo_value.h"
 #include "canopen/process_queue.h"
 #include "canopen/sdo_request.h"
+#include "core/can_engine.h"
 #include "core/can_frame.h"
 #include "nord_driver/core/bytes.h"
 #include "nord_driver/core/time.h"
@@ -33,55 +34,35 @@ struct NodeSdoAnswer {
 
 /// Nodes, PDOs and SDO servers are named by their index in the configuration, from 0.
 ///
-/// Calling order: `restart()` whenever the bus was opened; then per bus cycle
-///
-///     master.setReceivePdo(...);                       // the newest values
-///     master.startCycle(now);
-///     send();
-///     until the cycle is over:
-///       wait for frames until min(end of the cycle, master.nextDeadline());
-///       master.handleFrame(frame, now);                // each one, with the time it was received
-///       master.poll(now);                              // after the frames: a late look is no time-out
-///       send();
-///     while (auto event = master.pollEvent()) ...
-///
-///     send():  while (master.pollTransmit(frame)) {
-///                if (link.send(frame) != kSent) { master.notSent(); break; }
-///              }
+/// Calling order: see `CanEngine`.
 ///
 /// `startCycle()` makes due the newest value of every enabled RPDO of every operational node, and behind them SYNC,
 /// when it is used and a node is operational: an RPDO of type 0..240 acts with the SYNC of the same cycle, one of type
 /// 254 or 255 at once. `pollTransmit()` gives out NMT first, then RPDOs and SYNC, error control, SDO.
 ///
-/// What the link did not take is not lost, and not stale: NMT, error control and SDO frames are given out again by the
-/// next `pollTransmit()`; RPDOs and SYNC of this cycle are dropped, the next cycle sends the values of its own.
-class Master {
+/// What the link did not take: NMT, error control and SDO frames are given out again, RPDOs and SYNC dropped.
+class Master final : public CanEngine {
  public:
   /// Throws std::invalid_argument with a sentence: see `checkConfig()`.
   explicit Master(const MasterConfig& config);
 
-  /// The bus was (re)opened: every node from the beginning. RPDO values are forgotten; SDO accesses end without answer.
-  void restart(Instant now) noexcept;
-  /// For the clean exit: every node is let go so that it does not miss us, and left alone until `restart()`. PDOs end
-  /// at once. A node that may be reset (`NodeConfig::reset`) gets "reset communication"; another one is first told by
+  /// Every node from the beginning. RPDO values are forgotten; SDO accesses end without answer.
+  void restart(Instant now) noexcept override;
+  /// A node that may be reset (`NodeConfig::reset`) gets "reset communication"; another one is first told by
   /// SDO not to watch us any more, then "enter pre-operational". Until `released()`, in a second at most, everything
   /// else goes on as usual: polling, frames, error control.
-  void releaseAll(Instant now) noexcept;
-  bool released() const noexcept;
+  void releaseAll(Instant now) noexcept override;
+  bool released() const noexcept override;
 
   /// While nothing may be sent yet, in place of `handleFrame()`: whether only a master that works with our nodes sends
   /// such a frame (NMT, guarding, RPDOs, SDO requests, our SYNC), or a node answers to one. Counted and told.
   bool noteOtherMaster(const CanFrame& frame, Instant now) noexcept;
-  void startCycle(Instant now) noexcept;
-  void handleFrame(const CanFrame& frame, Instant now) noexcept;
-  /// What is due by time: to be called when `now` has reached `nextDeadline()`; harmless before.
-  void poll(Instant now) noexcept;
-  /// The next frame to send, or false. Each is given out once, unless `notSent()` says otherwise.
-  bool pollTransmit(CanFrame& frame) noexcept;
-  /// The link did not take the last frame of `pollTransmit()`. To be called before anything else.
-  void notSent() noexcept;
-  /// When `poll()` has something to do; nothing when only frames can change anything.
-  std::optional<Instant> nextDeadline() const noexcept;
+  void startCycle(Instant now) noexcept override;
+  void handleFrame(const CanFrame& frame, Instant now) noexcept override;
+  void poll(Instant now) noexcept override;
+  bool pollTransmit(CanFrame& frame) noexcept override;
+  void notSent() noexcept override;
+  std::optional<Instant> nextDeadline() const noexcept override;
 
   /// Kept, and sent in every cycle in which the node is operational; before the first call, and after a loss, nothing
   /// is sent. Cut or filled with zeros to the mapped length (when the mapping is configured).

@@ -1,39 +1,13 @@
 // One node's voice: its status, and what is told and counted of it.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-
 #include "canopen/canopen_event.h"
 #include "canopen/counters.h"
 #include "canopen/node_status.h"
-#include "core/can_frame.h"
+#include "core/node_report.h"
 
 namespace nord_driver::canopen {
 
-class NodeReport {
- public:
-  /// The references live longer than this.
-  NodeReport(std::size_t node, Counters& counters, CanopenEvents& events) noexcept
-      : node_(node), counters_(counters), events_(events) {}
-
-  NodeStatus& status() noexcept { return status_; }
-  const NodeStatus& status() const noexcept { return status_; }
-  Counters& busCounters() noexcept { return counters_; }
-
-  /// Sets state and reason; an empty one clears it.
-  void enter(NodeState state, const Sentence& reason, Instant now) noexcept;
-  void tell(CanopenEventKind kind, const Sentence& text, std::uint32_t value, Instant now) noexcept;
-  /// Counts every frame, tells of one per second.
-  void malformed(const CanFrame& frame, const char* what, Instant now) noexcept;
-
- private:
-  std::size_t node_;
-  Counters& counters_;
-  CanopenEvents& events_;
-  NodeStatus status_;
-  std::optional<Instant> told_malformed_;
-};
+using NodeReport = nord_driver::NodeReport<NodeStatus, Counters, CanopenEvents>;
 
 }  // namespace nord_driver::canopen

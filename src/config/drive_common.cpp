@@ -1,6 +1,7 @@
 #include "config/drive_common.h"
 
 #include "config/setting_checks.h"
+#include "config/setting_note.h"
 
 namespace nord_driver {
 
@@ -15,6 +16,7 @@ profile::Series readSeries(const Settings& settings) {
   for (const profile::Series series : profile::kAllSeries) {
     names += (names.empty() ? "" : ", ") + std::string(profile::toString(series));
   }
+  noteSetting(settings, "series", {"one of " + names, "", "", ""});
   const std::string text = requiredText(settings, "series", "one of " + names);
   const auto series = profile::seriesFrom(text);
   if (!series) throw wrongSetting(settings, "series", "\"" + text + "\"", "one of " + names);
@@ -27,16 +29,16 @@ DriveCommon readDriveCommon(const DriveSettings& source) {
   const Settings& settings = *source.settings;
   DriveCommon drive;
   drive.name = source.name;
-  drive.joint = settings.text("joint").value_or(drive.joint);
+  drive.joint = textOr(settings, "joint", drive.joint);
   drive.series = readSeries(settings);
   drive.scaling.gear_ratio = numberOr(settings, "gear_ratio", drive.scaling.gear_ratio, 1e-3, 1e5, "");
   drive.scaling.pole_pairs = static_cast<int>(requiredInteger(settings, "pole_pairs", 1, 64));
-  drive.scaling.inverted = settings.boolean("inverted").value_or(drive.scaling.inverted);
+  drive.scaling.inverted = booleanOr(settings, "inverted", drive.scaling.inverted);
   if (settings.has("max_frequency")) {
     drive.typed_max_frequency =
         Hertz{requiredNumber(settings, "max_frequency", kMinMaxFrequency, kMaxMaxFrequency, "Hz")};
   }
-  drive.allow_minimum_frequency = settings.boolean("allow_minimum_frequency").value_or(drive.allow_minimum_frequency);
+  drive.allow_minimum_frequency = booleanOr(settings, "allow_minimum_frequency", drive.allow_minimum_frequency);
   if (settings.has("rated_current")) {
     drive.rated_current = requiredNumber(settings, "rated_current", 0.01, 10'000.0, "A");
   }

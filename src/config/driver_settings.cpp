@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "config/nearest_name.h"
+#include "config/setting_checks.h"
 
 namespace nord_driver {
 
@@ -25,7 +26,7 @@ void refuseDeeperDrives(const TreeSettings& settings) {
 }  // namespace
 
 std::string readTransportName(const Settings& settings) {
-  const std::string name = settings.text("transport").value_or(kDefaultTransport);
+  const std::string name = textOr(settings, "transport", kDefaultTransport);
   return name.find('/') == std::string::npos ? kPrefix + name : name;
 }
 

@@ -35,6 +35,15 @@ std::int64_t integerOr(const Settings& settings, const std::string& key, std::in
                        std::int64_t max);
 std::int64_t requiredInteger(const Settings& settings, const std::string& key, std::int64_t min, std::int64_t max);
 
+/// True or false at `key`, or `fallback` when it is absent.
+bool booleanOr(const Settings& settings, const std::string& key, bool fallback);
+
+/// The text at `key`, or `fallback` when it is absent.
+std::string textOr(const Settings& settings, const std::string& key, const std::string& fallback);
+/// The same where only some `words` ("index, slot") are good; whether it is one of them is the caller's to check.
+std::string wordOr(const Settings& settings, const std::string& key, const std::string& fallback,
+                   const std::string& words);
+
 std::string requiredText(const Settings& settings, const std::string& key, const std::string& expected);
 
 /// "0.2" and "20", not "0.200000".

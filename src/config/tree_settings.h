@@ -31,9 +31,9 @@ class TreeSettings : public Settings {
   /// Of the group at `key`, which is no path; empty when it is none. Does not count as asking.
   std::vector<std::string> keysBelow(const std::string& key) const;
   /// A list of numbers.
-  std::optional<std::vector<double>> numbers(const std::string& key) const;
+  virtual std::optional<std::vector<double>> numbers(const std::string& key) const;
   /// The group below `key`; an empty one when it is absent.
-  std::shared_ptr<TreeSettings> group(const std::string& key) const;
+  virtual std::shared_ptr<TreeSettings> group(const std::string& key) const;
   /// The same group with `text` at `key`, which is no path.
   std::shared_ptr<TreeSettings> with(const std::string& key, const std::string& text) const;
   /// Marks a key as known without reading it.

@@ -13,6 +13,8 @@ namespace nord_driver {
 template <typename T, std::size_t Capacity>
 class EventRing {
  public:
+  using Event = T;
+
   EventRing() = default;
   EventRing(const EventRing&) = delete;
   EventRing& operator=(const EventRing&) = delete;

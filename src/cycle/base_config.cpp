@@ -40,13 +40,13 @@ void refuseWheelsUsedTwice(const Settings& settings, const BaseConfig& base, con
 robot::SpeedLimits readLimits(const Settings& settings, const std::string& axis) {
   robot::SpeedLimits limits;
   const auto number = [&](const char* key) { return settings.number(axis + "/" + key); };
-  limits.has_velocity_limits = settings.boolean(axis + "/has_velocity_limits").value_or(false);
+  limits.has_velocity_limits = booleanOr(settings, axis + "/has_velocity_limits", false);
   limits.max_velocity = number("max_velocity").value_or(0.0);
   limits.min_velocity = number("min_velocity");
-  limits.has_acceleration_limits = settings.boolean(axis + "/has_acceleration_limits").value_or(false);
+  limits.has_acceleration_limits = booleanOr(settings, axis + "/has_acceleration_limits", false);
   limits.max_acceleration = number("max_acceleration").value_or(0.0);
   limits.min_acceleration = number("min_acceleration");
-  limits.has_jerk_limits = settings.boolean(axis + "/has_jerk_limits").value_or(false);
+  limits.has_jerk_limits = booleanOr(settings, axis + "/has_jerk_limits", false);
   limits.max_jerk = number("max_jerk").value_or(0.0);
   limits.min_jerk = number("min_jerk");
   const std::string problem = robot::problemOf(limits, settings.fullName(axis));
@@ -65,7 +65,7 @@ void warnOfLimitsThatAreOff(const Settings& settings, const std::string& axis, s
 }
 
 robot::BaseKind readKind(const Settings& settings) {
-  const std::string kind = settings.text("base_type").value_or("differential");
+  const std::string kind = wordOr(settings, "base_type", "differential", "differential, mecanum");
   if (kind == "differential") return robot::BaseKind::kDifferential;
   if (kind == "mecanum") return robot::BaseKind::kMecanum;
   throw wrongSetting(settings, "base_type", "\"" + kind + "\"", "differential or mecanum");
@@ -133,7 +133,7 @@ void readGeometry(BaseConfig& base, const Settings& settings, const JointNames& 
   const bool all_typed = settings.has("wheel_separation") && settings.has("wheel_radius") &&
                          (base.kind != robot::BaseKind::kMecanum || settings.has("wheel_base"));
   std::optional<robot::UrdfGeometry> description;
-  const std::string base_link = settings.text("base_frame_id").value_or("base_link");
+  const std::string base_link = textOr(settings, "base_frame_id", "base_link");
   if (!urdf.empty() && !all_typed) description.emplace(urdf, base_link);
   const auto size = [&](const char* key, auto look_up) {
     return readSize(settings, key, description.has_value(), look_up);
@@ -200,8 +200,8 @@ std::optional<BaseConfig> readBaseConfig(const Settings& settings, const JointNa
   warnOfLimitsThatAreOff(settings, "linear/x", base.warnings);
   warnOfLimitsThatAreOff(settings, "angular/z", base.warnings);
   if (base.kind == robot::BaseKind::kMecanum) warnOfLimitsThatAreOff(settings, "linear/y", base.warnings);
-  base.limits.limit_axes_independently = settings.boolean("limit_axes_independently").value_or(false);
-  base.open_loop = settings.boolean("open_loop").value_or(false);
+  base.limits.limit_axes_independently = booleanOr(settings, "limit_axes_independently", false);
+  base.open_loop = booleanOr(settings, "open_loop", false);
   base.velocity_rolling_window_size =
       static_cast<std::size_t>(integerOr(settings, "velocity_rolling_window_size", 10, 1, 10'000));
   return base;

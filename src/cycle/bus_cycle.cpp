@@ -179,7 +179,7 @@ Completion BusCycle::resetOdometry(const Request& request) noexcept {
 
 void BusCycle::command(Instant now, Duration dt) noexcept {
   if (base_) commandBase(now, dt);
-  commandSingles(now);
+  commandSingles(now, dt);
 }
 
 void BusCycle::commandBase(Instant now, Duration dt) noexcept {
@@ -194,16 +194,20 @@ void BusCycle::commandBase(Instant now, Duration dt) noexcept {
   group.setpointIsZero(robot::standsStill(wheels));
 }
 
-void BusCycle::commandSingles(Instant now) noexcept {
+void BusCycle::commandSingles(Instant now, Duration dt) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     if (supervisor_.inBase(i)) continue;
     drive::DriveGroup& group = supervisor_.groupOf(i);
     const JointCommand& newest = ports_.newestDriveCommand(i);
     const bool fresh = !isStale(newest, cmd_vel_timeout_, now);
     group.commandIsFresh(fresh, now);
-    const bool follow = group.commandAllowed() && fresh;
-    drives_[i].setVelocity(RadPerSec{follow ? newest.velocity : 0.0});
-    group.setpointIsZero(!follow || newest.velocity == 0.0);
+    const bool follow = group.commandAllowed();
+    const JointBounds bounds{drives_[i].maxVelocity().value_or(RadPerSec{}).value, drives_[i].minVelocity().value,
+                             drives_[i].comesToRest()};
+    const double velocity = axes_[i].motion.pollVelocity(follow && fresh ? newest.velocity : 0.0,
+                                                         follow || group.wantsZeroRamp(), bounds, dt);
+    drives_[i].setVelocity(RadPerSec{velocity});
+    group.setpointIsZero(velocity == 0.0);
   }
 }
 
@@ -345,7 +349,9 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive, Instant now) const noex
   to.online = report.online;
   to.module_answers = inputs_[drive].module_answers;
   to.enabled = drive::isEnabled(report.phase);
-  to.saturated = report.saturated || (to.enabled && base_ && supervisor_.inBase(drive) && base_->belowMinimum());
+  const bool of_base = supervisor_.inBase(drive);
+  to.saturated =
+      report.saturated || (to.enabled && (of_base ? base_->belowMinimum() : axes_[drive].motion.beyondFull()));
   to.state = report.state;
   to.parameter_set = report.parameter_set;
   to.output = report.output;

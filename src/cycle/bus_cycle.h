@@ -12,6 +12,7 @@
 #include "cycle/cycle_statistics.h"
 #include "cycle/drive_parameters.h"
 #include "cycle/guest_gate.h"
+#include "cycle/joint_motion.h"
 #include "cycle/speed_watch.h"
 #include "cycle/standstill_requests.h"
 #include "cycle/supervisor.h"
@@ -52,8 +53,9 @@ class BusCycle {
   /// One drive with everything the cycle keeps beside it.
   struct Axis {
     Axis(DriveIndex drive, const DriveSetup& setup, const ParameterChannelUse& channel)
-        : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, channel) {}
+        : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, channel), motion(setup.limits) {}
     DriveParameters parameters;
+    JointMotion motion;  // of a drive that belongs to no base
     robot::JointPosition joint;
     SpeedWatch speed;
     TerminalWatch terminals;
@@ -68,7 +70,7 @@ class BusCycle {
   Duration rampTime(Instant now) const noexcept;
   void command(Instant now, Duration dt) noexcept;
   void commandBase(Instant now, Duration dt) noexcept;
-  void commandSingles(Instant now) noexcept;
+  void commandSingles(Instant now, Duration dt) noexcept;
   robot::WheelSpeeds maxWheelSpeeds() const noexcept;
   MinimumSpeeds minWheelSpeeds() const noexcept;
   void handleInputs(Instant now) noexcept;

@@ -5,6 +5,8 @@
 
 #include "config/drive_common.h"
 #include "config/setting_checks.h"
+#include "config/setting_note.h"
+#include "cycle/joint_limits.h"
 
 namespace nord_driver::cycle {
 
@@ -53,7 +55,22 @@ void refuseJointsUsedTwice(const std::vector<DriveSettings>& sources, const std:
   }
 }
 
+void readLimitsOfSingles(const std::vector<DriveSettings>& sources, CycleConfig& config) {
+  const std::vector<DriveIndex> wheels = config.base ? config.base->wheels() : std::vector<DriveIndex>{};
+  for (DriveIndex i = 0; i < sources.size(); ++i) {
+    const Settings& settings = *sources[i].settings;
+    if (std::find(wheels.begin(), wheels.end(), i) == wheels.end()) {
+      config.drives[i].limits = readJointLimits(settings);
+    } else {
+      refuseJointLimits(settings);
+    }
+  }
+}
+
 drive::StopWay readStopWay(const Settings& settings, const char* key, drive::StopWay fallback, bool may_hold) {
+  noteSetting(settings, key,
+              {std::string("one of ") + (may_hold ? "setpoint_zero, " : "") + "off1, quick_stop, coast", "", "",
+               fallback == drive::StopWay::kSetpointZero ? "setpoint_zero" : "off1"});
   const auto word = settings.text(key);
   if (!word) return fallback;
   if (may_hold && *word == "setpoint_zero") return drive::StopWay::kSetpointZero;
@@ -79,7 +96,7 @@ CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSetting
   CycleConfig config;
   config.cycle_rate = numberOr(node, "cycle_rate", 100.0, kMinCycleRate, kMaxCycleRate, "Hz");
   config.real_time.priority = static_cast<int>(integerOr(node, "realtime_priority", 0, 0, 99));
-  config.real_time.lock_memory = node.boolean("lock_memory").value_or(false);
+  config.real_time.lock_memory = booleanOr(node, "lock_memory", false);
   config.service_timeout = seconds(numberOr(node, "service_timeout", 3.0, 0.1, 60.0, "s"));
   config.shutdown_timeout = seconds(numberOr(node, "shutdown_timeout", 10.0, 0.1, 600.0, "s"));
   config.cmd_vel_timeout = seconds(numberOr(node, "cmd_vel_timeout", 0.5, 0.0, 60.0, "s"));
@@ -99,6 +116,7 @@ CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSetting
   }
   refuseJointsUsedTwice(drives, config.drives);
   config.base = readBaseConfig(node, joints, robot_description);
+  readLimitsOfSingles(drives, config);
   return config;
 }
 

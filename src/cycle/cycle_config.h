@@ -12,6 +12,7 @@
 #include "nord_driver/config/settings.h"
 #include "nord_driver/core/time.h"
 #include "nord_driver/profile/series.h"
+#include "robot/speed_limits.h"
 
 namespace nord_driver::cycle {
 
@@ -25,6 +26,7 @@ struct DriveSetup {
   /// another speed than commanded.
   std::optional<double> typed_max_frequency;
   std::optional<double> rated_current;  ///< A
+  robot::SpeedLimits limits;            ///< of the joint, rad; of a drive that belongs to no base
 };
 
 struct RealTimeOptions {

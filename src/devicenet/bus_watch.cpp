@@ -3,7 +3,6 @@
 namespace nord_driver::devicenet {
 namespace {
 
-constexpr Duration kPause = std::chrono::seconds{1};
 constexpr std::uint8_t kMacMask = 0x3F;
 
 const char* toText(Group2 message) noexcept {
@@ -25,24 +24,17 @@ const char* toText(Group2 message) noexcept {
 
 }  // namespace
 
-void BusWatch::restart() noexcept {
-  told_nodes_.reset();
-  told_master_.reset();
-  told_malformed_.reset();
-}
-
 void BusWatch::foreignNode(std::uint8_t mac, Instant now) noexcept {
   ++counters_.foreign;
-  if (told_nodes_[mac]) return;
-  told_nodes_[mac] = true;
+  if (!findings_.isNew(mac)) return;
   Sentence text;
   text.format("a device with MAC id %u is on the bus, but is not configured", unsigned{mac});
-  tell(DevicenetEventKind::kForeignNode, text, mac, now);
+  findings_.tell(DevicenetEventKind::kForeignNode, text, mac, now);
 }
 
 void BusWatch::secondScanner(const CanFrame& frame, Group2 message, std::uint8_t mac, Instant now) noexcept {
   ++counters_.second_scanner;
-  if (!again(told_master_, now)) return;
+  if (!findings_.mayTell(Finding::kSecondScanner, now)) return;
   Sentence text;
   const bool names_master = message == Group2::kMasterExplicit || message == Group2::kUnconnected;
   if (message == Group2::kStrobeCommand) {
@@ -55,31 +47,16 @@ void BusWatch::secondScanner(const CanFrame& frame, Group2 message, std::uint8_t
     text.format("another master is on the bus: it sends %s to MAC id %u (%03Xh), which only we should", toText(message),
                 unsigned{mac}, static_cast<unsigned>(frame.id));
   }
-  tell(DevicenetEventKind::kSecondScanner, text, frame.id, now);
+  findings_.tell(DevicenetEventKind::kSecondScanner, text, frame.id, now);
 }
 
 void BusWatch::malformed(const CanFrame& frame, Instant now) noexcept {
   ++counters_.malformed;
-  if (!again(told_malformed_, now)) return;
+  if (!findings_.mayTell(Finding::kMalformed, now)) return;
   Sentence text;
   text.format("somebody sent a malformed duplicate-MAC message %03Xh (%u bytes%s, expected 7)",
               static_cast<unsigned>(frame.id), unsigned{frame.size}, frame.remote ? ", remote" : "");
-  tell(DevicenetEventKind::kMalformed, text, frame.id, now);
-}
-
-void BusWatch::tell(DevicenetEventKind kind, const Sentence& text, std::uint32_t value, Instant now) noexcept {
-  DevicenetEvent event;
-  event.kind = kind;
-  event.value = value;
-  event.at = now;
-  event.text = text;
-  events_.push(event);
-}
-
-bool BusWatch::again(std::optional<Instant>& told, Instant now) noexcept {
-  if (told && now - *told < kPause) return false;
-  told = now;
-  return true;
+  findings_.tell(DevicenetEventKind::kMalformed, text, frame.id, now);
 }
 
 }  // namespace nord_driver::devicenet

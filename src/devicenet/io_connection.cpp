@@ -44,9 +44,12 @@ void IoConnection::close() noexcept {
 
 void IoConnection::setOutput(ByteView bytes) noexcept {
   if (!established_) return;
+  // A bit strobe alone: one bit is all there is.
+  const std::size_t size =
+      config_.io.kind == IoKind::kStrobe && config_.io.output_bytes == 0 ? 1 : config_.io.output_bytes;
   output_.clear();
-  for (const std::uint8_t byte : bytes.sub(0, config_.io.output_bytes)) output_.push_back(byte);
-  output_.resize(config_.io.output_bytes);
+  for (const std::uint8_t byte : bytes.sub(0, size)) output_.push_back(byte);
+  output_.resize(size);
   output_ready_ = true;
 }
 
@@ -54,8 +57,9 @@ bool IoConnection::outputDue(Instant now) const noexcept {
   if (!output_ready_ && config_.io.output_bytes > 0) return false;
   switch (config_.io.kind) {
     case IoKind::kNone:
-    case IoKind::kStrobe:
       return false;
+    case IoKind::kStrobe:
+      return isPolledBesideStrobe(config_.io);
     case IoKind::kPoll:
       return true;
     case IoKind::kChangeOfState:
@@ -101,7 +105,9 @@ bool IoConnection::pollOutput(CanFrame& frame, Instant now) noexcept {
   if (sender_.pending()) return true;
   ++report_.status().counters.outputs;
   sent_at_ = now;
-  if (!byChange()) {
+  if (isPolledBesideStrobe(config_.io)) {
+    if (!timers_.isSet(Timer::kHeard)) timers_.set(Timer::kHeard, now + timeout_);
+  } else if (!byChange()) {
     if (!timers_.isSet(Timer::kInput)) timers_.set(Timer::kInput, now + timeout_);
   } else if (config_.io.acknowledge) {
     timers_.set(Timer::kAcknowledge, now + kAcknowledgeTime);
@@ -140,7 +146,8 @@ bool IoConnection::takes(Group1 message) const noexcept {
     case IoKind::kPoll:
       return message == Group1::kPollResponse;
     case IoKind::kStrobe:
-      return message == Group1::kStrobeResponse;
+      return message == Group1::kStrobeResponse ||
+             (message == Group1::kPollResponse && isPolledBesideStrobe(config_.io));
     case IoKind::kChangeOfState:
     case IoKind::kCyclic:
       return message == Group1::kChangeOfStateOrCyclic || (message == Group1::kPollResponse && config_.io.acknowledge);
@@ -155,6 +162,7 @@ void IoConnection::handle(std::uint8_t message, const CanFrame& frame, Instant n
   const auto group1 = static_cast<Group1>(message);
   if (!takes(group1)) return report_.malformed(frame, "of a connection that is not allocated", now);
   if (byChange() && group1 == Group1::kPollResponse) return handleAcknowledge(frame, now);
+  if (config_.io.kind == IoKind::kStrobe && group1 == Group1::kPollResponse) return handlePollAnswer(frame, now);
   handleData(frame, now);
 }
 
@@ -198,6 +206,15 @@ void IoConnection::handleAcknowledge(const CanFrame& frame, Instant now) noexcep
   timers_.stop(Timer::kHeard);
 }
 
+// It says that the outputs have come. The same inputs come by the bit strobe, of all devices from one moment.
+void IoConnection::handlePollAnswer(const CanFrame& frame, Instant now) noexcept {
+  if (frame.size != 0 && frame.size != config_.io.input_bytes) {
+    return report_.malformed(frame, "not as long as its connection", now);
+  }
+  report_.status().heard_at = now;
+  timers_.stop(Timer::kHeard);
+}
+
 bool IoConnection::poll(Instant now) noexcept {
   if (!established_) return true;
   if (timers_.takeDue(Timer::kInput, now)) {
@@ -211,7 +228,8 @@ bool IoConnection::poll(Instant now) noexcept {
     return false;
   }
   if (timers_.takeDue(Timer::kHeard, now)) {
-    loss_.format("acknowledged no data for %.0f ms", toSeconds(timeout_) * 1e3);
+    loss_.format(byChange() ? "acknowledged no data for %.0f ms" : "gave no answer to our poll for %.0f ms",
+                 toSeconds(timeout_) * 1e3);
     return false;
   }
   if (!timers_.takeDue(Timer::kAcknowledge, now)) return true;

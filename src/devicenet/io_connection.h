@@ -39,9 +39,11 @@ class IoConnection {
   /// Makes due what this cycle sends. What the last one left is dropped.
   void startCycle(Instant now) noexcept;
   /// Whether the strobe command of this cycle is for this device too, and its bit in it. With a bit of 1 a NORD module
-  /// keeps its last outputs (BU 0280 4.2.1).
+  /// keeps its last outputs (BU 0280 4.2.1): where they go by a poll it is 0.
   bool takesStrobe() const noexcept { return established_ && config_.io.kind == IoKind::kStrobe; }
-  bool strobeBit() const noexcept { return !output_.empty() && (output_[0] & 1u) != 0; }
+  bool strobeBit() const noexcept {
+    return !isPolledBesideStrobe(config_.io) && !output_.empty() && (output_[0] & 1u) != 0;
+  }
   void noteStrobed(Instant now) noexcept;
 
   /// Whether this connection uses that message of the device.
@@ -66,7 +68,7 @@ class IoConnection {
   enum class Timer : std::uint8_t {
     kInput,        ///< data, or an answer to the oldest command without one
     kAcknowledge,  ///< of the message sent last
-    kHeard,        ///< of the oldest message without one
+    kHeard,        ///< of the oldest message without one; beside a bit strobe: the answer to a poll
     kCount
   };
 
@@ -76,6 +78,7 @@ class IoConnection {
   void countSuperseded() noexcept;
   void handleData(const CanFrame& frame, Instant now) noexcept;
   void handleAcknowledge(const CanFrame& frame, Instant now) noexcept;
+  void handlePollAnswer(const CanFrame& frame, Instant now) noexcept;
   void takeInput(Instant now) noexcept;
 
   const NodeConfig& config_;

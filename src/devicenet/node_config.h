@@ -11,9 +11,9 @@ namespace nord_driver::devicenet {
 
 /// How process data are exchanged (BU 0280 4.2.1).
 enum class IoKind : std::uint8_t {
-  kNone,           ///< explicit messages only
-  kPoll,           ///< command and response, once a cycle
-  kStrobe,         ///< one command for all, one bit for each; at most 8 bytes back
+  kNone,    ///< explicit messages only
+  kPoll,    ///< command and response, once a cycle
+  kStrobe,  ///< one command for all, one bit for each, at most 8 bytes back; outputs, if any, by a poll beside it
   kChangeOfState,  ///< sent when changed, and at the expected packet rate
   kCyclic          ///< sent at the expected packet rate
 };
@@ -34,8 +34,10 @@ constexpr std::uint8_t kAcknowledgeSuppressed = 0x40;  ///< with one of the two 
 /// Directions are ours: outputs go to the device.
 struct IoConfig {
   IoKind kind = IoKind::kPoll;
-  std::size_t input_bytes = 0;   ///< what the device produces: 1..64, bit strobe at most 8
-  std::size_t output_bytes = 0;  ///< what it consumes: 0..64; with bit strobe not used
+  std::size_t input_bytes = 0;  ///< what the device produces: 1..64, bit strobe at most 8
+  /// What it consumes: 0..64. A bit strobe carries a bit for each device and nothing else: more than 0 there is a second
+  /// connection, polled, for the outputs.
+  std::size_t output_bytes = 0;
   /// Change of state and cyclic: each side acknowledges what it gets.
   bool acknowledge = true;
   /// Written to the device, whole milliseconds; it gives up after four times what it answers. Nothing: two cycles, at
@@ -59,6 +61,11 @@ struct NodeConfig {
   Duration request_timeout = std::chrono::milliseconds{500};
 };
 
+/// The bit strobe brings the inputs, all sampled by one command; the outputs go by a poll beside it.
+constexpr bool isPolledBesideStrobe(const IoConfig& io) noexcept {
+  return io.kind == IoKind::kStrobe && io.output_bytes > 0;
+}
+
 /// What is allocated for the process data; 0 without.
 constexpr std::uint8_t ioChoice(const IoConfig& io) noexcept {
   const unsigned suppressed = io.acknowledge ? 0u : choice::kAcknowledgeSuppressed;
@@ -68,7 +75,7 @@ constexpr std::uint8_t ioChoice(const IoConfig& io) noexcept {
     case IoKind::kPoll:
       return choice::kPolled;
     case IoKind::kStrobe:
-      return choice::kStrobed;
+      return isPolledBesideStrobe(io) ? choice::kStrobed | choice::kPolled : choice::kStrobed;
     case IoKind::kChangeOfState:
       return static_cast<std::uint8_t>(choice::kChangeOfState | suppressed);
     case IoKind::kCyclic:
@@ -77,7 +84,7 @@ constexpr std::uint8_t ioChoice(const IoConfig& io) noexcept {
   return 0;
 }
 
-/// The instance of the connection object (class 5); BU 0280 4.3.4.
+/// The instance of the connection object (class 5) by which the inputs come; BU 0280 4.3.4.
 constexpr std::uint8_t connectionInstance(IoKind kind) noexcept {
   switch (kind) {
     case IoKind::kNone:
@@ -96,9 +103,9 @@ constexpr std::uint8_t connectionInstance(IoKind kind) noexcept {
 /// The bit strobe command carries one bit for each of the 64 MAC ids.
 constexpr std::size_t kStrobeCommandLength = 8;
 
-/// What the device must answer as its consumed connection size (class 5, attribute 8).
-constexpr std::size_t consumedSize(const IoConfig& io) noexcept {
-  return io.kind == IoKind::kStrobe ? kStrobeCommandLength : io.output_bytes;
+/// What the device must answer as the consumed size of that connection (class 5, attribute 8).
+constexpr std::size_t consumedSize(const IoConfig& io, std::uint8_t instance) noexcept {
+  return instance == connectionInstance(IoKind::kStrobe) ? kStrobeCommandLength : io.output_bytes;
 }
 
 }  // namespace nord_driver::devicenet

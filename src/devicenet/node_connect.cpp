@@ -17,7 +17,9 @@ NodeConnect::NodeConnect(const NodeConfig& config, const ScannerConfig& bus, Nod
       report_(report),
       channel_(channel),
       io_choice_(ioChoice(config.io)),
-      instance_(connectionInstance(config.io.kind)) {}
+      two_connections_(isPolledBesideStrobe(config.io)),
+      first_instance_(connectionInstance(two_connections_ ? IoKind::kPoll : config.io.kind)),
+      instance_(first_instance_) {}
 
 void NodeConnect::start(Instant now) noexcept {
   failures_ = 0;

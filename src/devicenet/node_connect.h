@@ -1,6 +1,7 @@
 // How a device is brought to exchange, kept there and let go: allocate its explicit connection, read and compare its
 // identity, allocate its I/O connection, read and compare its sizes, write its expected packet rate and use what it
-// answers; keep the explicit connection alive; release what was allocated after a loss, and begin again.
+// answers; keep the explicit connection alive; release what was allocated after a loss, and begin again. A bit strobe with
+// a poll beside it is two I/O connections, allocated together: the sizes of both, then the rates of both.
 #pragma once
 
 #include <cstdint>
@@ -95,7 +96,7 @@ class NodeConnect {
   void handleExplicitRate(const ExplicitAnswer& answer, Instant now) noexcept;
   void handleIoAllocated(const ExplicitAnswer& answer, Instant now) noexcept;
   void handleSize(const ExplicitAnswer& answer, Instant now) noexcept;
-  void compareSizes(Instant now) noexcept;
+  void compareSizes(std::uint16_t consumed, Instant now) noexcept;
   void handleRate(const ExplicitAnswer& answer, Instant now) noexcept;
   void useRate(Duration rate, Instant now) noexcept;
   void handleState(const ExplicitAnswer& answer, Instant now) noexcept;
@@ -122,8 +123,11 @@ class NodeConnect {
   NodeReport& report_;
   ExplicitChannel& channel_;
   std::uint8_t io_choice_;
-  std::uint8_t instance_;
-  bool let_go_first_ = false;  // a try that begins with a release
+  bool two_connections_;         // bit strobe, and a poll beside it
+  std::uint8_t first_instance_;  // what carries the outputs: whose time-out stops the device
+  std::uint8_t instance_;        // the connection that is set up or asked for
+  std::uint16_t produced_ = 0;   // its size
+  bool let_go_first_ = false;    // a try that begins with a release
   Phase phase_ = Phase::kOff;
   TimerTable<Timer> timers_;
   std::uint8_t held_ = 0;   // what the device may have allocated to us

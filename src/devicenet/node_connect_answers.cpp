@@ -135,7 +135,10 @@ void NodeConnect::handleExplicitRate(const ExplicitAnswer& answer, Instant now) 
 
 void NodeConnect::handleIoAllocated(const ExplicitAnswer& answer, Instant now) noexcept {
   if (answer.end == ExplicitEnd::kTimedOut) return fail("gave no answer to the allocation of its process data", now);
-  if (answer.ok()) return enter(Phase::kProducedSize, now);
+  if (answer.ok()) {
+    instance_ = first_instance_;
+    return enter(Phase::kProducedSize, now);
+  }
   // The explicit connection is ours: so is this one, from before.
   if (saysAllocated(answer) && conflicts_ == 0) return enter(Phase::kReleaseStaleIo, now);
   held_ = static_cast<std::uint8_t>(held_ & ~io_choice_);
@@ -151,22 +154,28 @@ void NodeConnect::handleSize(const ExplicitAnswer& answer, Instant now) noexcept
   }
   const auto size = static_cast<std::uint16_t>(*answer.number());
   if (phase_ == Phase::kProducedSize) {
-    report_.status().produced_size = size;
+    produced_ = size;
     return enter(Phase::kConsumedSize, now);
   }
-  report_.status().consumed_size = size;
-  compareSizes(now);
+  if (instance_ == first_instance_) {
+    report_.status().produced_size = produced_;
+    report_.status().consumed_size = size;
+  }
+  compareSizes(size, now);
 }
 
-void NodeConnect::compareSizes(Instant now) noexcept {
-  const NodeStatus& status = report_.status();
-  if (status.produced_size == config_.io.input_bytes && status.consumed_size == consumedSize(config_.io)) {
-    return enter(Phase::kWriteRate, now);
+void NodeConnect::compareSizes(std::uint16_t consumed, Instant now) noexcept {
+  const std::size_t expected = consumedSize(config_.io, instance_);
+  if (produced_ == config_.io.input_bytes && consumed == expected) {
+    const bool more = two_connections_ && instance_ == first_instance_;
+    // A connection runs from its rate on: the rates of both come last, one right after the other.
+    if (two_connections_) instance_ = connectionInstance(IoKind::kStrobe);
+    return enter(more ? Phase::kProducedSize : Phase::kWriteRate, now);
   }
+  const IoKind kind = instance_ == connectionInstance(IoKind::kPoll) ? IoKind::kPoll : config_.io.kind;
   Sentence why;
-  why.format("sends %u and takes %u bytes of process data by %s; %zu and %zu are configured",
-             unsigned{status.produced_size}, unsigned{status.consumed_size}, toText(config_.io.kind),
-             config_.io.input_bytes, consumedSize(config_.io));
+  why.format("sends %u and takes %u bytes of process data by %s; %zu and %zu are configured", unsigned{produced_},
+             unsigned{consumed}, toText(kind), config_.io.input_bytes, expected);
   refuseIo(why, now);
 }
 
@@ -196,6 +205,9 @@ void NodeConnect::useRate(Duration rate, Instant now) noexcept {
         "we are gone",
         toSeconds(rate) * 1e3, toSeconds(*config_.io.expected_packet_rate) * 1e3,
         toSeconds(kRatesUntilTimeout * rate) * 1e3);
+  } else if (instance_ != first_instance_) {
+    instance_ = first_instance_;
+    return enter(Phase::kWriteRate, now);
   } else {
     return run(now);
   }

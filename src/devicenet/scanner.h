@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/can_engine.h"
 #include "core/can_frame.h"
 #include "devicenet/bus_watch.h"
 #include "devicenet/counters.h"
@@ -41,57 +42,35 @@ enum class BusState : std::uint8_t {
 
 /// Devices are named by their index in the configuration, from 0.
 ///
-/// Calling order: `restart()` whenever the bus was opened, or the controller came back from bus-off; then per bus cycle
-///
-///     scanner.setOutput(...);                          // the newest values
-///     scanner.startCycle(now);
-///     send();
-///     until the cycle is over:
-///       wait for frames until min(end of the cycle, scanner.nextDeadline());
-///       scanner.handleFrame(frame, now);               // each one, with the time it was received
-///       scanner.poll(now);                             // after the frames: a late look is no time-out
-///       send();
-///     while (auto event = scanner.pollEvent()) ...
-///
-///     send():  while (scanner.pollTransmit(frame)) {
-///                if (link.send(frame) != kSent) { scanner.notSent(); break; }
-///              }
+/// Calling order: see `CanEngine`; `restart()` also when the controller came back from bus-off.
 ///
 /// `pollTransmit()` gives out the duplicate-MAC check first, then acknowledges of process data, the bit strobe command
 /// and process data, then explicit messages. Frames of one fragmented message come in one piece.
 ///
 /// A device that fell silent is not released before its own time-out has run out: it may hear us without being heard, and
 /// released it would go on with the last words it has heard, and nobody to watch it.
-///
-/// What the link did not take is not lost, and not stale: everything but process data is given out again by the next
-/// `pollTransmit()`; process data of this cycle are dropped, the next cycle sends the values of its own.
-class Scanner {
+class Scanner final : public CanEngine {
  public:
   /// Throws std::invalid_argument with a sentence: see `checkConfig()`.
   explicit Scanner(const ScannerConfig& config);
 
-  /// The bus was (re)opened: the duplicate-MAC check, then every device from the beginning. Outputs are forgotten.
-  void restart(Instant now) noexcept;
+  /// The duplicate-MAC check, then every device from the beginning. Outputs are forgotten.
+  void restart(Instant now) noexcept override;
   /// The controller is bus-off, or the interface is gone or down; `why` in words. Every device is lost, and nothing is
   /// sent until `restart()`: who has been off the bus checks its MAC id again.
   void handleBusLost(const Sentence& why, Instant now) noexcept;
-  /// For the clean exit: every device is released and left alone until `restart()`. Process data end at once.
-  void releaseAll(Instant now) noexcept;
-  bool released() const noexcept;
+  void releaseAll(Instant now) noexcept override;
+  bool released() const noexcept override;
 
-  void startCycle(Instant now) noexcept;
-  void handleFrame(const CanFrame& frame, Instant now) noexcept;
-  /// What is due by time: to be called when `now` has reached `nextDeadline()`; harmless before.
-  void poll(Instant now) noexcept;
-  /// The next frame to send, or false. Each is given out once, unless `notSent()` says otherwise.
-  bool pollTransmit(CanFrame& frame) noexcept;
-  /// The link did not take the last frame of `pollTransmit()`. To be called before anything else.
-  void notSent() noexcept;
-  /// When `poll()` has something to do; nothing when only frames can change anything.
-  std::optional<Instant> nextDeadline() const noexcept { return deadline_; }
+  void startCycle(Instant now) noexcept override;
+  void handleFrame(const CanFrame& frame, Instant now) noexcept override;
+  void poll(Instant now) noexcept override;
+  bool pollTransmit(CanFrame& frame) noexcept override;
+  void notSent() noexcept override;
+  std::optional<Instant> nextDeadline() const noexcept override { return deadline_; }
 
   /// Kept, and sent in every cycle in which the device exchanges; before the first call, and after a loss, nothing is
-  /// sent. Cut or filled with zeros to its size. Bit strobe: the lowest bit of the first byte is its bit.
+  /// sent. Cut or filled with zeros to its size. Bit strobe without outputs: the lowest bit of the first byte is its bit.
   void setOutput(std::size_t node, ByteView bytes) noexcept { nodes_[node]->io().setOutput(bytes); }
   /// What it sent last while exchanging; `count` 0: nothing yet since it came to.
   const IoInput& input(std::size_t node) const noexcept { return nodes_[node]->io().input(); }

@@ -42,7 +42,7 @@ std::uint32_t nodeBits(const IoConfig& io) noexcept {
     case IoKind::kPoll:
       return in + out;
     case IoKind::kStrobe:
-      return in;
+      return isPolledBesideStrobe(io) ? in + out + in : in;
     case IoKind::kChangeOfState:
     case IoKind::kCyclic: {
       const std::uint32_t acknowledge = io.acknowledge ? worstFrameBits(0) : 0;

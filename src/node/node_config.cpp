@@ -35,7 +35,7 @@ void acceptControllerKeys(const TreeSettings& settings) {
 }
 
 bool readWheelStates(const TreeSettings& settings, std::vector<std::string>& warnings) {
-  const bool wanted = settings.boolean("publish_wheel_joint_controller_state").value_or(false);
+  const bool wanted = booleanOr(settings, "publish_wheel_joint_controller_state", false);
   if (!wanted || WheelStatePublisher::isOffered()) return wanted;
   warnings.push_back(settings.fullName("publish_wheel_joint_controller_state") +
                      " is not offered: there was no control_msgs when this driver was built; ~<drive>/status tells "
@@ -44,7 +44,7 @@ bool readWheelStates(const TreeSettings& settings, std::vector<std::string>& war
 }
 
 std::string readFrame(const TreeSettings& settings, const char* key, const std::string& fallback) {
-  std::string frame = settings.text(key).value_or(fallback);
+  std::string frame = textOr(settings, key, fallback);
   if (frame.empty()) throw wrongSetting(settings, key, "\"\"", "the name of a frame");
   return frame;
 }
@@ -59,10 +59,10 @@ PublishConfig readPublish(const TreeSettings& settings) {
     throw wrongSetting(settings, "odom_frame_id", "\"" + publish.odom_frame_id + "\"",
                        "another frame than base_frame_id: tf has no frame that is its own parent");
   }
-  publish.enable_odom_tf = settings.boolean("enable_odom_tf").value_or(publish.enable_odom_tf);
-  publish.publish_cmd = settings.boolean("publish_cmd").value_or(publish.publish_cmd);
+  publish.enable_odom_tf = booleanOr(settings, "enable_odom_tf", publish.enable_odom_tf);
+  publish.publish_cmd = booleanOr(settings, "publish_cmd", publish.publish_cmd);
   publish.allow_multiple_cmd_vel_publishers =
-      settings.boolean("allow_multiple_cmd_vel_publishers").value_or(publish.allow_multiple_cmd_vel_publishers);
+      booleanOr(settings, "allow_multiple_cmd_vel_publishers", publish.allow_multiple_cmd_vel_publishers);
   publish.pose_covariance_diagonal = readCovariance(settings, "pose_covariance_diagonal");
   publish.twist_covariance_diagonal = readCovariance(settings, "twist_covariance_diagonal");
   return publish;
@@ -73,9 +73,9 @@ PublishConfig readPublish(const TreeSettings& settings) {
 NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot_description) {
   NodeConfig config;
   config.transport = readTransportName(settings);
-  config.bus_end_point = settings.text("bus_end_point").value_or("");
-  config.auto_enable = settings.boolean("auto_enable").value_or(false);
-  config.allow_raw_parameters = settings.boolean("allow_raw_parameters").value_or(false);
+  config.bus_end_point = textOr(settings, "bus_end_point", "");
+  config.auto_enable = booleanOr(settings, "auto_enable", false);
+  config.allow_raw_parameters = booleanOr(settings, "allow_raw_parameters", false);
   config.parameter_files = settings.texts("parameter_files").value_or(std::vector<std::string>{});
   acceptControllerKeys(settings);
   config.publish = readPublish(settings);

@@ -33,13 +33,13 @@ double perUnit(const robot::BaseKinematics& base, const robot::Twist2d& unit, st
 }
 
 std::string slowerThan(const char* parameter, unsigned set, std::optional<double> time, double max_frequency,
-                       double asked) {
+                       double asked, const char* limits) {
   if (!time || asked <= 0.0) return "";
   const double needed = max_frequency / asked;
   if (*time <= needed + kResolution / 2.0) return "";
   FixedText<160> text;
-  text.format("%s of set %u is %.2f s (%.1f Hz/s), of which the base's limits ask for up to %.1f Hz/s: %.2f s",
-              parameter, set, *time, max_frequency / *time, asked, needed);
+  text.format("%s of set %u is %.2f s (%.1f Hz/s), of which %s ask for up to %.1f Hz/s: %.2f s", parameter, set, *time,
+              max_frequency / *time, limits, asked, needed);
   return text.str();
 }
 
@@ -47,14 +47,20 @@ std::string slowerThan(const char* parameter, unsigned set, std::optional<double
 
 RampCheck::RampCheck(const cycle::CycleConfig& config, DriveIndex drive)
     : typed_max_frequency_(config.drives[drive].typed_max_frequency) {
-  if (!config.base) return;
-  const std::vector<DriveIndex> wheels = config.base->wheels();
+  const profile::JointScaling& joint = config.drives[drive].drive.joint;
+  const std::vector<DriveIndex> wheels = config.base ? config.base->wheels() : std::vector<DriveIndex>{};
   const auto at = std::find(wheels.begin(), wheels.end(), drive);
-  if (at == wheels.end()) return;
+  if (at == wheels.end()) {
+    const Asked asked = askedBy(config.drives[drive].limits);
+    const double hertz = std::abs(profile::toHertz(RadPerSec{1.0}, joint).value);
+    speed_up_ = asked.speed_up * hertz;
+    brake_ = asked.brake * hertz;
+    return;
+  }
+  of_base_ = true;
   const auto wheel = static_cast<std::size_t>(at - wheels.begin());
   const auto base = robot::makeKinematics(config.base->kind, config.base->geometry, config.base->left.size(),
                                           config.base->right.size());
-  const profile::JointScaling& joint = config.drives[drive].drive.joint;
   const auto add = [&](const robot::SpeedLimits& limits, const robot::Twist2d& unit) {
     const Asked asked = askedBy(limits);
     const double hertz = perUnit(*base, unit, wheel, joint);
@@ -72,11 +78,15 @@ std::string RampCheck::assess(const cycle::DeviceData& device, unsigned paramete
   const std::optional<double> max_frequency =
       device.max_frequency[set] ? device.max_frequency[set] : typed_max_frequency_;
   if (!max_frequency) return "";
-  const std::string up = slowerThan("P102", parameter_set, device.acceleration_time[set], *max_frequency, speed_up_);
-  const std::string down = slowerThan("P103", parameter_set, device.deceleration_time[set], *max_frequency, brake_);
+  const char* limits = of_base_ ? "the base's limits" : "the drive's limits";
+  const std::string up =
+      slowerThan("P102", parameter_set, device.acceleration_time[set], *max_frequency, speed_up_, limits);
+  const std::string down =
+      slowerThan("P103", parameter_set, device.deceleration_time[set], *max_frequency, brake_, limits);
   if (up.empty() && down.empty()) return "";
-  return "the inverter's ramp is slower than the base: " + up + (up.empty() || down.empty() ? "" : "; ") + down +
-         ". The wheel lags behind its commands: shorten the ramp, or lower the acceleration limits";
+  return std::string("the inverter's ramp is slower than ") + (of_base_ ? "the base: " : "its joint's limits: ") + up +
+         (up.empty() || down.empty() ? "" : "; ") + down + ". The " + (of_base_ ? "wheel" : "joint") +
+         " lags behind its commands: shorten the ramp, or lower the acceleration limits";
 }
 
 }  // namespace nord_driver::node

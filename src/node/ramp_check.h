@@ -1,5 +1,5 @@
-// Whether a drive's own ramps (P102, P103) let its wheel follow the base's acceleration limits: where they are slower,
-// the base lags behind its commands, and two drives that differ bend its path.
+// Whether a drive's own ramps (P102, P103) let its wheel follow the base's acceleration limits, or a single drive its
+// own: where they are slower, the base lags behind its commands, and two drives that differ bend its path.
 #pragma once
 
 #include <optional>
@@ -18,11 +18,12 @@ class RampCheck {
   RampCheck(const cycle::CycleConfig& config, DriveIndex drive);
 
   /// One sentence when a ramp of this parameter set (1..4) is slower; empty when none is, when something could not be
-  /// read, and for a drive the base has no acceleration limits for. `typed_max_frequency` (Hz) stands for a P105 that
+  /// read, and for a drive without acceleration limits. `typed_max_frequency` (Hz) stands for a P105 that
   /// could not be read.
   std::string assess(const cycle::DeviceData& device, unsigned parameter_set) const;
 
  private:
+  bool of_base_ = false;   // or a drive with limits of its own
   double speed_up_ = 0.0;  // Hz/s, the most that is asked for; 0: no limits
   double brake_ = 0.0;
   std::optional<double> typed_max_frequency_;

@@ -16,8 +16,9 @@ struct BusKind {
   const char* transport = "";                      ///< as the driver calls it, without the prefix
   const std::type_info* settings = &typeid(void);  ///< the type `readBus` puts into `SimConfig::bus`
   const char* end_point = "";                      ///< the key under `bus` that says where a driver opens it
-  int lowest_address = 1;                          ///< of a drive
-  int highest_address = 127;                       ///< of a drive
+  const char* place = "";         ///< where a simulated one is when nobody says; good as that key for a driver, too
+  int lowest_address = 1;         ///< of a drive
+  int highest_address = 127;      ///< of a drive
   std::vector<const char*> keys;  ///< of a drive, beside those of all buses; also the driver's that are not used here
   /// The group `bus`; fills `SimConfig::bus`. `root` is the whole configuration.
   void (*readBus)(const Group& root, SimConfig& config) = nullptr;

@@ -24,7 +24,7 @@ using nord_driver::sim::RunningBus;
 using nord_driver::sim::SimConfig;
 using namespace nord_driver::tools;
 
-SimConfig readConfig(const std::vector<std::string>& files, const BusPort& port) {
+YAML::Node readFiles(const std::vector<std::string>& files) {
   YAML::Node merged;
   for (const std::string& file : files) {
     try {
@@ -33,8 +33,11 @@ SimConfig readConfig(const std::vector<std::string>& files, const BusPort& port)
       throw nord_driver::sim::ConfigError("--config " + file + ": " + error.what() + "; expected a readable YAML file");
     }
   }
-  using nord_driver::sim::Group;
-  const nord_driver::sim::BusKind& kind = nord_driver::sim::busKindOf(Group(merged, ""));
+  return merged;
+}
+
+SimConfig readConfig(const YAML::Node& merged, const BusPort& port) {
+  const nord_driver::sim::BusKind& kind = nord_driver::sim::busKindOf(merged);
   return nord_driver::sim::readSimConfig(merged, chosenPort(port, kind.transport, kind.end_point));
 }
 
@@ -53,6 +56,7 @@ int run(int argc, char** argv) {
   std::vector<std::string> files;
   BusPort port;
   Seconds duration;
+  bool place = false;
   CommandLine line{
       "nord_sim", NORD_DRIVER_VERSION,
       "Simulated NORD inverters: a PROFIBUS DP segment on a pseudo-terminal, or CANopen nodes on a CAN bus.",
@@ -65,11 +69,19 @@ int run(int argc, char** argv) {
                                                "the same for a bus with bus/device")(
       "interface", po::value(&port.interface)->value_name("NAME"), "the same for a bus with bus/interface")(
       "duration", po::value(&duration)->value_name("SECONDS"),
-      "seconds to run; without it until SIGINT, SIGTERM or SIGHUP");
+      "seconds to run; without it until SIGINT, SIGTERM or SIGHUP")(
+      "place", po::bool_switch(&place),
+      "print where a simulated bus of the files' transport can be, as a value of --bus, and end: simulate.launch puts "
+      "simulator and driver there");
   if (const auto code = line.parse(argc, argv)) return *code;
 
   const std::atomic<bool>& end_asked = catchEndSignals();
-  const SimConfig config = readConfig(files, port);
+  const YAML::Node merged = readFiles(files);
+  if (place) {
+    std::fputs(nord_driver::sim::busKindOf(merged).place, stdout);  // roslaunch takes a line's end as part of it
+    return kDone;
+  }
+  const SimConfig config = readConfig(merged, port);
   for (const std::string& warning : config.warnings) std::fprintf(stderr, "nord_sim: %s\n", warning.c_str());
   const std::unique_ptr<RunningBus> bus = nord_driver::sim::runBus(config);
   std::printf("%s\n", bus->where().c_str());

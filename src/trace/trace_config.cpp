@@ -7,7 +7,7 @@ namespace nord_driver::trace {
 std::optional<TraceConfig> readTraceConfig(const Settings& node) {
   constexpr std::int64_t kMaxKept = 100'000;
   TraceConfig config;
-  config.directory = node.text("trace_directory").value_or("");
+  config.directory = textOr(node, "trace_directory", "");
   config.keep =
       static_cast<std::size_t>(integerOr(node, "trace_keep", static_cast<std::int64_t>(config.keep), 1, kMaxKept));
   if (config.directory.empty()) return std::nullopt;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "canopen/can_text.h"
 #include "canopen/master.h"
 #include "canopen/scripted_node.h"
+#include "support/can_text.h"
 
 namespace nord_driver::canopen {
 

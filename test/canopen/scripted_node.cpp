@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "canopen/can_text.h"
+#include "support/can_text.h"
 
 namespace nord_driver::canopen {
 namespace {

@@ -60,7 +60,9 @@ void FakeDevice::receive(const CanFrame& frame, Instant now) {
   }
   if (frame.id == (0x400u | master * 8u) && (held & 4) != 0 && established) {
     if (frame.size != 8) violation("a strobe command of another length than 8");
-    io_at_ = now;
+    const bool own_bit = (frame.data[mac / 8u] >> mac % 8u & 1u) != 0;
+    if (own_bit && (held & 2) != 0) violation("told to keep its last outputs, which are polled");
+    strobe_at_ = now;
     ++polls;
     if (!deaf_to_io) produce(0xE);
   }
@@ -92,7 +94,10 @@ void FakeDevice::unconnected(const CanFrame& frame, Instant now) {
     master = from;
     allocated_last = choice;
     if ((choice & 1) != 0) explicit_at_ = now;
-    if ((choice & 0x3E) != 0) established = timed_out = false;
+    if ((choice & 0x3E) != 0) {
+      established = timed_out = false;
+      rates_ = 0;
+    }
     return reply({0xCB, 0x00});
   }
   if (service == 0x4C && frame.size == 5) {
@@ -198,11 +203,11 @@ FakeDevice::Bytes FakeDevice::getAttribute(const Address& address) const {
   if (address == Address{3, 1, 5}) return found({held, master});
   if (address == Address{5, 1, 1}) return found({3});
   if (address == Address{5, 1, 9}) return found(word(explicit_rate));
-  if (std::get<0>(address) == 5 && std::get<1>(address) == instance() && (held & 0x3E) != 0) {
+  if (std::get<0>(address) == 5 && heldBy(std::get<1>(address)) != 0) {
     const unsigned attribute = std::get<2>(address);
     if (attribute == 1) return found({static_cast<std::uint8_t>(established ? 3 : timed_out ? 4 : 1)});
     if (attribute == 7) return found(word(static_cast<unsigned>(produced)));
-    if (attribute == 8) return found(word(static_cast<unsigned>((held & 4) != 0 ? 8 : consumed)));
+    if (attribute == 8) return found(word(static_cast<unsigned>(std::get<1>(address) == 3 ? 8 : consumed)));
     if (attribute == 9) return found(word(rate));
   }
   const auto place = attributes.find(address);
@@ -211,13 +216,14 @@ FakeDevice::Bytes FakeDevice::getAttribute(const Address& address) const {
 }
 
 FakeDevice::Bytes FakeDevice::setAttribute(const Address& address, const Bytes& data) {
-  if (std::get<0>(address) == 5 && std::get<1>(address) == instance() && std::get<2>(address) == 9) {
+  if (std::get<0>(address) == 5 && heldBy(std::get<1>(address)) != 0 && std::get<2>(address) == 9) {
     if (data.size() != 2) return {0x94, data.size() < 2 ? std::uint8_t{0x13} : std::uint8_t{0x15}, 0xFF};
     const unsigned asked = data[0] | static_cast<unsigned>(data[1]) << 8u;
     rate = (asked + rate_step - 1) / rate_step * rate_step;
-    established = true;
+    rates_ |= heldBy(std::get<1>(address));
+    established = (rates_ & 0x36) == (held & 0x36);
     timed_out = false;
-    io_at_ = produced_at_ = now_;
+    io_at_ = strobe_at_ = produced_at_ = now_;
     io_count_ = -1;
     if (!answers_rate) return {0x90};
     const Bytes told = word(rate);
@@ -297,7 +303,9 @@ void FakeDevice::tick(Instant now) {
     ++explicit_deaths;
     if (held == 0) master = 0xFF;
   }
-  if (established && rate > 0 && now - io_at_ >= milliseconds{4 * rate} && !(byChange() && consumed == 0)) {
+  const bool unfed = (held & 0x32) != 0 && !(byChange() && consumed == 0) && now - io_at_ >= milliseconds{4 * rate};
+  const bool unstrobed = (held & 4) != 0 && now - strobe_at_ >= milliseconds{4 * rate};
+  if (established && rate > 0 && (unfed || unstrobed)) {
     established = false;
     timed_out = true;
     ++io_deaths;

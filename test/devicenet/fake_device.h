@@ -77,12 +77,16 @@ class FakeDevice {
   void put(std::uint32_t id, const Bytes& bytes);
   void violation(const std::string& what) { violations.push_back("MAC " + std::to_string(mac) + ": " + what); }
   bool byChange() const { return (held & 0x30) != 0; }
-  unsigned instance() const { return (held & 2) != 0 ? 2u : (held & 4) != 0 ? 3u : 4u; }
+  /// Bits of the choice of a connection object that there is; 0 without.
+  unsigned heldBy(unsigned instance) const {
+    return held & (instance == 2 ? 0x02u : instance == 3 ? 0x04u : instance == 4 ? 0x30u : 0u);
+  }
 
   std::deque<CanFrame> out_;
   Instant now_{};
-  Instant explicit_at_{}, io_at_{}, produced_at_{}, answer_at_{};
-  Bytes request_;  // fragments of a request
+  Instant explicit_at_{}, io_at_{}, strobe_at_{}, produced_at_{}, answer_at_{};
+  unsigned rates_ = 0;  // allocation choice of what has its expected packet rate
+  Bytes request_;       // fragments of a request
   int request_count_ = -1;
   Bytes answer_;  // fragmented answer under way
   std::size_t answer_offset_ = 0;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "devicenet/can_text.h"
 #include "devicenet/fake_device.h"
 #include "devicenet/scanner.h"
+#include "support/can_text.h"
 
 namespace nord_driver::devicenet {
 

@@ -11,8 +11,12 @@ using std::chrono::seconds;
 
 ScannerConfig everyKind() {
   ScannerConfig config = busConfig(0);
-  config.nodes = {nodeConfig(5), nodeConfig(6, IoKind::kPoll, 33, 33), nodeConfig(7, IoKind::kStrobe, 8, 1),
-                  nodeConfig(8, IoKind::kChangeOfState), nodeConfig(9, IoKind::kCyclic, 10, 10)};
+  config.nodes = {nodeConfig(5),
+                  nodeConfig(6, IoKind::kPoll, 33, 33),
+                  nodeConfig(7, IoKind::kStrobe, 8, 5),
+                  nodeConfig(8, IoKind::kChangeOfState),
+                  nodeConfig(9, IoKind::kCyclic, 10, 10),
+                  nodeConfig(10, IoKind::kStrobe, 4, 0)};
   return config;
 }
 

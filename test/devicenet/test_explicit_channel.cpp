@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "devicenet/can_text.h"
 #include "devicenet/explicit_channel.h"
+#include "support/can_text.h"
 
 namespace nord_driver::devicenet {
 namespace {
@@ -21,7 +21,7 @@ TEST(ExplicitChannel, TakesTurns) {
     CanFrame frame;
     ASSERT_TRUE(channel.pollTransmit(frame, now));
     asked += frame.data[2] == 5 ? 'e' : 'u';
-    channel.handle(devicenet::frame(xid ? "42B#408E03" : "42B#008E03"), now);
+    channel.handle(nord_driver::frame(xid ? "42B#408E03" : "42B#008E03"), now);
     xid = !xid;
   }
   EXPECT_EQ("ueueue", asked);

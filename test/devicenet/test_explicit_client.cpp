@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "devicenet/can_text.h"
 #include "devicenet/explicit_client.h"
+#include "support/can_text.h"
 
 namespace nord_driver::devicenet {
 namespace {

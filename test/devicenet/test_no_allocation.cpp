@@ -21,7 +21,7 @@ TEST(NoAllocation, AfterConstruction) {
   ScannerConfig config = busConfig(4);
   config.nodes[1].product_code = std::uint16_t{1};
   config.nodes[2] = nodeConfig(7, IoKind::kChangeOfState, 33, 33);
-  config.nodes[3] = nodeConfig(8, IoKind::kStrobe, 8, 1);
+  config.nodes[3] = nodeConfig(8, IoKind::kStrobe, 8, 5);
   Scanner scanner{config};
   std::vector<std::unique_ptr<FakeDevice>> devices;
   for (const NodeConfig& node : config.nodes) {

@@ -81,7 +81,7 @@ TEST(ProcessData, WrongLength) {
 // Bit strobe: one command for all with a bit each, at most eight bytes back (BU 0280 4.2.1).
 TEST(ProcessData, BitStrobe) {
   ScannerConfig config = busConfig(0);
-  config.nodes = {nodeConfig(5, IoKind::kStrobe, 8, 1), nodeConfig(12, IoKind::kStrobe, 4, 1), nodeConfig(20)};
+  config.nodes = {nodeConfig(5, IoKind::kStrobe, 8, 0), nodeConfig(12, IoKind::kStrobe, 4, 0), nodeConfig(20)};
   ScannerRun run{config};
   run.output = {0x01};
   run.devices[0]->input = {1, 2, 3, 4, 5, 6, 7, 8};
@@ -101,6 +101,52 @@ TEST(ProcessData, BitStrobe) {
   EXPECT_EQ(NodeState::kExchanging, run.scanner.status(0).state);
   run.devices[1]->powerOn();
   EXPECT_TRUE(run.runUntil([&] { return run.allExchanging(); }, seconds{2}));
+  EXPECT_THAT(run.violations(), testing::IsEmpty());
+}
+
+// A bit strobe carries no words: the outputs go by a poll beside it, on a second connection. Its bit stays 0, with 1 a NORD
+// module keeps its last outputs (BU 0280 4.2.1).
+TEST(ProcessData, BitStrobeWithAPollBesideIt) {
+  ScannerRun run{oneOf(IoKind::kStrobe, 5, 5)};
+  run.output = {0x01, 0x7F, 0x04, 0x00, 0x20};
+  run.devices[0]->input = {0x00, 0x37, 0x0B, 0x00, 0x20};
+  run.begin();
+  ASSERT_TRUE(run.runUntil([&] { return run.scanner.input(0).count > 0; }, seconds{3}));
+  const std::vector<std::string> start(run.seen.end() - 18, run.seen.end());
+  EXPECT_THAT(start,
+              testing::ElementsAre("> 42E#404B03010600",  // allocate: polled and bit strobed
+                                   "< 42B#40CB00",
+                                   "> 42C#000E050207",  // poll: produced size
+                                   "< 42B#008E0500",
+                                   "> 42C#400E050208",  // consumed size
+                                   "< 42B#408E0500",
+                                   "> 42C#000E050307",  // bit strobe: produced size
+                                   "< 42B#008E0500",
+                                   "> 42C#400E050308",  // it consumes the eight bytes of the command
+                                   "< 42B#408E0800",
+                                   "> 42C#00100503091900",  // expected packet rate 25 ms, rounded to 30
+                                   "< 42B#00901E00", "> 42C#40100502091900", "< 42B#40901E00", "> 400#0000000000000000",
+                                   "> 42D#017F040020", "< 385#00370B0020", "< 3C5#00370B0020"));
+  run.run(milliseconds{100});
+  EXPECT_THAT(run.seen, testing::Contains("> 42D#017F040020"));
+  EXPECT_THAT(run.seen, testing::Contains("< 3C5#00370B0020"));
+  EXPECT_THAT(run.seen, testing::Not(testing::Contains("> 400#2000000000000000")));
+  EXPECT_EQ(ByteView{run.output}, ByteView{run.devices[0]->output});
+  // The inputs are those of the strobe; the answer to the poll says that the outputs have come.
+  const auto before = run.scanner.input(0).count;
+  run.loses = [](const CanFrame& frame) { return frame.id == 0x385; };
+  run.run(milliseconds{50});
+  EXPECT_EQ(before, run.scanner.input(0).count);
+  EXPECT_EQ(NodeState::kExchanging, run.scanner.status(0).state);
+  run.loses = nullptr;
+  run.run(milliseconds{50});
+  run.loses = [](const CanFrame& frame) { return frame.id == 0x3C5; };
+  EXPECT_TRUE(run.reaches(NodeState::kLost, milliseconds{200}));
+  EXPECT_EQ("gave no answer to our poll for 120 ms", run.eventText(DevicenetEventKind::kNodeLost));
+  run.loses = nullptr;
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
+  run.loses = [](const CanFrame& frame) { return frame.id == 0x385; };
+  EXPECT_TRUE(run.reaches(NodeState::kLost, milliseconds{200})) << "and the other way round";
   EXPECT_THAT(run.violations(), testing::IsEmpty());
 }
 

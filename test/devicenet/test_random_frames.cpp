@@ -21,8 +21,11 @@ ScannerConfig mixed(std::uint32_t seed) {
   ScannerConfig config = busConfig(0);
   constexpr std::array<IoKind, 4> kKinds{IoKind::kPoll, IoKind::kStrobe, IoKind::kChangeOfState, IoKind::kCyclic};
   const IoKind kind = kKinds[seed % 4];
-  const std::size_t large = kind == IoKind::kStrobe ? 8 : 33;
-  config.nodes = {nodeConfig(5), nodeConfig(6, kind, large, large)};
+  // A bit strobe brings eight bytes at most; what goes out beside it may be nothing, or take fragments.
+  constexpr std::array<std::size_t, 3> kBesideStrobe{0, 8, 33};
+  const std::size_t in = kind == IoKind::kStrobe ? 8 : 33;
+  const std::size_t out = kind == IoKind::kStrobe ? kBesideStrobe[seed / 4 % 3] : 33;
+  config.nodes = {nodeConfig(5), nodeConfig(6, kind, in, out)};
   config.nodes[1].io.acknowledge = seed % 8 < 4;
   return config;
 }

@@ -71,7 +71,7 @@ TEST(Refusals, NoSuchConnection) {
   config.nodes[0].io.kind = IoKind::kStrobe;
   ScannerRun run{config};
   run.loses = [&](const CanFrame& frame) {
-    if (frame.id != 0x42E || frame.size != 6 || frame.data[4] != 0x04) return false;
+    if (frame.id != 0x42E || frame.size != 6 || frame.data[4] != 0x06) return false;
     run.devices[0]->say(dataFrame(0x42B, FixedBytes<8>{static_cast<std::uint8_t>(frame.data[0]), 0x94, 0x20, 0x02}));
     return true;
   };

@@ -75,10 +75,12 @@ TEST(ScannerConfig, TimeOnTheWire) {
   EXPECT_EQ(1310 * Duration{8000}, cycleOnWire(config));
   config.nodes[0].io.input_bytes = config.nodes[0].io.output_bytes = 8;
   EXPECT_EQ(270 * Duration{8000}, cycleOnWire(config));
-  config.nodes[0] = nodeConfig(5, IoKind::kStrobe, 8, 1);
+  config.nodes[0] = nodeConfig(5, IoKind::kStrobe, 8, 0);
   EXPECT_EQ(270 * Duration{8000}, cycleOnWire(config)) << "the command counts once";
-  config.nodes.push_back(nodeConfig(6, IoKind::kStrobe, 8, 1));
+  config.nodes.push_back(nodeConfig(6, IoKind::kStrobe, 8, 0));
   EXPECT_EQ(405 * Duration{8000}, cycleOnWire(config));
+  config.nodes = {nodeConfig(5, IoKind::kStrobe, 8, 5)};
+  EXPECT_EQ(510 * Duration{8000}, cycleOnWire(config)) << "a poll of 105 beside it, answered by 135";
   config.nodes = {nodeConfig(5, IoKind::kChangeOfState, 4, 4)};
   EXPECT_EQ(300 * Duration{8000}, cycleOnWire(config)) << "two of 95, two acknowledges of 55";
 }

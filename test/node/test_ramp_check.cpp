@@ -45,6 +45,19 @@ std::string assess(const cycle::CycleConfig& config, const cycle::DeviceData& de
   return RampCheck{config, drive}.assess(device, 2);
 }
 
+// 10 rad/s^2 at the joint are 20 Hz/s there, too.
+TEST(RampCheck, ADriveOfNoBaseIsComparedWithItsOwnLimits) {
+  cycle::CycleConfig config = robot();
+  EXPECT_EQ("", assess(config, ramps(60.0, 60.0), 2)) << "it has none";
+  config.drives[2].limits.has_acceleration_limits = true;
+  config.drives[2].limits.max_acceleration = 10.0;
+  config.drives[2].limits.min_acceleration = -5.0;
+  EXPECT_EQ("", assess(config, ramps(2.5, 2.5), 2));
+  EXPECT_THAT(assess(config, ramps(5.0, 2.5), 2),
+              AllOf(HasSubstr("slower than its joint's limits: P102 of set 2 is 5.00 s"),
+                    HasSubstr("the drive's limits ask for up to 20.0 Hz/s: 2.50 s"), Not(HasSubstr("base"))));
+}
+
 // 50 Hz in 2.5 s are 20 Hz/s; 0.01 s is the resolution of P102.
 TEST(RampCheck, ARampAsFastAsTheLimitsIsFine) {
   EXPECT_EQ("", assess(robot(), ramps(2.5, 2.5)));

@@ -22,7 +22,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-constexpr double kVelocity = 3.0;  // rad/s
+constexpr double kVelocity = 3.0;   // rad/s
+constexpr double kLeftLimit = 4.0;  // rad/s
 const std::string kRosHome = ::testing::TempDir() + "ros_home_" + std::to_string(::getpid());
 
 bool isIdle(const DriveStatus& status) {
@@ -39,6 +40,8 @@ class SingleDrives : public RobotTest {
   /// The same robot, but for the driver two drives that know nothing of each other.
   static void SetUpTestSuite() {
     for (const char* key : {"left_wheel", "right_wheel"}) ros::param::del(std::string("/nord_driver/") + key);
+    ros::param::set("/nord_driver/drives/left/max_velocity", kLeftLimit);
+    ros::param::set("/nord_driver/drives/left/max_acceleration", 20.0);
     ASSERT_EQ(0, ::setenv("ROS_HOME", kRosHome.c_str(), 1));
     shared_driver = std::make_unique<NodeProcess>(kDriverProgram, std::vector<std::string>{"__name:=nord_driver"});
   }
@@ -151,6 +154,12 @@ TEST_F(SingleDrives, AFaultOfOneLeavesTheOtherAlone) {
   const std::size_t from = robot().left.status.mark();
   ASSERT_TRUE(eventually([&] { return robot().left.status.mark() >= from + 25; }));
   for (const auto& status : robot().left.status.since(from)) EXPECT_EQ(status->control_word, 0x047E);
+}
+
+TEST_F(SingleDrives, EachHasItsOwnLimits) {
+  command(2.0 * kLeftLimit, 1.5 * kLeftLimit);
+  EXPECT_TRUE(turns(robot().right, 1.5 * kLeftLimit)) << "it has none";
+  EXPECT_TRUE(turns(robot().left, kLeftLimit));
 }
 
 // No command at all: the one before counts until it is too old.

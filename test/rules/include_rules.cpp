@@ -47,8 +47,9 @@ const std::map<std::string, Names>& table() {
       {"trace/telegram_trace", {"core"}},  // the ring a transport fills: below the transports
       {"transport", transportWith({})},
       {"transport/profibus", transportWith({"profibus", "link", "link/serial"})},
-      {"transport/canopen", transportWith({"canopen", "link", "link/can"})},
-      {"transport/devicenet", transportWith({"devicenet", "link", "link/can"})},
+      {"transport/can", transportWith({"link", "link/can"})},  // what transports on a CAN bus share
+      {"transport/canopen", transportWith({"canopen", "link", "link/can", "transport/can"})},
+      {"transport/devicenet", transportWith({"devicenet", "link", "link/can", "transport/can"})},
       {"transport/interbus", transportWith({"interbus", "link", "link/modbus"})},
       {"drive", {"core", "profile"}},
       {"cycle", {"core", "config", "profile", "transport", "robot", "drive"}},
@@ -62,7 +63,7 @@ const std::map<std::string, Names>& table() {
       {"sim/can", simulatorWith({"link/can"})},  // what every protocol on CAN needs of its bus
       {"sim/canopen", simulatorWith({"link/can", "sim/can"})},
       {"sim/devicenet", simulatorWith({"link/can", "sim/can"})},
-      {"sim/interbus", simulatorWith({})},
+      {"sim/interbus", simulatorWith({"link/modbus"})},
       {"sim_node", {"core", "sim", "ros_support"}},
       {"tools", {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "sim"}},
       {"node",
@@ -73,6 +74,7 @@ const std::map<std::string, Names>& table() {
       {"ros_support", {}},                           // the same for those with ROS
       {"rostest", {"*"}},                            // the programs as their users meet them
       {"socketcan", {"rostest"}},                    // tests of link/ and of the nodes that need a kernel with CAN
+      {"documents", {"*"}},                          // what documents say of the code
       {"rules", {}},
   };
   return kTable;

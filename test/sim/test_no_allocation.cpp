@@ -114,7 +114,7 @@ TEST(NoAllocation, OnACanBus) {
   std::vector<CanFrame> requests;
   for (const char* text : {"732#R1", "632#4066200100000000", "632#2B17100014000000", "000#0132", "232#7E040000",
                            "232#7F040020", "080#", "632#4008100000000000", "632#6000000000000000"}) {
-    requests.push_back(fromText(text));
+    requests.push_back(nord_driver::frame(text));
   }
   CanDisturbance noise;
   noise.lose = noise.error = noise.duplicate = 0.05;
@@ -156,7 +156,7 @@ TEST(NoAllocation, OnADeviceNetBus) {
         "44D#41 00 00 7E 04 00 00 00", "44D#42 00 00 00 7E 04 00 00", "44D#43 00 00 00 00 7E 04 00",
         "44D#84 00 00 00 00 00", "44C#0A 0E 01 01 07", "44C#8A C0 00", "44C#8A C1 00", "44C#0A 10 65 01 03 64 00",
         "44C#0A 0E 6F 01 05", "457#80 FF FF 01 00 00 00"}) {
-    requests.push_back(fromDnText(text));
+    requests.push_back(nord_driver::frame(text));
   }
   CanDisturbance noise;
   noise.lose = noise.error = noise.duplicate = 0.05;

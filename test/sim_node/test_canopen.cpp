@@ -1,63 +1,36 @@
-#include "link/can/make_can_link.h"
-#include "sim/canopen/can_conversation.h"
-#include "sim_node/sim_node_fixture.h"
+#include "sim_node/can_bus_test.h"
 
 namespace nord_driver::sim_node {
 namespace {
 
 /// The same services with the drive on a CAN bus.
-class Canopen : public SimNodeTest {
+class Canopen : public CanBusTest {
  protected:
+  Canopen() : CanBusTest(std::chrono::milliseconds{50}) {}
+
   void SetUp() override {
-    set("left/unplug", true);
-    call<SimAnswerDelay>("left/answer_delay", {});
-    call<SimParameterChannel>("left/parameter_channel", {});
-    set("left/mute", false);
-    set("left/unplug", false);
-    link::CanSettings settings;
-    ASSERT_TRUE(ros::param::get("/nord_sim/bus/interface", settings.interface));
-    can = link::makeCanLink(settings);
-    ASSERT_TRUE(can->open()) << can->lastError();
+    ASSERT_NO_FATAL_FAILURE(CanBusTest::SetUp());
     ASSERT_TRUE(comes("732#R1", "732#7F"));
-    ASSERT_TRUE(eventually([](const SimDrive& drive) { return drive.status_word == 0x0B70; }));
+    ASSERT_TRUE(isReady());
   }
-  /// Repeats `request` every 50 ms until this very frame comes, for at most ten seconds.
-  bool comes(const std::string& request, const std::string& answer, Duration limit = seconds(10.0)) {
-    for (const Instant end = can->now() + limit; can->now() < end;) {
-      can->send(sim::fromText(request));
-      const Instant until = can->now() + std::chrono::milliseconds{50};
-      link::ReceivedCanFrame received;
-      while (can->waitReadable(until) && can->receive(received)) {
-        if (sim::inText(received.frame) == answer) return true;
-      }
-    }
-    return false;
-  }
-  std::unique_ptr<link::CanLink> can;
 };
 
 // A trip shows as an emergency message, the exchange in the truth; the referee watches the CAN bus.
 TEST_F(Canopen, FaultsAndTruth) {
-  can->send(sim::fromText("000#0132"));
+  send("000#0132");
   EXPECT_TRUE(comes("232#7E040000", "1B2#310B0000"));
-  EXPECT_TRUE(eventually([](const SimDrive& drive) { return drive.in_data_exchange && drive.control_word == 0x047E; }));
+  EXPECT_TRUE(isExchanging(0x047E));
   EXPECT_EQ("yes, no rule broken", trigger("referee"));
-  SimTrip::Request request;
-  request.number = 30;
-  EXPECT_EQ("left: tripped with fault 30", call<SimTrip>("left/trip", request).message);
+  trip();
   EXPECT_TRUE(comes("232#7E040000", "0B2#1023010000000000"));
-  can->send(sim::fromText("000#0332"));
+  send("000#0332");
   EXPECT_TRUE(comes("732#R1", "732#05"));
   EXPECT_THAT(trigger("referee"), testing::StartsWith("no, 1 x an NMT command"));
 }
 
 TEST_F(Canopen, ParametersAndSilence) {
   EXPECT_TRUE(comes("632#4066200100000000", "5B2#4B662001C8000000"));
-  SimParameterChannel::Request request;
-  request.refuse = true;
-  request.error = 1;
-  request.number = 102;
-  call<SimParameterChannel>("left/parameter_channel", request);
+  refuseP102();
   EXPECT_TRUE(comes("632#4066200100000000", "5B2#8066200102000106"));
   set("left/mute", true);
   EXPECT_FALSE(comes("732#R1", "732#7F", seconds(0.5)));

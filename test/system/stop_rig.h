@@ -49,6 +49,8 @@ class StopRig {
   static const char* silenceIsNamed() { return "drive right stopped: the inverter fell silent"; }
   /// The longest time from the last word of a master to the trip of the inverter.
   virtual Duration driveSideTimeout() const = 0;
+  /// The smallest step of a setpoint the bus carries, of 16384.
+  virtual double setpointStep() const { return 1.0; }
 
  protected:
   StopRig() = default;

@@ -22,17 +22,18 @@ enum class Known {
   kCommandAge,   ///< when the last command is older than cmd_vel_timeout
   kRampTooLong,  ///< when shutdown_timeout is over
   kOnTheWire,    ///< when the status word says it
-  kNodeState,    ///< when a frame tells of the node's new state
+  kNodeState,    ///< when the bus tells of the node's, or its own, new state
   kZeros,        ///< drive_timeout after the first status word that is zero
   kSilence,      ///< drive_timeout after the last status word has become too old
 };
 
 enum class Reaction {
-  kRamp,       ///< down the deceleration limit, both alike
-  kQuickStop,  ///< OFF3 on all
-  kOneStops,   ///< the right drive gets the idle word, the left one setpoint 0
-  kOneIsGone,  ///< the same, but who knows what reaches the right one: it is not told to run any more
-  kNoBus,      ///< nothing is sent; the drives' own time-outs act
+  kRamp,        ///< down the deceleration limit, both alike
+  kQuickStop,   ///< OFF3 on all
+  kOneStops,    ///< the right drive gets the idle word, the left one setpoint 0
+  kOneIsGone,   ///< the same, but who knows what reaches the right one: it is not told to run any more
+  kAllAreGone,  ///< none is told to run any more: the bus itself does not reach them
+  kNoBus,       ///< nothing is sent; the drives' own time-outs act
 };
 
 enum class After {

@@ -83,13 +83,12 @@ TEST_P(DevicenetKinds, Drive) {
   EXPECT_EQ("no rule broken", robot.bus().referee().report());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, DevicenetKinds,
-                         ::testing::Values(std::make_pair("poll", 100), std::make_pair("poll", 101),
-                                           std::make_pair("poll", 102), std::make_pair("poll", 21),
-                                           std::make_pair("cos", 100), std::make_pair("cyclic", 101)),
-                         [](const auto& test) {
-                           return std::string{test.param.first} + std::to_string(test.param.second);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    All, DevicenetKinds,
+    ::testing::Values(std::make_pair("poll", 100), std::make_pair("poll", 101), std::make_pair("poll", 102),
+                      std::make_pair("poll", 21), std::make_pair("cos", 100), std::make_pair("cyclic", 101),
+                      std::make_pair("strobe", 100), std::make_pair("strobe", 101), std::make_pair("strobe", 21)),
+    [](const auto& test) { return std::string{test.param.first} + std::to_string(test.param.second); });
 
 // One module, four inverters in 33 bytes: P151 is shared, sets are each one's own.
 TEST(DevicenetFourInverters, ShareAModule) {
@@ -143,13 +142,17 @@ TEST(DevicenetParameterAccess, ARamWriteGoesByP560) {
 
 // The computer dies: DeviceNet's own time-out stops the drives, E10.2, and the wheel coasts.
 TEST(DevicenetStops, WhenTheComputerDies) {
-  DevicenetRobot robot;
-  ASSERT_TRUE(robot.bringUpAndEnable());
-  robot.drive(kHalfSpeed, 0.0, seconds{3});
-  robot.bus().run(milliseconds{200});
-  EXPECT_EQ(102, robot.unit(0).parameters().value(700, 0, 0)) << "E10.2 in steps of 0.1";
-  robot.bus().run(seconds{10});
-  EXPECT_TRUE(robot.standsStill());
+  for (const char* io : {"poll", "cos", "cyclic", "strobe"}) {
+    DevicenetRobot::Options options;
+    options.drives = {{"io", std::string{io}}};
+    DevicenetRobot robot{options};
+    ASSERT_TRUE(robot.bringUpAndEnable()) << io;
+    robot.drive(kHalfSpeed, 0.0, seconds{3});
+    robot.bus().run(milliseconds{200});
+    EXPECT_EQ(102, robot.unit(0).parameters().value(700, 0, 0)) << "E10.2 in steps of 0.1, " << io;
+    robot.bus().run(seconds{10});
+    EXPECT_TRUE(robot.standsStill()) << io;
+  }
 }
 
 // After a clean exit the modules are released, and no inverter has tripped by it.

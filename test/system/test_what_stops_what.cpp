@@ -133,6 +133,8 @@ bool WhatStopsWhat::reacted() {
       return is(left, kRun) && is(right, kIdle);
     case Reaction::kOneIsGone:
       return is(left, kRun) && !tellsToRun(right);
+    case Reaction::kAllAreGone:
+      return !tellsToRun(left) && !tellsToRun(right);
     case Reaction::kNoBus:
       return !left.sent && !right.sent;
   }
@@ -166,7 +168,8 @@ void WhatStopsWhat::expectOneCycleDown() {
       ASSERT_LE(std::abs(rig_->unit(i).shaftSpeed()), kSlow) << "OFF1 on the ramp: " << this->words();
     }
     if (row().reaction == Reaction::kRamp) {
-      const double step = kRamp * toSeconds(robot().config().period()) + 1.0;  // two setpoints are rounded
+      const double step =
+          kRamp * toSeconds(robot().config().period()) + rig_->setpointStep();  // two setpoints are rounded
       ASSERT_LE(std::abs(before_[i].setpoint - words.setpoint), step) << this->words();
       ASSERT_EQ(rig_->wire(kLeft).setpoint, -rig_->wire(kRight).setpoint) << "the path bends: " << this->words();
     }
@@ -196,7 +199,11 @@ void WhatStopsWhat::expectDriveSideStop() {
     ASSERT_TRUE(reacted()) << words();
   }
   for (DriveIndex i = 0; i < StopRig::kDrives; ++i) {
-    EXPECT_NE(0, rig_->unit(i).inverter().faultNumber()) << "drive " << i << " has no time-out of its own";
+    if (row().after == After::kFaultLatched) {
+      EXPECT_NE(0, rig_->unit(i).inverter().faultNumber()) << "drive " << i << " has no time-out of its own";
+    } else {
+      EXPECT_NE(sim::InverterState::kOperationEnabled, rig_->unit(i).inverter().state()) << "drive " << i;
+    }
     EXPECT_EQ(0.0, rig_->unit(i).inverter().frequency()) << "drive " << i;
     EXPECT_GT(std::abs(rig_->unit(i).shaftSpeed()), kSlow) << "it coasts, drive " << i;
   }

@@ -137,6 +137,7 @@ BusKind canopenKind() {
   kind.transport = "canopen";
   kind.settings = &typeid(CanBusConfig);
   kind.end_point = "interface";
+  kind.place = "virtual:nord_sim";
   kind.keys = {// the driver's; those of the identity are the simulator's, too
                "connection", "profile", "array_sub_index", "boot_reset", "device_type", "error_control", "event_time",
                "guard_time", "heartbeat_time", "heartbeat_timeout", "inhibit_time", "life_time_factor",

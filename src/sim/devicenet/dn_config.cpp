@@ -196,6 +196,7 @@ BusKind devicenetKind() {
   kind.transport = "devicenet";
   kind.settings = &typeid(DnBusConfig);
   kind.end_point = "interface";
+  kind.place = "virtual:nord_sim";
   kind.lowest_address = 0;
   kind.highest_address = kHighestMac;
   kind.keys = {// the driver's

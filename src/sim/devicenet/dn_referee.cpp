@@ -216,18 +216,20 @@ void DnReferee::explicitMessage(View& view, const CanFrame& frame) noexcept {
 
 void DnReferee::strobe(const CanFrame& frame) noexcept {
   if (frame.size != 8) broken(DnRule::kStrobeLength);
-  bool any = false;
-  for (View& view : views_) {
+  // One command for all: a slave that is not ready for it yet lets it pass.
+  bool any = false, runs = false;
+  for (std::size_t mac = 0; mac < views_.size(); ++mac) {
+    View& view = views_[mac];
     if ((view.choice & dn::kChoiceStrobe) == 0) continue;
     any = true;
     Io& strobe = view.io[kStrobeIo];
-    if (!strobe.running) {
-      broken(DnRule::kIoBeforePacketRate);
-      continue;
-    }
+    if (!strobe.running) continue;
+    runs = true;
     ioMessage(strobe, strobe.consumed.value_or(frame.size));
+    const bool own_bit = frame.size == 8 && (frame.data[mac / 8] >> mac % 8 & 1u) != 0;
+    if (own_bit && (view.choice & dn::kChoicePoll) != 0) broken(DnRule::kStrobeBit);
   }
-  if (!any) broken(DnRule::kIoBeforeAllocation);
+  if (!runs) broken(any ? DnRule::kIoBeforePacketRate : DnRule::kIoBeforeAllocation);
 }
 
 void DnReferee::io(View& view, unsigned which, const CanFrame& frame) noexcept {

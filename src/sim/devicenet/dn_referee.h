@@ -41,6 +41,7 @@ enum class DnRule : std::uint8_t {
   kIoAfterTimeout,
   kNoPacketRate,
   kStrobeLength,
+  kStrobeBit,
   kAcknowledgeUnasked,
   kChangeUnacknowledged,
   kZeroControlWord,

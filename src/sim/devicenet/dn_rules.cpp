@@ -58,6 +58,8 @@ const char* toString(DnRule rule) noexcept {
       return "an expected packet rate of zero: nobody would notice that the scanner is gone";
     case DnRule::kStrobeLength:
       return "a bit strobe that is not eight bytes long";
+    case DnRule::kStrobeBit:
+      return "a bit strobe with the bit of a module that is polled as well: it keeps its last outputs (BU 0280 4.2.1)";
     case DnRule::kAcknowledgeUnasked:
       return "an acknowledge of data that nobody wants acknowledged";
     case DnRule::kChangeUnacknowledged:

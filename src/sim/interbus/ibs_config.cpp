@@ -96,6 +96,7 @@ BusKind interbusKind() {
   kind.transport = "interbus";
   kind.settings = &typeid(IbsBusConfig);
   kind.end_point = "gateway";
+  kind.place = "127.0.0.1:15020";
   kind.highest_address = 254;
   kind.keys = {"ppo_type", "profile", "input_offset", "output_offset"};
   kind.readBus = readBus;

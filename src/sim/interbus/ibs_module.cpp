@@ -9,6 +9,7 @@ namespace {
 constexpr IbsIdentity kWithoutInverter{};  // BU 0070 4.2: five words, and no profile
 constexpr std::uint8_t kDrivecom = 0xE3;
 constexpr std::uint8_t kNoProfile = 0xF3;
+constexpr Word kRelay = 1u << 10;
 
 // BU 0070 4.1: the profile is effective with three words only.
 IbsIdentity identityFor(bool three_words, bool profile) noexcept {
@@ -94,7 +95,7 @@ IbsWords IbsModule::answer() const noexcept {
     words[1] = toWord(actualSpeed(drive_));
     return words;
   }
-  words[0] = inverter.statusWord();
+  words[0] = static_cast<Word>(inverter.statusWord() | (relay_ ? kRelay : Word{0}));
   words[1] = inverter.actualValue(0);
   if (settings_.words == 5) {
     words[2] = inverter.actualValue(swapsWords() ? 2 : 1);

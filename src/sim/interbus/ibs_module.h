@@ -48,6 +48,8 @@ class IbsModule final : public BusModule {
   /// Whoever commands it begins anew, and may look before it commands: the next words without bit 10 break no rule.
   void masterBegins() noexcept { valid_seen_ = false; }
   void ringStops() noexcept { in_ring_ = false; }
+  /// What the relay of its inverter (MFR 1) shows: bit 10 of NORD's status word (BU 0070 7.2).
+  void setRelay(bool closed) noexcept { relay_ = closed; }
   /// One ring cycle: takes the words to the inverter, and returns those from it.
   IbsWords exchange(const IbsWords& words) noexcept;
 
@@ -63,6 +65,7 @@ class IbsModule final : public BusModule {
   bool restarted_ = false;
   bool in_ring_ = false;
   bool valid_seen_ = false;
+  bool relay_ = false;
   std::int16_t rpm_setpoint_ = 0;
   ExchangeCounters counters_;
 };

@@ -139,6 +139,7 @@ BusKind profibusKind() {
   kind.transport = "profibus_dp";
   kind.settings = &typeid(DpBusConfig);
   kind.end_point = "device";
+  kind.place = "/tmp/nord_sim_bus";
   kind.highest_address = 126;
   kind.keys = {"ppo_type", "module", "io_byte"};
   kind.readBus = readBus;

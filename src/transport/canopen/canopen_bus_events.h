@@ -1,40 +1,12 @@
-// What is wrong with the CAN bus as a whole rather than with one drive, in words.
+// Which of a CANopen master's events tell of the bus as a whole.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-
 #include "canopen/canopen_event.h"
-#include "nord_driver/core/fixed_vector.h"
-#include "nord_driver/transport/transport.h"
+#include "transport/can/can_bus_events.h"
 
 namespace nord_driver {
 
-/// Each event is handed on once; the last one is the text of the bus for ten seconds. Never allocates.
-class CanopenBusEvents {
- public:
-  /// `node_id`: of the event's node, when it has one. What one drive's own note tells is left out.
-  void take(const canopen::CanopenEvent& event, unsigned node_id) noexcept;
-  /// `lost`: received frames this computer took too late, since the start. Told at most once a second: a computer that
-  /// is too slow has no time to lose.
-  void noteLostFrames(const char* interface, std::uint64_t lost, Instant now) noexcept;
-
-  std::optional<BusEvent> poll() noexcept { return events_.takeFront(); }
-  /// The last event; empty when it is too long ago.
-  Sentence text(Instant now) const noexcept;
-  /// That text tells of another master, or of a second node with one id: the reason of most that the nodes do
-  /// meanwhile.
-  bool isExplained(Instant now) const noexcept;
-
- private:
-  void tell(const Sentence& text) noexcept;
-
-  FixedVector<BusEvent, 8> events_;  // what does not fit is in the counters
-  Sentence text_;
-  Instant text_at_{};
-  std::optional<Instant> explained_at_;
-  std::uint64_t lost_told_ = 0;
-  Instant lost_told_at_{};
-};
+/// `node_id`: of the event's node, when it has one. What one drive's own note tells is left out.
+void takeEvent(const canopen::CanopenEvent& event, unsigned node_id, CanBusEvents& events) noexcept;
 
 }  // namespace nord_driver

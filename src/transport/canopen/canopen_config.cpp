@@ -7,6 +7,7 @@
 
 #include "canopen/nmt.h"
 #include "config/setting_checks.h"
+#include "config/setting_note.h"
 #include "transport/canopen/canopen_drive_config.h"
 #include "transport/canopen/canopen_eds.h"
 
@@ -23,12 +24,12 @@ constexpr std::array<std::uint32_t, 8> kBitRates{10'000, 20'000, 50'000, 100'000
 constexpr double kMostLoad = 0.8;
 
 std::uint32_t readBitRate(const Settings& bus) {
-  const std::int64_t rate = integerOr(bus, "bit_rate", 0, 0, 1'000'000);
-  if (!bus.has("bit_rate") || std::find(kBitRates.begin(), kBitRates.end(), rate) != kBitRates.end()) {
-    return static_cast<std::uint32_t>(rate);
-  }
   std::string rates;
   for (const std::uint32_t known : kBitRates) rates += (rates.empty() ? "" : ", ") + std::to_string(known);
+  noteSetting(bus, "bit_rate", {"one of " + rates, "", "bit/s", ""});
+  if (!bus.has("bit_rate")) return 0;
+  const std::int64_t rate = *bus.integer("bit_rate");
+  if (std::find(kBitRates.begin(), kBitRates.end(), rate) != kBitRates.end()) return static_cast<std::uint32_t>(rate);
   throw wrongSetting(bus, "bit_rate", std::to_string(rate), "one of " + rates + " bit/s, as P514 has them");
 }
 
@@ -146,7 +147,7 @@ CanopenConfig readCanopenConfig(const Settings& bus, const std::vector<DriveSett
   config.answer_window = readAnswerWindow(bus, cycle_rate);
   readOwnNode(bus, config.master);
   CanopenBusDefaults defaults;
-  defaults.sync = bus.boolean("sync").value_or(false);
+  defaults.sync = booleanOr(bus, "sync", false);
   defaults.period = seconds(1.0 / cycle_rate);
   defaults.sdo_timeout = seconds(numberOr(bus, "sdo_timeout", 0.3, 0.01, 60.0, "s"));
   defaults.heartbeat = config.master.own_id.has_value();

@@ -1,5 +1,7 @@
 #include "transport/canopen/canopen_counters.h"
 
+#include "transport/can/can_line_counters.h"
+
 namespace nord_driver {
 
 // CAN repeats frames and checks them in the controller, which tells neither: there are no retries and no checksum
@@ -27,12 +29,7 @@ BusCounters canopenCounters(const canopen::Master& master, const link::CanCounte
          from.superseded);
   to.add({"stray_sdo", "SDO answers nobody waited for"}, from.stray_sdo);
   to.add({"not_sent", "frames the interface had no room for, tried again or dropped for newer ones"}, from.not_sent);
-  to.add(bus_counter::kOverruns, line.dropped);
-  to.add({"error_frames", "protocol violations on the bus, as the controller reports them"}, line.bus_errors);
-  to.add({"no_acknowledge", "frames no other node acknowledged"}, line.no_acknowledge);
-  to.add({"controller_errors", "overflow, error warning and error passive of the controller"}, line.controller_errors);
-  to.add({"bus_off", "times the controller has left the bus"}, line.bus_off);
-  to.add({"restarts", "times the controller came back from bus off"}, line.restarts);
+  addLineCounters(line, to);
   return to;
 }
 

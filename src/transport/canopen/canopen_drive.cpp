@@ -9,8 +9,6 @@ namespace nord_driver {
 
 namespace {
 
-constexpr std::uint16_t kMaxFrequency = 105;
-constexpr double kMaxFrequencyResolution = 0.1;  // Hz
 // An inverter that two command does what the last one said. It is ours again when the other was silent for so long.
 constexpr Duration kContested = std::chrono::seconds{1};
 
@@ -158,30 +156,14 @@ void CanopenDriveState::explain(const canopen::NodeStatus& status, bool bus_work
 
 bool CanopenDriveState::submit(const profile::ParameterRequest& request) noexcept {
   if (!parameters_.submit(request)) return false;
-  using Shape = profile::ParameterShape;
-  const bool of_set_1 = request.shape == Shape::kPlain || request.parameter_set == 1;
-  if (request.scales && request.number == kMaxFrequency && of_set_1) {
-    max_frequency_reads_.push_back(request.id);
-    // The drive layer, too, begins anew with what was typed in.
-    scaling_.setMaxFrequency(config_.typed_max_frequency);
-  }
+  if (max_frequency_reads_.begins(request)) scaling_.setMaxFrequency(config_.typed_max_frequency);
   return true;
 }
 
-// Revolutions per minute are told as shares of P105 by what the drive layer itself has read of it. What a user reads
-// while the drive layer commands shares of another P105 (somebody wrote it at the keypad) would be a step of the speed.
 std::optional<profile::ParameterResult> CanopenDriveState::pollResult() noexcept {
   const auto result = parameters_.pollResult();
   if (!result) return std::nullopt;
-  for (std::size_t i = 0; i < max_frequency_reads_.size(); ++i) {
-    if (max_frequency_reads_[i] != result->id) continue;
-    if (result->outcome == profile::ParameterOutcome::kDone && result->raw > 0) {
-      scaling_.setMaxFrequency(Hertz{kMaxFrequencyResolution * result->raw});
-    }
-    max_frequency_reads_[i] = max_frequency_reads_[max_frequency_reads_.size() - 1];
-    max_frequency_reads_.resize(max_frequency_reads_.size() - 1);
-    break;
-  }
+  if (const auto frequency = max_frequency_reads_.taken(*result)) scaling_.setMaxFrequency(*frequency);
   return result;
 }
 

@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "canopen/master.h"
-#include "nord_driver/core/fixed_vector.h"
 #include "nord_driver/transport/transport.h"
 #include "profile/cia402.h"
 #include "transport/canopen/canopen_config.h"
 #include "transport/canopen/canopen_parameters.h"
 #include "transport/canopen/module_link.h"
+#include "transport/max_frequency_reads.h"
 
 namespace nord_driver {
 
@@ -54,9 +54,9 @@ class CanopenDriveState {
   std::uint32_t receive_id_ = 0;
   CanopenParameters parameters_;
   profile::Cia402Scaling scaling_;
-  FixedVector<std::uint32_t, CanopenParameters::kCapacity> max_frequency_reads_;  // ids of P105 of set 1 under way
-  PdoBytes output_;                                                               // as of the last putOutput()
-  bool stops_ = false;                                                            // ... and it is a word that stops
+  MaxFrequencyReads<CanopenParameters::kCapacity> max_frequency_reads_;
+  PdoBytes output_;                     // as of the last putOutput()
+  bool stops_ = false;                  // ... and it is a word that stops
   std::optional<std::uint64_t> start_;  // which start of the node it is operational from; none: it is not
   bool module_answers_ = false;
   bool inverter_answers_ = false;

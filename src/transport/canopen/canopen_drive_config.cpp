@@ -4,7 +4,7 @@
 #include <array>
 
 #include "canopen/nmt.h"
-#include "config/setting_checks.h"
+#include "config/setting_choice.h"
 #include "profile/process_data_order.h"
 
 namespace nord_driver {
@@ -23,24 +23,6 @@ constexpr std::uint16_t kOffsetPerInverter = 0x0800;  // BU 0270 p. 43
 constexpr Duration kMaxTime = milliseconds{65'535};   // 16 bits of milliseconds
 constexpr Duration kMinPause = milliseconds{10};
 constexpr double kMaxSdoTimeout = 60.0;
-
-template <typename Value>
-struct Choice {
-  const char* word;
-  Value value;
-};
-
-template <typename Value, std::size_t N>
-Value readChoice(const Settings& settings, const std::string& key, Value fallback, const Choice<Value> (&choices)[N]) {
-  const auto text = settings.text(key);
-  if (!text) return fallback;
-  std::string words;
-  for (const auto& choice : choices) {
-    if (*text == choice.word) return choice.value;
-    words += (words.empty() ? "" : ", ") + std::string(choice.word);
-  }
-  throw wrongSetting(settings, key, "\"" + *text + "\"", "one of " + words);
-}
 
 constexpr Choice<CanopenConnection> kConnections[] = {{"option", CanopenConnection::kOption},
                                                       {"onboard", CanopenConnection::kOnboard},
@@ -127,9 +109,9 @@ std::uint8_t readProcessValues(const Settings& settings, const CanopenDrive& dri
 CanopenDrive readCanopenDrive(const DriveSettings& source) {
   const Settings& settings = *source.settings;
   CanopenDrive drive{readDriveCommon(source)};
-  drive.connection = readChoice(settings, "connection", CanopenConnection::kOption, kConnections);
+  drive.connection = choiceOr(settings, "connection", CanopenConnection::kOption, kConnections);
   checkSeries(settings, drive);
-  drive.drive_profile = readChoice(settings, "profile", DriveProfile::kNord, kProfiles);
+  drive.drive_profile = choiceOr(settings, "profile", DriveProfile::kNord, kProfiles);
   checkCia402(settings, drive);
   if (drive.connection != CanopenConnection::kGateway && drive.inverter != 1) {
     throw wrongSetting(settings, "inverter", std::to_string(drive.inverter),
@@ -137,7 +119,7 @@ CanopenDrive readCanopenDrive(const DriveSettings& source) {
   }
   drive.process_values = readProcessValues(settings, drive);
   drive.third_before_second = profile::thirdBeforeSecond(drive.series);
-  drive.array_sub_index = readChoice(settings, "array_sub_index", ArraySubIndex::kElement, kArraySubIndices);
+  drive.array_sub_index = choiceOr(settings, "array_sub_index", ArraySubIndex::kElement, kArraySubIndices);
   drive.parameter_base = kParameters;
   if (readParameterServers(settings, drive) == ParameterServers::kIndexOffset) {
     drive.parameter_base = static_cast<std::uint16_t>(kParameters + kOffsetPerInverter * drive.inverter);
@@ -159,12 +141,12 @@ NodeConfig readCanopenNode(const DriveSettings& source, const CanopenDrive& driv
   node.product_code = readIdentity(settings, "product_code");
   node.revision_number = readIdentity(settings, "revision_number");
   // The system bus has masters of its own: nothing is reset there unasked.
-  node.reset = readChoice(settings, "boot_reset",
-                          system_bus ? canopen::BootReset::kNone : canopen::BootReset::kResetCommunication, kResets);
+  node.reset = choiceOr(settings, "boot_reset",
+                        system_bus ? canopen::BootReset::kNone : canopen::BootReset::kResetCommunication, kResets);
   node.sdo_timeout = wholeMilliseconds(settings, "sdo_timeout", bus.sdo_timeout, kMinPause, seconds(kMaxSdoTimeout));
 
   canopen::ErrorControl& control = node.error_control;
-  control.mode = readChoice(settings, "error_control", ErrorControlMode::kGuarding, kErrorControls);
+  control.mode = choiceOr(settings, "error_control", ErrorControlMode::kGuarding, kErrorControls);
   control.heartbeat_time = wholeMilliseconds(settings, "heartbeat_time", milliseconds{100}, kMinPause, kMaxTime);
   control.heartbeat_timeout = wholeMilliseconds(
       settings, "heartbeat_timeout", std::min<Duration>(3 * control.heartbeat_time, kMaxTime), kMinPause, kMaxTime);
@@ -194,7 +176,7 @@ CanopenPdoOptions readPdoOptions(const Settings& settings, const CanopenDrive& d
   const Duration event = std::max<Duration>(kDefaultEventTime, 2 * std::chrono::round<milliseconds>(bus.period));
   pdo.event_time = wholeMilliseconds(settings, "event_time", event, Duration::zero(), kMaxTime);
   const bool known = drive.process_values == 1 && drive.connection != CanopenConnection::kSystemBus;
-  pdo.write_mapping = readChoice(settings, "pdo_mapping", known, kMappings);
+  pdo.write_mapping = choiceOr(settings, "pdo_mapping", known, kMappings);
   if (!pdo.write_mapping && drive.drive_profile == DriveProfile::kCia402) {
     throw wrongSetting(settings, "pdo_mapping", "\"keep\"",
                        "write: profile cia402 needs 6040h, 6041h, 6042h and 6044h");
@@ -203,7 +185,7 @@ CanopenPdoOptions readPdoOptions(const Settings& settings, const CanopenDrive& d
 }
 
 ParameterServers readParameterServers(const Settings& settings, const CanopenDrive& drive) {
-  const auto servers = readChoice(settings, "parameter_servers", ParameterServers::kPerInverter, kParameterServers);
+  const auto servers = choiceOr(settings, "parameter_servers", ParameterServers::kPerInverter, kParameterServers);
   if (servers == ParameterServers::kIndexOffset && drive.connection != CanopenConnection::kGateway) {
     throw wrongSetting(settings, "parameter_servers", "\"index_offset\"",
                        "per_inverter: only a gateway has several inverters behind one node");

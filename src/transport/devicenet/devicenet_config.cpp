@@ -6,9 +6,11 @@
 #include <stdexcept>
 
 #include "config/setting_checks.h"
+#include "config/setting_note.h"
 #include "devicenet/identifier.h"
 #include "transport/devicenet/assembly.h"
 #include "transport/devicenet/devicenet_drive_config.h"
+#include "transport/devicenet/devicenet_eds.h"
 #include "transport/devicenet/machine_serial.h"
 
 namespace nord_driver {
@@ -20,8 +22,9 @@ constexpr std::array<std::uint32_t, 3> kBitRates{125'000, 250'000, 500'000};
 constexpr double kMostLoad = 0.8;  // of the cycle: explicit messages need some, too
 
 std::uint32_t readBitRate(const Settings& bus) {
+  noteSetting(bus, "bit_rate", {"one of 125000, 250000, 500000", "", "bit/s", ""});
   if (!bus.has("bit_rate")) return 0;
-  const std::int64_t rate = integerOr(bus, "bit_rate", 0, 0, 1'000'000);
+  const std::int64_t rate = *bus.integer("bit_rate");
   if (std::find(kBitRates.begin(), kBitRates.end(), rate) != kBitRates.end()) return static_cast<std::uint32_t>(rate);
   throw wrongSetting(bus, "bit_rate", std::to_string(rate), "125000, 250000 or 500000 bit/s, as DeviceNet has them");
 }
@@ -104,9 +107,21 @@ class Reader {
   std::optional<Duration> packet_rate_;
 };
 
-void checkSizes(const Settings& bus, const DevicenetConfig& config) {
+// BU 0280 4.2.1.
+void checkStrobe(const DevicenetModule& module, const devicenet::IoConfig& io,
+                 const std::vector<DriveSettings>& drives) {
+  if (io.kind != devicenet::IoKind::kStrobe || io.input_bytes <= devicenet::kStrobeCommandLength) return;
+  const std::string partner = std::to_string(findAssembly(module.assembly)->input);
+  throw wrongSetting(*drives[module.drives.front()].settings, "io", "\"strobe\"",
+                     "poll, cos or cyclic: assembly " + partner + " has " + std::to_string(io.input_bytes) +
+                         " bytes, and a bit strobe brings back at most " +
+                         std::to_string(devicenet::kStrobeCommandLength));
+}
+
+void checkSizes(const Settings& bus, const DevicenetConfig& config, const std::vector<DriveSettings>& drives) {
   for (std::size_t i = 0; i < config.modules.size(); ++i) {
     const devicenet::IoConfig& io = config.scanner.nodes[i].io;
+    checkStrobe(config.modules[i], io, drives);
     const std::size_t longest = std::max(io.input_bytes, io.output_bytes);
     if (longest <= kLongestAssembly) continue;
     throw ConfigError(bus.fullName("") + ": the inverters at MAC id " + std::to_string(config.modules[i].mac) +
@@ -147,7 +162,8 @@ DevicenetConfig readDevicenetConfig(const Settings& bus, const std::vector<Drive
   Reader reader{bus, config, readPacketRate(bus)};
   for (const DriveSettings& source : drives) reader.add(source);
   layOut(config);
-  checkSizes(bus, config);
+  checkSizes(bus, config, drives);
+  applyEds(config, drives);
   checkLoad(bus, config, cycle_rate);
   config.answer_window = answerWindow(bus, config, cycle_rate);
   config.scanner = devicenet::completed(config.scanner);

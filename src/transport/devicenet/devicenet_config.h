@@ -71,6 +71,7 @@ struct DevicenetConfig {
   devicenet::ScannerConfig scanner;
   std::vector<DevicenetModule> modules;  ///< in the order of `scanner.nodes`
   std::vector<DevicenetDrive> drives;
+  std::vector<std::string> warnings;  ///< of what is accepted and doubtful
 };
 
 /// Throws ConfigError naming key, value and what was expected.

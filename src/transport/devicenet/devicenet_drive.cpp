@@ -11,8 +11,6 @@ using devicenet::NodeStatus;
 
 namespace {
 
-constexpr std::uint16_t kMaxFrequency = 105;
-constexpr double kMaxFrequencyResolution = 0.1;  // Hz
 // A module that two send process data to does what the last one said. It is ours again when the other was silent for so
 // long.
 constexpr Duration kContested = std::chrono::seconds{1};
@@ -146,29 +144,14 @@ void DevicenetDriveState::explain(const NodeStatus& status, bool bus_works) noex
 
 bool DevicenetDriveState::submit(const profile::ParameterRequest& request) noexcept {
   if (!parameters_.submit(request)) return false;
-  using Shape = profile::ParameterShape;
-  const bool of_set_1 = request.shape == Shape::kPlain || request.parameter_set == 1;
-  if (request.scales && request.number == kMaxFrequency && of_set_1) {
-    max_frequency_reads_.push_back(request.id);
-    // The drive layer, too, begins anew with what was typed in.
-    scaling_.setMaxFrequency(config_.typed_max_frequency);
-  }
+  if (max_frequency_reads_.begins(request)) scaling_.setMaxFrequency(config_.typed_max_frequency);
   return true;
 }
 
-// Revolutions per minute are told as shares of P105 by what the drive layer itself has read of it.
 std::optional<profile::ParameterResult> DevicenetDriveState::pollResult() noexcept {
   const auto result = parameters_.pollResult();
   if (!result) return std::nullopt;
-  for (std::size_t i = 0; i < max_frequency_reads_.size(); ++i) {
-    if (max_frequency_reads_[i] != result->id) continue;
-    if (result->outcome == profile::ParameterOutcome::kDone && result->raw > 0) {
-      scaling_.setMaxFrequency(Hertz{kMaxFrequencyResolution * result->raw});
-    }
-    max_frequency_reads_[i] = max_frequency_reads_[max_frequency_reads_.size() - 1];
-    max_frequency_reads_.resize(max_frequency_reads_.size() - 1);
-    break;
-  }
+  if (const auto frequency = max_frequency_reads_.taken(*result)) scaling_.setMaxFrequency(*frequency);
   return result;
 }
 

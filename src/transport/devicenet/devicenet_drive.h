@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "devicenet/scanner.h"
-#include "nord_driver/core/fixed_vector.h"
 #include "nord_driver/transport/transport.h"
 #include "profile/ac_drive.h"
 #include "transport/devicenet/devicenet_config.h"
 #include "transport/devicenet/devicenet_parameters.h"
 #include "transport/devicenet/state_probe.h"
+#include "transport/max_frequency_reads.h"
 
 namespace nord_driver {
 
@@ -61,7 +61,7 @@ class DevicenetDriveState {
   DevicenetParameters parameters_;
   StateProbe probe_;
   profile::AcDriveScaling scaling_;
-  FixedVector<std::uint32_t, DevicenetParameters::kCapacity> max_frequency_reads_;  // ids of P105 of set 1 under way
+  MaxFrequencyReads<DevicenetParameters::kCapacity> max_frequency_reads_;
   std::optional<std::uint64_t> connection_;  // which connection of the module it exchanges by; none: it does not
   std::uint64_t foreign_seen_ = 0;
   std::optional<Instant> contested_at_;

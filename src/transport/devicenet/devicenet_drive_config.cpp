@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "config/setting_checks.h"
+#include "config/setting_choice.h"
+#include "config/setting_note.h"
 #include "devicenet/identifier.h"
 #include "profile/process_data_order.h"
 #include "transport/devicenet/assembly.h"
@@ -14,24 +15,6 @@ namespace {
 
 using devicenet::IoKind;
 using profile::Series;
-
-template <typename Value>
-struct Choice {
-  const char* word;
-  Value value;
-};
-
-template <typename Value, std::size_t N>
-Value readChoice(const Settings& settings, const std::string& key, Value fallback, const Choice<Value> (&choices)[N]) {
-  const auto text = settings.text(key);
-  if (!text) return fallback;
-  std::string words;
-  for (const auto& choice : choices) {
-    if (*text == choice.word) return choice.value;
-    words += (words.empty() ? "" : ", ") + std::string(choice.word);
-  }
-  throw wrongSetting(settings, key, "\"" + *text + "\"", "one of " + words);
-}
 
 constexpr Choice<DevicenetConnection> kModules[] = {{"sk_cu4", DevicenetConnection::kGateway},
                                                     {"sk_tu4", DevicenetConnection::kGateway},
@@ -56,7 +39,7 @@ bool needsGateway(Series series) noexcept {
 
 DevicenetConnection readConnection(const Settings& settings, Series series) {
   const auto usual = needsGateway(series) ? DevicenetConnection::kGateway : DevicenetConnection::kOption;
-  const auto connection = readChoice(settings, "module", usual, kModules);
+  const auto connection = choiceOr(settings, "module", usual, kModules);
   const std::string text = "\"" + settings.text("module").value_or("") + "\"";
   if (connection == DevicenetConnection::kGateway && needsOption(series)) {
     throw wrongSetting(settings, "module", text, "sk_tu1, sk_tu2 or sk_tu3: this series is only behind SK TU1/2/3-DEV");
@@ -99,14 +82,14 @@ std::size_t readLength(const Settings& settings, const char* key, const Devicene
 }
 
 void readVariable(const Settings& settings, DevicenetDrive& drive) {
-  drive.drive_profile = readChoice(settings, "profile", DevicenetProfile::kNord, kProfiles);
+  drive.drive_profile = choiceOr(settings, "profile", DevicenetProfile::kNord, kProfiles);
   drive.control_bytes = readLength(settings, "control_bytes", drive, "[-02]");
   drive.status_bytes = readLength(settings, "status_bytes", drive, "[-01]");
 }
 
 void readFixed(const Settings& settings, DevicenetDrive& drive, unsigned assembly) {
   const AssemblyLayout& layout = *findAssembly(assembly);
-  drive.drive_profile = readChoice(settings, "profile", layout.profile, kProfiles);
+  drive.drive_profile = choiceOr(settings, "profile", layout.profile, kProfiles);
   const std::string name = "assembly " + std::to_string(assembly);
   if (drive.drive_profile != layout.profile) {
     throw wrongSetting(settings, "profile", "\"" + *settings.text("profile") + "\"",
@@ -141,6 +124,7 @@ std::optional<std::uint16_t> readIdentity(const Settings& settings, const std::s
 
 unsigned readAssembly(const Settings& settings) {
   const std::int64_t instance = integerOr(settings, "assembly", 100, 0, 255);
+  noteSetting(settings, "assembly", {"one of 20, 21, 100, 101, 102, 120", "", "", "100"});
   if (findAssembly(static_cast<unsigned>(instance)) == nullptr) {
     throw wrongSetting(settings, "assembly", std::to_string(instance),
                        "20, 21, 100, 101, 102 or 120: the output instance P160 selects");
@@ -160,7 +144,7 @@ DevicenetDrive readDevicenetDrive(const DriveSettings& source, unsigned assembly
     readFixed(settings, drive, assembly);
   }
   drive.third_before_second = profile::thirdBeforeSecond(drive.series);
-  drive.parameter_objects = readChoice(settings, "parameter_objects", ParameterObjects::kNumbered, kParameterObjects);
+  drive.parameter_objects = choiceOr(settings, "parameter_objects", ParameterObjects::kNumbered, kParameterObjects);
   return drive;
 }
 
@@ -173,15 +157,7 @@ DevicenetModule readDevicenetModule(const Settings& settings, const DevicenetDri
   module.output_byte = readModuleByte(settings, "module_output_bytes", layout);
   module.input_byte = readModuleByte(settings, "module_input_bytes", layout);
   node.mac = drive.mac;
-  node.io.kind = readChoice(settings, "io", IoKind::kPoll, kIoKinds);
-  if (node.io.kind == IoKind::kStrobe) {
-    throw wrongSetting(settings, "io", "\"strobe\"",
-                       layout.bytes > devicenet::kStrobeCommandLength
-                           ? "poll, cos or cyclic: assembly " + std::to_string(assembly) + " has " +
-                                 std::to_string(layout.bytes) + " bytes, and a bit strobe brings back at most 8"
-                           : "poll, cos or cyclic: a bit strobe carries no control word, and keeps P151 quiet all the "
-                             "same (BU 0280 4.1.3)");
-  }
+  node.io.kind = choiceOr(settings, "io", IoKind::kPoll, kIoKinds);
   node.vendor_id = readIdentity(settings, "vendor_id");
   node.device_type = readIdentity(settings, "device_type");
   node.product_code = readIdentity(settings, "product_code");

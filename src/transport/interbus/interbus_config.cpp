@@ -6,6 +6,7 @@
 #include <string>
 
 #include "config/setting_checks.h"
+#include "config/setting_note.h"
 #include "profile/process_data_order.h"
 
 namespace nord_driver {
@@ -29,19 +30,22 @@ bool hasAny(const Settings& settings, std::initializer_list<const char*> keys) {
 
 ModbusFunction readFunction(const Settings& bus, const std::string& key, ModbusFunction fallback,
                             std::initializer_list<ModbusFunction> known) {
-  const auto code = bus.integer(key);
-  if (!code) return fallback;
   std::string codes;
   for (const ModbusFunction function : known) {
-    if (*code == static_cast<std::int64_t>(function)) return function;
     codes += (codes.empty() ? "" : ", ") + std::to_string(static_cast<unsigned>(function));
+  }
+  noteSetting(bus, key, {"one of " + codes, "", "", std::to_string(static_cast<unsigned>(fallback))});
+  const auto code = bus.integer(key);
+  if (!code) return fallback;
+  for (const ModbusFunction function : known) {
+    if (*code == static_cast<std::int64_t>(function)) return function;
   }
   throw wrongSetting(bus, key, std::to_string(*code), "one of the functions " + codes);
 }
 
 // One of two words; without any it is the first.
 bool isSecond(const Settings& settings, const std::string& key, const std::string& first, const std::string& second) {
-  const std::string text = settings.text(key).value_or(first);
+  const std::string text = wordOr(settings, key, first, first + ", " + second);
   if (text != first && text != second) throw wrongSetting(settings, key, "\"" + text + "\"", first + " or " + second);
   return text == second;
 }
@@ -184,7 +188,7 @@ InterbusConfig readInterbusConfig(const Settings& bus, const std::vector<DriveSe
   const double window = std::min(0.25 / cycle_rate, kLongestWindow);
   config.answer_window = seconds(numberOr(bus, "answer_window", window, 0.0, 0.5 / cycle_rate, "s"));
   interbus::ImageSettings image;
-  image.pcp_word = bus.boolean("pcp_word").value_or(false);
+  image.pcp_word = booleanOr(bus, "pcp_word", false);
   image.byte_order =
       isSecond(bus, "word_order", "as_is", "swapped") ? interbus::ByteOrder::kSwapped : interbus::ByteOrder::kAsIs;
   image.input_address = config.server.inputs.address;

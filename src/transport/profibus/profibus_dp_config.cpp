@@ -65,11 +65,11 @@ Duration readWatchdog(const Settings& settings) {
 void readOptions(const Settings& bus, ProfibusDpConfig& config) {
   // A token comes round in far less than a second.
   config.bus.listen_first = seconds(numberOr(bus, "listen_first", 0.0, 0.0, 10.0, "s"));
-  config.bus.sync_outputs = bus.boolean("sync").value_or(false);
-  config.bus.freeze_inputs = bus.boolean("freeze").value_or(false);
-  config.scan = bus.boolean("scan").value_or(false);
-  config.records.number_offset = bus.boolean("record_number_offset").value_or(true);
-  const std::string addressing = bus.text("record_addressing").value_or("index");
+  config.bus.sync_outputs = booleanOr(bus, "sync", false);
+  config.bus.freeze_inputs = booleanOr(bus, "freeze", false);
+  config.scan = booleanOr(bus, "scan", false);
+  config.records.number_offset = booleanOr(bus, "record_number_offset", true);
+  const std::string addressing = wordOr(bus, "record_addressing", "index", "index, slot");
   if (addressing != "index" && addressing != "slot") {
     throw wrongSetting(bus, "record_addressing", "\"" + addressing + "\"", "index or slot");
   }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "config/setting_checks.h"
+#include "config/setting_note.h"
 #include "profibus/configuration_bytes.h"
 
 namespace nord_driver {
@@ -35,6 +36,8 @@ struct Plan {
 ProfibusModule readModule(const Settings& settings, Series series) {
   const bool only_cu4 = series == Series::kSk1x0e || series == Series::kSk2xxe;
   const bool either = series == Series::kSk5xxe || series == Series::kSk54xe;
+  noteSetting(settings, "module",
+              {"one of sk_tu1, sk_tu2, sk_tu3, sk_cu4, sk_tu4", "", "", only_cu4 ? "sk_cu4" : "sk_tu3"});
   const auto text = settings.text("module");
   if (!text) return only_cu4 ? ProfibusModule::kSkCu4 : ProfibusModule::kSkTu3;
   const bool with_slots = *text == "sk_cu4" || *text == "sk_tu4";

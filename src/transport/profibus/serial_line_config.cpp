@@ -15,10 +15,10 @@ std::uint32_t readDelay(const Settings& bus, const std::string& key) {
 
 link::Rs485Settings readRs485(const Settings& bus) {
   link::Rs485Settings rs485;
-  rs485.enabled = bus.boolean("rs485/enabled").value_or(rs485.enabled);
-  rs485.rts_on_send = bus.boolean("rs485/rts_on_send").value_or(rs485.rts_on_send);
-  rs485.rts_after_send = bus.boolean("rs485/rts_after_send").value_or(rs485.rts_after_send);
-  rs485.rx_during_tx = bus.boolean("rs485/rx_during_tx").value_or(rs485.rx_during_tx);
+  rs485.enabled = booleanOr(bus, "rs485/enabled", rs485.enabled);
+  rs485.rts_on_send = booleanOr(bus, "rs485/rts_on_send", rs485.rts_on_send);
+  rs485.rts_after_send = booleanOr(bus, "rs485/rts_after_send", rs485.rts_after_send);
+  rs485.rx_during_tx = booleanOr(bus, "rs485/rx_during_tx", rs485.rx_during_tx);
   rs485.delay_before_ms = readDelay(bus, "rs485/delay_before");
   rs485.delay_after_ms = readDelay(bus, "rs485/delay_after");
   if (rs485.enabled && rs485.rts_on_send == rs485.rts_after_send) {
@@ -39,7 +39,7 @@ std::optional<bool> asBoolean(const Settings& bus, const std::string& key) {
 link::EchoMode readEcho(const Settings& bus) {
   // YAML makes a boolean of an unquoted on or off.
   if (const auto flag = asBoolean(bus, "echo")) return *flag ? link::EchoMode::kOn : link::EchoMode::kOff;
-  const std::string text = bus.text("echo").value_or("auto");
+  const std::string text = wordOr(bus, "echo", "auto", "auto, off, on");
   if (text == "auto") return link::EchoMode::kAuto;
   if (text == "off") return link::EchoMode::kOff;
   if (text == "on") return link::EchoMode::kOn;
@@ -53,7 +53,7 @@ link::SerialSettings readSerialLine(const Settings& bus) {
   line.device = requiredText(bus, "device", "a serial device such as /dev/ttyUSB0");
   line.rs485 = readRs485(bus);
   line.echo = readEcho(bus);
-  line.follow_adapter = bus.boolean("follow_adapter").value_or(line.follow_adapter);
+  line.follow_adapter = booleanOr(bus, "follow_adapter", line.follow_adapter);
   return line;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/canopen/simulated_can_bus.h"
+#include "support/can_text.h"
 
 namespace nord_driver::sim {
 
@@ -20,25 +21,6 @@ inline SimConfig oneCanDrive(const CanDriveConfig& can = CanDriveConfig{}, int n
   return config;
 }
 
-/// "232#7E040000", "732#R1" for a remote frame of length 1.
-inline std::string inText(const CanFrame& frame) {
-  static const char kDigits[] = "0123456789ABCDEF";
-  std::string text{kDigits[frame.id >> 8 & 0xF], kDigits[frame.id >> 4 & 0xF], kDigits[frame.id & 0xF], '#'};
-  if (frame.remote) return text + "R" + std::to_string(frame.size);
-  for (const std::uint8_t byte : frame.bytes()) {
-    text += kDigits[byte >> 4];
-    text += kDigits[byte & 0xF];
-  }
-  return text;
-}
-
-inline CanFrame fromText(const std::string& text) {
-  const std::uint32_t id = static_cast<std::uint32_t>(std::stoul(text.substr(0, 3), nullptr, 16));
-  if (text[4] == 'R') return remoteFrame(id, static_cast<std::uint8_t>(text[5] - '0'));
-  const std::vector<std::uint8_t> bytes = fromHex(text.substr(4));
-  return dataFrame(id, ByteView{bytes});
-}
-
 class CanConversation {
  public:
   explicit CanConversation(const SimConfig& config = oneCanDrive(), const CanBusSettings& settings = CanBusSettings{})
@@ -51,12 +33,12 @@ class CanConversation {
     bus.run(std::chrono::milliseconds(500));
     take();
   }
-  void send(const std::string& text) { bus.send(fromText(text)); }
+  void send(const std::string& text) { bus.send(nord_driver::frame(text)); }
   /// All frames received so far.
   std::vector<std::string> take() {
     std::vector<std::string> texts;
     link::ReceivedCanFrame received;
-    while (bus.receive(received)) texts.push_back(inText(received.frame));
+    while (bus.receive(received)) texts.push_back(nord_driver::text(received.frame));
     return texts;
   }
   std::vector<std::string> takeAfter(Duration span) {

@@ -30,7 +30,7 @@ class Client {
     opened_ = link_->open();
   }
   bool opened() const { return opened_; }
-  void send(const std::string& text) { link_->send(fromText(text)); }
+  void send(const std::string& text) { link_->send(nord_driver::frame(text)); }
   /// Asks again every 20 ms until this very frame comes, or ten seconds are over.
   bool sees(const std::string& request, const std::string& answer) {
     for (const Instant end = link_->now() + kPatience; link_->now() < end;) {
@@ -52,7 +52,7 @@ class Client {
     const Instant until = link_->now() + limit;
     link::ReceivedCanFrame received;
     while (link_->waitReadable(until) && link_->receive(received)) {
-      if (inText(received.frame) == answer) return true;
+      if (nord_driver::text(received.frame) == answer) return true;
     }
     return false;
   }

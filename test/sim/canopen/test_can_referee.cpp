@@ -30,7 +30,7 @@ TEST_F(CanRefereeTest, Nmt) {
 }
 
 TEST_F(CanRefereeTest, Identifiers) {
-  CanFrame extended = fromText("632#40");
+  CanFrame extended = nord_driver::frame("632#40");
   extended.extended = true;
   bus.bus.send(extended);
   EXPECT_EQ(1u, only(CanRule::kExtendedFrame));

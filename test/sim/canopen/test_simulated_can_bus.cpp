@@ -41,11 +41,12 @@ TEST(SimulatedCanBus, LowestIdentifierWins) {
   CanConversation bus;
   bus.boot();
   Frames order;
-  bus.bus.setTap([&](const CanFrame& frame, SimulatedCanBus::Sender, Instant) { order.push_back(inText(frame)); });
+  bus.bus.setTap(
+      [&](const CanFrame& frame, SimulatedCanBus::Sender, Instant) { order.push_back(nord_driver::text(frame)); });
   bus.send("000#8032");
   bus.send("632#4001100000000000");
-  bus.bus.inject(fromText("701#05"));
-  bus.bus.inject(fromText("0A0#01"));
+  bus.bus.inject(nord_driver::frame("701#05"));
+  bus.bus.inject(nord_driver::frame("0A0#01"));
   bus.send("080#");
   bus.bus.run(milliseconds(3));
   EXPECT_EQ((Frames{"000#8032", "0A0#01", "632#4001100000000000", "080#", "701#05", "5B2#4F01100000000000"}), order);
@@ -56,7 +57,7 @@ TEST(SimulatedCanBus, LowestIdentifierWins) {
 TEST(SimulatedCanBus, QueueFull) {
   CanConversation bus;
   bus.boot();
-  const CanFrame frame = fromText("701#05");
+  const CanFrame frame = nord_driver::frame("701#05");
   for (int i = 0; i < 8; ++i) EXPECT_EQ(CanSend::kSent, bus.bus.send(frame));
   EXPECT_EQ(CanSend::kQueueFull, bus.bus.send(frame));
   bus.bus.run(milliseconds(5));
@@ -81,7 +82,7 @@ TEST(SimulatedCanBus, NobodyAcknowledges) {
   EXPECT_LT(100u, bus.bus.counters().no_acknowledge);
   EXPECT_STREQ("no other node acknowledges: are the drives powered and is the bus terminated?", bus.bus.advice());
   for (int i = 0; i < 8; ++i) bus.send("732#R1");
-  EXPECT_EQ(CanSend::kQueueFull, bus.bus.send(fromText("732#R1")));
+  EXPECT_EQ(CanSend::kQueueFull, bus.bus.send(nord_driver::frame("732#R1")));
   bus.drive().setPlugged(true);
   bus.bus.run(milliseconds(50));
   EXPECT_EQ(CanState::kActive, bus.bus.state());
@@ -95,7 +96,7 @@ TEST(SimulatedCanBus, BusOffAndRestart) {
   bus.bus.setBusOff();
   EXPECT_EQ(CanState::kBusOff, bus.bus.state());
   EXPECT_TRUE(bus.bus.isOpen());
-  EXPECT_EQ(CanSend::kFailed, bus.bus.send(fromText("732#R1")));
+  EXPECT_EQ(CanSend::kFailed, bus.bus.send(nord_driver::frame("732#R1")));
   EXPECT_EQ(Frames{}, bus.takeAfter(milliseconds(20))) << "what waited is lost";
   bus.bus.restart();
   EXPECT_EQ("732#7F", bus.ask("732#R1"));
@@ -110,7 +111,7 @@ TEST(SimulatedCanBus, InterfaceDownAndRemoved) {
   bus.bus.setInterfaceUp(false);
   EXPECT_EQ(CanState::kDown, bus.bus.state());
   EXPECT_TRUE(bus.bus.isOpen());
-  EXPECT_EQ(CanSend::kFailed, bus.bus.send(fromText("732#R1")));
+  EXPECT_EQ(CanSend::kFailed, bus.bus.send(nord_driver::frame("732#R1")));
   bus.bus.setInterfaceUp(true);
   EXPECT_EQ("732#7F", bus.ask("732#R1"));
   bus.bus.setInterfacePresent(false);
@@ -180,9 +181,9 @@ TEST(SimulatedCanBus, DisturbsRepeatably) {
 TEST(SimulatedCanBus, ForeignFrames) {
   CanConversation bus;
   bus.boot();
-  bus.bus.inject(fromText("632#4001100000000000"));
+  bus.bus.inject(nord_driver::frame("632#4001100000000000"));
   EXPECT_EQ((Frames{"632#4001100000000000", "5B2#4F01100000000000"}), bus.takeAfter(milliseconds(20)));
-  CanFrame extended = fromText("632#40");
+  CanFrame extended = nord_driver::frame("632#40");
   extended.extended = true;
   extended.id = 0x18FF1234;
   bus.bus.inject(extended);

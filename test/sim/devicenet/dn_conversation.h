@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/devicenet/simulated_dn_bus.h"
+#include "support/can_text.h"
 
 namespace nord_driver::sim {
 
@@ -44,23 +45,6 @@ inline SimConfig dnGateway(unsigned inverters = 1, unsigned assembly = 100) {
   return config;
 }
 
-/// "44B#0ACB00".
-inline std::string inDnText(const CanFrame& frame) {
-  static const char kDigits[] = "0123456789ABCDEF";
-  std::string text{kDigits[frame.id >> 8 & 0xF], kDigits[frame.id >> 4 & 0xF], kDigits[frame.id & 0xF], '#'};
-  for (const std::uint8_t byte : frame.bytes()) {
-    text += kDigits[byte >> 4];
-    text += kDigits[byte & 0xF];
-  }
-  return text;
-}
-
-/// "44E#0A 4B 03 01 07 0A".
-inline CanFrame fromDnText(const std::string& text) {
-  const std::vector<std::uint8_t> bytes = fromHex(text.substr(4));
-  return dataFrame(static_cast<std::uint32_t>(std::stoul(text.substr(0, 3), nullptr, 16)), ByteView{bytes});
-}
-
 class DnConversation {
  public:
   using Texts = std::vector<std::string>;
@@ -84,12 +68,12 @@ class DnConversation {
     ask("44C#0A 0E 05 02 08");
     ask("44C#0A 10 05 02 09 64 00");
   }
-  void send(const std::string& text) { bus.send(fromDnText(text)); }
+  void send(const std::string& text) { bus.send(nord_driver::frame(text)); }
   /// All frames received so far.
   Texts take() {
     Texts texts;
     link::ReceivedCanFrame received;
-    while (bus.receive(received)) texts.push_back(inDnText(received.frame));
+    while (bus.receive(received)) texts.push_back(nord_driver::text(received.frame));
     return texts;
   }
   Texts takeAfter(Duration span) {

@@ -22,7 +22,7 @@ TEST(DnBusThread, IsRunByItsTransport) {
   const Instant deadline = link->now() + std::chrono::seconds(10);
   std::string heard;
   while (heard.empty() && link->now() < deadline) {
-    if (link->waitReadable(deadline) && link->receive(received)) heard = inDnText(received.frame);
+    if (link->waitReadable(deadline) && link->receive(received)) heard = nord_driver::text(received.frame);
   }
   EXPECT_EQ("44F#", heard.substr(0, 4)) << "its duplicate-MAC request";
   EXPECT_EQ("no rule broken", bus->refereeReport());

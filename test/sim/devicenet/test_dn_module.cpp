@@ -34,7 +34,7 @@ TEST(DnModule, DuplicateMacCheck) {
 TEST(DnModule, SecondNodeWithItsMacId) {
   DnConversation bus{dnGateway()};
   bus.bus.run(milliseconds(500));
-  bus.bus.inject(fromDnText("44F#00 FF FF 01 00 00 00"));
+  bus.bus.inject(nord_driver::frame("44F#00 FF FF 01 00 00 00"));
   bus.bus.run(seconds(3));
   EXPECT_EQ(DnModule::Phase::kCommunicationFault, bus.module().phase());
   EXPECT_EQ(5211, bus.module().parameters().value(170)) << "address already allocated, BU 0280 6.2.2";

@@ -148,6 +148,28 @@ TEST(DnProcessData, BitStrobe) {
   EXPECT_EQ("44B#0A940204", four.ask("44E#0A 4B 03 01 05 0A")) << "more than eight bytes";
 }
 
+// Both allocated: the strobe brings the inputs, the poll the outputs. Each has a time-out of its own, and the poll's stops
+// the inverter however long strobes come (BU 0280 4.1.3).
+TEST(DnProcessData, BitStrobeWithAPollBesideIt) {
+  DnConversation bus;
+  bus.goOnline();
+  EXPECT_EQ("44B#0ACB00", bus.ask("44E#0A 4B 03 01 07 0A"));
+  for (const char* instance : {"02", "03"}) {
+    EXPECT_EQ("8E0500", bus.request(std::string{"0E 05 "} + instance + " 07"));
+    EXPECT_EQ(instance[1] == '2' ? "8E0500" : "8E0800", bus.request(std::string{"0E 05 "} + instance + " 08"));
+    EXPECT_EQ("906400", bus.request(std::string{"10 05 "} + instance + " 09 64 00"));
+  }
+  EXPECT_EQ("389#00700B0000", bus.ask("450#00 00 00 00 00 00 00 00"));
+  EXPECT_EQ("3C9#00700B0000", bus.ask("44D#00 7E 04 00 00"));
+  EXPECT_EQ("389#00310B0000", bus.ask("450#00 00 00 00 00 00 00 00"));
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
+  for (int i = 0; i < 45; ++i) {
+    bus.send("450#00 00 00 00 00 00 00 00");
+    bus.bus.run(milliseconds(10));
+  }
+  EXPECT_EQ(102, bus.drive().inverter().faultNumber()) << "E10.2: polled no more for 400 ms";
+}
+
 // At once, when a value changes, and when the packet rate is over; each is acknowledged by 44A, else it comes again.
 TEST(DnProcessData, ChangeOfState) {
   DnConversation bus;

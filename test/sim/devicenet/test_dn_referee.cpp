@@ -52,19 +52,19 @@ TEST_F(DnRefereeTest, LengthOfTheDuplicateMacMessage) {
 
 TEST_F(DnRefereeTest, SomebodyElseAsksForItsMacId) {
   bus.goOnline();
-  bus.bus.inject(fromDnText("457#00 34 12 02 00 00 00"));
+  bus.bus.inject(nord_driver::frame("457#00 34 12 02 00 00 00"));
   bus.bus.run(milliseconds(50));
   bus.send("457#80 FF FF 01 00 00 00");
   bus.bus.run(milliseconds(1000));
   EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
-  bus.bus.inject(fromDnText("457#00 34 12 02 00 00 00"));
+  bus.bus.inject(nord_driver::frame("457#00 34 12 02 00 00 00"));
   bus.bus.run(milliseconds(600));
   EXPECT_EQ(1u, only(DnRule::kDuplicateMacUnanswered)) << said;
 }
 
 TEST_F(DnRefereeTest, Identifiers) {
   bus.goOnline();
-  CanFrame frame = fromDnText("44E#0A 4B 03 01 01 0A");
+  CanFrame frame = nord_driver::frame("44E#0A 4B 03 01 01 0A");
   frame.extended = true;
   bus.bus.send(frame);
   EXPECT_EQ(1u, only(DnRule::kExtendedFrame)) << said;
@@ -227,6 +227,25 @@ TEST_F(DnRefereeTest, ChangeOfStateAndStrobe) {
   bus.send("44E#0A 4C 03 01 10");
   bus.send("44A#");
   EXPECT_EQ(1u, only(DnRule::kAcknowledgeUnasked)) << said;
+}
+
+// The outputs of a module that is polled beside the strobe are the poll's: with its bit at 1 they would not be forwarded.
+TEST_F(DnRefereeTest, StrobeBesideAPoll) {
+  bus.goOnline();
+  bus.ask("44E#0A 4B 03 01 07 0A");
+  bus.send("450#00 00 00 00 00 00 00 00");
+  EXPECT_EQ(1u, only(DnRule::kIoBeforePacketRate)) << said;
+  for (const char* instance : {"02", "03"}) {
+    bus.request(std::string{"0E 05 "} + instance + " 07");
+    bus.request(std::string{"0E 05 "} + instance + " 08");
+    bus.request(std::string{"10 05 "} + instance + " 09 64 00");
+  }
+  bus.send("450#00 00 00 00 00 00 00 00");
+  bus.send("44D#00 7E 04 00 00");
+  bus.bus.run(milliseconds(20));
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
+  bus.send("450#00 02 00 00 00 00 00 00");  // bit 9, its MAC id
+  EXPECT_EQ(1u, only(DnRule::kStrobeBit)) << said;
 }
 
 TEST_F(DnRefereeTest, Report) {

@@ -25,10 +25,10 @@ CanopenEvent event(CanopenEventKind kind, const char* text, Instant at, std::siz
 }
 
 TEST(CanopenBusEventsTest, EachIsToldOnceAndTheLastIsShownForTenSeconds) {
-  CanopenBusEvents events;
+  CanBusEvents events;
   EXPECT_STREQ("", events.text(kStart).c_str());
-  events.take(event(CanopenEventKind::kForeignNode, "node 9 is not configured", kStart), kNodeId);
-  events.take(event(CanopenEventKind::kMalformed, "a frame of 3 bytes", kStart + seconds{1}, 0), kNodeId);
+  takeEvent(event(CanopenEventKind::kForeignNode, "node 9 is not configured", kStart), kNodeId, events);
+  takeEvent(event(CanopenEventKind::kMalformed, "a frame of 3 bytes", kStart + seconds{1}, 0), kNodeId, events);
   EXPECT_STREQ("node 9 is not configured", events.poll()->text.c_str());
   EXPECT_STREQ("node 50: a frame of 3 bytes", events.poll()->text.c_str());
   EXPECT_FALSE(events.poll());
@@ -37,17 +37,17 @@ TEST(CanopenBusEventsTest, EachIsToldOnceAndTheLastIsShownForTenSeconds) {
 }
 
 TEST(CanopenBusEventsTest, WhatADriveTellsItselfIsLeftOut) {
-  CanopenBusEvents events;
-  events.take(event(CanopenEventKind::kEmergency, "EMCY 4310h", kStart, 0), kNodeId);
+  CanBusEvents events;
+  takeEvent(event(CanopenEventKind::kEmergency, "EMCY 4310h", kStart, 0), kNodeId, events);
   EXPECT_FALSE(events.poll());
   EXPECT_STREQ("", events.text(kStart).c_str());
 }
 
 TEST(CanopenBusEventsTest, AnotherMasterIsShownRatherThanWhatComesOfIt) {
-  CanopenBusEvents events;
+  CanBusEvents events;
   EXPECT_FALSE(events.isExplained(kStart));
-  events.take(event(CanopenEventKind::kSecondMaster, "another master", kStart), kNodeId);
-  events.take(event(CanopenEventKind::kToggleError, "toggles", kStart + seconds{1}, 0), kNodeId);
+  takeEvent(event(CanopenEventKind::kSecondMaster, "another master", kStart), kNodeId, events);
+  takeEvent(event(CanopenEventKind::kToggleError, "toggles", kStart + seconds{1}, 0), kNodeId, events);
   EXPECT_TRUE(events.isExplained(kStart + seconds{1}));
   EXPECT_STREQ("another master", events.text(kStart + seconds{1}).c_str());
   events.poll();
@@ -56,7 +56,7 @@ TEST(CanopenBusEventsTest, AnotherMasterIsShownRatherThanWhatComesOfIt) {
 }
 
 TEST(CanopenBusEventsTest, LostFramesAreToldOnceASecondWithTheirNumber) {
-  CanopenBusEvents events;
+  CanBusEvents events;
   events.noteLostFrames("can0", 0, kStart);
   EXPECT_FALSE(events.poll());
   events.noteLostFrames("can0", 3, kStart);

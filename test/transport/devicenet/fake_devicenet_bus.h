@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "devicenet/can_text.h"
 #include "devicenet/fake_device.h"
 #include "link/can/can_link.h"
+#include "support/can_text.h"
 
 namespace nord_driver::test {
 
@@ -24,7 +24,7 @@ class FakeDevicenetBus final : public link::CanLink {
       return link::CanSend::kFailed;
     }
     if (controller != link::CanState::kActive) return link::CanSend::kFailed;
-    if (records) seen.push_back("> " + devicenet::text(frame));
+    if (records) seen.push_back("> " + nord_driver::text(frame));
     for (const auto& device : devices) device->receive(frame, now_);
     return link::CanSend::kSent;
   }
@@ -33,7 +33,7 @@ class FakeDevicenetBus final : public link::CanLink {
     if (frames_.empty()) return false;
     received = {frames_.front(), now_};
     frames_.pop_front();
-    if (records) seen.push_back("< " + devicenet::text(received.frame));
+    if (records) seen.push_back("< " + nord_driver::text(received.frame));
     return true;
   }
   bool waitReadable(Instant until) noexcept override {
@@ -51,7 +51,7 @@ class FakeDevicenetBus final : public link::CanLink {
   const char* advice() const noexcept override { return ""; }
 
   /// Somebody else sends.
-  void say(const std::string& candump) { frames_.push_back(devicenet::frame(candump)); }
+  void say(const std::string& candump) { frames_.push_back(nord_driver::frame(candump)); }
   std::size_t sentTo(const std::string& id) const {
     std::size_t found = 0;
     for (const std::string& line : seen) found += line.rfind("> " + id + "#", 0) == 0 ? 1 : 0;

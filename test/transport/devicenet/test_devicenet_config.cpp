@@ -139,12 +139,21 @@ TEST(DevicenetConfigTest, ABusTooSlowForItsCycleIsRefusedWithItsFigures) {
   EXPECT_THAT(bus.refusal(), HasSubstr("it is not configured, so the slowest is assumed"));
 }
 
-TEST(DevicenetConfigTest, ABitStrobeCannotCommandAndBringsBackEightBytes) {
+// BU 0280 4.2.1. A bit strobe carries no words: those go by a poll beside it, which may be longer.
+TEST(DevicenetConfigTest, ABitStrobeBringsBackEightBytes) {
   Bus bus{1};
   bus.drive().set("io", "strobe");
-  EXPECT_THAT(bus.refusal(), AllOf(HasSubstr("~drives/drive0/io: \"strobe\""), HasSubstr("carries no control word")));
+  EXPECT_EQ("accepted", bus.refusal());
+  EXPECT_EQ(devicenet::IoKind::kStrobe, bus.read().scanner.nodes[0].io.kind);
   bus.drive().set("assembly", 102);
-  EXPECT_THAT(bus.refusal(), HasSubstr("assembly 102 has 33 bytes, and a bit strobe brings back at most 8"));
+  EXPECT_EQ(
+      "~drives/drive0/io: \"strobe\" is not valid, expected poll, cos or cyclic: assembly 112 has 33 bytes, and a bit "
+      "strobe brings back at most 8",
+      bus.refusal());
+  bus.drive().set("assembly", 120).set("status_bytes", 8).set("module_input_bytes", 1);
+  EXPECT_THAT(bus.refusal(), HasSubstr("assembly 130 has 9 bytes, and a bit strobe brings back at most 8"));
+  bus.drive().erase("module_input_bytes").set("control_bytes", 8).set("module_output_bytes", 1);
+  EXPECT_EQ("accepted", bus.refusal());
 }
 
 TEST(DevicenetConfigTest, AnAssemblyTooShortForTheInverterIsNamed) {

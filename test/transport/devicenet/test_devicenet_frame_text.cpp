@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/can_trace.h"
-#include "devicenet/can_text.h"
+#include "support/can_text.h"
 #include "transport/devicenet/devicenet_frame_text.h"
 #include "transport/devicenet/devicenet_settings.h"
 
@@ -27,7 +27,7 @@ std::string textOf(const CanFrame& frame) {
   return kText(record);
 }
 std::string textOf(const std::string& candump) {
-  return textOf(devicenet::frame(candump));
+  return textOf(nord_driver::frame(candump));
 }
 
 TEST(DevicenetFrameTextTest, ProcessDataAreToldByTheManualsNames) {

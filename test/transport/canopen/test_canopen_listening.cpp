@@ -1,7 +1,7 @@
 // Who is taken for somebody that works with the bus, and how long nothing is sent.
 #include <gtest/gtest.h>
 
-#include "transport/canopen/can_listen_first.h"
+#include "transport/canopen/canopen_listening.h"
 
 namespace nord_driver {
 namespace {
@@ -14,7 +14,7 @@ struct Listener {
   Listener() { listen.restart(kStart); }
   bool mayTalkAfter(milliseconds time) { return listen.mayTalk(kStart + time); }
 
-  CanListenFirst listen{milliseconds{500}};
+  CanListenFirst listen{kCanopenListening, milliseconds{500}};
 };
 
 CanFrame state(std::uint32_t id, std::uint8_t value) {
@@ -26,7 +26,7 @@ TEST(CanListenFirst, NodesNobodyWorksWithMayBeHeard) {
   Listener listener;
   for (const CanFrame& frame : {state(0x703, 0x00), state(0x703, 0x7F), state(0x77F, 0x04),
                                 dataFrame(0x083, ByteView{FixedBytes<8>{0x00, 0x10, 1, 0, 0, 0, 0, 0}})}) {
-    EXPECT_TRUE(isSaidUnasked(frame)) << frame.id;
+    EXPECT_FALSE(showsCanopenMaster(frame)) << frame.id;
     listener.listen.handle(frame);
   }
   EXPECT_FALSE(listener.mayTalkAfter(milliseconds{499}));
@@ -53,7 +53,7 @@ TEST(CanListenFirst, EverythingElseIsSomebodyElse) {
                              dataFrame(0x083, ByteView{FixedBytes<2>{0x00, 0x10}}),
                              extended};
   for (const CanFrame& frame : frames) {
-    EXPECT_FALSE(isSaidUnasked(frame)) << frame.id;
+    EXPECT_TRUE(showsCanopenMaster(frame)) << frame.id;
     Listener listener;
     listener.listen.handle(frame);
     EXPECT_EQ(frame.id, listener.listen.heard());
@@ -94,7 +94,7 @@ TEST(CanListenFirst, AMasterThatComesLaterEndsIt) {
 
 // A driver waits until the other master has been silent for two seconds, and from then on the nodes are its own.
 TEST(CanListenFirst, ADriverWaitsUntilTheOtherHasEnded) {
-  CanListenFirst listen{milliseconds{500}, CanListener::kDriver};
+  CanListenFirst listen{kCanopenListening, milliseconds{500}, CanListener::kDriver};
   listen.restart(kStart);
   EXPECT_FALSE(listen.mayTalk(kStart + milliseconds{499}));
   listen.handleMaster(0x203, kStart + milliseconds{499});

@@ -1,24 +1,16 @@
 // Frames as candump prints them: "632#4000100000000000", a remote frame "732#R1".
 #pragma once
 
-#include <cstdio>
 #include <string>
 
 #include "core/can_frame.h"
+#include "core/can_trace.h"
 #include "nord_driver/core/bytes.h"
 
-namespace nord_driver::canopen {
+namespace nord_driver {
 
 inline std::string text(const CanFrame& frame) {
-  char id[16];
-  std::snprintf(id, sizeof id, "%03X#", static_cast<unsigned>(frame.id));
-  if (frame.remote) return std::string{id} + "R" + std::to_string(frame.size);
-  std::string hex = toHex(frame.bytes());
-  std::string packed;
-  for (const char c : hex) {
-    if (c != ' ') packed += c;
-  }
-  return id + packed;
+  return candumpText(frame);
 }
 
 inline CanFrame frame(const std::string& candump) {
@@ -29,4 +21,4 @@ inline CanFrame frame(const std::string& candump) {
   return dataFrame(id, fromHex(data));
 }
 
-}  // namespace nord_driver::canopen
+}  // namespace nord_driver

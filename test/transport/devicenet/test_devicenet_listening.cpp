@@ -1,8 +1,8 @@
 // Who is taken for somebody that works with the bus.
 #include <gtest/gtest.h>
 
-#include "devicenet/can_text.h"
-#include "transport/devicenet/devicenet_listen_first.h"
+#include "support/can_text.h"
+#include "transport/devicenet/devicenet_listening.h"
 
 namespace nord_driver {
 namespace {
@@ -12,12 +12,12 @@ using std::chrono::milliseconds;
 constexpr Instant kStart{std::chrono::seconds{1000}};
 
 // Devices nobody works with check their MAC id and send heartbeats.
-TEST(DevicenetListenFirst, DevicesNobodyWorksWithMayBeHeard) {
-  DevicenetListenFirst listen{milliseconds{500}};
+TEST(DevicenetListening, DevicesNobodyWorksWithMayBeHeard) {
+  CanListenFirst listen{kDevicenetListening, milliseconds{500}};
   listen.restart(kStart);
   for (const char* frame : {"42F#00850101000000", "42B#05CD010003000000", "745#05CD010003000000", "7F5#00"}) {
-    EXPECT_FALSE(isOfMaster(devicenet::frame(frame))) << frame;
-    listen.handle(devicenet::frame(frame));
+    EXPECT_FALSE(showsScanner(nord_driver::frame(frame))) << frame;
+    listen.handle(nord_driver::frame(frame));
   }
   EXPECT_FALSE(listen.mayTalk(kStart + milliseconds{499}));
   EXPECT_FALSE(listen.text().empty());
@@ -26,23 +26,23 @@ TEST(DevicenetListenFirst, DevicesNobodyWorksWithMayBeHeard) {
 }
 
 // Strobe, acknowledge, explicit request, poll, allocation, and what a slave answers to a poll or sends on change.
-TEST(DevicenetListenFirst, EverythingElseIsAnotherScanner) {
+TEST(DevicenetListening, EverythingElseIsAnotherScanner) {
   for (const char* frame : {"400#0000000000000000", "42A#", "42C#000E010101", "42D#007E040000", "42E#004B03010100",
                             "3C5#00310B0000", "345#00310B0000", "385#00310B0000"}) {
-    EXPECT_TRUE(isOfMaster(devicenet::frame(frame))) << frame;
-    DevicenetListenFirst listen{milliseconds{500}};
+    EXPECT_TRUE(showsScanner(nord_driver::frame(frame))) << frame;
+    CanListenFirst listen{kDevicenetListening, milliseconds{500}};
     listen.restart(kStart);
-    listen.handle(devicenet::frame(frame));
+    listen.handle(nord_driver::frame(frame));
     EXPECT_FALSE(listen.mayTalk(kStart + std::chrono::hours{1})) << frame;
-    EXPECT_EQ(devicenet::frame(frame).id, listen.heard());
+    EXPECT_EQ(nord_driver::frame(frame).id, listen.heard());
   }
 }
 
-TEST(DevicenetListenFirst, GivesWayToOneThatComesLater) {
-  DevicenetListenFirst listen{milliseconds{500}};
+TEST(DevicenetListening, GivesWayToOneThatComesLater) {
+  CanListenFirst listen{kDevicenetListening, milliseconds{500}};
   listen.restart(kStart);
   ASSERT_TRUE(listen.mayTalk(kStart + milliseconds{500}));
-  listen.handleScanner(0x42E);
+  listen.handleMaster(0x42E, kStart + milliseconds{550});
   EXPECT_FALSE(listen.mayTalk(kStart + milliseconds{600}));
   EXPECT_EQ("the bus is in use: 42Eh was seen; nothing is sent beside another scanner: end it", listen.text().str());
 }

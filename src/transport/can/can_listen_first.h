@@ -1,4 +1,5 @@
-// Listens on a CANopen bus before anything is sent: a start-up would take the nodes away from the master that has them.
+// Listens on a CAN bus before anything is sent: a start-up would take the nodes away from the master that has them, or
+// be in its way.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +11,14 @@
 
 namespace nord_driver {
 
-/// What a node says that nobody works with: its boot-up, a heartbeat that does not say operational, an emergency. An
-/// answer to guarding (bit 7 is its toggle bit) is none of these: somebody asks.
-bool isSaidUnasked(const CanFrame& frame) noexcept;
+/// What listening means on one bus. Texts are literals.
+struct ListenRules {
+  /// Such a frame is only there when somebody else works with the bus.
+  bool (*shows_other)(const CanFrame&) noexcept;
+  const char* heard_note;      ///< why a drive does not answer: somebody else was heard
+  const char* listening_note;  ///< ... it is still listened
+  const char* beside;          ///< beside whom nothing is sent, and what helps: "another scanner: end it"
+};
 
 /// Who listens.
 enum class CanListener : std::uint8_t {
@@ -27,7 +33,8 @@ class CanListenFirst {
   /// what can be expected of one.
   static constexpr std::chrono::seconds kGone{2};
 
-  explicit CanListenFirst(Duration time, CanListener who = CanListener::kGuest) noexcept : time_(time), who_(who) {}
+  CanListenFirst(const ListenRules& rules, Duration time, CanListener who = CanListener::kGuest) noexcept
+      : rules_(rules), time_(time), who_(who) {}
 
   /// The bus was opened.
   void restart(Instant now) noexcept;
@@ -45,10 +52,13 @@ class CanListenFirst {
   std::optional<std::uint32_t> heard() const noexcept { return heard_; }
   /// When listening is over; for a guest not once somebody was heard.
   std::optional<Instant> nextDeadline() const noexcept;
+  /// Why a drive does not answer, while it is silent; a literal.
+  const char* note() const noexcept;
   /// Why nothing is sent: one sentence; empty when it may talk.
   Sentence text() const noexcept;
 
  private:
+  ListenRules rules_;
   Duration time_;
   CanListener who_;
   bool listening_ = true;

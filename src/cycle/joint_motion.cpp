@@ -1,0 +1,36 @@
+#include "cycle/joint_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nord_driver::cycle {
+
+namespace {
+
+robot::TwistLimits oneAxis(const robot::SpeedLimits& limits) {
+  robot::TwistLimits twist;
+  twist.linear_x = limits;
+  return twist;
+}
+
+}  // namespace
+
+JointMotion::JointMotion(const robot::SpeedLimits& limits) : limiter_(oneAxis(limits)) {}
+
+double JointMotion::pollVelocity(double target, bool driving, const JointBounds& bounds, Duration dt) noexcept {
+  // Cut before the ramp, which must not run ahead of the joint: braking begins at once.
+  const double possible = std::max(-bounds.max_speed, std::min(bounds.max_speed, target));
+  beyond_full_ = driving && possible != target;
+  if (!driving || bounds.coming_to_rest) {
+    limiter_.reset();
+    return 0.0;
+  }
+  const double velocity = limiter_.limit({possible, 0.0}, dt).linear_x;
+  // On its way below P104 the motor would turn at P104: on the way up the ramp runs on alone until it is fast enough,
+  // on the way down the joint has arrived. A target that is too slow itself goes out, and is told as saturated.
+  if (velocity == possible || std::abs(velocity) >= bounds.min_speed) return velocity;
+  if (possible == 0.0) limiter_.reset();
+  return 0.0;
+}
+
+}  // namespace nord_driver::cycle

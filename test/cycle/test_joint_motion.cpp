@@ -1,0 +1,184 @@
+// The velocity of a drive that belongs to no base: along its limits to what is commanded, and along them to rest.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "cycle/cycle_bench.h"
+#include "cycle/joint_motion.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+constexpr double kFull = 157.07963267948966;  // rad/s at the joint, 50 Hz
+constexpr Duration kStep = std::chrono::milliseconds{10};
+
+robot::SpeedLimits limits(double velocity, double acceleration, double jerk = 0.0) {
+  robot::SpeedLimits limits;
+  limits.has_velocity_limits = velocity > 0.0;
+  limits.max_velocity = velocity;
+  limits.has_acceleration_limits = acceleration > 0.0;
+  limits.max_acceleration = acceleration;
+  limits.has_jerk_limits = jerk > 0.0;
+  limits.max_jerk = jerk;
+  return limits;
+}
+
+const JointBounds kFree{kFull, 0.0, false};
+
+TEST(JointMotion, WithoutLimitsItIsTheCommand) {
+  JointMotion motion{{}};
+  EXPECT_EQ(37.3, motion.pollVelocity(37.3, true, kFree, kStep));
+  EXPECT_EQ(-0.1, motion.pollVelocity(-0.1, true, kFree, kStep));
+  EXPECT_EQ(0.0, motion.pollVelocity(0.0, true, kFree, kStep));
+}
+
+TEST(JointMotion, GoesToItsTargetAlongTheLimits) {
+  JointMotion motion{limits(5.0, 10.0)};
+  EXPECT_DOUBLE_EQ(0.1, motion.pollVelocity(8.0, true, kFree, kStep));
+  for (int i = 0; i < 100; ++i) motion.pollVelocity(8.0, true, kFree, kStep);
+  EXPECT_EQ(5.0, motion.pollVelocity(8.0, true, kFree, kStep)) << "max_velocity";
+  EXPECT_FALSE(motion.beyondFull()) << "what is configured is no saturation";
+  EXPECT_DOUBLE_EQ(4.9, motion.pollVelocity(0.0, true, kFree, kStep));
+  for (int i = 0; i < 49; ++i) motion.pollVelocity(0.0, true, kFree, kStep);
+  EXPECT_EQ(0.0, motion.pollVelocity(0.0, true, kFree, kStep)) << "exactly";
+}
+
+TEST(JointMotion, ADriveThatIsNotDrivingBeginsAnew) {
+  JointMotion motion{limits(0.0, 10.0)};
+  for (int i = 0; i < 10; ++i) motion.pollVelocity(8.0, true, kFree, kStep);
+  EXPECT_EQ(0.0, motion.pollVelocity(8.0, false, kFree, kStep));
+  EXPECT_DOUBLE_EQ(0.1, motion.pollVelocity(8.0, true, kFree, kStep));
+}
+
+// Braking from beyond 100 % would begin with a time in which nothing gets slower.
+TEST(JointMotion, TheRampEndsAtFullSpeed) {
+  JointMotion motion{limits(0.0, 1000.0)};
+  for (int i = 0; i < 100; ++i) motion.pollVelocity(2.0 * kFull, true, kFree, kStep);
+  EXPECT_EQ(kFull, motion.pollVelocity(2.0 * kFull, true, kFree, kStep));
+  EXPECT_TRUE(motion.beyondFull());
+  EXPECT_DOUBLE_EQ(kFull - 10.0, motion.pollVelocity(0.0, true, kFree, kStep));
+  EXPECT_FALSE(motion.beyondFull());
+}
+
+// P104: on the way it is not touched, so that the motor does not turn faster than the ramp says.
+TEST(JointMotion, OnItsWayItStandsWhileItWouldBeTooSlow) {
+  JointMotion motion{limits(0.0, 100.0)};
+  const JointBounds slow{kFull, 4.5, false};
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(0.0, motion.pollVelocity(10.0, true, slow, kStep));
+  EXPECT_DOUBLE_EQ(5.0, motion.pollVelocity(10.0, true, slow, kStep));
+  EXPECT_EQ(0.0, motion.pollVelocity(0.0, true, slow, kStep)) << "down from 5 it has arrived";
+  EXPECT_EQ(0.0, motion.pollVelocity(10.0, true, slow, kStep)) << "and begins anew";
+  EXPECT_EQ(0.0, motion.pollVelocity(10.0, true, {kFull, 4.5, true}, kStep));
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(0.0, motion.pollVelocity(10.0, true, slow, kStep)) << "OFF1 was on its way";
+  EXPECT_DOUBLE_EQ(5.0, motion.pollVelocity(10.0, true, slow, kStep));
+}
+
+TEST(JointMotion, JerkIsLimitedToo) {
+  JointMotion motion{limits(0.0, 10.0, 100.0)};
+  double last = 0.0, acceleration = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    const double velocity = motion.pollVelocity(5.0, true, kFree, kStep);
+    const double next = (velocity - last) / 0.01;
+    EXPECT_LE(std::abs(next), 10.0 + 1e-9);
+    EXPECT_LE(std::abs(next - acceleration), 1.0 + 1e-6);
+    last = velocity;
+    acceleration = next;
+  }
+  EXPECT_EQ(5.0, last);
+}
+
+CycleConfig liftWith(const robot::SpeedLimits& limits, const drive::StopWays& ways = {}) {
+  CycleConfig config = CycleBench::config(std::nullopt, 0.0, ways);
+  config.drives[CycleBench::kLift].limits = limits;
+  return config;
+}
+
+/// The lift of the bench: 8192 is half of its 157 rad/s, and its limit takes one second to full speed.
+class SingleDriveLimits : public ::testing::Test, protected CycleBench {
+ protected:
+  SingleDriveLimits() : CycleBench(liftWith(limits(kFull / 2, kFull))) {}
+
+  void begin() {
+    run(80);
+    const Completion answer = ask(RequestKind::kEnable, kLift);
+    ASSERT_TRUE(answer.success) << answer.message.c_str();
+  }
+  void hold(double velocity, int cycles) {
+    for (int i = 0; i < cycles; ++i) {
+      commandLift(velocity);
+      step();
+    }
+  }
+  bool runs() const { return (controlWord(kLift) & 0x7F) == 0x7F; }
+};
+
+TEST_F(SingleDriveLimits, RampUpToMaxVelocity) {
+  begin();
+  hold(kFull, 25);
+  EXPECT_NEAR(0x1000, setpoint(kLift), 2);
+  hold(kFull, 50);
+  EXPECT_EQ(0x2000, setpoint(kLift));
+  hold(-kFull, 25);
+  EXPECT_NEAR(0x1000, setpoint(kLift), 2) << "along the deceleration limit";
+}
+
+TEST_F(SingleDriveLimits, AnOldCommandIsLeftAlongTheDecelerationLimit) {
+  begin();
+  hold(kFull, 60);
+  run(52);  // cmd_vel_timeout is 0.5 s
+  EXPECT_GT(setpoint(kLift), 0x1E00);
+  EXPECT_LT(setpoint(kLift), 0x2000) << "two cycles to the first smaller setpoint";
+  run(24);
+  EXPECT_NEAR(0x1000, setpoint(kLift), 0x200);
+  run(30);
+  EXPECT_EQ(0, setpoint(kLift));
+  EXPECT_TRUE(runs()) << "the time-out stays enabled";
+}
+
+TEST_F(SingleDriveLimits, DisablingRampsDownBeforeOff1) {
+  begin();
+  hold(kFull, 60);
+  Request disable;
+  disable.kind = RequestKind::kDisable;
+  disable.drive = kLift;
+  disable.id = 77;
+  disable.patience = std::chrono::seconds{3};
+  ports.submit(disable);
+  hold(kFull, 25);  // what is still commanded no longer counts
+  EXPECT_TRUE(runs());
+  EXPECT_NEAR(0x1000, setpoint(kLift), 0x200);
+  hold(kFull, 27);
+  EXPECT_EQ(0, setpoint(kLift));
+  run(100);
+  EXPECT_EQ(0x047E, controlWord(kLift));
+  EXPECT_TRUE(completions[77].success) << completions[77].message.c_str();
+}
+
+TEST_F(SingleDriveLimits, AQuickStopDoesNotWaitForTheRamp) {
+  begin();
+  hold(kFull, 60);
+  Request stop;
+  stop.kind = RequestKind::kQuickStop;
+  stop.drive = kLift;
+  stop.id = 78;
+  stop.patience = std::chrono::seconds{3};
+  ports.submit(stop);
+  run(2);
+  EXPECT_EQ(0x047B, controlWord(kLift));
+}
+
+TEST_F(SingleDriveLimits, BeyondFullSpeedIsToldOfADriveWithoutVelocityLimit) {
+  CycleBench other{liftWith(limits(0.0, 100.0 * kFull))};
+  other.run(80);
+  ASSERT_TRUE(other.ask(RequestKind::kEnable, kLift).success);
+  for (int i = 0; i < 10; ++i) {
+    other.commandLift(2.0 * kFull);
+    other.step();
+  }
+  EXPECT_EQ(0x4000, other.setpoint(kLift));
+  EXPECT_TRUE(other.snapshot().drives[kLift].saturated);
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

@@ -1,0 +1,152 @@
+// Every file of config/templates with simulate.launch: enabled, all its drives run, and what they carry moves.
+#include <geometry_msgs/Twist.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/package.h>
+#include <std_msgs/Float64.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "nord_driver/DriveStatus.h"
+#include "nord_driver/SimDrive.h"
+#include "rostest/robot_under_test.h"
+
+namespace nord_driver::test {
+namespace {
+
+constexpr double kLinear = 0.2;  // m/s, of a base
+constexpr double kJoint = 2.0;   // rad/s, of a drive without one
+constexpr double kReached = 0.9;
+
+/// The robot of one template, in the namespace of the template's name.
+class Machine {
+ public:
+  explicit Machine(const std::string& name) : name_(name), node_("/" + name) {
+    XmlRpc::XmlRpcValue drives;
+    node_.getParam("nord_driver/drives", drives);
+    has_base_ = node_.hasParam("nord_driver/left_wheel");
+    if (has_base_) {
+      cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+      truth_ = std::make_unique<Topic<nav_msgs::Odometry>>(node_, "nord_sim/truth/odom");
+    }
+    for (const auto& drive : drives) drives_.push_back(std::make_unique<Drive>(node_, drive.first));
+    timer_ = node_.createSteadyTimer(ros::WallDuration(0.05), [this](const ros::SteadyTimerEvent&) { publish(); });
+  }
+
+  const std::string& name() const { return name_; }
+  std::size_t size() const { return drives_.size(); }
+  Answer enable(bool on) {
+    std_srvs::SetBool service;
+    service.request.data = on;
+    return callService("/" + name_ + "/nord_driver/enable", service);
+  }
+  Answer referee() {
+    std_srvs::Trigger service;
+    return callService("/" + name_ + "/nord_sim/referee", service);
+  }
+  bool runs() {
+    for (const auto& drive : drives_) {
+      if (!drive->status.waitNext([](const DriveStatus& s) { return s.state == DriveStatus::OPERATION_ENABLED; })) {
+        return false;
+      }
+    }
+    return true;
+  }
+  void command(bool moving) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    moving_ = moving;
+  }
+  /// The body, or without one each joint, as the simulator knows it and not as the driver tells it.
+  bool moves() {
+    if (has_base_) {
+      return truth_->waitNext([](const nav_msgs::Odometry& body) {
+        return body.twist.twist.linear.x > kReached * kLinear;
+      }) != nullptr;
+    }
+    for (const auto& drive : drives_) {
+      if (!drive->truth.waitNext([](const SimDrive& is) { return is.wheel_velocity > kReached * kJoint; }))
+        return false;
+    }
+    return true;
+  }
+
+ private:
+  struct Drive {
+    Drive(ros::NodeHandle& node, const std::string& name)
+        : status(node, "nord_driver/" + name + "/status"),
+          truth(node, "nord_sim/truth/" + name),
+          command(node.advertise<std_msgs::Float64>("nord_driver/" + name + "/command", 1)) {}
+    Topic<DriveStatus> status;
+    Topic<SimDrive> truth;
+    ros::Publisher command;
+  };
+
+  void publish() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!moving_) return;
+    if (has_base_) {
+      geometry_msgs::Twist twist;
+      twist.linear.x = kLinear;
+      cmd_vel_.publish(twist);
+      return;
+    }
+    std_msgs::Float64 velocity;
+    velocity.data = kJoint;
+    for (const auto& drive : drives_) drive->command.publish(velocity);
+  }
+
+  std::string name_;
+  ros::NodeHandle node_;
+  bool has_base_ = false;
+  ros::Publisher cmd_vel_;
+  std::unique_ptr<Topic<nav_msgs::Odometry>> truth_;
+  std::vector<std::unique_ptr<Drive>> drives_;
+  std::mutex mutex_;
+  bool moving_ = false;
+  ros::SteadyTimer timer_;
+};
+
+std::vector<std::string> templates() {
+  std::vector<std::string> names;
+  for (const auto& file :
+       std::filesystem::directory_iterator(ros::package::getPath("nord_driver") + "/config/templates")) {
+    names.push_back(file.path().stem());
+  }
+  return names;
+}
+
+// Side by side: what takes time, ramps and start-ups, takes it once.
+TEST(Templates, EachDrivesInTheSimulator) {
+  std::vector<std::unique_ptr<Machine>> machines;
+  for (const std::string& name : templates()) machines.push_back(std::make_unique<Machine>(name));
+  ASSERT_GE(machines.size(), 9u);
+  for (const auto& machine : machines) {
+    SCOPED_TRACE(machine->name());
+    EXPECT_GE(machine->size(), 2u) << "rostest_templates.test does not start it";
+    Answer answer;
+    EXPECT_TRUE(eventually([&] {
+      answer = machine->enable(true);
+      return answer.success;
+    })) << answer;
+    EXPECT_TRUE(machine->runs());
+  }
+  for (const auto& machine : machines) machine->command(true);
+  for (const auto& machine : machines) EXPECT_TRUE(machine->moves()) << machine->name();
+  for (const auto& machine : machines) machine->command(false);
+  for (const auto& machine : machines) {
+    SCOPED_TRACE(machine->name());
+    const Answer disabled = machine->enable(false), referee = machine->referee();
+    EXPECT_TRUE(disabled.success) << disabled;
+    EXPECT_TRUE(referee.success) << referee;
+  }
+}
+
+}  // namespace
+}  // namespace nord_driver::test
