@@ -100,6 +100,8 @@ int run(int argc, char** argv) {
   namespace po = boost::program_options;
   Options options;
   CommandLine line{"nord_param", nord_driver::kVersion, kAbout, kFooter};
+  line.setBrief("parameters of NORD inverters over their bus, without ROS");
+  line.offer("SET", {"1", "2", "3", "4"});
   line.addOptions()("config", po::value(&options.files)->value_name("FILE")->required(),
                     "the driver's YAML file; a later file is laid over an earlier one; required")(
       "bus", po::value(&options.port.bus)->value_name("VALUE"),
