@@ -137,9 +137,10 @@ void DriverNode::advertise() {
     };
     subscribers_.push_back(private_commands_.handle().subscribe<std_msgs::Float64>(setup.name + "/command", 1, take));
   }
+  fault_board_ = std::make_unique<FaultBoard>(names, faults_);
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
   diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, faults_, where_);
-  services_ = std::make_unique<Services>(private_node_, stops_.handle(), config_, known, *broker_);
+  services_ = std::make_unique<Services>(private_node_, stops_.handle(), config_, known, *fault_board_, *broker_);
   tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace());
   ports_->setObserver(&tracing_->feed());
   if (config_.cycle.base) {
@@ -190,7 +191,7 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
   // Whatever ends the node, the drives come to rest first: an exchange that simply ends lets the wheels coast.
   try {
     publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_,
-                       loggedDrives());
+                       *fault_board_, loggedDrives());
     // roscpp is "ok" until it has unregistered every topic: tenths of a second in which the robot would drive on.
     while (!end_asked && ros::ok() && !ros::isShuttingDown() && publisher_->healthy()) {
       noteCommanders();

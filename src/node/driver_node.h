@@ -23,6 +23,7 @@
 #include "node/callback_threads.h"
 #include "node/diagnostics.h"
 #include "node/drive_publisher.h"
+#include "node/fault_board.h"
 #include "node/node_config.h"
 #include "node/nothing_to_tune.h"
 #include "node/request_broker.h"
@@ -72,6 +73,7 @@ class DriverNode {
   std::string where_;  // what the transport opens, as configured
   std::vector<DriveIdentity> identities_;
   std::vector<catalogue::FaultWords> faults_;  // one per drive
+  std::unique_ptr<FaultBoard> fault_board_;
 
   std::unique_ptr<cycle::CyclePorts> ports_;
   std::unique_ptr<cycle::BusCycle> cycle_;

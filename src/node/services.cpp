@@ -35,15 +35,15 @@ void Services::advertise(ros::NodeHandle& node, const std::string& name, Handler
 }
 
 Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, const NodeConfig& config,
-                   std::vector<catalogue::DriveCatalogue> known, RequestBroker& broker)
-    : config_(config), known_(std::move(known)), broker_(broker) {
+                   std::vector<catalogue::DriveCatalogue> known, const FaultBoard& faults, RequestBroker& broker)
+    : config_(config), known_(std::move(known)), faults_(faults), broker_(broker) {
   const auto addTrigger = [&](const std::string& name, RequestKind kind, DriveIndex drive) {
     ros::NodeHandle& node = kind == RequestKind::kQuickStop ? stop_node : private_node;
     advertise<std_srvs::Trigger>(node, name, [this, kind, drive, name](auto&, auto& response) {
       const cycle::Completion answer = ask(kind, drive);
       tellOutcome(name, answer);
       response.success = answer.success;
-      response.message = answer.message.str();
+      response.message = messageOf(answer, drive);
     });
   };
   const auto addEnable = [&](const std::string& name, DriveIndex drive) {
@@ -52,7 +52,7 @@ Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, co
       const cycle::Completion answer = ask(on ? RequestKind::kEnable : RequestKind::kDisable, drive);
       tellOutcome(name + (on ? " true" : " false"), answer);
       response.success = answer.success;
-      response.message = answer.message.str();
+      response.message = messageOf(answer, drive);
     });
   };
   addEnable("enable", kAllDrives);
@@ -71,6 +71,11 @@ Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, co
     advertise<ReadParameter>(private_node, prefix + "read_parameter",
                              [this, i](auto& request, auto& response) { readParameter(i, request, response); });
   }
+}
+
+std::string Services::messageOf(const cycle::Completion& answer, DriveIndex drive) const {
+  const std::string faults = answer.success ? "" : faults_.text(drive);
+  return answer.message.str() + (faults.empty() ? "" : "; " + faults);
 }
 
 cycle::Completion Services::ask(RequestKind kind, DriveIndex drive) {

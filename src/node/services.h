@@ -10,6 +10,7 @@
 #include "catalogue/drive_catalogue.h"
 #include "catalogue/parameter_access.h"
 #include "cycle/request.h"
+#include "node/fault_board.h"
 #include "node/node_config.h"
 #include "node/request_broker.h"
 #include "nord_driver/ReadParameter.h"
@@ -22,13 +23,16 @@ class Services {
  public:
   /// `stop_node`: the private handle whose callbacks do not wait behind those of the other services. `known`: of each
   /// drive.
+  /// `faults` must outlive the services.
   Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, const NodeConfig& config,
-           std::vector<catalogue::DriveCatalogue> known, RequestBroker& broker);
+           std::vector<catalogue::DriveCatalogue> known, const FaultBoard& faults, RequestBroker& broker);
 
  private:
   template <typename Service, typename Handler>
   void advertise(ros::NodeHandle& node, const std::string& name, Handler handler);
   cycle::Completion ask(cycle::RequestKind kind, DriveIndex drive);
+  /// Its message; of a refusal with the faults that stand.
+  std::string messageOf(const cycle::Completion& answer, DriveIndex drive) const;
   /// Hands an access to the cycle and waits for its answer.
   cycle::Completion carryOut(DriveIndex drive, cycle::RequestKind kind, const catalogue::ParameterAccess& access);
   void selectSet(DriveIndex drive, SelectParameterSet::Request& request, SelectParameterSet::Response& response);
@@ -38,6 +42,7 @@ class Services {
 
   const NodeConfig& config_;
   std::vector<catalogue::DriveCatalogue> known_;
+  const FaultBoard& faults_;
   RequestBroker& broker_;
   std::vector<ros::ServiceServer> servers_;
 };
