@@ -9,6 +9,7 @@
 
 #include "config/nearest_name.h"
 #include "config/setting_checks.h"
+#include "profile/parameter_shape.h"
 
 namespace nord_driver::catalogue {
 
@@ -211,6 +212,20 @@ std::string whyNotWritable(const ParameterEntry& entry) {
   if (entry.read_only.value_or(false)) return name + " can only be read";
   if (!entry.mayWrite()) return name + " is never written: " + entry.note.value_or("it resets the device");
   return {};
+}
+
+std::string kindText(const ParameterEntry& entry) {
+  std::string text;
+  const auto add = [&text](const std::string& words) { text += (text.empty() ? "" : ", ") + words; };
+  if (entry.elements) add("array of " + std::to_string(*entry.elements));
+  if (profile::hasSets(entry.shape())) add(entry.per_set ? "sets 1 to 4" : "perhaps sets 1 to 4");
+  if (!entry.mayWrite()) add(entry.read_only.value_or(false) ? "read only" : "never written");
+  return text;
+}
+
+std::string stepText(const ParameterEntry& entry) {
+  const std::string unit = entry.unit.value_or("");
+  return shortNumber(entry.step()) + (unit.empty() ? "" : " " + unit);
 }
 
 std::string rangeText(const ParameterEntry& entry, unsigned index) {

@@ -6,7 +6,6 @@
 
 #include "catalogue/parameter_text.h"
 #include "config/driver_settings.h"
-#include "profile/parameter_shape.h"
 #include "tools/usage_error.h"
 
 namespace nord_driver::tools {
@@ -40,15 +39,6 @@ std::vector<Kind> kindsOf(const ToolConfig& config, const Transport& transport,
                      setup.name});
   }
   return kinds;
-}
-
-std::string shapeText(const ParameterEntry& entry) {
-  std::string text;
-  const auto add = [&text](const std::string& words) { text += (text.empty() ? "" : ", ") + words; };
-  if (entry.elements) add("array of " + std::to_string(*entry.elements));
-  if (profile::hasSets(entry.shape())) add(entry.per_set ? "sets 1 to 4" : "perhaps sets 1 to 4");
-  if (!entry.mayWrite()) add(entry.read_only.value_or(false) ? "read only" : "never written");
-  return text;
 }
 
 template <typename... Values>
@@ -87,7 +77,7 @@ std::string listText(const ToolConfig& config, const Transport& transport, const
             "); others are read and written raw:\n";
     for (const ParameterEntry* entry : kind.known.all()) {
       text += formatted("  P%03u  %-33s %-22s %s\n", unsigned{entry->number}, entry->title().c_str(),
-                        catalogue::rangeText(*entry).c_str(), shapeText(*entry).c_str());
+                        catalogue::rangeText(*entry).c_str(), catalogue::kindText(*entry).c_str());
     }
   }
   return text;
@@ -115,7 +105,7 @@ std::string descriptionOf(const ParameterEntry& entry) {
   if (const auto factory = entry.defaultOf(1)) {
     text += line("default", catalogue::valueText(entry, static_cast<std::int32_t>(entry.rawOf(*factory))));
   }
-  text += line("access", shapeText(entry));
+  text += line("access", catalogue::kindText(entry));
   text += line("note", entry.note.value_or(""));
   text += line("erratum", entry.erratum.value_or(""));
   for (const std::string& source : entry.source) text += line("source", source);

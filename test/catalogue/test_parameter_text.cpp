@@ -147,5 +147,16 @@ TEST(ParameterLookup, ByNumberAndName) {
             shipped().look(Series::kSk5xxe, "something else entirely").error);
 }
 
+TEST(ParameterText, TellsHowAParameterIsAccessed) {
+  EXPECT_EQ("", kindText(entryOf(Series::kSk5xxe, 509)));
+  EXPECT_EQ("sets 1 to 4", kindText(entryOf(Series::kSk5xxe, 105)));
+  EXPECT_EQ("perhaps sets 1 to 4", kindText(entryOf(Series::kSk5xxe, 506)));
+  EXPECT_EQ("array of 3, read only", kindText(entryOf(Series::kSk5xxe, 700)));
+  EXPECT_EQ("array of 3, sets 1 to 4", kindText(entryOf(Series::kSk2xxe, 543)));
+  EXPECT_EQ("never written", kindText(entryOf(Module::kProfibus, 152)));
+  EXPECT_EQ("0.01 s", stepText(entryOf(Series::kSk5xxe, 102)));
+  EXPECT_EQ("1", stepText(entryOf(Series::kSk5xxe, 509)));
+}
+
 }  // namespace
 }  // namespace nord_driver::catalogue
