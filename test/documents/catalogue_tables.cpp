@@ -107,6 +107,8 @@ std::string elementsOf(const ParameterEntry& entry) {
     text += (text.empty() ? "[-" : "; [-") + std::string(index < 10 ? "0" : "") + std::to_string(index) + "] " +
             element.name;
     std::string own;
+    if (element.unit) own += ", " + *element.unit;
+    if (element.size) own += ", " + std::to_string(*element.size) + " bits";
     if (element.range) own += ", " + catalogue::rangeText(entry, index);
     if (element.default_value) own += ", factory setting " + rawText(entry, *element.default_value, index);
     if (!element.values.empty()) own += ", " + namesOf(element.values);

@@ -1,5 +1,4 @@
 // The tables of parameters and faults in doc/ say what the files say.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -11,8 +10,6 @@
 
 namespace nord_driver::documents {
 namespace {
-
-using ::testing::HasSubstr;
 
 std::string fileOf(const std::string& name) {
   std::ifstream file{std::string{NORD_DRIVER_SOURCE_DIR} + "/" + name};
@@ -56,13 +53,15 @@ TEST(CatalogueTables, HaveARowForEveryEntry) {
 }
 
 TEST(CatalogueTables, SayWhatAReaderLooksFor) {
-  const std::string tables = parameterTables(catalogue::shippedCatalogues());
-  EXPECT_THAT(tables,
-              HasSubstr("| P509 | Source control word | 0 to 10 | 0 Control terminals or keyboard |  | 0 Control "
-                        "terminals or keyboard; 1 Control terminals only; 2 USS; 3 CAN; 4 PROFIBUS;"));
-  EXPECT_THAT(tables, HasSubstr("| P102 | Acceleration time | steps of 0.01 s |  | sets 1 to 4 |"));
-  EXPECT_THAT(tables, HasSubstr("| P152 | Factory setting | 0 to 1 |"));
-  EXPECT_THAT(faultTables(catalogue::shippedCatalogues()), HasSubstr("| E2.1 | motor overtemperature (I2t) | "));
+  const std::string tables =
+      parameterTables(catalogue::shippedCatalogues()) + faultTables(catalogue::shippedCatalogues());
+  for (const char* row :
+       {"| P509 | Source control word | 0 to 10 | 0 Control terminals or keyboard |  | 0 Control terminals "
+        "or keyboard; 1 Control terminals only; 2 USS; 3 CAN; 4 PROFIBUS;",
+        "| P102 | Acceleration time | steps of 0.01 s |  | sets 1 to 4 |", "| P152 | Factory setting | 0 to 1 |",
+        "[-02] Delta time (s, 16 bits)", "| E2.1 | motor overtemperature (I2t) | "}) {
+    EXPECT_NE(std::string::npos, tables.find(row)) << row;
+  }
 }
 
 }  // namespace
