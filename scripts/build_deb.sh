@@ -45,8 +45,8 @@ step() {
   fi
 }
 
-# A binary package: no setup files of a workspace in /usr.
-options=(-DCMAKE_INSTALL_PREFIX=/usr -DCATKIN_BUILD_BINARY_PACKAGE=ON)
+# A binary package: no setup files of a workspace in /usr. The libraries stay where the tree has them, in lib.
+options=(-DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_LIBDIR=lib -DCATKIN_BUILD_BINARY_PACKAGE=ON)
 if [[ ! -e $tree/CMakeCache.txt ]]; then options+=(-DCATKIN_ENABLE_TESTING=OFF); fi
 step "configure" configure "$tree" "${options[@]}"
 step "build" cmake --build "$tree" -j "$jobs"

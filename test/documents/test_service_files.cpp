@@ -33,9 +33,16 @@ TEST(ServiceFiles, SystemdKnowsEveryKey) {
 TEST(ServiceFiles, StartWhatThePackageHas) {
   const Ended text = shell(std::string{"cat "} + kInstall + "/systemd/nord_driver@.service");
   EXPECT_THAT(text.output, HasSubstr("roslaunch nord_driver service.launch config:=/etc/nord_driver/%i.yaml"));
+}
+
+// After a crash systemd starts the driver again: it does not enable by itself, whatever its file says.
+TEST(ServiceFiles, TheServiceTakesAutoEnableAway) {
+  const Ended dump = shell(std::string{"file=$(mktemp --suffix=.yaml); echo 'auto_enable: true' >$file; roslaunch "
+                                       "--dump-params "} +
+                           kInstall + "/../launch/service.launch config:=$file | sed '/^$/d'; rm $file");
+  EXPECT_EQ("/nord_driver/auto_enable: false\n", dump.output) << dump.errors;
   const Ended launch = shell(std::string{"cat "} + kInstall + "/../launch/service.launch");
-  EXPECT_THAT(launch.output, HasSubstr("<param name=\"auto_enable\" value=\"false\"/>"));
-  EXPECT_THAT(launch.output, HasSubstr("required=\"true\""));
+  EXPECT_THAT(launch.output, HasSubstr("required=\"true\"")) << "systemd would not see that the node has ended";
 }
 
 // udevadm verify came with systemd 254; before it, udevadm test reads the rules of /run/udev, here a folder of our own.
