@@ -363,7 +363,7 @@ drives:
   EXPECT_THAT(many.output, HasSubstr("\"register\": 3")) << "up to the last word of a drive " << many.errors;
   const Ended read = run({"read", "right", "P105", "--set", "1"});
   EXPECT_EQ(0, read.code) << read.errors;
-  EXPECT_THAT(read.output, HasSubstr("P105 set 1 Maximum frequency = 50 Hz (raw 500)"));
+  EXPECT_THAT(read.output, HasSubstr("P105 set 1 Maximum frequency = 50.0 Hz (raw 500)"));
   EXPECT_THAT(run({"read", "left", "P999"}).errors, HasSubstr("refuses P999: PCP error 6/7"));
   simulator.signal(SIGTERM);
   EXPECT_EQ(0, simulator.wait(seconds{30}));
