@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "catalogue/shipped.h"
 #include "sim/canopen/simulated_can_bus.h"
 #include "tools/parameter_link.h"
 #include "transport/canopen/canopen.h"
