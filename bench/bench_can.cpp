@@ -1,22 +1,12 @@
 // What the driver adds to a bare exchange of CAN frames: SDO reads, and cycles of RPDOs, SYNC and TPDOs.
-#include <sys/prctl.h>
-#include <unistd.h>
-
-#include <cstdio>
-#include <cstdlib>
-#include <functional>
 #include <memory>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
-#include "can_interface.h"
-#include "can_pair.h"
-#include "can_responder.h"
+#include "can_course.h"
 #include "canopen/master.h"
 #include "canopen/sdo_client.h"
-#include "link/can/socket_can.h"
-#include "measure.h"
+#include "canopen_nodes.h"
 
 namespace {
 
@@ -24,69 +14,7 @@ using namespace nord_driver;
 using namespace nord_driver::bench;
 using namespace std::chrono_literals;
 
-constexpr unsigned kProcessor = 0;
-constexpr std::size_t kBlock = 20;
 constexpr std::array<std::uint8_t, 4> kStandby{0x7E, 0x04, 0x00, 0x00};  // BU 0060 p. 96
-
-/// What the frames go over, and how long it is measured.
-struct Course {
-  std::function<std::unique_ptr<CanEnds>()> of_driver, of_bare;  ///< never the same at a time
-  double share = 1.0;                                            ///< of the usual number of measurements
-  int repeats = 5;
-  bool bounded = true;
-
-  std::size_t pairs(std::size_t usual) const {
-    return std::max<std::size_t>(kBlock, static_cast<std::size_t>(static_cast<double>(usual) * share));
-  }
-  bool judge(const char* what, double value, double bound) const {
-    if (bounded) return report(what, value, "", bound);
-    std::printf("%-66s %9.3f\n", what, value);
-    std::fflush(stdout);
-    return true;
-  }
-};
-
-/// Nodes at the far end, and a near end of its own for whoever talks to them: the driver does not wait in its calls.
-struct FarEnd {
-  FarEnd(const std::function<std::unique_ptr<CanEnds>()>& make, std::size_t drives)
-      : ends(make()), nodes(*ends, drives, kProcessor) {}
-  std::unique_ptr<CanEnds> ends;
-  CanResponder nodes;
-};
-
-/// The same frames with nothing but write() and read().
-class Bare {
- public:
-  Bare(CanEnds& ends, const std::vector<CanFrame>& frames, std::size_t answers)
-      : near_(ends.near()), answers_(answers) {
-    for (const CanFrame& frame : frames) frames_.push_back(toKernel(frame));
-  }
-
-  void exchange() const {
-    for (const can_frame& frame : frames_) {
-      if (::write(near_, &frame, sizeof frame) != static_cast<ssize_t>(sizeof frame)) fail();
-    }
-    can_frame answer;
-    for (std::size_t i = 0; i < answers_; ++i) {
-      if (::read(near_, &answer, sizeof answer) != static_cast<ssize_t>(sizeof answer)) fail();
-    }
-  }
-
- private:
-  [[noreturn]] static void fail() { throw std::runtime_error("the far end is gone"); }
-
-  int near_;
-  std::size_t answers_;
-  std::vector<can_frame> frames_;
-};
-
-/// The driver's SocketCAN link as the near end.
-struct Line {
-  Line(CanEnds& ends, const std::vector<std::uint32_t>& ids) : port({ends.interface(), ids}, ends.system()) {
-    if (!port.open()) throw std::runtime_error(port.lastError());
-  }
-  link::SocketCan port;
-};
 
 class SdoReader {
  public:
@@ -112,20 +40,13 @@ class SdoReader {
 };
 
 bool sdoReads(const Course& course) {
-  const FarEnd of_driver{course.of_driver, 1}, of_bare{course.of_bare, 1};
+  const FarEnd of_driver{course.of_driver, CanopenNodes{1}}, of_bare{course.of_bare, CanopenNodes{1}};
   SdoReader reader{*of_driver.ends};
   const Bare bare{*of_bare.ends, {dataFrame(0x601, fromHex("40 66 20 01 00 00 00 00"))}, 1};
   const auto driver = [&reader] { reader.read(); };
   const auto ping_pong = [&bare] { bare.exchange(); };
-  measurePairs(course.pairs(1000), kBlock, driver, ping_pong);  // warm-up
-  std::vector<double> ratios;
-  for (int i = 0; i < course.repeats; ++i) {
-    const Pair medians = measurePairs(course.pairs(5000), kBlock, driver, ping_pong);
-    ratios.push_back(medians.first / medians.second);
-    std::printf("  SDO read %.2f us (%.0f per s), bare %.2f us, rate %.3f of the bare one\n", medians.first,
-                1e6 / medians.first, medians.second, 1.0 / ratios.back());
-  }
-  return course.judge("SDO read over bare ping-pong (0.8 of its rate)", median(ratios), 1.0 / 0.8);
+  const double ratio = ratioOf(course, 5000, "SDO read", driver, ping_pong);
+  return course.judge("SDO read over bare ping-pong (0.8 of its rate)", ratio, 1.0 / 0.8);
 }
 
 canopen::MasterConfig busOf(std::size_t drives) {
@@ -232,27 +153,20 @@ std::vector<CanFrame> framesOf(std::size_t drives) {
 }
 
 bool cycleOf(const Course& course, std::size_t drives) {
-  const FarEnd of_driver{course.of_driver, drives}, of_bare{course.of_bare, drives};
+  const FarEnd of_driver{course.of_driver, CanopenNodes{drives}}, of_bare{course.of_bare, CanopenNodes{drives}};
   CanBus bus{*of_driver.ends, drives};
   const Bare bare{*of_bare.ends, framesOf(drives), drives};
   const auto driver = [&bus] { bus.cycle(); };
   const auto bare_cycle = [&bare] { bare.exchange(); };
-  const std::size_t pairs = course.pairs(5000 / (1 + drives / 4));
-  measurePairs(pairs / 5, kBlock, driver, bare_cycle);  // warm-up
-  std::vector<double> ratios;
-  for (int i = 0; i < course.repeats; ++i) {
-    const Pair medians = measurePairs(pairs, kBlock, driver, bare_cycle);
-    ratios.push_back(medians.first / medians.second);
-    std::printf("  %zu drive(s): cycle %.2f us, bare %.2f us, ratio %.3f\n", drives, medians.first, medians.second,
-                ratios.back());
-  }
+  const std::string what = std::to_string(drives) + " drive(s): cycle";
+  const double ratio = ratioOf(course, 5000 / (1 + drives / 4), what.c_str(), driver, bare_cycle);
   bus.check();
-  return course.judge("CANopen cycle over the bare exchange of the same frames", median(ratios), 1.25);
+  return course.judge("CANopen cycle over the bare exchange of the same frames", ratio, 1.25);
 }
 
 /// Cost per drive of a full bus against one drive, and against eight.
 bool manyDrivesCostNoMoreEach(const Course& course, std::size_t few, std::size_t many) {
-  const FarEnd end_of_few{course.of_driver, few}, end_of_many{course.of_bare, many};
+  const FarEnd end_of_few{course.of_driver, CanopenNodes{few}}, end_of_many{course.of_bare, CanopenNodes{many}};
   CanBus bus_of_few{*end_of_few.ends, few}, bus_of_many{*end_of_many.ends, many};
   const auto cycle_few = [&] {
     for (std::size_t i = 0; i < many / few; ++i) bus_of_few.cycle();
@@ -272,23 +186,6 @@ bool manyDrivesCostNoMoreEach(const Course& course, std::size_t few, std::size_t
   return course.judge("cost per drive, the many over the few", median(ratios), 1.2);
 }
 
-Course overPairs() {
-  const auto pair = [] { return std::make_unique<CanPair>(); };
-  return {pair, pair};
-}
-
-/// Where the kernel is an emulated one, the same takes ten times as long (`NORD_TIME_FACTOR` of
-/// scripts/can_machine.sh).
-Course overInterfaces(const std::string& of_driver, const std::string& of_bare) {
-  const char* factor = std::getenv("NORD_TIME_FACTOR");
-  Course course{[of_driver] { return std::make_unique<CanInterface>(of_driver); },
-                [of_bare] { return std::make_unique<CanInterface>(of_bare); }};
-  course.share = 1.0 / std::max(1.0, factor != nullptr ? std::atof(factor) : 1.0);
-  course.repeats = 3;
-  course.bounded = false;
-  return course;
-}
-
 bool measure(const Course& course) {
   bool kept = sdoReads(course);
   for (const std::size_t drives : {1u, 2u, 4u, 8u, 16u, 32u}) kept = cycleOf(course, drives) && kept;
@@ -299,22 +196,5 @@ bool measure(const Course& course) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 1 && argc != 3) {
-    std::fprintf(
-        stderr,
-        "usage: bench_can [INTERFACE OTHER_INTERFACE]\n"
-        "Over AF_UNIX pairs, against bounds; or over two CAN interfaces on which nothing else is sent, one for\n"
-        "the driver and one for the bare exchange: then the figures are printed, without a bound.\n");
-    return 2;
-  }
-  try {
-    pinTo(kProcessor);
-    runUntilWaiting();
-    prctl(PR_SET_TIMERSLACK, 1);  // like the thread of the bus cycle
-    const BusyOthers busy{kProcessor};
-    return measure(argc == 1 ? overPairs() : overInterfaces(argv[1], argv[2])) ? 0 : 1;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_can: %s\n", error.what());
-    return 2;
-  }
+  return runOnCan(argc, argv, "bench_can", measure);
 }

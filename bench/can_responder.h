@@ -1,30 +1,31 @@
-// The CANopen nodes at the far end of a pair, on a thread of their own: SDO reads of what the master asks, and one TPDO
-// of every node for each SYNC.
+// The nodes at the far end of a pair, on a thread of their own.
 #pragma once
 
+#include <functional>
 #include <thread>
-#include <vector>
 
 #include "can_ends.h"
 
 namespace nord_driver::bench {
 
+/// Hands on what answers a frame, in its order; false: the near end is gone.
+using CanSay = std::function<bool(const can_frame&)>;
+/// What nodes are: what they say to a frame. False when one could not be said.
+using CanAnswers = std::function<bool(const can_frame&, const CanSay&)>;
+
 class CanResponder {
  public:
-  /// Nodes 1 to `nodes`; `ends` must outlive them.
-  CanResponder(CanEnds& ends, std::size_t nodes, unsigned processor);
+  /// `ends` must outlive it.
+  CanResponder(CanEnds& ends, CanAnswers answers, unsigned processor);
   ~CanResponder();
   CanResponder(const CanResponder&) = delete;
   CanResponder& operator=(const CanResponder&) = delete;
 
  private:
   void run();
-  bool answer(const can_frame& frame) const;
-  bool send(const can_frame& frame) const;
-  static void answerSdo(const can_frame& request, can_frame& response);
 
   CanEnds& ends_;
-  std::vector<can_frame> transmit_pdos_;
+  CanAnswers answers_;
   std::thread thread_;
 };
 

@@ -79,3 +79,16 @@ function(nord_test_settings name)
   nord_test_options(${name})
   nord_share_precompiled(${name} nord_gtest_headers)
 endfunction()
+
+# The manual page and the bash completion of a program, which prints both; installed with it.
+function(nord_manual program)
+  set(folder ${CMAKE_BINARY_DIR}/manual)
+  file(MAKE_DIRECTORY ${folder})
+  add_custom_command(OUTPUT ${folder}/${program}.1 ${folder}/${program}
+    COMMAND ${program} --manual-page > ${folder}/${program}.1
+    COMMAND ${program} --bash-completion > ${folder}/${program}
+    DEPENDS ${program} VERBATIM)
+  add_custom_target(${program}_manual ALL DEPENDS ${folder}/${program}.1 ${folder}/${program})
+  install(FILES ${folder}/${program}.1 DESTINATION share/man/man1)
+  install(FILES ${folder}/${program} DESTINATION share/bash-completion/completions)
+endfunction()

@@ -21,8 +21,9 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 OWN = "nord_driver"
 
 # What only a machine that tests needs: these files may use what --test adds.
-FOR_TESTS = (".ci/", "bench/", "fuzz/", "scripts/bench.sh", "scripts/can_machine", "scripts/check_", "scripts/common.sh",
-             "scripts/count_results.py", "scripts/fuzz.sh", "scripts/test", "test/link/modbus/pymodbus_server.py")
+FOR_TESTS = (".ci/", "bench/", "fuzz/", "scripts/bench.sh", "scripts/build_deb.sh", "scripts/can_machine", "scripts/check_",
+             "scripts/common.sh", "scripts/count_results.py", "scripts/fresh_debian.sh", "scripts/fuzz.sh", "scripts/test",
+             "test/link/modbus/pymodbus_server.py", "test/system/pymodbus_client.py")
 # What a user is told to install himself.
 LEFT_TO_THE_USER = {"node rviz/rviz", "program import"}
 # Used where it is found; Debian has no package of it.

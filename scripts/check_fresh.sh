@@ -3,11 +3,12 @@
 # else. Ends with 0 when the command does, with 77 when this cannot be tried here (the last line says why).
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$root/scripts/fresh_debian.sh"
 
 usage() {
   cat <<'TEXT'
 usage: check_fresh.sh [bookworm|bullseye]
-  bookworm  (default) README's first command
+  bookworm  (default) README's first command; then the Debian package of what it has built, in a second minimal Debian
   bullseye  the nearest that can be had to Ubuntu 20.04: the same, built with g++-9, and then the unit tests
 Needs root, about 3 GB below TMPDIR (/var/tmp) and a network: packages come from this machine's own apt sources.
 TEXT
@@ -21,54 +22,31 @@ case $suite in
   *) usage >&2; exit 2 ;;
 esac
 
-cannot() {
-  echo "check_fresh: cannot be tried here: $*"
-  exit 77
-}
-
-fail() {
-  echo "check_fresh: $*" >&2
-  exit 1
-}
-
-# --- Inside: in namespaces of its own. Whatever is mounted or started here ends with them. ---
-
-# make_debian FOLDER SUITE PACKAGES: in FOLDER/debian.
-make_debian() {
-  mmdebstrap --quiet --variant=minbase --include="$3" --aptopt="$1/apt.conf" "$2" "$1/debian" - <"$1/sources.list"
-}
-
-# What an installer leaves and minbase does not.
-name_machine() {
-  printf '127.0.0.1 localhost\n127.0.1.1 %s\n' "$(uname -n)" >"$1/etc/hosts"
-}
+# --- Inside ---
 
 inside() {
-  local folder=$1 suite=$2 debian=$1/debian extra=ca-certificates
-  if [[ $suite == bullseye ]]; then extra+=,g++-9; fi
-  echo "making a minimal Debian $suite"
-  make_debian "$folder" "$suite" "$extra" || {
-    sleep 30 # a network or a mirror may be away for a moment
-    rm -rf --one-file-system "$debian"
-    make_debian "$folder" "$suite" "$extra" || fail "mmdebstrap failed"
-  }
-  name_machine "$debian"
+  local folder=$1 suite=$2 debian=$1/debian extra=ca-certificates compiler=()
+  if [[ $suite == bullseye ]]; then
+    extra+=,g++-9
+    compiler=(CC=gcc-9 CXX=g++-9)
+  fi
+  make_debian "$folder" "$suite" "$extra"
+  if [[ $suite == bookworm ]]; then cp -a --reflink=auto "$debian" "$folder/second"; fi
   mkdir "$debian/root/nord_driver"
   tar -C "$debian/root/nord_driver" -xf "$folder/clone.tar"
   cp "$folder/within" "$debian/root/within"
-  mount -t proc proc "$debian/proc"
-  mount --rbind /dev "$debian/dev"
-  # No variable of this machine, but those of a proxy.
-  local variable environment=(HOME=/root TERM=dumb PATH=/usr/sbin:/usr/bin:/sbin:/bin)
-  for variable in http_proxy https_proxy no_proxy; do
-    if [[ -n ${!variable-} ]]; then environment+=("$variable=${!variable}"); fi
-  done
-  if [[ $suite == bullseye ]]; then environment+=(CC=gcc-9 CXX=g++-9); fi
-  exec env -i "${environment[@]}" chroot "$debian" bash /root/within "$suite"
+  enter_debian "$debian" "${compiler[@]}" -- bash /root/within "$suite" || exit
+  if [[ $suite == bullseye ]]; then exit; fi
+  # The package of what was built, where nothing of it is; what apt has fetched once it need not fetch again.
+  echo "== the Debian package"
+  cp -a --reflink=auto "$debian"/var/cache/apt/archives/*.deb "$folder/second/var/cache/apt/archives/" 2>/dev/null || true
+  cp -a --reflink=auto "$debian"/var/lib/apt/lists/. "$folder/second/var/lib/apt/lists/"
+  try_package "$folder/second" "$(echo "$debian"/root/deb/nord-driver_*.deb)"
 }
 
 if [[ $suite == --inside ]]; then
   inside "$2" "$3"
+  exit
 fi
 
 # --- Outside ---
@@ -81,7 +59,11 @@ suite=\$1
 cd /root/nord_driver
 echo "== $command"
 $command
-if [[ \$suite == bookworm ]]; then exit 0; fi
+if [[ \$suite == bookworm ]]; then
+  scripts/install_deps.sh --deb >/root/deb.log 2>&1 || { tail -n 40 /root/deb.log; exit 1; }
+  scripts/build_deb.sh --tree out/demo --output /root/deb
+  exit
+fi
 echo "== unit tests, built with \$(\$CXX -dumpfullversion), CMake \$(cmake --version | sed -n '1s/[^0-9]*//p')"
 out=\$PWD/out/demo log=/root/unit_tests.log # what the demo has built need not be built again
 {
@@ -99,58 +81,14 @@ echo "left out: the rostests (they take half an hour), lint, format, fuzz, works
 TEXT
 }
 
-((EUID == 0)) || cannot "it needs root, to make a Debian in a folder"
-command -v mmdebstrap >/dev/null || fail "mmdebstrap is missing (scripts/install_deps.sh --test)"
-unshare --mount --pid --fork --kill-child true 2>/dev/null || cannot "this machine's root may not mount"
-
+need_root_and_mounts
 command=$(sed -n '/^```$/,/^```$/{/^```$/!p}' "$root/README.md" | sed -n '1s/ *#.*//p')
 [[ -n $command ]] || fail "README.md has no first command"
 
-folder=
-inner=
-# Nothing is mounted in the folder as seen from here; if it were, deleting would go through.
-clean() {
-  if [[ -n $inner ]]; then
-    kill -KILL "$inner" 2>/dev/null || true
-    wait "$inner" 2>/dev/null || true
-  fi
-  [[ -n $folder ]] || return 0
-  if grep -qF " $folder/" /proc/self/mountinfo; then
-    echo "check_fresh: $folder is left: something is mounted in it" >&2
-  else
-    rm -rf --one-file-system "$folder"
-  fi
-}
-trap clean EXIT
-trap 'exit 129' HUP
-trap 'exit 130' INT
-trap 'exit 143' TERM
-folder=$(mktemp -d "${TMPDIR:-/var/tmp}/nord_driver_fresh.XXXXXX")
-chmod 755 "$folder" # apt fetches as a user of its own
-
-# The first of this machine's mirrors that has this Debian.
-mirror=
-while read -r address; do
-  /usr/lib/apt/apt-helper download-file "${address%/}/dists/$suite/InRelease" "$folder/InRelease" >"$folder/log" 2>&1 || continue
-  grep -qx 'Label: Debian' "$folder/InRelease" && grep -qx "Codename: $suite" "$folder/InRelease" || continue
-  mirror=$address
-  break
-done < <(apt-get indextargets --format '$(REPO_URI)' 'Identifier: Packages' 'Component: main' | sort -u)
-[[ -n $mirror ]] || cannot "no mirror of this machine's apt sources answers with Debian $suite"
-echo "deb $mirror $suite main" >"$folder/sources.list"
-# How this machine reaches it.
-apt-config dump Acquire | grep -iE '^Acquire::(Check-Valid-Until|Check-Date|https?::Proxy) ' >"$folder/apt.conf" || true
-
+make_folder "$suite"
 git=(git -C "$root" -c "safe.directory=$root")
 "${git[@]}" archive --format=tar -o "$folder/clone.tar" HEAD || fail "what is committed cannot be had from git"
 if [[ -n $("${git[@]}" status --porcelain) ]]; then echo "check_fresh: what is not committed is not in it"; fi
 within >"$folder/within"
 
-start=$SECONDS
-unshare --mount --pid --fork --kill-child --mount-proc bash "${BASH_SOURCE[0]}" --inside "$folder" "$suite" </dev/null &
-inner=$!
-status=0
-wait "$inner" || status=$?
-inner=
-((status == 0)) || fail "$suite: FAILED ($status)"
-echo "check_fresh: $suite: good ($((SECONDS - start)) s)"
+run_inside "$suite"

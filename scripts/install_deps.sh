@@ -6,8 +6,9 @@ export PATH=/usr/bin:/usr/sbin:/bin:/sbin:$PATH
 
 usage() {
   cat <<'TEXT'
-usage: install_deps.sh [--test] [--list]
+usage: install_deps.sh [--test] [--deb] [--list]
   --test  also what scripts/test.sh needs beyond a build: formatter, linter, fuzzer, recorders, and a machine with CAN
+  --deb   also what scripts/build_deb.sh needs beyond a build
   --list  print the packages, install nothing
 Without root it prints the command that installs what is missing and ends with 1.
 TEXT
@@ -30,10 +31,13 @@ packages=(
 test_packages=(
   clang-format-14 clang-tidy-14 clang-14 libclang-rt-14-dev tcpdump
   can-utils iproute2 tshark
-  python3-pymodbus # an independent server for the tests of link/modbus
+  python3-pymodbus mbpoll # an independent server for the tests of link/modbus, independent clients of the simulated gateway
   git mmdebstrap # scripts/check_fresh.sh
+  debhelper lintian # scripts/check_deb.sh
+  man-db systemd udev # what reads the manual pages, the units and the rules of install/
   qemu-system-x86 busybox-static cpio kmod # the emulated machine of scripts/can_machine.sh
 )
+deb_packages=(debhelper)
 
 # What may be left out where the archive has it not (bullseye, Ubuntu 20.04): each property test is skipped then.
 optional=(librapidcheck-dev)
@@ -42,6 +46,7 @@ list=false
 for argument in "$@"; do
   case $argument in
     --test) packages+=("${test_packages[@]}") ;;
+    --deb) packages+=("${deb_packages[@]}") ;;
     --list) list=true ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 2 ;;

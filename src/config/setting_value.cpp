@@ -62,6 +62,29 @@ void SettingValue::add(const std::string& name, SettingValue value) {
   names.insert(at, name);
 }
 
+void SettingValue::addAt(const std::string& path, SettingValue value) {
+  const std::size_t slash = path.find('/');
+  const std::string name = path.substr(0, slash);
+  const auto at = std::lower_bound(names.begin(), names.end(), name);
+  const bool there = at != names.end() && *at == name;
+  SettingValue* below = there ? &items[static_cast<std::size_t>(at - names.begin())] : nullptr;
+  if (slash != std::string::npos) {
+    if (below == nullptr) {
+      add(name, group());
+      return addAt(path, std::move(value));
+    }
+    if (below->kind != Kind::kGroup) *below = group();
+    return below->addAt(path.substr(slash + 1), std::move(value));
+  }
+  if (below != nullptr && below->kind == Kind::kGroup && value.kind == Kind::kGroup) {
+    for (std::size_t i = 0; i < value.names.size(); ++i) below->addAt(value.names[i], std::move(value.items[i]));
+  } else if (below != nullptr) {
+    *below = std::move(value);
+  } else {
+    add(name, std::move(value));
+  }
+}
+
 const SettingValue* SettingValue::find(const std::string& name) const {
   const auto at = std::lower_bound(names.begin(), names.end(), name);
   if (at == names.end() || *at != name) return nullptr;

@@ -37,6 +37,9 @@ struct SettingValue {
 
   /// Into a group, in any order.
   void add(const std::string& name, SettingValue value);
+  /// The same where the name may be a path: "linear/x" becomes the group "x" in the group "linear", which others may
+  /// fill as well. Two groups of one name become one.
+  void addAt(const std::string& path, SettingValue value);
   /// Of a group; nullptr when there is none.
   const SettingValue* find(const std::string& name) const;
   /// As a refusal names it: "\"fast\"", "2.5", "a list".

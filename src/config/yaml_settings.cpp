@@ -9,7 +9,7 @@ namespace nord_driver {
 
 namespace {
 
-// YAML 1.1, as rosparam reads it.
+// YAML 1.1, as rosparam reads it. In its keys a slash begins a group: "linear/x: {...}".
 SettingValue scalarValue(const YAML::Node& node) {
   static const std::regex kIntegers("[-+]?([0-9]+|0x[0-9a-fA-F]+)");
   static const std::regex kFractions(R"([-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?)");
@@ -30,7 +30,7 @@ SettingValue valueOf(const YAML::Node& node) {
   if (node.IsScalar()) return scalarValue(node);
   SettingValue value = node.IsMap() ? SettingValue::group() : SettingValue::list();
   if (node.IsMap()) {
-    for (const auto& member : node) value.add(member.first.as<std::string>(), valueOf(member.second));
+    for (const auto& member : node) value.addAt(member.first.as<std::string>(), valueOf(member.second));
   } else {
     for (const YAML::Node& item : node) value.items.push_back(valueOf(item));
   }

@@ -130,10 +130,11 @@ class NodeConnect {
   bool let_go_first_ = false;    // a try that begins with a release
   Phase phase_ = Phase::kOff;
   TimerTable<Timer> timers_;
-  std::uint8_t held_ = 0;   // what the device may have allocated to us
-  std::uint8_t stale_ = 0;  // what is to be released of before
-  unsigned failures_ = 0;   // tries without success, since it last ran
-  unsigned conflicts_ = 0;  // of this try
+  std::uint8_t held_ = 0;       // what the device may have allocated to us
+  std::uint8_t stale_ = 0;      // what is to be released of before
+  unsigned failures_ = 0;       // tries without success, since it last ran
+  unsigned conflicts_ = 0;      // of this try
+  unsigned lost_explicit_ = 0;  // tries that ended so, since it last ran
   Duration rate_{};
   std::optional<std::uint8_t> foreign_mac_;
   Instant foreign_at_{};

@@ -22,6 +22,8 @@ constexpr int kRatesUntilTimeout = 4;
 /// Devices round their expected packet rate to steps of 2, 10 or 100 ms.
 constexpr Duration kCoarsestStep = std::chrono::milliseconds{100};
 constexpr unsigned kMostDoublings = 10;
+/// So often in a row a device is believed to have lost its explicit connection between the two allocations.
+constexpr unsigned kMostLostExplicit = 3;
 
 Sentence sentence(const char* what, const ExplicitAnswer& answer, std::uint8_t asked) noexcept {
   Sentence text;
@@ -141,6 +143,11 @@ void NodeConnect::handleIoAllocated(const ExplicitAnswer& answer, Instant now) n
   }
   // The explicit connection is ours: so is this one, from before.
   if (saysAllocated(answer) && conflicts_ == 0) return enter(Phase::kReleaseStaleIo, now);
+  // Without an explicit connection there is none for process data: it may have started anew in between.
+  if (saysAllocated(answer) && lost_explicit_++ < kMostLostExplicit) {
+    held_ = static_cast<std::uint8_t>(held_ & ~io_choice_);
+    return fail(sentence("lost its explicit connection", answer, service::kAllocate), now);
+  }
   held_ = static_cast<std::uint8_t>(held_ & ~io_choice_);
   Sentence what;
   what.format("does not exchange process data by %s", toText(config_.io.kind));
@@ -218,6 +225,7 @@ void NodeConnect::run(Instant now) noexcept {
   phase_ = Phase::kRunning;
   channel_.open();
   failures_ = 0;
+  lost_explicit_ = 0;
   ++report_.status().counters.connections;
   report_.enter(NodeState::kExchanging, Sentence{}, now);
   Sentence text;

@@ -151,14 +151,29 @@ void ImageMap::put(std::size_t drive, const ProcessWords& words, RegisterImage& 
 }
 
 ProcessWords ImageMap::get(std::size_t drive, const RegisterImage& inputs) const noexcept {
+  return wordsAt(drives_[drive].inputs, drive, inputs);
+}
+
+ProcessWords ImageMap::wordsAt(WordRange range, std::size_t drive, const RegisterImage& image) const noexcept {
   const Place& place = drives_[drive];
   ProcessWords words;
-  if (inputs.size() < place.inputs.end()) return words;
-  words.head = inImage(inputs[place.inputs.first + pcp_words_]);
-  for (std::size_t i = 0; i < place.values; ++i) {
-    words.values[i] = inImage(inputs[place.inputs.first + wireIndex(place, i)]);
-  }
+  if (image.size() < range.end()) return words;
+  words.head = inImage(image[range.first + pcp_words_]);
+  for (std::size_t i = 0; i < place.values; ++i) words.values[i] = inImage(image[range.first + wireIndex(place, i)]);
   return words;
+}
+
+WordMeaning ImageMap::inputMeaning(std::size_t word) const noexcept {
+  for (std::size_t drive = 0; drive < drives_.size(); ++drive) {
+    const Place& place = drives_[drive];
+    if (word < place.inputs.first || word >= place.inputs.end()) continue;
+    const std::size_t at = word - place.inputs.first;
+    for (std::size_t value = 0; value < place.values; ++value) {
+      if (wireIndex(place, value) == at) return {WordKind::kValue, drive, static_cast<unsigned>(value) + 1};
+    }
+    return {at < pcp_words_ ? WordKind::kPcp : WordKind::kHead, drive, 0};
+  }
+  return {};
 }
 
 std::vector<WordRange> ImageMap::inputParts(std::size_t most) const {

@@ -57,6 +57,14 @@ constexpr bool operator==(const ProcessWords& a, const ProcessWords& b) noexcept
   return a.head == b.head && a.values[0] == b.values[0] && a.values[1] == b.values[1] && a.values[2] == b.values[2];
 }
 
+/// What a word of the input image is.
+enum class WordKind : std::uint8_t { kNobodys, kPcp, kHead, kValue };
+struct WordMeaning {
+  WordKind kind = WordKind::kNobodys;
+  std::size_t drive = 0;  ///< by its place in the settings; unless it is nobody's
+  unsigned value = 0;     ///< with kValue: 1 to 3, by the manual's order
+};
+
 class ImageMap {
  public:
   /// None: `reason` is a sentence that names drive, words and what was expected.
@@ -75,6 +83,11 @@ class ImageMap {
   void put(std::size_t drive, const ProcessWords& words, RegisterImage& outputs) const noexcept;
   /// The words of one drive; all zero where the image is too short.
   ProcessWords get(std::size_t drive, const RegisterImage& inputs) const noexcept;
+  /// The same of an image in which the drive has `range`, its own one of inputs() or outputs().
+  ProcessWords wordsAt(WordRange range, std::size_t drive, const RegisterImage& image) const noexcept;
+
+  /// Of input word `word`.
+  WordMeaning inputMeaning(std::size_t word) const noexcept;
 
   /// The images in parts of at most `most` words (>= 5) and no drive in two of them: one part wherever it fits.
   std::vector<WordRange> inputParts(std::size_t most) const;

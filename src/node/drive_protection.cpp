@@ -63,6 +63,15 @@ ProtectionReport DriveProtection::assess(const cycle::DeviceData& device) const 
   // With 0 the drive itself watches nothing, but heeds what the bus notices (BU 2700 7.1.1).
   const bool own_acts = own && *own > 0.0;
   const bool bus_acts = !identity_.protected_by.empty();
+  if (!bus_acts && !identity_.timeout_notices) {
+    return {Level::kError,
+            "nothing that is known: what stands between this computer and the drive may repeat the last "
+            "control words for ever, and " +
+                name + " does not notice that"};
+  }
+  if (bus_acts && identity_.timeout_needed && own && *own <= 0.0) {
+    return {Level::kError, "nothing: " + identity_.protected_by + ", but " + name + " = 0: it would run on"};
+  }
   if (!own_acts && !bus_acts) {
     if (own) return {Level::kError, "nothing: the bus watches nothing, and " + name + " = 0: it would run on"};
     if (identity_.parameter_channel == "none") {
@@ -77,13 +86,17 @@ ProtectionReport DriveProtection::assess(const cycle::DeviceData& device) const 
   if (bus_acts) report.text = identity_.protected_by;
   if (own_acts) {
     report.text += std::string(bus_acts ? "; " : "") + name + " of " + shortNumber(*own) +
-                   " s: the inverter trips E10.3 and the motor coasts";
+                   (identity_.timeout_notices ? " s: the inverter trips E10.3 and the motor coasts" : " s after that");
   }
-  if (!own) sayUnknown(report, device, name + ", which can switch this off, is not known");
+  if (!own) {
+    const char* const matters =
+        identity_.timeout_needed ? ", without which it would run on" : ", which can switch this off";
+    sayUnknown(report, device, name + matters + ", is not known");
+  }
   if (by_module) assessWayToModule(device, report);
 
   double latest = bus_acts ? identity_.protection_time : *own;
-  if (own_acts && latest > 0.0) latest = std::min(latest, *own);
+  if (own_acts && latest > 0.0) latest = identity_.timeout_notices ? std::min(latest, *own) : latest + *own;
   if (cmd_vel_timeout_ > Duration::zero() && seconds(latest) > cmd_vel_timeout_) {
     warn(report, "that is " + shortNumber(latest) + " s after the last telegram, later than cmd_vel_timeout (" +
                      shortNumber(toSeconds(cmd_vel_timeout_)) + " s)");

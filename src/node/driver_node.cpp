@@ -2,10 +2,12 @@
 
 #include <boost/function.hpp>
 #include <cmath>
+#include <utility>
 
 #include "config/driver_settings.h"
 #include "config/setting_checks.h"
 #include "node/start_sentence.h"
+#include "node/what_is_offered.h"
 #include "nord_driver/profile/series.h"
 
 namespace nord_driver::node {
@@ -50,7 +52,7 @@ DriverNode::DriverNode()
       private_commands_(private_node_, 1),
       stops_(private_node_, kStopThreads),
       settings_("~", privateParameters()),
-      config_(readNodeConfig(settings_, robotDescription())),
+      config_(withWhatIsOffered(readNodeConfig(settings_, robotDescription()), settings_)),
       loader_("nord_driver", "nord_driver::Transport") {
   loadTransport();
   warnOfUnknownKeys();
@@ -75,27 +77,16 @@ void DriverNode::loadTransport() {
     throw unknownTransport(settings_, config_.transport, loader_.getDeclaredClasses());
   }
   transport_ = loader_.createInstance(config_.transport);
-  where_ = applyEndPoint(config_, transport_->endPoint());
-  transport_->configure(*config_.bus, config_.drives, config_.cycle.cycle_rate);
-  for (const std::string& sentence : transport_->warnings()) ROS_WARN("nord_driver: %s", sentence.c_str());
-  for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
-    identities_.push_back(transport_->identity(i));
-    // Without a parameter channel P105 cannot be read: nobody could say what a setpoint means.
-    if (identities_[i].parameter_channel == "none" && !config_.cycle.drives[i].typed_max_frequency) {
-      throw missingSetting(*config_.drives[i].settings, "max_frequency",
-                           "P105 in Hz, because this drive has no parameter channel to read it from");
-    }
-  }
+  ConfiguredTransport configured = configureTransport(config_, *transport_);
+  where_ = std::move(configured.where);
+  identities_ = std::move(configured.identities);
+  for (const std::string& sentence : configured.warnings) ROS_WARN("nord_driver: %s", sentence.c_str());
 }
 
 void DriverNode::warnOfUnknownKeys() const {
   std::vector<std::string> sentences = config_.warnings;
-  std::vector<const TreeSettings*> groups{&settings_, config_.bus.get()};
-  for (const DriveSettings& drive : config_.drives) {
-    groups.push_back(static_cast<const TreeSettings*>(drive.settings.get()));
-  }
-  for (const TreeSettings* group : groups) {
-    for (const std::string& sentence : group->unknownKeys(ros::this_node::getName())) sentences.push_back(sentence);
+  for (const std::string& sentence : unknownKeys(settings_, config_, ros::this_node::getName())) {
+    sentences.push_back(sentence);
   }
   for (const std::string& sentence : sentences) ROS_WARN("nord_driver: %s", sentence.c_str());
 }

@@ -4,19 +4,46 @@
 
 #include <atomic>
 #include <cstdio>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "core/node_arguments.h"
+#include "core/version.h"
 #include "node/driver_node.h"
+#include "nord_driver/profile/series.h"
 #include "tools/end_signals.h"
 
 namespace {
 
-constexpr char kUsage[] =
-    "Drives NORD frequency inverters over a field bus. A ROS node: its configuration is its private parameters.\n"
-    "  roslaunch nord_driver nord_driver.launch config:=$PWD/my_robot.yaml\n"
-    "  nord_driver_node [--help] [--version] [NAME:=VALUE ...]\n"
-    "Exit code: 0 ended when asked to (the log names a drive that nobody saw at rest); 1 wrong configuration; 2 "
-    "another error, or wrong usage.\n";
+/// What a configuration may say in words; the transports as nord_driver_plugins.xml declares them.
+std::vector<nord_driver::ProgramWords> parameterWords() {
+  nord_driver::ProgramWords transports{"_transport", {}}, series{"_drives/*/series", {}};
+  std::istringstream names{NORD_DRIVER_TRANSPORTS};
+  for (std::string name; names >> name;) transports.words.push_back(name);
+  for (const nord_driver::profile::Series known : nord_driver::profile::kAllSeries) {
+    series.words.emplace_back(nord_driver::profile::toString(known));
+  }
+  return {transports, series};
+}
+
+nord_driver::ProgramText programText() {
+  nord_driver::ProgramText text;
+  text.name = "nord_driver_node";
+  text.version = nord_driver::kVersion;
+  text.brief = "ROS node that drives NORD frequency inverters over a field bus";
+  text.about =
+      "Drives NORD frequency inverters over a field bus. A ROS node: its configuration is its private parameters.";
+  text.examples = {"roslaunch nord_driver nord_driver.launch config:=$PWD/my_robot.yaml"};
+  text.options = nord_driver::commonOptions();
+  text.footer =
+      "Exit code: 0 ended when asked to (the log names a drive that nobody saw at rest); 1 wrong configuration; 2 "
+      "another "
+      "error, or wrong usage.";
+  text.takes_ros_arguments = true;
+  text.words = parameterWords();
+  return text;
+}
 
 /// What is said before somebody reads /rosout is lost to it, and a wrong configuration is said at once. Without a
 /// reader the node goes on.
@@ -35,7 +62,7 @@ void letTheLogOut() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (const auto answer = nord_driver::answerArguments(argc, argv, "nord_driver_node", kUsage)) {
+  if (const auto answer = nord_driver::answerArguments(argc, argv, programText())) {
     std::fputs(answer->output.c_str(), stdout);
     std::fputs(answer->error.c_str(), stderr);
     return answer->exit_code;

@@ -2,7 +2,6 @@
 
 #include "config/driver_settings.h"
 #include "config/setting_checks.h"
-#include "node/wheel_state_publisher.h"
 
 namespace nord_driver::node {
 
@@ -32,15 +31,6 @@ std::array<double, 6> readCovariance(const TreeSettings& settings, const std::st
 void acceptControllerKeys(const TreeSettings& settings) {
   settings.accept("type");                             // a plugin class
   settings.accept("estimate_velocity_from_position");  // older controllers; inverters tell velocities
-}
-
-bool readWheelStates(const TreeSettings& settings, std::vector<std::string>& warnings) {
-  const bool wanted = booleanOr(settings, "publish_wheel_joint_controller_state", false);
-  if (!wanted || WheelStatePublisher::isOffered()) return wanted;
-  warnings.push_back(settings.fullName("publish_wheel_joint_controller_state") +
-                     " is not offered: there was no control_msgs when this driver was built; ~<drive>/status tells "
-                     "command and velocity of each wheel");
-  return false;
 }
 
 std::string readFrame(const TreeSettings& settings, const char* key, const std::string& fallback) {
@@ -78,7 +68,7 @@ NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot
   config.allow_raw_parameters = booleanOr(settings, "allow_raw_parameters", false);
   acceptControllerKeys(settings);
   config.publish = readPublish(settings);
-  config.publish.publish_wheel_states = readWheelStates(settings, config.warnings);
+  config.publish.publish_wheel_states = booleanOr(settings, "publish_wheel_joint_controller_state", false);
   config.bus = settings.group("bus");
   config.drives = readDriveList(settings);
   config.cycle = cycle::readCycleConfig(settings, config.drives, robot_description);
@@ -98,6 +88,34 @@ std::string applyEndPoint(NodeConfig& config, const EndPoint& end_point) {
   }
   if (!config.bus_end_point.empty()) config.bus = config.bus->with(end_point.key, config.bus_end_point);
   return config.bus->text(end_point.key).value_or("");  // whether it has to be there, the transport decides
+}
+
+ConfiguredTransport configureTransport(NodeConfig& config, Transport& transport) {
+  ConfiguredTransport configured;
+  configured.where = applyEndPoint(config, transport.endPoint());
+  transport.configure(*config.bus, config.drives, config.cycle.cycle_rate);
+  configured.warnings = transport.warnings();
+  for (DriveIndex i = 0; i < config.drives.size(); ++i) {
+    configured.identities.push_back(transport.identity(i));
+    // Without a parameter channel P105 cannot be read: nobody could say what a setpoint means.
+    if (configured.identities[i].parameter_channel == "none" && !config.cycle.drives[i].typed_max_frequency) {
+      throw missingSetting(*config.drives[i].settings, "max_frequency",
+                           "P105 in Hz, because this drive has no parameter channel to read it from");
+    }
+  }
+  return configured;
+}
+
+std::vector<std::string> unknownKeys(const TreeSettings& settings, const NodeConfig& config, const std::string& node) {
+  std::vector<const TreeSettings*> groups{&settings, config.bus.get()};
+  for (const DriveSettings& drive : config.drives) {
+    groups.push_back(static_cast<const TreeSettings*>(drive.settings.get()));
+  }
+  std::vector<std::string> sentences;
+  for (const TreeSettings* group : groups) {
+    for (const std::string& sentence : group->unknownKeys(node)) sentences.push_back(sentence);
+  }
+  return sentences;
 }
 
 }  // namespace nord_driver::node

@@ -1,4 +1,5 @@
-// The part of the configuration only the ROS side needs, and the reading of all parts from the parameter server.
+// The whole configuration of a node: the part only its ROS side needs, and the reading of all parts. It knows nothing of
+// ROS itself: `nord_param check-config` reads a file as the node would.
 #pragma once
 
 #include <array>
@@ -10,7 +11,7 @@
 #include "config/tree_settings.h"
 #include "cycle/cycle_config.h"
 #include "nord_driver/config/settings.h"
-#include "nord_driver/transport/bus_report.h"
+#include "nord_driver/transport/transport.h"
 #include "trace/trace_config.h"
 
 namespace nord_driver::node {
@@ -22,7 +23,7 @@ struct PublishConfig {
   std::string odom_frame_id = "odom";
   bool enable_odom_tf = true;
   bool publish_cmd = false;
-  bool publish_wheel_states = false;  ///< wheel_joint_controller_state; never true where it is not offered
+  bool publish_wheel_states = false;  ///< wheel_joint_controller_state, where it is offered
   bool allow_multiple_cmd_vel_publishers = true;
   std::array<double, 6> pose_covariance_diagonal{};
   std::array<double, 6> twist_covariance_diagonal{};
@@ -44,6 +45,21 @@ struct NodeConfig {
 /// Puts ~bus_end_point in place of the key of `bus` where this transport looks for its bus. Returns what it will open,
 /// as configured; empty when nothing is. Throws ConfigError when it is given and the transport opens nothing.
 std::string applyEndPoint(NodeConfig& config, const EndPoint& end_point);
+
+/// A transport that has taken its part of the configuration.
+struct ConfiguredTransport {
+  std::string where;  ///< what it opens, as configured; may be empty
+  std::vector<DriveIdentity> identities;
+  std::vector<std::string> warnings;
+};
+
+/// Throws ConfigError, also where a drive needs a max_frequency that is not given.
+ConfiguredTransport configureTransport(NodeConfig& config, Transport& transport);
+
+/// One sentence for each key nobody has asked for, once `config` was read from `settings` and a transport is
+/// configured. `node` as in TreeSettings::unknownKeys.
+std::vector<std::string> unknownKeys(const TreeSettings& settings, const NodeConfig& config,
+                                     const std::string& node = {});
 
 /// Everything except what the transport itself reads (`bus`, and each drive's address). Throws ConfigError.
 NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot_description = {});

@@ -30,7 +30,8 @@ const std::vector<std::string>& driveKeys() {
   static const std::vector<std::string> kKeys = [] {
     std::vector<std::string> keys{// the driver's
                                   "address", "series", "joint", "gear_ratio", "pole_pairs", "inverted", "max_frequency",
-                                  "rated_current", "allow_minimum_frequency", "inverter",
+                                  "rated_current", "allow_minimum_frequency", "inverter", "max_velocity",
+                                  "min_velocity", "max_acceleration", "min_acceleration", "max_jerk", "min_jerk",
                                   // the simulator's
                                   "inertia", "rated_torque", "slip", "load", "viscous", "charging_time", "firmware",
                                   "parameter_delay", "ram_orders", "double_word_answers",

@@ -9,24 +9,39 @@
 #include <memory>
 
 #include "core/node_arguments.h"
+#include "core/version.h"
+#include "sim/bus_kind.h"
 #include "sim/running_bus.h"
 #include "sim_node/param_yaml.h"
 #include "sim_node/sim_node.h"
 
 namespace {
 
-constexpr char kUsage[] =
-    "Simulated NORD inverters on a pseudo-terminal or a CAN bus, with the truth as topics and faults as services. A "
-    "ROS\n"
-    "node: its configuration is its private parameters. nord_sim is the same without ROS.\n"
-    "  rosparam load config/demo.yaml /nord_sim && rosrun nord_driver nord_sim_node __name:=nord_sim\n"
-    "  nord_sim_node [--help] [--version] [NAME:=VALUE ...]\n"
-    "Exit code: 0 ended when asked to; 1 wrong configuration or another error; 2 wrong usage.\n";
+nord_driver::ProgramText programText() {
+  nord_driver::ProgramWords transports{"_transport", {}};
+  for (const nord_driver::sim::BusKind& kind : nord_driver::sim::busKinds()) {
+    transports.words.emplace_back(kind.transport);
+  }
+  nord_driver::ProgramText text;
+  text.name = "nord_sim_node";
+  text.version = nord_driver::kVersion;
+  text.brief = "ROS node that simulates NORD inverters on their buses";
+  text.about =
+      "Simulated NORD inverters on a pseudo-terminal, a CAN bus or behind a gateway, with the truth as topics and "
+      "faults as "
+      "services. A ROS node: its configuration is its private parameters. nord_sim is the same without ROS.";
+  text.examples = {"rosparam load config/demo.yaml /nord_sim && rosrun nord_driver nord_sim_node __name:=nord_sim"};
+  text.options = nord_driver::commonOptions();
+  text.footer = "Exit code: 0 ended when asked to; 1 wrong configuration or another error; 2 wrong usage.";
+  text.takes_ros_arguments = true;
+  text.words = {transports};
+  return text;
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (const auto answer = nord_driver::answerArguments(argc, argv, "nord_sim_node", kUsage)) {
+  if (const auto answer = nord_driver::answerArguments(argc, argv, programText())) {
     std::fputs(answer->output.c_str(), stdout);
     std::fputs(answer->error.c_str(), stderr);
     return answer->exit_code;

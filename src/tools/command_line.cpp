@@ -57,6 +57,15 @@ std::string usageOf(const std::string& program, const Command& command) {
   return usage;
 }
 
+std::vector<ProgramOption> listOf(const po::options_description& options) {
+  std::vector<ProgramOption> list;
+  for (const auto& option : options.options()) {
+    const bool has_value = option->semantic()->max_tokens() > 0;
+    list.push_back({option->long_name(), has_value ? option->semantic()->name() : "", option->description()});
+  }
+  return list;
+}
+
 }  // namespace
 
 void validate(boost::any& result, const std::vector<std::string>& texts, Seconds*, int) {
@@ -85,11 +94,32 @@ CommandLine::CommandLine(std::string program, std::string version, std::string a
       about_(std::move(about)),
       footer_(std::move(footer)),
       options_("General options", kColumns, kColumns / 2) {
-  options_.add_options()("help", "print this and end; -h for short")("version", "print the version and end");
+  for (const ProgramOption& option : commonOptions()) options_.add_options()(option.name.c_str(), option.about.c_str());
 }
 
 Command& CommandLine::addCommand(const std::string& name, const std::string& about) {
   return commands_.emplace_back(Command{name, about, {}, po::options_description{"Options", kColumns, kColumns / 2}});
+}
+
+void CommandLine::offer(const std::string& value_name, const std::vector<std::string>& words) {
+  words_.push_back({value_name, words});
+}
+
+ProgramText CommandLine::text() const {
+  ProgramText text;
+  text.name = program_;
+  text.version = version_;
+  text.brief = brief_;
+  text.about = about_;
+  text.options = listOf(options_);
+  for (const Command& command : commands_) {
+    ProgramCommand listed{command.name, command.about, {}, listOf(command.options)};
+    for (const Argument& argument : command.arguments) listed.arguments.push_back({"", argument.name, argument.about});
+    text.commands.push_back(listed);
+  }
+  text.footer = footer_;
+  text.words = words_;
+  return text;
 }
 
 std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
@@ -99,6 +129,10 @@ std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
     const Words given = read(words);
     if (given.version) {
       std::printf("%s %s\n", program_.c_str(), version_.c_str());
+      return kDone;
+    }
+    if (given.manual || given.completion) {
+      std::fputs((given.manual ? manualPage(text()) : bashCompletion(text())).c_str(), stdout);
       return kDone;
     }
     if (!given.help || !given.others.empty()) choose(given.others);
@@ -130,6 +164,8 @@ CommandLine::Words CommandLine::read(const std::vector<std::string>& words) cons
   for (const po::option& option : parsed(words, all).options) {
     if (option.string_key == "help") given.help = true;
     if (option.string_key == "version") given.version = true;
+    if (option.string_key == "manual-page") given.manual = true;
+    if (option.string_key == "bash-completion") given.completion = true;
     if (option.string_key != kOthers) continue;
     for (const std::string& word : option.value) {
       if (isShortOption(word)) throw UsageError("unrecognised option '" + word + "'");

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/program_text.h"
+
 namespace nord_driver::tools {
 
 constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2;
@@ -44,13 +46,18 @@ class CommandLine {
  public:
   CommandLine(std::string program, std::string version, std::string about, std::string footer);
 
+  /// For the head of the manual page: what it is in a few words.
+  void setBrief(const std::string& brief) { brief_ = brief; }
+  /// What a shell offers for a value of that name ("SET"); files are offered for FILE and PATH.
+  void offer(const std::string& value_name, const std::vector<std::string>& words);
+
   /// Those of the program: before or after the name of a command.
   boost::program_options::options_description_easy_init addOptions() { return options_.add_options(); }
   /// Once there is a command, one has to be given. The reference stays good.
   Command& addCommand(const std::string& name, const std::string& about);
 
-  /// Fills what the options and arguments point to. Nothing: go on. Otherwise the exit code: --help or --version has
-  /// been printed on stdout (kDone), or what is wrong on stderr (kWrongUsage).
+  /// Fills what the options and arguments point to. Nothing: go on. Otherwise the exit code: --help or another of
+  /// commonOptions() has been printed on stdout (kDone), or what is wrong on stderr (kWrongUsage).
   std::optional<int> parse(int argc, const char* const* argv);
 
   /// Whether this command was given.
@@ -60,6 +67,8 @@ class CommandLine {
   struct Words {
     bool help = false;
     bool version = false;
+    bool manual = false;
+    bool completion = false;
     std::vector<std::string> others;  ///< what is neither an option nor the value of one
   };
 
@@ -69,13 +78,16 @@ class CommandLine {
   std::string unknownCommand(const std::vector<std::string>& words);
   void store(const std::vector<std::string>& words, const std::vector<std::string>& others) const;
   std::string help() const;
+  ProgramText text() const;
 
   std::string program_;
   std::string version_;
+  std::string brief_;
   std::string about_;
   std::string footer_;
   boost::program_options::options_description options_;
   std::deque<Command> commands_;
+  std::vector<ProgramWords> words_;
   const Command* chosen_ = nullptr;
 };
 

@@ -1,16 +1,26 @@
 // nord_param: parameters of the inverters on the command line, over the bus itself, without a roscore.
+#include <langinfo.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <boost/program_options.hpp>
+#include <clocale>
 #include <cstdio>
 #include <exception>
+#include <fstream>
 #include <functional>
+#include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "config/yaml_settings.h"
 #include "core/version.h"
 #include "tools/command_line.h"
+#include "tools/config_check.h"
+#include "tools/config_picture.h"
 #include "tools/end_signals.h"
+#include "tools/image_command.h"
 #include "tools/lock_owner.h"
 #include "tools/param_commands.h"
 #include "tools/parameter_dump.h"
@@ -47,12 +57,41 @@ struct Options {
   WholeNumber<1, 99> index;  ///< 0: not given
   WriteOptions write;
   std::string dump;
+  std::string checked;  ///< file
+  std::string urdf;     ///< file
+  bool json = false;
+  ImageOptions image;
+  WholeNumber<1, 256> count;  ///< 0: not given
 };
 
 void list(const YAML::Node& file, nord_driver::Transport& transport) {
   const ToolConfig config = readToolConfig(file, transport.endPoint());
   transport.configure(*config.bus, config.drives, config.cycle.cycle_rate);
   printList(config, transport);
+}
+
+// Box-drawing characters where somebody looks who can see them.
+bool drawsLines() {
+  std::setlocale(LC_CTYPE, "");
+  return ::isatty(STDOUT_FILENO) != 0 && std::string(::nl_langinfo(CODESET)) == "UTF-8";
+}
+
+int check(const Options& options) {
+  std::vector<std::string> files{options.checked};
+  files.insert(files.end(), options.files.begin(), options.files.end());
+  std::ostringstream urdf;
+  if (!options.urdf.empty()) {
+    const std::ifstream file(options.urdf);
+    if (!file) throw UsageError("--urdf " + options.urdf + ": this file cannot be read");
+    urdf << file.rdbuf();
+  }
+  TransportLoader loader;
+  const CheckedConfig config = checkConfig(files, urdf.str(), options.port, [&loader](const std::string& name) {
+    const auto transport = loader.load(name);
+    return std::shared_ptr<nord_driver::Transport>(transport.get(), [transport](nord_driver::Transport*) {});
+  });
+  std::fputs((options.json ? configJson(config) : configPicture(config, drawsLines())).c_str(), stdout);
+  return config.accepted() ? kDone : kFailed;
 }
 
 using Task = std::function<bool(ParameterLink&)>;
@@ -90,8 +129,10 @@ int run(int argc, char** argv) {
   namespace po = boost::program_options;
   Options options;
   CommandLine line{"nord_param", nord_driver::kVersion, kAbout, kFooter};
-  line.addOptions()("config", po::value(&options.files)->value_name("FILE")->required(),
-                    "the driver's YAML file; a later file is laid over an earlier one; required")(
+  line.setBrief("parameters of NORD inverters over their bus, without ROS");
+  line.offer("SET", {"1", "2", "3", "4"});
+  line.addOptions()("config", po::value(&options.files)->value_name("FILE"),
+                    "the driver's YAML file; a later file is laid over an earlier one; required, but for check-config")(
       "bus", po::value(&options.port.bus)->value_name("VALUE"),
       "where the bus is: a serial device, a CAN interface or whatever else the file's transport opens, in place of "
       "what the file says")("device", po::value(&options.port.device)->value_name("PATH"),
@@ -105,6 +146,8 @@ int run(int argc, char** argv) {
   Command& write = line.addCommand("write", "write one parameter, in RAM unless told otherwise");
   Command& dump = line.addCommand("dump", "print every known parameter as YAML");
   Command& compare = line.addCommand("compare", "tell how the settings of a drive differ from a dump");
+  Command& image =
+      line.addCommand("image", "show the words of a gateway's image and those that change; writes nothing");
   for (Command* command : {&read, &write, &dump, &compare}) {
     command->arguments.push_back({"DRIVE", "its name in the file", &options.drive});
   }
@@ -119,7 +162,19 @@ int run(int argc, char** argv) {
                               "save it in the EEPROM, which endures 100 000 writes; writes even what is there")(
       "raw", po::bool_switch(&options.write.raw), "VALUE is as transferred; needed where the unit is not known");
   compare.arguments.push_back({"FILE", "what dump has printed", &options.dump});
+  Command& check_config =
+      line.addCommand("check-config", "read a configuration without hardware, and show what was understood");
+  check_config.arguments.push_back({"FILE", "the driver's YAML file; --config lays others over it", &options.checked});
+  check_config.options.add_options()("json", po::bool_switch(&options.json), "for programs")(
+      "urdf", po::value(&options.urdf)->value_name("FILE"),
+      "the robot's URDF, what robot_description is to the driver");
+  image.options.add_options()("once", po::bool_switch(&options.image.once), "show it once, and end")(
+      "json", po::bool_switch(&options.image.json), "one JSON object a line")(
+      "count", po::value(&options.count)->value_name("COUNT"),
+      "so many words at least; without it up to the last one of a drive");
   if (const auto code = line.parse(argc, argv)) return *code;
+  if (line.asksFor(check_config)) return check(options);
+  if (options.files.empty()) throw UsageError("the option '--config' is required but missing");
 
   // A write that is under way is not cut off: P560 may have to be put back.
   const std::atomic<bool>& end_asked = catchEndSignals();
@@ -130,6 +185,11 @@ int run(int argc, char** argv) {
   if (line.asksFor(list_command)) {
     list(file, *transport);
     return kDone;
+  }
+  if (line.asksFor(image)) {
+    options.image.words = static_cast<std::size_t>(options.count.value);
+    options.image.patience = nord_driver::seconds(options.timeout.value);
+    return showImage(file, *transport, options.image, end_asked) ? kDone : kFailed;
   }
   const ToolConfig config = readToolConfig(file, options.drive);
   Task task = [&end_asked](ParameterLink& link) { return dumpParameters(link, end_asked); };

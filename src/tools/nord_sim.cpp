@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
       "nord_sim", NORD_DRIVER_VERSION,
       "Simulated NORD inverters: a PROFIBUS DP segment on a pseudo-terminal, or CANopen nodes on a CAN bus.",
       "Exit code: 0 ended when asked to, 1 wrong configuration or another error, 2 wrong usage."};
+  line.setBrief("simulated NORD inverters on their bus, without ROS");
   line.addOptions()("config", po::value(&files)->value_name("FILE...")->multitoken()->required(),
                     "YAML file with bus, drives and body; a later file is laid over an earlier one; required")(
       "bus", po::value(&port.bus)->value_name("VALUE"),

@@ -119,5 +119,18 @@ TEST(YamlSettings, ALaterFileIsLaidOverAnEarlierOne) {
   EXPECT_THAT(refusal([&] { readYamlFiles({first}); }), HasSubstr(first));
 }
 
+// As on the parameter server, where a slash in a name begins a namespace.
+TEST(YamlSettings, ASlashInAKeyBeginsAGroup) {
+  const YamlSettings settings{"", YAML::Load("linear/x: {max_velocity: 0.5}\n"
+                                             "linear/y/max_velocity: 0.3\n"
+                                             "linear: {z: {max_velocity: 0.1}}\n"
+                                             "drives: {left: {a/b: 1}}")};
+  EXPECT_EQ(0.5, settings.number("linear/x/max_velocity"));
+  EXPECT_EQ(0.3, settings.number("linear/y/max_velocity"));
+  EXPECT_EQ(0.1, settings.number("linear/z/max_velocity"));
+  EXPECT_EQ(1, settings.group("drives")->group("left")->integer("a/b"));
+  EXPECT_EQ((std::vector<std::string>{"drives", "linear"}), settings.keys());
+}
+
 }  // namespace
 }  // namespace nord_driver

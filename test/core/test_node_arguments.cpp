@@ -10,7 +10,13 @@ namespace {
 
 std::optional<ProgramAnswer> answer(std::vector<const char*> arguments) {
   arguments.insert(arguments.begin(), "/path/to/node");
-  return answerArguments(static_cast<int>(arguments.size()), arguments.data(), "some_node", "usage: some_node\n");
+  ProgramText text;
+  text.name = "some_node";
+  text.version = kVersion;
+  text.about = "It is one.";
+  text.options = commonOptions();
+  text.footer = "Exit code: 0.";
+  return answerArguments(static_cast<int>(arguments.size()), arguments.data(), text);
 }
 
 // What roslaunch adds is ROS's own affair.
@@ -24,7 +30,9 @@ TEST(NodeArguments, HelpAndVersionAreAnswered) {
   for (const char* word : {"--help", "-h"}) {
     const auto help = answer({"__name:=x", word});
     ASSERT_TRUE(help) << word;
-    EXPECT_EQ(help->output, "usage: some_node\n");
+    EXPECT_EQ(help->output,
+              "It is one.\n  some_node [--help] [--version] [--manual-page] [--bash-completion] [NAME:=VALUE ...]\n"
+              "Exit code: 0.\n");
     EXPECT_EQ(help->error, "");
     EXPECT_EQ(help->exit_code, 0);
   }

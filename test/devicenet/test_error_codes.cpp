@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
@@ -24,6 +25,40 @@ TEST(ErrorCodes, EachHasASentence) {
   }
   EXPECT_EQ(nullptr, generalErrorMeaning(0x2B));
   EXPECT_EQ(nullptr, additionalErrorMeaning(service::kGetAttributeSingle, 1));
+}
+
+// The table of facts 3.3, each code by its own words: a row that slipped would tell something else.
+TEST(ErrorCodes, SayWhatTheyAre) {
+  const struct {
+    std::uint8_t code;
+    const char* words;
+  } kTable[] = {{0x02, "resource"},
+                {0x08, "service is not supported"},
+                {0x09, "value of the attribute is invalid"},
+                {0x0B, "in that state already"},
+                {0x0C, "object cannot do that in its present state"},
+                {0x0E, "cannot be set"},
+                {0x0F, "privilege"},
+                {0x10, "device cannot do that in its present state"},
+                {0x11, "reply is too large"},
+                {0x13, "not enough data"},
+                {0x14, "attribute is not supported"},
+                {0x15, "too much data"},
+                {0x16, "object does not exist"},
+                {0x19, "storing"},
+                {0x1F, "manufacturer"},
+                {0x20, "parameter of the request is invalid"},
+                {0x2A, "Group-2-only"}};
+  for (const auto& row : kTable) {
+    EXPECT_THAT(generalErrorMeaning(row.code), testing::HasSubstr(row.words)) << unsigned{row.code};
+    EXPECT_THAT(errorText(service::kGetAttributeSingle, row.code, kNoAdditionalCode).c_str(),
+                testing::HasSubstr(row.words));
+  }
+  const char* const kAllocate[] = {"allocated already", "does not have these connections", "only allocate and release",
+                                   "no room"};
+  for (std::uint8_t code = 1; code <= 4; ++code) {
+    EXPECT_THAT(errorText(service::kAllocate, 0x02, code).c_str(), testing::HasSubstr(kAllocate[code - 1]));
+  }
 }
 
 TEST(ErrorCodes, Sentences) {

@@ -114,6 +114,24 @@ TEST(StartUp, TakesOverWhatIsLeftOfIt) {
   EXPECT_EQ(0x02, run.devices[0]->released_last);
 }
 
+// Off and on again between the two allocations: the second one is refused for want of the first. That is no refusal of the
+// process data, and no reason to wait: everything begins again.
+TEST(StartUp, AModuleThatStartsAnewBetweenTheAllocations) {
+  ScannerRun run{busConfig(1)};
+  bool once = true;
+  run.on_sent = [&](const CanFrame& frame) {
+    if (!once || frame.id != 0x42E || frame.data[1] != 0x4B || frame.data[4] != 0x02) return;
+    once = false;
+    run.devices[0]->powerOff();
+    run.devices[0]->powerOn();
+  };
+  run.begin();
+  ASSERT_TRUE(run.runUntil([&] { return !once; }, seconds{3}));
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, milliseconds{500})) << run.scanner.status(0).reason.c_str();
+  EXPECT_EQ(0u, run.scanner.status(0).counters.refusals);
+  EXPECT_THAT(run.violations(), testing::IsEmpty());
+}
+
 // Explicit messages alone: no process data, but the connection is watched.
 TEST(StartUp, ExplicitMessagesAlone) {
   ScannerConfig config = busConfig(1);

@@ -52,6 +52,38 @@ TEST(DriveProtection, P513OfMinusOneTenthRunsOn) {
   EXPECT_EQ(Level::kError, assess(identity(TimeoutOwner::kModule), withP513(-0.1)).level);
 }
 
+// Behind a gateway that may repeat the last words P513 alone notices nothing, known or not; what ends the words and P513
+// stop the drive together, one after the other.
+TEST(DriveProtection, WhoMayRepeatTheLastWordsHasToEndThemFirst) {
+  DriveIdentity gateway = identity(TimeoutOwner::kInverter, "", 0.0);
+  gateway.timeout_notices = false;
+  for (const auto p513 : {std::optional<double>{}, std::optional<double>{0.2}}) {
+    const ProtectionReport alone = assess(gateway, withP513(p513));
+    EXPECT_EQ(Level::kError, alone.level);
+    EXPECT_EQ(
+        "nothing that is known: what stands between this computer and the drive may repeat the last control words for "
+        "ever, and P513 does not notice that",
+        alone.text);
+  }
+  gateway.protected_by = "watchdog of the gateway";
+  gateway.protection_time = 0.2;
+  gateway.timeout_needed = true;
+  const ProtectionReport unknown = assess(gateway, withP513(std::nullopt));
+  EXPECT_EQ(Level::kWarning, unknown.level);
+  EXPECT_EQ("watchdog of the gateway; P513, without which it would run on, is not known", unknown.text);
+  const ProtectionReport off = assess(gateway, withP513(0.0));
+  EXPECT_EQ(Level::kError, off.level);
+  EXPECT_EQ("nothing: watchdog of the gateway, but P513 = 0: it would run on", off.text);
+  const ProtectionReport both = assess(gateway, withP513(0.2));
+  EXPECT_EQ(Level::kFine, both.level);
+  EXPECT_EQ("watchdog of the gateway; P513 of 0.2 s after that", both.text);
+  const ProtectionReport late = assess(gateway, withP513(0.2), 0.3);
+  EXPECT_EQ(Level::kWarning, late.level);
+  EXPECT_THAT(late.text, HasSubstr("that is 0.4 s after the last telegram"));
+  gateway.timeout_needed = false;
+  EXPECT_EQ(Level::kFine, assess(gateway, withP513(0.0)).level) << "its zeros switch off";
+}
+
 // It may be -0.1: nobody knows whether this drive stops.
 TEST(DriveProtection, WhatCouldNotBeReadIsWarnedAbout) {
   const ProtectionReport inverter = assess(identity(), withP513(std::nullopt));

@@ -5,6 +5,7 @@
 #include "node/node_config.h"
 #include "node/parameters.h"
 #include "node/ros_settings.h"
+#include "node/what_is_offered.h"
 #include "node/wheel_state_publisher.h"
 
 namespace nord_driver::node {
@@ -125,7 +126,7 @@ TEST(NodeConfigTest, KnowsTheKeysOfDiffDriveController) {
   value["odom_frame_id"] = std::string{"other_frame"};
   value["pose_covariance_diagonal"] = value["twist_covariance_diagonal"] = listOf<double>({1, 2, 3, 4, 5, 6});
   const RosSettings settings{"~", value};
-  const NodeConfig config = readNodeConfig(settings);
+  const NodeConfig config = withWhatIsOffered(readNodeConfig(settings), settings);
   EXPECT_THAT(settings.unknownKeys(), IsEmpty());
   EXPECT_EQ(WheelStatePublisher::isOffered(), config.publish.publish_wheel_states);
   if (WheelStatePublisher::isOffered()) {

@@ -295,10 +295,6 @@ Answer askUnderCommand(const std::function<ros::Time()>& last_command, const std
   return answer;
 }
 
-bool onCanopen() {
-  return ros::param::param("nord_driver/transport", std::string{}) == "nord_driver/canopen";
-}
-
 bool isError(int level, const std::string&) {
   return level == diagnostic_msgs::DiagnosticStatus::ERROR;
 }

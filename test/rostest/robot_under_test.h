@@ -18,6 +18,7 @@
 #include "nord_driver/DriveStatus.h"
 #include "nord_driver/SimDrive.h"
 #include "ros_support/service_call.h"
+#include "rostest/bus_under_test.h"
 #include "rostest/node_process.h"
 #include "rostest/topic.h"
 
@@ -143,9 +144,6 @@ Seconds driveTimeout();
 Answer askUnderCommand(
     const std::function<ros::Time()>& last_command, const std::function<Answer()>& ask,
     const std::function<void()>& take_back, const std::function<void()>& begin = [] {});
-
-/// The robot of this run is on CANopen: its launch file says so.
-bool onCanopen();
 
 /// The level of a task of /diagnostics; for `waitForDiagnostics`.
 bool isError(int level, const std::string& message);

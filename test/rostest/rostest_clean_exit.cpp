@@ -90,17 +90,17 @@ TEST_P(CleanExit, RampsDownAndLeavesDrivesReadyToSwitchOn) {
   RampSeen ramp;
   for (const auto& [drive, from] :
        {std::make_pair(&robot().left, left_from), std::make_pair(&robot().right, right_from)}) {
-    // The watchdog keeps what was said last. A CANopen node is let go before it could miss anybody.
+    // The watchdog keeps what was said last. Who is let go does not miss anybody.
     const auto left_alone = [&](const SimDrive& truth) {
-      return onCanopen() ? !truth.in_data_exchange : truth.watchdog_trips == trips_before + 1;
+      return bus().lets_go ? !truth.in_data_exchange : truth.watchdog_trips == trips_before + 1;
     };
     const auto last = drive->truth.waitFrom(from, left_alone);
     ASSERT_TRUE(last);
     EXPECT_EQ(last->zero_control_words, 0u) << "bit 10 was set to the last telegram";
-    EXPECT_EQ(onCanopen() ? last->control_word : last->last_control_word_before_loss, 0x047E);
-    const std::uint16_t status = onCanopen() ? last->status_word : last->status_word_at_loss;
+    EXPECT_EQ(bus().lets_go ? last->control_word : last->last_control_word_before_loss, 0x047E);
+    const std::uint16_t status = bus().lets_go ? last->status_word : last->status_word_at_loss;
     EXPECT_TRUE(isReadyToSwitchOn(status)) << std::hex << status;
-    EXPECT_TRUE(!onCanopen() || last->fault_number == 0) << last->fault_number;
+    EXPECT_TRUE(!bus().lets_go || last->fault_number == 0) << last->fault_number;
 
     std::set<int> steps;
     int before = 1 << 15;

@@ -72,7 +72,7 @@ TEST_F(Defaults, AreWhatIsDrivenWith) {
   Topic<DeviceInfo> topic(node, "nord_driver/left/device_info");
   const auto info = topic.waitFrom(0, [](const DeviceInfo& device) { return !device.protected_by.empty(); });
   ASSERT_TRUE(info);
-  EXPECT_THAT(info->protected_by, HasSubstr(onCanopen() ? "node guarding" : "watchdog of 0.2 s"));
+  EXPECT_THAT(info->protected_by, HasSubstr(bus().default_protection));
 }
 
 // Enabled, up to speed, a second of steady driving in which no drive is missed, and down again by ~enable: nothing but

@@ -19,16 +19,15 @@ constexpr Seconds kFound{3.0};
 
 class DeviceMissing : public ::testing::Test {
  protected:
-  void SetUp() override {
-    ASSERT_TRUE(ros::param::get(onCanopen() ? "nord_driver/bus/interface" : "nord_driver/bus/device", device_));
-  }
+  void SetUp() override { ASSERT_TRUE(ros::param::get(std::string("nord_driver/bus/") + bus().end_point, device_)); }
 
   void startSimulator() {
     simulator_ = std::make_unique<NodeProcess>(kSimulatorProgram, std::vector<std::string>{"__name:=nord_sim"});
     // A virtual bus is nothing to be seen in a file system.
     struct stat info {};
     const auto is_there = [&] {
-      return onCanopen() ? ros::service::exists("/nord_sim/referee", false) : ::stat(device_.c_str(), &info) == 0;
+      return bus().end_point_is_file ? ::stat(device_.c_str(), &info) == 0
+                                     : ros::service::exists("/nord_sim/referee", false);
     };
     ASSERT_TRUE(eventually(is_there)) << simulator_->errorText();
   }
@@ -79,7 +78,7 @@ TEST_F(DeviceMissing, IsSaidLookedForFoundAndLookedForAgain) {
 
   // An adapter pulled out: its name goes, and its device hangs up. Were the name left, it would soon lead to the pty of
   // another test: the kernel gives the number of a pty that is closed to the next one.
-  if (!onCanopen()) {
+  if (bus().end_point_is_file) {
     ASSERT_EQ(0, ::unlink(device_.c_str()));
   }
   simulator_->signal(SIGKILL);

@@ -16,11 +16,10 @@ constexpr double kTurning = 1.0;  // rad/s at the wheel
 
 using Killed = RobotTest;
 
-// The module's watchdog or the node's life time expires, the inverter trips E10.2 or E10.0 and takes the voltage off:
+// The module's watchdog, its time-out or the node's life time expires, the inverter trips E10.2 or E10.0 and takes the voltage off:
 // the wheel coasts, no ramp (BU 0220 6.1). A node that starts over it names the fault and neither acknowledges nor
 // enables by itself.
 TEST_F(Killed, TheDrivesSwitchOffByTheirWatchdogAndTheNextNodeNamesTheFault) {
-  const std::uint16_t master_lost = onCanopen() ? 100 : 102;  // as P700 shows it
   ASSERT_NO_FATAL_FAILURE(startDriver());
   ASSERT_NO_FATAL_FAILURE(enableAndDrive(0.4));
   const std::size_t left_from = robot().left.truth.mark();
@@ -34,7 +33,7 @@ TEST_F(Killed, TheDrivesSwitchOffByTheirWatchdogAndTheNextNodeNamesTheFault) {
        {std::make_pair(&robot().left, left_from), std::make_pair(&robot().right, right_from)}) {
     const auto off = drive->truth.waitFrom(from, [](const SimDrive& truth) { return !truth.operation_enabled; });
     ASSERT_TRUE(off);
-    EXPECT_EQ(off->fault_number, master_lost);
+    EXPECT_EQ(off->fault_number, bus().master_lost);
     EXPECT_EQ(off->watchdog_trips, 1u);
     EXPECT_EQ(off->last_control_word_before_loss, 0x047F);
     EXPECT_EQ(off->status_word_at_loss & 0x006F, 0x0027) << "operation enabled to the end";

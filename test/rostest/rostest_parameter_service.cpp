@@ -15,11 +15,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// How a refusal names its reason: CANopen by the abort code, PROFIBUS by the error number of the PKW.
-std::string reason(const char* abort_code, int error_number) {
-  return onCanopen() ? std::string("SDO abort ") + abort_code : "PKW error " + std::to_string(error_number);
-}
-
 struct Read : Answer {
   ReadParameter::Response response;
 };
@@ -114,7 +109,8 @@ TEST_F(ParameterService, ReadsAnArrayElementByItsPrintedIndex) {
   EXPECT_TRUE(read("left", 707, 0, 2).success);
   const Read none = read("left", 707, 0, 9);
   EXPECT_FALSE(none.success);
-  EXPECT_THAT(none.message, AllOf(HasSubstr("drive left refuses P707"), HasSubstr(reason("0609 0011h", 3))));
+  EXPECT_THAT(none.message,
+              AllOf(HasSubstr("drive left refuses P707"), HasSubstr(bus().refusal(Refusal::kNoSuchIndex))));
 }
 
 // P420 is in no catalogue of the driver: as transferred, without unit and name.
@@ -131,10 +127,11 @@ TEST_F(ParameterService, SaysInWordsWhatDoesNotExist) {
   EXPECT_THAT(read("left", 105, 5).message, AllOf(HasSubstr("parameter set 5 does not exist"), HasSubstr("0 to 4")));
   const Read unknown = read("left", 999);
   EXPECT_FALSE(unknown.success);
-  EXPECT_THAT(unknown.message, AllOf(HasSubstr("drive left refuses P999"), HasSubstr(reason("0602 0000h", 0))));
+  EXPECT_THAT(unknown.message,
+              AllOf(HasSubstr("drive left refuses P999"), HasSubstr(bus().refusal(Refusal::kUnknownParameter))));
 }
 
-// RAM orders spare the EEPROM (BU 2700 6.5.1.1, AK 11 to 14). An SDO knows none: there it is P560, off and on.
+// RAM orders spare the EEPROM (BU 2700 6.5.1.1, AK 11 to 14). Where there are none it is P560, off and on.
 TEST_F(ParameterService, WritesToRamWithoutTheEeprom) {
   const std::uint64_t before = eepromWrites("left");
   const Written ramp = write("left", 102, 1.5, false, 2);
@@ -143,7 +140,7 @@ TEST_F(ParameterService, WritesToRamWithoutTheEeprom) {
   EXPECT_DOUBLE_EQ(ramp.response.value, 1.5);
   EXPECT_DOUBLE_EQ(read("left", 102, 2).response.value, 1.5);
   EXPECT_DOUBLE_EQ(read("left", 102, 1).response.value, 0.5) << "the other sets stay";
-  EXPECT_LE(eepromWrites("left"), before + (onCanopen() ? 2 : 0));
+  EXPECT_LE(eepromWrites("left"), before + (bus().has_ram_orders ? 0 : 2));
 }
 
 TEST_F(ParameterService, WritesPersistentlyOnceAndTheSameValueNotAtAll) {
@@ -171,12 +168,14 @@ TEST_F(ParameterService, RefusesAValueOutOfRangeInWords) {
   EXPECT_THAT(nan.message, HasSubstr("expected"));
   const Written by_the_inverter = write("left", 102, 400.0, false);
   EXPECT_FALSE(by_the_inverter.success);
-  EXPECT_THAT(by_the_inverter.message, AllOf(HasSubstr("drive left refuses P102"), HasSubstr(reason("0609 0032h", 2))));
+  EXPECT_THAT(by_the_inverter.message,
+              AllOf(HasSubstr("drive left refuses P102"), HasSubstr(bus().refusal(Refusal::kOutOfLimits))));
   EXPECT_DOUBLE_EQ(read("left", 102).response.value, 0.5);
   const Written read_only = write("left", 743, 5.0, false);
   EXPECT_FALSE(read_only.success);
-  EXPECT_THAT(read_only.message, AllOf(HasSubstr("drive left refuses P743"), HasSubstr(reason("0601 0002h", 1))));
-  EXPECT_LE(eepromWrites("left"), before + (onCanopen() ? 2 : 0)) << "P560 off and on";
+  EXPECT_THAT(read_only.message,
+              AllOf(HasSubstr("drive left refuses P743"), HasSubstr(bus().refusal(Refusal::kReadOnly))));
+  EXPECT_LE(eepromWrites("left"), before + (bus().has_ram_orders ? 0 : 2)) << "P560 off and on";
 }
 
 // Without a unit nobody knows what 12 is: a key of the configuration has to allow it.

@@ -5,8 +5,6 @@
 
 #include "rostest/robot_under_test.h"
 #include "support/map_settings.h"
-#include "transport/canopen/canopen.h"
-#include "transport/profibus/profibus_dp.h"
 
 namespace nord_driver::test {
 namespace {
@@ -22,19 +20,14 @@ class EarlierMaster {
     for (const std::string name : {"left", "right"}) {
       auto settings = std::make_shared<MapSettings>(name + "/");
       settings->set("address", name == "left" ? 3 : 4).set("series", "sk5xxe").set("pole_pairs", 2);
-      if (!onCanopen()) settings->set("ppo_type", 1);
+      bus().set_drive(*settings);
       drives.push_back({name, settings});
     }
-    MapSettings bus{"bus/"};
-    if (onCanopen()) {
-      bus.set("interface", ros::param::param("nord_driver/bus/interface", std::string{})).set("sdo_timeout", 1.0);
-      transport_ = std::make_unique<CanopenTransport>();
-    } else {
-      bus.set("device", ros::param::param("nord_driver/bus/device", std::string{})).set("baud_rate", 500'000);
-      bus.set("slot_time", 0.05).set("watchdog", 0.6);
-      transport_ = std::make_unique<ProfibusDpTransport>();
-    }
-    transport_->configure(bus, drives, kRate);
+    MapSettings settings{"bus/"};
+    settings.set(bus().end_point, ros::param::param(std::string("nord_driver/bus/") + bus().end_point, std::string{}));
+    bus().set_bus(settings);
+    transport_ = bus().make_transport();
+    transport_->configure(settings, drives, kRate);
   }
   ~EarlierMaster() { transport_->close(); }
   EarlierMaster(const EarlierMaster&) = delete;

@@ -99,9 +99,9 @@ TEST_F(StartUp, DeviceInfoIsLatched) {
     EXPECT_EQ(info->name, drive);
     EXPECT_EQ(info->address, drive == "left" ? 3 : 4);
     EXPECT_THAT(info->max_frequency, ElementsAre(50.0, 50.0, 25.0, 50.0));
-    EXPECT_EQ(info->ident, onCanopen() ? 0x004E0001u : 0x7531u) << "vendor and product, or the module's ident number";
-    EXPECT_EQ(info->parameter_channel, onCanopen() ? "SDO" : "PKW");
-    EXPECT_THAT(info->protected_by, HasSubstr(onCanopen() ? "node guarding" : "watchdog of 1 s"));
+    EXPECT_EQ(info->ident, bus().ident) << "vendor and product, or the module's ident number";
+    EXPECT_EQ(info->parameter_channel, bus().parameter_channel);
+    EXPECT_THAT(info->protected_by, HasSubstr(bus().protection));
   }
 }
 

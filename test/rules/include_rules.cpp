@@ -65,10 +65,13 @@ const std::map<std::string, Names>& table() {
       {"sim/devicenet", simulatorWith({"link/can", "sim/can"})},
       {"sim/interbus", simulatorWith({"link/modbus"})},
       {"sim_node", {"core", "sim", "ros_support"}},
-      {"tools", {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "sim"}},
+      {"tools",
+       {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "sim", "node/node_config"}},
+      {"node/node_config",  // what a file says, for the node and for the programs
+       {"core", "config", "profile", "transport", "robot", "drive", "cycle", "trace"}},
       {"node",
        {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "trace/*", "tools",
-        "ros_support"}},
+        "node/node_config", "ros_support"}},
       {"system", {"*"}},                             // tests of the whole stack, without ROS
       {"support", {"core", "config", "transport"}},  // what tests of several folders share
       {"ros_support", {}},                           // the same for those with ROS

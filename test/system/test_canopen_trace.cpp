@@ -1,17 +1,11 @@
 // A recording of the bus as others read it: tshark must know every frame, whatever our own decoder thinks of it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <map>
-#include <sstream>
 
-#include "core/can_trace.h"
 #include "system/can_robot.h"
-#include "trace/pcap.h"
+#include "system/recording.h"
 
 namespace nord_driver::test {
 namespace {
@@ -36,50 +30,13 @@ void live(CanRobot& robot) {
   robot.transport().close();
 }
 
-std::string pcapOf(const TelegramTrace& trace) {
-  trace::Pcap pcap{trace.linkType()};
-  for (const TraceRecord& record : trace.copy()) {
-    pcap.add(std::chrono::floor<std::chrono::microseconds>(record.time.time_since_epoch()), record.view());
-  }
-  return pcap.bytes();
-}
-
-std::vector<std::string> linesOf(const std::string& command) {
-  std::vector<std::string> lines;
-  std::FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return lines;
-  char line[4096];
-  while (std::fgets(line, sizeof line, pipe) != nullptr) {
-    lines.emplace_back(line);
-    lines.back().erase(lines.back().find_last_not_of('\n') + 1);
-  }
-  EXPECT_EQ(0, pclose(pipe)) << command;
-  return lines;
-}
-
-class Recording {
- public:
-  explicit Recording(const TelegramTrace& trace) : path_("/tmp/nord_canopen_" + std::to_string(getpid()) + ".pcap") {
-    std::ofstream{path_, std::ios::binary} << pcapOf(trace);
-  }
-  ~Recording() { std::remove(path_.c_str()); }
-  std::vector<std::string> decoded() const {
-    return linesOf("tshark -n -r " + path_ +
-                   " -d can.subdissector,canopen -T fields -e _ws.col.Protocol -e _ws.malformed -e _ws.expert.message"
-                   " -e _ws.col.Info 2>/dev/null");
-  }
-
- private:
-  std::string path_;
-};
-
 void expectKnown(const CanRobot::Options& options) {
-  if (std::system("tshark --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "tshark is not installed";
+  if (!isTsharkThere()) GTEST_SKIP() << "tshark is not installed";
   CanRobot robot{options};
   live(robot);
   const TelegramTrace& trace = *robot.transport().trace();
   ASSERT_LT(trace.recorded(), TelegramTrace::kCapacity) << "the start-up is still in it";
-  const std::vector<std::string> lines = Recording{trace}.decoded();
+  const std::vector<std::string> lines = Recording{trace}.decodedBy("canopen");
   ASSERT_EQ(trace.recorded(), lines.size());
   for (const std::string& line : lines) {
     // tshark hands no remote frame on: guarding's questions stay "CAN".

@@ -83,12 +83,15 @@ TEST_P(DevicenetKinds, Drive) {
   EXPECT_EQ("no rule broken", robot.bus().referee().report());
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, DevicenetKinds,
-    ::testing::Values(std::make_pair("poll", 100), std::make_pair("poll", 101), std::make_pair("poll", 102),
-                      std::make_pair("poll", 21), std::make_pair("cos", 100), std::make_pair("cyclic", 101),
-                      std::make_pair("strobe", 100), std::make_pair("strobe", 101), std::make_pair("strobe", 21)),
-    [](const auto& test) { return std::string{test.param.first} + std::to_string(test.param.second); });
+INSTANTIATE_TEST_SUITE_P(All, DevicenetKinds,
+                         ::testing::Values(std::make_pair("poll", 100), std::make_pair("poll", 101),
+                                           std::make_pair("poll", 102), std::make_pair("poll", 120),
+                                           std::make_pair("poll", 21), std::make_pair("cos", 100),
+                                           std::make_pair("cyclic", 101), std::make_pair("strobe", 100),
+                                           std::make_pair("strobe", 101), std::make_pair("strobe", 21)),
+                         [](const auto& test) {
+                           return std::string{test.param.first} + std::to_string(test.param.second);
+                         });
 
 // One module, four inverters in 33 bytes: P151 is shared, sets are each one's own.
 TEST(DevicenetFourInverters, ShareAModule) {

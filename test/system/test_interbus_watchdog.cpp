@@ -80,6 +80,12 @@ TEST(DeadComputerDrivecom, TheWatchdogStopsTheDrives) {
     InterbusRobot robot{options};
     ASSERT_TRUE(robot.bringUpAndEnable());
     robot.drive(kHalfSpeed, 0.0, seconds{3});
+    EXPECT_FALSE(robot.transport().identity(0).timeout_needed);
+    EXPECT_EQ(
+        "watchdog of the gateway (register 300 = 200), which ends its outputs: zeros are DRIVECOM's \"voltage "
+        "disabled\", "
+        "and the motor coasts",
+        robot.transport().identity(0).protected_by);
     robot.gateway().run(milliseconds{210});
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_EQ(sim::InverterState::kSwitchOnDisabled, robot.unit(i).inverter().state()) << p513;

@@ -291,5 +291,41 @@ TEST_F(NordParam, TellsItsVersionAndWhyThereIsNoRestore) {
   EXPECT_THAT(help.output, HasSubstr("A dump cannot be written back"));
 }
 
+// In an InterBus ring behind a gateway, where the parameters go by Compact PCP.
+TEST(NordParamOnAGateway, ShowsTheImageAndReadsParameters) {
+  const std::string config = ::testing::TempDir() + "nord_param_gateway_" + std::to_string(::getpid()) + ".yaml";
+  std::ofstream(config) << R"(
+transport: interbus
+bus: {outputs: {address: 100}, running: {address: 200}, watchdog: {address: 300, value: 500},
+      pcp: {invoke: {address: 500}, result: {address: 600}}}
+drives:
+  left:  {address: 1, series: sk5xxe, joint: left_wheel_joint,  gear_ratio: 20.0, pole_pairs: 2}
+  right: {address: 2, series: sk5xxe, joint: right_wheel_joint, gear_ratio: 20.0, pole_pairs: 2}
+)";
+  Program simulator({NORD_SIM_PROGRAM, "--config", config, "--bus", "127.0.0.1:0"});
+  ASSERT_TRUE(simulator.saysSomething(seconds{30})) << simulator.errors();
+  const std::string gateway = simulator.output().substr(0, simulator.output().find('\n'));
+  EXPECT_THAT(gateway, StartsWith("127.0.0.1:")) << "a free port, printed";
+  const auto run = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> command{NORD_PARAM_PROGRAM, "--config", config, "--bus", gateway, "--timeout", "20"};
+    command.insert(command.end(), words.begin(), words.end());
+    return runProgram(command);
+  };
+  const Ended image = run({"image", "--once"});
+  EXPECT_EQ(0, image.code) << image.errors;
+  EXPECT_THAT(image.output, HasSubstr("Inputs of " + gateway + ", function 4, registers 0 to 3; nothing is written\n"));
+  EXPECT_THAT(image.output, HasSubstr("   right         actual value 1\n"));
+  const Ended many = run({"image", "--once", "--json", "--count", "3"});
+  EXPECT_THAT(many.output, HasSubstr("\"register\": 3")) << "up to the last word of a drive " << many.errors;
+  const Ended read = run({"read", "right", "P105", "--set", "1"});
+  EXPECT_EQ(0, read.code) << read.errors;
+  EXPECT_THAT(read.output, HasSubstr("P105 set 1 Maximum frequency = 50 Hz (raw 500)"));
+  EXPECT_THAT(run({"read", "left", "P999"}).errors, HasSubstr("refuses P999: PCP error 6/7"));
+  simulator.signal(SIGTERM);
+  EXPECT_EQ(0, simulator.wait(seconds{30}));
+  EXPECT_THAT(simulator.output(), HasSubstr("referee: no rule broken"));
+  ::unlink(config.c_str());
+}
+
 }  // namespace
 }  // namespace nord_driver::test

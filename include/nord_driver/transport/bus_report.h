@@ -37,6 +37,10 @@ struct DriveIdentity {
   std::string protected_by;      ///< what of this bus stops the drive when this computer dies, in words; empty: nothing
   double protection_time = 0.0;  ///< s until that acts; 0: not known
   TimeoutOwner timeout_owner = TimeoutOwner::kInverter;
+  /// False: something between this computer and the drive may repeat the last words for ever, so that the time-out of
+  /// the drive does not notice by itself that this computer is dead; `protected_by` has to end the words first.
+  bool timeout_notices = true;
+  bool timeout_needed = false;  ///< `protected_by` stops the drive only together with a time-out of the drive above 0
   std::uint8_t inverter = 1;  ///< 1..4 behind a bus module that serves several
   /// Drives with the same number are behind the same bus module; nothing: this one has a module of its own.
   std::optional<std::size_t> shared_module = std::nullopt;

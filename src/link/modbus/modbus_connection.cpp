@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <modbus/modbus.h>
+#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -85,9 +86,39 @@ bool ModbusConnection::open(const Wakeup& stop) noexcept {
   }
   if (socket_ < 0) return fail(ModbusTrouble::kNoConnection, what.c_str());
   ::modbus_set_socket(context_.get(), socket_);
+  noteEnds();
   has_answered_ = false;
   trouble_ = ModbusTrouble::kNone;
   return true;
+}
+
+void ModbusConnection::noteEnds() noexcept {
+  heard_ = {};
+  if (settings_.listener == nullptr) return;
+  const auto read = [this](auto ask, std::uint32_t& address, std::uint16_t& port) {
+    sockaddr_storage end{};
+    socklen_t size = sizeof end;
+    if (ask(socket_, reinterpret_cast<sockaddr*>(&end), &size) != 0) return;
+    if (end.ss_family == AF_INET6) port = ntohs(reinterpret_cast<const sockaddr_in6&>(end).sin6_port);
+    if (end.ss_family != AF_INET) return;
+    const auto& v4 = reinterpret_cast<const sockaddr_in&>(end);
+    address = ntohl(v4.sin_addr.s_addr);
+    port = ntohs(v4.sin_port);
+  };
+  read(::getsockname, heard_.own_address, heard_.own_port);
+  read(::getpeername, heard_.server_address, heard_.server_port);
+}
+
+void ModbusConnection::hear(bool sent, const ModbusRequest& request, ByteView bytes, Instant time) noexcept {
+  if (settings_.listener == nullptr) return;
+  heard_.sent = sent;
+  heard_.bytes = bytes;
+  heard_.time = time;
+  heard_.first_register =
+      request.function == ModbusFunction::kWriteRegisters ? request.write.first : request.read.first;
+  settings_.listener->handleTelegram(heard_);
+  (sent ? heard_.bytes_sent : heard_.bytes_received) += static_cast<std::uint32_t>(bytes.size());
+  heard_.bytes = {};
 }
 
 // Whatever lies there now is no answer to a request that has not been sent.
@@ -124,7 +155,11 @@ bool ModbusConnection::exchange(ModbusRequest request, const Wakeup& stop) noexc
   request.transaction = ++transaction_;
   sent_ = now();
   const Instant until = sent_ + settings_.response_timeout;
-  if (!send(toBytes(request)) || !waitAnswer(request, until, stop) || !readAnswer(request, until)) return false;
+  const ModbusAdu bytes = toBytes(request);
+  if (!send(bytes)) return false;
+  hear(true, request, ByteView{bytes}, sent_);
+  if (!waitAnswer(request, until, stop) || !readAnswer(request, until)) return false;
+  hear(false, request, ByteView{answer_}, now());
   const AnswerVerdict verdict = judge(request, ByteView{answer_});
   if (!verdict.good()) {
     const bool refused = verdict.fault == AnswerFault::kException;

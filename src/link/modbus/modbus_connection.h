@@ -10,6 +10,7 @@
 
 #include "link/modbus/host_resolver.h"
 #include "link/modbus/modbus_telegram.h"
+#include "link/modbus/telegram_listener.h"
 #include "link/modbus/wakeup.h"
 
 struct _modbus;  // NOLINT(bugprone-reserved-identifier): the name libmodbus gives it
@@ -62,6 +63,8 @@ class ModbusConnection {
   bool fail(ModbusTrouble trouble, const char* what) noexcept;
   bool isQuiet() noexcept;
   bool send(const ModbusAdu& bytes) noexcept;
+  void noteEnds() noexcept;
+  void hear(bool sent, const ModbusRequest& request, ByteView bytes, Instant time) noexcept;
   bool waitAnswer(const ModbusRequest& request, Instant until, const Wakeup& stop) noexcept;
   bool readAnswer(const ModbusRequest& request, Instant until) noexcept;
 
@@ -73,6 +76,7 @@ class ModbusConnection {
   bool has_answered_ = false;  // on this connection
   Instant sent_{};
   ModbusAdu answer_;
+  HeardTelegram heard_;  // what is the same for all telegrams of this connection
   Sentence reason_;
   ModbusTrouble trouble_ = ModbusTrouble::kNone;
 };

@@ -44,30 +44,6 @@ bool ModbusExchange::ask(const ModbusRequest& request, const Wakeup& stop) noexc
   return true;
 }
 
-bool ModbusExchange::start(const Wakeup& stop) noexcept {
-  written_.clear();
-  if (!settings_.watchdog) return true;
-  const WatchdogRegister& watchdog = *settings_.watchdog;
-  ModbusRequest write;
-  write.function = ModbusFunction::kWriteRegisters;
-  write.write = {watchdog.address, 1};
-  write.values = &watchdog.value;
-  ModbusRequest read;
-  read.function = ModbusFunction::kReadHoldingRegisters;
-  read.read = {watchdog.address, 1};
-  if (!ask(write, stop) || !ask(read, stop)) {
-    Sentence why = reason_;
-    reason_.format("the watchdog of the gateway was not set: %.200s", why.c_str());
-    return false;
-  }
-  if (connection_.answered(0) == watchdog.value) return true;
-  reason_.format(
-      "%s holds %u in its watchdog register %u after %u was written there: it would not stop the drives as "
-      "configured",
-      settings_.server.c_str(), connection_.answered(0), watchdog.address, watchdog.value);
-  return false;
-}
-
 void ModbusExchange::addWrite(std::size_t part, const RegisterImage& outputs, ModbusRequest& request) const noexcept {
   request.function = settings_.outputs.function;
   request.write = registersOf(settings_.outputs, part);
@@ -123,19 +99,6 @@ bool ModbusExchange::moveImages(const RegisterImage& outputs, RegisterInputs& in
   return true;
 }
 
-bool ModbusExchange::askRunning(RegisterInputs& inputs, const Wakeup& stop) noexcept {
-  inputs.bus_runs = true;
-  if (!settings_.running) return true;
-  const RunningFlag& flag = *settings_.running;
-  ModbusRequest request;
-  request.function = flag.function;
-  request.read = {flag.address, 1};
-  if (!ask(request, stop)) return false;
-  inputs.running = connection_.answered(0);
-  inputs.bus_runs = (inputs.running & flag.mask) == flag.value;
-  return true;
-}
-
 bool ModbusExchange::run(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept {
   for (const WordRange& part : settings_.outputs.parts) {
     if (part.end() <= outputs.size()) continue;
@@ -144,8 +107,7 @@ bool ModbusExchange::run(const RegisterImage& outputs, RegisterInputs& inputs, c
   }
   inputs.words.clear();
   inputs.asked = std::chrono::steady_clock::now();
-  // The bus first: whether it ran is to be known of the time in which the inputs were read.
-  if (!moveImages(outputs, inputs, stop) || !askRunning(inputs, stop)) return false;
+  if (!moveImages(outputs, inputs, stop)) return false;
   inputs.received = std::chrono::steady_clock::now();
   return true;
 }

@@ -21,9 +21,8 @@ class ModbusExchange {
   ModbusExchange(const ModbusSettings& settings, ModbusConnection& connection) noexcept
       : settings_(settings), connection_(connection) {}
 
-  /// Once on each connection, before anything else: writes the watchdog and reads it back. A server that does not hold
-  /// it is not used, for it would not do what was counted on. False: `reason()`.
-  bool start(const Wakeup& stop) noexcept;
+  /// Once on each connection, before anything else.
+  void start() noexcept { written_.clear(); }
   /// Writes `outputs`, reads `inputs`. False: `inputs` are of no use, `reason()`.
   bool run(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept;
 
@@ -37,7 +36,6 @@ class ModbusExchange {
   void noteWritten(std::size_t part, const RegisterImage& outputs) noexcept;
   void takeRead(std::size_t part, RegisterInputs& inputs) noexcept;
   bool moveImages(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept;
-  bool askRunning(RegisterInputs& inputs, const Wakeup& stop) noexcept;
 
   const ModbusSettings& settings_;
   ModbusConnection& connection_;

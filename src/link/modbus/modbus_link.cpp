@@ -5,13 +5,20 @@
 #include <algorithm>
 #include <exception>
 
+#include "link/modbus/trouble_counters.h"
 #include "link/waiting.h"
 
 namespace nord_driver::link {
 
 ModbusLink::ModbusLink(const ModbusSettings& settings, LookUp look_up)
-    : settings_(settings), connection_(settings_, std::move(look_up)), exchange_(settings_, connection_) {
-  if (checkModbusSettings(settings_, problem_)) problem_.clear();
+    : settings_(settings),
+      connection_(settings_, look_up),
+      exchange_(settings_, connection_),
+      acyclic_(settings_, connection_),
+      backoff_(settings_.first_pause, settings_.longest_pause) {
+  if (!checkModbusSettings(settings_, problem_)) return;
+  problem_.clear();
+  if (!settings_.diagnosis.empty()) diagnosis_.emplace(settings_, std::move(look_up));
 }
 
 ModbusLink::~ModbusLink() {
@@ -27,11 +34,13 @@ bool ModbusLink::open() noexcept {
     stop_.take();
     fresh_.take();
     ending_ = false;
-    pause_ = settings_.first_pause;
+    backoff_.succeeded();
     try {
+      if (diagnosis_) diagnosis_->open();
       thread_ = std::thread([this] { work(); });
       return true;
     } catch (const std::exception& error) {
+      if (diagnosis_) diagnosis_->close();
       report_.text.format("no thread for the link to %s: %s", settings_.server.c_str(), error.what());
     }
   }
@@ -44,12 +53,31 @@ void ModbusLink::close() noexcept {
   ending_ = true;
   stop_.signal();
   thread_.join();
+  if (diagnosis_) diagnosis_->close();
 }
 
 std::uint64_t ModbusLink::give(const RegisterImage& outputs) noexcept {
   outputs_.write({++given_, outputs});
   fresh_.signal();
   return given_;
+}
+
+std::uint64_t ModbusLink::order(const RegisterOrder& order) noexcept {
+  if (diagnosis_) return diagnosis_->order(order);
+  const std::uint64_t number = desk_.place(order);
+  fresh_.signal();
+  return number;
+}
+
+const LinkReport& ModbusLink::report() noexcept {
+  if (!diagnosis_) return reports_.read();
+  whole_report_ = reports_.read();
+  const LinkReport& second = diagnosis_->report();
+  addConnection(second.counters, whole_report_.counters);
+  if (whole_report_.text.empty() && !second.text.empty()) {
+    whole_report_.text.format("diagnosis: %s", second.text.c_str());
+  }
+  return whole_report_;
 }
 
 bool ModbusLink::waitAnswers(Instant until) noexcept {
@@ -69,7 +97,12 @@ void ModbusLink::work() noexcept {
       failed();
     } else {
       waitForOutputs();
-      if (!ending() && fresh_.take()) exchangeOnce();
+      if (ending() || !fresh_.take()) continue;
+      // An order goes after the images of its cycle.
+      if (exchangeOnce() && !desk_.serve(acyclic_, connection_, stop_, report_.counters)) {
+        report_.text = acyclic_.reason();
+        failed();
+      }
     }
   }
   connection_.close();
@@ -87,10 +120,8 @@ bool ModbusLink::connect() noexcept {
     }
     ++report_.counters.connections;
   }
-  if (!exchange_.start(stop_)) {
-    report_.text = exchange_.reason();
-    return false;
-  }
+  if (!startWatchdog()) return false;
+  exchange_.start();
   // What was meant for the time before is not sent.
   fresh_.take();
   last_outputs_ = outputs_.read().number;
@@ -99,38 +130,84 @@ bool ModbusLink::connect() noexcept {
   return true;
 }
 
+bool ModbusLink::startWatchdog() noexcept {
+  if (!acyclic_.writeWatchdog(stop_) || (!diagnosis_ && !acyclic_.checkWatchdog(stop_))) {
+    report_.text = acyclic_.reason();
+    return false;
+  }
+  return !diagnosis_ || !settings_.watchdog || isWatchdogHeld();
+}
+
+// Over the second connection, which may have to be made first.
+bool ModbusLink::isWatchdogHeld() noexcept {
+  const std::uint64_t question = diagnosis_->askWatchdog();
+  const Instant until = now() + settings_.connect_timeout + settings_.response_timeout;
+  while (!ending() && now() < until) {
+    const DiagnosisState& state = diagnosis_->state();
+    if (state.watchdog_read == question) {
+      if (!state.watchdog_held) report_.text = state.watchdog_text;
+      return state.watchdog_held;
+    }
+    diagnosis_->waitTold(until, stop_);
+  }
+  report_.text.format("the watchdog of the gateway was not read back: %.200s", diagnosis_->state().text.c_str());
+  return false;
+}
+
 void ModbusLink::waitForOutputs() noexcept {
   pollfd waits[] = {{fresh_.descriptor(), POLLIN, 0}, {stop_.descriptor(), POLLIN, 0}};
   ::ppoll(waits, 2, nullptr, nullptr);
 }
 
-void ModbusLink::exchangeOnce() noexcept {
+// False: it has failed.
+bool ModbusLink::exchangeOnce() noexcept {
   const Outputs& outputs = outputs_.read();
-  if (outputs.number == last_outputs_) return;
+  if (outputs.number == last_outputs_) return true;
   report_.counters.skipped_outputs += outputs.number - last_outputs_ - 1;
   last_outputs_ = outputs.number;
+  if (diagnosis_) diagnosis_->ask();
   if (!exchange_.run(outputs.words, newest_, stop_)) {
     report_.text = exchange_.reason();
     failed();
-    return;
+    return false;
+  }
+  // Last: whether the bus ran is to be known of the time in which the inputs were read.
+  if (!readRunning()) {
+    report_.text = acyclic_.reason();
+    failed();
+    return false;
   }
   newest_.outputs = outputs.number;
-  ++newest_.number;
-  inputs_.write(newest_);
-  pause_ = settings_.first_pause;
   ++report_.counters.exchanges;
-  report_.counters.requests = exchange_.requests();
+  report_.counters.requests = exchange_.requests() + acyclic_.requests();
   report_.text.clear();
+  backoff_.succeeded();
+  // Inputs of a bus nobody knows of are none.
+  if (newest_.asked != Instant{}) {
+    ++newest_.number;
+    inputs_.write(newest_);
+  }
   tell(LinkState::kConnected);
+  return true;
+}
+
+bool ModbusLink::readRunning() noexcept {
+  RunningState running;
+  if (!diagnosis_ && !acyclic_.readRunning(running, stop_)) return false;
+  if (diagnosis_) running = diagnosis_->state().running;
+  newest_.bus_runs = running.known && running.bus_runs;
+  newest_.running = running.value;
+  if (diagnosis_ && settings_.running) newest_.asked = std::min(newest_.asked, running.asked);
+  return true;
 }
 
 void ModbusLink::failed() noexcept {
   if (ending()) return;
   const ModbusTrouble trouble = connection_.trouble();
-  count(trouble);
+  countTrouble(trouble, report_.counters);
+  desk_.refuse(report_.text);
   tell(LinkState::kPausing);
-  const Instant until = now() + pause_;
-  pause_ = std::min(2 * pause_, settings_.longest_pause);
+  const Instant until = backoff_.failed(now());
   if (trouble == ModbusTrouble::kSilent && connection_.isLate(until, stop_)) {
     ++report_.counters.late;
     report_.text = connection_.reason();
@@ -148,36 +225,6 @@ void ModbusLink::pause(Instant until) noexcept {
   pollfd wait{stop_.descriptor(), POLLIN, 0};
   const timespec left = toTimeout(until - now());
   ::ppoll(&wait, 1, &left, nullptr);
-}
-
-void ModbusLink::count(ModbusTrouble trouble) noexcept {
-  LinkCounters& counters = report_.counters;
-  switch (trouble) {
-    case ModbusTrouble::kNoConnection:
-      ++counters.connect_failures;
-      break;
-    case ModbusTrouble::kClosed:
-      ++counters.closed;
-      break;
-    case ModbusTrouble::kSilent:
-      ++counters.timeouts;
-      break;
-    case ModbusTrouble::kPartial:
-      ++counters.partial;
-      break;
-    case ModbusTrouble::kUnasked:
-      ++counters.unasked;
-      break;
-    case ModbusTrouble::kBadAnswer:
-      ++counters.bad_answers;
-      break;
-    case ModbusTrouble::kException:
-      ++counters.exceptions;
-      break;
-    case ModbusTrouble::kNone:
-    case ModbusTrouble::kCancelled:
-      break;
-  }
 }
 
 void ModbusLink::tell(LinkState state) noexcept {

@@ -3,11 +3,16 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <thread>
 
 #include "core/latest_value.h"
+#include "link/modbus/backoff.h"
+#include "link/modbus/diagnosis_connection.h"
+#include "link/modbus/modbus_acyclic.h"
 #include "link/modbus/modbus_connection.h"
 #include "link/modbus/modbus_exchange.h"
+#include "link/modbus/order_desk.h"
 #include "link/modbus/register_link.h"
 
 namespace nord_driver::link {
@@ -15,7 +20,12 @@ namespace nord_driver::link {
 /// Connects, exchanges once for each output image given, and connects again after a pause when something went wrong:
 /// first_pause, doubled up to longest_pause, and first_pause again once an exchange was good.
 ///
-/// give(), take() and report() neither wait nor take memory: images change hands in triple buffers.
+/// With `settings.diagnosis` the running register, the read back of the watchdog and orders go over a second connection;
+/// without it they take turns with the images. The inputs are never younger than what is known of the running register,
+/// so a second connection that fails makes them old, too.
+///
+/// give(), order(), take(), answer() and report() neither wait nor take memory: what they pass on lies in triple
+/// buffers.
 class ModbusLink final : public RegisterLink {
  public:
   /// `settings` that do not pass checkModbusSettings() keep it from opening.
@@ -28,8 +38,10 @@ class ModbusLink final : public RegisterLink {
   void close() noexcept override;
   bool isOpen() const noexcept { return thread_.joinable(); }
   std::uint64_t give(const RegisterImage& outputs) noexcept override;
+  std::uint64_t order(const RegisterOrder& order) noexcept override;
+  const RegisterAnswer& answer() noexcept override { return diagnosis_ ? diagnosis_->answer() : desk_.answer(); }
   const RegisterInputs& take() noexcept override { return inputs_.read(); }
-  const LinkReport& report() noexcept override { return reports_.read(); }
+  const LinkReport& report() noexcept override;
   bool waitAnswers(Instant until) noexcept override;
   Instant now() const noexcept override { return std::chrono::steady_clock::now(); }
   void sleepUntil(Instant when) noexcept override;
@@ -42,28 +54,34 @@ class ModbusLink final : public RegisterLink {
 
   void work() noexcept;
   bool connect() noexcept;
-  void exchangeOnce() noexcept;
+  bool startWatchdog() noexcept;
+  bool isWatchdogHeld() noexcept;
+  bool exchangeOnce() noexcept;
+  bool readRunning() noexcept;
   void waitForOutputs() noexcept;
   void failed() noexcept;
   void pause(Instant until) noexcept;
-  void count(ModbusTrouble trouble) noexcept;
   void tell(LinkState state) noexcept;
   bool ending() const noexcept { return ending_.load(std::memory_order_relaxed); }
 
   const ModbusSettings settings_;
   ModbusConnection connection_;
   ModbusExchange exchange_;
+  ModbusAcyclic acyclic_;
+  std::optional<DiagnosisConnection> diagnosis_;
   Sentence problem_;  // with the settings
 
   // Of the cycle.
   std::uint64_t given_ = 0;
+  LinkReport whole_report_;  // of both connections
   std::thread thread_;
 
   // Between the threads.
   LatestValue<Outputs> outputs_;
   LatestValue<RegisterInputs> inputs_;
   LatestValue<LinkReport> reports_;
-  Wakeup fresh_;    // outputs were given
+  OrderDesk desk_;
+  Wakeup fresh_;    // outputs or an order were given
   Wakeup answers_;  // inputs or a report
   Wakeup stop_;
   std::atomic<bool> ending_{false};
@@ -72,7 +90,7 @@ class ModbusLink final : public RegisterLink {
   RegisterInputs newest_;
   LinkReport report_;
   std::uint64_t last_outputs_ = 0;
-  Duration pause_{};
+  Backoff backoff_;
   bool started_ = false;  // the watchdog is set on this connection
 };
 

@@ -101,6 +101,7 @@ std::optional<ServerName> serverName(const std::string& text, Sentence& reason) 
 
 bool checkModbusSettings(const ModbusSettings& settings, Sentence& reason) {
   if (!serverName(settings.server, reason) || !checkFunctions(settings, reason)) return false;
+  if (!settings.diagnosis.empty() && !serverName(settings.diagnosis, reason)) return false;
   if (!checkBlock("inputs", settings.inputs, kMostReadRegisters, reason)) return false;
   if (!checkBlock("outputs", settings.outputs, mostRegistersWritten(settings.outputs.function), reason)) return false;
   for (const std::uint16_t word : settings.control_words) {

@@ -12,6 +12,8 @@
 
 namespace nord_driver::link {
 
+class TelegramListener;
+
 /// The functions used, by their codes (MODBUS Application Protocol V1.1b3, chapter 6).
 enum class ModbusFunction : std::uint8_t {
   kReadHoldingRegisters = 3,
@@ -52,6 +54,9 @@ struct WatchdogRegister {
 
 struct ModbusSettings {
   std::string server;  ///< "192.168.0.10:502", "gateway", "[fe80::1]:502"
+  /// A second connection, for all that is no image: `running`, the read back of the watchdog, orders. Empty: there is
+  /// one connection for everything.
+  std::string diagnosis{};
   std::uint8_t unit = 1;
   RegisterBlock inputs{ModbusFunction::kReadInputRegisters};
   RegisterBlock outputs{ModbusFunction::kWriteRegisters};
@@ -65,6 +70,8 @@ struct ModbusSettings {
   Duration connect_timeout{std::chrono::milliseconds{800}};   ///< name and connection
   Duration first_pause{std::chrono::milliseconds{50}};        ///< before the next connection; doubles
   Duration longest_pause{std::chrono::milliseconds{500}};
+  /// Hears all telegrams; must outlive the link. None: nobody does.
+  TelegramListener* listener = nullptr;
 };
 
 /// Host and port of "HOST", "HOST:PORT" or "[IPv6]:PORT".

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/register_image.h"
+#include "link/modbus/register_order.h"
 #include "nord_driver/core/fixed_text.h"
 #include "nord_driver/core/time.h"
 
@@ -65,6 +66,14 @@ class RegisterLink {
   /// Hands over the newest output image and asks for one exchange. Each image is written at most once: a cycle that
   /// hangs feeds no watchdog. One handed over before the connection stood is not written at all. Returns its number.
   virtual std::uint64_t give(const RegisterImage& outputs) noexcept = 0;
+  /// Hands over an order, which takes the place of one that still waits; its number. It is carried out once, beside the
+  /// images, and given up when the connection is not there. Default: 0, such a link carries none.
+  virtual std::uint64_t order(const RegisterOrder& /*order*/) noexcept { return 0; }
+  /// The answer to the order carried out last. The reference holds until the next call.
+  virtual const RegisterAnswer& answer() noexcept {
+    static const RegisterAnswer kNone;
+    return kNone;
+  }
   /// The newest inputs, however old. The reference holds until the next call.
   virtual const RegisterInputs& take() noexcept = 0;
   virtual const LinkReport& report() noexcept = 0;

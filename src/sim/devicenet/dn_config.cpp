@@ -63,6 +63,8 @@ void readAssembly(const Group& group, DnDriveConfig& dn) {
   dn.assembly = static_cast<unsigned>(assembly);
   dn.control_bytes = static_cast<unsigned>(group.integer("control_bytes", 4, 0, 8));
   dn.status_bytes = static_cast<unsigned>(group.integer("status_bytes", 4, 0, 8));
+  dn.module_input_bytes = static_cast<unsigned>(group.integer("module_input_bytes", 0, 0, 1));
+  dn.module_output_bytes = static_cast<unsigned>(group.integer("module_output_bytes", 0, 0, 1));
   const std::string profile = group.get<std::string>("profile", "nord", "nord, ac_drive or ac_drive_extended");
   if (profile != "nord" && profile != "ac_drive" && profile != "ac_drive_extended") {
     refuse(group.keyName("profile"), group["profile"], "nord, ac_drive or ac_drive_extended");
@@ -200,7 +202,8 @@ BusKind devicenetKind() {
   kind.lowest_address = 0;
   kind.highest_address = kHighestMac;
   kind.keys = {// the driver's
-               "io", "assembly", "control_bytes", "status_bytes", "profile",
+               "io", "assembly", "control_bytes", "status_bytes", "profile", "module_input_bytes",
+               "module_output_bytes", "parameter_objects", "vendor_id", "device_type", "product_code", "eds",
                // the simulator's
                "module"};
   kind.readBus = readBus;

@@ -33,6 +33,9 @@ struct DnDriveConfig {
   unsigned control_bytes = 4;
   unsigned status_bytes = 4;
   unsigned profile = 2;  ///< P162[-03]
+  // The module's own byte, which one of its drives may name: P161.
+  unsigned module_input_bytes = 0;
+  unsigned module_output_bytes = 0;
 };
 
 struct DnModuleSettings {

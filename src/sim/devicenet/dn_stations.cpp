@@ -34,6 +34,8 @@ void describe(DnModuleSettings& settings, const DriveConfig& drive) {
     presets.push_back({number, 0, 0, static_cast<std::int32_t>(dn.status_bytes)});
     presets.push_back({number, 0, 1, static_cast<std::int32_t>(dn.control_bytes)});
     presets.push_back({number, 0, 2, static_cast<std::int32_t>(dn.profile)});
+    if (dn.module_input_bytes > 0) presets.push_back({161, 0, 0, 1});
+    if (dn.module_output_bytes > 0) presets.push_back({161, 0, 1, 1});
   }
   settings.parameters.insert(settings.parameters.begin(), presets.begin(), presets.end());
 }

@@ -25,6 +25,16 @@ bool chooses(const Group& group, const std::string& key, const std::string& no, 
   return word == yes;
 }
 
+// The places of the fields are the defaults of the driver's.
+IbsPcp readPcp(const Group& pcp) {
+  IbsPcp settings;
+  settings.invoke_address = registerAt(groupAt(pcp, "invoke"), "address");
+  settings.result_address = registerAt(groupAt(pcp, "result"), "address");
+  settings.first_reference = static_cast<unsigned>(pcp.integer("first_reference", 2, 2, 127));
+  settings.initiate = pcp.get<bool>("initiate", true, "true or false");
+  return settings;
+}
+
 void readBus(const Group& root, SimConfig& config) {
   IbsBusConfig settings;
   const Group bus = groupAt(root, "bus");
@@ -44,6 +54,7 @@ void readBus(const Group& root, SimConfig& config) {
     settings.running = flag;
   }
   if (bus.has("watchdog")) settings.watchdog = registerAt(groupAt(bus, "watchdog"), "address");
+  if (bus.has("pcp")) settings.pcp = readPcp(groupAt(bus, "pcp"));
   config.bus = settings;
 }
 
@@ -98,7 +109,7 @@ BusKind interbusKind() {
   kind.end_point = "gateway";
   kind.place = "127.0.0.1:15020";
   kind.highest_address = 254;
-  kind.keys = {"ppo_type", "profile", "input_offset", "output_offset"};
+  kind.keys = {"ppo_type", "profile", "input_offset", "output_offset", "communication_reference"};
   kind.readBus = readBus;
   kind.readDrive = readDrive;
   kind.readModules = checkPlaces;

@@ -27,6 +27,14 @@ struct IbsRunning {
   Word value = 1;
 };
 
+/// Compact PCP by registers: two blocks of seven holding registers each (`PcpServer`).
+struct IbsPcp {
+  unsigned invoke_address = 0;
+  unsigned result_address = 0;
+  unsigned first_reference = 2;  ///< communication reference of the first drive of the ring; the next ones follow
+  bool initiate = true;          ///< connections have to be initiated first
+};
+
 /// `SimConfig::bus` of an InterBus ring.
 struct IbsBusConfig {
   std::string gateway = "127.0.0.1:0";  ///< of the loopback; port 0: a free one
@@ -37,6 +45,7 @@ struct IbsBusConfig {
   bool pcp_word = false;
   std::optional<IbsRunning> running{};
   std::optional<unsigned> watchdog{};  ///< holding register, ms; 0 there: off
+  std::optional<IbsPcp> pcp{};
 };
 
 /// Port of "127.0.0.1:PORT" or "localhost:PORT". Throws ConfigError.

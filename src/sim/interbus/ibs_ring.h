@@ -37,6 +37,8 @@ class IbsRing {
 
   RobotSim& robot() noexcept { return robot_; }
   IbsModule& module(std::size_t drive) noexcept { return *subscribers_[of_drive_[drive]].module; }
+  /// How many drives stand before this one in the ring.
+  std::size_t placeOf(std::size_t drive) const noexcept { return of_drive_[drive]; }
   /// "no rule broken", or which.
   std::string report() const;
 

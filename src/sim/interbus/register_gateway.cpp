@@ -21,11 +21,16 @@ std::size_t modbusLength(ByteView bytes) noexcept {
   return bytes.size() < length ? 0 : length;
 }
 
+RegisterGateway::RegisterGateway(const IbsBusConfig& config, IbsRing& ring) : config_(config), ring_(ring) {
+  if (config.pcp) pcp_.emplace(*config.pcp, ring);
+}
+
 Word RegisterGateway::turned(Word word) const noexcept {
   return config_.swapped ? static_cast<Word>(word << 8 | word >> 8) : word;
 }
 
 void RegisterGateway::advance(Instant now) noexcept {
+  if (pcp_) pcp_->advance(now);
   if (watchdog_ == 0 || !last_write_ || now - *last_write_ <= std::chrono::milliseconds(watchdog_)) return;
   std::fill(ring_.outputs().begin(), ring_.outputs().end(), Word{0});
   ring_.masterBegins();
@@ -104,17 +109,20 @@ std::optional<Word> RegisterGateway::registerAt(unsigned address, bool holding) 
   if (config_.running && address == config_.running->address) {
     return ring_.runs() ? config_.running->value : static_cast<Word>(config_.running->mask & ~config_.running->value);
   }
+  if (pcp_ && pcp_->hasResult(address)) return turned(pcp_->resultAt(address));
   if (in(config_.input_address, ring_.inputs().size())) return turned(ring_.inputs()[address - config_.input_address]);
   if (!holding) return std::nullopt;
   if (in(config_.output_address, ring_.outputs().size())) {
     return turned(ring_.outputs()[address - config_.output_address]);
   }
   if (config_.watchdog && address == *config_.watchdog) return watchdog_;
+  if (pcp_ && pcp_->hasInvoke(address)) return turned(pcp_->invokeAt(address));
   return std::nullopt;
 }
 
 std::uint8_t RegisterGateway::read(unsigned first, unsigned count, bool holding,
-                                   ByteWriter<kLongestModbus>& answer) const noexcept {
+                                   ByteWriter<kLongestModbus>& answer) noexcept {
+  ++reads_;
   answer.u8(static_cast<std::uint8_t>(2 * count));
   for (unsigned i = 0; i < count; ++i) {
     const auto word = registerAt(first + i, holding);
@@ -125,6 +133,13 @@ std::uint8_t RegisterGateway::read(unsigned first, unsigned count, bool holding,
 }
 
 std::uint8_t RegisterGateway::write(unsigned first, unsigned count, ByteReader& values, Instant now) noexcept {
+  ++writes_;
+  if (pcp_ && count > 0 && pcp_->hasInvoke(first) && pcp_->hasInvoke(first + count - 1)) {
+    for (unsigned i = 0; i < count; ++i) pcp_->write(first + i, turned(values.u16be()));
+    if (!values.ok()) return kIllegalValue;
+    pcp_->invoked(now);
+    return kGood;
+  }
   if (config_.watchdog && count == 1 && first == *config_.watchdog) {
     watchdog_ = values.u16be();
     return values.ok() ? kGood : kIllegalValue;

@@ -8,6 +8,7 @@
 
 #include "nord_driver/core/bytes.h"
 #include "sim/interbus/ibs_ring.h"
+#include "sim/interbus/pcp_server.h"
 
 namespace nord_driver::sim {
 
@@ -29,7 +30,7 @@ struct GatewaySwitches {
 class RegisterGateway {
  public:
   /// `ring` must outlive it.
-  RegisterGateway(const IbsBusConfig& config, IbsRing& ring) noexcept : config_(config), ring_(ring) {}
+  RegisterGateway(const IbsBusConfig& config, IbsRing& ring);
 
   /// The watchdog: without a write for its time the outputs become 0.
   void advance(Instant now) noexcept;
@@ -38,12 +39,16 @@ class RegisterGateway {
 
   void setSwitches(const GatewaySwitches& switches) noexcept { switches_ = switches; }
   const GatewaySwitches& switches() const noexcept { return switches_; }
+  /// Requests that write registers, since the beginning.
+  std::uint64_t writes() const noexcept { return writes_; }
+  /// Requests that read registers.
+  std::uint64_t reads() const noexcept { return reads_; }
   std::uint64_t watchdogTrips() const noexcept { return watchdog_trips_; }
 
  private:
   std::uint8_t execute(ByteReader& request, std::uint8_t function, ByteWriter<kLongestModbus>& answer,
                        Instant now) noexcept;
-  std::uint8_t read(unsigned first, unsigned count, bool holding, ByteWriter<kLongestModbus>& answer) const noexcept;
+  std::uint8_t read(unsigned first, unsigned count, bool holding, ByteWriter<kLongestModbus>& answer) noexcept;
   std::uint8_t write(unsigned first, unsigned count, ByteReader& values, Instant now) noexcept;
   std::optional<Word> registerAt(unsigned address, bool holding) const noexcept;
   Word turned(Word word) const noexcept;
@@ -54,6 +59,9 @@ class RegisterGateway {
   Word watchdog_ = 0;  // ms
   std::optional<Instant> last_write_;
   std::uint64_t watchdog_trips_ = 0;
+  std::uint64_t writes_ = 0;
+  std::uint64_t reads_ = 0;
+  std::optional<PcpServer> pcp_;
 };
 
 }  // namespace nord_driver::sim

@@ -98,8 +98,15 @@ bool DeviceNetTransport::allAnswered() const noexcept {
 
 void DeviceNetTransport::runRequests(Instant now) noexcept {
   while (const auto answer = scanner_->pollAnswer()) {
-    const std::size_t drive = DevicenetParameters::tagOf(answer->answer.id) & ~unsigned{DevicenetDriveState::kProbeTag};
-    if (drive < drives_.size()) drives_[drive].handleAnswer(answer->answer, now);
+    constexpr unsigned kProbes = DevicenetDriveState::kProbeTag | DevicenetDriveState::kMotorTag;
+    const std::size_t drive = DevicenetParameters::tagOf(answer->answer.id) & ~kProbes;
+    if (drive >= drives_.size()) continue;
+    drives_[drive].handleAnswer(answer->answer, now);
+    const auto finding = drives_[drive].takeFinding();
+    if (!finding) continue;
+    Sentence text;
+    text.format("drive %.60s: %.180s", config_.drives[drive].name.c_str(), finding->c_str());
+    events().warn(text, now, false);
   }
   if (!busWorks()) return;
   for (DevicenetDriveState& drive : drives_) drive.runRequests(*scanner_, now);

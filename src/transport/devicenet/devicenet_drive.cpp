@@ -33,6 +33,7 @@ DevicenetDriveState::DevicenetDriveState(const DevicenetDrive& config, const dev
       guest_(guest),
       parameters_(config, tag),
       probe_(config.inverter, static_cast<std::uint16_t>(tag | kProbeTag), guest || needsProbe(config)),
+      motor_(config.inverter, static_cast<std::uint16_t>(tag | kMotorTag), config.scaling.pole_pairs),
       scaling_(kindOf(config.drive_profile), config.scaling.pole_pairs) {
   scaling_.setMaxFrequency(config.typed_max_frequency);
 }
@@ -71,6 +72,7 @@ void DevicenetDriveState::takeInput(const devicenet::Scanner& scanner, bool bus_
   if (!connected) {
     parameters_.handleOffline();
     probe_.handleOffline();
+    motor_.handleOffline();
   }
   module_answers_ = connected;
   inverter_answers_ = false;
@@ -160,18 +162,23 @@ void DevicenetDriveState::runRequests(devicenet::Scanner& scanner, Instant now) 
   if (scanner.status(config_.module).state != NodeState::kExchanging) return;
   const auto probe = probe_.pendingRequest(now);
   if (probe && scanner.submit(config_.module, *probe)) probe_.handleStarted();
+  const auto poles = guest_ || !inverter_answers_ ? std::nullopt : motor_.pendingRequest(now);
+  if (poles && scanner.submit(config_.module, *poles)) motor_.handleStarted();
   const auto access = parameters_.pendingAccess();
   if (access && scanner.submit(config_.module, *access)) parameters_.handleStarted();
 }
 
 void DevicenetDriveState::handleAnswer(const devicenet::ExplicitAnswer& answer, Instant now) noexcept {
-  if ((DevicenetParameters::tagOf(answer.id) & kProbeTag) != 0) return probe_.handleAnswer(answer, now);
+  const std::uint16_t tag = DevicenetParameters::tagOf(answer.id);
+  if ((tag & kProbeTag) != 0) return probe_.handleAnswer(answer, now);
+  if ((tag & kMotorTag) != 0) return motor_.handleAnswer(answer, now);
   if (parameters_.handleAnswer(answer)) probe_.handleAbsence();
 }
 
 void DevicenetDriveState::handleRestart() noexcept {
   parameters_.handleOffline();
   probe_.handleOffline();
+  motor_.handleOffline();
   module_answers_ = false;
   inverter_answers_ = false;
 }

@@ -9,6 +9,7 @@
 #include "profile/ac_drive.h"
 #include "transport/devicenet/devicenet_config.h"
 #include "transport/devicenet/devicenet_parameters.h"
+#include "transport/devicenet/motor_probe.h"
 #include "transport/devicenet/state_probe.h"
 #include "transport/max_frequency_reads.h"
 
@@ -17,8 +18,10 @@ namespace nord_driver {
 /// Each cycle: putOutput() before the exchange, takeInput() after it.
 class DevicenetDriveState {
  public:
-  /// Tags of the explicit requests: `tag` of the parameters, with kProbeTag of the probe.
+  /// Tags of the explicit requests: `tag` of the parameters, with kProbeTag of the probe for the state, with kMotorTag of the
+  /// one for the motor.
   static constexpr std::uint16_t kProbeTag = 0x8000;
+  static constexpr std::uint16_t kMotorTag = 0x4000;
 
   /// `guest`: no process data are exchanged. `period`: of the bus cycle.
   DevicenetDriveState(const DevicenetDrive& config, const devicenet::IoConfig& io, Duration period, std::uint16_t tag,
@@ -39,6 +42,8 @@ class DevicenetDriveState {
   void handleAnswer(const devicenet::ExplicitAnswer& answer, Instant now) noexcept;
   /// The bus is begun anew.
   void handleRestart() noexcept;
+  /// What was found to be configured wrongly, told once.
+  std::optional<Sentence> takeFinding() noexcept { return motor_.takeFinding(); }
 
   const DevicenetDrive& config() const noexcept { return config_; }
   bool moduleAnswers() const noexcept { return module_answers_; }
@@ -60,6 +65,7 @@ class DevicenetDriveState {
   bool guest_;
   DevicenetParameters parameters_;
   StateProbe probe_;
+  MotorProbe motor_;
   profile::AcDriveScaling scaling_;
   MaxFrequencyReads<DevicenetParameters::kCapacity> max_frequency_reads_;
   std::optional<std::uint64_t> connection_;  // which connection of the module it exchanges by; none: it does not

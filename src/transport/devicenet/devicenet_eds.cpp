@@ -43,7 +43,7 @@ void applyEds(DevicenetConfig& config, const std::vector<DriveSettings>& drives)
     std::string path, of;
     for (const std::size_t index : config.modules[i].drives) {
       const Settings& settings = *drives[index].settings;
-      if (!settings.has(kKey)) continue;
+      if (!settings.text(kKey)) continue;
       const std::string named = requiredText(settings, kKey, "the path of an EDS file");
       if (!path.empty() && named != path) {
         throw wrongSetting(settings, kKey, "\"" + named + "\"",

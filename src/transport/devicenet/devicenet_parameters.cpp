@@ -23,6 +23,8 @@ constexpr unsigned kFirstClass = 100, kClassesPerInverter = 10, kModuleClasses =
 constexpr std::uint8_t kIndexClass = 199;
 constexpr std::uint8_t kNumberAttribute = 1, kIndexAttribute = 2, kWordAttribute = 3, kDoubleWordAttribute = 4;
 constexpr unsigned kLastInstance = 255;
+constexpr std::uint16_t kFaultNumber = 700;
+constexpr std::uint8_t kSupervisorClass = 41, kFaultCode = 13;
 
 // As on PKW (BU 0020 7.5.2): sets count fastest, then the elements.
 unsigned subIndexOf(const ParameterRequest& request) noexcept {
@@ -102,6 +104,9 @@ bool DevicenetParameters::byIndexObject() const noexcept {
 
 std::optional<ExplicitRequest> DevicenetParameters::pendingAccess() const noexcept {
   if (under_way_ || requests_.empty()) return std::nullopt;
+  if (step_ == Step::kSupervisor) {
+    return devicenet::getAttribute(accessId(), kSupervisorClass, drive_.inverter, kFaultCode);
+  }
   if (byIndexObject()) return indexAccess();
   ParameterObject object = *parameterObject(drive_, requests_.front());
   if (plain_) object.instance = 1;
@@ -156,11 +161,14 @@ bool DevicenetParameters::handleAnswer(const ExplicitAnswer& answer) noexcept {
       takeValue(answer);
       break;
     case ExplicitEnd::kRefused:
-      if (fallBack(answer.general)) return false;
+      if (step_ == Step::kSupervisor) {
+        refuse(refusal_);
+        break;
+      }
+      if (fallBack(answer.general) || askSupervisor(answer)) return false;
       absent =
           answer.general == devicenet::general_error::kResourceUnavailable && !isOfModule(requests_.front().number);
-      requests_.refuse(reasonOfError(answer.general, requests_.front()),
-                       errorSentence(answer.general, answer.additional));
+      refuse({answer.general, answer.additional});
       break;
     case ExplicitEnd::kTimedOut:
       requests_.fail(ParameterOutcome::kTimeout);
@@ -195,8 +203,26 @@ bool DevicenetParameters::fallBack(std::uint8_t general) noexcept {
   return true;
 }
 
+// "The current or last active error code" (BU 0280 4.3.6) is taken to be the number P700 shows: no manual says more.
+bool DevicenetParameters::askSupervisor(const ExplicitAnswer& answer) noexcept {
+  const ParameterRequest& request = requests_.front();
+  const bool fault = request.action == ParameterAction::kRead && request.number == kFaultNumber;
+  if (!fault || subIndexOf(request) != 0 || answer.general == devicenet::general_error::kResourceUnavailable)
+    return false;
+  refusal_ = {answer.general, answer.additional};
+  again(Step::kSupervisor);
+  return true;
+}
+
+void DevicenetParameters::refuse(const Refusal& refusal) noexcept {
+  requests_.refuse(reasonOfError(refusal.general, requests_.front()),
+                   errorSentence(refusal.general, refusal.additional));
+}
+
 void DevicenetParameters::takeValue(const ExplicitAnswer& answer) noexcept {
   const ParameterRequest& request = requests_.front();
+  // It has none to tell: the parameter may well have.
+  if (step_ == Step::kSupervisor && answer.number().value_or(0) == 0) return refuse(refusal_);
   if (request.action != ParameterAction::kRead) return requests_.done(request.raw);
   if (const auto number = answer.number()) {
     // Whether a 16 bit word is signed only the parameter's own description knows.

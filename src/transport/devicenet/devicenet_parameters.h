@@ -4,6 +4,7 @@
 //     instance sub-index + 1;
 //   index object (BU 0280 4.3.10): class 199, instance the inverter's number: attributes 1 (number) and 2 (index), then 3
 //     (16 bit) or 4 (32 bit) the value.
+// The fault number (P700) that cannot be read so is asked of the control supervisor, class 41, attribute 13 (BU 0280 4.3.6).
 // P150 to P199 are the module's, in class 181 either way. DeviceNet has no access that spares the EEPROM: whether a write
 // wears it is P560's to say. So a write to the RAM only is none of its capabilities, and is refused without asking.
 #pragma once
@@ -57,14 +58,20 @@ class DevicenetParameters {
   static std::uint16_t tagOf(std::uint32_t id) noexcept { return static_cast<std::uint16_t>(id >> 16); }
 
  private:
-  /// Of the index object; a numbered one has kValue alone.
-  enum class Step : std::uint8_t { kNumber, kIndex, kValue, kDoubleValue };
+  /// kNumber, kIndex and kDoubleValue are of the index object.
+  enum class Step : std::uint8_t { kNumber, kIndex, kValue, kDoubleValue, kSupervisor };
+
+  struct Refusal {
+    std::uint8_t general = 0, additional = 0;
+  };
 
   std::uint32_t accessId() const noexcept { return std::uint32_t{tag_} << 16 | sequence_; }
   bool byIndexObject() const noexcept;
   devicenet::ExplicitRequest indexAccess() const noexcept;
   devicenet::ExplicitRequest valueAccess(const ParameterObject& object) const noexcept;
   bool fallBack(std::uint8_t general) noexcept;
+  bool askSupervisor(const devicenet::ExplicitAnswer& answer) noexcept;
+  void refuse(const Refusal& refusal) noexcept;
   void takeValue(const devicenet::ExplicitAnswer& answer) noexcept;
   void again(Step step) noexcept;
   void next() noexcept;
@@ -75,6 +82,7 @@ class DevicenetParameters {
   bool under_way_ = false;
   bool plain_ = false;  // the running request is asked for with instance 1
   Step step_ = Step::kValue;
+  Refusal refusal_;  // of the parameter itself, while the supervisor is asked
   profile::ParameterQueue requests_;
 };
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "link/modbus/modbus_link.h"
+#include "profile/status_word.h"
 
 namespace nord_driver {
 
@@ -27,10 +28,83 @@ InterbusTransport::InterbusTransport(LinkFactory make_link) : make_link_(std::mo
 
 void InterbusTransport::configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) {
   config_ = readInterbusConfig(bus, drives, cycle_rate);
+  if (read_only_) readOnly();
+  link_.reset();
+  trace_ = std::make_unique<ModbusTrace>(config_);
+  config_.server.listener = trace_.get();
   drives_.clear();
-  for (const InterbusDrive& drive : config_.drives) drives_.emplace_back(drive);
+  std::vector<std::uint16_t> references;
+  for (const InterbusDrive& drive : config_.drives) {
+    drives_.emplace_back(drive);
+    references.push_back(drive.communication_reference);
+  }
+  parameters_.reset();
+  if (config_.pcp) parameters_.emplace(*config_.pcp, references);
+  order_ = 0;
   image_.resize(config_.map->outputWords());
   link_ = make_link_(config_.server);
+}
+
+// Without parts nothing is written, and function 23 has nothing to write with.
+void InterbusTransport::readOnly() {
+  link::ModbusSettings& server = config_.server;
+  server.outputs.parts.clear();
+  server.outputs.function = link::ModbusFunction::kWriteRegisters;
+  server.control_words.clear();
+  server.watchdog.reset();
+  if (server.inputs.function == link::ModbusFunction::kReadWriteRegisters) {
+    server.inputs.function = link::ModbusFunction::kReadHoldingRegisters;
+  }
+  if (!shows_) return;
+  const std::size_t words = std::max(config_.map->inputWords(), shown_words_);
+  if (words > kMostImageWords || server.inputs.address + words > 65536u) {
+    throw ConfigError("the image to show has " + std::to_string(words) + " words from register " +
+                      std::to_string(server.inputs.address) + " on, expected at most " +
+                      std::to_string(std::min<std::size_t>(kMostImageWords, 65536u - server.inputs.address)));
+  }
+  server.inputs.parts.clear();
+  for (std::size_t first = 0; first < words; first += link::kMostReadRegisters) {
+    const std::size_t count = std::min<std::size_t>(link::kMostReadRegisters, words - first);
+    server.inputs.parts.push_back({static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(count)});
+  }
+}
+
+bool InterbusTransport::serveParametersOnly() noexcept {
+  read_only_ = true;
+  return true;
+}
+
+void InterbusTransport::showWords(std::size_t count) {
+  shows_ = true;
+  shown_words_ = count;
+}
+
+std::string InterbusTransport::imageText() const {
+  const link::RegisterBlock& inputs = config_.server.inputs;
+  const unsigned end = inputs.parts.empty() ? 0 : inputs.parts.back().end();
+  return config_.server.server + ", function " + std::to_string(static_cast<unsigned>(inputs.function)) +
+         ", registers " + rangeText(inputs.address, inputs.address + end);
+}
+
+std::vector<ImageWord> InterbusTransport::image() const {
+  std::vector<ImageWord> words;
+  for (std::size_t i = 0; i < newest_.size(); ++i) {
+    ImageWord word;
+    word.word = i;
+    word.register_at = config_.server.inputs.address + static_cast<unsigned>(i);
+    word.value = newest_[i];
+    const interbus::WordMeaning meaning = config_.map->inputMeaning(i);
+    if (meaning.kind != interbus::WordKind::kNobodys) word.drive = config_.drives[meaning.drive].name;
+    if (meaning.kind == interbus::WordKind::kPcp) word.meaning = "PCP word";
+    if (meaning.kind == interbus::WordKind::kValue) word.meaning = "actual value " + std::to_string(meaning.value);
+    if (meaning.kind == interbus::WordKind::kHead) {
+      const Word head = config_.map->get(meaning.drive, newest_).head;
+      word.meaning = "status word";
+      word.text = head == 0 ? "silent" : profile::toString(profile::StatusWord{head}.state());
+    }
+    words.push_back(word);
+  }
+  return words;
 }
 
 // The link connects, and connects again, by itself; only a computer out of threads keeps it from opening.
@@ -53,6 +127,26 @@ void InterbusTransport::exchange(const std::vector<profile::ProcessOutput>& outp
   }
   report_ = link_->report();
   takeInputs(inputs);
+  serveParameters();
+}
+
+// After the inputs, so that an order goes out behind the images of its cycle. A drive that does not answer is not asked.
+void InterbusTransport::serveParameters() noexcept {
+  if (!parameters_) return;
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    if (!drives_[i].answers()) parameters_->handleOffline(i);
+  }
+  takeAnswer();
+  if (!watch_.isGood()) return;
+  if (const auto order = parameters_->pollOrder(link_->now())) order_ = link_->order(*order);
+}
+
+void InterbusTransport::takeAnswer() noexcept {
+  if (order_ == 0) return;
+  const link::RegisterAnswer& answer = link_->answer();
+  if (answer.number != order_) return;
+  order_ = 0;
+  parameters_->handleAnswer(answer);
 }
 
 void InterbusTransport::giveOutputs(const std::vector<profile::ProcessOutput>& outputs) noexcept {
@@ -72,6 +166,7 @@ void InterbusTransport::takeInputs(std::vector<DriveExchange>& inputs) noexcept 
   const InputWorth before = watch_.worth();
   watch_.handle(newest, link_->now());
   running_ = newest.running;
+  if (shows_) newest_ = newest.words;
   if (!watch_.isFresh()) ++counts_.without_inputs;
   tellRing(before);
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
@@ -97,11 +192,25 @@ void InterbusTransport::tellRing(InputWorth before) noexcept {
   events_.push_back(event);
 }
 
-bool InterbusTransport::submit(DriveIndex /*drive*/, const profile::ParameterRequest& request) noexcept {
-  return unserved_.push_back(request.id);
+bool InterbusTransport::submit(DriveIndex drive, const profile::ParameterRequest& request) noexcept {
+  if (!parameters_) return unserved_.push_back(request.id);
+  if (!parameters_->submit(drive, request)) return false;
+  drives_[drive].handleSubmitted(request);
+  return true;
 }
 
 std::optional<profile::ParameterResult> InterbusTransport::pollResult() noexcept {
+  if (!parameters_) return pollUnserved();
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    if (const auto result = parameters_->pollResult(i)) {
+      drives_[i].handleResult(*result);
+      return result;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<profile::ParameterResult> InterbusTransport::pollUnserved() noexcept {
   const auto id = unserved_.takeFront();
   if (!id) return std::nullopt;
   profile::ParameterResult result;
@@ -111,6 +220,10 @@ std::optional<profile::ParameterResult> InterbusTransport::pollResult() noexcept
       "its gateway carries process data only, no PCP; read or set it at the inverter (ControlBox, ParameterBox, NORD "
       "CON)";
   return result;
+}
+
+profile::ParameterCapabilities InterbusTransport::parameterCapabilities(DriveIndex /*drive*/) const noexcept {
+  return InterbusParameters::capabilities();
 }
 
 DriveNote InterbusTransport::note(DriveIndex drive) const noexcept {
@@ -154,10 +267,15 @@ DriveIdentity InterbusTransport::identity(DriveIndex drive) const {
   identity.address = "InterBus position " + std::to_string(config.position);
   if (config.drive_profile == InterbusProfile::kDrivecom) identity.address += ", DRIVECOM 21";
   identity.process_values = config.ppo_type == 1 ? 1 : 3;
+  if (parameters_) identity.parameter_channel = "PCP (experimental)";
+  identity.timeout_notices = false;
   if (config_.server.watchdog) {
+    const bool drivecom = config.drive_profile == InterbusProfile::kDrivecom;
+    identity.timeout_needed = !drivecom;
     identity.protected_by = "watchdog of the gateway (register " + std::to_string(config_.server.watchdog->address) +
-                            " = " + std::to_string(config_.server.watchdog->value) +
-                            "), which ends its outputs: with P513 > 0 the inverter trips E10 and the motor coasts";
+                            " = " + std::to_string(config_.server.watchdog->value) + "), which ends its outputs: " +
+                            (drivecom ? "zeros are DRIVECOM's \"voltage disabled\", and the motor coasts"
+                                      : "with P513 > 0 the inverter trips E10 and the motor coasts");
   }
   return identity;
 }
@@ -165,6 +283,10 @@ DriveIdentity InterbusTransport::identity(DriveIndex drive) const {
 std::vector<std::string> InterbusTransport::warnings() const {
   std::vector<std::string> sentences;
   const link::ModbusSettings& server = config_.server;
+  if (parameters_) {
+    sentences.emplace_back(
+        "bus/pcp: the parameter channel by Compact PCP is experimental: it was tried with the simulated gateway only");
+  }
   if (!server.running) {
     sentences.emplace_back(
         "bus/running is not configured: where the ring stands and the gateway goes on answering, old status words look "

@@ -12,10 +12,12 @@
 #include "link/modbus/register_link.h"
 #include "nord_driver/core/fixed_vector.h"
 #include "nord_driver/transport/transport.h"
+#include "transport/image_view.h"
 #include "transport/interbus/input_watch.h"
 #include "transport/interbus/interbus_config.h"
 #include "transport/interbus/interbus_counters.h"
 #include "transport/interbus/interbus_drive.h"
+#include "transport/interbus/modbus_trace.h"
 
 namespace nord_driver {
 
@@ -29,8 +31,11 @@ namespace nord_driver {
 /// `inverter_answers` that such inputs came in this cycle and the status word is not zero. Good inputs end with an
 /// interruption: kUnasked when the ring stands, kSilent when they are too old. `inverter_missing` is never said.
 ///
-/// There is no parameter channel: over Modbus/TCP gateways carry process data only.
-class InterbusTransport final : public Transport {
+/// Over Modbus/TCP most gateways carry process data only: then there is no parameter channel. Where one offers Compact
+/// PCP by registers (`bus/pcp`) there is one, which no real gateway has been tried with.
+///
+/// Who serves parameters only writes no image and no watchdog: the drives are another's, or nobody's.
+class InterbusTransport final : public Transport, public ImageView {
  public:
   using LinkFactory = std::function<std::unique_ptr<link::RegisterLink>(const link::ModbusSettings&)>;
 
@@ -48,6 +53,8 @@ class InterbusTransport final : public Transport {
                 std::vector<DriveExchange>& inputs) noexcept override;
   bool submit(DriveIndex drive, const profile::ParameterRequest& request) noexcept override;
   std::optional<profile::ParameterResult> pollResult() noexcept override;
+  profile::ParameterCapabilities parameterCapabilities(DriveIndex drive) const noexcept override;
+  bool serveParametersOnly() noexcept override;
   bool connected() const noexcept override { return watch_.isGood(); }
   BusCounters counters() const noexcept override { return interbusCounters(counts_, report_.counters); }
   DriveNote note(DriveIndex drive) const noexcept override;
@@ -55,7 +62,12 @@ class InterbusTransport final : public Transport {
   DriveIdentity identity(DriveIndex drive) const override;
   std::vector<std::string> warnings() const override;
   std::optional<BusEvent> pollEvent() noexcept override { return events_.takeFront(); }
+  const TelegramTrace* trace() const noexcept override { return trace_ ? &trace_->trace() : nullptr; }
   void close() noexcept override;
+
+  void showWords(std::size_t count) override;
+  std::string imageText() const override;
+  std::vector<ImageWord> image() const override;
 
   const InterbusConfig& config() const noexcept { return config_; }
 
@@ -67,12 +79,21 @@ class InterbusTransport final : public Transport {
   void waitForAnswer(Instant until) noexcept;
   void takeInputs(std::vector<DriveExchange>& inputs) noexcept;
   void tellRing(InputWorth before) noexcept;
+  void serveParameters() noexcept;
+  void takeAnswer() noexcept;
+  std::optional<profile::ParameterResult> pollUnserved() noexcept;
+  void readOnly();
 
   LinkFactory make_link_;
   InterbusConfig config_;
+  bool read_only_ = false;
+  std::size_t shown_words_ = 0;
+  bool shows_ = false;
+  std::unique_ptr<ModbusTrace> trace_;  // outlives the link
   std::unique_ptr<link::RegisterLink> link_;
   std::vector<InterbusDriveState> drives_;
-  RegisterImage image_;  // the outputs
+  RegisterImage image_;   // the outputs
+  RegisterImage newest_;  // the inputs, where they are shown
   std::uint64_t given_ = 0;
   InputWatch watch_;
   Word running_ = 0;  // the register that says whether the ring runs
@@ -80,6 +101,8 @@ class InterbusTransport final : public Transport {
   link::LinkReport report_;
   Instant next_open_{};
   InterbusCounts counts_;
+  std::optional<InterbusParameters> parameters_;
+  std::uint64_t order_ = 0;                         // the newest of the parameter channel
   FixedVector<std::uint32_t, kRequests> unserved_;  // ids of parameter requests
   FixedVector<BusEvent, 8> events_;                 // what does not fit is in the counters
 };

@@ -8,6 +8,7 @@
 #include "config/setting_checks.h"
 #include "config/setting_note.h"
 #include "profile/process_data_order.h"
+#include "transport/interbus/pcp_config.h"
 
 namespace nord_driver {
 
@@ -113,7 +114,7 @@ std::optional<unsigned> readOffset(const Settings& settings, const std::string& 
   return static_cast<unsigned>(requiredInteger(settings, key, 0, kMostImageWords - 1));
 }
 
-InterbusDrive readDrive(const DriveSettings& source) {
+InterbusDrive readDrive(const DriveSettings& source, bool has_parameters) {
   const Settings& settings = *source.settings;
   InterbusDrive drive{readDriveCommon(source)};
   checkSeries(settings, drive.series);
@@ -129,9 +130,9 @@ InterbusDrive readDrive(const DriveSettings& source) {
     throw wrongSetting(settings, "ppo_type", std::to_string(drive.ppo_type),
                        "1: profile drivecom is effective with three words only (BU 0070 4.1)");
   }
-  if (!drive.typed_max_frequency) {
+  if (!drive.typed_max_frequency && !has_parameters) {
     throw missingSetting(settings, "max_frequency",
-                         "P105 in Hz, because a gateway carries no parameter channel to read it by");
+                         "P105 in Hz, because without bus/pcp the gateway carries no parameter channel to read it by");
   }
   return drive;
 }
@@ -166,12 +167,17 @@ void layOut(const Settings& bus, const interbus::ImageSettings& image, InterbusC
   server.run_bits = config.map->runBits();
 }
 
+void checkServer(const Settings& bus, const std::string& key, const std::string& server) {
+  Sentence reason;
+  if (link::serverName(server, reason)) return;
+  throw ConfigError(bus.fullName(key) + (reason.c_str() + std::strlen("server")));
+}
+
 void readServer(const Settings& bus, link::ModbusSettings& server) {
   server.server = requiredText(bus, "gateway", "host name or address and port of a Modbus/TCP server");
-  Sentence reason;
-  if (!link::serverName(server.server, reason)) {
-    throw ConfigError(bus.fullName("gateway") + (reason.c_str() + std::strlen("server")));
-  }
+  checkServer(bus, "gateway", server.server);
+  server.diagnosis = bus.text("diagnosis").value_or("");
+  if (bus.has("diagnosis")) checkServer(bus, "diagnosis", server.diagnosis);
   server.unit = static_cast<std::uint8_t>(integerOr(bus, "unit", server.unit, 0, 255));
   readBlocks(bus, server);
   server.running = readRunning(bus, server.inputs.function);
@@ -186,6 +192,7 @@ InterbusConfig readInterbusConfig(const Settings& bus, const std::vector<DriveSe
   InterbusConfig config;
   readServer(bus, config.server);
   const double window = std::min(0.25 / cycle_rate, kLongestWindow);
+  config.pcp = readPcp(bus);
   config.answer_window = seconds(numberOr(bus, "answer_window", window, 0.0, 0.5 / cycle_rate, "s"));
   interbus::ImageSettings image;
   image.pcp_word = booleanOr(bus, "pcp_word", false);
@@ -194,11 +201,16 @@ InterbusConfig readInterbusConfig(const Settings& bus, const std::vector<DriveSe
   image.input_address = config.server.inputs.address;
   image.output_address = config.server.outputs.address;
   for (const DriveSettings& source : drives) {
-    config.drives.push_back(readDrive(source));
+    config.drives.push_back(readDrive(source, config.pcp.has_value()));
     image.drives.push_back(imageOf(*source.settings, config.drives.back()));
   }
   layOut(bus, image, config);
   checkWatchdog(bus, config.server);
+  if (config.pcp) {
+    config.pcp->swapped = image.byte_order == interbus::ByteOrder::kSwapped;
+    checkPcp(bus, *config.pcp, config.server);
+    readReferences(bus, drives, config.drives);
+  }
   Sentence reason;
   if (!link::checkModbusSettings(config.server, reason)) throw ConfigError(bus.fullName("") + reason.str());
   return config;

@@ -10,6 +10,7 @@
 #include "link/modbus/modbus_settings.h"
 #include "nord_driver/config/settings.h"
 #include "nord_driver/core/time.h"
+#include "transport/interbus/interbus_parameters.h"
 
 namespace nord_driver {
 
@@ -26,6 +27,7 @@ struct InterbusDrive : DriveCommon {
   unsigned position = 1;  ///< in the ring
   unsigned ppo_type = 1;  ///< 1 or 2
   InterbusProfile drive_profile = InterbusProfile::kNord;
+  std::uint16_t communication_reference = 2;  ///< of its PCP connection
 };
 
 struct InterbusConfig {
@@ -33,6 +35,8 @@ struct InterbusConfig {
   std::optional<interbus::ImageMap> map;  ///< always there once read
   /// How long a cycle waits for the inputs that answer its outputs; 0: it takes those of the cycle before.
   Duration answer_window{};
+  /// The gateway's registers for Compact PCP; none: there is no parameter channel.
+  std::optional<PcpMap> pcp;
   std::vector<InterbusDrive> drives;
 };
 

@@ -4,7 +4,14 @@
 
 namespace nord_driver {
 
-InterbusDriveState::InterbusDriveState(const InterbusDrive& config) {
+namespace {
+
+constexpr std::uint16_t kMaxFrequency = 105;
+constexpr double kMaxFrequencyResolution = 0.1;  // Hz
+
+}  // namespace
+
+InterbusDriveState::InterbusDriveState(const InterbusDrive& config) : typed_max_frequency_(config.typed_max_frequency) {
   if (config.drive_profile != InterbusProfile::kDrivecom) return;
   drivecom_.emplace(config.scaling.pole_pairs);
   drivecom_->setMaxFrequency(config.typed_max_frequency);
@@ -45,6 +52,27 @@ void InterbusDriveState::takeInput(const interbus::ProcessWords& words, const In
   answers_ = profile::StatusWord{input.input.status_word}.isUseful();
   input.inverter_answers = answers_;
   if (!answers_) input.input = {};
+}
+
+void InterbusDriveState::handleSubmitted(const profile::ParameterRequest& request) noexcept {
+  const bool of_set_1 = request.shape == profile::ParameterShape::kPlain || request.parameter_set == 1;
+  if (!drivecom_ || !request.scales || request.number != kMaxFrequency || !of_set_1) return;
+  max_frequency_reads_.push_back(request.id);
+  // The drive layer, too, begins anew with what was typed in.
+  drivecom_->setMaxFrequency(typed_max_frequency_);
+}
+
+// Revolutions per minute are told as shares of P105 by what the drive layer itself has read of it.
+void InterbusDriveState::handleResult(const profile::ParameterResult& result) noexcept {
+  for (std::size_t i = 0; i < max_frequency_reads_.size(); ++i) {
+    if (max_frequency_reads_[i] != result.id) continue;
+    if (result.outcome == profile::ParameterOutcome::kDone && result.raw > 0) {
+      drivecom_->setMaxFrequency(Hertz{kMaxFrequencyResolution * result.raw});
+    }
+    max_frequency_reads_[i] = max_frequency_reads_[max_frequency_reads_.size() - 1];
+    max_frequency_reads_.resize(max_frequency_reads_.size() - 1);
+    return;
+  }
 }
 
 const char* InterbusDriveState::note(const InputWatch& watch) const noexcept {

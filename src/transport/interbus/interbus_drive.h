@@ -4,9 +4,12 @@
 #include <optional>
 
 #include "interbus/image_map.h"
+#include "nord_driver/core/fixed_vector.h"
+#include "nord_driver/profile/parameter_request.h"
 #include "nord_driver/profile/process_data.h"
 #include "nord_driver/transport/cyclic_exchange.h"
 #include "profile/drivecom.h"
+#include "profile/parameter_queue.h"
 #include "transport/interbus/input_watch.h"
 #include "transport/interbus/interbus_config.h"
 
@@ -22,6 +25,10 @@ class InterbusDriveState {
 
   /// The gateway's newest inputs are good, and the status word is not zero.
   bool answers() const noexcept { return answers_; }
+  /// A parameter access that was taken, and its result: what the drive layer reads of P105 scales its speeds.
+  void handleSubmitted(const profile::ParameterRequest& request) noexcept;
+  void handleResult(const profile::ParameterResult& result) noexcept;
+
   /// Why it does not; empty when it does.
   const char* note(const InputWatch& watch) const noexcept;
 
@@ -29,7 +36,9 @@ class InterbusDriveState {
   profile::ProcessInput fromWords(const interbus::ProcessWords& words) const noexcept;
 
   std::optional<profile::DrivecomScaling> drivecom_;  // where that is its profile
+  std::optional<Hertz> typed_max_frequency_;
   bool answers_ = false;
+  FixedVector<std::uint32_t, profile::ParameterQueue::kCapacity> max_frequency_reads_;  // ids
 };
 
 }  // namespace nord_driver

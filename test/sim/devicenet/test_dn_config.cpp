@@ -52,6 +52,22 @@ modules:
   EXPECT_EQ(6, robot.drive(4).parameters().value(509));
 }
 
+// The driver's keys of the module's own byte, given with one of its drives, are P161 of the simulated one.
+TEST(DnConfig, TheModulesOwnByte) {
+  const SimConfig config = read(R"(
+transport: nord_driver/devicenet
+bus: {interface: "virtual:demo"}
+drives:
+  a: {address: 5, series: sk2xxe, inverter: 1, assembly: 120, module_input_bytes: 1, module_output_bytes: 1, eds: x.eds}
+  b: {address: 5, series: sk2xxe, inverter: 2, assembly: 120, parameter_objects: index_object, product_code: 2}
+)");
+  EXPECT_TRUE(config.warnings.empty()) << config.warnings.front();
+  RobotSim robot{config};
+  DnStations stations{robot};
+  EXPECT_EQ(9u, stations.moduleOf(0).layout().inputs());
+  EXPECT_EQ(9u, stations.moduleOf(0).layout().outputs());
+}
+
 TEST(DnConfig, RefusesInWords) {
   const auto refusal = [](const std::string& drives, const std::string& more = "") -> std::string {
     try {

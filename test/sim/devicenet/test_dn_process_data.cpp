@@ -101,6 +101,31 @@ TEST(DnProcessData, VariableLengths) {
   EXPECT_EQ("8E1500", bus.request("0E 05 02 08"));
 }
 
+// Ten bytes each way (facts 3.4): `00 01..07`, `81 08 09 0A`. Without its first fragment the second one is nothing.
+TEST(DnProcessData, TenBytesInTwoFragments) {
+  DnConversation bus{dnGateway(2, 120)};
+  ParameterStore& parameters = bus.module().parameters();
+  const int lengths[4][3]{{6, 6, 2}, {4, 4, 2}, {0, 0, 0}, {0, 0, 0}};
+  for (unsigned i = 0; i < 4; ++i) {
+    for (unsigned k = 0; k < 3; ++k) parameters.preset(static_cast<std::uint16_t>(162 + i), 0, k, lengths[i][k]);
+  }
+  bus.goOnline();
+  bus.ask("44E#0A 4B 03 01 03 0A");
+  EXPECT_EQ("8E0A00", bus.request("0E 05 02 07"));
+  EXPECT_EQ("8E0A00", bus.request("0E 05 02 08"));
+  bus.request("10 05 02 09 64 00");
+  bus.send("44D#81 08 09 0A");
+  bus.bus.run(milliseconds(5));
+  EXPECT_EQ(0, bus.module().countersOf(0).last_control);
+  bus.send("44D#00 01 02 03 04 05 06 07");
+  EXPECT_THAT(bus.askAll("44D#81 08 09 0A", milliseconds(5)), ElementsAre("3C9#00700B0000000070", "3C9#810B0000"));
+  EXPECT_EQ(0x0201, bus.module().countersOf(0).last_control);
+  EXPECT_EQ(0x0403, parameters.value(176, 0, 2));
+  EXPECT_EQ(0x0605, parameters.value(176, 0, 3));
+  EXPECT_EQ(0x0807, bus.module().countersOf(1).last_control);
+  EXPECT_EQ(0x0A09, parameters.value(176, 0, 6));
+}
+
 TEST(DnProcessData, LengthsOfTheInstances) {
   const ParameterStore parameters{dnModuleParameterDefinitions()};
   const std::pair<unsigned, std::size_t> expected[]{{20, 4}, {21, 4}, {100, 5}, {101, 8}, {102, 33}, {120, 0}};

@@ -175,6 +175,31 @@ TEST(DeviceNetTransportTest, ResourceUnavailableTakesTheInverterAway) {
   EXPECT_LE(rig.until([&] { return rig.allAnswer(); }), milliseconds{300});
 }
 
+// Class 40, attribute 12 (BU 0280 4.3.5): what it says of the motor is compared once per connection, and told once.
+TEST(DeviceNetTransportTest, PolesOtherThanConfiguredAreTold) {
+  Rig rig;
+  rig.device().attributes[{40, 1, 12}] = {0x04, 0x00};
+  ASSERT_TRUE(rig.starts());
+  rig.run(milliseconds{100});
+  EXPECT_THAT(rig.bus->seen, testing::Contains(testing::EndsWith("0E28010C")));
+  const auto isOfTheMotor = HasSubstr("its motor has");
+  EXPECT_THAT(rig.told, testing::Not(testing::Contains(isOfTheMotor)));
+  rig.device().attributes[{40, 1, 12}] = {0x06, 0x00};
+  for (int i = 0; i < 2; ++i) {
+    rig.device().powerOff();
+    rig.run(milliseconds{500});
+    rig.device().powerOn();
+    ASSERT_LT(rig.until([&] { return rig.allAnswer(); }), std::chrono::seconds{5});
+    rig.run(milliseconds{100});
+  }
+  std::size_t told = 0;
+  for (const std::string& text : rig.told) told += text.find("its motor has") != std::string::npos ? 1 : 0;
+  EXPECT_EQ(1u, told);
+  EXPECT_THAT(rig.told,
+              testing::Contains("drive drive0: its motor has 6 poles by class 40 of the module, pole_pairs: 2 is "
+                                "configured: speeds and ways are wrong by that"));
+}
+
 // --- What is told ----------------------------------------------------------------------------------------------------
 
 TEST(DeviceNetTransportTest, TellsWhatStopsADrive) {

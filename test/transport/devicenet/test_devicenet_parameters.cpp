@@ -208,6 +208,42 @@ TEST(DevicenetParametersTest, ASetThatIsMissingIsReadWithout) {
   EXPECT_EQ(500, channel.result().raw);
 }
 
+// The fault number also stands in the control supervisor (class 41, attribute 13; BU 0280 4.3.6).
+TEST(DevicenetParametersTest, TheSupervisorKnowsTheFaultToo) {
+  for (const ParameterObjects objects : {ParameterObjects::kNumbered, ParameterObjects::kIndexObject}) {
+    Channel channel{driveOf(3, objects)};
+    ParameterRequest request = readOf(700, ParameterShape::kArray);
+    const auto refuseParameter = [&] {
+      channel.parameters.submit(request);
+      EXPECT_EQ(objects == ParameterObjects::kNumbered ? "0E 127 1 0" : "10 199 3 1 = BC 02", channel.start());
+      channel.refuse(0x0F);
+      EXPECT_EQ("0E 41 3 13", channel.start());
+    };
+    refuseParameter();
+    channel.answer("66 00");
+    EXPECT_EQ(102, channel.result().raw);
+    // Where it does not tell either, the refusal of the parameter is told.
+    refuseParameter();
+    channel.refuse(0x16);
+    EXPECT_EQ("DeviceNet error 0Fh, the privilege is missing", channel.result().text.str());
+    refuseParameter();
+    channel.answer("00 00");
+    EXPECT_EQ(ParameterReason::kNoRight, channel.result().reason) << "no fault is none of its answers";
+    // Not of an inverter that is off, and not of what is no fault number.
+    channel.parameters.submit(request);
+    channel.start();
+    EXPECT_TRUE(channel.refuse(0x02));
+    EXPECT_EQ("nothing", channel.start());
+    channel.result();
+    request.index = 2;
+    channel.parameters.submit(request);
+    channel.start();
+    channel.refuse(0x0F);
+    EXPECT_EQ("nothing", channel.start());
+    channel.result();
+  }
+}
+
 TEST(DevicenetParametersTest, WhatEndsWithoutAnAnswerIsSaidToBeSo) {
   Channel channel;
   channel.parameters.submit(readOf(105));

@@ -335,7 +335,6 @@ TEST_F(OnAGateway, AParameterRequestIsAnsweredInWords) {
   EXPECT_THAT(result->text.str(), StartsWith("its gateway carries process data only"));
   EXPECT_FALSE(transport.pollResult());
   EXPECT_EQ("none", transport.identity(1).parameter_channel);
-  EXPECT_FALSE(transport.serveParametersOnly());
 }
 
 TEST_F(OnAGateway, IdentityNamesPlaceAndProtection) {
@@ -349,6 +348,8 @@ TEST_F(OnAGateway, IdentityNamesPlaceAndProtection) {
       "watchdog of the gateway (register 2000 = 500), which ends its outputs: with P513 > 0 the inverter trips E10 and "
       "the motor coasts",
       transport.identity(1).protected_by);
+  EXPECT_FALSE(transport.identity(1).timeout_notices);
+  EXPECT_TRUE(transport.identity(1).timeout_needed);
   EXPECT_STREQ("gateway", transport.endPoint().key);
 }
 

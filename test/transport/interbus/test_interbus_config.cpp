@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "transport/interbus/interbus_settings.h"
 
 namespace nord_driver {
@@ -13,6 +15,7 @@ using std::chrono::milliseconds;
 using Ring = test::InterbusSettings;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 TEST(InterbusConfig, HasItsDefaults) {
   const InterbusConfig config = Ring{}.read();
@@ -112,7 +115,8 @@ TEST(InterbusConfig, WhatIsMissingIsNamed) {
   Ring no_frequency;
   no_frequency.drive(1).erase("max_frequency");
   EXPECT_EQ(
-      "~drives/drive1/max_frequency is missing: expected P105 in Hz, because a gateway carries no parameter channel to "
+      "~drives/drive1/max_frequency is missing: expected P105 in Hz, because without bus/pcp the gateway carries no "
+      "parameter channel to "
       "read it by",
       no_frequency.refusal());
   Ring no_address;
@@ -212,6 +216,72 @@ TEST(InterbusConfig, AWatchdogAmongTheOutputsIsRefused) {
 }
 
 // 125 registers are read and 123 written by one request.
+TEST(InterbusConfig, ASecondConnectionIsAServer) {
+  test::InterbusSettings settings;
+  settings.bus.set("diagnosis", std::string{"gateway.local:503"});
+  EXPECT_EQ("gateway.local:503", settings.read().server.diagnosis);
+  settings.bus.set("diagnosis", std::string{"gateway.local:0"});
+  EXPECT_THAT(settings.refusal(), StartsWith("~bus/diagnosis: \"gateway.local:0\", expected a host name"));
+}
+
+// With it nobody has to type P105 in.
+TEST(InterbusConfig, PcpHasItsDefaults) {
+  test::InterbusSettings settings;
+  settings.bus.set("pcp/invoke/address", 500).set("pcp/result/address", 600);
+  settings.drive(0).set("address", 9);
+  settings.drive(1) = test::MapSettings("~drives/drive1/", {{"address", 3}, {"series", std::string{"sk5xxe"}}});
+  settings.drive(1).set("pole_pairs", 2);
+  const InterbusConfig config = settings.read();
+  ASSERT_TRUE(config.pcp);
+  EXPECT_EQ(500, config.pcp->invoke_address);
+  EXPECT_EQ(600, config.pcp->result_address);
+  EXPECT_FALSE(config.pcp->result_in_input_registers || config.pcp->swapped);
+  EXPECT_TRUE(config.pcp->initiate);
+  EXPECT_EQ(seconds(2.0), config.pcp->timeout);
+  EXPECT_EQ(7u, blockWords(config.pcp->invoke));
+  EXPECT_EQ(7u, blockWords(config.pcp->result));
+  EXPECT_EQ(3, config.drives[0].communication_reference) << "by the places in the ring";
+  EXPECT_EQ(2, config.drives[1].communication_reference);
+}
+
+TEST(InterbusConfig, PcpTakesWhatIsGiven) {
+  test::InterbusSettings settings;
+  settings.bus.set("pcp/invoke/address", 500).set("pcp/invoke/data", 8).set("pcp/result/address", 500);
+  settings.bus.set("pcp/result/function", 4).set("pcp/result/error", 3).set("pcp/result/additional", 2);
+  settings.bus.set("pcp/initiate", false).set("pcp/timeout", 0.5).set("pcp/first_reference", 10);
+  settings.bus.set("word_order", std::string{"swapped"});
+  settings.drive(0).set("communication_reference", 40);
+  const InterbusConfig config = settings.read();
+  EXPECT_EQ(8u, config.pcp->invoke.data);
+  EXPECT_EQ(3u, config.pcp->result.error);
+  EXPECT_TRUE(config.pcp->result_in_input_registers && config.pcp->swapped && !config.pcp->initiate);
+  EXPECT_EQ(seconds(0.5), config.pcp->timeout);
+  EXPECT_EQ(40, config.drives[0].communication_reference);
+  EXPECT_EQ(11, config.drives[1].communication_reference);
+}
+
+TEST(InterbusConfig, PcpThatCannotBeIsRefused) {
+  const auto refusal = [](const std::function<void(test::InterbusSettings&)>& change) {
+    test::InterbusSettings settings;
+    settings.bus.set("outputs/address", 100).set("watchdog/address", 300).set("watchdog/value", 500);
+    settings.bus.set("pcp/invoke/address", 500).set("pcp/result/address", 600);
+    change(settings);
+    return settings.refusal();
+  };
+  EXPECT_EQ("accepted", refusal([](auto&) {}));
+  EXPECT_THAT(refusal([](auto& s) { s.bus.set("pcp/invoke/address", 95); }),
+              StartsWith("~bus/pcp/invoke/address: 95 is not valid, expected registers outside the output image, which takes 100 "));
+  EXPECT_THAT(refusal([](auto& s) { s.bus.set("pcp/invoke/address", 294); }), HasSubstr("that of the watchdog, 300"));
+  EXPECT_THAT(refusal([](auto& s) { s.bus.set("pcp/result/address", 506); }), HasSubstr("outside the invoke block"));
+  EXPECT_THAT(refusal([](auto& s) { s.bus.set("pcp/result/address", 65530); }), HasSubstr("register 65535 at most"));
+  EXPECT_EQ("~bus/pcp/invoke/data: 3 lies in sub_index, expected a word of its own",
+            refusal([](auto& s) { s.bus.set("pcp/invoke/data", 3); }));
+  EXPECT_THAT(refusal([](auto& s) { s.bus.set("pcp/result/function", 16); }), StartsWith("~bus/pcp/result/function"));
+  EXPECT_EQ("~drives/drive1/communication_reference: 2 is not valid, expected one of its own: drive drive0 has it",
+            refusal([](auto& s) { s.drive(1).set("communication_reference", 2); }));
+  EXPECT_THAT(refusal([](auto& s) { s.drive(1).set("communication_reference", 1); }), HasSubstr("expected"));
+}
+
 TEST(InterbusConfig, ALongImageIsSplitBetweenDrives) {
   Ring ring{64};
   const InterbusConfig config = ring.read();

@@ -1,4 +1,4 @@
-// Four inverters behind one CANopen node, and one of them is not there.
+// Four inverters behind one module, and one of them is not there.
 #include <gmock/gmock.h>
 
 #include "rostest/lived_time.h"
@@ -14,7 +14,7 @@ using ::testing::UnorderedElementsAre;
 constexpr Seconds kBackOnline{2.0};  // the inverter charges for 0.3 s
 constexpr const char* kMissing = "rear_right";
 
-class CanopenGateway : public RobotTest {
+class Gateway : public RobotTest {
  protected:
   void SetUp() override {
     RobotTest::SetUp();
@@ -58,7 +58,7 @@ class CanopenGateway : public RobotTest {
   DriveTopics rear_right_{node_, kMissing};
 };
 
-TEST_F(CanopenGateway, AnInverterMissingFromTheStartIsNamedAndKeepsTheBaseFromMoving) {
+TEST_F(Gateway, AnInverterMissingFromTheStartIsNamedAndKeepsTheBaseFromMoving) {
   power(false);
   ASSERT_NO_FATAL_FAILURE(startDriver());
   ASSERT_NO_FATAL_FAILURE(expectThreeOfFour());
@@ -74,7 +74,7 @@ TEST_F(CanopenGateway, AnInverterMissingFromTheStartIsNamedAndKeepsTheBaseFromMo
   expectAllTurn();
 }
 
-TEST_F(CanopenGateway, AnInverterThatGoesOffStopsTheOtherThreeUntilTheyAreEnabledAgain) {
+TEST_F(Gateway, AnInverterThatGoesOffStopsTheOtherThreeUntilTheyAreEnabledAgain) {
   ASSERT_NO_FATAL_FAILURE(startDriver());
   ASSERT_NO_FATAL_FAILURE(waitForAllFour());
   enableAndDrive(0.3);

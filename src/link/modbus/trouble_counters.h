@@ -1,0 +1,13 @@
+// Which counter a trouble belongs to.
+#pragma once
+
+#include "link/modbus/modbus_connection.h"
+#include "link/modbus/register_link.h"
+
+namespace nord_driver::link {
+
+void countTrouble(ModbusTrouble trouble, LinkCounters& counters) noexcept;
+/// Adds what happened on a second connection; exchanges and skipped outputs are of images and stay.
+void addConnection(const LinkCounters& second, LinkCounters& to) noexcept;
+
+}  // namespace nord_driver::link

@@ -1,0 +1,95 @@
+// The parameters of all drives of a ring by Compact PCP, through the one pair of register blocks a gateway has for it.
+//
+// One access runs at a time, of whichever drive: its drive's connection is initiated where that has not been done, its
+// service is written into the invoke block, and the result block is read until it confirms. Between two services the
+// block is cleared and the result seen gone, so that no result is taken for that of another service.
+//
+// Compact PCP has no write that spares the EEPROM: whether a write wears it is P560's to say. So a write to the RAM only
+// is none of its capabilities, and is refused without asking.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "interbus/pcp_blocks.h"
+#include "link/modbus/register_order.h"
+#include "nord_driver/core/time.h"
+#include "nord_driver/profile/parameter_request.h"
+#include "profile/parameter_queue.h"
+
+namespace nord_driver {
+
+/// `bus/pcp`.
+struct PcpMap {
+  std::uint16_t invoke_address = 0;
+  std::uint16_t result_address = 0;
+  bool result_in_input_registers = false;  ///< function 4 instead of 3
+  bool swapped = false;                    ///< the bytes of each word
+  bool initiate = true;                    ///< the driver has to initiate the connections itself
+  Duration timeout{std::chrono::seconds{2}};
+  interbus::PcpInvokeLayout invoke{};
+  interbus::PcpResultLayout result{};
+};
+
+/// Sans-IO. Each cycle: pollOrder(), and handleAnswer() once its order has been carried out or given up.
+class InterbusParameters {
+ public:
+  /// `references`: the communication reference of each drive.
+  InterbusParameters(const PcpMap& map, const std::vector<std::uint16_t>& references);
+
+  static constexpr profile::ParameterCapabilities capabilities() noexcept { return {false, false}; }
+
+  /// As ParameterQueue::submit().
+  bool submit(std::size_t drive, const profile::ParameterRequest& request) noexcept;
+  /// The order to carry out next; nothing while one is under way, or there is nothing to do.
+  std::optional<link::RegisterOrder> pollOrder(Instant now) noexcept;
+  /// To the order of the last pollOrder().
+  void handleAnswer(const link::RegisterAnswer& answer) noexcept;
+  /// Ends all pending requests of this drive as offline.
+  void handleOffline(std::size_t drive) noexcept;
+  std::optional<profile::ParameterResult> pollResult(std::size_t drive) noexcept {
+    return drives_[drive].requests.pollResult();
+  }
+
+ private:
+  enum class Phase : std::uint8_t {
+    kClear,      ///< the invoke block is to say "no order"
+    kCleared,    ///< until the result block says so, too
+    kInvoke,     ///< nothing under way
+    kConfirmed,  ///< until the result block confirms
+  };
+  struct DriveQueue {
+    std::uint16_t reference = 2;
+    bool initiated = false;
+    profile::ParameterQueue requests;
+  };
+
+  bool startNext(Instant now) noexcept;
+  void skipUnserved(DriveQueue& drive) noexcept;
+  void giveUp() noexcept;
+  interbus::PcpInvocation invocation() const noexcept;
+  link::RegisterOrder write(const interbus::PcpInvocation& invocation) const noexcept;
+  link::RegisterOrder read() const noexcept;
+  void handleResult(const interbus::PcpResult& result) noexcept;
+  void handleConfirmation(const interbus::PcpResult& result) noexcept;
+  void takeValue(const interbus::PcpResult& result) noexcept;
+  bool fallBack(const interbus::PcpError& error) noexcept;
+  void end() noexcept;
+
+  PcpMap map_;
+  std::vector<DriveQueue> drives_;
+  std::optional<std::size_t> running_;  // the drive whose request runs
+  std::size_t next_ = 0;                // whose turn it is
+  Phase phase_ = Phase::kClear;
+  bool invoked_ = false;    // since the block was last seen cleared
+  bool under_way_ = false;  // an order
+  bool foreign_ = false;    // it belongs to a request that has ended
+  bool plain_ = false;      // the running request is asked for with sub-index 0
+  Instant deadline_{};
+  Sentence trouble_;  // why the last order of the running request was not carried out
+  interbus::PcpInvocation invocation_;
+};
+
+}  // namespace nord_driver

@@ -1,0 +1,17 @@
+// The DeviceNet cycle allocates nothing once the drives are up.
+//
+// A program of its own, because it replaces malloc; in simulated time, in one thread. Not built under sanitizers, which
+// do the same.
+#include "system/devicenet_robot.h"
+#include "system/no_allocation.h"
+
+namespace nord_driver::test {
+namespace {
+
+TEST(DevicenetNoAllocation, InTheCycle) {
+  DevicenetRobot robot;
+  expectNoAllocationInTheCycle(robot, std::chrono::seconds{6});
+}
+
+}  // namespace
+}  // namespace nord_driver::test

@@ -1,0 +1,198 @@
+// nord_param check-config as a user runs it: on the files of config/templates, and on files that are wrong. No bus is
+// opened and no ROS master asked for.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "tools/program.h"
+
+namespace nord_driver::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class CheckConfig : public ::testing::Test {
+ protected:
+  CheckConfig() { ::setenv("ROS_MASTER_URI", "http://127.0.0.1:1", 1); }  // nobody there
+  ~CheckConfig() override { ::unlink(file_.c_str()); }
+
+  static Ended check(std::vector<std::string> words) {
+    words.insert(words.begin(), {NORD_PARAM_PROGRAM, "check-config"});
+    return runProgram(words);
+  }
+  Ended checkText(const std::string& text, std::vector<std::string> words = {}) {
+    std::ofstream(file_) << text;
+    words.insert(words.begin(), file_);
+    return check(words);
+  }
+
+  const std::string file_ = ::testing::TempDir() + "check_config_" + std::to_string(::getpid()) + ".yaml";
+};
+
+constexpr char kConveyor[] = R"(bus: {device: /dev/ttyUSB0}
+drives:
+  belt: {address: 3, series: sk5xxe, joint: belt_joint, gear_ratio: 20.0, pole_pairs: 2, max_velocity: 6.0}
+  door: {address: 4, series: sk5xxe, joint: door_joint, gear_ratio: 10.0, pole_pairs: 2, max_frequency: 25.0}
+)";
+
+/// What the simulator has to say of a file, which is its own, too; on a bus that nobody else has.
+std::string complaintsOfTheSimulator(const std::string& file, const std::string& place) {
+  std::string bus = runProgram({NORD_SIM_PROGRAM, "--config", file, "--place"}).output;
+  if (bus.rfind("virtual:", 0) == 0) bus += "_" + std::to_string(::getpid());
+  if (bus.rfind("/", 0) == 0) bus = place;
+  if (bus.rfind("127.0.0.1:", 0) == 0) bus = "127.0.0.1:0";
+  const Ended ended = runProgram({NORD_SIM_PROGRAM, "--config", file, "--bus", bus, "--duration", "0.01"});
+  return ended.errors + (ended.code == 0 ? "" : "it ended with " + std::to_string(ended.code));
+}
+
+// What a user copies is fine as it is, and says which lines are to be changed.
+TEST_F(CheckConfig, EveryTemplateIsAcceptedWithoutAWarning) {
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(NORD_CONFIG_FOLDER) + "/templates")) {
+    SCOPED_TRACE(entry.path());
+    ++files;
+    const Ended ended = check({entry.path()});
+    EXPECT_EQ(0, ended.code) << ended.errors;
+    EXPECT_THAT(ended.output, EndsWith("\nfine\n"));
+    EXPECT_THAT(ended.output, Not(HasSubstr(", no limits"))) << "every machine has its limits";
+    EXPECT_EQ("", complaintsOfTheSimulator(entry.path(), file_ + "_bus"));
+    std::ifstream file(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_THAT(text, AllOf(HasSubstr("  # CHANGE  "), HasSubstr("nameplate"), HasSubstr("NORD CON"),
+                            HasSubstr("simulate.launch")));
+  }
+  EXPECT_GE(files, 9u);
+}
+
+TEST_F(CheckConfig, DrawsWhatItUnderstood) {
+  const Ended ended = check({std::string(NORD_CONFIG_FOLDER) + "/templates/skid_steer_profibus_cu4.yaml"});
+  EXPECT_THAT(
+      ended.output,
+      EndsWith("/skid_steer_profibus_cu4.yaml\n"
+               "|- bus: profibus_dp at /dev/ttyUSB0, 100 cycles/s, baud_rate 500000, master_address 1, watchdog 0.2\n"
+               "|  |- PROFIBUS station 3, parameters: PKW\n"
+               "|  |  |- inverter 1: front_left, sk2xxe, 2 pole pairs, gear ratio 20: 7.85 rad/s at "
+               "front_left_wheel_joint\n"
+               "|  |  |- inverter 2: front_right, sk2xxe, 2 pole pairs, gear ratio 20, inverted: 7.85 rad/s at "
+               "front_right_wheel_joint\n"
+               "|  |  |- inverter 3: rear_left, sk2xxe, 2 pole pairs, gear ratio 20: 7.85 rad/s at "
+               "rear_left_wheel_joint\n"
+               "|  |  `- inverter 4: rear_right, sk2xxe, 2 pole pairs, gear ratio 20, inverted: 7.85 rad/s at "
+               "rear_right_wheel_joint\n"
+               "|  `- when this computer dies: PROFIBUS watchdog of 0.2 s: the inverter trips E10.2 and the motor "
+               "coasts\n"
+               "|- base, skid steer\n"
+               "|  |- left: front_left, rear_left\n"
+               "|  |- right: front_right, rear_right\n"
+               "|  |- wheel radius 0.1 m, separation 0.5 m x 1.5\n"
+               "|  |- straight on: 0.785 m/s, limits: 0.5 m/s, 0.2 m/s^2 (64 % of what the drives can)\n"
+               "|  `- on the spot: 2.09 rad/s, limits: 1 rad/s, 0.5 rad/s^2 (48 % of what the drives can)\n"
+               "`- speeds are those of 100 %: with P105 = 50 Hz, as from the factory; the driver reads it from the "
+               "drive\n"
+               "fine\n"));
+}
+
+TEST_F(CheckConfig, SingleDrivesHaveTheirOwnLimits) {
+  const Ended ended = checkText(kConveyor);
+  EXPECT_EQ(0, ended.code) << ended.errors;
+  EXPECT_THAT(ended.output,
+              AllOf(HasSubstr("belt, sk5xxe, 2 pole pairs, gear ratio 20: 7.85 rad/s at belt_joint"),
+                    HasSubstr("~belt/command, limits: 6 rad/s\n"), HasSubstr("gear ratio 10: 7.85 rad/s at door_joint"),
+                    HasSubstr("~door/command, no limits"), HasSubstr("no base"),
+                    HasSubstr("max_frequency of door 25 Hz, else with P105 = 50 Hz")));
+}
+
+TEST_F(CheckConfig, NamesEveryErrorAndWarningWithItsLine) {
+  const Ended ended = checkText(
+      "bus:\n"
+      "  device: /dev/ttyUSB0\n"
+      "  baud_rat: 500000\n"
+      "drives:\n"
+      "  left: {address: 3, series: sk5xxe, joint: left, pole_pairs: 2}\n"
+      "  right:\n"
+      "    address: 4\n"
+      "    series: sk5xxf\n"
+      "    pole_pairs: 2\n"
+      "  lift: {address: 5, series: sk5xxe}\n");
+  EXPECT_EQ(1, ended.code);
+  EXPECT_THAT(ended.output, AllOf(HasSubstr(file_ + ":8: error: drives/right/series: \"sk5xxf\" is not valid"),
+                                  HasSubstr(file_ + ":10: error: drives/lift/pole_pairs is missing"),
+                                  EndsWith("\nrefused: 2 errors\n")));
+  const Ended warned = checkText("cycle_rat: 50\n" + std::string(kConveyor));
+  EXPECT_EQ(0, warned.code);
+  EXPECT_THAT(warned.output, AllOf(HasSubstr(file_ + ":1: warning: cycle_rat is not known and is ignored; did you mean "
+                                                     "cycle_rate?\n"),
+                                   EndsWith("\nfine, 1 warning\n")));
+}
+
+TEST_F(CheckConfig, WhatTheBusRefusesIsNamedBesideWhatTheBaseDoes) {
+  const Ended ended =
+      checkText("left_wheel: nobody\nright_wheel: belt_joint\n" + std::string(kConveyor), {"--bus", ""});
+  EXPECT_EQ(1, ended.code);
+  EXPECT_THAT(ended.output, HasSubstr(":1: error: left_wheel: \"nobody\" is not valid"));
+  const Ended both = checkText(
+      "left_wheel: nobody\nright_wheel: belt_joint\nbus: {device: /dev/ttyUSB0, baud_rate: 12345}\n"
+      "drives: {belt: {address: 3, series: sk5xxe, joint: belt_joint, pole_pairs: 2}}\n");
+  EXPECT_THAT(both.output, AllOf(HasSubstr(":1: error: left_wheel"), HasSubstr(":3: error: bus/baud_rate"),
+                                 HasSubstr("refused: 2 errors")));
+}
+
+TEST_F(CheckConfig, TellsProgramsTheSameAsJson) {
+  const Ended ended = checkText(kConveyor, {"--json"});
+  EXPECT_EQ(0, ended.code) << ended.errors;
+  const YAML::Node json = YAML::Load(ended.output);  // JSON is YAML
+  EXPECT_TRUE(json["accepted"].as<bool>());
+  EXPECT_EQ("profibus_dp", json["transport"].as<std::string>());
+  EXPECT_EQ("/dev/ttyUSB0", json["where"].as<std::string>());
+  const YAML::Node belt = json["modules"][0]["drives"][0];
+  EXPECT_EQ("belt", belt["name"].as<std::string>());
+  EXPECT_NEAR(7.854, belt["max_velocity"].as<double>(), 1e-3);
+  EXPECT_EQ(-6.0, belt["limits"]["min_velocity"].as<double>());
+  EXPECT_FALSE(json["base"]);
+  const Ended refused = checkText("drives: {}\n", {"--json"});
+  EXPECT_EQ(1, refused.code);
+  EXPECT_FALSE(YAML::Load(refused.output)["accepted"].as<bool>());
+}
+
+TEST_F(CheckConfig, AFileThatIsNoneIsWrongUsageAndOneThatIsNoYamlRefused) {
+  const Ended missing = check({"/nowhere.yaml"});
+  EXPECT_EQ(2, missing.code);
+  EXPECT_THAT(missing.errors, HasSubstr("/nowhere.yaml: there is no such file"));
+  EXPECT_THAT(missing.output, IsEmpty());
+  EXPECT_EQ(2, check({}).code);
+  const Ended broken = checkText("bus: {device: /dev/ttyUSB0\ndrives: 3\n");
+  EXPECT_EQ(1, broken.code);
+  EXPECT_THAT(broken.output, AllOf(HasSubstr(file_ + ":2: error: "), HasSubstr("expected a readable YAML file")));
+  EXPECT_THAT(checkText("transport: canopn\n").output, HasSubstr("did you mean canopen?"));
+}
+
+// The sizes that are not typed in.
+TEST_F(CheckConfig, TakesTheUrdf) {
+  const std::string urdf = file_ + ".urdf";
+  std::ofstream(urdf)
+      << "<robot name=\"r\"><link name=\"base_link\"/>"
+         "<link name=\"l\"><collision><geometry><sphere radius=\"0.2\"/></geometry></collision></link>"
+         "<link name=\"r\"><collision><geometry><sphere radius=\"0.2\"/></geometry></collision></link>"
+         "<joint name=\"belt_joint\" type=\"continuous\"><parent link=\"base_link\"/><child link=\"l\"/>"
+         "<origin xyz=\"0 0.4 0\"/><axis xyz=\"0 1 0\"/></joint>"
+         "<joint name=\"door_joint\" type=\"continuous\"><parent link=\"base_link\"/><child link=\"r\"/>"
+         "<origin xyz=\"0 -0.4 0\"/><axis xyz=\"0 1 0\"/></joint></robot>";
+  std::string base = "left_wheel: belt_joint\nright_wheel: door_joint\n" + std::string(kConveyor);
+  base.erase(base.find(", max_velocity: 6.0"), std::string(", max_velocity: 6.0").size());
+  EXPECT_THAT(checkText(base).output, HasSubstr("wheel_separation is missing"));
+  EXPECT_THAT(checkText(base, {"--urdf", urdf}).output, HasSubstr("wheel radius 0.2 m, separation 0.8 m"));
+  EXPECT_EQ(2, checkText(base, {"--urdf", "/nowhere.urdf"}).code);
+  ::unlink(urdf.c_str());
+}
+
+}  // namespace
+}  // namespace nord_driver::test
