@@ -48,8 +48,9 @@ Progress StoreCommand::fail(const SdoAnswer& answer) noexcept {
   const bool store = action_ == StoreAction::kStore;
   const char* const verb = store ? "store" : "restore";
   if (answer.abort_code == sdo_abort::kNoObject) {
-    reason_.format("has no object %04Xh: it cannot %s its settings on command (BU 0260 names it of SK CU4/TU4-CAO only)",
-                   unsigned{index()}, verb);
+    reason_.format(
+        "has no object %04Xh: it cannot %s its settings on command (BU 0260 names it of SK CU4/TU4-CAO only)",
+        unsigned{index()}, verb);
   } else if (answer.abort_code == sdo_abort::kNoSubIndex) {
     reason_.format("has no sub-index %u of %04Xh: it cannot %s that part of its settings alone", unsigned{sub_index_},
                    unsigned{index()}, verb);

@@ -111,9 +111,11 @@ std::optional<Instant> Class2Connection::nextDeadline() const noexcept {
 }
 
 void Class2Connection::handleAnswer(const FdlAnswer& answer, Instant now) noexcept {
+  if (step_ == Step::kClosed) return;  // to what was on its way when the connection was given up
   if (step_ == Step::kToAbort) return closed();
   // Every PDU it gets is a sign of life to the slave.
-  if (step_ == Step::kOpen && request_under_way_) timers_.set(Timer::kIdle, now + times_.send_timeout / kIdlesPerTimeout);
+  if (step_ == Step::kOpen && request_under_way_)
+    timers_.set(Timer::kIdle, now + times_.send_timeout / kIdlesPerTimeout);
   switch (answer.kind) {
     case FdlAnswer::Kind::kAcknowledge:
       return taken();  // to a poll: nothing yet
@@ -235,6 +237,7 @@ void Class2Connection::handleRefusal(ResponseCode code) noexcept {
 }
 
 void Class2Connection::handleNoAnswer(Mismatch mismatch) noexcept {
+  if (step_ == Step::kClosed) return;
   if (step_ == Step::kToAbort) return closed();
   drop(RecordOutcome::kNoAnswer, mismatch == Mismatch::kNone
                                      ? "it does not answer"

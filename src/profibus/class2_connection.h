@@ -23,8 +23,9 @@ struct Class2Times {
   Duration response_timeout = std::chrono::seconds{2};
 };
 
-/// The order of felser.ch, "MS2 Verbindungsaufbau": Initiate to the resource manager at access point 49, which is polled
-/// until it names the access point of the connection; that one is polled until it has accepted. Records go as on MS1
+/// BU 2700 3.3: "established with the Initiate service ... disconnected with the Abort service". The order is that of
+/// felser.ch, "MS2 Verbindungsaufbau": Initiate to the resource manager at access point 49, which is polled until it
+/// names the access point of the connection; that one is polled until it has accepted. Records go as on MS1
 /// (RecordChannel), with Idle in the pauses. A response that does not come in time ends the connection, so that a late
 /// one cannot be taken for that to the next request; the next record opens another.
 class Class2Connection {
@@ -47,8 +48,8 @@ class Class2Connection {
 
   struct Outgoing {
     std::uint8_t access_point = 0;
-    ByteView pdu;      ///< empty: a poll. Valid until the next call
-    bool last = false; ///< an Abort: whether it is answered does not matter
+    ByteView pdu;       ///< empty: a poll. Valid until the next call
+    bool last = false;  ///< an Abort: whether it is answered does not matter
   };
   /// Ends what is over its time; true when the connection has a telegram to send.
   bool wantsTelegram(Instant now) noexcept;

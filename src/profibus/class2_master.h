@@ -20,9 +20,9 @@
 
 namespace nord_driver::profibus {
 
-/// Calling order: `restart()` whenever the line was opened; then, as long as `wantsBus()`: pollTransmit, handleBytes and
-/// handleTimeout as with DpMaster. A connection to each station is opened by its first record; they take turns, telegram
-/// by telegram. A station may be in data exchange with nobody, and may have the address 126.
+/// Calling order: `restart()` whenever the line was opened; then, as long as `wantsBus()`: pollTransmit, handleBytes
+/// and handleTimeout as with DpMaster. A connection to each station is opened by its first record; they take turns,
+/// telegram by telegram. A station may be in data exchange with nobody, and may have the address 126.
 ///
 /// It is the only master of its segment: the token ring of another one is not joined. One that is heard, while it
 /// listens or later, ends everything without another telegram until `restart()`.

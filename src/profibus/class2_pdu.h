@@ -22,15 +22,15 @@ constexpr Duration kMaxSendTimeout = std::chrono::milliseconds{655'350};
 /// Why a connection ends, when the instance is MSAC_C2: the low four bits of the reason byte (ProSoft MVI69-PDPMV1 user
 /// manual p. 123).
 enum class Class2Reason : std::uint8_t {
-  kSequence = 1,          ///< ABT_SE
-  kInvalidRequest = 2,    ///< ABT_FE
-  kTimeOut = 3,           ///< ABT_TO
-  kInvalidResponse = 4,   ///< ABT_RE
-  kInvalidService = 5,    ///< ABT_IV
-  kSendTimeout = 6,       ///< ABT_STO
-  kAdditionalAddress = 7, ///< ABT_IA
-  kWaiting = 8,           ///< ABT_OC
-  kResource = 15          ///< ABT_RES
+  kSequence = 1,           ///< ABT_SE
+  kInvalidRequest = 2,     ///< ABT_FE
+  kTimeOut = 3,            ///< ABT_TO
+  kInvalidResponse = 4,    ///< ABT_RE
+  kInvalidService = 5,     ///< ABT_IV
+  kSendTimeout = 6,        ///< ABT_STO
+  kAdditionalAddress = 7,  ///< ABT_IA
+  kWaiting = 8,            ///< ABT_OC
+  kResource = 15           ///< ABT_RES
 };
 
 /// Abort.req: where it comes from, and RRIICCCC: instance (0 FDL, 1 MSAC_C2, 2 user) and reason.

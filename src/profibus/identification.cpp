@@ -1,14 +1,12 @@
 #include "profibus/identification.h"
 
-#include <cstring>
-
 namespace nord_driver::profibus {
 
 namespace {
 
 constexpr std::uint8_t kCallIndex = 255;
-constexpr std::uint8_t kCall = 0x08;              // Extended_Function_Num
-constexpr std::uint16_t kFirstFiIndex = 65'000;   // I&M0; I&M1 is the next
+constexpr std::uint8_t kCall = 0x08;             // Extended_Function_Num
+constexpr std::uint16_t kFirstFiIndex = 65'000;  // I&M0; I&M1 is the next
 constexpr std::size_t kCallHeader = 4;
 constexpr std::size_t kDeviceHeader = 10;
 
@@ -30,11 +28,10 @@ FixedText<N> printed(ByteView bytes) noexcept {
 
 Sentence describe(const TypePlate& plate) noexcept {
   Sentence text;
-  const char* const name = plate.manufacturer == kNordManufacturer ? "NORD (manufacturer 393)" : "";
-  FixedText<20> number;
-  number.format("manufacturer %u", unsigned{plate.manufacturer});
-  text.format("%s, order number %s, serial number %s, hardware %u, software %c%u.%u.%u",
-              *name != '\0' ? name : number.c_str(),
+  FixedText<30> maker;
+  maker.format(plate.manufacturer == kNordManufacturer ? "NORD (manufacturer %u)" : "manufacturer %u",
+               unsigned{plate.manufacturer});
+  text.format("%s, order number %s, serial number %s, hardware %u, software %c%u.%u.%u", maker.c_str(),
               plate.order_number.empty() ? "not told" : plate.order_number.c_str(),
               plate.serial_number.empty() ? "not told" : plate.serial_number.c_str(), unsigned{plate.hardware},
               plate.software_kind, unsigned{plate.software[0]}, unsigned{plate.software[1]},

@@ -54,8 +54,8 @@ class IdentificationReader {
   std::optional<TypePlate> typePlate() const noexcept;
   /// Of I&M1 to I&M4: the text behind the device's own ten bytes, without padding.
   FixedText<54> text() const noexcept;
-  /// Why not, a clause: "it has no I&M0 record: DP-V1 error B0, invalid index". Empty for a failure of the channel, which
-  /// has words of its own.
+  /// Why not, a clause: "it has no I&M0 record: DP-V1 error B0, invalid index". Empty for a failure of the channel,
+  /// which has words of its own.
   const Sentence& trouble() const noexcept { return trouble_; }
   /// Of the record that failed.
   RecordOutcome outcome() const noexcept { return outcome_; }

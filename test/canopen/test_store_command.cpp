@@ -50,9 +50,8 @@ TEST_F(StoreCommands, RefusedInWords) {
     EXPECT_EQ(Progress::kFailed, run(command, answers));
     return command.reason().str();
   };
-  EXPECT_EQ(
-      "has no object 1010h: it cannot store its settings on command (BU 0260 names it of SK CU4/TU4-CAO only)",
-      reason(StoreAction::kStore, {"80 10 10 01 00 00 02 06"}));
+  EXPECT_EQ("has no object 1010h: it cannot store its settings on command (BU 0260 names it of SK CU4/TU4-CAO only)",
+            reason(StoreAction::kStore, {"80 10 10 01 00 00 02 06"}));
   EXPECT_EQ("has no sub-index 2 of 1011h: it cannot restore that part of its settings alone",
             reason(StoreAction::kRestore, {"80 11 10 02 11 00 09 06"}, 2));
   EXPECT_EQ("stores its settings by itself, and not on command (1010h:1 = 2): there is nothing to do",

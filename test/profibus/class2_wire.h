@@ -23,8 +23,7 @@ constexpr const char* kManagerPoll7C = "68 05 05 68 88 81 7C 31 32 E8 16";
 constexpr const char* kGrant = "68 09 09 68 81 88 08 32 31 56 30 00 14 0E 16";
 constexpr const char* kServerPoll5C = "68 05 05 68 88 81 5C 30 32 C7 16";
 constexpr const char* kServerPoll7C = "68 05 05 68 88 81 7C 30 32 E7 16";
-constexpr const char* kAccepted =
-    "68 15 15 68 81 88 08 32 30 57 F0 01 00 00 00 00 00 00 02 00 02 00 00 00 00 BF 16";
+constexpr const char* kAccepted = "68 15 15 68 81 88 08 32 30 57 F0 01 00 00 00 00 00 00 02 00 02 00 00 00 00 BF 16";
 constexpr const char* kClass2Write5C = "68 11 11 68 88 81 5C 30 32 5F 00 65 08 15 E4 00 00 00 00 00 00 8C 16";
 constexpr const char* kClass2Write7C = "68 11 11 68 88 81 7C 30 32 5F 00 65 08 15 E4 00 00 00 00 00 00 AC 16";
 constexpr const char* kClass2Written = "68 09 09 68 81 88 08 32 30 5F 00 65 08 3F 16";

@@ -160,7 +160,8 @@ TEST(Class2Simulated, RefusedInWords) {
   none.connections = 0;
   Class2Run without{{8}, none};
   EXPECT_EQ(RecordOutcome::kNotActivated, without.record(readAnswer()).outcome);
-  EXPECT_NE(std::string::npos, without.master.trouble(0).str().find("access point 49")) << without.master.trouble(0).c_str();
+  EXPECT_NE(std::string::npos, without.master.trouble(0).str().find("access point 49"))
+      << without.master.trouble(0).c_str();
 
   Class2Run absent{{8}};
   absent.segment.stations().module(0).setPowered(false);

@@ -40,9 +40,8 @@ TEST(Identification, TypePlateOfAModule) {
   EXPECT_EQ(0x3A00, plate->profile);
   EXPECT_EQ(1, plate->version[0]);
   EXPECT_EQ(0x0001, plate->supported);
-  EXPECT_STREQ(
-      "NORD (manufacturer 393), order number SK CU4-PBR, serial number 123456, hardware 2, software V1.3.0",
-      describe(*plate).c_str());
+  EXPECT_STREQ("NORD (manufacturer 393), order number SK CU4-PBR, serial number 123456, hardware 2, software V1.3.0",
+               describe(*plate).c_str());
 }
 
 // Somebody else's device, and one that prints nothing.

@@ -1,8 +1,8 @@
 // The connections of class-2 masters to a simulated module (DP-V1, MS2): the resource manager at access point 49, and
 // the access points it hands out. Beside data exchange, and without it.
 //
-// BU 0220 8.3.3.2: three class-2 masters at a time. The PDUs are those of felser.ch ("MS2 Verbindungsaufbau") and Balluff
-// BTL7-T500 pp. 68, 69, the reasons of an abort those of ProSoft MVI69-PDPMV1 p. 123.
+// BU 0220 8.3.3.2: three class-2 masters at a time. The PDUs are those of felser.ch ("MS2 Verbindungsaufbau") and
+// Balluff BTL7-T500 pp. 68, 69, the reasons of an abort those of ProSoft MVI69-PDPMV1 p. 123.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,8 @@
 // A simulated PROFIBUS DP station, whatever is behind it: the services and the state machine every slave shares.
 //
 // EN 50170: POWER_ON -> WAIT_PRM -> WAIT_CFG -> DATA_EXCH, the frame count bit, the watchdog, SYNC and FREEZE, and the
-// records of DP-V1 for both classes of masters. What is exchanged and configured is the business of the derived classes.
+// records of DP-V1 for both classes of masters. What is exchanged and configured is the business of the derived
+// classes.
 #pragma once
 
 #include <cstdint>

@@ -74,8 +74,8 @@ struct ProfibusDpConfig {
 ProfibusDpConfig readProfibusDpConfig(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate,
                                       ProfibusUse use = ProfibusUse::kDataExchange);
 
-/// For a program that reads and writes parameters in data exchange and then ends: without a watchdog its end is no E10.2
-/// in the inverters (BU 2700 8.1.1), they keep the idle word; and it listens first.
+/// For a program that reads and writes parameters in data exchange and then ends: without a watchdog its end is no
+/// E10.2 in the inverters (BU 2700 8.1.1), they keep the idle word; and it listens first.
 void endWithoutATrip(ProfibusDpConfig& config);
 
 }  // namespace nord_driver

@@ -20,8 +20,8 @@ constexpr Duration kStatusInterval = std::chrono::milliseconds{500};
 constexpr Duration kAnswerTimeout = std::chrono::seconds{1};
 constexpr Duration kTimeToEnd = std::chrono::milliseconds{200};  // for an Abort to each station
 constexpr const char* kOnlyParameters =
-    "transport nord_driver/profibus_ms2 reads and writes parameters only (nord_param), and sends nothing here: a driver "
-    "needs nord_driver/profibus_dp";
+    "transport nord_driver/profibus_ms2 reads and writes parameters only (nord_param), and sends nothing here: "
+    "a driver needs nord_driver/profibus_dp";
 
 }  // namespace
 

@@ -19,8 +19,9 @@
 
 namespace nord_driver {
 
-/// For nord_param: for a station that is not in data exchange, and shall not be, or cannot be: its configuration does not
-/// fit, its P509 selects another bus, its address is still 126. Only modules SK CU4/TU4-PBR have an acyclic channel.
+/// For nord_param: for a station that is not in data exchange, and shall not be, or cannot be: its configuration does
+/// not fit, its P509 selects another bus, its address is still 126. Only modules SK CU4/TU4-PBR have an acyclic
+/// channel.
 ///
 /// The status word, which says whether a drive runs and which parameter set is in force, is read as a parameter: P741
 /// [-01] of the inverter (BU 0220 5.1, BU 2700 6.6). A drive that does not tell it stays silent to the layers above:

@@ -7,7 +7,7 @@ namespace {
 constexpr std::uint16_t kFirstModuleNumber = 150, kLastModuleNumber = 199;  // BU 2700 7.1, BU 0220 5.2
 constexpr std::uint16_t kModuleStatus = 173;
 constexpr std::uint16_t kBusOut = 741;  // [-01]: status word (BU 0220 5.1)
-constexpr std::uint32_t kOwnId = 0;  // no asker outside has it
+constexpr std::uint32_t kOwnId = 0;     // no asker outside has it
 // An answer that takes several telegrams, and still before a service gives up.
 constexpr Duration kRecordAnswerTimeout = std::chrono::milliseconds{2500};
 
