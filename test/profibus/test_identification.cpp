@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "profibus/identification.h"
+#include "profibus/record_wire.h"
 
 namespace nord_driver::profibus {
 namespace {
@@ -42,6 +43,26 @@ TEST(Identification, TypePlateOfAModule) {
   EXPECT_EQ(0x0001, plate->supported);
   EXPECT_STREQ("NORD (manufacturer 393), order number SK CU4-PBR, serial number 123456, hardware 2, software V1.3.0",
                describe(*plate).c_str());
+}
+
+// On MS1 beside data exchange, telegram by telegram.
+TEST(Identification, TypePlateOverClass1) {
+  RecordWire wire;
+  wire.startsUpModular();
+  IdentificationReader reader{0};
+  ASSERT_TRUE(wire.master.submitRecord(0, *reader.pollRecord()));
+  wire.cycleWith("68 0D 0D 68 88 81 5C 33 33 5F 00 FF 04 08 00 FD E8 1A 16",
+                 "68 09 09 68 81 88 08 33 33 5F 00 FF 04 D9 16");
+  reader.handleRecord(wire.result());
+  ASSERT_TRUE(wire.master.submitRecord(0, *reader.pollRecord()));
+  wire.cycleWith(
+      "68 09 09 68 88 81 5C 33 33 5E 00 FF 44 6C 16",
+      "68 4D 4D 68 81 88 08 33 33 5E 00 FF 44 08 00 FD E8 20 20 20 20 20 20 20 20 20 20 01 89 53 4B 20 43 55 "
+      "34 2D 50 42 52 20 20 20 20 20 20 20 20 20 20 31 32 33 34 35 36 20 20 20 20 20 20 20 20 20 20 00 02 56 "
+      "01 03 00 00 00 3A 00 00 00 01 01 00 01 B8 16");
+  reader.handleRecord(wire.result());
+  ASSERT_TRUE(reader.typePlate());
+  EXPECT_STREQ("123456", reader.typePlate()->serial_number.c_str());
 }
 
 // Somebody else's device, and one that prints nothing.
