@@ -106,7 +106,6 @@ void ProfibusMs2Transport::handleClosedLink() noexcept {
   master_->restart(link_->now());
   recorder_->flush();
   next_open_ = link_->now() + kReopenInterval;
-  for (DriveState& drive : drives_) drive.status = 0;
 }
 
 void ProfibusMs2Transport::askStatus(DriveIndex drive) noexcept {
@@ -124,7 +123,10 @@ void ProfibusMs2Transport::takeStatus(DriveIndex drive, DriveExchange& input) no
     state.why = told->why;
   }
   input = {};
-  if (!link_->isOpen()) return;
+  if (!link_->isOpen()) {
+    state.status = 0;  // whatever is there when it is open again
+    return;
+  }
   input.module_answers = master_->isConnected(config_.drives[drive].slave);
   input.inverter_answers = profile::StatusWord{state.status}.isUseful();
   input.inverter_missing = input.module_answers && !input.inverter_answers;
