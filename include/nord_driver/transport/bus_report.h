@@ -41,7 +41,7 @@ struct DriveIdentity {
   /// the drive does not notice by itself that this computer is dead; `protected_by` has to end the words first.
   bool timeout_notices = true;
   bool timeout_needed = false;  ///< `protected_by` stops the drive only together with a time-out of the drive above 0
-  std::uint8_t inverter = 1;  ///< 1..4 behind a bus module that serves several
+  std::uint8_t inverter = 1;    ///< 1..4 behind a bus module that serves several
   /// Drives with the same number are behind the same bus module; nothing: this one has a module of its own.
   std::optional<std::size_t> shared_module = std::nullopt;
   /// The longest cycle there may be, with one slave silent: a time-out that stops a drive must be longer. 0: not known.

@@ -13,9 +13,9 @@ namespace nord_driver::link {
 struct RegisterOrder {
   static constexpr std::size_t kMostWords = 32;
 
-  bool write = false;           ///< function 16; otherwise they are read
-  bool input_registers = false; ///< read by function 4 instead of 3
-  WordRange registers;          ///< at most kMostWords
+  bool write = false;                     ///< function 16; otherwise they are read
+  bool input_registers = false;           ///< read by function 4 instead of 3
+  WordRange registers;                    ///< at most kMostWords
   std::array<Word, kMostWords> values{};  ///< to write
 };
 

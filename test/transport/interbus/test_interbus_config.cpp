@@ -269,8 +269,10 @@ TEST(InterbusConfig, PcpThatCannotBeIsRefused) {
     return settings.refusal();
   };
   EXPECT_EQ("accepted", refusal([](auto&) {}));
-  EXPECT_THAT(refusal([](auto& s) { s.bus.set("pcp/invoke/address", 95); }),
-              StartsWith("~bus/pcp/invoke/address: 95 is not valid, expected registers outside the output image, which takes 100 "));
+  EXPECT_THAT(
+      refusal([](auto& s) { s.bus.set("pcp/invoke/address", 95); }),
+      StartsWith(
+          "~bus/pcp/invoke/address: 95 is not valid, expected registers outside the output image, which takes 100 "));
   EXPECT_THAT(refusal([](auto& s) { s.bus.set("pcp/invoke/address", 294); }), HasSubstr("that of the watchdog, 300"));
   EXPECT_THAT(refusal([](auto& s) { s.bus.set("pcp/result/address", 506); }), HasSubstr("outside the invoke block"));
   EXPECT_THAT(refusal([](auto& s) { s.bus.set("pcp/result/address", 65530); }), HasSubstr("register 65535 at most"));
