@@ -161,7 +161,9 @@ std::vector<std::string> ParameterLink::finish() {
     // Any further access also tries again to put P560 back.
     answer = read(timeout);
   }
-  if (answer.success && answer.entry != nullptr && answer.value > 0.0) {
+  // Where no process data are exchanged there were no words that could be missed.
+  const bool words_were_sent = identity().process_values > 0;
+  if (words_were_sent && answer.success && answer.entry != nullptr && answer.value > 0.0) {
     sentences.push_back("drive " + drive().name + " has P" + std::to_string(answer.entry->number) + " = " +
                         shortNumber(answer.value) +
                         " s: that long after this it trips (E10.x), because nobody sends it words any more; "
