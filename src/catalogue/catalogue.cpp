@@ -52,19 +52,17 @@ std::vector<const ParameterEntry*> Catalogue::all(const Device& device) const {
   return list;
 }
 
-Lookup Catalogue::look(const Device& device, const std::string& text) const {
+Lookup lookIn(const std::vector<const ParameterEntry*>& entries, const std::string& text, const std::string& whose) {
   const bool prefixed = text.size() > 1 && (text[0] == 'P' || text[0] == 'p');
-  const auto number = wholeNumber(prefixed ? text.substr(1) : text);
-  if (number) {
-    const bool valid = *number >= 0 && *number <= 0xFFFF;
-    const ParameterEntry* entry = valid ? find(device, static_cast<std::uint16_t>(*number)) : nullptr;
-    if (entry != nullptr) return {entry, {}};
-    return {nullptr,
-            "\"" + text + "\" is not described for " + toString(device) + ", expected a number of its catalogue"};
+  if (const auto number = wholeNumber(prefixed ? text.substr(1) : text)) {
+    for (const ParameterEntry* entry : entries) {
+      if (entry->number == *number) return {entry, {}};
+    }
+    return {nullptr, "\"" + text + "\" is not described for " + whose + ", expected a number of its catalogue"};
   }
   std::vector<const ParameterEntry*> found;
   std::vector<std::string> names;
-  for (const ParameterEntry* entry : all(device)) {
+  for (const ParameterEntry* entry : entries) {
     names.push_back(lowerCase(entry->title()));
     if (names.back() == lowerCase(text)) found.push_back(entry);
   }
@@ -74,8 +72,8 @@ Lookup Catalogue::look(const Device& device, const std::string& text) const {
                          label(*found[1]) + " have this name"};
   }
   const std::string nearest = nearestName(lowerCase(text), names);
-  std::string expected = "the number or the name of a parameter of " + toString(device);
-  for (const ParameterEntry* entry : all(device)) {
+  std::string expected = "the number or the name of a parameter of " + whose;
+  for (const ParameterEntry* entry : entries) {
     if (!nearest.empty() && lowerCase(entry->title()) == nearest) expected = "perhaps \"" + entry->title() + "\"";
   }
   return {nullptr, "\"" + text + "\" is not valid, expected " + expected};

@@ -18,6 +18,10 @@ struct Lookup {
   std::string error;
 };
 
+/// By what somebody typed: "509", "P509", "0x6042", or the name in any case. `whose`: of which device the entries are,
+/// in sentences.
+Lookup lookIn(const std::vector<const ParameterEntry*>& entries, const std::string& text, const std::string& whose);
+
 class Catalogue {
  public:
   /// In this order: an entry of a later file corrects one of an earlier file key by key, or adds one. Throws ConfigError
@@ -26,8 +30,10 @@ class Catalogue {
 
   /// nullptr: not described.
   const ParameterEntry* find(const Device& device, std::uint16_t number) const;
-  /// By what somebody typed: "509", "P509", "0x6042", or the name in any case.
-  Lookup look(const Device& device, const std::string& text) const;
+  /// lookIn() among the parameters of a device.
+  Lookup look(const Device& device, const std::string& text) const {
+    return lookIn(all(device), text, toString(device));
+  }
   /// Every parameter of a device in the order of the numbers.
   std::vector<const ParameterEntry*> all(const Device& device) const;
 

@@ -230,6 +230,10 @@ ParameterFile readParameterFile(const std::string& file) {
   const YAML::Node list = map.node("parameters");
   if (!list.IsDefined()) throw map.missing("parameters", "a list of parameters");
   if (!list.IsSequence()) throw map.wrong("parameters", "a list of parameters");
+  // A user's file may hold faults as well; FaultCatalogue reads those.
+  if (map.node("faults").IsDefined()) {
+    for (const char* key : {"codes", "resolution"}) map.node(key);
+  }
   map.rejectUnknown();
   std::set<std::uint16_t> numbers;
   for (const YAML::Node& item : list) {

@@ -20,6 +20,14 @@ const char* moduleName(Module module) noexcept {
 
 }  // namespace
 
+std::optional<Module> moduleOf(const std::string& transport) {
+  if (transport == "profibus_dp") return Module::kProfibus;
+  if (transport == "canopen") return Module::kCanopen;
+  if (transport == "devicenet") return Module::kDevicenet;
+  if (transport == "interbus") return Module::kInterbus;
+  return std::nullopt;
+}
+
 std::string toString(const Device& device) {
   if (const auto* series = std::get_if<profile::Series>(&device)) return profile::toString(*series);
   return moduleName(std::get<Module>(device));

@@ -18,6 +18,9 @@ constexpr std::array<Module, 4> kAllModules{Module::kProfibus, Module::kCanopen,
 
 using Device = std::variant<profile::Series, Module>;
 
+/// The module a transport's drives may sit behind, by its name without prefix ("profibus_dp"); none: it knows none.
+std::optional<Module> moduleOf(const std::string& transport);
+
 /// "sk5xxe" or "module_profibus", as the files of the catalogue write it.
 std::string toString(const Device& device);
 

@@ -118,6 +118,7 @@ FaultCatalogue FaultCatalogue::load(const std::vector<std::string>& files) {
     const YAML::Node list = map.node("faults");
     if (!list.IsDefined()) throw map.missing("faults", "a list of faults");
     if (!list.IsSequence()) throw map.wrong("faults", "a list of faults");
+    map.node("parameters");  // a user's file may hold both
     map.rejectUnknown();
     std::vector<std::optional<Device>> holds_for(devices.begin(), devices.end());
     if (holds_for.empty()) holds_for.emplace_back(std::nullopt);
@@ -130,6 +131,10 @@ FaultCatalogue FaultCatalogue::load(const std::vector<std::string>& files) {
       }
       for (const auto& device : holds_for) {
         auto& entries = catalogue.entries_[{codes, device}];
+        // Of one device: over what holds for all, so that a name alone keeps cause and remedy.
+        if (device && entries.count(upper.number) == 0) {
+          if (const FaultEntry* of_all = catalogue.find(codes, upper.number)) entries[upper.number] = *of_all;
+        }
         FaultEntry& entry = entries[upper.number];
         entry = laidOver(entry, upper);
         if (!entry.name) throw wrongPlace(entry.place, printed + ": name is missing, expected the name of the fault");

@@ -149,6 +149,21 @@ std::int64_t ParameterEntry::rawOf(double value) const {
   return std::llround(value / step());
 }
 
+std::int32_t ParameterEntry::meant(std::int32_t raw, unsigned index) const {
+  const unsigned width = sizeOf(index);
+  if (width >= 32) return raw;
+  const std::uint32_t mask = (std::uint32_t{1} << width) - 1u;
+  const std::uint32_t low = static_cast<std::uint32_t>(raw) & mask;
+  const bool negative = isSigned() && ((low >> (width - 1)) & 1u) != 0;
+  return static_cast<std::int32_t>(negative ? low | ~mask : low);
+}
+
+bool ParameterEntry::takes(std::int64_t raw, unsigned index) const {
+  if (raw < std::numeric_limits<std::int32_t>::min() || raw > std::numeric_limits<std::int32_t>::max()) return false;
+  const auto [lowest, highest] = rawRange(index);
+  return (raw >= lowest && raw <= highest) || nameOf(valuesOf(index), static_cast<std::int32_t>(raw)) != nullptr;
+}
+
 ParameterEntry laidOver(ParameterEntry lower, const ParameterEntry& upper) {
   replace(lower.name, upper.name);
   replace(lower.unit, upper.unit);

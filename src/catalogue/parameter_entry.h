@@ -48,6 +48,11 @@ struct Element {
   ValueNames values;
 };
 
+/// P152 and PNU 970 load the factory settings: nobody writes them over this driver, whatever a file says.
+constexpr bool resetsDevice(std::uint16_t number) noexcept {
+  return number == 152 || number == 970;
+}
+
 /// The names another issue of the manual, for another firmware, gives to the same numbers.
 struct OtherValues {
   std::string source;
@@ -81,7 +86,7 @@ struct ParameterEntry {
   const std::string& title() const;
   double step() const { return resolution.value_or(1.0); }
   bool isHex() const { return hex.value_or(false); }
-  bool mayWrite() const { return !read_only.value_or(false) && !never_write.value_or(false); }
+  bool mayWrite() const { return !read_only.value_or(false) && !never_write.value_or(false) && !resetsDevice(number); }
   /// As the requests of every bus need it. A parameter of which it is not known whether it depends on the set counts as
   /// one that does: an order that names the set falls back by itself when it does not.
   profile::ParameterShape shape() const;
@@ -98,6 +103,12 @@ struct ParameterEntry {
   std::pair<std::int64_t, std::int64_t> rawRange(unsigned index) const;
   /// The nearest raw value of a value in the parameter's unit.
   std::int64_t rawOf(double value) const;
+  /// A raw value as the drive means it: what stands beyond its size is left out, the sign is spread.
+  std::int32_t meant(std::int32_t raw, unsigned index) const;
+  /// The value in the parameter's unit behind a raw one, whatever stands beyond its size.
+  double valueOf(std::int32_t raw, unsigned index) const { return meant(raw, index) * step(); }
+  /// Within the range, or a value that has a name.
+  bool takes(std::int64_t raw, unsigned index) const;
 };
 
 /// `upper` laid over `lower`, field by field; named values, elements and bits one by one.

@@ -9,6 +9,7 @@
 
 #include "config/nearest_name.h"
 #include "config/setting_checks.h"
+#include "profile/parameter_shape.h"
 
 namespace nord_driver::catalogue {
 
@@ -35,15 +36,6 @@ std::string hexText(std::uint32_t value, unsigned digits) {
 
 std::uint32_t maskOf(unsigned bits) {
   return bits >= 32 ? 0xFFFFFFFFu : (1u << bits) - 1u;
-}
-
-// The value as the drive means it: what stands beyond the size is left out, the sign is spread.
-std::int32_t meant(const ParameterEntry& entry, std::int32_t raw, unsigned index) {
-  const unsigned size = entry.sizeOf(index);
-  if (size >= 32) return raw;
-  const std::uint32_t low = static_cast<std::uint32_t>(raw) & maskOf(size);
-  const bool negative = entry.isSigned() && ((low >> (size - 1)) & 1u) != 0;
-  return static_cast<std::int32_t>(negative ? low | ~maskOf(size) : low);
 }
 
 int decimalsOf(double step) {
@@ -141,12 +133,7 @@ RawValue fromName(const ParameterEntry& entry, const std::string& text, unsigned
 }
 
 RawValue checked(const ParameterEntry& entry, const std::string& text, std::int64_t raw, unsigned index) {
-  const auto [lowest, highest] = entry.rawRange(index);
-  const bool fits = raw >= std::int64_t{INT32_MIN} && raw <= std::int64_t{INT32_MAX};
-  const bool inside = raw >= lowest && raw <= highest;
-  if (!fits || (!inside && nameOf(entry.valuesOf(index), static_cast<std::int32_t>(raw)) == nullptr)) {
-    return refused(entry, index, text, rangeText(entry, index));
-  }
+  if (!entry.takes(raw, index)) return refused(entry, index, text, rangeText(entry, index));
   return {static_cast<std::int32_t>(raw), {}};
 }
 
@@ -164,7 +151,7 @@ std::string label(const ParameterEntry& entry, unsigned index) {
 }
 
 std::string valueText(const ParameterEntry& entry, std::int32_t raw, unsigned index) {
-  const std::int32_t value = meant(entry, raw, index);
+  const std::int32_t value = entry.meant(raw, index);
   std::string text = numberText(entry, value, index);
   if (const std::string* name = nameOf(entry.valuesOf(index), value)) {
     return text + " " + *name + otherName(entry, value, *name);
@@ -219,11 +206,26 @@ RawValue rawFrom(const ParameterEntry& entry, const std::string& typed, unsigned
 }
 
 std::string whyNotWritable(const ParameterEntry& entry) {
-  const std::string name = label(entry) + " " + entry.title();
+  char number[8];
+  std::snprintf(number, sizeof(number), entry.number >= kFirstObject ? "%04Xh" : "P%03u", unsigned{entry.number});
+  const std::string name = number + (entry.name ? " " + *entry.name : "");
   if (entry.read_only.value_or(false)) return name + " can only be read";
-  if (entry.never_write.value_or(false))
-    return name + " is never written: " + entry.note.value_or("it resets the device");
+  if (!entry.mayWrite()) return name + " is never written: " + entry.note.value_or("it resets the device");
   return {};
+}
+
+std::string kindText(const ParameterEntry& entry) {
+  std::string text;
+  const auto add = [&text](const std::string& words) { text += (text.empty() ? "" : ", ") + words; };
+  if (entry.elements) add("array of " + std::to_string(*entry.elements));
+  if (profile::hasSets(entry.shape())) add(entry.per_set ? "sets 1 to 4" : "perhaps sets 1 to 4");
+  if (!entry.mayWrite()) add(entry.read_only.value_or(false) ? "read only" : "never written");
+  return text;
+}
+
+std::string stepText(const ParameterEntry& entry) {
+  const std::string unit = entry.unit.value_or("");
+  return shortNumber(entry.step()) + (unit.empty() ? "" : " " + unit);
 }
 
 std::string rangeText(const ParameterEntry& entry, unsigned index) {
@@ -231,10 +233,10 @@ std::string rangeText(const ParameterEntry& entry, unsigned index) {
   const std::string unit = entry.unitOf(index);
   if (entry.isHex()) {
     const unsigned digits = entry.sizeOf(index) / 4;
-    return hexText(static_cast<std::uint32_t>(lowest), digits) + " ... " +
+    return hexText(static_cast<std::uint32_t>(lowest), digits) + " to " +
            hexText(static_cast<std::uint32_t>(highest), digits);
   }
-  return shortNumber(static_cast<double>(lowest) * entry.step()) + " ... " +
+  return shortNumber(static_cast<double>(lowest) * entry.step()) + " to " +
          shortNumber(static_cast<double>(highest) * entry.step()) + (unit.empty() ? "" : " " + unit);
 }
 

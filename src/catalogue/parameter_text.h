@@ -34,7 +34,13 @@ RawValue rawFrom(const ParameterEntry& entry, const std::string& text, unsigned 
 /// Why nobody may write the parameter; empty when it may be written.
 std::string whyNotWritable(const ParameterEntry& entry);
 
-/// What may be written, for sentences and help: "0 ... 10" or "-0.1 ... 100 s".
+/// How it is accessed: "array of 3, sets 1 to 4, read only"; "perhaps sets 1 to 4" where no manual says. May be empty.
+std::string kindText(const ParameterEntry& entry);
+
+/// The resolution with the unit: "0.01 s".
+std::string stepText(const ParameterEntry& entry);
+
+/// What may be written, for sentences and help: "0 to 10" or "-0.1 to 100 s".
 std::string rangeText(const ParameterEntry& entry, unsigned index = 1);
 
 }  // namespace nord_driver::catalogue

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "profile/parameter_catalogue.h"
+#include "profile/cycle_parameters.h"
 #include "profile/parameter_shape.h"
 
 namespace nord_driver::cycle {
@@ -44,12 +44,12 @@ DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner) noexcept 
 }
 
 void DeviceReader::add(std::uint16_t number, std::uint8_t set, std::uint8_t index) noexcept {
-  if (profile::findParameter(number, series_) != nullptr) items_.push_back({number, set, index});
+  if (profile::findCycleParameter(number, series_) != nullptr) items_.push_back({number, set, index});
 }
 
 // Functions 1..3: three parameters on SK 500E-535E, one array on the others (BU 2700 6.4.4).
 void DeviceReader::addFunction(std::uint16_t first_number, std::uint8_t place, std::uint8_t set) noexcept {
-  const profile::ParameterInfo* info = profile::findParameter(first_number, series_);
+  const profile::CycleParameter* info = profile::findCycleParameter(first_number, series_);
   if (info == nullptr) return;
   if (profile::isArray(info->shape)) {
     add(first_number, set, static_cast<std::uint8_t>(place + 1));
@@ -59,7 +59,7 @@ void DeviceReader::addFunction(std::uint16_t first_number, std::uint8_t place, s
 }
 
 void DeviceReader::addBusBits() noexcept {
-  const profile::ParameterInfo* info = profile::findParameter(kBusBits, series_);
+  const profile::CycleParameter* info = profile::findCycleParameter(kBusBits, series_);
   for (std::uint8_t i = 1; info != nullptr && i <= info->elements; ++i) add(kBusBits, 1, i);
 }
 
@@ -113,7 +113,7 @@ std::optional<profile::ParameterRequest> DeviceReader::pollRequest() noexcept {
   }
   const Item& item = items_[next_];
   waiting_ = true;
-  auto request = profile::readRequest(*profile::findParameter(item.number, series_), item.set, item.index);
+  auto request = profile::readRequest(*profile::findCycleParameter(item.number, series_), item.set, item.index);
   request.scales = item.number == kMaxFrequency;
   return request;
 }
@@ -139,7 +139,7 @@ void DeviceReader::handleResult(const profile::ParameterResult& result) noexcept
 }
 
 void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
-  const double value = profile::toValue(*profile::findParameter(item.number, series_), raw);
+  const double value = profile::toValue(*profile::findCycleParameter(item.number, series_), raw);
   if (item.number == kMaxFrequency) {
     if (value > 0.0) data_.max_frequency[item.set - 1u] = value;
   } else if (item.number == kTelegramTimeout) {

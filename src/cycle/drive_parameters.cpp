@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "cycle/parameter_access.h"
 #include "cycle/user_messages.h"
-#include "profile/parameter_catalogue.h"
+#include "profile/cycle_parameters.h"
 
 namespace nord_driver::cycle {
 
@@ -40,7 +39,7 @@ std::optional<drive::UnexpectedFunction> unexpectedFunction(const DeviceData& de
   const auto compare = [&](std::uint16_t number, const std::optional<std::uint16_t>& found) {
     std::optional<drive::UnexpectedFunction> unexpected;
     if (!found || *found == kFrequencyFunction) return unexpected;
-    const profile::ParameterInfo* info = profile::findParameter(number, series);
+    const profile::CycleParameter* info = profile::findCycleParameter(number, series);
     const bool is_array = info != nullptr && info->shape == profile::ParameterShape::kArrayPerSet;
     unexpected = {number, is_array, *found, kFrequencyFunction};
     return unexpected;
@@ -138,7 +137,7 @@ Sentence DriveParameters::notWhileEnabled(const Request& request) const noexcept
     why.format("P%03u decides what setpoints and actual values mean: disable drive %s first", number, name_.c_str());
     return why;
   }
-  const profile::ParameterInfo* info = profile::findParameter(number, series_);
+  const profile::CycleParameter* info = profile::findCycleParameter(number, series_);
   why.format("P%03u%s%s%s decides whether and how the motor turns: disable drive %s first", number,
              info != nullptr ? " (" : "", info != nullptr ? info->name : "", info != nullptr ? ")" : "", name_.c_str());
   return why;

@@ -1,6 +1,6 @@
 #include "drive/fault_reader.h"
 
-#include "profile/fault_text.h"
+#include "profile/fault_number.h"
 
 namespace nord_driver::drive {
 

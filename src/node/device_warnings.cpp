@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "config/setting_checks.h"
-#include "profile/parameter_catalogue.h"
+#include "profile/cycle_parameters.h"
 
 namespace nord_driver::node {
 
@@ -31,7 +31,7 @@ std::string element(std::size_t index) {
 
 void warnOfFunctions(const std::array<std::optional<std::uint16_t>, 4>& functions, std::uint16_t number,
                      profile::Series series, const char* value, std::vector<std::string>& warnings) {
-  const profile::ParameterInfo* info = profile::findParameter(number, series);
+  const profile::CycleParameter* info = profile::findCycleParameter(number, series);
   const bool is_array = info != nullptr && info->shape == profile::ParameterShape::kArrayPerSet;
   for (std::size_t set = 0; set < functions.size(); ++set) {
     if (!functions[set] || *functions[set] == cycle::kFrequencyFunction) continue;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "node/bus_publisher.h"
 #include "node/device_warnings.h"
 #include "node/recovery_hint.h"
 #include "nord_driver/core/bytes.h"
-#include "profile/fault_text.h"
 
 namespace nord_driver::node {
 
@@ -25,8 +25,8 @@ std::string inWords(std::string name) {
 }  // namespace
 
 Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities,
-                         const std::string& where)
-    : identities_(identities), device_(where), snapshot_(config.drives.size()) {
+                         std::vector<catalogue::FaultWords> faults, const std::string& where)
+    : identities_(identities), faults_(std::move(faults)), device_(where), snapshot_(config.drives.size()) {
   updater_.setHardwareID(device_);
   updater_.add("bus", [this](DiagnosticStatusWrapper& status) { reportBus(status); });
   if (config.cycle.base) updater_.add("base", [this](DiagnosticStatusWrapper& status) { reportBase(status); });
@@ -77,12 +77,13 @@ void Diagnostics::reportBase(DiagnosticStatusWrapper& status) const {
   status.add("angular velocity (rad/s)", base.velocity.angular_z);
 }
 
-void Diagnostics::summarize(const cycle::DriveSnapshot& drive, DiagnosticStatusWrapper& status) const {
+void Diagnostics::summarize(std::size_t index, DiagnosticStatusWrapper& status) const {
+  const cycle::DriveSnapshot& drive = snapshot_.drives[index];
   if (!drive.online) {
     status.summary(DiagnosticStatus::ERROR, drive.text.empty() ? "no answer" : drive.text.str());
   } else if (drive.fault_number != 0) {
     status.summary(DiagnosticStatus::ERROR,
-                   profile::faultName(drive.fault_number) + ": " + profile::faultText(drive.fault_number));
+                   catalogue::FaultWords::label(drive.fault_number) + ": " + faults_[index].name(drive.fault_number));
   } else if (drive.stopped) {
     status.summary(DiagnosticStatus::ERROR, drive.text.str());
   } else {
@@ -136,13 +137,15 @@ void Diagnostics::warn(std::size_t index, const ProtectionReport& protection, Di
   }
 }
 
-void Diagnostics::addFault(const cycle::DriveSnapshot& drive, DiagnosticStatusWrapper& status) const {
+void Diagnostics::addFault(std::size_t index, DiagnosticStatusWrapper& status) const {
+  const cycle::DriveSnapshot& drive = snapshot_.drives[index];
+  const catalogue::FaultWords& words = faults_[index];
   const std::uint16_t fault = drive.fault_number != 0 ? drive.fault_number : drive.last_fault_number;
   if (fault == 0) return;
   status.add(drive.fault_number != 0 ? "fault" : "last fault",
-             profile::faultName(fault) + ": " + profile::faultText(fault));
-  status.add("likely cause", profile::faultCause(fault));
-  status.add("remedy", profile::faultRemedy(fault));
+             catalogue::FaultWords::label(fault) + ": " + words.name(fault));
+  if (!words.cause(fault).empty()) status.add("likely cause", words.cause(fault));
+  if (!words.remedy(fault).empty()) status.add("remedy", words.remedy(fault));
 }
 
 void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status) const {
@@ -150,9 +153,9 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
   const DriveIdentity& identity = identities_[index];
   const ProtectionReport protection = protections_[index].assess(drive.device);
   status.hardware_id = device_ + ", " + identity.address;
-  summarize(drive, status);
+  summarize(index, status);
   warn(index, protection, status);
-  addFault(drive, status);
+  addFault(index, status);
   if (drive.switch_on_reason) {
     status.addf("not ready to switch on, P700[-03]", "%u.%u", *drive.switch_on_reason / 10u,
                 *drive.switch_on_reason % 10u);

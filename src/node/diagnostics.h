@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "catalogue/fault_words.h"
 #include "cycle/snapshot.h"
 #include "node/drive_protection.h"
 #include "node/node_config.h"
@@ -18,21 +19,23 @@ namespace nord_driver::node {
 /// Reports the snapshot it was given last. `update` runs the tasks when they are due (once a second).
 class Diagnostics {
  public:
-  /// `where`: what the transport opens, as configured.
-  Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities, const std::string& where);
+  /// `faults`: of each drive. `where`: what the transport opens, as configured.
+  Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities,
+              std::vector<catalogue::FaultWords> faults, const std::string& where);
   void update(const cycle::CycleSnapshot& snapshot);
 
  private:
   void reportBus(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void reportBase(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void reportDrive(std::size_t index, diagnostic_updater::DiagnosticStatusWrapper& status) const;
-  void summarize(const cycle::DriveSnapshot& drive, diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void summarize(std::size_t index, diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void warn(std::size_t index, const ProtectionReport& protection,
             diagnostic_updater::DiagnosticStatusWrapper& status) const;
-  void addFault(const cycle::DriveSnapshot& drive, diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void addFault(std::size_t index, diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   std::vector<std::string> names_;
   std::vector<DriveIdentity> identities_;
+  std::vector<catalogue::FaultWords> faults_;
   std::vector<DriveProtection> protections_;
   std::vector<profile::Series> series_;
   std::vector<RampCheck> ramps_;

@@ -24,9 +24,10 @@ std::string versionText(const cycle::DeviceData& device) {
 }  // namespace
 
 DrivePublisher::DrivePublisher(ros::NodeHandle& private_node, const cycle::DriveSetup& setup, DriveIdentity identity,
-                               DriveProtection protection, std::uint16_t address)
+                               DriveProtection protection, catalogue::FaultWords faults, std::uint16_t address)
     : identity_(std::move(identity)),
       protection_(std::move(protection)),
+      faults_(std::move(faults)),
       rated_current_(setup.rated_current.value_or(kNotKnown)) {
   status_.name = setup.name;
   info_.name = setup.name;
@@ -61,7 +62,7 @@ void DrivePublisher::publishStatus(const cycle::DriveSnapshot& drive, const Stam
 }
 
 void DrivePublisher::publishStatus(const cycle::DriveSample& sample, const cycle::DeviceData& device, ros::Time stamp) {
-  fillDriveStatus(sample, status_);
+  fillDriveStatus(sample, faults_, status_);
   status_.header.stamp = stamp;
   status_.current = currentOf(sample, device);
   status_publisher_.publish(status_);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "catalogue/fault_words.h"
 #include "cycle/cycle_config.h"
 #include "cycle/snapshot.h"
 #include "node/drive_protection.h"
@@ -21,7 +22,7 @@ class DrivePublisher {
  public:
   /// `private_node`: "~"; the topics are ~<drive>/status and ~<drive>/device_info.
   DrivePublisher(ros::NodeHandle& private_node, const cycle::DriveSetup& setup, DriveIdentity identity,
-                 DriveProtection protection, std::uint16_t address);
+                 DriveProtection protection, catalogue::FaultWords faults, std::uint16_t address);
 
   /// Every fault stands in at least one message: one that rose and vanished since the last gets a message of its own.
   void publishStatus(const cycle::DriveSnapshot& drive, const Stamps& stamps);
@@ -36,6 +37,7 @@ class DrivePublisher {
 
   DriveIdentity identity_;
   DriveProtection protection_;
+  catalogue::FaultWords faults_;
   double rated_current_;
   DriveStatus status_;
   DeviceInfo info_;

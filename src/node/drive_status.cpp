@@ -2,11 +2,9 @@
 
 #include <algorithm>
 
-#include "profile/fault_text.h"
-
 namespace nord_driver::node {
 
-void fillDriveStatus(const cycle::DriveSample& sample, DriveStatus& status) {
+void fillDriveStatus(const cycle::DriveSample& sample, const catalogue::FaultWords& faults, DriveStatus& status) {
   // Who reads a bit or a value without looking at `online` must not take the last moment of a drive for its state.
   const profile::StatusWord word{sample.online ? sample.input.status_word : Word{0}};
   status.online = sample.online;
@@ -39,7 +37,8 @@ void fillDriveStatus(const cycle::DriveSample& sample, DriveStatus& status) {
   status.frequency = sample.frequency;
   status.saturated = sample.saturated;
   status.fault_number = sample.fault_number;
-  status.fault_text = sample.fault_number == 0 ? "" : profile::faultText(sample.fault_number);
+  status.fault_text.clear();
+  if (sample.fault_number != 0) status.fault_text = faults.name(sample.fault_number);
 }
 
 bool hidesAFault(const cycle::DriveSnapshot& drive, std::uint64_t told) noexcept {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "catalogue/fault_words.h"
 #include "cycle/snapshot.h"
 #include "nord_driver/DriveStatus.h"
 
@@ -10,7 +11,7 @@ namespace nord_driver::node {
 
 /// All fields but header, name and current. Of a drive that is offline nothing is told as if it were so now: bits and
 /// actual values are cleared, and the status word stays as it was received last.
-void fillDriveStatus(const cycle::DriveSample& sample, DriveStatus& status);
+void fillDriveStatus(const cycle::DriveSample& sample, const catalogue::FaultWords& faults, DriveStatus& status);
 
 /// A fault has risen since `told` of them stood in messages, and the next message would not show it: its bit has fallen
 /// again, or the drive is gone.

@@ -9,6 +9,7 @@
 #include "node/start_sentence.h"
 #include "node/what_is_offered.h"
 #include "nord_driver/profile/series.h"
+#include "tools/installed_catalogues.h"
 
 namespace nord_driver::node {
 
@@ -53,6 +54,7 @@ DriverNode::DriverNode()
       stops_(private_node_, kStopThreads),
       settings_("~", privateParameters()),
       config_(withWhatIsOffered(readNodeConfig(settings_, robotDescription()), settings_)),
+      catalogues_(tools::installedCatalogues(config_.parameter_files)),
       loader_("nord_driver", "nord_driver::Transport") {
   loadTransport();
   warnOfUnknownKeys();
@@ -83,6 +85,16 @@ void DriverNode::loadTransport() {
   for (const std::string& sentence : configured.warnings) ROS_WARN("nord_driver: %s", sentence.c_str());
 }
 
+std::vector<catalogue::DriveCatalogue> DriverNode::knownDrives() const {
+  std::vector<catalogue::DriveCatalogue> known;
+  for (DriveIndex i = 0; i < config_.cycle.drives.size(); ++i) {
+    known.push_back(catalogue::driveCatalogue(catalogues_, config_.cycle.drives[i].series,
+                                              shortTransportName(config_.transport),
+                                              identities_[i].timeout_owner == TimeoutOwner::kModule));
+  }
+  return known;
+}
+
 void DriverNode::warnOfUnknownKeys() const {
   std::vector<std::string> sentences = config_.warnings;
   for (const std::string& sentence : unknownKeys(settings_, config_, ros::this_node::getName())) {
@@ -98,6 +110,8 @@ void DriverNode::advertise() {
   } else {
     nothing_to_tune_ = std::make_unique<NothingToTune>(private_node_);
   }
+  const std::vector<catalogue::DriveCatalogue> known = knownDrives();
+  for (const catalogue::DriveCatalogue& drive : known) faults_.push_back(drive.faults());
   std::vector<std::string> names;
   std::vector<trace::TracedDrive> traced;
   for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
@@ -107,16 +121,17 @@ void DriverNode::advertise() {
     drive_publishers_.emplace_back(private_node_, setup, identities_[i],
                                    DriveProtection{identities_[i], config_.cycle.drives[i].series,
                                                    config_.cycle.cmd_vel_timeout, config_.cycle.period()},
-                                   static_cast<std::uint16_t>(setup.address.value_or(0)));
+                                   faults_[i], static_cast<std::uint16_t>(setup.address.value_or(0)));
     if (cycle_->inBase(i)) continue;
     boost::function<void(const std_msgs::Float64&)> take = [this, i](const std_msgs::Float64& velocity) {
       takeDriveCommand(i, velocity.data);
     };
     subscribers_.push_back(private_commands_.handle().subscribe<std_msgs::Float64>(setup.name + "/command", 1, take));
   }
+  fault_board_ = std::make_unique<FaultBoard>(names, faults_);
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
-  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, where_);
-  services_ = std::make_unique<Services>(private_node_, stops_.handle(), config_, *broker_);
+  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, faults_, where_);
+  services_ = std::make_unique<Services>(private_node_, stops_.handle(), config_, known, *fault_board_, *broker_);
   tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace());
   ports_->setObserver(&tracing_->feed());
   if (config_.cycle.base) {
@@ -167,7 +182,7 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
   // Whatever ends the node, the drives come to rest first: an exchange that simply ends lets the wheels coast.
   try {
     publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_,
-                       loggedDrives());
+                       *fault_board_, loggedDrives());
     // roscpp is "ok" until it has unregistered every topic: tenths of a second in which the robot would drive on.
     while (!end_asked && ros::ok() && !ros::isShuttingDown() && publisher_->healthy()) {
       noteCommanders();
@@ -184,6 +199,7 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
 LoggedDrives DriverNode::loggedDrives() const {
   LoggedDrives drives;
   drives.node = ros::this_node::getName();
+  drives.faults = faults_;
   drives.bus = where_;
   if (!where_.empty()) drives.bus_key = config_.bus->fullName(transport_->endPoint().key);
   for (DriveIndex i = 0; i < config_.cycle.drives.size(); ++i) {

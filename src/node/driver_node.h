@@ -13,6 +13,7 @@
 #include <pluginlib/class_loader.hpp>
 #include <vector>
 
+#include "catalogue/drive_catalogue.h"
 #include "cycle/bus_cycle.h"
 #include "cycle/cycle_ports.h"
 #include "cycle/cycle_thread.h"
@@ -22,6 +23,7 @@
 #include "node/callback_threads.h"
 #include "node/diagnostics.h"
 #include "node/drive_publisher.h"
+#include "node/fault_board.h"
 #include "node/node_config.h"
 #include "node/nothing_to_tune.h"
 #include "node/request_broker.h"
@@ -55,6 +57,8 @@ class DriverNode {
   void tellBusEvents();
   void bringToRest();
   LoggedDrives loggedDrives() const;
+  /// What is known of each drive; the transport is configured.
+  std::vector<catalogue::DriveCatalogue> knownDrives() const;
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
@@ -63,10 +67,13 @@ class DriverNode {
   CallbackThreads stops_;             // ~quick_stop, ~<drive>/quick_stop, and ~enable, which stops, too
   RosSettings settings_;
   NodeConfig config_;
+  catalogue::Catalogues catalogues_;
   pluginlib::ClassLoader<Transport> loader_;
   boost::shared_ptr<Transport> transport_;
   std::string where_;  // what the transport opens, as configured
   std::vector<DriveIdentity> identities_;
+  std::vector<catalogue::FaultWords> faults_;  // one per drive
+  std::unique_ptr<FaultBoard> fault_board_;
 
   std::unique_ptr<cycle::CyclePorts> ports_;
   std::unique_ptr<cycle::BusCycle> cycle_;

@@ -34,6 +34,7 @@ struct NodeConfig {
   std::string bus_end_point;  ///< in place of what `bus` says; empty: as `bus` says
   bool auto_enable = false;
   bool allow_raw_parameters = false;
+  std::vector<std::string> parameter_files;  ///< laid over the project's, in this order
   PublishConfig publish;
   cycle::CycleConfig cycle;
   std::optional<trace::TraceConfig> trace;

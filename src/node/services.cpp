@@ -1,8 +1,9 @@
 #include "node/services.h"
 
 #include <boost/function.hpp>
+#include <utility>
 
-#include "cycle/parameter_access.h"
+#include "catalogue/parameter_text.h"
 
 namespace nord_driver::node {
 
@@ -22,16 +23,6 @@ void tellOutcome(const std::string& call, const cycle::Completion& answer) {
 
 }  // namespace
 
-/// Which parameter a request names. Returns what is wrong with it; empty when nothing is.
-template <typename RosRequest>
-std::string Services::addressParameter(DriveIndex drive, const RosRequest& from, cycle::Request& to,
-                                       const profile::ParameterInfo*& info) const {
-  to.drive = drive;
-  to.patience = config_.cycle.service_timeout;
-  return cycle::addressParameter({from.number, from.parameter_set, from.index}, config_.cycle.drives[drive].series, to,
-                                 info);
-}
-
 template <typename Service, typename Handler>
 void Services::advertise(ros::NodeHandle& node, const std::string& name, Handler handler) {
   // A bare lambda is ambiguous to advertiseService.
@@ -44,15 +35,15 @@ void Services::advertise(ros::NodeHandle& node, const std::string& name, Handler
 }
 
 Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, const NodeConfig& config,
-                   RequestBroker& broker)
-    : config_(config), broker_(broker) {
+                   std::vector<catalogue::DriveCatalogue> known, const FaultBoard& faults, RequestBroker& broker)
+    : config_(config), known_(std::move(known)), faults_(faults), broker_(broker) {
   const auto addTrigger = [&](const std::string& name, RequestKind kind, DriveIndex drive) {
     ros::NodeHandle& node = kind == RequestKind::kQuickStop ? stop_node : private_node;
     advertise<std_srvs::Trigger>(node, name, [this, kind, drive, name](auto&, auto& response) {
       const cycle::Completion answer = ask(kind, drive);
       tellOutcome(name, answer);
       response.success = answer.success;
-      response.message = answer.message.str();
+      response.message = messageOf(answer, drive);
     });
   };
   const auto addEnable = [&](const std::string& name, DriveIndex drive) {
@@ -61,7 +52,7 @@ Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, co
       const cycle::Completion answer = ask(on ? RequestKind::kEnable : RequestKind::kDisable, drive);
       tellOutcome(name + (on ? " true" : " false"), answer);
       response.success = answer.success;
-      response.message = answer.message.str();
+      response.message = messageOf(answer, drive);
     });
   };
   addEnable("enable", kAllDrives);
@@ -80,6 +71,11 @@ Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, co
     advertise<ReadParameter>(private_node, prefix + "read_parameter",
                              [this, i](auto& request, auto& response) { readParameter(i, request, response); });
   }
+}
+
+std::string Services::messageOf(const cycle::Completion& answer, DriveIndex drive) const {
+  const std::string faults = answer.success ? "" : faults_.text(drive);
+  return answer.message.str() + (faults.empty() ? "" : "; " + faults);
 }
 
 cycle::Completion Services::ask(RequestKind kind, DriveIndex drive) {
@@ -106,36 +102,48 @@ void Services::selectSet(DriveIndex drive, SelectParameterSet::Request& request,
   response.message = answer.message.str();
 }
 
+cycle::Completion Services::carryOut(DriveIndex drive, RequestKind kind, const catalogue::ParameterAccess& access) {
+  cycle::Request request;
+  request.kind = kind;
+  request.drive = drive;
+  request.patience = config_.cycle.service_timeout;
+  request.parameter = access.request;
+  return broker_.call(request);
+}
+
 void Services::readParameter(DriveIndex drive, ReadParameter::Request& request, ReadParameter::Response& response) {
-  cycle::Request access;
-  const profile::ParameterInfo* info = nullptr;
-  response.message = addressParameter(drive, request, access, info);
+  const catalogue::ParameterAccess access =
+      catalogue::accessTo({request.number, request.parameter_set, request.index}, known_[drive]);
+  response.message = access.error;
   if (!response.message.empty()) return;
-  const cycle::Completion answer = broker_.call(access);
+  const cycle::Completion answer = carryOut(drive, RequestKind::kReadParameter, access);
   response.success = answer.success;
   response.message = answer.message.str();
   if (!answer.success) return;
   response.raw = answer.parameter.raw;
-  response.value = cycle::valueOf(info, answer.parameter.raw);
-  if (info != nullptr) {
-    response.unit = info->unit;
-    response.name = info->name;
-  }
+  response.value = catalogue::valueOf(access.entry, answer.parameter.raw, access.request.index);
+  if (access.entry == nullptr) return;
+  response.unit = access.entry->unitOf(access.request.index);
+  response.name = access.entry->title();
+  if (!response.message.empty()) return;
+  response.message = catalogue::label(*access.entry, access.request.index) + " = " +
+                     known_[drive].valueText(access.entry, response.raw, access.request.index);
 }
 
 void Services::writeParameter(DriveIndex drive, WriteParameter::Request& request, WriteParameter::Response& response) {
-  cycle::Request access;
-  const profile::ParameterInfo* info = nullptr;
-  response.message = addressParameter(drive, request, access, info);
+  catalogue::ParameterAccess access =
+      catalogue::accessTo({request.number, request.parameter_set, request.index}, known_[drive]);
+  response.message = access.error;
+  if (response.message.empty()) {
+    response.message =
+        catalogue::setValue(access, {request.value, request.persistent != 0, config_.allow_raw_parameters});
+  }
   if (!response.message.empty()) return;
-  response.message =
-      cycle::addValue({request.value, request.persistent != 0, config_.allow_raw_parameters}, info, access);
-  if (!response.message.empty()) return;
-  const cycle::Completion answer = broker_.call(access);
+  const cycle::Completion answer = carryOut(drive, RequestKind::kWriteParameter, access);
   response.success = answer.success;
   response.message = answer.message.str();
   response.raw = answer.parameter.raw;
-  response.value = cycle::valueOf(info, answer.parameter.raw);
+  response.value = catalogue::valueOf(access.entry, answer.parameter.raw, access.request.index);
 }
 
 }  // namespace nord_driver::node

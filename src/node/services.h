@@ -7,34 +7,42 @@
 
 #include <vector>
 
+#include "catalogue/drive_catalogue.h"
+#include "catalogue/parameter_access.h"
 #include "cycle/request.h"
+#include "node/fault_board.h"
 #include "node/node_config.h"
 #include "node/request_broker.h"
 #include "nord_driver/ReadParameter.h"
 #include "nord_driver/SelectParameterSet.h"
 #include "nord_driver/WriteParameter.h"
-#include "profile/parameter_catalogue.h"
 
 namespace nord_driver::node {
 
 class Services {
  public:
-  /// `stop_node`: the private handle whose callbacks do not wait behind those of the other services.
-  Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, const NodeConfig& config, RequestBroker& broker);
+  /// `stop_node`: the private handle whose callbacks do not wait behind those of the other services. `known`: of each
+  /// drive.
+  /// `faults` must outlive the services.
+  Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, const NodeConfig& config,
+           std::vector<catalogue::DriveCatalogue> known, const FaultBoard& faults, RequestBroker& broker);
 
  private:
   template <typename Service, typename Handler>
   void advertise(ros::NodeHandle& node, const std::string& name, Handler handler);
   cycle::Completion ask(cycle::RequestKind kind, DriveIndex drive);
-  template <typename RosRequest>
-  std::string addressParameter(DriveIndex drive, const RosRequest& from, cycle::Request& to,
-                               const profile::ParameterInfo*& info) const;
+  /// Its message; of a refusal with the faults that stand.
+  std::string messageOf(const cycle::Completion& answer, DriveIndex drive) const;
+  /// Hands an access to the cycle and waits for its answer.
+  cycle::Completion carryOut(DriveIndex drive, cycle::RequestKind kind, const catalogue::ParameterAccess& access);
   void selectSet(DriveIndex drive, SelectParameterSet::Request& request, SelectParameterSet::Response& response);
   void readParameter(DriveIndex drive, ReadParameter::Request& request, ReadParameter::Response& response);
 
   void writeParameter(DriveIndex drive, WriteParameter::Request& request, WriteParameter::Response& response);
 
   const NodeConfig& config_;
+  std::vector<catalogue::DriveCatalogue> known_;
+  const FaultBoard& faults_;
   RequestBroker& broker_;
   std::vector<ros::ServiceServer> servers_;
 };

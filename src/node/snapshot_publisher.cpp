@@ -27,12 +27,13 @@ bool isDue(Instant& next, Duration period, Instant now) {
 
 SnapshotPublisher::SnapshotPublisher(cycle::CyclePorts& ports, const PublishConfig& config, BasePublisher& base,
                                      std::vector<DrivePublisher>& drives, BusPublisher& bus, Diagnostics& diagnostics,
-                                     LoggedDrives logged)
+                                     FaultBoard& faults, LoggedDrives logged)
     : ports_(ports),
       base_(base),
       drives_(drives),
       bus_(bus),
       diagnostics_(diagnostics),
+      faults_(faults),
       status_period_(seconds(1.0 / config.status_rate)),
       log_(std::move(logged)),
       thread_([this] {
@@ -76,6 +77,7 @@ void SnapshotPublisher::run() {
         }
       }
       if (isDue(next_bus, kBusPeriod, now)) bus_.publish(snapshot, stamp);
+      faults_.post(snapshot);
       logChanges(snapshot, now);
       diagnostics_.update(snapshot);
     }

@@ -10,6 +10,7 @@
 #include "node/bus_publisher.h"
 #include "node/diagnostics.h"
 #include "node/drive_publisher.h"
+#include "node/fault_board.h"
 #include "node/node_config.h"
 #include "node/state_log.h"
 
@@ -21,7 +22,7 @@ class SnapshotPublisher {
  public:
   SnapshotPublisher(cycle::CyclePorts& ports, const PublishConfig& config, BasePublisher& base,
                     std::vector<DrivePublisher>& drives, BusPublisher& bus, Diagnostics& diagnostics,
-                    LoggedDrives logged);
+                    FaultBoard& faults, LoggedDrives logged);
   ~SnapshotPublisher();
   SnapshotPublisher(const SnapshotPublisher&) = delete;
   SnapshotPublisher& operator=(const SnapshotPublisher&) = delete;
@@ -38,6 +39,7 @@ class SnapshotPublisher {
   std::vector<DrivePublisher>& drives_;
   BusPublisher& bus_;
   Diagnostics& diagnostics_;
+  FaultBoard& faults_;
   Duration status_period_;
   StateLog log_;
   std::atomic<bool> stop_{false};

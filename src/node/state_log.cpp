@@ -4,7 +4,7 @@
 
 #include "node/bus_publisher.h"
 #include "node/recovery_hint.h"
-#include "profile/fault_text.h"
+#include "profile/fault_number.h"
 
 namespace nord_driver::node {
 
@@ -68,9 +68,11 @@ void StateLog::pollFault(const cycle::DriveSnapshot& drive, std::size_t index, I
 
 std::string StateLog::faultSentence(std::size_t index, std::uint16_t number) const {
   const std::string& name = drives_.names[index];
-  std::string text = "drive " + name + ": " + profile::faultName(number) + ", " + profile::faultText(number);
+  const catalogue::FaultWords& faults = drives_.faults[index];
+  std::string text = "drive " + name + ": " + catalogue::FaultWords::label(number) + ", " + faults.name(number);
   if (faults_[index].stood) text += ", which stood before this node started";
-  text += std::string("; likely cause: ") + profile::faultCause(number) + "; remedy: " + profile::faultRemedy(number);
+  if (!faults.cause(number).empty()) text += "; likely cause: " + faults.cause(number);
+  if (!faults.remedy(number).empty()) text += "; remedy: " + faults.remedy(number);
   const std::string call = "rosservice call " + drives_.node + "/";
   const bool in_base = drives_.in_base[index];
   text += "; then acknowledge it: " + call + (in_base ? "acknowledge_faults" : name + "/acknowledge_fault");

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "catalogue/fault_words.h"
 #include "cycle/snapshot.h"
 #include "node/bus_log_debouncer.h"
 #include "nord_driver/core/time.h"
@@ -21,9 +22,10 @@ struct LogLine {
 struct LoggedDrives {
   std::string node;  ///< its full name: "/nord_driver"
   std::vector<std::string> names;
-  std::vector<bool> in_base;  ///< one per drive: acknowledged and enabled with the others
-  std::string bus = {};       ///< what the transport opens, as configured; empty: nothing
-  std::string bus_key = {};   ///< where that is configured: "~bus/device"
+  std::vector<bool> in_base;                  ///< one per drive: acknowledged and enabled with the others
+  std::vector<catalogue::FaultWords> faults;  ///< one per drive
+  std::string bus = {};                       ///< what the transport opens, as configured; empty: nothing
+  std::string bus_key = {};                   ///< where that is configured: "~bus/device"
 };
 
 /// Polled with the newest snapshot; what came and went between two of them is not lost where it is counted.

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "profibus/class2_pdu.h"
 #include "profibus/diagnosis.h"
 #include "profibus/watchdog_factors.h"
 
@@ -140,7 +141,17 @@ void DpServices::dataExchange(FdlRequest& request, const SlaveConfig& slave, Byt
 
 void DpServices::record(FdlRequest& request, StationAddress slave, ByteView pdu,
                         std::uint8_t count_bits) const noexcept {
-  ask(request, slave, count_bits, {kSendRequestDataLow, kRecordSap, kRecordSap}, pdu);
+  askAcyclic(request, slave, kRecordSap, kRecordSap, pdu, count_bits);
+}
+
+void DpServices::class2(FdlRequest& request, StationAddress slave, std::uint8_t access_point, ByteView pdu,
+                        std::uint8_t count_bits) const noexcept {
+  askAcyclic(request, slave, access_point, kClass2MasterSap, pdu, count_bits);
+}
+
+void DpServices::askAcyclic(FdlRequest& request, StationAddress slave, std::uint8_t dsap, std::uint8_t ssap,
+                            ByteView pdu, std::uint8_t count_bits) const noexcept {
+  ask(request, slave, count_bits, {kSendRequestDataLow, dsap, ssap}, pdu);
   request.short_acknowledge_legal = true;
   request.acknowledge_legal = true;
   request.max_data = kMaxIoLength;

@@ -34,6 +34,9 @@ class DpServices {
                     std::uint8_t count_bits) const noexcept;
   /// DP-V1 class 1: `pdu` to access point 51, or a poll when it is empty.
   void record(FdlRequest& request, StationAddress slave, ByteView pdu, std::uint8_t count_bits) const noexcept;
+  /// DP-V1 class 2: `pdu` from access point 50 to `access_point`, or a poll when it is empty.
+  void class2(FdlRequest& request, StationAddress slave, std::uint8_t access_point, ByteView pdu,
+              std::uint8_t count_bits) const noexcept;
   /// Global_Control Operate to all slaves and all groups. There is no Clear: zeroed outputs do not stop a NORD drive
   /// (BU 2700 7.1.1), so that it would only pretend to be a stop.
   void operate(FdlRequest& request) const noexcept;
@@ -52,6 +55,9 @@ class DpServices {
 
   void ask(FdlRequest& request, StationAddress slave, std::uint8_t count_bits, const Route& route,
            ByteView data) const noexcept;
+  /// SRD low; data may come, or an acknowledgement: nothing yet.
+  void askAcyclic(FdlRequest& request, StationAddress slave, std::uint8_t dsap, std::uint8_t ssap, ByteView pdu,
+                  std::uint8_t count_bits) const noexcept;
   /// SRD high, from the master's access point 62 to one of the slave's.
   static Route toServer(std::uint8_t dsap) noexcept;
 

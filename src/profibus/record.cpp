@@ -9,14 +9,14 @@ constexpr std::uint8_t kRead = 0x5E;
 constexpr std::uint8_t kWrite = 0x5F;
 constexpr std::uint8_t kNegativeBit = 0x80;
 constexpr std::size_t kHeader = 4;
-constexpr std::uint8_t kMaxNumber = 254;  // 255 is reserved
+constexpr std::uint8_t kMaxSlot = 254;  // 255 is reserved; index 255 is the call of I&M (see identification.h)
 
 std::uint8_t function(const RecordRequest& request) noexcept {
   return request.write ? kWrite : kRead;
 }
 
 bool isOutOfRange(const RecordRequest& request) noexcept {
-  if (request.slot > kMaxNumber || request.index > kMaxNumber) return true;
+  if (request.slot > kMaxSlot) return true;
   const std::size_t length = request.write ? request.data.size() : request.length;
   return length == 0 || length > kMaxRecordLength;
 }

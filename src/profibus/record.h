@@ -1,4 +1,4 @@
-// A data record of DP-V1 class 1 (MS1): what is asked, what comes back, and its bytes.
+// A data record of DP-V1, class 1 (MS1) or class 2 (MS2): what is asked, what comes back, and its bytes.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ constexpr std::size_t kMaxRecordLength = 240;
 /// (BU 0220 4.2.1, 8.3.4.4; BU 2700 6.5 numbers slots instead: both are only numbers here).
 struct RecordRequest {
   std::uint8_t slot = 0;   ///< 0..254
-  std::uint8_t index = 0;  ///< 0..254
+  std::uint8_t index = 0;  ///< 0..254; 255 calls I&M
   bool write = false;
   std::uint8_t length = 0;              ///< read: the longest answer wanted, 1..240
   FixedBytes<kMaxRecordLength> data{};  ///< write: 1..240 bytes

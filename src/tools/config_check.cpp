@@ -12,6 +12,7 @@
 #include "node/node_config.h"
 #include "profile/scaling.h"
 #include "robot/wheel_speeds.h"
+#include "tools/installed_catalogues.h"
 #include "tools/key_lines.h"
 #include "tools/tool_config.h"
 #include "tools/usage_error.h"
@@ -194,6 +195,7 @@ CheckedConfig checkConfig(const std::vector<std::string>& files, const std::stri
     tellTheRest(file, settings, transport, findings);
     return checked;
   }
+  if (!config.parameter_files.empty()) findings.run([&] { installedCatalogues(config.parameter_files); });
   checked.cycle_rate = config.cycle.cycle_rate;
   const bool done = findings.run([&] { configured = node::configureTransport(config, *transport); });
   checked.where = done ? configured.where : "";

@@ -21,10 +21,11 @@
 #include "tools/config_picture.h"
 #include "tools/end_signals.h"
 #include "tools/image_command.h"
+#include "tools/installed_catalogues.h"
 #include "tools/lock_owner.h"
 #include "tools/param_commands.h"
 #include "tools/parameter_dump.h"
-#include "tools/parameter_name.h"
+#include "tools/parameter_list.h"
 #include "tools/transport_loader.h"
 
 namespace {
@@ -57,17 +58,29 @@ struct Options {
   WholeNumber<1, 99> index;  ///< 0: not given
   WriteOptions write;
   std::string dump;
-  std::string checked;  ///< file
-  std::string urdf;     ///< file
+  std::vector<std::string> parameter_files;
+  std::string described;  ///< empty: list them all
+  std::string checked;    ///< file
+  std::string urdf;       ///< file
   bool json = false;
   ImageOptions image;
   WholeNumber<1, 256> count;  ///< 0: not given
 };
 
-void list(const YAML::Node& file, nord_driver::Transport& transport) {
+nord_driver::catalogue::Catalogues cataloguesFor(const ToolConfig& config, const Options& options) {
+  std::vector<std::string> own = config.parameter_files;
+  own.insert(own.end(), options.parameter_files.begin(), options.parameter_files.end());
+  return installedCatalogues(own);
+}
+
+void list(const YAML::Node& file, nord_driver::Transport& transport, const Options& options) {
   const ToolConfig config = readToolConfig(file, transport.endPoint());
+  const nord_driver::catalogue::Catalogues catalogues = cataloguesFor(config, options);
   transport.configure(*config.bus, config.drives, config.cycle.cycle_rate);
-  printList(config, transport);
+  const std::string text = options.described.empty()
+                               ? listText(config, transport, catalogues)
+                               : descriptionText(config, transport, catalogues, options.described);
+  std::fputs(text.c_str(), stdout);
 }
 
 // Box-drawing characters where somebody looks who can see them.
@@ -108,10 +121,7 @@ void refuseBusInUse(const ToolConfig& config, const nord_driver::EndPoint& end_p
                 config.drives.front().name + "/read_parameter, or write_parameter");
 }
 
-int carryOut(const ToolConfig& config, nord_driver::Transport& transport, double timeout, const Task& task,
-             const std::atomic<bool>& end_asked) {
-  refuseBusInUse(config, transport.endPoint());
-  ParameterLink link{config, transport};
+int carryOut(ParameterLink& link, double timeout, const Task& task, const std::atomic<bool>& end_asked) {
   link.connect(nord_driver::seconds(timeout), end_asked);
   bool done = false;
   std::exception_ptr stopped;
@@ -139,9 +149,14 @@ int run(int argc, char** argv) {
                             "the same for a transport with bus/device")(
       "interface", po::value(&options.port.interface)->value_name("NAME"),
       "the same for a transport with bus/interface")("timeout", po::value(&options.timeout)->value_name("SECONDS"),
-                                                     "s to wait for the drive to answer (5)");
+                                                     "s to wait for the drive to answer (5)")(
+      "parameter-files", po::value(&options.parameter_files)->value_name("FILE"),
+      "a file of parameters or faults of your own, laid over the driver's and those the configuration names; may be "
+      "given several times");
 
   Command& list_command = line.addCommand("list", "the drives of the file, and every known parameter");
+  list_command.options.add_options()("parameter", po::value(&options.described)->value_name("PARAMETER"),
+                                     "everything that is known of one parameter: range, names of values, source");
   Command& read = line.addCommand("read", "read one parameter");
   Command& write = line.addCommand("write", "write one parameter, in RAM unless told otherwise");
   Command& dump = line.addCommand("dump", "print every known parameter as YAML");
@@ -152,12 +167,13 @@ int run(int argc, char** argv) {
     command->arguments.push_back({"DRIVE", "its name in the file", &options.drive});
   }
   for (Command* command : {&read, &write}) {
-    command->arguments.push_back({"PARAMETER", "the manual's number: 105, P105 or P700[-01]", &options.parameter});
+    command->arguments.push_back(
+        {"PARAMETER", "its number or name: 105, P105, P700[-01], \"Maximum frequency\"", &options.parameter});
     command->options.add_options()("set", po::value(&options.set)->value_name("SET"),
                                    "parameter set 1 to 4; without it the set in force")(
         "index", po::value(&options.index)->value_name("INDEX"), "array element, [-01] = 1");
   }
-  write.arguments.push_back({"VALUE", "in the unit that list shows", &options.write.value});
+  write.arguments.push_back({"VALUE", "in the unit that list shows, or the name of a value", &options.write.value});
   write.options.add_options()("persistent", po::bool_switch(&options.write.persistent),
                               "save it in the EEPROM, which endures 100 000 writes; writes even what is there")(
       "raw", po::bool_switch(&options.write.raw), "VALUE is as transferred; needed where the unit is not known");
@@ -183,7 +199,7 @@ int run(int argc, char** argv) {
   const auto transport = loader.load(transportOf(file));
   choosePort(file, options.port, transport->endPoint());
   if (line.asksFor(list_command)) {
-    list(file, *transport);
+    list(file, *transport, options);
     return kDone;
   }
   if (line.asksFor(image)) {
@@ -192,23 +208,26 @@ int run(int argc, char** argv) {
     return showImage(file, *transport, options.image, end_asked) ? kDone : kFailed;
   }
   const ToolConfig config = readToolConfig(file, options.drive);
-  Task task = [&end_asked](ParameterLink& link) { return dumpParameters(link, end_asked); };
+  const nord_driver::catalogue::Catalogues catalogues = cataloguesFor(config, options);
+  ParameterLink link{config, *transport, catalogues};
+  Task task = [&end_asked](ParameterLink& drive) { return dumpParameters(drive, end_asked); };
   if (line.asksFor(compare)) {
-    task = [&end_asked, reference = readDump(options.dump)](ParameterLink& link) {
-      return compareParameters(link, reference, end_asked);
+    task = [&end_asked, reference = readDump(options.dump)](ParameterLink& drive) {
+      return compareParameters(drive, reference, end_asked);
     };
   }
   // What is wrong already here reaches no bus.
   if (line.asksFor(read)) {
-    const auto address = addressOf(options.parameter, options.set.value, options.index.value);
-    task = [address](ParameterLink& link) { return readParameter(link, address); };
+    const auto address = addressOf(options.parameter, options.set.value, options.index.value, link.known());
+    task = [address](ParameterLink& drive) { return readParameter(drive, address); };
   }
   if (line.asksFor(write)) {
-    const auto address = addressOf(options.parameter, options.set.value, options.index.value);
-    const auto change = checkedWrite(options.write, address, config.cycle.drives.front().series);
-    task = [address, change](ParameterLink& link) { return writeParameter(link, address, change); };
+    const auto address = addressOf(options.parameter, options.set.value, options.index.value, link.known());
+    const auto access = checkedWrite(options.write, address, link.known());
+    task = [access](ParameterLink& drive) { return writeParameter(drive, access); };
   }
-  return carryOut(config, *transport, options.timeout.value, task, end_asked);
+  refuseBusInUse(config, transport->endPoint());
+  return carryOut(link, options.timeout.value, task, end_asked);
 }
 
 }  // namespace

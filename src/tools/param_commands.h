@@ -18,19 +18,17 @@ struct WriteOptions {
 };
 
 /// The address of NAME, --set and --index (0: not given). Throws UsageError when two of them contradict each other.
-cycle::ParameterAddress addressOf(const std::string& name, int set, int index);
+catalogue::ParameterAddress addressOf(const std::string& name, int set, int index,
+                                      const catalogue::DriveCatalogue& known);
 
 /// What can be known of a write before the bus is touched: throws UsageError when the value is none, or raw values
-/// would be needed; Trouble when it is out of the catalogue's range.
-cycle::ParameterWrite checkedWrite(const WriteOptions& write, const cycle::ParameterAddress& address,
-                                   profile::Series series);
-
-/// Of all drives of the configuration, whose `transport` is configured; sends nothing.
-void printList(const ToolConfig& config, const Transport& transport);
+/// would be needed; Trouble when it is out of the catalogue's range, or the parameter is not to be written.
+catalogue::ParameterAccess checkedWrite(const WriteOptions& write, const catalogue::ParameterAddress& address,
+                                        const catalogue::DriveCatalogue& known);
 
 // On a connected link; false: refused or different, and said so on stderr or stdout.
-bool readParameter(ParameterLink& link, const cycle::ParameterAddress& address);
-bool writeParameter(ParameterLink& link, const cycle::ParameterAddress& address, const cycle::ParameterWrite& write);
+bool readParameter(ParameterLink& link, const catalogue::ParameterAddress& address);
+bool writeParameter(ParameterLink& link, const catalogue::ParameterAccess& access);
 bool dumpParameters(ParameterLink& link, const std::atomic<bool>& end_asked);
 bool compareParameters(ParameterLink& link, const Dump& reference, const std::atomic<bool>& end_asked);
 

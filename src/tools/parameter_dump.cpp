@@ -7,7 +7,6 @@
 #include <system_error>
 
 #include "config/setting_checks.h"
-#include "profile/parameter_catalogue.h"
 #include "tools/parameter_name.h"
 
 namespace nord_driver::tools {
@@ -15,7 +14,7 @@ namespace nord_driver::tools {
 namespace {
 
 // Refused, it is not there; anything else ends the whole.
-ParameterAnswer readFrom(ParameterLink& link, const cycle::ParameterAddress& address,
+ParameterAnswer readFrom(ParameterLink& link, const catalogue::ParameterAddress& address,
                          const std::atomic<bool>& end_asked) {
   if (end_asked) throw Trouble("ended before all parameters were read");
   ParameterAnswer answer = link.read(address);
@@ -23,20 +22,38 @@ ParameterAnswer readFrom(ParameterLink& link, const cycle::ParameterAddress& add
   return answer;
 }
 
-std::string line(const Dump::Value& value, profile::Series series) {
-  const profile::ParameterInfo* info = profile::findParameter(value.address.number, series);
+unsigned indexOf(const catalogue::ParameterAddress& address) {
+  return address.index == 0 ? 1u : address.index;
+}
+
+// As a text in double quotes.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char letter : text) {
+    if (letter == '"' || letter == '\\') result += '\\';
+    result += letter;
+  }
+  return result + "\"";
+}
+
+std::string line(const Dump::Value& value, const catalogue::DriveCatalogue& known) {
+  const unsigned index = indexOf(value.address);
+  const catalogue::ParameterEntry* entry = known.find(value.address.number);
   std::string text = "  \"" + parameterName(value.address) + "\": {raw: " + std::to_string(value.raw);
-  if (info != nullptr) {
-    text += ", value: " + shortNumber(profile::toValue(*info, value.raw)) + ", unit: \"" + info->unit + "\", name: \"" +
-            info->name + "\"";
+  if (entry != nullptr) {
+    text += ", value: " + shortNumber(entry->valueOf(value.raw, index)) + ", unit: " + quoted(entry->unitOf(index)) +
+            ", name: " + quoted(catalogue::fullName(entry, index));
+    if (!entry->valuesOf(index).empty() || !entry->bits.empty()) {
+      text += ", text: " + quoted(known.valueText(entry, value.raw, index));
+    }
   }
   return text + "}\n";
 }
 
-std::string section(const Dump& dump, const std::string& name, bool settings) {
+std::string section(const Dump& dump, const catalogue::DriveCatalogue& known, const std::string& name, bool settings) {
   std::string text = name + ":\n";
   for (const Dump::Value& value : dump.values) {
-    if (isSetting(value.address) == settings) text += line(value, dump.series);
+    if (isSetting(value.address) == settings) text += line(value, known);
   }
   return text;
 }
@@ -59,24 +76,18 @@ Dump parse(const YAML::Node& file) {
 
 }  // namespace
 
-std::string valueText(const profile::ParameterInfo* info, std::int32_t raw) {
-  std::string text = shortNumber(cycle::valueOf(info, raw));
-  if (info != nullptr && info->unit[0] != '\0') text += std::string(" ") + info->unit;
-  return text;
-}
-
 Dump takeDump(ParameterLink& link, const std::atomic<bool>& end_asked) {
   Dump dump;
   dump.series = link.drive().series;
   std::optional<std::uint16_t> unknown;
-  for (const cycle::ParameterAddress& address : knownParameters(dump.series)) {
+  for (const catalogue::ParameterAddress& address : knownParameters(link.known())) {
     if (unknown == address.number) continue;
     const ParameterAnswer answer = readFrom(link, address, end_asked);
     if (answer.success) {
       dump.values.push_back({address, answer.raw});
     } else if (answer.unknown) {
       unknown = address.number;
-      cycle::ParameterAddress whole;
+      catalogue::ParameterAddress whole;
       whole.number = address.number;
       dump.missing.push_back(whole);
     } else {
@@ -86,13 +97,14 @@ Dump takeDump(ParameterLink& link, const std::atomic<bool>& end_asked) {
   return dump;
 }
 
-std::string dumpText(const Dump& dump, const std::string& drive, const std::string& address) {
+std::string dumpText(const Dump& dump, const catalogue::DriveCatalogue& known, const std::string& drive,
+                     const std::string& address) {
   std::string text = "# What nord_param read from drive " + drive + ", " + address + "\n";
   text += std::string("series: ") + profile::toString(dump.series) + "\n";
-  text += section(dump, "settings", true);
+  text += section(dump, known, "settings", true);
   text += "# changes by itself, is not compared\n";
-  text += section(dump, "information", false);
-  for (const cycle::ParameterAddress& missing : dump.missing) {
+  text += section(dump, known, "information", false);
+  for (const catalogue::ParameterAddress& missing : dump.missing) {
     text += "# not in this inverter: " + parameterName(missing) + "\n";
   }
   return text;
@@ -122,12 +134,13 @@ Comparison compare(ParameterLink& link, const Dump& dump, const std::atomic<bool
   for (const Dump::Value& value : dump.values) {
     if (!isSetting(value.address)) continue;
     ++result.compared;
-    const profile::ParameterInfo* info = profile::findParameter(value.address.number, series);
+    const unsigned index = indexOf(value.address);
+    const catalogue::ParameterEntry* entry = link.known().find(value.address.number);
     const ParameterAnswer answer = readFrom(link, value.address, end_asked);
     if (answer.success && answer.raw == value.raw) continue;
-    std::string text = parameterName(value.address) + (info != nullptr ? std::string(" ") + info->name : "");
-    text += ": " + valueText(info, value.raw) + " in the file, ";
-    text += answer.success ? valueText(info, answer.raw) + " in the drive" : "not in this drive";
+    std::string text = parameterName(value.address) + (entry != nullptr ? " " : "") + catalogue::fullName(entry, index);
+    text += ": " + link.known().valueText(entry, value.raw, index) + " in the file, ";
+    text += answer.success ? link.known().valueText(entry, answer.raw, index) + " in the drive" : "not in this drive";
     result.differences.push_back(text);
   }
   return result;

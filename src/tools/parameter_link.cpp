@@ -1,5 +1,6 @@
 #include "tools/parameter_link.h"
 
+#include "config/driver_settings.h"
 #include "config/setting_checks.h"
 #include "cycle/drive_parameters.h"
 #include "profile/parameter_shape.h"
@@ -20,7 +21,7 @@ constexpr std::uint16_t kTelegramTimeout = 513, kModuleTimeout = 151;
 
 }  // namespace
 
-ParameterLink::ParameterLink(const ToolConfig& config, Transport& transport)
+ParameterLink::ParameterLink(const ToolConfig& config, Transport& transport, const catalogue::Catalogues& catalogues)
     : config_(config), transport_(transport), ports_(config.drives.size()) {
   if (!transport.serveParametersOnly()) {
     throw Trouble("transport " + config.transport +
@@ -28,6 +29,8 @@ ParameterLink::ParameterLink(const ToolConfig& config, Transport& transport)
                   "the driver (~<drive>/read_parameter)");
   }
   transport.configure(*config.bus, config.drives, config.cycle.cycle_rate);
+  known_ = catalogue::driveCatalogue(catalogues, drive().series, shortTransportName(config.transport),
+                                     identity().timeout_owner == TimeoutOwner::kModule);
   cycle_.emplace(config.cycle, transport, ports_, false, cycle::CycleRole::kGuest);
 }
 
@@ -78,26 +81,22 @@ void ParameterLink::idle(int cycles) noexcept {
   for (int i = 0; i < cycles; ++i) exchange();
 }
 
-ParameterAnswer ParameterLink::read(const cycle::ParameterAddress& address) {
-  cycle::Request request;
-  const profile::ParameterInfo* info = nullptr;
-  const std::string wrong = cycle::addressParameter(address, drive().series, request, info);
-  if (!wrong.empty()) throw Trouble(wrong);
-  return carryOut(request, info);
+ParameterAnswer ParameterLink::read(const catalogue::ParameterAddress& address) {
+  const catalogue::ParameterAccess access = catalogue::accessTo(address, known());
+  if (!access.error.empty()) throw Trouble(access.error);
+  return carryOut(access, cycle::RequestKind::kReadParameter);
 }
 
-ParameterAnswer ParameterLink::write(const cycle::ParameterAddress& address, const cycle::ParameterWrite& write) {
+ParameterAnswer ParameterLink::write(const catalogue::ParameterAccess& access) {
   cycle::Request request;
-  const profile::ParameterInfo* info = nullptr;
-  std::string wrong = cycle::addressParameter(address, drive().series, request, info);
-  if (wrong.empty()) wrong = cycle::addValue(write, info, request);
-  if (!wrong.empty()) throw Trouble(wrong);
+  request.kind = cycle::RequestKind::kWriteParameter;
+  request.parameter = access.request;
   // The terminals may turn a drive under local control at any time; setpoints are a share of P105.
   if (cycle::decidesMotion(request) && !cycle_->isAtRest(0)) {
-    throw Trouble("P" + std::to_string(address.number) + " decides how the motor follows setpoints, and drive " +
+    throw Trouble("P" + std::to_string(access.request.number) + " decides how the motor follows setpoints, and drive " +
                   drive().name + " is not at rest");
   }
-  return carryOut(request, info);
+  return carryOut(access, cycle::RequestKind::kWriteParameter);
 }
 
 std::optional<cycle::Completion> ParameterLink::run(cycle::Request& request) {
@@ -124,10 +123,12 @@ bool ParameterLink::waitForDrive() noexcept {
   return false;
 }
 
-ParameterAnswer ParameterLink::carryOut(cycle::Request request, const profile::ParameterInfo* info) {
-  profile::ParameterRequest& access = request.parameter;
+ParameterAnswer ParameterLink::carryOut(const catalogue::ParameterAccess& access, cycle::RequestKind kind) {
+  cycle::Request request;
+  request.kind = kind;
   request.drive = 0;
-  access.even_if_same = true;  // the run before may have put it into the RAM
+  request.parameter = access.request;
+  request.parameter.even_if_same = true;  // the run before may have put it into the RAM
   std::optional<cycle::Completion> completion = run(request);
   // Nothing but the line was lost: a write compares first, so that it is not done twice.
   for (int i = 1; i < kAttempts && completion && completion->parameter.outcome == ParameterOutcome::kOffline; ++i) {
@@ -140,13 +141,13 @@ ParameterAnswer ParameterLink::carryOut(cycle::Request request, const profile::P
   ParameterAnswer answer;
   answer.success = completion->success;
   answer.refused = result.outcome == ParameterOutcome::kRefused;
-  answer.unknown = answer.refused && result.refused_number == access.number &&
+  answer.unknown = answer.refused && result.refused_number == access.request.number &&
                    result.reason == profile::ParameterReason::kNoSuchParameter;
   answer.message = completion->message.str();
   answer.raw = result.raw;
-  answer.value = cycle::valueOf(info, result.raw);
-  answer.info = info;
-  answer.set = profile::hasSets(access.shape) ? access.parameter_set : std::uint8_t{0};
+  answer.value = catalogue::valueOf(access.entry, result.raw, access.request.index);
+  answer.entry = access.entry;
+  answer.set = profile::hasSets(access.request.shape) ? request.parameter.parameter_set : std::uint8_t{0};
   return answer;
 }
 
@@ -155,13 +156,15 @@ std::vector<std::string> ParameterLink::finish() {
   if (!connected_) return sentences;
   ParameterAnswer answer;
   if (snapshot().online) {
-    cycle::ParameterAddress timeout;
+    catalogue::ParameterAddress timeout;
     timeout.number = identity().timeout_owner == TimeoutOwner::kModule ? kModuleTimeout : kTelegramTimeout;
     // Any further access also tries again to put P560 back.
     answer = read(timeout);
   }
-  if (answer.success && answer.info != nullptr && answer.value > 0.0) {
-    sentences.push_back("drive " + drive().name + " has P" + std::to_string(answer.info->number) + " = " +
+  // Where no process data are exchanged there were no words that could be missed.
+  const bool words_were_sent = identity().process_values > 0;
+  if (words_were_sent && answer.success && answer.entry != nullptr && answer.value > 0.0) {
+    sentences.push_back("drive " + drive().name + " has P" + std::to_string(answer.entry->number) + " = " +
                         shortNumber(answer.value) +
                         " s: that long after this it trips (E10.x), because nobody sends it words any more; "
                         "acknowledge it before it is enabled");

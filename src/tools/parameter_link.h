@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "catalogue/parameter_access.h"
 #include "cycle/bus_cycle.h"
 #include "cycle/cycle_ports.h"
-#include "cycle/parameter_access.h"
 #include "nord_driver/transport/transport.h"
 #include "tools/tool_config.h"
 
@@ -29,8 +29,8 @@ struct ParameterAnswer {
   std::string message;   ///< why not; with success a note, or empty
   std::int32_t raw = 0;
   double value = 0.0;
-  const profile::ParameterInfo* info = nullptr;  ///< what the catalogue knows
-  std::uint8_t set = 0;                          ///< that was meant, 1..4; 0 where the parameter has no sets
+  const catalogue::ParameterEntry* entry = nullptr;  ///< what the catalogue knows
+  std::uint8_t set = 0;                              ///< that was meant, 1..4; 0 where the parameter has no sets
 };
 
 /// Master of the bus from `connect` on, by the same cycle as the driver's node (`CycleRole::kGuest`). Moves nothing and
@@ -43,8 +43,9 @@ struct ParameterAnswer {
 ///    transport is told so (`serveParametersOnly()`).
 class ParameterLink {
  public:
-  /// Configures `transport`. Throws ConfigError; Trouble when `transport` does not serve parameters only.
-  ParameterLink(const ToolConfig& config, Transport& transport);
+  /// Configures `transport`, and opens nothing. `catalogues` must outlive the link. Throws ConfigError; Trouble when
+  /// `transport` does not serve parameters only.
+  ParameterLink(const ToolConfig& config, Transport& transport, const catalogue::Catalogues& catalogues);
   /// Ends the exchange; what was not ended by `finish` ends as it stands.
   ~ParameterLink();
   ParameterLink(const ParameterLink&) = delete;
@@ -53,9 +54,9 @@ class ParameterLink {
   /// Looks for the drive until `limit`. Throws Trouble when it does not answer, or runs, or `end_asked`.
   void connect(Duration limit, const std::atomic<bool>& end_asked);
 
-  ParameterAnswer read(const cycle::ParameterAddress& address);
-  /// Compared before and read back after; see ParameterSession.
-  ParameterAnswer write(const cycle::ParameterAddress& address, const cycle::ParameterWrite& write);
+  ParameterAnswer read(const catalogue::ParameterAddress& address);
+  /// `access` is one to write. Compared before and read back after; see ParameterSession.
+  ParameterAnswer write(const catalogue::ParameterAccess& access);
 
   /// Puts back what is not to stay (P560, orders of the parameter channel) and ends the exchange. Returns sentences on
   /// what the end means to the drive.
@@ -63,6 +64,8 @@ class ParameterLink {
 
   const cycle::DriveSetup& drive() const noexcept { return config_.cycle.drives.front(); }
   DriveIdentity identity() const { return transport_.identity(0); }
+  /// What is known of the drive.
+  const catalogue::DriveCatalogue& known() const noexcept { return *known_; }
 
  private:
   void exchange() noexcept;
@@ -73,10 +76,11 @@ class ParameterLink {
   std::string silence() const;
   std::optional<cycle::Completion> run(cycle::Request& request);
   bool waitForDrive() noexcept;
-  ParameterAnswer carryOut(cycle::Request request, const profile::ParameterInfo* info);
+  ParameterAnswer carryOut(const catalogue::ParameterAccess& access, cycle::RequestKind kind);
 
   const ToolConfig& config_;
   Transport& transport_;
+  std::optional<catalogue::DriveCatalogue> known_;  // from the constructor on
   cycle::CyclePorts ports_;
   std::optional<cycle::BusCycle> cycle_;  // from the constructor on
   std::uint32_t last_id_ = 0;

@@ -1,25 +1,18 @@
 #include "tools/parameter_name.h"
 
 #include <cstdio>
-#include <cstdlib>
 #include <regex>
 
 #include "profile/parameter_shape.h"
 
 namespace nord_driver::tools {
 
-using cycle::ParameterAddress;
+using catalogue::ParameterAddress;
 
 namespace {
 
-constexpr std::uint16_t kLastNumber = 999;
 constexpr std::uint16_t kFirstInformation = 700, kLastInformation = 799;  // of the inverter
 constexpr std::uint16_t kFirstOfModule = 170, kLastOfModule = 199;        // of the bus module (BU 0220 5.2)
-
-// P152 and PNU 970 reset the inverter to its factory settings: no list of values has them, whatever a catalogue grows.
-constexpr bool resets(std::uint16_t number) noexcept {
-  return number == 152 || number == 970;
-}
 
 std::uint8_t small(const std::ssub_match& digits) {
   return digits.matched ? static_cast<std::uint8_t>(std::stoul(digits.str())) : std::uint8_t{0};
@@ -55,24 +48,36 @@ std::string parameterName(const ParameterAddress& address) {
   return name;
 }
 
-double parseValue(const std::string& text) {
-  static const std::regex kNumber(R"([-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]{1,3})?)");
-  if (!std::regex_match(text, kNumber)) throw UsageError("\"" + text + "\" is no number");
-  return std::strtod(text.c_str(), nullptr);
+ParameterAddress findParameter(const std::string& text, const catalogue::DriveCatalogue& known) {
+  static const std::regex kNamed(R"(([^\[\]]*[^\[\] ])((?:\[-?[0-9]{1,2}\])?(?: set [1-4])?))");
+  // What is meant as a number is judged as one.
+  static const std::regex kNumbered(R"([-+]?[Pp]?[0-9].*|[Pp]|)");
+  std::smatch match;
+  if (std::regex_match(text, kNumbered) || !std::regex_match(text, match, kNamed)) return parseParameterName(text);
+  std::string name = match[1], rest = match[2];
+  // "set 3" at the end may have been taken for a part of the name.
+  static const std::regex kSet(R"((.*[^ ]) +(set [1-4]))");
+  if (std::smatch with_set; std::regex_match(name, with_set, kSet)) {
+    rest = " " + with_set[2].str();
+    name = with_set[1].str();
+  }
+  const catalogue::Lookup found = known.look(name);
+  if (found.entry == nullptr) throw UsageError(found.error);
+  return parseParameterName(std::to_string(found.entry->number) + rest);
 }
 
-std::vector<ParameterAddress> knownParameters(profile::Series series) {
+std::vector<ParameterAddress> knownParameters(const catalogue::DriveCatalogue& known) {
   std::vector<ParameterAddress> all;
-  for (std::uint16_t number = 0; number <= kLastNumber; ++number) {
-    const profile::ParameterInfo* info = profile::findParameter(number, series);
-    if (info == nullptr || resets(number)) continue;
-    const bool array = profile::isArray(info->shape);
-    const bool sets = profile::hasSets(info->shape);
-    const int elements = array ? info->elements : 1;
-    for (int element = 1; element <= elements; ++element) {
-      for (int set = 1; set <= (sets ? 4 : 1); ++set) {
+  for (const catalogue::ParameterEntry* entry : known.all()) {
+    if (catalogue::resetsDevice(entry->number)) continue;
+    const profile::ParameterShape shape = entry->shape();
+    const bool array = profile::isArray(shape);
+    const bool sets = profile::hasSets(shape);
+    const unsigned elements = array ? entry->elements.value_or(1) : 1;
+    for (unsigned element = 1; element <= elements; ++element) {
+      for (unsigned set = 1; set <= (sets ? 4u : 1u); ++set) {
         ParameterAddress address;
-        address.number = number;
+        address.number = entry->number;
         address.index = static_cast<std::uint8_t>(array ? element : 0);
         address.parameter_set = static_cast<std::uint8_t>(sets ? set : 0);
         all.push_back(address);

@@ -17,8 +17,9 @@ namespace nord_driver::tools {
 struct ToolConfig {
   std::string transport;  ///< plugin name with its prefix
   std::shared_ptr<const Settings> bus;
-  std::vector<DriveSettings> drives;  ///< as the transport is told, in the order of `cycle.drives`
-  cycle::CycleConfig cycle;           ///< without a base
+  std::vector<DriveSettings> drives;         ///< as the transport is told, in the order of `cycle.drives`
+  cycle::CycleConfig cycle;                  ///< without a base
+  std::vector<std::string> parameter_files;  ///< of the user, laid over the project's
 };
 
 /// The plugin name of the file's transport, with its prefix. Throws ConfigError.

@@ -4,27 +4,33 @@
 #include <string>
 #include <vector>
 
-#include "catalogue/catalogue.h"
-#include "catalogue/fault_catalogue.h"
+#include "catalogue/catalogues.h"
 
 namespace nord_driver::catalogue {
 
+inline std::string shippedFolder() {
+  return std::string(NORD_DRIVER_SOURCE_DIR) + "/config";
+}
+
 inline std::vector<std::string> shippedParameterFiles() {
-  return yamlFilesIn(std::string(NORD_DRIVER_SOURCE_DIR) + "/config/parameters");
+  return yamlFilesIn(shippedFolder() + "/parameters");
 }
 
 inline std::vector<std::string> shippedFaultFiles() {
-  return yamlFilesIn(std::string(NORD_DRIVER_SOURCE_DIR) + "/config/faults");
+  return yamlFilesIn(shippedFolder() + "/faults");
+}
+
+inline const Catalogues& shippedCatalogues() {
+  static const Catalogues kCatalogues = loadCatalogues(shippedFolder(), {});
+  return kCatalogues;
 }
 
 inline const Catalogue& shipped() {
-  static const Catalogue kCatalogue = Catalogue::load(shippedParameterFiles());
-  return kCatalogue;
+  return shippedCatalogues().parameters;
 }
 
 inline const FaultCatalogue& shippedFaults() {
-  static const FaultCatalogue kCatalogue = FaultCatalogue::load(shippedFaultFiles());
-  return kCatalogue;
+  return shippedCatalogues().faults;
 }
 
 }  // namespace nord_driver::catalogue

@@ -84,22 +84,21 @@ TEST(ParameterText, WhatPeopleType) {
 TEST(ParameterText, WhatIsRefusedIsSaid) {
   EXPECT_EQ("P509: \"PROFIBS\" is not valid, expected perhaps \"PROFIBUS\"",
             typed(Series::kSk5xxe, 509, "PROFIBS").error);
-  EXPECT_EQ("P509: \"11\" is not valid, expected 0 ... 10", typed(Series::kSk5xxe, 509, "11").error);
+  EXPECT_EQ("P509: \"11\" is not valid, expected 0 to 10", typed(Series::kSk5xxe, 509, "11").error);
   EXPECT_EQ("P509: \"4 CANopen\" is not valid, expected \"4 PROFIBUS\", or the number alone",
             typed(Series::kSk5xxe, 509, "4 CANopen").error);
-  EXPECT_EQ("P560: \"often\" is not valid, expected 0 ... 1 or one of \"RAM only\", \"Write to EEPROM\"",
+  EXPECT_EQ("P560: \"often\" is not valid, expected 0 to 1 or one of \"RAM only\", \"Write to EEPROM\"",
             typed(Series::kSk2xxe, 560, "often").error);
   EXPECT_EQ("P102: \"10.005\" is not valid, expected a multiple of 0.01 s",
             typed(Series::kSk5xxe, 102, "10.005").error);
   EXPECT_EQ("P102: \"10 ms\" is not valid, expected \"10.00 s\", or the number alone",
             typed(Series::kSk5xxe, 102, "10 ms").error);
   EXPECT_EQ("P102: \"\" is not valid, expected a value", typed(Series::kSk5xxe, 102, "  ").error);
-  EXPECT_EQ("P102: \"nan\" is not valid, expected 0 ... 655.35 s", typed(Series::kSk5xxe, 102, "nan").error);
-  EXPECT_EQ("P102: \"999999999999999\" is not valid, expected 0 ... 655.35 s",
+  EXPECT_EQ("P102: \"nan\" is not valid, expected 0 to 655.35 s", typed(Series::kSk5xxe, 102, "nan").error);
+  EXPECT_EQ("P102: \"999999999999999\" is not valid, expected 0 to 655.35 s",
             typed(Series::kSk5xxe, 102, "999999999999999").error);
-  EXPECT_EQ("P513: \"-0.2\" is not valid, expected -0.1 ... 100 s", typed(Series::kSk5xxe, 513, "-0.2").error);
-  EXPECT_EQ("P740[-01]: \"10000h\" is not valid, expected 0000h ... FFFFh",
-            typed(Series::kSk5xxe, 740, "10000h").error);
+  EXPECT_EQ("P513: \"-0.2\" is not valid, expected -0.1 to 100 s", typed(Series::kSk5xxe, 513, "-0.2").error);
+  EXPECT_EQ("P740[-01]: \"10000h\" is not valid, expected 0000h to FFFFh", typed(Series::kSk5xxe, 740, "10000h").error);
 }
 
 // The numbers of P546 moved between two issues of the manual: no name may decide what is written (BU 0220, BU 0280).
@@ -125,7 +124,7 @@ TEST(ParameterText, ReservedIsNoName) {
 }
 
 TEST(ParameterText, WhatMayNotBeWritten) {
-  EXPECT_EQ("P700[-01] Current error can only be read", whyNotWritable(entryOf(Series::kSk5xxe, 700)));
+  EXPECT_EQ("P700 Current error can only be read", whyNotWritable(entryOf(Series::kSk5xxe, 700)));
   EXPECT_EQ(
       "P152 Factory setting is never written: 1 resets every parameter of the bus module: not written by the driver, "
       "neither alone nor in a restore",
@@ -146,6 +145,17 @@ TEST(ParameterLookup, ByNumberAndName) {
             shipped().look(Series::kSk5xxe, "P999").error);
   EXPECT_EQ("\"something else entirely\" is not valid, expected the number or the name of a parameter of sk5xxe",
             shipped().look(Series::kSk5xxe, "something else entirely").error);
+}
+
+TEST(ParameterText, TellsHowAParameterIsAccessed) {
+  EXPECT_EQ("", kindText(entryOf(Series::kSk5xxe, 509)));
+  EXPECT_EQ("sets 1 to 4", kindText(entryOf(Series::kSk5xxe, 105)));
+  EXPECT_EQ("perhaps sets 1 to 4", kindText(entryOf(Series::kSk5xxe, 506)));
+  EXPECT_EQ("array of 3, read only", kindText(entryOf(Series::kSk5xxe, 700)));
+  EXPECT_EQ("array of 3, sets 1 to 4", kindText(entryOf(Series::kSk2xxe, 543)));
+  EXPECT_EQ("never written", kindText(entryOf(Module::kProfibus, 152)));
+  EXPECT_EQ("0.01 s", stepText(entryOf(Series::kSk5xxe, 102)));
+  EXPECT_EQ("1", stepText(entryOf(Series::kSk5xxe, 509)));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "catalogue/shipped.h"
 #include "node/drive_status.h"
 
 namespace nord_driver::node {
@@ -23,7 +24,7 @@ class DriveStatusTest : public ::testing::Test {
     sample.velocity_command = 3.9;
     sample.velocity = 3.9;
     sample.frequency = 25.0;
-    fillDriveStatus(sample, status);
+    fillDriveStatus(sample, faults, status);
   }
   /// As the cycle leaves it: what was received last stays there.
   void vanish() {
@@ -32,7 +33,7 @@ class DriveStatusTest : public ::testing::Test {
     sample.parameter_set = 0;
     sample.output.control_word = 0x047E;
     sample.velocity_command = sample.velocity = sample.frequency = 0.0;
-    fillDriveStatus(sample, status);
+    fillDriveStatus(sample, faults, status);
   }
   std::vector<bool> bits() const {
     return {status.ready_to_switch_on != 0,
@@ -50,9 +51,23 @@ class DriveStatusTest : public ::testing::Test {
             status.direction_left != 0,
             status.bit_13 != 0};
   }
+  catalogue::FaultWords faults{catalogue::shippedFaults(), profile::Series::kSk5xxe};
   cycle::DriveSnapshot sample;
   DriveStatus status;
 };
+
+// The words of the series: E10.3 is something else in an SK 700E.
+TEST_F(DriveStatusTest, AFaultIsNamedInTheWordsOfTheSeries) {
+  EXPECT_EQ("", status.fault_text);
+  sample.fault_number = 103;
+  fillDriveStatus(sample, faults, status);
+  EXPECT_EQ("timeout by P151 or P513", status.fault_text);
+  fillDriveStatus(sample, {catalogue::shippedFaults(), profile::Series::kSk700e}, status);
+  EXPECT_EQ("system error of the option (10.3)", status.fault_text);
+  sample.fault_number = 0;
+  fillDriveStatus(sample, faults, status);
+  EXPECT_EQ("", status.fault_text);
+}
 
 TEST_F(DriveStatusTest, OnlineItTellsBitsAndValues) {
   EXPECT_TRUE(status.online);

@@ -43,6 +43,21 @@ TEST(NodeConfigTest, HasItsDefaults) {
   EXPECT_TRUE(config.cycle.base.has_value());
 }
 
+// One file, or several in their order.
+TEST(NodeConfigTest, TakesFilesOfTheUser) {
+  XmlRpcValue value = robotParameters();
+  EXPECT_THAT(readNodeConfig(RosSettings{"~", value}).parameter_files, IsEmpty());
+  value["parameter_files"] = std::string{"/home/me/own.yaml"};
+  EXPECT_THAT(readNodeConfig(RosSettings{"~", value}).parameter_files, ElementsAre("/home/me/own.yaml"));
+  XmlRpcValue list;
+  list[0] = std::string{"/a.yaml"};
+  list[1] = std::string{"/b.yaml"};
+  value["parameter_files"] = list;
+  EXPECT_THAT(readNodeConfig(RosSettings{"~", value}).parameter_files, ElementsAre("/a.yaml", "/b.yaml"));
+  value["parameter_files"] = 5;
+  EXPECT_THAT(refusal(value), HasSubstr("~parameter_files"));
+}
+
 // A plugin's name without its prefix is one of this package's.
 TEST(NodeConfigTest, ATransportMayLeaveItsPrefixOut) {
   XmlRpcValue value = robotParameters();

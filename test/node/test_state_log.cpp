@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "catalogue/shipped.h"
 #include "node/state_log.h"
 
 namespace nord_driver::node {
@@ -11,6 +12,10 @@ using std::chrono::milliseconds;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using Level = LogLine::Level;
+
+std::vector<catalogue::FaultWords> words(std::size_t drives) {
+  return std::vector<catalogue::FaultWords>(drives, {catalogue::shippedFaults(), profile::Series::kSk5xxe});
+}
 
 class StateLogTest : public ::testing::Test {
  protected:
@@ -34,7 +39,8 @@ class StateLogTest : public ::testing::Test {
   }
 
   cycle::CycleSnapshot snapshot_{3};
-  StateLog log_{{"/nord_driver", {"left", "right", "lift"}, {true, true, false}, "/dev/ttyUSB0", "~bus/device"}};
+  StateLog log_{
+      {"/nord_driver", {"left", "right", "lift"}, {true, true, false}, words(3), "/dev/ttyUSB0", "~bus/device"}};
   Instant now_ = Instant{} + std::chrono::hours{1};
 };
 
@@ -82,7 +88,7 @@ TEST_F(StateLogTest, ADriveWithoutBaseHasItsOwnCalls) {
 // The node before was killed: its drives are met with a time-out that stands.
 TEST(StateLogAtStart, AFaultThatStoodAlreadySaysSo) {
   cycle::CycleSnapshot snapshot{1};
-  StateLog log{{"/nord_driver", {"left"}, {true}}};
+  StateLog log{{"/nord_driver", {"left"}, {true}, words(1)}};
   Instant now = Instant{} + std::chrono::hours{1};
   EXPECT_TRUE(log.poll(snapshot, now).empty());
   snapshot.connected = snapshot.drives[0].online = true;
@@ -92,8 +98,8 @@ TEST(StateLogAtStart, AFaultThatStoodAlreadySaysSo) {
   const auto lines = log.poll(snapshot, now += milliseconds{10});
   ASSERT_EQ(2u, lines.size()) << "and that all drives answer";
   EXPECT_THAT(lines[1].text,
-              AllOf(HasSubstr("drive left: E10.2, PROFIBUS telegram failure, which stood before this node started"),
-                    HasSubstr("the bus master was stopped or died"),
+              AllOf(HasSubstr("drive left: E10.2, bus timeout of the option, which stood before this node started"),
+                    HasSubstr("the watchdog of the bus ran out"),
                     HasSubstr("rosservice call /nord_driver/acknowledge_faults")));
 }
 

@@ -47,6 +47,7 @@ TEST(Plugins, EveryDeclaredTransportCanBeCreated) {
   const std::vector<std::string> names = declaredNames();
   ASSERT_THAT(names, Not(IsEmpty()));
   EXPECT_THAT(names, Contains("nord_driver/profibus_dp"));
+  EXPECT_THAT(names, Contains("nord_driver/profibus_ms2"));
   EXPECT_THAT(names, Contains("nord_driver/canopen"));
   EXPECT_THAT(names, Contains("nord_driver/devicenet"));
   EXPECT_THAT(names, Contains("nord_driver/interbus"));

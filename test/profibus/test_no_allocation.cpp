@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "profibus/nord_wire.h"
+#include "profibus/class2_wire.h"
 #include "support/count_allocations.h"
 
 namespace nord_driver::profibus {
@@ -60,6 +60,45 @@ TEST(NoAllocation, AfterConstruction) {
   EXPECT_EQ(0u, test::allocations);
   EXPECT_EQ(9u, master.status(0).counters.exchanges);
   EXPECT_EQ(3u, master.status(0).counters.losses);
+}
+
+// The same of a class-2 master: connections opened, used, aborted, refused and lost.
+TEST(NoAllocation, OfAClass2MasterAfterConstruction) {
+  if (!test::kCanCountAllocations) GTEST_SKIP() << "the sanitizers have replaced malloc";
+  const std::vector<std::vector<std::uint8_t>> answers{fromHex("E5"),
+                                                       fromHex(kGrant),
+                                                       fromHex(kAccepted),
+                                                       fromHex("E5"),
+                                                       fromHex(kClass2ReadDone),
+                                                       fromHex("68 08 08 68 81 88 08 32 30 58 01 13 DF 16"),
+                                                       fromHex(kNotActivated),
+                                                       {},
+                                                       {}};
+  const RecordRequest request = readAnswer();
+  Class2Master master{quietBus(), {station(8)}};
+  Instant now{std::chrono::hours{1}};
+  unsigned results = 0;
+
+  test::countThisThread(true);
+  master.restart(now);
+  for (int round = 0; round < 9; ++round) {
+    for (const auto& answer : answers) {
+      master.submitRecord(0, request);
+      for (int i = 0; i < kMostTelegrams && master.wantsBus(now); ++i) {
+        if (!master.pollTransmit(now).empty()) break;
+        now = std::max(now, *master.nextDeadline());
+        master.handleTimeout(now);
+      }
+      now += std::chrono::milliseconds{3};
+      if (!answer.empty()) master.handleBytes(answer, now);
+      while (master.pollRecord()) ++results;
+    }
+  }
+  master.close();
+  test::countThisThread(false);
+
+  EXPECT_EQ(0u, test::allocations);
+  EXPECT_GT(results, 9u);
 }
 
 }  // namespace

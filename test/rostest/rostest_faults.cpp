@@ -83,7 +83,8 @@ TEST_F(Faults, AFaultStopsTheBaseAndIsAcknowledgedOnceItsCauseIsGone) {
     const auto asked = std::chrono::steady_clock::now();
     const Answer answer = robot().trigger(service);
     EXPECT_FALSE(answer.success) << service;
-    EXPECT_THAT(answer.message, AllOf(HasSubstr("drive left"), HasSubstr("the cause of the fault still stands")));
+    EXPECT_THAT(answer.message, AllOf(HasSubstr("drive left"), HasSubstr("the cause of the fault still stands"),
+                                      HasSubstr("drive left: E2.1, motor overtemperature (I2t); remedy: ")));
     EXPECT_LT(std::chrono::steady_clock::now() - asked, kAcknowledged);
     EXPECT_EQ(robot().left.truth.next()->fault_number, kMotorHot);
   }

@@ -13,6 +13,7 @@ namespace nord_driver::test {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 struct Read : Answer {
@@ -87,6 +88,7 @@ TEST_F(ParameterService, ReadsASetDependentParameterOfTheSetAskedFor) {
   EXPECT_DOUBLE_EQ(p105.response.value, 50.0);
   EXPECT_EQ(p105.response.unit, "Hz");
   EXPECT_EQ(p105.response.name, "Maximum frequency");
+  EXPECT_EQ(p105.message, "P105 = 50.0 Hz");
   p105 = read("left", 105, 3);
   ASSERT_TRUE(p105.success) << p105;
   EXPECT_EQ(p105.response.raw, 250);
@@ -113,13 +115,23 @@ TEST_F(ParameterService, ReadsAnArrayElementByItsPrintedIndex) {
               AllOf(HasSubstr("drive left refuses P707"), HasSubstr(bus().refusal(Refusal::kNoSuchIndex))));
 }
 
-// P420 is in no catalogue of the driver: as transferred, without unit and name.
+// P113 is in no file of the catalogue, so that the set has to be named: as transferred, without unit and name.
 TEST_F(ParameterService, ReadsAnUnknownParameterRaw) {
-  const Read p420 = read("left", 420);
-  ASSERT_TRUE(p420.success) << p420;
-  EXPECT_DOUBLE_EQ(p420.response.value, p420.response.raw);
-  EXPECT_EQ(p420.response.unit, "");
-  EXPECT_EQ(p420.response.name, "");
+  const Read p113 = read("left", 113, 1);
+  ASSERT_TRUE(p113.success) << p113;
+  EXPECT_DOUBLE_EQ(p113.response.value, p113.response.raw);
+  EXPECT_EQ(p113.response.unit, "");
+  EXPECT_EQ(p113.response.name, "");
+}
+
+// By the name the file of its series gives it.
+TEST_F(ParameterService, NamesAValueAndTheNumberOfAFault) {
+  const Read source = read("left", 509);
+  ASSERT_TRUE(source.success) << source;
+  EXPECT_THAT(source.message, ContainsRegex("^P509 = [0-9]+ [A-Z]"));
+  const Read fault = read("left", 700, 0, 1);
+  ASSERT_TRUE(fault.success) << fault;
+  EXPECT_EQ(fault.message, "P700[-01] = 0.0 no fault");
 }
 
 TEST_F(ParameterService, SaysInWordsWhatDoesNotExist) {
@@ -173,24 +185,26 @@ TEST_F(ParameterService, RefusesAValueOutOfRangeInWords) {
   EXPECT_DOUBLE_EQ(read("left", 102).response.value, 0.5);
   const Written read_only = write("left", 743, 5.0, false);
   EXPECT_FALSE(read_only.success);
-  EXPECT_THAT(read_only.message,
-              AllOf(HasSubstr("drive left refuses P743"), HasSubstr(bus().refusal(Refusal::kReadOnly))));
+  EXPECT_THAT(read_only.message, AllOf(HasSubstr("P743 "), HasSubstr(" can only be read")));
+  const Written factory = write("left", 152, 1.0, false);
+  EXPECT_FALSE(factory.success);
+  EXPECT_THAT(factory.message, AllOf(HasSubstr("P152"), HasSubstr(" is never written")));
   EXPECT_LE(eepromWrites("left"), before + (bus().has_ram_orders ? 0 : 2)) << "P560 off and on";
 }
 
 // Without a unit nobody knows what 12 is: a key of the configuration has to allow it.
 TEST_F(ParameterService, RefusesToWriteAnUnknownParameter) {
-  const Written p420 = write("left", 420, 12.0, false);
-  EXPECT_FALSE(p420.success);
-  EXPECT_THAT(p420.message, AllOf(HasSubstr("P420 is not in the catalogue"), HasSubstr("allow_raw_parameters: true")));
-  EXPECT_EQ(read("left", 420).response.raw, 0);
+  const Written p113 = write("left", 113, 12.0, false, 1);
+  EXPECT_FALSE(p113.success);
+  EXPECT_THAT(p113.message, AllOf(HasSubstr("P113 is not in the catalogue"), HasSubstr("allow_raw_parameters: true")));
+  EXPECT_EQ(read("left", 113, 1).response.raw, 0);
 }
 
 TEST_F(RawParameters, WritesAnUnknownParameterWhereItIsAllowed) {
-  const Written p420 = write("left", 420, 12.0, false);
-  ASSERT_TRUE(p420.success) << p420;
-  EXPECT_EQ(p420.response.raw, 12);
-  EXPECT_EQ(read("left", 420).response.raw, 12);
+  const Written p113 = write("left", 113, 12.0, false, 1);
+  ASSERT_TRUE(p113.success) << p113;
+  EXPECT_EQ(p113.response.raw, 12);
+  EXPECT_EQ(read("left", 113, 1).response.raw, 12);
 }
 
 // An inverter without AK 11 to 14 (BU 2700 6.5.1.1: some do not know them): P560 spares the EEPROM, and is put back.

@@ -91,6 +91,7 @@ const std::vector<Dependency>& dependencies() {
       {"roscpp", {"ros-core-dev"}, {"roscpp"}},
       {"rosgraph_msgs", {"ros-core-dev"}, {}},
       {"roslaunch", {"ros-core-dev"}, {}},
+      {"roslib", {"ros-core-dev"}, {"roslib"}},
       {"rospy", {"python3-rospy"}, {}},
       {"rostest", {"librostest-dev", "python3-rostest"}, {"rostest"}},
       {"sensor_msgs", {"ros-core-dev"}, {"sensor_msgs"}},

@@ -129,7 +129,8 @@ TEST(SimConfig, ReadsModulesWithSlots) {
       "{bus: {baud_rate: 93750}, drives: {a: {address: 5, module: sk_cu4, inverter: 1, series: sk2xxe, ppo_type: 2}, "
       "b: {address: 5, module: sk_cu4, inverter: 3, series: sk2xxe, io_byte: true}, c: {address: 6, series: sk5xxe, "
       "module: sk_tu4}, d: {address: 7}, e: {address: 8, series: sk1x0e}}, modules: {front: {address: 6, inputs: 5, "
-      "record_polls: 4, record_busy: 3, record_by_slot: true, record_plain_numbers: true, parameters: {P151: 500}}}}"));
+      "record_polls: 4, record_busy: 3, record_by_slot: true, record_plain_numbers: true, class2_connections: 2, "
+      "parameters: {P151: 500}}}}"));
   EXPECT_TRUE(config.warnings.empty()) << config.warnings.front();
   RobotSim robot{config};
   DpStations stations{robot};
@@ -142,6 +143,7 @@ TEST(SimConfig, ReadsModulesWithSlots) {
   EXPECT_EQ(6, stations.module(1).parameters().value(181));  // 93.75 kbit/s
   EXPECT_EQ(4u, stations.module(1).recordSettings().polls);
   EXPECT_EQ(3u, stations.module(1).recordSettings().busy);
+  EXPECT_EQ(2u, stations.module(1).connections().settings().connections);
   EXPECT_TRUE(stations.module(1).recordSettings().by_slot);
   EXPECT_TRUE(stations.module(1).recordSettings().plain_numbers);
   // The control word comes over the system bus: P509 = 3, of an SK 5xxE 6 (BU 2700 7.2).

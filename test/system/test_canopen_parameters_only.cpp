@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "catalogue/shipped.h"
 #include "sim/canopen/simulated_can_bus.h"
 #include "tools/parameter_link.h"
 #include "transport/canopen/canopen.h"
@@ -23,8 +24,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-cycle::ParameterAddress parameter(std::uint16_t number) {
-  cycle::ParameterAddress address;
+catalogue::ParameterAddress parameter(std::uint16_t number) {
+  catalogue::ParameterAddress address;
   address.number = number;
   return address;
 }
@@ -44,7 +45,7 @@ class CanTool {
           bus_ = made.get();
           return made;
         }),
-        link_(std::make_unique<tools::ParameterLink>(config_, transport_)) {
+        link_(std::make_unique<tools::ParameterLink>(config_, transport_, catalogue::shippedCatalogues())) {
     bus_->run(seconds{1});  // the nodes have sent their boot-up
     bus_->setTap([this](const CanFrame& frame, sim::SimulatedCanBus::Sender sender, Instant at) {
       if (sender != sim::SimulatedCanBus::Sender::kMaster) return;
@@ -126,9 +127,11 @@ TEST(CanopenParametersOnly, ReadsAndWritesOnAQuietBus) {
   const auto read = tool.link().read(parameter(105));
   EXPECT_TRUE(read.success) << read.message;
   EXPECT_EQ(500, read.raw);
-  cycle::ParameterWrite write;
+  catalogue::ParameterWrite write;
   write.value = 2.5;
-  const auto written = tool.link().write(parameter(102), write);
+  catalogue::ParameterAccess access = catalogue::accessTo(parameter(102), tool.link().known());
+  ASSERT_EQ("", catalogue::setValue(access, write));
+  const auto written = tool.link().write(access);
   EXPECT_TRUE(written.success) << written.message;
   EXPECT_EQ(250, tool.bus().drive(0).parameters().value(102, 0));
   EXPECT_THAT(tool.link().finish(), IsEmpty());

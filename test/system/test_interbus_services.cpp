@@ -6,7 +6,6 @@
 #include <string>
 
 #include "cycle/parameter_requests.h"
-#include "profile/fault_text.h"
 #include "system/interbus_robot.h"
 
 namespace nord_driver::test {

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "cycle/parameter_access.h"
+#include "catalogue/parameter_access.h"
+#include "catalogue/shipped.h"
 #include "system/simulated_robot.h"
 
 namespace nord_driver::test {
@@ -43,12 +44,15 @@ class LongRun : public ::testing::Test {
  private:
   static cycle::Request requestFor(DriveIndex drive, std::uint8_t set, std::optional<double> value, bool persistent) {
     cycle::Request request;
-    const profile::ParameterInfo* info = nullptr;
-    EXPECT_EQ("", cycle::addressParameter({kAccelerationTime, set, 0}, profile::Series::kSk5xxe, request, info));
+    const catalogue::DriveCatalogue known{catalogue::shippedCatalogues(), profile::Series::kSk5xxe, {}};
+    catalogue::ParameterAccess access = catalogue::accessTo({kAccelerationTime, set, 0}, known);
+    EXPECT_EQ("", access.error);
     if (value) {
-      EXPECT_EQ("", cycle::addValue({*value, persistent, false}, info, request));
+      EXPECT_EQ("", catalogue::setValue(access, {*value, persistent, false}));
     }
+    request.kind = value ? cycle::RequestKind::kWriteParameter : cycle::RequestKind::kReadParameter;
     request.drive = drive;
+    request.parameter = access.request;
     return request;
   }
 };

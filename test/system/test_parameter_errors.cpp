@@ -8,7 +8,8 @@
 #include <ostream>
 #include <tuple>
 
-#include "cycle/parameter_access.h"
+#include "catalogue/parameter_access.h"
+#include "catalogue/shipped.h"
 #include "system/simulated_robot.h"
 
 namespace nord_driver::test {
@@ -26,11 +27,13 @@ struct Access {
 std::string answerTo(DrivenRobot& robot, const Access& access) {
   cycle::Request request;
   request.drive = kLeft;
-  const profile::ParameterInfo* info = nullptr;
-  const profile::Series series = robot.config().drives[kLeft].series;
-  std::string refused = cycle::addressParameter({access.number, 0, access.index}, series, request, info);
-  if (refused.empty() && access.value) refused = cycle::addValue({*access.value, false, true}, info, request);
+  request.kind = access.value ? cycle::RequestKind::kWriteParameter : cycle::RequestKind::kReadParameter;
+  const catalogue::DriveCatalogue known{catalogue::shippedCatalogues(), robot.config().drives[kLeft].series, {}};
+  catalogue::ParameterAccess made = catalogue::accessTo({access.number, 0, access.index}, known);
+  std::string refused = made.error;
+  if (refused.empty() && access.value) refused = catalogue::setValue(made, {*access.value, false, true});
   if (!refused.empty()) return "nothing was asked: " + refused;
+  request.parameter = made.request;
   const cycle::Completion answer = robot.ask(request);
   return (answer.success ? "done: " : "") + answer.message.str();
 }
@@ -72,16 +75,16 @@ INSTANTIATE_TEST_SUITE_P(
         ByAnOrder{0, {999}, {}, "drive left refuses P999: PKW error 0, the inverter has no parameter of this number"},
         ByAnOrder{
             1,
-            {743, 0, 9.0},
+            {749, 0, 9.0},  // of no SK 5xxE in the catalogue, which would refuse it itself
             {},
-            "drive left refuses P743: PKW error 1, the parameter cannot be changed (it is read-only, or P509 does "
+            "drive left refuses P749: PKW error 1, the parameter cannot be changed (it is read-only, or P509 does "
             "not select this bus)"},
         ByAnOrder{2,
                   {102, 0, 400.0},
                   {},
                   "drive left refuses P102: PKW error 2, the value is beyond the lower or upper limit"},
         ByAnOrder{3, {701, 6}, {}, "drive left refuses P701: PKW error 3, the sub-index is wrong"},
-        ByAnOrder{4, {420, 2}, {}, "drive left refuses P420: PKW error 4, the parameter is no array"},
+        ByAnOrder{4, {749, 2}, {}, "drive left refuses P749: PKW error 4, the parameter is no array"},
         ByAnOrder{5, {613, 0, 1.0}, {}, "drive left refuses P613: PKW error 5, the data type is wrong"},
         ByAnOrder{202,
                   {613},

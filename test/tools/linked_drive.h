@@ -1,6 +1,7 @@
 // The link of nord_param to a simulated segment in simulated time.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
 #include <atomic>
@@ -8,11 +9,21 @@
 #include <string>
 #include <vector>
 
+#include "catalogue/shipped.h"
 #include "sim/profibus/simulated_segment.h"
 #include "tools/parameter_link.h"
 #include "transport/profibus/profibus_dp.h"
 
 namespace nord_driver::tools {
+
+/// As a service would: from number and value to the answer.
+inline ParameterAnswer writeValue(ParameterLink& link, const catalogue::ParameterAddress& address,
+                                  const catalogue::ParameterWrite& write) {
+  catalogue::ParameterAccess access = catalogue::accessTo(address, link.known());
+  EXPECT_EQ("", access.error);
+  EXPECT_EQ("", catalogue::setValue(access, write));
+  return link.write(access);
+}
 
 /// Two SK 5xxE on one bus; the link is to drive left, station 3.
 class LinkedDrive {
@@ -34,7 +45,7 @@ class LinkedDrive {
           segment_ = made.get();
           return made;
         }),
-        link_(std::make_unique<ParameterLink>(config_, transport_)) {}
+        link_(std::make_unique<ParameterLink>(config_, transport_, catalogue::shippedCatalogues())) {}
 
   ParameterLink& link() { return *link_; }
   sim::SimulatedSegment& segment() { return *segment_; }

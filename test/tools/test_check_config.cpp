@@ -73,6 +73,19 @@ TEST_F(CheckConfig, EveryTemplateIsAcceptedWithoutAWarning) {
   EXPECT_GE(files, 9u);
 }
 
+// As the node does, which ends with the same sentence.
+TEST_F(CheckConfig, ReadsTheUsersFilesOfParameters) {
+  const std::string own = file_ + "_own.yaml";
+  const std::string text = std::string("parameter_files: [") + own + "]\n" + kConveyor;
+  std::ofstream(own) << "devices: [sk5xxe]\nparameters:\n  - {number: 105, name: Top frequency}\n";
+  EXPECT_EQ(0, checkText(text).code);
+  std::ofstream(own) << "devices: [sk5xxe]\nparameters:\n  - {number: 105, units: Hz}\n";
+  const Ended wrong = checkText(text);
+  EXPECT_EQ(1, wrong.code);
+  EXPECT_THAT(wrong.output + wrong.errors, HasSubstr(own + ":3: number 105: units is not a key of this file"));
+  ::unlink(own.c_str());
+}
+
 TEST_F(CheckConfig, DrawsWhatItUnderstood) {
   const Ended ended = check({std::string(NORD_CONFIG_FOLDER) + "/templates/skid_steer_profibus_cu4.yaml"});
   EXPECT_THAT(

@@ -78,7 +78,7 @@ TEST_F(NordParam, ListsDrivesAndCatalogueWithoutABus) {
   const Ended list = runProgram({NORD_PARAM_PROGRAM, "--config", config_, "list"});
   EXPECT_EQ(0, list.code) << list.errors;
   EXPECT_THAT(list.output, HasSubstr("left         PROFIBUS station 3       sk5xxe   parameter channel: PKW\n"));
-  EXPECT_THAT(list.output, HasSubstr("P102  Acceleration time                 0 s to 655.35 s        sets 1 to 4\n"));
+  EXPECT_THAT(list.output, HasSubstr("P102  Acceleration time                 0 to 655.35 s          sets 1 to 4\n"));
   EXPECT_EQ(list.output, run({"list"}, "/dev/is_not_there").output);
   EXPECT_EQ(2, runProgram({NORD_PARAM_PROGRAM, "--config", config_, "read", "left", "P105"}).code) << "needs a device";
 }
@@ -87,10 +87,54 @@ TEST_F(NordParam, ListsDrivesAndCatalogueWithoutABus) {
 TEST_F(NordParam, ReadsAParameter) {
   const Ended read = run({"read", "left", "P105"});
   EXPECT_EQ(0, read.code) << read.errors;
-  EXPECT_EQ("P105 set 1 Maximum frequency = 50 Hz (raw 500)\n", read.output);
+  EXPECT_EQ("P105 set 1 Maximum frequency = 50.0 Hz (raw 500)\n", read.output);
   EXPECT_THAT(read.errors, IsEmpty());
-  EXPECT_EQ("P700[-01] Current fault = 0 (raw 0)\n", run({"read", "left", "P700[-01]"}).output)
+  EXPECT_EQ("P700[-01] Current error = 0.0 no fault (raw 0)\n", run({"read", "left", "P700[-01]"}).output)
       << "the end of the run before is no fault";
+}
+
+// The names in the files of the series, for parameters and for values.
+TEST_F(NordParam, TakesAndTellsNames) {
+  EXPECT_EQ("P105 set 3 Maximum frequency = 50.0 Hz (raw 500)\n",
+            run({"read", "left", "maximum frequency", "--set", "3"}).output);
+  EXPECT_EQ("P740[-02] Process data bus in, Setpoint 1 = 0000h (raw 0)\n",
+            run({"read", "left", "Process data bus in[-02]"}).output);
+  const Ended written = run({"write", "right", "Setpoint source[-02]", "profibus"});
+  EXPECT_EQ(0, written.code) << written.errors;
+  EXPECT_THAT(written.output, StartsWith("P510[-02] Setpoint source"));
+  EXPECT_THAT(written.output, HasSubstr("= 4 PROFIBUS (raw 4), in RAM"));
+  const Ended slip = run({"write", "right", "P509", "PROFIBAS"});
+  EXPECT_EQ(2, slip.code);
+  EXPECT_EQ("nord_param: P509: \"PROFIBAS\" is not valid, expected perhaps \"PROFIBUS\"\n", slip.errors);
+  const Ended read_only = run({"write", "right", "P743", "1"});
+  EXPECT_EQ(1, read_only.code);
+  EXPECT_EQ("nord_param: P743 Inverter power can only be read\n", read_only.errors);
+}
+
+// Laid over the project's, from the command line or the configuration; a wrong one is told with its line.
+TEST_F(NordParam, TakesFilesOfTheUser) {
+  const std::string own = config_ + "_own.yaml";
+  std::ofstream(own) << "devices: [sk5xxe]\nparameters:\n  - {number: 105, name: Top frequency, unit: 1/s}\n";
+  EXPECT_EQ("P105 set 1 Top frequency = 50.0 1/s (raw 500)\n",
+            run({"--parameter-files", own, "read", "left", "Top frequency"}).output);
+  const std::string naming = config_ + "_naming.yaml";
+  std::ofstream(naming) << "parameter_files: [" << own << "]\n";
+  EXPECT_THAT(runProgram({NORD_PARAM_PROGRAM, "--config", config_, "--config", naming, "list"}).output,
+              HasSubstr("  P105  Top frequency "));
+  std::ofstream(own) << "devices: [sk5xxe]\nparameters:\n  - {number: 105, units: Hz}\n";
+  const Ended wrong = run({"--parameter-files", own, "list"});
+  EXPECT_EQ(2, wrong.code);
+  EXPECT_EQ("nord_param: " + own + ":3: number 105: units is not a key of this file, expected perhaps \"unit\"\n",
+            wrong.errors);
+  ::unlink(own.c_str());
+  ::unlink(naming.c_str());
+}
+
+TEST_F(NordParam, DescribesOneParameter) {
+  const Ended described = runProgram({NORD_PARAM_PROGRAM, "--config", config_, "list", "--parameter", "P509"});
+  EXPECT_EQ(0, described.code) << described.errors;
+  EXPECT_THAT(described.output, StartsWith("sk5xxe (left, right): P509 Source control word\n  range      0 to 10\n"));
+  EXPECT_THAT(described.output, HasSubstr("    4        PROFIBUS\n"));
 }
 
 // The EEPROM is spared, the value stays for the next run, and what is there already is not written again; saving it is
@@ -98,11 +142,11 @@ TEST_F(NordParam, ReadsAParameter) {
 TEST_F(NordParam, WritesIntoTheRamAndNotTwice) {
   const Ended first = run({"write", "right", "102", "2.5", "--set", "2"});
   EXPECT_EQ(0, first.code) << first.errors;
-  EXPECT_EQ("P102 set 2 Acceleration time = 2.5 s (raw 250), in RAM: lost at power off\n", first.output);
+  EXPECT_EQ("P102 set 2 Acceleration time = 2.50 s (raw 250), in RAM: lost at power off\n", first.output);
   const Ended again = run({"write", "right", "102", "250", "--raw", "--set", "2"});
   EXPECT_EQ(0, again.code) << again.errors;
   EXPECT_THAT(again.output, HasSubstr("the inverter has this value already: nothing was written"));
-  EXPECT_EQ("P102 set 2 Acceleration time = 2.5 s (raw 250), in the EEPROM\n",
+  EXPECT_EQ("P102 set 2 Acceleration time = 2.50 s (raw 250), in the EEPROM\n",
             run({"write", "right", "102", "2.5", "--set", "2", "--persistent"}).output);
 }
 
@@ -135,7 +179,7 @@ TEST_F(NordParam, SaysWhatIsWrongWithTheCommandLine) {
   const Ended timeout = run({"--timeout", "0", "read", "left", "P105"});
   EXPECT_EQ(2, timeout.code);
   EXPECT_THAT(timeout.errors, StartsWith("--timeout: 0 is not valid, expected more than 0 s\n"));
-  const Ended unknown = run({"write", "left", "P420", "1"});
+  const Ended unknown = run({"write", "left", "P210", "1"});
   EXPECT_EQ(2, unknown.code);
   EXPECT_THAT(unknown.errors, HasSubstr("write the raw value with --raw"));
 }
@@ -218,11 +262,11 @@ class NordParamOnCan : public ::testing::Test {
 TEST_F(NordParamOnCan, ReadsAndWrites) {
   const Ended read = run({"read", "left", "P105"});
   EXPECT_EQ(0, read.code) << read.errors;
-  EXPECT_EQ("P105 set 1 Maximum frequency = 50 Hz (raw 500)\n", read.output);
+  EXPECT_EQ("P105 set 1 Maximum frequency = 50.0 Hz (raw 500)\n", read.output);
   const Ended written = run({"write", "left", "P102", "2.5"});
   EXPECT_EQ(0, written.code) << written.errors;
-  EXPECT_THAT(written.output, StartsWith("P102 set 1 Acceleration time = 2.5 s (raw 250)"));
-  EXPECT_EQ("P700[-01] Current fault = 0 (raw 0)\n", run({"read", "left", "P700[-01]"}).output);
+  EXPECT_THAT(written.output, StartsWith("P102 set 1 Acceleration time = 2.50 s (raw 250)"));
+  EXPECT_EQ("P700[-01] Current error = 0.0 no fault (raw 0)\n", run({"read", "left", "P700[-01]"}).output);
 }
 
 // The file's own interface has no node.
@@ -237,7 +281,7 @@ TEST_F(NordParamOnCan, TakesTheInterfaceOfTheCommandLine) {
   };
   const Ended read = with("--interface", interface_);
   EXPECT_EQ(0, read.code) << read.errors;
-  EXPECT_EQ("P105 set 1 Maximum frequency = 50 Hz (raw 500)\n", read.output);
+  EXPECT_EQ("P105 set 1 Maximum frequency = 50.0 Hz (raw 500)\n", read.output);
   EXPECT_EQ(read.output, with("--bus", interface_).output);
   const Ended device = with("--device", "/dev/ttyUSB0");
   EXPECT_EQ(2, device.code);
@@ -319,12 +363,37 @@ drives:
   EXPECT_THAT(many.output, HasSubstr("\"register\": 3")) << "up to the last word of a drive " << many.errors;
   const Ended read = run({"read", "right", "P105", "--set", "1"});
   EXPECT_EQ(0, read.code) << read.errors;
-  EXPECT_THAT(read.output, HasSubstr("P105 set 1 Maximum frequency = 50 Hz (raw 500)"));
+  EXPECT_THAT(read.output, HasSubstr("P105 set 1 Maximum frequency = 50.0 Hz (raw 500)"));
   EXPECT_THAT(run({"read", "left", "P999"}).errors, HasSubstr("refuses P999: PCP error 6/7"));
   simulator.signal(SIGTERM);
   EXPECT_EQ(0, simulator.wait(seconds{30}));
   EXPECT_THAT(simulator.output(), HasSubstr("referee: no rule broken"));
   ::unlink(config.c_str());
+}
+
+// A PROFIBUS module as it comes from the factory: nobody can exchange data with the address 126.
+TEST(NordParamOverMs2, ReadsFromAModuleWithoutAnAddress) {
+  const std::string base = ::testing::TempDir() + "nord_param_ms2_" + std::to_string(::getpid());
+  const std::string config = base + ".yaml", over_ms2 = base + "_over.yaml", device = base + "_bus";
+  std::ofstream(config)
+      << "cycle_rate: 100.0\nbus: {baud_rate: 500000, slot_time: 0.05}\n"
+      << "drives: {left: {address: 126, series: sk2xxe, joint: l, gear_ratio: 20.0, pole_pairs: 2}}\n";
+  std::ofstream(over_ms2) << "transport: profibus_ms2\n";
+  Program simulator({NORD_SIM_PROGRAM, "--config", config, "--device", device});
+  ASSERT_TRUE(simulator.saysSomething(seconds{30})) << simulator.errors();
+  const std::vector<std::string> words{"--device", device, "--timeout", "20", "read", "left", "P105"};
+  std::vector<std::string> command{NORD_PARAM_PROGRAM, "--config", config};
+  command.insert(command.end(), words.begin(), words.end());
+  EXPECT_THAT(runProgram(command).errors, HasSubstr("126 is what a module has from the factory"));
+  command.insert(command.begin() + 3, {"--config", over_ms2});
+  const Ended read = runProgram(command);
+  EXPECT_EQ(0, read.code) << read.errors;
+  EXPECT_EQ("P105 set 1 Maximum frequency = 50 Hz (raw 500)\n", read.output);
+  simulator.signal(SIGTERM);
+  EXPECT_EQ(0, simulator.wait(seconds{30}));
+  EXPECT_THAT(simulator.output(), HasSubstr("referee: no rule broken"));
+  ::unlink(config.c_str());
+  ::unlink(over_ms2.c_str());
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST(ParameterDump, IsReadAsItWasWritten) {
   LinkedDrive drive;
   drive.connect();
   const Dump taken = takeDump(drive.link(), drive.notAsked());
-  const std::string text = dumpText(taken, "left", "PROFIBUS station 3");
+  const std::string text = dumpText(taken, drive.link().known(), "left", "PROFIBUS station 3");
   EXPECT_THAT(text,
               HasSubstr("# What nord_param read from drive left, PROFIBUS station 3\nseries: sk5xxe\nsettings:\n"));
   EXPECT_THAT(text, HasSubstr("  \"P102 set 4\": {raw: 200, value: 2, unit: \"s\", name: \"Acceleration time\"}\n"));
@@ -66,10 +66,10 @@ TEST(ParameterDump, NamesWhatTheInverterDoesNotHave) {
   const Dump taken = takeDump(drive.link(), drive.notAsked());
   std::vector<std::string> missing;
   for (const auto& address : taken.missing) missing.push_back(parameterName(address));
-  // P150 to P199 belong to bus modules of another kind; asked for once, not for each element.
-  EXPECT_THAT(missing, ::testing::IsSupersetOf({"P151", "P176", "P506"}));
-  EXPECT_EQ(1, std::count(missing.begin(), missing.end(), "P176"));
-  EXPECT_THAT(dumpText(taken, "left", "here"), HasSubstr("# not in this inverter: P506\n"));
+  EXPECT_THAT(missing, ::testing::IsSupersetOf({"P506"}));
+  EXPECT_EQ(1, std::count(missing.begin(), missing.end(), "P506")) << "asked for once, not for each set";
+  EXPECT_THAT(missing, ::testing::Not(::testing::Contains("P151"))) << "of a bus module of another kind";
+  EXPECT_THAT(dumpText(taken, drive.link().known(), "left", "here"), HasSubstr("# not in this inverter: P506\n"));
 }
 
 TEST(ParameterDump, IsNotTakenOfADriveThatFallsSilent) {
@@ -93,8 +93,8 @@ TEST(ParameterDump, ComparesSettingsAndNotWhatChangesByItself) {
   drive.left().parameters().preset(102, 2, 0, 250);
   drive.left().parameters().preset(513, 0, 0, -1);
   EXPECT_THAT(compare(drive.link(), taken, drive.notAsked()).differences,
-              ElementsAre("P102 set 3 Acceleration time: 2 s in the file, 2.5 s in the drive",
-                          "P513 Telegram timeout: 0 s in the file, -0.1 s in the drive"));
+              ElementsAre("P102 set 3 Acceleration time: 2.00 s in the file, 2.50 s in the drive",
+                          "P513 Telegram timeout: 0.0 s Off in the file, -0.1 s No error in the drive"));
 }
 
 // P509 = 8 means one thing in an SK 300E and another in an SK 5xxE.

@@ -14,16 +14,16 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-cycle::ParameterAddress parameter(std::uint16_t number, std::uint8_t set = 0, std::uint8_t index = 0) {
-  cycle::ParameterAddress address;
+catalogue::ParameterAddress parameter(std::uint16_t number, std::uint8_t set = 0, std::uint8_t index = 0) {
+  catalogue::ParameterAddress address;
   address.number = number;
   address.parameter_set = set;
   address.index = index;
   return address;
 }
 
-cycle::ParameterWrite value(double value) {
-  cycle::ParameterWrite write;
+catalogue::ParameterWrite value(double value) {
+  catalogue::ParameterWrite write;
   write.value = value;
   return write;
 }
@@ -58,7 +58,7 @@ TEST(ParameterLink, RefusesATransportThatDoesNotServeIt) {
   const ToolConfig config = readToolConfig(LinkedDrive::file(), "left");
   DriversOnly transport;
   try {
-    ParameterLink link{config, transport};
+    ParameterLink link{config, transport, catalogue::shippedCatalogues()};
     FAIL() << "not refused";
   } catch (const Trouble& error) {
     EXPECT_STREQ(
@@ -77,11 +77,11 @@ TEST(ParameterLink, ReadsAndWrites) {
   EXPECT_EQ(500, read.raw);
   EXPECT_DOUBLE_EQ(50.0, read.value);
   EXPECT_EQ(1, read.set) << "the one in force";
-  const ParameterAnswer written = drive.link().write(parameter(102, 4), value(2.5));
+  const ParameterAnswer written = writeValue(drive.link(), parameter(102, 4), value(2.5));
   EXPECT_TRUE(written.success) << written.message;
   EXPECT_EQ(250, drive.left().parameters().value(102, 3));
   EXPECT_EQ(200, drive.left().parameters().value(102, 0));
-  EXPECT_THAT(drive.link().write(parameter(102, 4), value(2.5)).message, HasSubstr("nothing was written"));
+  EXPECT_THAT(writeValue(drive.link(), parameter(102, 4), value(2.5)).message, HasSubstr("nothing was written"));
 }
 
 // A value of the run before may be in the RAM only, and reads the same.
@@ -89,10 +89,10 @@ TEST(ParameterLink, SavesWhatIsThereAlready) {
   LinkedDrive drive;
   drive.left().parameters().write(102, 0, 0, 250, sim::Storage::kRam);
   drive.connect();
-  cycle::ParameterWrite write = value(2.5);
-  EXPECT_THAT(drive.link().write(parameter(102), write).message, HasSubstr("nothing was written"));
+  catalogue::ParameterWrite write = value(2.5);
+  EXPECT_THAT(writeValue(drive.link(), parameter(102), write).message, HasSubstr("nothing was written"));
   write.persistent = true;
-  const ParameterAnswer saved = drive.link().write(parameter(102), write);
+  const ParameterAnswer saved = writeValue(drive.link(), parameter(102), write);
   EXPECT_TRUE(saved.success) << saved.message;
   EXPECT_EQ(1u, drive.left().parameters().eepromWrites());
   drive.left().parameters().restoreFromEeprom();
@@ -209,7 +209,7 @@ TEST(ParameterLink, NamesTheTimeoutOfAModuleThatServesSeveral) {
     return made;
   });
   const ToolConfig config = readToolConfig(file, "two");
-  ParameterLink link{config, transport};
+  ParameterLink link{config, transport, catalogue::shippedCatalogues()};
   const std::atomic<bool> not_asked{false};
   link.connect(seconds{5}, not_asked);
   for (int i = 0; i < 20; ++i) ASSERT_TRUE(link.read(parameter(105)).success);
@@ -241,7 +241,7 @@ TEST(ParameterLink, NamesAModuleThatRefusesRecords) {
   ProfibusDpTransport transport(
       [&](const link::SerialSettings&) { return std::make_unique<sim::SimulatedSegment>(simulated); });
   const ToolConfig config = readToolConfig(file, "one");
-  ParameterLink link{config, transport};
+  ParameterLink link{config, transport, catalogue::shippedCatalogues()};
   const std::atomic<bool> not_asked{false};
   link.connect(seconds{5}, not_asked);
   const ParameterAnswer answer = link.read(parameter(105));
@@ -271,7 +271,7 @@ TEST(ParameterLink, TellsARefusalOfTheRecordInTheWordsOfDpv1) {
   ProfibusDpTransport transport(
       [&](const link::SerialSettings&) { return std::make_unique<sim::SimulatedSegment>(simulated); });
   const ToolConfig config = readToolConfig(file, "one");
-  ParameterLink link{config, transport};
+  ParameterLink link{config, transport, catalogue::shippedCatalogues()};
   const std::atomic<bool> not_asked{false};
   link.connect(seconds{5}, not_asked);
   const ParameterAnswer answer = link.read(parameter(105));
@@ -283,7 +283,7 @@ TEST(ParameterLink, TellsARefusalOfTheRecordInTheWordsOfDpv1) {
 TEST(ParameterLink, LeavesNoOrderStanding) {
   LinkedDrive drive;
   drive.connect();
-  drive.link().write(parameter(102), value(3.0));
+  writeValue(drive.link(), parameter(102), value(3.0));
   EXPECT_NE(0u, drive.left().pkw().answer().label());
   drive.link().finish();
   EXPECT_EQ(0u, drive.left().pkw().answer().label());
@@ -293,7 +293,7 @@ TEST(ParameterLink, LeavesNoOrderStanding) {
 TEST(ParameterLink, PutsP560Back) {
   LinkedDrive drive{{}, false};
   drive.connect();
-  const ParameterAnswer written = drive.link().write(parameter(102), value(3.0));
+  const ParameterAnswer written = writeValue(drive.link(), parameter(102), value(3.0));
   EXPECT_TRUE(written.success) << written.message;
   EXPECT_THAT(written.message, HasSubstr("put back to 1"));
   EXPECT_THAT(drive.link().finish(), IsEmpty());
@@ -325,7 +325,7 @@ TEST(ParameterLink, AsksAgainWhenTheLineWasLostForAMoment) {
   const ParameterAnswer read = drive.link().read(parameter(105));
   EXPECT_TRUE(read.success) << read.message;
   drive.segment().loseAnswers(8);
-  const ParameterAnswer written = drive.link().write(parameter(102), value(3.0));
+  const ParameterAnswer written = writeValue(drive.link(), parameter(102), value(3.0));
   EXPECT_TRUE(written.success) << written.message;
   EXPECT_EQ(300, drive.left().parameters().value(102));
 }
@@ -358,9 +358,9 @@ TEST(ParameterLink, DoesNotChangeTheScaleOfADriveThatTurns) {
   drive.left().inverter().setLocalControl(true, 20.0);
   const Instant end = drive.segment().now() + seconds{2};
   while (drive.segment().now() < end) drive.link().read(parameter(102));
-  EXPECT_THROW(drive.link().write(parameter(105), value(60.0)), Trouble);
+  EXPECT_THROW(writeValue(drive.link(), parameter(105), value(60.0)), Trouble);
   EXPECT_EQ(500, drive.left().parameters().value(105));
-  EXPECT_TRUE(drive.link().write(parameter(102), value(3.0)).success);
+  EXPECT_TRUE(writeValue(drive.link(), parameter(102), value(3.0)).success);
 }
 
 }  // namespace

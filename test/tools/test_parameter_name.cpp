@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
+
+#include "catalogue/shipped.h"
 #include "tools/parameter_name.h"
 
 namespace nord_driver::tools {
@@ -10,8 +13,12 @@ namespace {
 using ::testing::Each;
 using ::testing::HasSubstr;
 
-cycle::ParameterAddress parsed(const std::string& name) {
+catalogue::ParameterAddress parsed(const std::string& name) {
   return parseParameterName(name);
+}
+
+catalogue::DriveCatalogue drive(profile::Series series, std::optional<catalogue::Module> module = std::nullopt) {
+  return {catalogue::shippedCatalogues(), series, module};
 }
 
 std::string refusal(const std::string& name) {
@@ -51,19 +58,29 @@ TEST(ParameterName, IsWrittenAsItIsRead) {
   }
 }
 
-TEST(ParameterName, AValueIsANumber) {
-  EXPECT_DOUBLE_EQ(2.5, parseValue("2.5"));
-  EXPECT_DOUBLE_EQ(-0.1, parseValue("-0.1"));
-  EXPECT_DOUBLE_EQ(0.5, parseValue(".5"));
-  for (const char* text : {"", "nan", "inf", "2,5", "2.5 s", "0x10", "--1"}) {
-    EXPECT_THROW(parseValue(text), UsageError) << text;
+// By the name in the files, in any case, with element and set as of a number.
+TEST(ParameterName, MayBeTheNameInTheCatalogue) {
+  const catalogue::DriveCatalogue known = drive(profile::Series::kSk54xe);
+  EXPECT_EQ(105, findParameter("Maximum frequency", known).number);
+  EXPECT_EQ(105, findParameter("P105", known).number);
+  EXPECT_EQ(3, findParameter("maximum FREQUENCY set 3", known).parameter_set);
+  const auto element = findParameter("Bus actual value[-02] set 4", known);
+  EXPECT_EQ("P543[-02] set 4", parameterName(element));
+  for (const char* text : {"", "P", "1e2", "P1050", "P105 set 5"}) {
+    EXPECT_THROW(findParameter(text, known), UsageError) << text;
+  }
+  try {
+    findParameter("Maximum frequencies", known);
+    FAIL() << "accepted";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("perhaps \"Maximum frequency\""));
   }
 }
 
 // Each set and each element once: P105 has four sets, P700 three elements, P509 neither.
 TEST(ParameterName, KnowsEveryValueOfASeries) {
   std::vector<std::string> names;
-  for (const auto& address : knownParameters(profile::Series::kSk5xxe)) names.push_back(parameterName(address));
+  for (const auto& address : knownParameters(drive(profile::Series::kSk5xxe))) names.push_back(parameterName(address));
   EXPECT_THAT(names, ::testing::IsSupersetOf({"P105 set 1", "P105 set 4", "P509", "P700[-01]", "P700[-03]"}));
   for (const char* absent : {"P105", "P105 set 5", "P700", "P700[-04]", "P509 set 1"}) {
     EXPECT_THAT(names, Each(::testing::StrNe(absent)));
@@ -73,7 +90,7 @@ TEST(ParameterName, KnowsEveryValueOfASeries) {
 // They reset the inverter to its factory settings: never read in a row with others, never in a file.
 TEST(ParameterName, NeverListsWhatResetsTheInverter) {
   for (const profile::Series series : profile::kAllSeries) {
-    for (const auto& address : knownParameters(series)) {
+    for (const auto& address : knownParameters(drive(series, catalogue::Module::kProfibus))) {
       EXPECT_NE(152, address.number);
       EXPECT_NE(970, address.number);
     }

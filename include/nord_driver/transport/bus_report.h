@@ -32,7 +32,7 @@ enum class TimeoutOwner : std::uint8_t {
 /// What a transport tells about a drive once it is configured.
 struct DriveIdentity {
   std::string address;                     ///< "PROFIBUS station 3"
-  std::uint8_t process_values = 1;         ///< setpoints and actual values carried: 1 or 3
+  std::uint8_t process_values = 1;         ///< setpoints and actual values carried: 1 or 3; 0: no process data
   std::string parameter_channel = "none";  ///< "PKW", "SDO"; "none": the configuration has to name max_frequency
   std::string protected_by;      ///< what of this bus stops the drive when this computer dies, in words; empty: nothing
   double protection_time = 0.0;  ///< s until that acts; 0: not known

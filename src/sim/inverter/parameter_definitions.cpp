@@ -11,7 +11,7 @@ constexpr bool kPerSet = true;
 constexpr bool kReadOnly = true;
 constexpr double kFirmwareWithFaultArray = 1.9;  // BU 0020 8
 
-// Ranges and factory settings where BU 0020 6.2, BU 0220 5.1 or BU 0280 5.1 print them. The chapters with P102-P112,
+// Ranges and factory settings where BU 0020 6.2, BU 0220 5.1 or BU 0280 5.1 print them. The chapters with P102-P113,
 // P420, P426 and P506 are in the inverters' own manuals: their ranges here are the simulator's, only the resolution is
 // NORD's.
 const std::vector<ParameterDefinition>& sk5xxe() {
@@ -22,6 +22,7 @@ const std::vector<ParameterDefinition>& sk5xxe() {
       {104, "Minimum frequency", 10, 0, 4000, 0, kPerSet, 0, false},
       {105, "Maximum frequency", 10, 1, 4000, 500, kPerSet, 0, false},
       {112, "Torque current limit", 1, 25, 400, 100, kPerSet, 0, false},
+      {113, "Jog frequency", 10, -4000, 4000, 0, kPerSet, 0, false},
       {120, "Option monitoring", 1, 0, 2, 1, false, 4, false},
       {420, "Digital input 1", 1, 0, 77, 0, false, 0, false},
       {421, "Digital input 2", 1, 0, 77, 0, false, 0, false},

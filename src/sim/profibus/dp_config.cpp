@@ -69,10 +69,11 @@ void readSlots(const Group& root, SimConfig& config) {
     records.busy = static_cast<unsigned>(group.integer("record_busy", 0, 0, 10000));
     records.by_slot = group.get<bool>("record_by_slot", false, "true or false");
     records.plain_numbers = group.get<bool>("record_plain_numbers", false, "true or false");
+    module.settings.class2.connections = static_cast<unsigned>(group.integer("class2_connections", 3, 0, 3));
     readParameters(group, catalogue, kOfAModule, module.parameters);
     warnOfUnknown(entry.second, path,
                   {"address", "io_byte", "inputs", "record_polls", "record_busy", "record_by_slot",
-                   "record_plain_numbers", "parameters"},
+                   "record_plain_numbers", "class2_connections", "parameters"},
                   config.warnings);
     config.bus.as<DpBusConfig>().modules.push_back(module);
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/profibus/class2_server.h"
 #include "sim/profibus/record_server.h"
 #include "sim/sim_config.h"
 
@@ -25,6 +26,7 @@ struct ModuleSettings {
   std::uint8_t inputs = 0;           ///< DIN1-DIN4 in bits 0-3
   std::uint32_t baud_rate = 500000;  ///< what P181 shows
   RecordSettings records;
+  Class2Settings class2;
 };
 
 /// A bus module with slots. One that is not listed is there all the same, as its drives say.

@@ -75,7 +75,7 @@ WireBytes DpStation::execute(const Telegram& request) noexcept {
     case kSapGetConfiguration:
       return getConfiguration(request);
     default:
-      return answerWithout(request, kServiceNotActive);
+      return class2Record(request);
   }
 }
 
@@ -213,6 +213,31 @@ WireBytes DpStation::record(const Telegram& request) noexcept {
   return encodeTelegram(answer);
 }
 
+// A connection of class 2 asks neither for parameters nor for data exchange.
+WireBytes DpStation::class2Record(const Telegram& request) noexcept {
+  Class2Server* server = class2();
+  const std::uint8_t access_point = *request.destination_sap;
+  if (server == nullptr || access_point > kSapResourceManager || request.source_sap != kSapOfClass2Master) {
+    return answerWithout(request, kServiceNotActive);
+  }
+  const Class2Server::Answer said = access_point == kSapResourceManager
+                                        ? server->manage(request.source, request.data)
+                                        : server->serve(access_point, request.source, request.data);
+  switch (said.kind) {
+    case Class2Server::Kind::kNothingYet:
+      return shortAcknowledge();
+    case Class2Server::Kind::kNotActive:
+      return answerWithout(request, kServiceNotActive);
+    case Class2Server::Kind::kNoResource:
+      return answerWithout(request, kNoResource);
+    case Class2Server::Kind::kData:
+      break;
+  }
+  Telegram answer = answerTo(request, kDataLow);
+  for (const std::uint8_t byte : said.pdu) answer.data.push_back(byte);
+  return encodeTelegram(answer);
+}
+
 // BU 2700 6.3: with SYNC outputs are stored and act on the next SYNC or on UNSYNC, with FREEZE inputs stay as they
 // were.
 void DpStation::globalControl(const Telegram& request) noexcept {
@@ -261,6 +286,7 @@ void DpStation::toWaitParameters() noexcept {
 
 void DpStation::advance(Duration span) noexcept {
   if (state_ == SlaveState::kOff) return;
+  if (Class2Server* server = class2()) server->advance(span);
   watch(span);
   if (watchdog_ == Duration::zero()) return;
   silence_ += span;
@@ -279,6 +305,7 @@ void DpStation::setPowered(bool on) noexcept {
   state_ = on ? SlaveState::kWaitParameters : SlaveState::kOff;
   parameter_fault_ = configuration_fault_ = reported_missing_ = false;
   frame_count_known_ = false;
+  if (Class2Server* server = class2()) server->reset();
   supplyChanged(on);
 }
 

@@ -1,7 +1,8 @@
 // A simulated PROFIBUS DP station, whatever is behind it: the services and the state machine every slave shares.
 //
 // EN 50170: POWER_ON -> WAIT_PRM -> WAIT_CFG -> DATA_EXCH, the frame count bit, the watchdog, SYNC and FREEZE, and the
-// class 1 records of DP-V1. What is exchanged and configured is the business of the derived classes.
+// records of DP-V1 for both classes of masters. What is exchanged and configured is the business of the derived
+// classes.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include "nord_driver/core/time.h"
 #include "sim/bus_module.h"
 #include "sim/inverter/words.h"
+#include "sim/profibus/class2_server.h"
 #include "sim/profibus/record_server.h"
 #include "sim/profibus/referee.h"
 #include "sim/profibus/telegram.h"
@@ -76,6 +78,8 @@ class DpStation : public BusModule {
   virtual void showStatus() noexcept {}
   /// The DP-V1 server; null: DP-V0 only.
   virtual RecordServer* records() noexcept { return nullptr; }
+  /// Its connections of class 2; null: none.
+  virtual Class2Server* class2() noexcept { return nullptr; }
 
   WireBytes execute(const Telegram& request) noexcept;
   WireBytes diagnosis(const Telegram& request) noexcept;
@@ -84,6 +88,7 @@ class DpStation : public BusModule {
   WireBytes getConfiguration(const Telegram& request) const noexcept;
   WireBytes exchangeData(const Telegram& request) noexcept;
   WireBytes record(const Telegram& request) noexcept;
+  WireBytes class2Record(const Telegram& request) noexcept;
   void globalControl(const Telegram& request) noexcept;
   void endModes() noexcept;
   WireBytes answerWithout(const Telegram& request, std::uint8_t code) const noexcept;

@@ -29,6 +29,7 @@ class ModuleStation final : public DpStation, private RecordDevices {
   bool timedOut() const noexcept { return timed_out_; }
   ParameterStore& parameters() noexcept { return parameters_; }
   RecordSettings& recordSettings() noexcept { return records_.settings(); }
+  Class2Server& connections() noexcept { return class2_; }
 
  private:
   /// FI1 to FI4; a broken link to one of them is E10.9 in the inverter (P120), diagnosis 02 04 in the module.
@@ -61,6 +62,7 @@ class ModuleStation final : public DpStation, private RecordDevices {
   void watch(Duration span) noexcept override;
   void showStatus() noexcept override;
   RecordServer* records() noexcept override { return &records_; }
+  Class2Server* class2() noexcept override { return &class2_; }
   PkwWords executeRecord(unsigned device, const PkwWords& order) noexcept override;
 
   bool hasIoByte() const noexcept { return !configuration_.empty() && configuration_[0] != 0; }
@@ -80,6 +82,7 @@ class ModuleStation final : public DpStation, private RecordDevices {
   ParameterStore parameters_;
   PkwServer own_pkw_;
   RecordServer records_;
+  Class2Server class2_;
   std::array<Place, kPlaces> places_{};
   Configuration configuration_;
   std::uint8_t output_byte_ = 0;

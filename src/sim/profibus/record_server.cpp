@@ -57,6 +57,7 @@ void RecordServer::reset() noexcept {
   outstanding_ = false;
   answers_ = {};
   busy_left_ = {};
+  identification_.reset();
 }
 
 RecordServer::Pdu RecordServer::respond(ByteView request) noexcept {
@@ -66,10 +67,31 @@ RecordServer::Pdu RecordServer::respond(ByteView request) noexcept {
   }
   const std::uint8_t slot = request[1];
   const std::uint8_t index = request[2];
+  if (index == IdentificationRecords::kIndex) return identify(request);
   if (settings_.by_slot ? slot == 0 || slot > kDevices : slot != 0) return refused(function, kInvalidSlot);
   const std::optional<unsigned> device = deviceOf(slot, index);
   if (!device) return refused(function, kInvalidIndex);
   return function == kWrite ? write(*device, request) : read(*device, request);
+}
+
+// I&M: the call is written, its answer read (PROFIBUS profile guideline, part 1).
+RecordServer::Pdu RecordServer::identify(ByteView request) noexcept {
+  Pdu response;
+  ByteWriter<Pdu::capacity()> writer{response};
+  if (request[0] == kWrite) {
+    const ByteView data = request.sub(kHeader);
+    if (request[3] != data.size()) return refused(kWrite, kWriteLength);
+    if (const auto code = identification_.write(data)) return refused(kWrite, *code);
+    writer.append(request.sub(0, kHeader));
+    return response;
+  }
+  const auto data = identification_.read();
+  if (!data) return refused(kRead, kStateConflict);
+  const ByteView wanted = ByteView{*data}.sub(0, request[3]);
+  writer.append(request.sub(0, 3));
+  writer.u8(static_cast<std::uint8_t>(wanted.size()));
+  writer.append(wanted);
+  return response;
 }
 
 std::optional<unsigned> RecordServer::deviceOf(std::uint8_t slot, std::uint8_t index) const noexcept {

@@ -1,4 +1,4 @@
-// The server of acyclic records (DP-V1, master class 1): one read or write at a time, fetched by polling.
+// The server of acyclic records (DP-V1): one read or write at a time, fetched by polling.
 //
 // NORD: slot 0, index 100 the module, 101 to 104 its inverters, eight bytes that are laid out like the PKW of PPO 1
 // (BU 0220 4.2.1, 8.3.4.4; "4 Byte" there is a slip, PKE, IND and PWE are eight).
@@ -10,6 +10,7 @@
 
 #include "nord_driver/core/bytes.h"
 #include "sim/inverter/pkw_server.h"
+#include "sim/profibus/identification_records.h"
 
 namespace nord_driver::sim {
 
@@ -22,6 +23,7 @@ struct RecordSettings {
   /// Parameter numbers without the 1000 on top: "in cyclic data traffic" only it is added (BU 0220 5), in both says
   /// BU 2700 6.5.
   bool plain_numbers = false;
+  IdentificationSettings identification;  ///< I&M, behind index 255
 };
 
 /// Who executes the orders in the records.
@@ -39,7 +41,7 @@ class RecordServer {
 
   /// `devices` must outlive the server.
   RecordServer(RecordDevices& devices, const RecordSettings& settings) noexcept
-      : devices_(devices), settings_(settings) {}
+      : devices_(devices), settings_(settings), identification_(settings.identification) {}
 
   /// A request, or an empty one that asks for the response. None: nothing there yet.
   std::optional<Pdu> handle(ByteView request) noexcept;
@@ -51,12 +53,14 @@ class RecordServer {
 
  private:
   Pdu respond(ByteView request) noexcept;
+  Pdu identify(ByteView request) noexcept;
   Pdu read(unsigned device, ByteView request) noexcept;
   Pdu write(unsigned device, ByteView request) noexcept;
   std::optional<unsigned> deviceOf(std::uint8_t slot, std::uint8_t index) const noexcept;
 
   RecordDevices& devices_;
   RecordSettings settings_;
+  IdentificationRecords identification_;
   bool outstanding_ = false;
   unsigned polls_left_ = 0;
   Pdu response_;

@@ -25,6 +25,8 @@ constexpr std::uint8_t kServiceNotActive = 0x03;
 constexpr std::uint8_t kDataLow = 0x08;
 constexpr std::uint8_t kDataHigh = 0x0A;
 
+constexpr std::uint8_t kSapResourceManager = 49;  // DP-V1, master class 2; its connections: 0 to 48
+constexpr std::uint8_t kSapOfClass2Master = 50;
 constexpr std::uint8_t kSapRecords = 51;  // DP-V1, master class 1
 constexpr std::uint8_t kSapGlobalControl = 58;
 constexpr std::uint8_t kSapGetConfiguration = 59;

@@ -7,6 +7,7 @@
 #include "config/setting_checks.h"
 #include "profile/status_word.h"
 #include "transport/profibus/profibus_counters.h"
+#include "transport/profibus/profibus_line.h"
 #include "transport/profibus/profibus_telegram_text.h"
 
 namespace nord_driver {
@@ -20,17 +21,6 @@ constexpr Duration kToldFor = std::chrono::seconds{10};
 // The manual wants an order repeated until it is answered (BU 2700 6.5); a healthy inverter takes a few cycles.
 Duration answerTimeout(double cycle_rate) {
   return std::max(seconds(1.0), 20 * seconds(1.0 / cycle_rate));
-}
-
-// Without a watchdog the end of the program is no E10.2 in the inverters (BU 2700 8.1.1): they keep the idle word.
-void endWithoutATrip(ProfibusDpConfig& config) {
-  constexpr Duration kListenFirst = std::chrono::milliseconds{500};  // far longer than a cycle of another master
-  for (profibus::SlaveConfig& slave : config.slaves) slave.watchdog = Duration::zero();
-  config.bus.listen_first = std::max(config.bus.listen_first, kListenFirst);
-}
-
-std::unique_ptr<link::ByteLink> openSerialPort(const link::SerialSettings& settings) {
-  return std::make_unique<link::SerialPort>(settings);
 }
 
 }  // namespace
@@ -108,25 +98,7 @@ void ProfibusDpTransport::exchange(const std::vector<profile::ProcessOutput>& ou
 
 template <typename Engine, typename Done>
 void ProfibusDpTransport::run(Engine& engine, Done done) noexcept {
-  std::uint8_t buffer[512];
-  while (!done() && link_->isOpen()) {
-    const Instant start = link_->now();
-    const ByteView telegram = engine.pollTransmit(start);
-    if (!telegram.empty()) {
-      recorder_->handleSent(telegram, start);
-      link_->write(telegram);
-      continue;
-    }
-    const auto deadline = engine.nextDeadline();
-    if (!deadline) break;
-    if (link_->waitReadable(*deadline)) {
-      const std::size_t count = link_->read(buffer, sizeof buffer);
-      const Instant read = link_->now();
-      recorder_->handleReceived({buffer, count}, read);
-      engine.handleBytes({buffer, count}, read);
-    }
-    if (link_->now() >= *deadline) engine.handleTimeout(link_->now());
-  }
+  talkOnLine(engine, *link_, *recorder_, Instant::max(), done);
   if (!link_->isOpen()) {
     // Gone in the middle of a cycle: nobody exchanges until it is back.
     master_->restart(link_->now());
@@ -363,9 +335,8 @@ DriveIdentity ProfibusDpTransport::identity(DriveIndex drive) const {
   const ProfibusDrive& config = config_.drives[drive];
   const bool modular = config_.stations[config.slave].module == ProfibusModule::kSkCu4;
   DriveIdentity identity;
-  identity.address = "PROFIBUS station " + std::to_string(config_.slaves[config.slave].address.value());
+  identity.address = addressText(config_, drive);
   if (modular) {
-    identity.address += ", inverter " + std::to_string(config.inverter);
     identity.shared_module = config.slave;
     identity.timeout_owner = TimeoutOwner::kModule;
   }

@@ -11,7 +11,7 @@
 
 #include "core/event_ring.h"
 #include "link/serial/byte_link.h"
-#include "link/serial/serial_port.h"
+#include "link/serial/serial_settings.h"
 #include "nord_driver/trace/telegram_trace.h"
 #include "nord_driver/transport/transport.h"
 #include "profibus/bus_scan.h"

@@ -90,11 +90,23 @@ void takeMaxTsdr(ProfibusDpConfig& config) {
   config.bus.slot_bits = std::max(config.bus.slot_bits, config.bus.max_tsdr_bits + kSlotMargin);
 }
 
+// Who comes for parameters and goes listens first, for far longer than a cycle of another master takes.
+void listenFirst(ProfibusDpConfig& config) {
+  constexpr Duration kListenFirst = std::chrono::milliseconds{500};
+  config.bus.listen_first = std::max(config.bus.listen_first, kListenFirst);
+}
+
 }  // namespace
 
-ProfibusDpConfig readProfibusDpConfig(const Settings& bus, const std::vector<DriveSettings>& drives,
-                                      double cycle_rate) {
+void endWithoutATrip(ProfibusDpConfig& config) {
+  for (profibus::SlaveConfig& slave : config.slaves) slave.watchdog = Duration::zero();
+  listenFirst(config);
+}
+
+ProfibusDpConfig readProfibusDpConfig(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate,
+                                      ProfibusUse use) {
   ProfibusDpConfig config;
+  config.use = use;
   config.line = readSerialLine(bus);
   config.device = config.line.device;
   config.bus = readBus(bus);
@@ -105,7 +117,11 @@ ProfibusDpConfig readProfibusDpConfig(const Settings& bus, const std::vector<Dri
   readStations(bus, drives, gsd, config);
   takeMaxTsdr(config);
   readSlotTime(bus, config.device, config.bus);
-  checkTimes(bus, cycle_rate, config);
+  if (use == ProfibusUse::kDataExchange) {
+    checkTimes(bus, cycle_rate, config);
+  } else {
+    listenFirst(config);
+  }
   return config;
 }
 

@@ -16,6 +16,12 @@
 
 namespace nord_driver {
 
+/// What the segment is used for.
+enum class ProfibusUse : std::uint8_t {
+  kDataExchange,
+  kRecordsOnly  ///< parameters by records of DP-V1 class 2: no cycle has to fit, and a station may have the address 126
+};
+
 /// The kinds of bus modules NORD has for PROFIBUS.
 enum class ProfibusModule : std::uint8_t {
   kSkTu3,  ///< SK TU1/2/3-PBR, ident 7531h: one inverter
@@ -58,12 +64,18 @@ struct ProfibusDpConfig {
   std::vector<ProfibusStation> stations;  ///< beside `slaves`
   std::vector<ProfibusDrive> drives;
   RecordAddressing records;
+  ProfibusUse use = ProfibusUse::kDataExchange;
   bool scan = false;                  ///< ask every address once, before the first exchange
   std::vector<std::string> warnings;  ///< accepted, and worth a look
 };
 
 /// Throws ConfigError naming key, value and what was expected: also when the cycle does not fit the baud rate or the
 /// watchdog could expire in a cycle in which one slave is silent (BU 0220 4.2.3.1: the watchdog must exceed the cycle).
-ProfibusDpConfig readProfibusDpConfig(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate);
+ProfibusDpConfig readProfibusDpConfig(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate,
+                                      ProfibusUse use = ProfibusUse::kDataExchange);
+
+/// For a program that reads and writes parameters in data exchange and then ends: without a watchdog its end is no
+/// E10.2 in the inverters (BU 2700 8.1.1), they keep the idle word; and it listens first.
+void endWithoutATrip(ProfibusDpConfig& config);
 
 }  // namespace nord_driver

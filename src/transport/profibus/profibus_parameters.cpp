@@ -6,7 +6,8 @@ namespace {
 
 constexpr std::uint16_t kFirstModuleNumber = 150, kLastModuleNumber = 199;  // BU 2700 7.1, BU 0220 5.2
 constexpr std::uint16_t kModuleStatus = 173;
-constexpr std::uint32_t kOwnId = 0;  // no asker outside has it
+constexpr std::uint16_t kBusOut = 741;  // [-01]: status word (BU 0220 5.1)
+constexpr std::uint32_t kOwnId = 0;     // no asker outside has it
 // An answer that takes several telegrams, and still before a service gives up.
 constexpr Duration kRecordAnswerTimeout = std::chrono::milliseconds{2500};
 
@@ -25,7 +26,7 @@ ProfibusParameters::ProfibusParameters(const ProfibusDpConfig& config, Duration 
     : config_(config), stations_(config.stations.size()) {
   for (const ProfibusDrive& drive : config.drives) {
     drives_.emplace_back(answer_timeout);
-    if (!drive.ppo.has_pkw && config.slaves[drive.slave].dpv1) {
+    if ((recordsOnly() || !drive.ppo.has_pkw) && config.slaves[drive.slave].dpv1) {
       drives_.back().records.emplace(drive.inverter, config.records, kRecordAnswerTimeout);
     }
   }
@@ -42,13 +43,15 @@ ProfibusParameters::ProfibusParameters(const ProfibusDpConfig& config, Duration 
 bool ProfibusParameters::submit(DriveIndex drive, const profile::ParameterRequest& request, Instant now) noexcept {
   StationChannels& station = stations_[config_.drives[drive].slave];
   if (station.module && isOfModule(request.number)) return station.module->submit(request, now);
-  if (config_.drives[drive].ppo.has_pkw) return drives_[drive].pkw.submit(request, now);
   if (drives_[drive].records) return drives_[drive].records->submit(request, now);
+  if (config_.drives[drive].ppo.has_pkw && !recordsOnly()) return drives_[drive].pkw.submit(request, now);
   profile::ParameterResult result;
   result.id = request.id;
   result.outcome = profile::ParameterOutcome::kNoChannel;
   // BU 0020 7.2.
-  result.text = "PPO types 3 and 4 carry process data only, and its bus module takes no acyclic requests (DP-V1)";
+  result.text = recordsOnly()
+                    ? "its bus module takes no acyclic requests (DP-V1)"
+                    : "PPO types 3 and 4 carry process data only, and its bus module takes no acyclic requests (DP-V1)";
   return refused_.push_back(result);
 }
 
@@ -66,7 +69,12 @@ std::optional<profile::ParameterResult> ProfibusParameters::pollResult() noexcep
 std::optional<profile::ParameterResult> ProfibusParameters::pollDrive(DriveIndex drive) noexcept {
   DriveChannel& channel = drives_[drive];
   auto result = channel.pkw.pollResult();
-  if (!result && channel.records) result = channel.records->pollResult();
+  while (!result && channel.records) {
+    result = channel.records->pollResult();
+    if (!result || result->id != kOwnId) break;
+    takeStatusWord(channel, *result);
+    result.reset();
+  }
   if (result && tellsAbsence(*result)) absent_.push_back(drive);
   return result;
 }
@@ -98,7 +106,44 @@ void ProfibusParameters::handleStationOffline(std::size_t station, Instant now) 
   stations_[station].status.reset();
 }
 
+void ProfibusParameters::takeStatusWord(DriveChannel& channel, const profile::ParameterResult& result) noexcept {
+  channel.status_asked = false;
+  StatusAnswer answer;
+  if (result.outcome == profile::ParameterOutcome::kDone) {
+    answer.word = static_cast<Word>(result.raw & 0xFFFF);
+  } else {
+    answer.why = result.text;
+  }
+  channel.status = answer;
+}
+
+void ProfibusParameters::requestStatusWord(DriveIndex drive, Instant now) noexcept {
+  DriveChannel& channel = drives_[drive];
+  if (!channel.records || channel.status_asked) return;
+  profile::ParameterRequest request;
+  request.id = kOwnId;
+  request.number = kBusOut;
+  request.shape = profile::ParameterShape::kArray;
+  request.index = 1;
+  channel.status_asked = channel.records->submit(request, now);
+}
+
+std::optional<ProfibusParameters::StatusAnswer> ProfibusParameters::pollStatusWord(DriveIndex drive) noexcept {
+  const auto status = drives_[drive].status;
+  drives_[drive].status.reset();
+  return status;
+}
+
 void ProfibusParameters::submitRecords(profibus::DpMaster& master, Instant now) noexcept {
+  submitTo(master, now);
+}
+
+void ProfibusParameters::submitRecords(profibus::Class2Master& master, Instant now) noexcept {
+  submitTo(master, now);
+}
+
+template <typename Master>
+void ProfibusParameters::submitTo(Master& master, Instant now) noexcept {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     StationChannels& station = stations_[i];
     for (std::size_t turn = 0; turn < station.users.size(); ++turn) {
@@ -121,6 +166,13 @@ void ProfibusParameters::takeRecords(profibus::DpMaster& master, Instant now) no
   while (const auto result = master.pollRecord()) {
     StationChannels& station = stations_[result->slave];
     if (!station.users.empty()) station.users[station.user]->handleRecord(*result, now);
+  }
+}
+
+void ProfibusParameters::takeRecords(profibus::Class2Master& master, Instant now) noexcept {
+  while (const auto result = master.pollRecord()) {
+    StationChannels& station = stations_[result->slave];
+    if (!station.users.empty()) station.users[station.user]->handleRecord(*result, now, master.trouble(result->slave));
   }
 }
 

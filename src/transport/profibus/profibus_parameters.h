@@ -8,6 +8,7 @@
 
 #include "nord_driver/core/fixed_vector.h"
 #include "nord_driver/transport/transport.h"
+#include "profibus/class2_master.h"
 #include "profibus/dp_master.h"
 #include "profile/pkw_channel.h"
 #include "transport/profibus/profibus_dp_config.h"
@@ -19,7 +20,7 @@ namespace nord_driver {
 /// takes. All drives behind a module share the module's channel.
 class ProfibusParameters {
  public:
-  /// `config` must outlive the object.
+  /// `config` must outlive the object. Where it is used for records only no PKW is exchanged.
   ProfibusParameters(const ProfibusDpConfig& config, Duration answer_timeout);
   ProfibusParameters(const ProfibusParameters&) = delete;
   ProfibusParameters& operator=(const ProfibusParameters&) = delete;
@@ -40,6 +41,16 @@ class ProfibusParameters {
   /// Before a cycle: what is to go beside it. After it: what came of it.
   void submitRecords(profibus::DpMaster& master, Instant now) noexcept;
   void takeRecords(profibus::DpMaster& master, Instant now) noexcept;
+  void submitRecords(profibus::Class2Master& master, Instant now) noexcept;
+  void takeRecords(profibus::Class2Master& master, Instant now) noexcept;
+
+  struct StatusAnswer {
+    Word word = 0;  ///< 0: it could not be read
+    Sentence why;
+  };
+  /// Reads P741 [-01], the status word an inverter shows, where nobody exchanges data with it. Not by PKW.
+  void requestStatusWord(DriveIndex drive, Instant now) noexcept;
+  std::optional<StatusAnswer> pollStatusWord(DriveIndex drive) noexcept;
 
   /// Reads P173 of a module.
   void requestModuleStatus(std::size_t station, Instant now) noexcept;
@@ -52,6 +63,8 @@ class ProfibusParameters {
     explicit DriveChannel(Duration answer_timeout) : pkw(answer_timeout) {}
     profile::PkwChannel pkw;
     std::optional<RecordParameterChannel> records;
+    bool status_asked = false;
+    std::optional<StatusAnswer> status;
   };
   struct StationChannels {
     std::optional<RecordParameterChannel> module;
@@ -61,6 +74,10 @@ class ProfibusParameters {
     std::optional<Word> status;
   };
 
+  bool recordsOnly() const noexcept { return config_.use == ProfibusUse::kRecordsOnly; }
+  template <typename Master>
+  void submitTo(Master& master, Instant now) noexcept;
+  static void takeStatusWord(DriveChannel& channel, const profile::ParameterResult& result) noexcept;
   std::optional<profile::ParameterResult> pollDrive(DriveIndex drive) noexcept;
   std::optional<profile::ParameterResult> pollModule(StationChannels& station) noexcept;
 

@@ -51,8 +51,11 @@ ProfibusModule readModule(const Settings& settings, Series series) {
 }
 
 // BU 2700 5.2.4.
-profibus::StationAddress readAddress(const DriveSettings& source, const DriveCommon& drive) {
+profibus::StationAddress readAddress(const DriveSettings& source, const DriveCommon& drive, ProfibusUse use) {
   constexpr std::int64_t kFirst = 3, kLast = 125, kFactory = 126;
+  if (use == ProfibusUse::kRecordsOnly) {
+    return *profibus::StationAddress::from(static_cast<int>(requiredAddress(source, kFirst, kFactory)));
+  }
   if (drive.address == kFactory) {
     throw wrongSetting(*source.settings, "address", std::to_string(kFactory),
                        "a whole number from 3 to 125: 126 is what a module has from the factory, give it an address of "
@@ -61,13 +64,13 @@ profibus::StationAddress readAddress(const DriveSettings& source, const DriveCom
   return *profibus::StationAddress::from(static_cast<int>(requiredAddress(source, kFirst, kLast)));
 }
 
-Plan readPlan(const DriveSettings& source) {
+Plan readPlan(const DriveSettings& source, ProfibusUse use) {
   const Settings& settings = *source.settings;
   Plan plan;
   plan.source = &source;
   plan.drive = readDriveCommon(source);
   plan.module = readModule(settings, plan.drive.series);
-  plan.address = readAddress(source, plan.drive);
+  plan.address = readAddress(source, plan.drive, use);
   plan.ppo_type = static_cast<std::uint8_t>(integerOr(settings, "ppo_type", 1, 1, 4));
   plan.io_byte = settings.boolean("io_byte");
   plan.user_parameters = settings.text("user_parameters");
@@ -297,7 +300,7 @@ void readStations(const Settings& bus, const std::vector<DriveSettings>& drives,
                   ProfibusDpConfig& config) {
   std::vector<Plan> plans;
   for (const DriveSettings& source : drives) {
-    const Plan plan = readPlan(source);
+    const Plan plan = readPlan(source, config.use);
     ProfibusDrive drive{plan.drive};
     drive.slave = stationOf(plan, plans, config);
     config.drives.push_back(drive);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "profibus/class2_pdu.h"
 #include "profibus/diagnosis.h"
 #include "profibus/diagnosis_blocks.h"
 #include "profibus/function_code.h"
@@ -33,8 +34,10 @@ const char* serviceName(std::uint8_t sap) {
       return "Set_Prm";
     case kChkCfgSap:
       return "Chk_Cfg";
+    case profibus::kResourceManagerSap:
+      return "MS2 resource manager";
     default:
-      return "access point";
+      return sap <= profibus::kLastClass2Sap ? "MS2" : "access point";
   }
 }
 

@@ -22,6 +22,13 @@ bool isInformation(DpEventKind kind) noexcept {
 
 }  // namespace
 
+std::string addressText(const ProfibusDpConfig& config, DriveIndex drive) {
+  const ProfibusDrive& of = config.drives[drive];
+  std::string text = "PROFIBUS station " + std::to_string(config.slaves[of.slave].address.value());
+  if (config.stations[of.slave].module == ProfibusModule::kSkCu4) text += ", inverter " + std::to_string(of.inverter);
+  return text;
+}
+
 ProfibusText::ProfibusText(const ProfibusDpConfig& config) : config_(config) {
   for (std::size_t i = 0; i < config.stations.size(); ++i) {
     std::string drives;

@@ -13,6 +13,9 @@
 
 namespace nord_driver {
 
+/// "PROFIBUS station 3, inverter 2"; the inverter only where a module serves several.
+std::string addressText(const ProfibusDpConfig& config, DriveIndex drive);
+
 class ProfibusText {
  public:
   explicit ProfibusText(const ProfibusDpConfig& config);

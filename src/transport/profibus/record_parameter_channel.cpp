@@ -54,7 +54,8 @@ std::optional<profibus::RecordRequest> RecordParameterChannel::pollRecord(Instan
   return request;
 }
 
-void RecordParameterChannel::handleRecord(const profibus::RecordResult& result, Instant now) noexcept {
+void RecordParameterChannel::handleRecord(const profibus::RecordResult& result, Instant now,
+                                          const Sentence& words) noexcept {
   under_way_ = false;
   if (forgotten_) return;
   switch (result.outcome) {
@@ -71,12 +72,16 @@ void RecordParameterChannel::handleRecord(const profibus::RecordResult& result, 
       break;
     case profibus::RecordOutcome::kTimedOut:
     case profibus::RecordOutcome::kNoAnswer:
-      pkw_.handleFailure(profile::ParameterOutcome::kTimeout);
+      pkw_.handleFailure(profile::ParameterOutcome::kTimeout, words);
       break;
     case profibus::RecordOutcome::kNotSupported:
       pkw_.handleFailure(profile::ParameterOutcome::kNoChannel, "its bus module takes no acyclic requests (DP-V1)");
       break;
     case profibus::RecordOutcome::kNotActivated:
+      if (!words.empty()) {
+        pkw_.handleFailure(profile::ParameterOutcome::kNoChannel, words);
+        break;
+      }
       pkw_.handleFailure(profile::ParameterOutcome::kNoChannel,
                          "its bus module refuses acyclic requests (DP-V1): it answers RS, not activated, at access "
                          "point 51; PPO types 1 and 2 reach the inverter's parameters without them");

@@ -29,7 +29,8 @@ class RecordParameterChannel {
 
   /// The next record, when there is an order and none is under way.
   std::optional<profibus::RecordRequest> pollRecord(Instant now) noexcept;
-  void handleRecord(const profibus::RecordResult& result, Instant now) noexcept;
+  /// `words`: what the channel has to say of a failure of its own; empty: the words of MS1.
+  void handleRecord(const profibus::RecordResult& result, Instant now, const Sentence& words = {}) noexcept;
   /// The station, or the inverter, is gone: all requests end as offline. A record under way still brings its result.
   void handleOffline(Instant now) noexcept;
   /// An order was written and has no answer yet: nobody else should use the station's records.

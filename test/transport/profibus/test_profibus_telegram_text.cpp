@@ -52,6 +52,12 @@ TEST(ProfibusTelegramText, ShowsTheParameterChannel) {
             textOf("68 0F 0F 68 03 01 5D 74 4E 02 00 00 00 03 E8 04 7E 00 00 92 16"));
 }
 
+// A connection of class 2, from the resource manager on.
+TEST(ProfibusTelegramText, NamesConnectionsOfClass2) {
+  EXPECT_EQ("MS2 resource manager 1 <- 8 data 56 30 00 14", textOf("68 09 09 68 81 88 08 32 31 56 30 00 14 0E 16"));
+  EXPECT_EQ("MS2 8 <- 1 5E 00 65 08", textOf("68 09 09 68 88 81 5C 30 32 5E 00 65 08 92 16"));
+}
+
 // Several inverters behind one module, and its I/O byte before them: FI1 in PPO 1, FI3 in PPO 3.
 TEST(ProfibusTelegramText, NamesTheInvertersBehindAModule) {
   ProfibusDpConfig config = twoDrives();

@@ -1,0 +1,119 @@
+#include "catalogue/parameter_access.h"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "catalogue/parameter_text.h"
+#include "config/setting_checks.h"
+#include "profile/parameter_shape.h"
+
+namespace nord_driver::catalogue {
+
+namespace {
+
+constexpr std::uint16_t kLastNumber = 999;
+
+// Nobody has said how an unknown parameter is indexed: as it was asked for.
+profile::ParameterShape shapeOfUnknown(std::uint8_t set, std::uint8_t index) {
+  if (set != 0) return index != 0 ? profile::ParameterShape::kArrayPerSet : profile::ParameterShape::kPerSet;
+  return index != 0 ? profile::ParameterShape::kArray : profile::ParameterShape::kPlain;
+}
+
+std::string nameOf(const ParameterAccess& access) {
+  char text[8];
+  std::snprintf(text, sizeof(text), "P%03u", unsigned{access.request.number});
+  return text;
+}
+
+std::string whyNot(const ParameterAccess& access) {
+  if (access.entry != nullptr) return whyNotWritable(*access.entry);
+  if (!resetsDevice(access.request.number)) return {};
+  return nameOf(access) + " is never written: it resets the device to its factory settings";
+}
+
+std::string beyond(const ParameterAccess& access, double value) {
+  return "the value " + shortNumber(value) + " cannot be written to " + nameOf(access) + ", expected " +
+         (access.entry != nullptr ? rangeText(*access.entry, access.request.index) : "a whole number of 32 bits");
+}
+
+std::string write(ParameterAccess& access, std::int64_t raw, double value, bool persistent) {
+  profile::ParameterRequest& request = access.request;
+  const bool fits = access.entry != nullptr ? access.entry->takes(raw, request.index)
+                                            : raw >= std::numeric_limits<std::int32_t>::min() &&
+                                                  raw <= std::numeric_limits<std::int32_t>::max();
+  if (!fits) return beyond(access, value);
+  request.action = persistent ? profile::ParameterAction::kWritePersistent : profile::ParameterAction::kWriteRam;
+  request.raw = static_cast<std::int32_t>(raw);
+  request.double_word = access.entry != nullptr && access.entry->sizeOf(request.index) > 16;
+  return {};
+}
+
+}  // namespace
+
+ParameterAccess accessTo(const ParameterAddress& address, const DriveCatalogue& known) {
+  ParameterAccess access;
+  if (address.number > kLastNumber) {
+    access.error = "parameter " + std::to_string(address.number) + " does not exist, expected 0 to 999";
+    return access;
+  }
+  if (address.parameter_set > 4) {
+    access.error = "parameter set " + std::to_string(address.parameter_set) + " does not exist, expected 0 to 4";
+    return access;
+  }
+  access.entry = known.find(address.number);
+  profile::ParameterRequest& request = access.request;
+  request.number = address.number;
+  request.parameter_set = address.parameter_set;
+  request.index = address.index == 0 ? std::uint8_t{1} : address.index;
+  request.shape =
+      access.entry != nullptr ? access.entry->shape() : shapeOfUnknown(address.parameter_set, address.index);
+  if (access.entry != nullptr && !profile::isArray(request.shape) && address.index > 1) {
+    access.error = nameOf(access) + " is no array, expected index 0, not " + std::to_string(address.index);
+  }
+  return access;
+}
+
+std::string setValue(ParameterAccess& access, const ParameterWrite& write_as) {
+  if (std::string why = whyNot(access); !why.empty()) return why;
+  if (access.entry == nullptr && !write_as.allow_raw) {
+    return nameOf(access) +
+           " is not in the catalogue: its unit is not known, and raw values need allow_raw_parameters: true";
+  }
+  const double raw = access.entry != nullptr ? std::round(write_as.value / access.entry->step()) : write_as.value;
+  constexpr double kBeyondAll = 1e12;
+  if (!(std::abs(raw) < kBeyondAll) || raw != std::trunc(raw)) return beyond(access, write_as.value);
+  return write(access, static_cast<std::int64_t>(raw), write_as.value, write_as.persistent);
+}
+
+std::string setText(ParameterAccess& access, const std::string& text, bool persistent) {
+  if (std::string why = whyNot(access); !why.empty()) return why;
+  if (access.entry == nullptr) return nameOf(access) + " is not in the catalogue: its unit is not known";
+  const RawValue typed = rawFrom(*access.entry, text, access.request.index);
+  if (typed.raw) return write(access, *typed.raw, access.entry->valueOf(*typed.raw, access.request.index), persistent);
+  // The same sentence as for the same value by a service.
+  if (const auto value = decimalNumber(text)) {
+    ParameterAccess rounded = access;
+    if (std::string why = setValue(rounded, {*value, persistent, false}); !why.empty()) return why;
+  }
+  return typed.error;
+}
+
+std::string setRaw(ParameterAccess& access, std::int64_t raw, bool persistent) {
+  if (std::string why = whyNot(access); !why.empty()) return why;
+  const double step = access.entry != nullptr ? access.entry->step() : 1.0;
+  return write(access, raw, static_cast<double>(raw) * step, persistent);
+}
+
+double valueOf(const ParameterEntry* entry, std::int32_t raw, unsigned index) {
+  return entry != nullptr ? entry->valueOf(raw, index) : raw;
+}
+
+std::string fullName(const ParameterEntry* entry, unsigned index) {
+  if (entry == nullptr) return {};
+  const Element* element = entry->element(index);
+  const bool tells_more = element != nullptr && !element->name.empty() && element->name != entry->title();
+  return entry->title() + (tells_more ? ", " + element->name : "");
+}
+
+}  // namespace nord_driver::catalogue
