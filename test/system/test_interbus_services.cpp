@@ -5,7 +5,9 @@
 
 #include <string>
 
+#include "catalogue/fault_words.h"
 #include "cycle/parameter_requests.h"
+#include "profile/fault_number.h"
 #include "system/interbus_robot.h"
 
 namespace nord_driver::test {
@@ -227,7 +229,7 @@ TEST(InterbusWithoutPcp, AFaultHasNoNumberAndIsAcknowledged) {
   robot.run(seconds{3});
   EXPECT_TRUE(robot.snapshot().drives[0].fault);
   EXPECT_EQ(profile::kFaultNumberUnknown, robot.snapshot().drives[0].fault_number);
-  EXPECT_EQ("fault of unknown number", profile::faultName(robot.snapshot().drives[0].fault_number));
+  EXPECT_EQ("fault of unknown number", catalogue::FaultWords::label(robot.snapshot().drives[0].fault_number));
   const cycle::Completion stands = robot.ask(cycle::RequestKind::kAcknowledge, 0);
   EXPECT_FALSE(stands.success);
   EXPECT_THAT(stands.message.c_str(), HasSubstr("drive left: the cause of the fault still stands"));

@@ -12,18 +12,10 @@
 #include "catalogue/shipped.h"
 #include "sim/profibus/simulated_segment.h"
 #include "tools/parameter_link.h"
+#include "tools/write_value.h"
 #include "transport/profibus/profibus_dp.h"
 
 namespace nord_driver::tools {
-
-/// As a service would: from number and value to the answer.
-inline ParameterAnswer writeValue(ParameterLink& link, const catalogue::ParameterAddress& address,
-                                  const catalogue::ParameterWrite& write) {
-  catalogue::ParameterAccess access = catalogue::accessTo(address, link.known());
-  EXPECT_EQ("", access.error);
-  EXPECT_EQ("", catalogue::setValue(access, write));
-  return link.write(access);
-}
 
 /// Two SK 5xxE on one bus; the link is to drive left, station 3.
 class LinkedDrive {

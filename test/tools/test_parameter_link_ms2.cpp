@@ -5,8 +5,10 @@
 
 #include <memory>
 
+#include "catalogue/shipped.h"
 #include "sim/profibus/simulated_segment.h"
 #include "tools/parameter_link.h"
+#include "tools/write_value.h"
 #include "transport/profibus/profibus_ms2.h"
 
 namespace nord_driver::tools {
@@ -38,7 +40,7 @@ class Ms2Link : public ::testing::Test {
           segment_ = made.get();
           return made;
         }),
-        link_(config_, transport_) {}
+        link_(config_, transport_, catalogue::shippedCatalogues()) {}
 
   std::string trouble() {
     try {
@@ -48,8 +50,8 @@ class Ms2Link : public ::testing::Test {
     }
     return "";
   }
-  static cycle::ParameterAddress parameter(std::uint16_t number) {
-    cycle::ParameterAddress address;
+  static catalogue::ParameterAddress parameter(std::uint16_t number) {
+    catalogue::ParameterAddress address;
     address.number = number;
     return address;
   }
@@ -68,9 +70,9 @@ TEST_F(Ms2Link, ReadsAndWritesWithoutDataExchange) {
   EXPECT_TRUE(read.success) << read.message;
   EXPECT_EQ(500, read.raw);
   EXPECT_EQ(1, read.set) << "the one in force, by the status word";
-  cycle::ParameterWrite write;
+  catalogue::ParameterWrite write;
   write.value = 2.5;
-  const ParameterAnswer written = link_.write(parameter(102), write);
+  const ParameterAnswer written = writeValue(link_, parameter(102), write);
   EXPECT_TRUE(written.success) << written.message;
   EXPECT_EQ(250, left().parameters().value(102, 0));
   EXPECT_EQ(0u, left().parameters().eepromWrites());
