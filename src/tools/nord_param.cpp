@@ -25,6 +25,7 @@
 #include "tools/lock_owner.h"
 #include "tools/param_commands.h"
 #include "tools/parameter_dump.h"
+#include "tools/parameter_link.h"
 #include "tools/parameter_list.h"
 #include "tools/transport_loader.h"
 
@@ -107,7 +108,7 @@ int check(const Options& options) {
   return config.accepted() ? kDone : kFailed;
 }
 
-using Task = std::function<bool(ParameterLink&)>;
+using Task = std::function<bool(DriveParameters&)>;
 
 // Whoever has the device does not give it away while this program waits.
 void refuseBusInUse(const ToolConfig& config, const nord_driver::EndPoint& end_point) {
@@ -210,21 +211,21 @@ int run(int argc, char** argv) {
   const ToolConfig config = readToolConfig(file, options.drive);
   const nord_driver::catalogue::Catalogues catalogues = cataloguesFor(config, options);
   ParameterLink link{config, *transport, catalogues};
-  Task task = [&end_asked](ParameterLink& drive) { return dumpParameters(drive, end_asked); };
+  Task task = [&end_asked](DriveParameters& drive) { return dumpParameters(drive, end_asked); };
   if (line.asksFor(compare)) {
-    task = [&end_asked, reference = readDump(options.dump)](ParameterLink& drive) {
+    task = [&end_asked, reference = readDump(options.dump)](DriveParameters& drive) {
       return compareParameters(drive, reference, end_asked);
     };
   }
   // What is wrong already here reaches no bus.
   if (line.asksFor(read)) {
     const auto address = addressOf(options.parameter, options.set.value, options.index.value, link.known());
-    task = [address](ParameterLink& drive) { return readParameter(drive, address); };
+    task = [address](DriveParameters& drive) { return readParameter(drive, address); };
   }
   if (line.asksFor(write)) {
     const auto address = addressOf(options.parameter, options.set.value, options.index.value, link.known());
     const auto access = checkedWrite(options.write, address, link.known());
-    task = [access](ParameterLink& drive) { return writeParameter(drive, access); };
+    task = [access](DriveParameters& drive) { return writeParameter(drive, access); };
   }
   refuseBusInUse(config, transport->endPoint());
   return carryOut(link, options.timeout.value, task, end_asked);

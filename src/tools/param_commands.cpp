@@ -25,12 +25,13 @@ catalogue::ParameterAddress addressOf(const catalogue::ParameterAccess& access) 
 }
 
 // "P102 set 1 Acceleration time = 2.50 s (raw 250)"
-std::string answerText(catalogue::ParameterAddress address, const ParameterAnswer& answer, const ParameterLink& link) {
+std::string answerText(catalogue::ParameterAddress address, const ParameterAnswer& answer,
+                       const DriveParameters& drive) {
   address.parameter_set = answer.set;
   const unsigned index = address.index == 0 ? 1u : address.index;
   std::string text = parameterName(address);
   if (answer.entry != nullptr) text += " " + catalogue::fullName(answer.entry, index);
-  return text + " = " + link.known().valueText(answer.entry, answer.raw, index) + " (raw " +
+  return text + " = " + drive.known().valueText(answer.entry, answer.raw, index) + " (raw " +
          std::to_string(answer.raw) + ")";
 }
 
@@ -48,13 +49,13 @@ catalogue::ParameterAddress addressOf(const std::string& name, int set, int inde
   return address;
 }
 
-bool readParameter(ParameterLink& link, const catalogue::ParameterAddress& address) {
-  const ParameterAnswer answer = link.read(address);
+bool readParameter(DriveParameters& drive, const catalogue::ParameterAddress& address) {
+  const ParameterAnswer answer = drive.read(address);
   if (!answer.success) {
     printRefusal(answer);
     return false;
   }
-  std::printf("%s\n", answerText(address, answer, link).c_str());
+  std::printf("%s\n", answerText(address, answer, drive).c_str());
   return true;
 }
 
@@ -80,27 +81,27 @@ catalogue::ParameterAccess checkedWrite(const WriteOptions& write, const catalog
   throw Trouble(wrong);
 }
 
-bool writeParameter(ParameterLink& link, const catalogue::ParameterAccess& access) {
-  const ParameterAnswer answer = link.write(access);
+bool writeParameter(DriveParameters& drive, const catalogue::ParameterAccess& access) {
+  const ParameterAnswer answer = drive.write(access);
   if (!answer.success) {
     printRefusal(answer);
     return false;
   }
   const bool persistent = access.request.action == profile::ParameterAction::kWritePersistent;
   const char* where = persistent ? ", in the EEPROM" : ", in RAM: lost at power off";
-  std::printf("%s%s\n", answerText(addressOf(access), answer, link).c_str(), answer.message.empty() ? where : "");
+  std::printf("%s%s\n", answerText(addressOf(access), answer, drive).c_str(), answer.message.empty() ? where : "");
   if (!answer.message.empty()) std::printf("%s\n", answer.message.c_str());
   return true;
 }
 
-bool dumpParameters(ParameterLink& link, const std::atomic<bool>& end_asked) {
-  const Dump dump = takeDump(link, end_asked);
-  std::printf("%s", dumpText(dump, link.known(), link.drive().name, link.identity().address).c_str());
+bool dumpParameters(DriveParameters& drive, const std::atomic<bool>& end_asked) {
+  const Dump dump = takeDump(drive, end_asked);
+  std::printf("%s", dumpText(dump, drive.known(), drive.name(), drive.identity().address).c_str());
   return true;
 }
 
-bool compareParameters(ParameterLink& link, const Dump& reference, const std::atomic<bool>& end_asked) {
-  const Comparison comparison = compare(link, reference, end_asked);
+bool compareParameters(DriveParameters& drive, const Dump& reference, const std::atomic<bool>& end_asked) {
+  const Comparison comparison = compare(drive, reference, end_asked);
   for (const std::string& difference : comparison.differences) std::printf("%s\n", difference.c_str());
   std::printf("%zu of %zu settings differ\n", comparison.differences.size(), comparison.compared);
   return comparison.differences.empty();

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "nord_driver/transport/transport.h"
+#include "tools/drive_parameters.h"
 #include "tools/parameter_dump.h"
-#include "tools/parameter_link.h"
 #include "tools/tool_config.h"
 
 namespace nord_driver::tools {
@@ -27,9 +27,9 @@ catalogue::ParameterAccess checkedWrite(const WriteOptions& write, const catalog
                                         const catalogue::DriveCatalogue& known);
 
 // On a connected link; false: refused or different, and said so on stderr or stdout.
-bool readParameter(ParameterLink& link, const catalogue::ParameterAddress& address);
-bool writeParameter(ParameterLink& link, const catalogue::ParameterAccess& access);
-bool dumpParameters(ParameterLink& link, const std::atomic<bool>& end_asked);
-bool compareParameters(ParameterLink& link, const Dump& reference, const std::atomic<bool>& end_asked);
+bool readParameter(DriveParameters& drive, const catalogue::ParameterAddress& address);
+bool writeParameter(DriveParameters& drive, const catalogue::ParameterAccess& access);
+bool dumpParameters(DriveParameters& drive, const std::atomic<bool>& end_asked);
+bool compareParameters(DriveParameters& drive, const Dump& reference, const std::atomic<bool>& end_asked);
 
 }  // namespace nord_driver::tools

@@ -14,10 +14,10 @@ namespace nord_driver::tools {
 namespace {
 
 // Refused, it is not there; anything else ends the whole.
-ParameterAnswer readFrom(ParameterLink& link, const catalogue::ParameterAddress& address,
+ParameterAnswer readFrom(DriveParameters& drive, const catalogue::ParameterAddress& address,
                          const std::atomic<bool>& end_asked) {
   if (end_asked) throw Trouble("ended before all parameters were read");
-  ParameterAnswer answer = link.read(address);
+  ParameterAnswer answer = drive.read(address);
   if (!answer.success && !answer.refused) throw Trouble(answer.message);
   return answer;
 }
@@ -76,13 +76,13 @@ Dump parse(const YAML::Node& file) {
 
 }  // namespace
 
-Dump takeDump(ParameterLink& link, const std::atomic<bool>& end_asked) {
+Dump takeDump(DriveParameters& drive, const std::atomic<bool>& end_asked) {
   Dump dump;
-  dump.series = link.drive().series;
+  dump.series = drive.series();
   std::optional<std::uint16_t> unknown;
-  for (const catalogue::ParameterAddress& address : knownParameters(link.known())) {
+  for (const catalogue::ParameterAddress& address : knownParameters(drive.known())) {
     if (unknown == address.number) continue;
-    const ParameterAnswer answer = readFrom(link, address, end_asked);
+    const ParameterAnswer answer = readFrom(drive, address, end_asked);
     if (answer.success) {
       dump.values.push_back({address, answer.raw});
     } else if (answer.unknown) {
@@ -124,23 +124,23 @@ Dump readDump(const std::string& file) {
   }
 }
 
-Comparison compare(ParameterLink& link, const Dump& dump, const std::atomic<bool>& end_asked) {
-  const profile::Series series = link.drive().series;
+Comparison compare(DriveParameters& drive, const Dump& dump, const std::atomic<bool>& end_asked) {
+  const profile::Series series = drive.series();
   if (dump.series != series) {
-    throw UsageError(std::string("the dump is of a ") + profile::toString(dump.series) + ", drive " +
-                     link.drive().name + " is a " + profile::toString(series) + ": their parameters differ");
+    throw UsageError(std::string("the dump is of a ") + profile::toString(dump.series) + ", drive " + drive.name() +
+                     " is a " + profile::toString(series) + ": their parameters differ");
   }
   Comparison result;
   for (const Dump::Value& value : dump.values) {
     if (!isSetting(value.address)) continue;
     ++result.compared;
     const unsigned index = indexOf(value.address);
-    const catalogue::ParameterEntry* entry = link.known().find(value.address.number);
-    const ParameterAnswer answer = readFrom(link, value.address, end_asked);
+    const catalogue::ParameterEntry* entry = drive.known().find(value.address.number);
+    const ParameterAnswer answer = readFrom(drive, value.address, end_asked);
     if (answer.success && answer.raw == value.raw) continue;
     std::string text = parameterName(value.address) + (entry != nullptr ? " " : "") + catalogue::fullName(entry, index);
-    text += ": " + link.known().valueText(entry, value.raw, index) + " in the file, ";
-    text += answer.success ? link.known().valueText(entry, answer.raw, index) + " in the drive" : "not in this drive";
+    text += ": " + drive.known().valueText(entry, value.raw, index) + " in the file, ";
+    text += answer.success ? drive.known().valueText(entry, answer.raw, index) + " in the drive" : "not in this drive";
     result.differences.push_back(text);
   }
   return result;

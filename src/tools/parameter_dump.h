@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/parameter_link.h"
+#include "tools/drive_parameters.h"
 
 namespace nord_driver::tools {
 
@@ -23,7 +23,7 @@ struct Dump {
 };
 
 /// Throws Trouble when the drive stops answering, or `end_asked`.
-Dump takeDump(ParameterLink& link, const std::atomic<bool>& end_asked);
+Dump takeDump(DriveParameters& drive, const std::atomic<bool>& end_asked);
 
 /// As YAML; `drive` and `address` are named for people, and so is what is `known` of the values.
 std::string dumpText(const Dump& dump, const catalogue::DriveCatalogue& known, const std::string& drive,
@@ -38,6 +38,6 @@ struct Comparison {
 
 /// Reads from the drive what `dump` has of settings; information changes by itself. Throws Trouble, and UsageError
 /// when the dump is of another series: its numbers mean something else.
-Comparison compare(ParameterLink& link, const Dump& dump, const std::atomic<bool>& end_asked);
+Comparison compare(DriveParameters& drive, const Dump& dump, const std::atomic<bool>& end_asked);
 
 }  // namespace nord_driver::tools

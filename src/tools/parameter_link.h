@@ -4,34 +4,16 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "catalogue/parameter_access.h"
 #include "cycle/bus_cycle.h"
 #include "cycle/cycle_ports.h"
 #include "nord_driver/transport/transport.h"
+#include "tools/drive_parameters.h"
 #include "tools/tool_config.h"
 
 namespace nord_driver::tools {
-
-/// It cannot be done now: one sentence.
-class Trouble : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-struct ParameterAnswer {
-  bool success = false;
-  bool refused = false;  ///< by inverter, catalogue or session; the drive is there
-  bool unknown = false;  ///< refused: the inverter has no parameter of this number
-  std::string message;   ///< why not; with success a note, or empty
-  std::int32_t raw = 0;
-  double value = 0.0;
-  const catalogue::ParameterEntry* entry = nullptr;  ///< what the catalogue knows
-  std::uint8_t set = 0;                              ///< that was meant, 1..4; 0 where the parameter has no sets
-};
 
 /// Master of the bus from `connect` on, by the same cycle as the driver's node (`CycleRole::kGuest`). Moves nothing and
 /// stops nothing:
@@ -41,33 +23,34 @@ struct ParameterAnswer {
 ///  - The other drives of the bus are not talked to.
 ///  - Nothing in the module watches for the end of the program, and nothing is sent on the bus of another master: the
 ///    transport is told so (`serveParametersOnly()`).
-class ParameterLink {
+class ParameterLink final : public DriveParameters {
  public:
   /// Configures `transport`, and opens nothing. `catalogues` must outlive the link. Throws ConfigError; Trouble when
   /// `transport` does not serve parameters only.
   ParameterLink(const ToolConfig& config, Transport& transport, const catalogue::Catalogues& catalogues);
   /// Ends the exchange; what was not ended by `finish` ends as it stands.
-  ~ParameterLink();
+  ~ParameterLink() override;
   ParameterLink(const ParameterLink&) = delete;
   ParameterLink& operator=(const ParameterLink&) = delete;
 
   /// Looks for the drive until `limit`. Throws Trouble when it does not answer, or runs, or `end_asked`.
   void connect(Duration limit, const std::atomic<bool>& end_asked);
 
-  ParameterAnswer read(const catalogue::ParameterAddress& address);
+  ParameterAnswer read(const catalogue::ParameterAddress& address) override;
   /// `access` is one to write. Compared before and read back after; see ParameterSession.
-  ParameterAnswer write(const catalogue::ParameterAccess& access);
+  ParameterAnswer write(const catalogue::ParameterAccess& access) override;
 
   /// Puts back what is not to stay (P560, orders of the parameter channel) and ends the exchange. Returns sentences on
   /// what the end means to the drive.
   std::vector<std::string> finish();
 
-  const cycle::DriveSetup& drive() const noexcept { return config_.cycle.drives.front(); }
-  DriveIdentity identity() const { return transport_.identity(0); }
-  /// What is known of the drive.
-  const catalogue::DriveCatalogue& known() const noexcept { return *known_; }
+  const std::string& name() const noexcept override { return drive().name; }
+  profile::Series series() const noexcept override { return drive().series; }
+  DriveIdentity identity() const override { return transport_.identity(0); }
+  const catalogue::DriveCatalogue& known() const noexcept override { return *known_; }
 
  private:
+  const cycle::DriveSetup& drive() const noexcept { return config_.cycle.drives.front(); }
   void exchange() noexcept;
   /// Of the last cycle.
   const cycle::DriveSnapshot& snapshot() noexcept { return ports_.readSnapshot().drives.front(); }

@@ -1,0 +1,53 @@
+// One drive's parameters, whichever way they are reached: over the bus itself, or through the node that has the bus.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "catalogue/drive_catalogue.h"
+#include "catalogue/parameter_access.h"
+#include "nord_driver/transport/transport.h"
+
+namespace nord_driver::tools {
+
+/// It cannot be done now: one sentence.
+class Trouble : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct ParameterAnswer {
+  bool success = false;
+  bool refused = false;  ///< by inverter, catalogue or session; the drive is there
+  bool unknown = false;  ///< refused: the inverter has no parameter of this number
+  std::string message;   ///< why not; with success a note, or empty
+  std::int32_t raw = 0;
+  double value = 0.0;
+  const catalogue::ParameterEntry* entry = nullptr;  ///< what the catalogue knows
+  std::uint8_t set = 0;                              ///< that was meant, 1..4; 0 where the parameter has no sets
+};
+
+class DriveParameters {
+ public:
+  virtual ~DriveParameters() = default;
+
+  virtual ParameterAnswer read(const catalogue::ParameterAddress& address) = 0;
+  /// `access` is one to write. Compared before and read back after.
+  virtual ParameterAnswer write(const catalogue::ParameterAccess& access) = 0;
+
+  /// As the configuration calls the drive.
+  virtual const std::string& name() const = 0;
+  virtual profile::Series series() const = 0;
+  /// Where it is on the bus, and what module it hangs on.
+  virtual DriveIdentity identity() const = 0;
+  /// What is known of the drive.
+  virtual const catalogue::DriveCatalogue& known() const = 0;
+
+ protected:
+  DriveParameters() = default;
+  DriveParameters(const DriveParameters&) = default;
+  DriveParameters& operator=(const DriveParameters&) = default;
+};
+
+}  // namespace nord_driver::tools
