@@ -388,7 +388,7 @@ TEST(NordParamOverMs2, ReadsFromAModuleWithoutAnAddress) {
   command.insert(command.begin() + 3, {"--config", over_ms2});
   const Ended read = runProgram(command);
   EXPECT_EQ(0, read.code) << read.errors;
-  EXPECT_EQ("P105 set 1 Maximum frequency = 50 Hz (raw 500)\n", read.output);
+  EXPECT_EQ("P105 set 1 Maximum frequency = 50.0 Hz (raw 500)\n", read.output);
   simulator.signal(SIGTERM);
   EXPECT_EQ(0, simulator.wait(seconds{30}));
   EXPECT_THAT(simulator.output(), HasSubstr("referee: no rule broken"));
