@@ -95,5 +95,5 @@ foreign_says() {
   }
 }
 foreign_says "loopback place 7" list
-foreign_says "Maximum frequency = 50 Hz" read belt P105
+foreign_says "Maximum frequency = 50.0 Hz" read belt P105
 foreign_says "loopback error 1, nobody has told this drive of such a parameter" read belt P999

@@ -27,7 +27,7 @@ DrivePublisher::DrivePublisher(ros::NodeHandle& private_node, const cycle::Drive
                                DriveProtection protection, catalogue::FaultWords faults, std::uint16_t address)
     : identity_(std::move(identity)),
       protection_(std::move(protection)),
-      faults_(std::move(faults)),
+      faults_(faults),
       rated_current_(setup.rated_current.value_or(kNotKnown)) {
   status_.name = setup.name;
   info_.name = setup.name;
