@@ -39,14 +39,21 @@ DevicenetDriveState::DevicenetDriveState(const DevicenetDrive& config, const dev
 }
 
 // On a new connection the first words are 0000, which the inverter ignores: a stop word takes the enable away, and so
-// would acknowledge a fault that nobody has seen yet (BU 0020 8). The AC drive profile has no such word.
+// would acknowledge a fault that nobody has seen yet (BU 0020 8). That lasts until the fault has been told: an inverter
+// behind a module with its own supply is asked first whether it is there. The AC drive profile has no such word.
 void DevicenetDriveState::putOutput(const profile::ProcessOutput& output, const devicenet::Scanner& scanner,
                                     devicenet::IoBytes& bytes) const noexcept {
   if (config_.drive_profile == DevicenetProfile::kNord) {
-    if (scanner.input(config_.module).count != 0) packWords(config_, output, bytes);
+    const devicenet::IoInput& data = scanner.input(config_.module);
+    if (data.count != 0 && (told_ || !tellsFault(data.bytes))) packWords(config_, output, bytes);
   } else {
     packAcDrive(config_, scaling_.toAcDrive(output), bytes);
   }
+}
+
+bool DevicenetDriveState::tellsFault(ByteView bytes) const noexcept {
+  profile::ProcessInput input;
+  return decode(bytes, input) && profile::StatusWord{input.status_word}.fault();
 }
 
 bool DevicenetDriveState::decode(ByteView bytes, profile::ProcessInput& input) const noexcept {
@@ -90,6 +97,7 @@ void DevicenetDriveState::takeInput(const devicenet::Scanner& scanner, bool bus_
   // To a module that another scanner works with nothing is said that acts.
   input.inverter_missing = module_answers_ && !contested_ && !inverter_answers_;
   if (!inverter_answers_) input.input = {};
+  told_ = connected && (told_ || inverter_answers_) && input.interruption == Interruption::kNone;
   explain(status, bus_works);
 }
 

@@ -53,6 +53,7 @@ class DevicenetDriveState {
 
  private:
   bool decode(ByteView bytes, profile::ProcessInput& input) const noexcept;
+  bool tellsFault(ByteView bytes) const noexcept;
   bool takeProcessData(const devicenet::Scanner& scanner, const devicenet::NodeStatus& status, Instant now,
                        DriveExchange& input) noexcept;
   Interruption takeInterruption(const devicenet::NodeStatus& status, bool bus_works, Instant now) noexcept;
@@ -74,6 +75,7 @@ class DevicenetDriveState {
   bool contested_ = false;  // another scanner works with it, too
   bool module_answers_ = false;
   bool inverter_answers_ = false;
+  bool told_ = false;  // on this connection it has answered to the layers above
   Sentence note_;
 };
 

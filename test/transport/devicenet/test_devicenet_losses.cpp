@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "profile/status_word.h"
 #include "transport/devicenet/devicenet_rig.h"
 
@@ -33,6 +35,25 @@ TEST(DeviceNetTransportTest, ASilentModuleIsNamedAndComesBack) {
   EXPECT_LE(rig.until([&] { return rig.allAnswer(); }), seconds{2});
   EXPECT_EQ(0, rig.unasked);
   EXPECT_THAT(rig.violations(), IsEmpty());
+}
+
+// The stop word takes the enable away and so acknowledges a fault (BU 0020 8). The first answer may come too late for its cycle
+// and before the next one: the fault in it is told before any word is sent that the inverter does not ignore.
+TEST(DeviceNetTransportTest, AFaultInTheFirstAnswerIsToldBeforeAStopWordIsSent) {
+  Rig rig;
+  rig.device().deaf_to_io = true;
+  rig.device().input = {0x00, 0x38, 0x0B, 0x00, 0x00};
+  ASSERT_LT(rig.until([&] { return rig.bus->sentTo("42D") != 0; }), seconds{5});
+  rig.bus->say("3C5#00380B0000");
+  rig.device().deaf_to_io = false;
+  rig.bus->seen.clear();
+  rig.cycle();
+  EXPECT_THAT(rig.bus->seen, Contains("> 42D#0000000000"));
+  EXPECT_LT(rig.until([&] { return rig.inputs[0].inverter_answers; }), milliseconds{300});
+  EXPECT_EQ(0u, std::count(rig.bus->seen.begin(), rig.bus->seen.end(), "> 42D#007E040000"));
+  EXPECT_TRUE(profile::StatusWord{rig.inputs[0].input.status_word}.fault());
+  rig.cycle();
+  EXPECT_THAT(rig.bus->seen, Contains("> 42D#007E040000"));
 }
 
 TEST(DeviceNetTransportTest, AConnectionReleasedByOthersIsUnasked) {
