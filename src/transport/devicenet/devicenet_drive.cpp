@@ -39,8 +39,8 @@ DevicenetDriveState::DevicenetDriveState(const DevicenetDrive& config, const dev
 }
 
 // On a new connection the first words are 0000, which the inverter ignores: a stop word takes the enable away, and so
-// would acknowledge a fault that nobody has seen yet (BU 0020 8). That lasts until the fault has been told: an inverter
-// behind a module with its own supply is asked first whether it is there. The AC drive profile has no such word.
+// would acknowledge a fault that nobody has seen yet (BU 0020 8). A fault has to be told first: its status word may have
+// come between two cycles, or the inverter be asked yet whether it is there. The AC drive profile has no such word.
 void DevicenetDriveState::putOutput(const profile::ProcessOutput& output, const devicenet::Scanner& scanner,
                                     devicenet::IoBytes& bytes) const noexcept {
   if (config_.drive_profile == DevicenetProfile::kNord) {

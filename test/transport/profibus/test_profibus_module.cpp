@@ -6,6 +6,7 @@
 
 #include "sim/profibus/simulated_segment.h"
 #include "support/map_settings.h"
+#include "transport/profibus/ask_parameter.h"
 #include "transport/profibus/profibus_dp.h"
 
 namespace nord_driver {
@@ -73,19 +74,7 @@ class OnAModule : public ::testing::Test {
   profile::ParameterResult ask(DriveIndex drive, std::uint16_t number,
                                profile::ParameterAction action = profile::ParameterAction::kRead,
                                std::int32_t raw = 0) {
-    profile::ParameterRequest request;
-    request.id = 77;
-    request.number = number;
-    request.action = action;
-    request.raw = raw;
-    profile::ParameterResult none;
-    EXPECT_TRUE(transport_->submit(drive, request));
-    for (int i = 0; i < 300; ++i) {
-      if (const auto result = transport_->pollResult()) return *result;
-      step();
-    }
-    ADD_FAILURE() << "no result";
-    return none;
+    return askParameter(*transport_, drive, number, action, raw, 300, [this] { step(); });
   }
   /// Every telegram sent, in hexadecimal.
   std::vector<std::string> sent() const {

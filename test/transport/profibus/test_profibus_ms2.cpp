@@ -6,6 +6,7 @@
 
 #include "sim/profibus/simulated_segment.h"
 #include "support/map_settings.h"
+#include "transport/profibus/ask_parameter.h"
 #include "transport/profibus/profibus_ms2.h"
 
 namespace nord_driver {
@@ -93,19 +94,7 @@ class ProfibusMs2 : public ::testing::Test {
   profile::ParameterResult ask(DriveIndex drive, std::uint16_t number,
                                profile::ParameterAction action = profile::ParameterAction::kRead,
                                std::int32_t raw = 0) {
-    profile::ParameterRequest request;
-    request.id = 77;
-    request.number = number;
-    request.action = action;
-    request.raw = raw;
-    profile::ParameterResult none;
-    EXPECT_TRUE(transport_->submit(drive, request));
-    for (int i = 0; i < 400; ++i) {
-      if (const auto result = transport_->pollResult()) return *result;
-      step();
-    }
-    ADD_FAILURE() << "no result";
-    return none;
+    return askParameter(*transport_, drive, number, action, raw, 400, [this] { step(); });
   }
   sim::ModuleStation& module() { return segment_->stations().module(0); }
   std::string note() const { return transport_->note(0).text; }
