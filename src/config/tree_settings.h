@@ -32,6 +32,8 @@ class TreeSettings : public Settings {
   std::vector<std::string> keysBelow(const std::string& key) const;
   /// A list of numbers.
   virtual std::optional<std::vector<double>> numbers(const std::string& key) const;
+  /// A list of texts and whole numbers, each as it was written.
+  virtual std::optional<std::vector<std::string>> words(const std::string& key) const;
   /// The group below `key`; an empty one when it is absent.
   virtual std::shared_ptr<TreeSettings> group(const std::string& key) const;
   /// The same group with `text` at `key`, which is no path.

@@ -60,7 +60,9 @@ DriverNode::DriverNode()
   warnOfUnknownKeys();
   ROS_INFO("nord_driver: %s", startSentence(config_, identities_, where_).c_str());
   ports_ = std::make_unique<cycle::CyclePorts>(config_.drives.size());
-  cycle_ = std::make_unique<cycle::BusCycle>(config_.cycle, *transport_, *ports_, config_.auto_enable);
+  cycle_ =
+      std::make_unique<cycle::BusCycle>(config_.cycle, *transport_, *ports_, config_.auto_enable,
+                                        config_.read_only ? cycle::CycleRole::kOnlooker : cycle::CycleRole::kDriver);
   broker_ = std::make_unique<RequestBroker>(*ports_);
   advertise();
 }
@@ -227,7 +229,7 @@ void DriverNode::tellBusEvents() {
 }
 
 void DriverNode::bringToRest() {
-  ROS_INFO("nord_driver: bringing the drives to rest");
+  if (!config_.read_only) ROS_INFO("nord_driver: bringing the drives to rest");
   cycle::Request request;
   request.kind = cycle::RequestKind::kShutDown;
   // OFF1 that does not end becomes a quick stop; that has a ramp of its own (P426).
@@ -238,7 +240,9 @@ void DriverNode::bringToRest() {
     ros::WallDuration(0.02).sleep();
     answer = broker_->call(request);
   }
-  if (answer.success) {
+  if (answer.success && config_.read_only) {
+    ROS_INFO("nord_driver: ending; the drives are as they were: read_only is true");
+  } else if (answer.success) {
     ROS_INFO("nord_driver: all drives are at rest, ending the exchange");
   } else {
     ROS_ERROR("nord_driver: ending, although %s", answer.message.c_str());

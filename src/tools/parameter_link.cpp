@@ -88,6 +88,8 @@ ParameterAnswer ParameterLink::read(const catalogue::ParameterAddress& address) 
 }
 
 ParameterAnswer ParameterLink::write(const catalogue::ParameterAccess& access) {
+  const std::string not_writable = config_.writable_parameters.refusal(access.request.number);
+  if (!not_writable.empty()) throw Trouble(not_writable);
   cycle::Request request;
   request.kind = cycle::RequestKind::kWriteParameter;
   request.parameter = access.request;
