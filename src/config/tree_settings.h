@@ -30,10 +30,10 @@ class TreeSettings : public Settings {
 
   /// Of the group at `key`, which is no path; empty when it is none. Does not count as asking.
   std::vector<std::string> keysBelow(const std::string& key) const;
+  /// As texts(), where a whole number is the text of it: "728".
+  virtual std::optional<std::vector<std::string>> words(const std::string& key) const;
   /// A list of numbers.
   virtual std::optional<std::vector<double>> numbers(const std::string& key) const;
-  /// A list of texts and whole numbers, each as it was written.
-  virtual std::optional<std::vector<std::string>> words(const std::string& key) const;
   /// The group below `key`; an empty one when it is absent.
   virtual std::shared_ptr<TreeSettings> group(const std::string& key) const;
   /// The same group with `text` at `key`, which is no path.

@@ -59,6 +59,7 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
     ParameterChannelUse channel;
     channel.timeout_owner = transport.identity(drive).timeout_owner;
     channel.capabilities = transport.parameterCapabilities(drive);
+    channel.monitor = setup.monitor;
     channel.users_only = role == CycleRole::kGuest;
     axes_.emplace_back(drive, setup, channel);
   }

@@ -64,6 +64,7 @@ void fillDriveSnapshot(DriveSnapshot& to, const DrivePictured& from, const Trans
   to.direction_contradiction = report.direction_contradiction;
   to.text = sentenceOf(from, transport);
   fillFault(to);
+  to.monitored = axis.parameters.monitored();
   to.device = axis.parameters.device();
   to.device.ident = transport.identNumber(from.index);
 }

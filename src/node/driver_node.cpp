@@ -57,6 +57,7 @@ DriverNode::DriverNode()
       catalogues_(tools::installedCatalogues(config_.parameter_files)),
       loader_("nord_driver", "nord_driver::Transport") {
   loadTransport();
+  lookUpMonitored();
   warnOfUnknownKeys();
   ROS_INFO("nord_driver: %s", startSentence(config_, identities_, where_).c_str());
   ports_ = std::make_unique<cycle::CyclePorts>(config_.drives.size());
@@ -97,6 +98,17 @@ std::vector<catalogue::DriveCatalogue> DriverNode::knownDrives() const {
   return known;
 }
 
+void DriverNode::lookUpMonitored() {
+  const std::vector<catalogue::DriveCatalogue> known = knownDrives();
+  for (DriveIndex i = 0; i < known.size(); ++i) {
+    const auto list = tools::monitoredParameters(config_.drives[i], config_.monitor[i], known[i], identities_[i]);
+    const auto raw_ones = tools::notInCatalogue(config_.drives[i], list);
+    config_.warnings.insert(config_.warnings.end(), raw_ones.begin(), raw_ones.end());
+    for (const auto& parameter : list) config_.cycle.drives[i].monitor.push_back(parameter.access.request);
+    values_.emplace_back(known[i], list);
+  }
+}
+
 void DriverNode::warnOfUnknownKeys() const {
   std::vector<std::string> sentences = config_.warnings;
   for (const std::string& sentence : unknownKeys(settings_, config_, ros::this_node::getName())) {
@@ -124,6 +136,7 @@ void DriverNode::advertise() {
                                    DriveProtection{identities_[i], config_.cycle.drives[i].series,
                                                    config_.cycle.cmd_vel_timeout, config_.cycle.period()},
                                    faults_[i], static_cast<std::uint16_t>(setup.address.value_or(0)));
+    values_publishers_.emplace_back(private_node_, setup.name, values_[i]);
     if (cycle_->inBase(i)) continue;
     boost::function<void(const std_msgs::Float64&)> take = [this, i](const std_msgs::Float64& velocity) {
       takeDriveCommand(i, velocity.data);
@@ -132,7 +145,7 @@ void DriverNode::advertise() {
   }
   fault_board_ = std::make_unique<FaultBoard>(names, faults_);
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
-  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, faults_, where_);
+  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, faults_, values_, where_);
   services_ = std::make_unique<Services>(private_node_, stops_.handle(), config_, known, *fault_board_, *broker_);
   tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace());
   ports_->setObserver(&tracing_->feed());
@@ -183,8 +196,9 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
 
   // Whatever ends the node, the drives come to rest first: an exchange that simply ends lets the wheels coast.
   try {
-    publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_,
-                       *fault_board_, loggedDrives());
+    const SnapshotParts parts{*base_publisher_, drive_publishers_, values_publishers_,
+                              *bus_publisher_,  *diagnostics_,     *fault_board_};
+    publisher_.emplace(*ports_, config_.publish, parts, loggedDrives());
     // roscpp is "ok" until it has unregistered every topic: tenths of a second in which the robot would drive on.
     while (!end_asked && ros::ok() && !ros::isShuttingDown() && publisher_->healthy()) {
       noteCommanders();

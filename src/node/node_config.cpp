@@ -78,6 +78,10 @@ NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot
   config.publish.publish_wheel_states = booleanOr(settings, "publish_wheel_joint_controller_state", false);
   config.bus = settings.group("bus");
   config.drives = readDriveList(settings);
+  for (const DriveSettings& drive : config.drives) {
+    const auto& group = static_cast<const TreeSettings&>(*drive.settings);  // as readDriveList has made it
+    config.monitor.push_back(group.words("monitor").value_or(std::vector<std::string>{}));
+  }
   config.cycle = cycle::readCycleConfig(settings, config.drives, robot_description);
   if (config.cycle.base) {
     const std::vector<std::string>& of_base = config.cycle.base->warnings;

@@ -42,6 +42,8 @@ struct NodeConfig {
   cycle::CycleConfig cycle;
   std::optional<trace::TraceConfig> trace;
   std::vector<DriveSettings> drives;
+  /// One for each of `drives`: the parameters of `monitor`, as they are written there.
+  std::vector<std::vector<std::string>> monitor;
   std::shared_ptr<TreeSettings> bus;
   std::vector<std::string> warnings;  ///< sentences on what is accepted but done in another way, or not
 };

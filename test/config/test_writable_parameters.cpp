@@ -51,8 +51,8 @@ TEST(WritableParameters, WhatIsNoNumberOfAParameterIsNamed) {
                 HasSubstr("expected numbers of parameters"))
         << wrong;
   }
-  EXPECT_THAT(refusalOf("{writable_parameters: 102}"), HasSubstr("expected a list of whole numbers or names"));
-  EXPECT_THAT(refusalOf("{writable_parameters: [1.5]}"), HasSubstr("expected a list of whole numbers or names"));
+  EXPECT_EQ("", readFrom("{writable_parameters: 102}").refusal(102)) << "one alone";
+  EXPECT_THAT(refusalOf("{writable_parameters: [1.5]}"), HasSubstr("~writable_parameters: 1.5"));
 }
 
 }  // namespace

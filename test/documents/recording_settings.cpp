@@ -50,6 +50,11 @@ std::optional<std::vector<std::string>> RecordingSettings::texts(const std::stri
   return TreeSettings::texts(key);
 }
 
+std::optional<std::vector<std::string>> RecordingSettings::words(const std::string& key) const {
+  ask(key, "a text or a list of texts");
+  return TreeSettings::words(key);
+}
+
 std::optional<std::vector<double>> RecordingSettings::numbers(const std::string& key) const {
   ask(key, "a list of numbers");
   return TreeSettings::numbers(key);
