@@ -34,7 +34,7 @@ struct ParameterChannelUse {
 };
 
 /// Each cycle, after the exchange: `handleState`, then `pollRequest` until it is empty, then the transport's results by
-/// `handleResult`, then `pollCompletion`. Three askers, each with one question under way at most; a result is given
+/// `handleResult`, and `pollRequest` again when there were any; then `pollCompletion`. Three askers, each with one question under way at most; a result is given
 /// only to the one whose latest question it answers.
 class DriveParameters {
  public:
