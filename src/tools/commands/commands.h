@@ -1,0 +1,22 @@
+// Every command of nord_param.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "tools/commands/param_command.h"
+
+namespace nord_driver::tools {
+
+/// In the order --help shows them.
+std::vector<std::unique_ptr<ParamCommand>> paramCommands();
+
+std::unique_ptr<ParamCommand> makeListCommand();
+std::unique_ptr<ParamCommand> makeReadCommand();
+std::unique_ptr<ParamCommand> makeWriteCommand();
+std::unique_ptr<ParamCommand> makeDumpCommand();
+std::unique_ptr<ParamCommand> makeCompareCommand();
+std::unique_ptr<ParamCommand> makeImageCommand();
+std::unique_ptr<ParamCommand> makeCheckConfigCommand();
+
+}  // namespace nord_driver::tools

@@ -1,0 +1,96 @@
+#include "tools/commands/param_program.h"
+
+#include <cstdio>
+#include <exception>
+
+#include "config/yaml_settings.h"
+#include "tools/end_signals.h"
+#include "tools/installed_catalogues.h"
+#include "tools/lock_owner.h"
+#include "tools/parameter_link.h"
+#include "tools/usage_error.h"
+
+namespace nord_driver::tools {
+
+namespace po = boost::program_options;
+
+namespace {
+
+int carryOut(ParameterLink& link, Duration timeout, const DriveTask& task, const std::atomic<bool>& end_asked) {
+  link.connect(timeout, end_asked);
+  bool done = false;
+  std::exception_ptr stopped;
+  try {
+    done = task(link);
+  } catch (const std::exception&) {
+    stopped = std::current_exception();
+  }
+  for (const std::string& sentence : link.finish()) std::fprintf(stderr, "nord_param: %s\n", sentence.c_str());
+  if (stopped) std::rethrow_exception(stopped);
+  return done ? kDone : kFailed;
+}
+
+}  // namespace
+
+ParamProgram::ParamProgram(CommandLine& line) : end_asked_(catchEndSignals()) {
+  line.addOptions()("config", po::value(&files_)->value_name("FILE"),
+                    "the driver's YAML file; a later file is laid over an earlier one; required, but for check-config")(
+      "bus", po::value(&port_.bus)->value_name("VALUE"),
+      "where the bus is: a serial device, a CAN interface or whatever else the file's transport opens, in place of "
+      "what the file says")("device", po::value(&port_.device)->value_name("PATH"),
+                            "the same for a transport with bus/device")(
+      "interface", po::value(&port_.interface)->value_name("NAME"), "the same for a transport with bus/interface")(
+      "timeout", po::value(&timeout_)->value_name("SECONDS"), "s to wait for the drive to answer (5)")(
+      "parameter-files", po::value(&parameter_files_)->value_name("FILE"),
+      "a file of parameters or faults of your own, laid over the driver's and those the configuration names; may be "
+      "given several times");
+}
+
+void ParamProgram::load() {
+  if (transport_) return;
+  if (files_.empty()) throw UsageError("the option '--config' is required but missing");
+  file_ = readYamlFiles(files_);
+  auto transport = loader_.load(transportOf(file_));
+  choosePort(file_, port_, transport->endPoint());
+  transport_ = transport;
+}
+
+const YAML::Node& ParamProgram::file() {
+  load();
+  return file_;
+}
+
+Transport& ParamProgram::transport() {
+  load();
+  return *transport_;
+}
+
+catalogue::Catalogues ParamProgram::cataloguesFor(const ToolConfig& config) const {
+  std::vector<std::string> own = config.parameter_files;
+  own.insert(own.end(), parameter_files_.begin(), parameter_files_.end());
+  return installedCatalogues(own);
+}
+
+int ParamProgram::onDrive(const std::string& drive,
+                          const std::function<DriveTask(const catalogue::DriveCatalogue&)>& prepare) {
+  const ToolConfig config = readToolConfig(file(), drive);
+  const catalogue::Catalogues catalogues = cataloguesFor(config);
+  ParameterLink link{config, transport(), catalogues};
+  const DriveTask task = prepare(link.known());
+  refuseBusInUse(config);
+  return carryOut(link, timeout(), task, end_asked_);
+}
+
+void ParamProgram::refuseBusInUse(const ToolConfig& config) {
+  const EndPoint end_point = transport().endPoint();
+  if (end_point.isNone()) return;
+  const std::string where = config.bus->text(end_point.key).value_or("");
+  const auto owner = lockOwner(where);
+  if (!owner) return;
+  throw Trouble(where + " is in use by " + (owner->name.empty() ? "a program" : owner->name) + " (process " +
+                std::to_string(owner->process) +
+                "): end it first; or ask the driver while it runs: rosservice call /nord_driver/" +
+                config.drives.front().name + "/read_parameter, or write_parameter");
+}
+
+}  // namespace nord_driver::tools
