@@ -240,9 +240,25 @@ void BusCycle::handleInputs(Instant now) noexcept {
 }
 
 void BusCycle::runParameters(Instant now) noexcept {
+  for (DriveIndex i = 0; i < drives_.size(); ++i) axes_[i].parameters.handleState(drives_[i], now);
+  submitParameters(now);
+  bool answered = false;
+  while (const auto result = transport_.pollResult()) {
+    answered = true;
+    for (Axis& axis : axes_) {
+      if (axis.parameters.handleResult(*result)) break;
+    }
+  }
+  // What follows an answer leaves with the next exchange, not with the one after it.
+  if (answered) submitParameters(now);
+  for (Axis& axis : axes_) {
+    while (const auto completion = axis.parameters.pollCompletion()) ports_.complete(*completion);
+  }
+}
+
+void BusCycle::submitParameters(Instant now) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     DriveParameters& parameters = axes_[i].parameters;
-    parameters.handleState(drives_[i], now);
     if (!drives_[i].report().online) continue;
     while (const auto request = parameters.pollRequest(now)) {
       if (transport_.submit(i, *request)) continue;
@@ -252,14 +268,6 @@ void BusCycle::runParameters(Instant now) noexcept {
       parameters.handleResult(busy);
       break;
     }
-  }
-  while (const auto result = transport_.pollResult()) {
-    for (Axis& axis : axes_) {
-      if (axis.parameters.handleResult(*result)) break;
-    }
-  }
-  for (Axis& axis : axes_) {
-    while (const auto completion = axis.parameters.pollCompletion()) ports_.complete(*completion);
   }
 }
 

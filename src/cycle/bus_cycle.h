@@ -64,6 +64,7 @@ class BusCycle {
   MinimumSpeeds minWheelSpeeds() const noexcept;
   void handleInputs(Instant now) noexcept;
   void runParameters(Instant now) noexcept;
+  void submitParameters(Instant now) noexcept;
   void measure(Instant now, Duration dt) noexcept;
   void measureBase(Duration dt) noexcept;
   void publish(Instant now) noexcept;

@@ -38,8 +38,9 @@ struct ParameterChannelUse {
 };
 
 /// Each cycle, after the exchange: `handleState`, then `pollRequest` until it is empty, then the transport's results by
-/// `handleResult`, then `pollCompletion`. Each asker has one question under way at most; a result is given only to
-/// the one whose latest question it answers. What is only looked at is asked for while no other question is under way.
+/// `handleResult`, and `pollRequest` again when there were any; then `pollCompletion`. Each asker has one question under
+/// way at most; a result is given only to the one whose latest question it answers. What is only looked at is asked for
+/// while no other question is under way.
 class DriveParameters {
  public:
   DriveParameters(DriveIndex drive, std::string name, profile::Series series, std::optional<double> typed_max_frequency,

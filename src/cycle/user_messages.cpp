@@ -120,7 +120,7 @@ Sentence parameterMessage(const char* drive, std::uint16_t number, const profile
       text.format("drive %s gave no answer for P%03u%s%s%s%s", drive, number, colon, words, joint, note);
       break;
     case profile::ParameterOutcome::kOffline:
-      text.format("drive %s does not answer%s%s", drive, joint, note);
+      text.format("drive %s does not answer%s%s%s%s", drive, colon, words, joint, note);
       break;
     case profile::ParameterOutcome::kNoChannel:
       text.format("no parameter channel reaches P%03u of drive %s%s%s", number, drive, colon, words);
