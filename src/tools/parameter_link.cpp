@@ -153,6 +153,13 @@ ParameterAnswer ParameterLink::carryOut(const catalogue::ParameterAccess& access
   return answer;
 }
 
+std::string ParameterLink::changedByReading() {
+  if (!cycle_->gate().faultSeen() || !snapshot().online || snapshot().fault) return {};
+  return "drive " + drive().name +
+         " was in fault when this program came: its idle word 047E took the enable away, which acknowledges a fault "
+         "whose cause is gone";
+}
+
 std::vector<std::string> ParameterLink::finish() {
   std::vector<std::string> sentences;
   if (!connected_) return sentences;
