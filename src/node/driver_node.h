@@ -8,6 +8,7 @@
 #include <std_srvs/Trigger.h>
 
 #include <atomic>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <pluginlib/class_loader.hpp>
@@ -74,6 +75,8 @@ class DriverNode {
   std::vector<DriveIdentity> identities_;
   std::vector<catalogue::FaultWords> faults_;  // one per drive
   std::unique_ptr<FaultBoard> fault_board_;
+  state::EepromBudget eeprom_budget_;
+  std::deque<state::DriveEeprom> eeproms_;  // one per drive
 
   std::unique_ptr<cycle::CyclePorts> ports_;
   std::unique_ptr<cycle::BusCycle> cycle_;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "config/eeprom_settings.h"
 #include "config/tree_settings.h"
 #include "cycle/cycle_config.h"
 #include "nord_driver/config/settings.h"
@@ -35,6 +36,7 @@ struct NodeConfig {
   bool auto_enable = false;
   bool allow_raw_parameters = false;
   std::vector<std::string> parameter_files;  ///< laid over the project's, in this order
+  EepromSettings eeprom;
   PublishConfig publish;
   cycle::CycleConfig cycle;
   std::optional<trace::TraceConfig> trace;

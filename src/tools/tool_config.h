@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "config/eeprom_settings.h"
 #include "cycle/cycle_config.h"
 #include "nord_driver/config/settings.h"
 #include "nord_driver/transport/bus_report.h"
@@ -20,6 +21,7 @@ struct ToolConfig {
   std::vector<DriveSettings> drives;         ///< as the transport is told, in the order of `cycle.drives`
   cycle::CycleConfig cycle;                  ///< without a base
   std::vector<std::string> parameter_files;  ///< of the user, laid over the project's
+  EepromSettings eeprom;
 };
 
 /// The plugin name of the file's transport, with its prefix. Throws ConfigError.
