@@ -247,25 +247,25 @@ TEST_F(ParameterService, WritesToRamThroughP560WhereThereAreNoRamOrders) {
 
 TEST_F(EepromBudget, IsKeptAcrossAKilledDriverAndRefusesInWords) {
   const std::uint64_t before = eepromWrites("left");
-  const Written first = write("left", 103, 2.5, true, 4);
+  const Written first = write("left", 102, 2.5, true, 3);
   ASSERT_TRUE(first.success) << first;
-  EXPECT_TRUE(write("left", 103, 2.5, true, 4).success) << "the same again is not written and costs nothing";
+  EXPECT_TRUE(write("left", 102, 2.5, true, 3).success) << "the same again is not written and costs nothing";
   killAndRestart();
-  const Written second = write("left", 103, 3.0, true, 4);
+  const Written second = write("left", 102, 3.0, true, 3);
   ASSERT_TRUE(second.success) << second;
   killAndRestart();
-  const Written third = write("left", 103, 3.5, true, 4);
+  const Written third = write("left", 102, 3.5, true, 3);
   EXPECT_FALSE(third.success);
   EXPECT_THAT(third.message, AllOf(HasSubstr("drive left: its EEPROM has had 2 writes"), HasSubstr("eeprom_budget")));
   EXPECT_EQ(eepromWrites("left"), before + 2);
-  EXPECT_DOUBLE_EQ(read("left", 103, 4).response.value, 3.0);
+  EXPECT_DOUBLE_EQ(read("left", 102, 3).response.value, 3.0);
   // Where a write to RAM costs EEPROM writes, too, it is refused with it.
-  EXPECT_EQ(write("left", 103, 3.5, false, 4).success, bus().has_ram_orders);
+  EXPECT_EQ(write("left", 102, 3.5, false, 3).success, bus().has_ram_orders);
   std::ofstream(shared_file) << "?";
-  const Written broken = write("left", 103, 4.0, true, 4);
+  const Written broken = write("left", 102, 4.0, true, 3);
   EXPECT_FALSE(broken.success);
   EXPECT_THAT(broken.message, AllOf(HasSubstr(shared_file), HasSubstr("mend or remove the file")));
-  EXPECT_TRUE(write("left", 103, 4.0, false, 4).success) << "the RAM can be written";
+  EXPECT_TRUE(write("left", 102, 4.0, false, 3).success) << "the RAM can be written";
 }
 
 }  // namespace
