@@ -9,6 +9,7 @@
 #include "node/start_sentence.h"
 #include "node/what_is_offered.h"
 #include "nord_driver/profile/series.h"
+#include "tools/counted_write.h"
 #include "tools/installed_catalogues.h"
 
 namespace nord_driver::node {
@@ -55,7 +56,8 @@ DriverNode::DriverNode()
       settings_("~", privateParameters()),
       config_(withWhatIsOffered(readNodeConfig(settings_, robotDescription()), settings_)),
       catalogues_(tools::installedCatalogues(config_.parameter_files)),
-      loader_("nord_driver", "nord_driver::Transport") {
+      loader_("nord_driver", "nord_driver::Transport"),
+      eeprom_budget_(tools::eepromBudget(config_.eeprom)) {
   loadTransport();
   lookUpMonitored();
   warnOfUnknownKeys();
@@ -131,6 +133,9 @@ void DriverNode::advertise() {
   for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
     const cycle::DriveSetup& setup = config_.cycle.drives[i];
     names.push_back(setup.name);
+    eeproms_.emplace_back(eeprom_budget_,
+                          tools::placeOf(where_, shortTransportName(config_.transport), config_.drives[i]), setup.name,
+                          transport_->parameterCapabilities(i).ram_writes);
     traced.push_back({setup.name, identities_[i].address});
     drive_publishers_.emplace_back(private_node_, setup, identities_[i],
                                    DriveProtection{identities_[i], config_.cycle.drives[i].series,
@@ -146,7 +151,8 @@ void DriverNode::advertise() {
   fault_board_ = std::make_unique<FaultBoard>(names, faults_);
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
   diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, faults_, values_, where_);
-  services_ = std::make_unique<Services>(private_node_, stops_.handle(), config_, known, *fault_board_, *broker_);
+  services_ =
+      std::make_unique<Services>(private_node_, stops_.handle(), config_, known, *fault_board_, eeproms_, *broker_);
   tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace());
   ports_->setObserver(&tracing_->feed());
   if (config_.cycle.base) {

@@ -8,6 +8,7 @@
 #include <std_srvs/Trigger.h>
 
 #include <atomic>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <pluginlib/class_loader.hpp>
@@ -78,6 +79,8 @@ class DriverNode {
   std::vector<catalogue::FaultWords> faults_;  // one per drive
   std::vector<DriveValues> values_;            // one per drive
   std::unique_ptr<FaultBoard> fault_board_;
+  state::EepromBudget eeprom_budget_;
+  std::deque<state::DriveEeprom> eeproms_;  // one per drive
 
   std::unique_ptr<cycle::CyclePorts> ports_;
   std::unique_ptr<cycle::BusCycle> cycle_;

@@ -73,6 +73,7 @@ NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot
   }
   config.writable_parameters = readWritableParameters(settings);
   config.parameter_files = settings.texts("parameter_files").value_or(std::vector<std::string>{});
+  config.eeprom = readEepromSettings(settings);
   acceptControllerKeys(settings);
   config.publish = readPublish(settings);
   config.publish.publish_wheel_states = booleanOr(settings, "publish_wheel_joint_controller_state", false);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "config/eeprom_settings.h"
 #include "config/tree_settings.h"
 #include "config/writable_parameters.h"
 #include "cycle/cycle_config.h"
@@ -38,6 +39,7 @@ struct NodeConfig {
   bool read_only = false;                    ///< looks on: commands nothing and writes nothing
   WritableParameters writable_parameters;    ///< by users, over this node
   std::vector<std::string> parameter_files;  ///< laid over the project's, in this order
+  EepromSettings eeprom;
   PublishConfig publish;
   cycle::CycleConfig cycle;
   std::optional<trace::TraceConfig> trace;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "config/eeprom_settings.h"
 #include "config/writable_parameters.h"
 #include "cycle/cycle_config.h"
 #include "nord_driver/config/settings.h"
@@ -22,6 +23,7 @@ struct ToolConfig {
   cycle::CycleConfig cycle;                  ///< without a base
   WritableParameters writable_parameters;    ///< by this program as by the node
   std::vector<std::string> parameter_files;  ///< of the user, laid over the project's
+  EepromSettings eeprom;
 };
 
 /// The plugin name of the file's transport, with its prefix. Throws ConfigError.

@@ -41,6 +41,7 @@ const std::map<std::string, Names>& table() {
       {"link/serial", {"core", "link"}},
       {"link/can", {"core", "link"}},
       {"link/modbus", {"core", "link"}},
+      {"state", {"core"}},
       {"config", {"core", "profile"}},
       {"catalogue", {"core", "config", "profile"}},
       {"robot", {"core"}},
@@ -66,7 +67,8 @@ const std::map<std::string, Names>& table() {
       {"sim/interbus", simulatorWith({"link/modbus"})},
       {"sim_node", {"core", "sim", "ros_support"}},
       {"tools",
-       {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "sim", "node/node_config"}},
+       {"core", "state", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "sim",
+        "node/node_config"}},
       {"tools/nord_param", {"core", "config", "tools/commands", "tools"}},
       {"tools/commands",  // of nord_param, one file each
        {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "node/node_config",
@@ -74,7 +76,7 @@ const std::map<std::string, Names>& table() {
       {"node/node_config",  // what a file says, for the node and for the programs
        {"core", "config", "profile", "transport", "robot", "drive", "cycle", "trace"}},
       {"node",
-       {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "trace/*", "tools",
+       {"core", "state", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "trace/*", "tools",
         "node/node_config", "ros_support"}},
       {"system", {"*"}},                             // tests of the whole stack, without ROS
       {"support", {"core", "config", "transport"}},  // what tests of several folders share
