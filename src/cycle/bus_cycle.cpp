@@ -73,14 +73,7 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       outputs_(config.drives.size()),
       inputs_(config.drives.size()),
       snapshot_(config.drives.size()) {
-  for (const DriveSetup& setup : config.drives) {
-    const DriveIndex drive = axes_.size();
-    ParameterChannelUse channel;
-    channel.timeout_owner = transport.identity(drive).timeout_owner;
-    channel.capabilities = transport.parameterCapabilities(drive);
-    channel.users_only = role == CycleRole::kGuest;
-    axes_.emplace_back(drive, setup, channel);
-  }
+  for (const DriveSetup& setup : config.drives) addAxis(setup, role);
   if (!config.base) return;
   base_.emplace(*config.base, config.cmd_vel_timeout);
   wheels_ = config.base->wheels();
@@ -93,7 +86,7 @@ void BusCycle::runOnce() noexcept {
   command(now, rampTime(now));
   last_command_ = now;
 
-  for (DriveIndex i = 0; i < drives_.size(); ++i) outputs_[i] = drives_[i].pollOutput(now);
+  pollOutputs(now);
   gate_.holdBack(outputs_);
   transport_.exchange(outputs_, inputs_);
   gate_.handleInputs(inputs_);
@@ -356,7 +349,7 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive, Instant now) const noex
       report.saturated || (to.enabled && (of_base ? base_->belowMinimum() : axes_[drive].motion.beyondFull()));
   to.state = report.state;
   to.parameter_set = report.parameter_set;
-  to.output = report.output;
+  to.output = axes_[drive].words.empty() ? report.output : outputs_[drive];
   to.input = report.input;
   to.velocity_command = report.velocity_command.value;
   to.velocity = report.velocity.value;

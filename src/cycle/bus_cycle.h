@@ -11,6 +11,7 @@
 #include "cycle/cycle_ports.h"
 #include "cycle/cycle_statistics.h"
 #include "cycle/drive_parameters.h"
+#include "cycle/drive_words.h"
 #include "cycle/guest_gate.h"
 #include "cycle/joint_motion.h"
 #include "cycle/speed_watch.h"
@@ -53,8 +54,11 @@ class BusCycle {
   /// One drive with everything the cycle keeps beside it.
   struct Axis {
     Axis(DriveIndex drive, const DriveSetup& setup, const ParameterChannelUse& channel)
-        : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, channel), motion(setup.limits) {}
+        : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, channel),
+          words(channel.users_only ? WordSetup{} : setup.words, setup.series, channel.needs.words),
+          motion(setup.limits) {}
     DriveParameters parameters;
+    DriveWords words;
     JointMotion motion;  // of a drive that belongs to no base
     robot::JointPosition joint;
     SpeedWatch speed;
@@ -71,6 +75,10 @@ class BusCycle {
   void command(Instant now, Duration dt) noexcept;
   void commandBase(Instant now, Duration dt) noexcept;
   void commandSingles(Instant now, Duration dt) noexcept;
+  void addAxis(const DriveSetup& setup, CycleRole role);
+  void pollOutputs(Instant now) noexcept;
+  /// The drive is enabled and does what its velocity command says, which is fresh.
+  bool followsCommand(DriveIndex drive, Instant now) noexcept;
   robot::WheelSpeeds maxWheelSpeeds() const noexcept;
   MinimumSpeeds minWheelSpeeds() const noexcept;
   void handleInputs(Instant now) noexcept;

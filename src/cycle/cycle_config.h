@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cycle/base_config.h"
+#include "cycle/word_setup.h"
 #include "drive/drive.h"
 #include "drive/stop_way.h"
 #include "nord_driver/config/settings.h"
@@ -27,6 +28,7 @@ struct DriveSetup {
   std::optional<double> typed_max_frequency;
   std::optional<double> rated_current;  ///< A
   robot::SpeedLimits limits;            ///< of the joint, rad; of a drive that belongs to no base
+  WordSetup words;                      ///< what users command and read beside the velocity
 };
 
 struct RealTimeOptions {

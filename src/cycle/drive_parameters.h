@@ -9,6 +9,7 @@
 #include "cycle/completion_queue.h"
 #include "cycle/device_reader.h"
 #include "cycle/request.h"
+#include "cycle/word_needs.h"
 #include "drive/drive.h"
 #include "drive/fault_reader.h"
 #include "drive/parameter_session.h"
@@ -30,6 +31,7 @@ bool decidesMotion(const Request& request) noexcept;
 struct ParameterChannelUse {
   TimeoutOwner timeout_owner = TimeoutOwner::kInverter;
   profile::ParameterCapabilities capabilities;
+  WordNeeds needs;          ///< of the words beside the first
   bool users_only = false;  ///< nothing is read that no user has asked for: neither faults nor what scaling needs
 };
 
@@ -56,6 +58,8 @@ class DriveParameters {
   bool handleResult(const profile::ParameterResult& result) noexcept;
   std::optional<Completion> pollCompletion() noexcept { return completions_.poll(); }
 
+  /// A user's write that changes what the process data mean is under way, or its effect not read yet.
+  bool wordsInDoubt() const noexcept { return writesProcessData() || !reader_.motionAsked(); }
   const DeviceData& device() const noexcept { return reader_.data(); }
   const drive::FaultReader& faults() const noexcept { return faults_; }
   std::uint64_t eepromWrites() const noexcept { return session_.eepromWrites(); }

@@ -98,6 +98,7 @@ ConfiguredTransport configureTransport(NodeConfig& config, Transport& transport)
   configured.warnings = transport.warnings();
   for (DriveIndex i = 0; i < config.drives.size(); ++i) {
     configured.identities.push_back(transport.identity(i));
+    cycle::checkWordsCarried(*config.drives[i].settings, config.cycle.drives[i].words, configured.identities[i]);
     // Without a parameter channel P105 cannot be read: nobody could say what a setpoint means.
     if (configured.identities[i].parameter_channel == "none" && !config.cycle.drives[i].typed_max_frequency) {
       throw missingSetting(*config.drives[i].settings, "max_frequency",
