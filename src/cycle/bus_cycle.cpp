@@ -54,15 +54,7 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       outputs_(config.drives.size()),
       inputs_(config.drives.size()),
       snapshot_(config.drives.size()) {
-  for (const DriveSetup& setup : config.drives) {
-    const DriveIndex drive = axes_.size();
-    ParameterChannelUse channel;
-    channel.timeout_owner = transport.identity(drive).timeout_owner;
-    channel.capabilities = transport.parameterCapabilities(drive);
-    channel.monitor = setup.monitor;
-    channel.users_only = role == CycleRole::kGuest;
-    axes_.emplace_back(drive, setup, channel);
-  }
+  for (const DriveSetup& setup : config.drives) addAxis(setup, role);
   if (!config.base) return;
   base_.emplace(*config.base, config.cmd_vel_timeout);
   wheels_ = config.base->wheels();
@@ -75,7 +67,7 @@ void BusCycle::runOnce() noexcept {
   command(now, rampTime(now));
   last_command_ = now;
 
-  for (DriveIndex i = 0; i < drives_.size(); ++i) outputs_[i] = drives_[i].pollOutput(now);
+  pollOutputs(now);
   gate_.holdBack(outputs_);
   if (role_ == CycleRole::kOnlooker) std::fill(outputs_.begin(), outputs_.end(), profile::ProcessOutput{});
   transport_.exchange(outputs_, inputs_);

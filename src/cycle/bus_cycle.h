@@ -60,6 +60,10 @@ class BusCycle {
   void command(Instant now, Duration dt) noexcept;
   void commandBase(Instant now, Duration dt) noexcept;
   void commandSingles(Instant now, Duration dt) noexcept;
+  void addAxis(const DriveSetup& setup, CycleRole role);
+  void pollOutputs(Instant now) noexcept;
+  /// The drive is enabled and does what its velocity command says, which is fresh.
+  bool followsCommand(DriveIndex drive, Instant now) noexcept;
   robot::WheelSpeeds maxWheelSpeeds() const noexcept;
   MinimumSpeeds minWheelSpeeds() const noexcept;
   void handleInputs(Instant now) noexcept;

@@ -11,6 +11,7 @@
 #include "cycle/device_reader.h"
 #include "cycle/monitor_reader.h"
 #include "cycle/request.h"
+#include "cycle/word_needs.h"
 #include "drive/drive.h"
 #include "drive/fault_reader.h"
 #include "drive/parameter_session.h"
@@ -34,6 +35,7 @@ struct ParameterChannelUse {
   profile::ParameterCapabilities capabilities;
   /// What somebody wants to look at; a set 0 is the one in force.
   std::vector<profile::ParameterRequest> monitor = {};
+  WordNeeds needs;          ///< of the words beside the first
   bool users_only = false;  ///< nothing is read that no user has asked for: neither faults nor what scaling needs
 };
 
@@ -61,6 +63,8 @@ class DriveParameters {
   bool handleResult(const profile::ParameterResult& result) noexcept;
   std::optional<Completion> pollCompletion() noexcept { return completions_.poll(); }
 
+  /// A user's write that changes what the process data mean is under way, or its effect not read yet.
+  bool wordsInDoubt() const noexcept { return writesProcessData() || !reader_.motionAsked(); }
   const DeviceData& device() const noexcept { return reader_.data(); }
   const drive::FaultReader& faults() const noexcept { return faults_; }
   /// In the order of ParameterChannelUse::monitor.

@@ -148,6 +148,7 @@ void DriverNode::advertise() {
     };
     subscribers_.push_back(private_commands_.handle().subscribe<std_msgs::Float64>(setup.name + "/command", 1, take));
   }
+  word_topics_ = std::make_unique<WordTopics>(private_commands_, config_.cycle, *ports_);
   fault_board_ = std::make_unique<FaultBoard>(names, faults_);
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
   diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, faults_, values_, where_);
@@ -234,6 +235,7 @@ LoggedDrives DriverNode::loggedDrives() const {
 void DriverNode::noteCommanders() {
   std::uint32_t now = command_subscriber_ ? command_subscriber_.getNumPublishers() : 0;
   for (const ros::Subscriber& subscriber : subscribers_) now += subscriber.getNumPublishers();
+  now += word_topics_->commanders();
   if (now > commanders_) ports_->commanderConnected(steadyNow());
   commanders_ = now;
 }

@@ -33,6 +33,7 @@
 #include "node/snapshot_publisher.h"
 #include "node/tracing.h"
 #include "node/values_publisher.h"
+#include "node/word_topics.h"
 #include "nord_driver/transport/transport.h"
 
 namespace nord_driver::node {
@@ -95,6 +96,7 @@ class DriverNode {
   std::unique_ptr<BusPublisher> bus_publisher_;
   std::unique_ptr<Diagnostics> diagnostics_;
   std::unique_ptr<Services> services_;
+  std::unique_ptr<WordTopics> word_topics_;
   std::unique_ptr<Tracing> tracing_;
   std::optional<SnapshotPublisher> publisher_;
   std::vector<ros::Subscriber> subscribers_;
