@@ -31,6 +31,8 @@ struct DeviceData {
   FixedVector<std::uint16_t, 3> setpoint_functions;      ///< P546..P548 of parameter set 1, each in its place
   FixedVector<std::uint16_t, 3> actual_value_functions;  ///< P543..P545 of parameter set 1, each in its place
   FixedVector<std::uint16_t, 12> bus_bit_functions;      ///< P480 [-01].., each in its place: what bus I/O bits do
+  std::optional<std::int32_t> control_word_source;       ///< P509: who commands the inverter
+  std::optional<std::int32_t> setpoint_source;           ///< P510 (or [-01]): whose setpoint; 0 = as P509
   std::uint32_t ident = 0;
   bool complete = false;  ///< everything was asked for; what the drive refused is absent
 };
