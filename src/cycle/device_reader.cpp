@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint8_t kMaxAttempts = 3;
 constexpr std::uint16_t kMinFrequency = 104, kMaxFrequency = 105, kOptionMonitoring = 120, kModuleTimeout = 151,
-                        kBusBits = 480, kTelegramTimeout = 513, kFirstActualValue = 543, kFirstSetpoint = 546,
-                        kEepromSwitch = 560, kSoftwareVersion = 707;
+                        kBusBits = 480, kControlWordSource = 509, kSetpointSource = 510, kTelegramTimeout = 513,
+                        kFirstActualValue = 543, kFirstSetpoint = 546, kEepromSwitch = 560, kSoftwareVersion = 707;
 constexpr std::uint8_t kSets = 4;
 constexpr std::uint16_t kAccelerationTime = 102, kDecelerationTime = 103;
 // s: the bus manuals name no unit of P103, which is set in the steps of P102 on the inverter.
@@ -46,6 +46,8 @@ DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool furt
     add(kAccelerationTime, set, 1);
     add(kDecelerationTime, set, 1);
   }
+  add(kControlWordSource, 1, 1);
+  add(kSetpointSource, 1, 1);
 }
 
 void DeviceReader::add(std::uint16_t number, std::uint8_t set, std::uint8_t index) noexcept {
@@ -162,6 +164,10 @@ void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
     data_.saves_in_eeprom = raw != 0;
   } else if (item.number == kSoftwareVersion) {
     (item.index == 1 ? data_.software_version : data_.software_revision) = raw;
+  } else if (item.number == kControlWordSource) {
+    data_.control_word_source = raw;
+  } else if (item.number == kSetpointSource) {
+    data_.setpoint_source = raw;
   } else if (item.number == kMinFrequency) {
     data_.min_frequency[item.set - 1u] = value;
   } else if (item.number == kBusBits) {
