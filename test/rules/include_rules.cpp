@@ -80,6 +80,7 @@ const std::map<std::string, Names>& table() {
        {"core", "state", "config", "catalogue", "commissioning", "profile", "transport", "robot", "drive", "cycle",
         "trace/*", "tools", "node/node_config", "ros_support"}},
       {"system", {"*"}},                             // tests of the whole stack, without ROS
+      {"explore", {"*"}},                            // every order of events, at one object or few
       {"support", {"core", "config", "transport"}},  // what tests of several folders share
       {"ros_support", {}},                           // the same for those with ROS
       {"rostest", {"*"}},                            // the programs as their users meet them
