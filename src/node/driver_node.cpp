@@ -130,7 +130,7 @@ void DriverNode::advertise() {
   }
   fault_board_ = std::make_unique<FaultBoard>(names, faults_);
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
-  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, faults_, where_);
+  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, known, where_);
   services_ = std::make_unique<Services>(private_node_, stops_.handle(), config_, known, *fault_board_, *broker_);
   tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace());
   ports_->setObserver(&tracing_->feed());
