@@ -23,7 +23,7 @@ void minimumIsZero(const Drives& drives, std::size_t index, Findings& to) {
         drive.finding(key, allowed ? Severity::kNote : refused,
                       allowed ? "allow_minimum_frequency: true; enabled, the motor turns no slower than that, and a "
                                 "command of zero is OFF1"
-                              : "enabled, the motor turns at that with setpoint 0: the drive is not enabled");
+                              : "with setpoint 0 the motor would turn at that, and the driver does not enable it");
     finding.remedy = drive.remedy(key, 0);
     to.push_back(finding);
   }

@@ -231,6 +231,16 @@ TEST(Rules, TellWhatCouldNotBeRead) {
   }
 }
 
+TEST(Rules, MissNoMaximumThatIsTypedIn) {
+  AskedDrive asked = askedDrive(Series::kSk5xxe);
+  const catalogue::DriveCatalogue& known = knownOf(asked);
+  CommissioningFacts facts = rightFacts(asked, known);
+  facts.storeUnreadable({105, 1, 0});
+  EXPECT_THAT(shortly(check({{asked, known, facts, 1}})), ElementsAre("readable warning P105 set 1"));
+  asked.typed_max_frequency = 50.0;
+  EXPECT_THAT(check({{asked, known, facts, 1}}), IsEmpty());
+}
+
 // A technician looks it up.
 TEST(Rules, NameAManualWithEveryFinding) {
   for (const Row& row : rows()) {

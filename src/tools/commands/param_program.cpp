@@ -74,6 +74,8 @@ catalogue::Catalogues ParamProgram::cataloguesFor(const ToolConfig& config) cons
 int ParamProgram::onDrive(const std::string& drive,
                           const std::function<DriveTask(const catalogue::DriveCatalogue&)>& prepare) {
   const ToolConfig config = readToolConfig(file(), drive);
+  if (transport_used_) transport_ = loader_.load(config.transport);  // one is configured once only
+  transport_used_ = true;
   const catalogue::Catalogues catalogues = cataloguesFor(config);
   ParameterLink link{config, transport(), catalogues};
   const DriveTask task = prepare(link.known());
