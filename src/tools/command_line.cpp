@@ -51,9 +51,13 @@ std::string listed(const std::string& name, const std::string& about) {
   return line + about + "\n";
 }
 
+std::string wordOf(const Argument& argument) {
+  return argument.optional ? "[" + argument.name + "]" : argument.name;
+}
+
 std::string usageOf(const std::string& program, const Command& command) {
   std::string usage = program + " " + command.name + " [OPTIONS]";
-  for (const Argument& argument : command.arguments) usage += " " + argument.name;
+  for (const Argument& argument : command.arguments) usage += " " + wordOf(argument);
   return usage;
 }
 
@@ -221,7 +225,8 @@ void CommandLine::store(const std::vector<std::string>& words, const std::vector
     const std::vector<Argument>& expected = chosen_->arguments;
     const std::size_t given = others.size() - 1;
     const std::string usage = ", expected: " + usageOf(program_, *chosen_);
-    if (given < expected.size()) throw UsageError(expected[given].name + " is missing" + usage);
+    if (given < expected.size() && !expected[given].optional)
+      throw UsageError(expected[given].name + " is missing" + usage);
     if (given > expected.size()) throw UsageError("\"" + others[expected.size() + 1] + "\" is too much" + usage);
     for (std::size_t i = 0; i < given; ++i) *expected[i].value = others[i + 1];
   }

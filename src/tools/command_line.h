@@ -32,6 +32,7 @@ struct Argument {
   std::string name;  ///< in capitals, as --help shows it
   std::string about;
   std::string* value;
+  bool optional = false;  ///< may be left out; those after it, too
 };
 
 /// What a program can be asked for by name, with the words and the options that belong to it.

@@ -15,6 +15,7 @@
 #include "tools/bus_port.h"
 #include "tools/command_line.h"
 #include "tools/drive_parameters.h"
+#include "tools/progress_bar.h"
 #include "tools/tool_config.h"
 #include "tools/transport_loader.h"
 
@@ -41,11 +42,20 @@ class ParamProgram {
   const YAML::Node& file();
   /// As the configuration names it; not configured. Throws as file().
   Transport& transport();
+  /// Its name without prefix; empty without --config. Throws as file().
+  std::string transportName();
+  /// The drives of the configuration; none without --config. Throws as file().
+  std::vector<std::string> driveNames();
+  /// cataloguesFor() the configuration, where there is one. Throws as file().
+  catalogue::Catalogues catalogues();
+  /// On stderr, where it is a terminal.
+  ProgressBar& progress() noexcept { return progress_; }
   /// The project's, those of the configuration, and --parameter-files.
   catalogue::Catalogues cataloguesFor(const ToolConfig& config) const;
 
   /// Opens the bus, does the task with the drive of that name, and closes the bus. `prepare` makes the task of what is
-  /// known of the drive, and tells what is wrong already there: that reaches no bus. Returns the exit code.
+  /// known of the drive, and tells what is wrong already there: that reaches no bus. Returns the exit code. May be called
+  /// for one drive after the other.
   int onDrive(const std::string& drive, const std::function<DriveTask(const catalogue::DriveCatalogue&)>& prepare);
 
  private:
@@ -61,6 +71,7 @@ class ParamProgram {
   TransportLoader loader_;
   boost::shared_ptr<Transport> transport_;  // empty: nothing is loaded yet
   YAML::Node file_;
+  ProgressBar progress_;
 };
 
 }  // namespace nord_driver::tools
