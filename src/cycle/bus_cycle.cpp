@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cycle/drive_snapshot.h"
+#include "cycle/make_drives.h"
 #include "cycle/user_messages.h"
 
 namespace nord_driver::cycle {
@@ -32,28 +34,6 @@ std::vector<bool> membersOfBase(const Supervisor& supervisor, std::size_t drives
 // Never too late.
 bool stops(RequestKind kind) noexcept {
   return kind == RequestKind::kDisable || kind == RequestKind::kQuickStop || kind == RequestKind::kShutDown;
-}
-
-// A cycle in which one station is silent takes as long as all its retries: behind a slow adapter longer than several
-// others. Two such cycles are no loss, unless somebody said so.
-Duration driveTimeout(const CycleConfig& config, const DriveSetup& setup, const DriveIdentity& identity) {
-  if (config.drive_timeout_given) return setup.drive.drive_timeout;
-  return std::max(setup.drive.drive_timeout, config.period() + 2 * seconds(identity.worst_cycle));
-}
-
-std::vector<drive::Drive> makeDrives(const CycleConfig& config, Transport& transport) {
-  std::vector<drive::Drive> drives;
-  Duration shortest = Duration::max();
-  for (const DriveSetup& setup : config.drives) {
-    drive::DriveConfig drive = setup.drive;
-    const DriveIdentity identity = transport.identity(drives.size());
-    drive.drive_timeout = driveTimeout(config, setup, identity);
-    drive.parameter_sets = identity.parameter_sets;
-    shortest = std::min(shortest, drive.drive_timeout);
-    drives.emplace_back(drive);
-  }
-  transport.setDriveTimeout(shortest);
-  return drives;
 }
 
 }  // namespace
@@ -346,55 +326,11 @@ void BusCycle::tellChanges(Instant now) noexcept {
 }
 
 void BusCycle::fill(DriveSnapshot& to, DriveIndex drive, Instant now) const noexcept {
-  const drive::DriveReport& report = drives_[drive].report();
-  to.time = now;
-  to.online = report.online;
-  to.module_answers = inputs_[drive].module_answers;
-  to.enabled = drive::isEnabled(report.phase);
-  const bool of_base = supervisor_.inBase(drive);
-  to.saturated =
-      report.saturated || (to.enabled && (of_base ? base_->belowMinimum() : axes_[drive].motion.beyondFull()));
-  to.state = report.state;
-  to.parameter_set = report.parameter_set;
-  to.output = report.output;
-  to.input = report.input;
-  to.velocity_command = report.velocity_command.value;
-  to.velocity = report.velocity.value;
-  to.frequency = report.frequency.value;
-  to.speed_deviation = axes_[drive].speed.deviation();
-  to.at_speed = axes_[drive].speed.atSpeed();
-  to.not_following = axes_[drive].speed.isNotFollowing();
-  to.joint_position = axes_[drive].joint.position();
-  to.fault_number = axes_[drive].parameters.faults().number();
-  to.last_fault_number = axes_[drive].parameters.faults().lastNumber();
-  to.switch_on_reason = report.switch_on_reason;
-  to.fault_latched = report.fault_latched;
-  to.eeprom_writes = axes_[drive].parameters.eepromWrites();
-  to.owes_eeprom_switch = axes_[drive].parameters.owesEepromSwitch();
-  to.terminals = axes_[drive].terminals.finding();
-  to.terminals_text = terminalMessage(names_[drive].c_str(), to.terminals, report);
-  to.direction_contradiction = report.direction_contradiction;
-  to.stopped = report.stop_cause != drive::StopCause::kNone || report.fault_latched;
-  to.stop_cause = report.stop_cause;
-  if (!report.online) {
-    to.text = transport_.note(drive).text;
-  } else {
-    to.text = stopMessage(names_[drive].c_str(), report.stop_cause, report);
-    // Its bit may have vanished with our first idle word (BU 0020 8); enabling is refused for it all the same.
-    if (to.text.empty() && report.fault_latched) {
-      to.text = refusalMessage(names_[drive].c_str(), drive::Refusal::kFaultLatched, report);
-    }
-  }
-  if (to.online) {
-    const bool fault = profile::StatusWord{to.input.status_word}.fault();
-    if (fault && !to.fault) {
-      ++to.faults;
-      to.at_fault = to;
-    }
-    to.fault = fault;
-  }
-  to.device = axes_[drive].parameters.device();
-  to.device.ident = transport_.identNumber(drive);
+  const Axis& axis = axes_[drive];
+  const bool beyond = supervisor_.inBase(drive) ? base_->belowMinimum() : axis.motion.beyondFull();
+  fillDriveSnapshot(
+      to, {drive, names_[drive].c_str(), drives_[drive].report(), axis, inputs_[drive].module_answers, beyond},
+      transport_, now);
 }
 
 }  // namespace nord_driver::cycle

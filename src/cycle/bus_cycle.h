@@ -5,22 +5,18 @@
 #include <optional>
 #include <vector>
 
+#include "cycle/axis.h"
 #include "cycle/base_motion.h"
 #include "cycle/command_watch.h"
 #include "cycle/cycle_config.h"
 #include "cycle/cycle_ports.h"
 #include "cycle/cycle_statistics.h"
-#include "cycle/drive_parameters.h"
 #include "cycle/guest_gate.h"
-#include "cycle/joint_motion.h"
-#include "cycle/speed_watch.h"
 #include "cycle/standstill_requests.h"
 #include "cycle/supervisor.h"
-#include "cycle/terminal_watch.h"
 #include "drive/drive.h"
 #include "nord_driver/core/time.h"
 #include "nord_driver/transport/transport.h"
-#include "robot/joint_position.h"
 
 namespace nord_driver::cycle {
 
@@ -50,18 +46,6 @@ class BusCycle {
   void closeGate() noexcept { gate_.close(); }
 
  private:
-  /// One drive with everything the cycle keeps beside it.
-  struct Axis {
-    Axis(DriveIndex drive, const DriveSetup& setup, const ParameterChannelUse& channel)
-        : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, channel), motion(setup.limits) {}
-    DriveParameters parameters;
-    JointMotion motion;  // of a drive that belongs to no base
-    robot::JointPosition joint;
-    SpeedWatch speed;
-    TerminalWatch terminals;
-    bool known = false;  // has answered at least once
-  };
-
   void takeRequests(Instant now) noexcept;
   void takeRequest(const Request& request, Instant now) noexcept;
   void selectParameterSet(const Request& request, Instant now) noexcept;

@@ -67,6 +67,10 @@ const std::map<std::string, Names>& table() {
       {"sim_node", {"core", "sim", "ros_support"}},
       {"tools",
        {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "sim", "node/node_config"}},
+      {"tools/nord_param", {"core", "config", "tools/commands", "tools"}},
+      {"tools/commands",  // of nord_param, one file each
+       {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "node/node_config",
+        "tools/*"}},
       {"node/node_config",  // what a file says, for the node and for the programs
        {"core", "config", "profile", "transport", "robot", "drive", "cycle", "trace"}},
       {"node",

@@ -1,0 +1,26 @@
+// One drive with everything the bus cycle keeps beside it.
+#pragma once
+
+#include "cycle/cycle_config.h"
+#include "cycle/drive_parameters.h"
+#include "cycle/joint_motion.h"
+#include "cycle/speed_watch.h"
+#include "cycle/terminal_watch.h"
+#include "nord_driver/transport/transport.h"
+#include "robot/joint_position.h"
+
+namespace nord_driver::cycle {
+
+struct Axis {
+  Axis(DriveIndex drive, const DriveSetup& setup, const ParameterChannelUse& channel)
+      : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, channel), motion(setup.limits) {}
+
+  DriveParameters parameters;
+  JointMotion motion;  ///< of a drive that belongs to no base
+  robot::JointPosition joint;
+  SpeedWatch speed;
+  TerminalWatch terminals;
+  bool known = false;  ///< has answered at least once
+};
+
+}  // namespace nord_driver::cycle
