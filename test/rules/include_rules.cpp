@@ -68,6 +68,7 @@ const std::map<std::string, Names>& table() {
       {"tools",
        {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "sim", "node/node_config"}},
       {"tools/nord_param", {"core", "config", "tools/commands", "tools"}},
+      {"tools/restore", {"core", "config", "catalogue", "profile", "cycle", "tools"}},
       {"tools/commands",  // of nord_param, one file each
        {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "node/node_config",
         "tools/*"}},

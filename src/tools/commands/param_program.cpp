@@ -95,8 +95,12 @@ int ParamProgram::onDrive(const std::string& drive,
                           const std::function<DriveTask(const catalogue::DriveCatalogue&)>& prepare) {
   const ToolConfig config = readToolConfig(file(), drive);
   const catalogue::Catalogues catalogues = cataloguesFor(config);
-  const auto transport = loader_.load(config.transport);  // one that has served already is closed for good
-  ParameterLink link{config, *transport, catalogues};
+  if (served_) {
+    transport_.reset();  // configured for another drive; the library does not like two of them
+    transport_ = loader_.load(config.transport);
+  }
+  served_ = true;
+  ParameterLink link{config, *transport_, catalogues};
   const DriveTask task = prepare(link.known());
   refuseBusInUse(config);
   return carryOut(link, timeout(), task, end_asked_);

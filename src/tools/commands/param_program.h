@@ -70,6 +70,7 @@ class ParamProgram {
   const std::atomic<bool>& end_asked_;
   TransportLoader loader_;
   boost::shared_ptr<Transport> transport_;  // empty: nothing is loaded yet
+  bool served_ = false;                     // it is configured for one drive
   YAML::Node file_;
   ProgressBar progress_;
 };
