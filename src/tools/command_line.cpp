@@ -51,9 +51,13 @@ std::string listed(const std::string& name, const std::string& about) {
   return line + about + "\n";
 }
 
+std::string wordOf(const Argument& argument) {
+  return argument.optional ? "[" + argument.name + "]" : argument.name;
+}
+
 std::string usageOf(const std::string& program, const Command& command) {
   std::string usage = program + " " + command.name + " [OPTIONS]";
-  for (const Argument& argument : command.arguments) usage += " " + argument.name;
+  for (const Argument& argument : command.arguments) usage += " " + wordOf(argument);
   if (command.more.values != nullptr) usage += " [" + command.more.name + " ...]";
   return usage;
 }
@@ -226,12 +230,15 @@ void CommandLine::store(const std::vector<std::string>& words, const std::vector
     const std::vector<Argument>& expected = chosen_->arguments;
     const std::size_t given = others.size() - 1;
     const std::string usage = ", expected: " + usageOf(program_, *chosen_);
-    if (given < expected.size()) throw UsageError(expected[given].name + " is missing" + usage);
+    if (given < expected.size() && !expected[given].optional) {
+      throw UsageError(expected[given].name + " is missing" + usage);
+    }
     const bool takes_more = chosen_->more.values != nullptr;
-    if (given > expected.size() && !takes_more)
+    if (given > expected.size() && !takes_more) {
       throw UsageError("\"" + others[expected.size() + 1] + "\" is too much" + usage);
-    for (std::size_t i = 0; i < expected.size(); ++i) *expected[i].value = others[i + 1];
-    if (takes_more) {
+    }
+    for (std::size_t i = 0; i < std::min(given, expected.size()); ++i) *expected[i].value = others[i + 1];
+    if (takes_more && given > expected.size()) {
       chosen_->more.values->assign(others.begin() + 1 + static_cast<std::ptrdiff_t>(expected.size()), others.end());
     }
   }

@@ -32,6 +32,7 @@ struct Argument {
   std::string name;  ///< in capitals, as --help shows it
   std::string about;
   std::string* value;
+  bool optional = false;  ///< may be left out; those after it, too
 };
 
 /// Words that may follow the arguments of a command, as many as one likes.

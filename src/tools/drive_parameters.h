@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "catalogue/drive_catalogue.h"
 #include "catalogue/parameter_access.h"
+#include "nord_driver/core/time.h"
 #include "nord_driver/transport/transport.h"
 
 namespace nord_driver::tools {
@@ -35,6 +37,8 @@ class DriveParameters {
   virtual ParameterAnswer read(const catalogue::ParameterAddress& address) = 0;
   /// `access` is one to write. Compared before and read back after.
   virtual ParameterAnswer write(const catalogue::ParameterAccess& access) = 0;
+  /// Nothing is asked for so long, while somebody thinks: what the drive has to hear meanwhile it goes on hearing.
+  virtual void pass(Duration time) { std::this_thread::sleep_for(time); }
 
   /// As the configuration calls the drive.
   virtual const std::string& name() const = 0;

@@ -65,6 +65,12 @@ JsonText& JsonText::number(double value) {
   return *this;
 }
 
+JsonText& JsonText::whole(std::int64_t value) {
+  separate();
+  text_ += std::to_string(value);
+  return *this;
+}
+
 JsonText& JsonText::boolean(bool value) {
   separate();
   text_ += value ? "true" : "false";

@@ -1,6 +1,7 @@
 // A JSON text, written in the order it is told.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ class JsonText {
   JsonText& text(const std::string& value);
   /// What is no number or infinite is null.
   JsonText& number(double value);
+  /// With every digit.
+  JsonText& whole(std::int64_t value);
   JsonText& boolean(bool value);
 
   const std::string& str() const noexcept { return text_; }

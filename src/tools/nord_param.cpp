@@ -27,8 +27,8 @@ constexpr char kFooter[] =
     "End the driver first. A serial device in use is refused, and half a second is listened for another master. On "
     "CANopen a drive that runs without a master and sends nothing is not heard, and is stopped by the start-up of its "
     "node.\n"
-    "A dump cannot be written back: the bus settings in it (P507 to P515, P543 to P548, P105) are the branch this "
-    "program sits on, and what fits one drive may move another.\n"
+    "restore writes what a drive can lose without being lost itself. What the bus reaches it by (address, baud rate, "
+    "P509) is left out unless --with-bus-settings is given; what fits one machine may move another: read the plan.\n"
     "Exit code: 0 done, 1 refused, failed or different, 2 wrong usage.";
 
 int run(int argc, char** argv) {

@@ -4,6 +4,7 @@
 
 #include "catalogue/yaml_map.h"
 #include "profile/parameter_shape.h"
+#include "tools/parameter_json.h"
 #include "tools/parameter_name.h"
 
 namespace nord_driver::tools {
@@ -49,11 +50,15 @@ catalogue::ParameterAddress addressOf(const std::string& name, int set, int inde
   return address;
 }
 
-bool readParameter(DriveParameters& drive, const catalogue::ParameterAddress& address) {
+bool readParameter(DriveParameters& drive, const catalogue::ParameterAddress& address, bool json) {
   const ParameterAnswer answer = drive.read(address);
   if (!answer.success) {
     printRefusal(answer);
     return false;
+  }
+  if (json) {
+    std::fputs(answerJson(address, answer, drive).c_str(), stdout);
+    return true;
   }
   std::printf("%s\n", answerText(address, answer, drive).c_str());
   return true;
@@ -81,30 +86,21 @@ catalogue::ParameterAccess checkedWrite(const WriteOptions& write, const catalog
   throw Trouble(wrong);
 }
 
-bool writeParameter(DriveParameters& drive, const catalogue::ParameterAccess& access) {
+bool writeParameter(DriveParameters& drive, const catalogue::ParameterAccess& access, bool json) {
   const ParameterAnswer answer = drive.write(access);
   if (!answer.success) {
     printRefusal(answer);
     return false;
+  }
+  if (json) {
+    std::fputs(answerJson(addressOf(access), answer, drive).c_str(), stdout);
+    return true;
   }
   const bool persistent = access.request.action == profile::ParameterAction::kWritePersistent;
   const char* where = persistent ? ", in the EEPROM" : ", in RAM: lost at power off";
   std::printf("%s%s\n", answerText(addressOf(access), answer, drive).c_str(), answer.message.empty() ? where : "");
   if (!answer.message.empty()) std::printf("%s\n", answer.message.c_str());
   return true;
-}
-
-bool dumpParameters(DriveParameters& drive, const std::atomic<bool>& end_asked) {
-  const Dump dump = takeDump(drive, end_asked);
-  std::printf("%s", dumpText(dump, drive.known(), drive.name(), drive.identity().address).c_str());
-  return true;
-}
-
-bool compareParameters(DriveParameters& drive, const Dump& reference, const std::atomic<bool>& end_asked) {
-  const Comparison comparison = compare(drive, reference, end_asked);
-  for (const std::string& difference : comparison.differences) std::printf("%s\n", difference.c_str());
-  std::printf("%zu of %zu settings differ\n", comparison.differences.size(), comparison.compared);
-  return comparison.differences.empty();
 }
 
 }  // namespace nord_driver::tools

@@ -1,13 +1,10 @@
 // The commands of nord_param: what each prints, and whether it worked.
 #pragma once
 
-#include <atomic>
 #include <string>
 
 #include "nord_driver/transport/transport.h"
 #include "tools/drive_parameters.h"
-#include "tools/parameter_dump.h"
-#include "tools/tool_config.h"
 
 namespace nord_driver::tools {
 
@@ -26,10 +23,8 @@ catalogue::ParameterAddress addressOf(const std::string& name, int set, int inde
 catalogue::ParameterAccess checkedWrite(const WriteOptions& write, const catalogue::ParameterAddress& address,
                                         const catalogue::DriveCatalogue& known);
 
-// On a connected link; false: refused or different, and said so on stderr or stdout.
-bool readParameter(DriveParameters& drive, const catalogue::ParameterAddress& address);
-bool writeParameter(DriveParameters& drive, const catalogue::ParameterAccess& access);
-bool dumpParameters(DriveParameters& drive, const std::atomic<bool>& end_asked);
-bool compareParameters(DriveParameters& drive, const Dump& reference, const std::atomic<bool>& end_asked);
+// On a connected link; false: refused, and said so on stderr.
+bool readParameter(DriveParameters& drive, const catalogue::ParameterAddress& address, bool json);
+bool writeParameter(DriveParameters& drive, const catalogue::ParameterAccess& access, bool json);
 
 }  // namespace nord_driver::tools

@@ -86,6 +86,13 @@ void ParameterLink::idle(int cycles) noexcept {
   for (int i = 0; i < cycles; ++i) exchange();
 }
 
+void ParameterLink::pass(Duration time) noexcept {
+  const Instant end = transport_.now() + time;
+  do {
+    exchange();
+  } while (transport_.now() < end);
+}
+
 ParameterAnswer ParameterLink::read(const catalogue::ParameterAddress& address) {
   const catalogue::ParameterAccess access = catalogue::accessTo(address, known());
   if (!access.error.empty()) throw Trouble(access.error);

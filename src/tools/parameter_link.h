@@ -41,6 +41,8 @@ class ParameterLink final : public DriveParameters {
   /// `access` is one to write. Compared before and read back after; see ParameterSession. Refused past the EEPROM's
   /// budget.
   ParameterAnswer write(const catalogue::ParameterAccess& access) override;
+  /// The bus cycle goes on: a drive with P513 > 0 would trip without its words.
+  void pass(Duration time) noexcept override;
 
   /// Puts back what is not to stay (P560, orders of the parameter channel) and ends the exchange. Returns sentences on
   /// what the end means to the drive.

@@ -71,6 +71,7 @@ const std::map<std::string, Names>& table() {
        {"core", "state", "config", "catalogue", "commissioning", "profile", "transport", "robot", "drive", "cycle",
         "sim", "node/node_config"}},
       {"tools/nord_param", {"core", "config", "tools/commands", "tools"}},
+      {"tools/restore", {"core", "config", "catalogue", "profile", "cycle", "tools"}},
       {"tools/commands",  // of nord_param, one file each
        {"core", "config", "catalogue", "commissioning", "profile", "transport", "robot", "drive", "cycle",
         "node/node_config", "tools/*"}},

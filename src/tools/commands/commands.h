@@ -17,6 +17,8 @@ std::unique_ptr<ParamCommand> makeWriteCommand();
 std::unique_ptr<ParamCommand> makeDumpCommand();
 std::unique_ptr<ParamCommand> makeCompareCommand();
 std::unique_ptr<ParamCommand> makeFaultsCommand();
+std::unique_ptr<ParamCommand> makeDiffCommand();
+std::unique_ptr<ParamCommand> makeRestoreCommand();
 std::unique_ptr<ParamCommand> makeImageCommand();
 std::unique_ptr<ParamCommand> makeCheckCommand();
 std::unique_ptr<ParamCommand> makeCheckConfigCommand();

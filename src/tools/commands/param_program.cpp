@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "config/driver_settings.h"
 #include "config/yaml_settings.h"
 #include "tools/end_signals.h"
 #include "tools/installed_catalogues.h"
@@ -32,7 +33,9 @@ int carryOut(ParameterLink& link, Duration timeout, const DriveTask& task, const
 
 }  // namespace
 
-ParamProgram::ParamProgram(CommandLine& line) : end_asked_(catchEndSignals()) {
+ParamProgram::ParamProgram(CommandLine& line)
+    : end_asked_(catchEndSignals()),
+      progress_([](const std::string& text) { std::fputs(text.c_str(), stderr); }, columnsOfStderr()) {
   line.addOptions()("config", po::value(&files_)->value_name("FILE"),
                     "the driver's YAML file; a later file is laid over an earlier one; required, but for check-config")(
       "bus", po::value(&port_.bus)->value_name("VALUE"),
@@ -65,6 +68,23 @@ Transport& ParamProgram::transport() {
   return *transport_;
 }
 
+std::string ParamProgram::transportName() {
+  return files_.empty() ? "" : shortTransportName(transportOf(file()));
+}
+
+std::vector<std::string> ParamProgram::driveNames() {
+  std::vector<std::string> names;
+  if (files_.empty()) return names;
+  for (const DriveSettings& drive : readDriveList(YamlSettings{"", file()})) names.push_back(drive.name);
+  return names;
+}
+
+catalogue::Catalogues ParamProgram::catalogues() {
+  ToolConfig config;
+  if (!files_.empty()) config = readToolConfig(file(), transport().endPoint());
+  return cataloguesFor(config);
+}
+
 catalogue::Catalogues ParamProgram::cataloguesFor(const ToolConfig& config) const {
   std::vector<std::string> own = config.parameter_files;
   own.insert(own.end(), parameter_files_.begin(), parameter_files_.end());
@@ -74,10 +94,13 @@ catalogue::Catalogues ParamProgram::cataloguesFor(const ToolConfig& config) cons
 int ParamProgram::onDrive(const std::string& drive,
                           const std::function<DriveTask(const catalogue::DriveCatalogue&)>& prepare) {
   const ToolConfig config = readToolConfig(file(), drive);
-  if (transport_used_) transport_ = loader_.load(config.transport);  // one is configured once only
-  transport_used_ = true;
   const catalogue::Catalogues catalogues = cataloguesFor(config);
-  ParameterLink link{config, transport(), catalogues};
+  if (served_) {
+    transport_.reset();  // configured for another drive; the library does not like two of them
+    transport_ = loader_.load(config.transport);
+  }
+  served_ = true;
+  ParameterLink link{config, *transport_, catalogues};
   const DriveTask task = prepare(link.known());
   refuseBusInUse(config);
   return carryOut(link, timeout(), task, end_asked_);

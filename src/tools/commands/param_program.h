@@ -15,6 +15,7 @@
 #include "tools/bus_port.h"
 #include "tools/command_line.h"
 #include "tools/drive_parameters.h"
+#include "tools/progress_bar.h"
 #include "tools/tool_config.h"
 #include "tools/transport_loader.h"
 
@@ -41,6 +42,14 @@ class ParamProgram {
   const YAML::Node& file();
   /// As the configuration names it; not configured. Throws as file().
   Transport& transport();
+  /// Its name without prefix; empty without --config. Throws as file().
+  std::string transportName();
+  /// The drives of the configuration; none without --config. Throws as file().
+  std::vector<std::string> driveNames();
+  /// cataloguesFor() the configuration, where there is one. Throws as file().
+  catalogue::Catalogues catalogues();
+  /// On stderr, where it is a terminal.
+  ProgressBar& progress() noexcept { return progress_; }
   /// The project's, those of the configuration, and --parameter-files.
   catalogue::Catalogues cataloguesFor(const ToolConfig& config) const;
 
@@ -61,8 +70,9 @@ class ParamProgram {
   const std::atomic<bool>& end_asked_;
   TransportLoader loader_;
   boost::shared_ptr<Transport> transport_;  // empty: nothing is loaded yet
-  bool transport_used_ = false;             // it was a drive's already
+  bool served_ = false;                     // it is configured for one drive
   YAML::Node file_;
+  ProgressBar progress_;
 };
 
 }  // namespace nord_driver::tools

@@ -12,18 +12,20 @@ class ReadCommand final : public ParamCommand {
   Command& addTo(CommandLine& line) override {
     Command& command = line.addCommand("read", "read one parameter");
     words_.addTo(command);
+    command.options.add_options()("json", boost::program_options::bool_switch(&json_), "for programs");
     return command;
   }
 
   int run(ParamProgram& program) override {
     return program.onDrive(words_.drive, [this](const catalogue::DriveCatalogue& known) -> DriveTask {
       const catalogue::ParameterAddress address = words_.address(known);
-      return [address](DriveParameters& drive) { return readParameter(drive, address); };
+      return [this, address](DriveParameters& drive) { return readParameter(drive, address, json_); };
     });
   }
 
  private:
   ParameterWords words_;
+  bool json_ = false;
 };
 
 }  // namespace

@@ -16,20 +16,22 @@ class WriteCommand final : public ParamCommand {
     command.arguments.push_back({"VALUE", "in the unit that list shows, or the name of a value", &write_.value});
     command.options.add_options()("persistent", po::bool_switch(&write_.persistent),
                                   "save it in the EEPROM, which endures 100 000 writes; writes even what is there")(
-        "raw", po::bool_switch(&write_.raw), "VALUE is as transferred; needed where the unit is not known");
+        "raw", po::bool_switch(&write_.raw), "VALUE is as transferred; needed where the unit is not known")(
+        "json", po::bool_switch(&json_), "for programs");
     return command;
   }
 
   int run(ParamProgram& program) override {
     return program.onDrive(words_.drive, [this](const catalogue::DriveCatalogue& known) -> DriveTask {
       const catalogue::ParameterAccess access = checkedWrite(write_, words_.address(known), known);
-      return [access](DriveParameters& drive) { return writeParameter(drive, access); };
+      return [this, access](DriveParameters& drive) { return writeParameter(drive, access, json_); };
     });
   }
 
  private:
   ParameterWords words_;
   WriteOptions write_;
+  bool json_ = false;
 };
 
 }  // namespace

@@ -1,0 +1,195 @@
+#include "tools/restore/restore_journal.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tools/parameter_name.h"
+
+namespace nord_driver::tools {
+
+namespace {
+
+constexpr RestoreState kRestoreStates[] = {RestoreState::kWriting, RestoreState::kTakingBack, RestoreState::kVerified,
+                                           RestoreState::kTakenBack};
+constexpr ChangeState kChangeStates[] = {ChangeState::kPending, ChangeState::kBegun, ChangeState::kWritten,
+                                         ChangeState::kTakenBack};
+
+template <typename State, std::size_t kSize>
+State stateFrom(const State (&states)[kSize], const std::string& word) {
+  std::string expected;
+  for (const State state : states) {
+    if (word == toString(state)) return state;
+    expected += (expected.empty() ? "" : ", ") + std::string(toString(state));
+  }
+  throw UsageError("state \"" + word + "\" is not known, expected one of " + expected);
+}
+
+std::string quoted(const std::string& text) {
+  YAML::Emitter emitter;
+  emitter << YAML::DoubleQuoted << text;
+  return emitter.c_str();
+}
+
+std::string whole(const std::string& key, const std::string& value) {
+  return key + ": " + value + "\n";
+}
+
+RestoreRecord parse(const YAML::Node& file) {
+  RestoreRecord record;
+  const auto text = [&file](const char* key) { return file[key].as<std::string>(); };
+  record.drive = text("drive");
+  record.address = text("address");
+  const auto series = profile::seriesFrom(text("series"));
+  if (!series) throw UsageError("series \"" + text("series") + "\" is not known");
+  record.series = *series;
+  record.file = text("file");
+  record.persistent = file["persistent"].as<bool>();
+  record.state = stateFrom(kRestoreStates, text("state"));
+  if (file["why"]) record.why = text("why");
+  if (file["P560"]) record.eeprom_switch = file["P560"].as<std::int32_t>();
+  for (const auto& entry : file["changes"]) {
+    RestoreRecord::Change change;
+    change.address = parseParameterName(entry["parameter"].as<std::string>());
+    change.before = entry["before"].as<std::int32_t>();
+    change.after = entry["after"].as<std::int32_t>();
+    change.state = stateFrom(kChangeStates, entry["state"].as<std::string>());
+    record.changes.push_back(change);
+  }
+  for (const auto& entry : file["same"]) {
+    record.same.push_back({parseParameterName(entry.first.as<std::string>()), entry.second.as<std::int32_t>()});
+  }
+  return record;
+}
+
+[[noreturn]] void failed(const std::string& path, int error) {
+  throw Trouble("the journal " + path + " cannot be written (" + std::strerror(error) +
+                "): nothing is written to the drive without it; --journal names another file");
+}
+
+// What is renamed has to be on the disk before, and the name after.
+void sync(const std::string& path, int flags) {
+  const int file = ::open(path.c_str(), flags | O_CLOEXEC);
+  if (file < 0) failed(path, errno);
+  const int error = ::fsync(file) == 0 ? 0 : errno;
+  ::close(file);
+  if (error != 0) failed(path, error);
+}
+
+}  // namespace
+
+const char* toString(RestoreState state) noexcept {
+  switch (state) {
+    case RestoreState::kWriting:
+      return "writing";
+    case RestoreState::kTakingBack:
+      return "taking back";
+    case RestoreState::kVerified:
+      return "done";
+    case RestoreState::kTakenBack:
+      return "taken back";
+  }
+  return "";
+}
+
+const char* toString(ChangeState state) noexcept {
+  switch (state) {
+    case ChangeState::kPending:
+      return "pending";
+    case ChangeState::kBegun:
+      return "begun";
+    case ChangeState::kWritten:
+      return "written";
+    case ChangeState::kTakenBack:
+      return "taken back";
+  }
+  return "";
+}
+
+RestoreRecord recordOf(const RestorePlan& plan, const DriveParameters& drive, const std::string& file,
+                       bool persistent) {
+  RestoreRecord record;
+  record.drive = drive.name();
+  record.address = drive.identity().address;
+  record.series = drive.series();
+  record.file = file;
+  record.persistent = persistent;
+  for (const RestoreChange& change : plan.changes) record.changes.push_back({change, ChangeState::kPending});
+  record.same = plan.same;
+  return record;
+}
+
+std::string recordText(const RestoreRecord& record) {
+  std::string text = "# nord_param restore: what it changes in drive " + record.drive +
+                     ". --resume goes on, --take-back puts back what was there.\n";
+  text += whole("drive", quoted(record.drive)) + whole("address", quoted(record.address));
+  text += whole("series", profile::toString(record.series)) + whole("file", quoted(record.file));
+  text += whole("persistent", record.persistent ? "true" : "false") + whole("state", toString(record.state));
+  if (!record.why.empty()) text += whole("why", quoted(record.why));
+  if (record.eeprom_switch) text += whole("P560", std::to_string(*record.eeprom_switch));
+  text += record.changes.empty() ? "changes: []\n" : "changes:\n";
+  for (const RestoreRecord::Change& change : record.changes) {
+    text += "  - {parameter: \"" + parameterName(change.address) + "\", before: " + std::to_string(change.before) +
+            ", after: " + std::to_string(change.after) + ", state: " + toString(change.state) + "}\n";
+  }
+  text += record.same.empty() ? "same: {}\n" : "same:\n";
+  for (const Dump::Value& value : record.same) {
+    text += "  \"" + parameterName(value.address) + "\": " + std::to_string(value.raw) + "\n";
+  }
+  return text;
+}
+
+RestoreRecord recordFrom(const std::string& text, const std::string& file) {
+  try {
+    return parse(YAML::Load(text));
+  } catch (const YAML::Exception& error) {
+    throw UsageError(file + " is no journal of nord_param restore: " + error.what());
+  } catch (const UsageError& error) {
+    throw UsageError(file + " is no journal of nord_param restore: " + error.what());
+  }
+}
+
+std::optional<RestoreRecord> RestoreJournal::read() const {
+  std::error_code unreadable;
+  if (!std::filesystem::exists(path_, unreadable)) return std::nullopt;
+  const std::ifstream file(path_);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw UsageError("the journal " + path_ + " cannot be read");
+  return recordFrom(text.str(), path_);
+}
+
+void RestoreJournal::write(const RestoreRecord& record) const {
+  const std::filesystem::path folder = std::filesystem::absolute(path_).parent_path();
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) failed(path_, error.value());
+  const std::string beside = path_ + ".new";
+  {
+    std::ofstream file(beside, std::ios::trunc);
+    file << recordText(record) << std::flush;
+    if (!file) failed(path_, errno);
+  }
+  sync(beside, O_RDONLY);
+  if (std::rename(beside.c_str(), path_.c_str()) != 0) failed(path_, errno);
+  sync(folder.string(), O_RDONLY | O_DIRECTORY);
+}
+
+std::string journalPath(const char* ros_home, const char* home, const std::string& drive) {
+  const auto is_set = [](const char* value) { return value != nullptr && *value != '\0'; };
+  if (!is_set(ros_home) && !is_set(home)) {
+    throw UsageError("neither ROS_HOME nor HOME says where the journal belongs: name it with --journal");
+  }
+  const std::filesystem::path folder =
+      is_set(ros_home) ? std::filesystem::path(ros_home) : std::filesystem::path(home) / ".ros";
+  return (folder / "nord_driver" / "restore" / (drive + ".journal")).string();
+}
+
+}  // namespace nord_driver::tools
