@@ -228,6 +228,7 @@ void BusCycle::handleInputs(Instant now) noexcept {
     drives_[i].handleInput(inputs_[i].input, inputs_[i].inverter_answers, now);
     axes_[i].known = axes_[i].known || drives_[i].report().online;
     axes_[i].terminals.update(drives_[i].report());
+    axes_[i].recorder.handleCycle({now, inputs_[i].inverter_answers, outputs_[i], inputs_[i].input});
   }
 }
 

@@ -141,6 +141,7 @@ void DriverNode::advertise() {
                                    DriveProtection{identities_[i], config_.cycle.drives[i].series,
                                                    config_.cycle.cmd_vel_timeout, config_.cycle.period()},
                                    faults_[i], static_cast<std::uint16_t>(setup.address.value_or(0)));
+    fault_publishers_.emplace_back(private_node_, setup.name, faults_[i]);
     values_publishers_.emplace_back(private_node_, setup.name, values_[i]);
     if (cycle_->inBase(i)) continue;
     boost::function<void(const std_msgs::Float64&)> take = [this, i](const std_msgs::Float64& velocity) {
@@ -203,7 +204,7 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
 
   // Whatever ends the node, the drives come to rest first: an exchange that simply ends lets the wheels coast.
   try {
-    const SnapshotParts parts{*base_publisher_, drive_publishers_, values_publishers_,
+    const SnapshotParts parts{*base_publisher_, drive_publishers_, values_publishers_, fault_publishers_,
                               *bus_publisher_,  *diagnostics_,     *fault_board_};
     publisher_.emplace(*ports_, config_.publish, parts, loggedDrives());
     // roscpp is "ok" until it has unregistered every topic: tenths of a second in which the robot would drive on.

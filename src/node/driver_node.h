@@ -25,6 +25,7 @@
 #include "node/diagnostics.h"
 #include "node/drive_publisher.h"
 #include "node/fault_board.h"
+#include "node/fault_publisher.h"
 #include "node/node_config.h"
 #include "node/nothing_to_tune.h"
 #include "node/request_broker.h"
@@ -93,6 +94,7 @@ class DriverNode {
   std::unique_ptr<NothingToTune> nothing_to_tune_;  // without one
   std::vector<DrivePublisher> drive_publishers_;
   std::vector<ValuesPublisher> values_publishers_;
+  std::vector<FaultPublisher> fault_publishers_;
   std::unique_ptr<BusPublisher> bus_publisher_;
   std::unique_ptr<Diagnostics> diagnostics_;
   std::unique_ptr<Services> services_;
