@@ -35,17 +35,19 @@ bool saysWhatSetpointsMean(std::uint16_t number) noexcept {
 }
 
 std::optional<drive::UnexpectedFunction> unexpectedFunction(const DeviceData& device, std::uint8_t set,
-                                                            profile::Series series) noexcept {
+                                                            profile::Series series, const WordNeeds& needs) noexcept {
   const auto compare = [&](std::uint16_t number, const std::optional<std::uint16_t>& found) {
     std::optional<drive::UnexpectedFunction> unexpected;
     if (!found || *found == kFrequencyFunction) return unexpected;
     const profile::CycleParameter* info = profile::findCycleParameter(number, series);
     const bool is_array = info != nullptr && info->shape == profile::ParameterShape::kArrayPerSet;
-    unexpected = {number, is_array, *found, kFrequencyFunction};
+    unexpected = {number, is_array, *found, kFrequencyFunction, 1, nullptr};
     return unexpected;
   };
   const auto actual_value = compare(543, device.actual_value_1_function[set - 1u]);
-  return actual_value ? actual_value : compare(546, device.setpoint_1_function[set - 1u]);
+  if (actual_value) return actual_value;
+  const auto setpoint = compare(546, device.setpoint_1_function[set - 1u]);
+  return setpoint ? setpoint : missingWord(needs, device.word_functions[set - 1u], series);
 }
 
 }  // namespace
@@ -69,7 +71,7 @@ DriveParameters::DriveParameters(DriveIndex drive, std::string name, profile::Se
       series_(series),
       typed_max_frequency_(typed_max_frequency),
       channel_(channel),
-      reader_(series, channel.timeout_owner),
+      reader_(series, channel.timeout_owner, !channel.needs.empty()),
       session_(channel.capabilities),
       monitor_(channel.monitor) {}
 
@@ -130,7 +132,7 @@ void DriveParameters::scale(drive::Drive& drive) const noexcept {
       drive.setMaxFrequency(set, Hertz{*typed_max_frequency_});
     }
     drive.setMinimumFrequency(set, Hertz{reader_.data().min_frequency[set - 1u].value_or(0.0)});
-    drive.setUnexpectedFunction(set, unexpectedFunction(reader_.data(), set, series_));
+    drive.setUnexpectedFunction(set, unexpectedFunction(reader_.data(), set, series_, channel_.needs));
   }
   drive.setParametersAwaited(!reader_.motionAsked());
 }

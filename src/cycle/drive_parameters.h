@@ -12,6 +12,7 @@
 #include "cycle/fault_history.h"
 #include "cycle/monitor_reader.h"
 #include "cycle/request.h"
+#include "cycle/word_needs.h"
 #include "drive/drive.h"
 #include "drive/fault_reader.h"
 #include "drive/parameter_session.h"
@@ -35,12 +36,14 @@ struct ParameterChannelUse {
   profile::ParameterCapabilities capabilities;
   /// What somebody wants to look at; a set 0 is the one in force.
   std::vector<profile::ParameterRequest> monitor = {};
+  WordNeeds needs;          ///< of the words beside the first
   bool users_only = false;  ///< nothing is read that no user has asked for: neither faults nor what scaling needs
 };
 
 /// Each cycle, after the exchange: `handleState`, then `pollRequest` until it is empty, then the transport's results by
-/// `handleResult`, then `pollCompletion`. Each asker has one question under way at most; a result is given only to
-/// the one whose latest question it answers. What is only looked at is asked for while no other question is under way.
+/// `handleResult`, and `pollRequest` again when there were any; then `pollCompletion`. Each asker has one question under
+/// way at most; a result is given only to the one whose latest question it answers. What is only looked at is asked for
+/// while no other question is under way.
 class DriveParameters {
  public:
   DriveParameters(DriveIndex drive, std::string name, profile::Series series, std::optional<double> typed_max_frequency,
@@ -61,6 +64,8 @@ class DriveParameters {
   bool handleResult(const profile::ParameterResult& result) noexcept;
   std::optional<Completion> pollCompletion() noexcept { return completions_.poll(); }
 
+  /// A user's write that changes what the process data mean is under way, or its effect not read yet.
+  bool wordsInDoubt() const noexcept { return writesProcessData() || !reader_.motionAsked(); }
   const DeviceData& device() const noexcept { return reader_.data(); }
   const drive::FaultReader& faults() const noexcept { return faults_; }
   const FaultHistory& faultHistory() const noexcept { return history_.history(); }

@@ -8,6 +8,7 @@
 #include <std_srvs/Trigger.h>
 
 #include <atomic>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <pluginlib/class_loader.hpp>
@@ -33,6 +34,7 @@
 #include "node/snapshot_publisher.h"
 #include "node/tracing.h"
 #include "node/values_publisher.h"
+#include "node/word_topics.h"
 #include "nord_driver/transport/transport.h"
 
 namespace nord_driver::node {
@@ -79,6 +81,8 @@ class DriverNode {
   std::vector<catalogue::FaultWords> faults_;  // one per drive
   std::vector<DriveValues> values_;            // one per drive
   std::unique_ptr<FaultBoard> fault_board_;
+  state::EepromBudget eeprom_budget_;
+  std::deque<state::DriveEeprom> eeproms_;  // one per drive
 
   std::unique_ptr<cycle::CyclePorts> ports_;
   std::unique_ptr<cycle::BusCycle> cycle_;
@@ -94,6 +98,7 @@ class DriverNode {
   std::unique_ptr<BusPublisher> bus_publisher_;
   std::unique_ptr<Diagnostics> diagnostics_;
   std::unique_ptr<Services> services_;
+  std::unique_ptr<WordTopics> word_topics_;
   std::unique_ptr<Tracing> tracing_;
   std::optional<SnapshotPublisher> publisher_;
   std::vector<ros::Subscriber> subscribers_;
