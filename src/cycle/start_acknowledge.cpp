@@ -16,7 +16,7 @@ bool isKnown(std::uint16_t number) noexcept {
   return number != 0 && number != profile::kFaultNumberUnknown;
 }
 
-// E10.0 to E10.9: the communication of the bus modules and of CANopen (BU 0020 8.2, BU 2700 8.2).
+// E10.0 to E10.9: the communication with and behind the bus modules (BU 0020 8.1, BU 2700 8.3).
 bool isBusTimeout(std::uint16_t number) noexcept {
   return number >= 100 && number <= 109;
 }

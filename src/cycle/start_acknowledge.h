@@ -1,7 +1,7 @@
 // acknowledge_at_start: bus_timeouts. Takes away the time-outs of the bus that stood before this node came.
 //
-// Where an exchange simply ends, as with every clean exit over PROFIBUS, the drives trip by the lost master (E10.2,
-// BU 2700 8.1.1). A node that is started again would find faults nobody needs to look at. Acknowledging moves nothing;
+// Where an exchange simply ends, and be it after a clean exit, the drives trip by the lost master (E10.2, BU 2700
+// 8.1.1). A node that is started again would find faults nobody needs to look at. Acknowledging moves nothing;
 // what still could go wrong is narrowed down all the same: only a fault the drive was met with, only with a number that
 // was read as E10.x, only at rest and without commands, and once.
 #pragma once
