@@ -343,6 +343,7 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive, Instant now) const noex
   to.time = now;
   to.online = report.online;
   to.module_answers = inputs_[drive].module_answers;
+  to.module_inputs = inputs_[drive].module_inputs;
   to.enabled = drive::isEnabled(report.phase);
   const bool of_base = supervisor_.inBase(drive);
   to.saturated =

@@ -62,9 +62,12 @@ class DnModule final : public BusModule, private DnObjects {
   DnIdentity& identity() noexcept { return settings_.identity; }
   /// As the connection that runs has it, else as the next one would.
   DnLayout layout() const noexcept;
-  void setInputs(std::uint8_t inputs) noexcept { process_.setInputs(inputs); }
+  bool setInputs(std::uint8_t inputs) noexcept override {
+    process_.setInputs(inputs);
+    return true;
+  }
   /// DO1 and DO2 in bits 0 and 1: by the bus, by P150, 0 in a time-out.
-  std::uint8_t outputs() const noexcept;
+  std::uint8_t outputs() const noexcept override;
   /// In the time-out: until the cause is gone and every inverter there is acknowledged.
   bool timedOut() const noexcept { return timed_out_; }
 
