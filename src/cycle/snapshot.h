@@ -41,6 +41,7 @@ struct DriveSample {
 
 struct DriveSnapshot : DriveSample {
   bool module_answers = false;                            ///< its bus module answers at least
+  std::uint8_t module_inputs = 0;                         ///< of that module, DI1 in bit 0
   bool enabled = false;                                   ///< follows velocity commands
   bool stopped = false;                                   ///< stopped by a cause that is latched: `text` names it
   drive::StopCause stop_cause = drive::StopCause::kNone;  ///< that cause
