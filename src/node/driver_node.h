@@ -33,6 +33,8 @@
 #include "node/services.h"
 #include "node/snapshot_publisher.h"
 #include "node/tracing.h"
+#include "node/values_publisher.h"
+#include "node/word_topics.h"
 #include "nord_driver/transport/transport.h"
 
 namespace nord_driver::node {
@@ -50,6 +52,8 @@ class DriverNode {
 
  private:
   void loadTransport();
+  /// Looks up what drives/<name>/monitor lists; the transport is configured.
+  void lookUpMonitored();
   void warnOfUnknownKeys() const;
   void advertise();
   void takeCommand(const geometry_msgs::Twist& twist);
@@ -77,6 +81,7 @@ class DriverNode {
   std::vector<DriveIdentity> identities_;
   std::vector<catalogue::DriveCatalogue> known_;  // one per drive
   std::vector<catalogue::FaultWords> faults_;     // one per drive
+  std::vector<DriveValues> values_;               // one per drive
   std::unique_ptr<FaultBoard> fault_board_;
   state::EepromBudget eeprom_budget_;
   std::deque<state::DriveEeprom> eeproms_;  // one per drive
@@ -90,10 +95,12 @@ class DriverNode {
   std::unique_ptr<BaseTuner> base_tuner_;           // with a base
   std::unique_ptr<NothingToTune> nothing_to_tune_;  // without one
   std::vector<DrivePublisher> drive_publishers_;
+  std::vector<ValuesPublisher> values_publishers_;
   std::unique_ptr<BusPublisher> bus_publisher_;
   std::unique_ptr<Diagnostics> diagnostics_;
   std::unique_ptr<Services> services_;
   std::unique_ptr<ParameterJobs> parameter_jobs_;
+  std::unique_ptr<WordTopics> word_topics_;
   std::unique_ptr<Tracing> tracing_;
   std::optional<SnapshotPublisher> publisher_;
   std::vector<ros::Subscriber> subscribers_;

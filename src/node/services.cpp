@@ -134,6 +134,7 @@ void Services::writeParameter(DriveIndex drive, WriteParameter::Request& request
     response.message =
         catalogue::setValue(access, {request.value, request.persistent != 0, config_.allow_raw_parameters});
   }
+  if (response.message.empty()) response.message = config_.writable_parameters.refusal(request.number);
   if (!response.message.empty()) return;
   const tools::CountedWrite write = tools::countedWrite(
       eeproms_[drive], access.request, [&] { return carryOut(drive, RequestKind::kWriteParameter, access); });

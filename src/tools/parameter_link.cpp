@@ -93,6 +93,8 @@ ParameterAnswer ParameterLink::read(const catalogue::ParameterAddress& address) 
 }
 
 ParameterAnswer ParameterLink::write(const catalogue::ParameterAccess& access) {
+  const std::string not_writable = config_.writable_parameters.refusal(access.request.number);
+  if (!not_writable.empty()) throw Trouble(not_writable);
   cycle::Request request;
   request.kind = cycle::RequestKind::kWriteParameter;
   request.parameter = access.request;
@@ -174,6 +176,13 @@ ParameterAnswer ParameterLink::carryOut(const catalogue::ParameterAccess& access
   answer.entry = access.entry;
   answer.set = profile::hasSets(access.request.shape) ? request.parameter.parameter_set : std::uint8_t{0};
   return answer;
+}
+
+std::string ParameterLink::changedByReading() {
+  if (!cycle_->gate().faultSeen() || !snapshot().online || snapshot().fault) return {};
+  return "drive " + drive().name +
+         " was in fault when this program came: its idle word 047E took the enable away, which acknowledges a fault "
+         "whose cause is gone";
 }
 
 std::vector<std::string> ParameterLink::finish() {

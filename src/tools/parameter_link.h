@@ -50,6 +50,8 @@ class ParameterLink final : public DriveParameters {
   profile::Series series() const noexcept override { return drive().series; }
   DriveIdentity identity() const override { return transport_.identity(0); }
   const catalogue::DriveCatalogue& known() const noexcept override { return *known_; }
+  /// A fault that the first idle word has acknowledged: it takes the enable away (BU 0020 8).
+  std::string changedByReading() override;
 
  private:
   const cycle::DriveSetup& drive() const noexcept { return config_.cycle.drives.front(); }

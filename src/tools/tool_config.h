@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/eeprom_settings.h"
+#include "config/writable_parameters.h"
 #include "cycle/cycle_config.h"
 #include "nord_driver/config/settings.h"
 #include "nord_driver/transport/bus_report.h"
@@ -20,6 +21,7 @@ struct ToolConfig {
   std::shared_ptr<const Settings> bus;
   std::vector<DriveSettings> drives;         ///< as the transport is told, in the order of `cycle.drives`
   cycle::CycleConfig cycle;                  ///< without a base
+  WritableParameters writable_parameters;    ///< by this program as by the node
   std::vector<std::string> parameter_files;  ///< of the user, laid over the project's
   EepromSettings eeprom;
 };
