@@ -279,6 +279,7 @@ void DriverNode::bringToRest() {
   }
   publisher_.reset();
   thread_.reset();
+  broker_->end();       // nobody is to wait for a cycle that has ended
   transport_->close();  // at once: nobody guards the nodes from here on, and the rest of the node takes its time to end
 }
 

@@ -68,6 +68,7 @@ void ParameterJobs::verify(Drive& drive, const VerifyParameters::Request& reques
                            VerifyParameters::Response& response) {
   const std::string why = run(drive, [&] {
     const tools::Comparison comparison = tools::compare(drive.parameters, dumpOf(request), end_asked_);
+    if (comparison.compared == 0) throw tools::UsageError("the dump has no settings to compare");
     response.differences = comparison.differences;
     response.success = comparison.differences.empty();
     response.message = std::to_string(comparison.differences.size()) + " of " + std::to_string(comparison.compared) +

@@ -1,6 +1,7 @@
 // ~<drive>/dump_parameters and verify_parameters: what they find, and that nobody waits for them.
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <future>
 #include <string>
 
@@ -53,23 +54,14 @@ Answer writeRamp(double seconds) {
   return callService("nord_driver/left/write_parameter", service);
 }
 
+constexpr char kNothing[] = "series: sk5xxe";
+constexpr char kBusy[] = "drive left: its parameters are being dumped or verified already: ask again";
+
 class ParameterDump : public RobotTest {
  protected:
   void SetUp() override {
     RobotTest::SetUp();
     ASSERT_TRUE(robot().waitForDrivesOnline());
-  }
-  /// A dump of drive left has been asked for, and is under way as a second one tells.
-  static std::future<Dumped> beginDump() {
-    std::future<Dumped> running = std::async(std::launch::async, [] { return dump("left"); });
-    EXPECT_TRUE(eventually([&] {
-      const Verified second = verify("left", "series: sk5xxe");
-      return second.message == "drive left: its parameters are being dumped or verified already: ask again";
-    }));
-    return running;
-  }
-  static bool isRunning(const std::future<Dumped>& dump) {
-    return dump.wait_for(std::chrono::seconds{0}) != std::future_status::ready;
   }
 };
 
@@ -96,21 +88,29 @@ TEST_F(ParameterDump, IsVerifiedAndShowsExactlyWhatWasChanged) {
 
 TEST_F(ParameterDump, KeepsNeitherTheBaseNorOtherServicesWaiting) {
   ASSERT_NO_FATAL_FAILURE(enableAndDrive(0.2));
-  std::future<Dumped> running = beginDump();
+  // One after the other, so that one is under way all the time.
+  std::atomic<bool> enough{false};
+  std::future<Dumped> running = std::async(std::launch::async, [&enough] {
+    Dumped last = dump("left");
+    while (last.success && !enough) last = dump("left");
+    return last;
+  });
+  ASSERT_TRUE(eventually([] { return verify("left", kNothing).message == kBusy; }));
   robot().drive(0.4);
   EXPECT_TRUE(robot().waitForTrueSpeed(0.35)) << "cmd_vel is followed";
-  for (const std::string& drive : {"left", "right"}) {
+  for (const char* drive : {"left", "right"}) {
     EXPECT_TRUE(robot().readParameter(drive, 105).success) << drive << " answers within service_timeout";
   }
-  EXPECT_TRUE(isRunning(running)) << "all of this meanwhile";
   EXPECT_TRUE(robot().enable(false).success);
+  enough = true;
   const Dumped taken = running.get();
   EXPECT_TRUE(taken.success) << taken;
   EXPECT_FALSE(taken.yaml.empty());
 }
 
 TEST_F(ParameterDump, EndsWithWordsWhenItsDriveGoesOffline) {
-  std::future<Dumped> running = beginDump();
+  std::future<Dumped> running = std::async(std::launch::async, [] { return dump("left"); });
+  ASSERT_TRUE(eventually([] { return verify("left", kNothing).message == kBusy; }));
   ASSERT_TRUE(robot().simulator("left/unplug", true).success);
   const Dumped taken = running.get();
   EXPECT_FALSE(taken.success);
@@ -128,7 +128,9 @@ TEST_F(ParameterDump, IsRefusedInWordsWhereItIsNone) {
   EXPECT_THAT(verify("left", "", "left.yaml").message, HasSubstr("expected an absolute path"));
   EXPECT_THAT(verify("left", "", "/is/not/there.yaml").message, HasSubstr("there is no such file"));
   EXPECT_THAT(verify("left", "drives: {}").message, HasSubstr("the text in yaml is no dump of nord_param"));
-  EXPECT_THAT(verify("left", "series: sk300e").message, HasSubstr("the dump is of a sk300e"));
+  EXPECT_EQ("the dump has no settings to compare", verify("left", kNothing).message);
+  EXPECT_THAT(verify("left", "{series: sk300e, settings: {P102: {raw: 1}}}").message,
+              HasSubstr("the dump is of a sk300e"));
 }
 
 }  // namespace
