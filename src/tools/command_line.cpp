@@ -51,9 +51,13 @@ std::string listed(const std::string& name, const std::string& about) {
   return line + about + "\n";
 }
 
+std::string shown(const Argument& argument) {
+  return argument.name + (argument.all != nullptr ? "..." : "");
+}
+
 std::string usageOf(const std::string& program, const Command& command) {
   std::string usage = program + " " + command.name + " [OPTIONS]";
-  for (const Argument& argument : command.arguments) usage += " " + argument.name;
+  for (const Argument& argument : command.arguments) usage += " " + shown(argument);
   return usage;
 }
 
@@ -114,7 +118,8 @@ ProgramText CommandLine::text() const {
   text.options = listOf(options_);
   for (const Command& command : commands_) {
     ProgramCommand listed{command.name, command.about, {}, listOf(command.options)};
-    for (const Argument& argument : command.arguments) listed.arguments.push_back({"", argument.name, argument.about});
+    for (const Argument& argument : command.arguments)
+      listed.arguments.push_back({"", shown(argument), argument.about});
     text.commands.push_back(listed);
   }
   text.footer = footer_;
@@ -222,8 +227,16 @@ void CommandLine::store(const std::vector<std::string>& words, const std::vector
     const std::size_t given = others.size() - 1;
     const std::string usage = ", expected: " + usageOf(program_, *chosen_);
     if (given < expected.size()) throw UsageError(expected[given].name + " is missing" + usage);
-    if (given > expected.size()) throw UsageError("\"" + others[expected.size() + 1] + "\" is too much" + usage);
-    for (std::size_t i = 0; i < given; ++i) *expected[i].value = others[i + 1];
+    const bool takes_all = !expected.empty() && expected.back().all != nullptr;
+    if (given > expected.size() && !takes_all)
+      throw UsageError("\"" + others[expected.size() + 1] + "\" is too much" + usage);
+    for (std::size_t i = 0; i < given; ++i) {
+      if (takes_all && i + 1 >= expected.size()) {
+        expected.back().all->push_back(others[i + 1]);
+      } else {
+        *expected[i].value = others[i + 1];
+      }
+    }
   }
   po::notify(values);
 }
@@ -232,7 +245,7 @@ std::string CommandLine::help() const {
   std::ostringstream text;
   if (chosen_ != nullptr) {
     text << chosen_->about << "\nUsage: " << usageOf(program_, *chosen_) << "\n\n";
-    for (const Argument& argument : chosen_->arguments) text << listed(argument.name, argument.about);
+    for (const Argument& argument : chosen_->arguments) text << listed(shown(argument), argument.about);
     if (!chosen_->arguments.empty()) text << "\n";
     if (!chosen_->options.options().empty()) text << chosen_->options << "\n";
     text << options_;

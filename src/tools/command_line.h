@@ -32,6 +32,7 @@ struct Argument {
   std::string name;  ///< in capitals, as --help shows it
   std::string about;
   std::string* value;
+  std::vector<std::string>* all = nullptr;  ///< of the last one: it and every word behind it; `value` is not used
 };
 
 /// What a program can be asked for by name, with the words and the options that belong to it.

@@ -141,5 +141,18 @@ TEST_F(CommandLineTest, NamesWhatIsTooMuch) {
             refusal({"--config", "a", "--device", "b", "--device", "c", "show", "left"}));
 }
 
+// The last argument of a command may be a list.
+TEST_F(CommandLineTest, TakesEveryFurtherWordWhereAListIsExpected) {
+  std::vector<std::string> drives;
+  Command& list = line_.addCommand("list", "list drives");
+  list.arguments = {{"WHAT", "what of them", &value_}, {"DRIVE", "whose", nullptr, &drives}};
+  EXPECT_EQ(std::nullopt, parse({"--config", "a", "list", "names", "left", "right"}));
+  EXPECT_EQ("names", value_);
+  EXPECT_THAT(drives, ElementsAre("left", "right"));
+  EXPECT_THAT(refusal({"--config", "a", "list", "names"}), StartsWith("DRIVE is missing, expected: tool list"));
+  EXPECT_EQ(0, parse({"list", "--help"}));
+  EXPECT_THAT(output_, HasSubstr("tool list [OPTIONS] WHAT DRIVE...\n"));
+}
+
 }  // namespace
 }  // namespace nord_driver::tools

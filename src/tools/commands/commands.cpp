@@ -10,6 +10,9 @@ std::vector<std::unique_ptr<ParamCommand>> paramCommands() {
   commands.push_back(makeDumpCommand());
   commands.push_back(makeCompareCommand());
   commands.push_back(makeFaultsCommand());
+  commands.push_back(makeWatchCommand());
+  commands.push_back(makeScanCommand());
+  commands.push_back(makeScopeCommand());
   commands.push_back(makeImageCommand());
   commands.push_back(makeCheckConfigCommand());
   return commands;

@@ -17,6 +17,9 @@ std::unique_ptr<ParamCommand> makeWriteCommand();
 std::unique_ptr<ParamCommand> makeDumpCommand();
 std::unique_ptr<ParamCommand> makeCompareCommand();
 std::unique_ptr<ParamCommand> makeFaultsCommand();
+std::unique_ptr<ParamCommand> makeWatchCommand();
+std::unique_ptr<ParamCommand> makeScanCommand();
+std::unique_ptr<ParamCommand> makeScopeCommand();
 std::unique_ptr<ParamCommand> makeImageCommand();
 std::unique_ptr<ParamCommand> makeCheckConfigCommand();
 
