@@ -36,9 +36,15 @@ def not_shown():
             yield f"{path.name}: no document shows it"
 
 
+def of_a_run(path):
+    """Drawn by nord_param scope from the values beside it; a test of the tools compares these two."""
+    return path.with_suffix(".csv").is_file()
+
+
 def check(drawn):
     wrong = [unlike(name, text) for name, text in drawn.items()]
-    wrong += [f"{path.name} has no source {path.stem}.py" for path in sorted(HERE.glob("*.svg")) if path.stem not in drawn]
+    wrong += [f"{path.name} has no source {path.stem}.py" for path in sorted(HERE.glob("*.svg"))
+              if path.stem not in drawn and not of_a_run(path)]
     return [one for one in wrong if one] + list(not_shown())
 
 

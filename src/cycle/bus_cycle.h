@@ -47,7 +47,7 @@ class BusCycle {
   /// A parameter that decides motion may be written.
   bool isAtRest(DriveIndex drive) noexcept;
   const GuestGate& gate() const noexcept { return gate_; }
-  void closeGate() noexcept { gate_.close(); }
+  void closeGate(std::size_t awaited = 1) { gate_.close(awaited); }
 
  private:
   void takeRequests(Instant now) noexcept;

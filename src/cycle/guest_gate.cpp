@@ -15,8 +15,9 @@ bool isAtRest(DriveState state) noexcept {
 
 }  // namespace
 
-void GuestGate::close() noexcept {
+void GuestGate::close(std::size_t awaited) {
   open_ = false;
+  heard_each_.assign(awaited, false);
   heard_ = false;
   fault_seen_ = false;
   cycles_heard_ = 0;
@@ -35,7 +36,11 @@ void GuestGate::handleInputs(std::vector<DriveExchange>& inputs) noexcept {
 }
 
 void GuestGate::look(const std::vector<DriveExchange>& inputs) noexcept {
-  heard_ = !inputs.empty() && inputs.front().inverter_answers;
+  heard_ = !heard_each_.empty() && inputs.size() >= heard_each_.size();
+  for (DriveIndex i = 0; i < inputs.size() && i < heard_each_.size(); ++i) {
+    heard_each_[i] = inputs[i].inverter_answers;
+    heard_ = heard_ && heard_each_[i];
+  }
   if (heard_) ++cycles_heard_;
   for (DriveIndex i = 0; i < inputs.size() && !running_; ++i) {
     if (!inputs[i].inverter_answers) continue;

@@ -23,16 +23,18 @@ class GuestGate {
   /// `guest` false: open from the beginning.
   explicit GuestGate(bool guest) noexcept : open_(!guest) {}
 
-  /// Begins anew: nothing is known of the drives any more.
-  void close() noexcept;
+  /// Begins anew: nothing is known of the drives any more. The first `awaited` of them, 1 at least, have to be heard.
+  void close(std::size_t awaited = 1);
   /// Before the exchange.
   void holdBack(std::vector<profile::ProcessOutput>& outputs) const noexcept;
   /// After it; while the gate is closed the drives look silent from here on.
   void handleInputs(std::vector<DriveExchange>& inputs) noexcept;
 
   bool isOpen() const noexcept { return open_; }
-  /// The first drive answered in the last cycle with the gate closed.
+  /// All that have to be heard answered in the last cycle with the gate closed.
   bool heard() const noexcept { return heard_; }
+  /// This one of them answered in the last cycle with the gate closed.
+  bool hears(DriveIndex drive) const noexcept { return drive < heard_each_.size() && heard_each_[drive]; }
   /// The first drive was in fault while the gate was closed: the words behind it may acknowledge that.
   bool faultSeen() const noexcept { return fault_seen_; }
   /// A drive that is not at rest.
@@ -43,6 +45,7 @@ class GuestGate {
 
   bool open_;
   bool heard_ = false;
+  std::vector<bool> heard_each_ = std::vector<bool>(1);  // of those that have to be
   bool fault_seen_ = false;
   int cycles_heard_ = 0;
   std::optional<Running> running_;

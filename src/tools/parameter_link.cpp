@@ -30,8 +30,11 @@ ParameterLink::ParameterLink(const ToolConfig& config, Transport& transport, con
                   "the driver (~<drive>/read_parameter)");
   }
   transport.configure(*config.bus, config.drives, config.cycle.cycle_rate);
-  known_ = catalogue::driveCatalogue(catalogues, drive().series, shortTransportName(config.transport),
-                                     identity().timeout_owner == TimeoutOwner::kModule);
+  for (DriveIndex i = 0; i < config.asked; ++i) {
+    known_.push_back(catalogue::driveCatalogue(catalogues, config.cycle.drives[i].series,
+                                               shortTransportName(config.transport),
+                                               identity(i).timeout_owner == TimeoutOwner::kModule));
+  }
   const std::string end_point =
       transport.endPoint().isNone() ? "" : config.bus->text(transport.endPoint().key).value_or("");
   eeprom_.emplace(budget_, placeOf(end_point, shortTransportName(config.transport), config.drives.front()),
@@ -46,9 +49,11 @@ ParameterLink::~ParameterLink() {
 std::string ParameterLink::silence() const {
   std::string bus = transport_.busText().str();
   if (!bus.empty() && !transport_.connected()) return bus;
-  const std::string note = transport_.note(0).text;
-  return "drive " + drive().name + " (" + transport_.identity(0).address + ") does not answer" +
-         (note.empty() ? "" : ": " + note);
+  DriveIndex silent = 0;
+  while (silent + 1 < config_.asked && cycle_->gate().hears(silent)) ++silent;
+  const std::string why = note(silent);
+  return "drive " + name(silent) + " (" + identity(silent).address + ") does not answer" +
+         (why.empty() ? "" : ": " + why);
 }
 
 void ParameterLink::refuseRunning() const {
@@ -60,7 +65,7 @@ void ParameterLink::refuseRunning() const {
 
 void ParameterLink::connect(Duration limit, const std::atomic<bool>& end_asked) {
   const Instant end = transport_.now() + limit;
-  cycle_->closeGate();
+  cycle_->closeGate(config_.asked);
   while (!cycle_->gate().isOpen()) {
     exchange();
     refuseRunning();
@@ -96,7 +101,17 @@ void ParameterLink::pass(Duration time) noexcept {
 ParameterAnswer ParameterLink::read(const catalogue::ParameterAddress& address) {
   const catalogue::ParameterAccess access = catalogue::accessTo(address, known());
   if (!access.error.empty()) throw Trouble(access.error);
-  return carryOut(access, cycle::RequestKind::kReadParameter);
+  return carryOut(access, cycle::RequestKind::kReadParameter, 0, kAttempts);
+}
+
+ParameterAnswer ParameterLink::read(DriveIndex drive, const catalogue::ParameterAddress& address) {
+  const catalogue::ParameterAccess access = catalogue::accessTo(address, known(drive));
+  if (!access.error.empty()) throw Trouble(access.error);
+  return carryOut(access, cycle::RequestKind::kReadParameter, drive, 1);
+}
+
+void ParameterLink::exchangeUntil(Instant when, const std::atomic<bool>& end_asked) noexcept {
+  while (!end_asked && transport_.now() < when) exchange();
 }
 
 ParameterAnswer ParameterLink::write(const catalogue::ParameterAccess& access) {
@@ -110,13 +125,13 @@ ParameterAnswer ParameterLink::write(const catalogue::ParameterAccess& access) {
     throw Trouble("P" + std::to_string(access.request.number) + " decides how the motor follows setpoints, and drive " +
                   drive().name + " is not at rest");
   }
-  return carryOut(access, cycle::RequestKind::kWriteParameter);
+  return carryOut(access, cycle::RequestKind::kWriteParameter, 0, kAttempts);
 }
 
 std::optional<cycle::Completion> ParameterLink::run(cycle::Request& request) {
   request.id = ++last_id_;
   // The same set at each attempt, and told in the answer.
-  if (request.parameter.parameter_set == 0) request.parameter.parameter_set = snapshot().parameter_set;
+  if (request.parameter.parameter_set == 0) request.parameter.parameter_set = snapshot(request.drive).parameter_set;
   if (!ports_.submit(request)) return std::nullopt;
   const Instant end = transport_.now() + kPatience;
   do {
@@ -138,27 +153,28 @@ bool ParameterLink::waitForDrive() noexcept {
 }
 
 // A write compares first, so that it is not done twice.
-std::optional<cycle::Completion> ParameterLink::runAndRepeat(cycle::Request& request) {
+std::optional<cycle::Completion> ParameterLink::runAndRepeat(cycle::Request& request, int attempts) {
   std::optional<cycle::Completion> completion = run(request);
-  for (int i = 1; i < kAttempts && completion && completion->parameter.outcome == ParameterOutcome::kOffline; ++i) {
+  for (int i = 1; i < attempts && completion && completion->parameter.outcome == ParameterOutcome::kOffline; ++i) {
     if (completion->parameter.eeprom_written || !waitForDrive()) break;
     completion = run(request);
   }
   return completion;
 }
 
-ParameterAnswer ParameterLink::carryOut(const catalogue::ParameterAccess& access, cycle::RequestKind kind) {
+ParameterAnswer ParameterLink::carryOut(const catalogue::ParameterAccess& access, cycle::RequestKind kind,
+                                        DriveIndex drive, int attempts) {
   cycle::Request request;
   request.kind = kind;
-  request.drive = 0;
+  request.drive = drive;
   request.parameter = access.request;
   request.parameter.even_if_same = true;  // the run before may have put it into the RAM
   std::optional<cycle::Completion> completion;
   std::string note;
   if (kind == cycle::RequestKind::kReadParameter) {
-    completion = runAndRepeat(request);
+    completion = runAndRepeat(request, attempts);
   } else {
-    CountedWrite counted = countedWrite(*eeprom_, request.parameter, [&] { return runAndRepeat(request); });
+    CountedWrite counted = countedWrite(*eeprom_, request.parameter, [&] { return runAndRepeat(request, attempts); });
     if (!counted.refusal.empty()) {
       ParameterAnswer refused;
       refused.refused = true;
@@ -168,7 +184,7 @@ ParameterAnswer ParameterLink::carryOut(const catalogue::ParameterAccess& access
     completion = counted.completion;
     note = counted.note;
   }
-  if (!completion) throw Trouble("drive " + drive().name + " did not carry the access out");
+  if (!completion) throw Trouble("drive " + name(drive) + " did not carry the access out");
 
   const profile::ParameterResult& result = completion->parameter;
   ParameterAnswer answer;
@@ -195,24 +211,26 @@ std::string ParameterLink::changedByReading() {
 std::vector<std::string> ParameterLink::finish() {
   std::vector<std::string> sentences;
   if (!connected_) return sentences;
-  ParameterAnswer answer;
-  if (snapshot().online) {
-    catalogue::ParameterAddress timeout;
-    timeout.number = identity().timeout_owner == TimeoutOwner::kModule ? kModuleTimeout : kTelegramTimeout;
-    // Any further access also tries again to put P560 back.
-    answer = read(timeout);
-  }
-  // Where no process data are exchanged there were no words that could be missed.
-  const bool words_were_sent = identity().process_values > 0;
-  if (words_were_sent && answer.success && answer.entry != nullptr && answer.value > 0.0) {
-    sentences.push_back("drive " + drive().name + " has P" + std::to_string(answer.entry->number) + " = " +
-                        shortNumber(answer.value) +
-                        " s: that long after this it trips (E10.x), because nobody sends it words any more; "
-                        "acknowledge it before it is enabled");
-  }
-  if (snapshot().owes_eeprom_switch) {
-    sentences.push_back("P560 of drive " + drive().name +
-                        " is 0 and could not be put back to 1: it saves nothing in its EEPROM until it is");
+  for (DriveIndex i = 0; i < config_.asked; ++i) {
+    ParameterAnswer answer;
+    if (snapshot(i).online) {
+      catalogue::ParameterAddress timeout;
+      timeout.number = identity(i).timeout_owner == TimeoutOwner::kModule ? kModuleTimeout : kTelegramTimeout;
+      // Any further access also tries again to put P560 back.
+      answer = i == 0 ? read(timeout) : read(i, timeout);
+    }
+    // Where no process data are exchanged there were no words that could be missed.
+    const bool words_were_sent = identity(i).process_values > 0;
+    if (words_were_sent && answer.success && answer.entry != nullptr && answer.value > 0.0) {
+      sentences.push_back("drive " + name(i) + " has P" + std::to_string(answer.entry->number) + " = " +
+                          shortNumber(answer.value) +
+                          " s: that long after this it trips (E10.x), because nobody sends it words any more; "
+                          "acknowledge it before it is enabled");
+    }
+    if (snapshot(i).owes_eeprom_switch) {
+      sentences.push_back("P560 of drive " + name(i) +
+                          " is 0 and could not be put back to 1: it saves nothing in its EEPROM until it is");
+    }
   }
   idle(kCyclesToEndOrders);
   transport_.close();

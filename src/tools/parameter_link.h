@@ -1,4 +1,4 @@
-// One drive's parameters over the bus, for a program that comes, reads or writes, and goes.
+// Drives over the bus, for a program that comes, reads or writes parameters, looks on, and goes.
 #pragma once
 
 #include <atomic>
@@ -38,11 +38,31 @@ class ParameterLink final : public DriveParameters {
   void connect(Duration limit, const std::atomic<bool>& end_asked);
 
   ParameterAnswer read(const catalogue::ParameterAddress& address) override;
+  /// Of one of the drives that were asked for, in this order; asked once, so that the others need not wait for one that
+  /// is silent.
+  ParameterAnswer read(DriveIndex drive, const catalogue::ParameterAddress& address);
   /// `access` is one to write. Compared before and read back after; see ParameterSession. Refused past the EEPROM's
   /// budget.
   ParameterAnswer write(const catalogue::ParameterAccess& access) override;
   /// The bus cycle goes on: a drive with P513 > 0 would trip without its words.
   void pass(Duration time) noexcept override;
+
+  /// Goes on with the exchange until `when`, or `end_asked`.
+  void exchangeUntil(Instant when, const std::atomic<bool>& end_asked) noexcept;
+  Instant now() const noexcept { return transport_.now(); }
+  Duration period() const noexcept { return cycle_->period(); }  ///< of a cycle
+  /// Looks on at every cycle from now on; must outlive the link.
+  void setObserver(cycle::CycleObserver* observer) noexcept { ports_.setObserver(observer); }
+
+  // Of the drives that were asked for.
+  std::size_t driveCount() const noexcept { return config_.asked; }
+  const std::string& name(DriveIndex drive) const noexcept { return config_.cycle.drives[drive].name; }
+  DriveIdentity identity(DriveIndex drive) const { return transport_.identity(drive); }
+  const catalogue::DriveCatalogue& known(DriveIndex drive) const noexcept { return known_[drive]; }
+  /// Of the last cycle; the reference holds until the next one.
+  const cycle::DriveSnapshot& snapshot(DriveIndex drive) noexcept { return ports_.readSnapshot().drives[drive]; }
+  /// Why nothing comes from it, a clause; may be empty.
+  std::string note(DriveIndex drive) const { return transport_.note(drive).text; }
 
   /// Puts back what is not to stay (P560, orders of the parameter channel) and ends the exchange. Returns sentences on
   /// what the end means to the drive.
@@ -51,7 +71,7 @@ class ParameterLink final : public DriveParameters {
   const std::string& name() const noexcept override { return drive().name; }
   profile::Series series() const noexcept override { return drive().series; }
   DriveIdentity identity() const override { return transport_.identity(0); }
-  const catalogue::DriveCatalogue& known() const noexcept override { return *known_; }
+  const catalogue::DriveCatalogue& known() const noexcept override { return known_.front(); }
   /// A fault that the first idle word has acknowledged: it takes the enable away (BU 0020 8).
   std::string changedByReading() override;
 
@@ -59,19 +79,21 @@ class ParameterLink final : public DriveParameters {
   const cycle::DriveSetup& drive() const noexcept { return config_.cycle.drives.front(); }
   void exchange() noexcept;
   /// Of the last cycle.
-  const cycle::DriveSnapshot& snapshot() noexcept { return ports_.readSnapshot().drives.front(); }
+  const cycle::DriveSnapshot& snapshot() noexcept { return snapshot(0); }
   void idle(int cycles) noexcept;
   void refuseRunning() const;
+  /// What to say of the first drive that was asked for and does not answer.
   std::string silence() const;
   std::optional<cycle::Completion> run(cycle::Request& request);
-  /// Again where only the line was lost.
-  std::optional<cycle::Completion> runAndRepeat(cycle::Request& request);
+  /// Again where only the line was lost, `attempts` times in all.
+  std::optional<cycle::Completion> runAndRepeat(cycle::Request& request, int attempts);
   bool waitForDrive() noexcept;
-  ParameterAnswer carryOut(const catalogue::ParameterAccess& access, cycle::RequestKind kind);
+  ParameterAnswer carryOut(const catalogue::ParameterAccess& access, cycle::RequestKind kind, DriveIndex drive,
+                           int attempts);
 
   const ToolConfig& config_;
   Transport& transport_;
-  std::optional<catalogue::DriveCatalogue> known_;  // from the constructor on
+  std::vector<catalogue::DriveCatalogue> known_;  // of the drives that were asked for
   state::EepromBudget budget_;
   std::optional<state::DriveEeprom> eeprom_;  // from the constructor on
   cycle::CyclePorts ports_;

@@ -1,6 +1,7 @@
 #include "tools/tool_config.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "config/driver_settings.h"
 #include "config/yaml_settings.h"
@@ -42,6 +43,20 @@ YAML::Node withAnyPort(const YAML::Node& file, const EndPoint& end_point) {
   return complete;
 }
 
+const DriveSettings& driveOf(const std::vector<DriveSettings>& all, const std::string& name) {
+  const auto asked =
+      std::find_if(all.begin(), all.end(), [&](const DriveSettings& drive) { return drive.name == name; });
+  if (asked != all.end()) return *asked;
+  std::string known;
+  for (const DriveSettings& drive : all) known += (known.empty() ? "" : ", ") + drive.name;
+  throw ConfigError("drive \"" + name + "\" is not in the configuration, expected " +
+                    (known.empty() ? "one that has drives" : "one of " + known));
+}
+
+bool contains(const std::vector<DriveSettings>& drives, const std::string& name) {
+  return std::any_of(drives.begin(), drives.end(), [&](const DriveSettings& drive) { return drive.name == name; });
+}
+
 }  // namespace
 
 std::string transportOf(const YAML::Node& file) {
@@ -63,22 +78,27 @@ ToolConfig readToolConfig(const YAML::Node& file, const EndPoint& end_point) {
 }
 
 ToolConfig readToolConfig(const YAML::Node& file, const std::string& name) {
+  return readToolConfig(file, std::vector<std::string>{name});
+}
+
+ToolConfig readToolConfig(const YAML::Node& file, const std::vector<std::string>& names) {
   const YamlSettings settings{"", file};
   const std::vector<DriveSettings> all = readDriveList(settings);
-  const auto asked =
-      std::find_if(all.begin(), all.end(), [&](const DriveSettings& drive) { return drive.name == name; });
-  if (asked == all.end()) {
-    std::string known;
-    for (const DriveSettings& drive : all) known += (known.empty() ? "" : ", ") + drive.name;
-    throw ConfigError("drive \"" + name + "\" is not in the configuration, expected " +
-                      (known.empty() ? "one that has drives" : "one of " + known));
+  std::vector<DriveSettings> stations;
+  std::vector<std::optional<std::int64_t>> addresses;
+  for (const std::string& name : names) {
+    if (contains(stations, name)) throw ConfigError("drive \"" + name + "\" is named twice");
+    stations.push_back(driveOf(all, name));
+    addresses.push_back(stations.back().settings->integer("address"));
   }
-  std::vector<DriveSettings> station{*asked};
-  const auto address = asked->settings->integer("address");
   for (const DriveSettings& drive : all) {
-    if (drive.name != name && drive.settings->integer("address") == address) station.push_back(drive);
+    const bool beside =
+        std::find(addresses.begin(), addresses.end(), drive.settings->integer("address")) != addresses.end();
+    if (beside && !contains(stations, drive.name)) stations.push_back(drive);
   }
-  return read(file, settings, station);
+  ToolConfig config = read(file, settings, stations);
+  config.asked = names.size();
+  return config;
 }
 
 }  // namespace nord_driver::tools

@@ -21,6 +21,7 @@ struct ToolConfig {
   std::shared_ptr<const Settings> bus;
   std::vector<DriveSettings> drives;         ///< as the transport is told, in the order of `cycle.drives`
   cycle::CycleConfig cycle;                  ///< without a base
+  std::size_t asked = 1;                     ///< so many of the first drives were asked for
   WritableParameters writable_parameters;    ///< by this program as by the node
   std::vector<std::string> parameter_files;  ///< of the user, laid over the project's
   EepromSettings eeprom;
@@ -40,5 +41,7 @@ ToolConfig readToolConfig(const YAML::Node& file, const EndPoint& end_point);
 /// other drives of the bus are not talked to. Throws ConfigError when there is no such drive, or its settings are
 /// wrong.
 ToolConfig readToolConfig(const YAML::Node& file, const std::string& name);
+/// The same for several drives, these first and in this order. Throws ConfigError when one is named twice, too.
+ToolConfig readToolConfig(const YAML::Node& file, const std::vector<std::string>& names);
 
 }  // namespace nord_driver::tools

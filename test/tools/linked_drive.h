@@ -30,11 +30,11 @@ class LinkedDrive {
   }
 
   explicit LinkedDrive(const std::vector<sim::ParameterPreset>& parameters = {}, bool ram_orders = true,
-                       int ppo_type = 1)
-      : LinkedDrive(file(ppo_type), parameters, ram_orders, ppo_type) {}
+                       int ppo_type = 1, const std::vector<std::string>& asked = {"left"})
+      : LinkedDrive(file(ppo_type), parameters, ram_orders, ppo_type, asked) {}
   explicit LinkedDrive(const YAML::Node& file, const std::vector<sim::ParameterPreset>& parameters = {},
-                       bool ram_orders = true, int ppo_type = 1)
-      : config_(readToolConfig(file, "left")),
+                       bool ram_orders = true, int ppo_type = 1, const std::vector<std::string>& asked = {"left"})
+      : config_(readToolConfig(file, asked)),
         transport_([=](const link::SerialSettings&) {
           auto made = std::make_unique<sim::SimulatedSegment>(simulated(parameters, ram_orders, ppo_type));
           segment_ = made.get();

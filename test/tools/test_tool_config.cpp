@@ -49,6 +49,16 @@ TEST(ToolConfig, TakesTheDriveAndItsStation) {
   EXPECT_THAT(namesOf(readToolConfig(file, kInterface)), ElementsAre("far", "mate", "near"));
 }
 
+// These first, in the order they were asked for, and after them whoever shares their telegrams.
+TEST(ToolConfig, TakesSeveralDrivesAndTheirStations) {
+  const YAML::Node file = YAML::Load(kFile);
+  const auto asked = [&file](const std::vector<std::string>& names) { return readToolConfig(file, names); };
+  EXPECT_THAT(namesOf(asked({"near", "far"})), ElementsAre("near", "far", "mate"));
+  EXPECT_EQ(2u, asked({"near", "far"}).asked);
+  EXPECT_EQ(1u, asked({"near"}).asked);
+  EXPECT_EQ("drive \"far\" is named twice", refusal([&] { asked({"far", "near", "far"}); }));
+}
+
 // The base's sizes may be in a URDF, which is not there.
 TEST(ToolConfig, NeedsNothingOfTheBase) {
   const ToolConfig config = readToolConfig(YAML::Load(kFile), "near");

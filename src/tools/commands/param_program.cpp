@@ -8,7 +8,6 @@
 #include "tools/end_signals.h"
 #include "tools/installed_catalogues.h"
 #include "tools/lock_owner.h"
-#include "tools/parameter_link.h"
 #include "tools/usage_error.h"
 
 namespace nord_driver::tools {
@@ -17,7 +16,7 @@ namespace po = boost::program_options;
 
 namespace {
 
-int carryOut(ParameterLink& link, Duration timeout, const DriveTask& task, const std::atomic<bool>& end_asked) {
+int carryOut(ParameterLink& link, Duration timeout, const LinkTask& task, const std::atomic<bool>& end_asked) {
   link.connect(timeout, end_asked);
   bool done = false;
   std::exception_ptr stopped;
@@ -102,20 +101,32 @@ int ParamProgram::onDrive(const std::string& drive,
   served_ = true;
   ParameterLink link{config, *transport_, catalogues};
   const DriveTask task = prepare(link.known());
-  refuseBusInUse(config);
+  refuseBusInUse(*config.bus, config.cycle.drives.front().name);
   return carryOut(link, timeout(), task, end_asked_);
 }
 
-void ParamProgram::refuseBusInUse(const ToolConfig& config) {
+int ParamProgram::onDrives(const std::vector<std::string>& drives,
+                           const std::function<LinkTask(ParameterLink&)>& prepare) {
+  const ToolConfig config = readToolConfig(file(), drives);
+  const catalogue::Catalogues catalogues = cataloguesFor(config);
+  ParameterLink link{config, transport(), catalogues};
+  const LinkTask task = prepare(link);
+  refuseBusInUse(*config.bus, config.cycle.drives.front().name);
+  return carryOut(link, timeout(), task, end_asked_);
+}
+
+// Whoever has the device does not give it away while this program waits.
+void ParamProgram::refuseBusInUse(const Settings& bus, const std::string& drive) {
   const EndPoint end_point = transport().endPoint();
   if (end_point.isNone()) return;
-  const std::string where = config.bus->text(end_point.key).value_or("");
+  const std::string where = bus.text(end_point.key).value_or("");
   const auto owner = lockOwner(where);
   if (!owner) return;
   throw Trouble(where + " is in use by " + (owner->name.empty() ? "a program" : owner->name) + " (process " +
-                std::to_string(owner->process) +
-                "): end it first; or ask the driver while it runs: rosservice call /nord_driver/" +
-                config.drives.front().name + "/read_parameter, or write_parameter");
+                std::to_string(owner->process) + "): end it first" +
+                (drive.empty() ? ""
+                               : "; or ask the driver while it runs: rosservice call /nord_driver/" + drive +
+                                     "/read_parameter, or write_parameter"));
 }
 
 }  // namespace nord_driver::tools

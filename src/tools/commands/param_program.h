@@ -15,6 +15,7 @@
 #include "tools/bus_port.h"
 #include "tools/command_line.h"
 #include "tools/drive_parameters.h"
+#include "tools/parameter_link.h"
 #include "tools/progress_bar.h"
 #include "tools/tool_config.h"
 #include "tools/transport_loader.h"
@@ -23,6 +24,9 @@ namespace nord_driver::tools {
 
 /// What is done with a drive that answers. False: refused or different, and said so.
 using DriveTask = std::function<bool(DriveParameters&)>;
+
+/// What is done with drives that answer, over the bus itself. False as above.
+using LinkTask = std::function<bool(ParameterLink&)>;
 
 class ParamProgram {
  public:
@@ -58,10 +62,13 @@ class ParamProgram {
   /// the other. Returns the exit code.
   int onDrive(const std::string& drive, const std::function<DriveTask(const catalogue::DriveCatalogue&)>& prepare);
 
+  /// Throws Trouble where another process has the device of `bus`. `drive`: one to ask the driver about; may be empty.
+  void refuseBusInUse(const Settings& bus, const std::string& drive);
+  /// The same for several drives at a time, and for what needs the process data. `prepare` may keep the link.
+  int onDrives(const std::vector<std::string>& drives, const std::function<LinkTask(ParameterLink&)>& prepare);
+
  private:
   void load();
-  /// Whoever has the device does not give it away while this program waits.
-  void refuseBusInUse(const ToolConfig& config);
 
   std::vector<std::string> files_;
   BusPort port_;

@@ -314,4 +314,14 @@ void InterbusTransport::close() noexcept {
   if (link_) link_->close();
 }
 
+ScanReport InterbusTransport::scan(const Settings& /*bus*/, const std::atomic<bool>& /*end_asked*/) {
+  ScanReport report;
+  report.bus = "InterBus";
+  report.number_name = "position";
+  report.trouble =
+      "the image of a gateway has no addresses, and does not tell who is on the ring: the gateway's own tool does; "
+      "nord_param image shows the words and those that change";
+  return report;
+}
+
 }  // namespace nord_driver

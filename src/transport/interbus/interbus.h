@@ -12,6 +12,7 @@
 #include "link/modbus/register_link.h"
 #include "nord_driver/core/fixed_vector.h"
 #include "nord_driver/transport/transport.h"
+#include "transport/bus_scanner.h"
 #include "transport/image_view.h"
 #include "transport/interbus/input_watch.h"
 #include "transport/interbus/interbus_config.h"
@@ -35,7 +36,7 @@ namespace nord_driver {
 /// PCP by registers (`bus/pcp`) there is one, which no real gateway has been tried with.
 ///
 /// Who serves parameters only writes no image and no watchdog: the drives are another's, or nobody's.
-class InterbusTransport final : public Transport, public ImageView {
+class InterbusTransport final : public Transport, public ImageView, public BusScanner {
  public:
   using LinkFactory = std::function<std::unique_ptr<link::RegisterLink>(const link::ModbusSettings&)>;
 
@@ -68,6 +69,8 @@ class InterbusTransport final : public Transport, public ImageView {
   void showWords(std::size_t count) override;
   std::string imageText() const override;
   std::vector<ImageWord> image() const override;
+  /// Says why there is none, and opens nothing.
+  ScanReport scan(const Settings& bus, const std::atomic<bool>& end_asked) override;
 
   const InterbusConfig& config() const noexcept { return config_; }
 

@@ -8,6 +8,7 @@
 #include "profile/status_word.h"
 #include "transport/profibus/profibus_counters.h"
 #include "transport/profibus/profibus_line.h"
+#include "transport/profibus/profibus_scanner.h"
 #include "transport/profibus/profibus_telegram_text.h"
 
 namespace nord_driver {
@@ -365,6 +366,10 @@ DriveIdentity ProfibusDpTransport::identity(DriveIndex drive) const {
 
 void ProfibusDpTransport::close() noexcept {
   if (link_) link_->close();
+}
+
+ScanReport ProfibusDpTransport::scan(const Settings& bus, const std::atomic<bool>& end_asked) {
+  return scanProfibus(bus, make_link_, end_asked);
 }
 
 }  // namespace nord_driver

@@ -14,6 +14,7 @@
 #include "link/serial/serial_settings.h"
 #include "nord_driver/trace/telegram_trace.h"
 #include "nord_driver/transport/transport.h"
+#include "transport/bus_scanner.h"
 #include "profibus/bus_scan.h"
 #include "profibus/dp_master.h"
 #include "transport/profibus/inverter_presence.h"
@@ -29,7 +30,7 @@ namespace nord_driver {
 ///
 /// It owns the digital outputs of a module with an I/O byte (SK TU4-PBR: DO1, DO2) and holds them at 0: nobody switches
 /// anything with them, whatever the drives do.
-class ProfibusDpTransport final : public Transport {
+class ProfibusDpTransport final : public Transport, public BusScanner {
  public:
   using LinkFactory = std::function<std::unique_ptr<link::ByteLink>(const link::SerialSettings&)>;
 
@@ -58,6 +59,7 @@ class ProfibusDpTransport final : public Transport {
   std::optional<BusEvent> pollEvent() noexcept override;
   const TelegramTrace* trace() const noexcept override { return trace_ ? &*trace_ : nullptr; }
   void close() noexcept override;
+  ScanReport scan(const Settings& bus, const std::atomic<bool>& end_asked) override;
 
   const ProfibusDpConfig& config() const noexcept { return config_; }
 

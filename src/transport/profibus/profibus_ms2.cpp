@@ -8,6 +8,7 @@
 #include "profile/status_word.h"
 #include "transport/profibus/profibus_counters.h"
 #include "transport/profibus/profibus_line.h"
+#include "transport/profibus/profibus_scanner.h"
 #include "transport/profibus/profibus_telegram_text.h"
 #include "transport/profibus/profibus_text.h"
 
@@ -224,6 +225,10 @@ void ProfibusMs2Transport::close() noexcept {
                [&] { return link_->now() >= end || !master_->wantsBus(link_->now()); });
   }
   link_->close();
+}
+
+ScanReport ProfibusMs2Transport::scan(const Settings& bus, const std::atomic<bool>& end_asked) {
+  return scanProfibus(bus, make_link_, end_asked);
 }
 
 }  // namespace nord_driver

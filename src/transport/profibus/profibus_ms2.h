@@ -12,6 +12,7 @@
 #include "link/serial/serial_settings.h"
 #include "nord_driver/trace/telegram_trace.h"
 #include "nord_driver/transport/transport.h"
+#include "transport/bus_scanner.h"
 #include "profibus/class2_master.h"
 #include "transport/profibus/profibus_dp_config.h"
 #include "transport/profibus/profibus_parameters.h"
@@ -29,7 +30,7 @@ namespace nord_driver {
 ///
 /// The same keys of the configuration as ProfibusDpTransport. Nothing is sent unless the program said that it serves
 /// parameters only, or while another master is heard.
-class ProfibusMs2Transport final : public Transport {
+class ProfibusMs2Transport final : public Transport, public BusScanner {
  public:
   using LinkFactory = std::function<std::unique_ptr<link::ByteLink>(const link::SerialSettings&)>;
 
@@ -55,6 +56,7 @@ class ProfibusMs2Transport final : public Transport {
   std::vector<std::string> warnings() const override;
   const TelegramTrace* trace() const noexcept override { return trace_ ? &*trace_ : nullptr; }
   void close() noexcept override;
+  ScanReport scan(const Settings& bus, const std::atomic<bool>& end_asked) override;
 
  private:
   struct DriveState {

@@ -1,0 +1,41 @@
+// Looks at some drives over a connected link, as a guest: reads, and moves nothing.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "catalogue/parameter_access.h"
+#include "tools/parameter_link.h"
+#include "tools/watch_table.h"
+
+namespace nord_driver::tools {
+
+class DriveWatch {
+ public:
+  /// `parameters`: read of every drive at each look, as users name them. Throws UsageError when one of the drives
+  /// cannot have such a parameter. `link` must outlive the object.
+  DriveWatch(ParameterLink& link, const std::vector<std::string>& parameters);
+
+  /// As all drives are now. What has to be read of a drive takes some cycles of the bus.
+  std::vector<WatchedDrive> look();
+  /// As a table names the parameters: "P719 Current".
+  const std::vector<std::string>& labels() const noexcept { return labels_; }
+
+ private:
+  struct Watched {
+    std::vector<catalogue::ParameterAddress> parameters;
+    std::array<std::optional<double>, 5> max_frequency;  // Hz, by parameter set
+  };
+
+  WatchedDrive look(DriveIndex drive);
+  std::optional<double> maxFrequency(DriveIndex drive, std::uint8_t set);
+  std::string faultOf(DriveIndex drive);
+
+  ParameterLink& link_;
+  std::vector<std::string> labels_;
+  std::vector<Watched> drives_;
+};
+
+}  // namespace nord_driver::tools

@@ -1,0 +1,38 @@
+// The process data of one drive over time, cycle by cycle, and the CSV file it is kept in.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nord_driver/core/bytes.h"
+#include "nord_driver/profile/process_data.h"
+
+namespace nord_driver::tools {
+
+struct ScopeSample {
+  double time = 0.0;      ///< s
+  bool answered = false;  ///< `input` is fresh
+  profile::ProcessOutput output;
+  profile::ProcessInput input;
+};
+
+struct ScopeRecord {
+  std::string drive;
+  std::optional<double> max_frequency;  ///< Hz, P105: 100 % of setpoint 1 and actual value 1; nothing: not known
+  int current_word = 0;                 ///< which actual value is the current (P543 to P545 = 3), 1 to 3; 0: none
+  std::vector<ScopeSample> samples;     ///< in the order of their times
+};
+
+/// One line per cycle. Comments ("# drive: left") tell what the columns do not.
+std::string scopeCsv(const ScopeRecord& record);
+/// What `scopeCsv` has written. Throws UsageError naming the line, what is there and what was expected.
+ScopeRecord readScopeCsv(const std::string& text);
+
+/// The drive in a trace of the driver (doc/trace.md): from its telegrams, or from the table of process data where these
+/// have no words for the drive or are fewer. Throws UsageError when the trace has no such drive.
+ScopeRecord readScopeTrace(const std::string& text, const std::string& drive);
+
+}  // namespace nord_driver::tools
