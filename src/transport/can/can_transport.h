@@ -55,6 +55,7 @@ class CanTransport : public Transport {
   void prepare(const Settings& bus, Setup setup, CanEngine& engine);
 
   bool parametersOnly() const noexcept { return parameters_only_; }
+  const LinkFactory& linkFactory() const noexcept { return make_link_; }
   const link::CanLink& link() const noexcept { return *link_; }
   CanBusEvents& events() noexcept { return events_; }
   const CanBusEvents& events() const noexcept { return events_; }

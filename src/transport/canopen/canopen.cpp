@@ -8,6 +8,7 @@
 #include "transport/canopen/canopen_counters.h"
 #include "transport/canopen/canopen_frame_text.h"
 #include "transport/canopen/canopen_listening.h"
+#include "transport/canopen/canopen_scanner.h"
 
 namespace nord_driver {
 
@@ -204,6 +205,10 @@ DriveIdentity CanopenTransport::identity(DriveIndex drive) const {
     identity.shared_module = config.node;
   }
   return identity;
+}
+
+ScanReport CanopenTransport::scan(const Settings& bus, const std::atomic<bool>& end_asked) {
+  return scanCanopen(bus, linkFactory(), end_asked);
 }
 
 }  // namespace nord_driver

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "canopen/master.h"
+#include "transport/bus_scanner.h"
 #include "transport/can/can_transport.h"
 #include "transport/canopen/canopen_config.h"
 #include "transport/canopen/canopen_drive.h"
@@ -24,7 +25,7 @@ namespace nord_driver {
 ///
 /// For parameters only: nothing is reset and nothing watched, and nothing is sent on a bus that somebody else works
 /// with, whether it was heard before the first frame or came later.
-class CanopenTransport final : public CanTransport {
+class CanopenTransport final : public CanTransport, public BusScanner {
  public:
   /// On an interface of the kernel, or a virtual bus; or on whatever the factory makes: a simulated bus in tests.
   explicit CanopenTransport(LinkFactory make_link = {}) : CanTransport(std::move(make_link)) {}
@@ -42,6 +43,7 @@ class CanopenTransport final : public CanTransport {
   Sentence busText() const noexcept override;
   DriveIdentity identity(DriveIndex drive) const override;
   std::vector<std::string> warnings() const override;
+  ScanReport scan(const Settings& bus, const std::atomic<bool>& end_asked) override;
 
   const CanopenConfig& config() const noexcept { return config_; }
 

@@ -140,10 +140,15 @@ class Reader {
 
 }  // namespace
 
+link::CanSettings readCanopenLink(const Settings& bus) {
+  return {requiredText(bus, "interface", "a CAN interface such as can0, or virtual:NAME"), {}, readBitRate(bus)};
+}
+
 CanopenConfig readCanopenConfig(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) {
   CanopenConfig config;
-  config.interface = requiredText(bus, "interface", "a CAN interface such as can0, or virtual:NAME");
-  config.bit_rate = readBitRate(bus);
+  const link::CanSettings link = readCanopenLink(bus);
+  config.interface = link.interface;
+  config.bit_rate = link.bit_rate;
   config.answer_window = readAnswerWindow(bus, cycle_rate);
   readOwnNode(bus, config.master);
   CanopenBusDefaults defaults;

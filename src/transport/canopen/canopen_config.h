@@ -9,6 +9,7 @@
 
 #include "canopen/master_config.h"
 #include "config/drive_common.h"
+#include "link/can/can_settings.h"
 #include "nord_driver/config/settings.h"
 #include "nord_driver/core/time.h"
 
@@ -66,6 +67,9 @@ struct CanopenConfig {
   canopen::MasterConfig master;
   std::vector<CanopenDrive> drives;
 };
+
+/// The interface and its bit rate alone, for every identifier. Throws ConfigError.
+link::CanSettings readCanopenLink(const Settings& bus);
 
 /// Throws ConfigError naming key, value and what was expected.
 CanopenConfig readCanopenConfig(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate);

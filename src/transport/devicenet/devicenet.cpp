@@ -9,6 +9,7 @@
 #include "transport/devicenet/devicenet_counters.h"
 #include "transport/devicenet/devicenet_frame_text.h"
 #include "transport/devicenet/devicenet_listening.h"
+#include "transport/devicenet/devicenet_scanner.h"
 
 namespace nord_driver {
 
@@ -236,6 +237,10 @@ DriveIdentity DeviceNetTransport::identity(DriveIndex drive) const {
     identity.shared_module = config.module;
   }
   return identity;
+}
+
+ScanReport DeviceNetTransport::scan(const Settings& bus, const std::atomic<bool>& end_asked) {
+  return scanDevicenet(bus, linkFactory(), end_asked);
 }
 
 }  // namespace nord_driver

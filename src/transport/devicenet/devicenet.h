@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "devicenet/scanner.h"
+#include "transport/bus_scanner.h"
 #include "transport/can/can_transport.h"
 #include "transport/devicenet/devicenet_config.h"
 #include "transport/devicenet/devicenet_drive.h"
@@ -23,7 +24,7 @@ namespace nord_driver {
 ///
 /// For parameters only: no process data are exchanged, so that no time-out begins, and nothing is sent on a bus on which
 /// another scanner was heard.
-class DeviceNetTransport final : public CanTransport {
+class DeviceNetTransport final : public CanTransport, public BusScanner {
  public:
   /// On an interface of the kernel, or a virtual bus; or on whatever the factory makes: a simulated bus in tests.
   explicit DeviceNetTransport(LinkFactory make_link = {}) : CanTransport(std::move(make_link)) {}
@@ -41,6 +42,7 @@ class DeviceNetTransport final : public CanTransport {
   Sentence busText() const noexcept override;
   DriveIdentity identity(DriveIndex drive) const override;
   std::vector<std::string> warnings() const override;
+  ScanReport scan(const Settings& bus, const std::atomic<bool>& end_asked) override;
 
   const DevicenetConfig& config() const noexcept { return config_; }
 

@@ -152,13 +152,18 @@ Duration answerWindow(const Settings& bus, const DevicenetConfig& config, double
 
 }  // namespace
 
-DevicenetConfig readDevicenetConfig(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) {
+DevicenetConfig readDevicenetBus(const Settings& bus, double cycle_rate) {
   DevicenetConfig config;
   config.interface = requiredText(bus, "interface", "a CAN interface such as can0, or virtual:NAME");
   config.bit_rate = readBitRate(bus);
   config.scanner.bit_rate = config.bit_rate != 0 ? config.bit_rate : kBitRates[0];
   config.scanner.cycle_time = seconds(1.0 / cycle_rate);
   readOwn(bus, config.scanner);
+  return config;
+}
+
+DevicenetConfig readDevicenetConfig(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) {
+  DevicenetConfig config = readDevicenetBus(bus, cycle_rate);
   Reader reader{bus, config, readPacketRate(bus)};
   for (const DriveSettings& source : drives) reader.add(source);
   layOut(config);

@@ -74,6 +74,9 @@ struct DevicenetConfig {
   std::vector<std::string> warnings;  ///< of what is accepted and doubtful
 };
 
+/// The interface, its bit rate and this computer on it, without any device. Throws ConfigError.
+DevicenetConfig readDevicenetBus(const Settings& bus, double cycle_rate);
+
 /// Throws ConfigError naming key, value and what was expected.
 DevicenetConfig readDevicenetConfig(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate);
 
