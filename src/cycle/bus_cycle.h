@@ -49,7 +49,7 @@ class BusCycle {
   void takeRequests(Instant now) noexcept;
   void takeRequest(const Request& request, Instant now) noexcept;
   void selectParameterSet(const Request& request, Instant now) noexcept;
-  void accessParameter(const Request& request) noexcept;
+  void accessParameter(const Request& request, Instant now) noexcept;
   Completion resetOdometry(const Request& request) noexcept;
   Duration rampTime(Instant now) const noexcept;
   void command(Instant now, Duration dt) noexcept;
@@ -59,7 +59,8 @@ class BusCycle {
   MinimumSpeeds minWheelSpeeds() const noexcept;
   void handleInputs(Instant now) noexcept;
   void runParameters(Instant now) noexcept;
-  void submitParameters(Instant now) noexcept;
+  void submitAllParameters(Instant now) noexcept;
+  void submitParameters(DriveIndex drive, Instant now) noexcept;
   void measure(Instant now, Duration dt) noexcept;
   void measureBase(Duration dt) noexcept;
   void publish(Instant now) noexcept;

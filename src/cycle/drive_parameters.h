@@ -34,8 +34,9 @@ struct ParameterChannelUse {
 };
 
 /// Each cycle, after the exchange: `handleState`, then `pollRequest` until it is empty, then the transport's results by
-/// `handleResult`, and `pollRequest` again when there were any; then `pollCompletion`. Three askers, each with one question under way at most; a result is given
-/// only to the one whose latest question it answers.
+/// `handleResult`, and `pollRequest` again when there were any; then `pollCompletion`. Three askers, each with one
+/// question under way at most, users with several (ParameterSession); a result is given only to the one whose latest question
+/// it answers.
 class DriveParameters {
  public:
   DriveParameters(DriveIndex drive, std::string name, profile::Series series, std::optional<double> typed_max_frequency,
@@ -63,8 +64,15 @@ class DriveParameters {
   bool owesEepromSwitch() const noexcept { return session_.owesEepromSwitch(); }
 
  private:
-  enum class Asker : std::uint8_t { kFaults, kSession, kReader, kCount };
+  enum class Asker : std::uint8_t {
+    kFaults,
+    kSession,  ///< its first lane; the others follow
+    kReader = kSession + drive::ParameterSession::kLanes,
+    kCount
+  };
   static constexpr std::size_t kAskers = static_cast<std::size_t>(Asker::kCount);
+  /// The lane of the session an asker is; none: it is another one.
+  static std::optional<unsigned> laneOf(Asker asker) noexcept;
 
   std::optional<profile::ParameterRequest> ask(Asker asker, Instant now) noexcept;
   void answer(Asker asker, const profile::ParameterResult& result) noexcept;
