@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "config/driver_settings.h"
 #include "config/yaml_settings.h"
 #include "tools/end_signals.h"
 #include "tools/installed_catalogues.h"
@@ -43,7 +44,9 @@ ParamProgram::ParamProgram(CommandLine& line) : end_asked_(catchEndSignals()) {
       "timeout", po::value(&timeout_)->value_name("SECONDS"), "s to wait for the drive to answer (5)")(
       "parameter-files", po::value(&parameter_files_)->value_name("FILE"),
       "a file of parameters or faults of your own, laid over the driver's and those the configuration names; may be "
-      "given several times");
+      "given several times")("node", po::value(&node_)->value_name("NAME"),
+                             "the driver's node that is asked instead of the bus: /nord_driver; without it one on this "
+                             "machine that has the bus is found by itself");
 }
 
 void ParamProgram::load() {
@@ -75,10 +78,38 @@ int ParamProgram::onDrive(const std::string& drive,
                           const std::function<DriveTask(const catalogue::DriveCatalogue&)>& prepare) {
   const ToolConfig config = readToolConfig(file(), drive);
   const catalogue::Catalogues catalogues = cataloguesFor(config);
+  const std::string node = nodeFor(config);
+  if (!node.empty()) return throughNode(node, config, catalogues, prepare);
   ParameterLink link{config, transport(), catalogues};
   const DriveTask task = prepare(link.known());
   refuseBusInUse(config);
   return carryOut(link, timeout(), task, end_asked_);
+}
+
+std::string ParamProgram::nodeFor(const ToolConfig& config) {
+  if (nodes_ == nullptr || !node_.empty()) return node_;
+  NodeQuery query;
+  query.drive = config.drives.front().name;
+  query.port_key = transport().endPoint().key;
+  if (!query.port_key.empty()) query.port = config.bus->text(query.port_key).value_or("");
+  return nodes_->find(query).value_or("");
+}
+
+int ParamProgram::throughNode(const std::string& node, const ToolConfig& config,
+                              const catalogue::Catalogues& catalogues,
+                              const std::function<DriveTask(const catalogue::DriveCatalogue&)>& prepare) {
+  if (nodes_ == nullptr) throw UsageError("--node " + node + ": this program was built without ROS");
+  transport().configure(*config.bus, config.drives, config.cycle.cycle_rate);
+  const cycle::DriveSetup& drive = config.cycle.drives.front();
+  const DriveIdentity identity = transport().identity(0);
+  const DriveDescription description{
+      drive.name, drive.series, identity,
+      catalogue::driveCatalogue(catalogues, drive.series, shortTransportName(config.transport),
+                                identity.timeout_owner == TimeoutOwner::kModule)};
+  const DriveTask task = prepare(description.known);
+  const auto parameters = nodes_->open(node, description);
+  std::fprintf(stderr, "nord_param: through node %s, which has the bus\n", node.c_str());
+  return task(*parameters) ? kDone : kFailed;
 }
 
 void ParamProgram::refuseBusInUse(const ToolConfig& config) {
