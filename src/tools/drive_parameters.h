@@ -43,6 +43,8 @@ class DriveParameters {
   virtual DriveIdentity identity() const = 0;
   /// What is known of the drive.
   virtual const catalogue::DriveCatalogue& known() const = 0;
+  /// What coming to the drive has changed in it, a sentence. Default: nothing.
+  virtual std::string changedByReading() { return {}; }
 
  protected:
   DriveParameters() = default;

@@ -9,6 +9,7 @@ std::vector<std::unique_ptr<ParamCommand>> paramCommands() {
   commands.push_back(makeWriteCommand());
   commands.push_back(makeDumpCommand());
   commands.push_back(makeCompareCommand());
+  commands.push_back(makeFaultsCommand());
   commands.push_back(makeImageCommand());
   commands.push_back(makeCheckConfigCommand());
   return commands;

@@ -16,6 +16,7 @@ std::unique_ptr<ParamCommand> makeReadCommand();
 std::unique_ptr<ParamCommand> makeWriteCommand();
 std::unique_ptr<ParamCommand> makeDumpCommand();
 std::unique_ptr<ParamCommand> makeCompareCommand();
+std::unique_ptr<ParamCommand> makeFaultsCommand();
 std::unique_ptr<ParamCommand> makeImageCommand();
 std::unique_ptr<ParamCommand> makeCheckConfigCommand();
 
