@@ -25,7 +25,7 @@ set -u
 
 echo "processors $(nproc), load before: $(cut -d' ' -f1-3 /proc/loadavg)"
 status=0
-for program in bench_efficiency bench_in_process bench_pty_cycle bench_can bench_devicenet bench_interbus bench_command_latency bench_ros_latency; do
+for program in bench_efficiency bench_in_process bench_pty_cycle bench_can bench_devicenet bench_interbus bench_command_latency bench_parameters bench_ros_latency; do
   echo "== $program"
   "$out/devel/lib/nord_driver/$program" || status=1
 done

@@ -26,6 +26,8 @@ class RequestQueue {
   std::size_t size() const noexcept { return waiting_.size(); }
   /// The running one; not to be called when empty.
   const Request& front() const noexcept { return waiting_[0]; }
+  /// The one at this place, 0 is the running one; nullptr: nobody is there.
+  const Request* at(std::size_t place) const noexcept { return place < waiting_.size() ? &waiting_[place] : nullptr; }
   /// Ends the running one: the next one's turn. Not to be called when empty.
   void finish(Result result) noexcept {
     result.id = waiting_[0].id;

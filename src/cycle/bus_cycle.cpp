@@ -127,7 +127,7 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
   switch (request.kind) {
     case RequestKind::kReadParameter:
     case RequestKind::kWriteParameter:
-      return accessParameter(request);
+      return accessParameter(request, now);
     case RequestKind::kAcknowledge:
       return standstill_requests_.handleRequest(request, now);
     case RequestKind::kSelectParameterSet:
@@ -143,10 +143,11 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
 }
 
 // Written while it turns, P105 would be a step of the speed (the setpoint is a share of it), P104 a motion of its own.
-void BusCycle::accessParameter(const Request& request) noexcept {
+void BusCycle::accessParameter(const Request& request, Instant now) noexcept {
   DriveParameters& parameters = axes_[request.drive].parameters;
   if (!decidesMotion(request) || isAtRest(request.drive)) {
-    return parameters.handleRequest(request, drives_[request.drive]);
+    parameters.handleRequest(request, drives_[request.drive]);
+    return submitParameters(request.drive, now);  // it leaves with this cycle's exchange
   }
   Completion refused = answerTo(request, false, parameters.notWhileEnabled(request));
   refused.parameter.outcome = profile::ParameterOutcome::kRefused;
@@ -245,7 +246,7 @@ void BusCycle::acknowledgeAtStart(bool quiet, Instant now) noexcept {
 
 void BusCycle::runParameters(Instant now) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) axes_[i].parameters.handleState(drives_[i], now);
-  submitParameters(now);
+  submitAllParameters(now);
   bool answered = false;
   while (const auto result = transport_.pollResult()) {
     answered = true;
@@ -254,24 +255,26 @@ void BusCycle::runParameters(Instant now) noexcept {
     }
   }
   // What follows an answer leaves with the next exchange, not with the one after it.
-  if (answered) submitParameters(now);
+  if (answered) submitAllParameters(now);
   for (Axis& axis : axes_) {
     while (const auto completion = axis.parameters.pollCompletion()) ports_.complete(*completion);
   }
 }
 
-void BusCycle::submitParameters(Instant now) noexcept {
-  for (DriveIndex i = 0; i < drives_.size(); ++i) {
-    DriveParameters& parameters = axes_[i].parameters;
-    if (!drives_[i].report().online) continue;
-    while (const auto request = parameters.pollRequest(now)) {
-      if (transport_.submit(i, *request)) continue;
-      profile::ParameterResult busy;
-      busy.id = request->id;
-      busy.outcome = profile::ParameterOutcome::kBusy;
-      parameters.handleResult(busy);
-      break;
-    }
+void BusCycle::submitAllParameters(Instant now) noexcept {
+  for (DriveIndex i = 0; i < drives_.size(); ++i) submitParameters(i, now);
+}
+
+void BusCycle::submitParameters(DriveIndex drive, Instant now) noexcept {
+  if (!drives_[drive].report().online) return;
+  DriveParameters& parameters = axes_[drive].parameters;
+  while (const auto request = parameters.pollRequest(now)) {
+    if (transport_.submit(drive, *request)) continue;
+    profile::ParameterResult busy;
+    busy.id = request->id;
+    busy.outcome = profile::ParameterOutcome::kBusy;
+    parameters.handleResult(busy);
+    return;
   }
 }
 

@@ -55,7 +55,7 @@ class BusCycle {
   /// What an onlooker must not do; false: it may.
   bool refuseAsOnlooker(const Request& request) noexcept;
   void selectParameterSet(const Request& request, Instant now) noexcept;
-  void accessParameter(const Request& request) noexcept;
+  void accessParameter(const Request& request, Instant now) noexcept;
   Completion resetOdometry(const Request& request) noexcept;
   Duration rampTime(Instant now) const noexcept;
   void command(Instant now, Duration dt) noexcept;
@@ -70,7 +70,8 @@ class BusCycle {
   void handleInputs(Instant now) noexcept;
   void acknowledgeAtStart(bool quiet, Instant now) noexcept;
   void runParameters(Instant now) noexcept;
-  void submitParameters(Instant now) noexcept;
+  void submitAllParameters(Instant now) noexcept;
+  void submitParameters(DriveIndex drive, Instant now) noexcept;
   void measure(Instant now, Duration dt) noexcept;
   void measureBase(Duration dt) noexcept;
   void publish(Instant now) noexcept;

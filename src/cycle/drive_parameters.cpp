@@ -186,8 +186,9 @@ void DriveParameters::refuse(const Request& request, profile::ParameterOutcome o
 std::optional<profile::ParameterRequest> DriveParameters::pollRequest(Instant now) noexcept {
   for (std::size_t i = 0; i < kAskers; ++i) {
     if (open_ids_[i] != 0) continue;
-    if (channel_.users_only && static_cast<Asker>(i) != Asker::kSession) continue;
-    auto request = ask(static_cast<Asker>(i), now);
+    const auto asker = static_cast<Asker>(i);
+    if (channel_.users_only && !laneOf(asker)) continue;
+    auto request = ask(asker, now);
     if (!request) continue;
     sequence_ += 1u << (kDriveBits + kAskerBits);
     request->id = sequence_ | static_cast<std::uint32_t>(i) << kDriveBits | static_cast<std::uint32_t>(drive_);
@@ -198,12 +199,16 @@ std::optional<profile::ParameterRequest> DriveParameters::pollRequest(Instant no
   return std::nullopt;
 }
 
+std::optional<unsigned> DriveParameters::laneOf(Asker asker) noexcept {
+  if (asker < Asker::kSession || asker >= Asker::kReader) return std::nullopt;
+  return static_cast<unsigned>(asker) - static_cast<unsigned>(Asker::kSession);
+}
+
 std::optional<profile::ParameterRequest> DriveParameters::ask(Asker asker, Instant now) noexcept {
+  if (const auto lane = laneOf(asker)) return session_.pollRequest(*lane);
   switch (asker) {
     case Asker::kFaults:
       return faults_.pollRequest(now);
-    case Asker::kSession:
-      return session_.pollRequest();
     case Asker::kReader:
       askMissingAgain(now);
       return reader_.pollRequest();
@@ -211,7 +216,7 @@ std::optional<profile::ParameterRequest> DriveParameters::ask(Asker asker, Insta
       return nothingUnderWay() ? history_.pollRequest() : std::nullopt;
     case Asker::kMonitor:
       return nothingUnderWay() ? monitor_.pollRequest(parameter_set_, now) : std::nullopt;
-    case Asker::kCount:
+    default:
       break;
   }
   return std::nullopt;
@@ -246,12 +251,13 @@ bool DriveParameters::handleResult(const profile::ParameterResult& result) noexc
 }
 
 void DriveParameters::answer(Asker asker, const profile::ParameterResult& result) noexcept {
+  if (const auto lane = laneOf(asker)) {
+    session_.handleResult(result, *lane);
+    return collect();
+  }
   switch (asker) {
     case Asker::kFaults:
       return faults_.handleResult(result);
-    case Asker::kSession:
-      session_.handleResult(result);
-      return collect();
     case Asker::kReader:
       scale_due_ = true;  // not before: what was read before a loss is not what the drive has now
       return reader_.handleResult(result);
@@ -259,7 +265,7 @@ void DriveParameters::answer(Asker asker, const profile::ParameterResult& result
       return history_.handleResult(result);
     case Asker::kMonitor:
       return monitor_.handleResult(result, name_.c_str());
-    case Asker::kCount:
+    default:
       return;
   }
 }

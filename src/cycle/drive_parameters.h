@@ -42,8 +42,8 @@ struct ParameterChannelUse {
 
 /// Each cycle, after the exchange: `handleState`, then `pollRequest` until it is empty, then the transport's results by
 /// `handleResult`, and `pollRequest` again when there were any; then `pollCompletion`. Each asker has one question under
-/// way at most; a result is given only to the one whose latest question it answers. What is only looked at is asked for
-/// while no other question is under way.
+/// way at most, users several (ParameterSession); a result is given only to the one whose latest question it answers.
+/// What is only looked at is asked for while no other question is under way.
 class DriveParameters {
  public:
   DriveParameters(DriveIndex drive, std::string name, profile::Series series, std::optional<double> typed_max_frequency,
@@ -76,8 +76,17 @@ class DriveParameters {
   bool owesEepromSwitch() const noexcept { return session_.owesEepromSwitch(); }
 
  private:
-  enum class Asker : std::uint8_t { kFaults, kSession, kReader, kHistory, kMonitor, kCount };
+  enum class Asker : std::uint8_t {
+    kFaults,
+    kSession,  ///< its first lane; the others follow
+    kReader = kSession + drive::ParameterSession::kLanes,
+    kHistory,
+    kMonitor,
+    kCount
+  };
   static constexpr std::size_t kAskers = static_cast<std::size_t>(Asker::kCount);
+  /// The lane of the session an asker is; none: it is another one.
+  static std::optional<unsigned> laneOf(Asker asker) noexcept;
 
   std::optional<profile::ParameterRequest> ask(Asker asker, Instant now) noexcept;
   bool nothingUnderWay() const noexcept;

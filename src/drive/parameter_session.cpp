@@ -16,6 +16,11 @@ namespace {
 constexpr std::uint16_t kSaveInEeprom = 560;
 constexpr std::uint8_t kSwitchTries = 2;
 
+// P150 to P199 (BU 2700 7.1): those of a module, whose one channel has the other drives' requests to carry, too.
+bool isOfModule(std::uint16_t number) noexcept {
+  return number >= 150 && number <= 199;
+}
+
 // A word comes back with its high word 0 or, negative, FFFF; with anything else there the parameter is a double word.
 bool isValue(const ParameterRequest& request, std::int32_t raw) noexcept {
   if (request.double_word) return raw == request.raw;
@@ -58,13 +63,37 @@ void ParameterSession::begin() noexcept {
   }
 }
 
-std::optional<ParameterRequest> ParameterSession::pollRequest() noexcept {
-  if (under_way_) return std::nullopt;
+std::optional<ParameterRequest> ParameterSession::pollRequest(unsigned lane) noexcept {
+  if (under_way_) return lane == lane_ ? std::nullopt : readAhead(lane);
   if (step_ == Step::kNone) begin();
   if (step_ == Step::kNone) return std::nullopt;
   if (step_ == Step::kSwitchOff && !owesEepromSwitch()) switch_ = EepromSwitch::kOwed;
   under_way_ = true;
+  lane_ = lane;
   return requestFor(step_);
+}
+
+std::optional<ParameterRequest> ParameterSession::readAhead(unsigned lane) noexcept {
+  const bool reads = step_ == Step::kReadValue && !run_.recovery && requests_.front().action == ParameterAction::kRead;
+  if (!reads || owesEepromSwitch() || ahead_.full()) return std::nullopt;
+  for (const Ahead& other : ahead_) {
+    if (other.lane == lane) return std::nullopt;
+  }
+  const ParameterRequest* next = requests_.at(1 + ahead_.size());
+  if (next == nullptr || next->action != ParameterAction::kRead || isOfModule(next->number)) return std::nullopt;
+  ahead_.push_back(Ahead{lane, std::nullopt});
+  return *next;
+}
+
+// What was read ahead is the running one now.
+void ParameterSession::beginAhead() noexcept {
+  const auto ahead = ahead_.takeFront();
+  if (!ahead) return;
+  run_ = {};
+  step_ = Step::kReadValue;
+  under_way_ = true;
+  lane_ = ahead->lane;
+  if (ahead->result) handleResult(*ahead->result, ahead->lane);
 }
 
 ParameterRequest ParameterSession::requestFor(Step step) const noexcept {
@@ -106,8 +135,13 @@ ParameterRequest ParameterSession::requestFor(Step step) const noexcept {
 
 // --- Results
 
-void ParameterSession::handleResult(const ParameterResult& result) noexcept {
-  if (!under_way_) return;
+void ParameterSession::handleResult(const ParameterResult& result, unsigned lane) noexcept {
+  for (Ahead& ahead : ahead_) {
+    if (ahead.lane != lane) continue;
+    ahead.result = result;
+    return;
+  }
+  if (!under_way_ || lane != lane_) return;
   under_way_ = false;
   switch (step_) {
     case Step::kNone:
@@ -317,6 +351,7 @@ void ParameterSession::finish() noexcept {
   const bool others_wait = !run_.recovery && requests_.size() > 1;
   if (owesEepromSwitch()) switch_ = others_wait ? EepromSwitch::kRetryDue : EepromSwitch::kOwed;
   if (!run_.recovery) requests_.finish(run_.result);
+  beginAhead();
 }
 
 void ParameterSession::countWrite(const ParameterResult& result) noexcept {
@@ -333,6 +368,7 @@ void ParameterSession::countValueWrite(const ParameterResult& result) noexcept {
 void ParameterSession::handleOffline() noexcept {
   ParameterResult offline;
   offline.outcome = ParameterOutcome::kOffline;
+  ahead_.clear();
   // What is under way may still be carried out.
   if (under_way_) {
     if (step_ == Step::kSwitchOff || step_ == Step::kSwitchOn) countWrite(offline);

@@ -17,25 +17,33 @@
 
 #include "core/request_queue.h"
 #include "drive/ram_only_values.h"
+#include "nord_driver/core/fixed_vector.h"
 #include "nord_driver/profile/parameter_request.h"
 
 namespace nord_driver::drive {
 
 /// Each cycle: pollRequest(), and handleResult() when the transport has the answer; pollResult() at any time.
+///
+/// Several accesses may be under way, each in a lane of its own: a user's read, and ahead of their turn the reads behind
+/// it, so that the way to the inverter never waits for the next question. Nothing is read ahead of a write, or behind
+/// one.
 class ParameterSession {
  public:
   /// The most requests waiting, running, or finished and not fetched.
   static constexpr std::size_t kCapacity = 8;
+  /// So many answers of a quick drive come within a bus cycle of usual length.
+  static constexpr unsigned kLanes = 4;
 
   explicit ParameterSession(const profile::ParameterCapabilities& capabilities = {}) noexcept
       : capabilities_(capabilities), ram_writes_(capabilities.ram_writes) {}
 
   /// A user's request, its set 1..4 where it has one. False: full.
   bool submit(const profile::ParameterRequest& request) noexcept;
-  /// The next access, when none is under way; its id is for the caller to choose.
-  std::optional<profile::ParameterRequest> pollRequest() noexcept;
-  /// The result of the request handed out last.
-  void handleResult(const profile::ParameterResult& result) noexcept;
+  /// The next access, when this lane, below kLanes, is free and something may go out by it; its id is for the caller to
+  /// choose.
+  std::optional<profile::ParameterRequest> pollRequest(unsigned lane = 0) noexcept;
+  /// The result of the request handed out last by this lane.
+  void handleResult(const profile::ParameterResult& result, unsigned lane = 0) noexcept;
   /// Of a user's request, by its id: the transport's, and what this session adds to it.
   std::optional<profile::ParameterResult> pollResult() noexcept { return requests_.pollResult(); }
   /// Ends all requests as offline. The inverter that comes back may be another one: what was learned of it is
@@ -77,7 +85,15 @@ class ParameterSession {
     profile::ParameterResult result;  // as far as it is known
   };
 
+  /// The read of a request behind the running one.
+  struct Ahead {
+    unsigned lane = 0;
+    std::optional<profile::ParameterResult> result;  // it came before that of one ahead of it
+  };
+
   void begin() noexcept;
+  void beginAhead() noexcept;
+  std::optional<profile::ParameterRequest> readAhead(unsigned lane) noexcept;
   profile::ParameterRequest requestFor(Step step) const noexcept;
   void handleValue(const profile::ParameterResult& result) noexcept;
   void handleRamWrite(const profile::ParameterResult& result) noexcept;
@@ -99,8 +115,10 @@ class ParameterSession {
   profile::ParameterCapabilities capabilities_;
   RequestQueue<profile::ParameterRequest, profile::ParameterResult, kCapacity> requests_;
   Step step_ = Step::kNone;
-  bool under_way_ = false;  // the request of this step is handed out
-  Run run_;                 // while step_ is not kNone
+  bool under_way_ = false;                // the request of this step is handed out
+  unsigned lane_ = 0;                     // by which
+  FixedVector<Ahead, kLanes - 1> ahead_;  // in the order of their requests
+  Run run_;                               // while step_ is not kNone
   EepromSwitch switch_ = EepromSwitch::kNotOurs;
   bool ram_writes_;  // false: this inverter, or the way to it, knows no write that spares the EEPROM
   RamOnlyValues ram_only_;

@@ -115,6 +115,9 @@ void Services::readParameter(DriveIndex drive, ReadParameter::Request& request, 
   const cycle::Completion answer = carryOut(drive, RequestKind::kReadParameter, access);
   response.success = answer.success;
   response.message = answer.message.str();
+  response.refused = answer.parameter.outcome == profile::ParameterOutcome::kRefused;
+  response.unknown = response.refused && answer.parameter.refused_number == access.request.number &&
+                     answer.parameter.reason == profile::ParameterReason::kNoSuchParameter;
   if (!answer.success) return;
   response.raw = answer.parameter.raw;
   response.value = catalogue::valueOf(access.entry, answer.parameter.raw, access.request.index);

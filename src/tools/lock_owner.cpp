@@ -9,16 +9,12 @@
 
 namespace nord_driver::tools {
 
-namespace {
-
 // proc(5), /proc/PID/cmdline: the words end in zeros.
 std::string programOf(int process) {
   std::string first;
   std::getline(std::ifstream("/proc/" + std::to_string(process) + "/cmdline"), first, '\0');
   return first.substr(first.rfind('/') + 1);  // npos + 1 is 0
 }
-
-}  // namespace
 
 // proc(5), /proc/locks: "1: FLOCK  ADVISORY  WRITE 4242 00:05:123 0 EOF", the device in hexadecimal figures.
 std::optional<LockOwner> lockOwner(const std::string& path) {

@@ -11,6 +11,9 @@ struct LockOwner {
   std::string name;  ///< of its program, without folders
 };
 
+/// The program of a process, without folders; empty when there is none of this id.
+std::string programOf(int process);
+
 /// Who holds a lock (flock) on the file or device at `path`, which every program of this package takes on a serial
 /// device. Nothing when nobody does, there is no such file, or the kernel does not tell.
 std::optional<LockOwner> lockOwner(const std::string& path);

@@ -9,6 +9,7 @@
 #include "nord_driver/config/settings.h"
 #include "tools/command_line.h"
 #include "tools/commands/commands.h"
+#include "tools/over_ros/ros_drive_nodes.h"
 #include "tools/usage_error.h"
 
 namespace {
@@ -16,15 +17,18 @@ namespace {
 using namespace nord_driver::tools;
 
 constexpr char kAbout[] =
-    "Reads and writes parameters of NORD inverters over the bus, without ROS: with the driver's configuration file, "
-    "but "
-    "not beside the driver. It is the master of the bus while it runs.";
+    "Reads and writes parameters of NORD inverters with the driver's configuration file: over the bus, without ROS, as "
+    "its master while it runs; or, while the driver runs, through the driver's node.";
 
 constexpr char kFooter[] =
+    "A node of the driver that runs on this machine and has the bus is found by itself (stderr says so), any other one "
+    "is "
+    "named with --node: the node carries out what is asked, and refuses in its own words what cannot be done while a "
+    "drive moves. Without a node this program opens the bus.\n"
     "It moves nothing and stops nothing: a drive that is not at rest is left as it is, and the command refused. One at "
     "rest gets the idle word 047E, the other drives of the bus get nothing. No watchdog runs and no node is guarded "
     "meanwhile, so that the end of the program trips nothing; a drive with P513 > 0 trips all the same, and is named.\n"
-    "End the driver first. A serial device in use is refused, and half a second is listened for another master. On "
+    "A serial device somebody else has is refused, and half a second is listened for another master. On "
     "CANopen a drive that runs without a master and sends nothing is not heard, and is stopped by the start-up of its "
     "node.\n"
     "restore writes what a drive can lose without being lost itself. What the bus reaches it by (address, baud rate, "
@@ -36,6 +40,8 @@ int run(int argc, char** argv) {
   line.setBrief("parameters of NORD inverters over their bus, without ROS");
   line.offer("SET", {"1", "2", "3", "4"});
   ParamProgram program{line};
+  RosDriveNodes nodes;
+  program.reachThrough(nodes);
   const std::vector<std::unique_ptr<ParamCommand>> commands = paramCommands();
   std::vector<std::pair<const Command*, ParamCommand*>> words;
   for (const auto& command : commands) words.emplace_back(&command->addTo(line), command.get());

@@ -70,8 +70,10 @@ const std::map<std::string, Names>& table() {
       {"tools",
        {"core", "state", "config", "catalogue", "commissioning", "profile", "transport", "robot", "drive", "cycle",
         "sim", "node/node_config"}},
-      {"tools/nord_param", {"core", "config", "tools/commands", "tools"}},
+      {"tools/nord_param", {"core", "config", "tools/commands", "tools", "tools/over_ros"}},
       {"tools/restore", {"core", "config", "catalogue", "profile", "cycle", "tools"}},
+      {"tools/over_ros",  // the way through a running node
+       {"core", "config", "catalogue", "profile", "transport", "link/modbus", "tools"}},
       {"tools/commands",  // of nord_param, one file each
        {"core", "config", "catalogue", "commissioning", "profile", "transport", "robot", "drive", "cycle",
         "node/node_config", "tools/*"}},
@@ -103,7 +105,7 @@ bool areApart(const std::string& layer, const std::string& used) {
 }
 
 const Names kPure{"core", "profile", "profibus", "canopen", "devicenet", "interbus", "robot", "drive"};
-const Names kWithRos{"node", "sim_node", "plugins", "tools", "rostest", "ros_support"};
+const Names kWithRos{"node", "sim_node", "plugins", "tools", "tools/over_ros", "rostest", "ros_support"};
 const Names kForEveryTest{"sim", "link", "core", "support"};
 const Names kProgramTests{"node", "tools"};  // those of the programs bring a bus of their own
 const Names kThreads{"thread", "mutex", "shared_mutex", "condition_variable", "future"};

@@ -31,6 +31,7 @@ class CanRobot : public DrivenRobot {
     std::vector<std::map<std::string, MapSettings::Value>> each;  ///< of single drives, on top of these
     /// Behind one SK CU4-CAO, which then has these inverters; the first two are the wheels.
     std::size_t gateway_inverters = 0;
+    std::size_t nodes = 2;                          ///< without a gateway; the first two are the wheels
     std::function<void(sim::SimConfig&)> simulate;  ///< changes of the simulated side
     /// A second driver on this bus, which outlives it; `bus()`, `link()`, `unit()` and `node()` are the first one's.
     sim::SimulatedCanBus* beside = nullptr;
@@ -77,7 +78,7 @@ class CanRobot : public DrivenRobot {
  private:
   static std::vector<DriveSettings> driveSettings(const Options& options) {
     std::vector<DriveSettings> drives;
-    const std::size_t count = options.gateway_inverters == 0 ? 2 : options.gateway_inverters;
+    const std::size_t count = options.gateway_inverters == 0 ? options.nodes : options.gateway_inverters;
     for (std::size_t i = 0; i < count; ++i) {
       const std::string name = nameOf(i);
       auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
@@ -109,7 +110,7 @@ class CanRobot : public DrivenRobot {
     sim::SimConfig config;
     config.bus = sim::CanBusConfig{};
     const bool gateway = options.gateway_inverters != 0;
-    for (std::size_t i = 0; i < (gateway ? options.gateway_inverters : 2); ++i) {
+    for (std::size_t i = 0; i < (gateway ? options.gateway_inverters : options.nodes); ++i) {
       sim::DriveConfig drive;
       drive.name = nameOf(i);
       drive.joint = drive.name + "_wheel_joint";

@@ -30,6 +30,7 @@ class DevicenetRobot : public DrivenRobot {
     int assembly = 100;
     /// Behind one module, which then has these inverters; the first two are the wheels.
     std::size_t gateway_inverters = 0;
+    std::size_t modules = 2;  ///< with an inverter each, when there is no such gateway; the first two are the wheels
     /// Each wheel an SK 5xxE behind its own SK TU3-DEV, which lives by its mains.
     bool on_inverter = false;
     std::function<void(sim::SimConfig&)> simulate;  ///< changes of the simulated side
@@ -72,7 +73,7 @@ class DevicenetRobot : public DrivenRobot {
 
  private:
   static std::size_t countOf(const Options& options) {
-    return options.gateway_inverters == 0 ? 2 : options.gateway_inverters;
+    return options.gateway_inverters == 0 ? options.modules : options.gateway_inverters;
   }
   static std::string nameOf(std::size_t i) { return i == 0 ? "left" : i == 1 ? "right" : "extra" + std::to_string(i); }
   static std::vector<DriveSettings> driveSettings(const Options& options) {

@@ -45,7 +45,9 @@ ParamProgram::ParamProgram(CommandLine& line)
       "timeout", po::value(&timeout_)->value_name("SECONDS"), "s to wait for the drive to answer (5)")(
       "parameter-files", po::value(&parameter_files_)->value_name("FILE"),
       "a file of parameters or faults of your own, laid over the driver's and those the configuration names; may be "
-      "given several times");
+      "given several times")("node", po::value(&node_)->value_name("NAME"),
+                             "the driver's node that is asked instead of the bus: /nord_driver; without it one on this "
+                             "machine that has the bus is found by itself");
 }
 
 void ParamProgram::load() {
@@ -99,6 +101,8 @@ int ParamProgram::onDrive(const std::string& drive,
     transport_ = loader_.load(config.transport);
   }
   served_ = true;
+  const std::string node = nodeFor(config);
+  if (!node.empty()) return throughNode(node, config, catalogues, prepare);
   ParameterLink link{config, *transport_, catalogues};
   const DriveTask task = prepare(link.known());
   refuseBusInUse(*config.bus, config.cycle.drives.front().name);
@@ -113,6 +117,32 @@ int ParamProgram::onDrives(const std::vector<std::string>& drives,
   const LinkTask task = prepare(link);
   refuseBusInUse(*config.bus, config.cycle.drives.front().name);
   return carryOut(link, timeout(), task, end_asked_);
+}
+
+std::string ParamProgram::nodeFor(const ToolConfig& config) {
+  if (nodes_ == nullptr || !node_.empty()) return node_;
+  NodeQuery query;
+  query.drive = config.drives.front().name;
+  query.port_key = transport().endPoint().key;
+  if (!query.port_key.empty()) query.port = config.bus->text(query.port_key).value_or("");
+  return nodes_->find(query).value_or("");
+}
+
+int ParamProgram::throughNode(const std::string& node, const ToolConfig& config,
+                              const catalogue::Catalogues& catalogues,
+                              const std::function<DriveTask(const catalogue::DriveCatalogue&)>& prepare) {
+  if (nodes_ == nullptr) throw UsageError("--node " + node + ": this program was built without ROS");
+  transport().configure(*config.bus, config.drives, config.cycle.cycle_rate);
+  const cycle::DriveSetup& drive = config.cycle.drives.front();
+  const DriveIdentity identity = transport().identity(0);
+  const DriveDescription description{
+      drive.name, drive.series, identity,
+      catalogue::driveCatalogue(catalogues, drive.series, shortTransportName(config.transport),
+                                identity.timeout_owner == TimeoutOwner::kModule)};
+  const DriveTask task = prepare(description.known);
+  const auto parameters = nodes_->open(node, description);
+  std::fprintf(stderr, "nord_param: through node %s, which has the bus\n", node.c_str());
+  return task(*parameters) ? kDone : kFailed;
 }
 
 // Whoever has the device does not give it away while this program waits.

@@ -14,6 +14,7 @@
 #include "nord_driver/transport/transport.h"
 #include "tools/bus_port.h"
 #include "tools/command_line.h"
+#include "tools/drive_nodes.h"
 #include "tools/drive_parameters.h"
 #include "tools/parameter_link.h"
 #include "tools/progress_bar.h"
@@ -33,6 +34,10 @@ class ParamProgram {
   /// Adds the options of the program, and from here on catches the signals that end it: a write that is under way is not
   /// cut off, P560 may have to be put back.
   explicit ParamProgram(CommandLine& line);
+
+  /// Through which a drive is asked whose bus a node has; it must outlive the program. Without any, no node is looked
+  /// for.
+  void reachThrough(DriveNodes& nodes) noexcept { nodes_ = &nodes; }
 
   // Once the command line was read.
   const std::vector<std::string>& files() const noexcept { return files_; }  ///< --config
@@ -57,9 +62,9 @@ class ParamProgram {
   /// The project's, those of the configuration, and --parameter-files.
   catalogue::Catalogues cataloguesFor(const ToolConfig& config) const;
 
-  /// Opens the bus, does the task with the drive of that name, and closes the bus. `prepare` makes the task of what is
-  /// known of the drive, and tells what is wrong already there: that reaches no bus. May be called for one drive after
-  /// the other. Returns the exit code.
+  /// Does the task with the drive of that name: through a node, when --node names one or one has the bus, and says so;
+  /// else opens the bus, and closes it after. `prepare` makes the task of what is known of the drive, and tells what is
+  /// wrong already there: that reaches no bus. May be called for one drive after the other. Returns the exit code.
   int onDrive(const std::string& drive, const std::function<DriveTask(const catalogue::DriveCatalogue&)>& prepare);
 
   /// Throws Trouble where another process has the device of `bus`. `drive`: one to ask the driver about; may be empty.
@@ -69,11 +74,17 @@ class ParamProgram {
 
  private:
   void load();
+  /// The node to ask; empty: none, the bus is opened here.
+  std::string nodeFor(const ToolConfig& config);
+  int throughNode(const std::string& node, const ToolConfig& config, const catalogue::Catalogues& catalogues,
+                  const std::function<DriveTask(const catalogue::DriveCatalogue&)>& prepare);
 
   std::vector<std::string> files_;
   BusPort port_;
   Seconds timeout_{5.0};
   std::vector<std::string> parameter_files_;
+  std::string node_;  // --node
+  DriveNodes* nodes_ = nullptr;
   const std::atomic<bool>& end_asked_;
   TransportLoader loader_;
   boost::shared_ptr<Transport> transport_;  // empty: nothing is loaded yet

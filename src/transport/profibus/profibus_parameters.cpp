@@ -146,7 +146,9 @@ template <typename Master>
 void ProfibusParameters::submitTo(Master& master, Instant now) noexcept {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     StationChannels& station = stations_[i];
-    for (std::size_t turn = 0; turn < station.users.size(); ++turn) {
+    // One that only pauses between two orders has another turn behind the others, in the same cycle.
+    const std::size_t turns = station.users.empty() ? 0 : station.users.size() + 1;
+    for (std::size_t turn = 0; turn < turns; ++turn) {
       RecordParameterChannel& user = *station.users[station.user];
       if (const auto request = user.pollRecord(now)) {
         // Another one's record cannot be under way: its user would hold the station.

@@ -1,0 +1,45 @@
+// Nodes of the driver that run now and have a bus already: what this program asks them instead of the bus.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "catalogue/drive_catalogue.h"
+#include "nord_driver/profile/series.h"
+#include "nord_driver/transport/transport.h"
+#include "tools/drive_parameters.h"
+
+namespace nord_driver::tools {
+
+/// What the configuration says of one drive.
+struct DriveDescription {
+  std::string name;
+  profile::Series series = profile::Series::kSk5xxe;
+  DriveIdentity identity;
+  catalogue::DriveCatalogue known;
+};
+
+struct NodeQuery {
+  std::string drive;     ///< its name
+  std::string port_key;  ///< of the group `bus`: "device"; empty: the transport opens nothing that has a name
+  std::string port;      ///< what it says: "/dev/ttyUSB0"
+};
+
+class DriveNodes {
+ public:
+  virtual ~DriveNodes() = default;
+
+  /// The name of a node on this machine that has this bus and this drive. None: there is none, or no ROS; found out
+  /// without waiting.
+  virtual std::optional<std::string> find(const NodeQuery& query) = 0;
+  /// The drive's parameters through the node of that name. Throws Trouble when it does not offer them.
+  virtual std::unique_ptr<DriveParameters> open(const std::string& node, const DriveDescription& drive) = 0;
+
+ protected:
+  DriveNodes() = default;
+  DriveNodes(const DriveNodes&) = default;
+  DriveNodes& operator=(const DriveNodes&) = default;
+};
+
+}  // namespace nord_driver::tools

@@ -1,0 +1,37 @@
+// One drive's parameters through the services of the node that has its bus.
+#pragma once
+
+#include <ros/service_client.h>
+
+#include <string>
+
+#include "tools/drive_nodes.h"
+
+namespace nord_driver::tools {
+
+/// Asks ~<drive>/read_parameter and ~<drive>/write_parameter. What is refused is refused by the node, in its words: it
+/// knows whether the drive moves. ros::init() comes before it.
+class NodeParameters final : public DriveParameters {
+ public:
+  /// `node`: with its leading slash. Throws Trouble when it does not offer the services now.
+  NodeParameters(const std::string& node, DriveDescription drive);
+
+  ParameterAnswer read(const catalogue::ParameterAddress& address) override;
+  ParameterAnswer write(const catalogue::ParameterAccess& access) override;
+
+  const std::string& name() const noexcept override { return drive_.name; }
+  profile::Series series() const noexcept override { return drive_.series; }
+  DriveIdentity identity() const override { return drive_.identity; }
+  const catalogue::DriveCatalogue& known() const noexcept override { return drive_.known; }
+
+ private:
+  template <typename Service>
+  void call(ros::ServiceClient& client, Service& service);
+  std::uint8_t setFor(const catalogue::ParameterAccess& access);
+
+  std::string node_;
+  DriveDescription drive_;
+  ros::ServiceClient read_, write_;
+};
+
+}  // namespace nord_driver::tools

@@ -1,0 +1,139 @@
+#include "tools/over_ros/ros_drive_nodes.h"
+
+#include <ros/init.h>
+#include <ros/master.h>
+#include <ros/names.h>
+#include <ros/network.h>
+#include <ros/param.h>
+#include <ros/this_node.h>
+#include <unistd.h>
+#include <xmlrpcpp/XmlRpcClient.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include "link/modbus/host_resolver.h"
+#include "link/modbus/tcp_connect.h"
+#include "tools/lock_owner.h"
+#include "tools/over_ros/node_parameters.h"
+
+namespace nord_driver::tools {
+
+namespace {
+
+constexpr Duration kMasterTime = std::chrono::milliseconds{300};
+constexpr char kProgram[] = "nord_param";  // as the master knows it, with a number behind
+
+std::string masterUri() {
+  const char* uri = std::getenv("ROS_MASTER_URI");
+  return uri == nullptr ? "" : uri;
+}
+
+bool accepts(const std::string& host, std::uint32_t port) {
+  if (port == 0 || port > 65535) return false;
+  const link::Wakeup never;
+  Sentence reason;
+  std::vector<link::SocketAddress> addresses;
+  const Instant until = std::chrono::steady_clock::now() + kMasterTime;
+  link::HostResolver resolver{{host, static_cast<std::uint16_t>(port)}};
+  if (!resolver.resolve(until, never, addresses, reason)) return false;
+  const int socket = link::connectTcp(addresses, until, never, reason);
+  if (socket >= 0) ::close(socket);
+  return socket >= 0;
+}
+
+bool masterAnswers() {
+  std::string host;
+  std::uint32_t port = 0;
+  return ros::network::splitURI(masterUri(), host, port) && accepts(host, port);
+}
+
+/// Nodes that offer this drive's parameters, or did: one that was killed is still known.
+std::vector<std::string> nodesWith(const std::string& drive) {
+  XmlRpc::XmlRpcValue arguments, result, payload;
+  arguments[0] = ros::this_node::getName();
+  std::vector<std::string> nodes;
+  if (!ros::master::execute("getSystemState", arguments, result, payload, false)) return nodes;
+  const std::string ending = "/" + drive + "/read_parameter";
+  XmlRpc::XmlRpcValue& services = payload[2];
+  for (int i = 0; i < services.size(); ++i) {
+    const std::string name = services[i][0];
+    if (name.size() <= ending.size() || name.compare(name.size() - ending.size(), ending.size(), ending) != 0) continue;
+    nodes.push_back(name.substr(0, name.size() - ending.size()));
+  }
+  return nodes;
+}
+
+/// A device behind all its links; what is no file, a CAN interface or a gateway, stays as it is.
+std::string behindLinks(const std::string& port) {
+  std::error_code error;
+  const std::filesystem::path path = std::filesystem::canonical(port, error);
+  return error ? port : path.string();
+}
+
+std::string portOf(const std::string& node, const std::string& key) {
+  std::string port;
+  if (ros::param::get(node + "/bus_end_point", port) && !port.empty()) return port;
+  ros::param::get(node + "/bus/" + key, port);
+  return port;
+}
+
+/// The id of its process, when it answers and runs here; the same device of another machine is another bus.
+std::optional<int> processHere(const std::string& node) {
+  XmlRpc::XmlRpcValue arguments, result, payload;
+  arguments[0] = ros::this_node::getName();
+  arguments[1] = node;
+  if (!ros::master::execute("lookupNode", arguments, result, payload, false)) return std::nullopt;
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::network::splitURI(static_cast<std::string>(payload), host, port) || !accepts(host, port)) {
+    return std::nullopt;
+  }
+  XmlRpc::XmlRpcClient client{host.c_str(), static_cast<int>(port), "/"};
+  XmlRpc::XmlRpcValue caller, answer;
+  caller[0] = ros::this_node::getName();
+  if (!client.execute("getPid", caller, answer) || answer.size() != 3) return std::nullopt;
+  const int process = answer[2];
+  if (programOf(process) != "nord_driver_node") return std::nullopt;
+  return process;
+}
+
+}  // namespace
+
+RosDriveNodes::~RosDriveNodes() {
+  if (begun_) ros::shutdown();
+}
+
+// The signals are this program's own.
+void RosDriveNodes::begin() {
+  if (begun_) return;
+  ros::init(ros::M_string{}, kProgram,
+            ros::init_options::NoSigintHandler | ros::init_options::AnonymousName | ros::init_options::NoRosout);
+  ros::start();
+  begun_ = true;
+}
+
+std::optional<std::string> RosDriveNodes::find(const NodeQuery& query) {
+  if (query.port_key.empty() || query.port.empty() || !masterAnswers()) return std::nullopt;
+  begin();
+  const auto owner = lockOwner(query.port);
+  for (const std::string& node : nodesWith(query.drive)) {
+    if (behindLinks(portOf(node, query.port_key)) != behindLinks(query.port)) continue;
+    const auto process = processHere(node);
+    if (process && (!owner || owner->process == *process)) return node;
+  }
+  return std::nullopt;
+}
+
+std::unique_ptr<DriveParameters> RosDriveNodes::open(const std::string& node, const DriveDescription& drive) {
+  if (!masterAnswers()) {
+    throw Trouble("no ROS master answers at ROS_MASTER_URI (" + (masterUri().empty() ? "not set" : masterUri()) +
+                  "): node " + node + " cannot be asked");
+  }
+  begin();
+  return std::make_unique<NodeParameters>(node.front() == '/' ? node : "/" + node, drive);
+}
+
+}  // namespace nord_driver::tools

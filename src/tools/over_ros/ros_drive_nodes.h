@@ -1,0 +1,25 @@
+// The nodes of the driver that run, found through the ROS master of the environment (ROS_MASTER_URI).
+#pragma once
+
+#include "tools/drive_nodes.h"
+
+namespace nord_driver::tools {
+
+/// Without a master nothing is asked and nothing waits: one that does not accept a connection within a third of a second
+/// is none.
+class RosDriveNodes final : public DriveNodes {
+ public:
+  RosDriveNodes() = default;
+  /// Ends what was begun with ROS.
+  ~RosDriveNodes() override;
+
+  std::optional<std::string> find(const NodeQuery& query) override;
+  std::unique_ptr<DriveParameters> open(const std::string& node, const DriveDescription& drive) override;
+
+ private:
+  void begin();
+
+  bool begun_ = false;
+};
+
+}  // namespace nord_driver::tools

@@ -1,0 +1,107 @@
+// nord_param beside the driver: through its node, which it finds by the bus the node has.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "rostest/robot_under_test.h"
+#include "tools/program.h"
+
+namespace nord_driver::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+constexpr char kThroughNode[] = "nord_param: through node /nord_driver, which has the bus\n";
+
+class NordParamBesideTheDriver : public RobotTest {
+ protected:
+  void SetUp() override {
+    RobotTest::SetUp();
+    ASSERT_TRUE(robot().waitForDrivesOnline());
+    ASSERT_TRUE(ros::param::get("nord_driver/bus/device", device_));
+  }
+  /// With the driver's file and the bus it has.
+  Ended run(const std::vector<std::string>& words, const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> command{NORD_PARAM_PROGRAM, "--config", NORD_ROBOT_FILE, "--bus", device_};
+    command.insert(command.end(), options.begin(), options.end());
+    command.insert(command.end(), words.begin(), words.end());
+    return runProgram(command);
+  }
+
+  std::string device_;
+};
+
+TEST_F(NordParamBesideTheDriver, ReadsThroughItsNode) {
+  const Ended read = run({"read", "left", "P105"});
+  EXPECT_EQ(0, read.code) << read.errors;
+  EXPECT_EQ("P105 set 1 Maximum frequency = 50.0 Hz (raw 500)\n", read.output);
+  EXPECT_EQ(kThroughNode, read.errors);
+  EXPECT_EQ("P105 set 3 Maximum frequency = 25.0 Hz (raw 250)\n", run({"read", "left", "P105", "--set", "3"}).output);
+  const Ended unknown = run({"read", "left", "999"});
+  EXPECT_EQ(1, unknown.code);
+  EXPECT_THAT(unknown.errors, HasSubstr("drive left refuses P999"));
+}
+
+TEST_F(NordParamBesideTheDriver, FindsTheBusByAnotherNameOfTheSameDevice) {
+  const std::string link = ::testing::TempDir() + "nord_param_" + std::to_string(::getpid());
+  ASSERT_EQ(0, ::symlink(device_.c_str(), link.c_str()));
+  device_ = link;
+  const Ended read = run({"read", "left", "P105"});
+  EXPECT_EQ(kThroughNode, read.errors);
+  ::unlink(link.c_str());
+}
+
+TEST_F(NordParamBesideTheDriver, AsksTheNodeThatIsNamedWhateverBusTheFileSays) {
+  device_ = "/dev/no_such_device";
+  const Ended read = run({"read", "right", "P105"}, {"--node", "/nord_driver"});
+  EXPECT_EQ(0, read.code) << read.errors;
+  EXPECT_EQ(kThroughNode, read.errors);
+  const Ended none = run({"read", "right", "P105"}, {"--node", "/nobody"});
+  EXPECT_EQ(1, none.code);
+  EXPECT_THAT(none.errors, HasSubstr("no service /nobody/right/read_parameter"));
+}
+
+// A bus nobody has is opened, and no node is asked.
+TEST_F(NordParamBesideTheDriver, LeavesANodeOfAnotherBusAlone) {
+  device_ = "/dev/no_such_device";
+  const Ended read = run({"read", "left", "P105"}, {"--timeout", "0.2"});
+  EXPECT_EQ(1, read.code);
+  EXPECT_THAT(read.errors, AllOf(Not(HasSubstr("node /nord_driver")), HasSubstr("/dev/no_such_device")));
+}
+
+TEST_F(NordParamBesideTheDriver, WritesToRamAndIsRefusedWhileItMoves) {
+  const std::uint64_t before = robot().left.truth.next()->eeprom_writes;
+  const Ended written = run({"write", "left", "P102", "0.6"});
+  EXPECT_EQ(0, written.code) << written.errors;
+  EXPECT_EQ("P102 set 1 Acceleration time = 0.60 s (raw 60), in RAM: lost at power off\n", written.output);
+  EXPECT_EQ(before, robot().left.truth.next()->eeprom_writes);
+  EXPECT_EQ(0, run({"write", "left", "P102", "0.5"}).code);
+
+  ASSERT_NO_FATAL_FAILURE(enableAndDrive(0.3));
+  const Ended refused = run({"write", "left", "P105", "40"});
+  EXPECT_EQ(1, refused.code);
+  EXPECT_THAT(refused.output, IsEmpty());
+  EXPECT_EQ(std::string(kThroughNode) +
+                "nord_param: P105 decides what setpoints and actual values mean: disable drive left first\n",
+            refused.errors);
+}
+
+TEST_F(NordParamBesideTheDriver, DumpsAndCompares) {
+  const Ended dump = run({"dump", "left"});
+  ASSERT_EQ(0, dump.code) << dump.errors;
+  EXPECT_THAT(dump.output,
+              AllOf(HasSubstr("# What nord_param read from drive left"), HasSubstr("\"P105 set 1\": {raw: 500")));
+  const std::string file = ::testing::TempDir() + "nord_param_dump_" + std::to_string(::getpid());
+  std::ofstream(file) << dump.output;
+  const Ended same = run({"compare", "left", file});
+  EXPECT_EQ(0, same.code) << same.output << same.errors;
+  EXPECT_THAT(same.output, HasSubstr("0 of "));
+  ::unlink(file.c_str());
+}
+
+}  // namespace
+}  // namespace nord_driver::test
