@@ -158,7 +158,7 @@ void DriverNode::advertise() {
   word_topics_ = std::make_unique<WordTopics>(private_commands_, config_.cycle, *ports_);
   fault_board_ = std::make_unique<FaultBoard>(names, faults_);
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
-  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, known, values_, where_);
+  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, known_, values_, where_);
   services_ =
       std::make_unique<Services>(private_node_, stops_.handle(), config_, known_, *fault_board_, eeproms_, *broker_);
   parameter_jobs_ = std::make_unique<ParameterJobs>(jobs_.handle(), config_, identities_, known_, eeproms_, *broker_);
