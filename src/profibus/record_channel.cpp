@@ -60,17 +60,14 @@ void RecordChannel::handleAnswer(const FdlAnswer& answer, Instant now) noexcept 
       return handleResponse(answer.data, now);
     case FdlAnswer::Kind::kRefusal:
       // No resource for the moment: once more, until the end.
-      if (answer.code != ResponseCode::kNotActivated) return handleNothing(now);
+      if (answer.code != ResponseCode::kNotActivated) return handleNoResource(now);
       given_up_ = false;
       return end(RecordOutcome::kNotActivated);
   }
 }
 
 void RecordChannel::handleResponse(ByteView pdu, Instant now) noexcept {
-  if (given_up_) {
-    given_up_ = false;  // that was the late one
-    return;
-  }
+  if (given_up_) return forget();  // that was the late one
   switch (parseRecordAnswer(pdu, request_, result_)) {
     case RecordAnswer::kOther:
       if (sent_request_ && state_ == State::kToSend) state_ = State::kPolling;
@@ -105,7 +102,18 @@ void RecordChannel::giveUp(Timer late, Instant now) noexcept {
 
 // The slave had nothing to say: once it has had its time, nothing comes any more of the request given up.
 void RecordChannel::handleNothing(Instant now) noexcept {
-  if (!timers_.isRunning(Timer::kDrain, now) && !timers_.isRunning(Timer::kMaking, now)) given_up_ = false;
+  const bool may_come = timers_.isRunning(Timer::kDrain, now) || timers_.isRunning(Timer::kMaking, now);
+  if (given_up_ && !may_come) forget();
+}
+
+// Whether a response waits it does not say. A request that cannot go out for that ends as one that brings no response.
+void RecordChannel::handleNoResource(Instant now) noexcept {
+  if (given_up_ && !timers_.isSet(Timer::kResponse)) timers_.set(Timer::kResponse, now + response_timeout_);
+}
+
+void RecordChannel::forget() noexcept {
+  given_up_ = false;
+  timers_.stop(Timer::kResponse);
 }
 
 void RecordChannel::end(RecordOutcome outcome) noexcept {

@@ -57,6 +57,8 @@ class RecordChannel {
   void handleResponse(ByteView pdu, Instant now) noexcept;
   void giveUp(Timer late, Instant now) noexcept;
   void handleNothing(Instant now) noexcept;
+  void handleNoResource(Instant now) noexcept;
+  void forget() noexcept;
   void end(RecordOutcome outcome) noexcept;
 
   std::size_t slave_;
