@@ -35,15 +35,15 @@ std::optional<RecordResult> RecordChannel::pollResult() noexcept {
 bool RecordChannel::wantsTelegram(Instant now) noexcept {
   const bool waiting = state_ == State::kToSend || state_ == State::kPolling;
   if (waiting && timers_.isOver(Timer::kResponse, now)) {
-    // Its response may still come, and must not be taken for that to the next request.
-    if (state_ == State::kPolling) timers_.set(Timer::kDrain, now + response_timeout_);
+    if (state_ == State::kPolling) giveUp(Timer::kDrain, now);
     end(RecordOutcome::kTimedOut);
   }
-  return state_ == State::kToSend || state_ == State::kPolling || isDraining(now);
+  const bool drains = given_up_ && timers_.isRunning(Timer::kDrain, now);
+  return state_ == State::kToSend || state_ == State::kPolling || drains;
 }
 
 ByteView RecordChannel::pollTelegram(Instant now) noexcept {
-  sent_request_ = state_ == State::kToSend && !isDraining(now);
+  sent_request_ = state_ == State::kToSend && !given_up_;
   if (!sent_request_) return {};
   if (!timers_.isSet(Timer::kResponse)) timers_.set(Timer::kResponse, now + response_timeout_);
   if (!timers_.isSet(Timer::kBusy)) timers_.set(Timer::kBusy, now + std::max(kBusyTime, response_timeout_));
@@ -55,21 +55,19 @@ void RecordChannel::handleAnswer(const FdlAnswer& answer, Instant now) noexcept 
     case FdlAnswer::Kind::kAcknowledge:
       // To the request: taken. To a poll: no response yet.
       if (sent_request_ && state_ == State::kToSend) state_ = State::kPolling;
-      return;
+      return handleNothing(now);
     case FdlAnswer::Kind::kData:
       return handleResponse(answer.data, now);
     case FdlAnswer::Kind::kRefusal:
-      if (answer.code != ResponseCode::kNotActivated) return;  // no resource for the moment: once more, until the end
-      timers_.stop(Timer::kDrain);
+      // No resource for the moment: once more, until the end.
+      if (answer.code != ResponseCode::kNotActivated) return handleNoResource(now);
+      given_up_ = false;
       return end(RecordOutcome::kNotActivated);
   }
 }
 
 void RecordChannel::handleResponse(ByteView pdu, Instant now) noexcept {
-  if (isDraining(now) && !sent_request_) {
-    timers_.stop(Timer::kDrain);  // the late one
-    return;
-  }
+  if (given_up_) return forget();  // that was the late one
   switch (parseRecordAnswer(pdu, request_, result_)) {
     case RecordAnswer::kOther:
       if (sent_request_ && state_ == State::kToSend) state_ = State::kPolling;
@@ -85,13 +83,37 @@ void RecordChannel::handleResponse(ByteView pdu, Instant now) noexcept {
   timers_.set(Timer::kResponse, *earlier(now + response_timeout_, timers_.at(Timer::kBusy)));
 }
 
-void RecordChannel::handleNoAnswer() noexcept {
+// It may have been taken, and only what says so was lost. Nothing is polled for nobody's sake: at an access point that
+// is silent each telegram costs a slot time.
+void RecordChannel::handleNoAnswer(Instant now) noexcept {
+  if (sent_request_ || state_ == State::kPolling) giveUp(Timer::kMaking, now);
   end(RecordOutcome::kNoAnswer);
 }
 
 void RecordChannel::handleOffline() noexcept {
-  timers_.stop(Timer::kDrain);  // the slave forgets its acyclic channel when it leaves data exchange
+  given_up_ = false;  // the slave forgets its acyclic channel when it leaves data exchange
   end(RecordOutcome::kOffline);
+}
+
+void RecordChannel::giveUp(Timer late, Instant now) noexcept {
+  given_up_ = true;
+  timers_.set(late, now + response_timeout_);
+}
+
+// The slave had nothing to say: once it has had its time, nothing comes any more of the request given up.
+void RecordChannel::handleNothing(Instant now) noexcept {
+  const bool may_come = timers_.isRunning(Timer::kDrain, now) || timers_.isRunning(Timer::kMaking, now);
+  if (given_up_ && !may_come) forget();
+}
+
+// Whether a response waits it does not say. A request that cannot go out for that ends as one that brings no response.
+void RecordChannel::handleNoResource(Instant now) noexcept {
+  if (given_up_ && !timers_.isSet(Timer::kResponse)) timers_.set(Timer::kResponse, now + response_timeout_);
+}
+
+void RecordChannel::forget() noexcept {
+  given_up_ = false;
+  timers_.stop(Timer::kResponse);
 }
 
 void RecordChannel::end(RecordOutcome outcome) noexcept {

@@ -34,7 +34,7 @@ class RecordChannel {
 
   void handleAnswer(const FdlAnswer& answer, Instant now) noexcept;
   /// The telegram was not answered, retries included.
-  void handleNoAnswer() noexcept;
+  void handleNoAnswer(Instant now) noexcept;
   /// The slave left data exchange.
   void handleOffline() noexcept;
 
@@ -49,13 +49,17 @@ class RecordChannel {
   enum class Timer : std::uint8_t {
     kResponse,  ///< set by the first sending
     kBusy,      ///< likewise: no repetition of a busy read beyond
-    kDrain,     ///< the response to a request given up may still come
+    kDrain,     ///< the response to a request that timed out may still come: it is polled for
+    kMaking,    ///< that to a request whose telegram nobody answered may still be made: it is not
     kCount
   };
 
   void handleResponse(ByteView pdu, Instant now) noexcept;
+  void giveUp(Timer late, Instant now) noexcept;
+  void handleNothing(Instant now) noexcept;
+  void handleNoResource(Instant now) noexcept;
+  void forget() noexcept;
   void end(RecordOutcome outcome) noexcept;
-  bool isDraining(Instant now) const noexcept { return timers_.isRunning(Timer::kDrain, now); }
 
   std::size_t slave_;
   Duration response_timeout_;
@@ -65,6 +69,9 @@ class RecordChannel {
   RecordResult result_;
   TimerTable<Timer> timers_;
   bool sent_request_ = false;  // the telegram under way carried the request
+  // A request was given up that the slave may have. Its response waits there until a telegram fetches it: so the next
+  // request begins with polls, until there is nothing to fetch.
+  bool given_up_ = false;
 };
 
 }  // namespace nord_driver::profibus

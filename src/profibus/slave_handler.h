@@ -84,7 +84,7 @@ class SlaveHandler {
   enum class Service : std::uint8_t { kFdlStatus, kSlaveDiag, kGetCfg, kSetPrm, kChkCfg, kDataExchange, kRecord };
 
   Service nextService() noexcept;
-  void handleNoOptionalAnswer(DpEvents& events) noexcept;
+  void handleNoOptionalAnswer(Instant now, DpEvents& events) noexcept;
   void handleNoExchange(Mismatch mismatch, Instant now, DpEvents& events) noexcept;
   void onFdlStatus(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
   void onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;

@@ -43,7 +43,7 @@ void SlaveHandler::handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& 
 }
 
 void SlaveHandler::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) noexcept {
-  if (asked_ == Service::kRecord || asked_ == Service::kGetCfg) return handleNoOptionalAnswer(events);
+  if (asked_ == Service::kRecord || asked_ == Service::kGetCfg) return handleNoOptionalAnswer(now, events);
   status_.heard = false;
   if (status_.phase == SlavePhase::kDataExchange) return handleNoExchange(mismatch, now, events);
   if (status_.phase == SlavePhase::kSilent) {
@@ -82,9 +82,9 @@ void SlaveHandler::handleNoExchange(Mismatch mismatch, Instant now, DpEvents& ev
 
 // A service the exchange can do without. Whether the slave took the request is not known: the next one begins the frame
 // count anew. If the slave is gone, that one finds out.
-void SlaveHandler::handleNoOptionalAnswer(DpEvents& events) noexcept {
+void SlaveHandler::handleNoOptionalAnswer(Instant now, DpEvents& events) noexcept {
   frame_count_.reset();
-  if (asked_ == Service::kRecord) return records_.handleNoAnswer();
+  if (asked_ == Service::kRecord) return records_.handleNoAnswer(now);
   if (status_.phase == SlavePhase::kDataExchange) {
     events.push(event(DpEventKind::kConfigurationRead, texts::kNoConfiguration));
   } else {

@@ -12,6 +12,7 @@ constexpr const char* kPoll7C = "68 05 05 68 88 81 7C 33 33 EB 16";
 constexpr const char* kPoll5C = "68 05 05 68 88 81 5C 33 33 CB 16";
 constexpr const char* kWriteResponse = "68 09 09 68 81 88 08 33 33 5F 00 65 08 43 16";
 constexpr const char* kReadRequest = "68 09 09 68 88 81 5C 33 33 5E 00 65 08 96 16";
+constexpr const char* kReadRequest7C = "68 09 09 68 88 81 7C 33 33 5E 00 65 08 B6 16";
 constexpr const char* kReadResponse = "68 11 11 68 81 88 08 33 33 5E 00 65 08 15 E4 00 00 00 00 00 01 3C 16";
 constexpr const char* kReadBusy = "68 09 09 68 81 88 08 33 33 DE 80 B5 00 8A 16";
 constexpr const char* kWriteBusy = "68 09 09 68 81 88 08 33 33 DF 80 B5 00 8B 16";
@@ -201,6 +202,41 @@ TEST(Records, SilentAccessPointLeavesTheExchangeAlone) {
   EXPECT_TRUE(wire.status().exchanged_this_cycle);
   EXPECT_EQ(0u, wire.status().counters.losses);
   wire.tellsNothing();
+}
+
+// The slave took the request, and what it said was lost. Its response waits until a telegram fetches it, and must not be
+// taken for that to the next request.
+TEST(Records, AResponseThatWaitsSinceNobodyAnsweredIsDropped) {
+  RecordWire wire;
+  wire.startsUpModular();
+  ASSERT_TRUE(wire.master.submitRecord(0, readAnswer()));
+  wire.startCycle();
+  wire.sends(kExchange7D);
+  wire.receives(kInputs);
+  wire.sends(kReadRequest);
+  wire.staysSilent();
+  wire.sends(kReadRequest);
+  wire.staysSilent();
+  wire.cycleEnds();
+  EXPECT_EQ(RecordOutcome::kNoAnswer, wire.result().outcome);
+
+  wire.cycle(kExchange6D, kInputs);  // no polls for nobody: each costs a slot time when the access point is silent
+  wire.advance(2s);
+  ASSERT_TRUE(wire.master.submitRecord(0, readAnswer()));
+  wire.startCycle();
+  wire.sends(kExchange5D);
+  wire.receives(kInputs);
+  wire.sends(kPoll7C);
+  wire.receives(kReadResponse);
+  wire.cycleEnds();
+  EXPECT_FALSE(wire.master.pollRecord());
+  wire.startCycle();
+  wire.sends(kExchange5D);
+  wire.receives(kInputs);
+  wire.sends(kReadRequest7C);
+  wire.receives("68 11 11 68 81 88 08 33 33 5E 00 65 08 15 E4 00 00 00 00 00 02 3D 16");
+  wire.cycleEnds();
+  EXPECT_EQ("15 E4 00 00 00 00 00 02", toHex(wire.result().data));
 }
 
 TEST(Records, InactiveAccessPoint) {
