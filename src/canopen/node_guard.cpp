@@ -15,7 +15,8 @@ NodeGuard::NodeGuard(std::uint8_t node, Duration guard_time, std::uint8_t life_t
     : node_(node), guard_time_(guard_time), life_time_(guard_time * life_time_factor), timers_(timers) {}
 
 void NodeGuard::start(bool fresh, Instant now) noexcept {
-  timers_.set(NodeTimer::kGuardQuestion, now + guard_time_);
+  timers_.set(NodeTimer::kGuardQuestion, now + guard_time_ / 2);
+  half_ = true;
   timers_.set(NodeTimer::kGuardLife, now + life_time_);
   over_ = false;
   due_ = true;
@@ -50,9 +51,14 @@ bool NodeGuard::poll(Instant now) noexcept {
   }
   if (!timers_.isOver(NodeTimer::kGuardQuestion, now)) return false;
   // A late look asks once, not once for each time that was missed.
-  const Instant next = *timers_.at(NodeTimer::kGuardQuestion) + guard_time_;
-  timers_.set(NodeTimer::kGuardQuestion, std::max(next, now + guard_time_ / 2));
+  const Instant next = *timers_.at(NodeTimer::kGuardQuestion) + guard_time_ / 2;
+  timers_.set(NodeTimer::kGuardQuestion, std::max(next, now + guard_time_ / 4));
   const bool missed = open_;
+  if (half_ && !missed) {
+    half_ = false;
+    return false;
+  }
+  half_ = true;
   // The node may have toggled in an answer that did not reach us: the next one sets the bit anew.
   if (missed) expected_toggle_.reset();
   open_ = false;

@@ -18,6 +18,8 @@ enum class GuardAnswer : std::uint8_t {
 
 /// The node toggles bit 7 with every answer and begins with 0 after its reset. Its life time is guard time times life
 /// time factor: without a good answer for so long it is lost; without a question for so long it counts us as lost.
+/// A question without an answer is put again after half a guard time: a frame or two lost on a bad line must not use up
+/// a life time that has time for three questions only.
 class NodeGuard {
  public:
   /// `timers`: of the node; they live longer than this.
@@ -54,6 +56,7 @@ class NodeGuard {
   bool over_ = false;  // the life time is over
   bool due_ = false;   // a question waits to be sent
   bool open_ = false;  // a question was sent and not answered
+  bool half_ = false;  // the timer of the question is at half the guard time: it looks for the answer
   std::optional<std::uint8_t> expected_toggle_;
 };
 

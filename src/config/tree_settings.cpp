@@ -143,6 +143,20 @@ std::optional<std::vector<std::string>> TreeSettings::texts(const std::string& k
   return list;
 }
 
+std::optional<std::vector<std::string>> TreeSettings::words(const std::string& key) const {
+  const SettingValue* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  const auto is_word = [](const SettingValue& item) { return item.kind == Kind::kText || item.kind == Kind::kInteger; };
+  if (is_word(*value)) return std::vector<std::string>{value->text};
+  if (value->kind != Kind::kList) throw wrongKind(key, *value, "a text or a list of texts");
+  std::vector<std::string> list;
+  for (const SettingValue& item : value->items) {
+    if (!is_word(item)) throw wrongItem(key, item, "a list of texts");
+    list.push_back(item.text);
+  }
+  return list;
+}
+
 std::string TreeSettings::fullName(const std::string& key) const {
   return prefix_ + (prefix_ == "~" || prefix_.empty() || key.empty() ? "" : "/") + key;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "config/setting_groups.h"
 #include "config/setting_value.h"
 #include "nord_driver/config/settings.h"
 
@@ -13,7 +14,7 @@ namespace nord_driver {
 
 /// A group of the configuration ("~", "~bus", "drives/left"), taken once. Keys may hold slashes
 /// ("linear/x/max_velocity"). Remembers what was asked for. Not thread-safe: used while configuring.
-class TreeSettings : public Settings {
+class TreeSettings : public Settings, public SettingGroups {
  public:
   /// `value` is a group, or kNone for an absent one. Throws ConfigError when it is anything else.
   TreeSettings(std::string prefix, SettingValue value);
@@ -29,7 +30,9 @@ class TreeSettings : public Settings {
   std::string fullName(const std::string& key) const override;
 
   /// Of the group at `key`, which is no path; empty when it is none. Does not count as asking.
-  std::vector<std::string> keysBelow(const std::string& key) const;
+  /// As texts(), where a whole number is the text of it: "728".
+  virtual std::optional<std::vector<std::string>> words(const std::string& key) const;
+  std::vector<std::string> keysBelow(const std::string& key) const override;
   /// A list of numbers.
   virtual std::optional<std::vector<double>> numbers(const std::string& key) const;
   /// The group below `key`; an empty one when it is absent.

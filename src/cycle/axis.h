@@ -3,6 +3,7 @@
 
 #include "cycle/cycle_config.h"
 #include "cycle/drive_parameters.h"
+#include "cycle/drive_words.h"
 #include "cycle/joint_motion.h"
 #include "cycle/speed_watch.h"
 #include "cycle/terminal_watch.h"
@@ -13,9 +14,12 @@ namespace nord_driver::cycle {
 
 struct Axis {
   Axis(DriveIndex drive, const DriveSetup& setup, const ParameterChannelUse& channel)
-      : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, channel), motion(setup.limits) {}
+      : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, channel),
+        words(channel.users_only ? WordSetup{} : setup.words, setup.series, channel.needs.words),
+        motion(setup.limits) {}
 
   DriveParameters parameters;
+  DriveWords words;
   JointMotion motion;  ///< of a drive that belongs to no base
   robot::JointPosition joint;
   SpeedWatch speed;

@@ -41,6 +41,7 @@ bool stops(RequestKind kind) noexcept {
 BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& ports, bool auto_enable, CycleRole role)
     : transport_(transport),
       ports_(ports),
+      role_(role),
       gate_(role == CycleRole::kGuest),
       period_(config.period()),
       cmd_vel_timeout_(config.cmd_vel_timeout),
@@ -53,14 +54,7 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       outputs_(config.drives.size()),
       inputs_(config.drives.size()),
       snapshot_(config.drives.size()) {
-  for (const DriveSetup& setup : config.drives) {
-    const DriveIndex drive = axes_.size();
-    ParameterChannelUse channel;
-    channel.timeout_owner = transport.identity(drive).timeout_owner;
-    channel.capabilities = transport.parameterCapabilities(drive);
-    channel.users_only = role == CycleRole::kGuest;
-    axes_.emplace_back(drive, setup, channel);
-  }
+  for (const DriveSetup& setup : config.drives) addAxis(setup, role);
   if (!config.base) return;
   base_.emplace(*config.base, config.cmd_vel_timeout);
   wheels_ = config.base->wheels();
@@ -73,8 +67,9 @@ void BusCycle::runOnce() noexcept {
   command(now, rampTime(now));
   last_command_ = now;
 
-  for (DriveIndex i = 0; i < drives_.size(); ++i) outputs_[i] = drives_[i].pollOutput(now);
+  pollOutputs(now);
   gate_.holdBack(outputs_);
+  if (role_ == CycleRole::kOnlooker) std::fill(outputs_.begin(), outputs_.end(), profile::ProcessOutput{});
   transport_.exchange(outputs_, inputs_);
   gate_.handleInputs(inputs_);
 
@@ -109,7 +104,22 @@ void BusCycle::takeRequests(Instant now) noexcept {
   }
 }
 
+// Nobody here has enabled anything, so that there is nothing to stop and nothing to bring to rest.
+bool BusCycle::refuseAsOnlooker(const Request& request) noexcept {
+  if (role_ != CycleRole::kOnlooker || request.kind == RequestKind::kReadParameter ||
+      request.kind == RequestKind::kResetOdometry) {
+    return false;
+  }
+  Completion refused = answerTo(request, request.kind == RequestKind::kShutDown,
+                                "read_only is true: this node looks on, it commands nothing and writes nothing");
+  refused.parameter.outcome = profile::ParameterOutcome::kRefused;
+  refused.parameter.reason = profile::ParameterReason::kDriver;
+  ports_.complete(refused);
+  return true;
+}
+
 void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
+  if (refuseAsOnlooker(request)) return;
   switch (request.kind) {
     case RequestKind::kReadParameter:
     case RequestKind::kWriteParameter:
@@ -222,9 +232,25 @@ void BusCycle::handleInputs(Instant now) noexcept {
 }
 
 void BusCycle::runParameters(Instant now) noexcept {
+  for (DriveIndex i = 0; i < drives_.size(); ++i) axes_[i].parameters.handleState(drives_[i], now);
+  submitParameters(now);
+  bool answered = false;
+  while (const auto result = transport_.pollResult()) {
+    answered = true;
+    for (Axis& axis : axes_) {
+      if (axis.parameters.handleResult(*result)) break;
+    }
+  }
+  // What follows an answer leaves with the next exchange, not with the one after it.
+  if (answered) submitParameters(now);
+  for (Axis& axis : axes_) {
+    while (const auto completion = axis.parameters.pollCompletion()) ports_.complete(*completion);
+  }
+}
+
+void BusCycle::submitParameters(Instant now) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     DriveParameters& parameters = axes_[i].parameters;
-    parameters.handleState(drives_[i], now);
     if (!drives_[i].report().online) continue;
     while (const auto request = parameters.pollRequest(now)) {
       if (transport_.submit(i, *request)) continue;
@@ -234,14 +260,6 @@ void BusCycle::runParameters(Instant now) noexcept {
       parameters.handleResult(busy);
       break;
     }
-  }
-  while (const auto result = transport_.pollResult()) {
-    for (Axis& axis : axes_) {
-      if (axis.parameters.handleResult(*result)) break;
-    }
-  }
-  for (Axis& axis : axes_) {
-    while (const auto completion = axis.parameters.pollCompletion()) ports_.complete(*completion);
   }
 }
 
@@ -328,9 +346,10 @@ void BusCycle::tellChanges(Instant now) noexcept {
 void BusCycle::fill(DriveSnapshot& to, DriveIndex drive, Instant now) const noexcept {
   const Axis& axis = axes_[drive];
   const bool beyond = supervisor_.inBase(drive) ? base_->belowMinimum() : axis.motion.beyondFull();
-  fillDriveSnapshot(
-      to, {drive, names_[drive].c_str(), drives_[drive].report(), axis, inputs_[drive].module_answers, beyond},
-      transport_, now);
+  fillDriveSnapshot(to,
+                    {drive, names_[drive].c_str(), drives_[drive].report(), outputs_[drive], axis,
+                     inputs_[drive].module_answers, beyond},
+                    transport_, now);
 }
 
 }  // namespace nord_driver::cycle

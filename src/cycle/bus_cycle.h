@@ -25,6 +25,9 @@ enum class CycleRole : std::uint8_t {
   /// Of a program that only reads and writes parameters: a GuestGate stands before the first word that acts, and the
   /// driver asks for no parameter but its users'. Without those nothing can be enabled.
   kGuest,
+  /// Of a node that looks on (`read_only`): every word is 0000, which inverters ignore (BU 2700 6.4.1 note 2), their
+  /// answers are shown, parameters are read. What would command or write is refused.
+  kOnlooker,
 };
 
 /// Owns the drives and runs them over a configured transport. `runOnce` never waits for anybody but the bus, throws
@@ -48,6 +51,8 @@ class BusCycle {
  private:
   void takeRequests(Instant now) noexcept;
   void takeRequest(const Request& request, Instant now) noexcept;
+  /// What an onlooker must not do; false: it may.
+  bool refuseAsOnlooker(const Request& request) noexcept;
   void selectParameterSet(const Request& request, Instant now) noexcept;
   void accessParameter(const Request& request) noexcept;
   Completion resetOdometry(const Request& request) noexcept;
@@ -55,10 +60,15 @@ class BusCycle {
   void command(Instant now, Duration dt) noexcept;
   void commandBase(Instant now, Duration dt) noexcept;
   void commandSingles(Instant now, Duration dt) noexcept;
+  void addAxis(const DriveSetup& setup, CycleRole role);
+  void pollOutputs(Instant now) noexcept;
+  /// The drive is enabled and does what its velocity command says, which is fresh.
+  bool followsCommand(DriveIndex drive, Instant now) noexcept;
   robot::WheelSpeeds maxWheelSpeeds() const noexcept;
   MinimumSpeeds minWheelSpeeds() const noexcept;
   void handleInputs(Instant now) noexcept;
   void runParameters(Instant now) noexcept;
+  void submitParameters(Instant now) noexcept;
   void measure(Instant now, Duration dt) noexcept;
   void measureBase(Duration dt) noexcept;
   void publish(Instant now) noexcept;
@@ -67,6 +77,7 @@ class BusCycle {
 
   Transport& transport_;
   CyclePorts& ports_;
+  CycleRole role_;
   GuestGate gate_;
   Duration period_;
   Duration cmd_vel_timeout_;

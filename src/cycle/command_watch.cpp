@@ -14,6 +14,10 @@ CommandWatch::CommandWatch(CyclePorts& ports, Duration cmd_vel_timeout, bool has
       names_(std::move(names)),
       of_base_(std::move(of_base)) {}
 
+void CommandWatch::watch(DriveIndex drive, std::size_t index, const SetpointSetup& setpoint) {
+  setpoints_.push_back({drive, index, setpoint});
+}
+
 CommandState CommandWatch::look(Instant now) noexcept {
   if (!since_) since_ = now;
   CommandState state;
@@ -29,6 +33,9 @@ bool CommandWatch::movedWithin(Duration span, Instant now) noexcept {
   if (has_base_ && recent(ports_.newestBaseCommand())) return true;
   for (DriveIndex i = 0; i < names_.size(); ++i) {
     if (!of_base_[i] && recent(ports_.newestDriveCommand(i))) return true;
+  }
+  for (const Watched& watched : setpoints_) {
+    if (recent(ports_.newestWords(watched.drive).setpoints[watched.index])) return true;
   }
   return false;
 }
@@ -50,6 +57,20 @@ Sentence CommandWatch::moving(Instant now) noexcept {
         "the newest command of drive %s is not zero (%.3f rad/s): send zero first, or wait until it is older "
         "than cmd_vel_timeout",
         names_[i].c_str(), joint.velocity);
+    return text;
+  }
+  return movingSetpoint(now);
+}
+
+Sentence CommandWatch::movingSetpoint(Instant now) noexcept {
+  Sentence text;
+  for (const Watched& watched : setpoints_) {
+    const WordCommand& command = ports_.newestWords(watched.drive).setpoints[watched.index];
+    if (isStale(command, watched.setup.timeout, now) || command.value == 0.0) continue;
+    text.format(
+        "the newest setpoint %s of drive %s is not zero (%.3f) and can turn its motor: send zero first, or wait until "
+        "it is older than its timeout",
+        watched.setup.name.c_str(), names_[watched.drive].c_str(), command.value);
     return text;
   }
   return text;

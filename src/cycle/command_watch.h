@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cycle/cycle_ports.h"
+#include "cycle/word_setup.h"
 #include "nord_driver/core/fixed_text.h"
 #include "nord_driver/core/time.h"
 
@@ -31,12 +32,21 @@ class CommandWatch {
   CommandWatch(CyclePorts& ports, Duration cmd_vel_timeout, bool has_base, std::vector<std::string> names,
                std::vector<bool> of_base);
 
+  /// A further setpoint of this drive that can turn its motor is a command as well. `index`: as CyclePorts has it.
+  void watch(DriveIndex drive, std::size_t index, const SetpointSetup& setpoint);
   /// Each cycle; the first call begins the listening.
   CommandState look(Instant now) noexcept;
 
  private:
   Sentence moving(Instant now) noexcept;
   bool movedWithin(Duration span, Instant now) noexcept;
+  Sentence movingSetpoint(Instant now) noexcept;
+
+  struct Watched {
+    DriveIndex drive = 0;
+    std::size_t index = 0;
+    SetpointSetup setup;
+  };
 
   CyclePorts& ports_;
   Duration cmd_vel_timeout_;
@@ -44,6 +54,7 @@ class CommandWatch {
   bool has_base_;
   std::vector<std::string> names_;
   std::vector<bool> of_base_;
+  std::vector<Watched> setpoints_;
   std::optional<Instant> since_;
 };
 

@@ -1,10 +1,10 @@
 #include "cycle/cycle_config.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "config/drive_common.h"
 #include "config/setting_checks.h"
+#include "config/setting_groups.h"
 #include "config/setting_note.h"
 #include "cycle/joint_limits.h"
 
@@ -15,16 +15,9 @@ namespace {
 constexpr double kMinCycleRate = 1.0, kMaxCycleRate = 1000.0;  // Hz
 constexpr Duration kMinDriveTimeout = std::chrono::milliseconds{50};
 
-// Drive names become parts of topic names.
-bool isRosName(const std::string& name) {
-  if (name.empty() || std::isalpha(static_cast<unsigned char>(name[0])) == 0) return false;
-  return std::all_of(name.begin(), name.end(),
-                     [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; });
-}
-
 DriveSetup readDrive(const DriveSettings& source, const CycleConfig& config, Duration drive_timeout) {
   const Settings& settings = *source.settings;
-  if (!isRosName(source.name)) {
+  if (!isRosName(source.name)) {  // it becomes a part of topic names
     throw ConfigError(settings.fullName("") + ": \"" + source.name +
                       "\" is not valid, expected a name of letters, digits and underscores that begins with a letter");
   }
@@ -41,6 +34,7 @@ DriveSetup readDrive(const DriveSettings& source, const CycleConfig& config, Dur
   setup.drive.drive_timeout = drive_timeout;
   setup.drive.enable_timeout = config.service_timeout;
   setup.drive.shutdown_timeout = config.shutdown_timeout;
+  setup.words = readWordSetup(settings, setup.series, config.cmd_vel_timeout);
   return setup;
 }
 

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "cycle/base_config.h"
+#include "cycle/word_setup.h"
 #include "drive/drive.h"
 #include "drive/stop_way.h"
 #include "nord_driver/config/settings.h"
 #include "nord_driver/core/time.h"
+#include "nord_driver/profile/parameter_request.h"
 #include "nord_driver/profile/series.h"
 #include "robot/speed_limits.h"
 
@@ -26,7 +28,10 @@ struct DriveSetup {
   /// another speed than commanded.
   std::optional<double> typed_max_frequency;
   std::optional<double> rated_current;  ///< A
+  /// What somebody wants to look at, read in the pauses of the parameter channel; a set 0 is the one in force.
+  std::vector<profile::ParameterRequest> monitor = {};
   robot::SpeedLimits limits;            ///< of the joint, rad; of a drive that belongs to no base
+  WordSetup words;                      ///< what users command and read beside the velocity
 };
 
 struct RealTimeOptions {

@@ -7,9 +7,11 @@
 
 namespace nord_driver::cycle {
 
-CyclePorts::CyclePorts(std::size_t drive_count) : drives_moved_(drive_count), snapshot_(CycleSnapshot{drive_count}) {
+CyclePorts::CyclePorts(std::size_t drive_count)
+    : words_written_(drive_count), drives_moved_(drive_count), snapshot_(CycleSnapshot{drive_count}) {
   for (std::size_t i = 0; i < drive_count; ++i) {
     drive_commands_.push_back(std::make_unique<LatestValue<JointCommand>>());
+    words_.push_back(std::make_unique<LatestValue<WordCommands>>());
   }
   sem_init(&completed_, 0, 0);
 }
@@ -35,6 +37,19 @@ bool CyclePorts::commandDrive(DriveIndex drive, const JointCommand& command) {
   JointCommand kept = command;
   kept.moved = drives_moved_.at(drive);
   drive_commands_.at(drive)->write(kept);
+  return true;
+}
+
+bool CyclePorts::commandSetpoint(DriveIndex drive, std::size_t index, double value, Instant received) {
+  if (!std::isfinite(value)) return false;
+  const std::lock_guard<std::mutex> lock(writers_);
+  WordCommands& all = words_written_.at(drive);
+  WordCommand& command = all.setpoints.at(index);
+  command.value = value;
+  command.received = received;
+  command.given = true;
+  if (value != 0.0) command.moved = received;
+  words_.at(drive)->write(all);
   return true;
 }
 

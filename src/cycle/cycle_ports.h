@@ -13,6 +13,7 @@
 #include "cycle/cycle_observer.h"
 #include "cycle/request.h"
 #include "cycle/snapshot.h"
+#include "cycle/word_commands.h"
 
 namespace nord_driver::cycle {
 
@@ -28,6 +29,8 @@ class CyclePorts {
   /// False, and no command at all, when it is not a number or infinite: the one before goes on growing old.
   bool commandBase(const TwistCommand& command);
   bool commandDrive(DriveIndex drive, const JointCommand& command);
+  /// `index` of a configured setpoint, `value` in its unit. False as commandBase().
+  bool commandSetpoint(DriveIndex drive, std::size_t index, double value, Instant received);
   void tuneBase(const BaseTuning& tuning);
   /// One more publisher of commands is connected: what it has to say has not been heard yet.
   void commanderConnected(Instant when);
@@ -45,6 +48,7 @@ class CyclePorts {
   // The cycle's thread.
   const TwistCommand& newestBaseCommand() { return base_command_.read(); }
   const JointCommand& newestDriveCommand(DriveIndex drive) { return drive_commands_[drive]->read(); }
+  const WordCommands& newestWords(DriveIndex drive) { return words_[drive]->read(); }
   /// When a publisher of commands was connected last; {} while there was none.
   Instant newestCommander() { return commander_.read(); }
   const BaseTuning& newestBaseTuning() { return base_tuning_.read(); }
@@ -64,6 +68,8 @@ class CyclePorts {
   LatestValue<TwistCommand> base_command_;
   LatestValue<BaseTuning> base_tuning_;
   std::vector<std::unique_ptr<LatestValue<JointCommand>>> drive_commands_;
+  std::vector<std::unique_ptr<LatestValue<WordCommands>>> words_;
+  std::vector<WordCommands> words_written_;  // the writers'
   LatestValue<Instant> commander_;
   std::optional<Instant> base_moved_;                 // the writers'
   std::vector<std::optional<Instant>> drives_moved_;  // the writers'

@@ -15,6 +15,12 @@ constexpr std::uint16_t kUnknownFunction = 0xFFFF;
 /// BU 0220 5.1.3; BU 0280 5.1.3).
 constexpr std::uint16_t kFrequencyFunction = 1;
 
+/// The functions of the words of one parameter set, setpoint 1 and actual value 1 first.
+struct WordFunctions {
+  std::array<std::uint16_t, 3> setpoints{kUnknownFunction, kUnknownFunction, kUnknownFunction};
+  std::array<std::uint16_t, 3> actual_values{kUnknownFunction, kUnknownFunction, kUnknownFunction};
+};
+
 struct DeviceData {
   std::array<std::optional<double>, 4> max_frequency;      ///< Hz, P105 of parameter sets 1..4
   std::array<std::optional<double>, 4> min_frequency;      ///< Hz, P104: at setpoint 0 the motor turns at it
@@ -30,7 +36,11 @@ struct DeviceData {
   std::optional<bool> saves_in_eeprom;                   ///< P560: 0 = every write is lost at power off
   FixedVector<std::uint16_t, 3> setpoint_functions;      ///< P546..P548 of parameter set 1, each in its place
   FixedVector<std::uint16_t, 3> actual_value_functions;  ///< P543..P545 of parameter set 1, each in its place
-  FixedVector<std::uint16_t, 12> bus_bit_functions;      ///< P480 [-01].., each in its place: what bus I/O bits do
+  /// P543 to P548 of parameter sets 1..4; of sets 2 to 4 only the first, unless further words are in use.
+  std::array<WordFunctions, 4> word_functions;
+  FixedVector<std::uint16_t, 12> bus_bit_functions;  ///< P480 [-01].., each in its place: what bus I/O bits do
+  std::optional<std::int32_t> control_word_source;   ///< P509: who commands the inverter
+  std::optional<std::int32_t> setpoint_source;       ///< P510 (or [-01]): whose setpoint; 0 = as P509
   std::uint32_t ident = 0;
   bool complete = false;  ///< everything was asked for; what the drive refused is absent
 };

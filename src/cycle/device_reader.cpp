@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint8_t kMaxAttempts = 3;
 constexpr std::uint16_t kMinFrequency = 104, kMaxFrequency = 105, kOptionMonitoring = 120, kModuleTimeout = 151,
-                        kBusBits = 480, kTelegramTimeout = 513, kFirstActualValue = 543, kFirstSetpoint = 546,
-                        kEepromSwitch = 560, kSoftwareVersion = 707;
+                        kBusBits = 480, kControlWordSource = 509, kSetpointSource = 510, kTelegramTimeout = 513,
+                        kFirstActualValue = 543, kFirstSetpoint = 546, kEepromSwitch = 560, kSoftwareVersion = 707;
 constexpr std::uint8_t kSets = 4;
 constexpr std::uint16_t kAccelerationTime = 102, kDecelerationTime = 103;
 // s: the bus manuals name no unit of P103, which is set in the steps of P102 on the inverter.
@@ -20,11 +20,15 @@ constexpr double kRampStep = 0.01;
 
 }  // namespace
 
-DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner) noexcept : series_(series) {
+DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool further_words) noexcept : series_(series) {
   for (std::uint8_t set = 1; set <= kSets; ++set) add(kMaxFrequency, set, 1);
   for (std::uint8_t set = 1; set <= kSets; ++set) add(kMinFrequency, set, 1);
   for (std::uint8_t set = 1; set <= kSets; ++set) addFunction(kFirstActualValue, 0, set);
   for (std::uint8_t set = 1; set <= kSets; ++set) addFunction(kFirstSetpoint, 0, set);
+  if (further_words) {
+    for (std::uint8_t set = 1; set <= kSets; ++set) addFurtherFunctions(set);
+    addBusBits();
+  }
   motion_items_ = items_.size();
   add(kTelegramTimeout, 1, 1);
   if (owner == TimeoutOwner::kModule) {
@@ -34,13 +38,16 @@ DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner) noexcept 
   add(kEepromSwitch, 1, 1);
   add(kSoftwareVersion, 1, 1);
   add(kSoftwareVersion, 1, 2);
-  for (std::uint8_t place = 1; place < 3; ++place) addFunction(kFirstActualValue, place, 1);
-  for (std::uint8_t place = 1; place < 3; ++place) addFunction(kFirstSetpoint, place, 1);
-  addBusBits();
+  if (!further_words) {
+    addFurtherFunctions(1);
+    addBusBits();
+  }
   for (std::uint8_t set = 1; set <= kSets; ++set) {
     add(kAccelerationTime, set, 1);
     add(kDecelerationTime, set, 1);
   }
+  add(kControlWordSource, 1, 1);
+  add(kSetpointSource, 1, 1);
 }
 
 void DeviceReader::add(std::uint16_t number, std::uint8_t set, std::uint8_t index) noexcept {
@@ -56,6 +63,11 @@ void DeviceReader::addFunction(std::uint16_t first_number, std::uint8_t place, s
   } else {
     add(static_cast<std::uint16_t>(first_number + place), set, 1);
   }
+}
+
+void DeviceReader::addFurtherFunctions(std::uint8_t set) noexcept {
+  for (std::uint8_t place = 1; place < 3; ++place) addFunction(kFirstActualValue, place, set);
+  for (std::uint8_t place = 1; place < 3; ++place) addFunction(kFirstSetpoint, place, set);
 }
 
 void DeviceReader::addBusBits() noexcept {
@@ -152,6 +164,10 @@ void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
     data_.saves_in_eeprom = raw != 0;
   } else if (item.number == kSoftwareVersion) {
     (item.index == 1 ? data_.software_version : data_.software_revision) = raw;
+  } else if (item.number == kControlWordSource) {
+    data_.control_word_source = raw;
+  } else if (item.number == kSetpointSource) {
+    data_.setpoint_source = raw;
   } else if (item.number == kMinFrequency) {
     data_.min_frequency[item.set - 1u] = value;
   } else if (item.number == kBusBits) {
@@ -179,6 +195,10 @@ void DeviceReader::storeFunction(const Item& item, std::uint16_t function) noexc
   if (place == 0) {
     auto& of_sets = actual_value ? data_.actual_value_1_function : data_.setpoint_1_function;
     of_sets[item.set - 1u] = function == kUnknownFunction ? std::nullopt : std::optional<std::uint16_t>{function};
+  }
+  if (place < data_.word_functions[0].setpoints.size()) {
+    WordFunctions& words = data_.word_functions[item.set - 1u];
+    (actual_value ? words.actual_values : words.setpoints)[place] = function;
   }
   if (item.set != 1) return;
   // One that stays away must not let the next take its place.

@@ -21,7 +21,9 @@ namespace nord_driver::cycle {
 class DeviceReader {
  public:
   /// `owner`: whose time-outs are read; those of a module by requests the transport passes on to it.
-  explicit DeviceReader(profile::Series series, TimeoutOwner owner = TimeoutOwner::kInverter) noexcept;
+  /// `further_words`: setpoints 2 and 3 or actual values 2 and 3 are in use: what they are decides motion, too.
+  explicit DeviceReader(profile::Series series, TimeoutOwner owner = TimeoutOwner::kInverter,
+                        bool further_words = false) noexcept;
 
   /// The drive went away: what was read is kept until it is back.
   void handleOffline() noexcept;
@@ -50,6 +52,7 @@ class DeviceReader {
 
   void add(std::uint16_t number, std::uint8_t set, std::uint8_t index) noexcept;
   void addFunction(std::uint16_t first_number, std::uint8_t place, std::uint8_t set) noexcept;
+  void addFurtherFunctions(std::uint8_t set) noexcept;
   void addBusBits() noexcept;
   void store(const Item& item, std::int32_t raw) noexcept;
   void leaveOut(const Item& item) noexcept;
@@ -58,7 +61,7 @@ class DeviceReader {
   void storeFunction(const Item& item, std::uint16_t function) noexcept;
 
   profile::Series series_;
-  FixedVector<Item, 64> items_;
+  FixedVector<Item, 96> items_;
   std::size_t motion_items_ = 0;  // the first ones: those that decide motion
   std::size_t next_ = 0;
   std::uint8_t attempts_ = 0;

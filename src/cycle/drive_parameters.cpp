@@ -11,7 +11,7 @@ namespace nord_driver::cycle {
 namespace {
 
 // An id tells the drive, the asker and which question of the asker it is: sequence | asker | drive.
-constexpr unsigned kDriveBits = 8, kAskerBits = 2;
+constexpr unsigned kDriveBits = 8, kAskerBits = 3;
 constexpr std::uint32_t kDriveMask = (1u << kDriveBits) - 1, kAskerMask = (1u << kAskerBits) - 1;
 
 constexpr Duration kReasonInterval = std::chrono::milliseconds{500};
@@ -35,17 +35,19 @@ bool saysWhatSetpointsMean(std::uint16_t number) noexcept {
 }
 
 std::optional<drive::UnexpectedFunction> unexpectedFunction(const DeviceData& device, std::uint8_t set,
-                                                            profile::Series series) noexcept {
+                                                            profile::Series series, const WordNeeds& needs) noexcept {
   const auto compare = [&](std::uint16_t number, const std::optional<std::uint16_t>& found) {
     std::optional<drive::UnexpectedFunction> unexpected;
     if (!found || *found == kFrequencyFunction) return unexpected;
     const profile::CycleParameter* info = profile::findCycleParameter(number, series);
     const bool is_array = info != nullptr && info->shape == profile::ParameterShape::kArrayPerSet;
-    unexpected = {number, is_array, *found, kFrequencyFunction};
+    unexpected = {number, is_array, *found, kFrequencyFunction, 1, nullptr};
     return unexpected;
   };
   const auto actual_value = compare(543, device.actual_value_1_function[set - 1u]);
-  return actual_value ? actual_value : compare(546, device.setpoint_1_function[set - 1u]);
+  if (actual_value) return actual_value;
+  const auto setpoint = compare(546, device.setpoint_1_function[set - 1u]);
+  return setpoint ? setpoint : missingWord(needs, device.word_functions[set - 1u], series);
 }
 
 }  // namespace
@@ -69,14 +71,16 @@ DriveParameters::DriveParameters(DriveIndex drive, std::string name, profile::Se
       series_(series),
       typed_max_frequency_(typed_max_frequency),
       channel_(channel),
-      reader_(series, channel.timeout_owner),
-      session_(channel.capabilities) {}
+      reader_(series, channel.timeout_owner, !channel.needs.empty()),
+      session_(channel.capabilities),
+      monitor_(channel.monitor) {}
 
 void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
   const drive::DriveReport& report = drive.report();
   if (report.online) {
     const profile::StatusWord status{report.status_word};
     bus_control_ = status.busControl();
+    parameter_set_ = report.parameter_set;
     faults_.handleStatus(status);
     askForReason(drive, now);
     if (scale_due_ && !writesProcessData()) scale(drive);
@@ -88,6 +92,7 @@ void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
   faults_.handleOffline();
   reader_.handleOffline();
   session_.handleOffline();
+  monitor_.handleOffline();
   collect();
   // Another inverter may come back in its place: nothing is enabled with what P105 was before.
   forgetScale(drive);
@@ -125,7 +130,7 @@ void DriveParameters::scale(drive::Drive& drive) const noexcept {
       drive.setMaxFrequency(set, Hertz{*typed_max_frequency_});
     }
     drive.setMinimumFrequency(set, Hertz{reader_.data().min_frequency[set - 1u].value_or(0.0)});
-    drive.setUnexpectedFunction(set, unexpectedFunction(reader_.data(), set, series_));
+    drive.setUnexpectedFunction(set, unexpectedFunction(reader_.data(), set, series_, channel_.needs));
   }
   drive.setParametersAwaited(!reader_.motionAsked());
 }
@@ -200,10 +205,16 @@ std::optional<profile::ParameterRequest> DriveParameters::ask(Asker asker, Insta
     case Asker::kReader:
       askMissingAgain(now);
       return reader_.pollRequest();
+    case Asker::kMonitor:
+      return nothingUnderWay() ? monitor_.pollRequest(parameter_set_, now) : std::nullopt;
     case Asker::kCount:
       break;
   }
   return std::nullopt;
+}
+
+bool DriveParameters::nothingUnderWay() const noexcept {
+  return std::all_of(open_ids_.begin(), open_ids_.end(), [](std::uint32_t id) { return id == 0; });
 }
 
 // A parameter channel that was busy elsewhere for a second must not keep the drive from ever being enabled. Where a
@@ -240,6 +251,8 @@ void DriveParameters::answer(Asker asker, const profile::ParameterResult& result
     case Asker::kReader:
       scale_due_ = true;  // not before: what was read before a loss is not what the drive has now
       return reader_.handleResult(result);
+    case Asker::kMonitor:
+      return monitor_.handleResult(result, name_.c_str());
     case Asker::kCount:
       return;
   }

@@ -5,10 +5,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cycle/completion_queue.h"
 #include "cycle/device_reader.h"
+#include "cycle/monitor_reader.h"
 #include "cycle/request.h"
+#include "cycle/word_needs.h"
 #include "drive/drive.h"
 #include "drive/fault_reader.h"
 #include "drive/parameter_session.h"
@@ -30,12 +33,16 @@ bool decidesMotion(const Request& request) noexcept;
 struct ParameterChannelUse {
   TimeoutOwner timeout_owner = TimeoutOwner::kInverter;
   profile::ParameterCapabilities capabilities;
+  /// What somebody wants to look at; a set 0 is the one in force.
+  std::vector<profile::ParameterRequest> monitor = {};
+  WordNeeds needs;          ///< of the words beside the first
   bool users_only = false;  ///< nothing is read that no user has asked for: neither faults nor what scaling needs
 };
 
 /// Each cycle, after the exchange: `handleState`, then `pollRequest` until it is empty, then the transport's results by
-/// `handleResult`, then `pollCompletion`. Three askers, each with one question under way at most; a result is given
-/// only to the one whose latest question it answers.
+/// `handleResult`, and `pollRequest` again when there were any; then `pollCompletion`. Each asker has one question under
+/// way at most; a result is given only to the one whose latest question it answers. What is only looked at is asked for
+/// while no other question is under way.
 class DriveParameters {
  public:
   DriveParameters(DriveIndex drive, std::string name, profile::Series series, std::optional<double> typed_max_frequency,
@@ -56,17 +63,22 @@ class DriveParameters {
   bool handleResult(const profile::ParameterResult& result) noexcept;
   std::optional<Completion> pollCompletion() noexcept { return completions_.poll(); }
 
+  /// A user's write that changes what the process data mean is under way, or its effect not read yet.
+  bool wordsInDoubt() const noexcept { return writesProcessData() || !reader_.motionAsked(); }
   const DeviceData& device() const noexcept { return reader_.data(); }
   const drive::FaultReader& faults() const noexcept { return faults_; }
+  /// In the order of ParameterChannelUse::monitor.
+  const std::vector<MonitoredValue>& monitored() const noexcept { return monitor_.values(); }
   std::uint64_t eepromWrites() const noexcept { return session_.eepromWrites(); }
   /// P560 was switched off for a user's write and could not be put back yet.
   bool owesEepromSwitch() const noexcept { return session_.owesEepromSwitch(); }
 
  private:
-  enum class Asker : std::uint8_t { kFaults, kSession, kReader, kCount };
+  enum class Asker : std::uint8_t { kFaults, kSession, kReader, kMonitor, kCount };
   static constexpr std::size_t kAskers = static_cast<std::size_t>(Asker::kCount);
 
   std::optional<profile::ParameterRequest> ask(Asker asker, Instant now) noexcept;
+  bool nothingUnderWay() const noexcept;
   void answer(Asker asker, const profile::ParameterResult& result) noexcept;
   void askForReason(drive::Drive& drive, Instant now) noexcept;
   void scale(drive::Drive& drive) const noexcept;
@@ -85,9 +97,11 @@ class DriveParameters {
   DeviceReader reader_;
   drive::FaultReader faults_;
   drive::ParameterSession session_;
+  MonitorReader monitor_;
   std::array<std::uint32_t, kAskers> open_ids_{};  // of the question under way; 0: none
   std::uint32_t sequence_ = 0;
   bool scale_due_ = false;                // the reader learned something the drive was not told yet
+  std::uint8_t parameter_set_ = 0;        // in force; 0: not known
   bool bus_control_ = true;               // status bit 9, as seen last
   std::optional<Instant> held_since_;     // idle, and not ready to switch on
   std::optional<Instant> missing_since_;  // one that decides motion was asked for in vain

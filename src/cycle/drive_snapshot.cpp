@@ -21,7 +21,7 @@ void fillSample(DriveSample& to, const DrivePictured& from, Instant now) noexcep
   to.online = report.online;
   to.state = report.state;
   to.parameter_set = report.parameter_set;
-  to.output = report.output;
+  to.output = from.sent;
   to.input = report.input;
   to.velocity_command = report.velocity_command.value;
   to.velocity = report.velocity.value;
@@ -64,6 +64,7 @@ void fillDriveSnapshot(DriveSnapshot& to, const DrivePictured& from, const Trans
   to.direction_contradiction = report.direction_contradiction;
   to.text = sentenceOf(from, transport);
   fillFault(to);
+  to.monitored = axis.parameters.monitored();
   to.device = axis.parameters.device();
   to.device.ident = transport.identNumber(from.index);
 }

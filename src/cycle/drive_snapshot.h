@@ -14,6 +14,7 @@ struct DrivePictured {
   DriveIndex index = 0;
   const char* name = "";
   const drive::DriveReport& report;
+  const profile::ProcessOutput& sent;  ///< in this cycle
   const Axis& axis;
   bool module_answers = false;    ///< in this cycle
   bool beyond_its_speed = false;  ///< what its base, or the command of a drive alone, wants cannot be had of it

@@ -18,6 +18,7 @@ bool isAtRest(DriveState state) noexcept {
 void GuestGate::close() noexcept {
   open_ = false;
   heard_ = false;
+  fault_seen_ = false;
   cycles_heard_ = 0;
   running_.reset();
 }
@@ -39,6 +40,7 @@ void GuestGate::look(const std::vector<DriveExchange>& inputs) noexcept {
   for (DriveIndex i = 0; i < inputs.size() && !running_; ++i) {
     if (!inputs[i].inverter_answers) continue;
     const DriveState state = profile::StatusWord{inputs[i].input.status_word}.state();
+    if (i == 0 && state == DriveState::kFault) fault_seen_ = true;
     if (!isAtRest(state)) running_ = Running{i, state};
   }
   open_ = cycles_heard_ >= kCyclesToSeeAll && !running_;

@@ -33,6 +33,8 @@ class GuestGate {
   bool isOpen() const noexcept { return open_; }
   /// The first drive answered in the last cycle with the gate closed.
   bool heard() const noexcept { return heard_; }
+  /// The first drive was in fault while the gate was closed: the words behind it may acknowledge that.
+  bool faultSeen() const noexcept { return fault_seen_; }
   /// A drive that is not at rest.
   const std::optional<Running>& running() const noexcept { return running_; }
 
@@ -41,6 +43,7 @@ class GuestGate {
 
   bool open_;
   bool heard_ = false;
+  bool fault_seen_ = false;
   int cycles_heard_ = 0;
   std::optional<Running> running_;
 };

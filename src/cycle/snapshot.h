@@ -9,6 +9,7 @@
 
 #include "cycle/cycle_statistics.h"
 #include "cycle/device_data.h"
+#include "cycle/monitored_value.h"
 #include "cycle/terminal_watch.h"
 #include "drive/drive_report.h"
 #include "nord_driver/core/fixed_text.h"
@@ -56,7 +57,8 @@ struct DriveSnapshot : DriveSample {
   TerminalFinding terminals = TerminalFinding::kNone;  ///< who else has a say in a drive that is disabled here
   Sentence terminals_text;                             ///< that, in words; empty when nobody has
   bool direction_contradiction = false;                ///< the sign of actual value 1 against the direction bits
-  Sentence text;  ///< what it waits for or why it stopped; empty when there is nothing to say
+  Sentence text;                          ///< what it waits for or why it stopped; empty when there is nothing to say
+  std::vector<MonitoredValue> monitored;  ///< in the order of DriveSetup::monitor
   DeviceData device;
 };
 

@@ -13,6 +13,21 @@ const char* nextCall(Refusal refusal) noexcept {
   return "";
 }
 
+// "set P547 of drive left to 2 (Torque current limit) in parameter set 1: ..."
+Sentence missingWordMessage(const char* drive, const drive::UnexpectedFunction& function, unsigned set) noexcept {
+  constexpr unsigned kNotRead = 0xFFFF;
+  FixedText<24> element, found;
+  if (function.is_array) element.format("[-%02u]", unsigned{function.index});
+  found.format(function.found == kNotRead ? "could not be read" : "is %u", unsigned{function.found});
+  Sentence text;
+  text.format(
+      "set P%u%s of drive %s to %u (%s) in parameter set %u: the configuration uses it, and no word carries it; "
+      "P%u%s %s",
+      unsigned{function.number}, element.c_str(), drive, unsigned{function.expected}, function.wanted, set,
+      unsigned{function.number}, element.c_str(), found.c_str());
+  return text;
+}
+
 }  // namespace
 
 Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveReport& report) noexcept {
@@ -27,6 +42,7 @@ Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveRe
   }
   if (refusal == Refusal::kUnexpectedFunction && report.unexpected_function) {
     const drive::UnexpectedFunction& function = *report.unexpected_function;
+    if (function.wanted != nullptr) return missingWordMessage(drive, function, report.commanded_set);
     text.format("drive %s: P%u%s of parameter set %u is %u, so that %s 1 is not the frequency; set it to %u", drive,
                 unsigned{function.number}, function.is_array ? " [-01]" : "", unsigned{report.commanded_set},
                 unsigned{function.found}, function.number == 543 ? "actual value" : "setpoint",
@@ -120,7 +136,7 @@ Sentence parameterMessage(const char* drive, std::uint16_t number, const profile
       text.format("drive %s gave no answer for P%03u%s%s%s%s", drive, number, colon, words, joint, note);
       break;
     case profile::ParameterOutcome::kOffline:
-      text.format("drive %s does not answer%s%s", drive, joint, note);
+      text.format("drive %s does not answer%s%s%s%s", drive, colon, words, joint, note);
       break;
     case profile::ParameterOutcome::kNoChannel:
       text.format("no parameter channel reaches P%03u of drive %s%s%s", number, drive, colon, words);

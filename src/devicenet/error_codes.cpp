@@ -38,7 +38,7 @@ constexpr std::array<Meaning, 42> kGeneral{{
     {0x16, "the object does not exist"},
     {0x17, "fragmentation of this service is not under way"},
     {0x18, "there are no attribute data stored"},
-    {0x19, "storing the attribute data failed"},
+    {0x19, "the store operation failed, the attribute data are not kept"},
     {0x1A, "the request is too large on its way"},
     {0x1B, "the reply is too large on its way"},
     {0x1C, "attributes are missing in the list"},
@@ -60,10 +60,10 @@ constexpr std::array<Meaning, 42> kGeneral{{
 constexpr Meaning kGroup2Only{0x2A, "general failure of a Group-2-only server"};
 
 constexpr std::array<Meaning, 4> kAllocate{{
-    {0x01, "it is allocated already"},
-    {0x02, "it does not have these connections"},
+    {0x01, "allocation conflict, it is allocated already"},
+    {0x02, "invalid allocation choice, it does not have these connections"},
     {0x03, "only allocate and release are taken on the unconnected port"},
-    {0x04, "it has no room for the connections"},
+    {0x04, "resource unavailable, it has no room for the connections"},
 }};
 
 template <std::size_t N>

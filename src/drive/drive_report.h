@@ -85,12 +85,15 @@ struct RequestReport {
   Refusal refusal = Refusal::kNone;  ///< with kRefused
 };
 
-/// A parameter P543 or P546 that gives setpoint 1 or actual value 1 another function than the frequency.
+/// A parameter P543 to P548 that gives a word another function than is needed: of setpoint 1 or actual value 1 the
+/// frequency, of the others what is configured.
 struct UnexpectedFunction {
-  std::uint16_t number = 0;    ///< 543 or 546
-  bool is_array = false;       ///< the series has it as an array: [-01]
-  std::uint16_t found = 0;     ///< the value read
-  std::uint16_t expected = 0;  ///< the value to be set
+  std::uint16_t number = 0;      ///< 543 to 548
+  bool is_array = false;         ///< the series has it as an array
+  std::uint16_t found = 0;       ///< the value read; FFFFh: it could not be read
+  std::uint16_t expected = 0;    ///< the value to be set
+  std::uint8_t index = 1;        ///< of the array
+  const char* wanted = nullptr;  ///< the name of the function that no word carries; nullptr: word 1 is no frequency
 };
 
 struct DriveReport {

@@ -25,8 +25,13 @@ std::string inWords(std::string name) {
 }  // namespace
 
 Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities,
-                         std::vector<catalogue::FaultWords> faults, const std::string& where)
-    : identities_(identities), faults_(std::move(faults)), device_(where), snapshot_(config.drives.size()) {
+                         std::vector<catalogue::FaultWords> faults, std::vector<DriveValues> values,
+                         const std::string& where)
+    : identities_(identities),
+      faults_(std::move(faults)),
+      values_(std::move(values)),
+      device_(where),
+      snapshot_(config.drives.size()) {
   updater_.setHardwareID(device_);
   updater_.add("bus", [this](DiagnosticStatusWrapper& status) { reportBus(status); });
   if (config.cycle.base) updater_.add("base", [this](DiagnosticStatusWrapper& status) { reportBase(status); });
@@ -175,6 +180,9 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
   status.add("bus module answers", drive.module_answers);
   status.add("parameter channel", identity.parameter_channel);
   status.add("protected by", protection.text);
+  for (const ParameterValue& value : values_[index].values(drive)) {
+    status.add(value.name.empty() ? value.parameter : value.parameter + " " + value.name, value.text);
+  }
 }
 
 }  // namespace nord_driver::node

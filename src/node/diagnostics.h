@@ -10,6 +10,7 @@
 #include "catalogue/fault_words.h"
 #include "cycle/snapshot.h"
 #include "node/drive_protection.h"
+#include "node/drive_values.h"
 #include "node/node_config.h"
 #include "node/ramp_check.h"
 #include "nord_driver/transport/transport.h"
@@ -19,9 +20,9 @@ namespace nord_driver::node {
 /// Reports the snapshot it was given last. `update` runs the tasks when they are due (once a second).
 class Diagnostics {
  public:
-  /// `faults`: of each drive. `where`: what the transport opens, as configured.
+  /// `faults`, `values`: of each drive. `where`: what the transport opens, as configured.
   Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities,
-              std::vector<catalogue::FaultWords> faults, const std::string& where);
+              std::vector<catalogue::FaultWords> faults, std::vector<DriveValues> values, const std::string& where);
   void update(const cycle::CycleSnapshot& snapshot);
 
  private:
@@ -36,6 +37,7 @@ class Diagnostics {
   std::vector<std::string> names_;
   std::vector<DriveIdentity> identities_;
   std::vector<catalogue::FaultWords> faults_;
+  std::vector<DriveValues> values_;
   std::vector<DriveProtection> protections_;
   std::vector<profile::Series> series_;
   std::vector<RampCheck> ramps_;

@@ -5,6 +5,7 @@
 
 #include "node/drive_status.h"
 #include "profile/scaling.h"
+#include "profile/word_function.h"
 
 namespace nord_driver::node {
 
@@ -28,6 +29,7 @@ DrivePublisher::DrivePublisher(ros::NodeHandle& private_node, const cycle::Drive
     : identity_(std::move(identity)),
       protection_(std::move(protection)),
       faults_(faults),
+      series_(setup.series),
       rated_current_(setup.rated_current.value_or(kNotKnown)) {
   status_.name = setup.name;
   info_.name = setup.name;
@@ -93,6 +95,14 @@ void DrivePublisher::publishDeviceInfo(const cycle::DriveSnapshot& drive) {
   for (const auto& frequency : device.max_frequency) info.max_frequency.push_back(frequency.value_or(kNotKnown));
   info.setpoint_functions.assign(device.setpoint_functions.begin(), device.setpoint_functions.end());
   info.actual_value_functions.assign(device.actual_value_functions.begin(), device.actual_value_functions.end());
+  info.setpoint_names.clear();
+  info.actual_value_names.clear();
+  for (std::size_t i = 0; i < info.setpoint_functions.size(); ++i) {
+    info.setpoint_names.emplace_back(profile::setpointName(series_, i + 1, info.setpoint_functions[i]));
+  }
+  for (const std::uint16_t function : info.actual_value_functions) {
+    info.actual_value_names.emplace_back(profile::actualValueName(series_, function));
+  }
   const bool same = told_ && info.ident == info_.ident && info.protected_by == info_.protected_by &&
                     info.software_version == info_.software_version &&
                     info.setpoint_functions == info_.setpoint_functions &&

@@ -38,6 +38,7 @@ class DrivePublisher {
   DriveIdentity identity_;
   DriveProtection protection_;
   catalogue::FaultWords faults_;
+  profile::Series series_;
   double rated_current_;
   DriveStatus status_;
   DeviceInfo info_;

@@ -9,6 +9,7 @@
 #include "node/start_sentence.h"
 #include "node/what_is_offered.h"
 #include "nord_driver/profile/series.h"
+#include "tools/counted_write.h"
 #include "tools/installed_catalogues.h"
 
 namespace nord_driver::node {
@@ -55,12 +56,16 @@ DriverNode::DriverNode()
       settings_("~", privateParameters()),
       config_(withWhatIsOffered(readNodeConfig(settings_, robotDescription()), settings_)),
       catalogues_(tools::installedCatalogues(config_.parameter_files)),
-      loader_("nord_driver", "nord_driver::Transport") {
+      loader_("nord_driver", "nord_driver::Transport"),
+      eeprom_budget_(tools::eepromBudget(config_.eeprom)) {
   loadTransport();
+  lookUpMonitored();
   warnOfUnknownKeys();
   ROS_INFO("nord_driver: %s", startSentence(config_, identities_, where_).c_str());
   ports_ = std::make_unique<cycle::CyclePorts>(config_.drives.size());
-  cycle_ = std::make_unique<cycle::BusCycle>(config_.cycle, *transport_, *ports_, config_.auto_enable);
+  cycle_ =
+      std::make_unique<cycle::BusCycle>(config_.cycle, *transport_, *ports_, config_.auto_enable,
+                                        config_.read_only ? cycle::CycleRole::kOnlooker : cycle::CycleRole::kDriver);
   broker_ = std::make_unique<RequestBroker>(*ports_);
   advertise();
 }
@@ -95,6 +100,17 @@ std::vector<catalogue::DriveCatalogue> DriverNode::knownDrives() const {
   return known;
 }
 
+void DriverNode::lookUpMonitored() {
+  const std::vector<catalogue::DriveCatalogue> known = knownDrives();
+  for (DriveIndex i = 0; i < known.size(); ++i) {
+    const auto list = tools::monitoredParameters(config_.drives[i], config_.monitor[i], known[i], identities_[i]);
+    const auto raw_ones = tools::notInCatalogue(config_.drives[i], list);
+    config_.warnings.insert(config_.warnings.end(), raw_ones.begin(), raw_ones.end());
+    for (const auto& parameter : list) config_.cycle.drives[i].monitor.push_back(parameter.access.request);
+    values_.emplace_back(known[i], list);
+  }
+}
+
 void DriverNode::warnOfUnknownKeys() const {
   std::vector<std::string> sentences = config_.warnings;
   for (const std::string& sentence : unknownKeys(settings_, config_, ros::this_node::getName())) {
@@ -117,21 +133,27 @@ void DriverNode::advertise() {
   for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
     const cycle::DriveSetup& setup = config_.cycle.drives[i];
     names.push_back(setup.name);
+    eeproms_.emplace_back(eeprom_budget_,
+                          tools::placeOf(where_, shortTransportName(config_.transport), config_.drives[i]), setup.name,
+                          transport_->parameterCapabilities(i).ram_writes);
     traced.push_back({setup.name, identities_[i].address});
     drive_publishers_.emplace_back(private_node_, setup, identities_[i],
                                    DriveProtection{identities_[i], config_.cycle.drives[i].series,
                                                    config_.cycle.cmd_vel_timeout, config_.cycle.period()},
                                    faults_[i], static_cast<std::uint16_t>(setup.address.value_or(0)));
+    values_publishers_.emplace_back(private_node_, setup.name, values_[i]);
     if (cycle_->inBase(i)) continue;
     boost::function<void(const std_msgs::Float64&)> take = [this, i](const std_msgs::Float64& velocity) {
       takeDriveCommand(i, velocity.data);
     };
     subscribers_.push_back(private_commands_.handle().subscribe<std_msgs::Float64>(setup.name + "/command", 1, take));
   }
+  word_topics_ = std::make_unique<WordTopics>(private_commands_, config_.cycle, *ports_);
   fault_board_ = std::make_unique<FaultBoard>(names, faults_);
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
-  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, faults_, where_);
-  services_ = std::make_unique<Services>(private_node_, stops_.handle(), config_, known, *fault_board_, *broker_);
+  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, faults_, values_, where_);
+  services_ =
+      std::make_unique<Services>(private_node_, stops_.handle(), config_, known, *fault_board_, eeproms_, *broker_);
   tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace());
   ports_->setObserver(&tracing_->feed());
   if (config_.cycle.base) {
@@ -181,8 +203,9 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
 
   // Whatever ends the node, the drives come to rest first: an exchange that simply ends lets the wheels coast.
   try {
-    publisher_.emplace(*ports_, config_.publish, *base_publisher_, drive_publishers_, *bus_publisher_, *diagnostics_,
-                       *fault_board_, loggedDrives());
+    const SnapshotParts parts{*base_publisher_, drive_publishers_, values_publishers_,
+                              *bus_publisher_,  *diagnostics_,     *fault_board_};
+    publisher_.emplace(*ports_, config_.publish, parts, loggedDrives());
     // roscpp is "ok" until it has unregistered every topic: tenths of a second in which the robot would drive on.
     while (!end_asked && ros::ok() && !ros::isShuttingDown() && publisher_->healthy()) {
       noteCommanders();
@@ -212,6 +235,7 @@ LoggedDrives DriverNode::loggedDrives() const {
 void DriverNode::noteCommanders() {
   std::uint32_t now = command_subscriber_ ? command_subscriber_.getNumPublishers() : 0;
   for (const ros::Subscriber& subscriber : subscribers_) now += subscriber.getNumPublishers();
+  now += word_topics_->commanders();
   if (now > commanders_) ports_->commanderConnected(steadyNow());
   commanders_ = now;
 }
@@ -227,7 +251,7 @@ void DriverNode::tellBusEvents() {
 }
 
 void DriverNode::bringToRest() {
-  ROS_INFO("nord_driver: bringing the drives to rest");
+  if (!config_.read_only) ROS_INFO("nord_driver: bringing the drives to rest");
   cycle::Request request;
   request.kind = cycle::RequestKind::kShutDown;
   // OFF1 that does not end becomes a quick stop; that has a ramp of its own (P426).
@@ -238,7 +262,9 @@ void DriverNode::bringToRest() {
     ros::WallDuration(0.02).sleep();
     answer = broker_->call(request);
   }
-  if (answer.success) {
+  if (answer.success && config_.read_only) {
+    ROS_INFO("nord_driver: ending; the drives are as they were: read_only is true");
+  } else if (answer.success) {
     ROS_INFO("nord_driver: all drives are at rest, ending the exchange");
   } else {
     ROS_ERROR("nord_driver: ending, although %s", answer.message.c_str());

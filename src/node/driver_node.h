@@ -8,6 +8,7 @@
 #include <std_srvs/Trigger.h>
 
 #include <atomic>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <pluginlib/class_loader.hpp>
@@ -31,6 +32,8 @@
 #include "node/services.h"
 #include "node/snapshot_publisher.h"
 #include "node/tracing.h"
+#include "node/values_publisher.h"
+#include "node/word_topics.h"
 #include "nord_driver/transport/transport.h"
 
 namespace nord_driver::node {
@@ -48,6 +51,8 @@ class DriverNode {
 
  private:
   void loadTransport();
+  /// Looks up what drives/<name>/monitor lists; the transport is configured.
+  void lookUpMonitored();
   void warnOfUnknownKeys() const;
   void advertise();
   void takeCommand(const geometry_msgs::Twist& twist);
@@ -73,7 +78,10 @@ class DriverNode {
   std::string where_;  // what the transport opens, as configured
   std::vector<DriveIdentity> identities_;
   std::vector<catalogue::FaultWords> faults_;  // one per drive
+  std::vector<DriveValues> values_;            // one per drive
   std::unique_ptr<FaultBoard> fault_board_;
+  state::EepromBudget eeprom_budget_;
+  std::deque<state::DriveEeprom> eeproms_;  // one per drive
 
   std::unique_ptr<cycle::CyclePorts> ports_;
   std::unique_ptr<cycle::BusCycle> cycle_;
@@ -84,9 +92,11 @@ class DriverNode {
   std::unique_ptr<BaseTuner> base_tuner_;           // with a base
   std::unique_ptr<NothingToTune> nothing_to_tune_;  // without one
   std::vector<DrivePublisher> drive_publishers_;
+  std::vector<ValuesPublisher> values_publishers_;
   std::unique_ptr<BusPublisher> bus_publisher_;
   std::unique_ptr<Diagnostics> diagnostics_;
   std::unique_ptr<Services> services_;
+  std::unique_ptr<WordTopics> word_topics_;
   std::unique_ptr<Tracing> tracing_;
   std::optional<SnapshotPublisher> publisher_;
   std::vector<ros::Subscriber> subscribers_;

@@ -66,12 +66,23 @@ NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot
   config.bus_end_point = textOr(settings, "bus_end_point", "");
   config.auto_enable = booleanOr(settings, "auto_enable", false);
   config.allow_raw_parameters = booleanOr(settings, "allow_raw_parameters", false);
+  config.read_only = booleanOr(settings, "read_only", false);
+  if (config.read_only && config.auto_enable) {
+    throw wrongSetting(settings, "read_only", "true",
+                       "false where auto_enable is true: a node that looks on enables nothing");
+  }
+  config.writable_parameters = readWritableParameters(settings);
   config.parameter_files = settings.texts("parameter_files").value_or(std::vector<std::string>{});
+  config.eeprom = readEepromSettings(settings);
   acceptControllerKeys(settings);
   config.publish = readPublish(settings);
   config.publish.publish_wheel_states = booleanOr(settings, "publish_wheel_joint_controller_state", false);
   config.bus = settings.group("bus");
   config.drives = readDriveList(settings);
+  for (const DriveSettings& drive : config.drives) {
+    const auto& group = static_cast<const TreeSettings&>(*drive.settings);  // as readDriveList has made it
+    config.monitor.push_back(group.words("monitor").value_or(std::vector<std::string>{}));
+  }
   config.cycle = cycle::readCycleConfig(settings, config.drives, robot_description);
   if (config.cycle.base) {
     const std::vector<std::string>& of_base = config.cycle.base->warnings;
@@ -93,11 +104,21 @@ std::string applyEndPoint(NodeConfig& config, const EndPoint& end_point) {
 
 ConfiguredTransport configureTransport(NodeConfig& config, Transport& transport) {
   ConfiguredTransport configured;
+  // Nothing in the modules is to trip when the one who looks on goes, and nothing is sent beside another master.
+  if (config.read_only && !transport.serveParametersOnly()) {
+    throw ConfigError("~read_only: true is not possible: the transport " + config.transport +
+                      " cannot be on the bus without leading it, expected false");
+  }
   configured.where = applyEndPoint(config, transport.endPoint());
   transport.configure(*config.bus, config.drives, config.cycle.cycle_rate);
   configured.warnings = transport.warnings();
   for (DriveIndex i = 0; i < config.drives.size(); ++i) {
     configured.identities.push_back(transport.identity(i));
+    if (config.read_only && configured.identities[i].process_values == 0) {
+      throw ConfigError("~read_only: true is not possible: over the transport " + config.transport +
+                        " only its master gets process data, expected false");
+    }
+    cycle::checkWordsCarried(*config.drives[i].settings, config.cycle.drives[i].words, configured.identities[i]);
     // Without a parameter channel P105 cannot be read: nobody could say what a setpoint means.
     if (configured.identities[i].parameter_channel == "none" && !config.cycle.drives[i].typed_max_frequency) {
       throw missingSetting(*config.drives[i].settings, "max_frequency",

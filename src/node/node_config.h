@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "config/eeprom_settings.h"
 #include "config/tree_settings.h"
+#include "config/writable_parameters.h"
 #include "cycle/cycle_config.h"
 #include "nord_driver/config/settings.h"
 #include "nord_driver/transport/transport.h"
@@ -34,11 +36,16 @@ struct NodeConfig {
   std::string bus_end_point;  ///< in place of what `bus` says; empty: as `bus` says
   bool auto_enable = false;
   bool allow_raw_parameters = false;
+  bool read_only = false;                    ///< looks on: commands nothing and writes nothing
+  WritableParameters writable_parameters;    ///< by users, over this node
   std::vector<std::string> parameter_files;  ///< laid over the project's, in this order
+  EepromSettings eeprom;
   PublishConfig publish;
   cycle::CycleConfig cycle;
   std::optional<trace::TraceConfig> trace;
   std::vector<DriveSettings> drives;
+  /// One for each of `drives`: the parameters of `monitor`, as they are written there.
+  std::vector<std::vector<std::string>> monitor;
   std::shared_ptr<TreeSettings> bus;
   std::vector<std::string> warnings;  ///< sentences on what is accepted but done in another way, or not
 };

@@ -40,6 +40,7 @@ cycle::Completion RequestBroker::call(cycle::Request request) {
   } else {
     answer.id = request.id;
     answer.message = "the bus cycle did not answer";
+    answer.parameter.eeprom_written = request.kind == cycle::RequestKind::kWriteParameter;  // or will be
   }
   waiting_.erase(at);
   return answer;

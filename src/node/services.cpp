@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "catalogue/parameter_text.h"
+#include "tools/counted_write.h"
 
 namespace nord_driver::node {
 
@@ -35,8 +36,9 @@ void Services::advertise(ros::NodeHandle& node, const std::string& name, Handler
 }
 
 Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, const NodeConfig& config,
-                   std::vector<catalogue::DriveCatalogue> known, const FaultBoard& faults, RequestBroker& broker)
-    : config_(config), known_(std::move(known)), faults_(faults), broker_(broker) {
+                   std::vector<catalogue::DriveCatalogue> known, const FaultBoard& faults,
+                   std::deque<state::DriveEeprom>& eeproms, RequestBroker& broker)
+    : config_(config), known_(std::move(known)), faults_(faults), eeproms_(eeproms), broker_(broker) {
   const auto addTrigger = [&](const std::string& name, RequestKind kind, DriveIndex drive) {
     ros::NodeHandle& node = kind == RequestKind::kQuickStop ? stop_node : private_node;
     advertise<std_srvs::Trigger>(node, name, [this, kind, drive, name](auto&, auto& response) {
@@ -138,8 +140,14 @@ void Services::writeParameter(DriveIndex drive, WriteParameter::Request& request
     response.message =
         catalogue::setValue(access, {request.value, request.persistent != 0, config_.allow_raw_parameters});
   }
+  if (response.message.empty()) response.message = config_.writable_parameters.refusal(request.number);
   if (!response.message.empty()) return;
-  const cycle::Completion answer = carryOut(drive, RequestKind::kWriteParameter, access);
+  const tools::CountedWrite write = tools::countedWrite(
+      eeproms_[drive], access.request, [&] { return carryOut(drive, RequestKind::kWriteParameter, access); });
+  response.message = write.refusal;
+  if (!response.message.empty()) return;
+  if (!write.note.empty()) ROS_WARN("nord_driver: %s", write.note.c_str());
+  const cycle::Completion& answer = *write.completion;  // the broker always has one
   response.success = answer.success;
   response.message = answer.message.str();
   response.raw = answer.parameter.raw;

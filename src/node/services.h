@@ -5,6 +5,7 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
+#include <deque>
 #include <vector>
 
 #include "catalogue/drive_catalogue.h"
@@ -16,6 +17,7 @@
 #include "nord_driver/ReadParameter.h"
 #include "nord_driver/SelectParameterSet.h"
 #include "nord_driver/WriteParameter.h"
+#include "state/drive_eeprom.h"
 
 namespace nord_driver::node {
 
@@ -23,9 +25,10 @@ class Services {
  public:
   /// `stop_node`: the private handle whose callbacks do not wait behind those of the other services. `known`: of each
   /// drive.
-  /// `faults` must outlive the services.
+  /// `eeproms`: of each drive. It and `faults` must outlive the services.
   Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, const NodeConfig& config,
-           std::vector<catalogue::DriveCatalogue> known, const FaultBoard& faults, RequestBroker& broker);
+           std::vector<catalogue::DriveCatalogue> known, const FaultBoard& faults,
+           std::deque<state::DriveEeprom>& eeproms, RequestBroker& broker);
 
  private:
   template <typename Service, typename Handler>
@@ -43,6 +46,7 @@ class Services {
   const NodeConfig& config_;
   std::vector<catalogue::DriveCatalogue> known_;
   const FaultBoard& faults_;
+  std::deque<state::DriveEeprom>& eeproms_;
   RequestBroker& broker_;
   std::vector<ros::ServiceServer> servers_;
 };

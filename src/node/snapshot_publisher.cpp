@@ -7,7 +7,7 @@ namespace nord_driver::node {
 
 namespace {
 
-constexpr Duration kBusPeriod = std::chrono::seconds{1};
+constexpr Duration kSecond = std::chrono::seconds{1};
 
 /// The rate of the base may change at any time; 0 Hz is never, but a new rate is soon seen.
 Duration basePeriod(const BasePublisher& base) {
@@ -25,15 +25,10 @@ bool isDue(Instant& next, Duration period, Instant now) {
 
 }  // namespace
 
-SnapshotPublisher::SnapshotPublisher(cycle::CyclePorts& ports, const PublishConfig& config, BasePublisher& base,
-                                     std::vector<DrivePublisher>& drives, BusPublisher& bus, Diagnostics& diagnostics,
-                                     FaultBoard& faults, LoggedDrives logged)
+SnapshotPublisher::SnapshotPublisher(cycle::CyclePorts& ports, const PublishConfig& config, const SnapshotParts& parts,
+                                     LoggedDrives logged)
     : ports_(ports),
-      base_(base),
-      drives_(drives),
-      bus_(bus),
-      diagnostics_(diagnostics),
-      faults_(faults),
+      parts_(parts),
       status_period_(seconds(1.0 / config.status_rate)),
       log_(std::move(logged)),
       thread_([this] {
@@ -53,7 +48,7 @@ SnapshotPublisher::~SnapshotPublisher() {
 
 void SnapshotPublisher::run() {
   Instant now = std::chrono::steady_clock::now();
-  Instant next_base = now, next_status = now, next_bus = now, stamped{};
+  Instant next_base = now, next_status = now, next_second = now, stamped{};
   Stamps stamps{ros::Time{}, now};
   while (!stop_) {
     const cycle::CycleSnapshot& snapshot = ports_.readSnapshot();
@@ -63,23 +58,26 @@ void SnapshotPublisher::run() {
         stamped = snapshot.time;
       }
       const ros::Time stamp = stamps.of(snapshot.time);
-      const Duration base_period = basePeriod(base_);
+      const Duration base_period = basePeriod(parts_.base);
       if (base_period == Duration::max()) {
         next_base = now + seconds(0.1);
       } else {
         next_base = std::min(next_base, now + base_period);
-        if (isDue(next_base, base_period, now)) base_.publish(snapshot, stamp);
+        if (isDue(next_base, base_period, now)) parts_.base.publish(snapshot, stamp);
       }
       if (isDue(next_status, status_period_, now)) {
-        for (std::size_t i = 0; i < drives_.size(); ++i) {
-          drives_[i].publishStatus(snapshot.drives[i], stamps);
-          drives_[i].publishDeviceInfo(snapshot.drives[i]);
+        for (std::size_t i = 0; i < parts_.drives.size(); ++i) {
+          parts_.drives[i].publishStatus(snapshot.drives[i], stamps);
+          parts_.drives[i].publishDeviceInfo(snapshot.drives[i]);
         }
       }
-      if (isDue(next_bus, kBusPeriod, now)) bus_.publish(snapshot, stamp);
-      faults_.post(snapshot);
+      if (isDue(next_second, kSecond, now)) {
+        parts_.bus.publish(snapshot, stamp);
+        for (std::size_t i = 0; i < parts_.values.size(); ++i) parts_.values[i].publish(snapshot.drives[i], stamp);
+      }
+      parts_.faults.post(snapshot);
       logChanges(snapshot, now);
-      diagnostics_.update(snapshot);
+      parts_.diagnostics.update(snapshot);
     }
     const Instant wake = std::min({std::max(next_base, now), std::max(next_status, now), now + seconds(0.1)});
     std::this_thread::sleep_until(std::max(wake, now + seconds(0.0005)));

@@ -13,16 +13,26 @@
 #include "node/fault_board.h"
 #include "node/node_config.h"
 #include "node/state_log.h"
+#include "node/values_publisher.h"
 
 namespace nord_driver::node {
+
+/// Who makes what of a snapshot; all outlive the thread.
+struct SnapshotParts {
+  BasePublisher& base;
+  std::vector<DrivePublisher>& drives;
+  std::vector<ValuesPublisher>& values;
+  BusPublisher& bus;
+  Diagnostics& diagnostics;
+  FaultBoard& faults;
+};
 
 /// Publishes from construction to destruction. The rates run on the steady clock, so that /use_sim_time cannot stop
 /// them; only the stamps are ROS time: of the bus cycle that measured.
 class SnapshotPublisher {
  public:
-  SnapshotPublisher(cycle::CyclePorts& ports, const PublishConfig& config, BasePublisher& base,
-                    std::vector<DrivePublisher>& drives, BusPublisher& bus, Diagnostics& diagnostics,
-                    FaultBoard& faults, LoggedDrives logged);
+  SnapshotPublisher(cycle::CyclePorts& ports, const PublishConfig& config, const SnapshotParts& parts,
+                    LoggedDrives logged);
   ~SnapshotPublisher();
   SnapshotPublisher(const SnapshotPublisher&) = delete;
   SnapshotPublisher& operator=(const SnapshotPublisher&) = delete;
@@ -35,11 +45,7 @@ class SnapshotPublisher {
   void logChanges(const cycle::CycleSnapshot& snapshot, Instant now);
 
   cycle::CyclePorts& ports_;
-  BasePublisher& base_;
-  std::vector<DrivePublisher>& drives_;
-  BusPublisher& bus_;
-  Diagnostics& diagnostics_;
-  FaultBoard& faults_;
+  SnapshotParts parts_;
   Duration status_period_;
   StateLog log_;
   std::atomic<bool> stop_{false};

@@ -12,8 +12,12 @@ std::string startSentence(const NodeConfig& config, const std::vector<DriveIdent
   for (std::size_t i = 0; i < identities.size(); ++i) {
     text += (i == 0 ? "" : ", ") + config.cycle.drives[i].name + " (" + identities[i].address + ")";
   }
-  if (!config.cycle.base) return text + ", no base";
-  return text + (config.cycle.base->kind == robot::BaseKind::kMecanum ? ", base mecanum" : ", base differential");
+  if (!config.cycle.base) {
+    text += ", no base";
+  } else {
+    text += config.cycle.base->kind == robot::BaseKind::kMecanum ? ", base mecanum" : ", base differential";
+  }
+  return text + (config.read_only ? ", looking on only (read_only)" : "");
 }
 
 }  // namespace nord_driver::node

@@ -41,6 +41,7 @@ constexpr CycleParameter kParameters[] = {
     {509, kSk5 | kSk54, "Source control word", 1.0, false, kPlain, 1},
     {509, kSk12, "Control word source", 1.0, false, kPlain, 1},
     {509, kSk300 | kSk7, "Interface", 1.0, false, kPlain, 1},
+    {510, kSk5 | kSk54 | kSk12, "Setpoint source", 1.0, false, kArray, 2},
     {513, kAll, "Telegram timeout", 0.1, true, kPlain, 1},
     {543, kSk5, "Bus actual value 1", 1.0, false, kPerSet, 1},
     {543, kSk54, "Bus actual value", 1.0, false, kArrayPerSet, 5},

@@ -45,6 +45,7 @@ void PkwChannel::startNext(Instant now) noexcept {
   if (!prepared_) return;
   order_ = orderFor(requests_.front());
   fell_back_ = false;
+  wait_text_.clear();
   deadline_ = now + answer_timeout_;
 }
 
@@ -65,7 +66,7 @@ PkwWords PkwChannel::pollWords(Instant now) noexcept {
     if (!prepared_) startNext(now);
     if (now < deadline_) break;
     last_unanswered_ = last_unanswered_ || phase_ == Phase::kOrder;
-    requests_.fail(ParameterOutcome::kTimeout);
+    requests_.fail(ParameterOutcome::kTimeout, wait_text_);
     handleEnd();
   }
   if (!requests_.empty() && phase_ == Phase::kPause && mayStart()) {

@@ -36,6 +36,8 @@ class PkwChannel {
   /// Ends the running request: what carries the words has refused, or failed. Nothing happens when none runs.
   void handleRefusal(ParameterReason reason, const Sentence& text) noexcept;
   void handleFailure(ParameterOutcome outcome, const Sentence& text = {}) noexcept;
+  /// Why what carries the words has brought no answer to the running request yet: told when its time is over.
+  void explainWait(const Sentence& text) noexcept { wait_text_ = text; }
   /// Ends all pending requests as offline.
   void handleOffline(Instant now) noexcept;
   std::optional<ParameterResult> pollResult() noexcept { return requests_.pollResult(); }
@@ -60,6 +62,7 @@ class PkwChannel {
   PkwOrder previous_;  // the one before it
   Phase phase_ = Phase::kPause;
   Instant deadline_{};
+  Sentence wait_text_;
   bool prepared_ = false;        // order_ and deadline_ belong to the running request
   bool fell_back_ = false;       // the running request already uses its one fall-back
   bool pause_sent_ = false;      // at least one exchange asked "no order" since the last order

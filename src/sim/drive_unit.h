@@ -1,6 +1,7 @@
 // One simulated drive: inverter, motor, parameters, and the switches an experimenter has. Its bus is that of its module.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,11 +15,26 @@
 
 namespace nord_driver::sim {
 
+/// A refusal in the numbers of the bus, which an inverter itself may never give: an SDO abort code, Error_Code_1 of
+/// DP-V1, a general error code of DeviceNet. The parameter channel (PKW) and PCP do not look at it.
+struct BusRefusal {
+  std::uint32_t code = 0;
+  std::optional<unsigned> number;  ///< accesses to this parameter only
+  bool at_answer = false;          ///< DP-V1: the order is taken, and refused when its answer is fetched
+};
+
 /// What an experimenter does to parameter orders.
 struct ParameterSwitches {
   bool silent = false;               ///< none is answered any more
   std::optional<PkwRefusal> refuse;  ///< answered with this error
-  unsigned delay = 0;                ///< telegrams they wait; over CAN milliseconds more
+  std::optional<BusRefusal> bus_refuse;
+  unsigned delay = 0;  ///< telegrams they wait; over CAN milliseconds more
+
+  /// The code of the bus an access to this parameter is refused with; `at_answer`: as BusRefusal has it.
+  std::optional<std::uint32_t> busRefusal(unsigned number, bool at_answer = false) const noexcept {
+    if (!bus_refuse || bus_refuse->at_answer != at_answer || bus_refuse->number.value_or(number) != number) return {};
+    return bus_refuse->code;
+  }
 };
 
 /// What makes an inverter one of a certain bus.

@@ -14,6 +14,7 @@
 #include "robot/wheel_speeds.h"
 #include "tools/installed_catalogues.h"
 #include "tools/key_lines.h"
+#include "tools/monitored_parameters.h"
 #include "tools/tool_config.h"
 #include "tools/usage_error.h"
 
@@ -154,6 +155,24 @@ void takeOver(const node::NodeConfig& config, const node::ConfiguredTransport& t
   }
 }
 
+bool anyMonitored(const node::NodeConfig& config) {
+  return std::any_of(config.monitor.begin(), config.monitor.end(), [](const auto& list) { return !list.empty(); });
+}
+
+void lookUpMonitored(const node::NodeConfig& config, const node::ConfiguredTransport& transport,
+                     const catalogue::Catalogues& catalogues, Findings& findings) {
+  for (DriveIndex i = 0; i < config.drives.size(); ++i) {
+    const DriveIdentity& identity = transport.identities[i];
+    const catalogue::DriveCatalogue known =
+        catalogue::driveCatalogue(catalogues, config.cycle.drives[i].series, shortTransportName(config.transport),
+                                  identity.timeout_owner == TimeoutOwner::kModule);
+    findings.run([&] {
+      const auto list = monitoredParameters(config.drives[i], config.monitor[i], known, identity);
+      for (const std::string& sentence : notInCatalogue(config.drives[i], list)) findings.warn(sentence);
+    });
+  }
+}
+
 /// What is wrong with single drives and the bus, where the node would have ended before it came to them.
 void tellTheRest(const YAML::Node& file, const YamlSettings& settings, const std::shared_ptr<Transport>& transport,
                  Findings& findings) {
@@ -195,7 +214,10 @@ CheckedConfig checkConfig(const std::vector<std::string>& files, const std::stri
     tellTheRest(file, settings, transport, findings);
     return checked;
   }
-  if (!config.parameter_files.empty()) findings.run([&] { installedCatalogues(config.parameter_files); });
+  std::optional<catalogue::Catalogues> catalogues;
+  if (!config.parameter_files.empty() || anyMonitored(config)) {
+    findings.run([&] { catalogues = installedCatalogues(config.parameter_files); });
+  }
   checked.cycle_rate = config.cycle.cycle_rate;
   const bool done = findings.run([&] { configured = node::configureTransport(config, *transport); });
   checked.where = done ? configured.where : "";
@@ -205,6 +227,7 @@ CheckedConfig checkConfig(const std::vector<std::string>& files, const std::stri
   }
   for (const std::string& sentence : config.warnings) findings.warn(sentence);
   if (!done) return checked;
+  if (catalogues) lookUpMonitored(config, configured, *catalogues, findings);
   for (const std::string& sentence : configured.warnings) findings.warn(sentence);
   for (const std::string& sentence : node::unknownKeys(settings, config)) findings.warn(sentence);
   takeOver(config, configured, checked);

@@ -22,6 +22,7 @@ class Trouble : public std::runtime_error {
 struct ParameterAnswer {
   bool success = false;
   bool refused = false;  ///< by inverter, catalogue or session; the drive is there
+  bool used_up = false;  ///< refused: the EEPROM's budget does not allow it now; the drive was not asked
   bool unknown = false;  ///< refused: the inverter has no parameter of this number
   std::string message;   ///< why not; with success a note, or empty
   std::int32_t raw = 0;
@@ -47,6 +48,8 @@ class DriveParameters {
   virtual DriveIdentity identity() const = 0;
   /// What is known of the drive.
   virtual const catalogue::DriveCatalogue& known() const = 0;
+  /// What coming to the drive has changed in it, a sentence. Default: nothing.
+  virtual std::string changedByReading() { return {}; }
 
  protected:
   DriveParameters() = default;

@@ -4,6 +4,7 @@
 #include "config/setting_checks.h"
 #include "cycle/drive_parameters.h"
 #include "profile/parameter_shape.h"
+#include "tools/counted_write.h"
 
 namespace nord_driver::tools {
 
@@ -22,7 +23,7 @@ constexpr std::uint16_t kTelegramTimeout = 513, kModuleTimeout = 151;
 }  // namespace
 
 ParameterLink::ParameterLink(const ToolConfig& config, Transport& transport, const catalogue::Catalogues& catalogues)
-    : config_(config), transport_(transport), ports_(config.drives.size()) {
+    : config_(config), transport_(transport), budget_(eepromBudget(config.eeprom)), ports_(config.drives.size()) {
   if (!transport.serveParametersOnly()) {
     throw Trouble("transport " + config.transport +
                   " does not serve a program for parameters only, and its start-up might stop a drive that runs: ask "
@@ -31,6 +32,10 @@ ParameterLink::ParameterLink(const ToolConfig& config, Transport& transport, con
   transport.configure(*config.bus, config.drives, config.cycle.cycle_rate);
   known_ = catalogue::driveCatalogue(catalogues, drive().series, shortTransportName(config.transport),
                                      identity().timeout_owner == TimeoutOwner::kModule);
+  const std::string end_point =
+      transport.endPoint().isNone() ? "" : config.bus->text(transport.endPoint().key).value_or("");
+  eeprom_.emplace(budget_, placeOf(end_point, shortTransportName(config.transport), config.drives.front()),
+                  drive().name, transport.parameterCapabilities(0).ram_writes);
   cycle_.emplace(config.cycle, transport, ports_, false, cycle::CycleRole::kGuest);
 }
 
@@ -95,6 +100,8 @@ ParameterAnswer ParameterLink::read(const catalogue::ParameterAddress& address) 
 }
 
 ParameterAnswer ParameterLink::write(const catalogue::ParameterAccess& access) {
+  const std::string not_writable = config_.writable_parameters.refusal(access.request.number);
+  if (!not_writable.empty()) throw Trouble(not_writable);
   cycle::Request request;
   request.kind = cycle::RequestKind::kWriteParameter;
   request.parameter = access.request;
@@ -130,17 +137,37 @@ bool ParameterLink::waitForDrive() noexcept {
   return false;
 }
 
+// A write compares first, so that it is not done twice.
+std::optional<cycle::Completion> ParameterLink::runAndRepeat(cycle::Request& request) {
+  std::optional<cycle::Completion> completion = run(request);
+  for (int i = 1; i < kAttempts && completion && completion->parameter.outcome == ParameterOutcome::kOffline; ++i) {
+    if (completion->parameter.eeprom_written || !waitForDrive()) break;
+    completion = run(request);
+  }
+  return completion;
+}
+
 ParameterAnswer ParameterLink::carryOut(const catalogue::ParameterAccess& access, cycle::RequestKind kind) {
   cycle::Request request;
   request.kind = kind;
   request.drive = 0;
   request.parameter = access.request;
   request.parameter.even_if_same = true;  // the run before may have put it into the RAM
-  std::optional<cycle::Completion> completion = run(request);
-  // Nothing but the line was lost: a write compares first, so that it is not done twice.
-  for (int i = 1; i < kAttempts && completion && completion->parameter.outcome == ParameterOutcome::kOffline; ++i) {
-    if (completion->parameter.eeprom_written || !waitForDrive()) break;
-    completion = run(request);
+  std::optional<cycle::Completion> completion;
+  std::string note;
+  if (kind == cycle::RequestKind::kReadParameter) {
+    completion = runAndRepeat(request);
+  } else {
+    CountedWrite counted = countedWrite(*eeprom_, request.parameter, [&] { return runAndRepeat(request); });
+    if (!counted.refusal.empty()) {
+      ParameterAnswer refused;
+      refused.refused = true;
+      refused.used_up = true;
+      refused.message = counted.refusal;
+      return refused;
+    }
+    completion = counted.completion;
+    note = counted.note;
   }
   if (!completion) throw Trouble("drive " + drive().name + " did not carry the access out");
 
@@ -151,11 +178,19 @@ ParameterAnswer ParameterLink::carryOut(const catalogue::ParameterAccess& access
   answer.unknown = answer.refused && result.refused_number == access.request.number &&
                    result.reason == profile::ParameterReason::kNoSuchParameter;
   answer.message = completion->message.str();
+  if (!note.empty()) answer.message += (answer.message.empty() ? "" : "; ") + note;
   answer.raw = result.raw;
   answer.value = catalogue::valueOf(access.entry, result.raw, access.request.index);
   answer.entry = access.entry;
   answer.set = profile::hasSets(access.request.shape) ? request.parameter.parameter_set : std::uint8_t{0};
   return answer;
+}
+
+std::string ParameterLink::changedByReading() {
+  if (!cycle_->gate().faultSeen() || !snapshot().online || snapshot().fault) return {};
+  return "drive " + drive().name +
+         " was in fault when this program came: its idle word 047E took the enable away, which acknowledges a fault "
+         "whose cause is gone";
 }
 
 std::vector<std::string> ParameterLink::finish() {

@@ -10,6 +10,7 @@
 #include "cycle/bus_cycle.h"
 #include "cycle/cycle_ports.h"
 #include "nord_driver/transport/transport.h"
+#include "state/drive_eeprom.h"
 #include "tools/drive_parameters.h"
 #include "tools/tool_config.h"
 
@@ -37,7 +38,8 @@ class ParameterLink final : public DriveParameters {
   void connect(Duration limit, const std::atomic<bool>& end_asked);
 
   ParameterAnswer read(const catalogue::ParameterAddress& address) override;
-  /// `access` is one to write. Compared before and read back after; see ParameterSession.
+  /// `access` is one to write. Compared before and read back after; see ParameterSession. Refused past the EEPROM's
+  /// budget.
   ParameterAnswer write(const catalogue::ParameterAccess& access) override;
   /// The bus cycle goes on: a drive with P513 > 0 would trip without its words.
   void pass(Duration time) noexcept override;
@@ -50,6 +52,8 @@ class ParameterLink final : public DriveParameters {
   profile::Series series() const noexcept override { return drive().series; }
   DriveIdentity identity() const override { return transport_.identity(0); }
   const catalogue::DriveCatalogue& known() const noexcept override { return *known_; }
+  /// A fault that the first idle word has acknowledged: it takes the enable away (BU 0020 8).
+  std::string changedByReading() override;
 
  private:
   const cycle::DriveSetup& drive() const noexcept { return config_.cycle.drives.front(); }
@@ -60,12 +64,16 @@ class ParameterLink final : public DriveParameters {
   void refuseRunning() const;
   std::string silence() const;
   std::optional<cycle::Completion> run(cycle::Request& request);
+  /// Again where only the line was lost.
+  std::optional<cycle::Completion> runAndRepeat(cycle::Request& request);
   bool waitForDrive() noexcept;
   ParameterAnswer carryOut(const catalogue::ParameterAccess& access, cycle::RequestKind kind);
 
   const ToolConfig& config_;
   Transport& transport_;
   std::optional<catalogue::DriveCatalogue> known_;  // from the constructor on
+  state::EepromBudget budget_;
+  std::optional<state::DriveEeprom> eeprom_;  // from the constructor on
   cycle::CyclePorts ports_;
   std::optional<cycle::BusCycle> cycle_;  // from the constructor on
   std::uint32_t last_id_ = 0;

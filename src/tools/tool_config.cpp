@@ -24,6 +24,8 @@ ToolConfig read(const YAML::Node& file, const YamlSettings& settings, const std:
   config.transport = readTransportName(settings);
   config.bus = settings.group("bus");
   config.parameter_files = settings.texts("parameter_files").value_or(std::vector<std::string>{});
+  config.writable_parameters = readWritableParameters(settings);
+  config.eeprom = readEepromSettings(settings);
   config.drives = drives;
   config.cycle = cycle::readCycleConfig(rateOf(file), drives);
   for (cycle::DriveSetup& setup : config.cycle.drives) {

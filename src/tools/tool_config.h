@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "config/eeprom_settings.h"
+#include "config/writable_parameters.h"
 #include "cycle/cycle_config.h"
 #include "nord_driver/config/settings.h"
 #include "nord_driver/transport/bus_report.h"
@@ -19,7 +21,9 @@ struct ToolConfig {
   std::shared_ptr<const Settings> bus;
   std::vector<DriveSettings> drives;         ///< as the transport is told, in the order of `cycle.drives`
   cycle::CycleConfig cycle;                  ///< without a base
+  WritableParameters writable_parameters;    ///< by this program as by the node
   std::vector<std::string> parameter_files;  ///< of the user, laid over the project's
+  EepromSettings eeprom;
 };
 
 /// The plugin name of the file's transport, with its prefix. Throws ConfigError.

@@ -176,6 +176,23 @@ TEST(NodeLoss, OneLostAnswerToGuardingIsForgiven) {
   EXPECT_EQ(1u, run.master.status(0).counters.missed_guards);
 }
 
+// A life time of three guard times has time for three questions: two of them lost one after the other on a bad line, and
+// the third one too late, would end a node that is well.
+TEST(NodeLoss, TwoLostAnswersToGuardingAreForgiven) {
+  Operational run{guarded()};
+  int lost = 0;
+  run.loses = [&lost](const CanFrame& frame) {
+    const bool loses = lost < 3 && frame.id == 0x732 && !frame.remote;
+    lost += loses ? 1 : 0;
+    return loses;
+  };
+  run.run(seconds{3});
+  EXPECT_EQ(3, lost);
+  EXPECT_EQ(NodeState::kOperational, run.master.status(0).state);
+  EXPECT_EQ(0u, run.master.status(0).counters.losses);
+  EXPECT_EQ(3u, run.master.status(0).counters.missed_guards);
+}
+
 // A master that looks late, because its machine stood still, asks once, not once for every time it missed.
 TEST(NodeLoss, NoBurstOfQuestionsAfterAStandstill) {
   Operational run{guarded()};

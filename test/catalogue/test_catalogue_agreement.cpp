@@ -9,6 +9,7 @@
 
 #include "catalogue/shipped.h"
 #include "profile/cycle_parameters.h"
+#include "profile/word_function.h"
 
 namespace nord_driver::catalogue {
 namespace {
@@ -49,7 +50,7 @@ TEST(CatalogueAgreement, EveryParameterOfTheCycleIsInTheFiles) {
       }
     }
   }
-  EXPECT_EQ(105, compared);
+  EXPECT_EQ(109, compared);
   EXPECT_EQ(std::set<std::string>{}, found);
 }
 
@@ -74,6 +75,37 @@ TEST(CatalogueAgreement, AbortsStandForTheSameNumbers) {
     const auto same = kSame.find(entry->number);
     const auto expected = same == kSame.end() ? std::vector<std::uint32_t>{} : std::vector<std::uint32_t>{same->second};
     EXPECT_EQ(expected, entry->stands_for) << faultLabel(FaultCodes::kSdoAbort, entry->number);
+  }
+}
+
+// The functions of words, both ways: every code the files name, and no other.
+std::vector<std::string> wordDifferences(Series series, std::size_t place, bool setpoint) {
+  const profile::WordParameter at =
+      setpoint ? profile::setpointParameter(series, place) : profile::actualValueParameter(series, place);
+  const ParameterEntry* const entry = shipped().find(series, at.number);
+  if (entry == nullptr) return {"missing"};
+  std::vector<std::string> found;
+  for (std::uint16_t code = 0; code < 100; ++code) {
+    const auto* function =
+        setpoint ? profile::findSetpointFunction(series, place, code) : profile::findActualValueFunction(series, code);
+    std::string name;
+    for (const auto& [first, value] : entry->valuesOf(at.index)) {
+      if (first <= code && code <= value.last) name = value.name;
+    }
+    if (name.compare(0, 8, "reserved") == 0) name.clear();
+    if (name == (function == nullptr ? "" : function->name)) continue;
+    found.push_back(std::string{profile::toString(series)} + " P" + std::to_string(at.number) + " = " +
+                    std::to_string(code) + ": the file says \"" + name + "\"");
+  }
+  return found;
+}
+
+TEST(CatalogueAgreement, TheFunctionsOfWordsAreThoseOfTheFiles) {
+  for (const Series series : profile::kAllSeries) {
+    for (std::size_t place = 1; place <= 3; ++place) {
+      EXPECT_EQ(std::vector<std::string>{}, wordDifferences(series, place, true));
+      EXPECT_EQ(std::vector<std::string>{}, wordDifferences(series, place, false));
+    }
   }
 }
 

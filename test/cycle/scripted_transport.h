@@ -86,9 +86,10 @@ class ScriptedTransport final : public Transport {
   DriveNote note(DriveIndex) const noexcept override { return {"the note of the bus"}; }
   std::uint32_t identNumber(DriveIndex) const noexcept override { return 0x7531; }
   Sentence busText() const noexcept override { return bus_text; }
-  DriveIdentity identity(DriveIndex) const override { return {"nowhere", 1, "PKW", "nothing"}; }
+  DriveIdentity identity(DriveIndex) const override { return {"nowhere", process_values, "PKW", "nothing"}; }
   void close() noexcept override {}
 
+  std::uint8_t process_values = 3;
   Instant time{std::chrono::hours{1}};
   Duration exchange_time = std::chrono::milliseconds{2};
   std::vector<drive::FakeInverter> inverters;

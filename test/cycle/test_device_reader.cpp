@@ -168,17 +168,19 @@ TEST(DeviceReader, AsksADeadChannelOnceForEachOfTheOthers) {
   EXPECT_EQ(3 + 15, asked);
 }
 
-// The drive's ramps, last: nothing waits for them. P103 comes in the steps of P102.
-TEST(DeviceReader, ReadsTheRampsOfAllSetsLast) {
+// The drive's ramps and who commands it, last: nothing waits for them. P103 comes in the steps of P102.
+TEST(DeviceReader, ReadsTheRampsOfAllSetsAndTheSourcesLast) {
   DeviceReader reader{profile::Series::kSk5xxe};
   std::vector<std::uint16_t> numbers;
   while (const auto request = reader.pollRequest()) {
     numbers.push_back(request->number);
     reader.handleResult(done(request->number * 10 + request->parameter_set));
   }
-  ASSERT_GE(numbers.size(), 8u);
-  EXPECT_EQ((std::vector<std::uint16_t>{102, 103, 102, 103, 102, 103, 102, 103}),
-            std::vector<std::uint16_t>(numbers.end() - 8, numbers.end()));
+  ASSERT_GE(numbers.size(), 10u);
+  EXPECT_EQ((std::vector<std::uint16_t>{102, 103, 102, 103, 102, 103, 102, 103, 509, 510}),
+            std::vector<std::uint16_t>(numbers.end() - 10, numbers.end()));
+  EXPECT_EQ(5091, reader.data().control_word_source);
+  EXPECT_EQ(5101, reader.data().setpoint_source);
   for (std::size_t set = 1; set <= 4; ++set) {
     EXPECT_DOUBLE_EQ(10.2 + 0.01 * static_cast<double>(set), reader.data().acceleration_time[set - 1].value());
     EXPECT_DOUBLE_EQ(10.3 + 0.01 * static_cast<double>(set), reader.data().deceleration_time[set - 1].value());

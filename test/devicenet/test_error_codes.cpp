@@ -45,7 +45,7 @@ TEST(ErrorCodes, SayWhatTheyAre) {
                 {0x14, "attribute is not supported"},
                 {0x15, "too much data"},
                 {0x16, "object does not exist"},
-                {0x19, "storing"},
+                {0x19, "store operation"},
                 {0x1F, "manufacturer"},
                 {0x20, "parameter of the request is invalid"},
                 {0x2A, "Group-2-only"}};
@@ -64,7 +64,7 @@ TEST(ErrorCodes, SayWhatTheyAre) {
 TEST(ErrorCodes, Sentences) {
   EXPECT_STREQ("refuses: the attribute is not supported (14h)",
                errorText(service::kGetAttributeSingle, 0x14, 0xFF).c_str());
-  EXPECT_STREQ("refuses: a resource that is needed is unavailable (02h): it is allocated already (additional code 01h)",
+  EXPECT_STREQ("refuses: a resource that is needed is unavailable (02h): allocation conflict, it is allocated already (additional code 01h)",
                errorText(service::kAllocate, 0x02, 0x01).c_str());
   EXPECT_STREQ("refuses: an error of the manufacturer's own (1Fh), additional code 05h",
                errorText(service::kSetAttributeSingle, 0x1F, 0x05).c_str());

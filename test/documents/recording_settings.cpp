@@ -9,6 +9,13 @@ RecordingSettings::RecordingSettings(const TreeSettings& settings, KeyRecords& r
     : TreeSettings(settings), records_(records), place_(place), group_(group) {}
 
 KeyRecord& RecordingSettings::recordOf(const std::string& key) const {
+  // Keys below names that users choose: one record for all of them.
+  for (const auto& [group, name] : {std::pair{"setpoints/", "<setpoint>"}, {"signals/", "<signal>"}}) {
+    const std::string begin{group};
+    const std::size_t slash = key.find('/', begin.size());
+    if (group_ == Group::kNode || key.compare(0, begin.size(), begin) != 0 || slash == std::string::npos) continue;
+    return records_[group_][begin + name + key.substr(slash)];
+  }
   return records_[group_][key];
 }
 
@@ -48,6 +55,11 @@ std::optional<std::string> RecordingSettings::text(const std::string& key) const
 std::optional<std::vector<std::string>> RecordingSettings::texts(const std::string& key) const {
   ask(key, "a text or a list of texts");
   return TreeSettings::texts(key);
+}
+
+std::optional<std::vector<std::string>> RecordingSettings::words(const std::string& key) const {
+  ask(key, "a text or a list of texts");
+  return TreeSettings::words(key);
 }
 
 std::optional<std::vector<double>> RecordingSettings::numbers(const std::string& key) const {

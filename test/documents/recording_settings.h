@@ -22,6 +22,7 @@ class RecordingSettings final : public TreeSettings, public SettingListener {
   std::optional<bool> boolean(const std::string& key) const override;
   std::optional<std::string> text(const std::string& key) const override;
   std::optional<std::vector<std::string>> texts(const std::string& key) const override;
+  std::optional<std::vector<std::string>> words(const std::string& key) const override;
   std::optional<std::vector<double>> numbers(const std::string& key) const override;
   std::shared_ptr<TreeSettings> group(const std::string& key) const override;
   void listen(const std::string& key, const SettingNote& note) const override;

@@ -58,6 +58,21 @@ TEST(NodeConfigTest, TakesFilesOfTheUser) {
   EXPECT_THAT(refusal(value), HasSubstr("~parameter_files"));
 }
 
+// Numbers need no quotation marks.
+TEST(NodeConfigTest, TakesWhatIsToBeMonitored) {
+  XmlRpcValue value = robotParameters();
+  EXPECT_THAT(readNodeConfig(RosSettings{"~", value}).monitor, ElementsAre(IsEmpty(), IsEmpty()));
+  value["drives"]["right"]["monitor"][0] = std::string{"P746"};
+  value["drives"]["right"]["monitor"][1] = 728;
+  EXPECT_THAT(readNodeConfig(RosSettings{"~", value}).monitor, ElementsAre(IsEmpty(), ElementsAre("P746", "728")));
+  value["drives"]["right"]["monitor"] = 746;
+  EXPECT_THAT(readNodeConfig(RosSettings{"~", value}).monitor[1], ElementsAre("746"));
+  value["drives"]["right"]["monitor"] = 7.5;
+  EXPECT_EQ("~drives/right/monitor: 7.5 is not valid, expected a text or a list of texts", refusal(value));
+  value["drives"]["right"]["monitor"] = listOf<double>({7.5});
+  EXPECT_EQ("~drives/right/monitor: 7.5 is not valid, expected a list of texts", refusal(value));
+}
+
 // A plugin's name without its prefix is one of this package's.
 TEST(NodeConfigTest, ATransportMayLeaveItsPrefixOut) {
   XmlRpcValue value = robotParameters();

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
+#include <fstream>
 #include <limits>
 #include <memory>
 
@@ -79,6 +80,32 @@ class RawParameters : public ParameterService {
     start();
   }
 };
+
+/// With a driver that may write each EEPROM twice a day.
+class EepromBudget : public ParameterService {
+ protected:
+  static void SetUpTestSuite() {
+    ros::param::set("nord_driver/eeprom_budget", 2);
+    ASSERT_TRUE(ros::param::get("nord_driver/eeprom_state_file", shared_file));
+    std::ofstream(shared_file) << "schema: 1\ndrives:\n";  // the other suites have used it
+    start();
+  }
+  static void TearDownTestSuite() {
+    ParameterService::TearDownTestSuite();
+    ros::param::set("nord_driver/eeprom_budget", 1000);
+    std::ofstream(shared_file) << "schema: 1\ndrives:\n";
+  }
+  /// As after a crash.
+  static void killAndRestart() {
+    shared_driver->signal(SIGKILL);
+    ASSERT_TRUE(shared_driver->waitEnd(kPatience));
+    start();
+    ASSERT_TRUE(robot().waitForDrivesOnline());
+  }
+
+  static std::string shared_file;
+};
+std::string EepromBudget::shared_file;
 
 // Set 0 is the active set: the driver's, 1 here. P105 of set 3 differs (common.launch).
 TEST_F(ParameterService, ReadsASetDependentParameterOfTheSetAskedFor) {
@@ -216,6 +243,29 @@ TEST_F(ParameterService, WritesToRamThroughP560WhereThereAreNoRamOrders) {
   EXPECT_DOUBLE_EQ(read("right", 102, 2).response.value, 1.5);
   EXPECT_EQ(read("right", 560).response.raw, 1);
   EXPECT_LE(eepromWrites("right"), before + 2) << "P560 off and on, the value not";
+}
+
+TEST_F(EepromBudget, IsKeptAcrossAKilledDriverAndRefusesInWords) {
+  const std::uint64_t before = eepromWrites("left");
+  const Written first = write("left", 102, 2.5, true, 3);
+  ASSERT_TRUE(first.success) << first;
+  EXPECT_TRUE(write("left", 102, 2.5, true, 3).success) << "the same again is not written and costs nothing";
+  killAndRestart();
+  const Written second = write("left", 102, 3.0, true, 3);
+  ASSERT_TRUE(second.success) << second;
+  killAndRestart();
+  const Written third = write("left", 102, 3.5, true, 3);
+  EXPECT_FALSE(third.success);
+  EXPECT_THAT(third.message, AllOf(HasSubstr("drive left: its EEPROM has had 2 writes"), HasSubstr("eeprom_budget")));
+  EXPECT_EQ(eepromWrites("left"), before + 2);
+  EXPECT_DOUBLE_EQ(read("left", 102, 3).response.value, 3.0);
+  // Where a write to RAM costs EEPROM writes, too, it is refused with it.
+  EXPECT_EQ(write("left", 102, 3.5, false, 3).success, bus().has_ram_orders);
+  std::ofstream(shared_file) << "?";
+  const Written broken = write("left", 102, 4.0, true, 3);
+  EXPECT_FALSE(broken.success);
+  EXPECT_THAT(broken.message, AllOf(HasSubstr(shared_file), HasSubstr("mend or remove the file")));
+  EXPECT_TRUE(write("left", 102, 4.0, false, 3).success) << "the RAM can be written";
 }
 
 }  // namespace

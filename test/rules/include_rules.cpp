@@ -41,6 +41,7 @@ const std::map<std::string, Names>& table() {
       {"link/serial", {"core", "link"}},
       {"link/can", {"core", "link"}},
       {"link/modbus", {"core", "link"}},
+      {"state", {"core"}},
       {"config", {"core", "profile"}},
       {"catalogue", {"core", "config", "profile"}},
       {"robot", {"core"}},
@@ -53,6 +54,7 @@ const std::map<std::string, Names>& table() {
       {"transport/interbus", transportWith({"interbus", "link", "link/modbus"})},
       {"drive", {"core", "profile"}},
       {"cycle", {"core", "config", "profile", "transport", "robot", "drive"}},
+      {"commissioning", {"core", "config", "profile", "transport", "robot", "drive", "cycle", "catalogue"}},
       {"trace", {"core", "config", "profile", "transport", "cycle", "trace/telegram_trace"}},
       {"plugins", {"core", "transport/*"}},
       {"sim", {"core", "link", "sim/inverter", "sim/robot"}},
@@ -66,18 +68,20 @@ const std::map<std::string, Names>& table() {
       {"sim/interbus", simulatorWith({"link/modbus"})},
       {"sim_node", {"core", "sim", "ros_support"}},
       {"tools",
-       {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "sim", "node/node_config"}},
+       {"core", "state", "config", "catalogue", "commissioning", "profile", "transport", "robot", "drive", "cycle",
+        "sim", "node/node_config"}},
       {"tools/nord_param", {"core", "config", "tools/commands", "tools"}},
-      {"tools/restore", {"core", "config", "catalogue", "profile", "cycle", "tools"}},
+      {"tools/restore", {"core", "config", "state", "catalogue", "profile", "cycle", "tools"}},
       {"tools/commands",  // of nord_param, one file each
-       {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "node/node_config",
-        "tools/*"}},
+       {"core", "config", "catalogue", "commissioning", "profile", "transport", "robot", "drive", "cycle",
+        "node/node_config", "tools/*"}},
       {"node/node_config",  // what a file says, for the node and for the programs
        {"core", "config", "profile", "transport", "robot", "drive", "cycle", "trace"}},
       {"node",
-       {"core", "config", "catalogue", "profile", "transport", "robot", "drive", "cycle", "trace/*", "tools",
-        "node/node_config", "ros_support"}},
+       {"core", "state", "config", "catalogue", "commissioning", "profile", "transport", "robot", "drive", "cycle",
+        "trace/*", "tools", "node/node_config", "ros_support"}},
       {"system", {"*"}},                             // tests of the whole stack, without ROS
+      {"explore", {"*"}},                            // every order of events, at one object or few
       {"support", {"core", "config", "transport"}},  // what tests of several folders share
       {"ros_support", {}},                           // the same for those with ROS
       {"rostest", {"*"}},                            // the programs as their users meet them

@@ -8,11 +8,12 @@
 #include <variant>
 #include <vector>
 
+#include "config/setting_groups.h"
 #include "nord_driver/config/settings.h"
 
 namespace nord_driver::test {
 
-class MapSettings final : public Settings {
+class MapSettings final : public Settings, public SettingGroups {
  public:
   using Value = std::variant<double, int, bool, std::string, std::vector<std::string>>;
 
@@ -48,6 +49,15 @@ class MapSettings final : public Settings {
     std::vector<std::string> names;
     for (const auto& entry : values_) names.push_back(entry.first);
     return names;
+  }
+  std::vector<std::string> keysBelow(const std::string& key) const override {
+    std::set<std::string> names;
+    for (const auto& entry : values_) {
+      if (entry.first.compare(0, key.size() + 1, key + "/") != 0) continue;
+      const std::string rest = entry.first.substr(key.size() + 1);
+      names.insert(rest.substr(0, rest.find('/')));
+    }
+    return {names.begin(), names.end()};
   }
   std::string fullName(const std::string& key) const override { return prefix_ + key; }
 

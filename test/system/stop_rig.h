@@ -45,6 +45,8 @@ class StopRig {
 
   /// How old the last status word may be before the bus takes it for missing; drive_timeout counts from there.
   virtual Duration silenceCounts() const = 0;
+  /// When the bus itself notices that the right drive is silent, by other messages than its status words.
+  virtual Instant noticesSilenceAt() const { return Instant::max(); }
   /// How the base names a drive that has fallen silent.
   static const char* silenceIsNamed() { return "drive right stopped: the inverter fell silent"; }
   /// The longest time from the last word of a master to the trip of the inverter.

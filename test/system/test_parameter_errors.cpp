@@ -4,39 +4,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <optional>
 #include <ostream>
 #include <tuple>
 
-#include "catalogue/parameter_access.h"
-#include "catalogue/shipped.h"
+#include "system/parameter_answers.h"
 #include "system/simulated_robot.h"
 
 namespace nord_driver::test {
 namespace {
 
 constexpr DriveIndex kLeft = 0;
-
-struct Access {
-  std::uint16_t number = 0;
-  std::uint8_t index = 0;
-  std::optional<double> value = std::nullopt;  ///< to be written, to RAM; nothing: it is read
-};
-
-/// As the services do it: from the manual's numbers to the answer.
-std::string answerTo(DrivenRobot& robot, const Access& access) {
-  cycle::Request request;
-  request.drive = kLeft;
-  request.kind = access.value ? cycle::RequestKind::kWriteParameter : cycle::RequestKind::kReadParameter;
-  const catalogue::DriveCatalogue known{catalogue::shippedCatalogues(), robot.config().drives[kLeft].series, {}};
-  catalogue::ParameterAccess made = catalogue::accessTo({access.number, 0, access.index}, known);
-  std::string refused = made.error;
-  if (refused.empty() && access.value) refused = catalogue::setValue(made, {*access.value, false, true});
-  if (!refused.empty()) return "nothing was asked: " + refused;
-  request.parameter = made.request;
-  const cycle::Completion answer = robot.ask(request);
-  return (answer.success ? "done: " : "") + answer.message.str();
-}
 
 // --- Orders that lead to an error
 

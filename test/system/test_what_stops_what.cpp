@@ -76,7 +76,7 @@ Instant WhatStopsWhat::knownAt() {
     case Known::kZeros:
       return zeros_since_ + drive_timeout;
     case Known::kSilence:
-      return rig_->wire(kRight).status_at + rig_->silenceCounts() + drive_timeout;
+      return std::min(rig_->wire(kRight).status_at + rig_->silenceCounts() + drive_timeout, rig_->noticesSilenceAt());
     default:
       return begun_;
   }

@@ -10,6 +10,7 @@ namespace nord_driver::test {
 namespace {
 
 constexpr std::uint32_t kFirstReceivePdo = 0x203, kFirstTransmitPdo = 0x183;
+constexpr std::uint32_t kErrorControl = 0x700;
 constexpr std::size_t kPdoLength = 4;
 constexpr std::uint8_t kRightNode = 4;
 constexpr char kInterrupted[] =
@@ -52,6 +53,8 @@ class CanopenStopRig final : public StopRig {
   Duration silenceCounts() const override {
     return std::max<Duration>(std::chrono::milliseconds{50}, 2 * robot_.config().period()) * 5 / 2;
   }
+  /// The node's answer to guarding: without another one it is gone, at 25 Hz before its status words are missed.
+  Instant noticesSilenceAt() const override { return guarded_at_ + driveSideTimeout(); }
   /// Node guarding, 100 ms times 3.
   Duration driveSideTimeout() const override { return std::chrono::milliseconds{300}; }
 
@@ -62,6 +65,7 @@ class CanopenStopRig final : public StopRig {
     return options;
   }
   void see(const CanFrame& frame, Instant at) {
+    if (frame.id == kErrorControl + kRightNode && !frame.remote) guarded_at_ = at;
     if (frame.remote || frame.size != kPdoLength) return;
     for (DriveIndex i = 0; i < kDrives; ++i) {
       if (frame.id == kFirstReceivePdo + i) sawSent(i, wordAt(frame, 0), wordAt(frame, 2));
@@ -80,6 +84,7 @@ class CanopenStopRig final : public StopRig {
 
   CanRobot robot_;
   bool tells_state_ = false;
+  Instant guarded_at_{};
 };
 
 template <int kCycleRate>

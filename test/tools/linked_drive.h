@@ -31,7 +31,10 @@ class LinkedDrive {
 
   explicit LinkedDrive(const std::vector<sim::ParameterPreset>& parameters = {}, bool ram_orders = true,
                        int ppo_type = 1)
-      : config_(readToolConfig(file(ppo_type), "left")),
+      : LinkedDrive(file(ppo_type), parameters, ram_orders, ppo_type) {}
+  explicit LinkedDrive(const YAML::Node& file, const std::vector<sim::ParameterPreset>& parameters = {},
+                       bool ram_orders = true, int ppo_type = 1)
+      : config_(readToolConfig(file, "left")),
         transport_([=](const link::SerialSettings&) {
           auto made = std::make_unique<sim::SimulatedSegment>(simulated(parameters, ram_orders, ppo_type));
           segment_ = made.get();

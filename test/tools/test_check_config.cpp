@@ -73,6 +73,21 @@ TEST_F(CheckConfig, EveryTemplateIsAcceptedWithoutAWarning) {
   EXPECT_GE(files, 9u);
 }
 
+TEST_F(CheckConfig, LooksUpWhatIsToBeMonitored) {
+  const std::string text = kConveyor;
+  const auto with = [&](const std::string& list) {
+    std::string changed = text;
+    return changed.replace(changed.find("max_velocity: 6.0"), 17, "monitor: " + list);
+  };
+  EXPECT_EQ(0, checkText(with("[P746, \"P700[-01]\"]")).code);
+  const Ended unknown = checkText(with("[P746, Nonsense]"));
+  EXPECT_EQ(1, unknown.code);
+  EXPECT_THAT(unknown.output, HasSubstr("drives/belt/monitor: \"Nonsense\" is not valid"));
+  const Ended raw = checkText(with("[719]"));
+  EXPECT_EQ(0, raw.code);
+  EXPECT_THAT(raw.output, HasSubstr("drives/belt/monitor: P719 is not in the catalogue"));
+}
+
 // As the node does, which ends with the same sentence.
 TEST_F(CheckConfig, ReadsTheUsersFilesOfParameters) {
   const std::string own = file_ + "_own.yaml";

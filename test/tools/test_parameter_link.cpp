@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/temporary_folder.h"
 #include "tools/linked_drive.h"
 
 namespace nord_driver::tools {
@@ -97,6 +98,35 @@ TEST(ParameterLink, SavesWhatIsThereAlready) {
   EXPECT_EQ(1u, drive.left().parameters().eepromWrites());
   drive.left().parameters().restoreFromEeprom();
   EXPECT_EQ(250, drive.left().parameters().value(102));
+}
+
+// Counted on the disk before it is done, and refused when the day's writes are used up; the RAM can be written.
+TEST(ParameterLink, WritesTheEepromWithinItsBudget) {
+  const test::TemporaryFolder folder;
+  YAML::Node file = LinkedDrive::file();
+  file["eeprom_budget"] = 2;
+  file["eeprom_state_file"] = folder.path("counts.yaml");
+  catalogue::ParameterWrite write = value(2.5);
+  write.persistent = true;
+  for (const double ramp : {2.5, 3.0}) {
+    LinkedDrive drive{file};
+    drive.connect();
+    write.value = ramp;
+    const ParameterAnswer written = writeValue(drive.link(), parameter(102, 4), write);
+    EXPECT_TRUE(written.success) << written.message;
+    EXPECT_EQ(1u, drive.left().parameters().eepromWrites());
+  }
+  EXPECT_THAT(folder.read("counts.yaml"), HasSubstr("\"simulated, address 3, inverter 1, sk5xxe\": {day: "));
+  EXPECT_THAT(folder.read("counts.yaml"), HasSubstr("writes: 2, total: 2}"));
+  LinkedDrive drive{file};
+  drive.connect();
+  const ParameterAnswer refused = writeValue(drive.link(), parameter(102, 4), write);
+  EXPECT_FALSE(refused.success);
+  EXPECT_TRUE(refused.refused);
+  EXPECT_THAT(refused.message, HasSubstr("drive left: its EEPROM has had 2 writes"));
+  EXPECT_EQ(0u, drive.left().parameters().eepromWrites());
+  EXPECT_TRUE(writeValue(drive.link(), parameter(102, 4), value(1.5)).success);
+  EXPECT_EQ(150, drive.left().parameters().value(102, 3));
 }
 
 // The end of the program is no loss of the master: with a watchdog each run would leave E10.2 behind (BU 2700 8.1.1).

@@ -48,6 +48,7 @@ std::int32_t rawOf(ByteView bytes, const ParameterDefinition& definition) noexce
 SdoAbort CanParameterObjects::absence(unsigned number) const noexcept {
   if (drive_ == nullptr) return SdoAbort::kNone;
   const ParameterSwitches& switches = drive_->parameterSwitches();
+  if (const auto code = switches.busRefusal(number)) return static_cast<SdoAbort>(*code);
   if (switches.refuse && (!switches.refuse->number || *switches.refuse->number == number)) {
     return abortOf(switches.refuse->error);
   }

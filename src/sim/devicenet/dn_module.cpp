@@ -197,6 +197,8 @@ void DnModule::unconnected(const CanFrame& frame, CanSink& sink) noexcept {
     done = {CipStatus::kNoObject, kNothingMore};
   } else if (frame.size < (service == dn::kAllocate ? 6 : 5)) {
     done = {CipStatus::kNotEnoughData, kNothingMore};
+  } else if (service == dn::kAllocate && refused_allocation_) {
+    done = *refused_allocation_;
   } else if (service == dn::kAllocate) {
     running_layout_ = inDataExchange() ? running_layout_ : layout();
     done = connections_.allocate(frame.data[4], frame.data[5], running_layout_.inputs(), running_layout_.outputs());

@@ -65,6 +65,8 @@ class DnModule final : public BusModule, private DnObjects {
   void setInputs(std::uint8_t inputs) noexcept { process_.setInputs(inputs); }
   /// DO1 and DO2 in bits 0 and 1: by the bus, by P150, 0 in a time-out.
   std::uint8_t outputs() const noexcept;
+  /// Allocations are answered with this error instead of being made; nullopt ends it.
+  void refuseAllocation(const std::optional<DnAllocation>& refusal) noexcept { refused_allocation_ = refusal; }
   /// In the time-out: until the cause is gone and every inverter there is acknowledged.
   bool timedOut() const noexcept { return timed_out_; }
 
@@ -131,6 +133,7 @@ class DnModule final : public BusModule, private DnObjects {
   DnDriveObjects drive_objects_;
   DnParameterObjects parameter_objects_;
   DnConnections connections_;
+  std::optional<DnAllocation> refused_allocation_;
   DnLayout running_layout_;
 
   bool supply_ = true;

@@ -82,6 +82,10 @@ DnParameterObjects::Place DnParameterObjects::findIn(std::size_t inverter, unsig
     return place;
   }
   const ParameterSwitches& switches = drive->parameterSwitches();
+  if (const auto code = switches.busRefusal(number)) {
+    place.refusal = static_cast<CipStatus>(*code);
+    return place;
+  }
   if (switches.refuse && (!switches.refuse->number || *switches.refuse->number == number)) {
     place.refusal = statusOf(static_cast<ParameterError>(switches.refuse->error));
     return place;

@@ -27,6 +27,10 @@ constexpr Duration kUnit = std::chrono::milliseconds{10};
 constexpr std::size_t kShortestInitiate = 16;  // up to the lengths of the addresses
 constexpr std::uint8_t kReadAndWrite = 0x01;
 
+std::uint8_t instance(std::uint8_t reason) noexcept {
+  return static_cast<std::uint8_t>(0x10u | (reason & 0x0Fu));
+}
+
 std::uint8_t low(unsigned value) noexcept {
   return static_cast<std::uint8_t>(value & 0xFFu);
 }
@@ -103,6 +107,7 @@ Class2Server::Answer Class2Server::initiated(Connection& connection, ByteView re
     --connection.polls_left;
     return {};
   }
+  if (settings_.abort_initiate) return aborted(connection, instance(*settings_.abort_initiate));
   if (connection.send_timeout < settings_.min_send_timeout) return aborted(connection, kSendTimeoutTooSmall);
   if (!connection.address_known) return aborted(connection, kInvalidAddress);
   if (!connection.features_known) {
@@ -135,6 +140,7 @@ Class2Server::Answer Class2Server::executed(Connection& connection, ByteView req
     case kWrite:
     case kDataTransport:
       if (request.size() < kRecordHeader) break;
+      if (settings_.abort_record) return aborted(connection, instance(*settings_.abort_record));
       connection.records.handle(request);
       return {};
     default:

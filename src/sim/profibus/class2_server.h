@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "nord_driver/core/bytes.h"
@@ -21,6 +22,9 @@ struct Class2Settings {
   Duration min_send_timeout = std::chrono::milliseconds{200};
   /// A request of records is not answered at all: the master's time-out.
   bool mute = false;
+  /// Ends every connection with this reason (MSAC_C2): instead of accepting it, or at its first record.
+  std::optional<std::uint8_t> abort_initiate;
+  std::optional<std::uint8_t> abort_record;
 };
 
 class Class2Server {

@@ -22,6 +22,10 @@ constexpr unsigned kTimeout = 1u << 3;
 constexpr unsigned kOnline = 2;
 constexpr unsigned kLost = 3;
 
+// PKE.
+constexpr unsigned kNumberMask = 0x07FF;
+constexpr unsigned kNumberOffset = 1000;
+
 }  // namespace
 
 // P151 > 0: no telegram with a valid control word for that long is E10.3 in every inverter.
@@ -109,6 +113,15 @@ void ModuleStation::showStatus() noexcept {
       parameters.show(741, 1 + n, value);
     }
   }
+}
+
+std::optional<std::uint8_t> ModuleStation::recordRefusal(unsigned device, const PkwWords& order,
+                                                         bool at_answer) noexcept {
+  if (device == 0 || !present(device - 1)) return std::nullopt;
+  const unsigned number = (order.pke & kNumberMask) - kNumberOffset;
+  const auto code = driveAt(device - 1)->parameterSwitches().busRefusal(number, at_answer);
+  if (!code) return std::nullopt;
+  return static_cast<std::uint8_t>(*code);
 }
 
 PkwWords ModuleStation::executeRecord(unsigned device, const PkwWords& order) noexcept {

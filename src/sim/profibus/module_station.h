@@ -64,6 +64,7 @@ class ModuleStation final : public DpStation, private RecordDevices {
   RecordServer* records() noexcept override { return &records_; }
   Class2Server* class2() noexcept override { return &class2_; }
   PkwWords executeRecord(unsigned device, const PkwWords& order) noexcept override;
+  std::optional<std::uint8_t> recordRefusal(unsigned device, const PkwWords& order, bool at_answer) noexcept override;
 
   bool hasIoByte() const noexcept { return !configuration_.empty() && configuration_[0] != 0; }
   bool configured(unsigned place) const noexcept {

@@ -57,6 +57,7 @@ void RecordServer::reset() noexcept {
   outstanding_ = false;
   answers_ = {};
   busy_left_ = {};
+  read_refusals_ = {};
   identification_.reset();
 }
 
@@ -110,9 +111,11 @@ RecordServer::Pdu RecordServer::write(unsigned device, ByteView request) noexcep
   order.pwe1 = reader.u16be();
   order.pwe2 = reader.u16be();
   if (settings_.plain_numbers) order.pke = shifted(order.pke, true);
+  if (const auto code = devices_.recordRefusal(device, order, false)) return refused(kWrite, *code);
   PkwWords answer = devices_.executeRecord(device, order);
   if (settings_.plain_numbers) answer.pke = shifted(answer.pke, false);
   answers_[device] = answer;
+  read_refusals_[device] = devices_.recordRefusal(device, order, true);
   busy_left_[device] = settings_.busy;
   Pdu response;
   for (const std::uint8_t byte : request.sub(0, kHeader)) response.push_back(byte);
@@ -124,6 +127,7 @@ RecordServer::Pdu RecordServer::read(unsigned device, ByteView request) noexcept
     --busy_left_[device];
     return refused(kRead, kStateConflict);
   }
+  if (read_refusals_[device]) return refused(kRead, *read_refusals_[device]);
   PkwWords answer;
   answer.pke = 0x7000;
   answer.pwe2 = kReadWithoutWrite;

@@ -32,6 +32,11 @@ class RecordDevices {
   virtual ~RecordDevices() = default;
   /// `device`: 0 the module, 1 to 4 its inverters. The number in the order has the 1000 on top.
   virtual PkwWords executeRecord(unsigned device, const PkwWords& order) noexcept = 0;
+  /// Error_Code_1 of a negative response to this order, or to the read that fetches its answer; none: it is executed.
+  virtual std::optional<std::uint8_t> recordRefusal(unsigned /*device*/, const PkwWords& /*order*/,
+                                                    bool /*at_answer*/) noexcept {
+    return std::nullopt;
+  }
 };
 
 class RecordServer {
@@ -66,6 +71,7 @@ class RecordServer {
   Pdu response_;
   std::array<std::optional<PkwWords>, kDevices> answers_{};  // what a read fetches
   std::array<unsigned, kDevices> busy_left_{};
+  std::array<std::optional<std::uint8_t>, kDevices> read_refusals_{};
 };
 
 }  // namespace nord_driver::sim

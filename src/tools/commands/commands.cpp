@@ -11,6 +11,7 @@ std::vector<std::unique_ptr<ParamCommand>> paramCommands() {
   commands.push_back(makeCompareCommand());
   commands.push_back(makeDiffCommand());
   commands.push_back(makeRestoreCommand());
+  commands.push_back(makeFaultsCommand());
   commands.push_back(makeImageCommand());
   commands.push_back(makeCheckConfigCommand());
   return commands;

@@ -18,6 +18,7 @@ std::unique_ptr<ParamCommand> makeDumpCommand();
 std::unique_ptr<ParamCommand> makeCompareCommand();
 std::unique_ptr<ParamCommand> makeDiffCommand();
 std::unique_ptr<ParamCommand> makeRestoreCommand();
+std::unique_ptr<ParamCommand> makeFaultsCommand();
 std::unique_ptr<ParamCommand> makeImageCommand();
 std::unique_ptr<ParamCommand> makeCheckConfigCommand();
 

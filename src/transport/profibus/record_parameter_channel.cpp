@@ -67,10 +67,16 @@ void RecordParameterChannel::handleRecord(const profibus::RecordResult& result, 
       }
       return;
     case profibus::RecordOutcome::kRefused:
-      if (result.error.isBusy()) return;  // not taken: the same once more, until the time for an answer is over
+      if (result.error.isBusy()) {  // not taken: the same once more, until the time for an answer is over
+        pkw_.explainWait(refusalText(result.error));
+        return;
+      }
       pkw_.handleRefusal(reasonOf(result.error), refusalText(result.error));
       break;
     case profibus::RecordOutcome::kTimedOut:
+      pkw_.handleFailure(profile::ParameterOutcome::kTimeout,
+                         result.error.isBusy() ? refusalText(result.error) : words);
+      break;
     case profibus::RecordOutcome::kNoAnswer:
       pkw_.handleFailure(profile::ParameterOutcome::kTimeout, words);
       break;
@@ -87,7 +93,11 @@ void RecordParameterChannel::handleRecord(const profibus::RecordResult& result, 
                          "point 51; PPO types 1 and 2 reach the inverter's parameters without them");
       break;
     case profibus::RecordOutcome::kOffline:
-      pkw_.handleOffline(now);
+      if (words.empty()) {
+        pkw_.handleOffline(now);
+      } else {  // a connection that ended, not the station: the requests behind this one open another
+        pkw_.handleFailure(profile::ParameterOutcome::kOffline, words);
+      }
       break;
   }
   written_ = {};

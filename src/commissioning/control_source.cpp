@@ -1,0 +1,50 @@
+// P509 and P510: who commands the inverter.
+#include "commissioning/bus_selection.h"
+#include "commissioning/rules.h"
+
+namespace nord_driver::commissioning {
+
+namespace {
+
+constexpr std::uint16_t kControlWordSource = 509, kSetpointSource = 510;
+
+}  // namespace
+
+void busHasControl(const Drives& drives, std::size_t index, Findings& to) {
+  const DriveUnderCheck& drive = drives[index];
+  const ParameterKey key = drive.key(kControlWordSource);
+  const auto raw = drive.raw(key);
+  const BusSelection selection = busSelection(drive);
+  if (!raw || selection.controlWordFits(*raw)) return;
+  Finding finding = drive.finding(key, Severity::kError,
+                                  "this bus has no control: the drive does not become ready, and its terminals may "
+                                  "turn the motor",
+                                  selection.source);
+  finding.selects_bus = true;
+  if (selection.control_word) {
+    finding.remedy = Remedy{*selection.control_word, drive.valueText(key, *selection.control_word)};
+  } else {
+    finding.advice =
+        "choose this bus on the inverter's display: the manuals at hand print no number of it for this series";
+  }
+  to.push_back(finding);
+}
+
+void busGivesSetpoint(const Drives& drives, std::size_t index, Findings& to) {
+  const DriveUnderCheck& drive = drives[index];
+  const ParameterKey key = drive.key(kSetpointSource, 0, 1);
+  const auto raw = drive.raw(key);
+  if (!raw || busSelection(drive).setpointFits(*raw)) return;
+  // SK 300E, 700E and 750E: the auxiliary setpoint alone; the main one comes from P509 (BU 0020 6.1.2).
+  const bool auxiliary = drive.isOlderSeries();
+  Finding finding =
+      drive.finding(key, auxiliary ? Severity::kWarning : Severity::kError,
+                    auxiliary ? "the auxiliary setpoint comes from somewhere else than this driver"
+                              : "the setpoint comes from somewhere else: the drive does not follow its commands",
+                    drive.isOlderSeries() ? "" : "BU 2700, 7.2");
+  finding.selects_bus = true;
+  finding.remedy = drive.remedy(key, 0);
+  to.push_back(finding);
+}
+
+}  // namespace nord_driver::commissioning

@@ -1,0 +1,84 @@
+// P543 to P548: what the process values mean, against what the driver sends and reads.
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "commissioning/rules.h"
+
+namespace nord_driver::commissioning {
+
+namespace {
+
+constexpr std::uint16_t kFirstActualValue = 543, kFirstSetpoint = 546;
+constexpr std::int32_t kFrequency = 1;  // in every series' tables of P543 and P546
+constexpr std::int32_t kCurrent = 3;    // P543
+constexpr std::uint8_t kSets = 4, kPlaces = 3;
+
+/// Functions of setpoints that limit torque, current, frequency or ramp: as 0 they hold the motor back.
+bool holdsBack(const DriveUnderCheck& drive, std::int32_t function) {
+  using Functions = std::vector<std::int32_t>;
+  static const Functions kDecentral{5, 11, 12, 13, 14, 17};  // BU 0220 5.1.3
+  static const Functions kOlder{2};                          // BU 0020 6.1.2
+  static const Functions kOthers{2, 6, 7, 13};               // BU 0020 6.2.2
+  const Functions& list = drive.isDecentral() ? kDecentral : drive.isOlderSeries() ? kOlder : kOthers;
+  return std::find(list.begin(), list.end(), function) != list.end();
+}
+
+void expectFrequency(const DriveUnderCheck& drive, std::uint16_t first, const std::string& why, Findings& to) {
+  for (std::uint8_t set = 1; set <= kSets; ++set) {
+    const ParameterKey key = drive.functionKey(first, 0, set);
+    const auto raw = drive.raw(key);
+    if (!raw || *raw == kFrequency) continue;
+    const bool in_force = set == drive.setInForce();
+    Finding finding = drive.finding(key, in_force ? Severity::kError : Severity::kWarning,
+                                    why + (in_force ? ": the drive is not enabled" : ": not enabled in this set"));
+    finding.remedy = drive.remedy(key, kFrequency);
+    to.push_back(finding);
+  }
+}
+
+}  // namespace
+
+void firstSetpointIsFrequency(const Drives& drives, std::size_t index, Findings& to) {
+  expectFrequency(drives[index], kFirstSetpoint, "setpoint 1 is not the frequency, and a command would be no speed",
+                  to);
+}
+
+void firstActualValueIsFrequency(const Drives& drives, std::size_t index, Findings& to) {
+  expectFrequency(drives[index], kFirstActualValue,
+                  "actual value 1 is not the frequency, and would be taken for a speed by the odometry", to);
+}
+
+void furtherSetpointsAreFree(const Drives& drives, std::size_t index, Findings& to) {
+  const DriveUnderCheck& drive = drives[index];
+  for (std::uint8_t place = 1; place < kPlaces && place < drive.asked().identity.process_values; ++place) {
+    const ParameterKey key = drive.functionKey(kFirstSetpoint, place);
+    const auto raw = drive.raw(key);
+    if (!raw || *raw == 0) continue;
+    const bool holds = holdsBack(drive, *raw);
+    Finding finding = drive.finding(key, holds ? Severity::kError : Severity::kWarning,
+                                    "the driver sends 0 in setpoint " + std::to_string(place + 1) +
+                                        (holds ? ", which as this function holds the motor back"
+                                               : ", which the inverter takes as a value of this function"));
+    finding.remedy = drive.remedy(key, 0);
+    to.push_back(finding);
+  }
+}
+
+void currentIsMapped(const Drives& drives, std::size_t index, Findings& to) {
+  const DriveUnderCheck& drive = drives[index];
+  const std::uint8_t places = std::min(kPlaces, drive.asked().identity.process_values);
+  if (!drive.asked().rated_current || places < 2) return;
+  for (std::uint8_t place = 1; place < places; ++place) {
+    const auto raw = drive.raw(drive.functionKey(kFirstActualValue, place));
+    if (!raw || *raw == kCurrent) return;
+  }
+  const ParameterKey key = drive.functionKey(kFirstActualValue, 1);
+  Finding finding = drive.finding(key, Severity::kNote,
+                                  "rated_current is configured, but no actual value is the current: "
+                                  "the status tells none");
+  finding.remedy = drive.remedy(key, kCurrent);
+  to.push_back(finding);
+}
+
+}  // namespace nord_driver::commissioning

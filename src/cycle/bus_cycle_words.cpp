@@ -1,0 +1,43 @@
+// The part of the bus cycle that puts together what goes to each drive: its own word, and the further ones.
+#include "cycle/bus_cycle.h"
+
+namespace nord_driver::cycle {
+
+void BusCycle::addAxis(const DriveSetup& setup, CycleRole role) {
+  const DriveIndex drive = axes_.size();
+  const DriveIdentity identity = transport_.identity(drive);
+  ParameterChannelUse channel;
+  channel.timeout_owner = identity.timeout_owner;
+  channel.capabilities = transport_.parameterCapabilities(drive);
+  channel.monitor = setup.monitor;
+  channel.users_only = role == CycleRole::kGuest;
+  if (role == CycleRole::kDriver) channel.needs = wordNeeds(setup.words, identity.process_values);
+  axes_.emplace_back(drive, setup, channel);
+  for (std::size_t i = 0; i < setup.words.setpoints.size() && role == CycleRole::kDriver; ++i) {
+    if (setup.words.setpoints[i].moves) command_watch_.watch(drive, i, setup.words.setpoints[i]);
+  }
+}
+
+bool BusCycle::followsCommand(DriveIndex drive, Instant now) noexcept {
+  if (!supervisor_.groupOf(drive).commandAllowed() || drives_[drive].report().phase != drive::Phase::kEnabled) {
+    return false;
+  }
+  return supervisor_.inBase(drive) ? !isStale(ports_.newestBaseCommand(), cmd_vel_timeout_, now)
+                                   : !isStale(ports_.newestDriveCommand(drive), cmd_vel_timeout_, now);
+}
+
+void BusCycle::pollOutputs(Instant now) noexcept {
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    outputs_[i] = drives_[i].pollOutput(now);
+    Axis& axis = axes_[i];
+    if (axis.words.empty()) continue;
+    DriveWords::State state;
+    state.set = drives_[i].report().commanded_set;
+    state.max_frequency = drives_[i].maxFrequency(state.set);
+    state.follows = followsCommand(i, now);
+    state.in_doubt = axis.parameters.wordsInDoubt();
+    axis.words.put(outputs_[i], state, axis.parameters.device(), ports_.newestWords(i), now);
+  }
+}
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,53 @@
+// The further setpoints of one drive, on their way from users to the words that carry them.
+//
+// A word is used by the function the drive has told of it (P546 to P548 of the parameter set commanded), never by its
+// place alone. What can turn the motor is sent only while the drive follows its own velocity command, and only to a word
+// whose function is known now. A limit goes on in the word that was known last: 0 in its place would take the torque
+// away from a drive that is being stopped.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "core/units.h"
+#include "cycle/device_data.h"
+#include "cycle/word_commands.h"
+#include "cycle/word_needs.h"
+#include "cycle/word_setup.h"
+#include "nord_driver/core/time.h"
+#include "nord_driver/profile/process_data.h"
+#include "nord_driver/profile/series.h"
+
+namespace nord_driver::cycle {
+
+class DriveWords {
+ public:
+  DriveWords(const WordSetup& setup, profile::Series series, std::size_t carried);
+
+  /// What is true of the drive in this cycle.
+  struct State {
+    std::uint8_t set = 0;                ///< commanded, 1..4; 0: none yet
+    std::optional<Hertz> max_frequency;  ///< P105 of that set
+    bool follows = false;                ///< enabled, and its velocity command is followed
+    bool in_doubt = false;               ///< what its words mean is being changed or read again
+  };
+
+  /// Into what goes to the drive next. A control word with bit 10 = 0 stays alone: the drive evaluates nothing of it.
+  void put(profile::ProcessOutput& output, const State& state, const DeviceData& device, const WordCommands& commands,
+           Instant now) noexcept;
+
+  bool empty() const noexcept { return setup_.empty(); }
+
+ private:
+  std::int16_t wordOf(const SetpointSetup& setpoint, const WordCommand& command, const State& state,
+                      Instant now) const noexcept;
+  void learn(const DeviceData& device) noexcept;
+
+  WordSetup setup_;
+  profile::Series series_;
+  std::size_t carried_;
+  std::array<WordFunctions, 4> known_{};  // what each parameter set told last
+};
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,24 @@
+// The newest values users have commanded for the further words of one drive.
+#pragma once
+
+#include <array>
+
+#include "cycle/word_setup.h"
+#include "nord_driver/core/time.h"
+
+namespace nord_driver::cycle {
+
+/// Of one setpoint, in its unit.
+struct WordCommand {
+  double value = 0.0;
+  Instant received{};
+  bool given = false;                 ///< false until the first command
+  std::optional<Instant> moved = {};  ///< when the newest that was not zero came
+};
+
+/// In the order of the configuration.
+struct WordCommands {
+  std::array<WordCommand, kMaxExtraSetpoints> setpoints;
+};
+
+}  // namespace nord_driver::cycle

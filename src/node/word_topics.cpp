@@ -1,0 +1,39 @@
+#include "node/word_topics.h"
+
+#include <std_msgs/Float64.h>
+
+#include <boost/function.hpp>
+#include <string>
+
+namespace nord_driver::node {
+
+WordTopics::WordTopics(CallbackThreads& lane, const cycle::CycleConfig& config, cycle::CyclePorts& ports)
+    : ports_(ports) {
+  for (DriveIndex drive = 0; drive < config.drives.size(); ++drive) {
+    const cycle::DriveSetup& setup = config.drives[drive];
+    for (std::size_t i = 0; i < setup.words.setpoints.size(); ++i) addSetpoint(lane, drive, setup, i);
+  }
+}
+
+void WordTopics::addSetpoint(CallbackThreads& lane, DriveIndex drive, const cycle::DriveSetup& setup,
+                             std::size_t index) {
+  const cycle::SetpointSetup& setpoint = setup.words.setpoints[index];
+  const std::string topic = setup.name + "/setpoints/" + setpoint.name;
+  boost::function<void(const std_msgs::Float64&)> take = [this, drive, index, topic](const std_msgs::Float64& value) {
+    if (ports_.commandSetpoint(drive, index, value.data, std::chrono::steady_clock::now())) return;
+    // No command at all: the time-out of the one before runs on.
+    ++ignored_;
+    ROS_WARN_THROTTLE(1.0, "nord_driver: %s is not a number or infinite, ignored (%lu so far)", topic.c_str(),
+                      static_cast<unsigned long>(ignored_));
+  };
+  if (setpoint.moves) moving_.push_back(subscribers_.size());
+  subscribers_.push_back(lane.handle().subscribe<std_msgs::Float64>(topic, 1, take));
+}
+
+std::uint32_t WordTopics::commanders() const {
+  std::uint32_t publishers = 0;
+  for (const std::size_t i : moving_) publishers += subscribers_[i].getNumPublishers();
+  return publishers;
+}
+
+}  // namespace nord_driver::node

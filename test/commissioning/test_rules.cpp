@@ -1,0 +1,262 @@
+// One drive that is fine, and one that is not, for every rule and series.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+#include <set>
+#include <sstream>
+
+#include "commissioning/checked_drive.h"
+#include "commissioning/rules.h"
+
+namespace nord_driver::commissioning {
+namespace {
+
+using profile::Series;
+using ::testing::ElementsAre;
+using ::testing::ElementsAreArray;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::vector<Series> kDecentral{Series::kSk1x0e, Series::kSk2xxe};
+const std::vector<Series> kOlder{Series::kSk300e, Series::kSk700e, Series::kSk750e};
+const std::vector<Series> kSk5{Series::kSk5xxe, Series::kSk54xe};
+const std::vector<Series> kSk511{Series::kSk5xxe};
+const std::vector<Series> kAll(profile::kAllSeries.begin(), profile::kAllSeries.end());
+const std::vector<Series> kSeparate{Series::kSk5xxe, Series::kSk300e, Series::kSk700e, Series::kSk750e};
+const std::vector<Series> kArrays{Series::kSk54xe, Series::kSk1x0e, Series::kSk2xxe};
+
+using Change = std::function<void(AskedDrive&)>;
+
+void leave(AskedDrive&) {}
+void behindModule(AskedDrive& asked) {
+  asked.identity.timeout_owner = TimeoutOwner::kModule;
+}
+void unprotected(AskedDrive& asked) {
+  asked.identity.protected_by.clear();
+}
+void needsTimeout(AskedDrive& asked) {
+  asked.identity.timeout_needed = true;
+}
+void onePair(AskedDrive& asked) {
+  asked.identity.process_values = 1;
+}
+void accepted(AskedDrive& asked) {
+  asked.allows_minimum_frequency = true;
+}
+void typed60(AskedDrive& asked) {
+  asked.typed_max_frequency = 60.0;
+}
+void ratedCurrent(AskedDrive& asked) {
+  asked.rated_current = 3.5;
+}
+void slowBus(AskedDrive& asked) {
+  asked.identity.worst_cycle = 0.6;
+}
+Change on(const std::string& transport) {
+  return [transport](AskedDrive& asked) { asked.transport = transport; };
+}
+Change asks(double hertz) {
+  return [hertz](AskedDrive& asked) { asked.top_frequency = hertz; };
+}
+
+struct Spoiled {
+  ParameterKey key;
+  std::int32_t raw;
+};
+
+struct Row {
+  const char* what;
+  std::vector<Series> series;
+  Change change;
+  std::vector<Spoiled> spoiled;
+  std::vector<std::string> found;
+};
+
+// Values typed from the manuals that Rule::source names.
+const std::vector<Row>& rows() {
+  static const std::vector<Row> kRows{
+      {"terminals", kDecentral, leave, {{{509}, 0}}, {"bus_has_control error P509 -> 3"}},
+      {"terminals", kSk5, leave, {{{509}, 0}}, {"bus_has_control error P509 -> 4"}},
+      {"terminals", kOlder, leave, {{{509}, 0}}, {"bus_has_control error P509 -> 10"}},
+      {"setpoint only", kOlder, leave, {{{509}, 8}}, {"bus_has_control error P509 -> 10"}},
+      {"control word only", kOlder, leave, {{{509}, 9}}, {"bus_has_control error P509 -> 10"}},
+      {"another bus", kSk5, on("canopen"), {{{509}, 4}}, {"bus_has_control error P509 -> 6"}},
+      {"another bus", kSk5, on("devicenet"), {{{509}, 6}}, {"bus_has_control error P509 -> 7"}},
+      {"another bus", kSk5, on("interbus"), {{{509}, 6}}, {"bus_has_control error P509 -> 5"}},
+      {"another bus", kOlder, on("interbus"), {{{509}, 10}}, {"bus_has_control error P509 -> 14"}},
+      {"not printed", kOlder, on("canopen"), {{{509}, 10}}, {"bus_has_control error P509"}},
+      {"not printed, may be", kOlder, on("canopen"), {{{509}, 17}}, {}},
+      {"a transport of somebody else", kAll, on("my_card"), {{{509}, 1}}, {"bus_has_control error P509"}},
+      {"a transport of somebody else, any bus", kAll, on("my_card"), {{{509}, 2}}, {}},
+      {"behind a module", kSk511, behindModule, {{{509}, 4}, {{513}, 5}}, {"bus_has_control error P509 -> 6"}},
+
+      {"setpoint of the terminals", kSk5, leave, {{{510, 0, 1}, 1}}, {"bus_gives_setpoint error P510[-01] -> 0"}},
+      {"setpoint named", kSk5, leave, {{{510, 0, 1}, 4}}, {}},
+      {"setpoint of the terminals", kDecentral, leave, {{{510, 0, 1}, 1}}, {"bus_gives_setpoint error P510[-01] -> 0"}},
+      {"setpoint named", kDecentral, leave, {{{510, 0, 1}, 3}}, {}},
+
+      {"first setpoint", kSeparate, leave, {{{546, 1, 0}, 0}}, {"first_setpoint error P546 set 1 -> 1"}},
+      {"first setpoint", kArrays, leave, {{{546, 1, 1}, 2}}, {"first_setpoint error P546[-01] set 1 -> 1"}},
+      {"in another set", kArrays, leave, {{{546, 3, 1}, 2}}, {"first_setpoint warning P546[-01] set 3 -> 1"}},
+      {"first actual value", kSeparate, leave, {{{543, 1, 0}, 3}}, {"first_actual_value error P543 set 1 -> 1"}},
+      {"first actual value", kArrays, leave, {{{543, 4, 1}, 3}}, {"first_actual_value warning P543[-01] set 4 -> 1"}},
+
+      {"torque limit", kSeparate, leave, {{{547, 1, 0}, 2}}, {"further_setpoints error P547 set 1 -> 0"}},
+      {"frequency addition", kSeparate, leave, {{{548, 1, 0}, 4}}, {"further_setpoints warning P548 set 1 -> 0"}},
+      {"not carried", kSeparate, onePair, {{{548, 1, 0}, 4}}, {}},
+      {"torque limit", kDecentral, leave, {{{546, 1, 2}, 11}}, {"further_setpoints error P546[-02] set 1 -> 0"}},
+      {"no current", kSeparate, ratedCurrent, {{{544, 1, 0}, 4}}, {"current note P544 set 1 -> 3"}},
+      {"a current", kSeparate, ratedCurrent, {{{544, 1, 0}, 4}, {{545, 1, 0}, 3}}, {}},
+
+      {"errors ignored", kSk5, leave, {{{513}, -1}}, {"bus_errors_heeded error P513 -> 0"}},
+      {"errors ignored, as a word", kOlder, leave, {{{513}, 0xFFFF}}, {"bus_errors_heeded error P513 -> 0"}},
+      {"nobody watches", kSk5, unprotected, {}, {"bus_errors_heeded error P513 -> 5"}},
+      {"P513 watches", kSk5, unprotected, {{{513}, 5}}, {}},
+      {"the gateway ends the words", kOlder, needsTimeout, {}, {"bus_errors_heeded error P513 -> 5"}},
+      {"module ignores errors", kDecentral, leave, {{{151}, -1}}, {"bus_errors_heeded error P151 -> 0"}},
+      {"nobody watches", kDecentral, unprotected, {}, {"bus_errors_heeded error P151 -> 500"}},
+      {"too short", kSk5, slowBus, {{{513}, 5}}, {"timeout_long_enough warning P513 -> 6"}},
+      {"too short", kDecentral, leave, {{{151}, 19}}, {"timeout_long_enough warning P151 -> 500"}},
+      {"long enough", kDecentral, leave, {{{151}, 20}}, {}},
+      {"module not watched", kDecentral, leave, {{{120, 0, 1}, 0}}, {"module_watched warning P120[-01] -> 1"}},
+      {"module not watched", kSk511, behindModule, {{{509}, 6}, {{513}, 0}}, {"module_watched warning P513 -> 5"}},
+
+      {"too slow", kAll, asks(60.0), {}, {"top_speed warning P105 set 1"}},
+      {"just fast enough", kAll, asks(50.0), {}, {}},
+      {"hardly used", kAll, asks(4.9), {}, {"top_speed note P105 set 1"}},
+      {"no limits", kAll, asks(0.0), {}, {}},
+      {"as typed", kAll, typed60, {{{105, 1, 0}, 600}, {{105, 2, 0}, 600}, {{105, 3, 0}, 600}, {{105, 4, 0}, 600}}, {}},
+      {"not as typed",
+       kAll,
+       typed60,
+       {{{105, 1, 0}, 600}, {{105, 2, 0}, 600}, {{105, 3, 0}, 600}},
+       {"maximum_as_typed warning P105 set 4"}},
+
+      {"turns at 0", kAll, leave, {{{104, 1, 0}, 20}}, {"minimum_zero error P104 set 1 -> 0"}},
+      {"turns at 0 in another set", kAll, leave, {{{104, 2, 0}, 20}}, {"minimum_zero warning P104 set 2 -> 0"}},
+      {"accepted", kAll, accepted, {{{104, 1, 0}, 20}}, {"minimum_zero note P104 set 1 -> 0"}},
+      {"enable by a bit",
+       kAll,
+       leave,
+       {{{480, 0, 1}, 1}, {{480, 0, 8}, 2}, {{480, 0, 3}, 5}},
+       {"bus_bits warning P480[-01] -> 0", "bus_bits warning P480[-08] -> 0"}},
+      {"enable by a control bit", kArrays, leave, {{{480, 0, 11}, 2}}, {"bus_bits warning P480[-11] -> 0"}},
+      {"not saved", kAll, leave, {{{560}, 0}}, {"writes_saved warning P560 -> 1"}},
+  };
+  return kRows;
+}
+
+TEST(Rules, FindNothingInADriveThatIsRight) {
+  for (const Series series : kAll) {
+    for (const char* transport : {"profibus_dp", "canopen", "devicenet", "interbus"}) {
+      const Drives drives{drive(askedDrive(series, transport))};
+      EXPECT_THAT(shortly(check(drives)), IsEmpty()) << profile::toString(series) << " " << transport;
+    }
+  }
+}
+
+TEST(Rules, FindWhatIsWrongAndNothingElse) {
+  for (const Row& row : rows()) {
+    for (const Series series : row.series) {
+      AskedDrive asked = askedDrive(series);
+      row.change(asked);
+      const catalogue::DriveCatalogue& known = knownOf(asked);
+      CommissioningFacts facts = rightFacts(asked, known);
+      for (const Spoiled& spoiled : row.spoiled) facts.store(spoiled.key, spoiled.raw);
+      const Drives drives{{asked, known, facts, 1}};
+      EXPECT_THAT(shortly(check(drives)), ElementsAreArray(row.found)) << row.what << ", " << profile::toString(series);
+    }
+  }
+}
+
+// No row of the table may be left out of the test above, and no rule of the one below.
+TEST(Rules, AreAllTested) {
+  std::set<std::string> tested{"set_in_force", "base_alike", "readable"};
+  for (const Row& row : rows()) {
+    for (const std::string& found : row.found) tested.insert(found.substr(0, found.find(' ')));
+  }
+  std::set<std::string> named;
+  for (const Rule& rule : rules()) named.insert(rule.name);
+  EXPECT_EQ(named, tested);
+}
+
+TEST(Rules, TellTheSetInForce) {
+  for (const Series series : kAll) {
+    const AskedDrive asked = askedDrive(series);
+    const catalogue::DriveCatalogue& known = knownOf(asked);
+    CommissioningFacts facts = rightFacts(asked, known);
+    const Drives drives{{asked, known, facts, 3}};
+    const Findings findings = check(drives);
+    ASSERT_EQ(1u, findings.size()) << profile::toString(series);
+    EXPECT_THAT(toText(findings[0]), HasSubstr("parameter set = 3: the driver stays in the set it finds"));
+    EXPECT_EQ(Severity::kNote, findings[0].severity);
+  }
+}
+
+TEST(Rules, CompareDrivesOfABase) {
+  for (const Series series : kAll) {
+    AskedDrive left = askedDrive(series), right = askedDrive(series);
+    right.name = "right";
+    EXPECT_THAT(check({drive(left), drive(right)}), IsEmpty());
+    const Drives differ{drive(left), drive(right, {{{103, 1, 0}, 300}, {{105, 1, 0}, 600}, {{103, 2, 0}, 1}})};
+    const Findings findings = check(differ);
+    EXPECT_THAT(shortly(findings), ElementsAre("base_alike warning P103 set 1", "base_alike warning P105 set 1"));
+    EXPECT_EQ("right", findings.back().drive);
+    EXPECT_THAT(toText(findings.back()), HasSubstr("= 60.0 Hz: drive left of the same base has 50.0 Hz"));
+    right.of_base = false;
+    EXPECT_THAT(check({drive(left), drive(right, {{{103, 1, 0}, 300}})}), IsEmpty()) << "another machine";
+  }
+}
+
+TEST(Rules, CompareTheSetsOfABase) {
+  AskedDrive left = askedDrive(Series::kSk5xxe), right = left;
+  right.name = "right";
+  const Drives drives{drive(left), drive(right, {}, 2)};
+  EXPECT_THAT(shortly(check(drives)), ElementsAre("set_in_force note parameter", "base_alike warning parameter"));
+}
+
+TEST(Rules, TellWhatCouldNotBeRead) {
+  for (const Series series : kAll) {
+    const AskedDrive asked = askedDrive(series);
+    const catalogue::DriveCatalogue& known = knownOf(asked);
+    CommissioningFacts facts = rightFacts(asked, known);
+    facts.storeUnreadable({509, 0, 0});
+    facts.storeUnreadable({104, 1, 0});
+    facts.storeUnreadable({104, 2, 0});
+    const Drives drives{{asked, known, facts, 1}};
+    EXPECT_THAT(shortly(check(drives)), ElementsAre("readable warning P509", "readable warning P104 set 1"))
+        << profile::toString(series);
+  }
+}
+
+// A technician looks it up.
+TEST(Rules, NameAManualWithEveryFinding) {
+  for (const Row& row : rows()) {
+    for (const Series series : row.series) {
+      AskedDrive asked = askedDrive(series);
+      row.change(asked);
+      std::vector<std::pair<ParameterKey, std::int32_t>> spoil;
+      for (const Spoiled& spoiled : row.spoiled) spoil.emplace_back(spoiled.key, spoiled.raw);
+      for (const Finding& finding : check({drive(asked, spoil)})) {
+        EXPECT_FALSE(finding.why.empty());
+        EXPECT_TRUE(finding.remedy || !finding.advice.empty()) << toText(finding);
+        if (finding.key.number == 104) continue;  // no manual at hand describes it
+        EXPECT_THAT(finding.source, HasSubstr("BU ")) << toText(finding);
+      }
+    }
+  }
+}
+
+TEST(Rules, AreThoseOfTheDocument) {
+  std::ifstream file(std::string(NORD_DRIVER_SOURCE_DIR) + "/doc/commissioning.md");
+  std::vector<std::string> written;
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("| `", 0) == 0) written.push_back(line);
+  }
+  EXPECT_THAT(written, ElementsAreArray(rulesAsRows()));
+}
+
+}  // namespace
+}  // namespace nord_driver::commissioning

@@ -1,0 +1,87 @@
+// The cycle of a node that looks on (read_only): it sends nothing that acts and refuses whatever would.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cycle/bus_cycle.h"
+#include "cycle/cycle_ports.h"
+#include "cycle/scripted_transport.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Onlooker {
+  Onlooker() : transport{1}, ports{1}, cycle{config(), transport, ports, false, CycleRole::kOnlooker} {}
+
+  static CycleConfig config() {
+    CycleConfig config;
+    config.service_timeout = std::chrono::seconds{1};
+    DriveSetup setup;
+    setup.name = "belt";
+    setup.drive.joint.pole_pairs = 2;
+    config.drives.push_back(setup);
+    return config;
+  }
+  void run(int cycles = 1) {
+    for (int i = 0; i < cycles; ++i) {
+      cycle.runOnce();
+      EXPECT_EQ(0x0000, transport.outputs[0].control_word);
+      for (const Word setpoint : transport.outputs[0].setpoints) EXPECT_EQ(0, setpoint);
+      transport.sleepUntil(transport.time + cycle.period());
+    }
+  }
+  Completion ask(RequestKind kind) {
+    Request request;
+    request.id = ++last_id;
+    request.kind = kind;
+    request.drive = 0;
+    request.patience = std::chrono::seconds{1};
+    request.parameter_set = 2;
+    request.parameter.number = 102;
+    if (kind == RequestKind::kWriteParameter) request.parameter.action = profile::ParameterAction::kWriteRam;
+    EXPECT_TRUE(ports.submit(request));
+    run(2);
+    const auto completion = ports.waitCompletion(Duration::zero());
+    return completion.value_or(Completion{});
+  }
+
+  ScriptedTransport transport;
+  CyclePorts ports;
+  BusCycle cycle;
+  std::uint32_t last_id = 0;
+};
+
+TEST(Onlooker, SendsZerosAndShowsWhatTheDriveTells) {
+  Onlooker onlooker;
+  onlooker.run(50);
+  const DriveSnapshot& drive = onlooker.ports.readSnapshot().drives[0];
+  EXPECT_TRUE(drive.online);
+  EXPECT_EQ(0x0000, drive.output.control_word) << "as sent, not as it would be";
+  EXPECT_NE(0, drive.input.status_word);
+}
+
+TEST(Onlooker, RefusesWhateverCommandsOrWrites) {
+  Onlooker onlooker;
+  onlooker.run(10);
+  for (const RequestKind kind :
+       {RequestKind::kEnable, RequestKind::kDisable, RequestKind::kQuickStop, RequestKind::kAcknowledge,
+        RequestKind::kSelectParameterSet, RequestKind::kWriteParameter}) {
+    const Completion answer = onlooker.ask(kind);
+    EXPECT_FALSE(answer.success) << static_cast<int>(kind);
+    EXPECT_THAT(answer.message.str(), HasSubstr("read_only is true")) << static_cast<int>(kind);
+  }
+  onlooker.run(50);
+}
+
+// A drive that others let run has no rest to be brought to.
+TEST(Onlooker, EndsAtOnceAndLeavesADriveThatRuns) {
+  Onlooker onlooker;
+  onlooker.transport.inverters[0].exchange({0x047E, {}});
+  for (int i = 0; i < 3; ++i) onlooker.transport.inverters[0].exchange({0x047F, {}});
+  onlooker.run(10);
+  EXPECT_TRUE(onlooker.ask(RequestKind::kShutDown).success);
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle
