@@ -57,6 +57,11 @@ std::vector<AskedDrive> askedDrives(const cycle::CycleConfig& config, const std:
     drive.allows_minimum_frequency = setup.drive.allow_minimum_frequency;
     drive.typed_max_frequency = setup.typed_max_frequency;
     drive.rated_current = setup.rated_current;
+    drive.words = cycle::wordNeeds(setup.words, identities[i].process_values);
+    for (const cycle::SignalSetup& signal : setup.words.signals) {
+      const auto bit = cycle::busBitElement(signal);
+      if (bit && signal.may_move) drive.may_move_bits.push_back(*bit);
+    }
     raiseTo(drive, hertz(fastest(setup.limits), setup), "drives/" + setup.name + "/max_velocity");
     drives.push_back(drive);
   }

@@ -24,6 +24,27 @@ bool holdsBack(const DriveUnderCheck& drive, std::int32_t function) {
   return std::find(list.begin(), list.end(), function) != list.end();
 }
 
+/// Of the set in force.
+cycle::WordFunctions functionsOf(const DriveUnderCheck& drive) {
+  cycle::WordFunctions functions;
+  for (std::uint8_t place = 0; place < kPlaces; ++place) {
+    const auto setpoint = drive.raw(drive.functionKey(kFirstSetpoint, place));
+    const auto actual_value = drive.raw(drive.functionKey(kFirstActualValue, place));
+    if (setpoint) functions.setpoints[place] = static_cast<std::uint16_t>(*setpoint);
+    if (actual_value) functions.actual_values[place] = static_cast<std::uint16_t>(*actual_value);
+  }
+  return functions;
+}
+
+/// The configuration has a setpoint or a signal for the function of this word.
+bool isCommanded(const DriveUnderCheck& drive, std::uint8_t place) {
+  const cycle::WordFunctions functions = functionsOf(drive);
+  const auto& needs = drive.asked().words.list;
+  return std::any_of(needs.begin(), needs.end(), [&](const cycle::WordNeed& need) {
+    return !need.actual_value && cycle::carries(place + 1u, need, functions, drive.asked().series);
+  });
+}
+
 void expectFrequency(const DriveUnderCheck& drive, std::uint16_t first, const std::string& why, Findings& to) {
   for (std::uint8_t set = 1; set <= kSets; ++set) {
     const ParameterKey key = drive.functionKey(first, 0, set);
@@ -49,12 +70,34 @@ void firstActualValueIsFrequency(const Drives& drives, std::size_t index, Findin
                   "actual value 1 is not the frequency, and would be taken for a speed by the odometry", to);
 }
 
+void askedWordsAreCarried(const Drives& drives, std::size_t index, Findings& to) {
+  const DriveUnderCheck& drive = drives[index];
+  const cycle::WordNeeds& needs = drive.asked().words;
+  cycle::WordFunctions functions = functionsOf(drive);
+  // Each finding as if the one before it had been mended, so that none asks for the word of another.
+  for (std::size_t i = 0; i < needs.list.size(); ++i) {
+    const auto missing = cycle::missingWord(needs, functions, drive.asked().series);
+    if (!missing) return;
+    const bool actual_value = missing->number < kFirstSetpoint;
+    const std::uint16_t first = actual_value ? kFirstActualValue : kFirstSetpoint;
+    const auto place = static_cast<std::uint8_t>(missing->is_array ? missing->index - 1 : missing->number - first);
+    const ParameterKey key = drive.functionKey(first, place);
+    if (!drive.raw(key)) return;
+    Finding finding = drive.finding(key, Severity::kError,
+                                    std::string("no word carries what the configuration asks for, ") + missing->wanted +
+                                        ": the drive is not enabled");
+    if (missing->expected != 0) finding.remedy = drive.remedy(key, missing->expected);
+    to.push_back(finding);
+    (actual_value ? functions.actual_values : functions.setpoints)[place] = missing->expected;
+  }
+}
+
 void furtherSetpointsAreFree(const Drives& drives, std::size_t index, Findings& to) {
   const DriveUnderCheck& drive = drives[index];
   for (std::uint8_t place = 1; place < kPlaces && place < drive.asked().identity.process_values; ++place) {
     const ParameterKey key = drive.functionKey(kFirstSetpoint, place);
     const auto raw = drive.raw(key);
-    if (!raw || *raw == 0) continue;
+    if (!raw || *raw == 0 || isCommanded(drive, place)) continue;
     const bool holds = holdsBack(drive, *raw);
     Finding finding = drive.finding(key, holds ? Severity::kError : Severity::kWarning,
                                     "the driver sends 0 in setpoint " + std::to_string(place + 1) +

@@ -36,6 +36,7 @@ void busGivesSetpoint(const Drives& drives, std::size_t index, Findings& to);
 void firstSetpointIsFrequency(const Drives& drives, std::size_t index, Findings& to);
 void firstActualValueIsFrequency(const Drives& drives, std::size_t index, Findings& to);
 void furtherSetpointsAreFree(const Drives& drives, std::size_t index, Findings& to);
+void askedWordsAreCarried(const Drives& drives, std::size_t index, Findings& to);
 void currentIsMapped(const Drives& drives, std::size_t index, Findings& to);
 // protection.cpp
 void busErrorsAreHeeded(const Drives& drives, std::size_t index, Findings& to);

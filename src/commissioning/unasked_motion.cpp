@@ -1,4 +1,6 @@
 // P104 and P480: what can turn the motor when nobody commands it.
+#include <algorithm>
+
 #include "commissioning/rules.h"
 
 namespace nord_driver::commissioning {
@@ -23,7 +25,7 @@ void minimumIsZero(const Drives& drives, std::size_t index, Findings& to) {
         drive.finding(key, allowed ? Severity::kNote : refused,
                       allowed ? "allow_minimum_frequency: true; enabled, the motor turns no slower than that, and a "
                                 "command of zero is OFF1"
-                              : "enabled, the motor turns at that with setpoint 0: the drive is not enabled");
+                              : "with setpoint 0 the motor would turn at that, and the driver does not enable it");
     finding.remedy = drive.remedy(key, 0);
     to.push_back(finding);
   }
@@ -35,11 +37,15 @@ void busBitsStartNothing(const Drives& drives, std::size_t index, Findings& to) 
     const ParameterKey key = drive.key(kBusBits, 0, bit);
     const auto raw = drive.raw(key);
     if (!raw || (*raw != kEnableRight && *raw != kEnableLeft)) continue;
-    Finding finding = drive.finding(key, Severity::kWarning,
+    // What somebody has accepted by name is told, and not taken away.
+    const auto& accepted = drive.asked().may_move_bits;
+    const bool may_move = std::find(accepted.begin(), accepted.end(), bit) != accepted.end();
+    Finding finding = drive.finding(key, may_move ? Severity::kNote : Severity::kWarning,
                                     std::string("as ") + (*raw == kEnableRight ? "enable right" : "enable left") +
-                                        " this bit starts the motor past the driver and its ~enable",
+                                        " this bit starts the motor past the driver and its ~enable" +
+                                        (may_move ? ", as a signal with may_move: true accepts" : ""),
                                     "BU 0280, 5.1.2, p. 48");
-    finding.remedy = drive.remedy(key, 0);
+    if (!may_move) finding.remedy = drive.remedy(key, 0);
     to.push_back(finding);
   }
 }

@@ -85,7 +85,8 @@ void decidingOnesAreReadable(const Drives& drives, std::size_t index, Findings& 
     if (drive.asked().series != profile::Series::kSk5xxe) keys.push_back(drive.key(120));
   }
   for (const ParameterKey& key : keys) {
-    if (!drive.facts().isUnreadable(key)) continue;
+    const bool is_typed = key.number == 105 && drive.asked().typed_max_frequency;
+    if (is_typed || !drive.facts().isUnreadable(key)) continue;
     Finding finding = drive.finding(key, Severity::kWarning, "could not be read");
     finding.advice = "look at the inverter itself";
     to.push_back(finding);

@@ -4,6 +4,7 @@
 #include "cycle/cycle_config.h"
 #include "cycle/drive_parameters.h"
 #include "cycle/drive_words.h"
+#include "cycle/fault_record.h"
 #include "cycle/joint_motion.h"
 #include "cycle/speed_watch.h"
 #include "cycle/terminal_watch.h"
@@ -24,6 +25,7 @@ struct Axis {
   robot::JointPosition joint;
   SpeedWatch speed;
   TerminalWatch terminals;
+  FaultRecorder recorder;
   bool known = false;  ///< has answered at least once
 };
 

@@ -25,9 +25,10 @@ std::vector<std::optional<std::size_t>> modulesOf(const CycleConfig& config, con
   return modules;
 }
 
-std::vector<bool> membersOfBase(const Supervisor& supervisor, std::size_t drives) {
-  std::vector<bool> members;
-  for (DriveIndex i = 0; i < drives; ++i) members.push_back(supervisor.inBase(i));
+std::vector<bool> membersOfBase(const CycleConfig& config) {
+  std::vector<bool> members(config.drives.size(), false);
+  if (!config.base) return members;
+  for (const DriveIndex wheel : config.base->wheels()) members[wheel] = true;
   return members;
 }
 
@@ -47,9 +48,10 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       cmd_vel_timeout_(config.cmd_vel_timeout),
       names_(namesOf(config)),
       drives_(makeDrives(config, transport)),
-      supervisor_(config, drives_, auto_enable),
-      command_watch_(ports, config.cmd_vel_timeout, config.base.has_value(), names_,
-                     membersOfBase(supervisor_, config.drives.size())),
+      start_acknowledge_(config.acknowledge_bus_timeouts && role == CycleRole::kDriver, drives_, names_,
+                         membersOfBase(config)),
+      supervisor_(config, drives_, auto_enable, &start_acknowledge_),
+      command_watch_(ports, config.cmd_vel_timeout, config.base.has_value(), names_, membersOfBase(config)),
       standstill_requests_(drives_, names_, modulesOf(config, transport)),
       outputs_(config.drives.size()),
       inputs_(config.drives.size()),
@@ -75,7 +77,9 @@ void BusCycle::runOnce() noexcept {
 
   const Instant after = transport_.now();
   handleInputs(after);
-  supervisor_.update(command_watch_.look(after), after);
+  const CommandState commands = command_watch_.look(after);
+  acknowledgeAtStart(commands.quiet, after);
+  supervisor_.update(commands, after);
   standstill_requests_.update(after);
   while (const auto completion = supervisor_.pollCompletion()) ports_.complete(*completion);
   while (const auto completion = standstill_requests_.pollCompletion()) ports_.complete(*completion);
@@ -228,7 +232,15 @@ void BusCycle::handleInputs(Instant now) noexcept {
     drives_[i].handleInput(inputs_[i].input, inputs_[i].inverter_answers, now);
     axes_[i].known = axes_[i].known || drives_[i].report().online;
     axes_[i].terminals.update(drives_[i].report());
+    axes_[i].recorder.handleCycle({now, inputs_[i].inverter_answers, outputs_[i], inputs_[i].input});
   }
+}
+
+void BusCycle::acknowledgeAtStart(bool quiet, Instant now) noexcept {
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    start_acknowledge_.update(i, axes_[i].parameters.faults().lastNumber(), quiet, now);
+  }
+  while (const auto event = start_acknowledge_.pollEvent()) ports_.tell(*event);
 }
 
 void BusCycle::runParameters(Instant now) noexcept {
@@ -346,6 +358,7 @@ void BusCycle::tellChanges(Instant now) noexcept {
 void BusCycle::fill(DriveSnapshot& to, DriveIndex drive, Instant now) const noexcept {
   const Axis& axis = axes_[drive];
   const bool beyond = supervisor_.inBase(drive) ? base_->belowMinimum() : axis.motion.beyondFull();
+  to.module_inputs = inputs_[drive].module_inputs;
   fillDriveSnapshot(to,
                     {drive, names_[drive].c_str(), drives_[drive].report(), outputs_[drive], axis,
                      inputs_[drive].module_answers, beyond},

@@ -13,6 +13,7 @@
 #include "cycle/cycle_statistics.h"
 #include "cycle/guest_gate.h"
 #include "cycle/standstill_requests.h"
+#include "cycle/start_acknowledge.h"
 #include "cycle/supervisor.h"
 #include "drive/drive.h"
 #include "nord_driver/core/time.h"
@@ -67,6 +68,7 @@ class BusCycle {
   robot::WheelSpeeds maxWheelSpeeds() const noexcept;
   MinimumSpeeds minWheelSpeeds() const noexcept;
   void handleInputs(Instant now) noexcept;
+  void acknowledgeAtStart(bool quiet, Instant now) noexcept;
   void runParameters(Instant now) noexcept;
   void submitParameters(Instant now) noexcept;
   void measure(Instant now, Duration dt) noexcept;
@@ -85,7 +87,8 @@ class BusCycle {
   std::vector<drive::Drive> drives_;
   std::vector<Axis> axes_;
   std::optional<BaseMotion> base_;
-  std::vector<DriveIndex> wheels_;  // the drives of the base, in the order of its wheel speeds
+  std::vector<DriveIndex> wheels_;      // the drives of the base, in the order of its wheel speeds
+  StartAcknowledge start_acknowledge_;  // before the supervisor, which asks it
   Supervisor supervisor_;
   CommandWatch command_watch_;
   StandstillRequests standstill_requests_;

@@ -36,7 +36,14 @@ void BusCycle::pollOutputs(Instant now) noexcept {
     state.max_frequency = drives_[i].maxFrequency(state.set);
     state.follows = followsCommand(i, now);
     state.in_doubt = axis.parameters.wordsInDoubt();
+    const drive::Phase phase = drives_[i].report().phase;
+    state.stopping = phase == drive::Phase::kStopping || phase == drive::Phase::kQuickStopping ||
+                     phase == drive::Phase::kCoasting || phase == drive::Phase::kHoldingZero ||
+                     phase == drive::Phase::kOffline;
     axis.words.put(outputs_[i], state, axis.parameters.device(), ports_.newestWords(i), now);
+    while (const auto finding = axis.words.pollFinding(names_[i].c_str(), axis.parameters.device(), state.in_doubt)) {
+      ports_.tell({true, *finding});
+    }
   }
 }
 

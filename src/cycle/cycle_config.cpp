@@ -4,6 +4,7 @@
 
 #include "config/drive_common.h"
 #include "config/setting_checks.h"
+#include "config/setting_choice.h"
 #include "config/setting_groups.h"
 #include "config/setting_note.h"
 #include "cycle/joint_limits.h"
@@ -13,6 +14,7 @@ namespace nord_driver::cycle {
 namespace {
 
 constexpr double kMinCycleRate = 1.0, kMaxCycleRate = 1000.0;  // Hz
+constexpr Choice<bool> kAcknowledgeAtStart[] = {{"none", false}, {"bus_timeouts", true}};
 constexpr Duration kMinDriveTimeout = std::chrono::milliseconds{50};
 
 DriveSetup readDrive(const DriveSettings& source, const CycleConfig& config, Duration drive_timeout) {
@@ -94,6 +96,7 @@ CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSetting
   config.service_timeout = seconds(numberOr(node, "service_timeout", 3.0, 0.1, 60.0, "s"));
   config.shutdown_timeout = seconds(numberOr(node, "shutdown_timeout", 10.0, 0.1, 600.0, "s"));
   config.cmd_vel_timeout = seconds(numberOr(node, "cmd_vel_timeout", 0.5, 0.0, 60.0, "s"));
+  config.acknowledge_bus_timeouts = choiceOr(node, "acknowledge_at_start", false, kAcknowledgeAtStart);
   config.stop_ways = readStopWays(node);
   config.drive_timeout_given = node.has("drive_timeout");
   const Duration default_drive_timeout = std::max(kMinDriveTimeout, 3 * config.period());

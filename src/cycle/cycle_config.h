@@ -30,8 +30,8 @@ struct DriveSetup {
   std::optional<double> rated_current;  ///< A
   /// What somebody wants to look at, read in the pauses of the parameter channel; a set 0 is the one in force.
   std::vector<profile::ParameterRequest> monitor = {};
-  robot::SpeedLimits limits;            ///< of the joint, rad; of a drive that belongs to no base
-  WordSetup words;                      ///< what users command and read beside the velocity
+  robot::SpeedLimits limits;  ///< of the joint, rad; of a drive that belongs to no base
+  WordSetup words;            ///< what users command and read beside the velocity
 };
 
 struct RealTimeOptions {
@@ -47,6 +47,8 @@ struct CycleConfig {
   Duration cmd_vel_timeout{};  ///< 0: never
   /// `drive_timeout` is as configured; if not, it is as long as two cycles with a silent station take, too.
   bool drive_timeout_given = false;
+  /// Time-outs of the bus that stand when the node comes are acknowledged, once (StartAcknowledge).
+  bool acknowledge_bus_timeouts = false;
   drive::StopWays stop_ways;
   std::vector<DriveSetup> drives;
   std::optional<BaseConfig> base;

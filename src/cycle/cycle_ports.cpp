@@ -53,6 +53,13 @@ bool CyclePorts::commandSetpoint(DriveIndex drive, std::size_t index, double val
   return true;
 }
 
+void CyclePorts::commandOutput(DriveIndex drive, std::size_t index, bool on, Instant received) {
+  const std::lock_guard<std::mutex> lock(writers_);
+  WordCommands& all = words_written_.at(drive);
+  all.outputs.at(index) = {on, received, true};
+  words_.at(drive)->write(all);
+}
+
 void CyclePorts::tuneBase(const BaseTuning& tuning) {
   const std::lock_guard<std::mutex> lock(writers_);
   base_tuning_.write(tuning);

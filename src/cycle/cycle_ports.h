@@ -31,6 +31,8 @@ class CyclePorts {
   bool commandDrive(DriveIndex drive, const JointCommand& command);
   /// `index` of a configured setpoint, `value` in its unit. False as commandBase().
   bool commandSetpoint(DriveIndex drive, std::size_t index, double value, Instant received);
+  /// `index` counts the configured outputs.
+  void commandOutput(DriveIndex drive, std::size_t index, bool on, Instant received);
   void tuneBase(const BaseTuning& tuning);
   /// One more publisher of commands is connected: what it has to say has not been heard yet.
   void commanderConnected(Instant when);

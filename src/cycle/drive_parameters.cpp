@@ -82,6 +82,7 @@ void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
     bus_control_ = status.busControl();
     parameter_set_ = report.parameter_set;
     faults_.handleStatus(status);
+    history_.handleFault(status.fault(), faults_.lastNumber());
     askForReason(drive, now);
     if (scale_due_ && !writesProcessData()) scale(drive);
     scale_due_ = false;
@@ -92,6 +93,7 @@ void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
   faults_.handleOffline();
   reader_.handleOffline();
   session_.handleOffline();
+  history_.handleOffline();
   monitor_.handleOffline();
   collect();
   // Another inverter may come back in its place: nothing is enabled with what P105 was before.
@@ -205,6 +207,8 @@ std::optional<profile::ParameterRequest> DriveParameters::ask(Asker asker, Insta
     case Asker::kReader:
       askMissingAgain(now);
       return reader_.pollRequest();
+    case Asker::kHistory:
+      return nothingUnderWay() ? history_.pollRequest() : std::nullopt;
     case Asker::kMonitor:
       return nothingUnderWay() ? monitor_.pollRequest(parameter_set_, now) : std::nullopt;
     case Asker::kCount:
@@ -251,6 +255,8 @@ void DriveParameters::answer(Asker asker, const profile::ParameterResult& result
     case Asker::kReader:
       scale_due_ = true;  // not before: what was read before a loss is not what the drive has now
       return reader_.handleResult(result);
+    case Asker::kHistory:
+      return history_.handleResult(result);
     case Asker::kMonitor:
       return monitor_.handleResult(result, name_.c_str());
     case Asker::kCount:

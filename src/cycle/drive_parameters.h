@@ -9,6 +9,7 @@
 
 #include "cycle/completion_queue.h"
 #include "cycle/device_reader.h"
+#include "cycle/fault_history.h"
 #include "cycle/monitor_reader.h"
 #include "cycle/request.h"
 #include "cycle/word_needs.h"
@@ -67,6 +68,7 @@ class DriveParameters {
   bool wordsInDoubt() const noexcept { return writesProcessData() || !reader_.motionAsked(); }
   const DeviceData& device() const noexcept { return reader_.data(); }
   const drive::FaultReader& faults() const noexcept { return faults_; }
+  const FaultHistory& faultHistory() const noexcept { return history_.history(); }
   /// In the order of ParameterChannelUse::monitor.
   const std::vector<MonitoredValue>& monitored() const noexcept { return monitor_.values(); }
   std::uint64_t eepromWrites() const noexcept { return session_.eepromWrites(); }
@@ -74,7 +76,7 @@ class DriveParameters {
   bool owesEepromSwitch() const noexcept { return session_.owesEepromSwitch(); }
 
  private:
-  enum class Asker : std::uint8_t { kFaults, kSession, kReader, kMonitor, kCount };
+  enum class Asker : std::uint8_t { kFaults, kSession, kReader, kHistory, kMonitor, kCount };
   static constexpr std::size_t kAskers = static_cast<std::size_t>(Asker::kCount);
 
   std::optional<profile::ParameterRequest> ask(Asker asker, Instant now) noexcept;
@@ -97,6 +99,7 @@ class DriveParameters {
   DeviceReader reader_;
   drive::FaultReader faults_;
   drive::ParameterSession session_;
+  FaultHistoryReader history_;
   MonitorReader monitor_;
   std::array<std::uint32_t, kAskers> open_ids_{};  // of the question under way; 0: none
   std::uint32_t sequence_ = 0;

@@ -30,12 +30,14 @@ void fillSample(DriveSample& to, const DrivePictured& from, Instant now) noexcep
   to.fault_number = from.axis.parameters.faults().number();
 }
 
-void fillFault(DriveSnapshot& to) noexcept {
+void fillFault(DriveSnapshot& to, const Axis& axis) noexcept {
+  to.fault_history = axis.parameters.faultHistory();
   if (!to.online) return;
   const bool fault = profile::StatusWord{to.input.status_word}.fault();
   if (fault && !to.fault) {
     ++to.faults;
     to.at_fault = to;
+    axis.recorder.write(to.fault_record);
   }
   to.fault = fault;
 }
@@ -63,7 +65,7 @@ void fillDriveSnapshot(DriveSnapshot& to, const DrivePictured& from, const Trans
   to.terminals_text = terminalMessage(from.name, to.terminals, report);
   to.direction_contradiction = report.direction_contradiction;
   to.text = sentenceOf(from, transport);
-  fillFault(to);
+  fillFault(to, axis);
   to.monitored = axis.parameters.monitored();
   to.device = axis.parameters.device();
   to.device.ident = transport.identNumber(from.index);

@@ -1,20 +1,23 @@
-// The further setpoints of one drive, on their way from users to the words that carry them.
+// The further setpoints and the outputs of one drive, on their way from users to the words that carry them.
 //
 // A word is used by the function the drive has told of it (P546 to P548 of the parameter set commanded), never by its
 // place alone. What can turn the motor is sent only while the drive follows its own velocity command, and only to a word
 // whose function is known now. A limit goes on in the word that was known last: 0 in its place would take the torque
-// away from a drive that is being stopped.
+// away from a drive that is being stopped. A bit goes high only when P480 is known to give it no function, or where
+// somebody has accepted by may_move that it has one.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "core/units.h"
 #include "cycle/device_data.h"
 #include "cycle/word_commands.h"
 #include "cycle/word_needs.h"
 #include "cycle/word_setup.h"
+#include "nord_driver/core/fixed_text.h"
 #include "nord_driver/core/time.h"
 #include "nord_driver/profile/process_data.h"
 #include "nord_driver/profile/series.h"
@@ -30,6 +33,7 @@ class DriveWords {
     std::uint8_t set = 0;                ///< commanded, 1..4; 0: none yet
     std::optional<Hertz> max_frequency;  ///< P105 of that set
     bool follows = false;                ///< enabled, and its velocity command is followed
+    bool stopping = false;               ///< on its way to rest, or not heard
     bool in_doubt = false;               ///< what its words mean is being changed or read again
   };
 
@@ -37,16 +41,24 @@ class DriveWords {
   void put(profile::ProcessOutput& output, const State& state, const DeviceData& device, const WordCommands& commands,
            Instant now) noexcept;
 
+  /// What was found out of an output that stays off, in words; each finding once.
+  std::optional<Sentence> pollFinding(const char* drive, const DeviceData& device, bool in_doubt) noexcept;
+
   bool empty() const noexcept { return setup_.empty(); }
 
  private:
   std::int16_t wordOf(const SetpointSetup& setpoint, const WordCommand& command, const State& state,
                       Instant now) const noexcept;
+  void putOutputs(profile::ProcessOutput& output, const State& state, const DeviceData& device,
+                  const WordCommands& commands, Instant now) const noexcept;
+  bool isOn(const SignalSetup& signal, const BitCommand& command, Instant now) const noexcept;
   void learn(const DeviceData& device) noexcept;
 
   WordSetup setup_;
   profile::Series series_;
   std::size_t carried_;
+  std::vector<SignalSetup> outputs_;
+  std::vector<std::uint16_t> told_;       // of each output, the function that was told as a reason
   std::array<WordFunctions, 4> known_{};  // what each parameter set told last
 };
 

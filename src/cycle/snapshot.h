@@ -9,6 +9,8 @@
 
 #include "cycle/cycle_statistics.h"
 #include "cycle/device_data.h"
+#include "cycle/fault_history.h"
+#include "cycle/fault_record.h"
 #include "cycle/monitored_value.h"
 #include "cycle/terminal_watch.h"
 #include "drive/drive_report.h"
@@ -39,6 +41,7 @@ struct DriveSample {
 
 struct DriveSnapshot : DriveSample {
   bool module_answers = false;                            ///< its bus module answers at least
+  std::uint8_t module_inputs = 0;                         ///< of that module, DI1 in bit 0
   bool enabled = false;                                   ///< follows velocity commands
   bool stopped = false;                                   ///< stopped by a cause that is latched: `text` names it
   drive::StopCause stop_cause = drive::StopCause::kNone;  ///< that cause
@@ -52,6 +55,8 @@ struct DriveSnapshot : DriveSample {
   bool fault = false;                                  ///< the fault bit as seen last; a silent drive keeps it
   std::uint64_t faults = 0;                            ///< how often it rose
   DriveSample at_fault;                                ///< when it rose last: the first idle word may let it vanish
+  FaultRecord fault_record;                            ///< the cycles up to that moment
+  FaultHistory fault_history;                          ///< what the inverter remembers, of that moment
   std::uint64_t eeprom_writes = 0;                     ///< of this node, of 100 000 the EEPROM endures (BU 2700 6.5)
   bool owes_eeprom_switch = false;                     ///< P560 = 0 stands because of this node
   TerminalFinding terminals = TerminalFinding::kNone;  ///< who else has a say in a drive that is disabled here

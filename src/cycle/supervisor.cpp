@@ -25,12 +25,14 @@ Sentence notHeardYet(const CommandState& commands, bool has_base) noexcept {
 
 }  // namespace
 
-Supervisor::Supervisor(const CycleConfig& config, std::vector<drive::Drive>& drives, bool auto_enable)
+Supervisor::Supervisor(const CycleConfig& config, std::vector<drive::Drive>& drives, bool auto_enable,
+                       const StartAcknowledge* start)
     : drives_(drives),
       group_of_(drives.size(), kNoGroup),
       refusals_(drives.size(), Refusal::kNone),
       has_base_(config.base.has_value()),
-      auto_enable_(auto_enable) {
+      auto_enable_(auto_enable),
+      start_(start) {
   for (const DriveSetup& setup : config.drives) names_.push_back(setup.name);
   if (config.base) addGroup(config.base->wheels(), config);
   for (DriveIndex i = 0; i < drives.size(); ++i) {
@@ -201,10 +203,12 @@ void Supervisor::update(const CommandState& commands, Instant now) noexcept {
 }
 
 // Once, when every drive has first become ready and the commands are quiet: never over a fault nor after one (whoever
-// acknowledges it enables), never after a stop (a stop needs an enable before it).
+// acknowledges it enables), never after a stop (a stop needs an enable before it). What StartAcknowledge takes away is
+// none of these.
 void Supervisor::autoEnable(const CommandState& commands, Instant now) noexcept {
-  for (const drive::Drive& drive : drives_) {
-    if (drive.report().fault_latched) auto_enable_ = false;
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    const bool may_go = start_ != nullptr && start_->mayAcknowledge(i);
+    if (drives_[i].report().fault_latched && !may_go) auto_enable_ = false;
   }
   if (!auto_enable_ || !commands.quiet || shutting_down_) return;
   for (const drive::Drive& drive : drives_) {

@@ -9,6 +9,7 @@
 #include "cycle/completion_queue.h"
 #include "cycle/cycle_config.h"
 #include "cycle/request.h"
+#include "cycle/start_acknowledge.h"
 #include "drive/drive.h"
 #include "drive/drive_group.h"
 #include "nord_driver/core/fixed_vector.h"
@@ -23,7 +24,9 @@ class Supervisor {
  public:
   /// `drives` must outlive the supervisor and not move. `auto_enable`: enable once, when every drive has first become
   /// ready and the commands have been quiet for long enough; a fault seen before is the end of it.
-  Supervisor(const CycleConfig& config, std::vector<drive::Drive>& drives, bool auto_enable);
+  /// `start`: a fault it may still acknowledge is not the end of that; it must outlive the supervisor.
+  Supervisor(const CycleConfig& config, std::vector<drive::Drive>& drives, bool auto_enable,
+             const StartAcknowledge* start = nullptr);
 
   /// Enable, disable, quick stop and shut down. An enable that comes before the commands have been listened to for long
   /// enough waits for that; a stop meanwhile ends it.
@@ -86,6 +89,7 @@ class Supervisor {
   std::vector<drive::Refusal> refusals_;  // one per drive, filled anew for each sentence
   bool has_base_ = false;
   bool auto_enable_;
+  const StartAcknowledge* start_;
   bool shutting_down_ = false;
   FixedVector<Job, 16> jobs_;
   CompletionQueue<48> completions_;  // a full queue of requests refused, and every job ended

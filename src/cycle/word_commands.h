@@ -16,9 +16,17 @@ struct WordCommand {
   std::optional<Instant> moved = {};  ///< when the newest that was not zero came
 };
 
-/// In the order of the configuration.
+/// Of one output.
+struct BitCommand {
+  bool on = false;
+  Instant received{};
+  bool given = false;  ///< false until the first command
+};
+
+/// Each in the order of the configuration, inputs left out.
 struct WordCommands {
   std::array<WordCommand, kMaxExtraSetpoints> setpoints;
+  std::array<BitCommand, kMaxSignalOutputs> outputs;
 };
 
 }  // namespace nord_driver::cycle

@@ -21,6 +21,26 @@ std::optional<WordUse> useAt(bool actual_value, std::size_t place, const WordFun
   return function == nullptr ? std::nullopt : std::optional<WordUse>{function->use};
 }
 
+std::optional<WordNeed> needOf(const SignalSetup& signal) noexcept {
+  switch (signal.source) {
+    case SignalSource::kBusInBit:
+      return WordNeed{false, WordUse::kBusBits};
+    case SignalSource::kBusOutBit:
+      return WordNeed{true, WordUse::kBusBits};
+    case SignalSource::kDigitalInput:
+    case SignalSource::kRelay:
+      return WordNeed{true, WordUse::kDigitalIo};
+    case SignalSource::kAnalogInput:
+      return WordNeed{true, signal.number == 1 ? WordUse::kAnalogInput1 : WordUse::kAnalogInput2};
+    case SignalSource::kControlBit:
+    case SignalSource::kStatusBit:
+    case SignalSource::kModuleOutput:
+    case SignalSource::kModuleInput:
+      break;
+  }
+  return std::nullopt;
+}
+
 // Setpoint 1 and actual value 1 are the frequency: never taken for anything else.
 std::size_t bestPlace(const WordNeeds& needs, bool actual_value, const WordFunctions& functions,
                       Series series) noexcept {
@@ -44,6 +64,15 @@ WordNeeds wordNeeds(const WordSetup& setup, std::size_t carried) noexcept {
   WordNeeds needs;
   needs.words = std::min(std::max<std::size_t>(carried, 1), profile::kMaxProcessValues);
   for (const SetpointSetup& setpoint : setup.setpoints) needs.list.push_back({false, setpoint.use});
+  if (setup.torque_at_limit) needs.list.push_back({true, WordUse::kTorqueCurrent});
+  for (const SignalSetup& signal : setup.signals) {
+    const auto need = needOf(signal);
+    const bool known = need && std::any_of(needs.list.begin(), needs.list.end(), [&](const WordNeed& other) {
+                         return other.actual_value == need->actual_value && other.use == need->use;
+                       });
+    if (need && !known) needs.list.push_back(*need);
+    needs.bits = needs.bits || busBitElement(signal);
+  }
   return needs;
 }
 

@@ -23,7 +23,9 @@ struct WordNeeds {
   FixedVector<WordNeed, 16> list;
   std::size_t words = 1;  ///< setpoints and actual values the bus carries, the first included
 
-  bool empty() const noexcept { return list.empty(); }
+  bool bits = false;  ///< bits whose function is in P480 are in use
+
+  bool empty() const noexcept { return list.empty() && !bits; }
 };
 
 /// Each use once.

@@ -122,10 +122,20 @@ WordSetup readWordSetup(const Settings& drive, profile::Series series, Duration 
     }
     setup.setpoints.push_back(setpoint);
   }
+  setup.signals = readSignals(drive, series);
+  setup.release_after = cmd_vel_timeout;
+  if (drive.has("torque_at_limit")) setup.torque_at_limit = requiredNumber(drive, "torque_at_limit", 1e-3, 1e5, "Nm");
   return setup;
 }
 
 void checkWordsCarried(const Settings& drive, const WordSetup& setup, const DriveIdentity& identity) {
+  checkSignalsCarried(drive, setup.signals, identity);
+  if (setup.torque_at_limit && identity.process_values < 2) {
+    throw wrongSetting(
+        drive, "torque_at_limit", shortNumber(*setup.torque_at_limit),
+        "no such key, or a longer telegram (PPO type, assembly): the torque current needs an actual value "
+        "beside the frequency, and the bus carries one");
+  }
   const std::size_t carried = identity.process_values > 1 ? identity.process_values - 1u : 0u;
   if (setup.setpoints.size() <= carried) return;
   throw ConfigError(drive.fullName("setpoints") + ": " + std::to_string(setup.setpoints.size()) +

@@ -1,4 +1,4 @@
-// What users command and read in the process data beside the velocity, as configured: further setpoints.
+// What users command and read in the process data beside the velocity, as configured: further setpoints and signals.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cycle/signal_setup.h"
 #include "nord_driver/config/settings.h"
 #include "nord_driver/core/time.h"
 #include "nord_driver/profile/process_data.h"
@@ -33,8 +34,11 @@ struct SetpointSetup {
 
 struct WordSetup {
   std::vector<SetpointSetup> setpoints;
+  std::vector<SignalSetup> signals;
+  std::optional<double> torque_at_limit;  ///< Nm of the motor that 100 % torque current, P112, stands for: for `effort`
+  Duration release_after{};               ///< outputs that do not hold go off: cmd_vel_timeout; 0: never
 
-  bool empty() const noexcept { return setpoints.empty(); }
+  bool empty() const noexcept { return setpoints.empty() && signals.empty() && !torque_at_limit; }
 };
 
 /// "torque_limit", as configurations write it; "" for one that is none.

@@ -115,6 +115,8 @@ class Drive {
   const DriveReport& report() const noexcept { return report_; }
   /// Nothing is being driven or stopped: idle (or offline), and the inverter confirms it by its state.
   bool isAtRest() const noexcept;
+  /// Online, and actual value 1 is near zero: what a motor without voltage does, nobody can tell by it.
+  bool isNearStandstill() const noexcept;
 
  private:
   /// What is known of one parameter set of the inverter.

@@ -131,6 +131,10 @@ void Drive::requestAcknowledge(Instant now, std::uint32_t token) noexcept {
   enter(Phase::kAcknowledging, now);
 }
 
+bool Drive::isNearStandstill() const noexcept {
+  return report_.online && std::abs(int{report_.input.actual_values[0]}) <= config_.near_standstill;
+}
+
 Refusal Drive::setRefusal(std::uint8_t set) const noexcept {
   if (set < 1 || set > 4) return Refusal::kNoSuchSet;
   if (set > config_.parameter_sets) return Refusal::kOnlySet1;
@@ -140,7 +144,7 @@ Refusal Drive::setRefusal(std::uint8_t set) const noexcept {
   const StatusWord status(report_.status_word);
   if (status.fault()) return Refusal::kFault;
   if (!status.busControl()) return Refusal::kLocalControl;
-  if (std::abs(int{report_.input.actual_values[0]}) > config_.near_standstill) return Refusal::kTurning;
+  if (!isNearStandstill()) return Refusal::kTurning;
   const bool switchable =
       report_.state == DriveState::kSwitchOnDisabled || report_.state == DriveState::kReadyToSwitchOn;
   return switchable ? Refusal::kNone : Refusal::kWrongState;

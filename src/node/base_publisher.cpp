@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "cycle/measured_values.h"
+
 namespace nord_driver::node {
 
 namespace {
@@ -19,14 +21,19 @@ geometry_msgs::Quaternion yawQuaternion(double yaw) {
 }  // namespace
 
 BasePublisher::BasePublisher(ros::NodeHandle& node, const NodeConfig& config)
-    : config_(config.publish), odom_tf_(config.publish.enable_odom_tf), rate_(config.publish.publish_rate) {
+    : config_(config.publish),
+      setups_(config.cycle.drives),
+      odom_tf_(config.publish.enable_odom_tf),
+      rate_(config.publish.publish_rate) {
   for (std::size_t i = 0; i < config.cycle.drives.size(); ++i) {
     if (config.cycle.drives[i].joint.empty()) continue;
     jointed_.push_back(i);
     joints_.name.push_back(config.cycle.drives[i].joint);
+    if (config.cycle.drives[i].words.torque_at_limit) joints_.effort.resize(1);
   }
   joints_.position.resize(jointed_.size());
   joints_.velocity.resize(jointed_.size());
+  if (!joints_.effort.empty()) joints_.effort.resize(jointed_.size());
   if (!jointed_.empty()) joints_publisher_ = node.advertise<sensor_msgs::JointState>("joint_states", 10);
   if (!config.cycle.base) return;
 
@@ -83,6 +90,9 @@ void BasePublisher::publishJoints(const cycle::CycleSnapshot& snapshot, ros::Tim
   for (std::size_t i = 0; i < jointed_.size(); ++i) {
     joints_.position[i] = snapshot.drives[jointed_[i]].joint_position;
     joints_.velocity[i] = snapshot.drives[jointed_[i]].velocity;
+    if (joints_.effort.empty()) continue;
+    const cycle::DriveSnapshot& drive = snapshot.drives[jointed_[i]];
+    joints_.effort[i] = cycle::effortOf(drive, drive.device, setups_[jointed_[i]]);
   }
   joints_publisher_.publish(joints_);
 }

@@ -32,7 +32,8 @@ class BasePublisher {
   void publishJoints(const cycle::CycleSnapshot& snapshot, ros::Time stamp);
 
   PublishConfig config_;
-  std::vector<std::size_t> jointed_;  // drives that turn a joint
+  std::vector<std::size_t> jointed_;       // drives that turn a joint
+  std::vector<cycle::DriveSetup> setups_;  // of all drives
   nav_msgs::Odometry odometry_;
   sensor_msgs::JointState joints_;
   ros::Publisher odometry_publisher_;

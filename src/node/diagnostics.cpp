@@ -1,11 +1,8 @@
 #include "node/diagnostics.h"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "node/bus_publisher.h"
-#include "node/device_warnings.h"
 #include "node/recovery_hint.h"
 #include "nord_driver/core/bytes.h"
 
@@ -25,11 +22,12 @@ std::string inWords(std::string name) {
 }  // namespace
 
 Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities,
-                         std::vector<catalogue::FaultWords> faults, std::vector<DriveValues> values,
+                         const std::vector<catalogue::DriveCatalogue>& known, std::vector<DriveValues> values,
                          const std::string& where)
     : identities_(identities),
-      faults_(std::move(faults)),
+      known_(known),
       values_(std::move(values)),
+      commissioning_(config, identities, known),
       device_(where),
       snapshot_(config.drives.size()) {
   updater_.setHardwareID(device_);
@@ -39,9 +37,7 @@ Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdenti
     names_.push_back(config.cycle.drives[i].name);
     protections_.emplace_back(identities[i], config.cycle.drives[i].series, config.cycle.cmd_vel_timeout,
                               config.cycle.period());
-    series_.push_back(config.cycle.drives[i].series);
     ramps_.emplace_back(config.cycle, i);
-    typed_max_frequency_.push_back(config.cycle.drives[i].typed_max_frequency);
     updater_.add("drive " + names_.back(), [this, i](DiagnosticStatusWrapper& status) { reportDrive(i, status); });
   }
 }
@@ -50,6 +46,13 @@ void Diagnostics::update(const cycle::CycleSnapshot& snapshot) {
   snapshot_ = snapshot;
   const Instant now = std::chrono::steady_clock::now();
   if (now < next_update_) return;
+  for (const LogLine& line : commissioning_.update(snapshot_)) {
+    if (line.level == LogLine::Level::kWarn) {
+      ROS_WARN("nord_driver: %s", line.text.c_str());
+    } else {
+      ROS_INFO("nord_driver: %s", line.text.c_str());
+    }
+  }
   updater_.force_update();
   next_update_ = now + seconds(updater_.getPeriod());
 }
@@ -87,8 +90,8 @@ void Diagnostics::summarize(std::size_t index, DiagnosticStatusWrapper& status) 
   if (!drive.online) {
     status.summary(DiagnosticStatus::ERROR, drive.text.empty() ? "no answer" : drive.text.str());
   } else if (drive.fault_number != 0) {
-    status.summary(DiagnosticStatus::ERROR,
-                   catalogue::FaultWords::label(drive.fault_number) + ": " + faults_[index].name(drive.fault_number));
+    status.summary(DiagnosticStatus::ERROR, catalogue::FaultWords::label(drive.fault_number) + ": " +
+                                                known_[index].faults().name(drive.fault_number));
   } else if (drive.stopped) {
     status.summary(DiagnosticStatus::ERROR, drive.text.str());
   } else {
@@ -99,15 +102,6 @@ void Diagnostics::summarize(std::size_t index, DiagnosticStatusWrapper& status) 
 // What does not stop the drive, but should be seen to.
 void Diagnostics::warn(std::size_t index, const ProtectionReport& protection, DiagnosticStatusWrapper& status) const {
   const cycle::DriveSnapshot& drive = snapshot_.drives[index];
-  const auto& typed = typed_max_frequency_[index];
-  for (std::size_t set = 0; set < drive.device.max_frequency.size() && typed; ++set) {
-    const auto& read = drive.device.max_frequency[set];
-    if (read && std::abs(*read - *typed) > 0.05) {
-      status.mergeSummaryf(DiagnosticStatus::WARN,
-                           "max_frequency is configured as %.1f Hz, but P105 of set %zu is %.1f Hz", *typed, set + 1,
-                           *read);
-    }
-  }
   if (drive.online && protection.level != ProtectionReport::Level::kFine) {
     const bool runs_on = protection.level == ProtectionReport::Level::kError;
     status.mergeSummary(runs_on ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
@@ -117,9 +111,7 @@ void Diagnostics::warn(std::size_t index, const ProtectionReport& protection, Di
     const bool turns = drive.terminals == cycle::TerminalFinding::kTurned;
     status.mergeSummary(turns ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN, drive.terminals_text.str());
   }
-  for (const std::string& text : deviceWarnings(drive.device, series_[index])) {
-    status.mergeSummary(DiagnosticStatus::WARN, text);
-  }
+  for (const std::string& text : commissioning_.of(index).warnings) status.mergeSummary(DiagnosticStatus::WARN, text);
   const std::string slow_ramp = ramps_[index].assess(drive.device, drive.parameter_set);
   if (drive.online && !slow_ramp.empty()) status.mergeSummary(DiagnosticStatus::WARN, slow_ramp);
   if (drive.not_following) {
@@ -132,10 +124,6 @@ void Diagnostics::warn(std::size_t index, const ProtectionReport& protection, Di
     status.mergeSummary(DiagnosticStatus::WARN,
                         "actual value 1 and the direction bits of the status word contradict each other");
   }
-  if (drive.device.saves_in_eeprom == false && !drive.owes_eeprom_switch) {
-    // It may have been left so by whoever wrote parameters last: it hits every writer, NORD CON included.
-    status.mergeSummary(DiagnosticStatus::WARN, "P560 = 0: parameters changed by anybody are lost at power off");
-  }
   if (drive.owes_eeprom_switch) {
     status.mergeSummary(DiagnosticStatus::WARN,
                         "P560 was set to 0 for a parameter write and could not be put back yet");
@@ -144,7 +132,7 @@ void Diagnostics::warn(std::size_t index, const ProtectionReport& protection, Di
 
 void Diagnostics::addFault(std::size_t index, DiagnosticStatusWrapper& status) const {
   const cycle::DriveSnapshot& drive = snapshot_.drives[index];
-  const catalogue::FaultWords& words = faults_[index];
+  const catalogue::FaultWords& words = known_[index].faults();
   const std::uint16_t fault = drive.fault_number != 0 ? drive.fault_number : drive.last_fault_number;
   if (fault == 0) return;
   status.add(drive.fault_number != 0 ? "fault" : "last fault",
@@ -183,6 +171,7 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
   for (const ParameterValue& value : values_[index].values(drive)) {
     status.add(value.name.empty() ? value.parameter : value.parameter + " " + value.name, value.text);
   }
+  for (const std::string& text : commissioning_.of(index).notes) status.add("note", text);
 }
 
 }  // namespace nord_driver::node

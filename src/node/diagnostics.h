@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "catalogue/fault_words.h"
+#include "catalogue/drive_catalogue.h"
 #include "cycle/snapshot.h"
+#include "node/commissioning_warnings.h"
 #include "node/drive_protection.h"
 #include "node/drive_values.h"
 #include "node/node_config.h"
@@ -20,9 +21,10 @@ namespace nord_driver::node {
 /// Reports the snapshot it was given last. `update` runs the tasks when they are due (once a second).
 class Diagnostics {
  public:
-  /// `faults`, `values`: of each drive. `where`: what the transport opens, as configured.
+  /// `known`, `values`: of each drive. `where`: what the transport opens, as configured.
   Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities,
-              std::vector<catalogue::FaultWords> faults, std::vector<DriveValues> values, const std::string& where);
+              const std::vector<catalogue::DriveCatalogue>& known, std::vector<DriveValues> values,
+              const std::string& where);
   void update(const cycle::CycleSnapshot& snapshot);
 
  private:
@@ -36,12 +38,11 @@ class Diagnostics {
 
   std::vector<std::string> names_;
   std::vector<DriveIdentity> identities_;
-  std::vector<catalogue::FaultWords> faults_;
+  std::vector<catalogue::DriveCatalogue> known_;
   std::vector<DriveValues> values_;
   std::vector<DriveProtection> protections_;
-  std::vector<profile::Series> series_;
   std::vector<RampCheck> ramps_;
-  std::vector<std::optional<double>> typed_max_frequency_;
+  CommissioningWarnings commissioning_;
   std::string device_;
   cycle::CycleSnapshot snapshot_;
   diagnostic_updater::Updater updater_;

@@ -3,8 +3,8 @@
 #include <limits>
 #include <utility>
 
+#include "cycle/measured_values.h"
 #include "node/drive_status.h"
-#include "profile/scaling.h"
 #include "profile/word_function.h"
 
 namespace nord_driver::node {
@@ -29,29 +29,17 @@ DrivePublisher::DrivePublisher(ros::NodeHandle& private_node, const cycle::Drive
     : identity_(std::move(identity)),
       protection_(std::move(protection)),
       faults_(faults),
-      series_(setup.series),
-      rated_current_(setup.rated_current.value_or(kNotKnown)) {
+      signals_(private_node, setup),
+      setup_(setup) {
   status_.name = setup.name;
   info_.name = setup.name;
   info_.series = profile::toString(setup.series);
   info_.address = address;
   info_.inverter = identity_.inverter;
-  info_.rated_current = rated_current_;
+  info_.rated_current = setup.rated_current.value_or(kNotKnown);
   info_.parameter_channel = identity_.parameter_channel;
   status_publisher_ = private_node.advertise<DriveStatus>(setup.name + "/status", 10);
   info_publisher_ = private_node.advertise<DeviceInfo>(setup.name + "/device_info", 1, true);
-}
-
-// Only function 3, "current", is a share of the rated current; torque current (4) is one of P112
-// (BU 0020 6.2.2, 7.3.7).
-double DrivePublisher::currentOf(const cycle::DriveSample& sample, const cycle::DeviceData& device) const {
-  constexpr std::uint16_t kCurrent = 3;
-  const auto& functions = device.actual_value_functions;
-  for (std::size_t i = 0; i < functions.size() && i < identity_.process_values && sample.online; ++i) {
-    if (functions[i] != kCurrent) continue;
-    return rated_current_ * sample.input.actual_values[i] / profile::kHundredPercent;
-  }
-  return kNotKnown;
 }
 
 // The driver's own idle word can acknowledge a fault within one cycle (BU 0020 8), between two messages.
@@ -61,12 +49,13 @@ void DrivePublisher::publishStatus(const cycle::DriveSnapshot& drive, const Stam
   }
   faults_told_ = drive.faults;
   publishStatus(drive, drive.device, stamps.of(drive.time));
+  signals_.publish(drive);
 }
 
 void DrivePublisher::publishStatus(const cycle::DriveSample& sample, const cycle::DeviceData& device, ros::Time stamp) {
   fillDriveStatus(sample, faults_, status_);
   status_.header.stamp = stamp;
-  status_.current = currentOf(sample, device);
+  status_.current = cycle::currentOf(sample, device, setup_, identity_.process_values);
   status_publisher_.publish(status_);
 }
 
@@ -98,10 +87,10 @@ void DrivePublisher::publishDeviceInfo(const cycle::DriveSnapshot& drive) {
   info.setpoint_names.clear();
   info.actual_value_names.clear();
   for (std::size_t i = 0; i < info.setpoint_functions.size(); ++i) {
-    info.setpoint_names.emplace_back(profile::setpointName(series_, i + 1, info.setpoint_functions[i]));
+    info.setpoint_names.emplace_back(profile::setpointName(setup_.series, i + 1, info.setpoint_functions[i]));
   }
   for (const std::uint16_t function : info.actual_value_functions) {
-    info.actual_value_names.emplace_back(profile::actualValueName(series_, function));
+    info.actual_value_names.emplace_back(profile::actualValueName(setup_.series, function));
   }
   const bool same = told_ && info.ident == info_.ident && info.protected_by == info_.protected_by &&
                     info.software_version == info_.software_version &&

@@ -11,6 +11,7 @@
 #include "cycle/cycle_config.h"
 #include "cycle/snapshot.h"
 #include "node/drive_protection.h"
+#include "node/signal_publisher.h"
 #include "node/stamps.h"
 #include "nord_driver/DeviceInfo.h"
 #include "nord_driver/DriveStatus.h"
@@ -33,13 +34,12 @@ class DrivePublisher {
  private:
   void logProtection(const cycle::DeviceData& device);
   void publishStatus(const cycle::DriveSample& sample, const cycle::DeviceData& device, ros::Time stamp);
-  double currentOf(const cycle::DriveSample& sample, const cycle::DeviceData& device) const;
 
   DriveIdentity identity_;
   DriveProtection protection_;
   catalogue::FaultWords faults_;
-  profile::Series series_;
-  double rated_current_;
+  SignalPublisher signals_;
+  cycle::DriveSetup setup_;
   DriveStatus status_;
   DeviceInfo info_;
   ros::Publisher status_publisher_;

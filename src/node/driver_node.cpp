@@ -32,6 +32,8 @@ std::string robotDescription() {
 // Calls that may wait for their drives at the same time: of those that stop, and of the others.
 constexpr int kStopThreads = 8;
 constexpr int kSpinnerThreads = 4;
+// Jobs that run at the same time; further ones wait.
+constexpr int kJobThreads = 4;
 constexpr int kShutDownAttempts = 50;
 
 /// What the base does not use counts, too: whose rest is broken means nothing.
@@ -53,6 +55,7 @@ DriverNode::DriverNode()
       commands_(node_, 1),
       private_commands_(private_node_, 1),
       stops_(private_node_, kStopThreads),
+      jobs_(private_node_, kJobThreads),
       settings_("~", privateParameters()),
       config_(withWhatIsOffered(readNodeConfig(settings_, robotDescription()), settings_)),
       catalogues_(tools::installedCatalogues(config_.parameter_files)),
@@ -71,10 +74,13 @@ DriverNode::DriverNode()
 }
 
 DriverNode::~DriverNode() {
-  for (CallbackThreads* lane : {&commands_, &private_commands_, &stops_}) lane->stop();  // they use what goes next
+  if (parameter_jobs_) parameter_jobs_->end();
+  // They use what goes next.
+  for (CallbackThreads* lane : {&commands_, &private_commands_, &stops_, &jobs_}) lane->stop();
   thread_.reset();
   tracing_.reset();  // after the bus: what happened last is in the last trace
   services_.reset();
+  parameter_jobs_.reset();
   broker_.reset();
   if (transport_) transport_->close();
 }
@@ -126,8 +132,8 @@ void DriverNode::advertise() {
   } else {
     nothing_to_tune_ = std::make_unique<NothingToTune>(private_node_);
   }
-  const std::vector<catalogue::DriveCatalogue> known = knownDrives();
-  for (const catalogue::DriveCatalogue& drive : known) faults_.push_back(drive.faults());
+  known_ = knownDrives();
+  for (const catalogue::DriveCatalogue& drive : known_) faults_.push_back(drive.faults());
   std::vector<std::string> names;
   std::vector<trace::TracedDrive> traced;
   for (DriveIndex i = 0; i < config_.drives.size(); ++i) {
@@ -141,6 +147,7 @@ void DriverNode::advertise() {
                                    DriveProtection{identities_[i], config_.cycle.drives[i].series,
                                                    config_.cycle.cmd_vel_timeout, config_.cycle.period()},
                                    faults_[i], static_cast<std::uint16_t>(setup.address.value_or(0)));
+    fault_publishers_.emplace_back(private_node_, setup.name, faults_[i]);
     values_publishers_.emplace_back(private_node_, setup.name, values_[i]);
     if (cycle_->inBase(i)) continue;
     boost::function<void(const std_msgs::Float64&)> take = [this, i](const std_msgs::Float64& velocity) {
@@ -151,9 +158,10 @@ void DriverNode::advertise() {
   word_topics_ = std::make_unique<WordTopics>(private_commands_, config_.cycle, *ports_);
   fault_board_ = std::make_unique<FaultBoard>(names, faults_);
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
-  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, faults_, values_, where_);
+  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, known, values_, where_);
   services_ =
-      std::make_unique<Services>(private_node_, stops_.handle(), config_, known, *fault_board_, eeproms_, *broker_);
+      std::make_unique<Services>(private_node_, stops_.handle(), config_, known_, *fault_board_, eeproms_, *broker_);
+  parameter_jobs_ = std::make_unique<ParameterJobs>(jobs_.handle(), config_, identities_, known_, eeproms_, *broker_);
   tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace());
   ports_->setObserver(&tracing_->feed());
   if (config_.cycle.base) {
@@ -194,7 +202,7 @@ void DriverNode::takeDriveCommand(DriveIndex drive, double velocity) {
 void DriverNode::run(const std::atomic<bool>& end_asked) {
   ros::AsyncSpinner spinner(kSpinnerThreads);
   spinner.start();
-  for (CallbackThreads* lane : {&commands_, &private_commands_, &stops_}) lane->start();
+  for (CallbackThreads* lane : {&commands_, &private_commands_, &stops_, &jobs_}) lane->start();
   if (config_.cycle.cmd_vel_timeout == Duration::zero()) {
     ROS_WARN("nord_driver: cmd_vel_timeout is 0: the last command is followed for ever");
   }
@@ -203,7 +211,7 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
 
   // Whatever ends the node, the drives come to rest first: an exchange that simply ends lets the wheels coast.
   try {
-    const SnapshotParts parts{*base_publisher_, drive_publishers_, values_publishers_,
+    const SnapshotParts parts{*base_publisher_, drive_publishers_, values_publishers_, fault_publishers_,
                               *bus_publisher_,  *diagnostics_,     *fault_board_};
     publisher_.emplace(*ports_, config_.publish, parts, loggedDrives());
     // roscpp is "ok" until it has unregistered every topic: tenths of a second in which the robot would drive on.
@@ -252,6 +260,7 @@ void DriverNode::tellBusEvents() {
 
 void DriverNode::bringToRest() {
   if (!config_.read_only) ROS_INFO("nord_driver: bringing the drives to rest");
+  parameter_jobs_->end();
   cycle::Request request;
   request.kind = cycle::RequestKind::kShutDown;
   // OFF1 that does not end becomes a quick stop; that has a ramp of its own (P426).
@@ -271,6 +280,7 @@ void DriverNode::bringToRest() {
   }
   publisher_.reset();
   thread_.reset();
+  broker_->end();       // nobody is to wait for a cycle that has ended
   transport_->close();  // at once: nobody guards the nodes from here on, and the rest of the node takes its time to end
 }
 

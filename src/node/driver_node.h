@@ -25,8 +25,10 @@
 #include "node/diagnostics.h"
 #include "node/drive_publisher.h"
 #include "node/fault_board.h"
+#include "node/fault_publisher.h"
 #include "node/node_config.h"
 #include "node/nothing_to_tune.h"
+#include "node/parameter_jobs.h"
 #include "node/request_broker.h"
 #include "node/ros_settings.h"
 #include "node/services.h"
@@ -70,6 +72,7 @@ class DriverNode {
   CallbackThreads commands_;          // cmd_vel
   CallbackThreads private_commands_;  // ~<drive>/command
   CallbackThreads stops_;             // ~quick_stop, ~<drive>/quick_stop, and ~enable, which stops, too
+  CallbackThreads jobs_;              // ~<drive>/dump_parameters, ~<drive>/verify_parameters
   RosSettings settings_;
   NodeConfig config_;
   catalogue::Catalogues catalogues_;
@@ -77,8 +80,9 @@ class DriverNode {
   boost::shared_ptr<Transport> transport_;
   std::string where_;  // what the transport opens, as configured
   std::vector<DriveIdentity> identities_;
-  std::vector<catalogue::FaultWords> faults_;  // one per drive
-  std::vector<DriveValues> values_;            // one per drive
+  std::vector<catalogue::DriveCatalogue> known_;  // one per drive
+  std::vector<catalogue::FaultWords> faults_;     // one per drive
+  std::vector<DriveValues> values_;               // one per drive
   std::unique_ptr<FaultBoard> fault_board_;
   state::EepromBudget eeprom_budget_;
   std::deque<state::DriveEeprom> eeproms_;  // one per drive
@@ -93,9 +97,11 @@ class DriverNode {
   std::unique_ptr<NothingToTune> nothing_to_tune_;  // without one
   std::vector<DrivePublisher> drive_publishers_;
   std::vector<ValuesPublisher> values_publishers_;
+  std::vector<FaultPublisher> fault_publishers_;
   std::unique_ptr<BusPublisher> bus_publisher_;
   std::unique_ptr<Diagnostics> diagnostics_;
   std::unique_ptr<Services> services_;
+  std::unique_ptr<ParameterJobs> parameter_jobs_;
   std::unique_ptr<WordTopics> word_topics_;
   std::unique_ptr<Tracing> tracing_;
   std::optional<SnapshotPublisher> publisher_;

@@ -88,6 +88,9 @@ NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot
     const std::vector<std::string>& of_base = config.cycle.base->warnings;
     config.warnings.insert(config.warnings.end(), of_base.begin(), of_base.end());
   }
+  if (config.read_only && config.cycle.acknowledge_bus_timeouts) {
+    throw wrongSetting(settings, "read_only", "true", "false with acknowledge_at_start: bus_timeouts");
+  }
   config.trace = trace::readTraceConfig(settings);
   return config;
 }

@@ -2,6 +2,12 @@
 
 namespace nord_driver::node {
 
+namespace {
+
+constexpr char kEnding[] = "the node is ending";
+
+}  // namespace
+
 RequestBroker::RequestBroker(cycle::CyclePorts& ports) : ports_(ports), dispatcher_([this] { dispatch(); }) {}
 
 RequestBroker::~RequestBroker() {
@@ -10,6 +16,12 @@ RequestBroker::~RequestBroker() {
     stop_ = true;
   }
   dispatcher_.join();
+}
+
+void RequestBroker::end() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ended_ = true;
+  arrived_.notify_all();
 }
 
 void RequestBroker::dispatch() {
@@ -32,14 +44,17 @@ cycle::Completion RequestBroker::call(cycle::Request request) {
   if (++next_id_ == 0) next_id_ = 1;  // 0: nobody waits for an answer
   cycle::Completion answer;
   const auto at = waiting_.emplace(request.id, std::nullopt).first;
-  if (!ports_.submit(request)) {
+  if (ended_) {
+    answer.message = kEnding;
+  } else if (!ports_.submit(request)) {
     answer.message = "too many requests are waiting already";
   } else if (arrived_.wait_for(lock, request.patience + std::chrono::seconds{1},
-                               [&] { return at->second.has_value(); })) {
+                               [&] { return at->second.has_value() || ended_; }) &&
+             at->second) {
     answer = *at->second;
   } else {
     answer.id = request.id;
-    answer.message = "the bus cycle did not answer";
+    answer.message = ended_ ? kEnding : "the bus cycle did not answer";
     answer.parameter.eeprom_written = request.kind == cycle::RequestKind::kWriteParameter;  // or will be
   }
   waiting_.erase(at);

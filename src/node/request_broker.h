@@ -22,6 +22,8 @@ class RequestBroker {
   /// Blocks until the cycle has answered, at most the request's patience and a second more. Never throws for a refusal:
   /// the completion says why; its id is 0 when the request did not reach the cycle.
   cycle::Completion call(cycle::Request request);
+  /// The bus cycle runs no more: whoever waits is answered now, and so is who still calls.
+  void end();
 
  private:
   void dispatch();
@@ -32,6 +34,7 @@ class RequestBroker {
   std::map<std::uint32_t, std::optional<cycle::Completion>> waiting_;
   std::uint32_t next_id_ = 1;
   bool stop_ = false;
+  bool ended_ = false;
   std::thread dispatcher_;
 };
 

@@ -1,9 +1,9 @@
 #include "node/services.h"
 
-#include <boost/function.hpp>
 #include <utility>
 
 #include "catalogue/parameter_text.h"
+#include "node/offer.h"
 #include "tools/counted_write.h"
 
 namespace nord_driver::node {
@@ -26,13 +26,7 @@ void tellOutcome(const std::string& call, const cycle::Completion& answer) {
 
 template <typename Service, typename Handler>
 void Services::advertise(ros::NodeHandle& node, const std::string& name, Handler handler) {
-  // A bare lambda is ambiguous to advertiseService.
-  boost::function<bool(typename Service::Request&, typename Service::Response&)> callback =
-      [handler](typename Service::Request& request, typename Service::Response& response) {
-        handler(request, response);
-        return true;  // a refusal is an answer, not a failed call
-      };
-  servers_.push_back(node.advertiseService(name, callback));
+  servers_.push_back(offer<Service>(node, name, handler));
 }
 
 Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, const NodeConfig& config,

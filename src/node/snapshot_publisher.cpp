@@ -75,6 +75,9 @@ void SnapshotPublisher::run() {
         parts_.bus.publish(snapshot, stamp);
         for (std::size_t i = 0; i < parts_.values.size(); ++i) parts_.values[i].publish(snapshot.drives[i], stamp);
       }
+      for (std::size_t i = 0; i < parts_.fault_messages.size(); ++i) {
+        parts_.fault_messages[i].update(snapshot.drives[i], stamps);
+      }
       parts_.faults.post(snapshot);
       logChanges(snapshot, now);
       parts_.diagnostics.update(snapshot);

@@ -11,6 +11,7 @@
 #include "node/diagnostics.h"
 #include "node/drive_publisher.h"
 #include "node/fault_board.h"
+#include "node/fault_publisher.h"
 #include "node/node_config.h"
 #include "node/state_log.h"
 #include "node/values_publisher.h"
@@ -22,6 +23,7 @@ struct SnapshotParts {
   BasePublisher& base;
   std::vector<DrivePublisher>& drives;
   std::vector<ValuesPublisher>& values;
+  std::vector<FaultPublisher>& fault_messages;
   BusPublisher& bus;
   Diagnostics& diagnostics;
   FaultBoard& faults;

@@ -17,6 +17,9 @@ std::string startSentence(const NodeConfig& config, const std::vector<DriveIdent
   } else {
     text += config.cycle.base->kind == robot::BaseKind::kMecanum ? ", base mecanum" : ", base differential";
   }
+  if (config.cycle.acknowledge_bus_timeouts) {
+    text += ", bus time-outs (E10) found at start are acknowledged (acknowledge_at_start)";
+  }
   return text + (config.read_only ? ", looking on only (read_only)" : "");
 }
 

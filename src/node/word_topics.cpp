@@ -1,5 +1,6 @@
 #include "node/word_topics.h"
 
+#include <std_msgs/Bool.h>
 #include <std_msgs/Float64.h>
 
 #include <boost/function.hpp>
@@ -12,7 +13,19 @@ WordTopics::WordTopics(CallbackThreads& lane, const cycle::CycleConfig& config, 
   for (DriveIndex drive = 0; drive < config.drives.size(); ++drive) {
     const cycle::DriveSetup& setup = config.drives[drive];
     for (std::size_t i = 0; i < setup.words.setpoints.size(); ++i) addSetpoint(lane, drive, setup, i);
+    std::size_t outputs = 0;
+    for (const cycle::SignalSetup& signal : setup.words.signals) {
+      if (!cycle::isOutput(signal.source)) continue;
+      addOutput(lane, drive, setup.name + "/signals/" + signal.name, outputs++);
+    }
   }
+}
+
+void WordTopics::addOutput(CallbackThreads& lane, DriveIndex drive, const std::string& topic, std::size_t index) {
+  boost::function<void(const std_msgs::Bool&)> take = [this, drive, index](const std_msgs::Bool& on) {
+    ports_.commandOutput(drive, index, on.data != 0, std::chrono::steady_clock::now());
+  };
+  subscribers_.push_back(lane.handle().subscribe<std_msgs::Bool>(topic, 1, take));
 }
 
 void WordTopics::addSetpoint(CallbackThreads& lane, DriveIndex drive, const cycle::DriveSetup& setup,

@@ -1,10 +1,12 @@
-// Topics of what users command in the process data beside the velocity: ~<drive>/setpoints/<name>.
+// Topics of what users command in the process data beside the velocity: ~<drive>/setpoints/<name>
+// and, of outputs, ~<drive>/signals/<name>.
 #pragma once
 
 #include <ros/ros.h>
 
 #include <atomic>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "cycle/cycle_config.h"
@@ -24,6 +26,7 @@ class WordTopics {
   std::uint64_t ignored() const noexcept { return ignored_; }
 
  private:
+  void addOutput(CallbackThreads& lane, DriveIndex drive, const std::string& topic, std::size_t index);
   void addSetpoint(CallbackThreads& lane, DriveIndex drive, const cycle::DriveSetup& setup, std::size_t index);
 
   cycle::CyclePorts& ports_;

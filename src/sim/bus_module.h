@@ -66,6 +66,11 @@ class BusModule {
   void setAnswerDelay(Duration delay) noexcept { answer_delay_ = delay; }
   Duration answerDelay() const noexcept { return answer_delay_; }
 
+  /// Its own digital outputs, DO1 in bit 0; 0 where it has none.
+  virtual std::uint8_t outputs() const noexcept { return 0; }
+  /// Its own digital inputs, DI1 in bit 0. False: it has none.
+  virtual bool setInputs(std::uint8_t /*inputs*/) noexcept { return false; }
+
   /// Process data move: in data exchange, operational.
   virtual bool inDataExchange() const noexcept = 0;
   /// Of the module, and of what came for this inverter.

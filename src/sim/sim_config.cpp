@@ -28,14 +28,14 @@ bool isName(const std::string& name) {
 /// The driver's, those of the simulator, and those of every bus: one file serves them all.
 const std::vector<std::string>& driveKeys() {
   static const std::vector<std::string> kKeys = [] {
-    std::vector<std::string> keys{// the driver's
-                                  "address", "series", "joint", "gear_ratio", "pole_pairs", "inverted", "max_frequency",
-                                  "rated_current", "allow_minimum_frequency", "inverter", "max_velocity",
-                                  "min_velocity", "max_acceleration", "min_acceleration", "max_jerk", "min_jerk",
-                                  // the simulator's
-                                  "inertia", "rated_torque", "slip", "load", "viscous", "charging_time", "firmware",
-                                  "parameter_delay", "ram_orders", "double_word_answers",
-                                  "automatic_acknowledgement_delay", "parameters"};
+    std::vector<std::string> keys{
+        // the driver's
+        "address", "series", "joint", "gear_ratio", "pole_pairs", "inverted", "max_frequency", "rated_current",
+        "allow_minimum_frequency", "inverter", "max_velocity", "min_velocity", "max_acceleration", "min_acceleration",
+        "max_jerk", "min_jerk", "setpoints", "signals", "torque_at_limit",
+        // the simulator's
+        "inertia", "rated_torque", "slip", "load", "viscous", "charging_time", "firmware", "parameter_delay",
+        "ram_orders", "double_word_answers", "automatic_acknowledgement_delay", "parameters"};
     for (const BusKind& kind : busKinds()) keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
     return keys;
   }();

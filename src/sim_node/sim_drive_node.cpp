@@ -37,6 +37,7 @@ SimDriveNode::SimDriveNode(ros::NodeHandle& handle, sim::RunningBus& bus, std::s
   serveStation();
   serveParameters();
   serveControl();
+  serveInputs();
 }
 
 template <typename Service>
@@ -178,6 +179,22 @@ void SimDriveNode::serveControl() {
       });
 }
 
+void SimDriveNode::serveInputs() {
+  serve<SimInputs>(
+      "inputs", [](sim::DriveUnit& drive, const SimInputs::Request& request, SimInputs::Response& response) {
+        sim::InverterInputs inputs;
+        inputs.digital_io = request.digital_io;
+        inputs.bus_out_bits = request.bus_out_bits;
+        inputs.bit_10 = request.status_bit_10 != 0;
+        inputs.bit_13 = request.status_bit_13 != 0;
+        inputs.analog = {request.analog_input_1 / 100.0, request.analog_input_2 / 100.0};
+        drive.inverter().setInputs(inputs);
+        const bool taken = drive.module().setInputs(request.module_inputs);
+        response.success = taken || request.module_inputs == 0;
+        return std::string(response.success != 0 ? "inputs are set" : "its bus module has no inputs of its own");
+      });
+}
+
 SimDrive SimDriveNode::truthOf(const sim::DriveUnit& drive) {
   const sim::InverterModel& inverter = drive.inverter();
   const sim::ExchangeCounters counters = drive.counters();
@@ -190,6 +207,10 @@ SimDrive SimDriveNode::truthOf(const sim::DriveUnit& drive) {
   truth.last_control_word_before_loss = counters.control_before_loss;
   truth.status_word_at_loss = counters.status_at_loss;
   truth.setpoint_1 = toSigned(inverter.setpoint1());
+  truth.setpoint_2 = toSigned(inverter.setpoint(1));
+  truth.setpoint_3 = toSigned(inverter.setpoint(2));
+  truth.bus_in_bits = inverter.busInBits();
+  truth.module_outputs = drive.module().outputs();
   truth.parameter_set = static_cast<std::uint8_t>(inverter.parameterSet() + 1);
   truth.frequency = inverter.frequency();
   truth.shaft_velocity = drive.shaftSpeed();

@@ -3,6 +3,7 @@
 
 #include <nord_driver/SimAnswerDelay.h>
 #include <nord_driver/SimDrive.h>
+#include <nord_driver/SimInputs.h>
 #include <nord_driver/SimParameterChannel.h>
 #include <nord_driver/SimSetParameter.h>
 #include <nord_driver/SimTerminals.h>
@@ -21,7 +22,7 @@
 namespace nord_driver::sim_node {
 
 /// Publishes ~truth/<drive>; services ~<drive>/trip, clear_cause, acknowledge, warn, unplug, power_inverter,
-/// power_module, module_link, mute, answer_delay, parameter_channel, local_control, terminals and set_parameter.
+/// power_module, module_link, mute, answer_delay, parameter_channel, local_control, terminals, inputs and set_parameter.
 class SimDriveNode {
  public:
   /// `bus` must outlive it.
@@ -45,6 +46,7 @@ class SimDriveNode {
   void serveStation();
   void serveParameters();
   void serveControl();
+  void serveInputs();
 
   ros::NodeHandle handle_;
   sim::RunningBus& bus_;

@@ -58,6 +58,7 @@ std::string wordOf(const Argument& argument) {
 std::string usageOf(const std::string& program, const Command& command) {
   std::string usage = program + " " + command.name + " [OPTIONS]";
   for (const Argument& argument : command.arguments) usage += " " + wordOf(argument);
+  if (command.more.values != nullptr) usage += " [" + command.more.name + " ...]";
   return usage;
 }
 
@@ -102,7 +103,8 @@ CommandLine::CommandLine(std::string program, std::string version, std::string a
 }
 
 Command& CommandLine::addCommand(const std::string& name, const std::string& about) {
-  return commands_.emplace_back(Command{name, about, {}, po::options_description{"Options", kColumns, kColumns / 2}});
+  return commands_.emplace_back(
+      Command{name, about, {}, po::options_description{"Options", kColumns, kColumns / 2}, {}});
 }
 
 void CommandLine::offer(const std::string& value_name, const std::vector<std::string>& words) {
@@ -119,6 +121,9 @@ ProgramText CommandLine::text() const {
   for (const Command& command : commands_) {
     ProgramCommand listed{command.name, command.about, {}, listOf(command.options)};
     for (const Argument& argument : command.arguments) listed.arguments.push_back({"", argument.name, argument.about});
+    if (command.more.values != nullptr) {
+      listed.arguments.push_back({"", "[" + command.more.name + " ...]", command.more.about});
+    }
     text.commands.push_back(listed);
   }
   text.footer = footer_;
@@ -225,10 +230,17 @@ void CommandLine::store(const std::vector<std::string>& words, const std::vector
     const std::vector<Argument>& expected = chosen_->arguments;
     const std::size_t given = others.size() - 1;
     const std::string usage = ", expected: " + usageOf(program_, *chosen_);
-    if (given < expected.size() && !expected[given].optional)
+    if (given < expected.size() && !expected[given].optional) {
       throw UsageError(expected[given].name + " is missing" + usage);
-    if (given > expected.size()) throw UsageError("\"" + others[expected.size() + 1] + "\" is too much" + usage);
-    for (std::size_t i = 0; i < given; ++i) *expected[i].value = others[i + 1];
+    }
+    const bool takes_more = chosen_->more.values != nullptr;
+    if (given > expected.size() && !takes_more) {
+      throw UsageError("\"" + others[expected.size() + 1] + "\" is too much" + usage);
+    }
+    for (std::size_t i = 0; i < std::min(given, expected.size()); ++i) *expected[i].value = others[i + 1];
+    if (takes_more && given > expected.size()) {
+      chosen_->more.values->assign(others.begin() + 1 + static_cast<std::ptrdiff_t>(expected.size()), others.end());
+    }
   }
   po::notify(values);
 }
@@ -238,7 +250,8 @@ std::string CommandLine::help() const {
   if (chosen_ != nullptr) {
     text << chosen_->about << "\nUsage: " << usageOf(program_, *chosen_) << "\n\n";
     for (const Argument& argument : chosen_->arguments) text << listed(argument.name, argument.about);
-    if (!chosen_->arguments.empty()) text << "\n";
+    if (chosen_->more.values != nullptr) text << listed(chosen_->more.name, chosen_->more.about);
+    if (!chosen_->arguments.empty() || chosen_->more.values != nullptr) text << "\n";
     if (!chosen_->options.options().empty()) text << chosen_->options << "\n";
     text << options_;
     return text.str();

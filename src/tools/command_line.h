@@ -35,12 +35,20 @@ struct Argument {
   bool optional = false;  ///< may be left out; those after it, too
 };
 
+/// Words that may follow the arguments of a command, as many as one likes.
+struct MoreArguments {
+  std::string name;  ///< in capitals, as --help shows it
+  std::string about;
+  std::vector<std::string>* values = nullptr;  ///< nullptr: there are none
+};
+
 /// What a program can be asked for by name, with the words and the options that belong to it.
 struct Command {
   std::string name;
   std::string about;
   std::vector<Argument> arguments;
   boost::program_options::options_description options{"Options"};
+  MoreArguments more = {};
 };
 
 class CommandLine {

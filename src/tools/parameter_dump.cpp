@@ -124,6 +124,16 @@ Dump readDump(const std::string& file) {
   }
 }
 
+Dump dumpFrom(const std::string& text, const std::string& name) {
+  try {
+    return parse(YAML::Load(text));
+  } catch (const YAML::Exception& error) {
+    throw UsageError(name + " is no dump of nord_param: " + error.what());
+  } catch (const UsageError& error) {
+    throw UsageError(name + " is no dump of nord_param: " + error.what());
+  }
+}
+
 Comparison compare(DriveParameters& drive, const Dump& dump, const std::atomic<bool>& end_asked) {
   const profile::Series series = drive.series();
   if (dump.series != series) {

@@ -30,6 +30,8 @@ std::string dumpText(const Dump& dump, const catalogue::DriveCatalogue& known, c
                      const std::string& address);
 /// The other way round. Throws UsageError naming the file and what was expected.
 Dump readDump(const std::string& file);
+/// The same of a text; `name`: what a refusal calls it.
+Dump dumpFrom(const std::string& text, const std::string& name);
 
 struct Comparison {
   std::vector<std::string> differences;  ///< one sentence each

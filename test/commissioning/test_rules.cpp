@@ -51,6 +51,21 @@ void typed60(AskedDrive& asked) {
 void ratedCurrent(AskedDrive& asked) {
   asked.rated_current = 3.5;
 }
+void limitsTorque(AskedDrive& asked) {
+  asked.words.words = 3;
+  asked.words.list.push_back({false, profile::WordUse::kTorqueLimit});
+}
+void limitsTorqueAndCurrent(AskedDrive& asked) {
+  limitsTorque(asked);
+  asked.words.list.push_back({false, profile::WordUse::kCurrentLimit});
+}
+void measuresTorque(AskedDrive& asked) {
+  asked.words.words = 3;
+  asked.words.list.push_back({true, profile::WordUse::kTorqueCurrent});
+}
+void mayMove(AskedDrive& asked) {
+  asked.may_move_bits = {2};
+}
 void slowBus(AskedDrive& asked) {
   asked.identity.worst_cycle = 0.6;
 }
@@ -105,6 +120,16 @@ const std::vector<Row>& rows() {
 
       {"torque limit", kSeparate, leave, {{{547, 1, 0}, 2}}, {"further_setpoints error P547 set 1 -> 0"}},
       {"frequency addition", kSeparate, leave, {{{548, 1, 0}, 4}}, {"further_setpoints warning P548 set 1 -> 0"}},
+      {"torque limit commanded", kSeparate, limitsTorque, {{{547, 1, 0}, 2}}, {}},
+      {"in the other word", kSk511, limitsTorque, {{{548, 1, 0}, 2}}, {}},
+      {"nothing carries it", kSk511, limitsTorque, {}, {"asked_words error P547 set 1 -> 2"}},
+      {"two that nothing carries",
+       kSk511,
+       limitsTorqueAndCurrent,
+       {},
+       {"asked_words error P547 set 1 -> 2", "asked_words error P548 set 1 -> 6"}},
+      {"nothing carries it", kDecentral, limitsTorque, {}, {"asked_words error P546[-02] set 1 -> 11"}},
+      {"no torque current", kSk511, measuresTorque, {{{544, 1, 0}, 0}}, {"asked_words error P544 set 1 -> 4"}},
       {"not carried", kSeparate, onePair, {{{548, 1, 0}, 4}}, {}},
       {"torque limit", kDecentral, leave, {{{546, 1, 2}, 11}}, {"further_setpoints error P546[-02] set 1 -> 0"}},
       {"no current", kSeparate, ratedCurrent, {{{544, 1, 0}, 4}}, {"current note P544 set 1 -> 3"}},
@@ -142,6 +167,7 @@ const std::vector<Row>& rows() {
        leave,
        {{{480, 0, 1}, 1}, {{480, 0, 8}, 2}, {{480, 0, 3}, 5}},
        {"bus_bits warning P480[-01] -> 0", "bus_bits warning P480[-08] -> 0"}},
+      {"accepted with may_move", kAll, mayMove, {{{480, 0, 2}, 1}}, {"bus_bits note P480[-02]"}},
       {"enable by a control bit", kArrays, leave, {{{480, 0, 11}, 2}}, {"bus_bits warning P480[-11] -> 0"}},
       {"not saved", kAll, leave, {{{560}, 0}}, {"writes_saved warning P560 -> 1"}},
   };
@@ -229,6 +255,16 @@ TEST(Rules, TellWhatCouldNotBeRead) {
     EXPECT_THAT(shortly(check(drives)), ElementsAre("readable warning P509", "readable warning P104 set 1"))
         << profile::toString(series);
   }
+}
+
+TEST(Rules, MissNoMaximumThatIsTypedIn) {
+  AskedDrive asked = askedDrive(Series::kSk5xxe);
+  const catalogue::DriveCatalogue& known = knownOf(asked);
+  CommissioningFacts facts = rightFacts(asked, known);
+  facts.storeUnreadable({105, 1, 0});
+  EXPECT_THAT(shortly(check({{asked, known, facts, 1}})), ElementsAre("readable warning P105 set 1"));
+  asked.typed_max_frequency = 50.0;
+  EXPECT_THAT(check({{asked, known, facts, 1}}), IsEmpty());
 }
 
 // A technician looks it up.

@@ -1,8 +1,7 @@
-// What decides on the behaviour of a Drive and of a DriveGroup, as bytes of a key.
+// What decides on the behaviour of a Drive, as bytes of a key.
 #pragma once
 
 #include "drive/drive.h"
-#include "drive/drive_group.h"
 #include "explore/explorer.h"
 #include "explore/private_member.h"
 
@@ -20,20 +19,9 @@ NORD_EXPLORE_MEMBER(edgeSinceOf, drive::AcknowledgeEdge, since_)
 NORD_EXPLORE_MEMBER(lastToldOf, drive::MissingInverter, last_told_)
 NORD_EXPLORE_MEMBER(moduleBackOf, drive::MissingInverter, module_back_)
 
-NORD_EXPLORE_MEMBER(membersOf, drive::DriveGroup, members_)
-NORD_EXPLORE_MEMBER(groupReportOf, drive::DriveGroup, report_)
-NORD_EXPLORE_MEMBER(groupPhaseSinceOf, drive::DriveGroup, phase_since_)
-NORD_EXPLORE_MEMBER(downSinceOf, drive::DriveGroup, down_since_)
-NORD_EXPLORE_MEMBER(zeroSinceOf, drive::DriveGroup, zero_since_)
-NORD_EXPLORE_MEMBER(haltingSpeedOf, drive::DriveGroup, halting_speed_)
-NORD_EXPLORE_MEMBER(slowerSinceOf, drive::DriveGroup, slower_since_)
-NORD_EXPLORE_MEMBER(setpointIsZeroOf, drive::DriveGroup, setpoint_is_zero_)
-NORD_EXPLORE_MEMBER(zeroSeenOf, drive::DriveGroup, zero_seen_)
-NORD_EXPLORE_MEMBER(followedOf, drive::DriveGroup, followed_)
-
 /// One tick is a bus cycle, and all time-outs are a few of them: the order of events and of time-outs is what counts.
 constexpr Duration kTick = std::chrono::milliseconds{10};
-constexpr int kDriveTimeout = 1, kEnableTimeout = 3, kShutdownTimeout = 4, kAcknowledgeTime = 1;
+constexpr int kDriveTimeout = 1, kEnableTimeout = 3, kShutdownTimeout = 3, kAcknowledgeTime = 1;
 
 inline drive::DriveConfig driveConfig() {
   drive::DriveConfig config;

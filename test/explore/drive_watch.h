@@ -33,6 +33,8 @@ class DriveWatch {
     quick_stop_due_ = true;
   }
   void acknowledged() { fault_seen_ = false; }
+  /// "operation enabled" was reached, and nothing has ended it.
+  bool runs() const { return permit_ == Permit::kRunning; }
 
   /// A telegram to the drive. `online`: it is heard.
   void checkOutput(const profile::ProcessOutput& output, bool online, Verdict& verdict) {
@@ -61,8 +63,8 @@ class DriveWatch {
     silent_ = 0;
     if (fault_now_ || !status.busControl() || status.parameterSet() != set_sent_) return stopped();
     const DriveState state = status.state();
-    const bool upwards =
-        state == DriveState::kReadyToSwitchOn || state == DriveState::kSwitchedOn || state == DriveState::kOperationEnabled;
+    const bool upwards = state == DriveState::kReadyToSwitchOn || state == DriveState::kSwitchedOn ||
+                         state == DriveState::kOperationEnabled;
     if (permit_ == Permit::kRunning && !(rests_ ? upwards : state == DriveState::kOperationEnabled)) return stopped();
     if (permit_ != Permit::kEnabling) return;
     if (enable_sent_ && !upwards) return stopped();

@@ -26,6 +26,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/timer_table.h"
 #include "nord_driver/core/time.h"
 
 namespace nord_driver::explore {
@@ -63,6 +64,15 @@ class Verdict {
 inline std::uint8_t ticks(Instant since, Instant now, Duration tick, int most) {
   const Duration::rep passed = (now - since) / tick;
   return static_cast<std::uint8_t>(std::clamp<Duration::rep>(passed, 0, most));
+}
+
+/// How much of each deadline is left, at most `most` ticks.
+template <typename Timer>
+void describeTimers(const TimerTable<Timer>& timers, Instant now, Duration tick, int most, Key& key) {
+  for (std::uint8_t i = 0; i < static_cast<std::uint8_t>(Timer::kCount); ++i) {
+    const auto& at = timers.at(static_cast<Timer>(i));
+    key.add(at ? ticks(now, *at, tick, most) : std::uint8_t{255});
+  }
 }
 
 template <typename Model>

@@ -118,5 +118,20 @@ TEST(RequestBrokerTest, NumbersAreNeverZero) {
   }
 }
 
+// With a minute of patience, and nobody in the place of the cycle.
+TEST(RequestBrokerTest, WhoWaitsIsAnsweredWhenTheCycleHasEnded) {
+  cycle::CyclePorts ports{1};
+  RequestBroker broker{ports};
+  cycle::Completion answer;
+  std::thread caller{[&] { answer = broker.call(request(0, std::chrono::minutes{1})); }};
+  while (!ports.pollRequest()) std::this_thread::yield();
+  const auto asked = std::chrono::steady_clock::now();
+  broker.end();
+  caller.join();
+  EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::seconds{30});
+  EXPECT_STREQ("the node is ending", answer.message.c_str());
+  EXPECT_STREQ("the node is ending", broker.call(request(0)).message.c_str());
+}
+
 }  // namespace
 }  // namespace nord_driver::node

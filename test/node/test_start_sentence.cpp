@@ -22,6 +22,16 @@ TEST(StartSentence, NamesTransportBusAndDrives) {
             startSentence(config, identitiesOf(config), "/dev/ttyUSB0"));
 }
 
+TEST(StartSentence, SaysThatItWillAcknowledge) {
+  XmlRpc::XmlRpcValue value = robotParameters();
+  value["acknowledge_at_start"] = std::string{"bus_timeouts"};
+  const NodeConfig config = readNodeConfig(RosSettings{"~", value});
+  EXPECT_EQ(
+      "transport profibus_dp, 2 drives: left (station 3), right (station 4), base differential, bus time-outs (E10) "
+      "found at start are acknowledged (acknowledge_at_start)",
+      startSentence(config, identitiesOf(config), ""));
+}
+
 TEST(StartSentence, ATransportThatOpensNothingIsNowhere) {
   XmlRpc::XmlRpcValue value;
   value["transport"] = std::string{"my_package/my_card"};

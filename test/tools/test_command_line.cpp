@@ -131,6 +131,19 @@ TEST_F(CommandLineTest, AnUnknownCommandIsToldBeforeItsOptions) {
 }
 
 // An option of another command, an abbreviation and a short option are not known either.
+TEST_F(CommandLineTest, ACommandMayTakeAsManyWordsAsThereAre) {
+  std::vector<std::string> drives;
+  Command& look = line_.addCommand("look", "look at drives");
+  look.more = {"DRIVE", "which of them", &drives};
+  EXPECT_EQ(std::nullopt, parse({"--config", "a", "look", "left", "--timeout", "2", "right"}));
+  EXPECT_TRUE(line_.asksFor(look));
+  EXPECT_THAT(drives, ElementsAre("left", "right"));
+  EXPECT_EQ(std::nullopt, parse({"--config", "a", "look"}));
+  EXPECT_THAT(drives, IsEmpty());
+  EXPECT_EQ(kDone, parse({"look", "--help"}));
+  EXPECT_THAT(output_, HasSubstr("Usage: tool look [OPTIONS] [DRIVE ...]\n\n  DRIVE       which of them\n\n"));
+}
+
 TEST_F(CommandLineTest, NamesWhatIsTooMuch) {
   EXPECT_EQ("\"turn\" is no command, expected one of show, change", refusal({"--config", "a", "turn"}));
   EXPECT_EQ("\"x\" is too much, expected: tool show [OPTIONS] DRIVE", refusal({"--config", "a", "show", "left", "x"}));

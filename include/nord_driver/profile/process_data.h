@@ -16,6 +16,9 @@ constexpr std::size_t kMaxProcessValues = 3;
 struct ProcessOutput {
   Word control_word = 0;
   std::array<std::int16_t, kMaxProcessValues> setpoints{};
+  /// Of the bus module in front of the inverter: its digital outputs, DO1 in bit 0. A module that several inverters
+  /// share has those of any of them on. Ignored where the bus does not carry them (DriveIdentity::module_io).
+  std::uint8_t module_outputs = 0;
 };
 
 /// Status word and actual values IW1..IW3 in the manual's order.
@@ -26,7 +29,7 @@ struct ProcessInput {
 
 constexpr bool operator==(const ProcessOutput& a, const ProcessOutput& b) noexcept {
   return a.control_word == b.control_word && a.setpoints[0] == b.setpoints[0] && a.setpoints[1] == b.setpoints[1] &&
-         a.setpoints[2] == b.setpoints[2];
+         a.setpoints[2] == b.setpoints[2] && a.module_outputs == b.module_outputs;
 }
 constexpr bool operator==(const ProcessInput& a, const ProcessInput& b) noexcept {
   return a.status_word == b.status_word && a.actual_values[0] == b.actual_values[0] &&

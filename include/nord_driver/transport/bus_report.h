@@ -46,6 +46,8 @@ struct DriveIdentity {
   std::uint8_t inverter = 1;  ///< 1..4 behind a bus module that serves several
   /// Drives with the same number are behind the same bus module; nothing: this one has a module of its own.
   std::optional<std::size_t> shared_module = std::nullopt;
+  /// Digital outputs and inputs of the bus module itself travel with its process data.
+  bool module_io = false;
   /// The longest cycle there may be, with one slave silent: a time-out that stops a drive must be longer. 0: not known.
   double worst_cycle = 0.0;
 };

@@ -27,7 +27,8 @@ struct DriveExchange {
   bool inverter_answers = false;  ///< ... and the inverter behind it is on: `input` is fresh
   /// In this cycle, said once, also when data are exchanged again already.
   Interruption interruption = Interruption::kNone;
-  bool inverter_missing = false;  ///< the bus module answers, and the inverter behind it does not: it hears nothing
+  std::uint8_t module_inputs = 0;  ///< digital inputs of its bus module, DI1 in bit 0; fresh with `module_answers`
+  bool inverter_missing = false;   ///< the bus module answers, and the inverter behind it does not: it hears nothing
 };
 
 /// Called by the thread of the bus cycle alone. Nothing throws; after the first cycles nothing allocates.

@@ -62,9 +62,12 @@ class DnModule final : public BusModule, private DnObjects {
   DnIdentity& identity() noexcept { return settings_.identity; }
   /// As the connection that runs has it, else as the next one would.
   DnLayout layout() const noexcept;
-  void setInputs(std::uint8_t inputs) noexcept { process_.setInputs(inputs); }
+  bool setInputs(std::uint8_t inputs) noexcept override {
+    process_.setInputs(inputs);
+    return true;
+  }
   /// DO1 and DO2 in bits 0 and 1: by the bus, by P150, 0 in a time-out.
-  std::uint8_t outputs() const noexcept;
+  std::uint8_t outputs() const noexcept override;
   /// Allocations are answered with this error instead of being made; nullopt ends it.
   void refuseAllocation(const std::optional<DnAllocation>& refusal) noexcept { refused_allocation_ = refusal; }
   /// In the time-out: until the cause is gone and every inverter there is acknowledged.

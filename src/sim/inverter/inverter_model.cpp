@@ -154,7 +154,10 @@ void InverterModel::follow(double dt) noexcept {
 
 double InverterModel::setpointFrequency() const noexcept {
   const double maximum = parameters_.scaled(105, set_);
-  double share = busSetpoint() ? busShare() : maximum > 0.0 ? terminals_.frequency / maximum : 0.0;
+  double share = busBitsEnable() && maximum > 0.0 ? busBitFrequency() / maximum
+                 : busSetpoint()                  ? busShare()
+                 : maximum > 0.0                  ? terminals_.frequency / maximum
+                                                  : 0.0;
   // Bit 11 beats bit 12; both 0 is right (6.4.1 note 3).
   const bool left = busControl() && (data_.control & stw::kLeft) != 0 && (data_.control & stw::kRight) == 0;
   share = std::clamp(left ? -share : share, -1.0, 1.0);
@@ -190,6 +193,7 @@ Word InverterModel::command() const noexcept {
   unsigned word = busControl()        ? data_.control
                   : terminals_.enable ? kAllOn
                                       : kAllOn & ~(stw::kOn | stw::kEnableOperation);
+  if (busBitsEnable()) word |= kAllOn;
   if (terminals_.coast) word &= ~unsigned{stw::kNoOff2};
   if (terminals_.quick_stop) word &= ~unsigned{stw::kNoOff3};
   return static_cast<Word>(word);
@@ -240,6 +244,7 @@ void InverterModel::setPowered(bool on) noexcept {
 void InverterModel::receive(const ProcessData& data) noexcept {
   if (!powered() || link_broken_ || (data.control & stw::kDataValid) == 0) return;
   const Word before = commanded_ ? data_.control : Word{0};
+  const bool bit_before = busBitsAcknowledge();
   data_ = data;
   commanded_ = true;
   since_valid_ = 0.0;
@@ -249,7 +254,7 @@ void InverterModel::receive(const ProcessData& data) noexcept {
   const bool edge = (before & stw::kAcknowledge) == 0 && (data.control & stw::kAcknowledge) != 0;
   // Taking the enable away acknowledges too, unless an input has the function (BU 0020 8, BU 2700 8.2).
   const bool enable_dropped = (before & kEnable) == kEnable && (data.control & kEnable) != kEnable;
-  if (edge || (enable_dropped && !inputAcknowledges())) acknowledge();
+  if (edge || (!bit_before && busBitsAcknowledge()) || (enable_dropped && !inputAcknowledges())) acknowledge();
 }
 
 void InverterModel::selectParameterSet(unsigned set) noexcept {

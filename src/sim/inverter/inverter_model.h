@@ -81,6 +81,15 @@ struct Terminals {
   bool quick_stop = false;  ///< an input "quick stop" is low
 };
 
+/// What the inverter shows of its inputs and of its own messages, as somebody has switched it.
+struct InverterInputs {
+  Word digital_io = 0;             ///< "digital I/O status" as it travels: inputs from bit 0, relays from bit 12
+  std::uint8_t bus_out_bits = 0;   ///< bus I/O out bits 0 to 7
+  bool bit_10 = false;             ///< of the status word, by P481 [-09]
+  bool bit_13 = false;             ///< of the status word, by P481 [-10]
+  std::array<double, 2> analog{};  ///< 1 is 100 %
+};
+
 class InverterModel {
  public:
   /// Both must outlive the model.
@@ -119,16 +128,21 @@ class InverterModel {
   void setLocalControl(bool on, double setpoint_hz) noexcept;
   void setTerminals(const Terminals& terminals) noexcept { terminals_ = terminals; }
   const Terminals& terminals() const noexcept { return terminals_; }
+  void setInputs(const InverterInputs& inputs) noexcept { inputs_ = inputs; }
+  const InverterInputs& inputs() const noexcept { return inputs_; }
+  /// As the words that carry them say it.
+  std::uint8_t busInBits() const noexcept;
 
   Word statusWord() const noexcept;
   /// Actual value 1-3 (`n` = 0-2) by the function in P543-P545.
   Word actualValue(unsigned n) const noexcept;
 
   InverterState state() const noexcept { return state_; }
-  double frequency() const noexcept { return frequency_; }        ///< output frequency, Hz, signed
-  unsigned parameterSet() const noexcept { return set_; }         ///< 0-3
-  std::uint16_t faultNumber() const noexcept { return fault_; }   ///< 0 = none
-  Word setpoint1() const noexcept { return data_.setpoints[0]; }  ///< the last valid one
+  double frequency() const noexcept { return frequency_; }                 ///< output frequency, Hz, signed
+  unsigned parameterSet() const noexcept { return set_; }                  ///< 0-3
+  std::uint16_t faultNumber() const noexcept { return fault_; }            ///< 0 = none
+  Word setpoint1() const noexcept { return data_.setpoints[0]; }           ///< the last valid one
+  Word setpoint(unsigned n) const noexcept { return data_.setpoints[n]; }  ///< 0 to 2
   std::uint16_t warning() const noexcept { return warning_; }
   /// Why it cannot be switched on: one of `block`.
   std::uint16_t switchOnBlock() const noexcept;
@@ -154,6 +168,10 @@ class InverterModel {
   Word command() const noexcept;
   double setpointFrequency() const noexcept;
   double busShare() const noexcept;
+  bool busBitIs(std::int32_t function) const noexcept;
+  bool busBitsEnable() const noexcept;
+  bool busBitsAcknowledge() const noexcept;
+  double busBitFrequency() const noexcept;
   std::int32_t busFunction(unsigned first_number, unsigned n) const noexcept;
   Word functionValue(std::int32_t function) const noexcept;
 
@@ -172,6 +190,7 @@ class InverterModel {
 
   bool local_ = false;
   Terminals terminals_;
+  InverterInputs inputs_;
 
   std::uint16_t fault_ = 0;
   std::uint16_t warning_ = 0;

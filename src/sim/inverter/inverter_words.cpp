@@ -66,6 +66,8 @@ Word InverterModel::statusWord() const noexcept {
   if (!off2) word |= zsw::kNoOff2;
   if (!off3) word |= zsw::kNoOff3;
   if (warning_ != 0) word |= zsw::kWarning;
+  if (inputs_.bit_10) word |= zsw::kBit10;
+  if (inputs_.bit_13) word |= zsw::kBit13;
   if (frequency_ == target_) word |= zsw::kSetpointReached;
   if (busControl()) word |= zsw::kBusControl;
   word |= frequency_ < 0.0 ? zsw::kLeft : zsw::kRight;  // at rest "right": 0B31
@@ -96,11 +98,19 @@ Word InverterModel::functionValue(std::int32_t function) const noexcept {
     case 4:
       share = motor_.torqueShare() * 100.0 / parameters_.scaled(112, set_);
       break;
+    case 5:
+      return inputs_.digital_io;
     case 8:
       share = target_ / maximum;
       break;
     case 9:
       return fault_;
+    case 12:
+      return inputs_.bus_out_bits;
+    case 17:
+    case 18:
+      if (!parameters_.device().isOlderSeries()) share = inputs_.analog[function == 17 ? 0 : 1];
+      break;
     default:
       break;
   }

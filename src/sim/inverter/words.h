@@ -15,6 +15,8 @@ constexpr Word kRampEnable = 1u << 4;      ///< 0: ramp generator set to zero
 constexpr Word kRampRun = 1u << 5;         ///< 0: frequency held
 constexpr Word kSetpointEnable = 1u << 6;  ///< 0: setpoint zero
 constexpr Word kAcknowledge = 1u << 7;
+constexpr Word kBit8 = 1u << 8;  ///< P480 [-11]
+constexpr Word kBit9 = 1u << 9;  ///< P480 [-12]
 constexpr Word kDataValid = 1u << 10;
 constexpr Word kRight = 1u << 11;
 constexpr Word kLeft = 1u << 12;
@@ -32,8 +34,10 @@ constexpr Word kSwitchOnDisabled = 1u << 6;
 constexpr Word kWarning = 1u << 7;
 constexpr Word kSetpointReached = 1u << 8;
 constexpr Word kBusControl = 1u << 9;
+constexpr Word kBit10 = 1u << 10;  ///< P481 [-09]
 constexpr Word kRight = 1u << 11;
 constexpr Word kLeft = 1u << 12;
+constexpr Word kBit13 = 1u << 13;  ///< P481 [-10]
 constexpr unsigned kParameterSetShift = 14;
 }  // namespace zsw
 

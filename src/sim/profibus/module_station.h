@@ -23,8 +23,11 @@ class ModuleStation final : public DpStation, private RecordDevices {
   ExchangeCounters countersOf(unsigned place) const noexcept override;
 
   /// DO1 and DO2 in bits 0 and 1: by the bus, by P150, 0 in a time-out.
-  std::uint8_t outputs() const noexcept;
-  void setInputs(std::uint8_t inputs) noexcept { settings_.inputs = inputs & 0x0Fu; }
+  std::uint8_t outputs() const noexcept override;
+  bool setInputs(std::uint8_t inputs) noexcept override {
+    settings_.inputs = inputs & 0x0Fu;
+    return true;
+  }
   /// In the time-out: until the cause is gone and every inverter there is acknowledged (BU 0220 4.2.3.2).
   bool timedOut() const noexcept { return timed_out_; }
   ParameterStore& parameters() noexcept { return parameters_; }

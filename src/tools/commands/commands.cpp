@@ -12,6 +12,7 @@ std::vector<std::unique_ptr<ParamCommand>> paramCommands() {
   commands.push_back(makeDiffCommand());
   commands.push_back(makeRestoreCommand());
   commands.push_back(makeFaultsCommand());
+  commands.push_back(makeCheckCommand());
   commands.push_back(makeImageCommand());
   commands.push_back(makeCheckConfigCommand());
   return commands;

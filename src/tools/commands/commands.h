@@ -20,6 +20,7 @@ std::unique_ptr<ParamCommand> makeDiffCommand();
 std::unique_ptr<ParamCommand> makeRestoreCommand();
 std::unique_ptr<ParamCommand> makeFaultsCommand();
 std::unique_ptr<ParamCommand> makeImageCommand();
+std::unique_ptr<ParamCommand> makeCheckCommand();
 std::unique_ptr<ParamCommand> makeCheckConfigCommand();
 
 }  // namespace nord_driver::tools

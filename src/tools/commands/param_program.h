@@ -54,8 +54,8 @@ class ParamProgram {
   catalogue::Catalogues cataloguesFor(const ToolConfig& config) const;
 
   /// Opens the bus, does the task with the drive of that name, and closes the bus. `prepare` makes the task of what is
-  /// known of the drive, and tells what is wrong already there: that reaches no bus. Returns the exit code. May be called
-  /// for one drive after the other.
+  /// known of the drive, and tells what is wrong already there: that reaches no bus. May be called for one drive after
+  /// the other. Returns the exit code.
   int onDrive(const std::string& drive, const std::function<DriveTask(const catalogue::DriveCatalogue&)>& prepare);
 
  private:

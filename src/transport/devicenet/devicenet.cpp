@@ -80,13 +80,28 @@ void DeviceNetTransport::putOutputs(const std::vector<profile::ProcessOutput>& o
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     drives_[i].putOutput(outputs[i], *scanner_, outputs_[config_.drives[i].module]);
   }
+  for (DriveIndex i = 0; i < drives_.size(); ++i) putModuleOutputs(config_.drives[i].module, outputs[i].module_outputs);
   for (std::size_t i = 0; i < outputs_.size(); ++i) scanner_->setOutput(i, outputs_[i]);
   for (DriveIndex i = 0; i < drives_.size(); ++i) answered_[i] = scanner_->input(config_.drives[i].module).count;
 }
 
+// Instance 100 and its like: bits 0 and 1 of the first byte (BU 0280 4.2.4).
+void DeviceNetTransport::putModuleOutputs(std::size_t module, std::uint8_t bits) noexcept {
+  constexpr unsigned kOutputs = 0x03;
+  if (!config_.modules[module].output_byte || outputs_[module].empty()) return;
+  outputs_[module][0] = static_cast<std::uint8_t>(outputs_[module][0] | (bits & kOutputs));
+}
+
 void DeviceNetTransport::takeInputs(Instant now, std::vector<DriveExchange>& inputs) noexcept {
   const bool works = busWorks();
-  for (DriveIndex i = 0; i < drives_.size(); ++i) drives_[i].takeInput(*scanner_, works, now, inputs[i]);
+  constexpr unsigned kInputs = 0x0F;
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    drives_[i].takeInput(*scanner_, works, now, inputs[i]);
+    const std::size_t module = config_.drives[i].module;
+    const devicenet::IoInput& data = scanner_->input(module);
+    if (!inputs[i].module_answers || !config_.modules[module].input_byte || data.bytes.empty()) continue;
+    inputs[i].module_inputs = static_cast<std::uint8_t>(data.bytes[0] & kInputs);
+  }
 }
 
 bool DeviceNetTransport::allAnswered() const noexcept {
@@ -206,6 +221,7 @@ DriveIdentity DeviceNetTransport::identity(DriveIndex drive) const {
   if (config.drive_profile != DevicenetProfile::kNord) identity.address += ", AC drive profile";
   identity.process_values = config.processValues();
   identity.parameter_channel = "explicit messages";
+  identity.module_io = config_.modules[config.module].output_byte && config_.modules[config.module].input_byte;
   if (!parametersOnly()) {
     const double rate = toSeconds(io.expected_packet_rate.value_or(Duration::zero()));
     identity.protection_time = kRatesUntilTimeout * rate;

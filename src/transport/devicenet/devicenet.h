@@ -53,6 +53,7 @@ class DeviceNetTransport final : public CanTransport {
   void restartDrives() noexcept override;
   void handleGone() noexcept override;
   void handleController(bool works) noexcept override;
+  void putModuleOutputs(std::size_t module, std::uint8_t bits) noexcept;
   bool busWorks() const noexcept;
   Sentence silenceText() const noexcept;
 

@@ -58,7 +58,7 @@ struct DevicenetDrive : DriveCommon {
 struct DevicenetModule {
   std::uint8_t mac = 0;
   unsigned assembly = 100;          ///< the output instance: 20, 21, 100, 101, 102, 120
-  bool output_byte = false;         ///< the module's own byte is the first of the outputs. It is held at 0
+  bool output_byte = false;         ///< the module's own byte is the first of the outputs
   bool input_byte = false;          ///< ... of the inputs
   std::vector<std::size_t> drives;  ///< indices into `drives`
 };

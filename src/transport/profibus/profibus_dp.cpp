@@ -17,6 +17,7 @@ namespace {
 constexpr Duration kReopenInterval = std::chrono::milliseconds{500};
 constexpr Duration kScanSlice = std::chrono::milliseconds{50};  // of one exchange()
 constexpr Duration kToldFor = std::chrono::seconds{10};
+constexpr unsigned kModuleOutputs = 0x03, kModuleInputs = 0x0F;  // DO1, DO2 and DI1 to DI4: BU 0220 4.2.2.4
 
 // The manual wants an order repeated until it is answered (BU 2700 6.5); a healthy inverter takes a few cycles.
 Duration answerTimeout(double cycle_rate) {
@@ -150,7 +151,13 @@ bool ProfibusDpTransport::mayBeSynchronised(const std::vector<profile::ProcessOu
 void ProfibusDpTransport::putOutputs(std::size_t station, const std::vector<profile::ProcessOutput>& outputs) noexcept {
   FixedBytes<profibus::kMaxIoLength> bytes;
   ByteWriter<profibus::kMaxIoLength> writer{bytes};
-  if (config_.stations[station].io_byte) writer.u8(0);  // its digital outputs stay off
+  if (config_.stations[station].io_byte) {  // BU 0220 4.2.2.4
+    std::uint8_t module_outputs = 0;
+    for (const std::size_t drive : config_.stations[station].drives) {
+      module_outputs = static_cast<std::uint8_t>(module_outputs | (outputs[drive].module_outputs & kModuleOutputs));
+    }
+    writer.u8(module_outputs);
+  }
   for (const std::size_t drive : config_.stations[station].drives) {
     const profile::PpoLayout& layout = config_.drives[drive].ppo;
     profile::PkwWords pkw{};
@@ -174,6 +181,9 @@ void ProfibusDpTransport::takeInputs(std::size_t station, std::vector<DriveExcha
     const std::size_t place = drives_[drive].place;
     inputs[drive] = {};
     if (answers) takeInverter(drive, master_->inputs(station), inputs[drive], pkw[place]);
+    const ByteView own = master_->inputs(station);
+    if (answers && config_.stations[station].io_byte && !own.empty())
+      inputs[drive].module_inputs = own[0] & kModuleInputs;
     // A module with its own 24 V supply answers for an inverter that is off, with zeros (BU 0020 2.1.3).
     useful[place] = answers && profile::StatusWord{inputs[drive].input.status_word}.isUseful();
   }
@@ -342,6 +352,7 @@ DriveIdentity ProfibusDpTransport::identity(DriveIndex drive) const {
   }
   identity.inverter = config.inverter;
   identity.process_values = config.ppo.process_values;
+  identity.module_io = config_.stations[config.slave].io_byte;
   identity.parameter_channel = config.ppo.has_pkw                  ? "PKW"
                                : config_.slaves[config.slave].dpv1 ? "DP-V1 records"
                                                                    : "none";

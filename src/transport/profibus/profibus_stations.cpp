@@ -7,6 +7,7 @@
 #include "config/setting_checks.h"
 #include "config/setting_note.h"
 #include "profibus/configuration_bytes.h"
+#include "transport/module_signals.h"
 
 namespace nord_driver {
 
@@ -73,6 +74,7 @@ Plan readPlan(const DriveSettings& source, ProfibusUse use) {
   plan.address = readAddress(source, plan.drive, use);
   plan.ppo_type = static_cast<std::uint8_t>(integerOr(settings, "ppo_type", 1, 1, 4));
   plan.io_byte = settings.boolean("io_byte");
+  if (!plan.io_byte && usesModuleSignals(settings)) plan.io_byte = true;
   plan.user_parameters = settings.text("user_parameters");
   plan.gsd = settings.text("gsd");
   if (plan.module == ProfibusModule::kSkTu3) {

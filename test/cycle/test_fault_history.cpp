@@ -1,0 +1,120 @@
+// What the inverter remembers of its faults (P701), read once when it has a new one.
+#include <gtest/gtest.h>
+
+#include "cycle/fault_history.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using profile::ParameterOutcome;
+using profile::ParameterResult;
+
+constexpr std::uint16_t kUnknown = 65535, kMotorHot = 21;
+
+class FaultHistoryTest : public ::testing::Test {
+ protected:
+  /// The element that is asked for; 0: none.
+  int poll() {
+    const auto request = reader_.pollRequest();
+    if (!request) return 0;
+    EXPECT_EQ(701, request->number);
+    EXPECT_EQ(profile::ParameterShape::kArray, request->shape);
+    EXPECT_EQ(profile::ParameterAction::kRead, request->action);
+    return request->index;
+  }
+  void answer(std::int32_t raw) {
+    ParameterResult result;
+    result.outcome = ParameterOutcome::kDone;
+    result.raw = raw;
+    reader_.handleResult(result);
+  }
+  void fail(ParameterOutcome outcome) {
+    ParameterResult result;
+    result.outcome = outcome;
+    reader_.handleResult(result);
+  }
+  /// All five elements, the first of them `first`.
+  void readAll(std::int32_t first) {
+    for (int i = 1; i <= 5; ++i) {
+      ASSERT_EQ(i, poll());
+      EXPECT_FALSE(reader_.history().asked);
+      answer(i == 1 ? first : 102);
+    }
+  }
+
+  FaultHistoryReader reader_;
+};
+
+TEST_F(FaultHistoryTest, IsReadOnceWhenTheNumberIsKnown) {
+  reader_.handleFault(false, 0);
+  EXPECT_EQ(0, poll());
+  reader_.handleFault(true, kUnknown);
+  EXPECT_EQ(0, poll()) << "the inverter may not have filled it in yet";
+  reader_.handleFault(true, kMotorHot);
+  readAll(kMotorHot);
+  EXPECT_TRUE(reader_.history().asked);
+  ASSERT_EQ(5u, reader_.history().numbers.size());
+  EXPECT_EQ(kMotorHot, reader_.history().numbers[0]);
+  EXPECT_EQ(102, reader_.history().numbers[4]);
+  reader_.handleFault(true, kMotorHot);
+  reader_.handleFault(false, kMotorHot);
+  EXPECT_EQ(0, poll());
+  reader_.handleFault(true, kUnknown);
+  EXPECT_FALSE(reader_.history().asked);
+  EXPECT_TRUE(reader_.history().numbers.empty());
+}
+
+// The first idle word may take it away at once.
+TEST_F(FaultHistoryTest, IsReadOfAFaultThatVanished) {
+  reader_.handleFault(true, kUnknown);
+  reader_.handleFault(false, kUnknown);
+  EXPECT_EQ(0, poll());
+  reader_.handleFault(false, kMotorHot);
+  readAll(kMotorHot);
+  EXPECT_TRUE(reader_.history().asked);
+}
+
+TEST_F(FaultHistoryTest, EndsWhereTheInverterRefuses) {
+  reader_.handleFault(true, kMotorHot);
+  EXPECT_EQ(1, poll());
+  answer(kMotorHot);
+  EXPECT_EQ(2, poll());
+  fail(ParameterOutcome::kRefused);
+  EXPECT_EQ(0, poll());
+  EXPECT_TRUE(reader_.history().asked);
+  EXPECT_EQ(1u, reader_.history().numbers.size());
+}
+
+TEST_F(FaultHistoryTest, ATimeOutIsAskedForThreeTimes) {
+  reader_.handleFault(true, kMotorHot);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FALSE(reader_.history().asked);
+    EXPECT_EQ(1, poll());
+    fail(ParameterOutcome::kTimeout);
+  }
+  EXPECT_EQ(0, poll());
+  EXPECT_TRUE(reader_.history().asked);
+}
+
+TEST_F(FaultHistoryTest, WhatDidNotReachTheDriveIsAskedAgain) {
+  reader_.handleFault(true, kMotorHot);
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(1, poll());
+    EXPECT_EQ(0, poll()) << "one at a time";
+    fail(ParameterOutcome::kBusy);
+  }
+}
+
+TEST_F(FaultHistoryTest, ADriveThatIsAwayIsNotAsked) {
+  reader_.handleFault(true, kMotorHot);
+  EXPECT_EQ(1, poll());
+  reader_.handleOffline();
+  answer(40);
+  EXPECT_EQ(0, poll());
+  EXPECT_TRUE(reader_.history().numbers.empty());
+  reader_.handleFault(true, kMotorHot);
+  EXPECT_EQ(1, poll()) << "it comes back with one";
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

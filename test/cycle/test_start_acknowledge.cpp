@@ -1,0 +1,208 @@
+// acknowledge_at_start: bus_timeouts. Only E10.x that was read, only what stood when the drive was met, once, at rest.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cycle/cycle_bench.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr std::uint16_t kMasterLost = 102, kMotorHot = 21;
+constexpr DriveIndex kLeft = CycleBench::kLeft, kRight = CycleBench::kRight, kLift = CycleBench::kLift;
+constexpr Word kAcknowledgeBit = 0x0080;
+
+class StartAcknowledgeTest : public ::testing::Test {
+ protected:
+  static CycleConfig config(bool wanted) {
+    CycleConfig config = CycleBench::config();
+    config.acknowledge_bus_timeouts = wanted;
+    return config;
+  }
+  void start(bool wanted = true, bool auto_enable = false) { bench_.emplace(config(wanted), auto_enable); }
+  void startFaulted(DriveIndex drive, std::uint16_t number, bool auto_enable = false) {
+    start(true, auto_enable);
+    trip(drive, number);
+  }
+  void trip(DriveIndex drive, std::uint16_t number) {
+    bench_->transport.inverters[drive].fault = true;
+    bench_->transport.of_drive[drive][700] = number;
+  }
+  bool faulted(DriveIndex drive) const { return bench_->transport.inverters[drive].fault; }
+  bool latched(DriveIndex drive) { return bench_->snapshot().drives[drive].fault_latched; }
+  /// The rising edges of the acknowledge bit a drive is sent meanwhile.
+  int edges(DriveIndex drive, int cycles) {
+    int count = 0;
+    bool before = false;
+    for (int i = 0; i < cycles; ++i) {
+      bench_->step();
+      const bool now = (bench_->controlWord(drive) & kAcknowledgeBit) != 0;
+      count += now && !before ? 1 : 0;
+      before = now;
+    }
+    return count;
+  }
+
+  std::optional<CycleBench> bench_;
+};
+
+TEST_F(StartAcknowledgeTest, TakesABusTimeOutAwayAndSaysSo) {
+  startFaulted(kLeft, kMasterLost);
+  trip(kRight, 100);
+  EXPECT_EQ(1, edges(kLeft, 500));
+  EXPECT_FALSE(faulted(kLeft));
+  EXPECT_FALSE(latched(kLeft));
+  EXPECT_FALSE(faulted(kRight));
+  EXPECT_THAT(bench_->events(), testing::UnorderedElementsAre(
+                                    "info: drive left: E10.2, which stood before this node started, is acknowledged "
+                                    "(acknowledge_at_start)",
+                                    "info: drive right: E10.0, which stood before this node started, is "
+                                    "acknowledged (acknowledge_at_start)"));
+  for (const DriveIndex drive : {kLeft, kRight, kLift}) EXPECT_EQ(0x047E, bench_->controlWord(drive));
+}
+
+TEST_F(StartAcknowledgeTest, DoesNothingUnlessItIsWanted) {
+  start(false);
+  trip(kLeft, kMasterLost);
+  EXPECT_EQ(0, edges(kLeft, 500));
+  EXPECT_TRUE(faulted(kLeft));
+}
+
+TEST_F(StartAcknowledgeTest, LeavesEveryOtherFault) {
+  for (const std::uint16_t number : {kMotorHot, std::uint16_t{99}, std::uint16_t{110}, std::uint16_t{40}}) {
+    startFaulted(kLeft, number);
+    EXPECT_EQ(0, edges(kLeft, 1500)) << number;
+    EXPECT_TRUE(latched(kLeft)) << number;
+  }
+}
+
+TEST_F(StartAcknowledgeTest, LeavesAFaultWhoseNumberCannotBeRead) {
+  start();
+  bench_->transport.inverters[kLeft].fault = true;  // P700 is refused
+  EXPECT_EQ(0, edges(kLeft, 900));
+  EXPECT_THAT(bench_->events(), IsEmpty());
+  EXPECT_EQ(0, edges(kLeft, 200));
+  EXPECT_THAT(bench_->events(),
+              ElementsAre("warning: drive left: its fault is not acknowledged at start: its number (P700) "
+                          "could not be read"));
+  bench_->transport.of_drive[kLeft][700] = kMasterLost;
+  EXPECT_EQ(0, edges(kLeft, 500)) << "too late";
+}
+
+// Of the second one somebody has to know.
+TEST_F(StartAcknowledgeTest, ActsOnlyOncePerDrive) {
+  startFaulted(kLeft, kMasterLost);
+  EXPECT_EQ(1, edges(kLeft, 500));
+  trip(kLeft, kMasterLost);
+  EXPECT_EQ(0, edges(kLeft, 1000));
+  EXPECT_TRUE(latched(kLeft));
+}
+
+TEST_F(StartAcknowledgeTest, LeavesATimeOutOfADriveThatWasMetWithoutOne) {
+  start();
+  bench_->run(300);
+  trip(kLeft, kMasterLost);
+  EXPECT_EQ(0, edges(kLeft, 1000));
+  EXPECT_TRUE(latched(kLeft));
+}
+
+TEST_F(StartAcknowledgeTest, ACauseThatStandsIsSaidAndNotTriedAgain) {
+  startFaulted(kLeft, kMasterLost);
+  bench_->transport.inverters[kLeft].cause = true;
+  EXPECT_EQ(1, edges(kLeft, 1000));
+  EXPECT_TRUE(faulted(kLeft));
+  EXPECT_THAT(bench_->events(),
+              ElementsAre(HasSubstr("warning: drive left: E10.2, which stood before this node started, "
+                                    "could not be acknowledged: ")));
+}
+
+// A commander that talks already: nothing is done before it has said zero for cmd_vel_timeout.
+TEST_F(StartAcknowledgeTest, WaitsUntilNoCommandMoves) {
+  startFaulted(kLeft, kMasterLost);
+  for (int i = 0; i < 300; ++i) {
+    bench_->commandBase(0.2);
+    bench_->step();
+    ASSERT_EQ(0, bench_->controlWord(kLeft) & kAcknowledgeBit) << i;
+  }
+  EXPECT_EQ(1, edges(kLeft, 300));
+  EXPECT_FALSE(latched(kLeft));
+}
+
+TEST_F(StartAcknowledgeTest, GivesUpUnderACommanderThatNeverRests) {
+  startFaulted(kLeft, kMasterLost);
+  for (int i = 0; i < 6200; ++i) {
+    bench_->commandBase(0.2);
+    bench_->step();
+  }
+  EXPECT_THAT(bench_->events(),
+              ElementsAre("warning: drive left: its fault is not acknowledged at start: commands to move "
+                          "came all the time"));
+  EXPECT_EQ(0, edges(kLeft, 500));
+}
+
+// The other wheel is turned by its terminals: an acknowledged drive beside it would be a base half alive.
+TEST_F(StartAcknowledgeTest, WaitsForTheOtherDrivesOfTheBaseToRest) {
+  startFaulted(kLeft, kMasterLost);
+  bench_->transport.inverters[kRight].terminals = true;
+  EXPECT_EQ(0, edges(kLeft, 500));
+  bench_->transport.inverters[kRight].terminals = false;
+  EXPECT_EQ(1, edges(kLeft, 500));
+}
+
+TEST_F(StartAcknowledgeTest, WaitsForTheOtherDrivesOfTheBaseToBeThere) {
+  startFaulted(kLeft, kMasterLost);
+  bench_->transport.inverters[kRight].silent = true;
+  EXPECT_EQ(0, edges(kLeft, 7000)) << "however long that takes";
+  bench_->transport.inverters[kRight].silent = false;
+  EXPECT_EQ(1, edges(kLeft, 300));
+}
+
+TEST_F(StartAcknowledgeTest, ADriveAloneWaitsForNobody) {
+  startFaulted(kLift, kMasterLost);
+  bench_->transport.inverters[kRight].silent = true;
+  EXPECT_EQ(1, edges(kLift, 300));
+}
+
+// Whoever acknowledges it himself has it in hand.
+TEST_F(StartAcknowledgeTest, AUsersAcknowledgingIsTheEndOfIt) {
+  startFaulted(kLeft, kMasterLost);
+  bench_->run(5);
+  ASSERT_TRUE(bench_->ask(RequestKind::kAcknowledge).success);
+  trip(kLeft, kMasterLost);
+  EXPECT_EQ(0, edges(kLeft, 1000));
+}
+
+TEST_F(StartAcknowledgeTest, AutoEnableGoesOnAfterwards) {
+  startFaulted(kLeft, kMasterLost, true);
+  trip(kRight, kMasterLost);
+  bench_->run(800);
+  EXPECT_TRUE(bench_->snapshot().base.enabled);
+  EXPECT_THAT(bench_->events(), Contains("info: the base is enabled"));
+}
+
+TEST_F(StartAcknowledgeTest, AutoEnableEndsAtAnyOtherFault) {
+  startFaulted(kLeft, kMasterLost, true);
+  trip(kRight, kMotorHot);
+  bench_->run(800);
+  EXPECT_FALSE(bench_->snapshot().base.enabled);
+  EXPECT_FALSE(latched(kLeft)) << "a time-out is one, whatever the other drive has";
+  ASSERT_TRUE(bench_->ask(RequestKind::kAcknowledge).success);
+  bench_->run(800);
+  EXPECT_FALSE(bench_->snapshot().base.enabled) << "whoever acknowledges it enables";
+}
+
+TEST_F(StartAcknowledgeTest, AutoEnableEndsWhereTheNumberCannotBeRead) {
+  start(true, true);
+  bench_->transport.inverters[kLeft].fault = true;
+  bench_->run(1500);
+  ASSERT_TRUE(bench_->ask(RequestKind::kAcknowledge).success);
+  bench_->run(800);
+  EXPECT_FALSE(bench_->snapshot().base.enabled);
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle
