@@ -238,8 +238,9 @@ void CommandLine::store(const std::vector<std::string>& words, const std::vector
       throw UsageError("\"" + others[expected.size() + 1] + "\" is too much" + usage);
     }
     for (std::size_t i = 0; i < std::min(given, expected.size()); ++i) *expected[i].value = others[i + 1];
-    if (takes_more && given > expected.size()) {
-      chosen_->more.values->assign(others.begin() + 1 + static_cast<std::ptrdiff_t>(expected.size()), others.end());
+    if (takes_more) {
+      const std::size_t named = std::min(given, expected.size());
+      chosen_->more.values->assign(others.begin() + 1 + static_cast<std::ptrdiff_t>(named), others.end());
     }
   }
   po::notify(values);

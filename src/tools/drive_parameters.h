@@ -22,6 +22,7 @@ class Trouble : public std::runtime_error {
 struct ParameterAnswer {
   bool success = false;
   bool refused = false;  ///< by inverter, catalogue or session; the drive is there
+  bool used_up = false;  ///< refused: the EEPROM's budget does not allow it now; the drive was not asked
   bool unknown = false;  ///< refused: the inverter has no parameter of this number
   std::string message;   ///< why not; with success a note, or empty
   std::int32_t raw = 0;

@@ -178,6 +178,7 @@ ParameterAnswer ParameterLink::carryOut(const catalogue::ParameterAccess& access
     if (!counted.refusal.empty()) {
       ParameterAnswer refused;
       refused.refused = true;
+      refused.used_up = true;
       refused.message = counted.refusal;
       return refused;
     }

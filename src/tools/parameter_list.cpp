@@ -6,6 +6,7 @@
 
 #include "catalogue/parameter_text.h"
 #include "config/driver_settings.h"
+#include "tools/json_text.h"
 #include "tools/usage_error.h"
 
 namespace nord_driver::tools {
@@ -58,6 +59,46 @@ std::string namesText(const catalogue::ValueNames& names, const std::string& ind
   return text;
 }
 
+void writeNames(JsonText& json, const catalogue::ValueNames& names) {
+  if (names.empty()) return;
+  json.key("values").begin('[');
+  for (const auto& [first, value] : names) {
+    json.begin('{').key("first").whole(first).key("last").whole(value.last).key("name").text(value.name).end('}');
+  }
+  json.end(']');
+}
+
+void writeRange(JsonText& json, const std::optional<catalogue::Limits>& range) {
+  if (range) json.key("lowest").number(range->lowest).key("highest").number(range->highest);
+}
+
+void writeEntry(JsonText& json, const ParameterEntry& entry) {
+  json.begin('{').key("parameter").text(formatted("P%03u", unsigned{entry.number})).key("number").whole(entry.number);
+  json.key("name").text(entry.title()).key("unit").text(entry.unit.value_or("")).key("resolution").number(entry.step());
+  writeRange(json, entry.range);
+  if (entry.default_value) json.key("default").number(*entry.default_value);
+  if (entry.per_set) json.key("per_set").boolean(*entry.per_set);
+  json.key("may_write").boolean(entry.mayWrite());
+  writeNames(json, entry.values);
+  if (entry.elements) {
+    json.key("elements").begin('[');
+    for (unsigned index = 1; index <= *entry.elements; ++index) {
+      json.begin('{').key("index").whole(index);
+      if (const catalogue::Element* element = entry.element(index)) {
+        json.key("name").text(element->name);
+        writeRange(json, element->range);
+        if (element->default_value) json.key("default").number(*element->default_value);
+        writeNames(json, element->values);
+      }
+      json.end('}');
+    }
+    json.end(']');
+  }
+  json.key("source").begin('[');
+  for (const std::string& source : entry.source) json.text(source);
+  json.end(']').end('}');
+}
+
 std::string line(const char* what, const std::string& text) {
   return text.empty() ? "" : formatted("  %-10s ", what) + text + "\n";
 }
@@ -97,6 +138,37 @@ std::string descriptionText(const ToolConfig& config, const Transport& transport
   }
   if (text.empty()) throw UsageError(error);
   return text;
+}
+
+std::string listJson(const ToolConfig& config, const Transport& transport, const catalogue::Catalogues& catalogues,
+                     const std::string& name) {
+  JsonText json;
+  json.begin('{').key("drives").begin('[');
+  for (DriveIndex i = 0; i < config.drives.size(); ++i) {
+    const cycle::DriveSetup& setup = config.cycle.drives[i];
+    const DriveIdentity identity = transport.identity(i);
+    json.begin('{').key("name").text(setup.name).key("address").text(identity.address);
+    json.key("series").text(profile::toString(setup.series));
+    json.key("parameter_channel").text(identity.parameter_channel).end('}');
+  }
+  json.end(']').key("known").begin('[');
+  bool found = name.empty();
+  std::string error;
+  for (const Kind& kind : kindsOf(config, transport, catalogues)) {
+    json.begin('{').key("series").text(profile::toString(kind.known.series())).key("drives").text(kind.drives);
+    json.key("parameters").begin('[');
+    if (name.empty()) {
+      for (const ParameterEntry* entry : kind.known.all()) writeEntry(json, *entry);
+    } else {
+      const catalogue::Lookup look = kind.known.look(name);
+      if (look.entry != nullptr) writeEntry(json, *look.entry);
+      found = found || look.entry != nullptr;
+      error = look.error;
+    }
+    json.end(']').end('}');
+  }
+  if (!found) throw UsageError(error);
+  return json.end(']').end('}').str() + "\n";
 }
 
 std::string descriptionOf(const ParameterEntry& entry) {

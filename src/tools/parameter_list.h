@@ -20,4 +20,9 @@ std::string descriptionText(const ToolConfig& config, const Transport& transport
 /// One parameter: range, default, elements, names of values and bits, notes and sources.
 std::string descriptionOf(const catalogue::ParameterEntry& entry);
 
+/// The same for programs: the drives, and what is known of their parameters, or of the one of that name (empty: all).
+/// Throws UsageError when there is no such parameter.
+std::string listJson(const ToolConfig& config, const Transport& transport, const catalogue::Catalogues& catalogues,
+                     const std::string& name);
+
 }  // namespace nord_driver::tools

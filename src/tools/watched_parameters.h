@@ -30,6 +30,7 @@ class WatchedParameters final : public DriveParameters {
   profile::Series series() const override { return drive_.series(); }
   DriveIdentity identity() const override { return drive_.identity(); }
   const catalogue::DriveCatalogue& known() const override { return drive_.known(); }
+  std::string changedByReading() override { return drive_.changedByReading(); }
 
  private:
   ParameterAnswer shown(ParameterAnswer answer) {

@@ -71,7 +71,7 @@ const std::map<std::string, Names>& table() {
        {"core", "state", "config", "catalogue", "commissioning", "profile", "transport", "robot", "drive", "cycle",
         "sim", "node/node_config"}},
       {"tools/nord_param", {"core", "config", "tools/commands", "tools", "tools/over_ros"}},
-      {"tools/restore", {"core", "config", "catalogue", "profile", "cycle", "tools"}},
+      {"tools/restore", {"core", "config", "state", "catalogue", "profile", "cycle", "tools"}},
       {"tools/over_ros",  // the way through a running node
        {"core", "config", "catalogue", "profile", "transport", "link/modbus", "tools"}},
       {"tools/commands",  // of nord_param, one file each

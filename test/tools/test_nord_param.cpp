@@ -328,11 +328,11 @@ TEST_F(NordParamOnCan, LeavesABusInUseAlone) {
   EXPECT_THAT(end.seen, Each(0x703u)) << "only the node's own boot-up";
 }
 
-TEST_F(NordParam, TellsItsVersionAndWhyThereIsNoRestore) {
+TEST_F(NordParam, TellsItsVersionAndWhatRestoreLeavesOut) {
   EXPECT_EQ(std::string("nord_param ") + kVersion + "\n", runProgram({NORD_PARAM_PROGRAM, "--version"}).output);
   const Ended help = runProgram({NORD_PARAM_PROGRAM, "--help"});
   EXPECT_EQ(0, help.code);
-  EXPECT_THAT(help.output, HasSubstr("A dump cannot be written back"));
+  EXPECT_THAT(help.output, HasSubstr("restore writes what a drive can lose without being lost itself"));
 }
 
 // In an InterBus ring behind a gateway, where the parameters go by Compact PCP.

@@ -53,5 +53,18 @@ TEST_F(ParameterList, DescribesOneParameter) {
   EXPECT_THROW(describe("P999"), UsageError);
 }
 
+TEST_F(ParameterList, AsJson) {
+  const std::string text = listJson(config_, transport_, catalogue::shippedCatalogues(), "P509");
+  EXPECT_THAT(text,
+              StartsWith("{\"drives\": [{\"name\": \"front\", \"address\": \"PROFIBUS station 5, inverter 1\", "));
+  EXPECT_THAT(text,
+              HasSubstr("{\"series\": \"sk5xxe\", \"drives\": \"lift\", \"parameters\": [{\"parameter\": \"P509\", "
+                        "\"number\": 509, \"name\": \"Source control word\", \"unit\": \"\", \"resolution\": 1, "
+                        "\"lowest\": 0, \"highest\": 10, "));
+  EXPECT_THAT(text, HasSubstr("{\"first\": 4, \"last\": 4, \"name\": \"PROFIBUS\"}"));
+  EXPECT_THAT(listJson(config_, transport_, catalogue::shippedCatalogues(), ""), HasSubstr("\"parameter\": \"P105\""));
+  EXPECT_THROW(listJson(config_, transport_, catalogue::shippedCatalogues(), "P999"), UsageError);
+}
+
 }  // namespace
 }  // namespace nord_driver::tools

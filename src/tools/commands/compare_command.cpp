@@ -20,8 +20,8 @@ class CompareCommand final : public ParamCommand {
 
   Command& addTo(CommandLine& line) override {
     Command& command = line.addCommand(name_, about_);
-    command.arguments.push_back({"ONE", "a drive of the configuration, or what dump has printed (FILE)", &first_.word});
-    command.arguments.push_back({"OTHER", "the same", &second_.word});
+    command.arguments.push_back({"DRIVE", "a drive of the configuration, or a FILE, too", &first_.word});
+    command.arguments.push_back({"FILE", "what dump has printed, or a DRIVE, too", &second_.word});
     command.options.add_options()("json", boost::program_options::bool_switch(&json_), "for programs");
     return command;
   }
@@ -54,7 +54,8 @@ class CompareCommand final : public ParamCommand {
                    side.word.c_str());
     }
     if (side.is_drive) return;
-    if (!is_file && !names.empty()) {
+    const bool looks_like_a_file = side.word.find_first_of("/.") != std::string::npos;
+    if (!is_file && !looks_like_a_file && !names.empty()) {
       throw UsageError("\"" + side.word + "\" is neither a drive of the configuration nor a file, expected " + names +
                        " or what dump has printed");
     }

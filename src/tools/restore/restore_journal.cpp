@@ -1,16 +1,10 @@
 #include "tools/restore/restore_journal.h"
 
-#include <fcntl.h>
-#include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "state/state_file.h"
 #include "tools/parameter_name.h"
 
 namespace nord_driver::tools {
@@ -67,20 +61,6 @@ RestoreRecord parse(const YAML::Node& file) {
     record.same.push_back({parseParameterName(entry.first.as<std::string>()), entry.second.as<std::int32_t>()});
   }
   return record;
-}
-
-[[noreturn]] void failed(const std::string& path, int error) {
-  throw Trouble("the journal " + path + " cannot be written (" + std::strerror(error) +
-                "): nothing is written to the drive without it; --journal names another file");
-}
-
-// What is renamed has to be on the disk before, and the name after.
-void sync(const std::string& path, int flags) {
-  const int file = ::open(path.c_str(), flags | O_CLOEXEC);
-  if (file < 0) failed(path, errno);
-  const int error = ::fsync(file) == 0 ? 0 : errno;
-  ::close(file);
-  if (error != 0) failed(path, error);
 }
 
 }  // namespace
@@ -157,39 +137,34 @@ RestoreRecord recordFrom(const std::string& text, const std::string& file) {
 }
 
 std::optional<RestoreRecord> RestoreJournal::read() const {
+  std::optional<std::string> text;
+  // Looking alone makes no folder.
   std::error_code unreadable;
   if (!std::filesystem::exists(path_, unreadable)) return std::nullopt;
-  const std::ifstream file(path_);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw UsageError("the journal " + path_ + " cannot be read");
-  return recordFrom(text.str(), path_);
+  try {
+    text = state::StateFile{path_}.read();
+  } catch (const state::StateError& error) {
+    throw UsageError(error.what());
+  }
+  if (!text) return std::nullopt;
+  return recordFrom(*text, path_);
 }
 
 void RestoreJournal::write(const RestoreRecord& record) const {
-  const std::filesystem::path folder = std::filesystem::absolute(path_).parent_path();
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) failed(path_, error.value());
-  const std::string beside = path_ + ".new";
-  {
-    std::ofstream file(beside, std::ios::trunc);
-    file << recordText(record) << std::flush;
-    if (!file) failed(path_, errno);
+  try {
+    state::StateFile{path_}.replace(recordText(record));
+  } catch (const state::StateError& error) {
+    throw Trouble(std::string(error.what()) +
+                  "; nothing is written to the drive without this journal: --journal names another file");
   }
-  sync(beside, O_RDONLY);
-  if (std::rename(beside.c_str(), path_.c_str()) != 0) failed(path_, errno);
-  sync(folder.string(), O_RDONLY | O_DIRECTORY);
 }
 
 std::string journalPath(const char* ros_home, const char* home, const std::string& drive) {
-  const auto is_set = [](const char* value) { return value != nullptr && *value != '\0'; };
-  if (!is_set(ros_home) && !is_set(home)) {
+  const std::string path = state::stateFilePath(ros_home, home, "restore/" + drive + ".journal");
+  if (path.empty()) {
     throw UsageError("neither ROS_HOME nor HOME says where the journal belongs: name it with --journal");
   }
-  const std::filesystem::path folder =
-      is_set(ros_home) ? std::filesystem::path(ros_home) : std::filesystem::path(home) / ".ros";
-  return (folder / "nord_driver" / "restore" / (drive + ".journal")).string();
+  return path;
 }
 
 }  // namespace nord_driver::tools

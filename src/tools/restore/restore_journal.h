@@ -13,7 +13,7 @@ namespace nord_driver::tools {
 enum class RestoreState : std::uint8_t {
   kWriting,     ///< or broken off while it was
   kTakingBack,  ///< the same, the other way
-  kVerified,        ///< written and verified
+  kVerified,    ///< written and verified
   kTakenBack,
 };
 const char* toString(RestoreState state) noexcept;

@@ -57,7 +57,9 @@ ParameterAnswer RestoreRun::write(const catalogue::ParameterAddress& address, st
   refused.refused = true;
   refused.message = access.error.empty() ? catalogue::setRaw(access, raw, persistent) : access.error;
   if (!refused.message.empty()) return refused;
-  return asked([&] { return drive_.write(access); });
+  ParameterAnswer answer = asked([&] { return drive_.write(access); });
+  if (answer.used_up) breakOff(answer.message);  // taking back would be refused as well
+  return answer;
 }
 
 bool RestoreRun::same(const catalogue::ParameterAddress& address, std::int32_t first, std::int32_t second) const {

@@ -12,7 +12,7 @@
 namespace nord_driver::tools {
 
 enum class RestoreEnd : std::uint8_t {
-  kVerified,             ///< written, read back, and everything verified at the end
+  kVerified,         ///< written, read back, and everything verified at the end
   kDiffers,          ///< written, and at the end not everything was as it should be; the notes tell what
   kTakenBack,        ///< what was there before is there again
   kTakenBackInPart,  ///< the notes tell what is not

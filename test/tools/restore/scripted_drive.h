@@ -36,6 +36,12 @@ class ScriptedDrive final : public DriveParameters {
       answer.message = "drive left refuses it: PKW error 2";
       return answer;
     }
+    if (name == used_up_at) {
+      ParameterAnswer answer;
+      answer.refused = answer.used_up = true;
+      answer.message = "the budget is used up";
+      return answer;
+    }
     if (before_write) before_write(name);
     ParameterAnswer answer = access(name);
     if (!answer.success) return answer;
@@ -61,6 +67,7 @@ class ScriptedDrive final : public DriveParameters {
 
   std::map<std::string, std::int32_t> values;  ///< by "P102 set 1"
   std::set<std::string> refused;               ///< to write
+  std::string used_up_at;                      ///< of the EEPROM's budget
   std::vector<std::string> written;            ///< "P102 set 1 ~ 250" to RAM, "P102 set 1 = 250" to the EEPROM
   int accesses_left = -1;                      ///< then it falls silent; -1: never
   bool silent_after_carrying_out = false;      ///< the last write of them is carried out, and not answered

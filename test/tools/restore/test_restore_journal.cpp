@@ -78,7 +78,8 @@ TEST_F(RestoreJournalTest, ThatCannotBeWrittenIsTrouble) {
     journal_.write(record());
     FAIL() << "written";
   } catch (const Trouble& error) {
-    EXPECT_THAT(error.what(), HasSubstr("cannot be written (Not a directory): nothing is written to the drive"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("cannot be opened (Not a directory); nothing is written to the drive without this journal"));
   }
 }
 

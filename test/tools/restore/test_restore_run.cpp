@@ -106,6 +106,19 @@ TEST_F(RestoreRunTest, TakesBackWhatWasWrittenWhenOneIsRefused) {
   EXPECT_EQ(RestoreState::kTakenBack, record_.state);
 }
 
+// Taking back would be refused as well.
+TEST_F(RestoreRunTest, BreaksOffWhereTheBudgetOfTheEepromIsUsedUp) {
+  plan(kWant, true);
+  drive_.used_up_at = "P103 set 1";
+  EXPECT_THAT(trouble([&] { run().write(); }), HasSubstr("the budget is used up; 1 of 3 are written: "));
+  EXPECT_EQ(250, drive_.values["P102 set 1"]);
+  drive_.used_up_at.clear();
+  forget();
+  RestoreRun restore = run();
+  restore.lookAgain();
+  EXPECT_EQ(RestoreEnd::kVerified, restore.write());
+}
+
 TEST_F(RestoreRunTest, SaysWhatCannotBeTakenBack) {
   plan(kWant);
   RestoreRun restore = run();

@@ -1,0 +1,163 @@
+// compare and restore as a technician runs them, against simulated drives on a pty.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <memory>
+
+#include "tools/program.h"
+
+namespace nord_driver::test {
+namespace {
+
+using std::chrono::seconds;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// Driver, simulator and program read the same file. Times are generous: this runs on loaded machines.
+constexpr char kRobot[] = R"(
+cycle_rate: 250.0
+bus: {baud_rate: 500000, watchdog: 0.6, slot_time: 0.05}
+drives:
+  left:  {address: 3, series: sk5xxe, ppo_type: 1, joint: left_wheel_joint,  gear_ratio: 20.0, pole_pairs: 2}
+  right: {address: 4, series: sk5xxe, ppo_type: 1, joint: right_wheel_joint, gear_ratio: 20.0, pole_pairs: 2}
+left_wheel: left_wheel_joint
+right_wheel: right_wheel_joint
+wheel_separation: 0.5
+wheel_radius: 0.1
+)";
+
+class NordParamRestore : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const std::string base = ::testing::TempDir() + "nord_param_restore_" + std::to_string(::getpid());
+    config_ = base + ".yaml";
+    dump_ = base + "_dump.yaml";
+    device_ = base + "_bus";
+    std::ofstream(config_) << kRobot;
+    ::setenv("ROS_MASTER_URI", "http://127.0.0.1:1", 1);  // nobody there
+    simulator_ =
+        std::make_unique<Program>(std::vector<std::string>{NORD_SIM_PROGRAM, "--config", config_, "--device", device_});
+    ASSERT_TRUE(simulator_->saysSomething(seconds{30})) << simulator_->errors();
+  }
+  static void TearDownTestSuite() {
+    simulator_->signal(SIGTERM);
+    EXPECT_EQ(0, simulator_->wait(seconds{30}));
+    EXPECT_THAT(simulator_->output(), HasSubstr("referee: no rule broken"));
+    simulator_.reset();
+    ::unlink(config_.c_str());
+    ::unlink(dump_.c_str());
+  }
+  static Ended run(const std::vector<std::string>& words, const std::string& device = device_) {
+    std::vector<std::string> command{NORD_PARAM_PROGRAM, "--config", config_, "--device", device};
+    command.insert(command.end(), words.begin(), words.end());
+    return runProgram(command);
+  }
+
+  static std::string config_, dump_, device_;
+  static std::unique_ptr<Program> simulator_;
+};
+
+std::string NordParamRestore::config_, NordParamRestore::dump_, NordParamRestore::device_;
+std::unique_ptr<Program> NordParamRestore::simulator_;
+
+// Two drives, two files, and one of each; a name of both is the drive's.
+TEST_F(NordParamRestore, ComparesInAnyPair) {
+  const std::string left = config_ + "_left.yaml", right = config_ + "_right.yaml";
+  std::ofstream(left) << "series: sk5xxe\nsettings: {\"P102 set 1\": {raw: 200}, \"P513\": {raw: 0}}\n";
+  std::ofstream(right) << "series: sk5xxe\nsettings: {\"P102 set 1\": {raw: 250}}\n";
+  const std::string found = "P102 set 1 Acceleration time: 2.00 s in " + left + ", 2.50 s in " + right +
+                            "\nP513 Telegram timeout: 0.0 s Off in " + left + ", not in " + right +
+                            "\n2 of 2 settings differ\n";
+  const Ended files = runProgram({NORD_PARAM_PROGRAM, "diff", left, right});
+  EXPECT_EQ(1, files.code) << files.errors;
+  EXPECT_EQ(found, files.output) << "without a configuration";
+  const Ended json = run({"compare", left, right, "--json"});
+  EXPECT_THAT(json.output, HasSubstr("\"compared\": 2, \"differences\": [{\"parameter\": \"P102 set 1\""));
+  const Ended drives = run({"compare", "left", "right"});
+  EXPECT_EQ(1, drives.code) << drives.errors;
+  EXPECT_THAT(drives.output, HasSubstr("P508 PROFIBUS address: 3 in left, 4 in right\n"));
+  EXPECT_THAT(drives.errors, IsEmpty());
+  const Ended neither = run({"compare", "left", "middle"});
+  EXPECT_EQ(2, neither.code);
+  EXPECT_THAT(neither.errors,
+              HasSubstr("\"middle\" is neither a drive of the configuration nor a file, expected left, "));
+  EXPECT_EQ(2, run({"compare", "left", "left"}).code);
+  ::unlink(left.c_str());
+  ::unlink(right.c_str());
+}
+
+// Without --yes nobody writes anything where nobody can be asked.
+TEST_F(NordParamRestore, Restores) {
+  const std::string file = config_ + "_restore.yaml", journal = config_ + "_journal";
+  std::ofstream(file) << "series: sk5xxe\nsettings: {\"P426 set 1\": {raw: 20}, \"P426 set 2\": {raw: 30}, "
+                         "\"P508\": {raw: 9}}\n";
+  const std::vector<std::string> restore{"restore", "right", file, "--journal", journal};
+  const auto with = [](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const Ended planned = run(with(restore, {"--dry-run"}));
+  EXPECT_EQ(0, planned.code) << planned.errors;
+  EXPECT_THAT(planned.output,
+              HasSubstr("  P426 set 1 Quick stop time  10  ->  20\n  P426 set 2 Quick stop time  10  ->  30"
+                        "\nleft out:\n  P508 PROFIBUS address: 4 in the drive, 9 in the file ("));
+  const Ended restored = run(with(restore, {"--yes", "--json"}));
+  EXPECT_EQ(0, restored.code) << restored.errors;
+  EXPECT_THAT(restored.output, HasSubstr("\"state\": \"done\""));
+  EXPECT_THAT(restored.output, HasSubstr("\"state\": \"written\""));
+  EXPECT_THAT(run({"read", "right", "P426 set 2"}).output, HasSubstr("(raw 30)"));
+  const Ended taken_back = run({"restore", "right", "--take-back", "--yes", "--journal", journal});
+  EXPECT_EQ(0, taken_back.code) << taken_back.errors;
+  EXPECT_EQ("taken back: drive right has what it had before\n", taken_back.output);
+  EXPECT_THAT(run({"read", "right", "P426 set 2"}).output, HasSubstr("(raw 10)"));
+  EXPECT_EQ(1, run({"restore", "right", "--resume", "--yes", "--journal", journal}).code);
+  EXPECT_EQ(2, run({"restore", "right", file, "--resume", "--yes"}).code);
+  EXPECT_EQ(2, run({"restore", "right", "--yes"}).code) << "no file";
+  ::unlink(file.c_str());
+  ::unlink(journal.c_str());
+}
+
+// Killed in the middle of its work, whenever: the journal says where it was, and the next run ends it.
+TEST_F(NordParamRestore, GoesOnWithARestoreThatWasKilled) {
+  const std::string dump = config_ + "_killed.yaml", journal = config_ + "_killed_journal";
+  ASSERT_EQ(0, run({"dump", "right", "--json"}).code);
+  std::ofstream(dump) << run({"dump", "right"}).output;
+  std::ofstream other(dump + ".other");
+  other << "series: sk5xxe\nsettings:\n";
+  for (int set = 1; set <= 4; ++set) {
+    for (const int number : {102, 103, 426, 543, 544, 545}) {
+      other << "  \"P" << number << " set " << set << "\": {raw: " << 11 << "}\n";
+    }
+  }
+  other.close();
+  {
+    Program killed{{NORD_PARAM_PROGRAM, "--config", config_, "--device", device_, "restore", "right", dump + ".other",
+                    "--yes", "--journal", journal}};
+    const auto end = std::chrono::steady_clock::now() + seconds{30};
+    const auto written = [&journal] {
+      std::ifstream file(journal);
+      const std::string text{std::istreambuf_iterator<char>(file), {}};
+      return text.find("state: written") != std::string::npos;
+    };
+    while (!written() && std::chrono::steady_clock::now() < end) ::usleep(1000);
+    killed.signal(SIGKILL);
+    EXPECT_EQ(-1, killed.wait(seconds{30}));
+  }
+  const Ended again = run({"restore", "right", dump, "--yes", "--journal", journal});
+  EXPECT_EQ(1, again.code);
+  EXPECT_THAT(again.errors,
+              HasSubstr("was broken off: --resume goes on with it, --take-back puts back what was there"));
+  const Ended resumed = run({"restore", "right", "--resume", "--yes", "--journal", journal});
+  EXPECT_EQ(0, resumed.code) << resumed.errors;
+  EXPECT_THAT(resumed.output, HasSubstr("24 written and read back, 24 verified"));
+  EXPECT_EQ(0, run({"compare", "right", dump + ".other"}).code);
+  EXPECT_EQ(0, run({"restore", "right", dump, "--yes", "--journal", journal}).code);
+  EXPECT_EQ(0, run({"compare", "right", dump}).code);
+  for (const std::string& file : {dump, dump + ".other", journal}) ::unlink(file.c_str());
+}
+
+}  // namespace
+}  // namespace nord_driver::test
