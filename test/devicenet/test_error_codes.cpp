@@ -64,8 +64,10 @@ TEST(ErrorCodes, SayWhatTheyAre) {
 TEST(ErrorCodes, Sentences) {
   EXPECT_STREQ("refuses: the attribute is not supported (14h)",
                errorText(service::kGetAttributeSingle, 0x14, 0xFF).c_str());
-  EXPECT_STREQ("refuses: a resource that is needed is unavailable (02h): allocation conflict, it is allocated already (additional code 01h)",
-               errorText(service::kAllocate, 0x02, 0x01).c_str());
+  EXPECT_STREQ(
+      "refuses: a resource that is needed is unavailable (02h): allocation conflict, it is allocated already "
+      "(additional code 01h)",
+      errorText(service::kAllocate, 0x02, 0x01).c_str());
   EXPECT_STREQ("refuses: an error of the manufacturer's own (1Fh), additional code 05h",
                errorText(service::kSetAttributeSingle, 0x1F, 0x05).c_str());
   EXPECT_STREQ("refuses: an error code that is reserved (C3h)", errorText(0x10, 0xC3, 0xFF).c_str());

@@ -76,7 +76,8 @@ TEST(Refusals, NoSuchConnection) {
     return true;
   };
   EXPECT_EQ(
-      "does not exchange process data by bit strobe: refuses: a parameter of the request is invalid (20h): invalid allocation "
+      "does not exchange process data by bit strobe: refuses: a parameter of the request is invalid (20h): invalid "
+      "allocation "
       "choice, it does not have these connections (additional code 02h)",
       refusal(run));
 }
