@@ -69,7 +69,7 @@ CommissioningFacts deviceFacts(const cycle::DeviceData& device, const AskedDrive
       to.storeFunction(drive.functionKey(546, place, 1), device.setpoint_functions[place]);
     }
   }
-  for (std::uint8_t bit = 0; bit < device.bus_bit_functions.size(); ++bit) {
+  for (std::size_t bit = 0; bit < device.bus_bit_functions.size(); ++bit) {
     to.storeFunction(drive.key(480, 0, static_cast<std::uint8_t>(bit + 1)), device.bus_bit_functions[bit]);
   }
   to.storeOrMissing(drive.key(513), device.telegram_timeout);

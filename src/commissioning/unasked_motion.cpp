@@ -45,7 +45,11 @@ void busBitsStartNothing(const Drives& drives, std::size_t index, Findings& to) 
                                         " this bit starts the motor past the driver and its ~enable" +
                                         (may_move ? ", as a signal with may_move: true accepts" : ""),
                                     "BU 0280, 5.1.2, p. 48");
-    if (!may_move) finding.remedy = drive.remedy(key, 0);
+    if (may_move) {
+      finding.advice = "leave it only where nobody is hurt by a motor that starts";
+    } else {
+      finding.remedy = drive.remedy(key, 0);
+    }
     to.push_back(finding);
   }
 }

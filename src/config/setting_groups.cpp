@@ -11,7 +11,7 @@ std::vector<std::string> keysBelow(const Settings& settings, const std::string& 
 }
 
 std::vector<std::string> namesIn(const Settings& settings, const std::string& key) {
-  const std::vector<std::string> names = keysBelow(settings, key);
+  std::vector<std::string> names = keysBelow(settings, key);
   const std::vector<std::string> present = settings.keys();
   if (names.empty() && std::find(present.begin(), present.end(), key) != present.end() && settings.has(key)) {
     throw ConfigError(settings.fullName(key) + " is not valid, expected a group of names with what each is");
