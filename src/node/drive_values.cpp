@@ -15,7 +15,7 @@ std::string whyNotKnown(const cycle::DriveSnapshot& drive, const cycle::Monitore
 }  // namespace
 
 DriveValues::DriveValues(catalogue::DriveCatalogue known, std::vector<tools::MonitoredParameter> parameters)
-    : known_(std::move(known)), parameters_(std::move(parameters)) {}
+    : known_(known), parameters_(std::move(parameters)) {}
 
 std::vector<ParameterValue> DriveValues::values(const cycle::DriveSnapshot& drive) const {
   std::vector<ParameterValue> values;

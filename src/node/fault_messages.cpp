@@ -13,7 +13,8 @@ std::uint16_t numberOf(const cycle::DriveSnapshot& drive) {
 }
 
 std::string textOf(const catalogue::FaultWords& words, std::uint16_t number) {
-  const std::string label = catalogue::FaultWords::label(number), name = words.name(number);
+  const std::string label = catalogue::FaultWords::label(number);
+  const std::string& name = words.name(number);
   return label == name ? label : label + ", " + name;
 }
 
