@@ -102,7 +102,9 @@ class CheckCommand final : public ParamCommand {
       for (const Fix& fix : fixes.back()) std::fprintf(stderr, "write %s\n", fixText(fix).c_str());
     }
     if (count == 0) {
-      std::fprintf(stderr, "there is nothing to write: what was found is for a person to decide\n");
+      if (!findings.empty()) {
+        std::fprintf(stderr, "there is nothing to write: what was found is for a person to decide\n");
+      }
       return findings.empty() && allAsked();
     }
     if (!isAgreed(count)) return false;
