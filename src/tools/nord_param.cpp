@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
   program.reachThrough(nodes);
   const std::vector<std::unique_ptr<ParamCommand>> commands = paramCommands();
   std::vector<std::pair<const Command*, ParamCommand*>> words;
+  words.reserve(commands.size());
   for (const auto& command : commands) words.emplace_back(&command->addTo(line), command.get());
   if (const auto code = line.parse(argc, argv)) return *code;
   for (const auto& [asked, command] : words) {

@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
+#include <vector>
 
+#include "catalogue/yaml_map.h"
 #include "profile/scaling.h"
 #include "tools/usage_error.h"
 
@@ -25,25 +27,63 @@ bool startsWith(const std::string& line, const std::string& start) {
   return line.compare(0, start.size(), start) == 0;
 }
 
+std::vector<std::string> cellsOf(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream text{line};
+  for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+/// What is no such number makes the whole line wrong.
+class Cells {
+ public:
+  explicit Cells(const std::string& line) : cells_(cellsOf(line)), good_(cells_.size() >= kRead) {}
+
+  bool good() const { return good_; }
+  double time() { return valueOr(catalogue::decimalNumber(next()), 0.0); }
+  std::int16_t value() {
+    const std::int64_t number = valueOr(catalogue::wholeNumber(next()), std::int64_t{0});
+    good_ = good_ && number >= -32768 && number <= 32767;
+    return static_cast<std::int16_t>(number);
+  }
+  /// Four hexadecimal digits.
+  Word word() {
+    const std::string text = next();
+    good_ = good_ && text.size() == 4 && text.find_first_not_of("0123456789ABCDEFabcdef") == std::string::npos;
+    return good_ ? static_cast<Word>(std::strtoul(text.c_str(), nullptr, 16)) : Word{0};
+  }
+
+ private:
+  static constexpr std::size_t kRead = 10;  // the frequencies behind them follow from these
+
+  std::string next() { return at_ < cells_.size() ? cells_[at_++] : std::string{}; }
+  template <typename Value>
+  Value valueOr(const std::optional<Value>& value, Value otherwise) {
+    good_ = good_ && value.has_value();
+    return value.value_or(otherwise);
+  }
+
+  std::vector<std::string> cells_;
+  std::size_t at_ = 0;
+  bool good_;
+};
+
 ScopeSample sampleOf(const std::string& line, int number) {
   ScopeSample sample;
-  int answered = 0;
-  unsigned control = 0, status = 0;
-  std::array<int, 3> setpoints{}, actual_values{};
-  const int found =
-      std::sscanf(line.c_str(), "%lf,%d,%x,%d,%d,%d,%x,%d,%d,%d", &sample.time, &answered, &control, &setpoints[0],
-                  &setpoints[1], &setpoints[2], &status, &actual_values[0], &actual_values[1], &actual_values[2]);
-  if (found != 10) {
-    throw UsageError("line " + std::to_string(number) + ": \"" + line + "\" is no cycle, expected " + kColumns);
-  }
-  sample.answered = answered != 0;
-  sample.output.control_word = static_cast<Word>(control);
-  sample.input.status_word = static_cast<Word>(status);
-  for (std::size_t i = 0; i < 3; ++i) {
-    sample.output.setpoints[i] = static_cast<std::int16_t>(setpoints[i]);
-    sample.input.actual_values[i] = static_cast<std::int16_t>(actual_values[i]);
-  }
-  return sample;
+  Cells cells{line};
+  sample.time = cells.time();
+  sample.answered = cells.value() != 0;
+  sample.output.control_word = cells.word();
+  for (std::size_t i = 0; i < 3; ++i) sample.output.setpoints[i] = cells.value();
+  sample.input.status_word = cells.word();
+  for (std::size_t i = 0; i < 3; ++i) sample.input.actual_values[i] = cells.value();
+  if (cells.good()) return sample;
+  throw UsageError("line " + std::to_string(number) + ": \"" + line + "\" is no cycle, expected " + kColumns);
+}
+
+/// "50" of "# P105: 50 Hz".
+std::string behind(const std::string& line, const std::string& start) {
+  return line.substr(start.size(), line.find(' ', start.size()) - start.size());
 }
 
 }  // namespace
@@ -78,8 +118,9 @@ ScopeRecord readScopeCsv(const std::string& text) {
   for (std::string line; std::getline(lines, line);) {
     ++number;
     if (startsWith(line, kDrive)) record.drive = line.substr(sizeof kDrive - 1);
-    if (startsWith(line, kMaxFrequency)) record.max_frequency = std::atof(line.c_str() + sizeof kMaxFrequency - 1);
-    if (startsWith(line, kCurrent)) record.current_word = std::atoi(line.c_str() + sizeof kCurrent - 1);
+    if (startsWith(line, kMaxFrequency)) record.max_frequency = catalogue::decimalNumber(behind(line, kMaxFrequency));
+    if (startsWith(line, kCurrent))
+      record.current_word = static_cast<int>(catalogue::wholeNumber(behind(line, kCurrent)).value_or(0));
     if (line.empty() || line[0] == '#' || line == kColumns) continue;
     record.samples.push_back(sampleOf(line, number));
   }

@@ -50,6 +50,11 @@ TEST(ScopeCsv, KeepsEverything) {
 TEST(ScopeCsv, NamesALineThatIsNoCycle) {
   EXPECT_THAT(refusal([] { readScopeCsv("# drive: left\n0.1,1,047F,a\n"); }),
               HasSubstr("line 2: \"0.1,1,047F,a\" is no cycle, expected time_s,answered,"));
+  // Out of the range of a word, no number, and a word of too many digits.
+  for (const char* line : {"0.1,1,047F,40000,0,0,0B37,0,0,0,,", "x,1,047F,0,0,0,0B37,0,0,0,,",
+                           "0.1,1,1047F,0,0,0,0B37,0,0,0,,", "0.1,1,047F,0,0,0,0B37,0,0,,,"}) {
+    EXPECT_THAT(refusal([line] { readScopeCsv(std::string(line) + "\n"); }), HasSubstr("is no cycle")) << line;
+  }
 }
 
 // As src/trace writes them: two cycles in the table, three answers among the telegrams.

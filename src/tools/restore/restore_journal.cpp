@@ -160,7 +160,7 @@ void RestoreJournal::write(const RestoreRecord& record) const {
 }
 
 std::string journalPath(const char* ros_home, const char* home, const std::string& drive) {
-  const std::string path = state::stateFilePath(ros_home, home, "restore/" + drive + ".journal");
+  std::string path = state::stateFilePath(ros_home, home, "restore/" + drive + ".journal");
   if (path.empty()) {
     throw UsageError("neither ROS_HOME nor HOME says where the journal belongs: name it with --journal");
   }
