@@ -1,6 +1,7 @@
 #include "node/parameter_jobs.h"
 
 #include "node/offer.h"
+#include "tools/comparison.h"
 #include "tools/parameter_dump.h"
 #include "tools/usage_error.h"
 
@@ -67,12 +68,18 @@ void ParameterJobs::dump(Drive& drive, DumpParameters::Response& response) {
 void ParameterJobs::verify(Drive& drive, const VerifyParameters::Request& request,
                            VerifyParameters::Response& response) {
   const std::string why = run(drive, [&] {
-    const tools::Comparison comparison = tools::compare(drive.parameters, dumpOf(request), end_asked_);
-    if (comparison.compared == 0) throw tools::UsageError("the dump has no settings to compare");
-    response.differences = comparison.differences;
-    response.success = comparison.differences.empty();
-    response.message = std::to_string(comparison.differences.size()) + " of " + std::to_string(comparison.compared) +
-                       " settings differ";
+    BrokerParameters& parameters = drive.parameters;
+    const tools::Dump dump = dumpOf(request);
+    tools::refuseOtherSeries("the dump", dump.series, "drive " + parameters.name(), parameters.series());
+    const tools::Dump present = tools::readAlike(parameters, dump, end_asked_);
+    const tools::Differences differences = tools::differencesOf(dump, present, parameters.known());
+    if (differences.compared == 0) throw tools::UsageError("the dump has no settings to compare");
+    for (const tools::Difference& difference : differences.found) {
+      response.differences.push_back(tools::differenceText(difference, parameters.known(), "the file", "the drive"));
+    }
+    response.success = differences.found.empty();
+    response.message =
+        std::to_string(differences.found.size()) + " of " + std::to_string(differences.compared) + " settings differ";
   });
   if (!why.empty()) response.message = why;
 }

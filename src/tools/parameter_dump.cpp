@@ -134,26 +134,4 @@ Dump dumpFrom(const std::string& text, const std::string& name) {
   }
 }
 
-Comparison compare(DriveParameters& drive, const Dump& dump, const std::atomic<bool>& end_asked) {
-  const profile::Series series = drive.series();
-  if (dump.series != series) {
-    throw UsageError(std::string("the dump is of a ") + profile::toString(dump.series) + ", drive " + drive.name() +
-                     " is a " + profile::toString(series) + ": their parameters differ");
-  }
-  Comparison result;
-  for (const Dump::Value& value : dump.values) {
-    if (!isSetting(value.address)) continue;
-    ++result.compared;
-    const unsigned index = indexOf(value.address);
-    const catalogue::ParameterEntry* entry = drive.known().find(value.address.number);
-    const ParameterAnswer answer = readFrom(drive, value.address, end_asked);
-    if (answer.success && answer.raw == value.raw) continue;
-    std::string text = parameterName(value.address) + (entry != nullptr ? " " : "") + catalogue::fullName(entry, index);
-    text += ": " + drive.known().valueText(entry, value.raw, index) + " in the file, ";
-    text += answer.success ? drive.known().valueText(entry, answer.raw, index) + " in the drive" : "not in this drive";
-    result.differences.push_back(text);
-  }
-  return result;
-}
-
 }  // namespace nord_driver::tools

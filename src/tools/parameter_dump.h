@@ -33,13 +33,4 @@ Dump readDump(const std::string& file);
 /// The same of a text; `name`: what a refusal calls it.
 Dump dumpFrom(const std::string& text, const std::string& name);
 
-struct Comparison {
-  std::vector<std::string> differences;  ///< one sentence each
-  std::size_t compared = 0;
-};
-
-/// Reads from the drive what `dump` has of settings; information changes by itself. Throws Trouble, and UsageError
-/// when the dump is of another series: its numbers mean something else.
-Comparison compare(DriveParameters& drive, const Dump& dump, const std::atomic<bool>& end_asked);
-
 }  // namespace nord_driver::tools

@@ -88,6 +88,33 @@ TEST(Comparison, ReadsOfADriveWhatADumpHas) {
   EXPECT_THROW(readAlike(drive.link(), dumpOf({{"P102 set 3", 0}}), asked), Trouble);
 }
 
+// Settings only: a fault of yesterday is no difference.
+TEST(Comparison, FindsInADriveWhatWasChangedSinceItsDump) {
+  LinkedDrive drive;
+  drive.connect();
+  const Dump taken = takeDump(drive.link(), drive.notAsked());
+  const auto differences = [&] {
+    return differencesOf(taken, readAlike(drive.link(), taken, drive.notAsked()), drive.link().known());
+  };
+  drive.left().parameters().preset(701, 0, 0, 102);
+  EXPECT_TRUE(differences().found.empty());
+  EXPECT_GT(differences().compared, 30u);
+  drive.left().parameters().preset(102, 2, 0, 250);
+  drive.left().parameters().preset(513, 0, 0, -1);
+  std::vector<std::string> texts;
+  for (const Difference& difference : differences().found) {
+    texts.push_back(differenceText(difference, drive.link().known(), "the file", "the drive"));
+  }
+  EXPECT_THAT(texts, ElementsAre("P102 set 3 Acceleration time: 2.00 s in the file, 2.50 s in the drive",
+                                 "P513 Telegram timeout: 0.0 s Off in the file, -0.1 s No error in the drive"));
+}
+
+// P509 = 8 means one thing in an SK 300E and another in an SK 5xxE.
+TEST(Comparison, IsRefusedBetweenSeries) {
+  EXPECT_NO_THROW(refuseOtherSeries("a", profile::Series::kSk5xxe, "b", profile::Series::kSk5xxe));
+  EXPECT_THROW(refuseOtherSeries("a", profile::Series::kSk300e, "b", profile::Series::kSk5xxe), UsageError);
+}
+
 // P509: factory setting 0; P102: the bus manuals name none.
 TEST(ChangedDump, HasDeviationsOnlyAndNamesWhatNobodyKnows) {
   const ChangedDump changed =

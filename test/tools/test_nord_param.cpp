@@ -14,6 +14,7 @@
 #include "core/version.h"
 #include "link/can/virtual_can.h"
 #include "support/second_try.h"
+#include "tools/param_on_pty.h"
 #include "tools/program.h"
 
 namespace nord_driver::test {
@@ -26,52 +27,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-// Driver, simulator and program read the same file. Times are generous: this runs on loaded machines.
-constexpr char kRobot[] = R"(
-cycle_rate: 250.0
-bus: {baud_rate: 500000, watchdog: 0.6, slot_time: 0.05}
-drives:
-  left:  {address: 3, series: sk5xxe, ppo_type: 1, joint: left_wheel_joint,  gear_ratio: 20.0, pole_pairs: 2}
-  right: {address: 4, series: sk5xxe, ppo_type: 1, joint: right_wheel_joint, gear_ratio: 20.0, pole_pairs: 2}
-left_wheel: left_wheel_joint
-right_wheel: right_wheel_joint
-wheel_separation: 0.5
-wheel_radius: 0.1
-)";
-
-class NordParam : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    const std::string base = ::testing::TempDir() + "nord_param_" + std::to_string(::getpid());
-    config_ = base + ".yaml";
-    dump_ = base + "_dump.yaml";
-    device_ = base + "_bus";
-    std::ofstream(config_) << kRobot;
-    ::setenv("ROS_MASTER_URI", "http://127.0.0.1:1", 1);  // nobody there
-    simulator_ =
-        std::make_unique<Program>(std::vector<std::string>{NORD_SIM_PROGRAM, "--config", config_, "--device", device_});
-    ASSERT_TRUE(simulator_->saysSomething(seconds{30})) << simulator_->errors();
-  }
-  static void TearDownTestSuite() {
-    simulator_->signal(SIGTERM);
-    EXPECT_EQ(0, simulator_->wait(seconds{30}));
-    EXPECT_THAT(simulator_->output(), HasSubstr("referee: no rule broken"));
-    simulator_.reset();
-    ::unlink(config_.c_str());
-    ::unlink(dump_.c_str());
-  }
-  static Ended run(const std::vector<std::string>& words, const std::string& device = device_) {
-    std::vector<std::string> command{NORD_PARAM_PROGRAM, "--config", config_, "--device", device};
-    command.insert(command.end(), words.begin(), words.end());
-    return runProgram(command);
-  }
-
-  static std::string config_, dump_, device_;
-  static std::unique_ptr<Program> simulator_;
-};
-
-std::string NordParam::config_, NordParam::dump_, NordParam::device_;
-std::unique_ptr<Program> NordParam::simulator_;
+class NordParam : public ParamOnPty {};
 
 // Neither file nor command line names a device.
 TEST_F(NordParam, ListsDrivesAndCatalogueWithoutABus) {

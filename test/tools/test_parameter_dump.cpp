@@ -81,31 +81,6 @@ TEST(ParameterDump, IsNotTakenOfADriveThatFallsSilent) {
   EXPECT_THROW(takeDump(drive.link(), asked), Trouble);
 }
 
-// Settings only: a fault of yesterday is no difference.
-TEST(ParameterDump, ComparesSettingsAndNotWhatChangesByItself) {
-  LinkedDrive drive;
-  drive.connect();
-  const Dump taken = takeDump(drive.link(), drive.notAsked());
-  drive.left().parameters().preset(701, 0, 0, 102);
-  const Comparison same = compare(drive.link(), taken, drive.notAsked());
-  EXPECT_THAT(same.differences, IsEmpty());
-  EXPECT_GT(same.compared, 30u);
-  drive.left().parameters().preset(102, 2, 0, 250);
-  drive.left().parameters().preset(513, 0, 0, -1);
-  EXPECT_THAT(compare(drive.link(), taken, drive.notAsked()).differences,
-              ElementsAre("P102 set 3 Acceleration time: 2.00 s in the file, 2.50 s in the drive",
-                          "P513 Telegram timeout: 0.0 s Off in the file, -0.1 s No error in the drive"));
-}
-
-// P509 = 8 means one thing in an SK 300E and another in an SK 5xxE.
-TEST(ParameterDump, IsNotComparedWithAnotherSeries) {
-  LinkedDrive drive;
-  drive.connect();
-  Dump other;
-  other.series = profile::Series::kSk300e;
-  EXPECT_THROW(compare(drive.link(), other, drive.notAsked()), UsageError);
-}
-
 TEST(ParameterDump, RefusesAFileThatIsNone) {
   EXPECT_THROW(readDump("/is/not/there.yaml"), UsageError);
   EXPECT_THAT(refusal("drives: {}\n"), HasSubstr("is no dump of nord_param"));
