@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "link/can/can_link.h"
+#include "link/modbus/register_link.h"
 #include "link/serial/byte_link.h"
 
 namespace nord_driver::test {
@@ -87,6 +88,29 @@ class SharedCanLink final : public link::CanLink {
  private:
   Bus& bus_;
   CutAfter& cut_;
+};
+
+template <typename Gateway>
+class SharedRegisterLink final : public link::RegisterLink {
+ public:
+  explicit SharedRegisterLink(Gateway& gateway) : gateway_(gateway) {}
+  ~SharedRegisterLink() override { gateway_.close(); }
+  SharedRegisterLink(const SharedRegisterLink&) = delete;
+  SharedRegisterLink& operator=(const SharedRegisterLink&) = delete;
+
+  bool open() noexcept override { return gateway_.open(); }
+  void close() noexcept override { gateway_.close(); }
+  std::uint64_t give(const RegisterImage& outputs) noexcept override { return gateway_.give(outputs); }
+  std::uint64_t order(const link::RegisterOrder& order) noexcept override { return gateway_.order(order); }
+  const link::RegisterAnswer& answer() noexcept override { return gateway_.answer(); }
+  const link::RegisterInputs& take() noexcept override { return gateway_.take(); }
+  const link::LinkReport& report() noexcept override { return gateway_.report(); }
+  bool waitAnswers(Instant until) noexcept override { return gateway_.waitAnswers(until); }
+  Instant now() const noexcept override { return gateway_.now(); }
+  void sleepUntil(Instant when) noexcept override { gateway_.sleepUntil(when); }
+
+ private:
+  Gateway& gateway_;
 };
 
 }  // namespace nord_driver::test

@@ -44,6 +44,8 @@ const Kind kKinds[] = {
     {"devicenet", "address: 5, series: sk5xxe, assembly: 100", "DevicenetSk5xxe", false},
     {"devicenet", "address: 5, series: sk54xe, assembly: 100", "DevicenetSk54xe", false},
     {"devicenet", "address: 5, series: sk2xxe, assembly: 100, inverter: 1", "DevicenetSk2xxe", false},
+    {"interbus", "address: 1, series: sk5xxe, ppo_type: 1", "PcpSk5xxe", false},
+    {"interbus", "address: 1, series: sk700e, ppo_type: 1", "PcpSk700e", false},
 };
 
 class RestoreRoundTrip : public ::testing::TestWithParam<Kind> {
