@@ -57,6 +57,15 @@ Answer writeRamp(double seconds) {
 constexpr char kNothing[] = "series: sk5xxe";
 constexpr char kBusy[] = "drive left: its parameters are being dumped or verified already: ask again";
 
+/// A verification that only looks whether the drive is busy may be there first, and has soon ended.
+Dumped dumpOnceItMay(const std::string& drive) {
+  Dumped result;
+  do {
+    result = dump(drive);
+  } while (result.message == kBusy);
+  return result;
+}
+
 class ParameterDump : public RobotTest {
  protected:
   void SetUp() override {
@@ -91,8 +100,8 @@ TEST_F(ParameterDump, KeepsNeitherTheBaseNorOtherServicesWaiting) {
   // One after the other, so that one is under way all the time.
   std::atomic<bool> enough{false};
   std::future<Dumped> running = std::async(std::launch::async, [&enough] {
-    Dumped last = dump("left");
-    while (last.success && !enough) last = dump("left");
+    Dumped last = dumpOnceItMay("left");
+    while (last.success && !enough) last = dumpOnceItMay("left");
     return last;
   });
   ASSERT_TRUE(eventually([] { return verify("left", kNothing).message == kBusy; }));
@@ -109,7 +118,7 @@ TEST_F(ParameterDump, KeepsNeitherTheBaseNorOtherServicesWaiting) {
 }
 
 TEST_F(ParameterDump, EndsWithWordsWhenItsDriveGoesOffline) {
-  std::future<Dumped> running = std::async(std::launch::async, [] { return dump("left"); });
+  std::future<Dumped> running = std::async(std::launch::async, [] { return dumpOnceItMay("left"); });
   ASSERT_TRUE(eventually([] { return verify("left", kNothing).message == kBusy; }));
   ASSERT_TRUE(robot().simulator("left/unplug", true).success);
   const Dumped taken = running.get();
