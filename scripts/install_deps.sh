@@ -31,7 +31,7 @@ packages=(
 test_packages=(
   clang-format-14 clang-tidy-14 clang-14 libclang-rt-14-dev tcpdump
   can-utils iproute2 tshark
-  python3-pymodbus mbpoll # an independent server for the tests of link/modbus, independent clients of the simulated gateway
+  python3-pymodbus python3-serial-asyncio mbpoll # the first imports the second; an independent server for the tests of link/modbus, independent clients of the simulated gateway
   git mmdebstrap # scripts/check_fresh.sh
   debhelper lintian # scripts/check_deb.sh
   man-db systemd udev # what reads the manual pages, the units and the rules of install/
