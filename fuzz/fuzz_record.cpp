@@ -63,7 +63,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
             pdu = choices.bytes(choices.below(245));
             break;
           default:
-            channel.handleNoAnswer();
+            channel.handleNoAnswer(now);
             continue;
         }
         answer.data = pdu;
