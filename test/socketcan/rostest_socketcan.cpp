@@ -142,7 +142,10 @@ TEST_F(SocketCanRobot, StartsAsItsBusDemands) {
   ASSERT_EQ(start.size(), first.size() + 1);
   for (std::size_t i = 0; i < first.size(); ++i) {
     EXPECT_EQ(start[i].frame.id, first[i]);
-    EXPECT_GE(toSeconds(start[i + 1].at - start[i].at), wire().pause.count()) << "after frame " << i;
+    // Where no pause is demanded the times say nothing: they are of the wall clock, which may be set back a little.
+    if (wire().pause.count() > 0.0) {
+      EXPECT_GE(toSeconds(start[i + 1].at - start[i].at), wire().pause.count()) << "after frame " << i;
+    }
   }
 }
 
