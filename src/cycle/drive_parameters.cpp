@@ -184,6 +184,7 @@ void DriveParameters::refuse(const Request& request, profile::ParameterOutcome o
 }
 
 std::optional<profile::ParameterRequest> DriveParameters::pollRequest(Instant now) noexcept {
+  static_assert(kAskers <= kAskerMask + 1, "an id has no room for so many askers: an answer would reach another one");
   for (std::size_t i = 0; i < kAskers; ++i) {
     if (open_ids_[i] != 0) continue;
     const auto asker = static_cast<Asker>(i);
