@@ -13,6 +13,9 @@ std::unique_ptr<BaseKinematics> makeKinematics(BaseKind kind, const BaseGeometry
   if (kind == BaseKind::kDifferential) {
     return std::make_unique<DiffDriveKinematics>(geometry, left_wheels, right_wheels);
   }
+  if (kind == BaseKind::kSteered) {
+    throw std::invalid_argument("a steered base has axles, expected a kind with left and right wheels");
+  }
   if (left_wheels != 2 || right_wheels != 2) {
     throw std::invalid_argument("a mecanum base has " + std::to_string(left_wheels) + " wheels in left_wheel and " +
                                 std::to_string(right_wheels) +

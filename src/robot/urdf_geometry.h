@@ -12,6 +12,12 @@ class ModelInterface;
 
 namespace nord_driver::robot {
 
+/// m, in a plane.
+struct Place2d {
+  double x = 0.0;
+  double y = 0.0;
+};
+
 /// Answers are computed when they are asked for, so a value the user typed is not looked up: what the description says
 /// of it may then be wrong or missing.
 ///
@@ -46,6 +52,11 @@ class UrdfGeometry {
   /// otherwise of its visual; the largest where there are several. Throws also when there is none (a box or a mesh does
   /// not roll on a radius) and when wheels differ by more than 0.1 mm.
   double wheelRadius(const std::vector<std::string>& joints) const;
+
+  /// Where the wheel on a steered axle stands in `base_link`, steered to 0. Throws also when the steering joint is no
+  /// joint that turns, does not carry the wheel, its axis does not point upward (by more than a degree), or the wheel
+  /// does not stand on that axis (by more than 1 mm).
+  Place2d steeredWheel(const std::string& steering, const std::string& wheel) const;
 
   /// The `velocity` of each joint's `limit` (rad/s, positive), infinity where the joint has no limit. Throws also for a
   /// limit that is zero or negative: such a wheel could never turn.

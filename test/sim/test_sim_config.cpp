@@ -153,6 +153,36 @@ TEST(SimConfig, ReadsModulesWithSlots) {
   EXPECT_EQ(3, robot.drive(4).parameters().value(509));
 }
 
+// A steered body by its own keys, and by those of the driver.
+TEST(SimConfig, SteeredBody) {
+  const auto bodyOf = [](const std::string& more) {
+    return readSimConfig(YAML::Load("{drives: {fw: {address: 3, joint: fwj}, fs: {address: 4, joint: fsj}, "
+                                    "rw: {address: 5, joint: rwj}, rs: {address: 6, joint: rsj}}, " +
+                                    more + "}"))
+        .body;
+  };
+  const auto own = bodyOf(
+      "body: {kind: steered, wheel_radius: 0.1, front: {wheel: fw, steering: fs, x: 0.4, y: 0.1}, "
+      "rear: {wheel: rw, steering: rs, x: -0.4}}");
+  const auto of_driver = bodyOf(
+      "base_type: steered, wheel_radius: 0.1, steered: {front: {wheel_joint: fwj, "
+      "steering_joint: fsj, x: 0.4, y: 0.1}, rear: {wheel_joint: rwj, steering_joint: rsj, "
+      "x: -0.4}, angle_tolerance: 0.05}");
+  for (const auto& body : {own, of_driver}) {
+    ASSERT_TRUE(body);
+    EXPECT_EQ(BodyKind::kSteered, body->kind);
+    EXPECT_EQ(0u, body->front.wheel);
+    EXPECT_EQ(1u, body->front.steering);
+    EXPECT_EQ(2u, body->rear.wheel);
+    EXPECT_EQ(3u, body->rear.steering);
+    EXPECT_EQ(0.4, body->front.x);
+    EXPECT_EQ(0.1, body->front.y);
+    EXPECT_EQ(-0.4, body->rear.x);
+    EXPECT_EQ(0.1, body->wheel_radius);
+  }
+  EXPECT_FALSE(bodyOf("base_type: steered, steered: {front: {wheel_joint: fwj}}"));
+}
+
 // Wrong configurations are refused in a sentence with key, value and expectation.
 TEST(SimConfig, RefusesInWords) {
   const auto refusal = [](const std::string& text) -> std::string {
@@ -194,7 +224,18 @@ TEST(SimConfig, RefusesInWords) {
                       "wheel_separation: 1, wheel_base: 1}}"),
               testing::HasSubstr("body/left: a is not valid; expected two of them"));
   EXPECT_THAT(refusal("{drives: {a: {address: 3}}, body: {kind: tricycle}}"),
-              testing::HasSubstr("body/kind: tricycle is not valid; expected differential or mecanum"));
+              testing::HasSubstr("body/kind: tricycle is not valid; expected differential, mecanum or steered"));
+  const std::string four = "drives: {a: {address: 3}, b: {address: 4}, c: {address: 5}, d: {address: 6}}, ";
+  EXPECT_THAT(refusal("{" + four + "body: {kind: steered, wheel_radius: 0.1, front: {wheel: a, steering: b, x: 1}}}"),
+              testing::HasSubstr("body: something is missing; a steered one has wheel_radius, front and rear"));
+  EXPECT_THAT(refusal("{" + four +
+                      "body: {kind: steered, wheel_radius: 0.1, front: {wheel: a, steering: e, x: 1}, "
+                      "rear: {wheel: c, steering: d, x: -1}}}"),
+              testing::HasSubstr("body/front/steering: e is not valid; expected the name of a drive"));
+  EXPECT_THAT(refusal("{" + four +
+                      "body: {kind: steered, wheel_radius: 0.1, front: {wheel: a, steering: b, x: 1}, "
+                      "rear: {wheel: c, steering: d, x: 1}}}"),
+              testing::HasSubstr("body/rear: {wheel: c, steering: d, x: 1} is not valid; expected another place"));
   EXPECT_EQ("drives/b/inverter: 1 is not valid; expected another one, drive a has it behind this module",
             refusal("drives: {a: {address: 3, series: sk2xxe}, b: {address: 3, series: sk2xxe}}"));
   EXPECT_EQ("drives/b/address: 3 is not valid; expected an address of its own; drive a has it",
