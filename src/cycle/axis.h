@@ -6,6 +6,7 @@
 #include "cycle/drive_words.h"
 #include "cycle/fault_record.h"
 #include "cycle/joint_motion.h"
+#include "cycle/position_targets.h"
 #include "cycle/speed_watch.h"
 #include "cycle/terminal_watch.h"
 #include "nord_driver/transport/transport.h"
@@ -21,7 +22,8 @@ struct Axis {
 
   DriveParameters parameters;
   DriveWords words;
-  JointMotion motion;  ///< of a drive that belongs to no base
+  JointMotion motion;       ///< of a drive that belongs to no base
+  PositionTargets targets;  ///< of one that positions
   robot::JointPosition joint;
   SpeedWatch speed;
   TerminalWatch terminals;

@@ -57,6 +57,7 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       inputs_(config.drives.size()),
       snapshot_(config.drives.size()) {
   for (const DriveSetup& setup : config.drives) addAxis(setup, role);
+  for (DriveIndex i = 0; i < drives_.size(); ++i) snapshot_.drives[i].joint_known = !drives_[i].positions();
   if (!config.base) return;
   base_.emplace(*config.base, config.cmd_vel_timeout);
   wheels_ = config.base->wheels();
@@ -195,6 +196,10 @@ void BusCycle::commandSingles(Instant now, Duration dt) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     if (supervisor_.inBase(i)) continue;
     drive::DriveGroup& group = supervisor_.groupOf(i);
+    if (drives_[i].positions()) {
+      commandPosition(i, now);
+      continue;
+    }
     const JointCommand& newest = ports_.newestDriveCommand(i);
     const bool fresh = !isStale(newest, cmd_vel_timeout_, now);
     group.commandIsFresh(fresh, now);
@@ -206,6 +211,15 @@ void BusCycle::commandSingles(Instant now, Duration dt) noexcept {
     drives_[i].setVelocity(RadPerSec{velocity});
     group.setpointIsZero(velocity == 0.0);
   }
+}
+
+// One that came while it could not be followed is not kept for later.
+void BusCycle::commandPosition(DriveIndex drive, Instant now) noexcept {
+  const auto target = axes_[drive].targets.poll(ports_.newestPosition(drive));
+  if (!target) return;
+  const drive::TargetRefusal refusal = drives_[drive].setPosition(*target);
+  const auto told = axes_[drive].targets.handleAnswer(names_[drive].c_str(), *target, refusal, now);
+  if (told) ports_.tell({true, *told});
 }
 
 robot::WheelSpeeds BusCycle::maxWheelSpeeds() const noexcept {
@@ -286,8 +300,9 @@ void BusCycle::measure(Instant now, Duration dt) noexcept {
     } else {
       axes_[i].joint.rebase();
     }
-    axes_[i].speed.update(drive::isEnabled(report.phase) && report.scaled, report.velocity_command.value,
-                          report.velocity.value, drives_[i].maxVelocity().value_or(RadPerSec{}).value, now);
+    axes_[i].speed.update(drive::isEnabled(report.phase) && report.scaled && !drives_[i].positions(),
+                          report.velocity_command.value, report.velocity.value,
+                          drives_[i].maxVelocity().value_or(RadPerSec{}).value, now);
   }
   if (base_) measureBase(dt);
 }
@@ -364,7 +379,7 @@ void BusCycle::fill(DriveSnapshot& to, DriveIndex drive, Instant now) const noex
   to.module_inputs = inputs_[drive].module_inputs;
   fillDriveSnapshot(to,
                     {drive, names_[drive].c_str(), drives_[drive].report(), outputs_[drive], axis,
-                     inputs_[drive].module_answers, beyond},
+                     inputs_[drive].module_answers, drives_[drive].positions(), beyond},
                     transport_, now);
 }
 

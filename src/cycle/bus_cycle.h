@@ -61,6 +61,7 @@ class BusCycle {
   void command(Instant now, Duration dt) noexcept;
   void commandBase(Instant now, Duration dt) noexcept;
   void commandSingles(Instant now, Duration dt) noexcept;
+  void commandPosition(DriveIndex drive, Instant now) noexcept;
   void addAxis(const DriveSetup& setup, CycleRole role);
   void pollOutputs(Instant now) noexcept;
   /// The drive is enabled and does what its velocity command says, which is fresh.

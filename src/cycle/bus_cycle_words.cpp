@@ -1,4 +1,6 @@
 // The part of the bus cycle that puts together what goes to each drive: its own word, and the further ones.
+#include <algorithm>
+
 #include "cycle/bus_cycle.h"
 
 namespace nord_driver::cycle {
@@ -12,6 +14,11 @@ void BusCycle::addAxis(const DriveSetup& setup, CycleRole role) {
   channel.monitor = setup.monitor;
   channel.users_only = role == CycleRole::kGuest;
   if (role == CycleRole::kDriver) channel.needs = wordNeeds(setup.words, identity.process_values);
+  if (role != CycleRole::kGuest && setup.position) {
+    channel.field_order = setup.position->order;
+    channel.needs.words = std::max<std::size_t>(identity.process_values, 1);
+    addPositionNeeds(*setup.position, setup.series, channel.needs);
+  }
   axes_.emplace_back(drive, setup, channel);
   for (std::size_t i = 0; i < setup.words.setpoints.size() && role == CycleRole::kDriver; ++i) {
     if (setup.words.setpoints[i].moves) command_watch_.watch(drive, i, setup.words.setpoints[i]);

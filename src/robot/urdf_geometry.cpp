@@ -315,4 +315,19 @@ std::vector<double> UrdfGeometry::maxVelocities(const Names& joints) const {
   return velocities;
 }
 
+std::optional<JointRange> UrdfGeometry::range(const std::string& name) const {
+  const auto joint = model_->getJoint(name);
+  if (!joint) return std::nullopt;
+  JointRange range;
+  range.is_prismatic = joint->type == urdf::Joint::PRISMATIC;
+  if (joint->type == urdf::Joint::CONTINUOUS) return range;
+  if (joint->type != urdf::Joint::REVOLUTE && !range.is_prismatic) {
+    refuse("joint ", quoted(name), " is ", nameOf(joint->type), ", expected one that turns or slides");
+  }
+  if (!joint->limits) return range;
+  range.lower = joint->limits->lower;
+  range.upper = joint->limits->upper;
+  return range;
+}
+
 }  // namespace nord_driver::robot

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,13 @@ namespace nord_driver::robot {
 struct Place2d {
   double x = 0.0;
   double y = 0.0;
+};
+
+/// Of a joint that goes to positions.
+struct JointRange {
+  bool is_prismatic = false;    ///< m; otherwise rad
+  std::optional<double> lower;  ///< none: a continuous joint, or one without a limit
+  std::optional<double> upper;
 };
 
 /// Answers are computed when they are asked for, so a value the user typed is not looked up: what the description says
@@ -61,6 +69,9 @@ class UrdfGeometry {
   /// The `velocity` of each joint's `limit` (rad/s, positive), infinity where the joint has no limit. Throws also for a
   /// limit that is zero or negative: such a wheel could never turn.
   std::vector<double> maxVelocities(const std::vector<std::string>& joints) const;
+
+  /// How far a joint goes; none: there is no such joint. Throws when it can neither turn nor slide.
+  std::optional<JointRange> range(const std::string& joint) const;
 
  private:
   std::shared_ptr<const urdf::ModelInterface> model_;
