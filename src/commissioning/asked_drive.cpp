@@ -27,7 +27,7 @@ double hertz(double joint_speed, const cycle::DriveSetup& setup) {
 
 void askForBase(const cycle::CycleConfig& config, std::vector<AskedDrive>& drives) {
   const cycle::BaseConfig& base = *config.base;
-  const auto kinematics = robot::makeKinematics(base.kind, base.geometry, base.left.size(), base.right.size());
+  const auto kinematics = base.kinematics();
   const std::vector<DriveIndex> wheels = base.wheels();
   const auto ask = [&](const robot::SpeedLimits& limits, const robot::Twist2d& unit, const std::string& key) {
     const robot::WheelSpeeds speeds = kinematics->wheels(kinematics->possible(unit));

@@ -14,6 +14,7 @@
 #include "cycle/guest_gate.h"
 #include "cycle/standstill_requests.h"
 #include "cycle/start_acknowledge.h"
+#include "cycle/steered_motion.h"
 #include "cycle/supervisor.h"
 #include "drive/drive.h"
 #include "nord_driver/core/time.h"
@@ -59,7 +60,16 @@ class BusCycle {
   Completion resetOdometry(const Request& request) noexcept;
   Duration rampTime(Instant now) const noexcept;
   void command(Instant now, Duration dt) noexcept;
+  void addBase(const BaseConfig& config);
+  bool hasBase() const noexcept { return supervisor_.base() != nullptr; }
   void commandBase(Instant now, Duration dt) noexcept;
+  void commandSteered(Instant now, Duration dt) noexcept;
+  /// What the steered base waits for: into the snapshot, and to the user unless it `passes` soon by itself.
+  void tellWaits(const Sentence& waits, bool passes, Instant now) noexcept;
+  robot::SteeringAngles steeringAngles() const noexcept;
+  /// A wheel that rests for P104 although a velocity is commanded.
+  bool isSlowWheel(DriveIndex drive) const noexcept;
+  void publishBase() noexcept;
   void commandSingles(Instant now, Duration dt) noexcept;
   void commandPosition(DriveIndex drive, Instant now) noexcept;
   void addAxis(const DriveSetup& setup, CycleRole role);
@@ -88,8 +98,12 @@ class BusCycle {
   std::vector<std::string> names_;
   std::vector<drive::Drive> drives_;
   std::vector<Axis> axes_;
-  std::optional<BaseMotion> base_;
-  std::vector<DriveIndex> wheels_;      // the drives of the base, in the order of its wheel speeds
+  std::optional<BaseMotion> base_;  // one of these two, or none
+  std::optional<SteeredMotion> steered_;
+  std::vector<DriveIndex> wheels_;    // the drives of the base, in the order of its wheel speeds
+  std::vector<DriveIndex> steering_;  // and of its steering angles
+  std::optional<Instant> waits_since_;
+  std::optional<Instant> waits_told_at_;
   StartAcknowledge start_acknowledge_;  // before the supervisor, which asks it
   Supervisor supervisor_;
   CommandWatch command_watch_;

@@ -88,6 +88,16 @@ void readLimitsOfSingles(const std::vector<DriveSettings>& sources, CycleConfig&
   }
 }
 
+SteeringRanges steeringRanges(const CycleConfig& config) {
+  SteeringRanges ranges;
+  for (const DriveSetup& setup : config.drives) {
+    ranges.emplace_back();
+    const bool turns = setup.position && setup.position->axis.unit_per_radian == 1.0;
+    if (turns) ranges.back() = SteeringRange{setup.position->axis.lower, setup.position->axis.upper};
+  }
+  return ranges;
+}
+
 drive::StopWay readStopWay(const Settings& settings, const char* key, drive::StopWay fallback, bool may_hold) {
   noteSetting(settings, key,
               {std::string("one of ") + (may_hold ? "setpoint_zero, " : "") + "off1, quick_stop, coast", "", "",
@@ -137,7 +147,7 @@ CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSetting
     joints.push_back(config.drives.back().joint);
   }
   refuseJointsUsedTwice(drives, config.drives);
-  config.base = readBaseConfig(node, joints, robot_description);
+  config.base = readBaseConfig(node, joints, robot_description, steeringRanges(config));
   readLimitsOfSingles(drives, config);
   return config;
 }

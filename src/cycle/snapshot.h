@@ -84,6 +84,7 @@ struct BaseSnapshot {
   bool stopped = false;
   drive::StopCause stop_cause = drive::StopCause::kNone;
   Sentence text;
+  Sentence waits;  ///< why it does not drive as it is commanded to, though nothing stops it; of a steered base
 };
 
 struct CycleSnapshot {

@@ -77,7 +77,7 @@ void Diagnostics::reportBase(DiagnosticStatusWrapper& status) const {
     status.summary(DiagnosticStatus::ERROR, base.text.str());
     status.add("to go on", recoveryHint(snapshot_, names_));
   } else if (base.enabled) {
-    status.summary(DiagnosticStatus::OK, "enabled");
+    status.summary(DiagnosticStatus::OK, base.waits.empty() ? "enabled" : "enabled: " + base.waits.str());
   } else {
     status.summary(DiagnosticStatus::OK, base.text.empty() ? "disabled" : base.text.str());
   }

@@ -127,7 +127,7 @@ void DriverNode::warnOfUnknownKeys() const {
 
 void DriverNode::advertise() {
   base_publisher_ = std::make_unique<BasePublisher>(node_, config_);
-  if (config_.cycle.base) {
+  if (config_.cycle.base && !config_.cycle.base->steered) {
     base_tuner_ = std::make_unique<BaseTuner>(private_node_, config_, *ports_, *base_publisher_);
   } else {
     nothing_to_tune_ = std::make_unique<NothingToTune>(private_node_);
@@ -181,7 +181,7 @@ void DriverNode::takeCommand(const geometry_msgs::Twist& twist) {
                       static_cast<unsigned long>(bad_commands_));
     return;
   }
-  const bool sideways = config_.cycle.base->kind == robot::BaseKind::kMecanum;
+  const bool sideways = config_.cycle.base->movesSideways();
   const double linear_y = sideways ? twist.linear.y : 0.0;
   cycle::TwistCommand command{{twist.linear.x, twist.angular.z, linear_y}, steadyNow(), true};
   if (!config_.publish.allow_multiple_cmd_vel_publishers && command_subscriber_.getNumPublishers() > 1) {

@@ -93,7 +93,7 @@ class DriverNode {
   std::unique_ptr<RequestBroker> broker_;
 
   std::unique_ptr<BasePublisher> base_publisher_;
-  std::unique_ptr<BaseTuner> base_tuner_;           // with a base
+  std::unique_ptr<BaseTuner> base_tuner_;           // with a base that has sides
   std::unique_ptr<NothingToTune> nothing_to_tune_;  // without one
   std::vector<DrivePublisher> drive_publishers_;
   std::vector<ValuesPublisher> values_publishers_;

@@ -8,6 +8,18 @@
 
 namespace nord_driver::robot {
 
+const char* nameOf(BaseKind kind) noexcept {
+  switch (kind) {
+    case BaseKind::kDifferential:
+      return "differential";
+    case BaseKind::kMecanum:
+      return "mecanum";
+    case BaseKind::kSteered:
+      return "steered";
+  }
+  return "";
+}
+
 std::unique_ptr<BaseKinematics> makeKinematics(BaseKind kind, const BaseGeometry& geometry, std::size_t left_wheels,
                                                std::size_t right_wheels) {
   if (kind == BaseKind::kDifferential) {

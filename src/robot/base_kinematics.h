@@ -16,6 +16,9 @@ enum class BaseKind {
   kSteered,       ///< driven wheels, each steered by a drive of its own (SteeredKinematics)
 };
 
+/// As the configuration writes it: "mecanum".
+const char* nameOf(BaseKind kind) noexcept;
+
 /// The kinematics of one base. Wheels are counted the left ones first, front to rear, then the right ones likewise;
 /// a wheel's speed is positive when it rolls the base forward. To add a kind: derive, and name it in BaseKind and
 /// `makeKinematics`.

@@ -32,7 +32,7 @@ class Machine {
   explicit Machine(const std::string& name) : name_(name), node_("/" + name) {
     XmlRpc::XmlRpcValue drives;
     node_.getParam("nord_driver/drives", drives);
-    has_base_ = node_.hasParam("nord_driver/left_wheel");
+    has_base_ = node_.hasParam("nord_driver/left_wheel") || node_.hasParam("nord_driver/steered");
     if (has_base_) {
       cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
       truth_ = std::make_unique<Topic<nav_msgs::Odometry>>(node_, "nord_sim/truth/odom");
@@ -150,7 +150,7 @@ TEST(Templates, EachDrivesInTheSimulator) {
   constexpr Seconds kLongEnoughToLoseADrive{0.5};  // half of drive_timeout in template.launch
   Machines machines;
   for (const std::string& name : templates()) machines.push_back(std::make_unique<Machine>(name));
-  ASSERT_GE(machines.size(), 9u);
+  ASSERT_GE(machines.size(), 10u);
   for (const auto& machine : machines) {
     EXPECT_GE(machine->size(), 2u) << "rostest_templates.test does not start " << machine->name();
   }
