@@ -106,6 +106,12 @@ void SimDriveNode::serveStation() {
       "module and inverter are connected", "the connection between module and inverter is interrupted");
   serveSwitch(
       "mute", [](sim::DriveUnit& drive, bool on) { drive.setMute(on); }, "answers are lost", "answers get through");
+  serveSwitch(
+      "torn_words", [](sim::DriveUnit& drive, bool on) { drive.inverter().setTornWords(on); },
+      "high words of positions are those of the telegram before", "the words of a telegram belong together");
+  serveSwitch(
+      "block", [](sim::DriveUnit& drive, bool on) { drive.setBlocked(on); }, "something holds the shaft",
+      "the shaft is free");
   serve<SimAnswerDelay>("answer_delay", [](sim::DriveUnit& drive, const SimAnswerDelay::Request& request,
                                            SimAnswerDelay::Response& response) {
     if (!(request.seconds >= 0.0 && request.seconds <= kLongestDelay)) {

@@ -245,6 +245,7 @@ void InverterModel::setPowered(bool on) noexcept {
   parameters_.restoreFromEeprom();
   commanded_ = false;
   data_ = previous_ = ProcessData{};
+  position_command_ = PositionCommand{};
   set_ = 0;
   fault_ = 0;
   warning_ = 0;
@@ -266,6 +267,7 @@ void InverterModel::receive(const ProcessData& data) noexcept {
   since_valid_ = 0.0;
   master_lost_ = timed_out_ = false;
   if (busControl()) selectParameterSet(data.control >> stw::kParameterSetShift);
+  position_command_ = posicon_.isOn(set_) ? positionCommand() : PositionCommand{};
 
   const bool edge = (before & stw::kAcknowledge) == 0 && (data.control & stw::kAcknowledge) != 0;
   // Taking the enable away acknowledges too, unless an input has the function (BU 0020 8, BU 2700 8.2).

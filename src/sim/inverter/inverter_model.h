@@ -225,6 +225,7 @@ class InverterModel {
   double target_ = 0.0;
 
   Posicon posicon_;
+  PositionCommand position_command_;  // of the last telegram
   bool torn_ = false;
   struct Found {  // revolutions
     double position = 0.0;

@@ -48,7 +48,8 @@ bool InverterModel::wideActual() const noexcept {
 }
 
 void InverterModel::watchPosition() noexcept {
-  posicon_.watch(posicon_.isOn(set_) ? positionCommand() : PositionCommand{}, set_);
+  const bool asked = commanded_ && busSetpoint() && posicon_.isOn(set_);
+  posicon_.watch(asked ? position_command_ : PositionCommand{}, set_);
 }
 
 // Under the control of the terminals, while it is taught and with bit 6 = 0 the setpoint is a frequency.
@@ -74,7 +75,6 @@ double InverterModel::positioningFrequency(double dt) noexcept {
 
 PositionCommand InverterModel::positionCommand() const noexcept {
   PositionCommand command;
-  if (!commanded_ || !busSetpoint()) return command;
   command.target = positionTarget();
   unsigned bits = 0;
   bool carried = false;

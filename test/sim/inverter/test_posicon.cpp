@@ -46,6 +46,35 @@ TEST_F(LowHigh, ArrivesWithinAThousandthAndSaysSo) {
   }
 }
 
+// "The full position range of +/- 50000.000 revolutions": BU 0020 7.3.5.
+TEST(PositionRange, ItsEndsAreReached) {
+  for (const std::int32_t wanted : {50'000'000, -50'000'000}) {
+    PosiconSettings settings;
+    settings.position = wanted * 0.001 * 0.9999;
+    Axis axis(Series::kSk5xxe, settings);
+    axis.words({21, 22, 0}, {10, 15, 0});
+    const auto words = LowHigh::target(wanted);
+    axis.send(0x047E, words);
+    axis.hold(0x047F, words, 4.0);
+    EXPECT_NEAR(wanted * 0.001, axis.position(), kArrived);
+    EXPECT_EQ(words[0], axis.actual()[0]);
+    EXPECT_EQ(words[1], axis.actual()[1]);
+    EXPECT_TRUE(axis.reached());
+  }
+}
+
+TEST_F(LowHigh, AJamKeepsItFromArriving) {
+  enable(target(10'000));
+  axis.hold(0x047F, target(10'000), 0.4);
+  axis.motor.setBlocked(true);
+  axis.hold(0x047F, target(10'000), 2.0);
+  EXPECT_FALSE(axis.reached());
+  EXPECT_EQ(0.0, axis.motor.speed());
+  axis.motor.setBlocked(false);
+  axis.hold(0x047F, target(10'000), 3.0);
+  EXPECT_NEAR(10.0, axis.position(), kArrived);
+}
+
 TEST_F(LowHigh, OnTheWayItIsNotReached) {
   enable(target(20'000));
   axis.hold(0x047F, target(20'000), 0.3);

@@ -86,7 +86,9 @@ TEST_F(ControlBits, WithP610EachRisingBitAddsItsIncrement) {
 
 TEST_F(ControlBits, AnIncrementWhileDisabledCountsForNothing) {
   axis.preset(610, 1);
+  axis.send(0x047E, {0, 0, 0});
   axis.send(0x047E, {1, 0, 0});
+  EXPECT_TRUE(axis.reached());
   enable(1);
   hold(1);
   EXPECT_NEAR(0.0, axis.position(), kArrived);
