@@ -81,6 +81,9 @@ class DriveUnit {
   double wheelSpeed() const noexcept { return motor_.speed() / ratio(); }  ///< rad/s at the joint
   double wheelAngle() const noexcept { return motor_.angle() / ratio(); }  ///< rad at the joint
 
+  /// Revolutions, as the encoder says; without rounding, whatever the bus can carry.
+  double position() const noexcept { return inverter_.posicon().position(); }
+
   ParameterStore& parameters() noexcept { return parameters_; }
   const ParameterStore& parameters() const noexcept { return parameters_; }
   InverterModel& inverter() noexcept { return inverter_; }

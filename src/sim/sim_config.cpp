@@ -10,6 +10,7 @@
 #include "sim/bus_kind.h"
 #include "sim/config_group.h"
 #include "sim/config_parameters.h"
+#include "sim/config_posicon.h"
 #include "sim/inverter/parameter_store.h"
 
 namespace nord_driver::sim {
@@ -35,7 +36,7 @@ const std::vector<std::string>& driveKeys() {
         "max_jerk", "min_jerk", "setpoints", "signals", "torque_at_limit",
         // the simulator's
         "inertia", "rated_torque", "slip", "load", "viscous", "charging_time", "firmware", "parameter_delay",
-        "ram_orders", "double_word_answers", "automatic_acknowledgement_delay", "parameters"};
+        "ram_orders", "double_word_answers", "automatic_acknowledgement_delay", "parameters", "posicon"};
     for (const BusKind& kind : busKinds()) keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
     return keys;
   }();
@@ -102,6 +103,7 @@ DriveConfig readDrive(const std::string& name, const YAML::Node& node, const Bus
   drive.pkw.delay = static_cast<unsigned>(group.integer("parameter_delay", 1, 0, 1000));
   drive.pkw.ram_orders = group.get<bool>("ram_orders", true, "true or false");
   drive.pkw.double_word_answers = group.get<bool>("double_word_answers", true, "true or false");
+  readPosicon(group, drive.inverter.posicon, warnings);
   bus.readDrive(group, drive);
   const ParameterStore catalogue{drive.device};
   if (group.has("max_frequency")) {

@@ -217,6 +217,10 @@ SimDrive SimDriveNode::truthOf(const sim::DriveUnit& drive) {
   truth.shaft_angle = drive.shaftAngle();
   truth.wheel_velocity = drive.wheelSpeed();
   truth.wheel_angle = drive.wheelAngle();
+  truth.position = drive.position();
+  truth.position_target = inverter.posicon().target();
+  truth.position_reached = inverter.posicon().reached();
+  truth.referenced = inverter.posicon().referenced();
   truth.fault_number = inverter.faultNumber();
   truth.watchdog_trips = counters.watchdog_trips;
   truth.set_switches = inverter.setSwitches();

@@ -67,6 +67,8 @@ void DpSlave::takeOutputs(ByteView data) noexcept {
   if (reader.remaining() >= 4) {
     process.setpoints[swapsWords() ? 2 : 1] = reader.u16be();
     process.setpoints[swapsWords() ? 1 : 2] = reader.u16be();
+  } else {
+    process.carried = 1;
   }
   counted().last_control = process.control;
   if (missing) {
