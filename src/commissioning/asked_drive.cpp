@@ -58,6 +58,7 @@ std::vector<AskedDrive> askedDrives(const cycle::CycleConfig& config, const std:
     drive.typed_max_frequency = setup.typed_max_frequency;
     drive.rated_current = setup.rated_current;
     drive.words = cycle::wordNeeds(setup.words, identities[i].process_values);
+    if (setup.position) cycle::addPositionNeeds(*setup.position, setup.series, drive.words);
     for (const cycle::SignalSetup& signal : setup.words.signals) {
       const auto bit = cycle::busBitElement(signal);
       if (bit && signal.may_move) drive.may_move_bits.push_back(*bit);

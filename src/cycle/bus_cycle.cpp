@@ -53,6 +53,7 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       supervisor_(config, drives_, auto_enable, &start_acknowledge_),
       command_watch_(ports, config.cmd_vel_timeout, config.base.has_value(), names_, membersOfBase(config)),
       standstill_requests_(drives_, names_, modulesOf(config, transport)),
+      position_requests_(drives_, axes_, names_),
       outputs_(config.drives.size()),
       inputs_(config.drives.size()),
       snapshot_(config.drives.size()) {
@@ -82,6 +83,8 @@ void BusCycle::runOnce() noexcept {
   supervisor_.update(commands, after);
   standstill_requests_.update(after);
   while (const auto completion = supervisor_.pollCompletion()) ports_.complete(*completion);
+  position_requests_.update(after);
+  while (const auto completion = position_requests_.pollCompletion()) ports_.complete(*completion);
   while (const auto completion = standstill_requests_.pollCompletion()) ports_.complete(*completion);
   runParameters(after);
   measure(after, last_input_ ? after - *last_input_ : Duration::zero());
@@ -132,6 +135,8 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
       return standstill_requests_.handleRequest(request, now);
     case RequestKind::kSelectParameterSet:
       return selectParameterSet(request, now);
+    case RequestKind::kHome:
+      return position_requests_.handleRequest(request, now);
     case RequestKind::kResetOdometry:
       return ports_.complete(resetOdometry(request));
     case RequestKind::kEnable:
@@ -217,6 +222,9 @@ void BusCycle::handleInputs(Instant now) noexcept {
       const bool silent = inputs_[i].interruption == Interruption::kSilent;
       drives_[i].handleInterruption(silent ? drive::StopCause::kSilent : drive::StopCause::kInterrupted, now);
     }
+    const drive::DriveReport& before = drives_[i].report();
+    drives_[i].setReferenced(
+        axes_[i].bits.referenced(inputs_[i].input, axes_[i].parameters.device(), before.parameter_set));
     drives_[i].handleModule(inputs_[i].inverter_missing, now);
     drives_[i].handleInput(inputs_[i].input, inputs_[i].inverter_answers, now);
     axes_[i].known = axes_[i].known || drives_[i].report().online;

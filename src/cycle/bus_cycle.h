@@ -12,6 +12,7 @@
 #include "cycle/cycle_ports.h"
 #include "cycle/cycle_statistics.h"
 #include "cycle/guest_gate.h"
+#include "cycle/position_requests.h"
 #include "cycle/standstill_requests.h"
 #include "cycle/start_acknowledge.h"
 #include "cycle/steered_motion.h"
@@ -74,6 +75,7 @@ class BusCycle {
   void commandPosition(DriveIndex drive, Instant now) noexcept;
   void addAxis(const DriveSetup& setup, CycleRole role);
   void pollOutputs(Instant now) noexcept;
+  void putWords(DriveIndex drive, Instant now) noexcept;
   /// The drive is enabled and does what its velocity command says, which is fresh.
   bool followsCommand(DriveIndex drive, Instant now) noexcept;
   robot::WheelSpeeds maxWheelSpeeds() const noexcept;
@@ -108,6 +110,7 @@ class BusCycle {
   Supervisor supervisor_;
   CommandWatch command_watch_;
   StandstillRequests standstill_requests_;
+  PositionRequests position_requests_;
   CycleStatistics statistics_;
   std::vector<profile::ProcessOutput> outputs_;
   std::vector<DriveExchange> inputs_;

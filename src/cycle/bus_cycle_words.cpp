@@ -36,21 +36,27 @@ bool BusCycle::followsCommand(DriveIndex drive, Instant now) noexcept {
 void BusCycle::pollOutputs(Instant now) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     outputs_[i] = drives_[i].pollOutput(now);
-    Axis& axis = axes_[i];
-    if (axis.words.empty()) continue;
-    DriveWords::State state;
-    state.set = drives_[i].report().commanded_set;
-    state.max_frequency = drives_[i].maxFrequency(state.set);
-    state.follows = followsCommand(i, now);
-    state.in_doubt = axis.parameters.wordsInDoubt();
-    const drive::Phase phase = drives_[i].report().phase;
-    state.stopping = phase == drive::Phase::kStopping || phase == drive::Phase::kQuickStopping ||
-                     phase == drive::Phase::kCoasting || phase == drive::Phase::kHoldingZero ||
-                     phase == drive::Phase::kOffline;
-    axis.words.put(outputs_[i], state, axis.parameters.device(), ports_.newestWords(i), now);
-    while (const auto finding = axis.words.pollFinding(names_[i].c_str(), axis.parameters.device(), state.in_doubt)) {
-      ports_.tell({true, *finding});
-    }
+    const Axis& axis = axes_[i];
+    if (!axis.words.empty()) putWords(i, now);
+    const drive::DriveReport& report = drives_[i].report();
+    if (report.position.homing) axis.bits.putHome(outputs_[i], axis.parameters.device(), report.commanded_set);
+  }
+}
+
+void BusCycle::putWords(DriveIndex i, Instant now) noexcept {
+  Axis& axis = axes_[i];
+  DriveWords::State state;
+  state.set = drives_[i].report().commanded_set;
+  state.max_frequency = drives_[i].maxFrequency(state.set);
+  state.follows = followsCommand(i, now);
+  state.in_doubt = axis.parameters.wordsInDoubt();
+  const drive::Phase phase = drives_[i].report().phase;
+  state.stopping = phase == drive::Phase::kStopping || phase == drive::Phase::kQuickStopping ||
+                   phase == drive::Phase::kCoasting || phase == drive::Phase::kHoldingZero ||
+                   phase == drive::Phase::kOffline;
+  axis.words.put(outputs_[i], state, axis.parameters.device(), ports_.newestWords(i), now);
+  while (const auto finding = axis.words.pollFinding(names_[i].c_str(), axis.parameters.device(), state.in_doubt)) {
+    ports_.tell({true, *finding});
   }
 }
 

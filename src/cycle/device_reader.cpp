@@ -32,7 +32,7 @@ DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool furt
     addBusBits();
   }
   if (positions) {
-    add(kPositionControl, 1, 1);
+    for (std::uint8_t set = 1; set <= kSets; ++set) add(kPositionControl, set, 1);
     add(kSetpointMode, 1, 1);
   }
   motion_items_ = items_.size();
@@ -175,7 +175,7 @@ void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
   } else if (item.number == kSetpointSource) {
     data_.setpoint_source = raw;
   } else if (item.number == kPositionControl) {
-    data_.position_control = raw;
+    data_.position_control[item.set - 1u] = raw;
   } else if (item.number == kSetpointMode) {
     data_.setpoint_mode = raw;
   } else if (item.number == kMinFrequency) {

@@ -41,15 +41,18 @@ bool saysWhatSetpointsMean(std::uint16_t number) noexcept {
 }
 
 // P600 is 0 where the drive does not position. What else it can be stands in BU 0510, not at hand.
-std::optional<drive::UnexpectedFunction> unexpectedPositionMode(const DeviceData& device,
+std::optional<drive::UnexpectedFunction> unexpectedPositionMode(const DeviceData& device, std::uint8_t set,
                                                                 const WordNeeds& needs) noexcept {
   const auto raw = [](const std::optional<std::int32_t>& read) {
     return read ? static_cast<std::uint16_t>(*read) : kUnknownFunction;
   };
   drive::UnexpectedFunction wrong;
-  if (raw(device.position_control) == kUnknownFunction || *device.position_control == 0) {
+  // No manual at hand says whether it has sets: where the others could not be read, it has one.
+  const auto& own = device.position_control[set - 1u];
+  const auto& control = own ? own : device.position_control[0];
+  if (control.value_or(0) == 0) {
     wrong.number = 600;
-    wrong.found = raw(device.position_control);
+    wrong.found = raw(control);
     wrong.expected = 1;
     return wrong;
   }
@@ -75,7 +78,7 @@ std::optional<drive::UnexpectedFunction> unexpectedFunction(const DeviceData& de
   const auto setpoint = compare(546, device.setpoint_1_function[set - 1u]);
   if (setpoint) return setpoint;
   const auto missing = missingWord(needs, device.word_functions[set - 1u], series);
-  return missing || !needs.positions ? missing : unexpectedPositionMode(device, needs);
+  return missing || !needs.positions ? missing : unexpectedPositionMode(device, set, needs);
 }
 
 }  // namespace

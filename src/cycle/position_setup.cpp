@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "config/driver_settings.h"
 #include "config/setting_checks.h"
 #include "config/setting_choice.h"
 #include "profile/process_data_order.h"
@@ -13,12 +14,17 @@ namespace {
 constexpr double kTwoPi = 6.283185307179586476925;
 constexpr double kMost = 1e6;               // rad, m, rad/s, m/s
 constexpr double kDefaultTolerance = 0.01;  // revolutions of the count
-// "Bus", as BU 0510 calls it; no manual at hand has the table (doc/positions.md).
-constexpr std::int32_t kBusSetpoint = 3;
 
 constexpr Choice<DriveMode> kModes[] = {{"velocity", DriveMode::kVelocity}, {"position", DriveMode::kPosition}};
-constexpr Choice<profile::FieldOrder> kOrders[] = {{"low_first", profile::FieldOrder::kLowFirst},
-                                                   {"high_first", profile::FieldOrder::kHighFirst}};
+constexpr Choice<profile::FieldOrder> kOrders[] = {{"high_first", profile::FieldOrder::kHighFirst},
+                                                   {"low_first", profile::FieldOrder::kLowFirst}};
+
+// As the bus carries the bytes of a word.
+profile::FieldOrder usualOrder(const std::string& transport) {
+  const std::string name = shortTransportName(transport);
+  const bool low_first = name == "canopen" || name == "devicenet";
+  return low_first ? profile::FieldOrder::kLowFirst : profile::FieldOrder::kHighFirst;
+}
 
 /// m for a revolution of the joint's shaft; none: the joint turns.
 std::optional<double> readLead(const Settings& drive, const std::optional<robot::JointRange>& joint) {
@@ -57,14 +63,69 @@ void readLimits(const Settings& drive, const char* unit, const std::optional<rob
   }
 }
 
+/// "bus_in_bit_3": 3 after "bus_in_bit_"; none where the word begins otherwise or the number is none of `first` to `last`.
+std::optional<std::uint8_t> numberAfter(const std::string& word, const std::string& before, int first, int last) {
+  if (word.rfind(before, 0) != 0) return std::nullopt;
+  for (int number = first; number <= last; ++number) {
+    if (word == before + std::to_string(number)) return static_cast<std::uint8_t>(number);
+  }
+  return std::nullopt;
+}
+
+// 22: as the digital inputs of the inverters have it; their list (P420) is in none of the manuals at hand.
+constexpr std::int64_t kReferenceRun = 22;
+
+std::optional<HomeBit> readHome(const Settings& drive, bool has_field) {
+  const std::string expected = std::string("bus_in_bit_0 to 7, control_bit_8, control_bit_9") + ", posicon_bits";
+  const std::string word = wordOr(drive, "position/home", "", expected);
+  const auto function = integerOr(drive, "position/home_function", kReferenceRun, 1, 255);
+  if (word.empty()) return std::nullopt;
+  HomeBit bit;
+  bit.function = static_cast<std::uint16_t>(function);
+  if (const auto bus = numberAfter(word, "bus_in_bit_", 0, 7)) {
+    bit.carrier = HomeBit::Carrier::kBusBit;
+    bit.number = *bus;
+  } else if (const auto control = numberAfter(word, "control_bit_", 8, 9); control && !has_field) {
+    bit.carrier = HomeBit::Carrier::kControlBit;
+    bit.number = *control;
+  } else if (word == "posicon_bits" && has_field) {
+    bit.carrier = HomeBit::Carrier::kPosicon;
+  } else {
+    throw wrongSetting(
+        drive, "position/home", "\"" + word + "\"",
+        has_field ? "bus_in_bit_0 to 7 or posicon_bits" : "bus_in_bit_0 to 7, control_bit_8 or control_bit_9");
+  }
+  return bit;
+}
+
+std::optional<SignalSetup> readReferenced(const Settings& drive) {
+  const std::string expected = "bus_out_bit_0 to 7, status_bit_10, status_bit_13";
+  const std::string word = wordOr(drive, "position/referenced", "", expected);
+  if (word.empty()) return std::nullopt;
+  SignalSetup bit;
+  bit.name = "referenced";
+  if (const auto bus = numberAfter(word, "bus_out_bit_", 0, 7)) {
+    bit.source = SignalSource::kBusOutBit;
+    bit.number = *bus;
+  } else if (const auto status = numberAfter(word, "status_bit_", 10, 13); status == 10 || status == 13) {
+    bit.source = SignalSource::kStatusBit;
+    bit.number = *status;
+  } else {
+    throw wrongSetting(drive, "position/referenced", "\"" + word + "\"", expected);
+  }
+  return bit;
+}
+
 }  // namespace
 
 DriveMode readDriveMode(const Settings& drive) {
   return choiceOr(drive, "mode", DriveMode::kVelocity, kModes);
 }
 
-PositionSetup readPositionSetup(const Settings& drive, profile::Series series, const profile::JointScaling& scaling,
-                                const std::optional<robot::JointRange>& joint) {
+PositionSetup readPositionSetup(const Settings& drive, const PositionContext& context) {
+  const profile::Series series = context.series;
+  const profile::JointScaling& scaling = context.scaling;
+  const auto& joint = context.joint;
   if (series == profile::Series::kSk1x0e || series == profile::Series::kSk300e) {
     // BU 0020 6.1.2 (SK 7x0E only), 7.3.5; BU 2700 6.4.4: SK 2xxE, and SK 530E and above.
     throw wrongSetting(drive, "mode", "\"position\"",
@@ -92,10 +153,11 @@ PositionSetup readPositionSetup(const Settings& drive, profile::Series series, c
   const auto bits = integerOr(drive, "position/bits", 32, 16, 32);
   if (bits != 16 && bits != 32) throw wrongSetting(drive, "position/bits", std::to_string(bits), "16 or 32");
   setup.bits = static_cast<std::uint8_t>(bits);
-  setup.order = choiceOr(drive, "position/word_order", profile::FieldOrder::kLowFirst, kOrders);
-  const bool own_field = profile::thirdBeforeSecond(series);
-  setup.setpoint_mode =
-      static_cast<std::int32_t>(integerOr(drive, "position/setpoint_mode", own_field ? -1 : kBusSetpoint, -1, 100));
+  setup.order = choiceOr(drive, "position/word_order", usualOrder(context.transport), kOrders);
+  setup.setpoint_mode = static_cast<std::int32_t>(integerOr(drive, "position/setpoint_mode", -1, -1, 100));
+  setup.home = readHome(drive, profile::thirdBeforeSecond(series));
+  setup.referenced = readReferenced(drive);
+  setup.axis.homing_timeout = seconds(numberOr(drive, "position/homing_timeout", 60.0, 0.1, 3600.0, "s"));
   return setup;
 }
 

@@ -143,7 +143,22 @@ WordNeeds wordNeeds(const WordSetup& setup, std::size_t carried) noexcept {
 }
 
 bool carries(std::size_t place, const WordNeed& need, const WordFunctions& functions, Series series) noexcept {
-  return useAt(need.actual_value, place, functions, series) == need.use;
+  const auto use = useAt(need.actual_value, place, functions, series);
+  // A position in increments is one, too: what a step of it is, its function says.
+  if (need.use == WordUse::kPosition16 && use == WordUse::kIncrement16) return true;
+  return use == need.use || (need.use == WordUse::kPosition32 && use == WordUse::kIncrement32);
+}
+
+WordNeed needOf(const HomeBit& home) noexcept {
+  if (home.carrier == HomeBit::Carrier::kPosicon) return {false, WordUse::kPosiconBits, 1, 3};
+  return {false, WordUse::kBusBits, 2, 3};
+}
+
+std::optional<std::uint8_t> elementOf(const HomeBit& home) noexcept {
+  // P480 [-01] to [-08] are the bus I/O in bits, [-11] and [-12] bits 8 and 9 of the control word (BU 0020 6.2.1).
+  if (home.carrier == HomeBit::Carrier::kBusBit) return static_cast<std::uint8_t>(home.number + 1);
+  if (home.carrier == HomeBit::Carrier::kControlBit) return static_cast<std::uint8_t>(home.number + 3);
+  return std::nullopt;
 }
 
 bool isPosition(WordUse use) noexcept {
@@ -170,6 +185,14 @@ bool firstWordFits(const WordNeeds& needs, bool actual_value, std::uint16_t code
 void addPositionNeeds(const PositionSetup& setup, Series series, WordNeeds& needs) noexcept {
   needs.positions = true;
   needs.setpoint_mode = setup.setpoint_mode;
+  const auto add = [&needs](const WordNeed& need) {
+    const bool known = std::any_of(needs.list.begin(), needs.list.end(), [&need](const WordNeed& other) {
+      return other.actual_value == need.actual_value && other.use == need.use;
+    });
+    if (!known) needs.list.push_back(need);
+  };
+  if (setup.home && setup.home->carrier != HomeBit::Carrier::kControlBit) add(needOf(*setup.home));
+  if (setup.referenced && setup.referenced->source == SignalSource::kBusOutBit) add({true, WordUse::kBusBits, 2, 3});
   const bool wide = setup.bits == 32;
   if (profile::thirdBeforeSecond(series)) {
     // Setpoint 1 only (P546); of the actual values 32 bits are in IW1 only (BU 0020 6.1.2, 7.3.7).

@@ -59,6 +59,10 @@ void Drive::enter(Phase phase, Instant now, RadPerSec wanted) noexcept {
   phase_ = PhaseData{};
   phase_.since = now;
   phase_.wanted = wanted;
+  if (axis_ && axis_->isHoming()) {
+    axis_->endHoming();
+    end(report_.homing, Refusal::kStopped);
+  }
 }
 
 void Drive::latch(StopCause cause) noexcept {
@@ -106,6 +110,7 @@ void Drive::handleUseful(const profile::ProcessInput& input, Instant now) noexce
   if (axis_) handlePosition(now);
   checkStops(status, now);
   follow(status, now);
+  if (axis_) followHoming(now);
 }
 
 void Drive::learnSet(StatusWord status, bool joined) noexcept {

@@ -102,6 +102,11 @@ class Drive {
   /// Of a drive that positions: go there, rad or m of the joint. Taken only while enabled, and forgotten with it; what
   /// is refused changes nothing, and stands in report().position.
   TargetRefusal setPosition(double joint) noexcept;
+  /// A reference run of a drive that positions, from "enabled"; report().homing tells the outcome, with the `token`. The
+  /// drive is asked for it while report().position.homing. It ends in a stop after PositionConfig::homing_timeout.
+  void requestHoming(Instant now, std::uint32_t token = 0) noexcept;
+  /// Whether a bit of the drive says that its reference is known; none: there is no such bit.
+  void setReferenced(std::optional<bool> referenced) noexcept;
   bool positions() const noexcept { return axis_.has_value(); }
   /// What the words of set 1..4 carry, as the inverter told their functions.
   void setPositionWords(std::uint8_t set, const profile::PositionWords& words) noexcept;
@@ -173,6 +178,7 @@ class Drive {
   void measure() noexcept;
   void measurePosition() noexcept;
   void handlePosition(Instant now) noexcept;
+  void followHoming(Instant now) noexcept;
   void putPosition(profile::ProcessOutput& output) noexcept;
   /// Of a drive that positions, why its position keeps it from being enabled.
   Refusal positionRefusal() const noexcept;

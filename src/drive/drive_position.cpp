@@ -24,7 +24,8 @@ void Drive::handlePosition(Instant now) noexcept {
   const double fastest = maxFrequency(report_.parameter_set).value_or(Hertz{kFastest}).value;
   axis_->handleInput(report_.input, report_.parameter_set, fastest / config_.joint.pole_pairs, now);
   // The drive would go where the old target is in the new count.
-  if (axis_->hasJumped() && isRunning()) stop(StopCause::kPositionJump, now);
+  const bool expected = axis_->isHoming();
+  if (axis_->hasJumped() && !expected && isRunning()) stop(StopCause::kPositionJump, now);
 }
 
 std::int16_t Drive::speedWord() const noexcept {
@@ -40,6 +41,34 @@ std::int16_t Drive::speedWord() const noexcept {
 void Drive::measurePosition() noexcept {
   axis_->tell(report_.online, isEnabled(report_.phase), StatusWord(report_.status_word).setpointReached());
   report_.position = axis_->report();
+}
+
+// A count that just got its new zero may still be on its way through the reader.
+void Drive::followHoming(Instant now) noexcept {
+  if (!axis_->isHoming()) return;
+  const StatusWord status(report_.status_word);
+  report_.speed = speedWord();
+  switch (axis_->handleHoming(status.setpointReached(), isNearStandstill(), now)) {
+    case HomingRun::Outcome::kGoesOn:
+      return;
+    case HomingRun::Outcome::kDone:
+      return end(report_.homing, Refusal::kNone);
+    case HomingRun::Outcome::kTimedOut:
+      end(report_.homing, Refusal::kHomingTimeout);
+      latch(StopCause::kHomingTimeout);
+      return enter(Phase::kStopping, now);
+  }
+}
+
+void Drive::requestHoming(Instant now, std::uint32_t token) noexcept {
+  if (!axis_ || axis_->isHoming()) return;
+  report_.homing = {token, RequestState::kRunning, Refusal::kNone};
+  if (report_.phase != Phase::kEnabled) return end(report_.homing, Refusal::kNotEnabled);
+  axis_->startHoming(now);
+}
+
+void Drive::setReferenced(std::optional<bool> referenced) noexcept {
+  if (axis_) axis_->setReferenced(referenced);
 }
 
 Refusal Drive::positionRefusal() const noexcept {
@@ -60,7 +89,7 @@ TargetRefusal Drive::setPosition(double joint) noexcept {
 // The speed goes out unsigned: which way it has to travel, the drive knows.
 void Drive::putPosition(profile::ProcessOutput& output) noexcept {
   const bool moves = report_.phase == Phase::kEnabled || (report_.phase == Phase::kEnabling && phase_.ready_seen);
-  if (!moves) axis_->hold();
+  axis_->follow(moves);
   const profile::PositionWords& words = axis_->words(report_.commanded_set);
   if (moves && words.speed_setpoint) {
     const Hertz maximum = maxFrequency(report_.commanded_set).value_or(Hertz{});

@@ -50,6 +50,7 @@ enum class StopCause : std::uint8_t {
   kCoast,            ///< OFF2 was asked for
   kCommandTimeout,   ///< no new velocity command came in time
   kPositionJump,     ///< its position changed faster than the motor can turn: the count has a new zero
+  kHomingTimeout,    ///< a reference run did not end in time
   kNotResumed,       ///< from rest (P104 > 0) it did not reach "operation enabled" within enable_timeout
 };
 
@@ -77,6 +78,8 @@ enum class Refusal : std::uint8_t {
   kOnlySet1,             ///< the profile it is commanded by has no bits for parameter sets
   kPositionUnknown,      ///< of a drive that positions: not told yet, or no word carries it
   kPositionBeyondRange,  ///< where it is, its setpoint cannot express: it could not be held there
+  kNotEnabled,           ///< a reference run: the drive is not enabled
+  kHomingTimeout,        ///< a reference run did not end within position/homing_timeout
   kSetNotConfirmed,      ///< status bits 14 and 15 did not show the new set within enable_timeout
 };
 
@@ -136,6 +139,7 @@ struct DriveReport {
   RequestReport set_switch;   ///< the last switching of the parameter set
 
   PositionReport position;  ///< of a drive that positions
+  RequestReport homing;     ///< its last reference run
 };
 
 /// A clause: "a fault", "the drive fell silent".

@@ -53,6 +53,8 @@ void PositionAxis::handleInput(const profile::ProcessInput& input, std::uint8_t 
 
 void PositionAxis::handleGap() noexcept {
   reader_.handleGap();
+  homing_.end();
+  homed_ = false;
   has_target_ = false;
 }
 
@@ -66,6 +68,27 @@ bool PositionAxis::canHold(std::uint8_t set) const noexcept {
 
 double PositionAxis::motorTurnsPerSecond() const noexcept {
   return reader_.speed() / profile::stepsPerRevolution(config_.scale, field()) / config_.revolutions_per_motor_turn;
+}
+
+void PositionAxis::follow(bool moves) noexcept {
+  const bool freeze = moves && !homing_.isRunning();
+  if (!freeze || !frozen_) hold();
+  frozen_ = freeze;
+}
+
+void PositionAxis::startHoming(Instant now) noexcept {
+  homed_ = false;
+  homing_.start(now, config_.homing_timeout);
+}
+
+void PositionAxis::endHoming() noexcept {
+  homing_.end();
+}
+
+HomingRun::Outcome PositionAxis::handleHoming(bool reached, bool still, Instant now) noexcept {
+  const HomingRun::Outcome outcome = homing_.handleView({reached, still, reader_.isHeldBack(), referenced_}, now);
+  homed_ = homed_ || outcome == HomingRun::Outcome::kDone;
+  return outcome;
 }
 
 void PositionAxis::hold() noexcept {
@@ -96,6 +119,7 @@ TargetRefusal PositionAxis::setTarget(double joint) noexcept {
   } else if (!steps) {
     refusal = TargetRefusal::kBeyondRange;
   }
+  if (homing_.isRunning() && refusal == TargetRefusal::kNone) refusal = TargetRefusal::kHoming;
   refuse(refusal, joint);
   if (refusal != TargetRefusal::kNone) return refusal;
   target_ = *steps;
@@ -113,6 +137,8 @@ void PositionAxis::tell(bool online, bool enabled, bool reached) noexcept {
   const bool known = online && reader_.isKnown();
   report_.position.reset();
   report_.target.reset();
+  report_.homing = homing_.isRunning();
+  report_.homed = online && referenced_.value_or(homed_);
   report_.held_back = known && reader_.isHeldBack();
   if (known) {
     report_.position = profile::toJoint(reader_.steps(), config_.scale, at);

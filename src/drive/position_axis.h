@@ -4,6 +4,7 @@
 //  - While the drive does not carry out 047F, the target it is sent is its own position: enabling, whoever does it,
 //    moves nothing.
 //  - With the first 047F the target stands still: the axis is held where it was.
+//  - During a reference run it is the position again, for the count gets a new zero on the way.
 //  - A target counts while the drive is enabled, and is forgotten with it.
 #pragma once
 
@@ -12,6 +13,7 @@
 #include <optional>
 
 #include "core/units.h"
+#include "drive/homing_run.h"
 #include "drive/position_reader.h"
 #include "drive/position_report.h"
 #include "nord_driver/core/time.h"
@@ -28,6 +30,7 @@ struct PositionConfig {
   double tolerance = 0.0;          ///< rad or m: nearer than this the target is reached
   std::optional<RadPerSec> speed;  ///< of the joint's shaft, what setpoint 1 asks for while it travels; none: P105
   double unit_per_radian = 1.0;    ///< of the joint's shaft: 1, or m of a prismatic joint
+  Duration homing_timeout = seconds(60.0);
   double revolutions_per_motor_turn = 1.0;  ///< counted, > 0
 };
 
@@ -51,8 +54,17 @@ class PositionAxis {
   /// A value beyond what the speed allows has just been believed: the count has a new zero.
   bool hasJumped() const noexcept { return reader_.hasJumped(); }
 
-  /// The target becomes the position.
-  void hold() noexcept;
+  /// Before put(). `moves`: 047F goes out, and a target is gone to; otherwise, and with the first one, the target is the
+  /// position.
+  void follow(bool moves) noexcept;
+  void startHoming(Instant now) noexcept;
+  void endHoming() noexcept;
+  bool isHoming() const noexcept { return homing_.isRunning(); }
+  /// While it runs, after handleInput().
+  HomingRun::Outcome handleHoming(bool reached, bool still, Instant now) noexcept;
+  /// A bit of the drive says whether its reference is known; none: there is no such bit.
+  void setReferenced(std::optional<bool> referenced) noexcept { referenced_ = referenced; }
+
   /// rad or m. Refused, the one before stays.
   TargetRefusal setTarget(double joint) noexcept;
   void refuse(TargetRefusal refusal, double joint) noexcept;
@@ -66,15 +78,20 @@ class PositionAxis {
   const PositionConfig& config() const noexcept { return config_; }
 
  private:
+  void hold() noexcept;
   const profile::PositionField& field() const noexcept { return words(set_).actual; }
 
   PositionConfig config_;
   std::array<profile::PositionWords, 4> words_{};
   PositionReader reader_;
   PositionReport report_;
+  HomingRun homing_;
+  std::optional<bool> referenced_;
+  bool homed_ = false;       // by a run asked for here, since the drive is back
   std::uint8_t set_ = 1;     // in force
   std::int64_t target_ = 0;  // steps of the setpoint's field
   bool has_target_ = false;
+  bool frozen_ = false;  // the target stands still
 };
 
 }  // namespace nord_driver::drive

@@ -22,6 +22,7 @@ struct PositionReport {
   std::optional<double> target;    ///< rad or m, as sent while enabled
   bool reached = false;            ///< enabled, the drive says so (status bit 8), and the position is near the target
   bool homed = false;              ///< its reference is known, as far as that can be told
+  bool homing = false;             ///< a reference run is under way: its bit is high
   bool held_back = false;          ///< the newest position cannot be: the one before is told
   TargetRefusal refused = TargetRefusal::kNone;  ///< of the newest target
   double refused_target = 0.0;                   ///< rad or m

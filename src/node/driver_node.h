@@ -58,7 +58,7 @@ class DriverNode {
   void warnOfUnknownKeys() const;
   void advertise();
   void takeCommand(const geometry_msgs::Twist& twist);
-  void takeDriveCommand(DriveIndex drive, double velocity);
+  void takeDriveCommand(DriveIndex drive, bool positions, double command);
   /// Whoever publishes commands and has just been connected is listened to before anything is enabled.
   void noteCommanders();
   void tellBusEvents();

@@ -61,7 +61,7 @@ constexpr CycleParameter kParameters[] = {
     {548, kSk5, "Function of bus setpoint 3", 1.0, false, kPerSet, 1},
     {548, kSk300 | kSk7, "Bus setpoint 3", 1.0, false, kPerSet, 1},
     {560, kAll, "Save in EEPROM", 1.0, false, kPlain, 1},
-    {600, kPositioning, "Position control", 1.0, false, kPlain, 1},
+    {600, kPositioning, "Position control", 1.0, false, kPerSet, 1},
     {610, kPositioning, "Setpoint mode", 1.0, false, kPlain, 1},
     {707, kAll, "Software version", 1.0, false, kArray, 2},
     // clang-format on

@@ -37,8 +37,8 @@ constexpr bool operator==(const PositionField& a, const PositionField& b) noexce
   return a.bits == b.bits && a.low == b.low && a.high == b.high && a.steps_per_revolution == b.steps_per_revolution;
 }
 
-/// Of SK 700E and 750E: no manual at hand says which half of the field comes first. BU 0280 4.2.1.1 and P740 of BU 0020
-/// 6.1.3 put the low word first; that stays a choice of the configuration.
+/// Of SK 700E and 750E, the half that stands in the place of setpoint 1. BU 0280 4.2.1.1 puts the low one first, as
+/// DeviceNet does with bytes; of PROFIBUS and InterBus, which send high bytes first, no manual at hand says it.
 enum class FieldOrder : std::uint8_t { kLowFirst, kHighFirst };
 
 /// What the words of one parameter set carry for a drive that positions.
@@ -52,7 +52,7 @@ struct PositionWords {
 /// `carried`: how many setpoints and actual values the bus carries. A low word without a high one is a position of 16
 /// bits (BU 2700 6.4.4). Two halves of which one counts increments and the other does not (21 and 24) are none.
 PositionWords positionWords(Series series, const FunctionCodes& setpoints, const FunctionCodes& actual_values,
-                            std::size_t carried, FieldOrder order = FieldOrder::kLowFirst) noexcept;
+                            std::size_t carried, FieldOrder order = FieldOrder::kHighFirst) noexcept;
 
 /// A field that is not carried changes nothing. Of 16 bits the low half goes out.
 void putPosition(const PositionField& field, std::int32_t steps, ProcessValues& words) noexcept;

@@ -24,6 +24,7 @@ namespace {
 
 constexpr double kLinear = 0.2;  // m/s, of a base
 constexpr double kJoint = 2.0;   // rad/s, of a drive without one
+constexpr double kFar = 2.4;     // m, a target above the lift
 constexpr double kReached = 0.9;
 
 /// The robot of one template, in the namespace of the template's name.
@@ -37,7 +38,10 @@ class Machine {
       cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
       truth_ = std::make_unique<Topic<nav_msgs::Odometry>>(node_, "nord_sim/truth/odom");
     }
-    for (const auto& drive : drives) drives_.push_back(std::make_unique<Drive>(node_, drive.first));
+    for (auto& drive : drives) {
+      const bool positions = drive.second.hasMember("mode") && drive.second["mode"] == "position";
+      drives_.push_back(std::make_unique<Drive>(node_, drive.first, positions));
+    }
     timer_ = node_.createSteadyTimer(ros::WallDuration(0.05), [this](const ros::SteadyTimerEvent&) { publish(); });
   }
 
@@ -84,12 +88,15 @@ class Machine {
 
  private:
   struct Drive {
-    Drive(ros::NodeHandle& node, const std::string& name)
+    Drive(ros::NodeHandle& node, const std::string& name, bool positions)
         : status(node, "nord_driver/" + name + "/status"),
           truth(node, "nord_sim/truth/" + name),
-          command(node.advertise<std_msgs::Float64>("nord_driver/" + name + "/command", 1)) {}
+          goes_to_positions(positions),
+          command(node.advertise<std_msgs::Float64>(
+              "nord_driver/" + name + (positions ? "/position_command" : "/command"), 1)) {}
     Topic<DriveStatus> status;
     Topic<SimDrive> truth;
+    bool goes_to_positions;
     ros::Publisher command;
   };
 
@@ -104,7 +111,9 @@ class Machine {
     }
     std_msgs::Float64 velocity;
     velocity.data = kJoint;
-    for (const auto& drive : drives_) drive->command.publish(velocity);
+    std_msgs::Float64 target;
+    target.data = kFar;
+    for (const auto& drive : drives_) drive->command.publish(drive->goes_to_positions ? target : velocity);
   }
 
   std::string name_;
