@@ -159,7 +159,7 @@ TEST(Templates, EachDrivesInTheSimulator) {
   constexpr Seconds kLongEnoughToLoseADrive{0.5};  // half of drive_timeout in template.launch
   Machines machines;
   for (const std::string& name : templates()) machines.push_back(std::make_unique<Machine>(name));
-  ASSERT_GE(machines.size(), 10u);
+  ASSERT_GE(machines.size(), 11u);
   for (const auto& machine : machines) {
     EXPECT_GE(machine->size(), 2u) << "rostest_templates.test does not start " << machine->name();
   }

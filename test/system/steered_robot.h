@@ -103,7 +103,7 @@ class SteeredRobot : public DrivenRobot {
       settings->set("series", "sk5xxe").set("joint", jointOf(i).c_str()).set("pole_pairs", 2);
       settings->set("gear_ratio", isSteering(i) ? 100.0 : 20.0);
       if (isSteering(i)) {
-        settings->set("mode", "position").set("position/setpoint_mode", -1);
+        settings->set("mode", "position");
         settings->set("position/lower", -options.steering_range).set("position/upper", options.steering_range);
       }
       drives.push_back({nameOf(i), settings});
