@@ -1,21 +1,30 @@
 #!/usr/bin/env bash
 # Makes doc/pictures/demo.png: the demo in rviz (config/demo.rviz) on a screen that exists in memory only, after the robot has
-# driven its square. Installs nothing, builds nothing: needs Debian's rviz, xvfb and imagemagick, and the demo as
+# driven its square; with --steered doc/pictures/demo_steered.png, the steered robot after its circle. Installs nothing, builds nothing: needs Debian's rviz, xvfb and imagemagick, and the demo as
 # scripts/demo.sh has built it, or the build folder that is named.
 set -euo pipefail
 export PATH=/usr/bin:/bin:/usr/sbin:/sbin
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 usage() {
-  echo "usage: picture_of_demo.sh [BUILD FOLDER]   (default: out/demo)"
+  echo "usage: picture_of_demo.sh [--steered] [BUILD FOLDER]   (default: out/demo)"
 }
+name=demo
+robot=two_wheels
+drive=(drive_square.py)
+if [[ ${1:-} == --steered ]]; then
+  name=demo_steered
+  robot=steered
+  drive=(drive_circle.py --radius 0.6)
+  shift
+fi
 if (($# > 1)) || [[ ${1:-} == -* ]]; then
   usage
   [[ ${1:-} == -h || ${1:-} == --help ]] || exit 2
   exit 0
 fi
 built=${1:-$root/out/demo}
-picture=$root/doc/pictures/demo.png
+picture=$root/doc/pictures/$name.png
 
 missing=()
 for need in rviz:rviz Xvfb:xvfb import:imagemagick; do
@@ -60,7 +69,7 @@ read -r -t 20 number <"$files/display" || fail "Xvfb did not start"
 mkdir -p "$files/run" && chmod 700 "$files/run"
 export DISPLAY=:$number LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1 HOME=$files ROS_HOME=$files/ros XDG_RUNTIME_DIR=$files/run
 
-start_demo "$log" bus:="$files/bus" rviz:=true
+start_demo "$log" robot:="$robot" bus:="$files/bus" rviz:=true
 hears_odometry() {
   local told
   told=$(rosnode info /rviz 2>/dev/null) && [[ $told == *"* /odom ["* ]]
@@ -72,7 +81,7 @@ for _ in $(seq 100); do # until rviz hears what it is to show
 done
 hears_odometry || fail "rviz does not listen to /odom"
 
-python3 "$root/scripts/drive_square.py" >>"$log" 2>&1 || fail "the robot did not drive its square"
+python3 "$root/scripts/${drive[0]}" "${drive[@]:1}" >>"$log" 2>&1 || fail "the robot did not drive its way"
 # Without the panels beside the view.
 import -window root -crop 820x700+364+66 +repage -strip +dither -colors 256 "PNG8:$files/demo.png"
 mv "$files/demo.png" "$picture"

@@ -27,7 +27,7 @@ double hertz(double joint_speed, const cycle::DriveSetup& setup) {
 
 void askForBase(const cycle::CycleConfig& config, std::vector<AskedDrive>& drives) {
   const cycle::BaseConfig& base = *config.base;
-  const auto kinematics = robot::makeKinematics(base.kind, base.geometry, base.left.size(), base.right.size());
+  const auto kinematics = base.kinematics();
   const std::vector<DriveIndex> wheels = base.wheels();
   const auto ask = [&](const robot::SpeedLimits& limits, const robot::Twist2d& unit, const std::string& key) {
     const robot::WheelSpeeds speeds = kinematics->wheels(kinematics->possible(unit));
@@ -58,6 +58,7 @@ std::vector<AskedDrive> askedDrives(const cycle::CycleConfig& config, const std:
     drive.typed_max_frequency = setup.typed_max_frequency;
     drive.rated_current = setup.rated_current;
     drive.words = cycle::wordNeeds(setup.words, identities[i].process_values);
+    if (setup.position) cycle::addPositionNeeds(*setup.position, setup.series, drive.words);
     for (const cycle::SignalSetup& signal : setup.words.signals) {
       const auto bit = cycle::busBitElement(signal);
       if (bit && signal.may_move) drive.may_move_bits.push_back(*bit);

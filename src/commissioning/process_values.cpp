@@ -49,7 +49,10 @@ void expectFrequency(const DriveUnderCheck& drive, std::uint16_t first, const st
   for (std::uint8_t set = 1; set <= kSets; ++set) {
     const ParameterKey key = drive.functionKey(first, 0, set);
     const auto raw = drive.raw(key);
-    if (!raw || *raw == kFrequency) continue;
+    if (!raw || cycle::firstWordFits(drive.asked().words, first == kFirstActualValue, static_cast<std::uint16_t>(*raw),
+                                     drive.asked().series)) {
+      continue;
+    }
     const bool in_force = set == drive.setInForce();
     Finding finding = drive.finding(key, in_force ? Severity::kError : Severity::kWarning,
                                     why + (in_force ? ": the drive is not enabled" : ": not enabled in this set"));

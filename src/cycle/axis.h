@@ -6,6 +6,8 @@
 #include "cycle/drive_words.h"
 #include "cycle/fault_record.h"
 #include "cycle/joint_motion.h"
+#include "cycle/position_bits.h"
+#include "cycle/position_targets.h"
 #include "cycle/speed_watch.h"
 #include "cycle/terminal_watch.h"
 #include "nord_driver/transport/transport.h"
@@ -17,11 +19,14 @@ struct Axis {
   Axis(DriveIndex drive, const DriveSetup& setup, const ParameterChannelUse& channel)
       : parameters(drive, setup.name, setup.series, setup.typed_max_frequency, channel),
         words(channel.users_only ? WordSetup{} : setup.words, setup.series, channel.needs.words),
+        bits(channel.users_only ? std::nullopt : setup.position, setup.series, channel.needs.words),
         motion(setup.limits) {}
 
   DriveParameters parameters;
   DriveWords words;
-  JointMotion motion;  ///< of a drive that belongs to no base
+  PositionBits bits;        ///< of one that positions
+  JointMotion motion;       ///< of a drive that belongs to no base
+  PositionTargets targets;  ///< of one that positions
   robot::JointPosition joint;
   SpeedWatch speed;
   TerminalWatch terminals;

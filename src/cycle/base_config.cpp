@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "config/setting_checks.h"
+#include "robot/steered_reach.h"
 #include "robot/urdf_geometry.h"
 
 namespace nord_driver::cycle {
@@ -65,10 +66,11 @@ void warnOfLimitsThatAreOff(const Settings& settings, const std::string& axis, s
 }
 
 robot::BaseKind readKind(const Settings& settings) {
-  const std::string kind = wordOr(settings, "base_type", "differential", "differential, mecanum");
+  const std::string kind = wordOr(settings, "base_type", "differential", "differential, mecanum, steered");
   if (kind == "differential") return robot::BaseKind::kDifferential;
   if (kind == "mecanum") return robot::BaseKind::kMecanum;
-  throw wrongSetting(settings, "base_type", "\"" + kind + "\"", "differential or mecanum");
+  if (kind == "steered") return robot::BaseKind::kSteered;
+  throw wrongSetting(settings, "base_type", "\"" + kind + "\"", "differential, mecanum or steered");
 }
 
 /// A size in m: typed in, or from the robot description by `look_up`.
@@ -122,14 +124,15 @@ double separationFrom(const robot::UrdfGeometry& description, BaseConfig& base, 
   return distance;
 }
 
+JointNames namesOf(const std::vector<DriveIndex>& drives, const JointNames& joints) {
+  JointNames names;
+  for (const DriveIndex drive : drives) names.push_back(joints[drive]);
+  return names;
+}
+
 void readGeometry(BaseConfig& base, const Settings& settings, const JointNames& joints, const std::string& urdf) {
-  const auto namesOf = [&](const std::vector<DriveIndex>& drives) {
-    JointNames names;
-    for (const DriveIndex drive : drives) names.push_back(joints[drive]);
-    return names;
-  };
-  const JointNames left = namesOf(base.left);
-  const JointNames right = namesOf(base.right);
+  const JointNames left = namesOf(base.left, joints);
+  const JointNames right = namesOf(base.right, joints);
   const bool all_typed = settings.has("wheel_separation") && settings.has("wheel_radius") &&
                          (base.kind != robot::BaseKind::kMecanum || settings.has("wheel_base"));
   std::optional<robot::UrdfGeometry> description;
@@ -148,9 +151,9 @@ void readGeometry(BaseConfig& base, const Settings& settings, const JointNames& 
     geometry.wheel_base = size("wheel_base", [&] { return description->wheelBase(left, right); });
   }
   if (description) {
-    base.joint_velocity_limits = description->maxVelocities(namesOf(base.wheels()));
+    base.joint_velocity_limits = description->maxVelocities(namesOf(base.wheels(), joints));
   } else if (!urdf.empty()) {
-    base.joint_velocity_limits = limitsIfThere(urdf, namesOf(base.wheels()), base.warnings);
+    base.joint_velocity_limits = limitsIfThere(urdf, namesOf(base.wheels(), joints), base.warnings);
   }
 
   const auto multiplier = [&](const char* key, double fallback) {
@@ -167,40 +170,94 @@ void readGeometry(BaseConfig& base, const Settings& settings, const JointNames& 
   }
 }
 
+/// As readGeometry does it: what is typed in wins, the description gives the rest and the limits of the wheels.
+void readAxles(BaseConfig& base, const Settings& settings, const JointNames& joints, const std::string& urdf,
+               const SteeringRanges& ranges) {
+  for (const char* key : {"left_wheel", "right_wheel"}) {
+    if (settings.has(key)) throw wrongSetting(settings, key, "one", "none beside base_type: steered");
+  }
+  std::optional<robot::UrdfGeometry> description;
+  const std::string base_link = textOr(settings, "base_frame_id", "base_link");
+  if (!urdf.empty() && !steeredSizesAreTyped(settings)) description.emplace(urdf, base_link);
+  base.steered = readSteeredConfig(settings, joints, description ? &*description : nullptr, ranges);
+  const JointNames wheels = namesOf(base.steered->wheels, joints);
+  if (description) {
+    base.joint_velocity_limits = description->maxVelocities(wheels);
+  } else if (!urdf.empty()) {
+    base.joint_velocity_limits = limitsIfThere(urdf, wheels, base.warnings);
+  }
+}
+
+void readAllLimits(BaseConfig& base, const Settings& settings) {
+  const auto read = [&](const char* axis) {
+    warnOfLimitsThatAreOff(settings, axis, base.warnings);
+    return readLimits(settings, axis);
+  };
+  base.limits.linear_x = read("linear/x");
+  base.limits.angular_z = read("angular/z");
+  if (base.movesSideways()) base.limits.linear_y = read("linear/y");
+  base.limits.limit_axes_independently = booleanOr(settings, "limit_axes_independently", false);
+}
+
 }  // namespace
 
 std::vector<DriveIndex> BaseConfig::wheels() const {
+  if (steered) return steered->wheels;
   std::vector<DriveIndex> all = left;
   all.insert(all.end(), right.begin(), right.end());
   return all;
 }
 
+std::vector<DriveIndex> BaseConfig::drives() const {
+  std::vector<DriveIndex> all = wheels();
+  if (steered) all.insert(all.end(), steered->steering.begin(), steered->steering.end());
+  return all;
+}
+
+std::unique_ptr<robot::BaseKinematics> BaseConfig::kinematics() const {
+  if (steered) return std::make_unique<robot::SteeredReach>(steered->axles);
+  return robot::makeKinematics(kind, geometry, left.size(), right.size());
+}
+
+robot::WheelSpeeds wheelLimits(const BaseConfig& config) {
+  const std::size_t wheels = config.wheels().size();
+  robot::WheelSpeeds limits;
+  if (config.joint_velocity_limits.empty()) {
+    for (std::size_t i = 0; i < wheels; ++i) limits.push_back(std::numeric_limits<double>::infinity());
+  } else if (config.joint_velocity_limits.size() == wheels) {
+    for (const double limit : config.joint_velocity_limits) limits.push_back(limit);
+  } else {
+    throw std::invalid_argument(std::to_string(config.joint_velocity_limits.size()) +
+                                " joints have a velocity limit, expected one for each of the base's " +
+                                std::to_string(wheels) + " wheels");
+  }
+  return limits;
+}
+
 std::optional<BaseConfig> readBaseConfig(const Settings& settings, const JointNames& joints,
-                                         const std::string& robot_description) {
-  if (!settings.has("left_wheel")) {
+                                         const std::string& robot_description, const SteeringRanges& ranges) {
+  BaseConfig base;
+  const bool steered = settings.text("base_type") == std::optional<std::string>("steered");
+  if (!steered && !settings.has("left_wheel")) {
     if (settings.has("right_wheel")) {
       throw missingSetting(settings, "left_wheel", "it beside " + settings.fullName("right_wheel"));
     }
     return std::nullopt;
   }
-  BaseConfig base;
-  base.left = readWheels(settings, "left_wheel", joints);
-  base.right = readWheels(settings, "right_wheel", joints);
-  refuseWheelsUsedTwice(settings, base, joints);
   base.kind = readKind(settings);
+  if (!steered) {
+    base.left = readWheels(settings, "left_wheel", joints);
+    base.right = readWheels(settings, "right_wheel", joints);
+    refuseWheelsUsedTwice(settings, base, joints);
+  }
   try {
-    readGeometry(base, settings, joints, robot_description);
-    robot::makeKinematics(base.kind, base.geometry, base.left.size(), base.right.size());
+    steered ? readAxles(base, settings, joints, robot_description, ranges)
+            : readGeometry(base, settings, joints, robot_description);
+    base.kinematics();
   } catch (const std::invalid_argument& error) {
     throw ConfigError(error.what());
   }
-  base.limits.linear_x = readLimits(settings, "linear/x");
-  base.limits.angular_z = readLimits(settings, "angular/z");
-  if (base.kind == robot::BaseKind::kMecanum) base.limits.linear_y = readLimits(settings, "linear/y");
-  warnOfLimitsThatAreOff(settings, "linear/x", base.warnings);
-  warnOfLimitsThatAreOff(settings, "angular/z", base.warnings);
-  if (base.kind == robot::BaseKind::kMecanum) warnOfLimitsThatAreOff(settings, "linear/y", base.warnings);
-  base.limits.limit_axes_independently = booleanOr(settings, "limit_axes_independently", false);
+  readAllLimits(base, settings);
   base.open_loop = booleanOr(settings, "open_loop", false);
   base.velocity_rolling_window_size =
       static_cast<std::size_t>(integerOr(settings, "velocity_rolling_window_size", 10, 1, 10'000));

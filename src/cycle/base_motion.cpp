@@ -1,41 +1,11 @@
 #include "cycle/base_motion.h"
 
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-
 namespace nord_driver::cycle {
-
-namespace {
-
-robot::WheelSpeeds jointLimits(const BaseConfig& config, std::size_t wheels) {
-  robot::WheelSpeeds limits;
-  if (config.joint_velocity_limits.empty()) {
-    for (std::size_t i = 0; i < wheels; ++i) limits.push_back(std::numeric_limits<double>::infinity());
-  } else if (config.joint_velocity_limits.size() == wheels) {
-    for (const double limit : config.joint_velocity_limits) limits.push_back(limit);
-  } else {
-    throw std::invalid_argument(std::to_string(config.joint_velocity_limits.size()) +
-                                " joints have a velocity limit, expected one for each of the base's " +
-                                std::to_string(wheels) + " wheels");
-  }
-  return limits;
-}
-
-bool anyBelow(const robot::WheelSpeeds& wheels, const robot::WheelSpeeds& minimum) noexcept {
-  if (robot::standsStill(wheels)) return false;
-  for (std::size_t i = 0; i < wheels.size() && i < minimum.size(); ++i) {
-    if (std::abs(wheels[i]) < minimum[i]) return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 BaseMotion::BaseMotion(const BaseConfig& config, Duration cmd_vel_timeout)
     : geometry_(config.geometry),
       kinematics_(robot::makeKinematics(config.kind, config.geometry, config.left.size(), config.right.size())),
-      joint_limits_(jointLimits(config, kinematics_->wheelCount())),
+      joint_limits_(wheelLimits(config)),
       limiter_(config.limits),
       odometry_(config.velocity_rolling_window_size),
       timeout_(cmd_vel_timeout),

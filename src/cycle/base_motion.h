@@ -5,6 +5,7 @@
 
 #include "cycle/base_config.h"
 #include "cycle/commands.h"
+#include "cycle/minimum_speeds.h"
 #include "nord_driver/core/time.h"
 #include "robot/base_kinematics.h"
 #include "robot/odometry.h"
@@ -12,15 +13,6 @@
 #include "robot/wheel_speeds.h"
 
 namespace nord_driver::cycle {
-
-/// What P104 > 0 of its drives asks of the base. Without a velocity such a wheel turns at P104 to the right all the
-/// same, inverted or not, so it is brought to rest by OFF1; below P104 it turns faster than commanded. So the base
-/// drives as a whole or rests as a whole: while any such wheel would be slower than its P104, all wheels are commanded
-/// zero.
-struct MinimumSpeeds {
-  robot::WheelSpeeds wheels;    ///< rad/s of each wheel, 0: none; empty: of no wheel
-  bool coming_to_rest = false;  ///< a wheel has not come to rest yet: it would not follow
-};
 
 /// One base. Stale commands and commands that may not be followed are targets of zero; a base that is not driving
 /// forgets its velocity, so that the next start begins from standstill.

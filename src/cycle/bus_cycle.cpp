@@ -28,7 +28,7 @@ std::vector<std::optional<std::size_t>> modulesOf(const CycleConfig& config, con
 std::vector<bool> membersOfBase(const CycleConfig& config) {
   std::vector<bool> members(config.drives.size(), false);
   if (!config.base) return members;
-  for (const DriveIndex wheel : config.base->wheels()) members[wheel] = true;
+  for (const DriveIndex drive : config.base->drives()) members[drive] = true;
   return members;
 }
 
@@ -53,13 +53,14 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       supervisor_(config, drives_, auto_enable, &start_acknowledge_),
       command_watch_(ports, config.cmd_vel_timeout, config.base.has_value(), names_, membersOfBase(config)),
       standstill_requests_(drives_, names_, modulesOf(config, transport)),
+      position_requests_(drives_, axes_, names_),
       outputs_(config.drives.size()),
       inputs_(config.drives.size()),
       snapshot_(config.drives.size()) {
   for (const DriveSetup& setup : config.drives) addAxis(setup, role);
+  for (DriveIndex i = 0; i < drives_.size(); ++i) snapshot_.drives[i].joint_known = !drives_[i].positions();
   if (!config.base) return;
-  base_.emplace(*config.base, config.cmd_vel_timeout);
-  wheels_ = config.base->wheels();
+  addBase(*config.base);
 }
 
 void BusCycle::runOnce() noexcept {
@@ -82,6 +83,8 @@ void BusCycle::runOnce() noexcept {
   supervisor_.update(commands, after);
   standstill_requests_.update(after);
   while (const auto completion = supervisor_.pollCompletion()) ports_.complete(*completion);
+  position_requests_.update(after);
+  while (const auto completion = position_requests_.pollCompletion()) ports_.complete(*completion);
   while (const auto completion = standstill_requests_.pollCompletion()) ports_.complete(*completion);
   runParameters(after);
   measure(after, last_input_ ? after - *last_input_ : Duration::zero());
@@ -132,6 +135,8 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
       return standstill_requests_.handleRequest(request, now);
     case RequestKind::kSelectParameterSet:
       return selectParameterSet(request, now);
+    case RequestKind::kHome:
+      return position_requests_.handleRequest(request, now);
     case RequestKind::kResetOdometry:
       return ports_.complete(resetOdometry(request));
     case RequestKind::kEnable:
@@ -171,30 +176,24 @@ void BusCycle::selectParameterSet(const Request& request, Instant now) noexcept 
 
 Completion BusCycle::resetOdometry(const Request& request) noexcept {
   if (base_) base_->resetOdometry();
-  return answerTo(request, base_.has_value(), base_ ? "the pose is zero" : "there is no base");
+  if (steered_) steered_->resetOdometry();
+  return answerTo(request, hasBase(), hasBase() ? "the pose is zero" : "there is no base");
 }
 
 void BusCycle::command(Instant now, Duration dt) noexcept {
   if (base_) commandBase(now, dt);
+  if (steered_) commandSteered(now, dt);
   commandSingles(now, dt);
-}
-
-void BusCycle::commandBase(Instant now, Duration dt) noexcept {
-  drive::DriveGroup& group = *supervisor_.base();
-  group.commandIsFresh(!isStale(ports_.newestBaseCommand(), cmd_vel_timeout_, now), now);
-  const bool follow = group.commandAllowed();
-  const bool driving = follow || group.wantsZeroRamp();
-  base_->tune(ports_.newestBaseTuning());
-  const robot::WheelSpeeds wheels =
-      base_->pollWheels(ports_.newestBaseCommand(), driving, follow, maxWheelSpeeds(), now, dt, minWheelSpeeds());
-  for (std::size_t i = 0; i < wheels_.size(); ++i) drives_[wheels_[i]].setVelocity(RadPerSec{wheels[i]});
-  group.setpointIsZero(robot::standsStill(wheels));
 }
 
 void BusCycle::commandSingles(Instant now, Duration dt) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     if (supervisor_.inBase(i)) continue;
     drive::DriveGroup& group = supervisor_.groupOf(i);
+    if (drives_[i].positions()) {
+      commandPosition(i, now);
+      continue;
+    }
     const JointCommand& newest = ports_.newestDriveCommand(i);
     const bool fresh = !isStale(newest, cmd_vel_timeout_, now);
     group.commandIsFresh(fresh, now);
@@ -208,19 +207,13 @@ void BusCycle::commandSingles(Instant now, Duration dt) noexcept {
   }
 }
 
-robot::WheelSpeeds BusCycle::maxWheelSpeeds() const noexcept {
-  robot::WheelSpeeds speeds;
-  for (const DriveIndex i : wheels_) speeds.push_back(drives_[i].maxVelocity().value_or(RadPerSec{}).value);
-  return speeds;
-}
-
-MinimumSpeeds BusCycle::minWheelSpeeds() const noexcept {
-  MinimumSpeeds minimum;
-  for (const DriveIndex i : wheels_) {
-    minimum.wheels.push_back(drives_[i].minVelocity().value);
-    minimum.coming_to_rest = minimum.coming_to_rest || drives_[i].comesToRest();
-  }
-  return minimum;
+// One that came while it could not be followed is not kept for later.
+void BusCycle::commandPosition(DriveIndex drive, Instant now) noexcept {
+  const auto target = axes_[drive].targets.poll(ports_.newestPosition(drive));
+  if (!target) return;
+  const drive::TargetRefusal refusal = drives_[drive].setPosition(*target);
+  const auto told = axes_[drive].targets.handleAnswer(names_[drive].c_str(), *target, refusal, now);
+  if (told) ports_.tell({true, *told});
 }
 
 void BusCycle::handleInputs(Instant now) noexcept {
@@ -229,6 +222,9 @@ void BusCycle::handleInputs(Instant now) noexcept {
       const bool silent = inputs_[i].interruption == Interruption::kSilent;
       drives_[i].handleInterruption(silent ? drive::StopCause::kSilent : drive::StopCause::kInterrupted, now);
     }
+    const drive::DriveReport& before = drives_[i].report();
+    drives_[i].setReferenced(
+        axes_[i].bits.referenced(inputs_[i].input, axes_[i].parameters.device(), before.parameter_set));
     drives_[i].handleModule(inputs_[i].inverter_missing, now);
     drives_[i].handleInput(inputs_[i].input, inputs_[i].inverter_answers, now);
     axes_[i].known = axes_[i].known || drives_[i].report().online;
@@ -286,24 +282,11 @@ void BusCycle::measure(Instant now, Duration dt) noexcept {
     } else {
       axes_[i].joint.rebase();
     }
-    axes_[i].speed.update(drive::isEnabled(report.phase) && report.scaled, report.velocity_command.value,
-                          report.velocity.value, drives_[i].maxVelocity().value_or(RadPerSec{}).value, now);
+    axes_[i].speed.update(drive::isEnabled(report.phase) && report.scaled && !drives_[i].positions(),
+                          report.velocity_command.value, report.velocity.value,
+                          drives_[i].maxVelocity().value_or(RadPerSec{}).value, now);
   }
-  if (base_) measureBase(dt);
-}
-
-void BusCycle::measureBase(Duration dt) noexcept {
-  bool seen = true;
-  robot::WheelSpeeds wheels;
-  for (const DriveIndex i : wheels_) {
-    seen = seen && drives_[i].report().online && drives_[i].report().scaled;
-    wheels.push_back(drives_[i].report().velocity.value);
-  }
-  if (seen) {
-    base_->handleWheels(wheels, dt);
-  } else {
-    base_->handleGap();
-  }
+  if (hasBase()) measureBase(dt);
 }
 
 void BusCycle::publish(Instant now) noexcept {
@@ -316,20 +299,7 @@ void BusCycle::publish(Instant now) noexcept {
   while (const auto event = transport_.pollEvent()) ports_.tell(*event);
   tellChanges(now);
   for (DriveIndex i = 0; i < drives_.size(); ++i) fill(snapshot_.drives[i], i, now);
-  if (base_) {
-    BaseSnapshot& base = snapshot_.base;
-    base.known = true;
-    for (DriveIndex i = 0; i < drives_.size(); ++i) {
-      base.known = base.known && (axes_[i].known || !supervisor_.inBase(i));
-    }
-    base.pose = base_->odometry().pose();
-    base.velocity = base_->odometry().velocity();
-    base.command = base_->limited();
-    base.enabled = supervisor_.base()->commandAllowed();
-    base.text = supervisor_.baseStopSentence();
-    base.stopped = !base.text.empty();
-    base.stop_cause = supervisor_.base()->report().stop_cause;
-  }
+  if (hasBase()) publishBase();
   ports_.observe(outputs_, inputs_, snapshot_);
   ports_.publish(snapshot_);
 }
@@ -337,7 +307,7 @@ void BusCycle::publish(Instant now) noexcept {
 // Against the snapshot of the last cycle.
 void BusCycle::tellChanges(Instant now) noexcept {
   BusEvent enabled{false, {}};
-  if (base_ && supervisor_.base()->commandAllowed() && !snapshot_.base.enabled) {
+  if (hasBase() && supervisor_.base()->commandAllowed() && !snapshot_.base.enabled) {
     enabled.text = "the base is enabled";
     ports_.tell(enabled);
   }
@@ -360,11 +330,11 @@ void BusCycle::tellChanges(Instant now) noexcept {
 
 void BusCycle::fill(DriveSnapshot& to, DriveIndex drive, Instant now) const noexcept {
   const Axis& axis = axes_[drive];
-  const bool beyond = supervisor_.inBase(drive) ? base_->belowMinimum() : axis.motion.beyondFull();
+  const bool beyond = supervisor_.inBase(drive) ? isSlowWheel(drive) : axis.motion.beyondFull();
   to.module_inputs = inputs_[drive].module_inputs;
   fillDriveSnapshot(to,
                     {drive, names_[drive].c_str(), drives_[drive].report(), outputs_[drive], axis,
-                     inputs_[drive].module_answers, beyond},
+                     inputs_[drive].module_answers, drives_[drive].positions(), beyond},
                     transport_, now);
 }
 

@@ -12,8 +12,10 @@
 #include "cycle/cycle_ports.h"
 #include "cycle/cycle_statistics.h"
 #include "cycle/guest_gate.h"
+#include "cycle/position_requests.h"
 #include "cycle/standstill_requests.h"
 #include "cycle/start_acknowledge.h"
+#include "cycle/steered_motion.h"
 #include "cycle/supervisor.h"
 #include "drive/drive.h"
 #include "nord_driver/core/time.h"
@@ -59,10 +61,21 @@ class BusCycle {
   Completion resetOdometry(const Request& request) noexcept;
   Duration rampTime(Instant now) const noexcept;
   void command(Instant now, Duration dt) noexcept;
+  void addBase(const BaseConfig& config);
+  bool hasBase() const noexcept { return supervisor_.base() != nullptr; }
   void commandBase(Instant now, Duration dt) noexcept;
+  void commandSteered(Instant now, Duration dt) noexcept;
+  /// What the steered base waits for: into the snapshot, and to the user unless it `passes` soon by itself.
+  void tellWaits(const Sentence& waits, bool passes, Instant now) noexcept;
+  robot::SteeringAngles steeringAngles() const noexcept;
+  /// A wheel that rests for P104 although a velocity is commanded.
+  bool isSlowWheel(DriveIndex drive) const noexcept;
+  void publishBase() noexcept;
   void commandSingles(Instant now, Duration dt) noexcept;
+  void commandPosition(DriveIndex drive, Instant now) noexcept;
   void addAxis(const DriveSetup& setup, CycleRole role);
   void pollOutputs(Instant now) noexcept;
+  void putWords(DriveIndex drive, Instant now) noexcept;
   /// The drive is enabled and does what its velocity command says, which is fresh.
   bool followsCommand(DriveIndex drive, Instant now) noexcept;
   robot::WheelSpeeds maxWheelSpeeds() const noexcept;
@@ -87,12 +100,17 @@ class BusCycle {
   std::vector<std::string> names_;
   std::vector<drive::Drive> drives_;
   std::vector<Axis> axes_;
-  std::optional<BaseMotion> base_;
-  std::vector<DriveIndex> wheels_;      // the drives of the base, in the order of its wheel speeds
+  std::optional<BaseMotion> base_;  // one of these two, or none
+  std::optional<SteeredMotion> steered_;
+  std::vector<DriveIndex> wheels_;    // the drives of the base, in the order of its wheel speeds
+  std::vector<DriveIndex> steering_;  // and of its steering angles
+  std::optional<Instant> waits_since_;
+  std::optional<Instant> waits_told_at_;
   StartAcknowledge start_acknowledge_;  // before the supervisor, which asks it
   Supervisor supervisor_;
   CommandWatch command_watch_;
   StandstillRequests standstill_requests_;
+  PositionRequests position_requests_;
   CycleStatistics statistics_;
   std::vector<profile::ProcessOutput> outputs_;
   std::vector<DriveExchange> inputs_;

@@ -1,4 +1,6 @@
 // The part of the bus cycle that puts together what goes to each drive: its own word, and the further ones.
+#include <algorithm>
+
 #include "cycle/bus_cycle.h"
 
 namespace nord_driver::cycle {
@@ -12,6 +14,11 @@ void BusCycle::addAxis(const DriveSetup& setup, CycleRole role) {
   channel.monitor = setup.monitor;
   channel.users_only = role == CycleRole::kGuest;
   if (role == CycleRole::kDriver) channel.needs = wordNeeds(setup.words, identity.process_values);
+  if (role != CycleRole::kGuest && setup.position) {
+    channel.field_order = setup.position->order;
+    channel.needs.words = std::max<std::size_t>(identity.process_values, 1);
+    addPositionNeeds(*setup.position, setup.series, channel.needs);
+  }
   axes_.emplace_back(drive, setup, channel);
   for (std::size_t i = 0; i < setup.words.setpoints.size() && role == CycleRole::kDriver; ++i) {
     if (setup.words.setpoints[i].moves) command_watch_.watch(drive, i, setup.words.setpoints[i]);
@@ -29,21 +36,27 @@ bool BusCycle::followsCommand(DriveIndex drive, Instant now) noexcept {
 void BusCycle::pollOutputs(Instant now) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     outputs_[i] = drives_[i].pollOutput(now);
-    Axis& axis = axes_[i];
-    if (axis.words.empty()) continue;
-    DriveWords::State state;
-    state.set = drives_[i].report().commanded_set;
-    state.max_frequency = drives_[i].maxFrequency(state.set);
-    state.follows = followsCommand(i, now);
-    state.in_doubt = axis.parameters.wordsInDoubt();
-    const drive::Phase phase = drives_[i].report().phase;
-    state.stopping = phase == drive::Phase::kStopping || phase == drive::Phase::kQuickStopping ||
-                     phase == drive::Phase::kCoasting || phase == drive::Phase::kHoldingZero ||
-                     phase == drive::Phase::kOffline;
-    axis.words.put(outputs_[i], state, axis.parameters.device(), ports_.newestWords(i), now);
-    while (const auto finding = axis.words.pollFinding(names_[i].c_str(), axis.parameters.device(), state.in_doubt)) {
-      ports_.tell({true, *finding});
-    }
+    const Axis& axis = axes_[i];
+    if (!axis.words.empty()) putWords(i, now);
+    const drive::DriveReport& report = drives_[i].report();
+    if (report.position.homing) axis.bits.putHome(outputs_[i], axis.parameters.device(), report.commanded_set);
+  }
+}
+
+void BusCycle::putWords(DriveIndex i, Instant now) noexcept {
+  Axis& axis = axes_[i];
+  DriveWords::State state;
+  state.set = drives_[i].report().commanded_set;
+  state.max_frequency = drives_[i].maxFrequency(state.set);
+  state.follows = followsCommand(i, now);
+  state.in_doubt = axis.parameters.wordsInDoubt();
+  const drive::Phase phase = drives_[i].report().phase;
+  state.stopping = phase == drive::Phase::kStopping || phase == drive::Phase::kQuickStopping ||
+                   phase == drive::Phase::kCoasting || phase == drive::Phase::kHoldingZero ||
+                   phase == drive::Phase::kOffline;
+  axis.words.put(outputs_[i], state, axis.parameters.device(), ports_.newestWords(i), now);
+  while (const auto finding = axis.words.pollFinding(names_[i].c_str(), axis.parameters.device(), state.in_doubt)) {
+    ports_.tell({true, *finding});
   }
 }
 

@@ -1,6 +1,7 @@
 // The newest velocity commands of those outside, with the time they came.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "nord_driver/core/time.h"
@@ -21,6 +22,12 @@ struct JointCommand {
   Instant received{};
   bool given = false;
   std::optional<Instant> moved = {};  ///< as that of TwistCommand
+};
+
+/// For a drive that positions. It does not grow old; each is taken once.
+struct PositionCommand {
+  double target = 0.0;       ///< rad or m of the joint
+  std::uint64_t number = 0;  ///< counts the targets of this drive from 1; 0: none yet
 };
 
 /// Corrections of the base's sizes, changed while the node runs.

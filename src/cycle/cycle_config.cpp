@@ -1,6 +1,7 @@
 #include "cycle/cycle_config.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "config/drive_common.h"
 #include "config/setting_checks.h"
@@ -17,7 +18,17 @@ constexpr double kMinCycleRate = 1.0, kMaxCycleRate = 1000.0;  // Hz
 constexpr Choice<bool> kAcknowledgeAtStart[] = {{"none", false}, {"bus_timeouts", true}};
 constexpr Duration kMinDriveTimeout = std::chrono::milliseconds{50};
 
-DriveSetup readDrive(const DriveSettings& source, const CycleConfig& config, Duration drive_timeout) {
+std::optional<robot::JointRange> rangeOf(const std::string& joint, const std::string& robot_description) {
+  if (joint.empty() || robot_description.empty()) return std::nullopt;
+  try {
+    return robot::UrdfGeometry{robot_description}.range(joint);
+  } catch (const std::invalid_argument& wrong) {
+    throw ConfigError(wrong.what());
+  }
+}
+
+DriveSetup readDrive(const DriveSettings& source, const CycleConfig& config, Duration drive_timeout,
+                     const std::string& robot_description, const std::string& transport) {
   const Settings& settings = *source.settings;
   if (!isRosName(source.name)) {  // it becomes a part of topic names
     throw ConfigError(settings.fullName("") + ": \"" + source.name +
@@ -37,6 +48,13 @@ DriveSetup readDrive(const DriveSettings& source, const CycleConfig& config, Dur
   setup.drive.enable_timeout = config.service_timeout;
   setup.drive.shutdown_timeout = config.shutdown_timeout;
   setup.words = readWordSetup(settings, setup.series, config.cmd_vel_timeout);
+  if (readDriveMode(settings) == DriveMode::kPosition) {
+    setup.position =
+        readPositionSetup(settings, {setup.series, common.scaling, rangeOf(setup.joint, robot_description), transport});
+    setup.drive.position = setup.position->axis;
+  } else {
+    refusePositionKeys(settings);
+  }
   return setup;
 }
 
@@ -55,12 +73,30 @@ void readLimitsOfSingles(const std::vector<DriveSettings>& sources, CycleConfig&
   const std::vector<DriveIndex> wheels = config.base ? config.base->wheels() : std::vector<DriveIndex>{};
   for (DriveIndex i = 0; i < sources.size(); ++i) {
     const Settings& settings = *sources[i].settings;
-    if (std::find(wheels.begin(), wheels.end(), i) == wheels.end()) {
+    const bool is_wheel = std::find(wheels.begin(), wheels.end(), i) != wheels.end();
+    if (config.drives[i].position) {
+      if (is_wheel) {
+        throw wrongSetting(settings, "mode", "\"position\"",
+                           "velocity: joint \"" + config.drives[i].joint + "\" is a wheel of the base");
+      }
+      refuseJointLimits(settings, "position/speed: a drive that positions travels along the inverter's own ramps");
+    } else if (!is_wheel) {
       config.drives[i].limits = readJointLimits(settings);
     } else {
-      refuseJointLimits(settings);
+      refuseJointLimits(settings,
+                        "none: this drive belongs to the base, whose limits are those of linear/x and angular/z");
     }
   }
+}
+
+SteeringRanges steeringRanges(const CycleConfig& config) {
+  SteeringRanges ranges;
+  for (const DriveSetup& setup : config.drives) {
+    ranges.emplace_back();
+    const bool turns = setup.position && setup.position->axis.unit_per_radian == 1.0;
+    if (turns) ranges.back() = SteeringRange{setup.position->axis.lower, setup.position->axis.upper};
+  }
+  return ranges;
 }
 
 drive::StopWay readStopWay(const Settings& settings, const char* key, drive::StopWay fallback, bool may_hold) {
@@ -103,16 +139,17 @@ CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSetting
   const Duration drive_timeout = seconds(
       numberOr(node, "drive_timeout", toSeconds(default_drive_timeout), toSeconds(2 * config.period()), 60.0, "s"));
 
+  const std::string transport = node.text("transport").value_or("");
   if (drives.empty()) {
     throw missingSetting(node, "drives", "at least one drive with its address");
   }
   JointNames joints;
   for (const DriveSettings& source : drives) {
-    config.drives.push_back(readDrive(source, config, drive_timeout));
+    config.drives.push_back(readDrive(source, config, drive_timeout, robot_description, transport));
     joints.push_back(config.drives.back().joint);
   }
   refuseJointsUsedTwice(drives, config.drives);
-  config.base = readBaseConfig(node, joints, robot_description);
+  config.base = readBaseConfig(node, joints, robot_description, steeringRanges(config));
   readLimitsOfSingles(drives, config);
   return config;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cycle/base_config.h"
+#include "cycle/position_setup.h"
 #include "cycle/word_setup.h"
 #include "drive/drive.h"
 #include "drive/stop_way.h"
@@ -30,8 +31,9 @@ struct DriveSetup {
   std::optional<double> rated_current;  ///< A
   /// What somebody wants to look at, read in the pauses of the parameter channel; a set 0 is the one in force.
   std::vector<profile::ParameterRequest> monitor = {};
-  robot::SpeedLimits limits;  ///< of the joint, rad; of a drive that belongs to no base
-  WordSetup words;            ///< what users command and read beside the velocity
+  robot::SpeedLimits limits;                   ///< of the joint, rad; of a drive that belongs to no base
+  WordSetup words;                             ///< what users command and read beside the velocity
+  std::optional<PositionSetup> position = {};  ///< `mode: position`; none: it follows velocities
 };
 
 struct RealTimeOptions {

@@ -8,9 +8,13 @@
 namespace nord_driver::cycle {
 
 CyclePorts::CyclePorts(std::size_t drive_count)
-    : words_written_(drive_count), drives_moved_(drive_count), snapshot_(CycleSnapshot{drive_count}) {
+    : positions_written_(drive_count),
+      words_written_(drive_count),
+      drives_moved_(drive_count),
+      snapshot_(CycleSnapshot{drive_count}) {
   for (std::size_t i = 0; i < drive_count; ++i) {
     drive_commands_.push_back(std::make_unique<LatestValue<JointCommand>>());
+    positions_.push_back(std::make_unique<LatestValue<PositionCommand>>());
     words_.push_back(std::make_unique<LatestValue<WordCommands>>());
   }
   sem_init(&completed_, 0, 0);
@@ -37,6 +41,13 @@ bool CyclePorts::commandDrive(DriveIndex drive, const JointCommand& command) {
   JointCommand kept = command;
   kept.moved = drives_moved_.at(drive);
   drive_commands_.at(drive)->write(kept);
+  return true;
+}
+
+bool CyclePorts::commandPosition(DriveIndex drive, double target) {
+  if (!std::isfinite(target)) return false;
+  const std::lock_guard<std::mutex> lock(writers_);
+  positions_.at(drive)->write({target, ++positions_written_.at(drive)});
   return true;
 }
 

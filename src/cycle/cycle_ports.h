@@ -29,6 +29,8 @@ class CyclePorts {
   /// False, and no command at all, when it is not a number or infinite: the one before goes on growing old.
   bool commandBase(const TwistCommand& command);
   bool commandDrive(DriveIndex drive, const JointCommand& command);
+  /// The target of a drive that positions. False as commandBase().
+  bool commandPosition(DriveIndex drive, double target);
   /// `index` of a configured setpoint, `value` in its unit. False as commandBase().
   bool commandSetpoint(DriveIndex drive, std::size_t index, double value, Instant received);
   /// `index` counts the configured outputs.
@@ -50,6 +52,7 @@ class CyclePorts {
   // The cycle's thread.
   const TwistCommand& newestBaseCommand() { return base_command_.read(); }
   const JointCommand& newestDriveCommand(DriveIndex drive) { return drive_commands_[drive]->read(); }
+  const PositionCommand& newestPosition(DriveIndex drive) { return positions_[drive]->read(); }
   const WordCommands& newestWords(DriveIndex drive) { return words_[drive]->read(); }
   /// When a publisher of commands was connected last; {} while there was none.
   Instant newestCommander() { return commander_.read(); }
@@ -70,6 +73,8 @@ class CyclePorts {
   LatestValue<TwistCommand> base_command_;
   LatestValue<BaseTuning> base_tuning_;
   std::vector<std::unique_ptr<LatestValue<JointCommand>>> drive_commands_;
+  std::vector<std::unique_ptr<LatestValue<PositionCommand>>> positions_;
+  std::vector<std::uint64_t> positions_written_;  // the writers'
   std::vector<std::unique_ptr<LatestValue<WordCommands>>> words_;
   std::vector<WordCommands> words_written_;  // the writers'
   LatestValue<Instant> commander_;

@@ -41,6 +41,9 @@ struct DeviceData {
   FixedVector<std::uint16_t, 12> bus_bit_functions;  ///< P480 [-01].., each in its place: what bus I/O bits do
   std::optional<std::int32_t> control_word_source;   ///< P509: who commands the inverter
   std::optional<std::int32_t> setpoint_source;       ///< P510 (or [-01]): whose setpoint; 0 = as P509
+  /// P600 of parameter sets 1..4, of a drive that is to position: 0 = it does not.
+  std::array<std::optional<std::int32_t>, 4> position_control;
+  std::optional<std::int32_t> setpoint_mode;  ///< of such a drive, P610: where its target comes from
   std::uint32_t ident = 0;
   bool complete = false;  ///< everything was asked for; what the drive refused is absent
 };

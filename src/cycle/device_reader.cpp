@@ -12,7 +12,8 @@ namespace {
 constexpr std::uint8_t kMaxAttempts = 3;
 constexpr std::uint16_t kMinFrequency = 104, kMaxFrequency = 105, kOptionMonitoring = 120, kModuleTimeout = 151,
                         kBusBits = 480, kControlWordSource = 509, kSetpointSource = 510, kTelegramTimeout = 513,
-                        kFirstActualValue = 543, kFirstSetpoint = 546, kEepromSwitch = 560, kSoftwareVersion = 707;
+                        kFirstActualValue = 543, kFirstSetpoint = 546, kEepromSwitch = 560, kPositionControl = 600,
+                        kSetpointMode = 610, kSoftwareVersion = 707;
 constexpr std::uint8_t kSets = 4;
 constexpr std::uint16_t kAccelerationTime = 102, kDecelerationTime = 103;
 // s: the bus manuals name no unit of P103, which is set in the steps of P102 on the inverter.
@@ -20,7 +21,8 @@ constexpr double kRampStep = 0.01;
 
 }  // namespace
 
-DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool further_words) noexcept : series_(series) {
+DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool further_words, bool positions) noexcept
+    : series_(series) {
   for (std::uint8_t set = 1; set <= kSets; ++set) add(kMaxFrequency, set, 1);
   for (std::uint8_t set = 1; set <= kSets; ++set) add(kMinFrequency, set, 1);
   for (std::uint8_t set = 1; set <= kSets; ++set) addFunction(kFirstActualValue, 0, set);
@@ -28,6 +30,10 @@ DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool furt
   if (further_words) {
     for (std::uint8_t set = 1; set <= kSets; ++set) addFurtherFunctions(set);
     addBusBits();
+  }
+  if (positions) {
+    for (std::uint8_t set = 1; set <= kSets; ++set) add(kPositionControl, set, 1);
+    add(kSetpointMode, 1, 1);
   }
   motion_items_ = items_.size();
   add(kTelegramTimeout, 1, 1);
@@ -168,6 +174,10 @@ void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
     data_.control_word_source = raw;
   } else if (item.number == kSetpointSource) {
     data_.setpoint_source = raw;
+  } else if (item.number == kPositionControl) {
+    data_.position_control[item.set - 1u] = raw;
+  } else if (item.number == kSetpointMode) {
+    data_.setpoint_mode = raw;
   } else if (item.number == kMinFrequency) {
     data_.min_frequency[item.set - 1u] = value;
   } else if (item.number == kBusBits) {

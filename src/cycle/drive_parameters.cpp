@@ -21,11 +21,17 @@ constexpr Duration kMissingInterval = std::chrono::seconds{2};
 // controller gains), PPO type, source of control word and setpoints, drive profile.
 constexpr std::uint16_t kDecideMotion[] = {113, 114, 300, 301, 325, 507, 509, 510, 551};
 
+// Whether and how it positions (P600 to P631), other than the positions themselves (P613).
+constexpr bool decidesPosition(std::uint16_t number) noexcept {
+  return number >= 600 && number <= 631 && number != 613;
+}
+
 void forgetScale(drive::Drive& drive) noexcept {
   for (std::uint8_t set = 1; set <= 4; ++set) {
     drive.setMaxFrequency(set, Hertz{});
     drive.setMinimumFrequency(set, Hertz{});
     drive.setUnexpectedFunction(set, std::nullopt);
+    drive.setPositionWords(set, {});
   }
   drive.setParametersAwaited(true);
 }
@@ -34,11 +40,34 @@ bool saysWhatSetpointsMean(std::uint16_t number) noexcept {
   return number == 105 || (number >= 543 && number <= 548);
 }
 
+// P600 is 0 where the drive does not position. What else it can be stands in BU 0510, not at hand.
+std::optional<drive::UnexpectedFunction> unexpectedPositionMode(const DeviceData& device, std::uint8_t set,
+                                                                const WordNeeds& needs) noexcept {
+  const auto raw = [](const std::optional<std::int32_t>& read) {
+    return read ? static_cast<std::uint16_t>(*read) : kUnknownFunction;
+  };
+  drive::UnexpectedFunction wrong;
+  // No manual at hand says whether it has sets: where the others could not be read, it has one.
+  const auto& own = device.position_control[set - 1u];
+  const auto& control = own ? own : device.position_control[0];
+  if (control.value_or(0) == 0) {
+    wrong.number = 600;
+    wrong.found = raw(control);
+    wrong.expected = 1;
+    return wrong;
+  }
+  if (needs.setpoint_mode < 0 || device.setpoint_mode == needs.setpoint_mode) return std::nullopt;
+  wrong.number = 610;
+  wrong.found = raw(device.setpoint_mode);
+  wrong.expected = static_cast<std::uint16_t>(needs.setpoint_mode);
+  return wrong;
+}
+
 std::optional<drive::UnexpectedFunction> unexpectedFunction(const DeviceData& device, std::uint8_t set,
                                                             profile::Series series, const WordNeeds& needs) noexcept {
   const auto compare = [&](std::uint16_t number, const std::optional<std::uint16_t>& found) {
     std::optional<drive::UnexpectedFunction> unexpected;
-    if (!found || *found == kFrequencyFunction) return unexpected;
+    if (!found || firstWordFits(needs, number == 543, *found, series)) return unexpected;
     const profile::CycleParameter* info = profile::findCycleParameter(number, series);
     const bool is_array = info != nullptr && info->shape == profile::ParameterShape::kArrayPerSet;
     unexpected = {number, is_array, *found, kFrequencyFunction, 1, nullptr};
@@ -47,7 +76,9 @@ std::optional<drive::UnexpectedFunction> unexpectedFunction(const DeviceData& de
   const auto actual_value = compare(543, device.actual_value_1_function[set - 1u]);
   if (actual_value) return actual_value;
   const auto setpoint = compare(546, device.setpoint_1_function[set - 1u]);
-  return setpoint ? setpoint : missingWord(needs, device.word_functions[set - 1u], series);
+  if (setpoint) return setpoint;
+  const auto missing = missingWord(needs, device.word_functions[set - 1u], series);
+  return missing || !needs.positions ? missing : unexpectedPositionMode(device, set, needs);
 }
 
 }  // namespace
@@ -55,7 +86,7 @@ std::optional<drive::UnexpectedFunction> unexpectedFunction(const DeviceData& de
 bool changesProcessData(const Request& request) noexcept {
   const std::uint16_t number = request.parameter.number;
   return request.kind == RequestKind::kWriteParameter &&
-         (saysWhatSetpointsMean(number) || number == 104 || number == 480);
+         (saysWhatSetpointsMean(number) || number == 104 || number == 480 || decidesPosition(number));
 }
 
 bool decidesMotion(const Request& request) noexcept {
@@ -71,7 +102,7 @@ DriveParameters::DriveParameters(DriveIndex drive, std::string name, profile::Se
       series_(series),
       typed_max_frequency_(typed_max_frequency),
       channel_(channel),
-      reader_(series, channel.timeout_owner, !channel.needs.empty()),
+      reader_(series, channel.timeout_owner, !channel.needs.empty(), channel.needs.positions),
       session_(channel.capabilities),
       monitor_(channel.monitor) {}
 
@@ -133,6 +164,10 @@ void DriveParameters::scale(drive::Drive& drive) const noexcept {
     }
     drive.setMinimumFrequency(set, Hertz{reader_.data().min_frequency[set - 1u].value_or(0.0)});
     drive.setUnexpectedFunction(set, unexpectedFunction(reader_.data(), set, series_, channel_.needs));
+    if (!channel_.needs.positions) continue;
+    const WordFunctions& functions = reader_.data().word_functions[set - 1u];
+    drive.setPositionWords(set, profile::positionWords(series_, functions.setpoints, functions.actual_values,
+                                                       channel_.needs.words, channel_.field_order));
   }
   drive.setParametersAwaited(!reader_.motionAsked());
 }

@@ -36,7 +36,8 @@ struct ParameterChannelUse {
   profile::ParameterCapabilities capabilities;
   /// What somebody wants to look at; a set 0 is the one in force.
   std::vector<profile::ParameterRequest> monitor = {};
-  WordNeeds needs;          ///< of the words beside the first
+  WordNeeds needs;                                                    ///< of the words beside the first
+  profile::FieldOrder field_order = profile::FieldOrder::kHighFirst;  ///< of a position of SK 700E and 750E
   bool users_only = false;  ///< nothing is read that no user has asked for: neither faults nor what scaling needs
 };
 

@@ -28,6 +28,19 @@ void fillSample(DriveSample& to, const DrivePictured& from, Instant now) noexcep
   to.frequency = report.frequency.value;
   to.saturated = report.saturated || (drive::isEnabled(report.phase) && from.beyond_its_speed);
   to.fault_number = from.axis.parameters.faults().number();
+  to.position = report.position.position;
+  to.position_reached = report.position.reached;
+  to.homed = report.position.homed;
+}
+
+// It keeps its last position while it is silent.
+void fillPosition(DriveSnapshot& to, const DrivePictured& from) noexcept {
+  const drive::PositionReport& position = from.report.position;
+  if (position.position) to.joint_position = *position.position;
+  to.joint_known = to.joint_known || position.position.has_value();
+  to.position_target = position.target;
+  to.position_held_back = position.held_back;
+  to.position_refused = from.axis.targets.refused();
 }
 
 void fillFault(DriveSnapshot& to, const Axis& axis) noexcept {
@@ -55,7 +68,11 @@ void fillDriveSnapshot(DriveSnapshot& to, const DrivePictured& from, const Trans
   to.speed_deviation = axis.speed.deviation();
   to.at_speed = axis.speed.atSpeed();
   to.not_following = axis.speed.isNotFollowing();
-  to.joint_position = axis.joint.position();
+  if (from.positions) {
+    fillPosition(to, from);
+  } else {
+    to.joint_position = axis.joint.position();
+  }
   to.last_fault_number = axis.parameters.faults().lastNumber();
   to.switch_on_reason = report.switch_on_reason;
   to.fault_latched = report.fault_latched;

@@ -17,6 +17,7 @@ struct DrivePictured {
   const profile::ProcessOutput& sent;  ///< in this cycle
   const Axis& axis;
   bool module_answers = false;    ///< in this cycle
+  bool positions = false;         ///< it goes to positions
   bool beyond_its_speed = false;  ///< what its base, or the command of a drive alone, wants cannot be had of it
 };
 

@@ -42,13 +42,12 @@ robot::SpeedLimits readJointLimits(const Settings& drive) {
   return limits;
 }
 
-void refuseJointLimits(const Settings& drive) {
+void refuseJointLimits(const Settings& drive, const std::string& expected) {
   for (const Limit& limit : kLimits) {
     for (const char* key : {limit.max, limit.min}) {
       const auto value = drive.number(key);
       if (!value) continue;
-      throw wrongSetting(drive, key, shortNumber(*value),
-                         "none: this drive belongs to the base, whose limits are those of linear/x and angular/z");
+      throw wrongSetting(drive, key, shortNumber(*value), expected);
     }
   }
 }

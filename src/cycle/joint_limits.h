@@ -1,6 +1,8 @@
 // Limits of a drive that belongs to no base, as the user writes them in the drive's group.
 #pragma once
 
+#include <string>
+
 #include "nord_driver/config/settings.h"
 #include "robot/speed_limits.h"
 
@@ -11,8 +13,8 @@ namespace nord_driver::cycle {
 /// `max_`. Throws ConfigError.
 robot::SpeedLimits readJointLimits(const Settings& drive);
 
-/// For a drive of the base, whose limits are the base's. Throws ConfigError naming the first of these keys that is
-/// there.
-void refuseJointLimits(const Settings& drive);
+/// For a drive that has none of its own. Throws ConfigError naming the first of these keys that is there, and what was
+/// `expected`.
+void refuseJointLimits(const Settings& drive, const std::string& expected);
 
 }  // namespace nord_driver::cycle

@@ -15,6 +15,7 @@ enum class RequestKind : std::uint8_t {
   kDisable,    ///< ramp to zero, then OFF1 until "ready to switch on"
   kQuickStop,  ///< OFF3
   kResetOdometry,
+  kHome,                ///< a reference run of one drive that positions
   kAcknowledge,         ///< faults; refused while their cause stands
   kSelectParameterSet,  ///< one drive, disabled and at standstill
   kReadParameter,

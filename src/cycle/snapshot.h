@@ -37,6 +37,9 @@ struct DriveSample {
   double frequency = 0.0;          ///< Hz
   bool saturated = false;          ///< the velocity wanted is beyond P105, or not zero and below P104
   std::uint16_t fault_number = 0;  ///< P700 raw; 0 = none, 65535 = its number is not known (yet)
+  std::optional<double> position;  ///< rad or m of the joint, of a drive that positions; none while it is not known
+  bool position_reached = false;   ///< it is enabled, and at its target
+  bool homed = false;              ///< its reference is known, as far as that can be told
 };
 
 struct DriveSnapshot : DriveSample {
@@ -45,10 +48,15 @@ struct DriveSnapshot : DriveSample {
   bool enabled = false;                                   ///< follows velocity commands
   bool stopped = false;                                   ///< stopped by a cause that is latched: `text` names it
   drive::StopCause stop_cause = drive::StopCause::kNone;  ///< that cause
-  double speed_deviation = 0.0;                        ///< rad/s, velocity minus velocity_command; 0 while not enabled
-  bool at_speed = false;                               ///< enabled, and the deviation is small
-  bool not_following = false;                          ///< enabled, and far from its command for seconds
-  double joint_position = 0.0;                         ///< rad, continuous
+  double speed_deviation = 0.0;  ///< rad/s, velocity minus velocity_command; 0 while not enabled
+  bool at_speed = false;         ///< enabled, and the deviation is small
+  bool not_following = false;    ///< enabled, and far from its command for seconds
+  double joint_position = 0.0;   ///< rad, continuous; of a drive that positions its own, rad or m
+  /// joint_position can be told: at once, or of a drive that positions when its position was first known.
+  bool joint_known = true;
+  std::optional<double> position_target;               ///< rad or m, of a drive that positions, while enabled
+  bool position_held_back = false;                     ///< the newest position cannot be, the one before is told
+  Sentence position_refused;                           ///< the newest target was refused, and why; empty: it was taken
   std::uint16_t last_fault_number = 0;                 ///< the last one there was, also when it vanished by itself
   std::optional<std::uint16_t> switch_on_reason;       ///< P700[-03] raw, while it keeps the drive from becoming ready
   bool fault_latched = false;                          ///< a fault was seen and not acknowledged since
@@ -76,6 +84,7 @@ struct BaseSnapshot {
   bool stopped = false;
   drive::StopCause stop_cause = drive::StopCause::kNone;
   Sentence text;
+  Sentence waits;  ///< why it does not drive as it is commanded to, though nothing stops it; of a steered base
 };
 
 struct CycleSnapshot {

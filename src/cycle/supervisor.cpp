@@ -34,7 +34,7 @@ Supervisor::Supervisor(const CycleConfig& config, std::vector<drive::Drive>& dri
       auto_enable_(auto_enable),
       start_(start) {
   for (const DriveSetup& setup : config.drives) names_.push_back(setup.name);
-  if (config.base) addGroup(config.base->wheels(), config);
+  if (config.base) addGroup(config.base->drives(), config);
   for (DriveIndex i = 0; i < drives.size(); ++i) {
     if (group_of_[i] == kNoGroup) addGroup({i}, config);
   }

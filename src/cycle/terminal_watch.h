@@ -34,8 +34,8 @@ class TerminalWatch {
       finding_ = TerminalFinding::kNone;
       return;
     }
-    const bool turns = report.state == profile::DriveState::kOperationEnabled ||
-                       std::abs(int{report.input.actual_values[0]}) > kNearStandstill;
+    const bool turns =
+        report.state == profile::DriveState::kOperationEnabled || std::abs(int{report.speed}) > kNearStandstill;
     // What a stop has left of a motion is not somebody else's.
     rested_ = rested_ || !turns;
     const bool local = !profile::StatusWord{report.status_word}.busControl();

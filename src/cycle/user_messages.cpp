@@ -28,6 +28,24 @@ Sentence missingWordMessage(const char* drive, const drive::UnexpectedFunction& 
   return text;
 }
 
+// P600 and P610, of a drive that positions.
+Sentence positionModeMessage(const char* drive, const drive::UnexpectedFunction& function) noexcept {
+  constexpr unsigned kNotRead = 0xFFFF;
+  FixedText<24> found;
+  found.format(function.found == kNotRead ? "could not be read" : "is %u", unsigned{function.found});
+  Sentence text;
+  if (function.number == 600) {
+    text.format("drive %s: P600 %s: with 0 it does not position, and mode is position; set P600 to %u", drive,
+                found.c_str(), unsigned{function.expected});
+  } else {
+    text.format(
+        "drive %s: P%u %s: its target comes from elsewhere; set P%u to %u (the bus), or position/setpoint_mode to what "
+        "its manual says",
+        drive, unsigned{function.number}, found.c_str(), unsigned{function.number}, unsigned{function.expected});
+  }
+  return text;
+}
+
 }  // namespace
 
 Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveReport& report) noexcept {
@@ -42,6 +60,7 @@ Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveRe
   }
   if (refusal == Refusal::kUnexpectedFunction && report.unexpected_function) {
     const drive::UnexpectedFunction& function = *report.unexpected_function;
+    if (function.number >= 600) return positionModeMessage(drive, function);
     if (function.wanted != nullptr) return missingWordMessage(drive, function, report.commanded_set);
     text.format("drive %s: P%u%s of parameter set %u is %u, so that %s 1 is not the frequency; set it to %u", drive,
                 unsigned{function.number}, function.is_array ? " [-01]" : "", unsigned{report.commanded_set},

@@ -1,6 +1,9 @@
 #include "cycle/word_needs.h"
 
 #include <algorithm>
+#include <initializer_list>
+
+#include "profile/process_data_order.h"
 
 namespace nord_driver::cycle {
 
@@ -41,21 +44,84 @@ std::optional<WordNeed> needOf(const SignalSetup& signal) noexcept {
   return std::nullopt;
 }
 
-// Setpoint 1 and actual value 1 are the frequency: never taken for anything else.
-std::size_t bestPlace(const WordNeeds& needs, bool actual_value, const WordFunctions& functions,
+// Setpoint 1 and actual value 1 are the frequency: never taken for anything else, but by a position that finds no other
+// place.
+std::size_t bestPlace(const WordNeeds& needs, const WordNeed& missing, const WordFunctions& functions,
                       Series series) noexcept {
-  std::size_t best = 2;
-  for (std::size_t place = needs.words; place >= 2; --place) {
+  const bool actual_value = missing.actual_value;
+  const std::size_t last = std::min<std::size_t>(needs.words, missing.last);
+  const std::size_t first = needs.first_is_free || last < 2 ? missing.first : std::max<std::size_t>(missing.first, 2);
+  std::size_t best = std::min(std::max<std::size_t>(first, 2), std::max<std::size_t>(last, 1));
+  for (std::size_t place = last; place >= first; --place) {
     const auto use = useAt(actual_value, place, functions, series);
     const bool wanted = std::any_of(needs.list.begin(), needs.list.end(), [&](const WordNeed& need) {
       return need.actual_value == actual_value && use == need.use;
     });
     if (!wanted) best = place;
   }
-  for (std::size_t place = needs.words; place >= 2; --place) {
+  for (std::size_t place = last; place >= first; --place) {
     if (useAt(actual_value, place, functions, series) == WordUse::kOff) best = place;
   }
   return best;
+}
+
+bool isCarried(const WordNeeds& needs, const WordNeed& need, const WordFunctions& functions, Series series) noexcept {
+  for (std::size_t place = need.first; place <= needs.words && place <= need.last; ++place) {
+    if (carries(place, need, functions, series)) return true;
+  }
+  return false;
+}
+
+std::optional<std::size_t> placeOf(const WordNeeds& needs, WordUse use, const WordFunctions& functions,
+                                   Series series) noexcept {
+  for (std::size_t place = 1; place <= needs.words; ++place) {
+    if (useAt(false, place, functions, series) == use) return place;
+  }
+  return std::nullopt;
+}
+
+drive::UnexpectedFunction wordToSet(bool actual_value, std::size_t place, std::uint16_t expected,
+                                    const WordFunctions& functions, Series series) noexcept {
+  const profile::WordParameter parameter =
+      actual_value ? profile::actualValueParameter(series, place) : profile::setpointParameter(series, place);
+  drive::UnexpectedFunction missing;
+  missing.number = parameter.number;
+  missing.index = parameter.index;
+  missing.is_array = parameter.is_array;
+  missing.found = codeAt(actual_value, place, functions);
+  missing.expected = expected;
+  missing.wanted =
+      actual_value ? profile::actualValueName(series, expected) : profile::setpointName(series, place, expected);
+  return missing;
+}
+
+// Of the setpoints 21/22 and 23/24 (BU 0020 7.3.5) one pair, never a half of each: which of them counts what, BU 0510
+// tells.
+std::optional<drive::UnexpectedFunction> brokenPair(const WordNeeds& needs, const WordFunctions& functions,
+                                                    Series series) noexcept {
+  const auto low = placeOf(needs, WordUse::kPositionLow, functions, series);
+  const auto high = placeOf(needs, WordUse::kPositionHigh, functions, series);
+  if (!needs.positions || !low || !high) return std::nullopt;
+  const auto expected = static_cast<std::uint16_t>(codeAt(false, *low, functions) + 1);
+  if (codeAt(false, *high, functions) == expected) return std::nullopt;
+  return wordToSet(false, *high, expected, functions, series);
+}
+
+// One low word of 16 bits beside a high one would be taken for 32.
+std::optional<drive::UnexpectedFunction> unwantedHalf(const WordNeeds& needs, const WordFunctions& functions,
+                                                      Series series) noexcept {
+  const bool wide = std::any_of(needs.list.begin(), needs.list.end(),
+                                [](const WordNeed& need) { return need.use == WordUse::kPositionHigh; });
+  const bool halves = std::any_of(needs.list.begin(), needs.list.end(),
+                                  [](const WordNeed& need) { return need.use == WordUse::kPositionLow; });
+  if (wide || !halves) return std::nullopt;
+  for (const bool actual_value : {false, true}) {
+    for (std::size_t place = 1; place <= needs.words; ++place) {
+      if (useAt(actual_value, place, functions, series) != WordUse::kPositionHigh) continue;
+      return wordToSet(actual_value, place, 0, functions, series);
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -77,33 +143,88 @@ WordNeeds wordNeeds(const WordSetup& setup, std::size_t carried) noexcept {
 }
 
 bool carries(std::size_t place, const WordNeed& need, const WordFunctions& functions, Series series) noexcept {
-  return useAt(need.actual_value, place, functions, series) == need.use;
+  const auto use = useAt(need.actual_value, place, functions, series);
+  // A position in increments is one, too: what a step of it is, its function says.
+  if (need.use == WordUse::kPosition16 && use == WordUse::kIncrement16) return true;
+  return use == need.use || (need.use == WordUse::kPosition32 && use == WordUse::kIncrement32);
+}
+
+WordNeed needOf(const HomeBit& home) noexcept {
+  if (home.carrier == HomeBit::Carrier::kPosicon) return {false, WordUse::kPosiconBits, 1, 3};
+  return {false, WordUse::kBusBits, 2, 3};
+}
+
+std::optional<std::uint8_t> elementOf(const HomeBit& home) noexcept {
+  // P480 [-01] to [-08] are the bus I/O in bits, [-11] and [-12] bits 8 and 9 of the control word (BU 0020 6.2.1).
+  if (home.carrier == HomeBit::Carrier::kBusBit) return static_cast<std::uint8_t>(home.number + 1);
+  if (home.carrier == HomeBit::Carrier::kControlBit) return static_cast<std::uint8_t>(home.number + 3);
+  return std::nullopt;
+}
+
+bool isPosition(WordUse use) noexcept {
+  switch (use) {
+    case WordUse::kPositionLow:
+    case WordUse::kPositionHigh:
+    case WordUse::kPosition16:
+    case WordUse::kPosition32:
+    case WordUse::kIncrement16:
+    case WordUse::kIncrement32:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool firstWordFits(const WordNeeds& needs, bool actual_value, std::uint16_t code, Series series) noexcept {
+  if (code == kFrequencyFunction) return true;
+  const profile::WordFunction* const function =
+      actual_value ? profile::findActualValueFunction(series, code) : profile::findSetpointFunction(series, 1, code);
+  return needs.positions && function != nullptr && isPosition(function->use);
+}
+
+void addPositionNeeds(const PositionSetup& setup, Series series, WordNeeds& needs) noexcept {
+  needs.positions = true;
+  needs.setpoint_mode = setup.setpoint_mode;
+  const auto add = [&needs](const WordNeed& need) {
+    const bool known = std::any_of(needs.list.begin(), needs.list.end(), [&need](const WordNeed& other) {
+      return other.actual_value == need.actual_value && other.use == need.use;
+    });
+    if (!known) needs.list.push_back(need);
+  };
+  if (setup.home && setup.home->carrier != HomeBit::Carrier::kControlBit) add(needOf(*setup.home));
+  if (setup.referenced && setup.referenced->source == SignalSource::kBusOutBit) add({true, WordUse::kBusBits, 2, 3});
+  const bool wide = setup.bits == 32;
+  if (profile::thirdBeforeSecond(series)) {
+    // Setpoint 1 only (P546); of the actual values 32 bits are in IW1 only (BU 0020 6.1.2, 7.3.7).
+    needs.first_is_free = true;
+    needs.list.push_back({false, wide ? WordUse::kPosition32 : WordUse::kPosition16, 1, 1});
+    needs.list.push_back({true, WordUse::kPosition16, 1, static_cast<std::uint8_t>(wide ? 1 : 3)});
+    return;
+  }
+  // In any words; the frequency keeps the first where the others suffice.
+  needs.first_is_free = needs.words < (wide ? 3u : 2u);
+  for (const bool actual_value : {false, true}) {
+    needs.list.push_back({actual_value, WordUse::kPositionLow, 1, 3});
+    if (wide) needs.list.push_back({actual_value, WordUse::kPositionHigh, 1, 3});
+  }
 }
 
 std::optional<drive::UnexpectedFunction> missingWord(const WordNeeds& needs, const WordFunctions& functions,
                                                      Series series) noexcept {
   for (const WordNeed& need : needs.list) {
-    bool carried = false;
-    for (std::size_t place = 2; place <= needs.words; ++place) {
-      carried = carried || carries(place, need, functions, series);
-    }
-    if (carried) continue;
-    const std::size_t place = bestPlace(needs, need.actual_value, functions, series);
-    const profile::WordParameter parameter =
-        need.actual_value ? profile::actualValueParameter(series, place) : profile::setpointParameter(series, place);
-    const auto code =
+    if (isCarried(needs, need, functions, series)) continue;
+    const std::size_t place = bestPlace(needs, need, functions, series);
+    auto code =
         need.actual_value ? profile::actualValueCode(series, need.use) : profile::setpointCode(series, place, need.use);
-    drive::UnexpectedFunction missing;
-    missing.number = parameter.number;
-    missing.index = parameter.index;
-    missing.is_array = parameter.is_array;
-    missing.found = codeAt(need.actual_value, place, functions);
-    missing.expected = code.value_or(0);
-    missing.wanted = need.actual_value ? profile::actualValueName(series, missing.expected)
-                                       : profile::setpointName(series, place, missing.expected);
-    return missing;
+    // The other half of the pair that is there.
+    const auto low = placeOf(needs, WordUse::kPositionLow, functions, series);
+    if (!need.actual_value && need.use == WordUse::kPositionHigh && low) {
+      code = static_cast<std::uint16_t>(codeAt(false, *low, functions) + 1);
+    }
+    return wordToSet(need.actual_value, place, code.value_or(0), functions, series);
   }
-  return std::nullopt;
+  if (const auto broken = brokenPair(needs, functions, series)) return broken;
+  return unwantedHalf(needs, functions, series);
 }
 
 }  // namespace nord_driver::cycle

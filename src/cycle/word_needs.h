@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cycle/device_data.h"
+#include "cycle/position_setup.h"
 #include "cycle/word_setup.h"
 #include "drive/drive_report.h"
 #include "nord_driver/core/fixed_vector.h"
@@ -17,6 +18,9 @@ namespace nord_driver::cycle {
 struct WordNeed {
   bool actual_value;
   profile::WordUse use;
+  /// The words that may have this use, from 1. Of most word 1 is none, because it is the frequency.
+  std::uint8_t first = 2;
+  std::uint8_t last = 3;
 };
 
 struct WordNeeds {
@@ -24,6 +28,11 @@ struct WordNeeds {
   std::size_t words = 1;  ///< setpoints and actual values the bus carries, the first included
 
   bool bits = false;  ///< bits whose function is in P480 are in use
+  /// It positions: word 1 may be a position, and is set to be one where the others do not suffice.
+  bool positions = false;
+  bool first_is_free = false;
+  /// P610 as it has to be; -1: it is not looked at.
+  std::int32_t setpoint_mode = -1;
 
   bool empty() const noexcept { return list.empty() && !bits; }
 };
@@ -31,7 +40,21 @@ struct WordNeeds {
 /// Each use once.
 WordNeeds wordNeeds(const WordSetup& setup, std::size_t carried) noexcept;
 
-/// The word in `place` (2 or 3) has this use, by what the drive has told. Word 1 is the frequency.
+/// And those of a drive that positions.
+void addPositionNeeds(const PositionSetup& setup, profile::Series series, WordNeeds& needs) noexcept;
+
+/// The word that carries the bit which asks for a reference run; of a bit of the control word nobody asks.
+WordNeed needOf(const HomeBit& home) noexcept;
+/// The element of P480 that says what this bit does; none: it has its meaning from its word.
+std::optional<std::uint8_t> elementOf(const HomeBit& home) noexcept;
+
+/// What word 1 carries need not be the frequency: it is a position of a drive that positions.
+bool isPosition(profile::WordUse use) noexcept;
+
+/// Word 1 is what it has to be: the frequency or, of a drive that positions, a position.
+bool firstWordFits(const WordNeeds& needs, bool actual_value, std::uint16_t code, profile::Series series) noexcept;
+
+/// The word in `place` (1 to 3) has this use, by what the drive has told.
 bool carries(std::size_t place, const WordNeed& need, const WordFunctions& functions, profile::Series series) noexcept;
 
 /// The first need that no word of the set meets, with the parameter that would best be set: of a word that is off, else

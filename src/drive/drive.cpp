@@ -32,6 +32,7 @@ StopCause exitCause(StatusWord status) noexcept {
 
 Drive::Drive(const DriveConfig& config)
     : config_(config), edge_(config.acknowledge_time), missing_(config.drive_timeout) {
+  if (config.position) axis_.emplace(*config.position);
   for (std::size_t i = 0; i < sets_.size(); ++i) sets_[i].max_frequency = config.max_frequency[i];
 }
 
@@ -58,6 +59,10 @@ void Drive::enter(Phase phase, Instant now, RadPerSec wanted) noexcept {
   phase_ = PhaseData{};
   phase_.since = now;
   phase_.wanted = wanted;
+  if (axis_ && axis_->isHoming()) {
+    axis_->endHoming();
+    end(report_.homing, Refusal::kStopped);
+  }
 }
 
 void Drive::latch(StopCause cause) noexcept {
@@ -102,8 +107,10 @@ void Drive::handleUseful(const profile::ProcessInput& input, Instant now) noexce
   report_.parameter_set = status.parameterSet();
   learnSet(status, joined);
   if (joined) enter(Phase::kIdle, now);
+  if (axis_) handlePosition(now);
   checkStops(status, now);
   follow(status, now);
+  if (axis_) followHoming(now);
 }
 
 void Drive::learnSet(StatusWord status, bool joined) noexcept {
@@ -132,6 +139,7 @@ void Drive::goOffline(StopCause cause, Instant now) noexcept {
   report_.online = false;
   report_.state = DriveState::kUnknown;
   report_.parameter_set = 0;
+  if (axis_) axis_->handleGap();
   if (was_enabling) refuse(Refusal::kOffline);
 }
 
@@ -296,15 +304,17 @@ void Drive::measure() noexcept {
   tellSet();
   const auto maximum = maxFrequency(report_.parameter_set);
   report_.scaled = report_.online && maximum.has_value();
+  report_.speed = speedWord();
   report_.frequency = {};
   report_.velocity = {};
   if (report_.scaled) {
-    report_.frequency = profile::fromActualValue1(report_.input.actual_values[0], *maximum);
+    report_.frequency = profile::fromActualValue1(report_.speed, *maximum);
     report_.velocity = profile::toRadPerSec(report_.frequency, config_.joint);
+    if (axis_) report_.velocity.value *= axis_->config().unit_per_radian;
   }
   report_.direction_contradiction =
-      config_.check_direction && report_.online &&
-      contradictsDirection(StatusWord(report_.status_word), report_.input.actual_values[0]);
+      config_.check_direction && report_.online && contradictsDirection(StatusWord(report_.status_word), report_.speed);
+  if (axis_) measurePosition();
 }
 
 // --- what goes to the inverter ---------------------------------------------------------------------------------------
@@ -349,7 +359,9 @@ profile::ProcessOutput Drive::pollOutput(Instant now) noexcept {
   profile::ProcessOutput output;
   report_.saturated = false;
   report_.velocity_command = {};
-  if (isEnabled(report_.phase)) {
+  if (axis_) {
+    putPosition(output);
+  } else if (isEnabled(report_.phase)) {
     // Enabled without P105 cannot be; were it so, the setpoint would be 0.
     const Hertz maximum = maxFrequency(report_.commanded_set).value_or(Hertz{});
     const profile::Setpoint setpoint = profile::toSetpoint1(profile::toHertz(phase_.wanted, config_.joint), maximum);

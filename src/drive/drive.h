@@ -15,6 +15,9 @@
 //  - With P104 > 0 the motor turns at setpoint 0. Such a drive is enabled only where the configuration accepts it; then
 //    a command of zero is OFF1 (kResting), and the next one that is not zero leads up again through "ready to switch
 //    on".
+//  - A drive that positions (`position`) goes to a target instead of following a velocity: see PositionAxis. Setpoint 1,
+//    where it is the frequency, is then the speed it travels at. Its way to rest is OFF1 from the first word on, for a
+//    setpoint of zero would not stop it where the drive travels at P105.
 //  - Under local control the set follows the inverter: its terminals choose it, and our word acts when control returns.
 #pragma once
 
@@ -26,6 +29,7 @@
 #include "drive/acknowledge_edge.h"
 #include "drive/drive_report.h"
 #include "drive/missing_inverter.h"
+#include "drive/position_axis.h"
 #include "nord_driver/core/time.h"
 #include "nord_driver/profile/process_data.h"
 #include "profile/control_word.h"
@@ -51,6 +55,8 @@ struct DriveConfig {
   bool allow_minimum_frequency = false;
   /// Cross-check the sign of actual value 1 with status bits 11 and 12. No manual defines that sign in left rotation.
   bool check_direction = true;
+  /// It goes to positions; none: it follows velocities.
+  std::optional<PositionConfig> position = {};
 };
 
 /// Each cycle: pollOutput() before the exchange, handleInput() after it. Requests in between, from the same thread; the
@@ -93,6 +99,17 @@ class Drive {
 
   /// Used only while enabled, and forgotten with it. What is no number becomes setpoint 0.
   void setVelocity(RadPerSec joint) noexcept;
+  /// Of a drive that positions: go there, rad or m of the joint. Taken only while enabled, and forgotten with it; what
+  /// is refused changes nothing, and stands in report().position.
+  TargetRefusal setPosition(double joint) noexcept;
+  /// A reference run of a drive that positions, from "enabled"; report().homing tells the outcome, with the `token`. The
+  /// drive is asked for it while report().position.homing. It ends in a stop after PositionConfig::homing_timeout.
+  void requestHoming(Instant now, std::uint32_t token = 0) noexcept;
+  /// Whether a bit of the drive says that its reference is known; none: there is no such bit.
+  void setReferenced(std::optional<bool> referenced) noexcept;
+  bool positions() const noexcept { return axis_.has_value(); }
+  /// What the words of set 1..4 carry, as the inverter told their functions.
+  void setPositionWords(std::uint8_t set, const profile::PositionWords& words) noexcept;
   /// P105 of set 1..4, as read from the inverter.
   void setMaxFrequency(std::uint8_t set, Hertz frequency) noexcept;
   std::optional<Hertz> maxFrequency(std::uint8_t set) const noexcept;
@@ -159,10 +176,18 @@ class Drive {
   void breakOff(Refusal why) noexcept;
   static void end(RequestReport& request, Refusal refusal) noexcept;
   void measure() noexcept;
+  void measurePosition() noexcept;
+  void handlePosition(Instant now) noexcept;
+  void followHoming(Instant now) noexcept;
+  void putPosition(profile::ProcessOutput& output) noexcept;
+  /// Of a drive that positions, why its position keeps it from being enabled.
+  Refusal positionRefusal() const noexcept;
+  /// What stands for the frequency, of 16384: actual value 1, or of a drive that positions what its words say.
+  std::int16_t speedWord() const noexcept;
   void tellSet() noexcept;
   /// Between resting and driving, by the velocity wanted.
   void restOrResume(const profile::Setpoint& setpoint, Instant now) noexcept;
-  bool restsAtZero() const noexcept { return report_.minimum_frequency.value > 0.0; }
+  bool restsAtZero() const noexcept { return !axis_ && report_.minimum_frequency.value > 0.0; }
   void enter(Phase phase, Instant now, RadPerSec wanted = {}) noexcept;
   void stop(StopCause cause, Instant now) noexcept;
   void latch(StopCause cause) noexcept;
@@ -181,6 +206,7 @@ class Drive {
   UnansweredWord unanswered_;
   AcknowledgeEdge edge_;
   MissingInverter missing_;
+  std::optional<PositionAxis> axis_;
   Instant last_useful_{};
 };
 

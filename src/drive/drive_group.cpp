@@ -1,5 +1,6 @@
 #include "drive/drive_group.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
@@ -75,6 +76,7 @@ void DriveGroup::stop(StopWay way, Instant now) noexcept {
   switch (way) {
     case StopWay::kSetpointZero:
     case StopWay::kOff1:
+      if (onlyPositions()) return shutdownAll(now);
       setpoint_is_zero_ = false;
       zero_seen_ = false;
       return enter(GroupPhase::kRampingDown, now);
@@ -188,10 +190,14 @@ void DriveGroup::haltTheOthers(Instant now) noexcept {
   enter(way == StopWay::kSetpointZero ? GroupPhase::kHalting : GroupPhase::kStopping, now);
 }
 
+bool DriveGroup::onlyPositions() const noexcept {
+  return std::all_of(members_.begin(), members_.end(), [](const Drive* member) { return member->positions(); });
+}
+
 bool DriveGroup::nearStandstill() const noexcept {
   for (const Drive* member : members_) {
     if (!runs(*member)) continue;
-    if (std::abs(int{member->report().input.actual_values[0]}) > config_.near_standstill) return false;
+    if (std::abs(int{member->report().speed}) > config_.near_standstill) return false;
   }
   return true;
 }
@@ -217,7 +223,7 @@ void DriveGroup::updateRampingDown(Instant now) noexcept {
 bool DriveGroup::getsSlower(Instant now) noexcept {
   int speed = 0;
   for (const Drive* member : members_) {
-    if (runs(*member)) speed += std::abs(int{member->report().input.actual_values[0]});
+    if (runs(*member)) speed += std::abs(int{member->report().speed});
   }
   if (speed <= halting_speed_ - config_.near_standstill) {
     halting_speed_ = speed;

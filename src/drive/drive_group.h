@@ -93,6 +93,8 @@ class DriveGroup {
   void quickStopAll(Instant now) noexcept;
   bool quickStopTheRest(Instant now) noexcept;
   void latch(StopCause cause, std::size_t member) noexcept;
+  /// All its members go to positions: a setpoint of zero stops none of them.
+  bool onlyPositions() const noexcept;
   bool nearStandstill() const noexcept;
   bool getsSlower(Instant now) noexcept;
 

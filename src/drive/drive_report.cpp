@@ -30,6 +30,10 @@ const char* toString(StopCause cause) noexcept {
       return "switching the output off (OFF2) was asked for";
     case StopCause::kCommandTimeout:
       return "no new velocity command came within cmd_vel_timeout";
+    case StopCause::kPositionJump:
+      return "its position changed faster than the motor can turn: the count of the drive has a new zero";
+    case StopCause::kHomingTimeout:
+      return "the reference run did not end within position/homing_timeout";
     case StopCause::kNotResumed:
       return "the inverter did not come from rest (OFF1, for P104 > 0) to \"operation enabled\" in time";
   }
@@ -79,6 +83,14 @@ const char* toString(Refusal refusal) noexcept {
       return "there are parameter sets 1 to 4 only";
     case Refusal::kOnlySet1:
       return "its drive profile has parameter set 1 only: no other one can be selected over this bus";
+    case Refusal::kPositionUnknown:
+      return "its position is not known yet";
+    case Refusal::kPositionBeyondRange:
+      return "it stands where its setpoint words cannot hold it (16 bits: -32.768 to 32.767 revolutions)";
+    case Refusal::kNotEnabled:
+      return "the drive is not enabled, and a reference run moves it: enable it first";
+    case Refusal::kHomingTimeout:
+      return "the reference run did not end within position/homing_timeout, and the drive was stopped";
     case Refusal::kSetNotConfirmed:
       return "the inverter did not confirm the new parameter set in time";
   }

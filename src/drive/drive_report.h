@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/units.h"
+#include "drive/position_report.h"
 #include "nord_driver/core/bytes.h"
 #include "nord_driver/profile/process_data.h"
 #include "profile/status_word.h"
@@ -48,6 +49,8 @@ enum class StopCause : std::uint8_t {
   kShutdownTimeout,  ///< OFF1 did not end in shutdown_timeout: quick stop
   kCoast,            ///< OFF2 was asked for
   kCommandTimeout,   ///< no new velocity command came in time
+  kPositionJump,     ///< its position changed faster than the motor can turn: the count has a new zero
+  kHomingTimeout,    ///< a reference run did not end in time
   kNotResumed,       ///< from rest (P104 > 0) it did not reach "operation enabled" within enable_timeout
 };
 
@@ -73,6 +76,10 @@ enum class Refusal : std::uint8_t {
   kTurning,              ///< switching the set: actual value 1 is not near zero
   kNoSuchSet,            ///< the parameter sets are 1..4
   kOnlySet1,             ///< the profile it is commanded by has no bits for parameter sets
+  kPositionUnknown,      ///< of a drive that positions: not told yet, or no word carries it
+  kPositionBeyondRange,  ///< where it is, its setpoint cannot express: it could not be held there
+  kNotEnabled,           ///< a reference run: the drive is not enabled
+  kHomingTimeout,        ///< a reference run did not end within position/homing_timeout
   kSetNotConfirmed,      ///< status bits 14 and 15 did not show the new set within enable_timeout
 };
 
@@ -88,7 +95,7 @@ struct RequestReport {
 /// A parameter P543 to P548 that gives a word another function than is needed: of setpoint 1 or actual value 1 the
 /// frequency, of the others what is configured.
 struct UnexpectedFunction {
-  std::uint16_t number = 0;      ///< 543 to 548
+  std::uint16_t number = 0;      ///< 543 to 548; 600 or 610 of a drive that does not position, or not by the bus
   bool is_array = false;         ///< the series has it as an array
   std::uint16_t found = 0;       ///< the value read; FFFFh: it could not be read
   std::uint16_t expected = 0;    ///< the value to be set
@@ -106,10 +113,13 @@ struct DriveReport {
   std::uint8_t parameter_set = 0;                             ///< in force, from the status word, 1..4; 0: not known
   std::uint8_t commanded_set = 0;                             ///< in the control word, 1..4; 0: not learned yet
 
+  /// What stands for the output frequency, 16384 = P105: actual value 1; of a drive that positions the word that is the
+  /// frequency, or what its position makes of it.
+  std::int16_t speed = 0;
   bool scaled = false;           ///< `frequency` and `velocity` can be told: online, and P105 of the set is known
   Hertz frequency;               ///< from actual value 1
-  RadPerSec velocity;            ///< of the joint, from actual value 1
-  RadPerSec velocity_command;    ///< of the joint, what setpoint 1 as sent stands for
+  RadPerSec velocity;            ///< of the joint, from `speed`; m/s of a prismatic one
+  RadPerSec velocity_command;    ///< of the joint, what setpoint 1 as sent stands for; m/s of a prismatic one
   bool saturated = false;        ///< the wanted velocity is beyond P105, or below P104 and not zero
   bool command_invalid = false;  ///< the wanted velocity was not a number: setpoint 0 was sent
   bool direction_contradiction = false;  ///< the sign of actual value 1 against status bits 11 and 12
@@ -127,6 +137,9 @@ struct DriveReport {
 
   RequestReport acknowledge;  ///< the last acknowledging; kCauseStands while the fault cannot be acknowledged
   RequestReport set_switch;   ///< the last switching of the parameter set
+
+  PositionReport position;  ///< of a drive that positions
+  RequestReport homing;     ///< its last reference run
 };
 
 /// A clause: "a fault", "the drive fell silent".

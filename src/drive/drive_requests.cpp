@@ -49,8 +49,9 @@ Refusal Drive::enableRefusal() const noexcept {
   if (!maxFrequency(report_.commanded_set).has_value()) return Refusal::kMaxFrequencyUnknown;
   if (parameters_awaited_) return Refusal::kParametersAwaited;
   if (report_.unexpected_function) return Refusal::kUnexpectedFunction;
-  if (restsAtZero() && !config_.allow_minimum_frequency) return Refusal::kMinimumFrequency;
-  return Refusal::kNone;
+  const bool turns_at_zero = report_.minimum_frequency.value > 0.0;
+  if (turns_at_zero && !config_.allow_minimum_frequency) return Refusal::kMinimumFrequency;
+  return positionRefusal();
 }
 
 void Drive::requestEnable(Instant now) noexcept {
@@ -64,8 +65,8 @@ void Drive::requestEnable(Instant now) noexcept {
 void Drive::requestSetpointZero(Instant now) noexcept {
   if (report_.phase == Phase::kEnabling) return requestShutdown(now);
   if (!isEnabled(report_.phase)) return;
-  // With P104 > 0 setpoint 0 is no rest.
-  if (restsAtZero() || report_.phase != Phase::kEnabled) return requestShutdown(now);
+  // With P104 > 0 setpoint 0 is no rest, nor of a drive that positions.
+  if (axis_ || restsAtZero() || report_.phase != Phase::kEnabled) return requestShutdown(now);
   enter(Phase::kHoldingZero, now);
 }
 
@@ -132,7 +133,7 @@ void Drive::requestAcknowledge(Instant now, std::uint32_t token) noexcept {
 }
 
 bool Drive::isNearStandstill() const noexcept {
-  return report_.online && std::abs(int{report_.input.actual_values[0]}) <= config_.near_standstill;
+  return report_.online && std::abs(int{report_.speed}) <= config_.near_standstill;
 }
 
 Refusal Drive::setRefusal(std::uint8_t set) const noexcept {

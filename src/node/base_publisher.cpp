@@ -28,12 +28,8 @@ BasePublisher::BasePublisher(ros::NodeHandle& node, const NodeConfig& config)
   for (std::size_t i = 0; i < config.cycle.drives.size(); ++i) {
     if (config.cycle.drives[i].joint.empty()) continue;
     jointed_.push_back(i);
-    joints_.name.push_back(config.cycle.drives[i].joint);
-    if (config.cycle.drives[i].words.torque_at_limit) joints_.effort.resize(1);
+    with_effort_ = with_effort_ || config.cycle.drives[i].words.torque_at_limit.has_value();
   }
-  joints_.position.resize(jointed_.size());
-  joints_.velocity.resize(jointed_.size());
-  if (!joints_.effort.empty()) joints_.effort.resize(jointed_.size());
   if (!jointed_.empty()) joints_publisher_ = node.advertise<sensor_msgs::JointState>("joint_states", 10);
   if (!config.cycle.base) return;
 
@@ -87,14 +83,20 @@ void BasePublisher::publishOdometry(const cycle::BaseSnapshot& base, ros::Time s
 
 void BasePublisher::publishJoints(const cycle::CycleSnapshot& snapshot, ros::Time stamp) {
   joints_.header.stamp = stamp;
-  for (std::size_t i = 0; i < jointed_.size(); ++i) {
-    joints_.position[i] = snapshot.drives[jointed_[i]].joint_position;
-    joints_.velocity[i] = snapshot.drives[jointed_[i]].velocity;
-    if (joints_.effort.empty()) continue;
-    const cycle::DriveSnapshot& drive = snapshot.drives[jointed_[i]];
-    joints_.effort[i] = cycle::effortOf(drive, drive.device, setups_[jointed_[i]]);
+  joints_.name.clear();
+  joints_.position.clear();
+  joints_.velocity.clear();
+  joints_.effort.clear();
+  for (const std::size_t i : jointed_) {
+    const cycle::DriveSnapshot& drive = snapshot.drives[i];
+    // One that positions is somewhere, and not at 0, before anybody has heard where.
+    if (!drive.joint_known) continue;
+    joints_.name.push_back(setups_[i].joint);
+    joints_.position.push_back(drive.joint_position);
+    joints_.velocity.push_back(drive.velocity);
+    if (with_effort_) joints_.effort.push_back(cycle::effortOf(drive, drive.device, setups_[i]));
   }
-  joints_publisher_.publish(joints_);
+  if (!joints_.name.empty()) joints_publisher_.publish(joints_);
 }
 
 }  // namespace nord_driver::node

@@ -36,6 +36,7 @@ class BasePublisher {
   std::vector<cycle::DriveSetup> setups_;  // of all drives
   nav_msgs::Odometry odometry_;
   sensor_msgs::JointState joints_;
+  bool with_effort_ = false;
   ros::Publisher odometry_publisher_;
   ros::Publisher joints_publisher_;
   ros::Publisher command_publisher_;

@@ -77,7 +77,7 @@ void Diagnostics::reportBase(DiagnosticStatusWrapper& status) const {
     status.summary(DiagnosticStatus::ERROR, base.text.str());
     status.add("to go on", recoveryHint(snapshot_, names_));
   } else if (base.enabled) {
-    status.summary(DiagnosticStatus::OK, "enabled");
+    status.summary(DiagnosticStatus::OK, base.waits.empty() ? "enabled" : "enabled: " + base.waits.str());
   } else {
     status.summary(DiagnosticStatus::OK, base.text.empty() ? "disabled" : base.text.str());
   }
@@ -120,6 +120,10 @@ void Diagnostics::warn(std::size_t index, const ProtectionReport& protection, Di
                          "the inverter's ramps (P102, P103) longer than those of the commands?",
                          drive.speed_deviation);
   }
+  if (!drive.position_refused.empty()) status.mergeSummary(DiagnosticStatus::WARN, drive.position_refused.str());
+  if (drive.position_held_back) {
+    status.mergeSummary(DiagnosticStatus::WARN, "its newest position cannot be: the one before is told");
+  }
   if (drive.direction_contradiction) {
     status.mergeSummary(DiagnosticStatus::WARN,
                         "actual value 1 and the direction bits of the status word contradict each other");
@@ -160,6 +164,12 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
   status.add("status word", toHexWord(drive.input.status_word));
   status.add("control word", toHexWord(drive.output.control_word));
   status.add("parameter set", static_cast<int>(drive.parameter_set));
+  if (drive.position) {
+    status.add("position (rad or m)", *drive.position);
+    status.add("target (rad or m)", drive.position_target ? std::to_string(*drive.position_target) : "none");
+    status.add("target reached", drive.position_reached);
+    status.add("homed", drive.homed);
+  }
   status.add("frequency (Hz)", drive.frequency);
   status.add("velocity (rad/s)", drive.velocity);
   status.add("velocity commanded (rad/s)", drive.velocity_command);

@@ -1,6 +1,7 @@
 #include "node/drive_status.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace nord_driver::node {
 
@@ -36,6 +37,9 @@ void fillDriveStatus(const cycle::DriveSample& sample, const catalogue::FaultWor
   status.velocity = sample.velocity;
   status.frequency = sample.frequency;
   status.saturated = sample.saturated;
+  status.position = sample.position.value_or(std::numeric_limits<double>::quiet_NaN());
+  status.position_reached = sample.position_reached;
+  status.homed = sample.homed;
   status.fault_number = sample.fault_number;
   status.fault_text.clear();
   if (sample.fault_number != 0) status.fault_text = faults.name(sample.fault_number);

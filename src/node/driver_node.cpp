@@ -127,7 +127,7 @@ void DriverNode::warnOfUnknownKeys() const {
 
 void DriverNode::advertise() {
   base_publisher_ = std::make_unique<BasePublisher>(node_, config_);
-  if (config_.cycle.base) {
+  if (config_.cycle.base && !config_.cycle.base->steered) {
     base_tuner_ = std::make_unique<BaseTuner>(private_node_, config_, *ports_, *base_publisher_);
   } else {
     nothing_to_tune_ = std::make_unique<NothingToTune>(private_node_);
@@ -150,10 +150,12 @@ void DriverNode::advertise() {
     fault_publishers_.emplace_back(private_node_, setup.name, faults_[i]);
     values_publishers_.emplace_back(private_node_, setup.name, values_[i]);
     if (cycle_->inBase(i)) continue;
-    boost::function<void(const std_msgs::Float64&)> take = [this, i](const std_msgs::Float64& velocity) {
-      takeDriveCommand(i, velocity.data);
+    const bool positions = setup.position.has_value();
+    boost::function<void(const std_msgs::Float64&)> take = [this, i, positions](const std_msgs::Float64& command) {
+      takeDriveCommand(i, positions, command.data);
     };
-    subscribers_.push_back(private_commands_.handle().subscribe<std_msgs::Float64>(setup.name + "/command", 1, take));
+    const std::string topic = setup.name + (positions ? "/position_command" : "/command");
+    subscribers_.push_back(private_commands_.handle().subscribe<std_msgs::Float64>(topic, 1, take));
   }
   word_topics_ = std::make_unique<WordTopics>(private_commands_, config_.cycle, *ports_);
   fault_board_ = std::make_unique<FaultBoard>(names, faults_);
@@ -181,7 +183,7 @@ void DriverNode::takeCommand(const geometry_msgs::Twist& twist) {
                       static_cast<unsigned long>(bad_commands_));
     return;
   }
-  const bool sideways = config_.cycle.base->kind == robot::BaseKind::kMecanum;
+  const bool sideways = config_.cycle.base->movesSideways();
   const double linear_y = sideways ? twist.linear.y : 0.0;
   cycle::TwistCommand command{{twist.linear.x, twist.angular.z, linear_y}, steadyNow(), true};
   if (!config_.publish.allow_multiple_cmd_vel_publishers && command_subscriber_.getNumPublishers() > 1) {
@@ -192,11 +194,14 @@ void DriverNode::takeCommand(const geometry_msgs::Twist& twist) {
   ports_->commandBase(command);
 }
 
-void DriverNode::takeDriveCommand(DriveIndex drive, double velocity) {
-  if (ports_->commandDrive(drive, {velocity, steadyNow(), true})) return;
+void DriverNode::takeDriveCommand(DriveIndex drive, bool positions, double command) {
+  const bool taken =
+      positions ? ports_->commandPosition(drive, command) : ports_->commandDrive(drive, {command, steadyNow(), true});
+  if (taken) return;
   ++bad_commands_;
-  ROS_WARN_THROTTLE(1.0, "nord_driver: the command of drive %s is not a number or infinite, ignored",
-                    config_.cycle.drives[drive].name.c_str());
+  ROS_WARN_THROTTLE(1.0, "nord_driver: the %s of drive %s is not a number or infinite, ignored (%lu so far)",
+                    positions ? "position command" : "command", config_.cycle.drives[drive].name.c_str(),
+                    static_cast<unsigned long>(bad_commands_));
 }
 
 void DriverNode::run(const std::atomic<bool>& end_asked) {

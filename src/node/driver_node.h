@@ -58,7 +58,7 @@ class DriverNode {
   void warnOfUnknownKeys() const;
   void advertise();
   void takeCommand(const geometry_msgs::Twist& twist);
-  void takeDriveCommand(DriveIndex drive, double velocity);
+  void takeDriveCommand(DriveIndex drive, bool positions, double command);
   /// Whoever publishes commands and has just been connected is listened to before anything is enabled.
   void noteCommanders();
   void tellBusEvents();
@@ -93,7 +93,7 @@ class DriverNode {
   std::unique_ptr<RequestBroker> broker_;
 
   std::unique_ptr<BasePublisher> base_publisher_;
-  std::unique_ptr<BaseTuner> base_tuner_;           // with a base
+  std::unique_ptr<BaseTuner> base_tuner_;           // with a base that has sides
   std::unique_ptr<NothingToTune> nothing_to_tune_;  // without one
   std::vector<DrivePublisher> drive_publishers_;
   std::vector<ValuesPublisher> values_publishers_;

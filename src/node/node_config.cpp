@@ -122,6 +122,10 @@ ConfiguredTransport configureTransport(NodeConfig& config, Transport& transport)
                         " only its master gets process data, expected false");
     }
     cycle::checkWordsCarried(*config.drives[i].settings, config.cycle.drives[i].words, configured.identities[i]);
+    if (config.cycle.drives[i].position) {
+      cycle::checkPositionCarried(*config.drives[i].settings, *config.cycle.drives[i].position,
+                                  config.cycle.drives[i].series, configured.identities[i]);
+    }
     // Without a parameter channel P105 cannot be read: nobody could say what a setpoint means.
     if (configured.identities[i].parameter_channel == "none" && !config.cycle.drives[i].typed_max_frequency) {
       throw missingSetting(*config.drives[i].settings, "max_frequency",

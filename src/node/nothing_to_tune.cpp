@@ -41,7 +41,9 @@ NothingToTune::NothingToTune(ros::NodeHandle& private_node)
     response.config = emptyConfig();
     const auto& wanted = request.config;
     if (wanted.bools.empty() && wanted.ints.empty() && wanted.doubles.empty() && wanted.strs.empty()) return true;
-    ROS_WARN("nord_driver: dynamic_reconfigure changes a base only, and this node has none: nothing is changed");
+    ROS_WARN(
+        "nord_driver: dynamic_reconfigure changes a base with left and right wheels only, and this node has none: "
+        "nothing is changed");
     return true;
   };
   server_ = private_node.advertiseService("set_parameters", callback);

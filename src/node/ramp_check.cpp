@@ -59,8 +59,7 @@ RampCheck::RampCheck(const cycle::CycleConfig& config, DriveIndex drive)
   }
   of_base_ = true;
   const auto wheel = static_cast<std::size_t>(at - wheels.begin());
-  const auto base = robot::makeKinematics(config.base->kind, config.base->geometry, config.base->left.size(),
-                                          config.base->right.size());
+  const auto base = config.base->kinematics();
   const auto add = [&](const robot::SpeedLimits& limits, const robot::Twist2d& unit) {
     const Asked asked = askedBy(limits);
     const double hertz = perUnit(*base, unit, wheel, joint);

@@ -60,6 +60,18 @@ Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, co
     addEnable(prefix + "enable", i);
     addTrigger(prefix + "quick_stop", RequestKind::kQuickStop, i);
     addTrigger(prefix + "acknowledge_fault", RequestKind::kAcknowledge, i);
+    if (config.cycle.drives[i].position) {
+      advertise<std_srvs::Trigger>(private_node, prefix + "home", [this, i, prefix](auto&, auto& response) {
+        cycle::Request request;
+        request.kind = RequestKind::kHome;
+        request.drive = i;
+        request.patience = config_.cycle.drives[i].position->axis.homing_timeout + config_.cycle.service_timeout;
+        const cycle::Completion answer = broker_.call(request);
+        tellOutcome(prefix + "home", answer);
+        response.success = answer.success;
+        response.message = messageOf(answer, i);
+      });
+    }
     advertise<SelectParameterSet>(private_node, prefix + "select_parameter_set",
                                   [this, i](auto& request, auto& response) { selectSet(i, request, response); });
     advertise<WriteParameter>(private_node, prefix + "write_parameter",

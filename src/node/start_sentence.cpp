@@ -15,7 +15,7 @@ std::string startSentence(const NodeConfig& config, const std::vector<DriveIdent
   if (!config.cycle.base) {
     text += ", no base";
   } else {
-    text += config.cycle.base->kind == robot::BaseKind::kMecanum ? ", base mecanum" : ", base differential";
+    text += std::string(", base ") + robot::nameOf(config.cycle.base->kind);
   }
   if (config.cycle.acknowledge_bus_timeouts) {
     text += ", bus time-outs (E10) found at start are acknowledged (acknowledge_at_start)";

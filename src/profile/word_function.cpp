@@ -28,8 +28,8 @@ constexpr WordFunction kFirstSetpoint[] = {
     {2, kSk7, "16 bit setpoint position", U::kPosition16, N::kThousandthTurn},
     {3, kSk7, "32 bit setpoint position", U::kPosition32, N::kThousandthTurn},
     {4, kSk7, "POSICON control terminals", U::kPosiconBits, N::kBits},
-    {5, kSk7, "Setpoint position (16 bit) increment", U::kOther, N::kRaw},
-    {6, kSk7, "Setpoint position (32 bit) increment", U::kOther, N::kRaw},
+    {5, kSk7, "Setpoint position (16 bit) increment", U::kIncrement16, N::kRaw},
+    {6, kSk7, "Setpoint position (32 bit) increment", U::kIncrement32, N::kRaw},
     {7, kOld, "Bus I/O in bits 0-7", U::kBusBits, N::kBits},
 };
 
@@ -106,12 +106,13 @@ constexpr WordFunction kActualValues[] = {
     {7, kSk7, "Setpoint position", U::kOther, N::kThousandthTurn},
     {8, kSk12 | kSk5 | kOld, "Setpoint frequency", U::kOther, N::kMaximumFrequency},
     {9, kSk12 | kSk5 | kOld, "Error number", U::kOther, N::kRaw},
-    {10, kSk12, "Actual position, low word", U::kPositionLow, N::kThousandthTurn},
-    {10, kSk7, "Actual position increment", U::kOther, N::kRaw},
+    // BU 2700 5.3 and 6.4.4: SK 2xxE, and SK 530E and above; BU 0020 6.2.2 points to BU 0510 for them.
+    {10, kSk12 | kSk5, "Actual position, low word", U::kPositionLow, N::kThousandthTurn},
+    {10, kSk7, "Actual position increment", U::kIncrement16, N::kRaw},
     {11, kSk7, "Setpoint position increment", U::kOther, N::kRaw},
     {12, kSk12, "Bus out bits 0...7", U::kBusBits, N::kBits},
     {12, kSk5 | kOld, "Bus I/O out bits 0...7", U::kBusBits, N::kBits},
-    {15, kSk12, "Actual position, high word", U::kPositionHigh, N::kThousandthTurn},
+    {15, kSk12 | kSk5, "Actual position, high word", U::kPositionHigh, N::kThousandthTurn},
     {17, kSk12 | kSk5, "Value analog input 1", U::kAnalogInput1, N::kNominalSize},
     {18, kSk12 | kSk5, "Value analog input 2", U::kAnalogInput2, N::kNominalSize},
     {19, kSk12 | kSk5, "Setpoint frequency master value", U::kOther, N::kMaximumFrequency},

@@ -31,6 +31,8 @@ enum class WordUse : std::uint8_t {
   kPositionHigh,
   kPosition16,
   kPosition32,
+  kIncrement16,  ///< a position in increments of an encoder (BU 0020 6.1.2 note 4)
+  kIncrement32,
   kPosiconBits,
   kSpeed,
   kCurrent,

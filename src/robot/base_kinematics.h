@@ -13,7 +13,11 @@ namespace nord_driver::robot {
 enum class BaseKind {
   kDifferential,  ///< two sides; with several wheels a side: skid steer
   kMecanum,       ///< four wheels with rollers at 45 degrees
+  kSteered,       ///< driven wheels, each steered by a drive of its own (SteeredKinematics)
 };
+
+/// As the configuration writes it: "mecanum".
+const char* nameOf(BaseKind kind) noexcept;
 
 /// The kinematics of one base. Wheels are counted the left ones first, front to rear, then the right ones likewise;
 /// a wheel's speed is positive when it rolls the base forward. To add a kind: derive, and name it in BaseKind and
@@ -40,7 +44,8 @@ class BaseKinematics {
   }
 };
 
-/// Throws std::invalid_argument with a sentence naming what is wrong: a field of the geometry, or the number of wheels.
+/// Of the kinds with a left and a right side; a steered base has its SteeredAxles. Throws std::invalid_argument with a
+/// sentence naming what is wrong: the kind, a field of the geometry, or the number of wheels.
 std::unique_ptr<BaseKinematics> makeKinematics(BaseKind kind, const BaseGeometry& geometry, std::size_t left_wheels,
                                                std::size_t right_wheels);
 

@@ -58,6 +58,15 @@ const urdf::Joint& wheelJoint(const urdf::ModelInterface& model, const std::stri
   return *joint;
 }
 
+const urdf::Joint& steeringJoint(const urdf::ModelInterface& model, const std::string& name) {
+  const auto joint = model.getJoint(name);
+  if (!joint) refuse("there is no joint ", quoted(name), ", expected the revolute joint of a steered wheel");
+  if (joint->type != urdf::Joint::REVOLUTE && joint->type != urdf::Joint::CONTINUOUS) {
+    refuse("joint ", quoted(name), " is ", nameOf(joint->type), ", expected the revolute joint of a steered wheel");
+  }
+  return *joint;
+}
+
 /// `inner`, given in the frame that stands at `outer`, in the frame `outer` is given in.
 urdf::Pose compose(urdf::Pose outer, const urdf::Pose& inner) {  // a copy: its operators are not const
   urdf::Pose pose;
@@ -106,11 +115,16 @@ struct Place {
   double y = 0.0;
 };
 
-Place placeOf(const urdf::ModelInterface& model, const std::string& base_link, const std::string& name) {
+/// `at`, of the root link's frame, seen from `base_link`.
+Place2d seenFrom(const urdf::ModelInterface& model, const std::string& base_link, const urdf::Vector3& at) {
   urdf::Pose base = baseIn(model, base_link);
-  const urdf::Vector3 wheel = positionOf(model, name);
-  const urdf::Vector3 away(wheel.x - base.position.x, wheel.y - base.position.y, wheel.z - base.position.z);
+  const urdf::Vector3 away(at.x - base.position.x, at.y - base.position.y, at.z - base.position.z);
   const urdf::Vector3 seen = base.rotation.GetInverse() * away;
+  return {seen.x, seen.y};
+}
+
+Place placeOf(const urdf::ModelInterface& model, const std::string& base_link, const std::string& name) {
+  const Place2d seen = seenFrom(model, base_link, positionOf(model, name));
   return {name, seen.x, seen.y};
 }
 
@@ -259,6 +273,34 @@ double UrdfGeometry::wheelRadius(const Names& joints) const {
   return radius;
 }
 
+Place2d UrdfGeometry::steeredWheel(const std::string& steering, const std::string& wheel) const {
+  const urdf::Joint& joint = steeringJoint(*model_, steering);
+  std::string at = wheelJoint(*model_, wheel).parent_link_name;
+  for (std::size_t i = 0; at != joint.child_link_name && i <= model_->links_.size(); ++i) {
+    const auto link = model_->getLink(at);
+    if (!link || !link->parent_joint) refuse("joint ", quoted(steering), " does not carry joint ", quoted(wheel));
+    at = link->parent_joint->parent_link_name;
+  }
+  const auto pose = poseInRoot(*model_, joint.child_link_name);
+  if (!pose) refuse("joint ", quoted(steering), " does not hang on the tree of links");
+  urdf::Rotation base = baseIn(*model_, base_link_).rotation;
+  urdf::Rotation turned = pose->rotation;
+  const urdf::Vector3 axis = base.GetInverse() * (turned * joint.axis);
+  constexpr double kOneDegree = 0.99985;  // its cosine
+  if (!(axis.z >= kOneDegree)) {
+    refuse("the axis of joint ", quoted(steering), " is ", axis.x, " ", axis.y, " ", axis.z, " in ", quoted(base_link_),
+           ", expected 0 0 1: a steering angle grows counter-clockwise seen from above");
+  }
+  const Place2d stands = seenFrom(*model_, base_link_, positionOf(*model_, wheel));
+  const Place2d turns = seenFrom(*model_, base_link_, pose->position);
+  const double beside = std::hypot(stands.x - turns.x, stands.y - turns.y);
+  if (beside > kSamePlace) {
+    refuse("joint ", quoted(wheel), " stands ", beside, " m beside the axis of joint ", quoted(steering),
+           ", expected the wheel of a steered axle on it (or x and y typed in)");
+  }
+  return stands;
+}
+
 std::vector<double> UrdfGeometry::maxVelocities(const Names& joints) const {
   std::vector<double> velocities;
   for (const std::string& name : joints) {
@@ -271,6 +313,21 @@ std::vector<double> UrdfGeometry::maxVelocities(const Names& joints) const {
     velocities.push_back(velocity);
   }
   return velocities;
+}
+
+std::optional<JointRange> UrdfGeometry::range(const std::string& name) const {
+  const auto joint = model_->getJoint(name);
+  if (!joint) return std::nullopt;
+  JointRange range;
+  range.is_prismatic = joint->type == urdf::Joint::PRISMATIC;
+  if (joint->type == urdf::Joint::CONTINUOUS) return range;
+  if (joint->type != urdf::Joint::REVOLUTE && !range.is_prismatic) {
+    refuse("joint ", quoted(name), " is ", nameOf(joint->type), ", expected one that turns or slides");
+  }
+  if (!joint->limits) return range;
+  range.lower = joint->limits->lower;
+  range.upper = joint->limits->upper;
+  return range;
 }
 
 }  // namespace nord_driver::robot

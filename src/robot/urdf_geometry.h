@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,19 @@ class ModelInterface;
 }
 
 namespace nord_driver::robot {
+
+/// m, in a plane.
+struct Place2d {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+/// Of a joint that goes to positions.
+struct JointRange {
+  bool is_prismatic = false;    ///< m; otherwise rad
+  std::optional<double> lower;  ///< none: a continuous joint, or one without a limit
+  std::optional<double> upper;
+};
 
 /// Answers are computed when they are asked for, so a value the user typed is not looked up: what the description says
 /// of it may then be wrong or missing.
@@ -47,9 +61,17 @@ class UrdfGeometry {
   /// not roll on a radius) and when wheels differ by more than 0.1 mm.
   double wheelRadius(const std::vector<std::string>& joints) const;
 
+  /// Where the wheel on a steered axle stands in `base_link`, steered to 0. Throws also when the steering joint is no
+  /// joint that turns, does not carry the wheel, its axis does not point upward (by more than a degree), or the wheel
+  /// does not stand on that axis (by more than 1 mm).
+  Place2d steeredWheel(const std::string& steering, const std::string& wheel) const;
+
   /// The `velocity` of each joint's `limit` (rad/s, positive), infinity where the joint has no limit. Throws also for a
   /// limit that is zero or negative: such a wheel could never turn.
   std::vector<double> maxVelocities(const std::vector<std::string>& joints) const;
+
+  /// How far a joint goes; none: there is no such joint. Throws when it can neither turn nor slide.
+  std::optional<JointRange> range(const std::string& joint) const;
 
  private:
   std::shared_ptr<const urdf::ModelInterface> model_;

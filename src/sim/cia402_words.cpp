@@ -31,6 +31,7 @@ double frequencyOf(double rpm, const DriveUnit& drive) noexcept {
 
 ProcessData fromCia402(Word control, std::int16_t rpm, const DriveUnit& drive) noexcept {
   ProcessData data;
+  data.carried = 1;
   const bool left = (control & kLeftCommand) != 0;
   data.control = static_cast<Word>((control & kCommandBits) | stw::kDataValid | (left ? stw::kLeft : 0u));
   const double maximum = drive.parameters().scaled(105);

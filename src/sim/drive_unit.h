@@ -81,6 +81,11 @@ class DriveUnit {
   double wheelSpeed() const noexcept { return motor_.speed() / ratio(); }  ///< rad/s at the joint
   double wheelAngle() const noexcept { return motor_.angle() / ratio(); }  ///< rad at the joint
 
+  /// A jam: something holds the shaft.
+  void setBlocked(bool on) noexcept { motor_.setBlocked(on); }
+  /// Revolutions, as the encoder says; without rounding, whatever the bus can carry.
+  double position() const noexcept { return inverter_.posicon().position(); }
+
   ParameterStore& parameters() noexcept { return parameters_; }
   const ParameterStore& parameters() const noexcept { return parameters_; }
   InverterModel& inverter() noexcept { return inverter_; }

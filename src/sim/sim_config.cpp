@@ -8,8 +8,10 @@
 #include <regex>
 
 #include "sim/bus_kind.h"
+#include "sim/config_body.h"
 #include "sim/config_group.h"
 #include "sim/config_parameters.h"
+#include "sim/config_posicon.h"
 #include "sim/inverter/parameter_store.h"
 
 namespace nord_driver::sim {
@@ -32,10 +34,10 @@ const std::vector<std::string>& driveKeys() {
         // the driver's
         "address", "series", "joint", "gear_ratio", "pole_pairs", "inverted", "max_frequency", "rated_current",
         "allow_minimum_frequency", "inverter", "max_velocity", "min_velocity", "max_acceleration", "min_acceleration",
-        "max_jerk", "min_jerk", "setpoints", "signals", "torque_at_limit",
+        "max_jerk", "min_jerk", "setpoints", "signals", "torque_at_limit", "mode", "lead", "position",
         // the simulator's
         "inertia", "rated_torque", "slip", "load", "viscous", "charging_time", "firmware", "parameter_delay",
-        "ram_orders", "double_word_answers", "automatic_acknowledgement_delay", "parameters"};
+        "ram_orders", "double_word_answers", "automatic_acknowledgement_delay", "parameters", "posicon"};
     for (const BusKind& kind : busKinds()) keys.insert(keys.end(), kind.keys.begin(), kind.keys.end());
     return keys;
   }();
@@ -102,6 +104,7 @@ DriveConfig readDrive(const std::string& name, const YAML::Node& node, const Bus
   drive.pkw.delay = static_cast<unsigned>(group.integer("parameter_delay", 1, 0, 1000));
   drive.pkw.ram_orders = group.get<bool>("ram_orders", true, "true or false");
   drive.pkw.double_word_answers = group.get<bool>("double_word_answers", true, "true or false");
+  readPosicon(group, drive.inverter.posicon, warnings);
   bus.readDrive(group, drive);
   const ParameterStore catalogue{drive.device};
   if (group.has("max_frequency")) {
@@ -111,57 +114,6 @@ DriveConfig readDrive(const std::string& name, const YAML::Node& node, const Bus
   readParameters(group, catalogue, kOfAnInverter, drive.parameters);
   warnOfUnknown(node, path, driveKeys(), warnings);
   return drive;
-}
-
-/// The drives whose name (or joint) is listed.
-std::vector<std::size_t> members(const Group& group, const std::string& key, const std::vector<DriveConfig>& drives,
-                                 bool by_joint) {
-  std::vector<std::size_t> found;
-  for (const std::string& wanted : group.texts(key)) {
-    const auto match = std::find_if(drives.begin(), drives.end(), [&](const DriveConfig& drive) {
-      return (by_joint ? drive.joint : drive.name) == wanted;
-    });
-    if (match == drives.end()) {
-      refuse(group.keyName(key), YAML::Node(wanted), by_joint ? "the joint of a drive" : "the name of a drive");
-    }
-    found.push_back(static_cast<std::size_t>(match - drives.begin()));
-  }
-  if (found.empty()) refuse(group.keyName(key), group[key], "at least one name");
-  return found;
-}
-
-std::optional<BodyConfig> readBody(const Group& root, const YAML::Node& node, const std::vector<DriveConfig>& drives) {
-  const bool own = root.has("body");
-  const Group group = own ? Group(node["body"], "body") : root;
-  const char* left = own ? "left" : "left_wheel";
-  const char* right = own ? "right" : "right_wheel";
-  BodyConfig body;
-  const char* kind = own ? "kind" : "base_type";
-  const std::string name = group.get<std::string>(kind, "differential", "differential or mecanum");
-  if (name == "mecanum") {
-    body.kind = BodyKind::kMecanum;
-  } else if (name != "differential") {
-    refuse(group.keyName(kind), group[kind], "differential or mecanum");
-  }
-  std::vector<const char*> needed{left, right, "wheel_radius", "wheel_separation"};
-  if (body.kind == BodyKind::kMecanum) needed.push_back("wheel_base");
-  for (const char* key : needed) {
-    if (group.has(key)) continue;
-    if (!own) return std::nullopt;
-    throw ConfigError(group.keyName(key) +
-                      " is missing; a body has left, right, wheel_radius, wheel_separation, of the kind mecanum "
-                      "wheel_base, too");
-  }
-  body.left = members(group, left, drives, !own);
-  body.right = members(group, right, drives, !own);
-  body.wheel_radius = group.positive("wheel_radius", 0.0);
-  body.wheel_separation = group.positive("wheel_separation", 0.0);
-  if (body.kind == BodyKind::kMecanum) {
-    body.wheel_base = group.positive("wheel_base", 0.0);
-    if (body.left.size() != 2) refuse(group.keyName(left), group[left], "two of them, the front one first");
-    if (body.right.size() != 2) refuse(group.keyName(right), group[right], "two of them, the front one first");
-  }
-  return body;
 }
 
 }  // namespace
@@ -187,7 +139,7 @@ SimConfig readSimConfig(const YAML::Node& configuration, const std::string& end_
     config.drives.push_back(readDrive(entry.first.as<std::string>(), entry.second, bus, config.warnings));
   }
   bus.readModules(root, config);
-  config.body = readBody(root, node, config.drives);
+  config.body = readBody(node, config.drives);
   return config;
 }
 

@@ -50,7 +50,15 @@ struct DriveConfig {
   std::vector<ParameterPreset> parameters;
 };
 
-enum class BodyKind : std::uint8_t { kDiffDrive, kMecanum };
+enum class BodyKind : std::uint8_t { kDiffDrive, kMecanum, kSteered };
+
+/// A driven wheel that is steered.
+struct SteeredAxleConfig {
+  std::size_t wheel = 0;     ///< index of the drive that turns the wheel
+  std::size_t steering = 0;  ///< of the drive that steers it
+  double x = 0.0;            ///< m, of its contact point, forward of the robot's middle
+  double y = 0.0;            ///< m, to the left
+};
 
 struct BodyConfig {
   std::vector<std::size_t> left;  ///< indices of drives; mecanum: two a side, the front one first
@@ -58,6 +66,8 @@ struct BodyConfig {
   double wheel_radius = 0.0;      ///< m
   double wheel_separation = 0.0;  ///< m
   double wheel_base = 0.0;        ///< m, mecanum only
+  SteeredAxleConfig front;        ///< steered only
+  SteeredAxleConfig rear;
   BodyKind kind = BodyKind::kDiffDrive;
 };
 
@@ -86,9 +96,13 @@ struct SimConfig {
 ///       lift: {address: 40, series: sk2xxe, connection: gateway, inverter: 2}
 ///
 /// Parameters are in the manual's unit, a list gives the four sets or the array elements. A body of the kind mecanum
-/// has two drives a side and wheel_base, too. Without `body` the driver's keys base_type, left_wheel, right_wheel
-/// (joints), wheel_radius, wheel_separation and wheel_base are taken when all are there; without these there is no
-/// body. `end_point`, or else the key bus_end_point, when it is not empty, takes the place of what the configuration
+/// has two drives a side and wheel_base, too; one of the kind steered is
+///
+///     body: {kind: steered, front: {wheel: front, steering: front_steering, x: 0.4}, rear: {...}, wheel_radius: 0.1}
+///
+/// Without `body` the driver's keys base_type, left_wheel, right_wheel (joints), wheel_radius, wheel_separation and
+/// wheel_base are taken when all are there, of a steered base its group `steered` (front and rear); without these there
+/// is no body. `end_point`, or else the key bus_end_point, when it is not empty, takes the place of what the configuration
 /// says about where the bus is: `bus/device`, `bus/interface`. Throws ConfigError.
 SimConfig readSimConfig(const YAML::Node& root, const std::string& end_point = "");
 

@@ -106,6 +106,12 @@ void SimDriveNode::serveStation() {
       "module and inverter are connected", "the connection between module and inverter is interrupted");
   serveSwitch(
       "mute", [](sim::DriveUnit& drive, bool on) { drive.setMute(on); }, "answers are lost", "answers get through");
+  serveSwitch(
+      "torn_words", [](sim::DriveUnit& drive, bool on) { drive.inverter().setTornWords(on); },
+      "high words of positions are those of the telegram before", "the words of a telegram belong together");
+  serveSwitch(
+      "block", [](sim::DriveUnit& drive, bool on) { drive.setBlocked(on); }, "something holds the shaft",
+      "the shaft is free");
   serve<SimAnswerDelay>("answer_delay", [](sim::DriveUnit& drive, const SimAnswerDelay::Request& request,
                                            SimAnswerDelay::Response& response) {
     if (!(request.seconds >= 0.0 && request.seconds <= kLongestDelay)) {
@@ -217,6 +223,10 @@ SimDrive SimDriveNode::truthOf(const sim::DriveUnit& drive) {
   truth.shaft_angle = drive.shaftAngle();
   truth.wheel_velocity = drive.wheelSpeed();
   truth.wheel_angle = drive.wheelAngle();
+  truth.position = drive.position();
+  truth.position_target = inverter.posicon().target();
+  truth.position_reached = inverter.posicon().reached();
+  truth.referenced = inverter.posicon().referenced();
   truth.fault_number = inverter.faultNumber();
   truth.watchdog_trips = counters.watchdog_trips;
   truth.set_switches = inverter.setSwitches();

@@ -22,7 +22,8 @@
 namespace nord_driver::sim_node {
 
 /// Publishes ~truth/<drive>; services ~<drive>/trip, clear_cause, acknowledge, warn, unplug, power_inverter,
-/// power_module, module_link, mute, answer_delay, parameter_channel, local_control, terminals, inputs and set_parameter.
+/// power_module, module_link, mute, torn_words, block, answer_delay, parameter_channel, local_control, terminals, inputs
+/// and set_parameter.
 class SimDriveNode {
  public:
   /// `bus` must outlive it.

@@ -127,6 +127,11 @@ CheckedBase baseOf(const cycle::CycleConfig& config) {
   checked.limits = base.limits;
   for (const DriveIndex i : base.left) checked.left.push_back(config.drives[i].name);
   for (const DriveIndex i : base.right) checked.right.push_back(config.drives[i].name);
+  for (std::size_t i = 0; base.steered && i < base.steered->wheels.size(); ++i) {
+    checked.axles.push_back({config.drives[base.steered->wheels[i]].name, config.drives[base.steered->steering[i]].name,
+                             base.steered->axles[i]});
+    checked.angle_tolerance = base.steered->angle_tolerance;
+  }
   robot::WheelSpeeds limits;
   for (const DriveIndex i : base.wheels()) {
     const cycle::DriveSetup& setup = config.drives[i];
@@ -135,7 +140,7 @@ CheckedBase baseOf(const cycle::CycleConfig& config) {
     if (!base.joint_velocity_limits.empty()) limit = std::min(limit, base.joint_velocity_limits[limits.size()]);
     limits.push_back(limit);
   }
-  const auto kinematics = robot::makeKinematics(base.kind, base.geometry, base.left.size(), base.right.size());
+  const auto kinematics = base.kinematics();
   checked.linear_x = most(*kinematics, {1.0, 0.0, 0.0}, limits);
   checked.angular_z = most(*kinematics, {0.0, 1.0, 0.0}, limits);
   if (kinematics->movesSideways()) checked.linear_y = most(*kinematics, {0.0, 0.0, 1.0}, limits);
@@ -146,12 +151,12 @@ void takeOver(const node::NodeConfig& config, const node::ConfiguredTransport& t
   checked.modules = modulesOf(config, transport.identities);
   if (!config.cycle.base) return;
   checked.base = baseOf(config.cycle);
-  const auto is_wheel = [&](const std::string& name) {
-    const std::vector<std::string>&l = checked.base->left, &r = checked.base->right;
-    return std::find(l.begin(), l.end(), name) != l.end() || std::find(r.begin(), r.end(), name) != r.end();
-  };
+  std::vector<std::string> of_base;
+  for (const DriveIndex i : config.cycle.base->drives()) of_base.push_back(config.cycle.drives[i].name);
   for (CheckedModule& module : checked.modules) {
-    for (CheckedDrive& drive : module.drives) drive.of_base = is_wheel(drive.name);
+    for (CheckedDrive& drive : module.drives) {
+      drive.of_base = std::find(of_base.begin(), of_base.end(), drive.name) != of_base.end();
+    }
   }
 }
 

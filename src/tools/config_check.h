@@ -14,6 +14,7 @@
 #include "nord_driver/transport/transport.h"
 #include "robot/base_kinematics.h"
 #include "robot/speed_limits.h"
+#include "robot/steered_geometry.h"
 #include "robot/twist_limiter.h"
 #include "tools/bus_port.h"
 
@@ -48,13 +49,20 @@ struct CheckedModule {
   std::vector<CheckedDrive> drives;
 };
 
+struct CheckedAxle {
+  std::string wheel, steering;  ///< drives
+  robot::SteeredAxle sizes;
+};
+
 struct CheckedBase {
   robot::BaseKind kind = robot::BaseKind::kDifferential;
   std::vector<std::string> left, right;  ///< drives, from front to rear
   robot::BaseGeometry geometry;
-  double linear_x = 0.0;   ///< m/s straight on, where the first wheel is at 100 %
-  double linear_y = 0.0;   ///< m/s sideways; 0: it cannot
-  double angular_z = 0.0;  ///< rad/s on the spot
+  std::vector<CheckedAxle> axles;  ///< of a steered base, from front to rear, in place of the three above
+  double angle_tolerance = 0.0;    ///< rad, likewise
+  double linear_x = 0.0;           ///< m/s straight on, where the first wheel is at 100 %
+  double linear_y = 0.0;           ///< m/s sideways; 0: it cannot
+  double angular_z = 0.0;          ///< rad/s on the spot
   robot::TwistLimits limits;
 };
 

@@ -43,20 +43,37 @@ void write(JsonText& json, const CheckedDrive& drive) {
   json.end('}');
 }
 
+void write(JsonText& json, const std::vector<CheckedAxle>& axles) {
+  json.begin('[');
+  for (const CheckedAxle& axle : axles) {
+    json.begin('{').key("wheel").text(axle.wheel).key("steering").text(axle.steering);
+    json.key("x").number(axle.sizes.x).key("y").number(axle.sizes.y);
+    json.key("min_angle").number(axle.sizes.min_angle).key("max_angle").number(axle.sizes.max_angle);
+    json.key("wheel_radius").number(axle.sizes.wheel_radius).end('}');
+  }
+  json.end(']');
+}
+
 void write(JsonText& json, const CheckedBase& base) {
   const bool mecanum = base.kind == robot::BaseKind::kMecanum;
-  json.begin('{').key("type").text(mecanum ? "mecanum" : "differential");
-  writeList(json, "left", base.left);
-  writeList(json, "right", base.right);
-  json.key("wheel_radius").number(base.geometry.left_wheel_radius);
-  json.key("wheel_separation").number(base.geometry.wheel_separation);
+  const bool sideways = base.kind != robot::BaseKind::kDifferential;
+  json.begin('{').key("type").text(robot::nameOf(base.kind));
+  if (base.kind == robot::BaseKind::kSteered) {
+    write(json.key("axles"), base.axles);
+    json.key("angle_tolerance").number(base.angle_tolerance);
+  } else {
+    writeList(json, "left", base.left);
+    writeList(json, "right", base.right);
+    json.key("wheel_radius").number(base.geometry.left_wheel_radius);
+    json.key("wheel_separation").number(base.geometry.wheel_separation);
+  }
   if (mecanum) json.key("wheel_base").number(base.geometry.wheel_base);
   json.key("max_velocity").begin('{').key("linear/x").number(base.linear_x);
-  if (mecanum) json.key("linear/y").number(base.linear_y);
+  if (sideways) json.key("linear/y").number(base.linear_y);
   json.key("angular/z").number(base.angular_z).end('}');
   json.key("limits").begin('{');
   writeLimits(json, "linear/x", base.limits.linear_x);
-  if (mecanum) writeLimits(json, "linear/y", base.limits.linear_y);
+  if (sideways) writeLimits(json, "linear/y", base.limits.linear_y);
   writeLimits(json, "angular/z", base.limits.angular_z);
   json.end('}').end('}');
 }

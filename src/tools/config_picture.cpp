@@ -128,7 +128,24 @@ std::string corrected(double multiplier) {
   return multiplier == 1.0 ? "" : " x " + number(multiplier);
 }
 
+Branch branchOfSteered(const CheckedBase& base) {
+  Branch branch{"base, steered", {}};
+  for (const CheckedAxle& axle : base.axles) {
+    branch.twigs.push_back({(&axle == &base.axles.front() ? "front: " : "rear: ") + axle.wheel + ", steered by " +
+                                axle.steering + " from " + number(axle.sizes.min_angle) + " to " +
+                                number(axle.sizes.max_angle) + " rad, at x " + number(axle.sizes.x) + " m, y " +
+                                number(axle.sizes.y) + " m, wheel radius " + number(axle.sizes.wheel_radius) + " m",
+                            {}});
+  }
+  branch.twigs.push_back({"drives while its wheels stand within " + number(base.angle_tolerance) + " rad", {}});
+  branch.twigs.push_back(axis("straight on", base.linear_x, base.limits.linear_x, "m"));
+  branch.twigs.push_back(axis("sideways", base.linear_y, base.limits.linear_y, "m"));
+  branch.twigs.push_back(axis("on the spot", base.angular_z, base.limits.angular_z, "rad"));
+  return branch;
+}
+
 Branch branchOf(const CheckedBase& base) {
+  if (base.kind == robot::BaseKind::kSteered) return branchOfSteered(base);
   const bool mecanum = base.kind == robot::BaseKind::kMecanum;
   const robot::BaseGeometry& sizes = base.geometry;
   Branch branch{mecanum ? "base, mecanum" : base.left.size() > 1 ? "base, skid steer" : "base, two wheels", {}};

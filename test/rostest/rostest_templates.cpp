@@ -24,6 +24,7 @@ namespace {
 
 constexpr double kLinear = 0.2;  // m/s, of a base
 constexpr double kJoint = 2.0;   // rad/s, of a drive without one
+constexpr double kFar = 2.4;     // m, a target above the lift
 constexpr double kReached = 0.9;
 
 /// The robot of one template, in the namespace of the template's name.
@@ -32,12 +33,15 @@ class Machine {
   explicit Machine(const std::string& name) : name_(name), node_("/" + name) {
     XmlRpc::XmlRpcValue drives;
     node_.getParam("nord_driver/drives", drives);
-    has_base_ = node_.hasParam("nord_driver/left_wheel");
+    has_base_ = node_.hasParam("nord_driver/left_wheel") || node_.hasParam("nord_driver/steered");
     if (has_base_) {
       cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
       truth_ = std::make_unique<Topic<nav_msgs::Odometry>>(node_, "nord_sim/truth/odom");
     }
-    for (const auto& drive : drives) drives_.push_back(std::make_unique<Drive>(node_, drive.first));
+    for (auto& drive : drives) {
+      const bool positions = drive.second.hasMember("mode") && drive.second["mode"] == "position";
+      drives_.push_back(std::make_unique<Drive>(node_, drive.first, positions));
+    }
     timer_ = node_.createSteadyTimer(ros::WallDuration(0.05), [this](const ros::SteadyTimerEvent&) { publish(); });
   }
 
@@ -84,12 +88,15 @@ class Machine {
 
  private:
   struct Drive {
-    Drive(ros::NodeHandle& node, const std::string& name)
+    Drive(ros::NodeHandle& node, const std::string& name, bool positions)
         : status(node, "nord_driver/" + name + "/status"),
           truth(node, "nord_sim/truth/" + name),
-          command(node.advertise<std_msgs::Float64>("nord_driver/" + name + "/command", 1)) {}
+          goes_to_positions(positions),
+          command(node.advertise<std_msgs::Float64>(
+              "nord_driver/" + name + (positions ? "/position_command" : "/command"), 1)) {}
     Topic<DriveStatus> status;
     Topic<SimDrive> truth;
+    bool goes_to_positions;
     ros::Publisher command;
   };
 
@@ -104,7 +111,9 @@ class Machine {
     }
     std_msgs::Float64 velocity;
     velocity.data = kJoint;
-    for (const auto& drive : drives_) drive->command.publish(velocity);
+    std_msgs::Float64 target;
+    target.data = kFar;
+    for (const auto& drive : drives_) drive->command.publish(drive->goes_to_positions ? target : velocity);
   }
 
   std::string name_;
@@ -150,7 +159,7 @@ TEST(Templates, EachDrivesInTheSimulator) {
   constexpr Seconds kLongEnoughToLoseADrive{0.5};  // half of drive_timeout in template.launch
   Machines machines;
   for (const std::string& name : templates()) machines.push_back(std::make_unique<Machine>(name));
-  ASSERT_GE(machines.size(), 9u);
+  ASSERT_GE(machines.size(), 11u);
   for (const auto& machine : machines) {
     EXPECT_GE(machine->size(), 2u) << "rostest_templates.test does not start " << machine->name();
   }

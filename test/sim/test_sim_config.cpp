@@ -153,6 +153,70 @@ TEST(SimConfig, ReadsModulesWithSlots) {
   EXPECT_EQ(3, robot.drive(4).parameters().value(509));
 }
 
+// A steered body by its own keys, and by those of the driver.
+TEST(SimConfig, SteeredBody) {
+  const auto bodyOf = [](const std::string& more) {
+    return readSimConfig(YAML::Load("{drives: {fw: {address: 3, joint: fwj}, fs: {address: 4, joint: fsj}, "
+                                    "rw: {address: 5, joint: rwj}, rs: {address: 6, joint: rsj}}, " +
+                                    more + "}"))
+        .body;
+  };
+  const auto own = bodyOf(
+      "body: {kind: steered, wheel_radius: 0.1, front: {wheel: fw, steering: fs, x: 0.4, y: 0.1}, "
+      "rear: {wheel: rw, steering: rs, x: -0.4}}");
+  const auto of_driver = bodyOf(
+      "base_type: steered, wheel_radius: 0.1, steered: {front: {wheel_joint: fwj, "
+      "steering_joint: fsj, x: 0.4, y: 0.1}, rear: {wheel_joint: rwj, steering_joint: rsj, "
+      "x: -0.4}, angle_tolerance: 0.05}");
+  for (const auto& body : {own, of_driver}) {
+    ASSERT_TRUE(body);
+    EXPECT_EQ(BodyKind::kSteered, body->kind);
+    EXPECT_EQ(0u, body->front.wheel);
+    EXPECT_EQ(1u, body->front.steering);
+    EXPECT_EQ(2u, body->rear.wheel);
+    EXPECT_EQ(3u, body->rear.steering);
+    EXPECT_EQ(0.4, body->front.x);
+    EXPECT_EQ(0.1, body->front.y);
+    EXPECT_EQ(-0.4, body->rear.x);
+    EXPECT_EQ(0.1, body->wheel_radius);
+  }
+  EXPECT_FALSE(bodyOf("base_type: steered, steered: {front: {wheel_joint: fwj}}"));
+}
+
+TEST(SimConfig, ReadsAnEncoderAndItsAssumptions) {
+  const SimConfig config = readSimConfig(YAML::Load(
+      "drives: {lift: {address: 3, posicon: {encoder: incremental, position: 1.5, reference_switch: -2, "
+      "reference_speed: 3.5, increments: 4096, older_increments: 1024, array_from_zero: true, torn_words: true, "
+      "slip_fault: 146, functions: {reference_run: 1, reference_point: 2, teach_in: 3, quit_teach_in: 4, "
+      "first_array_bit: 5, reset_position: 6, referenced: 7, position_reached: 8}}}}"));
+  const PosiconSettings& posicon = config.drives[0].inverter.posicon;
+  EXPECT_EQ(EncoderKind::kIncremental, posicon.encoder);
+  EXPECT_EQ(1.5, posicon.position);
+  EXPECT_EQ(-2.0, posicon.reference_switch);
+  EXPECT_EQ(3.5, posicon.reference_speed);
+  EXPECT_EQ(4096.0, posicon.increments);
+  EXPECT_EQ(1024.0, posicon.older_increments);
+  EXPECT_TRUE(posicon.array_from_zero);
+  EXPECT_TRUE(posicon.torn_words);
+  EXPECT_EQ(146, posicon.slip_fault);
+  const PosiconInputs& inputs = posicon.inputs;
+  EXPECT_EQ((std::vector<std::int32_t>{1, 2, 3, 4, 5, 6}),
+            (std::vector<std::int32_t>{inputs.reference_run, inputs.reference_point, inputs.teach_in,
+                                       inputs.quit_teach_in, inputs.first_array_bit, inputs.reset_position}));
+  EXPECT_EQ(7, posicon.outputs.referenced);
+  EXPECT_EQ(8, posicon.outputs.position_reached);
+  EXPECT_TRUE(config.warnings.empty());
+}
+
+TEST(SimConfig, WarnsAboutUnknownKeysOfAnEncoder) {
+  const SimConfig config =
+      readSimConfig(YAML::Load("drives: {lift: {address: 3, posicon: {offset: 1, functions: {hom: 3}}}}"));
+  EXPECT_THAT(config.warnings,
+              testing::UnorderedElementsAre("drives/lift/posicon/offset is not known to the simulator and not used",
+                                            "drives/lift/posicon/functions/hom is not known to the simulator and not "
+                                            "used"));
+}
+
 // Wrong configurations are refused in a sentence with key, value and expectation.
 TEST(SimConfig, RefusesInWords) {
   const auto refusal = [](const std::string& text) -> std::string {
@@ -177,6 +241,14 @@ TEST(SimConfig, RefusesInWords) {
             refusal("drives: {a: {address: 3, ppo_type: many}}"));
   EXPECT_EQ("drives/a/inverted: 7 is not valid; expected true or false",
             refusal("drives: {a: {address: 3, inverted: 7}}"));
+  EXPECT_EQ("drives/a/posicon/encoder: resolver is not valid; expected absolute or incremental",
+            refusal("drives: {a: {address: 3, posicon: {encoder: resolver}}}"));
+  EXPECT_EQ("drives/a/posicon/position: 50001 is not valid; expected revolutions from -50000 to 50000",
+            refusal("drives: {a: {address: 3, posicon: {position: 50001}}}"));
+  EXPECT_EQ("drives/a/posicon/reference_speed: 0 is not valid; expected Hz, negative to the left, not 0",
+            refusal("drives: {a: {address: 3, posicon: {reference_speed: 0}}}"));
+  EXPECT_EQ("drives/a/posicon/functions/teach_in: -1 is not valid; expected a whole number from 0 to 255",
+            refusal("drives: {a: {address: 3, posicon: {functions: {teach_in: -1}}}}"));
   EXPECT_THAT(refusal("drives: {a: {address: 3, series: sk800e}}"), testing::HasSubstr("drives/a/series: sk800e"));
   EXPECT_EQ("accepted", refusal("drives: {a: {address: 3, series: SK 205E-550-340}}")) << "as on the nameplate";
   EXPECT_THAT(refusal("drives: {a/b: {address: 3}}"), testing::HasSubstr("a/b is not valid; expected a name"));
@@ -194,7 +266,18 @@ TEST(SimConfig, RefusesInWords) {
                       "wheel_separation: 1, wheel_base: 1}}"),
               testing::HasSubstr("body/left: a is not valid; expected two of them"));
   EXPECT_THAT(refusal("{drives: {a: {address: 3}}, body: {kind: tricycle}}"),
-              testing::HasSubstr("body/kind: tricycle is not valid; expected differential or mecanum"));
+              testing::HasSubstr("body/kind: tricycle is not valid; expected differential, mecanum or steered"));
+  const std::string four = "drives: {a: {address: 3}, b: {address: 4}, c: {address: 5}, d: {address: 6}}, ";
+  EXPECT_THAT(refusal("{" + four + "body: {kind: steered, wheel_radius: 0.1, front: {wheel: a, steering: b, x: 1}}}"),
+              testing::HasSubstr("body: something is missing; a steered one has wheel_radius, front and rear"));
+  EXPECT_THAT(refusal("{" + four +
+                      "body: {kind: steered, wheel_radius: 0.1, front: {wheel: a, steering: e, x: 1}, "
+                      "rear: {wheel: c, steering: d, x: -1}}}"),
+              testing::HasSubstr("body/front/steering: e is not valid; expected the name of a drive"));
+  EXPECT_THAT(refusal("{" + four +
+                      "body: {kind: steered, wheel_radius: 0.1, front: {wheel: a, steering: b, x: 1}, "
+                      "rear: {wheel: c, steering: d, x: 1}}}"),
+              testing::HasSubstr("body/rear: {wheel: c, steering: d, x: 1} is not valid; expected another place"));
   EXPECT_EQ("drives/b/inverter: 1 is not valid; expected another one, drive a has it behind this module",
             refusal("drives: {a: {address: 3, series: sk2xxe}, b: {address: 3, series: sk2xxe}}"));
   EXPECT_EQ("drives/b/address: 3 is not valid; expected an address of its own; drive a has it",

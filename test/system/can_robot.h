@@ -33,6 +33,7 @@ class CanRobot : public DrivenRobot {
     std::size_t gateway_inverters = 0;
     std::size_t nodes = 2;                          ///< without a gateway; the first two are the wheels
     std::function<void(sim::SimConfig&)> simulate;  ///< changes of the simulated side
+    bool base = true;                               ///< false: single drives, and no base
     /// A second driver on this bus, which outlives it; `bus()`, `link()`, `unit()` and `node()` are the first one's.
     sim::SimulatedCanBus* beside = nullptr;
   };
@@ -99,8 +100,9 @@ class CanRobot : public DrivenRobot {
   static std::string nameOf(std::size_t i) { return i == 0 ? "left" : i == 1 ? "right" : "extra" + std::to_string(i); }
   static std::map<std::string, MapSettings::Value> nodeSettings(const Options& options) {
     std::map<std::string, MapSettings::Value> values = options.node;
-    values.insert({{"cycle_rate", 100.0},
-                   {"left_wheel", std::string{"left_wheel_joint"}},
+    values.insert({"cycle_rate", 100.0});
+    if (!options.base) return values;
+    values.insert({{"left_wheel", std::string{"left_wheel_joint"}},
                    {"right_wheel", std::string{"right_wheel_joint"}},
                    {"wheel_separation", 0.5},
                    {"wheel_radius", 0.1}});

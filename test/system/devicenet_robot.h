@@ -34,6 +34,7 @@ class DevicenetRobot : public DrivenRobot {
     /// Each wheel an SK 5xxE behind its own SK TU3-DEV, which lives by its mains.
     bool on_inverter = false;
     std::function<void(sim::SimConfig&)> simulate;  ///< changes of the simulated side
+    bool base = true;                               ///< false: single drives, and no base
     /// A second driver on this bus, which outlives it; `bus()`, `unit()` and `module()` are the first one's.
     sim::SimulatedDnBus* beside = nullptr;
   };
@@ -92,8 +93,9 @@ class DevicenetRobot : public DrivenRobot {
   }
   static std::map<std::string, MapSettings::Value> nodeSettings(const Options& options) {
     std::map<std::string, MapSettings::Value> values = options.node;
-    values.insert({{"cycle_rate", 100.0},
-                   {"left_wheel", std::string{"left_wheel_joint"}},
+    values.insert({"cycle_rate", 100.0});
+    if (!options.base) return values;
+    values.insert({{"left_wheel", std::string{"left_wheel_joint"}},
                    {"right_wheel", std::string{"right_wheel_joint"}},
                    {"wheel_separation", 0.5},
                    {"wheel_radius", 0.1}});

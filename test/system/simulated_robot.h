@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -34,8 +35,10 @@ class SimulatedRobot : public DrivenRobot {
     int ppo_type = 1;                        ///< as set at the inverters
     /// Four wheels, two on each side, all behind one module SK CU4 at address 3 with its I/O byte in slot 1.
     bool one_module = false;
-    int wheels_a_side = 1;  ///< 1 or 2, each with a module of its own
-    sim::PkwSettings pkw;   ///< of all inverters
+    int wheels_a_side = 1;                               ///< 1 or 2, each with a module of its own
+    sim::PkwSettings pkw;                                ///< of all inverters
+    bool base = true;                                    ///< false: single drives, and no base
+    std::function<void(sim::SimConfig&)> simulate = {};  ///< changes of the simulated side
   };
 
   SimulatedRobot() : SimulatedRobot(Options{}) {}
@@ -92,13 +95,11 @@ class SimulatedRobot : public DrivenRobot {
   static bool isRight(const std::string& name) { return name.find("right") != std::string::npos; }
   static std::map<std::string, MapSettings::Value> nodeSettings(const Options& options) {
     std::map<std::string, MapSettings::Value> values = options.node;
+    values.insert({"cycle_rate", 100.0});
+    if (!options.base) return values;
     std::vector<std::string> left, right;
     for (const std::string& name : names(options)) (isRight(name) ? right : left).push_back(name + "_wheel_joint");
-    values.insert({{"cycle_rate", 100.0},
-                   {"left_wheel", left},
-                   {"right_wheel", right},
-                   {"wheel_separation", 0.5},
-                   {"wheel_radius", 0.1}});
+    values.insert({{"left_wheel", left}, {"right_wheel", right}, {"wheel_separation", 0.5}, {"wheel_radius", 0.1}});
     return values;
   }
   static sim::SimConfig simConfig(const Options& options) {
@@ -128,6 +129,7 @@ class SimulatedRobot : public DrivenRobot {
       (isRight(name) ? config.body->right : config.body->left).push_back(number);
       config.drives.push_back(drive);
     }
+    if (options.simulate) options.simulate(config);
     return config;
   }
 

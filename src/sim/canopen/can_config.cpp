@@ -125,6 +125,7 @@ BusWiring canWiring(CanConnection connection, const Device& device) {
   BusWiring wiring;
   wiring.source = device.isOlderSeries() ? kCanopenOlderSeries : device.isDecentral() ? kSystemBus : kCanopen;
   wiring.on_system_bus = connection == CanConnection::kGateway;
+  wiring.wide = {2, 0};  // 32 bits in words 2 and 3 of the PDO, the low word first (BU 0060 p. 59)
   if (connection != CanConnection::kGateway) {
     wiring.master_lost_fault = fault::kBusTimeout;
     wiring.timeout_fault = fault::kBusTimeout;

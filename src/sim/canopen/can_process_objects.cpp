@@ -131,6 +131,10 @@ std::uint32_t CanProcessObjects::value(const Field& field) const noexcept {
     case Kind::kSetpoint:
       return outputs.setpoints[field.n];
     case Kind::kWideSetpoint:
+      if (const DriveUnit* const drive = drives_[0]; drive != nullptr && drive->inverter().wideSetpoint()) {
+        const WideField& wide = drive->inverter().wideField();
+        return std::uint32_t{outputs.setpoints[wide.high]} << 16 | outputs.setpoints[wide.low];
+      }
       return static_cast<std::uint32_t>(std::int32_t{toSigned(outputs.setpoints[0])});
     case Kind::kRpmSetpoint:
       return outputs.setpoints[0];
@@ -150,6 +154,10 @@ std::uint32_t CanProcessObjects::value(const Field& field) const noexcept {
     case Kind::kActual:
       return inverter.actualValue(field.n);
     case Kind::kWideActual:
+      if (inverter.wideActual()) {
+        const WideField& wide = inverter.wideField();
+        return std::uint32_t{inverter.actualValue(wide.high)} << 16 | inverter.actualValue(wide.low);
+      }
       return static_cast<std::uint32_t>(std::int32_t{toSigned(inverter.actualValue(0))});
     case Kind::kRpmBehindRamp:
       return toWord(behindRamp(*drive));
@@ -222,6 +230,14 @@ SdoAbort CanProcessObjects::write(ObjectId id, ByteView bytes) noexcept {
       break;
     case Kind::kSetpoint:
       outputs.setpoints[field.n] = word;
+      break;
+    case Kind::kWideSetpoint:
+      outputs.setpoints[0] = word;
+      if (const DriveUnit* const drive = drives_[0]; drive != nullptr && drive->inverter().wideSetpoint()) {
+        const WideField& wide = drive->inverter().wideField();
+        outputs.setpoints[wide.low] = word;
+        outputs.setpoints[wide.high] = static_cast<Word>(number >> 16);
+      }
       break;
     default:
       outputs.setpoints[0] = word;

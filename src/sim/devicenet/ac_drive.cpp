@@ -63,6 +63,7 @@ void AcDrive::take(ByteView bytes, DnProfile profile) noexcept {
 
 ProcessData AcDrive::words(const DriveUnit& drive) noexcept {
   ProcessData data;
+  data.carried = 1;
   if (command.net_reference) {
     const double maximum = drive.parameters().scaled(105);
     const double share = maximum > 0.0 ? dnFrequencyOf(command.rpm, drive) / maximum : 0.0;

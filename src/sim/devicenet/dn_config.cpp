@@ -159,6 +159,7 @@ std::unique_ptr<RunningBus> run(const SimConfig& config) {
 BusWiring dnWiring(DnModuleKind kind, const Device& device) {
   BusWiring wiring;
   wiring.on_system_bus = kind == DnModuleKind::kGateway;
+  wiring.wide = {1, 0};  // setpoints 1 and 2 in one, the low word first (BU 0280 4.2.1.1)
   if (wiring.on_system_bus) {
     wiring.source = device.isDecentral() ? kSystemBus : kSystemBusOfSk5xxe;
   } else {

@@ -24,6 +24,7 @@ DnProcess::Taken DnProcess::take(ByteView outputs, const DnLayout& layout, bool 
       ByteReader reader{bytes};
       place.data.control = reader.u16le();
       for (Word& setpoint : place.data.setpoints) setpoint = reader.u16le();
+      place.data.carried = area.control_length / 2u > 0 ? area.control_length / 2u - 1u : 0u;
     } else {
       place.ac.take(bytes, area.profile);
       if (place.drive == nullptr) continue;

@@ -79,6 +79,8 @@ void IbsModule::take(const IbsWords& words) noexcept {
   if (settings_.words == 5) {
     data.setpoints[swapsWords() ? 2 : 1] = words[2];
     data.setpoints[swapsWords() ? 1 : 2] = words[3];
+  } else {
+    data.carried = 1;
   }
   const bool valid = (data.control & stw::kDataValid) != 0;
   if (!valid && valid_seen_) ++counters_.zero_control_words;

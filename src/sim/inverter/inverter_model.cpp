@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nord_driver::sim {
 
@@ -36,7 +37,11 @@ double approach(double value, double target, double step) noexcept {
 }  // namespace
 
 InverterModel::InverterModel(ParameterStore& parameters, Motor& motor, const InverterSettings& settings)
-    : parameters_(parameters), motor_(motor), settings_(settings) {}
+    : parameters_(parameters),
+      motor_(motor),
+      settings_(settings),
+      posicon_(parameters, motor, settings.posicon),
+      torn_(settings.posicon.torn_words) {}
 
 void InverterModel::advance(Duration span) noexcept {
   double rest = toSeconds(span);
@@ -56,6 +61,7 @@ void InverterModel::step(double dt) noexcept {
   watchTimeout(dt);
   acknowledgeByItself();
   evaluate();
+  watchPosition();
   follow(dt);
   parameters_.show(700, 2, switchOnBlock());
   const bool voltage = state_ == InverterState::kOperationEnabled || state_ == InverterState::kQuickStopActive;
@@ -117,6 +123,13 @@ void InverterModel::evaluate() noexcept {
 }
 
 void InverterModel::follow(double dt) noexcept {
+  if (positioning()) {
+    frequency_ = positioningFrequency(dt);
+    target_ = posicon_.speed();
+    if (posicon_.fault() != 0) trip(posicon_.fault(), false);
+    return;
+  }
+  posicon_.release();
   const double maximum = parameters_.scaled(105, set_);
   const auto ramp = [&](unsigned number) {
     // Ramp times are from 0 Hz to P105; 0 s is a step.
@@ -172,10 +185,11 @@ double InverterModel::busShare() const noexcept {
   double share = 0.0;
   for (unsigned n = 0; n < data_.setpoints.size(); ++n) {
     const double value = toSigned(data_.setpoints[n]) / kFullScale;
-    const std::int32_t function = busFunction(546, n);
+    const unsigned place = setpointPlace(n);
+    const std::int32_t function = busFunction(546, place);
     if (function == kSetpointFrequency) share += value;
     // P546 of the older series is a table of its own, with positions in these places (BU 0020 6.1.2).
-    if (n == 0 && parameters_.device().isOlderSeries()) continue;
+    if (place == 0 && parameters_.device().isOlderSeries()) continue;
     const bool decentral = parameters_.device().isDecentral();
     if (function == (decentral ? kDecentralAddition : kFrequencyAddition)) share += value;
     if (function == (decentral ? kDecentralSubtraction : kFrequencySubtraction)) share -= value;
@@ -230,12 +244,14 @@ void InverterModel::setPowered(bool on) noexcept {
   }
   parameters_.restoreFromEeprom();
   commanded_ = false;
-  data_ = ProcessData{};
+  data_ = previous_ = ProcessData{};
+  position_command_ = PositionCommand{};
   set_ = 0;
   fault_ = 0;
   warning_ = 0;
   tripped_cause_ = master_lost_ = timed_out_ = link_fault_ = false;
   automatic_acknowledgements_ = 0;
+  posicon_.powerOn();
   parameters_.show(700, 0, 0);
   parameters_.show(700, 1, 0);
   enter(InverterState::kNotReadyToSwitchOn);
@@ -245,11 +261,13 @@ void InverterModel::receive(const ProcessData& data) noexcept {
   if (!powered() || link_broken_ || (data.control & stw::kDataValid) == 0) return;
   const Word before = commanded_ ? data_.control : Word{0};
   const bool bit_before = busBitsAcknowledge();
-  data_ = data;
+  previous_ = std::exchange(data_, data);
+  found_ = {found_[1], {posicon_.position(), posicon_.target()}};
   commanded_ = true;
   since_valid_ = 0.0;
   master_lost_ = timed_out_ = false;
   if (busControl()) selectParameterSet(data.control >> stw::kParameterSetShift);
+  position_command_ = posicon_.isOn(set_) ? positionCommand() : PositionCommand{};
 
   const bool edge = (before & stw::kAcknowledge) == 0 && (data.control & stw::kAcknowledge) != 0;
   // Taking the enable away acknowledges too, unless an input has the function (BU 0020 8, BU 2700 8.2).

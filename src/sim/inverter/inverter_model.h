@@ -11,6 +11,8 @@
 #include "nord_driver/core/time.h"
 #include "sim/inverter/motor.h"
 #include "sim/inverter/parameter_store.h"
+#include "sim/inverter/posicon.h"
+#include "sim/inverter/position_words.h"
 #include "sim/inverter/words.h"
 
 namespace nord_driver::sim {
@@ -34,6 +36,7 @@ const char* toString(InverterState state) noexcept;
 struct ProcessData {
   Word control = 0;
   std::array<Word, 3> setpoints{};
+  unsigned carried = 3;  ///< how many setpoints the telegram has; the others are 0
 };
 
 /// Fault numbers as P700 shows them, ten times the printed number: BU 2700 8.3.
@@ -61,6 +64,16 @@ struct InverterSettings {
   double charging_time = 0.3;  ///< s, from mains on until the charging relay has engaged
   /// s, a fault stands that long before P506 takes it. Not in the bus manuals: the simulator's.
   double automatic_acknowledgement_delay = 0.1;
+  PosiconSettings posicon;
+};
+
+/// Which of the setpoints and actual values 1 to 3, as the telegram numbers them, are the halves of the 32-bit field of
+/// SK 700E and 750E: PZD2 and PZD3 (BU 0020 7.3.5), where these series have SW1 and SW3 (7.3.6). The bus transfers the
+/// high word first, or, little endian (BU 0280 4.2.1.1), the low word.
+struct WideField {
+  unsigned high = 0;
+  unsigned low = 2;
+  unsigned other() const noexcept { return 3 - high - low; }  ///< SW2 or IW2, in PZD4
 };
 
 /// How a bus is wired to the inverter.
@@ -71,6 +84,7 @@ struct BusWiring {
   std::optional<std::int32_t> source;
   std::uint16_t master_lost_fault = fault::kMasterLost;  ///< how a lost master shows
   std::uint16_t timeout_fault = fault::kTimeout;         ///< how P513 shows
+  WideField wide;
 };
 
 /// What is wired to the inverter. Coasting and quick stop act under bus control too (BU 0020 6, note).
@@ -133,6 +147,14 @@ class InverterModel {
   /// As the words that carry them say it.
   std::uint8_t busInBits() const noexcept;
 
+  /// A gateway that does not keep the words of one telegram together: high words are those of the telegram before.
+  void setTornWords(bool on) noexcept { torn_ = on; }
+  const Posicon& posicon() const noexcept { return posicon_; }
+  /// A 32-bit value is in two of the setpoints, or of the actual values (SK 700E and 750E).
+  bool wideSetpoint() const noexcept;
+  bool wideActual() const noexcept;
+  const WideField& wideField() const noexcept { return wiring_.wide; }
+
   Word statusWord() const noexcept;
   /// Actual value 1-3 (`n` = 0-2) by the function in P543-P545.
   Word actualValue(unsigned n) const noexcept;
@@ -169,6 +191,19 @@ class InverterModel {
   double setpointFrequency() const noexcept;
   double busShare() const noexcept;
   bool busBitIs(std::int32_t function) const noexcept;
+  bool carriesBits(unsigned n) const noexcept;
+  bool busBitHasFunction(std::int32_t function) const noexcept;
+  unsigned setpointPlace(unsigned n) const noexcept;
+  PositionFunction positionSetpointAt(unsigned n) const noexcept;
+  void watchPosition() noexcept;
+  bool positioning() const noexcept;
+  double positioningFrequency(double dt) noexcept;
+  PositionCommand positionCommand() const noexcept;
+  std::optional<double> positionTarget() const noexcept;
+  double positionUnit(const PositionFunction& function) const noexcept;
+  Word positionWord(const PositionFunction& function, bool high) const noexcept;
+  bool setpointReached() const noexcept;
+  bool outputIsOn(unsigned element) const noexcept;
   bool busBitsEnable() const noexcept;
   bool busBitsAcknowledge() const noexcept;
   double busBitFrequency() const noexcept;
@@ -183,10 +218,20 @@ class InverterModel {
   InverterState state_ = InverterState::kOff;
   double in_state_ = 0.0;  // s
   bool commanded_ = false;
-  ProcessData data_;  // the last ones with bit 10 = 1
+  ProcessData data_;      // the last ones with bit 10 = 1
+  ProcessData previous_;  // those before
   unsigned set_ = 0;
   double frequency_ = 0.0;
   double target_ = 0.0;
+
+  Posicon posicon_;
+  PositionCommand position_command_;  // of the last telegram
+  bool torn_ = false;
+  struct Found {  // revolutions
+    double position = 0.0;
+    double target = 0.0;
+  };
+  std::array<Found, 2> found_{};  // by the last two telegrams, the older one first
 
   bool local_ = false;
   Terminals terminals_;

@@ -7,6 +7,12 @@
 
 namespace nord_driver::sim {
 
+namespace {
+
+constexpr unsigned kBit10Element = 8, kBit13Element = 9;  // of P481: BU 0020 6.2.1
+
+}  // namespace
+
 const char* toString(InverterState state) noexcept {
   switch (state) {
     case InverterState::kOff:
@@ -66,9 +72,9 @@ Word InverterModel::statusWord() const noexcept {
   if (!off2) word |= zsw::kNoOff2;
   if (!off3) word |= zsw::kNoOff3;
   if (warning_ != 0) word |= zsw::kWarning;
-  if (inputs_.bit_10) word |= zsw::kBit10;
-  if (inputs_.bit_13) word |= zsw::kBit13;
-  if (frequency_ == target_) word |= zsw::kSetpointReached;
+  if (inputs_.bit_10 || outputIsOn(kBit10Element)) word |= zsw::kBit10;
+  if (inputs_.bit_13 || outputIsOn(kBit13Element)) word |= zsw::kBit13;
+  if (setpointReached()) word |= zsw::kSetpointReached;
   if (busControl()) word |= zsw::kBusControl;
   word |= frequency_ < 0.0 ? zsw::kLeft : zsw::kRight;  // at rest "right": 0B31
   return static_cast<Word>(word | set_ << zsw::kParameterSetShift);
@@ -76,11 +82,16 @@ Word InverterModel::statusWord() const noexcept {
 
 Word InverterModel::actualValue(unsigned n) const noexcept {
   if (state_ == InverterState::kOff || n > 2) return 0;
-  return functionValue(busFunction(543, n));
+  if (!wideActual()) return functionValue(busFunction(543, n));
+  const WideField& wide = wiring_.wide;
+  if (n == wide.other()) return functionValue(busFunction(543, 1));
+  return positionWord(positionActual(parameters_.device(), busFunction(543, 0)), n == wide.high);
 }
 
 // BU 0020 6.2.2 (P543) and 7.3.7: shares of the nominal sizes, +-200 %.
 Word InverterModel::functionValue(std::int32_t function) const noexcept {
+  const PositionFunction position = positionActual(parameters_.device(), function);
+  if (position.word != PositionWord::kNone) return positionWord(position, position.word == PositionWord::kHigh);
   const double maximum = parameters_.scaled(105, set_);
   double share = 0.0;
   switch (function) {
@@ -105,8 +116,11 @@ Word InverterModel::functionValue(std::int32_t function) const noexcept {
       break;
     case 9:
       return fault_;
-    case 12:
-      return inputs_.bus_out_bits;
+    case 12: {
+      unsigned bits = inputs_.bus_out_bits;
+      for (unsigned bit = 0; bit < 8; ++bit) bits |= outputIsOn(bit) ? 1u << bit : 0u;
+      return static_cast<Word>(bits);
+    }
     case 17:
     case 18:
       if (!parameters_.device().isOlderSeries()) share = inputs_.analog[function == 17 ? 0 : 1];

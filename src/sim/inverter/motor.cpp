@@ -41,7 +41,7 @@ void Motor::advance(double dt, bool voltage, double frequency) noexcept {
   const double free = (speed_ + step * drive) / (1.0 + step * damping);
   // Dry friction takes speed away, never adds any, and holds the shaft when the rest cannot overcome it.
   const double friction = step * dry / (1.0 + step * damping);
-  speed_ = std::copysign(std::max(0.0, std::fabs(free) - friction), free);
+  speed_ = blocked_ ? 0.0 : std::copysign(std::max(0.0, std::fabs(free) - friction), free);
   if (voltage) {
     const double limit = kPullOut * settings_.rated_torque;
     torque_ = std::clamp(torque_per_hertz * (frequency - rotorFrequency()), -limit, limit);

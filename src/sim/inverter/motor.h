@@ -24,6 +24,9 @@ class Motor {
   /// `dt` in s, `frequency` of the field in Hz (sign = direction); without voltage only friction acts.
   void advance(double dt, bool voltage, double frequency) noexcept;
 
+  /// Something holds the shaft, whatever the field does.
+  void setBlocked(bool on) noexcept { blocked_ = on; }
+
   double speed() const noexcept { return speed_; }  ///< rad/s
   double angle() const noexcept { return angle_; }  ///< rad, continuous
   /// The rotor's speed as an electrical frequency, in Hz: what the field would have without slip.
@@ -37,6 +40,7 @@ class Motor {
   double speed_ = 0.0;
   double angle_ = 0.0;
   double torque_ = 0.0;
+  bool blocked_ = false;
 };
 
 }  // namespace nord_driver::sim

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/inverter/position_words.h"
+
 namespace nord_driver::sim {
 
 namespace {
 
 constexpr bool kPerSet = true;
 constexpr bool kReadOnly = true;
+constexpr std::int32_t kFarthest = 50'000'000;
 constexpr double kFirmwareWithFaultArray = 1.9;  // BU 0020 8
 
 // Ranges and factory settings where BU 0020 6.2, BU 0220 5.1 or BU 0280 5.1 print them. The chapters with P102-P113,
@@ -32,6 +35,7 @@ const std::vector<ParameterDefinition>& sk5xxe() {
       {425, "Digital input 6", 1, 0, 77, 0, false, 0, false},
       {426, "Quick stop time", 100, 0, 32000, 10, kPerSet, 0, false},
       {480, "Function of bus I/O in bits", 1, 0, 74, 0, false, 12, false},
+      {481, "Function of bus I/O out bits", 1, 0, 39, 0, false, 10, false},
       {506, "Automatic acknowledgement", 1, 0, 7, 0, false, 0, false},
       {507, "PPO type", 1, 1, 4, 1, false, 0, false},
       {508, "Profibus address", 1, 1, 126, 1, false, 0, false},
@@ -48,9 +52,20 @@ const std::vector<ParameterDefinition>& sk5xxe() {
       {548, "Bus setpoint 3", 1, 0, 55, 0, kPerSet, 0, false},
       {551, "Drive profile", 1, 0, 1, 0, false, 0, false},
       {560, "Save in EEPROM", 1, 0, 1, 1, false, 0, false},
-      // Of the position control of SK 53xE and 54xE, and the only one of 32 bits here; the range is that of a position
-      // (BU 0020 7.3.5), the number of elements the simulator's.
-      {613, "Position", 1000, -50'000'000, 50'000'000, 0, false, 63, false, true},
+      // Of the position control; sources of the numbers: posicon_settings.h. 32 bits where the range is that of a
+      // position (BU 0020 7.3.5), the number of elements of P613 is the simulator's: what six bits can choose.
+      {600, "Position control", 1, 0, 2, 0, kPerSet, 0, false},
+      {601, "Actual position", 1000, -kFarthest, kFarthest, 0, false, 0, kReadOnly, true},
+      {602, "Actual setpoint position", 1000, -kFarthest, kFarthest, 0, false, 0, kReadOnly, true},
+      {603, "Actual position difference", 1000, -kFarthest, kFarthest, 0, false, 0, kReadOnly, true},
+      {607, "Speed ratio", 1, 1, 32000, 1, false, 0, false},
+      {608, "Reduction", 1, 1, 32000, 1, false, 0, false},
+      {610, "Setpoint mode", 1, 0, 1, 0, false, 0, false},
+      {612, "Position window", 1000, 0, 32000, 0, false, 0, false},
+      {613, "Position", 1000, -kFarthest, kFarthest, 0, false, 63, false, true},
+      {615, "Maximum position", 1000, -kFarthest, kFarthest, 0, false, 0, false, true},
+      {616, "Minimum position", 1000, -kFarthest, kFarthest, 0, false, 0, false, true},
+      {630, "Position slip error", 1000, 0, 32000, 0, false, 0, false},
       {700, "Current fault", 10, 0, 9999, 0, false, 3, kReadOnly},
       {701, "Last faults", 10, 0, 9999, 0, false, 5, kReadOnly},
       {707, "Software version", 10, 0, 9999, 20, false, 2, kReadOnly},
@@ -72,6 +87,11 @@ class Definitions {
  public:
   explicit Definitions(std::vector<ParameterDefinition> start) : all_(std::move(start)) {}
 
+  void removePosicon() {
+    all_.erase(std::remove_if(all_.begin(), all_.end(),
+                              [](const ParameterDefinition& d) { return d.number >= 600 && d.number <= 630; }),
+               all_.end());
+  }
   void remove(int number) {
     all_.erase(
         std::remove_if(all_.begin(), all_.end(), [&](const ParameterDefinition& d) { return d.number == number; }),
@@ -117,7 +137,9 @@ void makeOlderSeries(Definitions& definitions, Series series) {
   definitions.setRange(546, 0, 7);
   definitions.setRange(547, 0, 20);
   definitions.setRange(548, 0, 20);
-  for (const int number : {120, 514, 515, 613, 748, 749}) definitions.remove(number);
+  definitions.setRange(481, 0, 38);
+  definitions.setElements(481, 8);
+  for (const int number : {120, 514, 515, 748, 749}) definitions.remove(number);
   if (sk300e) definitions.remove(510);
   definitions.setElements(740, sk300e ? 5 : 6);
   definitions.setElements(741, sk300e ? 5 : 6);
@@ -130,7 +152,7 @@ void makeOlderSeries(Definitions& definitions, Series series) {
 // SK 1x0E and 2xxE: inputs, setpoints and actual values are arrays, address and PPO type are the module's
 // (BU 0220 5.1).
 void makeDecentral(Definitions& definitions) {
-  for (const int number : {421, 422, 423, 424, 425, 507, 508, 544, 545, 547, 548, 613, 744, 745, 746}) {
+  for (const int number : {421, 422, 423, 424, 425, 507, 508, 544, 545, 547, 548, 744, 745, 746}) {
     definitions.remove(number);
   }
   definitions.setElements(420, 4);
@@ -152,6 +174,7 @@ std::vector<ParameterDefinition> parameterDefinitions(const Device& device) {
   if (device.series == Series::kSk54xe) makeSk54xe(definitions);
   if (device.isOlderSeries()) makeOlderSeries(definitions, device.series);
   if (device.isDecentral()) makeDecentral(definitions);
+  if (!hasPosicon(device.series)) definitions.removePosicon();
   if (device.firmware < kFirmwareWithFaultArray) definitions.setElements(700, 0);
   definitions.find(707).factory = static_cast<std::int32_t>(std::lround(device.firmware * 10.0));
   return definitions.take();

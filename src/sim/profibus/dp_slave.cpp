@@ -67,6 +67,8 @@ void DpSlave::takeOutputs(ByteView data) noexcept {
   if (reader.remaining() >= 4) {
     process.setpoints[swapsWords() ? 2 : 1] = reader.u16be();
     process.setpoints[swapsWords() ? 1 : 2] = reader.u16be();
+  } else {
+    process.carried = 1;
   }
   counted().last_control = process.control;
   if (missing) {
@@ -81,14 +83,25 @@ void DpSlave::takeOutputs(ByteView data) noexcept {
   }
   inverter_.receive(process);
   parameters_.show(740, 0, process.control);
-  for (unsigned i = 0; i < 3; ++i) parameters_.show(740, displayElement(i), process.setpoints[i]);
+  display(740, inverter_.wideSetpoint(), process.setpoints);
 }
 
 void DpSlave::showStatus() noexcept {
   if (inverterMissing()) return;
   parameters_.show(741, 0, inverter_.statusWord());
-  for (unsigned i = 0; i < 3; ++i) parameters_.show(741, displayElement(i), inverter_.actualValue(i));
+  display(741, inverter_.wideActual(), {inverter_.actualValue(0), inverter_.actualValue(1), inverter_.actualValue(2)});
   parameters_.show(746, 0, state() == SlaveState::kDataExchange ? kModuleConnected : kModuleReady);
+}
+
+void DpSlave::display(unsigned number, bool wide, const std::array<Word, 3>& values) noexcept {
+  if (!wide) {
+    for (unsigned i = 0; i < 3; ++i) parameters_.show(number, displayElement(i), values[i]);
+    return;
+  }
+  const WideField& field = inverter_.wideField();
+  parameters_.show(number, displayElement(0), values[field.low]);
+  parameters_.show(number, displayElement(0) + 1, values[field.high]);
+  parameters_.show(number, displayElement(1), values[field.other()]);
 }
 
 // P740 and P741 of SK 700E and 750E have the high word of a 32-bit value 1 in between (BU 0020 6.1.3).

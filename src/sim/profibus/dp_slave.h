@@ -3,6 +3,7 @@
 // BU 0020 7.2 and 8.2.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "sim/drive_unit.h"
@@ -34,6 +35,7 @@ class DpSlave final : public DpStation {
   void showStatus() noexcept override;
   unsigned displayElement(unsigned value) const noexcept;
   /// SK 300E/7x0E: SW3 and IW3 come before SW2 and IW2 (BU 0020 7.2.2).
+  void display(unsigned number, bool wide, const std::array<Word, 3>& values) noexcept;
   bool swapsWords() const noexcept { return parameters_.device().isOlderSeries(); }
 
   DpDriveConfig settings_;

@@ -123,7 +123,8 @@ ModuleStation::Slot ModuleStation::readSlot(std::uint8_t identifier, ByteReader&
   }
   slot.process.control = reader.u16be();
   const std::size_t words = (lengthOf(identifier) - (slot.has_order ? kPkwBytes : 0)) / 2;
-  for (std::size_t n = 0; n + 1 < words; ++n) slot.process.setpoints[n] = reader.u16be();
+  slot.process.carried = static_cast<unsigned>(words) - 1;
+  for (unsigned n = 0; n < slot.process.carried; ++n) slot.process.setpoints[n] = reader.u16be();
   return slot;
 }
 

@@ -27,15 +27,21 @@ struct Wheels {
   double rear_right = 0.0;
 };
 
+/// Where the steered wheels of a robot point: rad from straight ahead, counter-clockwise seen from above.
+struct Steering {
+  double front = 0.0;
+  double rear = 0.0;
+};
+
 /// No wheel slips on the ground.
 class Body {
  public:
   virtual ~Body() = default;
 
-  /// Wheel angles; the first call sets the reference.
-  void moveTo(const Wheels& angles) noexcept;
+  /// Wheel angles, and where wheels that are steered point meanwhile; the first call sets the reference.
+  void moveTo(const Wheels& angles, const Steering& steering = {}) noexcept;
   /// Wheel speeds, for `linear()`, `lateral()` and `angular()`.
-  void setSpeeds(const Wheels& speeds) noexcept { speed_ = motionOf(speeds); }
+  void setSpeeds(const Wheels& speeds, const Steering& steering = {}) noexcept { speed_ = motionOf(speeds, steering); }
 
   const Pose& pose() const noexcept { return pose_; }
   double linear() const noexcept { return speed_.x; }     ///< m/s
@@ -43,8 +49,8 @@ class Body {
   double angular() const noexcept { return speed_.yaw; }  ///< rad/s
 
  private:
-  /// How the body moves when its wheels do so; linear.
-  virtual Motion motionOf(const Wheels& wheels) const noexcept = 0;
+  /// How the body moves when its wheels do so; linear in the wheels.
+  virtual Motion motionOf(const Wheels& wheels, const Steering& steering) const noexcept = 0;
 
   bool started_ = false;
   Wheels last_;
@@ -60,7 +66,7 @@ class DiffDriveBody final : public Body {
       : wheel_radius_(wheel_radius), wheel_separation_(wheel_separation) {}
 
  private:
-  Motion motionOf(const Wheels& wheels) const noexcept override;
+  Motion motionOf(const Wheels& wheels, const Steering& steering) const noexcept override;
 
   double wheel_radius_;
   double wheel_separation_;
@@ -76,10 +82,31 @@ class MecanumBody final : public Body {
       : wheel_radius_(wheel_radius), lever_(0.5 * (wheel_separation + wheel_base)) {}
 
  private:
-  Motion motionOf(const Wheels& wheels) const noexcept override;
+  Motion motionOf(const Wheels& wheels, const Steering& steering) const noexcept override;
 
   double wheel_radius_;
   double lever_;
+};
+
+/// Where the wheel of a steered axle touches the ground, seen from the middle of the robot.
+struct SteeredWheel {
+  double x = 0.0;       ///< m
+  double y = 0.0;       ///< m
+  double radius = 0.0;  ///< m
+};
+
+/// Two driven wheels, each steered about the upright axis through its contact point; the rest of the robot runs on
+/// castors. A wheel resists sliding along and across alike, so where the two contradict each other, in their speeds or
+/// by where they point, both slip by the least that lets the robot stay rigid. Of `Wheels` those on the left count.
+class SteeredBody final : public Body {
+ public:
+  SteeredBody(const SteeredWheel& front, const SteeredWheel& rear) noexcept : front_(front), rear_(rear) {}
+
+ private:
+  Motion motionOf(const Wheels& wheels, const Steering& steering) const noexcept override;
+
+  SteeredWheel front_;
+  SteeredWheel rear_;
 };
 
 }  // namespace nord_driver::sim

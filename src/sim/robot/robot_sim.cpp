@@ -14,7 +14,10 @@ RobotSim::RobotSim(const SimConfig& config) : config_(config) {
   for (const DriveConfig& drive : config_.drives) drives_.push_back(std::make_unique<DriveUnit>(drive));
   if (!config_.body) return;
   const BodyConfig& body = *config_.body;
-  if (body.kind == BodyKind::kMecanum) {
+  if (body.kind == BodyKind::kSteered) {
+    body_ = std::make_unique<SteeredBody>(SteeredWheel{body.front.x, body.front.y, body.wheel_radius},
+                                          SteeredWheel{body.rear.x, body.rear.y, body.wheel_radius});
+  } else if (body.kind == BodyKind::kMecanum) {
     body_ = std::make_unique<MecanumBody>(body.wheel_radius, body.wheel_separation, body.wheel_base);
   } else {
     body_ = std::make_unique<DiffDriveBody>(body.wheel_radius, body.wheel_separation);
@@ -36,8 +39,15 @@ void RobotSim::advance(Instant now) noexcept {
 void RobotSim::step(Duration span) noexcept {
   for (const std::unique_ptr<DriveUnit>& drive : drives_) drive->advance(span);
   if (body_ == nullptr) return;
-  body_->moveTo(wheels(&DriveUnit::wheelAngle));
-  body_->setSpeeds(wheels(&DriveUnit::wheelSpeed));
+  const Steering steered = steering();
+  body_->moveTo(wheels(&DriveUnit::wheelAngle), steered);
+  body_->setSpeeds(wheels(&DriveUnit::wheelSpeed), steered);
+}
+
+Steering RobotSim::steering() const noexcept {
+  const BodyConfig& body = *config_.body;
+  if (body.kind != BodyKind::kSteered) return {};
+  return {drives_[body.front.steering]->wheelAngle(), drives_[body.rear.steering]->wheelAngle()};
 }
 
 // Of a side that turns as one the mean counts.
@@ -49,6 +59,7 @@ Wheels RobotSim::wheels(double (DriveUnit::*of)() const noexcept) const noexcept
     return sum / static_cast<double>(side.size());
   };
   const BodyConfig& body = *config_.body;
+  if (body.kind == BodyKind::kSteered) return {wheel(body.front.wheel), wheel(body.rear.wheel), 0.0, 0.0};
   if (body.kind == BodyKind::kMecanum) {
     return {wheel(body.left[0]), wheel(body.left[1]), wheel(body.right[0]), wheel(body.right[1])};
   }

@@ -47,6 +47,7 @@ class RobotSim {
  private:
   void step(Duration span) noexcept;
   Wheels wheels(double (DriveUnit::*of)() const noexcept) const noexcept;
+  Steering steering() const noexcept;
 
   SimConfig config_;
   std::vector<std::unique_ptr<DriveUnit>> drives_;

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "sim/robot/body.h"
 
 namespace nord_driver::sim {
@@ -65,6 +67,67 @@ TEST(MecanumBody, DrivesAndTurns) {
   roll(body, here, {here.front_left - 5.0, here.rear_left + 5.0, here.front_right + 5.0, here.rear_right - 5.0});
   EXPECT_NEAR(0.5, body.pose().x, 1e-9);
   EXPECT_NEAR(0.0, body.pose().y, 1e-9);
+}
+
+/// Half a metre before and behind the middle, wheels of 0.1 m.
+SteeredBody twoSteeredAxles() {
+  return SteeredBody{{0.5, 0.0, 0.1}, {-0.5, 0.0, 0.1}};
+}
+
+// Straight on, and to the left with both wheels turned by a quarter.
+TEST(SteeredBody, DrivesWhereItsWheelsPoint) {
+  SteeredBody body = twoSteeredAxles();
+  roll(body, {}, {10.0, 10.0, 0.0, 0.0});
+  EXPECT_NEAR(1.0, body.pose().x, 1e-12);
+  body.moveTo({20.0, 20.0, 0.0, 0.0}, {kPi / 2, kPi / 2});
+  EXPECT_NEAR(1.0, body.pose().x, 1e-12);
+  EXPECT_NEAR(1.0, body.pose().y, 1e-12);
+  EXPECT_NEAR(0.0, body.pose().theta, 1e-12);
+}
+
+// 45 degrees to either side is a circle of half a metre about (0, 0.5): after one turn the robot is where it was.
+TEST(SteeredBody, DrivesACircle) {
+  SteeredBody body = twoSteeredAxles();
+  const Steering left{kPi / 4, -kPi / 4};
+  const double way = 2 * kPi * std::sqrt(0.5) / 0.1;
+  constexpr int kSteps = 10000;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double angle = way * i / kSteps;
+    body.moveTo({angle, angle, 0.0, 0.0}, left);
+    if (i != kSteps / 2) continue;
+    EXPECT_NEAR(0.0, body.pose().x, 1e-6);
+    EXPECT_NEAR(1.0, body.pose().y, 1e-6);
+  }
+  EXPECT_NEAR(0.0, body.pose().x, 1e-6);
+  EXPECT_NEAR(0.0, body.pose().y, 1e-6);
+  EXPECT_NEAR(2 * kPi, body.pose().theta, 1e-9);
+}
+
+// Wheels that stand still and are steered move nothing.
+TEST(SteeredBody, SteeringAloneMovesNothing) {
+  SteeredBody body = twoSteeredAxles();
+  for (int i = 0; i < 100; ++i) body.moveTo({}, {0.01 * i, -0.02 * i});
+  EXPECT_EQ(0.0, body.pose().x);
+  EXPECT_EQ(0.0, body.pose().y);
+  EXPECT_EQ(0.0, body.pose().theta);
+}
+
+// One wheel that turns faster than the other drags it: both slip by half the difference.
+TEST(SteeredBody, ContradictingWheelsShareTheSlip) {
+  SteeredBody body = twoSteeredAxles();
+  body.setSpeeds({14.0, 10.0, 0.0, 0.0});
+  EXPECT_DOUBLE_EQ(1.2, body.linear());
+  EXPECT_DOUBLE_EQ(0.0, body.lateral());
+  EXPECT_DOUBLE_EQ(0.0, body.angular());
+}
+
+// Only the front wheel is steered: the robot turns about the point where the axles' lines meet.
+TEST(SteeredBody, TurnsLikeACarWithOneAxleStraight) {
+  SteeredBody body{{1.0, 0.0, 0.1}, {0.0, 0.0, 0.1}};
+  body.setSpeeds({std::sqrt(2.0) * 10.0, 10.0, 0.0, 0.0}, {kPi / 4, 0.0});
+  EXPECT_NEAR(1.0, body.linear(), 1e-12);
+  EXPECT_NEAR(0.0, body.lateral(), 1e-12);
+  EXPECT_NEAR(1.0, body.angular(), 1e-12);
 }
 
 }  // namespace

@@ -1,0 +1,59 @@
+// What the configuration says of a drive that positions.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "cycle/signal_setup.h"
+#include "drive/position_axis.h"
+#include "nord_driver/config/settings.h"
+#include "nord_driver/profile/series.h"
+#include "nord_driver/transport/bus_report.h"
+#include "profile/position_words.h"
+#include "profile/scaling.h"
+#include "robot/urdf_geometry.h"
+
+namespace nord_driver::cycle {
+
+enum class DriveMode : std::uint8_t { kVelocity, kPosition };
+
+/// The bit that asks for a reference run.
+struct HomeBit {
+  enum class Carrier : std::uint8_t { kBusBit, kControlBit, kPosicon };
+  Carrier carrier = Carrier::kControlBit;
+  std::uint8_t number = 8;      ///< bus I/O in bit 0..7, bit 8 or 9 of the control word
+  std::uint16_t function = 22;  ///< what P480 has to say of it
+};
+
+struct PositionSetup {
+  drive::PositionConfig axis;
+  std::uint8_t bits = 32;                                       ///< of the setpoint and of the actual position
+  profile::FieldOrder order = profile::FieldOrder::kHighFirst;  ///< of SK 700E and 750E
+  /// What P610 has to be, -1: it is not looked at. Its values stand in none of the manuals at hand.
+  std::int32_t setpoint_mode = -1;
+  std::optional<HomeBit> home;            ///< none: it is never asked for a reference run
+  std::optional<SignalSetup> referenced;  ///< a bus I/O out bit or a bit of the status word; none: no bit says it
+};
+
+DriveMode readDriveMode(const Settings& drive);
+
+/// What the drive's own group does not say.
+struct PositionContext {
+  profile::Series series = profile::Series::kSk5xxe;
+  profile::JointScaling scaling;
+  std::optional<robot::JointRange> joint;  ///< what the robot's description says of it
+  std::string transport;                   ///< its name, as configured
+};
+
+/// Of a drive with `mode: position`. Throws ConfigError.
+PositionSetup readPositionSetup(const Settings& drive, const PositionContext& context);
+
+/// For a drive that follows velocities. Throws ConfigError naming the first of the keys above that is there.
+void refusePositionKeys(const Settings& drive);
+
+/// Throws ConfigError where the bus does not carry the words of the position.
+void checkPositionCarried(const Settings& drive, const PositionSetup& setup, profile::Series series,
+                          const DriveIdentity& identity);
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,168 @@
+#include "cycle/steered_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nord_driver::cycle {
+
+namespace {
+
+constexpr Duration kLongestHold = std::chrono::milliseconds{500};
+// Of the tolerance: how far a step may lead the wheels, and by how much it may turn the angles at once. The rest is
+// for how exactly the axes come to their angles.
+constexpr double kLead = 0.75;
+constexpr double kTurnAtOnce = 0.5;
+
+bool allKnown(const robot::SteeringAngles& angles, std::size_t axles) noexcept {
+  if (angles.size() != axles) return false;
+  return std::all_of(angles.begin(), angles.end(), [](double angle) { return std::isfinite(angle); });
+}
+
+robot::Twist2d times(double factor, const robot::Twist2d& twist) noexcept {
+  return {factor * twist.linear_x, factor * twist.angular_z, factor * twist.linear_y};
+}
+
+/// 1, or less where a wheel would be too fast; 0 where one cannot turn at all.
+double partWithin(const robot::WheelSpeeds& limits, const robot::WheelSpeeds& wheels) noexcept {
+  const robot::WheelSpeeds possible = robot::scaleInto(wheels, limits);
+  for (std::size_t i = 0; i < wheels.size(); ++i) {
+    if (possible[i] != wheels[i]) return possible[i] / wheels[i];
+  }
+  return 1.0;
+}
+
+}  // namespace
+
+SteeredMotion::SteeredMotion(const BaseConfig& config, Duration cmd_vel_timeout)
+    : kinematics_(config.steered.value().axles),
+      joint_limits_(wheelLimits(config)),
+      limiter_(config.limits),
+      odometry_(config.velocity_rolling_window_size),
+      timeout_(cmd_vel_timeout),
+      tolerance_(config.steered->angle_tolerance),
+      open_loop_(config.open_loop) {
+  steered_.resize(kinematics_.axleCount());
+}
+
+robot::SteeredSetpoint SteeredMotion::poll(const TwistCommand& command, bool driving, bool follow,
+                                           const SteeredDrives& drives, Instant now, Duration dt) noexcept {
+  below_minimum_ = false;
+  waits_for_ = SteeredWait::kNothing;
+  const bool known = allKnown(drives.angles, kinematics_.axleCount());
+  if (!driving || !known) {
+    limiter_.reset();
+    if (known) steered_ = drives.angles;
+    steers_ = false;
+    if (driving) waits_for_ = SteeredWait::kNoPosition;
+    return rest();
+  }
+  const robot::WheelSpeeds limits = robot::tighterOf(drives.max_speeds, joint_limits_);
+  const bool obey = follow && !drives.minimum.coming_to_rest && !isStale(command, timeout_, now);
+  robot::Twist2d target = targetOf(command, obey, limits, drives.angles);
+  // Taken as zero at once, it is left along the limits.
+  below_minimum_ = anyBelow(kinematics_.solve(target, drives.angles, steered_).wheels, drives.minimum.wheels);
+  if (below_minimum_) target = {};
+  if (limited_ == robot::Twist2d{} && !readyToDriveOff(target, drives.angles)) {
+    limiter_.reset();
+    return rest();
+  }
+  step(target, drives.angles, now, dt);
+  return setpoint(drives, limits, target == robot::Twist2d{});
+}
+
+// What is beyond the steering range or too fast is made smaller before the ramps, which never run ahead of the wheels.
+robot::Twist2d SteeredMotion::targetOf(const TwistCommand& command, bool obey, const robot::WheelSpeeds& limits,
+                                       const robot::SteeringAngles& angles) noexcept {
+  if (!obey || !isFinite(command.twist) || command.twist == robot::Twist2d{}) return {};
+  const robot::Twist2d possible = kinematics_.possible(command.twist);
+  if (possible != command.twist) {
+    waits_for_ = possible == robot::Twist2d{} ? SteeredWait::kNoAngle : SteeredWait::kWiderCurve;
+  }
+  return times(partWithin(limits, kinematics_.solve(possible, angles, steered_).wheels), possible);
+}
+
+bool SteeredMotion::readyToDriveOff(const robot::Twist2d& target, const robot::SteeringAngles& angles) noexcept {
+  if (target == robot::Twist2d{}) {
+    // A way to steer that is not asked for any more ends where it is; wheels that have arrived keep their angle.
+    if (steers_ && robot::largestDifference(steered_, angles) > tolerance_) steered_ = angles;
+    steers_ = false;
+    return false;
+  }
+  steered_ = kinematics_.solve(target, angles, steered_).angles;
+  steers_ = robot::largestDifference(steered_, angles) > tolerance_;
+  if (steers_) waits_for_ = SteeredWait::kAngles;
+  return !steers_;
+}
+
+void SteeredMotion::step(const robot::Twist2d& target, const robot::SteeringAngles& angles, Instant now,
+                         Duration dt) noexcept {
+  robot::TwistLimiter stepped = limiter_;
+  const robot::Twist2d next = stepped.limit(target, dt);
+  const robot::SteeringAngles wanted = kinematics_.solve(next, angles, steered_).angles;
+  Step way = target == robot::Twist2d{} ? Step::kGo : stepTo(next, wanted, angles);
+  if (way != Step::kHold) holding_since_.reset();
+  if (way == Step::kHold && now - holding_since_.emplace(holding_since_.value_or(now)) >= kLongestHold) {
+    way = Step::kBrake;
+  }
+  switch (way) {
+    case Step::kGo:
+      limiter_ = stepped;
+      if (kinematics_.isPossible(next)) steered_ = wanted;
+      break;
+    case Step::kHold:
+      limiter_.limit(limited_, dt);
+      break;
+    case Step::kBrake:
+      limiter_.limit({}, dt);
+      waits_for_ = SteeredWait::kAngles;
+      break;
+  }
+  limited_ = limiter_.twist();
+}
+
+SteeredMotion::Step SteeredMotion::stepTo(const robot::Twist2d& next, const robot::SteeringAngles& wanted,
+                                          const robot::SteeringAngles& angles) const noexcept {
+  constexpr double kRounding = 1e-9;
+  const double off = robot::largestDifference(steered_, angles);
+  if (off > tolerance_ || !kinematics_.isPossible(next)) return Step::kBrake;
+  const double turn = robot::largestDifference(wanted, steered_);
+  if (turn > kTurnAtOnce * tolerance_) return Step::kBrake;
+  const double lead = robot::largestDifference(wanted, angles);
+  const bool not_further = lead <= off + kRounding && lead <= tolerance_;
+  return lead <= kLead * tolerance_ || not_further ? Step::kGo : Step::kHold;
+}
+
+robot::SteeredSetpoint SteeredMotion::rest() noexcept {
+  limited_ = {};
+  drives_ = false;
+  holding_since_.reset();
+  robot::SteeredSetpoint setpoint;
+  setpoint.angles = steered_;
+  setpoint.wheels.resize(kinematics_.axleCount());
+  return setpoint;
+}
+
+robot::SteeredSetpoint SteeredMotion::setpoint(const SteeredDrives& drives, const robot::WheelSpeeds& limits,
+                                               bool braking) noexcept {
+  const double part = partWithin(limits, kinematics_.wheels(limited_, drives.angles));
+  if (part != 1.0) {
+    limited_ = times(part, limited_);
+    limiter_.reset(limited_);
+  }
+  const robot::WheelSpeeds wheels = kinematics_.wheels(limited_, drives.angles);
+  if (!anyBelow(wheels, drives.minimum.wheels)) {
+    drives_ = !robot::standsStill(wheels);
+    return {steered_, wheels};
+  }
+  // On the way up the limiter goes on alone until every wheel is fast enough; on the way down it has arrived.
+  below_minimum_ = below_minimum_ || !braking;
+  if (drives_) limiter_.reset();
+  return rest();
+}
+
+void SteeredMotion::handleMeasured(const robot::WheelSpeeds& wheels, const robot::SteeringAngles& angles,
+                                   Duration dt) noexcept {
+  odometry_.update(open_loop_ ? limited_ : kinematics_.twist(wheels, angles), dt);
+}
+
+}  // namespace nord_driver::cycle

@@ -1,0 +1,24 @@
+#include "drive/homing_run.h"
+
+namespace nord_driver::drive {
+
+void HomingRun::start(Instant now, Duration timeout) noexcept {
+  running_ = true;
+  begun_ = false;
+  quiet_since_ = now;
+  until_ = now + timeout;
+}
+
+HomingRun::Outcome HomingRun::handleView(const HomingView& view, Instant now) noexcept {
+  if (!running_) return Outcome::kGoesOn;
+  begun_ = begun_ || !view.reached || !view.still;
+  const bool quiet = begun_ && view.reached && view.still && !view.in_doubt && view.referenced.value_or(true);
+  if (!quiet) quiet_since_ = now;
+  Outcome outcome = Outcome::kGoesOn;
+  if (now >= until_) outcome = Outcome::kTimedOut;
+  if (quiet && now - quiet_since_ >= kQuiet) outcome = Outcome::kDone;
+  if (outcome != Outcome::kGoesOn) running_ = false;
+  return outcome;
+}
+
+}  // namespace nord_driver::drive

@@ -1,0 +1,151 @@
+#include "drive/position_axis.h"
+
+#include <cmath>
+
+namespace nord_driver::drive {
+
+namespace {
+
+const profile::PositionWords kNoWords{};
+
+}  // namespace
+
+const char* toString(TargetRefusal refusal) noexcept {
+  switch (refusal) {
+    case TargetRefusal::kNone:
+      return "nothing";
+    case TargetRefusal::kNotFinite:
+      return "it is not a number, or infinite";
+    case TargetRefusal::kNotEnabled:
+      return "the drive is not enabled, and a target is not kept for later";
+    case TargetRefusal::kHoming:
+      return "a reference run is under way";
+    case TargetRefusal::kBelowLimit:
+      return "it is below the joint's lower limit";
+    case TargetRefusal::kAboveLimit:
+      return "it is above the joint's upper limit";
+    case TargetRefusal::kBeyondRange:
+      return "it is beyond what the drive, or the words that carry it, can have";
+  }
+  return "";
+}
+
+void PositionAxis::setWords(std::uint8_t set, const profile::PositionWords& words) noexcept {
+  if (set < 1 || set > words_.size()) return;
+  profile::PositionWords& known = words_[set - 1u];
+  // Other words than before: what was read from them may be something else.
+  if (set == set_ && !(known.actual == words.actual)) reader_.handleGap();
+  known = words;
+}
+
+const profile::PositionWords& PositionAxis::words(std::uint8_t set) const noexcept {
+  return set >= 1 && set <= words_.size() ? words_[set - 1u] : kNoWords;
+}
+
+void PositionAxis::handleInput(const profile::ProcessInput& input, std::uint8_t set, double max_speed,
+                               Instant now) noexcept {
+  if (set != set_) reader_.handleGap();
+  set_ = set;
+  const double steps =
+      max_speed * config_.revolutions_per_motor_turn * profile::stepsPerRevolution(config_.scale, field());
+  reader_.handleValues(field(), input.actual_values, steps, now);
+}
+
+void PositionAxis::handleGap() noexcept {
+  reader_.handleGap();
+  homing_.end();
+  homed_ = false;
+  has_target_ = false;
+}
+
+bool PositionAxis::canHold(std::uint8_t set) const noexcept {
+  const profile::PositionWords& at = words(set);
+  if (!reader_.isKnown() || set != set_ || !at.setpoint.carried()) return false;
+  const auto target =
+      profile::toSteps(profile::toJoint(reader_.steps(), config_.scale, at.actual), config_.scale, at.setpoint);
+  return target.has_value();
+}
+
+double PositionAxis::motorTurnsPerSecond() const noexcept {
+  return reader_.speed() / profile::stepsPerRevolution(config_.scale, field()) / config_.revolutions_per_motor_turn;
+}
+
+void PositionAxis::follow(bool moves) noexcept {
+  const bool freeze = moves && !homing_.isRunning();
+  if (!freeze || !frozen_) hold();
+  frozen_ = freeze;
+}
+
+void PositionAxis::startHoming(Instant now) noexcept {
+  homed_ = false;
+  homing_.start(now, config_.homing_timeout);
+}
+
+void PositionAxis::endHoming() noexcept {
+  homing_.end();
+}
+
+HomingRun::Outcome PositionAxis::handleHoming(bool reached, bool still, Instant now) noexcept {
+  const HomingRun::Outcome outcome = homing_.handleView({reached, still, reader_.isHeldBack(), referenced_}, now);
+  homed_ = homed_ || outcome == HomingRun::Outcome::kDone;
+  return outcome;
+}
+
+void PositionAxis::hold() noexcept {
+  has_target_ = false;
+  const profile::PositionWords& at = words(set_);
+  if (!reader_.isKnown()) return;
+  const double joint = profile::toJoint(reader_.steps(), config_.scale, at.actual);
+  const auto steps = profile::toSteps(joint, config_.scale, at.setpoint);
+  if (!steps) return;
+  target_ = *steps;
+  has_target_ = true;
+}
+
+void PositionAxis::refuse(TargetRefusal refusal, double joint) noexcept {
+  report_.refused = refusal;
+  report_.refused_target = joint;
+}
+
+TargetRefusal PositionAxis::setTarget(double joint) noexcept {
+  TargetRefusal refusal = TargetRefusal::kNone;
+  const auto steps = profile::toSteps(joint, config_.scale, words(set_).setpoint);
+  if (!std::isfinite(joint)) {
+    refusal = TargetRefusal::kNotFinite;
+  } else if (config_.lower && joint < *config_.lower) {
+    refusal = TargetRefusal::kBelowLimit;
+  } else if (config_.upper && joint > *config_.upper) {
+    refusal = TargetRefusal::kAboveLimit;
+  } else if (!steps) {
+    refusal = TargetRefusal::kBeyondRange;
+  }
+  if (homing_.isRunning() && refusal == TargetRefusal::kNone) refusal = TargetRefusal::kHoming;
+  refuse(refusal, joint);
+  if (refusal != TargetRefusal::kNone) return refusal;
+  target_ = *steps;
+  has_target_ = true;
+  return refusal;
+}
+
+void PositionAxis::put(profile::ProcessOutput& output, std::uint8_t set) noexcept {
+  if (!has_target_) return;
+  profile::putPosition(words(set).setpoint, static_cast<std::int32_t>(target_), output.setpoints);
+}
+
+void PositionAxis::tell(bool online, bool enabled, bool reached) noexcept {
+  const profile::PositionField& at = field();
+  const bool known = online && reader_.isKnown();
+  report_.position.reset();
+  report_.target.reset();
+  report_.homing = homing_.isRunning();
+  report_.homed = online && referenced_.value_or(homed_);
+  report_.held_back = known && reader_.isHeldBack();
+  if (known) {
+    report_.position = profile::toJoint(reader_.steps(), config_.scale, at);
+  }
+  if (enabled && has_target_) report_.target = profile::toJoint(target_, config_.scale, words(set_).setpoint);
+  report_.reached = reached && known && report_.target.has_value() &&
+                    std::fabs(*report_.position - *report_.target) <= config_.tolerance;
+}
+
+}  // namespace nord_driver::drive

@@ -1,0 +1,97 @@
+// The part of a drive that positions: where its joint is, where it is to go, and the words of both.
+//
+// Its rules, in one place:
+//  - While the drive does not carry out 047F, the target it is sent is its own position: enabling, whoever does it,
+//    moves nothing.
+//  - With the first 047F the target stands still: the axis is held where it was.
+//  - During a reference run it is the position again, for the count gets a new zero on the way.
+//  - A target counts while the drive is enabled, and is forgotten with it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "core/units.h"
+#include "drive/homing_run.h"
+#include "drive/position_reader.h"
+#include "drive/position_report.h"
+#include "nord_driver/core/time.h"
+#include "nord_driver/profile/process_data.h"
+#include "profile/position_scale.h"
+#include "profile/position_words.h"
+
+namespace nord_driver::drive {
+
+struct PositionConfig {
+  profile::PositionScale scale;
+  std::optional<double> lower;  ///< rad or m: of the joint
+  std::optional<double> upper;
+  double tolerance = 0.0;          ///< rad or m: nearer than this the target is reached
+  std::optional<RadPerSec> speed;  ///< of the joint's shaft, what setpoint 1 asks for while it travels; none: P105
+  double unit_per_radian = 1.0;    ///< of the joint's shaft: 1, or m of a prismatic joint
+  Duration homing_timeout = seconds(60.0);
+  double revolutions_per_motor_turn = 1.0;  ///< counted, > 0
+};
+
+class PositionAxis {
+ public:
+  explicit PositionAxis(const PositionConfig& config) : config_(config) {}
+
+  /// What the words of parameter set 1..4 carry.
+  void setWords(std::uint8_t set, const profile::PositionWords& words) noexcept;
+  const profile::PositionWords& words(std::uint8_t set) const noexcept;
+
+  /// With every useful telegram. `set`: in force. `max_speed`: turns/s of the motor, the most it can do.
+  void handleInput(const profile::ProcessInput& input, std::uint8_t set, double max_speed, Instant now) noexcept;
+  void handleGap() noexcept;
+
+  /// The position is known, and can be a target of `set`.
+  bool canHold(std::uint8_t set) const noexcept;
+  bool isKnown() const noexcept { return reader_.isKnown(); }
+  /// Of the motor, from the count and signed as it counts.
+  double motorTurnsPerSecond() const noexcept;
+  /// A value beyond what the speed allows has just been believed: the count has a new zero.
+  bool hasJumped() const noexcept { return reader_.hasJumped(); }
+
+  /// Before put(). `moves`: 047F goes out, and a target is gone to; otherwise, and with the first one, the target is the
+  /// position.
+  void follow(bool moves) noexcept;
+  void startHoming(Instant now) noexcept;
+  void endHoming() noexcept;
+  bool isHoming() const noexcept { return homing_.isRunning(); }
+  /// While it runs, after handleInput().
+  HomingRun::Outcome handleHoming(bool reached, bool still, Instant now) noexcept;
+  /// A bit of the drive says whether its reference is known; none: there is no such bit.
+  void setReferenced(std::optional<bool> referenced) noexcept { referenced_ = referenced; }
+
+  /// rad or m. Refused, the one before stays.
+  TargetRefusal setTarget(double joint) noexcept;
+  void refuse(TargetRefusal refusal, double joint) noexcept;
+
+  /// The target into its words.
+  void put(profile::ProcessOutput& output, std::uint8_t set) noexcept;
+  /// After handleInput() or put(). `reached`: status bit 8; `enabled`: 047F is carried out.
+  void tell(bool online, bool enabled, bool reached) noexcept;
+
+  const PositionReport& report() const noexcept { return report_; }
+  const PositionConfig& config() const noexcept { return config_; }
+
+ private:
+  void hold() noexcept;
+  const profile::PositionField& field() const noexcept { return words(set_).actual; }
+
+  PositionConfig config_;
+  std::array<profile::PositionWords, 4> words_{};
+  PositionReader reader_;
+  PositionReport report_;
+  HomingRun homing_;
+  std::optional<bool> referenced_;
+  bool homed_ = false;       // by a run asked for here, since the drive is back
+  std::uint8_t set_ = 1;     // in force
+  std::int64_t target_ = 0;  // steps of the setpoint's field
+  bool has_target_ = false;
+  bool frozen_ = false;  // the target stands still
+};
+
+}  // namespace nord_driver::drive

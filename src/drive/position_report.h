@@ -1,0 +1,34 @@
+// What a drive that positions tells of its position and of its target: plain values.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace nord_driver::drive {
+
+/// Why a target was not taken.
+enum class TargetRefusal : std::uint8_t {
+  kNone,
+  kNotFinite,
+  kNotEnabled,   ///< it is not kept for later: whoever enables does not know what somebody once wanted
+  kHoming,       ///< a reference run is under way
+  kBelowLimit,   ///< of the joint
+  kAboveLimit,   ///< of the joint
+  kBeyondRange,  ///< of the words that carry it, or of the drive
+};
+
+struct PositionReport {
+  std::optional<double> position;  ///< rad or m of the joint; none while not known (offline, not carried, just back)
+  std::optional<double> target;    ///< rad or m, as sent while enabled
+  bool reached = false;            ///< enabled, the drive says so (status bit 8), and the position is near the target
+  bool homed = false;              ///< its reference is known, as far as that can be told
+  bool homing = false;             ///< a reference run is under way: its bit is high
+  bool held_back = false;          ///< the newest position cannot be: the one before is told
+  TargetRefusal refused = TargetRefusal::kNone;  ///< of the newest target
+  double refused_target = 0.0;                   ///< rad or m
+};
+
+/// A clause: "it is above the joint's upper limit".
+const char* toString(TargetRefusal refusal) noexcept;
+
+}  // namespace nord_driver::drive

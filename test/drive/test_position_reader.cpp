@@ -1,0 +1,156 @@
+// A count without jumps, whatever the words do.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <random>
+
+#include "drive/position_reader.h"
+
+namespace nord_driver::drive {
+namespace {
+
+using profile::PositionField;
+using profile::ProcessValues;
+
+constexpr PositionField kWide{32, 1, 2, 1000};
+constexpr PositionField kNarrow{16, 1, 1, 1000};
+constexpr double kMaxSpeed = 25'000.0;  // steps/s: 50 Hz, two pole pairs
+constexpr Duration kCycle = std::chrono::milliseconds{10};
+
+ProcessValues wordsOf(std::int64_t steps) {
+  ProcessValues words{};
+  profile::putPosition(kWide, static_cast<std::int32_t>(steps), words);
+  return words;
+}
+
+class Reading {
+ public:
+  explicit Reading(const PositionField& field) : field_(field) {}
+  void see(const ProcessValues& words) {
+    now_ += kCycle;
+    reader.handleValues(field_, words, kMaxSpeed, now_);
+  }
+  void see(std::int64_t steps) { see(wordsOf(steps)); }
+  void settle(std::int64_t steps) {
+    for (int i = 0; i < 4; ++i) see(steps);
+  }
+
+  PositionReader reader;
+
+ private:
+  PositionField field_;
+  Instant now_{};
+};
+
+TEST(PositionReader, BelievesAFirstValueWhenThoseAfterItAgree) {
+  Reading reading{kWide};
+  reading.see(100);
+  EXPECT_FALSE(reading.reader.isKnown());
+  reading.see(65'636);  // the first was torn, or this one is
+  reading.see(65'640);
+  EXPECT_FALSE(reading.reader.isKnown());
+  reading.see(65'644);
+  ASSERT_TRUE(reading.reader.isKnown());
+  EXPECT_EQ(65'644, reading.reader.steps());
+  EXPECT_FALSE(reading.reader.hasJumped()) << "nothing was known before";
+}
+
+// -1, 0, +1 and both borders of 16 bits, step by step and back.
+TEST(PositionReader, WalksOverTheBordersWithoutAJump) {
+  for (const PositionField& field : {kWide, kNarrow}) {
+    Reading reading{field};
+    reading.settle(-3);
+    std::int64_t before = reading.reader.steps();
+    EXPECT_EQ(-3, before);
+    const auto walk = [&](std::int64_t to, std::int64_t stride) {
+      for (std::int64_t at = before; at != to; at += std::clamp<std::int64_t>(to - at, -stride, stride)) {
+        reading.see(at);
+        ASSERT_TRUE(reading.reader.isKnown());
+        ASSERT_FALSE(reading.reader.hasJumped());
+        ASSERT_LE(std::abs(reading.reader.steps() - before), stride) << at;
+        ASSERT_EQ(at, reading.reader.steps());
+        before = at;
+      }
+      before = to;
+      reading.see(to);
+    };
+    walk(3, 1);
+    walk(-3, 1);
+    walk(32'760, 200);
+    walk(32'775, 1);
+    walk(32'760, 1);
+    walk(65'530, 200);
+    walk(65'540, 1);
+    walk(-65'540, 199);
+  }
+}
+
+// The low word passes its border; the gateway has one half from before and one from after.
+TEST(PositionReader, HoldsTornHalvesBack) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    std::mt19937 random{seed};
+    Reading reading{kWide};
+    const std::int64_t border = static_cast<std::int64_t>(random() % 4) * 65'536 - 65'536;
+    std::int64_t at = border;
+    reading.settle(at);
+    int torn = 0;
+    for (int i = 0; i < 20'000; ++i) {
+      const std::int64_t before = reading.reader.steps();
+      const std::int64_t last = at;
+      at = std::clamp<std::int64_t>(at + static_cast<std::int64_t>(random() % 501) - 250, border - 600, border + 600);
+      // Now and then one half is of the cycle before.
+      ProcessValues words = wordsOf(at);
+      if (random() % 3 == 0) {
+        const std::size_t half = 1 + random() % 2;
+        words[half] = wordsOf(last)[half];
+      }
+      const bool is_torn = profile::getPosition(kWide, words) != at && profile::getPosition(kWide, words) != last;
+      torn += is_torn ? 1 : 0;
+      reading.see(words);
+      ASSERT_LE(std::abs(reading.reader.steps() - before), 20'000) << "seed " << seed << ", " << i;
+      ASSERT_FALSE(reading.reader.hasJumped()) << "seed " << seed << ", " << i;
+    }
+    EXPECT_GT(torn, 100) << "seed " << seed;
+  }
+}
+
+TEST(PositionReader, BelievesANewZeroAfterATime) {
+  Reading reading{kWide};
+  reading.settle(1'000'000);
+  int cycles = 0;
+  do {
+    reading.see(5);
+    ++cycles;
+  } while (reading.reader.steps() != 5 && cycles < 100);
+  EXPECT_TRUE(reading.reader.hasJumped());
+  EXPECT_GE(cycles, 10) << "100 ms";
+  EXPECT_LE(cycles, 12);
+  reading.see(6);
+  EXPECT_FALSE(reading.reader.hasJumped());
+  EXPECT_EQ(6, reading.reader.steps());
+}
+
+TEST(PositionReader, Continues16BitsAfterAGap) {
+  Reading reading{kNarrow};
+  reading.settle(32'760);
+  reading.see(32'770);
+  EXPECT_EQ(32'770, reading.reader.steps());
+  reading.reader.handleGap();
+  EXPECT_FALSE(reading.reader.isKnown());
+  EXPECT_EQ(32'770, reading.reader.steps()) << "the last one known";
+  reading.settle(32'780);
+  EXPECT_EQ(32'780, reading.reader.steps());
+}
+
+TEST(PositionReader, TellsASpeed) {
+  Reading reading{kWide};
+  reading.settle(0);
+  for (int i = 1; i <= 20; ++i) reading.see(100 * i);
+  EXPECT_NEAR(10'000.0, reading.reader.speed(), 1.0);
+  for (int i = 0; i < 10; ++i) reading.see(2000);
+  EXPECT_EQ(0.0, reading.reader.speed());
+}
+
+}  // namespace
+}  // namespace nord_driver::drive

@@ -1,0 +1,227 @@
+// A drive that positions, the whole driver against the simulated POSICON, on every bus: every layout of the words, and what
+// becomes of a target when something stops it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "system/lift.h"
+
+namespace nord_driver::test {
+namespace {
+
+using cycle::RequestKind;
+using ::testing::HasSubstr;
+
+template <typename Robot>
+struct BusWords;
+template <>
+struct BusWords<SimulatedRobot> {
+  static constexpr LiftWords kWords = kSk53x;
+};
+template <>
+struct BusWords<CanRobot> {
+  static constexpr LiftWords kWords = kSk53x;
+};
+template <>
+struct BusWords<DevicenetRobot> {
+  static constexpr LiftWords kWords = kSk2xx;
+};
+
+template <typename Robot>
+class Positions : public ::testing::Test {
+ protected:
+  static typename Robot::Options options(double position = 0.0) {
+    return liftOptions<Robot>(BusWords<Robot>::kWords, position);
+  }
+};
+TYPED_TEST_SUITE(Positions, EveryRobot, BusName);
+
+// The thin slice of the matter: a command in, words out, the position back.
+TYPED_TEST(Positions, ALiftGoesToThreeHeights) {
+  TypeParam robot{TestFixture::options(70.0)};
+  ASSERT_TRUE(robot.bringUp());
+  EXPECT_NEAR(0.7, robot.snapshot().drives[0].position.value_or(0.0), 1e-5) << "also before it is enabled";
+  const cycle::Completion enabled = robot.ask(RequestKind::kEnable);
+  ASSERT_TRUE(enabled.success) << enabled.message.c_str();
+  EXPECT_TRUE(staysWhereItIs(robot)) << "enabling moves nothing";
+  for (const double height : {1.0, 0.25, -0.5}) {
+    ASSERT_TRUE(goTo(robot, height)) << height << ", at " << heightOf(robot);
+    EXPECT_NEAR(height, heightOf(robot), 1.01e-5) << "0.001 revolutions";
+    EXPECT_NEAR(height, robot.snapshot().drives[0].position.value_or(9.0), 1.01e-5);
+    EXPECT_EQ(robot.snapshot().drives[0].position, robot.snapshot().drives[0].joint_position);
+  }
+}
+
+// What stops an axis on its way; after each nothing moves until somebody enables it, and then it is held where it is.
+TYPED_TEST(Positions, WhatStopsAnAxisLeavesNoTargetBehind) {
+  struct Cause {
+    const char* name;
+    std::function<void(TypeParam&)> begin;
+    std::function<void(TypeParam&)> end;
+  };
+  const std::vector<Cause> causes{
+      {"enable false", [](TypeParam& robot) { robot.ask(RequestKind::kDisable); }, [](TypeParam&) {}},
+      {"quick stop", [](TypeParam& robot) { robot.ask(RequestKind::kQuickStop, 0); }, [](TypeParam&) {}},
+      {"fault", [](TypeParam& robot) { robot.unit(0).inverter().trip(30, false); },
+       [](TypeParam& robot) { robot.ask(RequestKind::kAcknowledge, 0); }},
+      {"local control", [](TypeParam& robot) { robot.unit(0).inverter().setLocalControl(true); },
+       [](TypeParam& robot) { robot.unit(0).inverter().setLocalControl(false); }},
+      {"coasting at terminals",
+       [](TypeParam& robot) {
+         sim::Terminals terminals;
+         terminals.coast = true;
+         robot.unit(0).inverter().setTerminals(terminals);
+       },
+       [](TypeParam& robot) { robot.unit(0).inverter().setTerminals({}); }},
+      {"mains off and on", [](TypeParam& robot) { robot.unit(0).setInverterPower(false); },
+       [](TypeParam& robot) { robot.unit(0).setInverterPower(true); }},
+  };
+  for (const Cause& cause : causes) {
+    SCOPED_TRACE(cause.name);
+    TypeParam robot{TestFixture::options(10.0)};
+    ASSERT_TRUE(robot.bringUpAndEnable());
+    robot.ports().commandPosition(0, 3.0);
+    robot.run(std::chrono::seconds{3});
+    ASSERT_GT(robot.unit(0).shaftSpeed(), 10.0) << "half-way";
+    double before = robot.snapshot().drives[0].joint_position;
+    cause.begin(robot);
+    bool jumped = false;
+    const auto smooth = [&] {
+      const double now = robot.snapshot().drives[0].joint_position;
+      jumped = jumped || std::abs(now - before) > 0.1;  // 10 revolutions
+      before = now;
+    };
+    ASSERT_TRUE(robot.runUntil(
+        [&] {
+          smooth();
+          return !robot.snapshot().drives[0].enabled && standsStill(robot);
+        },
+        std::chrono::seconds{20}));
+    robot.run(std::chrono::milliseconds{500});
+    cause.end(robot);
+    robot.run(std::chrono::seconds{1});
+    EXPECT_LT(heightOf(robot), 2.9) << "stopped on its way";
+    EXPECT_TRUE(staysWhereItIs(robot)) << "nothing moves unasked";
+    EXPECT_FALSE(jumped);
+    if (robot.snapshot().drives[0].fault_latched) robot.ask(RequestKind::kAcknowledge, 0);
+    const cycle::Completion again = robot.ask(RequestKind::kEnable);
+    ASSERT_TRUE(again.success) << again.message.c_str();
+    EXPECT_TRUE(staysWhereItIs(robot)) << "the target from before the stop is forgotten";
+    EXPECT_TRUE(goTo(robot, 0.2)) << "a new one is followed";
+  }
+}
+
+TYPED_TEST(Positions, TargetsThatCannotBeAreRefusedInWords) {
+  auto options = TestFixture::options(0.0);
+  options.drives["position/lower"] = -0.5;
+  options.drives["position/upper"] = 2.0;
+  TypeParam robot{options};
+  ASSERT_TRUE(robot.bringUp());
+  const auto told = [&] {
+    std::string all;
+    while (const auto event = robot.ports().pollBusEvent()) all += event->text.str() + "\n";
+    return all;
+  };
+  told();
+  robot.ports().commandPosition(0, 1.0);
+  robot.run(std::chrono::milliseconds{50});
+  EXPECT_THAT(told(), HasSubstr("the target 1 is not taken: the drive is not enabled"));
+  ASSERT_TRUE(robot.ask(RequestKind::kEnable).success);
+  EXPECT_TRUE(staysWhereItIs(robot)) << "not kept for later";
+  robot.ports().commandPosition(0, 2.001);
+  robot.run(std::chrono::milliseconds{50});
+  EXPECT_THAT(told(), HasSubstr("the target 2.001 is not taken: it is above the joint's upper limit"));
+  EXPECT_THAT(robot.snapshot().drives[0].position_refused.str(), HasSubstr("upper limit"));
+  EXPECT_FALSE(robot.ports().commandPosition(0, std::nan("")));
+  EXPECT_TRUE(staysWhereItIs(robot, std::chrono::seconds{1}));
+  EXPECT_TRUE(goTo(robot, 1.999));
+  EXPECT_TRUE(robot.snapshot().drives[0].position_refused.empty());
+}
+
+// P600 = 0: it would follow setpoint 1 as a frequency.
+TYPED_TEST(Positions, ADriveThatDoesNotPositionIsNotEnabled) {
+  auto options = TestFixture::options(0.0);
+  const LiftWords words = BusWords<TypeParam>::kWords;
+  options.simulate = [words](sim::SimConfig& config) {
+    simulateLift(words, 0.0, config);
+    for (sim::DriveConfig& drive : config.drives) {
+      for (auto& preset : drive.parameters) preset.raw = preset.number == 600 ? 0 : preset.raw;
+    }
+  };
+  TypeParam robot{options};
+  ASSERT_TRUE(robot.bringUp());
+  const cycle::Completion enabled = robot.ask(RequestKind::kEnable);
+  EXPECT_FALSE(enabled.success);
+  EXPECT_THAT(enabled.message.str(), HasSubstr("set P600 to 1"));
+}
+
+// A gateway that splits the words: high ones are a telegram older.
+TYPED_TEST(Positions, TornWordsMakeNoJump) {
+  TypeParam robot{TestFixture::options(0.0)};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.unit(0).inverter().setTornWords(true);
+  robot.ports().commandPosition(0, 2.0);  // over three borders of the low word
+  double before = heightOf(robot);
+  for (int i = 0; i < 4000; ++i) {
+    robot.step();
+    const double now = robot.snapshot().drives[0].joint_position;
+    ASSERT_LT(std::abs(now - before), 0.05) << "after " << i << " cycles, at " << heightOf(robot);
+    before = now;
+  }
+  EXPECT_NEAR(2.0, heightOf(robot), 1e-4);
+}
+
+// --- PROFIBUS: every layout ------------------------------------------------------------------------------------------
+
+constexpr LiftWords kLayouts[] = {
+    kSk53x,
+    {"SK 53xE, 23 and 24", "sk5xxe", sim::Series::kSk5xxe, {1, 23, 24}, {1, 10, 15}, 32},
+    {"SK 53xE, high before low", "sk5xxe", sim::Series::kSk5xxe, {1, 22, 21}, {1, 15, 10}, 32},
+    {"SK 53xE, in words 1 and 2", "sk5xxe", sim::Series::kSk5xxe, {21, 22, 0}, {10, 15, 1}, 32},
+    {"SK 53xE, in words 3 and 1", "sk5xxe", sim::Series::kSk5xxe, {22, 1, 21}, {15, 1, 10}, 32},
+    {"SK 54xE", "sk54xe", sim::Series::kSk54xe, {1, 21, 22}, {1, 15, 10}, 32},
+    kSk700,
+    {"SK 750E without a speed", "sk750e", sim::Series::kSk750e, {3, 0, 0}, {6, 0, 0}, 32},
+    {"SK 700E, increments", "sk700e", sim::Series::kSk700e, {6, 1, 0}, {10, 1, 0}, 32},
+    {"SK 53xE, 16 bits", "sk5xxe", sim::Series::kSk5xxe, {1, 21, 0}, {1, 10, 0}, 16},
+    {"SK 700E, 16 bits", "sk700e", sim::Series::kSk700e, {2, 1, 0}, {6, 1, 0}, 16},
+};
+
+TEST(PositionLayouts, EveryTargetArrivesWithinAThousandthOfARevolution) {
+  for (const LiftWords& words : kLayouts) {
+    for (const unsigned seed : {1u, 2u}) {
+      SCOPED_TRACE(std::string(words.name) + ", seed " + std::to_string(seed));
+      auto options = liftOptions<SimulatedRobot>(words, 3.0);
+      options.simulate = [&words](sim::SimConfig& config) {
+        simulateLift(words, 3.0, config);
+        const bool with_speed = words.setpoints[0] == 1 || words.setpoints[1] == 1;
+        for (sim::DriveConfig& drive : config.drives) {
+          for (auto& preset : drive.parameters) preset.raw = preset.number == 600 && !with_speed ? 1 : preset.raw;
+        }
+      };
+      SimulatedRobot robot{options};
+      ASSERT_TRUE(robot.bringUp());
+      const cycle::Completion enabled = robot.ask(RequestKind::kEnable);
+      ASSERT_TRUE(enabled.success) << enabled.message.c_str();
+      ASSERT_TRUE(staysWhereItIs(robot, std::chrono::seconds{1}));
+      std::mt19937 random{seed};
+      const double most = words.bits == 16 ? 0.3276 : 2.0;  // m
+      std::uniform_real_distribution<double> heights{-most, most};
+      for (int i = 0; i < 3; ++i) {
+        const double height = heights(random);
+        ASSERT_TRUE(goTo(robot, height)) << height << ", at " << heightOf(robot);
+        robot.run(std::chrono::milliseconds{500});
+        EXPECT_NEAR(height * kRevolutionsPerMetre, robot.unit(0).inverter().posicon().position(), 0.0015);
+        EXPECT_NEAR(heightOf(robot), robot.snapshot().drives[0].position.value_or(9.0), 1e-5);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nord_driver::test
