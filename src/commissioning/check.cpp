@@ -23,6 +23,9 @@ std::vector<ParameterKey> valuesToRead(const AskedDrive& asked, const catalogue:
   for (const std::uint16_t number : kOfTheDrive) {
     if (isDescribed(number)) add(drive.key(number));
   }
+  for (const std::uint16_t number : {std::uint16_t{600}, std::uint16_t{610}}) {
+    if (asked.words.positions && isDescribed(number)) add(drive.key(number));
+  }
   const bool behind_module = asked.identity.timeout_owner == TimeoutOwner::kModule;
   if (behind_module) add(drive.key(151));
   if (behind_module && isDescribed(120)) add(drive.key(120));

@@ -12,6 +12,7 @@ namespace {
 constexpr std::uint16_t kFirstActualValue = 543, kFirstSetpoint = 546;
 constexpr std::int32_t kFrequency = 1;  // in every series' tables of P543 and P546
 constexpr std::int32_t kCurrent = 3;    // P543
+constexpr std::uint16_t kPositionControl = 600, kSetpointMode = 610;
 constexpr std::uint8_t kSets = 4, kPlaces = 3;
 
 /// Functions of setpoints that limit torque, current, frequency or ramp: as 0 they hold the motor back.
@@ -109,6 +110,26 @@ void furtherSetpointsAreFree(const Drives& drives, std::size_t index, Findings& 
     finding.remedy = drive.remedy(key, 0);
     to.push_back(finding);
   }
+}
+
+void drivePositions(const Drives& drives, std::size_t index, Findings& to) {
+  const DriveUnderCheck& drive = drives[index];
+  const cycle::WordNeeds& needs = drive.asked().words;
+  if (!needs.positions) return;
+  const ParameterKey control = drive.key(kPositionControl);
+  if (drive.raw(control) == 0) {
+    Finding finding = drive.finding(control, Severity::kError,
+                                    "with mode: position the drive has to position, and is not enabled as it is");
+    finding.remedy = drive.remedy(control, 1);
+    to.push_back(finding);
+  }
+  const ParameterKey mode = drive.key(kSetpointMode);
+  const auto raw = drive.raw(mode);
+  if (needs.setpoint_mode < 0 || !raw || *raw == needs.setpoint_mode) return;
+  Finding finding = drive.finding(
+      mode, Severity::kError, "its target has to come from the bus (position/setpoint_mode), and it is not enabled");
+  finding.remedy = drive.remedy(mode, needs.setpoint_mode);
+  to.push_back(finding);
 }
 
 void currentIsMapped(const Drives& drives, std::size_t index, Findings& to) {

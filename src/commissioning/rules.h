@@ -37,6 +37,7 @@ void firstSetpointIsFrequency(const Drives& drives, std::size_t index, Findings&
 void firstActualValueIsFrequency(const Drives& drives, std::size_t index, Findings& to);
 void furtherSetpointsAreFree(const Drives& drives, std::size_t index, Findings& to);
 void askedWordsAreCarried(const Drives& drives, std::size_t index, Findings& to);
+void drivePositions(const Drives& drives, std::size_t index, Findings& to);
 void currentIsMapped(const Drives& drives, std::size_t index, Findings& to);
 // protection.cpp
 void busErrorsAreHeeded(const Drives& drives, std::size_t index, Findings& to);

@@ -163,7 +163,7 @@ PositionSetup readPositionSetup(const Settings& drive, const PositionContext& co
 
 void refusePositionKeys(const Settings& drive) {
   if (drive.has("lead")) {
-    throw wrongSetting(drive, "lead", drive.text("lead").value_or("..."), "mode: position beside it");
+    throw wrongSetting(drive, "lead", shortNumber(drive.number("lead").value_or(0.0)), "mode: position beside it");
   }
 }
 

@@ -176,7 +176,8 @@ bool isPosition(WordUse use) noexcept {
 }
 
 bool firstWordFits(const WordNeeds& needs, bool actual_value, std::uint16_t code, Series series) noexcept {
-  if (code == kFrequencyFunction) return true;
+  // Where word 1 has to be something else, missingWord() says what.
+  if (code == kFrequencyFunction || needs.first_is_free) return true;
   const profile::WordFunction* const function =
       actual_value ? profile::findActualValueFunction(series, code) : profile::findSetpointFunction(series, 1, code);
   return needs.positions && function != nullptr && isPosition(function->use);

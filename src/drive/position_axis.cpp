@@ -1,5 +1,6 @@
 #include "drive/position_axis.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nord_driver::drive {
@@ -7,6 +8,15 @@ namespace nord_driver::drive {
 namespace {
 
 const profile::PositionWords kNoWords{};
+
+// The nearest target its words can have. Without one there would be 0 in them, which is a target as well.
+std::int64_t nearestTarget(double joint, const profile::PositionScale& scale, const profile::PositionField& field) {
+  const double steps_per_revolution = profile::stepsPerRevolution(scale, field);
+  const double steps = (joint - scale.offset) * scale.revolutions_per_unit * steps_per_revolution;
+  if (field.bits == 16) return std::llround(std::clamp(steps, -32'768.0, 32'767.0));
+  const double most = profile::kMaxRevolutions * steps_per_revolution;
+  return std::llround(std::clamp(steps, -most, most));
+}
 
 }  // namespace
 
@@ -91,14 +101,11 @@ HomingRun::Outcome PositionAxis::handleHoming(bool reached, bool still, Instant 
   return outcome;
 }
 
+// canHold() has kept it from being enabled beyond its words; it may have sagged over their border since.
 void PositionAxis::hold() noexcept {
-  has_target_ = false;
   const profile::PositionWords& at = words(set_);
-  if (!reader_.isKnown()) return;
-  const double joint = profile::toJoint(reader_.steps(), config_.scale, at.actual);
-  const auto steps = profile::toSteps(joint, config_.scale, at.setpoint);
-  if (!steps) return;
-  target_ = *steps;
+  if (!reader_.isKnown() || !at.setpoint.carried()) return;
+  target_ = nearestTarget(profile::toJoint(reader_.steps(), config_.scale, at.actual), config_.scale, at.setpoint);
   has_target_ = true;
 }
 

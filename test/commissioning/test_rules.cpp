@@ -59,6 +59,10 @@ void limitsTorqueAndCurrent(AskedDrive& asked) {
   limitsTorque(asked);
   asked.words.list.push_back({false, profile::WordUse::kCurrentLimit});
 }
+void positions(AskedDrive& asked) {
+  asked.words.words = 3;
+  cycle::addPositionNeeds(cycle::PositionSetup{}, asked.series, asked.words);
+}
 void measuresTorque(AskedDrive& asked) {
   asked.words.words = 3;
   asked.words.list.push_back({true, profile::WordUse::kTorqueCurrent});
@@ -132,6 +136,16 @@ const std::vector<Row>& rows() {
       {"no torque current", kSk511, measuresTorque, {{{544, 1, 0}, 0}}, {"asked_words error P544 set 1 -> 4"}},
       {"not carried", kSeparate, onePair, {{{548, 1, 0}, 4}}, {}},
       {"torque limit", kDecentral, leave, {{{546, 1, 2}, 11}}, {"further_setpoints error P546[-02] set 1 -> 0"}},
+      {"does not position",
+       kSk511,
+       positions,
+       {{{547, 1, 0}, 21}, {{548, 1, 0}, 22}, {{544, 1, 0}, 10}, {{545, 1, 0}, 15}, {{600, 1, 0}, 0}},
+       {"position_control error P600 set 1 -> 1"}},
+      {"no high word",
+       kSk511,
+       positions,
+       {{{547, 1, 0}, 23}, {{548, 1, 0}, 0}, {{544, 1, 0}, 10}, {{545, 1, 0}, 15}, {{600, 1, 0}, 1}},
+       {"asked_words error P548 set 1 -> 24"}},
       {"no current", kSeparate, ratedCurrent, {{{544, 1, 0}, 4}}, {"current note P544 set 1 -> 3"}},
       {"a current", kSeparate, ratedCurrent, {{{544, 1, 0}, 4}, {{545, 1, 0}, 3}}, {}},
 

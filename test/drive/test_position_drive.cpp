@@ -205,6 +205,16 @@ TEST_F(PositionDrive, IsNotEnabledWhereItsWordsCannotHoldIt) {
   EXPECT_EQ(Refusal::kPositionBeyondRange, drive_.enableRefusal());
 }
 
+// Enabling, it sags over the border of its 16 bits: 0 in the words would be 32 revolutions away.
+TEST_F(PositionDrive, IsHeldAtTheBorderOfItsWords) {
+  drive_.setPositionWords(1, profile::positionWords(profile::Series::kSk5xxe, {1, 21, 0}, {1, 10, 0}, 3));
+  for (int i = 0; i < 10; ++i) cycle(0x0B31, 32'765);
+  drive_.requestEnable(now_);
+  EXPECT_EQ(0x047E, cycle(0x0B31, 32'770));
+  EXPECT_EQ(0x047F, cycle(0x0B33, 32'770));
+  EXPECT_EQ(32'767, sent_.setpoints[1]);
+}
+
 // Somebody sets the count to zero while it is enabled: the target is somewhere else now.
 TEST_F(PositionDrive, StopsWhenItsCountGetsANewZero) {
   enable(90'000);

@@ -87,6 +87,12 @@ class DrivenRobot {
   }
   bool bringUpAndEnable() { return bringUp() && ask(cycle::RequestKind::kEnable).success; }
 
+  /// The driver ends at once, without a word to anybody, and begins anew over the same bus: it knows nothing.
+  void restartDriver() {
+    ports_ = std::make_unique<cycle::CyclePorts>(config_.drives.size());
+    cycle_ = std::make_unique<cycle::BusCycle>(config_, *transport_, *ports_, false);
+  }
+
   /// Every answer so far.
   const std::vector<cycle::Completion>& completions() const { return completions_; }
   const cycle::CycleSnapshot& snapshot() { return ports_->readSnapshot(); }

@@ -39,7 +39,7 @@ inline std::map<std::string, MapSettings::Value> liftSettings(const LiftWords& w
 }
 
 inline std::vector<sim::ParameterPreset> liftParameters(const LiftWords& words, std::int32_t control = 2) {
-  const bool is_array = words.simulated != sim::Series::kSk5xxe && words.simulated != sim::Series::kSk700e;
+  const bool is_array = words.simulated == sim::Series::kSk2xxe || words.simulated == sim::Series::kSk54xe;
   std::vector<sim::ParameterPreset> parameters;
   for (unsigned set = 0; set < 4; ++set) {
     for (unsigned place = 0; place < 3; ++place) {

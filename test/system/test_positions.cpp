@@ -41,6 +41,15 @@ class Positions : public ::testing::Test {
 };
 TYPED_TEST_SUITE(Positions, EveryRobot, BusName);
 
+/// Without a step, so that each can be looked at.
+template <typename Robot>
+void submit(Robot& robot, RequestKind kind) {
+  cycle::Request request;
+  request.kind = kind;
+  request.drive = 0;
+  robot.ports().submit(request);
+}
+
 // The thin slice of the matter: a command in, words out, the position back.
 TYPED_TEST(Positions, ALiftGoesToThreeHeights) {
   TypeParam robot{TestFixture::options(70.0)};
@@ -65,8 +74,8 @@ TYPED_TEST(Positions, WhatStopsAnAxisLeavesNoTargetBehind) {
     std::function<void(TypeParam&)> end;
   };
   const std::vector<Cause> causes{
-      {"enable false", [](TypeParam& robot) { robot.ask(RequestKind::kDisable); }, [](TypeParam&) {}},
-      {"quick stop", [](TypeParam& robot) { robot.ask(RequestKind::kQuickStop, 0); }, [](TypeParam&) {}},
+      {"enable false", [](TypeParam& robot) { submit(robot, RequestKind::kDisable); }, [](TypeParam&) {}},
+      {"quick stop", [](TypeParam& robot) { submit(robot, RequestKind::kQuickStop); }, [](TypeParam&) {}},
       {"fault", [](TypeParam& robot) { robot.unit(0).inverter().trip(30, false); },
        [](TypeParam& robot) { robot.ask(RequestKind::kAcknowledge, 0); }},
       {"local control", [](TypeParam& robot) { robot.unit(0).inverter().setLocalControl(true); },
@@ -80,6 +89,8 @@ TYPED_TEST(Positions, WhatStopsAnAxisLeavesNoTargetBehind) {
        [](TypeParam& robot) { robot.unit(0).inverter().setTerminals({}); }},
       {"mains off and on", [](TypeParam& robot) { robot.unit(0).setInverterPower(false); },
        [](TypeParam& robot) { robot.unit(0).setInverterPower(true); }},
+      {"silence", [](TypeParam& robot) { robot.unit(0).setPlugged(false); },
+       [](TypeParam& robot) { robot.unit(0).setPlugged(true); }},
   };
   for (const Cause& cause : causes) {
     SCOPED_TRACE(cause.name);
@@ -114,6 +125,143 @@ TYPED_TEST(Positions, WhatStopsAnAxisLeavesNoTargetBehind) {
     EXPECT_TRUE(staysWhereItIs(robot)) << "the target from before the stop is forgotten";
     EXPECT_TRUE(goTo(robot, 0.2)) << "a new one is followed";
   }
+}
+
+// The new one finds it moving, and knows no target: it brings it to rest, and tells its position without a jump.
+TYPED_TEST(Positions, ANewDriverOverAMovingAxisForgetsItsTarget) {
+  TypeParam robot{TestFixture::options(10.0)};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.ports().commandPosition(0, 3.0);
+  robot.run(std::chrono::seconds{3});
+  ASSERT_GT(robot.unit(0).shaftSpeed(), 10.0);
+  robot.restartDriver();
+  for (int i = 0; i < 1000; ++i) {
+    robot.step();
+    const cycle::DriveSnapshot& drive = robot.snapshot().drives[0];
+    if (!drive.joint_known) continue;
+    ASSERT_NEAR(heightOf(robot), drive.joint_position, 0.02) << "after " << i << " cycles";
+  }
+  EXPECT_TRUE(robot.snapshot().drives[0].joint_known);
+  EXPECT_TRUE(standsStill(robot));
+  EXPECT_LT(heightOf(robot), 2.9);
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  EXPECT_TRUE(staysWhereItIs(robot));
+  EXPECT_TRUE(goTo(robot, 0.2));
+}
+
+// --- reference run ---------------------------------------------------------------------------------------------------
+
+/// Bit 8 of the control word asks for it (P480 [-11]), bit 10 of the status word says that the reference is known (P481
+/// [-09]). The encoder counts from 0 at mains on, and the switch is 20 revolutions below.
+template <typename Robot>
+typename Robot::Options homingOptions(const LiftWords& words, std::int32_t function = 22) {
+  auto options = liftOptions<Robot>(words);
+  options.drives["position/home"] = std::string{"control_bit_8"};
+  options.drives["position/referenced"] = std::string{"status_bit_10"};
+  options.drives["position/homing_timeout"] = 20.0;
+  options.simulate = [words, function](sim::SimConfig& config) {
+    simulateLift(words, 0.0, config);
+    for (sim::DriveConfig& drive : config.drives) {
+      drive.inverter.posicon.encoder = sim::EncoderKind::kIncremental;
+      drive.inverter.posicon.reference_switch = -20.0;
+      drive.inverter.posicon.reference_speed = -20.0;
+      drive.parameters.push_back({480, 0, 10, function});
+      drive.parameters.push_back({481, 0, 8, 20});
+    }
+  };
+  return options;
+}
+
+template <typename Robot>
+cycle::Completion home(Robot& robot) {
+  cycle::Request request;
+  request.kind = RequestKind::kHome;
+  request.drive = 0;
+  return robot.ask(request);
+}
+
+TYPED_TEST(Positions, ALiftHomes) {
+  TypeParam robot{homingOptions<TypeParam>(BusWords<TypeParam>::kWords)};
+  ASSERT_TRUE(robot.bringUp());
+  EXPECT_FALSE(robot.snapshot().drives[0].homed);
+  EXPECT_THAT(home(robot).message.str(), HasSubstr("not enabled"));
+  ASSERT_TRUE(robot.ask(RequestKind::kEnable).success);
+  ASSERT_TRUE(goTo(robot, 0.1));
+  submit(robot, RequestKind::kHome);
+  robot.run(std::chrono::milliseconds{500});
+  robot.ports().commandPosition(0, 0.5);
+  robot.run(std::chrono::milliseconds{100});
+  EXPECT_THAT(robot.snapshot().drives[0].position_refused.str(), HasSubstr("a reference run is under way"));
+  ASSERT_TRUE(robot.runUntil([&] { return robot.snapshot().drives[0].homed; }));
+  robot.run(std::chrono::seconds{2});
+  EXPECT_TRUE(robot.snapshot().drives[0].enabled) << robot.snapshot().drives[0].text.c_str();
+  EXPECT_NEAR(0.0, robot.snapshot().drives[0].position.value_or(9.0), 1e-4);
+  EXPECT_NEAR(-20.0, robot.unit(0).shaftAngle() / (2.0 * 3.14159265358979), 0.5) << "at the switch";
+  EXPECT_TRUE(staysWhereItIs(robot));
+  EXPECT_TRUE(goTo(robot, 0.05));
+}
+
+TYPED_TEST(Positions, AReferenceRunIsAskedForAgainAndAnswered) {
+  TypeParam robot{homingOptions<TypeParam>(BusWords<TypeParam>::kWords)};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  cycle::Request request;
+  request.kind = RequestKind::kHome;
+  request.drive = 0;
+  request.id = 900;
+  request.patience = std::chrono::seconds{30};
+  robot.ports().submit(request);
+  const auto answered = [&] {
+    for (const cycle::Completion& answer : robot.completions()) {
+      if (answer.id == 900) return std::optional<cycle::Completion>{answer};
+    }
+    return std::optional<cycle::Completion>{};
+  };
+  ASSERT_TRUE(robot.runUntil([&] { return answered().has_value(); }, std::chrono::seconds{30}));
+  EXPECT_TRUE(answered()->success) << answered()->message.c_str();
+  EXPECT_TRUE(robot.snapshot().drives[0].homed);
+}
+
+// The switch never comes.
+TYPED_TEST(Positions, AReferenceRunThatDoesNotEndIsStopped) {
+  auto options = homingOptions<TypeParam>(BusWords<TypeParam>::kWords);
+  options.drives["position/homing_timeout"] = 2.0;
+  const auto simulate = options.simulate;
+  options.simulate = [simulate](sim::SimConfig& config) {
+    simulate(config);
+    for (sim::DriveConfig& drive : config.drives) drive.inverter.posicon.reference_switch.reset();
+  };
+  TypeParam robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  const cycle::Completion answer = home(robot);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.str(), HasSubstr("the reference run did not end within position/homing_timeout"));
+  robot.run(std::chrono::seconds{2});
+  EXPECT_TRUE(standsStill(robot));
+  EXPECT_FALSE(robot.snapshot().drives[0].enabled);
+  EXPECT_FALSE(robot.snapshot().drives[0].homed);
+  EXPECT_TRUE(staysWhereItIs(robot));
+}
+
+TYPED_TEST(Positions, AReferenceRunEndsWithAStop) {
+  TypeParam robot{homingOptions<TypeParam>(BusWords<TypeParam>::kWords)};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  submit(robot, RequestKind::kHome);
+  robot.run(std::chrono::milliseconds{700});
+  ASSERT_LT(robot.unit(0).shaftSpeed(), -5.0);
+  ASSERT_TRUE(robot.ask(RequestKind::kDisable).success);
+  EXPECT_TRUE(staysWhereItIs(robot));
+  ASSERT_TRUE(robot.ask(RequestKind::kEnable).success);
+  EXPECT_TRUE(staysWhereItIs(robot)) << "nor does it go on with it";
+}
+
+// Trap 35: a bit whose function is another one would do something else.
+TYPED_TEST(Positions, ABitWithAnotherFunctionIsNotTakenForHoming) {
+  TypeParam robot{homingOptions<TypeParam>(BusWords<TypeParam>::kWords, 1)};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  const cycle::Completion answer = home(robot);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.str(), HasSubstr("P480[-11] is 1; set it to 22 (reference run)"));
+  EXPECT_TRUE(staysWhereItIs(robot));
 }
 
 TYPED_TEST(Positions, TargetsThatCannotBeAreRefusedInWords) {

@@ -1,6 +1,7 @@
 // Where words are in an assembly.
 #include <gtest/gtest.h>
 
+#include "profile/position_words.h"
 #include "transport/devicenet/assembly.h"
 #include "transport/devicenet/devicenet_settings.h"
 
@@ -24,6 +25,20 @@ TEST(Assembly, OneHundredIsTheManuals) {
   EXPECT_EQ(-0x2000, input.actual_values[0]);
   EXPECT_EQ(0, input.actual_values[1]);
   EXPECT_FALSE(unpackWords(config.drives[0], ByteView{fromHex("0F 37 0B 00")}, input));
+}
+
+// BU 0280 4.2.1.1: control word; 32 bits, low low, low high, high low, high high byte; 16 bits. 100.000 revolutions.
+TEST(Assembly, PositionsAreLittleEndian) {
+  test::DevicenetSettings bus{1};
+  bus.drive().set("assembly", 101);
+  const DevicenetConfig config = bus.read();
+  const profile::PositionWords words = profile::positionWords(config.drives[0].series, {23, 24, 1}, {10, 15, 1}, 3);
+  profile::ProcessOutput output{0x047F, {0, 0, 0x2000}};
+  profile::putPosition(words.setpoint, 100'000, output.setpoints);
+  EXPECT_EQ("7F 04 A0 86 01 00 00 20", packed(config, {output}));
+  profile::ProcessInput input;
+  ASSERT_TRUE(unpackWords(config.drives[0], ByteView{fromHex("37 0B FE FF FF FF 00 20")}, input));
+  EXPECT_EQ(-2, profile::getPosition(words.actual, input.actual_values));
 }
 
 TEST(Assembly, FourInvertersStandOneBehindTheOther) {

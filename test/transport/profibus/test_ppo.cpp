@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "profile/position_words.h"
 #include "transport/profibus/ppo.h"
 
 namespace nord_driver::profile {
@@ -16,6 +17,28 @@ ProcessOutput output() {
 
 FixedBytes<2> identifiers(std::uint8_t type, std::uint16_t ident) {
   return ppoLayout(type, ident, Series::kSk5xxe)->identifiers;
+}
+
+/// PPO 4, which is the process data alone; half of P105 as speed where a word carries it.
+PpoWords sentTo(Series series, const FunctionCodes& functions, std::int32_t steps) {
+  ProcessOutput out;
+  out.control_word = 0x047F;
+  const PositionWords words = positionWords(series, functions, {}, 3);
+  if (words.speed_setpoint) out.setpoints[*words.speed_setpoint] = 0x2000;
+  putPosition(words.setpoint, steps, out.setpoints);
+  return pack(*ppoLayout(4, 0x0BA8, series), {}, out);
+}
+
+// 100.000 revolutions are 0001 86A0h, -0.001 are FFFF FFFFh; the layouts are those of BU 0020 7.3.1 and 7.3.5 and BU 2700
+// 5.3 and 6.4.4.
+TEST(Ppo, CarriesPositionsAsTheManualsLayThemOut) {
+  EXPECT_EQ((PpoWords{0x047F, 0x2000, 0x86A0, 0x0001}), sentTo(Series::kSk2xxe, {1, 23, 24}, 100'000)) << "BU 2700 5.3";
+  EXPECT_EQ((PpoWords{0x047F, 0x86A0, 0x0001, 0x2000}), sentTo(Series::kSk5xxe, {21, 22, 1}, 100'000)) << "7.3.5";
+  EXPECT_EQ((PpoWords{0x047F, 0xFFFF, 0xFFFF, 0x2000}), sentTo(Series::kSk54xe, {22, 21, 1}, -1));
+  EXPECT_EQ((PpoWords{0x047F, 0x0001, 0x86A0, 0x2000}), sentTo(Series::kSk700e, {3, 1, 0}, 100'000))
+      << "7.3.1: STW, SW1 of 32 bits, SW2";
+  EXPECT_EQ((PpoWords{0x047F, 0x7FFF, 0x0000, 0x2000}), sentTo(Series::kSk700e, {2, 1, 0}, 32'767)) << "16 bits";
+  EXPECT_EQ((PpoWords{0x047F, 0x2000, 0x8000, 0x0000}), sentTo(Series::kSk5xxe, {1, 21, 0}, -32'768)) << "6.4.4";
 }
 
 // Module ident 7531h: PPO 2 and 4 reserve six words (BU 0020 7.2).

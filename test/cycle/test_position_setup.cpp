@@ -1,0 +1,181 @@
+// `mode: position` as users write it: what is taken, and what is refused with its key.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "cycle/cycle_config.h"
+#include "cycle/word_needs.h"
+#include "support/map_settings.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using profile::Series;
+using profile::WordUse;
+using ::testing::HasSubstr;
+
+constexpr const char* kRobot = R"(<robot name="lift">
+  <link name="base_link"/><link name="platform"/><link name="mast"/>
+  <joint name="lift_joint" type="prismatic"><parent link="base_link"/><child link="platform"/>
+    <limit lower="0.1" upper="2.0" effort="1" velocity="1"/></joint>
+  <joint name="mast_joint" type="continuous"><parent link="base_link"/><child link="mast"/></joint>
+</robot>)";
+
+class PositionConfiguration : public ::testing::Test {
+ protected:
+  CycleConfig read(const std::string& robot_description = "") {
+    return readCycleConfig(node_, {{"lift", drive_}}, robot_description);
+  }
+  PositionSetup setup(const std::string& robot_description = "") { return *read(robot_description).drives[0].position; }
+  std::string refusal(const std::string& robot_description = "") {
+    try {
+      read(robot_description);
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "taken";
+  }
+
+  std::shared_ptr<test::MapSettings> drive_ = std::make_shared<test::MapSettings>("~drives/lift/");
+  test::MapSettings node_{"~", {}};
+
+ private:
+  void SetUp() override {
+    drive_->set("address", 3).set("series", "sk5xxe").set("joint", "lift_joint");
+    drive_->set("gear_ratio", 20.0).set("pole_pairs", 2).set("mode", "position");
+  }
+};
+
+TEST_F(PositionConfiguration, IsRadiansWithoutALead) {
+  const PositionSetup turning = setup();
+  EXPECT_NEAR(20.0 / (2.0 * 3.14159265358979), turning.axis.scale.revolutions_per_unit, 1e-12);
+  EXPECT_DOUBLE_EQ(1.0, turning.axis.unit_per_radian);
+  EXPECT_EQ(32, turning.bits);
+  EXPECT_FALSE(turning.axis.lower || turning.axis.upper || turning.axis.speed || turning.home);
+  drive_->set("lead", 0.2).set("inverted", true).set("position/speed", 0.3);
+  const PositionSetup lift = setup();
+  EXPECT_DOUBLE_EQ(-100.0, lift.axis.scale.revolutions_per_unit);
+  EXPECT_NEAR(0.3 / 0.2 * 2.0 * 3.14159265358979, lift.axis.speed->value, 1e-9);
+  EXPECT_NEAR(0.0001, lift.axis.tolerance, 1e-12) << "0.01 revolutions";
+}
+
+TEST_F(PositionConfiguration, TakesTheNarrowerLimits) {
+  drive_->set("lead", 0.2).set("position/lower", 0.5).set("position/upper", 3.0);
+  const PositionSetup lift = setup(kRobot);
+  EXPECT_EQ(0.5, lift.axis.lower);
+  EXPECT_EQ(2.0, lift.axis.upper) << "of the robot's description";
+}
+
+TEST_F(PositionConfiguration, RefusesWhatDoesNotFit) {
+  EXPECT_THAT(refusal(kRobot), HasSubstr("~drives/lift/lead is missing: expected m per revolution"));
+  drive_->set("joint", "mast_joint").set("lead", 0.2);
+  EXPECT_THAT(refusal(kRobot), HasSubstr("in robot_description this joint turns"));
+  drive_->set("position/lower", 1.0).set("position/upper", 0.5);
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/upper"));
+  drive_->set("position/upper", 2.0).set("max_velocity", 1.0);
+  EXPECT_THAT(refusal(), HasSubstr("position/speed"));
+}
+
+TEST_F(PositionConfiguration, RefusesSeriesThatDoNotPosition) {
+  for (const char* series : {"sk300e", "sk1x0e"}) {
+    drive_->set("series", series);
+    EXPECT_THAT(refusal(), HasSubstr("do not position")) << series;
+  }
+}
+
+TEST_F(PositionConfiguration, IsNoWheel) {
+  auto other = std::make_shared<test::MapSettings>("~drives/other/");
+  other->set("address", 4).set("series", "sk5xxe").set("joint", "other_joint").set("pole_pairs", 2);
+  node_.set("left_wheel", "lift_joint").set("right_wheel", "other_joint");
+  node_.set("wheel_separation", 0.5).set("wheel_radius", 0.1);
+  try {
+    readCycleConfig(node_, {{"lift", drive_}, {"other", other}});
+    FAIL() << "taken";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("~drives/lift/mode"));
+    EXPECT_THAT(error.what(), HasSubstr("is a wheel of the base"));
+  }
+}
+
+TEST_F(PositionConfiguration, RefusesALeadWithoutTheMode) {
+  drive_->set("mode", "velocity").set("lead", 0.2);
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/lead"));
+}
+
+TEST_F(PositionConfiguration, NeedsWordsTheBusCarries) {
+  const auto carried = [&](std::uint8_t values) {
+    DriveIdentity identity;
+    identity.process_values = values;
+    const CycleConfig config = read();
+    try {
+      checkPositionCarried(*drive_, *config.drives[0].position, config.drives[0].series, identity);
+    } catch (const ConfigError& error) {
+      return std::string{error.what()};
+    }
+    return std::string{"taken"};
+  };
+  EXPECT_EQ("taken", carried(3));
+  EXPECT_THAT(carried(1), HasSubstr("~drives/lift/position/bits"));
+  drive_->set("position/bits", 16);
+  EXPECT_EQ("taken", carried(1));
+  drive_->set("position/bits", 32).set("series", "sk700e");
+  EXPECT_THAT(carried(2), HasSubstr("need 3 setpoints"));
+}
+
+TEST_F(PositionConfiguration, NamesTheBitsOfAReferenceRun) {
+  drive_->set("position/home", "control_bit_9").set("position/referenced", "status_bit_13");
+  const PositionSetup lift = setup();
+  EXPECT_EQ(HomeBit::Carrier::kControlBit, lift.home->carrier);
+  EXPECT_EQ(12, elementOf(*lift.home)) << "P480 [-12] is bit 9 of the control word";
+  drive_->set("position/home", "posicon_bits");
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/home"));
+  drive_->set("series", "sk700e");
+  EXPECT_EQ(HomeBit::Carrier::kPosicon, setup().home->carrier);
+  drive_->set("position/home", "control_bit_8");
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/home")) << "P480 of SK 700E has eight elements";
+  drive_->set("position/home", "bus_in_bit_3").set("position/referenced", "status_bit_11");
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/referenced"));
+}
+
+// --- which word is missing -------------------------------------------------------------------------------------------
+
+std::string missing(Series series, const WordFunctions& functions, std::uint8_t bits = 32, std::size_t carried = 3) {
+  PositionSetup setup;
+  setup.bits = bits;
+  WordNeeds needs;
+  needs.words = carried;
+  addPositionNeeds(setup, series, needs);
+  const auto word = missingWord(needs, functions, series);
+  if (!word) return "none";
+  return std::to_string(word->number) + "[" + std::to_string(word->index) + "] -> " + std::to_string(word->expected);
+}
+
+TEST(PositionNeeds, NameTheParameterAndItsValue) {
+  EXPECT_EQ("none", missing(Series::kSk5xxe, {{1, 21, 22}, {1, 10, 15}}));
+  EXPECT_EQ("none", missing(Series::kSk5xxe, {{22, 1, 21}, {15, 10, 0}}));
+  EXPECT_EQ("547[1] -> 21", missing(Series::kSk5xxe, {{1, 0, 0}, {1, 10, 15}}));
+  EXPECT_EQ("548[1] -> 22", missing(Series::kSk5xxe, {{1, 21, 0}, {1, 10, 15}}));
+  EXPECT_EQ("548[1] -> 24", missing(Series::kSk5xxe, {{1, 23, 2}, {1, 10, 15}})) << "the other half of that pair";
+  EXPECT_EQ("548[1] -> 22", missing(Series::kSk5xxe, {{1, 21, 24}, {1, 10, 15}})) << "no halves of two pairs";
+  EXPECT_EQ("546[2] -> 23", missing(Series::kSk2xxe, {{1, 0, 0}, {1, 4, 9}}));
+  EXPECT_EQ("543[3] -> 15", missing(Series::kSk2xxe, {{1, 23, 24}, {1, 10, 9}}));
+  EXPECT_EQ("546[1] -> 3", missing(Series::kSk700e, {{1, 0, 0}, {6, 0, 0}}));
+  EXPECT_EQ("543[1] -> 6", missing(Series::kSk700e, {{3, 0, 0}, {1, 6, 0}})) << "32 bits are in word 1 only";
+  EXPECT_EQ("none", missing(Series::kSk700e, {{6, 0, 0}, {10, 0, 0}})) << "increments are positions, too";
+}
+
+TEST(PositionNeeds, WithTwoWordsTakeTheFirstAsWell) {
+  EXPECT_EQ("546[1] -> 21", missing(Series::kSk5xxe, {{1, 22, 0}, {10, 15, 0}}, 32, 2));
+  EXPECT_EQ("none", missing(Series::kSk5xxe, {{21, 22, 0}, {10, 15, 0}}, 32, 2));
+}
+
+TEST(PositionNeeds, Of16BitsAreOneWordAndNoHighOne) {
+  EXPECT_EQ("547[1] -> 21", missing(Series::kSk5xxe, {{1, 0, 0}, {1, 10, 0}}, 16));
+  EXPECT_EQ("none", missing(Series::kSk5xxe, {{1, 21, 0}, {1, 10, 0}}, 16));
+  EXPECT_EQ("548[1] -> 0", missing(Series::kSk5xxe, {{1, 21, 22}, {1, 10, 0}}, 16)) << "it would be taken for 32 bits";
+  EXPECT_EQ("546[1] -> 2", missing(Series::kSk700e, {{1, 0, 0}, {6, 0, 0}}, 16, 1));
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle
