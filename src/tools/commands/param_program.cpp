@@ -30,6 +30,12 @@ int carryOut(ParameterLink& link, Duration timeout, const LinkTask& task, const 
   return done ? kDone : kFailed;
 }
 
+void setNodesFree(YAML::Node& file) {
+  const std::string transport = shortTransportName(transportOf(file));
+  if (transport != "canopen") throw UsageError("--set-free is for CANopen, and the file's transport is " + transport);
+  file["bus"]["set_free"] = true;
+}
+
 }  // namespace
 
 ParamProgram::ParamProgram(CommandLine& line)
@@ -47,7 +53,11 @@ ParamProgram::ParamProgram(CommandLine& line)
       "a file of parameters or faults of your own, laid over the driver's and those the configuration names; may be "
       "given several times")("node", po::value(&node_)->value_name("NAME"),
                              "the driver's node that is asked instead of the bus: /nord_driver; without it one on this "
-                             "machine that has the bus is found by itself");
+                             "machine that has the bus is found by itself")(
+      "set-free", po::bool_switch(&set_free_),
+      "CANopen: nodes that somebody left operational are led to "
+      "pre-operational, when for 2 s nobody commands them and "
+      "none of them says that its drive runs");
 }
 
 void ParamProgram::load() {
@@ -56,6 +66,7 @@ void ParamProgram::load() {
   file_ = readYamlFiles(files_);
   auto transport = loader_.load(transportOf(file_));
   choosePort(file_, port_, transport->endPoint());
+  if (set_free_) setNodesFree(file_);
   transport_ = transport;
 }
 

@@ -104,7 +104,8 @@ class ParamProgram {
   BusPort port_;
   Seconds timeout_{5.0};
   std::vector<std::string> parameter_files_;
-  std::string node_;  // --node
+  std::string node_;       // --node
+  bool set_free_ = false;  // --set-free
   DriveNodes* nodes_ = nullptr;
   const std::atomic<bool>& end_asked_;
   TransportLoader loader_;
