@@ -131,27 +131,22 @@ std::optional<std::string> TreeSettings::text(const std::string& key) const {
 }
 
 std::optional<std::vector<std::string>> TreeSettings::texts(const std::string& key) const {
-  const SettingValue* value = find(key);
-  if (value == nullptr) return std::nullopt;
-  if (value->kind == Kind::kText) return std::vector<std::string>{value->text};
-  if (value->kind != Kind::kList) throw wrongKind(key, *value, "a text or a list of texts");
-  std::vector<std::string> list;
-  for (const SettingValue& item : value->items) {
-    if (item.kind != Kind::kText) throw wrongItem(key, item, "a list of texts");
-    list.push_back(item.text);
-  }
-  return list;
+  return list(key, [](const SettingValue& item) { return item.kind == Kind::kText; });
 }
 
 std::optional<std::vector<std::string>> TreeSettings::words(const std::string& key) const {
+  return list(key, [](const SettingValue& item) { return item.kind == Kind::kText || item.kind == Kind::kInteger; });
+}
+
+std::optional<std::vector<std::string>> TreeSettings::list(const std::string& key,
+                                                           bool (*is_item)(const SettingValue&)) const {
   const SettingValue* value = find(key);
   if (value == nullptr) return std::nullopt;
-  const auto is_word = [](const SettingValue& item) { return item.kind == Kind::kText || item.kind == Kind::kInteger; };
-  if (is_word(*value)) return std::vector<std::string>{value->text};
+  if (is_item(*value)) return std::vector<std::string>{value->text};
   if (value->kind != Kind::kList) throw wrongKind(key, *value, "a text or a list of texts");
   std::vector<std::string> list;
   for (const SettingValue& item : value->items) {
-    if (!is_word(item)) throw wrongItem(key, item, "a list of texts");
+    if (!is_item(item)) throw wrongItem(key, item, "a list of texts");
     list.push_back(item.text);
   }
   return list;

@@ -29,9 +29,9 @@ class TreeSettings : public Settings, public SettingGroups {
   std::vector<std::string> keys() const override;
   std::string fullName(const std::string& key) const override;
 
-  /// Of the group at `key`, which is no path; empty when it is none. Does not count as asking.
   /// As texts(), where a whole number is the text of it: "728".
   virtual std::optional<std::vector<std::string>> words(const std::string& key) const;
+  /// Of the group at `key`, which is no path; empty when it is none. Does not count as asking.
   std::vector<std::string> keysBelow(const std::string& key) const override;
   /// A list of numbers.
   virtual std::optional<std::vector<double>> numbers(const std::string& key) const;
@@ -49,6 +49,8 @@ class TreeSettings : public Settings, public SettingGroups {
 
  private:
   const SettingValue* find(const std::string& key) const;  // nullptr when it is absent or has no value
+  /// A list, or the one item of one.
+  std::optional<std::vector<std::string>> list(const std::string& key, bool (*is_item)(const SettingValue&)) const;
   ConfigError wrongKind(const std::string& key, const SettingValue& value, const std::string& expected) const;
   /// The same for an item of a list.
   ConfigError wrongItem(const std::string& key, const SettingValue& item, const std::string& expected) const;

@@ -166,6 +166,7 @@ void DriverNode::advertise() {
   parameter_jobs_ = std::make_unique<ParameterJobs>(jobs_.handle(), config_, identities_, known_, eeproms_, *broker_);
   tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace());
   ports_->setObserver(&tracing_->feed());
+  process_data_publisher_ = std::make_unique<ProcessDataPublisher>(private_node_, names, tracing_->feed().history());
   if (config_.cycle.base) {
     boost::function<void(const geometry_msgs::Twist&)> take = [this](const geometry_msgs::Twist& twist) {
       takeCommand(twist);
@@ -216,8 +217,8 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
 
   // Whatever ends the node, the drives come to rest first: an exchange that simply ends lets the wheels coast.
   try {
-    const SnapshotParts parts{*base_publisher_, drive_publishers_, values_publishers_, fault_publishers_,
-                              *bus_publisher_,  *diagnostics_,     *fault_board_};
+    const SnapshotParts parts{*base_publisher_,         drive_publishers_, values_publishers_, fault_publishers_,
+                              *process_data_publisher_, *bus_publisher_,   *diagnostics_,      *fault_board_};
     publisher_.emplace(*ports_, config_.publish, parts, loggedDrives());
     // roscpp is "ok" until it has unregistered every topic: tenths of a second in which the robot would drive on.
     while (!end_asked && ros::ok() && !ros::isShuttingDown() && publisher_->healthy()) {

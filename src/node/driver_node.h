@@ -29,6 +29,7 @@
 #include "node/node_config.h"
 #include "node/nothing_to_tune.h"
 #include "node/parameter_jobs.h"
+#include "node/process_data_publisher.h"
 #include "node/request_broker.h"
 #include "node/ros_settings.h"
 #include "node/services.h"
@@ -104,6 +105,7 @@ class DriverNode {
   std::unique_ptr<ParameterJobs> parameter_jobs_;
   std::unique_ptr<WordTopics> word_topics_;
   std::unique_ptr<Tracing> tracing_;
+  std::unique_ptr<ProcessDataPublisher> process_data_publisher_;  // reads what tracing_ keeps
   std::optional<SnapshotPublisher> publisher_;
   std::vector<ros::Subscriber> subscribers_;
   ros::Subscriber command_subscriber_;

@@ -78,6 +78,7 @@ void SnapshotPublisher::run() {
       for (std::size_t i = 0; i < parts_.fault_messages.size(); ++i) {
         parts_.fault_messages[i].update(snapshot.drives[i], stamps);
       }
+      parts_.process_data.publish();
       parts_.faults.post(snapshot);
       logChanges(snapshot, now);
       parts_.diagnostics.update(snapshot);

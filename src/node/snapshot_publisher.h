@@ -13,6 +13,7 @@
 #include "node/fault_board.h"
 #include "node/fault_publisher.h"
 #include "node/node_config.h"
+#include "node/process_data_publisher.h"
 #include "node/state_log.h"
 #include "node/values_publisher.h"
 
@@ -24,6 +25,7 @@ struct SnapshotParts {
   std::vector<DrivePublisher>& drives;
   std::vector<ValuesPublisher>& values;
   std::vector<FaultPublisher>& fault_messages;
+  ProcessDataPublisher& process_data;
   BusPublisher& bus;
   Diagnostics& diagnostics;
   FaultBoard& faults;

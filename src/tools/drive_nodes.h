@@ -9,6 +9,8 @@
 #include "nord_driver/profile/series.h"
 #include "nord_driver/transport/transport.h"
 #include "tools/drive_parameters.h"
+#include "tools/live_drive.h"
+#include "transport/bus_scanner.h"
 
 namespace nord_driver::tools {
 
@@ -21,7 +23,7 @@ struct DriveDescription {
 };
 
 struct NodeQuery {
-  std::string drive;     ///< its name
+  std::string drive;     ///< its name; empty: whichever
   std::string port_key;  ///< of the group `bus`: "device"; empty: the transport opens nothing that has a name
   std::string port;      ///< what it says: "/dev/ttyUSB0"
 };
@@ -35,6 +37,11 @@ class DriveNodes {
   virtual std::optional<std::string> find(const NodeQuery& query) = 0;
   /// The drive's parameters through the node of that name. Throws Trouble when it does not offer them.
   virtual std::unique_ptr<DriveParameters> open(const std::string& node, const DriveDescription& drive) = 0;
+  /// What that node tells of the drive. Throws Trouble as above, and when it tells nothing.
+  virtual std::unique_ptr<StatusFeed> statusOf(const std::string& node, const std::string& drive) = 0;
+  virtual std::unique_ptr<CycleFeed> cyclesOf(const std::string& node, const std::string& drive) = 0;
+  /// Every drive of that node, as it knows them. Throws Trouble when nothing comes.
+  virtual ScanReport scan(const std::string& node) = 0;
 
  protected:
   DriveNodes() = default;

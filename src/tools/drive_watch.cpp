@@ -2,7 +2,6 @@
 
 #include "profile/scaling.h"
 #include "profile/status_word.h"
-#include "tools/parameter_name.h"
 
 namespace nord_driver::tools {
 
@@ -10,35 +9,20 @@ namespace {
 
 constexpr std::uint16_t kMaxFrequency = 105, kCurrentFault = 700;
 
-// What the drives know of it: of several series one may have a name for it.
-std::string labelOf(const ParameterLink& link, const std::vector<catalogue::ParameterAddress>& addresses) {
-  for (DriveIndex i = 0; i < addresses.size(); ++i) {
-    const unsigned index = addresses[i].index == 0 ? 1u : addresses[i].index;
-    const std::string name = catalogue::fullName(link.known(i).find(addresses[i].number), index);
-    if (!name.empty()) return parameterName(addresses[i]) + " " + name;
-  }
-  return parameterName(addresses.front());
+std::vector<const catalogue::DriveCatalogue*> knownOf(const ParameterLink& link) {
+  std::vector<const catalogue::DriveCatalogue*> known;
+  for (DriveIndex i = 0; i < link.driveCount(); ++i) known.push_back(&link.known(i));
+  return known;
 }
 
 }  // namespace
 
 DriveWatch::DriveWatch(ParameterLink& link, const std::vector<std::string>& parameters)
-    : link_(link), drives_(link.driveCount()) {
-  for (const std::string& parameter : parameters) {
-    std::vector<catalogue::ParameterAddress> addresses;
-    for (DriveIndex i = 0; i < drives_.size(); ++i) {
-      addresses.push_back(findParameter(parameter, link.known(i)));
-      const catalogue::ParameterAccess access = catalogue::accessTo(addresses.back(), link.known(i));
-      if (!access.error.empty()) throw UsageError(access.error);
-      drives_[i].parameters.push_back(addresses.back());
-    }
-    labels_.push_back(labelOf(link, addresses));
-  }
-}
+    : link_(link), list_(parameters, knownOf(link)), max_frequency_(link.driveCount()) {}
 
 std::vector<WatchedDrive> DriveWatch::look() {
   std::vector<WatchedDrive> seen;
-  for (DriveIndex i = 0; i < drives_.size(); ++i) seen.push_back(look(i));
+  for (DriveIndex i = 0; i < max_frequency_.size(); ++i) seen.push_back(look(i));
   return seen;
 }
 
@@ -46,12 +30,11 @@ WatchedDrive DriveWatch::look(DriveIndex drive) {
   WatchedDrive seen;
   seen.name = link_.name(drive);
   seen.process_values = link_.identity(drive).process_values;
-  seen.values.assign(labels_.size(), "not read");
+  seen.values.assign(labels().size(), "not read");
   if (link_.snapshot(drive).online) {
-    for (std::size_t i = 0; i < labels_.size(); ++i) {
-      const ParameterAnswer answer = link_.read(drive, drives_[drive].parameters[i]);
-      const unsigned index = drives_[drive].parameters[i].index == 0 ? 1u : drives_[drive].parameters[i].index;
-      seen.values[i] = answer.success ? link_.known(drive).valueText(answer.entry, answer.raw, index) : answer.message;
+    for (std::size_t i = 0; i < seen.values.size(); ++i) {
+      const catalogue::ParameterAddress& address = list_.of(drive)[i];
+      seen.values[i] = answerCell(address, link_.read(drive, address), link_.known(drive));
     }
     seen.fault = faultOf(drive);
   }
@@ -70,7 +53,7 @@ WatchedDrive DriveWatch::look(DriveIndex drive) {
 }
 
 std::optional<double> DriveWatch::maxFrequency(DriveIndex drive, std::uint8_t set) {
-  auto& known = drives_[drive].max_frequency;
+  auto& known = max_frequency_[drive];
   if (set == 0 || set >= known.size() || link_.identity(drive).process_values == 0) return std::nullopt;
   if (known[set] || !link_.snapshot(drive).online) return known[set];
   catalogue::ParameterAddress address;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "catalogue/parameter_access.h"
 #include "tools/parameter_link.h"
+#include "tools/watch_list.h"
 #include "tools/watch_table.h"
 
 namespace nord_driver::tools {
@@ -21,21 +21,16 @@ class DriveWatch {
   /// As all drives are now. What has to be read of a drive takes some cycles of the bus.
   std::vector<WatchedDrive> look();
   /// As a table names the parameters: "P719 Current".
-  const std::vector<std::string>& labels() const noexcept { return labels_; }
+  const std::vector<std::string>& labels() const noexcept { return list_.labels(); }
 
  private:
-  struct Watched {
-    std::vector<catalogue::ParameterAddress> parameters;
-    std::array<std::optional<double>, 5> max_frequency;  // Hz, by parameter set
-  };
-
   WatchedDrive look(DriveIndex drive);
   std::optional<double> maxFrequency(DriveIndex drive, std::uint8_t set);
   std::string faultOf(DriveIndex drive);
 
   ParameterLink& link_;
-  std::vector<std::string> labels_;
-  std::vector<Watched> drives_;
+  WatchList list_;
+  std::vector<std::array<std::optional<double>, 5>> max_frequency_;  // Hz, by drive and parameter set
 };
 
 }  // namespace nord_driver::tools

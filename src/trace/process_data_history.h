@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "nord_driver/core/history_ring.h"
@@ -36,6 +37,10 @@ class ProcessDataHistory {
 
   /// Whole cycles recorded so far. Any thread.
   std::uint64_t cycles() const noexcept { return ring_.pushed() / drive_count_; }
+  /// Of one drive in one cycle (from 0). Nothing when it has been overwritten or has not come yet. Any thread.
+  std::optional<ProcessDataRecord> at(std::uint64_t cycle, std::size_t drive) const noexcept {
+    return ring_.read(cycle * drive_count_ + drive);
+  }
   /// Cycle `last` (from 0) and up to 32 before it, oldest first, in each the drives in their order. Any thread.
   std::vector<ProcessDataRecord> upTo(std::uint64_t last) const;
 

@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <sstream>
+#include <vector>
 
 #include "rostest/robot_under_test.h"
 #include "tools/program.h"
@@ -101,6 +103,57 @@ TEST_F(NordParamBesideTheDriver, DumpsAndCompares) {
   EXPECT_EQ(0, same.code) << same.output << same.errors;
   EXPECT_THAT(same.output, HasSubstr("0 of "));
   ::unlink(file.c_str());
+}
+
+// A drive that moves, which over the bus itself would be left alone.
+TEST_F(NordParamBesideTheDriver, WatchesADriveThatMoves) {
+  ASSERT_NO_FATAL_FAILURE(enableAndDrive(0.3));
+  const Ended watched = run({"watch", "left", "right", "--parameter", "P102", "--once", "--json"});
+  EXPECT_EQ(0, watched.code) << watched.errors;
+  EXPECT_EQ(kThroughNode, watched.errors);
+  EXPECT_THAT(watched.output,
+              AllOf(HasSubstr("\"drive\": \"left\", \"online\": true"), HasSubstr("\"state\": \"operation enabled\""),
+                    HasSubstr("\"P102 Acceleration time\": \"0.50 s\""), HasSubstr("\"drive\": \"right\"")));
+  const auto truth = robot().left.truth.next();
+  const std::size_t at = watched.output.find("\"frequency\": ");
+  ASSERT_NE(std::string::npos, at);
+  EXPECT_NEAR(truth->frequency, std::stod(watched.output.substr(at + 13)), 1.0);
+}
+
+// Every cycle: as many as the bus has had, each with what was sent in it.
+TEST_F(NordParamBesideTheDriver, WritesEveryCycle) {
+  ASSERT_NO_FATAL_FAILURE(enableAndDrive(0.3));
+  const std::uint64_t before = robot().bus_status.next()->cycles;
+  const Ended scope = run({"scope", "left", "--duration", "3"});
+  const std::uint64_t after = robot().bus_status.next()->cycles;
+  EXPECT_EQ(0, scope.code) << scope.errors;
+  EXPECT_EQ(kThroughNode, scope.errors);
+  std::istringstream lines{scope.output};
+  std::vector<double> times;
+  std::size_t enabled = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line[0] == '#' || line[0] == 't') continue;
+    times.push_back(std::stod(line));
+    if (line.find(",1,047F,") != std::string::npos) ++enabled;
+  }
+  ASSERT_GE(times.size(), 290u);
+  EXPECT_LE(times.size(), after - before);
+  EXPECT_EQ(times.size(), enabled) << "enabled all the time";
+  EXPECT_THAT(scope.output, HasSubstr("# P105: 50 Hz\n"));
+  EXPECT_NEAR(3.0, times.back(), 0.2);
+}
+
+TEST_F(NordParamBesideTheDriver, ScansWhatTheNodeKnows) {
+  const Ended scan = run({"scan"});
+  EXPECT_EQ(0, scan.code) << scan.errors;
+  EXPECT_EQ(kThroughNode, scan.errors);
+  EXPECT_THAT(scan.output,
+              AllOf(HasSubstr("node /nord_driver (profibus_dp):\n"), HasSubstr("ident 7531h"), HasSubstr("sk5xxe"),
+                    HasSubstr("drive left, online"), HasSubstr("drive right, online")));
+  EXPECT_TRUE(robot().simulator("right/unplug", true).success);
+  EXPECT_TRUE(
+      eventually([this] { return run({"scan"}).output.find("drive right, does not answer") != std::string::npos; }));
+  EXPECT_TRUE(robot().simulator("right/unplug", false).success);
 }
 
 }  // namespace

@@ -30,15 +30,19 @@ catalogue::ParameterAddress parameter(std::uint16_t number) {
   return address;
 }
 
+std::string configuration(bool set_free) {
+  return std::string("{transport: canopen, cycle_rate: 100, bus: {interface: can0") +
+         (set_free ? ", set_free: true" : "") +
+         "}, drives: {"
+         " left: {address: 3, series: sk5xxe, pole_pairs: 2, joint: l},"
+         " right: {address: 4, series: sk5xxe, pole_pairs: 2, joint: r}}}";
+}
+
 /// Nodes 3 and 4, each an SK 5xxE behind its SK TU3-CAO; the program is linked to node 3.
 class CanTool {
  public:
-  explicit CanTool(const std::vector<sim::ParameterPreset>& parameters = {})
-      : config_(
-            tools::readToolConfig(YAML::Load("{transport: canopen, cycle_rate: 100, bus: {interface: can0}, drives: {"
-                                             " left: {address: 3, series: sk5xxe, pole_pairs: 2, joint: l},"
-                                             " right: {address: 4, series: sk5xxe, pole_pairs: 2, joint: r}}}"),
-                                  "left")),
+  explicit CanTool(const std::vector<sim::ParameterPreset>& parameters = {}, bool set_free = false)
+      : config_(tools::readToolConfig(YAML::Load(configuration(set_free)), "left")),
         transport_([this, parameters](const link::CanSettings& settings) {
           ids_ = settings.ids;
           auto made = std::make_unique<sim::SimulatedCanBus>(simulated(parameters));
@@ -257,6 +261,50 @@ TEST(CanopenParametersOnly, ListensAgainAfterTheInterfaceWasAway) {
   tool.bus().setInterfacePresent(true);
   EXPECT_EQ("", tool.trouble());
   EXPECT_TRUE(tool.link().read(parameter(105)).success);
+}
+
+// As a restore leaves it that was cut hard: operational, and sending by its event timer. It is taken back, and read.
+TEST(CanopenParametersOnly, ANodeThatWasLeftOperationalIsSetFreeWhenAsked) {
+  CanTool refused;
+  refused.otherSends(0x000, {0x01, 0x03});
+  refused.otherSends(0x203, {0x7E, 0x04, 0x00, 0x00});
+  CanTool tool{{}, true};
+  for (CanTool* one : {&refused, &tool}) {
+    one->otherSends(0x000, {0x80, 0x03});
+    one->otherSends(0x603, {0x2B, 0x00, 0x18, 0x05, 50, 0, 0, 0});  // 1800h:5, the event timer of TPDO1: 50 ms
+    one->otherSends(0x000, {0x01, 0x03});
+    one->bus().run(seconds{1});
+  }
+  EXPECT_THAT(refused.trouble(), HasSubstr("183h was seen"));
+  const Instant start = tool.bus().now();
+  EXPECT_EQ("", tool.trouble());
+  EXPECT_GE(tool.firstSent() - start, seconds{2});
+  EXPECT_THAT(nmtCommands(tool.sent()), ElementsAre("80 03", "01 03"));
+  EXPECT_TRUE(tool.link().read(parameter(105)).success);
+  EXPECT_THAT(tool.link().finish(), IsEmpty());
+  EXPECT_EQ(0, tool.left().faultNumber());
+}
+
+// Who asked for it is refused all the same where somebody commands, or a drive says that it runs.
+TEST(CanopenParametersOnly, SetsNoNodeFreeBesideAMasterOrWhileADriveRuns) {
+  CanTool running{{}, true};
+  running.otherLetsItRun();
+  EXPECT_EQ(
+      "the bus is in use: 183h was seen; nothing is sent beside another master, nor to a drive that runs: end it, "
+      "or stop the drive",
+      running.trouble());
+  EXPECT_THAT(running.sent(), IsEmpty());
+  EXPECT_EQ(InverterState::kOperationEnabled, running.left().state());
+  CanTool commanded{{}, true};
+  std::vector<profile::ProcessOutput> outputs(1);
+  std::vector<DriveExchange> inputs(1);
+  for (int i = 0; i < 500; ++i) {
+    if (i == 150) commanded.otherSends(0x204, {0x7E, 0x04, 0x00, 0x00});
+    commanded.transport().exchange(outputs, inputs);
+    commanded.transport().sleepUntil(commanded.transport().now() + milliseconds{10});
+  }
+  EXPECT_THAT(commanded.transport().busText().str(), HasSubstr("204h was seen"));
+  EXPECT_THAT(commanded.sent(), IsEmpty());
 }
 
 }  // namespace

@@ -33,6 +33,24 @@ TEST(ProcessDataHistory, GivesTheCycleAnd32BeforeIt) {
   EXPECT_EQ(Instant{std::chrono::milliseconds{900}}, records.back().time);
 }
 
+// Who reads on from cycle to cycle gets every one, and nothing false in place of one that is gone or still to come.
+TEST(ProcessDataHistory, GivesOneDriveOfOneCycle) {
+  ProcessDataHistory history{2};
+  for (int n = 0; n < 100; ++n) record(history, n);
+  for (int n = 0; n < 100; ++n) {
+    const auto first = history.at(static_cast<std::uint64_t>(n), 0);
+    const auto second = history.at(static_cast<std::uint64_t>(n), 1);
+    ASSERT_TRUE(first && second) << n;
+    EXPECT_EQ(static_cast<std::uint64_t>(n), first->cycle);
+    EXPECT_EQ(n, first->output.setpoints[0]);
+    EXPECT_EQ(1u, second->drive);
+  }
+  EXPECT_FALSE(history.at(100, 0));
+  for (int n = 100; n < 2000; ++n) record(history, n);
+  EXPECT_FALSE(history.at(99, 0));
+  EXPECT_EQ(1999, history.at(1999, 0)->output.setpoints[0]);
+}
+
 // Shortly after the start there are fewer, and before the first cycle none.
 TEST(ProcessDataHistory, GivesWhatThereIs) {
   ProcessDataHistory history{2};

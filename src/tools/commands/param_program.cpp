@@ -30,6 +30,12 @@ int carryOut(ParameterLink& link, Duration timeout, const LinkTask& task, const 
   return done ? kDone : kFailed;
 }
 
+void setNodesFree(YAML::Node& file) {
+  const std::string transport = shortTransportName(transportOf(file));
+  if (transport != "canopen") throw UsageError("--set-free is for CANopen, and the file's transport is " + transport);
+  file["bus"]["set_free"] = true;
+}
+
 }  // namespace
 
 ParamProgram::ParamProgram(CommandLine& line)
@@ -47,7 +53,11 @@ ParamProgram::ParamProgram(CommandLine& line)
       "a file of parameters or faults of your own, laid over the driver's and those the configuration names; may be "
       "given several times")("node", po::value(&node_)->value_name("NAME"),
                              "the driver's node that is asked instead of the bus: /nord_driver; without it one on this "
-                             "machine that has the bus is found by itself");
+                             "machine that has the bus is found by itself")(
+      "set-free", po::bool_switch(&set_free_),
+      "CANopen: nodes that somebody left operational are led to "
+      "pre-operational, when for 2 s nobody commands them and "
+      "none of them says that its drive runs");
 }
 
 void ParamProgram::load() {
@@ -56,6 +66,7 @@ void ParamProgram::load() {
   file_ = readYamlFiles(files_);
   auto transport = loader_.load(transportOf(file_));
   choosePort(file_, port_, transport->endPoint());
+  if (set_free_) setNodesFree(file_);
   transport_ = transport;
 }
 
@@ -101,31 +112,63 @@ int ParamProgram::onDrive(const std::string& drive,
     transport_ = loader_.load(config.transport);
   }
   served_ = true;
-  const std::string node = nodeFor(config);
+  const std::string node = nodeFor(*config.bus, config.drives.front().name);
   if (!node.empty()) return throughNode(node, config, catalogues, prepare);
   ParameterLink link{config, *transport_, catalogues};
   const DriveTask task = prepare(link.known());
-  refuseBusInUse(*config.bus, config.cycle.drives.front().name);
+  refuseBusInUse(*config.bus, "rosservice call /nord_driver/" + drive + "/read_parameter, or write_parameter");
   return carryOut(link, timeout(), task, end_asked_);
 }
 
-int ParamProgram::onDrives(const std::vector<std::string>& drives,
+int ParamProgram::onDrives(const std::vector<std::string>& drives, const std::string& instead,
                            const std::function<LinkTask(ParameterLink&)>& prepare) {
   const ToolConfig config = readToolConfig(file(), drives);
   const catalogue::Catalogues catalogues = cataloguesFor(config);
   ParameterLink link{config, transport(), catalogues};
   const LinkTask task = prepare(link);
-  refuseBusInUse(*config.bus, config.cycle.drives.front().name);
+  refuseBusInUse(*config.bus, instead);
   return carryOut(link, timeout(), task, end_asked_);
 }
 
-std::string ParamProgram::nodeFor(const ToolConfig& config) {
+std::optional<NodeWithDrives> ParamProgram::nodeWith(const std::vector<std::string>& drives) {
+  const ToolConfig config = readToolConfig(file(), drives);
+  const std::string node = nodeFor(*config.bus, config.drives.front().name);
+  if (node.empty()) return std::nullopt;
+  NodeWithDrives found = asked(node);
+  found.catalogues = std::make_shared<const catalogue::Catalogues>(cataloguesFor(config));
+  transport().configure(*config.bus, config.drives, config.cycle.cycle_rate);
+  for (DriveIndex i = 0; i < config.asked; ++i) found.drives.push_back(describe(config, *found.catalogues, i));
+  return found;
+}
+
+std::optional<NodeWithDrives> ParamProgram::nodeWithBus(const Settings& bus) {
+  const std::string node = nodeFor(bus, "");
+  if (node.empty()) return std::nullopt;
+  return asked(node);
+}
+
+std::string ParamProgram::nodeFor(const Settings& bus, const std::string& drive) {
   if (nodes_ == nullptr || !node_.empty()) return node_;
   NodeQuery query;
-  query.drive = config.drives.front().name;
+  query.drive = drive;
   query.port_key = transport().endPoint().key;
-  if (!query.port_key.empty()) query.port = config.bus->text(query.port_key).value_or("");
+  if (!query.port_key.empty()) query.port = bus.text(query.port_key).value_or("");
   return nodes_->find(query).value_or("");
+}
+
+NodeWithDrives ParamProgram::asked(const std::string& node) {
+  if (nodes_ == nullptr) throw UsageError("--node " + node + ": this program was built without ROS");
+  std::fprintf(stderr, "nord_param: through node %s, which has the bus\n", node.c_str());
+  return {*nodes_, node, nullptr, {}};
+}
+
+DriveDescription ParamProgram::describe(const ToolConfig& config, const catalogue::Catalogues& catalogues,
+                                        DriveIndex index) {
+  const cycle::DriveSetup& drive = config.cycle.drives[index];
+  const DriveIdentity identity = transport().identity(index);
+  return {drive.name, drive.series, identity,
+          catalogue::driveCatalogue(catalogues, drive.series, shortTransportName(config.transport),
+                                    identity.timeout_owner == TimeoutOwner::kModule)};
 }
 
 int ParamProgram::throughNode(const std::string& node, const ToolConfig& config,
@@ -133,30 +176,22 @@ int ParamProgram::throughNode(const std::string& node, const ToolConfig& config,
                               const std::function<DriveTask(const catalogue::DriveCatalogue&)>& prepare) {
   if (nodes_ == nullptr) throw UsageError("--node " + node + ": this program was built without ROS");
   transport().configure(*config.bus, config.drives, config.cycle.cycle_rate);
-  const cycle::DriveSetup& drive = config.cycle.drives.front();
-  const DriveIdentity identity = transport().identity(0);
-  const DriveDescription description{
-      drive.name, drive.series, identity,
-      catalogue::driveCatalogue(catalogues, drive.series, shortTransportName(config.transport),
-                                identity.timeout_owner == TimeoutOwner::kModule)};
+  const DriveDescription description = describe(config, catalogues, 0);
   const DriveTask task = prepare(description.known);
   const auto parameters = nodes_->open(node, description);
-  std::fprintf(stderr, "nord_param: through node %s, which has the bus\n", node.c_str());
+  asked(node);
   return task(*parameters) ? kDone : kFailed;
 }
 
 // Whoever has the device does not give it away while this program waits.
-void ParamProgram::refuseBusInUse(const Settings& bus, const std::string& drive) {
+void ParamProgram::refuseBusInUse(const Settings& bus, const std::string& instead) {
   const EndPoint end_point = transport().endPoint();
   if (end_point.isNone()) return;
   const std::string where = bus.text(end_point.key).value_or("");
   const auto owner = lockOwner(where);
   if (!owner) return;
   throw Trouble(where + " is in use by " + (owner->name.empty() ? "a program" : owner->name) + " (process " +
-                std::to_string(owner->process) + "): end it first" +
-                (drive.empty() ? ""
-                               : "; or ask the driver while it runs: rosservice call /nord_driver/" + drive +
-                                     "/read_parameter, or write_parameter"));
+                std::to_string(owner->process) + "): end it first; or ask the driver while it runs: " + instead);
 }
 
 }  // namespace nord_driver::tools

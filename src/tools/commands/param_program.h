@@ -6,6 +6,8 @@
 #include <atomic>
 #include <boost/shared_ptr.hpp>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,14 @@ namespace nord_driver::tools {
 
 /// What is done with a drive that answers. False: refused or different, and said so.
 using DriveTask = std::function<bool(DriveParameters&)>;
+
+/// Drives whose bus a node has, as the configuration describes them.
+struct NodeWithDrives {
+  DriveNodes& nodes;
+  std::string name;
+  std::shared_ptr<const catalogue::Catalogues> catalogues;  ///< what the drives are known by; they point into it
+  std::vector<DriveDescription> drives;                     ///< in the order they were asked for
+};
 
 /// What is done with drives that answer, over the bus itself. False as above.
 using LinkTask = std::function<bool(ParameterLink&)>;
@@ -67,15 +77,26 @@ class ParamProgram {
   /// wrong already there: that reaches no bus. May be called for one drive after the other. Returns the exit code.
   int onDrive(const std::string& drive, const std::function<DriveTask(const catalogue::DriveCatalogue&)>& prepare);
 
-  /// Throws Trouble where another process has the device of `bus`. `drive`: one to ask the driver about; may be empty.
-  void refuseBusInUse(const Settings& bus, const std::string& drive);
-  /// The same for several drives at a time, and for what needs the process data. `prepare` may keep the link.
-  int onDrives(const std::vector<std::string>& drives, const std::function<LinkTask(ParameterLink&)>& prepare);
+  /// The node that has the bus of these drives, and says so; nothing: the bus is opened here.
+  std::optional<NodeWithDrives> nodeWith(const std::vector<std::string>& drives);
+  /// The same for whoever is on the bus of the file, whose drives need not be named.
+  std::optional<NodeWithDrives> nodeWithBus(const Settings& bus);
+  /// Throws Trouble where another process has the device of `bus`. `instead`: what tells as much while the driver has
+  /// it, a clause.
+  void refuseBusInUse(const Settings& bus, const std::string& instead);
+  /// Over the bus itself, several drives at a time, and for what needs the process data. `prepare` may keep the link.
+  /// `instead`: as above.
+  int onDrives(const std::vector<std::string>& drives, const std::string& instead,
+               const std::function<LinkTask(ParameterLink&)>& prepare);
 
  private:
   void load();
   /// The node to ask; empty: none, the bus is opened here.
-  std::string nodeFor(const ToolConfig& config);
+  std::string nodeFor(const Settings& bus, const std::string& drive);
+  /// Of one of the drives of the configuration the transport was configured with.
+  DriveDescription describe(const ToolConfig& config, const catalogue::Catalogues& catalogues, DriveIndex index);
+  /// It is named on stderr.
+  NodeWithDrives asked(const std::string& node);
   int throughNode(const std::string& node, const ToolConfig& config, const catalogue::Catalogues& catalogues,
                   const std::function<DriveTask(const catalogue::DriveCatalogue&)>& prepare);
 
@@ -83,7 +104,8 @@ class ParamProgram {
   BusPort port_;
   Seconds timeout_{5.0};
   std::vector<std::string> parameter_files_;
-  std::string node_;  // --node
+  std::string node_;       // --node
+  bool set_free_ = false;  // --set-free
   DriveNodes* nodes_ = nullptr;
   const std::atomic<bool>& end_asked_;
   TransportLoader loader_;

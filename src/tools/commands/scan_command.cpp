@@ -1,7 +1,6 @@
 // nord_param scan: who is on the bus.
 #include <cstdio>
 
-#include "config/driver_settings.h"
 #include "config/yaml_settings.h"
 #include "tools/commands/commands.h"
 #include "tools/scan_text.h"
@@ -21,12 +20,9 @@ class ScanCommand final : public ParamCommand {
 
   int run(ParamProgram& program) override {
     Transport& transport = program.transport();
-    const std::string name = shortTransportName(transportOf(program.file()));
-    auto* const scanner = dynamic_cast<BusScanner*>(&transport);
-    if (scanner == nullptr) throw Trouble("transport " + name + " cannot tell who is on its bus");
     const auto bus = YamlSettings{"", program.file()}.group("bus");
-    program.refuseBusInUse(*bus, "");
-    const ScanReport report = scanner->scan(*bus, program.endAsked());
+    const auto node = program.nodeWithBus(*bus);
+    const ScanReport report = node ? node->nodes.scan(node->name) : scanBus(program, transport, *bus);
     std::fputs((json_ ? scanJson(report) : scanText(report)).c_str(), stdout);
     if (report.trouble.empty()) return kDone;
     if (!json_) std::fprintf(stderr, "nord_param: %s\n", report.trouble.c_str());
@@ -34,6 +30,15 @@ class ScanCommand final : public ParamCommand {
   }
 
  private:
+  static ScanReport scanBus(ParamProgram& program, Transport& transport, const Settings& bus) {
+    auto* const scanner = dynamic_cast<BusScanner*>(&transport);
+    if (scanner == nullptr) {
+      throw Trouble("transport " + program.transportName() + " cannot tell who is on its bus");
+    }
+    program.refuseBusInUse(bus, "rostopic echo /nord_driver/<drive>/device_info, or bus_status");
+    return scanner->scan(bus, program.endAsked());
+  }
+
   bool json_ = false;
 };
 

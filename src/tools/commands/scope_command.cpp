@@ -7,6 +7,7 @@
 
 #include "tools/commands/commands.h"
 #include "tools/commands/parameter_words.h"
+#include "tools/scope_cycles.h"
 #include "tools/scope_observer.h"
 #include "tools/scope_svg.h"
 #include "tools/usage_error.h"
@@ -44,7 +45,7 @@ class ScopeCommand final : public ParamCommand {
         "csv", po::value(&csv_)->value_name("FILE"), "where the values go; stdout when neither file is named")(
         "svg", po::value(&svg_)->value_name("FILE"), "where the picture goes")(
         "from", po::value(&from_)->value_name("FILE"),
-        "a trace of the driver (.txt), or an earlier --csv, in place of the bus; needs no --config")(
+        "a trace of the driver (.txt), or an earlier --csv, in place of the bus or the node; needs no --config")(
         "max-frequency", po::value(&max_frequency_)->value_name("HZ"),
         "P105, in Hz: what 100 % is, where it cannot be read; without it a trace is drawn in %")(
         "current", po::value(&current_)->value_name("WORD"),
@@ -58,9 +59,13 @@ class ScopeCommand final : public ParamCommand {
       throw UsageError("--max-frequency is not valid, expected more than 0 to 1000 Hz");
     }
     if (!from_.empty()) return write(read());
-    return program.onDrives({drive_}, [this, &program](ParameterLink&) -> LinkTask {
-      return [this, &program](ParameterLink& link) { return write(record(link, program.endAsked())) == kDone; };
-    });
+    if (auto node = program.nodeWith({drive_})) return recordThrough(*node, program.endAsked());
+    return program.onDrives({drive_}, "rosservice call /nord_driver/write_trace, and look at its file with --from",
+                            [this, &program](ParameterLink&) -> LinkTask {
+                              return [this, &program](ParameterLink& link) {
+                                return write(record(link, program.endAsked())) == kDone;
+                              };
+                            });
   }
 
  private:
@@ -89,6 +94,30 @@ class ScopeCommand final : public ParamCommand {
     link.setObserver(nullptr);
     record.samples = observer.samples();
     return record;
+  }
+
+  /// What came before the node ended is written all the same.
+  int recordThrough(const NodeWithDrives& node, const std::atomic<bool>& end_asked) const {
+    ScopeRecord record;
+    record.drive = drive_;
+    catalogue::ParameterAddress address;
+    address.number = kMaxFrequency;
+    const ParameterAnswer answer = node.nodes.open(node.name, node.drives.front())->read(address);
+    if (answer.success) record.max_frequency = answer.value;
+    ScopeCycles cycles{duration_.value};
+    const auto feed = node.nodes.cyclesOf(node.name, drive_);
+    std::string ended;
+    try {
+      while (!end_asked && !cycles.done()) cycles.take(feed->take());
+    } catch (const Trouble& trouble) {
+      ended = trouble.what();
+    }
+    record.samples = cycles.samples();
+    write(record);
+    if (!ended.empty()) throw Trouble(ended);
+    if (cycles.missing() == 0) return kDone;
+    throw Trouble(std::to_string(cycles.missing()) + " of the cycles are missing, " +
+                  std::to_string(record.samples.size()) + " came: this computer or the network was too slow");
   }
 
   int write(ScopeRecord record) const {

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <thread>
 
 #include "tools/commands/commands.h"
 #include "tools/drive_watch.h"
+#include "tools/node_watch.h"
 
 namespace nord_driver::tools {
 
@@ -32,11 +34,29 @@ class Screen {
   std::size_t lines_ = 0;
 };
 
+/// The bus goes on while nothing is drawn.
+struct LinkPace {
+  ParameterLink& link;
+  const std::atomic<bool>& end_asked;
+  Instant now() const { return link.now(); }
+  void waitUntil(Instant moment) { link.exchangeUntil(moment, end_asked); }
+};
+
+/// The node has the bus.
+struct NodePace {
+  const std::atomic<bool>& end_asked;
+  Instant now() const { return std::chrono::steady_clock::now(); }
+  void waitUntil(Instant moment) const {
+    while (!end_asked && now() < moment) std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  }
+};
+
 class WatchCommand final : public ParamCommand {
  public:
   Command& addTo(CommandLine& line) override {
     namespace po = boost::program_options;
-    Command& command = line.addCommand("watch", "show drives at rest twice a second until Ctrl-C; moves nothing");
+    Command& command =
+        line.addCommand("watch", "show drives twice a second until Ctrl-C, at rest over the bus; moves nothing");
     command.arguments.push_back({"DRIVE", "its name in the file", &first_});
     command.more = {"DRIVE", "further ones", &further_};
     command.options.add_options()("parameter", po::value(&parameters_)->value_name("PARAMETER"),
@@ -49,28 +69,37 @@ class WatchCommand final : public ParamCommand {
   int run(ParamProgram& program) override {
     std::vector<std::string> drives{first_};
     drives.insert(drives.end(), further_.begin(), further_.end());
-    return program.onDrives(drives, [this, &program](ParameterLink& link) -> LinkTask {
-      return [this, &program, watch = DriveWatch{link, parameters_}](ParameterLink& connected) mutable {
-        show(connected, watch, program.endAsked());
-        return true;
-      };
-    });
+    if (auto node = program.nodeWith(drives)) {
+      NodeWatch watch{node->nodes, node->name, node->drives, parameters_};
+      show([&watch] { return watch.look(); }, watch.labels(), NodePace{program.endAsked()}, program.endAsked());
+      return kDone;
+    }
+    return program.onDrives(
+        drives, "rostopic echo /nord_driver/" + first_ + "/status", [this, &program](ParameterLink& link) -> LinkTask {
+          return [this, &program, watch = DriveWatch{link, parameters_}](ParameterLink& connected) mutable {
+            show([&watch] { return watch.look(); }, watch.labels(), LinkPace{connected, program.endAsked()},
+                 program.endAsked());
+            return true;
+          };
+        });
   }
 
  private:
-  void show(ParameterLink& link, DriveWatch& watch, const std::atomic<bool>& end_asked) {
+  /// Until Ctrl-C; a `look` that cannot be done any more ends it with its reason.
+  template <typename Look, typename Pace>
+  void show(Look look, const std::vector<std::string>& labels, Pace pace, const std::atomic<bool>& end_asked) {
     const bool terminal = ::isatty(STDOUT_FILENO) != 0 && !json_;
-    const Instant start = link.now();
+    const Instant start = pace.now();
     Screen screen;
-    for (Instant next = start; !end_asked; link.exchangeUntil(next, end_asked)) {
-      next = std::max(next + kRedraw, link.now());
-      const std::vector<WatchedDrive> drives = watch.look();
+    for (Instant next = start; !end_asked; pace.waitUntil(next)) {
+      next = std::max(next + kRedraw, pace.now());
+      const std::vector<WatchedDrive> drives = look();
       if (!json_ && once_) {
-        std::fputs(watchTable(drives, watch.labels()).c_str(), stdout);
+        std::fputs(watchTable(drives, labels).c_str(), stdout);
       } else if (terminal) {
-        screen.draw(watchTable(drives, watch.labels()));
+        screen.draw(watchTable(drives, labels));
       } else {
-        print(toSeconds(link.now() - start), drives, watch.labels());
+        print(toSeconds(pace.now() - start), drives, labels);
       }
       if (once_) return;
     }

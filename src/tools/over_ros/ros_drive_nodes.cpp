@@ -6,24 +6,24 @@
 #include <ros/network.h>
 #include <ros/param.h>
 #include <ros/this_node.h>
-#include <unistd.h>
-#include <xmlrpcpp/XmlRpcClient.h>
+#include <xmlrpcpp/XmlRpcValue.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
 #include <vector>
 
-#include "link/modbus/host_resolver.h"
-#include "link/modbus/tcp_connect.h"
 #include "tools/lock_owner.h"
+#include "tools/over_ros/node_feeds.h"
+#include "tools/over_ros/node_life.h"
 #include "tools/over_ros/node_parameters.h"
+#include "tools/over_ros/node_scan.h"
 
 namespace nord_driver::tools {
 
 namespace {
 
-constexpr Duration kMasterTime = std::chrono::milliseconds{300};
 constexpr char kProgram[] = "nord_param";  // as the master knows it, with a number behind
 
 std::string masterUri() {
@@ -31,37 +31,26 @@ std::string masterUri() {
   return uri == nullptr ? "" : uri;
 }
 
-bool accepts(const std::string& host, std::uint32_t port) {
-  if (port == 0 || port > 65535) return false;
-  const link::Wakeup never;
-  Sentence reason;
-  std::vector<link::SocketAddress> addresses;
-  const Instant until = std::chrono::steady_clock::now() + kMasterTime;
-  link::HostResolver resolver{{host, static_cast<std::uint16_t>(port)}};
-  if (!resolver.resolve(until, never, addresses, reason)) return false;
-  const int socket = link::connectTcp(addresses, until, never, reason);
-  if (socket >= 0) ::close(socket);
-  return socket >= 0;
-}
-
 bool masterAnswers() {
   std::string host;
   std::uint32_t port = 0;
-  return ros::network::splitURI(masterUri(), host, port) && accepts(host, port);
+  return ros::network::splitURI(masterUri(), host, port) && acceptsConnection(host, port);
 }
 
-/// Nodes that offer this drive's parameters, or did: one that was killed is still known.
+/// Nodes that offer this drive's parameters, or did: one that was killed is still known. Without a drive: any drive's.
 std::vector<std::string> nodesWith(const std::string& drive) {
   XmlRpc::XmlRpcValue arguments, result, payload;
   arguments[0] = ros::this_node::getName();
   std::vector<std::string> nodes;
   if (!ros::master::execute("getSystemState", arguments, result, payload, false)) return nodes;
-  const std::string ending = "/" + drive + "/read_parameter";
+  const std::string ending = (drive.empty() ? "" : "/" + drive) + "/read_parameter";
   XmlRpc::XmlRpcValue& services = payload[2];
   for (int i = 0; i < services.size(); ++i) {
     const std::string name = services[i][0];
     if (name.size() <= ending.size() || name.compare(name.size() - ending.size(), ending.size(), ending) != 0) continue;
-    nodes.push_back(name.substr(0, name.size() - ending.size()));
+    std::string node = name.substr(0, name.size() - ending.size());
+    if (drive.empty()) node.erase(node.rfind('/'));
+    if (!node.empty() && std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
   }
   return nodes;
 }
@@ -82,22 +71,13 @@ std::string portOf(const std::string& node, const std::string& key) {
 
 /// The id of its process, when it answers and runs here; the same device of another machine is another bus.
 std::optional<int> processHere(const std::string& node) {
-  XmlRpc::XmlRpcValue arguments, result, payload;
-  arguments[0] = ros::this_node::getName();
-  arguments[1] = node;
-  if (!ros::master::execute("lookupNode", arguments, result, payload, false)) return std::nullopt;
-  std::string host;
-  std::uint32_t port = 0;
-  if (!ros::network::splitURI(static_cast<std::string>(payload), host, port) || !accepts(host, port)) {
-    return std::nullopt;
-  }
-  XmlRpc::XmlRpcClient client{host.c_str(), static_cast<int>(port), "/"};
-  XmlRpc::XmlRpcValue caller, answer;
-  caller[0] = ros::this_node::getName();
-  if (!client.execute("getPid", caller, answer) || answer.size() != 3) return std::nullopt;
-  const int process = answer[2];
-  if (programOf(process) != "nord_driver_node") return std::nullopt;
+  const auto process = processOf(node);
+  if (!process || programOf(*process) != "nord_driver_node") return std::nullopt;
   return process;
+}
+
+std::string withSlash(const std::string& node) {
+  return node.front() == '/' ? node : "/" + node;
 }
 
 }  // namespace
@@ -128,12 +108,31 @@ std::optional<std::string> RosDriveNodes::find(const NodeQuery& query) {
 }
 
 std::unique_ptr<DriveParameters> RosDriveNodes::open(const std::string& node, const DriveDescription& drive) {
-  if (!masterAnswers()) {
+  beginFor(node);
+  return std::make_unique<NodeParameters>(withSlash(node), drive);
+}
+
+std::unique_ptr<StatusFeed> RosDriveNodes::statusOf(const std::string& node, const std::string& drive) {
+  beginFor(node);
+  return std::make_unique<NodeStatusFeed>(withSlash(node), drive);
+}
+
+std::unique_ptr<CycleFeed> RosDriveNodes::cyclesOf(const std::string& node, const std::string& drive) {
+  beginFor(node);
+  return std::make_unique<NodeCycleFeed>(withSlash(node), drive);
+}
+
+ScanReport RosDriveNodes::scan(const std::string& node) {
+  beginFor(node);
+  return scanNode(withSlash(node));
+}
+
+void RosDriveNodes::beginFor(const std::string& node) {
+  if (!begun_ && !masterAnswers()) {
     throw Trouble("no ROS master answers at ROS_MASTER_URI (" + (masterUri().empty() ? "not set" : masterUri()) +
                   "): node " + node + " cannot be asked");
   }
   begin();
-  return std::make_unique<NodeParameters>(node.front() == '/' ? node : "/" + node, drive);
 }
 
 }  // namespace nord_driver::tools

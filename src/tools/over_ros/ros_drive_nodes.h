@@ -15,9 +15,14 @@ class RosDriveNodes final : public DriveNodes {
 
   std::optional<std::string> find(const NodeQuery& query) override;
   std::unique_ptr<DriveParameters> open(const std::string& node, const DriveDescription& drive) override;
+  std::unique_ptr<StatusFeed> statusOf(const std::string& node, const std::string& drive) override;
+  std::unique_ptr<CycleFeed> cyclesOf(const std::string& node, const std::string& drive) override;
+  ScanReport scan(const std::string& node) override;
 
  private:
   void begin();
+  /// Throws Trouble when no master answers.
+  void beginFor(const std::string& node);
 
   bool begun_ = false;
 };

@@ -67,7 +67,12 @@ void CanopenTransport::configure(const Settings& bus, const std::vector<DriveSet
   setup.answer_window = config_.answer_window;
   setup.longest_release = kLongestRelease;
   setup.describe = CanopenFrameText{config_};
-  setup.listen.emplace(kCanopenListening, kListenFirst, parametersOnly() ? CanListener::kGuest : CanListener::kDriver);
+  if (parametersOnly() && booleanOr(bus, "set_free", false)) {
+    setup.listen.emplace(kCanopenSetFree, CanListenFirst::kGone, CanListener::kGuest);
+  } else {
+    setup.listen.emplace(kCanopenListening, kListenFirst,
+                         parametersOnly() ? CanListener::kGuest : CanListener::kDriver);
+  }
   prepare(bus, std::move(setup), *master_);
 }
 

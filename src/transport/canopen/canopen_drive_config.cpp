@@ -5,6 +5,7 @@
 
 #include "canopen/nmt.h"
 #include "config/setting_choice.h"
+#include "config/setting_groups.h"
 #include "profile/process_data_order.h"
 
 namespace nord_driver {
@@ -106,9 +107,28 @@ std::uint8_t readProcessValues(const Settings& settings, const CanopenDrive& dri
 
 }  // namespace
 
+namespace {
+
+// The module's DI1 to DI4, DO1 and DO2 are the fifth pair of PDOs of SK CU4/TU4-CAO (1404h and 1604h, 1804h and 1A04h;
+// BU 0260 p. 40 and 52). Neither their COB-ID as delivered nor the order of the bits is in a manual at hand.
+void refuseModuleTerminals(const Settings& settings) {
+  for (const std::string& name : keysBelow(settings, "signals")) {
+    const std::string key = "signals/" + name + "/source";
+    const std::string word = settings.text(key).value_or("");
+    if (word.compare(0, 7, "module_") != 0) continue;
+    throw wrongSetting(
+        settings, key, "\"" + word + "\"",
+        "a source of the inverter: over CANopen the module's own inputs and outputs are its fifth pair of "
+        "PDOs (1404h, 1804h), and no manual at hand tells their COB-ID or their bits");
+  }
+}
+
+}  // namespace
+
 CanopenDrive readCanopenDrive(const DriveSettings& source) {
   const Settings& settings = *source.settings;
   CanopenDrive drive{readDriveCommon(source)};
+  refuseModuleTerminals(settings);
   drive.connection = choiceOr(settings, "connection", CanopenConnection::kOption, kConnections);
   checkSeries(settings, drive);
   drive.drive_profile = choiceOr(settings, "profile", DriveProfile::kNord, kProfiles);

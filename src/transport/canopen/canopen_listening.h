@@ -11,4 +11,10 @@ bool showsCanopenMaster(const CanFrame& frame) noexcept;
 
 extern const ListenRules kCanopenListening;
 
+/// What only a master sends, an answer to guarding, and a status word "operation enabled": all that keeps a program from
+/// setting nodes free that somebody has left operational (`bus/set_free`). Their heartbeats and PDOs do not.
+bool showsCanopenMasterOrMotion(const CanFrame& frame) noexcept;
+
+extern const ListenRules kCanopenSetFree;
+
 }  // namespace nord_driver

@@ -12,6 +12,7 @@
 #include "transport/profibus/profibus_dp_config.h"
 #include "transport/profibus/profibus_line.h"
 #include "transport/profibus/profibus_recorder.h"
+#include "transport/profibus/record_parameter_channel.h"
 
 namespace nord_driver {
 
@@ -24,6 +25,10 @@ constexpr Duration kSlice = std::chrono::milliseconds{50};  // between two looks
 constexpr Duration kTypePlateLimit = std::chrono::seconds{3};
 constexpr std::uint16_t kSkTu3 = 0x7531, kSkCu4 = 0x0BA8;  // BU 0020 5.2, BU 0220 4.2.2
 constexpr unsigned kUnnamed = 126;
+constexpr std::uint8_t kInverters = 4;  // behind one module
+constexpr int kPauses = 3;              // of a channel between two orders
+constexpr Duration kParameterLimit = std::chrono::seconds{1};
+constexpr std::uint16_t kSoftwareVersion = 707, kDatabase = 742, kPower = 743;
 
 /// One line that is open for the time of a scan.
 class Line {
@@ -80,28 +85,104 @@ bool mayHaveTypePlate(const ScannedStation& scanned) {
   return scanned.kind == ScannedStation::Kind::kSlave && scanned.ident == kSkCu4 && scanned.owner == profibus::kNoOwner;
 }
 
-void askTypePlate(Line& line, const profibus::BusParameters& bus, FoundStation& station) {
-  const auto address = *profibus::StationAddress::from(static_cast<int>(station.number));
-  profibus::Class2Master master{bus, {address}};
-  master.restart(line.link().now());
-  profibus::IdentificationReader reader{0};
-  const Instant end = line.link().now() + kTypePlateLimit;
-  while (!reader.done() && line.link().isOpen() && line.link().now() < end) {
-    const auto request = reader.pollRecord();
-    if (!request || !master.submitRecord(0, *request)) break;
+/// One record after the other with one module, over a connection of its own (MS2).
+class ModuleTalk {
+ public:
+  ModuleTalk(Line& line, const profibus::BusParameters& bus, unsigned address)
+      : line_(line), master_(bus, {*profibus::StationAddress::from(static_cast<int>(address))}) {
+    master_.restart(line_.link().now());
+  }
+
+  /// Nothing: it has no answer to this before `end`.
+  std::optional<profibus::RecordResult> carryOut(const profibus::RecordRequest& request, Instant end) {
     std::optional<profibus::RecordResult> result;
-    line.talk(master, [&] {
-      if (!result) result = master.pollRecord();
-      if (!result) master.wantsBus(line.link().now());  // moves it on
-      return result.has_value() || line.link().now() >= end;
+    if (!master_.submitRecord(0, request)) return result;
+    line_.talk(master_, [&] {
+      if (!result) result = master_.pollRecord();
+      if (!result) master_.wantsBus(now());  // moves it on
+      return result.has_value() || now() >= end;
     });
+    return result;
+  }
+  void close() {
+    master_.close();
+    const Instant closed = now() + kSlice * 4;
+    line_.talk(master_, [&] { return !master_.wantsBus(now()) || now() >= closed; });
+  }
+  Instant now() const { return line_.link().now(); }
+  bool goesOn() const { return line_.link().isOpen(); }
+
+ private:
+  Line& line_;
+  profibus::Class2Master master_;
+};
+
+void askTypePlate(ModuleTalk& talk, FoundStation& station) {
+  profibus::IdentificationReader reader{0};
+  const Instant end = talk.now() + kTypePlateLimit;
+  while (!reader.done() && talk.goesOn() && talk.now() < end) {
+    const auto request = reader.pollRecord();
+    const auto result = request ? talk.carryOut(*request, end) : std::nullopt;
     if (!result) break;
     reader.handleRecord(*result);
   }
   if (const auto plate = reader.typePlate()) station.version = describe(*plate).str();
-  master.close();
-  const Instant closed = line.link().now() + kSlice * 4;
-  line.talk(master, [&] { return !master.wantsBus(line.link().now()) || line.link().now() >= closed; });
+}
+
+/// Nothing: this inverter is not there, or has no such parameter.
+std::optional<std::int32_t> readParameter(ModuleTalk& talk, RecordParameterChannel& channel, std::uint16_t number,
+                                          std::uint8_t element) {
+  profile::ParameterRequest request;
+  request.id = 1;
+  request.number = number;
+  if (element > 0) {
+    request.shape = profile::ParameterShape::kArray;
+    request.index = element;
+  }
+  if (!channel.submit(request, talk.now())) return std::nullopt;
+  const Instant end = talk.now() + kParameterLimit;
+  int pauses = 0;
+  while (talk.goesOn() && talk.now() < end) {
+    if (const auto result = channel.pollResult()) {
+      // The pause between two orders is the module's to hear, and no record.
+      channel.pollRecord(talk.now());
+      return result->outcome == profile::ParameterOutcome::kDone ? std::optional<std::int32_t>{result->raw}
+                                                                 : std::nullopt;
+    }
+    const auto record = channel.pollRecord(talk.now());
+    if (!record && ++pauses > kPauses) return std::nullopt;
+    if (!record) continue;
+    const auto result = talk.carryOut(*record, end);
+    if (!result) return std::nullopt;
+    channel.handleRecord(*result, talk.now());
+  }
+  return std::nullopt;
+}
+
+/// One row for each inverter behind the module that answers. What P742 and P743 mean for a series stands in no manual at
+/// hand: they are told as numbers.
+std::vector<FoundStation> askInverters(ModuleTalk& talk, const ProfibusDpConfig& config, unsigned address) {
+  std::vector<FoundStation> inverters;
+  for (std::uint8_t unit = 1; unit <= kInverters; ++unit) {
+    RecordParameterChannel channel{unit, config.records, kParameterLimit};
+    const auto version = readParameter(talk, channel, kSoftwareVersion, 1);
+    if (!version) continue;
+    FoundStation inverter;
+    inverter.number = address;
+    inverter.module = "inverter " + std::to_string(unit);
+    inverter.version = "P707 = " + std::to_string(*version);
+    if (const auto revision = readParameter(talk, channel, kSoftwareVersion, 2)) {
+      inverter.version += " R" + std::to_string(*revision);
+    }
+    for (const std::uint16_t number : {kDatabase, kPower}) {
+      const auto value = readParameter(talk, channel, number, 0);
+      if (!value) continue;
+      inverter.series +=
+          (inverter.series.empty() ? "P" : ", P") + std::to_string(number) + " = " + std::to_string(*value);
+    }
+    inverters.push_back(inverter);
+  }
+  return inverters;
 }
 
 }  // namespace
@@ -138,7 +219,11 @@ ScanReport scanProfibus(const Settings& bus,
     const ScannedStation& scanned = scan.station(static_cast<std::uint8_t>(address));
     if (scanned.kind == ScannedStation::Kind::kSilent || scanned.kind == ScannedStation::Kind::kSelf) continue;
     report.stations.push_back(stationOf(static_cast<std::uint8_t>(address), scanned));
-    if (report.trouble.empty() && mayHaveTypePlate(scanned)) askTypePlate(line, after, report.stations.back());
+    if (!report.trouble.empty() || !mayHaveTypePlate(scanned)) continue;
+    ModuleTalk talk{line, after, address};
+    askTypePlate(talk, report.stations.back());
+    for (const FoundStation& inverter : askInverters(talk, config, address)) report.stations.push_back(inverter);
+    talk.close();
   }
   link->close();
   return report;

@@ -282,5 +282,20 @@ TEST(CanopenConfigTest, TheBusMustCarryTheCycle) {
   EXPECT_EQ("accepted", bus.refusal());
 }
 
+// No manual at hand tells how they travel: refused, and where they are said.
+TEST(CanopenConfig, RefusesTheTerminalsOfTheModule) {
+  for (const char* word : {"module_output_1", "module_input_4"}) {
+    test::CanopenSettings settings = test::CanopenSettings::gateway();
+    settings.drive(1).set("signals/lamp/source", word);
+    EXPECT_THAT(
+        settings.refusal(),
+        ::testing::AllOf(::testing::HasSubstr("drives/drive1/signals/lamp/source: \"" + std::string(word) + "\""),
+                         ::testing::HasSubstr("(1404h, 1804h), and no manual at hand tells their COB-ID")));
+  }
+  test::CanopenSettings settings = test::CanopenSettings::gateway();
+  settings.drive().set("signals/lamp/source", "bus_in_bit_0");
+  EXPECT_EQ("accepted", settings.refusal());
+}
+
 }  // namespace
 }  // namespace nord_driver

@@ -121,5 +121,24 @@ TEST(CanListenFirst, ListensAnewAfterARestart) {
   EXPECT_TRUE(listener.mayTalkAfter(milliseconds{1500}));
 }
 
+// What a node sends by itself that somebody left operational keeps nobody off who was asked to set it free; what only a
+// master makes it send does, and a drive that runs.
+TEST(CanListenFirst, NodesLeftOperationalAreToldFromThoseOfAMaster) {
+  for (const CanFrame& left :
+       {state(0x703, 0x05), state(0x703, 0x7F), dataFrame(0x183, ByteView{FixedBytes<4>{0x31, 0x0B, 0, 0}}),
+        dataFrame(0x283, ByteView{FixedBytes<8>{0x21, 0x0B, 0, 0, 0, 0, 0, 0}}),
+        dataFrame(0x083, ByteView{FixedBytes<8>{0x00, 0x10, 1, 0, 0, 0, 0, 0}})}) {
+    EXPECT_FALSE(showsCanopenMasterOrMotion(left)) << left.id;
+  }
+  for (const CanFrame& kept :
+       {dataFrame(0x183, ByteView{FixedBytes<4>{0x37, 0x0B, 0, 0x20}}), state(0x703, 0x85), remoteFrame(0x703, 1),
+        dataFrame(0x000, ByteView{FixedBytes<2>{0x01, 0x03}}), dataFrame(0x080, ByteView{}),
+        dataFrame(0x203, ByteView{FixedBytes<4>{0x7E, 0x04, 0, 0}}),
+        dataFrame(0x603, ByteView{FixedBytes<8>{0x40, 0x00, 0x10, 0, 0, 0, 0, 0}}),
+        dataFrame(0x583, ByteView{FixedBytes<8>{0x43, 0x00, 0x10, 0, 0, 0, 0, 0}})}) {
+    EXPECT_TRUE(showsCanopenMasterOrMotion(kept)) << kept.id;
+  }
+}
+
 }  // namespace
 }  // namespace nord_driver

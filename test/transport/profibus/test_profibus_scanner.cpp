@@ -14,6 +14,7 @@ namespace {
 using test::MapSettings;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::MatchesRegex;
 
 const std::atomic<bool> kNotAsked{false};
 
@@ -84,15 +85,19 @@ TEST(ProfibusScanner, NamesTheModules) {
       [&](const link::SerialSettings&) { return std::make_unique<ScannedSegment>(threeStations(), exchanges); }};
   const ScanReport report = transport.scan(bus(), kNotAsked);
   EXPECT_THAT(report.trouble, IsEmpty());
-  ASSERT_EQ(3u, report.stations.size());
+  ASSERT_EQ(4u, report.stations.size());
   EXPECT_EQ(3u, report.stations[0].number);
   EXPECT_EQ("SK TU1/2/3-PBR (7531h)", report.stations[0].module);
   EXPECT_THAT(report.stations[0].series, HasSubstr("sk5xxe"));
   EXPECT_EQ(12u, report.stations[1].number);
   EXPECT_EQ("SK CU4/TU4-PBR (0BA8h)", report.stations[1].module);
   EXPECT_THAT(report.stations[1].version, HasSubstr("NORD (manufacturer 393)")) << "its type plate";
-  EXPECT_EQ(126u, report.stations[2].number);
-  EXPECT_EQ("not addressed yet: set its address to 3 to 125", report.stations[2].note);
+  EXPECT_EQ(12u, report.stations[2].number) << "the inverter behind it";
+  EXPECT_EQ("inverter 1", report.stations[2].module);
+  EXPECT_THAT(report.stations[2].version, MatchesRegex("P707 = [0-9]+ R[0-9]+"));
+  EXPECT_THAT(report.stations[2].series, MatchesRegex("P742 = [0-9]+, P743 = [0-9]+"));
+  EXPECT_EQ(126u, report.stations[3].number);
+  EXPECT_EQ("not addressed yet: set its address to 3 to 125", report.stations[3].note);
   EXPECT_THAT(exchanges, ::testing::ElementsAre(0, 0, 0)) << "nobody was told words";
 }
 
