@@ -32,9 +32,11 @@ class CanRobot : public DrivenRobot {
     /// Behind one SK CU4-CAO, which then has these inverters; the first two are the wheels.
     std::size_t gateway_inverters = 0;
     std::size_t nodes = 2;                          ///< without a gateway; the first two are the wheels
+    bool base = true;                               ///< false: no drive is a wheel
     std::function<void(sim::SimConfig&)> simulate;  ///< changes of the simulated side
     /// A second driver on this bus, which outlives it; `bus()`, `link()`, `unit()` and `node()` are the first one's.
     sim::SimulatedCanBus* beside = nullptr;
+    TransportWrap wrap;  ///< stands between the driver and its transport
   };
 
   CanRobot() : CanRobot(Options{}) {}
@@ -59,7 +61,7 @@ class CanRobot : public DrivenRobot {
     MapSettings bus{"~bus/", {{"interface", std::string{"can0"}}}};
     for (const auto& [key, value] : options.bus) bus.set(key, value);
     transport->configure(bus, drives, config.cycle_rate);
-    start(config, std::move(transport), false);
+    start(config, std::move(transport), false, options.wrap);
   }
 
   bool online(DriveIndex drive) { return snapshot().drives[drive].online; }
@@ -99,8 +101,9 @@ class CanRobot : public DrivenRobot {
   static std::string nameOf(std::size_t i) { return i == 0 ? "left" : i == 1 ? "right" : "extra" + std::to_string(i); }
   static std::map<std::string, MapSettings::Value> nodeSettings(const Options& options) {
     std::map<std::string, MapSettings::Value> values = options.node;
-    values.insert({{"cycle_rate", 100.0},
-                   {"left_wheel", std::string{"left_wheel_joint"}},
+    values.insert({"cycle_rate", 100.0});
+    if (!options.base) return values;
+    values.insert({{"left_wheel", std::string{"left_wheel_joint"}},
                    {"right_wheel", std::string{"right_wheel_joint"}},
                    {"wheel_separation", 0.5},
                    {"wheel_radius", 0.1}});
@@ -125,7 +128,7 @@ class CanRobot : public DrivenRobot {
       }
       config.drives.push_back(drive);
     }
-    config.body = sim::BodyConfig{{0}, {1}, 0.1, 0.5};
+    if (options.base) config.body = sim::BodyConfig{{0}, {1}, 0.1, 0.5};
     if (options.simulate) options.simulate(config);
     return config;
   }
