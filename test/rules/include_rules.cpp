@@ -84,6 +84,7 @@ const std::map<std::string, Names>& table() {
         "trace/*", "tools", "node/node_config", "ros_support"}},
       {"system", {"*"}},                             // tests of the whole stack, without ROS
       {"explore", {"*"}},                            // every order of events, at one object or few
+      {"campaign", {"*"}},                           // generated faults, on every bus
       {"support", {"core", "config", "transport"}},  // what tests of several folders share
       {"ros_support", {}},                           // the same for those with ROS
       {"rostest", {"*"}},                            // the programs as their users meet them

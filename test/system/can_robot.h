@@ -32,10 +32,11 @@ class CanRobot : public DrivenRobot {
     /// Behind one SK CU4-CAO, which then has these inverters; the first two are the wheels.
     std::size_t gateway_inverters = 0;
     std::size_t nodes = 2;                          ///< without a gateway; the first two are the wheels
+    bool base = true;                               ///< false: no drive is a wheel
     std::function<void(sim::SimConfig&)> simulate;  ///< changes of the simulated side
-    bool base = true;                               ///< false: single drives, and no base
     /// A second driver on this bus, which outlives it; `bus()`, `link()`, `unit()` and `node()` are the first one's.
     sim::SimulatedCanBus* beside = nullptr;
+    TransportWrap wrap;  ///< stands between the driver and its transport
   };
 
   CanRobot() : CanRobot(Options{}) {}
@@ -60,7 +61,7 @@ class CanRobot : public DrivenRobot {
     MapSettings bus{"~bus/", {{"interface", std::string{"can0"}}}};
     for (const auto& [key, value] : options.bus) bus.set(key, value);
     transport->configure(bus, drives, config.cycle_rate);
-    start(config, std::move(transport), false);
+    start(config, std::move(transport), false, options.wrap);
   }
 
   bool online(DriveIndex drive) { return snapshot().drives[drive].online; }
@@ -127,7 +128,7 @@ class CanRobot : public DrivenRobot {
       }
       config.drives.push_back(drive);
     }
-    config.body = sim::BodyConfig{{0}, {1}, 0.1, 0.5};
+    if (options.base) config.body = sim::BodyConfig{{0}, {1}, 0.1, 0.5};
     if (options.simulate) options.simulate(config);
     return config;
   }

@@ -24,19 +24,21 @@ namespace nord_driver::test {
 class DevicenetRobot : public DrivenRobot {
  public:
   struct Options {
-    std::map<std::string, MapSettings::Value> node;    ///< on top of the robot's own settings
-    std::map<std::string, MapSettings::Value> bus;     ///< of the bus
-    std::map<std::string, MapSettings::Value> drives;  ///< of all drives, on top of their own
+    std::map<std::string, MapSettings::Value> node;                    ///< on top of the robot's own settings
+    std::map<std::string, MapSettings::Value> bus;                     ///< of the bus
+    std::map<std::string, MapSettings::Value> drives;                  ///< of all drives, on top of their own
+    std::vector<std::map<std::string, MapSettings::Value>> each = {};  ///< of single drives, on top of these
     int assembly = 100;
     /// Behind one module, which then has these inverters; the first two are the wheels.
     std::size_t gateway_inverters = 0;
     std::size_t modules = 2;  ///< with an inverter each, when there is no such gateway; the first two are the wheels
+    bool base = true;         ///< false: no drive is a wheel
     /// Each wheel an SK 5xxE behind its own SK TU3-DEV, which lives by its mains.
     bool on_inverter = false;
     std::function<void(sim::SimConfig&)> simulate;  ///< changes of the simulated side
-    bool base = true;                               ///< false: single drives, and no base
     /// A second driver on this bus, which outlives it; `bus()`, `unit()` and `module()` are the first one's.
     sim::SimulatedDnBus* beside = nullptr;
+    TransportWrap wrap;  ///< stands between the driver and its transport
   };
 
   DevicenetRobot() : DevicenetRobot(Options{}) {}
@@ -58,7 +60,7 @@ class DevicenetRobot : public DrivenRobot {
     MapSettings bus{"~bus/", {{"interface", std::string{"can0"}}, {"bit_rate", 500'000}}};
     for (const auto& [key, value] : options.bus) bus.set(key, value);
     transport->configure(bus, drives, config.cycle_rate);
-    start(config, std::move(transport), false);
+    start(config, std::move(transport), false, options.wrap);
   }
 
   bool online(DriveIndex drive) { return snapshot().drives[drive].online; }
@@ -87,6 +89,9 @@ class DevicenetRobot : public DrivenRobot {
       if (options.gateway_inverters != 0) settings->set("address", 5).set("inverter", static_cast<int>(i + 1));
       if (options.on_inverter) settings->set("series", "sk5xxe");
       for (const auto& [key, value] : options.drives) settings->set(key, value);
+      if (i < options.each.size()) {
+        for (const auto& [key, value] : options.each[i]) settings->set(key, value);
+      }
       drives.push_back({name, settings});
     }
     return drives;
@@ -123,7 +128,7 @@ class DevicenetRobot : public DrivenRobot {
       drive.bus = dn;
       config.drives.push_back(drive);
     }
-    config.body = sim::BodyConfig{{0}, {1}, 0.1, 0.5};
+    if (options.base) config.body = sim::BodyConfig{{0}, {1}, 0.1, 0.5};
     if (options.simulate) options.simulate(config);
     return config;
   }

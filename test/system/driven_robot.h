@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -15,6 +16,9 @@ namespace nord_driver::test {
 
 /// m/s of the robots of these tests: 25 Hz, half of P105.
 inline constexpr double kHalfSpeed = 0.39269908169872414;
+
+/// Puts another transport between the driver and its own, configured one.
+using TransportWrap = std::function<std::unique_ptr<Transport>(std::unique_ptr<Transport>)>;
 
 /// The driver below ROS on a transport in simulated time. A robot derives from it and calls `start()` once.
 class DrivenRobot {
@@ -112,9 +116,10 @@ class DrivenRobot {
   ~DrivenRobot() = default;
 
   /// `transport` has been configured for these drives.
-  void start(const cycle::CycleConfig& config, std::unique_ptr<Transport> transport, bool auto_enable) {
+  void start(const cycle::CycleConfig& config, std::unique_ptr<Transport> transport, bool auto_enable,
+             const TransportWrap& wrap = {}) {
     config_ = config;
-    transport_ = std::move(transport);
+    transport_ = wrap ? wrap(std::move(transport)) : std::move(transport);
     ports_ = std::make_unique<cycle::CyclePorts>(config_.drives.size());
     cycle_ = std::make_unique<cycle::BusCycle>(config_, *transport_, *ports_, auto_enable);
   }

@@ -29,6 +29,8 @@ class InterbusRobot : public DrivenRobot {
     std::map<std::string, MapSettings::Value> bus;                ///< of the bus, on top of its own
     std::map<std::string, MapSettings::Value> drives;             ///< of all drives, on top of their own
     std::vector<std::map<std::string, MapSettings::Value>> each;  ///< of single drives, on top of these
+    std::size_t modules = 2;                                      ///< the first two are the wheels
+    bool base = true;                                             ///< false: no drive is a wheel
     std::string series = "sk5xxe";
     int ppo_type = 1;
     bool drivecom = false;  ///< P551 on
@@ -41,6 +43,7 @@ class InterbusRobot : public DrivenRobot {
     int telegram_timeout = 2;                       ///< P513 in 0.1 s
     double slip = 2.0;                              ///< Hz at rated torque
     std::function<void(sim::SimConfig&)> simulate;  ///< changes of the simulated side
+    TransportWrap wrap;                             ///< stands between the driver and its transport
   };
   static constexpr int kOutputs = 100, kRunning = 200, kWatchdog = 300, kInvoke = 500, kResult = 600;
 
@@ -55,7 +58,7 @@ class InterbusRobot : public DrivenRobot {
       return link;
     });
     transport->configure(busSettings(options), drives, config.cycle_rate);
-    start(config, std::move(transport), false);
+    start(config, std::move(transport), false, options.wrap);
   }
 
   bool online(DriveIndex drive) { return snapshot().drives[drive].online; }
@@ -71,10 +74,10 @@ class InterbusRobot : public DrivenRobot {
   sim::DriveUnit& unit(std::size_t drive) { return link_->drive(drive); }
 
  private:
-  static const char* nameOf(std::size_t i) { return i == 0 ? "left" : "right"; }
+  static std::string nameOf(std::size_t i) { return i == 0 ? "left" : i == 1 ? "right" : "extra" + std::to_string(i); }
   static std::vector<DriveSettings> driveSettings(const Options& options) {
     std::vector<DriveSettings> drives;
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < options.modules; ++i) {
       const std::string name = nameOf(i);
       auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
       settings->set("address", static_cast<int>(1 + i)).set("series", options.series);
@@ -92,8 +95,9 @@ class InterbusRobot : public DrivenRobot {
   }
   static std::map<std::string, MapSettings::Value> nodeSettings(const Options& options) {
     std::map<std::string, MapSettings::Value> values = options.node;
-    values.insert({{"cycle_rate", 100.0},
-                   {"left_wheel", std::string{"left_wheel_joint"}},
+    values.insert({"cycle_rate", 100.0});
+    if (!options.base) return values;
+    values.insert({{"left_wheel", std::string{"left_wheel_joint"}},
                    {"right_wheel", std::string{"right_wheel_joint"}},
                    {"wheel_separation", 0.5},
                    {"wheel_radius", 0.1}});
@@ -119,7 +123,7 @@ class InterbusRobot : public DrivenRobot {
     bus.pcp_word = options.pcp_word;
     if (options.pcp) bus.pcp = sim::IbsPcp{kInvoke, kResult, 2, true};
     config.bus = bus;
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < options.modules; ++i) {
       sim::DriveConfig drive;
       drive.name = nameOf(i);
       drive.joint = drive.name + "_wheel_joint";
@@ -135,7 +139,7 @@ class InterbusRobot : public DrivenRobot {
       drive.bus = place;
       config.drives.push_back(drive);
     }
-    config.body = sim::BodyConfig{{0}, {1}, 0.1, 0.5};
+    if (options.base) config.body = sim::BodyConfig{{0}, {1}, 0.1, 0.5};
     if (options.simulate) options.simulate(config);
     return config;
   }

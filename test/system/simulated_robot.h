@@ -35,10 +35,13 @@ class SimulatedRobot : public DrivenRobot {
     int ppo_type = 1;                        ///< as set at the inverters
     /// Four wheels, two on each side, all behind one module SK CU4 at address 3 with its I/O byte in slot 1.
     bool one_module = false;
-    int wheels_a_side = 1;                               ///< 1 or 2, each with a module of its own
-    sim::PkwSettings pkw;                                ///< of all inverters
-    bool base = true;                                    ///< false: single drives, and no base
+    int wheels_a_side = 1;  ///< 1 or 2, each with a module of its own
+    sim::PkwSettings pkw;   ///< of all inverters
+    /// False: no drive is a wheel, and with `singles` there are no others, up to four of them behind the one module.
+    bool base = true;
+    std::size_t singles = 0;                             ///< drives that belong to no base, behind the wheels
     std::function<void(sim::SimConfig&)> simulate = {};  ///< changes of the simulated side
+    TransportWrap wrap;                                  ///< stands between the driver and its transport
   };
 
   SimulatedRobot() : SimulatedRobot(Options{}) {}
@@ -56,7 +59,7 @@ class SimulatedRobot : public DrivenRobot {
     std::map<std::string, MapSettings::Value> bus = options.bus;
     bus.insert({{"device", std::string{"simulated"}}, {"baud_rate", 500'000}, {"slot_time", 0.0005}});
     transport->configure(MapSettings{"~bus/", bus}, drives, config.cycle_rate);
-    start(config, std::move(transport), options.auto_enable);
+    start(config, std::move(transport), options.auto_enable, options.wrap);
   }
 
   bool standsStill() {
@@ -77,10 +80,11 @@ class SimulatedRobot : public DrivenRobot {
     for (const std::string& name : names(options)) {
       const int number = static_cast<int>(drives.size());
       auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
-      settings->set("address", options.one_module ? 3 : 3 + number).set("ppo_type", 1);
-      settings->set("series", options.one_module ? "sk2xxe" : "sk5xxe").set("joint", name + "_wheel_joint");
+      const bool shares = sharesModule(options, drives.size());
+      settings->set("address", shares ? 3 : 3 + number).set("ppo_type", 1);
+      settings->set("series", shares ? "sk2xxe" : "sk5xxe").set("joint", name + "_wheel_joint");
       settings->set("gear_ratio", 20.0).set("pole_pairs", 2).set("inverted", isRight(name));
-      if (options.one_module) settings->set("inverter", number + 1).set("io_byte", true);
+      if (shares) settings->set("inverter", number + 1).set("io_byte", true);
       for (const auto& [key, value] : options.drives) settings->set(key, value);
       drives.push_back({name, settings});
     }
@@ -89,8 +93,17 @@ class SimulatedRobot : public DrivenRobot {
 
  private:
   static std::vector<std::string> names(const Options& options) {
-    if (options.one_module || options.wheels_a_side == 2) return {"left", "right", "rear_left", "rear_right"};
-    return {"left", "right"};
+    std::vector<std::string> names;
+    if (options.base || options.singles == 0) names = {"left", "right"};
+    if (options.base && (options.one_module || options.wheels_a_side == 2)) {
+      names.insert(names.end(), {"rear_left", "rear_right"});
+    }
+    for (std::size_t i = 0; i < options.singles; ++i) names.push_back("single" + std::to_string(i));
+    return names;
+  }
+  static bool isWheel(const std::string& name) { return name.find("single") == std::string::npos; }
+  static bool sharesModule(const Options& options, std::size_t drive) {
+    return options.one_module && drive < sim::BusModule::kPlaces;
   }
   static bool isRight(const std::string& name) { return name.find("right") != std::string::npos; }
   static std::map<std::string, MapSettings::Value> nodeSettings(const Options& options) {
@@ -98,35 +111,38 @@ class SimulatedRobot : public DrivenRobot {
     values.insert({"cycle_rate", 100.0});
     if (!options.base) return values;
     std::vector<std::string> left, right;
-    for (const std::string& name : names(options)) (isRight(name) ? right : left).push_back(name + "_wheel_joint");
+    for (const std::string& name : names(options)) {
+      if (isWheel(name)) (isRight(name) ? right : left).push_back(name + "_wheel_joint");
+    }
     values.insert({{"left_wheel", left}, {"right_wheel", right}, {"wheel_separation", 0.5}, {"wheel_radius", 0.1}});
     return values;
   }
   static sim::SimConfig simConfig(const Options& options) {
     sim::SimConfig config;
     config.bus.as<sim::DpBusConfig>().baud_rate = 500'000;
-    config.body = sim::BodyConfig{{}, {}, 0.1, 0.5};
+    if (options.base) config.body = sim::BodyConfig{{}, {}, 0.1, 0.5};
     config.bus.as<sim::DpBusConfig>().modules = options.modules;
     for (const std::string& name : names(options)) {
       const std::size_t number = config.drives.size();
       sim::DriveConfig drive;
       drive.name = name;
       drive.joint = name + "_wheel_joint";
-      drive.address = static_cast<std::uint8_t>(options.one_module ? 3 : 3 + number);
+      const bool shares = sharesModule(options, number);
+      drive.address = static_cast<std::uint8_t>(shares ? 3 : 3 + number);
       drive.gear_ratio = 20.0;
       drive.inverted = isRight(name);
       drive.motor.slip = options.slip;
       drive.bus.as<sim::DpDriveConfig>().ppo_type = options.ppo_type;
       drive.parameters = options.parameters;
       drive.pkw = options.pkw;
-      if (options.one_module) {
+      if (shares) {
         drive.place = static_cast<unsigned>(number + 1);
         drive.device.series = sim::Series::kSk2xxe;
       }
       if (number == 0) {
         drive.parameters.insert(drive.parameters.end(), options.left_parameters.begin(), options.left_parameters.end());
       }
-      (isRight(name) ? config.body->right : config.body->left).push_back(number);
+      if (options.base && isWheel(name)) (isRight(name) ? config.body->right : config.body->left).push_back(number);
       config.drives.push_back(drive);
     }
     if (options.simulate) options.simulate(config);

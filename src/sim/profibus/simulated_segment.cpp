@@ -139,6 +139,14 @@ void SimulatedSegment::answer(const WireBytes& bytes, Duration delay) noexcept {
   if (ByteView{sent} == ByteView{bytes}) stations_.delivered(bytes);
 }
 
+void SimulatedSegment::foreign(ByteView telegram) noexcept {
+  if (!open_) return;
+  const Instant start = std::max(answer_end_, now_);
+  for (std::size_t i = 0; i < telegram.size(); ++i) {
+    arriving_.push_back({start + baud_rate_.characters(i + 1), telegram[i]});
+  }
+}
+
 bool SimulatedSegment::happens(double probability) noexcept {
   return probability > 0.0 && static_cast<double>(random_()) < probability * 4294967296.0;
 }
@@ -150,13 +158,15 @@ void SimulatedSegment::setDisturbance(const Disturbance& disturbance) noexcept {
 
 FixedBytes<512> SimulatedSegment::disturbed(ByteView bytes, bool enabled) noexcept {
   FixedBytes<512> result;
+  bool turned = false;
   for (const std::uint8_t byte : bytes) {
     if (!enabled) {
       result.push_back(byte);
       continue;
     }
     if (happens(disturbance_.lose)) continue;
-    const bool flip = happens(disturbance_.flip);
+    const bool flip = happens(disturbance_.flip) && !(turned && disturbance_.one_bit);
+    turned = turned || flip;
     result.push_back(flip ? static_cast<std::uint8_t>(byte ^ (1u << (random_() % 8u))) : byte);
     if (happens(disturbance_.duplicate)) result.push_back(result[result.size() - 1]);
   }

@@ -26,6 +26,9 @@ struct Disturbance {
   double duplicate = 0.0;
   bool requests = true;  ///< disturbs what the master sends
   bool answers = true;   ///< disturbs what the stations send
+  /// At most one bit of a telegram is turned: the line has no parity bit here, and two turned bits may leave the checksum
+  /// as it was, which parity and checksum together never do (Hamming distance 4, IEC 870-5-1 format class FT 1.2).
+  bool one_bit = false;
   std::uint32_t seed = 1;
 };
 
@@ -64,6 +67,8 @@ class SimulatedSegment : public link::ByteLink, private AnswerSink {
   void loseAnswers(unsigned count) noexcept { lose_answers_ = count; }
   /// The next `count` requests never reach the stations.
   void loseRequests(unsigned count) noexcept { lose_requests_ = count; }
+  /// Somebody else's telegram: the master hears it from now on, the stations do not.
+  void foreign(ByteView telegram) noexcept;
   /// One bit of the first byte of each of the next `count` answers is turned.
   void spoilAnswers(unsigned count) noexcept { spoil_answers_ = count; }
   void setAnswerTime(std::uint64_t tsdr_bits) noexcept { tsdr_bits_ = tsdr_bits; }

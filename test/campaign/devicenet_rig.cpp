@@ -1,0 +1,116 @@
+// The campaign over DeviceNet: an SK CU4-DEV for each drive, or one for up to four inverters.
+#include "campaign/rig.h"
+#include "campaign/wheels.h"
+#include "core/can_frame.h"
+#include "system/devicenet_robot.h"
+
+namespace nord_driver::test {
+namespace {
+
+class DevicenetRig final : public CampaignRig {
+ public:
+  explicit DevicenetRig(const DevicenetRobot::Options& options) : robot_(options) {}
+
+  DevicenetRobot& robot() override { return robot_; }
+  sim::SimulatedDnBus& bus() { return robot_.bus(); }
+  sim::DriveUnit& unit(DriveIndex drive) override { return robot_.unit(drive); }
+  std::string referee() override { return robot_.bus().referee().report(); }
+  void passWithoutTheDriver(Duration span) override { robot_.bus().run(span); }
+  void endLosses() override {
+    bus().loseAnswers(0);
+    bus().loseRequests(0);
+    bus().overflow(0);
+  }
+  const std::vector<Act>& acts() const override { return devicenetCampaign().acts(); }
+
+  /// A poll is answered in its cycle; two and a half of these.
+  Duration silence() const override { return std::chrono::milliseconds{25}; }
+  /// Four times the expected packet rate, two cycles and at least 25 ms, in steps of 10 ms (ODVA Vol. 3, 2-3.4).
+  Duration driveSideTimeout() const override { return std::chrono::milliseconds{120}; }
+  Duration wireLatency() const override { return std::chrono::milliseconds{10}; }
+  /// And two checks for a double MAC id of 2 s each, ours and that of the module (ODVA Vol. 3, 2-3.1).
+  Duration backWithin() const override { return std::chrono::seconds{6}; }
+
+ private:
+  DevicenetRobot robot_;
+};
+
+sim::SimulatedDnBus& busOf(CampaignRig& rig) {
+  return static_cast<DevicenetRig&>(rig).bus();
+}
+
+// amount: 0 frames are lost, 1 spoilt by an error frame, 2 received twice; extra: how many of 1000.
+void disturb(CampaignRig& rig, const Event& event) {
+  sim::CanDisturbance disturbance;
+  const double share = 0.001 * event.extra;
+  if (event.amount == 0) disturbance.lose = share;
+  if (event.amount == 1) disturbance.error = share;
+  if (event.amount == 2) disturbance.duplicate = share;
+  disturbance.seed = event.at + 1;
+  busOf(rig).setDisturbance(disturbance);
+}
+
+// Another scanner: polls, an explicit request, a release, an answer nobody waits for.
+void sayForeign(CampaignRig& rig, const Event& event) {
+  constexpr std::uint32_t kIds[] = {0x42D, 0x435, 0x42C, 0x436, 0x42B, 0x3C5};
+  const std::uint8_t data[] = {0x11, 0x4C, 0x03, 0x01, static_cast<std::uint8_t>(event.extra)};
+  busOf(rig).inject(dataFrame(kIds[event.amount], ByteView{data, 5}));
+}
+
+const std::vector<Act>& devicenetActs() {
+  using R = CampaignRig;
+  using E = Event;
+  constexpr Range kOnce{0, 0}, kNone{0, 0}, kCount{1, 8}, kSpan{50, 1500};
+  static const std::vector<Act> acts{
+      {"lose_answers", 4, "lose_answers", Place::kBus, Cuts::kNothing, kOnce, kCount, kNone,
+       [](R& rig, const E& event) { busOf(rig).loseAnswers(static_cast<unsigned>(event.amount)); }, nullptr},
+      {"lose_requests", 4, "lose_requests", Place::kBus, Cuts::kNothing, kOnce, kCount, kNone,
+       [](R& rig, const E& event) { busOf(rig).loseRequests(static_cast<unsigned>(event.amount)); }, nullptr},
+      {"overflow", 3, "overflow", Place::kBus, Cuts::kNothing, kOnce, kCount, kNone,
+       [](R& rig, const E& event) { busOf(rig).overflow(static_cast<unsigned>(event.amount)); }, nullptr, true},
+      {"disturb",
+       6,
+       "disturb",
+       Place::kBus,
+       Cuts::kNothing,
+       kSpan,
+       {0, 2},
+       {1, 50},
+       disturb,
+       [](R& rig, const E&) { busOf(rig).setDisturbance({}); }},
+      {"adapter", 3, "adapter", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
+       [](R& rig, const E&) { busOf(rig).setInterfacePresent(false); },
+       [](R& rig, const E&) { busOf(rig).setInterfacePresent(true); }},
+      {"interface_down", 2, "adapter", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
+       [](R& rig, const E&) { busOf(rig).setInterfaceUp(false); },
+       [](R& rig, const E&) { busOf(rig).setInterfaceUp(true); }},
+      {"bus_off", 3, "adapter", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
+       [](R& rig, const E&) { busOf(rig).setBusOff(); }, [](R& rig, const E&) { busOf(rig).restart(); }},
+      {"queue_full", 2, "queue", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
+       [](R& rig, const E&) { busOf(rig).setQueueFull(true); },
+       [](R& rig, const E&) { busOf(rig).setQueueFull(false); }},
+      {"foreign_master", 4, "foreign", Place::kBus, Cuts::kNothing, kOnce, {0, 5}, {0, 3}, sayForeign, nullptr},
+  };
+  return acts;
+}
+
+std::unique_ptr<CampaignRig> makeDevicenet(const Layout& layout, const TransportWrap& wrap) {
+  DevicenetRobot::Options options;
+  options.base = layout.wheels != 0;
+  options.node = wheelSettings(layout);
+  options.each = driveSettingsOf(layout);
+  options.modules = layout.drives();
+  if (layout.one_module) options.gateway_inverters = layout.drives();
+  if (layout.one_module) options.assembly = 102;  // four inverters, two bytes each and the control byte
+  options.simulate = [layout](sim::SimConfig& config) { simulateWheels(layout, config); };
+  options.wrap = wrap;
+  return std::make_unique<DevicenetRig>(options);
+}
+
+}  // namespace
+
+CampaignBus devicenetCampaign() {
+  return {"devicenet", makeDevicenet, devicenetActs, 4500, Shares::kAny};
+}
+
+}  // namespace nord_driver::test

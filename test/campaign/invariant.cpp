@@ -1,0 +1,22 @@
+#include "campaign/invariant.h"
+
+#include "campaign/answer_invariants.h"
+#include "campaign/motion_invariants.h"
+#include "campaign/report_invariants.h"
+
+namespace nord_driver::test {
+
+std::vector<std::unique_ptr<Invariant>> allInvariants() {
+  std::vector<std::unique_ptr<Invariant>> all;
+  all.push_back(std::make_unique<NeverOneWheelAlone>());
+  all.push_back(std::make_unique<NothingEnabledUnasked>());
+  all.push_back(std::make_unique<TurnsOnlyAsCommanded>());
+  all.push_back(std::make_unique<OdometryContinuous>());
+  all.push_back(std::make_unique<EveryLossNamed>());
+  all.push_back(std::make_unique<EveryCallAnswered>());
+  all.push_back(std::make_unique<NoCallAnsweredTwice>());
+  all.push_back(std::make_unique<AnswersAreTrue>());
+  return all;
+}
+
+}  // namespace nord_driver::test

@@ -1,0 +1,63 @@
+// What an invariant may look at after each cycle: the truth of the simulator, what was asked of the driver, and what it
+// says.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cycle/request.h"
+#include "cycle/snapshot.h"
+#include "nord_driver/core/time.h"
+#include "sim/inverter/inverter_model.h"
+
+namespace nord_driver::test {
+
+/// One inverter and its wheel, as they are.
+struct DriveTruth {
+  sim::InverterState state = sim::InverterState::kOff;
+  double frequency = 0.0;     ///< Hz of the field, signed
+  double wheel_speed = 0.0;   ///< rad/s at the joint
+  std::int16_t setpoint = 0;  ///< setpoint 1 in force, of 16384
+  bool bus_control = true;    ///< the words of the bus count
+  double ramp = 25.0;         ///< Hz/s, by P103 of the set in force
+
+  bool turnsByBus() const noexcept { return state == sim::InverterState::kOperationEnabled && bus_control; }
+};
+
+/// Drives that stand or fall together, and what their users want of them.
+struct GroupWish {
+  std::vector<DriveIndex> members;
+  bool is_base = false;
+  /// Enabling was asked for, or has succeeded; and nothing since has stopped it: no request, and nothing the driver told.
+  bool asked = false;
+  bool confirmed = false;  ///< the enabling was answered with success
+};
+
+/// One request, from when it was submitted to when it was answered.
+struct Call {
+  cycle::Request request;
+  Instant submitted{};
+  bool answered = false;
+  std::vector<std::int32_t> held;  ///< of a parameter: every value it had since it was asked for
+};
+
+struct Moment {
+  Instant began{};         ///< of the cycle
+  Instant now{};           ///< after it
+  unsigned at = 0;         ///< ms after the start
+  bool driver_ran = true;  ///< false: it is held up, or ended
+  bool judged = true;      ///< the invariants of reports hold: false, once the node has ended
+  Duration period{};
+  std::vector<DriveTruth> drives;
+  std::vector<GroupWish> groups;
+  std::vector<double> wanted;  ///< Hz, of each drive: the newest command that is not too old, 0 without one
+  std::vector<bool> cut;       ///< of each drive: the exchange with it is interrupted by what happens
+  Duration reaction{};         ///< how long a stop may take to reach the inverters, as things are
+  const cycle::CycleSnapshot* snapshot = nullptr;
+  std::vector<cycle::Completion> answers;  ///< of this cycle
+  const std::vector<Call>* calls = nullptr;
+  bool odometry_reset = false;      ///< asked for, and answered in this cycle or later
+  double full_wheel_speed = 7.854;  ///< rad/s
+};
+
+}  // namespace nord_driver::test

@@ -1,0 +1,76 @@
+// The invariants of motion, judged on the true speeds.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "campaign/invariant.h"
+
+namespace nord_driver::test {
+
+/// The field of an inverter is never faster than what was wanted within the time a stop needs to reach it, less the
+/// ramp since.
+class TurnsOnlyAsCommanded final : public Invariant {
+ public:
+  const char* name() const override { return "TurnsOnlyAsCommanded"; }
+  const char* sentence() const override {
+    return "command older than cmd_vel_timeout, enable false, quick_stop, fault, drive silent, bus lost: ramp, OFF1 or "
+           "the "
+           "drive-side time-outs, within their bounds (What stops what)";
+  }
+  std::optional<std::string> look(const Moment& moment) override;
+
+  /// The longest it took a group to come from speed to rest once nothing allowed it to turn any more, and its bound, s.
+  struct Stop {
+    double took = 0.0;
+    double bound = 0.0;
+  };
+  const Stop& worstStop() const noexcept { return worst_; }
+
+ private:
+  struct Track {
+    std::deque<std::pair<Instant, double>> allowed;  // when the drive could hear it, Hz
+    std::optional<Instant> cut_since;
+    double bound = 0.0;            // Hz
+    std::optional<Instant> ended;  // when nothing allowed it any more
+    double stop_bound = 0.0;
+  };
+
+  std::vector<Track> tracks_;
+  std::optional<Instant> last_;
+  Stop worst_;
+};
+
+/// An inverter becomes "operation enabled" by the bus only after somebody has asked for it.
+class NothingEnabledUnasked final : public Invariant {
+ public:
+  const char* name() const override { return "NothingEnabledUnasked"; }
+  const char* sentence() const override {
+    return "after each: disabled, latched, named; only ~enable (or auto_enable) moves again (What stops what)";
+  }
+  std::optional<std::string> look(const Moment& moment) override;
+
+ private:
+  std::vector<bool> enabled_;
+  std::vector<Instant> asked_;  // when each drive was asked for last
+};
+
+/// While a member of a base does not turn by the bus, the others have no setpoint but 0, within the bound.
+class NeverOneWheelAlone final : public Invariant {
+ public:
+  const char* name() const override { return "NeverOneWheelAlone"; }
+  const char* sentence() const override {
+    return "fault, unasked exit, local control, drive silent: that drive idle; the others setpoint 0 on the drive's "
+           "own "
+           "ramp, then OFF1 (What stops what)";
+  }
+  std::optional<std::string> look(const Moment& moment) override;
+
+ private:
+  std::vector<std::optional<Instant>> since_;  // of each group
+};
+
+}  // namespace nord_driver::test

@@ -1,0 +1,134 @@
+// Plays one scenario: runs the driver on its simulated robot, lets happen what is written, and holds every invariant
+// after each cycle. When all causes have ended, it judges whether everything is back in service.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "campaign/invariant.h"
+#include "campaign/motion_invariants.h"
+#include "campaign/rig.h"
+#include "campaign/scenario.h"
+
+namespace nord_driver::test {
+
+struct Violation {
+  std::string invariant;
+  std::string sentence;
+  std::string what;
+  unsigned at = 0;  ///< ms after the start
+};
+
+struct Outcome {
+  std::optional<Violation> violation;  ///< the first one; the scenario ends with it
+  TurnsOnlyAsCommanded::Stop worst_stop;
+  double recovery = 0.0;  ///< s from the end of the last cause until all drives answered
+  unsigned enabled = 0;   ///< enablings that succeeded
+  unsigned stopped = 0;   ///< groups the driver stopped by itself
+  unsigned answers = 0;
+};
+
+/// What users do, as the players know it: their `begin` and `end` are the player's own.
+const std::vector<Act>& userActs();
+/// Of drives, of users and of this bus. Null: there is none of this name.
+const Act* findAct(const CampaignBus& bus, const std::string& name);
+
+class Player {
+ public:
+  Player(const Scenario& scenario, const CampaignBus& bus, const TransportWrap& wrap = {});
+
+  static constexpr double kFullSpeed = 7.853981633974483;  ///< rad/s at the joint: 50 Hz, two pole pairs, 20:1
+  static constexpr double kHertzPerSpeed = 50.0 / kFullSpeed;
+  static constexpr double kRadius = 0.1, kSeparation = 0.5;  ///< m, of all robots
+
+  Outcome play();
+
+ private:
+  struct Active {
+    Event event;
+    const Act* act = nullptr;
+  };
+  struct Client {
+    Instant until{};
+    DriveIndex drive = 0;
+    std::uint32_t waits_for = 0;
+  };
+  struct Loss {
+    Instant due{};
+    std::uint64_t counted = 0;
+    std::string act;
+  };
+
+  Instant now() { return rig_->robot().transport().now(); }
+  unsigned sinceStart() { return static_cast<unsigned>(toSeconds(now() - start_) * 1000.0 + 0.5); }
+  bool goesOn() const { return !outcome_.violation; }
+
+  void playEvents();
+  void judgeRecovery();
+  void endNode();
+  void kill();
+  void tick();
+  void pass(Duration span);
+
+  void begin(const Event& event);
+  void beginUser(const Event& event);
+  void endOver(unsigned at);
+  void endAll();
+  bool excluded(const Event& event, const Act& act);
+  bool samePlace(const Active& active, const Event& event);
+  void command();
+  void runClients();
+  void askParameter(Client& client);
+  std::uint32_t submit(cycle::RequestKind kind, DriveIndex drive, Duration patience);
+  std::uint32_t submit(cycle::Request request);
+  void wish(const cycle::Request& request);
+  bool concerns(const cycle::Request& request, const GroupWish& group) const;
+  /// Somebody waits for the answer to an enabling of it.
+  bool asksToEnable(const GroupWish& group) const;
+
+  void look(Instant began, bool driver_ran);
+  void seeTruth();
+  void seeAnswers();
+  void seeStops();
+  void sampleParameters();
+  void watchLosses();
+  std::uint64_t counted();
+  Duration reaction();
+  bool answered(std::uint32_t id, bool& success, std::string& message);
+  bool allOnline();
+  void fail(const char* invariant, const char* sentence, std::string what);
+  bool ask(cycle::RequestKind kind, const char* expectation);
+
+  Scenario scenario_;
+  CampaignBus bus_;
+  std::unique_ptr<CampaignRig> rig_;
+  std::vector<std::unique_ptr<Invariant>> invariants_;
+  Moment moment_;
+  Outcome outcome_;
+  Instant start_{};
+  std::size_t next_ = 0;
+  std::vector<Active> active_;
+  std::optional<Instant> disturbed_;  // when something disturbed last
+  std::vector<Call> calls_;
+  std::size_t first_open_ = 0;
+  std::size_t seen_answers_ = 0;
+  std::uint32_t next_id_ = 1;
+  std::vector<Client> clients_;
+  std::vector<Loss> losses_;
+  std::uint32_t dice_ = 1;  // for what clients ask
+  // The newest commands.
+  struct Command {
+    Instant until{};  // renewed until then
+    Instant given{};
+    bool ever = false;
+    double linear = 0.0, angular = 0.0;  // base
+    double velocity = 0.0;               // single drive
+  };
+  Command base_command_;
+  std::vector<Command> drive_commands_;
+};
+
+}  // namespace nord_driver::test

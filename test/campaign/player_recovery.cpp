@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "campaign/player.h"
+
+namespace nord_driver::test {
+
+using cycle::RequestKind;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+bool Player::ask(RequestKind kind, const char* expectation) {
+  const std::uint32_t id = submit(kind, cycle::kAllDrives, seconds{3});
+  for (const Instant end = now() + seconds{4}; goesOn() && now() < end;) {
+    tick();
+    for (const cycle::Completion& answer : moment_.answers) {
+      if (answer.id != id) continue;
+      if (answer.success) return true;
+      fail("BackInService", "back in service within 2 s of the cause's end, plus what the protocol demands",
+           std::string{expectation} + ": " + answer.message.c_str());
+      return false;
+    }
+  }
+  return false;
+}
+
+void Player::judgeRecovery() {
+  const Instant ended = now();
+  while (goesOn() && !allOnline()) {
+    tick();
+    if (!goesOn() || allOnline()) break;
+    if (now() - ended <= rig_->backWithin()) continue;
+    std::ostringstream out;
+    for (const cycle::DriveSnapshot& drive : moment_.snapshot->drives) {
+      if (!drive.online) out << drive.text.c_str() << "; ";
+    }
+    return fail("BackInService", "back in service within 2 s of the cause's end, plus what the protocol demands",
+                "not all drives answer: " + out.str() + moment_.snapshot->bus_text.c_str());
+  }
+  outcome_.recovery = toSeconds(now() - ended);
+  // The last command is too old, P105 of who came back is read, and what was under way is over.
+  const auto complete = [this] {
+    const auto& drives = moment_.snapshot->drives;
+    return std::all_of(drives.begin(), drives.end(), [](const auto& drive) { return drive.device.complete; });
+  };
+  const auto open = [this] { return first_open_ < calls_.size(); };
+  const Instant quiet = now() + milliseconds{600};
+  const Instant give_up = now() + seconds{13};
+  while (goesOn() && (now() < quiet || !complete() || open())) {
+    tick();
+    if (now() < give_up) continue;
+    return fail("BackInService", "P105 of every drive is read again", "not all parameters are read");
+  }
+  if (!goesOn() || !ask(RequestKind::kDisable, "it cannot be disabled")) return;
+  if (!ask(RequestKind::kAcknowledge, "faults cannot be acknowledged")) return;
+  if (!ask(RequestKind::kEnable, "it cannot be enabled")) return;
+  base_command_.until = now() + milliseconds{300};
+  base_command_.linear = 0.5 * kFullSpeed * kRadius;
+  base_command_.angular = 0.0;
+  for (Command& command : drive_commands_) {
+    command.until = base_command_.until;
+    command.velocity = 0.5 * kFullSpeed;
+  }
+  while (goesOn() && now() < base_command_.until) tick();
+  for (DriveIndex i = 0; i < moment_.drives.size() && goesOn(); ++i) {
+    if (std::fabs(moment_.drives[i].frequency) > 1.0) continue;
+    fail("BackInService", "back in service", "drive " + std::to_string(i) + " does not turn");
+  }
+  if (goesOn()) ask(RequestKind::kDisable, "it cannot be disabled");
+}
+
+}  // namespace nord_driver::test

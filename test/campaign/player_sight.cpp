@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cmath>
+
+#include "campaign/player.h"
+
+namespace nord_driver::test {
+
+using cycle::RequestKind;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+Duration Player::reaction() {
+  const cycle::CycleConfig& config = rig_->robot().config();
+  const Duration period = config.period();
+  const Duration by_words = 3 * period + rig_->wireLatency();
+  const Duration drive_timeout = config.drives.front().drive.drive_timeout;
+  const Duration by_timeouts = rig_->silence() + drive_timeout + rig_->driveSideTimeout() + by_words;
+  const bool disturbs =
+      std::any_of(active_.begin(), active_.end(), [](const Active& active) { return active.act->disturbs; });
+  if (disturbs) disturbed_ = now();
+  return disturbed_ && now() - *disturbed_ <= by_timeouts ? by_timeouts : by_words;
+}
+
+void Player::seeTruth() {
+  for (DriveIndex i = 0; i < moment_.drives.size(); ++i) {
+    sim::DriveUnit& unit = rig_->unit(i);
+    const sim::InverterModel& inverter = unit.inverter();
+    DriveTruth& truth = moment_.drives[i];
+    truth.state = inverter.state();
+    truth.frequency = inverter.frequency();
+    truth.wheel_speed = unit.wheelSpeed();
+    truth.setpoint = static_cast<std::int16_t>(inverter.setpoint1());
+    truth.bus_control = inverter.busControl();
+    const double ramp = unit.parameters().scaled(103, inverter.parameterSet());
+    truth.ramp = ramp > 0.0 ? unit.parameters().scaled(105, inverter.parameterSet()) / ramp : 1e6;
+  }
+  const Duration timeout = rig_->robot().config().cmd_vel_timeout;
+  const auto fresh = [&](const Command& command) { return command.ever && now() - command.given <= timeout; };
+  for (DriveIndex i = 0; i < moment_.drives.size(); ++i) {
+    const bool wheel = i < scenario_.layout.wheels;
+    const Command& command = wheel ? base_command_ : drive_commands_[i];
+    const double side = i % 2 == 0 ? -1.0 : 1.0;
+    const double speed =
+        wheel ? (command.linear + side * command.angular * kSeparation / 2.0) / kRadius : command.velocity;
+    moment_.wanted[i] = fresh(command) ? speed * kHertzPerSpeed : 0.0;
+    moment_.cut[i] = false;
+  }
+  for (const Active& active : active_) {
+    for (DriveIndex i = 0; i < moment_.drives.size(); ++i) {
+      const bool station = &rig_->unit(active.event.drive).module() == &rig_->unit(i).module();
+      const bool cut = active.act->cuts == Cuts::kAll || (active.act->cuts == Cuts::kStation && station) ||
+                       (active.act->cuts == Cuts::kDrive && active.event.drive == i);
+      if (cut) moment_.cut[i] = true;
+    }
+  }
+}
+
+void Player::seeAnswers() {
+  moment_.answers.clear();
+  const auto& all = rig_->robot().completions();
+  for (; seen_answers_ < all.size(); ++seen_answers_) {
+    const cycle::Completion& answer = all[seen_answers_];
+    moment_.answers.push_back(answer);
+    ++outcome_.answers;
+    for (std::size_t i = first_open_; i < calls_.size(); ++i) {
+      Call& call = calls_[i];
+      if (call.request.id != answer.id) continue;
+      call.answered = true;
+      if (call.request.kind == RequestKind::kResetOdometry && answer.success) moment_.odometry_reset = true;
+      if (call.request.kind != RequestKind::kEnable) continue;
+      outcome_.enabled += answer.success ? 1 : 0;
+      for (GroupWish& group : moment_.groups) {
+        if (!concerns(call.request, group)) continue;
+        if (answer.success && group.asked) group.confirmed = true;
+        // Told that it failed, its asker must not see it succeed later. Who was enabled before stays so, or is taken back.
+        if (!answer.success && !group.confirmed) group.asked = asksToEnable(group);
+      }
+    }
+  }
+  while (first_open_ < calls_.size() && calls_[first_open_].answered) ++first_open_;
+}
+
+bool Player::concerns(const cycle::Request& request, const GroupWish& group) const {
+  if (request.drive == cycle::kAllDrives) return true;
+  // A wheel of a base is enabled or disabled with it; quick stop of one stops them all.
+  if (group.is_base && request.kind != RequestKind::kQuickStop) return false;
+  return std::find(group.members.begin(), group.members.end(), request.drive) != group.members.end();
+}
+
+bool Player::asksToEnable(const GroupWish& group) const {
+  return std::any_of(calls_.begin() + static_cast<std::ptrdiff_t>(first_open_), calls_.end(), [&](const Call& call) {
+    return !call.answered && call.request.kind == RequestKind::kEnable && concerns(call.request, group);
+  });
+}
+
+// What the driver has stopped by itself needs an enabling before it moves again.
+void Player::seeStops() {
+  for (GroupWish& group : moment_.groups) {
+    const auto& snapshot = *moment_.snapshot;
+    const bool enabled = group.is_base ? snapshot.base.enabled : snapshot.drives[group.members.front()].enabled;
+    if (!group.confirmed || enabled) continue;
+    group.asked = group.confirmed = false;
+    ++outcome_.stopped;
+  }
+}
+
+void Player::sampleParameters() {
+  for (std::size_t i = first_open_; i < calls_.size(); ++i) {
+    Call& call = calls_[i];
+    const bool parameter =
+        call.request.kind == RequestKind::kReadParameter || call.request.kind == RequestKind::kWriteParameter;
+    if (call.answered || !parameter) continue;
+    const std::int32_t value = rig_->unit(call.request.drive)
+                                   .parameters()
+                                   .value(call.request.parameter.number, call.request.parameter.parameter_set - 1u);
+    if (call.held.empty() || call.held.back() != value) call.held.push_back(value);
+  }
+}
+
+std::uint64_t Player::counted() {
+  std::uint64_t sum = 0;
+  for (const NamedCounter& counter : rig_->robot().transport().counters()) {
+    const std::string name = counter.name;
+    if (name != "cycles" && name != "telegrams_sent" && name != "telegrams_received") sum += counter.value;
+  }
+  return sum;
+}
+
+void Player::watchLosses() {
+  for (std::size_t i = 0; i < losses_.size();) {
+    if (now() < losses_[i].due) {
+      ++i;
+      continue;
+    }
+    if (counted() == losses_[i].counted) {
+      fail("EveryLossCounted", "bus_status: retries, timeouts, checksum_errors, parity_errors, discarded_bytes, ...",
+           losses_[i].act + ": no counter has moved since");
+    }
+    losses_.erase(losses_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+void Player::fail(const char* invariant, const char* sentence, std::string what) {
+  if (!goesOn()) return;
+  outcome_.violation = Violation{invariant, sentence, std::move(what), sinceStart()};
+}
+
+void Player::look(Instant began, bool driver_ran) {
+  moment_.began = began;
+  moment_.now = now();
+  moment_.at = sinceStart();
+  moment_.driver_ran = driver_ran;
+  moment_.reaction = reaction();
+  moment_.odometry_reset = false;
+  if (driver_ran) moment_.snapshot = &rig_->robot().snapshot();
+  sampleParameters();
+  seeAnswers();
+  seeTruth();
+  for (const auto& invariant : invariants_) {
+    if (auto wrong = invariant->look(moment_)) return fail(invariant->name(), invariant->sentence(), *wrong);
+  }
+  if (!driver_ran || !moment_.judged) return;
+  watchLosses();
+  seeStops();
+}
+
+bool Player::allOnline() {
+  if (moment_.snapshot == nullptr) return false;
+  const auto& drives = moment_.snapshot->drives;
+  return std::all_of(drives.begin(), drives.end(), [](const auto& drive) { return drive.online; });
+}
+
+}  // namespace nord_driver::test

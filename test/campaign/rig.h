@@ -1,0 +1,57 @@
+// What the campaign needs of a simulated robot, whatever bus it is on. Another bus is one more of these.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "campaign/acts.h"
+#include "campaign/scenario.h"
+#include "nord_driver/core/time.h"
+#include "sim/drive_unit.h"
+#include "system/driven_robot.h"
+
+namespace nord_driver::test {
+
+class CampaignRig {
+ public:
+  virtual ~CampaignRig() = default;
+
+  virtual DrivenRobot& robot() = 0;
+  virtual sim::DriveUnit& unit(DriveIndex drive) = 0;
+  virtual std::string referee() = 0;
+  /// Nobody runs the driver meanwhile.
+  virtual void passWithoutTheDriver(Duration span) = 0;
+  /// What was to be lost and has not been yet is not.
+  virtual void endLosses() = 0;
+  /// What may happen to this bus.
+  virtual const std::vector<Act>& acts() const = 0;
+
+  /// How old the last status word may be before the bus takes it for missing; drive_timeout counts from there.
+  virtual Duration silence() const = 0;
+  /// The longest time from the last word of a master to the trip of the inverter.
+  virtual Duration driveSideTimeout() const = 0;
+  /// From the driver's decision to the inverter that has its word, beyond the cycle it is sent in.
+  virtual Duration wireLatency() const = 0;
+  /// From the end of the last cause to drives that answer again: 2 s, and what the protocol itself demands.
+  virtual Duration backWithin() const = 0;
+};
+
+/// Which drives one bus module may serve in the rig.
+enum class Shares { kNone, kFourOrSingles, kAny };
+
+struct CampaignBus {
+  const char* name;
+  std::unique_ptr<CampaignRig> (*make)(const Layout& layout, const TransportWrap& wrap);
+  const std::vector<Act>& (*acts)();
+  unsigned ready_at;  ///< ms after the start: drives that start with the driver are ready to be enabled, as a rule
+  Shares shares;
+};
+
+CampaignBus profibusCampaign();
+CampaignBus canopenCampaign();
+CampaignBus devicenetCampaign();
+CampaignBus interbusCampaign();
+
+}  // namespace nord_driver::test

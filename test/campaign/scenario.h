@@ -1,0 +1,48 @@
+// A scenario of the fault campaign as data: which drives there are, and what happens when. Made from a seed, printed and
+// read as one line of text, so that whatever it shows can be shown again.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nord_driver/transport/cyclic_exchange.h"
+
+namespace nord_driver::test {
+
+/// The first `wheels` drives are those of a base (even: left, odd: right), the `singles` behind them have commands of
+/// their own. An axis of another kind is one more number here, and its drives come last.
+struct Layout {
+  unsigned wheels = 2;      ///< 0, 2 or 4
+  unsigned singles = 0;     ///< 1 to 8 drives in all
+  bool one_module = false;  ///< all of them behind one bus module (up to four)
+
+  std::size_t drives() const noexcept { return wheels + singles; }
+};
+
+/// One thing that happens: it begins at `at`, and ends `span` later where it lasts.
+struct Event {
+  unsigned at = 0;    ///< ms after the start
+  unsigned span = 0;  ///< ms; 0: it does not last
+  std::string act;    ///< its name in the table of acts
+  DriveIndex drive = 0;
+  int amount = 0;  ///< what it means stands in the table
+  int extra = 0;
+};
+
+struct Scenario {
+  std::string bus;  ///< "profibus", "canopen", "devicenet", "interbus"
+  std::uint32_t seed = 0;
+  Layout layout;
+  unsigned length = 0;  ///< ms; then every cause ends, and what follows is judged
+  std::vector<Event> events;
+};
+
+/// "bus=profibus seed=17 wheels=2 singles=0 one_module=0 length=6000; 1500+0 enable 0 0 0; ..."
+std::string toText(const Scenario& scenario);
+std::string toText(const Event& event);
+/// Nothing when it is no such line.
+std::optional<Scenario> scenarioFrom(const std::string& text);
+
+}  // namespace nord_driver::test

@@ -1,0 +1,218 @@
+// Each invariant by itself, on moments made by hand: it holds where it must, and it can fail.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "campaign/answer_invariants.h"
+#include "campaign/motion_invariants.h"
+#include "campaign/report_invariants.h"
+
+namespace nord_driver::test {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::HasSubstr;
+
+/// Two wheels that are enabled, at rest; a cycle is 10 ms, a stop takes 50 ms to reach them.
+class Invariants : public ::testing::Test {
+ protected:
+  Invariants() : snapshot_(2) {
+    moment_.now = Instant{seconds{1000}};
+    moment_.period = milliseconds{10};
+    moment_.reaction = milliseconds{50};
+    moment_.drives.resize(2);
+    moment_.wanted.resize(2);
+    moment_.cut.resize(2);
+    GroupWish base;
+    base.members = {0, 1};
+    base.is_base = base.asked = base.confirmed = true;
+    moment_.groups.push_back(base);
+    moment_.snapshot = &snapshot_;
+    moment_.calls = &calls_;
+    for (DriveTruth& drive : moment_.drives) drive.state = sim::InverterState::kOperationEnabled;
+    for (cycle::DriveSnapshot& drive : snapshot_.drives) drive.online = true;
+    snapshot_.base.enabled = true;
+  }
+  /// What it says in the cycles until `span` has passed; empty: nothing.
+  std::string look(Invariant& invariant, Duration span = milliseconds{10}) {
+    for (const Instant end = moment_.now + span; moment_.now < end;) {
+      moment_.began = moment_.now;
+      moment_.now += moment_.period;
+      snapshot_.time = moment_.now;
+      const auto wrong = invariant.look(moment_);
+      moment_.answers.clear();
+      if (wrong) return *wrong;
+    }
+    return "";
+  }
+  void turn(double frequency, std::int16_t setpoint) {
+    for (DriveTruth& drive : moment_.drives) {
+      drive.frequency = frequency;
+      drive.setpoint = setpoint;
+    }
+  }
+  void want(double frequency) { moment_.wanted = {frequency, frequency}; }
+  void ask(cycle::RequestKind kind, Duration patience) {
+    Call call;
+    call.request.id = static_cast<std::uint32_t>(calls_.size() + 1);
+    call.request.kind = kind;
+    call.request.patience = patience;
+    call.submitted = moment_.now;
+    calls_.push_back(call);
+  }
+  void answer(std::uint32_t id, bool success, const char* message) {
+    cycle::Completion answer;
+    answer.id = id;
+    answer.success = success;
+    answer.message = message;
+    moment_.answers.push_back(answer);
+    if (id <= calls_.size()) calls_[id - 1].answered = true;
+  }
+
+  Moment moment_;
+  cycle::CycleSnapshot snapshot_;
+  std::vector<Call> calls_;
+};
+
+TEST_F(Invariants, TurnsAsFastAsCommandedAndNoFaster) {
+  TurnsOnlyAsCommanded invariant;
+  want(20.0);
+  turn(20.0, 6554);
+  EXPECT_EQ("", look(invariant, seconds{1}));
+  turn(20.5, 6554);
+  EXPECT_THAT(look(invariant), HasSubstr("20.5 Hz, no more than 20 Hz"));
+}
+
+TEST_F(Invariants, ComesDownItsRampWhenTheCommandHasEnded) {
+  TurnsOnlyAsCommanded invariant;
+  want(20.0);
+  turn(20.0, 6554);
+  EXPECT_EQ("", look(invariant, seconds{1}));
+  want(0.0);
+  EXPECT_EQ("", look(invariant, milliseconds{50}));
+  EXPECT_THAT(look(invariant, milliseconds{20}), HasSubstr("is commanded"));
+}
+
+TEST_F(Invariants, WhoIsNotEnabledIsNotCommanded) {
+  TurnsOnlyAsCommanded invariant;
+  moment_.groups[0].asked = false;
+  want(20.0);
+  turn(0.2, 6554);
+  EXPECT_THAT(look(invariant), HasSubstr("no more than 0 Hz"));
+}
+
+TEST_F(Invariants, WhoIsNotReachedStopsByItsTimeOuts) {
+  TurnsOnlyAsCommanded invariant;
+  want(20.0);
+  turn(20.0, 6554);
+  EXPECT_EQ("", look(invariant, seconds{1}));
+  moment_.cut[0] = true;
+  EXPECT_EQ("", look(invariant, milliseconds{60}));
+  EXPECT_THAT(look(invariant, milliseconds{30}), HasSubstr("is commanded"));
+}
+
+TEST_F(Invariants, NobodyIsEnabledUnasked) {
+  NothingEnabledUnasked invariant;
+  EXPECT_EQ("", look(invariant));
+  moment_.drives[1].state = sim::InverterState::kReadyToSwitchOn;
+  moment_.groups[0].asked = false;
+  EXPECT_EQ("", look(invariant, seconds{1}));
+  moment_.drives[1].state = sim::InverterState::kOperationEnabled;
+  EXPECT_THAT(look(invariant), HasSubstr("drive 1 is \"operation enabled\", and nobody has asked"));
+}
+
+TEST_F(Invariants, NoWheelOfABaseIsDrivenAlone) {
+  NeverOneWheelAlone invariant;
+  turn(20.0, 6554);
+  moment_.drives[1].state = sim::InverterState::kFault;
+  EXPECT_EQ("", look(invariant, milliseconds{50}));
+  EXPECT_THAT(look(invariant, milliseconds{20}), HasSubstr("drive 0 is told to turn"));
+  moment_.drives[0].setpoint = 0;
+  EXPECT_EQ("", look(invariant, seconds{1}));
+}
+
+TEST_F(Invariants, ThePoseNeverJumps) {
+  OdometryContinuous invariant;
+  EXPECT_EQ("", look(invariant));
+  snapshot_.base.pose.x = 0.008;
+  EXPECT_EQ("", look(invariant));
+  snapshot_.base.pose.x = 0.02;
+  EXPECT_THAT(look(invariant), HasSubstr("the pose jumps by 0.012 m"));
+  snapshot_.base.pose = {};
+  EXPECT_THAT(look(invariant), HasSubstr("the pose jumps"));
+  snapshot_.base.pose.heading = 0.1;
+  EXPECT_THAT(look(invariant), HasSubstr("0.1 rad"));
+  snapshot_.drives[1].joint_position = 0.1;
+  EXPECT_THAT(look(invariant), HasSubstr("joint 1 jumps by 0.1 rad"));
+}
+
+TEST_F(Invariants, ANewNodeStartsAtPoseZero) {
+  OdometryContinuous invariant;
+  snapshot_.base.pose.x = 1.0;
+  EXPECT_THAT(look(invariant), HasSubstr("not at pose 0"));
+}
+
+TEST_F(Invariants, EveryStopIsNamed) {
+  EveryLossNamed invariant;
+  EXPECT_EQ("", look(invariant));
+  snapshot_.base.enabled = false;
+  EXPECT_THAT(look(invariant), HasSubstr("no cause is named"));
+  snapshot_.drives[1].stopped = true;
+  EXPECT_THAT(look(invariant), HasSubstr("drive 1 is stopped without a word"));
+  snapshot_.drives[1].text = "a fault of the inverter";
+  EXPECT_EQ("", look(invariant));
+  snapshot_.drives[0].online = false;
+  EXPECT_EQ("", look(invariant, seconds{1}));
+  EXPECT_THAT(look(invariant), HasSubstr("drive 0 does not answer, and nobody says why"));
+}
+
+TEST_F(Invariants, EveryCallIsAnsweredInTime) {
+  EveryCallAnswered invariant;
+  ask(cycle::RequestKind::kEnable, milliseconds{100});
+  EXPECT_EQ("", look(invariant, milliseconds{110}));
+  EXPECT_THAT(look(invariant), HasSubstr("request 1 (kind 0, drive all) is not answered"));
+}
+
+TEST_F(Invariants, NoCallIsAnsweredTwice) {
+  NoCallAnsweredTwice invariant;
+  ask(cycle::RequestKind::kEnable, seconds{1});
+  answer(1, true, "enabled");
+  EXPECT_EQ("", look(invariant));
+  answer(1, true, "enabled");
+  EXPECT_EQ("request 1 is answered twice", look(invariant));
+  answer(7, true, "enabled");
+  EXPECT_EQ("request 7 was never asked", look(invariant));
+}
+
+TEST_F(Invariants, AnswersTellTheTruth) {
+  AnswersAreTrue invariant;
+  turn(20.0, 6554);
+  EXPECT_EQ("", look(invariant, seconds{1}));
+  for (int i = 0; i < 2; ++i) ask(cycle::RequestKind::kDisable, seconds{1});
+  answer(1, true, "disabled");
+  EXPECT_THAT(look(invariant), HasSubstr("says that drive 0 is at rest, and it turns"));
+  answer(2, false, "");
+  EXPECT_THAT(look(invariant), HasSubstr("without a sentence"));
+  for (DriveTruth& drive : moment_.drives) drive.state = sim::InverterState::kReadyToSwitchOn;
+  EXPECT_EQ("", look(invariant, seconds{1}));
+  ask(cycle::RequestKind::kEnable, seconds{1});
+  answer(3, true, "enabled");
+  EXPECT_THAT(look(invariant), HasSubstr("says that drive 0 is enabled, and it is not"));
+}
+
+TEST_F(Invariants, AValueReadWasThere) {
+  AnswersAreTrue invariant;
+  ask(cycle::RequestKind::kReadParameter, seconds{1});
+  calls_[0].held = {150, 160};
+  answer(1, true, "");
+  moment_.answers[0].parameter.raw = 160;
+  EXPECT_EQ("", look(invariant));
+  answer(1, true, "");
+  moment_.answers[0].parameter.raw = 170;
+  EXPECT_THAT(look(invariant), HasSubstr("tells the value 170"));
+}
+
+}  // namespace
+}  // namespace nord_driver::test

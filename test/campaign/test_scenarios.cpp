@@ -1,0 +1,65 @@
+// Scenarios as data: made from a seed, always the same; printed and read again; what is left of them still means
+// something.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "campaign/campaign.h"
+#include "campaign/generator.h"
+
+namespace nord_driver::test {
+namespace {
+
+TEST(Scenarios, AreMadeOfTheirSeed) {
+  for (const CampaignBus& bus : campaignBuses()) {
+    EXPECT_EQ(toText(makeScenario(bus, 7)), toText(makeScenario(bus, 7)));
+    EXPECT_NE(toText(makeScenario(bus, 7)), toText(makeScenario(bus, 8)));
+  }
+}
+
+TEST(Scenarios, AreReadAsTheyWerePrinted) {
+  for (const CampaignBus& bus : campaignBuses()) {
+    for (std::uint32_t seed = 1; seed <= 50; ++seed) {
+      const std::string text = toText(makeScenario(bus, seed));
+      const auto read = scenarioFrom(text);
+      ASSERT_TRUE(read) << text;
+      EXPECT_EQ(text, toText(*read));
+    }
+  }
+}
+
+TEST(Scenarios, WhatIsNoneIsNotRead) {
+  const std::string head = "bus=profibus seed=1 wheels=2 singles=0 one_module=0 length=100";
+  EXPECT_TRUE(scenarioFrom(head));
+  EXPECT_TRUE(scenarioFrom(head + "; 10+0 enable 1 1 0"));
+  EXPECT_FALSE(scenarioFrom(""));
+  EXPECT_FALSE(scenarioFrom("bus=profibus seed=x wheels=2 singles=0 one_module=0 length=100"));
+  EXPECT_FALSE(scenarioFrom(head + "; 10 enable 1 1 0"));
+  EXPECT_FALSE(scenarioFrom(head + "; 10+0 enable 2 1 0")) << "there is no drive 2";
+}
+
+// Every act, and every size from one drive to eight.
+TEST(Scenarios, HaveEverythingThatMayHappen) {
+  for (const CampaignBus& bus : campaignBuses()) {
+    std::set<std::string> acts;
+    std::set<std::size_t> sizes;
+    for (std::uint32_t seed = 1; seed <= 500; ++seed) {
+      const Scenario scenario = makeScenario(bus, seed);
+      sizes.insert(scenario.layout.drives());
+      for (const Event& event : scenario.events) {
+        ASSERT_NE(nullptr, findAct(bus, event.act)) << event.act;
+        ASSERT_LT(event.drive, scenario.layout.drives());
+        acts.insert(event.act);
+      }
+    }
+    for (const auto* all : {&userActs(), &driveActs(), &bus.acts()}) {
+      for (const Act& act : *all) EXPECT_EQ(1u, acts.count(act.name)) << bus.name << ' ' << act.name;
+    }
+    EXPECT_EQ(1u, *sizes.begin()) << bus.name;
+    EXPECT_EQ(8u, *sizes.rbegin()) << bus.name;
+  }
+}
+
+}  // namespace
+}  // namespace nord_driver::test
