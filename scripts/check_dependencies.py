@@ -22,7 +22,7 @@ OWN = "nord_driver"
 
 # What only a machine that tests needs: these files may use what --test adds.
 FOR_TESTS = (".ci/", "bench/", "fuzz/", "scripts/bench.sh", "scripts/build_deb.sh", "scripts/can_machine", "scripts/check_",
-             "scripts/common.sh", "scripts/count_results.py", "scripts/fresh_debian.sh", "scripts/fuzz.sh", "scripts/test",
+             "scripts/common.sh", "scripts/count_results.py", "scripts/fresh_debian.sh", "scripts/fuzz.sh", "scripts/mutant", "scripts/test",
              "test/link/modbus/pymodbus_server.py", "test/system/pymodbus_client.py")
 # What a user is told to install himself.
 LEFT_TO_THE_USER = {"node rviz/rviz", "program import"}
@@ -94,8 +94,11 @@ def python_uses():
         sources += [(file, snippet) for snippet in re.findall(r"python3 -c '([^']*)'", text)]
     for file, text in sources:
         for module in sorted(set(imports_of(text))):
-            path = None if module.split(".")[0] == OWN else module_path(module)
-            if path != "" and module.split(".")[0] != OWN:
+            package = module.split(".")[0]
+            if package == OWN or (ROOT / "scripts" / package / "__init__.py").is_file():
+                continue
+            path = module_path(module)
+            if path != "":
                 yield Use(f"import {module}", file, path)
 
 

@@ -71,6 +71,7 @@ void ExplicitChannel::poll(Instant now) noexcept {
 void ExplicitChannel::takeAnswer(Instant now) noexcept {
   const std::optional<ExplicitAnswer> answer = client_.takeAnswer();
   if (answer) {
+    put_back_.reset();  // of a request that has ended: nobody waits for what it would do
     if (owner_ == Owner::kEngine) own_answer_ = answer;
     if (owner_ == Owner::kUser) users_.finish(*answer);
     owner_ = Owner::kNobody;

@@ -29,6 +29,7 @@ bool ExplicitClient::start(const ExplicitRequest& request, ExplicitPort port, Bo
   count_ = 0;
   repeats_ = 0;
   timeout_ = timeout;
+  furthest_ = 0;
   phase_ = Phase::kToSend;
   timers_.set(Timer::kReply, now + timeout);
   return true;
@@ -148,14 +149,22 @@ Heard ExplicitClient::handleFragment(bool xid, Fragment received, ByteView data,
       return Heard::kTaken;
     case ExplicitReceiver::Result::kAccepted:
       acknowledge(xid, received, kAccepted);
-      phase_ = Phase::kReceiving;
-      timers_.set(Timer::kReply, now + kFragmentTime);
+      comeFurther(now);
       return Heard::kTaken;
     case ExplicitReceiver::Result::kComplete:
       break;
   }
   acknowledge(xid, received, kAccepted);
   return handleBody(ByteView{receiver_.body()});
+}
+
+// A device that begins its answer anew gets no new time before it has come further than ever: otherwise one that never
+// comes to an end would keep the connection from everybody for ever.
+void ExplicitClient::comeFurther(Instant now) noexcept {
+  phase_ = Phase::kReceiving;
+  if (receiver_.body().size() <= furthest_) return;
+  furthest_ = receiver_.body().size();
+  timers_.set(Timer::kReply, now + kFragmentTime);
 }
 
 /// From the service code on.

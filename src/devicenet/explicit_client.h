@@ -72,6 +72,7 @@ class ExplicitClient {
   Fragment fragment() const noexcept;
   Heard handleAcknowledge(bool xid, Fragment fragment, ByteView data, Instant now) noexcept;
   Heard handleFragment(bool xid, Fragment fragment, ByteView data, Instant now) noexcept;
+  void comeFurther(Instant now) noexcept;
   Heard handleBody(ByteView body) noexcept;
   void acknowledge(bool xid, Fragment fragment, std::uint8_t status) noexcept;
   void finish(ExplicitEnd end) noexcept;
@@ -88,6 +89,7 @@ class ExplicitClient {
   std::uint8_t repeats_ = 0;  // of the frame that is unanswered
   Duration timeout_{};
   ExplicitReceiver receiver_;
+  std::size_t furthest_ = 0;  // bytes of a fragmented answer that were together, at most at once
   std::optional<CanFrame> acknowledge_;
   std::optional<ExplicitAnswer> answer_;
 };

@@ -52,6 +52,7 @@ class FakeInverter {
     fault = cause;
     low_ = 0x70;
     set_ = 0;
+    waited_ = 0;
     frequency_ = 0;
   }
   std::int16_t frequency() const { return frequency_; }
@@ -65,7 +66,9 @@ class FakeInverter {
   }
   void followSet(Word wanted) {
     waited_ = wanted == set_ ? 0 : waited_ + 1;
-    if (waited_ > set_delay) set_ = wanted;
+    if (waited_ <= set_delay) return;
+    set_ = wanted;
+    waited_ = 0;
   }
   void obey(Word word, std::int16_t setpoint) {
     const bool running = low_ == 0x37 || low_ == 0x17;

@@ -1,0 +1,55 @@
+// Requests of the explicit connection that end although the device does not let them: what test/explore found.
+#include <gtest/gtest.h>
+
+#include "devicenet/explicit_channel.h"
+#include "support/can_text.h"
+
+namespace nord_driver::devicenet {
+namespace {
+
+using std::chrono::milliseconds;
+
+// A device that begins its answer anew before each end would keep the connection from everybody.
+TEST(ExplicitEnds, AnAnswerBegunAgainAndAgain) {
+  ExplicitClient client{0, 5};
+  Instant now{std::chrono::hours{1}};
+  ASSERT_TRUE(
+      client.start(getAttribute(1, 101, 1, 1), ExplicitPort::kConnected, BodyFormat::k8Over8, milliseconds{100}, now));
+  CanFrame sent;
+  ASSERT_TRUE(client.pollTransmit(sent, now));
+  int rounds = 0;
+  for (; rounds < 10 && client.busy(); ++rounds) {
+    for (const char* fragment : {"42B#C0008E0102030405", "42B#C0410102030405"}) {
+      client.handle(frame(fragment), now);
+      now += milliseconds{500};
+      client.poll(now);
+      while (client.pollTransmit(sent, now)) {
+      }
+      const auto answer = client.takeAnswer();
+      EXPECT_TRUE(!answer || answer->end == ExplicitEnd::kTimedOut);
+    }
+  }
+  EXPECT_EQ(2, rounds);  // 1.2 s from the second fragment of the first round on
+}
+
+// A frame that was put back is not sent when its request has ended meanwhile: a write would be done after its asker was
+// told that it was not.
+TEST(ExplicitEnds, WhatWasNotSentBeforeTheTimeOutIsNeverSent) {
+  ExplicitChannel channel{0, 5, milliseconds{100}};
+  Instant now{std::chrono::hours{1}};
+  channel.open();
+  ASSERT_TRUE(channel.submit(getAttribute(1, 101, 1, 1), now));
+  CanFrame sent;
+  for (int i = 0; i < 4; ++i) {
+    if (channel.pollTransmit(sent, now)) channel.notSent(sent);
+    now += milliseconds{101};
+    channel.poll(now);
+  }
+  const auto answer = channel.pollAnswer();
+  ASSERT_TRUE(answer.has_value());
+  EXPECT_EQ(ExplicitEnd::kTimedOut, answer->end);
+  EXPECT_FALSE(channel.pollTransmit(sent, now));
+}
+
+}  // namespace
+}  // namespace nord_driver::devicenet
