@@ -8,9 +8,10 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 usage() {
   cat <<'TEXT'
-usage: test.sh [--sanitize] [--quick] [--deep]
-  --sanitize  the tests in a Debug build with AddressSanitizer and UndefinedBehaviorSanitizer (build/sanitize); those on
-              SocketCAN count as skipped
+usage: test.sh [--sanitize[=thread]] [--quick] [--deep]
+  --sanitize  the tests in a Debug build with AddressSanitizer and UndefinedBehaviorSanitizer (build/sanitize), with =thread
+              with ThreadSanitizer (build/sanitize_thread); those on SocketCAN count as skipped, as do those that count
+              allocations
   --quick     the tests, format, dependencies and pictures only; lint, fuzz, workspace and fresh count as skipped
   --deep      lint of every source with clang's path analyzer, and each fuzz target runs five minutes: an hour more
               (otherwise lint reads what was changed last and a third of the rest)
@@ -18,11 +19,13 @@ TEXT
 }
 
 sanitize=false
+threads=false
 quick=false
 deep=false
 for argument in "$@"; do
   case $argument in
     --sanitize) sanitize=true ;;
+    --sanitize=thread) sanitize=true threads=true ;;
     --quick) quick=true ;;
     --deep) deep=true ;;
     -h | --help) usage; exit 0 ;;
@@ -35,7 +38,11 @@ out=$root/build/test # rosrun does not look below build/
 # are built, so that they go on building; scripts/bench.sh runs them.
 options=(-DNORD_DRIVER_STRICT=ON -DNORD_DRIVER_BENCH=ON -DNORD_DRIVER_PRECOMPILE=ON "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1"
   -DNORD_DRIVER_TEST_OPTIONS=-O0)
-if $sanitize; then
+if $threads; then
+  # Optimised a little: it is ten times slower as it is.
+  out=$root/build/sanitize_thread
+  options+=(-DNORD_DRIVER_SANITIZE=thread)
+elif $sanitize; then
   out=$root/build/sanitize
   options+=(-DCMAKE_BUILD_TYPE=Debug -DNORD_DRIVER_SANITIZE=ON)
 fi
@@ -43,6 +50,7 @@ export CTEST_OUTPUT_ON_FAILURE=1
 # Nothing of a test leaves the build folder or this machine.
 export ROS_HOME=$out/ros_home ROS_LOG_DIR=$out/ros_home/log ROS_HOSTNAME=localhost
 export LSAN_OPTIONS=${LSAN_OPTIONS:-suppressions=$root/scripts/lsan_suppressions.txt:print_suppressions=0}
+export TSAN_OPTIONS=${TSAN_OPTIONS:-suppressions=$root/scripts/tsan_suppressions.txt:print_suppressions=0:second_deadlock_stack=1}
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_stack_use_after_return=1} UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
 unset ROS_MASTER_URI ROS_IP
 

@@ -2,23 +2,37 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 #include "config/setting_checks.h"
 
 namespace nord_driver {
 
+std::string whyNoTextFile(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (error || !std::filesystem::exists(status)) return error ? error.message() : std::strerror(ENOENT);
+  if (!std::filesystem::is_regular_file(status)) return "it is no ordinary file";
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) return error.message();
+  return size > kLargestTextFile ? "it has more than 4 MiB" : "";
+}
+
 std::string readTextFile(const Settings& settings, const std::string& key, const std::string& path,
                          const std::string& what) {
-  errno = 0;
-  std::ifstream file{path, std::ios::binary};
+  std::string reason = whyNoTextFile(path);
   std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || text.str().empty()) {
-    const std::string reason = errno != 0 ? std::strerror(errno) : "it is empty or no file";
-    throw wrongSetting(settings, key, "\"" + path + "\"", what + " that can be read (" + reason + ")");
+  if (reason.empty()) {
+    errno = 0;
+    std::ifstream file{path, std::ios::binary};
+    if (file) text << file.rdbuf();
+    if (!file || text.str().empty()) reason = errno != 0 ? std::strerror(errno) : "it is empty";
   }
+  if (!reason.empty())
+    throw wrongSetting(settings, key, "\"" + path + "\"", what + " that can be read (" + reason + ")");
   return text.str();
 }
 

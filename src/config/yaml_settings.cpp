@@ -5,6 +5,8 @@
 #include <system_error>
 #include <utility>
 
+#include "config/yaml_tree.h"
+
 namespace nord_driver {
 
 namespace {
@@ -37,6 +39,13 @@ SettingValue valueOf(const YAML::Node& node) {
   return value;
 }
 
+SettingValue wholeValue(const std::string& prefix, const YAML::Node& node) {
+  const std::string why = whyNotWalkable(node);
+  if (!why.empty())
+    throw ConfigError((prefix.empty() ? "the file" : prefix) + ": " + why + ", expected groups of keys and values");
+  return valueOf(node);
+}
+
 YAML::Node laidOver(const YAML::Node& lower, const YAML::Node& upper) {
   YAML::Node all = YAML::Clone(lower);
   for (const auto& member : upper) {
@@ -51,7 +60,7 @@ YAML::Node laidOver(const YAML::Node& lower, const YAML::Node& upper) {
 }  // namespace
 
 YamlSettings::YamlSettings(std::string prefix, const YAML::Node& node)
-    : TreeSettings(std::move(prefix), valueOf(node)) {}
+    : TreeSettings(prefix, wholeValue(prefix, node)) {}
 
 YAML::Node readYamlFiles(const std::vector<std::string>& files) {
   YAML::Node all{YAML::NodeType::Map};
@@ -59,6 +68,8 @@ YAML::Node readYamlFiles(const std::vector<std::string>& files) {
     try {
       const YAML::Node node = YAML::LoadFile(file);
       if (!node.IsMap()) throw ConfigError("--config " + file + ": expected a file of keys and values");
+      const std::string why = whyNotWalkable(node);
+      if (!why.empty()) throw ConfigError("--config " + file + ": " + why + ", expected groups of keys and values");
       all.reset(laidOver(all, node));
     } catch (const YAML::BadFile&) {
       std::error_code unreadable;

@@ -32,10 +32,14 @@ std::string fileTime(std::chrono::microseconds since_1970) {
   return text + "Z";
 }
 
-/// Empty when all is on the disk; otherwise why not, and no file is left.
+constexpr const char* kUnfinished = ".part";
+
+/// Empty when all is on the disk; otherwise why not, and no file is left. Whatever ends the program meanwhile, a file of
+/// this name is whole: it gets the name when it is.
 std::string writeFile(const std::string& path, const std::string& bytes) {
+  const std::string unfinished = path + kUnfinished;
   errno = 0;
-  std::FILE* file = std::fopen(path.c_str(), "wbx");
+  std::FILE* file = std::fopen(unfinished.c_str(), "wbx");
   if (file == nullptr) return std::strerror(errno);
   bool done = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
   int error = errno;
@@ -43,9 +47,19 @@ std::string writeFile(const std::string& path, const std::string& bytes) {
     done = false;
     error = errno;
   }
-  if (done) return {};
-  std::remove(path.c_str());
+  if (done && std::rename(unfinished.c_str(), path.c_str()) == 0) return {};
+  if (done) error = errno;
+  std::remove(unfinished.c_str());
   return std::strerror(error);
+}
+
+/// By a trace, or by what is left of one that was ended while it was written.
+bool isTaken(const std::string& stem) {
+  std::error_code ignored;
+  for (const char* ending : {".txt", ".pcap"}) {
+    if (fs::exists(stem + ending, ignored) || fs::exists(stem + ending + kUnfinished, ignored)) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -98,12 +112,11 @@ TraceResult TraceWriter::writeNow(const TraceClock& clock) {
 // Two within a millisecond: the later one is named a millisecond later.
 std::string TraceWriter::freeStem(const TraceCause& cause, const TraceClock& clock) const {
   std::string stem;
-  std::error_code ignored;
   std::chrono::microseconds time = clock.wallTime(cause.time);
   do {
     stem = (fs::path(config_.directory) / ("nord_driver_" + fileTime(time) + "_" + cause.tag)).string();
     time += std::chrono::milliseconds{1};
-  } while (fs::exists(stem + ".txt", ignored) || fs::exists(stem + ".pcap", ignored));
+  } while (isTaken(stem));
   return stem;
 }
 
@@ -118,7 +131,7 @@ std::string TraceWriter::pcapBytes(const std::vector<TraceRecord>& telegrams, co
 
 // Only what bears our own names is ever removed.
 std::string TraceWriter::removeOldest() const {
-  static const std::regex kOwn(R"((nord_driver_\d{8}T\d{6}\.\d{3}Z_\w+)\.(txt|pcap))");
+  static const std::regex kOwn(R"((nord_driver_\d{8}T\d{6}\.\d{3}Z_\w+)\.(txt|pcap)(\.part)?)");
   std::set<std::string> stems;
   std::error_code error;
   for (fs::directory_iterator at{config_.directory, error}, end; !error && at != end; at.increment(error)) {
@@ -128,7 +141,7 @@ std::string TraceWriter::removeOldest() const {
   }
   std::string warning;
   for (auto stem = stems.begin(); stems.size() > config_.keep; stem = stems.erase(stem)) {
-    for (const char* ending : {".txt", ".pcap"}) {
+    for (const char* ending : {".txt", ".pcap", ".txt.part", ".pcap.part"}) {
       const fs::path path = fs::path(config_.directory) / (*stem + ending);
       fs::remove(path, error);
       if (error)

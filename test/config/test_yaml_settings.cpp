@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "config/yaml_settings.h"
+#include "support/temporary_folder.h"
 
 namespace nord_driver {
 namespace {
@@ -130,6 +131,27 @@ TEST(YamlSettings, ASlashInAKeyBeginsAGroup) {
   EXPECT_EQ(0.1, settings.number("linear/z/max_velocity"));
   EXPECT_EQ(1, settings.group("drives")->group("left")->integer("a/b"));
   EXPECT_EQ((std::vector<std::string>{"drives", "linear"}), settings.keys());
+}
+
+// A few lines can be a tree without end, which nobody walks through: it would take all stack or all memory.
+TEST(YamlSettings, ATreeWithoutEndIsRefused) {
+  EXPECT_EQ("the file: it is more than 50 groups and lists deep, expected groups of keys and values",
+            refusal([] { settings("a: &a [*a]"); }));
+  std::string laughs = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i < 20; ++i) {
+    const std::string below = "*a" + std::to_string(i - 1), name = "a" + std::to_string(i);
+    laughs += name + ": &" + name + " [" + below + ", " + below + ", " + below + "]\n";
+  }
+  EXPECT_EQ("the file: it has more than 100000 values, expected groups of keys and values",
+            refusal([&] { settings(laughs.c_str()); }));
+  const test::TemporaryFolder folder;
+  folder.write("a.yaml", "a: &a [*a]\n");
+  EXPECT_THAT(refusal([&] { readYamlFiles({folder.path("a.yaml")}); }), HasSubstr("groups and lists deep"));
+}
+
+TEST(YamlSettings, AKeyThatIsNoTextIsRefused) {
+  EXPECT_EQ("the file: line 2: a key is a list or a group, expected groups of keys and values",
+            refusal([] { settings("a:\n  [1, 2]: 3"); }));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 namespace nord_driver::test {
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kCanCountAllocations = false;
 #else
 constexpr bool kCanCountAllocations = true;
@@ -42,7 +42,7 @@ inline void countAllocation() noexcept {
 
 }  // namespace nord_driver::test
 
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 extern "C" {
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);

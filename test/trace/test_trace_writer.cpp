@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "trace/trace_fixture.h"
 #include "trace/trace_writer.h"
@@ -110,6 +112,33 @@ TEST_F(TraceWriterTest, LeavesNoHalfOfATrace) {
   EXPECT_FALSE(result.written);
   EXPECT_THAT(result.message, EndsWith(directory_ + ": File too large"));
   EXPECT_THAT(files(), IsEmpty());
+}
+
+// Whoever looks into the folder while a trace is written, or after the program was killed then (here: by the signal of a
+// limit of file size), finds no file that looks whole and is not.
+TEST_F(TraceWriterTest, AKilledProgramLeavesNoTraceThatLooksWhole) {
+  for (int i = 0; i < 5000; ++i) trace_.record(TraceKind::kReceived, fromHex("E5"), at(i));
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const rlimit none{0, 0};
+    setrlimit(RLIMIT_CORE, &none);
+    signal(SIGXFSZ, SIG_DFL);
+    const rlimit small{100'000, 100'000};  // enough for the pcap, not for the text
+    setrlimit(RLIMIT_FSIZE, &small);
+    TraceWriter traces{{directory_, 2}, drives(), &trace_, feed_.history()};
+    static_cast<void>(traces.writeNow(clockAt(0)));
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(child, ::waitpid(child, &status, 0));
+  ASSERT_TRUE(WIFSIGNALED(status));
+  for (const std::string& file : files()) EXPECT_THAT(file, ::testing::Not(EndsWith(".txt")));
+  // What is left does not stay for ever, and is in nobody's way.
+  TraceWriter traces{{directory_, 1}, drives(), &trace_, feed_.history()};
+  EXPECT_TRUE(traces.writeNow(clockAt(0)).written);
+  EXPECT_TRUE(traces.writeNow(clockAt(5000)).written);
+  EXPECT_EQ(2u, files().size());
 }
 
 }  // namespace

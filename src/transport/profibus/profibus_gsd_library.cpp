@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 
-#include "config/setting_checks.h"
+#include "config/text_file.h"
 
 namespace nord_driver {
 
@@ -34,11 +32,7 @@ GsdEntry& ProfibusGsdLibrary::load(const Settings& settings, const std::string& 
   for (GsdEntry& entry : entries_) {
     if (entry.path == path) return entry;
   }
-  std::ifstream stream(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream.is_open() || text.empty()) {
-    throw wrongSetting(settings, "gsd", "\"" + path + "\"", "a GSD file that can be read");
-  }
+  const std::string text = readTextFile(settings, "gsd", path, "a GSD file");
   entries_.push_back({path, profibus::parseGsd(text), false});
   for (const profibus::GsdProblem& problem : entries_.back().file.problems) {
     warnings_.push_back(path + ":" + std::to_string(problem.line) + ": " + problem.text);
