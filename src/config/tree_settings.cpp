@@ -144,12 +144,12 @@ std::optional<std::vector<std::string>> TreeSettings::list(const std::string& ke
   if (value == nullptr) return std::nullopt;
   if (is_item(*value)) return std::vector<std::string>{value->text};
   if (value->kind != Kind::kList) throw wrongKind(key, *value, "a text or a list of texts");
-  std::vector<std::string> list;
+  std::vector<std::string> items;
   for (const SettingValue& item : value->items) {
     if (!is_item(item)) throw wrongItem(key, item, "a list of texts");
-    list.push_back(item.text);
+    items.push_back(item.text);
   }
-  return list;
+  return items;
 }
 
 std::string TreeSettings::fullName(const std::string& key) const {
