@@ -56,7 +56,10 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       outputs_(config.drives.size()),
       inputs_(config.drives.size()),
       snapshot_(config.drives.size()) {
-  for (const DriveSetup& setup : config.drives) addAxis(setup, role);
+  for (const DriveSetup& setup : config.drives) {
+    addAxis(setup, role);
+    leaders_.push_back(setup.leader);
+  }
   if (!config.base) return;
   base_.emplace(*config.base, config.cmd_vel_timeout);
   wheels_ = config.base->wheels();
@@ -187,13 +190,13 @@ void BusCycle::commandBase(Instant now, Duration dt) noexcept {
   base_->tune(ports_.newestBaseTuning());
   const robot::WheelSpeeds wheels =
       base_->pollWheels(ports_.newestBaseCommand(), driving, follow, maxWheelSpeeds(), now, dt, minWheelSpeeds());
-  for (std::size_t i = 0; i < wheels_.size(); ++i) drives_[wheels_[i]].setVelocity(RadPerSec{wheels[i]});
+  for (std::size_t i = 0; i < wheels_.size(); ++i) setVelocity(wheels_[i], wheels[i]);
   group.setpointIsZero(robot::standsStill(wheels));
 }
 
 void BusCycle::commandSingles(Instant now, Duration dt) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
-    if (supervisor_.inBase(i)) continue;
+    if (supervisor_.inBase(i) || isLed(i)) continue;
     drive::DriveGroup& group = supervisor_.groupOf(i);
     const JointCommand& newest = ports_.newestDriveCommand(i);
     const bool fresh = !isStale(newest, cmd_vel_timeout_, now);
@@ -203,8 +206,16 @@ void BusCycle::commandSingles(Instant now, Duration dt) noexcept {
                              drives_[i].comesToRest()};
     const double velocity = axes_[i].motion.pollVelocity(follow && fresh ? newest.velocity : 0.0,
                                                          follow || group.wantsZeroRamp(), bounds, dt);
-    drives_[i].setVelocity(RadPerSec{velocity});
+    setVelocity(i, velocity);
     group.setpointIsZero(velocity == 0.0);
+  }
+}
+
+// Its followers hear their leader, not this; but they rest when it rests (P104), and go where it goes.
+void BusCycle::setVelocity(DriveIndex drive, double velocity) noexcept {
+  drives_[drive].setVelocity(RadPerSec{velocity});
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    if (leaders_[i] == drive) drives_[i].setVelocity(RadPerSec{velocity});
   }
 }
 
@@ -286,7 +297,7 @@ void BusCycle::measure(Instant now, Duration dt) noexcept {
     } else {
       axes_[i].joint.rebase();
     }
-    axes_[i].speed.update(drive::isEnabled(report.phase) && report.scaled, report.velocity_command.value,
+    axes_[i].speed.update(drive::isEnabled(report.phase) && report.scaled && !isLed(i), report.velocity_command.value,
                           report.velocity.value, drives_[i].maxVelocity().value_or(RadPerSec{}).value, now);
   }
   if (base_) measureBase(dt);

@@ -42,6 +42,8 @@ class BusCycle {
   void runOnce() noexcept;
   Duration period() const noexcept { return period_; }
   bool inBase(DriveIndex drive) const noexcept { return supervisor_.inBase(drive); }
+  /// Another drive leads it: it has no command of its own.
+  bool isLed(DriveIndex drive) const noexcept { return leaders_[drive].has_value(); }
 
   // For a program that calls runOnce() itself.
   /// A parameter that decides motion may be written.
@@ -61,6 +63,7 @@ class BusCycle {
   void command(Instant now, Duration dt) noexcept;
   void commandBase(Instant now, Duration dt) noexcept;
   void commandSingles(Instant now, Duration dt) noexcept;
+  void setVelocity(DriveIndex drive, double velocity) noexcept;
   void addAxis(const DriveSetup& setup, CycleRole role);
   void pollOutputs(Instant now) noexcept;
   /// The drive is enabled and does what its velocity command says, which is fresh.
@@ -88,8 +91,9 @@ class BusCycle {
   std::vector<drive::Drive> drives_;
   std::vector<Axis> axes_;
   std::optional<BaseMotion> base_;
-  std::vector<DriveIndex> wheels_;      // the drives of the base, in the order of its wheel speeds
-  StartAcknowledge start_acknowledge_;  // before the supervisor, which asks it
+  std::vector<std::optional<DriveIndex>> leaders_;  // of the drives that follow one
+  std::vector<DriveIndex> wheels_;                  // the drives of the base, in the order of its wheel speeds
+  StartAcknowledge start_acknowledge_;              // before the supervisor, which asks it
   Supervisor supervisor_;
   CommandWatch command_watch_;
   StandstillRequests standstill_requests_;

@@ -37,6 +37,7 @@ struct ParameterChannelUse {
   /// What somebody wants to look at; a set 0 is the one in force.
   std::vector<profile::ParameterRequest> monitor = {};
   WordNeeds needs;          ///< of the words beside the first
+  bool follows = false;     ///< another inverter is to lead it
   bool users_only = false;  ///< nothing is read that no user has asked for: neither faults nor what scaling needs
 };
 
