@@ -56,6 +56,7 @@ std::vector<AskedDrive> askedDrives(const cycle::CycleConfig& config, const std:
     drive.period = toSeconds(config.period());
     drive.allows_minimum_frequency = setup.drive.allow_minimum_frequency;
     drive.typed_max_frequency = setup.typed_max_frequency;
+    drive.follows = !setup.follows.empty();
     drive.rated_current = setup.rated_current;
     drive.words = cycle::wordNeeds(setup.words, identities[i].process_values);
     if (setup.position) cycle::addPositionNeeds(*setup.position, setup.series, drive.words);

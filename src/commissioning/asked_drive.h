@@ -19,6 +19,7 @@ struct AskedDrive {
   DriveIdentity identity;  ///< how it hangs on the bus, what protects it, how many process values it has
   double period = 0.01;    ///< s, of the bus cycle
   bool of_base = false;
+  bool follows = false;  ///< another inverter is to lead it
   bool allows_minimum_frequency = false;
   std::optional<double> typed_max_frequency;  ///< Hz
   std::optional<double> rated_current;        ///< A

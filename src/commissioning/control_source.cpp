@@ -1,12 +1,22 @@
 // P509 and P510: who commands the inverter.
 #include "commissioning/bus_selection.h"
 #include "commissioning/rules.h"
+#include "profile/leading_function.h"
 
 namespace nord_driver::commissioning {
 
 namespace {
 
 constexpr std::uint16_t kControlWordSource = 509, kSetpointSource = 510;
+
+// By either of both another inverter leads the drive.
+bool isLed(const DriveUnderCheck& drive) {
+  const auto control_word = drive.raw(drive.key(kControlWordSource));
+  const auto setpoint = drive.raw(drive.key(kSetpointSource, 0, 1));
+  const profile::Series series = drive.asked().series;
+  return (control_word && profile::isBroadcastControlWord(series, *control_word)) ||
+         (setpoint && profile::isBroadcastSetpoint(series, *setpoint));
+}
 
 }  // namespace
 
@@ -16,6 +26,7 @@ void busHasControl(const Drives& drives, std::size_t index, Findings& to) {
   const auto raw = drive.raw(key);
   const BusSelection selection = busSelection(drive);
   if (!raw || selection.controlWordFits(*raw)) return;
+  if (drive.asked().follows && profile::isBroadcastControlWord(drive.asked().series, *raw)) return;
   Finding finding = drive.finding(key, Severity::kError,
                                   "this bus has no control: the drive does not become ready, and its terminals may "
                                   "turn the motor",
@@ -34,6 +45,16 @@ void busGivesSetpoint(const Drives& drives, std::size_t index, Findings& to) {
   const DriveUnderCheck& drive = drives[index];
   const ParameterKey key = drive.key(kSetpointSource, 0, 1);
   const auto raw = drive.raw(key);
+  if (drive.asked().follows && isLed(drive)) return;
+  if (raw && drive.asked().follows) {
+    Finding finding = drive.finding(key, Severity::kError,
+                                    "the drive is to follow another one, and hears this bus instead: it is not enabled",
+                                    drive.isDecentral() ? "BU 0280, 5.1.3" : "BU 0020, 6.2.2");
+    finding.selects_bus = true;
+    finding.advice = "choose the broadcast here, or in P509; or take `follows` out of the configuration";
+    to.push_back(finding);
+    return;
+  }
   if (!raw || busSelection(drive).setpointFits(*raw)) return;
   // SK 300E, 700E and 750E: the auxiliary setpoint alone; the main one comes from P509 (BU 0020 6.1.2).
   const bool auxiliary = drive.isOlderSeries();

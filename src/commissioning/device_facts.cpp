@@ -49,8 +49,8 @@ void collectPerSet(const cycle::DeviceData& device, std::uint8_t set, Collector&
   to.storeOrMissing(drive.key(104, set), device.min_frequency[i]);
   to.store(drive.key(102, set), device.acceleration_time[i], kRampStep);
   to.store(drive.key(103, set), device.deceleration_time[i], kRampStep);
-  to.storeFunction(drive.functionKey(543, 0, set), device.actual_value_1_function[i]);
-  to.storeFunction(drive.functionKey(546, 0, set), device.setpoint_1_function[i]);
+  to.storeFunction(drive.functionKey(543, 0, set), device.word_functions[i].actual_values[0]);
+  to.storeFunction(drive.functionKey(546, 0, set), device.word_functions[i].setpoints[0]);
 }
 
 }  // namespace
@@ -62,12 +62,8 @@ CommissioningFacts deviceFacts(const cycle::DeviceData& device, const AskedDrive
   const DriveUnderCheck& drive = to.drive();
   for (std::uint8_t set = 1; set <= kSets; ++set) collectPerSet(device, set, to);
   for (std::uint8_t place = 1; place < kPlaces; ++place) {
-    if (place < device.actual_value_functions.size()) {
-      to.storeFunction(drive.functionKey(543, place, 1), device.actual_value_functions[place]);
-    }
-    if (place < device.setpoint_functions.size()) {
-      to.storeFunction(drive.functionKey(546, place, 1), device.setpoint_functions[place]);
-    }
+    to.storeFunction(drive.functionKey(543, place, 1), device.word_functions[0].actual_values[place]);
+    to.storeFunction(drive.functionKey(546, place, 1), device.word_functions[0].setpoints[place]);
   }
   for (std::size_t bit = 0; bit < device.bus_bit_functions.size(); ++bit) {
     to.storeFunction(drive.key(480, 0, static_cast<std::uint8_t>(bit + 1)), device.bus_bit_functions[bit]);

@@ -57,7 +57,10 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       outputs_(config.drives.size()),
       inputs_(config.drives.size()),
       snapshot_(config.drives.size()) {
-  for (const DriveSetup& setup : config.drives) addAxis(setup, role);
+  for (const DriveSetup& setup : config.drives) {
+    addAxis(setup, role);
+    leaders_.push_back(setup.leader);
+  }
   for (DriveIndex i = 0; i < drives_.size(); ++i) snapshot_.drives[i].joint_known = !drives_[i].positions();
   if (!config.base) return;
   addBase(*config.base);
@@ -188,7 +191,7 @@ void BusCycle::command(Instant now, Duration dt) noexcept {
 
 void BusCycle::commandSingles(Instant now, Duration dt) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
-    if (supervisor_.inBase(i)) continue;
+    if (supervisor_.inBase(i) || isLed(i)) continue;
     drive::DriveGroup& group = supervisor_.groupOf(i);
     if (drives_[i].positions()) {
       commandPosition(i, now);
@@ -202,7 +205,7 @@ void BusCycle::commandSingles(Instant now, Duration dt) noexcept {
                              drives_[i].comesToRest()};
     const double velocity = axes_[i].motion.pollVelocity(follow && fresh ? newest.velocity : 0.0,
                                                          follow || group.wantsZeroRamp(), bounds, dt);
-    drives_[i].setVelocity(RadPerSec{velocity});
+    setVelocity(i, velocity);
     group.setpointIsZero(velocity == 0.0);
   }
 }
@@ -214,6 +217,14 @@ void BusCycle::commandPosition(DriveIndex drive, Instant now) noexcept {
   const drive::TargetRefusal refusal = drives_[drive].setPosition(*target);
   const auto told = axes_[drive].targets.handleAnswer(names_[drive].c_str(), *target, refusal, now);
   if (told) ports_.tell({true, *told});
+}
+
+// Its followers hear their leader, not this; but they rest when it rests (P104), and go where it goes.
+void BusCycle::setVelocity(DriveIndex drive, double velocity) noexcept {
+  drives_[drive].setVelocity(RadPerSec{velocity});
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    if (leaders_[i] == drive) drives_[i].setVelocity(RadPerSec{velocity});
+  }
 }
 
 void BusCycle::handleInputs(Instant now) noexcept {
@@ -282,7 +293,8 @@ void BusCycle::measure(Instant now, Duration dt) noexcept {
     } else {
       axes_[i].joint.rebase();
     }
-    axes_[i].speed.update(drive::isEnabled(report.phase) && report.scaled && !drives_[i].positions(),
+    const bool own_velocity = !drives_[i].positions() && !isLed(i);
+    axes_[i].speed.update(drive::isEnabled(report.phase) && report.scaled && own_velocity,
                           report.velocity_command.value, report.velocity.value,
                           drives_[i].maxVelocity().value_or(RadPerSec{}).value, now);
   }

@@ -44,6 +44,8 @@ class BusCycle {
   void runOnce() noexcept;
   Duration period() const noexcept { return period_; }
   bool inBase(DriveIndex drive) const noexcept { return supervisor_.inBase(drive); }
+  /// Another drive leads it: it has no command of its own.
+  bool isLed(DriveIndex drive) const noexcept { return leaders_[drive].has_value(); }
 
   // For a program that calls runOnce() itself.
   /// A parameter that decides motion may be written.
@@ -73,6 +75,7 @@ class BusCycle {
   void publishBase() noexcept;
   void commandSingles(Instant now, Duration dt) noexcept;
   void commandPosition(DriveIndex drive, Instant now) noexcept;
+  void setVelocity(DriveIndex drive, double velocity) noexcept;
   void addAxis(const DriveSetup& setup, CycleRole role);
   void pollOutputs(Instant now) noexcept;
   void putWords(DriveIndex drive, Instant now) noexcept;
@@ -102,8 +105,9 @@ class BusCycle {
   std::vector<Axis> axes_;
   std::optional<BaseMotion> base_;  // one of these two, or none
   std::optional<SteeredMotion> steered_;
-  std::vector<DriveIndex> wheels_;    // the drives of the base, in the order of its wheel speeds
-  std::vector<DriveIndex> steering_;  // and of its steering angles
+  std::vector<std::optional<DriveIndex>> leaders_;  // of the drives that follow one
+  std::vector<DriveIndex> wheels_;                  // the drives of the base, in the order of its wheel speeds
+  std::vector<DriveIndex> steering_;                // and of its steering angles
   std::optional<Instant> waits_since_;
   std::optional<Instant> waits_told_at_;
   StartAcknowledge start_acknowledge_;  // before the supervisor, which asks it

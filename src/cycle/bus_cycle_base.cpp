@@ -47,7 +47,7 @@ void BusCycle::commandBase(Instant now, Duration dt) noexcept {
   base_->tune(ports_.newestBaseTuning());
   const robot::WheelSpeeds wheels =
       base_->pollWheels(ports_.newestBaseCommand(), driving, follow, maxWheelSpeeds(), now, dt, minWheelSpeeds());
-  for (std::size_t i = 0; i < wheels_.size(); ++i) drives_[wheels_[i]].setVelocity(RadPerSec{wheels[i]});
+  for (std::size_t i = 0; i < wheels_.size(); ++i) setVelocity(wheels_[i], wheels[i]);
   group.setpointIsZero(robot::standsStill(wheels));
 }
 
@@ -60,7 +60,7 @@ void BusCycle::commandSteered(Instant now, Duration dt) noexcept {
   const bool driving = follow || group.wantsZeroRamp();
   const SteeredDrives drives{maxWheelSpeeds(), steeringAngles(), minWheelSpeeds()};
   const robot::SteeredSetpoint setpoint = steered_->poll(newest, driving, follow, drives, now, dt);
-  for (std::size_t i = 0; i < wheels_.size(); ++i) drives_[wheels_[i]].setVelocity(RadPerSec{setpoint.wheels[i]});
+  for (std::size_t i = 0; i < wheels_.size(); ++i) setVelocity(wheels_[i], setpoint.wheels[i]);
   Sentence waits = clauseOf(steered_->waitsFor());
   bool passes = steered_->waitsFor() == SteeredWait::kAngles;
   for (std::size_t i = 0; i < steering_.size() && driving; ++i) {

@@ -12,6 +12,7 @@ void BusCycle::addAxis(const DriveSetup& setup, CycleRole role) {
   channel.timeout_owner = identity.timeout_owner;
   channel.capabilities = transport_.parameterCapabilities(drive);
   channel.monitor = setup.monitor;
+  channel.follows = !setup.follows.empty();
   channel.users_only = role == CycleRole::kGuest;
   if (role == CycleRole::kDriver) channel.needs = wordNeeds(setup.words, identity.process_values);
   if (role != CycleRole::kGuest && setup.position) {
@@ -29,8 +30,9 @@ bool BusCycle::followsCommand(DriveIndex drive, Instant now) noexcept {
   if (!supervisor_.groupOf(drive).commandAllowed() || drives_[drive].report().phase != drive::Phase::kEnabled) {
     return false;
   }
-  return supervisor_.inBase(drive) ? !isStale(ports_.newestBaseCommand(), cmd_vel_timeout_, now)
-                                   : !isStale(ports_.newestDriveCommand(drive), cmd_vel_timeout_, now);
+  return supervisor_.inBase(drive)
+             ? !isStale(ports_.newestBaseCommand(), cmd_vel_timeout_, now)
+             : !isStale(ports_.newestDriveCommand(leaders_[drive].value_or(drive)), cmd_vel_timeout_, now);
 }
 
 void BusCycle::pollOutputs(Instant now) noexcept {

@@ -9,6 +9,7 @@
 #include "config/setting_groups.h"
 #include "config/setting_note.h"
 #include "cycle/joint_limits.h"
+#include "cycle/leaders.h"
 
 namespace nord_driver::cycle {
 
@@ -124,7 +125,7 @@ drive::StopWays readStopWays(const Settings& settings) {
 }  // namespace
 
 CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSettings>& drives,
-                            const std::string& robot_description) {
+                            const std::string& robot_description, bool all_drives) {
   CycleConfig config;
   config.cycle_rate = numberOr(node, "cycle_rate", 100.0, kMinCycleRate, kMaxCycleRate, "Hz");
   config.real_time.priority = static_cast<int>(integerOr(node, "realtime_priority", 0, 0, 99));
@@ -151,6 +152,7 @@ CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSetting
   refuseJointsUsedTwice(drives, config.drives);
   config.base = readBaseConfig(node, joints, robot_description, steeringRanges(config));
   readLimitsOfSingles(drives, config);
+  readLeaders(drives, config, all_drives);
   return config;
 }
 

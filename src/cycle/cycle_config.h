@@ -34,6 +34,8 @@ struct DriveSetup {
   robot::SpeedLimits limits;                   ///< of the joint, rad; of a drive that belongs to no base
   WordSetup words;                             ///< what users command and read beside the velocity
   std::optional<PositionSetup> position = {};  ///< `mode: position`; none: it follows velocities
+  std::string follows = {};  ///< the drive that leads this one (P509, P510 = broadcast), as configured; empty: none
+  std::optional<DriveIndex> leader = {};  ///< the same; nothing where it is not among the drives that were read
 };
 
 struct RealTimeOptions {
@@ -59,8 +61,9 @@ struct CycleConfig {
 };
 
 /// `robot_description`: URDF text the base's sizes and joint limits are taken from; may be empty.
+/// `all_drives`: `drives` are all there are, so that one which is named elsewhere must be among them.
 /// Throws ConfigError naming key, value and what was expected.
 CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSettings>& drives,
-                            const std::string& robot_description = {});
+                            const std::string& robot_description = {}, bool all_drives = true);
 
 }  // namespace nord_driver::cycle

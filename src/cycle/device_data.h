@@ -26,16 +26,12 @@ struct DeviceData {
   std::array<std::optional<double>, 4> min_frequency;      ///< Hz, P104: at setpoint 0 the motor turns at it
   std::array<std::optional<double>, 4> acceleration_time;  ///< s from 0 Hz to P105, P102 of parameter sets 1..4
   std::array<std::optional<double>, 4> deceleration_time;  ///< s from P105 to 0 Hz, P103 likewise
-  std::array<std::optional<std::uint16_t>, 4> actual_value_1_function;  ///< P543 (or [-01]) of parameter sets 1..4
-  std::array<std::optional<std::uint16_t>, 4> setpoint_1_function;      ///< P546 (or [-01]) of parameter sets 1..4
-  std::optional<std::int32_t> software_version;                         ///< P707 [-01]: 21 = V2.1
-  std::optional<std::int32_t> software_revision;                        ///< P707 [-02]
-  std::optional<double> telegram_timeout;                ///< s, P513; 0 = off, -0.1 = bus errors are ignored
-  std::optional<double> module_timeout;                  ///< s, P151 of the bus module; 0 = off, negative = as above
-  std::optional<std::int32_t> option_monitoring;         ///< P120 [-01]: 0 = a failed module is not noticed
-  std::optional<bool> saves_in_eeprom;                   ///< P560: 0 = every write is lost at power off
-  FixedVector<std::uint16_t, 3> setpoint_functions;      ///< P546..P548 of parameter set 1, each in its place
-  FixedVector<std::uint16_t, 3> actual_value_functions;  ///< P543..P545 of parameter set 1, each in its place
+  std::optional<std::int32_t> software_version;            ///< P707 [-01]: 21 = V2.1
+  std::optional<std::int32_t> software_revision;           ///< P707 [-02]
+  std::optional<double> telegram_timeout;                  ///< s, P513; 0 = off, -0.1 = bus errors are ignored
+  std::optional<double> module_timeout;                    ///< s, P151 of the bus module; 0 = off, negative = as above
+  std::optional<std::int32_t> option_monitoring;           ///< P120 [-01]: 0 = a failed module is not noticed
+  std::optional<bool> saves_in_eeprom;                     ///< P560: 0 = every write is lost at power off
   /// P543 to P548 of parameter sets 1..4; of sets 2 to 4 only the first, unless further words are in use.
   std::array<WordFunctions, 4> word_functions;
   FixedVector<std::uint16_t, 12> bus_bit_functions;  ///< P480 [-01].., each in its place: what bus I/O bits do

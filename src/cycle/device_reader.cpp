@@ -35,6 +35,8 @@ DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool furt
     for (std::uint8_t set = 1; set <= kSets; ++set) add(kPositionControl, set, 1);
     add(kSetpointMode, 1, 1);
   }
+  add(kControlWordSource, 1, 1);
+  add(kSetpointSource, 1, 1);
   motion_items_ = items_.size();
   add(kTelegramTimeout, 1, 1);
   if (owner == TimeoutOwner::kModule) {
@@ -52,8 +54,6 @@ DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool furt
     add(kAccelerationTime, set, 1);
     add(kDecelerationTime, set, 1);
   }
-  add(kControlWordSource, 1, 1);
-  add(kSetpointSource, 1, 1);
 }
 
 void DeviceReader::add(std::uint16_t number, std::uint8_t set, std::uint8_t index) noexcept {
@@ -197,29 +197,12 @@ void DeviceReader::leaveOut(const Item& item) noexcept {
 }
 
 void DeviceReader::storeFunction(const Item& item, std::uint16_t function) noexcept {
-  auto* functions = functionsOf(item);
-  if (functions == nullptr) return;
-  const bool actual_value = item.number < kFirstSetpoint;
+  const bool actual_value = item.number >= kFirstActualValue && item.number < kFirstSetpoint;
+  if (!actual_value && (item.number < kFirstSetpoint || item.number >= kFirstSetpoint + 3)) return;
   const unsigned parameter = item.number - unsigned{actual_value ? kFirstActualValue : kFirstSetpoint};
   const std::size_t place = parameter + item.index - 1u;
-  if (place == 0) {
-    auto& of_sets = actual_value ? data_.actual_value_1_function : data_.setpoint_1_function;
-    of_sets[item.set - 1u] = function == kUnknownFunction ? std::nullopt : std::optional<std::uint16_t>{function};
-  }
-  if (place < data_.word_functions[0].setpoints.size()) {
-    WordFunctions& words = data_.word_functions[item.set - 1u];
-    (actual_value ? words.actual_values : words.setpoints)[place] = function;
-  }
-  if (item.set != 1) return;
-  // One that stays away must not let the next take its place.
-  while (functions->size() <= place) functions->push_back(kUnknownFunction);
-  (*functions)[place] = function;
-}
-
-FixedVector<std::uint16_t, 3>* DeviceReader::functionsOf(const Item& item) noexcept {
-  if (item.number >= kFirstSetpoint && item.number < kFirstSetpoint + 3) return &data_.setpoint_functions;
-  if (item.number >= kFirstActualValue && item.number < kFirstSetpoint) return &data_.actual_value_functions;
-  return nullptr;
+  WordFunctions& words = data_.word_functions[item.set - 1u];
+  if (place < words.setpoints.size()) (actual_value ? words.actual_values : words.setpoints)[place] = function;
 }
 
 }  // namespace nord_driver::cycle

@@ -58,7 +58,6 @@ class DeviceReader {
   void store(const Item& item, std::int32_t raw) noexcept;
   void leaveOut(const Item& item) noexcept;
   /// Where a function P543 to P548 belongs; nullptr for all other parameters.
-  FixedVector<std::uint16_t, 3>* functionsOf(const Item& item) noexcept;
   void storeFunction(const Item& item, std::uint16_t function) noexcept;
 
   profile::Series series_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "cycle/leaders.h"
 #include "cycle/user_messages.h"
 #include "profile/cycle_parameters.h"
 
@@ -18,8 +19,8 @@ constexpr Duration kReasonInterval = std::chrono::milliseconds{500};
 constexpr Duration kMissingInterval = std::chrono::seconds{2};
 
 // Beside those that are read at start: jog frequency, brake, servo mode and encoder (the P300 family's, not its
-// controller gains), PPO type, source of control word and setpoints, drive profile.
-constexpr std::uint16_t kDecideMotion[] = {113, 114, 300, 301, 325, 507, 509, 510, 551};
+// controller gains), PPO type, drive profile.
+constexpr std::uint16_t kDecideMotion[] = {113, 114, 300, 301, 325, 507, 551};
 
 // Whether and how it positions (P600 to P631), other than the positions themselves (P613).
 constexpr bool decidesPosition(std::uint16_t number) noexcept {
@@ -33,6 +34,7 @@ void forgetScale(drive::Drive& drive) noexcept {
     drive.setUnexpectedFunction(set, std::nullopt);
     drive.setPositionWords(set, {});
   }
+  drive.setUnexpectedSource(std::nullopt);
   drive.setParametersAwaited(true);
 }
 
@@ -65,19 +67,20 @@ std::optional<drive::UnexpectedFunction> unexpectedPositionMode(const DeviceData
 
 std::optional<drive::UnexpectedFunction> unexpectedFunction(const DeviceData& device, std::uint8_t set,
                                                             profile::Series series, const WordNeeds& needs) noexcept {
-  const auto compare = [&](std::uint16_t number, const std::optional<std::uint16_t>& found) {
+  const auto compare = [&](std::uint16_t number, std::uint16_t found) {
     std::optional<drive::UnexpectedFunction> unexpected;
-    if (!found || firstWordFits(needs, number == 543, *found, series)) return unexpected;
+    if (found == kUnknownFunction || firstWordFits(needs, number == 543, found, series)) return unexpected;
     const profile::CycleParameter* info = profile::findCycleParameter(number, series);
     const bool is_array = info != nullptr && info->shape == profile::ParameterShape::kArrayPerSet;
-    unexpected = {number, is_array, *found, kFrequencyFunction, 1, nullptr};
+    unexpected = {number, is_array, found, kFrequencyFunction, 1, nullptr};
     return unexpected;
   };
-  const auto actual_value = compare(543, device.actual_value_1_function[set - 1u]);
+  const WordFunctions& words = device.word_functions[set - 1u];
+  const auto actual_value = compare(543, words.actual_values[0]);
   if (actual_value) return actual_value;
-  const auto setpoint = compare(546, device.setpoint_1_function[set - 1u]);
+  const auto setpoint = compare(546, words.setpoints[0]);
   if (setpoint) return setpoint;
-  const auto missing = missingWord(needs, device.word_functions[set - 1u], series);
+  const auto missing = missingWord(needs, words, series);
   return missing || !needs.positions ? missing : unexpectedPositionMode(device, set, needs);
 }
 
@@ -86,7 +89,8 @@ std::optional<drive::UnexpectedFunction> unexpectedFunction(const DeviceData& de
 bool changesProcessData(const Request& request) noexcept {
   const std::uint16_t number = request.parameter.number;
   return request.kind == RequestKind::kWriteParameter &&
-         (saysWhatSetpointsMean(number) || number == 104 || number == 480 || decidesPosition(number));
+         (saysWhatSetpointsMean(number) || number == 104 || number == 480 || number == 509 || number == 510 ||
+          decidesPosition(number));
 }
 
 bool decidesMotion(const Request& request) noexcept {
@@ -169,6 +173,7 @@ void DriveParameters::scale(drive::Drive& drive) const noexcept {
     drive.setPositionWords(set, profile::positionWords(series_, functions.setpoints, functions.actual_values,
                                                        channel_.needs.words, channel_.field_order));
   }
+  drive.setUnexpectedSource(unexpectedSource(reader_.data(), series_, channel_.follows));
   drive.setParametersAwaited(!reader_.motionAsked());
 }
 

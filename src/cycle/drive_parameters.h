@@ -38,6 +38,7 @@ struct ParameterChannelUse {
   std::vector<profile::ParameterRequest> monitor = {};
   WordNeeds needs;                                                    ///< of the words beside the first
   profile::FieldOrder field_order = profile::FieldOrder::kHighFirst;  ///< of a position of SK 700E and 750E
+  bool follows = false;                                               ///< another inverter is to lead it
   bool users_only = false;  ///< nothing is read that no user has asked for: neither faults nor what scaling needs
 };
 

@@ -58,7 +58,8 @@ Sentence namesOf(Refusal refusal, const std::vector<std::string>& names, const s
 
 // What to set is told by its value only.
 bool hasAValue(Refusal refusal) noexcept {
-  return refusal == Refusal::kMinimumFrequency || refusal == Refusal::kUnexpectedFunction;
+  return refusal == Refusal::kMinimumFrequency || refusal == Refusal::kUnexpectedFunction ||
+         refusal == Refusal::kUnexpectedSource;
 }
 
 const char* nextCall(Refusal refusal) noexcept {

@@ -22,7 +22,7 @@ std::uint16_t functionAt(std::size_t i, const DriveSample& sample, const DeviceD
     const std::uint16_t own = device.word_functions[set - 1].actual_values[i];
     if (own != kUnknownFunction) return own;
   }
-  return i < device.actual_value_functions.size() ? device.actual_value_functions[i] : kUnknownFunction;
+  return device.word_functions[0].actual_values[i];
 }
 
 std::optional<double> shareWith(WordUse use, const DriveSample& sample, const DeviceData& device,

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "cycle/enable_refusal.h"
+#include "cycle/leaders.h"
 #include "cycle/user_messages.h"
 
 namespace nord_driver::cycle {
@@ -33,14 +34,21 @@ Supervisor::Supervisor(const CycleConfig& config, std::vector<drive::Drive>& dri
       has_base_(config.base.has_value()),
       auto_enable_(auto_enable),
       start_(start) {
-  for (const DriveSetup& setup : config.drives) names_.push_back(setup.name);
+  for (const DriveSetup& setup : config.drives) {
+    names_.push_back(setup.name);
+    leaders_.push_back(setup.leader);
+  }
   if (config.base) addGroup(config.base->drives(), config);
   for (DriveIndex i = 0; i < drives.size(); ++i) {
-    if (group_of_[i] == kNoGroup) addGroup({i}, config);
+    if (group_of_[i] == kNoGroup && !leaders_[i]) addGroup({i}, config);
   }
 }
 
-void Supervisor::addGroup(const std::vector<DriveIndex>& members, const CycleConfig& config) {
+// With those that follow them: whoever leads them stops with them.
+void Supervisor::addGroup(std::vector<DriveIndex> members, const CycleConfig& config) {
+  for (std::size_t i = 0, leaders = members.size(); i < leaders; ++i) {
+    for (const DriveIndex follower : followersOf(config, members[i])) members.push_back(follower);
+  }
   std::vector<drive::Drive*> pointers;
   for (const DriveIndex member : members) {
     pointers.push_back(&drives_[member]);
@@ -70,6 +78,13 @@ void Supervisor::handleRequest(const Request& request, const CommandState& comma
       text.format("drive %s belongs to the base: use ~enable", names_[request.drive].c_str());
       return completions_.answer(request, false, text);
     }
+  } else if (request.drive != kAllDrives && leaders_[request.drive] && request.kind != RequestKind::kQuickStop) {
+    const char* const name = names_[request.drive].c_str();
+    const char* const leader = names_[*leaders_[request.drive]].c_str();
+    Sentence text;
+    text.format("drive %s follows drive %s (drives/%s/follows), and is enabled and disabled with it: use ~%s/enable",
+                name, leader, name, leader);
+    return completions_.answer(request, false, text);
   }
   switch (request.kind) {
     case RequestKind::kEnable:

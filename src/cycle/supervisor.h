@@ -17,7 +17,7 @@
 
 namespace nord_driver::cycle {
 
-/// Drives stand in groups: the base, and every other drive alone. A request for all drives is carried out for all
+/// Drives stand in groups: the base, and every other drive alone; each with the drives that follow it. A request for all drives is carried out for all
 /// groups or for none. Each cycle: `handleRequest` for what has come, then after the exchange `update`, then
 /// `pollCompletion`.
 class Supervisor {
@@ -56,7 +56,7 @@ class Supervisor {
     bool begun = true;  // false: an enable that waits until commands have been listened to
   };
 
-  void addGroup(const std::vector<DriveIndex>& members, const CycleConfig& config);
+  void addGroup(std::vector<DriveIndex> members, const CycleConfig& config);
   bool concerns(const Request& request, std::size_t group) const noexcept;
   void startEnable(const Request& request, const CommandState& commands, Instant now) noexcept;
   /// All drives of the request, or none: false when one refuses, and answered.
@@ -84,7 +84,8 @@ class Supervisor {
 
   std::vector<drive::Drive>& drives_;
   std::vector<std::string> names_;
-  std::vector<Group> groups_;  // the base first
+  std::vector<std::optional<DriveIndex>> leaders_;  // of the drives that follow one
+  std::vector<Group> groups_;                       // the base first
   std::vector<std::size_t> group_of_;
   std::vector<drive::Refusal> refusals_;  // one per drive, filled anew for each sentence
   bool has_base_ = false;

@@ -46,6 +46,25 @@ Sentence positionModeMessage(const char* drive, const drive::UnexpectedFunction&
   return text;
 }
 
+// It would go as another inverter says, or as this bus says though another one is to lead it.
+Sentence sourceMessage(const char* drive, const drive::UnexpectedSource& source) noexcept {
+  Sentence text;
+  const char* const element = source.is_array ? "[-01]" : "";
+  if (source.should_follow) {
+    text.format(
+        "drive %s is to follow another inverter (drives/%s/follows), and P%u%s is %d, no broadcast: it would go "
+        "by this bus; set it, or P509, to the broadcast",
+        drive, drive, unsigned{source.number}, element, static_cast<int>(source.found));
+    return text;
+  }
+  text.format(
+      "drive %s follows another inverter: P%u%s is %d, broadcast, so that its %s not come from this driver; set "
+      "it to this bus, or name that drive: drives/%s/follows",
+      drive, unsigned{source.number}, element, static_cast<int>(source.found),
+      source.number == 509 ? "control word does" : "setpoint does", drive);
+  return text;
+}
+
 }  // namespace
 
 Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveReport& report) noexcept {
@@ -67,6 +86,9 @@ Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveRe
                 unsigned{function.found}, function.number == 543 ? "actual value" : "setpoint",
                 unsigned{function.expected});
     return text;
+  }
+  if (refusal == Refusal::kUnexpectedSource && report.unexpected_source) {
+    return sourceMessage(drive, *report.unexpected_source);
   }
   if (report.online && report.switch_on_reason) {
     const unsigned reason = *report.switch_on_reason;

@@ -69,6 +69,7 @@ enum class Refusal : std::uint8_t {
   kParametersAwaited,    ///< P104, P543 and P546 are being read: what they are is not known yet
   kMinimumFrequency,     ///< P104 of the set in force is > 0, and nobody has accepted that
   kUnexpectedFunction,   ///< setpoint 1 or actual value 1 of the set in force is no frequency
+  kUnexpectedSource,     ///< it follows another inverter, or does not where it should (P509, P510)
   kEnableTimeout,        ///< the inverter did not follow within enable_timeout
   kStopped,              ///< a stop came before the inverter had followed
   kCauseStands,          ///< acknowledging: the fault is still there
@@ -103,6 +104,14 @@ struct UnexpectedFunction {
   const char* wanted = nullptr;  ///< the name of the function that no word carries; nullptr: word 1 is no frequency
 };
 
+/// Control word or setpoint do not come from where the configuration says: from another inverter that leads by broadcast.
+struct UnexpectedSource {
+  std::uint16_t number = 0;    ///< 509 or 510
+  bool is_array = false;       ///< the series has it as an array, of which [-01] counts
+  std::int32_t found = 0;      ///< the value read
+  bool should_follow = false;  ///< true: it is configured as a follower, and hears this bus
+};
+
 struct DriveReport {
   Phase phase = Phase::kOffline;
   bool online = false;                                        ///< a useful status word within drive_timeout
@@ -132,6 +141,7 @@ struct DriveReport {
 
   Hertz minimum_frequency;                                ///< P104 of the commanded set; 0 where it is not known
   std::optional<UnexpectedFunction> unexpected_function;  ///< of the commanded set
+  std::optional<UnexpectedSource> unexpected_source;
 
   std::optional<std::uint16_t> switch_on_reason;  ///< P700 [-03] raw: the inverter's own reason of not becoming ready
 

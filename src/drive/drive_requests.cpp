@@ -40,6 +40,7 @@ Refusal Drive::enableRefusal() const noexcept {
   }
   const StatusWord status(report_.status_word);
   if (status.fault()) return Refusal::kFault;
+  if (report_.unexpected_source) return Refusal::kUnexpectedSource;
   if (!status.busControl()) return Refusal::kLocalControl;
   if (report_.fault_latched) return Refusal::kFaultLatched;
   const bool startable = report_.state == DriveState::kSwitchOnDisabled ||

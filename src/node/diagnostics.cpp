@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cycle/leaders.h"
 #include "node/bus_publisher.h"
 #include "node/recovery_hint.h"
 #include "nord_driver/core/bytes.h"
@@ -35,6 +36,7 @@ Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdenti
   if (config.cycle.base) updater_.add("base", [this](DiagnosticStatusWrapper& status) { reportBase(status); });
   for (std::size_t i = 0; i < config.cycle.drives.size(); ++i) {
     names_.push_back(config.cycle.drives[i].name);
+    series_.push_back(config.cycle.drives[i].series);
     protections_.emplace_back(identities[i], config.cycle.drives[i].series, config.cycle.cmd_vel_timeout,
                               config.cycle.period());
     ramps_.emplace_back(config.cycle, i);
@@ -178,6 +180,8 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
   status.add("bus module answers", drive.module_answers);
   status.add("parameter channel", identity.parameter_channel);
   status.add("protected by", protection.text);
+  const Sentence leader = cycle::followsMessage(drive.device, series_[index]);
+  if (!leader.empty()) status.add("follows", leader.c_str());
   for (const ParameterValue& value : values_[index].values(drive)) {
     status.add(value.name.empty() ? value.parameter : value.parameter + " " + value.name, value.text);
   }

@@ -37,6 +37,7 @@ class Diagnostics {
   void addFault(std::size_t index, diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   std::vector<std::string> names_;
+  std::vector<profile::Series> series_;
   std::vector<DriveIdentity> identities_;
   std::vector<catalogue::DriveCatalogue> known_;
   std::vector<DriveValues> values_;

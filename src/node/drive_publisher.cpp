@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "cycle/leaders.h"
 #include "cycle/measured_values.h"
 #include "node/drive_status.h"
 #include "profile/word_function.h"
@@ -72,18 +73,37 @@ void DrivePublisher::logProtection(const cycle::DeviceData& device) {
   }
 }
 
+// Known as soon as these parameters are; said anew when they have changed.
+void DrivePublisher::logLeader(const cycle::DeviceData& device) {
+  if (!device.complete) return;
+  const std::string text = cycle::followsMessage(device, setup_.series).c_str();
+  if (text == leader_told_) return;
+  leader_told_ = text;
+  if (text.empty()) {
+    ROS_INFO("nord_driver: drive %s follows no other inverter any more", info_.name.c_str());
+  } else if (setup_.follows.empty()) {
+    ROS_WARN("nord_driver: drive %s follows another inverter, and is not enabled: %s", info_.name.c_str(),
+             text.c_str());
+  } else {
+    ROS_INFO("nord_driver: drive %s follows drive %s: %s", info_.name.c_str(), setup_.follows.c_str(), text.c_str());
+  }
+}
+
 void DrivePublisher::publishDeviceInfo(const cycle::DriveSnapshot& drive) {
   const cycle::DeviceData& device = drive.device;
   logProtection(device);
+  logLeader(device);
   if (!device.complete && told_) return;
   DeviceInfo info = info_;
   info.ident = device.ident;
   info.software_version = versionText(device);
   info.protected_by = protection_.assess(device).text;
+  info.follows = cycle::followsMessage(device, setup_.series).c_str();
   info.max_frequency.clear();
   for (const auto& frequency : device.max_frequency) info.max_frequency.push_back(frequency.value_or(kNotKnown));
-  info.setpoint_functions.assign(device.setpoint_functions.begin(), device.setpoint_functions.end());
-  info.actual_value_functions.assign(device.actual_value_functions.begin(), device.actual_value_functions.end());
+  const cycle::WordFunctions& words = device.word_functions[0];
+  info.setpoint_functions.assign(words.setpoints.begin(), words.setpoints.end());
+  info.actual_value_functions.assign(words.actual_values.begin(), words.actual_values.end());
   info.setpoint_names.clear();
   info.actual_value_names.clear();
   for (std::size_t i = 0; i < info.setpoint_functions.size(); ++i) {
@@ -93,7 +113,7 @@ void DrivePublisher::publishDeviceInfo(const cycle::DriveSnapshot& drive) {
     info.actual_value_names.emplace_back(profile::actualValueName(setup_.series, function));
   }
   const bool same = told_ && info.ident == info_.ident && info.protected_by == info_.protected_by &&
-                    info.software_version == info_.software_version &&
+                    info.follows == info_.follows && info.software_version == info_.software_version &&
                     info.setpoint_functions == info_.setpoint_functions &&
                     info.actual_value_functions == info_.actual_value_functions && frequencies_ == device.max_frequency;
   if (same) return;

@@ -33,6 +33,7 @@ class DrivePublisher {
 
  private:
   void logProtection(const cycle::DeviceData& device);
+  void logLeader(const cycle::DeviceData& device);
   void publishStatus(const cycle::DriveSample& sample, const cycle::DeviceData& device, ros::Time stamp);
 
   DriveIdentity identity_;
@@ -48,6 +49,7 @@ class DrivePublisher {
   std::uint64_t faults_told_ = 0;
   bool told_ = false;
   std::string protection_told_;
+  std::string leader_told_;
 };
 
 }  // namespace nord_driver::node

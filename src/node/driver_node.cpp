@@ -149,7 +149,7 @@ void DriverNode::advertise() {
                                    faults_[i], static_cast<std::uint16_t>(setup.address.value_or(0)));
     fault_publishers_.emplace_back(private_node_, setup.name, faults_[i]);
     values_publishers_.emplace_back(private_node_, setup.name, values_[i]);
-    if (cycle_->inBase(i)) continue;
+    if (cycle_->inBase(i) || cycle_->isLed(i)) continue;
     const bool positions = setup.position.has_value();
     boost::function<void(const std_msgs::Float64&)> take = [this, i, positions](const std_msgs::Float64& command) {
       takeDriveCommand(i, positions, command.data);

@@ -54,7 +54,12 @@ class DriveUnit {
   /// outlive the drive's use. Throws ConfigError when the configuration sets a parameter that is not there.
   void connect(BusModule& module, const Commissioning& commissioning);
 
-  void advance(Duration span) noexcept { inverter_.advance(span); }
+  void advance(Duration span) noexcept {
+    if (leader_ != nullptr) inverter_.hearLeader(leader_->inverter().said());
+    inverter_.advance(span);
+  }
+  /// Which inverter on its system bus says to all what to do; it must outlive this one. nullptr: none.
+  void hear(const DriveUnit* leader) noexcept { leader_ = leader; }
 
   /// Mains and the supply of a module that has none of its own both off: the station is silent, the wheel coasts. A
   /// module that others share lives on.
@@ -111,6 +116,7 @@ class DriveUnit {
   InverterModel inverter_;
   PkwServer pkw_;
   BusModule* module_ = nullptr;
+  const DriveUnit* leader_ = nullptr;
   bool plugged_ = true;
   ParameterSwitches switches_;
 };

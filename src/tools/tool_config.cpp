@@ -28,7 +28,7 @@ ToolConfig read(const YAML::Node& file, const YamlSettings& settings, const std:
   config.writable_parameters = readWritableParameters(settings);
   config.eeprom = readEepromSettings(settings);
   config.drives = drives;
-  config.cycle = cycle::readCycleConfig(rateOf(file), drives);
+  config.cycle = cycle::readCycleConfig(rateOf(file), drives, {}, false);
   for (cycle::DriveSetup& setup : config.cycle.drives) {
     setup.drive.drive_timeout = std::max(setup.drive.drive_timeout, kDriveTimeout);
   }

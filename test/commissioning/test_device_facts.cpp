@@ -19,12 +19,8 @@ cycle::DeviceData asRead(const AskedDrive& asked) {
   device.min_frequency.fill(0.0);
   device.acceleration_time.fill(2.0);
   device.deceleration_time.fill(2.0);
-  device.actual_value_1_function.fill(1);
-  device.setpoint_1_function.fill(1);
-  for (const int function : {1, 0, 0}) {
-    device.setpoint_functions.push_back(static_cast<std::uint16_t>(function));
-    device.actual_value_functions.push_back(static_cast<std::uint16_t>(function));
-  }
+  for (cycle::WordFunctions& words : device.word_functions) words.setpoints[0] = words.actual_values[0] = 1;
+  device.word_functions[0] = {{1, 0, 0}, {1, 0, 0}};
   for (int i = 0; i < 8; ++i) device.bus_bit_functions.push_back(0);
   device.telegram_timeout = 0.0;
   if (decentral) {
@@ -66,7 +62,7 @@ TEST(DeviceFacts, KeepFunctionsInTheirPlaces) {
   for (const Series series : {Series::kSk5xxe, Series::kSk54xe}) {
     const AskedDrive asked = askedDrive(series);
     cycle::DeviceData device = asRead(asked);
-    device.setpoint_functions[2] = 2;
+    device.word_functions[0].setpoints[2] = 2;
     const bool array = series == Series::kSk54xe;
     EXPECT_THAT(foundIn(device, asked), ElementsAre(array ? "further_setpoints error P546[-03] set 1 -> 0"
                                                           : "further_setpoints error P548 set 1 -> 0"));
@@ -77,7 +73,7 @@ TEST(DeviceFacts, TellWhatIsMissing) {
   const AskedDrive asked = askedDrive(Series::kSk5xxe);
   cycle::DeviceData device = asRead(asked);
   device.max_frequency.fill(std::nullopt);
-  device.setpoint_1_function.fill(std::nullopt);
+  for (cycle::WordFunctions& words : device.word_functions) words.setpoints[0] = cycle::kUnknownFunction;
   EXPECT_THAT(foundIn(device, asked), ElementsAre("readable warning P105 set 1", "readable warning P546 set 1"));
 }
 

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -91,8 +92,8 @@ TEST(DeviceReader, ReadsVersionTimeoutAndFunctions) {
   EXPECT_DOUBLE_EQ(0.1, *reader.data().telegram_timeout);
   EXPECT_EQ(1, *reader.data().software_version);
   EXPECT_TRUE(*reader.data().saves_in_eeprom);
-  EXPECT_EQ(3u, reader.data().setpoint_functions.size());
-  EXPECT_EQ(3u, reader.data().actual_value_functions.size());
+  EXPECT_THAT(reader.data().word_functions[0].setpoints, ::testing::Each(1));
+  EXPECT_THAT(reader.data().word_functions[0].actual_values, ::testing::Each(1));
   // On SK 5xxE the functions are three parameters each (BU 2700 6.4.4).
   for (const int number : {544, 545, 547, 548}) {
     EXPECT_EQ(1, std::count(numbers.begin(), numbers.end(), number)) << "P" << number;
@@ -112,13 +113,13 @@ TEST(DeviceReader, ReadsWhatDecidesMotionOfAllSetsFirst) {
   }
   const std::vector<std::pair<int, int>> expected{{105, 1}, {105, 2}, {105, 3}, {105, 4}, {104, 1}, {104, 2},
                                                   {104, 3}, {104, 4}, {543, 1}, {543, 2}, {543, 3}, {543, 4},
-                                                  {546, 1}, {546, 2}, {546, 3}, {546, 4}};
+                                                  {546, 1}, {546, 2}, {546, 3}, {546, 4}, {509, 1}, {510, 1}};
   EXPECT_EQ(expected, asked);
   for (std::size_t set = 0; set < 4; ++set) {
     const double number = static_cast<double>(set) + 1.0;
     EXPECT_DOUBLE_EQ(number, reader.data().min_frequency[set].value_or(-1.0));
-    EXPECT_EQ(10.0 * number + 1.0, reader.data().actual_value_1_function[set].value_or(0));
-    EXPECT_EQ(10.0 * number, reader.data().setpoint_1_function[set].value_or(0));
+    EXPECT_EQ(10.0 * number + 1.0, reader.data().word_functions[set].actual_values[0]);
+    EXPECT_EQ(10.0 * number, reader.data().word_functions[set].setpoints[0]);
   }
   reader.handleOffline();
   EXPECT_FALSE(reader.motionAsked());
@@ -133,11 +134,10 @@ TEST(DeviceReader, ReadsTheFirstElementWhereTheyAreArrays) {
       reader.handleResult(done(function ? 10 * request->index + request->parameter_set : 0));
     }
     for (std::size_t set = 0; set < 4; ++set) {
-      EXPECT_EQ(11 + set, reader.data().actual_value_1_function[set].value_or(0));
-      EXPECT_EQ(11 + set, reader.data().setpoint_1_function[set].value_or(0));
+      EXPECT_EQ(11 + set, reader.data().word_functions[set].actual_values[0]);
+      EXPECT_EQ(11 + set, reader.data().word_functions[set].setpoints[0]);
     }
-    ASSERT_EQ(3u, reader.data().actual_value_functions.size());
-    EXPECT_EQ(31, reader.data().actual_value_functions[2]);
+    EXPECT_EQ(31, reader.data().word_functions[0].actual_values[2]);
   }
 }
 
@@ -156,7 +156,7 @@ TEST(DeviceReader, ReadsTheFunctionsOfTheBusBits) {
   }
 }
 
-// Sixteen questions of three attempts each would keep a drive with a typed P105 from being enabled for a minute.
+// Eighteen questions of three attempts each would keep a drive with a typed P105 from being enabled for a minute.
 TEST(DeviceReader, AsksADeadChannelOnceForEachOfTheOthers) {
   DeviceReader reader{profile::Series::kSk5xxe};
   int asked = 0;
@@ -165,11 +165,11 @@ TEST(DeviceReader, AsksADeadChannelOnceForEachOfTheOthers) {
     reader.handleResult(failed(ParameterOutcome::kTimeout));
     ++asked;
   }
-  EXPECT_EQ(3 + 15, asked);
+  EXPECT_EQ(3 + 17, asked);
 }
 
-// The drive's ramps and who commands it, last: nothing waits for them. P103 comes in the steps of P102.
-TEST(DeviceReader, ReadsTheRampsOfAllSetsAndTheSourcesLast) {
+// The drive's ramps last: nothing waits for them. P103 comes in the steps of P102.
+TEST(DeviceReader, ReadsTheRampsOfAllSetsLast) {
   DeviceReader reader{profile::Series::kSk5xxe};
   std::vector<std::uint16_t> numbers;
   while (const auto request = reader.pollRequest()) {
@@ -177,8 +177,8 @@ TEST(DeviceReader, ReadsTheRampsOfAllSetsAndTheSourcesLast) {
     reader.handleResult(done(request->number * 10 + request->parameter_set));
   }
   ASSERT_GE(numbers.size(), 10u);
-  EXPECT_EQ((std::vector<std::uint16_t>{102, 103, 102, 103, 102, 103, 102, 103, 509, 510}),
-            std::vector<std::uint16_t>(numbers.end() - 10, numbers.end()));
+  EXPECT_EQ((std::vector<std::uint16_t>{102, 103, 102, 103, 102, 103, 102, 103}),
+            std::vector<std::uint16_t>(numbers.end() - 8, numbers.end()));
   EXPECT_EQ(5091, reader.data().control_word_source);
   EXPECT_EQ(5101, reader.data().setpoint_source);
   for (std::size_t set = 1; set <= 4; ++set) {
@@ -251,14 +251,14 @@ TEST(DeviceReader, ATypedMaximumFrequencyIsNotAskedForAgain) {
   while (reader.pollRequest()) reader.handleResult(failed(ParameterOutcome::kTimeout));
   ASSERT_TRUE(reader.missesMotion(false));
   reader.askMissingAgain(false);
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 14; ++i) {
     const auto request = reader.pollRequest();
     ASSERT_TRUE(request);
     EXPECT_NE(105, request->number);
     reader.handleResult(done(1));
   }
   EXPECT_FALSE(reader.pollRequest());
-  EXPECT_EQ(1, reader.data().actual_value_1_function[3].value_or(0));
+  EXPECT_EQ(1, reader.data().word_functions[3].actual_values[0]);
 }
 
 TEST(DeviceReader, AMaximumFrequencyOfZeroIsNoScale) {
@@ -300,13 +300,11 @@ TEST(DeviceReader, AFunctionThatIsRefusedKeepsItsPlace) {
       reader.handleResult(done(request->number == 545 ? 3 : 1));
     }
   }
-  ASSERT_EQ(3u, reader.data().actual_value_functions.size());
-  EXPECT_EQ(1, reader.data().actual_value_functions[0]);
-  EXPECT_EQ(kUnknownFunction, reader.data().actual_value_functions[1]);
-  EXPECT_EQ(3, reader.data().actual_value_functions[2]) << "current stays actual value 3";
-  ASSERT_EQ(3u, reader.data().setpoint_functions.size());
-  EXPECT_EQ(kUnknownFunction, reader.data().setpoint_functions[0]);
-  EXPECT_EQ(1, reader.data().setpoint_functions[1]);
+  EXPECT_EQ(1, reader.data().word_functions[0].actual_values[0]);
+  EXPECT_EQ(kUnknownFunction, reader.data().word_functions[0].actual_values[1]);
+  EXPECT_EQ(3, reader.data().word_functions[0].actual_values[2]) << "current stays actual value 3";
+  EXPECT_EQ(kUnknownFunction, reader.data().word_functions[0].setpoints[0]);
+  EXPECT_EQ(1, reader.data().word_functions[0].setpoints[1]);
 }
 
 // Behind a module SK CU4/TU4 its own time-out counts, and the inverter's watch over it (BU 2700 8.1).

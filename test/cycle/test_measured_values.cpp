@@ -42,9 +42,7 @@ TEST(MeasuredValues, TheCurrentComesFromAnyWord) {
 TEST(MeasuredValues, TheFunctionsOfSet1StandForThoseNotRead) {
   Measured drive;
   drive.device.word_functions[1] = {};
-  for (const std::uint16_t code : {std::uint16_t{1}, std::uint16_t{3}}) {
-    drive.device.actual_value_functions.push_back(code);
-  }
+  drive.device.word_functions[0].actual_values = {1, 3, kUnknownFunction};
   EXPECT_DOUBLE_EQ(4.0, drive.current());
 }
 

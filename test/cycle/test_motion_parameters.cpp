@@ -76,7 +76,7 @@ TEST_F(MotionParameters, NothingIsEnabledBeforeTheyHaveBeenAskedFor) {
   ASSERT_TRUE(snapshot().drives[kLift].device.max_frequency[3]);
   const Completion early = ask(RequestKind::kEnable, kLift);
   EXPECT_FALSE(early.success);
-  EXPECT_THAT(early.message.c_str(), HasSubstr("P104, P543 and P546 are still being read"));
+  EXPECT_THAT(early.message.c_str(), HasSubstr("P104, P509, P510, P543 and P546 are still being read"));
   transport.hold_answers = false;
   while (!transport.submitted.empty()) transport.answerFirst();
   run(5);

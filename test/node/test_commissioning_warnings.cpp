@@ -26,8 +26,7 @@ cycle::DeviceData asItShouldBe() {
   device.min_frequency.fill(0.0);
   device.acceleration_time.fill(2.0);
   device.deceleration_time.fill(2.0);
-  device.actual_value_1_function.fill(std::uint16_t{1});
-  device.setpoint_1_function.fill(std::uint16_t{1});
+  for (cycle::WordFunctions& words : device.word_functions) words.setpoints[0] = words.actual_values[0] = 1;
   for (int i = 0; i < 12; ++i) device.bus_bit_functions.push_back(0);
   device.telegram_timeout = 0.0;
   device.control_word_source = 4;
@@ -110,7 +109,7 @@ TEST_F(CommissioningWarningsTest, LeaveProtectionToWhoKnowsMore) {
 
 TEST_F(CommissioningWarningsTest, LookAtSetsFunctionsAndBits) {
   left().min_frequency[2] = 2.5;
-  left().actual_value_1_function[1] = std::uint16_t{3};
+  left().word_functions[1].actual_values[0] = 3;
   left().bus_bit_functions[10] = 2;
   update();
   EXPECT_THAT(ofLeft(), ElementsAre(HasSubstr("P543 set 2 Bus actual value 1 = 3 Current"),

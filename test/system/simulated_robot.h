@@ -31,6 +31,8 @@ class SimulatedRobot : public DrivenRobot {
     std::map<std::string, MapSettings::Value> drives;  ///< of both drives, on top of their own
     std::vector<sim::ParameterPreset> parameters;      ///< of both inverters
     std::vector<sim::ParameterPreset> left_parameters;
+    std::map<std::string, std::map<std::string, MapSettings::Value>> of_drive;  ///< of the drive of that name, likewise
+    std::map<std::string, std::vector<sim::ParameterPreset>> parameters_of;     ///< of its inverter
     std::vector<sim::ModuleConfig> modules;  ///< what there is more to say of, by address
     int ppo_type = 1;                        ///< as set at the inverters
     /// Four wheels, two on each side, all behind one module SK CU4 at address 3 with its I/O byte in slot 1.
@@ -86,6 +88,10 @@ class SimulatedRobot : public DrivenRobot {
       settings->set("gear_ratio", 20.0).set("pole_pairs", 2).set("inverted", isRight(name));
       if (shares) settings->set("inverter", number + 1).set("io_byte", true);
       for (const auto& [key, value] : options.drives) settings->set(key, value);
+      const auto own = options.of_drive.find(name);
+      if (own != options.of_drive.end()) {
+        for (const auto& [key, value] : own->second) settings->set(key, value);
+      }
       drives.push_back({name, settings});
     }
     return drives;
@@ -141,6 +147,10 @@ class SimulatedRobot : public DrivenRobot {
       }
       if (number == 0) {
         drive.parameters.insert(drive.parameters.end(), options.left_parameters.begin(), options.left_parameters.end());
+      }
+      const auto own = options.parameters_of.find(name);
+      if (own != options.parameters_of.end()) {
+        drive.parameters.insert(drive.parameters.end(), own->second.begin(), own->second.end());
       }
       if (options.base && isWheel(name)) (isRight(name) ? config.body->right : config.body->left).push_back(number);
       config.drives.push_back(drive);

@@ -19,6 +19,11 @@ constexpr std::int32_t kOlderSetpoint = 8;
 constexpr std::int32_t kOlderControlWord = 9;
 constexpr std::int32_t kOlderProfibus = 10;
 
+// Broadcast of a leading inverter: BU 0280 5.1.3, and BU 0020 6.2.2 (P509).
+constexpr std::int32_t kSystemBusBroadcast = 4;
+constexpr std::int32_t kCanBroadcast = 9;
+constexpr std::int32_t kCanopenBroadcast = 10;
+
 // P546-P548. Frequencies are shares of P105 (BU 0020 7.3.5, 7.3.6).
 constexpr std::int32_t kSetpointFrequency = 1;
 constexpr std::int32_t kFrequencyAddition = 4;
@@ -81,7 +86,8 @@ void InverterModel::enter(InverterState next) noexcept {
 void InverterModel::evaluate() noexcept {
   using S = InverterState;
   const Word word = command();
-  const bool commanded = commanded_ || !busControl();
+  const bool led = hearsBroadcast(parameters_.value(509));
+  const bool commanded = led ? led_.control != 0 : commanded_ || !busControl();
   const bool off2 = (word & stw::kNoOff2) == 0;
   const bool off3 = (word & stw::kNoOff3) == 0;
   const bool on = (word & stw::kOn) != 0;
@@ -167,10 +173,12 @@ void InverterModel::follow(double dt) noexcept {
 
 double InverterModel::setpointFrequency() const noexcept {
   const double maximum = parameters_.scaled(105, set_);
-  double share = busBitsEnable() && maximum > 0.0 ? busBitFrequency() / maximum
-                 : busSetpoint()                  ? busShare()
-                 : maximum > 0.0                  ? terminals_.frequency / maximum
-                                                  : 0.0;
+  const bool led = !local_ && !parameters_.device().isOlderSeries() && hearsBroadcast(setpointSource());
+  double share = led                                ? toSigned(led_.setpoints[0]) / kFullScale
+                 : busBitsEnable() && maximum > 0.0 ? busBitFrequency() / maximum
+                 : busSetpoint()                    ? busShare()
+                 : maximum > 0.0                    ? terminals_.frequency / maximum
+                                                    : 0.0;
   // Bit 11 beats bit 12; both 0 is right (6.4.1 note 3).
   const bool left = busControl() && (data_.control & stw::kLeft) != 0 && (data_.control & stw::kRight) == 0;
   share = std::clamp(left ? -share : share, -1.0, 1.0);
@@ -204,9 +212,8 @@ std::int32_t InverterModel::busFunction(unsigned first_number, unsigned n) const
 }
 
 Word InverterModel::command() const noexcept {
-  unsigned word = busControl()        ? data_.control
-                  : terminals_.enable ? kAllOn
-                                      : kAllOn & ~(stw::kOn | stw::kEnableOperation);
+  const Word from_bus = hearsBroadcast(parameters_.value(509)) ? led_.control : data_.control;
+  unsigned word = busControl() ? from_bus : terminals_.enable ? kAllOn : kAllOn & ~(stw::kOn | stw::kEnableOperation);
   if (busBitsEnable()) word |= kAllOn;
   if (terminals_.coast) word &= ~unsigned{stw::kNoOff2};
   if (terminals_.quick_stop) word &= ~unsigned{stw::kNoOff3};
@@ -216,6 +223,7 @@ Word InverterModel::command() const noexcept {
 bool InverterModel::busControl() const noexcept {
   if (local_) return false;
   const std::int32_t source = parameters_.value(509);
+  if (hearsBroadcast(source)) return true;
   if (wiring_.source) return source == *wiring_.source;
   if (!parameters_.device().isOlderSeries()) return source == busSource();
   return source == kOlderProfibus || source == kOlderControlWord;
@@ -226,8 +234,29 @@ bool InverterModel::busSetpoint() const noexcept {
   const std::int32_t source = parameters_.value(509);
   if (wiring_.source && parameters_.device().isOlderSeries()) return source == *wiring_.source;
   if (parameters_.device().isOlderSeries()) return source == kOlderProfibus || source == kOlderSetpoint;
-  const std::int32_t setpoint_source = parameters_.value(510);  // P510[-01], 0 = as P509
-  return (setpoint_source == 0 ? source : setpoint_source) == busSource();
+  return setpointSource() == busSource();
+}
+
+// P510[-01], 0 = as P509.
+std::int32_t InverterModel::setpointSource() const noexcept {
+  const std::int32_t source = parameters_.value(510);
+  return source == 0 ? parameters_.value(509) : source;
+}
+
+bool InverterModel::hearsBroadcast(std::int32_t source) const noexcept {
+  if (parameters_.device().isOlderSeries()) return false;
+  if (parameters_.device().isDecentral()) return source == kSystemBusBroadcast;
+  return source == kCanBroadcast || source == kCanopenBroadcast;
+}
+
+ProcessData InverterModel::said() const noexcept {
+  ProcessData data;
+  const bool runs = state_ == InverterState::kOperationEnabled;
+  data.control = static_cast<Word>(runs ? kAllOn | stw::kDataValid : (kAllOn & ~unsigned{stw::kOn}) | stw::kDataValid);
+  if (state_ == InverterState::kQuickStopActive) data.control &= static_cast<Word>(~unsigned{stw::kNoOff3});
+  const double maximum = parameters_.scaled(105, set_);
+  if (runs && maximum > 0.0) data.setpoints[0] = static_cast<Word>(std::lround(frequency_ / maximum * kFullScale));
+  return data;
 }
 
 std::int32_t InverterModel::busSource() const noexcept {

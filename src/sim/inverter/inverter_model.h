@@ -120,6 +120,11 @@ class InverterModel {
 
   /// Process data from the bus module. With bit 10 = 0 they are not evaluated (BU 2700 6.4.1 note 2).
   void receive(const ProcessData& data) noexcept;
+  /// What another inverter says to all on the system bus; heard where P509 or P510 is broadcast.
+  void hearLeader(const ProcessData& data) noexcept { led_ = data; }
+  /// What this one would say as such a leader: its command, and its frequency after the ramp as setpoint 1 (BU 0020
+  /// 6.2.2, P543 = 20). One that is not in operation says OFF1.
+  ProcessData said() const noexcept;
   /// The module's watchdog expired: E10.2, unless P513 = -0.1 (BU 2700 7.1.1).
   void masterLost() noexcept;
   /// A module on the system bus says that P151 is over: E10.3 (BU 2700 7.1.1).
@@ -187,6 +192,8 @@ class InverterModel {
   bool ignoresBusErrors() const noexcept;
   bool watchesModule() const noexcept;
   bool busSetpoint() const noexcept;
+  bool hearsBroadcast(std::int32_t source) const noexcept;
+  std::int32_t setpointSource() const noexcept;
   Word command() const noexcept;
   double setpointFrequency() const noexcept;
   double busShare() const noexcept;
@@ -220,6 +227,7 @@ class InverterModel {
   bool commanded_ = false;
   ProcessData data_;      // the last ones with bit 10 = 1
   ProcessData previous_;  // those before
+  ProcessData led_;       // of the inverter that leads
   unsigned set_ = 0;
   double frequency_ = 0.0;
   double target_ = 0.0;

@@ -1,0 +1,31 @@
+// Which drive leads which other one: `drives/<name>/follows`.
+//
+// A follower takes its setpoint, or its control word too, from another inverter by broadcast (P509, P510; the leading
+// function P502/P503). It stands or falls together with its leader.
+#pragma once
+
+#include <vector>
+
+#include "cycle/cycle_config.h"
+#include "cycle/device_data.h"
+#include "drive/drive_report.h"
+#include "nord_driver/core/fixed_text.h"
+
+namespace nord_driver::cycle {
+
+/// Reads the key of every drive. Where not `all_drives` were read, a leader that is not among them is nobody's mistake.
+/// Throws ConfigError.
+void readLeaders(const std::vector<DriveSettings>& sources, CycleConfig& config, bool all_drives);
+
+/// The drives that follow this one.
+std::vector<DriveIndex> followersOf(const CycleConfig& config, DriveIndex leader);
+
+/// What P509 or P510, as read, should not be: broadcast without `follows`, or this bus with it.
+std::optional<drive::UnexpectedSource> unexpectedSource(const DeviceData& device, profile::Series series,
+                                                        bool follows) noexcept;
+
+/// "P510[-01] = 4 (broadcast): its setpoint comes from another inverter"; empty when it comes from nobody else, as far
+/// as the drive has told.
+Sentence followsMessage(const DeviceData& device, profile::Series series) noexcept;
+
+}  // namespace nord_driver::cycle

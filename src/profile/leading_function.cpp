@@ -1,0 +1,31 @@
+#include "profile/leading_function.h"
+
+namespace nord_driver::profile {
+
+namespace {
+
+constexpr std::int32_t kSystemBusBroadcast = 4, kCanBroadcast = 9, kCanopenBroadcast = 10;
+
+}  // namespace
+
+bool isBroadcastControlWord(Series series, std::int32_t source) noexcept {
+  switch (series) {
+    case Series::kSk1x0e:
+    case Series::kSk2xxe:
+      return source == kSystemBusBroadcast;
+    case Series::kSk5xxe:
+    case Series::kSk54xe:
+      return source == kCanBroadcast || source == kCanopenBroadcast;
+    case Series::kSk300e:
+    case Series::kSk700e:
+    case Series::kSk750e:
+      break;
+  }
+  return false;
+}
+
+bool isBroadcastSetpoint(Series series, std::int32_t source) noexcept {
+  return isBroadcastControlWord(series, source);  // the same numbers, as far as they are printed
+}
+
+}  // namespace nord_driver::profile

@@ -1,0 +1,19 @@
+// The leading function: one inverter says control word and setpoint to others on the system bus, by broadcast.
+#pragma once
+
+#include <cstdint>
+
+#include "nord_driver/profile/series.h"
+
+namespace nord_driver::profile {
+
+/// P509 by which the control word comes from such a broadcast (BU 0020 6.2.2: 9 CAN broadcast, 10 CANopen broadcast;
+/// BU 0280 5.1.3: 4 system bus broadcast). With P510 = 0 the setpoint comes from it, too. The list of SK 300E, 700E and
+/// 750E is printed without a value for it.
+bool isBroadcastControlWord(Series series, std::int32_t source) noexcept;
+
+/// P510 [-01] by which the setpoint alone does (BU 0280 5.1.3). BU 0070 5.1 prints the list of SK 5xxE up to 8; what
+/// lies beyond is counted as P509 counts it.
+bool isBroadcastSetpoint(Series series, std::int32_t source) noexcept;
+
+}  // namespace nord_driver::profile

@@ -1,0 +1,106 @@
+// drives/<name>/follows, and what the drives themselves tell of it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cycle/leaders.h"
+#include "support/map_settings.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using profile::Series;
+using test::MapSettings;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// Drives a, b and c; of each whom it follows, or nobody.
+CycleConfig configured(const std::vector<std::string>& follows, bool all_drives = true) {
+  std::vector<DriveSettings> drives;
+  for (std::size_t i = 0; i < follows.size(); ++i) {
+    const std::string name(1, static_cast<char>('a' + i));
+    auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
+    settings->set("series", "sk2xxe").set("pole_pairs", 2).set("address", 3 + static_cast<int>(i));
+    if (!follows[i].empty()) settings->set("follows", follows[i]);
+    drives.push_back({name, settings});
+  }
+  return readCycleConfig(MapSettings{"~"}, drives, {}, all_drives);
+}
+
+std::string errorOf(const std::vector<std::string>& follows) {
+  try {
+    configured(follows);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Leaders, AreReadByName) {
+  const CycleConfig config = configured({"", "a", "a"});
+  EXPECT_FALSE(config.drives[0].leader);
+  EXPECT_EQ(0u, config.drives[1].leader);
+  EXPECT_THAT(followersOf(config, 0), ElementsAre(1u, 2u));
+  EXPECT_THAT(followersOf(config, 1), IsEmpty());
+}
+
+TEST(Leaders, RefuseWhatCannotBe) {
+  EXPECT_THAT(errorOf({"", "x"}),
+              HasSubstr("drives/b/follows: \"x\" is not valid, expected one of the other drives: a"));
+  EXPECT_THAT(errorOf({"a", ""}),
+              HasSubstr("drives/a/follows: \"a\" is not valid, expected one of the other drives: b"));
+  EXPECT_THAT(errorOf({"", "a", "b"}),
+              HasSubstr("drives/c/follows: \"b\" is not valid, expected a drive that follows no other one itself"));
+  EXPECT_THAT(errorOf({"b", "a"}), HasSubstr("a drive that follows no other one itself"));
+}
+
+// A program that was asked for one drive reads no other one.
+TEST(Leaders, MayBeAbsentWhereNotAllDrivesWereRead) {
+  const CycleConfig config = configured({"", "x"}, false);
+  EXPECT_FALSE(config.drives[1].leader);
+  EXPECT_EQ("x", config.drives[1].follows);
+}
+
+DeviceData device(std::optional<std::int32_t> control_word, std::optional<std::int32_t> setpoint) {
+  DeviceData made;
+  made.control_word_source = control_word;
+  made.setpoint_source = setpoint;
+  return made;
+}
+
+// BU 0280 5.1.3 and BU 0020 6.2.2: 4 is PROFIBUS of the one and broadcast of the other.
+TEST(Leaders, AreToldByTheNumbersOfEachSeries) {
+  EXPECT_FALSE(unexpectedSource(device(4, 0), Series::kSk5xxe, false));
+  EXPECT_EQ(509, unexpectedSource(device(4, 0), Series::kSk2xxe, false)->number);
+  EXPECT_EQ(509, unexpectedSource(device(4, 0), Series::kSk1x0e, false)->number);
+  for (const std::int32_t source : {9, 10}) {
+    EXPECT_EQ(509, unexpectedSource(device(source, 0), Series::kSk5xxe, false)->number);
+    EXPECT_EQ(509, unexpectedSource(device(source, 0), Series::kSk54xe, false)->number);
+    EXPECT_EQ(510, unexpectedSource(device(4, source), Series::kSk5xxe, false)->number);
+    EXPECT_FALSE(unexpectedSource(device(source, {}), Series::kSk700e, false)) << "9 and 10 are PROFIBUS there";
+    EXPECT_FALSE(unexpectedSource(device(source, {}), Series::kSk300e, false));
+  }
+  EXPECT_EQ(510, unexpectedSource(device(3, 4), Series::kSk2xxe, false)->number);
+  EXPECT_FALSE(unexpectedSource(device(3, 0), Series::kSk2xxe, false));
+  EXPECT_FALSE(unexpectedSource(device(3, 3), Series::kSk2xxe, false));
+}
+
+TEST(Leaders, OfAFollowerMustBeHeard) {
+  EXPECT_FALSE(unexpectedSource(device(3, 4), Series::kSk2xxe, true));
+  EXPECT_FALSE(unexpectedSource(device(4, 0), Series::kSk2xxe, true));
+  const auto deaf = unexpectedSource(device(3, 0), Series::kSk2xxe, true);
+  ASSERT_TRUE(deaf);
+  EXPECT_TRUE(deaf->should_follow);
+  EXPECT_FALSE(unexpectedSource(device({}, {}), Series::kSk2xxe, true)) << "it does not tell: the configuration counts";
+}
+
+TEST(Leaders, AreToldInASentence) {
+  EXPECT_STREQ("P510[-01] = 4 (broadcast): its setpoint comes from another inverter",
+               followsMessage(device(3, 4), Series::kSk2xxe).c_str());
+  EXPECT_STREQ("P509 = 10 (broadcast): its control word comes from another inverter",
+               followsMessage(device(10, 0), Series::kSk5xxe).c_str());
+  EXPECT_STREQ("", followsMessage(device(3, 0), Series::kSk2xxe).c_str());
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle
