@@ -45,5 +45,14 @@ TEST(CanPositions, ThirtyTwoBitsOfSk700eInPdo3) {
   EXPECT_EQ("4302300490EEFEFF", bus.sdo("40 02 30 04 00 00 00 00"));
 }
 
+// The same 32 bits in words 2 and 3 of PDO 2, where the low word comes first, too.
+TEST(CanPositions, ThirtyTwoBitsOfSk700eInPdo2) {
+  CanConversation bus{axis(Series::kSk700e, {{546, 0, 0, 3}, {543, 0, 0, 6}, {544, 0, 0, 8}})};
+  startWith(bus, "01 18", "B2 02");
+  bus.repeat("332#7E04000000000000", seconds(0.1), "2B2");
+  EXPECT_EQ("2B2#370B701101000000", bus.repeat("332#7F04701101000000", seconds(6.0), "2B2"));
+  EXPECT_NEAR(70.0, bus.drive().position(), 0.0005);
+}
+
 }  // namespace
 }  // namespace nord_driver::sim
