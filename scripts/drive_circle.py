@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Drives the demo's steered robot (demo.launch robot:=steered) along a circle by cmd_vel, and to the side and back.
 
-Ends with 0 when the robot's true pose, which only the simulator knows, is back within 2 cm of the start.
+Ends with 0 when the robot's true pose, which only the simulator knows, is back at the start, within 2 cm or --tolerance.
 """
 
 import argparse
@@ -14,7 +14,6 @@ from nav_msgs.msg import Odometry
 from nord_driver.msg import DriveStatus
 from std_srvs.srv import SetBool
 
-TOLERANCE = 0.02  # m
 DRIVES = ("front", "rear", "front_steering", "rear_steering")
 
 
@@ -56,6 +55,7 @@ class CircleDriver:
         wait_for("all drives online", 30.0, lambda: all(d.message.online for d in self._drives.values()))
         start = self._truth.message.pose.pose.position
         self._enable()
+        wait_for("all drives enabled", 10.0, lambda: all(d.message.operation_enabled for d in self._drives.values()))
         self._circle()
         # Out to the left and back: the wheels are steered by a quarter of a turn at standstill first.
         self._sideways(0.4)
@@ -65,8 +65,8 @@ class CircleDriver:
         told = self._odom.message.pose.pose.position
         error = math.hypot(end.x - start.x, end.y - start.y)
         print("The true pose is %.1f cm from the start (%.0f cm allowed), %.1f cm from where odometry has it." %
-              (100.0 * error, 100.0 * TOLERANCE, 100.0 * math.hypot(end.x - told.x, end.y - told.y)))
-        return error <= TOLERANCE
+              (100.0 * error, 100.0 * self._options.tolerance, 100.0 * math.hypot(end.x - told.x, end.y - told.y)))
+        return error <= self._options.tolerance
 
     def _enable(self, on=True):
         """Refused for a moment after the drives have answered: the parameters that decide motion are being read."""
@@ -132,6 +132,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--radius", type=float, default=1.0, help="of the circle in m")
     parser.add_argument("--speed", type=float, default=0.4, help="top speed in m/s")
+    parser.add_argument("--tolerance", type=float, default=0.02, help="how far from the start it may end, in m")
     options = parser.parse_args(rospy.myargv()[1:])
     rospy.init_node("drive_circle")
     try:

@@ -131,13 +131,13 @@ class Steered : public ::testing::Test {
   /// By odometry; false: the base was stopped on its way.
   bool driveCircle() {
     double turned = 0.0, last = headingOf(*robot().odom.next());
-    while (turned < 2.0 * kPi - 0.01) {
+    while (turned < 2.0 * kPi - 0.003) {
       const auto odometry = robot().odom.next();
       if (!odometry) return false;
       const double heading = headingOf(*odometry);
       turned += std::remainder(heading - last, 2.0 * kPi);
       last = heading;
-      const double part = std::max(0.15, std::min(1.0, 1.5 * (2.0 * kPi - turned)));
+      const double part = std::max(0.05, std::min(1.0, 1.5 * (2.0 * kPi - turned)));
       robot().drive(part * kSpeed, part * kSpeed / kRadius, 0.0);
       if (robot().status["front"]->next()->state != DriveStatus::OPERATION_ENABLED) return false;
     }
