@@ -18,8 +18,10 @@ class RecordingLink final : public link::ByteLink {
   void close() noexcept override { inner_->close(); }
   bool isOpen() const noexcept override { return inner_->isOpen(); }
   bool write(ByteView telegram) noexcept override {
-    if (recording_) sent_.push_back(toHex(telegram));
-    received_.emplace_back();
+    if (recording_) {
+      sent_.push_back(toHex(telegram));
+      received_.emplace_back();
+    }
     return inner_->write(telegram);
   }
   std::size_t read(std::uint8_t* buffer, std::size_t capacity) noexcept override {

@@ -1,0 +1,142 @@
+#!/usr/bin/python3
+"""Makes one table of the logs that scripts/prove.sh has left; called by it.
+
+usage: proof_table.py LOGS quick|long PART...     prints the table, and writes it as Markdown to LOGS/table.md
+       proof_table.py --self-test                 reads lines as the parts print them
+
+Ends with 0 when each part has run, has passed and has printed its figures. A part without figures has shown nothing: it failed.
+"""
+import datetime
+import os
+import pathlib
+import platform
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+NOT_RUN, LEFT_OUT = 125, 126
+MISSING = {126, 127}  # of the shell: no such program; 126 is told apart by what the part says
+
+
+def campaign(text):
+    """Rows of test_campaign's table: a line for each bus."""
+    row = re.compile(r"^(\w+) +(\d+) +(\d+) +\d+ +\d+ +\d+ +([\d.]+) s / ([\d.]+) s \(\S+\) +([\d.]+) s", re.M)
+    return [(f"fault campaign, {bus}", f"{scenarios} scenarios, {violations} violations, worst stop {stop} s of {bound} s allowed, "
+             f"worst recovery {recovery} s") for bus, scenarios, violations, stop, bound, recovery in row.findall(text)]
+
+
+def mutants(text):
+    """Rows of mutants.py's table: a line for each folder."""
+    row = re.compile(r"^(\w[\w/]*) +(\d+) +(\d+) +(\d+) +(\d+) +(\d+) +([\d.]+)% +(\d+)%$", re.M)
+    return [(f"mutants, {folder}", f"{found} of {int(found) + int(survived)} found: {score} % (goal {goal} %); {same} equivalent, "
+             f"{refused} not compilable") for folder, _, refused, same, found, survived, score, goal in row.findall(text)]
+
+
+def explored(text):
+    found = re.findall(r"^explored (.+?): (\d+) states", text, re.M)
+    return [("every order of events", f"{sum(int(states) for _, states in found)} states of {len(found)} objects, no property "
+             "violated")] if found else []
+
+
+def tests(text):
+    """The last line of test.sh."""
+    found = re.findall(r"^(\d+) passed, (\d+) failed, (\d+) skipped$", text, re.M)
+    return "{} passed, {} failed, {} skipped".format(*found[-1]) if found else ""
+
+
+def address(text):
+    return [("AddressSanitizer, UndefinedBehaviorSanitizer", tests(text))] if tests(text) else []
+
+
+def thread(text):
+    return [("ThreadSanitizer", tests(text))] if tests(text) else []
+
+
+def fuzz(text):
+    found = re.findall(r"^(fuzz_\w+): (\d+) executions in (\d+) s$", text, re.M)
+    return [(f"fuzzing, {name}", f"{int(count):,} executions in {seconds} s, no crash") for name, count, seconds in found]
+
+
+def soak(text):
+    return [("soak, " + line.split(" ", 1)[0], line.split(" ", 1)[1]) for line in re.findall(r"^soak: (.+)$", text, re.M)]
+
+
+def coverage(text):
+    row = re.compile(r"^([a-z][\w/]*) +\d+/ *\d+ +([\d.]+)% +\d+/ *\d+ +([\d.]+)%", re.M)
+    return [(f"coverage, {folder}", f"{lines} % of lines, {branches} % of branches") for folder, lines, branches in row.findall(text)]
+
+
+FIGURES = {"campaign": campaign, "mutants": mutants, "explored": explored, "address": address, "thread": thread, "fuzz": fuzz,
+           "soak": soak, "coverage": coverage}
+
+
+def rows_of(part, status, text):
+    """[(what, figures, verdict)] of one part."""
+    last = text.strip().splitlines()[-1] if text.strip() else "it said nothing"
+    if status == LEFT_OUT and last == "--quick":
+        return [(part, "", "left out (--quick)")]
+    if status in MISSING or status == NOT_RUN:
+        return [(part, last, "COULD NOT BE RUN")]
+    figures = FIGURES[part](text)
+    if not figures:
+        return [(part, f"ended with {status} and no figures: {last}", "FAILED")]
+    # Where one of several failed, the log says which.
+    return [(what, words, "passed" if status == 0 else "FAILED") for what, words in figures]
+
+
+def commit():
+    """Of the project, and whether what was run is that."""
+    def git(*words):
+        return subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True, check=False).stdout.strip()
+    return (git("rev-parse", "--short=12", "HEAD") or "unknown") + (" with changes" if git("status", "--porcelain", "--untracked-files=no") else "")
+
+
+def machine():
+    model = re.search(r"^model name\s*: (.+)$", pathlib.Path("/proc/cpuinfo").read_text(), re.M)
+    memory = re.search(r"^MemTotal: +(\d+)", pathlib.Path("/proc/meminfo").read_text(), re.M)
+    return f"{os.cpu_count()} processors ({model.group(1) if model else platform.machine()}), " \
+           f"{int(memory.group(1)) // 1048576 if memory else '?'} GiB, Linux {platform.release()}"
+
+
+def selfTest():
+    assert campaign("profibus         5000           0     9000   12000    20000  0.310 s / 0.350 s (17)    1.213 s (4)\n") == [
+        ("fault campaign, profibus", "5000 scenarios, 0 violations, worst stop 0.310 s of 0.350 s allowed, worst recovery 1.213 s")]
+    assert mutants("drive            40        1           2     36         1   97.3%    95%\n")[0][1].startswith("36 of 37 found: 97.3 %")
+    assert explored("explored Drive: 12 states, 40 transitions\nexplored PKW: 30 states, 9 transitions\n")[0][1].startswith("42 states of 2")
+    assert address("1 passed, 0 failed, 1 skipped\n710 passed, 2 failed, 30 skipped\n")[0][1] == "710 passed, 2 failed, 30 skipped"
+    assert fuzz("fuzz_sdo: 1200345 executions in 31 s\n") == [("fuzzing, fuzz_sdo", "1,200,345 executions in 31 s, no crash")]
+    assert soak("soak: pty 10 s at 500 Hz, 0 allocations\n") == [("soak, pty", "10 s at 500 Hz, 0 allocations")]
+    assert coverage("drive                   900/   910   98.9%    400/   420   95.2%\n") == [("coverage, drive", "98.9 % of lines, 95.2 % of branches")]
+    assert rows_of("mutants", 126, "--quick\n")[0][2] == "left out (--quick)"
+    assert rows_of("mutants", 127, "no such file\n")[0][2] == "COULD NOT BE RUN"
+    assert rows_of("explored", 0, "")[0][2] == "FAILED", "without figures nothing is shown"
+    assert rows_of("explored", 1, "explored Drive: 12 states, 40 transitions\n")[0][2] == "FAILED"
+    print("self-test: passed")
+    return 0
+
+
+def main():
+    if sys.argv[1:] == ["--self-test"]:
+        return selfTest()
+    if len(sys.argv) < 4:
+        print(__doc__, file=sys.stderr)
+        return 2
+    logs, form, parts = pathlib.Path(sys.argv[1]), sys.argv[2], sys.argv[3:]
+    rows, seconds = [], 0
+    for part in parts:
+        status, took = (int(word) for word in (logs / f"{part}.status").read_text().split())
+        seconds += took
+        rows += rows_of(part, status, (logs / f"{part}.log").read_text(errors="replace"))
+    head = f"{datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d}, commit {commit()}, {machine()}; {form} form, {seconds / 60:.0f} minutes"
+    width = max(len(what) for what, _, _ in rows)
+    print(head)
+    for what, words, verdict in rows:
+        print(f"{what:{width}}  {verdict:18}  {words}")
+    table = [head, "", "| What | Figures | Verdict |", "|---|---|---|"] + [f"| {what} | {words.replace('|', '/')} | {verdict} |" for what, words, verdict in rows]
+    (logs / "table.md").write_text("\n".join(table) + "\n")
+    return 0 if all(verdict == "passed" or verdict.startswith("left out") for _, _, verdict in rows) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,88 @@
+#!/usr/bin/env bash
+# Everything that shows that the driver holds, and one table of it: the fault campaign, mutants, every order of events, sanitizers,
+# fuzzing, soak and coverage. Each part runs its own script or program; its log is in build/prove. Ends with 0 when every part that
+# was to run has run and none failed. doc/reliability.md holds the table of a run, as build/prove/table.md has it.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+usage() {
+  cat <<'TEXT'
+usage: prove.sh [--quick] [PART...]
+  --quick  ten minutes, once build/test and build/fuzz are built: fewer scenarios, shorter runs; what needs a build of the whole
+           project for itself (mutants, sanitizers, coverage) is left out, and the table says so
+  PART     only these: campaign mutants explored address thread fuzz soak coverage
+Without --quick it takes most of a day on two processors.
+TEXT
+}
+
+all=(campaign mutants explored address thread fuzz soak coverage)
+quick=false
+parts=()
+for argument in "$@"; do
+  case $argument in
+    --quick) quick=true ;;
+    -h | --help) usage; exit 0 ;;
+    -*) usage >&2; exit 2 ;;
+    *)
+      [[ " ${all[*]} " == *" $argument "* ]] || { usage >&2; exit 2; }
+      parts+=("$argument")
+      ;;
+  esac
+done
+if ((${#parts[@]} == 0)); then parts=("${all[@]}"); fi
+
+logs=$root/build/prove
+rm -rf "$logs"
+mkdir -p "$logs"
+build=$root/build/test # what test.sh has built
+
+# built TARGET...: in test.sh's folder, and as it does it.
+built() {
+  if [[ ! -e $build/CMakeCache.txt ]]; then
+    configure "$build" -DNORD_DRIVER_STRICT=ON -DNORD_DRIVER_BENCH=ON -DNORD_DRIVER_PRECOMPILE=ON \
+      "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1" -DNORD_DRIVER_TEST_OPTIONS=-O0 || return 1
+  fi
+  cmake --build "$build" -j "$jobs" --target "$@"
+}
+
+campaign() {
+  built test_campaign >"$logs/build_campaign.log" 2>&1 || { tail -n 20 "$logs/build_campaign.log"; return 125; }
+  NORD_CAMPAIGN_SCENARIOS=$($quick && echo 400 || echo 20000) "$build/devel/lib/nord_driver/test_campaign"
+}
+mutants() {
+  if $quick; then echo "--quick"; return 126; fi
+  /usr/bin/python3 "$root/scripts/mutants.py"
+}
+explored() {
+  built test_explore >"$logs/build_explored.log" 2>&1 || { tail -n 20 "$logs/build_explored.log"; return 125; }
+  "$build/devel/lib/nord_driver/test_explore"
+}
+address() {
+  if $quick; then echo "--quick"; return 126; fi
+  "$root/scripts/test.sh" --sanitize
+}
+thread() {
+  if $quick; then echo "--quick"; return 126; fi
+  "$root/scripts/test.sh" --sanitize=thread
+}
+fuzz() {
+  if $quick; then "$root/scripts/fuzz.sh" 15; else "$root/scripts/fuzz.sh" 1200 10000000; fi
+}
+soak() {
+  if $quick; then "$root/scripts/soak.sh" --quick --build "$build"; else "$root/scripts/soak.sh" --build "$build"; fi
+}
+coverage() {
+  if $quick; then echo "--quick"; return 126; fi
+  "$root/scripts/coverage.sh"
+}
+
+# 125 says that a part could not be run, 126 that it was not to be, and the last line of its log why; a script or program that is
+# not there is the first.
+for part in "${parts[@]}"; do
+  start=$SECONDS
+  status=0
+  (set -e; $part) >"$logs/$part.log" 2>&1 || status=$?
+  echo "$status $((SECONDS - start))" >"$logs/$part.status"
+  echo "== $part: ended with $status after $((SECONDS - start)) s"
+done
+exec /usr/bin/python3 "$root/scripts/proof_table.py" "$logs" "$($quick && echo quick || echo long)" "${parts[@]}"
