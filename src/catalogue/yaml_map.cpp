@@ -4,6 +4,8 @@
 #include <regex>
 
 #include "config/nearest_name.h"
+#include "config/text_file.h"
+#include "config/yaml_tree.h"
 
 namespace nord_driver::catalogue {
 
@@ -37,6 +39,8 @@ ConfigError wrongValue(const std::string& file, const YAML::Node& value, const s
 }
 
 YAML::Node loadMap(const std::string& file) {
+  const std::string refused = whyNoTextFile(file);
+  if (refused.rfind("it ", 0) == 0) throw ConfigError(file + ": " + refused + ", expected a readable YAML file");
   YAML::Node node;
   try {
     node = YAML::LoadFile(file);
@@ -46,6 +50,8 @@ YAML::Node loadMap(const std::string& file) {
     throw wrongPlace({file, error.mark.line + 1}, error.msg + "; expected a readable YAML file");
   }
   if (!node.IsMap()) throw wrongValue(file, node, "", "a file of keys and values");
+  const std::string why = whyNotWalkable(node);
+  if (!why.empty()) throw wrongPlace({file, 1}, why + ", expected a file of keys and values");
   return node;
 }
 

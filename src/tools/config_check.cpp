@@ -9,6 +9,7 @@
 #include "config/drive_common.h"
 #include "config/driver_settings.h"
 #include "config/yaml_settings.h"
+#include "config/yaml_tree.h"
 #include "node/node_config.h"
 #include "profile/scaling.h"
 #include "robot/wheel_speeds.h"
@@ -57,8 +58,11 @@ YAML::Node load(const std::vector<std::string>& files, CheckedConfig& config) {
     if (!std::filesystem::is_regular_file(file, unreadable)) throw UsageError(file + ": there is no such file");
     if (!std::ifstream(file)) throw UsageError(file + ": this file cannot be read");
     try {
-      if (YAML::LoadFile(file).IsMap()) continue;
-      config.errors.push_back({0, file + ": expected a file of keys and values"});
+      const YAML::Node node = YAML::LoadFile(file);
+      const std::string why = whyNotWalkable(node);
+      if (node.IsMap() && why.empty()) continue;
+      config.errors.push_back(
+          {0, file + ": " + (why.empty() ? "" : why + ", ") + "expected a file of keys and values"});
     } catch (const YAML::Exception& error) {
       config.errors.push_back({error.mark.line + 1, error.msg + "; expected a readable YAML file"});
     }

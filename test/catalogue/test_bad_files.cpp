@@ -55,6 +55,20 @@ TEST(BadParameterFiles, NoYaml) {
   }
 }
 
+// A name from the parameter server holds nobody up and takes no memory.
+TEST(BadParameterFiles, APipeADeviceAndATreeWithoutEnd) {
+  for (const char* const path : {"/dev/zero", "/tmp"}) {
+    try {
+      Catalogue::load({path});
+      FAIL() << path;
+    } catch (const ConfigError& error) {
+      EXPECT_EQ(std::string(path) + ": it is no ordinary file, expected a readable YAML file", error.what());
+    }
+  }
+  EXPECT_EQ("1: it is more than 50 groups and lists deep, expected a file of keys and values",
+            aboutParameters("devices: [sk5xxe]\nparameters: &a [*a]\n"));
+}
+
 TEST(BadParameterFiles, TheFileItself) {
   EXPECT_EQ("1: devices is missing, expected a list of series or bus modules", aboutParameters("parameters: []\n"));
   EXPECT_EQ("1: parameters is missing, expected a list of parameters", aboutParameters("devices: [sk5xxe]\n"));
