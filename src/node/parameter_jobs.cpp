@@ -1,5 +1,6 @@
 #include "node/parameter_jobs.h"
 
+#include "config/text_file.h"
 #include "node/offer.h"
 #include "tools/comparison.h"
 #include "tools/parameter_dump.h"
@@ -19,6 +20,9 @@ tools::Dump dumpOf(const VerifyParameters::Request& request) {
   if (request.file.front() != '/') {
     throw tools::UsageError("file: \"" + request.file + "\" is not valid, expected an absolute path");
   }
+  // Whoever can call a service names it: a pipe would keep this drive busy for ever, /dev/zero take all memory.
+  const std::string why = whyNoTextFile(request.file);
+  if (why.rfind("it ", 0) == 0) throw tools::UsageError(request.file + ": " + why);
   return tools::readDump(request.file);
 }
 

@@ -136,6 +136,7 @@ TEST_F(ParameterDump, IsRefusedInWordsWhereItIsNone) {
   EXPECT_EQ("yaml and file are given, expected one of them", verify("left", "a", "/b").message);
   EXPECT_THAT(verify("left", "", "left.yaml").message, HasSubstr("expected an absolute path"));
   EXPECT_THAT(verify("left", "", "/is/not/there.yaml").message, HasSubstr("there is no such file"));
+  EXPECT_THAT(verify("left", "", "/dev/zero").message, HasSubstr("it is no ordinary file"));
   EXPECT_THAT(verify("left", "drives: {}").message, HasSubstr("the text in yaml is no dump of nord_param"));
   EXPECT_EQ("the dump has no settings to compare", verify("left", kNothing).message);
   EXPECT_THAT(verify("left", "{series: sk300e, settings: {P102: {raw: 1}}}").message,
