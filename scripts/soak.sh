@@ -1,22 +1,24 @@
 #!/usr/bin/env bash
-# Lets the driver run for long: a simulated week of driving on each bus, shared among the processors. Ends with 0 when nothing
-# grew, drifted or was allocated. Each bus prints a line that begins with "soak:".
+# Lets the driver run for long: a simulated week of driving on each bus, shared among the processors, and half an hour of real
+# time at 500 Hz over a pty, and over CAN frames where the kernel has them. Ends with 0 when nothing grew, drifted, was
+# allocated or came late by the driver's own doing. Each part prints a line that begins with "soak:".
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 usage() {
   cat <<'TEXT'
 usage: soak.sh [--quick] [--build FOLDER]
-  --quick         an hour of simulated time on each bus
+  --quick         an hour of simulated time on each bus and ten seconds of real time
   --build FOLDER  a configured build folder to build the programs in (build/soak)
 TEXT
 }
 
 hours=168
+seconds=1800
 out=$root/build/soak
 while (($# > 0)); do
   case $1 in
-    --quick) hours=1 ;;
+    --quick) hours=1 seconds=10 ;;
     --build) out=${2:?}; shift ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 2 ;;
@@ -32,10 +34,17 @@ mkdir -p "$logs"
 if [[ ! -e $out/CMakeCache.txt ]]; then
   configure "$out" -DNORD_DRIVER_PRECOMPILE=ON >"$logs/configure.log" 2>&1 || { tail -n 40 "$logs/configure.log"; exit 1; }
 fi
-cmake --build "$out" -j "$jobs" --target test_soak >"$logs/build.log" 2>&1 || { tail -n 40 "$logs/build.log"; exit 1; }
+cmake --build "$out" -j "$jobs" --target test_soak test_real_time >"$logs/build.log" 2>&1 || { tail -n 40 "$logs/build.log"; exit 1; }
 programs=$out/devel/lib/nord_driver
 
+# The programs of the real time first and alone: they are about the time.
 status=0
+"$programs/test_real_time" "$seconds" --gtest_brief=1 >"$logs/real_time.log" 2>&1 || { status=1; tail -n 40 "$logs/real_time.log"; }
+grep -h '^soak:' "$logs/real_time.log" || true
+NORD_CAN_TIMEOUT=$((seconds * 2 + 600)) "$root/scripts/can_machine.sh" "$programs/test_real_time" "$seconds" vcan0 \
+  --gtest_brief=1 >"$logs/real_time_can.log" 2>&1 || { status=1; tail -n 40 "$logs/real_time_can.log"; }
+grep -h '^soak:\|^can_machine: \(on\|in\) ' "$logs/real_time_can.log" || true
+
 run() {
   if NORD_SOAK_HOURS=$hours "$programs/test_soak" --gtest_brief=1 "--gtest_filter=*$1*" >"$logs/$1.log" 2>&1; then
     grep -h '^soak:' "$logs/$1.log"
