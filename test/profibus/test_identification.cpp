@@ -87,6 +87,20 @@ TEST(Identification, TextsOfTheUser) {
   EXPECT_FALSE(reader.typePlate());
 }
 
+// What comes from the wire goes into logs and onto terminals: no control character, no escape sequence, and "%n" is two
+// characters.
+TEST(Identification, ATextHoldsOnlyWhatPrints) {
+  IdentificationReader reader{1};
+  reader.pollRecord();
+  reader.handleRecord(answered());
+  reader.pollRecord();
+  std::string record = "08 00 FD E9 00 00 00 00 00 00 00 00 00 00 ";
+  record += "41 1B 5B 32 4A 0A 25 6E 25 73 00 7F 80 FF 42";
+  for (int i = 15; i < 54; ++i) record += " 00";
+  reader.handleRecord(answered(record.c_str()));
+  EXPECT_STREQ("A [2J %n%s    B", reader.text().c_str());
+}
+
 // "I&M to a certain extent": most modules have not all of them.
 TEST(Identification, RefusalInWords) {
   IdentificationReader reader{2};

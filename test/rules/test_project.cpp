@@ -7,6 +7,7 @@
 #include "rules/build_rules.h"
 #include "rules/dependency_rules.h"
 #include "rules/document_rules.h"
+#include "rules/door_rules.h"
 #include "rules/include_rules.h"
 #include "rules/name_rules.h"
 #include "rules/source_tree.h"
@@ -76,6 +77,12 @@ TEST(Project, EverySourceIsListed) {
 // What rosdep, apt and CMake are told is the same.
 TEST(Project, DependenciesAreNamedAlikeEverywhere) {
   EXPECT_EQ("", list(checkDependencies(project(), dependencies())));
+}
+
+// What comes from outside is never a command line, a program or a format.
+TEST(Project, NothingFromOutsideIsACommandOrAFormat) {
+  EXPECT_EQ("", list(checkCalls(project())));
+  EXPECT_EQ("", list(checkFormats(project())));
 }
 
 // Whoever follows a document finds what it names.
