@@ -24,10 +24,12 @@ using std::chrono::hours;
 using std::chrono::minutes;
 using std::chrono::seconds;
 
-constexpr double kRate = 25.0;                     // Hz
-constexpr double kSpin = 2.0 * kHalfSpeed / 0.5;   // rad/s: each wheel as fast as straight on, half of P105 to the bit
-constexpr double kHalfWheel = kHalfSpeed / 0.1;    // rad/s
-constexpr double kRampError = kHalfWheel / kRate;  // rad: an actual value is as old as a cycle while it changes
+constexpr double kRate = 25.0;                    // Hz
+constexpr double kSpin = 2.0 * kHalfSpeed / 0.5;  // rad/s: each wheel as fast as straight on, half of P105 to the bit
+constexpr double kHalfWheel = kHalfSpeed / 0.1;   // rad/s
+// rad. No bus tells when the inverter has measured a value: it is up to a cycle old. A wheel of this speed may so be told
+// this far from where it is, and a ramp leaves as much behind, to one side or the other.
+constexpr double kRampError = kHalfWheel / kRate;
 constexpr auto kDrive = minutes{4}, kPause = minutes{1};
 constexpr auto kRamp = seconds{10};
 constexpr int kRoundsAnHour = 3;
@@ -90,7 +92,8 @@ class Soak : public ::testing::Test {
       drive(0.0, 0.0, kPause);
     }
   }
-  /// Once the ramp is over, only the age of what the drive tells can make the told angle another one than the true one.
+  /// Once the ramp is over the speed told is the true one to the bit, so that nothing adds up: the told and the true angle
+  /// differ by the age of what was told, and that by no more than a cycle, however long it lasts.
   void driveSteadily(double linear, double angular) {
     drive(linear, angular, kRamp);
     const double before[2] = {angleError(0), angleError(1)};
