@@ -14,6 +14,10 @@ constexpr Duration kLongestRefusePause = std::chrono::seconds{4};
 /// Two nodes with one id get stop words for so long.
 constexpr Duration kStopBoth = std::chrono::seconds{4};
 
+/// So long a node that was operational is only asked: it may hear what stops its drives without being heard itself, and a
+/// reset would make it deaf to that. No stop takes longer than a driver's shutdown_timeout, 10 s unless configured.
+constexpr Duration kOnlyAsked = std::chrono::seconds{15};
+
 /// Bounds the end of a driver whose node does not answer.
 constexpr Duration kLongestRelease = std::chrono::seconds{1};
 
@@ -206,6 +210,14 @@ void NodeBoot::leadBack() noexcept {
   if (report_.status().nmt == NmtState::kStopped && !command_) command_ = NmtCommand::kEnterPreOperational;
 }
 
+// It may have been stopped by somebody while it was not heard: it answers no SDO then, and nobody asks for its state.
+void NodeBoot::takeBack(Instant now) noexcept {
+  past_.lost_at = now;  // again after as long
+  if (config_.reset != BootReset::kNone) return reset(now);
+  ask(now);
+  command_ = NmtCommand::kEnterPreOperational;
+}
+
 void NodeBoot::poll(Instant now) noexcept {
   while (const std::optional<SdoAnswer> answer = port_.take(SdoOwner::kBoot)) handleAnswer(*answer, now);
   if (!timers_.isOver(NodeTimer::kBoot, now)) return;
@@ -217,7 +229,11 @@ void NodeBoot::handleDeadline(Instant now) noexcept {
   if (isIn<Release>()) return endRelease(NmtCommand::kEnterPreOperational, now);
   if (isIn<Running>()) report_.enter(NodeState::kBooting, doubleId(), now);
   Start* const started = std::get_if<Start>(&phase_);
-  if (started == nullptr) return ask(now);
+  if (started == nullptr) {
+    if (isIn<Silent>() && past_.was_operational && now - past_.lost_at >= kOnlyAsked) return takeBack(now);
+    ask(now);
+    return leadBack();  // the command before may have been lost: nothing confirms it
+  }
   if (started->tries_left == 0) return diagnose(started->heard, now);
   --started->tries_left;
   command_ = NmtCommand::kStart;
@@ -339,6 +355,7 @@ void NodeBoot::leave(const Sentence& why, Instant now) noexcept {
   past_.fresh = false;
   ask_pause_.reset();
   past_.lost_why = why;
+  past_.lost_at = now;
   ++report_.status().counters.losses;
   report_.enter(NodeState::kBooting, why, now);
   report_.tell(CanopenEventKind::kNodeLost, why, 0, now);

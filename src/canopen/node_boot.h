@@ -108,6 +108,7 @@ class NodeBoot {
     bool was_operational = false;
     bool doubled = false;  // two nodes answered: it was started all the same, to be stopped
     Sentence lost_why;     // empty once it was found again
+    Instant lost_at{};     // or taken back last
     BootUpWatch boot_ups;
   };
 
@@ -129,6 +130,7 @@ class NodeBoot {
   void start(bool doubled, Instant now) noexcept;
   void run(Instant now) noexcept;
   void leadBack() noexcept;
+  void takeBack(Instant now) noexcept;
   void leave(const Sentence& why, Instant now) noexcept;
   void diagnose(bool heard, Instant now) noexcept;
   void refuseStart(const Diagnose& diagnose, Instant now) noexcept;

@@ -241,6 +241,35 @@ TEST(NodeLoss, AStoppedNodeIsLedBack) {
   EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{1}));
 }
 
+// The command that leads it back is not confirmed, and may be lost: it goes out again with each question, as long as
+// nobody answers. (Found by the fault campaign: canopen:4.)
+TEST(NodeLoss, AStoppedNodeIsLedBackWhenThatCommandWasLost) {
+  Operational run{guarded()};
+  run.say("000#0201");
+  run.run(milliseconds{5});
+  EXPECT_THAT(run.sent, Contains("000#8001"));
+  run.nodes[0]->state = 0x04;  // it has heard the other master, and not us
+  EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{5})) << run.master.status(0).reason.c_str();
+}
+
+// Stopped by somebody while the line was cut: it answers no SDO, so that asking would find it never. (The same.)
+TEST(NodeLoss, AStopThatWasNotHeardIsNotForEver) {
+  for (const BootReset reset : {BootReset::kResetCommunication, BootReset::kNone}) {
+    MasterConfig config = guarded();
+    config.nodes[0].reset = reset;
+    Operational run{config};
+    bool cut = true;
+    run.loses = [&cut](const CanFrame&) { return cut; };
+    ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{2}));
+    run.nodes[0]->state = 0x04;
+    cut = false;
+    run.sent.clear();
+    run.run(seconds{10});
+    EXPECT_THAT(run.sent, testing::Not(Contains(HasSubstr("000#")))) << "it may hear what stops its drive";
+    EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{10})) << run.master.status(0).reason.c_str();
+  }
+}
+
 // The answer to another master's guarding is none to ours, but the state in it is the node's.
 TEST(NodeLoss, AStateInAnAnswerToSomebodyElseCounts) {
   Operational run{guarded()};
