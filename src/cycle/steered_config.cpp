@@ -33,7 +33,7 @@ DriveIndex readJoint(const Settings& settings, const std::string& key, const std
 template <typename LookUp>
 double readOr(const Settings& settings, const std::string& key, double min, double max, const char* unit,
               const robot::UrdfGeometry* description, LookUp look_up) {
-  noteSetting(settings, key, {"a number", shortNumber(min) + " to " + shortNumber(max), unit, "from the URDF"});
+  noteSetting(settings, key, {"a number", shortNumber(min) + " to " + shortNumber(max), unit, ""});
   if (settings.has(key)) return requiredNumber(settings, key, min, max, unit);
   if (description != nullptr) return look_up(*description);
   throw missingSetting(settings, key,
@@ -47,7 +47,7 @@ void readRange(const Settings& settings, const std::string& axle, const Steering
   constexpr const char* kUnit = "rad";
   const auto limit = [&](const char* key, double min, double max, const std::optional<double>& other, auto narrower) {
     const std::string name = keyOf(axle, key);
-    noteSetting(settings, name, {"a number", shortNumber(min) + " to " + shortNumber(max), kUnit, "from the drive"});
+    noteSetting(settings, name, {"a number", shortNumber(min) + " to " + shortNumber(max), kUnit, ""});
     if (!settings.has(name)) {
       if (other) return *other;
       throw missingSetting(

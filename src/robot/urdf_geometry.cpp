@@ -90,6 +90,18 @@ std::optional<urdf::Pose> poseInRoot(const urdf::ModelInterface& model, const st
   return std::nullopt;
 }
 
+/// `link` is `carrier`, or hangs on it.
+bool carries(const urdf::ModelInterface& model, const std::string& carrier, const std::string& link) {
+  std::string at = link;
+  for (std::size_t i = 0; i <= model.links_.size(); ++i) {  // as in poseInRoot
+    if (at == carrier) return true;
+    const auto here = model.getLink(at);
+    if (!here || !here->parent_joint) return false;
+    at = here->parent_joint->parent_link_name;
+  }
+  return false;
+}
+
 /// Where a wheel's joint stands in the root link's frame. The joint's frame is its child link's.
 urdf::Vector3 positionOf(const urdf::ModelInterface& model, const std::string& name) {
   const auto wheel = poseInRoot(model, wheelJoint(model, name).child_link_name);
@@ -115,16 +127,16 @@ struct Place {
   double y = 0.0;
 };
 
-/// `at`, of the root link's frame, seen from `base_link`.
-Place2d seenFrom(const urdf::ModelInterface& model, const std::string& base_link, const urdf::Vector3& at) {
-  urdf::Pose base = baseIn(model, base_link);
+/// `at`, seen from `base`; both in the root link's frame.
+Place2d seenFrom(urdf::Pose base, const urdf::Vector3& at) {  // a copy: its operators are not const
   const urdf::Vector3 away(at.x - base.position.x, at.y - base.position.y, at.z - base.position.z);
   const urdf::Vector3 seen = base.rotation.GetInverse() * away;
   return {seen.x, seen.y};
 }
 
 Place placeOf(const urdf::ModelInterface& model, const std::string& base_link, const std::string& name) {
-  const Place2d seen = seenFrom(model, base_link, positionOf(model, name));
+  const urdf::Pose base = baseIn(model, base_link);
+  const Place2d seen = seenFrom(base, positionOf(model, name));
   return {name, seen.x, seen.y};
 }
 
@@ -275,24 +287,21 @@ double UrdfGeometry::wheelRadius(const Names& joints) const {
 
 Place2d UrdfGeometry::steeredWheel(const std::string& steering, const std::string& wheel) const {
   const urdf::Joint& joint = steeringJoint(*model_, steering);
-  std::string at = wheelJoint(*model_, wheel).parent_link_name;
-  for (std::size_t i = 0; at != joint.child_link_name && i <= model_->links_.size(); ++i) {
-    const auto link = model_->getLink(at);
-    if (!link || !link->parent_joint) refuse("joint ", quoted(steering), " does not carry joint ", quoted(wheel));
-    at = link->parent_joint->parent_link_name;
+  if (!carries(*model_, joint.child_link_name, wheelJoint(*model_, wheel).parent_link_name)) {
+    refuse("joint ", quoted(steering), " does not carry joint ", quoted(wheel));
   }
   const auto pose = poseInRoot(*model_, joint.child_link_name);
   if (!pose) refuse("joint ", quoted(steering), " does not hang on the tree of links");
-  urdf::Rotation base = baseIn(*model_, base_link_).rotation;
+  urdf::Pose base = baseIn(*model_, base_link_);
   urdf::Rotation turned = pose->rotation;
-  const urdf::Vector3 axis = base.GetInverse() * (turned * joint.axis);
+  const urdf::Vector3 axis = base.rotation.GetInverse() * (turned * joint.axis);
   constexpr double kOneDegree = 0.99985;  // its cosine
   if (!(axis.z >= kOneDegree)) {
     refuse("the axis of joint ", quoted(steering), " is ", axis.x, " ", axis.y, " ", axis.z, " in ", quoted(base_link_),
            ", expected 0 0 1: a steering angle grows counter-clockwise seen from above");
   }
-  const Place2d stands = seenFrom(*model_, base_link_, positionOf(*model_, wheel));
-  const Place2d turns = seenFrom(*model_, base_link_, pose->position);
+  const Place2d stands = seenFrom(base, positionOf(*model_, wheel));
+  const Place2d turns = seenFrom(base, pose->position);
   const double beside = std::hypot(stands.x - turns.x, stands.y - turns.y);
   if (beside > kSamePlace) {
     refuse("joint ", quoted(wheel), " stands ", beside, " m beside the axis of joint ", quoted(steering),

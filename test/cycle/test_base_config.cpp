@@ -265,7 +265,7 @@ TEST(BaseConfig, ReadsAMecanumBase) {
   EXPECT_EQ((std::vector<DriveIndex>{0, 1, 2, 3}), base->wheels());
   EXPECT_THAT(refusal(robot().set("base_type", "mecanum").set("wheel_base", 0.6)), HasSubstr("two in each"));
   EXPECT_THAT(refusal(robot().set("base_type", "mecanum")), HasSubstr("~wheel_base is missing"));
-  EXPECT_THAT(refusal(robot().set("base_type", "tricycle")), HasSubstr("differential or mecanum"));
+  EXPECT_THAT(refusal(robot().set("base_type", "tricycle")), HasSubstr("differential, mecanum or steered"));
 }
 
 }  // namespace
