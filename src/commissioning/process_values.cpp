@@ -119,7 +119,8 @@ void drivePositions(const Drives& drives, std::size_t index, Findings& to) {
   const ParameterKey control = drive.key(kPositionControl);
   if (drive.raw(control) == 0) {
     Finding finding = drive.finding(control, Severity::kError,
-                                    "with mode: position the drive has to position, and is not enabled as it is");
+                                    "with mode: position the drive has to position, and is not enabled as it is",
+                                    "BU 0020, 7.3.5, p. 77");
     finding.remedy = drive.remedy(control, 1);
     to.push_back(finding);
   }

@@ -29,7 +29,7 @@ std::optional<robot::JointRange> rangeOf(const std::string& joint, const std::st
 }
 
 DriveSetup readDrive(const DriveSettings& source, const CycleConfig& config, Duration drive_timeout,
-                     const std::string& robot_description, const std::string& transport) {
+                     const std::string& robot_description) {
   const Settings& settings = *source.settings;
   if (!isRosName(source.name)) {  // it becomes a part of topic names
     throw ConfigError(settings.fullName("") + ": \"" + source.name +
@@ -51,7 +51,7 @@ DriveSetup readDrive(const DriveSettings& source, const CycleConfig& config, Dur
   setup.words = readWordSetup(settings, setup.series, config.cmd_vel_timeout);
   if (readDriveMode(settings) == DriveMode::kPosition) {
     setup.position =
-        readPositionSetup(settings, {setup.series, common.scaling, rangeOf(setup.joint, robot_description), transport});
+        readPositionSetup(settings, {setup.series, common.scaling, rangeOf(setup.joint, robot_description)});
     setup.drive.position = setup.position->axis;
   } else {
     refusePositionKeys(settings);
@@ -140,13 +140,12 @@ CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSetting
   const Duration drive_timeout = seconds(
       numberOr(node, "drive_timeout", toSeconds(default_drive_timeout), toSeconds(2 * config.period()), 60.0, "s"));
 
-  const std::string transport = node.text("transport").value_or("");
   if (drives.empty()) {
     throw missingSetting(node, "drives", "at least one drive with its address");
   }
   JointNames joints;
   for (const DriveSettings& source : drives) {
-    config.drives.push_back(readDrive(source, config, drive_timeout, robot_description, transport));
+    config.drives.push_back(readDrive(source, config, drive_timeout, robot_description));
     joints.push_back(config.drives.back().joint);
   }
   refuseJointsUsedTwice(drives, config.drives);

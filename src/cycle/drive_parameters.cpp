@@ -84,6 +84,21 @@ std::optional<drive::UnexpectedFunction> unexpectedFunction(const DeviceData& de
   return missing || !needs.positions ? missing : unexpectedPositionMode(device, set, needs);
 }
 
+bool allKnown(const std::array<std::uint16_t, 3>& functions, std::size_t carried) noexcept {
+  for (std::size_t i = 0; i < functions.size() && i < carried; ++i) {
+    if (functions[i] == kUnknownFunction) return false;
+  }
+  return true;
+}
+
+// A low word whose high one is not known yet would be taken for 16 bits, 65.536 revolutions away.
+profile::PositionWords positionWordsOf(const WordFunctions& functions, profile::Series series,
+                                       const ParameterChannelUse& channel) noexcept {
+  const std::size_t carried = channel.needs.words;
+  if (!allKnown(functions.setpoints, carried) || !allKnown(functions.actual_values, carried)) return {};
+  return profile::positionWords(series, functions.setpoints, functions.actual_values, carried, channel.field_order);
+}
+
 }  // namespace
 
 bool changesProcessData(const Request& request) noexcept {
@@ -168,10 +183,9 @@ void DriveParameters::scale(drive::Drive& drive) const noexcept {
     }
     drive.setMinimumFrequency(set, Hertz{reader_.data().min_frequency[set - 1u].value_or(0.0)});
     drive.setUnexpectedFunction(set, unexpectedFunction(reader_.data(), set, series_, channel_.needs));
-    if (!channel_.needs.positions) continue;
+    if (!channel_.needs.positions || !reader_.motionAsked()) continue;
     const WordFunctions& functions = reader_.data().word_functions[set - 1u];
-    drive.setPositionWords(set, profile::positionWords(series_, functions.setpoints, functions.actual_values,
-                                                       channel_.needs.words, channel_.field_order));
+    drive.setPositionWords(set, positionWordsOf(functions, series_, channel_));
   }
   drive.setUnexpectedSource(unexpectedSource(reader_.data(), series_, channel_.follows));
   drive.setParametersAwaited(!reader_.motionAsked());

@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "config/driver_settings.h"
 #include "config/setting_checks.h"
 #include "config/setting_choice.h"
 #include "profile/process_data_order.h"
@@ -18,13 +17,6 @@ constexpr double kDefaultTolerance = 0.01;  // revolutions of the count
 constexpr Choice<DriveMode> kModes[] = {{"velocity", DriveMode::kVelocity}, {"position", DriveMode::kPosition}};
 constexpr Choice<profile::FieldOrder> kOrders[] = {{"high_first", profile::FieldOrder::kHighFirst},
                                                    {"low_first", profile::FieldOrder::kLowFirst}};
-
-// As the bus carries the bytes of a word.
-profile::FieldOrder usualOrder(const std::string& transport) {
-  const std::string name = shortTransportName(transport);
-  const bool low_first = name == "canopen" || name == "devicenet";
-  return low_first ? profile::FieldOrder::kLowFirst : profile::FieldOrder::kHighFirst;
-}
 
 /// m for a revolution of the joint's shaft; none: the joint turns.
 std::optional<double> readLead(const Settings& drive, const std::optional<robot::JointRange>& joint) {
@@ -153,7 +145,7 @@ PositionSetup readPositionSetup(const Settings& drive, const PositionContext& co
   const auto bits = integerOr(drive, "position/bits", 32, 16, 32);
   if (bits != 16 && bits != 32) throw wrongSetting(drive, "position/bits", std::to_string(bits), "16 or 32");
   setup.bits = static_cast<std::uint8_t>(bits);
-  setup.order = choiceOr(drive, "position/word_order", usualOrder(context.transport), kOrders);
+  setup.order = choiceOr(drive, "position/word_order", profile::FieldOrder::kHighFirst, kOrders);
   setup.setpoint_mode = static_cast<std::int32_t>(integerOr(drive, "position/setpoint_mode", -1, -1, 100));
   setup.home = readHome(drive, profile::thirdBeforeSecond(series));
   setup.referenced = readReferenced(drive);

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 
 #include "cycle/signal_setup.h"
 #include "drive/position_axis.h"
@@ -43,7 +42,6 @@ struct PositionContext {
   profile::Series series = profile::Series::kSk5xxe;
   profile::JointScaling scaling;
   std::optional<robot::JointRange> joint;  ///< what the robot's description says of it
-  std::string transport;                   ///< its name, as configured
 };
 
 /// Of a drive with `mode: position`. Throws ConfigError.

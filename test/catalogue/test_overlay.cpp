@@ -64,7 +64,7 @@ TEST(Overlay, NamesAReservedValue) {
   const Catalogue own = with("devices: [sk5xxe]\nparameters:\n  - number: 543\n    values: {14: My value}\n");
   const ParameterEntry* entry = own.find(Series::kSk5xxe, 543);
   EXPECT_EQ("14 My value", valueText(*entry, 14));
-  EXPECT_EQ("15 reserved", valueText(*entry, 15));
+  EXPECT_EQ("13 reserved", valueText(*entry, 13));
 }
 
 TEST(Overlay, AddsParameters) {

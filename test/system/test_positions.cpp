@@ -249,6 +249,7 @@ TYPED_TEST(Positions, AReferenceRunEndsWithAStop) {
   robot.run(std::chrono::milliseconds{700});
   ASSERT_LT(robot.unit(0).shaftSpeed(), -5.0);
   ASSERT_TRUE(robot.ask(RequestKind::kDisable).success);
+  ASSERT_TRUE(robot.runUntil([&] { return standsStill(robot); }));
   EXPECT_TRUE(staysWhereItIs(robot));
   ASSERT_TRUE(robot.ask(RequestKind::kEnable).success);
   EXPECT_TRUE(staysWhereItIs(robot)) << "nor does it go on with it";
