@@ -107,7 +107,7 @@ void ScriptedNode::receive(const CanFrame& frame, Instant now) {
     say(text, now + std::chrono::milliseconds{1});
     if (toggles) toggle_ ^= 0x80;
   } else if (frame.id == 0x600u + id_) {
-    if (hears_sdo) handleSdo(frame, now);
+    if (hears_sdo && state != 0x04) handleSdo(frame, now);  // stopped: NMT and error control only (CiA 301)
   } else if (frame.id == 0x080) {
     ++syncs;
     if (state == 0x05 && object(0x1800, 2).value <= 240) sendTransmitPdo(now + std::chrono::milliseconds{1});

@@ -245,9 +245,9 @@ TEST(NodeLoss, AStoppedNodeIsLedBack) {
 // nobody answers. (Found by the fault campaign: canopen:4.)
 TEST(NodeLoss, AStoppedNodeIsLedBackWhenThatCommandWasLost) {
   Operational run{guarded()};
-  run.say("000#0201");
+  run.say("000#0232");
   run.run(milliseconds{5});
-  EXPECT_THAT(run.sent, Contains("000#8001"));
+  EXPECT_THAT(run.sent, Contains("000#8032"));
   run.nodes[0]->state = 0x04;  // it has heard the other master, and not us
   EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{5})) << run.master.status(0).reason.c_str();
 }
