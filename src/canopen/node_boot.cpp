@@ -211,11 +211,13 @@ void NodeBoot::leadBack() noexcept {
 }
 
 // It may have been stopped by somebody while it was not heard: it answers no SDO then, and nobody asks for its state.
-void NodeBoot::takeBack(Instant now) noexcept {
-  past_.lost_at = now;  // again after as long
-  if (config_.reset != BootReset::kNone) return reset(now);
+void NodeBoot::askAgain(Instant now) noexcept {
+  const bool take_back = isIn<Silent>() && past_.was_operational && now - past_.lost_at >= kOnlyAsked;
+  if (take_back) past_.lost_at = now;  // again after as long
+  if (take_back && config_.reset != BootReset::kNone) return reset(now);
   ask(now);
-  command_ = NmtCommand::kEnterPreOperational;
+  if (take_back) command_ = NmtCommand::kEnterPreOperational;
+  leadBack();  // the command before may have been lost: nothing confirms it
 }
 
 void NodeBoot::poll(Instant now) noexcept {
@@ -229,11 +231,7 @@ void NodeBoot::handleDeadline(Instant now) noexcept {
   if (isIn<Release>()) return endRelease(NmtCommand::kEnterPreOperational, now);
   if (isIn<Running>()) report_.enter(NodeState::kBooting, doubleId(), now);
   Start* const started = std::get_if<Start>(&phase_);
-  if (started == nullptr) {
-    if (isIn<Silent>() && past_.was_operational && now - past_.lost_at >= kOnlyAsked) return takeBack(now);
-    ask(now);
-    return leadBack();  // the command before may have been lost: nothing confirms it
-  }
+  if (started == nullptr) return askAgain(now);
   if (started->tries_left == 0) return diagnose(started->heard, now);
   --started->tries_left;
   command_ = NmtCommand::kStart;

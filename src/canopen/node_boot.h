@@ -130,7 +130,7 @@ class NodeBoot {
   void start(bool doubled, Instant now) noexcept;
   void run(Instant now) noexcept;
   void leadBack() noexcept;
-  void takeBack(Instant now) noexcept;
+  void askAgain(Instant now) noexcept;
   void leave(const Sentence& why, Instant now) noexcept;
   void diagnose(bool heard, Instant now) noexcept;
   void refuseStart(const Diagnose& diagnose, Instant now) noexcept;

@@ -66,8 +66,8 @@ struct BodyConfig {
   double wheel_radius = 0.0;      ///< m
   double wheel_separation = 0.0;  ///< m
   double wheel_base = 0.0;        ///< m, mecanum only
-  SteeredAxleConfig front;        ///< steered only
-  SteeredAxleConfig rear;
+  SteeredAxleConfig front = {};   ///< steered only
+  SteeredAxleConfig rear = {};
   BodyKind kind = BodyKind::kDiffDrive;
 };
 
