@@ -22,7 +22,7 @@ constexpr LiftWords kSk53xBits{"SK 53xE", "sk5xxe", sim::Series::kSk5xxe, {21, 2
 constexpr LiftWords kSk2xxBits{"SK 2xxE", "sk2xxe", sim::Series::kSk2xxe, {23, 24, 20}, {1, 10, 15}, 32};
 
 /// Element 3: its number has two bits. P480 by element, from 0.
-constexpr std::pair<unsigned, std::int32_t> kFunctions[] = {{0, 24}, {1, 25}, {4, 55}, {5, 56}};
+constexpr std::pair<unsigned, std::int32_t> kFunctions[] = {{0, 24}, {1, 25}, {4, 55}, {5, 56}, {10, 22}};
 
 using SimParameters = std::vector<sim::ParameterPreset>;
 
@@ -30,6 +30,7 @@ template <typename Robot>
 typename Robot::Options teachOptions(const std::function<void(SimParameters&)>& change = {}) {
   const LiftWords words = std::is_same_v<Robot, DevicenetRobot> ? kSk2xxBits : kSk53xBits;
   auto options = liftOptions<Robot>(words, 70.0);
+  options.drives["position/home"] = std::string{"control_bit_8"};
   options.drives["position/teach_in"] = std::string{"bus_in_bit_0"};
   options.drives["position/quit_teach_in"] = std::string{"bus_in_bit_1"};
   options.drives["position/array_bit"] = std::string{"bus_in_bit_4"};
@@ -104,7 +105,14 @@ TYPED_TEST(TeachPosition, IsRefusedInWords) {
     EXPECT_THAT(answer.message.str(), HasSubstr(why));
     EXPECT_EQ(std::vector<std::int32_t>(5, 0), array(robot)) << why;
   };
-  EXPECT_THAT(robot.ask(RequestKind::kTeach, 1).message.str(), HasSubstr("follows velocities"));
+  ASSERT_TRUE(robot.ask(RequestKind::kEnable).success);
+  cycle::Request home;
+  home.kind = RequestKind::kHome;
+  home.drive = 0;
+  robot.ports().submit(home);
+  robot.run(std::chrono::milliseconds{300});
+  expectRefused("a reference run is under way");
+  ASSERT_TRUE(robot.ask(RequestKind::kDisable).success);
   robot.unit(0).inverter().setLocalControl(true);
   robot.run(std::chrono::milliseconds{300});
   expectRefused("local control");
