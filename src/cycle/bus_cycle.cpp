@@ -139,6 +139,7 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
     case RequestKind::kSelectParameterSet:
       return selectParameterSet(request, now);
     case RequestKind::kHome:
+    case RequestKind::kTeach:
       return position_requests_.handleRequest(request, now);
     case RequestKind::kResetOdometry:
       return ports_.complete(resetOdometry(request));

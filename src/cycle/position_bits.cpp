@@ -6,7 +6,9 @@ namespace nord_driver::cycle {
 
 namespace {
 
-constexpr unsigned kPosiconReferenceRun = 1u << 6;  // BU 0020 7.3.5
+// BU 0020 7.3.5, BU 0070 6.1: and bits 0 to 5 choose the element of the array.
+constexpr unsigned kPosiconReferenceRun = 1u << 6, kPosiconTeachIn = 1u << 8, kPosiconQuitTeachIn = 1u << 9;
+constexpr unsigned kArrayBits = 6;
 
 std::int16_t withBits(std::int16_t word, unsigned bits) noexcept {
   return toSigned(static_cast<Word>(toWord(word) | bits));
@@ -18,6 +20,8 @@ PositionBits::PositionBits(const std::optional<PositionSetup>& setup, profile::S
     : series_(series), carried_(std::min(carried, profile::kMaxProcessValues)) {
   if (!setup) return;
   home_ = setup->home;
+  teach_ = setup->teach;
+  scale_ = setup->axis.scale;
   referenced_ = setup->referenced;
 }
 
@@ -30,40 +34,91 @@ std::optional<std::size_t> PositionBits::placeOf(const WordNeed& need, const Dev
   return std::nullopt;
 }
 
-Sentence PositionBits::homeRefusal(const char* drive, const DeviceData& device, std::uint8_t set) const noexcept {
+Sentence PositionBits::bitRefusal(const char* drive, const PositionBit& bit, const Meaning& meaning,
+                                  const DeviceData& device, std::uint8_t set) const noexcept {
   Sentence text;
-  if (!home_) {
-    text.format("drive %s: position/home is not configured: nobody knows by which bit it is asked for a reference run",
-                drive);
+  if (bit.carrier != PositionBit::Carrier::kControlBit && !placeOf(needOf(bit), device, set)) {
+    text.format("drive %s: no setpoint carries the bit of %s", drive, meaning.key);
     return text;
   }
-  if (home_->carrier != HomeBit::Carrier::kControlBit && !placeOf(needOf(*home_), device, set)) {
-    text.format("drive %s: no setpoint carries the bit of position/home", drive);
-    return text;
-  }
-  const auto element = elementOf(*home_);
+  const auto element = elementOf(bit);
   if (!element) return text;
   const bool known = *element <= device.bus_bit_functions.size();
   const std::uint16_t function = known ? device.bus_bit_functions[*element - 1u] : kUnknownFunction;
-  if (function == home_->function) return text;
+  if (function == bit.function) return text;
   FixedText<24> found;
   found.format(function == kUnknownFunction ? "could not be read" : "is %u", unsigned{function});
-  text.format(
-      "drive %s: P480[-%02u] %s; set it to %u (reference run), or position/home_function to what its manual says",
-      drive, unsigned{*element}, found.c_str(), unsigned{home_->function});
+  text.format("drive %s: P480[-%02u] %s; set it to %u (%s), or %s to what its manual says", drive, unsigned{*element},
+              found.c_str(), unsigned{bit.function}, meaning.name, meaning.function_key);
   return text;
 }
 
-void PositionBits::putHome(profile::ProcessOutput& output, const DeviceData& device, std::uint8_t set) const noexcept {
-  if (!home_ || output.control_word == 0) return;
-  if (home_->carrier == HomeBit::Carrier::kControlBit) {
-    output.control_word = static_cast<Word>(output.control_word | 1u << home_->number);
+Sentence PositionBits::homeRefusal(const char* drive, const DeviceData& device, std::uint8_t set) const noexcept {
+  if (home_)
+    return bitRefusal(drive, *home_, {"position/home", "position/home_function", "reference run"}, device, set);
+  Sentence text;
+  text.format("drive %s: position/home is not configured: nobody knows by which bit it is asked for a reference run",
+              drive);
+  return text;
+}
+
+Sentence PositionBits::teachRefusal(const char* drive, const DeviceData& device, std::uint8_t set) const noexcept {
+  Sentence text;
+  if (!teach_) {
+    text.format("drive %s: position/teach_in is not configured: nobody knows by which bits it takes its position",
+                drive);
+    return text;
+  }
+  text =
+      bitRefusal(drive, teach_->teach_in, {"position/teach_in", "position/teach_in_function", "teach-in"}, device, set);
+  if (text.empty()) {
+    text = bitRefusal(drive, teach_->quit,
+                      {"position/quit_teach_in", "position/quit_teach_in_function", "quit teach-in"}, device, set);
+  }
+  if (!teach_->array) return text;
+  for (unsigned bit = 0; text.empty() && bit < kArrayBits; ++bit) {
+    if ((teach_->element >> bit & 1u) == 0) continue;
+    PositionBit one = *teach_->array;
+    one.number = static_cast<std::uint8_t>(one.number + bit);
+    one.function = static_cast<std::uint16_t>(one.function + bit);
+    FixedText<32> name;
+    name.format("bit %u of the position array", bit);
+    text = bitRefusal(drive, one, {"position/array_bit", "position/array_function", name.c_str()}, device, set);
+  }
+  return text;
+}
+
+void PositionBits::put(const PositionBit& bit, unsigned value, unsigned posicon, profile::ProcessOutput& output,
+                       const DeviceData& device, std::uint8_t set) const noexcept {
+  if (output.control_word == 0) return;
+  if (bit.carrier == PositionBit::Carrier::kControlBit) {
+    output.control_word = static_cast<Word>(output.control_word | value << bit.number);
     return;
   }
-  const auto place = placeOf(needOf(*home_), device, set);
+  const auto place = placeOf(needOf(bit), device, set);
   if (!place) return;
-  const bool posicon = home_->carrier == HomeBit::Carrier::kPosicon;
-  output.setpoints[*place] = withBits(output.setpoints[*place], posicon ? kPosiconReferenceRun : 1u << home_->number);
+  const bool in_posicon = bit.carrier == PositionBit::Carrier::kPosicon;
+  output.setpoints[*place] = withBits(output.setpoints[*place], in_posicon ? posicon : value << bit.number);
+}
+
+void PositionBits::putHome(profile::ProcessOutput& output, const DeviceData& device, std::uint8_t set) const noexcept {
+  if (home_) put(*home_, 1, kPosiconReferenceRun, output, device, set);
+}
+
+void PositionBits::putTeach(const drive::TeachBits& bits, profile::ProcessOutput& output, const DeviceData& device,
+                            std::uint8_t set) const noexcept {
+  if (!teach_ || !bits.teach_in) return;
+  put(teach_->teach_in, 1, kPosiconTeachIn, output, device, set);
+  if (teach_->array) put(*teach_->array, teach_->element, teach_->element, output, device, set);
+  if (bits.quit) put(teach_->quit, 1, kPosiconQuitTeachIn, output, device, set);
+}
+
+std::int32_t PositionBits::inArray(double joint) const noexcept {
+  profile::PositionScale thousandths = scale_;
+  thousandths.steps_per_revolution = 1000.0;
+  profile::PositionField field;
+  field.bits = 32;
+  return profile::toSteps(joint, thousandths, field).value_or(0);
 }
 
 std::optional<bool> PositionBits::referenced(const profile::ProcessInput& input, const DeviceData& device,

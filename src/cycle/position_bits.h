@@ -1,7 +1,7 @@
-// The single bits a drive that positions is asked by, and says by: reference run, and "referenced".
+// The single bits a drive that positions is asked by, and says by: reference run, teach-in, and "referenced".
 //
 // A bit goes to the drive as bus I/O in bit, as bit 8 or 9 of the control word (P480 says what it does), or in the
-// POSICON control bits of SK 700E and 750E (BU 0020 7.3.5). Which number of P480 is the reference run stands in the
+// POSICON control bits of SK 700E and 750E (BU 0020 7.3.5). Which number of P480 is which of them stands in the
 // manuals of the inverters (P420), not at hand: it is a choice of the configuration.
 #pragma once
 
@@ -15,6 +15,7 @@
 #include "nord_driver/core/fixed_text.h"
 #include "nord_driver/profile/process_data.h"
 #include "nord_driver/profile/series.h"
+#include "profile/position_scale.h"
 
 namespace nord_driver::cycle {
 
@@ -28,14 +29,35 @@ class PositionBits {
   Sentence homeRefusal(const char* drive, const DeviceData& device, std::uint8_t set) const noexcept;
   /// The bit that asks for the reference run into what goes to the drive, with its own words.
   void putHome(profile::ProcessOutput& output, const DeviceData& device, std::uint8_t set) const noexcept;
+  /// The same of teaching its position.
+  Sentence teachRefusal(const char* drive, const DeviceData& device, std::uint8_t set) const noexcept;
+  /// The bits that are high while it is taught.
+  void putTeach(const drive::TeachBits& bits, profile::ProcessOutput& output, const DeviceData& device,
+                std::uint8_t set) const noexcept;
+  /// A position of the joint as P613 has it, 0.001 revolutions; 0 of one that does not position, or beyond all range.
+  std::int32_t inArray(double joint) const noexcept;
   /// What the drive says of its reference; none where no bit is configured, or nobody knows which word carries it.
   std::optional<bool> referenced(const profile::ProcessInput& input, const DeviceData& device,
                                  std::uint8_t set) const noexcept;
 
  private:
+  /// What a bit is called where it is refused.
+  struct Meaning {
+    const char* key;
+    const char* function_key;
+    const char* name;
+  };
+  /// `bit` can be sent, and does what it is taken for.
+  Sentence bitRefusal(const char* drive, const PositionBit& bit, const Meaning& meaning, const DeviceData& device,
+                      std::uint8_t set) const noexcept;
+  /// `value`: from this bit on; `posicon`: in the place of it in the POSICON control bits.
+  void put(const PositionBit& bit, unsigned value, unsigned posicon, profile::ProcessOutput& output,
+           const DeviceData& device, std::uint8_t set) const noexcept;
   std::optional<std::size_t> placeOf(const WordNeed& need, const DeviceData& device, std::uint8_t set) const noexcept;
 
-  std::optional<HomeBit> home_;
+  std::optional<PositionBit> home_;
+  std::optional<TeachSetup> teach_;
+  profile::PositionScale scale_;
   std::optional<SignalSetup> referenced_;
   profile::Series series_;
   std::size_t carried_;

@@ -1,4 +1,4 @@
-// Carries out what users ask of drives that position, beside their targets: the reference run.
+// Carries out what users ask of drives that position, beside their targets: the reference run, and teach-in.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class PositionRequests {
   /// Both must outlive the object and not move.
   PositionRequests(std::vector<drive::Drive>& drives, const std::vector<Axis>& axes, std::vector<std::string> names);
 
-  /// kHome.
+  /// kHome and kTeach.
   void handleRequest(const Request& request, Instant now) noexcept;
   void update(Instant now) noexcept;
   std::optional<Completion> pollCompletion() noexcept { return completions_.poll(); }
@@ -34,7 +34,9 @@ class PositionRequests {
     std::uint32_t token = 0;
   };
 
-  Sentence refusalOf(DriveIndex drive) const noexcept;
+  Sentence refusalOf(const Request& request) const noexcept;
+  /// Of the drive, the report of what is asked for.
+  const drive::RequestReport& reportOf(const Request& request) const noexcept;
   /// True when the job has ended.
   bool follow(const Job& job, Instant now) noexcept;
 

@@ -17,12 +17,21 @@ namespace nord_driver::cycle {
 
 enum class DriveMode : std::uint8_t { kVelocity, kPosition };
 
-/// The bit that asks for a reference run.
-struct HomeBit {
+/// A bit that asks something of the position control: for a reference run, or to be taught.
+struct PositionBit {
   enum class Carrier : std::uint8_t { kBusBit, kControlBit, kPosicon };
   Carrier carrier = Carrier::kControlBit;
   std::uint8_t number = 8;      ///< bus I/O in bit 0..7, bit 8 or 9 of the control word
   std::uint16_t function = 22;  ///< what P480 has to say of it
+};
+
+/// The bits that make the drive take its position into an element of its array.
+struct TeachSetup {
+  PositionBit teach_in;
+  PositionBit quit;
+  /// Bit 0 of the element's number, the others follow it with the functions that follow; none: none is sent.
+  std::optional<PositionBit> array;
+  std::uint8_t element = 1;  ///< of P613, as its bits say it
 };
 
 struct PositionSetup {
@@ -31,7 +40,8 @@ struct PositionSetup {
   profile::FieldOrder order = profile::FieldOrder::kHighFirst;  ///< of SK 700E and 750E
   /// What P610 has to be, -1: it is not looked at. Its values stand in none of the manuals at hand.
   std::int32_t setpoint_mode = -1;
-  std::optional<HomeBit> home;            ///< none: it is never asked for a reference run
+  std::optional<PositionBit> home;        ///< none: it is never asked for a reference run
+  std::optional<TeachSetup> teach;        ///< none: no position is ever taught
   std::optional<SignalSetup> referenced;  ///< a bus I/O out bit or a bit of the status word; none: no bit says it
 };
 

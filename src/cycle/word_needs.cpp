@@ -149,15 +149,15 @@ bool carries(std::size_t place, const WordNeed& need, const WordFunctions& funct
   return use == need.use || (need.use == WordUse::kPosition32 && use == WordUse::kIncrement32);
 }
 
-WordNeed needOf(const HomeBit& home) noexcept {
-  if (home.carrier == HomeBit::Carrier::kPosicon) return {false, WordUse::kPosiconBits, 1, 3};
+WordNeed needOf(const PositionBit& bit) noexcept {
+  if (bit.carrier == PositionBit::Carrier::kPosicon) return {false, WordUse::kPosiconBits, 1, 3};
   return {false, WordUse::kBusBits, 2, 3};
 }
 
-std::optional<std::uint8_t> elementOf(const HomeBit& home) noexcept {
+std::optional<std::uint8_t> elementOf(const PositionBit& bit) noexcept {
   // P480 [-01] to [-08] are the bus I/O in bits, [-11] and [-12] bits 8 and 9 of the control word (BU 0020 6.2.1).
-  if (home.carrier == HomeBit::Carrier::kBusBit) return static_cast<std::uint8_t>(home.number + 1);
-  if (home.carrier == HomeBit::Carrier::kControlBit) return static_cast<std::uint8_t>(home.number + 3);
+  if (bit.carrier == PositionBit::Carrier::kBusBit) return static_cast<std::uint8_t>(bit.number + 1);
+  if (bit.carrier == PositionBit::Carrier::kControlBit) return static_cast<std::uint8_t>(bit.number + 3);
   return std::nullopt;
 }
 
@@ -192,7 +192,13 @@ void addPositionNeeds(const PositionSetup& setup, Series series, WordNeeds& need
     });
     if (!known) needs.list.push_back(need);
   };
-  if (setup.home && setup.home->carrier != HomeBit::Carrier::kControlBit) add(needOf(*setup.home));
+  if (setup.home && setup.home->carrier != PositionBit::Carrier::kControlBit) add(needOf(*setup.home));
+  if (setup.teach) {
+    for (const auto& bit :
+         {std::optional{setup.teach->teach_in}, std::optional{setup.teach->quit}, setup.teach->array}) {
+      if (bit && bit->carrier != PositionBit::Carrier::kControlBit) add(needOf(*bit));
+    }
+  }
   if (setup.referenced && setup.referenced->source == SignalSource::kBusOutBit) add({true, WordUse::kBusBits, 2, 3});
   const bool wide = setup.bits == 32;
   if (profile::thirdBeforeSecond(series)) {

@@ -43,10 +43,10 @@ WordNeeds wordNeeds(const WordSetup& setup, std::size_t carried) noexcept;
 /// And those of a drive that positions.
 void addPositionNeeds(const PositionSetup& setup, profile::Series series, WordNeeds& needs) noexcept;
 
-/// The word that carries the bit which asks for a reference run; of a bit of the control word nobody asks.
-WordNeed needOf(const HomeBit& home) noexcept;
+/// The word that carries this bit; of a bit of the control word nobody asks.
+WordNeed needOf(const PositionBit& bit) noexcept;
 /// The element of P480 that says what this bit does; none: it has its meaning from its word.
-std::optional<std::uint8_t> elementOf(const HomeBit& home) noexcept;
+std::optional<std::uint8_t> elementOf(const PositionBit& bit) noexcept;
 
 /// What word 1 carries need not be the frequency: it is a position of a drive that positions.
 bool isPosition(profile::WordUse use) noexcept;

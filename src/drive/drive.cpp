@@ -63,6 +63,7 @@ void Drive::enter(Phase phase, Instant now, RadPerSec wanted) noexcept {
     axis_->endHoming();
     end(report_.homing, Refusal::kStopped);
   }
+  if (isTeaching()) endTeaching(phase == Phase::kOffline ? Refusal::kOffline : Refusal::kTeachStopped);
 }
 
 void Drive::latch(StopCause cause) noexcept {
@@ -111,6 +112,7 @@ void Drive::handleUseful(const profile::ProcessInput& input, Instant now) noexce
   checkStops(status, now);
   follow(status, now);
   if (axis_) followHoming(now);
+  if (isTeaching()) followTeaching(now);
 }
 
 void Drive::learnSet(StatusWord status, bool joined) noexcept {
@@ -360,7 +362,7 @@ profile::ProcessOutput Drive::pollOutput(Instant now) noexcept {
   report_.saturated = false;
   report_.velocity_command = {};
   if (axis_) {
-    putPosition(output);
+    putPosition(output, now);
   } else if (isEnabled(report_.phase)) {
     // Enabled without P105 cannot be; were it so, the setpoint would be 0.
     const Hertz maximum = maxFrequency(report_.commanded_set).value_or(Hertz{});

@@ -18,6 +18,7 @@
 //  - A drive that positions (`position`) goes to a target instead of following a velocity: see PositionAxis. Setpoint 1,
 //    where it is the frequency, is then the speed it travels at. Its way to rest is OFF1 from the first word on, for a
 //    setpoint of zero would not stop it where the drive travels at P105.
+//  - While a position is taught it stays disabled: with teach-in a drive follows frequencies.
 //  - Under local control the set follows the inverter: its terminals choose it, and our word acts when control returns.
 #pragma once
 
@@ -105,6 +106,10 @@ class Drive {
   /// A reference run of a drive that positions, from "enabled"; report().homing tells the outcome, with the `token`. The
   /// drive is asked for it while report().position.homing. It ends in a stop after PositionConfig::homing_timeout.
   void requestHoming(Instant now, std::uint32_t token = 0) noexcept;
+  /// The drive that positions takes its position into its array, from "idle" at standstill; report().teaching tells the
+  /// outcome, with the `token`. It is not enabled meanwhile, and whatever else is asked of it ends it. What is to be high
+  /// stands in report().position.teach.
+  void requestTeaching(Instant now, std::uint32_t token = 0) noexcept;
   /// Whether a bit of the drive says that its reference is known; none: there is no such bit.
   void setReferenced(std::optional<bool> referenced) noexcept;
   bool positions() const noexcept { return axis_.has_value(); }
@@ -183,7 +188,11 @@ class Drive {
   void measurePosition() noexcept;
   void handlePosition(Instant now) noexcept;
   void followHoming(Instant now) noexcept;
-  void putPosition(profile::ProcessOutput& output) noexcept;
+  bool isTeaching() const noexcept { return axis_ && axis_->teaching().isRunning(); }
+  Refusal teachingRefusal() const noexcept;
+  void followTeaching(Instant now) noexcept;
+  void endTeaching(Refusal refusal) noexcept;
+  void putPosition(profile::ProcessOutput& output, Instant now) noexcept;
   /// Of a drive that positions, why its position keeps it from being enabled.
   Refusal positionRefusal() const noexcept;
   /// What stands for the frequency, of 16384: actual value 1, or of a drive that positions what its words say.

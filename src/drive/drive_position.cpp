@@ -7,6 +7,7 @@
 namespace nord_driver::drive {
 
 using profile::Command;
+using profile::DriveState;
 using profile::StatusWord;
 
 namespace {
@@ -67,6 +68,39 @@ void Drive::requestHoming(Instant now, std::uint32_t token) noexcept {
   axis_->startHoming(now);
 }
 
+Refusal Drive::teachingRefusal() const noexcept {
+  if (report_.phase == Phase::kOffline) return Refusal::kOffline;
+  if (report_.phase == Phase::kAcknowledging || report_.phase == Phase::kSwitchingSet) return Refusal::kBusy;
+  const StatusWord status(report_.status_word);
+  if (status.fault()) return Refusal::kFault;
+  if (!status.busControl()) return Refusal::kLocalControl;
+  const bool disabled = report_.state == DriveState::kSwitchOnDisabled || report_.state == DriveState::kReadyToSwitchOn;
+  if (report_.phase != Phase::kIdle || !disabled) return Refusal::kTeachNotDisabled;
+  if (report_.parameter_set != report_.commanded_set) return Refusal::kParameterSet;
+  if (!axis_->isKnown()) return Refusal::kPositionUnknown;
+  return isNearStandstill() ? Refusal::kNone : Refusal::kTeachTurning;
+}
+
+void Drive::requestTeaching(Instant now, std::uint32_t token) noexcept {
+  if (!axis_ || isTeaching()) return;
+  report_.teaching = {token, RequestState::kRunning, Refusal::kNone};
+  const Refusal refusal = teachingRefusal();
+  if (refusal != Refusal::kNone) return end(report_.teaching, refusal);
+  axis_->teaching().start(now, config_.acknowledge_time, config_.enable_timeout);
+}
+
+void Drive::endTeaching(Refusal refusal) noexcept {
+  axis_->teaching().end();
+  end(report_.teaching, refusal);
+}
+
+void Drive::followTeaching(Instant now) noexcept {
+  report_.speed = speedWord();
+  const Refusal refusal = teachingRefusal();
+  if (refusal != Refusal::kNone) return endTeaching(refusal);
+  if (axis_->teaching().handleAnswer(now)) endTeaching(Refusal::kNone);
+}
+
 void Drive::setReferenced(std::optional<bool> referenced) noexcept {
   if (axis_) axis_->setReferenced(referenced);
 }
@@ -87,7 +121,8 @@ TargetRefusal Drive::setPosition(double joint) noexcept {
 }
 
 // The speed goes out unsigned: which way it has to travel, the drive knows.
-void Drive::putPosition(profile::ProcessOutput& output) noexcept {
+void Drive::putPosition(profile::ProcessOutput& output, Instant now) noexcept {
+  if (axis_->teaching().isOverdue(now)) endTeaching(Refusal::kTeachTimeout);
   const bool moves = report_.phase == Phase::kEnabled || (report_.phase == Phase::kEnabling && phase_.ready_seen);
   axis_->follow(moves);
   const profile::PositionWords& words = axis_->words(report_.commanded_set);

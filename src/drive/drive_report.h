@@ -81,6 +81,10 @@ enum class Refusal : std::uint8_t {
   kPositionBeyondRange,  ///< where it is, its setpoint cannot express: it could not be held there
   kNotEnabled,           ///< a reference run: the drive is not enabled
   kHomingTimeout,        ///< a reference run did not end within position/homing_timeout
+  kTeachNotDisabled,     ///< teaching a position: the drive is enabled or being stopped
+  kTeachTurning,         ///< teaching a position: the motor turns
+  kTeachStopped,         ///< something else was asked of the drive while its position was taught
+  kTeachTimeout,         ///< teaching a position: the drive did not answer often enough
   kSetNotConfirmed,      ///< status bits 14 and 15 did not show the new set within enable_timeout
 };
 
@@ -150,6 +154,7 @@ struct DriveReport {
 
   PositionReport position;  ///< of a drive that positions
   RequestReport homing;     ///< its last reference run
+  RequestReport teaching;   ///< its last teaching of a position
 };
 
 /// A clause: "a fault", "the drive fell silent".

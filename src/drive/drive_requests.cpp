@@ -38,6 +38,7 @@ Refusal Drive::enableRefusal() const noexcept {
     case Phase::kIdle:
       break;
   }
+  if (isTeaching()) return Refusal::kBusy;
   const StatusWord status(report_.status_word);
   if (status.fault()) return Refusal::kFault;
   if (report_.unexpected_source) return Refusal::kUnexpectedSource;
@@ -142,6 +143,7 @@ Refusal Drive::setRefusal(std::uint8_t set) const noexcept {
   if (set > config_.parameter_sets) return Refusal::kOnlySet1;
   if (report_.phase == Phase::kOffline) return Refusal::kOffline;
   if (report_.phase == Phase::kAcknowledging || report_.phase == Phase::kSwitchingSet) return Refusal::kBusy;
+  if (isTeaching()) return Refusal::kBusy;
   if (report_.phase != Phase::kIdle) return Refusal::kNotDisabled;
   const StatusWord status(report_.status_word);
   if (status.fault()) return Refusal::kFault;

@@ -145,6 +145,7 @@ void PositionAxis::tell(bool online, bool enabled, bool reached) noexcept {
   report_.position.reset();
   report_.target.reset();
   report_.homing = homing_.isRunning();
+  report_.teach = teaching_.bits();
   report_.homed = online && referenced_.value_or(homed_);
   report_.held_back = known && reader_.isHeldBack();
   if (known) {

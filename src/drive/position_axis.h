@@ -16,6 +16,7 @@
 #include "drive/homing_run.h"
 #include "drive/position_reader.h"
 #include "drive/position_report.h"
+#include "drive/teach_run.h"
 #include "nord_driver/core/time.h"
 #include "nord_driver/profile/process_data.h"
 #include "profile/position_scale.h"
@@ -62,6 +63,9 @@ class PositionAxis {
   bool isHoming() const noexcept { return homing_.isRunning(); }
   /// While it runs, after handleInput().
   HomingRun::Outcome handleHoming(bool reached, bool still, Instant now) noexcept;
+  /// The bits that make the drive take its position into its array; tell() has them.
+  TeachRun& teaching() noexcept { return teaching_; }
+  const TeachRun& teaching() const noexcept { return teaching_; }
   /// A bit of the drive says whether its reference is known; none: there is no such bit.
   void setReferenced(std::optional<bool> referenced) noexcept { referenced_ = referenced; }
 
@@ -86,6 +90,7 @@ class PositionAxis {
   PositionReader reader_;
   PositionReport report_;
   HomingRun homing_;
+  TeachRun teaching_;
   std::optional<bool> referenced_;
   bool homed_ = false;       // by a run asked for here, since the drive is back
   std::uint8_t set_ = 1;     // in force

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "drive/teach_run.h"
+
 namespace nord_driver::drive {
 
 /// Why a target was not taken.
@@ -23,6 +25,7 @@ struct PositionReport {
   bool reached = false;            ///< enabled, the drive says so (status bit 8), and the position is near the target
   bool homed = false;              ///< its reference is known, as far as that can be told
   bool homing = false;             ///< a reference run is under way: its bit is high
+  TeachBits teach;                 ///< what is high while its position is taught
   bool held_back = false;          ///< the newest position cannot be: the one before is told
   TargetRefusal refused = TargetRefusal::kNone;  ///< of the newest target
   double refused_target = 0.0;                   ///< rad or m

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "catalogue/parameter_text.h"
+#include "cycle/taught_position.h"
 #include "node/offer.h"
 #include "tools/counted_write.h"
 
@@ -61,6 +62,18 @@ Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, co
     addTrigger(prefix + "quick_stop", RequestKind::kQuickStop, i);
     addTrigger(prefix + "acknowledge_fault", RequestKind::kAcknowledge, i);
     if (config.cycle.drives[i].position) {
+      advertise<std_srvs::Trigger>(private_node, prefix + "teach_position", [this, i, prefix](auto&, auto& response) {
+        const auto read = [&](const profile::ParameterRequest& element) {
+          catalogue::ParameterAccess access;
+          access.request = element;
+          return carryOut(i, RequestKind::kReadParameter, access);
+        };
+        const cycle::Completion answer =
+            cycle::withTaughtElement(ask(RequestKind::kTeach, i), *config_.cycle.drives[i].position, read);
+        tellOutcome(prefix + "teach_position", answer);
+        response.success = answer.success;
+        response.message = messageOf(answer, i);
+      });
       advertise<std_srvs::Trigger>(private_node, prefix + "home", [this, i, prefix](auto&, auto& response) {
         cycle::Request request;
         request.kind = RequestKind::kHome;

@@ -126,16 +126,48 @@ TEST_F(PositionConfiguration, NeedsWordsTheBusCarries) {
 TEST_F(PositionConfiguration, NamesTheBitsOfAReferenceRun) {
   drive_->set("position/home", "control_bit_9").set("position/referenced", "status_bit_13");
   const PositionSetup lift = setup();
-  EXPECT_EQ(HomeBit::Carrier::kControlBit, lift.home->carrier);
+  EXPECT_EQ(PositionBit::Carrier::kControlBit, lift.home->carrier);
   EXPECT_EQ(12, elementOf(*lift.home)) << "P480 [-12] is bit 9 of the control word";
   drive_->set("position/home", "posicon_bits");
   EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/home"));
   drive_->set("series", "sk700e");
-  EXPECT_EQ(HomeBit::Carrier::kPosicon, setup().home->carrier);
+  EXPECT_EQ(PositionBit::Carrier::kPosicon, setup().home->carrier);
   drive_->set("position/home", "control_bit_8");
   EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/home")) << "P480 of SK 700E has eight elements";
   drive_->set("position/home", "bus_in_bit_3").set("position/referenced", "status_bit_11");
   EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/referenced"));
+}
+
+TEST_F(PositionConfiguration, NamesTheBitsThatTeachAPosition) {
+  EXPECT_FALSE(setup().teach);
+  drive_->set("position/teach_in", "bus_in_bit_0");
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/quit_teach_in is missing"));
+  drive_->set("position/quit_teach_in", "bus_in_bit_0");
+  EXPECT_THAT(refusal(), HasSubstr("the bit of position/teach_in"));
+  drive_->set("position/quit_teach_in", "control_bit_9").set("position/array_bit", "bus_in_bit_4");
+  drive_->set("position/element", 9);
+  TeachSetup teach = *setup().teach;
+  EXPECT_EQ(12, elementOf(teach.quit));
+  EXPECT_EQ(24, teach.teach_in.function);
+  EXPECT_EQ(25, teach.quit.function);
+  EXPECT_EQ(55, teach.array->function);
+  EXPECT_EQ(9, teach.element);
+  drive_->set("position/element", 16);
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/element")) << "bit 4 of the number is beyond bus_in_bit_7";
+  drive_->set("position/element", 9).set("position/home", "bus_in_bit_7");
+  EXPECT_THAT(refusal(), HasSubstr("the bit of position/home"));
+  drive_->set("position/element", 7);
+  EXPECT_EQ("taken", refusal());
+  drive_->set("position/home", "bus_in_bit_0");
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/teach_in"));
+}
+
+TEST_F(PositionConfiguration, HasThePosiconBitsTogether) {
+  drive_->set("series", "sk700e").set("position/teach_in", "posicon_bits").set("position/element", 63);
+  const TeachSetup teach = *setup().teach;
+  EXPECT_EQ(PositionBit::Carrier::kPosicon, teach.quit.carrier);
+  EXPECT_EQ(PositionBit::Carrier::kPosicon, teach.array->carrier);
+  EXPECT_EQ(63, teach.element);
 }
 
 // --- which word is missing -------------------------------------------------------------------------------------------

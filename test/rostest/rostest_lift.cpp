@@ -130,6 +130,24 @@ TEST_F(Lift, RefusesWhatIsBeyondItsLimits) {
   EXPECT_TRUE(stays());
 }
 
+TEST_F(Lift, IsTaughtItsPosition) {
+  ASSERT_TRUE(isEnabled());
+  EXPECT_THAT(robot().trigger("left/teach_position").message, HasSubstr("disable it first"));
+  goTo(0.2);
+  ASSERT_TRUE(robot().left.status.waitNext(
+      [](const DriveStatus& told) { return told.position_reached && std::fabs(told.position - 0.2) < kStep; }));
+  ASSERT_TRUE(enable(false).success);
+  const Answer answer = robot().trigger("left/teach_position");
+  EXPECT_TRUE(answer.success) << answer;
+  EXPECT_TRUE(stays());
+  ReadParameter read;
+  read.request.number = 613;
+  read.request.index = 1;
+  ASSERT_TRUE(callService("nord_driver/left/read_parameter", read).success);
+  EXPECT_NEAR(position() * 1000.0, read.response.raw, 2.0) << "0.001 revolutions";
+  EXPECT_THAT(answer.message, HasSubstr("P613[-01] is 20.0"));
+}
+
 TEST_F(Lift, Homes) {
   EXPECT_THAT(robot().trigger("left/home").message, HasSubstr("not enabled"));
   ASSERT_TRUE(isEnabled());

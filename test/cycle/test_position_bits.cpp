@@ -1,0 +1,130 @@
+// The bits that ask something of a position control, in the words that carry them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cycle/position_bits.h"
+#include "cycle/taught_position.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using profile::Series;
+using ::testing::HasSubstr;
+using Carrier = PositionBit::Carrier;
+
+class PositionBitsTest : public ::testing::Test {
+ protected:
+  PositionBitsTest() {
+    device_.word_functions[0].setpoints = {21, 22, 17};
+    for (const std::uint16_t function : {24, 25, 55, 56, 0, 0, 0, 0, 0, 0, 25, 22}) {
+      device_.bus_bit_functions.push_back(function);
+    }
+    setup_.teach =
+        TeachSetup{{Carrier::kBusBit, 0, 24}, {Carrier::kControlBit, 8, 25}, PositionBit{Carrier::kBusBit, 2, 55}, 3};
+    output_.control_word = 0x047E;
+    output_.setpoints = {1, 2, 0};
+  }
+  PositionBits bits(Series series = Series::kSk5xxe) const { return {setup_, series, 3}; }
+  std::string refusal() const { return bits().teachRefusal("lift", device_, 1).str(); }
+
+  PositionSetup setup_;
+  DeviceData device_;
+  profile::ProcessOutput output_;
+};
+
+TEST_F(PositionBitsTest, ArePutWhereTheyBelong) {
+  EXPECT_EQ("", refusal());
+  bits().putTeach({true, false}, output_, device_, 1);
+  EXPECT_EQ(0x047E, output_.control_word);
+  EXPECT_EQ((std::array<std::int16_t, 3>{1, 2, 0x000D}), output_.setpoints) << "teach-in, and element 3";
+  bits().putTeach({true, true}, output_, device_, 1);
+  EXPECT_EQ(0x057E, output_.control_word) << "quit";
+  EXPECT_EQ(0x000D, output_.setpoints[2]);
+}
+
+TEST_F(PositionBitsTest, AreLowOtherwise) {
+  bits().putTeach({}, output_, device_, 1);
+  EXPECT_EQ(0x047E, output_.control_word);
+  EXPECT_EQ(0, output_.setpoints[2]);
+  output_.control_word = 0;  // heeded by nobody
+  bits().putTeach({true, true}, output_, device_, 1);
+  EXPECT_EQ(0, output_.control_word);
+  EXPECT_EQ(0, output_.setpoints[2]);
+}
+
+// BU 0020 7.3.5: bits 0 to 5, 8 and 9 of one word.
+TEST_F(PositionBitsTest, OfSk700eAreOneWord) {
+  const PositionBit posicon{Carrier::kPosicon, 0, 0};
+  setup_.teach = TeachSetup{posicon, posicon, posicon, 37};
+  device_.word_functions[0].setpoints = {3, 12, 0};
+  output_.setpoints = {};
+  const PositionBits old = bits(Series::kSk700e);
+  EXPECT_EQ("", old.teachRefusal("lift", device_, 1).str()) << "P480 has no say in it";
+  old.putTeach({true, true}, output_, device_, 1);
+  EXPECT_EQ((std::array<std::int16_t, 3>{0, 0x0325, 0}), output_.setpoints);
+}
+
+TEST_F(PositionBitsTest, AreRefusedWithTheParameterAndItsValue) {
+  device_.bus_bit_functions[3] = 1;
+  EXPECT_THAT(refusal(), HasSubstr("P480[-04] is 1; set it to 56 (bit 1 of the position array), or "
+                                   "position/array_function"));
+  device_.bus_bit_functions[10] = kUnknownFunction;
+  EXPECT_THAT(refusal(), HasSubstr("P480[-11] could not be read; set it to 25 (quit teach-in)"));
+  device_.bus_bit_functions[0] = 22;
+  EXPECT_THAT(refusal(), HasSubstr("P480[-01] is 22; set it to 24 (teach-in)"));
+  device_.word_functions[0].setpoints = {1, 21, 22};
+  EXPECT_THAT(refusal(), HasSubstr("no setpoint carries the bit of position/teach_in"));
+  setup_.teach.reset();
+  EXPECT_THAT(refusal(), HasSubstr("position/teach_in is not configured"));
+}
+
+TEST_F(PositionBitsTest, KnowAPositionAsTheArrayHasIt) {
+  setup_.axis.scale.revolutions_per_unit = -100.0;
+  setup_.axis.scale.offset = 0.5;
+  setup_.axis.scale.steps_per_revolution = 8192.0;  // of the words
+  EXPECT_EQ(-20'000, bits().inArray(0.7));
+}
+
+// --- what stands in the array afterwards ------------------------------------------------------------------------------
+
+class TaughtElement : public PositionBitsTest {
+ protected:
+  Completion compared(bool readable, std::int32_t raw) {
+    Completion taught;
+    taught.success = true;
+    taught.message = "told";
+    taught.parameter.raw = 70'000;
+    return withTaughtElement(taught, setup_, [&](const profile::ParameterRequest& request) {
+      EXPECT_EQ(613, request.number);
+      EXPECT_EQ(profile::ParameterShape::kArray, request.shape);
+      EXPECT_EQ(3, request.index);
+      Completion answer;
+      answer.success = readable;
+      answer.parameter.raw = raw;
+      return answer;
+    });
+  }
+};
+
+TEST_F(TaughtElement, IsComparedWithThePosition) {
+  setup_.axis.tolerance = 0.01;
+  Completion answer = compared(true, 70'010);
+  EXPECT_TRUE(answer.success);
+  EXPECT_EQ("told; P613[-03] is 70.010 revolutions", answer.message.str());
+  answer = compared(true, 70'012);
+  EXPECT_FALSE(answer.success);
+  EXPECT_EQ("told, but P613[-03] is 70.012 and not 70.000 revolutions", answer.message.str());
+}
+
+TEST_F(TaughtElement, ThatCannotBeReadIsMentioned) {
+  Completion answer = compared(false, 0);
+  EXPECT_TRUE(answer.success);
+  EXPECT_EQ("told; P613[-03] could not be read, so that it is not compared", answer.message.str());
+  setup_.teach->array.reset();
+  answer = compared(false, 0);
+  EXPECT_TRUE(answer.success);
+  EXPECT_EQ("told; without position/array_bit nobody knows into which element", answer.message.str());
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle
