@@ -40,12 +40,15 @@ void StandstillRequests::handleRequest(const Request& request, Instant now) noex
   update(now);  // what a stop has just ended is answered before the drives' reports are about another request
   Job job{request, now + request.patience, ++last_token_, {}, false};
   if (jobs_.full()) return completions_.answer(request, false, "too many requests are being carried out already");
+  // Of one that meets a busy drive the others are not asked either: what another request still waits to read in their
+  // reports would be gone, and that would be told of a drive as "busy" which had done what it was asked.
   forEach(request, [&](DriveIndex i) {
     job.fault_stood = job.fault_stood || hasFault(drives_[i].report());
-    const Sentence busy = othersRequest(request.kind, i);
-    if (!busy.empty()) {
-      if (job.busy.empty()) job.busy = busy;
-    } else if (request.kind == RequestKind::kAcknowledge) {
+    if (job.busy.empty()) job.busy = othersRequest(request.kind, i);
+  });
+  forEach(request, [&](DriveIndex i) {
+    if (!job.busy.empty()) return;
+    if (request.kind == RequestKind::kAcknowledge) {
       drives_[i].requestAcknowledge(now, job.token);
     } else {
       drives_[i].requestParameterSet(request.parameter_set, now, job.token);

@@ -16,8 +16,8 @@ class PositionBitsTest : public ::testing::Test {
  protected:
   PositionBitsTest() {
     device_.word_functions[0].setpoints = {21, 22, 17};
-    for (const std::uint16_t function : {24, 25, 55, 56, 0, 0, 0, 0, 0, 0, 25, 22}) {
-      device_.bus_bit_functions.push_back(function);
+    for (const int function : {24, 25, 55, 56, 0, 0, 0, 0, 0, 0, 25, 22}) {
+      device_.bus_bit_functions.push_back(static_cast<std::uint16_t>(function));
     }
     setup_.teach =
         TeachSetup{{Carrier::kBusBit, 0, 24}, {Carrier::kControlBit, 8, 25}, PositionBit{Carrier::kBusBit, 2, 55}, 3};
