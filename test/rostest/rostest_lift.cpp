@@ -1,5 +1,6 @@
 // A lift by its topics and services: three heights, every way of being stopped half-way, a reference run.
 #include <gmock/gmock.h>
+#include <nord_driver/ReadParameter.h>
 #include <std_msgs/Float64.h>
 #include <std_srvs/SetBool.h>
 
