@@ -59,7 +59,7 @@ YAML::Node laidOver(const YAML::Node& lower, const YAML::Node& upper) {
 
 }  // namespace
 
-YamlSettings::YamlSettings(std::string prefix, const YAML::Node& node)
+YamlSettings::YamlSettings(const std::string& prefix, const YAML::Node& node)
     : TreeSettings(prefix, wholeValue(prefix, node)) {}
 
 YAML::Node readYamlFiles(const std::vector<std::string>& files) {

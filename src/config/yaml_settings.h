@@ -15,7 +15,7 @@ namespace nord_driver {
 class YamlSettings final : public TreeSettings {
  public:
   /// `node` is a map, or null for an absent group. Throws ConfigError when it is anything else.
-  YamlSettings(std::string prefix, const YAML::Node& node);
+  YamlSettings(const std::string& prefix, const YAML::Node& node);
 };
 
 /// One map of several files, a later one laid over an earlier one, group by group. Throws ConfigError naming the file.
