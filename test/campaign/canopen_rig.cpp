@@ -28,6 +28,7 @@ class CanopenRig final : public CampaignRig {
   /// Node guarding, 100 ms times 3.
   Duration driveSideTimeout() const override { return std::chrono::milliseconds{300}; }
   Duration wireLatency() const override { return std::chrono::milliseconds{10}; }
+  // A node that somebody stops unheard is only asked for 15 s, then reset (NodeBoot): its come-back bounds all others, too.
   Duration backWithin() const override { return std::chrono::seconds{20}; }
 
  private:

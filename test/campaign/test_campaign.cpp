@@ -16,7 +16,7 @@ namespace nord_driver::test {
 namespace {
 
 constexpr unsigned kScenarios = 400;  // a minute of one processor; scripts/prove.sh plays 20 000
-constexpr std::size_t kShown = 3;  // violations of a bus that are shrunk and printed
+constexpr std::size_t kShown = 3;     // violations of a bus that are shrunk and printed
 
 std::string setting(const char* name) {
   const char* const value = std::getenv(name);
