@@ -38,17 +38,14 @@ void StandstillRequests::forEach(const Request& request, Action action) noexcept
 
 void StandstillRequests::handleRequest(const Request& request, Instant now) noexcept {
   update(now);  // what a stop has just ended is answered before the drives' reports are about another request
-  Job job{request, now + request.patience, ++last_token_, {}, false};
+  Job job{request, now + request.patience, ++last_token_, {}, false, {}};
   if (jobs_.full()) return completions_.answer(request, false, "too many requests are being carried out already");
-  // Of one that meets a busy drive the others are not asked either: what another request still waits to read in their
-  // reports would be gone, and that would be told of a drive as "busy" which had done what it was asked.
   forEach(request, [&](DriveIndex i) {
     job.fault_stood = job.fault_stood || hasFault(drives_[i].report());
-    if (job.busy.empty()) job.busy = othersRequest(request.kind, i);
-  });
-  forEach(request, [&](DriveIndex i) {
-    if (!job.busy.empty()) return;
-    if (request.kind == RequestKind::kAcknowledge) {
+    const Sentence busy = othersRequest(request.kind, i);
+    if (!busy.empty()) {
+      if (job.busy.empty()) job.busy = busy;
+    } else if (request.kind == RequestKind::kAcknowledge) {
       drives_[i].requestAcknowledge(now, job.token);
     } else {
       drives_[i].requestParameterSet(request.parameter_set, now, job.token);
@@ -77,12 +74,13 @@ void StandstillRequests::update(Instant now) noexcept {
   jobs_.resize(kept);
 }
 
-bool StandstillRequests::follow(const Job& job, Instant now) noexcept {
+bool StandstillRequests::follow(Job& job, Instant now) noexcept {
   bool busy = false;
   Sentence refused = job.busy;
   forEach(job.request, [&](DriveIndex i) {
     const drive::RequestReport& report = reportOf(job.request, i);
-    if (report.token != job.token) {  // of another request: this one's drive was busy
+    if (report.token != job.token) {  // of another request: this one's drive was busy, or had done its part before
+      if (i < job.done.size() && job.done[i]) return;
       if (refused.empty()) refused = refusalMessage(names_[i].c_str(), drive::Refusal::kBusy, drives_[i].report());
       return;
     }
@@ -90,6 +88,7 @@ bool StandstillRequests::follow(const Job& job, Instant now) noexcept {
     if (refused.empty() && report.state == drive::RequestState::kRefused) {
       refused = refusalMessage(names_[i].c_str(), report.refusal, drives_[i].report());
     }
+    if (i < job.done.size() && report.state == drive::RequestState::kDone) job.done.set(i);
     // Acknowledged, and in the same cycle there is the next one.
     const bool again = job.request.kind == RequestKind::kAcknowledge && drives_[i].report().fault_latched;
     if (refused.empty() && report.state == drive::RequestState::kDone && again) {

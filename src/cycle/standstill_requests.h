@@ -1,6 +1,7 @@
 // Carries out what users ask of drives that stand still: acknowledging faults and choosing a parameter set.
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -36,12 +37,13 @@ class StandstillRequests {
     std::uint32_t token = 0;   // what the drives' reports carry while they are about this one
     Sentence busy;             // a drive that was busy with another's request, and was not asked
     bool fault_stood = false;  // when it was asked, at one of the drives
+    std::bitset<128> done;     // drives that have done it: their reports may be about another request meanwhile
   };
 
   template <typename Action>
   void forEach(const Request& request, Action action) noexcept;
   /// True when the job has ended.
-  bool follow(const Job& job, Instant now) noexcept;
+  bool follow(Job& job, Instant now) noexcept;
   /// What to answer when no fault stands any more.
   const char* acknowledged(const Job& job) noexcept;
   /// A drive with a fault behind the same bus module as those of the request, and not one of them.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "config/drive_common.h"
 #include "config/driver_settings.h"
@@ -79,6 +80,18 @@ std::string written(const YAML::Node& node) {
   return emitter.c_str();
 }
 
+std::string targetsOf(const drive::PositionConfig& axis) {
+  if (!axis.lower && !axis.upper) return "";
+  const std::string unit = axis.unit_per_radian == 1.0 ? " rad" : " m";
+  std::ostringstream text;
+  if (axis.lower && axis.upper) {
+    text << *axis.lower << " to " << *axis.upper << unit;
+  } else {
+    text << (axis.lower ? "not below " : "not above ") << (axis.lower ? *axis.lower : *axis.upper) << unit;
+  }
+  return text.str();
+}
+
 CheckedDrive driveOf(const node::NodeConfig& config, DriveIndex index, const DriveIdentity& identity) {
   const cycle::DriveSetup& setup = config.cycle.drives[index];
   CheckedDrive drive;
@@ -93,6 +106,8 @@ CheckedDrive driveOf(const node::NodeConfig& config, DriveIndex index, const Dri
   drive.max_frequency = setup.typed_max_frequency.value_or(kFactoryMaxFrequency);
   drive.max_velocity = std::abs(profile::toRadPerSec(Hertz{drive.max_frequency}, setup.drive.joint).value);
   drive.limits = setup.limits;
+  drive.positions = setup.position.has_value();
+  if (setup.position) drive.targets = targetsOf(setup.position->axis);
   return drive;
 }
 
