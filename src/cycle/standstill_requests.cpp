@@ -79,21 +79,23 @@ bool StandstillRequests::follow(Job& job, Instant now) noexcept {
   Sentence refused = job.busy;
   forEach(job.request, [&](DriveIndex i) {
     const drive::RequestReport& report = reportOf(job.request, i);
-    if (report.token != job.token) {  // of another request: this one's drive was busy, or had done its part before
-      if (i < job.done.size() && job.done[i]) return;
-      if (refused.empty()) refused = refusalMessage(names_[i].c_str(), drive::Refusal::kBusy, drives_[i].report());
-      return;
+    const auto refuse = [&](drive::Refusal why) {
+      if (refused.empty()) refused = refusalMessage(names_[i].c_str(), why, drives_[i].report());
+    };
+    const std::size_t bit = i % job.ended.size();
+    if (report.token == job.token) {
+      busy = busy || report.state == drive::RequestState::kRunning;
+      job.ended[bit] = report.state != drive::RequestState::kRunning;
+      if (report.state == drive::RequestState::kRefused) {
+        refuse(report.refusal);
+        job.busy = refused;
+      }
+    } else if (!job.ended[bit]) {  // of another request: this one's drive was busy
+      return refuse(drive::Refusal::kBusy);
     }
-    busy = busy || report.state == drive::RequestState::kRunning;
-    if (refused.empty() && report.state == drive::RequestState::kRefused) {
-      refused = refusalMessage(names_[i].c_str(), report.refusal, drives_[i].report());
-    }
-    if (i < job.done.size() && report.state == drive::RequestState::kDone) job.done.set(i);
     // Acknowledged, and in the same cycle there is the next one.
     const bool again = job.request.kind == RequestKind::kAcknowledge && drives_[i].report().fault_latched;
-    if (refused.empty() && report.state == drive::RequestState::kDone && again) {
-      refused = refusalMessage(names_[i].c_str(), drive::Refusal::kFault, drives_[i].report());
-    }
+    if (job.ended[bit] && again) refuse(drive::Refusal::kFault);
   });
   if (busy && now < job.deadline) return false;
   if (busy) {

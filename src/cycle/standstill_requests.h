@@ -35,9 +35,9 @@ class StandstillRequests {
     Request request;
     Instant deadline{};
     std::uint32_t token = 0;   // what the drives' reports carry while they are about this one
-    Sentence busy;             // a drive that was busy with another's request, and was not asked
+    Sentence busy;             // of a drive that was busy with another's request and was not asked, or has refused
     bool fault_stood = false;  // when it was asked, at one of the drives
-    std::bitset<128> done;     // drives that have done it: their reports may be about another request meanwhile
+    std::bitset<128> ended;    // at these drives: their reports may be about another request meanwhile
   };
 
   template <typename Action>
