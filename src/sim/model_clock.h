@@ -1,4 +1,5 @@
-// The time of models that run in a thread: the steady clock, without the spans the thread was kept from running.
+// The time of the modules on a bus whose thread is run by the clock of the machine: the steady clock, without the spans
+// the thread was kept from running.
 #pragma once
 
 #include "nord_driver/core/time.h"
@@ -12,10 +13,10 @@ class ModelClock {
  public:
   explicit ModelClock(Instant now) noexcept : last_(now) {}
 
-  /// Model time at `now`. A thread that was kept from running lets the models stand still meanwhile: the master is not
-  /// to blame.
+  /// Model time at `now`. A thread that was kept from running lets the modules' time stand still meanwhile: the master
+  /// is not to blame. Wheels turn on: RobotSim::runOnUnheard.
   Instant tick(Instant now) noexcept;
-  /// How long the models stood still before the last tick.
+  /// How long the modules' time stood still before the last tick.
   Duration stoodStill() const noexcept { return stood_still_; }
 
  private:

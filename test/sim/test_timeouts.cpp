@@ -77,5 +77,35 @@ INSTANTIATE_TEST_SUITE_P(Bu2700, TimeoutTable,
                                            Row{1, Cause::kInvalidControlWord, 103}, Row{1, Cause::kMasterLost, 102},
                                            Row{1, Cause::kLinkInterrupted, 108}));
 
+// Held up by the machine: the wheel turns on, along its ramp as well, and nobody is to blame for the silence.
+TEST(RunOnUnheard, TheWheelTurnsOnAndNothingTimesOut) {
+  SimConfig config = oneDrive();
+  ParameterPreset preset;
+  preset.number = 513;
+  preset.raw = 10;  // 1 s
+  config.drives[0].parameters.push_back(preset);
+  Conversation bus{config};
+  bus.startUp(20);  // watchdog 0.2 s
+  bus.pzdFor("047E 0000", milliseconds(20));
+  bus.pzdFor("047F 2000", seconds(3.0));
+  const InverterModel& inverter = bus.drive().inverter();
+  ASSERT_EQ(25.0, inverter.frequency());
+  const double before = bus.drive().wheelAngle();
+  const double speed = bus.drive().wheelSpeed();
+  ASSERT_GT(speed, 1.0);
+
+  bus.segment.robot().runOnUnheard(seconds(3.0));
+  EXPECT_NEAR(before + 3.0 * speed, bus.drive().wheelAngle(), 0.01 * speed);
+  EXPECT_EQ(25.0, inverter.frequency());
+  EXPECT_EQ(0, inverter.faultNumber());
+  EXPECT_EQ("0B 37 20 00", bus.pzdFor("047F 2000", milliseconds(20))) << "the watchdog has not run out";
+
+  bus.pzdFor("047F 0000", milliseconds(20));
+  bus.segment.robot().runOnUnheard(seconds(3.0));
+  EXPECT_EQ(0.0, inverter.frequency()) << "a ramp goes on";
+  bus.pzdFor("0000 0000", seconds(1.1));
+  EXPECT_EQ(103, inverter.faultNumber()) << "what is silent afterwards times out";
+}
+
 }  // namespace
 }  // namespace nord_driver::sim

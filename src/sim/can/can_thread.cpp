@@ -49,7 +49,9 @@ void CanThread::serve() noexcept {
       link_->sleepUntil(before + kStep);
     }
     const std::lock_guard<InheritingMutex> lock(mutex_);
-    stations_->advance(clock.tick(link_->now()), *this);
+    const Instant model_now = clock.tick(link_->now());
+    robot().runOnUnheard(clock.stoodStill());
+    stations_->advance(model_now, *this);
     if (clock.stoodStill() > kLostAfter) stations_->stoodStill();
     takeInput();
     sendWaiting();

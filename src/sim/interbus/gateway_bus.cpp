@@ -76,6 +76,7 @@ void GatewayBus::serve() noexcept {
 
     const std::lock_guard<InheritingMutex> lock(mutex_);
     const Instant now = clock.tick(std::chrono::steady_clock::now());
+    robot().runOnUnheard(clock.stoodStill());
     ring_.advance(now);
     gateway_.advance(now);
     for (std::size_t i = 0; i < kClients; ++i) {

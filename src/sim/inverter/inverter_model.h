@@ -114,6 +114,8 @@ class InverterModel {
 
   /// Lets `span` pass, in steps of at most a millisecond.
   void advance(Duration span) noexcept;
+  /// Of the time a control word may be away (P513) `span` more: nobody could have brought one.
+  void forgive(Duration span) noexcept { since_valid_ -= toSeconds(span); }
 
   void setPowered(bool on) noexcept;
   bool powered() const noexcept { return state_ != InverterState::kOff; }

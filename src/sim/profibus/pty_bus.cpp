@@ -98,6 +98,7 @@ void PtyBus::serve() noexcept {
 
     const std::lock_guard<InheritingMutex> lock(mutex_);
     const Instant model_now = clock.tick(std::chrono::steady_clock::now());
+    robot_.runOnUnheard(clock.stoodStill());
     if (ready > 0 && (descriptor.revents & POLLIN) != 0) {
       takeInput(model_now);
       last_input = model_now;

@@ -7,6 +7,7 @@ namespace nord_driver::sim {
 namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds(1);
+constexpr Duration kLongestUnheard = std::chrono::minutes(1);
 
 }  // namespace
 
@@ -33,6 +34,14 @@ void RobotSim::advance(Instant now) noexcept {
     const Duration span = std::min(kStep, now - *now_);
     step(span);
     *now_ += span;
+  }
+}
+
+void RobotSim::runOnUnheard(Duration span) noexcept {
+  for (Duration left = std::min(span, kLongestUnheard); left > Duration::zero(); left -= kStep) {
+    const Duration part = std::min(kStep, left);
+    for (const std::unique_ptr<DriveUnit>& drive : drives_) drive->inverter().forgive(part);
+    step(part);
   }
 }
 

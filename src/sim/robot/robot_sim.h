@@ -25,6 +25,9 @@ class RobotSim {
   /// Lets drives and body run up to `now` in steps of at most a millisecond; the first call sets the start. The modules
   /// are advanced by the stations of their bus.
   void advance(Instant now) noexcept;
+  /// Drives and body run on for `span`, a minute at most, in which no telegram could come: it is in no `now` and
+  /// counts for no time-out. Wheels that turn do not wait for a bus.
+  void runOnUnheard(Duration span) noexcept;
 
   /// Takes a module over, for as long as the robot lives.
   template <typename Module>
