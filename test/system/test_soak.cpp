@@ -30,6 +30,7 @@ constexpr double kHalfWheel = kHalfSpeed / 0.1;   // rad/s
 // rad. No bus tells when the inverter has measured a value: it is up to a cycle old. A wheel of this speed may so be told
 // this far from where it is, and a ramp leaves as much behind, to one side or the other.
 constexpr double kRampError = kHalfWheel / kRate;
+constexpr double kNoSlip = 1e-6;  // Hz at rated torque: the told speed is the true one
 constexpr auto kDrive = minutes{4}, kPause = minutes{1};
 constexpr auto kRamp = seconds{10};
 constexpr int kRoundsAnHour = 3;
@@ -60,10 +61,10 @@ class Soak : public ::testing::Test {
     typename Robot::Options options;
     options.node = {{"cycle_rate", kRate}};
     if constexpr (std::is_same_v<Robot, SimulatedRobot>) {
-      options.slip = 0.0;
+      options.slip = kNoSlip;
     } else {
       options.simulate = [](sim::SimConfig& config) {
-        for (sim::DriveConfig& drive : config.drives) drive.motor.slip = 0.0;
+        for (sim::DriveConfig& drive : config.drives) drive.motor.slip = kNoSlip;
       };
     }
     return options;

@@ -27,17 +27,20 @@ void Motor::advance(double dt, bool voltage, double frequency) noexcept {
   double drive = 0.0;  // torque that does not depend on the speed
   double damping = settings_.viscous;
   torque_ = 0.0;
+  const double step = dt / settings_.inertia;
   if (voltage) {
-    const double wanted = torque_per_hertz * (frequency - rotorFrequency());
+    const double stiff = damping + torque_per_hertz * hertz_per_speed;
+    const double reached = (speed_ + step * torque_per_hertz * frequency) / (1.0 + step * stiff);
+    // At the end of the step: the torque at its begin would carry a motor with little slip beyond its field.
+    const double wanted = torque_per_hertz * (frequency - reached * hertz_per_speed);
     const double limit = kPullOut * settings_.rated_torque;
     if (std::fabs(wanted) > limit) {
       drive = std::copysign(limit, wanted);
     } else {
       drive = torque_per_hertz * frequency;
-      damping += torque_per_hertz * hertz_per_speed;
+      damping = stiff;
     }
   }
-  const double step = dt / settings_.inertia;
   const double free = (speed_ + step * drive) / (1.0 + step * damping);
   // Dry friction takes speed away, never adds any, and holds the shaft when the rest cannot overcome it.
   const double friction = step * dry / (1.0 + step * damping);

@@ -29,6 +29,18 @@ TEST(Motor, CoastsAndStops) {
   EXPECT_EQ(0.0, motor.speed());
 }
 
+// However little the slip is, the rotor keeps to its field, and does not run round it by what the torque can do in a step.
+TEST(Motor, HardlyAnySlipIsHardlyAnyError) {
+  MotorSettings settings;
+  settings.slip = 1e-6;
+  Motor motor{settings};
+  for (int i = 0; i < 1000; ++i) motor.advance(0.001, true, 25.0);
+  for (int i = 0; i < 1000; ++i) {
+    motor.advance(0.001, true, 25.0);
+    ASSERT_NEAR(25.0, motor.rotorFrequency(), 1e-5);
+  }
+}
+
 // The result does not depend on the step.
 TEST(Motor, StepSizeDoesNotMatter) {
   Motor fine{MotorSettings{}};
