@@ -40,7 +40,7 @@ ConfigError wrongValue(const std::string& file, const YAML::Node& value, const s
 
 YAML::Node loadMap(const std::string& file) {
   const std::string refused = whyNoTextFile(file);
-  if (refused.rfind("it ", 0) == 0) throw ConfigError(file + ": " + refused + ", expected a readable YAML file");
+  if (!refused.empty()) throw ConfigError(file + ": " + refused + ", expected a readable YAML file");
   YAML::Node node;
   try {
     node = YAML::LoadFile(file);

@@ -14,11 +14,10 @@ namespace nord_driver {
 std::string whyNoTextFile(const std::string& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (error || !std::filesystem::exists(status)) return error ? error.message() : std::strerror(ENOENT);
+  if (error || !std::filesystem::exists(status)) return "";
   if (!std::filesystem::is_regular_file(status)) return "it is no ordinary file";
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) return error.message();
-  return size > kLargestTextFile ? "it has more than 4 MiB" : "";
+  return !error && size > kLargestTextFile ? "it has more than 4 MiB" : "";
 }
 
 std::string readTextFile(const Settings& settings, const std::string& key, const std::string& path,

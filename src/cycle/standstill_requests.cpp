@@ -44,7 +44,7 @@ void StandstillRequests::handleRequest(const Request& request, Instant now) noex
     job.fault_stood = job.fault_stood || hasFault(drives_[i].report());
     const Sentence busy = othersRequest(request.kind, i);
     if (!busy.empty()) {
-      if (job.busy.empty()) job.busy = busy;
+      if (job.refusal.empty()) job.refusal = busy;
     } else if (request.kind == RequestKind::kAcknowledge) {
       drives_[i].requestAcknowledge(now, job.token);
     } else {
@@ -76,7 +76,7 @@ void StandstillRequests::update(Instant now) noexcept {
 
 bool StandstillRequests::follow(Job& job, Instant now) noexcept {
   bool busy = false;
-  Sentence refused = job.busy;
+  Sentence refused = job.refusal;
   forEach(job.request, [&](DriveIndex i) {
     const drive::RequestReport& report = reportOf(job.request, i);
     const auto refuse = [&](drive::Refusal why) {
@@ -88,7 +88,7 @@ bool StandstillRequests::follow(Job& job, Instant now) noexcept {
       job.ended[bit] = report.state != drive::RequestState::kRunning;
       if (report.state == drive::RequestState::kRefused) {
         refuse(report.refusal);
-        job.busy = refused;
+        job.refusal = refused;
       }
     } else if (!job.ended[bit]) {  // of another request: this one's drive was busy
       return refuse(drive::Refusal::kBusy);

@@ -35,7 +35,7 @@ class StandstillRequests {
     Request request;
     Instant deadline{};
     std::uint32_t token = 0;   // what the drives' reports carry while they are about this one
-    Sentence busy;             // of a drive that was busy with another's request and was not asked, or has refused
+    Sentence refusal;          // of a drive that was busy with another's request and was not asked, or has refused
     bool fault_stood = false;  // when it was asked, at one of the drives
     std::bitset<128> ended;    // at these drives: their reports may be about another request meanwhile
   };
