@@ -28,9 +28,10 @@ namespace nord_driver::test {
 /// 2. Driver and simulator are other processes, and may be held up alone. Nothing they say themselves is believed,
 /// neither bus_status/cycle_time_max nor gaps between stamps: a driver that is late by its own fault would excuse
 /// itself. The kernel counts for every thread how long it was ready to run and did not (`RunDelay`); that is read every
-/// 10 ms of this process, its children, and the others of its launcher (roslaunch). A deadlock, a wait for an answer
-/// and a sleep that is too long count as nothing there. Not seen: a page that has to be read from a disk, and processes
-/// somebody else has started. Seen, though it is no stranger's doing: our own threads that keep each other from the
+/// 10 ms of this process, its children, the others of its launcher (roslaunch), and the kernel's workers: one of them
+/// carries what goes through a pty, and who reads or writes it waits for that worker without being ready itself. A
+/// deadlock, a wait for an answer and a sleep that is too long count as nothing there. Not seen: a page that has to be
+/// read from a disk, and processes somebody else has started. Seen, though it is no stranger's doing: our own threads that keep each other from the
 /// processors, which is why a try is repeated twice at most and each time is told.
 class MachineWatch {
  public:
@@ -145,8 +146,9 @@ class MachineWatch {
     for (const std::string& process : numbersIn("/proc")) {
       const std::string folder = "/proc/" + process;
       const std::string stat = read(folder + "/stat");
-      if (process != std::to_string(::getpid()) && !isOurs(stat)) continue;
       const std::string name = stat.substr(stat.find('(') + 1, stat.rfind(')') - stat.find('(') - 1);
+      const bool carries_ptys = name.rfind("kworker/u", 0) == 0;
+      if (process != std::to_string(::getpid()) && !isOurs(stat) && !carries_ptys) continue;
       for (const std::string& thread : numbersIn(folder + "/task")) {
         const std::string path = folder + "/task/" + thread + "/schedstat";
         if (followed.count(path) != 0) continue;
