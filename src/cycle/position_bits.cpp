@@ -21,6 +21,8 @@ PositionBits::PositionBits(const std::optional<PositionSetup>& setup, profile::S
   if (!setup) return;
   home_ = setup->home;
   teach_ = setup->teach;
+  if (setup->axis.by_element) array_ = setup->array;
+  elements_ = setup->elements;
   scale_ = setup->axis.scale;
   referenced_ = setup->referenced;
 }
@@ -75,10 +77,16 @@ Sentence PositionBits::teachRefusal(const char* drive, const DeviceData& device,
     text = bitRefusal(drive, teach_->quit,
                       {"position/quit_teach_in", "position/quit_teach_in_function", "quit teach-in"}, device, set);
   }
-  if (!teach_->array) return text;
+  if (text.empty() && teach_->array) text = arrayRefusal(drive, *teach_->array, teach_->element, device, set);
+  return text;
+}
+
+Sentence PositionBits::arrayRefusal(const char* drive, const PositionBit& array, std::uint8_t element,
+                                    const DeviceData& device, std::uint8_t set) const noexcept {
+  Sentence text;
   for (unsigned bit = 0; text.empty() && bit < kArrayBits; ++bit) {
-    if ((teach_->element >> bit & 1u) == 0) continue;
-    PositionBit one = *teach_->array;
+    if ((element >> bit & 1u) == 0) continue;
+    PositionBit one = array;
     one.number = static_cast<std::uint8_t>(one.number + bit);
     one.function = static_cast<std::uint16_t>(one.function + bit);
     FixedText<32> name;
@@ -86,6 +94,26 @@ Sentence PositionBits::teachRefusal(const char* drive, const DeviceData& device,
     text = bitRefusal(drive, one, {"position/array_bit", "position/array_function", name.c_str()}, device, set);
   }
   return text;
+}
+
+Sentence PositionBits::elementRefusal(const char* drive, std::uint8_t element, const DeviceData& device,
+                                      std::uint8_t set) const noexcept {
+  Sentence text;
+  if (element < 1 || element > elements_) {
+    text.format("drive %s: of its array elements 1 to %u are used (position/elements)", drive, unsigned{elements_});
+  } else if (array_) {
+    text = arrayRefusal(drive, *array_, element, device, set);
+  }
+  return text;
+}
+
+void PositionBits::putElement(std::uint8_t element, profile::ProcessOutput& output, const DeviceData& device,
+                              std::uint8_t set) const noexcept {
+  if (array_ && element != 0) put(*array_, element, element, output, device, set);
+}
+
+double PositionBits::inJoint(std::int32_t raw) const noexcept {
+  return profile::toJoint(raw, profile::arrayScale(scale_), profile::kArrayField);
 }
 
 void PositionBits::put(const PositionBit& bit, unsigned value, unsigned posicon, profile::ProcessOutput& output,
@@ -114,11 +142,7 @@ void PositionBits::putTeach(const drive::TeachBits& bits, profile::ProcessOutput
 }
 
 std::int32_t PositionBits::inArray(double joint) const noexcept {
-  profile::PositionScale thousandths = scale_;
-  thousandths.steps_per_revolution = 1000.0;
-  profile::PositionField field;
-  field.bits = 32;
-  return profile::toSteps(joint, thousandths, field).value_or(0);
+  return profile::toSteps(joint, profile::arrayScale(scale_), profile::kArrayField).value_or(0);
 }
 
 std::optional<bool> PositionBits::referenced(const profile::ProcessInput& input, const DeviceData& device,

@@ -38,6 +38,9 @@ struct PositionSetup {
   drive::PositionConfig axis;
   std::uint8_t bits = 32;                                       ///< of the setpoint and of the actual position
   profile::FieldOrder order = profile::FieldOrder::kHighFirst;  ///< of SK 700E and 750E
+  /// The bits that choose an element of the array, from that of value 1 on, the others follow; none: none are known.
+  std::optional<PositionBit> array;
+  std::uint8_t elements = 63;  ///< of the array, those users may choose
   /// What P610 has to be, -1: it is not looked at. Its values stand in none of the manuals at hand.
   std::int32_t setpoint_mode = -1;
   std::optional<PositionBit> home;        ///< none: it is never asked for a reference run

@@ -30,10 +30,14 @@ struct WordNeeds {
   bool bits = false;  ///< bits whose function is in P480 are in use
   /// It positions: word 1 may be a position, and is set to be one where the others do not suffice.
   bool positions = false;
-  bool first_is_free = false;
+  bool first_setpoint_is_free = false;      ///< it need not be the frequency
+  bool first_actual_value_is_free = false;  ///< likewise
   /// P610 as it has to be; -1: it is not looked at.
   std::int32_t setpoint_mode = -1;
 
+  bool firstIsFree(bool actual_value) const noexcept {
+    return actual_value ? first_actual_value_is_free : first_setpoint_is_free;
+  }
   bool empty() const noexcept { return list.empty() && !bits; }
 };
 
