@@ -121,7 +121,7 @@ DriveParameters::DriveParameters(DriveIndex drive, std::string name, profile::Se
       series_(series),
       typed_max_frequency_(typed_max_frequency),
       channel_(channel),
-      reader_(series, channel.timeout_owner, !channel.needs.empty(), channel.needs.positions),
+      reader_(series, channel.timeout_owner, !channel.needs.empty(), channel.needs.positions, channel.needs.out_bit),
       session_(channel.capabilities),
       monitor_(channel.monitor) {}
 

@@ -26,6 +26,8 @@ std::optional<std::uint8_t> numberAfter(const std::string& word, const std::stri
 
 // As the digital inputs of the inverters have them; their list (P420) is in none of the manuals at hand.
 constexpr std::int64_t kReferenceRun = 22, kTeachIn = 24, kQuitTeachIn = 25, kArrayBit0 = 55;
+// The same of the digital outputs (P434).
+constexpr std::int64_t kReferenced = 20;
 constexpr unsigned kArrayBits = 6;  // BU 0020 7.3.5
 
 struct BitKeys {
@@ -173,6 +175,8 @@ void readPositionBits(const Settings& drive, profile::Series series, PositionSet
   setup.teach = readTeach(drive, setup.home, setup.array, has_field);
   readElements(drive, setup);
   setup.referenced = readReferenced(drive);
+  setup.referenced_function =
+      static_cast<std::uint16_t>(integerOr(drive, "position/referenced_function", kReferenced, 0, 255));
 }
 
 void checkSignalsApart(const Settings& drive, const PositionSetup& setup, const std::vector<SignalSetup>& signals) {

@@ -25,6 +25,8 @@ PositionBits::PositionBits(const std::optional<PositionSetup>& setup, profile::S
   elements_ = setup->elements;
   scale_ = setup->axis.scale;
   referenced_ = setup->referenced;
+  referenced_function_ = setup->referenced_function;
+  referenced_element_ = referencedElement(*setup, series);
 }
 
 std::optional<std::size_t> PositionBits::placeOf(const WordNeed& need, const DeviceData& device,
@@ -56,9 +58,19 @@ Sentence PositionBits::bitRefusal(const char* drive, const PositionBit& bit, con
 }
 
 Sentence PositionBits::homeRefusal(const char* drive, const DeviceData& device, std::uint8_t set) const noexcept {
-  if (home_)
-    return bitRefusal(drive, *home_, {"position/home", "position/home_function", "reference run"}, device, set);
   Sentence text;
+  if (home_) {
+    text = bitRefusal(drive, *home_, {"position/home", "position/home_function", "reference run"}, device, set);
+    if (!text.empty() || showsReference(device)) return text;
+    FixedText<24> found;
+    found.format(device.out_bit_function ? "is %u" : "could not be read",
+                 unsigned{device.out_bit_function.value_or(0)});
+    text.format(
+        "drive %s: P481[-%02u] %s; set it to %u (reference known), or position/referenced_function to what its "
+        "manual says",
+        drive, unsigned{referenced_element_}, found.c_str(), unsigned{referenced_function_});
+    return text;
+  }
   text.format("drive %s: position/home is not configured: nobody knows by which bit it is asked for a reference run",
               drive);
   return text;
@@ -147,7 +159,7 @@ std::int32_t PositionBits::inArray(double joint) const noexcept {
 
 std::optional<bool> PositionBits::referenced(const profile::ProcessInput& input, const DeviceData& device,
                                              std::uint8_t set) const noexcept {
-  if (!referenced_) return std::nullopt;
+  if (!referenced_ || !showsReference(device)) return std::nullopt;
   if (referenced_->source == SignalSource::kStatusBit) return (input.status_word >> referenced_->number & 1u) != 0;
   const auto place = placeOf({true, profile::WordUse::kBusBits, 2, 3}, device, set);
   if (!place) return std::nullopt;

@@ -44,11 +44,15 @@ class PositionBits {
   double inJoint(std::int32_t raw) const noexcept;
   /// A position of the joint as P613 has it, 0.001 revolutions; 0 of one that does not position, or beyond all range.
   std::int32_t inArray(double joint) const noexcept;
-  /// What the drive says of its reference; none where no bit is configured, or nobody knows which word carries it.
+  /// What the drive says of its reference; none where no bit is configured, it shows something else (P481), or nobody knows
+  /// which word carries it.
   std::optional<bool> referenced(const profile::ProcessInput& input, const DeviceData& device,
                                  std::uint8_t set) const noexcept;
 
  private:
+  bool showsReference(const DeviceData& device) const noexcept {
+    return referenced_element_ == 0 || device.out_bit_function == referenced_function_;
+  }
   /// What a bit is called where it is refused.
   struct Meaning {
     const char* key;
@@ -72,6 +76,8 @@ class PositionBits {
   std::uint8_t elements_ = 0;
   profile::PositionScale scale_;
   std::optional<SignalSetup> referenced_;
+  std::uint16_t referenced_function_ = 0;
+  std::uint8_t referenced_element_ = 0;  // of P481; 0: it is not looked at
   profile::Series series_;
   std::size_t carried_;
 };

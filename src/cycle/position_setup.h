@@ -43,9 +43,10 @@ struct PositionSetup {
   std::uint8_t elements = 63;  ///< of the array, those users may choose
   /// What P610 has to be, -1: it is not looked at. Its values stand in none of the manuals at hand.
   std::int32_t setpoint_mode = -1;
-  std::optional<PositionBit> home;        ///< none: it is never asked for a reference run
-  std::optional<TeachSetup> teach;        ///< none: no position is ever taught
-  std::optional<SignalSetup> referenced;  ///< a bus I/O out bit or a bit of the status word; none: no bit says it
+  std::optional<PositionBit> home;         ///< none: it is never asked for a reference run
+  std::optional<TeachSetup> teach;         ///< none: no position is ever taught
+  std::optional<SignalSetup> referenced;   ///< a bus I/O out bit or a bit of the status word; none: no bit says it
+  std::uint16_t referenced_function = 20;  ///< what P481 has to say of that bit; 0: it is not looked at
 };
 
 DriveMode readDriveMode(const Settings& drive);

@@ -162,6 +162,15 @@ std::optional<std::uint8_t> elementOf(const PositionBit& bit) noexcept {
   return std::nullopt;
 }
 
+std::uint8_t referencedElement(const PositionSetup& setup, Series series) noexcept {
+  if (!setup.referenced || setup.referenced_function == 0) return 0;
+  const std::uint8_t number = setup.referenced->number;
+  if (setup.referenced->source == SignalSource::kBusOutBit) return static_cast<std::uint8_t>(number + 1);
+  if (profile::thirdBeforeSecond(series)) return 0;
+  // P481 [-09] and [-10] are bits 10 and 13 of the status word (BU 0020 6.2.1).
+  return number == 10 ? 9 : 10;
+}
+
 bool isPosition(WordUse use) noexcept {
   switch (use) {
     case WordUse::kPositionLow:
@@ -187,6 +196,7 @@ bool firstWordFits(const WordNeeds& needs, bool actual_value, std::uint16_t code
 void addPositionNeeds(const PositionSetup& setup, Series series, WordNeeds& needs) noexcept {
   needs.positions = true;
   needs.setpoint_mode = setup.setpoint_mode;
+  needs.out_bit = referencedElement(setup, series);
   const auto add = [&needs](const WordNeed& need) {
     const bool known = std::any_of(needs.list.begin(), needs.list.end(), [&need](const WordNeed& other) {
       return other.actual_value == need.actual_value && other.use == need.use;

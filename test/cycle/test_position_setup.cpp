@@ -138,6 +138,23 @@ TEST_F(PositionConfiguration, NamesTheBitsOfAReferenceRun) {
   EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/referenced"));
 }
 
+TEST_F(PositionConfiguration, NamesTheElementThatShowsTheReference) {
+  const auto element = [&](const char* source) {
+    drive_->set("position/referenced", source);
+    return int{referencedElement(setup(), read().drives[0].series)};
+  };
+  EXPECT_EQ(0, referencedElement(setup(), Series::kSk5xxe));
+  EXPECT_EQ(9, element("status_bit_10"));
+  EXPECT_EQ(10, element("status_bit_13"));
+  EXPECT_EQ(6, element("bus_out_bit_5"));
+  EXPECT_EQ(20, setup().referenced_function);
+  drive_->set("position/referenced_function", test::MapSettings::Value{0});
+  EXPECT_EQ(0, element("bus_out_bit_5")) << "it is not looked at";
+  drive_->set("position/referenced_function", 7).set("series", "sk700e");
+  EXPECT_EQ(0, element("status_bit_13")) << "MFR 4, whatever P481 says";
+  EXPECT_EQ(6, element("bus_out_bit_5"));
+}
+
 TEST_F(PositionConfiguration, NamesTheBitsThatTeachAPosition) {
   EXPECT_FALSE(setup().teach);
   drive_->set("position/teach_in", "bus_in_bit_0");

@@ -224,6 +224,24 @@ TYPED_TEST(Positions, AReferenceRunIsAskedForAgainAndAnswered) {
   EXPECT_TRUE(robot.snapshot().drives[0].homed);
 }
 
+// The bit of the status word would tell something else, and the run never end by it.
+TYPED_TEST(Positions, AReferenceRunIsRefusedWhereNobodyTellsItsEnd) {
+  auto options = homingOptions<TypeParam>(BusWords<TypeParam>::kWords);
+  const auto simulate = options.simulate;
+  options.simulate = [simulate](sim::SimConfig& config) {
+    simulate(config);
+    for (sim::DriveConfig& drive : config.drives) drive.parameters.push_back({481, 0, 8, 9});
+  };
+  TypeParam robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  const cycle::Completion answer = home(robot);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.str(), HasSubstr("P481[-09] is 9; set it to 20 (reference known), or "
+                                              "position/referenced_function"));
+  EXPECT_FALSE(robot.snapshot().drives[0].homed);
+  EXPECT_TRUE(staysWhereItIs(robot, std::chrono::seconds{1}));
+}
+
 // The switch never comes.
 TYPED_TEST(Positions, AReferenceRunThatDoesNotEndIsStopped) {
   auto options = homingOptions<TypeParam>(BusWords<TypeParam>::kWords);
