@@ -92,6 +92,7 @@ TEST_F(ElementTarget, IsHighOnlyWhileItIsEnabled) {
     cycle(quick ? 0x0B50 : 0x0B31, 5'000);
     cycle(0x0B31, 5'000);
     enable(5'000);
+    cycle(0x0B37, 5'000);
     EXPECT_EQ(0, sent_element_) << "forgotten";
     ASSERT_EQ(TargetRefusal::kNone, drive_.setElement(3, 5.0));
     cycle(0x0B37, 5'000);
