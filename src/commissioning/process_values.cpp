@@ -128,7 +128,8 @@ void drivePositions(const Drives& drives, std::size_t index, Findings& to) {
   const auto raw = drive.raw(mode);
   if (needs.setpoint_mode < 0 || !raw || *raw == needs.setpoint_mode) return;
   Finding finding = drive.finding(
-      mode, Severity::kError, "its target has to come from the bus (position/setpoint_mode), and it is not enabled");
+      mode, Severity::kError,
+      "its target would come from somewhere else than configured (position/setpoint_mode), and it is not enabled");
   finding.remedy = drive.remedy(mode, needs.setpoint_mode);
   to.push_back(finding);
 }

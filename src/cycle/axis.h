@@ -27,6 +27,7 @@ struct Axis {
   PositionBits bits;        ///< of one that positions
   JointMotion motion;       ///< of a drive that belongs to no base
   PositionTargets targets;  ///< of one that positions
+  Instant element_until{};  ///< an element of its array that was asked for is awaited until then
   robot::JointPosition joint;
   SpeedWatch speed;
   TerminalWatch terminals;

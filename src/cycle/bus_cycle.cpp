@@ -211,15 +211,6 @@ void BusCycle::commandSingles(Instant now, Duration dt) noexcept {
   }
 }
 
-// One that came while it could not be followed is not kept for later.
-void BusCycle::commandPosition(DriveIndex drive, Instant now) noexcept {
-  const auto target = axes_[drive].targets.poll(ports_.newestPosition(drive));
-  if (!target) return;
-  const drive::TargetRefusal refusal = drives_[drive].setPosition(*target);
-  const auto told = axes_[drive].targets.handleAnswer(names_[drive].c_str(), *target, refusal, now);
-  if (told) ports_.tell({true, *told});
-}
-
 // Its followers hear their leader, not this; but they rest when it rests (P104), and go where it goes.
 void BusCycle::setVelocity(DriveIndex drive, double velocity) noexcept {
   drives_[drive].setVelocity(RadPerSec{velocity});

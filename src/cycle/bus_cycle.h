@@ -75,6 +75,10 @@ class BusCycle {
   void publishBase() noexcept;
   void commandSingles(Instant now, Duration dt) noexcept;
   void commandPosition(DriveIndex drive, Instant now) noexcept;
+  void chooseElement(DriveIndex drive, std::uint8_t element, Instant now) noexcept;
+  void awaitElement(DriveIndex drive, Instant now) noexcept;
+  void refuseElement(DriveIndex drive, std::uint8_t element, const Sentence& why, Instant now) noexcept;
+  void tellTarget(DriveIndex drive, const AskedPosition& asked, drive::TargetRefusal refusal, Instant now) noexcept;
   void setVelocity(DriveIndex drive, double velocity) noexcept;
   void addAxis(const DriveSetup& setup, CycleRole role);
   void pollOutputs(Instant now) noexcept;

@@ -42,6 +42,7 @@ void BusCycle::pollOutputs(Instant now) noexcept {
     if (!axis.words.empty()) putWords(i, now);
     const drive::DriveReport& report = drives_[i].report();
     if (report.position.homing) axis.bits.putHome(outputs_[i], axis.parameters.device(), report.commanded_set);
+    axis.bits.putElement(report.position.element, outputs_[i], axis.parameters.device(), report.commanded_set);
     axis.bits.putTeach(report.position.teach, outputs_[i], axis.parameters.device(), report.commanded_set);
   }
 }

@@ -24,10 +24,14 @@ struct JointCommand {
   std::optional<Instant> moved = {};  ///< as that of TwistCommand
 };
 
-/// For a drive that positions. It does not grow old; each is taken once.
+/// For a drive that positions. It does not grow old; each is taken once. The newest target counts, and after it the sum
+/// of its increments: of two that come within one cycle none is lost.
 struct PositionCommand {
-  double target = 0.0;       ///< rad or m of the joint
-  std::uint64_t number = 0;  ///< counts the targets of this drive from 1; 0: none yet
+  double target = 0.0;                  ///< rad or m of the joint
+  std::optional<std::uint8_t> element;  ///< of the drive's array, in place of `target`
+  std::uint64_t number = 0;             ///< counts the targets of this drive from 1; 0: none yet
+  double increments = 0.0;              ///< rad or m: the sum of those that came after this target
+  std::uint64_t increased = 0;          ///< counts the increments of this drive from 1; 0: none yet
 };
 
 /// Corrections of the base's sizes, changed while the node runs.

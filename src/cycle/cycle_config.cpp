@@ -10,6 +10,7 @@
 #include "config/setting_note.h"
 #include "cycle/joint_limits.h"
 #include "cycle/leaders.h"
+#include "cycle/position_bit_setup.h"
 
 namespace nord_driver::cycle {
 
@@ -52,6 +53,7 @@ DriveSetup readDrive(const DriveSettings& source, const CycleConfig& config, Dur
   if (readDriveMode(settings) == DriveMode::kPosition) {
     setup.position =
         readPositionSetup(settings, {setup.series, common.scaling, rangeOf(setup.joint, robot_description)});
+    checkSignalsApart(settings, *setup.position, setup.words.signals);
     setup.drive.position = setup.position->axis;
   } else {
     refusePositionKeys(settings);

@@ -47,7 +47,31 @@ bool CyclePorts::commandDrive(DriveIndex drive, const JointCommand& command) {
 bool CyclePorts::commandPosition(DriveIndex drive, double target) {
   if (!std::isfinite(target)) return false;
   const std::lock_guard<std::mutex> lock(writers_);
-  positions_.at(drive)->write({target, ++positions_written_.at(drive)});
+  PositionCommand& newest = positions_written_.at(drive);
+  newest.target = target;
+  newest.element.reset();
+  newest.increments = 0.0;
+  ++newest.number;
+  positions_.at(drive)->write(newest);
+  return true;
+}
+
+void CyclePorts::commandElement(DriveIndex drive, std::uint8_t element) {
+  const std::lock_guard<std::mutex> lock(writers_);
+  PositionCommand& newest = positions_written_.at(drive);
+  newest.element = element;
+  newest.increments = 0.0;
+  ++newest.number;
+  positions_.at(drive)->write(newest);
+}
+
+bool CyclePorts::commandIncrement(DriveIndex drive, double increment) {
+  if (!std::isfinite(increment) || std::fabs(increment) > kMostIncrement) return false;
+  const std::lock_guard<std::mutex> lock(writers_);
+  PositionCommand& newest = positions_written_.at(drive);
+  newest.increments += increment;
+  ++newest.increased;
+  positions_.at(drive)->write(newest);
   return true;
 }
 

@@ -31,6 +31,11 @@ class CyclePorts {
   bool commandDrive(DriveIndex drive, const JointCommand& command);
   /// The target of a drive that positions. False as commandBase().
   bool commandPosition(DriveIndex drive, double target);
+  /// The same, by an element of the drive's array.
+  void commandElement(DriveIndex drive, std::uint8_t element);
+  /// Onward from the target it then has. False also beyond kMostIncrement either way.
+  bool commandIncrement(DriveIndex drive, double increment);
+  static constexpr double kMostIncrement = 1e6;  ///< rad or m
   /// `index` of a configured setpoint, `value` in its unit. False as commandBase().
   bool commandSetpoint(DriveIndex drive, std::size_t index, double value, Instant received);
   /// `index` counts the configured outputs.
@@ -74,7 +79,7 @@ class CyclePorts {
   LatestValue<BaseTuning> base_tuning_;
   std::vector<std::unique_ptr<LatestValue<JointCommand>>> drive_commands_;
   std::vector<std::unique_ptr<LatestValue<PositionCommand>>> positions_;
-  std::vector<std::uint64_t> positions_written_;  // the writers'
+  std::vector<PositionCommand> positions_written_;  // the writers'
   std::vector<std::unique_ptr<LatestValue<WordCommands>>> words_;
   std::vector<WordCommands> words_written_;  // the writers'
   LatestValue<Instant> commander_;

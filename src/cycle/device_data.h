@@ -35,6 +35,7 @@ struct DeviceData {
   /// P543 to P548 of parameter sets 1..4; of sets 2 to 4 only the first, unless further words are in use.
   std::array<WordFunctions, 4> word_functions;
   FixedVector<std::uint16_t, 12> bus_bit_functions;  ///< P480 [-01].., each in its place: what bus I/O bits do
+  std::optional<std::uint16_t> out_bit_function;     ///< P481 of the element that DeviceReader was told: what it shows
   std::optional<std::int32_t> control_word_source;   ///< P509: who commands the inverter
   std::optional<std::int32_t> setpoint_source;       ///< P510 (or [-01]): whose setpoint; 0 = as P509
   /// P600 of parameter sets 1..4, of a drive that is to position: 0 = it does not.

@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::uint8_t kMaxAttempts = 3;
 constexpr std::uint16_t kMinFrequency = 104, kMaxFrequency = 105, kOptionMonitoring = 120, kModuleTimeout = 151,
-                        kBusBits = 480, kControlWordSource = 509, kSetpointSource = 510, kTelegramTimeout = 513,
-                        kFirstActualValue = 543, kFirstSetpoint = 546, kEepromSwitch = 560, kPositionControl = 600,
-                        kSetpointMode = 610, kSoftwareVersion = 707;
+                        kBusBits = 480, kOutBits = 481, kControlWordSource = 509, kSetpointSource = 510,
+                        kTelegramTimeout = 513, kFirstActualValue = 543, kFirstSetpoint = 546, kEepromSwitch = 560,
+                        kPositionControl = 600, kSetpointMode = 610, kSoftwareVersion = 707;
 constexpr std::uint8_t kSets = 4;
 constexpr std::uint16_t kAccelerationTime = 102, kDecelerationTime = 103;
 // s: the bus manuals name no unit of P103, which is set in the steps of P102 on the inverter.
@@ -21,7 +21,8 @@ constexpr double kRampStep = 0.01;
 
 }  // namespace
 
-DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool further_words, bool positions) noexcept
+DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool further_words, bool positions,
+                           std::uint8_t out_bit) noexcept
     : series_(series) {
   for (std::uint8_t set = 1; set <= kSets; ++set) add(kMaxFrequency, set, 1);
   for (std::uint8_t set = 1; set <= kSets; ++set) add(kMinFrequency, set, 1);
@@ -35,6 +36,7 @@ DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool furt
     for (std::uint8_t set = 1; set <= kSets; ++set) add(kPositionControl, set, 1);
     add(kSetpointMode, 1, 1);
   }
+  if (out_bit != 0) add(kOutBits, 1, out_bit);
   add(kControlWordSource, 1, 1);
   add(kSetpointSource, 1, 1);
   motion_items_ = items_.size();
@@ -180,6 +182,8 @@ void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
     data_.setpoint_mode = raw;
   } else if (item.number == kMinFrequency) {
     data_.min_frequency[item.set - 1u] = value;
+  } else if (item.number == kOutBits) {
+    data_.out_bit_function = static_cast<std::uint16_t>(raw);
   } else if (item.number == kBusBits) {
     while (data_.bus_bit_functions.size() < item.index) data_.bus_bit_functions.push_back(kUnknownFunction);
     data_.bus_bit_functions[item.index - 1u] = static_cast<std::uint16_t>(raw);

@@ -12,7 +12,7 @@ namespace nord_driver::cycle {
 namespace {
 
 // An id tells the drive, the asker and which question of the asker it is: sequence | asker | drive.
-constexpr unsigned kDriveBits = 8, kAskerBits = 3;
+constexpr unsigned kDriveBits = 8, kAskerBits = 4;
 constexpr std::uint32_t kDriveMask = (1u << kDriveBits) - 1, kAskerMask = (1u << kAskerBits) - 1;
 
 constexpr Duration kReasonInterval = std::chrono::milliseconds{500};
@@ -121,7 +121,7 @@ DriveParameters::DriveParameters(DriveIndex drive, std::string name, profile::Se
       series_(series),
       typed_max_frequency_(typed_max_frequency),
       channel_(channel),
-      reader_(series, channel.timeout_owner, !channel.needs.empty(), channel.needs.positions),
+      reader_(series, channel.timeout_owner, !channel.needs.empty(), channel.needs.positions, channel.needs.out_bit),
       session_(channel.capabilities),
       monitor_(channel.monitor) {}
 
@@ -145,6 +145,7 @@ void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
   session_.handleOffline();
   history_.handleOffline();
   monitor_.handleOffline();
+  elements_.forget();
   collect();
   // Another inverter may come back in its place: nothing is enabled with what P105 was before.
   forgetScale(drive);
@@ -230,6 +231,12 @@ void DriveParameters::handleRequest(const Request& request, drive::Drive& drive)
   if (changesProcessData(request)) forgetScale(drive);
 }
 
+// The answer to an earlier question must not be taken for another element.
+void DriveParameters::askElement(std::uint8_t element) noexcept {
+  open_ids_[static_cast<std::size_t>(Asker::kElement)] = 0;
+  elements_.ask(element);
+}
+
 void DriveParameters::refuse(const Request& request, profile::ParameterOutcome outcome) noexcept {
   profile::ParameterResult result;
   result.id = request.id;
@@ -267,6 +274,8 @@ std::optional<profile::ParameterRequest> DriveParameters::ask(Asker asker, Insta
     case Asker::kReader:
       askMissingAgain(now);
       return reader_.pollRequest();
+    case Asker::kElement:
+      return elements_.pollRequest();
     case Asker::kHistory:
       return nothingUnderWay() ? history_.pollRequest() : std::nullopt;
     case Asker::kMonitor:
@@ -316,6 +325,8 @@ void DriveParameters::answer(Asker asker, const profile::ParameterResult& result
     case Asker::kReader:
       scale_due_ = true;  // not before: what was read before a loss is not what the drive has now
       return reader_.handleResult(result);
+    case Asker::kElement:
+      return elements_.handleResult(result, name_.c_str());
     case Asker::kHistory:
       return history_.handleResult(result);
     case Asker::kMonitor:

@@ -9,6 +9,7 @@
 
 #include "cycle/completion_queue.h"
 #include "cycle/device_reader.h"
+#include "cycle/element_reader.h"
 #include "cycle/fault_history.h"
 #include "cycle/monitor_reader.h"
 #include "cycle/request.h"
@@ -71,6 +72,9 @@ class DriveParameters {
   const DeviceData& device() const noexcept { return reader_.data(); }
   const drive::FaultReader& faults() const noexcept { return faults_; }
   const FaultHistory& faultHistory() const noexcept { return history_.history(); }
+  /// What a user's choice of an element of the position array needs.
+  void askElement(std::uint8_t element) noexcept;
+  ElementReader& elements() noexcept { return elements_; }
   /// In the order of ParameterChannelUse::monitor.
   const std::vector<MonitoredValue>& monitored() const noexcept { return monitor_.values(); }
   std::uint64_t eepromWrites() const noexcept { return session_.eepromWrites(); }
@@ -82,6 +86,7 @@ class DriveParameters {
     kFaults,
     kSession,  ///< its first lane; the others follow
     kReader = kSession + drive::ParameterSession::kLanes,
+    kElement,
     kHistory,
     kMonitor,
     kCount
@@ -112,6 +117,7 @@ class DriveParameters {
   drive::ParameterSession session_;
   FaultHistoryReader history_;
   MonitorReader monitor_;
+  ElementReader elements_;
   std::array<std::uint32_t, kAskers> open_ids_{};  // of the question under way; 0: none
   std::uint32_t sequence_ = 0;
   bool scale_due_ = false;                // the reader learned something the drive was not told yet

@@ -21,8 +21,12 @@ PositionBits::PositionBits(const std::optional<PositionSetup>& setup, profile::S
   if (!setup) return;
   home_ = setup->home;
   teach_ = setup->teach;
+  if (setup->axis.by_element) array_ = setup->array;
+  elements_ = setup->elements;
   scale_ = setup->axis.scale;
   referenced_ = setup->referenced;
+  referenced_function_ = setup->referenced_function;
+  referenced_element_ = referencedElement(*setup, series);
 }
 
 std::optional<std::size_t> PositionBits::placeOf(const WordNeed& need, const DeviceData& device,
@@ -54,9 +58,19 @@ Sentence PositionBits::bitRefusal(const char* drive, const PositionBit& bit, con
 }
 
 Sentence PositionBits::homeRefusal(const char* drive, const DeviceData& device, std::uint8_t set) const noexcept {
-  if (home_)
-    return bitRefusal(drive, *home_, {"position/home", "position/home_function", "reference run"}, device, set);
   Sentence text;
+  if (home_) {
+    text = bitRefusal(drive, *home_, {"position/home", "position/home_function", "reference run"}, device, set);
+    if (!text.empty() || showsReference(device)) return text;
+    FixedText<24> found;
+    found.format(device.out_bit_function ? "is %u" : "could not be read",
+                 unsigned{device.out_bit_function.value_or(0)});
+    text.format(
+        "drive %s: P481[-%02u] %s; set it to %u (reference known), or position/referenced_function to what its "
+        "manual says",
+        drive, unsigned{referenced_element_}, found.c_str(), unsigned{referenced_function_});
+    return text;
+  }
   text.format("drive %s: position/home is not configured: nobody knows by which bit it is asked for a reference run",
               drive);
   return text;
@@ -75,10 +89,16 @@ Sentence PositionBits::teachRefusal(const char* drive, const DeviceData& device,
     text = bitRefusal(drive, teach_->quit,
                       {"position/quit_teach_in", "position/quit_teach_in_function", "quit teach-in"}, device, set);
   }
-  if (!teach_->array) return text;
+  if (text.empty() && teach_->array) text = arrayRefusal(drive, *teach_->array, teach_->element, device, set);
+  return text;
+}
+
+Sentence PositionBits::arrayRefusal(const char* drive, const PositionBit& array, std::uint8_t element,
+                                    const DeviceData& device, std::uint8_t set) const noexcept {
+  Sentence text;
   for (unsigned bit = 0; text.empty() && bit < kArrayBits; ++bit) {
-    if ((teach_->element >> bit & 1u) == 0) continue;
-    PositionBit one = *teach_->array;
+    if ((element >> bit & 1u) == 0) continue;
+    PositionBit one = array;
     one.number = static_cast<std::uint8_t>(one.number + bit);
     one.function = static_cast<std::uint16_t>(one.function + bit);
     FixedText<32> name;
@@ -86,6 +106,26 @@ Sentence PositionBits::teachRefusal(const char* drive, const DeviceData& device,
     text = bitRefusal(drive, one, {"position/array_bit", "position/array_function", name.c_str()}, device, set);
   }
   return text;
+}
+
+Sentence PositionBits::elementRefusal(const char* drive, std::uint8_t element, const DeviceData& device,
+                                      std::uint8_t set) const noexcept {
+  Sentence text;
+  if (element < 1 || element > elements_) {
+    text.format("drive %s: of its array elements 1 to %u are used (position/elements)", drive, unsigned{elements_});
+  } else if (array_) {
+    text = arrayRefusal(drive, *array_, element, device, set);
+  }
+  return text;
+}
+
+void PositionBits::putElement(std::uint8_t element, profile::ProcessOutput& output, const DeviceData& device,
+                              std::uint8_t set) const noexcept {
+  if (array_ && element != 0) put(*array_, element, element, output, device, set);
+}
+
+double PositionBits::inJoint(std::int32_t raw) const noexcept {
+  return profile::toJoint(raw, profile::arrayScale(scale_), profile::kArrayField);
 }
 
 void PositionBits::put(const PositionBit& bit, unsigned value, unsigned posicon, profile::ProcessOutput& output,
@@ -114,16 +154,12 @@ void PositionBits::putTeach(const drive::TeachBits& bits, profile::ProcessOutput
 }
 
 std::int32_t PositionBits::inArray(double joint) const noexcept {
-  profile::PositionScale thousandths = scale_;
-  thousandths.steps_per_revolution = 1000.0;
-  profile::PositionField field;
-  field.bits = 32;
-  return profile::toSteps(joint, thousandths, field).value_or(0);
+  return profile::toSteps(joint, profile::arrayScale(scale_), profile::kArrayField).value_or(0);
 }
 
 std::optional<bool> PositionBits::referenced(const profile::ProcessInput& input, const DeviceData& device,
                                              std::uint8_t set) const noexcept {
-  if (!referenced_) return std::nullopt;
+  if (!referenced_ || !showsReference(device)) return std::nullopt;
   if (referenced_->source == SignalSource::kStatusBit) return (input.status_word >> referenced_->number & 1u) != 0;
   const auto place = placeOf({true, profile::WordUse::kBusBits, 2, 3}, device, set);
   if (!place) return std::nullopt;

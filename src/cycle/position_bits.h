@@ -34,13 +34,25 @@ class PositionBits {
   /// The bits that are high while it is taught.
   void putTeach(const drive::TeachBits& bits, profile::ProcessOutput& output, const DeviceData& device,
                 std::uint8_t set) const noexcept;
+  /// Why an element of the array cannot be a target; empty: it can.
+  Sentence elementRefusal(const char* drive, std::uint8_t element, const DeviceData& device,
+                          std::uint8_t set) const noexcept;
+  /// The bits that choose it, of a drive that is told its element. 0: none are high.
+  void putElement(std::uint8_t element, profile::ProcessOutput& output, const DeviceData& device,
+                  std::uint8_t set) const noexcept;
+  /// Of the joint, rad or m, where an element of P613 has `raw`.
+  double inJoint(std::int32_t raw) const noexcept;
   /// A position of the joint as P613 has it, 0.001 revolutions; 0 of one that does not position, or beyond all range.
   std::int32_t inArray(double joint) const noexcept;
-  /// What the drive says of its reference; none where no bit is configured, or nobody knows which word carries it.
+  /// What the drive says of its reference; none where no bit is configured, it shows something else (P481), or nobody knows
+  /// which word carries it.
   std::optional<bool> referenced(const profile::ProcessInput& input, const DeviceData& device,
                                  std::uint8_t set) const noexcept;
 
  private:
+  bool showsReference(const DeviceData& device) const noexcept {
+    return referenced_element_ == 0 || device.out_bit_function == referenced_function_;
+  }
   /// What a bit is called where it is refused.
   struct Meaning {
     const char* key;
@@ -50,6 +62,9 @@ class PositionBits {
   /// `bit` can be sent, and does what it is taken for.
   Sentence bitRefusal(const char* drive, const PositionBit& bit, const Meaning& meaning, const DeviceData& device,
                       std::uint8_t set) const noexcept;
+  /// The bits of the array that are high for `element`.
+  Sentence arrayRefusal(const char* drive, const PositionBit& array, std::uint8_t element, const DeviceData& device,
+                        std::uint8_t set) const noexcept;
   /// `value`: from this bit on; `posicon`: in the place of it in the POSICON control bits.
   void put(const PositionBit& bit, unsigned value, unsigned posicon, profile::ProcessOutput& output,
            const DeviceData& device, std::uint8_t set) const noexcept;
@@ -57,8 +72,12 @@ class PositionBits {
 
   std::optional<PositionBit> home_;
   std::optional<TeachSetup> teach_;
+  std::optional<PositionBit> array_;  // of one that goes to its elements by bits
+  std::uint8_t elements_ = 0;
   profile::PositionScale scale_;
   std::optional<SignalSetup> referenced_;
+  std::uint16_t referenced_function_ = 0;
+  std::uint8_t referenced_element_ = 0;  // of P481; 0: it is not looked at
   profile::Series series_;
   std::size_t carried_;
 };

@@ -1,11 +1,10 @@
 #include "cycle/position_setup.h"
 
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "config/setting_checks.h"
 #include "config/setting_choice.h"
+#include "cycle/position_bit_setup.h"
 #include "profile/process_data_order.h"
 
 namespace nord_driver::cycle {
@@ -15,6 +14,7 @@ namespace {
 constexpr double kTwoPi = 6.283185307179586476925;
 constexpr double kMost = 1e6;               // rad, m, rad/s, m/s
 constexpr double kDefaultTolerance = 0.01;  // revolutions of the count
+constexpr double kDefaultStray = 0.25;      // the same: more than a load that settles when the brake opens
 
 constexpr Choice<DriveMode> kModes[] = {{"velocity", DriveMode::kVelocity}, {"position", DriveMode::kPosition}};
 constexpr Choice<profile::FieldOrder> kOrders[] = {{"high_first", profile::FieldOrder::kHighFirst},
@@ -57,114 +57,6 @@ void readLimits(const Settings& drive, const char* unit, const std::optional<rob
   }
 }
 
-/// "bus_in_bit_3": 3 after "bus_in_bit_"; none where the word begins otherwise or the number is none of `first` to `last`.
-std::optional<std::uint8_t> numberAfter(const std::string& word, const std::string& before, int first, int last) {
-  if (word.rfind(before, 0) != 0) return std::nullopt;
-  for (int number = first; number <= last; ++number) {
-    if (word == before + std::to_string(number)) return static_cast<std::uint8_t>(number);
-  }
-  return std::nullopt;
-}
-
-// As the digital inputs of the inverters have them; their list (P420) is in none of the manuals at hand.
-constexpr std::int64_t kReferenceRun = 22, kTeachIn = 24, kQuitTeachIn = 25, kArrayBit0 = 55;
-constexpr unsigned kArrayBits = 6;  // BU 0020 7.3.5
-
-struct BitKeys {
-  const char* bit;
-  const char* function;
-  std::int64_t usual;  ///< function
-};
-
-std::optional<PositionBit> readBit(const Settings& drive, const BitKeys& keys, bool has_field) {
-  const std::string expected = std::string("bus_in_bit_0 to 7, control_bit_8, control_bit_9") + ", posicon_bits";
-  const std::string word = wordOr(drive, keys.bit, "", expected);
-  const auto function = integerOr(drive, keys.function, keys.usual, 1, 255);
-  if (word.empty()) return std::nullopt;
-  PositionBit bit;
-  bit.function = static_cast<std::uint16_t>(function);
-  if (const auto bus = numberAfter(word, "bus_in_bit_", 0, 7)) {
-    bit.carrier = PositionBit::Carrier::kBusBit;
-    bit.number = *bus;
-  } else if (const auto control = numberAfter(word, "control_bit_", 8, 9); control && !has_field) {
-    bit.carrier = PositionBit::Carrier::kControlBit;
-    bit.number = *control;
-  } else if (word == "posicon_bits" && has_field) {
-    bit.carrier = PositionBit::Carrier::kPosicon;
-  } else {
-    throw wrongSetting(
-        drive, keys.bit, "\"" + word + "\"",
-        has_field ? "bus_in_bit_0 to 7 or posicon_bits" : "bus_in_bit_0 to 7, control_bit_8 or control_bit_9");
-  }
-  return bit;
-}
-
-/// Bits of the carrier; of the control word and of bus I/O bits as they are numbered.
-unsigned maskOf(const PositionBit& bit, unsigned value) {
-  return value << bit.number;
-}
-
-void checkApart(const Settings& drive, const char* key, const PositionBit& bit, unsigned value,
-                const std::vector<std::pair<PositionBit, const char*>>& others) {
-  for (const auto& [other, name] : others) {
-    if (other.carrier != bit.carrier || bit.carrier == PositionBit::Carrier::kPosicon) continue;
-    if ((maskOf(bit, value) & maskOf(other, 1)) == 0) continue;
-    throw wrongSetting(drive, key, "the bit of " + std::string(name), "another bit");
-  }
-}
-
-std::optional<TeachSetup> readTeach(const Settings& drive, const std::optional<PositionBit>& home, bool has_field) {
-  using Carrier = PositionBit::Carrier;
-  const auto teach_in = readBit(drive, {"position/teach_in", "position/teach_in_function", kTeachIn}, has_field);
-  auto quit = readBit(drive, {"position/quit_teach_in", "position/quit_teach_in_function", kQuitTeachIn}, has_field);
-  auto array = readBit(drive, {"position/array_bit", "position/array_function", kArrayBit0}, has_field);
-  const auto element = integerOr(drive, "position/element", 1, 1, (1 << kArrayBits) - 1);
-  if (!teach_in) return std::nullopt;
-  // Those bits have their places in the word (BU 0020 7.3.5).
-  if (teach_in->carrier == Carrier::kPosicon) {
-    if (!quit) quit = teach_in;
-    if (!array) array = teach_in;
-  }
-  if (!quit) {
-    throw missingSetting(drive, "position/quit_teach_in", "the bit that ends what position/teach_in has begun");
-  }
-  TeachSetup setup{*teach_in, *quit, array, static_cast<std::uint8_t>(element)};
-  std::vector<std::pair<PositionBit, const char*>> taken;
-  if (home) taken.emplace_back(*home, "position/home");
-  checkApart(drive, "position/teach_in", setup.teach_in, 1, taken);
-  taken.emplace_back(setup.teach_in, "position/teach_in");
-  checkApart(drive, "position/quit_teach_in", setup.quit, 1, taken);
-  taken.emplace_back(setup.quit, "position/quit_teach_in");
-  if (!array) return setup;
-  checkApart(drive, "position/array_bit", *array, setup.element, taken);
-  const unsigned most = array->carrier == Carrier::kBusBit       ? 0xFFu
-                        : array->carrier == Carrier::kControlBit ? 0x3FFu
-                                                                 : ~0u;
-  if (maskOf(*array, setup.element) > most) {
-    throw wrongSetting(drive, "position/element", std::to_string(element),
-                       "a number whose bits, the first of them position/array_bit, are all carried");
-  }
-  return setup;
-}
-
-std::optional<SignalSetup> readReferenced(const Settings& drive) {
-  const std::string expected = "bus_out_bit_0 to 7, status_bit_10, status_bit_13";
-  const std::string word = wordOr(drive, "position/referenced", "", expected);
-  if (word.empty()) return std::nullopt;
-  SignalSetup bit;
-  bit.name = "referenced";
-  if (const auto bus = numberAfter(word, "bus_out_bit_", 0, 7)) {
-    bit.source = SignalSource::kBusOutBit;
-    bit.number = *bus;
-  } else if (const auto status = numberAfter(word, "status_bit_", 10, 13); status == 10 || status == 13) {
-    bit.source = SignalSource::kStatusBit;
-    bit.number = *status;
-  } else {
-    throw wrongSetting(drive, "position/referenced", "\"" + word + "\"", expected);
-  }
-  return bit;
-}
-
 }  // namespace
 
 DriveMode readDriveMode(const Settings& drive) {
@@ -204,10 +96,8 @@ PositionSetup readPositionSetup(const Settings& drive, const PositionContext& co
   setup.bits = static_cast<std::uint8_t>(bits);
   setup.order = choiceOr(drive, "position/word_order", profile::FieldOrder::kHighFirst, kOrders);
   setup.setpoint_mode = static_cast<std::int32_t>(integerOr(drive, "position/setpoint_mode", -1, -1, 100));
-  const bool has_field = profile::thirdBeforeSecond(series);
-  setup.home = readBit(drive, {"position/home", "position/home_function", kReferenceRun}, has_field);
-  setup.teach = readTeach(drive, setup.home, has_field);
-  setup.referenced = readReferenced(drive);
+  setup.axis.stray = numberOr(drive, "position/stray", kDefaultStray / turns * unit_per_turn, 0.0, kMost, unit);
+  readPositionBits(drive, series, setup);
   setup.axis.homing_timeout = seconds(numberOr(drive, "position/homing_timeout", 60.0, 0.1, 3600.0, "s"));
   return setup;
 }

@@ -38,11 +38,15 @@ struct PositionSetup {
   drive::PositionConfig axis;
   std::uint8_t bits = 32;                                       ///< of the setpoint and of the actual position
   profile::FieldOrder order = profile::FieldOrder::kHighFirst;  ///< of SK 700E and 750E
+  /// The bits that choose an element of the array, from that of value 1 on, the others follow; none: none are known.
+  std::optional<PositionBit> array;
+  std::uint8_t elements = 63;  ///< of the array, those users may choose
   /// What P610 has to be, -1: it is not looked at. Its values stand in none of the manuals at hand.
   std::int32_t setpoint_mode = -1;
-  std::optional<PositionBit> home;        ///< none: it is never asked for a reference run
-  std::optional<TeachSetup> teach;        ///< none: no position is ever taught
-  std::optional<SignalSetup> referenced;  ///< a bus I/O out bit or a bit of the status word; none: no bit says it
+  std::optional<PositionBit> home;         ///< none: it is never asked for a reference run
+  std::optional<TeachSetup> teach;         ///< none: no position is ever taught
+  std::optional<SignalSetup> referenced;   ///< a bus I/O out bit or a bit of the status word; none: no bit says it
+  std::uint16_t referenced_function = 20;  ///< what P481 has to say of that bit; 0: it is not looked at
 };
 
 DriveMode readDriveMode(const Settings& drive);

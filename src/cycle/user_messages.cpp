@@ -39,7 +39,7 @@ Sentence positionModeMessage(const char* drive, const drive::UnexpectedFunction&
                 found.c_str(), unsigned{function.expected});
   } else {
     text.format(
-        "drive %s: P%u %s: its target comes from elsewhere; set P%u to %u (the bus), or position/setpoint_mode to what "
+        "drive %s: P%u %s: its target comes from elsewhere; set P%u to %u, or position/setpoint_mode to what "
         "its manual says",
         drive, unsigned{function.number}, found.c_str(), unsigned{function.number}, unsigned{function.expected});
   }

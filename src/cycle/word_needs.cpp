@@ -50,7 +50,8 @@ std::size_t bestPlace(const WordNeeds& needs, const WordNeed& missing, const Wor
                       Series series) noexcept {
   const bool actual_value = missing.actual_value;
   const std::size_t last = std::min<std::size_t>(needs.words, missing.last);
-  const std::size_t first = needs.first_is_free || last < 2 ? missing.first : std::max<std::size_t>(missing.first, 2);
+  const std::size_t first =
+      needs.firstIsFree(actual_value) || last < 2 ? missing.first : std::max<std::size_t>(missing.first, 2);
   std::size_t best = std::min(std::max<std::size_t>(first, 2), std::max<std::size_t>(last, 1));
   for (std::size_t place = last; place >= first; --place) {
     const auto use = useAt(actual_value, place, functions, series);
@@ -161,6 +162,15 @@ std::optional<std::uint8_t> elementOf(const PositionBit& bit) noexcept {
   return std::nullopt;
 }
 
+std::uint8_t referencedElement(const PositionSetup& setup, Series series) noexcept {
+  if (!setup.referenced || setup.referenced_function == 0) return 0;
+  const std::uint8_t number = setup.referenced->number;
+  if (setup.referenced->source == SignalSource::kBusOutBit) return static_cast<std::uint8_t>(number + 1);
+  if (profile::thirdBeforeSecond(series)) return 0;
+  // P481 [-09] and [-10] are bits 10 and 13 of the status word (BU 0020 6.2.1).
+  return number == 10 ? 9 : 10;
+}
+
 bool isPosition(WordUse use) noexcept {
   switch (use) {
     case WordUse::kPositionLow:
@@ -177,7 +187,7 @@ bool isPosition(WordUse use) noexcept {
 
 bool firstWordFits(const WordNeeds& needs, bool actual_value, std::uint16_t code, Series series) noexcept {
   // Where word 1 has to be something else, missingWord() says what.
-  if (code == kFrequencyFunction || needs.first_is_free) return true;
+  if (code == kFrequencyFunction || needs.firstIsFree(actual_value)) return true;
   const profile::WordFunction* const function =
       actual_value ? profile::findActualValueFunction(series, code) : profile::findSetpointFunction(series, 1, code);
   return needs.positions && function != nullptr && isPosition(function->use);
@@ -186,6 +196,7 @@ bool firstWordFits(const WordNeeds& needs, bool actual_value, std::uint16_t code
 void addPositionNeeds(const PositionSetup& setup, Series series, WordNeeds& needs) noexcept {
   needs.positions = true;
   needs.setpoint_mode = setup.setpoint_mode;
+  needs.out_bit = referencedElement(setup, series);
   const auto add = [&needs](const WordNeed& need) {
     const bool known = std::any_of(needs.list.begin(), needs.list.end(), [&need](const WordNeed& other) {
       return other.actual_value == need.actual_value && other.use == need.use;
@@ -199,21 +210,33 @@ void addPositionNeeds(const PositionSetup& setup, Series series, WordNeeds& need
       if (bit && bit->carrier != PositionBit::Carrier::kControlBit) add(needOf(*bit));
     }
   }
+  const bool by_element = setup.axis.by_element;
+  if (by_element && setup.array && setup.array->carrier != PositionBit::Carrier::kControlBit) add(needOf(*setup.array));
   if (setup.referenced && setup.referenced->source == SignalSource::kBusOutBit) add({true, WordUse::kBusBits, 2, 3});
   const bool wide = setup.bits == 32;
   if (profile::thirdBeforeSecond(series)) {
     // Setpoint 1 only (P546); of the actual values 32 bits are in IW1 only (BU 0020 6.1.2, 7.3.7).
-    needs.first_is_free = true;
-    needs.list.push_back({false, wide ? WordUse::kPosition32 : WordUse::kPosition16, 1, 1});
+    needs.first_setpoint_is_free = true;
+    needs.first_actual_value_is_free = true;
+    // With elements no word has to carry a target; but without P546 = 3 the actual position has 16 bits.
+    if (wide || !by_element) needs.list.push_back({false, wide ? WordUse::kPosition32 : WordUse::kPosition16, 1, 1});
     needs.list.push_back({true, WordUse::kPosition16, 1, static_cast<std::uint8_t>(wide ? 1 : 3)});
     return;
   }
-  // In any words; the frequency keeps the first where the others suffice.
-  needs.first_is_free = needs.words < (wide ? 3u : 2u);
+  // In any words.
   for (const bool actual_value : {false, true}) {
+    if (!actual_value && by_element) continue;
     needs.list.push_back({actual_value, WordUse::kPositionLow, 1, 3});
     if (wide) needs.list.push_back({actual_value, WordUse::kPositionHigh, 1, 3});
   }
+  // The frequency keeps the first where the others suffice for all that is needed, the bits included.
+  const auto needed = [&needs](bool actual_value) {
+    return static_cast<std::size_t>(
+        std::count_if(needs.list.begin(), needs.list.end(),
+                      [actual_value](const WordNeed& need) { return need.actual_value == actual_value; }));
+  };
+  needs.first_setpoint_is_free = needs.words < needed(false) + 1;
+  needs.first_actual_value_is_free = needs.words < needed(true) + 1;
 }
 
 std::optional<drive::UnexpectedFunction> missingWord(const WordNeeds& needs, const WordFunctions& functions,

@@ -30,10 +30,16 @@ struct WordNeeds {
   bool bits = false;  ///< bits whose function is in P480 are in use
   /// It positions: word 1 may be a position, and is set to be one where the others do not suffice.
   bool positions = false;
-  bool first_is_free = false;
+  bool first_setpoint_is_free = false;      ///< it need not be the frequency
+  bool first_actual_value_is_free = false;  ///< likewise
+  /// The element of P481 that has to show its reference; 0: none.
+  std::uint8_t out_bit = 0;
   /// P610 as it has to be; -1: it is not looked at.
   std::int32_t setpoint_mode = -1;
 
+  bool firstIsFree(bool actual_value) const noexcept {
+    return actual_value ? first_actual_value_is_free : first_setpoint_is_free;
+  }
   bool empty() const noexcept { return list.empty() && !bits; }
 };
 
@@ -47,6 +53,10 @@ void addPositionNeeds(const PositionSetup& setup, profile::Series series, WordNe
 WordNeed needOf(const PositionBit& bit) noexcept;
 /// The element of P480 that says what this bit does; none: it has its meaning from its word.
 std::optional<std::uint8_t> elementOf(const PositionBit& bit) noexcept;
+
+/// The element of P481 that says what `referenced` shows; 0: no bit says it, or nobody asks what it shows, or it is a bit of
+/// the status word of SK 700E and 750E, which P481 does not assign (BU 0020 6.1.1, 7.3.4).
+std::uint8_t referencedElement(const PositionSetup& setup, profile::Series series) noexcept;
 
 /// What word 1 carries need not be the frequency: it is a position of a drive that positions.
 bool isPosition(profile::WordUse use) noexcept;

@@ -103,6 +103,11 @@ class Drive {
   /// Of a drive that positions: go there, rad or m of the joint. Taken only while enabled, and forgotten with it; what
   /// is refused changes nothing, and stands in report().position.
   TargetRefusal setPosition(double joint) noexcept;
+  /// Onward from its present target: rad or m.
+  TargetRefusal movePosition(double increment) noexcept;
+  /// Go where an element of its array is: `joint`, rad or m. By its number (PositionConfig::by_element), which then
+  /// stands in report().position.element, or as any target.
+  TargetRefusal setElement(std::uint8_t element, double joint) noexcept;
   /// A reference run of a drive that positions, from "enabled"; report().homing tells the outcome, with the `token`. The
   /// drive is asked for it while report().position.homing. It ends in a stop after PositionConfig::homing_timeout.
   void requestHoming(Instant now, std::uint32_t token = 0) noexcept;

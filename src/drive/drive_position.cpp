@@ -27,6 +27,7 @@ void Drive::handlePosition(Instant now) noexcept {
   // The drive would go where the old target is in the new count.
   const bool expected = axis_->isHoming();
   if (axis_->hasJumped() && !expected && isRunning()) stop(StopCause::kPositionJump, now);
+  if (axis_->strays() && isRunning()) stop(StopCause::kStrayed, now);
 }
 
 std::int16_t Drive::speedWord() const noexcept {
@@ -111,13 +112,29 @@ Refusal Drive::positionRefusal() const noexcept {
   return axis_->canHold(report_.commanded_set) ? Refusal::kNone : Refusal::kPositionBeyondRange;
 }
 
+// What is refused stands in the report at once.
 TargetRefusal Drive::setPosition(double joint) noexcept {
   if (!axis_) return TargetRefusal::kNotEnabled;
-  if (report_.phase != Phase::kEnabled) {
-    axis_->refuse(TargetRefusal::kNotEnabled, joint);
-    return TargetRefusal::kNotEnabled;
+  TargetRefusal refusal = TargetRefusal::kNotEnabled;
+  if (report_.phase == Phase::kEnabled) {
+    refusal = axis_->setTarget(joint);
+  } else {
+    axis_->refuse(refusal, joint);
   }
-  return axis_->setTarget(joint);
+  report_.position = axis_->report();
+  return refusal;
+}
+
+TargetRefusal Drive::movePosition(double increment) noexcept {
+  const bool counts = axis_ && report_.phase == Phase::kEnabled;
+  return setPosition(counts ? axis_->target() + increment : std::nan(""));
+}
+
+TargetRefusal Drive::setElement(std::uint8_t element, double joint) noexcept {
+  if (!axis_ || report_.phase != Phase::kEnabled) return setPosition(joint);
+  const TargetRefusal refusal = axis_->setElement(element, joint, report_.velocity.value);
+  report_.position = axis_->report();
+  return refusal;
 }
 
 // The speed goes out unsigned: which way it has to travel, the drive knows.

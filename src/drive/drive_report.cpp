@@ -34,6 +34,9 @@ const char* toString(StopCause cause) noexcept {
       return "its position changed faster than the motor can turn: the count of the drive has a new zero";
     case StopCause::kHomingTimeout:
       return "the reference run did not end within position/homing_timeout";
+    case StopCause::kStrayed:
+      return "it left the way to the element of its array it was told (none: where it stood) by more than "
+             "position/stray";
     case StopCause::kNotResumed:
       return "the inverter did not come from rest (OFF1, for P104 > 0) to \"operation enabled\" in time";
   }

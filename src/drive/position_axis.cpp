@@ -30,6 +30,8 @@ const char* toString(TargetRefusal refusal) noexcept {
       return "the drive is not enabled, and a target is not kept for later";
     case TargetRefusal::kHoming:
       return "a reference run is under way";
+    case TargetRefusal::kElementsOnly:
+      return "the drive goes to the elements of its array only (position/targets: array)";
     case TargetRefusal::kBelowLimit:
       return "it is below the joint's lower limit";
     case TargetRefusal::kAboveLimit:
@@ -66,11 +68,15 @@ void PositionAxis::handleGap() noexcept {
   homing_.end();
   homed_ = false;
   has_target_ = false;
+  element_ = 0;
+  path_.forget();
 }
 
 bool PositionAxis::canHold(std::uint8_t set) const noexcept {
   const profile::PositionWords& at = words(set);
-  if (!reader_.isKnown() || set != set_ || !at.setpoint.carried()) return false;
+  if (!reader_.isKnown() || set != set_) return false;
+  if (config_.by_element) return true;
+  if (!at.setpoint.carried()) return false;
   const auto target =
       profile::toSteps(profile::toJoint(reader_.steps(), config_.scale, at.actual), config_.scale, at.setpoint);
   return target.has_value();
@@ -103,10 +109,18 @@ HomingRun::Outcome PositionAxis::handleHoming(bool reached, bool still, Instant 
 
 // canHold() has kept it from being enabled beyond its words; it may have sagged over their border since.
 void PositionAxis::hold() noexcept {
+  element_ = 0;
   const profile::PositionWords& at = words(set_);
-  if (!reader_.isKnown() || !at.setpoint.carried()) return;
-  target_ = nearestTarget(profile::toJoint(reader_.steps(), config_.scale, at.actual), config_.scale, at.setpoint);
+  if (!reader_.isKnown() || (!at.setpoint.carried() && !config_.by_element)) return;
+  wanted_ = profile::toJoint(reader_.steps(), config_.scale, at.actual);
+  path_.hold(wanted_);
+  target_ = nearestTarget(wanted_, config_.scale, at.setpoint);
   has_target_ = true;
+}
+
+bool PositionAxis::strays() const noexcept {
+  if (!config_.by_element || !frozen_ || !reader_.isKnown()) return false;
+  return path_.isLeft(profile::toJoint(reader_.steps(), config_.scale, field()), config_.stray);
 }
 
 void PositionAxis::refuse(TargetRefusal refusal, double joint) noexcept {
@@ -114,29 +128,51 @@ void PositionAxis::refuse(TargetRefusal refusal, double joint) noexcept {
   report_.refused_target = joint;
 }
 
+std::optional<std::int32_t> PositionAxis::stepsOf(double joint) const noexcept {
+  const profile::PositionField& carried = words(set_).setpoint;
+  if (carried.carried()) return profile::toSteps(joint, config_.scale, carried);
+  return profile::toSteps(joint, profile::arrayScale(config_.scale), profile::kArrayField);
+}
+
+TargetRefusal PositionAxis::refusalOf(double joint) const noexcept {
+  if (!std::isfinite(joint)) return TargetRefusal::kNotFinite;
+  if (config_.lower && joint < *config_.lower) return TargetRefusal::kBelowLimit;
+  if (config_.upper && joint > *config_.upper) return TargetRefusal::kAboveLimit;
+  if (!stepsOf(joint)) return TargetRefusal::kBeyondRange;
+  return homing_.isRunning() ? TargetRefusal::kHoming : TargetRefusal::kNone;
+}
+
 TargetRefusal PositionAxis::setTarget(double joint) noexcept {
-  TargetRefusal refusal = TargetRefusal::kNone;
-  const auto steps = profile::toSteps(joint, config_.scale, words(set_).setpoint);
-  if (!std::isfinite(joint)) {
-    refusal = TargetRefusal::kNotFinite;
-  } else if (config_.lower && joint < *config_.lower) {
-    refusal = TargetRefusal::kBelowLimit;
-  } else if (config_.upper && joint > *config_.upper) {
-    refusal = TargetRefusal::kAboveLimit;
-  } else if (!steps) {
-    refusal = TargetRefusal::kBeyondRange;
-  }
-  if (homing_.isRunning() && refusal == TargetRefusal::kNone) refusal = TargetRefusal::kHoming;
-  refuse(refusal, joint);
-  if (refusal != TargetRefusal::kNone) return refusal;
-  target_ = *steps;
+  refuse(refusalOf(joint), joint);
+  if (config_.by_element) refuse(TargetRefusal::kElementsOnly, joint);
+  if (report_.refused != TargetRefusal::kNone) return report_.refused;
+  wanted_ = joint;
+  target_ = *stepsOf(joint);
   has_target_ = true;
-  return refusal;
+  return report_.refused;
+}
+
+// What its ramp takes to turn it round is not known here (P103): a second at this speed, a ramp of two seconds.
+TargetRefusal PositionAxis::setElement(std::uint8_t element, double joint, double speed) noexcept {
+  if (!config_.by_element) return setTarget(joint);
+  refuse(refusalOf(joint), joint);
+  if (report_.refused != TargetRefusal::kNone) return report_.refused;
+  path_.goTo(profile::toJoint(reader_.steps(), config_.scale, field()), joint, speed);
+  wanted_ = joint;
+  target_ = *stepsOf(joint);
+  has_target_ = true;
+  element_ = element;
+  return report_.refused;
 }
 
 void PositionAxis::put(profile::ProcessOutput& output, std::uint8_t set) noexcept {
   if (!has_target_) return;
   profile::putPosition(words(set).setpoint, static_cast<std::int32_t>(target_), output.setpoints);
+}
+
+double PositionAxis::toldTarget() const noexcept {
+  const profile::PositionField& carried = words(set_).setpoint;
+  return carried.carried() ? profile::toJoint(target_, config_.scale, carried) : wanted_;
 }
 
 void PositionAxis::tell(bool online, bool enabled, bool reached) noexcept {
@@ -151,9 +187,12 @@ void PositionAxis::tell(bool online, bool enabled, bool reached) noexcept {
   if (known) {
     report_.position = profile::toJoint(reader_.steps(), config_.scale, at);
   }
-  if (enabled && has_target_) report_.target = profile::toJoint(target_, config_.scale, words(set_).setpoint);
+  report_.element = enabled ? element_ : std::uint8_t{0};
+  if (enabled && has_target_) report_.target = toldTarget();
   report_.reached = reached && known && report_.target.has_value() &&
                     std::fabs(*report_.position - *report_.target) <= config_.tolerance;
+  // From there on it has to stay.
+  if (report_.reached) path_.hold(*report_.target);
 }
 
 }  // namespace nord_driver::drive

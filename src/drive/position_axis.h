@@ -6,6 +6,8 @@
 //  - With the first 047F the target stands still: the axis is held where it was.
 //  - During a reference run it is the position again, for the count gets a new zero on the way.
 //  - A target counts while the drive is enabled, and is forgotten with it.
+//  - A drive that goes to the elements of its array is told none, bits 0, wherever others are sent their position, and
+//    watched (PathGuard). Where its words carry a target all the same, that is the same one.
 #pragma once
 
 #include <array>
@@ -14,6 +16,7 @@
 
 #include "core/units.h"
 #include "drive/homing_run.h"
+#include "drive/path_guard.h"
 #include "drive/position_reader.h"
 #include "drive/position_report.h"
 #include "drive/teach_run.h"
@@ -33,6 +36,9 @@ struct PositionConfig {
   double unit_per_radian = 1.0;    ///< of the joint's shaft: 1, or m of a prismatic joint
   Duration homing_timeout = seconds(60.0);
   double revolutions_per_motor_turn = 1.0;  ///< counted, > 0
+  /// It is told an element of its array (P613), and goes where that is; otherwise the target stands in its words.
+  bool by_element = false;
+  double stray = 0.0;  ///< rad or m, with by_element: farther than this beside its way it is stopped
 };
 
 class PositionAxis {
@@ -71,6 +77,12 @@ class PositionAxis {
 
   /// rad or m. Refused, the one before stays.
   TargetRefusal setTarget(double joint) noexcept;
+  /// What it is to go to, or held at: rad or m.
+  double target() const noexcept { return wanted_; }
+  /// The element of its array, and where that is. `speed`: rad/s or m/s it has now.
+  TargetRefusal setElement(std::uint8_t element, double joint, double speed) noexcept;
+  /// With by_element, while it is to go or to stay: it does neither.
+  bool strays() const noexcept;
   void refuse(TargetRefusal refusal, double joint) noexcept;
 
   /// The target into its words.
@@ -83,6 +95,11 @@ class PositionAxis {
 
  private:
   void hold() noexcept;
+  /// As sent.
+  double toldTarget() const noexcept;
+  TargetRefusal refusalOf(double joint) const noexcept;
+  /// The steps of a target in the words of the set in force; those of P613 where no word carries one.
+  std::optional<std::int32_t> stepsOf(double joint) const noexcept;
   const profile::PositionField& field() const noexcept { return words(set_).actual; }
 
   PositionConfig config_;
@@ -96,6 +113,9 @@ class PositionAxis {
   std::uint8_t set_ = 1;     // in force
   std::int64_t target_ = 0;  // steps of the setpoint's field
   bool has_target_ = false;
+  double wanted_ = 0.0;       // the target, before it was rounded to steps
+  std::uint8_t element_ = 0;  // the bits that choose it
+  PathGuard path_;
   bool frozen_ = false;  // the target stands still
 };
 

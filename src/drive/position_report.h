@@ -12,11 +12,12 @@ namespace nord_driver::drive {
 enum class TargetRefusal : std::uint8_t {
   kNone,
   kNotFinite,
-  kNotEnabled,   ///< it is not kept for later: whoever enables does not know what somebody once wanted
-  kHoming,       ///< a reference run is under way
-  kBelowLimit,   ///< of the joint
-  kAboveLimit,   ///< of the joint
-  kBeyondRange,  ///< of the words that carry it, or of the drive
+  kNotEnabled,    ///< it is not kept for later: whoever enables does not know what somebody once wanted
+  kHoming,        ///< a reference run is under way
+  kElementsOnly,  ///< it goes to the elements of its array
+  kBelowLimit,    ///< of the joint
+  kAboveLimit,    ///< of the joint
+  kBeyondRange,   ///< of the words that carry it, or of the drive
 };
 
 struct PositionReport {
@@ -26,6 +27,7 @@ struct PositionReport {
   bool homed = false;              ///< its reference is known, as far as that can be told
   bool homing = false;             ///< a reference run is under way: its bit is high
   TeachBits teach;                 ///< what is high while its position is taught
+  std::uint8_t element = 0;        ///< of its array, the one it is told to go to by bits; 0: none
   bool held_back = false;          ///< the newest position cannot be: the one before is told
   TargetRefusal refused = TargetRefusal::kNone;  ///< of the newest target
   double refused_target = 0.0;                   ///< rad or m

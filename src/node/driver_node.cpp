@@ -1,5 +1,7 @@
 #include "node/driver_node.h"
 
+#include <std_msgs/UInt8.h>
+
 #include <boost/function.hpp>
 #include <cmath>
 #include <utility>
@@ -32,6 +34,7 @@ std::string robotDescription() {
 // Calls that may wait for their drives at the same time: of those that stop, and of the others.
 constexpr int kStopThreads = 8;
 constexpr int kSpinnerThreads = 4;
+constexpr std::uint32_t kIncrementQueue = 100;
 // Jobs that run at the same time; further ones wait.
 constexpr int kJobThreads = 4;
 constexpr int kShutDownAttempts = 50;
@@ -150,12 +153,7 @@ void DriverNode::advertise() {
     fault_publishers_.emplace_back(private_node_, setup.name, faults_[i]);
     values_publishers_.emplace_back(private_node_, setup.name, values_[i]);
     if (cycle_->inBase(i) || cycle_->isLed(i)) continue;
-    const bool positions = setup.position.has_value();
-    boost::function<void(const std_msgs::Float64&)> take = [this, i, positions](const std_msgs::Float64& command) {
-      takeDriveCommand(i, positions, command.data);
-    };
-    const std::string topic = setup.name + (positions ? "/position_command" : "/command");
-    subscribers_.push_back(private_commands_.handle().subscribe<std_msgs::Float64>(topic, 1, take));
+    setup.position ? subscribePosition(i) : subscribeCommand(i);
   }
   word_topics_ = std::make_unique<WordTopics>(private_commands_, config_.cycle, *ports_);
   fault_board_ = std::make_unique<FaultBoard>(names, faults_);
@@ -195,14 +193,37 @@ void DriverNode::takeCommand(const geometry_msgs::Twist& twist) {
   ports_->commandBase(command);
 }
 
-void DriverNode::takeDriveCommand(DriveIndex drive, bool positions, double command) {
-  const bool taken =
-      positions ? ports_->commandPosition(drive, command) : ports_->commandDrive(drive, {command, steadyNow(), true});
+void DriverNode::subscribeCommand(DriveIndex drive) {
+  boost::function<void(const std_msgs::Float64&)> take = [this, drive](const std_msgs::Float64& command) {
+    countBadCommand(drive, "command", ports_->commandDrive(drive, {command.data, steadyNow(), true}));
+  };
+  const std::string topic = config_.cycle.drives[drive].name + "/command";
+  subscribers_.push_back(private_commands_.handle().subscribe<std_msgs::Float64>(topic, 1, take));
+}
+
+// Of targets the newest counts; of increments each.
+void DriverNode::subscribePosition(DriveIndex drive) {
+  ros::NodeHandle& node = private_commands_.handle();
+  const std::string prefix = config_.cycle.drives[drive].name + "/";
+  boost::function<void(const std_msgs::Float64&)> target = [this, drive](const std_msgs::Float64& command) {
+    countBadCommand(drive, "position command", ports_->commandPosition(drive, command.data));
+  };
+  subscribers_.push_back(node.subscribe<std_msgs::Float64>(prefix + "position_command", 1, target));
+  boost::function<void(const std_msgs::Float64&)> increment = [this, drive](const std_msgs::Float64& command) {
+    countBadCommand(drive, "position increment", ports_->commandIncrement(drive, command.data));
+  };
+  subscribers_.push_back(node.subscribe<std_msgs::Float64>(prefix + "position_increment", kIncrementQueue, increment));
+  boost::function<void(const std_msgs::UInt8&)> element = [this, drive](const std_msgs::UInt8& command) {
+    ports_->commandElement(drive, command.data);
+  };
+  subscribers_.push_back(node.subscribe<std_msgs::UInt8>(prefix + "position_element", 1, element));
+}
+
+void DriverNode::countBadCommand(DriveIndex drive, const char* what, bool taken) {
   if (taken) return;
   ++bad_commands_;
-  ROS_WARN_THROTTLE(1.0, "nord_driver: the %s of drive %s is not a number or infinite, ignored (%lu so far)",
-                    positions ? "position command" : "command", config_.cycle.drives[drive].name.c_str(),
-                    static_cast<unsigned long>(bad_commands_));
+  ROS_WARN_THROTTLE(1.0, "nord_driver: the %s of drive %s is not a number, or infinite, ignored (%lu so far)", what,
+                    config_.cycle.drives[drive].name.c_str(), static_cast<unsigned long>(bad_commands_));
 }
 
 void DriverNode::run(const std::atomic<bool>& end_asked) {

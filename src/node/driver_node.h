@@ -59,7 +59,10 @@ class DriverNode {
   void warnOfUnknownKeys() const;
   void advertise();
   void takeCommand(const geometry_msgs::Twist& twist);
-  void takeDriveCommand(DriveIndex drive, bool positions, double command);
+  void subscribeCommand(DriveIndex drive);
+  void subscribePosition(DriveIndex drive);
+  /// `what`: "position command"; `taken`: it is a number.
+  void countBadCommand(DriveIndex drive, const char* what, bool taken);
   /// Whoever publishes commands and has just been connected is listened to before anything is enabled.
   void noteCommanders();
   void tellBusEvents();

@@ -40,6 +40,8 @@ constexpr CycleParameter kParameters[] = {
     {151, kCu4, "Timeout for external bus", 0.001, true, kPlain, 1},  // of the bus module in front of these series
     {480, kSk300 | kSk7, "Function of bus I/O in bits", 1.0, false, kArray, 8},
     {480, kSk5 | kSk54 | kSk12, "Function of bus I/O in bits", 1.0, false, kArray, 12},
+    {481, kSk300 | kSk7, "Function of bus I/O out bits", 1.0, false, kArray, 8},
+    {481, kSk5 | kSk54 | kSk12, "Function of bus I/O out bits", 1.0, false, kArray, 10},
     {507, kSk5 | kSk54 | kSk300 | kSk7, "PPO type", 1.0, false, kPlain, 1},
     {509, kSk5 | kSk54, "Source control word", 1.0, false, kPlain, 1},
     {509, kSk12, "Control word source", 1.0, false, kPlain, 1},

@@ -8,6 +8,12 @@ double stepsPerRevolution(const PositionScale& scale, const PositionField& field
   return scale.steps_per_revolution.value_or(field.steps_per_revolution);
 }
 
+PositionScale arrayScale(const PositionScale& scale) noexcept {
+  PositionScale thousandths = scale;
+  thousandths.steps_per_revolution = double{kArrayField.steps_per_revolution};
+  return thousandths;
+}
+
 double toJoint(std::int64_t steps, const PositionScale& scale, const PositionField& field) noexcept {
   const double revolutions = static_cast<double>(steps) / stepsPerRevolution(scale, field);
   return revolutions / scale.revolutions_per_unit + scale.offset;

@@ -29,6 +29,11 @@ double toJoint(std::int64_t steps, const PositionScale& scale, const PositionFie
 /// The nearest step. None: no number, or beyond what the field and the drive can have.
 std::optional<std::int32_t> toSteps(double joint, const PositionScale& scale, const PositionField& field) noexcept;
 
+/// P613, the array of positions: 32 bits of 0.001 revolutions (BU 0020 7.3.5, 7.5.2).
+constexpr PositionField kArrayField{32, 0, 1, 1000};
+/// Of an element, for toJoint() and toSteps() beside kArrayField: its steps are what they are, whatever the words count.
+PositionScale arrayScale(const PositionScale& scale) noexcept;
+
 /// Whether a position can be a setpoint in this field: of 16 bits -32768 to 32767 steps, of 32 bits +-50 000 revolutions
 /// (BU 0020 7.3.5).
 bool isInRange(std::int64_t steps, const PositionScale& scale, const PositionField& field) noexcept;

@@ -80,9 +80,13 @@ std::string written(const YAML::Node& node) {
   return emitter.c_str();
 }
 
+const char* unitOf(const drive::PositionConfig& axis) {
+  return axis.unit_per_radian == 1.0 ? "rad" : "m";
+}
+
 std::string targetsOf(const drive::PositionConfig& axis) {
   if (!axis.lower && !axis.upper) return "";
-  const std::string unit = axis.unit_per_radian == 1.0 ? " rad" : " m";
+  const std::string unit = std::string(" ") + unitOf(axis);
   std::ostringstream text;
   if (axis.lower && axis.upper) {
     text << *axis.lower << " to " << *axis.upper << unit;
@@ -107,7 +111,14 @@ CheckedDrive driveOf(const node::NodeConfig& config, DriveIndex index, const Dri
   drive.max_velocity = std::abs(profile::toRadPerSec(Hertz{drive.max_frequency}, setup.drive.joint).value);
   drive.limits = setup.limits;
   drive.positions = setup.position.has_value();
-  if (setup.position) drive.targets = targetsOf(setup.position->axis);
+  if (setup.position) {
+    const drive::PositionConfig& axis = setup.position->axis;
+    drive.targets = targetsOf(axis);
+    drive.by_element = axis.by_element;
+    drive.unit = unitOf(axis);
+    drive.lower = axis.lower;
+    drive.upper = axis.upper;
+  }
   return drive;
 }
 

@@ -39,8 +39,11 @@ struct CheckedDrive {
   double max_velocity = 0.0;     ///< rad/s at the joint, at 100 %
   robot::SpeedLimits limits;
   bool of_base = false;
-  bool positions = false;  ///< mode: position
-  std::string targets;     ///< "0 to 2.5 m", of one that positions; empty: no target is refused for a limit
+  bool positions = false;              ///< mode: position
+  bool by_element = false;             ///< position/targets: array
+  std::string unit;                    ///< "rad" or "m", of one that positions
+  std::optional<double> lower, upper;  ///< of its targets
+  std::string targets;                 ///< "0 to 2.5 m", of one that positions; empty: no target is refused for a limit
 };
 
 /// A station, node or module of the bus, with the drives behind it.

@@ -39,6 +39,13 @@ void write(JsonText& json, const CheckedDrive& drive) {
   json.key("inverted").boolean(drive.inverted).key("of_base").boolean(drive.of_base);
   json.key("max_frequency").number(drive.max_frequency).key("max_frequency_typed").boolean(drive.frequency_typed);
   json.key("max_velocity").number(drive.max_velocity);
+  json.key("mode").text(drive.positions ? "position" : "velocity");
+  if (drive.positions) {
+    json.key("targets").begin('{').key("by").text(drive.by_element ? "array" : "words").key("unit").text(drive.unit);
+    if (drive.lower) json.key("lower").number(*drive.lower);
+    if (drive.upper) json.key("upper").number(*drive.upper);
+    json.end('}');
+  }
   writeLimits(json, "limits", drive.limits);
   json.end('}');
 }

@@ -138,6 +138,23 @@ TEST_F(PositionConfiguration, NamesTheBitsOfAReferenceRun) {
   EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/referenced"));
 }
 
+TEST_F(PositionConfiguration, NamesTheElementThatShowsTheReference) {
+  const auto element = [&](const char* source) {
+    drive_->set("position/referenced", source);
+    return int{referencedElement(setup(), read().drives[0].series)};
+  };
+  EXPECT_EQ(0, referencedElement(setup(), Series::kSk5xxe));
+  EXPECT_EQ(9, element("status_bit_10"));
+  EXPECT_EQ(10, element("status_bit_13"));
+  EXPECT_EQ(6, element("bus_out_bit_5"));
+  EXPECT_EQ(20, setup().referenced_function);
+  drive_->set("position/referenced_function", test::MapSettings::Value{0});
+  EXPECT_EQ(0, element("bus_out_bit_5")) << "it is not looked at";
+  drive_->set("position/referenced_function", 7).set("series", "sk700e");
+  EXPECT_EQ(0, element("status_bit_13")) << "MFR 4, whatever P481 says";
+  EXPECT_EQ(6, element("bus_out_bit_5"));
+}
+
 TEST_F(PositionConfiguration, NamesTheBitsThatTeachAPosition) {
   EXPECT_FALSE(setup().teach);
   drive_->set("position/teach_in", "bus_in_bit_0");
@@ -170,17 +187,99 @@ TEST_F(PositionConfiguration, HasThePosiconBitsTogether) {
   EXPECT_EQ(63, teach.element);
 }
 
+// --- the elements of the array as targets -----------------------------------------------------------------------------
+
+TEST_F(PositionConfiguration, GoesToElementsByTheirBits) {
+  EXPECT_FALSE(setup().axis.by_element);
+  EXPECT_EQ(63, setup().elements);
+  EXPECT_NEAR(0.25 / 20.0 * 2.0 * 3.14159265358979, setup().axis.stray, 1e-12) << "a quarter of a revolution";
+  drive_->set("position/targets", "array");
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/array_bit is missing"));
+  drive_->set("position/array_bit", "bus_in_bit_4");
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/setpoint_mode is missing"));
+  drive_->set("position/setpoint_mode", 1);
+  EXPECT_TRUE(setup().axis.by_element);
+  EXPECT_EQ(15, setup().elements) << "as many as four bits have";
+  drive_->set("position/elements", 16);
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/elements"));
+  drive_->set("position/elements", 5).set("position/home", "bus_in_bit_6");
+  EXPECT_THAT(refusal(), HasSubstr("the bit of position/home")) << "5 has bit 2";
+  drive_->set("position/elements", 3);
+  EXPECT_EQ("taken", refusal());
+  drive_->set("position/home", "bus_in_bit_0").set("position/array_bit", "control_bit_8").set("position/elements", 3);
+  EXPECT_EQ("taken", refusal());
+  drive_->set("position/targets", "both");
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/targets"));
+}
+
+// A lamp on the bit of a reference run would begin one.
+TEST_F(PositionConfiguration, KeepsItsBitsFromSignals) {
+  drive_->set("position/home", "bus_in_bit_3").set("position/teach_in", "bus_in_bit_0");
+  drive_->set("position/quit_teach_in", "control_bit_9");
+  const auto with = [&](const char* source) {
+    drive_->set("signals/lamp/source", source);
+    return refusal();
+  };
+  EXPECT_EQ("taken", with("bus_in_bit_4"));
+  EXPECT_EQ("taken", with("control_bit_8"));
+  EXPECT_THAT(with("bus_in_bit_3"), HasSubstr("~drives/lift/signals/lamp/source"));
+  EXPECT_THAT(with("bus_in_bit_3"), HasSubstr("another bit: it is one of position/home"));
+  EXPECT_THAT(with("bus_in_bit_0"), HasSubstr("position/teach_in"));
+  EXPECT_THAT(with("control_bit_9"), HasSubstr("position/quit_teach_in"));
+  drive_->set("position/array_bit", "bus_in_bit_4").set("position/targets", "array").set("position/setpoint_mode", 1);
+  EXPECT_THAT(with("bus_in_bit_7"), HasSubstr("position/array_bit"));
+  drive_->set("position/elements", 7);
+  EXPECT_EQ("taken", with("bus_in_bit_7"));
+}
+
 // --- which word is missing -------------------------------------------------------------------------------------------
 
-std::string missing(Series series, const WordFunctions& functions, std::uint8_t bits = 32, std::size_t carried = 3) {
-  PositionSetup setup;
-  setup.bits = bits;
+std::string missing(Series series, const WordFunctions& functions, const PositionSetup& setup,
+                    std::size_t carried = 3) {
   WordNeeds needs;
   needs.words = carried;
   addPositionNeeds(setup, series, needs);
   const auto word = missingWord(needs, functions, series);
   if (!word) return "none";
   return std::to_string(word->number) + "[" + std::to_string(word->index) + "] -> " + std::to_string(word->expected);
+}
+
+std::string missing(Series series, const WordFunctions& functions, std::uint8_t bits = 32, std::size_t carried = 3) {
+  PositionSetup setup;
+  setup.bits = bits;
+  return missing(series, functions, setup, carried);
+}
+
+// A word for the bits, and no place for the frequency: the first word is no longer it, instead of a half of the position.
+TEST(PositionNeeds, LeaveRoomForTheBits) {
+  PositionSetup setup;
+  setup.home = PositionBit{PositionBit::Carrier::kBusBit, 0, 22};
+  WordFunctions functions{{1, 21, 22}, {1, 10, 15}};
+  EXPECT_EQ("547[1] -> 17", missing(Series::kSk5xxe, functions, setup));
+  functions.setpoints = {1, 17, 22};
+  EXPECT_EQ("546[1] -> 21", missing(Series::kSk5xxe, functions, setup));
+  functions.setpoints = {21, 17, 22};
+  EXPECT_EQ("none", missing(Series::kSk5xxe, functions, setup));
+  functions.actual_values = {10, 15, 0};
+  EXPECT_EQ("none", missing(Series::kSk5xxe, functions, setup));
+  WordNeeds needs;
+  needs.words = 3;
+  addPositionNeeds(setup, Series::kSk5xxe, needs);
+  EXPECT_TRUE(firstWordFits(needs, false, 17, Series::kSk5xxe));
+  EXPECT_FALSE(firstWordFits(needs, true, 12, Series::kSk5xxe)) << "of the actual values it is the frequency";
+}
+
+TEST(PositionNeeds, WithElementsNeedNoTargetInWords) {
+  PositionSetup setup;
+  setup.axis.by_element = true;
+  setup.array = PositionBit{PositionBit::Carrier::kBusBit, 4, 55};
+  EXPECT_EQ("none", missing(Series::kSk5xxe, {{1, 17, 0}, {1, 10, 15}}, setup));
+  EXPECT_EQ("547[1] -> 17", missing(Series::kSk5xxe, {{1, 0, 0}, {1, 10, 15}}, setup));
+  EXPECT_EQ("543[3] -> 15", missing(Series::kSk2xxe, {{1, 20, 0}, {1, 10, 9}}, setup));
+  setup.array = PositionBit{PositionBit::Carrier::kPosicon, 0, 55};
+  EXPECT_EQ("none", missing(Series::kSk700e, {{3, 12, 0}, {6, 0, 0}}, setup));
+  setup.bits = 16;
+  EXPECT_EQ("none", missing(Series::kSk700e, {{4, 1, 0}, {6, 0, 0}}, setup));
 }
 
 TEST(PositionNeeds, NameTheParameterAndItsValue) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <nord_driver/ReadParameter.h>
 #include <std_msgs/Float64.h>
+#include <std_msgs/UInt8.h>
 #include <std_srvs/SetBool.h>
 
 #include <cmath>
@@ -147,6 +148,32 @@ TEST_F(Lift, IsTaughtItsPosition) {
   ASSERT_TRUE(callService("nord_driver/left/read_parameter", read).success);
   EXPECT_NEAR(position() * 1000.0, read.response.raw, 2.0) << "0.001 revolutions";
   EXPECT_THAT(answer.message, HasSubstr("P613[-01] is 20.0"));
+}
+
+TEST_F(Lift, GoesOnwardAndToAnElement) {
+  auto onward = node_.advertise<std_msgs::Float64>("/nord_driver/left/position_increment", 1);
+  auto element = node_.advertise<std_msgs::UInt8>("/nord_driver/left/position_element", 1);
+  ASSERT_TRUE(eventually([&] { return onward.getNumSubscribers() > 0 && element.getNumSubscribers() > 0; }));
+  const auto arrives = [](double height) {
+    return robot().left.status.waitNext([height](const DriveStatus& told) {
+      return told.position_reached && std::fabs(told.position - height) < 2 * kStep;
+    }) != nullptr;
+  };
+  ASSERT_TRUE(isEnabled());
+  goTo(0.1);
+  ASSERT_TRUE(arrives(0.1));
+  std_msgs::Float64 increment;
+  increment.data = 0.25;
+  onward.publish(increment);
+  EXPECT_TRUE(arrives(0.35));
+  ReadParameter read;
+  read.request.number = 613;
+  read.request.index = 1;
+  ASSERT_TRUE(callService("nord_driver/left/read_parameter", read).success);
+  std_msgs::UInt8 first;
+  first.data = 1;
+  element.publish(first);
+  EXPECT_TRUE(arrives(read.response.raw / 1000.0 / kRevolutionsPerMetre)) << read.response.raw;
 }
 
 TEST_F(Lift, Homes) {

@@ -14,8 +14,18 @@
 #include "sim/inverter/posicon.h"
 #include "support/map_settings.h"
 #include "system/every_robot.h"
+#include "system/interbus_robot.h"
 
 namespace nord_driver::test {
+
+/// Positions go over every bus; over InterBus with Compact PCP, which tells what the words mean.
+using EveryLift = ::testing::Types<SimulatedRobot, CanRobot, DevicenetRobot, InterbusRobot>;
+struct LiftBusName {
+  template <typename Robot>
+  static std::string GetName(int index) {
+    return std::is_same_v<Robot, InterbusRobot> ? "Interbus" : BusName::GetName<Robot>(index);
+  }
+};
 
 /// The functions of the words, as P546 to P548 and P543 to P545 have them.
 struct LiftWords {
@@ -78,6 +88,9 @@ typename Robot::Options liftOptions(const LiftWords& words, double position = 0.
   } else if constexpr (std::is_same_v<Robot, DevicenetRobot>) {
     options.assembly = 101;
     options.on_inverter = words.simulated != sim::Series::kSk2xxe;
+  } else if constexpr (std::is_same_v<Robot, InterbusRobot>) {
+    options.ppo_type = 2;
+    options.pcp = true;
   } else {
     options.drives["process_values"] = 3;
   }

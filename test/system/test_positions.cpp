@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <functional>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -28,6 +27,10 @@ struct BusWords<CanRobot> {
   static constexpr LiftWords kWords = kSk53x;
 };
 template <>
+struct BusWords<InterbusRobot> {
+  static constexpr LiftWords kWords = kSk53x;
+};
+template <>
 struct BusWords<DevicenetRobot> {
   static constexpr LiftWords kWords = kSk2xx;
 };
@@ -39,7 +42,7 @@ class Positions : public ::testing::Test {
     return liftOptions<Robot>(BusWords<Robot>::kWords, position);
   }
 };
-TYPED_TEST_SUITE(Positions, EveryRobot, BusName);
+TYPED_TEST_SUITE(Positions, EveryLift, LiftBusName);
 
 /// Without a step, so that each can be looked at.
 template <typename Robot>
@@ -221,6 +224,24 @@ TYPED_TEST(Positions, AReferenceRunIsAskedForAgainAndAnswered) {
   EXPECT_TRUE(robot.snapshot().drives[0].homed);
 }
 
+// The bit of the status word would tell something else, and the run never end by it.
+TYPED_TEST(Positions, AReferenceRunIsRefusedWhereNobodyTellsItsEnd) {
+  auto options = homingOptions<TypeParam>(BusWords<TypeParam>::kWords);
+  const auto simulate = options.simulate;
+  options.simulate = [simulate](sim::SimConfig& config) {
+    simulate(config);
+    for (sim::DriveConfig& drive : config.drives) drive.parameters.push_back({481, 0, 8, 9});
+  };
+  TypeParam robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  const cycle::Completion answer = home(robot);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.str(), HasSubstr("P481[-09] is 9; set it to 20 (reference known), or "
+                                              "position/referenced_function"));
+  EXPECT_FALSE(robot.snapshot().drives[0].homed);
+  EXPECT_TRUE(staysWhereItIs(robot, std::chrono::seconds{1}));
+}
+
 // The switch never comes.
 TYPED_TEST(Positions, AReferenceRunThatDoesNotEndIsStopped) {
   auto options = homingOptions<TypeParam>(BusWords<TypeParam>::kWords);
@@ -323,53 +344,6 @@ TYPED_TEST(Positions, TornWordsMakeNoJump) {
     before = now;
   }
   EXPECT_NEAR(2.0, heightOf(robot), 1e-4);
-}
-
-// --- PROFIBUS: every layout ------------------------------------------------------------------------------------------
-
-constexpr LiftWords kLayouts[] = {
-    kSk53x,
-    {"SK 53xE, 23 and 24", "sk5xxe", sim::Series::kSk5xxe, {1, 23, 24}, {1, 10, 15}, 32},
-    {"SK 53xE, high before low", "sk5xxe", sim::Series::kSk5xxe, {1, 22, 21}, {1, 15, 10}, 32},
-    {"SK 53xE, in words 1 and 2", "sk5xxe", sim::Series::kSk5xxe, {21, 22, 0}, {10, 15, 1}, 32},
-    {"SK 53xE, in words 3 and 1", "sk5xxe", sim::Series::kSk5xxe, {22, 1, 21}, {15, 1, 10}, 32},
-    {"SK 54xE", "sk54xe", sim::Series::kSk54xe, {1, 21, 22}, {1, 15, 10}, 32},
-    kSk700,
-    {"SK 750E without a speed", "sk750e", sim::Series::kSk750e, {3, 0, 0}, {6, 0, 0}, 32},
-    {"SK 700E, increments", "sk700e", sim::Series::kSk700e, {6, 1, 0}, {10, 1, 0}, 32},
-    {"SK 53xE, 16 bits", "sk5xxe", sim::Series::kSk5xxe, {1, 21, 0}, {1, 10, 0}, 16},
-    {"SK 700E, 16 bits", "sk700e", sim::Series::kSk700e, {2, 1, 0}, {6, 1, 0}, 16},
-};
-
-TEST(PositionLayouts, EveryTargetArrivesWithinAThousandthOfARevolution) {
-  for (const LiftWords& words : kLayouts) {
-    for (const unsigned seed : {1u, 2u}) {
-      SCOPED_TRACE(std::string(words.name) + ", seed " + std::to_string(seed));
-      auto options = liftOptions<SimulatedRobot>(words, 3.0);
-      options.simulate = [&words](sim::SimConfig& config) {
-        simulateLift(words, 3.0, config);
-        const bool with_speed = words.setpoints[0] == 1 || words.setpoints[1] == 1;
-        for (sim::DriveConfig& drive : config.drives) {
-          for (auto& preset : drive.parameters) preset.raw = preset.number == 600 && !with_speed ? 1 : preset.raw;
-        }
-      };
-      SimulatedRobot robot{options};
-      ASSERT_TRUE(robot.bringUp());
-      const cycle::Completion enabled = robot.ask(RequestKind::kEnable);
-      ASSERT_TRUE(enabled.success) << enabled.message.c_str();
-      ASSERT_TRUE(staysWhereItIs(robot, std::chrono::seconds{1}));
-      std::mt19937 random{seed};
-      const double most = words.bits == 16 ? 0.3276 : 2.0;  // m
-      std::uniform_real_distribution<double> heights{-most, most};
-      for (int i = 0; i < 3; ++i) {
-        const double height = heights(random);
-        ASSERT_TRUE(goTo(robot, height)) << height << ", at " << heightOf(robot);
-        robot.run(std::chrono::milliseconds{500});
-        EXPECT_NEAR(height * kRevolutionsPerMetre, robot.unit(0).inverter().posicon().position(), 0.0015);
-        EXPECT_NEAR(heightOf(robot), robot.snapshot().drives[0].position.value_or(9.0), 1e-5);
-      }
-    }
-  }
 }
 
 }  // namespace

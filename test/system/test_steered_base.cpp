@@ -174,6 +174,32 @@ TEST_F(SteeredBase, TellsTheAnglesOfItsJoints) {
   EXPECT_NEAR(robot_.angle(kRearSteering), robot_.drive(kRearSteering).joint_position, 0.005);
 }
 
+// Motors that hardly slip: what is left between the truth and odometry is how it adds up speeds and angles. With a slip of
+// 2 Hz at rated torque it is 2 cm, for P543 = 1 is the output frequency, without slip.
+TEST(SteeredBaseWithoutSlip, KnowsWhereItIsAfterACircle) {
+  SteeredRobot::Options options;
+  options.slip = 0.001;
+  SteeredRobot robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  double turned = 0.0, last = 0.0;
+  for (int i = 0; i < 6000 && turned < 2.0 * kPi - 0.003; ++i) {
+    const double part = std::max(0.05, std::min(1.0, 1.5 * (2.0 * kPi - turned)));
+    robot.say(0.3 * part, 0.3 * part, 0.0);
+    robot.step();
+    const double now = robot.snapshot().base.pose.heading;
+    turned += std::remainder(now - last, 2.0 * kPi);
+    last = now;
+  }
+  for (int i = 0; i < 300; ++i) {
+    robot.say(0.0, 0.0, 0.0);
+    robot.step();
+  }
+  const robot::Pose2d& told = robot.snapshot().base.pose;
+  const sim::Pose& is = robot.body().pose();
+  EXPECT_LT(std::hypot(told.x - is.x, told.y - is.y), 0.001);
+  EXPECT_NEAR(0.0, std::remainder(told.heading - is.theta, 2.0 * kPi), 0.001);
+}
+
 // A narrow range: the curve is widened, turning on the spot is not driven, and both are said.
 TEST(SteeredBaseInANarrowRange, WidensTheCurveAndSaysSo) {
   SteeredRobot::Options options;

@@ -185,10 +185,28 @@ TEST_F(CheckConfig, TellsProgramsTheSameAsJson) {
   EXPECT_EQ("belt", belt["name"].as<std::string>());
   EXPECT_NEAR(7.854, belt["max_velocity"].as<double>(), 1e-3);
   EXPECT_EQ(-6.0, belt["limits"]["min_velocity"].as<double>());
+  EXPECT_EQ("velocity", belt["mode"].as<std::string>());
+  EXPECT_FALSE(belt["targets"]);
   EXPECT_FALSE(json["base"]);
   const Ended refused = checkText("drives: {}\n", {"--json"});
   EXPECT_EQ(1, refused.code);
   EXPECT_FALSE(YAML::Load(refused.output)["accepted"].as<bool>());
+}
+
+TEST_F(CheckConfig, TellsProgramsTheTargetsOfADriveThatPositions) {
+  const Ended ended = checkText(
+      "bus: {device: /dev/ttyUSB0}\n"
+      "drives:\n"
+      "  lift: {address: 3, series: sk5xxe, ppo_type: 2, joint: lift_joint, pole_pairs: 2, mode: position, lead: 0.2,\n"
+      "         position: {lower: -0.5}}\n",
+      {"--json"});
+  EXPECT_EQ(0, ended.code) << ended.errors;
+  const YAML::Node lift = YAML::Load(ended.output)["modules"][0]["drives"][0];
+  EXPECT_EQ("position", lift["mode"].as<std::string>());
+  EXPECT_EQ("words", lift["targets"]["by"].as<std::string>());
+  EXPECT_EQ("m", lift["targets"]["unit"].as<std::string>());
+  EXPECT_EQ(-0.5, lift["targets"]["lower"].as<double>());
+  EXPECT_FALSE(lift["targets"]["upper"]) << "none";
 }
 
 TEST_F(CheckConfig, AFileThatIsNoneIsWrongUsageAndOneThatIsNoYamlRefused) {
