@@ -20,7 +20,6 @@ constexpr Duration kOnlyAsked = std::chrono::seconds{15};
 
 /// Bounds the end of a driver whose node does not answer.
 constexpr Duration kLongestRelease = std::chrono::seconds{1};
-
 constexpr std::uint16_t kErrorRegisterIndex = 0x1001;
 constexpr std::uint16_t kErrorFieldIndex = 0x1003;
 
@@ -157,10 +156,8 @@ void NodeBoot::handleState(NmtState state, Instant now) noexcept {
     leave(why, now);
     ask(now);
     leadBack();
-  } else if (isIn<Silent>()) {
-    ask(now);
-    leadBack();
-  } else if (isIn<Script>()) {
+  } else if (isIn<Silent>() || isIn<Script>()) {
+    if (isIn<Silent>()) ask(now);
     leadBack();
   }
 }
@@ -212,8 +209,7 @@ void NodeBoot::leadBack() noexcept {
   if (report_.status().nmt == NmtState::kStopped && !command_) command_ = NmtCommand::kEnterPreOperational;
 }
 
-// It may have been stopped by somebody while it was not heard, or before we came: it answers no SDO then. Whom we never
-// started is led back at once.
+// Stopped by somebody unheard, or before we came, it answers no SDO. Whom we never started is led back at once.
 void NodeBoot::askAgain(Instant now) noexcept {
   const bool take_back = isIn<Silent>() && now - past_.lost_at >= kOnlyAsked;
   guard_question_ = isIn<Silent>() && config_.error_control.mode == ErrorControlMode::kGuarding;

@@ -9,7 +9,7 @@ namespace nord_driver::test {
 namespace {
 
 constexpr double kRounding = 0.1;         // Hz: a setpoint is a share of 16384, DeviceNet's of 1500 rpm or 0.1 Hz
-constexpr double kAtRest = 0.05;          // Hz
+constexpr double kAtRest = kRounding;     // nobody can tell less from nothing
 constexpr std::size_t kRemembered = 600;  // changes, one in a cycle at most: longer than any reaction
 
 bool turnsByTerminals(const DriveTruth& drive) {
@@ -50,13 +50,14 @@ std::optional<std::string> TurnsOnlyAsCommanded::look(const Moment& moment) {
         out << "drive " << i << ": " << drive.frequency << " Hz, no more than " << track.bound << " Hz is commanded";
         return out.str();
       }
-      if (allowed > 0.0 || speed < kAtRest) {
-        if (track.ended && speed < kAtRest && allowed == 0.0 && track.stop_bound > 0.0) {
+      const bool by_terminals = turnsByTerminals(drive);  // that is no stop of ours
+      if (allowed > 0.0 || speed < kAtRest || by_terminals) {
+        if (track.ended && speed < kAtRest && allowed == 0.0 && !by_terminals && track.stop_bound > 0.0) {
           const Stop stop{toSeconds(moment.now - *track.ended), track.stop_bound};
           if (worst_.bound == 0.0 || stop.took * worst_.bound > worst_.took * stop.bound) worst_ = stop;
         }
         track.ended.reset();
-      } else if (track.ended || !turnsByTerminals(drive)) {
+      } else {
         if (!track.ended) track.stop_bound = 0.0;
         if (!track.ended) track.ended = moment.now;
         // What happens meanwhile may prolong it. It is looked at once in a cycle.
