@@ -47,6 +47,8 @@ elif $sanitize; then
   options+=(-DCMAKE_BUILD_TYPE=Debug -DNORD_DRIVER_SANITIZE=ON)
 fi
 export CTEST_OUTPUT_ON_FAILURE=1
+# Sanitizers take several times as long: a fifth of the campaign's scenarios.
+if $sanitize; then export NORD_CAMPAIGN_SCENARIOS=${NORD_CAMPAIGN_SCENARIOS:-400}; fi
 # Nothing of a test leaves the build folder or this machine.
 export ROS_HOME=$out/ros_home ROS_LOG_DIR=$out/ros_home/log ROS_HOSTNAME=localhost
 export LSAN_OPTIONS=${LSAN_OPTIONS:-suppressions=$root/scripts/lsan_suppressions.txt:print_suppressions=0}

@@ -20,7 +20,6 @@ constexpr Duration kOnlyAsked = std::chrono::seconds{15};
 
 /// Bounds the end of a driver whose node does not answer.
 constexpr Duration kLongestRelease = std::chrono::seconds{1};
-
 constexpr std::uint16_t kErrorRegisterIndex = 0x1001;
 constexpr std::uint16_t kErrorFieldIndex = 0x1003;
 
@@ -157,8 +156,8 @@ void NodeBoot::handleState(NmtState state, Instant now) noexcept {
     leave(why, now);
     ask(now);
     leadBack();
-  } else if (isIn<Silent>()) {
-    ask(now);
+  } else if (isIn<Silent>() || isIn<Script>()) {
+    if (isIn<Silent>()) ask(now);
     leadBack();
   }
 }
@@ -210,9 +209,10 @@ void NodeBoot::leadBack() noexcept {
   if (report_.status().nmt == NmtState::kStopped && !command_) command_ = NmtCommand::kEnterPreOperational;
 }
 
-// It may have been stopped by somebody while it was not heard: it answers no SDO then, and nobody asks for its state.
+// Stopped by somebody unheard, or before we came, it answers no SDO. Whom we never started is led back at once.
 void NodeBoot::askAgain(Instant now) noexcept {
-  const bool take_back = isIn<Silent>() && past_.was_operational && now - past_.lost_at >= kOnlyAsked;
+  const bool take_back = isIn<Silent>() && now - past_.lost_at >= kOnlyAsked;
+  guard_question_ = isIn<Silent>() && config_.error_control.mode == ErrorControlMode::kGuarding;
   if (take_back) past_.lost_at = now;  // again after as long
   if (take_back && config_.reset != BootReset::kNone) return reset(now);
   ask(now);
@@ -387,6 +387,7 @@ void NodeBoot::refuseStart(const Diagnose& diagnose, Instant now) noexcept {
 
 void NodeBoot::refuse(const Sentence& why, Instant now) noexcept {
   port_.cancel(SdoOwner::kBoot, now);
+  past_.fresh = false;  // somebody may have started it meanwhile, which may be why
   ++report_.status().counters.refusals;
   const NodeStatus& status = report_.status();
   const bool told = status.state == NodeState::kRefused && std::strcmp(status.reason.c_str(), why.c_str()) == 0;

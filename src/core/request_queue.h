@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "nord_driver/core/fixed_vector.h"
@@ -28,6 +29,13 @@ class RequestQueue {
   const Request& front() const noexcept { return waiting_[0]; }
   /// The one at this place, 0 is the running one; nullptr: nobody is there.
   const Request* at(std::size_t place) const noexcept { return place < waiting_.size() ? &waiting_[place] : nullptr; }
+  /// The one with this id, running or waiting; nullptr: there is none.
+  Request* find(std::uint32_t id) noexcept {
+    for (Request& request : waiting_) {
+      if (request.id == id) return &request;
+    }
+    return nullptr;
+  }
   /// Ends the running one: the next one's turn. Not to be called when empty.
   void finish(Result result) noexcept {
     result.id = waiting_[0].id;

@@ -155,7 +155,7 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
 void BusCycle::accessParameter(const Request& request, Instant now) noexcept {
   DriveParameters& parameters = axes_[request.drive].parameters;
   if (!decidesMotion(request) || isAtRest(request.drive)) {
-    parameters.handleRequest(request, drives_[request.drive]);
+    parameters.handleRequest(request, drives_[request.drive], now);
     return submitParameters(request.drive, now);  // it leaves with this cycle's exchange
   }
   Completion refused = answerTo(request, false, parameters.notWhileEnabled(request));
@@ -256,6 +256,7 @@ void BusCycle::runParameters(Instant now) noexcept {
   // What follows an answer leaves with the next exchange, not with the one after it.
   if (answered) submitAllParameters(now);
   for (Axis& axis : axes_) {
+    axis.parameters.endOverdue(now);
     while (const auto completion = axis.parameters.pollCompletion()) ports_.complete(*completion);
   }
 }

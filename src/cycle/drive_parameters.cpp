@@ -5,6 +5,7 @@
 
 #include "cycle/leaders.h"
 #include "cycle/user_messages.h"
+#include "drive/parameter_notes.h"
 #include "profile/cycle_parameters.h"
 
 namespace nord_driver::cycle {
@@ -206,8 +207,8 @@ Sentence DriveParameters::notWhileEnabled(const Request& request) const noexcept
 }
 
 bool DriveParameters::writesProcessData() const noexcept {
-  for (const Request& request : pending_) {
-    if (changesProcessData(request)) return true;
+  for (const Pending& pending : pending_) {
+    if (changesProcessData(pending.request)) return true;
   }
   return false;
 }
@@ -219,7 +220,7 @@ void DriveParameters::readDeviceAgain() noexcept {
   scale_due_ = false;
 }
 
-void DriveParameters::handleRequest(const Request& request, drive::Drive& drive) noexcept {
+void DriveParameters::handleRequest(const Request& request, drive::Drive& drive, Instant now) noexcept {
   const drive::DriveReport& report = drive.report();
   if (!report.online) return refuse(request, profile::ParameterOutcome::kOffline);
   profile::ParameterRequest access = request.parameter;
@@ -227,7 +228,10 @@ void DriveParameters::handleRequest(const Request& request, drive::Drive& drive)
   if (request.kind == RequestKind::kReadParameter) access.action = profile::ParameterAction::kRead;
   if (access.parameter_set == 0) access.parameter_set = report.parameter_set;
   if (pending_.full() || !session_.submit(access)) return refuse(request, profile::ParameterOutcome::kBusy);
-  pending_.push_back(request);
+  Pending pending;
+  pending.request = request;
+  if (request.patience > Duration::zero()) pending.until = now + request.patience;
+  pending_.push_back(pending);
   if (changesProcessData(request)) forgetScale(drive);
 }
 
@@ -235,6 +239,24 @@ void DriveParameters::handleRequest(const Request& request, drive::Drive& drive)
 void DriveParameters::askElement(std::uint8_t element) noexcept {
   open_ids_[static_cast<std::size_t>(Asker::kElement)] = 0;
   elements_.ask(element);
+}
+
+// Told that it failed, its asker must not see it succeed later: what has not begun to be written is not.
+void DriveParameters::endOverdue(Instant now) noexcept {
+  for (Pending& pending : pending_) {
+    if (!pending.until || now < *pending.until) continue;
+    pending.until.reset();
+    pending.answered = true;
+    const bool write = pending.request.kind == RequestKind::kWriteParameter;
+    const bool withdrawn = session_.withdraw(pending.request.id);
+    profile::ParameterResult overdue;
+    overdue.id = pending.request.id;
+    overdue.outcome = profile::ParameterOutcome::kTimeout;
+    overdue.text = "in the time it was given";
+    overdue.eeprom_written = !withdrawn;
+    if (write) overdue.note = withdrawn ? drive::kWithdrawn : drive::kWriteUnanswered;
+    answer(pending.request, overdue);
+  }
 }
 
 void DriveParameters::refuse(const Request& request, profile::ParameterOutcome outcome) noexcept {
@@ -351,10 +373,10 @@ void DriveParameters::answer(const Request& request, const profile::ParameterRes
 void DriveParameters::collect() noexcept {
   while (const auto result = session_.pollResult()) {
     for (std::size_t i = 0; i < pending_.size(); ++i) {
-      if (pending_[i].id != result->id) continue;
-      answer(pending_[i], *result);
+      if (pending_[i].request.id != result->id) continue;
+      if (!pending_[i].answered) answer(pending_[i].request, *result);
       // Whatever became of it: a write without an answer may have been carried out.
-      if (changesProcessData(pending_[i])) readDeviceAgain();
+      if (changesProcessData(pending_[i].request)) readDeviceAgain();
       for (std::size_t j = i + 1; j < pending_.size(); ++j) pending_[j - 1] = pending_[j];
       pending_.resize(pending_.size() - 1);
       break;

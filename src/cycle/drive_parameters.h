@@ -44,7 +44,7 @@ struct ParameterChannelUse {
 };
 
 /// Each cycle, after the exchange: `handleState`, then `pollRequest` until it is empty, then the transport's results by
-/// `handleResult`, and `pollRequest` again when there were any; then `pollCompletion`. Each asker has one question under
+/// `handleResult`, and `pollRequest` again when there were any; then `endOverdue` and `pollCompletion`. Each asker has one question under
 /// way at most, users several (ParameterSession); a result is given only to the one whose latest question it answers.
 /// What is only looked at is asked for while no other question is under way.
 class DriveParameters {
@@ -56,10 +56,13 @@ class DriveParameters {
   void handleState(drive::Drive& drive, Instant now) noexcept;
   /// Why a write that `decidesMotion` is not carried out now.
   Sentence notWhileEnabled(const Request& request) const noexcept;
-  /// kReadParameter and kWriteParameter; the answer comes as a completion. A write that changes what the process data
+  /// kReadParameter and kWriteParameter; the answer comes as a completion, when the patience of its asker ends at the
+  /// latest (`endOverdue`); a request without one (0, of a caller that limits the time itself) waits for the inverter. A write that changes what the process data
   /// mean (`changesProcessData`) takes P105 from the drive until all of them have been read again: it is not enabled
   /// before.
-  void handleRequest(const Request& request, drive::Drive& drive) noexcept;
+  void handleRequest(const Request& request, drive::Drive& drive, Instant now) noexcept;
+  /// Answers whoever waits no longer: what was not begun by then is not written.
+  void endOverdue(Instant now) noexcept;
 
   /// The next access for the transport, with its id.
   std::optional<profile::ParameterRequest> pollRequest(Instant now) noexcept;
@@ -125,7 +128,12 @@ class DriveParameters {
   bool bus_control_ = true;               // status bit 9, as seen last
   std::optional<Instant> held_since_;     // idle, and not ready to switch on
   std::optional<Instant> missing_since_;  // one that decides motion was asked for in vain
-  FixedVector<Request, drive::ParameterSession::kCapacity> pending_;
+  struct Pending {
+    Request request;
+    std::optional<Instant> until;  // the end of its asker's patience; none: answered then, or without a limit
+    bool answered = false;         // it was overdue
+  };
+  FixedVector<Pending, drive::ParameterSession::kCapacity> pending_;
   CompletionQueue<2 * drive::ParameterSession::kCapacity> completions_;
 };
 

@@ -6,6 +6,7 @@ namespace nord_driver::drive {
 constexpr char kSame[] = "the inverter has this value already: nothing was written";
 constexpr char kNotRead[] = "the present value could not be read, so nothing was written";
 constexpr char kWriteUnanswered[] = "whether the inverter carried the write out is not known";
+constexpr char kWithdrawn[] = "nothing was written, and nothing will be";
 constexpr char kDiffers[] = "the inverter accepted the value, but reads back another one";
 constexpr char kNotReadBack[] = "the inverter accepted the value, but it could not be read back";
 constexpr char kToggled[] =

@@ -39,6 +39,15 @@ class ParameterSession {
 
   /// A user's request, its set 1..4 where it has one. False: full.
   bool submit(const profile::ParameterRequest& request) noexcept;
+  /// Whoever asked waits no longer: what has not begun to be written is read only. False: a write that may have been
+  /// carried out, or will be.
+  bool withdraw(std::uint32_t id) noexcept {
+    profile::ParameterRequest* const request = requests_.find(id);
+    if (request == nullptr || request->action == profile::ParameterAction::kRead) return true;
+    const bool begun = request == &requests_.front() && !run_.recovery && step_ > Step::kReadValue;
+    if (!begun) request->action = profile::ParameterAction::kRead;
+    return !begun;
+  }
   /// The next access, when this lane, below kLanes, is free and something may go out by it; its id is for the caller to
   /// choose.
   std::optional<profile::ParameterRequest> pollRequest(unsigned lane = 0) noexcept;

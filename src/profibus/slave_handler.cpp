@@ -67,7 +67,12 @@ SlaveHandler::Service SlaveHandler::nextService() noexcept {
     case SlavePhase::kBackOff:
       startOver(status_.note);  // the reason stays readable until it is gone
       return Service::kSlaveDiag;
+    // Its watchdog had not run out when it was found again: it is in data exchange with us, and its drive may turn as it
+    // was told last. Set_Prm would start the watchdog anew and clear the outputs, which stops nothing (BU 2700 7.1.1: a
+    // control word without bit 10 is not evaluated); where start-ups are broken off again and again it would turn on for
+    // ever. The next word reaches it at once.
     case SlavePhase::kFirstDiagnosis:
+      return resuming_ ? Service::kDataExchange : Service::kSlaveDiag;
     case SlavePhase::kAwaitReady:
       return Service::kSlaveDiag;
     case SlavePhase::kReadConfiguration:
@@ -145,6 +150,7 @@ bool SlaveHandler::submitRecord(const RecordRequest& request) noexcept {
 }
 
 void SlaveHandler::fallSilent(Instant due, const char* note) noexcept {
+  resuming_ = false;
   diagnosis_due_ = false;
   timers_.stop(Timer::kUndiagnosedLimit);
   status_.phase = SlavePhase::kSilent;
@@ -155,12 +161,21 @@ void SlaveHandler::fallSilent(Instant due, const char* note) noexcept {
 
 // The only way into a start-up: the first request has FCV = 0 and FCB = 1 again.
 void SlaveHandler::startOver(const char* note) noexcept {
+  resuming_ = false;
   frame_count_.reset();
   diagnosis_due_ = false;
   timers_.stop(Timer::kUndiagnosedLimit);
   status_.phase = SlavePhase::kFirstDiagnosis;
   status_.note = note;
   timers_.stop(Timer::kNextRequest);
+}
+
+void SlaveHandler::enterDataExchange(DpEvents& events) noexcept {
+  resuming_ = false;
+  diagnosis_due_ = false;
+  status_.phase = SlavePhase::kDataExchange;
+  status_.note = "";
+  events.push(event(DpEventKind::kDataExchangeEntered, ""));
 }
 
 void SlaveHandler::lose(LossCause cause, const char* text, DpEvents& events) noexcept {

@@ -101,6 +101,7 @@ class SlaveHandler {
 
   void fallSilent(Instant due, const char* note) noexcept;
   void startOver(const char* note) noexcept;
+  void enterDataExchange(DpEvents& events) noexcept;
   void lose(LossCause cause, const char* text, DpEvents& events) noexcept;
   void backOff(const Fault& fault, Instant now, DpEvents& events) noexcept;
   void forgetFaults() noexcept;
@@ -118,6 +119,7 @@ class SlaveHandler {
   std::vector<std::uint8_t> outputs_, inputs_;  // sized once, in the constructor
   Service asked_ = Service::kFdlStatus;
   bool stepped_ = false;        // had its request of this cycle
+  bool resuming_ = false;       // in kFirstDiagnosis: first of all it is asked whether it is in data exchange still
   bool diagnosis_due_ = false;  // in data exchange: DH was seen
   TimerTable<Timer> timers_;
   Instant last_answer_{};     // of whatever kind: its watchdog runs from there at the earliest

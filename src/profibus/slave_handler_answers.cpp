@@ -92,7 +92,7 @@ void SlaveHandler::handleNoOptionalAnswer(Instant now, DpEvents& events) noexcep
   }
 }
 
-void SlaveHandler::onFdlStatus(const FdlAnswer& answer, Instant, DpEvents& events) noexcept {
+void SlaveHandler::onFdlStatus(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
   if (answer.kind != FdlAnswer::Kind::kAcknowledge) return;
   if (answer.station_type != StationType::kSlave) {
     status_.note = texts::kMasterThere;
@@ -103,10 +103,12 @@ void SlaveHandler::onFdlStatus(const FdlAnswer& answer, Instant, DpEvents& event
     events.push(told);
     return;
   }
-  status_.ident.reset();
-  startOver(texts::kStarting);
   if (!told_found_) events.push(event(DpEventKind::kSlaveFound, texts::kStarting));
   told_found_ = true;
+  const bool urgent = isUrgent(now);
+  if (!urgent) status_.ident.reset();
+  startOver(texts::kStarting);
+  resuming_ = urgent;
 }
 
 void SlaveHandler::onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
@@ -162,6 +164,7 @@ void SlaveHandler::onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents&
 
 void SlaveHandler::onExchange(const FdlAnswer& answer, Instant, DpEvents& events) noexcept {
   if (answer.kind == FdlAnswer::Kind::kRefusal) {
+    if (resuming_) return startOver(texts::kStarting);
     if (answer.code == ResponseCode::kNotActivated) {
       lose(LossCause::kLeftDataExchange, texts::kLeft, events);
       return startOver(texts::kLeft);
@@ -169,6 +172,7 @@ void SlaveHandler::onExchange(const FdlAnswer& answer, Instant, DpEvents& events
     diagnosis_due_ = true;  // no data, no reason: ask for it
     return;
   }
+  if (resuming_) enterDataExchange(events);
   ++status_.counters.exchanges;
   forgetFaults();
   status_.note = status_.diagnosis.staticDiagnosis() ? texts::kNoValidData : "";
@@ -206,13 +210,7 @@ void SlaveHandler::judgeReady(Instant now, DpEvents& events) noexcept {
   const Diagnosis& diagnosis = status_.diagnosis;
   if (const auto fault = faultIn(diagnosis)) return backOff(*fault, now, events);
   const bool ours = !diagnosis.parameterRequest() && diagnosis.owner() == master_;
-  if (ours && !diagnosis.notReady() && !diagnosis.staticDiagnosis()) {
-    status_.phase = SlavePhase::kDataExchange;
-    status_.note = "";
-    diagnosis_due_ = false;
-    events.push(event(DpEventKind::kDataExchangeEntered, ""));
-    return;
-  }
+  if (ours && !diagnosis.notReady() && !diagnosis.staticDiagnosis()) return enterDataExchange(events);
   if (!ours && timers_.isOver(Timer::kOwnerLimit, now)) {
     return backOff({DpEventKind::kNotReady, texts::kForgot}, now, events);
   }

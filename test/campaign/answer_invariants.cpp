@@ -21,19 +21,14 @@ std::string asked(const Call& call) {
 }
 
 constexpr double kAtRest = 0.05;  // Hz
-constexpr Duration kParameterLimit = std::chrono::seconds{10};
 
 }  // namespace
 
 std::optional<std::string> EveryCallAnswered::look(const Moment& moment) {
   if (!moment.driver_ran || !moment.judged) return std::nullopt;
   for (const Call& call : *moment.calls) {
-    // A cycle that began when the patience was over has answered when it ends. Who waits for a parameter is answered by
-    // the RequestBroker then; here the answer comes when the transport has it, which limits the time (Transport::submit).
-    const bool parameter = call.request.kind == cycle::RequestKind::kReadParameter ||
-                           call.request.kind == cycle::RequestKind::kWriteParameter;
-    const Duration limit = call.request.patience + (parameter ? kParameterLimit : Duration::zero());
-    if (call.answered || moment.began <= call.submitted + limit) continue;
+    // A cycle that began when the patience was over has answered when it ends.
+    if (call.answered || moment.began <= call.submitted + call.request.patience) continue;
     return asked(call) + " is not answered " + std::to_string(toSeconds(moment.now - call.submitted)) +
            " s after it was asked, with a patience of " + std::to_string(toSeconds(call.request.patience)) + " s";
   }

@@ -14,6 +14,12 @@ class CanopenRig final : public CampaignRig {
   CanRobot& robot() override { return robot_; }
   sim::SimulatedCanBus& bus() { return robot_.bus(); }
   sim::DriveUnit& unit(DriveIndex drive) override { return robot_.unit(drive); }
+  // A node that somebody resets forgets its life time (CiA 301 7.3.2.2.2), and its RPDOs end: until it has been set up
+  // again nothing but a time-out of its own stops its wheel. doc/safety.md asks for one: P513, behind a gateway P151.
+  void setUp() override {
+    for (std::size_t i = 0; i < robot_.config().drives.size(); ++i) unit(i).parameters().preset(513, 0, 0, 3);
+    if (auto* const module = robot_.node(0).module()) module->parameters().preset(151, 0, 0, 300);
+  }
   std::string referee() override { return robot_.bus().referee().report(); }
   void passWithoutTheDriver(Duration span) override { robot_.bus().run(span); }
   void endLosses() override {
@@ -25,14 +31,32 @@ class CanopenRig final : public CampaignRig {
 
   /// Status words come when they change or with the event timer, 50 ms; two and a half of these.
   Duration silence() const override { return std::chrono::milliseconds{125}; }
-  /// Node guarding, 100 ms times 3.
-  Duration driveSideTimeout() const override { return std::chrono::milliseconds{300}; }
+  /// Node guarding, 100 ms times 3; P513 or P151 as long.
+  Duration driveSideTimeout() const override {
+    return std::chrono::milliseconds{300} +
+           (robot_.transport().now() < unwatched_until_ ? kOneAccess + kKeptFromIt : Duration::zero());
+  }
+  // Told "reset node", a gateway has forgotten its life time, and P151 is "started with the first valid telegram" (BU 0220
+  // 4.2.3.2): nothing but the driver stops what is behind it, when it has set it up again.
+  void nodeReset() {
+    if (robot_.node(0).module() != nullptr)
+      unwatched_until_ = robot_.transport().now() + 2 * (kOneAccess + kKeptFromIt);
+  }
   Duration wireLatency() const override { return std::chrono::milliseconds{10}; }
-  // A node that somebody stops unheard is only asked for 15 s, then reset (NodeBoot): its come-back bounds all others, too.
-  Duration backWithin() const override { return std::chrono::seconds{20}; }
+  // And the life time (300 ms) until a loss is seen, a question that nobody answers with its repetitions, and the longest
+  // pause after a set-up that was refused (NodeBoot, 4 s; after a silence it is 1 s).
+  Duration backWithin() const override {
+    return std::chrono::seconds{2} + std::chrono::milliseconds{300} + kOneAccess + std::chrono::seconds{4};
+  }
 
  private:
-  CanRobot robot_;
+  /// An access of the start-up and its two repetitions without an answer, 300 ms each (bus/sdo_timeout).
+  static constexpr Duration kOneAccess = 3 * std::chrono::milliseconds{300};
+  /// The longest cut of the line and the longest halt of the host there are here.
+  static constexpr Duration kKeptFromIt = std::chrono::milliseconds{1500} + std::chrono::seconds{2};
+
+  mutable CanRobot robot_;
+  Instant unwatched_until_{};
 };
 
 sim::SimulatedCanBus& busOf(CampaignRig& rig) {
@@ -54,6 +78,7 @@ void disturb(CampaignRig& rig, const Event& event) {
 void sayNmt(CampaignRig& rig, const Event& event) {
   constexpr std::uint8_t kCommands[] = {0x01, 0x02, 0x80, 0x81, 0x82};
   const std::uint8_t data[] = {kCommands[event.amount], 0};
+  if (kCommands[event.amount] == 0x81) static_cast<CanopenRig&>(rig).nodeReset();
   busOf(rig).inject(dataFrame(0x000, ByteView{data, 2}));
 }
 
@@ -69,6 +94,7 @@ const std::vector<Act>& canopenActs() {
   using R = CampaignRig;
   using E = Event;
   constexpr Range kOnce{0, 0}, kNone{0, 0}, kCount{1, 8}, kSpan{50, 1500};
+  // A lost PDO is not counted: nobody confirms it (CiA 301 7.2.2), and a status word comes when it changes or with its timer.
   static const std::vector<Act> acts{
       {"lose_answers", 4, "lose_answers", Place::kBus, Cuts::kNothing, kOnce, kCount, kNone,
        [](R& rig, const E& event) { busOf(rig).loseAnswers(static_cast<unsigned>(event.amount)); }, nullptr},

@@ -63,9 +63,9 @@ const std::vector<Act>& devicenetActs() {
   constexpr Range kOnce{0, 0}, kNone{0, 0}, kCount{1, 8}, kSpan{50, 1500};
   static const std::vector<Act> acts{
       {"lose_answers", 4, "lose_answers", Place::kBus, Cuts::kNothing, kOnce, kCount, kNone,
-       [](R& rig, const E& event) { busOf(rig).loseAnswers(static_cast<unsigned>(event.amount)); }, nullptr},
+       [](R& rig, const E& event) { busOf(rig).loseAnswers(static_cast<unsigned>(event.amount)); }, nullptr, true},
       {"lose_requests", 4, "lose_requests", Place::kBus, Cuts::kNothing, kOnce, kCount, kNone,
-       [](R& rig, const E& event) { busOf(rig).loseRequests(static_cast<unsigned>(event.amount)); }, nullptr},
+       [](R& rig, const E& event) { busOf(rig).loseRequests(static_cast<unsigned>(event.amount)); }, nullptr, true},
       {"overflow", 3, "overflow", Place::kBus, Cuts::kNothing, kOnce, kCount, kNone,
        [](R& rig, const E& event) { busOf(rig).overflow(static_cast<unsigned>(event.amount)); }, nullptr, true},
       {"disturb",

@@ -8,7 +8,7 @@ namespace {
 
 class InterbusRig final : public CampaignRig {
  public:
-  explicit InterbusRig(const InterbusRobot::Options& options) : robot_(options) {}
+  explicit InterbusRig(const InterbusRobot::Options& options) : robot_(options), pcp_(options.pcp) {}
 
   InterbusRobot& robot() override { return robot_; }
   sim::SimulatedGateway& link() { return robot_.gateway(); }
@@ -18,6 +18,7 @@ class InterbusRig final : public CampaignRig {
   void endLosses() override {}
   const std::vector<Act>& acts() const override { return interbusCampaign().acts(); }
 
+  bool readsParameters() const override { return pcp_; }
   /// Each exchange brings a status word, and its age counts from the question.
   Duration silence() const override { return Duration::zero(); }
   /// The watchdog of the gateway, then P513; and half of the longest latency: a request that was under way.
@@ -28,6 +29,7 @@ class InterbusRig final : public CampaignRig {
 
  private:
   InterbusRobot robot_;
+  bool pcp_;
 };
 
 sim::SimulatedGateway& linkOf(CampaignRig& rig) {

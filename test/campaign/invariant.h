@@ -19,6 +19,8 @@ class Invariant {
   virtual const char* sentence() const = 0;
   /// What is wrong; nothing when it holds. Called once per cycle, in order.
   virtual std::optional<std::string> look(const Moment& moment) = 0;
+  /// Another driver has taken the place of the one before: what that one has told says nothing of it.
+  virtual void driverBegan() {}
 };
 
 /// One of each, fresh.

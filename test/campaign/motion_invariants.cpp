@@ -9,8 +9,8 @@ namespace nord_driver::test {
 namespace {
 
 constexpr double kRounding = 0.1;         // Hz: a setpoint is a share of 16384, DeviceNet's of 1500 rpm or 0.1 Hz
-constexpr double kAtRest = 0.05;          // Hz
-constexpr std::size_t kRemembered = 128;  // cycles: longer than any reaction
+constexpr double kAtRest = kRounding;     // nobody can tell less from nothing
+constexpr std::size_t kRemembered = 600;  // changes, one in a cycle at most: longer than any reaction
 
 bool turnsByTerminals(const DriveTruth& drive) {
   return drive.state == sim::InverterState::kOperationEnabled && !drive.bus_control;
@@ -34,6 +34,8 @@ std::optional<std::string> TurnsOnlyAsCommanded::look(const Moment& moment) {
       if (cut && !track.cut_since) track.cut_since = moment.now;
       const Instant heard = track.cut_since.value_or(moment.now);
       const double allowed = group.asked && moment.now <= heard + moment.reaction ? std::fabs(moment.wanted[i]) : 0.0;
+      // The same again: what was allowed last for so long.
+      if (!track.allowed.empty() && track.allowed.back().second == allowed) track.allowed.pop_back();
       track.allowed.emplace_back(heard, allowed);
       while (track.allowed.size() > kRemembered) track.allowed.pop_front();
       double recent = 0.0;
@@ -48,15 +50,19 @@ std::optional<std::string> TurnsOnlyAsCommanded::look(const Moment& moment) {
         out << "drive " << i << ": " << drive.frequency << " Hz, no more than " << track.bound << " Hz is commanded";
         return out.str();
       }
-      if (allowed > 0.0 || speed < kAtRest) {
-        if (track.ended && speed < kAtRest && allowed == 0.0 && track.stop_bound > 0.0) {
+      const bool by_terminals = turnsByTerminals(drive);  // that is no stop of ours
+      if (allowed > 0.0 || speed < kAtRest || by_terminals) {
+        if (track.ended && speed < kAtRest && allowed == 0.0 && !by_terminals && track.stop_bound > 0.0) {
           const Stop stop{toSeconds(moment.now - *track.ended), track.stop_bound};
           if (worst_.bound == 0.0 || stop.took * worst_.bound > worst_.took * stop.bound) worst_ = stop;
         }
         track.ended.reset();
-      } else if (!track.ended && !turnsByTerminals(drive)) {
-        track.ended = moment.now;
-        track.stop_bound = toSeconds(moment.reaction) + track.bound / drive.ramp;
+      } else {
+        if (!track.ended) track.stop_bound = 0.0;
+        if (!track.ended) track.ended = moment.now;
+        // What happens meanwhile may prolong it. It is looked at once in a cycle.
+        const double until_rest = (track.bound + kRounding) / drive.ramp + toSeconds(moment.period);
+        track.stop_bound = std::max(track.stop_bound, toSeconds(moment.now - *track.ended) + until_rest);
       }
     }
   }

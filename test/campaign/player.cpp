@@ -55,6 +55,7 @@ Player::Player(const Scenario& scenario, const CampaignBus& bus, const Transport
 Outcome Player::play() {
   rig_->robot().step();  // the bus is made with the first cycle
   start_ = now();
+  rig_->setUp();
   for (DriveIndex i = 0; i < moment_.drives.size(); ++i) {
     // Each drive and set has a value of its own: an answer to somebody else's question shows.
     for (unsigned set = 0; set < 4; ++set) {

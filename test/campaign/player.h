@@ -70,6 +70,7 @@ class Player {
   void judgeRecovery();
   void endNode();
   void kill();
+  void respawn(Duration gone);
   void tick();
   void pass(Duration span);
 
@@ -96,6 +97,9 @@ class Player {
   void sampleParameters();
   void watchLosses();
   std::uint64_t counted();
+  /// How long a stop may take where its words reach the drive, and where only the time-outs act.
+  Duration byWords();
+  Duration byTimeouts();
   Duration reaction();
   bool answered(std::uint32_t id, bool& success, std::string& message);
   bool allOnline();

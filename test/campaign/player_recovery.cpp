@@ -25,11 +25,16 @@ bool Player::ask(RequestKind kind, const char* expectation) {
   return false;
 }
 
+// What happened last may show only when the time-outs have passed: until then, that all answer says nothing.
 void Player::judgeRecovery() {
   const Instant ended = now();
-  while (goesOn() && !allOnline()) {
+  const Instant shown = ended + byTimeouts();
+  Instant back = ended;
+  while (goesOn() && (!allOnline() || now() < shown)) {
+    const bool missing = !allOnline();
     tick();
-    if (!goesOn() || allOnline()) break;
+    if (missing) back = now();
+    if (!goesOn() || allOnline()) continue;
     if (now() - ended <= rig_->backWithin()) continue;
     std::ostringstream out;
     for (const cycle::DriveSnapshot& drive : moment_.snapshot->drives) {
@@ -38,11 +43,15 @@ void Player::judgeRecovery() {
     return fail("BackInService", "back in service within 2 s of the cause's end, plus what the protocol demands",
                 "not all drives answer: " + out.str() + moment_.snapshot->bus_text.c_str());
   }
-  outcome_.recovery = toSeconds(now() - ended);
+  outcome_.recovery = toSeconds(back - ended);
   // The last command is too old, P105 of who came back is read, and what was under way is over.
   const auto complete = [this] {
     const auto& drives = moment_.snapshot->drives;
-    return std::all_of(drives.begin(), drives.end(), [](const auto& drive) { return drive.device.complete; });
+    return std::all_of(drives.begin(), drives.end(), [this](const cycle::DriveSnapshot& drive) {
+      const auto& known = drive.device.max_frequency;
+      const bool scaled = std::all_of(known.begin(), known.end(), [](const auto& value) { return value.has_value(); });
+      return drive.device.complete && (scaled || !rig_->readsParameters());
+    });
   };
   const auto open = [this] { return first_open_ < calls_.size(); };
   const Instant quiet = now() + milliseconds{600};

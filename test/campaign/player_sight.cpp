@@ -9,16 +9,20 @@ using cycle::RequestKind;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
+Duration Player::byWords() {
+  return 3 * rig_->robot().config().period() + rig_->wireLatency();
+}
+
+Duration Player::byTimeouts() {
+  const Duration drive_timeout = rig_->robot().config().drives.front().drive.drive_timeout;
+  return rig_->silence() + drive_timeout + rig_->driveSideTimeout() + byWords();
+}
+
 Duration Player::reaction() {
-  const cycle::CycleConfig& config = rig_->robot().config();
-  const Duration period = config.period();
-  const Duration by_words = 3 * period + rig_->wireLatency();
-  const Duration drive_timeout = config.drives.front().drive.drive_timeout;
-  const Duration by_timeouts = rig_->silence() + drive_timeout + rig_->driveSideTimeout() + by_words;
   const bool disturbs =
       std::any_of(active_.begin(), active_.end(), [](const Active& active) { return active.act->disturbs; });
   if (disturbs) disturbed_ = now();
-  return disturbed_ && now() - *disturbed_ <= by_timeouts ? by_timeouts : by_words;
+  return disturbed_ && now() - *disturbed_ <= byTimeouts() ? byTimeouts() : byWords();
 }
 
 void Player::seeTruth() {

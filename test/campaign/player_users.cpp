@@ -16,7 +16,8 @@ constexpr double kFullSpeed = Player::kFullSpeed, kRadius = Player::kRadius, kSe
 }  // namespace
 
 // "drive": amount and extra are % of the full speed of a wheel, along and around; "turn": of the drive it names. Requests:
-// extra is what the act says, of all drives or of one. "stall": amount ms.
+// extra is what the act says, of all drives or of one. "stall": amount ms. "respawn": the driver ends without a word and
+// begins anew amount ms later.
 const std::vector<Act>& userActs() {
   constexpr Range kNone{0, 0};
   constexpr auto act = [](const char* name, unsigned weight, Range span, Range amount, Range extra) {
@@ -33,6 +34,7 @@ const std::vector<Act>& userActs() {
       act("reset_odometry", 1, kNone, kNone, kNone),
       act("clients", 4, {100, 2500}, {1, 6}, kNone),
       act("stall", 3, kNone, {10, 2000}, kNone),
+      act("respawn", 2, kNone, {0, 1500}, kNone),
       act("end_node", 1, kNone, kNone, kNone),
       act("kill", 1, kNone, kNone, kNone),
   };
@@ -76,6 +78,8 @@ void Player::beginUser(const Event& event) {
     losses_.clear();
     pass(milliseconds{event.amount});
     disturbed_ = now();
+  } else if (act == "respawn") {
+    respawn(milliseconds{event.amount});
   } else if (act == "end_node") {
     endNode();
   } else if (act == "kill") {
@@ -107,6 +111,21 @@ void Player::kill() {
   for (GroupWish& group : moment_.groups) group.asked = group.confirmed = false;
   disturbed_ = now();
   pass(seconds{2});
+}
+
+// An exception nobody caught, and roslaunch starts the node again, maybe over wheels that turn: it knows nothing. Its
+// transport is the one before, as the bus behind it is.
+void Player::respawn(Duration gone) {
+  for (GroupWish& group : moment_.groups) group.asked = group.confirmed = false;
+  for (Call& call : calls_) call.answered = true;  // ended with the node
+  first_open_ = calls_.size();
+  disturbed_ = now();
+  losses_.clear();
+  pass(gone);
+  disturbed_ = now();
+  rig_->robot().restartDriver();
+  moment_.snapshot = nullptr;
+  for (auto& invariant : invariants_) invariant->driverBegan();
 }
 
 std::uint32_t Player::submit(RequestKind kind, DriveIndex drive, Duration patience) {

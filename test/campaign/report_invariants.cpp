@@ -1,5 +1,6 @@
 #include "campaign/report_invariants.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -14,6 +15,12 @@ constexpr unsigned kSoon = 100;  // cycles
 
 double turned(double from, double to) {
   return std::fabs(std::remainder(to - from, 2.0 * M_PI));
+}
+
+bool isEnabling(const Moment& moment, std::uint32_t id) {
+  return std::any_of(moment.calls->begin(), moment.calls->end(), [&](const Call& call) {
+    return call.request.id == id && call.request.kind == cycle::RequestKind::kEnable;
+  });
 }
 
 }  // namespace
@@ -65,7 +72,12 @@ std::optional<std::string> EveryLossNamed::look(const Moment& moment) {
   const bool left = base_enabled_ && !snapshot.base.enabled;
   const bool unasked = left && moment.groups.front().asked;
   base_enabled_ = snapshot.base.enabled;
-  if (!unasked || (snapshot.base.stopped && snapshot.base.stop_cause != drive::StopCause::kNone)) return std::nullopt;
+  // "All drives of the node or none (a drive that refuses takes the others back)": the answer names who refuses.
+  const bool taken_back = std::any_of(moment.answers.begin(), moment.answers.end(), [&](const auto& answer) {
+    return !answer.success && !answer.message.empty() && isEnabling(moment, answer.id);
+  });
+  if (!unasked || taken_back || (snapshot.base.stopped && snapshot.base.stop_cause != drive::StopCause::kNone))
+    return std::nullopt;
   return "the base is not enabled any more, nobody has asked for that, and no cause is named";
 }
 

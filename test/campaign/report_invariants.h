@@ -18,6 +18,7 @@ class OdometryContinuous final : public Invariant {
     return "a new node starts at pose 0; a bus or drive that comes back continues the pose, without a jump";
   }
   std::optional<std::string> look(const Moment& moment) override;
+  void driverBegan() override { before_.reset(); }
 
  private:
   struct Before {
@@ -37,6 +38,10 @@ class EveryLossNamed final : public Invariant {
     return "after each: disabled, latched, named in /diagnostics (What stops what)";
   }
   std::optional<std::string> look(const Moment& moment) override;
+  void driverBegan() override {
+    wordless_.clear();
+    base_enabled_ = false;
+  }
 
  private:
   std::vector<unsigned> wordless_;  // cycles, of each drive

@@ -19,6 +19,8 @@ class CampaignRig {
   virtual ~CampaignRig() = default;
 
   virtual DrivenRobot& robot() = 0;
+  /// After the first cycle, with which the bus is made: what a user has set at the drives.
+  virtual void setUp() {}
   virtual sim::DriveUnit& unit(DriveIndex drive) = 0;
   virtual std::string referee() = 0;
   /// Nobody runs the driver meanwhile.
@@ -28,6 +30,8 @@ class CampaignRig {
   /// What may happen to this bus.
   virtual const std::vector<Act>& acts() const = 0;
 
+  /// Parameters can be read: P105 is, not typed.
+  virtual bool readsParameters() const { return true; }
   /// How old the last status word may be before the bus takes it for missing; drive_timeout counts from there.
   virtual Duration silence() const = 0;
   /// The longest time from the last word of a master to the trip of the inverter.

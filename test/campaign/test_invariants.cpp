@@ -168,6 +168,22 @@ TEST_F(Invariants, EveryStopIsNamed) {
   EXPECT_THAT(look(invariant), HasSubstr("drive 0 does not answer, and nobody says why"));
 }
 
+// "All drives of the node or none": who refuses is named by the answer.
+TEST_F(Invariants, WhatARefusedEnablingTakesBackIsNamed) {
+  EveryLossNamed invariant;
+  EXPECT_EQ("", look(invariant));
+  ask(cycle::RequestKind::kEnable, seconds{3});
+  answer(1, false, "drive right: a fault");
+  snapshot_.base.enabled = false;
+  EXPECT_EQ("", look(invariant));
+  snapshot_.base.enabled = true;
+  EXPECT_EQ("", look(invariant));
+  ask(cycle::RequestKind::kAcknowledge, seconds{3});
+  answer(2, false, "drive right: its cause stands");
+  snapshot_.base.enabled = false;
+  EXPECT_THAT(look(invariant), HasSubstr("no cause is named"));
+}
+
 TEST_F(Invariants, EveryCallIsAnsweredInTime) {
   EveryCallAnswered invariant;
   ask(cycle::RequestKind::kEnable, milliseconds{100});

@@ -57,6 +57,23 @@ const PlantedFault kFaults[] = {
        };
        return plant;
      }},
+    // The driver that begins anew over turning wheels goes on with what they were told last.
+    {"BeginsWhereTheOtherEnded", "TurnsOnlyAsCommanded", "5400+600 drive 0 40 10; 5900+0 respawn 0 20 0",
+     [] {
+       const auto last = std::make_shared<std::pair<Outputs, bool>>();
+       Plant plant;
+       plant.outputs = [last](Outputs& outputs) {
+         last->first.resize(outputs.size());
+         for (std::size_t i = 0; i < outputs.size(); ++i) {
+           profile::ProcessOutput& before = last->first[i];
+           if (runs(outputs[i]) && outputs[i].setpoints[0] != 0) before = outputs[i];
+           // Its first word: it learns the parameter set in force.
+           if (outputs[i].control_word == 0 && before.control_word != 0) last->second = true;
+           if (last->second) outputs[i] = before;
+         }
+       };
+       return plant;
+     }},
     // Who has been enabled once is enabled again, however it was stopped.
     {"EnabledAgain", "NothingEnabledUnasked", "5400+0 trip 1 125 0; 5900+0 disable 0 1 0",
      [] {
@@ -95,8 +112,9 @@ const PlantedFault kFaults[] = {
        };
        return plant;
      }},
-    // A result is lost between driver and transport.
-    {"AnswerLost", "EveryCallAnswered", "5000+2000 clients 0 3 0",
+    // Results are lost between driver and transport. Whoever asked is told so when his patience ends; the driver itself
+    // waits for ever.
+    {"AnswerLost", "BackInService", "5000+2000 clients 0 3 0",
      [] {
        const auto results = std::make_shared<unsigned>(0);
        Plant plant;
@@ -132,7 +150,7 @@ TEST_P(PlantedFaults, AreFound) {
 
 // "OtherWheelGoesOn" needs an enabling, a command and a fault of one wheel; the rest is left out.
 TEST(PlantedFaults, AreShrunkToWhatTheyNeed) {
-  const PlantedFault& fault = kFaults[2];
+  const PlantedFault& fault = kFaults[3];
   const CampaignBus bus = busOf("profibus");
   const Scenario scenario = scenarioOf(bus.name, fault);
   const Outcome outcome = Player{scenario, bus, wrapped(fault.make)}.play();

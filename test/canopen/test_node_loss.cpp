@@ -252,8 +252,8 @@ TEST(NodeLoss, AStoppedNodeIsLedBackWhenThatCommandWasLost) {
   EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{5})) << run.master.status(0).reason.c_str();
 }
 
-// Stopped by somebody while the line was cut: it answers no SDO, so that asking would find it never. (The same.)
-TEST(NodeLoss, AStopThatWasNotHeardIsNotForEver) {
+// Stopped by somebody while the line was cut: it answers no SDO, but tells its state when it is asked for that.
+TEST(NodeLoss, AStopThatWasNotHeardIsSeen) {
   for (const BootReset reset : {BootReset::kResetCommunication, BootReset::kNone}) {
     MasterConfig config = guarded();
     config.nodes[0].reset = reset;
@@ -263,9 +263,43 @@ TEST(NodeLoss, AStopThatWasNotHeardIsNotForEver) {
     ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{2}));
     run.nodes[0]->state = 0x04;
     cut = false;
+    EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{4})) << run.master.status(0).reason.c_str();
+  }
+}
+
+// Stopped before we came, by a master that is gone. (Found by the fault campaign: canopen:1239.)
+TEST(NodeLoss, AStopBeforeWeCameIsNotForEver) {
+  for (const bool answers_guarding : {true, false}) {
+    MasterConfig config = guarded();
+    config.nodes[0].reset = BootReset::kNone;
+    MasterRun run{config};
+    run.powerAll();
+    run.run(seconds{1});
+    run.nodes[0]->state = 0x04;
+    run.nodes[0]->answers_guarding = answers_guarding;
+    run.master.restart(run.now);
+    run.run(seconds{3});
+    run.nodes[0]->answers_guarding = true;
+    EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{3})) << run.master.status(0).reason.c_str();
+  }
+}
+
+// The same of a node that does not tell its state: asking for it would find it never.
+TEST(NodeLoss, AStopThatWasNotHeardIsNotForEver) {
+  for (const BootReset reset : {BootReset::kResetCommunication, BootReset::kNone}) {
+    MasterConfig config = guarded();
+    config.nodes[0].reset = reset;
+    Operational run{config};
+    run.nodes[0]->answers_guarding = false;
+    bool cut = true;
+    run.loses = [&cut](const CanFrame&) { return cut; };
+    ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{2}));
+    run.nodes[0]->state = 0x04;
+    cut = false;
     run.sent.clear();
     run.run(seconds{10});
     EXPECT_THAT(run.sent, testing::Not(Contains(HasSubstr("000#")))) << "it may hear what stops its drive";
+    run.nodes[0]->answers_guarding = true;
     EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{10})) << run.master.status(0).reason.c_str();
   }
 }

@@ -266,6 +266,20 @@ TEST(StartUp, NamesARefusedSetUp) {
   EXPECT_THAT(run.master.status(0).reason.str(), HasSubstr("set-up (2066h:1) cannot be written: abort 0607 0010h"));
 }
 
+// Another master may have told it "start" while it was set up: it refuses then what may be written before the start only.
+// Its boot-up said that it was pre-operational by itself, which it is no longer. (Found by the fault campaign:
+// canopen:3367.)
+TEST(StartUp, WhoRefusesIsMadePreOperationalBeforeTheNextAttempt) {
+  MasterConfig config = busConfig(1);
+  config.nodes[0].setup = {{0x2066, 1, 200, 4}};
+  MasterRun run{config};
+  run.begin();
+  ASSERT_TRUE(run.reaches(NodeState::kRefused, seconds{1}));
+  run.sent.clear();
+  run.run(seconds{2});
+  EXPECT_THAT(run.sent, Contains("000#8001"));
+}
+
 // Nothing but a boot-up, again and again: two nodes with one id, or a heartbeat that says 0. Named, not followed.
 TEST(StartUp, SurvivesEndlessBootUps) {
   MasterRun run{busConfig(2)};

@@ -73,13 +73,14 @@ class SimulatedRun {
 
   /// Losses as seen from outside: by the phase after each cycle, and by the events.
   void watch() {
+    while (const auto event = master.pollEvent()) {
+      if (event->kind == DpEventKind::kSlaveLost) ++losses_told;
+      if (event->kind == DpEventKind::kDataExchangeEntered) was_exchanging_[event->slave] = true;  // and left at once
+    }
     for (std::size_t i = 0; i < master.slaveCount(); ++i) {
       const bool exchanging = master.status(i).phase == SlavePhase::kDataExchange;
       if (was_exchanging_[i] && !exchanging) ++losses_seen;
       was_exchanging_[i] = exchanging;
-    }
-    while (const auto event = master.pollEvent()) {
-      if (event->kind == DpEventKind::kSlaveLost) ++losses_told;
     }
   }
 

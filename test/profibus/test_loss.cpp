@@ -16,11 +16,13 @@ void loses(NordWire& wire, const char* exchange) {
   wire.cycleEnds();
 }
 
-// After the last retry a slave is given up: it is asked for its FDL status, and then starts anew with FCV = 0, FCB = 1.
+// After the last retry a slave is given up: it is asked for its FDL status, and then, its watchdog of 100 ms over, starts
+// anew with FCV = 0, FCB = 1.
 TEST(Loss, StartsAnewWith6D) {
   NordWire wire;
   wire.startsUp();
   loses(wire, kExchange7D);
+  wire.advance(100ms);
   EXPECT_EQ(SlavePhase::kSilent, wire.status().phase);
   EXPECT_FALSE(wire.status().exchanged_this_cycle);
   EXPECT_EQ(LossCause::kSilence, wire.tells(DpEventKind::kSlaveLost).cause);
@@ -34,6 +36,56 @@ TEST(Loss, StartsAnewWith6D) {
   wire.tells(DpEventKind::kDataExchangeEntered);
   wire.cycle(kExchange7D, kInputs);
   EXPECT_TRUE(wire.status().exchanged_this_cycle);
+}
+
+// Found before its watchdog has run out, it is in data exchange still, and the wheel behind it may turn: the stop word is
+// the first it hears. Set_Prm would start the watchdog anew and clear the outputs, which stops nothing.
+TEST(Loss, FoundInTimeItHearsTheNextWordAtOnce) {
+  NordWire wire;
+  wire.startsUp();
+  loses(wire, kExchange7D);
+  wire.forgetEvents();
+  wire.isFound();
+  wire.tells(DpEventKind::kSlaveFound);
+  EXPECT_FALSE(wire.status().exchanged_this_cycle);
+  wire.cycle(kExchange6D, kInputs);
+  EXPECT_TRUE(wire.status().exchanged_this_cycle);
+  wire.tells(DpEventKind::kDataExchangeEntered);
+  wire.cycle(kExchange5D, kInputs);
+  wire.tellsNothing();
+  EXPECT_EQ(1u, wire.status().counters.losses);
+}
+
+// That word, too, it may hear without being heard: it is told once that it was lost, and its state is asked for again.
+TEST(Loss, FoundInTimeAndSilentAgainItIsTheSameLoss) {
+  NordWire wire;
+  wire.startsUp();
+  loses(wire, kExchange7D);
+  wire.forgetEvents();
+  wire.isFound();
+  wire.tells(DpEventKind::kSlaveFound);
+  loses(wire, kExchange6D);
+  EXPECT_EQ(SlavePhase::kSilent, wire.status().phase);
+  wire.advance(100ms);
+  wire.isFound();
+  wire.isFree();
+  wire.tellsNothing();
+  EXPECT_EQ(1u, wire.status().counters.losses);
+}
+
+// It was off meanwhile, and says so.
+TEST(Loss, FoundInTimeAndNotInDataExchangeItStartsAnew) {
+  NordWire wire;
+  wire.startsUp();
+  loses(wire, kExchange7D);
+  wire.forgetEvents();
+  wire.isFound();
+  wire.tells(DpEventKind::kSlaveFound);
+  wire.cycle(kExchange6D, kNotActivated);
+  wire.tellsNothing();
+  wire.isFree();
+  wire.takesParameters();
+  EXPECT_EQ(1u, wire.status().counters.losses);
 }
 
 // A slave stays in data exchange until its watchdog runs out, and so does its master, for as long as it was told: the

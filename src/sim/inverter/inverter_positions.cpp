@@ -36,10 +36,11 @@ PositionFunction InverterModel::positionSetpointAt(unsigned n) const noexcept {
   return positionSetpoint(parameters_.device(), place, busFunction(546, place));
 }
 
-// "PPO type 2 or 4": BU 0020 6.1.2.
+// "PPO type 2 or 4": BU 0020 6.1.2, of SK 300E and 7x0E only. Asked for each word of each step: the quick answers first.
 bool InverterModel::wideSetpoint() const noexcept {
+  if (!parameters_.device().isOlderSeries() || data_.carried != data_.setpoints.size()) return false;
   const PositionFunction first = positionSetpoint(parameters_.device(), 0, busFunction(546, 0));
-  return first.word == PositionWord::kWide && data_.carried == data_.setpoints.size();
+  return first.word == PositionWord::kWide;
 }
 
 // With a 32-bit setpoint position actual value 1 has 32 bits, too, when it is a position: BU 0020 7.3.7.

@@ -1,0 +1,116 @@
+// Accesses to parameters that take longer than whoever asked waits: answered then, and not written later.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cycle/cycle_bench.h"
+#include "cycle/parameter_requests.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using std::chrono::milliseconds;
+using ::testing::HasSubstr;
+
+/// The inverter is slow from then on: what it is asked stays open.
+class OverdueParameters : public ::testing::Test, protected CycleBench {
+ protected:
+  OverdueParameters() {
+    run(80);
+    transport.parameters[102] = 100;
+    transport.hold_answers = true;
+  }
+  void submit(Request request, std::uint32_t id, Duration patience) {
+    request.id = id;
+    request.patience = patience;
+    request.asked = transport.time;
+    ASSERT_TRUE(ports.submit(request));
+  }
+  static Request read() {
+    Request request = test::writeRequest(kLift, 102, 0);
+    request.kind = RequestKind::kReadParameter;
+    return request;
+  }
+  void answerAll() {
+    for (int i = 0; i < 50; ++i) {
+      if (!transport.submitted.empty()) {
+        wrote_ = wrote_ || writes();
+        transport.answerFirst();
+      }
+      step();
+    }
+  }
+  /// A write is under way.
+  bool writes() const {
+    return std::any_of(transport.submitted.begin(), transport.submitted.end(), [](const auto& submitted) {
+      return submitted.request.action != profile::ParameterAction::kRead;
+    });
+  }
+
+  bool wrote_ = false;
+};
+
+TEST_F(OverdueParameters, AReadIsAnsweredWhenThePatienceEnds) {
+  submit(read(), 501, milliseconds{200});
+  const Instant end = transport.time + milliseconds{200};
+  while (transport.time < end) {
+    EXPECT_EQ(0u, completions.count(501));
+    step();
+  }
+  step();
+  ASSERT_EQ(1u, completions.count(501)) << "within one cycle";
+  EXPECT_FALSE(completions[501].success);
+  EXPECT_STREQ("drive lift gave no answer for P102: in the time it was given", completions[501].message.c_str());
+  EXPECT_FALSE(completions[501].parameter.eeprom_written);
+  completions.clear();
+  answerAll();
+  EXPECT_EQ(0u, completions.count(501)) << "one answer for each request";
+}
+
+// It has waited behind a read for so long that nobody waits for it any more: what it was told stays true.
+TEST_F(OverdueParameters, AWriteThatWasNotBegunIsNotCarriedOut) {
+  submit(read(), 501, std::chrono::seconds{5});
+  submit(test::writeRequest(kLift, 102, 250), 502, milliseconds{200});
+  run(25);
+  ASSERT_EQ(1u, completions.count(502));
+  EXPECT_FALSE(completions[502].success);
+  EXPECT_THAT(completions[502].message.c_str(), HasSubstr("nothing was written, and nothing will be"));
+  EXPECT_FALSE(completions[502].parameter.eeprom_written);
+  answerAll();
+  EXPECT_TRUE(completions[501].success);
+  EXPECT_FALSE(wrote_);
+}
+
+TEST_F(OverdueParameters, NorIsOneOfWhichOnlyTheValueBeforeWasAskedFor) {
+  submit(test::writeRequest(kLift, 102, 250), 501, milliseconds{200});
+  run(25);
+  ASSERT_EQ(1u, completions.count(501));
+  answerAll();
+  EXPECT_FALSE(wrote_);
+}
+
+TEST_F(OverdueParameters, OfAWriteUnderWayNobodyKnows) {
+  submit(test::writeRequest(kLift, 102, 250), 501, milliseconds{200});
+  step();
+  transport.answerFirst();  // the value before
+  run(25);
+  ASSERT_EQ(1u, completions.count(501));
+  EXPECT_THAT(completions[501].message.c_str(), HasSubstr("whether the inverter carried the write out is not known"));
+  EXPECT_TRUE(completions[501].parameter.eeprom_written) << "or may have been";
+  EXPECT_TRUE(writes());
+}
+
+// nord_param limits the time itself.
+TEST_F(OverdueParameters, WhoHasNoPatienceToTellWaits) {
+  Request request = read();
+  request.id = 501;
+  ASSERT_TRUE(ports.submit(request));
+  run(500);
+  EXPECT_EQ(0u, completions.count(501));
+  answerAll();
+  EXPECT_TRUE(completions[501].success);
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle
