@@ -50,7 +50,7 @@ void checkSentence(const ConfigError& error, const MemoryFile& file) {
   require(sentence.find("xpected") != std::string::npos);
 }
 
-void checkEntry(const ParameterEntry& entry) {
+void readEntry(const ParameterEntry& entry) {
   for (const unsigned index : {1u, 2u}) {
     const auto [lowest, highest] = entry.rawRange(index);
     require(lowest <= highest);
@@ -78,7 +78,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     const Catalogue all = Catalogue::load({kLower.path(), file.path()});
     for (const Device& device : allDevices()) {
-      for (const ParameterEntry* entry : all.all(device)) checkEntry(*entry);
+      for (const ParameterEntry* entry : all.all(device)) readEntry(*entry);
     }
   } catch (const ConfigError& error) {
     checkSentence(error, file);

@@ -150,7 +150,7 @@ def table(numbered, found, equivalents, refused, folders):
         same = [edit for edit in own if not found[edit.id] and edit.key in equivalents]
         left = [edit for edit in own if not found[edit.id] and edit.key not in equivalents]
         kills = len(own) - len(same) - len(left)
-        score = 100.0 * kills / (kills + len(left)) if kills + len(left) else 100.0
+        score = 100.0 * kills / (kills + len(left)) if kills + len(left) else 0.0  # none judged shows nothing
         met = met and score >= GOALS[folder]
         survivors += left
         say(f"{folder:12} {len(own) + refused[folder]:6} {refused[folder]:8} {len(same):11} {kills:6} {len(left):9} {score:6.1f}%"

@@ -71,6 +71,15 @@ FIGURES = {"campaign": campaign, "mutants": mutants, "explored": explored, "addr
            "soak": soak, "coverage": coverage}
 
 
+def fuzzTargets():
+    listed = re.search(r"^foreach\(part ([^)]*)\)", (ROOT / "fuzz" / "CMakeLists.txt").read_text(), re.M)
+    return len(listed.group(1).split())
+
+
+# As many rows a part prints at least: one whose line is missing has not passed.
+LEAST = {"campaign": 4, "mutants": 8, "fuzz": fuzzTargets(), "soak": 4}
+
+
 def rows_of(part, status, text):
     """[(what, figures, verdict)] of one part."""
     last = text.strip().splitlines()[-1] if text.strip() else "it said nothing"
@@ -81,6 +90,9 @@ def rows_of(part, status, text):
     figures = FIGURES[part](text)
     if not figures:
         return [(part, f"ended with {status} and no figures: {last}", "FAILED")]
+    if len(figures) < LEAST.get(part, 1):
+        figures.append((part, f"{len(figures)} rows where {LEAST[part]} or more were expected"))
+        status = status or 1
     # Where one of several failed, the log says which.
     return [(what, words, "passed" if status == 0 else "FAILED") for what, words in figures]
 
@@ -112,6 +124,7 @@ def selfTest():
     assert rows_of("mutants", 127, "no such file\n")[0][2] == "COULD NOT BE RUN"
     assert rows_of("explored", 0, "")[0][2] == "FAILED", "without figures nothing is shown"
     assert rows_of("explored", 1, "explored Drive: 12 states, 40 transitions\n")[0][2] == "FAILED"
+    assert rows_of("fuzz", 0, "fuzz_sdo: 1200345 executions in 31 s\n")[-1][2] == "FAILED", "the other targets are missing"
     print("self-test: passed")
     return 0
 

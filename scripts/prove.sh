@@ -51,7 +51,7 @@ campaign() {
 }
 mutants() {
   if $quick; then echo "--quick"; return 126; fi
-  /usr/bin/python3 "$root/scripts/mutants.py"
+  /usr/bin/python3 "$root/scripts/mutants.py" --fresh
 }
 explored() {
   built test_explore >"$logs/build_explored.log" 2>&1 || { tail -n 20 "$logs/build_explored.log"; return 125; }
