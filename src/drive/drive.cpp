@@ -42,7 +42,7 @@ bool Drive::isRunning() const noexcept {
 
 bool Drive::isAtRest() const noexcept {
   if (report_.phase == Phase::kOffline) return true;
-  if (report_.phase != Phase::kIdle) return false;
+  if (report_.phase != Phase::kIdle || isTeaching()) return false;
   switch (report_.state) {
     case DriveState::kReadyToSwitchOn:
     case DriveState::kSwitchOnDisabled:
@@ -239,7 +239,8 @@ void Drive::followEnabling(StatusWord status, Instant now) noexcept {
     return stop(exitCause(status), now);
   }
   // Only once 047E went out: bits 0 and 3 come after an answered "shut down", never in place of one.
-  if (phase_.sent && state == DriveState::kReadyToSwitchOn) {
+  const bool where_known = !axis_ || axis_->isCertain();
+  if (phase_.sent && where_known && state == DriveState::kReadyToSwitchOn) {
     // With P104 > 0 it would turn as soon as it is "operation enabled": that waits for the first velocity.
     if (restsAtZero()) return enter(Phase::kResting, now);
     phase_.ready_seen = true;

@@ -56,6 +56,8 @@ struct DriveConfig {
   bool allow_minimum_frequency = false;
   /// Cross-check the sign of actual value 1 with status bits 11 and 12. No manual defines that sign in left rotation.
   bool check_direction = true;
+  /// Its setpoint comes from another inverter: ours stops nothing.
+  bool led = false;
   /// It goes to positions; none: it follows velocities.
   std::optional<PositionConfig> position = {};
 };
@@ -81,7 +83,8 @@ class Drive {
   Refusal enableRefusal() const noexcept;
   /// Refused while OFF1 or a quick stop runs: ask again when it has ended.
   void requestEnable(Instant now) noexcept;
-  /// Enabled: setpoint 0 with 047F from here on, whatever setVelocity() says. Enabling: as requestShutdown().
+  /// Enabled: setpoint 0 with 047F from here on, whatever setVelocity() says. Enabling, of a drive that positions, and
+  /// of one that is led: as requestShutdown().
   void requestSetpointZero(Instant now) noexcept;
   void requestShutdown(Instant now) noexcept;
   /// From every phase; offline it is what is sent on unanswered.
@@ -146,6 +149,8 @@ class Drive {
   const DriveReport& report() const noexcept { return report_; }
   /// Nothing is being driven or stopped: idle (or offline), and the inverter confirms it by its state.
   bool isAtRest() const noexcept;
+  /// When the newest useful status word came.
+  Instant lastHeard() const noexcept { return last_useful_; }
   /// Online, and actual value 1 is near zero: what a motor without voltage does, nobody can tell by it.
   bool isNearStandstill() const noexcept;
 

@@ -65,6 +65,9 @@ void DriveGroup::requestDisable(Instant now) noexcept {
       report_.refusal = {Refusal::kStopped, 0};
       down_since_ = now;
       return shutdownAll(now);
+    case GroupPhase::kDisabled:  // one may be taught its position
+      for (Drive* member : members_) member->requestShutdown(now);
+      return;
     default:
       return;
   }

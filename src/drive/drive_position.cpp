@@ -66,6 +66,8 @@ void Drive::requestHoming(Instant now, std::uint32_t token) noexcept {
   if (!axis_ || axis_->isHoming()) return;
   report_.homing = {token, RequestState::kRunning, Refusal::kNone};
   if (report_.phase != Phase::kEnabled) return end(report_.homing, Refusal::kNotEnabled);
+  // The end of the way it is on would look like the end of the run.
+  if (!isNearStandstill()) return end(report_.homing, Refusal::kHomingTurning);
   axis_->startHoming(now);
 }
 
@@ -78,7 +80,7 @@ Refusal Drive::teachingRefusal() const noexcept {
   const bool disabled = report_.state == DriveState::kSwitchOnDisabled || report_.state == DriveState::kReadyToSwitchOn;
   if (report_.phase != Phase::kIdle || !disabled) return Refusal::kTeachNotDisabled;
   if (report_.parameter_set != report_.commanded_set) return Refusal::kParameterSet;
-  if (!axis_->isKnown()) return Refusal::kPositionUnknown;
+  if (!axis_->isCertain()) return Refusal::kPositionUnknown;
   return isNearStandstill() ? Refusal::kNone : Refusal::kTeachTurning;
 }
 
@@ -108,7 +110,7 @@ void Drive::setReferenced(std::optional<bool> referenced) noexcept {
 
 Refusal Drive::positionRefusal() const noexcept {
   if (!axis_) return Refusal::kNone;
-  if (!axis_->isKnown()) return Refusal::kPositionUnknown;
+  if (!axis_->isCertain()) return Refusal::kPositionUnknown;
   return axis_->canHold(report_.commanded_set) ? Refusal::kNone : Refusal::kPositionBeyondRange;
 }
 

@@ -94,6 +94,8 @@ const char* toString(Refusal refusal) noexcept {
       return "it stands where its setpoint words cannot hold it (16 bits: -32.768 to 32.767 revolutions)";
     case Refusal::kNotEnabled:
       return "the drive is not enabled, and a reference run moves it: enable it first";
+    case Refusal::kHomingTurning:
+      return "a reference run begins at standstill, and the motor turns";
     case Refusal::kHomingTimeout:
       return "the reference run did not end within position/homing_timeout, and the drive was stopped";
     case Refusal::kTeachNotDisabled:

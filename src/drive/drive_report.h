@@ -81,6 +81,7 @@ enum class Refusal : std::uint8_t {
   kPositionUnknown,      ///< of a drive that positions: not told yet, or no word carries it
   kPositionBeyondRange,  ///< where it is, its setpoint cannot express: it could not be held there
   kNotEnabled,           ///< a reference run: the drive is not enabled
+  kHomingTurning,        ///< a reference run: the motor turns
   kHomingTimeout,        ///< a reference run did not end within position/homing_timeout
   kTeachNotDisabled,     ///< teaching a position: the drive is enabled or being stopped
   kTeachTurning,         ///< teaching a position: the motor turns

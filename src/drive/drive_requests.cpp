@@ -67,12 +67,13 @@ void Drive::requestEnable(Instant now) noexcept {
 void Drive::requestSetpointZero(Instant now) noexcept {
   if (report_.phase == Phase::kEnabling) return requestShutdown(now);
   if (!isEnabled(report_.phase)) return;
-  // With P104 > 0 setpoint 0 is no rest, nor of a drive that positions.
-  if (axis_ || restsAtZero() || report_.phase != Phase::kEnabled) return requestShutdown(now);
+  // With P104 > 0 setpoint 0 is no rest, nor of a drive that positions, nor of one that does not hear it.
+  if (axis_ || config_.led || restsAtZero() || report_.phase != Phase::kEnabled) return requestShutdown(now);
   enter(Phase::kHoldingZero, now);
 }
 
 void Drive::requestShutdown(Instant now) noexcept {
+  if (isTeaching()) endTeaching(Refusal::kStopped);
   if (!isRunning()) return;
   if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
   enter(Phase::kStopping, now);

@@ -17,7 +17,7 @@ struct HomingView {
 };
 
 /// How a reference run ends is in the manuals of POSICON (BU 0510, BU 0710), not at hand. Here: it has begun when the
-/// drive turned or its status bit 8 was low, and is over when bit 8 is high again and the shaft has stood still for
+/// drive turned, or its status bit 8 fell, and is over when bit 8 is high again and the shaft has stood still for
 /// kQuiet, with the bit that says "referenced" high where there is one.
 class HomingRun {
  public:
@@ -34,8 +34,9 @@ class HomingRun {
 
  private:
   bool running_ = false;
+  bool settled_ = false;  // it has been seen where it was held: what was before the run is over
   bool begun_ = false;
-  Instant quiet_since_{};
+  std::optional<Instant> quiet_since_;
   Instant until_{};
 };
 

@@ -103,13 +103,20 @@ void PositionAxis::endHoming() noexcept {
 
 HomingRun::Outcome PositionAxis::handleHoming(bool reached, bool still, Instant now) noexcept {
   const HomingRun::Outcome outcome = homing_.handleView({reached, still, reader_.isHeldBack(), referenced_}, now);
-  homed_ = homed_ || outcome == HomingRun::Outcome::kDone;
+  if (outcome == HomingRun::Outcome::kDone) {
+    homed_ = true;
+    reader_.handleNewZero(field());
+    // From here on it is held, and a target that comes before the next word goes out is one.
+    hold();
+    frozen_ = true;
+  }
   return outcome;
 }
 
 // canHold() has kept it from being enabled beyond its words; it may have sagged over their border since.
 void PositionAxis::hold() noexcept {
   element_ = 0;
+  asked_ = false;
   const profile::PositionWords& at = words(set_);
   if (!reader_.isKnown() || (!at.setpoint.carried() && !config_.by_element)) return;
   wanted_ = profile::toJoint(reader_.steps(), config_.scale, at.actual);
@@ -119,7 +126,7 @@ void PositionAxis::hold() noexcept {
 }
 
 bool PositionAxis::strays() const noexcept {
-  if (!config_.by_element || !frozen_ || !reader_.isKnown()) return false;
+  if (!frozen_ || !reader_.isKnown() || (asked_ && !config_.by_element)) return false;
   return path_.isLeft(profile::toJoint(reader_.steps(), config_.scale, field()), config_.stray);
 }
 
@@ -149,6 +156,7 @@ TargetRefusal PositionAxis::setTarget(double joint) noexcept {
   wanted_ = joint;
   target_ = *stepsOf(joint);
   has_target_ = true;
+  asked_ = true;
   return report_.refused;
 }
 
@@ -189,7 +197,7 @@ void PositionAxis::tell(bool online, bool enabled, bool reached) noexcept {
   }
   report_.element = enabled ? element_ : std::uint8_t{0};
   if (enabled && has_target_) report_.target = toldTarget();
-  report_.reached = reached && known && report_.target.has_value() &&
+  report_.reached = reached && known && !homing_.isRunning() && report_.target.has_value() &&
                     std::fabs(*report_.position - *report_.target) <= config_.tolerance;
   // From there on it has to stay.
   if (report_.reached) path_.hold(*report_.target);

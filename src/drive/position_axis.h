@@ -3,7 +3,7 @@
 // Its rules, in one place:
 //  - While the drive does not carry out 047F, the target it is sent is its own position: enabling, whoever does it,
 //    moves nothing.
-//  - With the first 047F the target stands still: the axis is held where it was.
+//  - With the first 047F the target stands still: the axis is held where it was, and stopped when it does not stay.
 //  - During a reference run it is the position again, for the count gets a new zero on the way.
 //  - A target counts while the drive is enabled, and is forgotten with it.
 //  - A drive that goes to the elements of its array is told none, bits 0, wherever others are sent their position, and
@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "core/units.h"
@@ -38,7 +39,9 @@ struct PositionConfig {
   double revolutions_per_motor_turn = 1.0;  ///< counted, > 0
   /// It is told an element of its array (P613), and goes where that is; otherwise the target stands in its words.
   bool by_element = false;
-  double stray = 0.0;  ///< rad or m, with by_element: farther than this beside its way it is stopped
+  /// rad or m: farther than this beside its way it is stopped. Where the target stands in its words, before the first one:
+  /// it is told its own position, and goes away from it where setpoint and actual value count different steps.
+  double stray = std::numeric_limits<double>::infinity();
 };
 
 class PositionAxis {
@@ -56,6 +59,8 @@ class PositionAxis {
   /// The position is known, and can be a target of `set`.
   bool canHold(std::uint8_t set) const noexcept;
   bool isKnown() const noexcept { return reader_.isKnown(); }
+  /// And no newer one contradicts it.
+  bool isCertain() const noexcept { return reader_.isKnown() && !reader_.isHeldBack(); }
   /// Of the motor, from the count and signed as it counts.
   double motorTurnsPerSecond() const noexcept;
   /// A value beyond what the speed allows has just been believed: the count has a new zero.
@@ -81,7 +86,7 @@ class PositionAxis {
   double target() const noexcept { return wanted_; }
   /// The element of its array, and where that is. `speed`: rad/s or m/s it has now.
   TargetRefusal setElement(std::uint8_t element, double joint, double speed) noexcept;
-  /// With by_element, while it is to go or to stay: it does neither.
+  /// While it is to stay, and with by_element while it is to go, too: it does not.
   bool strays() const noexcept;
   void refuse(TargetRefusal refusal, double joint) noexcept;
 
@@ -117,6 +122,7 @@ class PositionAxis {
   std::uint8_t element_ = 0;  // the bits that choose it
   PathGuard path_;
   bool frozen_ = false;  // the target stands still
+  bool asked_ = false;   // for a target, since it was held last
 };
 
 }  // namespace nord_driver::drive

@@ -46,7 +46,15 @@ void PositionReader::handleValues(const profile::PositionField& field, const pro
   const std::int32_t word = profile::getPosition(field, words);
   const std::int64_t value = field.bits == 16 && continued_ ? continued(steps_, word) : word;
   if (known_ && isPossible(steps_, value, max_speed, now - at_)) return believe(value, now);
-  doubt(value, max_speed, now);
+  // A count of 16 bits that does not go on from the last one has begun anew: it is what its word is.
+  doubt(known_ ? word : value, max_speed, now);
+}
+
+void PositionReader::handleNewZero(const profile::PositionField& field) noexcept {
+  if (!known_ || field.bits != 16) return;
+  const std::int64_t beyond = steps_ - static_cast<std::int16_t>(static_cast<std::uint64_t>(steps_));
+  steps_ -= beyond;
+  speed_from_.steps -= beyond;
 }
 
 void PositionReader::doubt(std::int64_t steps, double max_speed, Instant now) noexcept {

@@ -321,5 +321,32 @@ TEST(DriveGroup, NeedsMembers) {
   EXPECT_THROW(DriveGroup({nullptr}), std::invalid_argument);
 }
 
+// It goes by another inverter's setpoint: 0 in ours would let it run on.
+TEST(LedDrive, IsStoppedByOff1WhereOthersGetSetpointZero) {
+  DriveConfig config;
+  config.max_frequency[0] = Hertz{50.0};
+  config.led = true;
+  Drive drive{config};
+  Instant now{};
+  const auto cycle = [&](Word status) {
+    const Word word = drive.pollOutput(now).control_word;
+    now += seconds(0.01);
+    profile::ProcessInput input;
+    input.status_word = status;
+    input.actual_values = {8192, 0, 0};
+    drive.handleInput(input, true, now);
+    return word;
+  };
+  cycle(0x0B31);
+  cycle(0x0B31);
+  drive.requestEnable(now);
+  cycle(0x0B31);
+  cycle(0x0B37);
+  ASSERT_EQ(Phase::kEnabled, drive.report().phase);
+  ASSERT_EQ(0x047F, cycle(0x0B37));
+  drive.requestSetpointZero(now);
+  EXPECT_EQ(0x047E, cycle(0x0B37));
+}
+
 }  // namespace
 }  // namespace nord_driver::drive

@@ -223,6 +223,94 @@ TEST_F(PositionDrive, StopsWhenItsCountGetsANewZero) {
   EXPECT_EQ(0x047E, send());
 }
 
+// In the cycle a reference run ends in, its asker is answered: a target that comes with the next one is gone to.
+TEST_F(PositionDrive, TakesATargetRightAfterAReferenceRun) {
+  enable(5'000);
+  drive_.requestHoming(now_);
+  cycle(0x0B37, 5'000);
+  for (int i = 0; i < 5; ++i) cycle(0x0A37, 5'000 - 50 * i, -200);
+  for (int i = 0; i < 60 && report().homing.state == RequestState::kRunning; ++i) cycle(0x0B37, 4'700);
+  ASSERT_EQ(RequestState::kDone, report().homing.state);
+  ASSERT_EQ(TargetRefusal::kNone, drive_.setPosition(8.0));
+  cycle(0x0B37, 4'700);
+  EXPECT_EQ(8'000, target());
+}
+
+// What was low before is no sign that the run has begun.
+TEST_F(PositionDrive, AReferenceRunBeginsAtStandstill) {
+  enable(5'000);
+  ASSERT_EQ(TargetRefusal::kNone, drive_.setPosition(50.0));
+  for (int i = 0; i < 5; ++i) cycle(0x0A37, 5'000 + 100 * i, 3'000);
+  drive_.requestHoming(now_, 7);
+  EXPECT_EQ(RequestState::kRefused, report().homing.state);
+  EXPECT_EQ(Refusal::kHomingTurning, report().homing.refusal);
+  EXPECT_FALSE(report().position.homing);
+}
+
+TEST_F(PositionDrive, AReferenceRunHasNotBegunByABit8ThatWasLowBefore) {
+  enable(5'000);
+  cycle(0x0A37, 5'000);
+  drive_.requestHoming(now_, 7);
+  for (int i = 0; i < 5; ++i) cycle(0x0A37, 5'000);
+  for (int i = 0; i < 60; ++i) cycle(0x0B37, 5'000);
+  EXPECT_EQ(RequestState::kRunning, report().homing.state);
+}
+
+// 16 bits: 40 revolutions before the switch it counts on, and gets its zero there.
+TEST_F(PositionDrive, IsHeldWhereAReferenceRunOf16BitsEnds) {
+  drive_.setPositionWords(1, profile::positionWords(profile::Series::kSk5xxe, {1, 21, 0}, {1, 10, 0}, 3));
+  enable(32'000);
+  drive_.requestHoming(now_);
+  cycle(0x0B37, 32'000);
+  for (std::int32_t steps = 32'000; steps < 40'000; steps += 200) cycle(0x0A37, steps, 3'000);
+  for (int i = 0; i < 60 && report().homing.state == RequestState::kRunning; ++i) cycle(0x0B37, 0);
+  ASSERT_EQ(RequestState::kDone, report().homing.state);
+  EXPECT_NEAR(0.0, report().position.position.value_or(99.0), 1e-9);
+  cycle(0x0B37, 0);
+  EXPECT_EQ(0, sent_.setpoints[1]) << "the way to 32.767 is 32 revolutions long";
+}
+
+// A count that has just been set anew elsewhere: what it was is not where it is to be held.
+TEST_F(PositionDrive, IsNotEnabledWhileItsPositionIsInDoubt) {
+  start(5'000);
+  cycle(0x0B31, 0);
+  EXPECT_EQ(Refusal::kPositionUnknown, drive_.enableRefusal());
+  for (int i = 0; i < 15; ++i) cycle(0x0B31, 0);
+  ASSERT_EQ(Refusal::kNone, drive_.enableRefusal());
+  drive_.requestEnable(now_);
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(0x047E, cycle(0x0B31, 90'000)) << "in doubt again";
+}
+
+// Where the two count different steps, it goes away from where it is to be held.
+TEST(HeldPosition, WhatDoesNotStayWhereItIsHeldIsStopped) {
+  DriveConfig config;
+  config.max_frequency[0] = Hertz{50.0};
+  config.position = PositionConfig{};
+  config.position->stray = 0.25;
+  Drive drive{config};
+  drive.setPositionWords(1, profile::positionWords(profile::Series::kSk5xxe, {1, 21, 22}, {1, 10, 15}, 3));
+  Instant now{};
+  const auto cycle = [&](Word status, std::int16_t steps) {
+    const Word word = drive.pollOutput(now).control_word;
+    now += kCycle;
+    profile::ProcessInput input;
+    input.status_word = status;
+    input.actual_values = {0, steps, 0};
+    drive.handleInput(input, true, now);
+    return word;
+  };
+  for (int i = 0; i < 6; ++i) cycle(0x0B31, 5'000);
+  drive.requestEnable(now);
+  cycle(0x0B31, 5'000);
+  cycle(0x0B37, 5'000);
+  ASSERT_EQ(Phase::kEnabled, drive.report().phase);
+  cycle(0x0A37, 5'200);
+  EXPECT_EQ(0x047F, cycle(0x0A37, 5'240)) << "a load that settles";
+  cycle(0x0A37, 5'260);
+  EXPECT_EQ(StopCause::kStrayed, drive.report().stop_cause);
+  EXPECT_EQ(0x047E, cycle(0x0A37, 5'260));
+}
+
 TEST_F(PositionDrive, TellsItsSpeedWhereNoWordCarriesIt) {
   drive_.setPositionWords(1, profile::positionWords(profile::Series::kSk5xxe, {21, 22, 0}, {10, 15, 0}, 2));
   const auto at = [&](std::int32_t steps) {

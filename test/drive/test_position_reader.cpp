@@ -143,6 +143,31 @@ TEST(PositionReader, Continues16BitsAfterAGap) {
   EXPECT_EQ(32'780, reading.reader.steps());
 }
 
+// 16 bits that do not go on from the last value are a new count, and no other turn of the old one: 65.536 revolutions.
+TEST(PositionReader, ANewZeroOf16BitsIsWhatItsWordIs) {
+  Reading reading{kNarrow};
+  reading.settle(32'000);
+  for (std::int64_t steps = 32'200; steps <= 40'000; steps += 200) reading.see(steps);
+  ASSERT_EQ(40'000, reading.reader.steps());
+  for (int i = 0; i < 12; ++i) reading.see(0);
+  EXPECT_EQ(0, reading.reader.steps());
+  EXPECT_TRUE(reading.reader.isKnown());
+}
+
+// The same where the new count happens to go on.
+TEST(PositionReader, AfterAReferenceRun16BitsAreWhatTheirWordIs) {
+  Reading reading{kNarrow};
+  reading.settle(32'700);
+  for (std::int64_t steps = 32'900; steps <= 65'500; steps += 200) reading.see(steps);
+  reading.see(65'536 + 20);
+  ASSERT_EQ(65'556, reading.reader.steps());
+  reading.reader.handleNewZero(kNarrow);
+  EXPECT_EQ(20, reading.reader.steps());
+  reading.see(21);
+  EXPECT_EQ(21, reading.reader.steps());
+  EXPECT_FALSE(reading.reader.hasJumped());
+}
+
 TEST(PositionReader, TellsASpeed) {
   Reading reading{kWide};
   reading.settle(0);
