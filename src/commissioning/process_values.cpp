@@ -121,7 +121,8 @@ void drivePositions(const Drives& drives, std::size_t index, Findings& to) {
     Finding finding = drive.finding(control, Severity::kError,
                                     "with mode: position the drive has to position, and is not enabled as it is",
                                     "BU 0020, 7.3.5, p. 77");
-    finding.remedy = drive.remedy(control, 1);
+    // No number: what 1, 2 and so on do, and whether position/speed counts with them, stands in manuals not at hand.
+    finding.advice = "set it to position control as BU 0510 or BU 0710 says";
     to.push_back(finding);
   }
   const ParameterKey mode = drive.key(kSetpointMode);

@@ -35,8 +35,10 @@ Sentence positionModeMessage(const char* drive, const drive::UnexpectedFunction&
   found.format(function.found == kNotRead ? "could not be read" : "is %u", unsigned{function.found});
   Sentence text;
   if (function.number == 600) {
-    text.format("drive %s: P600 %s: with 0 it does not position, and mode is position; set P600 to %u", drive,
-                found.c_str(), unsigned{function.expected});
+    text.format(
+        "drive %s: P600 %s: with 0 it does not position, and mode is position; set P600 to what its manual (BU 0510, "
+        "BU 0710) says for position control",
+        drive, found.c_str());
   } else {
     text.format(
         "drive %s: P%u %s: its target comes from elsewhere; set P%u to %u, or position/setpoint_mode to what "

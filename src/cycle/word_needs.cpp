@@ -16,8 +16,21 @@ std::uint16_t codeAt(bool actual_value, std::size_t place, const WordFunctions& 
   return actual_value ? functions.actual_values[place - 1] : functions.setpoints[place - 1];
 }
 
+/// Third words are no words of their own where the 32 bits of the first take their place (BU 0020 6.1.2: P548 "is only present
+/// if P546 is neither 3 nor 6", 7.3.7: of the actual values then as well, if the first is a position).
+bool takesThirdPlace(bool actual_value, const WordFunctions& functions, Series series) noexcept {
+  if (!profile::thirdBeforeSecond(series)) return false;
+  const profile::WordFunction* const setpoint = profile::findSetpointFunction(series, 1, functions.setpoints[0]);
+  const bool wide =
+      setpoint != nullptr && (setpoint->use == WordUse::kPosition32 || setpoint->use == WordUse::kIncrement32);
+  if (!wide || !actual_value) return wide;
+  const profile::WordFunction* const first = profile::findActualValueFunction(series, functions.actual_values[0]);
+  return first != nullptr && (first->use == WordUse::kPosition16 || first->use == WordUse::kIncrement16);
+}
+
 std::optional<WordUse> useAt(bool actual_value, std::size_t place, const WordFunctions& functions,
                              Series series) noexcept {
+  if (place == 3 && takesThirdPlace(actual_value, functions, series)) return std::nullopt;
   const std::uint16_t code = codeAt(actual_value, place, functions);
   const profile::WordFunction* const function = actual_value ? profile::findActualValueFunction(series, code)
                                                              : profile::findSetpointFunction(series, place, code);
@@ -49,7 +62,8 @@ std::optional<WordNeed> needOf(const SignalSetup& signal) noexcept {
 std::size_t bestPlace(const WordNeeds& needs, const WordNeed& missing, const WordFunctions& functions,
                       Series series) noexcept {
   const bool actual_value = missing.actual_value;
-  const std::size_t last = std::min<std::size_t>(needs.words, missing.last);
+  const std::size_t words = takesThirdPlace(actual_value, functions, series) ? 2 : needs.words;
+  const std::size_t last = std::min<std::size_t>(words, missing.last);
   const std::size_t first =
       needs.firstIsFree(actual_value) || last < 2 ? missing.first : std::max<std::size_t>(missing.first, 2);
   std::size_t best = std::min(std::max<std::size_t>(first, 2), std::max<std::size_t>(last, 1));
@@ -250,6 +264,10 @@ std::optional<drive::UnexpectedFunction> missingWord(const WordNeeds& needs, con
     const auto low = placeOf(needs, WordUse::kPositionLow, functions, series);
     if (!need.actual_value && need.use == WordUse::kPositionHigh && low) {
       code = static_cast<std::uint16_t>(codeAt(false, *low, functions) + 1);
+    }
+    const auto high = placeOf(needs, WordUse::kPositionHigh, functions, series);
+    if (!need.actual_value && need.use == WordUse::kPositionLow && high) {
+      code = static_cast<std::uint16_t>(codeAt(false, *high, functions) - 1);
     }
     return wordToSet(need.actual_value, place, code.value_or(0), functions, series);
   }

@@ -126,6 +126,7 @@ constexpr WordFunction kActualValues[] = {
     {24, kSk5, "Master value actual frequency with slip", U::kOther, N::kMaximumFrequency},
 };
 
+constexpr std::uint16_t kFirstOfBu2700 = 23;
 constexpr const char* kNoName = "reserved or unknown";
 
 bool isOld(Series series) noexcept {
@@ -166,7 +167,13 @@ const WordFunction* findActualValueFunction(Series series, std::uint16_t code) n
   return find(kActualValues, series, [code](const WordFunction& row) { return row.code == code; });
 }
 
+// Of the positions of SK 53xE 23 and 24: BU 2700 5.3 pairs them with the actual values 10 and 15, so that both count the
+// same steps, whatever these are. 21 and 22 may be others.
 std::optional<std::uint16_t> setpointCode(Series series, std::size_t place, WordUse use) noexcept {
+  if (use == WordUse::kPositionLow || use == WordUse::kPositionHigh) {
+    return codeOf(findSetpoint(
+        series, place, [use](const WordFunction& row) { return row.use == use && row.code >= kFirstOfBu2700; }));
+  }
   return codeOf(findSetpoint(series, place, [use](const WordFunction& row) { return row.use == use; }));
 }
 

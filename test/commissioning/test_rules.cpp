@@ -140,7 +140,7 @@ const std::vector<Row>& rows() {
        kSk511,
        positions,
        {{{547, 1, 0}, 21}, {{548, 1, 0}, 22}, {{544, 1, 0}, 10}, {{545, 1, 0}, 15}, {{600, 1, 0}, 0}},
-       {"position_control error P600 set 1 -> 1"}},
+       {"position_control error P600 set 1"}},
       {"no high word",
        kSk511,
        positions,

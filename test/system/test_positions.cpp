@@ -327,7 +327,7 @@ TYPED_TEST(Positions, ADriveThatDoesNotPositionIsNotEnabled) {
   ASSERT_TRUE(robot.bringUp());
   const cycle::Completion enabled = robot.ask(RequestKind::kEnable);
   EXPECT_FALSE(enabled.success);
-  EXPECT_THAT(enabled.message.str(), HasSubstr("set P600 to 1"));
+  EXPECT_THAT(enabled.message.str(), HasSubstr("set P600 to what its manual"));
 }
 
 // A gateway that splits the words: high ones are a telegram older.

@@ -1,0 +1,47 @@
+// Which words carry what a configuration needs, where 32 bits take the place of a word of their own.
+#include <gtest/gtest.h>
+
+#include "cycle/word_needs.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using profile::Series;
+using profile::WordUse;
+
+PositionSetup position(std::uint8_t bits) {
+  PositionSetup setup;
+  setup.bits = bits;
+  return setup;
+}
+
+WordNeeds needsOf(std::uint8_t bits, std::initializer_list<WordNeed> further) {
+  WordNeeds needs;
+  needs.words = 3;
+  needs.positions = true;
+  addPositionNeeds(position(bits), Series::kSk750e, needs);
+  for (const WordNeed& need : further) needs.list.push_back(need);
+  return needs;
+}
+
+// BU 0020 6.1.2: P548 "is only present if P546 is neither 3 nor 6". What stands in it is left over, and a torque limit put
+// there would be half of the target.
+TEST(WordNeeds, A32BitTargetLeavesNoThirdSetpoint) {
+  const WordFunctions wide{{3, 1, 2}, {6, 1, 4}};
+  const WordNeed torque{false, WordUse::kTorqueLimit};
+  EXPECT_FALSE(carries(3, torque, wide, Series::kSk750e));
+  EXPECT_TRUE(carries(3, torque, WordFunctions{{2, 1, 2}, {6, 1, 4}}, Series::kSk750e)) << "16 bits leave it its place";
+  EXPECT_TRUE(carries(3, torque, WordFunctions{{3, 1, 2}, {6, 1, 4}}, Series::kSk5xxe)) << "other words, other codes";
+  const auto missing = missingWord(needsOf(32, {torque}), wide, Series::kSk750e);
+  ASSERT_TRUE(missing);
+  EXPECT_EQ(547, missing->number);
+}
+
+TEST(WordNeeds, A32BitPositionLeavesNoThirdActualValue) {
+  const WordNeed current{true, WordUse::kTorqueCurrent};
+  EXPECT_FALSE(carries(3, current, WordFunctions{{3, 1, 0}, {6, 1, 4}}, Series::kSk750e));
+  EXPECT_TRUE(carries(3, current, WordFunctions{{3, 1, 0}, {1, 6, 4}}, Series::kSk750e)) << "the frequency has 16 bits";
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle
