@@ -31,10 +31,10 @@ std::string otherDrives(const CycleConfig& config, DriveIndex drive) {
   return names.empty() ? "another drive, and there is none" : "one of the other drives: " + names;
 }
 
-bool isWheel(const CycleConfig& config, DriveIndex drive) {
+bool isOfBase(const CycleConfig& config, DriveIndex drive) {
   if (!config.base) return false;
-  const std::vector<DriveIndex> wheels = config.base->wheels();
-  return std::find(wheels.begin(), wheels.end(), drive) != wheels.end();
+  const std::vector<DriveIndex> drives = config.base->drives();
+  return std::find(drives.begin(), drives.end(), drive) != drives.end();
 }
 
 bool isArray(std::uint16_t number, profile::Series series) noexcept {
@@ -57,8 +57,13 @@ void readLeaders(const std::vector<DriveSettings>& sources, CycleConfig& config,
     if (drive.leader == i || (!drive.leader && all_drives)) {
       throw wrongSetting(settings, kKey, found, otherDrives(config, i));
     }
-    if (isWheel(config, i)) {
-      throw wrongSetting(settings, kKey, found, "no such key of a wheel of the base, which is commanded by itself");
+    if (isOfBase(config, i)) {
+      throw wrongSetting(settings, kKey, found, "no such key of a drive of the base, which is commanded by itself");
+    }
+    // What a follower makes of its leader's position setpoint, none of the manuals says; and two axes that are stopped
+    // by OFF1 each on its own ramp would pull at one load.
+    if (drive.position || (drive.leader && config.drives[*drive.leader].position)) {
+      throw wrongSetting(settings, kKey, found, "no such key where one of both is `mode: position`");
     }
   }
   for (DriveIndex i = 0; i < sources.size(); ++i) {
@@ -83,8 +88,11 @@ std::optional<drive::UnexpectedSource> unexpectedSource(const DeviceData& device
   const auto& setpoint = device.setpoint_source;
   const bool led = control_word && profile::isBroadcastControlWord(series, *control_word);
   const bool pulled = setpoint && profile::isBroadcastSetpoint(series, *setpoint);
-  // With its control word from a leader and a setpoint of its own (P510 neither broadcast nor 0) it is led all the same.
   if (led || pulled) {
+    // Enabled by its leader it would hold the setpoint of this bus, which nobody gives it: 0, against the other's load.
+    if (follows && led && setpoint && !pulled && *setpoint != 0) {
+      return drive::UnexpectedSource{kSetpointSource, isArray(kSetpointSource, series), *setpoint, true};
+    }
     if (follows) return std::nullopt;
     if (led) return drive::UnexpectedSource{kControlWordSource, false, *control_word, false};
     return drive::UnexpectedSource{kSetpointSource, isArray(kSetpointSource, series), *setpoint, false};

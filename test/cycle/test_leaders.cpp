@@ -54,6 +54,28 @@ TEST(Leaders, RefuseWhatCannotBe) {
   EXPECT_THAT(errorOf({"b", "a"}), HasSubstr("a drive that follows no other one itself"));
 }
 
+// What a follower makes of a target nobody knows, and setpoint zero stops neither.
+TEST(Leaders, PositionNothing) {
+  for (const char* const positioning : {"a", "b"}) {
+    std::vector<DriveSettings> drives;
+    for (const std::string name : {"a", "b"}) {
+      auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
+      settings->set("series", "sk2xxe").set("pole_pairs", 2).set("address", name == "a" ? 3 : 4);
+      if (name == positioning) settings->set("mode", "position");
+      if (name == "b") settings->set("follows", "a");
+      drives.push_back({name, settings});
+    }
+    try {
+      readCycleConfig(MapSettings{"~"}, drives, {}, true);
+      ADD_FAILURE() << positioning << " positions, and that was taken";
+    } catch (const ConfigError& error) {
+      EXPECT_THAT(error.what(),
+                  HasSubstr("drives/b/follows: \"a\" is not valid, expected no such key where one of both "
+                            "is `mode: position`"));
+    }
+  }
+}
+
 // A program that was asked for one drive reads no other one.
 TEST(Leaders, MayBeAbsentWhereNotAllDrivesWereRead) {
   const CycleConfig config = configured({"", "x"}, false);
@@ -91,6 +113,11 @@ TEST(Leaders, OfAFollowerMustBeHeard) {
   const auto deaf = unexpectedSource(device(3, 0), Series::kSk2xxe, true);
   ASSERT_TRUE(deaf);
   EXPECT_TRUE(deaf->should_follow);
+  // Enabled by its leader, with the setpoint of this bus, which nobody gives it.
+  const auto held = unexpectedSource(device(4, 3), Series::kSk2xxe, true);
+  ASSERT_TRUE(held);
+  EXPECT_EQ(510, held->number);
+  EXPECT_TRUE(held->should_follow);
   EXPECT_FALSE(unexpectedSource(device({}, {}), Series::kSk2xxe, true)) << "it does not tell: the configuration counts";
 }
 
