@@ -197,6 +197,10 @@ void readAllLimits(BaseConfig& base, const Settings& settings) {
   base.limits.angular_z = read("angular/z");
   if (base.movesSideways()) base.limits.linear_y = read("linear/y");
   base.limits.limit_axes_independently = booleanOr(settings, "limit_axes_independently", false);
+  // Each axis for itself bends the path, and the wheels would have to be steered anew with every step.
+  if (base.steered && base.limits.limit_axes_independently) {
+    throw wrongSetting(settings, "limit_axes_independently", "true", "false with base_type: steered");
+  }
 }
 
 }  // namespace

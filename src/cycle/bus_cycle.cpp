@@ -139,6 +139,8 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
     case RequestKind::kSelectParameterSet:
       return selectParameterSet(request, now);
     case RequestKind::kHome:
+      if (refuseHomeUnderWay(request)) return;
+      return position_requests_.handleRequest(request, now);
     case RequestKind::kTeach:
       return position_requests_.handleRequest(request, now);
     case RequestKind::kResetOdometry:

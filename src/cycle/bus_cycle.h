@@ -58,6 +58,8 @@ class BusCycle {
   void takeRequest(const Request& request, Instant now) noexcept;
   /// What an onlooker must not do; false: it may.
   bool refuseAsOnlooker(const Request& request) noexcept;
+  /// A reference run of a drive that steers a base under way; false: it may.
+  bool refuseHomeUnderWay(const Request& request) noexcept;
   void selectParameterSet(const Request& request, Instant now) noexcept;
   void accessParameter(const Request& request, Instant now) noexcept;
   Completion resetOdometry(const Request& request) noexcept;

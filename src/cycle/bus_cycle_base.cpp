@@ -75,6 +75,17 @@ void BusCycle::commandSteered(Instant now, Duration dt) noexcept {
   tellWaits(waits, passes, now);
 }
 
+// An axis on its way through a reference run turns its wheel to where the base does not go.
+bool BusCycle::refuseHomeUnderWay(const Request& request) noexcept {
+  if (!steered_ || !supervisor_.inBase(request.drive)) return false;
+  if (steered_->limited() == robot::Twist2d{} && supervisor_.base()->commandAllowed()) return false;
+  Sentence text;
+  text.format("drive %s steers the base, and the base is not enabled at standstill: no reference run",
+              names_[request.drive].c_str());
+  ports_.complete(answerTo(request, false, text));
+  return true;
+}
+
 void BusCycle::tellWaits(const Sentence& waits, bool passes, Instant now) noexcept {
   if (waits.empty()) waits_since_.reset();
   if (!waits.empty() && !waits_since_) waits_since_ = now;
@@ -88,7 +99,10 @@ void BusCycle::tellWaits(const Sentence& waits, bool passes, Instant now) noexce
 robot::SteeringAngles BusCycle::steeringAngles() const noexcept {
   robot::SteeringAngles angles;
   for (const DriveIndex i : steering_) {
-    angles.push_back(drives_[i].report().position.position.value_or(std::numeric_limits<double>::quiet_NaN()));
+    const drive::PositionReport& axis = drives_[i].report().position;
+    // On its way through a reference run an axis has no angle to drive by, and its count gets a new zero.
+    angles.push_back(axis.homing ? std::numeric_limits<double>::quiet_NaN()
+                                 : axis.position.value_or(std::numeric_limits<double>::quiet_NaN()));
   }
   return angles;
 }

@@ -52,10 +52,14 @@ robot::SteeredSetpoint SteeredMotion::poll(const TwistCommand& command, bool dri
   if (!driving || !known) {
     limiter_.reset();
     if (known) steered_ = drives.angles;
+    if (!known) was_blind_ = true;
     steers_ = false;
     if (driving) waits_for_ = SteeredWait::kNoPosition;
     return rest();
   }
+  // Where they stand may be somewhere else, and counted anew: they are not sent back.
+  if (was_blind_) steered_ = drives.angles;
+  was_blind_ = false;
   const robot::WheelSpeeds limits = robot::tighterOf(drives.max_speeds, joint_limits_);
   const bool obey = follow && !drives.minimum.coming_to_rest && !isStale(command, timeout_, now);
   robot::Twist2d target = targetOf(command, obey, limits, drives.angles);

@@ -85,6 +85,7 @@ class SteeredMotion {
 
   robot::Twist2d limited_;
   robot::SteeringAngles steered_;  // commanded last
+  bool was_blind_ = false;         // an angle was not known
   bool steers_ = false;            // they may be far from where the wheels stand: steered at standstill
   bool drives_ = false;            // the wheels were commanded to turn
   bool below_minimum_ = false;

@@ -102,6 +102,8 @@ TEST(SteeredConfig, RefusesInWords) {
   EXPECT_THAT(refusal(robot().set("steered/front/min_angle", 0.2)), HasSubstr("~steered/front/min_angle: 0.2"));
   EXPECT_THAT(refusal(robot().set("steered/rear/x", 0.4).set("steered/rear/y", 0.1)),
               HasSubstr("stands where axle 1 stands"));
+  EXPECT_THAT(refusal(robot().set("limit_axes_independently", true)),
+              HasSubstr("~limit_axes_independently: true is not valid, expected false with base_type: steered"));
   EXPECT_THAT(refusal(robot().set("steered/angle_tolerance", 0.0)), HasSubstr("~steered/angle_tolerance: 0"));
 }
 

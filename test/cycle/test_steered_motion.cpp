@@ -307,6 +307,11 @@ TEST(SteeredMotion, WithoutAnAngleThereIsNoMotion) {
   EXPECT_EQ((robot::WheelSpeeds{0.0, 0.0}), base.setpoint.wheels);
   EXPECT_EQ(SteeredWait::kNoPosition, base.motion.waitsFor());
   EXPECT_EQ((robot::SteeringAngles{0.0, 0.0}), base.setpoint.angles);
+  // Counted anew meanwhile, by a reference run: the wheels are not sent back to where they were.
+  base.drives.angles = {0.0, 0.4};
+  base.command(0.0);
+  base.poll();
+  EXPECT_EQ((robot::SteeringAngles{0.0, 0.4}), base.setpoint.angles);
 }
 
 // P104 > 0: the base drives as a whole or rests as a whole.
