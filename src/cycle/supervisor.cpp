@@ -130,8 +130,8 @@ void Supervisor::endWaitingEnables(const Request& stop) noexcept {
 }
 
 // Stops have acted by then, whatever becomes of their answer.
-void Supervisor::followUp(const Request& request, Instant now, bool begun) noexcept {
-  if (jobs_.push_back({request, now + request.patience, begun})) return;
+void Supervisor::followUp(const Request& request, Instant now, bool begun, std::optional<Instant> enabled_at) noexcept {
+  if (jobs_.push_back({request, now + request.patience, begun, enabled_at})) return;
   completions_.answer(request, false, "begun, but too many requests wait for their answers to follow this one");
 }
 
@@ -153,7 +153,8 @@ void Supervisor::startEnable(const Request& request, const CommandState& command
   auto_enable_ = false;  // somebody has taken over
   if (shutting_down_) return completions_.answer(request, false, "the node is ending");
   if (jobs_.full()) return completions_.answer(request, false, "too many requests are being carried out already");
-  if (isEnabled(request)) return completions_.answer(request, true, "already enabled");
+  // As of what the drives say from now on: one may have tripped while this cycle was held up.
+  if (isEnabled(request)) return followUp(request, now, true, now);
   if (nothingToEnable(request)) return followUp(request, now);
   if (!commands.moving.empty()) return completions_.answer(request, false, reasonsAgainst(request, commands.moving));
   if (commands.to_hear > request.patience) {
@@ -264,7 +265,12 @@ bool Supervisor::followEnable(const Job& job, Instant now) noexcept {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     if (!concerns(job.request, i)) continue;
     const drive::GroupReport& report = groups_[i].group.report();
-    if (report.phase == GroupPhase::kEnabled) continue;
+    if (report.phase == GroupPhase::kEnabled) {
+      for (const DriveIndex member : groups_[i].members) {
+        all = all && (!job.enabled_at || drives_[member].lastHeard() > *job.enabled_at);
+      }
+      continue;
+    }
     all = false;
     if (report.phase == GroupPhase::kEnabling) continue;
     takeBack(job.request, now);
@@ -272,7 +278,7 @@ bool Supervisor::followEnable(const Job& job, Instant now) noexcept {
                         report.refusal.accepted() ? Sentence{kDisabledAgain} : refusalOf(groups_[i], report.refusal));
     return true;
   }
-  if (all) completions_.answer(job.request, true, "enabled");
+  if (all) completions_.answer(job.request, true, job.enabled_at ? "already enabled" : "enabled");
   return all;
 }
 

@@ -53,7 +53,8 @@ class Supervisor {
   struct Job {
     Request request;
     Instant deadline{};
-    bool begun = true;  // false: an enable that waits until commands have been listened to
+    bool begun = true;                       // false: an enable that waits until commands have been listened to
+    std::optional<Instant> enabled_at = {};  // an enable of what was enabled then
   };
 
   void addGroup(std::vector<DriveIndex> members, const CycleConfig& config);
@@ -69,7 +70,8 @@ class Supervisor {
   bool nothingToEnable(const Request& request) const noexcept;
   void stop(const Request& request, Instant now) noexcept;
   void endWaitingEnables(const Request& stop) noexcept;
-  void followUp(const Request& request, Instant now, bool begun = true) noexcept;
+  void followUp(const Request& request, Instant now, bool begun = true,
+                std::optional<Instant> enabled_at = std::nullopt) noexcept;
   /// These three: true when the job has ended.
   bool follow(Job& job, const CommandState& commands, Instant now) noexcept;
   bool followWaiting(Job& job, const CommandState& commands, Instant now) noexcept;

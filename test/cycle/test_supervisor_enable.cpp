@@ -163,6 +163,24 @@ TEST_F(SupervisorEnable, EnablingWhatIsEnabledIsGrantedWhileItDrives) {
   EXPECT_EQ(drive::Phase::kEnabled, drives[kLeft].report().phase) << "a refusal takes back nothing that was enabled";
 }
 
+// Found by the campaign (devicenet, 60297): held up for longer than the drives' time-out the driver still has their status
+// words from before, and what they have become since is in the next ones.
+TEST_F(SupervisorEnable, WhatWasEnabledBeforeAHoldUpIsNotGrantedUnseen) {
+  bringUp();
+  ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  inverters[kLeft].fault = true;
+  const Completion again = ask(RequestKind::kEnable);
+  EXPECT_FALSE(again.success) << again.message.c_str();
+}
+
+TEST_F(SupervisorEnable, WhatIsEnabledAndSilentIsNotGrantedUnseen) {
+  bringUp();
+  ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  inverters[kLeft].silent = true;
+  const Completion again = ask(RequestKind::kEnable);
+  EXPECT_FALSE(again.success) << again.message.c_str();
+}
+
 TEST_F(SupervisorEnable, AStopDuringTheEnablingEndsItForItsAsker) {
   bringUp();
   request(1, RequestKind::kEnable);

@@ -141,7 +141,7 @@ class StandstillEvents {
       const auto& job = world.jobs[i];
       const Asked& asked = world.asked.at(job.request.id - 1);
       key.add(asked.waits).add(job.request.kind).add(job.request.drive).add(asked.set).add(asked.age);
-      key.add(ticks(world.wheels.now, job.deadline, kTick, kLongPatience)).add(job.busy.empty()).add(asked.idle);
+      key.add(ticks(world.wheels.now, job.deadline, kTick, kLongPatience)).add(job.refusal.empty()).add(asked.idle);
       for (const drive::Drive& drive : world.wheels.drives) {
         const bool acknowledges = job.request.kind == RequestKind::kAcknowledge;
         const drive::RequestReport& report = acknowledges ? drive.report().acknowledge : drive.report().set_switch;

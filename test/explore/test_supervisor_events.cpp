@@ -149,6 +149,9 @@ class SupervisorEvents {
       const Asked asked = job.request.id == 0 ? Asked{} : world.asked.at(job.request.id - 1);
       key.add(asked.waits).add(asked.kind).add(asked.age).add(job.request.kind).add(job.begun);
       key.add(ticks(world.wheels.now, job.deadline, kTick, kPatience));
+      for (const drive::Drive& drive : world.wheels.drives) {
+        key.add(job.enabled_at && drive.lastHeard() > *job.enabled_at);
+      }
     }
   }
 
