@@ -14,7 +14,8 @@ constexpr std::uint8_t kEmergencySize = 8;
 constexpr std::array<std::uint32_t, 4> kTransmitPdoBases{0x180, 0x280, 0x380, 0x480};
 constexpr std::uint8_t kAnswersGuarding = 0x80;  // its toggle bit: each second answer has it
 // BU 2700 6.4.3, state "operation enabled": bits 0, 1, 2, 3, 5 and 6 of the status word, low byte first.
-constexpr std::uint8_t kStateBits = 0x6F, kOperationEnabled = 0x27;
+constexpr std::uint8_t kStateBits = 0x6F, kOperationEnabled = 0x27, kQuickStopActive = 0x07;
+constexpr std::uint8_t kFaultBits = 0x4F, kFaultReactionActive = 0x0F;
 constexpr std::uint8_t kBootUp = 0x00, kStopped = 0x04, kPreOperational = 0x7F;
 
 bool isOfNode(std::uint32_t id, std::uint32_t base) noexcept {
@@ -40,7 +41,10 @@ bool showsCanopenMasterOrMotion(const CanFrame& frame) noexcept {
   for (const std::uint32_t base : kTransmitPdoBases) {
     // Whatever PDO it is: the first word of those that tell of an inverter is its status word.
     if (!isOfNode(frame.id, base)) continue;
-    return frame.size >= 2 && (frame.data[0] & kStateBits) == kOperationEnabled;
+    if (frame.size < 2) return false;
+    const unsigned state = frame.data[0] & kStateBits;
+    return state == kOperationEnabled || state == kQuickStopActive ||
+           (frame.data[0] & kFaultBits) == kFaultReactionActive;
   }
   return true;
 }

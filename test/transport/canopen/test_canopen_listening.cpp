@@ -131,9 +131,11 @@ TEST(CanListenFirst, NodesLeftOperationalAreToldFromThoseOfAMaster) {
     EXPECT_FALSE(showsCanopenMasterOrMotion(left)) << left.id;
   }
   for (const CanFrame& kept :
-       {dataFrame(0x183, ByteView{FixedBytes<4>{0x37, 0x0B, 0, 0x20}}), state(0x703, 0x85), remoteFrame(0x703, 1),
-        dataFrame(0x000, ByteView{FixedBytes<2>{0x01, 0x03}}), dataFrame(0x080, ByteView{}),
-        dataFrame(0x203, ByteView{FixedBytes<4>{0x7E, 0x04, 0, 0}}),
+       {dataFrame(0x183, ByteView{FixedBytes<4>{0x37, 0x0B, 0, 0x20}}),
+        dataFrame(0x183, ByteView{FixedBytes<4>{0x17, 0x0B, 0, 0x20}}),  // quick stop active: on its ramp
+        dataFrame(0x183, ByteView{FixedBytes<4>{0x0F, 0x0B, 0, 0x20}}),  // fault reaction active
+        state(0x703, 0x85), remoteFrame(0x703, 1), dataFrame(0x000, ByteView{FixedBytes<2>{0x01, 0x03}}),
+        dataFrame(0x080, ByteView{}), dataFrame(0x203, ByteView{FixedBytes<4>{0x7E, 0x04, 0, 0}}),
         dataFrame(0x603, ByteView{FixedBytes<8>{0x40, 0x00, 0x10, 0, 0, 0, 0, 0}}),
         dataFrame(0x583, ByteView{FixedBytes<8>{0x43, 0x00, 0x10, 0, 0, 0, 0, 0}})}) {
     EXPECT_TRUE(showsCanopenMasterOrMotion(kept)) << kept.id;
