@@ -2,6 +2,7 @@
 
 #include <std_msgs/UInt8.h>
 
+#include <algorithm>
 #include <boost/function.hpp>
 #include <cmath>
 #include <utility>
@@ -47,6 +48,14 @@ bool isFinite(const geometry_msgs::Twist& twist) {
   return true;
 }
 
+// Each of them may be on its reference run, a minute long; without one there is no call to wait for.
+std::uint32_t positionDrives(const NodeConfig& config) {
+  const auto& drives = config.cycle.drives;
+  const auto count =
+      std::count_if(drives.begin(), drives.end(), [](const auto& drive) { return drive.position.has_value(); });
+  return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(count, 1));
+}
+
 Instant steadyNow() {
   return std::chrono::steady_clock::now();
 }
@@ -61,6 +70,7 @@ DriverNode::DriverNode()
       jobs_(private_node_, kJobThreads),
       settings_("~", privateParameters()),
       config_(withWhatIsOffered(readNodeConfig(settings_, robotDescription()), settings_)),
+      homing_(private_node_, positionDrives(config_)),
       catalogues_(tools::installedCatalogues(config_.parameter_files)),
       loader_("nord_driver", "nord_driver::Transport"),
       eeprom_budget_(tools::eepromBudget(config_.eeprom)) {
@@ -79,7 +89,7 @@ DriverNode::DriverNode()
 DriverNode::~DriverNode() {
   if (parameter_jobs_) parameter_jobs_->end();
   // They use what goes next.
-  for (CallbackThreads* lane : {&commands_, &private_commands_, &stops_, &jobs_}) lane->stop();
+  for (CallbackThreads* lane : {&commands_, &private_commands_, &stops_, &jobs_, &homing_}) lane->stop();
   thread_.reset();
   tracing_.reset();  // after the bus: what happened last is in the last trace
   services_.reset();
@@ -159,8 +169,8 @@ void DriverNode::advertise() {
   fault_board_ = std::make_unique<FaultBoard>(names, faults_);
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
   diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, known_, values_, where_);
-  services_ =
-      std::make_unique<Services>(private_node_, stops_.handle(), config_, known_, *fault_board_, eeproms_, *broker_);
+  services_ = std::make_unique<Services>(private_node_, stops_.handle(), homing_.handle(), config_, known_,
+                                         *fault_board_, eeproms_, *broker_);
   parameter_jobs_ = std::make_unique<ParameterJobs>(jobs_.handle(), config_, identities_, known_, eeproms_, *broker_);
   tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace());
   ports_->setObserver(&tracing_->feed());
@@ -229,7 +239,7 @@ void DriverNode::countBadCommand(DriveIndex drive, const char* what, bool taken)
 void DriverNode::run(const std::atomic<bool>& end_asked) {
   ros::AsyncSpinner spinner(kSpinnerThreads);
   spinner.start();
-  for (CallbackThreads* lane : {&commands_, &private_commands_, &stops_, &jobs_}) lane->start();
+  for (CallbackThreads* lane : {&commands_, &private_commands_, &stops_, &jobs_, &homing_}) lane->start();
   if (config_.cycle.cmd_vel_timeout == Duration::zero()) {
     ROS_WARN("nord_driver: cmd_vel_timeout is 0: the last command is followed for ever");
   }

@@ -79,6 +79,7 @@ class DriverNode {
   CallbackThreads jobs_;              // ~<drive>/dump_parameters, ~<drive>/verify_parameters
   RosSettings settings_;
   NodeConfig config_;
+  CallbackThreads homing_;  // ~<drive>/home
   catalogue::Catalogues catalogues_;
   pluginlib::ClassLoader<Transport> loader_;
   boost::shared_ptr<Transport> transport_;

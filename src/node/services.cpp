@@ -30,8 +30,8 @@ void Services::advertise(ros::NodeHandle& node, const std::string& name, Handler
   servers_.push_back(offer<Service>(node, name, handler));
 }
 
-Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, const NodeConfig& config,
-                   std::vector<catalogue::DriveCatalogue> known, const FaultBoard& faults,
+Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, ros::NodeHandle& home_node,
+                   const NodeConfig& config, std::vector<catalogue::DriveCatalogue> known, const FaultBoard& faults,
                    std::deque<state::DriveEeprom>& eeproms, RequestBroker& broker)
     : config_(config), known_(std::move(known)), faults_(faults), eeproms_(eeproms), broker_(broker) {
   const auto addTrigger = [&](const std::string& name, RequestKind kind, DriveIndex drive) {
@@ -74,7 +74,7 @@ Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, co
         response.success = answer.success;
         response.message = messageOf(answer, i);
       });
-      advertise<std_srvs::Trigger>(private_node, prefix + "home", [this, i, prefix](auto&, auto& response) {
+      advertise<std_srvs::Trigger>(home_node, prefix + "home", [this, i, prefix](auto&, auto& response) {
         cycle::Request request;
         request.kind = RequestKind::kHome;
         request.drive = i;

@@ -26,8 +26,8 @@ class Services {
   /// `stop_node`: the private handle whose callbacks do not wait behind those of the other services. `known`: of each
   /// drive.
   /// `eeproms`: of each drive. It and `faults` must outlive the services.
-  Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, const NodeConfig& config,
-           std::vector<catalogue::DriveCatalogue> known, const FaultBoard& faults,
+  Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, ros::NodeHandle& home_node,
+           const NodeConfig& config, std::vector<catalogue::DriveCatalogue> known, const FaultBoard& faults,
            std::deque<state::DriveEeprom>& eeproms, RequestBroker& broker);
 
  private:

@@ -15,7 +15,8 @@ namespace nord_driver::tools {
 
 namespace {
 
-const ros::WallDuration kStatusTime{2.0};  // it is published several times a second
+const ros::WallDuration kStatusTime{11.0};  // status_rate is 0.1 Hz at least
+const ros::WallDuration kSetTime{2.0};      // from a status without one: a drive that is coming back
 
 }  // namespace
 
@@ -40,29 +41,43 @@ void NodeParameters::call(ros::ServiceClient& client, Service& service) {
 }
 
 // The one in force where none is named, so that it can be told which one was meant.
-std::uint8_t NodeParameters::setFor(const catalogue::ParameterAccess& access) {
-  if (!profile::hasSets(access.request.shape)) return 0;
+std::optional<std::uint8_t> NodeParameters::setFor(const catalogue::ParameterAccess& access) {
+  if (!profile::hasSets(access.request.shape)) return std::uint8_t{0};
   if (access.request.parameter_set != 0) return access.request.parameter_set;
   std::uint8_t set = 0;
+  bool heard = false;
+  // Not by ros::Time, which may stand still (/use_sim_time).
+  ros::WallTime end = ros::WallTime::now() + kStatusTime;
   ros::CallbackQueue queue;
   ros::NodeHandle handle;
   handle.setCallbackQueue(&queue);
   const auto status =
-      handle.subscribe<DriveStatus>(node_ + "/" + drive_.name + "/status", 1,
-                                    [&set](const DriveStatus::ConstPtr& told) { set = told->parameter_set; });
-  // Not by ros::Time, which may stand still (/use_sim_time).
-  const ros::WallTime end = ros::WallTime::now() + kStatusTime;
+      handle.subscribe<DriveStatus>(node_ + "/" + drive_.name + "/status", 1, [&](const DriveStatus::ConstPtr& told) {
+        set = told->parameter_set;
+        if (!heard) end = ros::WallTime::now() + kSetTime;
+        heard = true;
+      });
   while (set == 0 && ros::WallTime::now() < end) queue.callAvailable(ros::WallDuration(0.1));
   if (set != 0) return set;
-  throw Trouble("node " + node_ + " does not tell which parameter set is in force: does drive " + drive_.name +
-                " answer? Name one with --set");
+  if (heard) return std::nullopt;
+  throw Trouble("node " + node_ + " tells no status of drive " + drive_.name + ": did it end?");
+}
+
+// One drive that is silent is the matter of that drive: who watches several goes on with the others.
+ParameterAnswer NodeParameters::silent() const {
+  ParameterAnswer answer;
+  answer.message = "drive " + drive_.name +
+                   " does not answer, and nobody knows which of its parameter sets is in force: name one with --set";
+  return answer;
 }
 
 ParameterAnswer NodeParameters::read(const catalogue::ParameterAddress& address) {
   const catalogue::ParameterAccess access = catalogue::accessTo(address, known());
   if (!access.error.empty()) throw Trouble(access.error);
+  const auto set = setFor(access);
+  if (!set) return silent();
   ParameterAnswer answer;
-  answer.set = setFor(access);
+  answer.set = *set;
   ReadParameter service;
   service.request.number = address.number;
   service.request.parameter_set = answer.set;
@@ -79,8 +94,10 @@ ParameterAnswer NodeParameters::read(const catalogue::ParameterAddress& address)
 }
 
 ParameterAnswer NodeParameters::write(const catalogue::ParameterAccess& access) {
+  const auto set = setFor(access);
+  if (!set) return silent();
   ParameterAnswer answer;
-  answer.set = setFor(access);
+  answer.set = *set;
   WriteParameter service;
   service.request.number = access.request.number;
   service.request.parameter_set = answer.set;

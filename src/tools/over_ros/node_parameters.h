@@ -3,6 +3,7 @@
 
 #include <ros/service_client.h>
 
+#include <optional>
 #include <string>
 
 #include "tools/drive_nodes.h"
@@ -27,7 +28,9 @@ class NodeParameters final : public DriveParameters {
  private:
   template <typename Service>
   void call(ros::ServiceClient& client, Service& service);
-  std::uint8_t setFor(const catalogue::ParameterAccess& access);
+  /// Asked for, or in force; none where the drive does not tell it.
+  std::optional<std::uint8_t> setFor(const catalogue::ParameterAccess& access);
+  ParameterAnswer silent() const;
 
   std::string node_;
   DriveDescription drive_;
