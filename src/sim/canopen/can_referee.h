@@ -40,8 +40,9 @@ const char* toString(CanRule rule) noexcept;
 class CanReferee {
  public:
   static constexpr std::size_t kNodes = 128;
-  /// RPDOs that may still follow the message that a node is no longer operational: they were on their way.
-  static constexpr unsigned kRpdoTolerance = 3;
+  /// RPDOs that may still follow the message that a node is no longer operational: they were on their way. Of a cycle, one
+  /// for each of the four inverters behind a gateway (BU 0220).
+  static constexpr unsigned kRpdoTolerance = 4;
 
   void broken(CanRule rule) noexcept { ++counts_[static_cast<std::size_t>(rule)]; }
 
