@@ -26,10 +26,17 @@ Place placeOf(const std::string& file, const YAML::Node& node) {
   return {file, node.Mark().line + 1};
 }
 
+// What a file says is part of many sentences: a zero would end one, and others are for a terminal to obey.
+std::string withoutControls(std::string text) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+  std::replace_if(text.begin(), text.end(), is_control, '?');
+  return text;
+}
+
 }  // namespace
 
 ConfigError wrongPlace(const Place& place, const std::string& message) {
-  return ConfigError(place.file + ":" + std::to_string(place.line) + ": " + message);
+  return ConfigError(place.file + ":" + std::to_string(place.line) + ": " + withoutControls(message));
 }
 
 ConfigError wrongValue(const std::string& file, const YAML::Node& value, const std::string& path,

@@ -94,6 +94,14 @@ TEST(BadParameterFiles, UnknownKeys) {
             aboutEntry(kGood + "    readonly: true\n"));
 }
 
+// Found by fuzzing: what() is a text that ends at its first zero.
+TEST(BadParameterFiles, AZeroInAKeyDoesNotCutTheSentence) {
+  const std::string key{"faul\0ts", 7};
+  const std::string words = aboutFaults("codes: p700\nresolution: 0.1\ndevices: [sk5xxe]\n" + key + ": []\n");
+  EXPECT_THAT(words, testing::HasSubstr("faul?ts"));
+  EXPECT_THAT(words, testing::HasSubstr("xpected"));
+}
+
 TEST(BadParameterFiles, Numbers) {
   EXPECT_EQ("3: parameters: number is missing, expected the number of the parameter", aboutEntry("  - name: X\n"));
   EXPECT_EQ("3: parameters: number: \"P509\" is not valid, expected a whole number", aboutEntry("  - number: P509\n"));
