@@ -38,7 +38,8 @@ CanNode::CanNode(const CanNodeSettings& settings, const Drives& drives, CanRefer
       process_(drives, settings.can.connection) {
   if (settings.can.connection == CanConnection::kGateway) module_.emplace();
   for (std::size_t i = 0; i < servers_.size(); ++i) servers_[i].bind(*this, i);
-  referee_.nodeExists(settings_.node);
+  const auto missing = std::count(drives.begin(), drives.end(), nullptr);
+  referee_.nodeExists(settings_.node, drives.size() - static_cast<std::size_t>(missing));
 }
 
 Supply CanNode::supply() const noexcept {

@@ -90,7 +90,7 @@ void CanReferee::delivered(const CanFrame& frame) noexcept {
   const auto state = static_cast<NmtState>(frame.data[0] & ~unsigned{kToggleBit});
   if (state == NmtState::kOperational) return;
   if (state != NmtState::kStopped) view.stopped = false;
-  if (view.started) view.since_told = kRpdoTolerance;
+  if (view.started) view.since_told = view.tolerated;
   view.started = false;
 }
 

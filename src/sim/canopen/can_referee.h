@@ -4,6 +4,7 @@
 // nothing had happened is.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -40,14 +41,17 @@ const char* toString(CanRule rule) noexcept;
 class CanReferee {
  public:
   static constexpr std::size_t kNodes = 128;
-  /// RPDOs that may still follow the message that a node is no longer operational: they were on their way. Of a cycle, one
-  /// for each of the four inverters behind a gateway (BU 0220).
-  static constexpr unsigned kRpdoTolerance = 4;
+  /// RPDOs that may still follow the message that a node is no longer operational: they were on their way. Behind a
+  /// gateway each inverter has one of its own in a cycle, so that as many may be.
+  static constexpr unsigned kRpdoTolerance = 3;
 
   void broken(CanRule rule) noexcept { ++counts_[static_cast<std::size_t>(rule)]; }
 
-  /// There is a node of this number on the bus, powered or not.
-  void nodeExists(std::uint8_t node) noexcept { views_[node].exists = true; }
+  /// There is a node of this number on the bus, powered or not, with so many inverters.
+  void nodeExists(std::uint8_t node, std::size_t inverters) noexcept {
+    views_[node].exists = true;
+    views_[node].tolerated = std::max(kRpdoTolerance, static_cast<unsigned>(inverters));
+  }
   /// A frame of the master: what can be judged without the nodes.
   void masterFrame(const CanFrame& frame) noexcept;
   /// A frame that reached the master.
@@ -70,7 +74,8 @@ class CanReferee {
     bool exists = false;
     bool started = false;  ///< by an NMT command
     bool stopped = false;
-    unsigned since_told = 0;  ///< RPDOs since the node told that it is not operational
+    unsigned tolerated = kRpdoTolerance;
+    unsigned since_told = 0;  ///< RPDOs still tolerated since the node told that it is not operational
   };
 
   void nmt(const CanFrame& frame) noexcept;
