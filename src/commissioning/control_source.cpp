@@ -9,13 +9,9 @@ namespace {
 
 constexpr std::uint16_t kControlWordSource = 509, kSetpointSource = 510;
 
-// Its setpoint comes from another inverter: P510 says so, or says that P509 does (0).
 bool isLed(const DriveUnderCheck& drive) {
-  const auto control_word = drive.raw(drive.key(kControlWordSource));
-  const auto setpoint = drive.raw(drive.key(kSetpointSource, 0, 1));
-  const profile::Series series = drive.asked().series;
-  if (setpoint && profile::isBroadcastSetpoint(series, *setpoint)) return true;
-  return control_word && profile::isBroadcastControlWord(series, *control_word) && setpoint.value_or(0) == 0;
+  return profile::isLed(drive.asked().series, drive.raw(drive.key(kControlWordSource)),
+                        drive.raw(drive.key(kSetpointSource, 0, 1)));
 }
 
 }  // namespace

@@ -86,19 +86,20 @@ std::optional<drive::UnexpectedSource> unexpectedSource(const DeviceData& device
                                                         bool follows) noexcept {
   const auto& control_word = device.control_word_source;
   const auto& setpoint = device.setpoint_source;
-  const bool led = control_word && profile::isBroadcastControlWord(series, *control_word);
-  const bool pulled = setpoint && profile::isBroadcastSetpoint(series, *setpoint);
-  if (led || pulled) {
-    // Enabled by its leader it would hold the setpoint of this bus, which nobody gives it: 0, against the other's load.
-    if (follows && led && setpoint && !pulled && *setpoint != 0) {
-      return drive::UnexpectedSource{kSetpointSource, isArray(kSetpointSource, series), *setpoint, true};
-    }
-    if (follows) return std::nullopt;
-    if (led) return drive::UnexpectedSource{kControlWordSource, false, *control_word, false};
-    return drive::UnexpectedSource{kSetpointSource, isArray(kSetpointSource, series), *setpoint, false};
+  const auto atSetpoint = [&](bool should_follow) {
+    return drive::UnexpectedSource{kSetpointSource, isArray(kSetpointSource, series), *setpoint, should_follow};
+  };
+  if (follows) {
+    // Enabled by a leader, or by us, it would hold the setpoint of this bus, which nobody gives it: 0, against the
+    // other's load. Where one of both was not read the configuration counts.
+    if (profile::isLed(series, control_word, setpoint) || !control_word || !setpoint) return std::nullopt;
+    return atSetpoint(true);
   }
-  if (!follows || !control_word || !setpoint) return std::nullopt;
-  return drive::UnexpectedSource{kSetpointSource, isArray(kSetpointSource, series), *setpoint, true};
+  if (control_word && profile::isBroadcastControlWord(series, *control_word)) {
+    return drive::UnexpectedSource{kControlWordSource, false, *control_word, false};
+  }
+  if (setpoint && profile::isBroadcastSetpoint(series, *setpoint)) return atSetpoint(false);
+  return std::nullopt;
 }
 
 Sentence followsMessage(const DeviceData& device, profile::Series series) noexcept {

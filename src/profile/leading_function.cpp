@@ -28,4 +28,9 @@ bool isBroadcastSetpoint(Series series, std::int32_t source) noexcept {
   return isBroadcastControlWord(series, source);  // the same numbers, as far as they are printed
 }
 
+bool isLed(Series series, std::optional<std::int32_t> control_word, std::optional<std::int32_t> setpoint) noexcept {
+  if (setpoint && isBroadcastSetpoint(series, *setpoint)) return true;
+  return control_word && isBroadcastControlWord(series, *control_word) && setpoint.value_or(0) == 0;
+}
+
 }  // namespace nord_driver::profile

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "nord_driver/profile/series.h"
 
@@ -15,5 +16,8 @@ bool isBroadcastControlWord(Series series, std::int32_t source) noexcept;
 /// P510 [-01] by which the setpoint alone does (BU 0280 5.1.3). BU 0070 5.1 prints the list of SK 5xxE up to 8; what
 /// lies beyond is counted as P509 counts it.
 bool isBroadcastSetpoint(Series series, std::int32_t source) noexcept;
+
+/// Its setpoint comes from another inverter: P510 [-01] (`setpoint`) says so, or leaves it to P509 (0, or not read).
+bool isLed(Series series, std::optional<std::int32_t> control_word, std::optional<std::int32_t> setpoint) noexcept;
 
 }  // namespace nord_driver::profile
