@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sim/inheriting_mutex.h"
+#include "sim/model_clock.h"
 #include "sim/robot/robot_sim.h"
 
 namespace nord_driver::sim {
@@ -34,6 +35,13 @@ class RunningBus {
   }
 
  protected:
+  /// The time of the modules at `now`, under the lock. Drives and body have run through what it leaves out.
+  Instant modelTime(ModelClock& clock, Instant now) noexcept {
+    const Instant model_now = clock.tick(now);
+    robot().runOnUnheard(clock.stoodStill());
+    return model_now;
+  }
+
   virtual RobotSim& robot() noexcept = 0;
   virtual std::string report() const = 0;
 

@@ -49,9 +49,7 @@ void CanThread::serve() noexcept {
       link_->sleepUntil(before + kStep);
     }
     const std::lock_guard<InheritingMutex> lock(mutex_);
-    const Instant model_now = clock.tick(link_->now());
-    robot().runOnUnheard(clock.stoodStill());
-    stations_->advance(model_now, *this);
+    stations_->advance(modelTime(clock, link_->now()), *this);
     if (clock.stoodStill() > kLostAfter) stations_->stoodStill();
     takeInput();
     sendWaiting();

@@ -75,8 +75,7 @@ void GatewayBus::serve() noexcept {
     ::ppoll(waits.data(), waits.size(), &timeout, nullptr);
 
     const std::lock_guard<InheritingMutex> lock(mutex_);
-    const Instant now = clock.tick(std::chrono::steady_clock::now());
-    robot().runOnUnheard(clock.stoodStill());
+    const Instant now = modelTime(clock, std::chrono::steady_clock::now());
     ring_.advance(now);
     gateway_.advance(now);
     for (std::size_t i = 0; i < kClients; ++i) {

@@ -97,8 +97,7 @@ void PtyBus::serve() noexcept {
     const int ready = ::ppoll(&descriptor, 1, &timeout, nullptr);
 
     const std::lock_guard<InheritingMutex> lock(mutex_);
-    const Instant model_now = clock.tick(std::chrono::steady_clock::now());
-    robot_.runOnUnheard(clock.stoodStill());
+    const Instant model_now = modelTime(clock, std::chrono::steady_clock::now());
     if (ready > 0 && (descriptor.revents & POLLIN) != 0) {
       takeInput(model_now);
       last_input = model_now;
