@@ -1,5 +1,18 @@
 # Helpers of this package's CMake files.
 
+# What reads robot descriptions. urdfdom 1.0 (Ubuntu 20.04) names libraries and folders in variables, later ones have targets;
+# both are known only to the folder that asks for them.
+function(nord_link_urdfdom target)
+  find_package(urdfdom_headers REQUIRED)
+  find_package(urdfdom REQUIRED)
+  if(TARGET urdfdom::urdfdom_model)
+    target_link_libraries(${target} PRIVATE urdfdom::urdfdom_model)
+  else()
+    target_link_libraries(${target} PRIVATE ${urdfdom_LIBRARIES})
+    target_include_directories(${target} SYSTEM PRIVATE ${urdfdom_INCLUDE_DIRS} ${urdfdom_headers_INCLUDE_DIRS})
+  endif()
+endfunction()
+
 # The warnings every target of ours is built with.
 function(nord_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor)
