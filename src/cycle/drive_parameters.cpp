@@ -56,7 +56,6 @@ std::optional<drive::UnexpectedFunction> unexpectedPositionMode(const DeviceData
   if (control.value_or(0) == 0) {
     wrong.number = 600;
     wrong.found = raw(control);
-    wrong.expected = 1;
     return wrong;
   }
   if (needs.setpoint_mode < 0 || device.setpoint_mode == needs.setpoint_mode) return std::nullopt;

@@ -44,9 +44,9 @@ struct ParameterChannelUse {
 };
 
 /// Each cycle, after the exchange: `handleState`, then `pollRequest` until it is empty, then the transport's results by
-/// `handleResult`, and `pollRequest` again when there were any; then `endOverdue` and `pollCompletion`. Each asker has one question under
-/// way at most, users several (ParameterSession); a result is given only to the one whose latest question it answers.
-/// What is only looked at is asked for while no other question is under way.
+/// `handleResult`, and `pollRequest` again when there were any; then `endOverdue` and `pollCompletion`. Each asker has
+/// one question under way at most, users several (ParameterSession); a result is given only to the one whose latest
+/// question it answers. What is only looked at is asked for while no other question is under way.
 class DriveParameters {
  public:
   DriveParameters(DriveIndex drive, std::string name, profile::Series series, std::optional<double> typed_max_frequency,
@@ -57,9 +57,9 @@ class DriveParameters {
   /// Why a write that `decidesMotion` is not carried out now.
   Sentence notWhileEnabled(const Request& request) const noexcept;
   /// kReadParameter and kWriteParameter; the answer comes as a completion, when the patience of its asker ends at the
-  /// latest (`endOverdue`); a request without one (0, of a caller that limits the time itself) waits for the inverter. A write that changes what the process data
-  /// mean (`changesProcessData`) takes P105 from the drive until all of them have been read again: it is not enabled
-  /// before.
+  /// latest (`endOverdue`); a request without one (0, of a caller that limits the time itself) waits for the inverter. A
+  /// write that changes what the process data mean (`changesProcessData`) takes P105 from the drive until all of them
+  /// have been read again: it is not enabled before.
   void handleRequest(const Request& request, drive::Drive& drive, Instant now) noexcept;
   /// Answers whoever waits no longer: what was not begun by then is not written.
   void endOverdue(Instant now) noexcept;

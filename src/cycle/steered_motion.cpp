@@ -52,7 +52,7 @@ robot::SteeredSetpoint SteeredMotion::poll(const TwistCommand& command, bool dri
   if (!driving || !known) {
     limiter_.reset();
     if (known) steered_ = drives.angles;
-    if (!known) was_blind_ = true;
+    was_blind_ = !known;
     steers_ = false;
     if (driving) waits_for_ = SteeredWait::kNoPosition;
     return rest();
