@@ -8,6 +8,7 @@ constexpr std::uint16_t kNotKnown = 65535;  // DriveStatus.fault_number
 
 std::vector<const catalogue::DriveCatalogue*> knownOf(const std::vector<DriveDescription>& drives) {
   std::vector<const catalogue::DriveCatalogue*> known;
+  known.reserve(drives.size());
   for (const DriveDescription& drive : drives) known.push_back(&drive.known);
   return known;
 }
@@ -33,6 +34,7 @@ NodeWatch::NodeWatch(DriveNodes& nodes, const std::string& node, const std::vect
 
 std::vector<WatchedDrive> NodeWatch::look() {
   std::vector<WatchedDrive> seen;
+  seen.reserve(drives_.size());
   for (std::size_t i = 0; i < drives_.size(); ++i) seen.push_back(look(drives_[i], list_.of(i)));
   return seen;
 }
