@@ -142,6 +142,7 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
       if (refuseHomeUnderWay(request)) return;
       return position_requests_.handleRequest(request, now);
     case RequestKind::kTeach:
+    case RequestKind::kResetPosition:
       return position_requests_.handleRequest(request, now);
     case RequestKind::kResetOdometry:
       return ports_.complete(resetOdometry(request));

@@ -44,6 +44,7 @@ void BusCycle::pollOutputs(Instant now) noexcept {
     if (report.position.homing) axis.bits.putHome(outputs_[i], axis.parameters.device(), report.commanded_set);
     axis.bits.putElement(report.position.element, outputs_[i], axis.parameters.device(), report.commanded_set);
     axis.bits.putTeach(report.position.teach, outputs_[i], axis.parameters.device(), report.commanded_set);
+    if (report.position.reset) axis.bits.putReset(outputs_[i], axis.parameters.device(), report.commanded_set);
   }
 }
 

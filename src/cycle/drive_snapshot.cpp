@@ -30,6 +30,8 @@ void fillSample(DriveSample& to, const DrivePictured& from, Instant now) noexcep
   to.fault_number = from.axis.parameters.faults().number();
   to.position = report.position.position;
   to.position_reached = report.position.reached;
+  to.position_following = report.position.following;
+  to.position_at_limit = report.position.at_limit;
   to.homed = report.position.homed;
 }
 

@@ -25,7 +25,7 @@ std::optional<std::uint8_t> numberAfter(const std::string& word, const std::stri
 }
 
 // As the digital inputs of the inverters have them; their list (P420) is in none of the manuals at hand.
-constexpr std::int64_t kReferenceRun = 22, kTeachIn = 24, kQuitTeachIn = 25, kArrayBit0 = 55;
+constexpr std::int64_t kReferenceRun = 22, kTeachIn = 24, kQuitTeachIn = 25, kArrayBit0 = 55, kResetPosition = 61;
 // The same of the digital outputs (P434).
 constexpr std::int64_t kReferenced = 20;
 constexpr unsigned kArrayBits = 6;  // BU 0020 7.3.5
@@ -59,13 +59,15 @@ std::optional<PositionBit> readBit(const Settings& drive, const BitKeys& keys, b
   return bit;
 }
 
+using NamedBits = std::vector<std::pair<PositionBit, const char*>>;
+
 /// Bits of the carrier; of the control word and of bus I/O bits as they are numbered.
 unsigned maskOf(const PositionBit& bit, unsigned value) {
   return value << bit.number;
 }
 
 void checkApart(const Settings& drive, const char* key, const PositionBit& bit, unsigned value,
-                const std::vector<std::pair<PositionBit, const char*>>& others) {
+                const NamedBits& others) {
   for (const auto& [other, name] : others) {
     if (other.carrier != bit.carrier || bit.carrier == PositionBit::Carrier::kPosicon) continue;
     if ((maskOf(bit, value) & maskOf(other, 1)) == 0) continue;
@@ -81,11 +83,27 @@ unsigned mostElements(const PositionBit& array) {
   return (1u << std::min(carried, kArrayBits)) - 1u;
 }
 
-std::optional<TeachSetup> readTeach(const Settings& drive, const std::optional<PositionBit>& home,
-                                    std::optional<PositionBit> array, bool has_field) {
+/// Those of `setup` that have been read, but for the array's.
+NamedBits bitsOf(const PositionSetup& setup) {
+  NamedBits all;
+  if (setup.home) all.emplace_back(*setup.home, "position/home");
+  if (setup.reset) all.emplace_back(*setup.reset, "position/reset");
+  if (setup.teach) all.emplace_back(setup.teach->teach_in, "position/teach_in");
+  if (setup.teach) all.emplace_back(setup.teach->quit, "position/quit_teach_in");
+  return all;
+}
+
+std::optional<PositionBit> readReset(const Settings& drive, const PositionSetup& read, bool has_field) {
+  const auto bit = readBit(drive, {"position/reset", "position/reset_function", kResetPosition}, has_field);
+  if (bit) checkApart(drive, "position/reset", *bit, 1, bitsOf(read));
+  return bit;
+}
+
+std::optional<TeachSetup> readTeach(const Settings& drive, const PositionSetup& read, bool has_field) {
   using Carrier = PositionBit::Carrier;
   const auto teach_in = readBit(drive, {"position/teach_in", "position/teach_in_function", kTeachIn}, has_field);
   auto quit = readBit(drive, {"position/quit_teach_in", "position/quit_teach_in_function", kQuitTeachIn}, has_field);
+  std::optional<PositionBit> array = read.array;
   const auto element = integerOr(drive, "position/element", 1, 1, (1 << kArrayBits) - 1);
   if (!teach_in) return std::nullopt;
   // Those bits have their places in the word (BU 0020 7.3.5).
@@ -97,8 +115,7 @@ std::optional<TeachSetup> readTeach(const Settings& drive, const std::optional<P
     throw missingSetting(drive, "position/quit_teach_in", "the bit that ends what position/teach_in has begun");
   }
   TeachSetup setup{*teach_in, *quit, array, static_cast<std::uint8_t>(element)};
-  std::vector<std::pair<PositionBit, const char*>> taken;
-  if (home) taken.emplace_back(*home, "position/home");
+  NamedBits taken = bitsOf(read);
   checkApart(drive, "position/teach_in", setup.teach_in, 1, taken);
   taken.emplace_back(setup.teach_in, "position/teach_in");
   checkApart(drive, "position/quit_teach_in", setup.quit, 1, taken);
@@ -134,11 +151,7 @@ void readElements(const Settings& drive, PositionSetup& setup) {
     throw missingSetting(drive, "position/setpoint_mode",
                          "what P610 has to be where targets come out of the array, as the drive's own manual says");
   }
-  std::vector<std::pair<PositionBit, const char*>> taken;
-  if (setup.home) taken.emplace_back(*setup.home, "position/home");
-  if (setup.teach) taken.emplace_back(setup.teach->teach_in, "position/teach_in");
-  if (setup.teach) taken.emplace_back(setup.teach->quit, "position/quit_teach_in");
-  checkApart(drive, "position/array_bit", *setup.array, allBits(setup.elements), taken);
+  checkApart(drive, "position/array_bit", *setup.array, allBits(setup.elements), bitsOf(setup));
 }
 
 std::optional<SignalSetup> readReferenced(const Settings& drive) {
@@ -171,8 +184,9 @@ bool isOn(const SignalSetup& signal, const PositionBit& bit, unsigned value) {
 void readPositionBits(const Settings& drive, profile::Series series, PositionSetup& setup) {
   const bool has_field = profile::thirdBeforeSecond(series);
   setup.home = readBit(drive, {"position/home", "position/home_function", kReferenceRun}, has_field);
+  setup.reset = readReset(drive, setup, has_field);
   setup.array = readBit(drive, {"position/array_bit", "position/array_function", kArrayBit0}, has_field);
-  setup.teach = readTeach(drive, setup.home, setup.array, has_field);
+  setup.teach = readTeach(drive, setup, has_field);
   readElements(drive, setup);
   setup.referenced = readReferenced(drive);
   setup.referenced_function =
@@ -185,7 +199,7 @@ void checkSignalsApart(const Settings& drive, const PositionSetup& setup, const 
     std::optional<PositionBit> bit;
     unsigned value;
   };
-  std::vector<Taken> all{{"position/home", setup.home, 1}};
+  std::vector<Taken> all{{"position/home", setup.home, 1}, {"position/reset", setup.reset, 1}};
   if (setup.teach) {
     all.push_back({"position/teach_in", setup.teach->teach_in, 1});
     all.push_back({"position/quit_teach_in", setup.teach->quit, 1});

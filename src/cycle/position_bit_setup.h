@@ -1,5 +1,5 @@
-// What the configuration says of the single bits of a drive that positions: reference run, teach-in, the element of its
-// array, "referenced".
+// What the configuration says of the single bits of a drive that positions: reference run, teach-in, reset position, the
+// element of its array, "referenced".
 #pragma once
 
 #include <vector>

@@ -7,7 +7,8 @@ namespace nord_driver::cycle {
 namespace {
 
 // BU 0020 7.3.5, BU 0070 6.1: and bits 0 to 5 choose the element of the array.
-constexpr unsigned kPosiconReferenceRun = 1u << 6, kPosiconTeachIn = 1u << 8, kPosiconQuitTeachIn = 1u << 9;
+constexpr unsigned kPosiconReferenceRun = 1u << 6, kPosiconTeachIn = 1u << 8, kPosiconQuitTeachIn = 1u << 9,
+                   kPosiconResetPosition = 1u << 10;
 constexpr unsigned kArrayBits = 6;
 
 std::int16_t withBits(std::int16_t word, unsigned bits) noexcept {
@@ -21,6 +22,7 @@ PositionBits::PositionBits(const std::optional<PositionSetup>& setup, profile::S
   if (!setup) return;
   home_ = setup->home;
   teach_ = setup->teach;
+  reset_ = setup->reset;
   if (setup->axis.by_element) array_ = setup->array;
   elements_ = setup->elements;
   scale_ = setup->axis.scale;
@@ -93,6 +95,15 @@ Sentence PositionBits::teachRefusal(const char* drive, const DeviceData& device,
   return text;
 }
 
+Sentence PositionBits::resetRefusal(const char* drive, const DeviceData& device, std::uint8_t set) const noexcept {
+  if (reset_) {
+    return bitRefusal(drive, *reset_, {"position/reset", "position/reset_function", "reset position"}, device, set);
+  }
+  Sentence text;
+  text.format("drive %s: position/reset is not configured: nobody knows by which bit it sets its count anew", drive);
+  return text;
+}
+
 Sentence PositionBits::arrayRefusal(const char* drive, const PositionBit& array, std::uint8_t element,
                                     const DeviceData& device, std::uint8_t set) const noexcept {
   Sentence text;
@@ -151,6 +162,10 @@ void PositionBits::putTeach(const drive::TeachBits& bits, profile::ProcessOutput
   put(teach_->teach_in, 1, kPosiconTeachIn, output, device, set);
   if (teach_->array) put(*teach_->array, teach_->element, teach_->element, output, device, set);
   if (bits.quit) put(teach_->quit, 1, kPosiconQuitTeachIn, output, device, set);
+}
+
+void PositionBits::putReset(profile::ProcessOutput& output, const DeviceData& device, std::uint8_t set) const noexcept {
+  if (reset_) put(*reset_, 1, kPosiconResetPosition, output, device, set);
 }
 
 std::int32_t PositionBits::inArray(double joint) const noexcept {

@@ -1,4 +1,4 @@
-// The single bits a drive that positions is asked by, and says by: reference run, teach-in, and "referenced".
+// The single bits a drive that positions is asked by, and says by: reference run, teach-in, reset position, "referenced".
 //
 // A bit goes to the drive as bus I/O in bit, as bit 8 or 9 of the control word (P480 says what it does), or in the
 // POSICON control bits of SK 700E and 750E (BU 0020 7.3.5). Which number of P480 is which of them stands in the
@@ -34,6 +34,9 @@ class PositionBits {
   /// The bits that are high while it is taught.
   void putTeach(const drive::TeachBits& bits, profile::ProcessOutput& output, const DeviceData& device,
                 std::uint8_t set) const noexcept;
+  /// The same of setting its count anew.
+  Sentence resetRefusal(const char* drive, const DeviceData& device, std::uint8_t set) const noexcept;
+  void putReset(profile::ProcessOutput& output, const DeviceData& device, std::uint8_t set) const noexcept;
   /// Why an element of the array cannot be a target; empty: it can.
   Sentence elementRefusal(const char* drive, std::uint8_t element, const DeviceData& device,
                           std::uint8_t set) const noexcept;
@@ -72,6 +75,7 @@ class PositionBits {
 
   std::optional<PositionBit> home_;
   std::optional<TeachSetup> teach_;
+  std::optional<PositionBit> reset_;
   std::optional<PositionBit> array_;  // of one that goes to its elements by bits
   std::uint8_t elements_ = 0;
   profile::PositionScale scale_;

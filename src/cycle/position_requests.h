@@ -1,4 +1,4 @@
-// Carries out what users ask of drives that position, beside their targets: the reference run, and teach-in.
+// Carries out what users ask of drives that position, beside their targets: the reference run, teach-in, and reset position.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class PositionRequests {
   /// Both must outlive the object and not move.
   PositionRequests(std::vector<drive::Drive>& drives, const std::vector<Axis>& axes, std::vector<std::string> names);
 
-  /// kHome and kTeach.
+  /// kHome, kTeach and kResetPosition.
   void handleRequest(const Request& request, Instant now) noexcept;
   void update(Instant now) noexcept;
   std::optional<Completion> pollCompletion() noexcept { return completions_.poll(); }
@@ -35,6 +35,8 @@ class PositionRequests {
   };
 
   Sentence refusalOf(const Request& request) const noexcept;
+  /// Why the bit that asks for it cannot be sent.
+  Sentence bitRefusal(const Request& request) const noexcept;
   /// Of the drive, the report of what is asked for.
   const drive::RequestReport& reportOf(const Request& request) const noexcept;
   /// True when the job has ended.

@@ -98,6 +98,9 @@ PositionSetup readPositionSetup(const Settings& drive, const PositionContext& co
   setup.setpoint_mode = static_cast<std::int32_t>(integerOr(drive, "position/setpoint_mode", -1, -1, 100));
   setup.axis.stray = numberOr(drive, "position/stray", kDefaultStray / turns * unit_per_turn, 0.0, kMost, unit);
   readPositionBits(drive, series, setup);
+  // Revolutions as the drive counts them: an offset of its own may be in it (BU 0510, BU 0710, not at hand).
+  setup.axis.reset_to =
+      numberOr(drive, "position/reset_to", 0.0, -profile::kMaxRevolutions, profile::kMaxRevolutions, "revolutions");
   setup.axis.homing_timeout = seconds(numberOr(drive, "position/homing_timeout", 60.0, 0.1, 3600.0, "s"));
   return setup;
 }

@@ -17,7 +17,7 @@ namespace nord_driver::cycle {
 
 enum class DriveMode : std::uint8_t { kVelocity, kPosition };
 
-/// A bit that asks something of the position control: for a reference run, or to be taught.
+/// A bit that asks something of the position control: for a reference run, to be taught, for a new zero.
 struct PositionBit {
   enum class Carrier : std::uint8_t { kBusBit, kControlBit, kPosicon };
   Carrier carrier = Carrier::kControlBit;
@@ -45,6 +45,7 @@ struct PositionSetup {
   std::int32_t setpoint_mode = -1;
   std::optional<PositionBit> home;         ///< none: it is never asked for a reference run
   std::optional<TeachSetup> teach;         ///< none: no position is ever taught
+  std::optional<PositionBit> reset;        ///< none: its count is never set anew
   std::optional<SignalSetup> referenced;   ///< a bus I/O out bit or a bit of the status word; none: no bit says it
   std::uint16_t referenced_function = 20;  ///< what P481 has to say of that bit; 0: it is not looked at
 };

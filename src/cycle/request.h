@@ -17,6 +17,7 @@ enum class RequestKind : std::uint8_t {
   kResetOdometry,
   kHome,                ///< a reference run of one drive that positions
   kTeach,               ///< one drive that positions takes its position into its array, disabled and at standstill
+  kResetPosition,       ///< one drive that positions sets its count anew, disabled and at standstill
   kAcknowledge,         ///< faults; refused while their cause stands
   kSelectParameterSet,  ///< one drive, disabled and at standstill
   kReadParameter,

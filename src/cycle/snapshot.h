@@ -29,17 +29,19 @@ struct DriveSample {
   Instant time{};       ///< of the cycle
   bool online = false;  ///< fresh process data from the inverter itself
   profile::DriveState state = profile::DriveState::kUnknown;
-  std::uint8_t parameter_set = 0;  ///< 0: not known
-  profile::ProcessOutput output;   ///< as sent last
-  profile::ProcessInput input;     ///< as received last
-  double velocity_command = 0.0;   ///< rad/s at the joint
-  double velocity = 0.0;           ///< rad/s at the joint
-  double frequency = 0.0;          ///< Hz
-  bool saturated = false;          ///< the velocity wanted is beyond P105, or not zero and below P104
-  std::uint16_t fault_number = 0;  ///< P700 raw; 0 = none, 65535 = its number is not known (yet)
-  std::optional<double> position;  ///< rad or m of the joint, of a drive that positions; none while it is not known
-  bool position_reached = false;   ///< it is enabled, and at its target
-  bool homed = false;              ///< its reference is known, as far as that can be told
+  std::uint8_t parameter_set = 0;   ///< 0: not known
+  profile::ProcessOutput output;    ///< as sent last
+  profile::ProcessInput input;      ///< as received last
+  double velocity_command = 0.0;    ///< rad/s at the joint
+  double velocity = 0.0;            ///< rad/s at the joint
+  double frequency = 0.0;           ///< Hz
+  bool saturated = false;           ///< the velocity wanted is beyond P105, or not zero and below P104
+  std::uint16_t fault_number = 0;   ///< P700 raw; 0 = none, 65535 = its number is not known (yet)
+  std::optional<double> position;   ///< rad or m of the joint, of a drive that positions; none while it is not known
+  bool position_reached = false;    ///< it is enabled, and at its target
+  bool position_following = false;  ///< it is enabled, and on its way to a target
+  bool position_at_limit = false;   ///< it stands at, or beyond, a limit of its joint
+  bool homed = false;               ///< its reference is known, as far as that can be told
 };
 
 struct DriveSnapshot : DriveSample {

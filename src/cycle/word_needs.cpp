@@ -217,7 +217,9 @@ void addPositionNeeds(const PositionSetup& setup, Series series, WordNeeds& need
     });
     if (!known) needs.list.push_back(need);
   };
-  if (setup.home && setup.home->carrier != PositionBit::Carrier::kControlBit) add(needOf(*setup.home));
+  for (const auto& bit : {setup.home, setup.reset}) {
+    if (bit && bit->carrier != PositionBit::Carrier::kControlBit) add(needOf(*bit));
+  }
   if (setup.teach) {
     for (const auto& bit :
          {std::optional{setup.teach->teach_in}, std::optional{setup.teach->quit}, setup.teach->array}) {

@@ -42,7 +42,7 @@ bool Drive::isRunning() const noexcept {
 
 bool Drive::isAtRest() const noexcept {
   if (report_.phase == Phase::kOffline) return true;
-  if (report_.phase != Phase::kIdle || isTeaching()) return false;
+  if (report_.phase != Phase::kIdle || isSettingUp()) return false;
   switch (report_.state) {
     case DriveState::kReadyToSwitchOn:
     case DriveState::kSwitchOnDisabled:
@@ -63,7 +63,9 @@ void Drive::enter(Phase phase, Instant now, RadPerSec wanted) noexcept {
     axis_->endHoming();
     end(report_.homing, Refusal::kStopped);
   }
-  if (isTeaching()) endTeaching(phase == Phase::kOffline ? Refusal::kOffline : Refusal::kTeachStopped);
+  if (!isSettingUp()) return;
+  const bool offline = phase == Phase::kOffline;
+  endSetup(offline ? Refusal::kOffline : Refusal::kTeachStopped, offline ? Refusal::kOffline : Refusal::kResetStopped);
 }
 
 void Drive::latch(StopCause cause) noexcept {
@@ -112,7 +114,7 @@ void Drive::handleUseful(const profile::ProcessInput& input, Instant now) noexce
   checkStops(status, now);
   follow(status, now);
   if (axis_) followHoming(now);
-  if (isTeaching()) followTeaching(now);
+  if (isSettingUp()) followSetup(now);
 }
 
 void Drive::learnSet(StatusWord status, bool joined) noexcept {

@@ -18,7 +18,7 @@
 //  - A drive that positions (`position`) goes to a target instead of following a velocity: see PositionAxis. Setpoint 1,
 //    where it is the frequency, is then the speed it travels at. Its way to rest is OFF1 from the first word on, for a
 //    setpoint of zero would not stop it where the drive travels at P105.
-//  - While a position is taught it stays disabled: with teach-in a drive follows frequencies.
+//  - While a position is taught or reset it stays disabled: with teach-in a drive follows frequencies.
 //  - Under local control the set follows the inverter: its terminals choose it, and our word acts when control returns.
 #pragma once
 
@@ -118,6 +118,9 @@ class Drive {
   /// outcome, with the `token`. It is not enabled meanwhile, and whatever else is asked of it ends it. What is to be high
   /// stands in report().position.teach.
   void requestTeaching(Instant now, std::uint32_t token = 0) noexcept;
+  /// The drive that positions sets its count anew where it stands, from "idle" at standstill; report().resetting tells the
+  /// outcome, with the `token`. As teaching otherwise: the bit is report().position.reset.
+  void requestPositionReset(Instant now, std::uint32_t token = 0) noexcept;
   /// Whether a bit of the drive says that its reference is known; none: there is no such bit.
   void setReferenced(std::optional<bool> referenced) noexcept;
   bool positions() const noexcept { return axis_.has_value(); }
@@ -198,10 +201,12 @@ class Drive {
   void measurePosition() noexcept;
   void handlePosition(Instant now) noexcept;
   void followHoming(Instant now) noexcept;
-  bool isTeaching() const noexcept { return axis_ && axis_->teaching().isRunning(); }
-  Refusal teachingRefusal() const noexcept;
-  void followTeaching(Instant now) noexcept;
-  void endTeaching(Refusal refusal) noexcept;
+  /// A position is taught, or reset.
+  bool isSettingUp() const noexcept { return axis_ && axis_->isSettingUp(); }
+  Refusal setupRefusal() const noexcept;
+  void followSetup(Instant now) noexcept;
+  /// `taught`, `reset`: why it ends, of the one that runs.
+  void endSetup(Refusal taught, Refusal reset) noexcept;
   void putPosition(profile::ProcessOutput& output, Instant now) noexcept;
   /// Of a drive that positions, why its position keeps it from being enabled.
   Refusal positionRefusal() const noexcept;

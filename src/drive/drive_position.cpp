@@ -71,7 +71,7 @@ void Drive::requestHoming(Instant now, std::uint32_t token) noexcept {
   axis_->startHoming(now);
 }
 
-Refusal Drive::teachingRefusal() const noexcept {
+Refusal Drive::setupRefusal() const noexcept {
   if (report_.phase == Phase::kOffline) return Refusal::kOffline;
   if (report_.phase == Phase::kAcknowledging || report_.phase == Phase::kSwitchingSet) return Refusal::kBusy;
   const StatusWord status(report_.status_word);
@@ -85,23 +85,37 @@ Refusal Drive::teachingRefusal() const noexcept {
 }
 
 void Drive::requestTeaching(Instant now, std::uint32_t token) noexcept {
-  if (!axis_ || isTeaching()) return;
+  if (!axis_ || isSettingUp()) return;
   report_.teaching = {token, RequestState::kRunning, Refusal::kNone};
-  const Refusal refusal = teachingRefusal();
+  const Refusal refusal = setupRefusal();
   if (refusal != Refusal::kNone) return end(report_.teaching, refusal);
   axis_->teaching().start(now, config_.acknowledge_time, config_.enable_timeout);
 }
 
-void Drive::endTeaching(Refusal refusal) noexcept {
-  axis_->teaching().end();
-  end(report_.teaching, refusal);
+void Drive::requestPositionReset(Instant now, std::uint32_t token) noexcept {
+  if (!axis_ || isSettingUp()) return;
+  report_.resetting = {token, RequestState::kRunning, Refusal::kNone};
+  const Refusal refusal = setupRefusal();
+  if (refusal != Refusal::kNone) return end(report_.resetting, refusal);
+  axis_->startReset(now, config_.acknowledge_time, config_.enable_timeout);
 }
 
-void Drive::followTeaching(Instant now) noexcept {
+void Drive::endSetup(Refusal taught, Refusal reset) noexcept {
+  if (axis_->teaching().isRunning()) end(report_.teaching, taught);
+  if (axis_->resetting().isRunning()) end(report_.resetting, reset);
+  axis_->teaching().end();
+  axis_->resetting().end();
+}
+
+void Drive::followSetup(Instant now) noexcept {
   report_.speed = speedWord();
-  const Refusal refusal = teachingRefusal();
-  if (refusal != Refusal::kNone) return endTeaching(refusal);
-  if (axis_->teaching().handleAnswer(now)) endTeaching(Refusal::kNone);
+  // The count is getting its new zero: what it was is no longer certain.
+  const bool resets = axis_->resetting().isRunning();
+  const Refusal refusal = setupRefusal();
+  const bool expected = resets && refusal == Refusal::kPositionUnknown;
+  if (refusal != Refusal::kNone && !expected) return endSetup(refusal, refusal);
+  if (resets && axis_->handleReset(now)) return end(report_.resetting, Refusal::kNone);
+  if (!resets && axis_->teaching().handleAnswer(now)) end(report_.teaching, Refusal::kNone);
 }
 
 void Drive::setReferenced(std::optional<bool> referenced) noexcept {
@@ -141,7 +155,9 @@ TargetRefusal Drive::setElement(std::uint8_t element, double joint) noexcept {
 
 // The speed goes out unsigned: which way it has to travel, the drive knows.
 void Drive::putPosition(profile::ProcessOutput& output, Instant now) noexcept {
-  if (axis_->teaching().isOverdue(now)) endTeaching(Refusal::kTeachTimeout);
+  if (axis_->teaching().isOverdue(now) || axis_->resetting().isOverdue(now)) {
+    endSetup(Refusal::kTeachTimeout, Refusal::kResetTimeout);
+  }
   const bool moves = report_.phase == Phase::kEnabled || (report_.phase == Phase::kEnabling && phase_.ready_seen);
   axis_->follow(moves);
   const profile::PositionWords& words = axis_->words(report_.commanded_set);

@@ -99,14 +99,19 @@ const char* toString(Refusal refusal) noexcept {
     case Refusal::kHomingTimeout:
       return "the reference run did not end within position/homing_timeout, and the drive was stopped";
     case Refusal::kTeachNotDisabled:
-      return "a position is taught at standstill only, and the drive is enabled or being stopped: disable it first";
+      return "a position is taught, or reset, at standstill only, and the drive is enabled or being stopped: disable "
+             "it first";
     case Refusal::kTeachTurning:
-      return "a position is taught at standstill only, and the motor turns";
+      return "a position is taught, or reset, at standstill only, and the motor turns";
     case Refusal::kTeachStopped:
       return "something else was asked of the drive before its position was taught: whether its array has it is not "
              "known";
     case Refusal::kTeachTimeout:
       return "teaching the position did not end in time: whether the array of the drive has it is not known";
+    case Refusal::kResetStopped:
+      return "something else was asked of the drive before its position was reset: look where it says it is";
+    case Refusal::kResetTimeout:
+      return "the bit went to the drive, and its position did not become position/reset_to in time";
     case Refusal::kSetNotConfirmed:
       return "the inverter did not confirm the new parameter set in time";
   }

@@ -83,10 +83,12 @@ enum class Refusal : std::uint8_t {
   kNotEnabled,           ///< a reference run: the drive is not enabled
   kHomingTurning,        ///< a reference run: the motor turns
   kHomingTimeout,        ///< a reference run did not end within position/homing_timeout
-  kTeachNotDisabled,     ///< teaching a position: the drive is enabled or being stopped
-  kTeachTurning,         ///< teaching a position: the motor turns
+  kTeachNotDisabled,     ///< teaching or resetting a position: the drive is enabled or being stopped
+  kTeachTurning,         ///< teaching or resetting a position: the motor turns
   kTeachStopped,         ///< something else was asked of the drive while its position was taught
   kTeachTimeout,         ///< teaching a position: the drive did not answer often enough
+  kResetStopped,         ///< something else was asked of the drive while its position was reset
+  kResetTimeout,         ///< resetting the position: it did not become what it is to be
   kSetNotConfirmed,      ///< status bits 14 and 15 did not show the new set within enable_timeout
 };
 
@@ -157,6 +159,7 @@ struct DriveReport {
   PositionReport position;  ///< of a drive that positions
   RequestReport homing;     ///< its last reference run
   RequestReport teaching;   ///< its last teaching of a position
+  RequestReport resetting;  ///< its last reset of the position
 };
 
 /// A clause: "a fault", "the drive fell silent".

@@ -38,7 +38,7 @@ Refusal Drive::enableRefusal() const noexcept {
     case Phase::kIdle:
       break;
   }
-  if (isTeaching()) return Refusal::kBusy;
+  if (isSettingUp()) return Refusal::kBusy;
   const StatusWord status(report_.status_word);
   if (status.fault()) return Refusal::kFault;
   if (report_.unexpected_source) return Refusal::kUnexpectedSource;
@@ -73,7 +73,7 @@ void Drive::requestSetpointZero(Instant now) noexcept {
 }
 
 void Drive::requestShutdown(Instant now) noexcept {
-  if (isTeaching()) endTeaching(Refusal::kStopped);
+  if (isSettingUp()) endSetup(Refusal::kStopped, Refusal::kStopped);
   if (!isRunning()) return;
   if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
   enter(Phase::kStopping, now);
@@ -144,7 +144,7 @@ Refusal Drive::setRefusal(std::uint8_t set) const noexcept {
   if (set > config_.parameter_sets) return Refusal::kOnlySet1;
   if (report_.phase == Phase::kOffline) return Refusal::kOffline;
   if (report_.phase == Phase::kAcknowledging || report_.phase == Phase::kSwitchingSet) return Refusal::kBusy;
-  if (isTeaching()) return Refusal::kBusy;
+  if (isSettingUp()) return Refusal::kBusy;
   if (report_.phase != Phase::kIdle) return Refusal::kNotDisabled;
   const StatusWord status(report_.status_word);
   if (status.fault()) return Refusal::kFault;

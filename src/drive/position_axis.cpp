@@ -82,7 +82,9 @@ bool PositionAxis::canHold(std::uint8_t set) const noexcept {
   return target.has_value();
 }
 
+// A count that is set anew is no speed.
 double PositionAxis::motorTurnsPerSecond() const noexcept {
+  if (resetting_.isRunning()) return 0.0;
   return reader_.speed() / profile::stepsPerRevolution(config_.scale, field()) / config_.revolutions_per_motor_turn;
 }
 
@@ -111,6 +113,26 @@ HomingRun::Outcome PositionAxis::handleHoming(bool reached, bool still, Instant 
     frozen_ = true;
   }
   return outcome;
+}
+
+void PositionAxis::startReset(Instant now, Duration hold, Duration timeout) noexcept {
+  homed_ = false;
+  resetting_.start(now, hold, timeout);
+}
+
+// A count of 16 bits is what its word is: the turns it was continued by are over with the new zero.
+bool PositionAxis::isReset() const noexcept {
+  if (!isCertain()) return false;
+  const std::int64_t steps =
+      field().bits == 16 ? static_cast<std::int16_t>(static_cast<std::uint64_t>(reader_.steps())) : reader_.steps();
+  const double wanted = config_.scale.offset + config_.reset_to / config_.scale.revolutions_per_unit;
+  return std::fabs(profile::toJoint(steps, config_.scale, field()) - wanted) <= config_.tolerance;
+}
+
+bool PositionAxis::handleReset(Instant now) noexcept {
+  if (!resetting_.handleAnswer(isReset(), now)) return false;
+  reader_.handleNewZero(field());
+  return true;
 }
 
 // canHold() has kept it from being enabled beyond its words; it may have sagged over their border since.
@@ -183,6 +205,11 @@ double PositionAxis::toldTarget() const noexcept {
   return carried.carried() ? profile::toJoint(target_, config_.scale, carried) : wanted_;
 }
 
+bool PositionAxis::isAtLimit(double joint) const noexcept {
+  return (config_.lower && joint <= *config_.lower + config_.tolerance) ||
+         (config_.upper && joint >= *config_.upper - config_.tolerance);
+}
+
 void PositionAxis::tell(bool online, bool enabled, bool reached) noexcept {
   const profile::PositionField& at = field();
   const bool known = online && reader_.isKnown();
@@ -190,6 +217,7 @@ void PositionAxis::tell(bool online, bool enabled, bool reached) noexcept {
   report_.target.reset();
   report_.homing = homing_.isRunning();
   report_.teach = teaching_.bits();
+  report_.reset = resetting_.bit();
   report_.homed = online && referenced_.value_or(homed_);
   report_.held_back = known && reader_.isHeldBack();
   if (known) {
@@ -199,6 +227,8 @@ void PositionAxis::tell(bool online, bool enabled, bool reached) noexcept {
   if (enabled && has_target_) report_.target = toldTarget();
   report_.reached = reached && known && !homing_.isRunning() && report_.target.has_value() &&
                     std::fabs(*report_.position - *report_.target) <= config_.tolerance;
+  report_.following = (asked_ || element_ != 0) && known && !homing_.isRunning() && report_.target.has_value() && !report_.reached;
+  report_.at_limit = known && isAtLimit(*report_.position);
   // From there on it has to stay.
   if (report_.reached) path_.hold(*report_.target);
 }

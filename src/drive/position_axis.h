@@ -20,6 +20,7 @@
 #include "drive/path_guard.h"
 #include "drive/position_reader.h"
 #include "drive/position_report.h"
+#include "drive/reset_run.h"
 #include "drive/teach_run.h"
 #include "nord_driver/core/time.h"
 #include "nord_driver/profile/process_data.h"
@@ -37,6 +38,7 @@ struct PositionConfig {
   double unit_per_radian = 1.0;    ///< of the joint's shaft: 1, or m of a prismatic joint
   Duration homing_timeout = seconds(60.0);
   double revolutions_per_motor_turn = 1.0;  ///< counted, > 0
+  double reset_to = 0.0;                    ///< revolutions: what "reset position" makes of the count
   /// It is told an element of its array (P613), and goes where that is; otherwise the target stands in its words.
   bool by_element = false;
   /// rad or m: farther than this beside its way it is stopped. Where the target stands in its words, before the first one:
@@ -76,7 +78,13 @@ class PositionAxis {
   HomingRun::Outcome handleHoming(bool reached, bool still, Instant now) noexcept;
   /// The bits that make the drive take its position into its array; tell() has them.
   TeachRun& teaching() noexcept { return teaching_; }
-  const TeachRun& teaching() const noexcept { return teaching_; }
+  /// The bit that sets its count anew; tell() has it. What a reference run has found does not count from there on.
+  void startReset(Instant now, Duration hold, Duration timeout) noexcept;
+  ResetRun& resetting() noexcept { return resetting_; }
+  /// While it runs, with every telegram the drive answered: true when the count is what it is to be.
+  bool handleReset(Instant now) noexcept;
+  /// It is taught, or its count is set anew: the drive is not enabled meanwhile.
+  bool isSettingUp() const noexcept { return teaching_.isRunning() || resetting_.isRunning(); }
   /// A bit of the drive says whether its reference is known; none: there is no such bit.
   void setReferenced(std::optional<bool> referenced) noexcept { referenced_ = referenced; }
 
@@ -100,6 +108,9 @@ class PositionAxis {
 
  private:
   void hold() noexcept;
+  /// What it counts is what "reset position" makes of it.
+  bool isReset() const noexcept;
+  bool isAtLimit(double joint) const noexcept;
   /// As sent.
   double toldTarget() const noexcept;
   TargetRefusal refusalOf(double joint) const noexcept;
@@ -113,6 +124,7 @@ class PositionAxis {
   PositionReport report_;
   HomingRun homing_;
   TeachRun teaching_;
+  ResetRun resetting_;
   std::optional<bool> referenced_;
   bool homed_ = false;       // by a run asked for here, since the drive is back
   std::uint8_t set_ = 1;     // in force

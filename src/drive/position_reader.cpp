@@ -51,10 +51,10 @@ void PositionReader::handleValues(const profile::PositionField& field, const pro
 }
 
 void PositionReader::handleNewZero(const profile::PositionField& field) noexcept {
-  if (!known_ || field.bits != 16) return;
-  const std::int64_t beyond = steps_ - static_cast<std::int16_t>(static_cast<std::uint64_t>(steps_));
-  steps_ -= beyond;
-  speed_from_.steps -= beyond;
+  if (!known_) return;
+  if (field.bits == 16) steps_ = static_cast<std::int16_t>(static_cast<std::uint64_t>(steps_));
+  speed_ = 0.0;
+  speed_from_ = {steps_, at_, at_};
 }
 
 void PositionReader::doubt(std::int64_t steps, double max_speed, Instant now) noexcept {

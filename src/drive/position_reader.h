@@ -23,7 +23,8 @@ class PositionReader {
   /// The drive was not heard, or another function stands in its words: the next value is a first one, believed when those of
   /// the next 20 ms agree with it. One of 16 bits is still continued from the last.
   void handleGap() noexcept;
-  /// The drive has set its count anew, perhaps to a value that looks like going on: 16 bits are what their word is again.
+  /// At standstill the drive has set its count anew, perhaps to a value that looks like going on: that was no motion, and
+  /// 16 bits are what their word is again.
   void handleNewZero(const profile::PositionField& field) noexcept;
 
   /// A value is believed, and was told since the last gap.

@@ -39,6 +39,8 @@ void fillDriveStatus(const cycle::DriveSample& sample, const catalogue::FaultWor
   status.saturated = sample.saturated;
   status.position = sample.position.value_or(std::numeric_limits<double>::quiet_NaN());
   status.position_reached = sample.position_reached;
+  status.position_following = sample.position_following;
+  status.position_at_limit = sample.position_at_limit;
   status.homed = sample.homed;
   status.fault_number = sample.fault_number;
   status.fault_text.clear();

@@ -74,6 +74,7 @@ Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, ro
         response.success = answer.success;
         response.message = messageOf(answer, i);
       });
+      addTrigger(prefix + "reset_position", RequestKind::kResetPosition, i);
       advertise<std_srvs::Trigger>(home_node, prefix + "home", [this, i, prefix](auto&, auto& response) {
         cycle::Request request;
         request.kind = RequestKind::kHome;

@@ -42,6 +42,19 @@ TEST_F(PositionBitsTest, ArePutWhereTheyBelong) {
   EXPECT_EQ(0x000D, output_.setpoints[2]);
 }
 
+TEST_F(PositionBitsTest, SetTheCountAnew) {
+  EXPECT_THAT(bits().resetRefusal("lift", device_, 1).str(), HasSubstr("position/reset is not configured"));
+  bits().putReset(output_, device_, 1);
+  EXPECT_EQ(0, output_.setpoints[2]);
+  setup_.reset = PositionBit{Carrier::kBusBit, 5, 61};
+  EXPECT_THAT(bits().resetRefusal("lift", device_, 1).str(),
+              HasSubstr("P480[-06] is 0; set it to 61 (reset position), or position/reset_function"));
+  device_.bus_bit_functions[5] = 61;
+  EXPECT_EQ("", bits().resetRefusal("lift", device_, 1).str());
+  bits().putReset(output_, device_, 1);
+  EXPECT_EQ((std::array<std::int16_t, 3>{1, 2, 0x0020}), output_.setpoints);
+}
+
 TEST_F(PositionBitsTest, AreLowOtherwise) {
   bits().putTeach({}, output_, device_, 1);
   EXPECT_EQ(0x047E, output_.control_word);
@@ -62,6 +75,11 @@ TEST_F(PositionBitsTest, OfSk700eAreOneWord) {
   EXPECT_EQ("", old.teachRefusal("lift", device_, 1).str()) << "P480 has no say in it";
   old.putTeach({true, true}, output_, device_, 1);
   EXPECT_EQ((std::array<std::int16_t, 3>{0, 0x0325, 0}), output_.setpoints);
+  output_.setpoints = {};
+  setup_.reset = posicon;
+  EXPECT_EQ("", bits(Series::kSk700e).resetRefusal("lift", device_, 1).str());
+  bits(Series::kSk700e).putReset(output_, device_, 1);
+  EXPECT_EQ((std::array<std::int16_t, 3>{0, 0x0400, 0}), output_.setpoints) << "bit 10";
 }
 
 TEST_F(PositionBitsTest, AreRefusedWithTheParameterAndItsValue) {

@@ -179,6 +179,22 @@ TEST_F(PositionConfiguration, NamesTheBitsThatTeachAPosition) {
   EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/teach_in"));
 }
 
+TEST_F(PositionConfiguration, NamesTheBitThatSetsTheCountAnew) {
+  EXPECT_FALSE(setup().reset);
+  EXPECT_EQ(0.0, setup().axis.reset_to);
+  drive_->set("position/reset", "bus_in_bit_2").set("position/reset_to", -1.5);
+  EXPECT_EQ(3, elementOf(*setup().reset));
+  EXPECT_EQ(61, setup().reset->function);
+  EXPECT_EQ(-1.5, setup().axis.reset_to);
+  drive_->set("position/home", "bus_in_bit_2");
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/reset: the bit of position/home"));
+  drive_->set("position/home", "bus_in_bit_3").set("position/teach_in", "bus_in_bit_2");
+  drive_->set("position/quit_teach_in", "bus_in_bit_4");
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/teach_in: the bit of position/reset"));
+  drive_->set("position/reset_to", 60'000.0);
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/"));
+}
+
 TEST_F(PositionConfiguration, HasThePosiconBitsTogether) {
   drive_->set("series", "sk700e").set("position/teach_in", "posicon_bits").set("position/element", 63);
   const TeachSetup teach = *setup().teach;
@@ -226,6 +242,8 @@ TEST_F(PositionConfiguration, KeepsItsBitsFromSignals) {
   EXPECT_THAT(with("bus_in_bit_3"), HasSubstr("another bit: it is one of position/home"));
   EXPECT_THAT(with("bus_in_bit_0"), HasSubstr("position/teach_in"));
   EXPECT_THAT(with("control_bit_9"), HasSubstr("position/quit_teach_in"));
+  drive_->set("position/reset", "bus_in_bit_1");
+  EXPECT_THAT(with("bus_in_bit_1"), HasSubstr("another bit: it is one of position/reset"));
   drive_->set("position/array_bit", "bus_in_bit_4").set("position/targets", "array").set("position/setpoint_mode", 1);
   EXPECT_THAT(with("bus_in_bit_7"), HasSubstr("position/array_bit"));
   drive_->set("position/elements", 7);

@@ -191,5 +191,24 @@ TEST_F(Lift, Homes) {
       [](const DriveStatus& told) { return told.position_reached && std::fabs(told.position - 0.1) < kStep; }));
 }
 
+TEST_F(Lift, SetsItsCountAnewWhereItStands) {
+  ASSERT_TRUE(isEnabled());
+  EXPECT_THAT(robot().trigger("left/reset_position").message, HasSubstr("disable it first"));
+  goTo(0.15);
+  EXPECT_TRUE(robot().left.status.waitNext([](const DriveStatus& told) { return told.position_following != 0; }));
+  ASSERT_TRUE(robot().left.status.waitNext(
+      [](const DriveStatus& told) { return told.position_reached && std::fabs(told.position - 0.15) < kStep; }));
+  ASSERT_TRUE(enable(false).success);
+  const Answer answer = robot().trigger("left/reset_position");
+  EXPECT_TRUE(answer.success) << answer;
+  const auto status = robot().left.status.waitNext([](const DriveStatus&) { return true; });
+  EXPECT_NEAR(0.0, status->position, kStep);
+  EXPECT_FALSE(status->position_following || status->position_at_limit || status->homed);
+  EXPECT_NEAR(0.0, position(), 0.002);
+  EXPECT_TRUE(stays());
+  ASSERT_TRUE(isEnabled());
+  EXPECT_TRUE(stays()) << "it is held where it stands";
+}
+
 }  // namespace
 }  // namespace nord_driver::test
