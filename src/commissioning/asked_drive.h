@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cycle/asked_bits.h"
 #include "cycle/cycle_config.h"
 #include "cycle/word_needs.h"
 #include "nord_driver/profile/series.h"
@@ -21,10 +22,11 @@ struct AskedDrive {
   bool of_base = false;
   bool follows = false;  ///< another inverter is to lead it
   bool allows_minimum_frequency = false;
-  std::optional<double> typed_max_frequency;  ///< Hz
-  std::optional<double> rated_current;        ///< A
-  cycle::WordNeeds words;                     ///< functions the words beyond the first must have
-  std::vector<std::uint8_t> may_move_bits;    ///< elements of P480 a signal with `may_move` accepts
+  std::optional<double> typed_max_frequency;   ///< Hz
+  std::optional<double> rated_current;         ///< A
+  cycle::WordNeeds words;                      ///< functions the words beyond the first must have
+  std::vector<cycle::AskedBit> position_bits;  ///< of a drive that positions: what P480 and P481 have to say
+  std::vector<std::uint8_t> may_move_bits;     ///< elements of P480 a signal with `may_move` accepts
   /// Hz at the motor for the fastest that the limits of the base, or of the joint, allow on one axis; 0: no limits.
   double top_frequency = 0.0;
   std::string top_of;  ///< the key of that limit: "linear/x/max_velocity"

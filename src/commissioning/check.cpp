@@ -43,6 +43,9 @@ std::vector<ParameterKey> valuesToRead(const AskedDrive& asked, const catalogue:
     const unsigned elements = bits->elements.value_or(0);
     for (std::uint8_t bit = 1; bit <= elements; ++bit) add(drive.key(480, 0, bit));
   }
+  for (const cycle::AskedBit& bit : asked.position_bits) {
+    if (isDescribed(bit.number)) add(drive.key(bit.number, 0, bit.element));
+  }
   for (const std::uint16_t number : kOfTheSet) {
     if (asked.of_base && isDescribed(number)) add(drive.key(number));
   }

@@ -68,6 +68,7 @@ CommissioningFacts deviceFacts(const cycle::DeviceData& device, const AskedDrive
   for (std::size_t bit = 0; bit < device.bus_bit_functions.size(); ++bit) {
     to.storeFunction(drive.key(480, 0, static_cast<std::uint8_t>(bit + 1)), device.bus_bit_functions[bit]);
   }
+  if (asked.words.out_bit != 0) to.storeRaw(drive.key(481, 0, asked.words.out_bit), device.out_bit_function);
   to.storeOrMissing(drive.key(513), device.telegram_timeout);
   if (asked.identity.timeout_owner == TimeoutOwner::kModule) {
     to.storeOrMissing(drive.key(151), device.module_timeout);

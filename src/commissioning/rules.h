@@ -32,6 +32,8 @@ std::vector<std::string> rulesAsRows();
 // control_source.cpp
 void busHasControl(const Drives& drives, std::size_t index, Findings& to);
 void busGivesSetpoint(const Drives& drives, std::size_t index, Findings& to);
+// position_bits.cpp
+void positionBitsFit(const Drives& drives, std::size_t index, Findings& to);
 // process_values.cpp
 void firstSetpointIsFrequency(const Drives& drives, std::size_t index, Findings& to);
 void firstActualValueIsFrequency(const Drives& drives, std::size_t index, Findings& to);

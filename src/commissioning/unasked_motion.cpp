@@ -37,6 +37,10 @@ void busBitsStartNothing(const Drives& drives, std::size_t index, Findings& to) 
     const ParameterKey key = drive.key(kBusBits, 0, bit);
     const auto raw = drive.raw(key);
     if (!raw || (*raw != kEnableRight && *raw != kEnableLeft)) continue;
+    const auto& position_bits = drive.asked().position_bits;
+    const auto asked = std::find_if(position_bits.begin(), position_bits.end(), [bit](const cycle::AskedBit& other) {
+      return other.number == kBusBits && other.element == bit;
+    });
     // What somebody has accepted by name is told, and not taken away.
     const auto& accepted = drive.asked().may_move_bits;
     const bool may_move = std::find(accepted.begin(), accepted.end(), bit) != accepted.end();
@@ -48,7 +52,7 @@ void busBitsStartNothing(const Drives& drives, std::size_t index, Findings& to) 
     if (may_move) {
       finding.advice = "leave it only where nobody is hurt by a motor that starts";
     } else {
-      finding.remedy = drive.remedy(key, 0);
+      finding.remedy = drive.remedy(key, asked == position_bits.end() ? 0 : asked->function);
     }
     to.push_back(finding);
   }

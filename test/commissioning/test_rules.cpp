@@ -63,6 +63,15 @@ void positions(AskedDrive& asked) {
   asked.words.words = 3;
   cycle::addPositionNeeds(cycle::PositionSetup{}, asked.series, asked.words);
 }
+void hasPositionBits(AskedDrive& asked) {
+  cycle::PositionSetup setup;
+  setup.home = cycle::PositionBit{cycle::PositionBit::Carrier::kBusBit, 3, 22};
+  setup.reset = cycle::PositionBit{cycle::PositionBit::Carrier::kControlBit, 9, 61};
+  setup.referenced = cycle::SignalSetup{};
+  setup.referenced->source = cycle::SignalSource::kStatusBit;
+  setup.referenced->number = 10;
+  asked.position_bits = cycle::askedBits(setup, asked.series);
+}
 void measuresTorque(AskedDrive& asked) {
   asked.words.words = 3;
   asked.words.list.push_back({true, profile::WordUse::kTorqueCurrent});
@@ -141,6 +150,22 @@ const std::vector<Row>& rows() {
        positions,
        {{{547, 1, 0}, 21}, {{548, 1, 0}, 22}, {{544, 1, 0}, 10}, {{545, 1, 0}, 15}, {{600, 1, 0}, 0}},
        {"position_control error P600 set 1"}},
+      {"bits of a position control",
+       kSk511,
+       hasPositionBits,
+       {{{480, 0, 4}, 22}, {{480, 0, 12}, 61}, {{481, 0, 9}, 20}},
+       {}},
+      {"other bits",
+       kSk511,
+       hasPositionBits,
+       {{{480, 0, 4}, 0}, {{480, 0, 12}, 22}, {{481, 0, 9}, 7}},
+       {"position_bits warning P480[-04] -> 22", "position_bits warning P480[-12] -> 61",
+        "position_bits warning P481[-09] -> 20"}},
+      {"a bit that starts the motor",
+       kSk511,
+       hasPositionBits,
+       {{{480, 0, 4}, 1}, {{480, 0, 12}, 61}, {{481, 0, 9}, 20}},
+       {"position_bits warning P480[-04] -> 22", "bus_bits warning P480[-04] -> 22"}},
       {"no high word",
        kSk511,
        positions,
