@@ -46,6 +46,10 @@ Master::Master(const MasterConfig& config)
   }
 }
 
+void Master::setOnlyAsked(Duration span) noexcept {
+  for (NodeConfig& node : config_.nodes) node.only_asked = span;
+}
+
 void Master::restart(Instant now) noexcept {
   now_ = now;
   given_ = Given{};

@@ -14,10 +14,6 @@ constexpr Duration kLongestRefusePause = std::chrono::seconds{4};
 /// Two nodes with one id get stop words for so long.
 constexpr Duration kStopBoth = std::chrono::seconds{4};
 
-/// So long a node that was operational is only asked: it may hear what stops its drives without being heard itself, and a
-/// reset would make it deaf to that. No stop takes longer than a driver's shutdown_timeout, 10 s unless configured.
-constexpr Duration kOnlyAsked = std::chrono::seconds{15};
-
 /// Bounds the end of a driver whose node does not answer.
 constexpr Duration kLongestRelease = std::chrono::seconds{1};
 constexpr std::uint16_t kErrorRegisterIndex = 0x1001;
@@ -211,7 +207,7 @@ void NodeBoot::leadBack() noexcept {
 
 // Stopped by somebody unheard, or before we came, it answers no SDO. Whom we never started is led back at once.
 void NodeBoot::askAgain(Instant now) noexcept {
-  const bool take_back = isIn<Silent>() && now - past_.lost_at >= kOnlyAsked;
+  const bool take_back = isIn<Silent>() && now - past_.lost_at >= config_.only_asked;
   guard_question_ = isIn<Silent>() && config_.error_control.mode == ErrorControlMode::kGuarding;
   if (take_back) past_.lost_at = now;  // again after as long
   if (take_back && config_.reset != BootReset::kNone) return reset(now);

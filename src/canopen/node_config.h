@@ -85,6 +85,9 @@ struct NodeConfig {
   std::uint8_t sdo_retries = 2;                        ///< of one access of the start-up
   Duration boot_up_timeout = std::chrono::seconds{2};  ///< from a reset to the question whether it is there
   Duration start_timeout = std::chrono::seconds{1};    ///< from NMT start to its being seen operational
+  /// So long a node that was operational and fell silent is only asked: it may hear what stops its drives without being
+  /// heard itself, and a reset would make it deaf to that.
+  Duration only_asked = std::chrono::seconds{15};
   /// An operational node gets no RPDO before the cycle after its first TPDOs, or for so long: the first control word
   /// may acknowledge a fault that nobody has seen yet. 0: it gets them at once.
   Duration first_answer_timeout{};

@@ -28,6 +28,7 @@ std::vector<drive::Drive> makeDrives(const CycleConfig& config, Transport& trans
     drives.emplace_back(drive);
   }
   transport.setDriveTimeout(shortest);
+  transport.setShutdownTimeout(config.shutdown_timeout);
   return drives;
 }
 

@@ -40,6 +40,7 @@ class PlantedTransport final : public Transport {
   Instant now() const noexcept override { return inner_->now(); }
   void sleepUntil(Instant when) noexcept override { inner_->sleepUntil(when); }
   void setDriveTimeout(Duration timeout) noexcept override { inner_->setDriveTimeout(timeout); }
+  void setShutdownTimeout(Duration timeout) noexcept override { inner_->setShutdownTimeout(timeout); }
 
   bool submit(DriveIndex drive, const profile::ParameterRequest& request) noexcept override {
     return inner_->submit(drive, request);

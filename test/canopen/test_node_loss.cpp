@@ -304,6 +304,23 @@ TEST(NodeLoss, AStopThatWasNotHeardIsNotForEver) {
   }
 }
 
+// A stop that takes longer than usual: it is not made deaf to it.
+TEST(NodeLoss, ASilentNodeIsLeftAloneForAsLongAsAStopMayTake) {
+  Operational run{guarded()};
+  run.master.setOnlyAsked(seconds{65});
+  run.nodes[0]->answers_guarding = false;
+  bool cut = true;
+  run.loses = [&cut](const CanFrame&) { return cut; };
+  ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{2}));
+  run.nodes[0]->state = 0x04;
+  cut = false;
+  run.sent.clear();
+  run.run(seconds{60});
+  EXPECT_THAT(run.sent, testing::Not(Contains(HasSubstr("000#"))));
+  run.run(seconds{10});
+  EXPECT_THAT(run.sent, Contains("000#8232")) << "reset communication";
+}
+
 // The answer to another master's guarding is none to ours, but the state in it is the node's.
 TEST(NodeLoss, AStateInAnAnswerToSomebodyElseCounts) {
   Operational run{guarded()};

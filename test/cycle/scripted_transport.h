@@ -23,6 +23,8 @@ class ScriptedTransport final : public Transport {
 
   void configure(const Settings&, const std::vector<DriveSettings>&, double) override {}
   Instant now() const noexcept override { return time; }
+  void setDriveTimeout(Duration timeout) noexcept override { told_drive_timeout = timeout; }
+  void setShutdownTimeout(Duration timeout) noexcept override { told_shutdown_timeout = timeout; }
   void sleepUntil(Instant when) noexcept override {
     if (when > time) time = when;
   }
@@ -90,6 +92,8 @@ class ScriptedTransport final : public Transport {
   void close() noexcept override {}
 
   std::uint8_t process_values = 3;
+  std::optional<Duration> told_drive_timeout;
+  std::optional<Duration> told_shutdown_timeout;
   Instant time{std::chrono::hours{1}};
   Duration exchange_time = std::chrono::milliseconds{2};
   std::vector<drive::FakeInverter> inverters;

@@ -51,6 +51,9 @@ class CyclicExchange {
   /// Told once, after configure() and before the first exchange(): silence of a drive that is shorter stops nothing. A
   /// transport that can tries for as long to go on as if nothing had happened. Default: does nothing.
   virtual void setDriveTimeout(Duration /*timeout*/) noexcept {}
+  /// Told as setDriveTimeout() is: a drive that fell silent is sent what stops it for as long, unanswered. A transport
+  /// that would reset a silent one does not within it. Default: does nothing.
+  virtual void setShutdownTimeout(Duration /*timeout*/) noexcept {}
 };
 
 }  // namespace nord_driver

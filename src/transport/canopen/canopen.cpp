@@ -76,6 +76,11 @@ void CanopenTransport::configure(const Settings& bus, const std::vector<DriveSet
   prepare(bus, std::move(setup), *master_);
 }
 
+// Quick stop follows a ramp that does not end, and takes its time as well.
+void CanopenTransport::setShutdownTimeout(Duration timeout) noexcept {
+  master_->setOnlyAsked(std::max<Duration>(canopen::NodeConfig{}.only_asked, timeout + std::chrono::seconds{5}));
+}
+
 void CanopenTransport::putOutputs(const std::vector<profile::ProcessOutput>& outputs) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     drives_[i].putOutput(outputs[i], *master_);

@@ -31,6 +31,7 @@ class CanopenTransport final : public CanTransport, public BusScanner {
   explicit CanopenTransport(LinkFactory make_link = {}) : CanTransport(std::move(make_link)) {}
 
   void configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) override;
+  void setShutdownTimeout(Duration timeout) noexcept override;
   bool submit(DriveIndex drive, const profile::ParameterRequest& request) noexcept override;
   std::optional<profile::ParameterResult> pollResult() noexcept override { return result_turns_.poll(drives_); }
   profile::ParameterCapabilities parameterCapabilities(DriveIndex /*drive*/) const noexcept override {
