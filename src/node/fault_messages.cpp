@@ -47,6 +47,7 @@ void FaultMessages::begin(const cycle::DriveSnapshot& drive, const Stamps& stamp
   for (const cycle::CycleData& cycle : drive.fault_record) {
     ProcessData data;
     data.stamp = stamps.of(cycle.time);
+    data.time = toSeconds(cycle.time.time_since_epoch());
     data.answered = cycle.answered;
     data.control_word = cycle.output.control_word;
     data.setpoints.assign(cycle.output.setpoints.begin(), cycle.output.setpoints.end());

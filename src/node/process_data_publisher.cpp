@@ -13,6 +13,7 @@ constexpr std::uint32_t kQueue = 2000;  // messages to one listener; what is pub
 void fill(const trace::ProcessDataRecord& record, const Stamps& stamps, ProcessData& message) {
   message.cycle = record.cycle;
   message.stamp = stamps.of(record.time);
+  message.time = toSeconds(record.time.time_since_epoch());
   message.answered = record.answered;
   message.control_word = record.output.control_word;
   message.setpoints.assign(record.output.setpoints.begin(), record.output.setpoints.end());

@@ -17,7 +17,10 @@ class ScopeCycles {
   void take(const std::vector<LiveCycle>& cycles) {
     for (const LiveCycle& cycle : cycles) {
       if (done_) return;
-      if (last_ && cycle.number <= *last_) continue;
+      // A node that was started anew counts from the beginning.
+      if (last_ && cycle.number < *last_) done_ = restarted_ = true;
+      if (done_) return;
+      if (last_ && cycle.number == *last_) continue;
       if (last_) missing_ += cycle.number - *last_ - 1;
       last_ = cycle.number;
       if (samples_.empty()) start_ = cycle.sample.time;
@@ -29,6 +32,8 @@ class ScopeCycles {
 
   /// The duration is full.
   bool done() const noexcept { return done_; }
+  /// The node was started anew before that: what came until then is there.
+  bool restarted() const noexcept { return restarted_; }
   /// Cycles between the first and the last that never came.
   std::uint64_t missing() const noexcept { return missing_; }
   /// Times from the first one on.
@@ -38,6 +43,7 @@ class ScopeCycles {
   double duration_;  // s
   double start_ = 0.0;
   bool done_ = false;
+  bool restarted_ = false;
   std::optional<std::uint64_t> last_;
   std::uint64_t missing_ = 0;
   std::vector<ScopeSample> samples_;

@@ -90,6 +90,7 @@ TEST_F(FaultMessagesTest, TheProcessDataBeforeIt) {
   ASSERT_EQ(33u, data.size());
   EXPECT_EQ(due[0].header.stamp, data[32].stamp);
   EXPECT_NEAR(0.32, (data[32].stamp - data[0].stamp).toSec(), 1e-9);
+  EXPECT_NEAR(0.32, data[32].time - data[0].time, 1e-9);
   EXPECT_FALSE(data[5].answered);
   EXPECT_TRUE(data[6].answered);
   EXPECT_EQ(0x047F, data[7].control_word);

@@ -36,5 +36,16 @@ TEST(ScopeCycles, CountsWhatIsMissing) {
   EXPECT_EQ(4u, cycles.samples().size());
 }
 
+// Its cycles would not be counted until there are as many again.
+TEST(ScopeCycles, EndWithANodeThatIsStartedAnew) {
+  ScopeCycles cycles{10.0};
+  cycles.take({cycle(5000, 100.0), cycle(5001, 100.01), cycle(5001, 100.01)});
+  EXPECT_FALSE(cycles.done() || cycles.restarted());
+  cycles.take({cycle(3, 0.03), cycle(4, 0.04)});
+  EXPECT_TRUE(cycles.done() && cycles.restarted());
+  EXPECT_EQ(2u, cycles.samples().size());
+  EXPECT_EQ(0u, cycles.missing());
+}
+
 }  // namespace
 }  // namespace nord_driver::tools

@@ -81,13 +81,19 @@ class ScopeCommand final : public ParamCommand {
     }
   }
 
+  /// Hz; what was typed in, otherwise P105; nothing where it cannot be read.
+  std::optional<double> maxFrequency(DriveParameters& drive) const {
+    if (max_frequency_) return *max_frequency_;
+    catalogue::ParameterAddress address;
+    address.number = kMaxFrequency;
+    const ParameterAnswer answer = drive.read(address);
+    return answer.success ? std::optional<double>{answer.value} : std::nullopt;
+  }
+
   ScopeRecord record(ParameterLink& link, const std::atomic<bool>& end_asked) const {
     ScopeRecord record;
     record.drive = drive_;
-    catalogue::ParameterAddress address;
-    address.number = kMaxFrequency;
-    const ParameterAnswer answer = link.read(address);
-    if (answer.success) record.max_frequency = answer.value;
+    record.max_frequency = maxFrequency(link);
     ScopeObserver observer{static_cast<std::size_t>(std::ceil(duration_.value / toSeconds(link.period()))) + 10};
     link.setObserver(&observer);
     link.exchangeUntil(link.now() + seconds(duration_.value), end_asked);
@@ -100,10 +106,7 @@ class ScopeCommand final : public ParamCommand {
   int recordThrough(const NodeWithDrives& node, const std::atomic<bool>& end_asked) const {
     ScopeRecord record;
     record.drive = drive_;
-    catalogue::ParameterAddress address;
-    address.number = kMaxFrequency;
-    const ParameterAnswer answer = node.nodes.open(node.name, node.drives.front())->read(address);
-    if (answer.success) record.max_frequency = answer.value;
+    record.max_frequency = maxFrequency(*node.nodes.open(node.name, node.drives.front()));
     ScopeCycles cycles{duration_.value};
     const auto feed = node.nodes.cyclesOf(node.name, drive_);
     std::string ended;
@@ -115,6 +118,8 @@ class ScopeCommand final : public ParamCommand {
     record.samples = cycles.samples();
     write(record);
     if (!ended.empty()) throw Trouble(ended);
+    if (cycles.restarted())
+      throw Trouble("node " + node.name + " was started anew meanwhile: this is what came before");
     if (cycles.missing() == 0) return kDone;
     throw Trouble(std::to_string(cycles.missing()) + " of the cycles are missing, " +
                   std::to_string(record.samples.size()) + " came: this computer or the network was too slow");

@@ -48,7 +48,7 @@ LiveStatus statusOf(const DriveStatus& told) {
 LiveCycle cycleOf(const ProcessData& told) {
   LiveCycle cycle;
   cycle.number = told.cycle;
-  cycle.sample.time = told.stamp.toSec();
+  cycle.sample.time = told.time;
   cycle.sample.answered = told.answered != 0;
   cycle.sample.output.control_word = told.control_word;
   copyWords(told.setpoints, cycle.sample.output.setpoints);
