@@ -117,6 +117,18 @@ TEST_F(DriveGroupTest, TakesAllBackWhenOneDoesNotFollow) {
   EXPECT_TRUE(group_.settled());
 }
 
+TEST_F(DriveGroupTest, TakesAllBackWhenOneTripsMeanwhile) {
+  cycles(4);
+  ASSERT_TRUE(group_.requestEnable(now_).accepted());
+  cycle();
+  right_inverter_.fault = true;
+  EXPECT_LT(cyclesUntil(GroupPhase::kDisabled, 20), 20);
+  EXPECT_EQ(Refusal::kStopped, group_.report().refusal.refusal);
+  EXPECT_EQ(StopCause::kFault, group_.report().stop_cause);
+  EXPECT_EQ(1u, group_.report().stop_member);
+  EXPECT_EQ(0x047E, leftWord());
+}
+
 // enable false: the setpoint ramps to zero from above, then OFF1 until "ready to switch on".
 TEST_F(DriveGroupTest, RampsDownThenOff1) {
   run();

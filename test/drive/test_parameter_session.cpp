@@ -230,6 +230,9 @@ TEST_F(ParameterSessionTest, PutsP560BackWhenItsOwnAnswerIsMissing) {
   EXPECT_THAT(result.note, HasSubstr("not written"));
   EXPECT_EQ("P560=1", inverter_.asked.at(4));
   EXPECT_EQ(200, inverter_.ram[102]);
+  inverter_.scripted["P560=0"] = FakeParameters::refusal(ParameterReason::kReadOnly);
+  EXPECT_EQ(ParameterOutcome::kRefused, run(writeRam(102, 1000)).outcome);
+  EXPECT_EQ("P560=0", inverter_.asked.back()) << "refused, it is what it was";
 }
 
 // It cannot be put back: said, and tried again before the next task and after the inverter has come back.

@@ -320,6 +320,9 @@ TEST_F(PositionDrive, TellsItsSpeedWhereNoWordCarriesIt) {
     input.actual_values = {toSigned(static_cast<Word>(steps & 0xFFFF)), toSigned(static_cast<Word>(steps >> 16)), 0};
     drive_.handleInput(input, true, now_);
   };
+  at(0);
+  ASSERT_FALSE(report().position.position);
+  EXPECT_EQ(0, report().speed) << "nobody knows";
   for (int i = 0; i < 60; ++i) at(125 * i);  // 12.5 rev/s: 25 Hz, half of P105
   EXPECT_NEAR(8192, report().speed, 5);
   EXPECT_FALSE(drive_.isNearStandstill());

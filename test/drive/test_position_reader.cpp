@@ -56,6 +56,17 @@ TEST(PositionReader, BelievesAFirstValueWhenThoseAfterItAgree) {
   EXPECT_FALSE(reading.reader.hasJumped()) << "nothing was known before";
 }
 
+// Half as much again as the motor can do, for the cycle and 50 ms that telegrams may lag behind, and 20 steps: 2270.
+TEST(PositionReader, BelievesWhatTheMotorCanHaveDone) {
+  Reading reading{kWide};
+  reading.settle(0);
+  reading.see(2270);
+  EXPECT_EQ(2270, reading.reader.steps());
+  reading.see(2270 + 2271);
+  EXPECT_EQ(2270, reading.reader.steps());
+  EXPECT_TRUE(reading.reader.isHeldBack());
+}
+
 // -1, 0, +1 and both borders of 16 bits, step by step and back.
 TEST(PositionReader, WalksOverTheBordersWithoutAJump) {
   for (const PositionField& field : {kWide, kNarrow}) {
