@@ -59,7 +59,10 @@ std::vector<AskedDrive> askedDrives(const cycle::CycleConfig& config, const std:
     drive.follows = !setup.follows.empty();
     drive.rated_current = setup.rated_current;
     drive.words = cycle::wordNeeds(setup.words, identities[i].process_values);
-    if (setup.position) cycle::addPositionNeeds(*setup.position, setup.series, drive.words);
+    if (setup.position) {
+      cycle::addPositionNeeds(*setup.position, setup.series, drive.words);
+      drive.counted_per_motor_turn = setup.position->axis.revolutions_per_motor_turn;
+    }
     for (const cycle::SignalSetup& signal : setup.words.signals) {
       const auto bit = cycle::busBitElement(signal);
       if (bit && signal.may_move) drive.may_move_bits.push_back(*bit);

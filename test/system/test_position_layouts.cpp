@@ -118,6 +118,29 @@ TEST(PositionLayoutsOfDevicenet, TheWrongOrderOfSk700eMovesNothing) {
   EXPECT_NEAR(3.0, robot.unit(0).inverter().posicon().position(), 0.01);
 }
 
+// P607 and P608, which position/gear_ratio has to include: here three counted revolutions for two of the motor. Nobody says
+// whether they have sets; of the simulated ones they have none, and all four were asked for.
+TYPED_TEST(PositionLayouts, TheGearOfTheCountIsReadAndIncluded) {
+  auto options = optionsOf<TypeParam>(kSk53x);
+  options.drives["position/gear_ratio"] = 30.0;
+  const auto simulate = options.simulate;
+  options.simulate = [simulate](sim::SimConfig& config) {
+    simulate(config);
+    for (sim::DriveConfig& drive : config.drives) {
+      drive.parameters.push_back({607, 0, 0, 3});
+      drive.parameters.push_back({608, 0, 0, 2});
+    }
+  };
+  TypeParam robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  EXPECT_EQ(3, robot.snapshot().drives[0].device.speed_ratio[0]);
+  EXPECT_EQ(2, robot.snapshot().drives[0].device.reduction[0]);
+  const double before = robot.unit(0).shaftAngle();
+  ASSERT_TRUE(goTo(robot, 0.3));
+  EXPECT_NEAR(0.3 * 150.0, robot.unit(0).inverter().posicon().position(), 0.0015);
+  EXPECT_NEAR(30.0 - 3.0, (robot.unit(0).shaftAngle() - before) / 6.283185307, 0.5) << "100 of the motor are a metre";
+}
+
 // The wrong one of the two orders is no position: the axis would jump by 65.536 revolutions, or not be heard at all.
 TYPED_TEST(PositionLayouts, TheOrderOfTheHalvesIsHeeded) {
   auto options = optionsOf<TypeParam>(kSk700);
