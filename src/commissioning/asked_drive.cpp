@@ -62,6 +62,7 @@ std::vector<AskedDrive> askedDrives(const cycle::CycleConfig& config, const std:
     if (setup.position) {
       cycle::addPositionNeeds(*setup.position, setup.series, drive.words);
       drive.position_bits = cycle::askedBits(*setup.position, setup.series);
+      drive.counted_per_motor_turn = setup.position->axis.revolutions_per_motor_turn;
     }
     for (const cycle::SignalSetup& signal : setup.words.signals) {
       const auto bit = cycle::busBitElement(signal);

@@ -26,7 +26,9 @@ struct AskedDrive {
   std::optional<double> rated_current;         ///< A
   cycle::WordNeeds words;                      ///< functions the words beyond the first must have
   std::vector<cycle::AskedBit> position_bits;  ///< of a drive that positions: what P480 and P481 have to say
-  std::vector<std::uint8_t> may_move_bits;     ///< elements of P480 a signal with `may_move` accepts
+  /// Revolutions a drive that positions counts for one of its motor: position/gear_ratio by gear_ratio.
+  double counted_per_motor_turn = 1.0;
+  std::vector<std::uint8_t> may_move_bits;  ///< elements of P480 a signal with `may_move` accepts
   /// Hz at the motor for the fastest that the limits of the base, or of the joint, allow on one axis; 0: no limits.
   double top_frequency = 0.0;
   std::string top_of;  ///< the key of that limit: "linear/x/max_velocity"

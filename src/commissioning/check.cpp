@@ -7,6 +7,7 @@ namespace nord_driver::commissioning {
 namespace {
 
 constexpr std::uint16_t kOfTheDrive[] = {509, 510, 513, 560};
+constexpr std::uint16_t kOfPositioning[] = {600, 610, 607, 608};
 /// Compared between the drives of a base, in the set in force.
 constexpr std::uint16_t kOfTheSet[] = {102, 103, 426, 300};
 
@@ -23,7 +24,7 @@ std::vector<ParameterKey> valuesToRead(const AskedDrive& asked, const catalogue:
   for (const std::uint16_t number : kOfTheDrive) {
     if (isDescribed(number)) add(drive.key(number));
   }
-  for (const std::uint16_t number : {std::uint16_t{600}, std::uint16_t{610}}) {
+  for (const std::uint16_t number : kOfPositioning) {
     if (asked.words.positions && isDescribed(number)) add(drive.key(number));
   }
   const bool behind_module = asked.identity.timeout_owner == TimeoutOwner::kModule;

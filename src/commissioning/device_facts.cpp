@@ -79,6 +79,8 @@ CommissioningFacts deviceFacts(const cycle::DeviceData& device, const AskedDrive
   to.storeRaw(drive.key(560), device.saves_in_eeprom);
   for (std::uint8_t set = 1; set <= kSets && asked.words.positions; ++set) {
     to.storeRaw(drive.key(600, set), device.position_control[set - 1u]);
+    to.storeRaw(drive.key(607, set), device.speed_ratio[set - 1u]);
+    to.storeRaw(drive.key(608, set), device.reduction[set - 1u]);
   }
   if (asked.words.positions) to.storeRaw(drive.key(610), device.setpoint_mode);
   return to.take();

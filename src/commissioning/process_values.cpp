@@ -1,9 +1,12 @@
 // P543 to P548: what the process values mean, against what the driver sends and reads.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <string>
 #include <vector>
 
 #include "commissioning/rules.h"
+#include "config/setting_checks.h"
 
 namespace nord_driver::commissioning {
 
@@ -12,7 +15,8 @@ namespace {
 constexpr std::uint16_t kFirstActualValue = 543, kFirstSetpoint = 546;
 constexpr std::int32_t kFrequency = 1;  // in every series' tables of P543 and P546
 constexpr std::int32_t kCurrent = 3;    // P543
-constexpr std::uint16_t kPositionControl = 600, kSetpointMode = 610;
+constexpr std::uint16_t kPositionControl = 600, kSpeedRatio = 607, kReduction = 608, kSetpointMode = 610;
+constexpr double kSameRatio = 1e-3;  // a gear as two whole numbers, beside one typed as a decimal fraction
 constexpr std::uint8_t kSets = 4, kPlaces = 3;
 
 /// Functions of setpoints that limit torque, current, frequency or ramp: as 0 they hold the motor back.
@@ -132,6 +136,32 @@ void drivePositions(const Drives& drives, std::size_t index, Findings& to) {
       mode, Severity::kError,
       "its target would come from somewhere else than configured (position/setpoint_mode), and it is not enabled");
   finding.remedy = drive.remedy(mode, needs.setpoint_mode);
+  to.push_back(finding);
+}
+
+// Which of the two multiplies is not said: either counts as configured. Alike, they make nothing of the count, and an
+// encoder behind the gear may.
+void countHasNoOtherGear(const Drives& drives, std::size_t index, Findings& to) {
+  const DriveUnderCheck& drive = drives[index];
+  const ParameterKey ratio_key = drive.key(kSpeedRatio), reduction_key = drive.key(kReduction);
+  const auto ratio = drive.raw(ratio_key), reduction = drive.raw(reduction_key);
+  if (!drive.asked().words.positions || !ratio || !reduction) return;
+  const double configured = drive.asked().counted_per_motor_turn;
+  const auto is = [](double part, double whole, double factor) {
+    return std::abs(part - factor * whole) <= kSameRatio * std::abs(part);
+  };
+  const bool valid = *ratio != 0 && *reduction != 0;
+  if (valid && (*ratio == *reduction || is(*ratio, *reduction, configured) || is(*reduction, *ratio, configured))) {
+    return;
+  }
+  const std::string why = "with P608 = " + std::to_string(*reduction) +
+                          " they are a gear between motor and count, and by position/gear_ratio and gear_ratio a "
+                          "revolution of the motor counts as " +
+                          shortNumber(configured) + ": positions may be wrong by a factor";
+  Finding finding = drive.finding(ratio_key, Severity::kWarning, why);
+  finding.advice =
+      "compare the position with the joint, and set position/gear_ratio to what is counted for one revolution of the "
+      "joint's shaft, or both parameters to 1";
   to.push_back(finding);
 }
 

@@ -40,6 +40,7 @@ void firstActualValueIsFrequency(const Drives& drives, std::size_t index, Findin
 void furtherSetpointsAreFree(const Drives& drives, std::size_t index, Findings& to);
 void askedWordsAreCarried(const Drives& drives, std::size_t index, Findings& to);
 void drivePositions(const Drives& drives, std::size_t index, Findings& to);
+void countHasNoOtherGear(const Drives& drives, std::size_t index, Findings& to);
 void currentIsMapped(const Drives& drives, std::size_t index, Findings& to);
 // protection.cpp
 void busErrorsAreHeeded(const Drives& drives, std::size_t index, Findings& to);

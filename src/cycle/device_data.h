@@ -41,6 +41,9 @@ struct DeviceData {
   /// P600 of parameter sets 1..4, of a drive that is to position: 0 = it does not.
   std::array<std::optional<std::int32_t>, 4> position_control;
   std::optional<std::int32_t> setpoint_mode;  ///< of such a drive, P610: where its target comes from
+  /// P607 and P608 of parameter sets 1..4, likewise: a gear between motor and count (BU 2700 6.4.4). Which of them
+  /// multiplies is not said.
+  std::array<std::optional<std::int32_t>, 4> speed_ratio, reduction;
   std::uint32_t ident = 0;
   bool complete = false;  ///< everything was asked for; what the drive refused is absent
 };

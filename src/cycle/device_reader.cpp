@@ -13,7 +13,8 @@ constexpr std::uint8_t kMaxAttempts = 3;
 constexpr std::uint16_t kMinFrequency = 104, kMaxFrequency = 105, kOptionMonitoring = 120, kModuleTimeout = 151,
                         kBusBits = 480, kOutBits = 481, kControlWordSource = 509, kSetpointSource = 510,
                         kTelegramTimeout = 513, kFirstActualValue = 543, kFirstSetpoint = 546, kEepromSwitch = 560,
-                        kPositionControl = 600, kSetpointMode = 610, kSoftwareVersion = 707;
+                        kPositionControl = 600, kSpeedRatio = 607, kReduction = 608, kSetpointMode = 610,
+                        kSoftwareVersion = 707;
 constexpr std::uint8_t kSets = 4;
 constexpr std::uint16_t kAccelerationTime = 102, kDecelerationTime = 103;
 // s: the bus manuals name no unit of P103, which is set in the steps of P102 on the inverter.
@@ -51,6 +52,10 @@ DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool furt
   if (!further_words) {
     addFurtherFunctions(1);
     addBusBits();
+  }
+  for (std::uint8_t set = 1; set <= kSets && positions; ++set) {
+    add(kSpeedRatio, set, 1);
+    add(kReduction, set, 1);
   }
   for (std::uint8_t set = 1; set <= kSets; ++set) {
     add(kAccelerationTime, set, 1);
@@ -180,6 +185,10 @@ void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
     data_.position_control[item.set - 1u] = raw;
   } else if (item.number == kSetpointMode) {
     data_.setpoint_mode = raw;
+  } else if (item.number == kSpeedRatio) {
+    data_.speed_ratio[item.set - 1u] = raw;
+  } else if (item.number == kReduction) {
+    data_.reduction[item.set - 1u] = raw;
   } else if (item.number == kMinFrequency) {
     data_.min_frequency[item.set - 1u] = value;
   } else if (item.number == kOutBits) {

@@ -23,7 +23,7 @@ class DeviceReader {
   /// `owner`: whose time-outs are read; those of a module by requests the transport passes on to it.
   /// `further_words`: setpoints 2 and 3 or actual values 2 and 3 are in use: what they are decides motion, too.
   /// `positions`: so do P600 and P610, of a drive that positions. `out_bit`: the element of P481 whose function decides
-  /// what is told of its reference; 0: none.
+  /// what is told of its reference; 0: none. P607 and P608 of such a drive come later: they decide nothing.
   explicit DeviceReader(profile::Series series, TimeoutOwner owner = TimeoutOwner::kInverter,
                         bool further_words = false, bool positions = false, std::uint8_t out_bit = 0) noexcept;
 

@@ -23,6 +23,9 @@ constexpr std::uint8_t kCu4 = kSk12 | kSk5 | kSk54;  // these sit behind SK CU4/
 // SK 2xxE, 53xE, 54xE, 700E and 750E (BU 2700 6.4.4, BU 0020 7.3.5).
 constexpr std::uint8_t kPositioning = bit(Series::kSk2xxe) | kSk5 | kSk54 | kSk7;
 
+// Of SK 700E and 750E no manual at hand names P607 and P608 (BU 2700 6.4.4).
+constexpr std::uint8_t kRatioOfCount = bit(Series::kSk2xxe) | kSk5 | kSk54;
+
 constexpr ParameterShape kPlain = ParameterShape::kPlain;
 constexpr ParameterShape kPerSet = ParameterShape::kPerSet;
 constexpr ParameterShape kArray = ParameterShape::kArray;
@@ -64,6 +67,8 @@ constexpr CycleParameter kParameters[] = {
     {548, kSk300 | kSk7, "Bus setpoint 3", 1.0, false, kPerSet, 1},
     {560, kAll, "Save in EEPROM", 1.0, false, kPlain, 1},
     {600, kPositioning, "Position control", 1.0, false, kPerSet, 1},
+    {607, kRatioOfCount, "Speed ratio", 1.0, false, kPerSet, 1},
+    {608, kRatioOfCount, "Reduction", 1.0, false, kPerSet, 1},
     {610, kPositioning, "Setpoint mode", 1.0, false, kPlain, 1},
     {707, kAll, "Software version", 1.0, false, kArray, 2},
     // clang-format on

@@ -50,7 +50,7 @@ TEST(CatalogueAgreement, EveryParameterOfTheCycleIsInTheFiles) {
       }
     }
   }
-  EXPECT_EQ(126, compared);
+  EXPECT_EQ(132, compared);
   EXPECT_EQ(std::set<std::string>{}, found);
 }
 

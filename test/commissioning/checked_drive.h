@@ -47,6 +47,10 @@ inline CommissioningFacts rightFacts(const AskedDrive& asked, const catalogue::D
   }
   facts.store(drive.key(509), busSelection(drive).control_word.value_or(20));
   facts.store(drive.key(560), 1);
+  if (asked.words.positions) {
+    facts.store(drive.key(607), 1);
+    facts.store(drive.key(608), 1);
+  }
   facts.store(drive.key(102), 200);
   facts.store(drive.key(103), 200);
   if (asked.identity.timeout_owner == TimeoutOwner::kModule) {

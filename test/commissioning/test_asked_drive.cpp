@@ -54,6 +54,14 @@ TEST(AskedDrive, HasLimitsOfItsOwnOutsideABase) {
   EXPECT_EQ(70.0, arm.typed_max_frequency);
 }
 
+TEST(AskedDrive, CountsTheMotorUnlessConfiguredOtherwise) {
+  const auto drives = asked(
+      "{drives: {lift: {series: sk5xxe, pole_pairs: 2, gear_ratio: 20, mode: position},"
+      " table: {series: sk5xxe, pole_pairs: 2, gear_ratio: 20, mode: position, position: {gear_ratio: 30}}}}");
+  EXPECT_DOUBLE_EQ(1.0, find(drives, "lift").counted_per_motor_turn);
+  EXPECT_DOUBLE_EQ(1.5, find(drives, "table").counted_per_motor_turn);
+}
+
 TEST(AskedDrive, MayHaveNoLimits) {
   const auto drives = asked("{drives: {arm: {series: sk54xe, pole_pairs: 3}}}");
   EXPECT_EQ(0.0, drives.at(0).top_frequency);

@@ -69,6 +69,21 @@ TEST(DeviceFacts, KeepFunctionsInTheirPlaces) {
   }
 }
 
+// Of the set in force; without them, as of a drive that refuses to tell them, there is nothing to be found.
+TEST(DeviceFacts, HaveTheGearOfTheCount) {
+  AskedDrive asked = askedDrive(Series::kSk5xxe);
+  asked.words.words = 3;
+  cycle::addPositionNeeds(cycle::PositionSetup{}, asked.series, asked.words);
+  cycle::DeviceData device = asRead(asked);
+  device.word_functions[0] = {{1, 23, 24}, {1, 10, 15}};
+  device.position_control.fill(1);
+  EXPECT_THAT(foundIn(device, asked), IsEmpty());
+  device.speed_ratio = {3, 1, 1, 1};
+  EXPECT_THAT(foundIn(device, asked), IsEmpty()) << "one of the two alone";
+  device.reduction = {2, 1, 1, 1};
+  EXPECT_THAT(foundIn(device, asked), ElementsAre("position_gear warning P607 set 1"));
+}
+
 TEST(DeviceFacts, TellWhatIsMissing) {
   const AskedDrive asked = askedDrive(Series::kSk5xxe);
   cycle::DeviceData device = asRead(asked);

@@ -94,6 +94,22 @@ struct Spoiled {
   std::int32_t raw;
 };
 
+/// P546 to P548, P543 to P545 and P600 as positions() needs them.
+const std::vector<Spoiled> kPositioning{
+    {{547, 1, 0}, 23}, {{548, 1, 0}, 24}, {{544, 1, 0}, 10}, {{545, 1, 0}, 15}, {{600, 1, 0}, 1}};
+Change counts(double per_motor_turn) {
+  return [per_motor_turn](AskedDrive& asked) {
+    positions(asked);
+    asked.counted_per_motor_turn = per_motor_turn;
+  };
+}
+std::vector<Spoiled> withGear(std::int32_t ratio, std::int32_t reduction) {
+  std::vector<Spoiled> all = kPositioning;
+  all.push_back({{607, 1, 0}, ratio});
+  all.push_back({{608, 1, 0}, reduction});
+  return all;
+}
+
 struct Row {
   const char* what;
   std::vector<Series> series;
@@ -171,6 +187,13 @@ const std::vector<Row>& rows() {
        positions,
        {{{547, 1, 0}, 23}, {{548, 1, 0}, 0}, {{544, 1, 0}, 10}, {{545, 1, 0}, 15}, {{600, 1, 0}, 1}},
        {"asked_words error P548 set 1 -> 24"}},
+      {"counts the motor", kSk511, positions, kPositioning, {}},
+      {"counts through a gear", kSk511, positions, withGear(3, 2), {"position_gear warning P607 set 1"}},
+      {"counts it as configured", kSk511, counts(1.5), withGear(3, 2), {}},
+      {"counts it the other way round", kSk511, counts(1.5), withGear(2, 3), {}},
+      {"counts another gear", kSk511, counts(1.5), withGear(5, 3), {"position_gear warning P607 set 1"}},
+      {"an encoder behind the gear", kSk511, counts(0.05), kPositioning, {}},
+      {"no gear at all", kSk511, positions, withGear(0, 1), {"position_gear warning P607 set 1"}},
       {"no current", kSeparate, ratedCurrent, {{{544, 1, 0}, 4}}, {"current note P544 set 1 -> 3"}},
       {"a current", kSeparate, ratedCurrent, {{{544, 1, 0}, 4}, {{545, 1, 0}, 3}}, {}},
 
@@ -258,6 +281,23 @@ TEST(Rules, TellTheSetInForce) {
     EXPECT_THAT(toText(findings[0]), HasSubstr("parameter set = 3: the driver stays in the set it finds"));
     EXPECT_EQ(Severity::kNote, findings[0].severity);
   }
+}
+
+TEST(Rules, TellTheGearOfTheCount) {
+  AskedDrive asked = askedDrive(Series::kSk5xxe);
+  counts(1.25)(asked);
+  std::vector<std::pair<ParameterKey, std::int32_t>> spoil;
+  for (const Spoiled& spoiled : withGear(3, 2)) spoil.emplace_back(spoiled.key, spoiled.raw);
+  const Findings findings = check({drive(asked, spoil)});
+  ASSERT_EQ(1u, findings.size());
+  EXPECT_EQ(
+      "P607 set 1 Speed ratio = 3: with P608 = 2 they are a gear between motor and count, and by position/gear_ratio "
+      "and "
+      "gear_ratio a revolution of the motor counts as 1.25: positions may be wrong by a factor; compare the position "
+      "with "
+      "the joint, and set position/gear_ratio to what is counted for one revolution of the joint's shaft, or both "
+      "parameters to 1 (BU 2700, 6.4.4 (positions))",
+      toText(findings[0]));
 }
 
 TEST(Rules, CompareDrivesOfABase) {

@@ -125,6 +125,31 @@ TEST(DeviceReader, ReadsWhatDecidesMotionOfAllSetsFirst) {
   EXPECT_FALSE(reader.motionAsked());
 }
 
+// P607 and P608 decide nothing: they come later, and one that is refused is left out.
+TEST(DeviceReader, ReadsTheGearOfTheCountOfADriveThatPositions) {
+  DeviceReader reader{profile::Series::kSk5xxe, TimeoutOwner::kInverter, true, true};
+  bool before_motion = false;
+  while (const auto request = reader.pollRequest()) {
+    before_motion = before_motion || (request->number == 607 && !reader.motionAsked());
+    const bool refused = request->number == 608 && request->parameter_set > 2;
+    reader.handleResult(refused ? failed(ParameterOutcome::kRefused) : done(request->parameter_set));
+  }
+  EXPECT_FALSE(before_motion);
+  EXPECT_TRUE(reader.data().complete);
+  EXPECT_THAT(reader.data().speed_ratio, ::testing::ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(reader.data().reduction, ::testing::ElementsAre(1, 2, std::nullopt, std::nullopt));
+}
+
+TEST(DeviceReader, ReadsNoGearOfTheCountOfOthers) {
+  DeviceReader velocity{profile::Series::kSk5xxe, TimeoutOwner::kInverter, true, false};
+  DeviceReader without{profile::Series::kSk700e, TimeoutOwner::kInverter, true, true};
+  for (DeviceReader* reader : {&velocity, &without}) {
+    const auto numbers = answerAll(*reader, 1);
+    EXPECT_EQ(0, std::count(numbers.begin(), numbers.end(), 607));
+    EXPECT_EQ(0, std::count(numbers.begin(), numbers.end(), 608));
+  }
+}
+
 // SK 540E and above, 1x0E and 2xxE: [-01] of an array.
 TEST(DeviceReader, ReadsTheFirstElementWhereTheyAreArrays) {
   for (const profile::Series series : {profile::Series::kSk54xe, profile::Series::kSk2xxe}) {

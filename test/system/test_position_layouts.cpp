@@ -34,11 +34,9 @@ constexpr LiftWords kLayouts[] = {
 };
 
 /// By the units there are: PROFIBUS of these tests is SK TU3-PBR and the CANopen one SK TU3-CAO, which SK 2xxE do not
-/// take; an InterBus one is made for SK 300E, 5xxE, 700E and 750E (BU 0070 2). On DeviceNet nobody says whether setpoint 2
-/// of SK 700E comes before setpoint 3 or after it (BU 0280 is about others): with 32 bits there is only one of them.
+/// take; an InterBus one is made for SK 300E, 5xxE, 700E and 750E (BU 0070 2).
 template <typename Robot>
 bool carries(const LiftWords& words) {
-  if (words.name == kSk700Short.name) return !std::is_same_v<Robot, DevicenetRobot>;
   if (words.simulated == Series::kSk2xxe) return std::is_same_v<Robot, DevicenetRobot>;
   return words.simulated != Series::kSk54xe || !std::is_same_v<Robot, InterbusRobot>;
 }
@@ -85,6 +83,62 @@ TYPED_TEST(PositionLayouts, EveryTargetArrivesWithinAThousandthOfARevolution) {
       }
     }
   }
+}
+
+// Nobody says whether setpoint 2 of SK 700E comes before setpoint 3 on DeviceNet or after it (BU 0280 is about others, BU
+// 0080 is not at hand): by the series, as on the other buses, or in order. Whichever it is can be driven.
+TEST(PositionLayoutsOfDevicenet, WordsOfSk700eInOrder) {
+  for (const LiftWords& words : {kSk700Short, kSk700}) {
+    SCOPED_TRACE(words.name);
+    auto options = optionsOf<DevicenetRobot>(words);
+    options.drives["value_order"] = std::string{"in_order"};
+    const auto simulate = options.simulate;
+    options.simulate = [simulate](sim::SimConfig& config) {
+      simulate(config);
+      for (sim::DriveConfig& drive : config.drives) drive.bus.as<sim::DnDriveConfig>().values_in_order = true;
+    };
+    DevicenetRobot robot{options};
+    ASSERT_TRUE(robot.bringUp());
+    ASSERT_TRUE(robot.ask(RequestKind::kEnable).success);
+    for (const double height : {0.3, -0.2}) {
+      ASSERT_TRUE(goTo(robot, height)) << height << ", at " << heightOf(robot);
+      EXPECT_NEAR(height * kRevolutionsPerMetre, robot.unit(0).inverter().posicon().position(), 0.0015);
+    }
+  }
+}
+
+// A driver that takes the other order sends the speed where the inverter takes nothing: it stands, and goes nowhere else.
+TEST(PositionLayoutsOfDevicenet, TheWrongOrderOfSk700eMovesNothing) {
+  auto options = optionsOf<DevicenetRobot>(kSk700Short);
+  options.drives["value_order"] = std::string{"in_order"};
+  DevicenetRobot robot{options};
+  ASSERT_TRUE(robot.bringUp());
+  robot.ask(RequestKind::kEnable);
+  EXPECT_FALSE(goTo(robot, 0.3, std::chrono::seconds{5}));
+  EXPECT_NEAR(3.0, robot.unit(0).inverter().posicon().position(), 0.01);
+}
+
+// P607 and P608, which position/gear_ratio has to include: here three counted revolutions for two of the motor. Nobody says
+// whether they have sets; of the simulated ones they have none, and all four were asked for.
+TYPED_TEST(PositionLayouts, TheGearOfTheCountIsReadAndIncluded) {
+  auto options = optionsOf<TypeParam>(kSk53x);
+  options.drives["position/gear_ratio"] = 30.0;
+  const auto simulate = options.simulate;
+  options.simulate = [simulate](sim::SimConfig& config) {
+    simulate(config);
+    for (sim::DriveConfig& drive : config.drives) {
+      drive.parameters.push_back({607, 0, 0, 3});
+      drive.parameters.push_back({608, 0, 0, 2});
+    }
+  };
+  TypeParam robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  EXPECT_EQ(3, robot.snapshot().drives[0].device.speed_ratio[0]);
+  EXPECT_EQ(2, robot.snapshot().drives[0].device.reduction[0]);
+  const double before = robot.unit(0).shaftAngle();
+  ASSERT_TRUE(goTo(robot, 0.3));
+  EXPECT_NEAR(0.3 * 150.0, robot.unit(0).inverter().posicon().position(), 0.0015);
+  EXPECT_NEAR(30.0 - 3.0, (robot.unit(0).shaftAngle() - before) / 6.283185307, 0.5) << "100 of the motor are a metre";
 }
 
 // The wrong one of the two orders is no position: the axis would jump by 65.536 revolutions, or not be heard at all.

@@ -90,6 +90,7 @@ TYPED_TEST(TeachPosition, IsInTheArrayAfterwards) {
   ASSERT_TRUE(goTo(robot, 0.25));
   EXPECT_THAT(teach(robot).message.str(), HasSubstr("disable it first"));
   EXPECT_EQ(70'000, array(robot)[2]);
+  robot.run(std::chrono::milliseconds{500});  // it comes to rest, and OFF1 leaves it where it is
   ASSERT_TRUE(robot.ask(RequestKind::kDisable).success);
   EXPECT_TRUE(teach(robot).success);
   EXPECT_NEAR(25'000, array(robot)[2], 1);

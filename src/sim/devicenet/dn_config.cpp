@@ -81,6 +81,11 @@ void readDrive(const Group& group, DriveConfig& drive) {
     refuse(group.keyName("inverter"), group["inverter"], "1: only an sk_cu4 or sk_tu4 has more than one");
   }
   readAssembly(group, dn);
+  const std::string order = group.get<std::string>("value_order", "by_series", "by_series or in_order");
+  if (order != "by_series" && order != "in_order") {
+    refuse(group.keyName("value_order"), group["value_order"], "by_series or in_order");
+  }
+  dn.values_in_order = order == "in_order";
   drive.bus = dn;
 }
 
@@ -156,14 +161,20 @@ std::unique_ptr<RunningBus> run(const SimConfig& config) {
 
 }  // namespace
 
-BusWiring dnWiring(DnModuleKind kind, const Device& device) {
+// "The division to the process data words PZD3 and PZD4 depends on the inverter series": BU 0020 7.3.6, BU 0070 6.1.5.
+bool dnThirdBeforeSecond(const DriveConfig& drive) noexcept {
+  return drive.device.isOlderSeries() && !drive.bus.as<DnDriveConfig>().values_in_order;
+}
+
+BusWiring dnWiring(const DriveConfig& drive) {
   BusWiring wiring;
-  wiring.on_system_bus = kind == DnModuleKind::kGateway;
-  wiring.wide = {1, 0};  // setpoints 1 and 2 in one, the low word first (BU 0280 4.2.1.1)
+  wiring.on_system_bus = drive.bus.as<DnDriveConfig>().kind == DnModuleKind::kGateway;
+  // The two words behind the control word in one, the low word first (BU 0280 4.2.1.1).
+  wiring.wide = {dnThirdBeforeSecond(drive) ? 2u : 1u, 0};
   if (wiring.on_system_bus) {
-    wiring.source = device.isDecentral() ? kSystemBus : kSystemBusOfSk5xxe;
+    wiring.source = drive.device.isDecentral() ? kSystemBus : kSystemBusOfSk5xxe;
   } else {
-    wiring.source = device.isOlderSeries() ? kDeviceNetOlderSeries : kDeviceNet;
+    wiring.source = drive.device.isOlderSeries() ? kDeviceNetOlderSeries : kDeviceNet;
   }
   return wiring;
 }
@@ -204,7 +215,8 @@ BusKind devicenetKind() {
   kind.highest_address = kHighestMac;
   kind.keys = {// the driver's
                "io", "assembly", "control_bytes", "status_bytes", "profile", "module_input_bytes",
-               "module_output_bytes", "parameter_objects", "vendor_id", "device_type", "product_code", "eds",
+               "module_output_bytes", "parameter_objects", "value_order", "vendor_id", "device_type", "product_code",
+               "eds",
                // the simulator's
                "module"};
   kind.readBus = readBus;

@@ -36,6 +36,9 @@ struct DnDriveConfig {
   // The module's own byte, which one of its drives may name: P161.
   unsigned module_input_bytes = 0;
   unsigned module_output_bytes = 0;
+  /// Of SK 300E, 700E and 750E: setpoints and actual values 2 and 3 in order, and not 3 before 2 as the series has them
+  /// on the other buses (BU 0020 7.3.6). Its own manual, BU 0080, is not at hand.
+  bool values_in_order = false;
 };
 
 struct DnModuleSettings {
@@ -60,8 +63,10 @@ struct DnBusConfig {
   std::vector<DnModuleSettings> modules;  ///< those of which more is said than their drives do; by `mac`
 };
 
-/// What a DeviceNet module makes of an inverter: P509.
-BusWiring dnWiring(DnModuleKind kind, const Device& device);
+/// Setpoint 3 before setpoint 2, and of the actual values the same, when all three are there.
+bool dnThirdBeforeSecond(const DriveConfig& drive) noexcept;
+/// What a DeviceNet module makes of an inverter: P509, and where a position of 32 bits lies.
+BusWiring dnWiring(const DriveConfig& drive);
 
 /// Parameters P150 to P181 of SK CU4-DEV and SK TU4-DEV (BU 0280 5.2).
 std::vector<ParameterDefinition> dnModuleParameterDefinitions();

@@ -1,6 +1,22 @@
 #include "sim/devicenet/dn_process.h"
 
+#include "sim/devicenet/dn_config.h"
+
 namespace nord_driver::sim {
+
+namespace {
+
+/// Behind control or status word.
+unsigned valuesIn(unsigned bytes) noexcept {
+  return bytes < 4 ? 0 : bytes / 2 - 1;
+}
+
+}  // namespace
+
+void DnProcess::connect(std::size_t place, DriveUnit& drive) noexcept {
+  places_[place].drive = &drive;
+  places_[place].third_before_second = dnThirdBeforeSecond(drive.config());
+}
 
 bool DnProcess::present(std::size_t place) const noexcept {
   const DriveUnit* drive = places_[place].drive;
@@ -23,8 +39,8 @@ DnProcess::Taken DnProcess::take(ByteView outputs, const DnLayout& layout, bool 
     if (area.profile == DnProfile::kNord) {
       ByteReader reader{bytes};
       place.data.control = reader.u16le();
-      for (Word& setpoint : place.data.setpoints) setpoint = reader.u16le();
-      place.data.carried = area.control_length / 2u > 0 ? area.control_length / 2u - 1u : 0u;
+      place.data.carried = valuesIn(area.control_length);
+      for (unsigned n = 0; n < 3; ++n) place.data.setpoints[place.valueAt(n, place.data.carried)] = reader.u16le();
     } else {
       place.ac.take(bytes, area.profile);
       if (place.drive == nullptr) continue;
@@ -76,7 +92,8 @@ DnProcessBytes DnProcess::inputs(const DnLayout& layout) const noexcept {
       ByteWriter<8> words{all};
       if (area.profile == DnProfile::kNord) {
         words.u16le(drive.inverter().statusWord());
-        for (unsigned n = 0; n < 3; ++n) words.u16le(drive.inverter().actualValue(n));
+        const std::size_t count = valuesIn(area.status_length);
+        for (unsigned n = 0; n < 3; ++n) words.u16le(drive.inverter().actualValue(places_[i].valueAt(n, count)));
       } else {
         words.append(places_[i].ac.status(drive, area.profile));
       }

@@ -14,7 +14,7 @@ class DnProcess {
   static constexpr std::size_t kInverters = DnLayout::kInverters;
 
   /// It must outlive the process data.
-  void connect(std::size_t place, DriveUnit& drive) noexcept { places_[place].drive = &drive; }
+  void connect(std::size_t place, DriveUnit& drive) noexcept;
   DriveUnit* drive(std::size_t place) noexcept { return places_[place].drive; }
   /// Connected, linked, with mains.
   bool present(std::size_t place) const noexcept;
@@ -50,6 +50,12 @@ class DnProcess {
     AcDrive ac;
     ProcessData data;
     bool valid_seen = false;
+    bool third_before_second = false;
+
+    /// Which value (0 to 2) the word `n` behind control or status word is, of `count` ones.
+    unsigned valueAt(unsigned n, std::size_t count) const noexcept {
+      return third_before_second && count == 3 && n > 0 ? 3 - n : n;
+    }
   };
   Taken hand(Place& place, bool there, bool locked) noexcept;
 

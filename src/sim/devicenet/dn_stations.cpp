@@ -15,7 +15,7 @@ constexpr Duration kStep = std::chrono::milliseconds(1);
 Commissioning commissioningOf(const DriveConfig& config) {
   const DnDriveConfig& dn = config.bus.as<DnDriveConfig>();
   Commissioning commissioning;
-  commissioning.wiring = dnWiring(dn.kind, config.device);
+  commissioning.wiring = dnWiring(config);
   if (commissioning.wiring.source) commissioning.parameters.push_back({509, 0, 0, *commissioning.wiring.source});
   if (dn.kind == DnModuleKind::kOnInverter) {
     commissioning.parameters.push_back({507, 0, 0, dnSelectionOfInstance(dn.assembly)});

@@ -17,7 +17,6 @@ constexpr std::array<AssemblyLayout, 6> kAssemblies{{
     {kVariableAssembly, 130, 0, 0, false, 4, 0, DevicenetProfile::kNord},
 }};
 
-// SK 300E, 700E and 750E put the third value before the second.
 std::size_t placeOf(std::size_t value, bool third_before_second, std::size_t values) noexcept {
   if (!third_before_second || values < 3 || value == 0) return value;
   return 3 - value;

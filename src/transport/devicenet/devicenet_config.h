@@ -44,6 +44,7 @@ struct DevicenetDrive : DriveCommon {
   // Its bytes in the assemblies of its module.
   std::size_t control_offset = 0, control_bytes = 4;
   std::size_t status_offset = 0, status_bytes = 4;
+  /// Value 3 lies before value 2, where there are three: of SK 300E, 700E and 750E.
   bool third_before_second = false;
   ParameterObjects parameter_objects = ParameterObjects::kNumbered;
 

@@ -29,6 +29,10 @@ constexpr Choice<IoKind> kIoKinds[] = {
 constexpr Choice<ParameterObjects> kParameterObjects[] = {{"numbered", ParameterObjects::kNumbered},
                                                           {"index_object", ParameterObjects::kIndexObject}};
 
+enum class ValueOrder : std::uint8_t { kBySeries, kInOrder };
+constexpr Choice<ValueOrder> kValueOrders[] = {{"by_series", ValueOrder::kBySeries},
+                                               {"in_order", ValueOrder::kInOrder}};
+
 // Those that have no system bus sit behind a technology unit of their own.
 bool needsOption(Series series) noexcept {
   return series == Series::kSk300e || series == Series::kSk700e || series == Series::kSk750e;
@@ -120,6 +124,15 @@ std::optional<std::uint16_t> readIdentity(const Settings& settings, const std::s
   return static_cast<std::uint16_t>(requiredInteger(settings, key, 0, 0xFFFF));
 }
 
+// By the series on every other bus (BU 0020 7.3.6); BU 0280 4.2.2 has the words in order, of SK 2xxE. Of a position of 32
+// bits the words are those behind the control word (BU 0280 4.2.1.1), which only leaves one place for another value.
+bool thirdBeforeSecond(const Settings& settings, Series series) {
+  const auto order = choiceOr(settings, "value_order", ValueOrder::kBySeries, kValueOrders);
+  if (!profile::thirdBeforeSecond(series)) return false;
+  const bool wide = settings.text("mode") == "position" && settings.integer("position/bits").value_or(32) == 32;
+  return wide || order == ValueOrder::kBySeries;
+}
+
 }  // namespace
 
 unsigned readAssembly(const Settings& settings) {
@@ -143,7 +156,7 @@ DevicenetDrive readDevicenetDrive(const DriveSettings& source, unsigned assembly
   } else {
     readFixed(settings, drive, assembly);
   }
-  drive.third_before_second = profile::thirdBeforeSecond(drive.series);
+  drive.third_before_second = thirdBeforeSecond(settings, drive.series);
   drive.parameter_objects = choiceOr(settings, "parameter_objects", ParameterObjects::kNumbered, kParameterObjects);
   return drive;
 }

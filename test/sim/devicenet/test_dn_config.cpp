@@ -20,7 +20,7 @@ drives:
   a: {address: 0, series: sk5xxe, io: poll, assembly: 101}
   b: {address: 5, series: sk2xxe, inverter: 1, io: poll, assembly: 120, status_bytes: 8, control_bytes: 4}
   c: {address: 5, series: sk2xxe, inverter: 3, io: poll, assembly: 120, profile: ac_drive_extended}
-  d: {address: 63, series: sk700e, module: sk_tu1, assembly: 21}
+  d: {address: 63, series: sk700e, module: sk_tu1, assembly: 21, value_order: in_order}
   e: {address: 7, series: sk5xxe, module: sk_tu4, assembly: 102}
 modules:
   behind_b: {address: 5, io_byte: true, inputs: 5, packet_rate_steps: 2, vendor_id: 77, parameters: {P151: 500}}
@@ -45,6 +45,8 @@ modules:
   EXPECT_EQ(500, gateway.parameters().value(151));
   EXPECT_EQ(21u, stations.moduleOf(3).layout().instance);
   EXPECT_EQ(33u, stations.moduleOf(4).layout().inputs());
+  EXPECT_FALSE(config.drives[0].bus.as<DnDriveConfig>().values_in_order);
+  EXPECT_TRUE(config.drives[3].bus.as<DnDriveConfig>().values_in_order);
   // P509: DeviceNet, by the order of the older series' list 20; behind a gateway the system bus.
   EXPECT_EQ(7, robot.drive(0).parameters().value(509));
   EXPECT_EQ(3, robot.drive(1).parameters().value(509));

@@ -59,6 +59,28 @@ TEST(Assembly, SeriesDecidesTheOrderOfValues) {
   EXPECT_EQ(3, input.actual_values[2]);
 }
 
+// Of SK 700E behind its own module no manual at hand says it; BU 0280 4.2.2 has them in order, of SK 2xxE.
+TEST(Assembly, ValuesAreInOrderWhereSoConfigured) {
+  test::DevicenetSettings bus{1};
+  bus.drive().set("series", "sk700e").set("assembly", 101).set("value_order", "in_order");
+  const DevicenetConfig config = bus.read();
+  EXPECT_EQ("7F 04 01 00 02 00 03 00", packed(config, {{0x047F, {1, 2, 3}}}));
+  profile::ProcessInput input;
+  ASSERT_TRUE(unpackWords(config.drives[0], ByteView{fromHex("37 0B 01 00 02 00 03 00")}, input));
+  EXPECT_EQ(2, input.actual_values[1]);
+  EXPECT_EQ(3, input.actual_values[2]);
+}
+
+// 32 bits of position take the places of setpoints 1 and 3 (BU 0020 7.3.1), which are beside each other: in bytes 2 to 5
+// (BU 0280 4.2.1.1), whatever the order of single words is.
+TEST(Assembly, ThirtyTwoBitsStayTogetherInEitherOrder) {
+  test::DevicenetSettings bus{1};
+  bus.drive().set("series", "sk700e").set("assembly", 101).set("value_order", "in_order").set("mode", "position");
+  EXPECT_EQ("7F 04 01 00 03 00 02 00", packed(bus.read(), {{0x047F, {1, 2, 3}}}));
+  bus.drive().set("position/bits", 16);
+  EXPECT_EQ("7F 04 01 00 02 00 03 00", packed(bus.read(), {{0x047F, {1, 2, 3}}}));
+}
+
 // BU 0280 4.2.3.
 TEST(Assembly, TheAcDriveProfileHasBitsAndASpeed) {
   test::DevicenetSettings bus{1};
