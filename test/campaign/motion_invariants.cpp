@@ -53,16 +53,17 @@ std::optional<std::string> TurnsOnlyAsCommanded::look(const Moment& moment) {
       const bool by_terminals = turnsByTerminals(drive);  // that is no stop of ours
       if (allowed > 0.0 || speed < kAtRest || by_terminals) {
         if (track.ended && speed < kAtRest && allowed == 0.0 && !by_terminals && track.stop_bound > 0.0) {
-          const Stop stop{toSeconds(moment.now - *track.ended), track.stop_bound};
+          const Stop stop{track.stop_took, track.stop_bound};
           if (worst_.bound == 0.0 || stop.took * worst_.bound > worst_.took * stop.bound) worst_ = stop;
         }
         track.ended.reset();
       } else {
         if (!track.ended) track.stop_bound = 0.0;
         if (!track.ended) track.ended = moment.now;
-        // What happens meanwhile may prolong it. It is looked at once in a cycle.
-        const double until_rest = (track.bound + kRounding) / drive.ramp + toSeconds(moment.period);
-        track.stop_bound = std::max(track.stop_bound, toSeconds(moment.now - *track.ended) + until_rest);
+        // What happens meanwhile may prolong it. Between two looks nobody knows, and these may be a second apart: a
+        // transport that closes.
+        track.stop_took = toSeconds(moment.now - *track.ended);
+        track.stop_bound = std::max(track.stop_bound, track.stop_took + (track.bound + kRounding) / drive.ramp);
       }
     }
   }

@@ -23,7 +23,7 @@ class TurnsOnlyAsCommanded final : public Invariant {
   }
   std::optional<std::string> look(const Moment& moment) override;
 
-  /// The longest it took a group to come from speed to rest once nothing allowed it to turn any more, and its bound, s.
+  /// The longest a drive was still seen turning after nothing allowed it any more, and how long it might have been, s.
   struct Stop {
     double took = 0.0;
     double bound = 0.0;
@@ -36,6 +36,7 @@ class TurnsOnlyAsCommanded final : public Invariant {
     std::optional<Instant> cut_since;
     double bound = 0.0;            // Hz
     std::optional<Instant> ended;  // when nothing allowed it any more
+    double stop_took = 0.0;
     double stop_bound = 0.0;
   };
 
