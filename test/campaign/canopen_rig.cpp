@@ -1,4 +1,5 @@
 // The campaign over CANopen: an SK TU3-CAO for each drive, or up to four inverters behind one SK CU4-CAO.
+#include "campaign/axes.h"
 #include "campaign/rig.h"
 #include "campaign/wheels.h"
 #include "core/can_frame.h"
@@ -134,9 +135,16 @@ std::unique_ptr<CampaignRig> makeCanopen(const Layout& layout, const TransportWr
   options.base = layout.wheels != 0;
   options.node = wheelSettings(layout);
   options.each = driveSettingsOf(layout);
+  for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
+    addAxisSettings(layout, i, options.each[i]);
+    options.each[i]["process_values"] = 3;
+  }
   options.nodes = layout.drives();
   if (layout.one_module) options.gateway_inverters = layout.drives();
-  options.simulate = [layout](sim::SimConfig& config) { simulateWheels(layout, config); };
+  options.simulate = [layout](sim::SimConfig& config) {
+    simulateWheels(layout, config);
+    simulateAxes(layout, kSk53x, config);
+  };
   options.wrap = wrap;
   return std::make_unique<CanopenRig>(options);
 }
@@ -144,7 +152,7 @@ std::unique_ptr<CampaignRig> makeCanopen(const Layout& layout, const TransportWr
 }  // namespace
 
 CampaignBus canopenCampaign() {
-  return {"canopen", makeCanopen, canopenActs, 1500, Shares::kAny};
+  return {"canopen", makeCanopen, canopenActs, 1500, Shares::kAny, true, 8, 1750};
 }
 
 }  // namespace nord_driver::test

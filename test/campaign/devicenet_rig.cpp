@@ -1,4 +1,5 @@
 // The campaign over DeviceNet: an SK CU4-DEV for each drive, or one for up to four inverters.
+#include "campaign/axes.h"
 #include "campaign/rig.h"
 #include "campaign/wheels.h"
 #include "core/can_frame.h"
@@ -99,10 +100,20 @@ std::unique_ptr<CampaignRig> makeDevicenet(const Layout& layout, const Transport
   options.base = layout.wheels != 0;
   options.node = wheelSettings(layout);
   options.each = driveSettingsOf(layout);
+  for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
+    addAxisSettings(layout, i, options.each[i]);
+    options.each[i]["assembly"] = 101;
+  }
   options.modules = layout.drives();
   if (layout.one_module) options.gateway_inverters = layout.drives();
   if (layout.one_module) options.assembly = 102;  // four inverters, two bytes each and the control byte
-  options.simulate = [layout](sim::SimConfig& config) { simulateWheels(layout, config); };
+  options.simulate = [layout](sim::SimConfig& config) {
+    simulateWheels(layout, config);
+    for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
+      config.drives[i].bus.as<sim::DnDriveConfig>().assembly = 101;
+    }
+    simulateAxes(layout, kSk2xx, config);
+  };
   options.wrap = wrap;
   return std::make_unique<DevicenetRig>(options);
 }
@@ -110,7 +121,7 @@ std::unique_ptr<CampaignRig> makeDevicenet(const Layout& layout, const Transport
 }  // namespace
 
 CampaignBus devicenetCampaign() {
-  return {"devicenet", makeDevicenet, devicenetActs, 4500, Shares::kAny};
+  return {"devicenet", makeDevicenet, devicenetActs, 4500, Shares::kAny, false, 8, 4500};
 }
 
 }  // namespace nord_driver::test

@@ -1,4 +1,5 @@
 // The campaign over InterBus: an SK TU3-IBS for each drive, in a ring behind a gateway; parameters by Compact PCP.
+#include "campaign/axes.h"
 #include "campaign/rig.h"
 #include "campaign/wheels.h"
 #include "system/interbus_robot.h"
@@ -116,10 +117,20 @@ std::unique_ptr<CampaignRig> makeInterbus(const Layout& layout, const TransportW
   options.base = layout.wheels != 0;
   options.node = wheelSettings(layout);
   options.each = driveSettingsOf(layout);
+  for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
+    addAxisSettings(layout, i, options.each[i]);
+    options.each[i]["ppo_type"] = 2;
+  }
   options.modules = layout.drives();
   // All share one PCP channel: with many drives it takes longer than a scenario until each has told its parameters.
   options.pcp = layout.drives() <= 2;
-  options.simulate = [layout](sim::SimConfig& config) { simulateWheels(layout, config); };
+  options.simulate = [layout](sim::SimConfig& config) {
+    simulateWheels(layout, config);
+    for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
+      config.drives[i].bus.as<sim::IbsDriveConfig>().ppo_type = 2;
+    }
+    simulateAxes(layout, kSk53x, config);
+  };
   options.wrap = wrap;
   return std::make_unique<InterbusRig>(options);
 }
@@ -127,7 +138,7 @@ std::unique_ptr<CampaignRig> makeInterbus(const Layout& layout, const TransportW
 }  // namespace
 
 CampaignBus interbusCampaign() {
-  return {"interbus", makeInterbus, interbusActs, 2500, Shares::kNone};
+  return {"interbus", makeInterbus, interbusActs, 2500, Shares::kNone, false, 2, 5500};
 }
 
 }  // namespace nord_driver::test

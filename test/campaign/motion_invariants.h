@@ -1,13 +1,12 @@
 // The invariants of motion, judged on the true speeds.
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "campaign/invariant.h"
+#include "campaign/speed_bound.h"
 
 namespace nord_driver::test {
 
@@ -32,9 +31,7 @@ class TurnsOnlyAsCommanded final : public Invariant {
 
  private:
   struct Track {
-    std::deque<std::pair<Instant, double>> allowed;  // when the drive could hear it, Hz
-    std::optional<Instant> cut_since;
-    double bound = 0.0;            // Hz
+    SpeedBound bound;
     std::optional<Instant> ended;  // when nothing allowed it any more
     double stop_took = 0.0;
     double stop_bound = 0.0;

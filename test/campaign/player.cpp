@@ -36,6 +36,8 @@ Player::Player(const Scenario& scenario, const CampaignBus& bus, const Transport
   moment_.drives.resize(drives);
   moment_.wanted.resize(drives);
   moment_.cut.resize(drives);
+  moment_.axes.resize(drives);
+  places_.resize(drives);
   moment_.calls = &calls_;
   moment_.period = rig_->robot().config().period();
   moment_.full_wheel_speed = kFullSpeed;
@@ -48,6 +50,7 @@ Player::Player(const Scenario& scenario, const CampaignBus& bus, const Transport
   for (DriveIndex i = scenario.layout.wheels; i < drives; ++i) {
     GroupWish single;
     single.members.push_back(i);
+    single.is_axis = moment_.axes[i].is_axis = i >= scenario.layout.firstAxis();
     moment_.groups.push_back(single);
   }
 }
@@ -166,7 +169,7 @@ void Player::command() {
     base_command_.given = at;
     base_command_.ever = true;
   }
-  for (DriveIndex i = scenario_.layout.wheels; i < drive_commands_.size(); ++i) {
+  for (DriveIndex i = scenario_.layout.wheels; i < scenario_.layout.firstAxis(); ++i) {
     Command& command = drive_commands_[i];
     if (at >= command.until) continue;
     rig_->robot().ports().commandDrive(i, {command.velocity, at, true});

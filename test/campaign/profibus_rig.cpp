@@ -1,6 +1,7 @@
 // The campaign over PROFIBUS: single drives SK 5xxE with a module each, or up to four SK 2xxE behind one SK CU4-PBR.
 #include <array>
 
+#include "campaign/axes.h"
 #include "campaign/rig.h"
 #include "system/simulated_robot.h"
 
@@ -95,7 +96,19 @@ std::unique_ptr<CampaignRig> makeProfibus(const Layout& layout, const TransportW
   options.base = layout.wheels != 0;
   options.wheels_a_side = layout.wheels == 4 ? 2 : 1;
   options.one_module = layout.one_module;
-  options.singles = layout.singles;
+  options.singles = layout.singles + layout.axes;
+  for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
+    Values& own = options.of_drive["single" + std::to_string(i - layout.wheels)];
+    addAxisSettings(layout, i, own);
+    own["ppo_type"] = 2;
+  }
+  const LiftWords words = layout.one_module ? kSk2xx : kSk53x;
+  options.simulate = [layout, words](sim::SimConfig& config) {
+    for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
+      config.drives[i].bus.as<sim::DpDriveConfig>().ppo_type = 2;
+    }
+    simulateAxes(layout, words, config);
+  };
   options.wrap = wrap;
   return std::make_unique<ProfibusRig>(options);
 }
@@ -103,7 +116,7 @@ std::unique_ptr<CampaignRig> makeProfibus(const Layout& layout, const TransportW
 }  // namespace
 
 CampaignBus profibusCampaign() {
-  return {"profibus", makeProfibus, profibusActs, 1500, Shares::kFourOrSingles};
+  return {"profibus", makeProfibus, profibusActs, 1500, Shares::kFourOrSingles, true, 6, 2250};
 }
 
 }  // namespace nord_driver::test

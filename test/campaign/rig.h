@@ -51,6 +51,9 @@ struct CampaignBus {
   const std::vector<Act>& (*acts)();
   unsigned ready_at;  ///< ms after the start: drives that start with the driver are ready to be enabled, as a rule
   Shares shares;
+  bool module_carries_axes;  ///< one module may serve drives that go to positions
+  unsigned most_with_axes;   ///< drives, where one of them goes to positions
+  unsigned axes_ready_at;    ///< ms, as ready_at: what their words mean is read as well
 };
 
 CampaignBus profibusCampaign();
