@@ -76,7 +76,8 @@ void SlaveHandler::handleNoExchange(Mismatch mismatch, Instant now, DpEvents& ev
   } else {
     lose(LossCause::kWrongAnswers, texts::kGarbled, events);
   }
-  timers_.set(Timer::kWatchdog, last_answer_ + std::min(config_.watchdog, kHasteLimit));
+  // It may have heard us until now: its watchdog runs from the last request on.
+  timers_.set(Timer::kWatchdog, now + std::min(config_.watchdog, kHasteLimit));
   fallSilent(now, texts::kNoAnswer);  // asked again in the next cycle: most silences are short
 }
 

@@ -64,6 +64,28 @@ TEST_P(Gap, TripsNothingBehindASilenceLimitEither) {
 
 INSTANTIATE_TEST_SUITE_P(Milliseconds, Gap, testing::Values(60, 100, 140, 160));
 
+// It hears us, and is not heard: its watchdog runs from the last request on, and not from the last answer. Asked for its
+// diagnosis, or parameterised, it would turn for a watchdog more as it was told last.
+TEST(SavedWatchdog, WhoHeardUsToTheLastGoesOnWithDataExchange) {
+  for (const Duration silence : {180ms, 220ms, 260ms}) {
+    Adapter run;
+    run.master.setSilenceLimit(0, 94ms);
+    run.segment.station(0).setMute(true);
+    const Instant lost = run.now();
+    while (run.now() < lost + silence) run.cycle(kPeriod);
+    EXPECT_NE(SlavePhase::kDataExchange, run.master.status(0).phase);
+    run.segment.station(0).setMute(false);
+    const Instant back = run.now();
+    while (!run.allExchange() && run.now() < back + 2s) {
+      run.cycle(kPeriod);
+      ASSERT_TRUE(run.segment.station(0).inDataExchange())
+          << "it was parameterised anew, after " << toSeconds(silence) << " s";
+    }
+    EXPECT_TRUE(run.allExchange());
+    EXPECT_EQ(0u, run.trips());
+  }
+}
+
 // The one that is there is exchanged with in every cycle meanwhile, and keeps half of the time.
 TEST(SavedWatchdog, TheOthersKeepHalfOfTheTime) {
   Adapter run;
