@@ -49,7 +49,7 @@ void SlaveHandler::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& even
   if (status_.phase == SlavePhase::kSilent) {
     status_.note = texts::kNoAnswer;
   } else {
-    fallSilent(timers_.isRunning(Timer::kWatchdog, now) ? now : now + probe_interval_, texts::kNoAnswer);
+    fallSilent(timers_.isRunning(Timer::kHaste, now) ? now : now + probe_interval_, texts::kNoAnswer);
   }
 }
 
@@ -77,7 +77,8 @@ void SlaveHandler::handleNoExchange(Mismatch mismatch, Instant now, DpEvents& ev
     lose(LossCause::kWrongAnswers, texts::kGarbled, events);
   }
   // It may have heard us until now: its watchdog runs from the last request on.
-  timers_.set(Timer::kWatchdog, now + std::min(config_.watchdog, kHasteLimit));
+  timers_.set(Timer::kWatchdog, now + config_.watchdog);
+  timers_.set(Timer::kHaste, now + std::min(config_.watchdog, kHasteLimit));
   fallSilent(now, texts::kNoAnswer);  // asked again in the next cycle: most silences are short
 }
 
@@ -106,10 +107,10 @@ void SlaveHandler::onFdlStatus(const FdlAnswer& answer, Instant now, DpEvents& e
   }
   if (!told_found_) events.push(event(DpEventKind::kSlaveFound, texts::kStarting));
   told_found_ = true;
-  const bool urgent = isUrgent(now);
-  if (!urgent) status_.ident.reset();
+  const bool exchanges = status_.phase == SlavePhase::kSilent && timers_.isRunning(Timer::kWatchdog, now);
+  if (!exchanges) status_.ident.reset();
   startOver(texts::kStarting);
-  resuming_ = urgent;
+  resuming_ = exchanges;
 }
 
 void SlaveHandler::onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {

@@ -86,6 +86,25 @@ TEST(SavedWatchdog, WhoHeardUsToTheLastGoesOnWithDataExchange) {
   }
 }
 
+// Found without haste, and in data exchange with us all the same.
+TEST(SavedWatchdog, ALongOneGoesOnWithDataExchangeToo) {
+  std::vector<SlaveConfig> slaves = Adapter::slaves();
+  slaves[0].watchdog = 3s;
+  SimulatedRun run{Adapter::bus(), slaves};
+  for (int cycles = 0; !run.allExchange() && cycles < 200; ++cycles) run.cycle(kPeriod);
+  ASSERT_TRUE(run.allExchange());
+  run.segment.station(0).setMute(true);
+  const Instant lost = run.now();
+  while (run.now() < lost + 2s) run.cycle(kPeriod);
+  run.segment.station(0).setMute(false);
+  const Instant back = run.now();
+  while (!run.allExchange() && run.now() < back + 2s) {
+    run.cycle(kPeriod);
+    ASSERT_TRUE(run.segment.station(0).inDataExchange()) << "it was parameterised anew";
+  }
+  EXPECT_TRUE(run.allExchange());
+}
+
 // The one that is there is exchanged with in every cycle meanwhile, and keeps half of the time.
 TEST(SavedWatchdog, TheOthersKeepHalfOfTheTime) {
   Adapter run;
