@@ -20,6 +20,7 @@ class InterbusRig final : public CampaignRig {
   const std::vector<Act>& acts() const override { return interbusCampaign().acts(); }
 
   bool readsParameters() const override { return pcp_; }
+  bool readsScaling() const override { return false; }
   /// Each exchange brings a status word, and its age counts from the question.
   Duration silence() const override { return Duration::zero(); }
   /// The watchdog of the gateway, then P513; and half of the longest latency: a request that was under way.
@@ -49,6 +50,14 @@ void changeGateway(CampaignRig& rig, Change change) {
   sim::GatewaySwitches switches = linkOf(rig).gateway().switches();
   change(switches);
   linkOf(rig).gateway().setSwitches(switches);
+}
+
+void begetWrong(CampaignRig& rig, const Event& event) {
+  sim::DriveUnit& unit = rig.unit(event.drive);
+  unit.setInverterPower(false);
+  letItBeSeen(rig);
+  unit.parameters().preset(507, 0, 0, 3 - unit.parameters().value(507));
+  unit.setInverterPower(true);
 }
 
 const std::vector<Act>& interbusActs() {
@@ -105,6 +114,9 @@ const std::vector<Act>& interbusActs() {
       {"wrong_transactions", 2, "gateway", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
        [](R& rig, const E&) { changeGateway(rig, [](sim::GatewaySwitches& to) { to.wrong_transaction = 1; }); },
        [](R& rig, const E&) { changeGateway(rig, [](sim::GatewaySwitches& to) { to.wrong_transaction = 0; }); }},
+      // P507 is another one when its mains come: the ring stands for a subscriber of another length (BU 0070 4.2).
+      {"wrong_drive", 2, "power", Place::kStation, Cuts::kAll, kSpan, kNone, kNone,
+       [](R& rig, const E& event) { begetWrong(rig, event); }, [](R& rig, const E& event) { begetWrong(rig, event); }},
       {"ring_cut", 3, "ring", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
        [](R& rig, const E&) { linkOf(rig).ring().setCut(true); },
        [](R& rig, const E&) { linkOf(rig).ring().setCut(false); }},

@@ -11,6 +11,7 @@ std::vector<std::unique_ptr<Invariant>> allInvariants() {
   std::vector<std::unique_ptr<Invariant>> all;
   all.push_back(std::make_unique<NeverOneWheelAlone>());
   all.push_back(std::make_unique<NothingEnabledUnasked>());
+  all.push_back(std::make_unique<NobodyUnknownEnabled>());
   all.push_back(std::make_unique<TurnsOnlyAsCommanded>());
   all.push_back(std::make_unique<AxisMovesOnlyAsAsked>());
   all.push_back(std::make_unique<AxisWithinItsLimits>());

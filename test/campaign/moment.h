@@ -71,6 +71,8 @@ struct Moment {
   std::vector<AxisWish> axes;  ///< of each drive
   std::vector<bool> cut;       ///< of each drive: the exchange with it is interrupted by what happens
   Duration reaction{};         ///< how long a stop may take to reach the inverters, as things are
+  /// One that stands at the address of a drive, and of which nobody knows, is "operation enabled" by the bus.
+  bool twin_enabled = false;
   const cycle::CycleSnapshot* snapshot = nullptr;
   std::vector<cycle::Completion> answers;  ///< of this cycle
   const std::vector<Call>* calls = nullptr;

@@ -77,6 +77,11 @@ std::optional<std::string> NothingEnabledUnasked::look(const Moment& moment) {
   return std::nullopt;
 }
 
+std::optional<std::string> NobodyUnknownEnabled::look(const Moment& moment) {
+  if (!moment.twin_enabled) return std::nullopt;
+  return "a second drive at the address of drive 0 is \"operation enabled\"";
+}
+
 std::optional<std::string> NeverOneWheelAlone::look(const Moment& moment) {
   since_.resize(moment.groups.size());
   for (std::size_t g = 0; g < moment.groups.size(); ++g) {

@@ -56,6 +56,16 @@ class NothingEnabledUnasked final : public Invariant {
   std::vector<Instant> asked_;  // when each drive was asked for last
 };
 
+/// A drive that answers at the address of another one is never enabled with it.
+class NobodyUnknownEnabled final : public Invariant {
+ public:
+  const char* name() const override { return "NobodyUnknownEnabled"; }
+  const char* sentence() const override {
+    return "two nodes answer with this id: named, not started, not enabled (doc/canopen.md)";
+  }
+  std::optional<std::string> look(const Moment& moment) override;
+};
+
 /// While a member of a base does not turn by the bus, the others have no setpoint but 0, within the bound.
 class NeverOneWheelAlone final : public Invariant {
  public:

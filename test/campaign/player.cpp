@@ -63,6 +63,8 @@ Outcome Player::play() {
     // Each drive and set has a value of its own: an answer to somebody else's question shows.
     for (unsigned set = 0; set < 4; ++set) {
       rig_->unit(i).parameters().preset(102, set, 0, static_cast<std::int32_t>(150 + 10 * i + set));
+      // 50, 50, 40 and 60 Hz.
+      if (rig_->readsScaling() && set >= 2) rig_->unit(i).parameters().preset(105, set, 0, set == 2 ? 400 : 600);
     }
   }
   playEvents();
@@ -129,7 +131,7 @@ void Player::begin(const Event& event) {
   const Act* const act = findAct(bus_, event.act);
   if (act == nullptr) return fail("Scenario", "", "there is no act " + event.act);
   if (act->begin == nullptr) return beginUser(event);
-  if (excluded(event, *act)) return;
+  if (excluded(event, *act) || (act->applies != nullptr && !act->applies(*rig_, event))) return;
   // A loss has to be counted where nothing else keeps telegrams from being sent.
   const bool calm = !disturbed_ || now() - *disturbed_ > kCalm;
   losses_.clear();

@@ -43,6 +43,10 @@ void Player::seeTruth() {
     truth.zero = shaft - unit.position();
     truth.ramp = ramp > 0.0 ? unit.parameters().scaled(105, inverter.parameterSet()) / ramp : 1e6;
   }
+  if (const sim::DriveUnit* const twin = rig_->twin()) {
+    moment_.twin_enabled =
+        twin->inverter().state() == sim::InverterState::kOperationEnabled && twin->inverter().busControl();
+  }
   const Duration timeout = rig_->robot().config().cmd_vel_timeout;
   const auto fresh = [&](const Command& command) { return command.ever && now() - command.given <= timeout; };
   for (DriveIndex i = 0; i < moment_.drives.size(); ++i) {

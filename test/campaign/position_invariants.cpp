@@ -162,6 +162,12 @@ std::optional<std::string> AxisPositionTrue::judge(const Moment& moment, std::si
     return std::any_of(track.truth.begin(), track.truth.end(),
                        [&](const auto& at) { return std::fabs(at.second - place) <= tolerance; });
   };
+  // Between two looks it may have passed.
+  const auto passed = [&](double place, double tolerance) {
+    if (wasAt(place, tolerance)) return true;
+    const auto crosses = [&](const auto& from, const auto& to) { return (from.second < place) != (to.second < place); };
+    return std::adjacent_find(track.truth.begin(), track.truth.end(), crosses) != track.truth.end();
+  };
   std::ostringstream out;
   out << "drive " << i;
   const bool told = drive.position && !drive.position_held_back;
@@ -188,7 +194,7 @@ std::optional<std::string> AxisPositionTrue::judge(const Moment& moment, std::si
   if (last_there != track.truth.rend()) track.fresh = last_there->first;
   if (drive.joint_known && (told || !track.told)) track.told = drive.joint_position;
   if (drive.position_reached &&
-      !(drive.enabled && drive.position_target && wasAt(*drive.position_target, kAxisTolerance + 2.0 * kAxisStep))) {
+      !(drive.enabled && drive.position_target && passed(*drive.position_target, kAxisTolerance + 2.0 * kAxisStep))) {
     out << " is said to have reached its target, and is at " << track.truth.back().second << " rad";
     return out.str();
   }

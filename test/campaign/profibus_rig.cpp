@@ -62,6 +62,15 @@ void disturb(CampaignRig& rig, const Event& event) {
   segmentOf(rig).setDisturbance(disturbance);
 }
 
+// Of the module that is meant to stand there: BU 0020 10.2, BU 0220.
+std::uint16_t identOf(CampaignRig& rig, const Event& event) {
+  return rig.unit(event.drive).config().place > 0 ? 0x0BA8 : 0x7531;
+}
+
+void exchange(CampaignRig& rig, const Event& event, std::uint16_t ident) {
+  changeWithoutSupply(rig, event, [&] { segmentOf(rig).station(event.drive).setIdent(ident); });
+}
+
 const std::vector<Act>& profibusActs() {
   using R = CampaignRig;
   using E = Event;
@@ -86,6 +95,18 @@ const std::vector<Act>& profibusActs() {
       {"adapter", 4, "adapter", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
        [](R& rig, const E&) { segmentOf(rig).setDevicePresent(false); },
        [](R& rig, const E&) { segmentOf(rig).setDevicePresent(true); }},
+      // amount: the ident number of what stands there meanwhile.
+      {"wrong_drive",
+       2,
+       "power",
+       Place::kStation,
+       Cuts::kStation,
+       kSpan,
+       {1, 0x7530},
+       kNone,
+       [](R& rig, const E& event) { exchange(rig, event, static_cast<std::uint16_t>(event.amount)); },
+       [](R& rig, const E& event) { exchange(rig, event, identOf(rig, event)); }},
+      otherDrive(),
       {"foreign_master", 3, "foreign", Place::kBus, Cuts::kNothing, kOnce, {0, 2}, kNone, sayForeign, nullptr},
   };
   return acts;

@@ -139,6 +139,13 @@ TEST_F(Invariants, NobodyIsEnabledUnasked) {
   EXPECT_THAT(look(invariant), HasSubstr("drive 1 is \"operation enabled\", and nobody has asked"));
 }
 
+TEST_F(Invariants, ASecondDriveAtAnAddressIsNotEnabled) {
+  NobodyUnknownEnabled invariant;
+  EXPECT_EQ("", look(invariant));
+  moment_.twin_enabled = true;
+  EXPECT_THAT(look(invariant), HasSubstr("at the address of drive 0"));
+}
+
 TEST_F(Invariants, NoWheelOfABaseIsDrivenAlone) {
   NeverOneWheelAlone invariant;
   turn(20.0, 6554);

@@ -240,7 +240,10 @@ TEST_F(PositionInvariants, WhoHasArrivedIsThere) {
   told().position_reached = true;
   EXPECT_EQ("", look(invariant, seconds{1}));
   aim(1.01);
-  EXPECT_THAT(look(invariant), HasSubstr("is said to have reached its target, and is at 1 rad"));
+  place(1.02);
+  EXPECT_EQ("", look(invariant)) << "it has passed there";
+  aim(1.03);
+  EXPECT_THAT(look(invariant), HasSubstr("is said to have reached its target, and is at 1.02 rad"));
 }
 
 }  // namespace
