@@ -20,6 +20,15 @@ constexpr std::uint16_t kAccelerationTime = 102, kDecelerationTime = 103;
 // s: the bus manuals name no unit of P103, which is set in the steps of P102 on the inverter.
 constexpr double kRampStep = 0.01;
 
+// Another answer may come later: the inverter was off for a moment, and its module is there.
+bool mayChange(const profile::ParameterResult& result) noexcept {
+  using Reason = profile::ParameterReason;
+  if (result.outcome == profile::ParameterOutcome::kTimeout) return true;
+  return result.outcome == profile::ParameterOutcome::kRefused &&
+         (result.reason == Reason::kNoInverter || result.reason == Reason::kDeviceFailure ||
+          result.reason == Reason::kNotNow);
+}
+
 }  // namespace
 
 DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool further_words, bool positions,
@@ -153,7 +162,7 @@ void DeviceReader::handleResult(const profile::ParameterResult& result) noexcept
   const bool timed_out = result.outcome == profile::ParameterOutcome::kTimeout;
   if (timed_out && ++attempts_ < (silent_ ? 1 : kMaxAttempts)) return;
   silent_ = timed_out;
-  items_[next_].due = timed_out && next_ < motion_items_;
+  items_[next_].due = mayChange(result) && next_ < motion_items_;
   if (result.outcome == profile::ParameterOutcome::kDone) {
     store(items_[next_], result.raw);
   } else {

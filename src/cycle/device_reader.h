@@ -16,7 +16,8 @@ namespace nord_driver::cycle {
 /// Begins again whenever the drive has come back: it may have been exchanged. A parameter that times out is asked for
 /// three times (once, as long as nothing is answered at all), one the drive refuses is left out; a question that did
 /// not reach the drive is put again. First come those that decide motion: P105, without which nothing can be driven,
-/// P104, and the functions of setpoint 1 and actual value 1, of all parameter sets. One of these that timed out is
+/// P104, and the functions of setpoint 1 and actual value 1, of all parameter sets. One of these that timed out, or that was
+/// refused for the moment, is
 /// asked for again whenever the owner wants to.
 class DeviceReader {
  public:
@@ -39,7 +40,8 @@ class DeviceReader {
   bool maxFrequenciesAsked() const noexcept;
   /// The same of all parameters that decide motion.
   bool motionAsked() const noexcept;
-  /// All has been asked for, and one that decides motion has only timed out; `max_frequencies`: P105 counts, too.
+  /// All has been asked for, and one that decides motion has only timed out, or was refused for the moment;
+  /// `max_frequencies`: P105 counts, too.
   bool missesMotion(bool max_frequencies = true) const noexcept;
   /// Asks again, up to three times each, for those; what else was read stays.
   void askMissingAgain(bool max_frequencies = true) noexcept;

@@ -37,9 +37,10 @@ class SlaveHandler {
   bool wantsStartUpStep(Instant now) const noexcept;
   bool wantsDiagnosis() const noexcept;
   bool wantsProbe(Instant now) const noexcept;
-  /// Its watchdog runs since it fell silent: found again before it runs out, the drive behind does not trip.
+  /// Its watchdog runs since it fell silent, and not for long: found again before it runs out, the drive behind does not
+  /// trip.
   bool isUrgent(Instant now) const noexcept {
-    return status_.phase == SlavePhase::kSilent && timers_.isRunning(Timer::kWatchdog, now);
+    return status_.phase == SlavePhase::kSilent && timers_.isRunning(Timer::kHaste, now);
   }
   /// Of an acyclic telegram beside data exchange.
   bool wantsAcyclic(Instant now) noexcept;
@@ -77,7 +78,8 @@ class SlaveHandler {
     kAskOften,          ///< asked once per cycle until then
     kOwnerLimit,        ///< until then it may not have taken us for its master
     kReadyLimit,        ///< until then it may not be ready
-    kWatchdog,          ///< since it fell silent, its watchdog has not run out: see isUrgent()
+    kHaste,             ///< since it fell silent: see isUrgent()
+    kWatchdog,          ///< likewise, its watchdog has not run out: it may be in data exchange with us still
     kUndiagnosedLimit,  ///< in data exchange, set when Slave_Diag was not answered
     kCount
   };

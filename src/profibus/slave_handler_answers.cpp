@@ -49,7 +49,7 @@ void SlaveHandler::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& even
   if (status_.phase == SlavePhase::kSilent) {
     status_.note = texts::kNoAnswer;
   } else {
-    fallSilent(timers_.isRunning(Timer::kWatchdog, now) ? now : now + probe_interval_, texts::kNoAnswer);
+    fallSilent(timers_.isRunning(Timer::kHaste, now) ? now : now + probe_interval_, texts::kNoAnswer);
   }
 }
 
@@ -76,7 +76,9 @@ void SlaveHandler::handleNoExchange(Mismatch mismatch, Instant now, DpEvents& ev
   } else {
     lose(LossCause::kWrongAnswers, texts::kGarbled, events);
   }
-  timers_.set(Timer::kWatchdog, last_answer_ + std::min(config_.watchdog, kHasteLimit));
+  // It may have heard us until now: its watchdog runs from the last request on.
+  timers_.set(Timer::kWatchdog, now + config_.watchdog);
+  timers_.set(Timer::kHaste, now + std::min(config_.watchdog, kHasteLimit));
   fallSilent(now, texts::kNoAnswer);  // asked again in the next cycle: most silences are short
 }
 
@@ -105,10 +107,10 @@ void SlaveHandler::onFdlStatus(const FdlAnswer& answer, Instant now, DpEvents& e
   }
   if (!told_found_) events.push(event(DpEventKind::kSlaveFound, texts::kStarting));
   told_found_ = true;
-  const bool urgent = isUrgent(now);
-  if (!urgent) status_.ident.reset();
+  const bool exchanges = status_.phase == SlavePhase::kSilent && timers_.isRunning(Timer::kWatchdog, now);
+  if (!exchanges) status_.ident.reset();
   startOver(texts::kStarting);
-  resuming_ = urgent;
+  resuming_ = exchanges;
 }
 
 void SlaveHandler::onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {

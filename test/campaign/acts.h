@@ -40,7 +40,26 @@ struct Act {
   /// What it loses on the way is more than nothing for sure, once something is exchanged: a counter has to tell.
   bool counted = false;
   bool disturbs = true;  ///< the exchange may suffer: reactions are bounded by time-outs, not by cycles
+  /// Not everything can happen to each drive of a rig; nullptr: it can.
+  bool (*applies)(CampaignRig&, const Event&) = nullptr;
 };
+
+/// A few ms in which the driver does nothing.
+void letItBeSeen(CampaignRig& rig);
+/// Of its module; one that lives by the mains of its inverter goes with them.
+void supply(CampaignRig& rig, const Event& event, bool on);
+/// Off for as long as its model needs to see it, with `change` done meanwhile.
+template <typename Change>
+void changeWithoutSupply(CampaignRig& rig, const Event& event, Change change) {
+  supply(rig, event, false);
+  letItBeSeen(rig);
+  change();
+  supply(rig, event, true);
+}
+
+/// It is switched off, and another one of its series stands in its place when the mains come back: P105 is another one.
+/// For buses on which P105 is read.
+Act otherDrive();
 
 /// What happens to any drive, whatever bus it is on.
 const std::vector<Act>& driveActs();

@@ -20,7 +20,8 @@ std::string asked(const Call& call) {
          (call.request.drive == cycle::kAllDrives ? "all" : std::to_string(call.request.drive)) + ")";
 }
 
-constexpr double kAtRest = 0.05;  // Hz
+constexpr double kAtRest = 0.05;         // Hz
+constexpr double kNearReference = 0.02;  // rad
 
 }  // namespace
 
@@ -75,6 +76,10 @@ std::optional<std::string> AnswersAreTrue::judge(const Moment& moment, const cyc
   }
   for (std::size_t i = 0; i < moment.drives.size(); ++i) {
     if (call.request.drive != cycle::kAllDrives && call.request.drive != i) continue;
+    // "And is held where the run ends": at 0, or a little beside it, where it is braked.
+    if (kind == Kind::kHome && std::fabs(moment.drives[i].position) > kNearReference) {
+      return asked(call) + " says that the reference run has ended, and drive " + std::to_string(i) + " is not there";
+    }
     const bool stops = kind == Kind::kDisable || kind == Kind::kQuickStop || kind == Kind::kShutDown;
     if (kind == Kind::kEnable && moment.now - enabled_at_[i] > moment.reaction) {
       return asked(call) + " says that drive " + std::to_string(i) + " is enabled, and it is not";

@@ -20,6 +20,7 @@ void add(CampaignReport& report, const Scenario& scenario, const Outcome& outcom
   report.stops += outcome.stopped;
   report.enabled += outcome.enabled;
   report.answers += outcome.answers;
+  report.arrived += outcome.arrived;
   const auto& stop = outcome.worst_stop;
   if (stop.bound > 0.0 &&
       (report.worst_stop.bound == 0.0 || stop.took * report.worst_stop.bound > report.worst_stop.took * stop.bound)) {

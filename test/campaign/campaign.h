@@ -21,6 +21,7 @@ struct CampaignReport {
   unsigned stops = 0;    ///< groups the driver stopped by itself
   unsigned enabled = 0;  ///< enablings that succeeded
   unsigned answers = 0;
+  unsigned arrived = 0;                   ///< axes, at another place than before
   TurnsOnlyAsCommanded::Stop worst_stop;  ///< the one nearest to its bound
   std::uint32_t worst_stop_seed = 0;
   double worst_recovery = 0.0;  ///< s

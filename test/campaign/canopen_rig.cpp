@@ -1,4 +1,5 @@
 // The campaign over CANopen: an SK TU3-CAO for each drive, or up to four inverters behind one SK CU4-CAO.
+#include "campaign/axes.h"
 #include "campaign/rig.h"
 #include "campaign/wheels.h"
 #include "core/can_frame.h"
@@ -9,15 +10,17 @@ namespace {
 
 class CanopenRig final : public CampaignRig {
  public:
-  explicit CanopenRig(const CanRobot::Options& options) : robot_(options) {}
+  CanopenRig(const CanRobot::Options& options, bool has_twin) : robot_(options), has_twin_(has_twin) {}
 
   CanRobot& robot() override { return robot_; }
   sim::SimulatedCanBus& bus() { return robot_.bus(); }
+  sim::DriveUnit* twin() override { return has_twin_ ? &robot_.unit(robot_.config().drives.size()) : nullptr; }
   sim::DriveUnit& unit(DriveIndex drive) override { return robot_.unit(drive); }
   // A node that somebody resets forgets its life time (CiA 301 7.3.2.2.2), and its RPDOs end: until it has been set up
   // again nothing but a time-out of its own stops its wheel. doc/safety.md asks for one: P513, behind a gateway P151.
   void setUp() override {
     for (std::size_t i = 0; i < robot_.config().drives.size(); ++i) unit(i).parameters().preset(513, 0, 0, 3);
+    if (twin() != nullptr) twin()->setPlugged(false);
     if (auto* const module = robot_.node(0).module()) module->parameters().preset(151, 0, 0, 300);
   }
   std::string referee() override { return robot_.bus().referee().report(); }
@@ -56,6 +59,7 @@ class CanopenRig final : public CampaignRig {
   static constexpr Duration kKeptFromIt = std::chrono::milliseconds{1500} + std::chrono::seconds{2};
 
   mutable CanRobot robot_;
+  bool has_twin_;
   Instant unwatched_until_{};
 };
 
@@ -88,6 +92,17 @@ void sayForeign(CampaignRig& rig, const Event& event) {
   const std::uint8_t data[] = {0x40, 0x00, 0x10, 0x00, 0, 0, 0, 0};
   const std::size_t lengths[] = {0, 8, 8, 1};
   busOf(rig).inject(dataFrame(kIds[event.amount], ByteView{data, lengths[event.amount]}));
+}
+
+void exchange(CampaignRig& rig, const Event& event, std::uint32_t product) {
+  sim::CanIdentity identity;
+  identity.product = product;
+  changeWithoutSupply(rig, event, [&] { busOf(rig).node(event.drive).setIdentity(identity); });
+}
+
+// Of the first drive.
+bool hasTwin(CampaignRig& rig, const Event& event) {
+  return event.drive == 0 && rig.twin() != nullptr;
 }
 
 const std::vector<Act>& canopenActs() {
@@ -123,6 +138,21 @@ const std::vector<Act>& canopenActs() {
       {"queue_full", 2, "queue", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
        [](R& rig, const E&) { busOf(rig).setQueueFull(true); },
        [](R& rig, const E&) { busOf(rig).setQueueFull(false); }},
+      // amount: the product code of what stands there meanwhile.
+      {"wrong_drive",
+       2,
+       "power",
+       Place::kStation,
+       Cuts::kStation,
+       kSpan,
+       {2, 9},
+       kNone,
+       [](R& rig, const E& event) { exchange(rig, event, static_cast<std::uint32_t>(event.amount)); },
+       [](R& rig, const E& event) { exchange(rig, event, sim::CanIdentity{}.product); }},
+      otherDrive(),
+      {"twin", 4, "power", Place::kStation, Cuts::kStation, kSpan, kNone, kNone,
+       [](R& rig, const E&) { rig.twin()->setPlugged(true); }, [](R& rig, const E&) { rig.twin()->setPlugged(false); },
+       false, true, hasTwin},
       {"foreign_nmt", 3, "foreign", Place::kBus, Cuts::kNothing, kOnce, {0, 4}, kNone, sayNmt, nullptr},
       {"foreign_master", 3, "foreign", Place::kBus, Cuts::kNothing, kOnce, {0, 3}, kNone, sayForeign, nullptr},
   };
@@ -134,17 +164,36 @@ std::unique_ptr<CampaignRig> makeCanopen(const Layout& layout, const TransportWr
   options.base = layout.wheels != 0;
   options.node = wheelSettings(layout);
   options.each = driveSettingsOf(layout);
+  for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
+    addAxisSettings(layout, i, options.each[i]);
+    options.each[i]["process_values"] = 3;
+  }
   options.nodes = layout.drives();
   if (layout.one_module) options.gateway_inverters = layout.drives();
-  options.simulate = [layout](sim::SimConfig& config) { simulateWheels(layout, config); };
+  for (Values& values : options.each) {
+    values["vendor_id"] = static_cast<int>(sim::CanIdentity{}.vendor);
+    values["product_code"] = static_cast<int>(sim::CanIdentity{}.product);
+  }
+  // What costs the most has none: it would cost more.
+  const bool has_twin = !layout.one_module && layout.drives() <= 3;
+  options.simulate = [layout, has_twin](sim::SimConfig& config) {
+    simulateWheels(layout, config);
+    simulateAxes(layout, kSk53x, config);
+    if (!has_twin) return;
+    sim::DriveConfig twin = config.drives.front();
+    twin.name = "twin";
+    twin.joint = "twin_joint";
+    twin.bus.as<sim::CanDriveConfig>().doubled_id = true;
+    config.drives.push_back(twin);
+  };
   options.wrap = wrap;
-  return std::make_unique<CanopenRig>(options);
+  return std::make_unique<CanopenRig>(options, has_twin);
 }
 
 }  // namespace
 
 CampaignBus canopenCampaign() {
-  return {"canopen", makeCanopen, canopenActs, 1500, Shares::kAny};
+  return {"canopen", makeCanopen, canopenActs, 1500, Shares::kAny, true, 8, 1750};
 }
 
 }  // namespace nord_driver::test

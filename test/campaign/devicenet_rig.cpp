@@ -1,4 +1,5 @@
 // The campaign over DeviceNet: an SK CU4-DEV for each drive, or one for up to four inverters.
+#include "campaign/axes.h"
 #include "campaign/rig.h"
 #include "campaign/wheels.h"
 #include "core/can_frame.h"
@@ -35,6 +36,8 @@ class DevicenetRig final : public CampaignRig {
   DevicenetRobot robot_;
 };
 
+constexpr std::uint16_t kProduct = 2;  // of SK TU4-DEV in the simulator
+
 sim::SimulatedDnBus& busOf(CampaignRig& rig) {
   return static_cast<DevicenetRig&>(rig).bus();
 }
@@ -55,6 +58,28 @@ void sayForeign(CampaignRig& rig, const Event& event) {
   constexpr std::uint32_t kIds[] = {0x42D, 0x435, 0x42C, 0x436, 0x42B, 0x3C5};
   const std::uint8_t data[] = {0x11, 0x4C, 0x03, 0x01, static_cast<std::uint8_t>(event.extra)};
   busOf(rig).inject(dataFrame(kIds[event.amount], ByteView{data, 5}));
+}
+
+void exchange(CampaignRig& rig, const Event& event, std::uint16_t product) {
+  sim::DnModule& module = static_cast<DevicenetRig&>(rig).bus().module(event.drive);
+  changeWithoutSupply(rig, event, [&] { module.identity().product = product; });
+}
+
+// The check for a double MAC id (ODVA Vol. 3, 2-3.1): physical port, vendor, serial number of somebody else.
+void checkMac(CampaignRig& rig, unsigned mac, bool response) {
+  const std::uint8_t port = response ? 0x80 : 0x00;
+  const std::uint8_t data[] = {port, 0x0C, 0x00, 0x78, 0x56, 0x34, 0x12};
+  busOf(rig).inject(dataFrame(0x400u | mac << 3 | 7u, ByteView{data, sizeof data}));
+}
+
+unsigned macOf(CampaignRig& rig, const Event& event) {
+  return static_cast<DevicenetRig&>(rig).bus().module(event.drive).mac();
+}
+
+// One that asks itself at the time stays off: that is the next act.
+bool mayBeAsked(CampaignRig& rig, const Event& event) {
+  const sim::DnModule& module = static_cast<DevicenetRig&>(rig).bus().module(event.drive);
+  return event.amount != 0 || module.phase() == sim::DnModule::Phase::kOnline;
 }
 
 const std::vector<Act>& devicenetActs() {
@@ -89,6 +114,36 @@ const std::vector<Act>& devicenetActs() {
       {"queue_full", 2, "queue", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
        [](R& rig, const E&) { busOf(rig).setQueueFull(true); },
        [](R& rig, const E&) { busOf(rig).setQueueFull(false); }},
+      // amount: the product code of what stands there meanwhile.
+      {"wrong_drive",
+       2,
+       "power",
+       Place::kStation,
+       Cuts::kStation,
+       kSpan,
+       {3, 99},
+       kNone,
+       [](R& rig, const E& event) { exchange(rig, event, static_cast<std::uint16_t>(event.amount)); },
+       [](R& rig, const E& event) { exchange(rig, event, kProduct); }},
+      otherDrive(),
+      // Somebody comes online. amount: he asks for the id of the module, or for the scanner's.
+      {"mac_asked",
+       2,
+       "foreign",
+       Place::kBus,
+       Cuts::kNothing,
+       kOnce,
+       {0, 1},
+       kNone,
+       [](R& rig, const E& event) { checkMac(rig, event.amount == 0 ? macOf(rig, event) : 0, false); },
+       nullptr,
+       false,
+       true,
+       mayBeAsked},
+      // He has the id of the module, which is off until its supply has been.
+      {"mac_taken", 2, "power", Place::kStation, Cuts::kStation, kSpan, kNone, kNone,
+       [](R& rig, const E& event) { checkMac(rig, macOf(rig, event), true); },
+       [](R& rig, const E& event) { changeWithoutSupply(rig, event, [] {}); }},
       {"foreign_master", 4, "foreign", Place::kBus, Cuts::kNothing, kOnce, {0, 5}, {0, 3}, sayForeign, nullptr},
   };
   return acts;
@@ -99,10 +154,24 @@ std::unique_ptr<CampaignRig> makeDevicenet(const Layout& layout, const Transport
   options.base = layout.wheels != 0;
   options.node = wheelSettings(layout);
   options.each = driveSettingsOf(layout);
+  for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
+    addAxisSettings(layout, i, options.each[i]);
+    options.each[i]["assembly"] = 101;
+  }
+  for (Values& values : options.each) {
+    values["vendor_id"] = static_cast<int>(sim::DnIdentity{}.vendor);
+    values["product_code"] = static_cast<int>(kProduct);
+  }
   options.modules = layout.drives();
   if (layout.one_module) options.gateway_inverters = layout.drives();
   if (layout.one_module) options.assembly = 102;  // four inverters, two bytes each and the control byte
-  options.simulate = [layout](sim::SimConfig& config) { simulateWheels(layout, config); };
+  options.simulate = [layout](sim::SimConfig& config) {
+    simulateWheels(layout, config);
+    for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
+      config.drives[i].bus.as<sim::DnDriveConfig>().assembly = 101;
+    }
+    simulateAxes(layout, kSk2xx, config);
+  };
   options.wrap = wrap;
   return std::make_unique<DevicenetRig>(options);
 }
@@ -110,7 +179,7 @@ std::unique_ptr<CampaignRig> makeDevicenet(const Layout& layout, const Transport
 }  // namespace
 
 CampaignBus devicenetCampaign() {
-  return {"devicenet", makeDevicenet, devicenetActs, 4500, Shares::kAny};
+  return {"devicenet", makeDevicenet, devicenetActs, 4500, Shares::kAny, false, 8, 4500};
 }
 
 }  // namespace nord_driver::test

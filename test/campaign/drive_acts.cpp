@@ -16,14 +16,34 @@ void setTerminals(CampaignRig& rig, const Event& event, bool coast, bool quick_s
   unitOf(rig, event).inverter().setTerminals(terminals);
 }
 
-/// Of the module; one that lives by the mains of its inverter goes with them.
+}  // namespace
+
+void letItBeSeen(CampaignRig& rig) {
+  rig.passWithoutTheDriver(std::chrono::milliseconds{5});
+}
+
 void supply(CampaignRig& rig, const Event& event, bool on) {
   sim::BusModule& module = unitOf(rig, event).module();
   if (module.supply() == sim::Supply::kOwn) return module.setPowered(on);
   unitOf(rig, event).setPlugged(on);
 }
 
-}  // namespace
+// amount: P105, 0.1 Hz.
+Act otherDrive() {
+  return {"other_drive",
+          2,
+          "power",
+          Place::kStation,
+          Cuts::kDrive,
+          {200, 1500},
+          {250, 1000},
+          {0, 0},
+          [](CampaignRig& rig, const Event& event) { unitOf(rig, event).setPlugged(false); },
+          [](CampaignRig& rig, const Event& event) {
+            for (unsigned set = 0; set < 4; ++set) unitOf(rig, event).parameters().preset(105, set, 0, event.amount);
+            unitOf(rig, event).setPlugged(true);
+          }};
+}
 
 // Power, links and terminals of a drive: BU 2700 6.4 and 8, BU 0020 2.1.3.
 const std::vector<Act>& driveActs() {
@@ -87,6 +107,29 @@ const std::vector<Act>& driveActs() {
              .setLocalControl(true, event.amount < -10 || event.amount > 10 ? event.amount : 0);
        },
        [](R& rig, const E& event) { unitOf(rig, event).inverter().setLocalControl(false, 0.0); },
+       false,
+       false},
+      // Their inputs choose the parameter set, too. amount: as `local`; extra: the set, from 0.
+      {"local_set",
+       2,
+       "terminals",
+       Place::kDrive,
+       Cuts::kNothing,
+       kLong,
+       {-20, 20},
+       {0, 3},
+       [](R& rig, const E& event) {
+         sim::Terminals terminals;
+         terminals.parameter_set = static_cast<unsigned>(event.extra);
+         unitOf(rig, event).inverter().setTerminals(terminals);
+         unitOf(rig, event)
+             .inverter()
+             .setLocalControl(true, event.amount < -10 || event.amount > 10 ? event.amount : 0);
+       },
+       [](R& rig, const E& event) {
+         unitOf(rig, event).inverter().setLocalControl(false, 0.0);
+         unitOf(rig, event).inverter().setTerminals({});
+       },
        false,
        false},
       {"off2", 2, "terminals", Place::kDrive, Cuts::kNothing, kLong, kNone, kNone,

@@ -16,14 +16,18 @@ int draw(Dice& dice, Range range) {
 
 Layout drawLayout(Dice& dice, const CampaignBus& bus) {
   // Two drives as a rule, up to eight.
-  static constexpr Layout kLayouts[] = {{2, 0, false}, {2, 0, false}, {2, 0, false}, {2, 1, false}, {0, 1, false},
-                                        {0, 2, false}, {4, 0, false}, {2, 2, false}, {4, 4, false}, {0, 5, false},
-                                        {4, 0, true},  {0, 3, true},  {2, 1, true},  {2, 2, true}};
+  static constexpr Layout kLayouts[] = {
+      {2, 0, 0, false}, {2, 0, 0, false}, {2, 0, 0, false}, {2, 1, 0, false}, {0, 1, 0, false}, {0, 2, 0, false},
+      {4, 0, 0, false}, {2, 2, 0, false}, {4, 4, 0, false}, {0, 5, 0, false}, {4, 0, 0, true},  {0, 3, 0, true},
+      {2, 1, 0, true},  {2, 2, 0, true},  {2, 0, 1, false}, {2, 0, 1, false}, {0, 0, 1, false}, {0, 1, 1, false},
+      {0, 0, 2, false}, {2, 1, 2, false}, {4, 0, 2, false}, {4, 2, 2, false}, {0, 2, 2, true},  {0, 0, 3, true}};
   for (;;) {
     const Layout layout = kLayouts[dice.below(sizeof(kLayouts) / sizeof(kLayouts[0]))];
     const bool mixed = layout.wheels == 2;
-    if (!layout.one_module || bus.shares == Shares::kAny || (bus.shares == Shares::kFourOrSingles && !mixed))
-      return layout;
+    const bool shares = bus.shares == Shares::kAny || (bus.shares == Shares::kFourOrSingles && !mixed);
+    const bool carried =
+        layout.axes == 0 || (layout.drives() <= bus.most_with_axes && (!layout.one_module || bus.module_carries_axes));
+    if ((!layout.one_module || shares) && carried) return layout;
   }
 }
 
@@ -69,8 +73,15 @@ void addDriving(Dice& dice, Scenario& scenario, unsigned from, unsigned until) {
     if (layout.wheels != 0) {
       scenario.events.push_back(eventOf("drive", at, span, 0, draw(dice, {-45, 45}), draw(dice, {-45, 45})));
     }
-    for (DriveIndex i = layout.wheels; i < layout.drives(); ++i) {
+    for (DriveIndex i = layout.wheels; i < layout.firstAxis(); ++i) {
       scenario.events.push_back(eventOf("turn", at, span, i, draw(dice, {-90, 90}), 0));
+    }
+    for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
+      const unsigned roll = dice.below(10);
+      const unsigned when = at + dice.below(50);
+      if (roll < 6) scenario.events.push_back(eventOf("go", when, 0, i, draw(dice, {-120, 120}), 0));
+      if (roll >= 5) scenario.events.push_back(eventOf("onward", when, 0, i, draw(dice, {-60, 60}), 0));
+      if (roll == 9) scenario.events.push_back(eventOf("onward", when, 0, i, draw(dice, {-30, 30}), 0));
     }
     at += dice.below(8) == 0 ? span + 700 : span;
   }
@@ -91,12 +102,13 @@ Scenario makeScenario(const CampaignBus& bus, std::uint32_t seed) {
   }
   for (const Act& act : userActs()) {
     const std::string name = act.name;
-    const bool drives = name == "drive" || name == "turn" || name == "end_node" || name == "kill";
+    const bool drives = name == "drive" || name == "turn" || name == "go" || name == "onward" || name == "home" ||
+                        name == "end_node" || name == "kill";
     if (!drives) users.push_back(&act);
   }
 
   // Every fourth starts into the trouble.
-  unsigned at = bus.ready_at;
+  unsigned at = scenario.layout.axes != 0 ? bus.axes_ready_at : bus.ready_at;
   const unsigned begin = dice.below(4) == 0 ? 0 : at + 300;
   const unsigned length = 1500 + dice.below(2000);
   scenario.length = at + length;
@@ -113,6 +125,12 @@ Scenario makeScenario(const CampaignBus& bus, std::uint32_t seed) {
   for (unsigned i = 0; i < requests; ++i) {
     scenario.events.push_back(
         drawEvent(dice, drawAct(dice, users), scenario.layout, begin + dice.below(scenario.length - begin)));
+  }
+  // On its way it is refused: half of them come before the first target.
+  if (scenario.layout.axes != 0 && dice.below(3) == 0) {
+    const unsigned when = at + (dice.coin() ? 150 : 400 + dice.below(length));
+    const auto axis = static_cast<DriveIndex>(scenario.layout.firstAxis() + dice.below(scenario.layout.axes));
+    scenario.events.push_back(eventOf("home", when, 0, axis, 0, 0));
   }
   // A second try, when what struck first is over.
   if (dice.coin()) {

@@ -1,4 +1,5 @@
 // The campaign over InterBus: an SK TU3-IBS for each drive, in a ring behind a gateway; parameters by Compact PCP.
+#include "campaign/axes.h"
 #include "campaign/rig.h"
 #include "campaign/wheels.h"
 #include "system/interbus_robot.h"
@@ -19,6 +20,7 @@ class InterbusRig final : public CampaignRig {
   const std::vector<Act>& acts() const override { return interbusCampaign().acts(); }
 
   bool readsParameters() const override { return pcp_; }
+  bool readsScaling() const override { return false; }
   /// Each exchange brings a status word, and its age counts from the question.
   Duration silence() const override { return Duration::zero(); }
   /// The watchdog of the gateway, then P513; and half of the longest latency: a request that was under way.
@@ -48,6 +50,14 @@ void changeGateway(CampaignRig& rig, Change change) {
   sim::GatewaySwitches switches = linkOf(rig).gateway().switches();
   change(switches);
   linkOf(rig).gateway().setSwitches(switches);
+}
+
+void begetWrong(CampaignRig& rig, const Event& event) {
+  sim::DriveUnit& unit = rig.unit(event.drive);
+  unit.setInverterPower(false);
+  letItBeSeen(rig);
+  unit.parameters().preset(507, 0, 0, 3 - unit.parameters().value(507));
+  unit.setInverterPower(true);
 }
 
 const std::vector<Act>& interbusActs() {
@@ -104,6 +114,9 @@ const std::vector<Act>& interbusActs() {
       {"wrong_transactions", 2, "gateway", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
        [](R& rig, const E&) { changeGateway(rig, [](sim::GatewaySwitches& to) { to.wrong_transaction = 1; }); },
        [](R& rig, const E&) { changeGateway(rig, [](sim::GatewaySwitches& to) { to.wrong_transaction = 0; }); }},
+      // P507 is another one when its mains come: the ring stands for a subscriber of another length (BU 0070 4.2).
+      {"wrong_drive", 2, "power", Place::kStation, Cuts::kAll, kSpan, kNone, kNone,
+       [](R& rig, const E& event) { begetWrong(rig, event); }, [](R& rig, const E& event) { begetWrong(rig, event); }},
       {"ring_cut", 3, "ring", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
        [](R& rig, const E&) { linkOf(rig).ring().setCut(true); },
        [](R& rig, const E&) { linkOf(rig).ring().setCut(false); }},
@@ -116,10 +129,20 @@ std::unique_ptr<CampaignRig> makeInterbus(const Layout& layout, const TransportW
   options.base = layout.wheels != 0;
   options.node = wheelSettings(layout);
   options.each = driveSettingsOf(layout);
+  for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
+    addAxisSettings(layout, i, options.each[i]);
+    options.each[i]["ppo_type"] = 2;
+  }
   options.modules = layout.drives();
   // All share one PCP channel: with many drives it takes longer than a scenario until each has told its parameters.
   options.pcp = layout.drives() <= 2;
-  options.simulate = [layout](sim::SimConfig& config) { simulateWheels(layout, config); };
+  options.simulate = [layout](sim::SimConfig& config) {
+    simulateWheels(layout, config);
+    for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
+      config.drives[i].bus.as<sim::IbsDriveConfig>().ppo_type = 2;
+    }
+    simulateAxes(layout, kSk53x, config);
+  };
   options.wrap = wrap;
   return std::make_unique<InterbusRig>(options);
 }
@@ -127,7 +150,7 @@ std::unique_ptr<CampaignRig> makeInterbus(const Layout& layout, const TransportW
 }  // namespace
 
 CampaignBus interbusCampaign() {
-  return {"interbus", makeInterbus, interbusActs, 2500, Shares::kNone};
+  return {"interbus", makeInterbus, interbusActs, 2500, Shares::kNone, false, 2, 5500};
 }
 
 }  // namespace nord_driver::test

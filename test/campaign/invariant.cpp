@@ -2,6 +2,7 @@
 
 #include "campaign/answer_invariants.h"
 #include "campaign/motion_invariants.h"
+#include "campaign/position_invariants.h"
 #include "campaign/report_invariants.h"
 
 namespace nord_driver::test {
@@ -10,7 +11,12 @@ std::vector<std::unique_ptr<Invariant>> allInvariants() {
   std::vector<std::unique_ptr<Invariant>> all;
   all.push_back(std::make_unique<NeverOneWheelAlone>());
   all.push_back(std::make_unique<NothingEnabledUnasked>());
+  all.push_back(std::make_unique<NobodyUnknownEnabled>());
   all.push_back(std::make_unique<TurnsOnlyAsCommanded>());
+  all.push_back(std::make_unique<AxisMovesOnlyAsAsked>());
+  all.push_back(std::make_unique<AxisWithinItsLimits>());
+  all.push_back(std::make_unique<AxisTargetsCount>());
+  all.push_back(std::make_unique<AxisPositionTrue>());
   all.push_back(std::make_unique<OdometryContinuous>());
   all.push_back(std::make_unique<EveryLossNamed>());
   all.push_back(std::make_unique<EveryCallAnswered>());

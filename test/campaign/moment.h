@@ -20,6 +20,9 @@ struct DriveTruth {
   std::int16_t setpoint = 0;  ///< setpoint 1 in force, of 16384
   bool bus_control = true;    ///< the words of the bus count
   double ramp = 25.0;         ///< Hz/s, by P103 of the set in force
+  double rotor = 0.0;         ///< Hz, the speed of the shaft
+  double position = 0.0;      ///< rad of the joint, as the inverter counts
+  double zero = 0.0;          ///< revolutions of the shaft since the start, where its count is 0
 
   bool turnsByBus() const noexcept { return state == sim::InverterState::kOperationEnabled && bus_control; }
 };
@@ -28,9 +31,23 @@ struct DriveTruth {
 struct GroupWish {
   std::vector<DriveIndex> members;
   bool is_base = false;
+  bool is_axis = false;  ///< one drive that goes to positions
   /// Enabling was asked for, or has succeeded; and nothing since has stopped it: no request, and nothing the driver told.
   bool asked = false;
   bool confirmed = false;  ///< the enabling was answered with success
+};
+
+/// What a user has sent to a drive that goes to positions, rad.
+struct AskedMove {
+  bool onward = false;  ///< an increment, else a target
+  double value = 0.0;
+};
+
+/// What users want of a drive that goes to positions.
+struct AxisWish {
+  bool is_axis = false;
+  bool homing = false;           ///< a reference run was asked for, and is not answered
+  std::vector<AskedMove> asked;  ///< since the driver ran last, in order
 };
 
 /// One request, from when it was submitted to when it was answered.
@@ -51,8 +68,11 @@ struct Moment {
   std::vector<DriveTruth> drives;
   std::vector<GroupWish> groups;
   std::vector<double> wanted;  ///< Hz, of each drive: the newest command that is not too old, 0 without one
+  std::vector<AxisWish> axes;  ///< of each drive
   std::vector<bool> cut;       ///< of each drive: the exchange with it is interrupted by what happens
   Duration reaction{};         ///< how long a stop may take to reach the inverters, as things are
+  /// One that stands at the address of a drive, and of which nobody knows, is "operation enabled" by the bus.
+  bool twin_enabled = false;
   const cycle::CycleSnapshot* snapshot = nullptr;
   std::vector<cycle::Completion> answers;  ///< of this cycle
   const std::vector<Call>* calls = nullptr;

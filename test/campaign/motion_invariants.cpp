@@ -8,9 +8,8 @@ namespace nord_driver::test {
 
 namespace {
 
-constexpr double kRounding = 0.1;         // Hz: a setpoint is a share of 16384, DeviceNet's of 1500 rpm or 0.1 Hz
-constexpr double kAtRest = kRounding;     // nobody can tell less from nothing
-constexpr std::size_t kRemembered = 600;  // changes, one in a cycle at most: longer than any reaction
+constexpr double kRounding = 0.1;      // Hz: a setpoint is a share of 16384, DeviceNet's of 1500 rpm or 0.1 Hz
+constexpr double kAtRest = kRounding;  // nobody can tell less from nothing
 
 bool turnsByTerminals(const DriveTruth& drive) {
   return drive.state == sim::InverterState::kOperationEnabled && !drive.bus_control;
@@ -23,46 +22,37 @@ std::optional<std::string> TurnsOnlyAsCommanded::look(const Moment& moment) {
   const double dt = last_ ? toSeconds(moment.now - *last_) : 0.0;
   last_ = moment.now;
   for (const GroupWish& group : moment.groups) {
+    if (group.is_axis) continue;
     const bool cut =
         std::any_of(group.members.begin(), group.members.end(), [&](DriveIndex i) { return moment.cut[i]; });
     for (const DriveIndex i : group.members) {
       const DriveTruth& drive = moment.drives[i];
       Track& track = tracks_[i];
       const double speed = std::fabs(drive.frequency);
-      // Interrupted, it may follow new commands until the time-outs act.
-      if (!cut) track.cut_since.reset();
-      if (cut && !track.cut_since) track.cut_since = moment.now;
-      const Instant heard = track.cut_since.value_or(moment.now);
-      const double allowed = group.asked && moment.now <= heard + moment.reaction ? std::fabs(moment.wanted[i]) : 0.0;
-      // The same again: what was allowed last for so long.
-      if (!track.allowed.empty() && track.allowed.back().second == allowed) track.allowed.pop_back();
-      track.allowed.emplace_back(heard, allowed);
-      while (track.allowed.size() > kRemembered) track.allowed.pop_front();
-      double recent = 0.0;
-      for (const auto& [from, value] : track.allowed) {
-        if (moment.now <= from + moment.reaction) recent = std::max(recent, value);
-      }
-      track.bound = std::max(recent, track.bound - drive.ramp * dt);
+      track.bound.look(moment, cut, group.asked ? std::fabs(moment.wanted[i]) : 0.0, drive.ramp, dt);
       // Terminals turn it as they like, and their ramp follows them down.
-      if (turnsByTerminals(drive)) track.bound = std::max(track.bound, speed);
-      if (speed > track.bound + kRounding) {
+      if (turnsByTerminals(drive)) track.bound.raise(speed);
+      if (speed > track.bound.value() + kRounding) {
         std::ostringstream out;
-        out << "drive " << i << ": " << drive.frequency << " Hz, no more than " << track.bound << " Hz is commanded";
+        out << "drive " << i << ": " << drive.frequency << " Hz, no more than " << track.bound.value()
+            << " Hz is commanded";
         return out.str();
       }
+      const double allowed = track.bound.allowedNow();
       const bool by_terminals = turnsByTerminals(drive);  // that is no stop of ours
       if (allowed > 0.0 || speed < kAtRest || by_terminals) {
         if (track.ended && speed < kAtRest && allowed == 0.0 && !by_terminals && track.stop_bound > 0.0) {
-          const Stop stop{toSeconds(moment.now - *track.ended), track.stop_bound};
+          const Stop stop{track.stop_took, track.stop_bound};
           if (worst_.bound == 0.0 || stop.took * worst_.bound > worst_.took * stop.bound) worst_ = stop;
         }
         track.ended.reset();
       } else {
         if (!track.ended) track.stop_bound = 0.0;
         if (!track.ended) track.ended = moment.now;
-        // What happens meanwhile may prolong it. It is looked at once in a cycle.
-        const double until_rest = (track.bound + kRounding) / drive.ramp + toSeconds(moment.period);
-        track.stop_bound = std::max(track.stop_bound, toSeconds(moment.now - *track.ended) + until_rest);
+        // What happens meanwhile may prolong it. Between two looks nobody knows, and these may be a second apart: a
+        // transport that closes.
+        track.stop_took = toSeconds(moment.now - *track.ended);
+        track.stop_bound = std::max(track.stop_bound, track.stop_took + (track.bound.value() + kRounding) / drive.ramp);
       }
     }
   }
@@ -85,6 +75,11 @@ std::optional<std::string> NothingEnabledUnasked::look(const Moment& moment) {
     }
   }
   return std::nullopt;
+}
+
+std::optional<std::string> NobodyUnknownEnabled::look(const Moment& moment) {
+  if (!moment.twin_enabled) return std::nullopt;
+  return "a second drive at the address of drive 0 is \"operation enabled\"";
 }
 
 std::optional<std::string> NeverOneWheelAlone::look(const Moment& moment) {

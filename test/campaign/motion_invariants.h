@@ -1,13 +1,12 @@
 // The invariants of motion, judged on the true speeds.
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "campaign/invariant.h"
+#include "campaign/speed_bound.h"
 
 namespace nord_driver::test {
 
@@ -23,7 +22,7 @@ class TurnsOnlyAsCommanded final : public Invariant {
   }
   std::optional<std::string> look(const Moment& moment) override;
 
-  /// The longest it took a group to come from speed to rest once nothing allowed it to turn any more, and its bound, s.
+  /// The longest a drive was still seen turning after nothing allowed it any more, and how long it might have been, s.
   struct Stop {
     double took = 0.0;
     double bound = 0.0;
@@ -32,10 +31,9 @@ class TurnsOnlyAsCommanded final : public Invariant {
 
  private:
   struct Track {
-    std::deque<std::pair<Instant, double>> allowed;  // when the drive could hear it, Hz
-    std::optional<Instant> cut_since;
-    double bound = 0.0;            // Hz
+    SpeedBound bound;
     std::optional<Instant> ended;  // when nothing allowed it any more
+    double stop_took = 0.0;
     double stop_bound = 0.0;
   };
 
@@ -56,6 +54,16 @@ class NothingEnabledUnasked final : public Invariant {
  private:
   std::vector<bool> enabled_;
   std::vector<Instant> asked_;  // when each drive was asked for last
+};
+
+/// A drive that answers at the address of another one is never enabled with it.
+class NobodyUnknownEnabled final : public Invariant {
+ public:
+  const char* name() const override { return "NobodyUnknownEnabled"; }
+  const char* sentence() const override {
+    return "two nodes answer with this id: named, not started, not enabled (doc/canopen.md)";
+  }
+  std::optional<std::string> look(const Moment& moment) override;
 };
 
 /// While a member of a base does not turn by the bus, the others have no setpoint but 0, within the bound.

@@ -36,6 +36,8 @@ Player::Player(const Scenario& scenario, const CampaignBus& bus, const Transport
   moment_.drives.resize(drives);
   moment_.wanted.resize(drives);
   moment_.cut.resize(drives);
+  moment_.axes.resize(drives);
+  places_.resize(drives);
   moment_.calls = &calls_;
   moment_.period = rig_->robot().config().period();
   moment_.full_wheel_speed = kFullSpeed;
@@ -48,6 +50,7 @@ Player::Player(const Scenario& scenario, const CampaignBus& bus, const Transport
   for (DriveIndex i = scenario.layout.wheels; i < drives; ++i) {
     GroupWish single;
     single.members.push_back(i);
+    single.is_axis = moment_.axes[i].is_axis = i >= scenario.layout.firstAxis();
     moment_.groups.push_back(single);
   }
 }
@@ -60,6 +63,8 @@ Outcome Player::play() {
     // Each drive and set has a value of its own: an answer to somebody else's question shows.
     for (unsigned set = 0; set < 4; ++set) {
       rig_->unit(i).parameters().preset(102, set, 0, static_cast<std::int32_t>(150 + 10 * i + set));
+      // 50, 50, 40 and 60 Hz.
+      if (rig_->readsScaling() && set >= 2) rig_->unit(i).parameters().preset(105, set, 0, set == 2 ? 400 : 600);
     }
   }
   playEvents();
@@ -126,7 +131,7 @@ void Player::begin(const Event& event) {
   const Act* const act = findAct(bus_, event.act);
   if (act == nullptr) return fail("Scenario", "", "there is no act " + event.act);
   if (act->begin == nullptr) return beginUser(event);
-  if (excluded(event, *act)) return;
+  if (excluded(event, *act) || (act->applies != nullptr && !act->applies(*rig_, event))) return;
   // A loss has to be counted where nothing else keeps telegrams from being sent.
   const bool calm = !disturbed_ || now() - *disturbed_ > kCalm;
   losses_.clear();
@@ -166,7 +171,7 @@ void Player::command() {
     base_command_.given = at;
     base_command_.ever = true;
   }
-  for (DriveIndex i = scenario_.layout.wheels; i < drive_commands_.size(); ++i) {
+  for (DriveIndex i = scenario_.layout.wheels; i < scenario_.layout.firstAxis(); ++i) {
     Command& command = drive_commands_[i];
     if (at >= command.until) continue;
     rig_->robot().ports().commandDrive(i, {command.velocity, at, true});

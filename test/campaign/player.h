@@ -29,6 +29,7 @@ struct Outcome {
   unsigned enabled = 0;   ///< enablings that succeeded
   unsigned stopped = 0;   ///< groups the driver stopped by itself
   unsigned answers = 0;
+  unsigned arrived = 0;  ///< axes that went to another place, and were there
 };
 
 /// What users do, as the players know it: their `begin` and `end` are the player's own.
@@ -81,6 +82,8 @@ class Player {
   bool excluded(const Event& event, const Act& act);
   bool samePlace(const Active& active, const Event& event);
   void command();
+  /// Of a drive that goes to positions, rad.
+  void move(DriveIndex drive, const AskedMove& move);
   void runClients();
   void askParameter(Client& client);
   std::uint32_t submit(cycle::RequestKind kind, DriveIndex drive, Duration patience);
@@ -94,6 +97,8 @@ class Player {
   void seeTruth();
   void seeAnswers();
   void seeStops();
+  void seeArrivals();
+  void forgetMoves();
   void sampleParameters();
   void watchLosses();
   std::uint64_t counted();
@@ -105,6 +110,7 @@ class Player {
   bool allOnline();
   void fail(const char* invariant, const char* sentence, std::string what);
   bool ask(cycle::RequestKind kind, const char* expectation);
+  void judgeAxes(Instant until);
 
   Scenario scenario_;
   CampaignBus bus_;
@@ -133,6 +139,7 @@ class Player {
   };
   Command base_command_;
   std::vector<Command> drive_commands_;
+  std::vector<double> places_;  // rad, where axes arrived last
 };
 
 }  // namespace nord_driver::test

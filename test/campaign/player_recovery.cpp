@@ -2,6 +2,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "campaign/axes.h"
 #include "campaign/player.h"
 
 namespace nord_driver::test {
@@ -9,6 +10,12 @@ namespace nord_driver::test {
 using cycle::RequestKind;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+
+namespace {
+
+constexpr double kNextTarget = 1.5;  // rad
+
+}  // namespace
 
 bool Player::ask(RequestKind kind, const char* expectation) {
   const std::uint32_t id = submit(kind, cycle::kAllDrives, seconds{3});
@@ -23,6 +30,20 @@ bool Player::ask(RequestKind kind, const char* expectation) {
     }
   }
   return false;
+}
+
+void Player::judgeAxes(Instant until) {
+  const auto arrived = [this] {
+    for (DriveIndex i = scenario_.layout.firstAxis(); i < moment_.axes.size(); ++i) {
+      if (!moment_.snapshot->drives[i].position_reached) return false;
+    }
+    return true;
+  };
+  while (goesOn() && !arrived()) {
+    if (now() >= until)
+      return fail("BackInService", "the inverter travels there and holds it (Positions)", "never there");
+    tick();
+  }
 }
 
 // What happened last may show only when the time-outs have passed: until then, that all answer says nothing.
@@ -71,11 +92,16 @@ void Player::judgeRecovery() {
     command.until = base_command_.until;
     command.velocity = 0.5 * kFullSpeed;
   }
+  for (DriveIndex i = scenario_.layout.firstAxis(); i < moment_.axes.size(); ++i) {
+    const double from = std::clamp(moment_.drives[i].position, -kAxisLimit, kAxisLimit);
+    move(i, {false, from > 0.0 ? from - kNextTarget : from + kNextTarget});
+  }
   while (goesOn() && now() < base_command_.until) tick();
   for (DriveIndex i = 0; i < moment_.drives.size() && goesOn(); ++i) {
     if (std::fabs(moment_.drives[i].frequency) > 1.0) continue;
     fail("BackInService", "back in service", "drive " + std::to_string(i) + " does not turn");
   }
+  judgeAxes(now() + seconds{10});
   if (goesOn()) ask(RequestKind::kDisable, "it cannot be disabled");
 }
 

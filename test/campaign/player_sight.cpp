@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "campaign/axes.h"
 #include "campaign/player.h"
 
 namespace nord_driver::test {
@@ -36,7 +37,15 @@ void Player::seeTruth() {
     truth.setpoint = static_cast<std::int16_t>(inverter.setpoint1());
     truth.bus_control = inverter.busControl();
     const double ramp = unit.parameters().scaled(103, inverter.parameterSet());
+    const double shaft = unit.shaftAngle() / (2.0 * M_PI);
+    truth.rotor = unit.shaftSpeed() * unit.config().motor.pole_pairs / (2.0 * M_PI);
+    truth.position = unit.position() / kRevolutionsPerRadian;
+    truth.zero = shaft - unit.position();
     truth.ramp = ramp > 0.0 ? unit.parameters().scaled(105, inverter.parameterSet()) / ramp : 1e6;
+  }
+  if (const sim::DriveUnit* const twin = rig_->twin()) {
+    moment_.twin_enabled =
+        twin->inverter().state() == sim::InverterState::kOperationEnabled && twin->inverter().busControl();
   }
   const Duration timeout = rig_->robot().config().cmd_vel_timeout;
   const auto fresh = [&](const Command& command) { return command.ever && now() - command.given <= timeout; };
@@ -48,6 +57,12 @@ void Player::seeTruth() {
         wheel ? (command.linear + side * command.angular * kSeparation / 2.0) / kRadius : command.velocity;
     moment_.wanted[i] = fresh(command) ? speed * kHertzPerSpeed : 0.0;
     moment_.cut[i] = false;
+  }
+  for (DriveIndex i = scenario_.layout.firstAxis(); i < moment_.axes.size(); ++i) {
+    const auto runs = [&](const Call& call) {
+      return !call.answered && call.request.kind == RequestKind::kHome && call.request.drive == i;
+    };
+    moment_.axes[i].homing = std::any_of(calls_.begin() + static_cast<std::ptrdiff_t>(first_open_), calls_.end(), runs);
   }
   for (const Active& active : active_) {
     for (DriveIndex i = 0; i < moment_.drives.size(); ++i) {
@@ -163,9 +178,25 @@ void Player::look(Instant began, bool driver_ran) {
   for (const auto& invariant : invariants_) {
     if (auto wrong = invariant->look(moment_)) return fail(invariant->name(), invariant->sentence(), *wrong);
   }
+  if (driver_ran) forgetMoves();
   if (!driver_ran || !moment_.judged) return;
   watchLosses();
   seeStops();
+  seeArrivals();
+}
+
+void Player::seeArrivals() {
+  constexpr double kElsewhere = 0.1;  // rad
+  for (DriveIndex i = scenario_.layout.firstAxis(); i < places_.size(); ++i) {
+    const double place = moment_.drives[i].position;
+    if (!moment_.snapshot->drives[i].position_reached || std::fabs(place - places_[i]) < kElsewhere) continue;
+    places_[i] = place;
+    ++outcome_.arrived;
+  }
+}
+
+void Player::forgetMoves() {
+  for (AxisWish& axis : moment_.axes) axis.asked.clear();
 }
 
 bool Player::allOnline() {

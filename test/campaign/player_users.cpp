@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "campaign/axes.h"
 #include "campaign/player.h"
 
 namespace nord_driver::test {
@@ -15,7 +16,8 @@ constexpr double kFullSpeed = Player::kFullSpeed, kRadius = Player::kRadius, kSe
 
 }  // namespace
 
-// "drive": amount and extra are % of the full speed of a wheel, along and around; "turn": of the drive it names. Requests:
+// "drive": amount and extra are % of the full speed of a wheel, along and around; "turn": of the drive it names. "go" and
+// "onward": a target and an increment of an axis, amount is % of its upper limit. Requests:
 // extra is what the act says, of all drives or of one. "stall": amount ms. "respawn": the driver ends without a word and
 // begins anew amount ms later.
 const std::vector<Act>& userActs() {
@@ -26,6 +28,9 @@ const std::vector<Act>& userActs() {
   static const std::vector<Act> acts{
       act("drive", 8, {200, 2500}, {-45, 45}, {-45, 45}),
       act("turn", 8, {200, 2500}, {-90, 90}, kNone),
+      act("go", 8, kNone, {-120, 120}, kNone),
+      act("onward", 4, kNone, {-60, 60}, kNone),
+      act("home", 2, kNone, kNone, kNone),
       act("enable", 8, kNone, {0, 3}, kNone),
       act("disable", 3, kNone, {0, 3}, kNone),
       act("quick_stop", 2, kNone, {0, 3}, kNone),
@@ -54,6 +59,10 @@ void Player::beginUser(const Event& event) {
   } else if (act == "turn") {
     drive_commands_[event.drive].until = until;
     drive_commands_[event.drive].velocity = 0.01 * event.amount * kFullSpeed;
+  } else if (act == "go" || act == "onward") {
+    move(event.drive, {act == "onward", 0.01 * event.amount * kAxisLimit});
+  } else if (act == "home") {
+    submit(RequestKind::kHome, event.drive, kHomingTimeout + seconds{2});
   } else if (act == "enable") {
     submit(RequestKind::kEnable, drive, patience);
   } else if (act == "disable") {
@@ -87,6 +96,14 @@ void Player::beginUser(const Event& event) {
   } else {
     fail("Scenario", "", "there is no act " + act);
   }
+}
+
+// One topic for each; what is sent once counts.
+void Player::move(DriveIndex drive, const AskedMove& move) {
+  if (!moment_.axes[drive].is_axis) return;
+  cycle::CyclePorts& ports = rig_->robot().ports();
+  const bool sent = move.onward ? ports.commandIncrement(drive, move.value) : ports.commandPosition(drive, move.value);
+  if (sent) moment_.axes[drive].asked.push_back(move);
 }
 
 // SIGTERM, SIGINT, an exception: ramp, OFF1, "ready to switch on" seen; then the exchange ends.
@@ -125,6 +142,7 @@ void Player::respawn(Duration gone) {
   disturbed_ = now();
   rig_->robot().restartDriver();
   moment_.snapshot = nullptr;
+  forgetMoves();
   for (auto& invariant : invariants_) invariant->driverBegan();
 }
 

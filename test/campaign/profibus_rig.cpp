@@ -1,6 +1,7 @@
 // The campaign over PROFIBUS: single drives SK 5xxE with a module each, or up to four SK 2xxE behind one SK CU4-PBR.
 #include <array>
 
+#include "campaign/axes.h"
 #include "campaign/rig.h"
 #include "system/simulated_robot.h"
 
@@ -61,6 +62,15 @@ void disturb(CampaignRig& rig, const Event& event) {
   segmentOf(rig).setDisturbance(disturbance);
 }
 
+// Of the module that is meant to stand there: BU 0020 10.2, BU 0220.
+std::uint16_t identOf(CampaignRig& rig, const Event& event) {
+  return rig.unit(event.drive).config().place > 0 ? 0x0BA8 : 0x7531;
+}
+
+void exchange(CampaignRig& rig, const Event& event, std::uint16_t ident) {
+  changeWithoutSupply(rig, event, [&] { segmentOf(rig).station(event.drive).setIdent(ident); });
+}
+
 const std::vector<Act>& profibusActs() {
   using R = CampaignRig;
   using E = Event;
@@ -85,6 +95,18 @@ const std::vector<Act>& profibusActs() {
       {"adapter", 4, "adapter", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
        [](R& rig, const E&) { segmentOf(rig).setDevicePresent(false); },
        [](R& rig, const E&) { segmentOf(rig).setDevicePresent(true); }},
+      // amount: the ident number of what stands there meanwhile.
+      {"wrong_drive",
+       2,
+       "power",
+       Place::kStation,
+       Cuts::kStation,
+       kSpan,
+       {1, 0x7530},
+       kNone,
+       [](R& rig, const E& event) { exchange(rig, event, static_cast<std::uint16_t>(event.amount)); },
+       [](R& rig, const E& event) { exchange(rig, event, identOf(rig, event)); }},
+      otherDrive(),
       {"foreign_master", 3, "foreign", Place::kBus, Cuts::kNothing, kOnce, {0, 2}, kNone, sayForeign, nullptr},
   };
   return acts;
@@ -95,7 +117,19 @@ std::unique_ptr<CampaignRig> makeProfibus(const Layout& layout, const TransportW
   options.base = layout.wheels != 0;
   options.wheels_a_side = layout.wheels == 4 ? 2 : 1;
   options.one_module = layout.one_module;
-  options.singles = layout.singles;
+  options.singles = layout.singles + layout.axes;
+  for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
+    Values& own = options.of_drive["single" + std::to_string(i - layout.wheels)];
+    addAxisSettings(layout, i, own);
+    own["ppo_type"] = 2;
+  }
+  const LiftWords words = layout.one_module ? kSk2xx : kSk53x;
+  options.simulate = [layout, words](sim::SimConfig& config) {
+    for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
+      config.drives[i].bus.as<sim::DpDriveConfig>().ppo_type = 2;
+    }
+    simulateAxes(layout, words, config);
+  };
   options.wrap = wrap;
   return std::make_unique<ProfibusRig>(options);
 }
@@ -103,7 +137,7 @@ std::unique_ptr<CampaignRig> makeProfibus(const Layout& layout, const TransportW
 }  // namespace
 
 CampaignBus profibusCampaign() {
-  return {"profibus", makeProfibus, profibusActs, 1500, Shares::kFourOrSingles};
+  return {"profibus", makeProfibus, profibusActs, 1500, Shares::kFourOrSingles, true, 6, 2250};
 }
 
 }  // namespace nord_driver::test

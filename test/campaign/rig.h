@@ -32,6 +32,10 @@ class CampaignRig {
 
   /// Parameters can be read: P105 is, not typed.
   virtual bool readsParameters() const { return true; }
+  /// And it may be any, and in each parameter set another one: it is not typed.
+  virtual bool readsScaling() const { return true; }
+  /// Stands at the address of a drive, and nobody knows of it; null: there is none.
+  virtual sim::DriveUnit* twin() { return nullptr; }
   /// How old the last status word may be before the bus takes it for missing; drive_timeout counts from there.
   virtual Duration silence() const = 0;
   /// The longest time from the last word of a master to the trip of the inverter.
@@ -51,6 +55,9 @@ struct CampaignBus {
   const std::vector<Act>& (*acts)();
   unsigned ready_at;  ///< ms after the start: drives that start with the driver are ready to be enabled, as a rule
   Shares shares;
+  bool module_carries_axes;  ///< one module may serve drives that go to positions
+  unsigned most_with_axes;   ///< drives, where one of them goes to positions
+  unsigned axes_ready_at;    ///< ms, as ready_at: what their words mean is read as well
 };
 
 CampaignBus profibusCampaign();

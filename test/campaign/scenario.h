@@ -12,13 +12,15 @@
 namespace nord_driver::test {
 
 /// The first `wheels` drives are those of a base (even: left, odd: right), the `singles` behind them have commands of
-/// their own. An axis of another kind is one more number here, and its drives come last.
+/// their own, and the `axes` that come last go to positions.
 struct Layout {
   unsigned wheels = 2;      ///< 0, 2 or 4
   unsigned singles = 0;     ///< 1 to 8 drives in all
+  unsigned axes = 0;        ///< `mode: position`; the first of them can be asked for a reference run
   bool one_module = false;  ///< all of them behind one bus module (up to four)
 
-  std::size_t drives() const noexcept { return wheels + singles; }
+  std::size_t drives() const noexcept { return wheels + singles + axes; }
+  DriveIndex firstAxis() const noexcept { return wheels + singles; }
 };
 
 /// One thing that happens: it begins at `at`, and ends `span` later where it lasts.
@@ -39,7 +41,8 @@ struct Scenario {
   std::vector<Event> events;
 };
 
-/// "bus=profibus seed=17 wheels=2 singles=0 one_module=0 length=6000; 1500+0 enable 0 0 0; ..."
+/// "bus=profibus seed=17 wheels=2 singles=0 axes=1 one_module=0 length=6000; 1500+0 enable 0 0 0; ..."; no axes are left
+/// out.
 std::string toText(const Scenario& scenario);
 std::string toText(const Event& event);
 /// Nothing when it is no such line.

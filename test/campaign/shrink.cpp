@@ -32,15 +32,20 @@ class Shrinker {
     for (bool goes_on = true; goes_on;) {
       goes_on = false;
       Scenario less = best_.scenario;
-      if (less.layout.singles != 0 && less.layout.drives() > 1) {
+      if (less.layout.axes != 0 && less.layout.drives() > 1) {
+        --less.layout.axes;
+        goes_on = shows(without(less, less.layout.drives()));
+      }
+      less = best_.scenario;
+      if (!goes_on && less.layout.singles != 0 && less.layout.drives() > 1) {
         --less.layout.singles;
-        goes_on = shows(without(less));
+        goes_on = shows(without(less, less.layout.firstAxis()));
       }
       if (!goes_on && best_.scenario.layout.wheels == 4) {
         less = best_.scenario;
         less.layout.wheels = 2;
         less.layout.one_module = false;
-        goes_on = shows(without(less));
+        goes_on = shows(without(without(less, 2), 2));
       }
       any = any || goes_on;
     }
@@ -59,11 +64,14 @@ class Shrinker {
   }
 
  private:
-  static Scenario without(Scenario scenario) {
+  /// What happens at `drive`, which is not there any more; those behind it move up.
+  static Scenario without(Scenario scenario, DriveIndex drive) {
     auto& events = scenario.events;
-    events.erase(std::remove_if(events.begin(), events.end(),
-                                [&](const Event& event) { return event.drive >= scenario.layout.drives(); }),
+    events.erase(std::remove_if(events.begin(), events.end(), [&](const Event& event) { return event.drive == drive; }),
                  events.end());
+    for (Event& event : events) {
+      if (event.drive > drive) --event.drive;
+    }
     return scenario;
   }
   bool shows(const Scenario& less) {

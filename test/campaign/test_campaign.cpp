@@ -45,6 +45,8 @@ void replay(const std::vector<CampaignBus>& buses, const std::string& text) {
       by_seed ? makeScenario(*bus, static_cast<std::uint32_t>(std::stoul(text.substr(colon + 1)))) : *read;
   std::cout << toText(scenario) << '\n';
   const Outcome outcome = Player{scenario, *bus}.play();
+  std::cout << outcome.enabled << " enabled, " << outcome.stopped << " stopped, " << outcome.answers << " answers, "
+            << outcome.arrived << " axes arrived\n";
   EXPECT_FALSE(outcome.violation) << textOf({scenario, *outcome.violation});
 }
 
@@ -75,6 +77,7 @@ TEST(FaultCampaign, HoldsEveryInvariant) {
     // A campaign whose robots never drive, or are never stopped, shows nothing.
     EXPECT_GT(report.enabled, count) << report.bus;
     EXPECT_GT(report.stops, count / 4) << report.bus;
+    EXPECT_GT(report.arrived, count / 4) << report.bus;
   }
   std::cout << tableOf(reports);
 }

@@ -95,6 +95,22 @@ TEST_F(Invariants, ComesDownItsRampWhenTheCommandHasEnded) {
   EXPECT_THAT(look(invariant, milliseconds{20}), HasSubstr("is commanded"));
 }
 
+// A transport that closes takes its time, and nobody looks meanwhile: at rest afterwards, it was so at some time before.
+TEST_F(Invariants, AStopLastsAsLongAsItIsSeenTurning) {
+  TurnsOnlyAsCommanded invariant;
+  want(20.0);
+  turn(20.0, 6554);
+  EXPECT_EQ("", look(invariant, seconds{1}));
+  want(0.0);
+  EXPECT_EQ("", look(invariant, milliseconds{40}));
+  turn(0.0, 0);
+  moment_.now += seconds{1};
+  EXPECT_EQ("", look(invariant));
+  EXPECT_NEAR(0.03, invariant.worstStop().took, 1e-9)
+      << "from the first look without a command to the last one turning";
+  EXPECT_GE(invariant.worstStop().bound, invariant.worstStop().took);
+}
+
 TEST_F(Invariants, WhoIsNotEnabledIsNotCommanded) {
   TurnsOnlyAsCommanded invariant;
   moment_.groups[0].asked = false;
@@ -121,6 +137,13 @@ TEST_F(Invariants, NobodyIsEnabledUnasked) {
   EXPECT_EQ("", look(invariant, seconds{1}));
   moment_.drives[1].state = sim::InverterState::kOperationEnabled;
   EXPECT_THAT(look(invariant), HasSubstr("drive 1 is \"operation enabled\", and nobody has asked"));
+}
+
+TEST_F(Invariants, ASecondDriveAtAnAddressIsNotEnabled) {
+  NobodyUnknownEnabled invariant;
+  EXPECT_EQ("", look(invariant));
+  moment_.twin_enabled = true;
+  EXPECT_THAT(look(invariant), HasSubstr("at the address of drive 0"));
 }
 
 TEST_F(Invariants, NoWheelOfABaseIsDrivenAlone) {

@@ -2,7 +2,10 @@
 // and its bus. Each is found by the invariant it offends, and shrunk to what it needs.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdlib>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "campaign/campaign.h"
@@ -14,6 +17,7 @@ namespace {
 
 using Plant = PlantedTransport::Plant;
 using Outputs = PlantedTransport::Outputs;
+using Inputs = PlantedTransport::Inputs;
 
 constexpr Word kRun = 0x047F, kSets = 0x3FFF;
 
@@ -26,9 +30,21 @@ TransportWrap wrapped(Plant (*make)()) {
       [make](std::unique_ptr<Transport> inner) { return std::make_unique<PlantedTransport>(std::move(inner), make()); };
 }
 
-/// Two wheels drive, and stop: commands end, wheel 1 trips later, then everything is disabled.
-Scenario driving(const char* bus, const std::string& events) {
-  return *scenarioFrom(std::string{"bus="} + bus + " seed=1 wheels=2 singles=0 one_module=0 length=9000; " + events);
+Scenario driving(const char* bus, const char* layout, const std::string& events) {
+  return *scenarioFrom(std::string{"bus="} + bus + " seed=1 " + layout + " one_module=0 length=9000; " + events);
+}
+
+constexpr const char* kTwoWheels = "wheels=2 singles=0";
+constexpr const char* kOneAxis = "wheels=0 singles=0 axes=1";
+
+/// The position of an axis on every bus here: setpoint 2 has its low word, setpoint 3 its high one; actual values likewise.
+std::int32_t joined(const std::array<std::int16_t, 3>& words) {
+  return static_cast<std::int32_t>(std::uint32_t{static_cast<std::uint16_t>(words[2])} << 16 |
+                                   static_cast<std::uint16_t>(words[1]));
+}
+void split(std::int32_t position, std::array<std::int16_t, 3>& words) {
+  words[1] = static_cast<std::int16_t>(static_cast<std::uint32_t>(position) & 0xFFFFu);
+  words[2] = static_cast<std::int16_t>(static_cast<std::uint32_t>(position) >> 16);
 }
 
 struct PlantedFault {
@@ -36,6 +52,7 @@ struct PlantedFault {
   const char* invariant;
   const char* events;  ///< what brings it to light, after "enable" at 1500 (DeviceNet 4500)
   Plant (*make)();
+  const char* layout = kTwoWheels;
 };
 
 void PrintTo(const PlantedFault& fault, std::ostream* out) {
@@ -121,6 +138,54 @@ const PlantedFault kFaults[] = {
        plant.result = [results](profile::ParameterResult&) { return ++*results < 60; };
        return plant;
      }},
+    // What an axis was told before it was stopped it is told again when it is enabled.
+    {"TargetKeptForLater", "AxisMovesOnlyAsAsked", "5400+0 go 0 50 0; 5900+0 disable 0 1 0; 7000+0 enable 0 1 0",
+     [] {
+       const auto last = std::make_shared<std::optional<std::int32_t>>();
+       Plant plant;
+       plant.outputs = [last](Outputs& outputs) {
+         if (!runs(outputs[0])) return;
+         const std::int32_t target = joined(outputs[0].setpoints);
+         if (!*last && std::abs(target) > 1000) *last = target;
+         if (*last) split(**last, outputs[0].setpoints);
+       };
+       return plant;
+     },
+     kOneAxis},
+    // Targets in other steps than those of the count.
+    {"StepsTooLong", "AxisWithinItsLimits", "5400+0 go 0 95 0",
+     [] {
+       Plant plant;
+       plant.outputs = [](Outputs& outputs) {
+         if (runs(outputs[0])) split(joined(outputs[0].setpoints) / 10 * 11, outputs[0].setpoints);
+       };
+       return plant;
+     },
+     kOneAxis},
+    // A position from before goes on being told.
+    {"OldPosition", "AxisPositionTrue", "5400+0 go 0 50 0",
+     [] {
+       const auto first = std::make_shared<std::optional<std::array<std::int16_t, 3>>>();
+       Plant plant;
+       plant.inputs = [first](Inputs& inputs) {
+         if (!*first && joined(inputs[0].input.actual_values) > 1000) *first = inputs[0].input.actual_values;
+         if (*first) inputs[0].input.actual_values = **first;
+       };
+       return plant;
+     },
+     kOneAxis},
+    // A target nobody has asked for.
+    {"AnotherTarget", "AxisMovesOnlyAsAsked", "6000+0 late_answers 0 1 0",
+     [] {
+       const auto cycles = std::make_shared<unsigned>(0);
+       Plant plant;
+       plant.outputs = [cycles](Outputs& outputs) {
+         if (!runs(outputs[0]) || ++*cycles < 50) return;
+         split(joined(outputs[0].setpoints) + 2000, outputs[0].setpoints);
+       };
+       return plant;
+     },
+     kOneAxis},
 };
 
 CampaignBus busOf(const char* name) {
@@ -131,8 +196,11 @@ CampaignBus busOf(const char* name) {
   return bus;
 }
 
+// Something beside it, which the fault does not need. An axis over PROFIBUS would be stopped by it on its way.
 Scenario scenarioOf(const char* bus, const PlantedFault& fault) {
-  return driving(bus, "4800+0 enable 0 1 0; " + std::string{fault.events} + "; 6300+100 late_answers 1 1 0");
+  const std::string beside =
+      fault.layout == kOneAxis ? "; 8800+100 late_answers 0 1 0" : "; 6300+100 late_answers 1 1 0";
+  return driving(bus, fault.layout, "4800+0 enable 0 1 0; " + std::string{fault.events} + beside);
 }
 
 class PlantedFaults : public ::testing::TestWithParam<std::tuple<const char*, PlantedFault>> {};

@@ -37,6 +37,11 @@ TEST(Scenarios, WhatIsNoneIsNotRead) {
   EXPECT_FALSE(scenarioFrom("bus=profibus seed=x wheels=2 singles=0 one_module=0 length=100"));
   EXPECT_FALSE(scenarioFrom(head + "; 10 enable 1 1 0"));
   EXPECT_FALSE(scenarioFrom(head + "; 10+0 enable 2 1 0")) << "there is no drive 2";
+  EXPECT_FALSE(scenarioFrom("bus=profibus seed=1 wheels=2 singles=0 axes=x one_module=0 length=100"));
+  const auto with_axis = scenarioFrom("bus=profibus seed=1 wheels=2 singles=0 axes=1 one_module=0 length=100");
+  ASSERT_TRUE(with_axis);
+  EXPECT_EQ(2u, with_axis->layout.firstAxis());
+  EXPECT_EQ(3u, with_axis->layout.drives());
 }
 
 // Every act, and every size from one drive to eight.
@@ -44,9 +49,12 @@ TEST(Scenarios, HaveEverythingThatMayHappen) {
   for (const CampaignBus& bus : campaignBuses()) {
     std::set<std::string> acts;
     std::set<std::size_t> sizes;
+    unsigned with_axes = 0, only_axes = 0;
     for (std::uint32_t seed = 1; seed <= 500; ++seed) {
       const Scenario scenario = makeScenario(bus, seed);
       sizes.insert(scenario.layout.drives());
+      with_axes += scenario.layout.axes != 0 ? 1 : 0;
+      only_axes += scenario.layout.axes == scenario.layout.drives() ? 1 : 0;
       for (const Event& event : scenario.events) {
         ASSERT_NE(nullptr, findAct(bus, event.act)) << event.act;
         ASSERT_LT(event.drive, scenario.layout.drives());
@@ -56,6 +64,8 @@ TEST(Scenarios, HaveEverythingThatMayHappen) {
     for (const auto* all : {&userActs(), &driveActs(), &bus.acts()}) {
       for (const Act& act : *all) EXPECT_EQ(1u, acts.count(act.name)) << bus.name << ' ' << act.name;
     }
+    EXPECT_GT(with_axes, 100u) << bus.name << ", velocity and position";
+    EXPECT_LT(only_axes, with_axes) << bus.name;
     EXPECT_EQ(1u, *sizes.begin()) << bus.name;
     EXPECT_EQ(8u, *sizes.rbegin()) << bus.name;
   }

@@ -270,6 +270,33 @@ TEST(DeviceReader, AMaximumFrequencyThatTimedOutCanBeAskedForAgain) {
   EXPECT_FALSE(reader.missesMotion());
 }
 
+// An inverter that is off for a moment, behind a module that lives: nobody has said that there is no P105.
+TEST(DeviceReader, WhatIsRefusedForTheMomentCanBeAskedForAgain) {
+  using Reason = profile::ParameterReason;
+  for (const Reason reason : {Reason::kNoInverter, Reason::kDeviceFailure, Reason::kNotNow}) {
+    DeviceReader reader{profile::Series::kSk5xxe};
+    std::size_t requests = 0;
+    while (const auto request = reader.pollRequest()) {
+      if (asksForEver(++requests)) break;
+      ParameterResult result = done(500);
+      if (request->number == 105 && request->parameter_set == 2) {
+        result = failed(ParameterOutcome::kRefused);
+        result.reason = reason;
+      }
+      reader.handleResult(result);
+    }
+    ASSERT_TRUE(reader.missesMotion()) << profile::toString(reason);
+    reader.askMissingAgain();
+    const auto again = reader.pollRequest();
+    ASSERT_TRUE(again);
+    EXPECT_EQ(105, again->number);
+    EXPECT_EQ(2, again->parameter_set);
+    reader.handleResult(done(250));
+    EXPECT_FALSE(reader.pollRequest());
+    EXPECT_FALSE(reader.missesMotion());
+  }
+}
+
 // Where P105 was typed in, another one could be a step of the speed; P104 and the functions are asked for all the same.
 TEST(DeviceReader, ATypedMaximumFrequencyIsNotAskedForAgain) {
   DeviceReader reader{profile::Series::kSk5xxe};

@@ -64,6 +64,47 @@ TEST_P(Gap, TripsNothingBehindASilenceLimitEither) {
 
 INSTANTIATE_TEST_SUITE_P(Milliseconds, Gap, testing::Values(60, 100, 140, 160));
 
+// It hears us, and is not heard: its watchdog runs from the last request on, and not from the last answer. Asked for its
+// diagnosis, or parameterised, it would turn for a watchdog more as it was told last.
+TEST(SavedWatchdog, WhoHeardUsToTheLastGoesOnWithDataExchange) {
+  for (const Duration silence : {180ms, 220ms, 260ms}) {
+    Adapter run;
+    run.master.setSilenceLimit(0, 94ms);
+    run.segment.station(0).setMute(true);
+    const Instant lost = run.now();
+    while (run.now() < lost + silence) run.cycle(kPeriod);
+    EXPECT_NE(SlavePhase::kDataExchange, run.master.status(0).phase);
+    run.segment.station(0).setMute(false);
+    const Instant back = run.now();
+    while (!run.allExchange() && run.now() < back + 2s) {
+      run.cycle(kPeriod);
+      ASSERT_TRUE(run.segment.station(0).inDataExchange())
+          << "it was parameterised anew, after " << toSeconds(silence) << " s";
+    }
+    EXPECT_TRUE(run.allExchange());
+    EXPECT_EQ(0u, run.trips());
+  }
+}
+
+// Found without haste, and in data exchange with us all the same.
+TEST(SavedWatchdog, ALongOneGoesOnWithDataExchangeToo) {
+  std::vector<SlaveConfig> slaves = Adapter::slaves();
+  slaves[0].watchdog = 3s;
+  SimulatedRun run{Adapter::bus(), slaves};
+  for (int cycles = 0; !run.allExchange() && cycles < 200; ++cycles) run.cycle(kPeriod);
+  ASSERT_TRUE(run.allExchange());
+  run.segment.station(0).setMute(true);
+  const Instant lost = run.now();
+  while (run.now() < lost + 2s) run.cycle(kPeriod);
+  run.segment.station(0).setMute(false);
+  const Instant back = run.now();
+  while (!run.allExchange() && run.now() < back + 2s) {
+    run.cycle(kPeriod);
+    ASSERT_TRUE(run.segment.station(0).inDataExchange()) << "it was parameterised anew";
+  }
+  EXPECT_TRUE(run.allExchange());
+}
+
 // The one that is there is exchanged with in every cycle meanwhile, and keeps half of the time.
 TEST(SavedWatchdog, TheOthersKeepHalfOfTheTime) {
   Adapter run;

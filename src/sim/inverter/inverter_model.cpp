@@ -64,6 +64,7 @@ void InverterModel::step(double dt) noexcept {
   }
   in_state_ += dt;
   watchTimeout(dt);
+  if (!busControl() && terminals_.parameter_set) selectParameterSet(*terminals_.parameter_set);
   acknowledgeByItself();
   evaluate();
   watchPosition();

@@ -93,6 +93,9 @@ struct Terminals {
   double frequency = 0.0;   ///< Hz, signed; also what an analogue input would say
   bool coast = false;       ///< an input "disable voltage" is low
   bool quick_stop = false;  ///< an input "quick stop" is low
+  /// 0-3: inputs choose it while the terminals control. The bus manuals say that the status word tells which set is active
+  /// (BU 2700 6.4.2), and leave the functions of inputs to the inverters' own manuals (P420). Nothing: it stays.
+  std::optional<unsigned> parameter_set = {};
 };
 
 /// What the inverter shows of its inputs and of its own messages, as somebody has switched it.

@@ -43,6 +43,9 @@ class DpStation : public BusModule {
   ExchangeCounters countersOf(unsigned /*place*/) const noexcept override { return counters_; }
 
   std::uint8_t address() const noexcept { return address_; }
+  /// Another kind of module has been put in its place.
+  void setIdent(std::uint16_t ident) noexcept { ident_ = ident; }
+  std::uint16_t ident() const noexcept { return ident_; }
   SlaveState state() const noexcept { return state_; }
   const SlaveCounters& counters() const noexcept { return counters_; }
   bool inSyncMode() const noexcept { return sync_; }

@@ -240,6 +240,22 @@ TEST_F(Inverter, TerminalsStopUnderBusControl) {
   EXPECT_EQ(block::kQuickStopByTerminals, parameters.value(700, 0, 2));
 }
 
+// Bits 14 and 15 of the status word are the set that is active (BU 2700 6.4.2), whoever has chosen it.
+TEST_F(Inverter, TerminalsChooseTheParameterSetUnderLocalControl) {
+  Terminals third;
+  third.parameter_set = 2;
+  model.setTerminals(third);
+  hold(0x047E, 0, 0.1);
+  EXPECT_EQ(0u, model.parameterSet());
+  model.setLocalControl(true);
+  hold(0x047E, 0, 0.1);
+  EXPECT_EQ(2u, model.parameterSet());
+  EXPECT_EQ(0x8000, model.statusWord() & 0xC000);
+  model.setLocalControl(false);
+  hold(0x047E, 0, 0.1);
+  EXPECT_EQ(0u, model.parameterSet());
+}
+
 // "Not ready" and "switch-on disabled" have their reason in P700[-03] (BU 0020 8).
 TEST_F(Inverter, NamesTheReasonOfASwitchOnBlock) {
   const auto reason = [&] { return parameters.value(700, 0, 2); };
