@@ -87,8 +87,10 @@ void Master::startCycle(Instant now) noexcept {
   dropProcessData();
   bool any = false;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    nodes_[i]->handleCycle();
+    // SYNC is what a synchronous TPDO waits for, and an RPDO that stops a drive that is not heard.
+    any = any || nodes_[i]->operational() || nodes_[i]->status().fellSilent();
     if (!nodes_[i]->operational()) continue;
-    any = true;  // SYNC is what a synchronous TPDO waits for
     if (!nodes_[i]->takesReceivePdos(now)) continue;
     const std::vector<ReceivePdoSlot>& pdos = nodes_[i]->receivePdos();
     for (std::size_t pdo = 0; pdo < pdos.size(); ++pdo) {

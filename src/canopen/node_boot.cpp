@@ -14,6 +14,9 @@ constexpr Duration kLongestRefusePause = std::chrono::seconds{4};
 /// Two nodes with one id get stop words for so long.
 constexpr Duration kStopBoth = std::chrono::seconds{4};
 
+/// Of the bus cycle, after a loss: in the first the drive layer learns of it, with the next goes its word that stops.
+constexpr std::uint8_t kCyclesToTell = 2;
+
 /// Bounds the end of a driver whose node does not answer.
 constexpr Duration kLongestRelease = std::chrono::seconds{1};
 constexpr std::uint16_t kErrorRegisterIndex = 0x1001;
@@ -48,17 +51,32 @@ NodeBoot::NodeBoot(const NodeConfig& config, std::uint8_t own_id, Duration ask_i
       refuse_pause_(kFirstRefusePause, kLongestRefusePause) {}
 
 void NodeBoot::restart(Instant now) noexcept {
-  report_.enter(NodeState::kAbsent, {}, now);
-  report_.status().nmt = NmtState::kUnknown;
+  const bool may_run = past_.was_operational && report_.status().nmt == NmtState::kOperational;
+  report_.enter(may_run ? NodeState::kLost : NodeState::kAbsent, {}, now);
+  if (!may_run) report_.status().nmt = NmtState::kUnknown;
   command_.reset();
   past_ = Past{};
   ask_pause_.reset();
   refuse_pause_.reset();
-  if (config_.reset != BootReset::kNone) {
+  if (may_run) {
+    past_.was_operational = true;
+    tellFirst(now);
+  } else if (config_.reset != BootReset::kNone) {
     reset(now);
   } else {
     ask(now);
   }
+}
+
+// It may hear us without being heard, or have been out of reach of a moment's bus: what stops its drive goes out before
+// anything that makes it deaf to that.
+void NodeBoot::tellFirst(Instant now) noexcept {
+  past_.reset_due = config_.reset != BootReset::kNone;
+  past_.lost_at = now;
+  past_.cycles_to_tell = kCyclesToTell;
+  phase_ = Phase{Silent{}};
+  port_.cancel(SdoOwner::kBoot, now);
+  timers_.set(NodeTimer::kBoot, now + kFirstAskPause);
 }
 
 void NodeBoot::release(Instant now) noexcept {
@@ -153,7 +171,7 @@ void NodeBoot::handleState(NmtState state, Instant now) noexcept {
     ask(now);
     leadBack();
   } else if (isIn<Silent>() || isIn<Script>()) {
-    if (isIn<Silent>()) ask(now);
+    if (isIn<Silent>() && past_.cycles_to_tell == 0) ask(now);
     leadBack();
   }
 }
@@ -183,8 +201,7 @@ void NodeBoot::handleLoss(const Sentence& why, Instant now) noexcept {
   if (!isIn<Running>()) return;
   leave(why, now);
   report_.enter(NodeState::kLost, why, now);
-  past_.reset_due = config_.reset != BootReset::kNone;
-  ask(now);
+  tellFirst(now);
 }
 
 // What it was told it does at once: its next RPDO would go nowhere. Error control tells a guard time later, or never.
@@ -207,6 +224,7 @@ void NodeBoot::leadBack() noexcept {
 
 // Stopped by somebody unheard, or before we came, it answers no SDO. Whom we never started is led back at once.
 void NodeBoot::askAgain(Instant now) noexcept {
+  if (isIn<Silent>() && past_.cycles_to_tell > 0) return timers_.set(NodeTimer::kBoot, now + kFirstAskPause);
   const bool take_back = isIn<Silent>() && now - past_.lost_at >= config_.only_asked;
   guard_question_ = isIn<Silent>() && config_.error_control.mode == ErrorControlMode::kGuarding;
   if (take_back) past_.lost_at = now;  // again after as long
@@ -253,7 +271,7 @@ void NodeBoot::handleAnswer(const SdoAnswer& answer, Instant now) noexcept {
     ++report_.busCounters().sdo_aborts;
   }
   if (script != nullptr) return handleScriptAnswer(*script, answer, now);
-  if (Diagnose* const diagnose = std::get_if<Diagnose>(&phase_)) handleDiagnosis(*diagnose, answer, now);
+  if (StartDiagnosis* const diagnose = std::get_if<StartDiagnosis>(&phase_)) handleDiagnosis(*diagnose, answer, now);
 }
 
 void NodeBoot::handleScriptAnswer(Script& script, const SdoAnswer& answer, Instant now) noexcept {
@@ -275,7 +293,7 @@ void NodeBoot::handleScriptAnswer(Script& script, const SdoAnswer& answer, Insta
   }
 }
 
-void NodeBoot::handleDiagnosis(Diagnose& diagnose, const SdoAnswer& answer, Instant now) noexcept {
+void NodeBoot::handleDiagnosis(StartDiagnosis& diagnose, const SdoAnswer& answer, Instant now) noexcept {
   if (!diagnose.register_asked) {
     diagnose.register_asked = true;
     if (const auto value = numberOf(answer, 1)) diagnose.error_register = static_cast<std::uint8_t>(*value);
@@ -286,7 +304,7 @@ void NodeBoot::handleDiagnosis(Diagnose& diagnose, const SdoAnswer& answer, Inst
 }
 
 void NodeBoot::handleNoAnswer(Instant now) noexcept {
-  if (const Diagnose* const diagnose = std::get_if<Diagnose>(&phase_)) return refuseStart(*diagnose, now);
+  if (const StartDiagnosis* const diagnose = std::get_if<StartDiagnosis>(&phase_)) return refuseStart(*diagnose, now);
   Script* const script = std::get_if<Script>(&phase_);
   if (script == nullptr) return;
   script->ids.giveUp();  // some may come late
@@ -356,29 +374,14 @@ void NodeBoot::leave(const Sentence& why, Instant now) noexcept {
 }
 
 void NodeBoot::diagnose(bool heard, Instant now) noexcept {
-  Diagnose begun;
+  StartDiagnosis begun;
   begun.heard = heard;
   phase_ = Phase{begun};
   submit(sdoRead(0, kErrorRegisterIndex, 0), now);
 }
 
-void NodeBoot::refuseStart(const Diagnose& diagnose, Instant now) noexcept {
-  Sentence why;
-  if (diagnose.heard) {
-    why.format("does not become operational after NMT start: it stays %s", toText(report_.status().nmt));
-  } else {
-    why.format("was started, but is not heard by %s",
-               config_.error_control.mode == ErrorControlMode::kHeartbeat ? "heartbeat" : "guarding");
-  }
-  if (diagnose.error_register) {
-    const Sentence state = why;
-    why.format("%s, error register %02Xh", state.c_str(), unsigned{*diagnose.error_register});
-  }
-  if (diagnose.last_error) {
-    const Sentence state = why;
-    why.format("%s, last error %04Xh", state.c_str(), unsigned{*diagnose.last_error});
-  }
-  refuse(why, now);
+void NodeBoot::refuseStart(const StartDiagnosis& diagnosis, Instant now) noexcept {
+  refuse(startRefusal(diagnosis, report_.status().nmt, config_.error_control.mode), now);
 }
 
 void NodeBoot::refuse(const Sentence& why, Instant now) noexcept {

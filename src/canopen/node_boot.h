@@ -25,6 +25,7 @@
 #include "canopen/node_timers.h"
 #include "canopen/release_script.h"
 #include "canopen/sdo_port.h"
+#include "canopen/start_diagnosis.h"
 #include "core/growing_pause.h"
 #include "nord_driver/core/fixed_text.h"
 #include "nord_driver/core/time.h"
@@ -44,7 +45,12 @@ class NodeBoot {
   NodeBoot(const NodeConfig& config, std::uint8_t own_id, Duration ask_interval, NodeReport& report, SdoPort& port,
            NodeTimers& timers) noexcept;
 
+  /// One that may still be operational is first told what stops its drive, as after a loss.
   void restart(Instant now) noexcept;
+  /// A bus cycle begins; what is sent to a node that is lost went out before.
+  void handleCycle() noexcept {
+    if (past_.cycles_to_tell > 0) --past_.cycles_to_tell;
+  }
   /// Lets the node go: a reset of its communication where the configuration allows one; otherwise it is told not to
   /// watch us any more, which takes a second at most, and led to pre-operational.
   void release(Instant now) noexcept;
@@ -87,28 +93,23 @@ class NodeBoot {
     std::uint8_t tries_left = 1;
     bool heard = false;
   };
-  struct Diagnose {
-    bool heard = false;  // after the start
-    bool register_asked = false;
-    std::optional<std::uint8_t> error_register;
-    std::optional<std::uint16_t> last_error;
-  };
   struct Running {};
   struct Silent {};      // pause between two questions
   struct Refused {};     // pause before the next attempt
   struct Release {       // it is told not to watch us
     bool error_control;  // goes on until then
   };
-  using Phase = std::variant<Off, AwaitBootUp, Script, Start, Diagnose, Running, Silent, Refused, Release>;
+  using Phase = std::variant<Off, AwaitBootUp, Script, Start, StartDiagnosis, Running, Silent, Refused, Release>;
 
   /// What is known of the node from one phase to the next.
   struct Past {
     bool reset_due = false;  // it was not reset since it was lost
     bool fresh = false;      // see fresh()
     bool was_operational = false;
-    bool doubled = false;  // two nodes answered: it was started all the same, to be stopped
-    Sentence lost_why;     // empty once it was found again
-    Instant lost_at{};     // or taken back last
+    bool doubled = false;             // two nodes answered: it was started all the same, to be stopped
+    Sentence lost_why;                // empty once it was found again
+    Instant lost_at{};                // or taken back last
+    std::uint8_t cycles_to_tell = 0;  // before it is asked, or reset
     BootUpWatch boot_ups;
   };
 
@@ -122,7 +123,7 @@ class NodeBoot {
   void submit(const SdoRequest& request, Instant now) noexcept;
   void handleAnswer(const SdoAnswer& answer, Instant now) noexcept;
   void handleScriptAnswer(Script& script, const SdoAnswer& answer, Instant now) noexcept;
-  void handleDiagnosis(Diagnose& diagnose, const SdoAnswer& answer, Instant now) noexcept;
+  void handleDiagnosis(StartDiagnosis& diagnose, const SdoAnswer& answer, Instant now) noexcept;
   void handleNoAnswer(Instant now) noexcept;
   void handleDeadline(Instant now) noexcept;
   void found(Instant now) noexcept;
@@ -130,10 +131,11 @@ class NodeBoot {
   void start(bool doubled, Instant now) noexcept;
   void run(Instant now) noexcept;
   void leadBack() noexcept;
+  void tellFirst(Instant now) noexcept;
   void askAgain(Instant now) noexcept;
   void leave(const Sentence& why, Instant now) noexcept;
   void diagnose(bool heard, Instant now) noexcept;
-  void refuseStart(const Diagnose& diagnose, Instant now) noexcept;
+  void refuseStart(const StartDiagnosis& diagnosis, Instant now) noexcept;
   void refuseBoth(Instant now) noexcept;
   void refuse(const Sentence& why, Instant now) noexcept;
 

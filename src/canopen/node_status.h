@@ -60,6 +60,9 @@ struct NodeStatus {
   std::optional<Instant> other_commands_at;  ///< another master's last RPDO for it
   Instant since{};                           ///< of `state`
   NodeCounters counters;
+
+  /// Lost by its error control alone: nobody has told it to leave operation, and it may hear its RPDOs.
+  bool fellSilent() const noexcept { return state == NodeState::kLost && nmt == NmtState::kOperational; }
 };
 
 }  // namespace nord_driver::canopen

@@ -12,11 +12,6 @@ namespace {
 // An inverter that two command does what the last one said. It is ours again when the other was silent for so long.
 constexpr Duration kContested = std::chrono::seconds{1};
 
-// Lost by its error control alone: nobody has told it to leave operation.
-bool fellSilent(const canopen::NodeStatus& status) noexcept {
-  return status.state == canopen::NodeState::kLost && status.nmt == canopen::NmtState::kOperational;
-}
-
 // Bits 0 to 3 of a word that keeps an inverter running; every one that stops has one of them at 0 (BU 2700 6.4.1).
 constexpr Word kRuns = 0x000F;
 
@@ -42,7 +37,7 @@ void CanopenDriveState::putOutput(const profile::ProcessOutput& output, canopen:
 
 std::optional<CanFrame> CanopenDriveState::unheardCommand(const canopen::Master& master) const noexcept {
   const canopen::NodeStatus& status = master.status(config_.node);
-  if (!fellSilent(status) || !stops_) return std::nullopt;
+  if (!status.fellSilent() || !stops_) return std::nullopt;
   return dataFrame(receive_id_, output_);
 }
 
@@ -126,7 +121,7 @@ Interruption CanopenDriveState::takeInterruption(const canopen::NodeStatus& stat
   if (status.state == canopen::NodeState::kOperational) start_ = status.counters.boots;
   if (!before || start_ == before) return Interruption::kNone;
   // Without a bus nothing is known of the node, and nobody has asked it for anything.
-  return fellSilent(status) || !bus_works ? Interruption::kSilent : Interruption::kUnasked;
+  return status.fellSilent() || !bus_works ? Interruption::kSilent : Interruption::kUnasked;
 }
 
 void CanopenDriveState::explain(const canopen::NodeStatus& status, bool bus_works, bool ever_sent,
