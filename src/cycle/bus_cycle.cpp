@@ -206,7 +206,7 @@ void BusCycle::commandSingles(Instant now, Duration dt) noexcept {
     group.commandIsFresh(fresh, now);
     const bool follow = group.commandAllowed();
     const JointBounds bounds{drives_[i].maxVelocity().value_or(RadPerSec{}).value, drives_[i].minVelocity().value,
-                             drives_[i].comesToRest()};
+                             drives_[i].comesToRest(), !(follow && fresh)};
     const double velocity = axes_[i].motion.pollVelocity(follow && fresh ? newest.velocity : 0.0,
                                                          follow || group.wantsZeroRamp(), bounds, dt);
     setVelocity(i, velocity);

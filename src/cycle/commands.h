@@ -14,6 +14,8 @@ struct TwistCommand {
   Instant received{};
   bool given = false;                 ///< false until the first command
   std::optional<Instant> moved = {};  ///< when the newest that was not zero came; CyclePorts keeps it
+  /// Nobody knows whom to follow: the base brakes as without one. For whoever wants to enable it is what it says.
+  bool held = false;
 };
 
 /// For a drive that belongs to no base.

@@ -12,6 +12,7 @@ struct JointBounds {
   double max_speed = 0.0;       ///< rad/s, 100 % of the setpoint at the joint
   double min_speed = 0.0;       ///< rad/s, P104 at the joint: below it the motor turns at it all the same; 0: none
   bool coming_to_rest = false;  ///< on its way to rest by OFF1, for P104: it would not follow yet
+  bool stops = false;           ///< nobody asks for the target: it is 0, and approached from the first step on
 };
 
 /// A drive that is not driving forgets its velocity, so that the next start begins from standstill. The ramp is the

@@ -23,6 +23,7 @@ std::vector<drive::Drive> makeDrives(const CycleConfig& config, Transport& trans
     const DriveIdentity identity = transport.identity(drives.size());
     drive.drive_timeout = driveTimeout(config, setup, identity);
     drive.parameter_sets = identity.parameter_sets;
+    drive.has_quick_stop = identity.has_quick_stop;
     drive.led = setup.leader.has_value();
     shortest = std::min(shortest, drive.drive_timeout);
     drives.emplace_back(drive);

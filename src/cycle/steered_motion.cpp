@@ -61,7 +61,8 @@ robot::SteeredSetpoint SteeredMotion::poll(const TwistCommand& command, bool dri
   if (was_blind_) steered_ = drives.angles;
   was_blind_ = false;
   const robot::WheelSpeeds limits = robot::tighterOf(drives.max_speeds, joint_limits_);
-  const bool obey = follow && !drives.minimum.coming_to_rest && !isStale(command, timeout_, now);
+  const bool obey = follow && !drives.minimum.coming_to_rest && !command.held && !isStale(command, timeout_, now);
+  if (!obey) limiter_.endAcceleration();
   robot::Twist2d target = targetOf(command, obey, limits, drives.angles);
   // Taken as zero at once, it is left along the limits.
   below_minimum_ = anyBelow(kinematics_.solve(target, drives.angles, steered_).wheels, drives.minimum.wheels);

@@ -183,13 +183,12 @@ void Drive::follow(StatusWord status, Instant now) noexcept {
     case Phase::kStopping:
       return followStopping(report_.state, now);
     case Phase::kQuickStopping:
-      return followQuickStop(report_.state, now);
+    case Phase::kCoasting:
+      return followOff2OrOff3(report_.state, now);
     case Phase::kAcknowledging:
       return followAcknowledging(status, now);
     case Phase::kSwitchingSet:
       return followSwitchingSet(status, now);
-    case Phase::kCoasting:
-      return followCoasting(report_.state, now);
     default:
       return;
   }
@@ -261,9 +260,10 @@ void Drive::followStopping(DriveState state, Instant now) noexcept {
   boundRamp(now);
 }
 
-void Drive::followQuickStop(DriveState state, Instant now) noexcept {
-  // Ends in "switch-on disabled" by itself at f = 0 (BU 2700 6.4.1 bit 2), or at once from "ready" (6.4.3 no. 7).
-  const bool ended = state == DriveState::kSwitchOnDisabled || state == DriveState::kNotReadyToSwitchOn;
+void Drive::followOff2OrOff3(DriveState state, Instant now) noexcept {
+  // OFF3 ends in "switch-on disabled" by itself at f = 0 (BU 2700 6.4.1 bit 2), or at once from "ready" (6.4.3 no. 7).
+  const bool ended = state == DriveState::kSwitchOnDisabled || state == DriveState::kNotReadyToSwitchOn ||
+                     (!config_.has_quick_stop && state == DriveState::kReadyToSwitchOn);
   if (phase_.sent && ended) enter(Phase::kIdle, now);
 }
 
@@ -292,11 +292,6 @@ void Drive::followSwitchingSet(StatusWord status, Instant now) noexcept {
     return;
   }
   enter(Phase::kIdle, now);
-}
-
-void Drive::followCoasting(DriveState state, Instant now) noexcept {
-  const bool ended = state == DriveState::kSwitchOnDisabled || state == DriveState::kNotReadyToSwitchOn;
-  if (phase_.sent && ended) enter(Phase::kIdle, now);
 }
 
 void Drive::tellSet() noexcept {

@@ -52,6 +52,8 @@ struct DriveConfig {
   std::int16_t near_standstill = 164;
   /// How many parameter sets can be commanded: 4, or 1.
   std::uint8_t parameter_sets = 4;
+  /// False: its profile has no OFF2 and OFF3. An ordinary stop stands in their place, and ends as one.
+  bool has_quick_stop = true;
   /// P104 > 0 is no reason to refuse enabling.
   bool allow_minimum_frequency = false;
   /// Cross-check the sign of actual value 1 with status bits 11 and 12. No manual defines that sign in left rotation.
@@ -190,10 +192,9 @@ class Drive {
   void followStopping(profile::DriveState state, Instant now) noexcept;
   /// A ramp that has not ended within shutdown_timeout ends in a quick stop.
   void boundRamp(Instant now) noexcept;
-  void followQuickStop(profile::DriveState state, Instant now) noexcept;
+  void followOff2OrOff3(profile::DriveState state, Instant now) noexcept;
   void followAcknowledging(profile::StatusWord status, Instant now) noexcept;
   void followSwitchingSet(profile::StatusWord status, Instant now) noexcept;
-  void followCoasting(profile::DriveState state, Instant now) noexcept;
   Refusal setRefusal(std::uint8_t set) const noexcept;
   void breakOff(Refusal why) noexcept;
   static void end(RequestReport& request, Refusal refusal) noexcept;

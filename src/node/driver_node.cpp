@@ -198,7 +198,7 @@ void DriverNode::takeCommand(const geometry_msgs::Twist& twist) {
   if (!config_.publish.allow_multiple_cmd_vel_publishers && command_subscriber_.getNumPublishers() > 1) {
     ROS_ERROR_THROTTLE(1.0, "nord_driver: %u publishers on cmd_vel, expected one: the base brakes",
                        command_subscriber_.getNumPublishers());
-    command.twist = {};
+    command.held = true;
   }
   ports_->commandBase(command);
 }

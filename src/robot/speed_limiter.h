@@ -25,6 +25,11 @@ class SpeedLimiter {
   /// Continues from this velocity at rest in acceleration; a value that is not finite counts as zero.
   void reset(double velocity = 0.0) noexcept;
 
+  /// What it gains speed by ends at once, whatever the jerk limit: for a stop, which slows down from its first step on.
+  void endAcceleration() noexcept {
+    if (acceleration_ * velocity_ > 0.0) acceleration_ = 0.0;
+  }
+
   double velocity() const noexcept { return velocity_; }
 
  private:

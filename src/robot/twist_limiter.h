@@ -33,6 +33,10 @@ class TwistLimiter {
   /// The twist after a step of `dt` towards `target`; a `dt` that is not positive changes nothing.
   /// A target with a value that is not finite brakes every axis to zero.
   Twist2d limit(const Twist2d& target, Duration dt) noexcept;
+  /// For a stop: see SpeedLimiter.
+  void endAcceleration() noexcept {
+    for (SpeedLimiter& axis : axes_) axis.endAcceleration();
+  }
   /// Continues from this twist: zero after a stop that the drives made by themselves.
   void reset(const Twist2d& twist = {}) noexcept;
 

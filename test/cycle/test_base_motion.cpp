@@ -77,6 +77,39 @@ TEST_F(BaseMotionTest, BrakesAlongTheDecelerationLimitWhenTheCommandMayNotBeFoll
   EXPECT_NEAR(2.8, poll(true, false)[0], 1e-9);
 }
 
+// Within the jerk limit the base would go on gaining speed for half a second.
+TEST_F(BaseMotionTest, AStopSlowsDownFromItsFirstStepOnWithAJerkLimit) {
+  BaseConfig config = configWithDeceleration(1.0);
+  config.limits.linear_x.max_acceleration = 1.0;
+  config.limits.linear_x.has_jerk_limits = true;
+  config.limits.linear_x.max_jerk = 2.0;
+  for (const bool by_age : {false, true}) {
+    motion_ = BaseMotion{config, kTimeout};
+    for (int i = 0; i < 80; ++i) {
+      command(3.0);
+      poll();
+    }
+    double before = poll()[0];
+    ASSERT_GT(poll()[0], before);
+    before = poll()[0];
+    if (by_age) now_ += kTimeout;
+    for (int i = 0; i < 5; ++i) {
+      const double now = poll(true, by_age)[0];
+      EXPECT_LT(now, before) << i;
+      before = now;
+    }
+  }
+}
+
+// More than one commands: nobody knows whom to follow.
+TEST_F(BaseMotionTest, ACommandThatIsHeldBrakes) {
+  motion_ = BaseMotion{configWithDeceleration(1.0), kTimeout};
+  command(0.3);
+  ASSERT_NEAR(3.0, poll()[0], 1e-9);
+  command_.held = true;
+  EXPECT_NEAR(2.9, poll()[0], 1e-9);
+}
+
 // Multipliers taken over under way would be a step of the wheels' speeds: they wait until the base is to stand.
 TEST_F(BaseMotionTest, IsTunedWhenItStands) {
   command(0.3);

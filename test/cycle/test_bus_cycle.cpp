@@ -30,14 +30,6 @@ TEST_F(BusCycleTest, SendsTheIgnoredWordFirstThenTheIdleWord) {
   EXPECT_EQ(0x047E, controlWord(kLeft));
 }
 
-TEST(BusCycleTimes, AreToldToTheTransport) {
-  CycleConfig config = CycleBench::config();
-  config.shutdown_timeout = seconds(42.0);
-  const CycleBench bench{config};
-  EXPECT_EQ(seconds(42.0), bench.transport.told_shutdown_timeout);
-  EXPECT_EQ(config.drives[0].drive.drive_timeout, bench.transport.told_drive_timeout);
-}
-
 TEST_F(BusCycleTest, HandsTheNewestCommandsToTheDrives) {
   bringUp();
   enable();

@@ -46,6 +46,21 @@ TEST_F(FirstCommand, AutoEnableNeverStartsUnderACommanderThatIsTalkingAlready) {
   }
 }
 
+// Two publishers: nobody is followed; but it would be as soon as the other one is gone.
+TEST_F(FirstCommand, OneThatIsOnlyHeldIsACommandForWhoeverEnables) {
+  CycleBench robot{config(seconds(0.5)), true};
+  for (int i = 0; i < 300; ++i) {
+    TwistCommand command{{0.25, 0.0}, robot.transport.time, true};
+    command.held = true;
+    robot.ports.commandBase(command);
+    robot.step();
+  }
+  EXPECT_FALSE(robot.snapshot().base.enabled) << "auto_enable";
+  const Completion answer = robot.ask(RequestKind::kEnable);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.str(), HasSubstr("the newest cmd_vel is not zero"));
+}
+
 TEST_F(FirstCommand, AutoEnableActsUnderZerosAndUnderNothing) {
   for (const bool zeros : {true, false}) {
     CycleBench robot{config(seconds(0.5)), true};

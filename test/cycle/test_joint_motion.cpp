@@ -44,6 +44,22 @@ TEST(JointMotion, GoesToItsTargetAlongTheLimits) {
   EXPECT_EQ(0.0, motion.pollVelocity(0.0, true, kFree, kStep)) << "exactly";
 }
 
+// Within the jerk limit it would go on gaining speed for half a second.
+TEST(JointMotion, AStopSlowsDownFromItsFirstStepOn) {
+  JointMotion motion{limits(0.0, 10.0, 20.0)};
+  double before = 0.0;
+  for (int i = 0; i < 60; ++i) before = motion.pollVelocity(80.0, true, kFree, kStep);
+  EXPECT_GT(motion.pollVelocity(0.0, true, kFree, kStep), before) << "a command of zero keeps the jerk limit";
+  for (int i = 0; i < 200; ++i) before = motion.pollVelocity(80.0, true, kFree, kStep);
+  JointBounds stop = kFree;
+  stop.stops = true;
+  for (int i = 0; i < 5; ++i) {
+    const double now = motion.pollVelocity(0.0, true, stop, kStep);
+    EXPECT_LT(now, before) << i;
+    before = now;
+  }
+}
+
 TEST(JointMotion, ADriveThatIsNotDrivingBeginsAnew) {
   JointMotion motion{limits(0.0, 10.0)};
   for (int i = 0; i < 10; ++i) motion.pollVelocity(8.0, true, kFree, kStep);

@@ -25,6 +25,29 @@ TEST_F(DriveTest, HoldsOff1UntilReadyToSwitchOn) {
   EXPECT_EQ(StopCause::kNone, report().stop_cause);
 }
 
+// Its profile has an ordinary stop in the place of OFF2 and OFF3.
+TEST_F(DriveTest, EndsAStopWithoutOff2AndOff3WhereAnOrdinaryOneEnds) {
+  for (const bool has : {true, false}) {
+    DriveConfig with = config();
+    with.has_quick_stop = has;
+    for (const bool coast : {true, false}) {
+      drive_ = Drive{with};
+      run();
+      if (coast) {
+        drive_.requestCoast(now_);
+      } else {
+        drive_.requestQuickStop(now_);
+      }
+      cycle(0x0A37, 0x1000);
+      EXPECT_EQ(coast ? Phase::kCoasting : Phase::kQuickStopping, report().phase);
+      cycle(0x0B31);
+      EXPECT_EQ(!has, report().phase == Phase::kIdle);
+      cycle(0x0B70);
+      EXPECT_EQ(Phase::kIdle, report().phase);
+    }
+  }
+}
+
 TEST_F(DriveTest, QuickStopsWhenOff1DoesNotEnd) {
   run();
   drive_.requestShutdown(now_);

@@ -93,6 +93,35 @@ INSTANTIATE_TEST_SUITE_P(All, DevicenetKinds,
                            return std::string{test.param.first} + std::to_string(test.param.second);
                          });
 
+// The AC drive profile has no OFF3 and no parameter sets: what is asked for ends all the same, or is refused in words.
+TEST(DevicenetAcDrive, AQuickStopIsARampThatEnds) {
+  for (const int assembly : {20, 21}) {
+    DevicenetRobot::Options options;
+    options.assembly = assembly;
+    DevicenetRobot robot{withoutSlip(options)};
+    ASSERT_TRUE(robot.bringUpAndEnable()) << robot.text(0) << " / " << robot.busText();
+    EXPECT_FALSE(robot.transport().identity(0).has_quick_stop);
+    for (const bool turning : {true, false}) {
+      if (turning && assembly == 21) robot.drive(kHalfSpeed, 0.0, seconds{3});
+      cycle::Request request;
+      request.kind = cycle::RequestKind::kQuickStop;
+      request.patience = seconds{10};
+      const cycle::Completion stopped = robot.ask(request);
+      EXPECT_TRUE(stopped.success) << stopped.message.c_str();
+      EXPECT_TRUE(robot.standsStill());
+      robot.run(milliseconds{600});
+      const cycle::Completion enabled = robot.ask(cycle::RequestKind::kEnable);
+      EXPECT_TRUE(enabled.success) << assembly << ": " << enabled.message.c_str();
+    }
+    ASSERT_TRUE(robot.ask(cycle::RequestKind::kDisable).success);
+    cycle::Request set;
+    set.kind = cycle::RequestKind::kSelectParameterSet;
+    set.drive = 0;
+    set.parameter_set = 2;
+    EXPECT_THAT(robot.ask(set).message.str(), HasSubstr("parameter set 1 only"));
+  }
+}
+
 /// One module, four inverters in 33 bytes.
 class DevicenetFourInverters : public ::testing::Test {
  protected:

@@ -43,6 +43,8 @@ struct DriveIdentity {
   bool timeout_needed = false;  ///< `protected_by` stops the drive only together with a time-out of the drive above 0
   /// How many parameter sets the control word of this drive can command: 4, or 1 where its profile has no bits for them.
   std::uint8_t parameter_sets = 4;
+  /// False: its profile has no words for OFF2 and OFF3, an ordinary stop stands in their place.
+  bool has_quick_stop = true;
   std::uint8_t inverter = 1;  ///< 1..4 behind a bus module that serves several
   /// Drives with the same number are behind the same bus module; nothing: this one has a module of its own.
   std::optional<std::size_t> shared_module = std::nullopt;

@@ -219,7 +219,11 @@ DriveIdentity DeviceNetTransport::identity(DriveIndex drive) const {
   DriveIdentity identity;
   identity.address = "DeviceNet MAC id " + std::to_string(config.mac);
   if (gateway) identity.address += ", inverter " + std::to_string(config.inverter);
-  if (config.drive_profile != DevicenetProfile::kNord) identity.address += ", AC drive profile";
+  if (config.drive_profile != DevicenetProfile::kNord) {
+    identity.address += ", AC drive profile";
+    identity.parameter_sets = 1;
+    identity.has_quick_stop = false;
+  }
   identity.process_values = config.processValues();
   identity.parameter_channel = "explicit messages";
   identity.module_io = config_.modules[config.module].output_byte && config_.modules[config.module].input_byte;
