@@ -10,12 +10,6 @@ using cycle::RequestKind;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-namespace {
-
-constexpr double kFullSpeed = Player::kFullSpeed, kRadius = Player::kRadius, kSeparation = Player::kSeparation;
-
-}  // namespace
-
 // "drive": amount and extra are % of the full speed of a wheel, along and around; "turn": of the drive it names. "go" and
 // "onward": a target and an increment of an axis, amount is % of its upper limit. Requests:
 // extra is what the act says, of all drives or of one. "stall": amount ms. "respawn": the driver ends without a word and
