@@ -116,8 +116,10 @@ void Player::endNode() {
   pass(seconds{1});
 }
 
-// SIGKILL: the time-outs of the drives act.
+// SIGKILL: the time-outs of the drives act. One that has just begun over turning wheels has fed them with words that only
+// look: it is given the cycles it needs to say more.
 void Player::kill() {
+  while (goesOn() && began_ && now() - *began_ < byWords()) tick();
   moment_.judged = false;
   for (GroupWish& group : moment_.groups) group.asked = group.confirmed = false;
   disturbed_ = now();
@@ -135,6 +137,7 @@ void Player::respawn(Duration gone) {
   pass(gone);
   disturbed_ = now();
   rig_->robot().restartDriver();
+  began_ = now();
   moment_.snapshot = nullptr;
   forgetMoves();
   for (auto& invariant : invariants_) invariant->driverBegan();
