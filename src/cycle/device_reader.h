@@ -16,9 +16,8 @@ namespace nord_driver::cycle {
 /// Begins again whenever the drive has come back: it may have been exchanged. A parameter that times out is asked for
 /// three times (once, as long as nothing is answered at all), one the drive refuses is left out; a question that did
 /// not reach the drive is put again. First come those that decide motion: P105, without which nothing can be driven,
-/// P104, and the functions of setpoint 1 and actual value 1, of all parameter sets. One of these that timed out, or that was
-/// refused for the moment, is
-/// asked for again whenever the owner wants to.
+/// P104, and the functions of setpoint 1 and actual value 1, of all parameter sets. One of these that timed out, or was
+/// refused for the moment, is asked for again whenever the owner wants to.
 class DeviceReader {
  public:
   /// `owner`: whose time-outs are read; those of a module by requests the transport passes on to it.

@@ -134,7 +134,7 @@ class DriveParameters {
     bool answered = false;         // it was overdue
   };
   FixedVector<Pending, drive::ParameterSession::kCapacity> pending_;
-  CompletionQueue<2 * drive::ParameterSession::kCapacity> completions_;
+  CompletionQueue<48> completions_;  // a full queue of requests refused, and every access ended
 };
 
 }  // namespace nord_driver::cycle

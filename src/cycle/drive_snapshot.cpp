@@ -1,5 +1,7 @@
 #include "cycle/drive_snapshot.h"
 
+#include <optional>
+
 #include "cycle/user_messages.h"
 
 namespace nord_driver::cycle {
@@ -29,8 +31,9 @@ void fillSample(DriveSample& to, const DrivePictured& from, Instant now) noexcep
   to.saturated = report.saturated || (drive::isEnabled(report.phase) && from.beyond_its_speed);
   to.fault_number = from.axis.parameters.faults().number();
   to.position = report.position.position;
-  to.position_reached = report.position.reached;
-  to.position_following = report.position.following;
+  // One that was enabled in this cycle may have been taken back since: another drive refuses.
+  to.position_reached = report.position.reached && drive::isEnabled(report.phase);
+  to.position_following = report.position.following && drive::isEnabled(report.phase);
   to.position_at_limit = report.position.at_limit;
   to.homed = report.position.homed;
 }
@@ -40,7 +43,7 @@ void fillPosition(DriveSnapshot& to, const DrivePictured& from) noexcept {
   const drive::PositionReport& position = from.report.position;
   if (position.position) to.joint_position = *position.position;
   to.joint_known = to.joint_known || position.position.has_value();
-  to.position_target = position.target;
+  to.position_target = drive::isEnabled(from.report.phase) ? position.target : std::nullopt;
   to.position_held_back = position.held_back;
   to.position_refused = from.axis.targets.refused();
 }

@@ -30,8 +30,10 @@ std::optional<std::string> TurnsOnlyAsCommanded::look(const Moment& moment) {
       Track& track = tracks_[i];
       const double speed = std::fabs(drive.frequency);
       track.bound.look(moment, cut, group.asked ? std::fabs(moment.wanted[i]) : 0.0, drive.ramp, dt);
-      // Terminals turn it as they like, and their ramp follows them down.
-      if (turnsByTerminals(drive)) track.bound.raise(speed);
+      // Terminals turn it as they like, and their ramp follows them down; until some time after the look before they did.
+      const bool by_terminals = turnsByTerminals(drive);  // that is no stop of ours
+      if (by_terminals || track.by_terminals) track.bound.raise(speed);
+      track.by_terminals = by_terminals;
       if (speed > track.bound.value() + kRounding) {
         std::ostringstream out;
         out << "drive " << i << ": " << drive.frequency << " Hz, no more than " << track.bound.value()
@@ -39,7 +41,6 @@ std::optional<std::string> TurnsOnlyAsCommanded::look(const Moment& moment) {
         return out.str();
       }
       const double allowed = track.bound.allowedNow();
-      const bool by_terminals = turnsByTerminals(drive);  // that is no stop of ours
       if (allowed > 0.0 || speed < kAtRest || by_terminals) {
         if (track.ended && speed < kAtRest && allowed == 0.0 && !by_terminals && track.stop_bound > 0.0) {
           const Stop stop{track.stop_took, track.stop_bound};

@@ -32,6 +32,7 @@ class TurnsOnlyAsCommanded final : public Invariant {
  private:
   struct Track {
     SpeedBound bound;
+    bool by_terminals = false;
     std::optional<Instant> ended;  // when nothing allowed it any more
     double stop_took = 0.0;
     double stop_bound = 0.0;

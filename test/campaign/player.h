@@ -122,6 +122,7 @@ class Player {
   std::size_t next_ = 0;
   std::vector<Active> active_;
   std::optional<Instant> disturbed_;  // when something disturbed last
+  std::optional<Instant> began_;      // when a driver took the place of another one
   std::vector<Call> calls_;
   std::size_t first_open_ = 0;
   std::size_t seen_answers_ = 0;

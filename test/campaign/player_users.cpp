@@ -10,12 +10,6 @@ using cycle::RequestKind;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-namespace {
-
-constexpr double kFullSpeed = Player::kFullSpeed, kRadius = Player::kRadius, kSeparation = Player::kSeparation;
-
-}  // namespace
-
 // "drive": amount and extra are % of the full speed of a wheel, along and around; "turn": of the drive it names. "go" and
 // "onward": a target and an increment of an axis, amount is % of its upper limit. Requests:
 // extra is what the act says, of all drives or of one. "stall": amount ms. "respawn": the driver ends without a word and
@@ -122,8 +116,10 @@ void Player::endNode() {
   pass(seconds{1});
 }
 
-// SIGKILL: the time-outs of the drives act.
+// SIGKILL: the time-outs of the drives act. One that has just begun over turning wheels has fed them with words that only
+// look: it is given the cycles it needs to say more.
 void Player::kill() {
+  while (goesOn() && began_ && now() - *began_ < byWords()) tick();
   moment_.judged = false;
   for (GroupWish& group : moment_.groups) group.asked = group.confirmed = false;
   disturbed_ = now();
@@ -141,6 +137,7 @@ void Player::respawn(Duration gone) {
   pass(gone);
   disturbed_ = now();
   rig_->robot().restartDriver();
+  began_ = now();
   moment_.snapshot = nullptr;
   forgetMoves();
   for (auto& invariant : invariants_) invariant->driverBegan();

@@ -51,6 +51,18 @@ class OverdueParameters : public ::testing::Test, protected CycleBench {
   bool wrote_ = false;
 };
 
+// Many clients at once: those that find no room are told so in the same cycle, and those that waited when their patience
+// ends, which may be that cycle, too.
+TEST_F(OverdueParameters, OfAFullQueueOfRequestsEachIsAnswered) {
+  constexpr std::uint32_t kWaiting = 8, kQueued = 31;
+  for (std::uint32_t i = 0; i < kWaiting; ++i) submit(read(), 501 + i, milliseconds{200});
+  for (const Instant end = transport.time + milliseconds{190}; transport.time < end;) step();
+  completions.clear();
+  for (std::uint32_t i = 0; i < kQueued; ++i) submit(read(), 601 + i, milliseconds{200});
+  run(3);
+  EXPECT_EQ(kWaiting + kQueued, completions.size());
+}
+
 TEST_F(OverdueParameters, AReadIsAnsweredWhenThePatienceEnds) {
   submit(read(), 501, milliseconds{200});
   const Instant end = transport.time + milliseconds{200};

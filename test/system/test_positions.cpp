@@ -130,6 +130,29 @@ TYPED_TEST(Positions, WhatStopsAnAxisLeavesNoTargetBehind) {
   }
 }
 
+// All drives or none: one that refuses takes the other back, in the cycle in which that one was enabled. Where its fault
+// is heard only after both have been, they are drives of their own.
+TYPED_TEST(Positions, WhoIsNotEnabledHasNoTargetAndReachesNone) {
+  TypeParam robot{TestFixture::options(10.0)};
+  ASSERT_TRUE(robot.bringUp());
+  cycle::Request request;
+  request.kind = RequestKind::kEnable;
+  request.patience = std::chrono::seconds{3};
+  robot.ports().submit(request);
+  bool tripped = false;
+  for (int i = 0; i < 400; ++i) {
+    const bool enabled = robot.unit(0).inverter().state() == sim::InverterState::kOperationEnabled;
+    if (enabled && !tripped) robot.unit(1).inverter().trip(30, true);
+    tripped = tripped || enabled;
+    robot.step();
+    const cycle::DriveSnapshot& drive = robot.snapshot().drives[0];
+    if (drive.enabled) continue;
+    EXPECT_FALSE(drive.position_reached) << "cycle " << i;
+    EXPECT_FALSE(drive.position_target) << "cycle " << i;
+  }
+  EXPECT_TRUE(tripped);
+}
+
 // The new one finds it moving, and knows no target: it brings it to rest, and tells its position without a jump.
 TYPED_TEST(Positions, ANewDriverOverAMovingAxisForgetsItsTarget) {
   TypeParam robot{TestFixture::options(10.0)};
