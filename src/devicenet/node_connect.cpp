@@ -114,6 +114,7 @@ std::optional<ConnectRequest> NodeConnect::requestOf(Phase phase) const noexcept
       return releaseRequest(held_ & kConnections);
     case Phase::kOff:
     case Phase::kPause:
+    case Phase::kAwaitOwnTimeOut:
     case Phase::kRunning:
     case Phase::kRefusedPause:
     case Phase::kReleased:
@@ -193,6 +194,7 @@ void NodeConnect::handleAnswer(const ExplicitAnswer& answer, Instant now) noexce
       return;
     case Phase::kOff:
     case Phase::kPause:
+    case Phase::kAwaitOwnTimeOut:
     case Phase::kRunning:
     case Phase::kRefusedPause:
     case Phase::kReleased:

@@ -40,7 +40,8 @@ class NodeConnect {
   void handleLoss(const Sentence& why, Instant now, Loss loss = Loss::kTold) noexcept;
   /// Another master was heard to ask this device.
   void handleForeignMaster(std::uint8_t mac, Instant now) noexcept;
-  /// The device gave a sign of life beside its connections: it is tried soon.
+  /// The device gave a sign of life beside its connections: it is tried soon, but not before its own time-out after it
+  /// fell silent.
   void handleSign(Instant now) noexcept;
   /// Something speaks for the connection being gone: the device is asked now.
   void checkSoon(Instant now) noexcept;
@@ -58,7 +59,8 @@ class NodeConnect {
  private:
   enum class Phase : std::uint8_t {
     kOff,
-    kPause,  ///< before the next try
+    kPause,            ///< before the next try
+    kAwaitOwnTimeOut,  ///< it fell silent and may still act on our last words: nothing shortens this pause
     kAllocateExplicit,
     kAskOwner,           ///< whose it is, on the unconnected port
     kAskOwnerConnected,  ///< the same on the explicit connection, which may be ours from before
@@ -105,7 +107,7 @@ class NodeConnect {
   void run(Instant now) noexcept;
   void armKeepAlive(Instant now) noexcept;
   void pollKeepAlive(Instant now) noexcept;
-  void pause(Duration span, Instant now) noexcept;
+  void pause(Duration span, Instant now, Phase phase = Phase::kPause) noexcept;
   Duration retryPause() const noexcept;
   /// The explicit connection was allocated in this try.
   bool explicitHeld() const noexcept { return phase_ >= Phase::kVendorId; }

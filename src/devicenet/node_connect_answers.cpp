@@ -292,7 +292,7 @@ void NodeConnect::handleLoss(const Sentence& why, Instant now, Loss loss) noexce
   // time-out comes first.
   timers_.stopAll();
   channel_.close();
-  pause(kRatesUntilTimeout * rate_, now);
+  pause(kRatesUntilTimeout * rate_, now, Phase::kAwaitOwnTimeOut);
 }
 
 void NodeConnect::handleForeignMaster(std::uint8_t mac, Instant now) noexcept {
@@ -309,8 +309,8 @@ Duration NodeConnect::retryPause() const noexcept {
   return std::min(bus_.longest_retry, bus_.first_retry * (1 << doublings));
 }
 
-void NodeConnect::pause(Duration span, Instant now) noexcept {
-  phase_ = Phase::kPause;
+void NodeConnect::pause(Duration span, Instant now, Phase phase) noexcept {
+  phase_ = phase;
   timers_.set(Timer::kRetry, now + span);
 }
 

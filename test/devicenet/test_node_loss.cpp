@@ -32,6 +32,32 @@ TEST(NodeLoss, SilentProcessData) {
   EXPECT_THAT(run.violations(), testing::IsEmpty());
 }
 
+// Its answers are lost, and it hears us: nothing it says beside its process data shortens the wait for its own time-out. A
+// question for its MAC id may be that of a second device.
+TEST(NodeLoss, ASignOfLifeDoesNotReleaseADeviceThatMayStillRun) {
+  for (const char* sign : {"42B#05CD010003000000", "42F#00850178563412"}) {
+    ScannerConfig config = busConfig(1);
+    config.nodes[0].io.expected_packet_rate = seconds{1};
+    ScannerRun run{config};
+    ASSERT_TRUE(run.starts());
+    run.loses = [](const CanFrame& frame) { return frame.id == 0x3C5; };
+    ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{5}));
+    for (int i = 0; i < 7; ++i) {
+      run.run(milliseconds{500});
+      run.say(sign);
+    }
+    run.run(milliseconds{400});
+    EXPECT_EQ(0x00, run.devices[0]->released_last) << sign;
+    EXPECT_EQ(0u, run.devices[0]->io_deaths);
+    run.loses = nullptr;
+    run.run(milliseconds{200});
+    EXPECT_EQ(0x03, run.devices[0]->released_last);
+    EXPECT_EQ(1u, run.devices[0]->io_deaths) << "it gave up by itself, before it was released";
+    EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
+    EXPECT_THAT(run.violations(), testing::IsEmpty());
+  }
+}
+
 // Switched off and on: it knows nothing of us any more.
 TEST(NodeLoss, PowerCycle) {
   ScannerRun run{busConfig(1)};
