@@ -51,11 +51,12 @@ class FullListener {
     ::close(listener_);
   }
   std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
+  std::uint16_t port() const { return port_; }
 
  private:
   int listener_;
   int waiting_[4] = {};
-  unsigned port_ = 0;
+  std::uint16_t port_ = 0;
 };
 
 // --- Sockets ---
@@ -84,6 +85,41 @@ TEST(Connecting, NobodyAnswersTheRequestToConnect) {
   EXPECT_EQ(nobody.address() +
                 " does not answer a request to connect: is it powered and plugged in, and is the address right?",
             connection.reason().str());
+}
+
+SocketAddress addressOf(std::uint16_t port) {
+  SocketAddress address;
+  auto& v4 = reinterpret_cast<sockaddr_in&>(address.storage);
+  v4.sin_family = AF_INET;
+  v4.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  v4.sin_port = htons(port);
+  address.size = sizeof v4;
+  return address;
+}
+
+// A name with an address nobody answers at, an IPv6 one behind a broken route for example, and one that is right: the
+// first has its share of the time, not all of it.
+TEST(Connecting, AnAddressThatIsSilentLeavesTimeForTheNext) {
+  FullListener nobody;
+  FakeModbusServer server;
+  const std::string name = server.address();
+  const SocketAddress good = addressOf(static_cast<std::uint16_t>(std::stoul(name.substr(name.rfind(':') + 1))));
+  Wakeup stop;
+  Sentence reason;
+  const Instant until = in(milliseconds{900});
+  const int socket = connectTcp({addressOf(nobody.port()), addressOf(nobody.port()), good}, until, stop, reason);
+  EXPECT_LT(std::chrono::steady_clock::now(), until);
+  EXPECT_LE(0, socket) << reason.c_str();
+  if (socket >= 0) ::close(socket);
+}
+
+TEST(Connecting, OneAddressHasAllTheTime) {
+  FullListener nobody;
+  Wakeup stop;
+  Sentence reason;
+  const Instant until = in(milliseconds{50});
+  EXPECT_EQ(-1, connectTcp({addressOf(nobody.port())}, until, stop, reason));
+  EXPECT_GE(std::chrono::steady_clock::now(), until);
 }
 
 TEST(Connecting, WaitingForAConnectionCanBeEnded) {
