@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -208,6 +209,41 @@ TEST(Connecting, ALookUpThatHangsHoldsNobodyUp) {
   gate->set_value();
   Wakeup never;
   EXPECT_TRUE(resolver.resolve(in(kPatience), never, found, reason)) << reason.c_str();
+  EXPECT_EQ(1, *calls);
+}
+
+// As long as it lives, this process gets no new descriptor (EMFILE).
+class NoDescriptors {
+ public:
+  NoDescriptors() {
+    EXPECT_EQ(0, ::getrlimit(RLIMIT_NOFILE, &before_));
+    rlimit few = before_;
+    few.rlim_cur = 3;  // those of standard input and output are taken
+    EXPECT_EQ(0, ::setrlimit(RLIMIT_NOFILE, &few));
+  }
+  ~NoDescriptors() { EXPECT_EQ(0, ::setrlimit(RLIMIT_NOFILE, &before_)); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST(Connecting, ALookUpNobodyCouldWaitForIsBegunAnew) {
+  auto calls = std::make_shared<std::atomic<int>>(0);
+  HostResolver resolver{{"gateway", 502}, [=](const char*, const char*, const addrinfo*, addrinfo** found) {
+                          ++*calls;
+                          *found = loopback(502);
+                          return 0;
+                        }};
+  Wakeup stop;
+  std::vector<SocketAddress> found;
+  Sentence reason;
+  {
+    const NoDescriptors none;
+    EXPECT_FALSE(resolver.resolve(in(milliseconds{20}), stop, found, reason));
+  }
+  EXPECT_STREQ("the host name gateway cannot be looked up: Too many open files", reason.c_str());
+  EXPECT_EQ(0, *calls);
+  EXPECT_TRUE(resolver.resolve(in(milliseconds{2000}), stop, found, reason)) << reason.c_str();
   EXPECT_EQ(1, *calls);
 }
 
