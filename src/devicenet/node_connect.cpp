@@ -56,7 +56,8 @@ void NodeConnect::release(Instant now) noexcept {
   channel_.close();
   timers_.stopAll();
   report_.enter(NodeState::kReleased, Sentence{}, now);
-  if (held_ == 0 || phase_ == Phase::kOff) {
+  // One that may still run on our last words stops by its own time-out, which a release would take away.
+  if (held_ == 0 || phase_ == Phase::kOff || phase_ == Phase::kAwaitOwnTimeOut) {
     channel_.cancelOwn();
     phase_ = Phase::kReleased;
   } else {

@@ -27,7 +27,7 @@ class NodeConnect {
   void start(Instant now) noexcept;
   /// Nothing may be sent any more, until `start()`.
   void stop(const Sentence& why, Instant now) noexcept;
-  /// Lets go what is allocated; then nothing, until `start()`.
+  /// Lets go what is allocated, but nothing of a device whose own time-out is awaited; then nothing, until `start()`.
   void release(Instant now) noexcept;
   bool released() const noexcept { return phase_ == Phase::kReleased || phase_ == Phase::kOff; }
 

@@ -58,6 +58,22 @@ TEST(NodeLoss, ASignOfLifeDoesNotReleaseADeviceThatMayStillRun) {
   }
 }
 
+// The clean exit does not release it either: its own time-out stops it, which a release would take away.
+TEST(NodeLoss, AnExitDoesNotReleaseADeviceThatMayStillRun) {
+  ScannerConfig config = busConfig(1);
+  config.nodes[0].io.expected_packet_rate = seconds{1};
+  ScannerRun run{config};
+  ASSERT_TRUE(run.starts());
+  run.loses = [](const CanFrame& frame) { return frame.id == 0x3C5; };
+  ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{5}));
+  run.run(milliseconds{500});
+  run.scanner.releaseAll(run.now);
+  EXPECT_TRUE(run.scanner.released()) << "nothing is waited for";
+  run.run(seconds{5});
+  EXPECT_EQ(0x00, run.devices[0]->released_last);
+  EXPECT_EQ(1u, run.devices[0]->io_deaths);
+}
+
 // Switched off and on: it knows nothing of us any more.
 TEST(NodeLoss, PowerCycle) {
   ScannerRun run{busConfig(1)};
