@@ -28,6 +28,8 @@ void NodeConnect::start(Instant now) noexcept {
   timers_.stopAll();
   report_.status().owner.reset();
   report_.enter(NodeState::kAbsent, Sentence{}, now);
+  // The try begins with a release of what is ours from before.
+  if (now < own_time_out_) return pause(own_time_out_ - now, now, Phase::kAwaitOwnTimeOut);
   beginTry(now);
 }
 
@@ -46,6 +48,7 @@ void NodeConnect::stop(const Sentence& why, Instant now) noexcept {
   timers_.stopAll();
   phase_ = Phase::kOff;
   if (was_exchanging) {
+    own_time_out_ = now + kRatesUntilTimeout * rate_;
     ++report_.status().counters.losses;
     report_.tell(DevicenetEventKind::kNodeLost, why, 0, now);
   }

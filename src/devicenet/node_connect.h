@@ -23,7 +23,7 @@ class NodeConnect {
   NodeConnect(const NodeConfig& config, const ScannerConfig& bus, NodeReport& report,
               ExplicitChannel& channel) noexcept;
 
-  /// We are on-line: from the beginning.
+  /// We are on-line: from the beginning, but not before the own time-out of a device that `stop()` left running.
   void start(Instant now) noexcept;
   /// Nothing may be sent any more, until `start()`.
   void stop(const Sentence& why, Instant now) noexcept;
@@ -85,6 +85,8 @@ class NodeConnect {
     kReleasing,   ///< for good
     kReleased
   };
+  /// A device gives up after so many times the expected packet rate.
+  static constexpr int kRatesUntilTimeout = 4;
   enum class Timer : std::uint8_t { kRetry, kKeepAlive, kCount };
 
   void enter(Phase phase, Instant now) noexcept;
@@ -138,6 +140,7 @@ class NodeConnect {
   unsigned conflicts_ = 0;      // of this try
   unsigned lost_explicit_ = 0;  // tries that ended so, since it last ran
   Duration rate_{};
+  Instant own_time_out_{};  // until then it may run on the last words it heard of us
   std::optional<std::uint8_t> foreign_mac_;
   Instant foreign_at_{};
 };

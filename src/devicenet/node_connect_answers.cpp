@@ -18,7 +18,6 @@ constexpr Duration kForeignMemory = std::chrono::seconds{5};
 constexpr Duration kUsualExplicitRate = std::chrono::milliseconds{2500};
 /// Without process data the questions are all that tells whether the device is there.
 constexpr Duration kExplicitOnlyRate = std::chrono::seconds{1};
-constexpr int kRatesUntilTimeout = 4;
 /// Devices round their expected packet rate to steps of 2, 10 or 100 ms.
 constexpr Duration kCoarsestStep = std::chrono::milliseconds{100};
 constexpr unsigned kMostDoublings = 10;
@@ -292,6 +291,7 @@ void NodeConnect::handleLoss(const Sentence& why, Instant now, Loss loss) noexce
   // time-out comes first.
   timers_.stopAll();
   channel_.close();
+  own_time_out_ = now + kRatesUntilTimeout * rate_;
   pause(kRatesUntilTimeout * rate_, now, Phase::kAwaitOwnTimeOut);
 }
 

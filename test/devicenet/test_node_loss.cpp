@@ -74,6 +74,23 @@ TEST(NodeLoss, AnExitDoesNotReleaseADeviceThatMayStillRun) {
   EXPECT_EQ(1u, run.devices[0]->io_deaths);
 }
 
+// Our bus was lost and came back: the device's own time-out may be longer than the check for our MAC id takes.
+TEST(NodeLoss, ARestartDoesNotReleaseADeviceThatMayStillRun) {
+  ScannerConfig config = busConfig(1);
+  config.nodes[0].io.expected_packet_rate = seconds{1};
+  ScannerRun run{config};
+  ASSERT_TRUE(run.starts());
+  run.run(milliseconds{50});
+  Sentence why;
+  why = "bus-off";
+  run.scanner.handleBusLost(why, run.now);
+  run.scanner.restart(run.now);
+  run.run(milliseconds{3900});
+  EXPECT_EQ(0x00, run.devices[0]->released_last);
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{1}));
+  EXPECT_EQ(1u, run.devices[0]->io_deaths);
+}
+
 // Switched off and on: it knows nothing of us any more.
 TEST(NodeLoss, PowerCycle) {
   ScannerRun run{busConfig(1)};
