@@ -59,9 +59,10 @@ class IoConnection {
   bool pollAcknowledge(CanFrame& frame) noexcept;
   void acknowledgeNotSent() noexcept { acknowledge_due_ = true; }
   bool pollOutput(CanFrame& frame, Instant now) noexcept;
-  /// The link did not take the last frame of `pollOutput()`: the message is dropped.
+  /// The link did not take the last frame of `pollOutput()`: the message is dropped, as by `dropOutput()`.
   void outputNotSent() noexcept;
-  /// What is not given out yet of this cycle's message is not sent any more.
+  /// What is not given out yet of this cycle's message is not sent any more. The next cycle sends, changed or not: the
+  /// device has not got the value.
   void dropOutput() noexcept;
   std::optional<Instant> nextDeadline() const noexcept { return timers_.nextTimeout(); }
 
@@ -93,6 +94,7 @@ class IoConnection {
   IoBytes output_;
   IoBytes sent_;
   std::optional<Instant> sent_at_;
+  bool dropped_ = false;  // the newest message has not gone out as a whole
   bool overdue_ = false;  // nothing was sent for so long that the device has given up
   bool repeated_ = false;
   IoSender sender_;

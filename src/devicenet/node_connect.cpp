@@ -28,6 +28,8 @@ void NodeConnect::start(Instant now) noexcept {
   timers_.stopAll();
   report_.status().owner.reset();
   report_.enter(NodeState::kAbsent, Sentence{}, now);
+  // The try begins with a release of what is ours from before.
+  if (now < own_time_out_) return pause(own_time_out_ - now, now, Phase::kAwaitOwnTimeOut);
   beginTry(now);
 }
 
@@ -46,6 +48,7 @@ void NodeConnect::stop(const Sentence& why, Instant now) noexcept {
   timers_.stopAll();
   phase_ = Phase::kOff;
   if (was_exchanging) {
+    own_time_out_ = now + kRatesUntilTimeout * rate_;
     ++report_.status().counters.losses;
     report_.tell(DevicenetEventKind::kNodeLost, why, 0, now);
   }
@@ -56,7 +59,8 @@ void NodeConnect::release(Instant now) noexcept {
   channel_.close();
   timers_.stopAll();
   report_.enter(NodeState::kReleased, Sentence{}, now);
-  if (held_ == 0 || phase_ == Phase::kOff) {
+  // One that may still run on our last words stops by its own time-out, which a release would take away.
+  if (held_ == 0 || phase_ == Phase::kOff || phase_ == Phase::kAwaitOwnTimeOut) {
     channel_.cancelOwn();
     phase_ = Phase::kReleased;
   } else {
@@ -114,6 +118,7 @@ std::optional<ConnectRequest> NodeConnect::requestOf(Phase phase) const noexcept
       return releaseRequest(held_ & kConnections);
     case Phase::kOff:
     case Phase::kPause:
+    case Phase::kAwaitOwnTimeOut:
     case Phase::kRunning:
     case Phase::kRefusedPause:
     case Phase::kReleased:
@@ -193,6 +198,7 @@ void NodeConnect::handleAnswer(const ExplicitAnswer& answer, Instant now) noexce
       return;
     case Phase::kOff:
     case Phase::kPause:
+    case Phase::kAwaitOwnTimeOut:
     case Phase::kRunning:
     case Phase::kRefusedPause:
     case Phase::kReleased:

@@ -23,11 +23,11 @@ class NodeConnect {
   NodeConnect(const NodeConfig& config, const ScannerConfig& bus, NodeReport& report,
               ExplicitChannel& channel) noexcept;
 
-  /// We are on-line: from the beginning.
+  /// We are on-line: from the beginning, but not before the own time-out of a device that `stop()` left running.
   void start(Instant now) noexcept;
   /// Nothing may be sent any more, until `start()`.
   void stop(const Sentence& why, Instant now) noexcept;
-  /// Lets go what is allocated; then nothing, until `start()`.
+  /// Lets go what is allocated, but nothing of a device whose own time-out is awaited; then nothing, until `start()`.
   void release(Instant now) noexcept;
   bool released() const noexcept { return phase_ == Phase::kReleased || phase_ == Phase::kOff; }
 
@@ -40,7 +40,8 @@ class NodeConnect {
   void handleLoss(const Sentence& why, Instant now, Loss loss = Loss::kTold) noexcept;
   /// Another master was heard to ask this device.
   void handleForeignMaster(std::uint8_t mac, Instant now) noexcept;
-  /// The device gave a sign of life beside its connections: it is tried soon.
+  /// The device gave a sign of life beside its connections: it is tried soon, but not before its own time-out after it
+  /// fell silent.
   void handleSign(Instant now) noexcept;
   /// Something speaks for the connection being gone: the device is asked now.
   void checkSoon(Instant now) noexcept;
@@ -58,7 +59,8 @@ class NodeConnect {
  private:
   enum class Phase : std::uint8_t {
     kOff,
-    kPause,  ///< before the next try
+    kPause,            ///< before the next try
+    kAwaitOwnTimeOut,  ///< it fell silent and may still act on our last words: nothing shortens this pause
     kAllocateExplicit,
     kAskOwner,           ///< whose it is, on the unconnected port
     kAskOwnerConnected,  ///< the same on the explicit connection, which may be ours from before
@@ -83,6 +85,8 @@ class NodeConnect {
     kReleasing,   ///< for good
     kReleased
   };
+  /// A device gives up after so many times the expected packet rate.
+  static constexpr int kRatesUntilTimeout = 4;
   enum class Timer : std::uint8_t { kRetry, kKeepAlive, kCount };
 
   void enter(Phase phase, Instant now) noexcept;
@@ -105,7 +109,7 @@ class NodeConnect {
   void run(Instant now) noexcept;
   void armKeepAlive(Instant now) noexcept;
   void pollKeepAlive(Instant now) noexcept;
-  void pause(Duration span, Instant now) noexcept;
+  void pause(Duration span, Instant now, Phase phase = Phase::kPause) noexcept;
   Duration retryPause() const noexcept;
   /// The explicit connection was allocated in this try.
   bool explicitHeld() const noexcept { return phase_ >= Phase::kVendorId; }
@@ -136,6 +140,7 @@ class NodeConnect {
   unsigned conflicts_ = 0;      // of this try
   unsigned lost_explicit_ = 0;  // tries that ended so, since it last ran
   Duration rate_{};
+  Instant own_time_out_{};  // until then it may run on the last words it heard of us
   std::optional<std::uint8_t> foreign_mac_;
   Instant foreign_at_{};
 };

@@ -18,7 +18,6 @@ constexpr Duration kForeignMemory = std::chrono::seconds{5};
 constexpr Duration kUsualExplicitRate = std::chrono::milliseconds{2500};
 /// Without process data the questions are all that tells whether the device is there.
 constexpr Duration kExplicitOnlyRate = std::chrono::seconds{1};
-constexpr int kRatesUntilTimeout = 4;
 /// Devices round their expected packet rate to steps of 2, 10 or 100 ms.
 constexpr Duration kCoarsestStep = std::chrono::milliseconds{100};
 constexpr unsigned kMostDoublings = 10;
@@ -292,7 +291,8 @@ void NodeConnect::handleLoss(const Sentence& why, Instant now, Loss loss) noexce
   // time-out comes first.
   timers_.stopAll();
   channel_.close();
-  pause(kRatesUntilTimeout * rate_, now);
+  own_time_out_ = now + kRatesUntilTimeout * rate_;
+  pause(kRatesUntilTimeout * rate_, now, Phase::kAwaitOwnTimeOut);
 }
 
 void NodeConnect::handleForeignMaster(std::uint8_t mac, Instant now) noexcept {
@@ -309,8 +309,8 @@ Duration NodeConnect::retryPause() const noexcept {
   return std::min(bus_.longest_retry, bus_.first_retry * (1 << doublings));
 }
 
-void NodeConnect::pause(Duration span, Instant now) noexcept {
-  phase_ = Phase::kPause;
+void NodeConnect::pause(Duration span, Instant now, Phase phase) noexcept {
+  phase_ = phase;
   timers_.set(Timer::kRetry, now + span);
 }
 

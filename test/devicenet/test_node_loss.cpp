@@ -32,6 +32,65 @@ TEST(NodeLoss, SilentProcessData) {
   EXPECT_THAT(run.violations(), testing::IsEmpty());
 }
 
+// Its answers are lost, and it hears us: nothing it says beside its process data shortens the wait for its own time-out. A
+// question for its MAC id may be that of a second device.
+TEST(NodeLoss, ASignOfLifeDoesNotReleaseADeviceThatMayStillRun) {
+  for (const char* sign : {"42B#05CD010003000000", "42F#00850178563412"}) {
+    ScannerConfig config = busConfig(1);
+    config.nodes[0].io.expected_packet_rate = seconds{1};
+    ScannerRun run{config};
+    ASSERT_TRUE(run.starts());
+    run.loses = [](const CanFrame& frame) { return frame.id == 0x3C5; };
+    ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{5}));
+    for (int i = 0; i < 7; ++i) {
+      run.run(milliseconds{500});
+      run.say(sign);
+    }
+    run.run(milliseconds{400});
+    EXPECT_EQ(0x00, run.devices[0]->released_last) << sign;
+    EXPECT_EQ(0u, run.devices[0]->io_deaths);
+    run.loses = nullptr;
+    run.run(milliseconds{200});
+    EXPECT_EQ(0x03, run.devices[0]->released_last);
+    EXPECT_EQ(1u, run.devices[0]->io_deaths) << "it gave up by itself, before it was released";
+    EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
+    EXPECT_THAT(run.violations(), testing::IsEmpty());
+  }
+}
+
+// The clean exit does not release it either: its own time-out stops it, which a release would take away.
+TEST(NodeLoss, AnExitDoesNotReleaseADeviceThatMayStillRun) {
+  ScannerConfig config = busConfig(1);
+  config.nodes[0].io.expected_packet_rate = seconds{1};
+  ScannerRun run{config};
+  ASSERT_TRUE(run.starts());
+  run.loses = [](const CanFrame& frame) { return frame.id == 0x3C5; };
+  ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{5}));
+  run.run(milliseconds{500});
+  run.scanner.releaseAll(run.now);
+  EXPECT_TRUE(run.scanner.released()) << "nothing is waited for";
+  run.run(seconds{5});
+  EXPECT_EQ(0x00, run.devices[0]->released_last);
+  EXPECT_EQ(1u, run.devices[0]->io_deaths);
+}
+
+// Our bus was lost and came back: the device's own time-out may be longer than the check for our MAC id takes.
+TEST(NodeLoss, ARestartDoesNotReleaseADeviceThatMayStillRun) {
+  ScannerConfig config = busConfig(1);
+  config.nodes[0].io.expected_packet_rate = seconds{1};
+  ScannerRun run{config};
+  ASSERT_TRUE(run.starts());
+  run.run(milliseconds{50});
+  Sentence why;
+  why = "bus-off";
+  run.scanner.handleBusLost(why, run.now);
+  run.scanner.restart(run.now);
+  run.run(milliseconds{3900});
+  EXPECT_EQ(0x00, run.devices[0]->released_last);
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{1}));
+  EXPECT_EQ(1u, run.devices[0]->io_deaths);
+}
+
 // Switched off and on: it knows nothing of us any more.
 TEST(NodeLoss, PowerCycle) {
   ScannerRun run{busConfig(1)};

@@ -284,5 +284,45 @@ TEST(ProcessData, FullLink) {
   EXPECT_TRUE(run.allExchanging());
 }
 
+// Dropped because the link was full, whatever frame it refused: a changed value, which may be a stop, goes out in the next
+// cycle, not one expected packet rate later.
+TEST(ProcessData, AChangeThatWasDroppedIsSentInTheNextCycle) {
+  for (const bool refuses_an_acknowledge : {true, false}) {
+    for (const std::size_t size : {std::size_t{5}, std::size_t{33}}) {
+      ScannerConfig config = oneOf(IoKind::kChangeOfState, size, size);
+      config.nodes[0].io.expected_packet_rate = seconds{1};
+      ScannerRun run{config};
+      run.output.resize(size);
+      ASSERT_TRUE(run.starts());
+      run.run(milliseconds{50});
+      run.output[1] = 0x7B;
+      if (refuses_an_acknowledge) run.devices[0]->input = {1, 2, 3, 4, 5};
+      run.link_full = true;
+      run.run(milliseconds{10});
+      run.link_full = false;
+      ASSERT_NE(run.output, run.devices[0]->output);
+      run.run(milliseconds{10});
+      EXPECT_EQ(run.output, run.devices[0]->output) << refuses_an_acknowledge << ", " << size << " bytes";
+      const std::size_t outputs = run.devices[0]->outputs;
+      run.run(milliseconds{100});
+      EXPECT_EQ(outputs, run.devices[0]->outputs) << "once";
+    }
+  }
+}
+
+// Cyclic: one that was refused is made up for in the next cycle too; else the device would hear nothing for two rates.
+TEST(ProcessData, ACyclicMessageThatWasRefusedIsSentInTheNextCycle) {
+  ScannerConfig config = oneOf(IoKind::kCyclic, 5, 5);
+  config.nodes[0].io.expected_packet_rate = seconds{1};
+  ScannerRun run{config};
+  ASSERT_TRUE(run.starts());
+  run.output[1] = 0x7B;
+  run.link_full = true;
+  ASSERT_TRUE(run.runUntil([&run] { return run.scanner.counters().not_sent > 0; }, seconds{2}));
+  run.link_full = false;
+  run.run(milliseconds{10});
+  EXPECT_EQ(run.output, run.devices[0]->output);
+}
+
 }  // namespace
 }  // namespace nord_driver::devicenet

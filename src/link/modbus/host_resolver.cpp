@@ -1,5 +1,6 @@
 #include "link/modbus/host_resolver.h"
 
+#include <errno.h>
 #include <poll.h>
 
 #include <cstring>
@@ -7,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "link/error_text.h"
 #include "link/waiting.h"
 
 namespace nord_driver::link {
@@ -58,6 +60,12 @@ HostResolver::HostResolver(ServerName name, LookUp look_up) : name_(std::move(na
 
 bool HostResolver::begin(Sentence& reason) {
   inquiry_ = std::make_shared<Inquiry>();
+  if (inquiry_->done.descriptor() < 0) {
+    // Nobody would ever hear of its end.
+    reason.format("the host name %s cannot be looked up: %s", name_.host.c_str(), ErrorText(errno).c_str());
+    inquiry_.reset();
+    return false;
+  }
   inquiry_->host = name_.host;
   inquiry_->port = std::to_string(name_.port);
   inquiry_->look_up = look_up_;

@@ -81,9 +81,11 @@ Sentence connectFailure(int error) noexcept {
 
 int connectTcp(const std::vector<SocketAddress>& addresses, Instant until, const Wakeup& stop, Sentence& reason) {
   int error = EHOSTUNREACH;
+  auto left = static_cast<Duration::rep>(addresses.size());
   for (const SocketAddress& address : addresses) {
     int socket = -1;
-    error = tryOne(address, until, stop, socket);
+    const Instant now = std::chrono::steady_clock::now();
+    error = tryOne(address, now + (until - now) / left--, stop, socket);
     if (error == 0) return socket;
     if (socket >= 0) ::close(socket);
     if (error == ECANCELED) break;

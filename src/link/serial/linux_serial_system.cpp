@@ -45,6 +45,7 @@ class LinuxSerialSystem final : public SerialSystem {
     return uart::readCounters(descriptor, counters);
   }
   int flushInput(int descriptor) noexcept override { return uart::flushInput(descriptor); }
+  int flushOutput(int descriptor) noexcept override { return uart::flushOutput(descriptor); }
 
   long read(int descriptor, std::uint8_t* buffer, std::size_t capacity) noexcept override {
     const ssize_t count = ::read(descriptor, buffer, capacity);

@@ -41,6 +41,8 @@ bool SerialPort::fail(const char* what, int error, const char* remedy) noexcept 
   std::snprintf(text, sizeof text, "%s%s%s%s: %s%s%s%s", configured.c_str(), renamed ? " (" : "",
                 renamed ? device_.c_str() : "", renamed ? ")" : "", what, error != 0 ? ": " : "",
                 error != 0 ? ErrorText{error}.c_str() : "", remedy);
+  // Not that of another process, which may hold the device when setting up fails.
+  if (is_set_up_) system_.flushOutput(descriptor_);
   close();
   error_.assign(text);
   return false;
@@ -56,6 +58,7 @@ bool SerialPort::open() noexcept {
   if (descriptor < 0) return fail("cannot be opened", -descriptor, remedyOf(-descriptor));
   descriptor_ = descriptor;
   if (!setUp()) return false;
+  is_set_up_ = true;
   finder_.opened(system_, device_);
   error_.clear();
   return true;
@@ -87,6 +90,7 @@ void SerialPort::close() noexcept {
   static_cast<void>(lineCounters());  // the last errors before it goes
   system_.close(descriptor_);
   descriptor_ = -1;
+  is_set_up_ = false;
   echo_.discard();
 }
 

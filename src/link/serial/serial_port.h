@@ -49,6 +49,7 @@ class SerialPort final : public ByteLink {
   DeviceFinder finder_;
   EchoFilter echo_;
   int descriptor_ = -1;
+  bool is_set_up_ = false;  // it is ours, and what was written to it too
   bool is_pty_ = false;
   DevicePath device_;  // what is open, or was last
   std::string error_;

@@ -62,6 +62,9 @@ class SerialSystem {
   virtual int requestLowLatency(int descriptor) noexcept = 0;
   virtual int readCounters(int descriptor, RawLineCounters& counters) noexcept = 0;
   virtual int flushInput(int descriptor) noexcept = 0;
+  /// Discards what was written and has not been sent: `close()` waits for it, by Linux' default up to 30 s. Only as far
+  /// as the driver of the device can: usb-serial has no function for it, and its `close()` waits all the same.
+  virtual int flushOutput(int descriptor) noexcept = 0;
 
   /// The count of bytes, 0 at a hang-up, or -errno.
   virtual long read(int descriptor, std::uint8_t* buffer, std::size_t capacity) noexcept = 0;

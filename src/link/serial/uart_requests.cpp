@@ -88,4 +88,8 @@ int flushInput(int descriptor) noexcept {
   return request(descriptor, TCFLSH, TCIFLUSH);
 }
 
+int flushOutput(int descriptor) noexcept {
+  return request(descriptor, TCFLSH, TCOFLUSH);
+}
+
 }  // namespace nord_driver::link::uart

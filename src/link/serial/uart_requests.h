@@ -13,5 +13,6 @@ int readRs485(int descriptor, Rs485Settings& settings) noexcept;
 int requestLowLatency(int descriptor) noexcept;
 int readCounters(int descriptor, RawLineCounters& counters) noexcept;
 int flushInput(int descriptor) noexcept;
+int flushOutput(int descriptor) noexcept;
 
 }  // namespace nord_driver::link::uart

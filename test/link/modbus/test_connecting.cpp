@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -51,11 +52,12 @@ class FullListener {
     ::close(listener_);
   }
   std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
+  std::uint16_t port() const { return port_; }
 
  private:
   int listener_;
   int waiting_[4] = {};
-  unsigned port_ = 0;
+  std::uint16_t port_ = 0;
 };
 
 // --- Sockets ---
@@ -84,6 +86,41 @@ TEST(Connecting, NobodyAnswersTheRequestToConnect) {
   EXPECT_EQ(nobody.address() +
                 " does not answer a request to connect: is it powered and plugged in, and is the address right?",
             connection.reason().str());
+}
+
+SocketAddress addressOf(std::uint16_t port) {
+  SocketAddress address;
+  auto& v4 = reinterpret_cast<sockaddr_in&>(address.storage);
+  v4.sin_family = AF_INET;
+  v4.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  v4.sin_port = htons(port);
+  address.size = sizeof v4;
+  return address;
+}
+
+// A name with an address nobody answers at, an IPv6 one behind a broken route for example, and one that is right: the
+// first has its share of the time, not all of it.
+TEST(Connecting, AnAddressThatIsSilentLeavesTimeForTheNext) {
+  FullListener nobody;
+  FakeModbusServer server;
+  const std::string name = server.address();
+  const SocketAddress good = addressOf(static_cast<std::uint16_t>(std::stoul(name.substr(name.rfind(':') + 1))));
+  Wakeup stop;
+  Sentence reason;
+  const Instant until = in(milliseconds{900});
+  const int socket = connectTcp({addressOf(nobody.port()), addressOf(nobody.port()), good}, until, stop, reason);
+  EXPECT_LT(std::chrono::steady_clock::now(), until);
+  EXPECT_LE(0, socket) << reason.c_str();
+  if (socket >= 0) ::close(socket);
+}
+
+TEST(Connecting, OneAddressHasAllTheTime) {
+  FullListener nobody;
+  Wakeup stop;
+  Sentence reason;
+  const Instant until = in(milliseconds{50});
+  EXPECT_EQ(-1, connectTcp({addressOf(nobody.port())}, until, stop, reason));
+  EXPECT_GE(std::chrono::steady_clock::now(), until);
 }
 
 TEST(Connecting, WaitingForAConnectionCanBeEnded) {
@@ -172,6 +209,41 @@ TEST(Connecting, ALookUpThatHangsHoldsNobodyUp) {
   gate->set_value();
   Wakeup never;
   EXPECT_TRUE(resolver.resolve(in(kPatience), never, found, reason)) << reason.c_str();
+  EXPECT_EQ(1, *calls);
+}
+
+// As long as it lives, this process gets no new descriptor (EMFILE).
+class NoDescriptors {
+ public:
+  NoDescriptors() {
+    EXPECT_EQ(0, ::getrlimit(RLIMIT_NOFILE, &before_));
+    rlimit few = before_;
+    few.rlim_cur = 3;  // those of standard input and output are taken
+    EXPECT_EQ(0, ::setrlimit(RLIMIT_NOFILE, &few));
+  }
+  ~NoDescriptors() { EXPECT_EQ(0, ::setrlimit(RLIMIT_NOFILE, &before_)); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST(Connecting, ALookUpNobodyCouldWaitForIsBegunAnew) {
+  auto calls = std::make_shared<std::atomic<int>>(0);
+  HostResolver resolver{{"gateway", 502}, [=](const char*, const char*, const addrinfo*, addrinfo** found) {
+                          ++*calls;
+                          *found = loopback(502);
+                          return 0;
+                        }};
+  Wakeup stop;
+  std::vector<SocketAddress> found;
+  Sentence reason;
+  {
+    const NoDescriptors none;
+    EXPECT_FALSE(resolver.resolve(in(milliseconds{20}), stop, found, reason));
+  }
+  EXPECT_STREQ("the host name gateway cannot be looked up: Too many open files", reason.c_str());
+  EXPECT_EQ(0, *calls);
+  EXPECT_TRUE(resolver.resolve(in(milliseconds{2000}), stop, found, reason)) << reason.c_str();
   EXPECT_EQ(1, *calls);
 }
 

@@ -48,6 +48,7 @@ class FakeSerialSystem final : public SerialSystem {
   std::vector<std::string> opened;
   std::vector<Bytes> written;
   int open_descriptors = 0;
+  int output_flushes = 0;
   int low_latency_requests = 0;
   int rs485_requests = 0;
   Rs485Settings rs485;
@@ -103,6 +104,10 @@ class FakeSerialSystem final : public SerialSystem {
   int flushInput(int) noexcept override {
     incoming.clear();
     return 0;
+  }
+  int flushOutput(int) noexcept override {
+    ++output_flushes;
+    return open_descriptors > 0 ? 0 : -EBADF;
   }
 
   long read(int, std::uint8_t* buffer, std::size_t capacity) noexcept override {

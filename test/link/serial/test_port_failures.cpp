@@ -38,6 +38,34 @@ TEST_F(PortFailures, AFullBufferClosesThePort) {
   expectClosed("whole telegram");
 }
 
+// Closing waits for what was written: an adapter that sends nothing any more would hold the bus cycle up. What a clean
+// exit has written is still to go out.
+TEST_F(PortFailures, WhatWasNotSentIsDiscardedAfterAFailureOnly) {
+  EXPECT_TRUE(send());
+  port.close();
+  EXPECT_EQ(0, system.output_flushes);
+  for (int failures = 1; failures <= 3; ++failures) {
+    ASSERT_TRUE(port.open());
+    EXPECT_TRUE(send());
+    if (failures == 1) system.write_results = {-EAGAIN};
+    if (failures == 2) system.read_errors = {EIO};
+    if (failures == 3) system.poll_errors = {EBADF};
+    EXPECT_FALSE(failures == 1   ? send()
+                 : failures == 2 ? port.read(buffer, sizeof buffer) > 0
+                                 : port.waitReadable(port.now() + milliseconds{1}));
+    EXPECT_FALSE(port.isOpen());
+    EXPECT_EQ(failures, system.output_flushes);
+  }
+}
+
+// Another process has it: what waits there is of that one.
+TEST_F(PortFailures, NothingIsDiscardedOfADeviceThatIsNotOurs) {
+  port.close();
+  system.lock_error = EWOULDBLOCK;
+  EXPECT_FALSE(port.open());
+  EXPECT_EQ(0, system.output_flushes);
+}
+
 TEST_F(PortFailures, AnInterruptedWriteIsRepeatedWhole) {
   system.write_results = {-EINTR, -EINTR};
   EXPECT_TRUE(send());

@@ -104,6 +104,30 @@ TEST(SerialPort, WaitingEndsAtTheDeadline) {
   EXPECT_TRUE(port.isOpen());
 }
 
+// Nobody reads: the port fails when no more fits, and what lies there is discarded but for the 4 KiB that have reached the
+// far end's own buffer. (A pty cannot show that closing waits for an adapter.)
+TEST(SerialPort, AFailureDiscardsWhatWasNotSent) {
+  PtyPair pty;
+  SerialPort port{settingsFor(pty)};
+  ASSERT_TRUE(port.open()) << port.lastError();
+  const std::vector<std::uint8_t> telegram(249, 0x5A);
+  std::size_t written = 0, received = 0;
+  while (written < 10'000'000 && port.write(ByteView{telegram})) written += telegram.size();
+  ASSERT_FALSE(port.isOpen());
+  for (auto bytes = pty.receive(); !bytes.empty(); bytes = pty.receive()) received += bytes.size();
+  EXPECT_LT(received, written);
+}
+
+TEST(SerialPort, ACleanExitLeavesWhatWasWritten) {
+  PtyPair pty;
+  SerialPort port{settingsFor(pty)};
+  ASSERT_TRUE(port.open()) << port.lastError();
+  const std::vector<std::uint8_t> telegram{0x10, 0x08, 0x01, 0x49, 0x52, 0x16};
+  ASSERT_TRUE(port.write(ByteView{telegram}));
+  port.close();
+  EXPECT_EQ(telegram, pty.receive());
+}
+
 // Bytes from before belong to no telegram of ours, whoever sent them.
 TEST(SerialPort, OpeningDiscardsWhatArrivedBefore) {
   PtyPair pty;
