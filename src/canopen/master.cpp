@@ -46,10 +46,6 @@ Master::Master(const MasterConfig& config)
   }
 }
 
-void Master::setOnlyAsked(Duration span) noexcept {
-  for (NodeConfig& node : config_.nodes) node.only_asked = span;
-}
-
 void Master::restart(Instant now) noexcept {
   now_ = now;
   given_ = Given{};
@@ -90,8 +86,7 @@ void Master::startCycle(Instant now) noexcept {
     nodes_[i]->handleCycle();
     // SYNC is what a synchronous TPDO waits for, and an RPDO that stops a drive that is not heard.
     any = any || nodes_[i]->operational() || nodes_[i]->status().fellSilent();
-    if (!nodes_[i]->operational()) continue;
-    if (!nodes_[i]->takesReceivePdos(now)) continue;
+    if (!nodes_[i]->operational() || !nodes_[i]->takesReceivePdos(now)) continue;
     const std::vector<ReceivePdoSlot>& pdos = nodes_[i]->receivePdos();
     for (std::size_t pdo = 0; pdo < pdos.size(); ++pdo) {
       if (pdos[pdo].ready()) process_.add({static_cast<std::uint8_t>(i), static_cast<std::uint16_t>(pdo)});

@@ -49,7 +49,9 @@ class Master final : public CanEngine {
   /// Every node from the beginning. RPDO values are forgotten; SDO accesses end without answer.
   void restart(Instant now) noexcept override;
   /// NodeConfig::only_asked of all nodes. Before the first frame.
-  void setOnlyAsked(Duration span) noexcept;
+  void setOnlyAsked(Duration span) noexcept {
+    for (NodeConfig& node : config_.nodes) node.only_asked = span;
+  }
   /// A node that may be reset (`NodeConfig::reset`) gets "reset communication"; another one is first told by
   /// SDO not to watch us any more, then "enter pre-operational". Until `released()`, in a second at most, everything
   /// else goes on as usual: polling, frames, error control.

@@ -39,6 +39,7 @@ void IoConnection::close() noexcept {
   sent_at_.reset();
   sender_.drop();
   dropped_ = false;
+  hurried_ = false;
   receiver_.reset();
   acknowledge_due_ = false;
 }
@@ -68,7 +69,7 @@ bool IoConnection::outputDue(Instant now) const noexcept {
       break;
   }
   if (config_.io.output_bytes == 0) return false;
-  if (!sent_at_ || dropped_) return true;
+  if (!sent_at_ || dropped_ || hurried_) return true;
   if (config_.io.kind == IoKind::kChangeOfState && output_ != sent_) return true;
   // The next cycle would be too late. Nothing is sent between cycles: a value nobody renews must not stay alive.
   return now + cycle_ > *sent_at_ + rate_;
@@ -87,6 +88,7 @@ void IoConnection::startCycle(Instant now) noexcept {
 
 void IoConnection::send() noexcept {
   dropOutput();
+  hurried_ = false;
   if (config_.io.kind == IoKind::kChangeOfState) sent_ = output_;
   sender_.start(ByteView{output_});
 }

@@ -34,6 +34,8 @@ class IoConnection {
 
   /// The newest outputs, cut or filled with zeros to their size.
   void setOutput(ByteView bytes) noexcept;
+  /// What was set last is not to wait for the rate of a cyclic connection: the device takes what comes earlier.
+  void hurry() noexcept { hurried_ = established_; }
   const IoInput& input() const noexcept { return input_; }
 
   /// Makes due what this cycle sends. What the last one left is dropped.
@@ -95,6 +97,7 @@ class IoConnection {
   IoBytes sent_;
   std::optional<Instant> sent_at_;
   bool dropped_ = false;  // the newest message has not gone out as a whole
+  bool hurried_ = false;  // see hurry()
   bool overdue_ = false;  // nothing was sent for so long that the device has given up
   bool repeated_ = false;
   IoSender sender_;

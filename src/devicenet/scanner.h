@@ -72,6 +72,8 @@ class Scanner final : public CanEngine {
   /// Kept, and sent in every cycle in which the device exchanges; before the first call, and after a loss, nothing is
   /// sent. Cut or filled with zeros to its size. Bit strobe without outputs: the lowest bit of the first byte is its bit.
   void setOutput(std::size_t node, ByteView bytes) noexcept { nodes_[node]->io().setOutput(bytes); }
+  /// Of setOutput(): what was set goes out in the next cycle, whatever the packet rate.
+  void hurry(std::size_t node) noexcept { nodes_[node]->io().hurry(); }
   /// What it sent last while exchanging; `count` 0: nothing yet since it came to.
   const IoInput& input(std::size_t node) const noexcept { return nodes_[node]->io().input(); }
 

@@ -324,5 +324,23 @@ TEST(ProcessData, ACyclicMessageThatWasRefusedIsSentInTheNextCycle) {
   EXPECT_EQ(run.output, run.devices[0]->output);
 }
 
+// Cyclic: what is not to wait for a rate of a second goes out in the next cycle, once.
+TEST(ProcessData, ACyclicMessageThatIsHurriedIsSentInTheNextCycle) {
+  ScannerConfig config = oneOf(IoKind::kCyclic, 5, 5);
+  config.nodes[0].io.expected_packet_rate = seconds{1};
+  ScannerRun run{config};
+  ASSERT_TRUE(run.starts());
+  run.run(milliseconds{50});
+  const std::uint64_t before = run.scanner.status(0).counters.outputs;
+  run.output[1] = 0x7B;
+  run.run(milliseconds{50});
+  EXPECT_EQ(before, run.scanner.status(0).counters.outputs) << "by its rate";
+  run.scanner.hurry(0);
+  run.run(milliseconds{10});
+  EXPECT_EQ(run.output, run.devices[0]->output);
+  run.run(milliseconds{50});
+  EXPECT_EQ(before + 1, run.scanner.status(0).counters.outputs);
+}
+
 }  // namespace
 }  // namespace nord_driver::devicenet

@@ -93,6 +93,23 @@ INSTANTIATE_TEST_SUITE_P(All, DevicenetKinds,
                            return std::string{test.param.first} + std::to_string(test.param.second);
                          });
 
+// Two cycles to the word that stops, whatever the packet rate.
+TEST(DevicenetCyclic, AStopDoesNotWaitForThePacketRate) {
+  DevicenetRobot::Options options;
+  options.drives = {{"io", std::string{"cyclic"}}};
+  options.bus = {{"expected_packet_rate", 1.0}};
+  DevicenetRobot robot{withoutSlip(options)};
+  ASSERT_TRUE(robot.bringUpAndEnable()) << robot.text(0) << " / " << robot.busText();
+  robot.drive(kHalfSpeed, 0.0, seconds{6});
+  const double before = std::abs(robot.unit(0).inverter().frequency());
+  ASSERT_GT(before, 10.0);
+  cycle::Request request;
+  request.kind = cycle::RequestKind::kQuickStop;
+  robot.ports().submit(request);
+  for (int i = 0; i < 4; ++i) robot.step();
+  EXPECT_LT(std::abs(robot.unit(0).inverter().frequency()), before);
+}
+
 // The AC drive profile has no OFF3 and no parameter sets: what is asked for ends all the same, or is refused in words.
 TEST(DevicenetAcDrive, AQuickStopIsARampThatEnds) {
   for (const int assembly : {20, 21}) {

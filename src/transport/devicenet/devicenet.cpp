@@ -1,6 +1,7 @@
 #include "transport/devicenet/devicenet.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "config/setting_checks.h"
@@ -40,6 +41,7 @@ void DeviceNetTransport::configure(const Settings& bus, const std::vector<DriveS
   }
   outputs_.assign(config_.modules.size(), {});
   answered_.assign(drives_.size(), 0);
+  given_.assign(drives_.size(), {});
   Setup setup;
   setup.link = {config_.interface, scanner_->receivedIds(), config_.bit_rate};
   setup.period = period;
@@ -72,6 +74,12 @@ bool DeviceNetTransport::busWorks() const noexcept {
   return linkWorks() && scanner_->busState() == devicenet::BusState::kOnline && !isSilent();
 }
 
+// A word that stops, or the first steps of a ramp to rest.
+bool DeviceNetTransport::isUrgent(const profile::ProcessOutput& before, const profile::ProcessOutput& now) noexcept {
+  return now.control_word != before.control_word ||
+         std::abs(int{now.setpoints[0]}) < std::abs(int{before.setpoints[0]});
+}
+
 void DeviceNetTransport::putOutputs(const std::vector<profile::ProcessOutput>& outputs) noexcept {
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     // All 0, the module's own byte too: its outputs stay off, and an inverter nobody drives ignores its words.
@@ -83,6 +91,10 @@ void DeviceNetTransport::putOutputs(const std::vector<profile::ProcessOutput>& o
   }
   for (DriveIndex i = 0; i < drives_.size(); ++i) putModuleOutputs(config_.drives[i].module, outputs[i].module_outputs);
   for (std::size_t i = 0; i < outputs_.size(); ++i) scanner_->setOutput(i, outputs_[i]);
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    if (isUrgent(given_[i], outputs[i])) scanner_->hurry(config_.drives[i].module);
+    given_[i] = outputs[i];
+  }
   for (DriveIndex i = 0; i < drives_.size(); ++i) answered_[i] = scanner_->input(config_.drives[i].module).count;
 }
 

@@ -47,6 +47,7 @@ class DeviceNetTransport final : public CanTransport, public BusScanner {
   const DevicenetConfig& config() const noexcept { return config_; }
 
  private:
+  static bool isUrgent(const profile::ProcessOutput& before, const profile::ProcessOutput& now) noexcept;
   void putOutputs(const std::vector<profile::ProcessOutput>& outputs) noexcept override;
   void takeInputs(Instant now, std::vector<DriveExchange>& inputs) noexcept override;
   bool allAnswered() const noexcept override;
@@ -62,8 +63,9 @@ class DeviceNetTransport final : public CanTransport, public BusScanner {
   DevicenetConfig config_;
   std::optional<devicenet::Scanner> scanner_;
   std::vector<DevicenetDriveState> drives_;
-  std::vector<devicenet::IoBytes> outputs_;  // of each module
-  std::vector<std::uint64_t> answered_;      // messages of each drive's module when the cycle began
+  std::vector<devicenet::IoBytes> outputs_;    // of each module
+  std::vector<profile::ProcessOutput> given_;  // to each drive, in the cycle before
+  std::vector<std::uint64_t> answered_;        // messages of each drive's module when the cycle began
   ResultTurns result_turns_;
 };
 
