@@ -14,6 +14,8 @@ using namespace std::chrono_literals;
 
 constexpr Duration kFirstPause = 250ms;
 constexpr Duration kLongestPause = 2s;
+// A slave with a longer watchdog is found in time without haste.
+constexpr Duration kHasteLimit = 1s;
 
 }  // namespace
 
@@ -31,6 +33,8 @@ SlaveHandler::SlaveHandler(std::size_t index, const SlaveConfig& config, const B
 }
 
 void SlaveHandler::restart(Instant now, DpEvents& events) noexcept {
+  // Whatever the line did, it may run on as it was told last: see nextService().
+  if (status_.phase == SlavePhase::kDataExchange || resuming_) mayRunUntilWatchdogOf(last_request_);
   if (status_.phase == SlavePhase::kDataExchange) lose(LossCause::kLinkRestarted, texts::kLinkOpened, events);
   forgetFaults();
   told_found_ = false;
@@ -147,6 +151,12 @@ bool SlaveHandler::submitRecord(const RecordRequest& request) noexcept {
   if (status_.phase != SlavePhase::kDataExchange) unusable = RecordOutcome::kOffline;
   if (!config_.dpv1) unusable = RecordOutcome::kNotSupported;
   return records_.submit(request, unusable);
+}
+
+// Its watchdog runs from the last request on that it heard.
+void SlaveHandler::mayRunUntilWatchdogOf(Instant heard) noexcept {
+  timers_.set(Timer::kWatchdog, heard + config_.watchdog);
+  timers_.set(Timer::kHaste, heard + std::min(config_.watchdog, kHasteLimit));
 }
 
 void SlaveHandler::fallSilent(Instant due, const char* note) noexcept {

@@ -48,6 +48,8 @@ class SlaveHandler {
   /// Writes the wanted request of all others.
   void prepare(FdlRequest& request, Instant now) noexcept;
 
+  /// Its request goes out: it has heard it by then, if at all.
+  void handleSent(Instant heard_by) noexcept { last_request_ = heard_by; }
   void handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
   /// The request was sent, retries included, and not answered.
   void handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) noexcept;
@@ -78,7 +80,7 @@ class SlaveHandler {
     kAskOften,          ///< asked once per cycle until then
     kOwnerLimit,        ///< until then it may not have taken us for its master
     kReadyLimit,        ///< until then it may not be ready
-    kHaste,             ///< since it fell silent: see isUrgent()
+    kHaste,             ///< since it fell silent, or the line was opened anew: see isUrgent()
     kWatchdog,          ///< likewise, its watchdog has not run out: it may be in data exchange with us still
     kUndiagnosedLimit,  ///< in data exchange, set when Slave_Diag was not answered
     kCount
@@ -101,6 +103,7 @@ class SlaveHandler {
   std::optional<Fault> strangerIn(const Diagnosis& diagnosis) const noexcept;
   std::optional<Fault> faultIn(const Diagnosis& diagnosis) const noexcept;
 
+  void mayRunUntilWatchdogOf(Instant heard) noexcept;
   void fallSilent(Instant due, const char* note) noexcept;
   void startOver(const char* note) noexcept;
   void enterDataExchange(DpEvents& events) noexcept;
@@ -124,6 +127,7 @@ class SlaveHandler {
   bool resuming_ = false;       // in kFirstDiagnosis: first of all it is asked whether it is in data exchange still
   bool diagnosis_due_ = false;  // in data exchange: DH was seen
   TimerTable<Timer> timers_;
+  Instant last_request_{};    // heard by then, if at all
   Instant last_answer_{};     // of whatever kind: its watchdog runs from there at the earliest
   Duration silence_limit_{};  // of data exchange without an answer
   GrowingPause back_off_;

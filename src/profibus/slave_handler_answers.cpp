@@ -16,8 +16,6 @@ constexpr Duration kAskOften = 1s;
 constexpr Duration kAskRarely = 250ms;
 constexpr Duration kReadyLimit = 5s;
 constexpr Duration kOwnerLimit = 500ms;
-// A slave with a longer watchdog is found in time without haste.
-constexpr Duration kHasteLimit = 1s;
 
 }  // namespace
 
@@ -76,9 +74,7 @@ void SlaveHandler::handleNoExchange(Mismatch mismatch, Instant now, DpEvents& ev
   } else {
     lose(LossCause::kWrongAnswers, texts::kGarbled, events);
   }
-  // It may have heard us until now: its watchdog runs from the last request on.
-  timers_.set(Timer::kWatchdog, now + config_.watchdog);
-  timers_.set(Timer::kHaste, now + std::min(config_.watchdog, kHasteLimit));
+  mayRunUntilWatchdogOf(now);
   fallSilent(now, texts::kNoAnswer);  // asked again in the next cycle: most silences are short
 }
 
