@@ -163,6 +163,7 @@ void SlaveHandler::fallSilent(Instant due, const char* note) noexcept {
   resuming_ = false;
   diagnosis_due_ = false;
   timers_.stop(Timer::kUndiagnosedLimit);
+  timers_.stop(Timer::kRefusedLimit);
   status_.phase = SlavePhase::kSilent;
   status_.heard = false;
   status_.note = note;
@@ -175,6 +176,7 @@ void SlaveHandler::startOver(const char* note) noexcept {
   frame_count_.reset();
   diagnosis_due_ = false;
   timers_.stop(Timer::kUndiagnosedLimit);
+  timers_.stop(Timer::kRefusedLimit);
   status_.phase = SlavePhase::kFirstDiagnosis;
   status_.note = note;
   timers_.stop(Timer::kNextRequest);

@@ -83,6 +83,7 @@ class SlaveHandler {
     kHaste,             ///< since it fell silent, or the line was opened anew: see isUrgent()
     kWatchdog,          ///< likewise, its watchdog has not run out: it may be in data exchange with us still
     kUndiagnosedLimit,  ///< in data exchange, set when Slave_Diag was not answered
+    kRefusedLimit,      ///< likewise, set when the exchange was refused
     kCount
   };
   enum class Service : std::uint8_t { kFdlStatus, kSlaveDiag, kGetCfg, kSetPrm, kChkCfg, kDataExchange, kRecord };
@@ -90,6 +91,7 @@ class SlaveHandler {
   Service nextService() noexcept;
   void handleNoOptionalAnswer(Instant now, DpEvents& events) noexcept;
   void handleNoExchange(Mismatch mismatch, Instant now, DpEvents& events) noexcept;
+  void handleRefusedExchange(ResponseCode code, Instant now, DpEvents& events) noexcept;
   void onFdlStatus(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
   void onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
   void onConfiguration(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;

@@ -16,6 +16,8 @@ constexpr Duration kAskOften = 1s;
 constexpr Duration kAskRarely = 250ms;
 constexpr Duration kReadyLimit = 5s;
 constexpr Duration kOwnerLimit = 500ms;
+// What a slave's clock may be behind ours when its watchdog is waited for.
+constexpr Duration kWatchdogTolerance = 250ms;
 
 }  // namespace
 
@@ -160,16 +162,27 @@ void SlaveHandler::onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents&
   timers_.set(Timer::kReadyLimit, now + kReadyLimit);
 }
 
-void SlaveHandler::onExchange(const FdlAnswer& answer, Instant, DpEvents& events) noexcept {
-  if (answer.kind == FdlAnswer::Kind::kRefusal) {
-    if (resuming_) return startOver(texts::kStarting);
-    if (answer.code == ResponseCode::kNotActivated) {
-      lose(LossCause::kLeftDataExchange, texts::kLeft, events);
-      return startOver(texts::kLeft);
-    }
-    diagnosis_due_ = true;  // no data, no reason: ask for it
-    return;
+// RR, UE, RDL and RDH: outputs not taken; NR: taken, but no inputs. The first are asked for the reason. Where they last, a
+// slave whose requests feed its watchdog would keep its drive as it was told last, though the stop words go out: it is
+// lost, as after a silence, and asked for nothing until its watchdog has run out. Set_Prm would start that anew.
+void SlaveHandler::handleRefusedExchange(ResponseCode code, Instant now, DpEvents& events) noexcept {
+  if (code == ResponseCode::kNotActivated) {
+    if (!resuming_) lose(LossCause::kLeftDataExchange, texts::kLeft, events);
+    return startOver(resuming_ ? texts::kStarting : texts::kLeft);
   }
+  if (resuming_) enterDataExchange(events);  // only RS says that it is not in it
+  diagnosis_due_ = true;
+  if (!timers_.isSet(Timer::kRefusedLimit)) return timers_.set(Timer::kRefusedLimit, now + silence_limit_);
+  if (timers_.isRunning(Timer::kRefusedLimit, now)) return;
+  lose(LossCause::kRefused, texts::kRefusesExchange, events);
+  backOff({DpEventKind::kServiceRefused, texts::kRefusesExchange}, now, events);
+  mayRunUntilWatchdogOf(last_request_);
+  timers_.prolong(Timer::kNextRequest, last_request_ + config_.watchdog + kWatchdogTolerance);
+}
+
+void SlaveHandler::onExchange(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
+  if (answer.kind == FdlAnswer::Kind::kRefusal) return handleRefusedExchange(answer.code, now, events);
+  timers_.stop(Timer::kRefusedLimit);
   if (resuming_) enterDataExchange(events);
   ++status_.counters.exchanges;
   forgetFaults();

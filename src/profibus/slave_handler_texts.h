@@ -12,6 +12,8 @@ constexpr const char* kMasterThere = "is a master, not a slave: check the addres
 constexpr const char* kFellSilent = "fell silent: check its power and the cable";
 constexpr const char* kGarbled =
     "answered with telegrams that are no answer: check the cable, and that no other station has its address";
+constexpr const char* kRefusesExchange =
+    "answers, but refuses data exchange: it takes no outputs, or gives no inputs; its watchdog is left to run out";
 constexpr const char* kLeft = "left data exchange by itself: its watchdog ran out, or it was switched off and on";
 constexpr const char* kAsksAgain = "asks for its parameters again: it was restarted, or another master took it";
 constexpr const char* kLinkOpened = "was lost with the bus device, which is opened anew";
