@@ -184,7 +184,8 @@ void SlaveHandler::startOver(const char* note) noexcept {
 
 void SlaveHandler::enterDataExchange(DpEvents& events) noexcept {
   resuming_ = false;
-  diagnosis_due_ = false;
+  // Gone on with after a silence: what stood before it need not stand still, and nobody else asks.
+  diagnosis_due_ = status_.diagnosis.staticDiagnosis();
   status_.phase = SlavePhase::kDataExchange;
   status_.note = "";
   events.push(event(DpEventKind::kDataExchangeEntered, ""));
