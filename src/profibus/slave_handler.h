@@ -82,6 +82,7 @@ class SlaveHandler {
     kReadyLimit,        ///< until then it may not be ready
     kHaste,             ///< since it fell silent, or the line was opened anew: see isUrgent()
     kWatchdog,          ///< likewise, its watchdog has not run out: it may be in data exchange with us still
+    kNoParameters,      ///< gone on with and unanswered: its watchdog may have begun anew, and runs until then
     kUndiagnosedLimit,  ///< in data exchange, set when Slave_Diag was not answered
     kRefusedLimit,      ///< likewise, set when the exchange was refused
     kCount

@@ -49,6 +49,7 @@ void SlaveHandler::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& even
   if (status_.phase == SlavePhase::kSilent) {
     status_.note = texts::kNoAnswer;
   } else {
+    if (resuming_) timers_.set(Timer::kNoParameters, now + config_.watchdog);
     fallSilent(timers_.isRunning(Timer::kHaste, now) ? now : now + probe_interval_, texts::kNoAnswer);
   }
 }
@@ -106,6 +107,10 @@ void SlaveHandler::onFdlStatus(const FdlAnswer& answer, Instant now, DpEvents& e
   if (!told_found_) events.push(event(DpEventKind::kSlaveFound, texts::kStarting));
   told_found_ = true;
   const bool exchanges = status_.phase == SlavePhase::kSilent && timers_.isRunning(Timer::kWatchdog, now);
+  if (!exchanges && timers_.isRunning(Timer::kNoParameters, now)) {
+    status_.note = texts::kMayRun;
+    return;
+  }
   if (!exchanges) status_.ident.reset();
   startOver(texts::kStarting);
   resuming_ = exchanges;

@@ -6,6 +6,8 @@ namespace nord_driver::profibus::texts {
 constexpr const char* kNoAnswer =
     "does not answer: check its power, its address, the baud rate, the cable and its termination";
 constexpr const char* kStarting = "answers, and is being parameterised";
+constexpr const char* kMayRun =
+    "answers, and may be in data exchange still: it is parameterised when its watchdog has run out";
 constexpr const char* kWaiting = "has its parameters, and reports that it is not ready yet";
 constexpr const char* kNoValidData = "reports that it has no valid data for the moment (Stat_Diag)";
 constexpr const char* kMasterThere = "is a master, not a slave: check the addresses";

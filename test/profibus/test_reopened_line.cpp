@@ -2,6 +2,8 @@
 // first, and is not parameterised anew, which would start its watchdog again and stop nothing (BU 2700 7.1.1).
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "profibus/nord_wire.h"
 
 namespace nord_driver::profibus {
@@ -61,6 +63,33 @@ TEST(ReopenedLine, TheFirstWordStartsTheWatchdogAnew) {
   wire.cycle(kExchange6D, kInputs);
   EXPECT_LT(wire.now - sent, 110ms);
   EXPECT_TRUE(wire.status().exchanged_this_cycle);
+}
+
+// Found again, and the first word is not answered, but may have been heard: its watchdog began anew. Where it cannot be
+// gone on with any more, Set_Prm waits until that has run out.
+TEST(ReopenedLine, AnUnansweredFirstWordPutsSetPrmOff) {
+  NordWire wire;
+  wire.startsUp();
+  wire.cycle(kExchange7D, kInputs);
+  wire.restart();
+  wire.advance(30ms);
+  wire.isFound();
+  wire.startCycle();
+  for (int i = 0; i < 2; ++i) {
+    wire.sends(kExchange6D);
+    wire.staysSilent();
+  }
+  wire.cycleEnds();
+  const Instant heard = wire.now;
+  wire.advance(50ms);
+  wire.isFound();  // more than 100 ms after the exchange
+  EXPECT_LT(wire.now - heard, 100ms);
+  EXPECT_EQ(SlavePhase::kSilent, wire.status().phase);
+  EXPECT_NE(std::string::npos, std::string{wire.status().note}.find("watchdog"));
+  wire.advance(250ms);
+  wire.isFound();
+  wire.isFree();
+  wire.takesParameters();
 }
 
 // Switched off and on, or taken by another master meanwhile.
