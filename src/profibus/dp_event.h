@@ -19,7 +19,7 @@ enum class DpEventKind : std::uint8_t {
   kLockedByMaster,        ///< `master` owns the slave
   kConfigurationDiffers,  ///< Get_Cfg: see `DpMaster::configurationText()`
   kConfigurationRead,     ///< Get_Cfg on demand was answered, or was refused: see `text`
-  kServiceRefused,        ///< a negative answer to a service of the start-up
+  kServiceRefused,        ///< a negative answer to a service of the start-up, or to data exchange for too long
   kNotReady,              ///< parameterised and configured, but does not become ready
   // Not of one slave: `slave` is kNoSlave.
   kForeignMaster,  ///< `master` sent a token or a request. Our own address: a second master has it, or an adapter
@@ -32,6 +32,7 @@ enum class LossCause : std::uint8_t {
   kNone,
   kSilence,              ///< no answer, retries included
   kWrongAnswers,         ///< something answered, but never a legal answer
+  kRefused,              ///< answered each exchange for as long, and took no outputs or gave no inputs
   kLeftDataExchange,     ///< answered RS: its watchdog ran out, or it was switched off and on
   kParametersRequested,  ///< Slave_Diag shows Prm_Req, or is that of another master, or of another device
   kLinkRestarted         ///< `DpMaster::restart()`

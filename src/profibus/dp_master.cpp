@@ -81,6 +81,7 @@ ByteView DpMaster::pollTransmit(Instant now) noexcept {
   const ByteView bytes = requester_.pollTransmit(now);
   if (bytes.empty()) return bytes;
   told_busy_ = false;
+  if (const auto slot_end = requester_.nextDeadline()) slaves_[asked_].handleSent(*slot_end);
   advance(now);  // a broadcast has ended with its sending; its bytes stay where they are
   return bytes;
 }

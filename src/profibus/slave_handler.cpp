@@ -14,6 +14,8 @@ using namespace std::chrono_literals;
 
 constexpr Duration kFirstPause = 250ms;
 constexpr Duration kLongestPause = 2s;
+// A slave with a longer watchdog is found in time without haste.
+constexpr Duration kHasteLimit = 1s;
 
 }  // namespace
 
@@ -31,6 +33,8 @@ SlaveHandler::SlaveHandler(std::size_t index, const SlaveConfig& config, const B
 }
 
 void SlaveHandler::restart(Instant now, DpEvents& events) noexcept {
+  // Whatever the line did, it may run on as it was told last: see nextService().
+  if (status_.phase == SlavePhase::kDataExchange || resuming_) mayRunUntilWatchdogOf(last_request_);
   if (status_.phase == SlavePhase::kDataExchange) lose(LossCause::kLinkRestarted, texts::kLinkOpened, events);
   forgetFaults();
   told_found_ = false;
@@ -149,10 +153,17 @@ bool SlaveHandler::submitRecord(const RecordRequest& request) noexcept {
   return records_.submit(request, unusable);
 }
 
+// Its watchdog runs from the last request on that it heard.
+void SlaveHandler::mayRunUntilWatchdogOf(Instant heard) noexcept {
+  timers_.set(Timer::kWatchdog, heard + config_.watchdog);
+  timers_.set(Timer::kHaste, heard + std::min(config_.watchdog, kHasteLimit));
+}
+
 void SlaveHandler::fallSilent(Instant due, const char* note) noexcept {
   resuming_ = false;
   diagnosis_due_ = false;
   timers_.stop(Timer::kUndiagnosedLimit);
+  timers_.stop(Timer::kRefusedLimit);
   status_.phase = SlavePhase::kSilent;
   status_.heard = false;
   status_.note = note;
@@ -165,6 +176,7 @@ void SlaveHandler::startOver(const char* note) noexcept {
   frame_count_.reset();
   diagnosis_due_ = false;
   timers_.stop(Timer::kUndiagnosedLimit);
+  timers_.stop(Timer::kRefusedLimit);
   status_.phase = SlavePhase::kFirstDiagnosis;
   status_.note = note;
   timers_.stop(Timer::kNextRequest);
@@ -172,7 +184,8 @@ void SlaveHandler::startOver(const char* note) noexcept {
 
 void SlaveHandler::enterDataExchange(DpEvents& events) noexcept {
   resuming_ = false;
-  diagnosis_due_ = false;
+  // Gone on with after a silence: what stood before it need not stand still, and nobody else asks.
+  diagnosis_due_ = status_.diagnosis.staticDiagnosis();
   status_.phase = SlavePhase::kDataExchange;
   status_.note = "";
   events.push(event(DpEventKind::kDataExchangeEntered, ""));

@@ -48,6 +48,8 @@ class SlaveHandler {
   /// Writes the wanted request of all others.
   void prepare(FdlRequest& request, Instant now) noexcept;
 
+  /// Its request goes out: it has heard it by then, if at all.
+  void handleSent(Instant heard_by) noexcept { last_request_ = heard_by; }
   void handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
   /// The request was sent, retries included, and not answered.
   void handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) noexcept;
@@ -78,9 +80,11 @@ class SlaveHandler {
     kAskOften,          ///< asked once per cycle until then
     kOwnerLimit,        ///< until then it may not have taken us for its master
     kReadyLimit,        ///< until then it may not be ready
-    kHaste,             ///< since it fell silent: see isUrgent()
+    kHaste,             ///< since it fell silent, or the line was opened anew: see isUrgent()
     kWatchdog,          ///< likewise, its watchdog has not run out: it may be in data exchange with us still
+    kNoParameters,      ///< gone on with and unanswered: its watchdog may have begun anew, and runs until then
     kUndiagnosedLimit,  ///< in data exchange, set when Slave_Diag was not answered
+    kRefusedLimit,      ///< likewise, set when the exchange was refused
     kCount
   };
   enum class Service : std::uint8_t { kFdlStatus, kSlaveDiag, kGetCfg, kSetPrm, kChkCfg, kDataExchange, kRecord };
@@ -88,6 +92,7 @@ class SlaveHandler {
   Service nextService() noexcept;
   void handleNoOptionalAnswer(Instant now, DpEvents& events) noexcept;
   void handleNoExchange(Mismatch mismatch, Instant now, DpEvents& events) noexcept;
+  void handleRefusedExchange(ResponseCode code, Instant now, DpEvents& events) noexcept;
   void onFdlStatus(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
   void onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
   void onConfiguration(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
@@ -101,6 +106,7 @@ class SlaveHandler {
   std::optional<Fault> strangerIn(const Diagnosis& diagnosis) const noexcept;
   std::optional<Fault> faultIn(const Diagnosis& diagnosis) const noexcept;
 
+  void mayRunUntilWatchdogOf(Instant heard) noexcept;
   void fallSilent(Instant due, const char* note) noexcept;
   void startOver(const char* note) noexcept;
   void enterDataExchange(DpEvents& events) noexcept;
@@ -124,6 +130,7 @@ class SlaveHandler {
   bool resuming_ = false;       // in kFirstDiagnosis: first of all it is asked whether it is in data exchange still
   bool diagnosis_due_ = false;  // in data exchange: DH was seen
   TimerTable<Timer> timers_;
+  Instant last_request_{};    // heard by then, if at all
   Instant last_answer_{};     // of whatever kind: its watchdog runs from there at the earliest
   Duration silence_limit_{};  // of data exchange without an answer
   GrowingPause back_off_;

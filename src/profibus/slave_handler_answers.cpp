@@ -16,8 +16,8 @@ constexpr Duration kAskOften = 1s;
 constexpr Duration kAskRarely = 250ms;
 constexpr Duration kReadyLimit = 5s;
 constexpr Duration kOwnerLimit = 500ms;
-// A slave with a longer watchdog is found in time without haste.
-constexpr Duration kHasteLimit = 1s;
+// What a slave's clock may be behind ours when its watchdog is waited for.
+constexpr Duration kWatchdogTolerance = 250ms;
 
 }  // namespace
 
@@ -49,6 +49,7 @@ void SlaveHandler::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& even
   if (status_.phase == SlavePhase::kSilent) {
     status_.note = texts::kNoAnswer;
   } else {
+    if (resuming_) timers_.set(Timer::kNoParameters, now + config_.watchdog);
     fallSilent(timers_.isRunning(Timer::kHaste, now) ? now : now + probe_interval_, texts::kNoAnswer);
   }
 }
@@ -76,9 +77,7 @@ void SlaveHandler::handleNoExchange(Mismatch mismatch, Instant now, DpEvents& ev
   } else {
     lose(LossCause::kWrongAnswers, texts::kGarbled, events);
   }
-  // It may have heard us until now: its watchdog runs from the last request on.
-  timers_.set(Timer::kWatchdog, now + config_.watchdog);
-  timers_.set(Timer::kHaste, now + std::min(config_.watchdog, kHasteLimit));
+  mayRunUntilWatchdogOf(now);
   fallSilent(now, texts::kNoAnswer);  // asked again in the next cycle: most silences are short
 }
 
@@ -108,6 +107,10 @@ void SlaveHandler::onFdlStatus(const FdlAnswer& answer, Instant now, DpEvents& e
   if (!told_found_) events.push(event(DpEventKind::kSlaveFound, texts::kStarting));
   told_found_ = true;
   const bool exchanges = status_.phase == SlavePhase::kSilent && timers_.isRunning(Timer::kWatchdog, now);
+  if (!exchanges && timers_.isRunning(Timer::kNoParameters, now)) {
+    status_.note = texts::kMayRun;
+    return;
+  }
   if (!exchanges) status_.ident.reset();
   startOver(texts::kStarting);
   resuming_ = exchanges;
@@ -164,16 +167,27 @@ void SlaveHandler::onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents&
   timers_.set(Timer::kReadyLimit, now + kReadyLimit);
 }
 
-void SlaveHandler::onExchange(const FdlAnswer& answer, Instant, DpEvents& events) noexcept {
-  if (answer.kind == FdlAnswer::Kind::kRefusal) {
-    if (resuming_) return startOver(texts::kStarting);
-    if (answer.code == ResponseCode::kNotActivated) {
-      lose(LossCause::kLeftDataExchange, texts::kLeft, events);
-      return startOver(texts::kLeft);
-    }
-    diagnosis_due_ = true;  // no data, no reason: ask for it
-    return;
+// RR, UE, RDL and RDH: outputs not taken; NR: taken, but no inputs. The first are asked for the reason. Where they last, a
+// slave whose requests feed its watchdog would keep its drive as it was told last, though the stop words go out: it is
+// lost, as after a silence, and asked for nothing until its watchdog has run out. Set_Prm would start that anew.
+void SlaveHandler::handleRefusedExchange(ResponseCode code, Instant now, DpEvents& events) noexcept {
+  if (code == ResponseCode::kNotActivated) {
+    if (!resuming_) lose(LossCause::kLeftDataExchange, texts::kLeft, events);
+    return startOver(resuming_ ? texts::kStarting : texts::kLeft);
   }
+  if (resuming_) enterDataExchange(events);  // only RS says that it is not in it
+  diagnosis_due_ = true;
+  if (!timers_.isSet(Timer::kRefusedLimit)) return timers_.set(Timer::kRefusedLimit, now + silence_limit_);
+  if (timers_.isRunning(Timer::kRefusedLimit, now)) return;
+  lose(LossCause::kRefused, texts::kRefusesExchange, events);
+  backOff({DpEventKind::kServiceRefused, texts::kRefusesExchange}, now, events);
+  mayRunUntilWatchdogOf(last_request_);
+  timers_.prolong(Timer::kNextRequest, last_request_ + config_.watchdog + kWatchdogTolerance);
+}
+
+void SlaveHandler::onExchange(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
+  if (answer.kind == FdlAnswer::Kind::kRefusal) return handleRefusedExchange(answer.code, now, events);
+  timers_.stop(Timer::kRefusedLimit);
   if (resuming_) enterDataExchange(events);
   ++status_.counters.exchanges;
   forgetFaults();

@@ -6,12 +6,16 @@ namespace nord_driver::profibus::texts {
 constexpr const char* kNoAnswer =
     "does not answer: check its power, its address, the baud rate, the cable and its termination";
 constexpr const char* kStarting = "answers, and is being parameterised";
+constexpr const char* kMayRun =
+    "answers, and may be in data exchange still: it is parameterised when its watchdog has run out";
 constexpr const char* kWaiting = "has its parameters, and reports that it is not ready yet";
 constexpr const char* kNoValidData = "reports that it has no valid data for the moment (Stat_Diag)";
 constexpr const char* kMasterThere = "is a master, not a slave: check the addresses";
 constexpr const char* kFellSilent = "fell silent: check its power and the cable";
 constexpr const char* kGarbled =
     "answered with telegrams that are no answer: check the cable, and that no other station has its address";
+constexpr const char* kRefusesExchange =
+    "answers, but refuses data exchange: it takes no outputs, or gives no inputs; its watchdog is left to run out";
 constexpr const char* kLeft = "left data exchange by itself: its watchdog ran out, or it was switched off and on";
 constexpr const char* kAsksAgain = "asks for its parameters again: it was restarted, or another master took it";
 constexpr const char* kLinkOpened = "was lost with the bus device, which is opened anew";

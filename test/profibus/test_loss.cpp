@@ -56,6 +56,29 @@ TEST(Loss, FoundInTimeItHearsTheNextWordAtOnce) {
   EXPECT_EQ(1u, wire.status().counters.losses);
 }
 
+// Its Stat_Diag stood when it fell silent: whether it does still is asked, for its inputs do not count until then, and
+// it need not announce that it has gone.
+TEST(Loss, FoundInTimeItIsAskedForAStandingStatDiag) {
+  NordWire wire;
+  wire.startsUp();
+  wire.startCycle();
+  wire.sends(kExchange7D);
+  wire.receives(kInputsDh);
+  wire.sends(kDiag5D);
+  wire.receives("68 0B 0B 68 81 88 08 3E 3C 00 0E 00 01 75 31 40 16");
+  wire.cycleEnds();
+  loses(wire, kExchange7D);
+  wire.isFound();
+  wire.startCycle();
+  wire.sends(kExchange6D);
+  wire.receives(kInputs);
+  wire.sends(kDiag5D);
+  wire.receives(kReady);
+  wire.cycleEnds();
+  wire.cycle(kExchange7D, kInputs);
+  EXPECT_TRUE(wire.status().exchanged_this_cycle);
+}
+
 // That word, too, it may hear without being heard: it is told once that it was lost, and its state is asked for again.
 TEST(Loss, FoundInTimeAndSilentAgainItIsTheSameLoss) {
   NordWire wire;

@@ -6,6 +6,7 @@ namespace {
 
 constexpr Duration kAskAgain = std::chrono::milliseconds{250};
 constexpr Duration kAbsenceLasts = std::chrono::seconds{1};  // where nobody can be asked
+constexpr Duration kMayTell = std::chrono::seconds{5};  // P173 behind other records, and the time of a record itself
 
 }  // namespace
 
@@ -15,7 +16,8 @@ void InverterPresence::handleExchange(bool link_broken, const std::array<bool, k
   for (std::size_t i = 0; i < count_; ++i) {
     Inverter& inverter = inverters_[i];
     inverter.useful = useful[i];
-    const bool believed = !asks_ && now - inverter.absent_since >= kAbsenceLasts;
+    const bool believed = asks_ ? unanswered_since_ && now - *unanswered_since_ >= kMayTell
+                                : now - inverter.absent_since >= kAbsenceLasts;
     if (!inverter.useful || believed) inverter.absent = false;  // the status word says it itself from here on
   }
   if (!isOpen()) {
@@ -26,6 +28,7 @@ void InverterPresence::handleExchange(bool link_broken, const std::array<bool, k
 void InverterPresence::handleSilence() noexcept {
   link_broken_ = false;
   inverters_ = {};
+  unanswered_since_.reset();
 }
 
 void InverterPresence::handleAbsence(std::size_t inverter, Instant now) noexcept {
@@ -36,6 +39,7 @@ void InverterPresence::handleAbsence(std::size_t inverter, Instant now) noexcept
 
 void InverterPresence::handleModuleStatus(Word status, const std::array<std::uint8_t, kMaxInverters>& number) noexcept {
   constexpr unsigned kOnline = 2;  // bits 10: online; 00 offline, 01 unknown, 11 lost or switched off (P173)
+  unanswered_since_.reset();
   for (std::size_t i = 0; i < count_; ++i) {
     inverters_[i].online = (status >> (8u + 2u * (number[i] - 1u)) & 3u) == kOnline;
     if (inverters_[i].online) inverters_[i].absent = false;
@@ -54,7 +58,9 @@ bool InverterPresence::isOpen() const noexcept {
 bool InverterPresence::wantsModuleStatus(Instant now) noexcept {
   bool wanted = isOpen();
   for (std::size_t i = 0; i < count_; ++i) wanted = wanted || inverters_[i].absent;
+  if (!wanted) unanswered_since_.reset();
   if (!asks_ || !wanted || now < next_status_) return false;
+  if (!unanswered_since_) unanswered_since_ = now;
   next_status_ = now + kAskAgain;
   return true;
 }

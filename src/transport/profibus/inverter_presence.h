@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "nord_driver/core/bytes.h"
 #include "nord_driver/core/time.h"
@@ -12,7 +13,8 @@ namespace nord_driver {
 
 /// Four witnesses (BU 0020 2.1.3, 8.2; BU 2700 6.5.1.1, 7.1.3): a status word of zeros; the diagnosis 02 04 of the
 /// module, which does not say whose link is broken; the parameter errors 101 and 102; P173, which says it of each
-/// inverter, and is asked for only when the others leave it open. In doubt an inverter is off.
+/// inverter, and is asked for only when the others leave it open. In doubt an inverter is off. A parameter error passes
+/// where P173 cannot be asked for, or is not answered, and useful status words come.
 class InverterPresence {
  public:
   static constexpr std::size_t kMaxInverters = 4;
@@ -50,6 +52,7 @@ class InverterPresence {
   bool link_broken_ = false;
   std::array<Inverter, kMaxInverters> inverters_{};
   Instant next_status_{};
+  std::optional<Instant> unanswered_since_;  // P173 was asked for then, and not told since
   Instant next_diagnosis_{};
 };
 

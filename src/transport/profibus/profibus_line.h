@@ -15,12 +15,28 @@ namespace nord_driver {
 
 std::unique_ptr<link::ByteLink> openSerialPort(const link::SerialSettings& settings);
 
+/// Hands `engine` what the link has received.
+template <typename Engine>
+void handOver(Engine& engine, link::ByteLink& link, ProfibusRecorder& recorder) noexcept {
+  std::uint8_t buffer[512];
+  const std::size_t count = link.read(buffer, sizeof buffer);
+  const Instant read = link.now();
+  recorder.handleReceived({buffer, count}, read);
+  engine.handleBytes({buffer, count}, read);
+}
+
 /// Carries bytes between `engine` and an open link until `done()`, the engine has nothing to wait for, or the link is
 /// closed. Waits no longer than `until` for what comes next; `done()` tells when that is over.
+///
+/// What has come is read before anything is sent: a late or doubled answer, left from before a request, would count as
+/// the answer to it, and so would every one after it.
 template <typename Engine, typename Done>
 void talkOnLine(Engine& engine, link::ByteLink& link, ProfibusRecorder& recorder, Instant until, Done done) noexcept {
-  std::uint8_t buffer[512];
   while (!done() && link.isOpen()) {
+    if (link.waitReadable(link.now())) {
+      handOver(engine, link, recorder);
+      if (done() || !link.isOpen()) break;
+    }
     const Instant start = link.now();
     const ByteView telegram = engine.pollTransmit(start);
     if (!telegram.empty()) {
@@ -30,12 +46,7 @@ void talkOnLine(Engine& engine, link::ByteLink& link, ProfibusRecorder& recorder
     }
     const auto deadline = engine.nextDeadline();
     if (!deadline) break;
-    if (link.waitReadable(std::min(*deadline, until))) {
-      const std::size_t count = link.read(buffer, sizeof buffer);
-      const Instant read = link.now();
-      recorder.handleReceived({buffer, count}, read);
-      engine.handleBytes({buffer, count}, read);
-    }
+    if (link.waitReadable(std::min(*deadline, until))) handOver(engine, link, recorder);
     if (link.now() >= *deadline) engine.handleTimeout(link.now());
   }
 }

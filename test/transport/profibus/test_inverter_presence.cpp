@@ -80,6 +80,39 @@ TEST(InverterPresence, AParameterErrorCountsUntilTheModuleKnowsBetter) {
   EXPECT_TRUE(presence.answers(1));
 }
 
+// P173 can be read by its kind, and is refused or not answered: the parameter error passes all the same, for as long as
+// useful status words come.
+TEST(InverterPresence, AModuleThatDoesNotTellHoldsNoParameterError) {
+  InverterPresence presence{2, true};
+  presence.handleExchange(false, {true, true}, kStart);
+  presence.handleAbsence(1, kStart);
+  for (Instant now = kStart; now < kStart + seconds{5}; now += milliseconds{10}) {
+    presence.handleExchange(false, {true, true}, now);
+    presence.wantsModuleStatus(now);
+    ASSERT_FALSE(presence.answers(1));
+  }
+  presence.handleExchange(false, {true, true}, kStart + seconds{5});
+  EXPECT_TRUE(presence.answers(1));
+  EXPECT_FALSE(presence.wantsModuleStatus(kStart + seconds{5}));
+  presence.handleAbsence(1, kStart + seconds{20});
+  EXPECT_TRUE(presence.wantsModuleStatus(kStart + seconds{20}));
+  presence.handleExchange(false, {true, true}, kStart + seconds{22});
+  EXPECT_FALSE(presence.answers(1)) << "a new doubt, and a new time to tell";
+}
+
+// Told again and again that it is lost, it is; and for so long after the last time.
+TEST(InverterPresence, AModuleThatTellsHoldsIt) {
+  InverterPresence presence{2, true};
+  presence.handleExchange(false, {true, true}, kStart);
+  presence.handleAbsence(1, kStart);
+  for (Instant now = kStart; now < kStart + seconds{20}; now += milliseconds{500}) {
+    presence.handleExchange(false, {true, true}, now);
+    ASSERT_FALSE(presence.answers(1));
+    EXPECT_TRUE(presence.wantsModuleStatus(now));
+    presence.handleModuleStatus(0x0E02, kNumbers);  // FI1 online, FI2 lost
+  }
+}
+
 // Nobody to ask: the status word counts again after a second.
 TEST(InverterPresence, WithoutRecordsAParameterErrorPasses) {
   InverterPresence presence{1, false};

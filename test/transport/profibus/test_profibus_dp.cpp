@@ -273,6 +273,24 @@ TEST_F(OnASegment, Ppo3HasNoParameterChannel) {
   EXPECT_EQ(0, taken);
 }
 
+// An answer that came late, or twice, lies in the buffer of the adapter when the next cycle begins. It answers none of
+// its requests: a wheel would be a cycle behind for as long as that goes on.
+TEST_F(OnASegment, WhatCameBetweenCyclesAnswersNothing) {
+  bringUp();
+  const BusCounters before = transport_->counters();
+  for (int i = 0; i < 3; ++i) {
+    segment_->foreign(fromHex("68 0F 0F 68 01 03 08 00 00 00 00 00 00 00 00 0B 37 20 00 6E 16"));
+    transport_->sleepUntil(transport_->now() + milliseconds{5});
+    step();
+    EXPECT_EQ(0x0B31, inputs_[0].input.status_word);
+    EXPECT_EQ(0x0B31, inputs_[1].input.status_word);
+  }
+  const BusCounters after = transport_->counters();
+  EXPECT_EQ(3u, after.value(bus_counter::kUnexpected) - before.value(bus_counter::kUnexpected));
+  EXPECT_EQ(before.value(bus_counter::kRetries), after.value(bus_counter::kRetries));
+  EXPECT_EQ("no rule broken", segment_->referee().report());
+}
+
 // --- The device ------------------------------------------------------------------------------------------------------
 
 // The far end of the adapter is pulled: silent drives, a reason in words, and looked for at least every 2 s.
