@@ -14,6 +14,7 @@ void BusCycle::addAxis(const DriveSetup& setup, CycleRole role) {
   channel.monitor = setup.monitor;
   channel.follows = !setup.follows.empty();
   channel.users_only = role == CycleRole::kGuest;
+  drives_[drive].setParametersAwaited(!channel.users_only);
   if (role == CycleRole::kDriver) channel.needs = wordNeeds(setup.words, identity.process_values);
   if (role != CycleRole::kGuest && setup.position) {
     channel.field_order = setup.position->order;

@@ -36,7 +36,7 @@ void forgetScale(drive::Drive& drive) noexcept {
     drive.setPositionWords(set, {});
   }
   drive.setUnexpectedSource(std::nullopt);
-  drive.setParametersAwaited(true);
+  drive.setParametersAwaited(true);  // asked for again
 }
 
 bool saysWhatSetpointsMean(std::uint16_t number) noexcept {
@@ -149,6 +149,7 @@ void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
   collect();
   // Another inverter may come back in its place: nothing is enabled with what P105 was before.
   forgetScale(drive);
+  drive.setParametersAwaited(!channel_.users_only);
 }
 
 // An idle drive that 047E does not lead to "ready to switch on" has a reason; it is known before anybody asks for it.

@@ -150,7 +150,6 @@ bool Supervisor::isEnabled(const Request& request) const noexcept {
 }
 
 void Supervisor::startEnable(const Request& request, const CommandState& commands, Instant now) noexcept {
-  auto_enable_ = false;  // somebody has taken over
   if (shutting_down_) return completions_.answer(request, false, "the node is ending");
   if (jobs_.full()) return completions_.answer(request, false, "too many requests are being carried out already");
   // As of what the drives say from now on: one may have tripped while this cycle was held up.
@@ -160,8 +159,28 @@ void Supervisor::startEnable(const Request& request, const CommandState& command
   if (commands.to_hear > request.patience) {
     return completions_.answer(request, false, reasonsAgainst(request, notHeardYet(commands, has_base_)));
   }
-  if (commands.to_hear > Duration::zero()) return followUp(request, now, false);
-  if (enableAll(request, now)) followUp(request, now);
+  if (commands.to_hear > Duration::zero() || awaitsParameters(request)) {
+    auto_enable_ = false;
+    return followUp(request, now, false);
+  }
+  if (!enableAll(request, now)) return;
+  auto_enable_ = false;  // somebody has taken over
+  followUp(request, now);
+}
+
+// Nothing else stands against it, and it takes a second at most.
+bool Supervisor::awaitsParameters(const Request& request) const noexcept {
+  bool awaits = false;
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    if (!concerns(request, i) || enabledOrEnabling(groups_[i])) continue;
+    if (groups_[i].group.report().phase != GroupPhase::kDisabled) return false;
+    for (const DriveIndex member : groups_[i].members) {
+      const Refusal refusal = drives_[member].enableRefusal();
+      if (refusal != Refusal::kNone && refusal != Refusal::kParametersAwaited) return false;
+      awaits = awaits || refusal == Refusal::kParametersAwaited;
+    }
+  }
+  return awaits;
 }
 
 Sentence Supervisor::reasonsAgainst(const Request& request, const Sentence& commands) noexcept {
@@ -246,6 +265,7 @@ bool Supervisor::followWaiting(Job& job, const CommandState& commands, Instant n
     completions_.answer(job.request, false, notHeardYet(commands, has_base_));
     return true;
   }
+  if (now < job.deadline && awaitsParameters(job.request)) return false;
   job.begun = enableAll(job.request, now);
   return !job.begun;
 }

@@ -53,7 +53,7 @@ class Supervisor {
   struct Job {
     Request request;
     Instant deadline{};
-    bool begun = true;                       // false: an enable that waits until commands have been listened to
+    bool begun = true;  // false: an enable that waits for commands to be listened to, or parameters
     std::optional<Instant> enabled_at = {};  // an enable of what was enabled then
   };
 
@@ -62,6 +62,7 @@ class Supervisor {
   void startEnable(const Request& request, const CommandState& commands, Instant now) noexcept;
   /// All drives of the request, or none: false when one refuses, and answered.
   bool enableAll(const Request& request, Instant now) noexcept;
+  bool awaitsParameters(const Request& request) const noexcept;
   static bool enabledOrEnabling(const Group& group) noexcept;
   /// Everything that is against enabling what it asks for, `commands` included; empty when nothing is.
   Sentence reasonsAgainst(const Request& request, const Sentence& commands) noexcept;

@@ -139,7 +139,7 @@ class Drive {
   void setUnexpectedSource(const std::optional<UnexpectedSource>& source) noexcept {
     report_.unexpected_source = source;
   }
-  /// P104, P509, P510, P543 and P546 have not been asked for yet: it is not enabled before.
+  /// P104, P105, P509, P510, P543 and P546 have not been asked for yet: it is not enabled before.
   void setParametersAwaited(bool awaited) noexcept { parameters_awaited_ = awaited; }
   /// P700 [-03], why the inverter does not become ready to switch on, as read from it; none when it gives no reason.
   void setSwitchOnReason(std::optional<std::uint16_t> reason) noexcept { report_.switch_on_reason = reason; }

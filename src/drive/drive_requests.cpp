@@ -48,8 +48,8 @@ Refusal Drive::enableRefusal() const noexcept {
                          report_.state == DriveState::kReadyToSwitchOn || report_.state == DriveState::kSwitchedOn;
   if (!startable) return Refusal::kWrongState;
   if (report_.parameter_set != report_.commanded_set) return Refusal::kParameterSet;
-  if (!maxFrequency(report_.commanded_set).has_value()) return Refusal::kMaxFrequencyUnknown;
   if (parameters_awaited_) return Refusal::kParametersAwaited;
+  if (!maxFrequency(report_.commanded_set).has_value()) return Refusal::kMaxFrequencyUnknown;
   if (report_.unexpected_function) return Refusal::kUnexpectedFunction;
   const bool turns_at_zero = report_.minimum_frequency.value > 0.0;
   if (turns_at_zero && !config_.allow_minimum_frequency) return Refusal::kMinimumFrequency;

@@ -100,7 +100,11 @@ void DrivePublisher::publishDeviceInfo(const cycle::DriveSnapshot& drive) {
   info.protected_by = protection_.assess(device).text;
   info.follows = cycle::followsMessage(device, setup_.series).c_str();
   info.max_frequency.clear();
-  for (const auto& frequency : device.max_frequency) info.max_frequency.push_back(frequency.value_or(kNotKnown));
+  for (std::size_t set = 0; set < device.max_frequency.size(); ++set) {
+    // Where it cannot be read, what is configured is what the driver scales by.
+    const std::optional<Hertz>& typed = setup_.drive.max_frequency[set];
+    info.max_frequency.push_back(device.max_frequency[set].value_or(typed ? typed->value : kNotKnown));
+  }
   const cycle::WordFunctions& words = device.word_functions[0];
   info.setpoint_functions.assign(words.setpoints.begin(), words.setpoints.end());
   info.actual_value_functions.assign(words.actual_values.begin(), words.actual_values.end());

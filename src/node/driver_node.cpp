@@ -247,21 +247,24 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
   if (!thread_->refused().empty()) ROS_WARN("nord_driver: %s", thread_->refused().c_str());
 
   // Whatever ends the node, the drives come to rest first: an exchange that simply ends lets the wheels coast.
+  bool healthy = true;
   try {
     const SnapshotParts parts{*base_publisher_,         drive_publishers_, values_publishers_, fault_publishers_,
                               *process_data_publisher_, *bus_publisher_,   *diagnostics_,      *fault_board_};
     publisher_.emplace(*ports_, config_.publish, parts, loggedDrives());
     // roscpp is "ok" until it has unregistered every topic: tenths of a second in which the robot would drive on.
-    while (!end_asked && ros::ok() && !ros::isShuttingDown() && publisher_->healthy()) {
+    while (!end_asked && ros::ok() && !ros::isShuttingDown() && healthy) {
       noteCommanders();
       tellBusEvents();
       ros::WallDuration(0.02).sleep();
+      healthy = publisher_->healthy();
     }
   } catch (...) {
     bringToRest();
     throw;
   }
   bringToRest();
+  if (!healthy) throw std::runtime_error("the node ended by itself: publishing failed, as said above");
 }
 
 LoggedDrives DriverNode::loggedDrives() const {

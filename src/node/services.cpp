@@ -147,12 +147,18 @@ void Services::readParameter(DriveIndex drive, ReadParameter::Request& request, 
   if (!answer.success) return;
   response.raw = answer.parameter.raw;
   response.value = catalogue::valueOf(access.entry, answer.parameter.raw, access.request.index);
-  if (access.entry == nullptr) return;
-  response.unit = access.entry->unitOf(access.request.index);
-  response.name = access.entry->title();
-  if (!response.message.empty()) return;
-  response.message = catalogue::label(*access.entry, access.request.index) + " = " +
-                     known_[drive].valueText(access.entry, response.raw, access.request.index);
+  if (access.entry != nullptr) {
+    response.unit = access.entry->unitOf(access.request.index);
+    response.name = access.entry->title();
+  }
+  if (response.message.empty()) response.message = valueMessage(drive, access, response.raw);
+}
+
+std::string Services::valueMessage(DriveIndex drive, const catalogue::ParameterAccess& access, std::int32_t raw) const {
+  if (access.entry == nullptr)
+    return "P" + std::to_string(access.request.number) + " = " + std::to_string(raw) + " (raw)";
+  return catalogue::label(*access.entry, access.request.index) + " = " +
+         known_[drive].valueText(access.entry, raw, access.request.index);
 }
 
 void Services::writeParameter(DriveIndex drive, WriteParameter::Request& request, WriteParameter::Response& response) {
@@ -175,6 +181,7 @@ void Services::writeParameter(DriveIndex drive, WriteParameter::Request& request
   response.message = answer.message.str();
   response.raw = answer.parameter.raw;
   response.value = catalogue::valueOf(access.entry, answer.parameter.raw, access.request.index);
+  if (answer.success && response.message.empty()) response.message = valueMessage(drive, access, response.raw);
 }
 
 }  // namespace nord_driver::node

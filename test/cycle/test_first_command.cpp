@@ -46,6 +46,24 @@ TEST_F(FirstCommand, AutoEnableNeverStartsUnderACommanderThatIsTalkingAlready) {
   }
 }
 
+// Refused, it has not begun anything: what is to happen once by itself is still to come.
+TEST_F(FirstCommand, ARefusedEnableLeavesAutoEnableWhatItWas) {
+  CycleBench robot{config(seconds(0.5)), true};
+  for (auto& inverter : robot.transport.inverters) inverter.silent = true;
+  robot.run(60);
+  EXPECT_FALSE(robot.ask(RequestKind::kEnable).success);
+  for (auto& inverter : robot.transport.inverters) inverter.silent = false;
+  robot.run(200);
+  EXPECT_TRUE(robot.snapshot().base.enabled);
+  CycleBench stopped{config(seconds(0.5)), true};
+  for (auto& inverter : stopped.transport.inverters) inverter.silent = true;
+  stopped.run(60);
+  stopped.ask(RequestKind::kDisable);
+  for (auto& inverter : stopped.transport.inverters) inverter.silent = false;
+  stopped.run(200);
+  EXPECT_FALSE(stopped.snapshot().base.enabled) << "a stop is another thing";
+}
+
 // Two publishers: nobody is followed; but it would be as soon as the other one is gone.
 TEST_F(FirstCommand, OneThatIsOnlyHeldIsACommandForWhoeverEnables) {
   CycleBench robot{config(seconds(0.5)), true};

@@ -76,11 +76,31 @@ TEST_F(MotionParameters, NothingIsEnabledBeforeTheyHaveBeenAskedFor) {
   ASSERT_TRUE(snapshot().drives[kLift].device.max_frequency[3]);
   const Completion early = ask(RequestKind::kEnable, kLift);
   EXPECT_FALSE(early.success);
-  EXPECT_THAT(early.message.c_str(), HasSubstr("P104, P509, P510, P543 and P546 are still being read"));
+  EXPECT_THAT(early.message.c_str(), HasSubstr("P104, P105, P509, P510, P543 and P546 are still being read"));
   transport.hold_answers = false;
   while (!transport.submitted.empty()) transport.answerFirst();
   run(5);
   EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);
+}
+
+// It is a matter of a second: whoever asked waits for it, and need not ask again.
+TEST_F(MotionParameters, EnablingWaitsForThem) {
+  transport.hold_answers = true;
+  run(5);
+  Request request;
+  request.kind = RequestKind::kEnable;
+  request.drive = kLift;
+  request.id = ++last_id;
+  request.patience = std::chrono::seconds{3};
+  ports.submit(request);
+  run(100);
+  EXPECT_EQ(0u, completions.count(last_id));
+  EXPECT_EQ(0x047E, controlWord(kLift));
+  transport.hold_answers = false;
+  while (!transport.submitted.empty()) transport.answerFirst();
+  run(60);
+  ASSERT_EQ(1u, completions.count(last_id));
+  EXPECT_TRUE(completions[last_id].success) << completions[last_id].message.c_str();
 }
 
 // What cannot be read refuses nothing.
