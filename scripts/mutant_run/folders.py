@@ -4,7 +4,7 @@ A program of the second list is asked only when none of the first has told. Thos
 are not in here: what only they can see counts as a survivor.
 """
 
-SYSTEMS = ["test_system", "test_system_canopen", "test_system_devicenet", "test_system_interbus", "test_system_channels"]
+SYSTEMS = ["test_system_positions", "test_system_steered", "test_system", "test_system_canopen", "test_system_devicenet", "test_system_interbus", "test_system_channels"]
 
 # folder below src/: (unit tests, system tests)
 FOLDERS = {

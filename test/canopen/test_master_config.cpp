@@ -46,6 +46,9 @@ TEST(MasterConfig, NamesEveryMistake) {
   EXPECT_EQ("node 1, RPDO 1: more than 8 bytes are mapped", first([](NodeConfig& n) {
               n.receive_pdos[0].mapping = {{0x3000, 0, 64}, {0x3002, 1, 16}};
             }));
+  EXPECT_EQ("node 1, RPDO 1: more than 8 bytes are mapped", first([](NodeConfig& n) {
+              n.receive_pdos[0].mapping = {{0x3000, 0, 64}, {0x3002, 1, 8}};
+            }));
   EXPECT_EQ("node 1, RPDO 1: mapped objects must have whole bytes", first([](NodeConfig& n) {
               n.receive_pdos[0].mapping = {{0x3000, 0, 1}};
             }));

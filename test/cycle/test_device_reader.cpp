@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -129,12 +130,15 @@ TEST(DeviceReader, ReadsWhatDecidesMotionOfAllSetsFirst) {
 TEST(DeviceReader, ReadsTheGearOfTheCountOfADriveThatPositions) {
   DeviceReader reader{profile::Series::kSk5xxe, TimeoutOwner::kInverter, true, true};
   bool before_motion = false;
+  std::string controls;  // P600, by set
   while (const auto request = reader.pollRequest()) {
     before_motion = before_motion || (request->number == 607 && !reader.motionAsked());
+    controls += request->number == 600 ? std::to_string(request->parameter_set) : "";
     const bool refused = request->number == 608 && request->parameter_set > 2;
     reader.handleResult(refused ? failed(ParameterOutcome::kRefused) : done(request->parameter_set));
   }
   EXPECT_FALSE(before_motion);
+  EXPECT_EQ("1234", controls);
   EXPECT_TRUE(reader.data().complete);
   EXPECT_THAT(reader.data().speed_ratio, ::testing::ElementsAre(1, 2, 3, 4));
   EXPECT_THAT(reader.data().reduction, ::testing::ElementsAre(1, 2, std::nullopt, std::nullopt));

@@ -58,6 +58,9 @@ TEST_F(PositionConfiguration, IsRadiansWithoutALead) {
   EXPECT_DOUBLE_EQ(-100.0, lift.axis.scale.revolutions_per_unit);
   EXPECT_NEAR(0.3 / 0.2 * 2.0 * 3.14159265358979, lift.axis.speed->value, 1e-9);
   EXPECT_NEAR(0.0001, lift.axis.tolerance, 1e-12) << "0.01 revolutions";
+  EXPECT_DOUBLE_EQ(1.0, lift.axis.revolutions_per_motor_turn) << "what the motor turns is counted";
+  drive_->set("position/gear_ratio", 40.0);
+  EXPECT_DOUBLE_EQ(2.0, setup().axis.revolutions_per_motor_turn);
 }
 
 TEST_F(PositionConfiguration, TakesTheNarrowerLimits) {

@@ -135,6 +135,26 @@ TEST(ImageMap, AnImageThatIsTooShortHasNoDriveInIt) {
   EXPECT_EQ(0x0B31, here.get(0, image({0x0B31, 0x0000, 0x0B31})).head);
 }
 
+TEST(ImageMap, AWordBehindADriveIsNobodys) {
+  ImageSettings with = settings({drive("left", 1), drive("right", 2)});
+  with.drives[1].input_offset = 5;
+  const ImageMap here = map(with);
+  EXPECT_EQ(WordKind::kHead, here.inputMeaning(0).kind);
+  EXPECT_EQ(WordKind::kValue, here.inputMeaning(1).kind);
+  EXPECT_EQ(WordKind::kNobodys, here.inputMeaning(2).kind);
+  EXPECT_EQ(WordKind::kNobodys, here.inputMeaning(4).kind);
+  EXPECT_EQ(WordKind::kHead, here.inputMeaning(5).kind);
+}
+
+TEST(ImageMap, WordsAreTheSameWhereEachIs) {
+  const ProcessWords words{1, {2, 3, 4}};
+  EXPECT_TRUE((words == ProcessWords{1, {2, 3, 4}}));
+  EXPECT_FALSE((words == ProcessWords{9, {2, 3, 4}}));
+  EXPECT_FALSE((words == ProcessWords{1, {9, 3, 4}}));
+  EXPECT_FALSE((words == ProcessWords{1, {2, 9, 4}}));
+  EXPECT_FALSE((words == ProcessWords{1, {2, 3, 9}}));
+}
+
 // --- Parts ---
 
 TEST(ImageMap, OneRequestCarriesWhatFits) {
@@ -142,6 +162,7 @@ TEST(ImageMap, OneRequestCarriesWhatFits) {
   for (unsigned i = 0; i < 31; ++i) drives.push_back(drive("d" + std::to_string(i), i + 1, 2));
   const ImageMap here = map(settings(drives));  // 124 words
   EXPECT_EQ((std::vector<WordRange>{{0, 124}}), here.inputParts(125));
+  EXPECT_EQ((std::vector<WordRange>{{0, 124}}), here.inputParts(124));
   EXPECT_EQ((std::vector<WordRange>{{0, 120}, {120, 4}}), here.outputParts(123));
 }
 

@@ -90,6 +90,7 @@ TEST(AcDrive, AllZeroIsNoInverter) {
   EXPECT_EQ(DriveState::kReadyToSwitchOn, stateOf(AcDriveKind::kBasic, {0, 0, 0})) << "profile 1 does not tell";
   EXPECT_EQ(DriveState::kOperationEnabled, stateOf(AcDriveKind::kBasic, {0x04, 0, 700}));
   EXPECT_EQ(DriveState::kFault, stateOf(AcDriveKind::kBasic, {0x01, 0, 0}));
+  EXPECT_EQ(0x0A37, scaling(AcDriveKind::kBasic).fromAcDrive({0x04, 0, 700}).status_word) << "under our control, right";
 }
 
 }  // namespace
