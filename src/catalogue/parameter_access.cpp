@@ -116,4 +116,11 @@ std::string fullName(const ParameterEntry* entry, unsigned index) {
   return entry->title() + (tells_more ? ", " + element->name : "");
 }
 
+std::string valueSentence(const ParameterAccess& access, std::int32_t raw, const DriveCatalogue& known) {
+  const std::uint8_t index = access.request.index;
+  if (access.entry == nullptr)
+    return "P" + std::to_string(access.request.number) + " = " + std::to_string(raw) + " (raw)";
+  return label(*access.entry, index) + " = " + known.valueText(access.entry, raw, index);
+}
+
 }  // namespace nord_driver::catalogue

@@ -45,4 +45,7 @@ double valueOf(const ParameterEntry* entry, std::int32_t raw, unsigned index);
 /// "Maximum frequency", "Process data bus in, Setpoint 1"; empty where `entry` is nullptr.
 std::string fullName(const ParameterEntry* entry, unsigned index);
 
+/// What was read or written, for a user: "P102 = 0.60 s"; of one nobody describes "P799 = 5 (raw)".
+std::string valueSentence(const ParameterAccess& access, std::int32_t raw, const DriveCatalogue& known);
+
 }  // namespace nord_driver::catalogue

@@ -151,14 +151,7 @@ void Services::readParameter(DriveIndex drive, ReadParameter::Request& request, 
     response.unit = access.entry->unitOf(access.request.index);
     response.name = access.entry->title();
   }
-  if (response.message.empty()) response.message = valueMessage(drive, access, response.raw);
-}
-
-std::string Services::valueMessage(DriveIndex drive, const catalogue::ParameterAccess& access, std::int32_t raw) const {
-  if (access.entry == nullptr)
-    return "P" + std::to_string(access.request.number) + " = " + std::to_string(raw) + " (raw)";
-  return catalogue::label(*access.entry, access.request.index) + " = " +
-         known_[drive].valueText(access.entry, raw, access.request.index);
+  if (response.message.empty()) response.message = catalogue::valueSentence(access, response.raw, known_[drive]);
 }
 
 void Services::writeParameter(DriveIndex drive, WriteParameter::Request& request, WriteParameter::Response& response) {
@@ -181,7 +174,8 @@ void Services::writeParameter(DriveIndex drive, WriteParameter::Request& request
   response.message = answer.message.str();
   response.raw = answer.parameter.raw;
   response.value = catalogue::valueOf(access.entry, answer.parameter.raw, access.request.index);
-  if (answer.success && response.message.empty()) response.message = valueMessage(drive, access, response.raw);
+  if (answer.success && response.message.empty())
+    response.message = catalogue::valueSentence(access, response.raw, known_[drive]);
 }
 
 }  // namespace nord_driver::node

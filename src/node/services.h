@@ -39,8 +39,6 @@ class Services {
   /// Hands an access to the cycle and waits for its answer.
   cycle::Completion carryOut(DriveIndex drive, cycle::RequestKind kind, const catalogue::ParameterAccess& access);
   void selectSet(DriveIndex drive, SelectParameterSet::Request& request, SelectParameterSet::Response& response);
-  /// "P105 Maximum frequency = 50.0 Hz".
-  std::string valueMessage(DriveIndex drive, const catalogue::ParameterAccess& access, std::int32_t raw) const;
   void readParameter(DriveIndex drive, ReadParameter::Request& request, ReadParameter::Response& response);
 
   void writeParameter(DriveIndex drive, WriteParameter::Request& request, WriteParameter::Response& response);

@@ -142,5 +142,12 @@ TEST(ParameterAccess, ValuesAreNamed) {
   EXPECT_EQ("", fullName(nullptr, 1));
 }
 
+TEST(ParameterAccess, AValueIsASentenceWhetherItIsKnownOrNot) {
+  const DriveCatalogue known = drive();
+  EXPECT_EQ("P105 = 50.0 Hz", valueSentence(access(105), 500, known));
+  EXPECT_EQ("P740[-02] = 2000h", valueSentence(access(740, 0, 2), 8192, known).substr(0, 17));
+  EXPECT_EQ("P799 = -3 (raw)", valueSentence(access(799), -3, known));
+}
+
 }  // namespace
 }  // namespace nord_driver::catalogue

@@ -203,7 +203,7 @@ TEST_F(Lift, SetsItsCountAnewWhereItStands) {
   EXPECT_TRUE(answer.success) << answer;
   const auto status = robot().left.status.waitNext([](const DriveStatus&) { return true; });
   EXPECT_NEAR(0.0, status->position, kStep);
-  EXPECT_FALSE(status->position_following || status->position_at_limit || status->homed);
+  EXPECT_FALSE(status->position_following || status->position_at_limit);
   EXPECT_NEAR(0.0, position(), 0.002);
   EXPECT_TRUE(stays());
   ASSERT_TRUE(isEnabled());

@@ -187,6 +187,7 @@ TEST_F(ParameterService, WritesPersistentlyOnceAndTheSameValueNotAtAll) {
   const Written first = write("left", 102, 2.5, true, 4);
   ASSERT_TRUE(first.success) << first;
   EXPECT_EQ(first.response.raw, 250);
+  EXPECT_EQ(first.message, "P102 = 2.50 s");
   EXPECT_EQ(eepromWrites("left"), before + 1);
 
   const Written again = write("left", 102, 2.5, true, 4);

@@ -109,6 +109,8 @@ ParameterAnswer NodeParameters::write(const catalogue::ParameterAccess& access) 
   answer.refused = !answer.success;
   answer.message = service.response.message;
   answer.raw = service.response.raw;
+  // What stands in the answer's other fields is nothing beyond them.
+  if (answer.success && answer.message == catalogue::valueSentence(access, answer.raw, known())) answer.message.clear();
   answer.value = catalogue::valueOf(access.entry, answer.raw, access.request.index);
   answer.entry = access.entry;
   return answer;
