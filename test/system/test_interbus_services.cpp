@@ -75,8 +75,10 @@ TEST_P(InterbusPcpScaling, P105IsReadAndScales) {
   options.drivecom = GetParam().drivecom;
   InterbusRobot robot{options};
   ASSERT_TRUE(isOnline(robot));
-  const cycle::Completion early = robot.ask(cycle::RequestKind::kEnable);
-  EXPECT_FALSE(early.success) << "P105 is not known yet";
+  cycle::Request impatient;
+  impatient.kind = cycle::RequestKind::kEnable;
+  impatient.patience = std::chrono::milliseconds{20};
+  EXPECT_THAT(robot.ask(impatient).message.str(), HasSubstr("P105, P509, P510, P543 and P546 are still being read"));
   ASSERT_TRUE(robot.bringUp()) << robot.text(0) << " / " << robot.busText();
   EXPECT_THAT(robot.snapshot().drives[1].device.max_frequency, Each(Optional(100.0)));
   ASSERT_TRUE(robot.ask(cycle::RequestKind::kEnable).success);
