@@ -227,7 +227,8 @@ void PositionAxis::tell(bool online, bool enabled, bool reached) noexcept {
   if (enabled && has_target_) report_.target = toldTarget();
   report_.reached = reached && known && !homing_.isRunning() && report_.target.has_value() &&
                     std::fabs(*report_.position - *report_.target) <= config_.tolerance;
-  report_.following = (asked_ || element_ != 0) && known && !homing_.isRunning() && report_.target.has_value() && !report_.reached;
+  report_.following =
+      (asked_ || element_ != 0) && known && !homing_.isRunning() && report_.target.has_value() && !report_.reached;
   report_.at_limit = known && isAtLimit(*report_.position);
   // From there on it has to stay.
   if (report_.reached) path_.hold(*report_.target);

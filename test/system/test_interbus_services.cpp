@@ -75,13 +75,10 @@ TEST_P(InterbusPcpScaling, P105IsReadAndScales) {
   options.drivecom = GetParam().drivecom;
   InterbusRobot robot{options};
   ASSERT_TRUE(isOnline(robot));
-  cycle::Request impatient;
-  impatient.kind = cycle::RequestKind::kEnable;
-  impatient.patience = std::chrono::milliseconds{20};
-  EXPECT_THAT(robot.ask(impatient).message.str(), HasSubstr("P105, P509, P510, P543 and P546 are still being read"));
-  ASSERT_TRUE(robot.bringUp()) << robot.text(0) << " / " << robot.busText();
-  EXPECT_THAT(robot.snapshot().drives[1].device.max_frequency, Each(Optional(100.0)));
-  ASSERT_TRUE(robot.ask(cycle::RequestKind::kEnable).success);
+  EXPECT_FALSE(robot.snapshot().drives[1].device.max_frequency[0]);
+  const cycle::Completion enabled = robot.ask(cycle::RequestKind::kEnable);
+  ASSERT_TRUE(enabled.success) << enabled.message.c_str();
+  EXPECT_THAT(robot.snapshot().drives[1].device.max_frequency, Each(Optional(100.0))) << "enabling has waited for it";
   robot.drive(kHalfSpeed, 0.0, seconds{5});
   EXPECT_NEAR(0x1000, robot.setpoint(0), 1);
   EXPECT_NEAR(25.0, robot.unit(0).inverter().frequency(), 0.05) << "the truth; DRIVECOM has steps of 1 rpm";

@@ -124,11 +124,11 @@ TEST(ParameterSets, AP105ThatTheUserHasWrittenScalesFromThenOn) {
     const cycle::Completion written = robot.ask(writeRequest(drive, 105, 1000));
     ASSERT_TRUE(written.success) << written.message.c_str();
   }
-  EXPECT_THAT(robot.ask(cycle::RequestKind::kEnable).message.c_str(),
-              ::testing::AnyOf(HasSubstr("(P105)"), HasSubstr("are still being read")))
-      << "not before it is read";
-  ASSERT_TRUE(robot.bringUp());
-  ASSERT_TRUE(robot.ask(cycle::RequestKind::kEnable).success);
+  const cycle::Completion enabled = robot.ask(cycle::RequestKind::kEnable);
+  ASSERT_TRUE(enabled.success) << enabled.message.c_str();
+  for (DriveIndex drive = 0; drive < 2; ++drive) {
+    EXPECT_EQ(100.0, robot.snapshot().drives[drive].device.max_frequency[0]) << "enabling has waited until it was read";
+  }
   robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{5});
   EXPECT_EQ(0x1000, robot.setpoint(0));
   EXPECT_NEAR(25.0, robot.unit(0).inverter().frequency(), 1e-2) << "the truth";
