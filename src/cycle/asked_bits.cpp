@@ -7,7 +7,6 @@ namespace nord_driver::cycle {
 namespace {
 
 constexpr std::uint16_t kBusInBits = 480, kBusOutBits = 481;
-constexpr unsigned kArrayBits = 6;  // BU 0020 7.3.5
 
 void addBit(const PositionBit& bit, const char* key, std::vector<AskedBit>& to) {
   const auto element = elementOf(bit);
@@ -17,11 +16,7 @@ void addBit(const PositionBit& bit, const char* key, std::vector<AskedBit>& to) 
 /// `high`: the bits of the element's number that may be.
 void addArray(const PositionBit& array, unsigned high, std::vector<AskedBit>& to) {
   for (unsigned bit = 0; bit < kArrayBits; ++bit) {
-    if ((high >> bit & 1u) == 0) continue;
-    PositionBit one = array;
-    one.number = static_cast<std::uint8_t>(one.number + bit);
-    one.function = static_cast<std::uint16_t>(one.function + bit);
-    addBit(one, "position/array_bit", to);
+    if ((high >> bit & 1u) != 0) addBit(arrayBit(array, bit), "position/array_bit", to);
   }
 }
 
@@ -36,9 +31,7 @@ std::vector<AskedBit> askedBits(const PositionSetup& setup, profile::Series seri
     addBit(setup.teach->quit, "position/quit_teach_in", asked);
   }
   if (setup.axis.by_element && setup.array) {
-    unsigned high = 0;
-    for (unsigned element = 1; element <= setup.elements; ++element) high |= element;
-    addArray(*setup.array, high, asked);
+    addArray(*setup.array, allBits(setup.elements), asked);
   } else if (setup.teach && setup.teach->array) {
     addArray(*setup.teach->array, setup.teach->element, asked);
   }

@@ -28,7 +28,6 @@ std::optional<std::uint8_t> numberAfter(const std::string& word, const std::stri
 constexpr std::int64_t kReferenceRun = 22, kTeachIn = 24, kQuitTeachIn = 25, kArrayBit0 = 55, kResetPosition = 61;
 // The same of the digital outputs (P434).
 constexpr std::int64_t kReferenced = 20;
-constexpr unsigned kArrayBits = 6;  // BU 0020 7.3.5
 
 struct BitKeys {
   const char* bit;
@@ -127,13 +126,6 @@ std::optional<TeachSetup> readTeach(const Settings& drive, const PositionSetup& 
                        "a number whose bits, the first of them position/array_bit, are all carried");
   }
   return setup;
-}
-
-/// Every bit that a number from 1 to `most` has.
-unsigned allBits(unsigned most) {
-  unsigned all = 1;
-  while (all < most) all = all << 1u | 1u;
-  return all;
 }
 
 /// Elements of the array as targets: by their bits, or by what stands in them.

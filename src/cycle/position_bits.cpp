@@ -9,7 +9,6 @@ namespace {
 // BU 0020 7.3.5, BU 0070 6.1: and bits 0 to 5 choose the element of the array.
 constexpr unsigned kPosiconReferenceRun = 1u << 6, kPosiconTeachIn = 1u << 8, kPosiconQuitTeachIn = 1u << 9,
                    kPosiconResetPosition = 1u << 10;
-constexpr unsigned kArrayBits = 6;
 
 std::int16_t withBits(std::int16_t word, unsigned bits) noexcept {
   return toSigned(static_cast<Word>(toWord(word) | bits));
@@ -109,12 +108,10 @@ Sentence PositionBits::arrayRefusal(const char* drive, const PositionBit& array,
   Sentence text;
   for (unsigned bit = 0; text.empty() && bit < kArrayBits; ++bit) {
     if ((element >> bit & 1u) == 0) continue;
-    PositionBit one = array;
-    one.number = static_cast<std::uint8_t>(one.number + bit);
-    one.function = static_cast<std::uint16_t>(one.function + bit);
     FixedText<32> name;
     name.format("bit %u of the position array", bit);
-    text = bitRefusal(drive, one, {"position/array_bit", "position/array_function", name.c_str()}, device, set);
+    text = bitRefusal(drive, arrayBit(array, bit), {"position/array_bit", "position/array_function", name.c_str()},
+                      device, set);
   }
   return text;
 }

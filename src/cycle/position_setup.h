@@ -25,6 +25,25 @@ struct PositionBit {
   std::uint16_t function = 22;  ///< what P480 has to say of it
 };
 
+/// The bits that choose an element of the position array (BU 0020 7.3.5).
+constexpr unsigned kArrayBits = 6;
+
+/// Bit `bit` (0 to kArrayBits - 1) of an element's number; `array` is bit 0, the others follow it with the functions that
+/// follow.
+constexpr PositionBit arrayBit(const PositionBit& array, unsigned bit) noexcept {
+  PositionBit one = array;
+  one.number = static_cast<std::uint8_t>(one.number + bit);
+  one.function = static_cast<std::uint16_t>(one.function + bit);
+  return one;
+}
+
+/// Every bit that a number from 1 to `most` has.
+constexpr unsigned allBits(unsigned most) noexcept {
+  unsigned all = 1;
+  while (all < most) all = all << 1u | 1u;
+  return all;
+}
+
 /// The bits that make the drive take its position into an element of its array.
 struct TeachSetup {
   PositionBit teach_in;
