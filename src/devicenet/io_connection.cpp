@@ -38,8 +38,7 @@ void IoConnection::close() noexcept {
   output_ready_ = false;
   sent_at_.reset();
   sender_.drop();
-  dropped_ = false;
-  hurried_ = false;
+  due_ = false;
   receiver_.reset();
   acknowledge_due_ = false;
 }
@@ -69,7 +68,7 @@ bool IoConnection::outputDue(Instant now) const noexcept {
       break;
   }
   if (config_.io.output_bytes == 0) return false;
-  if (!sent_at_ || dropped_ || hurried_) return true;
+  if (!sent_at_ || due_) return true;
   if (config_.io.kind == IoKind::kChangeOfState && output_ != sent_) return true;
   // The next cycle would be too late. Nothing is sent between cycles: a value nobody renews must not stay alive.
   return now + cycle_ > *sent_at_ + rate_;
@@ -88,7 +87,6 @@ void IoConnection::startCycle(Instant now) noexcept {
 
 void IoConnection::send() noexcept {
   dropOutput();
-  hurried_ = false;
   if (config_.io.kind == IoKind::kChangeOfState) sent_ = output_;
   sender_.start(ByteView{output_});
 }
@@ -106,7 +104,7 @@ bool IoConnection::pollOutput(CanFrame& frame, Instant now) noexcept {
   if (!established_ || !sender_.next(payload)) return false;
   frame = dataFrame(identifier(Group2::kMasterIo, config_.mac), payload);
   if (sender_.pending()) return true;
-  dropped_ = false;
+  due_ = false;
   ++report_.status().counters.outputs;
   sent_at_ = now;
   if (isPolledBesideStrobe(config_.io)) {
@@ -123,14 +121,14 @@ bool IoConnection::pollOutput(CanFrame& frame, Instant now) noexcept {
 void IoConnection::outputNotSent() noexcept {
   if (!sender_.pending()) --report_.status().counters.outputs;
   sender_.drop();
-  dropped_ = true;
+  due_ = true;
   countSuperseded();
 }
 
 void IoConnection::dropOutput() noexcept {
   if (!sender_.pending()) return;
   sender_.drop();
-  dropped_ = true;
+  due_ = true;
   countSuperseded();
 }
 

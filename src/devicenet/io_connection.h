@@ -35,7 +35,7 @@ class IoConnection {
   /// The newest outputs, cut or filled with zeros to their size.
   void setOutput(ByteView bytes) noexcept;
   /// What was set last is not to wait for the rate of a cyclic connection: the device takes what comes earlier.
-  void hurry() noexcept { hurried_ = established_; }
+  void hurry() noexcept { due_ = established_; }
   const IoInput& input() const noexcept { return input_; }
 
   /// Makes due what this cycle sends. What the last one left is dropped.
@@ -96,8 +96,7 @@ class IoConnection {
   IoBytes output_;
   IoBytes sent_;
   std::optional<Instant> sent_at_;
-  bool dropped_ = false;  // the newest message has not gone out as a whole
-  bool hurried_ = false;  // see hurry()
+  bool due_ = false;      // whatever the rate: hurried, or the newest message has not gone out as a whole
   bool overdue_ = false;  // nothing was sent for so long that the device has given up
   bool repeated_ = false;
   IoSender sender_;
