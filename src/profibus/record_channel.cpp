@@ -21,6 +21,7 @@ bool RecordChannel::submit(const RecordRequest& request, std::optional<RecordOut
   result_.write = request.write;
   timers_.stop(Timer::kResponse);
   timers_.stop(Timer::kBusy);
+  no_resource_ = false;
   state_ = State::kToSend;
   if (unusable) end(*unusable);
   return true;
@@ -35,7 +36,7 @@ std::optional<RecordResult> RecordChannel::pollResult() noexcept {
 bool RecordChannel::wantsTelegram(Instant now) noexcept {
   const bool waiting = state_ == State::kToSend || state_ == State::kPolling;
   if (waiting && timers_.isOver(Timer::kResponse, now)) {
-    if (state_ == State::kPolling) giveUp(Timer::kDrain, now);
+    if (state_ == State::kPolling || no_resource_) giveUp(Timer::kDrain, now);
     end(RecordOutcome::kTimedOut);
   }
   const bool drains = given_up_ && timers_.isRunning(Timer::kDrain, now);
@@ -55,6 +56,7 @@ void RecordChannel::handleAnswer(const FdlAnswer& answer, Instant now) noexcept 
     case FdlAnswer::Kind::kAcknowledge:
       // To the request: taken. To a poll: no response yet.
       if (sent_request_ && state_ == State::kToSend) state_ = State::kPolling;
+      no_resource_ = false;
       return handleNothing(now);
     case FdlAnswer::Kind::kData:
       return handleResponse(answer.data, now);
@@ -90,9 +92,14 @@ void RecordChannel::handleNoAnswer(Instant now) noexcept {
   end(RecordOutcome::kNoAnswer);
 }
 
-void RecordChannel::handleOffline() noexcept {
-  given_up_ = false;  // the slave forgets its acyclic channel when it leaves data exchange
+void RecordChannel::handleOffline(Instant now) noexcept {
+  const bool sent = state_ == State::kPolling || (state_ == State::kToSend && timers_.isSet(Timer::kResponse));
+  if (sent) giveUp(Timer::kMaking, now);
   end(RecordOutcome::kOffline);
+}
+
+void RecordChannel::handleStartUp() noexcept {
+  forget();
 }
 
 void RecordChannel::giveUp(Timer late, Instant now) noexcept {
@@ -108,6 +115,7 @@ void RecordChannel::handleNothing(Instant now) noexcept {
 
 // Whether a response waits it does not say. A request that cannot go out for that ends as one that brings no response.
 void RecordChannel::handleNoResource(Instant now) noexcept {
+  no_resource_ = !given_up_;
   if (given_up_ && !timers_.isSet(Timer::kResponse)) timers_.set(Timer::kResponse, now + response_timeout_);
 }
 

@@ -35,8 +35,10 @@ class RecordChannel {
   void handleAnswer(const FdlAnswer& answer, Instant now) noexcept;
   /// The telegram was not answered, retries included.
   void handleNoAnswer(Instant now) noexcept;
-  /// The slave left data exchange.
-  void handleOffline() noexcept;
+  /// The slave is not in data exchange any more, or not heard: what it was asked it may answer when it is gone on with.
+  void handleOffline(Instant now) noexcept;
+  /// It has taken Set_Prm, and forgotten what it was asked.
+  void handleStartUp() noexcept;
 
  private:
   enum class State : std::uint8_t {
@@ -69,6 +71,7 @@ class RecordChannel {
   RecordResult result_;
   TimerTable<Timer> timers_;
   bool sent_request_ = false;  // the telegram under way carried the request
+  bool no_resource_ = false;   // the request was answered so: a response nobody has asked for may be in its way
   // A request was given up that the slave may have. Its response waits there until a telegram fetches it: so the next
   // request begins with polls, until there is nothing to fetch.
   bool given_up_ = false;

@@ -35,7 +35,7 @@ SlaveHandler::SlaveHandler(std::size_t index, const SlaveConfig& config, const B
 void SlaveHandler::restart(Instant now, DpEvents& events) noexcept {
   // Whatever the line did, it may run on as it was told last: see nextService().
   if (status_.phase == SlavePhase::kDataExchange || resuming_) mayRunUntilWatchdogOf(last_request_);
-  if (status_.phase == SlavePhase::kDataExchange) lose(LossCause::kLinkRestarted, texts::kLinkOpened, events);
+  if (status_.phase == SlavePhase::kDataExchange) lose(LossCause::kLinkRestarted, texts::kLinkOpened, now, events);
   forgetFaults();
   told_found_ = false;
   startCycle();
@@ -191,9 +191,9 @@ void SlaveHandler::enterDataExchange(DpEvents& events) noexcept {
   events.push(event(DpEventKind::kDataExchangeEntered, ""));
 }
 
-void SlaveHandler::lose(LossCause cause, const char* text, DpEvents& events) noexcept {
+void SlaveHandler::lose(LossCause cause, const char* text, Instant now, DpEvents& events) noexcept {
   ++status_.counters.losses;
-  records_.handleOffline();
+  records_.handleOffline(now);
   configuration_wanted_ = false;
   status_.exchanged_this_cycle = false;
   told_found_ = false;

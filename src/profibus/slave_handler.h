@@ -110,7 +110,7 @@ class SlaveHandler {
   void fallSilent(Instant due, const char* note) noexcept;
   void startOver(const char* note) noexcept;
   void enterDataExchange(DpEvents& events) noexcept;
-  void lose(LossCause cause, const char* text, DpEvents& events) noexcept;
+  void lose(LossCause cause, const char* text, Instant now, DpEvents& events) noexcept;
   void backOff(const Fault& fault, Instant now, DpEvents& events) noexcept;
   void forgetFaults() noexcept;
   DpEvent event(DpEventKind kind, const char* text) const noexcept;

@@ -65,7 +65,7 @@ void SlaveHandler::handleNoExchange(Mismatch mismatch, Instant now, DpEvents& ev
   const bool ended = exchange ? now - last_answer_ >= silence_limit_ : timers_.isOver(Timer::kUndiagnosedLimit, now);
   // A telegram of another length has its checksum; E5 is a single byte, which noise makes, too.
   if (exchange && (mismatch == Mismatch::kLength || (ended && mismatch == Mismatch::kAcknowledge))) {
-    lose(LossCause::kWrongAnswers, texts::kWrongLength, events);
+    lose(LossCause::kWrongAnswers, texts::kWrongLength, now, events);
     return backOff({DpEventKind::kConfigurationFault, texts::kWrongLength}, now, events);
   }
   if (!ended) {
@@ -73,9 +73,9 @@ void SlaveHandler::handleNoExchange(Mismatch mismatch, Instant now, DpEvents& ev
     return frame_count_.reset();
   }
   if (mismatch == Mismatch::kNone || mismatch == Mismatch::kStranger) {
-    lose(LossCause::kSilence, texts::kFellSilent, events);
+    lose(LossCause::kSilence, texts::kFellSilent, now, events);
   } else {
-    lose(LossCause::kWrongAnswers, texts::kGarbled, events);
+    lose(LossCause::kWrongAnswers, texts::kGarbled, now, events);
   }
   mayRunUntilWatchdogOf(now);
   fallSilent(now, texts::kNoAnswer);  // asked again in the next cycle: most silences are short
@@ -122,7 +122,7 @@ void SlaveHandler::onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& e
   if (!diagnosis) {
     if (!exchanging) return backOff({DpEventKind::kServiceRefused, texts::kServiceRefused}, now, events);
     if (answer.code != ResponseCode::kNotActivated) return;  // asked for again after the next exchange
-    lose(LossCause::kLeftDataExchange, texts::kLeft, events);
+    lose(LossCause::kLeftDataExchange, texts::kLeft, now, events);
     return startOver(texts::kLeft);
   }
   ++status_.counters.diagnoses;
@@ -157,6 +157,7 @@ void SlaveHandler::onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents&
     return backOff({DpEventKind::kServiceRefused, texts::kServiceRefused}, now, events);
   }
   if (asked_ == Service::kSetPrm) {
+    records_.handleStartUp();
     status_.phase = SlavePhase::kConfiguration;
     return;
   }
@@ -172,14 +173,14 @@ void SlaveHandler::onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents&
 // lost, as after a silence, and asked for nothing until its watchdog has run out. Set_Prm would start that anew.
 void SlaveHandler::handleRefusedExchange(ResponseCode code, Instant now, DpEvents& events) noexcept {
   if (code == ResponseCode::kNotActivated) {
-    if (!resuming_) lose(LossCause::kLeftDataExchange, texts::kLeft, events);
+    if (!resuming_) lose(LossCause::kLeftDataExchange, texts::kLeft, now, events);
     return startOver(resuming_ ? texts::kStarting : texts::kLeft);
   }
   if (resuming_) enterDataExchange(events);  // only RS says that it is not in it
   diagnosis_due_ = true;
   if (!timers_.isSet(Timer::kRefusedLimit)) return timers_.set(Timer::kRefusedLimit, now + silence_limit_);
   if (timers_.isRunning(Timer::kRefusedLimit, now)) return;
-  lose(LossCause::kRefused, texts::kRefusesExchange, events);
+  lose(LossCause::kRefused, texts::kRefusesExchange, now, events);
   backOff({DpEventKind::kServiceRefused, texts::kRefusesExchange}, now, events);
   mayRunUntilWatchdogOf(last_request_);
   timers_.prolong(Timer::kNextRequest, last_request_ + config_.watchdog + kWatchdogTolerance);
@@ -240,11 +241,11 @@ void SlaveHandler::judgeReady(Instant now, DpEvents& events) noexcept {
 void SlaveHandler::judgeInExchange(Instant now, DpEvents& events) noexcept {
   const Diagnosis& diagnosis = status_.diagnosis;
   if (const auto fault = faultIn(diagnosis)) {
-    lose(LossCause::kParametersRequested, fault->text, events);
+    lose(LossCause::kParametersRequested, fault->text, now, events);
     return backOff(*fault, now, events);
   }
   if (diagnosis.parameterRequest() || diagnosis.owner() != master_) {
-    lose(LossCause::kParametersRequested, texts::kAsksAgain, events);
+    lose(LossCause::kParametersRequested, texts::kAsksAgain, now, events);
     return startOver(texts::kAsksAgain);
   }
   // While Stat_Diag stands, outputs go on (a stop must reach the drive), inputs do not count, and the diagnosis is
