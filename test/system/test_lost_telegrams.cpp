@@ -1,6 +1,8 @@
 // Telegrams lost on the line, at the defaults of a user: how much a base drives through, and what it then does.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "system/simulated_robot.h"
 
 namespace nord_driver::test {
@@ -51,6 +53,31 @@ INSTANTIATE_TEST_SUITE_P(Behind, LostTelegrams,
                          ::testing::Values(Line{"Uart", 0.0005, 2}, Line{"UartFourStations", 0.0005, 4},
                                            Line{"Adapter", 0.02, 2}, Line{"AdapterFourStations", 0.02, 4}),
                          [](const auto& test) { return std::string{test.param.name}; });
+
+// It hears us and is not heard, and its watchdog is long: the stop word reaches it, as no silence limit of the bus may
+// keep it from (What stops what), and the wheel comes down by its ramp instead of turning on until E10.2.
+TEST(ALongWatchdog, AStationThatHearsIsToldToStop) {
+  constexpr DriveIndex kMuted = 1;
+  for (const double slot_time : {0.0005, 0.02}) {
+    SimulatedRobot::Options options;
+    options.bus["slot_time"] = slot_time;
+    options.bus["watchdog"] = 3.0;
+    SimulatedRobot robot{options};
+    ASSERT_TRUE(robot.bringUpAndEnable());
+    robot.drive(kHalfSpeed, 0.0, seconds{3});
+    robot.unit(kMuted).setMute(true);
+    const Instant muted = robot.transport().now();
+    const Duration drive_timeout = robot.config().drives[kMuted].drive.drive_timeout;
+    const sim::InverterModel& inverter = robot.unit(kMuted).inverter();
+    while (robot.transport().now() - muted < drive_timeout + seconds{2}) {
+      robot.command(kHalfSpeed);
+      robot.step();
+      ASSERT_EQ(0u, inverter.faultNumber()) << toSeconds(robot.transport().now() - muted) << " s after it fell silent";
+    }
+    EXPECT_NE(sim::InverterState::kOperationEnabled, inverter.state()) << slot_time;
+    EXPECT_LT(std::fabs(inverter.frequency()), 0.1) << slot_time;
+  }
+}
 
 // The answers of one station, all retries included, in two cycles running.
 TEST_P(LostTelegrams, TheAnswersOfTwoCyclesStopNothing) {

@@ -18,6 +18,7 @@ namespace {
 constexpr Duration kReopenInterval = std::chrono::milliseconds{500};
 constexpr Duration kScanSlice = std::chrono::milliseconds{50};  // of one exchange()
 constexpr Duration kToldFor = std::chrono::seconds{10};
+constexpr int kCyclesToTell = 3;                                 // the one that sees the silence, and two with the word
 constexpr unsigned kModuleOutputs = 0x03, kModuleInputs = 0x0F;  // DO1, DO2 and DI1 to DI4: BU 0220 4.2.2.4
 
 // The manual wants an order repeated until it is answered (BU 2700 6.5); a healthy inverter takes a few cycles.
@@ -54,8 +55,11 @@ void ProfibusDpTransport::configure(const Settings& bus, const std::vector<Drive
   link_ = make_link_(config_.line);
 }
 
+// The drive stops by its time-out, and its word has to go out to a station that may hear it: the station is lost some
+// cycles later. With the silence of one a cycle may be as long as the worst.
 void ProfibusDpTransport::setDriveTimeout(Duration timeout) noexcept {
-  for (std::size_t station = 0; station < presence_.size(); ++station) master_->setSilenceLimit(station, timeout);
+  const Duration limit = timeout + kCyclesToTell * config_.worst_cycle;
+  for (std::size_t station = 0; station < presence_.size(); ++station) master_->setSilenceLimit(station, limit);
 }
 
 bool ProfibusDpTransport::serveParametersOnly() noexcept {
