@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "cycle/request.h"
@@ -73,6 +74,8 @@ struct Moment {
   Duration reaction{};         ///< how long a stop may take to reach the inverters, as things are
   /// One that stands at the address of a drive, and of which nobody knows, is "operation enabled" by the bus.
   bool twin_enabled = false;
+  /// Where it is, rad: while it stands there, it answers in the name of the first drive.
+  std::optional<double> twin_position;
   const cycle::CycleSnapshot* snapshot = nullptr;
   std::vector<cycle::Completion> answers;  ///< of this cycle
   const std::vector<Call>* calls = nullptr;

@@ -86,7 +86,15 @@ void Player::playEvents() {
     }
     if (goesOn() && moment_.judged) tick();
   }
+  while (goesOn() && moment_.judged && mustLast(sinceStart())) tick();
   endAll();
+}
+
+// Nobody exchanges a drive within some milliseconds.
+bool Player::mustLast(unsigned at) const {
+  return std::any_of(active_.begin(), active_.end(), [at](const Active& active) {
+    return at < active.event.at + std::min(active.event.span, static_cast<unsigned>(active.act->span.least));
+  });
 }
 
 // One bus cycle, as everybody asks for something at the same time.

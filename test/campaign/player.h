@@ -79,6 +79,8 @@ class Player {
   void beginUser(const Event& event);
   void endOver(unsigned at);
   void endAll();
+  /// Something goes on at `at` (ms) that takes longer than it has lasted.
+  bool mustLast(unsigned at) const;
   bool excluded(const Event& event, const Act& act);
   bool samePlace(const Active& active, const Event& event);
   void command();

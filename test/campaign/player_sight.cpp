@@ -46,6 +46,8 @@ void Player::seeTruth() {
   if (const sim::DriveUnit* const twin = rig_->twin()) {
     moment_.twin_enabled =
         twin->inverter().state() == sim::InverterState::kOperationEnabled && twin->inverter().busControl();
+    moment_.twin_position.reset();
+    if (twin->plugged()) moment_.twin_position = twin->position() / kRevolutionsPerRadian;
   }
   const Duration timeout = rig_->robot().config().cmd_vel_timeout;
   const auto fresh = [&](const Command& command) { return command.ever && now() - command.given <= timeout; };

@@ -13,7 +13,8 @@ namespace {
 constexpr double kSpare = 1.05;  // the speed controller of the axis, beside its path
 constexpr double kAtRest = 0.1;  // Hz of the rotor, 0.05 revolutions a second: it settles
 constexpr double kThere = 3.0 * kAxisStep;
-constexpr double kBeyond = 0.02;  // rad, 0.06 revolutions of the motor
+constexpr double kBeyond = 0.02;                        // rad, 0.06 revolutions of the motor
+constexpr Duration kAnother = std::chrono::seconds{3};  // until the first one is heard and believed again
 constexpr Duration kSettles = std::chrono::milliseconds{500};
 constexpr double kHertzPerRadian = 2.0 * kRevolutionsPerRadian;  // rad/s of the joint, two pole pairs
 
@@ -146,6 +147,11 @@ std::optional<std::string> AxisPositionTrue::look(const Moment& moment) {
       track.truth.clear();
     }
     track.zero = drive.zero;
+    // It has the same identity: that another one answers cannot be seen.
+    if (i == 0 && moment.twin_position) {
+      track.truth.emplace_back(moment.now, *moment.twin_position);
+      track.another = moment.now;
+    }
     track.truth.emplace_back(moment.now, drive.position);
     while (track.truth.front().first < moment.now - moment.reaction - moment.period) track.truth.pop_front();
     if (!moment.driver_ran || !moment.judged) continue;
@@ -180,7 +186,8 @@ std::optional<std::string> AxisPositionTrue::judge(const Moment& moment, std::si
     const double way =
         kSpare * moment.full_wheel_speed * toSeconds(moment.now - track.fresh + moment.period) + 2.0 * kAxisStep;
     const bool by_the_run = track.new_zero && is_true;
-    if (std::fabs(drive.joint_position - *track.told) > way && !by_the_run) {
+    const bool by_another = track.another && moment.now - *track.another <= kAnother && is_true;
+    if (std::fabs(drive.joint_position - *track.told) > way && !by_the_run && !by_another) {
       out << ": its joint jumps from " << *track.told << " to " << drive.joint_position << " rad in "
           << toSeconds(moment.now - track.fresh) << " s";
       return out.str();

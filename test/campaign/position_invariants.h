@@ -91,8 +91,9 @@ class AxisPositionTrue final : public Invariant {
     std::optional<double> zero;                    // revolutions
     bool new_zero = false;                         // not told yet
     bool run_asked = false;
-    std::optional<double> told;  // rad, the joint as told last
-    Instant fresh{};             // when it was where it was told to be, last
+    std::optional<double> told;      // rad, the joint as told last
+    Instant fresh{};                 // when it was where it was told to be, last
+    std::optional<Instant> another;  // when another one stood at its address, last
   };
 
   std::optional<std::string> judge(const Moment& moment, std::size_t i, Track& track);

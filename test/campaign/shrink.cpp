@@ -57,8 +57,10 @@ class Shrinker {
     bool any = less.length < best_.scenario.length && shows(less);
     for (std::size_t i = 0; i < best_.scenario.events.size(); ++i) {
       less = best_.scenario;
+      const Act* const act = findAct(bus_, less.events[i].act);
+      const unsigned least = act == nullptr ? 10 : std::max(10, act->span.least);  // what is shorter is not lawful
       less.events[i].span /= 2;
-      if (less.events[i].span >= 10) any = shows(less) || any;
+      if (less.events[i].span >= least) any = shows(less) || any;
     }
     return any;
   }

@@ -214,6 +214,27 @@ TEST_F(PositionInvariants, TheJointDoesNotJump) {
   EXPECT_THAT(look(invariant), HasSubstr("its joint jumps from 1 to 2.5"));
 }
 
+// Two at one address: either answers, and what either says is true.
+TEST_F(PositionInvariants, AnotherOneAtTheAddressTellsItsOwnPosition) {
+  AxisPositionTrue invariant;
+  EXPECT_EQ("", look(invariant, seconds{1}));
+  moment_.twin_position = -2.0;
+  tell(-2.0);
+  EXPECT_EQ("", look(invariant));
+  tell(0.0);
+  EXPECT_THAT(look(invariant), HasSubstr("is told to be at 0 rad"));
+}
+
+TEST_F(PositionInvariants, AnotherOneThatHasGoneIsNoExcuse) {
+  AxisPositionTrue invariant;
+  moment_.twin_position = -2.0;
+  EXPECT_EQ("", look(invariant, seconds{1}));
+  moment_.twin_position.reset();
+  EXPECT_EQ("", look(invariant, seconds{4}));
+  tell(-2.0);
+  EXPECT_THAT(look(invariant), HasSubstr("is told to be at -2 rad"));
+}
+
 TEST_F(PositionInvariants, AReferenceRunGivesTheCountANewZero) {
   AxisPositionTrue invariant;
   EXPECT_EQ("", look(invariant, seconds{1}));
