@@ -27,7 +27,9 @@ class GroupBounds : public ::testing::Test {
       Drive& drive = drives_[i];
       if (group_.commandAllowed()) drive.setVelocity({velocity_});
       const profile::ProcessOutput output = drive.pollOutput(now_);
-      drive.handleInput(inverters_[i].exchange(output), true, now_ + seconds(0.01));
+      profile::ProcessInput input = inverters_[i].exchange(output);
+      if (coasting_[i] != 0) input.actual_values[0] = coasting_[i];
+      drive.handleInput(input, true, now_ + seconds(0.01));
     }
     now_ += seconds(0.01);
     group_.update(now_);
@@ -46,6 +48,7 @@ class GroupBounds : public ::testing::Test {
 
   Drive drives_[2] = {Drive{driveConfig()}, Drive{driveConfig()}};
   FakeInverter inverters_[2];
+  std::int16_t coasting_[2] = {0, 0};  // what the motor without torque still turns at; 0: as the inverter says
   DriveGroup group_{{&drives_[0], &drives_[1]}, groupConfig()};
   Instant now_{};
   double velocity_ = 0.0;
@@ -77,6 +80,41 @@ TEST_F(GroupBounds, AQuickStopWhileEnablingNamesTheFirst) {
   EXPECT_EQ(Refusal::kStopped, group_.report().refusal.refusal);
   EXPECT_EQ(0u, group_.report().refusal.member);
   EXPECT_EQ(0u, group_.report().stop_member);
+}
+
+TEST_F(GroupBounds, ADisableWhileEnablingNamesTheFirst) {
+  cycles(4);
+  ASSERT_TRUE(group_.requestEnable(now_).accepted());
+  group_.requestDisable(now_);
+  EXPECT_EQ(Refusal::kStopped, group_.report().refusal.refusal);
+  EXPECT_EQ(0u, group_.report().refusal.member);
+}
+
+// The motor of the one that tripped coasts on, and nothing here brakes it: standstill is that of the others.
+TEST_F(GroupBounds, AMotorWithoutTorqueIsNotWaitedFor) {
+  run();
+  inverters_[0].fault = true;
+  coasting_[0] = 0x2000;
+  for (int i = 0; inverters_[1].frequency() > 164 && i < 20; ++i) {
+    ASSERT_NE(GroupPhase::kStopping, group_.report().phase) << "the other is still on its own ramp";
+    cycle();
+  }
+  EXPECT_EQ(GroupPhase::kStopping, group_.report().phase);
+}
+
+// Nor does its coming down count as that of the other, whose own ramp does not move.
+TEST_F(GroupBounds, AMotorWithoutTorqueDoesNotSlowTheOthersDown) {
+  run();
+  inverters_[0].fault = true;
+  inverters_[1].ramp = 0;
+  coasting_[0] = 0x2000;
+  cycle();
+  ASSERT_EQ(GroupPhase::kHalting, group_.report().phase);
+  for (int i = 0; i < 31; ++i) {
+    coasting_[0] = static_cast<std::int16_t>(coasting_[0] - 200);
+    cycle();
+  }
+  EXPECT_EQ(GroupPhase::kStopping, group_.report().phase) << "standstill_timeout";
 }
 
 TEST_F(GroupBounds, AWayDownThatTakesTooLongNamesTheFirst) {
