@@ -119,10 +119,83 @@ TEST_F(GroupBounds, AMotorWithoutTorqueDoesNotSlowTheOthersDown) {
 
 TEST_F(GroupBounds, AWayDownThatTakesTooLongNamesTheFirst) {
   run();
+  inverters_[0].ramp = inverters_[1].ramp = 100;
   group_.requestDisable(now_);
   cycles(105);  // and nobody brings the setpoint to zero
   EXPECT_EQ(StopCause::kShutdownTimeout, group_.report().stop_cause);
   EXPECT_EQ(0u, group_.report().stop_member);
+  EXPECT_EQ(0x047B, drives_[0].report().output.control_word) << "the motors still turn: quick stop";
+  EXPECT_EQ(0x047B, drives_[1].report().output.control_word);
+}
+
+// The setpoint at zero is that of this way down: the one before has nothing to say of it.
+TEST_F(GroupBounds, EachWayDownBeginsWithASetpointThatIsNotZero) {
+  for (int round = 0; round < 2; ++round) {
+    run();
+    group_.requestDisable(now_);
+    ASSERT_TRUE(group_.wantsZeroRamp());
+    cycles(50);  // longer than standstill_timeout
+    EXPECT_TRUE(group_.wantsZeroRamp()) << "round " << round << ": nobody has said that the setpoint is zero";
+    velocity_ = 0.0;
+    for (Drive& drive : drives_) drive.setVelocity({0.0});
+    group_.setpointIsZero(true);
+    cycles(30);
+    ASSERT_TRUE(group_.settled());
+  }
+}
+
+// All is as at first: what an enabling ended by is no answer to the next one, nor what stopped the group before.
+TEST_F(GroupBounds, AnEnableBeginsWithACleanReport) {
+  cycles(4);
+  ASSERT_TRUE(group_.requestEnable(now_).accepted());
+  group_.requestQuickStop(now_);
+  EXPECT_EQ(Refusal::kStopping, group_.requestEnable(now_).refusal) << "the quick stop has not ended";
+  EXPECT_FALSE(group_.settled());
+  cycles(10);
+  ASSERT_TRUE(group_.settled());
+  EXPECT_EQ(StopCause::kQuickStop, group_.report().stop_cause);
+  EXPECT_TRUE(group_.requestEnable(now_).accepted());
+  EXPECT_EQ(StopCause::kNone, group_.report().stop_cause);
+  EXPECT_TRUE(group_.report().refusal.accepted());
+  cycles(10);
+  ASSERT_TRUE(group_.commandAllowed());
+  EXPECT_TRUE(group_.requestEnable(now_).accepted()) << "it is";
+  EXPECT_TRUE(group_.commandAllowed());
+}
+
+TEST_F(GroupBounds, TheFirstCauseStays) {
+  run();
+  inverters_[1].fault = true;
+  cycles(2);
+  ASSERT_EQ(StopCause::kFault, group_.report().stop_cause);
+  inverters_[0].silent = true;
+  group_.requestQuickStop(now_);
+  EXPECT_EQ(StopCause::kFault, group_.report().stop_cause);
+  EXPECT_EQ(1u, group_.report().stop_member);
+}
+
+// Disabled, but one turns at its terminals: not at rest.
+TEST_F(GroupBounds, IsNotSettledWhileAMemberTurns) {
+  cycles(4);
+  ASSERT_TRUE(group_.settled());
+  inverters_[1].terminals = true;
+  cycles(2);
+  EXPECT_FALSE(group_.settled());
+}
+
+// Exactly as fast as what counts as near standstill: it is, and OFF1 may take over.
+TEST_F(GroupBounds, StandstillIsNearUpToItsBound) {
+  run();
+  inverters_[0].ramp = inverters_[1].ramp = 0;
+  coasting_[0] = coasting_[1] = 165;
+  group_.requestDisable(now_);
+  group_.setpointIsZero(true);
+  cycles(2);
+  EXPECT_EQ(GroupPhase::kRampingDown, group_.report().phase);
+  coasting_[0] = 164;
+  coasting_[1] = -164;
+  cycle();
+  EXPECT_EQ(GroupPhase::kStopping, group_.report().phase);
 }
 
 }  // namespace
