@@ -70,7 +70,7 @@ class GearedAxis : public ::testing::Test {
   std::size_t first_ = 1;  // the low word
   profile::ProcessOutput sent_;
   double velocity_sent_ = 0.0;
-  Instant now_{};
+  Instant now_{std::chrono::hours{1}};
 };
 
 TEST_F(GearedAxis, IsHeldWhereItStandsAndGoesToItsTargetInItsOwnSteps) {

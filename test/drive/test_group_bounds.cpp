@@ -50,7 +50,7 @@ class GroupBounds : public ::testing::Test {
   FakeInverter inverters_[2];
   std::int16_t coasting_[2] = {0, 0};  // what the motor without torque still turns at; 0: as the inverter says
   DriveGroup group_{{&drives_[0], &drives_[1]}, groupConfig()};
-  Instant now_{};
+  Instant now_{std::chrono::hours{1}};
   double velocity_ = 0.0;
 };
 

@@ -76,7 +76,7 @@ class PositionDrive : public ::testing::Test {
 
   Drive drive_{config()};
   profile::ProcessOutput sent_;
-  Instant now_{};
+  Instant now_{std::chrono::hours{1}};
 };
 
 TEST_F(PositionDrive, TellsItsPositionAlsoWhenItIsNotEnabled) {
