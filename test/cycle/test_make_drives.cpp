@@ -16,7 +16,7 @@ TEST(MakeDrives, TellsTheTransportTheTimesOfTheirStops) {
 }
 
 /// What a drive may be silent for without being lost.
-Duration driveTimeout(CycleConfig config, double worst_cycle) {
+Duration driveTimeout(const CycleConfig& config, double worst_cycle) {
   ScriptedTransport transport{config.drives.size()};
   transport.worst_cycle = worst_cycle;
   EXPECT_EQ(config.drives.size(), makeDrives(config, transport).size());

@@ -46,6 +46,16 @@ class GroupBounds : public ::testing::Test {
     cycles(20);
   }
 
+  /// From the cycle on in which the stop began.
+  void expectOff1ForASecond() {
+    for (int i = 0; i < 99; ++i) {
+      cycle();
+      ASSERT_EQ(0x047E, drives_[0].report().output.control_word) << i;
+    }
+    cycles(3);
+    EXPECT_EQ(0x047B, drives_[0].report().output.control_word) << "shutdown_timeout of the group: 1 s";
+  }
+
   Drive drives_[2] = {Drive{driveConfig()}, Drive{driveConfig()}};
   FakeInverter inverters_[2];
   std::int16_t coasting_[2] = {0, 0};  // what the motor without torque still turns at; 0: as the inverter says
@@ -157,10 +167,60 @@ TEST_F(GroupBounds, AnEnableBeginsWithACleanReport) {
   EXPECT_TRUE(group_.requestEnable(now_).accepted());
   EXPECT_EQ(StopCause::kNone, group_.report().stop_cause);
   EXPECT_TRUE(group_.report().refusal.accepted());
+  EXPECT_EQ(0u, group_.report().refusal.member);
   cycles(10);
   ASSERT_TRUE(group_.commandAllowed());
   EXPECT_TRUE(group_.requestEnable(now_).accepted()) << "it is";
   EXPECT_TRUE(group_.commandAllowed());
+}
+
+// Every member is asked, the first one too.
+TEST_F(GroupBounds, TheFirstOfThemMayRefuseToo) {
+  cycles(4);
+  inverters_[0].local = true;
+  cycle();
+  const GroupRefusal refusal = group_.requestEnable(now_);
+  EXPECT_EQ(Refusal::kLocalControl, refusal.refusal);
+  EXPECT_EQ(0u, refusal.member);
+  EXPECT_EQ(Phase::kIdle, drives_[1].report().phase);
+}
+
+// Its members would still say yes: they are enabled until the setpoint is at zero.
+TEST_F(GroupBounds, OnTheWayDownItIsNotEnabledAgain) {
+  run();
+  group_.requestDisable(now_);
+  EXPECT_EQ(Refusal::kStopping, group_.requestEnable(now_).refusal);
+  EXPECT_TRUE(group_.wantsZeroRamp());
+}
+
+// OFF1 of one that does not come down has its own time, from where it began, and then ends in a quick stop.
+TEST_F(GroupBounds, Off1HasItsTimeWhereAnEnablingIsTakenBack) {
+  cycles(4);
+  inverters_[0].endless = true;
+  inverters_[1].stuck = true;
+  ASSERT_TRUE(group_.requestEnable(now_).accepted());
+  cycles(10);
+  ASSERT_EQ(Phase::kEnabled, drives_[0].report().phase);
+  drives_[0].setVelocity({78.5});
+  cycles(20);
+  ASSERT_GT(inverters_[0].frequency(), 0x1000);
+  group_.requestDisable(now_);
+  expectOff1ForASecond();
+}
+
+TEST_F(GroupBounds, Off1HasItsTimeWhereOneTripsMeanwhile) {
+  cycles(4);
+  inverters_[0].endless = true;
+  inverters_[1].stuck = true;
+  ASSERT_TRUE(group_.requestEnable(now_).accepted());
+  cycles(10);
+  ASSERT_EQ(Phase::kEnabled, drives_[0].report().phase);
+  drives_[0].setVelocity({78.5});
+  cycles(20);
+  inverters_[1].fault = true;
+  cycle();
+  ASSERT_EQ(GroupPhase::kStopping, group_.report().phase);
+  expectOff1ForASecond();
 }
 
 TEST_F(GroupBounds, TheFirstCauseStays) {

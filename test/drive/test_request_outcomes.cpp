@@ -156,6 +156,49 @@ TEST_F(RequestOutcomes, ADirectionIsComparedFromFivePercentOn) {
   EXPECT_FALSE(report().direction_contradiction);
 }
 
+// It stands at setpoint 0 already, with its torque on: asked once more it does not lose that.
+TEST_F(RequestOutcomes, ASetpointOfZeroIsAskedForTwice) {
+  run();
+  drive_.requestSetpointZero(now_);
+  ASSERT_EQ(0x047F, cycle(0x0B37, 0x1000));
+  drive_.requestSetpointZero(now_);
+  EXPECT_EQ(Phase::kHoldingZero, report().phase);
+  EXPECT_EQ(0x047F, cycle(0x0B37, 0x0800));
+  EXPECT_EQ(0, setpoint_);
+}
+
+TEST_F(RequestOutcomes, AQuickStopEndsASwitchOfTheSet) {
+  start();
+  drive_.requestParameterSet(3, now_, 5);
+  EXPECT_EQ(0x847E, cycle(0x0B31));
+  drive_.requestQuickStop(now_);
+  EXPECT_EQ(RequestState::kRefused, report().set_switch.state);
+  EXPECT_EQ(Refusal::kStopped, report().set_switch.refusal);
+  EXPECT_EQ(Refusal::kStopped, report().refusal);
+  EXPECT_EQ(0x047B, cycle(0x0B70)) << "in the set that is in force";
+}
+
+// enable_timeout: 0.5 s, to the cycle.
+TEST_F(RequestOutcomes, ASetThatIsNotConfirmedIsTakenBackInTime) {
+  start();
+  drive_.requestParameterSet(3, now_, 5);
+  for (int i = 0; i < 50; ++i) ASSERT_EQ(0x847E, cycle(0x0B31)) << i;
+  EXPECT_EQ(Refusal::kSetNotConfirmed, report().set_switch.refusal);
+  EXPECT_EQ(0x047E, cycle(0x0B31));
+}
+
+// What was sent to a silent drive is over when it has answered: silent again, it is asked and not commanded.
+TEST_F(RequestOutcomes, AStopSentUnansweredIsNotSentAtTheNextSilence) {
+  start();
+  fallSilent();
+  drive_.requestQuickStop(now_);
+  EXPECT_EQ(0x047B, silence());
+  start();
+  ASSERT_EQ(Phase::kIdle, report().phase);
+  fallSilent();
+  EXPECT_EQ(0x0000, silence());
+}
+
 class TaughtMeanwhile : public AxisAtRest {
  protected:
   void teach() {
