@@ -296,7 +296,9 @@ Place2d UrdfGeometry::steeredWheel(const std::string& steering, const std::strin
   urdf::Rotation turned = pose->rotation;
   const urdf::Vector3 axis = base.rotation.GetInverse() * (turned * joint.axis);
   constexpr double kOneDegree = 0.99985;  // its cosine
-  if (!(axis.z >= kOneDegree)) {
+  // The parser takes an axis of any length.
+  const double length = std::hypot(axis.x, axis.y, axis.z);
+  if (!(length > 0.0 && axis.z >= kOneDegree * length)) {
     refuse("the axis of joint ", quoted(steering), " is ", axis.x, " ", axis.y, " ", axis.z, " in ", quoted(base_link_),
            ", expected 0 0 1: a steering angle grows counter-clockwise seen from above");
   }

@@ -88,10 +88,17 @@ class ScriptedTransport final : public Transport {
   DriveNote note(DriveIndex) const noexcept override { return {"the note of the bus"}; }
   std::uint32_t identNumber(DriveIndex) const noexcept override { return 0x7531; }
   Sentence busText() const noexcept override { return bus_text; }
-  DriveIdentity identity(DriveIndex) const override { return {"nowhere", process_values, "PKW", "nothing"}; }
+  DriveIdentity identity(DriveIndex) const override {
+    DriveIdentity identity{"nowhere", process_values, "PKW", "nothing"};
+    identity.shared_module = shared_module;
+    identity.worst_cycle = worst_cycle;
+    return identity;
+  }
   void close() noexcept override {}
 
   std::uint8_t process_values = 3;
+  std::optional<std::size_t> shared_module;  ///< of all drives
+  double worst_cycle = 0.0;                  ///< s
   std::optional<Duration> told_drive_timeout;
   std::optional<Duration> told_shutdown_timeout;
   Instant time{std::chrono::hours{1}};

@@ -23,6 +23,43 @@ TEST(CyclePorts, NothingWasCommandedAtFirst) {
   EXPECT_EQ(1u, ports.readSnapshot().drives.size());
 }
 
+// What nobody has published yet says nothing that could be taken for news.
+TEST(CyclePorts, AFreshSnapshotSaysNothing) {
+  CyclePorts ports{1};
+  const CycleSnapshot& snapshot = ports.readSnapshot();
+  EXPECT_EQ(Instant{}, snapshot.time) << "no cycle has ended";
+  EXPECT_FALSE(snapshot.connected || snapshot.settled);
+  EXPECT_TRUE(snapshot.bus_text.empty());
+  const BaseSnapshot& base = snapshot.base;
+  EXPECT_FALSE(base.known || base.enabled || base.stopped);
+  EXPECT_TRUE(base.text.empty() && base.waits.empty());
+  EXPECT_EQ(robot::Twist2d{}, base.velocity);
+  EXPECT_EQ(robot::Twist2d{}, base.command);
+  const DriveSnapshot& drive = snapshot.drives[0];
+  EXPECT_EQ(profile::DriveState::kUnknown, drive.state);
+  EXPECT_FALSE(drive.online || drive.saturated || drive.position || drive.position_reached ||
+               drive.position_following || drive.position_at_limit || drive.homed);
+  EXPECT_EQ(0, drive.parameter_set);
+  EXPECT_EQ(0.0, drive.velocity_command);
+  EXPECT_EQ(0.0, drive.velocity);
+  EXPECT_EQ(0.0, drive.frequency);
+  EXPECT_EQ(0, drive.fault_number);
+  EXPECT_FALSE(drive.module_answers || drive.enabled || drive.stopped || drive.at_speed || drive.not_following);
+  EXPECT_EQ(0, drive.module_inputs);
+  EXPECT_EQ(0.0, drive.speed_deviation);
+  EXPECT_EQ(0.0, drive.joint_position);
+  EXPECT_TRUE(drive.joint_known)
+      << "what turns without end is counted from where it stands; a lift is told by the cycle";
+  EXPECT_FALSE(drive.position_target || drive.position_held_back || drive.switch_on_reason);
+  EXPECT_EQ(0, drive.last_fault_number);
+  EXPECT_FALSE(drive.fault_latched || drive.fault || drive.owes_eeprom_switch || drive.direction_contradiction);
+  EXPECT_EQ(0u, drive.faults);
+  EXPECT_EQ(0u, drive.eeprom_writes);
+  EXPECT_EQ(TerminalFinding::kNone, drive.terminals);
+  EXPECT_TRUE(drive.text.empty() && drive.terminals_text.empty() && drive.position_refused.empty());
+  EXPECT_FALSE(drive.device.complete);
+}
+
 TEST(CyclePorts, OnlyTheNewestCommandCounts) {
   CyclePorts ports{2};
   ports.commandBase({{0.1, 0.0}, Instant{}, true});

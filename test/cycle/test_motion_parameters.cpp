@@ -46,6 +46,12 @@ TEST_F(MotionParameters, AreNotWrittenWhileEnabled) {
   EXPECT_FALSE(decidesMotion(read));
 }
 
+// P600 to P631 but for the positions themselves (BU 0020 7.3.5: P613 is the array).
+TEST_F(MotionParameters, DecideThePositionToo) {
+  for (const int number : {600, 610, 612, 614, 631}) EXPECT_TRUE(changesProcessData(write(number, 1))) << number;
+  for (const int number : {599, 613, 632}) EXPECT_FALSE(changesProcessData(write(number, 1))) << number;
+}
+
 TEST_F(MotionParameters, AMinimumFrequencyRefusesToEnable) {
   transport.parameters[1104] = 25;
   transport.parameters[2104] = 80;
@@ -101,6 +107,37 @@ TEST_F(MotionParameters, EnablingWaitsForThem) {
   run(60);
   ASSERT_EQ(1u, completions.count(last_id));
   EXPECT_TRUE(completions[last_id].success) << completions[last_id].message.c_str();
+}
+
+// A command that comes meanwhile ends the waiting for good: who was told no must not see it succeed when the parameters
+// are there and the command is over.
+TEST_F(MotionParameters, ACommandEndsTheWaitingForThem) {
+  transport.hold_answers = true;
+  run(5);
+  Request request;
+  request.kind = RequestKind::kEnable;
+  request.id = ++last_id;
+  request.patience = std::chrono::seconds{10};
+  ports.submit(request);
+  run(5);
+  EXPECT_EQ(0u, completions.count(last_id));
+  commandBase(0.2);
+  run(2);
+  ASSERT_EQ(1u, completions.count(last_id));
+  EXPECT_FALSE(completions[last_id].success);
+  transport.hold_answers = false;
+  while (!transport.submitted.empty()) transport.answerFirst();
+  run(200);
+  ASSERT_TRUE(snapshot().drives[kLift].device.complete);
+  EXPECT_FALSE(snapshot().base.enabled);
+  EXPECT_EQ(0x047E, controlWord(kLeft));
+  EXPECT_TRUE(ask(RequestKind::kEnable).success) << "asked anew, it is";
+}
+
+// Each answer makes room for the next access.
+TEST_F(MotionParameters, AccessesLeaveNothingBehind) {
+  bringUp();
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(ask(write(105, 500)).success) << i;
 }
 
 // What cannot be read refuses nothing.

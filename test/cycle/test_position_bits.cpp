@@ -86,6 +86,8 @@ TEST_F(PositionBitsTest, AreRefusedWithTheParameterAndItsValue) {
   device_.bus_bit_functions[3] = 1;
   EXPECT_THAT(refusal(), HasSubstr("P480[-04] is 1; set it to 56 (bit 1 of the position array), or "
                                    "position/array_function"));
+  device_.bus_bit_functions[2] = 1;
+  EXPECT_THAT(refusal(), HasSubstr("P480[-03] is 1; set it to 55 (bit 0 of the position array)"));
   device_.bus_bit_functions[10] = kUnknownFunction;
   EXPECT_THAT(refusal(), HasSubstr("P480[-11] could not be read; set it to 25 (quit teach-in)"));
   device_.bus_bit_functions[0] = 22;
@@ -94,6 +96,40 @@ TEST_F(PositionBitsTest, AreRefusedWithTheParameterAndItsValue) {
   EXPECT_THAT(refusal(), HasSubstr("no setpoint carries the bit of position/teach_in"));
   setup_.teach.reset();
   EXPECT_THAT(refusal(), HasSubstr("position/teach_in is not configured"));
+}
+
+// Where targets stand in words an element has no bits; element 0 is none.
+TEST_F(PositionBitsTest, ChooseAnElementOnlyWhereTheyAreToDoSo) {
+  setup_.array = PositionBit{Carrier::kBusBit, 2, 55};
+  bits().putElement(5, output_, device_, 1);
+  EXPECT_EQ(0, output_.setpoints[2]);
+  setup_.axis.by_element = true;
+  bits().putElement(0, output_, device_, 1);
+  EXPECT_EQ(0, output_.setpoints[2]);
+  bits().putElement(5, output_, device_, 1);
+  EXPECT_EQ((std::array<std::int16_t, 3>{1, 2, 0x0014}), output_.setpoints);
+}
+
+// P481 [-09] and [-10] are bits 10 and 13 of the status word (BU 0020 6.2.1).
+TEST_F(PositionBitsTest, TellWhetherTheReferenceIsKnown) {
+  profile::ProcessInput input;
+  input.status_word = 0xFFFF;
+  EXPECT_FALSE(bits().referenced(input, device_, 1)) << "no bit says it";
+  SignalSetup bit;
+  bit.source = SignalSource::kStatusBit;
+  for (const std::uint8_t number : {std::uint8_t{10}, std::uint8_t{13}}) {
+    bit.number = number;
+    setup_.referenced = bit;
+    device_.out_bit_function = 20;
+    input.status_word = static_cast<Word>(1u << number);
+    EXPECT_EQ(true, bits().referenced(input, device_, 1));
+    input.status_word = static_cast<Word>(~(1u << number));
+    EXPECT_EQ(false, bits().referenced(input, device_, 1));
+    device_.out_bit_function = 1;
+    EXPECT_FALSE(bits().referenced(input, device_, 1)) << "it shows something else";
+    device_.out_bit_function.reset();
+    EXPECT_FALSE(bits().referenced(input, device_, 1)) << "nobody knows what it shows";
+  }
 }
 
 TEST_F(PositionBitsTest, KnowAPositionAsTheArrayHasIt) {

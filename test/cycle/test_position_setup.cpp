@@ -76,6 +76,8 @@ TEST_F(PositionConfiguration, RefusesWhatDoesNotFit) {
   EXPECT_THAT(refusal(kRobot), HasSubstr("in robot_description this joint turns"));
   drive_->set("position/lower", 1.0).set("position/upper", 0.5);
   EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/upper"));
+  drive_->set("position/upper", 1.0);
+  EXPECT_THAT(refusal(), HasSubstr("more than the lower limit, 1")) << "nowhere to go";
   drive_->set("position/upper", 2.0).set("max_velocity", 1.0);
   EXPECT_THAT(refusal(), HasSubstr("position/speed"));
 }

@@ -208,6 +208,25 @@ TEST(SignalsTest, AQuickStopTakesAwayWhatMayMove) {
   EXPECT_EQ(0x047B, bench.sent().control_word);
 }
 
+// A bit that stays off is told once, and not while what P480 says is being read again; outputs of the module have no
+// function in the inverter and are never held back.
+TEST(SignalsTest, WhatStaysOffIsToldOnceItsFunctionIsKnown) {
+  WordSetup setup;
+  setup.signals = {output(SignalSource::kModuleOutput, 1), output(SignalSource::kBusInBit, 0)};
+  DriveWords words{setup, profile::Series::kSk2xxe, 3};
+  DeviceData device;
+  device.bus_bit_functions.push_back(1);  // enable right
+  EXPECT_FALSE(words.pollFinding("lift", device, true));
+  const auto told = words.pollFinding("lift", device, false);
+  ASSERT_TRUE(told);
+  EXPECT_THAT(told->str(), HasSubstr("P480[-01] is 1"));
+  EXPECT_FALSE(words.pollFinding("lift", device, false)) << "told";
+  device.bus_bit_functions[0] = 2;
+  EXPECT_TRUE(words.pollFinding("lift", device, false)) << "another function";
+  device.bus_bit_functions[0] = 0;
+  EXPECT_FALSE(words.pollFinding("lift", device, false)) << "it is on now";
+}
+
 // What is read: the layouts of "digital I/O status" differ by series.
 TEST(SignalsTest, InputsAreReadFromTheWordThatCarriesThem) {
   DriveSnapshot drive;

@@ -91,6 +91,35 @@ TEST_F(StandstillRequestsTest, TheDriveWhoseCauseStandsIsNamed) {
   EXPECT_EQ(drive::Refusal::kFault, drives_[kRight].enableRefusal());
 }
 
+// Those behind one bus module: after a time-out it waits until each of them is acknowledged (BU 0220 4.2.3.2).
+TEST_F(StandstillRequestsTest, ANeighbourBehindTheSameModuleIsNamedAndNoOther) {
+  run(4);
+  inverters_[kLeft].fault = inverters_[kRight].fault = true;
+  run(2);
+  const auto answerOf = [this](StandstillRequests& requests) {
+    inverters_[kLeft].fault = true;
+    run(2);
+    Request request;
+    request.id = 8;
+    request.kind = RequestKind::kAcknowledge;
+    request.drive = kLeft;
+    request.patience = std::chrono::seconds{3};
+    requests.handleRequest(request, now_);
+    for (int i = 0; i < 100; ++i) {
+      step();
+      requests.update(now_);
+      if (const auto answer = requests.pollCompletion()) return answer->message.str();
+    }
+    return std::string{"no answer"};
+  };
+  StandstillRequests together{drives_, {"left", "right"}, {7, 7}};
+  EXPECT_THAT(answerOf(together), HasSubstr("drive right behind the same bus module has a fault too"));
+  StandstillRequests others{drives_, {"left", "right"}, {7, 8}};
+  EXPECT_EQ("no fault stands; the drives stay disabled until they are enabled", answerOf(others));
+  StandstillRequests alone{drives_, {"left", "right"}, {std::nullopt, std::nullopt}};
+  EXPECT_EQ("no fault stands; the drives stay disabled until they are enabled", answerOf(alone));
+}
+
 // Without any fault there is nothing to do, and that is done: no edge is sent, and who runs runs on.
 TEST_F(StandstillRequestsTest, WithoutAFaultNothingIsDone) {
   run(4);

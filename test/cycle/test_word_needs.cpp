@@ -37,6 +37,20 @@ TEST(WordNeeds, A32BitTargetLeavesNoThirdSetpoint) {
   EXPECT_EQ(547, missing->number);
 }
 
+// Setpoint 1 and actual value 1 of these series are the position's: what stands there instead is told as the position that
+// is missing, and never as a frequency that it should be.
+TEST(WordNeeds, OfSk7x0eTheFirstWordsNeedNotBeTheFrequency) {
+  const WordNeeds needs = needsOf(32, {});
+  const WordFunctions bits_first{{7, 0, 0}, {12, 0, 0}};
+  EXPECT_TRUE(firstWordFits(needs, false, 7, Series::kSk750e));
+  EXPECT_TRUE(firstWordFits(needs, true, 12, Series::kSk750e));
+  const auto missing = missingWord(needs, bits_first, Series::kSk750e);
+  ASSERT_TRUE(missing);
+  EXPECT_EQ(546, missing->number);
+  EXPECT_EQ(3, missing->expected);
+  EXPECT_FALSE(firstWordFits(WordNeeds{}, false, 7, Series::kSk750e)) << "of a drive that follows velocities it is";
+}
+
 TEST(WordNeeds, A32BitPositionLeavesNoThirdActualValue) {
   const WordNeed current{true, WordUse::kTorqueCurrent};
   EXPECT_FALSE(carries(3, current, WordFunctions{{3, 1, 0}, {6, 1, 4}}, Series::kSk750e));

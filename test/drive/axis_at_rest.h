@@ -52,7 +52,7 @@ class AxisAtRest : public ::testing::Test {
   Word sent_ = 0;
   PositionReport sent_axis_;     // its bits go out beside the word sent
   std::int32_t count_ = 12'345;  // steps of 0.001 revolutions
-  Instant now_{};
+  Instant now_{std::chrono::hours{1}};
 };
 
 }  // namespace nord_driver::drive

@@ -71,7 +71,7 @@ class DriveTest : public ::testing::Test {
   const DriveReport& report() const { return drive_.report(); }
 
   Drive drive_{config()};
-  Instant now_{};
+  Instant now_{std::chrono::hours{1}};
   std::int16_t setpoint_ = 0;
 };
 

@@ -21,6 +21,8 @@ class FakeInverter {
   std::int16_t minimum = 0;    ///< P104: what it turns at with a setpoint below it, to the right with setpoint 0
   bool terminals = false;      ///< its digital inputs enable it, whatever the bus says
   int set_delay = 0;           ///< cycles until it follows another parameter set
+  std::int16_t second = 0;     ///< actual value 2, of a position its low word
+  std::int16_t third = 0;      ///< actual value 3, of a position its high word
 
   /// Takes the telegram; the input is what the inverter says after it.
   profile::ProcessInput exchange(const profile::ProcessOutput& output) {
@@ -44,7 +46,7 @@ class FakeInverter {
     }
     profile::ProcessInput input;
     input.status_word = static_cast<Word>((local ? 0x0900 : 0x0B00) | low_ | set_);
-    input.actual_values[0] = frequency_;
+    input.actual_values = {frequency_, second, third};
     return input;
   }
   /// Mains off and on: a fault whose cause is gone is gone.

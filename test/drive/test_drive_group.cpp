@@ -74,7 +74,7 @@ class DriveGroupTest : public ::testing::Test {
   FakeInverter left_inverter_;
   FakeInverter right_inverter_;
   DriveGroup group_{{&left_, &right_}, groupConfig()};
-  Instant now_{};
+  Instant now_{std::chrono::hours{1}};
   double velocity_ = 0.0;
 };
 

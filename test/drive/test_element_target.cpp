@@ -70,7 +70,7 @@ class ElementTarget : public ::testing::Test {
 
   Drive drive_{config()};
   std::uint8_t sent_element_ = 0;
-  Instant now_{};
+  Instant now_{std::chrono::hours{1}};
 };
 
 TEST_F(ElementTarget, IsHighOnlyWhileItIsEnabled) {

@@ -76,7 +76,7 @@ class PositionDrive : public ::testing::Test {
 
   Drive drive_{config()};
   profile::ProcessOutput sent_;
-  Instant now_{};
+  Instant now_{std::chrono::hours{1}};
 };
 
 TEST_F(PositionDrive, TellsItsPositionAlsoWhenItIsNotEnabled) {
@@ -254,6 +254,29 @@ TEST_F(PositionDrive, AReferenceRunHasNotBegunByABit8ThatWasLowBefore) {
   for (int i = 0; i < 5; ++i) cycle(0x0A37, 5'000);
   for (int i = 0; i < 60; ++i) cycle(0x0B37, 5'000);
   EXPECT_EQ(RequestState::kRunning, report().homing.state);
+}
+
+// What an earlier run has found does not count while another one looks for it; nor is that one begun a second time.
+TEST_F(PositionDrive, IsNotHomedWhileAReferenceRunGoesOn) {
+  enable(5'000);
+  drive_.requestHoming(now_, 7);
+  for (int i = 0; i < 5; ++i) cycle(0x0A37, 5'000 - 50 * i, -200);
+  for (int i = 0; i < 60 && report().homing.state == RequestState::kRunning; ++i) cycle(0x0B37, 4'750);
+  ASSERT_EQ(RequestState::kDone, report().homing.state);
+  EXPECT_TRUE(report().position.homed);
+  drive_.requestHoming(now_, 8);
+  cycle(0x0B37, 4'750);
+  EXPECT_TRUE(report().position.homing);
+  EXPECT_FALSE(report().position.homed);
+  drive_.requestHoming(now_, 9);
+  EXPECT_EQ(8u, report().homing.token);
+  EXPECT_EQ(RequestState::kRunning, report().homing.state);
+}
+
+TEST(HeldPosition, ADriveThatFollowsVelocitiesHasNoReferenceRun) {
+  Drive drive{DriveConfig{}};
+  drive.requestHoming(Instant{}, 7);
+  EXPECT_EQ(RequestState::kNone, drive.report().homing.state);
 }
 
 // 16 bits: 40 revolutions before the switch it counts on, and gets its zero there.

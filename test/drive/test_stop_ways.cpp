@@ -54,7 +54,7 @@ class Group {
   FakeInverter inverters_[2];
   DriveGroup group_;
   profile::ProcessOutput words_[2];
-  Instant now_{};
+  Instant now_{std::chrono::hours{1}};
   double velocity_ = 0.0;
   bool fresh_ = false;
 };
@@ -86,6 +86,7 @@ TEST(CommandTooOld, MayRampDownAndThenDisable) {
   EXPECT_EQ(0x047E, group.word(1));
   EXPECT_EQ(GroupPhase::kDisabled, group.group_.report().phase);
   EXPECT_EQ(StopCause::kCommandTimeout, group.group_.report().stop_cause);
+  EXPECT_EQ(0u, group.group_.report().stop_member);
   group.fresh_ = true;
   group.cycles(10);
   EXPECT_EQ(GroupPhase::kDisabled, group.group_.report().phase) << "a new command enables nothing";
@@ -135,6 +136,7 @@ TEST(Disable, MayQuickStopOrCoast) {
   coast.cycle();
   EXPECT_EQ(0x047D, coast.word(0));
   EXPECT_EQ(0x047D, coast.word(1));
+  EXPECT_EQ(StopCause::kNone, coast.group_.report().stop_cause) << "likewise";
 }
 
 struct Case {

@@ -66,6 +66,17 @@ TEST_F(TeachPosition, IsRefused) {
   cycle(0x0B38);
   teach();
   expectRefused(Refusal::kFault);
+  drive_.requestAcknowledge(now_);
+  teach();
+  expectRefused(Refusal::kBusy);
+}
+
+TEST_F(TeachPosition, IsRefusedWhileTheParameterSetIsSwitched) {
+  start();
+  drive_.requestParameterSet(2, now_);
+  ASSERT_EQ(Phase::kSwitchingSet, report().phase);
+  teach();
+  expectRefused(Refusal::kBusy);
 }
 
 TEST_F(TeachPosition, IsEndedByWhateverComesBetween) {

@@ -79,6 +79,47 @@ TEST(AcDrive, BitsAreTold) {
   EXPECT_TRUE(StatusWord{scaling().fromAcDrive({0x68, 4, 100}).status_word}.directionLeft());
 }
 
+// Byte 0 of assembly 71 (BU 0280 4.2.3), a bit at a time beside "enabled": each says one thing and no other.
+TEST(AcDrive, EachBitOfTheStatusSaysOneThing) {
+  const auto of = [](unsigned bits) {
+    return scaling().fromAcDrive({static_cast<std::uint8_t>(bits), 4, 0}).status_word;
+  };
+  const Word enabled = 0x0837;  // right, and nothing more
+  EXPECT_EQ(enabled, of(0x00));
+  EXPECT_EQ(enabled, of(0x01)) << "the state alone says whether it is a fault";
+  EXPECT_EQ(enabled | 0x0080, of(0x02)) << "warning";
+  EXPECT_EQ(enabled, of(0x04)) << "running forward";
+  EXPECT_EQ(0x1037, of(0x08)) << "running in reverse: left";
+  EXPECT_EQ(enabled, of(0x10)) << "ready";
+  EXPECT_EQ(enabled, of(0x20)) << "control from net, but not the reference";
+  EXPECT_EQ(enabled, of(0x40)) << "reference from net, but not the control";
+  EXPECT_EQ(enabled | 0x0200, of(0x60)) << "both: the bus has control";
+  EXPECT_EQ(enabled | 0x0100, of(0x80)) << "at reference";
+}
+
+// A state that is none: the bits alone decide.
+TEST(AcDrive, WithoutAKnownStateTheBitsDecide) {
+  const auto of = [](unsigned bits) {
+    return stateOf(AcDriveKind::kExtended, {static_cast<std::uint8_t>(bits), 0, 0});
+  };
+  EXPECT_EQ(DriveState::kFault, of(0x61));
+  EXPECT_EQ(DriveState::kOperationEnabled, of(0x64));
+  EXPECT_EQ(DriveState::kOperationEnabled, of(0x68));
+  EXPECT_EQ(DriveState::kNotReadyToSwitchOn, of(0x60));
+  EXPECT_EQ(DriveState::kNotReadyToSwitchOn, of(0x62)) << "a warning starts nothing";
+}
+
+TEST(AcDrive, BytesBeforeTheFirstTelegramSayNothing) {
+  const AcDriveInput from;
+  EXPECT_EQ(0, from.status);
+  EXPECT_EQ(0, from.state);
+  EXPECT_EQ(0, from.speed);
+  EXPECT_EQ(0, scaling().fromAcDrive(from).status_word);
+  const AcDriveOutput to;
+  EXPECT_EQ(0, to.control);
+  EXPECT_EQ(0, to.speed);
+}
+
 TEST(AcDrive, SpeedIsAShareOfP105) {
   EXPECT_EQ(8192, scaling().fromAcDrive({0x64, 4, 750}).actual_values[0]);
   EXPECT_EQ(-8192, scaling().fromAcDrive({0x68, 4, -750}).actual_values[0]);

@@ -87,6 +87,17 @@ TEST(Cia402, ActualSpeedBecomesActualValueOne) {
   EXPECT_EQ(-0x4000, fiftyHertz().fromCia402({0x4637, -1500}).actual_values[0]);
 }
 
+// Words that nobody has filled in are those of an inverter that is not there, and of a command that moves nothing.
+TEST(Cia402, WordsBeforeTheFirstTelegramSayNothing) {
+  const Cia402Input from;
+  EXPECT_EQ(0, from.status_word);
+  EXPECT_EQ(0, from.actual_velocity);
+  EXPECT_EQ(0, fiftyHertz().fromCia402(from).status_word);
+  const Cia402Output to;
+  EXPECT_EQ(0, to.control_word);
+  EXPECT_EQ(0, to.target_velocity);
+}
+
 // An absent inverter's zeros must not gain a direction bit and pass for a drive.
 TEST(Cia402, NoStatusStaysNoStatus) {
   EXPECT_EQ(0, fiftyHertz().fromCia402({0x0000, 0}).status_word);

@@ -13,6 +13,15 @@ TEST(ControlWord, SpellsTheManualsCommands) {
   EXPECT_EQ(0x047D, controlWord(Command::kDisableVoltage, 1));
 }
 
+// BU 2700 6.4.1: bits 0 to 12 in their order, bits 8 and 9 for P480 [-11] and [-12].
+TEST(ControlWord, HasEachBitInItsPlace) {
+  using namespace control_bit;
+  const Word bits[] = {kOn,        kEnableVoltage,  kNoQuickStop, kEnableOperation, kEnableRamp,
+                       kRunRamp,   kEnableSetpoint, kAcknowledge, kBusBit8,         kBusBit9,
+                       kDataValid, kRight,          kLeft};
+  for (unsigned i = 0; i < 13; ++i) EXPECT_EQ(1u << i, bits[i]) << "bit " << i;
+}
+
 // Bits 14 and 15 select the set: 00, 01, 10, 11 are sets 1 to 4.
 TEST(ControlWord, CarriesTheParameterSetInItsTopBits) {
   EXPECT_EQ(0x447E, controlWord(Command::kShutdown, 2));

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <tuple>
 
 #include "profile/pkw.h"
 
@@ -85,6 +86,26 @@ TEST(Pkw, TakesNoAnswerOfAnotherOrder) {
   EXPECT_FALSE(answers(write, toAnswer({0x444E, 0x0200, 0, 0x03E9})));
   EXPECT_FALSE(answers(write, toAnswer({0x0000, 0, 0, 0})));
   EXPECT_TRUE(answers(order(OrderLabel::kReadArray, 102, 0x0200), toAnswer({0x444E, 0x0200, 0, 0x03E9})));
+}
+
+// Of a double word all 32 bits are the value, of a word its 16: what the inverter says beside them is not compared.
+TEST(Pkw, ComparesAsManyBitsAsWereWritten) {
+  for (const auto& [label, index, answer] : {std::tuple{OrderLabel::kWriteDouble, Word{0}, 0x244Eu},
+                                             {OrderLabel::kWriteDoubleRam, Word{0}, 0x244Eu},
+                                             {OrderLabel::kWriteArrayDouble, Word{0x0200}, 0x544Eu},
+                                             {OrderLabel::kWriteArrayDoubleRam, Word{0x0200}, 0x544Eu}}) {
+    const PkwOrder write = order(label, 102, index, 0x00018ABC);
+    const auto of = [&, pke = static_cast<Word>(answer), at = index](Word high, Word low) {
+      return answers(write, toAnswer({pke, at, high, low}));
+    };
+    EXPECT_TRUE(of(0x0001, 0x8ABC));
+    EXPECT_FALSE(of(0x0001, 0x8ABD)) << static_cast<int>(label);
+    EXPECT_FALSE(of(0x0000, 0x8ABC)) << static_cast<int>(label);
+    EXPECT_FALSE(of(0x8001, 0x8ABC)) << static_cast<int>(label);
+  }
+  EXPECT_TRUE(answers(order(OrderLabel::kWriteWord, 102, 0, -2), toAnswer({0x144E, 0, 0x0000, 0xFFFE})));
+  EXPECT_TRUE(answers(order(OrderLabel::kWriteWord, 102, 0, -2), toAnswer({0x144E, 0, 0xFFFF, 0xFFFE})));
+  EXPECT_FALSE(answers(order(OrderLabel::kWriteWord, 102, 0, -2), toAnswer({0x144E, 0, 0xFFFF, 0xFFFF})));
 }
 
 TEST(Pkw, ReadsTheErrorNumber) {

@@ -82,6 +82,70 @@ TEST_F(PkwChannelTest, WritesToRamWithLabelsOfTheirOwn) {
   for (int i = 0; i < 4; ++i) EXPECT_EQ(ParameterOutcome::kDone, channel_.pollResult()->outcome) << i;
 }
 
+// Into the EEPROM they are AK 8 with an index and 3 without.
+TEST_F(PkwChannelTest, WritesDoubleWordsPersistently) {
+  ParameterRequest request = writeP102(ParameterAction::kWritePersistent);
+  request.double_word = true;
+  request.raw = 0x00018ABC;
+  ASSERT_TRUE(channel_.submit(request, now_));
+  clear();
+  const PkwWords indexed{0x844E, 0x0200, 0x0001, 0x8ABC};
+  EXPECT_EQ(indexed, exchange({0x544E, 0x0200, 0x0002, 0x8ABC})) << "answered with another high word";
+  EXPECT_FALSE(channel_.pollResult().has_value());
+  EXPECT_EQ(indexed, exchange({0x544E, 0x0200, 0x0001, 0x8ABC}));
+  EXPECT_EQ(0x00018ABC, channel_.pollResult()->raw);
+  request.shape = ParameterShape::kPlain;
+  ASSERT_TRUE(channel_.submit(request, now_));
+  clear();
+  EXPECT_EQ((PkwWords{0x344E, 0, 0x0001, 0x8ABC}), exchange({0x244E, 0, 0x0001, 0x8ABC}));
+  EXPECT_EQ(ParameterOutcome::kDone, channel_.pollResult()->outcome);
+}
+
+// What carries the words says no, or fails: that ends the request that runs, and the next one begins with a pause.
+TEST_F(PkwChannelTest, IsToldThatItsWordsAreNotCarried) {
+  Sentence why;
+  why = "the words of the carrier";
+  for (const bool refused : {true, false}) {
+    ASSERT_TRUE(channel_.submit(read(508, ParameterShape::kPlain, 1), now_));
+    ASSERT_TRUE(channel_.submit(read(507, ParameterShape::kPlain, 2), now_));
+    clear();
+    ASSERT_EQ((PkwWords{0x15E4, 0, 0, 0}), exchange(kNothing));
+    if (refused) {
+      channel_.handleRefusal(ParameterReason::kNotSupported, why);
+    } else {
+      channel_.handleFailure(ParameterOutcome::kNoChannel, why);
+    }
+    const auto result = channel_.pollResult();
+    ASSERT_TRUE(result.has_value());
+    EXPECT_EQ(1u, result->id);
+    EXPECT_EQ(refused ? ParameterOutcome::kRefused : ParameterOutcome::kNoChannel, result->outcome);
+    EXPECT_EQ(refused ? ParameterReason::kNotSupported : ParameterReason::kNone, result->reason);
+    EXPECT_EQ("the words of the carrier", result->text.str());
+    const PkwWords late{0x15E4, 0, 0, 3};
+    EXPECT_EQ(kNothing, exchange(late)) << "the order may have arrived: its answer is waited out";
+    EXPECT_EQ(kNothing, exchange(late));
+    EXPECT_EQ(kNothing, exchange(kNothing));
+    EXPECT_EQ((PkwWords{0x15E3, 0, 0, 0}), exchange({0x15E3, 0, 0, 1}));
+    EXPECT_EQ(2u, channel_.pollResult()->id);
+  }
+}
+
+TEST_F(PkwChannelTest, IsToldSoWhileNothingRuns) {
+  Sentence why;
+  why = "nobody asked";
+  clear();
+  channel_.handleRefusal(ParameterReason::kNotSupported, why);
+  channel_.handleFailure(ParameterOutcome::kTimeout, why);
+  EXPECT_FALSE(channel_.pollResult().has_value());
+  ASSERT_TRUE(channel_.submit(read(508, ParameterShape::kPlain, 1), now_));
+  EXPECT_EQ((PkwWords{0x15E4, 0, 0, 0}), exchange({0x15E4, 0, 0, 3})) << "the pause before it was answered";
+  const auto result = channel_.pollResult();
+  ASSERT_TRUE(result.has_value());
+  EXPECT_EQ(ParameterOutcome::kDone, result->outcome);
+  EXPECT_EQ(3, result->raw);
+  EXPECT_TRUE(result->text.empty());
+}
+
 // Two equal reads in a row: the answer to the first, still repeated, is never taken for the second.
 TEST_F(PkwChannelTest, NeverTakesTheOldAnswerForAnEqualOrder) {
   channel_.submit(read(508, ParameterShape::kPlain, 1), now_);
@@ -197,6 +261,18 @@ TEST_F(PkwChannelTest, FallsBackToTheReadWithoutIndexOnce) {
   const auto result = channel_.pollResult();
   ASSERT_TRUE(result.has_value());
   EXPECT_EQ(ParameterOutcome::kRefused, result->outcome);
+}
+
+// AK 1 ignores the index (BU 0020 7.5.2), and its answer has none.
+TEST_F(PkwChannelTest, FallsBackFromAnySetToNoIndex) {
+  ParameterRequest request = read(112, ParameterShape::kPerSet);
+  request.parameter_set = 3;
+  channel_.submit(request, now_);
+  clear();
+  EXPECT_EQ((PkwWords{0x6458, 0x0200, 0, 0}), exchange({0x7458, 0x0200, 0, 4}));
+  EXPECT_EQ(kNothing, exchange(kNothing));
+  EXPECT_EQ((PkwWords{0x1458, 0, 0, 0}), exchange({0x1458, 0, 0, 25}));
+  EXPECT_EQ(25, channel_.pollResult()->raw);
 }
 
 // P700 is an array only from firmware V1.9 on: error 3 or 4 leads to the plain read, of its first element only.

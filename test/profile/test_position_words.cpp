@@ -100,6 +100,9 @@ TEST(PositionWords, CountIncrementsOfSk7x0e) {
   const PositionWords words = positionWords(Series::kSk700e, {6, 0, 0}, {10, 0, 0}, 3);
   EXPECT_EQ((PositionField{32, 2, 0, 8192}), words.setpoint);
   EXPECT_EQ((PositionField{32, 2, 0, 8192}), words.actual);
+  const PositionWords narrow = positionWords(Series::kSk700e, {5, 0, 0}, {10, 0, 0}, 3);
+  EXPECT_EQ((PositionField{16, 0, 0, 8192}), narrow.setpoint);
+  EXPECT_EQ((PositionField{16, 0, 0, 8192}), narrow.actual) << "32 bits only where the setpoint has them";
 }
 
 TEST(PositionWords, BeyondWhatTheBusCarriesAreNone) {

@@ -319,6 +319,30 @@ RC_GTEST_PROP(TwistLimiterProperty, StopsInTimeFromUnderWay, (bool x_jerk, bool 
   RC_ASSERT(stepsTo({}, limiter) <= 200);
 }
 
+// Speeding up in one direction, and told another: what it gains speed by can only be wound down, so that for this step each
+// axis goes its own shortest way, and the one that is asked for waits for none.
+TEST(TwistLimiter, AnAccelerationThatPointsElsewhereHoldsNoAxisBack) {
+  TwistLimits jerky = limits();
+  jerky.linear_x.has_jerk_limits = jerky.angular_z.has_jerk_limits = true;
+  jerky.linear_x.max_jerk = 4.0;
+  jerky.angular_z.max_jerk = 40.0;
+  for (const double forward : {0.8, -0.8}) {
+    TwistLimits apart = jerky;
+    apart.limit_axes_independently = true;
+    TwistLimiter together{jerky};
+    TwistLimiter alone{apart};
+    for (int i = 0; i < 5; ++i) {
+      together.limit({forward, 0.0}, kCycle);
+      alone.limit({forward, 0.0}, kCycle);
+    }
+    const Twist2d under_way = together.limit({0.0, 1.5}, kCycle);
+    alone.limit({0.0, 1.5}, kCycle);
+    EXPECT_NEAR(alone.twist().linear_x, under_way.linear_x, 1e-12);
+    EXPECT_NEAR(alone.twist().angular_z, under_way.angular_z, 1e-12);
+    EXPECT_NEAR(0.004, under_way.angular_z, 1e-12) << "40 rad/s^3 for 10 ms, twice";
+  }
+}
+
 // A jerk limit on one axis alone must not hold the other one back, nor a stop.
 TEST(TwistLimiter, AJerkLimitOnOneAxisAloneStillStopsInTime) {
   TwistLimits mixed = limits();

@@ -1,0 +1,90 @@
+// A drive that positions in the bus cycle: what has to be known before it is enabled, and what is told of it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cycle/cycle_bench.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// SK 53xE, P546 to P548 = 1, 21, 22 and P543 to P545 = 1, 10, 15: frequency, low word, high word. 1 rad is a revolution.
+class LiftCycle : public ::testing::Test, protected CycleBench {
+ protected:
+  LiftCycle() : CycleBench{config()} {
+    transport.parameters = {{105, 500}, {543, 1},  {544, 10}, {545, 15}, {546, 1},
+                            {547, 21},  {548, 22}, {600, 1},  {610, 2}};
+    transport.inverters[0].second = 500;
+    transport.inverters[0].ramp = 0;  // a brake holds it
+  }
+  static CycleConfig config() {
+    CycleConfig config = CycleBench::config();
+    config.base.reset();
+    config.drives.resize(1);
+    config.drives[0].name = "lift";
+    PositionSetup position;
+    position.setpoint_mode = 2;
+    position.reset = PositionBit{PositionBit::Carrier::kControlBit, 9, 61};
+    position.axis.tolerance = 0.01;
+    config.drives[0].position = position;
+    config.drives[0].drive.position = position.axis;
+    return config;
+  }
+  std::string enable() { return ask(RequestKind::kEnable, 0).message.str(); }
+};
+
+TEST_F(LiftCycle, IsEnabledWhereItPositionsAndItsTargetComesFromHere) {
+  run(80);
+  EXPECT_TRUE(ask(RequestKind::kEnable, 0).success) << enable();
+}
+
+TEST_F(LiftCycle, IsNotEnabledWhereItDoesNotPosition) {
+  transport.parameters[600] = 0;
+  run(80);
+  EXPECT_THAT(enable(), HasSubstr("drive lift: P600 is 0: with 0 it does not position"));
+}
+
+TEST_F(LiftCycle, IsNotEnabledWhereItsTargetComesFromElsewhere) {
+  transport.parameters[610] = 1;
+  run(80);
+  EXPECT_THAT(enable(), HasSubstr("drive lift: P610 is 1: its target comes from elsewhere; set P610 to 2"));
+}
+
+// A position of 0 would be a place; nobody has heard of one yet.
+TEST_F(LiftCycle, StandsNowhereBeforeItsPositionIsHeard) {
+  EXPECT_EQ(0.0, snapshot().drives[0].joint_position);
+  transport.inverters[0].silent = true;
+  run(20);
+  EXPECT_FALSE(snapshot().drives[0].joint_known);
+  transport.inverters[0].silent = false;
+  run(80);
+  EXPECT_TRUE(snapshot().drives[0].joint_known);
+  EXPECT_NEAR(0.5, snapshot().drives[0].joint_position, 1e-9);
+  transport.inverters[0].silent = true;
+  run(20);
+  EXPECT_FALSE(snapshot().drives[0].position);
+  EXPECT_TRUE(snapshot().drives[0].joint_known);
+  EXPECT_NEAR(0.5, snapshot().drives[0].joint_position, 1e-9) << "the last one known";
+}
+
+TEST_F(LiftCycle, TellsThatItsCountWasSetAnew) {
+  transport.parameters[480] = 61;  // each bit of P480
+  run(80);
+  Request request;
+  request.kind = RequestKind::kResetPosition;
+  request.drive = 0;
+  request.id = ++last_id;
+  request.patience = std::chrono::seconds{5};
+  ports.submit(request);
+  for (int i = 0; i < 300 && completions.count(last_id) == 0; ++i) {
+    step();
+    if ((controlWord(0) & 0x0200) != 0) transport.inverters[0].second = 0;
+  }
+  const Completion answer = completions[last_id];
+  EXPECT_TRUE(answer.success);
+  EXPECT_EQ("drive lift: its count was set anew, its position is 0", answer.message.str());
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle

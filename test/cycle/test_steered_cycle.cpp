@@ -1,0 +1,129 @@
+// A steered base in the bus cycle: what it waits for is told, and not with every command.
+#include <gtest/gtest.h>
+
+#include "cycle/cycle_bench.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+constexpr double kQuarter = 1.57079632679489662;
+
+/// Wheels 0 and 1 before and behind the middle, steered by drives 2 and 3, which stand at 0 whatever they are told.
+class SteeredCycle : public ::testing::Test, protected CycleBench {
+ protected:
+  SteeredCycle() : CycleBench{config()} {
+    transport.parameters[600] = 1;
+    for (const DriveIndex steering : {2, 3}) {
+      transport.of_drive[steering] = {{543, 1}, {544, 10}, {545, 15}, {546, 1}, {547, 21}, {548, 22}};
+      transport.inverters[steering].ramp = 0;
+    }
+    run(100);
+  }
+  static CycleConfig config() {
+    CycleConfig config = CycleBench::config();
+    config.cmd_vel_timeout = std::chrono::milliseconds{500};
+    config.drives.resize(2);
+    config.drives[0].name = "front";
+    config.drives[1].name = "rear";
+    for (const char* name : {"front_steering", "rear_steering"}) {
+      DriveSetup setup = config.drives[0];
+      setup.name = name;
+      setup.position = PositionSetup{};
+      setup.position->axis.scale.revolutions_per_unit = 100.0;
+      setup.drive.position = setup.position->axis;
+      config.drives.push_back(setup);
+    }
+    config.base = BaseConfig{};
+    config.base->kind = robot::BaseKind::kSteered;
+    SteeredConfig steered;
+    steered.wheels = {0, 1};
+    steered.steering = {2, 3};
+    steered.axles = {{0.5, 0.0, 0.1, -kQuarter, kQuarter}, {-0.5, 0.0, 0.1, -kQuarter, kQuarter}};
+    steered.angle_tolerance = 0.05;
+    config.base->steered = steered;
+    return config;
+  }
+  /// A command to the left, for as many cycles, heard in each of them.
+  void driveSideways(int cycles) {
+    for (int i = 0; i < cycles; ++i) {
+      TwistCommand command{{}, transport.time, true};
+      command.twist.linear_y = 0.2;
+      ports.commandBase(command);
+      step();
+    }
+  }
+};
+
+// It passes as soon as the wheels are steered, so that it is told after 5 s of waiting, and every 5 s then.
+TEST_F(SteeredCycle, WaitingForItsAnglesIsAWarningAfterATime) {
+  const Completion enabled = ask(RequestKind::kEnable);
+  ASSERT_TRUE(enabled.success) << enabled.message.c_str();
+  events();
+  driveSideways(500);
+  EXPECT_EQ("the base waits until its wheels are steered", snapshot().base.waits.str());
+  EXPECT_EQ(std::vector<std::string>{}, events());
+  driveSideways(1);
+  EXPECT_EQ(std::vector<std::string>{"warning: the base waits until its wheels are steered"}, events());
+  driveSideways(499);
+  EXPECT_EQ(std::vector<std::string>{}, events());
+  driveSideways(1);
+  EXPECT_EQ(std::vector<std::string>{"warning: the base waits until its wheels are steered"}, events());
+}
+
+// One wheel whose angle nobody knows: what the others measured is no motion of the base.
+TEST_F(SteeredCycle, StandsStillInItsOdometryWhileAnAngleIsUnknown) {
+  ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  const auto driveOn = [this](int cycles) {
+    for (int i = 0; i < cycles; ++i) {
+      commandBase(0.2);
+      step();
+    }
+  };
+  driveOn(100);
+  const double before = snapshot().base.pose.x;
+  EXPECT_GT(before, 0.05);
+  EXPECT_NEAR(0.2, snapshot().base.velocity.linear_x, 0.02);
+  transport.inverters[2].silent = true;
+  step();
+  for (int i = 0; i < 10 && snapshot().drives[2].online; ++i) step();
+  const double lost = snapshot().base.pose.x;
+  run(3);
+  EXPECT_EQ(lost, snapshot().base.pose.x);
+  EXPECT_EQ(0.0, snapshot().base.velocity.linear_x);
+}
+
+// Slow, the way to another direction is a wide turn of the wheels: from its first step on the base slows down for it, and
+// does not drive on first.
+TEST(SteeredTurn, AWideOneIsBrakedForAtOnce) {
+  BaseConfig config;
+  config.kind = robot::BaseKind::kSteered;
+  SteeredConfig steered;
+  steered.wheels = {0, 1};
+  steered.steering = {2, 3};
+  steered.axles = {{0.5, 0.0, 0.1, -kQuarter, kQuarter}, {-0.5, 0.0, 0.1, -kQuarter, kQuarter}};
+  steered.angle_tolerance = 0.05;
+  config.steered = steered;
+  for (robot::SpeedLimits* axis : {&config.limits.linear_x, &config.limits.angular_z, &config.limits.linear_y}) {
+    axis->has_acceleration_limits = true;
+    axis->max_acceleration = 1.0;
+  }
+  SteeredMotion motion{config, std::chrono::milliseconds{500}};
+  const SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}};
+  Instant now{std::chrono::hours{1}};
+  const auto poll = [&](double linear_x, double linear_y) {
+    now += CycleBench::kCycle;
+    TwistCommand command{{}, now, true};
+    command.twist.linear_x = linear_x;
+    command.twist.linear_y = linear_y;
+    motion.poll(command, true, true, drives, now, CycleBench::kCycle);
+  };
+  for (int i = 0; i < 50; ++i) poll(0.05, 0.0);
+  ASSERT_NEAR(0.05, motion.limited().linear_x, 1e-9);
+  poll(0.0, 0.05);
+  EXPECT_NEAR(0.04, motion.limited().linear_x, 1e-9) << "1 m/s^2 for 10 ms";
+  EXPECT_EQ(0.0, motion.limited().linear_y);
+  EXPECT_EQ(SteeredWait::kAngles, motion.waitsFor());
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle
