@@ -32,6 +32,24 @@ TEST(NodeLoss, SilentProcessData) {
   EXPECT_THAT(run.violations(), testing::IsEmpty());
 }
 
+// Who sleeps until the next deadline wakes up for the silence of process data, too: four times the rate it answered.
+TEST(NodeLoss, SilenceOfProcessDataIsADeadline) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  run.devices[0]->deaf_to_io = true;
+  const std::size_t polls = run.sentTo("42D");
+  ASSERT_TRUE(run.runUntil([&] { return run.sentTo("42D") > polls; }, milliseconds{20}));
+  const Instant asked = run.now;
+  while (run.scanner.status(0).state == NodeState::kExchanging) {
+    const auto deadline = run.scanner.nextDeadline();
+    ASSERT_TRUE(deadline);
+    ASSERT_LE(*deadline - asked, milliseconds{120}) << "nobody would look in time";
+    run.now = std::max(*deadline, run.now);
+    run.scanner.poll(run.now);
+  }
+  EXPECT_EQ(NodeState::kLost, run.scanner.status(0).state);
+}
+
 // Its answers are lost, and it hears us: nothing it says beside its process data shortens the wait for its own time-out. A
 // question for its MAC id may be that of a second device.
 TEST(NodeLoss, ASignOfLifeDoesNotReleaseADeviceThatMayStillRun) {
@@ -181,6 +199,8 @@ TEST(NodeLoss, HeartbeatAndShutdown) {
   run.step();
   EXPECT_EQ("says in its heartbeat that its state is \"major fault, recoverable\" (4), fault flags 04h",
             run.eventText(DevicenetEventKind::kHeartbeat));
+  ASSERT_EQ(1u, run.events.size());
+  EXPECT_EQ(0x0404u, run.events[0].value) << "state and flags";
   run.events.clear();
   run.say("42B#06CD010003000000");  // the header names another device
   run.step();
