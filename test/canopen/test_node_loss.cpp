@@ -215,6 +215,44 @@ TEST(NodeLoss, SendsItsOwnHeartbeat) {
   EXPECT_THAT(run.nodes[0]->writes, Contains("1016:01=7F012C"));
 }
 
+// The first heartbeat follows our boot-up after its period, and a late look sends one for all that were missed.
+TEST(NodeLoss, OurHeartbeatKeepsItsPeriod) {
+  MasterConfig config = busConfig(1);
+  config.own_id = 127;
+  config.heartbeat_time = milliseconds{100};
+  MasterRun run{config};
+  run.master.restart(run.now);
+  const auto heartbeats = [&run] { return std::count(run.sent.begin(), run.sent.end(), "77F#05"); };
+  run.run(milliseconds{99});
+  EXPECT_EQ(1, std::count(run.sent.begin(), run.sent.end(), "77F#00"));
+  EXPECT_EQ(0, heartbeats());
+  run.run(milliseconds{1});
+  EXPECT_EQ(1, heartbeats());
+  run.run(milliseconds{100});
+  EXPECT_EQ(2, heartbeats());
+  run.now += milliseconds{1049};
+  run.step();
+  EXPECT_EQ(3, heartbeats());
+  run.run(milliseconds{99});
+  EXPECT_EQ(3, heartbeats()) << "a whole period after the late one";
+  run.run(milliseconds{1});
+  EXPECT_EQ(4, heartbeats());
+}
+
+// Who sleeps until the next deadline is not woken up for one that is over.
+TEST(NodeLoss, TheNextDeadlineLiesAhead) {
+  MasterConfig config = guarded();
+  config.own_id = 127;
+  config.heartbeat_time = milliseconds{100};
+  Operational run{config};
+  for (int i = 0; i < 1000; ++i) {
+    if (i == 500) run.nodes[0]->powerOff();
+    run.step();
+    ASSERT_TRUE(run.master.nextDeadline());
+    ASSERT_GT(*run.master.nextDeadline(), run.now) << "after " << i << " ms";
+  }
+}
+
 // What a node was told by somebody else it does: known when the command is on the bus, with any error control.
 TEST(NodeLoss, ToldSomethingByAnotherMaster) {
   for (const auto& [command, name] : {std::make_pair("82", "reset communication"), std::make_pair("81", "reset node"),
