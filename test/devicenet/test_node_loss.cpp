@@ -109,6 +109,27 @@ TEST(NodeLoss, ARestartDoesNotReleaseADeviceThatMayStillRun) {
   EXPECT_EQ(1u, run.devices[0]->io_deaths);
 }
 
+// It fell silent, and our bus was opened anew in the time that is left to it: that time goes on.
+TEST(NodeLoss, ARestartWhileItsOwnTimeOutIsAwaitedDoesNotReleaseIt) {
+  ScannerConfig config = busConfig(1);
+  config.nodes[0].io.expected_packet_rate = seconds{1};
+  ScannerRun run{config};
+  ASSERT_TRUE(run.starts());
+  run.loses = [](const CanFrame& frame) { return frame.id == 0x3C5; };
+  ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{5}));
+  const Instant lost = run.now;
+  run.run(milliseconds{200});
+  run.loses = nullptr;
+  Sentence why;
+  why = "bus-off";
+  run.scanner.handleBusLost(why, run.now);
+  run.scanner.restart(run.now);
+  run.run(milliseconds{3900} - (run.now - lost));
+  EXPECT_EQ(0x00, run.devices[0]->released_last);
+  EXPECT_EQ(0x03, run.devices[0]->held);
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
+}
+
 // Switched off and on: it knows nothing of us any more.
 TEST(NodeLoss, PowerCycle) {
   ScannerRun run{busConfig(1)};

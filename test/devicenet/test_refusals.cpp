@@ -93,6 +93,12 @@ TEST(Refusals, NoSuchConnection) {
       "allocation "
       "choice, it does not have these connections (additional code 02h)",
       refusal(run));
+  EXPECT_LE(run.scanner.status(0).counters.refusals, 10u) << "tried again once a second, in 8 s";
+  // What was refused is not held: only the explicit connection is let go.
+  run.scanner.releaseAll(run.now);
+  EXPECT_TRUE(run.runUntil([&] { return run.scanner.released(); }, seconds{1}));
+  EXPECT_EQ(0x01, run.devices[0]->released_last);
+  EXPECT_EQ(0x00, run.devices[0]->held);
 }
 
 // The device belongs to another master: named where it tells, asked again, never disturbed otherwise.
