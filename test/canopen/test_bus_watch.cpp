@@ -63,6 +63,10 @@ TEST_F(Watched, SecondMaster) {
             told("601#4000100000000000", CanopenEventKind::kSecondMaster));
   EXPECT_EQ(7u, run.master.counters().second_master);
   EXPECT_TRUE(run.allOperational());
+  run.run(seconds{1});
+  EXPECT_EQ("another master sends NMT \"start\" to node 127", told("000#017F", CanopenEventKind::kSecondMaster));
+  EXPECT_EQ("somebody sent a malformed NMT command (2 bytes)", told("000#0180", CanopenEventKind::kMalformed))
+      << "there is no node 128";
 }
 
 // Before our first frame: who works with our nodes, and who does not. A node that was left operational is nobody's.

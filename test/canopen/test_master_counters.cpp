@@ -193,6 +193,27 @@ TEST(NotSent, OnlyWhatWasGivenOutComesBack) {
   EXPECT_EQ(before.syncs + 1, run.master.counters().syncs);
 }
 
+// What was due when a cycle began is not sent to a node that has left the exchange since, and not behind a restart.
+TEST(NotSent, NothingOfACycleGoesOutBehindALoss) {
+  MasterConfig config = busConfig(2);
+  config.sync_cob_id = 0x80;
+  MasterRun run{config};
+  run.begin();
+  ASSERT_TRUE(run.runUntil([&run] { return run.allOperational(); }, seconds{1}));
+  run.run(milliseconds{20});
+  run.master.startCycle(run.now);
+  run.say("701#7F");
+  std::vector<std::string> sent;
+  for (std::string next = nextFrame(run.master); !next.empty(); next = nextFrame(run.master)) sent.push_back(next);
+  EXPECT_THAT(sent, testing::ElementsAre("202#7E040000", "080#", "601#4000100000000000"));
+  run.master.startCycle(run.now);
+  run.master.restart(run.now);
+  sent.clear();
+  for (std::string next = nextFrame(run.master); !next.empty(); next = nextFrame(run.master)) sent.push_back(next);
+  EXPECT_THAT(sent, testing::Not(testing::Contains("202#7E040000")));
+  EXPECT_THAT(sent, testing::Not(testing::Contains("080#")));
+}
+
 // With the first RPDO that finds no room the rest of its cycle is dropped, SYNC included: it would make the others act
 // without it.
 TEST(NotSent, TheRestOfTheCycleIsDropped) {

@@ -222,6 +222,23 @@ TEST(StartUp, WhatIsDemandedHasToBeThere) {
   EXPECT_THAT(run.nodes[2]->writes, IsEmpty());
 }
 
+// An object that may only be written (abort 0601 0001h) is written without a comparison.
+TEST(StartUp, WhatCannotBeReadIsWritten) {
+  MasterConfig config = busConfig(1);
+  config.nodes[0].setup = {{0x2066, 1, 104, 2}};
+  MasterRun run{config};
+  run.loses = [&run](const CanFrame& frame) {
+    if (text(frame) != "601#4066200100000000") return false;
+    run.nodes[0]->say("581#8066200101000106", run.now);
+    return true;
+  };
+  run.begin();
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{1})) << run.master.status(0).reason.c_str();
+  EXPECT_THAT(run.nodes[0]->writes, ElementsAre("2066:01=68", "1017:00=64"));
+  EXPECT_EQ(1u, run.master.status(0).counters.sdo_aborts);
+  EXPECT_EQ(1u, run.master.counters().sdo_aborts);
+}
+
 // Objects of error control that shall be 0 need not be there: a node without heartbeat does not answer for 1017h.
 TEST(StartUp, WhatShallBeZeroMayBeMissing) {
   MasterConfig config = busConfig(2);
