@@ -203,6 +203,7 @@ TEST(NotSent, NothingOfACycleGoesOutBehindALoss) {
   run.run(milliseconds{20});
   run.master.startCycle(run.now);
   run.say("701#7F");
+  run.master.setReceivePdo(0, 0, fromHex("7E 04 00 00"));  // by one who has not learned of it yet
   std::vector<std::string> sent;
   for (std::string next = nextFrame(run.master); !next.empty(); next = nextFrame(run.master)) sent.push_back(next);
   EXPECT_THAT(sent, testing::ElementsAre("202#7E040000", "080#", "601#4000100000000000"));
