@@ -87,7 +87,8 @@ bool ScriptedNode::next(Instant now, CanFrame& frame) {
 }
 
 void ScriptedNode::tick(Instant now) {
-  const std::uint32_t period = object(0x1017, 0).value;
+  const auto producer = dictionary_.find({0x1017, 0});
+  const std::uint32_t period = producer == dictionary_.end() ? 0 : producer->second.value;
   if (!powered || period == 0 || !sends_heartbeat || now < next_heartbeat_) return;
   next_heartbeat_ = now + std::chrono::milliseconds{period};
   char text[16];

@@ -63,6 +63,10 @@ TEST_F(Watched, SecondMaster) {
             told("601#4000100000000000", CanopenEventKind::kSecondMaster));
   EXPECT_EQ(7u, run.master.counters().second_master);
   EXPECT_TRUE(run.allOperational());
+  run.run(seconds{1});
+  EXPECT_EQ("another master sends NMT \"start\" to node 127", told("000#017F", CanopenEventKind::kSecondMaster));
+  EXPECT_EQ("somebody sent a malformed NMT command (2 bytes)", told("000#0180", CanopenEventKind::kMalformed))
+      << "there is no node 128";
 }
 
 // Before our first frame: who works with our nodes, and who does not. A node that was left operational is nobody's.
@@ -91,7 +95,10 @@ TEST_F(Watched, AnotherMasterCommandsANode) {
 
 TEST_F(Watched, OwnNodeIdUsed) {
   EXPECT_EQ("another node has our own node id 127", told("77F#00", CanopenEventKind::kOwnIdUsed));
+  EXPECT_EQ(127u, run.events[0].value);
   EXPECT_EQ(1u, run.master.counters().own_id_used);
+  EXPECT_EQ("", told("77F#05", CanopenEventKind::kOwnIdUsed)) << "once per second";
+  EXPECT_EQ(2u, run.master.counters().own_id_used);
 }
 
 // TIME and an unused SYNC identifier are everybody's.
@@ -115,9 +122,10 @@ TEST_F(Watched, MalformedFrames) {
   EXPECT_EQ("sent a malformed frame 582h: nobody asks for this by a remote frame (8 bytes, remote)",
             told("582#R8", CanopenEventKind::kMalformed));
   EXPECT_EQ("somebody sent a malformed NMT command (1 bytes)", told("000#01", CanopenEventKind::kMalformed));
+  EXPECT_EQ("", told("000#01", CanopenEventKind::kMalformed)) << "once per second";
   run.run(seconds{1});
   EXPECT_EQ("somebody sent a malformed NMT command (2 bytes)", told("000#7701", CanopenEventKind::kMalformed));
-  EXPECT_EQ(8u, run.master.counters().malformed);
+  EXPECT_EQ(9u, run.master.counters().malformed);
   EXPECT_TRUE(run.allOperational());
   CanFrame extended = frame("701#00");
   extended.extended = true;
@@ -145,6 +153,20 @@ TEST_F(Watched, Emergencies) {
   EXPECT_EQ(23u, history.count());
   EXPECT_EQ(EmergencyHistory::kLength, history.size());
   EXPECT_EQ(0u, run.master.status(1).emergencies.count());
+}
+
+// The interface was opened anew: what was heard before is of before, and what is told once is told once again.
+TEST_F(Watched, ARestartForgetsWhatWasHeard) {
+  told("709#05", CanopenEventKind::kForeignNode);
+  run.say("081#0081010000000000");
+  run.say("202#7F040020");
+  run.master.restart(run.now);
+  EXPECT_EQ(0u, run.master.status(0).emergencies.size());
+  EXPECT_FALSE(run.master.status(0).emergencies.standing());
+  EXPECT_FALSE(run.master.status(1).other_commands_at.has_value());
+  while (run.master.pollEvent()) {
+  }
+  EXPECT_EQ("node 9 is on the bus, but is not configured", told("709#05", CanopenEventKind::kForeignNode));
 }
 
 TEST_F(Watched, NamesTheIdentifiersItMustSee) {

@@ -215,6 +215,51 @@ TEST(NodeLoss, SendsItsOwnHeartbeat) {
   EXPECT_THAT(run.nodes[0]->writes, Contains("1016:01=7F012C"));
 }
 
+// The first heartbeat follows our boot-up after its period, and a late look sends one for all that were missed.
+TEST(NodeLoss, OurHeartbeatKeepsItsPeriod) {
+  MasterConfig config = busConfig(1);
+  config.own_id = 127;
+  config.heartbeat_time = milliseconds{100};
+  MasterRun run{config};
+  run.master.restart(run.now);
+  const auto heartbeats = [&run] { return std::count(run.sent.begin(), run.sent.end(), "77F#05"); };
+  run.run(milliseconds{99});
+  EXPECT_EQ(1, std::count(run.sent.begin(), run.sent.end(), "77F#00"));
+  EXPECT_EQ(0, heartbeats());
+  run.run(milliseconds{1});
+  EXPECT_EQ(1, heartbeats());
+  run.run(milliseconds{100});
+  EXPECT_EQ(2, heartbeats());
+  run.now += milliseconds{102};  // a little late, which the next one does not inherit
+  run.step();
+  EXPECT_EQ(3, heartbeats());
+  run.run(milliseconds{96});
+  EXPECT_EQ(3, heartbeats());
+  run.run(milliseconds{1});
+  EXPECT_EQ(4, heartbeats());
+  run.now += milliseconds{1049};
+  run.step();
+  EXPECT_EQ(5, heartbeats());
+  run.run(milliseconds{99});
+  EXPECT_EQ(5, heartbeats()) << "a whole period after one that was that late";
+  run.run(milliseconds{1});
+  EXPECT_EQ(6, heartbeats());
+}
+
+// Who sleeps until the next deadline is not woken up for one that is over.
+TEST(NodeLoss, TheNextDeadlineLiesAhead) {
+  MasterConfig config = guarded();
+  config.own_id = 127;
+  config.heartbeat_time = milliseconds{100};
+  Operational run{config};
+  for (int i = 0; i < 1000; ++i) {
+    if (i == 500) run.nodes[0]->powerOff();
+    run.step();
+    ASSERT_TRUE(run.master.nextDeadline());
+    ASSERT_GT(*run.master.nextDeadline(), run.now) << "after " << i << " ms";
+  }
+}
+
 // What a node was told by somebody else it does: known when the command is on the bus, with any error control.
 TEST(NodeLoss, ToldSomethingByAnotherMaster) {
   for (const auto& [command, name] : {std::make_pair("82", "reset communication"), std::make_pair("81", "reset node"),
@@ -224,6 +269,13 @@ TEST(NodeLoss, ToldSomethingByAnotherMaster) {
     EXPECT_EQ(NodeState::kBooting, run.master.status(0).state) << name;
     EXPECT_EQ(std::string{"was told \""} + name + "\" by another master", run.master.status(0).reason.str());
   }
+  Operational both{busConfig(2)};
+  both.say("000#8002");
+  EXPECT_EQ(NodeState::kOperational, both.master.status(0).state);
+  EXPECT_EQ(NodeState::kBooting, both.master.status(1).state);
+  Operational all{busConfig(2)};
+  all.say("000#8000");
+  for (const std::size_t node : {0u, 1u}) EXPECT_EQ(NodeState::kBooting, all.master.status(node).state) << node;
   Operational run;
   run.say("000#0101");
   run.say("000#8202");

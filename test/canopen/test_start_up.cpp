@@ -202,6 +202,57 @@ TEST(StartUp, TellsVendorAndProductWhereTheyAre) {
   EXPECT_EQ(0u, run.master.status(1).product_code);
 }
 
+// What is demanded and cannot be read is a reason not to start it.
+TEST(StartUp, WhatIsDemandedHasToBeThere) {
+  MasterConfig config = busConfig(3);
+  config.nodes[0].device_type = 0x00010192;
+  config.nodes[1].serial_number = 0x12345678;
+  config.nodes[2].setup = {{0x2067, 0, 1, 2}};
+  MasterRun run{config};
+  run.nodes[0]->remove(0x1000, 0);
+  run.nodes[1]->remove(0x1018, 4);
+  run.begin();
+  run.run(seconds{1});
+  EXPECT_EQ(NodeState::kRefused, run.master.status(0).state);
+  EXPECT_THAT(run.master.status(0).reason.str(), HasSubstr("device type (1000h:0) cannot be read: abort 0602 0000h"));
+  EXPECT_EQ(NodeState::kRefused, run.master.status(1).state);
+  EXPECT_THAT(run.master.status(1).reason.str(), HasSubstr("serial number (1018h:4) cannot be read: abort 0609 0011h"));
+  EXPECT_EQ(NodeState::kRefused, run.master.status(2).state);
+  EXPECT_THAT(run.master.status(2).reason.str(), HasSubstr("set-up (2067h:0) cannot be read: abort 0602 0000h"));
+  EXPECT_THAT(run.nodes[2]->writes, IsEmpty());
+}
+
+// An object that may only be written (abort 0601 0001h) is written without a comparison.
+TEST(StartUp, WhatCannotBeReadIsWritten) {
+  MasterConfig config = busConfig(1);
+  config.nodes[0].setup = {{0x2066, 1, 104, 2}};
+  MasterRun run{config};
+  run.loses = [&run](const CanFrame& frame) {
+    if (text(frame) != "601#4066200100000000") return false;
+    run.nodes[0]->say("581#8066200101000106", run.now);
+    return true;
+  };
+  run.begin();
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{1})) << run.master.status(0).reason.c_str();
+  EXPECT_THAT(run.nodes[0]->writes, ElementsAre("2066:01=68", "1017:00=64"));
+  EXPECT_EQ(1u, run.master.status(0).counters.sdo_aborts);
+  EXPECT_EQ(1u, run.master.counters().sdo_aborts);
+}
+
+// Objects of error control that shall be 0 need not be there: a node without heartbeat does not answer for 1017h.
+TEST(StartUp, WhatShallBeZeroMayBeMissing) {
+  MasterConfig config = busConfig(2);
+  config.nodes[0].error_control.mode = ErrorControlMode::kGuarding;
+  MasterRun run{config};
+  run.nodes[0]->remove(0x1017, 0);
+  run.nodes[1]->remove(0x1017, 0);
+  run.begin();
+  run.run(seconds{1});
+  EXPECT_EQ(NodeState::kOperational, run.master.status(0).state) << run.master.status(0).reason.c_str();
+  EXPECT_EQ(NodeState::kRefused, run.master.status(1).state) << "it shall send one";
+  EXPECT_THAT(run.master.status(1).reason.str(), HasSubstr("heartbeat time (1017h:0) cannot be read"));
+}
+
 // A node that does not obey NMT start is asked why.
 TEST(StartUp, NamesWhyANodeDoesNotStart) {
   MasterRun run{busConfig(1)};

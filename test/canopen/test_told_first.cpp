@@ -85,6 +85,24 @@ TEST_F(ToldFirst, WaitsForTwoCycles) {
   EXPECT_TRUE(asks());
 }
 
+// Cycles that come one right after the other are two cycles, but a tenth of a second is left to it all the same.
+TEST_F(ToldFirst, WaitsForATenthOfASecondToo) {
+  start(busConfig(1));
+  Master& master = run_->master;
+  lose();
+  const Instant lost = run_->now;
+  for (int i = 0; i < 3; ++i) master.startCycle(run_->now);
+  bool asked = false;
+  while (!asked && run_->now < lost + seconds{1}) {
+    master.poll(run_->now);
+    CanFrame frame;
+    while (master.pollTransmit(frame)) asked = asked || frame.id == 0x601 || frame.id == 0x000;
+    if (!asked) run_->now += milliseconds{1};
+  }
+  EXPECT_TRUE(asked);
+  EXPECT_GE(run_->now - lost, milliseconds{99});
+}
+
 // The adapter was unplugged and is back: the node has gone on meanwhile.
 TEST_F(ToldFirst, AsThereAfterTheInterfaceWasAway) {
   start(busConfig(1));

@@ -90,6 +90,20 @@ TEST(EdsFile, AnyPartOfTheSample) {
   }
 }
 
+std::string firstField(const std::string& text) {
+  std::vector<EdsProblem> problems;
+  const auto entries = splitEds(text, problems);
+  return entries.size() < 2 || entries[1].fields.empty() ? "none" : entries[1].fields[0].text;
+}
+
+// A backslash takes the character behind it as it is; at the end of a line or of the text there is none.
+TEST(EdsEntries, BackslashesInTexts) {
+  EXPECT_EQ("a \"b\" c", firstField("[Device]\nProdName = \"a \\\"b\\\" c\";"));
+  EXPECT_EQ("a\\b", firstField("[Device]\nProdName = \"a\\\\b\";"));
+  EXPECT_EQ("a\\", firstField("[Device]\nProdName = \"a\\\n;"));
+  EXPECT_EQ("a\\", firstField("[Device]\nProdName = \"a\\"));
+}
+
 TEST(EdsEntries, Numbers) {
   EXPECT_EQ(0u, edsNumber("0"));
   EXPECT_EQ(10u, edsNumber("010"));

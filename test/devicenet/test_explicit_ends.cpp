@@ -32,6 +32,25 @@ TEST(ExplicitEnds, AnAnswerBegunAgainAndAgain) {
   EXPECT_EQ(2, rounds);  // 1.2 s from the second fragment of the first round on
 }
 
+// Each part of a fragmented answer that is new gives the next one its time, be it one byte long.
+TEST(ExplicitEnds, AFirstFragmentOfOneByteIsAPart) {
+  ExplicitClient client{0, 5};
+  Instant now{std::chrono::hours{1}};
+  ASSERT_TRUE(
+      client.start(getAttribute(1, 101, 1, 1), ExplicitPort::kConnected, BodyFormat::k8Over8, milliseconds{100}, now));
+  CanFrame sent;
+  ASSERT_TRUE(client.pollTransmit(sent, now));
+  now += milliseconds{90};
+  EXPECT_EQ(Heard::kTaken, client.handle(frame("42B#C0008E"), now));
+  now += milliseconds{1100};  // the device repeats after a second what was not acknowledged
+  client.poll(now);
+  EXPECT_EQ(Heard::kTaken, client.handle(frame("42B#C0810102"), now));
+  const auto answer = client.takeAnswer();
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(ExplicitEnd::kDone, answer->end);
+  EXPECT_EQ("01 02", toHex(answer->data));
+}
+
 // A frame that was put back is not sent when its request has ended meanwhile: a write would be done after its asker was
 // told that it was not.
 TEST(ExplicitEnds, WhatWasNotSentBeforeTheTimeOutIsNeverSent) {

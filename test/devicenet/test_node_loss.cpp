@@ -32,6 +32,24 @@ TEST(NodeLoss, SilentProcessData) {
   EXPECT_THAT(run.violations(), testing::IsEmpty());
 }
 
+// Who sleeps until the next deadline wakes up for the silence of process data, too: four times the rate it answered.
+TEST(NodeLoss, SilenceOfProcessDataIsADeadline) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  run.devices[0]->deaf_to_io = true;
+  const std::size_t polls = run.sentTo("42D");
+  ASSERT_TRUE(run.runUntil([&] { return run.sentTo("42D") > polls; }, milliseconds{20}));
+  const Instant asked = run.now;
+  while (run.scanner.status(0).state == NodeState::kExchanging) {
+    const auto deadline = run.scanner.nextDeadline();
+    ASSERT_TRUE(deadline);
+    ASSERT_LE(*deadline - asked, milliseconds{120}) << "nobody would look in time";
+    run.now = std::max(*deadline, run.now);
+    run.scanner.poll(run.now);
+  }
+  EXPECT_EQ(NodeState::kLost, run.scanner.status(0).state);
+}
+
 // Its answers are lost, and it hears us: nothing it says beside its process data shortens the wait for its own time-out. A
 // question for its MAC id may be that of a second device.
 TEST(NodeLoss, ASignOfLifeDoesNotReleaseADeviceThatMayStillRun) {
@@ -89,6 +107,27 @@ TEST(NodeLoss, ARestartDoesNotReleaseADeviceThatMayStillRun) {
   EXPECT_EQ(0x00, run.devices[0]->released_last);
   EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{1}));
   EXPECT_EQ(1u, run.devices[0]->io_deaths);
+}
+
+// It fell silent, and our bus was opened anew in the time that is left to it: that time goes on.
+TEST(NodeLoss, ARestartWhileItsOwnTimeOutIsAwaitedDoesNotReleaseIt) {
+  ScannerConfig config = busConfig(1);
+  config.nodes[0].io.expected_packet_rate = seconds{1};
+  ScannerRun run{config};
+  ASSERT_TRUE(run.starts());
+  run.loses = [](const CanFrame& frame) { return frame.id == 0x3C5; };
+  ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{5}));
+  const Instant lost = run.now;
+  run.run(milliseconds{200});
+  run.loses = nullptr;
+  Sentence why;
+  why = "bus-off";
+  run.scanner.handleBusLost(why, run.now);
+  run.scanner.restart(run.now);
+  run.run(milliseconds{3900} - (run.now - lost));
+  EXPECT_EQ(0x00, run.devices[0]->released_last);
+  EXPECT_EQ(0x03, run.devices[0]->held);
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
 }
 
 // Switched off and on: it knows nothing of us any more.
@@ -181,6 +220,8 @@ TEST(NodeLoss, HeartbeatAndShutdown) {
   run.step();
   EXPECT_EQ("says in its heartbeat that its state is \"major fault, recoverable\" (4), fault flags 04h",
             run.eventText(DevicenetEventKind::kHeartbeat));
+  ASSERT_EQ(1u, run.events.size());
+  EXPECT_EQ(0x0404u, run.events[0].value) << "state and flags";
   run.events.clear();
   run.say("42B#06CD010003000000");  // the header names another device
   run.step();

@@ -342,5 +342,29 @@ TEST(ProcessData, ACyclicMessageThatIsHurriedIsSentInTheNextCycle) {
   EXPECT_EQ(before + 1, run.scanner.status(0).counters.outputs);
 }
 
+// However soon somebody looks after a command went out: nobody is late yet, and nothing is sent twice.
+TEST(ProcessData, ALookRightBehindACommandChangesNothing) {
+  for (const IoKind kind : {IoKind::kPoll, IoKind::kStrobe, IoKind::kChangeOfState, IoKind::kCyclic}) {
+    std::size_t sent[2] = {};
+    for (const bool looks : {false, true}) {
+      ScannerConfig config = busConfig(1);
+      config.nodes[0].io.kind = kind;
+      ScannerRun run{config};
+      ASSERT_TRUE(run.starts()) << toText(kind);
+      const std::size_t before = run.sentTo("42D");
+      for (int i = 0; i < 500; ++i) {
+        run.step();
+        if (!looks) continue;
+        run.scanner.poll(run.now);
+        run.pump();
+      }
+      EXPECT_EQ(0u, run.scanner.status(0).counters.losses) << toText(kind);
+      sent[looks ? 1 : 0] = run.sentTo("42D") - before;
+    }
+    EXPECT_EQ(sent[0], sent[1]) << toText(kind);
+    EXPECT_GT(sent[0], 0u) << toText(kind);
+  }
+}
+
 }  // namespace
 }  // namespace nord_driver::devicenet

@@ -66,6 +66,19 @@ TEST(Refusals, PowerCycleWhileRefused) {
   EXPECT_EQ(0u, run.devices[0]->io_before_explicit);
 }
 
+// Refused for its sizes it keeps the explicit connection alone, and that is what is let go at the end.
+TEST(Refusals, ReleasesTheExplicitConnectionOfARefusedDevice) {
+  ScannerRun run{busConfig(1)};
+  run.devices[0]->produced = 8;
+  refusal(run, seconds{4});
+  EXPECT_EQ(0x01, run.devices[0]->held);
+  EXPECT_EQ(0x02, run.devices[0]->released_last);
+  run.scanner.releaseAll(run.now);
+  EXPECT_TRUE(run.runUntil([&] { return run.scanner.released(); }, seconds{1}));
+  EXPECT_EQ(0x01, run.devices[0]->released_last);
+  EXPECT_EQ(0x00, run.devices[0]->held);
+}
+
 TEST(Refusals, NoSuchConnection) {
   ScannerConfig config = busConfig(1);
   config.nodes[0].io.kind = IoKind::kStrobe;
@@ -80,6 +93,12 @@ TEST(Refusals, NoSuchConnection) {
       "allocation "
       "choice, it does not have these connections (additional code 02h)",
       refusal(run));
+  EXPECT_LE(run.scanner.status(0).counters.refusals, 10u) << "tried again once a second, in 8 s";
+  // What was refused is not held: only the explicit connection is let go.
+  run.scanner.releaseAll(run.now);
+  EXPECT_TRUE(run.runUntil([&] { return run.scanner.released(); }, seconds{1}));
+  EXPECT_EQ(0x01, run.devices[0]->released_last);
+  EXPECT_EQ(0x00, run.devices[0]->held);
 }
 
 // The device belongs to another master: named where it tells, asked again, never disturbed otherwise.
@@ -129,6 +148,18 @@ TEST(Refusals, BodyFormatNobodySpeaks) {
     return true;
   };
   EXPECT_EQ("wants explicit messages of body format 4 in 1 bytes; 0 to 3 in one byte is spoken here", refusal(run));
+}
+
+TEST(Refusals, BodyFormatNobodyTells) {
+  ScannerRun run{busConfig(1)};
+  run.loses = [&](const CanFrame& frame) {
+    if (frame.id != 0x42B || frame.size != 3 || frame.data[1] != 0xCB) return false;
+    CanFrame changed = frame;
+    changed.size = 2;
+    run.scanner.handleFrame(changed, run.now);
+    return true;
+  };
+  EXPECT_EQ("wants explicit messages of body format 0 in 0 bytes; 0 to 3 in one byte is spoken here", refusal(run));
 }
 
 // A device that would never notice that we are gone is not driven.

@@ -36,6 +36,31 @@ TEST(ScannerConfig, MacIds) {
             refusalOf([](ScannerConfig& config) { config.nodes.clear(); }));
 }
 
+// What is allocated: the bits of the allocation choice (class 3, attribute 5), and the instance of the connection object
+// (class 5) it makes; BU 0280 4.3.4. A strobe has a poll beside it only where there are outputs.
+TEST(ScannerConfig, ChoiceOfTheConnections) {
+  const auto choiceOf = [](IoKind kind, std::optional<std::size_t> outputs, bool acknowledge = true) {
+    IoConfig io;
+    io.kind = kind;
+    if (outputs) io.output_bytes = *outputs;
+    io.acknowledge = acknowledge;
+    return unsigned{ioChoice(io)};
+  };
+  EXPECT_EQ(0x00u, choiceOf(IoKind::kNone, std::nullopt));
+  EXPECT_EQ(0x02u, choiceOf(IoKind::kPoll, 5u));
+  EXPECT_EQ(0x02u, choiceOf(IoKind::kPoll, 5u, false));
+  EXPECT_EQ(0x04u, choiceOf(IoKind::kStrobe, std::nullopt));
+  EXPECT_EQ(0x06u, choiceOf(IoKind::kStrobe, 5u));
+  EXPECT_EQ(0x10u, choiceOf(IoKind::kChangeOfState, 5u));
+  EXPECT_EQ(0x50u, choiceOf(IoKind::kChangeOfState, 5u, false));
+  EXPECT_EQ(0x20u, choiceOf(IoKind::kCyclic, 5u));
+  EXPECT_EQ(0x60u, choiceOf(IoKind::kCyclic, 5u, false));
+  EXPECT_EQ(2, connectionInstance(IoKind::kPoll));
+  EXPECT_EQ(3, connectionInstance(IoKind::kStrobe));
+  EXPECT_EQ(4, connectionInstance(IoKind::kChangeOfState));
+  EXPECT_EQ(4, connectionInstance(IoKind::kCyclic));
+}
+
 TEST(ScannerConfig, BitRate) {
   EXPECT_EQ("a bit rate of 1000000 bit/s; DeviceNet has 125000, 250000 and 500000",
             refusalOf([](ScannerConfig& config) { config.bit_rate = 1'000'000; }));

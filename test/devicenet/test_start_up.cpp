@@ -69,6 +69,8 @@ TEST(StartUp, AllRunAndAreHeard) {
   run.devices[2]->answers_rate = false;  // then it is read
   ASSERT_TRUE(run.starts());
   EXPECT_EQ(4u, run.count(DevicenetEventKind::kNodeExchanging));
+  EXPECT_EQ("exchanges process data by poll, expected packet rate 30 ms",
+            run.eventText(DevicenetEventKind::kNodeExchanging));
   EXPECT_EQ(milliseconds{30}, run.scanner.status(2).packet_rate) << "25 ms, rounded up to tens by the device";
   EXPECT_EQ(389, run.scanner.status(0).vendor_id);
   EXPECT_EQ(1, run.scanner.status(0).major_revision);

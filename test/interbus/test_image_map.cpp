@@ -128,10 +128,20 @@ TEST(ImageMap, ADriveTouchesItsOwnWordsOnly) {
   EXPECT_EQ(image({0xEEEE, 0xEEEE, 0x047E, 0x0000, 0xEEEE, 0xEEEE}), put(here, 1, {0x047E, {}}));
 }
 
+// Words behind the end of an image are somebody else's memory.
+TEST(ImageMap, NothingIsPutIntoAnImageThatIsTooShort) {
+  const ImageMap here = map(settings({drive("left", 1), drive("right", 2)}));
+  RegisterImage outputs = image({0xEEEE, 0xEEEE, 0xEEEE});
+  here.put(1, {0x047E, {}}, outputs);
+  EXPECT_EQ(image({0xEEEE, 0xEEEE, 0xEEEE}), outputs);
+  here.put(0, {0x047E, {}}, outputs);
+  EXPECT_EQ(image({0x047E, 0x0000, 0xEEEE}), outputs);
+}
+
 // A gateway that has said nothing yet: no drive there, and not the zeros of somebody's memory.
 TEST(ImageMap, AnImageThatIsTooShortHasNoDriveInIt) {
   const ImageMap here = map(settings({drive("left", 1), drive("right", 2)}));
-  EXPECT_EQ(ProcessWords{}, here.get(1, image({0x0B31, 0x0000, 0x0B31})));
+  EXPECT_EQ((ProcessWords{0, {0, 0, 0}}), here.get(1, image({0x0B31, 0x0000, 0x0B31})));
   EXPECT_EQ(0x0B31, here.get(0, image({0x0B31, 0x0000, 0x0B31})).head);
 }
 
@@ -144,6 +154,26 @@ TEST(ImageMap, AWordBehindADriveIsNobodys) {
   EXPECT_EQ(WordKind::kNobodys, here.inputMeaning(2).kind);
   EXPECT_EQ(WordKind::kNobodys, here.inputMeaning(4).kind);
   EXPECT_EQ(WordKind::kHead, here.inputMeaning(5).kind);
+}
+
+// BU 0070 4.2.2: PCP word, status word, actual values 1, 3 and 2.
+TEST(ImageMap, EachWordHasItsMeaning) {
+  ImageSettings with = settings({drive("left", 1), drive("right", 2, 2, ValueOrder::kThreeBeforeTwo)});
+  with.pcp_word = true;
+  const ImageMap here = map(with);
+  const auto meaning = [&](std::size_t word) {
+    const WordMeaning of = here.inputMeaning(word);
+    const char* const kind = of.kind == WordKind::kPcp     ? "pcp "
+                             : of.kind == WordKind::kHead  ? "head "
+                             : of.kind == WordKind::kValue ? "value "
+                                                           : "nobody's ";
+    return kind + std::to_string(of.drive) + " " + std::to_string(of.value);
+  };
+  std::vector<std::string> all;
+  for (std::size_t word = 0; word <= here.inputWords(); ++word) all.push_back(meaning(word));
+  EXPECT_EQ((std::vector<std::string>{"pcp 0 0", "head 0 0", "value 0 1", "pcp 1 0", "head 1 0", "value 1 1",
+                                      "value 1 3", "value 1 2", "nobody's 0 0"}),
+            all);
 }
 
 TEST(ImageMap, WordsAreTheSameWhereEachIs) {
@@ -227,6 +257,15 @@ TEST(ImageMap, OverlappingWordsAreRefused) {
       refusal(with));
 }
 
+TEST(ImageMap, OfTwoDrivesAtOneOffsetTheLaterIsNamed) {
+  ImageSettings with = settings({drive("left", 1), drive("right", 2)});
+  with.drives[1].output_offset = 0;
+  EXPECT_EQ(
+      "drives/right: its output words 0 to 1 lie in those of left, 0 to 1; expected output_offset 2 or higher, or one "
+      "that ends before",
+      refusal(with));
+}
+
 TEST(ImageMap, AnOffsetInsideAnotherDrivesWordsIsRefused) {
   ImageSettings with = settings({drive("left", 1, 2), drive("right", 2)});
   with.drives[1].input_offset = 3;
@@ -239,6 +278,8 @@ TEST(ImageMap, AnOffsetInsideAnotherDrivesWordsIsRefused) {
 TEST(ImageMap, TwoDrivesAtOnePlaceOfTheRingAreRefused) {
   EXPECT_EQ("drives/right/address: 3 is also that of left, expected a position in the ring of its own",
             refusal(settings({drive("left", 3), drive("right", 3)})));
+  EXPECT_EQ("drives/right/address: 3 is also that of left, expected a position in the ring of its own",
+            refusal(settings({drive("lift", 4), drive("left", 3), drive("right", 3), drive("fork", 1)})));
 }
 
 TEST(ImageMap, AnImageInterBusCannotCarryIsRefused) {

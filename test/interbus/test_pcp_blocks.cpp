@@ -33,6 +33,13 @@ TEST(PcpBlocks, AWriteHasTwoOrFourBytes) {
   EXPECT_EQ("0082 0003 2265 0001 0004 1234 5678", wordsOf(toBlock(wide, {}), 7));
 }
 
+// What an initiate does not say of an object is 0.
+TEST(PcpBlocks, AnInitiateNamesItsReferenceOnly) {
+  PcpInvocation initiate;
+  initiate.service = PcpService::kInitiate;
+  EXPECT_EQ("008B 0002 0000 0000 0000 0000 0000", wordsOf(toBlock(initiate, {}), 7));
+}
+
 TEST(PcpBlocks, NoOrderIsAllZero) {
   EXPECT_EQ("0000 0000 0000 0000 0000 0000 0000", wordsOf(toBlock({PcpService::kNone, 5, 1, 1, 2, 3}, {}), 7));
 }
@@ -50,17 +57,36 @@ TEST(PcpBlocks, FieldsHaveTheirConfiguredPlaces) {
   EXPECT_EQ("", layoutFault(result)) << "a bad result has another meaning for the word of the length";
   const PcpResult found = fromBlock(PcpBlock{0x0181, 2, 0, 2, 500, 0, 0}, result);
   EXPECT_EQ(500u, found.value);
+  EXPECT_EQ(7u, blockWords(PcpResultLayout{}));
+  EXPECT_EQ(7u, blockWords(result));
+  result.data = 9;
+  EXPECT_EQ(11u, blockWords(result)) << "a value has two words";
 }
 
 TEST(PcpBlocks, ResultsHaveOneTwoOrFourBytes) {
   EXPECT_EQ(0xFF38u, fromBlock(PcpBlock{0x0181, 2, 0, 0, 2, 0xFF38, 0}, {}).value);
   EXPECT_EQ(0x12345678u, fromBlock(PcpBlock{0x0181, 2, 0, 0, 4, 0x1234, 0x5678}, {}).value);
-  EXPECT_EQ(0x12u, fromBlock(PcpBlock{0x0181, 2, 0, 0, 1, 0x1200, 0}, {}).value);
+  const PcpResult byte = fromBlock(PcpBlock{0x0181, 2, 0, 0x31, 1, 0x1200, 0}, {});
+  EXPECT_EQ(0x12u, byte.value);
+  EXPECT_EQ(1u, byte.length);
+  EXPECT_EQ(0, byte.error.additional) << "a good result has no error";
   const PcpResult bad = fromBlock(PcpBlock{0x0182, 2, 0x0800, 0x31, 0, 0, 0}, {});
   EXPECT_FALSE(bad.good());
   EXPECT_EQ(8, bad.error.error_class);
   EXPECT_EQ(0, bad.error.code);
   EXPECT_EQ(0x31, bad.error.additional);
+  EXPECT_EQ(0x0182, bad.service);
+  EXPECT_EQ(2, bad.reference);
+}
+
+// Behind an error nothing is a value, whatever an earlier answer has left there.
+TEST(PcpBlocks, ABadResultHasNoValue) {
+  const PcpResult bad = fromBlock(PcpBlock{0x0181, 5, 0x0607, 0, 2, 0x1234, 0}, {});
+  EXPECT_EQ(5, bad.reference);
+  EXPECT_EQ(6, bad.error.error_class);
+  EXPECT_EQ(7, bad.error.code);
+  EXPECT_EQ(0u, bad.length);
+  EXPECT_EQ(0u, bad.value);
 }
 
 // 0181h (ABB NIBA-01) and 8081h (SEW UFI11A) are the same confirmation.
@@ -78,6 +104,8 @@ TEST(PcpBlocks, WhatAnswersWhat) {
   const PcpInvocation initiate{PcpService::kInitiate, 2};
   EXPECT_EQ(PcpAnswer::kHere, answerTo(initiate, {0x018C, 2, {1, 0, 0}, 0, 0})) << "initiate error";
   EXPECT_EQ(PcpAnswer::kHere, answerTo(initiate, {0x808B, 2, {}, 0, 0}));
+  EXPECT_EQ(PcpAnswer::kNotYet, answerTo(initiate, {0x0181, 2, {}, 0, 0}));
+  EXPECT_EQ(PcpAnswer::kNotYet, answer(0x018C, 2)) << "a connection that was refused to somebody else";
 }
 
 TEST(PcpBlocks, FieldsThatMeetAreNamed) {
@@ -87,6 +115,9 @@ TEST(PcpBlocks, FieldsThatMeetAreNamed) {
   PcpResultLayout result;
   result.data = 31;
   EXPECT_EQ("data: 31, expected at most 30", layoutFault(result));
+  result = {};
+  result.additional = result.error;
+  EXPECT_EQ("additional: 2 lies in error, expected a word of its own", layoutFault(result));
   EXPECT_EQ("", layoutFault(PcpInvokeLayout{}));
   EXPECT_EQ("", layoutFault(PcpResultLayout{}));
 }

@@ -113,6 +113,27 @@ TEST(Class2, RefusalsInWords) {
   EXPECT_TRUE(record.master.isConnected(0)) << "a record that is refused ends no connection";
 }
 
+// RR: no resource for the moment. What was asked goes out once more, on the way there as on the connection.
+TEST(Class2, NoResourceForTheMoment) {
+  constexpr const char* kNoResource = "10 01 08 02 0B 16";
+  Class2Wire wire;
+  ASSERT_TRUE(wire.master.submitRecord(0, readAnswer()));
+  wire.asks(kInitiate6C, kNoResource);
+  EXPECT_FALSE(wire.master.pollRecord());
+  wire.asks(kInitiate5C, kNoResource);
+  wire.asks(kInitiate7C, "E5");
+  wire.asks(kManagerPoll5C, kNoResource);
+  wire.asks(kManagerPoll7C, kGrant);
+  wire.asks(kServerPoll5C, kAccepted);
+  wire.asks(kClass2Read7C, kNoResource);
+  EXPECT_TRUE(wire.master.isConnected(0));
+  wire.asks(kClass2Read5C, "E5");
+  wire.asks(kServerPoll7C, kNoResource);
+  wire.asks(kServerPoll5C, kClass2ReadDone);
+  EXPECT_EQ(RecordOutcome::kDone, wire.result().outcome);
+  EXPECT_EQ("", wire.trouble());
+}
+
 // A read that is answered "busy" is asked again, as on MS1.
 TEST(Class2, BusyReadIsAskedAgain) {
   Class2Wire wire;

@@ -55,6 +55,50 @@ TEST(DiagnosisBlocks, ThatAreNone) {
   EXPECT_EQ("", blocks(""));
 }
 
+// EN 50170-8: six bits for the number of the module, six for that of the channel, two for its direction, five for the
+// error.
+TEST(DiagnosisBlocks, EveryBitOfAChannelBlock) {
+  EXPECT_EQ("reports of module 63, input and output 63: an error of the device|", blocks("BF FF FF"));
+  EXPECT_EQ("reports of module 1, output 1: short circuit|", blocks("81 81 01"));
+  EXPECT_EQ("reports of module 0, input 32: wire break|", blocks("80 60 26"));
+  EXPECT_EQ("reports revision 1|", blocks("C1"));
+}
+
+// Before a station was asked nothing is known of it.
+TEST(Diagnosis, OfAStationThatWasNotAsked) {
+  const Diagnosis none;
+  EXPECT_TRUE(none.empty());
+  EXPECT_FALSE(none.notReady() || none.configurationFault() || none.extended() || none.parameterFault());
+  EXPECT_FALSE(none.parameterRequest() || none.staticDiagnosis() || none.watchdogOn());
+  EXPECT_EQ(0, none.ident());
+  EXPECT_EQ(0u, none.extendedBytes().size());
+}
+
+// Bit by bit (EN 50170-8, Slave_Diag): station_not_ready, Cfg_Fault, Ext_Diag, Prm_Fault; Prm_Req, Stat_Diag, WD_On.
+TEST(Diagnosis, EachBitIsOneFinding) {
+  const auto found = [](const char* hex) {
+    const auto diagnosis = Diagnosis::from(fromHex(hex));
+    EXPECT_TRUE(diagnosis) << hex;
+    std::string text;
+    if (diagnosis->notReady()) text += "not ready ";
+    if (diagnosis->configurationFault()) text += "configuration ";
+    if (diagnosis->extended()) text += "extended ";
+    if (diagnosis->parameterFault()) text += "parameters ";
+    if (diagnosis->parameterRequest()) text += "request ";
+    if (diagnosis->staticDiagnosis()) text += "static ";
+    if (diagnosis->watchdogOn()) text += "watchdog ";
+    return text;
+  };
+  EXPECT_EQ("not ready ", found("02 00 00 01 75 31"));
+  EXPECT_EQ("configuration ", found("04 00 00 01 75 31"));
+  EXPECT_EQ("extended ", found("08 00 00 01 75 31"));
+  EXPECT_EQ("parameters ", found("40 00 00 01 75 31"));
+  EXPECT_EQ("request ", found("00 01 00 01 75 31"));
+  EXPECT_EQ("static ", found("00 02 00 01 75 31"));
+  EXPECT_EQ("watchdog ", found("00 08 00 01 75 31"));
+  EXPECT_EQ("", found("B1 F4 FF 01 75 31")) << "none of the others";
+}
+
 TEST(DiagnosisBlocks, ChannelErrors) {
   EXPECT_STREQ("wire break", channelErrorName(6));
   EXPECT_STREQ("error", channelErrorName(9));

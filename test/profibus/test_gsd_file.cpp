@@ -66,6 +66,30 @@ TEST(GsdFile, OfAModularStation) {
   EXPECT_EQ(800u, file.maxTsdrBits(12'000'000));
 }
 
+// What a file does not speak of its device cannot, and nothing is known of its limits.
+TEST(GsdFile, OfADeviceThatCanDoNothing) {
+  const GsdFile file = parseGsd("#Profibus_DP\nIdent_Number = 1\n19.2_supp = 1\n");
+  EXPECT_EQ("", problems(file));
+  EXPECT_FALSE(file.auto_baud || file.sync_supported || file.freeze_supported || file.modular);
+  EXPECT_FALSE(file.dpv1 || file.c1_read_write);
+  EXPECT_EQ(0u, file.c1_max_length);
+  EXPECT_EQ(0u, file.revision);
+  EXPECT_EQ(0u, file.max_modules + file.max_input_length + file.max_output_length + file.max_data_length);
+  EXPECT_EQ(0u, file.max_diagnosis_length + file.max_user_parameters);
+  EXPECT_EQ(0u, file.maxTsdrBits(19'200));
+  EXPECT_EQ(Duration::zero(), file.min_slave_interval);
+  EXPECT_EQ(Duration::zero(), file.c1_response_timeout);
+}
+
+// A comment behind a text: the quotation mark that ends the text ends it for the comment, too.
+TEST(GsdFile, CommentsBehindATextInQuotes) {
+  const GsdFile file = parseGsd(
+      "#Profibus_DP\nIdent_Number=1\nModule = \"PPO; 1\" 0xF3,0xF1 ; 4 words, 2 words\nEndModule\n"
+      "Module = 'it is \"2\"' 0xF7 ; another\nEndModule\n");
+  EXPECT_EQ("", problems(file));
+  EXPECT_EQ("PPO; 1: F3 F1; it is \"2\": F7; ", modules(file));
+}
+
 // Lines as they end on Windows, keys in any case, nothing behind the last line.
 TEST(GsdFile, EndsOfLinesAndCases) {
   const GsdFile file = parseGsd("#PROFIBUS_DP\r\nIDENT_NUMBER = 30001\r\nuser_prm_data = 1,\\\r\n 2");

@@ -105,6 +105,31 @@ TEST(SavedWatchdog, ALongOneGoesOnWithDataExchangeToo) {
   EXPECT_TRUE(run.allExchange());
 }
 
+// A watchdog of three seconds leaves time enough for one that is looked for as seldom as any other: the haste, which costs
+// the others half of their time, ends after a second.
+TEST(SavedWatchdog, ALongOneIsHurriedForOneSecondOnly) {
+  std::vector<SlaveConfig> slaves = Adapter::slaves();
+  slaves[0].watchdog = 3s;
+  SimulatedRun run{Adapter::bus(), slaves};
+  for (int cycles = 0; !run.allExchange() && cycles < 200; ++cycles) run.cycle(kPeriod);
+  ASSERT_TRUE(run.allExchange());
+  run.segment.station(0).setMute(true);
+  const Instant lost = run.now();
+  run.cycle(kPeriod);
+  const auto busyUntil = [&run](Instant end) {
+    const Instant begin = run.now();
+    Duration busy{};
+    while (run.now() < end) {
+      run.cycle(kPeriod);
+      busy += run.last_cycle;
+    }
+    return toSeconds(busy) / toSeconds(run.now() - begin);
+  };
+  EXPECT_GE(busyUntil(lost + 950ms), 0.3);
+  run.cycle(kPeriod * 6);
+  EXPECT_LE(busyUntil(lost + 1950ms), 0.2);
+}
+
 // The one that is there is exchanged with in every cycle meanwhile, and keeps half of the time.
 TEST(SavedWatchdog, TheOthersKeepHalfOfTheTime) {
   Adapter run;
