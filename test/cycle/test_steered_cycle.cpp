@@ -13,7 +13,7 @@ class SteeredCycle : public ::testing::Test, protected CycleBench {
  protected:
   SteeredCycle() : CycleBench{config()} {
     transport.parameters[600] = 1;
-    for (const DriveIndex steering : {2, 3}) {
+    for (const DriveIndex steering : {DriveIndex{2}, DriveIndex{3}}) {
       transport.of_drive[steering] = {{543, 1}, {544, 10}, {545, 15}, {546, 1}, {547, 21}, {548, 22}};
       transport.inverters[steering].ramp = 0;
     }
