@@ -227,6 +227,7 @@ void BusCycle::handleInputs(Instant now) noexcept {
     if (inputs_[i].interruption != Interruption::kNone) {
       const bool silent = inputs_[i].interruption == Interruption::kSilent;
       drives_[i].handleInterruption(silent ? drive::StopCause::kSilent : drive::StopCause::kInterrupted, now);
+      axes_[i].words.handleInterruption();
     }
     const drive::DriveReport& before = drives_[i].report();
     drives_[i].setReferenced(
