@@ -66,6 +66,8 @@ void DriveGroup::requestDisable(Instant now) noexcept {
       report_.refusal = {Refusal::kStopped, 0};
       down_since_ = now;
       return shutdownAll(now);
+    case GroupPhase::kHalting:  // its bound runs on
+      return shutdownAll(now);
     case GroupPhase::kDisabled:  // one may be taught its position
       ++stops_;
       for (Drive* member : members_) member->requestShutdown(now);
