@@ -12,6 +12,8 @@ namespace nord_driver::cycle {
 namespace {
 
 constexpr Duration kLongestRampStep = std::chrono::milliseconds{100};
+// What was measured before it and after it says nothing of the way between.
+constexpr Duration kHoldUp = std::chrono::milliseconds{500};
 
 std::vector<std::string> namesOf(const CycleConfig& config) {
   std::vector<std::string> names;
@@ -284,6 +286,7 @@ void BusCycle::submitParameters(DriveIndex drive, Instant now) noexcept {
 
 void BusCycle::measure(Instant now, Duration dt) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
+  if (dt > std::max(kHoldUp, 3 * period_)) forgetSpeeds();
     const drive::DriveReport& report = drives_[i].report();
     if (report.online && report.scaled) {
       axes_[i].joint.update(report.velocity.value, dt);
@@ -299,6 +302,12 @@ void BusCycle::measure(Instant now, Duration dt) noexcept {
 }
 
 void BusCycle::publish(Instant now) noexcept {
+void BusCycle::forgetSpeeds() noexcept {
+  for (Axis& axis : axes_) axis.joint.rebase();
+  if (base_) base_->handleGap();
+  if (steered_) steered_->handleGap();
+}
+
   snapshot_.time = now;
   snapshot_.connected = transport_.connected();
   snapshot_.settled = supervisor_.settled();

@@ -96,6 +96,8 @@ class BusCycle {
   void submitParameters(DriveIndex drive, Instant now) noexcept;
   void measure(Instant now, Duration dt) noexcept;
   void measureBase(Duration dt) noexcept;
+  /// The cycle was held up: the next sample starts anew.
+  void forgetSpeeds() noexcept;
   void publish(Instant now) noexcept;
   void tellChanges(Instant now) noexcept;
   void fill(DriveSnapshot& to, DriveIndex drive, Instant now) const noexcept;
