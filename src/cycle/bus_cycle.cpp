@@ -53,6 +53,7 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       start_acknowledge_(config.acknowledge_bus_timeouts && role == CycleRole::kDriver, drives_, names_,
                          membersOfBase(config)),
       supervisor_(config, drives_, auto_enable, &start_acknowledge_),
+      supervisor_(config, drives_, auto_enable, &start_acknowledge_, &command_watch_),
       command_watch_(ports, config.cmd_vel_timeout, config.base.has_value(), names_, membersOfBase(config)),
       standstill_requests_(drives_, names_, modulesOf(config, transport)),
       position_requests_(drives_, axes_, names_),

@@ -119,8 +119,8 @@ class BusCycle {
   std::optional<Instant> waits_since_;
   std::optional<Instant> waits_told_at_;
   StartAcknowledge start_acknowledge_;  // before the supervisor, which asks it
+  CommandWatch command_watch_;          // as well
   Supervisor supervisor_;
-  CommandWatch command_watch_;
   StandstillRequests standstill_requests_;
   PositionRequests position_requests_;
   CycleStatistics statistics_;
