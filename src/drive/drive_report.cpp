@@ -66,7 +66,8 @@ const char* toString(Refusal refusal) noexcept {
     case Refusal::kMaxFrequencyUnknown:
       return "the maximum frequency (P105) of the parameter set in force is not known";
     case Refusal::kParametersAwaited:
-      return "its parameters P104, P105, P509, P510, P543 and P546 are still being read";
+      return "its parameters P104, P105, P509, P510, P543 and P546 are still being read, or one that decides motion is "
+             "being written";
     case Refusal::kMinimumFrequency:
       return "P104 of the parameter set in force is above 0: enabled, the motor turns at setpoint 0";
     case Refusal::kUnexpectedFunction:

@@ -103,6 +103,56 @@ TEST_F(MotionParameters, EnablingWaitsForThem) {
   EXPECT_TRUE(completions[last_id].success) << completions[last_id].message.c_str();
 }
 
+// A write is checked when it is asked for and carried out later: until its answer the motor stays without torque.
+TEST_F(MotionParameters, EnablingWaitsForAWriteUnderWay) {
+  for (const int number : {113, 300, 301, 325, 507, 551}) {
+    CycleBench bench;
+    bench.run(80);
+    bench.transport.hold_answers = true;
+    Request change = write(number, 1);
+    change.id = ++bench.last_id;
+    change.patience = std::chrono::seconds{10};
+    bench.ports.submit(change);
+    bench.step();
+    Request enable;
+    enable.kind = RequestKind::kEnable;
+    enable.drive = kLift;
+    enable.id = ++bench.last_id;
+    enable.patience = std::chrono::seconds{10};
+    bench.ports.submit(enable);
+    for (int i = 0; i < 100; ++i) {
+      bench.step();
+      ASSERT_EQ(0x047E, bench.controlWord(kLift)) << number;
+    }
+    ASSERT_EQ(0u, bench.completions.count(enable.id)) << number;
+    bench.transport.hold_answers = false;
+    while (!bench.transport.submitted.empty()) bench.transport.answerFirst();
+    bench.run(20);
+    EXPECT_EQ(1u, bench.completions.count(change.id)) << number;
+    ASSERT_EQ(1u, bench.completions.count(enable.id)) << number;
+    EXPECT_TRUE(bench.completions[enable.id].success) << bench.completions[enable.id].message.c_str();
+  }
+}
+
+// Its asker has given up; what was sent may still be carried out.
+TEST_F(MotionParameters, EnablingWaitsForAnOverdueWriteToo) {
+  bringUp();
+  transport.hold_answers = true;
+  Request change = write(301, 1);
+  change.id = ++last_id;
+  change.patience = std::chrono::milliseconds{100};
+  ports.submit(change);
+  run(30);
+  ASSERT_EQ(1u, completions.count(change.id));
+  const Completion refused = ask(RequestKind::kEnable, kLift);
+  EXPECT_FALSE(refused.success);
+  EXPECT_THAT(refused.message.c_str(), HasSubstr("drive lift"));
+  transport.hold_answers = false;
+  while (!transport.submitted.empty()) transport.answerFirst();
+  run(5);
+  EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);
+}
+
 // What cannot be read refuses nothing.
 TEST_F(MotionParameters, ThatCannotBeReadRefuseNothing) {
   bringUp();
