@@ -52,9 +52,8 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       drives_(makeDrives(config, transport)),
       start_acknowledge_(config.acknowledge_bus_timeouts && role == CycleRole::kDriver, drives_, names_,
                          membersOfBase(config)),
-      supervisor_(config, drives_, auto_enable, &start_acknowledge_),
-      supervisor_(config, drives_, auto_enable, &start_acknowledge_, &command_watch_),
       command_watch_(ports, config.cmd_vel_timeout, config.base.has_value(), names_, membersOfBase(config)),
+      supervisor_(config, drives_, auto_enable, &start_acknowledge_, &command_watch_),
       standstill_requests_(drives_, names_, modulesOf(config, transport)),
       position_requests_(drives_, axes_, names_),
       outputs_(config.drives.size()),
@@ -231,6 +230,7 @@ void BusCycle::handleInputs(Instant now) noexcept {
       const bool silent = inputs_[i].interruption == Interruption::kSilent;
       drives_[i].handleInterruption(silent ? drive::StopCause::kSilent : drive::StopCause::kInterrupted, now);
       axes_[i].words.handleInterruption();
+      axes_[i].parameters.handleLoss(drives_[i]);
     }
     const drive::DriveReport& before = drives_[i].report();
     drives_[i].setReferenced(
@@ -286,8 +286,8 @@ void BusCycle::submitParameters(DriveIndex drive, Instant now) noexcept {
 }
 
 void BusCycle::measure(Instant now, Duration dt) noexcept {
-  for (DriveIndex i = 0; i < drives_.size(); ++i) {
   if (dt > std::max(kHoldUp, 3 * period_)) forgetSpeeds();
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
     const drive::DriveReport& report = drives_[i].report();
     if (report.online && report.scaled) {
       axes_[i].joint.update(report.velocity.value, dt);
@@ -302,13 +302,13 @@ void BusCycle::measure(Instant now, Duration dt) noexcept {
   if (hasBase()) measureBase(dt);
 }
 
-void BusCycle::publish(Instant now) noexcept {
 void BusCycle::forgetSpeeds() noexcept {
   for (Axis& axis : axes_) axis.joint.rebase();
   if (base_) base_->handleGap();
   if (steered_) steered_->handleGap();
 }
 
+void BusCycle::publish(Instant now) noexcept {
   snapshot_.time = now;
   snapshot_.connected = transport_.connected();
   snapshot_.settled = supervisor_.settled();

@@ -160,6 +160,30 @@ TEST_F(MotionParameters, ThatCannotBeReadRefuseNothing) {
   EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);
 }
 
+// It may be another inverter that answers now, or this one with other parameters.
+TEST_F(MotionParameters, AreReadAgainAfterAnInterruptionWithinACycle) {
+  bringUp();
+  transport.interrupted[kLift] = true;
+  transport.hold_answers = true;
+  run(3);
+  EXPECT_TRUE(snapshot().drives[kLift].online);
+  Request enable;
+  enable.kind = RequestKind::kEnable;
+  enable.drive = kLift;
+  enable.id = ++last_id;
+  enable.patience = std::chrono::seconds{3};
+  ports.submit(enable);
+  run(20);
+  EXPECT_EQ(0u, completions.count(enable.id));
+  transport.of_drive[kLift][105] = 800;
+  transport.hold_answers = false;
+  while (!transport.submitted.empty()) transport.answerFirst();
+  run(80);
+  ASSERT_EQ(1u, completions.count(enable.id));
+  EXPECT_TRUE(completions[enable.id].success) << completions[enable.id].message.c_str();
+  EXPECT_EQ(80.0, snapshot().drives[kLift].device.max_frequency[0]);
+}
+
 TEST_F(MotionParameters, ARefusedWriteWithoutBusControlNamesP509) {
   bringUp();
   EXPECT_THAT(ask(write(102, 1)).message.c_str(), Not(HasSubstr("P509")));
