@@ -50,7 +50,7 @@ void DriveParameters::forgetScale(drive::Drive& drive) noexcept {
 
 // A write was checked when it was asked for: carried out later, it must not meet a motor under load.
 bool DriveParameters::awaitsMotion() const noexcept {
-  return !channel_.users_only && (!reader_.motionAsked() || writesMotion());
+  return !channel_.users_only && (!reader_.motionKnown() || writesMotion());
 }
 
 // An idle drive that 047E does not lead to "ready to switch on" has a reason; it is known before anybody asks for it.

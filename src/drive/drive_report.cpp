@@ -37,6 +37,8 @@ const char* toString(StopCause cause) noexcept {
     case StopCause::kStrayed:
       return "it left the way to the element of its array it was told (none: where it stood) by more than "
              "position/stray";
+    case StopCause::kUnsuitable:
+      return "a parameter that could not be read before says that it must not be driven (~enable names it)";
     case StopCause::kNotResumed:
       return "the inverter did not come from rest (OFF1, for P104 > 0) to \"operation enabled\" in time";
   }

@@ -160,6 +160,35 @@ TEST_F(MotionParameters, ThatCannotBeReadRefuseNothing) {
   EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);
 }
 
+// It says "not now", and a moment later that it is 5 Hz.
+TEST_F(MotionParameters, EnablingWaitsForWhatIsRefusedForTheMoment) {
+  transport.not_now[{kLift, 1104}] = 1;
+  transport.of_drive[kLift][104] = 50;
+  bringUp();
+  const Completion answer = ask(RequestKind::kEnable, kLift);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("drive lift: P104 of parameter set 1 is 5.0 Hz"));
+}
+
+// Not for ever: what cannot be read refuses nothing. But what it turns out to be later stops the drive.
+TEST_F(MotionParameters, WhatIsReadLateStopsTheDrive) {
+  for (const int number : {104, 509, 543, 546}) {
+    CycleBench bench;
+    for (const int set : {0, 1000}) bench.transport.not_now[{kLift, number + set}] = 1000;
+    bench.transport.of_drive[kLift][number] = number == 509 ? 9 : 50;
+    bench.run(1000);
+    ASSERT_TRUE(bench.ask(RequestKind::kEnable, kLift).success) << number;
+    bench.transport.not_now.clear();
+    for (int i = 0; i < 300; ++i) {
+      bench.commandLift(0.0);
+      bench.step();
+    }
+    EXPECT_EQ(0x047E, bench.controlWord(kLift)) << number;
+    EXPECT_EQ(drive::StopCause::kUnsuitable, bench.snapshot().drives[kLift].stop_cause) << number;
+    EXPECT_FALSE(bench.ask(RequestKind::kEnable, kLift).success) << number;
+  }
+}
+
 // It may be another inverter that answers now, or this one with other parameters.
 TEST_F(MotionParameters, AreReadAgainAfterAnInterruptionWithinACycle) {
   bringUp();
