@@ -12,6 +12,8 @@ namespace nord_driver::cycle {
 namespace {
 
 constexpr Duration kLongestRampStep = std::chrono::milliseconds{100};
+// What was measured before it and after it says nothing of the way between.
+constexpr Duration kHoldUp = std::chrono::milliseconds{500};
 
 std::vector<std::string> namesOf(const CycleConfig& config) {
   std::vector<std::string> names;
@@ -50,8 +52,8 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       drives_(makeDrives(config, transport)),
       start_acknowledge_(config.acknowledge_bus_timeouts && role == CycleRole::kDriver, drives_, names_,
                          membersOfBase(config)),
-      supervisor_(config, drives_, auto_enable, &start_acknowledge_),
       command_watch_(ports, config.cmd_vel_timeout, config.base.has_value(), names_, membersOfBase(config)),
+      supervisor_(config, drives_, auto_enable, &start_acknowledge_, &command_watch_),
       standstill_requests_(drives_, names_, modulesOf(config, transport)),
       position_requests_(drives_, axes_, names_),
       outputs_(config.drives.size()),
@@ -227,6 +229,8 @@ void BusCycle::handleInputs(Instant now) noexcept {
     if (inputs_[i].interruption != Interruption::kNone) {
       const bool silent = inputs_[i].interruption == Interruption::kSilent;
       drives_[i].handleInterruption(silent ? drive::StopCause::kSilent : drive::StopCause::kInterrupted, now);
+      axes_[i].words.handleInterruption();
+      axes_[i].parameters.handleLoss(drives_[i]);
     }
     const drive::DriveReport& before = drives_[i].report();
     drives_[i].setReferenced(
@@ -282,6 +286,7 @@ void BusCycle::submitParameters(DriveIndex drive, Instant now) noexcept {
 }
 
 void BusCycle::measure(Instant now, Duration dt) noexcept {
+  if (dt > std::max(kHoldUp, 3 * period_)) forgetSpeeds();
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     const drive::DriveReport& report = drives_[i].report();
     if (report.online && report.scaled) {
@@ -295,6 +300,12 @@ void BusCycle::measure(Instant now, Duration dt) noexcept {
                           drives_[i].maxVelocity().value_or(RadPerSec{}).value, now);
   }
   if (hasBase()) measureBase(dt);
+}
+
+void BusCycle::forgetSpeeds() noexcept {
+  for (Axis& axis : axes_) axis.joint.rebase();
+  if (base_) base_->handleGap();
+  if (steered_) steered_->handleGap();
 }
 
 void BusCycle::publish(Instant now) noexcept {

@@ -96,6 +96,8 @@ class BusCycle {
   void submitParameters(DriveIndex drive, Instant now) noexcept;
   void measure(Instant now, Duration dt) noexcept;
   void measureBase(Duration dt) noexcept;
+  /// The cycle was held up: the next sample starts anew.
+  void forgetSpeeds() noexcept;
   void publish(Instant now) noexcept;
   void tellChanges(Instant now) noexcept;
   void fill(DriveSnapshot& to, DriveIndex drive, Instant now) const noexcept;
@@ -117,8 +119,8 @@ class BusCycle {
   std::optional<Instant> waits_since_;
   std::optional<Instant> waits_told_at_;
   StartAcknowledge start_acknowledge_;  // before the supervisor, which asks it
+  CommandWatch command_watch_;          // as well
   Supervisor supervisor_;
-  CommandWatch command_watch_;
   StandstillRequests standstill_requests_;
   PositionRequests position_requests_;
   CycleStatistics statistics_;

@@ -57,9 +57,16 @@ void BusCycle::putWords(DriveIndex i, Instant now) noexcept {
   state.follows = followsCommand(i, now);
   state.in_doubt = axis.parameters.wordsInDoubt();
   const drive::Phase phase = drives_[i].report().phase;
-  state.stopping = phase == drive::Phase::kStopping || phase == drive::Phase::kQuickStopping ||
-                   phase == drive::Phase::kCoasting || phase == drive::Phase::kHoldingZero ||
-                   phase == drive::Phase::kOffline;
+  const drive::DriveGroup& group = supervisor_.groupOf(i);
+  const drive::GroupPhase group_phase = group.report().phase;
+  const profile::StatusWord status{drives_[i].report().status_word};
+  state.stop.enabled = group.commandAllowed();
+  state.stop.stops = group.stops();
+  state.stop.fault = status.fault();
+  state.stop.bus_control = status.busControl();
+  state.stop.stopping = phase == drive::Phase::kStopping || phase == drive::Phase::kQuickStopping ||
+                        phase == drive::Phase::kCoasting || phase == drive::Phase::kHoldingZero ||
+                        phase == drive::Phase::kOffline || drive::isOnWayDown(group_phase);
   axis.words.put(outputs_[i], state, axis.parameters.device(), ports_.newestWords(i), now);
   while (const auto finding = axis.words.pollFinding(names_[i].c_str(), axis.parameters.device(), state.in_doubt)) {
     ports_.tell({true, *finding});

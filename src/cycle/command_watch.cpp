@@ -41,38 +41,68 @@ bool CommandWatch::movedWithin(Duration span, Instant now) noexcept {
 }
 
 Sentence CommandWatch::moving(Instant now) noexcept {
-  Sentence text;
-  const TwistCommand& base = ports_.newestBaseCommand();
-  if (has_base_ && !isStale(base, cmd_vel_timeout_, now) && base.twist != robot::Twist2d{}) {
-    text.format(
-        "the newest cmd_vel is not zero (%.3f m/s, %.3f rad/s, %.2f s old): send zero first, or wait until it "
-        "is older than cmd_vel_timeout",
-        base.twist.linear_x, base.twist.angular_z, toSeconds(now - base.received));
-    return text;
+  if (has_base_) {
+    const Sentence text = movingBase(now);
+    if (!text.empty()) return text;
   }
   for (DriveIndex i = 0; i < names_.size(); ++i) {
-    const JointCommand& joint = ports_.newestDriveCommand(i);
-    if (of_base_[i] || isStale(joint, cmd_vel_timeout_, now) || joint.velocity == 0.0) continue;
-    text.format(
-        "the newest command of drive %s is not zero (%.3f rad/s): send zero first, or wait until it is older "
-        "than cmd_vel_timeout",
-        names_[i].c_str(), joint.velocity);
-    return text;
+    const Sentence text = movingDrive(i, now);
+    if (!text.empty()) return text;
   }
-  return movingSetpoint(now);
+  for (const Watched& watched : setpoints_) {
+    const Sentence text = movingSetpoint(watched, now);
+    if (!text.empty()) return text;
+  }
+  return {};
 }
 
-Sentence CommandWatch::movingSetpoint(Instant now) noexcept {
-  Sentence text;
-  for (const Watched& watched : setpoints_) {
-    const WordCommand& command = ports_.newestWords(watched.drive).setpoints[watched.index];
-    if (isStale(command, watched.setup.timeout, now) || command.value == 0.0) continue;
-    text.format(
-        "the newest setpoint %s of drive %s is not zero (%.3f) and can turn its motor: send zero first, or wait until "
-        "it is older than its timeout",
-        watched.setup.name.c_str(), names_[watched.drive].c_str(), command.value);
-    return text;
+Sentence CommandWatch::movingOf(const std::vector<DriveIndex>& drives, bool base, Instant now) noexcept {
+  if (base) {
+    const Sentence text = movingBase(now);
+    if (!text.empty()) return text;
   }
+  for (const DriveIndex i : drives) {
+    const Sentence text = movingDrive(i, now);
+    if (!text.empty()) return text;
+  }
+  for (const Watched& watched : setpoints_) {
+    if (std::find(drives.begin(), drives.end(), watched.drive) == drives.end()) continue;
+    const Sentence text = movingSetpoint(watched, now);
+    if (!text.empty()) return text;
+  }
+  return {};
+}
+
+Sentence CommandWatch::movingBase(Instant now) noexcept {
+  Sentence text;
+  const TwistCommand& base = ports_.newestBaseCommand();
+  if (isStale(base, cmd_vel_timeout_, now) || base.twist == robot::Twist2d{}) return text;
+  text.format(
+      "the newest cmd_vel is not zero (%.3f m/s, %.3f rad/s, %.2f s old): send zero first, or wait until it "
+      "is older than cmd_vel_timeout",
+      base.twist.linear_x, base.twist.angular_z, toSeconds(now - base.received));
+  return text;
+}
+
+Sentence CommandWatch::movingDrive(DriveIndex drive, Instant now) noexcept {
+  Sentence text;
+  const JointCommand& joint = ports_.newestDriveCommand(drive);
+  if (of_base_[drive] || isStale(joint, cmd_vel_timeout_, now) || joint.velocity == 0.0) return text;
+  text.format(
+      "the newest command of drive %s is not zero (%.3f rad/s): send zero first, or wait until it is older "
+      "than cmd_vel_timeout",
+      names_[drive].c_str(), joint.velocity);
+  return text;
+}
+
+Sentence CommandWatch::movingSetpoint(const Watched& watched, Instant now) noexcept {
+  Sentence text;
+  const WordCommand& command = ports_.newestWords(watched.drive).setpoints[watched.index];
+  if (isStale(command, watched.setup.timeout, now) || command.value == 0.0) return text;
+  text.format(
+      "the newest setpoint %s of drive %s is not zero (%.3f) and can turn its motor: send zero first, or wait until "
+      "it is older than its timeout",
+      watched.setup.name.c_str(), names_[watched.drive].c_str(), command.value);
   return text;
 }
 

@@ -36,17 +36,21 @@ class CommandWatch {
   void watch(DriveIndex drive, std::size_t index, const SetpointSetup& setpoint);
   /// Each cycle; the first call begins the listening.
   CommandState look(Instant now) noexcept;
+  /// As CommandState::moving, of these drives alone; `base`: and of the base.
+  Sentence movingOf(const std::vector<DriveIndex>& drives, bool base, Instant now) noexcept;
 
  private:
-  Sentence moving(Instant now) noexcept;
-  bool movedWithin(Duration span, Instant now) noexcept;
-  Sentence movingSetpoint(Instant now) noexcept;
-
   struct Watched {
     DriveIndex drive = 0;
     std::size_t index = 0;
     SetpointSetup setup;
   };
+
+  Sentence moving(Instant now) noexcept;
+  bool movedWithin(Duration span, Instant now) noexcept;
+  Sentence movingBase(Instant now) noexcept;
+  Sentence movingDrive(DriveIndex drive, Instant now) noexcept;
+  Sentence movingSetpoint(const Watched& watched, Instant now) noexcept;
 
   CyclePorts& ports_;
   Duration cmd_vel_timeout_;

@@ -91,7 +91,8 @@ bool CyclePorts::commandSetpoint(DriveIndex drive, std::size_t index, double val
 void CyclePorts::commandOutput(DriveIndex drive, std::size_t index, bool on, Instant received) {
   const std::lock_guard<std::mutex> lock(writers_);
   WordCommands& all = words_written_.at(drive);
-  all.outputs.at(index) = {on, received, true};
+  BitCommand& output = all.outputs.at(index);
+  output = {on, received, true, on ? output.off : received};
   words_.at(drive)->write(all);
 }
 

@@ -115,6 +115,15 @@ bool DeviceReader::motionAsked() const noexcept {
   return !restart_ && (data_.complete || next_ >= motion_items_);
 }
 
+// Without P105, which a typed one may take the place of, nothing is enabled anyway.
+bool DeviceReader::motionKnown() const noexcept {
+  if (!motionAsked()) return false;
+  const unsigned rounds = rounds_ + (next_ >= motion_items_ ? 1u : 0u);
+  if (!answered_ || rounds > kAwaitedRounds) return true;
+  return std::none_of(items_.begin(), items_.begin() + static_cast<std::ptrdiff_t>(motion_items_),
+                      [](const Item& item) { return item.due && item.number != kMaxFrequency; });
+}
+
 bool DeviceReader::missesMotion(bool max_frequencies) const noexcept {
   if (restart_ || next_ != items_.size()) return false;
   return std::any_of(items_.begin(), items_.end(), [max_frequencies](const Item& item) {
@@ -128,6 +137,7 @@ void DeviceReader::askMissingAgain(bool max_frequencies) noexcept {
   }
   silent_ = false;
   next_ = 0;
+  if (rounds_ <= kAwaitedRounds) ++rounds_;
 }
 
 std::optional<profile::ParameterRequest> DeviceReader::pollRequest() noexcept {
@@ -137,6 +147,8 @@ std::optional<profile::ParameterRequest> DeviceReader::pollRequest() noexcept {
     next_ = 0;
     attempts_ = 0;
     silent_ = false;
+    answered_ = false;
+    rounds_ = 0;
     data_ = {};
     for (Item& item : items_) item.due = true;
   }
@@ -162,6 +174,7 @@ void DeviceReader::handleResult(const profile::ParameterResult& result) noexcept
   const bool timed_out = result.outcome == profile::ParameterOutcome::kTimeout;
   if (timed_out && ++attempts_ < (silent_ ? 1 : kMaxAttempts)) return;
   silent_ = timed_out;
+  answered_ = answered_ || !mayChange(result);
   items_[next_].due = mayChange(result) && next_ < motion_items_;
   if (result.outcome == profile::ParameterOutcome::kDone) {
     store(items_[next_], result.raw);

@@ -20,6 +20,8 @@ namespace nord_driver::cycle {
 /// refused for the moment, is asked for again whenever the owner wants to.
 class DeviceReader {
  public:
+  static constexpr unsigned kAwaitedRounds = 3;
+
   /// `owner`: whose time-outs are read; those of a module by requests the transport passes on to it.
   /// `further_words`: setpoints 2 and 3 or actual values 2 and 3 are in use: what they are decides motion, too.
   /// `positions`: so do P600 and P610, of a drive that positions. `out_bit`: the element of P481 whose function decides
@@ -39,6 +41,9 @@ class DeviceReader {
   bool maxFrequenciesAsked() const noexcept;
   /// The same of all parameters that decide motion.
   bool motionAsked() const noexcept;
+  /// And what was refused for the moment, or timed out beside others that were answered, was asked for again often enough
+  /// (kAwaitedRounds): what is absent then refuses nothing.
+  bool motionKnown() const noexcept;
   /// All has been asked for, and one that decides motion has only timed out, or was refused for the moment;
   /// `max_frequencies`: P105 counts, too.
   bool missesMotion(bool max_frequencies = true) const noexcept;
@@ -70,6 +75,8 @@ class DeviceReader {
   bool waiting_ = false;
   bool silent_ = false;  // the last question has timed out to its end
   bool restart_ = true;
+  bool answered_ = false;    // the parameter channel lives
+  std::uint8_t rounds_ = 0;  // in which the missing ones were asked for again
   DeviceData data_;
 };
 

@@ -16,7 +16,6 @@ namespace {
 constexpr unsigned kDriveBits = 8, kAskerBits = 4;
 constexpr std::uint32_t kDriveMask = (1u << kDriveBits) - 1, kAskerMask = (1u << kAskerBits) - 1;
 
-constexpr Duration kReasonInterval = std::chrono::milliseconds{500};
 constexpr Duration kMissingInterval = std::chrono::seconds{2};
 
 // Beside those that are read at start: jog frequency, brake, servo mode and encoder (the P300 family's, not its
@@ -26,17 +25,6 @@ constexpr std::uint16_t kDecideMotion[] = {113, 114, 300, 301, 325, 507, 551};
 // Whether and how it positions (P600 to P631), other than the positions themselves (P613).
 constexpr bool decidesPosition(std::uint16_t number) noexcept {
   return number >= 600 && number <= 631 && number != 613;
-}
-
-void forgetScale(drive::Drive& drive) noexcept {
-  for (std::uint8_t set = 1; set <= 4; ++set) {
-    drive.setMaxFrequency(set, Hertz{});
-    drive.setMinimumFrequency(set, Hertz{});
-    drive.setUnexpectedFunction(set, std::nullopt);
-    drive.setPositionWords(set, {});
-  }
-  drive.setUnexpectedSource(std::nullopt);
-  drive.setParametersAwaited(true);  // asked for again
 }
 
 bool saysWhatSetpointsMean(std::uint16_t number) noexcept {
@@ -125,54 +113,6 @@ DriveParameters::DriveParameters(DriveIndex drive, std::string name, profile::Se
       session_(channel.capabilities),
       monitor_(channel.monitor) {}
 
-void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
-  const drive::DriveReport& report = drive.report();
-  if (report.online) {
-    const profile::StatusWord status{report.status_word};
-    bus_control_ = status.busControl();
-    parameter_set_ = report.parameter_set;
-    faults_.handleStatus(status);
-    history_.handleFault(status.fault(), faults_.lastNumber());
-    askForReason(drive, now);
-    if (scale_due_ && !writesProcessData()) scale(drive);
-    scale_due_ = false;
-    return;
-  }
-  scale_due_ = false;
-  open_ids_ = {};
-  faults_.handleOffline();
-  reader_.handleOffline();
-  session_.handleOffline();
-  history_.handleOffline();
-  monitor_.handleOffline();
-  elements_.forget();
-  collect();
-  // Another inverter may come back in its place: nothing is enabled with what P105 was before.
-  forgetScale(drive);
-  drive.setParametersAwaited(!channel_.users_only);
-}
-
-// An idle drive that 047E does not lead to "ready to switch on" has a reason; it is known before anybody asks for it.
-void DriveParameters::askForReason(drive::Drive& drive, Instant now) noexcept {
-  const drive::DriveReport& report = drive.report();
-  const bool waiting = report.phase == drive::Phase::kIdle || report.phase == drive::Phase::kEnabling;
-  const bool held = waiting && (report.state == profile::DriveState::kSwitchOnDisabled ||
-                                report.state == profile::DriveState::kNotReadyToSwitchOn);
-  // While it is read again, the one known before stands.
-  if (!held || faults_.reasonState() != drive::ReasonState::kReading) {
-    const bool known = held && faults_.reasonState() == drive::ReasonState::kKnown && faults_.reason() != 0;
-    drive.setSwitchOnReason(known ? std::optional<std::uint16_t>{faults_.reason()} : std::nullopt);
-  }
-  if (!held) {
-    held_since_.reset();
-  } else if (!held_since_) {
-    held_since_ = now;
-  } else if (now - *held_since_ >= kReasonInterval) {
-    held_since_ = now;
-    faults_.requestReason();
-  }
-}
-
 // P105 as read; as typed where the drive does not tell it. What else could not be read refuses nothing: /diagnostics
 // tells it.
 void DriveParameters::scale(drive::Drive& drive) const noexcept {
@@ -190,7 +130,6 @@ void DriveParameters::scale(drive::Drive& drive) const noexcept {
     drive.setPositionWords(set, positionWordsOf(functions, series_, channel_));
   }
   drive.setUnexpectedSource(unexpectedSource(reader_.data(), series_, channel_.follows));
-  drive.setParametersAwaited(!reader_.motionAsked());
 }
 
 Sentence DriveParameters::notWhileEnabled(const Request& request) const noexcept {
@@ -213,6 +152,11 @@ bool DriveParameters::writesProcessData() const noexcept {
   return false;
 }
 
+bool DriveParameters::writesMotion() const noexcept {
+  return std::any_of(pending_.begin(), pending_.end(),
+                     [](const Pending& pending) { return decidesMotion(pending.request); });
+}
+
 void DriveParameters::readDeviceAgain() noexcept {
   // Its question under way may have been answered before the write.
   open_ids_[static_cast<std::size_t>(Asker::kReader)] = 0;
@@ -233,6 +177,7 @@ void DriveParameters::handleRequest(const Request& request, drive::Drive& drive,
   if (request.patience > Duration::zero()) pending.until = now + request.patience;
   pending_.push_back(pending);
   if (changesProcessData(request)) forgetScale(drive);
+  if (decidesMotion(request)) drive.setParametersAwaited(awaitsMotion());
 }
 
 // The answer to an earlier question must not be taken for another element.

@@ -54,12 +54,14 @@ class DriveParameters {
 
   /// Looks whether the drive is there and whether it has a fault; hands it P105 as it is known. Offline: all ends.
   void handleState(drive::Drive& drive, Instant now) noexcept;
+  /// It was lost, whether or not it answers again by now: all ends, and everything is read again.
+  void handleLoss(drive::Drive& drive) noexcept;
   /// Why a write that `decidesMotion` is not carried out now.
   Sentence notWhileEnabled(const Request& request) const noexcept;
   /// kReadParameter and kWriteParameter; the answer comes as a completion, when the patience of its asker ends at the
   /// latest (`endOverdue`); a request without one (0, of a caller that limits the time itself) waits for the inverter. A
   /// write that changes what the process data mean (`changesProcessData`) takes P105 from the drive until all of them
-  /// have been read again: it is not enabled before.
+  /// have been read again: it is not enabled before. Nor is it while another write that `decidesMotion` is under way.
   void handleRequest(const Request& request, drive::Drive& drive, Instant now) noexcept;
   /// Answers whoever waits no longer: what was not begun by then is not written.
   void endOverdue(Instant now) noexcept;
@@ -103,12 +105,15 @@ class DriveParameters {
   void answer(Asker asker, const profile::ParameterResult& result) noexcept;
   void askForReason(drive::Drive& drive, Instant now) noexcept;
   void scale(drive::Drive& drive) const noexcept;
+  static void forgetScale(drive::Drive& drive) noexcept;
   void refuse(const Request& request, profile::ParameterOutcome outcome) noexcept;
   void collect() noexcept;
   void answer(const Request& request, const profile::ParameterResult& result) noexcept;
   void readDeviceAgain() noexcept;
   void askMissingAgain(Instant now) noexcept;
   bool writesProcessData() const noexcept;
+  bool writesMotion() const noexcept;
+  bool awaitsMotion() const noexcept;
 
   DriveIndex drive_;
   std::string name_;

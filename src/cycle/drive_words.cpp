@@ -33,7 +33,11 @@ bool isRefused(const SignalSetup& output, std::uint16_t function) noexcept {
 }  // namespace
 
 DriveWords::DriveWords(const WordSetup& setup, profile::Series series, std::size_t carried)
-    : setup_(setup), series_(series), carried_(std::min(carried, profile::kMaxProcessValues)) {
+    : setup_(setup),
+      series_(series),
+      carried_(std::min(carried, profile::kMaxProcessValues)),
+      withdrawn_(static_cast<std::size_t>(std::count_if(setup.signals.begin(), setup.signals.end(),
+                                                        [](const SignalSetup& s) { return isOutput(s.source); }))) {
   for (const SignalSetup& signal : setup.signals) {
     if (isOutput(signal.source)) outputs_.push_back(signal);
   }
@@ -67,6 +71,7 @@ void DriveWords::put(profile::ProcessOutput& output, const State& state, const D
                      const WordCommands& commands, Instant now) noexcept {
   if (empty()) return;
   learn(device);
+  withdrawn_.update(state.stop, commands, now);
   putOutputs(output, state, device, commands, now);
   if (output.control_word == 0 || state.set < 1 || state.set > known_.size()) return;
   for (std::size_t i = 0; i < setup_.setpoints.size(); ++i) {
@@ -96,7 +101,8 @@ void DriveWords::putOutputs(profile::ProcessOutput& output, const State& state, 
       continue;
     }
     const std::uint16_t function = functionOf(signal, device);
-    const bool held_back = isRefused(signal, function) || state.in_doubt || (!isHarmless(function) && state.stopping);
+    const bool held_back = isRefused(signal, function) || state.in_doubt ||
+                           (!isHarmless(function) && (state.stop.stopping || withdrawn_.has(i)));
     if (held_back || output.control_word == 0) continue;
     if (signal.source == SignalSource::kControlBit) {
       output.control_word = static_cast<Word>(output.control_word | 1u << signal.number);

@@ -27,13 +27,14 @@ Sentence notHeardYet(const CommandState& commands, bool has_base) noexcept {
 }  // namespace
 
 Supervisor::Supervisor(const CycleConfig& config, std::vector<drive::Drive>& drives, bool auto_enable,
-                       const StartAcknowledge* start)
+                       const StartAcknowledge* start, CommandWatch* watch)
     : drives_(drives),
       group_of_(drives.size(), kNoGroup),
       refusals_(drives.size(), Refusal::kNone),
       has_base_(config.base.has_value()),
       auto_enable_(auto_enable),
-      start_(start) {
+      start_(start),
+      watch_(watch) {
   for (const DriveSetup& setup : config.drives) {
     names_.push_back(setup.name);
     leaders_.push_back(setup.leader);
@@ -71,14 +72,13 @@ bool Supervisor::concerns(const Request& request, std::size_t group) const noexc
 
 void Supervisor::handleRequest(const Request& request, const CommandState& commands, Instant now) noexcept {
   if (request.drive != kAllDrives && inBase(request.drive)) {
-    // One wheel of a base enabled or stopped alone would turn the base. Quick stop of one stops them all, see
-    // `concerns`.
-    if (request.kind != RequestKind::kQuickStop) {
+    // One wheel of a base enabled alone would turn the base. A stop of one stops them all, see `concerns`.
+    if (request.kind == RequestKind::kEnable) {
       Sentence text;
       text.format("drive %s belongs to the base: use ~enable", names_[request.drive].c_str());
       return completions_.answer(request, false, text);
     }
-  } else if (request.drive != kAllDrives && leaders_[request.drive] && request.kind != RequestKind::kQuickStop) {
+  } else if (request.drive != kAllDrives && leaders_[request.drive] && request.kind == RequestKind::kEnable) {
     const char* const name = names_[request.drive].c_str();
     const char* const leader = names_[*leaders_[request.drive]].c_str();
     Sentence text;
@@ -131,8 +131,16 @@ void Supervisor::endWaitingEnables(const Request& stop) noexcept {
 
 // Stops have acted by then, whatever becomes of their answer.
 void Supervisor::followUp(const Request& request, Instant now, bool begun, std::optional<Instant> enabled_at) noexcept {
-  if (jobs_.push_back({request, now + request.patience, begun, enabled_at})) return;
+  if (jobs_.push_back({request, now + request.patience, begun, enabled_at, groupsToEnable(request)})) return;
   completions_.answer(request, false, "begun, but too many requests wait for their answers to follow this one");
+}
+
+Supervisor::Groups Supervisor::groupsToEnable(const Request& request) const noexcept {
+  Groups groups;
+  for (std::size_t i = 0; i < groups_.size() && request.kind == RequestKind::kEnable; ++i) {
+    groups[i] = concerns(request, i) && !groups_[i].group.commandAllowed();
+  }
+  return groups;
 }
 
 bool Supervisor::nothingToEnable(const Request& request) const noexcept {
@@ -155,7 +163,8 @@ void Supervisor::startEnable(const Request& request, const CommandState& command
   // As of what the drives say from now on: one may have tripped while this cycle was held up.
   if (isEnabled(request)) return followUp(request, now, true, now);
   if (nothingToEnable(request)) return followUp(request, now);
-  if (!commands.moving.empty()) return completions_.answer(request, false, reasonsAgainst(request, commands.moving));
+  const Sentence moving = movingAgainst(request, commands, now);
+  if (!moving.empty()) return completions_.answer(request, false, reasonsAgainst(request, moving));
   if (commands.to_hear > request.patience) {
     return completions_.answer(request, false, reasonsAgainst(request, notHeardYet(commands, has_base_)));
   }
@@ -200,26 +209,35 @@ Sentence Supervisor::reasonsAgainst(const Request& request, const Sentence& comm
 bool Supervisor::enableAll(const Request& request, Instant now) noexcept {
   const Sentence reasons = reasonsAgainst(request, {});
   if (!reasons.empty()) {
-    takeBack(request, now);
     completions_.answer(request, false, reasons);
     return false;
   }
+  Groups begun;
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     Group& group = groups_[i];
     if (!concerns(request, i) || enabledOrEnabling(group)) continue;
     const drive::GroupRefusal refusal = group.group.requestEnable(now);
+    begun[i] = refusal.accepted();
     if (refusal.accepted()) continue;
-    takeBack(request, now);
+    takeBack(begun, now);
     completions_.answer(request, false, refusalOf(group, refusal));
     return false;
   }
   return true;
 }
 
-void Supervisor::takeBack(const Request& request, Instant now) noexcept {
+// What was enabled before goes on.
+void Supervisor::takeBack(const Groups& begun, Instant now) noexcept {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
-    if (concerns(request, i) && enabledOrEnabling(groups_[i])) groups_[i].group.requestDisable(now);
+    if (begun[i] && enabledOrEnabling(groups_[i])) groups_[i].group.requestDisable(now);
   }
+}
+
+// Of one drive or the base: what others are told to do is no reason against it.
+Sentence Supervisor::movingAgainst(const Request& request, const CommandState& commands, Instant now) noexcept {
+  if (commands.moving.empty() || request.drive == kAllDrives || watch_ == nullptr) return commands.moving;
+  const std::size_t group = group_of_[request.drive];
+  return watch_->movingOf(groups_[group].members, has_base_ && group == 0, now);
 }
 
 Sentence Supervisor::refusalOf(const Group& group, const drive::GroupRefusal& refusal) const noexcept {
@@ -256,8 +274,9 @@ void Supervisor::autoEnable(const CommandState& commands, Instant now) noexcept 
 }
 
 bool Supervisor::followWaiting(Job& job, const CommandState& commands, Instant now) noexcept {
-  if (!commands.moving.empty()) {
-    completions_.answer(job.request, false, reasonsAgainst(job.request, commands.moving));
+  const Sentence moving = movingAgainst(job.request, commands, now);
+  if (!moving.empty()) {
+    completions_.answer(job.request, false, reasonsAgainst(job.request, moving));
     return true;
   }
   if (commands.to_hear > Duration::zero()) {
@@ -267,6 +286,7 @@ bool Supervisor::followWaiting(Job& job, const CommandState& commands, Instant n
   }
   if (now < job.deadline && awaitsParameters(job.request)) return false;
   job.begun = enableAll(job.request, now);
+  job.to_enable = groupsToEnable(job.request);
   return !job.begun;
 }
 
@@ -276,7 +296,7 @@ bool Supervisor::follow(Job& job, const CommandState& commands, Instant now) noe
   if (now < job.deadline) return false;
   completions_.answer(job.request, false, unsettled(job.request));
   // Told that it failed, its asker must not see it succeed later.
-  if (job.request.kind == RequestKind::kEnable) takeBack(job.request, now);
+  takeBack(job.to_enable, now);
   return true;
 }
 
@@ -293,7 +313,7 @@ bool Supervisor::followEnable(const Job& job, Instant now) noexcept {
     }
     all = false;
     if (report.phase == GroupPhase::kEnabling) continue;
-    takeBack(job.request, now);
+    takeBack(job.to_enable, now);
     completions_.answer(job.request, false,
                         report.refusal.accepted() ? Sentence{kDisabledAgain} : refusalOf(groups_[i], report.refusal));
     return true;

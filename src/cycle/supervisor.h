@@ -1,6 +1,7 @@
 // Carries out what users ask of the drives: which groups it concerns, whether it may begin, and when it is done.
 #pragma once
 
+#include <bitset>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,8 +26,9 @@ class Supervisor {
   /// `drives` must outlive the supervisor and not move. `auto_enable`: enable once, when every drive has first become
   /// ready and the commands have been quiet for long enough; a fault seen before is the end of it.
   /// `start`: a fault it may still acknowledge is not the end of that; it must outlive the supervisor.
+  /// `watch`: tells which command moves one drive or the base alone; without it every command counts for every request.
   Supervisor(const CycleConfig& config, std::vector<drive::Drive>& drives, bool auto_enable,
-             const StartAcknowledge* start = nullptr);
+             const StartAcknowledge* start = nullptr, CommandWatch* watch = nullptr);
 
   /// Enable, disable, quick stop and shut down. An enable that comes before the commands have been listened to for long
   /// enough waits for that; a stop meanwhile ends it.
@@ -50,11 +52,13 @@ class Supervisor {
     drive::DriveGroup group;
     std::vector<DriveIndex> members;
   };
+  using Groups = std::bitset<256>;  // an id of a parameter access has 8 bits for the drive
   struct Job {
     Request request;
     Instant deadline{};
     bool begun = true;  // false: an enable that waits for commands to be listened to, or parameters
     std::optional<Instant> enabled_at = {};  // an enable of what was enabled then
+    Groups to_enable = {};                   // what it brings up, and takes back when it fails
   };
 
   void addGroup(std::vector<DriveIndex> members, const CycleConfig& config);
@@ -64,6 +68,8 @@ class Supervisor {
   bool enableAll(const Request& request, Instant now) noexcept;
   bool awaitsParameters(const Request& request) const noexcept;
   static bool enabledOrEnabling(const Group& group) noexcept;
+  Groups groupsToEnable(const Request& request) const noexcept;
+  Sentence movingAgainst(const Request& request, const CommandState& commands, Instant now) noexcept;
   /// Everything that is against enabling what it asks for, `commands` included; empty when nothing is.
   Sentence reasonsAgainst(const Request& request, const Sentence& commands) noexcept;
   bool isEnabled(const Request& request) const noexcept;
@@ -78,7 +84,7 @@ class Supervisor {
   bool followWaiting(Job& job, const CommandState& commands, Instant now) noexcept;
   bool followEnable(const Job& job, Instant now) noexcept;
   bool followStop(const Job& job) noexcept;
-  void takeBack(const Request& request, Instant now) noexcept;
+  void takeBack(const Groups& begun, Instant now) noexcept;
   Sentence refusalOf(const Group& group, const drive::GroupRefusal& refusal) const noexcept;
   /// Names the drives the request concerns and that do not answer; empty when all do.
   Sentence silentMembers(const Request& request) const noexcept;
@@ -94,6 +100,7 @@ class Supervisor {
   bool has_base_ = false;
   bool auto_enable_;
   const StartAcknowledge* start_;
+  CommandWatch* watch_;
   bool shutting_down_ = false;
   FixedVector<Job, 16> jobs_;
   CompletionQueue<48> completions_;  // a full queue of requests refused, and every job ended

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "cycle/word_setup.h"
 #include "nord_driver/core/time.h"
@@ -20,7 +21,8 @@ struct WordCommand {
 struct BitCommand {
   bool on = false;
   Instant received{};
-  bool given = false;  ///< false until the first command
+  bool given = false;               ///< false until the first command
+  std::optional<Instant> off = {};  ///< when the newest "off" came
 };
 
 /// Each in the order of the configuration, inputs left out.

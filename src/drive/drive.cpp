@@ -167,6 +167,8 @@ void Drive::checkStops(StatusWord status, Instant now) noexcept {
   } else if ((report_.phase == Phase::kEnabled || report_.phase == Phase::kHoldingZero) &&
              report_.state != DriveState::kOperationEnabled) {
     stop(exitCause(status), now);
+  } else if (parameterRefusal() != Refusal::kNone) {
+    stop(StopCause::kUnsuitable, now);
   }
 }
 

@@ -183,6 +183,8 @@ class Drive {
   void handleSilence(Instant now) noexcept;
   void goOffline(StopCause cause, Instant now) noexcept;
   void learnSet(profile::StatusWord status, bool joined) noexcept;
+  /// Why its parameters, as far as they are known, keep it from being enabled.
+  Refusal parameterRefusal() const noexcept;
   void checkStops(profile::StatusWord status, Instant now) noexcept;
   void follow(profile::StatusWord status, Instant now) noexcept;
   void followIdle(profile::StatusWord status, Instant now) noexcept;

@@ -34,6 +34,7 @@ DriveGroup::DriveGroup(std::vector<Drive*> members, const GroupConfig& config)
 void DriveGroup::enter(GroupPhase phase, Instant now) noexcept {
   report_.phase = phase;
   phase_since_ = now;
+  if (isOnWayDown(phase)) ++stops_;
 }
 
 void DriveGroup::latch(StopCause cause, std::size_t member) noexcept {
@@ -65,7 +66,10 @@ void DriveGroup::requestDisable(Instant now) noexcept {
       report_.refusal = {Refusal::kStopped, 0};
       down_since_ = now;
       return shutdownAll(now);
+    case GroupPhase::kHalting:  // its bound runs on
+      return shutdownAll(now);
     case GroupPhase::kDisabled:  // one may be taught its position
+      ++stops_;
       for (Drive* member : members_) member->requestShutdown(now);
       return;
     default:

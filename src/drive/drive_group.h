@@ -37,6 +37,11 @@ enum class GroupPhase : std::uint8_t {
   kQuickStopping,  ///< OFF3 on all
 };
 
+/// It is being brought to rest.
+constexpr bool isOnWayDown(GroupPhase phase) noexcept {
+  return phase != GroupPhase::kDisabled && phase != GroupPhase::kEnabling && phase != GroupPhase::kEnabled;
+}
+
 /// The answer to requestEnable(), or what ended an enabling.
 struct GroupRefusal {
   Refusal refusal = Refusal::kNone;
@@ -76,6 +81,9 @@ class DriveGroup {
   /// Disabled, and every member confirms rest by its state (or is offline: nothing reaches it).
   bool settled() const noexcept;
 
+  /// Counts each stop that was asked for or began, of a disabled group as well.
+  std::uint32_t stops() const noexcept { return stops_; }
+
   const GroupReport& report() const noexcept { return report_; }
   std::size_t size() const noexcept { return members_.size(); }
 
@@ -104,6 +112,7 @@ class DriveGroup {
   Instant phase_since_{};
   Instant down_since_{};  // since when a way down is on: its bound runs over several phases
   Instant zero_since_{};
+  std::uint32_t stops_ = 0;
   int halting_speed_ = 0;  // the least so far, of all that halt together
   Instant slower_since_{};
   bool setpoint_is_zero_ = false;

@@ -37,6 +37,8 @@ const char* toString(StopCause cause) noexcept {
     case StopCause::kStrayed:
       return "it left the way to the element of its array it was told (none: where it stood) by more than "
              "position/stray";
+    case StopCause::kUnsuitable:
+      return "a parameter that could not be read before says that it must not be driven (~enable names it)";
     case StopCause::kNotResumed:
       return "the inverter did not come from rest (OFF1, for P104 > 0) to \"operation enabled\" in time";
   }
@@ -66,7 +68,8 @@ const char* toString(Refusal refusal) noexcept {
     case Refusal::kMaxFrequencyUnknown:
       return "the maximum frequency (P105) of the parameter set in force is not known";
     case Refusal::kParametersAwaited:
-      return "its parameters P104, P105, P509, P510, P543 and P546 are still being read";
+      return "its parameters P104, P105, P509, P510, P543 and P546 are still being read, or one that decides motion is "
+             "being written";
     case Refusal::kMinimumFrequency:
       return "P104 of the parameter set in force is above 0: enabled, the motor turns at setpoint 0";
     case Refusal::kUnexpectedFunction:

@@ -52,6 +52,7 @@ enum class StopCause : std::uint8_t {
   kPositionJump,     ///< its position changed faster than the motor can turn: the count has a new zero
   kHomingTimeout,    ///< a reference run did not end in time
   kStrayed,          ///< it goes by the elements of its array, and left the way to the one it was told
+  kUnsuitable,       ///< a parameter that was read late keeps it from being enabled
   kNotResumed,       ///< from rest (P104 > 0) it did not reach "operation enabled" within enable_timeout
 };
 

@@ -50,10 +50,15 @@ Refusal Drive::enableRefusal() const noexcept {
   if (report_.parameter_set != report_.commanded_set) return Refusal::kParameterSet;
   if (parameters_awaited_) return Refusal::kParametersAwaited;
   if (!maxFrequency(report_.commanded_set).has_value()) return Refusal::kMaxFrequencyUnknown;
+  const Refusal unsuitable = parameterRefusal();
+  return unsuitable == Refusal::kNone ? positionRefusal() : unsuitable;
+}
+
+Refusal Drive::parameterRefusal() const noexcept {
+  if (report_.unexpected_source) return Refusal::kUnexpectedSource;
   if (report_.unexpected_function) return Refusal::kUnexpectedFunction;
   const bool turns_at_zero = report_.minimum_frequency.value > 0.0;
-  if (turns_at_zero && !config_.allow_minimum_frequency) return Refusal::kMinimumFrequency;
-  return positionRefusal();
+  return turns_at_zero && !config_.allow_minimum_frequency ? Refusal::kMinimumFrequency : Refusal::kNone;
 }
 
 void Drive::requestEnable(Instant now) noexcept {

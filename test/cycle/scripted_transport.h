@@ -68,7 +68,11 @@ class ScriptedTransport final : public Transport {
     auto at = parameters.find(request.number + 1000 * request.parameter_set);
     if (at == parameters.end()) at = parameters.find(request.number);
     const auto own = of_drive[drive].find(request.number);
-    if (own != of_drive[drive].end()) {
+    auto& refusals = not_now[{drive, request.number + 1000 * request.parameter_set}];
+    if (refusals > 0) {
+      --refusals;
+      result.reason = profile::ParameterReason::kNotNow;
+    } else if (own != of_drive[drive].end()) {
       result = done(request.id, own->second);
     } else if (at != parameters.end()) {
       result = done(request.id, at->second);
@@ -109,6 +113,7 @@ class ScriptedTransport final : public Transport {
   std::vector<profile::ProcessOutput> outputs;
   std::map<int, std::int32_t> parameters{{105, 500}};
   std::map<DriveIndex, std::map<int, std::int32_t>> of_drive;  ///< by number, of one drive alone: before `parameters`
+  std::map<std::pair<DriveIndex, int>, int> not_now;  ///< by drive and number + 1000 * set: how often it is refused so
   bool hold_answers = false;
   bool queue_full = false;
   std::deque<Submitted> submitted;

@@ -59,5 +59,21 @@ TEST_F(HeldUpCycle, KeepsTheRampOnASlowBus) {
   EXPECT_NEAR(521, setpoint(kLeft), 27) << "0.5 m/s after a second";
 }
 
+// The wheels have stood for most of that time: half the speed of before over all of it would be 15 m.
+TEST_F(HeldUpCycle, IsNoWayOfTheBase) {
+  for (int i = 0; i < 400; ++i) {
+    commandBase(1.0);
+    step();
+  }
+  const double before = snapshot().base.pose.x;
+  const double joint = snapshot().drives[kLeft].joint_position;
+  ASSERT_GT(before, 1.0);
+  transport.time += std::chrono::seconds{30};
+  for (auto& inverter : transport.inverters) inverter.fault = true;
+  run(10);
+  EXPECT_NEAR(before, snapshot().base.pose.x, 0.5);
+  EXPECT_NEAR(joint, snapshot().drives[kLeft].joint_position, 5.0);
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

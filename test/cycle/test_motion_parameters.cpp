@@ -140,11 +140,114 @@ TEST_F(MotionParameters, AccessesLeaveNothingBehind) {
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(ask(write(105, 500)).success) << i;
 }
 
+// A write is checked when it is asked for and carried out later: until its answer the motor stays without torque.
+TEST_F(MotionParameters, EnablingWaitsForAWriteUnderWay) {
+  for (const int number : {113, 300, 301, 325, 507, 551}) {
+    CycleBench bench;
+    bench.run(80);
+    bench.transport.hold_answers = true;
+    Request change = write(number, 1);
+    change.id = ++bench.last_id;
+    change.patience = std::chrono::seconds{10};
+    bench.ports.submit(change);
+    bench.step();
+    Request enable;
+    enable.kind = RequestKind::kEnable;
+    enable.drive = kLift;
+    enable.id = ++bench.last_id;
+    enable.patience = std::chrono::seconds{10};
+    bench.ports.submit(enable);
+    for (int i = 0; i < 100; ++i) {
+      bench.step();
+      ASSERT_EQ(0x047E, bench.controlWord(kLift)) << number;
+    }
+    ASSERT_EQ(0u, bench.completions.count(enable.id)) << number;
+    bench.transport.hold_answers = false;
+    while (!bench.transport.submitted.empty()) bench.transport.answerFirst();
+    bench.run(20);
+    EXPECT_EQ(1u, bench.completions.count(change.id)) << number;
+    ASSERT_EQ(1u, bench.completions.count(enable.id)) << number;
+    EXPECT_TRUE(bench.completions[enable.id].success) << bench.completions[enable.id].message.c_str();
+  }
+}
+
+// Its asker has given up; what was sent may still be carried out.
+TEST_F(MotionParameters, EnablingWaitsForAnOverdueWriteToo) {
+  bringUp();
+  transport.hold_answers = true;
+  Request change = write(301, 1);
+  change.id = ++last_id;
+  change.patience = std::chrono::milliseconds{100};
+  ports.submit(change);
+  run(30);
+  ASSERT_EQ(1u, completions.count(change.id));
+  const Completion refused = ask(RequestKind::kEnable, kLift);
+  EXPECT_FALSE(refused.success);
+  EXPECT_THAT(refused.message.c_str(), HasSubstr("drive lift"));
+  transport.hold_answers = false;
+  while (!transport.submitted.empty()) transport.answerFirst();
+  run(5);
+  EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);
+}
+
 // What cannot be read refuses nothing.
 TEST_F(MotionParameters, ThatCannotBeReadRefuseNothing) {
   bringUp();
   EXPECT_FALSE(snapshot().drives[kLift].device.min_frequency[0]);
   EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);
+}
+
+// It says "not now", and a moment later that it is 5 Hz.
+TEST_F(MotionParameters, EnablingWaitsForWhatIsRefusedForTheMoment) {
+  transport.not_now[{kLift, 1104}] = 1;
+  transport.of_drive[kLift][104] = 50;
+  bringUp();
+  const Completion answer = ask(RequestKind::kEnable, kLift);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("drive lift: P104 of parameter set 1 is 5.0 Hz"));
+}
+
+// Not for ever: what cannot be read refuses nothing. But what it turns out to be later stops the drive.
+TEST_F(MotionParameters, WhatIsReadLateStopsTheDrive) {
+  for (const int number : {104, 509, 543, 546}) {
+    CycleBench bench;
+    for (const int set : {0, 1000}) bench.transport.not_now[{kLift, number + set}] = 1000;
+    bench.transport.of_drive[kLift][number] = number == 509 ? 9 : 50;
+    bench.run(1000);
+    ASSERT_TRUE(bench.ask(RequestKind::kEnable, kLift).success) << number;
+    bench.transport.not_now.clear();
+    for (int i = 0; i < 300; ++i) {
+      bench.commandLift(0.0);
+      bench.step();
+    }
+    EXPECT_EQ(0x047E, bench.controlWord(kLift)) << number;
+    EXPECT_EQ(drive::StopCause::kUnsuitable, bench.snapshot().drives[kLift].stop_cause) << number;
+    EXPECT_FALSE(bench.ask(RequestKind::kEnable, kLift).success) << number;
+  }
+}
+
+// It may be another inverter that answers now, or this one with other parameters.
+TEST_F(MotionParameters, AreReadAgainAfterAnInterruptionWithinACycle) {
+  bringUp();
+  transport.interrupted[kLift] = true;
+  transport.hold_answers = true;
+  run(3);
+  EXPECT_TRUE(snapshot().drives[kLift].online);
+  Request enable;
+  enable.kind = RequestKind::kEnable;
+  enable.drive = kLift;
+  enable.id = ++last_id;
+  enable.patience = std::chrono::seconds{3};
+  ports.submit(enable);
+  run(20);
+  EXPECT_EQ(0u, completions.count(enable.id));
+  transport.of_drive[kLift][105] = 800;
+  transport.hold_answers = false;
+  while (!transport.submitted.empty()) transport.answerFirst();
+  run(80);
+  ASSERT_EQ(1u, completions.count(enable.id));
+  EXPECT_TRUE(completions[enable.id].success) << completions[enable.id].message.c_str();
+  EXPECT_EQ(80.0, snapshot().drives[kLift].device.max_frequency[0]);
 }
 
 TEST_F(MotionParameters, ARefusedWriteWithoutBusControlNamesP509) {

@@ -129,6 +129,46 @@ TEST_F(SupervisorEnable, RefusesADriveOfTheBaseAlone) {
   EXPECT_TRUE(noneRuns());
 }
 
+// A stop is never refused: that of one wheel is one of the base, as its quick stop is.
+TEST_F(SupervisorEnable, DisablingADriveOfTheBaseDisablesTheBase) {
+  bringUp();
+  ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  const Completion answer = ask(RequestKind::kDisable, kRight);
+  EXPECT_TRUE(answer.success);
+  EXPECT_STREQ("disabled", answer.message.c_str());
+  EXPECT_EQ(drive::Phase::kIdle, drives[kLeft].report().phase);
+  EXPECT_EQ(drive::Phase::kIdle, drives[kRight].report().phase);
+  EXPECT_EQ(drive::Phase::kEnabled, drives[kLift].report().phase) << "no drive of the base";
+}
+
+// All or none of what is asked for now: what somebody has enabled before goes on.
+TEST_F(SupervisorEnable, ARefusedEnableLeavesWhatWasEnabledBefore) {
+  bringUp();
+  ASSERT_TRUE(ask(RequestKind::kDisable).success);
+  ASSERT_TRUE(ask(RequestKind::kEnable, kLift).success);
+  inverters[kRight].fault = true;
+  run(2);
+  EXPECT_FALSE(ask(RequestKind::kEnable).success) << "the base has a fault";
+  run(50);
+  EXPECT_EQ(drive::Phase::kEnabled, drives[kLift].report().phase);
+  EXPECT_TRUE(drives[kLeft].isAtRest());
+}
+
+TEST_F(SupervisorEnable, AnEnablingThatFailsLeavesWhatWasEnabledBefore) {
+  for (const Duration patience : {Duration{std::chrono::seconds{3}}, Duration{std::chrono::milliseconds{100}}}) {
+    DrivesUnderSupervision robot;
+    robot.bringUp();
+    ASSERT_TRUE(robot.ask(RequestKind::kEnable).success);
+    ASSERT_TRUE(robot.ask(RequestKind::kDisable, kLift).success);
+    robot.inverters[kLift].stuck = true;
+    EXPECT_FALSE(robot.ask(RequestKind::kEnable, kAllDrives, patience).success);
+    robot.run(50);
+    EXPECT_EQ(drive::Phase::kEnabled, robot.drives[kLeft].report().phase);
+    EXPECT_EQ(drive::Phase::kEnabled, robot.drives[kRight].report().phase);
+    EXPECT_TRUE(robot.drives[kLift].isAtRest());
+  }
+}
+
 TEST_F(SupervisorEnable, EnablesASingleDriveBesideTheBase) {
   bringUp();
   EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);

@@ -258,5 +258,24 @@ TEST_F(GroupBounds, StandstillIsNearUpToItsBound) {
   EXPECT_EQ(GroupPhase::kStopping, group_.report().phase);
 }
 
+// Its bound runs on from where the way down began: the program that ends waits for no second one.
+TEST_F(GroupBounds, DisablingWhileTheOthersHaltKeepsTheBound) {
+  run();
+  inverters_[0].fault = true;
+  inverters_[1].ramp = 1;
+  inverters_[1].endless = true;
+  cycles(2);
+  ASSERT_EQ(GroupPhase::kHalting, group_.report().phase);
+  cycles(20);
+  ASSERT_EQ(GroupPhase::kHalting, group_.report().phase);
+  group_.requestDisable(now_);
+  EXPECT_EQ(GroupPhase::kStopping, group_.report().phase);
+  cycles(70);
+  EXPECT_EQ(GroupPhase::kStopping, group_.report().phase);
+  cycles(20);
+  EXPECT_NE(GroupPhase::kStopping, group_.report().phase) << "a second after the fault: OFF3";
+  EXPECT_EQ(StopCause::kFault, group_.report().stop_cause);
+}
+
 }  // namespace
 }  // namespace nord_driver::drive
