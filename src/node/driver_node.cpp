@@ -32,8 +32,7 @@ std::string robotDescription() {
   return text;
 }
 
-// Calls that may wait for their drives at the same time: of those that stop, and of the others.
-constexpr int kStopThreads = 8;
+// Calls that may wait for their drives at the same time, beside those that enable, stop and home.
 constexpr int kSpinnerThreads = 4;
 constexpr std::uint32_t kIncrementQueue = 100;
 // Jobs that run at the same time; further ones wait.
@@ -66,10 +65,11 @@ DriverNode::DriverNode()
     : private_node_("~"),
       commands_(node_, 1),
       private_commands_(private_node_, 1),
-      stops_(private_node_, kStopThreads),
       jobs_(private_node_, kJobThreads),
       settings_("~", privateParameters()),
       config_(withWhatIsOffered(readNodeConfig(settings_, robotDescription()), settings_)),
+      enabling_(private_node_, StopCalls::enableThreads(config_.cycle.drives.size())),
+      quick_stops_(private_node_, StopCalls::quickStopThreads(config_.cycle.drives.size())),
       homing_(private_node_, positionDrives(config_)),
       catalogues_(tools::installedCatalogues(config_.parameter_files)),
       loader_("nord_driver", "nord_driver::Transport"),
@@ -89,13 +89,17 @@ DriverNode::DriverNode()
 DriverNode::~DriverNode() {
   if (parameter_jobs_) parameter_jobs_->end();
   // They use what goes next.
-  for (CallbackThreads* lane : {&commands_, &private_commands_, &stops_, &jobs_, &homing_}) lane->stop();
+  for (CallbackThreads* lane : lanes()) lane->stop();
   thread_.reset();
   tracing_.reset();  // after the bus: what happened last is in the last trace
   services_.reset();
   parameter_jobs_.reset();
   broker_.reset();
   if (transport_) transport_->close();
+}
+
+std::array<CallbackThreads*, 6> DriverNode::lanes() noexcept {
+  return {&commands_, &private_commands_, &enabling_, &quick_stops_, &jobs_, &homing_};
 }
 
 void DriverNode::loadTransport() {
@@ -169,8 +173,8 @@ void DriverNode::advertise() {
   fault_board_ = std::make_unique<FaultBoard>(names, faults_);
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
   diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, known_, values_, where_);
-  services_ = std::make_unique<Services>(private_node_, stops_.handle(), homing_.handle(), config_, known_,
-                                         *fault_board_, eeproms_, *broker_);
+  const ServiceLanes lanes{private_node_, enabling_.handle(), quick_stops_.handle(), homing_.handle()};
+  services_ = std::make_unique<Services>(lanes, config_, known_, *fault_board_, eeproms_, *broker_);
   parameter_jobs_ = std::make_unique<ParameterJobs>(jobs_.handle(), config_, identities_, known_, eeproms_, *broker_);
   tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace());
   ports_->setObserver(&tracing_->feed());
@@ -239,7 +243,7 @@ void DriverNode::countBadCommand(DriveIndex drive, const char* what, bool taken)
 void DriverNode::run(const std::atomic<bool>& end_asked) {
   ros::AsyncSpinner spinner(kSpinnerThreads);
   spinner.start();
-  for (CallbackThreads* lane : {&commands_, &private_commands_, &stops_, &jobs_, &homing_}) lane->start();
+  for (CallbackThreads* lane : lanes()) lane->start();
   if (config_.cycle.cmd_vel_timeout == Duration::zero()) {
     ROS_WARN("nord_driver: cmd_vel_timeout is 0: the last command is followed for ever");
   }
