@@ -47,12 +47,13 @@ bool isFinite(const geometry_msgs::Twist& twist) {
   return true;
 }
 
-// Each of them may be on its reference run, a minute long; without one there is no call to wait for.
-std::uint32_t positionDrives(const NodeConfig& config) {
+// Each drive that positions may be on its reference run, a minute long. One more: a call while they run is refused by
+// the cycle at once, and would otherwise wait here and start another run when the first has ended.
+std::uint32_t homingThreads(const NodeConfig& config) {
   const auto& drives = config.cycle.drives;
   const auto count =
       std::count_if(drives.begin(), drives.end(), [](const auto& drive) { return drive.position.has_value(); });
-  return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(count, 1));
+  return static_cast<std::uint32_t>(count) + 1;
 }
 
 Instant steadyNow() {
@@ -70,7 +71,7 @@ DriverNode::DriverNode()
       config_(withWhatIsOffered(readNodeConfig(settings_, robotDescription()), settings_)),
       enabling_(private_node_, StopCalls::enableThreads(config_.cycle.drives.size())),
       quick_stops_(private_node_, StopCalls::quickStopThreads(config_.cycle.drives.size())),
-      homing_(private_node_, positionDrives(config_)),
+      homing_(private_node_, homingThreads(config_)),
       catalogues_(tools::installedCatalogues(config_.parameter_files)),
       loader_("nord_driver", "nord_driver::Transport"),
       eeprom_budget_(tools::eepromBudget(config_.eeprom)) {
