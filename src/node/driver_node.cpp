@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <boost/function.hpp>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include "config/driver_settings.h"
 #include "config/setting_checks.h"
+#include "node/end_poll_period.h"
 #include "node/start_sentence.h"
 #include "node/what_is_offered.h"
 #include "nord_driver/profile/series.h"
@@ -257,11 +259,12 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
     const SnapshotParts parts{*base_publisher_,         drive_publishers_, values_publishers_, fault_publishers_,
                               *process_data_publisher_, *bus_publisher_,   *diagnostics_,      *fault_board_};
     publisher_.emplace(*ports_, config_.publish, parts, loggedDrives());
-    // roscpp is "ok" until it has unregistered every topic: tenths of a second in which the robot would drive on.
+    const Duration pause = endPollPeriod(config_.cycle.period());
+    // roscpp is "ok" until it has unregistered every topic: tenths of a second in which the robot would drive on. Nothing
+    // here may take its time, a line in the log neither: two cycles after a signal the ramp has to begin.
     while (!end_asked && ros::ok() && !ros::isShuttingDown() && healthy) {
       noteCommanders();
-      tellBusEvents();
-      ros::WallDuration(0.02).sleep();
+      std::this_thread::sleep_for(pause);
       healthy = publisher_->healthy();
     }
   } catch (...) {
@@ -293,28 +296,20 @@ void DriverNode::noteCommanders() {
   commanders_ = now;
 }
 
-void DriverNode::tellBusEvents() {
-  while (const auto event = ports_->pollBusEvent()) {
-    if (event->warning) {
-      ROS_WARN("nord_driver: %s", event->text.c_str());
-    } else {
-      ROS_INFO("nord_driver: %s", event->text.c_str());
-    }
-  }
-}
-
 void DriverNode::bringToRest() {
-  if (!config_.read_only) ROS_INFO("nord_driver: bringing the drives to rest");
-  parameter_jobs_->end();
+  const auto begun = [this] {
+    if (!config_.read_only) ROS_INFO("nord_driver: bringing the drives to rest");
+    parameter_jobs_->end();
+  };
   cycle::Request request;
   request.kind = cycle::RequestKind::kShutDown;
   // OFF1 that does not end becomes a quick stop; that has a ramp of its own (P426).
   request.patience = config_.cycle.shutdown_timeout + std::chrono::seconds{3};
-  cycle::Completion answer = broker_->call(request);
+  cycle::Completion answer = broker_->call(request, begun);
   // Services fill the queue at most for a moment; the stop must get through.
   for (int attempt = 0; attempt < kShutDownAttempts && answer.id == 0; ++attempt) {
     ros::WallDuration(0.02).sleep();
-    answer = broker_->call(request);
+    answer = broker_->call(request, begun);
   }
   if (answer.success && config_.read_only) {
     ROS_INFO("nord_driver: ending; the drives are as they were: read_only is true");

@@ -68,7 +68,6 @@ class DriverNode {
   void countBadCommand(DriveIndex drive, const char* what, bool taken);
   /// Whoever publishes commands and has just been connected is listened to before anything is enabled.
   void noteCommanders();
-  void tellBusEvents();
   void bringToRest();
   LoggedDrives loggedDrives() const;
   /// What is known of each drive; the transport is configured.

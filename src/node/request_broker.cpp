@@ -10,6 +10,14 @@ constexpr char kEnding[] = "the node is ending";
 
 RequestBroker::RequestBroker(cycle::CyclePorts& ports) : ports_(ports), dispatcher_([this] { dispatch(); }) {}
 
+// Without the lock: others may call meanwhile.
+void RequestBroker::tell(const std::function<void()>& taken, std::unique_lock<std::mutex>& lock) {
+  if (!taken) return;
+  lock.unlock();
+  taken();
+  lock.lock();
+}
+
 RequestBroker::~RequestBroker() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -37,7 +45,7 @@ void RequestBroker::dispatch() {
   }
 }
 
-cycle::Completion RequestBroker::call(cycle::Request request) {
+cycle::Completion RequestBroker::call(cycle::Request request, const std::function<void()>& taken) {
   std::unique_lock<std::mutex> lock(mutex_);
   request.asked = std::chrono::steady_clock::now();
   request.id = next_id_;
@@ -48,9 +56,9 @@ cycle::Completion RequestBroker::call(cycle::Request request) {
     answer.message = kEnding;
   } else if (!ports_.submit(request)) {
     answer.message = "too many requests are waiting already";
-  } else if (arrived_.wait_for(lock, request.patience + std::chrono::seconds{1},
-                               [&] { return at->second.has_value() || ended_; }) &&
-             at->second) {
+  } else if (tell(taken, lock); arrived_.wait_for(lock, request.patience + std::chrono::seconds{1}, [&] {
+               return at->second.has_value() || ended_;
+             }) && at->second) {
     answer = *at->second;
   } else {
     answer.id = request.id;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -21,12 +22,15 @@ class RequestBroker {
 
   /// Blocks until the cycle has answered, at most the request's patience and a second more. Never throws for a refusal:
   /// the completion says why; its id is 0 when the request did not reach the cycle.
-  cycle::Completion call(cycle::Request request);
+  /// `taken`, if any, is called once the cycle has the request, before the answer is waited for: what may take its time
+  /// then holds up nothing.
+  cycle::Completion call(cycle::Request request, const std::function<void()>& taken = {});
   /// The bus cycle runs no more: whoever waits is answered now, and so is who still calls.
   void end();
 
  private:
   void dispatch();
+  static void tell(const std::function<void()>& taken, std::unique_lock<std::mutex>& lock);
 
   cycle::CyclePorts& ports_;
   std::mutex mutex_;

@@ -118,6 +118,33 @@ TEST(RequestBrokerTest, NumbersAreNeverZero) {
   }
 }
 
+// A log line takes milliseconds where the disk is slow: the stop is to be with the cycle before.
+TEST(RequestBrokerTest, TellsThatTheCycleHasTheRequestBeforeItWaits) {
+  cycle::CyclePorts ports{4};
+  RequestBroker broker{ports};
+  int told = 0;
+  const cycle::Completion answer = broker.call(request(2), [&] {
+    ++told;
+    const auto asked = ports.pollRequest();
+    ASSERT_TRUE(asked) << "the cycle does not have it yet";
+    EXPECT_EQ(2u, asked->drive);
+    cycle::Completion completion;
+    completion.id = asked->id;
+    completion.success = true;
+    ports.complete(completion);
+    ports.publish(cycle::CycleSnapshot{4});
+  });
+  EXPECT_TRUE(answer.success);
+  EXPECT_EQ(1, told);
+}
+
+TEST(RequestBrokerTest, TellsNothingOfARequestThatTheCycleDoesNotGet) {
+  cycle::CyclePorts ports{4};
+  RequestBroker broker{ports};
+  broker.end();
+  broker.call(request(2), [] { FAIL() << "it did not reach the cycle"; });
+}
+
 // With a minute of patience, and nobody in the place of the cycle.
 TEST(RequestBrokerTest, WhoWaitsIsAnsweredWhenTheCycleHasEnded) {
   cycle::CyclePorts ports{1};
