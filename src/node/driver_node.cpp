@@ -10,6 +10,7 @@
 
 #include "config/driver_settings.h"
 #include "config/setting_checks.h"
+#include "node/eeprom_switch_end.h"
 #include "node/end_poll_period.h"
 #include "node/start_sentence.h"
 #include "node/what_is_offered.h"
@@ -300,6 +301,7 @@ void DriverNode::bringToRest() {
   const auto begun = [this] {
     if (!config_.read_only) ROS_INFO("nord_driver: bringing the drives to rest");
     parameter_jobs_->end();
+    broker_->refuseWrites();
   };
   cycle::Request request;
   request.kind = cycle::RequestKind::kShutDown;
@@ -319,9 +321,22 @@ void DriverNode::bringToRest() {
     ROS_ERROR("nord_driver: ending, although %s", answer.message.c_str());
   }
   publisher_.reset();
+  putEepromSwitchesBack();
   thread_.reset();
   broker_->end();       // nobody is to wait for a cycle that has ended
   transport_->close();  // at once: nobody guards the nodes from here on, and the rest of the node takes its time to end
+}
+
+void DriverNode::putEepromSwitchesBack() {
+  const EndingNode node{[this] { return broker_->writesUnderWay(); },
+                        [this]() -> const cycle::CycleSnapshot& { return ports_->readSnapshot(); },
+                        [this](const cycle::Request& request) { return broker_->call(request); }, steadyNow,
+                        [](Duration time) { std::this_thread::sleep_for(time); }};
+  for (const DriveIndex drive : settleEepromSwitches(node)) {
+    ROS_ERROR(
+        "nord_driver: P560 of drive %s is 0 and could not be put back to 1: it saves nothing in its EEPROM until it is",
+        config_.cycle.drives[drive].name.c_str());
+  }
 }
 
 }  // namespace nord_driver::node

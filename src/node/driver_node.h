@@ -69,6 +69,8 @@ class DriverNode {
   /// Whoever publishes commands and has just been connected is listened to before anything is enabled.
   void noteCommanders();
   void bringToRest();
+  /// A RAM write that is under way has P560 = 0; nobody reads the snapshots any more.
+  void putEepromSwitchesBack();
   LoggedDrives loggedDrives() const;
   /// What is known of each drive; the transport is configured.
   std::vector<catalogue::DriveCatalogue> knownDrives() const;

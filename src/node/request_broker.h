@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "cycle/cycle_ports.h"
@@ -27,18 +28,28 @@ class RequestBroker {
   cycle::Completion call(cycle::Request request, const std::function<void()>& taken = {});
   /// The bus cycle runs no more: whoever waits is answered now, and so is who still calls.
   void end();
+  /// Parameter writes that come from now on are answered at once: the node is ending.
+  void refuseWrites();
+  /// Parameter writes that the cycle has not answered yet.
+  std::size_t writesUnderWay();
 
  private:
+  struct Waiting {
+    bool write;
+    std::optional<cycle::Completion> completion;
+  };
+
   void dispatch();
   static void tell(const std::function<void()>& taken, std::unique_lock<std::mutex>& lock);
 
   cycle::CyclePorts& ports_;
   std::mutex mutex_;
   std::condition_variable arrived_;
-  std::map<std::uint32_t, std::optional<cycle::Completion>> waiting_;
+  std::map<std::uint32_t, Waiting> waiting_;
   std::uint32_t next_id_ = 1;
   bool stop_ = false;
   bool ended_ = false;
+  bool writes_refused_ = false;
   std::thread dispatcher_;
 };
 
