@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <boost/function.hpp>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include "config/driver_settings.h"
 #include "config/setting_checks.h"
+#include "node/eeprom_switch_end.h"
+#include "node/end_poll_period.h"
 #include "node/start_sentence.h"
 #include "node/what_is_offered.h"
 #include "nord_driver/profile/series.h"
@@ -32,8 +35,7 @@ std::string robotDescription() {
   return text;
 }
 
-// Calls that may wait for their drives at the same time: of those that stop, and of the others.
-constexpr int kStopThreads = 8;
+// Calls that may wait for their drives at the same time, beside those that enable, stop and home.
 constexpr int kSpinnerThreads = 4;
 constexpr std::uint32_t kIncrementQueue = 100;
 // Jobs that run at the same time; further ones wait.
@@ -48,12 +50,13 @@ bool isFinite(const geometry_msgs::Twist& twist) {
   return true;
 }
 
-// Each of them may be on its reference run, a minute long; without one there is no call to wait for.
-std::uint32_t positionDrives(const NodeConfig& config) {
+// Each drive that positions may be on its reference run, a minute long. One more: a call while they run is refused by
+// the cycle at once, and would otherwise wait here and start another run when the first has ended.
+std::uint32_t homingThreads(const NodeConfig& config) {
   const auto& drives = config.cycle.drives;
   const auto count =
       std::count_if(drives.begin(), drives.end(), [](const auto& drive) { return drive.position.has_value(); });
-  return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(count, 1));
+  return static_cast<std::uint32_t>(count) + 1;
 }
 
 Instant steadyNow() {
@@ -66,11 +69,12 @@ DriverNode::DriverNode()
     : private_node_("~"),
       commands_(node_, 1),
       private_commands_(private_node_, 1),
-      stops_(private_node_, kStopThreads),
       jobs_(private_node_, kJobThreads),
       settings_("~", privateParameters()),
       config_(withWhatIsOffered(readNodeConfig(settings_, robotDescription()), settings_)),
-      homing_(private_node_, positionDrives(config_)),
+      enabling_(private_node_, StopCalls::enableThreads(config_.cycle.drives.size())),
+      quick_stops_(private_node_, StopCalls::quickStopThreads(config_.cycle.drives.size())),
+      homing_(private_node_, homingThreads(config_)),
       catalogues_(tools::installedCatalogues(config_.parameter_files)),
       loader_("nord_driver", "nord_driver::Transport"),
       eeprom_budget_(tools::eepromBudget(config_.eeprom)) {
@@ -89,13 +93,17 @@ DriverNode::DriverNode()
 DriverNode::~DriverNode() {
   if (parameter_jobs_) parameter_jobs_->end();
   // They use what goes next.
-  for (CallbackThreads* lane : {&commands_, &private_commands_, &stops_, &jobs_, &homing_}) lane->stop();
+  for (CallbackThreads* lane : lanes()) lane->stop();
   thread_.reset();
   tracing_.reset();  // after the bus: what happened last is in the last trace
   services_.reset();
   parameter_jobs_.reset();
   broker_.reset();
   if (transport_) transport_->close();
+}
+
+std::array<CallbackThreads*, 6> DriverNode::lanes() noexcept {
+  return {&commands_, &private_commands_, &enabling_, &quick_stops_, &jobs_, &homing_};
 }
 
 void DriverNode::loadTransport() {
@@ -169,8 +177,8 @@ void DriverNode::advertise() {
   fault_board_ = std::make_unique<FaultBoard>(names, faults_);
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
   diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, known_, values_, where_);
-  services_ = std::make_unique<Services>(private_node_, stops_.handle(), homing_.handle(), config_, known_,
-                                         *fault_board_, eeproms_, *broker_);
+  const ServiceLanes lanes{private_node_, enabling_.handle(), quick_stops_.handle(), homing_.handle()};
+  services_ = std::make_unique<Services>(lanes, config_, known_, *fault_board_, eeproms_, *broker_);
   parameter_jobs_ = std::make_unique<ParameterJobs>(jobs_.handle(), config_, identities_, known_, eeproms_, *broker_);
   tracing_ = std::make_unique<Tracing>(private_node_, config_.trace, traced, transport_->trace());
   ports_->setObserver(&tracing_->feed());
@@ -239,7 +247,7 @@ void DriverNode::countBadCommand(DriveIndex drive, const char* what, bool taken)
 void DriverNode::run(const std::atomic<bool>& end_asked) {
   ros::AsyncSpinner spinner(kSpinnerThreads);
   spinner.start();
-  for (CallbackThreads* lane : {&commands_, &private_commands_, &stops_, &jobs_, &homing_}) lane->start();
+  for (CallbackThreads* lane : lanes()) lane->start();
   if (config_.cycle.cmd_vel_timeout == Duration::zero()) {
     ROS_WARN("nord_driver: cmd_vel_timeout is 0: the last command is followed for ever");
   }
@@ -252,11 +260,12 @@ void DriverNode::run(const std::atomic<bool>& end_asked) {
     const SnapshotParts parts{*base_publisher_,         drive_publishers_, values_publishers_, fault_publishers_,
                               *process_data_publisher_, *bus_publisher_,   *diagnostics_,      *fault_board_};
     publisher_.emplace(*ports_, config_.publish, parts, loggedDrives());
-    // roscpp is "ok" until it has unregistered every topic: tenths of a second in which the robot would drive on.
+    const Duration pause = endPollPeriod(config_.cycle.period());
+    // roscpp is "ok" until it has unregistered every topic: tenths of a second in which the robot would drive on. Nothing
+    // here may take its time, a line in the log neither: two cycles after a signal the ramp has to begin.
     while (!end_asked && ros::ok() && !ros::isShuttingDown() && healthy) {
       noteCommanders();
-      tellBusEvents();
-      ros::WallDuration(0.02).sleep();
+      std::this_thread::sleep_for(pause);
       healthy = publisher_->healthy();
     }
   } catch (...) {
@@ -288,28 +297,21 @@ void DriverNode::noteCommanders() {
   commanders_ = now;
 }
 
-void DriverNode::tellBusEvents() {
-  while (const auto event = ports_->pollBusEvent()) {
-    if (event->warning) {
-      ROS_WARN("nord_driver: %s", event->text.c_str());
-    } else {
-      ROS_INFO("nord_driver: %s", event->text.c_str());
-    }
-  }
-}
-
 void DriverNode::bringToRest() {
-  if (!config_.read_only) ROS_INFO("nord_driver: bringing the drives to rest");
-  parameter_jobs_->end();
+  const auto begun = [this] {
+    if (!config_.read_only) ROS_INFO("nord_driver: bringing the drives to rest");
+    parameter_jobs_->end();
+    broker_->refuseWrites();
+  };
   cycle::Request request;
   request.kind = cycle::RequestKind::kShutDown;
   // OFF1 that does not end becomes a quick stop; that has a ramp of its own (P426).
   request.patience = config_.cycle.shutdown_timeout + std::chrono::seconds{3};
-  cycle::Completion answer = broker_->call(request);
+  cycle::Completion answer = broker_->call(request, begun);
   // Services fill the queue at most for a moment; the stop must get through.
   for (int attempt = 0; attempt < kShutDownAttempts && answer.id == 0; ++attempt) {
     ros::WallDuration(0.02).sleep();
-    answer = broker_->call(request);
+    answer = broker_->call(request, begun);
   }
   if (answer.success && config_.read_only) {
     ROS_INFO("nord_driver: ending; the drives are as they were: read_only is true");
@@ -319,9 +321,22 @@ void DriverNode::bringToRest() {
     ROS_ERROR("nord_driver: ending, although %s", answer.message.c_str());
   }
   publisher_.reset();
+  putEepromSwitchesBack();
   thread_.reset();
   broker_->end();       // nobody is to wait for a cycle that has ended
   transport_->close();  // at once: nobody guards the nodes from here on, and the rest of the node takes its time to end
+}
+
+void DriverNode::putEepromSwitchesBack() {
+  const EndingNode node{[this] { return broker_->writesUnderWay(); },
+                        [this]() -> const cycle::CycleSnapshot& { return ports_->readSnapshot(); },
+                        [this](const cycle::Request& request) { return broker_->call(request); }, steadyNow,
+                        [](Duration time) { std::this_thread::sleep_for(time); }};
+  for (const DriveIndex drive : settleEepromSwitches(node)) {
+    ROS_ERROR(
+        "nord_driver: P560 of drive %s is 0 and could not be put back to 1: it saves nothing in its EEPROM until it is",
+        config_.cycle.drives[drive].name.c_str());
+  }
 }
 
 }  // namespace nord_driver::node

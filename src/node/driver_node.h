@@ -7,6 +7,7 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
+#include <array>
 #include <atomic>
 #include <deque>
 #include <memory>
@@ -53,6 +54,8 @@ class DriverNode {
   void run(const std::atomic<bool>& end_asked);
 
  private:
+  /// All that have threads of their own.
+  std::array<CallbackThreads*, 6> lanes() noexcept;
   void loadTransport();
   /// Looks up what drives/<name>/monitor lists; the transport is configured.
   void lookUpMonitored();
@@ -65,8 +68,9 @@ class DriverNode {
   void countBadCommand(DriveIndex drive, const char* what, bool taken);
   /// Whoever publishes commands and has just been connected is listened to before anything is enabled.
   void noteCommanders();
-  void tellBusEvents();
   void bringToRest();
+  /// A RAM write that is under way has P560 = 0; nobody reads the snapshots any more.
+  void putEepromSwitchesBack();
   LoggedDrives loggedDrives() const;
   /// What is known of each drive; the transport is configured.
   std::vector<catalogue::DriveCatalogue> knownDrives() const;
@@ -75,11 +79,12 @@ class DriverNode {
   ros::NodeHandle private_node_;
   CallbackThreads commands_;          // cmd_vel
   CallbackThreads private_commands_;  // ~<drive>/command
-  CallbackThreads stops_;             // ~quick_stop, ~<drive>/quick_stop, and ~enable, which stops, too
   CallbackThreads jobs_;              // ~<drive>/dump_parameters, ~<drive>/verify_parameters
   RosSettings settings_;
   NodeConfig config_;
-  CallbackThreads homing_;  // ~<drive>/home
+  CallbackThreads enabling_;     // ~enable and ~<drive>/enable, which stop, too
+  CallbackThreads quick_stops_;  // ~quick_stop and ~<drive>/quick_stop
+  CallbackThreads homing_;       // ~<drive>/home
   catalogue::Catalogues catalogues_;
   pluginlib::ClassLoader<Transport> loader_;
   boost::shared_ptr<Transport> transport_;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <condition_variable>
+#include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "cycle/cycle_ports.h"
@@ -21,20 +23,33 @@ class RequestBroker {
 
   /// Blocks until the cycle has answered, at most the request's patience and a second more. Never throws for a refusal:
   /// the completion says why; its id is 0 when the request did not reach the cycle.
-  cycle::Completion call(cycle::Request request);
+  /// `taken`, if any, is called once the cycle has the request, before the answer is waited for: what may take its time
+  /// then holds up nothing.
+  cycle::Completion call(cycle::Request request, const std::function<void()>& taken = {});
   /// The bus cycle runs no more: whoever waits is answered now, and so is who still calls.
   void end();
+  /// Parameter writes that come from now on are answered at once: the node is ending.
+  void refuseWrites();
+  /// Parameter writes that the cycle has not answered yet.
+  std::size_t writesUnderWay();
 
  private:
+  struct Waiting {
+    bool write;
+    std::optional<cycle::Completion> completion;
+  };
+
   void dispatch();
+  static void tell(const std::function<void()>& taken, std::unique_lock<std::mutex>& lock);
 
   cycle::CyclePorts& ports_;
   std::mutex mutex_;
   std::condition_variable arrived_;
-  std::map<std::uint32_t, std::optional<cycle::Completion>> waiting_;
+  std::map<std::uint32_t, Waiting> waiting_;
   std::uint32_t next_id_ = 1;
   bool stop_ = false;
   bool ended_ = false;
+  bool writes_refused_ = false;
   std::thread dispatcher_;
 };
 

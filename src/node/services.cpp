@@ -30,23 +30,30 @@ void Services::advertise(ros::NodeHandle& node, const std::string& name, Handler
   servers_.push_back(offer<Service>(node, name, handler));
 }
 
-Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, ros::NodeHandle& home_node,
-                   const NodeConfig& config, std::vector<catalogue::DriveCatalogue> known, const FaultBoard& faults,
-                   std::deque<state::DriveEeprom>& eeproms, RequestBroker& broker)
-    : config_(config), known_(std::move(known)), faults_(faults), eeproms_(eeproms), broker_(broker) {
+Services::Services(const ServiceLanes& lanes, const NodeConfig& config, std::vector<catalogue::DriveCatalogue> known,
+                   const FaultBoard& faults, std::deque<state::DriveEeprom>& eeproms, RequestBroker& broker)
+    : config_(config),
+      known_(std::move(known)),
+      faults_(faults),
+      eeproms_(eeproms),
+      broker_(broker),
+      stops_(config.cycle.drives.size(), config.cycle.service_timeout,
+             [&broker](const cycle::Request& request) { return broker.call(request); }) {
+  ros::NodeHandle& private_node = lanes.others;
   const auto addTrigger = [&](const std::string& name, RequestKind kind, DriveIndex drive) {
-    ros::NodeHandle& node = kind == RequestKind::kQuickStop ? stop_node : private_node;
-    advertise<std_srvs::Trigger>(node, name, [this, kind, drive, name](auto&, auto& response) {
-      const cycle::Completion answer = ask(kind, drive);
+    const bool quick_stop = kind == RequestKind::kQuickStop;
+    ros::NodeHandle& node = quick_stop ? lanes.quick_stop : private_node;
+    advertise<std_srvs::Trigger>(node, name, [this, quick_stop, kind, drive, name](auto&, auto& response) {
+      const cycle::Completion answer = quick_stop ? stops_.quickStop(drive) : ask(kind, drive);
       tellOutcome(name, answer);
       response.success = answer.success;
       response.message = messageOf(answer, drive);
     });
   };
   const auto addEnable = [&](const std::string& name, DriveIndex drive) {
-    advertise<std_srvs::SetBool>(stop_node, name, [this, drive, name](auto& request, auto& response) {
+    advertise<std_srvs::SetBool>(lanes.enable, name, [this, drive, name](auto& request, auto& response) {
       const bool on = request.data != 0;
-      const cycle::Completion answer = ask(on ? RequestKind::kEnable : RequestKind::kDisable, drive);
+      const cycle::Completion answer = stops_.enable(on, drive);
       tellOutcome(name + (on ? " true" : " false"), answer);
       response.success = answer.success;
       response.message = messageOf(answer, drive);
@@ -75,7 +82,7 @@ Services::Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, ro
         response.message = messageOf(answer, i);
       });
       addTrigger(prefix + "reset_position", RequestKind::kResetPosition, i);
-      advertise<std_srvs::Trigger>(home_node, prefix + "home", [this, i, prefix](auto&, auto& response) {
+      advertise<std_srvs::Trigger>(lanes.home, prefix + "home", [this, i, prefix](auto&, auto& response) {
         cycle::Request request;
         request.kind = RequestKind::kHome;
         request.drive = i;

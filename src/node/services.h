@@ -14,6 +14,7 @@
 #include "node/fault_board.h"
 #include "node/node_config.h"
 #include "node/request_broker.h"
+#include "node/stop_calls.h"
 #include "nord_driver/ReadParameter.h"
 #include "nord_driver/SelectParameterSet.h"
 #include "nord_driver/WriteParameter.h"
@@ -21,14 +22,20 @@
 
 namespace nord_driver::node {
 
+/// Private handles whose callbacks do not wait behind those of another one: with threads of their own, as StopCalls says
+/// how many.
+struct ServiceLanes {
+  ros::NodeHandle& others;
+  ros::NodeHandle& enable;
+  ros::NodeHandle& quick_stop;
+  ros::NodeHandle& home;
+};
+
 class Services {
  public:
-  /// `stop_node`: the private handle whose callbacks do not wait behind those of the other services. `known`: of each
-  /// drive.
-  /// `eeproms`: of each drive. It and `faults` must outlive the services.
-  Services(ros::NodeHandle& private_node, ros::NodeHandle& stop_node, ros::NodeHandle& home_node,
-           const NodeConfig& config, std::vector<catalogue::DriveCatalogue> known, const FaultBoard& faults,
-           std::deque<state::DriveEeprom>& eeproms, RequestBroker& broker);
+  /// `known` and `eeproms`: of each drive. `eeproms` and `faults` must outlive the services.
+  Services(const ServiceLanes& lanes, const NodeConfig& config, std::vector<catalogue::DriveCatalogue> known,
+           const FaultBoard& faults, std::deque<state::DriveEeprom>& eeproms, RequestBroker& broker);
 
  private:
   template <typename Service, typename Handler>
@@ -48,6 +55,7 @@ class Services {
   const FaultBoard& faults_;
   std::deque<state::DriveEeprom>& eeproms_;
   RequestBroker& broker_;
+  StopCalls stops_;
   std::vector<ros::ServiceServer> servers_;
 };
 

@@ -51,6 +51,7 @@ void SnapshotPublisher::run() {
   Instant next_base = now, next_status = now, next_second = now, stamped{};
   Stamps stamps{ros::Time{}, now};
   while (!stop_) {
+    tellBusEvents();
     const cycle::CycleSnapshot& snapshot = ports_.readSnapshot();
     if (snapshot.time != Instant{}) {  // the first cycle has ended
       if (snapshot.time != stamped) {  // what is published twice has one stamp
@@ -86,6 +87,16 @@ void SnapshotPublisher::run() {
     const Instant wake = std::min({std::max(next_base, now), std::max(next_status, now), now + seconds(0.1)});
     std::this_thread::sleep_until(std::max(wake, now + seconds(0.0005)));
     now = std::chrono::steady_clock::now();
+  }
+}
+
+void SnapshotPublisher::tellBusEvents() {
+  while (const auto event = ports_.pollBusEvent()) {
+    if (event->warning) {
+      ROS_WARN("nord_driver: %s", event->text.c_str());
+    } else {
+      ROS_INFO("nord_driver: %s", event->text.c_str());
+    }
   }
 }
 

@@ -31,7 +31,7 @@ struct SnapshotParts {
   FaultBoard& faults;
 };
 
-/// Publishes from construction to destruction. The rates run on the steady clock, so that /use_sim_time cannot stop
+/// Publishes from construction to destruction, and writes into the log what happened on the bus. The rates run on the steady clock, so that /use_sim_time cannot stop
 /// them; only the stamps are ROS time: of the bus cycle that measured.
 class SnapshotPublisher {
  public:
@@ -46,6 +46,7 @@ class SnapshotPublisher {
 
  private:
   void run();
+  void tellBusEvents();
   void logChanges(const cycle::CycleSnapshot& snapshot, Instant now);
 
   cycle::CyclePorts& ports_;

@@ -118,6 +118,62 @@ TEST(RequestBrokerTest, NumbersAreNeverZero) {
   }
 }
 
+// A log line takes milliseconds where the disk is slow: the stop is to be with the cycle before.
+TEST(RequestBrokerTest, TellsThatTheCycleHasTheRequestBeforeItWaits) {
+  cycle::CyclePorts ports{4};
+  RequestBroker broker{ports};
+  int told = 0;
+  const cycle::Completion answer = broker.call(request(2), [&] {
+    ++told;
+    const auto asked = ports.pollRequest();
+    ASSERT_TRUE(asked) << "the cycle does not have it yet";
+    EXPECT_EQ(2u, asked->drive);
+    cycle::Completion completion;
+    completion.id = asked->id;
+    completion.success = true;
+    ports.complete(completion);
+    ports.publish(cycle::CycleSnapshot{4});
+  });
+  EXPECT_TRUE(answer.success);
+  EXPECT_EQ(1, told);
+}
+
+TEST(RequestBrokerTest, TellsNothingOfARequestThatTheCycleDoesNotGet) {
+  cycle::CyclePorts ports{4};
+  RequestBroker broker{ports};
+  broker.end();
+  broker.call(request(2), [] { FAIL() << "it did not reach the cycle"; });
+}
+
+// The node ends when the drives are at rest: a write that begins then would be cut off, and leave P560 = 0.
+TEST(RequestBrokerTest, RefusesWritesAndCountsThoseUnderWay) {
+  cycle::CyclePorts ports{4};
+  RequestBroker broker{ports};
+  cycle::Request write = request(0, std::chrono::minutes{1});
+  write.kind = cycle::RequestKind::kWriteParameter;
+  EXPECT_EQ(0u, broker.writesUnderWay());
+  std::thread writer{[&] { EXPECT_TRUE(broker.call(write).success) << "it was under way before"; }};
+  std::optional<cycle::Request> taken;
+  while (!(taken = ports.pollRequest())) std::this_thread::yield();
+  EXPECT_EQ(1u, broker.writesUnderWay());
+  broker.refuseWrites();
+  const cycle::Completion refused = broker.call(write);
+  EXPECT_FALSE(refused.success);
+  EXPECT_STREQ("the node is ending", refused.message.c_str());
+  EXPECT_FALSE(refused.parameter.eeprom_written);
+  EXPECT_FALSE(ports.pollRequest()) << "the cycle does not get it";
+  EXPECT_EQ(1u, broker.writesUnderWay());
+  cycle::Completion completion;
+  completion.id = taken->id;
+  completion.success = true;
+  ports.complete(completion);
+  ports.publish(cycle::CycleSnapshot{4});
+  writer.join();
+  EXPECT_EQ(0u, broker.writesUnderWay());
+  Cycle cycle{ports};
+  EXPECT_TRUE(broker.call(request(1)).success) << "what is no write is carried out";
+}
+
 // With a minute of patience, and nobody in the place of the cycle.
 TEST(RequestBrokerTest, WhoWaitsIsAnsweredWhenTheCycleHasEnded) {
   cycle::CyclePorts ports{1};

@@ -20,8 +20,8 @@ constexpr Seconds kShutdownTimeout{10.0};            // the default
 constexpr double kLate = 0.04;                       // s: two periods of the truth
 constexpr int kRosnodeKill = 0;                      // in place of a signal
 /// Messages of the truth, one each 20 ms that the simulator lived, until a drive is told of the end. For a signal the
-/// node looks every 20 ms, then come two cycles. What rosnode asks is looked at by roscpp every 100 ms only.
-constexpr int kHeardSignal = 4, kHeardShutdown = 9;
+/// node looks every half cycle, then come two cycles. What rosnode asks is looked at by roscpp every 100 ms only.
+constexpr int kHeardSignal = 3, kHeardShutdown = 9;
 
 /// What the truth about a drive says of a ramp.
 struct RampSeen {

@@ -5,9 +5,11 @@
 #include <std_msgs/UInt8.h>
 #include <std_srvs/SetBool.h>
 
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "rostest/robot_under_test.h"
@@ -189,6 +191,25 @@ TEST_F(Lift, Homes) {
   goTo(0.1);
   EXPECT_TRUE(robot().left.status.waitNext(
       [](const DriveStatus& told) { return told.position_reached && std::fabs(told.position - 0.1) < kStep; }));
+}
+
+// A call that waited for the first one's end would start a run that nobody expects any more.
+TEST_F(Lift, RefusesASecondReferenceRunWhileTheFirstRuns) {
+  ASSERT_TRUE(isEnabled());
+  Answer first;
+  std::atomic<bool> ended{false};
+  std::thread caller{[&] {
+    first = robot().trigger("left/home");
+    ended = true;
+  }};
+  EXPECT_TRUE(robot().left.truth.waitNext([](const SimDrive& is) { return std::fabs(is.shaft_velocity) > 1.0; }));
+  const Answer second = robot().trigger("left/home");
+  EXPECT_FALSE(second.success);
+  EXPECT_THAT(second.message, HasSubstr("a reference run is under way already"));
+  EXPECT_FALSE(ended) << "it was answered while the first one ran";
+  caller.join();
+  EXPECT_TRUE(first.success) << first;
+  EXPECT_TRUE(stays()) << "once is enough";
 }
 
 TEST_F(Lift, SetsItsCountAnewWhereItStands) {

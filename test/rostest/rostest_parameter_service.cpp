@@ -5,6 +5,7 @@
 #include <fstream>
 #include <limits>
 #include <memory>
+#include <thread>
 
 #include "nord_driver/ReadParameter.h"
 #include "nord_driver/WriteParameter.h"
@@ -244,6 +245,19 @@ TEST_F(ParameterService, WritesToRamThroughP560WhereThereAreNoRamOrders) {
   EXPECT_DOUBLE_EQ(read("right", 102, 2).response.value, 1.5);
   EXPECT_EQ(read("right", 560).response.raw, 1);
   EXPECT_LE(eepromWrites("right"), before + 2) << "P560 off and on, the value not";
+}
+
+// The write has switched P560 off when the node is asked to end: cut off here, the inverter would save nothing any more.
+TEST_F(ParameterService, PutsP560BackBeforeTheNodeEnds) {
+  const std::uint64_t before = eepromWrites("right");
+  std::thread caller{[] { write("right", 103, 1.7, false, 2); }};
+  EXPECT_TRUE(robot().right.truth.waitNext([&](const SimDrive& is) { return is.eeprom_writes > before; }));
+  shared_driver->signal(SIGTERM);
+  EXPECT_TRUE(shared_driver->waitEnd(kPatience));
+  caller.join();
+  start();
+  ASSERT_TRUE(robot().waitForDrivesOnline());
+  EXPECT_EQ(read("right", 560).response.raw, 1);
 }
 
 TEST_F(EepromBudget, IsKeptAcrossAKilledDriverAndRefusesInWords) {

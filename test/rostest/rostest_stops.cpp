@@ -11,6 +11,8 @@
 #include <functional>
 #include <limits>
 #include <set>
+#include <thread>
+#include <vector>
 
 #include "nord_driver/SimTerminals.h"
 #include "rostest/lived_time.h"
@@ -235,6 +237,40 @@ INSTANTIATE_TEST_SUITE_P(OfTheBase, QuickStop, ::testing::Values("quick_stop", "
                          [](const ::testing::TestParamInfo<const char*>& test) {
                            return std::string(test.param) == "quick_stop" ? "AllDrives" : "OneOfThem";
                          });
+
+// Each of them waits in a thread of the driver until the drives are down; there are more than it has threads.
+TEST_F(Stops, AQuickStopDoesNotWaitBehindManyCallsOfEnable) {
+  constexpr std::size_t kCalls = 24;
+  std::vector<ros::ServiceClient> clients;
+  for (std::size_t i = 0; i < kCalls; ++i) clients.push_back(connectTo<std_srvs::SetBool>("nord_driver/enable"));
+  ros::ServiceClient quick_stop = connectTo<std_srvs::Trigger>("nord_driver/quick_stop");
+  bool turned = false;
+  const auto attempt = [&] {
+    const double cruising = std::abs(robot().left.status.next()->velocity);
+    std::vector<std::thread> callers;
+    for (ros::ServiceClient& client : clients) {
+      callers.emplace_back([&client] {
+        std_srvs::SetBool disable;
+        EXPECT_TRUE(client.call(disable));
+      });
+    }
+    const auto slower = robot().left.status.waitFrom(
+        left_from_, [&](const DriveStatus& s) { return std::abs(s.velocity) < 0.95 * cruising; });
+    EXPECT_TRUE(slower);
+    std_srvs::Trigger service;
+    EXPECT_TRUE(quick_stop.call(service));
+    for (std::thread& caller : callers) caller.join();
+    EXPECT_TRUE(robot().waitForStandstill());
+    const Statuses statuses = left();
+    const auto off3 =
+        std::find_if(statuses.begin(), statuses.end(), [](const auto& s) { return s->control_word == 0x047B; });
+    turned = off3 != statuses.end() && std::abs((*off3)->velocity) > 0.3 * cruising;
+    robot().drive(0.0);
+  };
+  tryAgainOnlyIfStoodStill(
+      kCycle, attempt, [&] { return turned; }, [this] { driveAndMark(); });
+  EXPECT_TRUE(turned) << "OFF3 came when the ramp was over, or not at all";
+}
 
 // Down the deceleration limit with the drives enabled, then OFF1.
 TEST_F(Stops, DisableRampsDownThenSaysOff1) {
