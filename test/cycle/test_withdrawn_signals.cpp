@@ -1,0 +1,176 @@
+// A signal that may move a drive, through its stops: none leaves it high, and nothing but "off" or an enabling brings it
+// back.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cycle/signals_bench.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+/// Control bit 8 with P480 = 1, "enable right", accepted by may_move: at the standard rate of its publisher, 10 Hz.
+class MovingSignal : public Signals {
+ public:
+  explicit MovingSignal(int function = 1, std::uint8_t signals = 1) : Signals{accepted(signals)} {
+    transport.parameters[480] = function;
+    run(120);
+  }
+  static std::vector<SignalSetup> accepted(std::uint8_t count) {
+    std::vector<SignalSetup> signals;
+    for (std::uint8_t i = 0; i < count; ++i) signals.push_back(output(SignalSource::kControlBit, 8 + i));
+    for (SignalSetup& signal : signals) signal.may_move = true;
+    return signals;
+  }
+  bool bit() const { return (sent().control_word & 0x0100) != 0; }
+  /// `cycles` of 10 ms with fresh commands; how many of them had the bit high.
+  int refresh(int cycles, bool on = true) {
+    int high = 0;
+    for (int i = 0; i < cycles; ++i) {
+      if (i % 10 == 0) command(on);
+      commandLift(velocity);
+      step();
+      high += bit() ? 1 : 0;
+    }
+    return high;
+  }
+  void drive() {
+    ASSERT_TRUE(ask(RequestKind::kEnable, kLift).success);
+    velocity = 50.0;
+    ASSERT_GT(refresh(30), 25);
+  }
+  void submit(RequestKind kind, DriveIndex drive = kLift) {
+    Request request;
+    request.kind = kind;
+    request.drive = drive;
+    ports.submit(request);
+  }
+  /// Back by "off" and "on" of its own.
+  void expectOffAndOnBringItBack() {
+    EXPECT_EQ(0, refresh(10, false));
+    EXPECT_EQ(10, refresh(10));
+  }
+  double velocity = 0.0;
+};
+
+TEST(WithdrawnSignalsTest, AFaultOfItsOwnTakesItAwayUntilItWasOff) {
+  MovingSignal bench;
+  bench.drive();
+  bench.transport.inverters[CycleBench::kLift].fault = true;
+  bench.step();  // its word went out before the fault was told
+  EXPECT_EQ(0, bench.refresh(50));
+  ASSERT_TRUE(bench.ask(RequestKind::kAcknowledge, CycleBench::kLift).success);
+  EXPECT_EQ(0, bench.refresh(300)) << "an acknowledged fault moves nothing";
+  bench.expectOffAndOnBringItBack();
+}
+
+// Disabled, its motor was turned by the bit alone.
+TEST(WithdrawnSignalsTest, AFaultOfADisabledDriveTakesItAway) {
+  MovingSignal bench;
+  ASSERT_EQ(20, bench.refresh(20));
+  bench.transport.inverters[CycleBench::kLift].fault = true;
+  bench.step();
+  EXPECT_EQ(0, bench.refresh(50));
+  bench.expectOffAndOnBringItBack();
+}
+
+TEST(WithdrawnSignalsTest, LocalControlTakesItAway) {
+  for (const bool enabled : {true, false}) {
+    MovingSignal bench;
+    if (enabled) bench.drive();
+    ASSERT_GT(bench.refresh(20), 0);
+    bench.transport.inverters[CycleBench::kLift].local = true;
+    bench.step();
+    EXPECT_EQ(0, bench.refresh(20)) << enabled;
+    bench.transport.inverters[CycleBench::kLift].local = false;
+    EXPECT_EQ(0, bench.refresh(300)) << enabled;
+    bench.expectOffAndOnBringItBack();
+  }
+}
+
+TEST(WithdrawnSignalsTest, AQuickStopTakesItAwayUntilItWasOff) {
+  for (const bool enabled : {true, false}) {
+    MovingSignal bench;
+    if (enabled) bench.drive();
+    ASSERT_GT(bench.refresh(20), 0);
+    bench.submit(RequestKind::kQuickStop, kAllDrives);
+    EXPECT_EQ(0, bench.refresh(500)) << enabled;
+    bench.expectOffAndOnBringItBack();
+  }
+}
+
+// From the first word of the ramp on, and of a drive that was not enabled, too.
+TEST(WithdrawnSignalsTest, DisablingTakesItAwayUntilItWasOff) {
+  for (const bool enabled : {true, false}) {
+    MovingSignal bench;
+    if (enabled) bench.drive();
+    ASSERT_GT(bench.refresh(20), 0);
+    bench.submit(RequestKind::kDisable);
+    EXPECT_EQ(0, bench.refresh(500)) << enabled;
+    bench.expectOffAndOnBringItBack();
+  }
+}
+
+TEST(WithdrawnSignalsTest, ALossTakesItAwayUntilItWasOff) {
+  MovingSignal bench;
+  ASSERT_EQ(20, bench.refresh(20));
+  bench.transport.inverters[CycleBench::kLift].silent = true;
+  bench.refresh(50);
+  bench.transport.inverters[CycleBench::kLift].silent = false;
+  EXPECT_EQ(0, bench.refresh(300)) << "a drive that comes back moves nothing";
+  bench.expectOffAndOnBringItBack();
+}
+
+TEST(WithdrawnSignalsTest, AnInterruptionWithinACycleTakesItAway) {
+  MovingSignal bench;
+  ASSERT_EQ(20, bench.refresh(20));
+  bench.transport.interrupted[CycleBench::kLift] = true;
+  bench.step();
+  EXPECT_EQ(0, bench.refresh(300));
+  bench.expectOffAndOnBringItBack();
+}
+
+TEST(WithdrawnSignalsTest, EnablingGivesItBack) {
+  MovingSignal bench;
+  bench.drive();
+  bench.submit(RequestKind::kQuickStop);
+  ASSERT_EQ(0, bench.refresh(200));
+  bench.velocity = 0.0;
+  bench.refresh(10);
+  ASSERT_TRUE(bench.ask(RequestKind::kEnable, CycleBench::kLift).success);
+  EXPECT_EQ(20, bench.refresh(20));
+}
+
+// "On" again before the stop has ended is no order for afterwards; "off" of a cycle nobody has seen is one.
+TEST(WithdrawnSignalsTest, OffCountsFromTheEndOfTheStopOn) {
+  MovingSignal bench;
+  bench.drive();
+  bench.submit(RequestKind::kDisable);
+  bench.refresh(2);
+  bench.refresh(2, false);
+  EXPECT_EQ(0, bench.refresh(500));
+  bench.command(false);
+  bench.command(true);
+  bench.step();
+  EXPECT_TRUE(bench.bit());
+}
+
+// Each by itself; what P480 gives no function stays where it is.
+TEST(WithdrawnSignalsTest, EverySignalIsGivenBackByItself) {
+  MovingSignal bench{1, 2};
+  bench.command(true, 1);
+  ASSERT_EQ(20, bench.refresh(20));
+  bench.submit(RequestKind::kQuickStop);
+  ASSERT_EQ(0, bench.refresh(100));
+  bench.command(false, 1);
+  bench.step();
+  bench.command(true, 1);
+  bench.refresh(2);
+  EXPECT_EQ(0x0200, bench.sent().control_word & 0x0300);
+  MovingSignal harmless{0};
+  ASSERT_EQ(20, harmless.refresh(20));
+  harmless.submit(RequestKind::kQuickStop);
+  EXPECT_EQ(100, harmless.refresh(100));
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle
