@@ -8,6 +8,7 @@ namespace nord_driver::explore {
 NORD_EXPLORE_MEMBER(recordStateOf, profibus::RecordChannel, state_)
 NORD_EXPLORE_MEMBER(recordRequestOf, profibus::RecordChannel, request_)
 NORD_EXPLORE_MEMBER(recordGivenUpOf, profibus::RecordChannel, given_up_)
+NORD_EXPLORE_MEMBER(recordNoResourceOf, profibus::RecordChannel, no_resource_)
 NORD_EXPLORE_MEMBER(recordTimersOf, profibus::RecordChannel, timers_)
 
 namespace {
@@ -36,6 +37,7 @@ enum class Event : std::uint8_t {
   kPassTime,
   kLongTime,
   kOffline,
+  kGoneOnWith,
   kCount
 };
 
@@ -54,7 +56,8 @@ constexpr const char* kNames[] = {"",
                                   "telegram: RR, no resource",
                                   "time: a step",
                                   "time: many steps",
-                                  "the slave leaves data exchange"};
+                                  "the slave leaves data exchange, and starts up anew",
+                                  "the slave is not heard for a moment, and gone on with"};
 
 class RecordEvents {
  public:
@@ -81,17 +84,20 @@ class RecordEvents {
       return true;
     }
     if (event == Event::kOffline) {
-      world.channel.handleOffline();
+      world.channel.handleOffline(world.now);
+      world.channel.handleStartUp();
       world.server = {};  // the standard: a slave forgets its acyclic channel when it leaves data exchange
-      takeResult(world, false, verdict);
-      verdict.require(!world.runs, "a request outlives the loss of its slave");
-      return true;
+      return endsBy(world, verdict);
+    }
+    if (event == Event::kGoneOnWith) {
+      world.channel.handleOffline(world.now);  // and the slave has forgotten nothing
+      return endsBy(world, verdict);
     }
     return telegram(world, event, verdict);
   }
 
   void describe(const World& world, Key& key) const {
-    key.add(recordGivenUpOf(world.channel));
+    key.add(recordGivenUpOf(world.channel)).add(recordNoResourceOf(world.channel));
     describeTimers(recordTimersOf(world.channel), world.now, kStepTime, 2 * kResponseTimeout, key);
     const auto& request = recordRequestOf(world.channel);
     key.add(recordStateOf(world.channel));
@@ -120,6 +126,12 @@ class RecordEvents {
       }
       pass(world, 1, verdict);
     }
+  }
+
+  bool endsBy(World& world, Verdict& verdict) const {
+    takeResult(world, false, verdict);
+    verdict.require(!world.runs, "a request outlives the loss of its slave");
+    return true;
   }
 
   static bool submit(World& world, std::uint8_t kind, Verdict& verdict) {
