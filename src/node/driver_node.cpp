@@ -75,7 +75,7 @@ DriverNode::DriverNode()
       enabling_(private_node_, StopCalls::enableThreads(config_.cycle.drives.size())),
       quick_stops_(private_node_, StopCalls::quickStopThreads(config_.cycle.drives.size())),
       homing_(private_node_, homingThreads(config_)),
-      catalogues_(tools::installedCatalogues(config_.parameter_files)),
+      catalogues_(tools::installedCatalogues(config_.parameter_files, settings_.fullName("parameter_files"))),
       loader_("nord_driver", "nord_driver::Transport"),
       eeprom_budget_(tools::eepromBudget(config_.eeprom)) {
   loadTransport();

@@ -109,7 +109,8 @@ TEST_F(CheckConfig, ReadsTheUsersFilesOfParameters) {
   std::ofstream(own) << "devices: [sk5xxe]\nparameters:\n  - {number: 105, units: Hz}\n";
   const Ended wrong = checkText(text);
   EXPECT_EQ(1, wrong.code);
-  EXPECT_THAT(wrong.output + wrong.errors, HasSubstr(own + ":3: number 105: units is not a key of this file"));
+  EXPECT_THAT(wrong.output + wrong.errors,
+              HasSubstr("parameter_files: " + own + ":3: number 105: units is not a key of this file"));
   ::unlink(own.c_str());
 }
 

@@ -101,7 +101,11 @@ catalogue::Catalogues ParamProgram::catalogues() {
 catalogue::Catalogues ParamProgram::cataloguesFor(const ToolConfig& config) const {
   std::vector<std::string> own = config.parameter_files;
   own.insert(own.end(), parameter_files_.begin(), parameter_files_.end());
-  return installedCatalogues(own);
+  try {
+    return installedCatalogues(own);
+  } catch (const ConfigError& error) {
+    throw catalogue::namedBy("parameter_files", config.parameter_files, error);
+  }
 }
 
 int ParamProgram::onDrive(const std::string& drive,
