@@ -34,6 +34,14 @@ Catalogues loadCatalogues(const std::string& folder, const std::vector<std::stri
   return {Catalogue::load(parameters), FaultCatalogue::load(faults)};
 }
 
+ConfigError namedBy(const std::string& key, const std::vector<std::string>& files, const ConfigError& error) {
+  const std::string sentence = error.what();
+  for (const std::string& file : files) {
+    if (sentence.compare(0, file.size() + 1, file + ":") == 0) return ConfigError(key + ": " + sentence);
+  }
+  return error;
+}
+
 std::string findConfigFolder(const std::string& program, const std::function<std::string()>& package) {
   const fs::path prefix = fs::path(program).parent_path().parent_path().parent_path();
   const fs::path installed = prefix / "share" / "nord_driver" / "config";

@@ -14,6 +14,7 @@ std::vector<std::string> namesIn(const Settings& settings, const std::string& ke
   std::vector<std::string> names = keysBelow(settings, key);
   const std::vector<std::string> present = settings.keys();
   if (names.empty() && std::find(present.begin(), present.end(), key) != present.end() && settings.has(key)) {
+    settings.has(key + "/name");  // throws: a key in what is no group; its sentence has the value
     throw ConfigError(settings.fullName(key) + " is not valid, expected a group of names with what each is");
   }
   for (const std::string& name : names) {

@@ -24,12 +24,13 @@ std::string inWords(std::string name) {
 
 Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities,
                          const std::vector<catalogue::DriveCatalogue>& known, std::vector<DriveValues> values,
-                         const std::string& where)
+                         const std::string& where, const IgnoredCommands& ignored)
     : identities_(identities),
       known_(known),
       values_(std::move(values)),
       commissioning_(config, identities, known),
       device_(where),
+      ignored_(ignored),
       snapshot_(config.drives.size()) {
   updater_.setHardwareID(device_);
   updater_.add("bus", [this](DiagnosticStatusWrapper& status) { reportBus(status); });
@@ -85,6 +86,7 @@ void Diagnostics::reportBase(DiagnosticStatusWrapper& status) const {
   }
   status.add("linear velocity (m/s)", base.velocity.linear_x);
   status.add("angular velocity (rad/s)", base.velocity.angular_z);
+  status.add("commands ignored", ignored_.ofBase());
 }
 
 void Diagnostics::summarize(std::size_t index, DiagnosticStatusWrapper& status) const {
@@ -177,6 +179,7 @@ void Diagnostics::reportDrive(std::size_t index, DiagnosticStatusWrapper& status
   status.add("velocity commanded (rad/s)", drive.velocity_command);
   status.add("speed deviation (rad/s)", drive.speed_deviation);
   status.add("at speed", drive.at_speed);
+  status.add("commands ignored", ignored_.of(index));
   status.add("bus module answers", drive.module_answers);
   status.add("parameter channel", identity.parameter_channel);
   status.add("protected by", protection.text);

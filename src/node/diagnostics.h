@@ -12,6 +12,7 @@
 #include "node/commissioning_warnings.h"
 #include "node/drive_protection.h"
 #include "node/drive_values.h"
+#include "node/ignored_commands.h"
 #include "node/node_config.h"
 #include "node/ramp_check.h"
 #include "nord_driver/transport/transport.h"
@@ -21,10 +22,10 @@ namespace nord_driver::node {
 /// Reports the snapshot it was given last. `update` runs the tasks when they are due (once a second).
 class Diagnostics {
  public:
-  /// `known`, `values`: of each drive. `where`: what the transport opens, as configured.
+  /// `known`, `values`: of each drive. `where`: what the transport opens, as configured. `ignored` must outlive it.
   Diagnostics(const NodeConfig& config, const std::vector<DriveIdentity>& identities,
               const std::vector<catalogue::DriveCatalogue>& known, std::vector<DriveValues> values,
-              const std::string& where);
+              const std::string& where, const IgnoredCommands& ignored);
   void update(const cycle::CycleSnapshot& snapshot);
 
  private:
@@ -45,6 +46,7 @@ class Diagnostics {
   std::vector<RampCheck> ramps_;
   CommissioningWarnings commissioning_;
   std::string device_;
+  const IgnoredCommands& ignored_;
   cycle::CycleSnapshot snapshot_;
   diagnostic_updater::Updater updater_;
   Instant next_update_{};  // its own clock is ROS's, which may be set back or stand still

@@ -75,9 +75,10 @@ DriverNode::DriverNode()
       enabling_(private_node_, StopCalls::enableThreads(config_.cycle.drives.size())),
       quick_stops_(private_node_, StopCalls::quickStopThreads(config_.cycle.drives.size())),
       homing_(private_node_, homingThreads(config_)),
-      catalogues_(tools::installedCatalogues(config_.parameter_files)),
+      catalogues_(tools::installedCatalogues(config_.parameter_files, settings_.fullName("parameter_files"))),
       loader_("nord_driver", "nord_driver::Transport"),
-      eeprom_budget_(tools::eepromBudget(config_.eeprom)) {
+      eeprom_budget_(tools::eepromBudget(config_.eeprom)),
+      ignored_(config_.drives.size()) {
   loadTransport();
   lookUpMonitored();
   warnOfUnknownKeys();
@@ -173,10 +174,10 @@ void DriverNode::advertise() {
     if (cycle_->inBase(i) || cycle_->isLed(i)) continue;
     setup.position ? subscribePosition(i) : subscribeCommand(i);
   }
-  word_topics_ = std::make_unique<WordTopics>(private_commands_, config_.cycle, *ports_);
+  word_topics_ = std::make_unique<WordTopics>(private_commands_, config_.cycle, *ports_, ignored_);
   fault_board_ = std::make_unique<FaultBoard>(names, faults_);
   bus_publisher_ = std::make_unique<BusPublisher>(private_node_, names);
-  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, known_, values_, where_);
+  diagnostics_ = std::make_unique<Diagnostics>(config_, identities_, known_, values_, where_, ignored_);
   const ServiceLanes lanes{private_node_, enabling_.handle(), quick_stops_.handle(), homing_.handle()};
   services_ = std::make_unique<Services>(lanes, config_, known_, *fault_board_, eeproms_, *broker_);
   parameter_jobs_ = std::make_unique<ParameterJobs>(jobs_.handle(), config_, identities_, known_, eeproms_, *broker_);
@@ -195,17 +196,20 @@ void DriverNode::advertise() {
 void DriverNode::takeCommand(const geometry_msgs::Twist& twist) {
   if (!isFinite(twist)) {
     // No command at all: the time-out of the one before runs on.
-    ++bad_commands_;
-    ROS_WARN_THROTTLE(1.0, "nord_driver: cmd_vel is not a number or infinite, ignored (%lu so far)",
-                      static_cast<unsigned long>(bad_commands_));
+    if (const auto count = ignored_.addToBase(steadyNow())) {
+      ROS_WARN("nord_driver: cmd_vel is not a number or infinite, ignored (%lu so far)",
+               static_cast<unsigned long>(*count));
+    }
     return;
   }
   const bool sideways = config_.cycle.base->movesSideways();
   const double linear_y = sideways ? twist.linear.y : 0.0;
   cycle::TwistCommand command{{twist.linear.x, twist.angular.z, linear_y}, steadyNow(), true};
   if (!config_.publish.allow_multiple_cmd_vel_publishers && command_subscriber_.getNumPublishers() > 1) {
-    ROS_ERROR_THROTTLE(1.0, "nord_driver: %u publishers on cmd_vel, expected one: the base brakes",
-                       command_subscriber_.getNumPublishers());
+    if (publishers_told_.isOver(command.received)) {
+      ROS_ERROR("nord_driver: %u publishers on cmd_vel, expected one: the base brakes",
+                command_subscriber_.getNumPublishers());
+    }
     command.held = true;
   }
   ports_->commandBase(command);
@@ -239,9 +243,10 @@ void DriverNode::subscribePosition(DriveIndex drive) {
 
 void DriverNode::countBadCommand(DriveIndex drive, const char* what, bool taken) {
   if (taken) return;
-  ++bad_commands_;
-  ROS_WARN_THROTTLE(1.0, "nord_driver: the %s of drive %s is not a number, or infinite, ignored (%lu so far)", what,
-                    config_.cycle.drives[drive].name.c_str(), static_cast<unsigned long>(bad_commands_));
+  if (const auto count = ignored_.add(drive, steadyNow())) {
+    ROS_WARN("nord_driver: the %s of drive %s is not a number, or infinite, ignored (%lu so far)", what,
+             config_.cycle.drives[drive].name.c_str(), static_cast<unsigned long>(*count));
+  }
 }
 
 void DriverNode::run(const std::atomic<bool>& end_asked) {

@@ -27,6 +27,7 @@
 #include "node/drive_publisher.h"
 #include "node/fault_board.h"
 #include "node/fault_publisher.h"
+#include "node/ignored_commands.h"
 #include "node/node_config.h"
 #include "node/nothing_to_tune.h"
 #include "node/parameter_jobs.h"
@@ -97,6 +98,8 @@ class DriverNode {
   state::EepromBudget eeprom_budget_;
   std::deque<state::DriveEeprom> eeproms_;  // one per drive
 
+  IgnoredCommands ignored_;
+  LogPause publishers_told_;
   std::unique_ptr<cycle::CyclePorts> ports_;
   std::unique_ptr<cycle::BusCycle> cycle_;
   std::unique_ptr<cycle::CycleThread> thread_;
@@ -119,7 +122,6 @@ class DriverNode {
   std::vector<ros::Subscriber> subscribers_;
   ros::Subscriber command_subscriber_;
   std::uint32_t commanders_ = 0;  // publishers connected to all of these
-  std::atomic<std::uint64_t> bad_commands_{0};
 };
 
 }  // namespace nord_driver::node

@@ -8,8 +8,9 @@
 
 namespace nord_driver::node {
 
-WordTopics::WordTopics(CallbackThreads& lane, const cycle::CycleConfig& config, cycle::CyclePorts& ports)
-    : ports_(ports) {
+WordTopics::WordTopics(CallbackThreads& lane, const cycle::CycleConfig& config, cycle::CyclePorts& ports,
+                       IgnoredCommands& ignored)
+    : ports_(ports), ignored_(ignored) {
   for (DriveIndex drive = 0; drive < config.drives.size(); ++drive) {
     const cycle::DriveSetup& setup = config.drives[drive];
     for (std::size_t i = 0; i < setup.words.setpoints.size(); ++i) addSetpoint(lane, drive, setup, i);
@@ -33,11 +34,13 @@ void WordTopics::addSetpoint(CallbackThreads& lane, DriveIndex drive, const cycl
   const cycle::SetpointSetup& setpoint = setup.words.setpoints[index];
   const std::string topic = setup.name + "/setpoints/" + setpoint.name;
   boost::function<void(const std_msgs::Float64&)> take = [this, drive, index, topic](const std_msgs::Float64& value) {
-    if (ports_.commandSetpoint(drive, index, value.data, std::chrono::steady_clock::now())) return;
+    const Instant now = std::chrono::steady_clock::now();
+    if (ports_.commandSetpoint(drive, index, value.data, now)) return;
     // No command at all: the time-out of the one before runs on.
-    ++ignored_;
-    ROS_WARN_THROTTLE(1.0, "nord_driver: %s is not a number or infinite, ignored (%lu so far)", topic.c_str(),
-                      static_cast<unsigned long>(ignored_));
+    if (const auto count = ignored_.add(drive, now)) {
+      ROS_WARN("nord_driver: %s is not a number or infinite, ignored (%lu of this drive so far)", topic.c_str(),
+               static_cast<unsigned long>(*count));
+    }
   };
   if (setpoint.moves) moving_.push_back(subscribers_.size());
   subscribers_.push_back(lane.handle().subscribe<std_msgs::Float64>(topic, 1, take));

@@ -4,7 +4,6 @@
 
 #include <ros/ros.h>
 
-#include <atomic>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,18 +11,19 @@
 #include "cycle/cycle_config.h"
 #include "cycle/cycle_ports.h"
 #include "node/callback_threads.h"
+#include "node/ignored_commands.h"
 
 namespace nord_driver::node {
 
 class WordTopics {
  public:
   /// `lane`: the private handle whose callbacks wait behind no service.
-  WordTopics(CallbackThreads& lane, const cycle::CycleConfig& config, cycle::CyclePorts& ports);
+  /// Values that are no number or infinite are counted in `ignored`, which must outlive it.
+  WordTopics(CallbackThreads& lane, const cycle::CycleConfig& config, cycle::CyclePorts& ports,
+             IgnoredCommands& ignored);
 
   /// Publishers connected to topics that can turn a motor.
   std::uint32_t commanders() const;
-  /// Values ignored, because they were no number or infinite.
-  std::uint64_t ignored() const noexcept { return ignored_; }
 
  private:
   void addOutput(CallbackThreads& lane, DriveIndex drive, const std::string& topic, std::size_t index);
@@ -32,7 +32,7 @@ class WordTopics {
   cycle::CyclePorts& ports_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<std::size_t> moving_;  // of `subscribers_`
-  std::atomic<std::uint64_t> ignored_{0};
+  IgnoredCommands& ignored_;
 };
 
 }  // namespace nord_driver::node

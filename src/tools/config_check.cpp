@@ -251,7 +251,8 @@ CheckedConfig checkConfig(const std::vector<std::string>& files, const std::stri
   }
   std::optional<catalogue::Catalogues> catalogues;
   if (!config.parameter_files.empty() || anyMonitored(config)) {
-    findings.run([&] { catalogues = installedCatalogues(config.parameter_files); });
+    findings.run(
+        [&] { catalogues = installedCatalogues(config.parameter_files, settings.fullName("parameter_files")); });
   }
   checked.cycle_rate = config.cycle.cycle_rate;
   const bool done = findings.run([&] { configured = node::configureTransport(config, *transport); });

@@ -17,4 +17,13 @@ inline catalogue::Catalogues installedCatalogues(const std::vector<std::string>&
   return catalogue::loadCatalogues(catalogue::findConfigFolder(catalogue::runningProgram(), package), own);
 }
 
+/// The same for files that the configuration lists at `key`, which the sentence names.
+inline catalogue::Catalogues installedCatalogues(const std::vector<std::string>& own, const std::string& key) {
+  try {
+    return installedCatalogues(own);
+  } catch (const ConfigError& error) {
+    throw catalogue::namedBy(key, own, error);
+  }
+}
+
 }  // namespace nord_driver::tools

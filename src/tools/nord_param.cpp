@@ -33,7 +33,9 @@ constexpr char kFooter[] =
     "node.\n"
     "restore writes what a drive can lose without being lost itself. What the bus reaches it by (address, baud rate, "
     "P509) is left out unless --with-bus-settings is given; what fits one machine may move another: read the plan.\n"
-    "Exit code: 0 done, 1 refused, failed or different, 2 wrong usage.";
+    "Exit code: 0 done, 1 refused, failed or different, 2 wrong usage or configuration. check-config judges one: 1 "
+    "when "
+    "it is refused.";
 
 int run(int argc, char** argv) {
   CommandLine line{"nord_param", nord_driver::kVersion, kAbout, kFooter};

@@ -28,6 +28,8 @@ struct ScopeRecord {
 
 /// One line per cycle. Comments ("# drive: left") tell what the columns do not.
 std::string scopeCsv(const ScopeRecord& record);
+/// The same cycles for programs: one JSON object a line, its keys the columns of the CSV; frequencies where P105 is known.
+std::string scopeJson(const ScopeRecord& record);
 /// What `scopeCsv` has written. Throws UsageError naming the line, what is there and what was expected.
 ScopeRecord readScopeCsv(const std::string& text);
 

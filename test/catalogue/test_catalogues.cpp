@@ -95,6 +95,17 @@ TEST(Catalogues, LaterFilesGoOverEarlierOnes) {
   EXPECT_EQ("ours", FaultWords(catalogues.faults, Series::kSk700e).name(970));
 }
 
+// Who reads the sentence looks for the key in the configuration.
+TEST(Catalogues, AFileOfTheConfigurationIsNamedByItsKey) {
+  const auto named = [](const char* sentence) {
+    return std::string(namedBy("~parameter_files", {"/a.yaml", "/b.yaml"}, ConfigError(sentence)).what());
+  };
+  EXPECT_EQ("~parameter_files: /b.yaml:4: number 513: range: 5 is not valid, expected two numbers",
+            named("/b.yaml:4: number 513: range: 5 is not valid, expected two numbers"));
+  EXPECT_EQ("~parameter_files: /a.yaml: cannot be opened", named("/a.yaml: cannot be opened"));
+  EXPECT_EQ("/a.yaml.old: cannot be opened", named("/a.yaml.old: cannot be opened")) << "another file";
+}
+
 TEST(Catalogues, AWrongFileIsToldWithItsLine) {
   const TemporaryFile own("devices: [sk5xxe]\nparameters:\n  - number: 513\n    range: [200, -0.1]\n");
   EXPECT_EQ(own.path() + ":4: number 513: range: [200, -0.1] is not valid, expected the lowest value first",

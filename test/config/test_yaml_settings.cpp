@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "config/setting_groups.h"
 #include "config/yaml_settings.h"
 #include "support/temporary_folder.h"
 
@@ -88,6 +89,14 @@ TEST(YamlSettings, AWrongKindIsRefusedWithKeyValueAndExpectation) {
   EXPECT_THAT(refusal([&] { all.integer("part"); }), HasSubstr("part: 2.5 is not valid, expected a whole number"));
   EXPECT_THAT(refusal([&] { all.integer("huge"); }), HasSubstr("expected a whole number"));
   EXPECT_THAT(refusal([&] { all.boolean("rate"); }), HasSubstr("expected true or false"));
+}
+
+TEST(YamlSettings, NamesWhereNoGroupIsAreRefusedWithWhatStandsThere) {
+  const YamlSettings all = settings("{signals: 5, setpoints: {speed: {}}, outputs: [x]}");
+  EXPECT_EQ("signals: 5 is not valid, expected a group of keys and values", refusal([&] { namesIn(all, "signals"); }));
+  EXPECT_THAT(refusal([&] { namesIn(all, "outputs"); }), HasSubstr("outputs: a list is not valid, expected a group"));
+  EXPECT_THAT(namesIn(all, "setpoints"), ElementsAre("speed"));
+  EXPECT_TRUE(namesIn(all, "none").empty());
 }
 
 // A group is told by a key in it as well: nobody has to ask for the group itself. One that is empty is absent.

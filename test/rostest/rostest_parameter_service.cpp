@@ -250,14 +250,16 @@ TEST_F(ParameterService, WritesToRamThroughP560WhereThereAreNoRamOrders) {
 // The write has switched P560 off when the node is asked to end: cut off here, the inverter would save nothing any more.
 TEST_F(ParameterService, PutsP560BackBeforeTheNodeEnds) {
   const std::uint64_t before = eepromWrites("right");
-  std::thread caller{[] { write("right", 103, 1.7, false, 2); }};
+  std::thread caller{[] { write("right", 102, 1.7, false, 2); }};
   EXPECT_TRUE(robot().right.truth.waitNext([&](const SimDrive& is) { return is.eeprom_writes > before; }));
   shared_driver->signal(SIGTERM);
   EXPECT_TRUE(shared_driver->waitEnd(kPatience));
   caller.join();
   start();
   ASSERT_TRUE(robot().waitForDrivesOnline());
-  EXPECT_EQ(read("right", 560).response.raw, 1);
+  const Read after = read("right", 560);
+  ASSERT_TRUE(after.success) << after;
+  EXPECT_EQ(after.response.raw, 1);
 }
 
 TEST_F(EepromBudget, IsKeptAcrossAKilledDriverAndRefusesInWords) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <set>
@@ -388,6 +389,15 @@ TEST_P(NotANumber, IsIgnoredAndCountedWhileTheTimeoutRuns) {
   EXPECT_TRUE(rosout.waitFrom(0, [](const rosgraph_msgs::Log& log) {
     return log.name == "/nord_driver" && log.msg.find("ignored (") != std::string::npos;
   })) << "not counted";
+  EXPECT_TRUE(robot().diagnostics.waitNext([](const diagnostic_msgs::DiagnosticArray& array) {
+    for (const auto& status : array.status) {
+      for (const auto& value : status.values) {
+        if (status.name == "nord_driver: base" && value.key == "commands ignored")
+          return std::atoi(value.value.c_str()) > 0;
+      }
+    }
+    return false;
+  })) << "not in the diagnostics";
   robot().drive(0.2);
   EXPECT_TRUE(robot().waitForTrueSpeed(0.18)) << "a good command is followed again";
 }

@@ -183,8 +183,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"WheelSeparationNegative", "wheel_separation", -0.5, "~wheel_separation", "-0.5", "a number from"},
         Mistake{"CovarianceTooShort", "pose_covariance_diagonal", listOf(0.1, 0.1), "~pose_covariance_diagonal",
                 "2 numbers", "six numbers"},
-        Mistake{"ParameterFileNotThere", "parameter_files", "/is/not/there.yaml", "/is/not/there.yaml",
-                "cannot be opened", "a readable YAML file"},
+        Mistake{"ParameterFileNotThere", "parameter_files", "/is/not/there.yaml",
+                "~parameter_files: /is/not/there.yaml", "cannot be opened", "a readable YAML file"},
         Mistake{"BusNotAGroup", "bus", "/dev/ttyUSB0", "~bus", "\"/dev/ttyUSB0\"", "a group"}),
     mistakeName);
 

@@ -94,9 +94,9 @@ TEST_F(CheckCommand, RefusesWhatMakesNoSense) {
   const Ended unknown = run({"lift"});
   EXPECT_EQ(2, unknown.code);
   EXPECT_EQ("nord_param: drive \"lift\" is not in the configuration, expected one of left, right\n", unknown.errors);
-  const Ended yes = run({"--yes"});
-  EXPECT_EQ(2, yes.code);
-  EXPECT_EQ("nord_param: --yes and --persistent belong to --fix\n", yes.errors);
+  const Ended persistent = run({"--persistent"});
+  EXPECT_EQ(2, persistent.code);
+  EXPECT_EQ("nord_param: --persistent belongs to --fix\n", persistent.errors);
 }
 
 // The others are asked all the same.

@@ -54,6 +54,18 @@ std::string complaintsOfTheSimulator(const std::string& file, const std::string&
   return ended.errors + (ended.code == 0 ? "" : "it ended with " + std::to_string(ended.code));
 }
 
+// As every other command takes it.
+TEST_F(CheckConfig, TakesTheFileByItsOption) {
+  const Ended by_word = checkText(kConveyor);
+  ASSERT_EQ(0, by_word.code) << by_word.errors;
+  const Ended by_option = check({"--config", file_});
+  EXPECT_EQ(0, by_option.code) << by_option.errors;
+  EXPECT_EQ(by_word.output, by_option.output);
+  const Ended none = check({});
+  EXPECT_EQ(2, none.code);
+  EXPECT_THAT(none.errors, HasSubstr("FILE is missing, expected the driver's YAML file, or --config with it"));
+}
+
 // What a user copies is fine as it is, and says which lines are to be changed.
 TEST_F(CheckConfig, EveryTemplateIsAcceptedWithoutAWarning) {
   std::size_t files = 0;
@@ -97,7 +109,8 @@ TEST_F(CheckConfig, ReadsTheUsersFilesOfParameters) {
   std::ofstream(own) << "devices: [sk5xxe]\nparameters:\n  - {number: 105, units: Hz}\n";
   const Ended wrong = checkText(text);
   EXPECT_EQ(1, wrong.code);
-  EXPECT_THAT(wrong.output + wrong.errors, HasSubstr(own + ":3: number 105: units is not a key of this file"));
+  EXPECT_THAT(wrong.output + wrong.errors,
+              HasSubstr("parameter_files: " + own + ":3: number 105: units is not a key of this file"));
   ::unlink(own.c_str());
 }
 

@@ -140,6 +140,32 @@ TEST_F(NordParam, SaysWhatIsWrongWithTheCommandLine) {
   EXPECT_THAT(unknown.errors, HasSubstr("write the raw value with --raw"));
 }
 
+// A script gives every command the same options; where nothing is asked --yes changes nothing.
+TEST_F(NordParam, TakesJsonAndYesForEveryCommand) {
+  const std::string scope = NORD_CONFIG_FOLDER "/../doc/pictures/scope.csv";
+  const std::string config = NORD_CONFIG_FOLDER "/demo.yaml";
+  const std::vector<std::vector<std::string>> commands{{"list"},
+                                                       {"read", "left", "P105"},
+                                                       {"write", "right", "P102", "2.5"},
+                                                       {"dump", "left"},
+                                                       {"compare", "left", "right"},
+                                                       {"restore", "left", dump_},
+                                                       {"watch", "left", "--once"},
+                                                       {"scan"},
+                                                       {"scope", "left", "--from", scope},
+                                                       {"faults", "left"},
+                                                       {"check", "left"},
+                                                       {"check-config", config}};
+  std::ofstream(dump_) << run({"dump", "left"}).output;
+  for (std::vector<std::string> words : commands) {
+    SCOPED_TRACE(words.front());
+    words.insert(words.end(), {"--json", "--yes"});
+    const Ended ended = run(words);
+    EXPECT_NE(2, ended.code) << ended.errors;
+    EXPECT_EQ('{', ended.output.empty() ? '?' : ended.output.front()) << ended.output;
+  }
+}
+
 TEST_F(NordParam, NamesAFileThatIsMissing) {
   const Ended list = runProgram({NORD_PARAM_PROGRAM, "--config", "/tmp/is_not_there.yaml", "list"});
   EXPECT_EQ(2, list.code);

@@ -47,6 +47,24 @@ TEST(ScopeCsv, KeepsEverything) {
   EXPECT_EQ(sample.input, read.samples[1].input);
 }
 
+TEST(ScopeJson, HasTheCyclesOfTheCsv) {
+  ScopeRecord record;
+  record.drive = "left";
+  ScopeSample sample;
+  sample.time = 0.01;
+  sample.answered = true;
+  sample.output = {0x047F, {8192, 0, -1}};
+  sample.input = {0x0B37, {-16384, 5, 0}};
+  record.samples = {ScopeSample{}, sample};
+  EXPECT_EQ(
+      R"({"drive": "left", "time_s": 0, "answered": false, "STW": "0000", "SW1": 0, "SW2": 0, "SW3": 0, "ZSW": "0000", "IW1": 0, "IW2": 0, "IW3": 0}
+{"drive": "left", "time_s": 0.01, "answered": true, "STW": "047F", "SW1": 8192, "SW2": 0, "SW3": -1, "ZSW": "0B37", "IW1": -16384, "IW2": 5, "IW3": 0}
+)",
+      scopeJson(record));
+  record.max_frequency = 70.0;
+  EXPECT_THAT(scopeJson(record), HasSubstr(R"("IW3": 0, "setpoint_Hz": 35, "frequency_Hz": -70})"));
+}
+
 TEST(ScopeCsv, NamesALineThatIsNoCycle) {
   EXPECT_THAT(refusal([] { readScopeCsv("# drive: left\n0.1,1,047F,a\n"); }),
               HasSubstr("line 2: \"0.1,1,047F,a\" is no cycle, expected time_s,answered,"));

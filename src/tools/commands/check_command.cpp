@@ -26,13 +26,12 @@ class CheckCommand final : public ParamCommand {
     command.options.add_options()("json", po::bool_switch(&json_), "for programs")(
         "urdf", po::value(&urdf_)->value_name("FILE"), "the robot's URDF, what robot_description is to the driver")(
         "fix", po::bool_switch(&fix_), "show what would be right, ask, and write it, in RAM")(
-        "yes", po::bool_switch(&yes_), "with --fix: write without asking")(
         "persistent", po::bool_switch(&persistent_), "with --fix: save it in the EEPROM, which endures 100 000 writes");
     return command;
   }
 
   int run(ParamProgram& program) override {
-    if (!fix_ && (yes_ || persistent_)) throw UsageError("--yes and --persistent belong to --fix");
+    if (!fix_ && persistent_) throw UsageError("--persistent belongs to --fix");
     node::NodeConfig config = node::readNodeConfig(YamlSettings{"", program.file()}, robotDescription());
     // As the driver configures it: what protects a drive is the driver's, not this program's.
     const auto transport = program.loader().load(config.transport);
@@ -107,15 +106,14 @@ class CheckCommand final : public ParamCommand {
       }
       return findings.empty() && allAsked();
     }
-    if (!isAgreed(count)) return false;
+    if (!program.isAgreed() && !askFor(count)) return false;
     for (std::size_t i = 0; i < drives_.size(); ++i) {
       if (!fixes[i].empty() && !writeTo(program, drives_[i], fixes[i])) return false;
     }
     return true;
   }
 
-  bool isAgreed(std::size_t count) const {
-    if (yes_) return true;
+  bool askFor(std::size_t count) const {
     if (::isatty(STDIN_FILENO) == 0) {
       std::fprintf(stderr,
                    "nord_param: there is no terminal to ask on: nothing was written; --yes writes without asking\n");
@@ -147,7 +145,7 @@ class CheckCommand final : public ParamCommand {
 
   std::vector<std::string> names_;
   std::string urdf_;  // file
-  bool json_ = false, fix_ = false, yes_ = false, persistent_ = false;
+  bool json_ = false, fix_ = false, persistent_ = false;
   std::vector<CommissionedDrive> drives_;
 };
 

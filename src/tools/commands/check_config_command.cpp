@@ -28,15 +28,18 @@ class CheckConfigCommand final : public ParamCommand {
     namespace po = boost::program_options;
     Command& command =
         line.addCommand("check-config", "read a configuration without hardware, and show what was understood");
-    command.arguments.push_back({"FILE", "the driver's YAML file; --config lays others over it", &file_});
+    command.arguments.push_back(
+        {"FILE", "the driver's YAML file; --config lays others over it, or names it", &file_, true});
     command.options.add_options()("json", po::bool_switch(&json_), "for programs")(
         "urdf", po::value(&urdf_)->value_name("FILE"), "the robot's URDF, what robot_description is to the driver");
     return command;
   }
 
   int run(ParamProgram& program) override {
-    std::vector<std::string> files{file_};
+    std::vector<std::string> files;
+    if (!file_.empty()) files.push_back(file_);
     files.insert(files.end(), program.files().begin(), program.files().end());
+    if (files.empty()) throw UsageError("FILE is missing, expected the driver's YAML file, or --config with it");
     std::ostringstream urdf;
     if (!urdf_.empty()) {
       const std::ifstream file(urdf_);

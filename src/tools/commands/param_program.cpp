@@ -54,6 +54,7 @@ ParamProgram::ParamProgram(CommandLine& line)
       "given several times")("node", po::value(&node_)->value_name("NAME"),
                              "the driver's node that is asked instead of the bus: /nord_driver; without it one on this "
                              "machine that has the bus is found by itself")(
+      "yes", po::bool_switch(&yes_), "do not ask, where a command asks before it writes; elsewhere it changes nothing")(
       "set-free", po::bool_switch(&set_free_),
       "CANopen: nodes that somebody left operational are led to "
       "pre-operational, when for 2 s nobody commands them and "
@@ -100,7 +101,11 @@ catalogue::Catalogues ParamProgram::catalogues() {
 catalogue::Catalogues ParamProgram::cataloguesFor(const ToolConfig& config) const {
   std::vector<std::string> own = config.parameter_files;
   own.insert(own.end(), parameter_files_.begin(), parameter_files_.end());
-  return installedCatalogues(own);
+  try {
+    return installedCatalogues(own);
+  } catch (const ConfigError& error) {
+    throw catalogue::namedBy("parameter_files", config.parameter_files, error);
+  }
 }
 
 int ParamProgram::onDrive(const std::string& drive,

@@ -67,6 +67,8 @@ class ParamProgram {
   std::vector<std::string> driveNames();
   /// cataloguesFor() the configuration, where there is one. Throws as file().
   catalogue::Catalogues catalogues();
+  /// --yes: nobody is asked.
+  bool isAgreed() const noexcept { return yes_; }
   /// On stderr, where it is a terminal.
   ProgressBar& progress() noexcept { return progress_; }
   /// The project's, those of the configuration, and --parameter-files.
@@ -105,6 +107,7 @@ class ParamProgram {
   Seconds timeout_{5.0};
   std::vector<std::string> parameter_files_;
   std::string node_;       // --node
+  bool yes_ = false;       // --yes
   bool set_free_ = false;  // --set-free
   DriveNodes* nodes_ = nullptr;
   const std::atomic<bool>& end_asked_;

@@ -26,8 +26,7 @@ class RestoreCommand final : public ParamCommand {
         line.addCommand("restore", "write a dump back: shows what would be written, asks, writes, verifies");
     addDrive(command, &drive_);
     command.arguments.push_back({"FILE", "what dump has printed; not with --resume and --take-back", &file_, true});
-    command.options.add_options()("yes", po::bool_switch(&yes_), "do not ask")("dry-run", po::bool_switch(&dry_run_),
-                                                                               "show what would be written, and end")(
+    command.options.add_options()("dry-run", po::bool_switch(&dry_run_), "show what would be written, and end")(
         "persistent", po::bool_switch(&options_.persistent),
         "save it in the EEPROM, which endures 100 000 writes of each value")(
         "save-same", po::bool_switch(&options_.save_same),
@@ -46,6 +45,7 @@ class RestoreCommand final : public ParamCommand {
   }
 
   int run(ParamProgram& program) override {
+    yes_ = program.isAgreed();
     checkWords();
     const RestoreJournal journal{journal_.empty() ? journalPath(std::getenv("ROS_HOME"), std::getenv("HOME"), drive_)
                                                   : journal_};

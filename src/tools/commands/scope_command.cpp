@@ -49,7 +49,9 @@ class ScopeCommand final : public ParamCommand {
         "max-frequency", po::value(&max_frequency_)->value_name("HZ"),
         "P105, in Hz: what 100 % is, where it cannot be read; without it a trace is drawn in %")(
         "current", po::value(&current_)->value_name("WORD"),
-        "which actual value, 1 to 3, is the current (P543 to P545 = 3)");
+        "which actual value, 1 to 3, is the current (P543 to P545 = 3)")(
+        "json", po::bool_switch(&json_),
+        "for programs: one JSON object a line and cycle on stdout, in place of the CSV");
     return command;
   }
 
@@ -131,7 +133,11 @@ class ScopeCommand final : public ParamCommand {
     const std::string picture = svg_.empty() ? std::string{} : scopeSvg(record);
     if (!csv_.empty()) put(csv_, scopeCsv(record));
     if (!svg_.empty()) put(svg_, picture);
-    if (csv_.empty() && svg_.empty()) std::fputs(scopeCsv(record).c_str(), stdout);
+    if (json_) {
+      std::fputs(scopeJson(record).c_str(), stdout);
+    } else if (csv_.empty() && svg_.empty()) {
+      std::fputs(scopeCsv(record).c_str(), stdout);
+    }
     return kDone;
   }
 
@@ -140,6 +146,7 @@ class ScopeCommand final : public ParamCommand {
   std::string csv_, svg_, from_;  // files
   boost::optional<double> max_frequency_;
   WholeNumber<1, 3> current_;  // 0: not given
+  bool json_ = false;
 };
 
 }  // namespace
