@@ -11,11 +11,11 @@
 #include <cstdlib>
 #include <functional>
 #include <limits>
-#include <set>
 #include <thread>
 #include <vector>
 
 #include "nord_driver/SimTerminals.h"
+#include "rostest/cycles_until.h"
 #include "rostest/lived_time.h"
 #include "rostest/robot_under_test.h"
 #include "support/second_try.h"
@@ -35,21 +35,6 @@ constexpr int kTwoCycles = 2;
 /// The same from a call or a message on: the way through ROS comes before them.
 constexpr int kWayAndTwoCycles = 2 + kTwoCycles;
 const Seconds kCycle{0.01};
-
-using Statuses = std::vector<Topic<DriveStatus>::Pointer>;
-using Condition = std::function<bool(const DriveStatus&)>;
-
-/// How many cycles ended before the first for which `good` holds, from `since` on; -1: none. The publisher has its own
-/// clock and may tell of a cycle twice, with one stamp.
-int cyclesUntil(const Statuses& statuses, ros::Time since, const Condition& good) {
-  std::set<ros::Time> cycles;
-  for (const auto& status : statuses) {
-    if (status->header.stamp < since) continue;
-    if (good(*status)) return static_cast<int>(cycles.size());
-    cycles.insert(status->header.stamp);
-  }
-  return -1;
-}
 
 class Stops : public RobotTest {
  protected:
