@@ -28,7 +28,7 @@ done
 # What tests these folders and needs no ROS master. Without the programs that replace malloc: they run the same code again.
 programs=(test_core test_config test_profile test_profibus test_canopen test_devicenet test_interbus test_transport test_transport_scan
   test_transport_interbus test_robot test_drive test_cycle test_explore test_system test_system_canopen test_system_devicenet
-  test_system_interbus test_system_channels)
+  test_system_interbus test_system_channels test_system_positions test_system_steered test_system_steered_stops)
 out=$root/build/coverage
 mkdir -p "$out"
 if ! $count_only; then

@@ -47,7 +47,7 @@ built() {
 
 campaign() {
   built test_campaign >"$logs/build_campaign.log" 2>&1 || { tail -n 20 "$logs/build_campaign.log"; return 125; }
-  NORD_CAMPAIGN_SCENARIOS=$($quick && echo 1500 || echo 20000) "$build/devel/lib/nord_driver/test_campaign"
+  NORD_CAMPAIGN_SCENARIOS=$($quick && echo 2000 || echo 20000) "$build/devel/lib/nord_driver/test_campaign"
 }
 mutants() {
   if $quick; then echo "--quick"; return 126; fi
