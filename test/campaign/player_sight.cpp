@@ -103,8 +103,8 @@ void Player::seeAnswers() {
 
 bool Player::concerns(const cycle::Request& request, const GroupWish& group) const {
   if (request.drive == cycle::kAllDrives) return true;
-  // A wheel of a base is enabled or disabled with it; quick stop of one stops them all.
-  if (group.is_base && request.kind != RequestKind::kQuickStop) return false;
+  // A wheel of a base is enabled with it alone; a stop of one stops them all.
+  if (group.is_base && request.kind == RequestKind::kEnable) return false;
   return std::find(group.members.begin(), group.members.end(), request.drive) != group.members.end();
 }
 
