@@ -53,6 +53,22 @@ TEST(Sentences, ARefusalTellsTheInvertersOwnReason) {
   EXPECT_THAT(text, ::testing::HasSubstr("P700[-03], is 18.1"));
 }
 
+// Of an array (P546 [-01] to [-03]: BU 0280 5.1.2) the element is named as well, of single parameters there is none.
+TEST(Sentences, AMissingWordIsNamedWithItsElement) {
+  drive::DriveReport report = onlineReport();
+  report.commanded_set = 3;
+  report.unexpected_function = drive::UnexpectedFunction{546, true, 0, 2, 2, "Torque current limit"};
+  EXPECT_THAT(refusalMessage("left", drive::Refusal::kUnexpectedFunction, report).str(),
+              ::testing::HasSubstr("set P546[-02] of drive left to 2 (Torque current limit) in parameter set 3: the "
+                                   "configuration uses it, and no word carries it; P546[-02] is 0"));
+  report.unexpected_function->is_array = false;
+  report.unexpected_function->number = 547;
+  report.unexpected_function->found = 0xFFFF;
+  EXPECT_THAT(refusalMessage("left", drive::Refusal::kUnexpectedFunction, report).str(),
+              ::testing::HasSubstr("set P547 of drive left to 2 (Torque current limit) in parameter set 3: the "
+                                   "configuration uses it, and no word carries it; P547 could not be read"));
+}
+
 TEST(Sentences, AStateTellsWhatTheDriveSaidLast) {
   EXPECT_STREQ("drive left is ready to switch on, status word 0B31", stateMessage("left", onlineReport()).c_str());
   EXPECT_STREQ("drive left does not answer", stateMessage("left", drive::DriveReport{}).c_str());
