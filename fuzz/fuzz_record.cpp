@@ -37,7 +37,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         }
         break;
       case 2:
-        channel.handleOffline();
+        channel.handleOffline(now);
+        if (choices.below(2) == 0) channel.handleStartUp();
         break;
       default: {
         if (!channel.wantsTelegram(now)) break;

@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kFirstPause = 250ms;
-constexpr Duration kLongestPause = 2s;
+constexpr Duration kLongestPause = 1500ms;  // and a start-up: back within 2 s
 // A slave with a longer watchdog is found in time without haste.
 constexpr Duration kHasteLimit = 1s;
 

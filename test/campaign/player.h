@@ -71,6 +71,7 @@ class Player {
   void judgeRecovery();
   void endNode();
   void kill();
+  void letItSayMore();
   void respawn(Duration gone);
   void tick();
   void pass(Duration span);

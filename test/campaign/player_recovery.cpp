@@ -14,6 +14,7 @@ using std::chrono::seconds;
 namespace {
 
 constexpr double kNextTarget = 1.5;  // rad
+constexpr int kWordsPass = 5;  // cycles, until those of a module that was in its time-out have reached its inverters
 
 }  // namespace
 
@@ -82,8 +83,14 @@ void Player::judgeRecovery() {
     if (now() < give_up) continue;
     return fail("BackInService", "P105 of every drive is read again", "not all parameters are read");
   }
+  // As long as one inverter behind it has a fault a module stays in its time-out (BU 0220 4.2.3.2), and lets no other word
+  // through: none of the others confirms anything before.
+  const bool held = scenario_.layout.one_module;
+  if (held) submit(RequestKind::kAcknowledge, cycle::kAllDrives, seconds{1});
+  for (const Instant answered = now() + seconds{2}; held && goesOn() && now() < answered;) tick();
   if (!goesOn() || !ask(RequestKind::kDisable, "it cannot be disabled")) return;
   if (!ask(RequestKind::kAcknowledge, "faults cannot be acknowledged")) return;
+  for (int i = 0; i < kWordsPass && held; ++i) tick();
   if (!ask(RequestKind::kEnable, "it cannot be enabled")) return;
   base_command_.until = now() + milliseconds{300};
   base_command_.linear = 0.5 * kFullSpeed * kRadius;

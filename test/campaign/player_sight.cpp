@@ -135,6 +135,12 @@ void Player::sampleParameters() {
                                    .parameters()
                                    .value(call.request.parameter.number, call.request.parameter.parameter_set - 1u);
     if (call.held.empty() || call.held.back() != value) call.held.push_back(value);
+    // Who has the address of the first one answers as well.
+    sim::DriveUnit* const twin = call.request.drive == 0 ? rig_->twin() : nullptr;
+    if (twin != nullptr && twin->plugged()) {
+      call.held.push_back(
+          twin->parameters().value(call.request.parameter.number, call.request.parameter.parameter_set - 1u));
+    }
   }
 }
 

@@ -119,16 +119,22 @@ void Player::endNode() {
 // SIGKILL: the time-outs of the drives act. One that has just begun over turning wheels has fed them with words that only
 // look: it is given the cycles it needs to say more.
 void Player::kill() {
-  while (goesOn() && began_ && now() - *began_ < byWords()) tick();
+  letItSayMore();
   moment_.judged = false;
   for (GroupWish& group : moment_.groups) group.asked = group.confirmed = false;
   disturbed_ = now();
   pass(seconds{2});
 }
 
+void Player::letItSayMore() {
+  while (goesOn() && began_ && now() - *began_ < byWords()) tick();
+}
+
 // An exception nobody caught, and roslaunch starts the node again, maybe over wheels that turn: it knows nothing. Its
 // transport is the one before, as the bus behind it is.
 void Player::respawn(Duration gone) {
+  letItSayMore();
+  if (!goesOn()) return;
   for (GroupWish& group : moment_.groups) group.asked = group.confirmed = false;
   for (Call& call : calls_) call.answered = true;  // ended with the node
   first_open_ = calls_.size();

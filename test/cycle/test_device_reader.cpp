@@ -336,6 +336,23 @@ TEST(DeviceReader, BeginsAgainWhenTheDriveHasComeBack) {
   EXPECT_FALSE(reader.data().complete);
 }
 
+// Attempts of before do not count.
+TEST(DeviceReader, BeginsAgainWithAllItsAttempts) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  const auto timesOut = [&reader] {
+    reader.pollRequest();
+    reader.handleResult(failed(ParameterOutcome::kTimeout));
+  };
+  timesOut();
+  timesOut();
+  reader.handleOffline();
+  timesOut();
+  timesOut();
+  const auto third = reader.pollRequest();
+  ASSERT_TRUE(third);
+  EXPECT_EQ(1, third->parameter_set) << "the third attempt";
+}
+
 TEST(DeviceReader, AResultNobodyWaitsForChangesNothing) {
   DeviceReader reader{profile::Series::kSk5xxe};
   reader.pollRequest();

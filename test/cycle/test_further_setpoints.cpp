@@ -176,6 +176,33 @@ TEST(FurtherSetpointsTest, AnAdditionIsACommand) {
   EXPECT_EQ(0, bench.word(2)) << "stopped";
 }
 
+// While it is brought down the ramp it is enabled still, and follows no command any more.
+TEST(FurtherSetpointsTest, AnAdditionEndsWithTheWayDown) {
+  FurtherSetpoints bench{{addition()}};
+  bench.functionOfWord2(4);
+  bench.run(120);
+  ASSERT_TRUE(bench.ask(RequestKind::kEnable, CycleBench::kLift).success);
+  for (int i = 0; i < 100; ++i) {
+    bench.commandLift(50.0);
+    bench.command(5.0);
+    bench.step();
+  }
+  ASSERT_EQ(1638, bench.word(2));
+  Request stop;
+  stop.kind = RequestKind::kDisable;
+  stop.drive = CycleBench::kLift;
+  bench.ports.submit(stop);
+  int on_the_ramp = 0;
+  for (int i = 0; i < 300; ++i) {
+    bench.commandLift(50.0);
+    bench.command(5.0);
+    bench.step();
+    EXPECT_EQ(0, bench.word(2)) << i;
+    on_the_ramp += bench.controlWord(CycleBench::kLift) == 0x047F ? 1 : 0;
+  }
+  EXPECT_GT(on_the_ramp, 0);
+}
+
 // The velocity command is too old: the base stops, and so does what was added to it.
 TEST(FurtherSetpointsTest, AnAdditionEndsWithTheVelocityCommand) {
   FurtherSetpoints bench{{addition()}};

@@ -72,7 +72,9 @@ TEST_F(Terminals, AFlickeringBitIsToldOnceASecondAtMost) {
     transport.inverters[kLeft].local = i % 2 == 0;
     step();
   }
-  EXPECT_LE(events().size(), 4u);
+  const std::size_t told = events().size();  // in 3 s
+  EXPECT_GE(told, 3u);
+  EXPECT_LE(told, 4u);
 }
 
 // What the driver itself commands is not told: the way up, driving, and the ramp down.

@@ -17,6 +17,17 @@ std::vector<NodeAnswer> answers(ScannerRun& run, Duration span) {
   return all;
 }
 
+// Class and instance of one byte go up to FFh.
+TEST(Requests, OneByteReachesTo255) {
+  ExplicitBody body;
+  EXPECT_TRUE(encode(getAttribute(1, 0xFF, 0xFF, 5), BodyFormat::k8Over8, body));
+  EXPECT_EQ((std::vector<std::uint8_t>{0x0E, 0xFF, 0xFF, 5}), std::vector<std::uint8_t>(body.begin(), body.end()));
+  EXPECT_FALSE(encode(getAttribute(1, 0x100, 1, 5), BodyFormat::k8Over8, body));
+  EXPECT_FALSE(encode(getAttribute(1, 1, 0x100, 5), BodyFormat::k8Over8, body));
+  EXPECT_TRUE(encode(getAttribute(1, 0x100, 1, 5), BodyFormat::k16Over8, body));
+  EXPECT_TRUE(encode(getAttribute(1, 1, 0x100, 5), BodyFormat::k8Over16, body));
+}
+
 // One queue per device, first in, first out; each request has one answer with its number.
 TEST(Requests, InTheirOrder) {
   ScannerRun run{busConfig(2)};

@@ -69,6 +69,12 @@ TEST(StartUp, AllRunAndAreHeard) {
   run.devices[2]->answers_rate = false;  // then it is read
   ASSERT_TRUE(run.starts());
   EXPECT_EQ(4u, run.count(DevicenetEventKind::kNodeExchanging));
+  for (const DevicenetEvent& event : run.events) {
+    if (event.kind == DevicenetEventKind::kNodeFound) {
+      EXPECT_EQ(0u, event.value);
+    }
+  }
+  EXPECT_EQ(4u, run.count(DevicenetEventKind::kNodeFound));
   EXPECT_EQ("exchanges process data by poll, expected packet rate 30 ms",
             run.eventText(DevicenetEventKind::kNodeExchanging));
   EXPECT_EQ(milliseconds{30}, run.scanner.status(2).packet_rate) << "25 ms, rounded up to tens by the device";
@@ -114,6 +120,17 @@ TEST(StartUp, TakesOverWhatIsLeftOfIt) {
   run.devices[0]->belongsTo(0, 0x02, run.now);
   ASSERT_TRUE(run.starts()) << run.scanner.status(0).reason.c_str();
   EXPECT_EQ(0x02, run.devices[0]->released_last);
+}
+
+// FFh is the master of a device that has none (allocation information): what is left of its connections
+// is nobody's.
+TEST(StartUp, NobodyIsNoOtherMaster) {
+  ScannerRun run{busConfig(1)};
+  run.devices[0]->belongsTo(0xFF, 0x02, run.now);
+  run.begin();
+  run.run(seconds{3});
+  EXPECT_FALSE(run.scanner.status(0).owner);
+  EXPECT_THAT(run.scanner.status(0).reason.c_str(), testing::Not(testing::HasSubstr("MAC id 255")));
 }
 
 // Off and on again between the two allocations: the second one is refused for want of the first. That is no refusal of the
