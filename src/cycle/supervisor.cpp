@@ -131,7 +131,9 @@ void Supervisor::endWaitingEnables(const Request& stop) noexcept {
 
 // Stops have acted by then, whatever becomes of their answer.
 void Supervisor::followUp(const Request& request, Instant now, bool begun, std::optional<Instant> enabled_at) noexcept {
-  if (jobs_.push_back({request, now + request.patience, begun, enabled_at, groupsToEnable(request)})) return;
+  const Job job{request, now + request.patience, begun, enabled_at, groupsToEnable(request)};
+  const bool room = jobs_.size() < kMostJobs || request.kind == RequestKind::kShutDown;
+  if (room && jobs_.push_back(job)) return;
   completions_.answer(request, false, "begun, but too many requests wait for their answers to follow this one");
 }
 
@@ -159,7 +161,8 @@ bool Supervisor::isEnabled(const Request& request) const noexcept {
 
 void Supervisor::startEnable(const Request& request, const CommandState& commands, Instant now) noexcept {
   if (shutting_down_) return completions_.answer(request, false, "the node is ending");
-  if (jobs_.full()) return completions_.answer(request, false, "too many requests are being carried out already");
+  if (jobs_.size() >= kMostJobs)
+    return completions_.answer(request, false, "too many requests are being carried out already");
   // As of what the drives say from now on: one may have tripped while this cycle was held up.
   if (isEnabled(request)) return followUp(request, now, true, now);
   if (nothingToEnable(request)) return followUp(request, now);
@@ -177,7 +180,7 @@ void Supervisor::startEnable(const Request& request, const CommandState& command
   followUp(request, now);
 }
 
-// Nothing else stands against it, and it takes a second at most.
+// Nothing else stands against it, and it takes a second as a rule; where the drive refuses for the moment, some more.
 bool Supervisor::awaitsParameters(const Request& request) const noexcept {
   bool awaits = false;
   for (std::size_t i = 0; i < groups_.size(); ++i) {

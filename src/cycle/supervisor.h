@@ -102,8 +102,9 @@ class Supervisor {
   const StartAcknowledge* start_;
   CommandWatch* watch_;
   bool shutting_down_ = false;
-  FixedVector<Job, 16> jobs_;
-  CompletionQueue<48> completions_;  // a full queue of requests refused, and every job ended
+  static constexpr std::size_t kMostJobs = 32;
+  FixedVector<Job, kMostJobs + 1> jobs_;  // one place is kept for the end of the node, which has to be followed
+  CompletionQueue<66> completions_;       // a full queue of requests refused, and every job ended
 };
 
 }  // namespace nord_driver::cycle

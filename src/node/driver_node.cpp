@@ -325,6 +325,9 @@ void DriverNode::bringToRest() {
   } else {
     ROS_ERROR("nord_driver: ending, although %s", answer.message.c_str());
   }
+  // Once more where no attempt has got through.
+  parameter_jobs_->end();
+  broker_->refuseWrites();
   publisher_.reset();
   putEepromSwitchesBack();
   thread_.reset();

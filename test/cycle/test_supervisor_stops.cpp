@@ -47,16 +47,40 @@ TEST_F(SupervisorStops, AStopThatIsNotConfirmedSaysWhatItLastSaw) {
   EXPECT_STREQ("not confirmed in time: drive lift is operation enabled, status word 0B37", answer.message.c_str());
 }
 
-// Sixteen requests are followed at a time. A seventeenth may go without its answer, but never without its stop.
+// Thirty-two requests are followed at a time. One more may go without its answer, but never without its stop.
 TEST_F(SupervisorStops, AStopActsHoweverManyRequestsAreUnderWay) {
   velocity = 1.0;
   run(40);
-  for (std::uint32_t id = 1; id <= 16; ++id) request(id, RequestKind::kDisable);
-  request(17, RequestKind::kQuickStop);
+  for (std::uint32_t id = 1; id <= 32; ++id) request(id, RequestKind::kDisable);
+  completions.clear();
+  request(33, RequestKind::kQuickStop);
   step();
   for (const auto& output : outputs) EXPECT_EQ(0x047B, output.control_word);
+  ASSERT_FALSE(completions.empty());
+  EXPECT_EQ(33u, completions.front().id);
+  EXPECT_THAT(completions.front().message.c_str(), HasSubstr("too many requests"));
   run(50);
   EXPECT_TRUE(supervisor.settled());
+}
+
+// The end of the node is followed in any case: told at once that it was begun, the node would close the bus over drives that
+// come down.
+TEST_F(SupervisorStops, TheEndIsFollowedHoweverManyRequestsAreUnderWay) {
+  velocity = 1.0;
+  run(40);
+  for (std::uint32_t id = 1; id <= 32; ++id) request(id, RequestKind::kDisable);
+  request(33, RequestKind::kShutDown);
+  const auto answered = [this] {
+    for (const Completion& completion : completions) {
+      if (completion.id == 33) return true;
+    }
+    return false;
+  };
+  for (int i = 0; i < 200 && !answered(); ++i) {
+    step();
+    EXPECT_TRUE(!answered() || supervisor.settled()) << i;
+  }
+  EXPECT_TRUE(answered());
 }
 
 // A whole queue of requests may be refused in one cycle; each asker is told.
