@@ -1,6 +1,7 @@
 #include "cycle/command_watch.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace nord_driver::cycle {
@@ -12,7 +13,10 @@ CommandWatch::CommandWatch(CyclePorts& ports, Duration cmd_vel_timeout, bool has
       listening_time_(std::max(cmd_vel_timeout, kLeast)),
       has_base_(has_base),
       names_(std::move(names)),
-      of_base_(std::move(of_base)) {}
+      of_base_(std::move(of_base)),
+      all_(names_.size()) {
+  std::iota(all_.begin(), all_.end(), DriveIndex{0});
+}
 
 void CommandWatch::watch(DriveIndex drive, std::size_t index, const SetpointSetup& setpoint) {
   setpoints_.push_back({drive, index, setpoint});
@@ -21,7 +25,7 @@ void CommandWatch::watch(DriveIndex drive, std::size_t index, const SetpointSetu
 CommandState CommandWatch::look(Instant now) noexcept {
   if (!since_) since_ = now;
   CommandState state;
-  state.moving = moving(now);
+  state.moving = movingOf(all_, has_base_, now);
   state.heard = std::max(Duration::zero(), now - std::max(*since_, ports_.newestCommander()));
   state.to_hear = std::max(Duration::zero(), listening_time_ - state.heard);
   state.quiet = state.moving.empty() && state.to_hear == Duration::zero() && !movedWithin(listening_time_, now);
@@ -38,22 +42,6 @@ bool CommandWatch::movedWithin(Duration span, Instant now) noexcept {
     if (recent(ports_.newestWords(watched.drive).setpoints[watched.index])) return true;
   }
   return false;
-}
-
-Sentence CommandWatch::moving(Instant now) noexcept {
-  if (has_base_) {
-    const Sentence text = movingBase(now);
-    if (!text.empty()) return text;
-  }
-  for (DriveIndex i = 0; i < names_.size(); ++i) {
-    const Sentence text = movingDrive(i, now);
-    if (!text.empty()) return text;
-  }
-  for (const Watched& watched : setpoints_) {
-    const Sentence text = movingSetpoint(watched, now);
-    if (!text.empty()) return text;
-  }
-  return {};
 }
 
 Sentence CommandWatch::movingOf(const std::vector<DriveIndex>& drives, bool base, Instant now) noexcept {

@@ -46,7 +46,6 @@ class CommandWatch {
     SetpointSetup setup;
   };
 
-  Sentence moving(Instant now) noexcept;
   bool movedWithin(Duration span, Instant now) noexcept;
   Sentence movingBase(Instant now) noexcept;
   Sentence movingDrive(DriveIndex drive, Instant now) noexcept;
@@ -58,6 +57,7 @@ class CommandWatch {
   bool has_base_;
   std::vector<std::string> names_;
   std::vector<bool> of_base_;
+  std::vector<DriveIndex> all_;
   std::vector<Watched> setpoints_;
   std::optional<Instant> since_;
 };
