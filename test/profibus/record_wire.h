@@ -7,6 +7,13 @@ namespace nord_driver::profibus {
 
 constexpr const char* kReady0ba8 = "68 0B 0B 68 81 88 08 3E 3C 00 0C 00 01 0B A8 4B 16";
 
+// To and from its access point 51, with either frame count: the answer to readAnswer() and its way.
+constexpr const char* kReadRequest = "68 09 09 68 88 81 5C 33 33 5E 00 65 08 96 16";
+constexpr const char* kReadRequest7C = "68 09 09 68 88 81 7C 33 33 5E 00 65 08 B6 16";
+constexpr const char* kPoll5C = "68 05 05 68 88 81 5C 33 33 CB 16";
+constexpr const char* kPoll7C = "68 05 05 68 88 81 7C 33 33 EB 16";
+constexpr const char* kReadResponse = "68 11 11 68 81 88 08 33 33 5E 00 65 08 15 E4 00 00 00 00 00 01 3C 16";
+
 /// Slot 1 empty, one inverter in PPO 1 (BU 0220 4.2.2.4): 12 bytes each way.
 inline SlaveConfig modularModule(int address) {
   SlaveConfig slave = nordModule(address);

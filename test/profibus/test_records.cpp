@@ -8,12 +8,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr const char* kWriteRequest = "68 11 11 68 88 81 5C 33 33 5F 00 65 08 15 E4 00 00 00 00 00 00 90 16";
-constexpr const char* kPoll7C = "68 05 05 68 88 81 7C 33 33 EB 16";
-constexpr const char* kPoll5C = "68 05 05 68 88 81 5C 33 33 CB 16";
 constexpr const char* kWriteResponse = "68 09 09 68 81 88 08 33 33 5F 00 65 08 43 16";
-constexpr const char* kReadRequest = "68 09 09 68 88 81 5C 33 33 5E 00 65 08 96 16";
-constexpr const char* kReadRequest7C = "68 09 09 68 88 81 7C 33 33 5E 00 65 08 B6 16";
-constexpr const char* kReadResponse = "68 11 11 68 81 88 08 33 33 5E 00 65 08 15 E4 00 00 00 00 00 01 3C 16";
 constexpr const char* kReadBusy = "68 09 09 68 81 88 08 33 33 DE 80 B5 00 8A 16";
 constexpr const char* kWriteBusy = "68 09 09 68 81 88 08 33 33 DF 80 B5 00 8B 16";
 

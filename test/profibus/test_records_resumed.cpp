@@ -9,11 +9,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr const char* kReadRequest = "68 09 09 68 88 81 5C 33 33 5E 00 65 08 96 16";
-constexpr const char* kReadRequest7C = "68 09 09 68 88 81 7C 33 33 5E 00 65 08 B6 16";
-constexpr const char* kPoll5C = "68 05 05 68 88 81 5C 33 33 CB 16";
-constexpr const char* kPoll7C = "68 05 05 68 88 81 7C 33 33 EB 16";
-constexpr const char* kReadResponse = "68 11 11 68 81 88 08 33 33 5E 00 65 08 15 E4 00 00 00 00 00 01 3C 16";
 constexpr const char* kReadResponse2 = "68 11 11 68 81 88 08 33 33 5E 00 65 08 15 E4 00 00 00 00 00 02 3D 16";
 constexpr const char* kNoResource = "10 01 08 02 0B 16";
 
@@ -42,13 +37,18 @@ void cycle5D(RecordWire& wire, const char* request, const char* answer) {
   wire.cycleEnds();
 }
 
-TEST(ResumedRecords, TheResponseThatWaitsIsFetchedFirst) {
-  RecordWire wire;
+/// Asked for a record, which it takes; then it is not heard for a moment.
+void isAskedAndFallsSilent(RecordWire& wire) {
   wire.startsUpModular();
   ASSERT_TRUE(wire.master.submitRecord(0, readAnswer()));
   wire.cycleWith(kReadRequest, "E5");
   fallsSilent(wire);
   EXPECT_EQ(RecordOutcome::kOffline, wire.result().outcome);
+}
+
+TEST(ResumedRecords, TheResponseThatWaitsIsFetchedFirst) {
+  RecordWire wire;
+  ASSERT_NO_FATAL_FAILURE(isAskedAndFallsSilent(wire));
   isGoneOnWith(wire);
 
   ASSERT_TRUE(wire.master.submitRecord(0, readAnswer()));
@@ -63,11 +63,7 @@ TEST(ResumedRecords, TheResponseThatWaitsIsFetchedFirst) {
 // It may be making the response still.
 TEST(ResumedRecords, AResponseInTheMakingIsWaitedFor) {
   RecordWire wire;
-  wire.startsUpModular();
-  ASSERT_TRUE(wire.master.submitRecord(0, readAnswer()));
-  wire.cycleWith(kReadRequest, "E5");
-  fallsSilent(wire);
-  EXPECT_EQ(RecordOutcome::kOffline, wire.result().outcome);
+  ASSERT_NO_FATAL_FAILURE(isAskedAndFallsSilent(wire));
   isGoneOnWith(wire);
 
   ASSERT_TRUE(wire.master.submitRecord(0, readAnswer()));
@@ -82,11 +78,7 @@ TEST(ResumedRecords, AResponseInTheMakingIsWaitedFor) {
 // One that starts anew has forgotten it.
 TEST(ResumedRecords, AfterAStartUpNothingWaits) {
   RecordWire wire;
-  wire.startsUpModular();
-  ASSERT_TRUE(wire.master.submitRecord(0, readAnswer()));
-  wire.cycleWith(kReadRequest, "E5");
-  fallsSilent(wire);
-  EXPECT_EQ(RecordOutcome::kOffline, wire.result().outcome);
+  ASSERT_NO_FATAL_FAILURE(isAskedAndFallsSilent(wire));
   wire.advance(2s);
   wire.startsUpModular();
   ASSERT_TRUE(wire.master.submitRecord(0, readAnswer()));
