@@ -130,8 +130,9 @@ void Node::handleSdo(std::size_t server, const CanFrame& frame, Instant now) noe
   port.handle(frame, now);
   if (port.counters().stale != before.stale) {
     report_.busCounters().stray_sdo += port.counters().stale - before.stale;
-    if (server == 0) boot_.handleStrayAnswer(now);
+    if (server == 0) boot_.handleStrayAnswer(frame.bytes() == last_answer_.bytes(), now);
   }
+  if (server == 0) last_answer_ = frame;
   if (port.counters().malformed != before.malformed) report_.malformed(frame, "an SDO has eight bytes", now);
   settle(now);
 }

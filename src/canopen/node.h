@@ -81,6 +81,7 @@ class Node {
   NodeBoot::Watch watch_ = NodeBoot::Watch::kOff;
   bool answered_ = false;  // its first TPDOs had come when a cycle began
   bool told_toggle_ = false;
+  CanFrame last_answer_;  // of the first SDO server
 };
 
 }  // namespace nord_driver::canopen

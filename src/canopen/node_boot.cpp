@@ -1,24 +1,13 @@
 #include "canopen/node_boot.h"
 
-#include <algorithm>
 #include <cstring>
 
+#include "canopen/boot_times.h"
 #include "canopen/error_control_objects.h"
 
 namespace nord_driver::canopen {
 namespace {
 
-constexpr Duration kFirstAskPause = std::chrono::milliseconds{100};
-constexpr Duration kFirstRefusePause = std::chrono::seconds{1};
-constexpr Duration kLongestRefusePause = std::chrono::seconds{4};
-/// Two nodes with one id get stop words for so long.
-constexpr Duration kStopBoth = std::chrono::seconds{4};
-
-/// Of the bus cycle, after a loss: in the first the drive layer learns of it, with the next goes its word that stops.
-constexpr std::uint8_t kCyclesToTell = 2;
-
-/// Bounds the end of a driver whose node does not answer.
-constexpr Duration kLongestRelease = std::chrono::seconds{1};
 constexpr std::uint16_t kErrorRegisterIndex = 0x1001;
 constexpr std::uint16_t kErrorFieldIndex = 0x1003;
 
@@ -28,13 +17,6 @@ Sentence doubleId() noexcept {
 
 NmtCommand resetCommand(BootReset reset) noexcept {
   return reset == BootReset::kResetNode ? NmtCommand::kResetNode : NmtCommand::kResetCommunication;
-}
-
-Duration startTimeout(const NodeConfig& config) noexcept {
-  const Duration period = config.error_control.mode == ErrorControlMode::kHeartbeat
-                              ? config.error_control.heartbeat_timeout
-                              : config.error_control.guard_time * 2;
-  return std::max(config.start_timeout, period);
 }
 
 }  // namespace
@@ -180,9 +162,9 @@ void NodeBoot::handleForeignRequest() noexcept {
   if (Script* const script = std::get_if<Script>(&phase_)) script->ids.giveUp();
 }
 
-void NodeBoot::handleStrayAnswer(Instant now) noexcept {
+void NodeBoot::handleStrayAnswer(bool again, Instant now) noexcept {
   Script* const script = std::get_if<Script>(&phase_);
-  if (script == nullptr || !script->ids.handleSurplus()) return;
+  if (script == nullptr || !script->ids.handleSurplus(again)) return;
   if (report_.status().state != NodeState::kRefused && !past_.doubled) {
     report_.tell(CanopenEventKind::kDoubleId, doubleId(), 0, now);
   }
@@ -289,6 +271,7 @@ void NodeBoot::handleScriptAnswer(Script& script, const SdoAnswer& answer, Insta
     case Progress::kFailed:
       return refuse(script_.reason(), now);
     case Progress::kDone:
+      if (script.ids.mixed() && !std::exchange(past_.checked, true)) return ask(now);
       return start(script.ids.found(), now);
   }
 }
@@ -342,6 +325,7 @@ void NodeBoot::silent(const Sentence& why, Instant now) noexcept {
 }
 
 void NodeBoot::start(bool doubled, Instant now) noexcept {
+  past_.checked = false;
   past_.doubled = doubled;
   command_ = NmtCommand::kStart;
   if (config_.error_control.mode == ErrorControlMode::kNone) return run(now);

@@ -66,8 +66,8 @@ class NodeBoot {
   void handleForeignCommand(NmtCommand command, Instant now) noexcept;
   /// Another master asked this node by SDO: answers that come too often are for that master.
   void handleForeignRequest() noexcept;
-  /// The node's first SDO server sent an answer nobody waits for.
-  void handleStrayAnswer(Instant now) noexcept;
+  /// The node's first SDO server sent an answer nobody waits for; `again`: the same bytes as just before.
+  void handleStrayAnswer(bool again, Instant now) noexcept;
   /// Takes SDO answers, and does what is due by time.
   void poll(Instant now) noexcept;
 
@@ -106,6 +106,8 @@ class NodeBoot {
     bool reset_due = false;  // it was not reset since it was lost
     bool fresh = false;      // see fresh()
     bool was_operational = false;
+    /// The script runs once more, because there were answers nobody had asked for: one of them may have been taken.
+    bool checked = false;
     bool doubled = false;             // two nodes answered: it was started all the same, to be stopped
     Sentence lost_why;                // empty once it was found again
     Instant lost_at{};                // or taken back last

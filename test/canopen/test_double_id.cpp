@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "canopen/master_run.h"
 
 namespace nord_driver::canopen {
@@ -52,6 +55,20 @@ TEST_F(Doubled, IsNotSaidOfABadLine) {
   EXPECT_EQ(0u, run.count(CanopenEventKind::kDoubleId));
 }
 
+// The second one is slow and answers few questions, each after the first node has answered the next one.
+TEST_F(Doubled, IsToldOfAFewAnswersThatAreNotTheOneBefore) {
+  CanFrame late;
+  run.loses = [&](const CanFrame& frame) {
+    if (frame.id != kSdoAnswer) return false;
+    if (++answers % 4 == 1) late = frame;
+    if (answers % 4 == 3) run.master.handleFrame(late, run.now);
+    return false;
+  };
+  run.begin();
+  ASSERT_TRUE(run.reaches(NodeState::kRefused, seconds{2}));
+  EXPECT_EQ(1u, run.count(CanopenEventKind::kDoubleId));
+}
+
 // Somebody else asks, too: the answers are for that master.
 TEST_F(Doubled, IsNotSaidBesideAnotherMaster) {
   other_asks = true;
@@ -60,6 +77,32 @@ TEST_F(Doubled, IsNotSaidBesideAnotherMaster) {
   EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));
   EXPECT_EQ(0u, run.count(CanopenEventKind::kDoubleId));
   EXPECT_GE(run.count(CanopenEventKind::kSecondMaster), 1u);
+}
+
+// A second node that has gone since was the first to answer: what was read is not what the node has.
+TEST_F(Doubled, ASetUpWithAnswersTooManyIsLookedAtAgain) {
+  run.nodes[0]->object(0x1800, 2).value = 1;
+  bool mistaken = false;
+  run.loses = [&](const CanFrame& frame) {
+    const bool type = frame.id == kSdoAnswer && text(frame).substr(0, 12) == "581#4F001802";
+    if (type && !std::exchange(mistaken, true)) run.say("581#4F001802FF000000");
+    return false;
+  };
+  run.begin();
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));
+  EXPECT_TRUE(mistaken);
+  EXPECT_EQ(255u, run.nodes[0]->object(0x1800, 2).value);
+}
+
+// An answer that is always there twice, with other data: not for ever.
+TEST_F(Doubled, ASetUpIsLookedAtOnceMore) {
+  run.loses = [&](const CanFrame& frame) {
+    if (text(frame).substr(0, 12) == "581#4F001802") run.say("581#4F00180201000000");
+    return false;
+  };
+  run.begin();
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));
+  EXPECT_EQ(2, std::count(run.sent.begin(), run.sent.end(), "601#4000100000000000")) << "1000h, the first of a set-up";
 }
 
 // A slow server whose answers come after the question was repeated: late ones, not those of a second node.
