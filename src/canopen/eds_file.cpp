@@ -213,21 +213,22 @@ class EdsReader {
 
   /// Nothing, and no complaint, where the data type holds no integer.
   std::optional<EdsNumber> valueOf(const EdsObject& object, const EdsValue& value) {
-    const auto bits = object.data_type ? edsBits(*object.data_type) : std::nullopt;
+    constexpr unsigned kNoInteger = 0;
+    const unsigned bits = object.data_type ? edsBits(*object.data_type).value_or(kNoInteger) : kNoInteger;
     const auto number = edsNumber(value.text);
     constexpr std::uint16_t kReal32 = 0x0008, kReal64 = 0x0011;
-    if (!bits || object.data_type == kReal32 || object.data_type == kReal64) return number;
+    if (bits == kNoInteger || object.data_type == kReal32 || object.data_type == kReal64) return number;
     if (!number) {
       problem(value.line, objectName(object.index, object.sub_index) + ": \"" + value.text + "\" is no number");
       return std::nullopt;
     }
-    if (*bits == 64 || number->value >> *bits == 0) return number;
-    const std::uint64_t sign_and_above = ~std::uint64_t{0} << (*bits - 1);
+    if (bits == 64 || number->value >> bits == 0) return number;
+    const std::uint64_t sign_and_above = ~std::uint64_t{0} << (bits - 1);
     if ((number->value & sign_and_above) == sign_and_above) {
-      return EdsNumber{number->value & ~(~std::uint64_t{0} << *bits), number->plus_node_id};
+      return EdsNumber{number->value & ~(~std::uint64_t{0} << bits), number->plus_node_id};
     }
     problem(value.line, objectName(object.index, object.sub_index) + ": \"" + value.text + "\" does not fit " +
-                            std::to_string(*bits) + " bits");
+                            std::to_string(bits) + " bits");
     return std::nullopt;
   }
 
