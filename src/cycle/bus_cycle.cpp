@@ -49,7 +49,7 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       period_(config.period()),
       cmd_vel_timeout_(config.cmd_vel_timeout),
       names_(namesOf(config)),
-      drives_(makeDrives(config, transport)),
+      drives_(makeDrives(config, transport, role == CycleRole::kOnlooker)),
       start_acknowledge_(config.acknowledge_bus_timeouts && role == CycleRole::kDriver, drives_, names_,
                          membersOfBase(config)),
       command_watch_(ports, config.cmd_vel_timeout, config.base.has_value(), names_, membersOfBase(config)),
@@ -158,15 +158,25 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
 
 // Written while it turns, P105 would be a step of the speed (the setpoint is a share of it), P104 a motion of its own.
 void BusCycle::accessParameter(const Request& request, Instant now) noexcept {
-  DriveParameters& parameters = axes_[request.drive].parameters;
-  if (!decidesMotion(request) || isAtRest(request.drive)) {
-    parameters.handleRequest(request, drives_[request.drive], now);
+  const std::optional<DriveIndex> moving = decidesMotion(request) ? movingBy(request) : std::nullopt;
+  if (!moving) {
+    axes_[request.drive].parameters.handleRequest(request, drives_[request.drive], now);
     return submitParameters(request.drive, now);  // it leaves with this cycle's exchange
   }
-  Completion refused = answerTo(request, false, parameters.notWhileEnabled(request));
+  Completion refused = answerTo(request, false, axes_[*moving].parameters.notWhileEnabled(request));
   refused.parameter.outcome = profile::ParameterOutcome::kRefused;
   refused.parameter.reason = profile::ParameterReason::kDriver;
   ports_.complete(refused);
+}
+
+// The drive whose motion the write would change. Which inverters share a module nobody here knows.
+std::optional<DriveIndex> BusCycle::movingBy(const Request& request) noexcept {
+  if (!isAtRest(request.drive)) return request.drive;
+  if (request.parameter.number != kModuleRelay) return std::nullopt;
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    if (!isAtRest(i)) return i;
+  }
+  return std::nullopt;
 }
 
 bool BusCycle::isAtRest(DriveIndex drive) noexcept {
@@ -238,7 +248,7 @@ void BusCycle::handleInputs(Instant now) noexcept {
     drives_[i].handleModule(inputs_[i].inverter_missing, now);
     drives_[i].handleInput(inputs_[i].input, inputs_[i].inverter_answers, now);
     axes_[i].known = axes_[i].known || drives_[i].report().online;
-    axes_[i].terminals.update(drives_[i].report());
+    if (role_ != CycleRole::kOnlooker) axes_[i].terminals.update(drives_[i].report());
     axes_[i].recorder.handleCycle({now, inputs_[i].inverter_answers, outputs_[i], inputs_[i].input});
   }
 }

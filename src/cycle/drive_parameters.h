@@ -30,6 +30,8 @@ bool changesProcessData(const Request& request) noexcept;
 /// A write that decides whether and how the motor follows the process data, the ones above included: nothing that may
 /// be written while the drive is enabled.
 bool decidesMotion(const Request& request) noexcept;
+/// The function of the bus module's relay (BU 0270 P150), which all inverters behind that module share.
+constexpr std::uint16_t kModuleRelay = 150;
 
 /// The way to the parameters of one drive, and who uses it.
 struct ParameterChannelUse {

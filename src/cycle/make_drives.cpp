@@ -15,7 +15,7 @@ Duration driveTimeout(const CycleConfig& config, const DriveSetup& setup, const 
 
 }  // namespace
 
-std::vector<drive::Drive> makeDrives(const CycleConfig& config, Transport& transport) {
+std::vector<drive::Drive> makeDrives(const CycleConfig& config, Transport& transport, bool onlooker) {
   std::vector<drive::Drive> drives;
   Duration shortest = Duration::max();
   for (const DriveSetup& setup : config.drives) {
@@ -24,6 +24,7 @@ std::vector<drive::Drive> makeDrives(const CycleConfig& config, Transport& trans
     drive.drive_timeout = driveTimeout(config, setup, identity);
     drive.parameter_sets = identity.parameter_sets;
     drive.has_quick_stop = identity.has_quick_stop;
+    drive.onlooker = onlooker;
     drive.led = setup.leader.has_value();
     shortest = std::min(shortest, drive.drive_timeout);
     drives.emplace_back(drive);

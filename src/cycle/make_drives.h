@@ -10,6 +10,6 @@
 namespace nord_driver::cycle {
 
 /// `transport` is configured; it is told the shortest drive_timeout.
-std::vector<drive::Drive> makeDrives(const CycleConfig& config, Transport& transport);
+std::vector<drive::Drive> makeDrives(const CycleConfig& config, Transport& transport, bool onlooker);
 
 }  // namespace nord_driver::cycle

@@ -295,7 +295,7 @@ bool Supervisor::followWaiting(Job& job, const CommandState& commands, Instant n
 
 bool Supervisor::follow(Job& job, const CommandState& commands, Instant now) noexcept {
   if (!job.begun) return followWaiting(job, commands, now);
-  if (job.request.kind == RequestKind::kEnable ? followEnable(job, now) : followStop(job)) return true;
+  if (job.request.kind == RequestKind::kEnable ? followEnable(job, now) : followStop(job, now)) return true;
   if (now < job.deadline) return false;
   completions_.answer(job.request, false, unsettled(job.request));
   // Told that it failed, its asker must not see it succeed later.
@@ -325,12 +325,15 @@ bool Supervisor::followEnable(const Job& job, Instant now) noexcept {
   return all;
 }
 
-bool Supervisor::followStop(const Job& job) noexcept {
+bool Supervisor::followStop(const Job& job, Instant now) noexcept {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     if (concerns(job.request, i) && !groups_[i].group.settled()) return false;
   }
   const Sentence silent = silentMembers(job.request);
-  if (!silent.empty() && job.request.kind != RequestKind::kShutDown) return false;  // back before the deadline, maybe
+  // Back before the deadline, maybe. The node's end waits for who was lost while it turned only: it may hear its stop.
+  const bool may_hear =
+      std::any_of(drives_.begin(), drives_.end(), [now](const auto& it) { return it.stopsUnheard(now); });
+  if (!silent.empty() && (may_hear || job.request.kind != RequestKind::kShutDown)) return false;
   if (!silent.empty()) {
     completions_.answer(job.request, false, silent);
     return true;

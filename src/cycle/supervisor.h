@@ -83,7 +83,7 @@ class Supervisor {
   bool follow(Job& job, const CommandState& commands, Instant now) noexcept;
   bool followWaiting(Job& job, const CommandState& commands, Instant now) noexcept;
   bool followEnable(const Job& job, Instant now) noexcept;
-  bool followStop(const Job& job) noexcept;
+  bool followStop(const Job& job, Instant now) noexcept;
   void takeBack(const Groups& begun, Instant now) noexcept;
   Sentence refusalOf(const Group& group, const drive::GroupRefusal& refusal) const noexcept;
   /// Names the drives the request concerns and that do not answer; empty when all do.

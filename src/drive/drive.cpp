@@ -109,7 +109,7 @@ void Drive::handleUseful(const profile::ProcessInput& input, Instant now) noexce
   report_.state = status.state();
   report_.parameter_set = status.parameterSet();
   learnSet(status, joined);
-  if (joined) enter(Phase::kIdle, now);
+  if (joined) enter(phaseOnReturn(now), now);
   if (axis_) handlePosition(now);
   checkStops(status, now);
   follow(status, now);
@@ -148,6 +148,7 @@ void Drive::goOffline(StopCause cause, Instant now) noexcept {
 }
 
 void Drive::checkStops(StatusWord status, Instant now) noexcept {
+  if (config_.onlooker) report_.fault_latched = false;
   if (status.fault()) {
     // A fault can vanish without us: dropping the enable acknowledges it, P506 and terminals do (BU 0020 8). So every
     // fault seen is kept.
@@ -224,7 +225,7 @@ void Drive::followResuming(StatusWord status, Instant now) noexcept {
 // not end is escalated as in kStopping. Without bus control no word is evaluated, and the time has not begun.
 void Drive::followIdle(StatusWord status, Instant now) noexcept {
   const bool ramps_down = phase_.sent && status.busControl() && report_.state == DriveState::kOperationEnabled;
-  if (!ramps_down) phase_.since = now;
+  if (!ramps_down || config_.onlooker) phase_.since = now;
   boundRamp(now);
 }
 

@@ -58,6 +58,8 @@ struct DriveConfig {
   bool allow_minimum_frequency = false;
   /// Cross-check the sign of actual value 1 with status bits 11 and 12. No manual defines that sign in left rotation.
   bool check_direction = true;
+  /// Another one commands it, and nothing we say reaches it: it is not stopped, and has the fault that it tells.
+  bool onlooker = false;
   /// Its setpoint comes from another inverter: ours stops nothing.
   bool led = false;
   /// It goes to positions; none: it follows velocities.
@@ -89,7 +91,7 @@ class Drive {
   /// of one that is led: as requestShutdown().
   void requestSetpointZero(Instant now) noexcept;
   void requestShutdown(Instant now) noexcept;
-  /// From every phase; offline it is what is sent on unanswered.
+  /// From every phase; offline it is what is sent on unanswered, and goes on when the drive answers again and turns.
   void requestQuickStop(Instant now) noexcept;
   /// OFF2: the output goes off at once and the motor coasts, without any braking. From every phase; nothing but
   /// "switch-on disabled" (or a fault) ends it, a quick stop neither.
@@ -154,6 +156,9 @@ class Drive {
   const DriveReport& report() const noexcept { return report_; }
   /// Nothing is being driven or stopped: idle (or offline), and the inverter confirms it by its state.
   bool isAtRest() const noexcept;
+  /// It was lost while it turned, or a stop was asked for since: what stops it is sent on without an answer, at most for
+  /// shutdown_timeout.
+  bool stopsUnheard(Instant now) const noexcept { return report_.phase == Phase::kOffline && now < unanswered_.until; }
   /// When the newest useful status word came.
   Instant lastHeard() const noexcept { return last_useful_; }
   /// Online, and actual value 1 is near zero: what a motor without voltage does, nobody can tell by it.
@@ -183,6 +188,7 @@ class Drive {
   void handleSilence(Instant now) noexcept;
   void goOffline(StopCause cause, Instant now) noexcept;
   void learnSet(profile::StatusWord status, bool joined) noexcept;
+  Phase phaseOnReturn(Instant now) const noexcept;
   /// Why its parameters, as far as they are known, keep it from being enabled.
   Refusal parameterRefusal() const noexcept;
   void checkStops(profile::StatusWord status, Instant now) noexcept;

@@ -106,6 +106,14 @@ void Drive::requestCoast(Instant now) noexcept {
   }
 }
 
+// A quick stop, or OFF2, that was not heard is still to be carried out. For an ordinary stop "idle" commands the same.
+Phase Drive::phaseOnReturn(Instant now) const noexcept {
+  const bool may_turn = report_.state == DriveState::kOperationEnabled || report_.state == DriveState::kQuickStopActive;
+  if (!may_turn || !stopsUnheard(now)) return Phase::kIdle;
+  if (unanswered_.command == Command::kQuickStop) return Phase::kQuickStopping;
+  return unanswered_.command == Command::kDisableVoltage ? Phase::kCoasting : Phase::kIdle;
+}
+
 void Drive::end(RequestReport& request, Refusal refusal) noexcept {
   request.state = refusal == Refusal::kNone ? RequestState::kDone : RequestState::kRefused;
   request.refusal = refusal;

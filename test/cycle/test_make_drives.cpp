@@ -19,7 +19,7 @@ TEST(MakeDrives, TellsTheTransportTheTimesOfTheirStops) {
 Duration driveTimeout(const CycleConfig& config, double worst_cycle) {
   ScriptedTransport transport{config.drives.size()};
   transport.worst_cycle = worst_cycle;
-  EXPECT_EQ(config.drives.size(), makeDrives(config, transport).size());
+  EXPECT_EQ(config.drives.size(), makeDrives(config, transport, false).size());
   return transport.told_drive_timeout.value_or(Duration::zero());
 }
 

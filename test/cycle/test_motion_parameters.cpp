@@ -46,6 +46,27 @@ TEST_F(MotionParameters, AreNotWrittenWhileEnabled) {
   EXPECT_FALSE(decidesMotion(read));
 }
 
+// What stands at a terminal acts at once: "enable right", a fixed frequency, "remote control" (P420 to P425, P470), and a
+// brake at an output (P434, P441, P450, P455; the module's relay, P150).
+TEST_F(MotionParameters, AreTheFunctionsOfTheTerminalsToo) {
+  bringUp();
+  ASSERT_TRUE(ask(RequestKind::kEnable, kLift).success);
+  for (const int number : {150, 420, 421, 422, 423, 424, 425, 434, 441, 450, 455, 470, 480, 481}) {
+    EXPECT_THAT(ask(write(number, 1)).message.c_str(), HasSubstr("disable drive lift first")) << number;
+  }
+}
+
+// A module's relay may be the brake of another inverter behind it.
+TEST_F(MotionParameters, TheRelayOfAModuleIsLeftAloneWhileAnyDriveIsEnabled) {
+  bringUp();
+  ASSERT_TRUE(ask(RequestKind::kEnable, kLift).success);
+  Request relay = write(150, 1);
+  relay.drive = 0;
+  EXPECT_THAT(ask(relay).message.c_str(), HasSubstr("disable drive lift first"));
+  relay.parameter.number = 420;
+  EXPECT_THAT(ask(relay).message.c_str(), Not(HasSubstr("disable")));
+}
+
 // P600 to P631 but for the positions themselves (BU 0020 7.3.5: P613 is the array).
 TEST_F(MotionParameters, DecideThePositionToo) {
   for (const int number : {600, 610, 612, 614, 631}) EXPECT_TRUE(changesProcessData(write(number, 1))) << number;

@@ -5,6 +5,7 @@
 #include "cycle/bus_cycle.h"
 #include "cycle/cycle_ports.h"
 #include "cycle/scripted_transport.h"
+#include "profile/status_word.h"
 
 namespace nord_driver::cycle {
 namespace {
@@ -72,6 +73,31 @@ TEST(Onlooker, RefusesWhateverCommandsOrWrites) {
     EXPECT_THAT(answer.message.str(), HasSubstr("read_only is true")) << static_cast<int>(kind);
   }
   onlooker.run(50);
+}
+
+// What another master drives is nobody's ramp that does not end, and nobody's terminals.
+TEST(Onlooker, FindsNothingWrongWithADriveThatOthersLetRun) {
+  Onlooker onlooker;
+  onlooker.run(50);
+  onlooker.transport.inverters[0].exchange({0x047E, {}});
+  for (int i = 0; i < 3; ++i) onlooker.transport.inverters[0].exchange({0x047F, {}});
+  onlooker.run(1500);
+  const DriveSnapshot& drive = onlooker.ports.readSnapshot().drives[0];
+  ASSERT_TRUE(profile::StatusWord{drive.input.status_word}.operationEnabled());
+  EXPECT_FALSE(drive.stopped) << drive.text.c_str();
+  EXPECT_STREQ("", drive.terminals_text.c_str());
+}
+
+// Whoever drives acknowledges: ~acknowledge_faults is refused here.
+TEST(Onlooker, HasNoFaultThatTheDriveDoesNotTell) {
+  Onlooker onlooker;
+  onlooker.run(10);
+  onlooker.transport.inverters[0].fault = true;
+  onlooker.run(2);
+  EXPECT_TRUE(onlooker.ports.readSnapshot().drives[0].fault_latched);
+  onlooker.transport.inverters[0].switchOffAndOn();
+  onlooker.run(2);
+  EXPECT_FALSE(onlooker.ports.readSnapshot().drives[0].fault_latched);
 }
 
 // A drive that others let run has no rest to be brought to.

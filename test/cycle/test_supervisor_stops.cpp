@@ -132,15 +132,45 @@ TEST_F(SupervisorStops, ADriveThatDoesNotAnswerConfirmsNoStop) {
   EXPECT_TRUE(completions.back().success) << "it came back in time";
 }
 
-// The node ends without waiting for a drive that is not there, but does not call it stopped.
+// The node ends without waiting for a drive that has long been away, but does not call it stopped.
 TEST_F(SupervisorStops, ShutDownWaitsForNoDriveThatDoesNotAnswer) {
   inverters[kLift].silent = true;
-  run(20);
+  run(150);
   const Instant asked = now;
   const Completion answer = ask(RequestKind::kShutDown);
   EXPECT_LT(now - asked, std::chrono::milliseconds{200});
   EXPECT_FALSE(answer.success);
   EXPECT_STREQ("drive lift does not answer: nobody has seen it stop", answer.message.c_str());
+}
+
+// But for one that was lost while it turned: it may hear what stops it, and be back in a moment.
+TEST_F(SupervisorStops, ShutDownWaitsForAStopThatIsStillSent) {
+  velocity = 1.0;
+  run(40);
+  inverters[kRight].silent = true;
+  run(20);
+  ASSERT_EQ(0x047E, outputs[kRight].control_word);
+  request(7, RequestKind::kShutDown);
+  run(20);
+  for (const Completion& completion : completions) EXPECT_NE(7u, completion.id) << completion.message.c_str();
+  inverters[kRight].silent = false;
+  run(60);
+  ASSERT_EQ(7u, completions.back().id);
+  EXPECT_TRUE(completions.back().success) << completions.back().message.c_str();
+}
+
+// For as long as that word is sent.
+TEST_F(SupervisorStops, ShutDownEndsWithTheStopThatNobodyAnswers) {
+  velocity = 1.0;
+  run(40);
+  inverters[kRight].silent = true;
+  run(20);
+  const Instant asked = now;
+  const Completion answer = ask(RequestKind::kShutDown, kAllDrives, std::chrono::seconds{13});
+  EXPECT_FALSE(answer.success);
+  EXPECT_STREQ("drive right does not answer: nobody has seen it stop", answer.message.c_str());
+  EXPECT_LT(now - asked, std::chrono::milliseconds{1200});
+  EXPECT_EQ(0x0000, outputs[kRight].control_word);
 }
 
 TEST_F(SupervisorStops, ShutDownNamesEveryDriveThatDoesNotAnswer) {

@@ -36,5 +36,72 @@ TEST_F(StopsWhileSilent, Coasting) {
   EXPECT_LE(sent, seconds(1.05));
 }
 
+// It answers again and turns: the stop that was asked for is the one it gets, not the ramp of an ordinary one.
+TEST_F(StopsWhileSilent, TheQuickStopIsCarriedOutWhenItAnswersAgain) {
+  run();
+  fallSilent();
+  drive_.requestQuickStop(now_);
+  ASSERT_EQ(0x047B, silence());
+  cycle(0x0B37, 0x2000);
+  EXPECT_EQ(Phase::kQuickStopping, report().phase);
+  EXPECT_EQ(Refusal::kStopping, drive_.enableRefusal());
+  EXPECT_EQ(0x047B, cycle(0x0B17, 0x1000)) << "quick stop active";
+  cycle(0x0B70);
+  EXPECT_EQ(Phase::kIdle, report().phase);
+  EXPECT_EQ(StopCause::kSilent, report().stop_cause);
+}
+
+TEST_F(StopsWhileSilent, CoastingIsCarriedOutWhenItAnswersAgain) {
+  run();
+  fallSilent();
+  drive_.requestCoast(now_);
+  ASSERT_EQ(0x047D, silence());
+  cycle(0x0B37, 0x2000);
+  EXPECT_EQ(Phase::kCoasting, report().phase);
+  EXPECT_EQ(0x047D, cycle(0x0B37, 0x2000));
+}
+
+// Begun before the line broke, and perhaps never heard.
+TEST_F(StopsWhileSilent, AQuickStopThatWasBegunGoesOn) {
+  run();
+  drive_.requestQuickStop(now_);
+  fallSilent();
+  cycle(0x0B37, 0x2000);
+  EXPECT_EQ(Phase::kQuickStopping, report().phase);
+  EXPECT_EQ(0x047B, cycle(0x0B37, 0x1000));
+}
+
+TEST_F(StopsWhileSilent, WhoHasComeToRestIsIdle) {
+  run();
+  fallSilent();
+  drive_.requestQuickStop(now_);
+  silence();
+  cycle(0x0B31);
+  EXPECT_EQ(Phase::kIdle, report().phase);
+  EXPECT_EQ(0x047E, cycle(0x0B31));
+}
+
+// An ordinary stop is what "idle" commands.
+TEST_F(StopsWhileSilent, WhoWasOnlyLostRampsDown) {
+  run();
+  fallSilent();
+  ASSERT_EQ(0x047E, silence());
+  EXPECT_TRUE(drive_.stopsUnheard(now_));
+  cycle(0x0B37, 0x2000);
+  EXPECT_EQ(Phase::kIdle, report().phase);
+  EXPECT_EQ(0x047E, cycle(0x0B37, 0x2000));
+  EXPECT_FALSE(drive_.stopsUnheard(now_));
+}
+
+TEST_F(StopsWhileSilent, AStopAskedForLongAgoIsForgotten) {
+  run();
+  fallSilent();
+  drive_.requestQuickStop(now_);
+  now_ += seconds(2.0);
+  EXPECT_FALSE(drive_.stopsUnheard(now_));
+  cycle(0x0B37, 0x2000);
+  EXPECT_EQ(0x047E, cycle(0x0B37, 0x2000));
+}
+
 }  // namespace
 }  // namespace nord_driver::drive

@@ -26,9 +26,6 @@ constexpr std::uint16_t kAddresses[] = {160, 508, 512, 515};
 constexpr std::uint16_t kWords[] = {kMaxFrequency, 120, 151, 153, 154, 510, 513};
 constexpr std::uint16_t kFirstFunction = 543, kLastFunction = 548;
 
-// Inputs and outputs: what stands at a terminal acts at once. The module's relay may be a brake's.
-constexpr std::uint16_t kTerminals[] = {150, 420, 421, 422, 423, 424, 425, 434, 441, 450, 455, 470, 480, 481};
-
 template <std::size_t kSize>
 bool isOneOf(const std::uint16_t (&numbers)[kSize], std::uint16_t number) noexcept {
   return std::find(std::begin(numbers), std::end(numbers), number) != std::end(numbers);
@@ -76,7 +73,7 @@ RestoreStage stageOf(std::uint16_t number) noexcept {
   if (isOneOf(kWords, number) || (number >= kFirstFunction && number <= kLastFunction)) {
     return RestoreStage::kProcessData;
   }
-  return isOneOf(kTerminals, number) || decidesMotion(number) ? RestoreStage::kMotion : RestoreStage::kNeutral;
+  return decidesMotion(number) ? RestoreStage::kMotion : RestoreStage::kNeutral;
 }
 
 bool meansSame(const catalogue::DriveCatalogue& known, const catalogue::ParameterAddress& address, std::int32_t first,

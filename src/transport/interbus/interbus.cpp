@@ -295,6 +295,7 @@ std::vector<std::string> InterbusTransport::warnings() const {
         "bus/running is not configured: where the ring stands and the gateway goes on answering, old status words look "
         "like new ones");
   }
+  if (read_only_) return sentences;  // nothing is written, and nothing is to be watched
   if (!server.watchdog) {
     sentences.emplace_back(
         "bus/watchdog is not configured: when this computer dies, a gateway that keeps its ring going repeats the last "

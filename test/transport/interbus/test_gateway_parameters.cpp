@@ -11,6 +11,7 @@ using profile::ParameterRequest;
 using profile::ParameterShape;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class GatewayParameters : public GatewayRing {
  protected:
@@ -92,6 +93,7 @@ TEST_F(GatewayParameters, WhoServesParametersOnlyWritesNoImage) {
     return std::string(transport.busText().c_str()).find("exception 2") != std::string::npos;
   })) << transport.busText().c_str();
   EXPECT_EQ(0u, writes());
+  EXPECT_THAT(transport.warnings(), Not(Contains(HasSubstr("watchdog"))));
 }
 
 TEST_F(GatewayParameters, ShowsTheImage) {
