@@ -102,8 +102,7 @@ void DrivePublisher::publishDeviceInfo(const cycle::DriveSnapshot& drive) {
   info.max_frequency.clear();
   for (std::size_t set = 0; set < device.max_frequency.size(); ++set) {
     // Where it cannot be read, what is configured is what the driver scales by.
-    const std::optional<Hertz>& typed = setup_.drive.max_frequency[set];
-    info.max_frequency.push_back(device.max_frequency[set].value_or(typed ? typed->value : kNotKnown));
+    info.max_frequency.push_back(device.max_frequency[set].value_or(setup_.typed_max_frequency.value_or(kNotKnown)));
   }
   const cycle::WordFunctions& words = device.word_functions[0];
   info.setpoint_functions.assign(words.setpoints.begin(), words.setpoints.end());

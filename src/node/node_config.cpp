@@ -27,10 +27,11 @@ std::array<double, 6> readCovariance(const TreeSettings& settings, const std::st
   return diagonal;
 }
 
-// What a controller file may hold that means nothing here.
+// What a controller file may hold that means nothing here; and what diagnostic_updater reads by itself.
 void acceptControllerKeys(const TreeSettings& settings) {
   settings.accept("type");                             // a plugin class
   settings.accept("estimate_velocity_from_position");  // older controllers; inverters tell velocities
+  settings.accept("diagnostic_period");                // s
 }
 
 std::string readFrame(const TreeSettings& settings, const char* key, const std::string& fallback) {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "nord_driver/DeviceInfo.h"
 #include "rostest/robot_under_test.h"
 
 namespace nord_driver::test {
@@ -100,6 +101,15 @@ TEST_F(Enable, IsRefusedUnderLocalControl) {
   ASSERT_TRUE(robot().left.status.waitNext([](const DriveStatus& status) { return status.bus_control != 0; }));
   const Answer again = robot().enable(true);
   EXPECT_TRUE(again.success) << again;
+}
+
+// 100 % of a setpoint: P105, or what is configured where no channel reads it.
+TEST_F(Enable, DeviceInfoTellsTheMaximumFrequency) {
+  ros::NodeHandle node;
+  Topic<DeviceInfo> topic(node, "nord_driver/left/device_info");
+  const auto info = topic.waitFrom(0, [](const DeviceInfo& device) { return device.max_frequency.size() == 4; });
+  ASSERT_TRUE(info);
+  for (const double frequency : info->max_frequency) EXPECT_EQ(50.0, frequency);
 }
 
 // All drives or none.
