@@ -39,7 +39,8 @@ struct RecordError {
   std::uint8_t code2 = 0;   ///< of the device
 
   bool isOfDpv1() const noexcept { return decode == 0x80; }
-  bool isBusy() const noexcept { return isOfDpv1() && code1 == 0xB5; }  ///< state conflict: ask again
+  /// State conflict, or its means are in use: ask again.
+  bool isBusy() const noexcept { return isOfDpv1() && (code1 == 0xB5 || code1 == 0xC2); }
 };
 
 /// What the codes mean, as a clause.

@@ -49,6 +49,17 @@ TEST(Records, ResponseAtOnce) {
   EXPECT_EQ(RecordOutcome::kDone, wire.result().outcome);
 }
 
+// C2: its means are in use, which passes, too.
+TEST(Records, AReadWhoseMeansAreInUseIsAskedAgain) {
+  RecordWire wire;
+  wire.startsUpModular();
+  ASSERT_TRUE(wire.master.submitRecord(0, readAnswer()));
+  wire.cycleWith(kReadRequest, "E5");
+  wire.cycleWith(kPoll5C, "68 09 09 68 81 88 08 33 33 DE 80 C2 00 97 16");
+  wire.cycleWith(kReadRequest, kReadResponse);
+  EXPECT_EQ(RecordOutcome::kDone, wire.result().outcome);
+}
+
 // "DE 80 B5" to a read is "busy": the read is sent again. To a write it is a refusal, in words.
 TEST(Records, BusyReadIsAskedAgain) {
   RecordWire wire;

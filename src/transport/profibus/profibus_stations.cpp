@@ -16,7 +16,8 @@ namespace {
 using profile::Series;
 
 constexpr std::uint8_t kIoSlot = 0x30, kEmptySlot = 0x00;  // BU 0220 4.2.2.4; P182 shows 48 for the first
-constexpr std::uint8_t kDpv1Enable = 0x80;                 // DPV1_Status_1
+// DPV1_Status_1. With the second the slave counts its watchdog in steps of 1 ms, not in those of 10 ms that it is given.
+constexpr std::uint8_t kDpv1Enable = 0x80, kWatchdogBase1ms = 0x04;
 constexpr Duration kRecordTimeout = std::chrono::seconds{1};
 constexpr const char* kTuName = "SK TU1/2/3-PBR";
 constexpr const char* kCuName = "SK CU4/TU4-PBR";
@@ -160,19 +161,38 @@ class StationBuilder {
       addInverter(plans[i], config_.drives[drives[i]], slave);
       ++slot_inverter;
     }
+    const bool dpv1_slave = gsd_ != nullptr ? gsd_->file.dpv1 : modular;
+    const bool base_1ms =
+        dpv1_slave && !slave.user_parameters.empty() && (slave.user_parameters[0] & kWatchdogBase1ms) != 0;
+    if (base_1ms) slave.user_parameters[0] ^= kWatchdogBase1ms;
     const auto text =
         agreed(plans, &Plan::user_parameters, "user_parameters", [](const std::string& hex) { return hex; });
     if (text) {
       slave.user_parameters = bytesOf(settings, *text);
+      if (dpv1_slave && !slave.user_parameters.empty() && (slave.user_parameters[0] & kWatchdogBase1ms) != 0) {
+        throw wrongSetting(settings, "user_parameters", "\"" + *text + "\"",
+                           "bit 2 of the first byte (WD_Base_1ms) 0: the watchdog is given in steps of 10 ms");
+      }
       slave.dpv1 = slave.dpv1 && slave.user_parameters.size() >= 3 && (slave.user_parameters[0] & kDpv1Enable) != 0;
     }
     if (gsd_ != nullptr) checkLengths(settings, slave);
   }
 
  private:
+  // A module of the file that is the same may have parameters of its own.
   void addSlot(profibus::SlaveConfig& slave, std::uint8_t identifier, std::size_t bytes) {
     ++modules_;
     slave.configuration.push_back(identifier);
+    if (gsd_ != nullptr) {
+      const auto& modules = gsd_->file.modules;
+      const auto same = std::find_if(modules.begin(), modules.end(), [identifier](const profibus::GsdModule& module) {
+        return module.configuration.size() == 1 && module.configuration.front() == identifier;
+      });
+      if (same != modules.end()) {
+        slave.user_parameters.insert(slave.user_parameters.end(), same->user_parameters.begin(),
+                                     same->user_parameters.end());
+      }
+    }
     slave.output_length += bytes;
     slave.input_length += bytes;
   }

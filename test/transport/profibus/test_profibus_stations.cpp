@@ -191,6 +191,32 @@ Ext_User_Prm_Data_Const(0)=0x33
 EndModule
 )gsd";
 
+// EN 50170-8: WD_Base_1ms, bit 2 of DPV1_Status_1, would make a watchdog of 0.2 s one of 20 ms.
+TEST(ProfibusStations, TheWatchdogHasOneBase) {
+  std::string text = kGsd;
+  text.replace(text.find("=0,0,0,0x11"), 11, "=0x84,0,0,0x11");
+  const GsdText gsd{text};
+  Module module;
+  module.bus.set("gsd", std::vector<std::string>{gsd.path()});
+  module.add(1, 2);
+  EXPECT_EQ("80 00 00 11 22", toHex(module.read().slaves[0].user_parameters));
+  module.settings[0]->set("user_parameters", "84 00 00");
+  EXPECT_THAT(module.refusal(), AllOf(HasSubstr("fi1/user_parameters: \"84 00 00\""), HasSubstr("WD_Base_1ms")));
+}
+
+// A module of the manual that the file has, too: with its parameters, in the order of the slots.
+TEST(ProfibusStations, SlotsHaveTheParametersOfTheFile) {
+  const GsdText gsd{std::string{kGsd} +
+                    "Module=\"Empty\" 0x00\nExt_User_Prm_Data_Const(0)=0x44\nEndModule\n"
+                    "Module=\"Profibus Module I/O\" 0x30\nExt_User_Prm_Data_Const(0)=0x55,0x66\nEndModule\n"};
+  Module module;
+  module.bus.set("gsd", std::vector<std::string>{gsd.path()});
+  module.add(2, 1).set("io_byte", true);
+  const profibus::SlaveConfig slave = module.read().slaves[0];
+  EXPECT_EQ("30 00 F5", toHex(slave.configuration));
+  EXPECT_EQ("80 00 00 11 22 55 66 44 33", toHex(slave.user_parameters));
+}
+
 // A GSD decides where the manuals contradict each other.
 TEST(ProfibusStations, AGsdFileGivesParametersIdentifiersAndTimes) {
   const GsdText gsd{kGsd};
