@@ -1,4 +1,5 @@
-// One entry of the object dictionary set to a value: read first, written only when it differs.
+// One entry of the object dictionary set to a value: read first, written only when it differs. The identifier of an SDO
+// server (1201h to 127Fh) must not change while it is valid (CiA 301 7.5.2.33): it is switched off first.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +23,14 @@ class ComparedWrite {
   const Sentence& reason() const noexcept { return reason_; }
 
  private:
+  bool isValidServerId(std::uint32_t value) const noexcept;
+
   const char* what_ = "";
   SetupWrite entry_;
   bool zero_may_miss_ = false;
-  bool writing_ = false;
+  enum class Step : std::uint8_t { kRead, kSwitchOff, kWrite };
+  Step step_ = Step::kRead;
+  std::uint32_t present_ = 0;
   Sentence reason_;
 };
 

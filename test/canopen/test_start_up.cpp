@@ -308,6 +308,19 @@ TEST(StartUp, SetsUpAndRepeatsWhatWasLost) {
   EXPECT_THAT(run.nodes[0]->writes, ElementsAre("2066:01=68", "1017:00=64"));
 }
 
+// CiA 301 7.5.2.33: bits 0 to 29 do not change while the server exists; strict ones refuse it (0609 0030h).
+TEST(StartUp, SwitchesAnSdoServerOffBeforeItGetsOtherIdentifiers) {
+  MasterConfig config = busConfig(1);
+  config.nodes[0].setup = {{0x1201, 1, 0x680, 4}, {0x1201, 2, 0x681, 4}, {0x1202, 1, 0x682, 4}};
+  MasterRun run{config};
+  run.nodes[0]->object(0x1201, 1) = {0x6A0, 4, false};
+  run.nodes[0]->object(0x1201, 2) = {0x681, 4, false};
+  run.nodes[0]->object(0x1202, 1) = {0x80000000, 4, false};
+  run.begin();
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{3}));
+  EXPECT_THAT(run.nodes[0]->writes, ElementsAre("1201:01=800006A0", "1201:01=680", "1202:01=682", "1017:00=64"));
+}
+
 TEST(StartUp, NamesARefusedSetUp) {
   MasterConfig config = busConfig(1);
   config.nodes[0].setup = {{0x2066, 1, 200, 4}};
