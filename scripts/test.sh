@@ -52,7 +52,9 @@ if $sanitize; then export NORD_CAMPAIGN_SCENARIOS=${NORD_CAMPAIGN_SCENARIOS:-400
 # Nothing of a test leaves the build folder or this machine.
 export ROS_HOME=$out/ros_home ROS_LOG_DIR=$out/ros_home/log ROS_HOSTNAME=localhost
 export LSAN_OPTIONS=${LSAN_OPTIONS:-suppressions=$root/scripts/lsan_suppressions.txt:print_suppressions=0}
-export TSAN_OPTIONS=${TSAN_OPTIONS:-suppressions=$root/scripts/tsan_suppressions.txt:print_suppressions=0:second_deadlock_stack=1}
+# Its reports are counted afterwards, by whose code they are about; a program does not fail by those of ROS.
+tsan_reports=$out/reports
+export TSAN_OPTIONS=${TSAN_OPTIONS:-suppressions=$root/scripts/tsan_suppressions.txt:print_suppressions=0:second_deadlock_stack=1:exitcode=0:log_path=$tsan_reports/tsan}
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_stack_use_after_return=1} UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
 unset ROS_MASTER_URI ROS_IP
 
@@ -214,7 +216,8 @@ count_cases() {
 # machine for themselves say RUN_SERIAL.
 run_tests() {
   local results=$out/test_results status=0
-  rm -rf "$results"
+  rm -rf "$results" "$tsan_reports"
+  mkdir -p "$tsan_reports"
   (cd "$out" && ctest -j 4 --no-tests=error) || status=$?
   count_cases "$results" "$status"
 }
@@ -275,6 +278,7 @@ echo "== tests"
 start=$SECONDS
 run_tests
 echo "== tests: $((SECONDS - start)) s"
+if $threads; then check "races" "$root/scripts/count_races.py" "$tsan_reports"; fi
 if $sanitize; then
   for name in format dependencies pictures lint fuzz workspace fresh socketcan; do
     skip $name "the run without --sanitize does it"
