@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "config/yaml_tree.h"
 #include "sim/bus_kind.h"
 #include "sim/running_bus.h"
 #include "tools/bus_port.h"
@@ -28,7 +29,12 @@ YAML::Node readFiles(const std::vector<std::string>& files) {
   YAML::Node merged;
   for (const std::string& file : files) {
     try {
-      merged = nord_driver::sim::mergeYaml(merged, YAML::LoadFile(file));
+      const YAML::Node node = YAML::LoadFile(file);
+      const std::string why = nord_driver::whyNotWalkable(node);
+      if (!why.empty()) {
+        throw nord_driver::sim::ConfigError("--config " + file + ": " + why + ", expected groups of keys and values");
+      }
+      merged = nord_driver::sim::mergeYaml(merged, node);
     } catch (const YAML::Exception& error) {
       throw nord_driver::sim::ConfigError("--config " + file + ": " + error.what() + "; expected a readable YAML file");
     }

@@ -16,14 +16,21 @@ class Backoff {
   Instant failed(Instant now) noexcept {
     const Instant until = now + next_;
     next_ = std::min(2 * next_, longest_);
+    fresh_ = false;
     return until;
   }
-  void succeeded() noexcept { next_ = first_; }
+  void succeeded() noexcept {
+    next_ = first_;
+    fresh_ = true;
+  }
+  /// The last attempt was a success, or there was none.
+  bool fresh() const noexcept { return fresh_; }
 
  private:
   Duration first_;
   Duration longest_;
   Duration next_;
+  bool fresh_ = true;
 };
 
 }  // namespace nord_driver::link

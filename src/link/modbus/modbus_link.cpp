@@ -206,8 +206,12 @@ void ModbusLink::failed() noexcept {
   const ModbusTrouble trouble = connection_.trouble();
   countTrouble(trouble, report_.counters);
   desk_.refuse(report_.text);
-  tell(LinkState::kPausing);
+  // "Busy" (5, 6) asks for a later try, and one is no reason to have the drives wait for their words: the next cycle's
+  // are that try.
+  const bool at_once = started_ && trouble == ModbusTrouble::kException && backoff_.fresh();
   const Instant until = backoff_.failed(now());
+  if (at_once) return tell(LinkState::kConnected);
+  tell(LinkState::kPausing);
   if (trouble == ModbusTrouble::kSilent && connection_.isLate(until, stop_)) {
     ++report_.counters.late;
     report_.text = connection_.reason();

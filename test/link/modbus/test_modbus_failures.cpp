@@ -134,17 +134,39 @@ TEST_F(LinkFailures, AnswersTwice) {
 TEST_F(LinkFailures, RefusesWithAnException) {
   server.always({Reaction::kException, 2});
   start();
+  ASSERT_TRUE(waitConnected());
+  link->give({1, 2, 3, 4});
+  ASSERT_TRUE(waitUntil([&] { return link->report().counters.exceptions == 1; }));
   EXPECT_EQ(
       "refuses function 16 (write registers 100 to 103) with exception 2, illegal data address: it has no such "
       "registers, look at address and length of the image",
       trouble());
-  EXPECT_EQ(1u, link->report().counters.exceptions);
+  EXPECT_EQ(2u, link->report().counters.exceptions);
   ASSERT_TRUE(waitConnected());
   EXPECT_FALSE(link->report().text.empty());
   server.always({Reaction::kAnswer});
   ASSERT_TRUE(exchange({1, 2, 3, 4}));
   EXPECT_TRUE(link->report().text.empty());
   EXPECT_EQ(1u, server.connections());
+}
+
+// "Busy, ask later" is no reason to have the drives wait for their words; a second one in a row is.
+TEST_F(LinkFailures, OneExceptionCostsOneExchange) {
+  ModbusSettings settings = fourWords(server.address());
+  settings.first_pause = settings.longest_pause = 2 * kPatience;
+  start(settings);
+  ASSERT_TRUE(waitConnected());
+  for (int i = 0; i < 3; ++i) {
+    server.next({Reaction::kException, 6});
+    link->give({1, 2, 3, 4});
+    ASSERT_TRUE(waitUntil([&] { return link->report().counters.exceptions == static_cast<unsigned>(i) + 1; }));
+    ASSERT_TRUE(exchange({1, 2, 3, 4}));
+    EXPECT_TRUE(link->report().text.empty());
+  }
+  server.always({Reaction::kException, 6});
+  link->give({1, 2, 3, 4});
+  ASSERT_TRUE(waitUntil([&] { return link->report().counters.exceptions == 4; }));
+  EXPECT_EQ(0u, trouble().find("refuses function 16")) << "pauses";
 }
 
 TEST_F(LinkFailures, ClosesTheConnection) {
