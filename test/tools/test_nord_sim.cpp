@@ -43,6 +43,14 @@ TEST_F(NordSim, ItsExitCodeTellsWrongUsageFromFailure) {
   EXPECT_THAT(missing.output, IsEmpty());
 }
 
+// By its aliases a file of one line can be a tree without end.
+TEST_F(NordSim, AFileThatHoldsItselfIsRefused) {
+  std::ofstream(config_) << "drives: &all {left: *all}\n";
+  const Ended refused = run({"--duration", "0.01"});
+  EXPECT_EQ(1, refused.code);
+  EXPECT_THAT(refused.errors, StartsWith("nord_sim: --config " + config_ + ": it is more than 50 groups and lists deep"));
+}
+
 // Shorter than a range with all its digits, and nan is no time.
 TEST_F(NordSim, ATimeThatIsNoneIsRefusedInShortWords) {
   for (const char* const wrong : {"-1", "0", "nan", "soon"}) {
