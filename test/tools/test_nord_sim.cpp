@@ -48,7 +48,8 @@ TEST_F(NordSim, AFileThatHoldsItselfIsRefused) {
   std::ofstream(config_) << "drives: &all {left: *all}\n";
   const Ended refused = run({"--duration", "0.01"});
   EXPECT_EQ(1, refused.code);
-  EXPECT_THAT(refused.errors, StartsWith("nord_sim: --config " + config_ + ": it is more than 50 groups and lists deep"));
+  EXPECT_THAT(refused.errors,
+              StartsWith("nord_sim: --config " + config_ + ": it is more than 50 groups and lists deep"));
 }
 
 // Shorter than a range with all its digits, and nan is no time.
