@@ -66,6 +66,8 @@ YAML::Node readYamlFiles(const std::vector<std::string>& files) {
   YAML::Node all{YAML::NodeType::Map};
   for (const std::string& file : files) {
     try {
+      std::error_code unknown;
+      if (std::filesystem::is_directory(file, unknown)) throw ConfigError("--config " + file + ": it is a folder");
       const YAML::Node node = YAML::LoadFile(file);
       if (!node.IsMap()) throw ConfigError("--config " + file + ": expected a file of keys and values");
       const std::string why = whyNotWalkable(node);

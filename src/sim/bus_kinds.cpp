@@ -10,11 +10,23 @@ namespace nord_driver::sim {
 
 namespace {
 
-bool names(const Group& group, const BusKind& kind) {
-  if (!group.has("transport")) return false;
-  const std::string transport = group.get<std::string>("transport", "", "the name of a transport");
-  const std::string end = kind.transport;
-  return transport.size() >= end.size() && transport.compare(transport.size() - end.size(), end.size(), end) == 0;
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// The one that the group's `transport` names; nullptr where it has none.
+const BusKind* namedIn(const Group& group) {
+  if (!group.has("transport")) return nullptr;
+  std::string expected;
+  for (const BusKind& kind : busKinds()) expected += (expected.empty() ? "" : ", ") + std::string{kind.transport};
+  const BusKind* found = nullptr;
+  group.get<std::string>("transport", "", "one of " + expected, [&found](const std::string& transport) {
+    for (const BusKind& kind : busKinds()) {
+      if (endsWith(transport, kind.transport)) found = &kind;
+    }
+    return found != nullptr;
+  });
+  return found;
 }
 
 }  // namespace
@@ -32,9 +44,10 @@ const std::vector<BusKind>& busKinds() {
 
 const BusKind& busKindOf(const Group& root) {
   const Group bus(root.has("bus") ? root["bus"] : YAML::Node{}, "bus");
-  const auto named = std::find_if(busKinds().begin(), busKinds().end(),
-                                  [&](const BusKind& kind) { return names(root, kind) || names(bus, kind); });
-  return named == busKinds().end() ? busKinds().front() : *named;
+  const BusKind* const named = namedIn(root);
+  const BusKind* const below = namedIn(bus);
+  if (named != nullptr) return *named;
+  return below != nullptr ? *below : busKinds().front();
 }
 
 std::unique_ptr<RunningBus> runBus(const SimConfig& config) {

@@ -9,6 +9,7 @@
 
 #include "config/drive_common.h"
 #include "config/driver_settings.h"
+#include "config/text_file.h"
 #include "config/yaml_settings.h"
 #include "config/yaml_tree.h"
 #include "node/node_config.h"
@@ -56,7 +57,9 @@ class Findings {
 YAML::Node load(const std::vector<std::string>& files, CheckedConfig& config) {
   for (const std::string& file : files) {
     std::error_code unreadable;
-    if (!std::filesystem::is_regular_file(file, unreadable)) throw UsageError(file + ": there is no such file");
+    const std::string unfit = whyNoTextFile(file);
+    if (!unfit.empty()) throw UsageError(file + ": " + unfit);
+    if (!std::filesystem::exists(file, unreadable)) throw UsageError(file + ": there is no such file");
     if (!std::ifstream(file)) throw UsageError(file + ": this file cannot be read");
     try {
       const YAML::Node node = YAML::LoadFile(file);

@@ -7,8 +7,10 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -29,8 +31,11 @@ YAML::Node readFiles(const std::vector<std::string>& files) {
   YAML::Node merged;
   for (const std::string& file : files) {
     try {
-      const YAML::Node node = YAML::LoadFile(file);
-      const std::string why = nord_driver::whyNotWalkable(node);
+      std::error_code unknown;
+      std::string why = std::filesystem::is_directory(file, unknown) ? "it is a folder" : "";
+      const YAML::Node node = why.empty() ? YAML::LoadFile(file) : YAML::Node{};
+      if (why.empty()) why = nord_driver::whyNotWalkable(node);
+      if (why.empty() && !node.IsMap() && !node.IsNull()) why = "it has no keys";
       if (!why.empty()) {
         throw nord_driver::sim::ConfigError("--config " + file + ": " + why + ", expected groups of keys and values");
       }
@@ -63,10 +68,10 @@ int run(int argc, char** argv) {
   BusPort port;
   Seconds duration;
   bool place = false;
-  CommandLine line{
-      "nord_sim", NORD_DRIVER_VERSION,
-      "Simulated NORD inverters: a PROFIBUS DP segment on a pseudo-terminal, or CANopen nodes on a CAN bus.",
-      "Exit code: 0 ended when asked to, 1 wrong configuration or another error, 2 wrong usage."};
+  CommandLine line{"nord_sim", NORD_DRIVER_VERSION,
+                   "Simulated NORD inverters: a PROFIBUS DP segment on a pseudo-terminal, CANopen or DeviceNet nodes "
+                   "on a CAN bus, or an InterBus ring behind a Modbus TCP gateway.",
+                   "Exit code: 0 ended when asked to, 1 wrong configuration or another error, 2 wrong usage."};
   line.setBrief("simulated NORD inverters on their bus, without ROS");
   line.addOptions()("config", po::value(&files)->value_name("FILE...")->multitoken()->required(),
                     "YAML file with bus, drives and body; a later file is laid over an earlier one; required")(

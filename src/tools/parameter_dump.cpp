@@ -60,6 +60,7 @@ std::string section(const Dump& dump, const catalogue::DriveCatalogue& known, co
 
 Dump parse(const YAML::Node& file) {
   Dump dump;
+  if (!file.IsMap() || !file["series"].IsDefined()) throw UsageError("expected the keys series and settings");
   const auto series = profile::seriesFrom(file["series"].as<std::string>());
   if (!series) throw UsageError("series \"" + file["series"].as<std::string>() + "\" is not known");
   dump.series = *series;
@@ -111,6 +112,8 @@ std::string dumpText(const Dump& dump, const catalogue::DriveCatalogue& known, c
 }
 
 Dump readDump(const std::string& file) {
+  std::error_code unknown;
+  if (std::filesystem::is_directory(file, unknown)) throw UsageError(file + ": it is a folder");
   try {
     return parse(YAML::LoadFile(file));
   } catch (const YAML::BadFile&) {

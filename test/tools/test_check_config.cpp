@@ -226,6 +226,8 @@ TEST_F(CheckConfig, AFileThatIsNoneIsWrongUsageAndOneThatIsNoYamlRefused) {
   const Ended missing = check({"/nowhere.yaml"});
   EXPECT_EQ(2, missing.code);
   EXPECT_THAT(missing.errors, HasSubstr("/nowhere.yaml: there is no such file"));
+  EXPECT_THAT(runProgram({NORD_PARAM_PROGRAM, "check-config", "/tmp"}).errors,
+              HasSubstr("/tmp: it is no ordinary file"));
   EXPECT_THAT(missing.output, IsEmpty());
   EXPECT_EQ(2, check({}).code);
   const Ended broken = checkText("bus: {device: /dev/ttyUSB0\ndrives: 3\n");
@@ -250,6 +252,9 @@ TEST_F(CheckConfig, TakesTheUrdf) {
   EXPECT_THAT(checkText(base).output, HasSubstr("wheel_separation is missing"));
   EXPECT_THAT(checkText(base, {"--urdf", urdf}).output, HasSubstr("wheel radius 0.2 m, separation 0.8 m"));
   EXPECT_EQ(2, checkText(base, {"--urdf", "/nowhere.urdf"}).code);
+  EXPECT_THAT(checkText(base, {"--urdf", "/tmp"}).errors, HasSubstr("--urdf /tmp: it is a folder"));
+  std::ofstream{urdf} << "";
+  EXPECT_THAT(checkText(base, {"--urdf", urdf}).errors, HasSubstr("--urdf " + urdf + ": it is empty"));
   ::unlink(urdf.c_str());
 }
 

@@ -175,6 +175,15 @@ TEST_F(NordParam, NamesAFileThatIsMissing) {
   EXPECT_EQ("nord_param: /tmp/is_not_there.yaml: there is no such file\n", dump.errors);
 }
 
+TEST_F(NordParam, NamesAFolderThatIsNoFile) {
+  const Ended list = runProgram({NORD_PARAM_PROGRAM, "--config", "/tmp", "list"});
+  EXPECT_EQ(2, list.code);
+  EXPECT_EQ("nord_param: --config /tmp: it is no ordinary file\n", list.errors);
+  const Ended compared = run({"compare", "left", "/tmp"});
+  EXPECT_EQ(2, compared.code);
+  EXPECT_EQ("nord_param: /tmp: it is a folder\n", compared.errors);
+}
+
 TEST_F(NordParam, NamesADeviceThatIsMissing) {
   const Ended read = run({"--timeout", "0.2", "read", "left", "P105"}, "/dev/is_not_there");
   EXPECT_EQ(1, read.code);

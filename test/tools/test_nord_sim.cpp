@@ -43,6 +43,19 @@ TEST_F(NordSim, ItsExitCodeTellsWrongUsageFromFailure) {
   EXPECT_THAT(missing.output, IsEmpty());
 }
 
+TEST_F(NordSim, SaysWhatIsWrongWithItsFile) {
+  EXPECT_EQ("nord_sim: --config /tmp: it is a folder, expected groups of keys and values\n",
+            runProgram({NORD_SIM_PROGRAM, "--config", "/tmp"}).errors);
+  std::ofstream(config_) << "[1, 2]\n";
+  EXPECT_EQ("nord_sim: --config " + config_ + ": it has no keys, expected groups of keys and values\n",
+            run({"--duration", "0.01"}).errors);
+  std::ofstream(config_) << "{transport: canopn, drives: {left: {address: 3}}}\n";
+  const Ended misspelt = run({"--duration", "0.01"});
+  EXPECT_EQ(1, misspelt.code);
+  EXPECT_THAT(misspelt.errors, ::testing::HasSubstr("transport: canopn is not valid"));
+  EXPECT_THAT(misspelt.errors, ::testing::HasSubstr("profibus_dp, canopen, devicenet, interbus"));
+}
+
 // By its aliases a file of one line can be a tree without end.
 TEST_F(NordSim, AFileThatHoldsItselfIsRefused) {
   std::ofstream(config_) << "drives: &all {left: *all}\n";

@@ -2,14 +2,13 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <fstream>
 #include <iostream>
-#include <sstream>
 
 #include "config/yaml_settings.h"
 #include "tools/commands/commands.h"
 #include "tools/commissioning_check.h"
 #include "tools/commissioning_text.h"
+#include "tools/urdf_file.h"
 #include "tools/usage_error.h"
 
 namespace nord_driver::tools {
@@ -32,7 +31,7 @@ class CheckCommand final : public ParamCommand {
 
   int run(ParamProgram& program) override {
     if (!fix_ && persistent_) throw UsageError("--persistent belongs to --fix");
-    node::NodeConfig config = node::readNodeConfig(YamlSettings{"", program.file()}, robotDescription());
+    node::NodeConfig config = node::readNodeConfig(YamlSettings{"", program.file()}, readUrdf(urdf_));
     // As the driver configures it: what protects a drive is the driver's, not this program's.
     const auto transport = program.loader().load(config.transport);
     const node::ConfiguredTransport configured = node::configureTransport(config, *transport);
@@ -51,15 +50,6 @@ class CheckCommand final : public ParamCommand {
   }
 
  private:
-  std::string robotDescription() const {
-    std::ostringstream urdf;
-    if (urdf_.empty()) return {};
-    const std::ifstream file(urdf_);
-    if (!file) throw UsageError("--urdf " + urdf_ + ": this file cannot be read");
-    urdf << file.rdbuf();
-    return urdf.str();
-  }
-
   bool allAsked() const {
     for (const CommissionedDrive& drive : drives_) {
       if (!drive.facts) return false;

@@ -4,12 +4,11 @@
 
 #include <clocale>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 
 #include "tools/commands/commands.h"
 #include "tools/config_check.h"
 #include "tools/config_picture.h"
+#include "tools/urdf_file.h"
 #include "tools/usage_error.h"
 
 namespace nord_driver::tools {
@@ -40,17 +39,11 @@ class CheckConfigCommand final : public ParamCommand {
     if (!file_.empty()) files.push_back(file_);
     files.insert(files.end(), program.files().begin(), program.files().end());
     if (files.empty()) throw UsageError("FILE is missing, expected the driver's YAML file, or --config with it");
-    std::ostringstream urdf;
-    if (!urdf_.empty()) {
-      const std::ifstream file(urdf_);
-      if (!file) throw UsageError("--urdf " + urdf_ + ": this file cannot be read");
-      urdf << file.rdbuf();
-    }
     const auto load = [&program](const std::string& name) {
       const auto transport = program.loader().load(name);
       return std::shared_ptr<Transport>(transport.get(), [transport](Transport*) {});
     };
-    const CheckedConfig config = checkConfig(files, urdf.str(), program.port(), load);
+    const CheckedConfig config = checkConfig(files, readUrdf(urdf_), program.port(), load);
     std::fputs((json_ ? configJson(config) : configPicture(config, drawsLines())).c_str(), stdout);
     return config.accepted() ? kDone : kFailed;
   }
