@@ -54,7 +54,7 @@ export ROS_HOME=$out/ros_home ROS_LOG_DIR=$out/ros_home/log ROS_HOSTNAME=localho
 export LSAN_OPTIONS=${LSAN_OPTIONS:-suppressions=$root/scripts/lsan_suppressions.txt:print_suppressions=0}
 # Its reports are counted afterwards, by whose code they are about; a program does not fail by those of ROS.
 tsan_reports=$out/reports
-export TSAN_OPTIONS=${TSAN_OPTIONS:-suppressions=$root/scripts/tsan_suppressions.txt:print_suppressions=0:second_deadlock_stack=1:exitcode=0:log_path=$tsan_reports/tsan}
+export TSAN_OPTIONS=${TSAN_OPTIONS:-suppressions=$root/scripts/tsan_suppressions.txt:print_suppressions=0:second_deadlock_stack=1:exitcode=0:handle_segv=0:handle_abort=0:handle_sigbus=0:handle_sigfpe=0:handle_sigill=0:log_path=$tsan_reports/tsan}
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_stack_use_after_return=1} UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
 unset ROS_MASTER_URI ROS_IP
 

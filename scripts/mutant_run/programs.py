@@ -76,9 +76,11 @@ class Program:
         if run.code == 0:
             return None
         if run.code is None:
-            return f"{self.name}: does not end"
+            return f"{self.name}: does not end" if self._endsWithout(tests, alone) else None
         failed = re.findall(r"^\[  FAILED  \] ([\w/]+\.[\w/]+)", run.text, re.M)
         if not failed:
+            if not self._endsWithout(tests, alone):
+                return None
             started = re.findall(r"^\[ RUN      \] (\S+)", run.text, re.M)
             how = signal.Signals(-run.code).name if run.code < 0 else f"code {run.code}"
             return f"{self.name}: {how} in {started[-1] if started else 'its start'}"
@@ -88,6 +90,10 @@ class Program:
             others = [test for test in tests if test not in failed]
             return self._partTells(number, others) if others else None
         return f"{self.name}: {failed[0]}"
+
+    def _endsWithout(self, tests, alone):
+        """Without the mutant they end, and pass: the machine has not made it what it was."""
+        return self._start(0, [], tests, {}, cpu=4 * alone + 3, wall=20 * alone + 60).code == 0
 
     def _start(self, number, arguments, tests, extra, cpu=3600, wall=3600):
         environment = dict(os.environ, NORD_MUTANT=str(number), **extra)
