@@ -161,24 +161,29 @@ class StationBuilder {
       addInverter(plans[i], config_.drives[drives[i]], slave);
       ++slot_inverter;
     }
-    const bool dpv1_slave = gsd_ != nullptr ? gsd_->file.dpv1 : modular;
-    const bool base_1ms =
-        dpv1_slave && !slave.user_parameters.empty() && (slave.user_parameters[0] & kWatchdogBase1ms) != 0;
-    if (base_1ms) slave.user_parameters[0] ^= kWatchdogBase1ms;
     const auto text =
         agreed(plans, &Plan::user_parameters, "user_parameters", [](const std::string& hex) { return hex; });
     if (text) {
       slave.user_parameters = bytesOf(settings, *text);
-      if (dpv1_slave && !slave.user_parameters.empty() && (slave.user_parameters[0] & kWatchdogBase1ms) != 0) {
-        throw wrongSetting(settings, "user_parameters", "\"" + *text + "\"",
-                           "bit 2 of the first byte (WD_Base_1ms) 0: the watchdog is given in steps of 10 ms");
-      }
       slave.dpv1 = slave.dpv1 && slave.user_parameters.size() >= 3 && (slave.user_parameters[0] & kDpv1Enable) != 0;
     }
+    const bool dpv1_slave = gsd_ != nullptr ? gsd_->file.dpv1 : modular;
+    const bool base_1ms =
+        dpv1_slave && !slave.user_parameters.empty() && (slave.user_parameters[0] & kWatchdogBase1ms) != 0;
+    if (base_1ms && text) {
+      throw wrongSetting(settings, "user_parameters", "\"" + *text + "\"",
+                         "bit 2 of the first byte (WD_Base_1ms) 0: the watchdog is given in steps of 10 ms");
+    }
+    if (base_1ms) slave.user_parameters[0] ^= kWatchdogBase1ms;
     if (gsd_ != nullptr) checkLengths(settings, slave);
   }
 
  private:
+  static void addParameters(profibus::SlaveConfig& slave, const profibus::GsdModule& module) {
+    slave.user_parameters.insert(slave.user_parameters.end(), module.user_parameters.begin(),
+                                 module.user_parameters.end());
+  }
+
   // A module of the file that is the same may have parameters of its own.
   void addSlot(profibus::SlaveConfig& slave, std::uint8_t identifier, std::size_t bytes) {
     ++modules_;
@@ -188,10 +193,7 @@ class StationBuilder {
       const auto same = std::find_if(modules.begin(), modules.end(), [identifier](const profibus::GsdModule& module) {
         return module.configuration.size() == 1 && module.configuration.front() == identifier;
       });
-      if (same != modules.end()) {
-        slave.user_parameters.insert(slave.user_parameters.end(), same->user_parameters.begin(),
-                                     same->user_parameters.end());
-      }
+      if (same != modules.end()) addParameters(slave, *same);
     }
     slave.output_length += bytes;
     slave.input_length += bytes;
@@ -236,8 +238,7 @@ class StationBuilder {
       if (const auto* module = findPpoModule(gsd_->file, plan.ppo_type, drive.ppo)) {
         identifiers = module->configuration;
         takeLength(plan, *module, drive);
-        slave.user_parameters.insert(slave.user_parameters.end(), module->user_parameters.begin(),
-                                     module->user_parameters.end());
+        addParameters(slave, *module);
       } else {
         config_.warnings.push_back(gsd_->path + " has no module that is PPO " + std::to_string(plan.ppo_type) +
                                    " by name or by its identifiers " + toHex(drive.ppo.identifiers) +
