@@ -68,7 +68,7 @@ look_into() {
 
 make=(catkin_make -C "$workspace" -j "$jobs" -DPYTHON_EXECUTABLE=/usr/bin/python3
   -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 # without debug information: nobody debugs these
-  -DNORD_DRIVER_PRECOMPILE=ON) # check_fresh.sh builds without
+  -DNORD_DRIVER_PRECOMPILE=ON -DNORD_DRIVER_MERGE_SOURCES=ON) # lint reads each source alone
 step "catkin_make" "${make[@]}"
 look_into "$workspace/devel"
 step "catkin_make install" "${make[@]}" install

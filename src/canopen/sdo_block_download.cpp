@@ -9,7 +9,7 @@ namespace nord_driver::canopen {
 
 namespace {
 
-constexpr std::uint8_t kEnd = kAskBlockDownload | 0x01;
+constexpr std::uint8_t kEndOfDownload = kAskBlockDownload | 0x01;
 constexpr std::uint8_t kAcknowledged = kBlockDownloadAnswer | 0x02;
 constexpr std::uint8_t kEnded = kBlockDownloadAnswer | 0x01;
 constexpr std::uint8_t kAnswerMask = kCommandMask | 0x03;
@@ -37,7 +37,7 @@ bool BlockDownload::pollTransmit(SdoBytes& request, const SdoBuffer& buffer) noe
   if (state_ == State::kToEnd) {
     const std::size_t unused = segments * kSdoSegmentLength - buffer.size();
     const std::uint16_t crc = crc_ ? sdoCrc(buffer) : std::uint16_t{0};
-    request[0] = static_cast<std::uint8_t>(kEnd | unused << 2);
+    request[0] = static_cast<std::uint8_t>(kEndOfDownload | unused << 2);
     request[1] = static_cast<std::uint8_t>(crc & 0xFFu);
     request[2] = static_cast<std::uint8_t>(crc >> 8);
     state_ = State::kAwaitEnd;

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint8_t kStart = kAskBlockUpload | 0x03;
 constexpr std::uint8_t kAcknowledge = kAskBlockUpload | 0x02;
 constexpr std::uint8_t kConfirmEnd = kAskBlockUpload | 0x01;
-constexpr std::uint8_t kEnd = kBlockUploadAnswer | 0x01;
+constexpr std::uint8_t kEndOfUpload = kBlockUploadAnswer | 0x01;
 constexpr std::uint8_t kEndMask = kCommandMask | 0x03;
 
 }  // namespace
@@ -91,7 +91,7 @@ SdoStep BlockUpload::acknowledge() noexcept {
 }
 
 SdoStep BlockUpload::handleEnd(const SdoBytes& response, SdoBuffer& buffer) noexcept {
-  if ((response[0] & kEndMask) != kEnd) return SdoStep::stale();
+  if ((response[0] & kEndMask) != kEndOfUpload) return SdoStep::stale();
   const std::size_t unused = response[0] >> 2 & 7u;
   if (unused > buffer.size()) return SdoStep::abort(sdo_abort::kLength);
   buffer.resize(buffer.size() - unused);

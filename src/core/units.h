@@ -3,6 +3,8 @@
 
 namespace nord_driver {
 
+constexpr double kPi = 3.14159265358979323846;
+
 /// Angular velocity in rad/s, positive by the right-hand rule about the joint's axis.
 struct RadPerSec {
   double value = 0.0;

@@ -29,6 +29,7 @@ constexpr std::uint8_t kMulticastPolled = 0x08;
 constexpr std::uint8_t kChangeOfState = 0x10;
 constexpr std::uint8_t kCyclic = 0x20;
 constexpr std::uint8_t kAcknowledgeSuppressed = 0x40;  ///< with one of the two before only
+constexpr std::uint8_t kConnections = 0x3F;            ///< the bits that name a connection
 }  // namespace choice
 
 /// Directions are ours: outputs go to the device.

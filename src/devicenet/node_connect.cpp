@@ -3,12 +3,6 @@
 #include "devicenet/error_codes.h"
 
 namespace nord_driver::devicenet {
-namespace {
-
-/// Bits of a choice that name connections.
-constexpr std::uint8_t kConnections = 0x3F;
-
-}  // namespace
 
 NodeConnect::NodeConnect(const NodeConfig& config, const ScannerConfig& bus, NodeReport& report,
                          ExplicitChannel& channel) noexcept
@@ -101,7 +95,7 @@ std::optional<ConnectRequest> NodeConnect::requestOf(Phase phase) const noexcept
       return allocateRequest(io_choice_, bus_.mac);
     case Phase::kReleaseStaleIo:
     case Phase::kReleaseIo:
-      return releaseRequest(io_choice_ & kConnections);
+      return releaseRequest(io_choice_ & choice::kConnections);
     case Phase::kProducedSize:
       return connectionRequest(instance_, connection_attribute::kProducedSize);
     case Phase::kConsumedSize:
@@ -115,7 +109,7 @@ std::optional<ConnectRequest> NodeConnect::requestOf(Phase phase) const noexcept
       return connectionRequest(instance_, connection_attribute::kState);
     case Phase::kReleaseAll:
     case Phase::kReleasing:
-      return releaseRequest(held_ & kConnections);
+      return releaseRequest(held_ & choice::kConnections);
     case Phase::kOff:
     case Phase::kPause:
     case Phase::kAwaitOwnTimeOut:

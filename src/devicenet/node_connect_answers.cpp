@@ -8,8 +8,6 @@
 namespace nord_driver::devicenet {
 namespace {
 
-/// Bits of a choice that name connections.
-constexpr std::uint8_t kConnections = 0x3F;
 /// The master's MAC id of a device that has none.
 constexpr std::uint8_t kNobody = 0xFF;
 /// So long after a frame of another master the device is taken to be its.
@@ -75,9 +73,9 @@ void NodeConnect::handleOwner(const ExplicitAnswer& answer, Instant now) noexcep
     return refuse(why, now);
   }
   // Ours from before, as far as anybody knows: released with the bits that are allocated.
-  const bool told = answer.ok() && answer.data.size() == 2 && (answer.data[0] & kConnections) != 0;
-  stale_ = told ? static_cast<std::uint8_t>(answer.data[0] & kConnections)
-                : static_cast<std::uint8_t>((io_choice_ & kConnections) | choice::kExplicit);
+  const bool told = answer.ok() && answer.data.size() == 2 && (answer.data[0] & choice::kConnections) != 0;
+  stale_ = told ? static_cast<std::uint8_t>(answer.data[0] & choice::kConnections)
+                : static_cast<std::uint8_t>((io_choice_ & choice::kConnections) | choice::kExplicit);
   enter(Phase::kReleaseStale, now);
 }
 
@@ -340,7 +338,7 @@ void NodeConnect::refuse(const Sentence& why, Instant now) noexcept {
 void NodeConnect::refuseIo(const Sentence& why, Instant now) noexcept {
   tellRefused(why, now);
   channel_.open();
-  if ((held_ & io_choice_ & kConnections) != 0) return enter(Phase::kReleaseIo, now);
+  if ((held_ & io_choice_ & choice::kConnections) != 0) return enter(Phase::kReleaseIo, now);
   phase_ = Phase::kRefusedPause;
   timers_.set(Timer::kRetry, now + bus_.longest_retry);
 }

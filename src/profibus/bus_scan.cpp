@@ -4,12 +4,6 @@
 
 namespace nord_driver::profibus {
 
-namespace {
-
-constexpr std::uint8_t kUnnamed = 126;
-
-}  // namespace
-
 Sentence describe(std::uint8_t address, const ScannedStation& station) noexcept {
   Sentence text;
   switch (station.kind) {
@@ -24,7 +18,8 @@ Sentence describe(std::uint8_t address, const ScannedStation& station) noexcept 
     case ScannedStation::Kind::kSlave:
       break;
   }
-  const char* const unnamed = address == kUnnamed ? ", not addressed yet: set its address to 3 to 125" : "";
+  const char* const unnamed =
+      address == StationAddress::kUnnamed ? ", not addressed yet: set its address to 3 to 125" : "";
   if (!station.ident) {
     text.format("is a slave that does not tell its diagnosis%s", unnamed);
   } else if (station.owner == kNoOwner) {

@@ -10,7 +10,7 @@ namespace nord_driver::profibus {
 
 namespace {
 
-constexpr unsigned kMaxNumber = 65'535;
+constexpr unsigned kMaxReference = 65'535;
 constexpr unsigned kLastBit = 7;
 
 struct Integer {
@@ -158,7 +158,7 @@ void layOver(const GsdDefault& from, std::size_t offset, std::vector<std::uint8_
 
 void GsdParameters::begin(const GsdStatement& statement) {
   const std::string& value = statement.value;
-  number_ = gsdNumber(value.substr(0, value.find_first_of("\"'")), kMaxNumber);
+  number_ = gsdNumber(value.substr(0, value.find_first_of("\"'")), kMaxReference);
   typed_ = false;
   if (!number_) problem(statement.line, "ExtUserPrmData without a number");
 }
@@ -183,7 +183,7 @@ void GsdParameters::takeLine(const GsdStatement& statement) {
 
 void GsdParameters::refer(const GsdStatement& statement, std::optional<std::size_t> module) {
   const auto offset = gsdNumber(statement.argument, kMaxUserParameters - 1);
-  const auto number = gsdNumber(statement.value, kMaxNumber);
+  const auto number = gsdNumber(statement.value, kMaxReference);
   if (!offset || !number) {
     return problem(statement.line, "Ext_User_Prm_Data_Ref needs (offset) = number, in 237 bytes at most");
   }

@@ -10,6 +10,8 @@ namespace nord_driver::profibus {
 /// (EN 50170-8; BU 0220 4.2.2). The broadcast address 127 is none of these.
 class StationAddress {
  public:
+  static constexpr std::uint8_t kUnnamed = 126;
+
   /// The address of a station nobody has named yet: every check of a configuration refuses it.
   constexpr StationAddress() = default;
 
@@ -25,8 +27,6 @@ class StationAddress {
   friend constexpr bool operator!=(StationAddress a, StationAddress b) noexcept { return a.value_ != b.value_; }
 
  private:
-  static constexpr std::uint8_t kUnnamed = 126;
-
   constexpr explicit StationAddress(std::uint8_t value) noexcept : value_(value) {}
 
   std::uint8_t value_ = kUnnamed;

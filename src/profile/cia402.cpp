@@ -5,6 +5,7 @@
 
 #include "profile/control_word.h"
 #include "profile/scaling.h"
+#include "profile/status_word.h"
 
 namespace nord_driver::profile {
 
@@ -17,11 +18,6 @@ constexpr Word kControlLeft = 1u << 11;  // BU 0070 6.4.2: 0 = right
 constexpr Word kStatusRemote = 1u << 9;
 constexpr Word kStatusReached = 1u << 10;
 constexpr Word kStatusLeft = 1u << 14;
-
-constexpr Word kNordReached = 1u << 8;
-constexpr Word kNordBusControl = 1u << 9;
-constexpr Word kNordRight = 1u << 11;
-constexpr Word kNordLeft = 1u << 12;
 
 std::int16_t toInt16(double value) noexcept {
   return static_cast<std::int16_t>(std::lround(std::min(32767.0, std::max(-32768.0, value))));
@@ -47,9 +43,9 @@ ProcessInput Cia402Scaling::fromCia402(const Cia402Input& input) const noexcept 
   ProcessInput to;
   if (input.status_word == 0) return to;
   to.status_word = input.status_word & kCommonBits;
-  if ((input.status_word & kStatusReached) != 0) to.status_word |= kNordReached;
-  if ((input.status_word & kStatusRemote) != 0) to.status_word |= kNordBusControl;
-  to.status_word |= (input.status_word & kStatusLeft) != 0 ? kNordLeft : kNordRight;
+  if ((input.status_word & kStatusReached) != 0) to.status_word |= status_bit::kReached;
+  if ((input.status_word & kStatusRemote) != 0) to.status_word |= status_bit::kBusControl;
+  to.status_word |= (input.status_word & kStatusLeft) != 0 ? status_bit::kLeft : status_bit::kRight;
   const double full = rpmOfHundredPercent();
   if (full > 0.0) to.actual_values[0] = toInt16(kHundredPercent * input.actual_velocity / full);
   return to;

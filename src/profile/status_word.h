@@ -21,6 +21,15 @@ enum class DriveState : std::uint8_t {
   kUnknown = 255,
 };
 
+/// Bits of a status word (BU 2700 6.4.2), for what writes one.
+namespace status_bit {
+constexpr Word kWarning = 1u << 7;
+constexpr Word kReached = 1u << 8;
+constexpr Word kBusControl = 1u << 9;
+constexpr Word kRight = 1u << 11;
+constexpr Word kLeft = 1u << 12;
+}  // namespace status_bit
+
 /// "ready to switch on", for sentences.
 const char* toString(DriveState state) noexcept;
 

@@ -4,10 +4,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/units.h"
+
 namespace nord_driver::robot {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 double normalized(double angle) noexcept {
   const double rest = std::remainder(angle, 2.0 * kPi);

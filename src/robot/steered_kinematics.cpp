@@ -7,11 +7,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/units.h"
+
 namespace nord_driver::robot {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kRounding = 1e-9;           // rad, at the ends of a range
 constexpr double kStands = 1e-3;             // of the fastest axle: where the direction of a motion means nothing
 constexpr double kSmallestDistance = 1e-3;   // m

@@ -178,7 +178,7 @@ TEST_F(NordParam, NamesAFileThatIsMissing) {
 TEST_F(NordParam, NamesAFolderThatIsNoFile) {
   const Ended list = runProgram({NORD_PARAM_PROGRAM, "--config", "/tmp", "list"});
   EXPECT_EQ(2, list.code);
-  EXPECT_EQ("nord_param: --config /tmp: it is no ordinary file\n", list.errors);
+  EXPECT_EQ("nord_param: --config /tmp: it is a folder\n", list.errors);
   const Ended compared = run({"compare", "left", "/tmp"});
   EXPECT_EQ(2, compared.code);
   EXPECT_EQ("nord_param: /tmp: it is a folder\n", compared.errors);

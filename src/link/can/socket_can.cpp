@@ -11,7 +11,7 @@ namespace nord_driver::link {
 
 namespace {
 
-constexpr std::size_t kLongestError = 500;
+constexpr std::size_t kLongestInterfaceError = 500;
 /// A controller that reports every single bit error must not hold the caller for ever.
 constexpr int kMostErrorFramesAtOnce = 64;
 constexpr int kMostMessagesAtOnce = 64;
@@ -29,7 +29,7 @@ std::vector<std::uint32_t> withoutRepeats(std::vector<std::uint32_t> ids) {
 }  // namespace
 
 SocketCan::SocketCan(const CanSettings& settings, CanSystem& system) : settings_(settings), system_(system) {
-  error_.reserve(kLongestError);  // so that naming an error in the bus cycle does not allocate
+  error_.reserve(kLongestInterfaceError);  // so that naming an error in the bus cycle does not allocate
   settings_.ids = withoutRepeats(settings_.ids);
   static_cast<void>(checkCanSettings(settings_, problem_));
 }
@@ -39,7 +39,7 @@ SocketCan::~SocketCan() {
 }
 
 bool SocketCan::fail(const char* what, int error) noexcept {
-  char text[kLongestError];
+  char text[kLongestInterfaceError];
   std::snprintf(text, sizeof text, "%s: %s%s%s", settings_.interface.c_str(), what, error != 0 ? ": " : "",
                 error != 0 ? ErrorText{error}.c_str() : "");
   close();

@@ -11,7 +11,7 @@ namespace nord_driver::link {
 
 namespace {
 
-constexpr std::size_t kLongestError = 1024;
+constexpr std::size_t kLongestPortError = 1024;
 
 bool meansUnplugged(long error) noexcept {
   return error == EIO || error == ENXIO || error == ENODEV || error == EPIPE;
@@ -27,7 +27,7 @@ const char* remedyOf(int error) noexcept {
 
 SerialPort::SerialPort(const SerialSettings& settings, SerialSystem& system)
     : settings_(settings), system_(system), finder_(settings.device, settings.follow_adapter), echo_(settings.echo) {
-  error_.reserve(kLongestError);  // so that naming an error in the bus cycle does not allocate
+  error_.reserve(kLongestPortError);  // so that naming an error in the bus cycle does not allocate
 }
 
 SerialPort::~SerialPort() {
@@ -35,7 +35,7 @@ SerialPort::~SerialPort() {
 }
 
 bool SerialPort::fail(const char* what, int error, const char* remedy) noexcept {
-  char text[kLongestError];
+  char text[kLongestPortError];
   const std::string& configured = finder_.configured();
   const bool renamed = !device_.empty() && configured != device_.c_str();
   std::snprintf(text, sizeof text, "%s%s%s%s: %s%s%s%s", configured.c_str(), renamed ? " (" : "",

@@ -5,12 +5,12 @@
 
 #include "core/can_trace.h"
 #include "link/can/make_can_link.h"
+#include "transport/reopen_interval.h"
 
 namespace nord_driver {
 
 namespace {
 
-constexpr Duration kReopenInterval = std::chrono::milliseconds{500};
 constexpr Duration kShortestWait = std::chrono::microseconds{50};
 constexpr Duration kQueueRetry = std::chrono::microseconds{250};
 constexpr int kFramesAtOnce = 1000;

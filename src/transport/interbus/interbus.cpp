@@ -5,12 +5,11 @@
 
 #include "link/modbus/modbus_link.h"
 #include "profile/status_word.h"
+#include "transport/reopen_interval.h"
 
 namespace nord_driver {
 
 namespace {
-
-constexpr Duration kReopenInterval = std::chrono::milliseconds{500};
 
 std::unique_ptr<link::RegisterLink> connectTo(const link::ModbusSettings& settings) {
   return std::make_unique<link::ModbusLink>(settings);

@@ -10,12 +10,12 @@
 #include "transport/profibus/profibus_line.h"
 #include "transport/profibus/profibus_scanner.h"
 #include "transport/profibus/profibus_telegram_text.h"
+#include "transport/reopen_interval.h"
 
 namespace nord_driver {
 
 namespace {
 
-constexpr Duration kReopenInterval = std::chrono::milliseconds{500};
 constexpr Duration kScanSlice = std::chrono::milliseconds{50};  // of one exchange()
 constexpr Duration kToldFor = std::chrono::seconds{10};
 constexpr int kCyclesToTell = 3;                                 // the one that sees the silence, and two with the word

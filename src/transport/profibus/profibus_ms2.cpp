@@ -11,12 +11,12 @@
 #include "transport/profibus/profibus_scanner.h"
 #include "transport/profibus/profibus_telegram_text.h"
 #include "transport/profibus/profibus_text.h"
+#include "transport/reopen_interval.h"
 
 namespace nord_driver {
 
 namespace {
 
-constexpr Duration kReopenInterval = std::chrono::milliseconds{500};
 constexpr Duration kStatusInterval = std::chrono::milliseconds{500};
 constexpr Duration kAnswerTimeout = std::chrono::seconds{1};
 constexpr Duration kTimeToEnd = std::chrono::milliseconds{200};  // for an Abort to each station

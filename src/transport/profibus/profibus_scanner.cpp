@@ -24,9 +24,8 @@ using profibus::ScannedStation;
 constexpr Duration kSlice = std::chrono::milliseconds{50};  // between two looks at whether the end is asked for
 constexpr Duration kTypePlateLimit = std::chrono::seconds{3};
 constexpr std::uint16_t kSkTu3 = 0x7531, kSkCu4 = 0x0BA8;  // BU 0020 5.2, BU 0220 4.2.2
-constexpr unsigned kUnnamed = 126;
-constexpr std::uint8_t kInverters = 4;  // behind one module
-constexpr int kPauses = 3;              // of a channel between two orders
+constexpr std::uint8_t kInverters = 4;                     // behind one module
+constexpr int kPauses = 3;                                 // of a channel between two orders
 constexpr Duration kParameterLimit = std::chrono::seconds{1};
 constexpr std::uint16_t kSoftwareVersion = 707, kDatabase = 742, kPower = 743;
 
@@ -74,7 +73,7 @@ FoundStation stationOf(std::uint8_t address, const ScannedStation& scanned) {
   if (scanned.ident && scanned.owner != profibus::kNoOwner) {
     station.note = "parameterised by master " + std::to_string(scanned.owner);
   }
-  if (address == kUnnamed) {
+  if (address == profibus::StationAddress::kUnnamed) {
     station.note += std::string(station.note.empty() ? "" : "; ") + "not addressed yet: set its address to 3 to 125";
   }
   return station;

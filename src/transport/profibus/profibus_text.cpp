@@ -8,8 +8,6 @@ namespace {
 
 using profibus::DpEventKind;
 
-constexpr std::uint8_t kUnnamed = 126;
-
 const char* moduleName(std::uint16_t ident) noexcept {
   if (ident == profile::kIdentTechnologyUnit) return " (SK TU1/2/3-PBR)";
   if (ident == profile::kIdentCu4Tu4) return " (SK CU4/TU4-PBR)";
@@ -113,7 +111,7 @@ Sentence ProfibusText::liveList(const profibus::BusScan& scan) noexcept {
     const char* what = "";
     if (station.kind == profibus::ScannedStation::Kind::kMaster) what = " (a master)";
     if (station.kind == profibus::ScannedStation::Kind::kGarbled) what = " (garbled)";
-    if (address == kUnnamed) what = " (not addressed yet: set its address to 3 to 125)";
+    if (address == profibus::StationAddress::kUnnamed) what = " (not addressed yet: set its address to 3 to 125)";
     const int written =
         std::snprintf(list + length, sizeof list - length, "%s%u%s", length == 0 ? "" : ", ", address, what);
     if (written > 0) length += static_cast<std::size_t>(written);
