@@ -33,7 +33,7 @@ out=$root/build/coverage
 mkdir -p "$out"
 if ! $count_only; then
   # Without optimisation, so that a line is a line; counters that threads may share.
-  configure "$out" -DCMAKE_BUILD_TYPE=None -DNORD_DRIVER_PRECOMPILE=ON \
+  configure "$out" -DCMAKE_BUILD_TYPE=None -DNORD_DRIVER_PRECOMPILE=ON -DNORD_DRIVER_MERGE_SOURCES=ON \
     "-DCMAKE_CXX_FLAGS=-O0 -g0 --coverage -fprofile-update=atomic" >"$out/configure.log" 2>&1 || { tail -n 40 "$out/configure.log"; exit 1; }
   cmake --build "$out" -j "$jobs" --target "${programs[@]}" >"$out/build.log" 2>&1 || { tail -n 40 "$out/build.log"; exit 1; }
   find "$out" -name '*.gcda' -delete

@@ -176,8 +176,9 @@ def main():
     chosen = choose(asked, folders)
     if asked.only:
         folders = [folder for folder in folders if any(where == folder for where, _ in chosen)]
-    if not chosen:
-        say(f"no mutant with the id {' or '.join(asked.only)}" if asked.only else "no mutants")
+    unknown = [name for name in asked.only or [] if all(edit.id != name for _, edit in chosen)]
+    if unknown or not chosen:
+        say(f"no mutant with the id {' or '.join(unknown)}" if unknown else "no mutants")
         return 2
     if asked.list:
         for folder, edit in chosen:

@@ -19,7 +19,11 @@ out=$root/build/soak
 while (($# > 0)); do
   case $1 in
     --quick) hours=1 seconds=10 ;;
-    --build) out=${2:?}; shift ;;
+    --build)
+      (($# > 1)) || { usage >&2; exit 2; }
+      out=$2
+      shift
+      ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 2 ;;
   esac
@@ -32,7 +36,7 @@ logs=$root/build/soak_logs
 rm -rf "$logs"
 mkdir -p "$logs"
 if [[ ! -e $out/CMakeCache.txt ]]; then
-  configure "$out" -DNORD_DRIVER_PRECOMPILE=ON >"$logs/configure.log" 2>&1 || { tail -n 40 "$logs/configure.log"; exit 1; }
+  configure "$out" -DNORD_DRIVER_PRECOMPILE=ON -DNORD_DRIVER_MERGE_SOURCES=ON >"$logs/configure.log" 2>&1 || { tail -n 40 "$logs/configure.log"; exit 1; }
 fi
 cmake --build "$out" -j "$jobs" --target test_soak test_real_time >"$logs/build.log" 2>&1 || { tail -n 40 "$logs/build.log"; exit 1; }
 programs=$out/devel/lib/nord_driver
