@@ -9,19 +9,20 @@ set(nord_unmerged
   catalogue/parameter_text.cpp commissioning/process_values.cpp commissioning/unasked_motion.cpp
   cycle/fault_history.cpp cycle/leaders.cpp cycle/start_acknowledge.cpp cycle/taught_position.cpp
   cycle/user_messages.cpp devicenet/explicit_client.cpp devicenet/io_connection.cpp devicenet/io_fragments.cpp
-  devicenet/node_handler.cpp node/state_log.cpp node/wheel_state_publisher.cpp profibus/gsd_file.cpp profibus/record.cpp profibus/record_channel.cpp
-  profibus/telegram.cpp profile/word_function.cpp sim/can/timed_can_bus.cpp sim/canopen/can_pdo_objects.cpp
-  sim/canopen/can_referee.cpp sim/canopen/can_sdo_server.cpp sim/canopen/can_stations.cpp sim/canopen/can_tpdo.cpp
-  sim/devicenet/ac_drive.cpp sim/devicenet/dn_config.cpp sim/devicenet/dn_io_message.cpp sim/devicenet/dn_layout.cpp
-  sim/devicenet/dn_module_data.cpp sim/devicenet/dn_module_objects.cpp sim/devicenet/dn_referee.cpp
-  sim/devicenet/dn_stations.cpp sim/interbus/gateway_bus.cpp sim/interbus/ibs_config.cpp sim/interbus/ibs_ring.cpp
-  sim/interbus/pcp_server.cpp sim/interbus/register_gateway.cpp sim/interbus/simulated_gateway.cpp
-  sim/inverter/inverter_model.cpp sim/inverter/inverter_signals.cpp sim/inverter/posicon.cpp
-  sim/inverter/position_loop.cpp sim/inverter/position_words.cpp sim/model_clock.cpp sim/profibus/class2_server.cpp
-  sim/profibus/dp_config.cpp sim/profibus/dp_station.cpp sim/profibus/dp_stations.cpp
-  sim/profibus/module_monitoring.cpp sim/profibus/module_station.cpp sim/profibus/pty_bus.cpp
-  sim/profibus/record_server.cpp sim/profibus/simulated_segment.cpp sim/robot/robot_sim.cpp sim/sim_config.cpp
-  tools/config_check.cpp tools/config_json.cpp tools/config_picture.cpp tools/drive_watch.cpp tools/image_command.cpp
+  devicenet/node_handler.cpp node/state_log.cpp node/wheel_state_publisher.cpp profibus/gsd_file.cpp
+  profibus/record.cpp profibus/record_channel.cpp profibus/telegram.cpp profile/word_function.cpp
+  sim/can/timed_can_bus.cpp sim/canopen/can_pdo_objects.cpp sim/canopen/can_referee.cpp sim/canopen/can_sdo_server.cpp
+  sim/canopen/can_stations.cpp sim/canopen/can_tpdo.cpp sim/devicenet/ac_drive.cpp sim/devicenet/dn_config.cpp
+  sim/devicenet/dn_io_message.cpp sim/devicenet/dn_layout.cpp sim/devicenet/dn_module_data.cpp
+  sim/devicenet/dn_module_objects.cpp sim/devicenet/dn_referee.cpp sim/devicenet/dn_stations.cpp
+  sim/interbus/gateway_bus.cpp sim/interbus/ibs_config.cpp sim/interbus/ibs_ring.cpp sim/interbus/pcp_server.cpp
+  sim/interbus/register_gateway.cpp sim/interbus/simulated_gateway.cpp sim/inverter/inverter_model.cpp
+  sim/inverter/inverter_signals.cpp sim/inverter/posicon.cpp sim/inverter/position_loop.cpp
+  sim/inverter/position_words.cpp sim/model_clock.cpp sim/profibus/class2_server.cpp sim/profibus/dp_config.cpp
+  sim/profibus/dp_station.cpp sim/profibus/dp_stations.cpp sim/profibus/module_monitoring.cpp
+  sim/profibus/module_station.cpp sim/profibus/pty_bus.cpp sim/profibus/record_server.cpp
+  sim/profibus/simulated_segment.cpp sim/robot/robot_sim.cpp sim/sim_config.cpp tools/config_check.cpp
+  tools/config_json.cpp tools/config_picture.cpp tools/drive_watch.cpp tools/image_command.cpp
   tools/over_ros/node_scan.cpp tools/parameter_dump.cpp tools/parameter_json.cpp tools/progress_bar.cpp
   tools/restore/restore_journal.cpp tools/restore/restore_plan.cpp tools/restore/restore_run.cpp
   tools/scope_record.cpp tools/watch_table.cpp transport/canopen/canopen_eds.cpp transport/devicenet/devicenet.cpp

@@ -271,7 +271,7 @@ void NodeBoot::handleScriptAnswer(Script& script, const SdoAnswer& answer, Insta
     case Progress::kFailed:
       return refuse(script_.reason(), now);
     case Progress::kDone:
-      if (script.ids.mixed() && !std::exchange(past_.checked, true)) return ask(now);
+      if (script.ids.mixed() && !script.ids.found() && !std::exchange(past_.checked, true)) return ask(now);
       return start(script.ids.found(), now);
   }
 }
@@ -319,7 +319,7 @@ void NodeBoot::found(Instant now) noexcept {
 
 void NodeBoot::silent(const Sentence& why, Instant now) noexcept {
   report_.enter(past_.was_operational ? NodeState::kLost : NodeState::kAbsent, why, now);
-  past_.fresh = false;
+  past_.fresh = past_.checked = false;
   phase_ = Phase{Silent{}};
   timers_.set(NodeTimer::kBoot, now + ask_pause_.next());
 }
@@ -371,6 +371,7 @@ void NodeBoot::refuseStart(const StartDiagnosis& diagnosis, Instant now) noexcep
 void NodeBoot::refuse(const Sentence& why, Instant now) noexcept {
   port_.cancel(SdoOwner::kBoot, now);
   past_.fresh = false;  // somebody may have started it meanwhile, which may be why
+  past_.checked = false;
   ++report_.status().counters.refusals;
   const NodeStatus& status = report_.status();
   const bool told = status.state == NodeState::kRefused && std::strcmp(status.reason.c_str(), why.c_str()) == 0;

@@ -158,7 +158,7 @@ void BusCycle::takeRequest(const Request& request, Instant now) noexcept {
 
 // Written while it turns, P105 would be a step of the speed (the setpoint is a share of it), P104 a motion of its own.
 void BusCycle::accessParameter(const Request& request, Instant now) noexcept {
-  const std::optional<DriveIndex> moving = decidesMotion(request) ? movingBy(request) : std::nullopt;
+  const std::optional<DriveIndex> moving = decidesMotion(request) ? movingBy(request, now) : std::nullopt;
   if (!moving) {
     axes_[request.drive].parameters.handleRequest(request, drives_[request.drive], now);
     return submitParameters(request.drive, now);  // it leaves with this cycle's exchange
@@ -169,12 +169,13 @@ void BusCycle::accessParameter(const Request& request, Instant now) noexcept {
   ports_.complete(refused);
 }
 
-// The drive whose motion the write would change. Which inverters share a module nobody here knows.
-std::optional<DriveIndex> BusCycle::movingBy(const Request& request) noexcept {
+// The drive whose motion the write would change. Whose brake a module's relay is wired to nobody here knows; a drive that was
+// lost while it turned may turn still.
+std::optional<DriveIndex> BusCycle::movingBy(const Request& request, Instant now) noexcept {
   if (!isAtRest(request.drive)) return request.drive;
   if (request.parameter.number != kModuleRelay) return std::nullopt;
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
-    if (!isAtRest(i)) return i;
+    if (!isAtRest(i) || drives_[i].stopsUnheard(now)) return i;
   }
   return std::nullopt;
 }

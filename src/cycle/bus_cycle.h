@@ -61,7 +61,7 @@ class BusCycle {
   /// A reference run of a drive that steers a base under way; false: it may.
   bool refuseHomeUnderWay(const Request& request) noexcept;
   void selectParameterSet(const Request& request, Instant now) noexcept;
-  std::optional<DriveIndex> movingBy(const Request& request) noexcept;
+  std::optional<DriveIndex> movingBy(const Request& request, Instant now) noexcept;
   void accessParameter(const Request& request, Instant now) noexcept;
   Completion resetOdometry(const Request& request) noexcept;
   Duration rampTime(Instant now) const noexcept;

@@ -170,15 +170,18 @@ void Services::writeParameter(DriveIndex drive, WriteParameter::Request& request
         catalogue::setValue(access, {request.value, request.persistent != 0, config_.allow_raw_parameters});
   }
   if (response.message.empty()) response.message = config_.writable_parameters.refusal(request.number);
-  if (!response.message.empty()) return;
+  response.refused = !response.message.empty();
+  if (response.refused) return;
   const tools::CountedWrite write = tools::countedWrite(
       eeproms_[drive], access.request, [&] { return carryOut(drive, RequestKind::kWriteParameter, access); });
   response.message = write.refusal;
-  if (!response.message.empty()) return;
+  response.refused = response.used_up = !response.message.empty();
+  if (response.refused) return;
   if (!write.note.empty()) ROS_WARN("nord_driver: %s", write.note.c_str());
   const cycle::Completion& answer = *write.completion;  // the broker always has one
   response.success = answer.success;
   response.message = answer.message.str();
+  response.refused = answer.parameter.outcome == profile::ParameterOutcome::kRefused;
   response.raw = answer.parameter.raw;
   response.value = catalogue::valueOf(access.entry, answer.parameter.raw, access.request.index);
   if (answer.success && response.message.empty())

@@ -48,6 +48,12 @@ class DriveParameters {
   virtual DriveIdentity identity() const = 0;
   /// What is known of the drive.
   virtual const catalogue::DriveCatalogue& known() const = 0;
+  /// Why this number is not to be written, a sentence; empty: nothing here forbids it.
+  virtual std::string whyNotWritten(std::uint16_t /*number*/) const { return {}; }
+  /// Why many parameters are not to be written now, a sentence; empty: the drive is at rest. Default: it was brought there.
+  virtual std::string notAtRest() { return {}; }
+  /// Whether a value that the drive has already is saved in the EEPROM when it is written so.
+  virtual bool savesSame() const { return true; }
   /// What coming to the drive has changed in it, a sentence. Default: nothing.
   virtual std::string changedByReading() { return {}; }
 

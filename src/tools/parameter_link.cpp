@@ -115,8 +115,10 @@ void ParameterLink::exchangeUntil(Instant when, const std::atomic<bool>& end_ask
 }
 
 ParameterAnswer ParameterLink::write(const catalogue::ParameterAccess& access) {
-  const std::string not_writable = config_.writable_parameters.refusal(access.request.number);
-  if (!not_writable.empty()) throw Trouble(not_writable);
+  ParameterAnswer forbidden;
+  forbidden.message = whyNotWritten(access.request.number);
+  forbidden.refused = !forbidden.message.empty();
+  if (forbidden.refused) return forbidden;
   cycle::Request request;
   request.kind = cycle::RequestKind::kWriteParameter;
   request.parameter = access.request;

@@ -30,6 +30,9 @@ class WatchedParameters final : public DriveParameters {
   profile::Series series() const override { return drive_.series(); }
   DriveIdentity identity() const override { return drive_.identity(); }
   const catalogue::DriveCatalogue& known() const override { return drive_.known(); }
+  std::string whyNotWritten(std::uint16_t number) const override { return drive_.whyNotWritten(number); }
+  std::string notAtRest() override { return drive_.notAtRest(); }
+  bool savesSame() const override { return drive_.savesSame(); }
   std::string changedByReading() override { return drive_.changedByReading(); }
 
  private:

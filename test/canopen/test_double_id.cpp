@@ -135,5 +135,41 @@ TEST_F(Doubled, WhileItRunsIsStoppedFirst) {
   EXPECT_EQ(1u, run.count(CanopenEventKind::kDoubleId));
 }
 
+// Its answers unlike the ones before have told of the second one already: looking again would keep the stop words back, and
+// might find less.
+TEST_F(Doubled, WhileItRunsItIsNotLookedAtAgain) {
+  run.begin();
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));
+  CanFrame late;
+  run.loses = [&](const CanFrame& frame) {
+    if (frame.id != kSdoAnswer) return false;
+    if (++answers % 3 == 1) late = frame;
+    if (answers % 3 == 0) run.master.handleFrame(late, run.now);
+    return false;
+  };
+  run.say("701#00");
+  run.nodes[0]->state = 0x7F;
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));
+  EXPECT_TRUE(run.master.status(0).doubled);
+  EXPECT_EQ(2, std::count(run.sent.begin(), run.sent.end(), "601#4000100000000000")) << "1000h, the first of a set-up";
+}
+
+// Each set-up with such answers is, also when the one looked at again came to nothing.
+TEST_F(Doubled, TheNextSetUpIsLookedAtOnceMoreToo) {
+  int looks = 0;
+  bool mute = false;
+  run.loses = [&](const CanFrame& frame) {
+    if (frame.id != kSdoAnswer || mute) return mute && frame.id == kSdoAnswer;
+    if (text(frame).substr(0, 12) == "581#43001000" && ++looks == 2) return mute = true;
+    if (text(frame).substr(0, 12) == "581#4F001802") run.say("581#4F00180201000000");
+    return false;
+  };
+  run.begin();
+  ASSERT_TRUE(run.runUntil([&] { return mute && run.master.status(0).state == NodeState::kAbsent; }, seconds{5}));
+  mute = false;
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{5}));
+  EXPECT_EQ(4, looks) << "the next set-up, and the look at it";
+}
+
 }  // namespace
 }  // namespace nord_driver::canopen

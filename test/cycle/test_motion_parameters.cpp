@@ -46,12 +46,12 @@ TEST_F(MotionParameters, AreNotWrittenWhileEnabled) {
   EXPECT_FALSE(decidesMotion(read));
 }
 
-// What stands at a terminal acts at once: "enable right", a fixed frequency, "remote control" (P420 to P425, P470), and a
-// brake at an output (P434, P441, P450, P455; the module's relay, P150).
+// What stands at a terminal acts at once: "enable right", a fixed frequency, "remote control" (P420 to P425, P470), a voltage
+// as "frequency addition" (P400, P405), and a brake at an output (P434, P441, P450, P455, P541; the module's relay, P150).
 TEST_F(MotionParameters, AreTheFunctionsOfTheTerminalsToo) {
   bringUp();
   ASSERT_TRUE(ask(RequestKind::kEnable, kLift).success);
-  for (const int number : {150, 420, 421, 422, 423, 424, 425, 434, 441, 450, 455, 470, 480, 481}) {
+  for (const int number : {150, 400, 405, 420, 421, 422, 423, 424, 425, 434, 441, 450, 455, 470, 480, 481, 541}) {
     EXPECT_THAT(ask(write(number, 1)).message.c_str(), HasSubstr("disable drive lift first")) << number;
   }
 }
@@ -65,6 +65,18 @@ TEST_F(MotionParameters, TheRelayOfAModuleIsLeftAloneWhileAnyDriveIsEnabled) {
   EXPECT_THAT(ask(relay).message.c_str(), HasSubstr("disable drive lift first"));
   relay.parameter.number = 420;
   EXPECT_THAT(ask(relay).message.c_str(), Not(HasSubstr("disable")));
+}
+
+// A drive that was lost a moment ago may turn still: what stops it is sent on.
+TEST_F(MotionParameters, TheRelayOfAModuleIsLeftAloneWhileALostDriveIsStopped) {
+  bringUp();
+  ASSERT_TRUE(ask(RequestKind::kEnable, kLift).success);
+  transport.inverters[kLift].silent = true;
+  run(30);
+  ASSERT_FALSE(snapshot().drives[kLift].online);
+  Request relay = write(150, 1);
+  relay.drive = 0;
+  EXPECT_THAT(ask(relay).message.c_str(), HasSubstr("disable drive lift first"));
 }
 
 // P600 to P631 but for the positions themselves (BU 0020 7.3.5: P613 is the array).

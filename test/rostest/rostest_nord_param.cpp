@@ -105,6 +105,30 @@ TEST_F(NordParamBesideTheDriver, DumpsAndCompares) {
   ::unlink(file.c_str());
 }
 
+// Through the node as over the bus: what is written to one wheel of a base that drives is none of its own.
+TEST_F(NordParamBesideTheDriver, RestoresADriveAtRestOnly) {
+  const std::string file = ::testing::TempDir() + "nord_param_restore_" + std::to_string(::getpid());
+  std::ofstream(file) << "series: sk5xxe\nsettings: {\"P102 set 1\": {raw: 70}}\n";
+  const std::vector<std::string> words{"restore", "left", file, "--yes", "--journal", file + ".journal"};
+  ASSERT_NO_FATAL_FAILURE(enableAndDrive(0.3));
+  const Ended refused = run(words);
+  EXPECT_EQ(1, refused.code);
+  EXPECT_THAT(refused.errors, HasSubstr("drive left is enabled, and was left as it is: disable it first"));
+  EXPECT_EQ("P102 set 1 Acceleration time = 0.50 s (raw 50)\n", run({"read", "left", "P102"}).output);
+  ASSERT_TRUE(robot().trigger("disable").success);
+  std::vector<std::string> same = words;
+  same.insert(same.end(), {"--persistent", "--save-same"});
+  EXPECT_THAT(run(same).errors, HasSubstr("--save-same does not go through the node"));
+  const Ended restored = run(words);
+  EXPECT_EQ(0, restored.code) << restored.errors;
+  EXPECT_THAT(restored.output, HasSubstr("1 written and read back"));
+  const Ended back = run({"restore", "left", "--take-back", "--yes", "--journal", file + ".journal"});
+  EXPECT_EQ(0, back.code) << back.errors;
+  EXPECT_EQ("P102 set 1 Acceleration time = 0.50 s (raw 50)\n", run({"read", "left", "P102"}).output);
+  ::unlink(file.c_str());
+  ::unlink((file + ".journal").c_str());
+}
+
 // A drive that moves, which over the bus itself would be left alone.
 TEST_F(NordParamBesideTheDriver, WatchesADriveThatMoves) {
   ASSERT_NO_FATAL_FAILURE(enableAndDrive(0.3));

@@ -117,16 +117,23 @@ bool DiagnosisConnection::serve() noexcept {
   return true;
 }
 
-// A server that refuses in due form stays connected.
+// A server that refuses in due form stays connected, and is asked anew with the next exchange after one refusal, as on the
+// first connection: the inputs are as old as its last answer.
 void DiagnosisConnection::failed() noexcept {
   if (ending()) return;
   const ModbusTrouble trouble = connection_.trouble();
   countTrouble(trouble, report_.counters);
   if (trouble != ModbusTrouble::kException) connection_.abandon();
   desk_.refuse(report_.text);
-  tell(LinkState::kPausing);
+  const bool at_once = trouble == ModbusTrouble::kException && backoff_.fresh();
   const Instant until = backoff_.failed(std::chrono::steady_clock::now());
-  waitFor(stop_, stop_, until);
+  tell(at_once ? LinkState::kConnected : LinkState::kPausing);
+  if (at_once) {
+    waitFor(asked_, stop_, std::nullopt);
+    asked_.take();
+  } else {
+    waitFor(stop_, stop_, until);
+  }
 }
 
 void DiagnosisConnection::tell(LinkState link) noexcept {

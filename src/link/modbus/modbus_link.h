@@ -18,7 +18,8 @@
 namespace nord_driver::link {
 
 /// Connects, exchanges once for each output image given, and connects again after a pause when something went wrong:
-/// first_pause, doubled up to longest_pause, and first_pause again once an exchange was good.
+/// first_pause, doubled up to longest_pause, and first_pause again once an exchange was good. The first exception after a
+/// good exchange takes no pause, but counts as one: the next image is the next try.
 ///
 /// With `settings.diagnosis` the running register, the read back of the watchdog and orders go over a second connection;
 /// without it they take turns with the images. The inputs are never younger than what is known of the running register,

@@ -128,8 +128,19 @@ class RestoreCommand final : public ParamCommand {
     return false;
   }
 
+  // Ramps and limits of another machine on one wheel of a base that drives.
+  static void leaveMoving(DriveParameters& drive) {
+    const std::string moving = drive.notAtRest();
+    if (!moving.empty()) throw Trouble(moving);
+  }
+
   bool restore(WatchedParameters& drive, const Dump& dump, const RestoreJournal& journal,
                const std::atomic<bool>& end_asked) {
+    if (options_.save_same && !drive.savesSame()) {
+      throw Trouble(
+          "--save-same does not go through the node, which writes no value that the drive has already: end the "
+          "node first");
+    }
     drive.expect("reading", dump.values.size());
     const RestorePlan plan = planRestore(drive, dump, options_, end_asked);
     drive.end();
@@ -145,6 +156,7 @@ class RestoreCommand final : public ParamCommand {
       return true;
     }
     if (!agreed(drive, "write this to drive " + drive_ + "?", end_asked)) return false;
+    leaveMoving(drive);
     RestoreRun run{drive, record, [&journal](const RestoreRecord& saved) { journal.write(saved); }, end_asked};
     drive.expect("writing", accessesOf(record));
     return ended(run.write(), run, record, drive, journal);
@@ -158,6 +170,7 @@ class RestoreCommand final : public ParamCommand {
                   end_asked)) {
         return false;
       }
+      leaveMoving(drive);
       drive.expect("taking back", 2 * record.changes.size());
       return ended(run.takeBack(), run, record, drive, journal);
     }
@@ -167,11 +180,12 @@ class RestoreCommand final : public ParamCommand {
     RestorePlan rest;
     rest.same = record.same;
     for (const RestoreRecord::Change& change : record.changes) {
-      if (change.state == ChangeState::kPending) rest.changes.push_back(change);
+      if (change.state != ChangeState::kWritten) rest.changes.push_back(change);
     }
     say("drive " + drive_ + " (" + drive.identity().address + "), the rest of " + record.file + ":\n" +
         planText(rest, drive.known(), record.persistent));
     if (!agreed(drive, "write this to drive " + drive_ + "?", end_asked)) return false;
+    leaveMoving(drive);
     drive.expect("writing", accessesOf(record));
     return ended(run.write(), run, record, drive, journal);
   }
@@ -197,7 +211,8 @@ class RestoreCommand final : public ParamCommand {
         break;
       case RestoreEnd::kTakenBackInPart:
         say((record.why.empty() ? "" : "refused, " + record.why + "\n") +
-            "taken back in part: --take-back tries the rest again" + go_on);
+            (record.isUnfinished() ? "taken back in part: --take-back tries the rest again" + go_on
+                                   : "taken back, but for what this restore has not written\n"));
         break;
     }
     tell(record, run.notes(), end == RestoreEnd::kDiffers ? "differs" : toString(record.state), drive);

@@ -40,12 +40,8 @@ void NodeParameters::call(ros::ServiceClient& client, Service& service) {
   throw Trouble("node " + node_ + " gave no answer at " + client.getService() + ": did it end?");
 }
 
-// The one in force where none is named, so that it can be told which one was meant.
-std::optional<std::uint8_t> NodeParameters::setFor(const catalogue::ParameterAccess& access) {
-  if (!profile::hasSets(access.request.shape)) return std::uint8_t{0};
-  if (access.request.parameter_set != 0) return access.request.parameter_set;
-  std::uint8_t set = 0;
-  bool heard = false;
+DriveStatus NodeParameters::statusOnce(const std::function<bool(const DriveStatus&)>& enough) const {
+  std::optional<DriveStatus> heard;
   // Not by ros::Time, which may stand still (/use_sim_time).
   ros::WallTime end = ros::WallTime::now() + kStatusTime;
   ros::CallbackQueue queue;
@@ -53,14 +49,29 @@ std::optional<std::uint8_t> NodeParameters::setFor(const catalogue::ParameterAcc
   handle.setCallbackQueue(&queue);
   const auto status =
       handle.subscribe<DriveStatus>(node_ + "/" + drive_.name + "/status", 1, [&](const DriveStatus::ConstPtr& told) {
-        set = told->parameter_set;
         if (!heard) end = ros::WallTime::now() + kSetTime;
-        heard = true;
+        heard = *told;
       });
-  while (set == 0 && ros::WallTime::now() < end) queue.callAvailable(ros::WallDuration(0.1));
-  if (set != 0) return set;
-  if (heard) return std::nullopt;
+  while ((!heard || !enough(*heard)) && ros::WallTime::now() < end) queue.callAvailable(ros::WallDuration(0.1));
+  if (heard) return *heard;
   throw Trouble("node " + node_ + " tells no status of drive " + drive_.name + ": did it end?");
+}
+
+// The one in force where none is named, so that it can be told which one was meant.
+std::optional<std::uint8_t> NodeParameters::setFor(const catalogue::ParameterAccess& access) {
+  if (!profile::hasSets(access.request.shape)) return std::uint8_t{0};
+  if (access.request.parameter_set != 0) return access.request.parameter_set;
+  const DriveStatus status = statusOnce([](const DriveStatus& told) { return told.parameter_set != 0; });
+  if (status.parameter_set == 0) return std::nullopt;
+  return status.parameter_set;
+}
+
+// Its terminals may have enabled it as well.
+std::string NodeParameters::notAtRest() {
+  const DriveStatus status = statusOnce([](const DriveStatus& told) { return told.online != 0; });
+  if (!status.operation_enabled) return {};
+  return "drive " + drive_.name + " is enabled, and was left as it is: disable it first (rosservice call " + node_ +
+         "/" + drive_.name + "/disable)";
 }
 
 // One drive that is silent is the matter of that drive: who watches several goes on with the others.
@@ -106,7 +117,8 @@ ParameterAnswer NodeParameters::write(const catalogue::ParameterAccess& access) 
   service.request.persistent = access.request.action == profile::ParameterAction::kWritePersistent;
   call(write_, service);
   answer.success = service.response.success != 0;
-  answer.refused = !answer.success;
+  answer.refused = service.response.refused != 0;
+  answer.used_up = service.response.used_up != 0;
   answer.message = service.response.message;
   answer.raw = service.response.raw;
   // What stands in the answer's other fields is nothing beyond them.

@@ -3,9 +3,11 @@
 
 #include <ros/service_client.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 
+#include "nord_driver/DriveStatus.h"
 #include "tools/drive_nodes.h"
 
 namespace nord_driver::tools {
@@ -20,6 +22,10 @@ class NodeParameters final : public DriveParameters {
   ParameterAnswer read(const catalogue::ParameterAddress& address) override;
   ParameterAnswer write(const catalogue::ParameterAccess& access) override;
 
+  /// As the node tells it now.
+  std::string notAtRest() override;
+  bool savesSame() const override { return false; }
+
   const std::string& name() const noexcept override { return drive_.name; }
   profile::Series series() const noexcept override { return drive_.series; }
   DriveIdentity identity() const override { return drive_.identity; }
@@ -28,6 +34,8 @@ class NodeParameters final : public DriveParameters {
  private:
   template <typename Service>
   void call(ros::ServiceClient& client, Service& service);
+  /// The newest one of the drive, after at most two seconds; earlier, once one is `enough`. Throws Trouble when none comes.
+  DriveStatus statusOnce(const std::function<bool(const DriveStatus&)>& enough) const;
   /// Asked for, or in force; none where the drive does not tell it.
   std::optional<std::uint8_t> setFor(const catalogue::ParameterAccess& access);
   ParameterAnswer silent() const;

@@ -49,14 +49,16 @@ unsigned indexOf(const catalogue::ParameterAddress& address) noexcept {
 }
 
 // Empty: it may be written.
-std::string whyNot(const Dump::Value& value, const RestoreOptions& options, const catalogue::DriveCatalogue& known) {
+std::string whyNot(const DriveParameters& drive, const Dump::Value& value, const RestoreOptions& options) {
   const RestoreStage stage = stageOf(value.address.number);
   if (value.address.number == kSaveInEeprom) return "it decides where every write goes: write it by itself";
   if (stage >= RestoreStage::kProcessData && options.bus_settings == BusSettings::kNone) return "a bus setting";
   if (stage == RestoreStage::kReach && options.bus_settings != BusSettings::kAll) {
     return "the bus reaches the drive by it; --with-bus-settings writes it";
   }
-  catalogue::ParameterAccess access = catalogue::accessTo(value.address, known);
+  const std::string forbidden = drive.whyNotWritten(value.address.number);
+  if (!forbidden.empty()) return forbidden;
+  catalogue::ParameterAccess access = catalogue::accessTo(value.address, drive.known());
   if (!access.error.empty()) return access.error;
   return catalogue::setRaw(access, value.raw, options.persistent);
 }
@@ -105,7 +107,7 @@ RestorePlan planRestore(DriveParameters& drive, const Dump& dump, const RestoreO
     const bool same = meansSame(known, value.address, answer.raw, value.raw);
     if (same) plan.same.push_back({value.address, answer.raw});
     if (same && !(options.persistent && options.save_same)) continue;
-    const std::string why = whyNot(value, options, known);
+    const std::string why = whyNot(drive, value, options);
     if (why.empty()) {
       plan.changes.push_back({value.address, answer.raw, value.raw});
     } else if (!same) {

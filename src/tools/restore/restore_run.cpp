@@ -93,11 +93,13 @@ void RestoreRun::lookAgain() {
   for (RestoreRecord::Change& change : record_.changes) {
     if (change.state != ChangeState::kBegun && change.state != ChangeState::kWritten) continue;
     const ParameterAnswer answer = read(change.address);
+    const bool as_before = answer.success && same(change.address, answer.raw, change.before);
     if (answer.success && same(change.address, answer.raw, change.after)) {
-      change.state = ChangeState::kWritten;
+      // Had it been this value before, nobody could tell by it that the value was saved.
+      const bool saved = change.state == ChangeState::kWritten || !record_.persistent || !as_before;
+      change.state = saved ? ChangeState::kWritten : ChangeState::kPending;
       continue;
     }
-    const bool as_before = answer.success && same(change.address, answer.raw, change.before);
     if (answer.success && !as_before) {
       notes_.push_back(title(change.address) + " is " + text(change.address, answer.raw) +
                        ", neither what was there nor what was to come");
@@ -105,7 +107,7 @@ void RestoreRun::lookAgain() {
       notes_.push_back(title(change.address) + " was written and is " + text(change.address, answer.raw) + " again" +
                        (record_.persistent ? "" : ": what is in RAM only is lost when the drive is switched off"));
     }
-    change.state = ChangeState::kPending;
+    change.state = as_before ? ChangeState::kPending : ChangeState::kBegun;
   }
 }
 
@@ -152,7 +154,7 @@ bool RestoreRun::verify() {
     const std::string lost = as_before && !record_.persistent ? " as before: was the drive switched off?" : "";
     notes_.push_back(title(change.address) + " was written as " + text(change.address, change.after) + " and is " +
                      (answer.success ? text(change.address, answer.raw) + lost : "not readable: " + answer.message));
-    change.state = ChangeState::kPending;
+    change.state = as_before ? ChangeState::kPending : ChangeState::kBegun;  // taking back has to look at it
   }
   std::vector<Dump::Value> still_same;
   for (const Dump::Value& value : record_.same) {
@@ -162,8 +164,8 @@ bool RestoreRun::verify() {
                        text(value.address, answer.raw) + " now");
       RestoreRecord::Change change;
       change.address = value.address;
-      change.before = answer.raw;
-      change.after = value.raw;
+      change.before = change.after = value.raw;
+      change.state = ChangeState::kBegun;
       record_.changes.push_back(change);
     } else {
       still_same.push_back(value);
@@ -183,35 +185,36 @@ RestoreEnd RestoreRun::takeBack() {
   record_.state = RestoreState::kTakingBack;
   save_(record_);
   lookAtEepromSwitch();
-  bool whole = true;
+  bool whole = true, tried_all = true;
   for (auto change = record_.changes.rbegin(); change != record_.changes.rend(); ++change) {
     if (change->state != ChangeState::kBegun && change->state != ChangeState::kWritten) continue;
-    whole = takeBack(*change) && whole;
+    const TakenBack taken = takeBack(*change);
+    whole = whole && taken == TakenBack::kYes;
+    tried_all = tried_all && taken != TakenBack::kRefused;
     save_(record_);
   }
-  if (whole) record_.state = RestoreState::kTakenBack;
+  if (tried_all) record_.state = RestoreState::kTakenBack;
   save_(record_);
   return whole ? RestoreEnd::kTakenBack : RestoreEnd::kTakenBackInPart;
 }
 
-bool RestoreRun::takeBack(RestoreRecord::Change& change) {
+RestoreRun::TakenBack RestoreRun::takeBack(RestoreRecord::Change& change) {
   const ParameterAnswer found = read(change.address);
   const bool there = found.success && same(change.address, found.raw, change.before);
   if (!there && found.success && !same(change.address, found.raw, change.after)) {
     notes_.push_back(title(change.address) + " is " + text(change.address, found.raw) +
                      ", which this restore has not written: it is left as it is");
-    change.state = ChangeState::kTakenBack;
-    return false;
+    return TakenBack::kLeft;
   }
   ParameterAnswer answer = found;
   if (!there && found.success) answer = write(change.address, change.before, record_.persistent);
   if (!answer.success) {
     notes_.push_back(title(change.address) + " cannot be put back to " + text(change.address, change.before) + ": " +
                      answer.message);
-    return false;
+    return TakenBack::kRefused;
   }
   change.state = ChangeState::kTakenBack;
-  return true;
+  return TakenBack::kYes;
 }
 
 std::size_t accessesOf(const RestoreRecord& record) {

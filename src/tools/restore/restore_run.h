@@ -42,13 +42,15 @@ class RestoreRun {
   const std::vector<std::string>& notes() const noexcept { return notes_; }
 
  private:
+  enum class TakenBack : std::uint8_t { kYes, kLeft, kRefused };  // kLeft: somebody else has changed it
+
   ParameterAnswer asked(const std::function<ParameterAnswer()>& access);
   ParameterAnswer read(const catalogue::ParameterAddress& address);
   ParameterAnswer write(const catalogue::ParameterAddress& address, std::int32_t raw, bool persistent);
   /// Why the drive refused it; empty: it is written.
   std::string carryOut(RestoreRecord::Change& change);
   RestoreEnd takeBackBecause(const std::string& why);
-  bool takeBack(RestoreRecord::Change& change);
+  TakenBack takeBack(RestoreRecord::Change& change);
   bool verify();
   void lookAtEepromSwitch();
   [[noreturn]] void breakOff(const std::string& why) const;

@@ -160,6 +160,21 @@ TEST_F(Orders, ASecondConnectionThatFailsMakesTheInputsOld) {
   EXPECT_TRUE(waitFor([&] { return link->take().asked > asked; }));
 }
 
+TEST_F(Orders, OneRefusalByTheSecondConnectionCostsOneAnswer) {
+  second.setHolding(400, 1);
+  startWithDiagnosis([](ModbusSettings& settings) {
+    settings.running = RunningFlag{ModbusFunction::kReadHoldingRegisters, 400, 1, 1};
+    settings.first_pause = settings.longest_pause = 2 * kPatience;
+  });
+  ASSERT_TRUE(waitFor([&] { return link->take().number > 0; })) << link->report().text.c_str();
+  for (unsigned i = 1; i <= 2; ++i) {
+    second.next({Reaction::kException, 6});
+    ASSERT_TRUE(waitFor([&] { return link->report().counters.exceptions == i; }));
+    const Instant asked = link->take().asked;
+    ASSERT_TRUE(waitFor([&] { return link->take().asked > asked; }));
+  }
+}
+
 // One that is silent holds up neither the images nor the end.
 TEST_F(Orders, ASecondConnectionThatIsSilentHoldsNothingUp) {
   second.always({Reaction::kSilent});

@@ -52,6 +52,7 @@ class ScriptedDrive final : public DriveParameters {
     return answer;
   }
   void pass(Duration /*time*/) override {}
+  std::string whyNotWritten(std::uint16_t number) const override { return number == forbidden ? "forbidden" : ""; }
   const std::string& name() const override { return name_; }
   profile::Series series() const override { return profile::Series::kSk5xxe; }
   DriveIdentity identity() const override {
@@ -67,6 +68,7 @@ class ScriptedDrive final : public DriveParameters {
 
   std::map<std::string, std::int32_t> values;  ///< by "P102 set 1"
   std::set<std::string> refused;               ///< to write
+  std::uint16_t forbidden = 0;                 ///< by the configuration
   std::string used_up_at;                      ///< of the EEPROM's budget
   std::vector<std::string> written;            ///< "P102 set 1 ~ 250" to RAM, "P102 set 1 = 250" to the EEPROM
   int accesses_left = -1;                      ///< then it falls silent; -1: never

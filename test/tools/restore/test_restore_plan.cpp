@@ -45,6 +45,16 @@ TEST(RestorePlan, HasWhatDiffersOnly) {
   EXPECT_THAT(drive.written, IsEmpty());
 }
 
+// A restore that was begun and may not go on would leave the drive with half of it.
+TEST(RestorePlan, LeavesOutWhatMayNotBeWritten) {
+  ScriptedDrive drive{{{"P102 set 1", 200}, {"P103 set 1", 200}}};
+  drive.forbidden = 103;
+  const RestorePlan plan = planned(drive, {{"P102 set 1", 250}, {"P103 set 1", 250}});
+  EXPECT_THAT(written(plan), ElementsAre("P102 set 1"));
+  ASSERT_EQ(1u, plan.left_out.size());
+  EXPECT_EQ("forbidden", plan.left_out[0].why);
+}
+
 // What cannot move a motor, what may, what the words mean, P105; the branch the program sits on only when it was said.
 const std::map<std::string, std::int32_t> kHave{
     {"P102 set 1", 200}, {"P104 set 1", 0}, {"P105 set 1", 500}, {"P420", 0},       {"P506", 0},       {"P508", 3},

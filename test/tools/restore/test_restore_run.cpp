@@ -143,6 +143,8 @@ TEST_F(RestoreRunTest, LeavesAloneWhatSomebodyElseHasChanged) {
   EXPECT_EQ(valuesWith({{"P103 set 1", 999}}), drive_.values);
   EXPECT_THAT(restore.notes(), ElementsAre("P103 set 1 Deceleration time is 999, which this restore has not written: "
                                            "it is left as it is"));
+  forget();
+  EXPECT_FALSE(record_.isUnfinished()) << "there is nothing to try again";
 }
 
 // Wherever the line breaks, also between a write and its answer: the run after it goes on, or takes back.
@@ -248,6 +250,56 @@ TEST_F(RestoreRunTest, VerifiesWhatItHasNotWritten) {
   again.lookAgain();
   EXPECT_EQ(RestoreEnd::kVerified, again.write());
   EXPECT_EQ(0, drive_.values["P513"]);
+}
+
+// It had another value before the restore: what it was moved to is nothing to be put back, and the end says so.
+TEST_F(RestoreRunTest, NamesWhatWasMovedAndIsNotTakenBack) {
+  plan(kWant);
+  drive_.before_write = [&](const std::string& name) {
+    if (name == "P105 set 1") drive_.values["P513"] = 30;
+    if (name == "P103 set 1") drive_.values["P102 set 1"] = 240;
+  };
+  EXPECT_EQ(RestoreEnd::kDiffers, run().write());
+  drive_.before_write = nullptr;
+  forget();
+  RestoreRun back = run();
+  EXPECT_EQ(RestoreEnd::kTakenBackInPart, back.takeBack());
+  EXPECT_EQ(valuesWith({{"P102 set 1", 240}, {"P513", 30}}), drive_.values);
+  EXPECT_THAT(
+      back.notes(),
+      ElementsAre("P513 Telegram timeout is 3.0 s, which this restore has not written: it is left as it is",
+                  "P102 set 1 Acceleration time is 2.40 s, which this restore has not written: it is left as it "
+                  "is"));
+}
+
+TEST_F(RestoreRunTest, TakesBackToWhatWasThereBeforeItWasMoved) {
+  plan(kWant);
+  drive_.before_write = [&](const std::string& name) {
+    if (name == "P105 set 1") drive_.values["P513"] = 30;
+  };
+  EXPECT_EQ(RestoreEnd::kDiffers, run().write());
+  drive_.before_write = nullptr;
+  RestoreRun again = run();
+  again.lookAgain();
+  EXPECT_EQ(RestoreEnd::kVerified, again.write());
+  EXPECT_EQ(RestoreEnd::kTakenBack, again.takeBack());
+  EXPECT_EQ(kHave, drive_.values);
+}
+
+// Killed before the order left: its value tells nothing.
+TEST_F(RestoreRunTest, SavesASameValueAfterABreak) {
+  RestoreOptions options;
+  options.persistent = options.save_same = true;
+  record_ = recordOf(planRestore(drive_, dumpOf({{"P102 set 1", 200}}), options, asked_), drive_, "/a/left.yaml", true);
+  drive_.accesses_left = 1;
+  EXPECT_NE("", trouble([&] { run().write(); }));
+  EXPECT_THAT(drive_.written, IsEmpty());
+  drive_.accesses_left = -1;
+  forget();
+  RestoreRun restore = run();
+  restore.lookAgain();
+  EXPECT_EQ(RestoreEnd::kVerified, restore.write());
+  EXPECT_THAT(drive_.written, ElementsAre("P102 set 1 = 200"));
 }
 
 // From the first of them on it may answer elsewhere: before that everything else is verified.
