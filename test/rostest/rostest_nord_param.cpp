@@ -115,7 +115,7 @@ TEST_F(NordParamBesideTheDriver, RestoresADriveAtRestOnly) {
   EXPECT_EQ(1, refused.code);
   EXPECT_THAT(refused.errors, HasSubstr("drive left is enabled, and was left as it is: disable it first"));
   EXPECT_EQ("P102 set 1 Acceleration time = 0.50 s (raw 50)\n", run({"read", "left", "P102"}).output);
-  ASSERT_TRUE(robot().trigger("disable").success);
+  ASSERT_TRUE(robot().enable(false).success);
   std::vector<std::string> same = words;
   same.insert(same.end(), {"--persistent", "--save-same"});
   EXPECT_THAT(run(same).errors, HasSubstr("--save-same does not go through the node"));

@@ -70,8 +70,7 @@ std::optional<std::uint8_t> NodeParameters::setFor(const catalogue::ParameterAcc
 std::string NodeParameters::notAtRest() {
   const DriveStatus status = statusOnce([](const DriveStatus& told) { return told.online != 0; });
   if (!status.operation_enabled) return {};
-  return "drive " + drive_.name + " is enabled, and was left as it is: disable it first (rosservice call " + node_ +
-         "/" + drive_.name + "/disable)";
+  return "drive " + drive_.name + " is enabled, and was left as it is: disable it first";
 }
 
 // One drive that is silent is the matter of that drive: who watches several goes on with the others.
