@@ -56,7 +56,7 @@ std::string whyNot(const DriveParameters& drive, const Dump::Value& value, const
   if (stage == RestoreStage::kReach && options.bus_settings != BusSettings::kAll) {
     return "the bus reaches the drive by it; --with-bus-settings writes it";
   }
-  const std::string forbidden = drive.whyNotWritten(value.address.number);
+  std::string forbidden = drive.whyNotWritten(value.address.number);
   if (!forbidden.empty()) return forbidden;
   catalogue::ParameterAccess access = catalogue::accessTo(value.address, drive.known());
   if (!access.error.empty()) return access.error;
