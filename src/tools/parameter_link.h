@@ -42,7 +42,7 @@ class ParameterLink final : public DriveParameters {
   /// is silent.
   ParameterAnswer read(DriveIndex drive, const catalogue::ParameterAddress& address);
   /// `access` is one to write. Compared before and read back after; see ParameterSession. Refused past the EEPROM's
-  /// budget.
+  /// budget, and what whyNotWritten() forbids.
   ParameterAnswer write(const catalogue::ParameterAccess& access) override;
   /// The bus cycle goes on: a drive with P513 > 0 would trip without its words.
   void pass(Duration time) noexcept override;

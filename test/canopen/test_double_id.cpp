@@ -25,10 +25,21 @@ struct Doubled : testing::Test {
       return false;
     };
   }
+  /// Every `nth` answer comes again, two answers later.
+  void answerLate(int nth) {
+    run.loses = [this, nth](const CanFrame& frame) {
+      if (frame.id != kSdoAnswer) return false;
+      const int turn = ++answers % nth;
+      if (turn == 1) late = frame;
+      if (turn == 3 % nth) run.master.handleFrame(late, run.now);
+      return false;
+    };
+  }
   bool started() const { return std::find(run.sent.begin(), run.sent.end(), "000#0101") != run.sent.end(); }
 
   MasterRun run{busConfig(1)};
   int answers = 0;
+  CanFrame late;
   bool other_asks = false;
 };
 
@@ -57,13 +68,7 @@ TEST_F(Doubled, IsNotSaidOfABadLine) {
 
 // The second one is slow and answers few questions, each after the first node has answered the next one.
 TEST_F(Doubled, IsToldOfAFewAnswersThatAreNotTheOneBefore) {
-  CanFrame late;
-  run.loses = [&](const CanFrame& frame) {
-    if (frame.id != kSdoAnswer) return false;
-    if (++answers % 4 == 1) late = frame;
-    if (answers % 4 == 3) run.master.handleFrame(late, run.now);
-    return false;
-  };
+  answerLate(4);
   run.begin();
   ASSERT_TRUE(run.reaches(NodeState::kRefused, seconds{2}));
   EXPECT_EQ(1u, run.count(CanopenEventKind::kDoubleId));
@@ -140,13 +145,7 @@ TEST_F(Doubled, WhileItRunsIsStoppedFirst) {
 TEST_F(Doubled, WhileItRunsItIsNotLookedAtAgain) {
   run.begin();
   ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));
-  CanFrame late;
-  run.loses = [&](const CanFrame& frame) {
-    if (frame.id != kSdoAnswer) return false;
-    if (++answers % 3 == 1) late = frame;
-    if (answers % 3 == 0) run.master.handleFrame(late, run.now);
-    return false;
-  };
+  answerLate(3);
   run.say("701#00");
   run.nodes[0]->state = 0x7F;
   ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{2}));

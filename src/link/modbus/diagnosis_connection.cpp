@@ -70,12 +70,10 @@ void DiagnosisConnection::waitTold(Instant until, const Wakeup& stop) noexcept {
 
 void DiagnosisConnection::work() noexcept {
   while (!ending()) {
-    if ((connection_.isOpen() || connect()) && serve()) {
-      waitFor(asked_, stop_, std::nullopt);
-      asked_.take();
-    } else {
-      failed();
-    }
+    const bool good = (connection_.isOpen() || connect()) && serve();
+    if (!good && pausedAfterFailure()) continue;
+    waitFor(asked_, stop_, std::nullopt);
+    asked_.take();
   }
   connection_.close();
   state_ = {};
@@ -119,8 +117,8 @@ bool DiagnosisConnection::serve() noexcept {
 
 // A server that refuses in due form stays connected, and is asked anew with the next exchange after one refusal, as on the
 // first connection: the inputs are as old as its last answer.
-void DiagnosisConnection::failed() noexcept {
-  if (ending()) return;
+bool DiagnosisConnection::pausedAfterFailure() noexcept {
+  if (ending()) return true;
   const ModbusTrouble trouble = connection_.trouble();
   countTrouble(trouble, report_.counters);
   if (trouble != ModbusTrouble::kException) connection_.abandon();
@@ -128,12 +126,8 @@ void DiagnosisConnection::failed() noexcept {
   const bool at_once = trouble == ModbusTrouble::kException && backoff_.fresh();
   const Instant until = backoff_.failed(std::chrono::steady_clock::now());
   tell(at_once ? LinkState::kConnected : LinkState::kPausing);
-  if (at_once) {
-    waitFor(asked_, stop_, std::nullopt);
-    asked_.take();
-  } else {
-    waitFor(stop_, stop_, until);
-  }
+  if (!at_once) waitFor(stop_, stop_, until);
+  return !at_once;
 }
 
 void DiagnosisConnection::tell(LinkState link) noexcept {

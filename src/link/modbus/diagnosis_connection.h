@@ -55,7 +55,8 @@ class DiagnosisConnection {
   void work() noexcept;
   bool connect() noexcept;
   bool serve() noexcept;
-  void failed() noexcept;
+  /// False: it refused once, and is asked anew with the next exchange.
+  bool pausedAfterFailure() noexcept;
   void tell(LinkState link) noexcept;
   bool ending() const noexcept { return ending_.load(std::memory_order_relaxed); }
 

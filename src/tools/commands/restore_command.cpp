@@ -128,10 +128,12 @@ class RestoreCommand final : public ParamCommand {
     return false;
   }
 
-  // Ramps and limits of another machine on one wheel of a base that drives.
-  static void leaveMoving(DriveParameters& drive) {
+  // At rest: ramps and limits of another machine on one wheel of a base that drives would be none of its own.
+  bool mayWrite(DriveParameters& drive, const std::string& question, const std::atomic<bool>& end_asked) const {
+    if (!agreed(drive, question, end_asked)) return false;
     const std::string moving = drive.notAtRest();
     if (!moving.empty()) throw Trouble(moving);
+    return true;
   }
 
   bool restore(WatchedParameters& drive, const Dump& dump, const RestoreJournal& journal,
@@ -155,8 +157,7 @@ class RestoreCommand final : public ParamCommand {
       tell(record, {}, dry_run_ ? "planned" : "done", drive);
       return true;
     }
-    if (!agreed(drive, "write this to drive " + drive_ + "?", end_asked)) return false;
-    leaveMoving(drive);
+    if (!mayWrite(drive, "write this to drive " + drive_ + "?", end_asked)) return false;
     RestoreRun run{drive, record, [&journal](const RestoreRecord& saved) { journal.write(saved); }, end_asked};
     drive.expect("writing", accessesOf(record));
     return ended(run.write(), run, record, drive, journal);
@@ -166,11 +167,10 @@ class RestoreCommand final : public ParamCommand {
             const std::atomic<bool>& end_asked) {
     RestoreRun run{drive, record, [&journal](const RestoreRecord& saved) { journal.write(saved); }, end_asked};
     if (take_back_) {
-      if (!agreed(drive, "put back what the restore from " + record.file + " has changed in drive " + drive_ + "?",
-                  end_asked)) {
+      if (!mayWrite(drive, "put back what the restore from " + record.file + " has changed in drive " + drive_ + "?",
+                    end_asked)) {
         return false;
       }
-      leaveMoving(drive);
       drive.expect("taking back", 2 * record.changes.size());
       return ended(run.takeBack(), run, record, drive, journal);
     }
@@ -184,8 +184,7 @@ class RestoreCommand final : public ParamCommand {
     }
     say("drive " + drive_ + " (" + drive.identity().address + "), the rest of " + record.file + ":\n" +
         planText(rest, drive.known(), record.persistent));
-    if (!agreed(drive, "write this to drive " + drive_ + "?", end_asked)) return false;
-    leaveMoving(drive);
+    if (!mayWrite(drive, "write this to drive " + drive_ + "?", end_asked)) return false;
     drive.expect("writing", accessesOf(record));
     return ended(run.write(), run, record, drive, journal);
   }

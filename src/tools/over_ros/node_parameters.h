@@ -34,7 +34,7 @@ class NodeParameters final : public DriveParameters {
  private:
   template <typename Service>
   void call(ros::ServiceClient& client, Service& service);
-  /// The newest one of the drive, after at most two seconds; earlier, once one is `enough`. Throws Trouble when none comes.
+  /// The newest of the drive within two seconds of the first, or the first that is `enough`. Throws Trouble when none comes.
   DriveStatus statusOnce(const std::function<bool(const DriveStatus&)>& enough) const;
   /// Asked for, or in force; none where the drive does not tell it.
   std::optional<std::uint8_t> setFor(const catalogue::ParameterAccess& access);
