@@ -134,6 +134,8 @@ class EdsCheck {
   void parameter(std::uint16_t index, std::uint8_t sub_index, const char* what, std::optional<std::uint16_t> wanted) {
     if (!wanted) return;
     const EdsObject* object = file_.object(index, sub_index);
+    // A PDO without a time behaves as if it were 0.
+    if (object == nullptr && *wanted == 0 && sub_index != kType) return;
     if (object == nullptr) return say("the EDS has no " + std::string{what} + " (" + place(index, sub_index) + ")");
     if (mayWrite(*object) || !object->value || object->value->at(config_.id) == *wanted) return;
     say(std::string{what} + " is fixed at " + std::to_string(object->value->at(config_.id)) + ", configured is " +

@@ -32,11 +32,20 @@ enum class Group2 : std::uint8_t {
   kDuplicateMac = 7
 };
 
+/// Group 3, 600h..7BFh: message number, then the sender's MAC id. Of devices that take connections by their own messages.
+enum class Group3 : std::uint8_t {
+  kUnconnectedResponse = 5  ///< and their heartbeat and shutdown
+};
+
 constexpr std::uint32_t identifier(Group1 message, std::uint8_t mac) noexcept {
   return static_cast<std::uint32_t>(message) << 6u | mac;
 }
 constexpr std::uint32_t identifier(Group2 message, std::uint8_t mac) noexcept {
   return 0x400u | static_cast<std::uint32_t>(mac) << 3u | static_cast<std::uint32_t>(message);
+}
+
+constexpr std::uint32_t identifier(Group3 message, std::uint8_t mac) noexcept {
+  return 0x600u | static_cast<std::uint32_t>(message) << 6u | mac;
 }
 
 /// What an identifier says.

@@ -6,6 +6,12 @@ namespace nord_driver::devicenet {
 namespace {
 
 constexpr std::uint8_t kMacMask = 0x3F;
+constexpr std::uint8_t kFragmented = 0x80;
+
+bool isRefusal(const CanFrame& response) noexcept {
+  const bool whole = response.size > 1 && (response.data[0] & kFragmented) == 0;
+  return whole && response.data[1] == (service::kError | service::kResponse);
+}
 
 }  // namespace
 
@@ -59,6 +65,7 @@ void NodeHandler::handleExplicit(const CanFrame& frame, Instant now) noexcept {
       // The header names whom it answers.
       ++report_.busCounters().second_scanner;
       ++report_.status().counters.foreign_requests;
+      if (!isRefusal(frame)) ++report_.status().counters.foreign_use;
       connect_.handleForeignMaster(static_cast<std::uint8_t>(frame.data[0] & kMacMask), now);
       break;
     case Heard::kMalformed:
@@ -106,6 +113,7 @@ void NodeHandler::handleDuplicateMac(const DuplicateMacMessage& message, Instant
 
 void NodeHandler::handleForeignRequest(const CanFrame& frame, Group2 message, Instant now) noexcept {
   ++report_.status().counters.foreign_requests;
+  if (message != Group2::kUnconnected) ++report_.status().counters.foreign_use;
   const bool is_explicit = message == Group2::kMasterExplicit || message == Group2::kUnconnected;
   if (is_explicit && frame.size > 0) {
     connect_.handleForeignMaster(static_cast<std::uint8_t>(frame.data[0] & kMacMask), now);

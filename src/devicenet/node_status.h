@@ -38,6 +38,9 @@ struct NodeCounters {
   std::uint64_t reopened = 0;          ///< times the explicit connection had to be allocated again beside the exchange
   std::uint64_t heartbeats = 0;        ///< device heartbeat messages
   std::uint64_t foreign_requests = 0;  ///< of another master
+  /// Those that another master works with it by: process data, and what it asks over a connection of its own. A request for
+  /// a connection that the device refuses is none.
+  std::uint64_t foreign_use = 0;
 };
 
 struct NodeStatus {

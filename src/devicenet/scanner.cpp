@@ -8,7 +8,6 @@ namespace nord_driver::devicenet {
 namespace {
 
 /// Group 3 message of devices that are not Group-2-only: their heartbeat and shutdown come with it.
-constexpr std::uint8_t kUnconnectedResponse = 5;
 
 ScannerConfig checked(const ScannerConfig& config) {
   ScannerConfig complete = completed(config);
@@ -133,7 +132,8 @@ void Scanner::handleFrame(const CanFrame& frame, Instant now) noexcept {
     deadline_ = earlier(deadline_, node->io().nextDeadline());
     return;
   }
-  if (node != nullptr && id->group == 3 && id->message == kUnconnectedResponse && isDeviceMessage(frame, node->mac())) {
+  if (node != nullptr && id->group == 3 && id->message == static_cast<std::uint8_t>(Group3::kUnconnectedResponse) &&
+      isDeviceMessage(frame, node->mac())) {
     node->handleExplicit(frame, now);
     return touched(*node);
   }
@@ -340,6 +340,7 @@ std::vector<std::uint32_t> Scanner::receivedIds() const {
       if (node->io().takes(message)) ids.push_back(identifier(message, node->mac()));
     }
     ids.push_back(identifier(Group2::kSlaveExplicit, node->mac()));
+    ids.push_back(identifier(Group3::kUnconnectedResponse, node->mac()));  // heartbeat and shutdown
   }
   for (std::uint8_t mac = 0; mac < kMacIds; ++mac) ids.push_back(identifier(Group2::kDuplicateMac, mac));
   for (const Group2 message :

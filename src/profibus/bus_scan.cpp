@@ -1,5 +1,7 @@
 #include "profibus/bus_scan.h"
 
+#include <algorithm>
+
 #include "profibus/frame_count.h"
 
 namespace nord_driver::profibus {
@@ -43,7 +45,7 @@ void BusScan::start(Instant now) noexcept {
   line_busy_ = false;
   listen_.restart(now);
   step_ = Step::kListen;
-  if (listen_.mayTalk(now)) askStatus(0, now);
+  if (listen_.mayTalk(now)) begin(now);
 }
 
 void BusScan::handleBytes(ByteView bytes, Instant now) noexcept {
@@ -53,7 +55,7 @@ void BusScan::handleBytes(ByteView bytes, Instant now) noexcept {
 }
 
 void BusScan::handleTimeout(Instant now) noexcept {
-  if (step_ == Step::kListen && listen_.mayTalk(now)) return askStatus(0, now);
+  if (step_ == Step::kListen && listen_.mayTalk(now)) return begin(now);
   switch (requester_.handleTimeout(now)) {
     case Requester::Outcome::kNone:
       return;
@@ -78,24 +80,39 @@ std::optional<Instant> BusScan::nextDeadline() const noexcept {
   return step_ == Step::kListen ? listen_.end() : requester_.nextDeadline();
 }
 
-void BusScan::askStatus(std::uint8_t address, Instant now) noexcept {
+void BusScan::begin(Instant now) noexcept {
+  began_ = now;
+  first_round_ = true;
+  askFrom(0, now);
+}
+
+// The next silent one.
+void BusScan::askFrom(std::uint8_t address, Instant now) noexcept {
+  while (address < kAddresses && stations_[address].kind != ScannedStation::Kind::kSilent) ++address;
+  if (address >= kAddresses) return endRound(now);
   address_ = address;
-  if (address_ == bus_.master.value()) ++address_;
-  if (address_ >= kAddresses) {
-    step_ = Step::kDone;
-    return;
-  }
   step_ = Step::kStatus;
   services_.fdlStatus(request_, *StationAddress::from(address_));
   requester_.begin(request_, &slave_counters_, now);
 }
 
+void BusScan::endRound(Instant now) noexcept {
+  const bool silent = std::any_of(stations_.begin(), stations_.end(), [](const ScannedStation& station) {
+    return station.kind == ScannedStation::Kind::kSilent;
+  });
+  const bool again = first_round_ || found_ || now - began_ < kSearch;
+  first_round_ = found_ = false;
+  if (silent && again) return askFrom(0, now);
+  step_ = Step::kDone;
+}
+
 void BusScan::askNext(Instant now) noexcept {
-  askStatus(static_cast<std::uint8_t>(address_ + 1), now);
+  askFrom(static_cast<std::uint8_t>(address_ + 1), now);
 }
 
 void BusScan::onAnswer(const FdlAnswer& answer, Instant now) noexcept {
   ScannedStation& station = stations_[address_];
+  found_ = true;
   if (step_ == Step::kDiagnosis) {
     const auto diagnosis = answer.kind == FdlAnswer::Kind::kData ? Diagnosis::from(answer.data) : std::nullopt;
     if (diagnosis) {

@@ -1,4 +1,4 @@
-// Who is there? Asks every address for its FDL status, and every slave found for its diagnosis. For a segment on which
+// Who is there? Asks every address for its FDL status, those that were silent again, and every slave found for its diagnosis. For a segment on which
 // no DpMaster runs at the same time. Sans-IO like DpMaster.
 #pragma once
 
@@ -35,10 +35,13 @@ struct ScannedStation {
 Sentence describe(std::uint8_t address, const ScannedStation& station) noexcept;
 
 /// Calling order as DpMaster's, with `start()` in the place of `startCycle()` and `done()` in that of `cycleDone()`. A
-/// silent address costs one slot. Nothing is parameterised, and a slave of another master may be asked.
+/// silent address costs one slot. A module that looks for the baud rate is silent until it has heard some telegrams (BU 2700,
+/// P181; BU 0220, Auto_Baud_supp): who was silent is asked again, at least once, until kSearch has
+/// passed and a whole round found nobody new. Nothing is parameterised, and a slave of another master may be asked.
 class BusScan {
  public:
   static constexpr std::uint8_t kAddresses = 127;  ///< 0..126
+  static constexpr Duration kSearch = std::chrono::seconds{2};
 
   /// Throws std::invalid_argument with a sentence when a value is out of range.
   explicit BusScan(const BusParameters& bus);
@@ -63,7 +66,9 @@ class BusScan {
  private:
   enum class Step : std::uint8_t { kListen, kStatus, kDiagnosis, kDone };
 
-  void askStatus(std::uint8_t address, Instant now) noexcept;
+  void begin(Instant now) noexcept;
+  void askFrom(std::uint8_t address, Instant now) noexcept;
+  void endRound(Instant now) noexcept;
   void askNext(Instant now) noexcept;
   void onAnswer(const FdlAnswer& answer, Instant now) noexcept;
   void onForeign(std::uint8_t master, bool certain, Instant now) noexcept;
@@ -76,6 +81,9 @@ class BusScan {
   SlaveCounters slave_counters_;
   Step step_ = Step::kDone;
   std::uint8_t address_ = 0;
+  Instant began_{};
+  bool first_round_ = false;
+  bool found_ = false;  // somebody, in this round
   std::array<ScannedStation, kAddresses> stations_{};
   std::optional<std::uint8_t> refused_by_;
   bool line_busy_ = false;

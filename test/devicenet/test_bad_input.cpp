@@ -117,7 +117,7 @@ TEST(BadInput, ReceivedIdentifiers) {
   Scanner one{busConfig(1)};
   const auto ids = one.receivedIds();
   EXPECT_TRUE(std::is_sorted(ids.begin(), ids.end()));
-  for (const std::uint32_t id : {0x3C5u, 0x42Bu, 0x407u, 0x42Fu, 0x42Eu, 0x42Du, 0x42Cu, 0x42Au, 0x410u}) {
+  for (const std::uint32_t id : {0x3C5u, 0x42Bu, 0x407u, 0x42Fu, 0x42Eu, 0x42Du, 0x42Cu, 0x42Au, 0x410u, 0x745u}) {
     EXPECT_THAT(ids, testing::Contains(id));
   }
   ScannerConfig config = busConfig(0);

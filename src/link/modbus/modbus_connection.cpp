@@ -163,6 +163,7 @@ bool ModbusConnection::exchange(ModbusRequest request, const Wakeup& stop) noexc
   const AnswerVerdict verdict = judge(request, ByteView{answer_});
   if (!verdict.good()) {
     const bool refused = verdict.fault == AnswerFault::kException;
+    if (refused) exception_ = verdict.found;
     return fail(refused ? ModbusTrouble::kException : ModbusTrouble::kBadAnswer, describe(request, verdict).c_str());
   }
   has_answered_ = true;

@@ -53,6 +53,8 @@ class ModbusConnection {
 
   const Sentence& reason() const noexcept { return reason_; }
   ModbusTrouble trouble() const noexcept { return trouble_; }
+  /// The code of the last one, of kException.
+  unsigned exception() const noexcept { return exception_; }
   int descriptor() const noexcept { return socket_; }
 
  private:
@@ -79,6 +81,7 @@ class ModbusConnection {
   HeardTelegram heard_;  // what is the same for all telegrams of this connection
   Sentence reason_;
   ModbusTrouble trouble_ = ModbusTrouble::kNone;
+  unsigned exception_ = 0;
 };
 
 }  // namespace nord_driver::link

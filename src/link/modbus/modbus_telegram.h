@@ -59,6 +59,9 @@ AnswerVerdict judge(const ModbusRequest& request, ByteView answer) noexcept;
 /// Register `i` of the read.count of a good answer to a reading request.
 Word answerRegister(ByteView answer, std::size_t i) noexcept;
 
+/// "Server device busy": the request was not carried out, "the client should retransmit the message later" (chapter 7).
+constexpr unsigned kServerBusy = 6;
+
 /// What an exception code means, and what to look at (chapter 7).
 const char* exceptionMeaning(unsigned code) noexcept;
 

@@ -22,6 +22,7 @@ struct RegisterOrder {
 struct RegisterAnswer {
   std::uint64_t number = 0;  ///< of the order
   bool good = false;
+  bool busy = false;  ///< refused with exception 6, server device busy: it was not carried out, and may be asked again
   std::array<Word, RegisterOrder::kMostWords> values{};  ///< read
   Sentence text;                                         ///< why not, a sentence that begins with the server
 };

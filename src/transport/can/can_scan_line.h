@@ -28,13 +28,19 @@ class CanScanLine {
   std::string open(const ListenRules& rules, const Handle& heard);
 
   /// Sends what `poll_transmit` gives and tells `handle` what comes, until `until`, `done()`, the end is asked for or
-  /// the interface is gone. `next` may name an earlier moment to look at `done()` again.
+  /// the interface is gone. `next` is told a moment up to which all that has come was handled, for time-outs, and may name
+  /// an earlier one to look at `done()` again.
   template <typename PollTransmit, typename Next, typename Done>
   void talk(Instant until, PollTransmit poll_transmit, Next next, const Handle& handle, Done done) {
     while (!end_asked_ && link_.isOpen() && !done() && link_.now() < until) {
       CanFrame frame;
-      while (poll_transmit(frame)) send(frame);
-      const Instant wait = std::min({until, next(), link_.now() + kSlice});
+      while (!end_asked_ && !done() && poll_transmit(frame)) {
+        send(frame);  // it may wait for room
+        receive(handle);
+      }
+      const Instant seen = link_.now();
+      receive(handle);
+      const Instant wait = std::min({until, next(seen), link_.now() + kSlice});
       link_.waitReadable(wait);
       receive(handle);
     }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "canopen/nmt.h"
@@ -42,10 +43,13 @@ class Node {
  public:
   explicit Node(std::uint8_t id) : id_(id), client_(canopen::defaultSdoChannel(id), kAnswer) {}
 
-  void start(Instant now) { ask(kDeviceType, now); }
   bool done() const { return done_; }
   bool answered() const { return answered_; }
-  bool poll(CanFrame& frame) { return !done_ && client_.pollTransmit(frame); }
+  /// Its time begins when its first frame leaves: on a slow bus that of the last one does so seconds after the first.
+  bool poll(CanFrame& frame, Instant now) {
+    if (!std::exchange(started_, true)) ask(kDeviceType, now);
+    return !done_ && client_.pollTransmit(frame);
+  }
   std::optional<Instant> deadline() const { return done_ ? std::nullopt : client_.nextDeadline(); }
 
   void handle(const CanFrame& frame, Instant now) {
@@ -119,6 +123,7 @@ class Node {
 
   std::uint8_t id_;
   canopen::SdoClient client_;
+  bool started_ = false;
   bool answered_ = false;
   bool done_ = false;
   std::size_t next_ = 0;  // of kObjects
@@ -149,17 +154,16 @@ ScanReport scanCanopen(const Settings& bus,
   report.trouble = line.open(kCanopenListening, heed);
   std::string other;
   if (report.trouble.empty()) {
-    for (Node& node : nodes) node.start(line.now());
     const auto all_done = [&] {
       return !other.empty() || std::all_of(nodes.begin(), nodes.end(), [](const Node& node) { return node.done(); });
     };
     const auto next_frame = [&](CanFrame& frame) {
-      return std::any_of(nodes.begin(), nodes.end(), [&](Node& node) { return node.poll(frame); });
+      return std::any_of(nodes.begin(), nodes.end(), [&](Node& node) { return node.poll(frame, line.now()); });
     };
-    const auto next_look = [&] {
+    const auto next_look = [&](Instant seen) {
       Instant next = Instant::max();
       for (Node& node : nodes) {
-        node.handleTime(line.now());
+        node.handleTime(seen);
         if (const auto deadline = node.deadline()) next = std::min(next, *deadline);
       }
       return next;

@@ -126,8 +126,8 @@ Interruption DevicenetDriveState::takeInterruption(const NodeStatus& status, boo
 }
 
 void DevicenetDriveState::watchOthers(const NodeStatus& status, Instant now) noexcept {
-  if (status.counters.foreign_requests != foreign_seen_) contested_at_ = now;
-  foreign_seen_ = status.counters.foreign_requests;
+  if (status.counters.foreign_use != foreign_seen_) contested_at_ = now;
+  foreign_seen_ = status.counters.foreign_use;
   contested_ = contested_at_ && now - *contested_at_ < kContested;
 }
 

@@ -96,8 +96,8 @@ ScanReport scanDevicenet(const Settings& bus,
   scanner.restart(line.now());
   std::string other;
   const auto next_frame = [&](CanFrame& frame) { return scanner.pollTransmit(frame); };
-  const auto next_look = [&] {
-    scanner.poll(line.now());
+  const auto next_look = [&](Instant seen) {
+    scanner.poll(seen);
     while (const auto event = scanner.pollEvent()) {
       if (event->kind == devicenet::DevicenetEventKind::kSecondScanner && other.empty()) {
         other = "another scanner began to work with the bus: ended";

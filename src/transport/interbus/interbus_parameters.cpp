@@ -178,14 +178,16 @@ void InterbusParameters::handleAnswer(const link::RegisterAnswer& answer) noexce
   }
   if (!answer.good) {
     trouble_ = answer.text;
-    // Whether a write came through is not known, so it is not repeated: only the deadline ends it.
-    if (phase_ == Phase::kInvoke) phase_ = Phase::kConfirmed;
+    // Whether a write came through is not known, so it is not repeated: only the deadline ends it. One that a busy gateway
+    // has refused did not.
+    if (phase_ == Phase::kInvoke && !answer.busy) phase_ = Phase::kConfirmed;
     return;
   }
   if (phase_ == Phase::kClear) {
     trouble_.clear();
     phase_ = Phase::kCleared;
   } else if (phase_ == Phase::kInvoke) {
+    trouble_.clear();
     if (running_) phase_ = Phase::kConfirmed;
   } else {
     interbus::PcpBlock block = answer.values;

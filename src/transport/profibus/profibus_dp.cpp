@@ -326,7 +326,7 @@ Sentence ProfibusDpTransport::busText() const noexcept {
   if (!link_->isOpen()) {
     text.format("%s", link_->lastError().empty() ? "the bus device is not open yet" : link_->lastError().c_str());
   } else if (scan_) {
-    text = "every address is asked once (scan) before data are exchanged";
+    text = "every address is asked (scan) before data are exchanged";
   } else if (last_foreign_ && now - *last_foreign_ < kToldFor) {
     text.format("another master is on this segment%s: this driver must be the only one",
                 master_->isListening() ? ", and nothing is sent for as long as it is heard" : "");

@@ -65,7 +65,7 @@ struct ProfibusDpConfig {
   std::vector<ProfibusDrive> drives;
   RecordAddressing records;
   ProfibusUse use = ProfibusUse::kDataExchange;
-  bool scan = false;                  ///< ask every address once, before the first exchange
+  bool scan = false;                  ///< ask every address, before the first exchange
   std::vector<std::string> warnings;  ///< accepted, and worth a look
 };
 

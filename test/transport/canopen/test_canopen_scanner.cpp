@@ -41,9 +41,11 @@ class ScannedBus final : public sim::SimulatedCanBus {
   std::vector<CanFrame> foreign_;
 };
 
-sim::SimConfig twoNodes() {
+sim::SimConfig twoNodes(int bit_rate) {
+  sim::CanBusConfig bus;
+  bus.bit_rate = static_cast<std::uint32_t>(bit_rate);
   sim::SimConfig config;
-  config.bus = sim::CanBusConfig{};
+  config.bus = bus;
   for (const int id : {5, 127}) {
     sim::DriveConfig drive;
     drive.name = "drive" + std::to_string(id);
@@ -53,10 +55,11 @@ sim::SimConfig twoNodes() {
   return config;
 }
 
-ScanReport scan(Seen& seen, const std::vector<CanFrame>& foreign = {}, const std::atomic<bool>& end_asked = kNotAsked) {
+ScanReport scan(Seen& seen, const std::vector<CanFrame>& foreign = {}, const std::atomic<bool>& end_asked = kNotAsked,
+                int bit_rate = 250'000) {
   CanopenTransport transport{
-      [&](const link::CanSettings&) { return std::make_unique<ScannedBus>(twoNodes(), seen, foreign); }};
-  return transport.scan(MapSettings{"~bus/", {{"interface", std::string{"can0"}}}}, end_asked);
+      [&](const link::CanSettings&) { return std::make_unique<ScannedBus>(twoNodes(bit_rate), seen, foreign); }};
+  return transport.scan(MapSettings{"~bus/", {{"interface", std::string{"can0"}}, {"bit_rate", bit_rate}}}, end_asked);
 }
 
 // By SDO alone: no node is led to another state, and none gets process data.
@@ -74,6 +77,17 @@ TEST(CanopenScanner, NamesTheNodes) {
     EXPECT_THAT(station.note, HasSubstr("vendor "));
   }
   for (const std::uint32_t id : seen.sent) EXPECT_TRUE(id > 0x600 && id <= 0x67F) << std::hex << id;
+}
+
+// P514: 127 requests take 1.5 s at 10 kbit/s, and each node has 0.3 s from its own on.
+TEST(CanopenScanner, NamesTheNodesOfASlowBus) {
+  for (const int bit_rate : {10'000, 20'000}) {
+    Seen seen;
+    const ScanReport report = scan(seen, {}, kNotAsked, bit_rate);
+    EXPECT_THAT(report.trouble, IsEmpty());
+    ASSERT_EQ(2u, report.stations.size()) << bit_rate;
+    EXPECT_THAT(report.stations[1].series, HasSubstr("P742 = 1, P743 = 150"));
+  }
 }
 
 // An RPDO while it listens.

@@ -146,6 +146,32 @@ TEST(DeviceNetTransportTest, AModuleThatAnotherScannerPollsDoesNotCount) {
   EXPECT_LE(away, milliseconds{1100});
 }
 
+// A scanner that has it in its list, too, and is refused tries again every second: nobody but this one works with it.
+TEST(DeviceNetTransportTest, AnotherScannerThatIsRefusedTakesNothingAway) {
+  Rig rig;
+  ASSERT_TRUE(rig.starts());
+  for (int second = 0; second < 5; ++second) {
+    rig.bus->say("42E#014B03010101");
+    rig.bus->say("42B#01940B02");
+    for (int cycle = 0; cycle < 50; ++cycle) {
+      rig.cycle();
+      ASSERT_TRUE(rig.inputs[0].inverter_answers) << second << " s, cycle " << cycle;
+    }
+    EXPECT_THAT(rig.transport.busText().str(), HasSubstr("another master, MAC id 1, is on the bus"));
+  }
+}
+
+// It would be told what to do by two, as soon as that one has its connection.
+TEST(DeviceNetTransportTest, AModuleThatAnotherScannerIsGrantedDoesNotCount) {
+  Rig rig;
+  ASSERT_TRUE(rig.starts());
+  rig.bus->say("42E#014B03010101");
+  rig.bus->say("42B#01CB00");
+  rig.cycle();
+  rig.cycle();
+  EXPECT_FALSE(rig.inputs[0].inverter_answers);
+}
+
 TEST(DeviceNetTransportTest, AModuleWithAnotherAssemblyIsNotPolled) {
   Rig rig;
   rig.device().produced = rig.device().consumed = 8;

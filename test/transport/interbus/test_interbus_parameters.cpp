@@ -101,6 +101,14 @@ class Pcp : public ::testing::Test {
     const auto order = parameters.pollOrder(now);
     if (!order) return;
     ++orders;
+    const bool invokes = order->write && order->values[0] != 0;
+    if (invokes && busy > 0) {
+      --busy;
+      link::RegisterAnswer refused;
+      refused.busy = true;
+      refused.text = "192.168.0.10:502 refuses it with exception 6";
+      return parameters.handleAnswer(refused);
+    }
     if (!lose) parameters.handleAnswer(carryOut(*order));
   }
   void cycles(int count) {
@@ -134,6 +142,7 @@ class Pcp : public ::testing::Test {
   Simulator sim{config};
   InterbusParameters parameters;
   int orders = 0;
+  int busy = 0;       // so many invocations more are refused
   bool lose = false;  // orders are not answered any more
   Duration taken{};
 };
@@ -309,6 +318,18 @@ TEST_F(Pcp, ADriveThatGoesOfflineEndsItsRequestsAtOnce) {
     EXPECT_EQ(ParameterOutcome::kDone, other.outcome) << at << " " << other.text.c_str();
     EXPECT_EQ(sim.robot.drive(1).parameters().value(102), other.raw);
   }
+}
+
+// "Server device busy": what was not carried out is asked again (MODBUS Application Protocol V1.1b3, 7).
+TEST_F(Pcp, ABusyGatewayIsAskedAgain) {
+  busy = 3;
+  const ParameterResult result = ask(read(105, ParameterShape::kPerSet));
+  EXPECT_EQ(ParameterOutcome::kDone, result.outcome) << result.text.c_str();
+  EXPECT_EQ(0, busy);
+  EXPECT_LT(taken, milliseconds{500});
+  busy = 1;
+  EXPECT_EQ(ParameterOutcome::kDone, ask(write(102, 150, ParameterShape::kPerSet)).outcome);
+  EXPECT_EQ(150, sim.robot.drive(0).parameters().value(102));
 }
 
 TEST(PcpRefusal, ReasonsTheDriverActsOn) {

@@ -249,8 +249,8 @@ TEST_F(OnAModule, AScanNamesTheStationWithoutAnAddress) {
   bus_.set("scan", true);
   open({1}, false, 126);
   step();
-  EXPECT_THAT(transport_->busText().c_str(), HasSubstr("every address is asked once"));
-  run(seconds{1});
+  EXPECT_THAT(transport_->busText().c_str(), HasSubstr("every address is asked (scan)"));
+  run(seconds{5});
   EXPECT_THAT(transport_->busText().c_str(),
               HasSubstr("scan: stations that answered: 126 (not addressed yet: set its address to 3 to 125)"));
   EXPECT_THAT(
