@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "config/nearest_name.h"
+#include "config/yaml_number.h"
 
 namespace nord_driver {
 
@@ -22,14 +23,17 @@ bool isNumber(const SettingValue& value) {
 
 bool readsAsNumber(const std::string& text) {
   char* end = nullptr;
-  std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0';
+  const double value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && std::isfinite(value);
 }
 
 // What to do about the slips of YAML that are made most.
 std::string remedyOf(const SettingValue& value, const std::string& expected) {
   const bool quoted_number = expected.find("number") != std::string::npos && readsAsNumber(value.text);
   const bool quoted_flag = expected == "true or false" && (value.text == "true" || value.text == "false");
+  if (value.kind == Kind::kText && quoted_number && !isYamlInteger(value.text) && !isYamlFraction(value.text)) {
+    return ": YAML takes " + value.text + " for a text, write " + yamlNumber(std::strtod(value.text.c_str(), nullptr));
+  }
   if (value.kind == Kind::kText && (quoted_number || quoted_flag)) return ": write " + value.text + " without quotes";
   if (value.kind == Kind::kList && expected == kAGroup) return ": write \"name: ...\" in place of \"- ...\"";
   return "";

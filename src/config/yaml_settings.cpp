@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "config/yaml_number.h"
 #include "config/yaml_tree.h"
 
 namespace nord_driver {
@@ -13,16 +14,14 @@ namespace {
 
 // YAML 1.1, as rosparam reads it. In its keys a slash begins a group: "linear/x: {...}".
 SettingValue scalarValue(const YAML::Node& node) {
-  static const std::regex kIntegers("[-+]?([0-9]+|0x[0-9a-fA-F]+)");
-  static const std::regex kFractions(R"([-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?)");
   static const std::regex kBooleans("true|True|TRUE|false|False|FALSE|yes|Yes|YES|no|No|NO|on|On|ON|off|Off|OFF");
   const std::string& text = node.Scalar();
   if (node.Tag() == "!") return SettingValue::ofText(text);  // quoted
   std::int64_t whole = 0;
-  if (std::regex_match(text, kIntegers) && YAML::convert<std::int64_t>::decode(node, whole)) {
+  if (isYamlInteger(text) && YAML::convert<std::int64_t>::decode(node, whole)) {
     return SettingValue::ofInteger(whole, text);
   }
-  if (std::regex_match(text, kFractions)) return SettingValue::ofFraction(node.as<double>(), text);
+  if (isYamlInteger(text) || isYamlFraction(text)) return SettingValue::ofFraction(node.as<double>(), text);
   if (std::regex_match(text, kBooleans)) return SettingValue::ofBoolean(node.as<bool>(), text);
   return SettingValue::ofText(text);
 }

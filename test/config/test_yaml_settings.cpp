@@ -67,7 +67,7 @@ TEST(YamlSettings, SaysWhatToDoAboutQuotesAndBrackets) {
 // As rosparam sees them: what is quoted is a text, "yes" is true, 0x10 is 16, a whole fraction an integer.
 TEST(YamlSettings, TellsKindsAsRosparamDoes) {
   const YamlSettings all =
-      settings("{quoted: '5', yes_word: yes, hex: 0x10, whole: 2.0, small: 1e-3, negative: -7, none: ~}");
+      settings("{quoted: '5', yes_word: yes, hex: 0x10, whole: 2.0, small: 1.0e-3, negative: -7, none: ~}");
   EXPECT_EQ("5", all.text("quoted"));
   EXPECT_THAT(refusal([&] { all.number("quoted"); }), HasSubstr("quoted: \"5\" is not valid, expected a number"));
   EXPECT_EQ(true, all.boolean("yes_word"));
@@ -78,6 +78,23 @@ TEST(YamlSettings, TellsKindsAsRosparamDoes) {
   EXPECT_EQ(1e-3, all.number("small"));
   EXPECT_EQ(-7, all.integer("negative"));
   EXPECT_FALSE(all.has("none"));
+}
+
+// PyYAML, and with it rosparam, wants a point in a fraction and a sign in its exponent: the check must not accept what ends
+// the node. Each as rosparam.load_str of Noetic has it.
+TEST(YamlSettings, TakesForNumbersWhatRosparamTakes) {
+  for (const char* const number : {"1.0e+6", "1.0e-3", ".5", "5.", "0.5", "010", "-7", "+3", "-0.25"}) {
+    EXPECT_NO_THROW(settings((std::string("{a: ") + number + "}").c_str()).number("a")) << number;
+  }
+  EXPECT_EQ(8, settings("{a: 010}").integer("a"));
+  const std::pair<const char*, const char*> texts[] = {{"1e6", "1000000"}, {"1.0e6", "1000000"}, {"1e-3", "0.001"},
+                                                       {"-.5", "-0.5"},    {"08", "8"},          {"1e-20", "1.0e-20"}};
+  for (const auto& [text, better] : texts) {
+    const YamlSettings all = settings((std::string("{a: ") + text + "}").c_str());
+    EXPECT_EQ(std::string("a: \"") + text + "\" is not valid, expected a number: YAML takes " + text +
+                  " for a text, write " + better,
+              refusal([&] { all.number("a"); }));
+  }
 }
 
 TEST(YamlSettings, AWrongKindIsRefusedWithKeyValueAndExpectation) {
