@@ -45,7 +45,10 @@ std::string write(ParameterAccess& access, std::int64_t raw, double value, bool 
   if (!fits) return beyond(access, value);
   request.action = persistent ? profile::ParameterAction::kWritePersistent : profile::ParameterAction::kWriteRam;
   request.raw = static_cast<std::int32_t>(raw);
-  request.double_word = access.entry != nullptr && access.entry->sizeOf(request.index) > 16;
+  // Of an unknown one the value says how wide it has to be: cut to 16 bits it would be another value.
+  request.double_word = access.entry != nullptr ? access.entry->sizeOf(request.index) > 16
+                                                : raw < std::numeric_limits<std::int16_t>::min() ||
+                                                      raw > std::numeric_limits<std::uint16_t>::max();
   return {};
 }
 
@@ -101,8 +104,12 @@ std::string setText(ParameterAccess& access, const std::string& text, bool persi
 
 std::string setRaw(ParameterAccess& access, std::int64_t raw, bool persistent) {
   if (std::string why = whyNot(access); !why.empty()) return why;
-  const double step = access.entry != nullptr ? access.entry->step() : 1.0;
-  return write(access, raw, static_cast<double>(raw) * step, persistent);
+  if (access.entry == nullptr) return write(access, raw, static_cast<double>(raw), persistent);
+  // As transferred: on CAN and InterBus a word comes without its sign, and -1 is 65535.
+  const unsigned width = access.entry->sizeOf(access.request.index);
+  const bool is_word = width < 32 && raw >= 0 && raw < (std::int64_t{1} << width);
+  if (is_word) raw = access.entry->meant(static_cast<std::int32_t>(raw), access.request.index);
+  return write(access, raw, static_cast<double>(raw) * access.entry->step(), persistent);
 }
 
 double valueOf(const ParameterEntry* entry, std::int32_t raw, unsigned index) {

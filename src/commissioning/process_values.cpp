@@ -83,7 +83,7 @@ void askedWordsAreCarried(const Drives& drives, std::size_t index, Findings& to)
   const cycle::WordNeeds& needs = drive.asked().words;
   cycle::WordFunctions functions = functionsOf(drive);
   // Each finding as if the one before it had been mended, so that none asks for the word of another.
-  for (std::size_t i = 0; i < needs.list.size(); ++i) {
+  for (std::size_t i = 0; i < needs.list.size() + kPlaces; ++i) {
     const auto missing = cycle::missingWord(needs, functions, drive.asked().series);
     if (!missing) return;
     const bool actual_value = missing->number < kFirstSetpoint;
@@ -91,10 +91,11 @@ void askedWordsAreCarried(const Drives& drives, std::size_t index, Findings& to)
     const auto place = static_cast<std::uint8_t>(missing->is_array ? missing->index - 1 : missing->number - first);
     const ParameterKey key = drive.functionKey(first, place);
     if (!drive.raw(key)) return;
-    Finding finding = drive.finding(key, Severity::kError,
-                                    std::string("no word carries what the configuration asks for, ") + missing->wanted +
-                                        ": the drive is not enabled");
-    if (missing->expected != 0) finding.remedy = drive.remedy(key, missing->expected);
+    const std::string why = missing->surplus
+                                ? "what another word carries would mean something else beside it"
+                                : std::string("no word carries what the configuration asks for, ") + missing->wanted;
+    Finding finding = drive.finding(key, Severity::kError, why + ": the drive is not enabled");
+    if (missing->expected != 0 || missing->surplus) finding.remedy = drive.remedy(key, missing->expected);
     to.push_back(finding);
     (actual_value ? functions.actual_values : functions.setpoints)[place] = missing->expected;
   }
@@ -165,6 +166,27 @@ void countHasNoOtherGear(const Drives& drives, std::size_t index, Findings& to) 
   to.push_back(finding);
 }
 
+namespace {
+
+/// A further actual value that is off, else one that nothing needs; none: each is needed, or not known.
+std::optional<std::uint8_t> freeActualValue(const DriveUnderCheck& drive, std::uint8_t places) {
+  const cycle::WordFunctions functions = functionsOf(drive);
+  const auto& needs = drive.asked().words.list;
+  std::optional<std::uint8_t> unneeded;
+  for (std::uint8_t place = 1; place < places; ++place) {
+    const auto raw = drive.raw(drive.functionKey(kFirstActualValue, place));
+    if (!raw) continue;
+    if (*raw == 0) return place;
+    const bool needed = std::any_of(needs.begin(), needs.end(), [&](const cycle::WordNeed& need) {
+      return need.actual_value && cycle::carries(place + 1u, need, functions, drive.asked().series);
+    });
+    if (!needed && !unneeded) unneeded = place;
+  }
+  return unneeded;
+}
+
+}  // namespace
+
 void currentIsMapped(const Drives& drives, std::size_t index, Findings& to) {
   const DriveUnderCheck& drive = drives[index];
   const std::uint8_t places = std::min(kPlaces, drive.asked().identity.process_values);
@@ -173,11 +195,16 @@ void currentIsMapped(const Drives& drives, std::size_t index, Findings& to) {
     const auto raw = drive.raw(drive.functionKey(kFirstActualValue, place));
     if (!raw || *raw == kCurrent) return;
   }
-  const ParameterKey key = drive.functionKey(kFirstActualValue, 1);
+  const std::optional<std::uint8_t> place = freeActualValue(drive, places);
+  const ParameterKey key = drive.functionKey(kFirstActualValue, place.value_or(1));
   Finding finding = drive.finding(key, Severity::kNote,
                                   "rated_current is configured, but no actual value is the current: "
                                   "the status tells none");
-  finding.remedy = drive.remedy(key, kCurrent);
+  if (place) {
+    finding.remedy = drive.remedy(key, kCurrent);
+  } else {
+    finding.advice = "no word is free for it: leave rated_current out, or one of what needs them";
+  }
   to.push_back(finding);
 }
 

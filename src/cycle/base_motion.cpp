@@ -14,7 +14,7 @@ BaseMotion::BaseMotion(const BaseConfig& config, Duration cmd_vel_timeout)
 robot::WheelSpeeds BaseMotion::pollWheels(const TwistCommand& command, bool driving, bool follow,
                                           const robot::WheelSpeeds& max_speeds, Instant now, Duration dt,
                                           const MinimumSpeeds& minimum) noexcept {
-  below_minimum_ = false;
+  obeys_ = below_minimum_ = false;
   if (!driving) {
     limiter_.reset();
     return rest();
@@ -22,9 +22,9 @@ robot::WheelSpeeds BaseMotion::pollWheels(const TwistCommand& command, bool driv
   // Beyond 100 % of P105, or a joint's limit, the whole base is scaled: a wheel cut alone would bend the path. The
   // target is scaled first, so that the limiter never runs ahead of the wheels and braking begins at once.
   const robot::WheelSpeeds limits = robot::tighterOf(max_speeds, joint_limits_);
-  const bool obey = follow && !minimum.coming_to_rest && !command.held && !isStale(command, timeout_, now);
-  if (!obey) limiter_.endAcceleration();
-  robot::Twist2d target = within(limits, obey ? command.twist : robot::Twist2d{});
+  obeys_ = follow && !minimum.coming_to_rest && !command.held && !isStale(command, timeout_, now);
+  if (!obeys_) limiter_.endAcceleration();
+  robot::Twist2d target = within(limits, obeys_ ? command.twist : robot::Twist2d{});
   // Taken as zero at once, it is left along the limits.
   below_minimum_ = anyBelow(kinematics_->wheels(target), minimum.wheels);
   if (below_minimum_) target = {};

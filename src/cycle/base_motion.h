@@ -29,6 +29,8 @@ class BaseMotion {
                                 const MinimumSpeeds& minimum = {}) noexcept;
   /// It rests although a velocity is commanded, for `MinimumSpeeds`.
   bool belowMinimum() const noexcept { return below_minimum_; }
+  /// The last wheel speeds were made from the command; false: the base rests, or comes to rest, without one.
+  bool obeys() const noexcept { return obeys_ && !below_minimum_; }
   /// The velocity behind the last wheel speeds (what `cmd_vel_out` tells).
   const robot::Twist2d& limited() const noexcept { return limited_; }
 
@@ -56,6 +58,7 @@ class BaseMotion {
   robot::Odometry odometry_;
   Duration timeout_;
   bool open_loop_;
+  bool obeys_ = false;
   bool below_minimum_ = false;
   bool drives_ = false;  // the wheels were commanded to turn
   robot::Twist2d limited_;

@@ -63,7 +63,11 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
     addAxis(setup, role);
     leaders_.push_back(setup.leader);
   }
-  for (DriveIndex i = 0; i < drives_.size(); ++i) snapshot_.drives[i].joint_known = !drives_[i].positions();
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    snapshot_.drives[i].joint_known = !drives_[i].positions();
+    const std::size_t words = std::max<std::size_t>(transport_.identity(i).process_values, 1);
+    snapshot_.drives[i].words = static_cast<std::uint8_t>(std::min(words, profile::kMaxProcessValues));
+  }
   if (!config.base) return;
   addBase(*config.base);
 }
@@ -161,6 +165,7 @@ void BusCycle::accessParameter(const Request& request, Instant now) noexcept {
   const std::optional<DriveIndex> moving = decidesMotion(request) ? movingBy(request, now) : std::nullopt;
   if (!moving) {
     axes_[request.drive].parameters.handleRequest(request, drives_[request.drive], now);
+    holdForRelay();
     return submitParameters(request.drive, now);  // it leaves with this cycle's exchange
   }
   Completion refused = answerTo(request, false, axes_[*moving].parameters.notWhileEnabled(request));
@@ -178,6 +183,12 @@ std::optional<DriveIndex> BusCycle::movingBy(const Request& request, Instant now
     if (!isAtRest(i) || drives_[i].stopsUnheard(now)) return i;
   }
   return std::nullopt;
+}
+
+// It was looked at when the write was asked for: until it has been carried out no other drive may begin to turn.
+void BusCycle::holdForRelay() noexcept {
+  if (std::none_of(axes_.begin(), axes_.end(), [](const Axis& axis) { return axis.parameters.writesRelay(); })) return;
+  for (drive::Drive& held : drives_) held.setParametersAwaited(true);
 }
 
 bool BusCycle::isAtRest(DriveIndex drive) noexcept {
@@ -263,6 +274,7 @@ void BusCycle::acknowledgeAtStart(bool quiet, Instant now) noexcept {
 
 void BusCycle::runParameters(Instant now) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) axes_[i].parameters.handleState(drives_[i], now);
+  holdForRelay();
   submitAllParameters(now);
   bool answered = false;
   while (const auto result = transport_.pollResult()) {
@@ -276,6 +288,8 @@ void BusCycle::runParameters(Instant now) noexcept {
   for (Axis& axis : axes_) {
     axis.parameters.endOverdue(now);
     while (const auto completion = axis.parameters.pollCompletion()) ports_.complete(*completion);
+    if (!axis.parameters.takeModuleWrite()) continue;
+    for (Axis& other : axes_) other.parameters.readModuleAgain();
   }
 }
 

@@ -62,6 +62,7 @@ class BusCycle {
   bool refuseHomeUnderWay(const Request& request) noexcept;
   void selectParameterSet(const Request& request, Instant now) noexcept;
   std::optional<DriveIndex> movingBy(const Request& request, Instant now) noexcept;
+  void holdForRelay() noexcept;
   void accessParameter(const Request& request, Instant now) noexcept;
   Completion resetOdometry(const Request& request) noexcept;
   Duration rampTime(Instant now) const noexcept;
@@ -75,6 +76,8 @@ class BusCycle {
   robot::SteeringAngles steeringAngles() const noexcept;
   /// A wheel that rests for P104 although a velocity is commanded.
   bool isSlowWheel(DriveIndex drive) const noexcept;
+  bool wheelsTurn() const noexcept;
+  double fastestWheel() const noexcept;
   void publishBase() noexcept;
   void commandSingles(Instant now, Duration dt) noexcept;
   void commandPosition(DriveIndex drive, Instant now) noexcept;

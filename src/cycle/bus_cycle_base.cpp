@@ -1,8 +1,10 @@
 // The part of the bus cycle that is about the base: from its command to its drives, and from these to its pose.
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 
 #include "cycle/bus_cycle.h"
+#include "profile/scaling.h"
 
 namespace nord_driver::cycle {
 
@@ -58,7 +60,7 @@ void BusCycle::commandSteered(Instant now, Duration dt) noexcept {
   group.commandIsFresh(!isStale(newest, cmd_vel_timeout_, now), now);
   const bool follow = group.commandAllowed();
   const bool driving = follow || group.wantsZeroRamp();
-  const SteeredDrives drives{maxWheelSpeeds(), steeringAngles(), minWheelSpeeds()};
+  const SteeredDrives drives{maxWheelSpeeds(), steeringAngles(), minWheelSpeeds(), wheelsTurn(), fastestWheel()};
   const robot::SteeredSetpoint setpoint = steered_->poll(newest, driving, follow, drives, now, dt);
   for (std::size_t i = 0; i < wheels_.size(); ++i) setVelocity(wheels_[i], setpoint.wheels[i]);
   Sentence waits = clauseOf(steered_->waitsFor());
@@ -75,10 +77,22 @@ void BusCycle::commandSteered(Instant now, Duration dt) noexcept {
   tellWaits(waits, passes, now);
 }
 
+// Unseen, a wheel may turn.
+bool BusCycle::wheelsTurn() const noexcept {
+  return std::any_of(wheels_.begin(), wheels_.end(), [this](DriveIndex i) { return !drives_[i].isNearStandstill(); });
+}
+
+double BusCycle::fastestWheel() const noexcept {
+  int fastest = 0;
+  for (const DriveIndex i : wheels_) fastest = std::max(fastest, std::abs(int{drives_[i].report().speed}));
+  return static_cast<double>(fastest) / profile::kHundredPercent;
+}
+
 // An axis on its way through a reference run turns its wheel to where the base does not go.
 bool BusCycle::refuseHomeUnderWay(const Request& request) noexcept {
   if (!steered_ || !supervisor_.inBase(request.drive)) return false;
-  if (steered_->limited() == robot::Twist2d{} && supervisor_.base()->commandAllowed()) return false;
+  const bool stands = steered_->limited() == robot::Twist2d{} && !wheelsTurn();
+  if (stands && supervisor_.base()->commandAllowed()) return false;
   Sentence text;
   text.format("drive %s steers the base, and the base is not enabled at standstill: no reference run",
               names_[request.drive].c_str());
@@ -134,7 +148,10 @@ void BusCycle::measureBase(Duration dt) noexcept {
     seen = seen && drives_[i].report().online && drives_[i].report().scaled;
     wheels.push_back(drives_[i].report().velocity.value);
   }
-  for (const DriveIndex i : steering_) seen = seen && drives_[i].report().position.position.has_value();
+  for (const DriveIndex i : steering_) {
+    const drive::PositionReport& axis = drives_[i].report().position;
+    seen = seen && axis.position.has_value() && !axis.homing;  // as steeringAngles() has it
+  }
   if (base_) seen ? base_->handleWheels(wheels, dt) : base_->handleGap();
   if (steered_) seen ? steered_->handleMeasured(wheels, steeringAngles(), dt) : steered_->handleGap();
 }

@@ -15,7 +15,8 @@ void BusCycle::addAxis(const DriveSetup& setup, CycleRole role) {
   channel.follows = !setup.follows.empty();
   channel.users_only = role == CycleRole::kGuest;
   drives_[drive].setParametersAwaited(!channel.users_only);
-  if (role == CycleRole::kDriver) channel.needs = wordNeeds(setup.words, identity.process_values);
+  if (role != CycleRole::kGuest) channel.needs = wordNeeds(setup.words, identity.process_values);
+  if (role == CycleRole::kOnlooker) channel.needs = onlyInputs(channel.needs);
   if (role != CycleRole::kGuest && setup.position) {
     channel.field_order = setup.position->order;
     channel.needs.words = std::max<std::size_t>(identity.process_values, 1);
@@ -31,9 +32,8 @@ bool BusCycle::followsCommand(DriveIndex drive, Instant now) noexcept {
   if (!supervisor_.groupOf(drive).commandAllowed() || drives_[drive].report().phase != drive::Phase::kEnabled) {
     return false;
   }
-  return supervisor_.inBase(drive)
-             ? !isStale(ports_.newestBaseCommand(), cmd_vel_timeout_, now)
-             : !isStale(ports_.newestDriveCommand(leaders_[drive].value_or(drive)), cmd_vel_timeout_, now);
+  if (supervisor_.inBase(drive)) return base_ ? base_->obeys() : steered_->obeys();
+  return !isStale(ports_.newestDriveCommand(leaders_[drive].value_or(drive)), cmd_vel_timeout_, now);
 }
 
 void BusCycle::pollOutputs(Instant now) noexcept {

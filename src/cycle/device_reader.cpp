@@ -1,6 +1,7 @@
 #include "cycle/device_reader.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "profile/cycle_parameters.h"
 #include "profile/parameter_shape.h"
@@ -10,11 +11,10 @@ namespace nord_driver::cycle {
 namespace {
 
 constexpr std::uint8_t kMaxAttempts = 3;
-constexpr std::uint16_t kMinFrequency = 104, kMaxFrequency = 105, kOptionMonitoring = 120, kModuleTimeout = 151,
-                        kBusBits = 480, kOutBits = 481, kControlWordSource = 509, kSetpointSource = 510,
-                        kTelegramTimeout = 513, kFirstActualValue = 543, kFirstSetpoint = 546, kEepromSwitch = 560,
-                        kPositionControl = 600, kSpeedRatio = 607, kReduction = 608, kSetpointMode = 610,
-                        kSoftwareVersion = 707;
+constexpr std::uint16_t kMinFrequency = 104, kMaxFrequency = 105, kOptionMonitoring = 120, kBusBits = 480,
+                        kOutBits = 481, kControlWordSource = 509, kSetpointSource = 510, kTelegramTimeout = 513,
+                        kFirstActualValue = 543, kFirstSetpoint = 546, kPositionControl = 600, kSpeedRatio = 607,
+                        kReduction = 608, kSetpointMode = 610, kSoftwareVersion = 707;
 constexpr std::uint8_t kSets = 4;
 constexpr std::uint16_t kAccelerationTime = 102, kDecelerationTime = 103;
 // s: the bus manuals name no unit of P103, which is set in the steps of P102 on the inverter.
@@ -125,10 +125,25 @@ bool DeviceReader::motionKnown() const noexcept {
 }
 
 bool DeviceReader::missesMotion(bool max_frequencies) const noexcept {
-  if (restart_ || next_ != items_.size()) return false;
-  return std::any_of(items_.begin(), items_.end(), [max_frequencies](const Item& item) {
+  // Beside others that are asked for again.
+  if (restart_ || next_ < motion_items_ || (!data_.complete && next_ != items_.size())) return false;
+  const auto end = items_.begin() + static_cast<std::ptrdiff_t>(motion_items_);
+  return std::any_of(items_.begin(), end, [max_frequencies](const Item& item) {
     return item.due && (max_frequencies || item.number != kMaxFrequency);
   });
+}
+
+void DeviceReader::askAgain(std::uint16_t number) noexcept {
+  const bool told =
+      number == kOptionMonitoring || number == kModuleTimeout || number == kTelegramTimeout || number == kEepromSwitch;
+  if (restart_ || !told) return;
+  if (number == kEepromSwitch) data_.saves_in_eeprom.reset();
+  for (std::size_t i = motion_items_; i < items_.size(); ++i) {
+    if (items_[i].number != number) continue;
+    items_[i].due = true;
+    next_ = std::min(next_, i);
+    outdated_ = outdated_ || (waiting_ && asked_ == i);
+  }
 }
 
 void DeviceReader::askMissingAgain(bool max_frequencies) noexcept {
@@ -146,6 +161,7 @@ std::optional<profile::ParameterRequest> DeviceReader::pollRequest() noexcept {
     restart_ = false;
     next_ = 0;
     attempts_ = 0;
+    outdated_ = false;
     silent_ = false;
     answered_ = false;
     rounds_ = 0;
@@ -158,6 +174,7 @@ std::optional<profile::ParameterRequest> DeviceReader::pollRequest() noexcept {
     return std::nullopt;
   }
   const Item& item = items_[next_];
+  asked_ = next_;
   waiting_ = true;
   auto request = profile::readRequest(*profile::findCycleParameter(item.number, series_), item.set, item.index);
   request.scales = item.number == kMaxFrequency;
@@ -167,6 +184,7 @@ std::optional<profile::ParameterRequest> DeviceReader::pollRequest() noexcept {
 void DeviceReader::handleResult(const profile::ParameterResult& result) noexcept {
   if (!waiting_) return;
   waiting_ = false;
+  if (std::exchange(outdated_, false)) return;
   // Not asked at all: the question is still to be put.
   if (result.outcome == profile::ParameterOutcome::kBusy || result.outcome == profile::ParameterOutcome::kOffline) {
     return;
@@ -175,14 +193,14 @@ void DeviceReader::handleResult(const profile::ParameterResult& result) noexcept
   if (timed_out && ++attempts_ < (silent_ ? 1 : kMaxAttempts)) return;
   silent_ = timed_out;
   answered_ = answered_ || !mayChange(result);
-  items_[next_].due = mayChange(result) && next_ < motion_items_;
+  items_[asked_].due = mayChange(result) && asked_ < motion_items_;
   if (result.outcome == profile::ParameterOutcome::kDone) {
-    store(items_[next_], result.raw);
+    store(items_[asked_], result.raw);
   } else {
-    leaveOut(items_[next_]);
+    leaveOut(items_[asked_]);
   }
   attempts_ = 0;
-  ++next_;
+  if (next_ == asked_) ++next_;  // set back meanwhile, it stays there
 }
 
 void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {

@@ -21,6 +21,7 @@ namespace nord_driver::cycle {
 class DeviceReader {
  public:
   static constexpr unsigned kAwaitedRounds = 3;
+  static constexpr std::uint16_t kModuleTimeout = 151, kEepromSwitch = 560;
 
   /// `owner`: whose time-outs are read; those of a module by requests the transport passes on to it.
   /// `further_words`: setpoints 2 and 3 or actual values 2 and 3 are in use: what they are decides motion, too.
@@ -47,6 +48,9 @@ class DeviceReader {
   /// All has been asked for, and one that decides motion has only timed out, or was refused for the moment;
   /// `max_frequencies`: P105 counts, too.
   bool missesMotion(bool max_frequencies = true) const noexcept;
+  /// Asks for P120, P151, P513 or P560 again: what stops the drive when this computer dies, and whether it saves what is written,
+  /// may have become another. What was read of it stays until then, but P560, which is not known meanwhile. Of others nothing.
+  void askAgain(std::uint16_t number) noexcept;
   /// Asks again, up to three times each, for those; what else was read stays.
   void askMissingAgain(bool max_frequencies = true) noexcept;
 
@@ -71,6 +75,8 @@ class DeviceReader {
   FixedVector<Item, 96> items_;
   std::size_t motion_items_ = 0;  // the first ones: those that decide motion
   std::size_t next_ = 0;
+  std::size_t asked_ = 0;  // the one that was handed out last
+  bool outdated_ = false;  // what is answered to it is not stored
   std::uint8_t attempts_ = 0;
   bool waiting_ = false;
   bool silent_ = false;  // the last question has timed out to its end

@@ -21,8 +21,8 @@ constexpr Duration kMissingInterval = std::chrono::seconds{2};
 // Beside those that are read at start: jog frequency, brake, servo mode and encoder (the P300 family's, not its
 // controller gains), PPO type, drive profile; and the functions of inputs and outputs: what stands at a terminal acts at
 // once, and an output, or the module's relay (P150), may be a brake's.
-constexpr std::uint16_t kDecideMotion[] = {113, 114, kModuleRelay, 300, 301, 325, 400, 405, 420, 421, 422, 423,
-                                           424, 425, 434,          441, 450, 455, 470, 481, 507, 541, 551};
+constexpr std::uint16_t kDecideMotion[] = {113, 114, kModuleRelay, 300, 301, 325, 400, 405, 420, 421, 422,
+                                           423, 424, 425,          434, 441, 450, 455, 470, 507, 541, 551};
 
 // Whether and how it positions (P600 to P631), other than the positions themselves (P613).
 constexpr bool decidesPosition(std::uint16_t number) noexcept {
@@ -94,8 +94,8 @@ profile::PositionWords positionWordsOf(const WordFunctions& functions, profile::
 bool changesProcessData(const Request& request) noexcept {
   const std::uint16_t number = request.parameter.number;
   return request.kind == RequestKind::kWriteParameter &&
-         (saysWhatSetpointsMean(number) || number == 104 || number == 480 || number == 509 || number == 510 ||
-          decidesPosition(number));
+         (saysWhatSetpointsMean(number) || number == 104 || number == 480 || number == 481 || number == 509 ||
+          number == 510 || decidesPosition(number));
 }
 
 bool decidesMotion(const Request& request) noexcept {
@@ -157,6 +157,22 @@ bool DriveParameters::writesProcessData() const noexcept {
 bool DriveParameters::writesMotion() const noexcept {
   return std::any_of(pending_.begin(), pending_.end(),
                      [](const Pending& pending) { return decidesMotion(pending.request); });
+}
+
+bool DriveParameters::writesRelay() const noexcept {
+  return std::any_of(pending_.begin(), pending_.end(), [](const Pending& pending) {
+    return decidesMotion(pending.request) && pending.request.parameter.number == kModuleRelay;
+  });
+}
+
+void DriveParameters::readAgain(const Request& request) noexcept {
+  if (request.kind != RequestKind::kWriteParameter) return;
+  reader_.askAgain(request.parameter.number);
+  module_written_ = module_written_ || request.parameter.number == DeviceReader::kModuleTimeout;
+}
+
+void DriveParameters::readModuleAgain() noexcept {
+  reader_.askAgain(DeviceReader::kModuleTimeout);
 }
 
 void DriveParameters::readDeviceAgain() noexcept {
@@ -236,7 +252,11 @@ std::optional<unsigned> DriveParameters::laneOf(Asker asker) noexcept {
 }
 
 std::optional<profile::ParameterRequest> DriveParameters::ask(Asker asker, Instant now) noexcept {
-  if (const auto lane = laneOf(asker)) return session_.pollRequest(*lane);
+  if (const auto lane = laneOf(asker)) {
+    const auto request = session_.pollRequest(*lane);
+    switch_used_ = switch_used_ || session_.owesEepromSwitch();
+    return request;
+  }
   switch (asker) {
     case Asker::kFaults:
       return faults_.pollRequest(now);
@@ -324,10 +344,16 @@ void DriveParameters::collect() noexcept {
       if (!pending_[i].answered) answer(pending_[i].request, *result);
       // Whatever became of it: a write without an answer may have been carried out.
       if (changesProcessData(pending_[i].request)) readDeviceAgain();
+      readAgain(pending_[i].request);
       for (std::size_t j = i + 1; j < pending_.size(); ++j) pending_[j - 1] = pending_[j];
       pending_.resize(pending_.size() - 1);
       break;
     }
+  }
+  // A question of the reader may have met the 0 that it was for a moment.
+  if (switch_used_ && !session_.owesEepromSwitch()) {
+    switch_used_ = false;
+    reader_.askAgain(DeviceReader::kEepromSwitch);
   }
 }
 

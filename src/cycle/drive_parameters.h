@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cycle/completion_queue.h"
@@ -76,7 +77,12 @@ class DriveParameters {
 
   /// A user's write that changes what the process data mean is under way, or its effect not read yet.
   bool wordsInDoubt() const noexcept { return writesProcessData() || !reader_.motionAsked(); }
+  /// A user's write of a module's relay waits or is under way: it may be the brake of any drive behind that module.
+  bool writesRelay() const noexcept;
   const DeviceData& device() const noexcept { return reader_.data(); }
+  /// P151 was written since this was asked last: it is that of every drive behind the same module.
+  bool takeModuleWrite() noexcept { return std::exchange(module_written_, false); }
+  void readModuleAgain() noexcept;
   const drive::FaultReader& faults() const noexcept { return faults_; }
   const FaultHistory& faultHistory() const noexcept { return history_.history(); }
   /// What a user's choice of an element of the position array needs.
@@ -112,6 +118,7 @@ class DriveParameters {
   void collect() noexcept;
   void answer(const Request& request, const profile::ParameterResult& result) noexcept;
   void readDeviceAgain() noexcept;
+  void readAgain(const Request& request) noexcept;
   void askMissingAgain(Instant now) noexcept;
   bool writesProcessData() const noexcept;
   bool writesMotion() const noexcept;
@@ -130,6 +137,8 @@ class DriveParameters {
   ElementReader elements_;
   std::array<std::uint32_t, kAskers> open_ids_{};  // of the question under way; 0: none
   std::uint32_t sequence_ = 0;
+  bool module_written_ = false;
+  bool switch_used_ = false;              // P560 was set to 0 for a user's write
   bool scale_due_ = false;                // the reader learned something the drive was not told yet
   std::uint8_t parameter_set_ = 0;        // in force; 0: not known
   bool bus_control_ = true;               // status bit 9, as seen last

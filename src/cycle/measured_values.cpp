@@ -26,8 +26,8 @@ std::uint16_t functionAt(std::size_t i, const DriveSample& sample, const DeviceD
 }
 
 std::optional<double> shareWith(WordUse use, const DriveSample& sample, const DeviceData& device,
-                                profile::Series series, std::size_t words) noexcept {
-  for (std::size_t i = 0; i < std::min(words, profile::kMaxProcessValues) && sample.online; ++i) {
+                                profile::Series series) noexcept {
+  for (std::size_t i = 0; i < std::min<std::size_t>(sample.words, profile::kMaxProcessValues) && sample.online; ++i) {
     const auto* const function = profile::findActualValueFunction(series, functionAt(i, sample, device));
     if (function == nullptr || function->use != use) continue;
     return static_cast<double>(sample.input.actual_values[i]) / profile::kHundredPercent;
@@ -37,15 +37,14 @@ std::optional<double> shareWith(WordUse use, const DriveSample& sample, const De
 
 }  // namespace
 
-double currentOf(const DriveSample& sample, const DeviceData& device, const DriveSetup& setup,
-                 std::size_t words) noexcept {
-  const auto share = shareWith(WordUse::kCurrent, sample, device, setup.series, words);
+double currentOf(const DriveSample& sample, const DeviceData& device, const DriveSetup& setup) noexcept {
+  const auto share = shareWith(WordUse::kCurrent, sample, device, setup.series);
   return share && setup.rated_current ? *share * *setup.rated_current : kNotKnown;
 }
 
 double effortOf(const DriveSample& sample, const DeviceData& device, const DriveSetup& setup) noexcept {
   if (!setup.words.torque_at_limit) return kNotKnown;
-  const auto share = shareWith(WordUse::kTorqueCurrent, sample, device, setup.series, profile::kMaxProcessValues);
+  const auto share = shareWith(WordUse::kTorqueCurrent, sample, device, setup.series);
   if (!share) return kNotKnown;
   const profile::JointScaling& joint = setup.drive.joint;
   const double torque = *share * *setup.words.torque_at_limit * joint.gear_ratio;

@@ -1,5 +1,7 @@
 #include "cycle/signal_values.h"
 
+#include <algorithm>
+
 #include "cycle/word_needs.h"
 #include "profile/scaling.h"
 
@@ -16,7 +18,7 @@ double bitOf(unsigned word, unsigned bit) noexcept {
 std::optional<std::int16_t> wordWith(WordUse use, profile::Series series, const DriveSnapshot& drive) noexcept {
   const std::size_t set = drive.parameter_set;
   if (!drive.online || set < 1 || set > drive.device.word_functions.size()) return std::nullopt;
-  for (std::size_t place = 2; place <= profile::kMaxProcessValues; ++place) {
+  for (std::size_t place = 2; place <= std::min<std::size_t>(drive.words, profile::kMaxProcessValues); ++place) {
     if (carries(place, {true, use}, drive.device.word_functions[set - 1], series)) {
       return drive.input.actual_values[place - 1];
     }

@@ -32,6 +32,7 @@ struct DriveSample {
   std::uint8_t parameter_set = 0;   ///< 0: not known
   profile::ProcessOutput output;    ///< as sent last
   profile::ProcessInput input;      ///< as received last
+  std::uint8_t words = 3;           ///< actual values that the bus carries, the first ones of `input`; the others are 0
   double velocity_command = 0.0;    ///< rad/s at the joint
   double velocity = 0.0;            ///< rad/s at the joint
   double frequency = 0.0;           ///< Hz

@@ -10,6 +10,9 @@ namespace {
 constexpr Duration kLongestHold = std::chrono::milliseconds{500};
 // Of the tolerance: how far a step may lead the wheels, and by how much it may turn the angles at once. The rest is
 // for how exactly the axes come to their angles.
+// A wheel that gets no slower at setpoint 0 stands as well as it ever will; as of a drive that halts (DriveGroup).
+constexpr Duration kNoSlower = std::chrono::seconds{1};
+constexpr double kSlower = 0.01;
 constexpr double kLead = 0.75;
 constexpr double kTurnAtOnce = 0.5;
 
@@ -46,7 +49,7 @@ SteeredMotion::SteeredMotion(const BaseConfig& config, Duration cmd_vel_timeout)
 
 robot::SteeredSetpoint SteeredMotion::poll(const TwistCommand& command, bool driving, bool follow,
                                            const SteeredDrives& drives, Instant now, Duration dt) noexcept {
-  below_minimum_ = false;
+  obeys_ = below_minimum_ = false;
   waits_for_ = SteeredWait::kNothing;
   const bool known = allKnown(drives.angles, kinematics_.axleCount());
   if (!driving || !known) {
@@ -61,16 +64,18 @@ robot::SteeredSetpoint SteeredMotion::poll(const TwistCommand& command, bool dri
   if (was_blind_) steered_ = drives.angles;
   was_blind_ = false;
   const robot::WheelSpeeds limits = robot::tighterOf(drives.max_speeds, joint_limits_);
-  const bool obey = follow && !drives.minimum.coming_to_rest && !command.held && !isStale(command, timeout_, now);
-  if (!obey) limiter_.endAcceleration();
-  robot::Twist2d target = targetOf(command, obey, limits, drives.angles);
+  obeys_ = follow && !drives.minimum.coming_to_rest && !command.held && !isStale(command, timeout_, now);
+  if (!obeys_) limiter_.endAcceleration();
+  robot::Twist2d target = targetOf(command, obeys_, limits, drives.angles);
   // Taken as zero at once, it is left along the limits.
   below_minimum_ = anyBelow(kinematics_.solve(target, drives.angles, steered_).wheels, drives.minimum.wheels);
   if (below_minimum_) target = {};
-  if (limited_ == robot::Twist2d{} && !readyToDriveOff(target, drives.angles)) {
+  if (limited_ == robot::Twist2d{} && !readyToDriveOff(target, drives, now)) {
+    obeys_ = obeys_ && target == robot::Twist2d{};
     limiter_.reset();
     return rest();
   }
+  rolling_.reset();
   step(target, drives.angles, now, dt);
   return setpoint(drives, limits, target == robot::Twist2d{});
 }
@@ -86,14 +91,32 @@ robot::Twist2d SteeredMotion::targetOf(const TwistCommand& command, bool obey, c
   return times(partWithin(limits, kinematics_.solve(possible, angles, steered_).wheels), possible);
 }
 
-bool SteeredMotion::readyToDriveOff(const robot::Twist2d& target, const robot::SteeringAngles& angles) noexcept {
+bool SteeredMotion::rollsOut(const SteeredDrives& drives, Instant now) noexcept {
+  if (!drives.wheels_turn) {
+    rolling_.reset();
+    return false;
+  }
+  if (!rolling_ || drives.wheel_speed < rolling_->slowest - kSlower) rolling_ = Rolling{drives.wheel_speed, now};
+  return now - rolling_->since < kNoSlower;
+}
+
+bool SteeredMotion::readyToDriveOff(const robot::Twist2d& target, const SteeredDrives& drives, Instant now) noexcept {
+  const robot::SteeringAngles& angles = drives.angles;
+  const bool rolls = rollsOut(drives, now);
   if (target == robot::Twist2d{}) {
     // A way to steer that is not asked for any more ends where it is; wheels that have arrived keep their angle.
     if (steers_ && robot::largestDifference(steered_, angles) > tolerance_) steered_ = angles;
     steers_ = false;
     return false;
   }
-  steered_ = kinematics_.solve(target, angles, steered_).angles;
+  const robot::SteeringAngles wanted = kinematics_.solve(target, angles, steered_).angles;
+  // Commanded to stand they come down their own ramps (P103), which may be slower than the limits, or there are none. What
+  // has begun to be steered at standstill is not ended by that.
+  if (rolls && robot::largestDifference(wanted, steers_ ? steered_ : angles) > tolerance_) {
+    waits_for_ = SteeredWait::kAngles;
+    return false;
+  }
+  steered_ = wanted;
   steers_ = robot::largestDifference(steered_, angles) > tolerance_;
   if (steers_) waits_for_ = SteeredWait::kAngles;
   return !steers_;

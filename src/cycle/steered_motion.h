@@ -20,18 +20,20 @@ struct SteeredDrives {
   /// rad, measured, NaN where a steering drive does not tell where it stands; no angle, no motion.
   robot::SteeringAngles angles;
   MinimumSpeeds minimum;
+  bool wheels_turn = false;  ///< one of them was not seen near standstill: none is steered across the way it rolls
+  double wheel_speed = 0.0;  ///< of the fastest one, a share of its 100 %
 };
 
 /// What a steered base waits for.
 enum class SteeredWait : std::uint8_t {
   kNothing,
-  kAngles,      ///< the wheels do not yet stand where the motion asks: the base stands, or gets slower
+  kAngles,      ///< the wheels do not yet stand, or not where the motion asks: the base stands, or gets slower
   kNoAngle,     ///< the motion has no angle in the steering range, not even a wider curve: the base stands
   kWiderCurve,  ///< the motion needs an angle outside the steering range: it drives the curve at the end of the range
   kNoPosition,  ///< a steering drive does not tell where it stands
 };
 
-/// One base. While it stands, its wheels are steered first; it drives off once each of them is within the tolerance.
+/// One base. While it stands, and its wheels were seen to, they are steered first; it drives off once each of them is within the tolerance.
 /// While it drives, the path changes only as fast as the steering axes follow: a step along the limits is taken when
 /// all wheels stand near enough to the angles it asks for; else the base goes on as it is, and gets slower where that
 /// lasts or a wheel is out of tolerance. A wheel that has to be turned about (a new direction, the end of a range) lets
@@ -51,6 +53,8 @@ class SteeredMotion {
   SteeredWait waitsFor() const noexcept { return waits_for_; }
   /// It rests although a velocity is commanded, for `MinimumSpeeds`.
   bool belowMinimum() const noexcept { return below_minimum_; }
+  /// The last setpoint was made from the command; false: the base rests, or comes to rest, without one.
+  bool obeys() const noexcept { return obeys_ && !below_minimum_; }
   /// The velocity behind the last setpoint (what `cmd_vel_out` tells).
   const robot::Twist2d& limited() const noexcept { return limited_; }
 
@@ -68,7 +72,9 @@ class SteeredMotion {
   robot::Twist2d targetOf(const TwistCommand& command, bool obey, const robot::WheelSpeeds& limits,
                           const robot::SteeringAngles& angles) noexcept;
   /// Steers at standstill; true: the base may drive off.
-  bool readyToDriveOff(const robot::Twist2d& target, const robot::SteeringAngles& angles) noexcept;
+  bool readyToDriveOff(const robot::Twist2d& target, const SteeredDrives& drives, Instant now) noexcept;
+  /// Commanded to stand, the wheels still get slower.
+  bool rollsOut(const SteeredDrives& drives, Instant now) noexcept;
   void step(const robot::Twist2d& target, const robot::SteeringAngles& angles, Instant now, Duration dt) noexcept;
   Step stepTo(const robot::Twist2d& next, const robot::SteeringAngles& wanted,
               const robot::SteeringAngles& angles) const noexcept;
@@ -88,9 +94,15 @@ class SteeredMotion {
   bool was_blind_ = false;         // an angle was not known
   bool steers_ = false;            // they may be far from where the wheels stand: steered at standstill
   bool drives_ = false;            // the wheels were commanded to turn
+  bool obeys_ = false;
   bool below_minimum_ = false;
   SteeredWait waits_for_ = SteeredWait::kNothing;
   std::optional<Instant> holding_since_;
+  struct Rolling {
+    double slowest = 0.0;
+    Instant since{};
+  };
+  std::optional<Rolling> rolling_;  // at rest by its setpoint
 };
 
 }  // namespace nord_driver::cycle

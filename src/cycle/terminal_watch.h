@@ -16,7 +16,7 @@ enum class TerminalFinding : std::uint8_t {
   kTurned,        ///< it had come to rest, and was enabled past this driver
 };
 
-/// Looks at one drive while it is disabled here: its digital inputs, and the bus I/O bits of P480, can start it all the
+/// Looks at one drive while it is disabled here, or on its way down: its digital inputs, and the bus I/O bits of P480, can start it all the
 /// same (BU 0220 5.1.2, BU 0280 5.1.2).
 class TerminalWatch {
  public:
@@ -29,7 +29,10 @@ class TerminalWatch {
     if (!report.online) *this = TerminalWatch{};
     const bool idle = report.phase == drive::Phase::kIdle || report.phase == drive::Phase::kAcknowledging ||
                       report.phase == drive::Phase::kSwitchingSet;
-    if (!report.online || !idle) {
+    // On the way down it is not enabled any more; one that had come to rest before turns by somebody else still.
+    const bool goes_down = report.phase == drive::Phase::kStopping || report.phase == drive::Phase::kQuickStopping ||
+                           report.phase == drive::Phase::kCoasting;
+    if (!report.online || (!idle && !goes_down)) {
       rested_ = false;
       finding_ = TerminalFinding::kNone;
       return;
@@ -37,7 +40,7 @@ class TerminalWatch {
     const bool turns =
         report.state == profile::DriveState::kOperationEnabled || std::abs(int{report.speed}) > kNearStandstill;
     // What a stop has left of a motion is not somebody else's.
-    rested_ = rested_ || !turns;
+    rested_ = rested_ || (idle && !turns);
     const bool local = !profile::StatusWord{report.status_word}.busControl();
     finding_ = rested_ && turns ? TerminalFinding::kTurned
                : local          ? TerminalFinding::kLocalControl

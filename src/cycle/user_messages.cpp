@@ -20,11 +20,11 @@ Sentence missingWordMessage(const char* drive, const drive::UnexpectedFunction& 
   if (function.is_array) element.format("[-%02u]", unsigned{function.index});
   found.format(function.found == kNotRead ? "could not be read" : "is %u", unsigned{function.found});
   Sentence text;
-  text.format(
-      "set P%u%s of drive %s to %u (%s) in parameter set %u: the configuration uses it, and no word carries it; "
-      "P%u%s %s",
-      unsigned{function.number}, element.c_str(), drive, unsigned{function.expected}, function.wanted, set,
-      unsigned{function.number}, element.c_str(), found.c_str());
+  text.format("set P%u%s of drive %s to %u (%s) in parameter set %u: %s; P%u%s %s", unsigned{function.number},
+              element.c_str(), drive, unsigned{function.expected}, function.wanted, set,
+              function.surplus ? "what another word carries would mean something else beside it"
+                               : "the configuration uses it, and no word carries it",
+              unsigned{function.number}, element.c_str(), found.c_str());
   return text;
 }
 

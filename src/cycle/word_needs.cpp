@@ -110,6 +110,13 @@ drive::UnexpectedFunction wordToSet(bool actual_value, std::size_t place, std::u
   return missing;
 }
 
+drive::UnexpectedFunction wordToSwitchOff(bool actual_value, std::size_t place, const WordFunctions& functions,
+                                          Series series) noexcept {
+  drive::UnexpectedFunction surplus = wordToSet(actual_value, place, 0, functions, series);
+  surplus.surplus = true;
+  return surplus;
+}
+
 // Of the setpoints 21/22 and 23/24 (BU 0020 7.3.5) one pair, never a half of each: which of them counts what, BU 0510
 // tells.
 std::optional<drive::UnexpectedFunction> brokenPair(const WordNeeds& needs, const WordFunctions& functions,
@@ -133,7 +140,22 @@ std::optional<drive::UnexpectedFunction> unwantedHalf(const WordNeeds& needs, co
   for (const bool actual_value : {false, true}) {
     for (std::size_t place = 1; place <= needs.words; ++place) {
       if (useAt(actual_value, place, functions, series) != WordUse::kPositionHigh) continue;
-      return wordToSet(actual_value, place, 0, functions, series);
+      return wordToSwitchOff(actual_value, place, functions, series);
+    }
+  }
+  return std::nullopt;
+}
+
+// Of two words with the same part of a position, or POSICON bits, one is written: the other would be sent as 0.
+std::optional<drive::UnexpectedFunction> repeatedSetpoint(const WordNeeds& needs, const WordFunctions& functions,
+                                                          Series series) noexcept {
+  for (const WordNeed& need : needs.list) {
+    if (need.actual_value || (!isPosition(need.use) && need.use != WordUse::kPosiconBits)) continue;
+    bool found = false;
+    for (std::size_t place = 1; place <= needs.words; ++place) {
+      if (!carries(place, need, functions, series)) continue;
+      if (found) return wordToSwitchOff(false, place, functions, series);
+      found = true;
     }
   }
   return std::nullopt;
@@ -155,6 +177,15 @@ WordNeeds wordNeeds(const WordSetup& setup, std::size_t carried) noexcept {
     needs.bits = needs.bits || busBitElement(signal);
   }
   return needs;
+}
+
+WordNeeds onlyInputs(const WordNeeds& needs) noexcept {
+  WordNeeds inputs = needs;
+  inputs.list.clear();
+  for (const WordNeed& need : needs.list) {
+    if (need.actual_value) inputs.list.push_back(need);
+  }
+  return inputs;
 }
 
 bool carries(std::size_t place, const WordNeed& need, const WordFunctions& functions, Series series) noexcept {
@@ -274,7 +305,8 @@ std::optional<drive::UnexpectedFunction> missingWord(const WordNeeds& needs, con
     return wordToSet(need.actual_value, place, code.value_or(0), functions, series);
   }
   if (const auto broken = brokenPair(needs, functions, series)) return broken;
-  return unwantedHalf(needs, functions, series);
+  if (const auto half = unwantedHalf(needs, functions, series)) return half;
+  return repeatedSetpoint(needs, functions, series);
 }
 
 }  // namespace nord_driver::cycle

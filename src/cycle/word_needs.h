@@ -46,6 +46,9 @@ struct WordNeeds {
 /// Each use once.
 WordNeeds wordNeeds(const WordSetup& setup, std::size_t carried) noexcept;
 
+/// Those of a node that only looks on: what it sends nobody needs.
+WordNeeds onlyInputs(const WordNeeds& needs) noexcept;
+
 /// And those of a drive that positions.
 void addPositionNeeds(const PositionSetup& setup, profile::Series series, WordNeeds& needs) noexcept;
 
@@ -68,7 +71,8 @@ bool firstWordFits(const WordNeeds& needs, bool actual_value, std::uint16_t code
 bool carries(std::size_t place, const WordNeed& need, const WordFunctions& functions, profile::Series series) noexcept;
 
 /// The first need that no word of the set meets, with the parameter that would best be set: of a word that is off, else
-/// of one nobody needs. None when all are met.
+/// of one nobody needs. Then what stands in a word and must not: half a position, or one that another word has, too.
+/// None when all is as it has to be.
 std::optional<drive::UnexpectedFunction> missingWord(const WordNeeds& needs, const WordFunctions& functions,
                                                      profile::Series series) noexcept;
 

@@ -44,6 +44,7 @@ struct DriveConfig {
   std::array<std::optional<Hertz>, 4> max_frequency;
   Duration drive_timeout = seconds(0.05);     ///< silence that counts as offline
   Duration enable_timeout = seconds(2.0);     ///< from the request to "operation enabled", or to the new parameter set
+  Duration setup_timeout = seconds(2.0);      ///< of teaching a position, and of a reset of the position
   Duration shutdown_timeout = seconds(10.0);  ///< OFF1 until "ready to switch on", then quick stop
   /// How long the acknowledge bit is held low and then high: longer than the slowest path to the inverter (the module's
   /// own cycle adds 5 ms, P153).
@@ -90,12 +91,13 @@ class Drive {
   /// Enabled: setpoint 0 with 047F from here on, whatever setVelocity() says. Enabling, of a drive that positions, and
   /// of one that is led: as requestShutdown().
   void requestSetpointZero(Instant now) noexcept;
-  void requestShutdown(Instant now) noexcept;
+  /// These three latch `cause`; kNone: nothing, for a stop that needs no explanation.
+  void requestShutdown(Instant now, StopCause cause = StopCause::kNone) noexcept;
   /// From every phase; offline it is what is sent on unanswered, and goes on when the drive answers again and turns.
-  void requestQuickStop(Instant now) noexcept;
+  void requestQuickStop(Instant now, StopCause cause = StopCause::kQuickStop) noexcept;
   /// OFF2: the output goes off at once and the motor coasts, without any braking. From every phase; nothing but
   /// "switch-on disabled" (or a fault) ends it, a quick stop neither.
-  void requestCoast(Instant now) noexcept;
+  void requestCoast(Instant now, StopCause cause = StopCause::kCoast) noexcept;
   /// Takes the latch away when no fault bit is set, else gives the inverter one acknowledge edge; only faults whose
   /// cause is gone follow it (BU 2700 6.4.1 bit 7). Refused outside kIdle. report().acknowledge tells the outcome, with
   /// the `token`; while an acknowledging runs, another is not begun and the report stays with the first.

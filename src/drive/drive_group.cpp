@@ -61,13 +61,13 @@ GroupRefusal DriveGroup::requestEnable(Instant now) noexcept {
 void DriveGroup::requestDisable(Instant now) noexcept {
   switch (report_.phase) {
     case GroupPhase::kEnabled:
-      return stop(config_.ways.disable, now);
+      return stop(config_.ways.disable, StopCause::kNone, now);
     case GroupPhase::kEnabling:
       report_.refusal = {Refusal::kStopped, 0};
       down_since_ = now;
-      return shutdownAll(now);
+      return shutdownAll(StopCause::kNone, now);
     case GroupPhase::kHalting:  // its bound runs on
-      return shutdownAll(now);
+      return shutdownAll(StopCause::kNone, now);
     case GroupPhase::kDisabled:  // one may be taught its position
       ++stops_;
       for (Drive* member : members_) member->requestShutdown(now);
@@ -78,19 +78,21 @@ void DriveGroup::requestDisable(Instant now) noexcept {
 }
 
 // From kEnabled, all members.
-void DriveGroup::stop(StopWay way, Instant now) noexcept {
+void DriveGroup::stop(StopWay way, StopCause cause, Instant now) noexcept {
   down_since_ = now;
+  down_for_ = cause;
   switch (way) {
     case StopWay::kSetpointZero:
     case StopWay::kOff1:
-      if (onlyPositions()) return shutdownAll(now);
+      // On a reference run an axis follows no setpoint: it would run on until the ramp is over.
+      if (onlyPositions() || isHoming()) return shutdownAll(cause, now);
       setpoint_is_zero_ = false;
       zero_seen_ = false;
       return enter(GroupPhase::kRampingDown, now);
     case StopWay::kQuickStop:
-      return quickStopAll(now);
+      return quickStopAll(cause, now);
     case StopWay::kCoast:
-      return coastAll(now);
+      return coastAll(cause, now);
   }
 }
 
@@ -99,17 +101,17 @@ void DriveGroup::commandIsFresh(bool fresh, Instant now) noexcept {
   followed_ = fresh && report_.phase == GroupPhase::kEnabled;
   if (!too_old || config_.ways.command_timeout == StopWay::kSetpointZero) return;
   latch(StopCause::kCommandTimeout, 0);
-  stop(config_.ways.command_timeout, now);
+  stop(config_.ways.command_timeout, StopCause::kCommandTimeout, now);
 }
 
 void DriveGroup::requestQuickStop(Instant now) noexcept {
   if (report_.phase == GroupPhase::kEnabling) report_.refusal = {Refusal::kStopped, 0};
   latch(StopCause::kQuickStop, 0);
-  quickStopAll(now);
+  quickStopAll(StopCause::kQuickStop, now);
 }
 
-void DriveGroup::quickStopAll(Instant now) noexcept {
-  for (Drive* member : members_) member->requestQuickStop(now);
+void DriveGroup::quickStopAll(StopCause cause, Instant now) noexcept {
+  for (Drive* member : members_) member->requestQuickStop(now, cause);
   enter(GroupPhase::kQuickStopping, now);
 }
 
@@ -117,19 +119,19 @@ bool DriveGroup::quickStopTheRest(Instant now) noexcept {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (members_[i]->report().phase != Phase::kStopping) continue;
     latch(StopCause::kShutdownTimeout, i);
-    quickStopAll(now);
+    quickStopAll(StopCause::kShutdownTimeout, now);
     return true;
   }
   return false;
 }
 
-void DriveGroup::coastAll(Instant now) noexcept {
-  for (Drive* member : members_) member->requestCoast(now);
+void DriveGroup::coastAll(StopCause cause, Instant now) noexcept {
+  for (Drive* member : members_) member->requestCoast(now, cause);
   enter(GroupPhase::kStopping, now);
 }
 
-void DriveGroup::shutdownAll(Instant now) noexcept {
-  for (Drive* member : members_) member->requestShutdown(now);
+void DriveGroup::shutdownAll(StopCause cause, Instant now) noexcept {
+  for (Drive* member : members_) member->requestShutdown(now, cause);
   enter(GroupPhase::kStopping, now);
 }
 
@@ -166,7 +168,7 @@ void DriveGroup::updateEnabling(Instant now) noexcept {
     report_.refusal = {member.refusal == Refusal::kNone ? Refusal::kStopped : member.refusal, i};
     if (member.stop_cause != StopCause::kNone) latch(member.stop_cause, i);
     down_since_ = now;
-    return shutdownAll(now);
+    return shutdownAll(StopCause::kNone, now);
   }
   if (all_enabled) enter(GroupPhase::kEnabled, now);
 }
@@ -188,8 +190,8 @@ void DriveGroup::haltTheOthers(Instant now) noexcept {
     if (!runs(*member)) continue;
     if (way == StopWay::kSetpointZero) member->requestSetpointZero(now);
     if (way == StopWay::kOff1) member->requestShutdown(now);
-    if (way == StopWay::kQuickStop) member->requestQuickStop(now);
-    if (way == StopWay::kCoast) member->requestCoast(now);
+    if (way == StopWay::kQuickStop) member->requestQuickStop(now, StopCause::kNone);
+    if (way == StopWay::kCoast) member->requestCoast(now, StopCause::kNone);
   }
   down_since_ = now;
   halting_speed_ = std::numeric_limits<int>::max();
@@ -199,6 +201,11 @@ void DriveGroup::haltTheOthers(Instant now) noexcept {
 
 bool DriveGroup::onlyPositions() const noexcept {
   return std::all_of(members_.begin(), members_.end(), [](const Drive* member) { return member->positions(); });
+}
+
+bool DriveGroup::isHoming() const noexcept {
+  return std::any_of(members_.begin(), members_.end(),
+                     [](const Drive* member) { return member->report().position.homing; });
 }
 
 bool DriveGroup::nearStandstill() const noexcept {
@@ -212,7 +219,7 @@ bool DriveGroup::nearStandstill() const noexcept {
 void DriveGroup::updateRampingDown(Instant now) noexcept {
   if (now - down_since_ >= config_.shutdown_timeout) {
     latch(StopCause::kShutdownTimeout, 0);
-    return quickStopAll(now);
+    return quickStopAll(StopCause::kShutdownTimeout, now);
   }
   if (!setpoint_is_zero_) {
     zero_seen_ = false;
@@ -222,7 +229,7 @@ void DriveGroup::updateRampingDown(Instant now) noexcept {
     zero_seen_ = true;
     zero_since_ = now;
   }
-  if (nearStandstill() || now - zero_since_ >= config_.standstill_timeout) shutdownAll(now);
+  if (nearStandstill() || now - zero_since_ >= config_.standstill_timeout) shutdownAll(down_for_, now);
 }
 
 // At setpoint 0 a drive with P104 > 0 comes down to that and no further; left there, it turns the base around the one
@@ -243,7 +250,7 @@ void DriveGroup::updateHalting(Instant now) noexcept {
   const bool goes_on = getsSlower(now) && now - phase_since_ < config_.shutdown_timeout;
   if (!nearStandstill() && goes_on) return;
   down_since_ = now;
-  shutdownAll(now);
+  shutdownAll(StopCause::kNone, now);
 }
 
 void DriveGroup::updateStopping() noexcept {

@@ -94,15 +94,16 @@ class DriveGroup {
   void updateRampingDown(Instant now) noexcept;
   void updateHalting(Instant now) noexcept;
   void updateStopping() noexcept;
-  void stop(StopWay way, Instant now) noexcept;
+  void stop(StopWay way, StopCause cause, Instant now) noexcept;
   void haltTheOthers(Instant now) noexcept;
-  void shutdownAll(Instant now) noexcept;
-  void coastAll(Instant now) noexcept;
-  void quickStopAll(Instant now) noexcept;
+  void shutdownAll(StopCause cause, Instant now) noexcept;
+  void coastAll(StopCause cause, Instant now) noexcept;
+  void quickStopAll(StopCause cause, Instant now) noexcept;
   bool quickStopTheRest(Instant now) noexcept;
   void latch(StopCause cause, std::size_t member) noexcept;
   /// All its members go to positions: a setpoint of zero stops none of them.
   bool onlyPositions() const noexcept;
+  bool isHoming() const noexcept;
   bool nearStandstill() const noexcept;
   bool getsSlower(Instant now) noexcept;
 
@@ -115,6 +116,7 @@ class DriveGroup {
   std::uint32_t stops_ = 0;
   int halting_speed_ = 0;  // the least so far, of all that halt together
   Instant slower_since_{};
+  StopCause down_for_ = StopCause::kNone;  // why its members are ramped down; asked for, there is nothing to tell
   bool setpoint_is_zero_ = false;
   bool zero_seen_ = false;
   bool followed_ = false;  // a fresh command, since the group is enabled

@@ -89,7 +89,7 @@ void Drive::requestTeaching(Instant now, std::uint32_t token) noexcept {
   report_.teaching = {token, RequestState::kRunning, Refusal::kNone};
   const Refusal refusal = setupRefusal();
   if (refusal != Refusal::kNone) return end(report_.teaching, refusal);
-  axis_->teaching().start(now, config_.acknowledge_time, config_.enable_timeout);
+  axis_->teaching().start(now, config_.acknowledge_time, config_.setup_timeout);
 }
 
 void Drive::requestPositionReset(Instant now, std::uint32_t token) noexcept {
@@ -97,7 +97,7 @@ void Drive::requestPositionReset(Instant now, std::uint32_t token) noexcept {
   report_.resetting = {token, RequestState::kRunning, Refusal::kNone};
   const Refusal refusal = setupRefusal();
   if (refusal != Refusal::kNone) return end(report_.resetting, refusal);
-  axis_->startReset(now, config_.acknowledge_time, config_.enable_timeout);
+  axis_->startReset(now, config_.acknowledge_time, config_.setup_timeout);
 }
 
 void Drive::endSetup(Refusal taught, Refusal reset) noexcept {

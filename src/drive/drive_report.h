@@ -111,6 +111,7 @@ struct UnexpectedFunction {
   std::uint16_t expected = 0;    ///< the value to be set
   std::uint8_t index = 1;        ///< of the array
   const char* wanted = nullptr;  ///< the name of the function that no word carries; nullptr: word 1 is no frequency
+  bool surplus = false;          ///< nothing is missing: what stands there must not, beside what another word carries
 };
 
 /// Control word or setpoint do not come from where the configuration says: from another inverter that leads by broadcast.

@@ -77,17 +77,18 @@ void Drive::requestSetpointZero(Instant now) noexcept {
   enter(Phase::kHoldingZero, now);
 }
 
-void Drive::requestShutdown(Instant now) noexcept {
+void Drive::requestShutdown(Instant now, StopCause cause) noexcept {
   if (isSettingUp()) endSetup(Refusal::kStopped, Refusal::kStopped);
   if (!isRunning()) return;
+  latch(cause);
   if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
   enter(Phase::kStopping, now);
 }
 
-void Drive::requestQuickStop(Instant now) noexcept {
+void Drive::requestQuickStop(Instant now, StopCause cause) noexcept {
   if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
   breakOff(Refusal::kStopped);
-  latch(StopCause::kQuickStop);
+  latch(cause);
   if (report_.phase == Phase::kOffline) {
     unanswered_ = {Command::kQuickStop, now + config_.shutdown_timeout};
   } else if (report_.phase != Phase::kQuickStopping && report_.phase != Phase::kCoasting) {
@@ -95,10 +96,10 @@ void Drive::requestQuickStop(Instant now) noexcept {
   }
 }
 
-void Drive::requestCoast(Instant now) noexcept {
+void Drive::requestCoast(Instant now, StopCause cause) noexcept {
   if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
   breakOff(Refusal::kStopped);
-  latch(StopCause::kCoast);
+  latch(cause);
   if (report_.phase == Phase::kOffline) {
     unanswered_ = {Command::kDisableVoltage, now + config_.shutdown_timeout};
   } else if (report_.phase != Phase::kCoasting) {

@@ -19,6 +19,10 @@ constexpr char kNotSet[] = "P560 could not be set to 0, so the value was not wri
 constexpr char kSwitchUnread[] = "P560 could not be read, so nothing was written";
 constexpr char kNothingSpares[] =
     "this inverter has neither an order that spares the EEPROM nor P560: it can only be written persistently";
+constexpr char kModuleSaves[] =
+    "it is a parameter of the module, which has no order here that spares its EEPROM, and P560 is the inverter's: it "
+    "can only be "
+    "written persistently";
 constexpr char kSwitchItself[] = "P560 itself can only be written persistently in this inverter";
 constexpr char kWouldBeLost[] =
     "P560 = 0: the inverter would not save the value in its EEPROM; write P560 = 1 first, persistently";

@@ -1,9 +1,11 @@
 #include "drive/parameter_session.h"
 
 #include "drive/parameter_notes.h"
+#include "profile/module_parameters.h"
 
 namespace nord_driver::drive {
 
+using profile::isOfModule;
 using profile::ParameterAction;
 using profile::ParameterOutcome;
 using profile::ParameterReason;
@@ -15,11 +17,6 @@ namespace {
 
 constexpr std::uint16_t kSaveInEeprom = 560;
 constexpr std::uint8_t kSwitchTries = 2;
-
-// P150 to P199 (BU 2700 7.1): those of a module, whose one channel has the other drives' requests to carry, too.
-bool isOfModule(std::uint16_t number) noexcept {
-  return number >= 150 && number <= 199;
-}
 
 // A word comes back with its high word 0 or, negative, FFFF; with anything else there the parameter is a double word.
 bool isValue(const ParameterRequest& request, std::int32_t raw) noexcept {
@@ -79,6 +76,7 @@ std::optional<ParameterRequest> ParameterSession::readAhead(unsigned lane) noexc
   for (const Ahead& other : ahead_) {
     if (other.lane == lane) return std::nullopt;
   }
+  // The one channel of a module has the other drives' requests to carry, too.
   const ParameterRequest* next = requests_.at(1 + ahead_.size());
   if (next == nullptr || next->action != ParameterAction::kRead || isOfModule(next->number)) return std::nullopt;
   ahead_.push_back(Ahead{lane, std::nullopt});
@@ -185,8 +183,9 @@ void ParameterSession::handleValue(const ParameterResult& result) noexcept {
     switch_ = EepromSwitch::kNotOurs;  // the user decides over it now
     step_ = Step::kWrite;
   } else if (persistent) {
-    step_ = Step::kReadSwitch;
-  } else if (ram_writes_) {
+    // P560 is the inverter's: a module saves what it is not told otherwise (BU 0280 4.1.1).
+    step_ = isOfModule(request.number) ? Step::kWrite : Step::kReadSwitch;
+  } else if (isOfModule(request.number) ? capabilities_.ram_writes : ram_writes_) {
     step_ = Step::kWriteRam;
   } else {
     writePlainly();
@@ -194,11 +193,11 @@ void ParameterSession::handleValue(const ParameterResult& result) noexcept {
 }
 
 void ParameterSession::handleRamWrite(const ParameterResult& result) noexcept {
-  if (!surelyNotDone(result.outcome)) ram_only_.mark(requests_.front());
+  if (!surelyNotDone(result.outcome)) ram_only_.mark(requests_.front(), run_.no_index);
   if (isDone(result)) {
     step_ = Step::kReadBack;
   } else if (isRefused(result, ParameterReason::kNotSupported)) {
-    ram_writes_ = false;
+    ram_writes_ = ram_writes_ && isOfModule(requests_.front().number);  // the orders of one are not those of the other
     writePlainly();
   } else if (!retryWithoutIndex(result)) {
     fail(result, requests_.front().number, surelyNotDone(result.outcome) ? "" : kWriteUnanswered);
@@ -207,11 +206,12 @@ void ParameterSession::handleRamWrite(const ParameterResult& result) noexcept {
 }
 
 void ParameterSession::writePlainly() noexcept {
-  if (requests_.front().number != kSaveInEeprom) {
+  const std::uint16_t number = requests_.front().number;
+  if (number != kSaveInEeprom && !isOfModule(number)) {
     step_ = Step::kReadSwitch;
     return;
   }
-  refuse(kSwitchItself);
+  refuse(number == kSaveInEeprom ? kSwitchItself : kModuleSaves);
   finish();
 }
 
@@ -319,7 +319,7 @@ void ParameterSession::handleReadBack(const ParameterResult& result) noexcept {
     run_.result.outcome = ParameterOutcome::kDone;
     if (!isValue(request, result.raw)) refuse(kDiffers);
   }
-  if (!run_.failed && request.action == ParameterAction::kWritePersistent) ram_only_.unmark(request);
+  if (!run_.failed && request.action == ParameterAction::kWritePersistent) ram_only_.unmark(request, run_.no_index);
   finish();
 }
 
@@ -361,8 +361,9 @@ void ParameterSession::countWrite(const ParameterResult& result) noexcept {
 }
 
 void ParameterSession::countValueWrite(const ParameterResult& result) noexcept {
-  if (!owesEepromSwitch() && !run_.switch_was_off) return countWrite(result);
-  if (!surelyNotDone(result.outcome)) ram_only_.mark(requests_.front());
+  const bool saved = isOfModule(requests_.front().number) || (!owesEepromSwitch() && !run_.switch_was_off);
+  if (saved) return countWrite(result);
+  if (!surelyNotDone(result.outcome)) ram_only_.mark(requests_.front(), run_.no_index);
 }
 
 void ParameterSession::handleOffline() noexcept {
@@ -373,7 +374,7 @@ void ParameterSession::handleOffline() noexcept {
   if (under_way_) {
     if (step_ == Step::kSwitchOff || step_ == Step::kSwitchOn) countWrite(offline);
     if (step_ == Step::kWrite) countValueWrite(offline);
-    if (step_ == Step::kWriteRam) ram_only_.mark(requests_.front());
+    if (step_ == Step::kWriteRam) ram_only_.mark(requests_.front(), run_.no_index);
   }
   under_way_ = false;
   ram_writes_ = capabilities_.ram_writes;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace nord_driver::drive {
 
@@ -44,8 +45,11 @@ void PositionReader::handleValues(const profile::PositionField& field, const pro
   jumped_ = false;
   if (!field.carried()) return handleGap();
   const std::int32_t word = profile::getPosition(field, words);
+  const double unseen = toSeconds(now - std::exchange(seen_, now));
   const std::int64_t value = field.bits == 16 && continued_ ? continued(steps_, word) : word;
   if (known_ && isPossible(steps_, value, max_speed, now - at_)) return believe(value, now);
+  // Unseen for so long it may have gone further than two halves are apart: the last value tells nothing about this one.
+  if (known_ && max_speed * kMargin * unseen > kMost) handleGap();
   // A count of 16 bits that does not go on from the last one has begun anew: it is what its word is.
   doubt(known_ ? word : value, max_speed, now);
 }

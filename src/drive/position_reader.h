@@ -12,7 +12,8 @@ namespace nord_driver::drive {
 /// The words of one telegram belong together, but a gateway may put those of two moments into one: a low word that has
 /// just passed its border and a high one that has not are 65 536 steps away. So a value that the motor's speed cannot
 /// have led to is held back, and believed when those after it agree for kConfirm: only a new zero of the drive's count
-/// (reference run, reset position) does that. 16 bits are continued past their border.
+/// (reference run, reset position) does that. 16 bits are continued past their border. Unheard for so long that the motor can
+/// have led further than those halves are apart, it begins anew, as after a gap.
 class PositionReader {
  public:
   static constexpr Duration kConfirm = std::chrono::milliseconds{100};
@@ -53,6 +54,7 @@ class PositionReader {
   bool continued_ = false;  // steps_ is of this drive, though perhaps from before a gap
   std::int64_t steps_ = 0;
   Instant at_{};
+  Instant seen_{};  // the last telegram
   double speed_ = 0.0;
   Value speed_from_;
   std::optional<Value> doubtful_;

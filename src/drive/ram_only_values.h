@@ -12,8 +12,9 @@ namespace nord_driver::drive {
 /// Remembers 32 values; beyond them it holds every value to be one, which costs a write that was not needed.
 class RamOnlyValues {
  public:
-  void mark(const profile::ParameterRequest& request) noexcept;
-  void unmark(const profile::ParameterRequest& request) noexcept;
+  /// `has_no_sets`: the inverter takes it without one, though it is addressed with one.
+  void mark(const profile::ParameterRequest& request, bool has_no_sets) noexcept;
+  void unmark(const profile::ParameterRequest& request, bool has_no_sets) noexcept;
   bool holds(const profile::ParameterRequest& request) const noexcept;
 
  private:
@@ -22,8 +23,8 @@ class RamOnlyValues {
     std::uint8_t set = 0;
     std::uint8_t index = 0;
   };
-  static Key keyOf(const profile::ParameterRequest& request) noexcept;
-  std::size_t find(const profile::ParameterRequest& request) const noexcept;
+  static Key keyOf(const profile::ParameterRequest& request, bool has_no_sets) noexcept;
+  std::size_t find(const Key& key) const noexcept;
 
   FixedVector<Key, 32> keys_;
   bool overflow_ = false;

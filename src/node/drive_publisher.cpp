@@ -56,7 +56,7 @@ void DrivePublisher::publishStatus(const cycle::DriveSnapshot& drive, const Stam
 void DrivePublisher::publishStatus(const cycle::DriveSample& sample, const cycle::DeviceData& device, ros::Time stamp) {
   fillDriveStatus(sample, faults_, status_);
   status_.header.stamp = stamp;
-  status_.current = cycle::currentOf(sample, device, setup_, identity_.process_values);
+  status_.current = cycle::currentOf(sample, device, setup_);
   status_publisher_.publish(status_);
 }
 

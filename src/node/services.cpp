@@ -112,6 +112,9 @@ cycle::Completion Services::ask(RequestKind kind, DriveIndex drive) {
   request.kind = kind;
   request.drive = drive;
   request.patience = config_.cycle.service_timeout;
+  // What runs for a time of its own is waited for until it tells how it ended.
+  const bool sets_up = kind == RequestKind::kTeach || kind == RequestKind::kResetPosition;
+  if (sets_up) request.patience += config_.cycle.drives[drive].drive.setup_timeout;
   return broker_.call(request);
 }
 
@@ -144,7 +147,8 @@ void Services::readParameter(DriveIndex drive, ReadParameter::Request& request, 
   const catalogue::ParameterAccess access =
       catalogue::accessTo({request.number, request.parameter_set, request.index}, known_[drive]);
   response.message = access.error;
-  if (!response.message.empty()) return;
+  response.refused = !response.message.empty();
+  if (response.refused) return;
   const cycle::Completion answer = carryOut(drive, RequestKind::kReadParameter, access);
   response.success = answer.success;
   response.message = answer.message.str();

@@ -82,6 +82,29 @@ TEST(ParameterAccess, ARawValueIsAWholeNumber) {
   EXPECT_EQ(-1, raw.request.raw);
 }
 
+// Sent as a word, 70000 would arrive as 4464, and be read back as what was written.
+TEST(ParameterAccess, ARawValueBeyondAWordIsADoubleWord) {
+  for (const double value : {70'000.0, 65'536.0, -32'769.0}) {
+    ParameterAccess wide = access(999);
+    ASSERT_EQ("", setValue(wide, {value, true, true}));
+    EXPECT_TRUE(wide.request.double_word) << value;
+  }
+  for (const double value : {65'535.0, -32'768.0, 0.0}) {
+    ParameterAccess narrow = access(999);
+    ASSERT_EQ("", setValue(narrow, {value, true, true}));
+    EXPECT_FALSE(narrow.request.double_word) << value;
+  }
+}
+
+// CANopen, DeviceNet and InterBus transfer the word FFFFh as 65535: what was read can be written back.
+TEST(ParameterAccess, ARawValueMayComeWithoutItsSign) {
+  ParameterAccess timeout = access(513);
+  EXPECT_EQ("", setRaw(timeout, 65'535, false));
+  EXPECT_EQ(-1, timeout.request.raw);
+  EXPECT_EQ("the value -0.2 cannot be written to P513, expected -0.1 to 100 s", setRaw(timeout, 65'534, false));
+  EXPECT_NE("", setRaw(timeout, 70'000, false));
+}
+
 TEST(ParameterAccess, ANameOfAValueMayBeTyped) {
   ParameterAccess source = access(509);
   EXPECT_EQ("", setText(source, "profibus", false));

@@ -76,6 +76,14 @@ void measuresTorque(AskedDrive& asked) {
   asked.words.words = 3;
   asked.words.list.push_back({true, profile::WordUse::kTorqueCurrent});
 }
+void measuresTorqueAndCurrent(AskedDrive& asked) {
+  measuresTorque(asked);
+  ratedCurrent(asked);
+}
+void positionsWithCurrent(AskedDrive& asked) {
+  positions(asked);
+  ratedCurrent(asked);
+}
 void mayMove(AskedDrive& asked) {
   asked.may_move_bits = {2};
 }
@@ -152,6 +160,13 @@ const std::vector<Row>& rows() {
       {"torque limit commanded", kSeparate, limitsTorque, {{{547, 1, 0}, 2}}, {}},
       {"in the other word", kSk511, limitsTorque, {{{548, 1, 0}, 2}}, {}},
       {"nothing carries it", kSk511, limitsTorque, {}, {"asked_words error P547 set 1 -> 2"}},
+      // What is asked for comes first: of two remedies for one word the first is applied (fixesFor).
+      {"another one in its place",
+       kSk511,
+       limitsTorque,
+       {{{547, 1, 0}, 4}, {{548, 1, 0}, 4}},
+       {"asked_words error P547 set 1 -> 2", "further_setpoints warning P547 set 1 -> 0",
+        "further_setpoints warning P548 set 1 -> 0"}},
       {"two that nothing carries",
        kSk511,
        limitsTorqueAndCurrent,
@@ -194,7 +209,13 @@ const std::vector<Row>& rows() {
       {"counts another gear", kSk511, counts(1.5), withGear(5, 3), {"position_gear warning P607 set 1"}},
       {"an encoder behind the gear", kSk511, counts(0.05), kPositioning, {}},
       {"no gear at all", kSk511, positions, withGear(0, 1), {"position_gear warning P607 set 1"}},
-      {"no current", kSeparate, ratedCurrent, {{{544, 1, 0}, 4}}, {"current note P544 set 1 -> 3"}},
+      {"no current", kSeparate, ratedCurrent, {{{544, 1, 0}, 4}}, {"current note P545 set 1 -> 3"}},
+      {"no word for a current", kSk511, positionsWithCurrent, kPositioning, {"current note P544 set 1"}},
+      {"another word for a current",
+       kSk511,
+       measuresTorqueAndCurrent,
+       {{{544, 1, 0}, 4}, {{545, 1, 0}, 0}},
+       {"current note P545 set 1 -> 3"}},
       {"a current", kSeparate, ratedCurrent, {{{544, 1, 0}, 4}, {{545, 1, 0}, 3}}, {}},
 
       {"errors ignored", kSk5, leave, {{{513}, -1}}, {"bus_errors_heeded error P513 -> 0"}},

@@ -53,6 +53,15 @@ TEST(CycleConfigTest, HasItsDefaults) {
   EXPECT_EQ(milliseconds{10'000}, config.drives[0].drive.shutdown_timeout);
 }
 
+// Teaching holds its bits for 0.4 s: however short a service may wait, the run has its own time.
+TEST(CycleConfigTest, ASetUpRunIsNotCutShortByTheServices) {
+  Configured robot;
+  robot.node.set("service_timeout", 0.4);
+  const CycleConfig config = robot.read();
+  EXPECT_EQ(milliseconds{400}, config.drives[0].drive.enable_timeout);
+  EXPECT_EQ(milliseconds{2000}, config.drives[0].drive.setup_timeout);
+}
+
 // What stops how, by a word each; the torque is never kept on behind "disabled".
 TEST(CycleConfigTest, TheWayOfEachStopIsAWord) {
   Configured robot;

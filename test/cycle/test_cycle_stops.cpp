@@ -24,12 +24,35 @@ TEST(CycleStops, ACommandThatIsTooOldStopsItsGroupAsChosen) {
   EXPECT_EQ(0x047F, bench.controlWord(CycleBench::kLift)) << "not too old yet";
   bench.run(3);
   EXPECT_FALSE(bench.snapshot().drives[CycleBench::kLift].enabled);
-  EXPECT_EQ(drive::StopCause::kQuickStop, bench.snapshot().drives[CycleBench::kLift].stop_cause);
+  EXPECT_EQ(drive::StopCause::kCommandTimeout, bench.snapshot().drives[CycleBench::kLift].stop_cause);
   EXPECT_EQ(0x047F, bench.controlWord(CycleBench::kLeft)) << "its command is younger";
   bench.run(20);
   EXPECT_EQ(drive::StopCause::kCommandTimeout, bench.snapshot().base.stop_cause);
   EXPECT_FALSE(bench.snapshot().drives[CycleBench::kLeft].enabled);
   EXPECT_FALSE(bench.snapshot().drives[CycleBench::kRight].enabled);
+}
+
+// Ramped down and switched off by OFF1, or stopped because it was asked to be: the first is told, the second needs no telling.
+TEST(CycleStops, EachDriveTellsWhyItsGroupStoppedIt) {
+  drive::StopWays ways;
+  ways.command_timeout = drive::StopWay::kOff1;
+  CycleBench bench{std::nullopt, 0.0, ways};
+  bench.run(30);
+  ASSERT_TRUE(bench.ask(RequestKind::kEnable).success);
+  bench.commandLift(10.0);
+  bench.run(200);
+  EXPECT_FALSE(bench.snapshot().drives[CycleBench::kLift].enabled);
+  EXPECT_EQ(drive::StopCause::kCommandTimeout, bench.snapshot().drives[CycleBench::kLift].stop_cause);
+  EXPECT_TRUE(bench.snapshot().drives[CycleBench::kLift].stopped);
+  for (const drive::StopWay way : {drive::StopWay::kQuickStop, drive::StopWay::kCoast, drive::StopWay::kOff1}) {
+    ways.disable = way;
+    CycleBench asked{std::nullopt, 0.0, ways};
+    asked.run(30);
+    ASSERT_TRUE(asked.ask(RequestKind::kEnable).success);
+    ASSERT_TRUE(asked.ask(RequestKind::kDisable).success);
+    EXPECT_EQ(drive::StopCause::kNone, asked.snapshot().drives[CycleBench::kLeft].stop_cause);
+    EXPECT_FALSE(asked.snapshot().drives[CycleBench::kLeft].stopped);
+  }
 }
 
 // A connection that changed its state unasked stops the base in the next cycle, though its drive answers all the while.

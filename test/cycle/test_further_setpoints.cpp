@@ -217,6 +217,30 @@ TEST(FurtherSetpointsTest, AnAdditionEndsWithTheVelocityCommand) {
   EXPECT_EQ(0, bench.word(2));
 }
 
+// A wheel of a base that brakes because more than one node commands it does not turn alone by what is added.
+TEST(FurtherSetpointsTest, AnAdditionToAWheelEndsWhereTheBaseObeysNobody) {
+  CycleConfig config = CycleBench::config();
+  config.drives[CycleBench::kLeft].words.setpoints = {addition()};
+  CycleBench bench{config};
+  for (const int number : {543, 546}) bench.transport.parameters[number] = 1;
+  for (const int number : {544, 545, 548}) bench.transport.parameters[number] = 0;
+  bench.transport.parameters[547] = 4;
+  bench.run(120);
+  const Completion enabled = bench.ask(RequestKind::kEnable);
+  ASSERT_TRUE(enabled.success) << enabled.message.c_str();
+  const auto command = [&bench](bool held) {
+    TwistCommand newest{{0.5, 0.0}, bench.transport.time, true};
+    newest.held = held;
+    bench.ports.commandBase(newest);
+    bench.ports.commandSetpoint(CycleBench::kLeft, 0, 5.0, bench.transport.time);
+    bench.run(2);
+    return bench.transport.outputs[CycleBench::kLeft].setpoints[1];
+  };
+  EXPECT_EQ(1638, command(false));
+  EXPECT_EQ(0, command(true));
+  EXPECT_EQ(1638, command(false));
+}
+
 // A limit stays in its word while the drive is silent and stopped unheard, and while it is asked anew; what can turn
 // the motor does not.
 TEST(FurtherSetpointsTest, ALimitOutlivesALossAndAnAdditionDoesNot) {

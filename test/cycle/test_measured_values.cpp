@@ -17,7 +17,10 @@ struct Measured {
     sample.input.actual_values = {0x1000, 0x2000, -0x1000};
     device.word_functions[1].actual_values = {1, 3, 4};
   }
-  double current(std::size_t words = 3) const { return currentOf(sample, device, setup, words); }
+  double current(std::uint8_t words = 3) {
+    sample.words = words;
+    return currentOf(sample, device, setup);
+  }
   double effort() const { return effortOf(sample, device, setup); }
 
   DriveSetup setup;

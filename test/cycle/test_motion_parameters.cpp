@@ -79,6 +79,46 @@ TEST_F(MotionParameters, TheRelayOfAModuleIsLeftAloneWhileALostDriveIsStopped) {
   EXPECT_THAT(ask(relay).message.c_str(), HasSubstr("disable drive lift first"));
 }
 
+// The write was allowed while all were at rest; carried out later it must not meet one that turns meanwhile.
+TEST_F(MotionParameters, NoDriveIsEnabledWhileTheRelayOfAModuleIsWritten) {
+  bringUp();
+  transport.hold_answers = true;
+  Request relay = write(150, 1);
+  relay.drive = 0;
+  relay.id = ++last_id;
+  ports.submit(relay);
+  run(3);
+  ASSERT_EQ(0u, completions.count(relay.id));
+  Request enable;
+  enable.kind = RequestKind::kEnable;
+  enable.drive = kLift;
+  enable.id = ++last_id;
+  enable.patience = std::chrono::seconds{3};
+  ports.submit(enable);
+  run(60);
+  EXPECT_EQ(0u, completions.count(enable.id));
+  EXPECT_EQ(0x047E, controlWord(kLift));
+  transport.hold_answers = false;
+  while (!transport.submitted.empty()) transport.answerFirst();
+  run(60);
+  EXPECT_EQ(1u, completions.count(relay.id));
+  ASSERT_EQ(1u, completions.count(enable.id));
+  EXPECT_TRUE(completions[enable.id].success) << completions[enable.id].message.c_str();
+}
+
+// What stops the wheels when this computer dies is told as it is now, not as it was when the drive came.
+TEST_F(MotionParameters, TheTimeOutThatWasWrittenIsReadAgain) {
+  transport.parameters[513] = 5;
+  bringUp();
+  EXPECT_DOUBLE_EQ(0.5, snapshot().drives[kLift].device.telegram_timeout.value());
+  ASSERT_TRUE(ask(RequestKind::kEnable, kLift).success);
+  transport.parameters[513] = -1;  // the scripted inverter stores nothing
+  ask(write(513, -1));
+  run(5);
+  EXPECT_DOUBLE_EQ(-0.1, snapshot().drives[kLift].device.telegram_timeout.value());
+  EXPECT_TRUE(snapshot().drives[kLift].enabled) << "it decides no motion";
+}
+
 // P600 to P631 but for the positions themselves (BU 0020 7.3.5: P613 is the array).
 TEST_F(MotionParameters, DecideThePositionToo) {
   for (const int number : {600, 610, 612, 614, 631}) EXPECT_TRUE(changesProcessData(write(number, 1))) << number;

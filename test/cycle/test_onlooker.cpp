@@ -5,6 +5,7 @@
 #include "cycle/bus_cycle.h"
 #include "cycle/cycle_ports.h"
 #include "cycle/scripted_transport.h"
+#include "cycle/signal_values.h"
 #include "profile/status_word.h"
 
 namespace nord_driver::cycle {
@@ -13,14 +14,16 @@ namespace {
 using ::testing::HasSubstr;
 
 struct Onlooker {
-  Onlooker() : transport{1}, ports{1}, cycle{config(), transport, ports, false, CycleRole::kOnlooker} {}
+  explicit Onlooker(const std::vector<SignalSetup>& signals = {})
+      : transport{1}, ports{1}, cycle{config(signals), transport, ports, false, CycleRole::kOnlooker} {}
 
-  static CycleConfig config() {
+  static CycleConfig config(const std::vector<SignalSetup>& signals) {
     CycleConfig config;
     config.service_timeout = std::chrono::seconds{1};
     DriveSetup setup;
     setup.name = "belt";
     setup.drive.joint.pole_pairs = 2;
+    setup.words.signals = signals;
     config.drives.push_back(setup);
     return config;
   }
@@ -60,6 +63,28 @@ TEST(Onlooker, SendsZerosAndShowsWhatTheDriveTells) {
   EXPECT_TRUE(drive.online);
   EXPECT_EQ(0x0000, drive.output.control_word) << "as sent, not as it would be";
   EXPECT_NE(0, drive.input.status_word);
+}
+
+// The other master runs it in set 2, whose words nobody would have to know who only looks at the frequency.
+TEST(Onlooker, TellsTheSignalsOfTheSetInForce) {
+  SignalSetup door;
+  door.name = "door";
+  door.source = SignalSource::kDigitalInput;
+  door.number = 3;
+  Onlooker onlooker{{door}};
+  for (const int number : {543, 546}) onlooker.transport.parameters[number] = 1;
+  for (const int number : {545, 547, 548}) onlooker.transport.parameters[number] = 0;
+  onlooker.transport.parameters[544] = 5;  // state of the digital inputs and outputs
+  drive::FakeInverter& belt = onlooker.transport.inverters[0];
+  profile::ProcessOutput of_the_other;
+  of_the_other.control_word = 0x447E;
+  belt.exchange(of_the_other);
+  belt.second = 0x0004;
+  onlooker.run(150);
+  const DriveSnapshot& drive = onlooker.ports.readSnapshot().drives[0];
+  ASSERT_EQ(2, drive.parameter_set);
+  EXPECT_EQ(1.0, signalValue(door, profile::Series::kSk5xxe, drive));
+  EXPECT_FALSE(drive.stopped) << drive.text.c_str();
 }
 
 TEST(Onlooker, RefusesWhateverCommandsOrWrites) {

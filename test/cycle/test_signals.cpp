@@ -230,6 +230,9 @@ TEST(SignalsTest, InputsAreReadFromTheWordThatCarriesThem) {
   drive.device.word_functions[1].actual_values[2] = 17;
   drive.input.actual_values[2] = -8192;
   EXPECT_EQ(-50.0, value(SignalSource::kAnalogInput, 1, kSk5));
+  drive.words = 2;
+  EXPECT_EQ(std::nullopt, value(SignalSource::kAnalogInput, 1, kSk5)) << "the bus does not carry that word";
+  drive.words = 3;
   drive.parameter_set = 1;
   EXPECT_EQ(std::nullopt, value(SignalSource::kDigitalInput, 3, kSk5)) << "another set, other words";
   drive.online = false;

@@ -1,6 +1,8 @@
 // A steered base in the bus cycle: what it waits for is told, and not with every command.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "cycle/cycle_bench.h"
 
 namespace nord_driver::cycle {
@@ -11,15 +13,15 @@ constexpr double kQuarter = 1.57079632679489662;
 /// Wheels 0 and 1 before and behind the middle, steered by drives 2 and 3, which stand at 0 whatever they are told.
 class SteeredCycle : public ::testing::Test, protected CycleBench {
  protected:
-  SteeredCycle() : CycleBench{config()} {
+  explicit SteeredCycle(std::size_t velocity_window = 10) : CycleBench{config(velocity_window)} {
     transport.parameters[600] = 1;
     for (const DriveIndex steering : {DriveIndex{2}, DriveIndex{3}}) {
-      transport.of_drive[steering] = {{543, 1}, {544, 10}, {545, 15}, {546, 1}, {547, 21}, {548, 22}};
+      transport.of_drive[steering] = {{543, 1}, {544, 10}, {545, 15}, {546, 1}, {547, 21}, {548, 22}, {480, 22}};
       transport.inverters[steering].ramp = 0;
     }
     run(100);
   }
-  static CycleConfig config() {
+  static CycleConfig config(std::size_t velocity_window) {
     CycleConfig config = CycleBench::config();
     config.cmd_vel_timeout = std::chrono::milliseconds{500};
     config.drives.resize(2);
@@ -29,6 +31,7 @@ class SteeredCycle : public ::testing::Test, protected CycleBench {
       DriveSetup setup = config.drives[0];
       setup.name = name;
       setup.position = PositionSetup{};
+      setup.position->home = PositionBit{};
       setup.position->axis.scale.revolutions_per_unit = 100.0;
       setup.drive.position = setup.position->axis;
       config.drives.push_back(setup);
@@ -41,6 +44,7 @@ class SteeredCycle : public ::testing::Test, protected CycleBench {
     steered.axles = {{0.5, 0.0, 0.1, -kQuarter, kQuarter}, {-0.5, 0.0, 0.1, -kQuarter, kQuarter}};
     steered.angle_tolerance = 0.05;
     config.base->steered = steered;
+    config.base->velocity_rolling_window_size = velocity_window;
     return config;
   }
   /// A command to the left, for as many cycles, heard in each of them.
@@ -90,6 +94,94 @@ TEST_F(SteeredCycle, StandsStillInItsOdometryWhileAnAngleIsUnknown) {
   run(3);
   EXPECT_EQ(lost, snapshot().base.pose.x);
   EXPECT_EQ(0.0, snapshot().base.velocity.linear_x);
+}
+
+class SteeredCycleOfALongWindow : public SteeredCycle {
+ protected:
+  SteeredCycleOfALongWindow() : SteeredCycle{1000} {}
+};
+
+// The mean of a window that reaches back to when it drove would be told, fresh, for as long as the run lasts.
+TEST_F(SteeredCycleOfALongWindow, StandsStillInItsOdometryDuringAReferenceRun) {
+  ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  for (int i = 0; i < 100; ++i) {
+    commandBase(0.2);
+    step();
+  }
+  for (int i = 0; i < 100; ++i) {
+    commandBase(0.0);
+    step();
+  }
+  ASSERT_GT(snapshot().base.velocity.linear_x, 0.01) << "the mean of all that";
+  Request home;
+  home.kind = RequestKind::kHome;
+  home.drive = 2;
+  home.id = ++last_id;
+  home.patience = std::chrono::seconds{3};
+  ports.submit(home);
+  run(3);
+  ASSERT_EQ(0u, completions.count(home.id)) << completions[home.id].message.c_str();
+  EXPECT_EQ(0.0, snapshot().base.velocity.linear_x);
+}
+
+// What stands still in the setpoint may roll in fact; what goes on at the same angles need not stand.
+TEST(SteeredTurn, WaitsForTheWheelsToStand) {
+  SteeredConfig steered;
+  steered.wheels = {0, 1};
+  steered.steering = {2, 3};
+  steered.axles = {{0.5, 0.0, 0.1, -kQuarter, kQuarter}, {-0.5, 0.0, 0.1, -kQuarter, kQuarter}};
+  steered.angle_tolerance = 0.05;
+  BaseConfig config;
+  config.kind = robot::BaseKind::kSteered;
+  config.steered = steered;
+  SteeredMotion motion{config, std::chrono::milliseconds{500}};
+  SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}, true};
+  Instant now{std::chrono::hours{1}};
+  const auto poll = [&](double linear_x, double linear_y) {
+    now += CycleBench::kCycle;
+    TwistCommand command{{}, now, true};
+    command.twist.linear_x = linear_x;
+    command.twist.linear_y = linear_y;
+    return motion.poll(command, true, true, drives, now, CycleBench::kCycle);
+  };
+  EXPECT_EQ((robot::SteeringAngles{0.0, 0.0}), poll(0.0, 0.5).angles);
+  EXPECT_EQ(SteeredWait::kAngles, motion.waitsFor());
+  EXPECT_NEAR(5.0, poll(0.5, 0.0).wheels[0], 1e-9);
+  EXPECT_EQ((robot::SteeringAngles{0.0, 0.0}), poll(0.0, 0.5).angles);
+  EXPECT_EQ((robot::SteeringAngles{0.0, 0.0}), poll(0.0, 0.5).angles);
+  drives.wheel_speed = 1.0;
+  for (double way = 0.0; way < 1.5; way += 0.01) {
+    drives.wheel_speed -= 0.005;
+    EXPECT_NEAR(0.0, poll(0.5 * std::cos(way), 0.5 * std::sin(way)).angles[0], 0.05) << "nor in small steps";
+  }
+  poll(0.0, 0.0);
+  drives.wheels_turn = false;
+  EXPECT_NEAR(kQuarter, std::abs(poll(0.0, 0.5).angles[0]), 1e-9);
+}
+
+// On a slope a wheel may be told to turn all the time: what gets no slower for a second is not waited for any longer.
+TEST(SteeredTurn, WaitsForNoWheelThatGetsNoSlower) {
+  SteeredConfig steered;
+  steered.wheels = {0, 1};
+  steered.steering = {2, 3};
+  steered.axles = {{0.5, 0.0, 0.1, -kQuarter, kQuarter}, {-0.5, 0.0, 0.1, -kQuarter, kQuarter}};
+  steered.angle_tolerance = 0.05;
+  BaseConfig config;
+  config.kind = robot::BaseKind::kSteered;
+  config.steered = steered;
+  SteeredMotion motion{config, std::chrono::milliseconds{500}};
+  SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}, true, 0.5};
+  Instant now{std::chrono::hours{1}};
+  const auto angle = [&] {
+    now += CycleBench::kCycle;
+    TwistCommand command{{}, now, true};
+    command.twist.linear_y = 0.5;
+    return std::abs(motion.poll(command, true, true, drives, now, CycleBench::kCycle).angles[0]);
+  };
+  for (; drives.wheel_speed > 0.02; drives.wheel_speed -= 0.002) EXPECT_EQ(0.0, angle()) << drives.wheel_speed;
+  for (int i = 0; i < 90; ++i) EXPECT_EQ(0.0, angle()) << i;
+  for (int i = 0; i < 20; ++i) angle();
+  EXPECT_NEAR(kQuarter, angle(), 1e-9);
 }
 
 // Slow, the way to another direction is a wide turn of the wheels: from its first step on the base slows down for it, and

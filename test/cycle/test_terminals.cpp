@@ -56,6 +56,23 @@ TEST_F(Terminals, ADriveThatIsEnabledPastTheDriverIsToldWhenItStartsTurning) {
   EXPECT_THAT(events(), IsEmpty());
 }
 
+// Under local control no word is carried out, a stop neither: it does not end what was found.
+TEST_F(Terminals, AStopDoesNotGiveControlBack) {
+  transport.inverters[kLeft].local = true;
+  run(200);
+  EXPECT_THAT(events(), ElementsAre(kLocal));
+  Request stop;
+  stop.kind = RequestKind::kQuickStop;
+  stop.patience = std::chrono::seconds{1};
+  ports.submit(stop);
+  run(200);
+  EXPECT_THAT(events(), IsEmpty());
+  EXPECT_EQ(TerminalFinding::kLocalControl, snapshot().drives[kLeft].terminals);
+  transport.inverters[kLeft].terminals = true;
+  run(200);
+  EXPECT_EQ(TerminalFinding::kTurned, snapshot().drives[kLeft].terminals);
+}
+
 TEST_F(Terminals, TurningUnderLocalControlIsToldBesidesIt) {
   transport.inverters[kLeft].local = true;
   run(10);

@@ -69,6 +69,15 @@ TEST(Sentences, AMissingWordIsNamedWithItsElement) {
                                    "configuration uses it, and no word carries it; P547 could not be read"));
 }
 
+TEST(Sentences, AWordTooManyIsToBeSwitchedOff) {
+  drive::DriveReport report = onlineReport();
+  report.commanded_set = 1;
+  report.unexpected_function = drive::UnexpectedFunction{548, false, 21, 0, 1, "off", true};
+  EXPECT_THAT(refusalMessage("left", drive::Refusal::kUnexpectedFunction, report).str(),
+              ::testing::HasSubstr("set P548 of drive left to 0 (off) in parameter set 1: what another word carries "
+                                   "would mean something else beside it; P548 is 21"));
+}
+
 TEST(Sentences, AStateTellsWhatTheDriveSaidLast) {
   EXPECT_STREQ("drive left is ready to switch on, status word 0B31", stateMessage("left", onlineReport()).c_str());
   EXPECT_STREQ("drive left does not answer", stateMessage("left", drive::DriveReport{}).c_str());

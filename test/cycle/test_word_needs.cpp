@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cycle/word_needs.h"
+#include "profile/word_function.h"
 
 namespace nord_driver::cycle {
 namespace {
@@ -15,11 +16,11 @@ PositionSetup position(std::uint8_t bits) {
   return setup;
 }
 
-WordNeeds needsOf(std::uint8_t bits, std::initializer_list<WordNeed> further) {
+WordNeeds needsOf(std::uint8_t bits, std::initializer_list<WordNeed> further, Series series = Series::kSk750e) {
   WordNeeds needs;
   needs.words = 3;
   needs.positions = true;
-  addPositionNeeds(position(bits), Series::kSk750e, needs);
+  addPositionNeeds(position(bits), series, needs);
   for (const WordNeed& need : further) needs.list.push_back(need);
   return needs;
 }
@@ -55,6 +56,30 @@ TEST(WordNeeds, A32BitPositionLeavesNoThirdActualValue) {
   const WordNeed current{true, WordUse::kTorqueCurrent};
   EXPECT_FALSE(carries(3, current, WordFunctions{{3, 1, 0}, {6, 1, 4}}, Series::kSk750e));
   EXPECT_TRUE(carries(3, current, WordFunctions{{3, 1, 0}, {1, 6, 4}}, Series::kSk750e)) << "the frequency has 16 bits";
+}
+
+// The second one would be sent as 0, and with it the target.
+TEST(WordNeeds, APositionThatStandsInTwoWordsIsToBeSwitchedOff) {
+  const auto low = *profile::setpointCode(Series::kSk5xxe, 2, WordUse::kPositionLow);
+  const WordNeeds needs = needsOf(16, {}, Series::kSk5xxe);
+  const WordFunctions once{{1, low, 0}, {1, *profile::actualValueCode(Series::kSk5xxe, WordUse::kPositionLow), 0}};
+  EXPECT_FALSE(missingWord(needs, once, Series::kSk5xxe));
+  WordFunctions twice = once;
+  twice.setpoints[2] = low;
+  const auto second = missingWord(needs, twice, Series::kSk5xxe);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(548, second->number);
+  EXPECT_EQ(0, second->expected);
+  EXPECT_EQ(low, second->found);
+  EXPECT_TRUE(second->surplus);
+}
+
+// Of all others every word with the function is written, alike.
+TEST(WordNeeds, ATorqueLimitMayStandInTwoWords) {
+  WordNeeds needs;
+  needs.words = 3;
+  needs.list.push_back({false, WordUse::kTorqueLimit});
+  EXPECT_FALSE(missingWord(needs, WordFunctions{{1, 2, 2}, {1, 0, 0}}, Series::kSk5xxe));
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ class DriveTest : public ::testing::Test {
     result.max_frequency[2] = Hertz{100.0};
     result.drive_timeout = seconds(0.05);
     result.enable_timeout = seconds(0.5);
+    result.setup_timeout = seconds(0.5);
     result.shutdown_timeout = seconds(1.0);
     result.acknowledge_time = seconds(0.03);
     return result;

@@ -92,11 +92,11 @@ TEST_F(DriveTest, TakesNoStateFromBeforeAStopForItsEnd) {
 
 // A fault ends every way of stopping: its output is off, and "switch-on disabled" comes only after an acknowledgement.
 TEST_F(DriveTest, AFaultEndsEveryStop) {
-  using Request = void (Drive::*)(Instant) noexcept;
+  using Request = void (Drive::*)(Instant, StopCause) noexcept;
   for (const Request request : {&Drive::requestShutdown, &Drive::requestQuickStop, &Drive::requestCoast}) {
     drive_ = Drive{config()};
     run();
-    (drive_.*request)(now_);
+    (drive_.*request)(now_, StopCause::kNone);
     cycle(0x0B37, 0x2000);
     ASSERT_NE(Phase::kIdle, report().phase);
     cycle(0x0B38);

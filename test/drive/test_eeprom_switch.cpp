@@ -85,6 +85,54 @@ TEST_F(EepromSwitchTest, IsPutBackAtTheSecondTry) {
   EXPECT_EQ(3u, session_.eepromWrites()) << "the lost one may have been stored, too";
 }
 
+// P150 to P199 are a module's, which has no P560 (BU 0280 4.1.1: it stores them in an EEPROM of its own): switching the
+// inverter's would spare nothing, and does not keep the module from saving.
+TEST_F(EepromSwitchTest, OfTheInverterSaysNothingOfAModulesParameters) {
+  const ParameterResult refused =
+      resultOf(access(ParameterAction::kWriteRam, 151), {{"P151?", done(3)}, {"P151~5", kUnknownOrder}});
+  EXPECT_EQ(ParameterOutcome::kRefused, refused.outcome);
+  EXPECT_EQ(ParameterReason::kDriver, refused.reason);
+  EXPECT_STREQ(kModuleSaves, refused.note);
+  EXPECT_EQ(0u, session_.eepromWrites());
+  EXPECT_EQ(ParameterOutcome::kDone,
+            resultOf(access(ParameterAction::kWriteRam), {{"P102?", done(3)}, {"P102~5", done(5)}, {"P102?", done(5)}})
+                .outcome)
+      << "the inverter has the order that the module has not";
+  EXPECT_EQ(ParameterOutcome::kDone, resultOf(access(ParameterAction::kWritePersistent, 151),
+                                              {{"P151?", done(3)}, {"P151=5", done(5)}, {"P151?", done(5)}})
+                                         .outcome);
+  EXPECT_EQ(1u, session_.eepromWrites());
+}
+
+// P506 is taken to have sets, and has none (PKW error 4): in the RAM by one set, it is by all.
+TEST_F(EepromSwitchTest, AValueWithoutSetsIsSavedByWhicheverSetItIsAddressed) {
+  const ParameterResult not_indexed = FakeParameters::refusal(ParameterReason::kNotIndexed);
+  const auto bySet = [](ParameterAction action, std::uint8_t set) {
+    ParameterRequest request = access(action, 506);
+    request.shape = profile::ParameterShape::kPerSet;
+    request.parameter_set = set;
+    return request;
+  };
+  resultOf(bySet(ParameterAction::kWriteRam, 1),
+           {{"P506?", done(3)}, {"P506~5", not_indexed}, {"P506~5", done(5)}, {"P506?", done(5)}});
+  const Answers saved{
+      {"P506?", done(5)}, {"P560?", done(1)}, {"P506=5", not_indexed}, {"P506=5", done(5)}, {"P506?", done(5)}};
+  EXPECT_EQ(ParameterOutcome::kDone, resultOf(bySet(ParameterAction::kWritePersistent, 2), saved).outcome);
+  EXPECT_STREQ(kSame, resultOf(bySet(ParameterAction::kWritePersistent, 3), {{"P506?", done(5)}}).note);
+}
+
+// The other way round as well: an inverter without that order.
+TEST_F(EepromSwitchTest, IsNotUsedForAModuleBehindAnInverterThatNeedsIt) {
+  owe();
+  EXPECT_EQ(ParameterOutcome::kDone, resultOf(access(ParameterAction::kWriteRam, 151), {{"P560?", done(0)},
+                                                                                        {"P560=1", done(1)},
+                                                                                        {"P560?", done(1)},
+                                                                                        {"P151?", done(3)},
+                                                                                        {"P151~5", done(5)},
+                                                                                        {"P151?", done(5)}})
+                                         .outcome);
+}
+
 // Two tries, each looked at: what reads back 0 has not been put back.
 TEST_F(EepromSwitchTest, ThatStaysZeroIsOwed) {
   const ParameterResult result = resultOf(access(ParameterAction::kWriteRam), {{"P102?", done(3)},

@@ -142,6 +142,40 @@ TEST(PositionReader, BelievesANewZeroAfterATime) {
   EXPECT_EQ(6, reading.reader.steps());
 }
 
+// 8192 increments, 25 revolutions a second: after 0.2 s without a telegram it is 40 960 steps further, by its own motion.
+TEST(PositionReader, AHoldUpAtSpeedIsNoNewZero) {
+  constexpr double kFast = 8192.0 * 25.0;
+  PositionReader reader;
+  Instant now{};
+  std::int64_t at = 0;
+  const auto see = [&](Duration after) {
+    now += after;
+    at += static_cast<std::int64_t>(kFast * toSeconds(after));
+    reader.handleValues(kWide, wordsOf(at), kFast, now);
+  };
+  for (int i = 0; i < 50; ++i) see(kCycle);
+  ASSERT_EQ(at, reader.steps());
+  see(std::chrono::milliseconds{200});
+  for (int i = 0; i < 20; ++i) {
+    see(kCycle);
+    EXPECT_FALSE(reader.hasJumped()) << i;
+  }
+  EXPECT_TRUE(reader.isKnown());
+  EXPECT_EQ(at, reader.steps());
+  // Held up where it stands, it is where it was.
+  now += std::chrono::milliseconds{300};
+  reader.handleValues(kWide, wordsOf(at), kFast, now);
+  EXPECT_TRUE(reader.isKnown());
+  // A new zero in the middle of it all is one still: 100 ms of agreeing values, each of them soon after the last.
+  at -= 10'000'000;
+  bool jumped = false;
+  for (int i = 0; i < 15; ++i) {
+    see(kCycle);
+    jumped = jumped || reader.hasJumped();
+  }
+  EXPECT_TRUE(jumped);
+}
+
 TEST(PositionReader, Continues16BitsAfterAGap) {
   Reading reading{kNarrow};
   reading.settle(32'760);

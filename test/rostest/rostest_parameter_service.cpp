@@ -163,12 +163,16 @@ TEST_F(ParameterService, NamesAValueAndTheNumberOfAFault) {
 }
 
 TEST_F(ParameterService, SaysInWordsWhatDoesNotExist) {
-  EXPECT_THAT(read("left", 1000).message, AllOf(HasSubstr("parameter 1000 does not exist"), HasSubstr("0 to 999")));
+  const Read no_number = read("left", 1000);
+  EXPECT_THAT(no_number.message, AllOf(HasSubstr("parameter 1000 does not exist"), HasSubstr("0 to 999")));
+  EXPECT_TRUE(no_number.response.refused) << "by the driver";
+  EXPECT_FALSE(no_number.response.unknown);
   EXPECT_THAT(read("left", 105, 5).message, AllOf(HasSubstr("parameter set 5 does not exist"), HasSubstr("0 to 4")));
   const Read unknown = read("left", 999);
   EXPECT_FALSE(unknown.success);
   EXPECT_THAT(unknown.message,
               AllOf(HasSubstr("drive left refuses P999"), HasSubstr(bus().refusal(Refusal::kUnknownParameter))));
+  EXPECT_TRUE(unknown.response.refused);
 }
 
 // RAM orders spare the EEPROM (BU 2700 6.5.1.1, AK 11 to 14). Where there are none it is P560, off and on.
@@ -204,6 +208,7 @@ TEST_F(ParameterService, RefusesAValueOutOfRangeInWords) {
   const Written too_long = write("left", 513, 200.0, true);
   EXPECT_FALSE(too_long.success);
   EXPECT_THAT(too_long.message, AllOf(HasSubstr("200"), HasSubstr("P513"), HasSubstr("-0.1 to 100 s")));
+  EXPECT_TRUE(too_long.response.refused && !too_long.response.used_up);
   const Written nan = write("left", 102, std::numeric_limits<double>::quiet_NaN(), true);
   EXPECT_FALSE(nan.success);
   EXPECT_THAT(nan.message, HasSubstr("expected"));
@@ -211,6 +216,7 @@ TEST_F(ParameterService, RefusesAValueOutOfRangeInWords) {
   EXPECT_FALSE(by_the_inverter.success);
   EXPECT_THAT(by_the_inverter.message,
               AllOf(HasSubstr("drive left refuses P102"), HasSubstr(bus().refusal(Refusal::kOutOfLimits))));
+  EXPECT_TRUE(by_the_inverter.response.refused && !by_the_inverter.response.used_up);
   EXPECT_DOUBLE_EQ(read("left", 102).response.value, 0.5);
   const Written read_only = write("left", 743, 5.0, false);
   EXPECT_FALSE(read_only.success);
@@ -273,6 +279,7 @@ TEST_F(EepromBudget, IsKeptAcrossAKilledDriverAndRefusesInWords) {
   killAndRestart();
   const Written third = write("left", 102, 3.5, true, 3);
   EXPECT_FALSE(third.success);
+  EXPECT_TRUE(third.response.refused && third.response.used_up);
   EXPECT_THAT(third.message, AllOf(HasSubstr("drive left: its EEPROM has had 2 writes"), HasSubstr("eeprom_budget")));
   EXPECT_EQ(eepromWrites("left"), before + 2);
   EXPECT_DOUBLE_EQ(read("left", 102, 3).response.value, 3.0);

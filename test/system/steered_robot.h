@@ -29,6 +29,8 @@ struct SteeredOptions {
   double slip = 2.0;            ///< Hz at rated torque
   double steering_range = 1.6;  ///< rad, to either side
   double steering_ramp = 0.2;   ///< s, P102 and P103 of the steering drives
+  double wheel_ramp = 0.7;      ///< s, those of the wheels
+  bool limits = true;           ///< of the base's acceleration; false: the drives' ramps are the only ones
   /// Steering axes that may be asked for a reference run: bit 8 of the control word asks, bit 10 of the status word tells.
   bool homes = false;
 };
@@ -88,7 +90,7 @@ class SteeredRobot : public Bus {
     const char* const names[] = {"front_wheel", "front_steering", "rear_wheel", "rear_steering"};
     return std::string{names[drive]} + "_joint";
   }
-  static Settings nodeSettings() {
+  static Settings nodeSettings(const SteeredOptions& options) {
     Settings values{{"base_type", std::string{"steered"}}, {"wheel_radius", 0.1}};
     for (const auto& [axle, x] : {std::pair{"front", 0.5}, std::pair{"rear", -0.5}}) {
       const std::string group = std::string{"steered/"} + axle + "/";
@@ -98,6 +100,7 @@ class SteeredRobot : public Bus {
                      {group + "y", 0.0}});
     }
     for (const std::string axis : {"linear/x", "linear/y", "angular/z"}) {
+      if (!options.limits) break;
       values.insert({{axis + "/has_acceleration_limits", true}, {axis + "/max_acceleration", 0.5}});
     }
     return values;
@@ -142,7 +145,8 @@ class SteeredRobot : public Bus {
         setThreeWords(drive);
         if (options.homes) setReferenceSwitch(drive);
       }
-      const auto ramp = static_cast<std::int32_t>(std::lround(100.0 * (isSteering(i) ? options.steering_ramp : 0.7)));
+      const double seconds_long = isSteering(i) ? options.steering_ramp : options.wheel_ramp;
+      const auto ramp = static_cast<std::int32_t>(std::lround(100.0 * seconds_long));
       for (unsigned set = 0; set < 4; ++set) {
         drive.parameters.push_back({102, set, 0, ramp});
         drive.parameters.push_back({103, set, 0, ramp});
@@ -170,7 +174,7 @@ class SteeredRobot : public Bus {
   static typename Bus::Options busOptions(const SteeredOptions& options) {
     typename Bus::Options bus;
     bus.base = false;  // not that of two wheels
-    bus.node = nodeSettings();
+    bus.node = nodeSettings(options);
     bus.simulate = [options](sim::SimConfig& config) { simulate(options, config); };
     for (DriveIndex i = 0; i < kSteeredDrives; ++i) {
       if constexpr (kIsProfibus) {

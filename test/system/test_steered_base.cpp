@@ -186,6 +186,37 @@ TYPED_TEST(SteeredBase, TellsTheAnglesOfItsJoints) {
   EXPECT_NEAR(robot.angle(kRearSteering), robot.drive(kRearSteering).joint_position, 0.005);
 }
 
+// Without acceleration limits the base is commanded to stand at once, and rolls on down P103: 1.5 s from 0.4 m/s.
+template <typename Bus>
+class SteeredBaseOnSlowRamps : public ::testing::Test {};
+TYPED_TEST_SUITE(SteeredBaseOnSlowRamps, EveryLift, LiftBusName);
+
+TYPED_TEST(SteeredBaseOnSlowRamps, SteersNoWheelWhileItRolls) {
+  SteeredOptions options;
+  options.limits = false;
+  options.wheel_ramp = 3.0;
+  SteeredRobot<TypeParam> robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.go(0.4, 0.0, 0.0, seconds{4});
+  ASSERT_NEAR(0.4, robot.body().linear(), 0.01);
+  int rolled = 0;
+  std::string waits;
+  while (std::abs(robot.body().linear()) > 0.02 && rolled < 1000) {
+    robot.say(0.0, 0.0, 0.3);
+    robot.step();
+    ++rolled;
+    ASSERT_NEAR(0.0, robot.angle(kFrontSteering), kTolerance) << "at " << robot.body().linear() << " m/s";
+    ASSERT_NEAR(0.0, robot.angle(kRearSteering), kTolerance);
+    waits = robot.snapshot().base.waits.str();
+  }
+  EXPECT_GT(rolled, 20);
+  EXPECT_EQ("the base waits until its wheels are steered", waits);
+  robot.go(0.0, 0.0, 0.3, seconds{6});
+  EXPECT_NEAR(kPi / 2.0, std::abs(robot.angle(kFrontSteering)), kTolerance);
+  EXPECT_NE(0, robot.setpoint(kFront)) << "it drives off";
+  EXPECT_EQ("no rule broken", robot.report());
+}
+
 template <typename Bus>
 class SteeredBaseWithoutSlip : public ::testing::Test {};
 TYPED_TEST_SUITE(SteeredBaseWithoutSlip, EveryLift, LiftBusName);

@@ -104,5 +104,49 @@ TYPED_TEST(SteeredHoming, TheBaseStandsUntilTheRunHasEnded) {
   EXPECT_NE(0, robot.setpoint(kRear)) << "it drives on";
 }
 
+// Commanded to stand, it rolls on down P103 where no acceleration limit holds it.
+TYPED_TEST(SteeredHoming, IsRefusedWhileTheBaseRollsOut) {
+  SteeredOptions options = this->options();
+  options.limits = false;
+  options.wheel_ramp = 3.0;
+  SteeredRobot<TypeParam> robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.go(0.4, 0.0, 0.0, seconds{4});
+  robot.go(0.0, 0.0, 0.0, milliseconds{200});
+  ASSERT_EQ(0, robot.setpoint(kFront));
+  ASSERT_GT(robot.body().linear(), 0.1);
+  const cycle::Completion answer = robot.ask(this->home(kFrontSteering));
+  EXPECT_FALSE(answer.success);
+  EXPECT_EQ(this->refusal(kFrontSteering), answer.message.str());
+  EXPECT_NEAR(0.0, robot.angle(kFrontSteering), 0.01);
+}
+
+// An axis on its reference run follows no setpoint that could be ramped down: OFF1 is what stops it.
+TYPED_TEST(SteeredHoming, DisablingEndsTheRunAtOnce) {
+  auto& robot = this->robot_;
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  cycle::Request request = this->home(kFrontSteering);
+  request.id = 900;
+  request.patience = seconds{20};
+  robot.ports().submit(request);
+  robot.run(seconds{1});
+  ASSERT_GT(std::abs(robot.unit(kFrontSteering).shaftSpeed()), 0.1) << "on its way";
+  const std::size_t before = robot.completions().size();
+  cycle::Request disable;
+  disable.kind = cycle::RequestKind::kDisable;
+  disable.id = 901;
+  disable.patience = seconds{3};
+  robot.ports().submit(disable);
+  for (int i = 0; i < 2; ++i) robot.step();
+  EXPECT_EQ(0x047E, robot.controlWord(kFrontSteering));
+  robot.run(seconds{2});
+  EXPECT_TRUE(robot.standsStill());
+  ASSERT_EQ(before + 2, robot.completions().size());
+  for (std::size_t i = before; i < before + 2; ++i) {
+    const cycle::Completion& answer = robot.completions()[i];
+    EXPECT_EQ(answer.id == 901, answer.success) << answer.message.c_str();
+  }
+}
+
 }  // namespace
 }  // namespace nord_driver::test

@@ -52,6 +52,8 @@ struct DriveIdentity {
   bool module_io = false;
   /// The longest cycle there may be, with one slave silent: a time-out that stops a drive must be longer. 0: not known.
   double worst_cycle = 0.0;
+  /// The parameters of its bus module (P150 to P199) cannot be written without saving them.
+  bool module_saves = false;
 };
 
 /// Something that happened on the bus, told once: a sentence for a technician.

@@ -200,6 +200,7 @@ DriveIdentity CanopenTransport::identity(DriveIndex drive) const {
   identity.address = "CANopen node " + std::to_string(node.id);
   if (config.connection == CanopenConnection::kGateway) {
     identity.address += ", inverter " + std::to_string(config.inverter);
+    identity.module_saves = true;  // SDO has no order for the RAM
   } else if (config.connection == CanopenConnection::kSystemBus) {
     identity.address = "NORD system bus id " + std::to_string(node.id) +
                        " (experimental: its objects are taken to be those of SK 5xxE)";

@@ -238,6 +238,7 @@ DriveIdentity DeviceNetTransport::identity(DriveIndex drive) const {
   }
   identity.process_values = config.processValues();
   identity.parameter_channel = "explicit messages";
+  identity.module_saves = true;
   identity.module_io = config_.modules[config.module].output_byte && config_.modules[config.module].input_byte;
   if (!parametersOnly()) {
     const double rate = toSeconds(io.expected_packet_rate.value_or(Duration::zero()));
