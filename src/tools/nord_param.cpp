@@ -1,4 +1,5 @@
 // nord_param: parameters of the inverters on the command line, over the bus itself, without a roscore.
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -55,11 +56,19 @@ int run(int argc, char** argv) {
   return kWrongUsage;  // parse() has refused it
 }
 
+// What was printed may be somebody's only copy of a drive.
+int printed(int exit_code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
+  std::fputs("nord_param: not all of it could be printed: the disk is full, or nobody reads it any more\n", stderr);
+  return exit_code == kDone ? kFailed : exit_code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // whoever reads may go; the bus is left in order all the same
   try {
-    return run(argc, argv);
+    return printed(run(argc, argv));
   } catch (const UsageError& error) {
     std::fprintf(stderr, "nord_param: %s\n", error.what());
     return kWrongUsage;

@@ -60,7 +60,8 @@ std::string section(const Dump& dump, const catalogue::DriveCatalogue& known, co
 
 Dump parse(const YAML::Node& file) {
   Dump dump;
-  if (!file.IsMap() || !file["series"].IsDefined()) throw UsageError("expected the keys series and settings");
+  if (!file.IsMap() || !file["series"].IsDefined() || !file["settings"].IsDefined())
+    throw UsageError("expected the keys series and settings");
   const auto series = profile::seriesFrom(file["series"].as<std::string>());
   if (!series) throw UsageError("series \"" + file["series"].as<std::string>() + "\" is not known");
   dump.series = *series;

@@ -100,7 +100,7 @@ TraceResult TraceWriter::write(const TraceCause& cause, const TraceClock& clock)
   result.written = error.empty();
   result.message =
       error.empty() ? stem + ".txt" : "no trace can be written: trace_directory " + config_.directory + ": " + error;
-  if (result.written) result.warning = removeOldest();
+  if (result.written) result.warning = removeOldest(fs::path(stem).filename().string());
   return result;
 }
 
@@ -130,17 +130,17 @@ std::string TraceWriter::pcapBytes(const std::vector<TraceRecord>& telegrams, co
 }
 
 // Only what bears our own names is ever removed.
-std::string TraceWriter::removeOldest() const {
+std::string TraceWriter::removeOldest(const std::string& newest) const {
   static const std::regex kOwn(R"((nord_driver_\d{8}T\d{6}\.\d{3}Z_\w+)\.(txt|pcap)(\.part)?)");
   std::set<std::string> stems;
   std::error_code error;
   for (fs::directory_iterator at{config_.directory, error}, end; !error && at != end; at.increment(error)) {
     std::smatch match;
     const std::string name = at->path().filename().string();
-    if (std::regex_match(name, match, kOwn)) stems.insert(match[1]);
+    if (std::regex_match(name, match, kOwn) && match[1] != newest) stems.insert(match[1]);
   }
   std::string warning;
-  for (auto stem = stems.begin(); stems.size() > config_.keep; stem = stems.erase(stem)) {
+  for (auto stem = stems.begin(); stems.size() + 1 > config_.keep; stem = stems.erase(stem)) {
     for (const char* ending : {".txt", ".pcap", ".txt.part", ".pcap.part"}) {
       const fs::path path = fs::path(config_.directory) / (*stem + ending);
       fs::remove(path, error);

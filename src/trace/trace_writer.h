@@ -46,7 +46,8 @@ class TraceWriter {
  private:
   std::string freeStem(const TraceCause& cause, const TraceClock& clock) const;
   std::string pcapBytes(const std::vector<TraceRecord>& telegrams, const TraceClock& clock) const;
-  std::string removeOldest() const;
+  /// Never `newest`, whatever the clock made of its name.
+  std::string removeOldest(const std::string& newest) const;
 
   TraceConfig config_;
   std::vector<TracedDrive> drives_;

@@ -129,6 +129,18 @@ TEST_F(NordParamBesideTheDriver, RestoresADriveAtRestOnly) {
   ::unlink((file + ".journal").c_str());
 }
 
+// Sent in ms, 2500 would be 2500 s there.
+TEST_F(NordParamBesideTheDriver, WritesNothingThatTheNodeUnderstandsOtherwise) {
+  const std::string own = ::testing::TempDir() + "nord_param_own_" + std::to_string(::getpid()) + ".yaml";
+  std::ofstream(own) << "devices: [sk5xxe]\nparameters:\n  - {number: 102, unit: ms, resolution: 10}\n";
+  const Ended refused = run({"--parameter-files", own, "write", "left", "P102", "2500"});
+  EXPECT_EQ(1, refused.code) << refused.output;
+  EXPECT_THAT(refused.errors, HasSubstr("knows P102 otherwise than this program: the raw value 50 is 0.5 s there and "
+                                        "500 ms here; give both the same parameter_files"));
+  EXPECT_EQ("P102 set 1 Acceleration time = 0.50 s (raw 50)\n", run({"read", "left", "P102"}).output);
+  ::unlink(own.c_str());
+}
+
 // A drive that moves, which over the bus itself would be left alone.
 TEST_F(NordParamBesideTheDriver, WatchesADriveThatMoves) {
   ASSERT_NO_FATAL_FAILURE(enableAndDrive(0.3));

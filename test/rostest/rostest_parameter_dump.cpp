@@ -54,7 +54,7 @@ Answer writeRamp(double seconds) {
   return callService("nord_driver/left/write_parameter", service);
 }
 
-constexpr char kNothing[] = "series: sk5xxe";
+constexpr char kNothing[] = "{series: sk5xxe, settings: {}}";
 constexpr char kBusy[] = "drive left: its parameters are being dumped or verified already: ask again";
 
 /// A verification that only looks whether the drive is busy may be there first, and has soon ended.

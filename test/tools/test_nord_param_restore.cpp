@@ -65,6 +65,17 @@ TEST_F(NordParamRestore, Restores) {
   EXPECT_THAT(restored.output, HasSubstr("\"state\": \"done\""));
   EXPECT_THAT(restored.output, HasSubstr("\"state\": \"written\""));
   EXPECT_THAT(run({"read", "right", "P426 set 2"}).output, HasSubstr("(raw 30)"));
+  // The journal of a drive of the same name on another bus.
+  std::ifstream of_right(journal);
+  std::string text{std::istreambuf_iterator<char>(of_right), {}};
+  const std::size_t station = text.find("PROFIBUS station 4");
+  ASSERT_NE(std::string::npos, station) << text;
+  std::ofstream(journal + ".other") << text.replace(station, 18, "PROFIBUS station 9");
+  const Ended elsewhere = run({"restore", "right", "--take-back", "--yes", "--journal", journal + ".other"});
+  EXPECT_EQ(1, elsewhere.code);
+  EXPECT_THAT(elsewhere.errors,
+              HasSubstr("is of PROFIBUS station 9, and drive right is PROFIBUS station 4 here: nothing was written"));
+  ::unlink((journal + ".other").c_str());
   const Ended taken_back = run({"restore", "right", "--take-back", "--yes", "--journal", journal});
   EXPECT_EQ(0, taken_back.code) << taken_back.errors;
   EXPECT_EQ("taken back: drive right has what it had before\n", taken_back.output);
@@ -74,6 +85,25 @@ TEST_F(NordParamRestore, Restores) {
   EXPECT_EQ(2, run({"restore", "right", "--yes"}).code) << "no file";
   ::unlink(file.c_str());
   ::unlink(journal.c_str());
+}
+
+// A dump is somebody's only copy of a drive: on a disk that is full it has not been made.
+TEST_F(NordParamRestore, ADumpThatCouldNotBePrintedIsAFailure) {
+  const std::string dump =
+      std::string(NORD_PARAM_PROGRAM) + " --config " + config_ + " --device " + device_ + " dump right";
+  const Ended full = runProgram({"/bin/sh", "-c", dump + " >/dev/full"});
+  EXPECT_EQ(1, full.code);
+  EXPECT_THAT(full.errors, HasSubstr("not all of it could be printed"));
+}
+
+// Whoever reads may go: the program ends, and in order.
+TEST_F(NordParamRestore, WatchEndsWithWhoeverReadsIt) {
+  const std::string watch =
+      std::string(NORD_PARAM_PROGRAM) + " --config " + config_ + " --device " + device_ + " watch right --json";
+  const Ended read = runProgram({"/bin/sh", "-c", watch + " | head -n 1"});
+  EXPECT_EQ(0, read.code) << "of head";
+  EXPECT_THAT(read.output, HasSubstr("{"));
+  EXPECT_EQ(0, run({"read", "right", "P102"}).code) << "the bus is free again";
 }
 
 // Killed in the middle of its work, whenever: the journal says where it was, and the next run ends it.

@@ -78,6 +78,17 @@ TEST_F(TraceWriterTest, KeepsTheNewest) {
                                    "nord_driver_20231114T221323.000Z_request.txt", "nord_driver_notes.txt"));
 }
 
+// A clock that was set back names it before all others: it is the newest all the same.
+TEST_F(TraceWriterTest, KeepsTheOneThatWasJustWritten) {
+  TraceWriter traces{{directory_, 2}, drives(), &trace_, feed_.history()};
+  for (const int second : {5, 6, 0}) {
+    const TraceResult result = traces.writeNow(clockAt(1000 * second));
+    ASSERT_TRUE(result.written);
+    EXPECT_TRUE(std::ifstream(result.message).is_open()) << result.message;
+  }
+  EXPECT_EQ(4u, files().size());
+}
+
 // A directory that is not there, or is a file, is named at once and at every attempt in the same words.
 TEST_F(TraceWriterTest, NamesAMissingDirectory) {
   const std::string missing = directory_ + "/missing";

@@ -1,4 +1,5 @@
 // nord_param restore: a dump back into a drive.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -163,8 +164,21 @@ class RestoreCommand final : public ParamCommand {
     return ended(run.write(), run, record, drive, journal);
   }
 
+  // A drive of the same name may be another one, in another configuration; but one whose address was restored is somewhere else.
+  static void requireSamePlace(const DriveParameters& drive, const RestoreRecord& record, const std::string& journal) {
+    const bool moved =
+        std::any_of(record.changes.begin(), record.changes.end(), [](const RestoreRecord::Change& change) {
+          return stageOf(change.address.number) == RestoreStage::kReach && change.state != ChangeState::kPending;
+        });
+    const std::string here = drive.identity().address;
+    if (moved || here == record.address) return;
+    throw Trouble("the journal " + journal + " is of " + record.address + ", and drive " + record.drive + " is " +
+                  here + " here: nothing was written");
+  }
+
   bool goOn(WatchedParameters& drive, RestoreRecord record, const RestoreJournal& journal,
             const std::atomic<bool>& end_asked) {
+    requireSamePlace(drive, record, journal.path());
     RestoreRun run{drive, record, [&journal](const RestoreRecord& saved) { journal.write(saved); }, end_asked};
     if (take_back_) {
       if (!mayWrite(drive, "put back what the restore from " + record.file + " has changed in drive " + drive_ + "?",

@@ -101,7 +101,7 @@ class WatchCommand final : public ParamCommand {
       } else {
         print(toSeconds(pace.now() - start), drives, labels);
       }
-      if (once_) return;
+      if (once_ || std::ferror(stdout) != 0) return;
     }
   }
 

@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 #include <ros/service.h>
 
+#include <sstream>
 #include <utility>
 
 #include "nord_driver/DriveStatus.h"
@@ -103,9 +104,28 @@ ParameterAnswer NodeParameters::read(const catalogue::ParameterAddress& address)
   return answer;
 }
 
+// A value goes to the node in its unit: with another file of parameters there it would be another one in the drive.
+void NodeParameters::requireSameMeaning(const catalogue::ParameterAccess& access, std::uint8_t set) {
+  ReadParameter service;
+  service.request.number = access.request.number;
+  service.request.parameter_set = set;
+  if (profile::isArray(access.request.shape)) service.request.index = access.request.index;
+  call(read_, service);
+  if (!service.response.success) return;  // the write tells why
+  const std::string unit = access.entry != nullptr ? access.entry->unitOf(access.request.index) : "";
+  const double value = catalogue::valueOf(access.entry, service.response.raw, access.request.index);
+  if (service.response.unit == unit && service.response.value == value) return;
+  std::ostringstream text;
+  text << "node " << node_ << " knows P" << access.request.number << " otherwise than this program: the raw value "
+       << service.response.raw << " is " << service.response.value << " " << service.response.unit << " there and "
+       << value << " " << unit << " here; give both the same parameter_files";
+  throw Trouble(text.str());
+}
+
 ParameterAnswer NodeParameters::write(const catalogue::ParameterAccess& access) {
   const auto set = setFor(access);
   if (!set) return silent();
+  requireSameMeaning(access, *set);
   ParameterAnswer answer;
   answer.set = *set;
   WriteParameter service;

@@ -32,6 +32,8 @@ class NodeParameters final : public DriveParameters {
   const catalogue::DriveCatalogue& known() const noexcept override { return drive_.known; }
 
  private:
+  /// Throws Trouble where the node would make another raw value of what is written.
+  void requireSameMeaning(const catalogue::ParameterAccess& access, std::uint8_t set);
   template <typename Service>
   void call(ros::ServiceClient& client, Service& service);
   /// The newest of the drive within two seconds of the first, or the first that is `enough`. Throws Trouble when none comes.

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "cycle/drive_parameters.h"
+#include "profile/module_parameters.h"
 #include "tools/comparison.h"
 #include "tools/parameter_name.h"
 
@@ -55,6 +56,9 @@ std::string whyNot(const DriveParameters& drive, const Dump::Value& value, const
   if (stage >= RestoreStage::kProcessData && options.bus_settings == BusSettings::kNone) return "a bus setting";
   if (stage == RestoreStage::kReach && options.bus_settings != BusSettings::kAll) {
     return "the bus reaches the drive by it; --with-bus-settings writes it";
+  }
+  if (!options.persistent && profile::isOfModule(value.address.number) && drive.identity().module_saves) {
+    return "the module has no order here that spares its EEPROM; --persistent writes it";
   }
   std::string forbidden = drive.whyNotWritten(value.address.number);
   if (!forbidden.empty()) return forbidden;

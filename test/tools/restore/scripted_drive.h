@@ -58,6 +58,7 @@ class ScriptedDrive final : public DriveParameters {
   DriveIdentity identity() const override {
     DriveIdentity identity;
     identity.address = "PROFIBUS station 3";
+    identity.module_saves = module_saves;
     return identity;
   }
   const catalogue::DriveCatalogue& known() const override {
@@ -68,6 +69,7 @@ class ScriptedDrive final : public DriveParameters {
 
   std::map<std::string, std::int32_t> values;  ///< by "P102 set 1"
   std::set<std::string> refused;               ///< to write
+  bool module_saves = false;                   ///< what is written to its module is saved
   std::uint16_t forbidden = 0;                 ///< by the configuration
   std::string used_up_at;                      ///< of the EEPROM's budget
   std::vector<std::string> written;            ///< "P102 set 1 ~ 250" to RAM, "P102 set 1 = 250" to the EEPROM

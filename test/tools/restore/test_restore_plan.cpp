@@ -55,6 +55,23 @@ TEST(RestorePlan, LeavesOutWhatMayNotBeWritten) {
   EXPECT_EQ("forbidden", plan.left_out[0].why);
 }
 
+// As a bus transfers it that knows no sign.
+TEST(RestorePlan, WritesANegativeValueThatWasReadWithoutItsSign) {
+  ScriptedDrive drive{{{"P513", 0}}};
+  const RestorePlan plan = planned(drive, {{"P513", 65'535}});
+  EXPECT_THAT(written(plan), ElementsAre("P513"));
+}
+
+// A restore in RAM that came to it would be refused there, and taken back as a whole.
+TEST(RestorePlan, LeavesOutWhatAModuleWouldSave) {
+  ScriptedDrive drive{{{"P102 set 1", 200}, {"P151", 0}}};
+  drive.module_saves = true;
+  const RestorePlan plan = planned(drive, {{"P102 set 1", 250}, {"P151", 500}});
+  EXPECT_THAT(written(plan), ElementsAre("P102 set 1"));
+  ASSERT_EQ(1u, plan.left_out.size());
+  EXPECT_EQ("the module has no order here that spares its EEPROM; --persistent writes it", plan.left_out[0].why);
+}
+
 // What cannot move a motor, what may, what the words mean, P105; the branch the program sits on only when it was said.
 const std::map<std::string, std::int32_t> kHave{
     {"P102 set 1", 200}, {"P104 set 1", 0}, {"P105 set 1", 500}, {"P420", 0},       {"P506", 0},       {"P508", 3},
