@@ -41,13 +41,24 @@ cycle::WordFunctions functionsOf(const DriveUnderCheck& drive) {
   return functions;
 }
 
-/// The configuration has a setpoint or a signal for the function of this word.
-bool isCommanded(const DriveUnderCheck& drive, std::uint8_t place) {
+/// The configuration has a setpoint, a signal or a measurement for the function of this word.
+bool isNeeded(const DriveUnderCheck& drive, bool actual_value, std::uint8_t place) {
   const cycle::WordFunctions functions = functionsOf(drive);
   const auto& needs = drive.asked().words.list;
   return std::any_of(needs.begin(), needs.end(), [&](const cycle::WordNeed& need) {
-    return !need.actual_value && cycle::carries(place + 1u, need, functions, drive.asked().series);
+    return need.actual_value == actual_value && cycle::carries(place + 1u, need, functions, drive.asked().series);
   });
+}
+
+/// A further actual value that is off, else one that nothing needs; none: each is needed, or not known.
+std::optional<std::uint8_t> freeActualValue(const DriveUnderCheck& drive, std::uint8_t places) {
+  std::optional<std::uint8_t> unneeded;
+  for (std::uint8_t place = 1; place < places; ++place) {
+    const auto raw = drive.raw(drive.functionKey(kFirstActualValue, place));
+    if (raw == 0) return place;
+    if (raw && !unneeded && !isNeeded(drive, true, place)) unneeded = place;
+  }
+  return unneeded;
 }
 
 void expectFrequency(const DriveUnderCheck& drive, std::uint16_t first, const std::string& why, Findings& to) {
@@ -106,7 +117,7 @@ void furtherSetpointsAreFree(const Drives& drives, std::size_t index, Findings& 
   for (std::uint8_t place = 1; place < kPlaces && place < drive.asked().identity.process_values; ++place) {
     const ParameterKey key = drive.functionKey(kFirstSetpoint, place);
     const auto raw = drive.raw(key);
-    if (!raw || *raw == 0 || isCommanded(drive, place)) continue;
+    if (!raw || *raw == 0 || isNeeded(drive, false, place)) continue;
     const bool holds = holdsBack(drive, *raw);
     Finding finding = drive.finding(key, holds ? Severity::kError : Severity::kWarning,
                                     "the driver sends 0 in setpoint " + std::to_string(place + 1) +
@@ -165,27 +176,6 @@ void countHasNoOtherGear(const Drives& drives, std::size_t index, Findings& to) 
       "joint's shaft, or both parameters to 1";
   to.push_back(finding);
 }
-
-namespace {
-
-/// A further actual value that is off, else one that nothing needs; none: each is needed, or not known.
-std::optional<std::uint8_t> freeActualValue(const DriveUnderCheck& drive, std::uint8_t places) {
-  const cycle::WordFunctions functions = functionsOf(drive);
-  const auto& needs = drive.asked().words.list;
-  std::optional<std::uint8_t> unneeded;
-  for (std::uint8_t place = 1; place < places; ++place) {
-    const auto raw = drive.raw(drive.functionKey(kFirstActualValue, place));
-    if (!raw) continue;
-    if (*raw == 0) return place;
-    const bool needed = std::any_of(needs.begin(), needs.end(), [&](const cycle::WordNeed& need) {
-      return need.actual_value && cycle::carries(place + 1u, need, functions, drive.asked().series);
-    });
-    if (!needed && !unneeded) unneeded = place;
-  }
-  return unneeded;
-}
-
-}  // namespace
 
 void currentIsMapped(const Drives& drives, std::size_t index, Findings& to) {
   const DriveUnderCheck& drive = drives[index];

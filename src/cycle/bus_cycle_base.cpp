@@ -1,5 +1,6 @@
 // The part of the bus cycle that is about the base: from its command to its drives, and from these to its pose.
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 
@@ -148,12 +149,10 @@ void BusCycle::measureBase(Duration dt) noexcept {
     seen = seen && drives_[i].report().online && drives_[i].report().scaled;
     wheels.push_back(drives_[i].report().velocity.value);
   }
-  for (const DriveIndex i : steering_) {
-    const drive::PositionReport& axis = drives_[i].report().position;
-    seen = seen && axis.position.has_value() && !axis.homing;  // as steeringAngles() has it
-  }
+  const robot::SteeringAngles angles = steeringAngles();
+  for (const double angle : angles) seen = seen && std::isfinite(angle);
   if (base_) seen ? base_->handleWheels(wheels, dt) : base_->handleGap();
-  if (steered_) seen ? steered_->handleMeasured(wheels, steeringAngles(), dt) : steered_->handleGap();
+  if (steered_) seen ? steered_->handleMeasured(wheels, angles, dt) : steered_->handleGap();
 }
 
 void BusCycle::publishBase() noexcept {

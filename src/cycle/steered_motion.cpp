@@ -8,11 +8,11 @@ namespace nord_driver::cycle {
 namespace {
 
 constexpr Duration kLongestHold = std::chrono::milliseconds{500};
-// Of the tolerance: how far a step may lead the wheels, and by how much it may turn the angles at once. The rest is
-// for how exactly the axes come to their angles.
 // A wheel that gets no slower at setpoint 0 stands as well as it ever will; as of a drive that halts (DriveGroup).
 constexpr Duration kNoSlower = std::chrono::seconds{1};
 constexpr double kSlower = 0.01;
+// Of the tolerance: how far a step may lead the wheels, and by how much it may turn the angles at once. The rest is
+// for how exactly the axes come to their angles.
 constexpr double kLead = 0.75;
 constexpr double kTurnAtOnce = 0.5;
 

@@ -32,7 +32,7 @@ enum class Group2 : std::uint8_t {
   kDuplicateMac = 7
 };
 
-/// Group 3, 600h..7BFh: message number, then the sender's MAC id. Of devices that take connections by their own messages.
+/// Group 3, 600h..7BFh: message number, then the sender's MAC id. Of devices that are not Group-2-only.
 enum class Group3 : std::uint8_t {
   kUnconnectedResponse = 5  ///< and their heartbeat and shutdown
 };

@@ -7,8 +7,6 @@
 namespace nord_driver::devicenet {
 namespace {
 
-/// Group 3 message of devices that are not Group-2-only: their heartbeat and shutdown come with it.
-
 ScannerConfig checked(const ScannerConfig& config) {
   ScannerConfig complete = completed(config);
   checkConfig(complete);

@@ -1,5 +1,5 @@
-// Who is there? Asks every address for its FDL status, those that were silent again, and every slave found for its diagnosis. For a segment on which
-// no DpMaster runs at the same time. Sans-IO like DpMaster.
+// Who is there? Asks every address for its FDL status, those that were silent again, and every slave found for its
+// diagnosis. For a segment on which no DpMaster runs at the same time. Sans-IO like DpMaster.
 #pragma once
 
 #include <array>

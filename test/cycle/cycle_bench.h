@@ -32,12 +32,23 @@ class CycleBench {
   void run(int cycles) {
     for (int i = 0; i < cycles; ++i) step();
   }
-  Completion ask(Request request) {
+  /// Without waiting for its answer; returns its id.
+  std::uint32_t submit(Request request) {
     request.id = ++last_id;
     request.patience = std::chrono::seconds{3};
     ports.submit(request);
-    for (int i = 0; i < 400 && completions.count(last_id) == 0; ++i) step();
-    return completions[last_id];
+    return request.id;
+  }
+  std::uint32_t submit(RequestKind kind, DriveIndex drive) {
+    Request request;
+    request.kind = kind;
+    request.drive = drive;
+    return submit(request);
+  }
+  Completion ask(const Request& request) {
+    const std::uint32_t id = submit(request);
+    for (int i = 0; i < 400 && completions.count(id) == 0; ++i) step();
+    return completions[id];
   }
   Completion ask(RequestKind kind, DriveIndex drive = kAllDrives) {
     Request request;

@@ -56,6 +56,11 @@ class ScriptedTransport final : public Transport {
     results.pop_front();
     return result;
   }
+  /// Those that wait, and from now on each at once.
+  void answerAll() {
+    hold_answers = false;
+    while (!submitted.empty()) answerFirst();
+  }
   void answerFirst() {
     const DriveIndex drive = submitted.front().drive;
     const profile::ParameterRequest request = submitted.front().request;

@@ -85,25 +85,18 @@ TEST_F(MotionParameters, NoDriveIsEnabledWhileTheRelayOfAModuleIsWritten) {
   transport.hold_answers = true;
   Request relay = write(150, 1);
   relay.drive = 0;
-  relay.id = ++last_id;
-  ports.submit(relay);
+  const std::uint32_t written = submit(relay);
   run(3);
-  ASSERT_EQ(0u, completions.count(relay.id));
-  Request enable;
-  enable.kind = RequestKind::kEnable;
-  enable.drive = kLift;
-  enable.id = ++last_id;
-  enable.patience = std::chrono::seconds{3};
-  ports.submit(enable);
+  ASSERT_EQ(0u, completions.count(written));
+  const std::uint32_t enable = submit(RequestKind::kEnable, kLift);
   run(60);
-  EXPECT_EQ(0u, completions.count(enable.id));
+  EXPECT_EQ(0u, completions.count(enable));
   EXPECT_EQ(0x047E, controlWord(kLift));
-  transport.hold_answers = false;
-  while (!transport.submitted.empty()) transport.answerFirst();
+  transport.answerAll();
   run(60);
-  EXPECT_EQ(1u, completions.count(relay.id));
-  ASSERT_EQ(1u, completions.count(enable.id));
-  EXPECT_TRUE(completions[enable.id].success) << completions[enable.id].message.c_str();
+  EXPECT_EQ(1u, completions.count(written));
+  ASSERT_EQ(1u, completions.count(enable));
+  EXPECT_TRUE(completions[enable].success) << completions[enable].message.c_str();
 }
 
 // What stops the wheels when this computer dies is told as it is now, not as it was when the drive came.
@@ -156,8 +149,7 @@ TEST_F(MotionParameters, NothingIsEnabledBeforeTheyHaveBeenAskedFor) {
   const Completion early = ask(RequestKind::kEnable, kLift);
   EXPECT_FALSE(early.success);
   EXPECT_THAT(early.message.c_str(), HasSubstr("P104, P105, P509, P510, P543 and P546 are still being read"));
-  transport.hold_answers = false;
-  while (!transport.submitted.empty()) transport.answerFirst();
+  transport.answerAll();
   run(5);
   EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);
 }
@@ -166,17 +158,11 @@ TEST_F(MotionParameters, NothingIsEnabledBeforeTheyHaveBeenAskedFor) {
 TEST_F(MotionParameters, EnablingWaitsForThem) {
   transport.hold_answers = true;
   run(5);
-  Request request;
-  request.kind = RequestKind::kEnable;
-  request.drive = kLift;
-  request.id = ++last_id;
-  request.patience = std::chrono::seconds{3};
-  ports.submit(request);
+  submit(RequestKind::kEnable, kLift);
   run(100);
   EXPECT_EQ(0u, completions.count(last_id));
   EXPECT_EQ(0x047E, controlWord(kLift));
-  transport.hold_answers = false;
-  while (!transport.submitted.empty()) transport.answerFirst();
+  transport.answerAll();
   run(60);
   ASSERT_EQ(1u, completions.count(last_id));
   EXPECT_TRUE(completions[last_id].success) << completions[last_id].message.c_str();
@@ -198,8 +184,7 @@ TEST_F(MotionParameters, ACommandEndsTheWaitingForThem) {
   run(2);
   ASSERT_EQ(1u, completions.count(last_id));
   EXPECT_FALSE(completions[last_id].success);
-  transport.hold_answers = false;
-  while (!transport.submitted.empty()) transport.answerFirst();
+  transport.answerAll();
   run(200);
   ASSERT_TRUE(snapshot().drives[kLift].device.complete);
   EXPECT_FALSE(snapshot().base.enabled);
@@ -235,8 +220,7 @@ TEST_F(MotionParameters, EnablingWaitsForAWriteUnderWay) {
       ASSERT_EQ(0x047E, bench.controlWord(kLift)) << number;
     }
     ASSERT_EQ(0u, bench.completions.count(enable.id)) << number;
-    bench.transport.hold_answers = false;
-    while (!bench.transport.submitted.empty()) bench.transport.answerFirst();
+    bench.transport.answerAll();
     bench.run(20);
     EXPECT_EQ(1u, bench.completions.count(change.id)) << number;
     ASSERT_EQ(1u, bench.completions.count(enable.id)) << number;
@@ -257,8 +241,7 @@ TEST_F(MotionParameters, EnablingWaitsForAnOverdueWriteToo) {
   const Completion refused = ask(RequestKind::kEnable, kLift);
   EXPECT_FALSE(refused.success);
   EXPECT_THAT(refused.message.c_str(), HasSubstr("drive lift"));
-  transport.hold_answers = false;
-  while (!transport.submitted.empty()) transport.answerFirst();
+  transport.answerAll();
   run(5);
   EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);
 }
@@ -306,20 +289,14 @@ TEST_F(MotionParameters, AreReadAgainAfterAnInterruptionWithinACycle) {
   transport.hold_answers = true;
   run(3);
   EXPECT_TRUE(snapshot().drives[kLift].online);
-  Request enable;
-  enable.kind = RequestKind::kEnable;
-  enable.drive = kLift;
-  enable.id = ++last_id;
-  enable.patience = std::chrono::seconds{3};
-  ports.submit(enable);
+  const std::uint32_t enable = submit(RequestKind::kEnable, kLift);
   run(20);
-  EXPECT_EQ(0u, completions.count(enable.id));
+  EXPECT_EQ(0u, completions.count(enable));
   transport.of_drive[kLift][105] = 800;
-  transport.hold_answers = false;
-  while (!transport.submitted.empty()) transport.answerFirst();
+  transport.answerAll();
   run(80);
-  ASSERT_EQ(1u, completions.count(enable.id));
-  EXPECT_TRUE(completions[enable.id].success) << completions[enable.id].message.c_str();
+  ASSERT_EQ(1u, completions.count(enable));
+  EXPECT_TRUE(completions[enable].success) << completions[enable].message.c_str();
   EXPECT_EQ(80.0, snapshot().drives[kLift].device.max_frequency[0]);
 }
 

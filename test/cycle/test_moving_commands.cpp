@@ -13,18 +13,13 @@ class MovingCommands : public ::testing::Test, protected CycleBench {
  protected:
   void SetUp() override { run(80); }
   Completion askUnder(RequestKind kind, DriveIndex drive, double base, double lift) {
-    Request request;
-    request.kind = kind;
-    request.drive = drive;
-    request.id = ++last_id;
-    request.patience = std::chrono::seconds{3};
-    ports.submit(request);
-    for (int i = 0; i < 400 && completions.count(request.id) == 0; ++i) {
+    const std::uint32_t id = submit(kind, drive);
+    for (int i = 0; i < 400 && completions.count(id) == 0; ++i) {
       commandBase(base);
       commandLift(lift);
       step();
     }
-    return completions[request.id];
+    return completions[id];
   }
 };
 
@@ -53,25 +48,19 @@ TEST_F(MovingCommands, WhatWaitsIsNotRefusedForTheBase) {
   transport.hold_answers = true;
   transport.inverters[kLift].silent = false;
   run(5);
-  Request request;
-  request.kind = RequestKind::kEnable;
-  request.drive = kLift;
-  request.id = ++last_id;
-  request.patience = std::chrono::seconds{3};
-  ports.submit(request);
+  const std::uint32_t request = submit(RequestKind::kEnable, kLift);
   for (int i = 0; i < 20; ++i) {
     commandBase(0.2);
     step();
   }
-  ASSERT_EQ(0u, completions.count(request.id)) << completions[request.id].message.c_str();
-  transport.hold_answers = false;
-  while (!transport.submitted.empty()) transport.answerFirst();
+  ASSERT_EQ(0u, completions.count(request)) << completions[request].message.c_str();
+  transport.answerAll();
   for (int i = 0; i < 80; ++i) {
     commandBase(0.2);
     step();
   }
-  ASSERT_EQ(1u, completions.count(request.id));
-  EXPECT_TRUE(completions[request.id].success) << completions[request.id].message.c_str();
+  ASSERT_EQ(1u, completions.count(request));
+  EXPECT_TRUE(completions[request].success) << completions[request].message.c_str();
 }
 
 }  // namespace

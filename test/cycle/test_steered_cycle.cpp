@@ -10,6 +10,18 @@ namespace {
 
 constexpr double kQuarter = 1.57079632679489662;
 
+BaseConfig steeredBase() {
+  BaseConfig config;
+  config.kind = robot::BaseKind::kSteered;
+  SteeredConfig steered;
+  steered.wheels = {0, 1};
+  steered.steering = {2, 3};
+  steered.axles = {{0.5, 0.0, 0.1, -kQuarter, kQuarter}, {-0.5, 0.0, 0.1, -kQuarter, kQuarter}};
+  steered.angle_tolerance = 0.05;
+  config.steered = steered;
+  return config;
+}
+
 /// Wheels 0 and 1 before and behind the middle, steered by drives 2 and 3, which stand at 0 whatever they are told.
 class SteeredCycle : public ::testing::Test, protected CycleBench {
  protected:
@@ -36,14 +48,7 @@ class SteeredCycle : public ::testing::Test, protected CycleBench {
       setup.drive.position = setup.position->axis;
       config.drives.push_back(setup);
     }
-    config.base = BaseConfig{};
-    config.base->kind = robot::BaseKind::kSteered;
-    SteeredConfig steered;
-    steered.wheels = {0, 1};
-    steered.steering = {2, 3};
-    steered.axles = {{0.5, 0.0, 0.1, -kQuarter, kQuarter}, {-0.5, 0.0, 0.1, -kQuarter, kQuarter}};
-    steered.angle_tolerance = 0.05;
-    config.base->steered = steered;
+    config.base = steeredBase();
     config.base->velocity_rolling_window_size = velocity_window;
     return config;
   }
@@ -113,28 +118,15 @@ TEST_F(SteeredCycleOfALongWindow, StandsStillInItsOdometryDuringAReferenceRun) {
     step();
   }
   ASSERT_GT(snapshot().base.velocity.linear_x, 0.01) << "the mean of all that";
-  Request home;
-  home.kind = RequestKind::kHome;
-  home.drive = 2;
-  home.id = ++last_id;
-  home.patience = std::chrono::seconds{3};
-  ports.submit(home);
+  const std::uint32_t home = submit(RequestKind::kHome, 2);
   run(3);
-  ASSERT_EQ(0u, completions.count(home.id)) << completions[home.id].message.c_str();
+  ASSERT_EQ(0u, completions.count(home)) << completions[home].message.c_str();
   EXPECT_EQ(0.0, snapshot().base.velocity.linear_x);
 }
 
 // What stands still in the setpoint may roll in fact; what goes on at the same angles need not stand.
 TEST(SteeredTurn, WaitsForTheWheelsToStand) {
-  SteeredConfig steered;
-  steered.wheels = {0, 1};
-  steered.steering = {2, 3};
-  steered.axles = {{0.5, 0.0, 0.1, -kQuarter, kQuarter}, {-0.5, 0.0, 0.1, -kQuarter, kQuarter}};
-  steered.angle_tolerance = 0.05;
-  BaseConfig config;
-  config.kind = robot::BaseKind::kSteered;
-  config.steered = steered;
-  SteeredMotion motion{config, std::chrono::milliseconds{500}};
+  SteeredMotion motion{steeredBase(), std::chrono::milliseconds{500}};
   SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}, true};
   Instant now{std::chrono::hours{1}};
   const auto poll = [&](double linear_x, double linear_y) {
@@ -161,15 +153,7 @@ TEST(SteeredTurn, WaitsForTheWheelsToStand) {
 
 // On a slope a wheel may be told to turn all the time: what gets no slower for a second is not waited for any longer.
 TEST(SteeredTurn, WaitsForNoWheelThatGetsNoSlower) {
-  SteeredConfig steered;
-  steered.wheels = {0, 1};
-  steered.steering = {2, 3};
-  steered.axles = {{0.5, 0.0, 0.1, -kQuarter, kQuarter}, {-0.5, 0.0, 0.1, -kQuarter, kQuarter}};
-  steered.angle_tolerance = 0.05;
-  BaseConfig config;
-  config.kind = robot::BaseKind::kSteered;
-  config.steered = steered;
-  SteeredMotion motion{config, std::chrono::milliseconds{500}};
+  SteeredMotion motion{steeredBase(), std::chrono::milliseconds{500}};
   SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}, true, 0.5};
   Instant now{std::chrono::hours{1}};
   const auto angle = [&] {
@@ -187,14 +171,7 @@ TEST(SteeredTurn, WaitsForNoWheelThatGetsNoSlower) {
 // Slow, the way to another direction is a wide turn of the wheels: from its first step on the base slows down for it, and
 // does not drive on first.
 TEST(SteeredTurn, AWideOneIsBrakedForAtOnce) {
-  BaseConfig config;
-  config.kind = robot::BaseKind::kSteered;
-  SteeredConfig steered;
-  steered.wheels = {0, 1};
-  steered.steering = {2, 3};
-  steered.axles = {{0.5, 0.0, 0.1, -kQuarter, kQuarter}, {-0.5, 0.0, 0.1, -kQuarter, kQuarter}};
-  steered.angle_tolerance = 0.05;
-  config.steered = steered;
+  BaseConfig config = steeredBase();
   for (robot::SpeedLimits* axis : {&config.limits.linear_x, &config.limits.angular_z, &config.limits.linear_y}) {
     axis->has_acceleration_limits = true;
     axis->max_acceleration = 1.0;
