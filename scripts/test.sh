@@ -237,12 +237,12 @@ end_sessions() {
 }
 
 # How each source is compiled alone, and without gcc's precompiled headers, which clang cannot read: so the linter sees what a
-# source itself includes. The messages' headers are where they were built.
+# source itself includes. Headers that a build makes (of messages) are where they were built.
 configure_lint() {
   rm -rf "$out/lint"
   configure "$out/lint" "${options[@]}" -DNORD_DRIVER_MERGE_SOURCES=OFF -DNORD_DRIVER_PRECOMPILE=OFF \
     >"$out/lint.configure.log" 2>&1 &&
-    sed -i "s#$out/lint/devel/#$out/devel/#g" "$out/lint/compile_commands.json"
+    sed -i -E "s#(-I|-isystem )$out/lint/#\1$out/#g" "$out/lint/compile_commands.json"
 }
 
 # Takes what the tests leave of the processors: they wait for events most of the time. A session is scheduled as one group
