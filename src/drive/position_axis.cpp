@@ -76,7 +76,7 @@ bool PositionAxis::canHold(std::uint8_t set) const noexcept {
   const profile::PositionWords& at = words(set);
   if (!reader_.isKnown() || set != set_) return false;
   if (config_.by_element) return true;
-  if (!at.setpoint.carried()) return false;
+  // Where no word carries a target, none is in its range.
   const auto target =
       profile::toSteps(profile::toJoint(reader_.steps(), config_.scale, at.actual), config_.scale, at.setpoint);
   return target.has_value();

@@ -222,5 +222,29 @@ TEST(PositionReader, TellsASpeed) {
   EXPECT_EQ(0.0, reading.reader.speed());
 }
 
+// What a count that begins anew has jumped by was no motion: until a window has passed there is no speed, not that of before.
+TEST(PositionReader, ANewCountHasNoSpeedYet) {
+  const auto moving = [] {
+    Reading reading{kWide};
+    reading.settle(0);
+    for (int i = 1; i <= 20; ++i) reading.see(100 * i);
+    EXPECT_NEAR(10'000.0, reading.reader.speed(), 1.0);
+    return reading;
+  };
+  Reading jumped = moving();
+  for (int i = 0; i < 20 && !jumped.reader.hasJumped(); ++i) jumped.see(1'000'000);
+  ASSERT_EQ(1'000'000, jumped.reader.steps());
+  EXPECT_EQ(0.0, jumped.reader.speed());
+  Reading zeroed = moving();
+  zeroed.reader.handleNewZero(kWide);
+  EXPECT_EQ(0.0, zeroed.reader.speed());
+  Reading unheard = moving();
+  unheard.reader.handleGap();
+  EXPECT_EQ(0.0, unheard.reader.speed());
+  unheard.settle(2000);
+  ASSERT_TRUE(unheard.reader.isKnown());
+  EXPECT_EQ(0.0, unheard.reader.speed());
+}
+
 }  // namespace
 }  // namespace nord_driver::drive
