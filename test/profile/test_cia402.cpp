@@ -87,6 +87,14 @@ TEST(Cia402, ActualSpeedBecomesActualValueOne) {
   EXPECT_EQ(-0x4000, fiftyHertz().fromCia402({0x4637, -1500}).actual_values[0]);
 }
 
+// 0.1 Hz, the least that P105 can have, and eight pole pairs: 100 % is 0.75 rpm, and a share of it is still told.
+TEST(Cia402, TheSlowestMotorHasASpeed) {
+  Cia402Scaling scaling{8};
+  scaling.setMaxFrequency(Hertz{0.1});
+  EXPECT_EQ(21'845, scaling.fromCia402({0x0637, 1}).actual_values[0]);
+  EXPECT_EQ(-21'845, scaling.fromCia402({0x4637, -1}).actual_values[0]);
+}
+
 // Words that nobody has filled in are those of an inverter that is not there, and of a command that moves nothing.
 TEST(Cia402, WordsBeforeTheFirstTelegramSayNothing) {
   const Cia402Input from;

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 
@@ -59,6 +61,29 @@ TEST(PositionScale, TurnsEveryTargetIntoItsNearestStep) {
       ASSERT_LE(std::fabs(revolutions), 0.000501) << "seed " << seed << ", " << i;
     }
   }
+}
+
+// Converted all the same, some processor might make a target of it that is in range.
+TEST(PositionScale, WhatIsBeyondEveryNumberIsNotConverted) {
+  const PositionScale scale;
+  for (const double wrong :
+       {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 1e300, -1e300}) {
+    std::feclearexcept(FE_ALL_EXCEPT);
+    const bool taken = toSteps(wrong, scale, kWide).has_value();
+    const int invalid = std::fetestexcept(FE_INVALID);
+    EXPECT_FALSE(taken) << wrong;
+    EXPECT_EQ(0, invalid) << wrong;
+  }
+}
+
+// Of an encoder with so many steps the words end before the revolutions do.
+TEST(PositionScale, EndsWithTheWordsOfFineSteps) {
+  PositionScale scale;
+  scale.steps_per_revolution = 1e6;
+  EXPECT_EQ(INT32_MAX, toSteps(2147.483647, scale, kWide));
+  EXPECT_FALSE(toSteps(2147.483648, scale, kWide));
+  EXPECT_EQ(INT32_MIN, toSteps(-2147.483648, scale, kWide));
+  EXPECT_FALSE(toSteps(-2147.483649, scale, kWide));
 }
 
 }  // namespace
