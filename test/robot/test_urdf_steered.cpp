@@ -84,5 +84,15 @@ TEST(UrdfSteered, AWheelBesideItsAxisIsRefused) {
               HasSubstr("stands 0.02 m beside the axis"));
 }
 
+// A wheel on the base, and one on a ring of links beside the tree: a steering joint turns neither of them.
+TEST(UrdfSteered, AWheelThatHangsElsewhereIsRefused) {
+  const std::string fork = urdfLink("fork") + urdfJoint("steering", "continuous", "base_link", "fork", "xyz=\"0 0 0\"");
+  const std::string expected = "joint \"steering\" does not carry joint \"wheel_joint\"";
+  EXPECT_THAT(refusalOf(fork + urdfWheel("wheel", "0 0 0", "base_link")), HasSubstr(expected));
+  const std::string ring = urdfLink("a") + urdfLink("b") + urdfJoint("forth", "fixed", "a", "b", "xyz=\"0 0 0\"") +
+                           urdfJoint("back", "fixed", "b", "a", "xyz=\"0 0 0\"");
+  EXPECT_THAT(refusalOf(fork + ring + urdfWheel("wheel", "0 0 0", "a")), HasSubstr(expected));
+}
+
 }  // namespace
 }  // namespace nord_driver::robot

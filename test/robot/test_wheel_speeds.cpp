@@ -34,6 +34,7 @@ TEST(WheelSpeeds, NonsenseGivesZero) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ((WheelSpeeds{0.0, 0.0}), scaleInto({1.0, 1.0}, {0.0, 10.0}));
+  EXPECT_EQ((WheelSpeeds{0.0, 0.0}), scaleInto({0.0, 1.0}, {0.0, 10.0})) << "nor where only the other one is to turn";
   EXPECT_EQ((WheelSpeeds{0.0, 0.0}), scaleInto({1.0, 1.0}, {10.0, -1.0}));
   EXPECT_EQ((WheelSpeeds{0.0, 0.0}), scaleInto({1.0, 1.0}, {10.0, kNan}));
   EXPECT_EQ((WheelSpeeds{0.0, 0.0}), scaleInto({kNan, 1.0}, {10.0, 10.0}));
