@@ -22,6 +22,16 @@ BaseConfig steeredBase() {
   return config;
 }
 
+/// The same, 1 m/s^2 and 1 rad/s^2.
+BaseConfig rampedBase() {
+  BaseConfig config = steeredBase();
+  for (robot::SpeedLimits* axis : {&config.limits.linear_x, &config.limits.angular_z, &config.limits.linear_y}) {
+    axis->has_acceleration_limits = true;
+    axis->max_acceleration = 1.0;
+  }
+  return config;
+}
+
 /// Wheels 0 and 1 before and behind the middle, steered by drives 2 and 3, which stand at 0 whatever they are told.
 class SteeredCycle : public ::testing::Test, protected CycleBench {
  protected:
@@ -171,12 +181,7 @@ TEST(SteeredTurn, WaitsForNoWheelThatGetsNoSlower) {
 // Slow, the way to another direction is a wide turn of the wheels: from its first step on the base slows down for it, and
 // does not drive on first.
 TEST(SteeredTurn, AWideOneIsBrakedForAtOnce) {
-  BaseConfig config = steeredBase();
-  for (robot::SpeedLimits* axis : {&config.limits.linear_x, &config.limits.angular_z, &config.limits.linear_y}) {
-    axis->has_acceleration_limits = true;
-    axis->max_acceleration = 1.0;
-  }
-  SteeredMotion motion{config, std::chrono::milliseconds{500}};
+  SteeredMotion motion{rampedBase(), std::chrono::milliseconds{500}};
   const SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}};
   Instant now{std::chrono::hours{1}};
   const auto poll = [&](double linear_x, double linear_y) {
@@ -192,6 +197,27 @@ TEST(SteeredTurn, AWideOneIsBrakedForAtOnce) {
   EXPECT_NEAR(0.04, motion.limited().linear_x, 1e-9) << "1 m/s^2 for 10 ms";
   EXPECT_EQ(0.0, motion.limited().linear_y);
   EXPECT_EQ(SteeredWait::kAngles, motion.waitsFor());
+}
+
+// P104 > 0, from forward to backward: where it is too slow it rests, and gets faster the other way from there on. The rest of
+// the ramp down is not waited for.
+TEST(SteeredTurn, TheWayBackBeginsWhereItRests) {
+  SteeredMotion motion{rampedBase(), std::chrono::milliseconds{500}};
+  SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}};
+  drives.minimum.wheels = {2.0, 2.0};
+  Instant now{std::chrono::hours{1}};
+  const auto wheel = [&](double linear_x) {
+    now += CycleBench::kCycle;
+    TwistCommand command{{}, now, true};
+    command.twist.linear_x = linear_x;
+    return motion.poll(command, true, true, drives, now, CycleBench::kCycle).wheels[0];
+  };
+  for (int i = 0; i < 60; ++i) wheel(0.5);
+  ASSERT_NEAR(0.5, motion.limited().linear_x, 1e-9);
+  int at_rest = 0;
+  for (int i = 0; i < 200; ++i) at_rest += wheel(-0.5) == 0.0 ? 1 : 0;
+  EXPECT_NEAR(20, at_rest, 2) << "0.2 m/s at 1 m/s^2";
+  EXPECT_NEAR(-0.5, motion.limited().linear_x, 1e-9);
 }
 
 }  // namespace

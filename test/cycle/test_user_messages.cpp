@@ -50,7 +50,59 @@ TEST(Sentences, ARefusalTellsTheInvertersOwnReason) {
   report.switch_on_reason = 181;
   const std::string text = refusalMessage("left", drive::Refusal::kEnableTimeout, report).str();
   EXPECT_THAT(text, ::testing::HasSubstr("status word 0B70, switch-on disabled"));
-  EXPECT_THAT(text, ::testing::HasSubstr("P700[-03], is 18.1"));
+  EXPECT_THAT(text, ::testing::HasSubstr("P700[-03], is 18.1)"));
+  report.stop_status_word = 0x0B70;
+  EXPECT_STREQ(
+      "drive left stopped: a fault of the inverter (status word 0B70, switch-on disabled; the inverter's own reason, "
+      "P700[-03], is 18.1)",
+      stopMessage("left", drive::StopCause::kFault, report).c_str());
+  report.online = false;
+  EXPECT_STREQ("drive left stopped: a fault of the inverter (status word 0B70, switch-on disabled)",
+               stopMessage("left", drive::StopCause::kFault, report).c_str())
+      << "of one that is away it is an old one";
+}
+
+// Who leads is told by P509 (control word) or P510 (setpoint), and what is to be set either way.
+TEST(Sentences, AnotherLeaderThanConfiguredIsRefusedWithItsParameter) {
+  const auto refusal = [](const drive::UnexpectedSource& source) {
+    drive::DriveReport report = onlineReport();
+    report.unexpected_source = source;
+    return refusalMessage("right", drive::Refusal::kUnexpectedSource, report).str();
+  };
+  EXPECT_EQ(
+      "drive right follows another inverter: P509 is 3, broadcast, so that its control word does not come from this "
+      "driver; set it to this bus, or name that drive: drives/right/follows",
+      refusal({509, false, 3, false}));
+  EXPECT_EQ(
+      "drive right follows another inverter: P510[-01] is 8, broadcast, so that its setpoint does not come from this "
+      "driver; set it to this bus, or name that drive: drives/right/follows",
+      refusal({510, true, 8, false}));
+  EXPECT_EQ(
+      "drive right is to follow another inverter (drives/right/follows), and P510[-01] is 1, no broadcast: it would go "
+      "by this bus; set it, or P509, to the broadcast",
+      refusal({510, true, 1, true}));
+}
+
+// What the sentence is about has been read anew meanwhile: nothing is told of what is not there.
+TEST(Sentences, ARefusalWithoutItsValueIsTheReasonAlone) {
+  using drive::Refusal;
+  for (const Refusal refusal : {Refusal::kMinimumFrequency, Refusal::kUnexpectedFunction, Refusal::kUnexpectedSource}) {
+    EXPECT_EQ(std::string{"drive left: "} + drive::toString(refusal) + " (status word 0B31, ready to switch on)",
+              refusalMessage("left", refusal, onlineReport()).str());
+  }
+}
+
+TEST(Sentences, AModeThatDoesNotPositionIsRefusedWithWhatToSet) {
+  const auto refusal = [](std::uint16_t number, std::uint16_t found, std::uint16_t expected) {
+    drive::DriveReport report = onlineReport();
+    report.unexpected_function = drive::UnexpectedFunction{number, false, found, expected};
+    return refusalMessage("lift", drive::Refusal::kUnexpectedFunction, report).str();
+  };
+  EXPECT_THAT(refusal(600, 0, 1), ::testing::StartsWith("drive lift: P600 is 0: with 0 it does not position"));
+  EXPECT_THAT(refusal(600, 0xFFFF, 1), ::testing::StartsWith("drive lift: P600 could not be read: "));
+  EXPECT_THAT(refusal(610, 1, 2),
+              ::testing::StartsWith("drive lift: P610 is 1: its target comes from elsewhere; set P610 to 2, or "));
+  EXPECT_THAT(refusal(610, 0xFFFF, 2), ::testing::StartsWith("drive lift: P610 could not be read: "));
 }
 
 // Of an array (P546 [-01] to [-03]: BU 0280 5.1.2) the element is named as well, of single parameters there is none.
@@ -140,6 +192,9 @@ TEST(Sentences, AFunctionIsRefusedWithWhatToSet) {
   report.commanded_set = 4;
   report.unexpected_function = drive::UnexpectedFunction{546, true, 5, 1};
   EXPECT_STREQ("drive left: P546 [-01] of parameter set 4 is 5, so that setpoint 1 is not the frequency; set it to 1",
+               refusalMessage("left", drive::Refusal::kUnexpectedFunction, report).c_str());
+  report.unexpected_function = drive::UnexpectedFunction{543, false, 5, 1};
+  EXPECT_STREQ("drive left: P543 of parameter set 4 is 5, so that actual value 1 is not the frequency; set it to 1",
                refusalMessage("left", drive::Refusal::kUnexpectedFunction, report).c_str());
 }
 

@@ -1,6 +1,8 @@
 // Which words carry what a configuration needs, where 32 bits take the place of a word of their own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cycle/word_needs.h"
 #include "profile/word_function.h"
 
@@ -80,6 +82,37 @@ TEST(WordNeeds, ATorqueLimitMayStandInTwoWords) {
   needs.words = 3;
   needs.list.push_back({false, WordUse::kTorqueLimit});
   EXPECT_FALSE(missingWord(needs, WordFunctions{{1, 2, 2}, {1, 0, 0}}, Series::kSk5xxe));
+}
+
+// A bus I/O bit is carried by a word, whichever of the three it is; a bit of the control word by none.
+TEST(WordNeeds, EachBitThatTeachesAPositionNeedsAWord) {
+  const PositionBit bus{PositionBit::Carrier::kBusBit, 0, 24}, control{PositionBit::Carrier::kControlBit, 8, 24};
+  const auto words = [](const TeachSetup& teach) {
+    PositionSetup setup = position(32);
+    setup.teach = teach;
+    WordNeeds needs;
+    addPositionNeeds(setup, Series::kSk5xxe, needs);
+    return std::count_if(needs.list.begin(), needs.list.end(), [](const WordNeed& need) {
+      return !need.actual_value && need.use == WordUse::kBusBits && need.first == 2 && need.last == 3;
+    });
+  };
+  EXPECT_EQ(1, words({bus, control, control, 1}));
+  EXPECT_EQ(1, words({control, bus, control, 1}));
+  EXPECT_EQ(1, words({control, control, bus, 1}));
+  EXPECT_EQ(1, words({bus, bus, bus, 1})) << "one for all of them";
+  EXPECT_EQ(0, words({control, control, control, 1}));
+  EXPECT_EQ(0, words({control, control, std::nullopt, 1}));
+}
+
+// The configuration refuses it before; asked all the same, it names no other function in its place.
+TEST(WordNeeds, AFunctionThatTheSeriesHasNotIsNoNumber) {
+  WordNeeds needs;
+  needs.words = 3;
+  needs.list.push_back({false, WordUse::kPosiconBits});
+  const auto missing = missingWord(needs, WordFunctions{{1, 0, 0}, {1, 0, 0}}, Series::kSk5xxe);
+  ASSERT_TRUE(missing);
+  EXPECT_EQ(547, missing->number);
+  EXPECT_EQ(0, missing->expected);
 }
 
 }  // namespace
