@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "devicenet/scanner_run.h"
 
 namespace nord_driver::devicenet {
@@ -173,6 +175,95 @@ TEST(DuplicateMac, AgainAfterTheBusWasLost) {
   EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{4}));
   EXPECT_GE(run.now - again, seconds{2});
   EXPECT_LE(run.now - again, milliseconds{2500});
+}
+
+// Off the bus nobody's message says anything to us; the check begins when the bus is opened.
+TEST(DuplicateMac, OffTheBusNobodyIsHeard) {
+  const Instant now{std::chrono::hours{1}};
+  for (const bool stopped : {false, true}) {
+    for (const bool response : {false, true}) {
+      DuplicateMacCheck check{0, {1, 2}, seconds{1}};
+      if (stopped) check.restart();
+      if (stopped) check.stop();
+      check.handle({response, {389, 7}}, now);
+      EXPECT_EQ(DuplicateMacCheck::State::kOff, check.state());
+      EXPECT_FALSE(check.nextDeadline());
+      CanFrame sent;
+      EXPECT_FALSE(check.pollTransmit(sent, now));
+    }
+  }
+}
+
+// In a communication fault the pause runs from the first message, and the sender of that one is named.
+TEST(DuplicateMac, TheFirstRivalCounts) {
+  DuplicateMacCheck check{0, {1, 2}, seconds{1}};
+  Instant now{std::chrono::hours{1}};
+  CanFrame sent;
+  check.restart();
+  ASSERT_TRUE(check.pollTransmit(sent, now));
+  check.handle({false, {389, 0x12345678}}, now);
+  ASSERT_EQ(DuplicateMacCheck::State::kCommFault, check.state());
+  now += milliseconds{600};
+  check.handle({true, {7, 8}}, now);
+  EXPECT_EQ(389, check.rival().vendor_id);
+  EXPECT_EQ(0x12345678u, check.rival().serial_number);
+  now += milliseconds{399};
+  check.poll(now);
+  EXPECT_EQ(DuplicateMacCheck::State::kCommFault, check.state());
+  EXPECT_FALSE(check.pollTransmit(sent, now));
+  now += milliseconds{1};
+  check.poll(now);
+  EXPECT_EQ(DuplicateMacCheck::State::kFirst, check.state());
+  EXPECT_TRUE(check.pollTransmit(sent, now));
+}
+
+// An answer on-line is followed by nothing: nobody is to wake up for it.
+TEST(DuplicateMac, AnAnswerIsNoDeadline) {
+  DuplicateMacCheck check{0, {0x1234, 0x11223344}, seconds{1}};
+  Instant now{std::chrono::hours{1}};
+  CanFrame sent;
+  check.restart();
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_FALSE(check.online());
+    ASSERT_TRUE(check.pollTransmit(sent, now));
+    EXPECT_EQ(now + seconds{1}, check.nextDeadline());
+    now += seconds{1};
+    check.poll(now);
+  }
+  ASSERT_TRUE(check.online());
+  check.handle({false, {389, 7}}, now);
+  ASSERT_TRUE(check.pollTransmit(sent, now));
+  EXPECT_EQ("407#80341244332211", text(sent));
+  EXPECT_FALSE(check.nextDeadline());
+  EXPECT_FALSE(check.pollTransmit(sent, now)) << "once";
+}
+
+TEST(DuplicateMac, AMalformedMessageIsToldAsItWas) {
+  for (const auto& [said, told] :
+       {std::pair{"407#00", "somebody sent a malformed duplicate-MAC message 407h (1 bytes, expected 7)"},
+        std::pair{"407#R7", "somebody sent a malformed duplicate-MAC message 407h (7 bytes, remote, expected 7)"}}) {
+    ScannerRun run{busConfig(1)};
+    run.begin();
+    run.say(said);
+    run.step();
+    EXPECT_EQ(told, run.eventText(DevicenetEventKind::kMalformed));
+  }
+}
+
+// A bus that was never opened is not lost, and one that is lost is told once, with the first reason.
+TEST(DuplicateMac, ABusIsLostOnce) {
+  ScannerRun run{busConfig(1)};
+  run.scanner.handleBusLost("can0: no such device", run.now);
+  run.step();
+  EXPECT_EQ(BusState::kOff, run.scanner.busState());
+  EXPECT_EQ(0u, run.count(DevicenetEventKind::kBusLost));
+  ASSERT_TRUE(run.starts());
+  run.scanner.handleBusLost("can0: bus-off", run.now);
+  run.scanner.handleBusLost("can0: network is down", run.now);
+  run.step();
+  EXPECT_EQ(1u, run.count(DevicenetEventKind::kBusLost));
+  EXPECT_STREQ("can0: bus-off", run.scanner.busReason().c_str());
+  EXPECT_STREQ("can0: bus-off", run.scanner.status(0).reason.c_str());
 }
 
 }  // namespace
