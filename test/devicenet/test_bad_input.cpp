@@ -146,5 +146,56 @@ TEST(BadInput, Foreign) {
             run.eventText(DevicenetEventKind::kForeignNode));
 }
 
+// Another master that is refused does nothing with the device. A fragment is no refusal, whatever its number: 94h says which
+// part of a long answer it is.
+TEST(BadInput, ARefusalOfAnotherMasterIsNoUse) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  const NodeCounters& counters = run.scanner.status(0).counters;
+  run.say("42B#01940201");
+  EXPECT_EQ(1u, counters.foreign_requests);
+  EXPECT_EQ(0u, counters.foreign_use);
+  run.say("42B#018E8501");
+  EXPECT_EQ(2u, counters.foreign_requests);
+  EXPECT_EQ(1u, counters.foreign_use);
+  run.say("42B#8194FF01");
+  EXPECT_EQ(3u, counters.foreign_requests);
+  EXPECT_EQ(2u, counters.foreign_use);
+  EXPECT_EQ(3u, run.scanner.counters().second_scanner);
+}
+
+// What another master sends it: a question for a connection may be refused, process data and requests are use.
+TEST(BadInput, OnlyAnAllocationMayStillBeRefused) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  const NodeCounters& counters = run.scanner.status(0).counters;
+  run.say("42E#014B03010101");
+  EXPECT_EQ(1u, counters.foreign_requests);
+  EXPECT_EQ(0u, counters.foreign_use);
+  for (const char* used : {"42D#00", "42C#010E010101", "42A#"}) run.say(used);
+  EXPECT_EQ(4u, counters.foreign_requests);
+  EXPECT_EQ(3u, counters.foreign_use);
+}
+
+// Group 2 message 1 is no connection of the predefined set that is used here, nor one of a second scanner of ours.
+TEST(BadInput, AMulticastPollIsForeign) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  run.say("429#0102");
+  EXPECT_EQ(1u, run.scanner.counters().foreign);
+  EXPECT_EQ(0u, run.scanner.counters().second_scanner);
+  EXPECT_EQ(0u, run.scanner.status(0).counters.foreign_requests);
+}
+
+// Nothing was given out: there is nothing that could not be sent.
+TEST(BadInput, NothingIsNotSent) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  const std::uint64_t sent = run.scanner.counters().frames_sent;
+  run.scanner.notSent();
+  EXPECT_EQ(sent, run.scanner.counters().frames_sent);
+  EXPECT_EQ(0u, run.scanner.counters().not_sent);
+}
+
 }  // namespace
 }  // namespace nord_driver::devicenet

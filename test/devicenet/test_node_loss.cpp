@@ -286,5 +286,27 @@ TEST(NodeLoss, AfterAStandstillOfOursNothingOldIsSent) {
   EXPECT_THAT(run.violations(), testing::IsEmpty());
 }
 
+// State and faults, each for itself; the same again is no news, but after the bus was opened anew.
+TEST(NodeLoss, AHeartbeatIsToldWhenEitherPartChanges) {
+  ScannerRun run{busConfig(1)};
+  ASSERT_TRUE(run.starts());
+  const auto toldAfter = [&run](const char* heartbeat) {
+    run.say(heartbeat);
+    run.step();
+    return run.count(DevicenetEventKind::kHeartbeat);
+  };
+  EXPECT_EQ(1u, toldAfter("42B#05CD010003000000"));
+  EXPECT_EQ(2u, toldAfter("42B#05CD010003010000")) << "a fault";
+  EXPECT_EQ(3u, toldAfter("42B#05CD010002010000")) << "another state";
+  EXPECT_EQ(3u, toldAfter("42B#05CD010002010000"));
+  EXPECT_EQ(std::uint8_t{2}, run.scanner.status(0).device_state);
+  EXPECT_EQ(std::uint8_t{1}, run.scanner.status(0).fault_flags);
+  run.scanner.handleBusLost("can0: bus-off", run.now);
+  run.begin();
+  ASSERT_TRUE(run.reaches(NodeState::kExchanging, seconds{5}));
+  EXPECT_FALSE(run.scanner.status(0).device_state);
+  EXPECT_EQ(4u, toldAfter("42B#05CD010002010000"));
+}
+
 }  // namespace
 }  // namespace nord_driver::devicenet

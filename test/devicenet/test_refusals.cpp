@@ -217,5 +217,43 @@ TEST(Refusals, NoRateAtAll) {
   EXPECT_EQ("does not take its expected packet rate: refuses: the attribute cannot be set (0Eh)", refusal(run));
 }
 
+// A request without a header names nobody: that it is none of MAC id 0, which is ours here, is not known.
+TEST(Refusals, AnEmptyRequestNamesNoMaster) {
+  ScannerRun run{busConfig(1)};
+  run.devices[0]->belongsTo(17, 0x03, run.now);
+  run.devices[0]->explicit_rate = 60000;
+  run.devices[0]->tells_owner = false;
+  run.before_cycle = [&] { run.say("42C#"); };
+  EXPECT_EQ("is allocated to another master and does not tell to which", refusal(run));
+  EXPECT_EQ("another master is on the bus: it sends an explicit request to MAC id 5 (42Ch), which only we should",
+            run.eventText(DevicenetEventKind::kSecondScanner));
+}
+
+// 100 ms more than was asked for, and a time-out of two of our cycles, are within what is taken.
+TEST(Refusals, RatesJustWithinTheirBounds) {
+  ScannerRun coarse{busConfig(1)};
+  coarse.devices[0]->rate_step = 126;
+  EXPECT_EQ(
+      "answers an expected packet rate of 126 ms where 25 ms was asked for: it would stop only 504 ms after we are "
+      "gone",
+      refusal(coarse));
+  coarse.devices[0]->rate_step = 125;
+  EXPECT_TRUE(coarse.reaches(NodeState::kExchanging, seconds{2}));
+  ScannerConfig config = busConfig(1);
+  config.cycle_time = milliseconds{100};
+  ScannerRun run{config};
+  run.loses = [&](const CanFrame& frame) {
+    if (frame.id != 0x42B || frame.size != 4 || frame.data[1] != 0x90) return false;
+    CanFrame changed = frame;
+    changed.data[2] = 50;
+    changed.data[3] = 0;
+    run.scanner.handleFrame(changed, run.now);
+    return true;
+  };
+  run.begin();
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{4}));
+  EXPECT_EQ(milliseconds{50}, run.scanner.status(0).packet_rate);
+}
+
 }  // namespace
 }  // namespace nord_driver::devicenet

@@ -166,5 +166,18 @@ TEST(StartUp, ExplicitMessagesAlone) {
   EXPECT_TRUE(run.reaches(NodeState::kLost, seconds{3}));
 }
 
+// Not every device has a revision, and none is compared.
+TEST(StartUp, ADeviceWithoutARevisionRuns) {
+  for (const bool too_short : {false, true}) {
+    ScannerRun run{busConfig(1)};
+    run.devices[0]->attributes.erase({1, 1, 4});
+    if (too_short) run.devices[0]->attributes[{1, 1, 4}] = {9};
+    ASSERT_TRUE(run.starts()) << run.scanner.status(0).reason.c_str();
+    EXPECT_EQ(0, run.scanner.status(0).major_revision);
+    EXPECT_EQ(0, run.scanner.status(0).minor_revision);
+    EXPECT_EQ(0u, run.scanner.status(0).counters.refusals);
+  }
+}
+
 }  // namespace
 }  // namespace nord_driver::devicenet
