@@ -82,5 +82,24 @@ TEST(EdsCheck, FillsTheIdentity) {
   EXPECT_FALSE(filledFromEds(nodeConfig(5), parseEds("[Device]\nVendCode = 0;")).vendor_id);
 }
 
+// The outputs of a bit strobe go by a poll: the assembly they go to is asked for that, and the device for both.
+TEST(EdsCheck, ABitStrobeIsPolledBesideIt) {
+  EXPECT_THAT(check(nodeConfig(5, IoKind::kStrobe, 5, 5)), IsEmpty()) << "assembly 100 is not strobed";
+  constexpr const char* kNoPoll = "[Device]\nVendCode = 389;\n[IO_Info]\nStrobeInfo = 3, 1, 1;\n";
+  EXPECT_THAT(check(nodeConfig(5, IoKind::kStrobe, 5, 5), kHundred, kNoPoll),
+              ElementsAre("line 3: the device cannot be polled beside the bit strobe"));
+  EXPECT_THAT(check(nodeConfig(5, IoKind::kStrobe, 5, 0), kHundred, kNoPoll), IsEmpty());
+}
+
+// Of an assembly that parameters lay out the file has the longest: as long or shorter fits, with a path or without.
+TEST(EdsCheck, AVariableLengthIsAtMostThatOfTheFile) {
+  constexpr const char* kPathless = "[Device]\nVendCode = 389;\n[IO_Info]\nInput1 = 4, 0, 1;\nInput2 = 5, 0, 1;\n";
+  EXPECT_THAT(check(nodeConfig(5, IoKind::kPoll, 33, 33), {130, 120, true}), IsEmpty());
+  EXPECT_THAT(check(nodeConfig(5, IoKind::kPoll, 3, 5), {130, 120, true}, kPathless), IsEmpty());
+  EXPECT_THAT(check(nodeConfig(5, IoKind::kPoll, 5, 5), {130, 120, true}, kPathless), IsEmpty());
+  EXPECT_THAT(check(nodeConfig(5, IoKind::kPoll, 6, 5), {130, 120, true}, kPathless),
+              ElementsAre("line 3: no Input has 6 bytes; there are those of 4, 5"));
+}
+
 }  // namespace
 }  // namespace nord_driver::devicenet

@@ -112,5 +112,50 @@ TEST(EdsEntries, Numbers) {
     EXPECT_FALSE(edsNumber(none)) << none;
 }
 
+// Bits of kinds are 32, numbers of the identity 16: each up to its last one.
+TEST(EdsFile, NumbersUpToTheirLast) {
+  const std::string text =
+      "[Device]\nVendCode = 65535;\nProdType = 65536;\n[IO_Info]\nPollInfo = 0xFFFFFFFF, 1, 1;\nInput1 = 65535, 0, "
+      "0xFFFFFFFF;\nInput2 = 65536, 0, 1;\n";
+  EXPECT_THAT(problemsOf(text), ElementsAre("3: ProdType: \"65536\" is no number from 0 to 65535",
+                                            "7: Input2: \"65536\" is no number from 0 to 65535"));
+  const EdsFile file = parseEds(text);
+  EXPECT_EQ(65535u, file.vendor_id->value);
+  EXPECT_FALSE(file.device_type);
+  EXPECT_EQ(0xFFFFFFFFu, file.poll->value);
+  ASSERT_EQ(1u, file.inputs.size());
+  EXPECT_EQ(65535u, file.inputs[0].bytes);
+  EXPECT_EQ(0xFFFFFFFFu, file.inputs[0].kinds);
+}
+
+// Class 4 and an instance, one byte each; what stands behind is the attribute.
+TEST(EdsFile, APathOfAnotherFormNamesNoAssembly) {
+  const auto assembly = [](const std::string& fields) {
+    const EdsFile file = parseEds("[Device]\n[IO_Info]\nInput1 = 5, 0, 1, \"x\", 6" + fields + ";\n");
+    return file.inputs.size() == 1 && file.inputs[0].assembly ? int{*file.inputs[0].assembly} : -1;
+  };
+  EXPECT_EQ(110, assembly(", \"20 04 24 6E 30 03\", \"\""));
+  EXPECT_EQ(110, assembly(", \"20 04 24 6E\"")) << "the last field";
+  EXPECT_EQ(-1, assembly("")) << "no field at all";
+  for (const char* other :
+       {"", "20 04 24", "21 04 24 6E", "20 05 24 6E", "20 04 25 6E", "20 04 24 6", "20 04 24 06E", "20 04 24 XY"}) {
+    EXPECT_EQ(-1, assembly(std::string{", \""} + other + "\"")) << other;
+  }
+}
+
+// Of a name, a section and a number the first holds; a key that only begins like an input is none.
+TEST(EdsFile, TheFirstHolds) {
+  const std::string text =
+      "[Device]\nProdName = \"A\";\nProdName = \"B\";\n[IO_Info]\nStrobeInfo = 1, 1, 1;\n[IO_Info]\nStrobeInfo = 2, 1, "
+      "1;\nInput = 5, 0, 1;\nInputX = 5, 0, 1;\nXInput1 = 5, 0, 1;\nOutput7 = 5, 0, 1;\n";
+  EXPECT_THAT(problemsOf(text), ElementsAre("7: StrobeInfo stands twice; the first one (line 5) holds"));
+  const EdsFile file = parseEds(text);
+  EXPECT_EQ("A", file.product);
+  EXPECT_EQ(4u, file.io_line);
+  EXPECT_EQ(1u, file.strobe->value);
+  EXPECT_THAT(file.inputs, IsEmpty());
+  EXPECT_EQ(1u, file.outputs.size());
+}
+
 }  // namespace
 }  // namespace nord_driver::devicenet

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "devicenet/connect_requests.h"
 #include "devicenet/error_codes.h"
 #include "devicenet/explicit_message.h"
 
@@ -81,6 +82,32 @@ TEST(ErrorCodes, OfEveryEnd) {
     answer.end = end;
     EXPECT_TRUE(texts.insert(explicitText(answer, service::kGetAttributeSingle).str()).second);
   }
+}
+
+// Class 5, attribute 1.
+TEST(ErrorCodes, StatesOfAConnection) {
+  const char* const texts[] = {"nonexistent", "configuring", "waiting for its identifier",
+                               "established", "timed out",   "deferred for deletion",
+                               "unknown"};
+  for (std::uint8_t state = 0; state < 7; ++state) EXPECT_STREQ(texts[state], connectionStateText(state));
+  EXPECT_STREQ("unknown", connectionStateText(0xFF));
+}
+
+// Additional code 01h, or the two general ones of an object that is not in the state for it; only in a refusal.
+TEST(ErrorCodes, WhatSaysThatItIsAllocated) {
+  const auto says = [](ExplicitEnd end, std::uint8_t general, std::uint8_t additional) {
+    ExplicitAnswer answer;
+    answer.end = end;
+    answer.general = general;
+    answer.additional = additional;
+    return saysAllocated(answer);
+  };
+  EXPECT_TRUE(says(ExplicitEnd::kRefused, 0x02, 0x01));
+  EXPECT_TRUE(says(ExplicitEnd::kRefused, 0x0B, 0xFF));
+  EXPECT_TRUE(says(ExplicitEnd::kRefused, 0x0C, 0xFF));
+  EXPECT_FALSE(says(ExplicitEnd::kRefused, 0x02, 0x02));
+  EXPECT_FALSE(says(ExplicitEnd::kDone, 0x0B, 0x01));
+  EXPECT_FALSE(says(ExplicitEnd::kTimedOut, 0x0C, 0x01));
 }
 
 }  // namespace

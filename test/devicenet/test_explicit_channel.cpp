@@ -42,5 +42,68 @@ TEST(ExplicitChannel, NotSent) {
   EXPECT_FALSE(channel.pollTransmit(frame, now));
 }
 
+// What a device's format has no room for is answered at once, and holds nobody up.
+TEST(ExplicitChannel, WhatDoesNotFitIsTooLong) {
+  ExplicitChannel channel{0, 5, milliseconds{100}};
+  const Instant now{std::chrono::hours{1}};
+  channel.open();
+  ASSERT_TRUE(channel.submit(getAttribute(1, 0x165, 1, 3), now));
+  ASSERT_TRUE(channel.submit(getAttribute(2, 101, 1, 3), now));
+  const auto answer = channel.pollAnswer();
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(1u, answer->id);
+  EXPECT_EQ(ExplicitEnd::kTooLong, answer->end);
+  CanFrame sent;
+  ASSERT_TRUE(channel.pollTransmit(sent, now));
+  EXPECT_EQ("42C#400E650103", text(sent));
+  EXPECT_EQ(Heard::kTaken, channel.handle(frame("42B#408E03"), now));
+  channel.ask(getAttribute(0, 0x165, 1, 3), ExplicitPort::kConnected, milliseconds{100}, now);
+  const auto own = channel.takeOwnAnswer();
+  ASSERT_TRUE(own);
+  EXPECT_EQ(ExplicitEnd::kTooLong, own->end);
+  EXPECT_FALSE(channel.takeOwnAnswer());
+}
+
+// Closed to the layer above, which may be answered late; the engine goes on asking.
+TEST(ExplicitChannel, ClosingEndsWhatTheLayerAboveAsked) {
+  ExplicitChannel channel{0, 5, milliseconds{100}};
+  const Instant now{std::chrono::hours{1}};
+  channel.open();
+  ASSERT_TRUE(channel.submit(getAttribute(1, 101, 1, 3), now));
+  ASSERT_TRUE(channel.submit(getAttribute(2, 101, 1, 3), now));
+  CanFrame sent;
+  ASSERT_TRUE(channel.pollTransmit(sent, now));
+  channel.close();
+  for (const std::uint32_t id : {1u, 2u}) {
+    const auto answer = channel.pollAnswer();
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(id, answer->id);
+    EXPECT_EQ(ExplicitEnd::kNotConnected, answer->end);
+  }
+  EXPECT_EQ(Heard::kStale, channel.handle(frame("42B#408E03"), now));
+  EXPECT_FALSE(channel.pollTransmit(sent, now));
+  channel.ask(getAttribute(0, 1, 1, 1), ExplicitPort::kConnected, milliseconds{100}, now);
+  ASSERT_TRUE(channel.pollTransmit(sent, now));
+  channel.close();
+  EXPECT_EQ(Heard::kTaken, channel.handle(frame("42B#008E8501"), now));
+  const auto own = channel.takeOwnAnswer();
+  ASSERT_TRUE(own);
+  EXPECT_EQ(389u, own->number());
+}
+
+// An explicit connection lives by what is exchanged over it, not by what somebody else's answers look like.
+TEST(ExplicitChannel, OnlyAnAnswerTakenIsUse) {
+  ExplicitChannel channel{0, 5, milliseconds{100}};
+  const Instant now{std::chrono::hours{1}};
+  channel.open();
+  ASSERT_TRUE(channel.submit(getAttribute(1, 101, 1, 3), now));
+  CanFrame sent;
+  ASSERT_TRUE(channel.pollTransmit(sent, now));
+  for (const char* other : {"42B#008E03", "42B#418E03", "42B#40"}) channel.handle(frame(other), now);
+  EXPECT_EQ(Instant{}, channel.usedAt());
+  EXPECT_EQ(Heard::kTaken, channel.handle(frame("42B#408E03"), now));
+  EXPECT_EQ(now, channel.usedAt());
+}
+
 }  // namespace
 }  // namespace nord_driver::devicenet

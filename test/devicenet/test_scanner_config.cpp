@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <stdexcept>
+#include <vector>
 
 #include "devicenet/scanner.h"
 #include "devicenet/scanner_run.h"
@@ -129,6 +130,36 @@ TEST(ScannerConfig, ExpectedPacketRate) {
   EXPECT_EQ(milliseconds{34}, completed(config).nodes[0].io.expected_packet_rate);
   config.nodes[0].io.expected_packet_rate = milliseconds{75};
   EXPECT_EQ(milliseconds{75}, completed(config).nodes[0].io.expected_packet_rate);
+}
+
+// Each bound itself is taken.
+TEST(ScannerConfig, TakesWhatIsJustWithinItsBounds) {
+  const std::vector<std::function<void(ScannerConfig&)>> all{
+      [](ScannerConfig& config) { config.nodes[0] = nodeConfig(5, IoKind::kStrobe, 8, 0); },
+      [](ScannerConfig& config) { config.nodes[0] = nodeConfig(5, IoKind::kPoll, 64, 64); },
+      [](ScannerConfig& config) { config.nodes[0] = nodeConfig(5, IoKind::kNone, 0, 0); },
+      [](ScannerConfig& config) { config.nodes[0].mac = 63; },
+      [](ScannerConfig& config) { config.mac = 63; },
+      [](ScannerConfig& config) { config.nodes[0].io.expected_packet_rate = milliseconds{5}; },
+      [](ScannerConfig& config) { config.nodes[0].io.expected_packet_rate = milliseconds{65535}; },
+      [](ScannerConfig& config) { config.nodes[0].io.timeout = milliseconds{10}; },
+      [](ScannerConfig& config) { config.longest_retry = config.first_retry; },
+      [](ScannerConfig& config) { config.cycle_time = cycleOnWire(config); },
+      [](ScannerConfig& config) { config.bit_rate = 125'000; },
+      [](ScannerConfig& config) { config.bit_rate = 250'000; }};
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ("accepted", refusalOf(all[i])) << i;
+}
+
+TEST(ScannerConfig, PausesAndTimeOutsAreAboveZero) {
+  const std::string pauses = "the pauses between two tries must be above 0, and the longest not shorter than the first";
+  EXPECT_EQ(pauses, refusalOf([](ScannerConfig& config) { config.first_retry = Duration::zero(); }));
+  EXPECT_EQ(pauses, refusalOf([](ScannerConfig& config) { config.fault_pause = Duration::zero(); }));
+  EXPECT_EQ(pauses, refusalOf([](ScannerConfig& config) { config.longest_retry = config.first_retry - Duration{1}; }));
+  const std::string timeouts = "MAC id 6: its time-outs must be above 0";
+  EXPECT_EQ(timeouts, refusalOf([](ScannerConfig& config) { config.nodes[1].connect_timeout = Duration::zero(); }));
+  EXPECT_EQ(timeouts, refusalOf([](ScannerConfig& config) { config.nodes[1].request_timeout = Duration::zero(); }));
+  EXPECT_EQ("MAC id 6: an expected packet rate of 65536.0 ms; expected whole milliseconds, 1 to 65535",
+            refusalOf([](ScannerConfig& config) { config.nodes[1].io.expected_packet_rate = milliseconds{65536}; }));
 }
 
 }  // namespace
