@@ -137,6 +137,63 @@ TEST_F(PositionBitsTest, KnowAPositionAsTheArrayHasIt) {
   setup_.axis.scale.offset = 0.5;
   setup_.axis.scale.steps_per_revolution = 8192.0;  // of the words
   EXPECT_EQ(-20'000, bits().inArray(0.7));
+  EXPECT_NEAR(0.7, bits().inJoint(-20'000), 1e-12);
+}
+
+// The other carrier of it: bit 5 of the actual value that has the bus I/O out bits (12 of SK 53xE).
+TEST_F(PositionBitsTest, TellTheReferenceByABusBit) {
+  SignalSetup bit;
+  bit.source = SignalSource::kBusOutBit;
+  bit.number = 5;
+  setup_.referenced = bit;
+  device_.out_bit_function = 20;
+  device_.word_functions[0].actual_values = {1, 10, 12};
+  profile::ProcessInput input;
+  input.actual_values = {-1, -1, 0x0020};
+  EXPECT_EQ(true, bits().referenced(input, device_, 1));
+  input.actual_values[2] = ~0x0020;
+  EXPECT_EQ(false, bits().referenced(input, device_, 1));
+  EXPECT_FALSE(bits().referenced(input, device_, 2)) << "nobody knows the words of that set";
+  device_.word_functions[0].actual_values = {12, 10, 15};
+  EXPECT_FALSE(bits().referenced(input, device_, 1)) << "word 1 is none for bits";
+}
+
+// There are sets 1 to 4; of none of the others, and of none that was not read, a word is known.
+TEST_F(PositionBitsTest, AreNotPutWhereNoWordIsKnown) {
+  for (const std::uint8_t set : {std::uint8_t{0}, std::uint8_t{2}, std::uint8_t{5}}) {
+    bits().putTeach({true, false}, output_, device_, set);
+    EXPECT_EQ((std::array<std::int16_t, 3>{1, 2, 0}), output_.setpoints) << unsigned{set};
+  }
+  device_.word_functions[3] = device_.word_functions[0];
+  bits().putTeach({true, false}, output_, device_, 4);
+  EXPECT_EQ(0x000D, output_.setpoints[2]);
+}
+
+TEST_F(PositionBitsTest, OfTheArrayAsManyElementsAsAreUsed) {
+  setup_.elements = 5;
+  for (const std::uint8_t element : {std::uint8_t{0}, std::uint8_t{6}}) {
+    EXPECT_EQ("drive lift: of its array elements 1 to 5 are used (position/elements)",
+              bits().elementRefusal("lift", element, device_, 1).str());
+  }
+  for (const std::uint8_t element : {std::uint8_t{1}, std::uint8_t{5}}) {
+    EXPECT_EQ("", bits().elementRefusal("lift", element, device_, 1).str());
+  }
+}
+
+// A reference run whose end nobody could see is not begun.
+TEST_F(PositionBitsTest, OfAReferenceRunAreRefusedWithoutTheBitThatShowsIt) {
+  EXPECT_THAT(bits().homeRefusal("lift", device_, 1).str(), HasSubstr("position/home is not configured"));
+  setup_.home = PositionBit{Carrier::kBusBit, 1, 25};
+  EXPECT_EQ("", bits().homeRefusal("lift", device_, 1).str()) << "no bit is to show it";
+  SignalSetup bit;
+  bit.source = SignalSource::kStatusBit;
+  bit.number = 13;
+  setup_.referenced = bit;
+  EXPECT_THAT(bits().homeRefusal("lift", device_, 1).str(), HasSubstr("P481[-10] could not be read; set it to 20"));
+  device_.out_bit_function = 1;
+  EXPECT_THAT(bits().homeRefusal("lift", device_, 1).str(), HasSubstr("P481[-10] is 1; set it to 20"));
+  device_.out_bit_function = 20;
+  EXPECT_EQ("", bits().homeRefusal("lift", device_, 1).str());
 }
 
 // --- what stands in the array afterwards ------------------------------------------------------------------------------
@@ -165,6 +222,8 @@ TEST_F(TaughtElement, IsComparedWithThePosition) {
   Completion answer = compared(true, 70'010);
   EXPECT_TRUE(answer.success);
   EXPECT_EQ("told; P613[-03] is 70.010 revolutions", answer.message.str());
+  for (const std::int32_t last : {70'011, 69'989}) EXPECT_TRUE(compared(true, last).success) << last;
+  EXPECT_FALSE(compared(true, 69'988).success);
   answer = compared(true, 70'012);
   EXPECT_FALSE(answer.success);
   EXPECT_EQ("told, but P613[-03] is 70.012 and not 70.000 revolutions", answer.message.str());
@@ -178,6 +237,23 @@ TEST_F(TaughtElement, ThatCannotBeReadIsMentioned) {
   answer = compared(false, 0);
   EXPECT_TRUE(answer.success);
   EXPECT_EQ("told; without position/array_bit nobody knows into which element", answer.message.str());
+}
+
+// What was not taught is not looked up, nor what a drive that has no such bits was told.
+TEST_F(TaughtElement, IsNotReadWithoutAnythingTaught) {
+  const auto unread = [](const profile::ParameterRequest&) {
+    ADD_FAILURE() << "read";
+    return Completion{};
+  };
+  Completion refused;
+  refused.success = false;
+  refused.message = "refused";
+  EXPECT_EQ("refused", withTaughtElement(refused, setup_, unread).message.str());
+  Completion taught;
+  taught.success = true;
+  taught.message = "told";
+  setup_.teach.reset();
+  EXPECT_EQ("told", withTaughtElement(taught, setup_, unread).message.str());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 #include "cycle/cycle_config.h"
 #include "cycle/word_needs.h"
@@ -141,6 +142,39 @@ TEST_F(PositionConfiguration, NamesTheBitsOfAReferenceRun) {
   EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/home")) << "P480 of SK 700E has eight elements";
   drive_->set("position/home", "bus_in_bit_3").set("position/referenced", "status_bit_11");
   EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/referenced"));
+}
+
+TEST_F(PositionConfiguration, KnowsItsBitsByTheirNumbers) {
+  const auto with = [this](const char* key, const char* word) {
+    drive_->set(key, word);
+    return refusal();
+  };
+  for (const char* bit : {"bus_in_bit_0", "bus_in_bit_7", "control_bit_8", "control_bit_9"}) {
+    EXPECT_EQ("taken", with("position/home", bit)) << bit;
+  }
+  for (const char* none : {"bus_in_bit_8", "bus_in_bit_", "control_bit_7", "control_bit_10", "home"}) {
+    EXPECT_THAT(with("position/home", none), HasSubstr("~drives/lift/position/home")) << none;
+  }
+  drive_->erase("position/home");
+  for (const auto& [word, number] : {std::pair{"bus_out_bit_0", 0}, std::pair{"bus_out_bit_7", 7},
+                                     std::pair{"status_bit_10", 10}, std::pair{"status_bit_13", 13}}) {
+    EXPECT_EQ("taken", with("position/referenced", word)) << word;
+    EXPECT_EQ(number, setup().referenced->number);
+  }
+  for (const char* none : {"bus_out_bit_8", "status_bit_9", "status_bit_12", "status_bit_14"}) {
+    EXPECT_THAT(with("position/referenced", none), HasSubstr("~drives/lift/position/referenced")) << none;
+  }
+}
+
+TEST_F(PositionConfiguration, TakesFunctionsOfOneByte) {
+  for (const int function : {1, 255}) {
+    drive_->set("position/home", "bus_in_bit_3").set("position/home_function", function);
+    EXPECT_EQ(function, setup().home->function);
+  }
+  for (const int function : {0, 256}) {
+    drive_->set("position/home_function", test::MapSettings::Value{function});
+    EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/home_function")) << function;
+  }
 }
 
 TEST_F(PositionConfiguration, NamesTheElementThatShowsTheReference) {

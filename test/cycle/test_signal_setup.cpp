@@ -62,7 +62,9 @@ TEST(SignalSetupTest, KnowsEverySource) {
 
 TEST(SignalSetupTest, RefusesWhatThereIsNot) {
   for (const char* word :
-       {"bus_in_bit_8", "control_bit_7", "module_output_3", "status_bit_11", "module_input_0", "lamp", "relay_5"}) {
+       {"bus_in_bit_8", "control_bit_7", "control_bit_10", "module_output_0", "module_output_3", "bus_out_bit_8",
+        "status_bit_9", "status_bit_11", "status_bit_12", "status_bit_14", "digital_input_0", "digital_input_13",
+        "relay_0", "relay_5", "module_input_0", "module_input_5", "analog_input_0", "analog_input_3", "lamp"}) {
     Configured config;
     config.drive.set("signals/one/source", word);
     EXPECT_THAT(config.refusal(),
