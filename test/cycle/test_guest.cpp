@@ -123,5 +123,92 @@ TEST(Guest, EnablesNothing) {
   EXPECT_FALSE(answer->success);
 }
 
+// --- the gate by itself ----------------------------------------------------------------------------------------------
+
+/// What these drives say in one cycle; 0: no inverter answers.
+std::vector<DriveExchange> heard(std::initializer_list<Word> status_words) {
+  std::vector<DriveExchange> inputs;
+  for (const Word status_word : status_words) {
+    DriveExchange input;
+    input.inverter_answers = status_word != 0;
+    input.input.status_word = status_word;
+    inputs.push_back(input);
+  }
+  return inputs;
+}
+
+void hear(GuestGate& gate, std::initializer_list<Word> status_words, int cycles = 1) {
+  for (int i = 0; i < cycles; ++i) {
+    auto inputs = heard(status_words);
+    gate.handleInputs(inputs);
+  }
+}
+
+// While it is closed the drives look silent and hear nothing; a driver's is open from the beginning.
+TEST(Gate, HoldsBackBothWays) {
+  GuestGate gate{true};
+  std::vector<profile::ProcessOutput> outputs(1);
+  outputs[0].control_word = 0x047E;
+  auto inputs = heard({0x0B31});
+  gate.holdBack(outputs);
+  gate.handleInputs(inputs);
+  EXPECT_EQ(0, outputs[0].control_word);
+  EXPECT_FALSE(inputs[0].inverter_answers);
+  EXPECT_EQ(0, inputs[0].input.status_word);
+  GuestGate open{false};
+  outputs[0].control_word = 0x047E;
+  inputs = heard({0x0B37});
+  open.holdBack(outputs);
+  open.handleInputs(inputs);
+  EXPECT_EQ(0x047E, outputs[0].control_word);
+  EXPECT_EQ(0x0B37, inputs[0].input.status_word);
+  EXPECT_TRUE(open.isOpen());
+  EXPECT_FALSE(open.running());
+}
+
+// Three cycles in which all that are awaited answered, be they one after the other or not.
+TEST(Gate, OpensWhenAllAwaitedWereHeardThreeTimes) {
+  GuestGate gate{true};
+  gate.close(2);
+  hear(gate, {0x0B31, 0}, 5);
+  EXPECT_FALSE(gate.heard());
+  EXPECT_TRUE(gate.hears(0));
+  EXPECT_FALSE(gate.hears(1));
+  EXPECT_FALSE(gate.hears(2)) << "not awaited";
+  hear(gate, {0x0B31}, 5);
+  EXPECT_FALSE(gate.heard()) << "one is all there is";
+  hear(gate, {0x0B31, 0x0B70}, 2);
+  EXPECT_TRUE(gate.heard());
+  hear(gate, {0x0B31, 0});
+  EXPECT_FALSE(gate.isOpen());
+  hear(gate, {0x0B31, 0x0B70});
+  EXPECT_TRUE(gate.isOpen());
+}
+
+// A fault is rest. That of the first drive is told, since the words behind the gate may acknowledge it.
+TEST(Gate, AFaultOfTheFirstIsSeen) {
+  GuestGate first{true}, second{true};
+  hear(first, {0x0238, 0x0B31}, 3);
+  EXPECT_TRUE(first.faultSeen());
+  EXPECT_TRUE(first.isOpen());
+  hear(second, {0x0B31, 0x0238}, 3);
+  EXPECT_FALSE(second.faultSeen());
+  EXPECT_TRUE(second.isOpen());
+}
+
+// The first that runs is named, and keeps it closed whatever comes later.
+TEST(Gate, ADriveThatRanKeepsItClosed) {
+  for (const Word runs : {Word{0x0B33}, Word{0x0B37}, Word{0x0B17}, Word{0x023F}}) {
+    GuestGate gate{true};
+    hear(gate, {0x0B31, runs, 0x0B37});
+    hear(gate, {0x0B37, 0x0B31, 0x0B31});
+    hear(gate, {0x0B31, 0x0B31, 0x0B31}, 5);
+    EXPECT_FALSE(gate.isOpen()) << runs;
+    ASSERT_TRUE(gate.running());
+    EXPECT_EQ(1u, gate.running()->drive);
+    EXPECT_EQ(profile::StatusWord{runs}.state(), gate.running()->state);
+  }
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle
