@@ -5,6 +5,7 @@
 #include <random>
 
 #include "cycle/cycle_bench.h"
+#include "cycle/minimum_speeds.h"
 
 namespace nord_driver::cycle {
 namespace {
@@ -207,6 +208,19 @@ TEST(BaseMinimumProperty, NoWheelTurnsAgainstTheTwistOrAlone) {
   EXPECT_GT(moved, 3000);
   EXPECT_GT(rested, 3000);
   EXPECT_GT(reversed, 50);
+}
+
+// P104 itself is not below it; a wheel that is to stand beside one that turns is. Of wheels without a P104 nothing is asked.
+TEST(MinimumSpeedsTest, AskEachWheelThatIsToTurn) {
+  const robot::WheelSpeeds minimum{2.0, 2.0};
+  EXPECT_FALSE(anyBelow({2.0, -2.0}, minimum));
+  EXPECT_TRUE(anyBelow({5.0, 1.999}, minimum));
+  EXPECT_TRUE(anyBelow({-1.999, 5.0}, minimum));
+  EXPECT_TRUE(anyBelow({0.0, 5.0}, minimum));
+  EXPECT_FALSE(anyBelow({0.0, 0.0}, minimum));
+  EXPECT_FALSE(anyBelow({1.0, 1.0}, {}));
+  EXPECT_FALSE(anyBelow({5.0, 1.0}, {2.0}));
+  EXPECT_FALSE(anyBelow({0.001, 5.0}, {0.0, 2.0}));
 }
 
 }  // namespace

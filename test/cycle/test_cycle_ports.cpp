@@ -144,5 +144,56 @@ TEST(CyclePorts, ACompletionWakesTheOneWhoWaits) {
   EXPECT_EQ(7u, answer->id);
 }
 
+// What is no number, or goes too far at once, is no command at all: the one before stays.
+TEST(CyclePorts, RefusesWhatIsNoCommand) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  CyclePorts ports{1};
+  const Instant now{std::chrono::hours{1}};
+  ASSERT_TRUE(ports.commandPosition(0, 1.5));
+  EXPECT_FALSE(ports.commandPosition(0, kNan));
+  EXPECT_EQ(1.5, ports.newestPosition(0).target);
+  for (const double increment : {kNan, 1.000001e6, -1.000001e6}) EXPECT_FALSE(ports.commandIncrement(0, increment));
+  EXPECT_EQ(0.0, ports.newestPosition(0).increments);
+  EXPECT_TRUE(ports.commandIncrement(0, 1e6));
+  EXPECT_TRUE(ports.commandIncrement(0, -1e6));
+  EXPECT_EQ(2u, ports.newestPosition(0).increased);
+  ASSERT_TRUE(ports.commandSetpoint(0, 1, 7.0, now));
+  EXPECT_FALSE(ports.commandSetpoint(0, 1, kNan, now + std::chrono::seconds{1}));
+  EXPECT_EQ(7.0, ports.newestWords(0).setpoints[1].value);
+  EXPECT_EQ(now, ports.newestWords(0).setpoints[1].received);
+}
+
+// When it was last other than zero, and when an output was last off, is told with every command after it.
+TEST(CyclePorts, RemembersWhenSomethingWasToMove) {
+  CyclePorts ports{1};
+  const Instant first{std::chrono::hours{1}}, second{std::chrono::hours{2}};
+  ports.commandSetpoint(0, 0, 0.0, first);
+  EXPECT_FALSE(ports.newestWords(0).setpoints[0].moved);
+  ports.commandSetpoint(0, 0, 2.0, first);
+  ports.commandSetpoint(0, 0, 0.0, second);
+  EXPECT_EQ(first, ports.newestWords(0).setpoints[0].moved);
+  EXPECT_EQ(second, ports.newestWords(0).setpoints[0].received);
+  ports.commandOutput(0, 0, false, first);
+  ports.commandOutput(0, 0, true, second);
+  const BitCommand& output = ports.newestWords(0).outputs[0];
+  EXPECT_TRUE(output.given && output.on);
+  EXPECT_EQ(first, output.off);
+  EXPECT_EQ(second, output.received);
+}
+
+// As old as its time-out it still counts; without one for ever, and one that was never given never.
+TEST(Commands, GrowOldBehindTheirTimeOut) {
+  const Instant now{std::chrono::hours{1}};
+  const Duration timeout = std::chrono::milliseconds{500};
+  JointCommand command;
+  command.received = now;
+  EXPECT_TRUE(isStale(command, timeout, now));
+  EXPECT_TRUE(isStale(command, Duration::zero(), now));
+  command.given = true;
+  EXPECT_FALSE(isStale(command, timeout, now + timeout));
+  EXPECT_TRUE(isStale(command, timeout, now + timeout + Duration{1}));
+  EXPECT_FALSE(isStale(command, Duration::zero(), now + std::chrono::hours{1}));
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

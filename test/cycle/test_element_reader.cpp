@@ -64,5 +64,26 @@ TEST(ElementReaderTest, ForgetsWhatIsForgotten) {
   EXPECT_FALSE(reader.poll()) << "6 has not been asked for yet";
 }
 
+// The transport need not repeat which parameter was refused, and a drive that went away has answered, too.
+TEST(ElementReaderTest, NamesItsParameterWhateverHappened) {
+  ElementReader reader;
+  reader.ask(5);
+  reader.pollRequest();
+  profile::ParameterResult refused = result(ParameterOutcome::kRefused);
+  refused.reason = profile::ParameterReason::kReadOnly;
+  reader.handleResult(refused, "lift");
+  const auto read = reader.poll();
+  ASSERT_TRUE(read);
+  EXPECT_THAT(read->why.str(), ::testing::StartsWith("drive lift refuses P613"));
+  reader.ask(6);
+  reader.pollRequest();
+  reader.handleResult(result(ParameterOutcome::kOffline), "lift");
+  const auto away = reader.poll();
+  ASSERT_TRUE(away);
+  EXPECT_EQ(6, away->element);
+  EXPECT_FALSE(away->known);
+  EXPECT_EQ("drive lift does not answer", away->why.str());
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

@@ -116,5 +116,32 @@ TEST_F(FaultHistoryTest, ADriveThatIsAwayIsNotAsked) {
   EXPECT_EQ(1, poll()) << "it comes back with one";
 }
 
+// Three tries for each element, not for all of them.
+TEST_F(FaultHistoryTest, EachElementIsAskedForThreeTimes) {
+  reader_.handleFault(true, kMotorHot);
+  for (int element = 1; element <= 5; ++element) {
+    for (int i = 0; i < 2; ++i) {
+      EXPECT_EQ(element, poll());
+      fail(ParameterOutcome::kTimeout);
+    }
+    EXPECT_EQ(element, poll());
+    answer(100 + element);
+  }
+  ASSERT_EQ(5u, reader_.history().numbers.size());
+  EXPECT_EQ(105, reader_.history().numbers[4]);
+}
+
+// 0 is no number of a fault, and an answer nobody waits for is none of P701.
+TEST_F(FaultHistoryTest, NothingIsReadOfNoFault) {
+  reader_.handleFault(true, 0);
+  EXPECT_EQ(0, poll());
+  reader_.handleFault(true, kMotorHot);
+  answer(40);
+  EXPECT_TRUE(reader_.history().numbers.empty());
+  EXPECT_EQ(1, poll());
+  fail(ParameterOutcome::kOffline);
+  EXPECT_EQ(1, poll()) << "it did not reach the drive";
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

@@ -69,5 +69,19 @@ TEST(MeasuredValues, NothingIsKnownOfADriveThatIsOffline) {
   EXPECT_TRUE(std::isnan(drive.effort()));
 }
 
+// The set in force has its own functions, up to the fourth; where it is not known those of set 1 stand for them.
+TEST(MeasuredValues, EachSetHasItsOwnFunctions) {
+  Measured drive;
+  drive.device.word_functions[0].actual_values = {3, 1, 1};
+  drive.device.word_functions[3].actual_values = {1, 4, 3};
+  drive.sample.parameter_set = 4;
+  EXPECT_DOUBLE_EQ(-2.0, drive.current());
+  EXPECT_DOUBLE_EQ(-2.0, drive.current(9)) << "no more than three words";
+  for (const std::uint8_t none : {std::uint8_t{0}, std::uint8_t{5}}) {
+    drive.sample.parameter_set = none;
+    EXPECT_DOUBLE_EQ(2.0, drive.current()) << unsigned{none};
+  }
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle
