@@ -35,6 +35,7 @@ void IoConnection::close() noexcept {
   established_ = false;
   overdue_ = false;
   timers_.stopAll();
+  output_.clear();  // the bit of a strobe, too
   output_ready_ = false;
   sent_at_.reset();
   sender_.drop();

@@ -64,6 +64,17 @@ TEST(IoConnection, BeforeItIsEstablishedNothingHappens) {
   EXPECT_EQ(kSent, one.cycle());
 }
 
+// The bit that a device got before it was lost is not the first one it gets afterwards.
+TEST(IoConnection, TheBitOfAStrobeIsForgottenWithTheConnection) {
+  Connected one{IoKind::kStrobe, 0};
+  one.io.establish(kRate, one.now);
+  one.io.setOutput(std::array<std::uint8_t, 1>{1});
+  ASSERT_TRUE(one.io.strobeBit());
+  one.io.close();
+  one.io.establish(kRate, one.now);
+  EXPECT_FALSE(one.io.strobeBit());
+}
+
 TEST(IoConnection, TakesTheMessagesOfItsKind) {
   const auto taken = [](IoKind kind, std::size_t out, bool acknowledge) {
     const Connected one{kind, out, acknowledge};
