@@ -9,7 +9,7 @@ set(nord_unmerged
   catalogue/parameter_text.cpp commissioning/process_values.cpp commissioning/unasked_motion.cpp
   cycle/fault_history.cpp cycle/leaders.cpp cycle/start_acknowledge.cpp cycle/taught_position.cpp
   cycle/user_messages.cpp devicenet/explicit_client.cpp devicenet/io_connection.cpp devicenet/io_fragments.cpp
-  devicenet/node_handler.cpp node/state_log.cpp node/wheel_state_publisher.cpp profibus/gsd_file.cpp
+  node/state_log.cpp node/wheel_state_publisher.cpp profibus/gsd_file.cpp
   profibus/record.cpp profibus/record_channel.cpp profibus/telegram.cpp profile/word_function.cpp
   sim/can/timed_can_bus.cpp sim/canopen/can_pdo_objects.cpp sim/canopen/can_referee.cpp sim/canopen/can_sdo_server.cpp
   sim/canopen/can_stations.cpp sim/canopen/can_tpdo.cpp sim/devicenet/ac_drive.cpp sim/devicenet/dn_config.cpp

@@ -1,9 +1,9 @@
 #include "devicenet/bus_watch.h"
 
+#include "devicenet/explicit_message.h"
+
 namespace nord_driver::devicenet {
 namespace {
-
-constexpr std::uint8_t kMacMask = 0x3F;
 
 const char* toText(Group2 message) noexcept {
   switch (message) {
@@ -42,7 +42,8 @@ void BusWatch::secondScanner(const CanFrame& frame, Group2 message, std::uint8_t
                 static_cast<unsigned>(frame.id));
   } else if (names_master && frame.size > 0) {
     text.format("another master, MAC id %u, is on the bus: it sends %s to MAC id %u (%03Xh), which only we should",
-                unsigned{frame.data[0]} & kMacMask, toText(message), unsigned{mac}, static_cast<unsigned>(frame.id));
+                unsigned{frame.data[0]} & explicit_header::kMac, toText(message), unsigned{mac},
+                static_cast<unsigned>(frame.id));
   } else {
     text.format("another master is on the bus: it sends %s to MAC id %u (%03Xh), which only we should", toText(message),
                 unsigned{mac}, static_cast<unsigned>(frame.id));

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint8_t kHeartbeatByte = service::kHeartbeat | service::kResponse;
 constexpr std::uint8_t kShutdownByte = service::kShutdown | service::kResponse;
-constexpr std::uint8_t kFragmentAndMac = 0xBF;
+constexpr std::uint8_t kFragmentAndMac = explicit_header::kFragmented | explicit_header::kMac;
 
 }  // namespace
 

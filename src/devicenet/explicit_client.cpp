@@ -5,9 +5,6 @@
 namespace nord_driver::devicenet {
 namespace {
 
-constexpr std::uint8_t kFragmentBit = 0x80;
-constexpr std::uint8_t kTransactionBit = 0x40;
-constexpr std::uint8_t kMacMask = 0x3F;
 constexpr std::size_t kUnfragmentedBody = 7;
 constexpr std::size_t kPerFragment = 6;
 constexpr std::uint8_t kAccepted = 0;
@@ -64,7 +61,8 @@ bool ExplicitClient::awaitsAnswer(bool xid) const noexcept {
 }
 
 std::uint8_t ExplicitClient::header(bool fragment, bool xid) const noexcept {
-  return static_cast<std::uint8_t>((fragment ? kFragmentBit : 0u) | (xid ? kTransactionBit : 0u) | own_);
+  return static_cast<std::uint8_t>((fragment ? explicit_header::kFragmented : 0u) |
+                                   (xid ? explicit_header::kTransaction : 0u) | own_);
 }
 
 std::uint32_t ExplicitClient::requestId() const noexcept {
@@ -105,9 +103,10 @@ bool ExplicitClient::pollTransmit(CanFrame& frame, Instant now) noexcept {
 Heard ExplicitClient::handle(const CanFrame& frame, Instant now) noexcept {
   const ByteView bytes = frame.bytes();
   if (bytes.size() < 2) return Heard::kMalformed;
-  if ((bytes[0] & kMacMask) != own_) return Heard::kForeign;
-  const bool xid = (bytes[0] & kTransactionBit) != 0;
-  if ((bytes[0] & kFragmentBit) == 0) return awaitsAnswer(xid) ? handleBody(bytes.sub(1)) : Heard::kStale;
+  if ((bytes[0] & explicit_header::kMac) != own_) return Heard::kForeign;
+  const bool xid = (bytes[0] & explicit_header::kTransaction) != 0;
+  if ((bytes[0] & explicit_header::kFragmented) == 0)
+    return awaitsAnswer(xid) ? handleBody(bytes.sub(1)) : Heard::kStale;
   // Neither an acknowledge nor a part of a message is empty.
   if (bytes.size() < 3) return Heard::kMalformed;
   const Fragment fragment = Fragment::from(bytes[1]);

@@ -24,6 +24,13 @@ constexpr std::uint8_t kShutdown = 0x4E;
 constexpr std::uint8_t kResponse = 0x80;  ///< bit of a response
 }  // namespace service
 
+/// Bits of the first byte of an explicit message.
+namespace explicit_header {
+constexpr std::uint8_t kFragmented = 0x80;
+constexpr std::uint8_t kTransaction = 0x40;  ///< XID: toggles with each request
+constexpr std::uint8_t kMac = 0x3F;          ///< whose message it is: of the master, from it and to it
+}  // namespace explicit_header
+
 namespace object_class {
 constexpr std::uint16_t kIdentity = 1;
 constexpr std::uint16_t kDeviceNet = 3;

@@ -5,11 +5,8 @@
 namespace nord_driver::devicenet {
 namespace {
 
-constexpr std::uint8_t kMacMask = 0x3F;
-constexpr std::uint8_t kFragmented = 0x80;
-
 bool isRefusal(const CanFrame& response) noexcept {
-  const bool whole = response.size > 1 && (response.data[0] & kFragmented) == 0;
+  const bool whole = response.size > 1 && (response.data[0] & explicit_header::kFragmented) == 0;
   return whole && response.data[1] == (service::kError | service::kResponse);
 }
 
@@ -66,7 +63,7 @@ void NodeHandler::handleExplicit(const CanFrame& frame, Instant now) noexcept {
       ++report_.busCounters().second_scanner;
       ++report_.status().counters.foreign_requests;
       if (!isRefusal(frame)) ++report_.status().counters.foreign_use;
-      connect_.handleForeignMaster(static_cast<std::uint8_t>(frame.data[0] & kMacMask), now);
+      connect_.handleForeignMaster(static_cast<std::uint8_t>(frame.data[0] & explicit_header::kMac), now);
       break;
     case Heard::kMalformed:
       report_.malformed(frame, "no explicit response", now);
@@ -116,7 +113,7 @@ void NodeHandler::handleForeignRequest(const CanFrame& frame, Group2 message, In
   if (message != Group2::kUnconnected) ++report_.status().counters.foreign_use;
   const bool is_explicit = message == Group2::kMasterExplicit || message == Group2::kUnconnected;
   if (is_explicit && frame.size > 0) {
-    connect_.handleForeignMaster(static_cast<std::uint8_t>(frame.data[0] & kMacMask), now);
+    connect_.handleForeignMaster(static_cast<std::uint8_t>(frame.data[0] & explicit_header::kMac), now);
   }
   // It may have taken our connection away.
   if (message == Group2::kUnconnected) connect_.checkSoon(now);
