@@ -107,6 +107,7 @@ class SlaveHandler {
   std::optional<Fault> faultIn(const Diagnosis& diagnosis) const noexcept;
 
   void mayRunUntilWatchdogOf(Instant heard) noexcept;
+  void waitForWatchdog() noexcept;
   void fallSilent(Instant due, const char* note) noexcept;
   void startOver(const char* note) noexcept;
   void enterDataExchange(DpEvents& events) noexcept;

@@ -56,21 +56,22 @@ void SlaveHandler::handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& even
 
 // The exchange or the diagnosis beside it. A slave stays in data exchange until its watchdog runs out: for as long as
 // the silence may last, the next cycle asks it again, and whether it took this request is not known, so that the frame
-// count begins anew. With another count it might take the new outputs for a repetition of the old.
+// count begins anew. With another count it might take the new outputs for a repetition of the old. A slave that answers
+// with another length, or with E5, may take the outputs all the same: it, too, is sent the stop words until then.
 void SlaveHandler::handleNoExchange(Mismatch mismatch, Instant now, DpEvents& events) noexcept {
   const bool exchange = asked_ == Service::kDataExchange;
   if (!exchange && !timers_.isSet(Timer::kUndiagnosedLimit)) {
     timers_.set(Timer::kUndiagnosedLimit, now + silence_limit_);
   }
   const bool ended = exchange ? now - last_answer_ >= silence_limit_ : timers_.isOver(Timer::kUndiagnosedLimit, now);
-  // A telegram of another length has its checksum; E5 is a single byte, which noise makes, too.
-  if (exchange && (mismatch == Mismatch::kLength || (ended && mismatch == Mismatch::kAcknowledge))) {
-    lose(LossCause::kWrongAnswers, texts::kWrongLength, now, events);
-    return backOff({DpEventKind::kConfigurationFault, texts::kWrongLength}, now, events);
-  }
   if (!ended) {
-    if (exchange) status_.note = texts::kNoAnswer;
+    if (exchange) status_.note = mismatch == Mismatch::kLength ? texts::kWrongLength : texts::kNoAnswer;
     return frame_count_.reset();
+  }
+  if (exchange && (mismatch == Mismatch::kLength || mismatch == Mismatch::kAcknowledge)) {
+    lose(LossCause::kWrongAnswers, texts::kWrongLength, now, events);
+    backOff({DpEventKind::kConfigurationFault, texts::kWrongLength}, now, events);
+    return waitForWatchdog();
   }
   if (mismatch == Mismatch::kNone || mismatch == Mismatch::kStranger) {
     lose(LossCause::kSilence, texts::kFellSilent, now, events);
@@ -170,7 +171,7 @@ void SlaveHandler::onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents&
 
 // RR, UE, RDL and RDH: outputs not taken; NR: taken, but no inputs. The first are asked for the reason. Where they last, a
 // slave whose requests feed its watchdog would keep its drive as it was told last, though the stop words go out: it is
-// lost, as after a silence, and asked for nothing until its watchdog has run out. Set_Prm would start that anew.
+// lost, as after a silence, and asked for nothing until its watchdog has run out.
 void SlaveHandler::handleRefusedExchange(ResponseCode code, Instant now, DpEvents& events) noexcept {
   if (code == ResponseCode::kNotActivated) {
     if (!resuming_) lose(LossCause::kLeftDataExchange, texts::kLeft, now, events);
@@ -182,6 +183,13 @@ void SlaveHandler::handleRefusedExchange(ResponseCode code, Instant now, DpEvent
   if (timers_.isRunning(Timer::kRefusedLimit, now)) return;
   lose(LossCause::kRefused, texts::kRefusesExchange, now, events);
   backOff({DpEventKind::kServiceRefused, texts::kRefusesExchange}, now, events);
+  waitForWatchdog();
+}
+
+// Behind backOff(), of a slave that may be in data exchange with us still: every request feeds its watchdog, Set_Prm
+// starts it anew and clears the outputs, which stops nothing, and a refused Chk_Cfg ends it without a trip. It is asked
+// for nothing until it has run out.
+void SlaveHandler::waitForWatchdog() noexcept {
   mayRunUntilWatchdogOf(last_request_);
   timers_.prolong(Timer::kNextRequest, last_request_ + config_.watchdog + kWatchdogTolerance);
 }
@@ -240,11 +248,14 @@ void SlaveHandler::judgeReady(Instant now, DpEvents& events) noexcept {
 
 void SlaveHandler::judgeInExchange(Instant now, DpEvents& events) noexcept {
   const Diagnosis& diagnosis = status_.diagnosis;
+  const bool left = diagnosis.parameterRequest() || diagnosis.owner() != master_;
   if (const auto fault = faultIn(diagnosis)) {
     lose(LossCause::kParametersRequested, fault->text, now, events);
-    return backOff(*fault, now, events);
+    backOff(*fault, now, events);
+    if (!left) waitForWatchdog();
+    return;
   }
-  if (diagnosis.parameterRequest() || diagnosis.owner() != master_) {
+  if (left) {
     lose(LossCause::kParametersRequested, texts::kAsksAgain, now, events);
     return startOver(texts::kAsksAgain);
   }

@@ -316,7 +316,8 @@ TEST(Loss, StartsOverWhenTheDiagnosisAsksForParameters) {
   }
 }
 
-// A slave with another length than configured is named so, and tried again after a pause, not in a tight loop.
+// A slave with another length than configured is named so, and tried again when its watchdog of 100 ms has run out, with
+// 250 ms to spare.
 TEST(Loss, NamesAnotherLength) {
   NordWire wire;
   wire.startsUp();
@@ -333,6 +334,9 @@ TEST(Loss, NamesAnotherLength) {
   wire.startCycle();
   wire.cycleEnds();
   wire.advance(250ms);
+  wire.startCycle();
+  wire.cycleEnds();
+  wire.advance(100ms);
   wire.isFree();
 }
 

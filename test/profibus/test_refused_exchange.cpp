@@ -1,5 +1,6 @@
-// A slave that answers every exchange and refuses it: its watchdog may be fed by the requests, while no stop word is
-// taken. It is lost as a silent one is, and left alone until its watchdog has run out.
+// A slave that answers every exchange and refuses it, or answers what is no answer, or reports a fault: its watchdog may
+// be fed by the requests, while no stop word is taken. It is lost as a silent one is, and left alone until its watchdog
+// has run out.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -64,27 +65,124 @@ TEST_P(Refusals, ThatLastAreALoss) {
 
 INSTANTIATE_TEST_SUITE_P(Codes, Refusals, testing::Values(kRdl, kRdh, kRr, kUe, kNr));
 
-// A watchdog of 3 s: the pause before the start-up is as long.
+// A watchdog of 3 s (150 x 2 x 10 ms): the pause before the start-up is as long.
+class LongWatchdog : public NordWire {
+ public:
+  LongWatchdog() : NordWire(quietBus(), module()) {
+    isFound();
+    isFree();
+    cycle("68 0C 0C 68 88 81 5D 3D 3E 88 96 02 0B 75 31 00 B2 16", kShortAcknowledge);
+    takesConfiguration();
+    cycle(kDiag5D, kReady);
+    forgetEvents();
+  }
+  /// One exchange, its repetition included.
+  void answersOtherwise(const char* exchange, const char* answer) {
+    startCycle();
+    for (int i = 0; i < 2; ++i) {
+      sends(exchange);
+      receives(answer);
+      staysSilent();
+    }
+    cycleEnds();
+  }
+  void isDiagnosed(const char* diagnosis) {
+    startCycle();
+    sends(kExchange7D);
+    receives(kInputsDh);
+    sends(kDiag5D);
+    receives(diagnosis);
+    cycleEnds();
+  }
+  void isLeftToItsWatchdog() {
+    const Instant asked = now;
+    EXPECT_EQ(SlavePhase::kBackOff, status().phase);
+    while (now < asked + 3s) {
+      startCycle();
+      cycleEnds();
+      advance(50ms);
+    }
+    advance(1s);
+    isFree();
+  }
+
+ private:
+  static SlaveConfig module() {
+    SlaveConfig slave = nordModule(8);
+    slave.watchdog = 3s;
+    return slave;
+  }
+};
+
 TEST(Refusals, ALongWatchdogIsWaitedFor) {
-  SlaveConfig slave = nordModule(8);
-  slave.watchdog = 3s;
-  NordWire wire{quietBus(), slave};
-  wire.isFound();
-  wire.isFree();
-  wire.cycle("68 0C 0C 68 88 81 5D 3D 3E 88 96 02 0B 75 31 00 B2 16", kShortAcknowledge);
-  wire.takesConfiguration();
-  wire.cycle(kDiag5D, kReady);
+  LongWatchdog wire;
   refuses(wire, kExchange7D, kRr, kDiag5D);
   refuses(wire, kExchange7D, kRr, kDiag5D);  // without a limit, the second is the last
-  const Instant asked = wire.now;
-  EXPECT_EQ(SlavePhase::kBackOff, wire.status().phase);
-  while (wire.now < asked + 3s) {
-    wire.startCycle();
-    wire.cycleEnds();
-    wire.advance(50ms);
+  wire.isLeftToItsWatchdog();
+}
+
+// Its PPO type was changed in operation (a telegram of another length, with its checksum), or E5 comes again and again:
+// the stop words go out for as long as to a silent one.
+TEST(OtherAnswers, ThatLastAreALossAndTheWatchdogIsWaitedFor) {
+  for (const char* answer : {"68 07 07 68 01 08 08 0B 31 00 00 4D 16", "E5"}) {
+    SCOPED_TRACE(answer);
+    LongWatchdog wire;
+    wire.master.setSilenceLimit(0, 90ms);
+    wire.cycle(kExchange7D, kInputs);
+    const Instant taken = wire.now;
+    wire.answersOtherwise(kExchange5D, answer);
+    for (int i = 0; wire.status().phase == SlavePhase::kDataExchange; ++i) {
+      ASSERT_LT(i, 20) << "the exchange goes on for ever";
+      wire.tellsNothing();
+      wire.answersOtherwise(kExchange6D, answer);
+    }
+    EXPECT_GE(wire.now - taken, 90ms);
+    EXPECT_LE(wire.now - taken, 160ms);
+    EXPECT_EQ(LossCause::kWrongAnswers, wire.tells(DpEventKind::kSlaveLost).cause);
+    EXPECT_NE(std::string::npos, std::string{wire.tells(DpEventKind::kConfigurationFault).text}.find("another length"));
+    wire.isLeftToItsWatchdog();
   }
-  wire.advance(1s);
-  wire.isFree();
+}
+
+TEST(OtherAnswers, ThatPassAreNone) {
+  LongWatchdog wire;
+  wire.master.setSilenceLimit(0, 90ms);
+  wire.cycle(kExchange7D, kInputs);
+  wire.answersOtherwise(kExchange5D, "68 07 07 68 01 08 08 0B 31 00 00 4D 16");
+  EXPECT_FALSE(wire.status().exchanged_this_cycle);
+  EXPECT_NE(std::string::npos, std::string{wire.status().note}.find("another length"));
+  wire.cycle(kExchange6D, kInputs);
+  EXPECT_TRUE(wire.status().exchanged_this_cycle);
+  EXPECT_STREQ("", wire.status().note);
+  wire.tellsNothing();
+}
+
+// Cfg_Fault, Prm_Fault, another ident number; owner 1, no Prm_Req: it exchanges data with us still.
+TEST(FaultsInExchange, OfASlaveThatIsOursStillLeaveItToItsWatchdog) {
+  for (const char* diagnosis :
+       {"68 0B 0B 68 81 88 08 3E 3C 04 0C 00 01 75 31 42 16", "68 0B 0B 68 81 88 08 3E 3C 40 0C 00 01 75 31 7E 16",
+        "68 0B 0B 68 81 88 08 3E 3C 00 0C 00 01 0B A8 4B 16"}) {
+    SCOPED_TRACE(diagnosis);
+    LongWatchdog wire;
+    wire.isDiagnosed(diagnosis);
+    wire.tells(DpEventKind::kSlaveLost);
+    wire.isLeftToItsWatchdog();
+  }
+}
+
+// Cfg_Fault with Prm_Req, with no owner, or with both: it has left data exchange, and no watchdog runs.
+TEST(FaultsInExchange, OfASlaveThatLeftNeedNoWatchdog) {
+  for (const char* diagnosis :
+       {"68 0B 0B 68 81 88 08 3E 3C 06 05 00 01 75 31 3D 16", "68 0B 0B 68 81 88 08 3E 3C 04 0C 00 FF 75 31 40 16",
+        "68 0B 0B 68 81 88 08 3E 3C 06 05 00 FF 75 31 3B 16"}) {
+    SCOPED_TRACE(diagnosis);
+    LongWatchdog wire;
+    wire.isDiagnosed(diagnosis);
+    wire.tells(DpEventKind::kSlaveLost);
+    wire.tells(DpEventKind::kConfigurationFault);
+    wire.advance(250ms);
+    wire.isFree();
+  }
 }
 
 // The line is opened anew meanwhile: the outputs it has may be the last it took.
