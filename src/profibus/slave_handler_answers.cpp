@@ -14,6 +14,9 @@ using namespace std::chrono_literals;
 // after the limit it gets its parameters anew, because it may have lost them.
 constexpr Duration kAskOften = 1s;
 constexpr Duration kAskRarely = 250ms;
+// Set_Prm has started its watchdog, and until data exchange nothing but Slave_Diag feeds it. The next one comes up to a
+// cycle late, which is half of that time at most.
+constexpr int kAskedPerWatchdog = 3;
 constexpr Duration kReadyLimit = 5s;
 constexpr Duration kOwnerLimit = 500ms;
 // What a slave's clock may be behind ours when its watchdog is waited for.
@@ -243,7 +246,10 @@ void SlaveHandler::judgeReady(Instant now, DpEvents& events) noexcept {
     return backOff({DpEventKind::kNotReady, texts::kNotReady}, now, events);
   }
   status_.note = diagnosis.staticDiagnosis() ? texts::kNoValidData : texts::kWaiting;
-  if (timers_.isOver(Timer::kAskOften, now)) timers_.set(Timer::kNextRequest, now + kAskRarely);
+  if (timers_.isRunning(Timer::kAskOften, now)) return;
+  const bool watched = config_.watchdog > Duration::zero();
+  const Duration pause = watched ? std::min(kAskRarely, config_.watchdog / kAskedPerWatchdog) : kAskRarely;
+  timers_.set(Timer::kNextRequest, last_request_ + pause);
 }
 
 void SlaveHandler::judgeInExchange(Instant now, DpEvents& events) noexcept {

@@ -162,31 +162,91 @@ TEST(Faults, RefusedService) {
   backsOff(wire, 500ms);
 }
 
-// A slave that does not become ready is asked more and more rarely, and gets its parameters anew after 5 s.
-TEST(Faults, NeverReady) {
-  NordWire wire;
-  wire.isFound();
-  wire.isFree();
-  wire.takesParameters();
-  wire.takesConfiguration();
-  wire.forgetEvents();
-  const Instant begin = wire.now;
-  int asked = 0;
-  while (wire.status().phase == SlavePhase::kAwaitReady && wire.now < begin + 10s) {
-    const Instant start = wire.now;
-    wire.startCycle();
-    if (!wire.master.cycleDone()) {
-      wire.sends(asked % 2 == 0 ? kDiag5D : kDiag7D);
-      wire.receives("68 0B 0B 68 81 88 08 3E 3C 02 0C 00 01 75 31 40 16");
+constexpr const char* kNotReady = "68 0B 0B 68 81 88 08 3E 3C 02 0C 00 01 75 31 40 16";
+constexpr const char* kStatDiag = "68 0B 0B 68 81 88 08 3E 3C 00 0E 00 01 75 31 40 16";
+
+/// Parameterised and configured; `set_prm` carries the factors of `watchdog`.
+class AwaitReady : public NordWire {
+ public:
+  AwaitReady(Duration watchdog, const char* set_prm) : NordWire(quietBus(), module(watchdog)) {
+    isFound();
+    isFree();
+    cycle(set_prm, kShortAcknowledge);
+    takesConfiguration();
+    forgetEvents();
+  }
+  /// One cycle of at least `period`; where it asks for the diagnosis, `answer()` is what comes.
+  template <typename Answer>
+  void cycleOf(Duration period, Answer&& answer) {
+    const Instant start = now;
+    startCycle();
+    if (!master.cycleDone()) {
+      sends(asked % 2 == 0 ? kDiag5D : kDiag7D);
+      receives(answer());
       ++asked;
     }
-    wire.now = std::max(wire.now, start + 50ms);
+    now = std::max(now, start + period);
+  }
+
+  int asked = 0;
+
+ private:
+  static SlaveConfig module(Duration watchdog) {
+    SlaveConfig slave = nordModule(8);
+    slave.watchdog = watchdog;
+    return slave;
+  }
+};
+
+// A slave that does not become ready gets its parameters anew after 5 s. Until then it is asked once per cycle for 1 s,
+// then every 250 ms.
+TEST(Faults, NeverReady) {
+  AwaitReady wire{3s, "68 0C 0C 68 88 81 5D 3D 3E 88 96 02 0B 75 31 00 B2 16"};
+  const Instant begin = wire.now;
+  while (wire.status().phase == SlavePhase::kAwaitReady && wire.now < begin + 10s) {
+    wire.cycleOf(50ms, [] { return kNotReady; });
   }
   EXPECT_EQ(SlavePhase::kBackOff, wire.status().phase);
   EXPECT_NEAR(5.0, toSeconds(wire.now - begin), 0.3);
-  EXPECT_LT(asked, 45);
-  EXPECT_GT(asked, 30);
+  EXPECT_LT(wire.asked, 45);
+  EXPECT_GT(wire.asked, 30);
   wire.tells(DpEventKind::kNotReady);
+}
+
+// A third of a watchdog of 100 ms is shorter than the cycle of 50 ms: asked in every one of them.
+TEST(Faults, NeverReadyWithAShortWatchdog) {
+  AwaitReady wire{100ms, kSetPrm5D};
+  const Instant begin = wire.now;
+  while (wire.status().phase == SlavePhase::kAwaitReady && wire.now < begin + 10s) {
+    wire.cycleOf(50ms, [] { return kNotReady; });
+  }
+  EXPECT_EQ(SlavePhase::kBackOff, wire.status().phase);
+  EXPECT_NEAR(5.0, toSeconds(wire.now - begin), 0.1);
+  EXPECT_NEAR(100, wire.asked, 2);
+  wire.tells(DpEventKind::kNotReady);
+}
+
+// It needs 2 s. Set_Prm has started its watchdog of 200 ms: where nobody asks it for as long, it wants its parameters
+// again, and the inverter has tripped.
+TEST(Faults, NoneOfASlaveThatTakesItsTimeToBecomeReady) {
+  for (const char* waiting : {kNotReady, kStatDiag}) {
+    SCOPED_TRACE(waiting);
+    AwaitReady wire{200ms, "68 0C 0C 68 88 81 5D 3D 3E 88 14 01 0B 75 31 00 2F 16"};
+    const Instant begin = wire.now;
+    Instant heard = wire.now;
+    bool ran_out = false;
+    while (wire.status().phase == SlavePhase::kAwaitReady && wire.now < begin + 10s) {
+      wire.cycleOf(20ms, [&] {
+        ran_out = ran_out || wire.now - heard >= 200ms;
+        heard = wire.now;
+        return ran_out ? kWantsPrm : wire.now < begin + 2s ? waiting : kReady;
+      });
+    }
+    EXPECT_EQ(SlavePhase::kDataExchange, wire.status().phase);
+    EXPECT_LT(wire.asked, 80) << "rarely is not in every cycle";
+    wire.tells(DpEventKind::kDataExchangeEntered);
+    wire.tellsNothing();
+  }
 }
 
 // Prm_Req that stays after Set_Prm: the slave lost its parameters; asked again soon, with a pause.
