@@ -20,6 +20,7 @@ class Diagnosis {
   bool notReady() const noexcept { return bit(0, 0x02); }            ///< Station_not_ready
   bool configurationFault() const noexcept { return bit(0, 0x04); }  ///< Cfg_Fault
   bool extended() const noexcept { return bit(0, 0x08); }            ///< Ext_Diag
+  bool notSupported() const noexcept { return bit(0, 0x10); }        ///< Not_Supported: Set_Prm asks for what it lacks
   bool parameterFault() const noexcept { return bit(0, 0x40); }      ///< Prm_Fault
   bool parameterRequest() const noexcept { return bit(1, 0x01); }    ///< Prm_Req: wants to be parameterised anew
   bool staticDiagnosis() const noexcept { return bit(1, 0x02); }     ///< Stat_Diag: has no valid data for the moment

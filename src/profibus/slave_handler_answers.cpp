@@ -157,7 +157,10 @@ void SlaveHandler::onConfiguration(const FdlAnswer& answer, Instant now, DpEvent
 }
 
 void SlaveHandler::onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {
-  if (answer.kind != FdlAnswer::Kind::kAcknowledge) {
+  // A slave that refuses Set_Prm acknowledges it with SC, waits for other parameters, and answers Chk_Cfg with RS there.
+  const bool not_activated = answer.kind == FdlAnswer::Kind::kRefusal && answer.code == ResponseCode::kNotActivated;
+  const bool parameters_refused = asked_ == Service::kChkCfg && not_activated;
+  if (answer.kind != FdlAnswer::Kind::kAcknowledge && !parameters_refused) {
     return backOff({DpEventKind::kServiceRefused, texts::kServiceRefused}, now, events);
   }
   if (asked_ == Service::kSetPrm) {
@@ -165,7 +168,7 @@ void SlaveHandler::onAcknowledge(const FdlAnswer& answer, Instant now, DpEvents&
     status_.phase = SlavePhase::kConfiguration;
     return;
   }
-  // That SC came says nothing about the content: the next diagnosis does.
+  // Neither SC nor RS says anything about the content: the next diagnosis does.
   status_.phase = SlavePhase::kAwaitReady;
   timers_.set(Timer::kAskOften, now + kAskOften);
   timers_.set(Timer::kOwnerLimit, now + kOwnerLimit);
@@ -221,7 +224,9 @@ std::optional<SlaveHandler::Fault> SlaveHandler::strangerIn(const Diagnosis& dia
 
 std::optional<SlaveHandler::Fault> SlaveHandler::faultIn(const Diagnosis& diagnosis) const noexcept {
   if (const auto stranger = strangerIn(diagnosis)) return stranger;
-  if (diagnosis.parameterFault()) return Fault{DpEventKind::kParameterFault, texts::kPrmFault};
+  if (diagnosis.parameterFault()) {
+    return Fault{DpEventKind::kParameterFault, diagnosis.notSupported() ? texts::kPrmNotSupported : texts::kPrmFault};
+  }
   if (diagnosis.configurationFault()) return Fault{DpEventKind::kConfigurationFault, texts::kCfgFault};
   return std::nullopt;
 }

@@ -25,6 +25,9 @@ constexpr const char* kWrongIdent = "is another device than configured: its iden
 constexpr const char* kLocked = "is locked by another master";
 constexpr const char* kPrmFault =
     "refuses its parameters (Prm_Fault): the ident number, the user parameters or the watchdog do not suit it";
+constexpr const char* kPrmNotSupported =
+    "refuses its parameters (Prm_Fault, Not_Supported): they ask for what it does not know, such as SYNC or FREEZE "
+    "(bus/sync, bus/freeze)";
 constexpr const char* kCfgFault =
     "refuses its configuration (Cfg_Fault): the PPO type or module list set at the device differs from the configured "
     "one";

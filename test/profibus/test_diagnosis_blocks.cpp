@@ -74,7 +74,8 @@ TEST(Diagnosis, OfAStationThatWasNotAsked) {
   EXPECT_EQ(0u, none.extendedBytes().size());
 }
 
-// Bit by bit (EN 50170-8, Slave_Diag): station_not_ready, Cfg_Fault, Ext_Diag, Prm_Fault; Prm_Req, Stat_Diag, WD_On.
+// Bit by bit (EN 50170-8, Slave_Diag): station_not_ready, Cfg_Fault, Ext_Diag, Not_Supported, Prm_Fault; Prm_Req,
+// Stat_Diag, WD_On.
 TEST(Diagnosis, EachBitIsOneFinding) {
   const auto found = [](const char* hex) {
     const auto diagnosis = Diagnosis::from(fromHex(hex));
@@ -83,6 +84,7 @@ TEST(Diagnosis, EachBitIsOneFinding) {
     if (diagnosis->notReady()) text += "not ready ";
     if (diagnosis->configurationFault()) text += "configuration ";
     if (diagnosis->extended()) text += "extended ";
+    if (diagnosis->notSupported()) text += "not supported ";
     if (diagnosis->parameterFault()) text += "parameters ";
     if (diagnosis->parameterRequest()) text += "request ";
     if (diagnosis->staticDiagnosis()) text += "static ";
@@ -92,11 +94,12 @@ TEST(Diagnosis, EachBitIsOneFinding) {
   EXPECT_EQ("not ready ", found("02 00 00 01 75 31"));
   EXPECT_EQ("configuration ", found("04 00 00 01 75 31"));
   EXPECT_EQ("extended ", found("08 00 00 01 75 31"));
+  EXPECT_EQ("not supported ", found("10 00 00 01 75 31"));
   EXPECT_EQ("parameters ", found("40 00 00 01 75 31"));
   EXPECT_EQ("request ", found("00 01 00 01 75 31"));
   EXPECT_EQ("static ", found("00 02 00 01 75 31"));
   EXPECT_EQ("watchdog ", found("00 08 00 01 75 31"));
-  EXPECT_EQ("", found("B1 F4 FF 01 75 31")) << "none of the others";
+  EXPECT_EQ("", found("A1 F4 FF 01 75 31")) << "none of the others";
 }
 
 TEST(DiagnosisBlocks, ChannelErrors) {

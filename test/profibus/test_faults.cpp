@@ -74,6 +74,44 @@ TEST(Faults, RefusedParameters) {
   wire.takesParameters();
 }
 
+// It acknowledges Set_Prm, waits for others, and answers Chk_Cfg with RS there. Not_Supported names SYNC and FREEZE.
+TEST(Faults, RefusedParametersAreNamedWhereChkCfgIsRefused) {
+  struct {
+    const char* diagnosis;
+    const char* word;
+  } const kCases[] = {{"68 0B 0B 68 81 88 08 3E 3C 42 05 00 FF 75 31 77 16", "Prm_Fault"},
+                      {"68 0B 0B 68 81 88 08 3E 3C 52 05 00 FF 75 31 87 16", "SYNC"}};
+  for (const auto& example : kCases) {
+    NordWire wire;
+    wire.isFound();
+    wire.isFree();
+    wire.takesParameters();
+    wire.cycle(kChkCfg7D, kNotActivated);
+    wire.forgetEvents();
+    wire.cycle(kDiag5D, example.diagnosis);
+    EXPECT_NE(nullptr, std::strstr(wire.tells(DpEventKind::kParameterFault).text, example.word));
+    EXPECT_NE(nullptr, std::strstr(wire.status().note, example.word));
+    EXPECT_EQ(1u, wire.status().counters.refusals);
+    backsOff(wire, 250ms);
+  }
+}
+
+// No fault in its diagnosis: its watchdog ran out, or it was switched off and on, between Set_Prm and Chk_Cfg.
+TEST(Faults, AChkCfgRefusedWithoutAFaultIsForgottenParameters) {
+  NordWire wire;
+  wire.isFound();
+  wire.isFree();
+  wire.takesParameters();
+  wire.cycle(kChkCfg7D, kNotActivated);
+  wire.forgetEvents();
+  wire.cycle(kDiag5D, kWantsPrm);
+  wire.tellsNothing();
+  wire.advance(500ms);
+  wire.cycle(kDiag7D, kWantsPrm);
+  EXPECT_NE(nullptr, std::strstr(wire.tells(DpEventKind::kNotReady).text, "Prm_Req"));
+  backsOff(wire, 250ms);
+}
+
 TEST(Faults, RefusedConfiguration) {
   NordWire wire;
   wire.isFound();

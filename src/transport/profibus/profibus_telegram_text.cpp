@@ -59,6 +59,7 @@ std::string diagnosisText(ByteView data) {
   };
   add(diagnosis->notReady(), "not ready");
   add(diagnosis->configurationFault(), "Cfg_Fault");
+  add(diagnosis->notSupported(), "Not_Supported");
   add(diagnosis->parameterFault(), "Prm_Fault");
   add(diagnosis->parameterRequest(), "Prm_Req");
   add(diagnosis->staticDiagnosis(), "Stat_Diag");

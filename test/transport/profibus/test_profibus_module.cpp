@@ -30,6 +30,7 @@ class OnAModule : public ::testing::Test {
       auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
       settings->set("address", 3).set("series", "sk2xxe").set("pole_pairs", 2).set("ppo_type", ppo_types[i]);
       settings->set("inverter", static_cast<int>(i + 1)).set("io_byte", io_byte);
+      if (!user_parameters_.empty()) settings->set("user_parameters", user_parameters_.c_str());
       drives.push_back({name, settings});
       sim::DriveConfig drive;
       drive.name = name;
@@ -86,6 +87,7 @@ class OnAModule : public ::testing::Test {
   }
 
   MapSettings bus_{"~bus/"};
+  std::string user_parameters_;
   sim::SimulatedSegment* segment_ = nullptr;
   std::unique_ptr<ProfibusDpTransport> transport_;
   std::vector<profile::ProcessOutput> outputs_;
@@ -232,6 +234,16 @@ TEST_F(OnAModule, AnotherModuleThanConfiguredIsNamed) {
       "(SK CU4/TU4-PBR)";
   EXPECT_EQ(words, transport_->note(0).text);
   EXPECT_THAT(events_, Contains("PROFIBUS station 3 (fi1) " + words));
+}
+
+// One byte of the three that DP-V1 has: the module refuses Set_Prm, which it acknowledges, and then Chk_Cfg.
+TEST_F(OnAModule, RefusedParametersAreNamed) {
+  user_parameters_ = "80";
+  open({1});
+  run(seconds{1});
+  EXPECT_THAT(transport_->note(0).text, HasSubstr("Prm_Fault"));
+  EXPECT_THAT(events_, Contains(HasSubstr("PROFIBUS station 3 (fi1) refuses its parameters (Prm_Fault)")));
+  EXPECT_EQ("no rule broken", segment_->referee().report());
 }
 
 TEST_F(OnAModule, TellsWhatHappensOnTheBus) {

@@ -94,6 +94,8 @@ TEST(ProfibusTelegramText, NamesTheServicesOfTheStartUp) {
   EXPECT_EQ("Slave_Diag 3 <- 1", textOf("68 05 05 68 83 81 6D 3C 3E EB 16"));
   EXPECT_EQ("diag 1 <- 3 ident 7531, no owner, not ready, Prm_Req",
             textOf("68 0B 0B 68 81 83 08 3E 3C 02 05 00 FF 75 31 32 16"));
+  EXPECT_EQ("diag 1 <- 3 ident 7531, no owner, not ready, Not_Supported, Prm_Fault, Prm_Req",
+            textOf("68 0B 0B 68 81 83 08 3E 3C 52 05 00 FF 75 31 82 16"));
   EXPECT_EQ("Chk_Cfg 3 <- 1 F3 F1", textOf("68 07 07 68 83 81 5D 3E 3E F3 F1 C1 16"));
   EXPECT_EQ("Global_Control 127 <- 1 00 00", textOf("68 07 07 68 FF 81 46 3A 3E 00 00 3E 16"));
   EXPECT_EQ("acknowledge", textOf("E5", TraceKind::kReceived));
