@@ -183,9 +183,10 @@ void SlaveHandler::startOver(const char* note) noexcept {
 }
 
 void SlaveHandler::enterDataExchange(DpEvents& events) noexcept {
+  // Gone on with after a silence: what stood before it need not stand still, and what was announced meanwhile, or before
+  // without being heard, is not announced again.
+  diagnosis_due_ = resuming_ || status_.diagnosis.staticDiagnosis();
   resuming_ = false;
-  // Gone on with after a silence: what stood before it need not stand still, and nobody else asks.
-  diagnosis_due_ = status_.diagnosis.staticDiagnosis();
   status_.phase = SlavePhase::kDataExchange;
   status_.note = "";
   events.push(event(DpEventKind::kDataExchangeEntered, ""));

@@ -63,6 +63,17 @@ class NordWire : public Wire {
   void isFree() { cycle(kDiag6D, kWantsPrm); }
   void takesParameters() { cycle(kSetPrm5D, kShortAcknowledge); }
   void takesConfiguration() { cycle(kChkCfg7D, kShortAcknowledge); }
+  /// Found before its watchdog has run out: it hears the next word, and is asked for its diagnosis. The next exchange
+  /// carries FC 7D.
+  void isGoneOnWith(const std::string& diagnosis = kReady, const char* file = __builtin_FILE(),
+                    int line = __builtin_LINE()) {
+    startCycle();
+    sends(kExchange6D, file, line);
+    receives(kInputs);
+    sends(kDiag5D, file, line);
+    receives(diagnosis);
+    cycleEnds(file, line);
+  }
   /// The whole start-up; the next exchange carries FC 7D.
   void startsUp() {
     isFound();

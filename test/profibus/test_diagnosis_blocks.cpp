@@ -163,5 +163,34 @@ TEST(InverterLink, IsUnknownOfALostModule) {
   EXPECT_FALSE(wire.status().inverterLinkBroken());
 }
 
+// DH announced it, Slave_Diag was not answered, and the module fell silent. Found again it announces nothing: it has said
+// so once.
+TEST(InverterLink, IsAskedForWhereTheModuleIsGoneOnWith) {
+  NordWire wire;
+  wire.master.setSilenceLimit(0, std::chrono::milliseconds{50});
+  wire.startsUp();
+  wire.startCycle();
+  wire.sends(kExchange7D);
+  wire.receives(kInputsDh);
+  for (int i = 0; i < 2; ++i) {
+    wire.sends(kDiag5D);
+    wire.staysSilent();
+  }
+  wire.cycleEnds();
+  while (wire.status().phase == SlavePhase::kDataExchange) {
+    wire.startCycle();
+    for (int i = 0; i < 2; ++i) {
+      wire.sends(kExchange6D);
+      wire.staysSilent();
+    }
+    wire.cycleEnds();
+  }
+  EXPECT_EQ(LossCause::kSilence, wire.tells(DpEventKind::kSlaveLost).cause);
+  wire.isFound();
+  wire.isGoneOnWith("68 0D 0D 68 81 88 08 3E 3C 08 0C 00 01 75 31 02 04 4C 16");
+  EXPECT_TRUE(wire.status().inverterLinkBroken());
+  wire.cycle(kExchange7D, kInputs);
+}
+
 }  // namespace
 }  // namespace nord_driver::profibus

@@ -48,10 +48,10 @@ TEST(Loss, FoundInTimeItHearsTheNextWordAtOnce) {
   wire.isFound();
   wire.tells(DpEventKind::kSlaveFound);
   EXPECT_FALSE(wire.status().exchanged_this_cycle);
-  wire.cycle(kExchange6D, kInputs);
+  wire.isGoneOnWith();
   EXPECT_TRUE(wire.status().exchanged_this_cycle);
   wire.tells(DpEventKind::kDataExchangeEntered);
-  wire.cycle(kExchange5D, kInputs);
+  wire.cycle(kExchange7D, kInputs);
   wire.tellsNothing();
   EXPECT_EQ(1u, wire.status().counters.losses);
 }
@@ -69,12 +69,7 @@ TEST(Loss, FoundInTimeItIsAskedForAStandingStatDiag) {
   wire.cycleEnds();
   loses(wire, kExchange7D);
   wire.isFound();
-  wire.startCycle();
-  wire.sends(kExchange6D);
-  wire.receives(kInputs);
-  wire.sends(kDiag5D);
-  wire.receives(kReady);
-  wire.cycleEnds();
+  wire.isGoneOnWith();
   wire.cycle(kExchange7D, kInputs);
   EXPECT_TRUE(wire.status().exchanged_this_cycle);
 }

@@ -22,19 +22,10 @@ void fallsSilent(RecordWire& wire) {
   EXPECT_EQ(LossCause::kSilence, wire.tells(DpEventKind::kSlaveLost).cause);
 }
 
-void isGoneOnWith(RecordWire& wire) {
+void isFoundAndGoneOnWith(RecordWire& wire) {
   wire.isFound();
-  wire.cycle(kExchange6D, kInputs);
+  wire.isGoneOnWith(kReady0ba8);
   EXPECT_EQ(SlavePhase::kDataExchange, wire.status().phase);
-}
-
-void cycle5D(RecordWire& wire, const char* request, const char* answer) {
-  wire.startCycle();
-  wire.sends(kExchange5D);
-  wire.receives(kInputs);
-  wire.sends(request);
-  wire.receives(answer);
-  wire.cycleEnds();
 }
 
 /// Asked for a record, which it takes; then it is not heard for a moment.
@@ -49,12 +40,12 @@ void isAskedAndFallsSilent(RecordWire& wire) {
 TEST(ResumedRecords, TheResponseThatWaitsIsFetchedFirst) {
   RecordWire wire;
   ASSERT_NO_FATAL_FAILURE(isAskedAndFallsSilent(wire));
-  isGoneOnWith(wire);
+  isFoundAndGoneOnWith(wire);
 
   ASSERT_TRUE(wire.master.submitRecord(0, readAnswer()));
-  cycle5D(wire, kPoll7C, kReadResponse);
+  wire.cycleWith(kPoll5C, kReadResponse);
   EXPECT_FALSE(wire.master.pollRecord()) << "that was the answer to the one before";
-  cycle5D(wire, kReadRequest7C, kReadResponse2);
+  wire.cycleWith(kReadRequest, kReadResponse2);
   const RecordResult result = wire.result();
   EXPECT_EQ(RecordOutcome::kDone, result.outcome);
   EXPECT_EQ("15 E4 00 00 00 00 00 02", toHex(result.data));
@@ -64,14 +55,14 @@ TEST(ResumedRecords, TheResponseThatWaitsIsFetchedFirst) {
 TEST(ResumedRecords, AResponseInTheMakingIsWaitedFor) {
   RecordWire wire;
   ASSERT_NO_FATAL_FAILURE(isAskedAndFallsSilent(wire));
-  isGoneOnWith(wire);
+  isFoundAndGoneOnWith(wire);
 
   ASSERT_TRUE(wire.master.submitRecord(0, readAnswer()));
-  cycle5D(wire, kPoll7C, "E5");
-  cycle5D(wire, kPoll7C, "E5");
+  wire.cycleWith(kPoll5C, "E5");
+  wire.cycleWith(kPoll5C, "E5");
   wire.advance(500ms);  // C1_Response_Timeout
-  cycle5D(wire, kPoll7C, "E5");
-  cycle5D(wire, kReadRequest7C, kReadResponse2);
+  wire.cycleWith(kPoll5C, "E5");
+  wire.cycleWith(kReadRequest, kReadResponse2);
   EXPECT_EQ(RecordOutcome::kDone, wire.result().outcome);
 }
 

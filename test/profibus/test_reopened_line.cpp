@@ -23,7 +23,7 @@ TEST(ReopenedLine, ASlaveWhoseWatchdogRunsHearsTheNextWordFirst) {
   wire.tellsNothing();
   wire.isFound();
   EXPECT_FALSE(wire.status().exchanged_this_cycle);
-  wire.cycle(kExchange6D, kInputs);
+  wire.isGoneOnWith();
   EXPECT_TRUE(wire.status().exchanged_this_cycle);
   EXPECT_EQ(1u, wire.status().counters.losses);
 }
@@ -40,7 +40,7 @@ TEST(ReopenedLine, TheRequestUnderWayMayHaveBeenHeard) {
   wire.advance(60ms);
   wire.restart();
   wire.isFound();
-  wire.cycle(kExchange6D, kInputs);
+  wire.isGoneOnWith();
   EXPECT_TRUE(wire.status().exchanged_this_cycle);
 }
 
@@ -60,8 +60,13 @@ TEST(ReopenedLine, TheFirstWordStartsTheWatchdogAnew) {
   wire.advance(60ms);
   wire.restart();
   wire.isFound();
-  wire.cycle(kExchange6D, kInputs);
+  wire.startCycle();
+  wire.sends(kExchange6D);
+  wire.receives(kInputs);
   EXPECT_LT(wire.now - sent, 110ms);
+  wire.sends(kDiag5D);
+  wire.receives(kReady);
+  wire.cycleEnds();
   EXPECT_TRUE(wire.status().exchanged_this_cycle);
 }
 
