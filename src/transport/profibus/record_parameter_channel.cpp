@@ -18,6 +18,27 @@ Word shifted(Word pke, bool down) noexcept {
   return static_cast<Word>((pke & ~kPnuMask) | (moved & kPnuMask));
 }
 
+unsigned numberIn(const profile::PkwWords& words) noexcept {
+  return words[0] & kPnuMask;
+}
+unsigned answerLabelIn(const profile::PkwWords& words) noexcept {
+  return unsigned{words[0]} >> 12;
+}
+
+/// An error by its parameter alone: no manual says whether it carries the index of its order.
+bool mayAnswer(const profile::PkwWords& order, const profile::PkwWords& answer) noexcept {
+  if (numberIn(order) != numberIn(answer)) return false;
+  return answerLabelIn(answer) == static_cast<unsigned>(profile::AnswerLabel::kError) || order[1] == answer[1];
+}
+
+std::optional<profile::PkwWords> recordWords(ByteView data) noexcept {
+  if (data.size() != kLength) return std::nullopt;
+  ByteReader reader{data};
+  profile::PkwWords words{};
+  for (Word& word : words) word = reader.u16be();
+  return words;
+}
+
 }  // namespace
 
 RecordParameterChannel::RecordParameterChannel(std::uint8_t unit, RecordAddressing addressing, Duration answer_timeout)
@@ -35,23 +56,38 @@ std::optional<profibus::RecordRequest> RecordParameterChannel::pollRecord(Instan
   order_ = pkw_.pollWords(now);
   if (order_ == profile::PkwWords{}) {
     // Between two orders: the others' turn. Nothing stands in a unit that is written to once: the pause is over at
-    // once.
-    written_ = {};
+    // once, and where the next order needs one, takes its own.
+    step_ = Step::kPause;
     pkw_.handleWords({}, now);
     return std::nullopt;
   }
+  if (step_ == Step::kPause) step_ = mayBeMistaken() ? Step::kTakeBack : Step::kWrite;
+  under_way_ = true;
+  forgotten_ = false;
+  return nextRecord();
+}
+
+profibus::RecordRequest RecordParameterChannel::nextRecord() noexcept {
   profibus::RecordRequest request = address();
-  request.write = order_ != written_;
-  if (request.write) {
+  request.write = step_ == Step::kTakeBack || step_ == Step::kWrite;
+  if (step_ == Step::kWrite) {
+    unanswered_ = order_;
     ByteWriter<profibus::kMaxRecordLength> writer{request.data};
     writer.u16be(addressing_.number_offset ? order_[0] : shifted(order_[0], true));
     for (std::size_t i = 1; i < order_.size(); ++i) writer.u16be(order_[i]);
+  } else if (request.write) {
+    request.data.resize(kLength);
   } else {
     request.length = kLength;
   }
-  under_way_ = true;
-  forgotten_ = false;
   return request;
+}
+
+// Equal orders, a read of what was written, and every order for a parameter whose last answer was an error; the answer
+// to an order that was given up may come still.
+bool RecordParameterChannel::mayBeMistaken() const noexcept {
+  const bool awaited = unanswered_ != profile::PkwWords{} && numberIn(unanswered_) == numberIn(order_);
+  return awaited || mayAnswer(order_, last_answer_);
 }
 
 void RecordParameterChannel::handleRecord(const profibus::RecordResult& result, Instant now,
@@ -60,18 +96,9 @@ void RecordParameterChannel::handleRecord(const profibus::RecordResult& result, 
   if (forgotten_) return;
   switch (result.outcome) {
     case profibus::RecordOutcome::kDone:
-      if (result.write) {
-        written_ = order_;
-      } else {
-        handleAnswer(result.data, now);
-      }
-      return;
+      return handleDone(result.data, now);
     case profibus::RecordOutcome::kRefused:
-      if (result.error.isBusy()) {  // not taken: the same once more, until the time for an answer is over
-        pkw_.explainWait(refusalText(result.error));
-        return;
-      }
-      pkw_.handleRefusal(reasonOf(result.error), refusalText(result.error));
+      if (handleRefusal(result.error)) return;
       break;
     case profibus::RecordOutcome::kTimedOut:
       pkw_.handleFailure(profile::ParameterOutcome::kTimeout,
@@ -100,21 +127,73 @@ void RecordParameterChannel::handleRecord(const profibus::RecordResult& result, 
       }
       break;
   }
-  written_ = {};
+  step_ = Step::kPause;
+}
+
+/// True when it goes on all the same.
+bool RecordParameterChannel::handleRefusal(const profibus::RecordError& error) noexcept {
+  if (step_ == Step::kWrite) unanswered_ = {};
+  if (error.isBusy()) {  // not taken: the same once more, until the time for an answer is over
+    pkw_.explainWait(refusalText(error));
+    return true;
+  }
+  if (step_ == Step::kTakeBack) {  // no manual says that "no order" is taken in a record: the order itself is
+    forgetAnswers();
+    step_ = Step::kWrite;
+    return true;
+  }
+  pkw_.handleRefusal(reasonOf(error), refusalText(error));
+  return false;
+}
+
+void RecordParameterChannel::handleDone(ByteView data, Instant now) noexcept {
+  switch (step_) {
+    case Step::kPause:
+      break;
+    case Step::kTakeBack:
+      step_ = Step::kAwaitNone;
+      pkw_.explainWait("DP-V1: the answer to the order before is repeated, though there is no order any more (AK 0)");
+      break;
+    case Step::kAwaitNone:
+      handleNone(data);
+      break;
+    case Step::kWrite:
+      step_ = Step::kRead;
+      break;
+    case Step::kRead:
+      handleAnswer(data, now);
+      break;
+  }
+}
+
+// "No answer", or an error that names no parameter: it is the one to "no order".
+void RecordParameterChannel::handleNone(ByteView data) noexcept {
+  const auto words = recordWords(data);
+  if (!words) return;  // read again
+  const bool none = answerLabelIn(*words) == static_cast<unsigned>(profile::AnswerLabel::kNone);
+  if (!none && numberIn(*words) != 0) return;
+  forgetAnswers();
+  pkw_.explainWait({});
+  step_ = Step::kWrite;
 }
 
 void RecordParameterChannel::handleAnswer(ByteView data, Instant now) noexcept {
-  if (data.size() != kLength) return;  // no answer: read again
-  ByteReader reader{data};
-  profile::PkwWords words{};
-  for (Word& word : words) word = reader.u16be();
-  if (!addressing_.number_offset && words[0] != 0) words[0] = shifted(words[0], false);
-  pkw_.handleWords(words, now);
+  auto words = recordWords(data);
+  if (!words) return;  // no answer: read again
+  if (!addressing_.number_offset && (*words)[0] != 0) (*words)[0] = shifted((*words)[0], false);
+  last_answer_ = *words;
+  if (mayAnswer(unanswered_, last_answer_)) unanswered_ = {};
+  pkw_.handleWords(*words, now);
+}
+
+void RecordParameterChannel::forgetAnswers() noexcept {
+  last_answer_ = {};
+  unanswered_ = {};
 }
 
 void RecordParameterChannel::handleOffline(Instant now) noexcept {
   pkw_.handleOffline(now);
-  written_ = {};
+  step_ = Step::kPause;
   forgotten_ = under_way_;
 }
 

@@ -13,8 +13,9 @@ namespace nord_driver {
 
 /// The parameters of one unit behind a module SK CU4/TU4-PBR: of the module itself (P150 to P199 are only reachable
 /// here, BU 0220 8.3.4.4) or of one inverter. An order is written as a record of eight bytes laid out as a PKW; the
-/// answer is read as another, until it is the one to the order. Sans-IO: `pollRecord()` when the station is free for a
-/// record, `handleRecord()` with its result.
+/// answer is read as another, until it is the one to the order. Until the unit has executed an order it repeats its answer
+/// to the one before (BU 2700 6.5.1.1): where that could be taken for the new one's, "no order" is written and "no answer"
+/// read first. Sans-IO: `pollRecord()` when the station is free for a record, `handleRecord()` with its result.
 class RecordParameterChannel {
  public:
   static constexpr std::uint8_t kModule = 0;
@@ -34,17 +35,34 @@ class RecordParameterChannel {
   /// The station, or the inverter, is gone: all requests end as offline. A record under way still brings its result.
   void handleOffline(Instant now) noexcept;
   /// An order was written and has no answer yet: nobody else should use the station's records.
-  bool holdsStation() const noexcept { return under_way_ || written_ != profile::PkwWords{}; }
+  bool holdsStation() const noexcept { return under_way_ || step_ == Step::kAwaitNone || step_ == Step::kRead; }
 
  private:
+  /// What the next record is for, or the one under way.
+  enum class Step : std::uint8_t {
+    kPause,      ///< no order
+    kTakeBack,   ///< writes "no order"
+    kAwaitNone,  ///< reads until the unit has no answer any more
+    kWrite,      ///< writes the order
+    kRead        ///< reads its answer
+  };
+
   profibus::RecordRequest address() const noexcept;
+  profibus::RecordRequest nextRecord() noexcept;
+  bool mayBeMistaken() const noexcept;
+  void handleDone(ByteView data, Instant now) noexcept;
+  void handleNone(ByteView data) noexcept;
   void handleAnswer(ByteView data, Instant now) noexcept;
+  bool handleRefusal(const profibus::RecordError& error) noexcept;
+  void forgetAnswers() noexcept;
 
   std::uint8_t unit_;
   RecordAddressing addressing_;
   profile::PkwChannel pkw_;
-  profile::PkwWords order_{};    // of the record under way
-  profile::PkwWords written_{};  // the order the unit has; zeros: none
+  Step step_ = Step::kPause;
+  profile::PkwWords order_{};        // the one that runs; zeros: none
+  profile::PkwWords last_answer_{};  // what the unit said last: it may say it again; zeros: nothing
+  profile::PkwWords unanswered_{};   // the unit may have it, and its answer has not been seen; zeros: none
   bool under_way_ = false;
   bool forgotten_ = false;  // the record under way belongs to nobody any more
 };

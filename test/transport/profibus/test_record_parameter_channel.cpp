@@ -12,6 +12,8 @@ using profibus::RecordResult;
 using profile::ParameterOutcome;
 using std::chrono::milliseconds;
 
+constexpr const char* kNone = "00 00 00 00 00 00 00 00";
+
 class Records : public ::testing::Test {
  protected:
   RecordParameterChannel channel_{RecordParameterChannel::kModule, {}, std::chrono::seconds{2}};
@@ -21,6 +23,14 @@ class Records : public ::testing::Test {
     profile::ParameterRequest request;
     request.id = id;
     request.number = number;
+    return channel_.submit(request, now_);
+  }
+  bool submitElement(std::uint16_t number, std::uint8_t element) {
+    profile::ParameterRequest request;
+    request.id = 7;
+    request.number = number;
+    request.shape = profile::ParameterShape::kArray;
+    request.index = element;
     return channel_.submit(request, now_);
   }
   /// Polls cycle by cycle; none within five: no request.
@@ -51,6 +61,20 @@ class Records : public ::testing::Test {
     if (code1 != 0) result.error = {0x80, code1, 0};
     for (const std::uint8_t byte : fromHex(hex)) result.data.push_back(byte);
     channel_.handleRecord(result, now_);
+  }
+  /// Between two orders that could be taken for each other: eight zeros, and read until there is no answer any more.
+  void expectTakenBack(const std::string& stale_answer = "") {
+    expectWrite(kNone);
+    answer(RecordOutcome::kDone);
+    EXPECT_TRUE(channel_.holdsStation());
+    if (!stale_answer.empty()) {
+      expectRead();
+      answer(RecordOutcome::kDone, stale_answer);
+      EXPECT_TRUE(channel_.holdsStation());
+      EXPECT_FALSE(channel_.pollResult()) << "that was the answer to the order before";
+    }
+    expectRead();
+    answer(RecordOutcome::kDone, kNone);
   }
   profile::ParameterResult result() {
     const auto result = channel_.pollResult();
@@ -95,17 +119,143 @@ TEST_F(Records, ReadsAgainUntilTheAnswerIsTheOneToTheOrder) {
   EXPECT_EQ(200, result().raw);
 }
 
-// The same question twice is two orders.
-TEST_F(Records, AnEqualOrderIsWrittenAnew) {
-  ASSERT_TRUE(submit(151, 1));
-  ASSERT_TRUE(submit(151, 2));
-  for (const std::uint32_t id : {1u, 2u}) {
-    expectWrite("14 7F 00 00 00 00 00 00");
+// The same question twice is two orders. Until the unit has executed the second it repeats its answer to the first
+// (BU 2700 6.5.1.1), and nobody could tell the two apart.
+TEST_F(Records, AnEqualOrderIsWrittenAnewBehindATakenBackAnswer) {
+  ASSERT_TRUE(submit(173, 1));
+  ASSERT_TRUE(submit(173, 2));
+  expectWrite("14 95 00 00 00 00 00 00");
+  answer(RecordOutcome::kDone);
+  expectRead();
+  answer(RecordOutcome::kDone, "14 95 00 00 00 00 02 02");
+  EXPECT_EQ(0x0202, result().raw);
+  expectTakenBack("14 95 00 00 00 00 02 02");
+  expectWrite("14 95 00 00 00 00 00 00");
+  answer(RecordOutcome::kDone);
+  expectRead();
+  answer(RecordOutcome::kDone, "14 95 00 00 00 00 03 02");
+  const auto second = result();
+  EXPECT_EQ(2u, second.id);
+  EXPECT_EQ(0x0302, second.raw);
+  EXPECT_FALSE(next());
+  EXPECT_FALSE(channel_.holdsStation());
+}
+
+// However much later it is asked for.
+TEST_F(Records, AnEqualOrderNeedsItAfterAPauseToo) {
+  ASSERT_TRUE(submit(173, 1));
+  expectWrite("14 95 00 00 00 00 00 00");
+  answer(RecordOutcome::kDone);
+  expectRead();
+  answer(RecordOutcome::kDone, "14 95 00 00 00 00 02 02");
+  EXPECT_EQ(0x0202, result().raw);
+  EXPECT_FALSE(next());
+  ASSERT_TRUE(submit(173, 2));
+  expectTakenBack();
+  expectWrite("14 95 00 00 00 00 00 00");
+}
+
+// Another parameter, and another element of the same one: no answer fits both, and no telegram is spent.
+TEST_F(Records, OtherOrdersAreWrittenAtOnce) {
+  ASSERT_TRUE(submitElement(701, 1));
+  ASSERT_TRUE(submitElement(701, 2));
+  ASSERT_TRUE(submit(151));
+  expectWrite("66 A5 00 00 00 00 00 00");
+  answer(RecordOutcome::kDone);
+  expectRead();
+  answer(RecordOutcome::kDone, "46 A5 00 00 00 00 00 05");
+  EXPECT_EQ(5, result().raw);
+  expectWrite("66 A5 01 00 00 00 00 00");
+  answer(RecordOutcome::kDone);
+  expectRead();
+  answer(RecordOutcome::kDone, "46 A5 01 00 00 00 00 06");
+  EXPECT_EQ(6, result().raw);
+  expectWrite("14 7F 00 00 00 00 00 00");
+}
+
+// P700 is an array from firmware V1.9 on (BU 0020 8): error 4, and it is read as a plain parameter. The error stands until
+// the unit has executed that, and would be the answer to it: 76 A4 fits any order for P700.
+TEST_F(Records, AnErrorIsNotTheAnswerToTheNextOrderForItsParameter) {
+  ASSERT_TRUE(submitElement(700, 1));
+  expectWrite("66 A4 00 00 00 00 00 00");
+  answer(RecordOutcome::kDone);
+  expectRead();
+  answer(RecordOutcome::kDone, "76 A4 00 00 00 00 00 04");
+  expectTakenBack("76 A4 00 00 00 00 00 04");
+  expectWrite("16 A4 00 00 00 00 00 00");
+  answer(RecordOutcome::kDone);
+  expectRead();
+  answer(RecordOutcome::kDone, "16 A4 00 00 00 00 00 66");
+  const auto read = result();
+  EXPECT_EQ(ParameterOutcome::kDone, read.outcome);
+  EXPECT_EQ(0x66, read.raw);
+}
+
+// Its answer may come still, and is older than the question.
+TEST_F(Records, AnOrderThatWasGivenUpIsTakenBackBeforeItsEqual) {
+  ASSERT_TRUE(submit(173, 1));
+  expectWrite("14 95 00 00 00 00 00 00");
+  answer(RecordOutcome::kDone);
+  expectRead();
+  now_ += std::chrono::seconds{2};
+  answer(RecordOutcome::kDone, kNone);
+  EXPECT_FALSE(next());
+  EXPECT_EQ(ParameterOutcome::kTimeout, result().outcome);
+  ASSERT_TRUE(submit(173, 2));
+  expectTakenBack("14 95 00 00 00 00 02 02");
+  expectWrite("14 95 00 00 00 00 00 00");
+}
+
+// No manual says that a unit takes "no order" in a record. One that refuses it, or answers it with an error of no
+// parameter (an inverter that is not there: 101), is asked all the same.
+TEST_F(Records, AUnitThatRefusesToTakeBackIsAskedAllTheSame) {
+  for (const bool refused : {true, false}) {
+    channel_ = RecordParameterChannel{RecordParameterChannel::kModule, {}, std::chrono::seconds{2}};
+    ASSERT_TRUE(submit(173, 1));
+    ASSERT_TRUE(submit(173, 2));
+    expectWrite("14 95 00 00 00 00 00 00");
     answer(RecordOutcome::kDone);
     expectRead();
-    answer(RecordOutcome::kDone, "14 7F 00 00 00 00 00 C8");
-    EXPECT_EQ(id, result().id);
+    answer(RecordOutcome::kDone, "14 95 00 00 00 00 02 02");
+    EXPECT_EQ(0x0202, result().raw);
+    expectWrite(kNone);
+    if (refused) {
+      answer(RecordOutcome::kRefused, "", 0xB7);
+    } else {
+      answer(RecordOutcome::kDone);
+      expectRead();
+      answer(RecordOutcome::kDone, "70 00 00 00 00 00 00 65");
+    }
+    EXPECT_FALSE(channel_.pollResult());
+    expectWrite("14 95 00 00 00 00 00 00");
   }
+}
+
+// One whose answer does not go is told, not believed.
+TEST_F(Records, AnAnswerThatIsNotTakenBackIsATimeout) {
+  ASSERT_TRUE(submit(173, 1));
+  ASSERT_TRUE(submit(173, 2));
+  expectWrite("14 95 00 00 00 00 00 00");
+  answer(RecordOutcome::kDone);
+  expectRead();
+  answer(RecordOutcome::kDone, "14 95 00 00 00 00 02 02");
+  EXPECT_EQ(0x0202, result().raw);
+  expectWrite(kNone);
+  answer(RecordOutcome::kDone);
+  int reads = 0;
+  for (int i = 0; i < 300; ++i, now_ += milliseconds{10}) {
+    const auto request = channel_.pollRecord(now_);
+    if (!request) continue;
+    EXPECT_FALSE(request->write);
+    last_ = *request;
+    ++reads;
+    answer(RecordOutcome::kDone, "14 95 00 00 00 00 02 02");
+  }
+  EXPECT_GT(reads, 10);
+  const auto timed_out = result();
+  EXPECT_EQ(ParameterOutcome::kTimeout, timed_out.outcome);
+  EXPECT_NE(std::string::npos, timed_out.text.str().find("the answer to the order before is repeated"));
+  EXPECT_FALSE(channel_.holdsStation());
 }
 
 // The module's own refusal, PKW error 2: beyond the limits.
