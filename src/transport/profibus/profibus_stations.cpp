@@ -175,7 +175,10 @@ class StationBuilder {
                          "bit 2 of the first byte (WD_Base_1ms) 0: the watchdog is given in steps of 10 ms");
     }
     if (base_1ms) slave.user_parameters[0] ^= kWatchdogBase1ms;
-    if (gsd_ != nullptr) checkLengths(settings, slave);
+    if (gsd_ != nullptr) {
+      checkLengths(settings, slave);
+      checkParameters(settings, slave.user_parameters.size());
+    }
   }
 
  private:
@@ -282,6 +285,15 @@ class StationBuilder {
                         " modules are needed, expected at most " + std::to_string(file.max_modules) + " (" +
                         gsd_->path + ")");
     }
+  }
+
+  // A slave refuses a longer Set_Prm with Prm_Fault.
+  void checkParameters(const Settings& settings, std::size_t length) const {
+    const unsigned limit = gsd_->file.max_user_parameters;
+    if (limit == 0 || length <= limit) return;
+    throw ConfigError(settings.fullName("user_parameters") + ": Set_Prm would carry " + std::to_string(length) +
+                      " bytes of station and modules, expected at most " + std::to_string(limit) +
+                      " (Max_User_Prm_Data_Len of " + gsd_->path + ")");
   }
 
   const Settings& bus_;

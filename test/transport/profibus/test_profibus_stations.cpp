@@ -268,6 +268,30 @@ TEST(ProfibusStations, MoreModulesThanTheGsdAllowsAreRefused) {
   EXPECT_THAT(beyond.refusal(), HasSubstr("inverter: 4 modules are needed, expected at most 3 (" + gsd.path()));
 }
 
+// Max_User_Prm_Data_Len counts those of the modules, too: three for DP-V1, and one of each PPO 1.
+TEST(ProfibusStations, MoreUserParametersThanTheGsdAllowsAreRefused) {
+  const GsdText gsd{
+      "#Profibus_DP\nIdent_Number=0x0BA8\nModular_Station=1\nMax_User_Prm_Data_Len=5\n"
+      "DPV1_Slave=1\nC1_Read_Write_supp=1\n"
+      "Module=\"PPO 1\" 0xF5\nExt_User_Prm_Data_Const(0)=0x33\nEndModule\n"};
+  Module module;
+  module.bus.set("gsd", gsd.path().c_str());
+  module.add(1, 1).set("user_parameters", "80 00 00 01 02 03 04 05");
+  EXPECT_THAT(module.refusal(),
+              HasSubstr("~drives/fi1/user_parameters: Set_Prm would carry 8 bytes of station and modules, expected at "
+                        "most 5 (Max_User_Prm_Data_Len of " +
+                        gsd.path()));
+  module.settings[0]->set("user_parameters", "80 00 00 01 02");
+  EXPECT_EQ("accepted", module.refusal());
+  Module from_file;
+  from_file.bus.set("gsd", gsd.path().c_str());
+  from_file.add(1, 1);
+  from_file.add(2, 1);
+  EXPECT_EQ("80 00 00 33 33", toHex(from_file.read().slaves[0].user_parameters));
+  from_file.add(3, 1);
+  EXPECT_THAT(from_file.refusal(), HasSubstr("~drives/fi1/user_parameters: Set_Prm would carry 6 bytes"));
+}
+
 // Set_Prm carries the defaults of station and modules.
 TEST(ProfibusStations, AGsdFileGivesDefaultsOfParameters) {
   const GsdText gsd{
