@@ -121,7 +121,7 @@ def main():
                 continue
             missing = [number for number, count in sorted(files[name].lines.items()) if count == 0]
             reason = known.get(name, "" if ok or not below(counts) else "no reason given")
-            unexplained += 0 if ok or not below(counts) or name in known else 1
+            unexplained += 0 if ok or not below(counts) or known.get(name) else 1
             print(f"  {name}: {share(counts[0], counts[1]):.1f}% of {counts[1]} lines, {share(counts[2], counts[3]):.1f}% of {counts[3]} branches"
                   + (f"; {reason}" if reason else "") + (f"; never run: {missing}" if every_file and missing else ""))
     if unexplained:

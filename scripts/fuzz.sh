@@ -24,7 +24,7 @@ fi
 
 out=$root/build/fuzz
 mkdir -p "$out"
-configure "$out" -DNORD_DRIVER_FUZZ=ON -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 \
+configure "$out" -DNORD_DRIVER_FUZZ=ON -DNORD_DRIVER_MERGE_SOURCES=ON -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 \
   >"$out/configure.log" 2>&1 || {
   tail -n 20 "$out/configure.log"
   exit 1

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test and check. The last line is "N passed, N failed, N skipped": test cases, and each
-# check (format, dependencies, pictures, lint, fuzz, workspace, fresh) as one. The lines before say where the tests on
+# check (format, dependencies, pictures, proof, lint, fuzz, workspace, fresh) as one. The lines before say where the tests on
 # SocketCAN ran, and how often a test was tried again since the machine had stood still. Ends with 0 only when nothing failed
 # and something passed.
 set -euo pipefail
@@ -12,7 +12,7 @@ usage: test.sh [--sanitize[=thread]] [--quick] [--deep] [--merged]
   --sanitize  the tests in a Debug build with AddressSanitizer and UndefinedBehaviorSanitizer (build/sanitize), with =thread
               with ThreadSanitizer (build/sanitize_thread); those on SocketCAN count as skipped, as do those that count
               allocations
-  --quick     the tests, format, dependencies and pictures only; lint, fuzz, workspace and fresh count as skipped
+  --quick     the tests, format, dependencies, pictures and proof only; lint, fuzz, workspace and fresh count as skipped
   --deep      lint of every source with clang's path analyzer, and each fuzz target runs five minutes: an hour more
               (otherwise lint reads what was changed last and a third of the rest)
   --merged    the libraries are built from merged sources: faster from nothing, slower after a change
@@ -57,9 +57,11 @@ if $sanitize; then export NORD_CAMPAIGN_SCENARIOS=${NORD_CAMPAIGN_SCENARIOS:-400
 export ROS_HOME=$out/ros_home ROS_LOG_DIR=$out/ros_home/log ROS_HOSTNAME=localhost
 export LSAN_OPTIONS=${LSAN_OPTIONS:-suppressions=$root/scripts/lsan_suppressions.txt:print_suppressions=0}
 # Its reports are counted afterwards, by whose code they are about; a program does not fail by those of ROS.
-tsan_reports=$out/reports
-export TSAN_OPTIONS=${TSAN_OPTIONS:-suppressions=$root/scripts/tsan_suppressions.txt:print_suppressions=0:second_deadlock_stack=1:exitcode=0:handle_segv=0:handle_abort=0:handle_sigbus=0:handle_sigfpe=0:handle_sigill=0:log_path=$tsan_reports/tsan}
-export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_stack_use_after_return=1} UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
+reports=$out/reports
+export TSAN_OPTIONS=${TSAN_OPTIONS:-suppressions=$root/scripts/tsan_suppressions.txt:print_suppressions=0:second_deadlock_stack=1:exitcode=0:handle_segv=0:handle_abort=0:handle_sigbus=0:handle_sigfpe=0:handle_sigill=0:log_path=$reports/tsan}
+# A node that roslaunch ends tells nobody how it ended: reports about addresses and leaks are counted afterwards. Undefined
+# behaviour ends its program, which a test sees unless it comes while the node ends: gcc's library writes it to stderr only.
+export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_stack_use_after_return=1:log_path=$reports/asan} UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
 unset ROS_MASTER_URI ROS_IP
 
 passed=0
@@ -155,6 +157,24 @@ pictures() {
   fi
 }
 
+# That what counts and judges the proof can fail.
+proof() {
+  "$root/scripts/proof_table.py" --self-test && "$root/scripts/count_races.py" --self-test && "$root/scripts/mutants.py" --self-test
+}
+
+# no_reports [FOLDER]: of AddressSanitizer, in the files it writes itself.
+no_reports() {
+  local folder=${1:-$reports} found=0 report
+  for report in "$folder"/*; do
+    [[ -s $report ]] || continue
+    found=$((found + 1))
+    echo "-- $report"
+    head -n 40 "$report"
+  done
+  echo "$found reports of AddressSanitizer"
+  ((found == 0))
+}
+
 # What the linter reads: every source with --deep. Otherwise those that a commit of the last four hours, counted back from
 # the last commit, has touched, and a third of the others, another one with each commit: all of them take seven minutes more.
 lint_sources() {
@@ -217,8 +237,8 @@ count_cases() {
 # machine for themselves say RUN_SERIAL.
 run_tests() {
   local results=$out/test_results status=0
-  rm -rf "$results" "$tsan_reports"
-  mkdir -p "$tsan_reports"
+  rm -rf "$results" "$reports"
+  mkdir -p "$reports"
   (cd "$out" && ctest -j 4 --no-tests=error) || status=$?
   count_cases "$results" "$status"
 }
@@ -289,9 +309,13 @@ echo "== tests"
 start=$SECONDS
 run_tests
 echo "== tests: $((SECONDS - start)) s"
-if $threads; then check "races" "$root/scripts/count_races.py" "$tsan_reports"; fi
+if $threads; then
+  check "races" "$root/scripts/count_races.py" "$reports"
+elif $sanitize; then
+  check "reports" no_reports
+fi
 if $sanitize; then
-  for name in format dependencies pictures lint fuzz workspace fresh socketcan; do
+  for name in format dependencies pictures proof lint fuzz workspace fresh socketcan; do
     skip $name "the run without --sanitize does it"
   done
 else
@@ -299,6 +323,7 @@ else
   check "format" format
   check "dependencies" dependencies
   check "pictures" pictures
+  check "proof" proof
   if $quick; then
     for name in lint fuzz workspace fresh; do skip $name "--quick"; done
   else
