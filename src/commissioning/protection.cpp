@@ -53,6 +53,13 @@ Remedy heedingRemedy(const DriveUnderCheck& drive, const ParameterKey& key) {
   return busStopsIt(drive) ? drive.remedy(key, 0) : timeoutRemedy(drive, key);
 }
 
+/// Of a time-out that is not the drive's own. Behind a module P513 of an SK 5xxE is the "system bus timeout" (BU 2700 8.1),
+/// and 0 would be none (moduleIsWatched()).
+Remedy otherRemedy(const DriveUnderCheck& drive, const ParameterKey& key) {
+  const bool watches_module = isBehindModule(drive) && drive.asked().series == profile::Series::kSk5xxe;
+  return watches_module ? timeoutRemedy(drive, key) : drive.remedy(key, 0);
+}
+
 }  // namespace
 
 void busErrorsAreHeeded(const Drives& drives, std::size_t index, Findings& to) {
@@ -66,7 +73,7 @@ void busErrorsAreHeeded(const Drives& drives, std::size_t index, Findings& to) {
     if (*timeout < 0.0) {
       Finding finding = drive.finding(key, Severity::kError,
                                       "every bus error is ignored: when this computer dies, the motor runs on", source);
-      finding.remedy = own ? heedingRemedy(drive, key) : drive.remedy(key, 0);
+      finding.remedy = own ? heedingRemedy(drive, key) : otherRemedy(drive, key);
       to.push_back(finding);
     } else if (own && *timeout == 0.0 && !busStopsIt(drive)) {
       Finding finding = drive.finding(key, Severity::kError,

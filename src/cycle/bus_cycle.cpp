@@ -165,7 +165,7 @@ void BusCycle::accessParameter(const Request& request, Instant now) noexcept {
   const std::optional<DriveIndex> moving = decidesMotion(request) ? movingBy(request, now) : std::nullopt;
   if (!moving) {
     axes_[request.drive].parameters.handleRequest(request, drives_[request.drive], now);
-    holdForRelay();
+    holdForModule();
     return submitParameters(request.drive, now);  // it leaves with this cycle's exchange
   }
   Completion refused = answerTo(request, false, axes_[*moving].parameters.notWhileEnabled(request));
@@ -174,11 +174,11 @@ void BusCycle::accessParameter(const Request& request, Instant now) noexcept {
   ports_.complete(refused);
 }
 
-// The drive whose motion the write would change. Whose brake a module's relay is wired to nobody here knows; a drive that was
-// lost while it turned may turn still.
+// The drive whose motion the write would change. Whose brake a module's relay is wired to, and whom its terminals enable,
+// nobody here knows; a drive that was lost while it turned may turn still.
 std::optional<DriveIndex> BusCycle::movingBy(const Request& request, Instant now) noexcept {
   if (!isAtRest(request.drive)) return request.drive;
-  if (request.parameter.number != kModuleRelay) return std::nullopt;
+  if (!isOfAllBehindModule(request.parameter.number)) return std::nullopt;
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     if (!isAtRest(i) || drives_[i].stopsUnheard(now)) return i;
   }
@@ -186,8 +186,10 @@ std::optional<DriveIndex> BusCycle::movingBy(const Request& request, Instant now
 }
 
 // It was looked at when the write was asked for: until it has been carried out no other drive may begin to turn.
-void BusCycle::holdForRelay() noexcept {
-  if (std::none_of(axes_.begin(), axes_.end(), [](const Axis& axis) { return axis.parameters.writesRelay(); })) return;
+void BusCycle::holdForModule() noexcept {
+  if (std::none_of(axes_.begin(), axes_.end(),
+                   [](const Axis& axis) { return axis.parameters.writesTerminalsOfModule(); }))
+    return;
   for (drive::Drive& held : drives_) held.setParametersAwaited(true);
 }
 
@@ -274,7 +276,7 @@ void BusCycle::acknowledgeAtStart(bool quiet, Instant now) noexcept {
 
 void BusCycle::runParameters(Instant now) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) axes_[i].parameters.handleState(drives_[i], now);
-  holdForRelay();
+  holdForModule();
   submitAllParameters(now);
   bool answered = false;
   while (const auto result = transport_.pollResult()) {

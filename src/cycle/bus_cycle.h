@@ -62,7 +62,7 @@ class BusCycle {
   bool refuseHomeUnderWay(const Request& request) noexcept;
   void selectParameterSet(const Request& request, Instant now) noexcept;
   std::optional<DriveIndex> movingBy(const Request& request, Instant now) noexcept;
-  void holdForRelay() noexcept;
+  void holdForModule() noexcept;
   void accessParameter(const Request& request, Instant now) noexcept;
   Completion resetOdometry(const Request& request) noexcept;
   Duration rampTime(Instant now) const noexcept;

@@ -20,9 +20,13 @@ constexpr Duration kMissingInterval = std::chrono::seconds{2};
 
 // Beside those that are read at start: jog frequency, brake, servo mode and encoder (the P300 family's, not its
 // controller gains), PPO type, drive profile; and the functions of inputs and outputs: what stands at a terminal acts at
-// once, and an output, or the module's relay (P150), may be a brake's.
-constexpr std::uint16_t kDecideMotion[] = {113, 114, kModuleRelay, 300, 301, 325, 400, 405, 420, 421, 422,
-                                           423, 424, 425,          434, 441, 450, 455, 470, 507, 541, 551};
+// once, and an output, or the module's relay (P150), may be a brake's. P154 connects a module's terminals with the inverters.
+constexpr std::uint16_t kDecideMotion[] = {113, 114, kModuleRelay, kModuleTerminals,
+                                           300, 301, 325,          400,
+                                           405, 420, 421,          422,
+                                           423, 424, 425,          434,
+                                           441, 443, 450,          455,
+                                           470, 507, 541,          551};
 
 // Whether and how it positions (P600 to P631), other than the positions themselves (P613).
 constexpr bool decidesPosition(std::uint16_t number) noexcept {
@@ -159,9 +163,9 @@ bool DriveParameters::writesMotion() const noexcept {
                      [](const Pending& pending) { return decidesMotion(pending.request); });
 }
 
-bool DriveParameters::writesRelay() const noexcept {
+bool DriveParameters::writesTerminalsOfModule() const noexcept {
   return std::any_of(pending_.begin(), pending_.end(), [](const Pending& pending) {
-    return decidesMotion(pending.request) && pending.request.parameter.number == kModuleRelay;
+    return decidesMotion(pending.request) && isOfAllBehindModule(pending.request.parameter.number);
   });
 }
 

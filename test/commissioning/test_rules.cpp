@@ -22,7 +22,7 @@ using ::testing::IsEmpty;
 const std::vector<Series> kDecentral{Series::kSk1x0e, Series::kSk2xxe};
 const std::vector<Series> kOlder{Series::kSk300e, Series::kSk700e, Series::kSk750e};
 const std::vector<Series> kSk5{Series::kSk5xxe, Series::kSk54xe};
-const std::vector<Series> kSk511{Series::kSk5xxe};
+const std::vector<Series> kSk511{Series::kSk5xxe}, kSk7{Series::kSk700e, Series::kSk750e};
 const std::vector<Series> kAll(profile::kAllSeries.begin(), profile::kAllSeries.end());
 const std::vector<Series> kSeparate{Series::kSk5xxe, Series::kSk300e, Series::kSk700e, Series::kSk750e};
 const std::vector<Series> kArrays{Series::kSk54xe, Series::kSk1x0e, Series::kSk2xxe};
@@ -143,6 +143,7 @@ const std::vector<Row>& rows() {
       {"a transport of somebody else", kAll, on("my_card"), {{{509}, 1}}, {"bus_has_control error P509"}},
       {"a transport of somebody else, any bus", kAll, on("my_card"), {{{509}, 2}}, {}},
       {"behind a module", kSk511, behindModule, {{{509}, 4}, {{513}, 5}}, {"bus_has_control error P509 -> 6"}},
+      {"ignored", kSk511, behindModule, {{{509}, 6}, {{513}, -1}}, {"bus_errors_heeded error P513 -> 5"}},
 
       {"setpoint of the terminals", kSk5, leave, {{{510, 0, 1}, 1}}, {"bus_gives_setpoint error P510[-01] -> 0"}},
       {"setpoint named", kSk5, leave, {{{510, 0, 1}, 4}}, {}},
@@ -157,6 +158,7 @@ const std::vector<Row>& rows() {
 
       {"torque limit", kSeparate, leave, {{{547, 1, 0}, 2}}, {"further_setpoints error P547 set 1 -> 0"}},
       {"frequency addition", kSeparate, leave, {{{548, 1, 0}, 4}}, {"further_setpoints warning P548 set 1 -> 0"}},
+      {"current limit", kSk7, leave, {{{547, 1, 0}, 6}}, {"further_setpoints error P547 set 1 -> 0"}},
       {"torque limit commanded", kSeparate, limitsTorque, {{{547, 1, 0}, 2}}, {}},
       {"in the other word", kSk511, limitsTorque, {{{548, 1, 0}, 2}}, {}},
       {"nothing carries it", kSk511, limitsTorque, {}, {"asked_words error P547 set 1 -> 2"}},

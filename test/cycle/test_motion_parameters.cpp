@@ -47,11 +47,13 @@ TEST_F(MotionParameters, AreNotWrittenWhileEnabled) {
 }
 
 // What stands at a terminal acts at once: "enable right", a fixed frequency, "remote control" (P420 to P425, P470), a voltage
-// as "frequency addition" (P400, P405), and a brake at an output (P434, P441, P450, P455, P541; the module's relay, P150).
+// as "frequency addition" (P400, P405), and a brake at an output (P434, P441, P443, P450, P455, P541; the module's relay, P150,
+// and its terminals, P154).
 TEST_F(MotionParameters, AreTheFunctionsOfTheTerminalsToo) {
   bringUp();
   ASSERT_TRUE(ask(RequestKind::kEnable, kLift).success);
-  for (const int number : {150, 400, 405, 420, 421, 422, 423, 424, 425, 434, 441, 450, 455, 470, 480, 481, 541}) {
+  for (const int number :
+       {150, 154, 400, 405, 420, 421, 422, 423, 424, 425, 434, 441, 443, 450, 455, 470, 480, 481, 541}) {
     EXPECT_THAT(ask(write(number, 1)).message.c_str(), HasSubstr("disable drive lift first")) << number;
   }
 }
@@ -62,6 +64,8 @@ TEST_F(MotionParameters, TheRelayOfAModuleIsLeftAloneWhileAnyDriveIsEnabled) {
   ASSERT_TRUE(ask(RequestKind::kEnable, kLift).success);
   Request relay = write(150, 1);
   relay.drive = 0;
+  EXPECT_THAT(ask(relay).message.c_str(), HasSubstr("disable drive lift first"));
+  relay.parameter.number = 154;
   EXPECT_THAT(ask(relay).message.c_str(), HasSubstr("disable drive lift first"));
   relay.parameter.number = 420;
   EXPECT_THAT(ask(relay).message.c_str(), Not(HasSubstr("disable")));
