@@ -73,6 +73,12 @@ Dump parse(const YAML::Node& file) {
       dump.values.push_back(value);
     }
   }
+  const YAML::Node& count = file["count"];
+  if (count.IsDefined() && count.as<std::size_t>() != dump.values.size()) {
+    throw UsageError("expected the " + count.as<std::string>() + " values that its count names, but it has " +
+                     std::to_string(dump.values.size()) +
+                     ": it was cut off; where values were taken out on purpose, take out the count, too");
+  }
   return dump;
 }
 
@@ -103,6 +109,7 @@ std::string dumpText(const Dump& dump, const catalogue::DriveCatalogue& known, c
                      const std::string& address) {
   std::string text = "# What nord_param read from drive " + drive + ", " + address + "\n";
   text += std::string("series: ") + profile::toString(dump.series) + "\n";
+  text += "count: " + std::to_string(dump.values.size()) + "\n";
   text += section(dump, known, "settings", true);
   text += "# changes by itself, is not compared\n";
   text += section(dump, known, "information", false);

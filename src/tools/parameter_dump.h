@@ -28,7 +28,8 @@ Dump takeDump(DriveParameters& drive, const std::atomic<bool>& end_asked);
 /// As YAML; `drive` and `address` are named for people, and so is what is `known` of the values.
 std::string dumpText(const Dump& dump, const catalogue::DriveCatalogue& known, const std::string& drive,
                      const std::string& address);
-/// The other way round. Throws UsageError naming the file and what was expected.
+/// The other way round. Throws UsageError naming the file and what was expected, also where it has not as many values as it
+/// says: it was cut off.
 Dump readDump(const std::string& file);
 /// The same of a text; `name`: what a refusal calls it.
 Dump dumpFrom(const std::string& text, const std::string& name);

@@ -41,6 +41,10 @@ TEST_F(NordParamRestore, ComparesInAnyPair) {
   EXPECT_THAT(neither.errors,
               HasSubstr("\"middle\" is neither a drive of the configuration nor a file, expected left, "));
   EXPECT_EQ(2, run({"compare", "left", "left"}).code);
+  std::ofstream(right) << "series: sk5xxe\nsettings:\n";
+  const Ended nothing = runProgram({NORD_PARAM_PROGRAM, "diff", right, right});
+  EXPECT_EQ("0 of 0 settings differ\n", nothing.output);
+  EXPECT_EQ(1, nothing.code) << "what compared nothing has not shown that they are alike";
   ::unlink(left.c_str());
   ::unlink(right.c_str());
 }

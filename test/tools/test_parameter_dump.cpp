@@ -43,8 +43,8 @@ TEST(ParameterDump, IsReadAsItWasWritten) {
   drive.connect();
   const Dump taken = takeDump(drive.link(), drive.notAsked());
   const std::string text = dumpText(taken, drive.link().known(), "left", "PROFIBUS station 3");
-  EXPECT_THAT(text,
-              HasSubstr("# What nord_param read from drive left, PROFIBUS station 3\nseries: sk5xxe\nsettings:\n"));
+  EXPECT_THAT(text, HasSubstr("# What nord_param read from drive left, PROFIBUS station 3\nseries: sk5xxe\ncount: " +
+                              std::to_string(taken.values.size()) + "\nsettings:\n"));
   EXPECT_THAT(text, HasSubstr("  \"P102 set 4\": {raw: 200, value: 2, unit: \"s\", name: \"Acceleration time\"}\n"));
   const InAFile file{text};
   const Dump read = readDump(file.path());
@@ -53,6 +53,20 @@ TEST(ParameterDump, IsReadAsItWasWritten) {
     EXPECT_EQ(parameterName(taken.values[i].address), parameterName(read.values[i].address));
     EXPECT_EQ(taken.values[i].raw, read.values[i].raw);
   }
+}
+
+// A disk that was full, a pipe that broke: half a dump is none, wherever it ends.
+TEST(ParameterDump, IsNotReadWhereItWasCutOff) {
+  LinkedDrive drive;
+  drive.connect();
+  const std::string text = dumpText(takeDump(drive.link(), drive.notAsked()), drive.link().known(), "left", "here");
+  const std::size_t last = text.rfind("  \"P");
+  ASSERT_NE(std::string::npos, last);
+  for (std::size_t end = text.find('\n') + 1; end <= last; end = text.find('\n', end) + 1) {
+    EXPECT_THAT(refusal(text.substr(0, end)), HasSubstr("is no dump of nord_param")) << end;
+  }
+  EXPECT_THAT(refusal(text.substr(0, last)), HasSubstr("it was cut off"));
+  EXPECT_EQ("accepted", refusal("series: sk5xxe\nsettings: {\"P102 set 1\": {raw: 1}}\n")) << "typed by hand";
 }
 
 // Not every firmware has every parameter: what is refused is named, the rest goes on.

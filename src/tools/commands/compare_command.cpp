@@ -117,7 +117,7 @@ class CompareCommand final : public ParamCommand {
       }
       std::printf("%zu of %zu settings differ\n", differences.found.size(), differences.compared);
     }
-    return differences.found.empty();
+    return differences.compared > 0 && differences.found.empty();  // nothing compared shows nothing
   }
 
   std::string name_;
