@@ -34,6 +34,17 @@ void RestoreRun::breakOff(const std::string& why) const {
   throw Trouble(why + taking);
 }
 
+// Somebody else may enable the drive while a hundred values are written.
+void RestoreRun::requireRest() const {
+  std::string moving;
+  try {
+    moving = drive_.notAtRest();
+  } catch (const Trouble& trouble) {
+    moving = trouble.what();
+  }
+  if (!moving.empty()) breakOff(moving);
+}
+
 // What ends the link to the drive ends the run.
 ParameterAnswer RestoreRun::asked(const std::function<ParameterAnswer()>& access) {
   if (end_asked_) breakOff("ended");
@@ -114,6 +125,7 @@ void RestoreRun::lookAgain() {
 std::string RestoreRun::carryOut(RestoreRecord::Change& change) {
   if (change.state == ChangeState::kWritten) return {};
   if (end_asked_) breakOff("ended");  // before the journal says that it has begun
+  requireRest();
   change.state = ChangeState::kBegun;
   save_(record_);
   const ParameterAnswer answer = write(change.address, change.after, record_.persistent);
@@ -207,7 +219,10 @@ RestoreRun::TakenBack RestoreRun::takeBack(RestoreRecord::Change& change) {
     return TakenBack::kLeft;
   }
   ParameterAnswer answer = found;
-  if (!there && found.success) answer = write(change.address, change.before, record_.persistent);
+  if (!there && found.success) {
+    requireRest();
+    answer = write(change.address, change.before, record_.persistent);
+  }
   if (!answer.success) {
     notes_.push_back(title(change.address) + " cannot be put back to " + text(change.address, change.before) + ": " +
                      answer.message);

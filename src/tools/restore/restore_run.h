@@ -54,6 +54,7 @@ class RestoreRun {
   bool verify();
   void lookAtEepromSwitch();
   [[noreturn]] void breakOff(const std::string& why) const;
+  void requireRest() const;
   bool same(const catalogue::ParameterAddress& address, std::int32_t first, std::int32_t second) const;
   std::string text(const catalogue::ParameterAddress& address, std::int32_t raw) const;
   std::string title(const catalogue::ParameterAddress& address) const;

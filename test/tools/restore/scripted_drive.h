@@ -61,6 +61,7 @@ class ScriptedDrive final : public DriveParameters {
     identity.module_saves = module_saves;
     return identity;
   }
+  std::string notAtRest() override { return moving; }
   const catalogue::DriveCatalogue& known() const override {
     static const catalogue::DriveCatalogue kKnown =
         knownOf(catalogue::shippedCatalogues(), profile::Series::kSk5xxe, "");
@@ -76,6 +77,7 @@ class ScriptedDrive final : public DriveParameters {
   int accesses_left = -1;                      ///< then it falls silent; -1: never
   bool silent_after_carrying_out = false;      ///< the last write of them is carried out, and not answered
   std::function<void(const std::string&)> before_write;
+  std::string moving;  ///< why nothing may be written
 
  private:
   ParameterAnswer access(const std::string& name) {

@@ -201,6 +201,23 @@ TEST_F(RestoreRunTest, EndsBetweenTwoAccessesWhenAsked) {
   EXPECT_THAT(drive_.written, ElementsAre("P102 set 1 ~ 250")) << "what is under way is not cut off";
 }
 
+// Through the node others enable and drive it meanwhile: what is left waits for rest, and nothing is taken back before it.
+TEST_F(RestoreRunTest, WritesNothingIntoADriveThatWasEnabledMeanwhile) {
+  plan(kWant);
+  drive_.before_write = [&](const std::string&) { drive_.moving = "drive left is enabled"; };
+  EXPECT_THAT(trouble([&] { run().write(); }), HasSubstr("drive left is enabled; 1 of 3 are written"));
+  EXPECT_THAT(drive_.written, ElementsAre("P102 set 1 ~ 250"));
+  forget();
+  EXPECT_EQ(RestoreState::kWriting, record_.state);
+  EXPECT_THAT(trouble([&] { run().takeBack(); }), HasSubstr("drive left is enabled; it is not taken back as a whole"));
+  EXPECT_THAT(drive_.written, ElementsAre("P102 set 1 ~ 250"));
+  drive_.moving.clear();
+  drive_.before_write = nullptr;
+  forget();
+  EXPECT_EQ(RestoreEnd::kTakenBack, run().takeBack());
+  EXPECT_EQ(kHave, drive_.values);
+}
+
 // Mains off and on in the middle: the RAM is lost, the drive answers, and only the end can tell.
 TEST_F(RestoreRunTest, NoticesADriveThatWasSwitchedOff) {
   plan(kWant);
