@@ -193,7 +193,8 @@ void DriveGroup::haltTheOthers(Instant now) noexcept {
     if (way == StopWay::kQuickStop) member->requestQuickStop(now, StopCause::kNone);
     if (way == StopWay::kCoast) member->requestCoast(now, StopCause::kNone);
   }
-  down_since_ = now;
+  bound_runs_on_ = report_.phase == GroupPhase::kRampingDown;
+  if (!bound_runs_on_) down_since_ = now;
   halting_speed_ = std::numeric_limits<int>::max();
   // OFF1 at once would take their torque at 0 Hz; kHalting waits for the drive's own ramp first.
   enter(way == StopWay::kSetpointZero ? GroupPhase::kHalting : GroupPhase::kStopping, now);
@@ -246,10 +247,15 @@ bool DriveGroup::getsSlower(Instant now) noexcept {
   return now - slower_since_ < config_.standstill_timeout;
 }
 
+// The end of the node waits no longer than shutdown_timeout, and one that trips on the way down does not make it longer.
 void DriveGroup::updateHalting(Instant now) noexcept {
+  if (bound_runs_on_ && now - down_since_ >= config_.shutdown_timeout) {
+    latch(StopCause::kShutdownTimeout, 0);
+    return quickStopAll(StopCause::kShutdownTimeout, now);
+  }
   const bool goes_on = getsSlower(now) && now - phase_since_ < config_.shutdown_timeout;
   if (!nearStandstill() && goes_on) return;
-  down_since_ = now;
+  if (!bound_runs_on_) down_since_ = now;
   shutdownAll(StopCause::kNone, now);
 }
 

@@ -111,7 +111,8 @@ class DriveGroup {
   GroupConfig config_;
   GroupReport report_;
   Instant phase_since_{};
-  Instant down_since_{};  // since when a way down is on: its bound runs over several phases
+  Instant down_since_{};        // since when a way down is on: its bound runs over several phases
+  bool bound_runs_on_ = false;  // of a way down that was asked for, into the halt behind it
   Instant zero_since_{};
   std::uint32_t stops_ = 0;
   int halting_speed_ = 0;  // the least so far, of all that halt together

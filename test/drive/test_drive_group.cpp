@@ -317,6 +317,19 @@ TEST_F(DriveGroupTest, SurvivesATripOnTheWayDown) {
   EXPECT_EQ(0, right_inverter_.frequency());
 }
 
+// Whoever asked for the stop waits for shutdown_timeout: a trip on the way does not begin it anew.
+TEST_F(DriveGroupTest, ATripOnTheWayDownDoesNotMakeItLonger) {
+  run();
+  right_inverter_.ramp = 20;  // 4 s
+  group_.requestDisable(now_);
+  cycles(5);
+  left_inverter_.fault = true;
+  EXPECT_LE(cyclesUntil(GroupPhase::kQuickStopping, 200), 96) << "shutdown_timeout, 100 cycles behind the request";
+  cycle();
+  EXPECT_EQ(0x047B, rightWord());
+  EXPECT_EQ(StopCause::kFault, group_.report().stop_cause);
+}
+
 TEST_F(DriveGroupTest, DisablesWhileEnabling) {
   cycles(4);
   group_.requestEnable(now_);

@@ -9,6 +9,7 @@ namespace nord_driver::explore {
 NORD_EXPLORE_MEMBER(membersOf, drive::DriveGroup, members_)
 NORD_EXPLORE_MEMBER(groupPhaseSinceOf, drive::DriveGroup, phase_since_)
 NORD_EXPLORE_MEMBER(downSinceOf, drive::DriveGroup, down_since_)
+NORD_EXPLORE_MEMBER(boundRunsOnOf, drive::DriveGroup, bound_runs_on_)
 NORD_EXPLORE_MEMBER(zeroSinceOf, drive::DriveGroup, zero_since_)
 NORD_EXPLORE_MEMBER(haltingSpeedOf, drive::DriveGroup, halting_speed_)
 NORD_EXPLORE_MEMBER(slowerSinceOf, drive::DriveGroup, slower_since_)
@@ -32,7 +33,8 @@ inline void describeGroup(const drive::DriveGroup& group, Instant now, Key& key)
   key.add(phase).add(followedOf(group)).add(setpointIsZeroOf(group));
   if (phase == GroupPhase::kHalting) {
     key.add(since(groupPhaseSinceOf(group), kShutdownTimeout)).add(haltingSpeedOf(group));
-    key.add(since(slowerSinceOf(group), kStandstillTimeout));
+    key.add(since(slowerSinceOf(group), kStandstillTimeout)).add(boundRunsOnOf(group));
+    if (boundRunsOnOf(group)) key.add(since(downSinceOf(group), kShutdownTimeout));
   }
   if (phase == GroupPhase::kStopping || phase == GroupPhase::kRampingDown) {
     key.add(since(downSinceOf(group), kShutdownTimeout));
