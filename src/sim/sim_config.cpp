@@ -34,7 +34,8 @@ const std::vector<std::string>& driveKeys() {
         // the driver's
         "address", "series", "joint", "gear_ratio", "pole_pairs", "inverted", "max_frequency", "rated_current",
         "allow_minimum_frequency", "inverter", "max_velocity", "min_velocity", "max_acceleration", "min_acceleration",
-        "max_jerk", "min_jerk", "setpoints", "signals", "torque_at_limit", "mode", "lead", "position",
+        "max_jerk", "min_jerk", "setpoints", "signals", "torque_at_limit", "mode", "lead", "position", "monitor",
+        "follows",
         // the simulator's
         "inertia", "rated_torque", "slip", "load", "viscous", "charging_time", "firmware", "parameter_delay",
         "ram_orders", "double_word_answers", "automatic_acknowledgement_delay", "parameters", "posicon"};

@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <atomic>
 #include <boost/program_options.hpp>
 #include <chrono>
@@ -62,12 +63,20 @@ void waitForEnd(const std::atomic<bool>& end_asked, double duration) {
   }
 }
 
+/// s: how long a drive beside a simulator may be silent. A program is late now and then where an inverter is not; three cycles
+/// and what the files themselves say are the least.
+double patientDriveTimeout(const YAML::Node& files) {
+  const auto number = [&files](const char* key, double fallback) { return files[key].as<double>(fallback); };
+  const double rate = number("cycle_rate", 100.0);
+  return std::max({0.25, number("drive_timeout", 0.0), rate > 0.0 ? 3.0 / rate : 0.0});
+}
+
 int run(int argc, char** argv) {
   namespace po = boost::program_options;
   std::vector<std::string> files;
   BusPort port;
   Seconds duration;
-  bool place = false;
+  bool place = false, drive_timeout = false;
   CommandLine line{"nord_sim", NORD_DRIVER_VERSION,
                    "Simulated NORD inverters: a PROFIBUS DP segment on a pseudo-terminal, CANopen or DeviceNet nodes "
                    "on a CAN bus, or an InterBus ring behind a Modbus TCP gateway.",
@@ -84,13 +93,18 @@ int run(int argc, char** argv) {
       "seconds to run; without it until SIGINT, SIGTERM or SIGHUP")(
       "place", po::bool_switch(&place),
       "print where a simulated bus of the files' transport can be, as a value of --bus, and end: simulate.launch puts "
-      "simulator and driver there");
+      "simulator and driver there")("drive-timeout", po::bool_switch(&drive_timeout),
+                                    "print the drive_timeout, in s, that simulate.launch gives the driver, and end");
   if (const auto code = line.parse(argc, argv)) return *code;
 
   const std::atomic<bool>& end_asked = catchEndSignals();
   const YAML::Node merged = readFiles(files);
   if (place) {
     std::fputs(nord_driver::sim::busKindOf(merged).place, stdout);  // roslaunch takes a line's end as part of it
+    return kDone;
+  }
+  if (drive_timeout) {
+    std::printf("%.4f", patientDriveTimeout(merged));
     return kDone;
   }
   const SimConfig config = readConfig(merged, port);

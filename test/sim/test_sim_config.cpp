@@ -55,6 +55,14 @@ TEST(SimConfig, MergesFiles) {
   EXPECT_EQ(20.0, config.drives[0].gear_ratio);
 }
 
+// One file serves driver and simulator: what only the driver uses is no slip.
+TEST(SimConfig, KnowsTheKeysOfTheDriver) {
+  const SimConfig config = readSimConfig(
+      YAML::Load("drives: {a: {address: 3, monitor: [P719, P728], gsd: a.gsd, user_parameters: 80}, b: {address: 4, "
+                 "follows: a}}"));
+  EXPECT_THAT(config.warnings, testing::IsEmpty());
+}
+
 TEST(SimConfig, WarnsAboutUnknownKeys) {
   const SimConfig config = readSimConfig(YAML::Load("drives: {a: {address: 3, gear_ration: 20}}"));
   EXPECT_THAT(config.warnings, testing::ElementsAre(testing::HasSubstr("drives/a/gear_ration")));

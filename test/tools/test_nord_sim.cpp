@@ -93,6 +93,18 @@ TEST_F(NordSim, IsFoundWhereTheBusOptionSays) {
   EXPECT_THAT(start({}).output, StartsWith(base_ + "_key\n"));
 }
 
+// What simulate.launch gives the driver: never less than its configuration asks for, or can have.
+TEST_F(NordSim, TellsAPatientDriveTimeout) {
+  const auto told = [&](const std::string& keys) {
+    std::ofstream(config_) << "{" << keys << "drives: {left: {address: 3}}}\n";
+    return runProgram({NORD_SIM_PROGRAM, "--config", config_, "--drive-timeout"}).output;
+  };
+  EXPECT_EQ("0.2500", told(""));
+  EXPECT_EQ("0.6000", told("cycle_rate: 5, "));
+  EXPECT_EQ("1.5000", told("cycle_rate: 5, drive_timeout: 1.5, "));
+  EXPECT_EQ("0.2500", told("drive_timeout: 0.05, "));
+}
+
 TEST_F(NordSim, ThePortOfTheOtherTransportIsRefused) {
   const Ended profibus = run({"--interface", "virtual:x", "--duration", "0.01"});
   EXPECT_EQ(2, profibus.code);

@@ -61,6 +61,7 @@ void readAssembly(const Group& group, DnDriveConfig& dn) {
     refuse(group.keyName("assembly"), group["assembly"], "20, 21, 100 or 101: this module has one inverter (P507)");
   }
   dn.assembly = static_cast<unsigned>(assembly);
+  dn.assembly_given = group.has("assembly");
   dn.control_bytes = static_cast<unsigned>(group.integer("control_bytes", 4, 0, 8));
   dn.status_bytes = static_cast<unsigned>(group.integer("status_bytes", 4, 0, 8));
   dn.module_input_bytes = static_cast<unsigned>(group.integer("module_input_bytes", 0, 0, 1));
@@ -87,6 +88,18 @@ void readDrive(const Group& group, DriveConfig& drive) {
   }
   dn.values_in_order = order == "in_order";
   drive.bus = dn;
+}
+
+/// The first drive of a module by its name says it for those that do not, as the driver has it.
+void shareAssemblies(std::vector<DriveConfig>& drives) {
+  for (DriveConfig& drive : drives) {
+    if (drive.bus.as<DnDriveConfig>().assembly_given) continue;
+    const DriveConfig* first = &drive;
+    for (const DriveConfig& other : drives) {
+      if (other.address == drive.address && other.name < first->name) first = &other;
+    }
+    drive.bus.as<DnDriveConfig>().assembly = first->bus.as<DnDriveConfig>().assembly;
+  }
 }
 
 /// One module for each drive, or a place of its own behind one.
@@ -136,6 +149,7 @@ DnModuleSettings readModule(const Group& group, const ParameterStore& catalogue)
 }
 
 void readModules(const Group& root, SimConfig& config) {
+  shareAssemblies(config.drives);
   checkPlaces(config.drives);
   if (!root.has("modules")) return;
   if (!root["modules"].IsMap()) refuse("modules", root["modules"], "a group like {front: {address: 5}}");

@@ -30,6 +30,7 @@ struct DnIdentity {
 struct DnDriveConfig {
   DnModuleKind kind = DnModuleKind::kOnInverter;
   unsigned assembly = 100;  ///< instance of the outputs
+  bool assembly_given = false;
   unsigned control_bytes = 4;
   unsigned status_bytes = 4;
   unsigned profile = 2;  ///< P162[-03]

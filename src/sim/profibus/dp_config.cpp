@@ -142,7 +142,7 @@ BusKind profibusKind() {
   kind.end_point = "device";
   kind.place = "/tmp/nord_sim_bus";
   kind.highest_address = 126;
-  kind.keys = {"ppo_type", "module", "io_byte"};
+  kind.keys = {"ppo_type", "module", "io_byte", "gsd", "user_parameters"};
   kind.readBus = readBus;
   kind.readDrive = readDrive;
   kind.readModules = readModules;

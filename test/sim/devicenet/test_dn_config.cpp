@@ -70,6 +70,15 @@ drives:
   EXPECT_EQ(9u, stations.moduleOf(0).layout().outputs());
 }
 
+// What the drives of a module share is given once (doc/devicenet.md).
+TEST(DnConfig, TheAssemblyIsThatOfTheModule) {
+  const SimConfig config = read(
+      "{bus: {transport: devicenet}, drives: {a: {address: 3, series: sk2xxe, assembly: 102}, "
+      "b: {address: 3, series: sk2xxe, inverter: 2}, c: {address: 4, series: sk2xxe}}}");
+  EXPECT_EQ(102u, config.drives[1].bus.as<DnDriveConfig>().assembly);
+  EXPECT_EQ(100u, config.drives[2].bus.as<DnDriveConfig>().assembly);
+}
+
 TEST(DnConfig, RefusesInWords) {
   const auto refusal = [](const std::string& drives, const std::string& more = "") -> std::string {
     try {
@@ -85,8 +94,12 @@ TEST(DnConfig, RefusesInWords) {
             refusal("a: {address: 3}, b: {address: 3}"));
   EXPECT_EQ("drives/b/inverter: 1 is not valid; expected another one, drive a has it behind this module",
             refusal("a: {address: 3, series: sk2xxe}, b: {address: 3, series: sk2xxe}"));
-  EXPECT_EQ("drives/b/assembly: 100 is not valid; expected 102, the one of drive a behind the same module (P160)",
-            refusal("a: {address: 3, series: sk2xxe, assembly: 102}, b: {address: 3, series: sk2xxe, inverter: 2}"));
+  EXPECT_EQ("drives/b/assembly: 101 is not valid; expected 102, the one of drive a behind the same module (P160)",
+            refusal("a: {address: 3, series: sk2xxe, assembly: 102}, "
+                    "b: {address: 3, series: sk2xxe, inverter: 2, assembly: 101}"));
+  EXPECT_EQ("drives/b/assembly: 102 is not valid; expected 100, the one of drive a behind the same module (P160)",
+            refusal("a: {address: 3, series: sk2xxe}, b: {address: 3, series: sk2xxe, inverter: 2, assembly: 102}"))
+      << "the driver refuses it, too";
   EXPECT_EQ("drives/a/assembly: 99 is not valid; expected 20, 21, 100, 101, 102 or 120",
             refusal("a: {address: 3, assembly: 99}"));
   EXPECT_EQ("drives/a/assembly: 102 is not valid; expected 20, 21, 100 or 101: this module has one inverter (P507)",
