@@ -19,18 +19,21 @@ class BesideCanLink final : public link::CanLink {
 
   /// Its receiver is broken.
   void setDeaf(bool deaf) noexcept { deaf_ = deaf; }
+  /// The interface is down: nothing is received or sent, and it says so.
+  void setUp(bool up) noexcept { up_ = up; }
   std::size_t sent() const noexcept { return sent_; }
 
   bool open() noexcept override {
     open_ = true;
     bus_.setTap([this](const CanFrame& frame, sim::TimedCanBus::Sender sender, Instant at) {
-      if (open_ && !deaf_ && sender != sim::TimedCanBus::Sender::kForeign) received_.push_back({frame, at});
+      if (open_ && up_ && !deaf_ && sender != sim::TimedCanBus::Sender::kForeign) received_.push_back({frame, at});
     });
     return true;
   }
   void close() noexcept override { open_ = false; }
   bool isOpen() const noexcept override { return open_; }
   link::CanSend send(const CanFrame& frame) noexcept override {
+    if (!up_) return link::CanSend::kFailed;
     ++sent_;
     bus_.inject(frame);
     return link::CanSend::kSent;
@@ -49,7 +52,7 @@ class BesideCanLink final : public link::CanLink {
   }
   void sleepUntil(Instant when) noexcept override { bus_.sleepUntil(when); }
   Instant now() const noexcept override { return bus_.now(); }
-  link::CanState state() const noexcept override { return link::CanState::kActive; }
+  link::CanState state() const noexcept override { return up_ ? link::CanState::kActive : link::CanState::kDown; }
   link::CanCounters counters() const noexcept override { return {}; }
   const std::string& lastError() const noexcept override { return no_error_; }
   const char* advice() const noexcept override { return ""; }
@@ -58,6 +61,7 @@ class BesideCanLink final : public link::CanLink {
   sim::TimedCanBus& bus_;
   bool open_ = false;
   bool deaf_ = false;
+  bool up_ = true;
   std::size_t sent_ = 0;
   std::deque<link::ReceivedCanFrame> received_;
   std::string no_error_;

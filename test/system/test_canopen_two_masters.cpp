@@ -87,6 +87,25 @@ TEST_F(TwoMasters, ADriverThatStartsSecondWaits) {
   EXPECT_NEAR(25.0, first_.unit(kLeft).inverter().frequency(), 0.1);
 }
 
+// While the interface is down nobody can be heard: that is no silence of the other master.
+TEST_F(TwoMasters, ListensOnceTheInterfaceIsUp) {
+  driveFirst();
+  const std::uint64_t boot_ups = first_.node(kLeft).counters().boot_ups;
+  startSecond();
+  second_->beside().setUp(false);
+  run(seconds{2});
+  second_->beside().setUp(true);
+  run(seconds{3});
+  EXPECT_EQ(0u, second_->beside().sent()) << "it was heard as soon as it could be";
+  second_->beside().setUp(false);
+  run(seconds{3});
+  second_->beside().setUp(true);
+  run(seconds{3});
+  EXPECT_EQ(0u, second_->beside().sent()) << "it waited already";
+  EXPECT_EQ(boot_ups, first_.node(kLeft).counters().boot_ups);
+  EXPECT_TRUE(first_.snapshot().base.enabled) << first_.snapshot().base.text.str();
+}
+
 // Nodes that a driver has left operational when it died are nobody's: they are taken over at once.
 TEST_F(TwoMasters, ADriverThatDiedIsNotWaitedFor) {
   driveFirst();

@@ -1,5 +1,7 @@
 #include "transport/can/can_listen_first.h"
 
+#include <algorithm>
+
 namespace nord_driver {
 
 void CanListenFirst::restart(Instant now) noexcept {
@@ -19,6 +21,12 @@ void CanListenFirst::handleMaster(std::uint32_t id, Instant at) noexcept {
     heard_ = id;
     end_ = at + kGone;
   }
+}
+
+void CanListenFirst::postpone(Instant now) noexcept {
+  if (!listening_) return;
+  const bool waits = heard_ && who_ == CanListener::kDriver;
+  end_ = std::max(end_, now + (waits ? Duration{kGone} : time_));
 }
 
 bool CanListenFirst::mayTalk(Instant now) noexcept {

@@ -42,6 +42,8 @@ class CanListenFirst {
   void handle(const CanFrame& frame) noexcept;
   /// At any time: a frame that only a master sends. A driver that has begun to talk does not mind.
   void handleMaster(std::uint32_t id, Instant at) noexcept;
+  /// The interface is down or bus-off: nobody can be heard, so that this time does not count as listening.
+  void postpone(Instant now) noexcept;
   /// After everything received until `now` was handled. Once true, it stays so until a master is heard or `restart()`.
   bool mayTalk(Instant now) noexcept;
 

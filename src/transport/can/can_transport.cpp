@@ -89,6 +89,7 @@ void CanTransport::watchController() noexcept {
 bool CanTransport::mayTalk(Instant now) noexcept {
   if (!listen_first_) return true;
   const bool listened = isSilent();
+  if (listened && !linkWorks()) listen_first_->postpone(now);
   if (!listen_first_->mayTalk(now)) return false;
   if (listened) engine_->restart(now);
   return true;
@@ -183,6 +184,7 @@ void CanTransport::takeLineCounters() noexcept {
 
 const char* CanTransport::linkNote() const noexcept {
   if (!link_->isOpen()) return "the CAN interface is not open";
+  if (isSilent() && !linkWorks()) return "the CAN interface is down or bus-off, so that nobody can be heard yet";
   return isSilent() ? listen_first_->note() : "";
 }
 

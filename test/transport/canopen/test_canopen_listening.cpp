@@ -112,6 +112,23 @@ TEST(CanListenFirst, ADriverWaitsUntilTheOtherHasEnded) {
 }
 
 // The interface was opened anew.
+// An interface that is down says nothing about the bus.
+TEST(CanListenFirst, TimeInWhichNobodyCanBeHeardDoesNotCount) {
+  Listener listener;
+  listener.listen.postpone(kStart + milliseconds{400});
+  EXPECT_FALSE(listener.mayTalkAfter(milliseconds{899}));
+  EXPECT_TRUE(listener.mayTalkAfter(milliseconds{900}));
+  listener.listen.postpone(kStart + milliseconds{950});
+  EXPECT_TRUE(listener.mayTalkAfter(milliseconds{951})) << "it talks already";
+
+  CanListenFirst driver{kCanopenListening, milliseconds{500}, CanListener::kDriver};
+  driver.restart(kStart);
+  driver.handleMaster(0x203, kStart);
+  driver.postpone(kStart + milliseconds{1000});
+  EXPECT_FALSE(driver.mayTalk(kStart + milliseconds{2999}));
+  EXPECT_TRUE(driver.mayTalk(kStart + milliseconds{3000}));
+}
+
 TEST(CanListenFirst, ListensAnewAfterARestart) {
   Listener listener;
   listener.listen.handle(dataFrame(0x203, ByteView{}));
