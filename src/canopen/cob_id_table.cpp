@@ -15,6 +15,7 @@ class Table {
   void set(std::uint32_t id, Kind kind, std::size_t node = 0, std::size_t item = 0) {
     uses_[id] = {kind, static_cast<std::uint8_t>(node), static_cast<std::uint16_t>(item)};
   }
+  bool isFree(std::uint32_t id) const { return uses_[id].kind == Kind::kForeign; }
   std::vector<CobIdUse> take() { return std::move(uses_); }
 
  private:
@@ -36,6 +37,13 @@ void addNode(Table& table, std::size_t index, const NodeConfig& node) {
   }
 }
 
+// Whoever sends them commands the node.
+void addPredefinedPdos(Table& table, std::size_t index, std::uint8_t id) {
+  for (const std::uint32_t first : {0x200u, 0x300u, 0x400u, 0x500u}) {
+    if (table.isFree(first + id)) table.set(first + id, Kind::kReceivePdo, index);
+  }
+}
+
 }  // namespace
 
 std::vector<CobIdUse> cobIdTable(const MasterConfig& config) {
@@ -49,6 +57,9 @@ std::vector<CobIdUse> cobIdTable(const MasterConfig& config) {
   table.set(kEmergencyBase, Kind::kIgnored);  // the usual SYNC
   if (config.sync_cob_id) table.set(*config.sync_cob_id, Kind::kSync);
   for (std::size_t i = 0; i < config.nodes.size(); ++i) addNode(table, i, config.nodes[i]);
+  for (std::size_t i = 0; i < config.nodes.size(); ++i) {
+    if (config.nodes[i].obeys_predefined_pdos) addPredefinedPdos(table, i, config.nodes[i].id);
+  }
   if (config.own_id) table.set(kErrorControlBase + *config.own_id, Kind::kOwnHeartbeat);
   return table.take();
 }

@@ -93,6 +93,8 @@ struct NodeConfig {
   Duration first_answer_timeout{};
   std::vector<SdoChannel> sdo_servers;  ///< empty: the one of the predefined connection set (600h + id, 580h + id)
   std::vector<SetupWrite> setup;
+  /// It obeys all four RPDOs of the predefined connection set, as NORD delivers it (BU 0060 p. 59), and not only the ones here.
+  bool obeys_predefined_pdos = false;
   std::vector<PdoConfig> receive_pdos;   ///< from the node's view: what we send
   std::vector<PdoConfig> transmit_pdos;  ///< what we receive
 };

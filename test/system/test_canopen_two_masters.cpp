@@ -39,9 +39,9 @@ class TwoMasters : public ::testing::Test {
     first_.drive(kHalfSpeed, 0.0, seconds{3});
     ASSERT_EQ(0x2000, first_.setpoint(kLeft));
   }
-  void otherCommands(std::initializer_list<std::uint8_t> bytes) {
+  void otherCommands(std::initializer_list<std::uint8_t> bytes, std::uint32_t id = 0x203) {
     const std::vector<std::uint8_t> data{bytes};
-    first_.bus().inject(dataFrame(0x203, ByteView{data.data(), data.size()}));
+    first_.bus().inject(dataFrame(id, ByteView{data.data(), data.size()}));
   }
   Instant now() { return first_.transport().now(); }
   bool bothOnline(CanRobot& robot) { return robot.online(kLeft) && robot.online(kRight); }
@@ -166,6 +166,24 @@ TEST_F(TwoMasters, BothAtOnceMoveNothing) {
     ASSERT_TRUE(first_.standsStill());
     ASSERT_FALSE(first_.snapshot().base.enabled);
     ASSERT_FALSE(second_->snapshot().base.enabled);
+  }
+}
+
+// A node obeys all four RPDOs as delivered (BU 0060 p. 59): a control word in one that this driver does not use is another
+// master's as well.
+TEST_F(TwoMasters, ControlWordsInAnotherPdoStopTheBaseToo) {
+  for (const std::uint32_t id : {0x303u, 0x503u}) {
+    ASSERT_TRUE(runUntil([this] { return first_.online(kLeft); }, seconds{5}));
+    driveFirst();
+    int cycles = 0;
+    while (first_.snapshot().base.enabled && cycles < 100) {
+      otherCommands({0x7F, 0x04}, id);
+      step();
+      ++cycles;
+    }
+    EXPECT_LE(cycles, 20) << "drive_timeout";
+    EXPECT_THAT(first_.busText(), HasSubstr("another master is on the bus: it sends RPDO")) << id;
+    ASSERT_TRUE(runUntil([this] { return first_.standsStill(); }, seconds{10}));
   }
 }
 

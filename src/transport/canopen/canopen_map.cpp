@@ -103,6 +103,7 @@ void addPdos(CanopenDrive& drive, const CanopenPdoOptions& pdo, canopen::NodeCon
   drive.receive_pdo = node.receive_pdos.size();
   drive.transmit_pdo = node.transmit_pdos.size();
   node.receive_pdos.push_back(receive);
+  node.obeys_predefined_pdos = !isGateway(drive);  // a gateway's may be of inverters that are not ours
   node.transmit_pdos.push_back(transmit);
 }
 
