@@ -78,7 +78,7 @@ bool ModbusAcyclic::carryOut(const RegisterOrder& order, RegisterAnswer& answer,
   answer.good = ask(requestOf(order), stop);
   if (!answer.good) {
     answer.text = reason_;
-    answer.busy = connection_.trouble() == ModbusTrouble::kException && connection_.exception() == kServerBusy;
+    answer.not_taken = connection_.trouble() == ModbusTrouble::kException && connection_.exception() == kServerBusy;
     return false;
   }
   answer.text.clear();

@@ -45,6 +45,7 @@ class OrderDesk {
     served_ = newest.number;
     RegisterAnswer answer;
     answer.number = newest.number;
+    answer.not_taken = true;
     answer.text = reason;
     answers_.write(answer);
   }

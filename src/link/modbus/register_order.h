@@ -22,7 +22,8 @@ struct RegisterOrder {
 struct RegisterAnswer {
   std::uint64_t number = 0;  ///< of the order
   bool good = false;
-  bool busy = false;  ///< refused with exception 6, server device busy: it was not carried out, and may be asked again
+  /// It was not carried out, and may be asked again: it never left, or was refused with exception 6, server device busy.
+  bool not_taken = false;
   std::array<Word, RegisterOrder::kMostWords> values{};  ///< read
   Sentence text;                                         ///< why not, a sentence that begins with the server
 };

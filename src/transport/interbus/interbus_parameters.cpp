@@ -179,8 +179,8 @@ void InterbusParameters::handleAnswer(const link::RegisterAnswer& answer) noexce
   if (!answer.good) {
     trouble_ = answer.text;
     // Whether a write came through is not known, so it is not repeated: only the deadline ends it. One that a busy gateway
-    // has refused did not.
-    if (phase_ == Phase::kInvoke && !answer.busy) phase_ = Phase::kConfirmed;
+    // has refused, or that never left, did not.
+    if (phase_ == Phase::kInvoke && !answer.not_taken) phase_ = Phase::kConfirmed;
     return;
   }
   if (phase_ == Phase::kClear) {

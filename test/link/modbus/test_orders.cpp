@@ -97,6 +97,7 @@ TEST_F(Orders, WithoutAConnectionAreGivenUp) {
   start();
   const RegisterAnswer answer = answerTo(readOrder(1, 1));
   EXPECT_FALSE(answer.good);
+  EXPECT_TRUE(answer.not_taken) << "it never left, so that it may be asked again";
   EXPECT_THAT(answer.text.str(), HasSubstr("refuses the connection"));
 }
 

@@ -105,7 +105,7 @@ class Pcp : public ::testing::Test {
     if (invokes && busy > 0) {
       --busy;
       link::RegisterAnswer refused;
-      refused.busy = true;
+      refused.not_taken = true;
       refused.text = "192.168.0.10:502 refuses it with exception 6";
       return parameters.handleAnswer(refused);
     }
