@@ -121,6 +121,21 @@ TEST(CanopenKinds, AGatewayThatWasWithoutPowerBeginsAnew) {
   EXPECT_TRUE(robot.runUntil([&] { return robot.online(2); }, milliseconds{600})) << robot.text(2);
 }
 
+// What it reported before it was switched off and on is over, also where nobody heard it say so.
+TEST(CanopenKinds, ANodeThatWasWithoutPowerHasNoEmergency) {
+  CanRobot robot;
+  ASSERT_TRUE(robot.bringUp());
+  robot.bus().inject(dataFrame(0x083, ByteView{FixedBytes<8>{0x10, 0x32, 1, 0, 0, 0, 0, 0}}));
+  robot.run(milliseconds{50});
+  ASSERT_THAT(robot.busText(), HasSubstr("EMCY 3210h"));
+  robot.node(0).setPowered(false);
+  robot.run(milliseconds{500});
+  robot.node(0).setPowered(true);
+  ASSERT_TRUE(robot.runUntil([&] { return robot.online(0); }, std::chrono::seconds{6}));
+  robot.run(milliseconds{50});
+  EXPECT_THAT(robot.busText(), ::testing::Not(HasSubstr("EMCY")));
+}
+
 TEST(CanopenKinds, AGatewayIsWaitedForWithAnInverterMissingFromTheStart) {
   CanRobot::Options options;
   options.gateway_inverters = 4;

@@ -78,6 +78,8 @@ void CanopenDriveState::takeInput(const canopen::Master& master, bool bus_works,
 // Behind a gateway byte 3 names the inverter, from 0 (BU 0260 p. 78).
 void CanopenDriveState::takeEmergencies(const canopen::NodeStatus& status) noexcept {
   const std::uint64_t count = status.emergencies.count();
+  // After its initialisation a node is free of errors, and need not say so (CiA 301 7.2.7.1).
+  if (emergency_code_ != 0 && status.booted_up_at && *status.booted_up_at > emergency_at_) forgetEmergency();
   if (count == emergencies_seen_) return;
   const std::uint64_t fresh = count < emergencies_seen_ ? count : count - emergencies_seen_;
   emergencies_seen_ = count;
@@ -87,6 +89,7 @@ void CanopenDriveState::takeEmergencies(const canopen::NodeStatus& status) noexc
     const canopen::Emergency& emergency = status.emergencies.back(i);
     if (gateway && emergency.manufacturer[0] != config_.inverter - 1) continue;
     emergency_code_ = emergency.code;
+    emergency_at_ = emergency.at;
     if (gateway) module_link_.handleEmergency(emergency.code, emergency.at);
     break;
   }

@@ -63,6 +63,7 @@ class CanopenDriveState {
   bool contested_ = false;  // another master commands it, too
   std::uint64_t emergencies_seen_ = 0;
   std::uint16_t emergency_code_ = 0;
+  Instant emergency_at_{};
   ModuleLink module_link_;  // of an inverter behind a gateway
   Sentence emergency_text_;
   Sentence note_;

@@ -191,10 +191,17 @@ CanopenPdoOptions readPdoOptions(const Settings& settings, const CanopenDrive& d
   constexpr Duration kDefaultEventTime = milliseconds{50};
   CanopenPdoOptions pdo;
   pdo.synchronous = bus.sync;
-  const Duration inhibit = std::min<Duration>(std::chrono::round<milliseconds>(bus.period), kMaxInhibit);
-  pdo.inhibit_time = seconds(numberOr(settings, "inhibit_time", toSeconds(inhibit), 0.0, toSeconds(kMaxInhibit), "s"));
   const Duration event = std::max<Duration>(kDefaultEventTime, 2 * std::chrono::round<milliseconds>(bus.period));
   pdo.event_time = wholeMilliseconds(settings, "event_time", event, Duration::zero(), kMaxTime);
+  // The event time, too, waits for the inhibit time (CiA 301, object 1800h): a longer one would make a sound drive silent.
+  const bool limited = !pdo.synchronous && *pdo.event_time > Duration::zero();
+  Duration inhibit = std::min<Duration>(std::chrono::round<milliseconds>(bus.period), kMaxInhibit);
+  if (limited) inhibit = std::min(inhibit, *pdo.event_time);
+  pdo.inhibit_time = seconds(numberOr(settings, "inhibit_time", toSeconds(inhibit), 0.0, toSeconds(kMaxInhibit), "s"));
+  if (limited && *pdo.inhibit_time > *pdo.event_time) {
+    throw wrongSetting(settings, "inhibit_time", shortNumber(toSeconds(*pdo.inhibit_time)),
+                       "at most event_time, " + shortNumber(toSeconds(*pdo.event_time)) + " s");
+  }
   const bool known = drive.process_values == 1 && drive.connection != CanopenConnection::kSystemBus;
   pdo.write_mapping = choiceOr(settings, "pdo_mapping", known, kMappings);
   if (!pdo.write_mapping && drive.drive_profile == DriveProfile::kCia402) {

@@ -101,6 +101,15 @@ TEST(CanopenConfigTest, SeriesDecidesTheWordOrder) {
   EXPECT_TRUE(bus.read().drives[0].third_before_second);
 }
 
+// A node waits for the inhibit time before it sends at its event time, too (CiA 301, object 1800h).
+TEST(CanopenConfigTest, TheInhibitTimeIsNotAboveTheEventTime) {
+  Bus bus{1};
+  bus.drive().set("event_time", 0.005);
+  EXPECT_EQ(50, bus.read().master.nodes[0].transmit_pdos[0].inhibit_time.value()) << "5 ms, with a cycle of 10 ms";
+  bus.drive().set("event_time", MapSettings::Value{0}).set("inhibit_time", 0.2);
+  EXPECT_EQ(2000, bus.read().master.nodes[0].transmit_pdos[0].inhibit_time.value()) << "nothing is sent at intervals";
+}
+
 // --- Gateways --------------------------------------------------------------------------------------------------------
 
 // BU 0260: one node, up to four inverters, an SDO server each; the identifiers of 1201h and so on are ours to set.
@@ -245,6 +254,7 @@ TEST(CanopenConfigTest, EveryWrongValueIsNamed) {
       {"sdo_timeout", 0.0, "sdo_timeout: 0 is not valid"},
       {"vendor_id", -1, "vendor_id: -1 is not valid"},
       {"inhibit_time", 7.0, "inhibit_time: 7 is not valid"},
+      {"inhibit_time", 0.2, "inhibit_time: 0.2 is not valid, expected at most event_time, 0.05 s"},
       {"event_time", -0.1, "event_time: -0.1 is not valid"},
       {"array_sub_index", std::string{"both"}, "expected one of element, table"},
       {"pdo_mapping", std::string{"yes"}, "expected one of write, keep"},
