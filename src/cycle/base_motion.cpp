@@ -2,6 +2,15 @@
 
 namespace nord_driver::cycle {
 
+namespace {
+
+/// What is not finite is scaled by 0, and would be no number.
+robot::Twist2d scaledBy(double factor, const robot::Twist2d& twist) noexcept {
+  return factor == 0.0 ? robot::Twist2d{} : robot::times(factor, twist);
+}
+
+}  // namespace
+
 BaseMotion::BaseMotion(const BaseConfig& config, Duration cmd_vel_timeout)
     : geometry_(config.geometry),
       kinematics_(robot::makeKinematics(config.kind, config.geometry, config.left.size(), config.right.size())),
@@ -49,18 +58,16 @@ robot::WheelSpeeds BaseMotion::ramp(const robot::Twist2d& target, const robot::W
                                     Duration dt) noexcept {
   limited_ = limiter_.limit(target, dt);
   const robot::WheelSpeeds wanted = kinematics_->wheels(limited_);
-  const robot::WheelSpeeds possible = robot::scaleInto(wanted, limits);
-  if (possible != wanted) {
-    limited_ = kinematics_->twist(possible);
+  const double factor = robot::factorInto(wanted, limits);
+  if (factor != 1.0) {
+    limited_ = scaledBy(factor, limited_);
     limiter_.reset(limited_);
   }
-  return possible;
+  return robot::scaleInto(wanted, limits);
 }
 
 robot::Twist2d BaseMotion::within(const robot::WheelSpeeds& limits, const robot::Twist2d& target) const noexcept {
-  const robot::WheelSpeeds wanted = kinematics_->wheels(target);
-  const robot::WheelSpeeds possible = robot::scaleInto(wanted, limits);
-  return possible == wanted ? kinematics_->possible(target) : kinematics_->twist(possible);
+  return scaledBy(robot::factorInto(kinematics_->wheels(target), limits), kinematics_->possible(target));
 }
 
 void BaseMotion::tune(const BaseTuning& tuning) noexcept {

@@ -21,10 +21,6 @@ bool allKnown(const robot::SteeringAngles& angles, std::size_t axles) noexcept {
   return std::all_of(angles.begin(), angles.end(), [](double angle) { return std::isfinite(angle); });
 }
 
-robot::Twist2d times(double factor, const robot::Twist2d& twist) noexcept {
-  return {factor * twist.linear_x, factor * twist.angular_z, factor * twist.linear_y};
-}
-
 /// 1, or less where a wheel would be too fast; 0 where one cannot turn at all.
 double partWithin(const robot::WheelSpeeds& limits, const robot::WheelSpeeds& wheels) noexcept {
   const robot::WheelSpeeds possible = robot::scaleInto(wheels, limits);
@@ -88,7 +84,7 @@ robot::Twist2d SteeredMotion::targetOf(const TwistCommand& command, bool obey, c
   if (possible != command.twist) {
     waits_for_ = possible == robot::Twist2d{} ? SteeredWait::kNoAngle : SteeredWait::kWiderCurve;
   }
-  return times(partWithin(limits, kinematics_.solve(possible, angles, steered_).wheels), possible);
+  return robot::times(partWithin(limits, kinematics_.solve(possible, angles, steered_).wheels), possible);
 }
 
 bool SteeredMotion::rollsOut(const SteeredDrives& drives, Instant now) noexcept {
@@ -174,7 +170,7 @@ robot::SteeredSetpoint SteeredMotion::setpoint(const SteeredDrives& drives, cons
                                                bool braking) noexcept {
   const double part = partWithin(limits, kinematics_.wheels(limited_, drives.angles));
   if (part != 1.0) {
-    limited_ = times(part, limited_);
+    limited_ = robot::times(part, limited_);
     limiter_.reset(limited_);
   }
   const robot::WheelSpeeds wheels = kinematics_.wheels(limited_, drives.angles);

@@ -24,4 +24,9 @@ constexpr bool operator!=(const Twist2d& a, const Twist2d& b) noexcept {
   return !(a == b);
 }
 
+/// On the same path, with the speed times `factor`.
+constexpr Twist2d times(double factor, const Twist2d& twist) noexcept {
+  return {factor * twist.linear_x, factor * twist.angular_z, factor * twist.linear_y};
+}
+
 }  // namespace nord_driver::robot

@@ -9,17 +9,24 @@ bool standsStill(const WheelSpeeds& wheels) noexcept {
   return std::all_of(wheels.begin(), wheels.end(), [](double speed) { return speed == 0.0; });
 }
 
-WheelSpeeds scaleInto(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept {
-  WheelSpeeds scaled;
-  scaled.resize(wanted.size());
-  if (max.size() != wanted.size()) return scaled;
+double factorInto(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept {
+  if (max.size() != wanted.size()) return 0.0;
   double factor = 1.0;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     // Written so that a NaN limit fails the comparison too.
-    if (!(max[i] > 0.0) || !std::isfinite(wanted[i])) return scaled;
+    if (!(max[i] > 0.0) || !std::isfinite(wanted[i])) return 0.0;
     const double size = std::abs(wanted[i]);
     if (size > max[i]) factor = std::min(factor, max[i] / size);
   }
+  return factor;
+}
+
+WheelSpeeds scaleInto(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept {
+  WheelSpeeds scaled;
+  scaled.resize(wanted.size());
+  const double factor = factorInto(wanted, max);
+  // What is not finite times 0 is no number.
+  if (factor == 0.0) return scaled;
   for (std::size_t i = 0; i < wanted.size(); ++i) scaled[i] = wanted[i] * factor;
   return scaled;
 }

@@ -21,6 +21,10 @@ bool standsStill(const WheelSpeeds& wheels) noexcept;
 /// no limit); a limit that is not positive or missing, or a speed that is not finite, gives zero on all wheels.
 WheelSpeeds scaleInto(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept;
 
+/// The factor by which scaleInto() does so: from 0 (nothing may move) to 1. A motion is scaled by it itself: found anew
+/// from the scaled wheels it would have a rest of rounding on an axis that is zero.
+double factorInto(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept;
+
 /// The tighter of two limits, wheel by wheel; none (so that nothing moves) when they are not of one base.
 WheelSpeeds tighterOf(const WheelSpeeds& a, const WheelSpeeds& b) noexcept;
 

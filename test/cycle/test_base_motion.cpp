@@ -159,6 +159,23 @@ TEST_F(BaseMotionTest, ScalesTheWholeBaseWhenOneWheelCannotTurnThatFast) {
   EXPECT_NEAR(0.8, motion_.limited().angular_z, 1e-9);
 }
 
+// A rest of rounding on an axis that may not reverse would be beyond its limit, and scale the whole base to zero.
+TEST_F(BaseMotionTest, ABaseThatMayNotReverseTurnsAsFastAsItsWheelsCan) {
+  BaseConfig config = configWithDeceleration(0.0);
+  config.geometry.right_wheel_radius_multiplier = 1.01;
+  config.limits.linear_x.has_velocity_limits = true;
+  config.limits.linear_x.max_velocity = 1.0;
+  config.limits.linear_x.min_velocity = 0.0;
+  motion_ = BaseMotion{config, kTimeout};
+  command(0.0, 2.5);  // left -6.25, right 6.19 rad/s
+  for (int i = 0; i < 3; ++i) {
+    const robot::WheelSpeeds wheels = poll(true, true, {6.0, 6.0});
+    EXPECT_NEAR(-6.0, wheels[0], 1e-9);
+    EXPECT_NEAR(2.4, motion_.limited().angular_z, 1e-9);
+    EXPECT_EQ(0.0, motion_.limited().linear_x);
+  }
+}
+
 // The velocity limit of a joint in the URDF counts like the drive's 100 %.
 TEST_F(BaseMotionTest, ScalesTheWholeBaseIntoTheLimitsOfTheJoints) {
   BaseConfig config = configWithDeceleration(0.0);
