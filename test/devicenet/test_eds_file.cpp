@@ -71,6 +71,7 @@ TEST(EdsFile, ProblemsNameTheirLine) {
 
 // What was wrong is left out, the rest is read.
 TEST(EdsFile, GoesOnAfterAProblem) {
+  EXPECT_EQ(389u, parseEds("[Device]\nwhat\nVendCode = 389;\n").vendor_id->value);
   const EdsFile file = parseEds("[Device]\nVendCode = 389\n[IO_Info]\nInput1 = x, 0, 1;\nOutput1 = 5, 0, 1;\n");
   EXPECT_EQ(389u, file.vendor_id->value);
   EXPECT_THAT(file.inputs, IsEmpty());

@@ -104,6 +104,24 @@ TEST(ProcessData, BitStrobe) {
   EXPECT_THAT(run.violations(), testing::IsEmpty());
 }
 
+// A strobe that the link did not take is none.
+TEST(ProcessData, ABitStrobeThatWasNotSentIsCountedBack) {
+  ScannerConfig config = busConfig(0);
+  config.nodes = {nodeConfig(5, IoKind::kStrobe, 8, 0)};
+  ScannerRun run{config};
+  run.output = {0x01};
+  ASSERT_TRUE(run.starts());
+  const std::uint64_t strobes = run.scanner.counters().strobes, superseded = run.scanner.counters().superseded;
+  run.scanner.startCycle(run.now);
+  CanFrame frame;
+  ASSERT_TRUE(run.scanner.pollTransmit(frame));
+  ASSERT_EQ(0x400u, frame.id);
+  EXPECT_EQ(strobes + 1, run.scanner.counters().strobes);
+  run.scanner.notSent();
+  EXPECT_EQ(strobes, run.scanner.counters().strobes);
+  EXPECT_EQ(superseded + 1, run.scanner.counters().superseded);
+}
+
 // A bit strobe carries no words: the outputs go by a poll beside it, on a second connection. Its bit stays 0, with 1 a NORD
 // module keeps its last outputs (BU 0280 4.2.1).
 TEST(ProcessData, BitStrobeWithAPollBesideIt) {
