@@ -6,6 +6,7 @@
 #include "cycle/drive_snapshot.h"
 #include "cycle/make_drives.h"
 #include "cycle/user_messages.h"
+#include "profile/status_word.h"
 
 namespace nord_driver::cycle {
 
@@ -257,8 +258,11 @@ void BusCycle::handleInputs(Instant now) noexcept {
       axes_[i].parameters.handleLoss(drives_[i]);
     }
     const drive::DriveReport& before = drives_[i].report();
-    drives_[i].setReferenced(
-        axes_[i].bits.referenced(inputs_[i].input, axes_[i].parameters.device(), before.parameter_set));
+    // A cycle without an answer says nothing of its reference: what was heard last counts while it is online.
+    if (inputs_[i].inverter_answers && profile::StatusWord(inputs_[i].input.status_word).isUseful()) {
+      drives_[i].setReferenced(
+          axes_[i].bits.referenced(inputs_[i].input, axes_[i].parameters.device(), before.parameter_set));
+    }
     drives_[i].handleModule(inputs_[i].inverter_missing, now);
     drives_[i].handleInput(inputs_[i].input, inputs_[i].inverter_answers, now);
     axes_[i].known = axes_[i].known || drives_[i].report().online;

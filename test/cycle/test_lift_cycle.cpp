@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 /// SK 53xE, P546 to P548 = 1, 21, 22 and P543 to P545 = 1, 10, 15: frequency, low word, high word. 1 rad is a revolution.
 class LiftCycle : public ::testing::Test, protected CycleBench {
  protected:
-  LiftCycle() : CycleBench{config()} {
+  explicit LiftCycle(const CycleConfig& config = LiftCycle::config()) : CycleBench{config} {
     transport.parameters = {{105, 500}, {543, 1},  {544, 10}, {545, 15}, {546, 1},
                             {547, 21},  {548, 22}, {600, 1},  {610, 2}};
     transport.inverters[0].second = 500;
@@ -84,6 +84,38 @@ TEST_F(LiftCycle, TellsThatItsCountWasSetAnew) {
   const Completion answer = completions[last_id];
   EXPECT_TRUE(answer.success);
   EXPECT_EQ("drive lift: its count was set anew, its position is 0", answer.message.str());
+}
+
+class LiftThatTellsItsReference : public LiftCycle {
+ protected:
+  LiftThatTellsItsReference() : LiftCycle{withReference()} { transport.parameters[481] = 20; }
+  static CycleConfig withReference() {
+    CycleConfig config = LiftCycle::config();
+    SignalSetup referenced;
+    referenced.source = SignalSource::kStatusBit;
+    referenced.number = 10;
+    config.drives[0].position->referenced = referenced;
+    config.drives[0].position->referenced_function = 20;
+    return config;
+  }
+};
+
+// A cycle without its answer, as every other one of a slow bus may be, does not say that its reference is lost.
+TEST_F(LiftThatTellsItsReference, IsHomedAlsoInACycleWithoutItsAnswer) {
+  transport.inverters[0].more = 0x0400;
+  run(80);
+  ASSERT_TRUE(snapshot().drives[0].homed);
+  transport.inverters[0].silent = true;
+  step();
+  EXPECT_TRUE(snapshot().drives[0].online);
+  EXPECT_TRUE(snapshot().drives[0].homed);
+  run(20);
+  EXPECT_FALSE(snapshot().drives[0].homed) << "offline";
+  transport.inverters[0].silent = false;
+  transport.inverters[0].more = 0;
+  run(2);
+  EXPECT_TRUE(snapshot().drives[0].online);
+  EXPECT_FALSE(snapshot().drives[0].homed);
 }
 
 }  // namespace
