@@ -10,7 +10,8 @@ namespace {
 constexpr Duration kLongestHold = std::chrono::milliseconds{500};
 // A wheel that gets no slower at setpoint 0 stands as well as it ever will; as of a drive that halts (DriveGroup).
 constexpr Duration kNoSlower = std::chrono::seconds{1};
-constexpr double kSlower = 0.01;
+// Of 100 %, in that time: down a ramp of 1000 s; P103, a word in steps of 0.01 s, ends at 655 s.
+constexpr double kSlower = 0.001;
 // Of the tolerance: how far a step may lead the wheels, and by how much it may turn the angles at once. The rest is
 // for how exactly the axes come to their angles.
 constexpr double kLead = 0.75;

@@ -178,6 +178,20 @@ TEST(SteeredTurn, WaitsForNoWheelThatGetsNoSlower) {
   EXPECT_NEAR(kQuarter, angle(), 1e-9);
 }
 
+// A long P103: 125 s from 100 % down.
+TEST(SteeredTurn, WaitsForTheWheelsAlsoDownALongRamp) {
+  SteeredMotion motion{steeredBase(), std::chrono::milliseconds{500}};
+  SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}, true, 1.0};
+  Instant now{std::chrono::hours{1}};
+  for (int i = 0; i < 300; ++i, drives.wheel_speed -= 0.00008) {
+    now += CycleBench::kCycle;
+    TwistCommand command{{}, now, true};
+    command.twist.linear_y = 0.5;
+    const robot::SteeredSetpoint setpoint = motion.poll(command, true, true, drives, now, CycleBench::kCycle);
+    ASSERT_EQ(0.0, setpoint.angles[0]) << i;
+  }
+}
+
 // Slow, the way to another direction is a wide turn of the wheels: from its first step on the base slows down for it, and
 // does not drive on first.
 TEST(SteeredTurn, AWideOneIsBrakedForAtOnce) {
