@@ -34,7 +34,7 @@ out=$root/build/coverage
 mkdir -p "$out"
 if ! $count_only; then
   # Without optimisation, so that a line is a line. The counters are not shared safely among threads: a count may be lost, but
-  # only those of 0 matter here, and atomic ones take three times as long.
+  # only those of 0 matter here, and with atomic ones the programs ran for hours.
   configure "$out" -DCMAKE_BUILD_TYPE=None -DNORD_DRIVER_PRECOMPILE=ON -DNORD_DRIVER_MERGE_SOURCES=ON \
     "-DCMAKE_CXX_FLAGS=-O0 -g0 --coverage -fprofile-update=single" >"$out/configure.log" 2>&1 || { tail -n 40 "$out/configure.log"; exit 1; }
   cmake --build "$out" -j "$jobs" --target "${programs[@]}" >"$out/build.log" 2>&1 || { tail -n 40 "$out/build.log"; exit 1; }

@@ -23,13 +23,10 @@ constexpr std::uint8_t kSets = 4, kPlaces = 3;
 bool holdsBack(const DriveUnderCheck& drive, std::int32_t function) {
   using Functions = std::vector<std::int32_t>;
   static const Functions kDecentral{5, 11, 12, 13, 14, 17};  // BU 0220 5.1.3
-  static const Functions k300e{2};                           // BU 0020 6.1.2
-  static const Functions k700e{2, 6, 7, 13};                 // BU 0020 6.1.2
-  static const Functions kOthers{2, 6, 7, 13};               // BU 0020 6.2.2
-  const Functions& list = drive.isDecentral()                                ? kDecentral
-                          : drive.asked().series == profile::Series::kSk300e ? k300e
-                          : drive.isOlderSeries()                            ? k700e
-                                                                             : kOthers;
+  static const Functions kSk300e{2};                         // BU 0020 6.1.2
+  static const Functions kOthers{2, 6, 7, 13};               // BU 0020 6.1.2 and 6.2.2
+  const bool is_sk300e = drive.asked().series == profile::Series::kSk300e;
+  const Functions& list = drive.isDecentral() ? kDecentral : is_sk300e ? kSk300e : kOthers;
   return std::find(list.begin(), list.end(), function) != list.end();
 }
 

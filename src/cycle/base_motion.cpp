@@ -2,15 +2,6 @@
 
 namespace nord_driver::cycle {
 
-namespace {
-
-/// What is not finite is scaled by 0, and would be no number.
-robot::Twist2d scaledBy(double factor, const robot::Twist2d& twist) noexcept {
-  return factor == 0.0 ? robot::Twist2d{} : robot::times(factor, twist);
-}
-
-}  // namespace
-
 BaseMotion::BaseMotion(const BaseConfig& config, Duration cmd_vel_timeout)
     : geometry_(config.geometry),
       kinematics_(robot::makeKinematics(config.kind, config.geometry, config.left.size(), config.right.size())),
@@ -60,14 +51,14 @@ robot::WheelSpeeds BaseMotion::ramp(const robot::Twist2d& target, const robot::W
   const robot::WheelSpeeds wanted = kinematics_->wheels(limited_);
   const double factor = robot::factorInto(wanted, limits);
   if (factor != 1.0) {
-    limited_ = scaledBy(factor, limited_);
+    limited_ = robot::times(factor, limited_);
     limiter_.reset(limited_);
   }
-  return robot::scaleInto(wanted, limits);
+  return robot::times(factor, wanted);
 }
 
 robot::Twist2d BaseMotion::within(const robot::WheelSpeeds& limits, const robot::Twist2d& target) const noexcept {
-  return scaledBy(robot::factorInto(kinematics_->wheels(target), limits), kinematics_->possible(target));
+  return robot::times(robot::factorInto(kinematics_->wheels(target), limits), kinematics_->possible(target));
 }
 
 void BaseMotion::tune(const BaseTuning& tuning) noexcept {

@@ -188,8 +188,7 @@ std::optional<DriveIndex> BusCycle::movingBy(const Request& request, Instant now
 
 // It was looked at when the write was asked for: until it has been carried out no other drive may begin to turn.
 void BusCycle::holdForModule() noexcept {
-  if (std::none_of(axes_.begin(), axes_.end(),
-                   [](const Axis& axis) { return axis.parameters.writesTerminalsOfModule(); }))
+  if (std::none_of(axes_.begin(), axes_.end(), [](const Axis& axis) { return axis.parameters.writesForModule(); }))
     return;
   for (drive::Drive& held : drives_) held.setParametersAwaited(true);
 }

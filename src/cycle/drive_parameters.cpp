@@ -20,13 +20,9 @@ constexpr Duration kMissingInterval = std::chrono::seconds{2};
 
 // Beside those that are read at start: jog frequency, brake, servo mode and encoder (the P300 family's, not its
 // controller gains), PPO type, drive profile; and the functions of inputs and outputs: what stands at a terminal acts at
-// once, and an output, or the module's relay (P150), may be a brake's. P154 connects a module's terminals with the inverters.
-constexpr std::uint16_t kDecideMotion[] = {113, 114, kModuleRelay, kModuleTerminals,
-                                           300, 301, 325,          400,
-                                           405, 420, 421,          422,
-                                           423, 424, 425,          434,
-                                           441, 443, 450,          455,
-                                           470, 507, 541,          551};
+// once, and an output may be a brake's; those of a bus module are told by isOfAllBehindModule().
+constexpr std::uint16_t kDecideMotion[] = {113, 114, 300, 301, 325, 400, 405, 420, 421, 422, 423,
+                                           424, 425, 434, 441, 443, 450, 455, 470, 507, 541, 551};
 
 // Whether and how it positions (P600 to P631), other than the positions themselves (P613).
 constexpr bool decidesPosition(std::uint16_t number) noexcept {
@@ -104,8 +100,10 @@ bool changesProcessData(const Request& request) noexcept {
 
 bool decidesMotion(const Request& request) noexcept {
   if (changesProcessData(request)) return true;
-  return request.kind == RequestKind::kWriteParameter && std::find(std::begin(kDecideMotion), std::end(kDecideMotion),
-                                                                   request.parameter.number) != std::end(kDecideMotion);
+  const std::uint16_t number = request.parameter.number;
+  return request.kind == RequestKind::kWriteParameter &&
+         (isOfAllBehindModule(number) ||
+          std::find(std::begin(kDecideMotion), std::end(kDecideMotion), number) != std::end(kDecideMotion));
 }
 
 DriveParameters::DriveParameters(DriveIndex drive, std::string name, profile::Series series,
@@ -163,7 +161,7 @@ bool DriveParameters::writesMotion() const noexcept {
                      [](const Pending& pending) { return decidesMotion(pending.request); });
 }
 
-bool DriveParameters::writesTerminalsOfModule() const noexcept {
+bool DriveParameters::writesForModule() const noexcept {
   return std::any_of(pending_.begin(), pending_.end(), [](const Pending& pending) {
     return decidesMotion(pending.request) && isOfAllBehindModule(pending.request.parameter.number);
   });

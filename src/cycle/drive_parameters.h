@@ -31,11 +31,10 @@ bool changesProcessData(const Request& request) noexcept;
 /// A write that decides whether and how the motor follows the process data, the ones above included: nothing that may
 /// be written while the drive is enabled.
 bool decidesMotion(const Request& request) noexcept;
-/// The function of the bus module's relay (BU 0270), and what connects its terminals with the inverters (BU 2700 7.1.1).
-constexpr std::uint16_t kModuleRelay = 150, kModuleTerminals = 154;
-/// Whether all inverters behind a bus module share it, and it acts at once on each of them.
+/// Whether all inverters behind a bus module share it, and it acts at once on each of them: the function of the module's
+/// relay, which may be a brake's (BU 0270 P150), and what connects its terminals with the inverters (BU 2700 7.1.1, P154).
 constexpr bool isOfAllBehindModule(std::uint16_t number) noexcept {
-  return number == kModuleRelay || number == kModuleTerminals;
+  return number == 150 || number == 154;
 }
 
 /// The way to the parameters of one drive, and who uses it.
@@ -81,8 +80,8 @@ class DriveParameters {
 
   /// A user's write that changes what the process data mean is under way, or its effect not read yet.
   bool wordsInDoubt() const noexcept { return writesProcessData() || !reader_.motionAsked(); }
-  /// A user's write of a module's relay waits or is under way: it may be the brake of any drive behind that module.
-  bool writesTerminalsOfModule() const noexcept;
+  /// A user's write of what acts on every drive behind a module, isOfAllBehindModule(), waits or is under way.
+  bool writesForModule() const noexcept;
   const DeviceData& device() const noexcept { return reader_.data(); }
   /// P151 was written since this was asked last: it is that of every drive behind the same module.
   bool takeModuleWrite() noexcept { return std::exchange(module_written_, false); }

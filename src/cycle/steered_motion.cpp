@@ -22,15 +22,6 @@ bool allKnown(const robot::SteeringAngles& angles, std::size_t axles) noexcept {
   return std::all_of(angles.begin(), angles.end(), [](double angle) { return std::isfinite(angle); });
 }
 
-/// 1, or less where a wheel would be too fast; 0 where one cannot turn at all.
-double partWithin(const robot::WheelSpeeds& limits, const robot::WheelSpeeds& wheels) noexcept {
-  const robot::WheelSpeeds possible = robot::scaleInto(wheels, limits);
-  for (std::size_t i = 0; i < wheels.size(); ++i) {
-    if (possible[i] != wheels[i]) return possible[i] / wheels[i];
-  }
-  return 1.0;
-}
-
 }  // namespace
 
 SteeredMotion::SteeredMotion(const BaseConfig& config, Duration cmd_vel_timeout)
@@ -85,7 +76,7 @@ robot::Twist2d SteeredMotion::targetOf(const TwistCommand& command, bool obey, c
   if (possible != command.twist) {
     waits_for_ = possible == robot::Twist2d{} ? SteeredWait::kNoAngle : SteeredWait::kWiderCurve;
   }
-  return robot::times(partWithin(limits, kinematics_.solve(possible, angles, steered_).wheels), possible);
+  return robot::times(robot::factorInto(kinematics_.solve(possible, angles, steered_).wheels, limits), possible);
 }
 
 bool SteeredMotion::rollsOut(const SteeredDrives& drives, Instant now) noexcept {
@@ -169,7 +160,7 @@ robot::SteeredSetpoint SteeredMotion::rest() noexcept {
 
 robot::SteeredSetpoint SteeredMotion::setpoint(const SteeredDrives& drives, const robot::WheelSpeeds& limits,
                                                bool braking) noexcept {
-  const double part = partWithin(limits, kinematics_.wheels(limited_, drives.angles));
+  const double part = robot::factorInto(kinematics_.wheels(limited_, drives.angles), limits);
   if (part != 1.0) {
     limited_ = robot::times(part, limited_);
     limiter_.reset(limited_);

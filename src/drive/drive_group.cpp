@@ -217,11 +217,15 @@ bool DriveGroup::nearStandstill() const noexcept {
   return true;
 }
 
+bool DriveGroup::quickStopWhenOverdue(Instant now) noexcept {
+  if (now - down_since_ < config_.shutdown_timeout) return false;
+  latch(StopCause::kShutdownTimeout, 0);
+  quickStopAll(StopCause::kShutdownTimeout, now);
+  return true;
+}
+
 void DriveGroup::updateRampingDown(Instant now) noexcept {
-  if (now - down_since_ >= config_.shutdown_timeout) {
-    latch(StopCause::kShutdownTimeout, 0);
-    return quickStopAll(StopCause::kShutdownTimeout, now);
-  }
+  if (quickStopWhenOverdue(now)) return;
   if (!setpoint_is_zero_) {
     zero_seen_ = false;
     return;
@@ -249,10 +253,7 @@ bool DriveGroup::getsSlower(Instant now) noexcept {
 
 // The end of the node waits no longer than shutdown_timeout, and one that trips on the way down does not make it longer.
 void DriveGroup::updateHalting(Instant now) noexcept {
-  if (bound_runs_on_ && now - down_since_ >= config_.shutdown_timeout) {
-    latch(StopCause::kShutdownTimeout, 0);
-    return quickStopAll(StopCause::kShutdownTimeout, now);
-  }
+  if (bound_runs_on_ && quickStopWhenOverdue(now)) return;
   const bool goes_on = getsSlower(now) && now - phase_since_ < config_.shutdown_timeout;
   if (!nearStandstill() && goes_on) return;
   if (!bound_runs_on_) down_since_ = now;

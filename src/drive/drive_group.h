@@ -93,6 +93,8 @@ class DriveGroup {
   void updateEnabling(Instant now) noexcept;
   void updateRampingDown(Instant now) noexcept;
   void updateHalting(Instant now) noexcept;
+  /// The time of the way down is over: all are stopped by OFF3.
+  bool quickStopWhenOverdue(Instant now) noexcept;
   void updateStopping() noexcept;
   void stop(StopWay way, StopCause cause, Instant now) noexcept;
   void haltTheOthers(Instant now) noexcept;

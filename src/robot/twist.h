@@ -24,8 +24,9 @@ constexpr bool operator!=(const Twist2d& a, const Twist2d& b) noexcept {
   return !(a == b);
 }
 
-/// On the same path, with the speed times `factor`.
+/// On the same path, with the speed times `factor`; rest for 0, also of what is not finite.
 constexpr Twist2d times(double factor, const Twist2d& twist) noexcept {
+  if (factor == 0.0) return {};
   return {factor * twist.linear_x, factor * twist.angular_z, factor * twist.linear_y};
 }
 

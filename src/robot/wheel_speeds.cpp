@@ -21,14 +21,16 @@ double factorInto(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept {
   return factor;
 }
 
-WheelSpeeds scaleInto(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept {
+WheelSpeeds times(double factor, const WheelSpeeds& wheels) noexcept {
   WheelSpeeds scaled;
-  scaled.resize(wanted.size());
-  const double factor = factorInto(wanted, max);
-  // What is not finite times 0 is no number.
+  scaled.resize(wheels.size());
   if (factor == 0.0) return scaled;
-  for (std::size_t i = 0; i < wanted.size(); ++i) scaled[i] = wanted[i] * factor;
+  for (std::size_t i = 0; i < wheels.size(); ++i) scaled[i] = wheels[i] * factor;
   return scaled;
+}
+
+WheelSpeeds scaleInto(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept {
+  return times(factorInto(wanted, max), wanted);
 }
 
 WheelSpeeds tighterOf(const WheelSpeeds& a, const WheelSpeeds& b) noexcept {

@@ -25,6 +25,9 @@ WheelSpeeds scaleInto(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcep
 /// from the scaled wheels it would have a rest of rounding on an axis that is zero.
 double factorInto(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept;
 
+/// Each wheel's speed times `factor`; rest for 0, also of what is not finite.
+WheelSpeeds times(double factor, const WheelSpeeds& wheels) noexcept;
+
 /// The tighter of two limits, wheel by wheel; none (so that nothing moves) when they are not of one base.
 WheelSpeeds tighterOf(const WheelSpeeds& a, const WheelSpeeds& b) noexcept;
 

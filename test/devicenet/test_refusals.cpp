@@ -162,30 +162,29 @@ TEST(Refusals, BodyFormatNobodyTells) {
   EXPECT_EQ("wants explicit messages of body format 0 in 0 bytes; 0 to 3 in one byte is spoken here", refusal(run));
 }
 
+/// The device's answer tells another expected packet rate, in ms.
+void answersRate(ScannerRun& run, std::uint8_t rate) {
+  run.loses = [&run, rate](const CanFrame& frame) {
+    if (frame.id != 0x42B || frame.size != 4 || frame.data[1] != 0x90) return false;
+    CanFrame changed = frame;
+    changed.data[2] = rate;
+    changed.data[3] = 0;
+    run.scanner.handleFrame(changed, run.now);
+    return true;
+  };
+}
+
 // A device that would never notice that we are gone is not driven.
 TEST(Refusals, RatesThatDoNotProtect) {
   {
     ScannerRun run{busConfig(1)};
-    run.loses = [&](const CanFrame& frame) {
-      if (frame.id != 0x42B || frame.size != 4 || frame.data[1] != 0x90) return false;
-      CanFrame changed = frame;
-      changed.data[2] = changed.data[3] = 0;
-      run.scanner.handleFrame(changed, run.now);
-      return true;
-    };
+    answersRate(run, 0);
     EXPECT_EQ("answers an expected packet rate of 0: it would never notice that we are gone", refusal(run));
   }
   ScannerConfig config = busConfig(1);
   config.cycle_time = milliseconds{100};
   ScannerRun run{config};
-  run.loses = [&](const CanFrame& frame) {
-    if (frame.id != 0x42B || frame.size != 4 || frame.data[1] != 0x90) return false;
-    CanFrame changed = frame;
-    changed.data[2] = 40;
-    changed.data[3] = 0;
-    run.scanner.handleFrame(changed, run.now);
-    return true;
-  };
+  answersRate(run, 40);
   EXPECT_EQ(
       "answers an expected packet rate of 40 ms: it gives up after four times that, less than two of our cycles of "
       "100.0 ms",
@@ -242,14 +241,7 @@ TEST(Refusals, RatesJustWithinTheirBounds) {
   ScannerConfig config = busConfig(1);
   config.cycle_time = milliseconds{100};
   ScannerRun run{config};
-  run.loses = [&](const CanFrame& frame) {
-    if (frame.id != 0x42B || frame.size != 4 || frame.data[1] != 0x90) return false;
-    CanFrame changed = frame;
-    changed.data[2] = 50;
-    changed.data[3] = 0;
-    run.scanner.handleFrame(changed, run.now);
-    return true;
-  };
+  answersRate(run, 50);
   run.begin();
   EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{4}));
   EXPECT_EQ(milliseconds{50}, run.scanner.status(0).packet_rate);

@@ -63,6 +63,17 @@ class NordWire : public Wire {
   void isFree() { cycle(kDiag6D, kWantsPrm); }
   void takesParameters() { cycle(kSetPrm5D, kShortAcknowledge); }
   void takesConfiguration() { cycle(kChkCfg7D, kShortAcknowledge); }
+  /// In the first exchange it announces a diagnosis, and does not answer the question for it.
+  void announcesWithoutTelling(const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+    startCycle();
+    sends(kExchange7D, file, line);
+    receives(kInputsDh);
+    for (int i = 0; i < 2; ++i) {
+      sends(kDiag5D, file, line);
+      staysSilent();
+    }
+    cycleEnds(file, line);
+  }
   /// Found before its watchdog has run out: it hears the next word, and is asked for its diagnosis. The next exchange
   /// carries FC 7D.
   void isGoneOnWith(const std::string& diagnosis = kReady, const char* file = __builtin_FILE(),

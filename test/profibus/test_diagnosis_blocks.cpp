@@ -169,14 +169,7 @@ TEST(InverterLink, IsAskedForWhereTheModuleIsGoneOnWith) {
   NordWire wire;
   wire.master.setSilenceLimit(0, std::chrono::milliseconds{50});
   wire.startsUp();
-  wire.startCycle();
-  wire.sends(kExchange7D);
-  wire.receives(kInputsDh);
-  for (int i = 0; i < 2; ++i) {
-    wire.sends(kDiag5D);
-    wire.staysSilent();
-  }
-  wire.cycleEnds();
+  wire.announcesWithoutTelling();
   while (wire.status().phase == SlavePhase::kDataExchange) {
     wire.startCycle();
     for (int i = 0; i < 2; ++i) {

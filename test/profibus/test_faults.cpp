@@ -74,6 +74,16 @@ TEST(Faults, RefusedParameters) {
   wire.takesParameters();
 }
 
+/// Behind Set_Prm, which it has acknowledged; the next diagnosis tells why.
+void refusesChkCfg(NordWire& wire, const char* diagnosis) {
+  wire.isFound();
+  wire.isFree();
+  wire.takesParameters();
+  wire.cycle(kChkCfg7D, kNotActivated);
+  wire.forgetEvents();
+  wire.cycle(kDiag5D, diagnosis);
+}
+
 // It acknowledges Set_Prm, waits for others, and answers Chk_Cfg with RS there. Not_Supported names SYNC and FREEZE.
 TEST(Faults, RefusedParametersAreNamedWhereChkCfgIsRefused) {
   struct {
@@ -83,12 +93,7 @@ TEST(Faults, RefusedParametersAreNamedWhereChkCfgIsRefused) {
                       {"68 0B 0B 68 81 88 08 3E 3C 52 05 00 FF 75 31 87 16", "SYNC"}};
   for (const auto& example : kCases) {
     NordWire wire;
-    wire.isFound();
-    wire.isFree();
-    wire.takesParameters();
-    wire.cycle(kChkCfg7D, kNotActivated);
-    wire.forgetEvents();
-    wire.cycle(kDiag5D, example.diagnosis);
+    refusesChkCfg(wire, example.diagnosis);
     EXPECT_NE(nullptr, std::strstr(wire.tells(DpEventKind::kParameterFault).text, example.word));
     EXPECT_NE(nullptr, std::strstr(wire.status().note, example.word));
     EXPECT_EQ(1u, wire.status().counters.refusals);
@@ -99,12 +104,7 @@ TEST(Faults, RefusedParametersAreNamedWhereChkCfgIsRefused) {
 // No fault in its diagnosis: its watchdog ran out, or it was switched off and on, between Set_Prm and Chk_Cfg.
 TEST(Faults, AChkCfgRefusedWithoutAFaultIsForgottenParameters) {
   NordWire wire;
-  wire.isFound();
-  wire.isFree();
-  wire.takesParameters();
-  wire.cycle(kChkCfg7D, kNotActivated);
-  wire.forgetEvents();
-  wire.cycle(kDiag5D, kWantsPrm);
+  refusesChkCfg(wire, kWantsPrm);
   wire.tellsNothing();
   wire.advance(500ms);
   wire.cycle(kDiag7D, kWantsPrm);

@@ -175,22 +175,10 @@ TEST(Loss, NothingElseIsAskedOfASilentSlave) {
   NordWire wire;
   wire.master.setSilenceLimit(0, 90ms);
   wire.startsUp();
-  wire.startCycle();
-  wire.sends(kExchange7D);
-  wire.receives(kInputsDh);
-  for (int i = 0; i < 2; ++i) {
-    wire.sends(kDiag5D);
-    wire.staysSilent();
-  }
-  wire.cycleEnds();
+  wire.announcesWithoutTelling();
   EXPECT_TRUE(wire.status().exchanged_this_cycle) << "its inputs were good";
   loses(wire, kExchange6D);  // and no diagnosis
-  wire.startCycle();
-  wire.sends(kExchange6D);
-  wire.receives(kInputs);
-  wire.sends(kDiag5D);
-  wire.receives(kReady);
-  wire.cycleEnds();
+  wire.isGoneOnWith();
   wire.tellsNothing();
 }
 

@@ -70,6 +70,8 @@ class CanLink {
   virtual Instant now() const noexcept = 0;
 
   virtual CanState state() const noexcept = 0;
+  /// Open, and frames can pass: neither down nor bus-off.
+  bool works() const noexcept { return isOpen() && state() != CanState::kBusOff && state() != CanState::kDown; }
   virtual CanCounters counters() const noexcept = 0;
   /// One sentence naming the interface and what went wrong; empty when nothing did.
   virtual const std::string& lastError() const noexcept = 0;

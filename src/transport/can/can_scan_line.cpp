@@ -25,7 +25,7 @@ std::string CanScanLine::open(const ListenRules& rules, const Handle& heard) {
   }
   if (end_asked_) return "ended before anybody was asked";
   if (!link_.isOpen()) return link_.lastError();
-  if (link_.state() == link::CanState::kDown || link_.state() == link::CanState::kBusOff) {
+  if (!link_.works()) {
     const std::string advice = link_.advice();
     return advice.empty() ? "the CAN interface is down or bus-off" : advice;
   }

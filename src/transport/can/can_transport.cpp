@@ -75,7 +75,7 @@ void CanTransport::restart() noexcept {
 }
 
 bool CanTransport::linkWorks() const noexcept {
-  return link_->isOpen() && link_->state() != link::CanState::kBusOff && link_->state() != link::CanState::kDown;
+  return link_->works();
 }
 
 void CanTransport::watchController() noexcept {
