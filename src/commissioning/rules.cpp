@@ -7,10 +7,12 @@ const std::vector<Rule>& rules() {
       {"bus_has_control", "P509",
        "selects this bus: SK 1x0E/2xxE 3; SK 5xxE/54xE 4 PROFIBUS, 5 InterBus, 6 CANopen, 7 "
        "DeviceNet, 6 behind SK CU4/TU4; SK 300E/7x0E 10 PROFIBUS, 14 InterBus",
-       "without it the drive obeys its terminals, and does not become ready", "this bus",
-       "BU 0020, 6.2.2, p. 63; 6.1.2, p. 56; BU 0070, 5.1; BU 2700, 7.2", busHasControl},
-      {"bus_gives_setpoint", "P510 [-01]", "0 (as P509), or this bus", "the setpoint would come from somewhere else",
-       "0", "BU 2700, 7.2; BU 0020, 6.1.2, p. 56", busGivesSetpoint},
+       "without it the drive obeys its terminals, and does not become ready; with 9 or 13 (SK 300E/7x0E) it would, "
+       "and is not enabled",
+       "this bus", "BU 0020, 6.2.2, p. 63; 6.1.2, p. 56; BU 0070, 5.1; BU 2700, 7.2", busHasControl},
+      {"bus_gives_setpoint", "P510 [-01]", "0 (as P509), or this bus",
+       "the setpoint would come from somewhere else: the drive is not enabled", "0",
+       "BU 2700, 7.2; BU 0020, 6.1.2, p. 56", busGivesSetpoint},
       {"first_setpoint", "P546 [-01], all sets", "1, the frequency", "a command would be no speed", "1",
        "BU 0020, 6.2.2, p. 65; 6.1.2, p. 58; BU 0220, 5.1.3", firstSetpointIsFrequency},
       {"first_actual_value", "P543 [-01], all sets", "1, the frequency",

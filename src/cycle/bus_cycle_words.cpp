@@ -13,6 +13,7 @@ void BusCycle::addAxis(const DriveSetup& setup, CycleRole role) {
   channel.capabilities = transport_.parameterCapabilities(drive);
   channel.monitor = setup.monitor;
   channel.follows = !setup.follows.empty();
+  channel.told_by_telegram = identity.sources_by_telegram;
   channel.users_only = role == CycleRole::kGuest;
   drives_[drive].setParametersAwaited(!channel.users_only);
   if (role != CycleRole::kGuest) channel.needs = wordNeeds(setup.words, identity.process_values);

@@ -133,7 +133,7 @@ void DriveParameters::scale(drive::Drive& drive) const noexcept {
     const WordFunctions& functions = reader_.data().word_functions[set - 1u];
     drive.setPositionWords(set, positionWordsOf(functions, series_, channel_));
   }
-  drive.setUnexpectedSource(unexpectedSource(reader_.data(), series_, channel_.follows));
+  drive.setUnexpectedSource(unexpectedSource(reader_.data(), series_, channel_.follows, channel_.told_by_telegram));
 }
 
 Sentence DriveParameters::notWhileEnabled(const Request& request) const noexcept {

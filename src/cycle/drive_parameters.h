@@ -46,7 +46,8 @@ struct ParameterChannelUse {
   WordNeeds needs;                                                    ///< of the words beside the first
   profile::FieldOrder field_order = profile::FieldOrder::kHighFirst;  ///< of a position of SK 700E and 750E
   bool follows = false;                                               ///< another inverter is to lead it
-  bool users_only = false;  ///< nothing is read that no user has asked for: neither faults nor what scaling needs
+  bool told_by_telegram = false;  ///< P509 and P510 do not count: DriveIdentity::sources_by_telegram
+  bool users_only = false;        ///< nothing is read that no user has asked for: neither faults nor what scaling needs
 };
 
 /// Each cycle, after the exchange: `handleState`, then `pollRequest` until it is empty, then the transport's results by

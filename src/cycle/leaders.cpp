@@ -15,6 +15,10 @@ namespace {
 
 constexpr char kKey[] = "follows";
 constexpr std::uint16_t kControlWordSource = 509, kSetpointSource = 510;
+constexpr std::int32_t kTerminalsOnly = 1;
+// SK 300E, 700E and 750E: "the control word via the bus, the setpoint via the analog input or the fixed frequencies"
+// (BU 0020 6.1.2, BU 0070 5.1).
+constexpr std::int32_t kProfibusControlWord = 9, kInterbusControlWord = 13;
 
 std::optional<DriveIndex> indexOf(const std::string& name, const CycleConfig& config) {
   for (DriveIndex i = 0; i < config.drives.size(); ++i) {
@@ -40,6 +44,33 @@ bool isOfBase(const CycleConfig& config, DriveIndex drive) {
 bool isArray(std::uint16_t number, profile::Series series) noexcept {
   const profile::CycleParameter* const parameter = profile::findCycleParameter(number, series);
   return parameter != nullptr && profile::isArray(parameter->shape);
+}
+
+std::optional<drive::UnexpectedSource> broadcastSource(const DeviceData& device, profile::Series series) noexcept {
+  const auto& control_word = device.control_word_source;
+  const auto& setpoint = device.setpoint_source;
+  if (control_word && profile::isBroadcastControlWord(series, *control_word)) {
+    return drive::UnexpectedSource{kControlWordSource, false, *control_word, false};
+  }
+  if (setpoint && profile::isBroadcastSetpoint(series, *setpoint)) {
+    return drive::UnexpectedSource{kSetpointSource, isArray(kSetpointSource, series), *setpoint, false};
+  }
+  return std::nullopt;
+}
+
+// A drive that obeys the control word of this bus, and not its setpoint: enabled, no setpoint 0 stops it. Where P509 is
+// the terminals status bit 9 refuses it. P510 of SK 300E, 700E and 750E is the auxiliary setpoint alone.
+std::optional<drive::UnexpectedSource> setpointFromElsewhere(const DeviceData& device,
+                                                             profile::Series series) noexcept {
+  const auto& control_word = device.control_word_source;
+  const auto& setpoint = device.setpoint_source;
+  if (!control_word || *control_word <= kTerminalsOnly) return std::nullopt;
+  if (profile::findCycleParameter(kSetpointSource, series) == nullptr) {
+    if (*control_word != kProfibusControlWord && *control_word != kInterbusControlWord) return std::nullopt;
+    return drive::UnexpectedSource{kControlWordSource, false, *control_word, false, true};
+  }
+  if (!setpoint || *setpoint == 0 || *setpoint == *control_word) return std::nullopt;
+  return drive::UnexpectedSource{kSetpointSource, isArray(kSetpointSource, series), *setpoint, false, true};
 }
 
 }  // namespace
@@ -82,29 +113,24 @@ std::vector<DriveIndex> followersOf(const CycleConfig& config, DriveIndex leader
   return followers;
 }
 
-std::optional<drive::UnexpectedSource> unexpectedSource(const DeviceData& device, profile::Series series,
-                                                        bool follows) noexcept {
+std::optional<drive::UnexpectedSource> unexpectedSource(const DeviceData& device, profile::Series series, bool follows,
+                                                        bool told_by_telegram) noexcept {
   const auto& control_word = device.control_word_source;
   const auto& setpoint = device.setpoint_source;
-  const auto atSetpoint = [&](bool should_follow) {
-    return drive::UnexpectedSource{kSetpointSource, isArray(kSetpointSource, series), *setpoint, should_follow};
-  };
   if (follows) {
     // Enabled by a leader, or by us, it would hold the setpoint of this bus, which nobody gives it: 0, against the
     // other's load. Where one of both was not read the configuration counts.
     if (profile::isLed(series, control_word, setpoint) || !control_word || !setpoint) return std::nullopt;
-    return atSetpoint(true);
+    return drive::UnexpectedSource{kSetpointSource, isArray(kSetpointSource, series), *setpoint, true};
   }
-  if (control_word && profile::isBroadcastControlWord(series, *control_word)) {
-    return drive::UnexpectedSource{kControlWordSource, false, *control_word, false};
-  }
-  if (setpoint && profile::isBroadcastSetpoint(series, *setpoint)) return atSetpoint(false);
-  return std::nullopt;
+  const auto broadcast = broadcastSource(device, series);
+  if (broadcast || told_by_telegram) return broadcast;
+  return setpointFromElsewhere(device, series);
 }
 
 Sentence followsMessage(const DeviceData& device, profile::Series series) noexcept {
   Sentence text;
-  const auto found = unexpectedSource(device, series, false);
+  const auto found = broadcastSource(device, series);
   if (!found) return text;
   text.format("P%u%s = %d (broadcast): its %s from another inverter", unsigned{found->number},
               found->is_array ? "[-01]" : "", static_cast<int>(found->found),

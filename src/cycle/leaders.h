@@ -20,9 +20,10 @@ void readLeaders(const std::vector<DriveSettings>& sources, CycleConfig& config,
 /// The drives that follow this one.
 std::vector<DriveIndex> followersOf(const CycleConfig& config, DriveIndex leader);
 
-/// What P509 or P510, as read, should not be: broadcast without `follows`, or this bus with it.
-std::optional<drive::UnexpectedSource> unexpectedSource(const DeviceData& device, profile::Series series,
-                                                        bool follows) noexcept;
+/// What P509 or P510, as read, should not be: broadcast without `follows`, or this bus with it; and without `follows` a
+/// setpoint from elsewhere than the control word, unless `told_by_telegram`: each telegram says that both come from it.
+std::optional<drive::UnexpectedSource> unexpectedSource(const DeviceData& device, profile::Series series, bool follows,
+                                                        bool told_by_telegram = false) noexcept;
 
 /// "P510[-01] = 4 (broadcast): its setpoint comes from another inverter"; empty when it comes from nobody else, as far
 /// as the drive has told.

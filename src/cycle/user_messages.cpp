@@ -48,8 +48,21 @@ Sentence positionModeMessage(const char* drive, const drive::UnexpectedFunction&
   return text;
 }
 
+// Enabled, it would turn at what its terminals say.
+Sentence elsewhereMessage(const char* drive, const drive::UnexpectedSource& source) noexcept {
+  Sentence text;
+  const bool control_word = source.number == 509;
+  text.format(
+      "drive %s: P%u%s is %d: its setpoint does not come from this bus, and enabled it would turn whatever this driver "
+      "says; set it to %s",
+      drive, unsigned{source.number}, source.is_array ? "[-01]" : "", static_cast<int>(source.found),
+      control_word ? "control word and setpoint of this bus (10 PROFIBUS, 14 InterBus)" : "0 (as P509)");
+  return text;
+}
+
 // It would go as another inverter says, or as this bus says though another one is to lead it.
 Sentence sourceMessage(const char* drive, const drive::UnexpectedSource& source) noexcept {
+  if (source.elsewhere) return elsewhereMessage(drive, source);
   Sentence text;
   const char* const element = source.is_array ? "[-01]" : "";
   if (source.should_follow) {

@@ -114,12 +114,14 @@ struct UnexpectedFunction {
   bool surplus = false;          ///< nothing is missing: what stands there must not, beside what another word carries
 };
 
-/// Control word or setpoint do not come from where the configuration says: from another inverter that leads by broadcast.
+/// Control word or setpoint do not come from where the configuration says: from another inverter that leads by broadcast,
+/// or the setpoint from neither a leader nor this bus.
 struct UnexpectedSource {
   std::uint16_t number = 0;    ///< 509 or 510
   bool is_array = false;       ///< the series has it as an array, of which [-01] counts
   std::int32_t found = 0;      ///< the value read
   bool should_follow = false;  ///< true: it is configured as a follower, and hears this bus
+  bool elsewhere = false;  ///< true: no broadcast; the setpoint comes from terminals, fixed frequencies or another bus
 };
 
 struct DriveReport {

@@ -99,12 +99,52 @@ TEST(Leaders, AreToldByTheNumbersOfEachSeries) {
     EXPECT_EQ(509, unexpectedSource(device(source, 0), Series::kSk5xxe, false)->number);
     EXPECT_EQ(509, unexpectedSource(device(source, 0), Series::kSk54xe, false)->number);
     EXPECT_EQ(510, unexpectedSource(device(4, source), Series::kSk5xxe, false)->number);
-    EXPECT_FALSE(unexpectedSource(device(source, {}), Series::kSk700e, false)) << "9 and 10 are PROFIBUS there";
-    EXPECT_FALSE(unexpectedSource(device(source, {}), Series::kSk300e, false));
+    EXPECT_STREQ("", followsMessage(device(source, {}), Series::kSk700e).c_str()) << "9 and 10 are PROFIBUS there";
+    EXPECT_STREQ("", followsMessage(device(source, {}), Series::kSk300e).c_str());
   }
   EXPECT_EQ(510, unexpectedSource(device(3, 4), Series::kSk2xxe, false)->number);
   EXPECT_FALSE(unexpectedSource(device(3, 0), Series::kSk2xxe, false));
   EXPECT_FALSE(unexpectedSource(device(3, 3), Series::kSk2xxe, false));
+}
+
+// The control word of this bus with the setpoint of the terminals: setpoint 0 stops nothing (BU 0280 5.1.3, BU 0070 5.1).
+TEST(SetpointSource, FromElsewhereThanTheControlWordIsUnexpected) {
+  for (const std::int32_t source : {1, 2, 6}) {
+    const auto found = unexpectedSource(device(4, source), Series::kSk5xxe, false);
+    ASSERT_TRUE(found) << source;
+    EXPECT_EQ(510, found->number);
+    EXPECT_EQ(source, found->found);
+    EXPECT_TRUE(found->elsewhere && found->is_array && !found->should_follow);
+    EXPECT_STREQ("", followsMessage(device(4, source), Series::kSk5xxe).c_str()) << "no inverter leads it";
+  }
+  EXPECT_EQ(510, unexpectedSource(device(3, 1), Series::kSk2xxe, false)->number);
+  EXPECT_EQ(510, unexpectedSource(device(3, 2), Series::kSk1x0e, false)->number);
+  EXPECT_EQ(510, unexpectedSource(device(6, 1), Series::kSk54xe, false)->number);
+  EXPECT_FALSE(unexpectedSource(device(4, 4), Series::kSk5xxe, false));
+  EXPECT_FALSE(unexpectedSource(device(4, {}), Series::kSk5xxe, false)) << "not read";
+  EXPECT_FALSE(unexpectedSource(device({}, 1), Series::kSk5xxe, false)) << "not read";
+  EXPECT_FALSE(unexpectedSource(device(0, 4), Series::kSk5xxe, false)) << "local control: status bit 9 tells it";
+}
+
+// BU 0020 6.1.2 and BU 0070 5.1: 9 and 13 are the control word alone; P510 is the auxiliary setpoint.
+TEST(SetpointSource, OfOlderSeriesIsToldByP509) {
+  for (const Series series : {Series::kSk300e, Series::kSk700e, Series::kSk750e}) {
+    for (const std::int32_t source : {9, 13}) {
+      const auto found = unexpectedSource(device(source, {}), series, false);
+      ASSERT_TRUE(found) << source;
+      EXPECT_EQ(509, found->number);
+      EXPECT_TRUE(found->elsewhere && !found->is_array);
+    }
+    for (const std::int32_t source : {0, 8, 10, 14, 17, 20}) {
+      EXPECT_FALSE(unexpectedSource(device(source, 1), series, false)) << source;
+    }
+  }
+}
+
+// BU 0280 4.2.3.1: with NetRef P509 and P510 are not queried.
+TEST(SetpointSource, DoesNotCountWhereEachTelegramTellsIt) {
+  EXPECT_FALSE(unexpectedSource(device(3, 1), Series::kSk2xxe, false, true));
+  EXPECT_EQ(510, unexpectedSource(device(3, 4), Series::kSk2xxe, false, true)->number) << "led by another inverter";
 }
 
 TEST(Leaders, OfAFollowerMustBeHeard) {

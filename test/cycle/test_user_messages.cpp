@@ -81,6 +81,15 @@ TEST(Sentences, AnotherLeaderThanConfiguredIsRefusedWithItsParameter) {
       "drive right is to follow another inverter (drives/right/follows), and P510[-01] is 1, no broadcast: it would go "
       "by this bus; set it, or P509, to the broadcast",
       refusal({510, true, 1, true}));
+  EXPECT_EQ(
+      "drive right: P510[-01] is 1: its setpoint does not come from this bus, and enabled it would turn whatever this "
+      "driver says; set it to 0 (as P509)",
+      refusal({510, true, 1, false, true}));
+  EXPECT_EQ(
+      "drive right: P509 is 9: its setpoint does not come from this bus, and enabled it would turn whatever this "
+      "driver "
+      "says; set it to control word and setpoint of this bus (10 PROFIBUS, 14 InterBus)",
+      refusal({509, false, 9, false, true}));
 }
 
 // What the sentence is about has been read anew meanwhile: nothing is told of what is not there.

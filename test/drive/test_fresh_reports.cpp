@@ -68,7 +68,7 @@ TEST(FreshReport, OfWhatAWordShouldBeNamesNoParameter) {
   const UnexpectedSource source;
   EXPECT_EQ(0, source.number);
   EXPECT_EQ(0, source.found);
-  EXPECT_FALSE(source.is_array || source.should_follow);
+  EXPECT_FALSE(source.is_array || source.should_follow || source.elsewhere);
 }
 
 // Who reads no configuration has the bounds of doc/parameters.md: 50 ms of silence, 10 s for OFF1.

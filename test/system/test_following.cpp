@@ -56,6 +56,17 @@ TEST(Following, ADriveThatHearsAnotherOneIsNotEnabledUnasked) {
   EXPECT_THAT(led.refusalOf(kRearLeft), HasSubstr("P509 is 9, broadcast, so that its control word does not come"));
 }
 
+// Enabled, it would turn at what its analogue input says, and no setpoint 0 would stop it.
+TEST(Following, ADriveThatTakesItsSetpointFromTheTerminalsIsNotEnabled) {
+  Rig rig{{{510, 0, 0, 1}}, false};
+  ASSERT_TRUE(rig.robot.bringUp());
+  EXPECT_EQ(
+      "drive rear_left: P510[-01] is 1: its setpoint does not come from this bus, and enabled it would turn whatever "
+      "this driver says; set it to 0 (as P509)",
+      rig.refusalOf(kRearLeft));
+  EXPECT_FALSE(rig.runs(kRearLeft));
+}
+
 // With the wheel it follows, and as fast.
 TEST(Following, AFollowerIsEnabledAndDrivenWithItsLeader) {
   for (const auto& preset : {kSetpointFromLeader, kAllFromLeader}) {

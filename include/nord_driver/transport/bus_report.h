@@ -54,6 +54,8 @@ struct DriveIdentity {
   double worst_cycle = 0.0;
   /// The parameters of its bus module (P150 to P199) cannot be written without saving them.
   bool module_saves = false;
+  /// Each telegram says that control word and setpoint come from this bus, and P509 and P510 are not asked for that.
+  bool sources_by_telegram = false;
 };
 
 /// Something that happened on the bus, told once: a sentence for a technician.

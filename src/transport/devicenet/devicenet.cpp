@@ -239,6 +239,8 @@ DriveIdentity DeviceNetTransport::identity(DriveIndex drive) const {
   identity.process_values = config.processValues();
   identity.parameter_channel = "explicit messages";
   identity.module_saves = true;
+  // NetCtrl and NetRef (BU 0280 4.2.3.1), which assembly 20 does not have.
+  identity.sources_by_telegram = config.drive_profile == DevicenetProfile::kAcDriveExtended;
   identity.module_io = config_.modules[config.module].output_byte && config_.modules[config.module].input_byte;
   if (!parametersOnly()) {
     const double rate = toSeconds(io.expected_packet_rate.value_or(Duration::zero()));
