@@ -36,7 +36,10 @@ class PairSystem final : public link::CanSystem {
   int restart(int /*index*/) noexcept override { return 0; }
   int openInterfaceMessages() noexcept override { return -1; }
   int readInterfaceMessage(int /*descriptor*/, link::CanInterface& /*interface*/) noexcept override { return -EAGAIN; }
-  int setFilters(int /*descriptor*/, const std::vector<std::uint32_t>& /*ids*/) noexcept override { return 0; }
+  int setFilters(int /*descriptor*/, const std::vector<std::uint32_t>& /*ids*/,
+                 const std::vector<std::uint32_t>& /*remote_ids*/) noexcept override {
+    return 0;
+  }
   int setErrorFilter(int /*descriptor*/, std::uint32_t /*classes*/) noexcept override { return 0; }
   int setBuffers(int /*descriptor*/, int /*receive*/, int /*send*/) noexcept override { return 0; }
   int enableTimeStamps(int /*descriptor*/) noexcept override { return 0; }

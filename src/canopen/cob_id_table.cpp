@@ -64,6 +64,24 @@ std::vector<CobIdUse> cobIdTable(const MasterConfig& config) {
   return table.take();
 }
 
+std::vector<std::uint32_t> receivedIdsOf(const std::vector<CobIdUse>& table) {
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t id = 0; id < table.size(); ++id) {
+    const Kind kind = table[id].kind;
+    const bool foreign_emergency = kind == Kind::kForeignNode && id < kErrorControlBase;
+    if (kind != Kind::kForeign && kind != Kind::kIgnored && !foreign_emergency) ids.push_back(id);
+  }
+  return ids;
+}
+
+std::vector<std::uint32_t> receivedRemoteIdsOf(const std::vector<CobIdUse>& table) {
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t id = 0; id < table.size(); ++id) {
+    if (table[id].kind == Kind::kErrorControl) ids.push_back(id);
+  }
+  return ids;
+}
+
 const char* toText(CobIdUse::Kind kind) noexcept {
   switch (kind) {
     case Kind::kNmt:

@@ -35,6 +35,10 @@ struct CobIdUse {
 /// The whole table, by identifier: `config` is complete and checked.
 std::vector<CobIdUse> cobIdTable(const MasterConfig& config);
 
+/// See `Master::receivedIds()` and `Master::receivedRemoteIds()`; sorted.
+std::vector<std::uint32_t> receivedIdsOf(const std::vector<CobIdUse>& table);
+std::vector<std::uint32_t> receivedRemoteIdsOf(const std::vector<CobIdUse>& table);
+
 /// "the SDO answer of node 5": for sentences.
 const char* toText(CobIdUse::Kind kind) noexcept;
 

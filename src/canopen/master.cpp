@@ -142,7 +142,7 @@ bool Master::isOfOtherMaster(const CobIdUse& use, const CanFrame& frame) const n
     case Kind::kTransmitPdo:
       return frame.remote;
     case Kind::kErrorControl:
-      // Only the answer to a question bears a toggle bit; the question itself may not have passed the filters.
+      // Only the answer to a question bears a toggle bit; the question itself may have been lost.
       return frame.remote || (frame.size == 1 && (frame.data[0] & kToggle) != 0);
     default:
       return false;
@@ -187,6 +187,8 @@ void Master::dispatch(const CobIdUse& use, const CanFrame& frame, Instant now) n
 void Master::handleRemote(const CobIdUse& use, const CanFrame& frame, Instant now) noexcept {
   switch (use.kind) {
     case Kind::kErrorControl:
+      nodes_[use.node]->guard().handleForeignQuestion();
+      return watch_.secondMaster(frame, use.kind, now);
     case Kind::kTransmitPdo:
       return watch_.secondMaster(frame, use.kind, now);
     case Kind::kNmt:
@@ -385,16 +387,6 @@ std::optional<NodeSdoAnswer> Master::pollSdo() noexcept {
     return NodeSdoAnswer{node, server, *answer};
   }
   return std::nullopt;
-}
-
-std::vector<std::uint32_t> Master::receivedIds() const {
-  std::vector<std::uint32_t> ids;
-  for (std::uint32_t id = 0; id < kCobIds; ++id) {
-    const Kind kind = uses_[id].kind;
-    const bool foreign_emergency = kind == Kind::kForeignNode && id < kErrorControlBase;
-    if (kind != Kind::kForeign && kind != Kind::kIgnored && !foreign_emergency) ids.push_back(id);
-  }
-  return ids;
 }
 
 }  // namespace nord_driver::canopen

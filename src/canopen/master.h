@@ -85,7 +85,10 @@ class Master final : public CanEngine {
   const Counters& counters() const noexcept { return counters_; }
   /// The identifiers that must reach `handleFrame()`: those of our nodes, boot-up and heartbeat of every other node,
   /// and those only a master sends. For the filters of the interface; sorted.
-  std::vector<std::uint32_t> receivedIds() const;
+  std::vector<std::uint32_t> receivedIds() const { return receivedIdsOf(uses_); }
+  /// The same of remote frames: another master's guarding of our nodes. The link does not give our own questions
+  /// back.
+  std::vector<std::uint32_t> receivedRemoteIds() const { return receivedRemoteIdsOf(uses_); }
 
  private:
   /// What `pollTransmit()` gave out last, for `notSent()`.

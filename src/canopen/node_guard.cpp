@@ -34,7 +34,10 @@ void NodeGuard::stop() noexcept {
 }
 
 GuardAnswer NodeGuard::handle(std::uint8_t value, Instant now) noexcept {
-  if (!open_) return GuardAnswer::kNotAsked;
+  if (!open_) {
+    handleForeignQuestion();  // the node has toggled in an answer that was not for us
+    return GuardAnswer::kNotAsked;
+  }
   open_ = false;
   const std::uint8_t toggle = value & kToggle;
   if (expected_toggle_ && *expected_toggle_ != toggle) return GuardAnswer::kWrongToggle;

@@ -34,6 +34,8 @@ class NodeGuard {
 
   /// `value`: the data byte.
   GuardAnswer handle(std::uint8_t value, Instant now) noexcept;
+  /// Another master asked: the node toggles in the answer to that as well.
+  void handleForeignQuestion() noexcept { expected_toggle_.reset(); }
   /// Makes the next question due. True once for each question that stayed without an answer.
   bool poll(Instant now) noexcept;
   /// No good answer for the node life time, as `poll()` saw it.

@@ -177,6 +177,7 @@ TEST_F(Watched, NamesTheIdentifiersItMustSee) {
   }
   EXPECT_FALSE(std::binary_search(ids.begin(), ids.end(), 0x4FFu));
   EXPECT_LE(ids.size(), 512u) << "most filters of one socket";
+  EXPECT_THAT(run.master.receivedRemoteIds(), testing::ElementsAre(0x701u, 0x702u));
 }
 
 }  // namespace

@@ -57,6 +57,24 @@ TEST_F(Guarding, AsksAgainAfterHalfAGuardTime) {
   EXPECT_EQ(GuardAnswer::kNotAsked, guard.handle(0x05, now)) << "one question, one answer";
 }
 
+// A node toggles in its answers to another master as well, whether the question or only the answer is seen.
+TEST_F(Guarding, AnotherMastersQuestionLeavesTheToggleBitUnknown) {
+  for (const bool is_seen : {true, false}) {
+    guard.start(true, now);
+    question();
+    EXPECT_EQ(GuardAnswer::kAccepted, guard.handle(0x05, now));
+    if (is_seen) {
+      guard.handleForeignQuestion();
+    } else {
+      EXPECT_EQ(GuardAnswer::kNotAsked, guard.handle(0x85, now));
+    }
+    after(milliseconds{100});
+    after(milliseconds{100});
+    ASSERT_EQ("705#R1", question());
+    EXPECT_EQ(GuardAnswer::kAccepted, guard.handle(0x05, now));
+  }
+}
+
 // 600 ms without a good answer, not a moment earlier; a good one begins them anew.
 TEST_F(Guarding, TheLifeTimeIsTheProduct) {
   guard.start(true, now);

@@ -160,6 +160,20 @@ TEST(NodeLoss, ToggleBitStandsStill) {
   EXPECT_GE(run.master.status(0).counters.toggle_errors, 2u);
 }
 
+// Another master that guards the same node makes it toggle between our questions: the node is well.
+TEST(NodeLoss, AnotherMasterGuardsTheSameNode) {
+  for (const bool is_seen : {true, false}) {
+    Operational run{guarded()};
+    for (int i = 0; i < 20; ++i) {
+      run.nodes[0]->receive(frame("732#R1"), run.now);
+      if (is_seen) run.say("732#R1");
+      run.run(milliseconds{250});
+    }
+    EXPECT_EQ(0u, run.master.status(0).counters.losses + run.master.status(0).counters.toggle_errors);
+    EXPECT_EQ(is_seen ? 20u : 0u, run.master.counters().second_master);
+  }
+}
+
 // One answer that did not reach us leaves the toggle bit unknown, not wrong.
 TEST(NodeLoss, OneLostAnswerToGuardingIsForgiven) {
   Operational run{guarded()};

@@ -66,6 +66,27 @@ TEST_F(SocketCanTraffic, FiltersAreExact) {
   EXPECT_EQ(0u, receiver.counters().dropped);
 }
 
+// Another master's guarding: remote frames of the identifiers asked for, and of no other.
+TEST_F(SocketCanTraffic, RemoteFramesAreFilteredToo) {
+  CanSettings settings = bus.settings({0x732, 0x1B2});
+  settings.remote_ids = {0x732};
+  SocketCan sender{bus.settings()}, receiver{settings};
+  ASSERT_TRUE(sender.open());
+  ASSERT_TRUE(receiver.open());
+  for (const std::uint32_t id : {0x1B2u, 0x731u, 0x732u, 0x733u}) {
+    ASSERT_EQ(CanSend::kSent, sender.send(remoteFrame(id, 1)));
+  }
+  ASSERT_EQ(CanSend::kSent, sender.send(numberedFrame(0x732, 2)));
+  ASSERT_TRUE(next(receiver, got));
+  EXPECT_EQ(remoteFrame(0x732, 1), got);
+  ASSERT_TRUE(next(receiver, got));
+  EXPECT_EQ(numberedFrame(0x732, 2), got);
+  ReceivedCanFrame more;
+  EXPECT_FALSE(receiver.receive(more));
+  ASSERT_EQ(CanSend::kSent, receiver.send(remoteFrame(0x732, 1)));
+  EXPECT_FALSE(receiver.receive(more)) << "our own question does not come back";
+}
+
 // CAN_RAW_FILTER_MAX; our own limit is the kernel's.
 TEST_F(SocketCanTraffic, AsManyFiltersAsTheKernelTakes) {
   BareSocket bare{bus.name()};

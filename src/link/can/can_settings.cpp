@@ -36,6 +36,15 @@ bool checkInterfaceName(const std::string& name, Sentence& reason) noexcept {
   return false;
 }
 
+bool checkIdentifiers(const std::vector<std::uint32_t>& ids, const std::string& name, Sentence& reason) noexcept {
+  for (const std::uint32_t id : ids) {
+    if (id <= kHighestStandardId) continue;
+    reason.format("%s: identifier %Xh has more than 11 bits", name.c_str(), static_cast<unsigned>(id));
+    return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 bool isVirtualCan(const std::string& interface) noexcept {
@@ -45,17 +54,12 @@ bool isVirtualCan(const std::string& interface) noexcept {
 bool checkCanSettings(const CanSettings& settings, Sentence& reason) noexcept {
   const std::string& name = settings.interface;
   if (!(isVirtualCan(name) ? checkVirtualName(name, reason) : checkInterfaceName(name, reason))) return false;
-  if (settings.ids.size() > kMostCanIds) {
-    reason.format("%s: %zu identifiers to receive, the kernel filters %zu at most", name.c_str(), settings.ids.size(),
-                  kMostCanIds);
+  const std::size_t count = settings.ids.size() + settings.remote_ids.size();
+  if (count > kMostCanIds) {
+    reason.format("%s: %zu identifiers to receive, the kernel filters %zu at most", name.c_str(), count, kMostCanIds);
     return false;
   }
-  for (const std::uint32_t id : settings.ids) {
-    if (id <= kHighestStandardId) continue;
-    reason.format("%s: identifier %Xh has more than 11 bits", name.c_str(), static_cast<unsigned>(id));
-    return false;
-  }
-  return true;
+  return checkIdentifiers(settings.ids, name, reason) && checkIdentifiers(settings.remote_ids, name, reason);
 }
 
 }  // namespace nord_driver::link

@@ -49,8 +49,9 @@ class CanSystem {
   /// The next message; -EAGAIN: there is none. -ENOBUFS: some were lost.
   virtual int readInterfaceMessage(int descriptor, CanInterface& interface) noexcept = 0;
 
-  /// Data frames with exactly these 11 bit identifiers.
-  virtual int setFilters(int descriptor, const std::vector<std::uint32_t>& ids) noexcept = 0;
+  /// Data frames with exactly the 11 bit identifiers `ids`, and remote frames with exactly `remote_ids`.
+  virtual int setFilters(int descriptor, const std::vector<std::uint32_t>& ids,
+                         const std::vector<std::uint32_t>& remote_ids) noexcept = 0;
   virtual int setErrorFilter(int descriptor, std::uint32_t classes) noexcept = 0;
   /// Bytes; the kernel has limits of its own for both.
   virtual int setBuffers(int descriptor, int receive, int send) noexcept = 0;

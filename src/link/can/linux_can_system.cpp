@@ -76,12 +76,18 @@ class LinuxCanSystem final : public CanSystem {
     return netlink::readInterfaceMessage(descriptor, interface);
   }
 
-  int setFilters(int descriptor, const std::vector<std::uint32_t>& ids) noexcept override {
-    // The flags in the mask: neither extended nor remote frames; and the kernel looks such a filter up in a table
-    // instead of walking a list (Documentation/networking/can.rst 4.1.1).
+  int setFilters(int descriptor, const std::vector<std::uint32_t>& ids,
+                 const std::vector<std::uint32_t>& remote_ids) noexcept override {
+    // The flags in the mask: no extended frames, and remote ones only where the identifier has their flag, too; and the
+    // kernel looks the filters of data frames up in a table instead of walking a list (Documentation/networking/can.rst
+    // 4.1.1).
+    constexpr canid_t kExact = CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_SFF_MASK;
     std::array<can_filter, kMostCanIds> filters;
-    const std::size_t count = std::min(ids.size(), filters.size());
-    for (std::size_t i = 0; i < count; ++i) filters[i] = {ids[i], CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_SFF_MASK};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < ids.size() && count < filters.size(); ++i) filters[count++] = {ids[i], kExact};
+    for (std::size_t i = 0; i < remote_ids.size() && count < filters.size(); ++i) {
+      filters[count++] = {remote_ids[i] | CAN_RTR_FLAG, kExact};
+    }
     return ::setsockopt(descriptor, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(),
                         static_cast<socklen_t>(count * sizeof(can_filter))) == 0
                ? 0

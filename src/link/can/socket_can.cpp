@@ -31,6 +31,7 @@ std::vector<std::uint32_t> withoutRepeats(std::vector<std::uint32_t> ids) {
 SocketCan::SocketCan(const CanSettings& settings, CanSystem& system) : settings_(settings), system_(system) {
   error_.reserve(kLongestInterfaceError);  // so that naming an error in the bus cycle does not allocate
   settings_.ids = withoutRepeats(settings_.ids);
+  settings_.remote_ids = withoutRepeats(settings_.remote_ids);
   static_cast<void>(checkCanSettings(settings_, problem_));
 }
 
@@ -106,7 +107,8 @@ bool SocketCan::accept(const CanInterface& interface) noexcept {
 
 bool SocketCan::setUp(int index) noexcept {
   // Filters first: what arrives between bind() and a filter would be kept.
-  if (const int result = settings_.ids.empty() ? 0 : system_.setFilters(descriptor_, settings_.ids)) {
+  const int filtered = settings_.ids.empty() ? 0 : system_.setFilters(descriptor_, settings_.ids, settings_.remote_ids);
+  if (const int result = filtered) {
     return fail("does not take the filters", -result);
   }
   if (const int result = system_.setErrorFilter(descriptor_, kCanErrorClasses)) {

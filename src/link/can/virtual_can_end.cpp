@@ -5,7 +5,8 @@
 
 namespace nord_driver::link {
 
-VirtualCanEnd::VirtualCanEnd(const CanSettings& settings) : settings_(settings), filter_(settings.ids) {
+VirtualCanEnd::VirtualCanEnd(const CanSettings& settings)
+    : settings_(settings), filter_(settings.ids, settings.remote_ids) {
   error_.reserve(packet_socket::kLongestError);  // so that naming an error in the bus cycle does not allocate
   static_cast<void>(checkCanSettings(settings_, problem_));
 }

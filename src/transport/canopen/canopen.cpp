@@ -62,7 +62,7 @@ void CanopenTransport::configure(const Settings& bus, const std::vector<DriveSet
   }
   answered_.assign(drives_.size(), 0);
   Setup setup;
-  setup.link = {config_.interface, master_->receivedIds(), config_.bit_rate};
+  setup.link = {config_.interface, master_->receivedIds(), config_.bit_rate, master_->receivedRemoteIds()};
   setup.period = seconds(1.0 / cycle_rate);
   setup.answer_window = config_.answer_window;
   setup.longest_release = kLongestRelease;

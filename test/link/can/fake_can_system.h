@@ -50,6 +50,7 @@ class FakeCanSystem final : public CanSystem {
   int send_buffer = -1;
   std::uint32_t error_classes = 0;
   std::vector<std::uint32_t> filters;
+  std::vector<std::uint32_t> remote_filters;
   bool filters_set = false;
   bool filtered_before_bind = false;
   bool time_stamps = false;
@@ -95,8 +96,10 @@ class FakeCanSystem final : public CanSystem {
     return -first.error;
   }
 
-  int setFilters(int, const std::vector<std::uint32_t>& ids) noexcept override {
+  int setFilters(int, const std::vector<std::uint32_t>& ids,
+                 const std::vector<std::uint32_t>& remote_ids) noexcept override {
     filters = ids;
+    remote_filters = remote_ids;
     filters_set = true;
     return -filter_error;
   }

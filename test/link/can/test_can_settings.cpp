@@ -49,6 +49,14 @@ TEST(CanSettings, IdentifiersHaveElevenBitsAndFitIntoTheFilters) {
   EXPECT_EQ("", problemOf(settings));
   settings.ids.assign(513, 1);
   EXPECT_THAT(problemOf(settings), HasSubstr("513 identifiers"));
+  settings.ids.assign(511, 1);
+  settings.remote_ids = {0x732};
+  EXPECT_EQ("", problemOf(settings));
+  settings.remote_ids = {0x732, 0x733};
+  EXPECT_THAT(problemOf(settings), HasSubstr("513 identifiers"));
+  settings.ids.assign(1, 1);
+  settings.remote_ids = {0x800};
+  EXPECT_THAT(problemOf(settings), HasSubstr("800h has more than 11 bits"));
 }
 
 }  // namespace

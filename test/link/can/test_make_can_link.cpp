@@ -46,6 +46,10 @@ TEST(CanIdFilter, PassesDataFramesOfItsIdentifiersOnly) {
   EXPECT_FALSE(filter.passes(dataFrame(0x1B3, {})));
   EXPECT_FALSE(filter.passes(extended));
   EXPECT_FALSE(filter.passes(remoteFrame(0x732, 1)));
+  const CanIdFilter guarding{{0x1B2, 0x732}, {0x732}};
+  EXPECT_TRUE(guarding.passes(remoteFrame(0x732, 1)));
+  EXPECT_TRUE(guarding.passes(dataFrame(0x732, {})));
+  EXPECT_FALSE(guarding.passes(remoteFrame(0x1B2, 1)));
   const CanIdFilter everything{{}};
   EXPECT_TRUE(everything.passes(extended));
   EXPECT_TRUE(everything.passes(remoteFrame(0x732, 1)));

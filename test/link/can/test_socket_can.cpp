@@ -24,6 +24,7 @@ class SocketCanTest : public ::testing::Test {
     CanSettings all;
     all.interface = "can0";
     all.ids = {0x732, 0x1B2, 0x0B2, 0x1B2};
+    all.remote_ids = {0x733, 0x732, 0x733};
     return all;
   }
   /// How long a wait that finds nothing may last.
@@ -37,6 +38,7 @@ class SocketCanTest : public ::testing::Test {
 TEST_F(SocketCanTest, AsksForExactlyItsIdentifiersBeforeItIsBound) {
   ASSERT_TRUE(link.open()) << link.lastError();
   EXPECT_THAT(kernel.filters, ElementsAre(0x0B2, 0x1B2, 0x732));
+  EXPECT_THAT(kernel.remote_filters, ElementsAre(0x732, 0x733));
   EXPECT_TRUE(kernel.filtered_before_bind);
   EXPECT_TRUE(kernel.time_stamps);
   EXPECT_EQ(0, kernel.send_buffer);
