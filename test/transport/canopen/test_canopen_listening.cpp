@@ -111,7 +111,6 @@ TEST(CanListenFirst, ADriverWaitsUntilTheOtherHasEnded) {
   EXPECT_FALSE(listen.nextDeadline().has_value());
 }
 
-// The interface was opened anew.
 // An interface that is down says nothing about the bus.
 TEST(CanListenFirst, TimeInWhichNobodyCanBeHeardDoesNotCount) {
   Listener listener;
@@ -129,6 +128,7 @@ TEST(CanListenFirst, TimeInWhichNobodyCanBeHeardDoesNotCount) {
   EXPECT_TRUE(driver.mayTalk(kStart + milliseconds{3000}));
 }
 
+// The interface was opened anew.
 TEST(CanListenFirst, ListensAnewAfterARestart) {
   Listener listener;
   listener.listen.handle(dataFrame(0x203, ByteView{}));
