@@ -108,8 +108,17 @@ void NodeBoot::ask(Instant now) noexcept {
 
 void NodeBoot::submit(const SdoRequest& request, Instant now) noexcept {
   request_ = request;
-  guard_question_ = guard_question_ || (isIn<Script>() && !past_.fresh && setsLifeTime(request));
+  const bool question = setsLifeTime(request) || missesQuestions();
+  guard_question_ = guard_question_ || (isIn<Script>() && !past_.fresh && question);
   port_.submit(SdoOwner::kBoot, request, now);
+}
+
+// Life guarding goes on in pre-operational and stopped (CiA 301 7.2.8.3.2), and a script may take longer than the life
+// time. One that was reset waits for its first question, which would begin a life time: it gets none.
+bool NodeBoot::missesQuestions() const noexcept {
+  const NmtState state = report_.status().nmt;
+  const bool was_reset = state == NmtState::kUnknown || state == NmtState::kBootUp;
+  return config_.error_control.mode == ErrorControlMode::kGuarding && past_.was_operational && !was_reset;
 }
 
 void NodeBoot::handleBootUp(Instant now) noexcept {

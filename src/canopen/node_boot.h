@@ -74,8 +74,8 @@ class NodeBoot {
   Watch watch() const noexcept;
   /// The node came with a boot-up frame: its toggle bit begins anew.
   bool fresh() const noexcept { return past_.fresh; }
-  /// A node that was guarded before and has not been reset may count from its last question on: a life time that it
-  /// gets now would be over at once. True once: it is to be asked first.
+  /// A node that was guarded before and has not been reset counts from its last question on: a life time that it gets
+  /// now would be over at once, and the one it has goes on while it is configured. True once: it is to be asked.
   bool takeGuardQuestion() noexcept { return std::exchange(guard_question_, false); }
   /// The NMT command to send, or none; a newer one replaces one that was not sent.
   std::optional<NmtCommand>& command() noexcept { return command_; }
@@ -123,6 +123,7 @@ class NodeBoot {
   void reset(Instant now) noexcept;
   void ask(Instant now) noexcept;
   void submit(const SdoRequest& request, Instant now) noexcept;
+  bool missesQuestions() const noexcept;
   void handleAnswer(const SdoAnswer& answer, Instant now) noexcept;
   void handleScriptAnswer(Script& script, const SdoAnswer& answer, Instant now) noexcept;
   void handleDiagnosis(StartDiagnosis& diagnose, const SdoAnswer& answer, Instant now) noexcept;
