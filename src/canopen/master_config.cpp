@@ -139,6 +139,7 @@ void checkNode(const NodeConfig& config, const MasterConfig& master, Users& user
   checkPositive(node + ": the boot-up time-out", config.boot_up_timeout);
   checkPositive(node + ": the start time-out", config.start_timeout);
   if (config.first_answer_timeout < Duration::zero()) refuse(node + ": the time-out of its first answer is negative");
+  if (config.silence < Duration::zero()) refuse(node + ": the longest pause between two TPDOs is negative");
   for (const SetupWrite& write : config.setup) {
     if (write.size != 1 && write.size != 2 && write.size != 4) {
       refuse(node + ": set-up of " + hex(write.index) + ": the size must be 1, 2 or 4 bytes");

@@ -122,6 +122,7 @@ void Node::handleTransmitPdo(std::size_t pdo, const CanFrame& frame, Instant now
   received.value.at = now;
   ++received.value.count;
   ++report_.status().counters.transmit_pdos;
+  if (timers_.isSet(NodeTimer::kSilence)) timers_.set(NodeTimer::kSilence, now + config_.silence);
 }
 
 void Node::handleSdo(std::size_t server, const CanFrame& frame, Instant now) noexcept {
@@ -161,6 +162,8 @@ void Node::tellLoss(Instant now) noexcept {
   } else if (guard_.expired()) {
     why.format("gave no good answer to guarding for %.0f ms",
                toSeconds(config_.error_control.guard_time * config_.error_control.life_time_factor) * 1e3);
+  } else if (timers_.isOver(NodeTimer::kSilence, now)) {
+    why.format("sent no process data for %.0f ms", toSeconds(config_.silence) * 1e3);
   } else {
     return;
   }
@@ -190,8 +193,14 @@ void Node::followWatch(Instant now) noexcept {
   if (watch == NodeBoot::Watch::kWatch && mode == ErrorControlMode::kHeartbeat) {
     timers_.set(NodeTimer::kHeartbeat, now + config_.error_control.heartbeat_timeout);
   }
+  if (watch == NodeBoot::Watch::kWatch && config_.silence > Duration::zero()) {
+    timers_.set(NodeTimer::kSilence, now + config_.silence);
+    // Taken for granted without error control: once lost it may still hear what stops its drive.
+    if (mode == ErrorControlMode::kNone) report_.status().nmt = NmtState::kOperational;
+  }
   if (watch != NodeBoot::Watch::kOff) return;
   timers_.stop(NodeTimer::kHeartbeat);
+  timers_.stop(NodeTimer::kSilence);
   guard_.stop();
   for (ReceivePdoSlot& pdo : receive_pdos_) pdo.forget();
 }

@@ -43,7 +43,8 @@ struct NodeCounters {
 
 struct NodeStatus {
   NodeState state = NodeState::kAbsent;
-  NmtState nmt = NmtState::kUnknown;  ///< as it last reported itself, or was told by another master
+  /// As it last reported itself, or was told by another master; see `NodeConfig::silence`, too.
+  NmtState nmt = NmtState::kUnknown;
   /// Why it does not run: one sentence for a technician without the node's name; empty while all is well. The memory
   /// is the node's for ever, and never moves.
   Sentence reason;

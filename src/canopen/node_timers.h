@@ -12,6 +12,7 @@ enum class NodeTimer : std::uint8_t {
   kHeartbeat,      ///< the next heartbeat is due (CiA 301 7.2.8.3.2.2)
   kGuardQuestion,  ///< the next question of node guarding
   kGuardLife,      ///< the node life time without a good answer (CiA 301 7.2.8.3.2.1)
+  kSilence,        ///< `NodeConfig::silence` without a TPDO
   kCount
 };
 using NodeTimers = TimerTable<NodeTimer>;

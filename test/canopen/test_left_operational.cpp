@@ -67,5 +67,48 @@ TEST(LeftOperational, IsNotAskedAfterAReset) {
   EXPECT_EQ(0u, run.master.status(0).counters.toggle_errors);
 }
 
+/// Without error control, operational, and sends a TPDO with each SYNC.
+struct Unwatched : MasterRun {
+  Unwatched() : MasterRun{config()} {
+    begin();
+    EXPECT_TRUE(reaches(NodeState::kOperational, seconds{1}));
+    run(seconds{3});
+    EXPECT_EQ(0u, master.status(0).counters.losses) << "its process data comes";
+  }
+  static MasterConfig config() {
+    MasterConfig config = busConfig(1);
+    config.sync_cob_id = 0x80;
+    config.nodes[0].transmit_pdos[0].transmission_type = 1;
+    config.nodes[0].error_control.mode = ErrorControlMode::kNone;
+    config.nodes[0].silence = seconds{1};
+    return config;
+  }
+};
+
+// Nobody tells that it left operation, but its process data ends.
+TEST(LeftOperational, WithoutErrorControlIsSeenByItsProcessData) {
+  Unwatched run;
+  run.nodes[0]->state = 0x7F;
+  run.run(milliseconds{980});
+  EXPECT_EQ(NodeState::kOperational, run.master.status(0).state);
+  ASSERT_TRUE(run.reaches(NodeState::kLost, milliseconds{40}));
+  EXPECT_EQ("sent no process data for 1000 ms", run.eventText(CanopenEventKind::kNodeLost));
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{1})) << run.master.status(0).reason.c_str();
+  EXPECT_EQ(0x05, run.nodes[0]->state);
+  run.run(seconds{3});
+  EXPECT_EQ(1u, run.master.status(0).counters.losses);
+}
+
+// It may be only unheard: what stops its drive goes out before anything that makes it deaf to that.
+TEST(LeftOperational, WithoutErrorControlIsToldFirst) {
+  Unwatched run;
+  run.loses = [](const CanFrame& frame) { return frame.id == 0x181; };
+  ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{2}));
+  run.sent.clear();
+  EXPECT_TRUE(run.master.status(0).fellSilent());
+  run.run(milliseconds{95});
+  EXPECT_THAT(run.sent, testing::Each("080#")) << "which makes an RPDO act";
+}
+
 }  // namespace
 }  // namespace nord_driver::canopen

@@ -145,6 +145,8 @@ TEST(MasterConfig, Times) {
   EXPECT_EQ("node 1: the start time-out must be above 0", first([](NodeConfig& n) { n.start_timeout = Duration{}; }));
   EXPECT_EQ("node 1: the time-out of its first answer is negative",
             first([](NodeConfig& n) { n.first_answer_timeout = milliseconds{-1}; }));
+  EXPECT_EQ("node 1: the longest pause between two TPDOs is negative",
+            first([](NodeConfig& n) { n.silence = milliseconds{-1}; }));
   EXPECT_EQ("node 1: the heartbeat time-out must be whole milliseconds, 1 to 65535",
             first([](NodeConfig& n) { n.error_control.heartbeat_timeout = milliseconds{65536}; }));
   EXPECT_EQ("", first([](NodeConfig& n) { n.error_control.heartbeat_timeout = milliseconds{65535}; }));

@@ -318,5 +318,24 @@ TEST(CanopenKinds, WithoutErrorControlOnlyP513Protects) {
   expectDrives(robot);
 }
 
+// Its boot-up was not heard, and nothing but its process data tells that it has restarted.
+TEST(CanopenKinds, WithoutErrorControlANodeThatRestartedUnheardComesBack) {
+  CanRobot::Options options;
+  options.drives = {{"error_control", std::string{"none"}}};
+  CanRobot robot{options};
+  ASSERT_TRUE(robot.bringUp());
+  robot.link().setDeaf(0x704);
+  robot.node(1).setPowered(false);
+  robot.run(milliseconds{50});
+  const std::uint64_t boot_ups = robot.node(1).counters().boot_ups;
+  robot.node(1).setPowered(true);
+  ASSERT_TRUE(robot.runUntil([&] { return robot.node(1).counters().boot_ups > boot_ups; }, std::chrono::seconds{1}));
+  robot.run(milliseconds{50});
+  robot.link().setDeaf(std::nullopt);
+  ASSERT_TRUE(robot.runUntil([&] { return !robot.online(1); }, std::chrono::seconds{1}));
+  EXPECT_TRUE(robot.runUntil([&] { return robot.online(1); }, std::chrono::seconds{5})) << robot.text(1);
+  EXPECT_TRUE(robot.online(0));
+}
+
 }  // namespace
 }  // namespace nord_driver::test

@@ -26,6 +26,7 @@ void endWithoutATrip(canopen::MasterConfig& master) {
     node.reset = canopen::BootReset::kNone;
     node.error_control.mode = canopen::ErrorControlMode::kNone;
     node.error_control.master_timeout.reset();
+    node.silence = Duration::zero();
   }
 }
 

@@ -78,6 +78,7 @@ class Reader {
     addPdos(drive, pdo, shared);
     drive.transmit_limit = limit(pdo);
     shared.first_answer_timeout = std::max(shared.first_answer_timeout, firstAnswerTimeout(drive));
+    shared.silence = std::max(shared.silence, silence(drive, shared.error_control.mode));
     config_.drives.push_back(drive);
   }
 
@@ -132,6 +133,14 @@ class Reader {
   // A node that sends on changes only begins with what there is, or says nothing for a long time.
   static Duration firstAnswerTimeout(const CanopenDrive& drive) {
     return drive.transmit_limit > Duration::zero() ? drive.transmit_limit : Duration{milliseconds{100}};
+  }
+
+  // Where nothing else tells that a node has left operation: longer than `online` takes, so that what stops the drive
+  // goes out while its RPDOs do.
+  static Duration silence(const CanopenDrive& drive, canopen::ErrorControlMode mode) {
+    const bool told = mode != canopen::ErrorControlMode::kNone;
+    if (told || drive.transmit_limit == Duration::zero()) return Duration::zero();
+    return std::max<Duration>(std::chrono::seconds{1}, 3 * drive.transmit_limit);
   }
 
   CanopenConfig& config_;

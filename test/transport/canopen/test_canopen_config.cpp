@@ -110,6 +110,18 @@ TEST(CanopenConfigTest, TheInhibitTimeIsNotAboveTheEventTime) {
   EXPECT_EQ(2000, bus.read().master.nodes[0].transmit_pdos[0].inhibit_time.value()) << "nothing is sent at intervals";
 }
 
+// Its process data is all that tells of a node without error control; a node with it is told of by that.
+TEST(CanopenConfigTest, WithoutErrorControlTheEndOfItsProcessDataIsALoss) {
+  Bus bus{2};
+  bus.drive(0).set("error_control", "none");
+  EXPECT_EQ(milliseconds{1000}, bus.read().master.nodes[0].silence);
+  EXPECT_EQ(Duration{}, bus.read().master.nodes[1].silence);
+  bus.drive(0).set("event_time", 0.2);
+  EXPECT_EQ(milliseconds{1500}, bus.read().master.nodes[0].silence);
+  bus.drive(0).set("event_time", MapSettings::Value{0});
+  EXPECT_EQ(Duration{}, bus.read().master.nodes[0].silence) << "it sends on a change only";
+}
+
 // --- Gateways --------------------------------------------------------------------------------------------------------
 
 // BU 0260: one node, up to four inverters, an SDO server each; the identifiers of 1201h and so on are ours to set.
