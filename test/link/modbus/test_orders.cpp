@@ -101,6 +101,34 @@ TEST_F(Orders, WithoutAConnectionAreGivenUp) {
   EXPECT_THAT(answer.text.str(), HasSubstr("refuses the connection"));
 }
 
+// The write of the image is held until the order waits; then the read of the image is refused.
+TEST_F(Orders, OneThatWaitsWhileAnImageIsRefusedNeverLeft) {
+  start();
+  ASSERT_TRUE(waitConnected());
+  server.next({Reaction::kHold});
+  server.next({Reaction::kException, 6});
+  link->give({1, 2, 3, 4});
+  ASSERT_TRUE(server.waitForRequests(1));
+  const std::uint64_t number = link->order(writeOrder(200, {7}));
+  server.release();
+  ASSERT_TRUE(waitUntil([&] { return link->answer().number >= number; }));
+  EXPECT_FALSE(link->answer().good);
+  EXPECT_TRUE(link->answer().not_taken);
+  EXPECT_THAT(link->answer().text.str(), HasSubstr("exception 6"));
+  EXPECT_EQ(0, countOf(server.requests(), 16, 200));
+}
+
+TEST_F(Orders, OneThatWaitsWhileTheRunningFlagIsRefusedNeverLeft) {
+  second.always({Reaction::kException, 6});
+  startWithDiagnosis([](ModbusSettings& settings) {
+    settings.running = RunningFlag{ModbusFunction::kReadHoldingRegisters, 400, 1, 1};
+  });
+  const RegisterAnswer answer = answerTo(writeOrder(200, {7}));
+  EXPECT_FALSE(answer.good);
+  EXPECT_TRUE(answer.not_taken);
+  EXPECT_EQ(0, countOf(second.requests(), 16, 200));
+}
+
 TEST_F(Orders, GoOverTheSecondConnection) {
   startWithDiagnosis();
   EXPECT_TRUE(answerTo(writeOrder(200, {7})).good);
