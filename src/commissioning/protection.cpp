@@ -32,7 +32,8 @@ ParameterKey ownTimeout(const DriveUnderCheck& drive) {
 
 /// s; shorter ones trip without a reason (BU 0220 4.2.3.1).
 double shortestTimeout(const DriveUnderCheck& drive) {
-  return std::max(2.0 * drive.asked().period, drive.asked().identity.worst_cycle);
+  const DriveIdentity& identity = drive.asked().identity;
+  return std::max({2.0 * drive.asked().period, identity.worst_cycle, 2.0 * identity.longest_pause});
 }
 
 Remedy timeoutRemedy(const DriveUnderCheck& drive, const ParameterKey& key) {

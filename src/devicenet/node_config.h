@@ -32,6 +32,10 @@ constexpr std::uint8_t kAcknowledgeSuppressed = 0x40;  ///< with one of the two 
 constexpr std::uint8_t kConnections = 0x3F;            ///< the bits that name a connection
 }  // namespace choice
 
+/// Devices round their expected packet rate up to steps of 2, 10 or 100 ms; one that answers more than this above the
+/// configured rate is refused.
+constexpr Duration kCoarsestStep = std::chrono::milliseconds{100};
+
 /// Directions are ours: outputs go to the device.
 struct IoConfig {
   IoKind kind = IoKind::kPoll;

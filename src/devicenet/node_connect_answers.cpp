@@ -16,8 +16,6 @@ constexpr Duration kForeignMemory = std::chrono::seconds{5};
 constexpr Duration kUsualExplicitRate = std::chrono::milliseconds{2500};
 /// Without process data the questions are all that tells whether the device is there.
 constexpr Duration kExplicitOnlyRate = std::chrono::seconds{1};
-/// Devices round their expected packet rate to steps of 2, 10 or 100 ms.
-constexpr Duration kCoarsestStep = std::chrono::milliseconds{100};
 constexpr unsigned kMostDoublings = 10;
 /// So often in a row a device is believed to have lost its explicit connection between the two allocations.
 constexpr unsigned kMostLostExplicit = 3;

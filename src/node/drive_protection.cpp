@@ -104,6 +104,9 @@ ProtectionReport DriveProtection::assess(const cycle::DeviceData& device) const 
   if (own_acts && *own < identity_.worst_cycle) {
     warn(report, name + " is shorter than a bus cycle may be, " + shortNumber(identity_.worst_cycle) +
                      " s while a drive is silent: it trips without a reason");
+  } else if (own_acts && *own < 2.0 * identity_.longest_pause) {
+    warn(report, name + " is shorter than two pauses between telegrams, which may be " +
+                     shortNumber(identity_.longest_pause) + " s long each: it trips without a reason");
   } else if (own_acts && seconds(*own) < 2 * period_) {
     warn(report, name + " is shorter than two bus cycles: it trips without a reason (BU 0220 4.2.3.1)");
   }

@@ -11,6 +11,8 @@ namespace {
 
 using profile::Series;
 using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 using ::testing::Not;
 
 // A rule that looks at what nobody reads would never find anything.
@@ -48,6 +50,16 @@ TEST(Check, ReadsTheModule) {
   const std::vector<ParameterKey> keys = valuesToRead(asked, knownOf(asked), 1);
   EXPECT_THAT(keys, Contains(ParameterKey{151}));
   EXPECT_THAT(keys, Contains(ParameterKey{120, 0, 1}));
+}
+
+// With change of state and cyclic on DeviceNet not each cycle has a telegram.
+TEST(Check, ATimeoutOutlastsTwoPausesBetweenTelegrams) {
+  AskedDrive asked = askedDrive(Series::kSk2xxe, "devicenet");
+  asked.identity.longest_pause = 0.3;
+  const Drives tight{drive(asked, {{{151}, 599}})};
+  EXPECT_THAT(shortly(check(tight)), ElementsAre("timeout_long_enough warning P151 -> 600"));
+  const Drives enough{drive(asked, {{{151}, 600}})};
+  EXPECT_THAT(shortly(check(enough)), IsEmpty());
 }
 
 TEST(Check, ReadsNothingTwice) {

@@ -181,5 +181,15 @@ TEST(DriveProtection, ShorterThanTwoCyclesIsWarnedAbout) {
   EXPECT_THAT(report.text, HasSubstr("shorter than two bus cycles"));
 }
 
+// Not each cycle has a telegram.
+TEST(DriveProtection, ShorterThanTwoPausesIsWarnedAbout) {
+  DriveIdentity cyclic = identity(TimeoutOwner::kModule);
+  cyclic.longest_pause = 0.1;
+  EXPECT_EQ(Level::kFine, assess(cyclic, behindModule(0.2, 1)).level);
+  const ProtectionReport report = assess(cyclic, behindModule(0.199, 1));
+  EXPECT_EQ(Level::kWarning, report.level);
+  EXPECT_THAT(report.text, HasSubstr("shorter than two pauses between telegrams, which may be 0.1 s long each"));
+}
+
 }  // namespace
 }  // namespace nord_driver::node

@@ -66,5 +66,24 @@ INSTANTIATE_TEST_SUITE_P(
                     Protection{"P513IgnoresTheBus", 400, 1, -1, Level::kError, "nothing: P513 = -0.1", 0, 0}),
     [](const auto& test) { return std::string{test.param.name}; });
 
+// Constant words go out once in an expected packet rate, whatever the cycle.
+TEST(DevicenetCyclicProtection, P151ShorterThanThePausesIsWarnedAboutAndTrips) {
+  DevicenetRobot::Options options;
+  options.drives = {{"io", std::string{"cyclic"}}};
+  options.bus = {{"expected_packet_rate", 0.1}};
+  DevicenetRobot robot{options};
+  robot.module(0).parameters().preset(151, 0, 0, 50);
+  robot.unit(0).parameters().preset(120, 0, 0, 1);
+  ASSERT_TRUE(robot.bringUp()) << robot.text(0) << " / " << robot.busText();
+  robot.run(seconds{1});
+  EXPECT_EQ(103, robot.unit(0).inverter().faultNumber());
+  const node::DriveProtection protection{robot.transport().identity(0), profile::Series::kSk2xxe, milliseconds{500},
+                                         robot.config().period()};
+  const node::ProtectionReport told = protection.assess(robot.snapshot().drives[0].device);
+  EXPECT_EQ(Level::kWarning, told.level) << told.text;
+  EXPECT_THAT(told.text, HasSubstr("P151 of the bus module is shorter than two pauses between telegrams, which may be "
+                                   "0.1 s long each"));
+}
+
 }  // namespace
 }  // namespace nord_driver::test

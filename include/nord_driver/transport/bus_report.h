@@ -52,6 +52,9 @@ struct DriveIdentity {
   bool module_io = false;
   /// The longest cycle there may be, with one slave silent: a time-out that stops a drive must be longer. 0: not known.
   double worst_cycle = 0.0;
+  /// s, the longest pause between two telegrams with output words to this drive where they are not sent in each cycle;
+  /// 0: they are. It says nothing about how long a cycle takes.
+  double longest_pause = 0.0;
   /// The parameters of its bus module (P150 to P199) cannot be written without saving them.
   bool module_saves = false;
   /// Each telegram says that control word and setpoint come from this bus, and P509 and P510 are not asked for that.

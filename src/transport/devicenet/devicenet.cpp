@@ -224,6 +224,13 @@ Sentence DeviceNetTransport::busText() const noexcept {
   return events().text(now());
 }
 
+// As the module has answered its rate, once it has.
+Duration DeviceNetTransport::longestPause(std::size_t module) const noexcept {
+  const Duration configured = config_.modules[module].longest_pause;
+  const Duration answered = scanner_->status(module).packet_rate;
+  return configured > Duration::zero() && answered > Duration::zero() ? answered : configured;
+}
+
 DriveIdentity DeviceNetTransport::identity(DriveIndex drive) const {
   const DevicenetDrive& config = config_.drives[drive];
   const devicenet::IoConfig& io = config_.scanner.nodes[config.module].io;
@@ -238,6 +245,7 @@ DriveIdentity DeviceNetTransport::identity(DriveIndex drive) const {
   }
   identity.process_values = config.processValues();
   identity.parameter_channel = "explicit messages";
+  identity.longest_pause = toSeconds(longestPause(config.module));
   identity.module_saves = true;
   // NetCtrl and NetRef (BU 0280 4.2.3.1), which assembly 20 does not have.
   identity.sources_by_telegram = config.drive_profile == DevicenetProfile::kAcDriveExtended;

@@ -58,6 +58,7 @@ class DeviceNetTransport final : public CanTransport, public BusScanner {
   void handleController(bool works) noexcept override;
   void putModuleOutputs(std::size_t module, std::uint8_t bits) noexcept;
   bool busWorks() const noexcept;
+  Duration longestPause(std::size_t module) const noexcept;
   Sentence silenceText() const noexcept;
 
   DevicenetConfig config_;

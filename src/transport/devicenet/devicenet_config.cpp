@@ -142,6 +142,15 @@ void checkLoad(const Settings& bus, const DevicenetConfig& config, double cycle_
                     (config.bit_rate == 0 ? " (it is not configured, so the slowest is assumed)" : ""));
 }
 
+// Known before a program that serves parameters only takes the process data out.
+void notePauses(DevicenetConfig& config) {
+  for (std::size_t i = 0; i < config.modules.size(); ++i) {
+    const devicenet::IoConfig& io = config.scanner.nodes[i].io;
+    if (io.kind != devicenet::IoKind::kChangeOfState && io.kind != devicenet::IoKind::kCyclic) continue;
+    config.modules[i].longest_pause = *io.expected_packet_rate + devicenet::kCoarsestStep;
+  }
+}
+
 // A fragmented answer is on its way for a while.
 Duration answerWindow(const Settings& bus, const DevicenetConfig& config, double cycle_rate) {
   const double wire = 1.5 * toSeconds(devicenet::cycleOnWire(config.scanner));
@@ -172,6 +181,7 @@ DevicenetConfig readDevicenetConfig(const Settings& bus, const std::vector<Drive
   checkLoad(bus, config, cycle_rate);
   config.answer_window = answerWindow(bus, config, cycle_rate);
   config.scanner = devicenet::completed(config.scanner);
+  notePauses(config);
   try {
     devicenet::checkConfig(config.scanner);
   } catch (const std::invalid_argument& error) {

@@ -62,6 +62,9 @@ struct DevicenetModule {
   bool output_byte = false;         ///< the module's own byte is the first of the outputs
   bool input_byte = false;          ///< ... of the inputs
   std::vector<std::size_t> drives;  ///< indices into `drives`
+  /// The longest pause between two outputs to it, with change of state and cyclic: the expected packet rate, as far as
+  /// the module may round it up. 0: its outputs are sent in each cycle.
+  Duration longest_pause{};
 };
 
 struct DevicenetConfig {

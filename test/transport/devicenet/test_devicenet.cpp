@@ -217,6 +217,16 @@ TEST(DeviceNetTransportTest, TellsWhatStopsADrive) {
   EXPECT_STREQ("interface", rig.transport.endPoint().key);
 }
 
+// The module may round the rate up; for parameters only the process data are known all the same.
+TEST(DeviceNetTransportTest, TellsTheLongestPauseBetweenItsTelegrams) {
+  EXPECT_DOUBLE_EQ(0.0, Rig{}.transport.identity(0).longest_pause) << "polled in each cycle";
+  test::DevicenetSettings settings{1};
+  settings.drive().set("io", "cos");
+  for (const bool guest : {false, true}) {
+    EXPECT_DOUBLE_EQ(0.125, (Rig{settings, guest}.transport.identity(0).longest_pause)) << guest;
+  }
+}
+
 TEST(DeviceNetTransportTest, ClosingReleasesTheModules) {
   Rig rig{test::DevicenetSettings{2}};
   ASSERT_TRUE(rig.starts());
