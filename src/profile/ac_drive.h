@@ -5,6 +5,9 @@
 //  - bit 10, "data valid": there is no such bit, and the bytes go out in every poll. Where NORD's words ask to be
 //    ignored the idle byte goes out, which brings the motor down its ramp;
 //  - OFF2 and OFF3: whatever is not "operation enabled" is the ramp of OFF1. There is no quick stop;
+//  - status bit 9, "bus has control": "control from net" of assembly 71 is the bit the driver itself sends, and P509 and
+//    P510 are not queried (BU 0280 4.2.3.1); assembly 70 has no such bit, and it is told as 1. An inverter
+//    that obeys its terminals or keypad is not recognized by either;
 //  - the bus bits 8 and 9, status bits 10 and 13 and the parameter set: read as 0 and set 1;
 //  - setpoints and actual values 2 and 3; the resolution of value 1, which is 1 rpm.
 // Assembly 20/70 (profile 1) also has no reverse, tells neither warnings nor "setpoint reached", and its status byte is

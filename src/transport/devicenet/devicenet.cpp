@@ -156,6 +156,13 @@ std::vector<std::string> DeviceNetTransport::warnings() const {
                           ": SK TU1/2/3-DEV is experimental, no manual we have lists its objects; "
                           "they are taken to be those of SK CU4-DEV");
     }
+    if (drive.drive_profile != DevicenetProfile::kNord) {
+      sentences.push_back(
+          "drive " + drive.name +
+          ": the AC drive profile does not tell whether the bus has control, bus_control is what the "
+          "driver itself commands (BU 0280 4.2.3.1): an inverter that obeys its terminals or keypad is not "
+          "recognized; check P509 and P510");
+    }
     if (drive.drive_profile == DevicenetProfile::kAcDrive) {
       sentences.push_back("drive " + drive.name +
                           ": the AC drive profile of assembly 20/70 has no reverse: where one is commanded the motor "

@@ -128,6 +128,15 @@ TEST(DeviceNetTransportTest, TheAcDriveProfileIsTranslated) {
   EXPECT_EQ(-8192, rig.inputs[0].input.actual_values[0]);
 }
 
+TEST(DeviceNetTransportTest, NeitherAcDriveProfileTellsWhetherTheBusHasControl) {
+  for (const int assembly : {20, 21}) {
+    test::DevicenetSettings settings{1};
+    settings.drive().set("assembly", assembly).set("max_frequency", 50.0);
+    EXPECT_THAT((Rig{settings}.transport.warnings()),
+                Contains(HasSubstr("drive drive0: the AC drive profile does not tell whether the bus has control")));
+  }
+}
+
 // Assembly 70 is zero at rest, whether there is an inverter or not: class 41 is asked.
 TEST(DeviceNetTransportTest, ProfileOneAsksWhetherThereIsAnInverter) {
   test::DevicenetSettings settings{1};
