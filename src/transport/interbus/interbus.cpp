@@ -295,6 +295,14 @@ std::vector<std::string> InterbusTransport::warnings() const {
         "like new ones");
   }
   if (read_only_) return sentences;  // nothing is written, and nothing is to be watched
+  for (const InterbusDrive& drive : config_.drives) {
+    if (drive.drive_profile != InterbusProfile::kDrivecom) continue;
+    sentences.push_back(
+        "drive " + drive.name +
+        ": with profile: drivecom the inverter takes control word and setpoint from the ring only while "
+        "its object 6002h (PA data enabled) is FFh (BU 0070 6.3.2), which the driver does not read: "
+        "check it where the drive does not obey");
+  }
   if (!server.watchdog) {
     sentences.emplace_back(
         "bus/watchdog is not configured: when this computer dies, a gateway that keeps its ring going repeats the last "

@@ -10,6 +10,7 @@ using profile::ParameterOutcome;
 using profile::ParameterRequest;
 using profile::ParameterShape;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -79,6 +80,17 @@ TEST_F(GatewayParameters, DrivecomSpeedsAreScaledByWhatTheDriveLayerReads) {
   request.scales = true;
   EXPECT_EQ(ParameterOutcome::kDone, ask(request).outcome);
   EXPECT_TRUE(runUntil([&] { return setpoint() == 750; })) << "half of 50 Hz: " << setpoint();
+}
+
+// BU 0070 6.3.2: with another value than FFh the words of the ring are not evaluated.
+TEST_F(GatewayParameters, WarnsOfTheObjectThatEnablesTheWordsOfDrivecom) {
+  settings.drive(1).set("profile", "drivecom");
+  start();
+  EXPECT_THAT(transport.warnings(),
+              ElementsAre("drive drive1: with profile: drivecom the inverter takes control word and setpoint from the "
+                          "ring only while its object 6002h (PA data enabled) is FFh (BU 0070 6.3.2), which the driver "
+                          "does not read: check it where the drive does not obey"))
+      << "of the other drive nothing";
 }
 
 // A program that looks, or reads parameters, leaves the drives to whoever has them.
