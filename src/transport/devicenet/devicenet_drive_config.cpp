@@ -69,15 +69,16 @@ void checkPlace(const Settings& settings, const DevicenetDrive& drive, unsigned 
           " bytes, which are those of one inverter; four need assembly 102 (P160 = 5) or 120 (P160 = 0)");
 }
 
-// With P160 = 0 each inverter has its own lengths and profile (BU 0280 4.2.5).
+// With P160 = 0 each inverter has its own lengths and profile (BU 0280 4.2.5). Of an odd length the last byte is the low
+// half of a value: it is sent as 0 and not read.
 std::size_t readLength(const Settings& settings, const char* key, const DevicenetDrive& drive, const char* index) {
   const std::int64_t bytes = integerOr(settings, key, 4, 0, 8);
-  const bool words = bytes >= 4 && bytes % 2 == 0;
   const bool nord = drive.drive_profile == DevicenetProfile::kNord;
-  if (nord && !words) {
+  if (nord && bytes < 4) {
+    const char* const why = bytes == 0 ? "0 bytes are those of an inverter that does not exist (BU 0280 4.2.5)"
+                                       : "fewer than 4 bytes carry no setpoint or actual value";
     throw wrongSetting(settings, key, std::to_string(bytes),
-                       "4, 6 or 8: a word and one to three values, as P" + std::to_string(161 + drive.inverter) + " " +
-                           index + " says");
+                       "4 to 8, as P" + std::to_string(161 + drive.inverter) + " " + index + " says: " + why);
   }
   if (!nord && bytes != 4) {
     throw wrongSetting(settings, key, std::to_string(bytes), "4: the AC drive profile has four bytes each way");

@@ -47,6 +47,20 @@ TEST(Assembly, FourInvertersStandOneBehindTheOther) {
             packed(config, {{0x047E, {1, 2, 3}}, {0x047F, {4, 5, 6}}, {0x0000, {}}, {0x047B, {0, 0, -16384}}}));
 }
 
+// P162 may be odd (BU 0280 4.2.5): the last byte is half a value.
+TEST(Assembly, AnOddLengthEndsInAByteThatIsNotUsed) {
+  test::DevicenetSettings bus = test::DevicenetSettings::gateway(2, 120);
+  bus.drive(0).set("control_bytes", 5).set("status_bytes", 7);
+  const DevicenetConfig config = bus.read(50.0);
+  EXPECT_EQ("7F 04 01 00 00 7E 04 04 00", packed(config, {{0x047F, {1, 2, 3}}, {0x047E, {4, 5, 6}}}));
+  profile::ProcessInput input;
+  const auto bytes = fromHex("37 0B 01 00 02 00 FF 31 0B 04 00");
+  ASSERT_TRUE(unpackWords(config.drives[0], ByteView{bytes}, input));
+  EXPECT_EQ((profile::ProcessInput{0x0B37, {1, 2, 0}}), input);
+  ASSERT_TRUE(unpackWords(config.drives[1], ByteView{bytes}, input));
+  EXPECT_EQ((profile::ProcessInput{0x0B31, {4, 0, 0}}), input);
+}
+
 // As on every bus SK 300E, 700E and 750E have the third value before the second.
 TEST(Assembly, SeriesDecidesTheOrderOfValues) {
   test::DevicenetSettings bus{1};

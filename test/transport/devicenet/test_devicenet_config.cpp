@@ -104,6 +104,20 @@ TEST(DevicenetConfigTest, VariableLengthsCloseUp) {
   EXPECT_EQ(1, config.drives[1].processValues());
 }
 
+// Of an odd length the last byte is half a value.
+TEST(DevicenetConfigTest, VariableLengthsMayBeOdd) {
+  Bus bus = Bus::gateway(2, 120);
+  bus.drive(0).set("status_bytes", 5).set("control_bytes", 7);
+  bus.drive(1).set("status_bytes", 7).set("control_bytes", 7);
+  const DevicenetConfig config = bus.read(50.0);
+  EXPECT_EQ(7u, config.drives[1].control_offset);
+  EXPECT_EQ(5u, config.drives[1].status_offset);
+  EXPECT_EQ(14u, config.scanner.nodes[0].io.output_bytes);
+  EXPECT_EQ(12u, config.scanner.nodes[0].io.input_bytes);
+  EXPECT_EQ(1, config.drives[0].processValues()) << "of the shorter way";
+  EXPECT_EQ(2, config.drives[1].processValues());
+}
+
 // --- What cannot work ------------------------------------------------------------------------------------------------
 
 TEST(DevicenetConfigTest, AMacIdIsThereOnce) {
@@ -174,8 +188,17 @@ TEST(DevicenetConfigTest, WhatTheAssemblyImpliesIsNotSetOtherwise) {
   EXPECT_THAT(bus.refusal(), HasSubstr("control_bytes: 4 is not valid, expected 8, as assembly 101 has them"));
   bus.drive().erase("control_bytes").set("module_output_bytes", 1);
   EXPECT_THAT(bus.refusal(), HasSubstr("module_output_bytes: 1 is not valid, expected 0, as assembly 101 has it"));
-  bus.drive().erase("module_output_bytes").set("assembly", 120).set("control_bytes", 3);
-  EXPECT_THAT(bus.refusal(), HasSubstr("expected 4, 6 or 8: a word and one to three values, as P162 [-02] says"));
+  bus.drive().erase("module_output_bytes").set("assembly", 120);
+  for (const int bytes : {2, 3}) {
+    bus.drive().set("control_bytes", bytes);
+    EXPECT_THAT(bus.refusal(), HasSubstr("control_bytes: " + std::to_string(bytes) +
+                                         " is not valid, expected 4 to 8, as P162 [-02] says: fewer than 4 bytes "
+                                         "carry no setpoint or actual value"));
+  }
+  bus.drive().set("control_bytes", MapSettings::Value{0});
+  EXPECT_THAT(bus.refusal(),
+              HasSubstr("control_bytes: 0 is not valid, expected 4 to 8, as P162 [-02] says: 0 bytes are "
+                        "those of an inverter that does not exist (BU 0280 4.2.5)"));
   bus.drive().set("profile", "ac_drive").set("control_bytes", 8);
   EXPECT_THAT(bus.refusal(), HasSubstr("expected 4: the AC drive profile has four bytes each way"));
 }
