@@ -74,6 +74,7 @@ TEST(DevicenetCyclicProtection, P151ShorterThanThePausesIsWarnedAboutAndTrips) {
   DevicenetRobot robot{options};
   robot.module(0).parameters().preset(151, 0, 0, 50);
   robot.unit(0).parameters().preset(120, 0, 0, 1);
+  robot.unit(0).parameters().preset(513, 0, 0, 0);
   ASSERT_TRUE(robot.bringUp()) << robot.text(0) << " / " << robot.busText();
   robot.run(seconds{1});
   EXPECT_EQ(103, robot.unit(0).inverter().faultNumber());
