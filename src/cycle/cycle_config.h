@@ -1,6 +1,7 @@
 // The part of the configuration the bus cycle runs on.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -58,6 +59,10 @@ struct CycleConfig {
   std::optional<BaseConfig> base;
 
   Duration period() const noexcept { return seconds(1.0 / cycle_rate); }
+  /// How long teaching its position, and a reset of it, may take: at a slow rate their eight answers take longer.
+  Duration setupTimeout(const DriveSetup& setup) const noexcept {
+    return std::max(setup.drive.setup_timeout, 10 * period());
+  }
 };
 
 /// `robot_description`: URDF text the base's sizes and joint limits are taken from; may be empty.

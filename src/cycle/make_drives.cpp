@@ -22,6 +22,7 @@ std::vector<drive::Drive> makeDrives(const CycleConfig& config, Transport& trans
     drive::DriveConfig drive = setup.drive;
     const DriveIdentity identity = transport.identity(drives.size());
     drive.drive_timeout = driveTimeout(config, setup, identity);
+    drive.setup_timeout = config.setupTimeout(setup);
     drive.parameter_sets = identity.parameter_sets;
     drive.has_quick_stop = identity.has_quick_stop;
     drive.onlooker = onlooker;

@@ -44,7 +44,7 @@ struct DriveConfig {
   std::array<std::optional<Hertz>, 4> max_frequency;
   Duration drive_timeout = seconds(0.05);     ///< silence that counts as offline
   Duration enable_timeout = seconds(2.0);     ///< from the request to "operation enabled", or to the new parameter set
-  Duration setup_timeout = seconds(2.0);      ///< of teaching a position, and of a reset of the position
+  Duration setup_timeout = seconds(2.0);      ///< of teaching a position, and of a reset; at least 8 answers
   Duration shutdown_timeout = seconds(10.0);  ///< OFF1 until "ready to switch on", then quick stop
   /// How long the acknowledge bit is held low and then high: longer than the slowest path to the inverter (the module's
   /// own cycle adds 5 ms, P153).

@@ -114,7 +114,7 @@ cycle::Completion Services::ask(RequestKind kind, DriveIndex drive) {
   request.patience = config_.cycle.service_timeout;
   // What runs for a time of its own is waited for until it tells how it ended.
   const bool sets_up = kind == RequestKind::kTeach || kind == RequestKind::kResetPosition;
-  if (sets_up) request.patience += config_.cycle.drives[drive].drive.setup_timeout;
+  if (sets_up) request.patience += config_.cycle.setupTimeout(config_.cycle.drives[drive]);
   return broker_.call(request);
 }
 

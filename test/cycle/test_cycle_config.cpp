@@ -62,6 +62,14 @@ TEST(CycleConfigTest, ASetUpRunIsNotCutShortByTheServices) {
   EXPECT_EQ(milliseconds{2000}, config.drives[0].drive.setup_timeout);
 }
 
+// Teaching needs eight answers.
+TEST(CycleConfigTest, ASetUpRunHasTenCyclesAtLeast) {
+  Configured robot;
+  EXPECT_EQ(milliseconds{2000}, robot.read().setupTimeout(robot.read().drives[0]));
+  robot.node.set("cycle_rate", 2);
+  EXPECT_EQ(milliseconds{5000}, robot.read().setupTimeout(robot.read().drives[0]));
+}
+
 // What stops how, by a word each; the torque is never kept on behind "disabled".
 TEST(CycleConfigTest, TheWayOfEachStopIsAWord) {
   Configured robot;

@@ -86,6 +86,37 @@ TEST_F(LiftCycle, TellsThatItsCountWasSetAnew) {
   EXPECT_EQ("drive lift: its count was set anew, its position is 0", answer.message.str());
 }
 
+class LiftOfASlowCycle : public LiftCycle {
+ protected:
+  LiftOfASlowCycle() : LiftCycle{atOneHertz()} { transport.parameters[480] = 61; }
+  static CycleConfig atOneHertz() {
+    CycleConfig config = LiftCycle::config();
+    config.cycle_rate = 1.0;
+    return config;
+  }
+  void slowStep() {
+    step();
+    transport.time += std::chrono::seconds{1} - kCycle;
+  }
+};
+
+// Four answers, a second each: longer than the 2 s that are enough at other rates.
+TEST_F(LiftOfASlowCycle, HasTheTimeToSetItsCountAnew) {
+  for (int i = 0; i < 80; ++i) slowStep();
+  Request request;
+  request.kind = RequestKind::kResetPosition;
+  request.drive = 0;
+  request.id = ++last_id;
+  request.patience = std::chrono::seconds{13};
+  ports.submit(request);
+  for (int i = 0; i < 15 && completions.count(last_id) == 0; ++i) {
+    slowStep();
+    if ((controlWord(0) & 0x0200) != 0) transport.inverters[0].second = 0;
+  }
+  EXPECT_EQ("drive lift: its count was set anew, its position is 0", completions[last_id].message.str());
+  EXPECT_TRUE(completions[last_id].success);
+}
+
 class LiftThatTellsItsReference : public LiftCycle {
  protected:
   LiftThatTellsItsReference() : LiftCycle{withReference()} { transport.parameters[481] = 20; }
