@@ -14,7 +14,7 @@ BaseMotion::BaseMotion(const BaseConfig& config, Duration cmd_vel_timeout)
 robot::WheelSpeeds BaseMotion::pollWheels(const TwistCommand& command, bool driving, bool follow,
                                           const robot::WheelSpeeds& max_speeds, Instant now, Duration dt,
                                           const MinimumSpeeds& minimum) noexcept {
-  obeys_ = below_minimum_ = false;
+  obeys_ = below_minimum_ = beyond_full_ = false;
   if (!driving) {
     limiter_.reset();
     return rest();
@@ -24,6 +24,7 @@ robot::WheelSpeeds BaseMotion::pollWheels(const TwistCommand& command, bool driv
   const robot::WheelSpeeds limits = robot::tighterOf(max_speeds, joint_limits_);
   obeys_ = follow && !minimum.coming_to_rest && !command.held && !isStale(command, timeout_, now);
   if (!obeys_) limiter_.endAcceleration();
+  beyond_full_ = obeys_ && robot::areBeyond(kinematics_->wheels(command.twist), max_speeds);
   robot::Twist2d target = within(limits, obeys_ ? command.twist : robot::Twist2d{});
   // Taken as zero at once, it is left along the limits.
   below_minimum_ = anyBelow(kinematics_->wheels(target), minimum.wheels);

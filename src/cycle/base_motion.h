@@ -29,6 +29,8 @@ class BaseMotion {
                                 const MinimumSpeeds& minimum = {}) noexcept;
   /// It rests although a velocity is commanded, for `MinimumSpeeds`.
   bool belowMinimum() const noexcept { return below_minimum_; }
+  /// The command is beyond 100 % of the setpoint of a wheel: it is scaled down. Of a joint's own limit it does not tell.
+  bool beyondFull() const noexcept { return beyond_full_; }
   /// The last wheel speeds were made from the command; false: the base rests, or comes to rest, without one.
   bool obeys() const noexcept { return obeys_ && !below_minimum_; }
   /// The velocity behind the last wheel speeds (what `cmd_vel_out` tells).
@@ -60,6 +62,7 @@ class BaseMotion {
   bool open_loop_;
   bool obeys_ = false;
   bool below_minimum_ = false;
+  bool beyond_full_ = false;
   bool drives_ = false;  // the wheels were commanded to turn
   robot::Twist2d limited_;
 };

@@ -379,7 +379,7 @@ void BusCycle::tellChanges(Instant now) noexcept {
 
 void BusCycle::fill(DriveSnapshot& to, DriveIndex drive, Instant now) const noexcept {
   const Axis& axis = axes_[drive];
-  const bool beyond = supervisor_.inBase(drive) ? isSlowWheel(drive) : axis.motion.beyondFull();
+  const bool beyond = supervisor_.inBase(drive) ? isSaturatedWheel(drive) : axis.motion.beyondFull();
   to.module_inputs = inputs_[drive].module_inputs;
   fillDriveSnapshot(to,
                     {drive, names_[drive].c_str(), drives_[drive].report(), outputs_[drive], axis,

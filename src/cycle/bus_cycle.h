@@ -74,8 +74,8 @@ class BusCycle {
   /// What the steered base waits for: into the snapshot, and to the user unless it `passes` soon by itself.
   void tellWaits(const Sentence& waits, bool passes, Instant now) noexcept;
   robot::SteeringAngles steeringAngles() const noexcept;
-  /// A wheel that rests for P104 although a velocity is commanded.
-  bool isSlowWheel(DriveIndex drive) const noexcept;
+  /// A wheel of a base that rests for P104 although a velocity is commanded, or is scaled into its wheels' 100 %.
+  bool isSaturatedWheel(DriveIndex drive) const noexcept;
   bool wheelsTurn() const noexcept;
   double fastestWheel() const noexcept;
   void publishBase() noexcept;

@@ -122,9 +122,9 @@ robot::SteeringAngles BusCycle::steeringAngles() const noexcept {
   return angles;
 }
 
-bool BusCycle::isSlowWheel(DriveIndex drive) const noexcept {
-  if (base_) return base_->belowMinimum();
-  return !drives_[drive].positions() && steered_->belowMinimum();
+bool BusCycle::isSaturatedWheel(DriveIndex drive) const noexcept {
+  if (base_) return base_->belowMinimum() || base_->beyondFull();
+  return !drives_[drive].positions() && (steered_->belowMinimum() || steered_->beyondFull());
 }
 
 robot::WheelSpeeds BusCycle::maxWheelSpeeds() const noexcept {

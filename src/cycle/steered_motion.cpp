@@ -37,7 +37,7 @@ SteeredMotion::SteeredMotion(const BaseConfig& config, Duration cmd_vel_timeout)
 
 robot::SteeredSetpoint SteeredMotion::poll(const TwistCommand& command, bool driving, bool follow,
                                            const SteeredDrives& drives, Instant now, Duration dt) noexcept {
-  obeys_ = below_minimum_ = false;
+  obeys_ = below_minimum_ = beyond_full_ = false;
   waits_for_ = SteeredWait::kNothing;
   const bool known = allKnown(drives.angles, kinematics_.axleCount());
   if (!driving || !known) {
@@ -54,7 +54,7 @@ robot::SteeredSetpoint SteeredMotion::poll(const TwistCommand& command, bool dri
   const robot::WheelSpeeds limits = robot::tighterOf(drives.max_speeds, joint_limits_);
   obeys_ = follow && !drives.minimum.coming_to_rest && !command.held && !isStale(command, timeout_, now);
   if (!obeys_) limiter_.endAcceleration();
-  robot::Twist2d target = targetOf(command, obeys_, limits, drives.angles);
+  robot::Twist2d target = targetOf(command, obeys_, limits, drives);
   // Taken as zero at once, it is left along the limits.
   below_minimum_ = anyBelow(kinematics_.solve(target, drives.angles, steered_).wheels, drives.minimum.wheels);
   if (below_minimum_) target = {};
@@ -70,13 +70,15 @@ robot::SteeredSetpoint SteeredMotion::poll(const TwistCommand& command, bool dri
 
 // What is beyond the steering range or too fast is made smaller before the ramps, which never run ahead of the wheels.
 robot::Twist2d SteeredMotion::targetOf(const TwistCommand& command, bool obey, const robot::WheelSpeeds& limits,
-                                       const robot::SteeringAngles& angles) noexcept {
+                                       const SteeredDrives& drives) noexcept {
   if (!obey || !isFinite(command.twist) || command.twist == robot::Twist2d{}) return {};
   const robot::Twist2d possible = kinematics_.possible(command.twist);
   if (possible != command.twist) {
     waits_for_ = possible == robot::Twist2d{} ? SteeredWait::kNoAngle : SteeredWait::kWiderCurve;
   }
-  return robot::times(robot::factorInto(kinematics_.solve(possible, angles, steered_).wheels, limits), possible);
+  const robot::WheelSpeeds wheels = kinematics_.solve(possible, drives.angles, steered_).wheels;
+  beyond_full_ = robot::areBeyond(wheels, drives.max_speeds);
+  return robot::times(robot::factorInto(wheels, limits), possible);
 }
 
 bool SteeredMotion::rollsOut(const SteeredDrives& drives, Instant now) noexcept {

@@ -53,6 +53,8 @@ class SteeredMotion {
   SteeredWait waitsFor() const noexcept { return waits_for_; }
   /// It rests although a velocity is commanded, for `MinimumSpeeds`.
   bool belowMinimum() const noexcept { return below_minimum_; }
+  /// The command is beyond 100 % of the setpoint of a wheel: it is scaled down. Of a joint's own limit it does not tell.
+  bool beyondFull() const noexcept { return beyond_full_; }
   /// The last setpoint was made from the command; false: the base rests, or comes to rest, without one.
   bool obeys() const noexcept { return obeys_ && !below_minimum_; }
   /// The velocity behind the last setpoint (what `cmd_vel_out` tells).
@@ -70,7 +72,7 @@ class SteeredMotion {
   enum class Step : std::uint8_t { kGo, kHold, kBrake };
 
   robot::Twist2d targetOf(const TwistCommand& command, bool obey, const robot::WheelSpeeds& limits,
-                          const robot::SteeringAngles& angles) noexcept;
+                          const SteeredDrives& drives) noexcept;
   /// Steers at standstill; true: the base may drive off.
   bool readyToDriveOff(const robot::Twist2d& target, const SteeredDrives& drives, Instant now) noexcept;
   /// Commanded to stand, the wheels still get slower.
@@ -96,6 +98,7 @@ class SteeredMotion {
   bool drives_ = false;            // the wheels were commanded to turn
   bool obeys_ = false;
   bool below_minimum_ = false;
+  bool beyond_full_ = false;
   SteeredWait waits_for_ = SteeredWait::kNothing;
   std::optional<Instant> holding_since_;
   struct Rolling {

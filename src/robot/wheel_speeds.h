@@ -28,6 +28,12 @@ double factorInto(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept;
 /// Each wheel's speed times `factor`; rest for 0, also of what is not finite.
 WheelSpeeds times(double factor, const WheelSpeeds& wheels) noexcept;
 
+/// One of them cannot turn that fast, and it is not that nothing may move.
+inline bool areBeyond(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept {
+  const double factor = factorInto(wanted, max);
+  return factor > 0.0 && factor < 1.0;
+}
+
 /// The tighter of two limits, wheel by wheel; none (so that nothing moves) when they are not of one base.
 WheelSpeeds tighterOf(const WheelSpeeds& a, const WheelSpeeds& b) noexcept;
 

@@ -69,6 +69,19 @@ TEST_F(BaseMinimum, StraightOnTooSlowlyItRests) {
   EXPECT_FALSE(snapshot().drives[kLeft].saturated);
 }
 
+// 50 Hz are 15.7 m/s. The base is scaled before its wheels would be: they tell that it is.
+TEST_F(BaseMinimum, StraightOnTooFastItIsSaturated) {
+  begin(0.0, 0.0);
+  hold(31.4, 0.0, 50);
+  for (const DriveIndex i : {kLeft, kRight}) {
+    EXPECT_EQ(0x4000, wire(i)) << i;
+    EXPECT_TRUE(snapshot().drives[i].saturated) << i;
+  }
+  hold(15.0, 0.0, 50);
+  EXPECT_FALSE(snapshot().drives[kLeft].saturated);
+  EXPECT_FALSE(snapshot().drives[kRight].saturated);
+}
+
 TEST_F(BaseMinimum, OnTheSpotTooSlowlyItRests) {
   begin(5.0, 5.0);
   hold(0.0, 6.0, 50);

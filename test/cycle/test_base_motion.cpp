@@ -157,6 +157,9 @@ TEST_F(BaseMotionTest, ScalesTheWholeBaseWhenOneWheelCannotTurnThatFast) {
   EXPECT_NEAR(6.0, wheels[0], 1e-9);
   EXPECT_NEAR(0.8, motion_.limited().linear_x, 1e-9);
   EXPECT_NEAR(0.8, motion_.limited().angular_z, 1e-9);
+  EXPECT_TRUE(motion_.beyondFull());
+  poll(true, false, {10.0, 10.0});
+  EXPECT_FALSE(motion_.beyondFull()) << "it brakes";
 }
 
 // A rest of rounding on an axis that may not reverse would be beyond its limit, and scale the whole base to zero.
@@ -185,6 +188,7 @@ TEST_F(BaseMotionTest, ScalesTheWholeBaseIntoTheLimitsOfTheJoints) {
   const robot::WheelSpeeds wheels = poll();
   EXPECT_NEAR(5.0, wheels[1], 1e-9);
   EXPECT_NEAR(3.0, wheels[0], 1e-9);
+  EXPECT_FALSE(motion_.beyondFull()) << "the drives could";
 }
 
 // A command far beyond what the drives can turn must not delay the stop: the first cycle of braking is slower.

@@ -192,6 +192,23 @@ TEST(SteeredTurn, WaitsForTheWheelsAlsoDownALongRamp) {
   }
 }
 
+// It is scaled into what its wheels can turn, and tells it.
+TEST(SteeredTurn, TellsThatItIsTooFastForItsWheels) {
+  SteeredMotion motion{steeredBase(), std::chrono::milliseconds{500}};
+  const SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}};
+  Instant now{std::chrono::hours{1}};
+  const auto wheel = [&](double linear_x) {
+    now += CycleBench::kCycle;
+    TwistCommand command{{}, now, true};
+    command.twist.linear_x = linear_x;
+    return motion.poll(command, true, true, drives, now, CycleBench::kCycle).wheels[0];
+  };
+  EXPECT_NEAR(10.0, wheel(2.0), 1e-9);
+  EXPECT_TRUE(motion.beyondFull());
+  EXPECT_NEAR(9.0, wheel(0.9), 1e-9);
+  EXPECT_FALSE(motion.beyondFull());
+}
+
 // Slow, the way to another direction is a wide turn of the wheels: from its first step on the base slows down for it, and
 // does not drive on first.
 TEST(SteeredTurn, AWideOneIsBrakedForAtOnce) {
