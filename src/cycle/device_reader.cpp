@@ -22,11 +22,8 @@ constexpr double kRampStep = 0.01;
 
 // Another answer may come later: the inverter was off for a moment, and its module is there.
 bool mayChange(const profile::ParameterResult& result) noexcept {
-  using Reason = profile::ParameterReason;
   if (result.outcome == profile::ParameterOutcome::kTimeout) return true;
-  return result.outcome == profile::ParameterOutcome::kRefused &&
-         (result.reason == Reason::kNoInverter || result.reason == Reason::kDeviceFailure ||
-          result.reason == Reason::kNotNow);
+  return result.outcome == profile::ParameterOutcome::kRefused && mayPass(result.reason);
 }
 
 }  // namespace

@@ -8,17 +8,6 @@
 namespace nord_driver::cycle {
 
 using profile::ParameterOutcome;
-using profile::ParameterReason;
-
-namespace {
-
-// The state of the device, or of what stands before it, may be another one in a moment.
-bool passes(ParameterReason reason) noexcept {
-  return reason == ParameterReason::kNotNow || reason == ParameterReason::kNoInverter ||
-         reason == ParameterReason::kDeviceFailure;
-}
-
-}  // namespace
 
 MonitorReader::MonitorReader(std::vector<profile::ParameterRequest> parameters)
     : parameters_(std::move(parameters)), values_(parameters_.size()), left_out_(parameters_.size(), 0) {}
@@ -76,7 +65,7 @@ void MonitorReader::handleResult(const profile::ParameterResult& result, const c
     profile::ParameterResult told = result;
     told.refused_number = parameters_[next_].number;
     value.why.format("%s", parameterMessage(drive, told.refused_number, told).c_str());
-    left_out_[next_] = !timed_out_ && !passes(result.reason) ? 1 : 0;
+    left_out_[next_] = !timed_out_ && !mayPass(result.reason) ? 1 : 0;
   }
   ++next_;
 }

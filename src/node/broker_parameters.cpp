@@ -19,6 +19,7 @@ ParameterAnswer answerOf(const cycle::Completion& completion, const catalogue::P
   answer.refused = result.outcome == ParameterOutcome::kRefused;
   answer.unknown = answer.refused && result.refused_number == access.request.number &&
                    result.reason == profile::ParameterReason::kNoSuchParameter;
+  answer.passing = answer.refused && mayPass(result.reason);
   answer.message = completion.message.str();
   answer.raw = result.raw;
   answer.value = catalogue::valueOf(access.entry, result.raw, access.request.index);

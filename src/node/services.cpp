@@ -23,6 +23,11 @@ void tellOutcome(const std::string& call, const cycle::Completion& answer) {
   }
 }
 
+// What is refused for the moment only says nothing of the parameter: it may be asked again.
+bool isRefusedForGood(const cycle::Completion& answer) noexcept {
+  return answer.parameter.outcome == profile::ParameterOutcome::kRefused && !mayPass(answer.parameter.reason);
+}
+
 }  // namespace
 
 template <typename Service, typename Handler>
@@ -152,7 +157,7 @@ void Services::readParameter(DriveIndex drive, ReadParameter::Request& request, 
   const cycle::Completion answer = carryOut(drive, RequestKind::kReadParameter, access);
   response.success = answer.success;
   response.message = answer.message.str();
-  response.refused = answer.parameter.outcome == profile::ParameterOutcome::kRefused;
+  response.refused = isRefusedForGood(answer);
   response.unknown = response.refused && answer.parameter.refused_number == access.request.number &&
                      answer.parameter.reason == profile::ParameterReason::kNoSuchParameter;
   if (!answer.success) return;
@@ -185,7 +190,7 @@ void Services::writeParameter(DriveIndex drive, WriteParameter::Request& request
   const cycle::Completion& answer = *write.completion;  // the broker always has one
   response.success = answer.success;
   response.message = answer.message.str();
-  response.refused = answer.parameter.outcome == profile::ParameterOutcome::kRefused;
+  response.refused = isRefusedForGood(answer);
   response.raw = answer.parameter.raw;
   response.value = catalogue::valueOf(access.entry, answer.parameter.raw, access.request.index);
   if (answer.success && response.message.empty())

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "tools/parameter_name.h"
+#include "tools/patient_access.h"
 
 namespace nord_driver::tools {
 
@@ -63,7 +64,7 @@ Dump readAlike(DriveParameters& drive, const Dump& dump, const std::atomic<bool>
   for (const Dump::Value& value : dump.values) {
     if (!isSetting(value.address)) continue;
     if (end_asked) throw Trouble("ended before all parameters were read");
-    const ParameterAnswer answer = drive.read(value.address);
+    const ParameterAnswer answer = askPatiently(drive, [&] { return drive.read(value.address); });
     if (answer.success) {
       result.values.push_back({value.address, answer.raw});
     } else if (answer.refused) {

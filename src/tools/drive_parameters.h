@@ -24,7 +24,9 @@ struct ParameterAnswer {
   bool refused = false;  ///< by inverter, catalogue or session; the drive is there
   bool used_up = false;  ///< refused: the EEPROM's budget does not allow it now; the drive was not asked
   bool unknown = false;  ///< refused: the inverter has no parameter of this number
-  std::string message;   ///< why not; with success a note, or empty
+  bool passing =
+      false;  ///< refused: may be granted a moment later, and says nothing of the parameter; see askPatiently()
+  std::string message;  ///< why not; with success a note, or empty
   std::int32_t raw = 0;
   double value = 0.0;
   const catalogue::ParameterEntry* entry = nullptr;  ///< what the catalogue knows

@@ -8,16 +8,17 @@
 
 #include "config/setting_checks.h"
 #include "tools/parameter_name.h"
+#include "tools/patient_access.h"
 
 namespace nord_driver::tools {
 
 namespace {
 
-// Refused, it is not there; anything else ends the whole.
+// Refused for good, it is not there; anything else ends the whole.
 ParameterAnswer readFrom(DriveParameters& drive, const catalogue::ParameterAddress& address,
                          const std::atomic<bool>& end_asked) {
   if (end_asked) throw Trouble("ended before all parameters were read");
-  ParameterAnswer answer = drive.read(address);
+  ParameterAnswer answer = askPatiently(drive, [&] { return drive.read(address); });
   if (!answer.success && !answer.refused) throw Trouble(answer.message);
   return answer;
 }

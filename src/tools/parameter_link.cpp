@@ -192,9 +192,12 @@ ParameterAnswer ParameterLink::carryOut(const catalogue::ParameterAccess& access
   const profile::ParameterResult& result = completion->parameter;
   ParameterAnswer answer;
   answer.success = completion->success;
-  answer.refused = result.outcome == ParameterOutcome::kRefused;
+  // What has cost EEPROM cycles is not to be asked again: it counts as not answered.
+  const bool passing = mayPass(result.reason);
+  answer.refused = result.outcome == ParameterOutcome::kRefused && !(passing && result.eeprom_written);
   answer.unknown = answer.refused && result.refused_number == access.request.number &&
                    result.reason == profile::ParameterReason::kNoSuchParameter;
+  answer.passing = answer.refused && passing;
   answer.message = completion->message.str();
   if (!note.empty()) answer.message += (answer.message.empty() ? "" : "; ") + note;
   answer.raw = result.raw;

@@ -72,6 +72,9 @@ TEST_F(OneDrive, TellsRefusedFromSilent) {
   const tools::ParameterAnswer refused = parameters_.read(p102(1));
   EXPECT_TRUE(refused.refused);
   EXPECT_TRUE(refused.unknown);
+  EXPECT_FALSE(refused.passing);
+  next_.parameter.reason = ParameterReason::kNotNow;
+  EXPECT_TRUE(parameters_.read(p102(1)).passing);
   for (const auto outcome : {ParameterOutcome::kOffline, ParameterOutcome::kTimeout, ParameterOutcome::kBusy}) {
     next_ = answer(outcome);
     const tools::ParameterAnswer silent = parameters_.read(p102(1));

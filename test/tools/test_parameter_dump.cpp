@@ -9,6 +9,7 @@
 #include "tools/linked_drive.h"
 #include "tools/parameter_dump.h"
 #include "tools/parameter_name.h"
+#include "tools/restore/scripted_drive.h"
 
 namespace nord_driver::tools {
 namespace {
@@ -84,6 +85,36 @@ TEST(ParameterDump, NamesWhatTheInverterDoesNotHave) {
   EXPECT_EQ(1, std::count(missing.begin(), missing.end(), "P506")) << "asked for once, not for each set";
   EXPECT_THAT(missing, ::testing::Not(::testing::Contains("P151"))) << "of a bus module of another kind";
   EXPECT_THAT(dumpText(taken, drive.link().known(), "left", "here"), HasSubstr("# not in this inverter: P506\n"));
+}
+
+// Another bus participant blocks the access (BU 2700 6.5.1.1): that does not say that the inverter has no P102.
+TEST(ParameterDump, IsNotTakenWhileTheDriveRefusesForTheMoment) {
+  LinkedDrive drive;
+  sim::PkwRefusal refused;
+  refused.error = 103;
+  refused.number = 102;
+  drive.connect();
+  drive.left().pkw().refuse(refused);
+  try {
+    takeDump(drive.link(), drive.notAsked());
+    FAIL() << "a dump without P102";
+  } catch (const Trouble& trouble) {
+    EXPECT_THAT(trouble.what(), HasSubstr("PKW error 103"));
+  }
+}
+
+TEST(ParameterDump, AsksAgainWhatIsRefusedForTheMoment) {
+  ScriptedDrive drive{{{"P102 set 1", 200}}};
+  const std::atomic<bool> not_asked{false};
+  drive.blocked["P102 set 1"] = 1;
+  const Dump taken = takeDump(drive, not_asked);
+  ASSERT_EQ(1u, taken.values.size());
+  EXPECT_EQ(200, taken.values[0].raw);
+  drive.blocked["P102 set 1"] = 1;
+  EXPECT_EQ(1u, readAlike(drive, taken, not_asked).values.size());
+  drive.blocked["P102 set 1"] = -1;
+  EXPECT_THROW(takeDump(drive, not_asked), Trouble);
+  EXPECT_THROW(readAlike(drive, taken, not_asked), Trouble);
 }
 
 TEST(ParameterDump, IsNotTakenOfADriveThatFallsSilent) {

@@ -66,6 +66,12 @@ enum class ParameterReason : std::uint8_t {
 
 /// The reason as a clause; empty for kNone and kDriver. For people where a transport has no text of its own.
 const char* toString(ParameterReason reason) noexcept;
+/// Whether the same access may be granted a moment later: the state of the device, or of what stands before it, is another
+/// one then (another participant blocks it, BU 2700 6.5.1.1 error 103; the inverter behind the module is switched on again).
+constexpr bool mayPass(ParameterReason reason) noexcept {
+  return reason == ParameterReason::kNotNow || reason == ParameterReason::kNoInverter ||
+         reason == ParameterReason::kDeviceFailure;
+}
 
 struct ParameterResult {
   std::uint32_t id = 0;

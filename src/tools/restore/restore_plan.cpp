@@ -8,6 +8,7 @@
 #include "profile/module_parameters.h"
 #include "tools/comparison.h"
 #include "tools/parameter_name.h"
+#include "tools/patient_access.h"
 
 namespace nord_driver::tools {
 
@@ -102,7 +103,7 @@ RestorePlan planRestore(DriveParameters& drive, const Dump& dump, const RestoreO
   for (const Dump::Value& value : dump.values) {
     if (!isSetting(value.address) || catalogue::resetsDevice(value.address.number)) continue;
     if (end_asked) throw Trouble("ended before all parameters were read; nothing was written");
-    const ParameterAnswer answer = drive.read(value.address);
+    const ParameterAnswer answer = askPatiently(drive, [&] { return drive.read(value.address); });
     if (!answer.success && !answer.refused) throw Trouble(answer.message + "; nothing was written");
     if (!answer.success) {
       plan.left_out.push_back({value.address, value.raw, std::nullopt, "not in this drive: " + answer.message});

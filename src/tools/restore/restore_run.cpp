@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tools/comparison.h"
+#include "tools/patient_access.h"
 
 namespace nord_driver::tools {
 
@@ -45,12 +46,12 @@ void RestoreRun::requireRest() const {
   if (!moving.empty()) breakOff(moving);
 }
 
-// What ends the link to the drive ends the run.
+// What ends the link to the drive ends the run, and so does what goes on being refused for the moment only.
 ParameterAnswer RestoreRun::asked(const std::function<ParameterAnswer()>& access) {
   if (end_asked_) breakOff("ended");
   ParameterAnswer answer;
   try {
-    answer = access();
+    answer = askPatiently(drive_, access);
   } catch (const Trouble& trouble) {
     breakOff(trouble.what());
   }

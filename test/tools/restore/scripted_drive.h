@@ -70,6 +70,7 @@ class ScriptedDrive final : public DriveParameters {
 
   std::map<std::string, std::int32_t> values;  ///< by "P102 set 1"
   std::set<std::string> refused;               ///< to write
+  std::map<std::string, int> blocked;          ///< accesses that are refused for the moment; -1: all
   bool module_saves = false;                   ///< what is written to its module is saved
   std::uint16_t forbidden = 0;                 ///< by the configuration
   std::string used_up_at;                      ///< of the EEPROM's budget
@@ -84,6 +85,12 @@ class ScriptedDrive final : public DriveParameters {
     if (accesses_left == 0) throw Trouble("drive left does not answer");
     if (accesses_left > 0) --accesses_left;
     ParameterAnswer answer;
+    if (blocked[name] != 0) {
+      if (blocked[name] > 0) --blocked[name];
+      answer.refused = answer.passing = true;
+      answer.message = "drive left refuses " + name + ": PKW error 103";
+      return answer;
+    }
     const auto found = values.find(name);
     answer.success = found != values.end();
     answer.refused = answer.unknown = !answer.success;

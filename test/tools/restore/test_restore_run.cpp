@@ -218,6 +218,34 @@ TEST_F(RestoreRunTest, WritesNothingIntoADriveThatWasEnabledMeanwhile) {
   EXPECT_EQ(kHave, drive_.values);
 }
 
+// Another bus participant asks the drive, too (PKW error 103): that says nothing of the parameter.
+TEST_F(RestoreRunTest, AsksAgainWhatIsRefusedForTheMoment) {
+  drive_.blocked["P103 set 1"] = 1;
+  plan(kWant);
+  EXPECT_EQ(3u, record_.changes.size());
+  drive_.blocked["P103 set 1"] = 2;
+  EXPECT_EQ(RestoreEnd::kVerified, run().write());
+  EXPECT_THAT(drive_.written, ElementsAre("P102 set 1 ~ 250", "P103 set 1 ~ 300", "P105 set 1 ~ 600"));
+}
+
+// Taking back would meet the same, and it may be over in a minute: the journal says where it stands.
+TEST_F(RestoreRunTest, BreaksOffWhatGoesOnBeingRefusedForTheMoment) {
+  drive_.blocked["P103 set 1"] = -1;
+  EXPECT_EQ("drive left refuses P103 set 1: PKW error 103; nothing was written", trouble([&] { plan(kWant); }));
+  drive_.blocked.clear();
+  plan(kWant);
+  drive_.blocked["P103 set 1"] = -1;
+  EXPECT_THAT(trouble([&] { run().write(); }), HasSubstr("P103 set 1: PKW error 103; 1 of 3 are written"));
+  EXPECT_THAT(drive_.written, ElementsAre("P102 set 1 ~ 250"));
+  drive_.blocked.clear();
+  forget();
+  EXPECT_EQ(RestoreState::kWriting, record_.state);
+  RestoreRun again = run();
+  again.lookAgain();
+  EXPECT_EQ(RestoreEnd::kVerified, again.write());
+  EXPECT_EQ(valuesWith(kWant), drive_.values);
+}
+
 // Mains off and on in the middle: the RAM is lost, the drive answers, and only the end can tell.
 TEST_F(RestoreRunTest, NoticesADriveThatWasSwitchedOff) {
   plan(kWant);
