@@ -20,10 +20,14 @@ profile::ParameterShape shapeOfUnknown(std::uint8_t set, std::uint8_t index) {
   return index != 0 ? profile::ParameterShape::kArray : profile::ParameterShape::kPlain;
 }
 
-std::string nameOf(const ParameterAccess& access) {
+std::string nameOf(std::uint16_t number) {
   char text[8];
-  std::snprintf(text, sizeof(text), "P%03u", unsigned{access.request.number});
+  std::snprintf(text, sizeof(text), "P%03u", unsigned{number});
   return text;
+}
+
+std::string nameOf(const ParameterAccess& access) {
+  return nameOf(access.request.number);
 }
 
 std::string whyNot(const ParameterAccess& access) {
@@ -77,12 +81,14 @@ ParameterAccess accessTo(const ParameterAddress& address, const DriveCatalogue& 
   return access;
 }
 
+std::string whyNotRaw(std::uint16_t number) {
+  return nameOf(number) +
+         " is not in the catalogue: its unit is not known, and raw values need allow_raw_parameters: true";
+}
+
 std::string setValue(ParameterAccess& access, const ParameterWrite& write_as) {
   if (std::string why = whyNot(access); !why.empty()) return why;
-  if (access.entry == nullptr && !write_as.allow_raw) {
-    return nameOf(access) +
-           " is not in the catalogue: its unit is not known, and raw values need allow_raw_parameters: true";
-  }
+  if (access.entry == nullptr && !write_as.allow_raw) return whyNotRaw(access.request.number);
   const double raw = access.entry != nullptr ? std::round(write_as.value / access.entry->step()) : write_as.value;
   constexpr double kBeyondAll = 1e12;
   if (!(std::abs(raw) < kBeyondAll) || raw != std::trunc(raw)) return beyond(access, write_as.value);

@@ -32,6 +32,8 @@ ParameterAccess accessTo(const ParameterAddress& address, const DriveCatalogue& 
 // Each makes it an access to write and returns what is wrong, a sentence; empty when nothing is. What can only be read
 // and what resets a device is refused, whatever the value.
 
+/// Why a parameter that is not in the catalogue is not written where raw values are not allowed: a sentence.
+std::string whyNotRaw(std::uint16_t number);
 /// The nearest raw value of `write`.
 std::string setValue(ParameterAccess& access, const ParameterWrite& write);
 /// What somebody typed, as rawFrom() takes it; of parameters in the catalogue only.

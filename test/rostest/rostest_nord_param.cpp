@@ -129,6 +129,20 @@ TEST_F(NordParamBesideTheDriver, RestoresADriveAtRestOnly) {
   ::unlink((file + ".journal").c_str());
 }
 
+// Refused by the node after the first value, it would take the whole restore back.
+TEST_F(NordParamBesideTheDriver, LeavesOutOfARestoreWhatTheNodeDoesNotWrite) {
+  const std::string file = ::testing::TempDir() + "nord_param_fence_" + std::to_string(::getpid());
+  std::ofstream(file) << "series: sk5xxe\nsettings: {\"P102 set 1\": {raw: 70}, \"P103 set 1\": {raw: 70}}\n";
+  const Ended restored = run({"restore", "left", file, "--yes", "--journal", file + ".journal"});
+  EXPECT_EQ(0, restored.code) << restored.errors;
+  EXPECT_THAT(restored.output, AllOf(HasSubstr("P103 may not be written: writable_parameters allows P102, P105"),
+                                     HasSubstr("1 written and read back")));
+  EXPECT_THAT(run({"read", "left", "P103"}).output, HasSubstr("Deceleration time = 50"));
+  EXPECT_EQ(0, run({"restore", "left", "--take-back", "--yes", "--journal", file + ".journal"}).code);
+  ::unlink(file.c_str());
+  ::unlink((file + ".journal").c_str());
+}
+
 // Sent in ms, 2500 would be 2500 s there.
 TEST_F(NordParamBesideTheDriver, WritesNothingThatTheNodeUnderstandsOtherwise) {
   const std::string own = ::testing::TempDir() + "nord_param_own_" + std::to_string(::getpid()) + ".yaml";

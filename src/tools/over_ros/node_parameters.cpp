@@ -2,7 +2,9 @@
 
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
+#include <ros/param.h>
 #include <ros/service.h>
+#include <xmlrpcpp/XmlRpcValue.h>
 
 #include <sstream>
 #include <utility>
@@ -18,6 +20,20 @@ namespace {
 
 const ros::WallDuration kStatusTime{11.0};  // status_rate is 0.1 Hz at least
 const ros::WallDuration kSetTime{2.0};      // from a status without one: a drive that is coming back
+constexpr char kWritable[] = "writable_parameters";
+
+SettingValue numbersOf(XmlRpc::XmlRpcValue& told) {
+  using XmlRpc::XmlRpcValue;
+  if (told.getType() == XmlRpcValue::TypeString) return SettingValue::ofText(static_cast<std::string>(told));
+  if (told.getType() == XmlRpcValue::TypeInt) {
+    const int number = static_cast<int>(told);
+    return SettingValue::ofInteger(number, std::to_string(number));
+  }
+  if (told.getType() != XmlRpcValue::TypeArray) return SettingValue::other(told.toXml());
+  SettingValue list = SettingValue::list();
+  for (int i = 0; i < told.size(); ++i) list.items.push_back(numbersOf(told[i]));
+  return list;
+}
 
 }  // namespace
 
@@ -65,6 +81,27 @@ std::optional<std::uint8_t> NodeParameters::setFor(const catalogue::ParameterAcc
   const DriveStatus status = statusOnce([](const DriveStatus& told) { return told.parameter_set != 0; });
   if (status.parameter_set == 0) return std::nullopt;
   return status.parameter_set;
+}
+
+NodeParameters::Fence NodeParameters::fence() const {
+  Fence fence;
+  ros::param::get(node_ + "/allow_raw_parameters", fence.raw);
+  SettingValue settings = SettingValue::group();
+  XmlRpc::XmlRpcValue told;
+  if (ros::param::get(node_ + "/" + kWritable, told)) settings.add(kWritable, numbersOf(told));
+  try {
+    fence.writable = readWritableParameters(TreeSettings{node_ + "/", settings});
+  } catch (const ConfigError& error) {
+    throw Trouble(error.what());
+  }
+  return fence;
+}
+
+// Refused by the node in the middle, it would take the whole restore back.
+std::string NodeParameters::whyNotWritten(std::uint16_t number) const {
+  if (!fence_) fence_ = fence();
+  if (known().find(number) == nullptr && !fence_->raw) return catalogue::whyNotRaw(number);
+  return fence_->writable.refusal(number);
 }
 
 // Its terminals may have enabled it as well.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "config/writable_parameters.h"
 #include "nord_driver/DriveStatus.h"
 #include "tools/drive_nodes.h"
 
@@ -22,6 +23,8 @@ class NodeParameters final : public DriveParameters {
   ParameterAnswer read(const catalogue::ParameterAddress& address) override;
   ParameterAnswer write(const catalogue::ParameterAccess& access) override;
 
+  /// By the parameters of the node, in its words; they are looked up once.
+  std::string whyNotWritten(std::uint16_t number) const override;
   /// As the node tells it now.
   std::string notAtRest() override;
   bool savesSame() const override { return false; }
@@ -42,8 +45,17 @@ class NodeParameters final : public DriveParameters {
   std::optional<std::uint8_t> setFor(const catalogue::ParameterAccess& access);
   ParameterAnswer silent() const;
 
+  /// What the node lets users write.
+  struct Fence {
+    WritableParameters writable;
+    bool raw = false;  ///< also what is not in the catalogue
+  };
+  /// Throws Trouble where it is no list as the node takes it.
+  Fence fence() const;
+
   std::string node_;
   DriveDescription drive_;
+  mutable std::optional<Fence> fence_;  // none: not looked up yet
   ros::ServiceClient read_, write_;
 };
 
