@@ -1,7 +1,9 @@
 // compare and restore as a technician runs them, against simulated drives on a pty.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -89,6 +91,35 @@ TEST_F(NordParamRestore, Restores) {
   EXPECT_EQ(2, run({"restore", "right", "--yes"}).code) << "no file";
   ::unlink(file.c_str());
   ::unlink(journal.c_str());
+}
+
+// Another one would replace the journal of the restore that waits for its answer, or take it for broken off.
+TEST_F(NordParamRestore, BeginsNothingWhileAnotherRestoreRuns) {
+  const std::string file = config_ + "_held.yaml", journal = config_ + "_held_journal";
+  std::ofstream(file) << "series: sk5xxe\nsettings: {\"P426 set 3\": {raw: 25}}\n";
+  ASSERT_EQ(0, run({"restore", "right", file, "--yes", "--journal", journal}).code);
+  const auto noted = [&journal] {
+    std::ifstream kept(journal);
+    return std::string{std::istreambuf_iterator<char>(kept), {}};
+  };
+  const std::string before = noted();
+  const int held = ::open((journal + ".run").c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_GE(held, 0) << "it stays where it was made";
+  ASSERT_EQ(0, ::flock(held, LOCK_EX | LOCK_NB));
+  std::ofstream(file) << "series: sk5xxe\nsettings: {\"P426 set 3\": {raw: 35}}\n";
+  for (const std::string& word : {file, std::string("--resume"), std::string("--take-back")}) {
+    const Ended second = run({"restore", "right", word, "--yes", "--journal", journal});
+    EXPECT_EQ(1, second.code) << word;
+    EXPECT_THAT(second.errors, HasSubstr("another nord_param (process " + std::to_string(::getpid()) +
+                                         ") restores drive right now: nothing was written"))
+        << word;
+    EXPECT_EQ(before, noted()) << word;
+  }
+  EXPECT_EQ(0, run({"restore", "right", file, "--dry-run", "--journal", journal}).code) << "it only reads";
+  EXPECT_THAT(run({"read", "right", "P426 set 3"}).output, HasSubstr("(raw 25)"));
+  ::close(held);
+  EXPECT_EQ(0, run({"restore", "right", "--take-back", "--yes", "--journal", journal}).code);
+  for (const std::string& made : {file, journal, journal + ".run"}) ::unlink(made.c_str());
 }
 
 // A dump is somebody's only copy of a drive: on a disk that is full it has not been made.

@@ -10,6 +10,7 @@
 #include "tools/restore/restore_journal.h"
 #include "tools/restore/restore_json.h"
 #include "tools/restore/restore_run.h"
+#include "tools/restore/restore_turn.h"
 #include "tools/terminal_question.h"
 #include "tools/watched_parameters.h"
 
@@ -50,6 +51,9 @@ class RestoreCommand final : public ParamCommand {
     checkWords();
     const RestoreJournal journal{journal_.empty() ? journalPath(std::getenv("ROS_HOME"), std::getenv("HOME"), drive_)
                                                   : journal_};
+    // Whoever only looks makes no folder and keeps nobody out.
+    std::optional<RestoreTurn> turn;
+    if (!dry_run_ && (!goesOn() || journal.read())) turn.emplace(journal.path(), drive_);
     const std::optional<RestoreRecord> earlier = journal.read();
     checkJournal(journal, earlier);
     std::optional<Dump> dump;
