@@ -87,8 +87,9 @@ struct ParameterEntry {
   double step() const { return resolution.value_or(1.0); }
   bool isHex() const { return hex.value_or(false); }
   bool mayWrite() const { return !read_only.value_or(false) && !never_write.value_or(false) && !resetsDevice(number); }
-  /// As the requests of every bus need it. A parameter of which it is not known whether it depends on the set counts as
-  /// one that does: an order that names the set falls back by itself when it does not.
+  /// As the requests of every bus need it. A parameter that can be written and of which it is not known whether it depends
+  /// on the set counts as one that does: an order that names the set falls back by itself when it does not. An array counts
+  /// as one that does not: it is indexed either way, so that no answer would tell.
   profile::ParameterShape shape() const;
 
   const Element* element(unsigned index) const;

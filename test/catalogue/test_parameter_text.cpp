@@ -123,6 +123,21 @@ TEST(ParameterText, ReservedIsNoName) {
   EXPECT_EQ(std::nullopt, typed(Series::kSk5xxe, 546, "reserved").raw);  // 12 alone is called so
 }
 
+// Where no manual tells whether it depends on the set: a plain one is tried, an array cannot be.
+TEST(ParameterText, WhatIsNotSaidOfTheSets) {
+  using profile::ParameterShape;
+  ParameterEntry entry;
+  EXPECT_EQ(ParameterShape::kPerSet, entry.shape());
+  entry.read_only = true;
+  EXPECT_EQ(ParameterShape::kPlain, entry.shape());
+  entry.read_only = false;
+  entry.elements = 2;
+  EXPECT_EQ(ParameterShape::kArray, entry.shape());
+  entry.per_set = true;
+  EXPECT_EQ(ParameterShape::kArrayPerSet, entry.shape());
+  EXPECT_EQ(ParameterShape::kArray, entryOf(Series::kSk2xxe, 465).shape());
+}
+
 TEST(ParameterText, WhatMayNotBeWritten) {
   EXPECT_EQ("P700 Current error can only be read", whyNotWritable(entryOf(Series::kSk5xxe, 700)));
   EXPECT_EQ(
