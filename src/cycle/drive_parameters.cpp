@@ -18,11 +18,12 @@ constexpr std::uint32_t kDriveMask = (1u << kDriveBits) - 1, kAskerMask = (1u <<
 
 constexpr Duration kMissingInterval = std::chrono::seconds{2};
 
-// Beside those that are read at start: jog frequency, brake, servo mode and encoder (the P300 family's, not its
-// controller gains), PPO type, drive profile; and the functions of inputs and outputs: what stands at a terminal acts at
-// once, and an output may be a brake's; those of a bus module are told by isOfAllBehindModule().
-constexpr std::uint16_t kDecideMotion[] = {113, 114, 300, 301, 325, 400, 405, 420, 421, 422, 423,
-                                           424, 425, 434, 441, 443, 450, 455, 470, 507, 541, 551};
+// Beside those that are read at start: jog frequency and the fixed frequencies of SK 2xxE (P465), brake, servo mode and
+// encoder (the P300 family's, not its controller gains), PPO type, drive profile; and the functions of inputs and outputs:
+// what stands at a terminal acts at once, and an output may be a brake's; those of a bus module are told by
+// isOfAllBehindModule().
+constexpr std::uint16_t kDecideMotion[] = {113, 114, 300, 301, 325, 400, 405, 420, 421, 422, 423, 424,
+                                           425, 434, 441, 443, 450, 455, 465, 470, 507, 541, 551};
 
 // Whether and how it positions (P600 to P631), other than the positions themselves (P613).
 constexpr bool decidesPosition(std::uint16_t number) noexcept {
