@@ -1,6 +1,5 @@
 #include "tools/over_ros/node_parameters.h"
 
-#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/param.h>
 #include <ros/service.h>
@@ -57,20 +56,23 @@ void NodeParameters::call(ros::ServiceClient& client, Service& service) {
   throw Trouble("node " + node_ + " gave no answer at " + client.getService() + ": did it end?");
 }
 
-DriveStatus NodeParameters::statusOnce(const std::function<bool(const DriveStatus&)>& enough) const {
-  std::optional<DriveStatus> heard;
+DriveStatus NodeParameters::statusOnce(const std::function<bool(const DriveStatus&)>& enough) {
+  if (!status_) {
+    ros::NodeHandle handle;
+    handle.setCallbackQueue(&queue_);
+    status_ = handle.subscribe<DriveStatus>(node_ + "/" + drive_.name + "/status", 1,
+                                            [this](const DriveStatus::ConstPtr& told) { heard_ = *told; });
+  }
+  queue_.callAvailable();
+  heard_.reset();  // what has lain there may be as old as the last question
   // Not by ros::Time, which may stand still (/use_sim_time).
   ros::WallTime end = ros::WallTime::now() + kStatusTime;
-  ros::CallbackQueue queue;
-  ros::NodeHandle handle;
-  handle.setCallbackQueue(&queue);
-  const auto status =
-      handle.subscribe<DriveStatus>(node_ + "/" + drive_.name + "/status", 1, [&](const DriveStatus::ConstPtr& told) {
-        if (!heard) end = ros::WallTime::now() + kSetTime;
-        heard = *told;
-      });
-  while ((!heard || !enough(*heard)) && ros::WallTime::now() < end) queue.callAvailable(ros::WallDuration(0.1));
-  if (heard) return *heard;
+  bool heard_before = false;
+  while ((!heard_ || !enough(*heard_)) && ros::WallTime::now() < end) {
+    queue_.callAvailable(ros::WallDuration(0.1));
+    if (heard_ && !std::exchange(heard_before, true)) end = ros::WallTime::now() + kSetTime;
+  }
+  if (heard_) return *heard_;
   throw Trouble("node " + node_ + " tells no status of drive " + drive_.name + ": did it end?");
 }
 

@@ -1,7 +1,9 @@
 // One drive's parameters through the services of the node that has its bus.
 #pragma once
 
+#include <ros/callback_queue.h>
 #include <ros/service_client.h>
+#include <ros/subscriber.h>
 
 #include <functional>
 #include <optional>
@@ -40,7 +42,7 @@ class NodeParameters final : public DriveParameters {
   template <typename Service>
   void call(ros::ServiceClient& client, Service& service);
   /// The newest of the drive within two seconds of the first, or the first that is `enough`. Throws Trouble when none comes.
-  DriveStatus statusOnce(const std::function<bool(const DriveStatus&)>& enough) const;
+  DriveStatus statusOnce(const std::function<bool(const DriveStatus&)>& enough);
   /// Asked for, or in force; none where the drive does not tell it.
   std::optional<std::uint8_t> setFor(const catalogue::ParameterAccess& access);
   ParameterAnswer silent() const;
@@ -57,6 +59,9 @@ class NodeParameters final : public DriveParameters {
   DriveDescription drive_;
   mutable std::optional<Fence> fence_;  // none: not looked up yet
   ros::ServiceClient read_, write_;
+  std::optional<DriveStatus> heard_;
+  ros::CallbackQueue queue_;
+  ros::Subscriber status_;  // from the first question on; goes before the queue its callbacks lie in
 };
 
 }  // namespace nord_driver::tools
