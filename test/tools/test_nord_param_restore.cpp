@@ -89,6 +89,10 @@ TEST_F(NordParamRestore, Restores) {
   EXPECT_EQ(1, run({"restore", "right", "--resume", "--yes", "--journal", journal}).code);
   EXPECT_EQ(2, run({"restore", "right", file, "--resume", "--yes"}).code);
   EXPECT_EQ(2, run({"restore", "right", "--yes"}).code) << "no file";
+  std::ofstream(file) << "series: sk5xxe\nsettings:\n";
+  const Ended nothing = run(with(restore, {"--yes"}));
+  EXPECT_EQ(2, nothing.code) << "cut off, by a version that did not count";
+  EXPECT_THAT(nothing.errors, HasSubstr(file + " has no settings, expected at least one to restore"));
   ::unlink(file.c_str());
   ::unlink(journal.c_str());
 }

@@ -7,6 +7,7 @@
 
 #include "tools/commands/commands.h"
 #include "tools/commands/parameter_words.h"
+#include "tools/parameter_name.h"
 #include "tools/restore/restore_journal.h"
 #include "tools/restore/restore_json.h"
 #include "tools/restore/restore_run.h"
@@ -57,7 +58,7 @@ class RestoreCommand final : public ParamCommand {
     const std::optional<RestoreRecord> earlier = journal.read();
     checkJournal(journal, earlier);
     std::optional<Dump> dump;
-    if (!goesOn()) dump = readDump(file_);
+    if (!goesOn()) dump = settingsIn(file_);
     return program.onDrive(drive_, [&](const catalogue::DriveCatalogue& known) -> DriveTask {
       if (goesOn() && known.series() != earlier->series) {
         throw UsageError("the journal " + journal.path() + " is of a " + profile::toString(earlier->series) +
@@ -73,6 +74,14 @@ class RestoreCommand final : public ParamCommand {
 
  private:
   bool goesOn() const { return resume_ || take_back_; }
+
+  /// Of none at all it could not be told whether they were restored; a dump of an older version may be cut off there.
+  static Dump settingsIn(const std::string& file) {
+    Dump dump = readDump(file);
+    const auto is_setting = [](const Dump::Value& value) { return isSetting(value.address); };
+    if (std::any_of(dump.values.begin(), dump.values.end(), is_setting)) return dump;
+    throw UsageError(file + " has no settings, expected at least one to restore");
+  }
 
   void checkWords() {
     if (resume_ && take_back_) throw UsageError("--resume and --take-back contradict each other");
