@@ -56,7 +56,7 @@ Sentence elsewhereMessage(const char* drive, const drive::UnexpectedSource& sour
       "drive %s: P%u%s is %d: its setpoint does not come from this bus, and enabled it would turn whatever this driver "
       "says; set it to %s",
       drive, unsigned{source.number}, source.is_array ? "[-01]" : "", static_cast<int>(source.found),
-      control_word ? "control word and setpoint of this bus (10 PROFIBUS, 14 InterBus)" : "0 (as P509)");
+      control_word ? "10 or 14, control word and setpoint of this bus" : "0 (as P509)");
   return text;
 }
 

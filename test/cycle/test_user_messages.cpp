@@ -88,7 +88,7 @@ TEST(Sentences, AnotherLeaderThanConfiguredIsRefusedWithItsParameter) {
   EXPECT_EQ(
       "drive right: P509 is 9: its setpoint does not come from this bus, and enabled it would turn whatever this "
       "driver "
-      "says; set it to control word and setpoint of this bus (10 PROFIBUS, 14 InterBus)",
+      "says; set it to 10 or 14, control word and setpoint of this bus",
       refusal({509, false, 9, false, true}));
 }
 
