@@ -34,6 +34,7 @@ bool TimedCanBus::open() noexcept {
   }
   last_error_.clear();
   received_.clear();
+  late_.clear();
   open_ = true;
   return true;
 }
@@ -41,6 +42,7 @@ bool TimedCanBus::open() noexcept {
 void TimedCanBus::close() noexcept {
   open_ = false;
   received_.clear();
+  late_.clear();
 }
 
 void TimedCanBus::setInterfacePresent(bool present) noexcept {
@@ -117,6 +119,7 @@ bool TimedCanBus::waitReadable(Instant until) noexcept {
 
 void TimedCanBus::advanceTo(Instant when) noexcept {
   for (;;) {
+    handOverLate();
     if (busy_ && current_end_ <= when) {
       now_ = current_end_;
       stations_->advance(now_, *this);
@@ -224,12 +227,23 @@ void TimedCanBus::deliverToMaster(const CanFrame& frame, unsigned times) noexcep
     times = 0;
   }
   for (unsigned i = 0; i < times; ++i) {
-    const bool reached = controllerOnBus() && open_ && toQueue(frame);
+    const bool reached = controllerOnBus() && open_ && (holdBack(frame) || toQueue(frame));
     if (isNode(current_.sender)) {
       stations_->delivered(frame, reached, *this);
     } else {
       stations_->receive(frame, Judge::kNo, *this);
     }
+  }
+}
+
+bool TimedCanBus::holdBack(const CanFrame& frame) noexcept {
+  return disturbance_.answers && happens(disturbance_.late) && late_.push_back({frame, now_ + disturbance_.late_by});
+}
+
+void TimedCanBus::handOverLate() noexcept {
+  while (!late_.empty() && late_[0].at <= now_) {
+    toQueue(late_[0].frame);
+    late_.eraseFront(1);
   }
 }
 

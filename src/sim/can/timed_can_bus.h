@@ -25,8 +25,10 @@ struct CanDisturbance {
   double lose = 0.0;       ///< nobody gets it, nobody knows
   double error = 0.0;      ///< an error frame: it is sent again, and counted
   double duplicate = 0.0;  ///< received twice (an error in the last bit but one: ISO 11898-1)
-  bool requests = true;    ///< disturbs what the master sends
-  bool answers = true;     ///< disturbs what the nodes send
+  double late = 0.0;       ///< the adapter of the master hands it over `late_by` later: others overtake it
+  Duration late_by = std::chrono::milliseconds{5};
+  bool requests = true;  ///< disturbs what the master sends
+  bool answers = true;   ///< disturbs what the nodes send
   std::uint32_t seed = 1;
 };
 
@@ -99,6 +101,9 @@ class TimedCanBus : public link::CanLink, private CanSink {
   void deliverToMaster(const CanFrame& frame, unsigned times) noexcept;
   bool controllerOnBus() const noexcept;
   bool toQueue(const CanFrame& frame) noexcept;
+  /// False: it is not held back.
+  bool holdBack(const CanFrame& frame) noexcept;
+  void handOverLate() noexcept;
   bool acknowledged() const noexcept;
   bool happens(double probability) noexcept;
   std::size_t queuedOfMaster() const noexcept;
@@ -122,6 +127,7 @@ class TimedCanBus : public link::CanLink, private CanSink {
   bool busy_ = false;
   Instant current_end_{};
   FixedVector<link::ReceivedCanFrame, 512> received_;
+  FixedVector<link::ReceivedCanFrame, 64> late_;  // `at`: when it is handed over
   unsigned unacknowledged_ = 0;
 
   CanDisturbance disturbance_;

@@ -177,6 +177,20 @@ TEST(SimulatedCanBus, DisturbsRepeatably) {
   for (int i = 0; i < 100; ++i) EXPECT_NE("", bus.ask("732#R1"));
 }
 
+// An adapter on USB hands over what it has received when it likes.
+TEST(SimulatedCanBus, ALateFrameIsOvertaken) {
+  CanConversation bus;
+  bus.boot();
+  CanDisturbance late;
+  late.late = 1.0;
+  bus.bus.setDisturbance(late);
+  bus.bus.inject(nord_driver::frame("101#01"));
+  EXPECT_EQ(Frames{}, bus.takeAfter(milliseconds(3)));
+  bus.bus.setDisturbance({});
+  bus.bus.inject(nord_driver::frame("102#02"));
+  EXPECT_EQ((Frames{"102#02", "101#01"}), bus.takeAfter(milliseconds(5)));
+}
+
 // What others send concerns the nodes, never the referee: a stranger's SDO, a remote frame, 29 bits.
 TEST(SimulatedCanBus, ForeignFrames) {
   CanConversation bus;
