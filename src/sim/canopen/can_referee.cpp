@@ -1,5 +1,6 @@
 #include "sim/canopen/can_referee.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace nord_driver::sim {
@@ -116,10 +117,11 @@ std::uint64_t CanReferee::total() const noexcept {
   return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
 }
 
-std::string CanReferee::report() const {
+std::string CanReferee::report(std::initializer_list<CanRule> left_out) const {
   std::string text;
   for (std::size_t i = 0; i < counts_.size(); ++i) {
     if (counts_[i] == 0) continue;
+    if (std::find(left_out.begin(), left_out.end(), static_cast<CanRule>(i)) != left_out.end()) continue;
     if (!text.empty()) text += "; ";
     text += std::to_string(counts_[i]) + " x " + toString(static_cast<CanRule>(i));
   }

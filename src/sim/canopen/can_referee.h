@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 
 #include "core/can_frame.h"
@@ -65,7 +66,7 @@ class CanReferee {
   std::uint64_t total() const noexcept;
   bool content() const noexcept { return total() == 0; }
   /// "no rule broken", or each broken rule with its count.
-  std::string report() const;
+  std::string report(std::initializer_list<CanRule> left_out = {}) const;
   void forget() noexcept { counts_.fill(0); }
 
  private:

@@ -10,7 +10,8 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr Duration kCheckTime = milliseconds(1000);
-constexpr Duration kCheckTolerance = milliseconds(50);  // a frame waits for the bus, a thread for the processor
+constexpr Duration kCheckTolerance = milliseconds(50);   // a frame waits for the bus, a thread for the processor
+constexpr Duration kLongestPause = milliseconds(10000);  // between them: a queue was full
 constexpr Duration kAnswerTime = milliseconds(500);
 constexpr Duration kFragmentTime = milliseconds(1000);
 constexpr Duration kChangeTime = milliseconds(100);
@@ -23,6 +24,7 @@ constexpr std::uint8_t kPacketRate = 9;
 constexpr std::uint8_t kProducedSize = 7;
 constexpr std::uint8_t kConsumedSize = 8;
 
+constexpr unsigned kMostInAFrame = 8, kMostFragments = 5;  // of a poll: four inverters and a control byte in 33 bytes
 constexpr unsigned kPollIo = 0, kStrobeIo = 1, kChangeIo = 2;
 constexpr std::uint8_t kProducesItself = dn::kChoiceChangeOfState | dn::kChoiceCyclic;
 constexpr std::array<std::uint8_t, 3> kBits{dn::kChoicePoll, dn::kChoiceStrobe, kProducesItself};
@@ -31,7 +33,7 @@ constexpr std::array<std::uint8_t, 3> kBits{dn::kChoicePoll, dn::kChoiceStrobe, 
 
 void DnReferee::advance(Instant now) noexcept {
   now_ = now;
-  if (checks_ >= 2 && now_ - last_check_ >= kCheckTime - kCheckTolerance) online_ = true;
+  if (second_check_ && now_ - last_check_ >= kCheckTime - kCheckTolerance) online_ = true;
   if (answer_due_ && now_ >= *answer_due_) {
     answer_due_.reset();
     broken(DnRule::kDuplicateMacUnanswered);
@@ -76,17 +78,15 @@ void DnReferee::duplicateMac(const CanFrame& frame) noexcept {
     answer_due_.reset();
     return;
   }
-  if (online_ || checks_ == 0 || now_ - last_check_ > 2 * kCheckTime) {  // it begins anew, and knows nothing any more
-    online_ = false;
-    checks_ = 1;
-    for (View& view : views_) {
-      const bool exists = view.exists;
-      view = View{};
-      view.exists = exists;
-    }
-  } else {
-    if (now_ - last_check_ < kCheckTime - kCheckTolerance) broken(DnRule::kBeforeDuplicateCheck);
-    ++checks_;
+  // Any one may be the first: after bus-off it begins anew, and knows nothing any more.
+  const Duration since = now_ - last_check_;
+  second_check_ = checked_ && since >= kCheckTime - kCheckTolerance && since <= kLongestPause;
+  checked_ = true;
+  online_ = false;
+  for (View& view : views_) {
+    const bool exists = view.exists;
+    view = View{};
+    view.exists = exists;
   }
   last_check_ = now_;
 }
@@ -298,7 +298,8 @@ void DnReferee::delivered(const CanFrame& frame) noexcept {
   if (dn::messageOfGroup2(frame.id) == dn::kDuplicateMac) {
     if (frame.size > 0 && (frame.data[0] & dn::kAnswer) != 0) return;
     // It has started anew: nothing is allocated any more.
-    if (view.choice != 0) view.on_their_way = kTolerance;
+    const bool in_fragments = view.io[kPollIo].consumed.value_or(0) > kMostInAFrame;
+    if (view.choice != 0) view.on_their_way = in_fragments ? kTolerance * kMostFragments : kTolerance;
     end(view, 0xFF);
     view.pending.reset();
     view.received_fragment.reset();
@@ -358,10 +359,11 @@ std::uint64_t DnReferee::total() const noexcept {
   return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
 }
 
-std::string DnReferee::report() const {
+std::string DnReferee::report(std::initializer_list<DnRule> left_out) const {
   std::string text;
   for (std::size_t i = 0; i < counts_.size(); ++i) {
     if (counts_[i] == 0) continue;
+    if (std::find(left_out.begin(), left_out.end(), static_cast<DnRule>(i)) != left_out.end()) continue;
     if (!text.empty()) text += "; ";
     text += std::to_string(counts_[i]) + " x " + toString(static_cast<DnRule>(i));
   }

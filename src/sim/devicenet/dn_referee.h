@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 
@@ -75,7 +76,7 @@ class DnReferee {
   std::uint64_t total() const noexcept;
   bool content() const noexcept { return total() == 0; }
   /// "no rule broken", or each broken rule with its count.
-  std::string report() const;
+  std::string report(std::initializer_list<DnRule> left_out = {}) const;
   void forget() noexcept { counts_.fill(0); }
 
  private:
@@ -124,7 +125,8 @@ class DnReferee {
   std::array<View, dn::kMacs> views_{};
   Instant now_{};
   std::optional<std::uint8_t> master_;
-  unsigned checks_ = 0;  // duplicate-MAC requests of the master
+  bool checked_ = false;       // there was a duplicate-MAC request of the master
+  bool second_check_ = false;  // the last one came a second after the one before
   Instant last_check_{};
   bool online_ = false;
   std::optional<Instant> answer_due_;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 
 #include "nord_driver/core/time.h"
@@ -67,7 +68,7 @@ class Referee {
   std::uint64_t total() const noexcept;
   bool content() const noexcept { return total() == 0; }
   /// "no rule broken", or each broken rule with its count.
-  std::string report() const;
+  std::string report(std::initializer_list<Rule> left_out = {}) const;
   void forget() noexcept { counts_.fill(0); }
 
  private:

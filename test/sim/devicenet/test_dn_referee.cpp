@@ -42,7 +42,23 @@ TEST_F(DnRefereeTest, RequestsTooSoonAfterEachOther) {
   bus.send("457#00 FF FF 01 00 00 00");
   bus.bus.run(milliseconds(500));
   bus.send("457#00 FF FF 01 00 00 00");
+  bus.bus.run(milliseconds(1100));
+  EXPECT_TRUE(bus.referee().content()) << "it may have begun anew";
+  bus.send("44E#0A 4B 03 01 01 0A");
   EXPECT_EQ(1u, only(DnRule::kBeforeDuplicateCheck)) << said;
+}
+
+// Whatever it has asked before, it is on-line after two requests a second apart, and a second more.
+TEST_F(DnRefereeTest, RequestsThatBeginAnew) {
+  for (const int pause : {1000, 160, 1000, 1000}) {
+    bus.send("457#00 FF FF 01 00 00 00");
+    bus.bus.run(milliseconds(pause));
+  }
+  bus.send("457#00 FF FF 01 00 00 00");
+  bus.bus.run(milliseconds(1001));
+  bus.send("44E#0A 4B 03 01 01 0A");
+  bus.bus.run(milliseconds(20));
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
 }
 
 TEST_F(DnRefereeTest, LengthOfTheDuplicateMacMessage) {
