@@ -23,7 +23,10 @@ class CanopenRig final : public CampaignRig {
     if (twin() != nullptr) twin()->setPlugged(false);
     if (auto* const module = robot_.node(0).module()) module->parameters().preset(151, 0, 0, 300);
   }
-  std::string referee() override { return robot_.bus().referee().report(); }
+  // Nor what a node that was reset does not listen to any more, until its boot-up has come.
+  std::string referee() override {
+    return robot_.bus().referee().report({sim::CanRule::kZeroControlWord, sim::CanRule::kUnknownId});
+  }
   void passWithoutTheDriver(Duration span) override { robot_.bus().run(span); }
   void endLosses() override {
     bus().loseAnswers(0);
@@ -67,13 +70,14 @@ sim::SimulatedCanBus& busOf(CampaignRig& rig) {
   return static_cast<CanopenRig&>(rig).bus();
 }
 
-// amount: 0 frames are lost, 1 spoilt by an error frame, 2 received twice; extra: how many of 1000.
+// amount: 0 frames are lost, 1 spoilt by an error frame, 2 received twice, 3 received late; extra: how many of 1000, of late ones of 100.
 void disturb(CampaignRig& rig, const Event& event) {
   sim::CanDisturbance disturbance;
   const double share = 0.001 * event.extra;
   if (event.amount == 0) disturbance.lose = share;
   if (event.amount == 1) disturbance.error = share;
   if (event.amount == 2) disturbance.duplicate = share;
+  if (event.amount == 3) disturbance.late = 10.0 * share;
   disturbance.seed = event.at + 1;
   busOf(rig).setDisturbance(disturbance);
 }
@@ -123,7 +127,7 @@ const std::vector<Act>& canopenActs() {
        Place::kBus,
        Cuts::kNothing,
        kSpan,
-       {0, 2},
+       {0, 3},
        {1, 50},
        disturb,
        [](R& rig, const E&) { busOf(rig).setDisturbance({}); }},

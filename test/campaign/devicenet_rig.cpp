@@ -15,7 +15,12 @@ class DevicenetRig final : public CampaignRig {
   DevicenetRobot& robot() override { return robot_; }
   sim::SimulatedDnBus& bus() { return robot_.bus(); }
   sim::DriveUnit& unit(DriveIndex drive) override { return robot_.unit(drive); }
-  std::string referee() override { return robot_.bus().referee().report(); }
+  // Nor what cannot be done by one who cannot send: to answer when asked for its MAC id, or to tell when nobody is there who
+  // acknowledges how long its own question has waited.
+  std::string referee() override {
+    return robot_.bus().referee().report(
+        {sim::DnRule::kZeroControlWord, sim::DnRule::kDuplicateMacUnanswered, sim::DnRule::kBeforeDuplicateCheck});
+  }
   void passWithoutTheDriver(Duration span) override { robot_.bus().run(span); }
   void endLosses() override {
     bus().loseAnswers(0);
@@ -42,13 +47,14 @@ sim::SimulatedDnBus& busOf(CampaignRig& rig) {
   return static_cast<DevicenetRig&>(rig).bus();
 }
 
-// amount: 0 frames are lost, 1 spoilt by an error frame, 2 received twice; extra: how many of 1000.
+// amount: 0 frames are lost, 1 spoilt by an error frame, 2 received twice, 3 received late; extra: how many of 1000, of late ones of 100.
 void disturb(CampaignRig& rig, const Event& event) {
   sim::CanDisturbance disturbance;
   const double share = 0.001 * event.extra;
   if (event.amount == 0) disturbance.lose = share;
   if (event.amount == 1) disturbance.error = share;
   if (event.amount == 2) disturbance.duplicate = share;
+  if (event.amount == 3) disturbance.late = 10.0 * share;
   disturbance.seed = event.at + 1;
   busOf(rig).setDisturbance(disturbance);
 }
@@ -76,10 +82,11 @@ unsigned macOf(CampaignRig& rig, const Event& event) {
   return static_cast<DevicenetRig&>(rig).bus().module(event.drive).mac();
 }
 
-// One that asks itself at the time stays off: that is the next act.
+// One that asks itself at the time stays off: that is the next act. A scanner that hears nothing cannot answer.
 bool mayBeAsked(CampaignRig& rig, const Event& event) {
+  if (event.amount != 0) return busOf(rig).works();
   const sim::DnModule& module = static_cast<DevicenetRig&>(rig).bus().module(event.drive);
-  return event.amount != 0 || module.phase() == sim::DnModule::Phase::kOnline;
+  return module.phase() == sim::DnModule::Phase::kOnline;
 }
 
 const std::vector<Act>& devicenetActs() {
@@ -99,7 +106,7 @@ const std::vector<Act>& devicenetActs() {
        Place::kBus,
        Cuts::kNothing,
        kSpan,
-       {0, 2},
+       {0, 3},
        {1, 50},
        disturb,
        [](R& rig, const E&) { busOf(rig).setDisturbance({}); }},

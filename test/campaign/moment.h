@@ -21,6 +21,9 @@ struct DriveTruth {
   std::int16_t setpoint = 0;  ///< setpoint 1 in force, of 16384
   bool bus_control = true;    ///< the words of the bus count
   double ramp = 25.0;         ///< Hz/s, by P103 of the set in force
+  double rise = 25.0;         ///< Hz/s, by P102 of that set
+  double full = 50.0;         ///< Hz, P105 of that set
+  double along = 0.0;         ///< Hz, `frequency` in the sense of its joint
   double rotor = 0.0;         ///< Hz, the speed of the shaft
   double position = 0.0;      ///< rad of the joint, as the inverter counts
   double zero = 0.0;          ///< revolutions of the shaft since the start, where its count is 0
@@ -36,6 +39,8 @@ struct GroupWish {
   /// Enabling was asked for, or has succeeded; and nothing since has stopped it: no request, and nothing the driver told.
   bool asked = false;
   bool confirmed = false;  ///< the enabling was answered with success
+  /// One of its drives was seen not to be enabled since then, whatever the driver tells: it has to be asked for again.
+  bool interrupted = false;
 };
 
 /// What a user has sent to a drive that goes to positions, rad.
@@ -69,9 +74,11 @@ struct Moment {
   std::vector<DriveTruth> drives;
   std::vector<GroupWish> groups;
   std::vector<double> wanted;  ///< Hz, of each drive: the newest command that is not too old, 0 without one
+  std::vector<bool> renewed;   ///< of each drive: that command was given for this cycle
   std::vector<AxisWish> axes;  ///< of each drive
   std::vector<bool> cut;       ///< of each drive: the exchange with it is interrupted by what happens
   Duration reaction{};         ///< how long a stop may take to reach the inverters, as things are
+  Duration told_within{};      ///< how old what the driver tells of a drive that answers may be, as things are
   /// One that stands at the address of a drive, and of which nobody knows, is "operation enabled" by the bus.
   bool twin_enabled = false;
   /// Where it is, rad: while it stands there, it answers in the name of the first drive.

@@ -65,7 +65,7 @@ std::optional<std::string> NothingEnabledUnasked::look(const Moment& moment) {
   asked_.resize(moment.drives.size(), Instant{});
   for (const GroupWish& group : moment.groups) {
     for (const DriveIndex i : group.members) {
-      if (group.asked) asked_[i] = moment.now;
+      if (group.asked && !group.interrupted) asked_[i] = moment.now;
       // Terminals may have enabled it: when control returns, it is on its way to rest.
       const bool enabled = moment.drives[i].state == sim::InverterState::kOperationEnabled;
       const bool before = enabled_[i];

@@ -35,6 +35,7 @@ Player::Player(const Scenario& scenario, const CampaignBus& bus, const Transport
   drive_commands_.resize(drives);
   moment_.drives.resize(drives);
   moment_.wanted.resize(drives);
+  moment_.renewed.resize(drives);
   moment_.cut.resize(drives);
   moment_.axes.resize(drives);
   places_.resize(drives);
@@ -69,6 +70,7 @@ Outcome Player::play() {
   }
   playEvents();
   if (goesOn() && moment_.judged) judgeRecovery();
+  judgeWire();
   for (const auto& invariant : invariants_) {
     if (const auto* motion = dynamic_cast<const TurnsOnlyAsCommanded*>(invariant.get())) {
       outcome_.worst_stop = motion->worstStop();

@@ -69,6 +69,8 @@ class Player {
 
   void playEvents();
   void judgeRecovery();
+  /// What the referee of the bus has counted.
+  void judgeWire();
   void endNode();
   void kill();
   void letItSayMore();
@@ -100,6 +102,7 @@ class Player {
   void seeTruth();
   void seeAnswers();
   void seeStops();
+  void seeInterruptions();
   void seeArrivals();
   void forgetMoves();
   void sampleParameters();

@@ -33,6 +33,16 @@ bool Player::ask(RequestKind kind, const char* expectation) {
   return false;
 }
 
+// A station that answers too late breaks the rules of its bus itself.
+void Player::judgeWire() {
+  for (const Event& event : scenario_.events) {
+    if (event.act == "late_answers") return;
+  }
+  const std::string report = rig_->referee();
+  if (report == "no rule broken") return;
+  fail("RulesOfTheBusKept", "what the standard of the bus demands of a master (the rules in src/sim)", report);
+}
+
 void Player::judgeAxes(Instant until) {
   const auto arrived = [this] {
     for (DriveIndex i = scenario_.layout.firstAxis(); i < moment_.axes.size(); ++i) {

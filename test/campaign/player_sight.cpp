@@ -41,7 +41,11 @@ void Player::seeTruth() {
     truth.rotor = unit.shaftSpeed() * unit.config().motor.pole_pairs / (2.0 * M_PI);
     truth.position = unit.position() / kRevolutionsPerRadian;
     truth.zero = shaft - unit.position();
-    truth.ramp = ramp > 0.0 ? unit.parameters().scaled(105, inverter.parameterSet()) / ramp : 1e6;
+    const double rise = unit.parameters().scaled(102, inverter.parameterSet());
+    truth.full = unit.parameters().scaled(105, inverter.parameterSet());
+    truth.ramp = ramp > 0.0 ? truth.full / ramp : 1e6;
+    truth.rise = rise > 0.0 ? truth.full / rise : 1e6;
+    truth.along = unit.config().inverted ? -truth.frequency : truth.frequency;
   }
   if (const sim::DriveUnit* const twin = rig_->twin()) {
     moment_.twin_enabled =
@@ -58,6 +62,7 @@ void Player::seeTruth() {
     const double speed =
         wheel ? (command.linear + side * command.angular * kSeparation / 2.0) / kRadius : command.velocity;
     moment_.wanted[i] = fresh(command) ? speed * kHertzPerSpeed : 0.0;
+    moment_.renewed[i] = command.ever && moment_.driver_ran && command.given == moment_.began;
     moment_.cut[i] = false;
   }
   for (DriveIndex i = scenario_.layout.firstAxis(); i < moment_.axes.size(); ++i) {
@@ -125,6 +130,14 @@ void Player::seeStops() {
   }
 }
 
+void Player::seeInterruptions() {
+  for (GroupWish& group : moment_.groups) {
+    if (!group.confirmed || asksToEnable(group)) continue;
+    const auto turns = [this](DriveIndex i) { return moment_.drives[i].turnsByBus(); };
+    if (!std::all_of(group.members.begin(), group.members.end(), turns)) group.interrupted = true;
+  }
+}
+
 void Player::sampleParameters() {
   for (std::size_t i = first_open_; i < calls_.size(); ++i) {
     Call& call = calls_[i];
@@ -178,11 +191,13 @@ void Player::look(Instant began, bool driver_ran) {
   moment_.at = sinceStart();
   moment_.driver_ran = driver_ran;
   moment_.reaction = reaction();
+  moment_.told_within = std::max(moment_.reaction, byWords() + rig_->silence());
   moment_.odometry_reset = false;
   if (driver_ran) moment_.snapshot = &rig_->robot().snapshot();
   sampleParameters();
   seeAnswers();
   seeTruth();
+  seeInterruptions();
   for (const auto& invariant : invariants_) {
     if (auto wrong = invariant->look(moment_)) return fail(invariant->name(), invariant->sentence(), *wrong);
   }

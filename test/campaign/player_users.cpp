@@ -177,6 +177,7 @@ void Player::wish(const cycle::Request& request) {
     if (!concerns(request, group)) continue;
     if (!stops) {
       group.asked = true;
+      group.interrupted = false;
     } else {
       group.asked = group.confirmed = false;
     }

@@ -15,7 +15,10 @@ class ProfibusRig final : public CampaignRig {
   SimulatedRobot& robot() override { return robot_; }
   sim::SimulatedSegment& segment() { return robot_.segment(); }
   sim::DriveUnit& unit(DriveIndex drive) override { return robot_.unit(drive); }
-  std::string referee() override { return robot_.segment().referee().report(); }
+  // Nor an order that stands on because its answer was lost.
+  std::string referee() override {
+    return robot_.segment().referee().report({sim::Rule::kZeroControlWord, sim::Rule::kWriteOrderLeftStanding});
+  }
   void passWithoutTheDriver(Duration span) override { robot_.segment().run(span); }
   void endLosses() override {
     segment().loseAnswers(0);

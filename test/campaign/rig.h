@@ -22,6 +22,9 @@ class CampaignRig {
   /// After the first cycle, with which the bus is made: what a user has set at the drives.
   virtual void setUp() {}
   virtual sim::DriveUnit& unit(DriveIndex drive) = 0;
+  /// "no rule broken", or which ones of the bus. A control word with bit 10 = 0 is none here: a driver that hears nothing of
+  /// a drive at rest, and one that has just begun, looks before it commands; what it must not do to one that turns is an
+  /// invariant.
   virtual std::string referee() = 0;
   /// Nobody runs the driver meanwhile.
   virtual void passWithoutTheDriver(Duration span) = 0;

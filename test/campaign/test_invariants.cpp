@@ -139,6 +139,17 @@ TEST_F(Invariants, NobodyIsEnabledUnasked) {
   EXPECT_THAT(look(invariant), HasSubstr("drive 1 is \"operation enabled\", and nobody has asked"));
 }
 
+// Whatever the driver tells meanwhile: who has left "operation enabled" is asked for again.
+TEST_F(Invariants, NobodyWhoWasInterruptedIsEnabledUnasked) {
+  NothingEnabledUnasked invariant;
+  EXPECT_EQ("", look(invariant));
+  moment_.drives[1].state = sim::InverterState::kReadyToSwitchOn;
+  moment_.groups[0].interrupted = true;
+  EXPECT_EQ("", look(invariant, seconds{1}));
+  moment_.drives[1].state = sim::InverterState::kOperationEnabled;
+  EXPECT_THAT(look(invariant), HasSubstr("drive 1 is \"operation enabled\", and nobody has asked"));
+}
+
 TEST_F(Invariants, ASecondDriveAtAnAddressIsNotEnabled) {
   NobodyUnknownEnabled invariant;
   EXPECT_EQ("", look(invariant));

@@ -119,6 +119,29 @@ const PlantedFault kFaults[] = {
        };
        return plant;
      }},
+    // It is enabled, and its setpoint never leaves.
+    {"SetpointLost", "FollowsItsCommand", "5400+900 drive 0 40 10",
+     [] {
+       Plant plant;
+       plant.outputs = [](Outputs& outputs) { outputs[0].setpoints[0] = 0; };
+       return plant;
+     }},
+    // A wheel that is built in the other way round, and nobody has said so.
+    {"TurnedRound", "FollowsItsCommand", "5400+900 drive 0 40 10",
+     [] {
+       Plant plant;
+       plant.outputs = [](Outputs& outputs) {
+         outputs[1].setpoints[0] = static_cast<std::int16_t>(-outputs[1].setpoints[0]);
+       };
+       return plant;
+     }},
+    // An actual value from before goes on being told.
+    {"SpeedStandsStill", "MotionToldAsItIs", "5400+900 drive 0 40 10",
+     [] {
+       Plant plant;
+       plant.inputs = [](Inputs& inputs) { inputs[0].input.actual_values[0] = 0; };
+       return plant;
+     }},
     // Whose question was it?
     {"AnswersMixedUp", "AnswersAreTrue", "5000+2000 clients 0 3 0",
      [] {

@@ -1,0 +1,163 @@
+#include "campaign/following_invariants.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace nord_driver::test {
+
+namespace {
+
+constexpr double kRounding = 0.15;  // Hz: a setpoint is a share of 16384, DeviceNet's of 1500 rpm or 0.1 Hz
+constexpr double kSpare = 0.02;     // of a ramp: time of the cycles against that of the inverter's own steps
+constexpr double kWheelRadius = 0.1, kSeparation = 0.5;  // m, of all robots
+constexpr double kPoseRounding = 1e-6;                   // m and rad, of one cycle
+constexpr double kFullHertz = 50.0;                      // at full_wheel_speed
+constexpr unsigned kMeasurements = 4;                    // until a pose goes on behind a gap
+
+}  // namespace
+
+void RecentSpan::add(Instant now, Span value) {
+  const bool same =
+      !values_.empty() && values_.back().second.least == value.least && values_.back().second.most == value.most;
+  if (!same) values_.emplace_back(now, value);
+}
+
+Span RecentSpan::since(Instant from) {
+  while (values_.size() > 1 && values_[1].first <= from) values_.pop_front();
+  Span all = values_.front().second;
+  for (const auto& [since, value] : values_) {
+    all.least = std::min(all.least, value.least);
+    all.most = std::max(all.most, value.most);
+  }
+  return all;
+}
+
+std::optional<std::string> FollowsItsCommand::look(const Moment& moment) {
+  tracks_.resize(moment.drives.size());
+  const double dt = last_ ? toSeconds(moment.now - *last_) : 0.0;
+  last_ = moment.now;
+  for (const GroupWish& group : moment.groups) {
+    if (group.is_axis) continue;
+    const bool told =
+        moment.snapshot != nullptr &&
+        (group.is_base ? moment.snapshot->base.enabled : moment.snapshot->drives[group.members.front()].enabled);
+    // Beyond P105 the base is scaled, which is for other tests.
+    const bool follows = group.asked && group.confirmed && told && moment.judged &&
+                         std::all_of(group.members.begin(), group.members.end(), [&](DriveIndex i) {
+                           return moment.drives[i].turnsByBus() && std::fabs(moment.wanted[i]) <= moment.drives[i].full;
+                         });
+    for (const DriveIndex i : group.members) {
+      const DriveTruth& drive = moment.drives[i];
+      Track& track = tracks_[i];
+      if (!follows) {
+        track.speed = {drive.along, drive.along};
+        track.wanted.forget();
+        track.wanted.add(moment.now, track.speed);
+        continue;
+      }
+      // One that is not renewed may be one from before it was enabled, which is not obeyed.
+      const double wanted = moment.wanted[i];
+      track.wanted.add(moment.now,
+                       moment.renewed[i] ? Span{wanted, wanted} : Span{std::min(wanted, 0.0), std::max(wanted, 0.0)});
+      const Span goal = track.wanted.since(moment.now - moment.reaction - moment.period);
+      const double fast = (1.0 + kSpare) * std::max(drive.rise, drive.ramp) * dt;
+      const double slow = (1.0 - kSpare) * std::min(drive.rise, drive.ramp) * dt;
+      Span& speed = track.speed;
+      speed.least = goal.least < speed.least ? std::max(goal.least, speed.least - fast)
+                                             : std::min(goal.least, speed.least + slow);
+      speed.most =
+          goal.most > speed.most ? std::min(goal.most, speed.most + fast) : std::max(goal.most, speed.most - slow);
+      if (drive.along >= speed.least - kRounding && drive.along <= speed.most + kRounding) continue;
+      std::ostringstream out;
+      out << "drive " << i << " turns its joint with " << drive.along << " Hz, commanded are " << wanted
+          << " Hz: it is between " << speed.least << " and " << speed.most << " Hz";
+      return out.str();
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> MotionToldAsItIs::look(const Moment& moment) {
+  tracks_.resize(moment.drives.size());
+  const double dt = last_ ? toSeconds(moment.now - *last_) : 0.0;
+  last_ = moment.now;
+  const double speed_of = moment.full_wheel_speed / kFullHertz;
+  const Duration within = moment.told_within + 2 * moment.period;
+  for (std::size_t i = 0; i < moment.drives.size(); ++i) {
+    Track& track = tracks_[i];
+    const DriveTruth& drive = moment.drives[i];
+    track.turned.add(moment.now, {drive.along, drive.along});
+    track.way += drive.along * speed_of * dt;
+    if (!moment.driver_ran || !moment.judged || moment.axes[i].is_axis) {
+      track.answered = 0;
+      continue;
+    }
+    const cycle::DriveSnapshot& told = moment.snapshot->drives[i];
+    if (!told.online || !told.device.complete) {
+      track.answered = 0;
+      continue;
+    }
+    if (track.answered++ == 0) {
+      track.way = track.fastest = 0.0;
+      track.joint_from = told.joint_position;
+    }
+    const Span turned = track.turned.since(moment.now - within);
+    track.fastest = std::max({track.fastest, speed_of * std::fabs(turned.least), speed_of * std::fabs(turned.most)});
+    std::ostringstream out;
+    // Between two looks it may have been faster or slower.
+    const double spare_speed = kRounding + std::max(drive.rise, drive.ramp) * toSeconds(moment.period);
+    if (told.velocity < speed_of * (turned.least - spare_speed) ||
+        told.velocity > speed_of * (turned.most + spare_speed)) {
+      out << "joint " << i << " is told with " << told.velocity << " rad/s, its drive turned it with "
+          << speed_of * turned.least << " to " << speed_of * turned.most << " rad/s";
+      return out.str();
+    }
+    const double way = told.joint_position - track.joint_from;
+    const double spare =
+        track.fastest * toSeconds(within) + speed_of * kRounding * track.answered * toSeconds(moment.period);
+    if (std::fabs(way - track.way) > spare + kPoseRounding) {
+      out << "joint " << i << " is told to have turned " << way << " rad, it has turned " << track.way << " rad";
+      return out.str();
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> PoseAsTheWheels::look(const Moment& moment) {
+  if (!moment.driver_ran || !moment.judged || moment.groups.empty() || !moment.groups.front().is_base)
+    return std::nullopt;
+  const auto& wheels = moment.groups.front().members;
+  const cycle::CycleSnapshot& snapshot = *moment.snapshot;
+  const robot::Pose2d before = pose_;
+  const std::vector<double> joints_before = joints_;
+  pose_ = snapshot.base.pose;
+  joints_.clear();
+  for (const DriveIndex i : wheels) joints_.push_back(snapshot.drives[i].joint_position);
+  const unsigned answered_before = answered_;
+  const bool all_answer = std::all_of(wheels.begin(), wheels.end(), [&](DriveIndex i) {
+    return snapshot.drives[i].online && snapshot.drives[i].device.complete;  // P105 is known
+  });
+  answered_ = all_answer && snapshot.base.known ? answered_ + 1 : 0;
+  // Behind a gap the pose begins anew.
+  if (joints_before.empty() || moment.odometry_reset || answered_ == 0 || answered_before < kMeasurements)
+    return std::nullopt;
+  double left = 0.0, right = 0.0;  // m
+  for (std::size_t k = 0; k < joints_.size(); ++k) {
+    (k % 2 == 0 ? left : right) +=
+        2.0 * kWheelRadius * (joints_[k] - joints_before[k]) / static_cast<double>(joints_.size());
+  }
+  const double turn = std::remainder(pose_.heading - before.heading, 2.0 * M_PI);
+  const double step = std::hypot(pose_.x - before.x, pose_.y - before.y);
+  const double turned = (right - left) / kSeparation;
+  const double arc = std::fabs(left + right) / 2.0;
+  // Along the arc or its chord.
+  const double chord_spare = arc * turned * turned;
+  if (std::fabs(turn - turned) <= kPoseRounding && std::fabs(step - arc) <= kPoseRounding + chord_spare)
+    return std::nullopt;
+  std::ostringstream out;
+  out << "the pose goes " << step << " m and " << turn << " rad, the wheels " << arc << " m and " << turned << " rad";
+  return out.str();
+}
+
+}  // namespace nord_driver::test

@@ -1,0 +1,91 @@
+// The invariants of what follows what: the wheels their commands, and what the driver tells of motion the wheels.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "campaign/invariant.h"
+#include "robot/odometry.h"
+
+namespace nord_driver::test {
+
+/// From the least to the most of a value.
+struct Span {
+  double least = 0.0;
+  double most = 0.0;
+};
+
+/// What a value has been within some time.
+class RecentSpan {
+ public:
+  void add(Instant now, Span value);
+  void forget() { values_.clear(); }
+  bool empty() const noexcept { return values_.empty(); }
+  /// Since `from`, what was so at that time included.
+  Span since(Instant from);
+
+ private:
+  std::deque<std::pair<Instant, Span>> values_;  // from when on
+};
+
+/// A wheel or single drive that is enabled turns as fast as commanded, and that way round: what TurnsOnlyAsCommanded
+/// allows it does.
+class FollowsItsCommand final : public Invariant {
+ public:
+  const char* name() const override { return "FollowsItsCommand"; }
+  const char* sentence() const override { return "cmd_vel: wheels turn as commanded, along the ramps of the drives"; }
+  std::optional<std::string> look(const Moment& moment) override;
+
+ private:
+  struct Track {
+    RecentSpan wanted;
+    Span speed;  // Hz, where it can be
+  };
+
+  std::vector<Track> tracks_;
+  std::optional<Instant> last_;
+};
+
+/// Velocity and way of a joint, as told of a drive that answers, are those of its wheel.
+class MotionToldAsItIs final : public Invariant {
+ public:
+  const char* name() const override { return "MotionToldAsItIs"; }
+  const char* sentence() const override { return "joint_states: position and velocity from the actual values"; }
+  std::optional<std::string> look(const Moment& moment) override;
+  void driverBegan() override { tracks_.clear(); }
+
+ private:
+  struct Track {
+    RecentSpan turned;        // Hz
+    unsigned answered = 0;    // cycles in a row
+    double way = 0.0;         // rad, since it answers
+    double joint_from = 0.0;  // rad
+    double fastest = 0.0;     // rad/s meanwhile
+  };
+
+  std::vector<Track> tracks_;
+  std::optional<Instant> last_;
+};
+
+/// The pose goes as the joints of the wheels go.
+class PoseAsTheWheels final : public Invariant {
+ public:
+  const char* name() const override { return "PoseAsTheWheels"; }
+  const char* sentence() const override { return "odom: integrated from the wheels"; }
+  std::optional<std::string> look(const Moment& moment) override;
+  void driverBegan() override {
+    joints_.clear();
+    answered_ = 0;
+  }
+
+ private:
+  unsigned answered_ = 0;  // cycles in a row in which all did
+  robot::Pose2d pose_;
+  std::vector<double> joints_;
+};
+
+}  // namespace nord_driver::test

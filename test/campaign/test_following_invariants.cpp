@@ -1,0 +1,153 @@
+// The invariants of what follows what, on moments made by hand: each holds where it must, and can fail.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "campaign/following_invariants.h"
+
+namespace nord_driver::test {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::HasSubstr;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kSpeedPerHertz = 7.854 / 50.0;  // rad/s at the joint
+
+/// Two wheels that are enabled and told so, at rest; a cycle is 10 ms, a word needs 50 ms, the ramps are 25 Hz/s.
+class FollowingInvariants : public ::testing::Test {
+ protected:
+  FollowingInvariants() : snapshot_(2) {
+    moment_.now = Instant{seconds{1000}};
+    moment_.period = milliseconds{10};
+    moment_.reaction = moment_.told_within = milliseconds{50};
+    moment_.drives.resize(2);
+    moment_.wanted.resize(2);
+    moment_.renewed = {true, true};
+    moment_.axes.resize(2);
+    moment_.cut.resize(2);
+    GroupWish base;
+    base.members = {0, 1};
+    base.is_base = base.asked = base.confirmed = true;
+    moment_.groups.push_back(base);
+    moment_.snapshot = &snapshot_;
+    for (DriveTruth& drive : moment_.drives) drive.state = sim::InverterState::kOperationEnabled;
+    for (cycle::DriveSnapshot& drive : snapshot_.drives) drive.online = drive.device.complete = true;
+    snapshot_.base.enabled = snapshot_.base.known = true;
+  }
+  std::string cycle(Invariant& invariant) {
+    moment_.now += moment_.period;
+    snapshot_.time = moment_.now;
+    return invariant.look(moment_).value_or("");
+  }
+  /// The wheels go to `hertz` along their ramp meanwhile, and stay there.
+  std::string ramp(Invariant& invariant, double hertz, Duration span) {
+    for (const Instant end = moment_.now + span; moment_.now < end;) {
+      for (DriveTruth& drive : moment_.drives) {
+        const double step = std::clamp(hertz - drive.along, -0.25, 0.25);
+        drive.along += step;
+      }
+      const std::string wrong = cycle(invariant);
+      if (!wrong.empty()) return wrong;
+    }
+    return "";
+  }
+  void want(double hertz) { moment_.wanted = {hertz, hertz}; }
+
+  Moment moment_;
+  cycle::CycleSnapshot snapshot_;
+};
+
+TEST_F(FollowingInvariants, AWheelFollowsAlongItsRamp) {
+  FollowsItsCommand invariant;
+  EXPECT_EQ("", cycle(invariant));
+  want(20.0);
+  EXPECT_EQ("", ramp(invariant, 20.0, seconds{2}));
+  want(-20.0);
+  EXPECT_EQ("", ramp(invariant, -20.0, seconds{2}));
+}
+
+TEST_F(FollowingInvariants, AWheelThatRestsDoesNotFollow) {
+  FollowsItsCommand invariant;
+  EXPECT_EQ("", cycle(invariant));
+  want(20.0);
+  EXPECT_EQ("", ramp(invariant, 0.0, milliseconds{50}));
+  EXPECT_THAT(ramp(invariant, 0.0, milliseconds{50}),
+              HasSubstr("drive 0 turns its joint with 0 Hz, commanded are 20 Hz"));
+}
+
+TEST_F(FollowingInvariants, AWheelThatTurnsTheWrongWayDoesNotFollow) {
+  FollowsItsCommand invariant;
+  EXPECT_EQ("", cycle(invariant));
+  want(20.0);
+  EXPECT_THAT(ramp(invariant, -20.0, milliseconds{50}), HasSubstr("commanded are 20 Hz"));
+}
+
+// From before it was enabled, it is not obeyed; and what is on its way down by its time-outs is no wheel that follows.
+TEST_F(FollowingInvariants, OnlyWhoIsEnabledByACommandFollows) {
+  FollowsItsCommand invariant;
+  moment_.renewed = {false, false};
+  want(20.0);
+  EXPECT_EQ("", ramp(invariant, 0.0, seconds{1}));
+  moment_.renewed = {true, true};
+  moment_.drives[1].state = sim::InverterState::kFault;
+  EXPECT_EQ("", ramp(invariant, 0.0, seconds{1}));
+  moment_.drives[1].state = sim::InverterState::kOperationEnabled;
+  moment_.groups[0].confirmed = false;
+  EXPECT_EQ("", ramp(invariant, 0.0, seconds{1}));
+}
+
+TEST_F(FollowingInvariants, TheVelocityToldIsThatOfTheWheel) {
+  MotionToldAsItIs invariant;
+  EXPECT_EQ("", cycle(invariant));
+  snapshot_.drives[1].velocity = 0.1;
+  EXPECT_THAT(cycle(invariant), HasSubstr("joint 1 is told with 0.1 rad/s"));
+  snapshot_.drives[1].velocity = 0.0;
+  moment_.drives[1].along = 10.0;
+  for (int i = 0; i < 6; ++i) EXPECT_EQ("", cycle(invariant)) << "it is told a little later";
+  EXPECT_THAT(ramp(invariant, 10.0, milliseconds{50}), HasSubstr("joint 1 is told with 0 rad/s"));
+}
+
+TEST_F(FollowingInvariants, TheWayToldIsThatOfTheWheel) {
+  MotionToldAsItIs invariant;
+  EXPECT_EQ("", cycle(invariant));
+  moment_.drives[0].along = moment_.drives[1].along = 10.0;
+  for (cycle::DriveSnapshot& drive : snapshot_.drives) drive.velocity = 10.0 * kSpeedPerHertz;
+  std::string wrong;
+  for (int i = 0; i < 100 && wrong.empty(); ++i) {
+    for (cycle::DriveSnapshot& drive : snapshot_.drives) drive.joint_position += 0.1 * kSpeedPerHertz;
+    wrong = cycle(invariant);
+  }
+  EXPECT_EQ("", wrong);
+  for (int i = 0; i < 100 && wrong.empty(); ++i) wrong = cycle(invariant);
+  EXPECT_THAT(wrong, HasSubstr("joint 0 is told to have turned 1.57"));
+}
+
+TEST_F(FollowingInvariants, ThePoseIsThatOfTheWheels) {
+  PoseAsTheWheels invariant;
+  for (int i = 0; i < 5; ++i) EXPECT_EQ("", cycle(invariant));
+  snapshot_.drives[0].joint_position = snapshot_.drives[1].joint_position = 0.05;
+  snapshot_.base.pose.x = 0.005;
+  EXPECT_EQ("", cycle(invariant));
+  snapshot_.drives[1].joint_position = 0.10;
+  snapshot_.base.pose.x = 0.0075;
+  EXPECT_THAT(cycle(invariant), HasSubstr("the pose goes 0.0025 m and 0 rad, the wheels 0.0025 m and 0.01 rad"));
+  snapshot_.base.pose.heading = 2.0 * kPi;
+  snapshot_.drives[0].joint_position = 0.20;
+  EXPECT_THAT(cycle(invariant), HasSubstr("the pose goes"));
+}
+
+TEST_F(FollowingInvariants, ThePoseOfADriveThatIsSilentIsNotJudged) {
+  PoseAsTheWheels invariant;
+  for (int i = 0; i < 5; ++i) EXPECT_EQ("", cycle(invariant));
+  snapshot_.drives[0].online = false;
+  snapshot_.drives[1].joint_position = 0.05;
+  EXPECT_EQ("", cycle(invariant));
+}
+
+}  // namespace
+}  // namespace nord_driver::test
