@@ -26,6 +26,12 @@ def campaign(text):
              f"worst recovery {recovery} s") for bus, scenarios, violations, stop, bound, recovery in row.findall(text)]
 
 
+def processes(text):
+    """A line for each bus."""
+    found = re.findall(r"^processes: (\w+) (\d+) scenarios, (\d+) failed$", text, re.M)
+    return [(f"campaign with real processes, {bus}", f"{count} scenarios, {failed} failed") for bus, count, failed in found]
+
+
 def mutants(text):
     """Rows of mutants.py's table: a line for each folder."""
     row = re.compile(r"^(\w[\w/]*) +(\d+) +(\d+) +(\d+) +(\d+) +(\d+) +([\d.]+)% +(\d+)%$", re.M)
@@ -34,8 +40,8 @@ def mutants(text):
 
 
 def explored(text):
-    found = re.findall(r"^explored (.+?): (\d+) states", text, re.M)
-    return [("every order of events", f"{sum(int(states) for _, states in found)} states of {len(found)} searches")] if found else []
+    found = re.findall(r"^explored (.+?): (\d+) states, (\d+) transitions", text, re.M)
+    return [(f"every order of events, {what}", f"{states} states, {transitions} transitions") for what, states, transitions in found]
 
 
 def tests(text):
@@ -66,7 +72,7 @@ def coverage(text):
     return [(f"coverage, {folder}", f"{lines} % of lines, {branches} % of branches") for folder, lines, branches in row.findall(text)]
 
 
-FIGURES = {"campaign": campaign, "mutants": mutants, "explored": explored, "address": address, "thread": thread, "fuzz": fuzz,
+FIGURES = {"campaign": campaign, "processes": processes, "mutants": mutants, "explored": explored, "address": address, "thread": thread, "fuzz": fuzz,
            "soak": soak, "coverage": coverage}
 
 
@@ -76,7 +82,7 @@ def fuzzTargets():
 
 
 # As many rows a part prints at least: one whose line is missing has not passed.
-LEAST = {"campaign": 4, "explored": 14, "mutants": 8, "fuzz": fuzzTargets(), "soak": 4, "coverage": 13}
+LEAST = {"campaign": 4, "processes": 4, "explored": 14, "mutants": 8, "fuzz": fuzzTargets(), "soak": 4, "coverage": 13}
 
 
 def rows_of(part, status, text):
@@ -114,7 +120,9 @@ def selfTest():
     assert campaign("profibus         5000           0     9000   12000    20000  0.310 s / 0.350 s (17)    1.213 s (4)\n") == [
         ("fault campaign, profibus", "5000 scenarios, 0 violations, worst stop 0.310 s of 0.350 s allowed, worst recovery 1.213 s")]
     assert mutants("drive            40        1           2     36         1   97.3%    95%\n")[0][1].startswith("36 of 37 found: 97.3 %")
-    assert explored("explored Drive: 12 states, 40 transitions\nexplored PKW: 30 states, 9 transitions\n")[0][1].startswith("42 states of 2")
+    assert explored("explored Drive: 12 states, 40 transitions\nexplored PKW: 30 states, 9 transitions\n") == [
+        ("every order of events, Drive", "12 states, 40 transitions"), ("every order of events, PKW", "30 states, 9 transitions")]
+    assert processes("processes: canopen 12 scenarios, 0 failed\n") == [("campaign with real processes, canopen", "12 scenarios, 0 failed")]
     assert address("1 passed, 0 failed, 1 skipped\n710 passed, 2 failed, 30 skipped\n")[0][1] == "710 passed, 2 failed, 30 skipped"
     assert fuzz("fuzz_sdo: 1200345 executions in 31 s\n") == [("fuzzing, fuzz_sdo", "1,200,345 executions in 31 s, no crash")]
     assert soak("soak: pty 10 s at 500 Hz, 0 allocations\n") == [("soak, pty", "10 s at 500 Hz, 0 allocations")]
@@ -122,6 +130,7 @@ def selfTest():
     assert rows_of("mutants", 126, "--quick\n")[0][2] == "left out (--quick)"
     assert rows_of("mutants", 127, "no such file\n")[0][2] == "COULD NOT BE RUN"
     assert rows_of("explored", 0, "")[0][2] == "FAILED", "without figures nothing is shown"
+    assert all(verdict == "passed" for _, _, verdict in rows_of("explored", 0, "explored Drive: 12 states, 40 transitions\n" * 14))
     assert rows_of("explored", 1, "explored Drive: 12 states, 40 transitions\n")[0][2] == "FAILED"
     assert rows_of("fuzz", 0, "fuzz_sdo: 1200345 executions in 31 s\n")[-1][2] == "FAILED", "the other targets are missing"
     print("self-test: passed")

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Everything that shows that the driver holds, and one table of it: the fault campaign, mutants, every order of events, sanitizers,
-# fuzzing, soak and coverage. Each part runs its own script or program; its log is in build/prove. Ends with 0 when every part that
-# was to run has run and none failed. doc/reliability.md holds the table of a run, as build/prove/table.md has it.
+# Everything that shows that the driver holds, and one table of it: the fault campaign, in simulated time and with real processes,
+# mutants, every order of events, sanitizers, fuzzing, soak and coverage. Each part runs its own script or program; its log is in
+# build/prove. Ends with 0 when every part that was to run has run and none failed. doc/reliability.md holds the table of a run, as
+# build/prove/table.md has it.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -10,12 +11,12 @@ usage() {
 usage: prove.sh [--quick] [PART...]
   --quick  ten minutes, once build/test and build/fuzz are built: fewer scenarios, shorter runs; what needs a build of the whole
            project for itself (mutants, sanitizers, coverage) is left out, and the table says so
-  PART     only these: campaign mutants explored address thread fuzz soak coverage
+  PART     only these: campaign processes mutants explored address thread fuzz soak coverage
 Without --quick it takes most of a day on two processors.
 TEXT
 }
 
-all=(campaign mutants explored address thread fuzz soak coverage)
+all=(campaign processes mutants explored address thread fuzz soak coverage)
 quick=false
 parts=()
 for argument in "$@"; do
@@ -48,6 +49,19 @@ built() {
 campaign() {
   built test_campaign >"$logs/build_campaign.log" 2>&1 || { tail -n 20 "$logs/build_campaign.log"; return 125; }
   NORD_CAMPAIGN_SCENARIOS=$($quick && echo 2000 || echo 20000) "$build/devel/lib/nord_driver/test_campaign"
+}
+processes() {
+  built nord_driver_node nord_sim_node rostest_campaign >"$logs/build_processes.log" 2>&1 || { tail -n 20 "$logs/build_processes.log"; return 125; }
+  local status=0 results=$build/test_results/nord_driver result bus
+  rm -f "$results"/rosunit-*_rostest_campaign.xml
+  (cd "$build" && NORD_PROCESS_SCENARIOS=$($quick && echo 3 || echo 12) ctest -R rostest_campaign -j 4 --output-on-failure) || status=1
+  # Without its file a bus has no line, and the table says that one is missing.
+  for result in "$results"/rosunit-*_rostest_campaign.xml; do
+    bus=${result##*/rosunit-}
+    echo "processes: ${bus%_rostest_campaign.xml} $(sed -nE 's/.*name="scenarios" value="([0-9]+)".*/\1/p' "$result") scenarios," \
+      "$(grep -c '<failure ' "$result") failed"
+  done
+  return "$status"
 }
 mutants() {
   if $quick; then echo "--quick"; return 126; fi

@@ -12,6 +12,7 @@ rostests=(
   rostest/rostest_canopen_drive.test
   "socketcan/rostest_socketcan.test transport:=canopen"
   "socketcan/rostest_socketcan.test transport:=devicenet"
+  "process_campaign/rostest_campaign.test transport:=canopen"
 )
 
 usage() {

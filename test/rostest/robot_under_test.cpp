@@ -196,6 +196,10 @@ void RobotTest::TearDown() {
   }
   if (HasFailure() && driver_) std::fputs(driver_->errorText().c_str(), stderr);
   driver_.reset();
+  judgeWire();
+}
+
+void RobotTest::judgeWire() {
   const Answer judgement = robot().referee();
   EXPECT_TRUE(judgement.success) << judgement;
 }

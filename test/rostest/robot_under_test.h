@@ -109,6 +109,8 @@ class RobotTest : public ::testing::Test {
  protected:
   void SetUp() override;
   void TearDown() override;
+  /// What the referee of the bus has seen since the simulator began: nothing.
+  virtual void judgeWire();
   /// The driver as a child, with the parameters of /nord_driver.
   void startDriver();
   /// Ends it cleanly: the drives at rest and without a fault.

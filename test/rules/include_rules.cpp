@@ -85,6 +85,7 @@ const std::map<std::string, Names>& table() {
       {"system", {"*"}},                             // tests of the whole stack, without ROS
       {"explore", {"*"}},                            // every order of events, at one object or few
       {"campaign", {"*"}},                           // generated faults, on every bus
+      {"process_campaign", {"*"}},                   // the same with real processes
       {"support", {"core", "config", "transport"}},  // what tests of several folders share
       {"ros_support", {}},                           // the same for those with ROS
       {"rostest", {"*"}},                            // the programs as their users meet them
@@ -106,7 +107,8 @@ bool areApart(const std::string& layer, const std::string& used) {
 }
 
 const Names kPure{"core", "profile", "profibus", "canopen", "devicenet", "interbus", "robot", "drive"};
-const Names kWithRos{"node", "sim_node", "plugins", "tools", "tools/over_ros", "rostest", "ros_support"};
+const Names kWithRos{"node",           "sim_node", "plugins",          "tools",
+                     "tools/over_ros", "rostest",  "process_campaign", "ros_support"};
 const Names kForEveryTest{"sim", "link", "core", "support"};
 const Names kProgramTests{"node", "tools"};  // those of the programs bring a bus of their own
 const Names kThreads{"thread", "mutex", "shared_mutex", "condition_variable", "future"};
