@@ -1,12 +1,15 @@
 #!/usr/bin/python3
 """Makes one table of the logs that scripts/prove.sh has left; called by it.
 
-usage: proof_table.py LOGS quick|long PART...     prints the table, and writes it as Markdown to LOGS/table.md
-       proof_table.py --self-test                 reads lines as the parts print them
+usage: proof_table.py LOGS PART...     prints the table of all parts that have run, and writes it as Markdown to LOGS/table.md
+       proof_table.py --ended LOGS PART quick|long STATUS SECONDS     notes that a part has run, and of which commit
+       proof_table.py --self-test      reads lines as the parts print them
 
-Ends with 0 when each part has run, has passed and has printed its figures. A part without figures has shown nothing: it failed.
+The first ends with 0 when each PART has run, has passed and has printed its figures. A part without figures has shown nothing: it
+failed.
 """
 import datetime
+import json
 import os
 import pathlib
 import platform
@@ -116,6 +119,13 @@ def machine():
            f"{int(memory.group(1)) // 1048576 if memory else '?'} GiB, Linux {platform.release()}"
 
 
+def ended(logs, part, form, status, seconds):
+    run = {"status": int(status), "seconds": int(seconds), "form": form, "commit": commit(),
+           "date": f"{datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d}"}
+    (logs / f"{part}.status").write_text(json.dumps(run) + "\n")
+    return 0
+
+
 def selfTest():
     assert campaign("profibus         5000           0     9000   12000    20000  0.310 s / 0.350 s (17)    1.213 s (4)\n") == [
         ("fault campaign, profibus", "5000 scenarios, 0 violations, worst stop 0.310 s of 0.350 s allowed, worst recovery 1.213 s")]
@@ -140,23 +150,26 @@ def selfTest():
 def main():
     if sys.argv[1:] == ["--self-test"]:
         return selfTest()
-    if len(sys.argv) < 4:
+    if sys.argv[1:2] == ["--ended"] and len(sys.argv) == 7:
+        return ended(pathlib.Path(sys.argv[2]), *sys.argv[3:])
+    if len(sys.argv) < 3 or sys.argv[1].startswith("-"):
         print(__doc__, file=sys.stderr)
         return 2
-    logs, form, parts = pathlib.Path(sys.argv[1]), sys.argv[2], sys.argv[3:]
-    rows, seconds = [], 0
-    for part in parts:
-        status, took = (int(word) for word in (logs / f"{part}.status").read_text().split())
-        seconds += took
-        rows += rows_of(part, status, (logs / f"{part}.log").read_text(errors="replace"))
-    head = f"{datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d}, commit {commit()}, {machine()}; {form} form, {seconds / 60:.0f} minutes"
-    width = max(len(what) for what, _, _ in rows)
-    print(head)
-    for what, words, verdict in rows:
-        print(f"{what:{width}}  {verdict:18}  {words}")
-    table = [head, "", "| What | Figures | Verdict |", "|---|---|---|"] + [f"| {what} | {words.replace('|', '/')} | {verdict} |" for what, words, verdict in rows]
+    logs, asked = pathlib.Path(sys.argv[1]), sys.argv[2:]
+    rows, good = [], True
+    for part in [name for name in FIGURES if (logs / f"{name}.status").exists() or name in asked]:
+        run = json.loads((logs / f"{part}.status").read_text())
+        of_part = rows_of(part, run["status"], (logs / f"{part}.log").read_text(errors="replace"))
+        rows += [(*row, f"{run['date']}, {run['commit']}, {run['form']}, {run['seconds'] / 60:.0f} min") for row in of_part]
+        good = good and (part not in asked or all(verdict == "passed" or verdict.startswith("left out") for _, _, verdict in of_part))
+    width = max(len(what) for what, *_ in rows)
+    print(machine())
+    for what, words, verdict, run in rows:
+        print(f"{what:{width}}  {verdict:18}  {words}  ({run})")
+    table = [machine(), "", "| What | Figures | Verdict | Day, commit, form, time of its part |", "|---|---|---|---|"]
+    table += [f"| {what} | {words.replace('|', '/')} | {verdict} | {run} |" for what, words, verdict, run in rows]
     (logs / "table.md").write_text("\n".join(table) + "\n")
-    return 0 if all(verdict == "passed" or verdict.startswith("left out") for _, _, verdict in rows) else 1
+    return 0 if good else 1
 
 
 if __name__ == "__main__":

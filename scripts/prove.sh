@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Everything that shows that the driver holds, and one table of it: the fault campaign, in simulated time and with real processes,
 # mutants, every order of events, sanitizers, fuzzing, soak and coverage. Each part runs its own script or program; its log is in
-# build/prove. Ends with 0 when every part that was to run has run and none failed. doc/reliability.md holds the table of a run, as
-# build/prove/table.md has it.
+# build/prove, until it runs again. The table is of the last run of each, and says of which commit that was. Ends with 0 when every
+# part that was to run now has run and none failed. doc/reliability.md holds such a table, as build/prove/table.md has it.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -12,7 +12,7 @@ usage: prove.sh [--quick] [PART...]
   --quick  ten minutes, once build/test and build/fuzz are built: fewer scenarios, shorter runs; what needs a build of the whole
            project for itself (mutants, sanitizers, coverage) is left out, and the table says so
   PART     only these: campaign processes mutants explored address thread fuzz soak coverage
-Without --quick it takes most of a day on two processors.
+Without --quick it takes most of a day on two processors; part by part it can be spread over several.
 TEXT
 }
 
@@ -33,7 +33,6 @@ done
 if ((${#parts[@]} == 0)); then parts=("${all[@]}"); fi
 
 logs=$root/build/prove
-rm -rf "$logs"
 mkdir -p "$logs"
 build=$root/build/test # what test.sh has built
 
@@ -93,11 +92,13 @@ coverage() {
 
 # 125 says that a part could not be run, 126 that it was not to be, and the last line of its log why; a script or program that is
 # not there is the first.
+form=$($quick && echo quick || echo long)
 for part in "${parts[@]}"; do
+  rm -f "$logs/$part.status"
   start=$SECONDS
   status=0
   (set -e; $part) >"$logs/$part.log" 2>&1 || status=$?
-  echo "$status $((SECONDS - start))" >"$logs/$part.status"
+  /usr/bin/python3 "$root/scripts/proof_table.py" --ended "$logs" "$part" "$form" "$status" $((SECONDS - start))
   echo "== $part: ended with $status after $((SECONDS - start)) s"
 done
-exec /usr/bin/python3 "$root/scripts/proof_table.py" "$logs" "$($quick && echo quick || echo long)" "${parts[@]}"
+exec /usr/bin/python3 "$root/scripts/proof_table.py" "$logs" "${parts[@]}"

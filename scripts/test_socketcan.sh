@@ -35,6 +35,7 @@ inside() {
       --gtest_brief=1 "$@" || status=1
   done
   ((${#rostests[@]} > 0)) || return "$status"
+  export NORD_PROCESS_SCENARIOS=${NORD_PROCESS_SCENARIOS:-2} # a minute each where everything is emulated
   set +u # ROS' own file
   source "$build/devel/setup.bash"
   set -u
