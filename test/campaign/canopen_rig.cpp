@@ -23,9 +23,11 @@ class CanopenRig final : public CampaignRig {
     if (twin() != nullptr) twin()->setPlugged(false);
     if (auto* const module = robot_.node(0).module()) module->parameters().preset(151, 0, 0, 300);
   }
-  // Nor what a node that was reset does not listen to any more, until its boot-up has come.
-  std::string referee() override {
-    return robot_.bus().referee().report({sim::CanRule::kZeroControlWord, sim::CanRule::kUnknownId});
+  std::string referee(bool undisturbed) override {
+    using Rule = sim::CanRule;
+    const sim::CanReferee& referee = robot_.bus().referee();
+    if (undisturbed) return referee.report();
+    return referee.report({Rule::kZeroControlWord, Rule::kUnknownId, Rule::kSdoWhilePending});
   }
   void passWithoutTheDriver(Duration span) override { robot_.bus().run(span); }
   void endLosses() override {

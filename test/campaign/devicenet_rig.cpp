@@ -15,11 +15,13 @@ class DevicenetRig final : public CampaignRig {
   DevicenetRobot& robot() override { return robot_; }
   sim::SimulatedDnBus& bus() { return robot_.bus(); }
   sim::DriveUnit& unit(DriveIndex drive) override { return robot_.unit(drive); }
-  // Nor what cannot be done by one who cannot send: to answer when asked for its MAC id, or to tell when nobody is there who
-  // acknowledges how long its own question has waited.
-  std::string referee() override {
-    return robot_.bus().referee().report(
-        {sim::DnRule::kZeroControlWord, sim::DnRule::kDuplicateMacUnanswered, sim::DnRule::kBeforeDuplicateCheck});
+  std::string referee(bool undisturbed) override {
+    using Rule = sim::DnRule;
+    const sim::DnReferee& referee = robot_.bus().referee();
+    if (undisturbed) return referee.report();
+    return referee.report({Rule::kZeroControlWord, Rule::kDuplicateMacUnanswered, Rule::kBeforeDuplicateCheck,
+                           Rule::kReleaseChoice, Rule::kExplicitBeforeAllocation, Rule::kIoBeforeAllocation,
+                           Rule::kIoAfterTimeout});
   }
   void passWithoutTheDriver(Duration span) override { robot_.bus().run(span); }
   void endLosses() override {
@@ -59,11 +61,11 @@ void disturb(CampaignRig& rig, const Event& event) {
   busOf(rig).setDisturbance(disturbance);
 }
 
-// Another scanner: polls, an explicit request, a release, an answer nobody waits for.
+// Another scanner: polls, an explicit request, a release, an answer nobody waits for, one of another length than a module's.
 void sayForeign(CampaignRig& rig, const Event& event) {
   constexpr std::uint32_t kIds[] = {0x42D, 0x435, 0x42C, 0x436, 0x42B, 0x3C5};
   const std::uint8_t data[] = {0x11, 0x4C, 0x03, 0x01, static_cast<std::uint8_t>(event.extra)};
-  busOf(rig).inject(dataFrame(kIds[event.amount], ByteView{data, 5}));
+  busOf(rig).inject(dataFrame(kIds[event.amount], ByteView{data, event.amount == 5 ? 3u : 5u}));
 }
 
 void exchange(CampaignRig& rig, const Event& event, std::uint16_t product) {

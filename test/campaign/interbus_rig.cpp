@@ -14,8 +14,8 @@ class InterbusRig final : public CampaignRig {
   InterbusRobot& robot() override { return robot_; }
   sim::SimulatedGateway& link() { return robot_.gateway(); }
   sim::DriveUnit& unit(DriveIndex drive) override { return robot_.unit(drive); }
-  /// The referee of the ring knows no other rule.
-  std::string referee() override { return "no rule broken"; }
+  /// The referee of the ring knows no other rule than that of control words of zeros.
+  std::string referee(bool undisturbed) override { return undisturbed ? robot_.referee() : "no rule broken"; }
   void passWithoutTheDriver(Duration span) override { robot_.gateway().run(span); }
   void endLosses() override {}
   const std::vector<Act>& acts() const override { return interbusCampaign().acts(); }

@@ -33,12 +33,16 @@ bool Player::ask(RequestKind kind, const char* expectation) {
   return false;
 }
 
-// A station that answers too late breaks the rules of its bus itself.
+// A station that answers too late breaks the rules of its bus itself, and so do two with one address.
 void Player::judgeWire() {
+  bool undisturbed = true;
   for (const Event& event : scenario_.events) {
-    if (event.act == "late_answers") return;
+    if (event.act == "late_answers" || event.act == "twin") return;
+    const Act* const act = findAct(bus_, event.act);
+    const bool holds = event.act == "stall" || event.act == "respawn" || event.act == "kill" || event.act == "end_node";
+    undisturbed = undisturbed && act != nullptr && !act->disturbs && !holds;
   }
-  const std::string report = rig_->referee();
+  const std::string report = rig_->referee(undisturbed);
   if (report == "no rule broken") return;
   fail("RulesOfTheBusKept", "what the standard of the bus demands of a master (the rules in src/sim)", report);
 }

@@ -15,9 +15,11 @@ class ProfibusRig final : public CampaignRig {
   SimulatedRobot& robot() override { return robot_; }
   sim::SimulatedSegment& segment() { return robot_.segment(); }
   sim::DriveUnit& unit(DriveIndex drive) override { return robot_.unit(drive); }
-  // Nor an order that stands on because its answer was lost.
-  std::string referee() override {
-    return robot_.segment().referee().report({sim::Rule::kZeroControlWord, sim::Rule::kWriteOrderLeftStanding});
+  std::string referee(bool undisturbed) override {
+    using Rule = sim::Rule;
+    const sim::Referee& referee = robot_.segment().referee();
+    if (undisturbed) return referee.report();
+    return referee.report({Rule::kZeroControlWord, Rule::kWriteOrderLeftStanding, Rule::kRecordWhileOutstanding});
   }
   void passWithoutTheDriver(Duration span) override { robot_.segment().run(span); }
   void endLosses() override {

@@ -22,10 +22,11 @@ class CampaignRig {
   /// After the first cycle, with which the bus is made: what a user has set at the drives.
   virtual void setUp() {}
   virtual sim::DriveUnit& unit(DriveIndex drive) = 0;
-  /// "no rule broken", or which ones of the bus. A control word with bit 10 = 0 is none here: a driver that hears nothing of
-  /// a drive at rest, and one that has just begun, looks before it commands; what it must not do to one that turns is an
-  /// invariant.
-  virtual std::string referee() = 0;
+  /// "no rule broken", or which ones of the bus. Where something kept the one side from hearing the other, or the driver
+  /// began anew, those are left out that nobody can keep who does not know what the other side knows: a control word with
+  /// bit 10 = 0 to a drive that was commanded before (what it must not do to one that turns is an invariant), words to a
+  /// module that has forgotten its connection, an order whose answer was lost.
+  virtual std::string referee(bool undisturbed) = 0;
   /// Nobody runs the driver meanwhile.
   virtual void passWithoutTheDriver(Duration span) = 0;
   /// What was to be lost and has not been yet is not.
