@@ -1,6 +1,8 @@
 #include "config/yaml_settings.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <regex>
 #include <system_error>
 #include <utility>
@@ -12,28 +14,42 @@ namespace nord_driver {
 
 namespace {
 
+// The parameter server is told its values by XML-RPC, whose whole numbers have 32 bits: rosparam ends with a longer one.
+SettingValue wholeNumber(const std::string& name, const YAML::Node& node) {
+  std::int64_t whole = 0;
+  const bool known = YAML::convert<std::int64_t>::decode(node, whole);
+  const bool fits =
+      known && whole >= std::numeric_limits<std::int32_t>::min() && whole <= std::numeric_limits<std::int32_t>::max();
+  if (fits) return SettingValue::ofInteger(whole, node.Scalar());
+  throw ConfigError(
+      name + ": " + node.Scalar() +
+      " is not valid, expected -2147483648 to 2147483647: the parameter server takes no longer whole number" +
+      (known ? "; write " + std::to_string(whole) + ".0" : ""));
+}
+
 // YAML 1.1, as rosparam reads it. In its keys a slash begins a group: "linear/x: {...}".
-SettingValue scalarValue(const YAML::Node& node) {
+SettingValue scalarValue(const std::string& name, const YAML::Node& node) {
   static const std::regex kBooleans("true|True|TRUE|false|False|FALSE|yes|Yes|YES|no|No|NO|on|On|ON|off|Off|OFF");
   const std::string& text = node.Scalar();
   if (node.Tag() == "!") return SettingValue::ofText(text);  // quoted
-  std::int64_t whole = 0;
-  if (isYamlInteger(text) && YAML::convert<std::int64_t>::decode(node, whole)) {
-    return SettingValue::ofInteger(whole, text);
-  }
-  if (isYamlInteger(text) || isYamlFraction(text)) return SettingValue::ofFraction(node.as<double>(), text);
+  if (isYamlInteger(text)) return wholeNumber(name, node);
+  if (isYamlFraction(text)) return SettingValue::ofFraction(node.as<double>(), text);
   if (std::regex_match(text, kBooleans)) return SettingValue::ofBoolean(node.as<bool>(), text);
   return SettingValue::ofText(text);
 }
 
-SettingValue valueOf(const YAML::Node& node) {
+SettingValue valueOf(const std::string& name, const YAML::Node& node) {
   if (!node.IsDefined() || node.IsNull()) return {};
-  if (node.IsScalar()) return scalarValue(node);
+  if (node.IsScalar()) return scalarValue(name, node);
   SettingValue value = node.IsMap() ? SettingValue::group() : SettingValue::list();
   if (node.IsMap()) {
-    for (const auto& member : node) value.addAt(member.first.as<std::string>(), valueOf(member.second));
+    const bool below_another = !name.empty() && name.back() != '/' && name.back() != '~';
+    for (const auto& member : node) {
+      const auto key = member.first.as<std::string>();
+      value.addAt(key, valueOf((below_another ? name + "/" : name) + key, member.second));
+    }
   } else {
-    for (const YAML::Node& item : node) value.items.push_back(valueOf(item));
+    for (const YAML::Node& item : node) value.items.push_back(valueOf(name, item));
   }
   return value;
 }
@@ -42,7 +58,7 @@ SettingValue wholeValue(const std::string& prefix, const YAML::Node& node) {
   const std::string why = whyNotWalkable(node);
   if (!why.empty())
     throw ConfigError((prefix.empty() ? "the file" : prefix) + ": " + why + ", expected groups of keys and values");
-  return valueOf(node);
+  return valueOf(prefix, node);
 }
 
 YAML::Node laidOver(const YAML::Node& lower, const YAML::Node& upper) {

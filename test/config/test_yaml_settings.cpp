@@ -97,8 +97,32 @@ TEST(YamlSettings, TakesForNumbersWhatRosparamTakes) {
   }
 }
 
+// rosparam itself would end with it, whoever reads that key.
+TEST(YamlSettings, AWholeNumberOfMoreThan32BitsIsRefused) {
+  const auto refusal = [](const std::string& number) -> std::string {
+    try {
+      YamlSettings("~", YAML::Load("drives: {left: {vendor_id: " + number + "}}"));
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string expected =
+      " is not valid, expected -2147483648 to 2147483647: the parameter server takes no longer whole number";
+  const std::string key = "~drives/left/vendor_id: ";
+  EXPECT_EQ(key + "2147483648" + expected + "; write 2147483648.0", refusal("2147483648"));
+  EXPECT_EQ(key + "0xFFFFFFFF" + expected + "; write 4294967295.0", refusal("0xFFFFFFFF"));
+  EXPECT_EQ(key + "-2147483649" + expected + "; write -2147483649.0", refusal("-2147483649"));
+  EXPECT_EQ(key + "99999999999999999999" + expected, refusal("99999999999999999999"));
+  const YamlSettings settings("~", YAML::Load("{a: 2147483647, b: -2147483648, c: 4294967295.0, d: 0x7FFFFFFF}"));
+  EXPECT_EQ(2147483647, settings.integer("a"));
+  EXPECT_EQ(-2147483648LL, settings.integer("b"));
+  EXPECT_EQ(4294967295LL, settings.integer("c"));
+  EXPECT_EQ(2147483647, settings.integer("d"));
+}
+
 TEST(YamlSettings, AWrongKindIsRefusedWithKeyValueAndExpectation) {
-  const YamlSettings all = settings("{rate: fast, bus: 3, list: [1, 2], part: 2.5, huge: 99999999999999999999}");
+  const YamlSettings all = settings("{rate: fast, bus: 3, list: [1, 2], part: 2.5, huge: 99999999999999999999.0}");
   EXPECT_THAT(refusal([&] { all.number("rate"); }), HasSubstr("rate: \"fast\" is not valid, expected a number"));
   EXPECT_THAT(refusal([&] { all.group("bus"); }), HasSubstr("bus: 3 is not valid, expected a group"));
   EXPECT_THAT(refusal([&] { all.number("list"); }), HasSubstr("list: a list is not valid, expected a number"));
