@@ -51,7 +51,7 @@ class FollowingInvariants : public ::testing::Test {
         const double step = std::clamp(hertz - drive.along, -0.25, 0.25);
         drive.along += step;
       }
-      const std::string wrong = cycle(invariant);
+      std::string wrong = cycle(invariant);
       if (!wrong.empty()) return wrong;
     }
     return "";

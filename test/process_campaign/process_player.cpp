@@ -231,7 +231,8 @@ std::optional<std::string> ProcessPlayer::judge(double held_up) {
   for (const auto& rule : {enabledUnasked, turnsUncommanded, turnsAlone}) {
     if (auto broken = rule(seen, bounds)) return broken;
   }
-  const double patience = ros::param::param("nord_driver/service_timeout", 5.0) + kLongestHold + kSpare + held_up;
+  const double patience =
+      ros::param::param("nord_driver/service_timeout", 5.0) + kLongestHold * longer + kSpare + held_up;
   return unanswered(calls_.ofDriversThatGoOn(), patience);
 }
 

@@ -50,7 +50,7 @@ TEST(CanopenKinds, AGatewayWithOneInverterMissing) {
   EXPECT_FALSE(robot.online(2));
   EXPECT_TRUE(robot.snapshot().drives[2].module_answers);
   EXPECT_FALSE(robot.text(2).empty());
-  for (const DriveIndex other : {0, 1, 3}) EXPECT_TRUE(robot.online(other)) << other;
+  for (const DriveIndex other : {0u, 1u, 3u}) EXPECT_TRUE(robot.online(other)) << other;
   robot.unit(2).setInverterPower(true);
   EXPECT_TRUE(robot.runUntil([&] { return robot.online(2); }, std::chrono::seconds{2}));
 }
@@ -63,7 +63,7 @@ TEST(CanopenKinds, AGatewayThatLosesItsLinkToAnInverter) {
   ASSERT_TRUE(robot.bringUpAndEnable());
   robot.unit(2).setInverterLink(false);
   EXPECT_TRUE(robot.runUntil([&] { return !robot.online(2); }, std::chrono::seconds{1}));
-  for (const DriveIndex other : {0, 1, 3}) EXPECT_TRUE(robot.online(other)) << other;
+  for (const DriveIndex other : {0u, 1u, 3u}) EXPECT_TRUE(robot.online(other)) << other;
 }
 
 /// EMCY 5000h of the third inverter, which goes on sending good status words.
@@ -82,7 +82,7 @@ TEST(CanopenKinds, AGatewaysEmergencyEndsTheInverterItNames) {
   robot.run(milliseconds{300});
   EXPECT_FALSE(robot.online(2));
   EXPECT_THAT(robot.text(2), HasSubstr("EMCY 5000h (E10.8, communication between bus module and inverter)"));
-  for (const DriveIndex other : {0, 1, 3}) EXPECT_TRUE(robot.online(other)) << other;
+  for (const DriveIndex other : {0u, 1u, 3u}) EXPECT_TRUE(robot.online(other)) << other;
   robot.bus().inject(dataFrame(0x08A, ByteView{FixedBytes<8>{0x00, 0x00, 0, 2, 0, 0, 0, 0}}));
   robot.run(milliseconds{300});
   EXPECT_TRUE(robot.online(2));
