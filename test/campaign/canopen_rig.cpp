@@ -27,7 +27,7 @@ class CanopenRig final : public CampaignRig {
     using Rule = sim::CanRule;
     const sim::CanReferee& referee = robot_.bus().referee();
     if (undisturbed) return referee.report();
-    return referee.report({Rule::kZeroControlWord, Rule::kUnknownId, Rule::kSdoWhilePending});
+    return referee.report({Rule::kZeroControlWord, Rule::kUnknownId, Rule::kSdoWhilePending, Rule::kMappingOrder});
   }
   void passWithoutTheDriver(Duration span) override { robot_.bus().run(span); }
   void endLosses() override {

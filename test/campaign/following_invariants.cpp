@@ -89,7 +89,9 @@ std::optional<std::string> MotionToldAsItIs::look(const Moment& moment) {
     const DriveTruth& drive = moment.drives[i];
     track.turned.add(moment.now, {drive.along, drive.along});
     track.way += drive.along * speed_of * dt;
-    if (!moment.driver_ran || !moment.judged || moment.axes[i].is_axis) {
+    // While another one stands at its address, that one may be told of.
+    const bool is_doubled = i == 0 && moment.twin_position.has_value();
+    if (!moment.driver_ran || !moment.judged || moment.axes[i].is_axis || is_doubled) {
       track.answered = 0;
       continue;
     }

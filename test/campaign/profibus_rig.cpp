@@ -19,7 +19,8 @@ class ProfibusRig final : public CampaignRig {
     using Rule = sim::Rule;
     const sim::Referee& referee = robot_.segment().referee();
     if (undisturbed) return referee.report();
-    return referee.report({Rule::kZeroControlWord, Rule::kWriteOrderLeftStanding, Rule::kRecordWhileOutstanding});
+    return referee.report({Rule::kZeroControlWord, Rule::kDataExchangeBeforeReady, Rule::kWriteOrderLeftStanding,
+                           Rule::kRecordWhileOutstanding});
   }
   void passWithoutTheDriver(Duration span) override { robot_.segment().run(span); }
   void endLosses() override {
