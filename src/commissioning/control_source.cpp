@@ -8,8 +8,6 @@ namespace nord_driver::commissioning {
 namespace {
 
 constexpr std::uint16_t kControlWordSource = 509, kSetpointSource = 510;
-// SK 300E, 700E and 750E: the control word alone comes from PROFIBUS or InterBus (BU 0020 6.1.2, BU 0070 5.1).
-constexpr std::int32_t kProfibusControlWord = 9, kInterbusControlWord = 13;
 
 bool isLed(const DriveUnderCheck& drive) {
   return profile::isLed(drive.asked().series, drive.raw(drive.key(kControlWordSource)),
@@ -25,8 +23,7 @@ void busHasControl(const Drives& drives, std::size_t index, Findings& to) {
   const BusSelection selection = busSelection(drive);
   if (!raw || selection.controlWordFits(*raw)) return;
   if (drive.asked().follows && profile::isBroadcastControlWord(drive.asked().series, *raw)) return;
-  const bool control_word_only =
-      drive.isOlderSeries() && (*raw == kProfibusControlWord || *raw == kInterbusControlWord);
+  const bool control_word_only = profile::isControlWordAlone(drive.asked().series, *raw);
   Finding finding =
       drive.finding(key, Severity::kError,
                     control_word_only ? "the setpoint comes from the terminals: the drive is not enabled, since "

@@ -24,8 +24,10 @@ robot::WheelSpeeds BaseMotion::pollWheels(const TwistCommand& command, bool driv
   const robot::WheelSpeeds limits = robot::tighterOf(max_speeds, joint_limits_);
   obeys_ = follow && !minimum.coming_to_rest && !command.held && !isStale(command, timeout_, now);
   if (!obeys_) limiter_.endAcceleration();
-  beyond_full_ = obeys_ && robot::areBeyond(kinematics_->wheels(command.twist), max_speeds);
-  robot::Twist2d target = within(limits, obeys_ ? command.twist : robot::Twist2d{});
+  const robot::Twist2d asked = obeys_ ? command.twist : robot::Twist2d{};
+  const robot::WheelSpeeds asked_wheels = kinematics_->wheels(asked);
+  beyond_full_ = robot::areBeyond(asked_wheels, max_speeds);
+  robot::Twist2d target = robot::times(robot::factorInto(asked_wheels, limits), kinematics_->possible(asked));
   // Taken as zero at once, it is left along the limits.
   below_minimum_ = anyBelow(kinematics_->wheels(target), minimum.wheels);
   if (below_minimum_) target = {};
@@ -56,10 +58,6 @@ robot::WheelSpeeds BaseMotion::ramp(const robot::Twist2d& target, const robot::W
     limiter_.reset(limited_);
   }
   return robot::times(factor, wanted);
-}
-
-robot::Twist2d BaseMotion::within(const robot::WheelSpeeds& limits, const robot::Twist2d& target) const noexcept {
-  return robot::times(robot::factorInto(kinematics_->wheels(target), limits), kinematics_->possible(target));
 }
 
 void BaseMotion::tune(const BaseTuning& tuning) noexcept {

@@ -51,7 +51,6 @@ class BaseMotion {
  private:
   robot::WheelSpeeds ramp(const robot::Twist2d& target, const robot::WheelSpeeds& limits, Duration dt) noexcept;
   robot::WheelSpeeds rest() noexcept;
-  robot::Twist2d within(const robot::WheelSpeeds& limits, const robot::Twist2d& target) const noexcept;
 
   robot::BaseGeometry geometry_;
   std::unique_ptr<robot::BaseKinematics> kinematics_;

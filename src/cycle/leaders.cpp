@@ -1,7 +1,6 @@
 #include "cycle/leaders.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include "config/nearest_name.h"
 #include "config/setting_checks.h"
@@ -17,9 +16,6 @@ namespace {
 constexpr char kKey[] = "follows";
 constexpr std::uint16_t kControlWordSource = 509, kSetpointSource = 510;
 constexpr std::int32_t kTerminalsOnly = 1;
-// SK 300E, 700E and 750E: "the control word via the bus, the setpoint via the analog input or the fixed frequencies"
-// (BU 0020 6.1.2, BU 0070 5.1).
-constexpr std::int32_t kControlWordAlone[] = {9, 13};
 
 std::optional<DriveIndex> indexOf(const std::string& name, const CycleConfig& config) {
   for (DriveIndex i = 0; i < config.drives.size(); ++i) {
@@ -67,9 +63,7 @@ std::optional<drive::UnexpectedSource> setpointFromElsewhere(const DeviceData& d
   const auto& setpoint = device.setpoint_source;
   if (!control_word || *control_word <= kTerminalsOnly) return std::nullopt;
   if (profile::findCycleParameter(kSetpointSource, series) == nullptr) {
-    const bool alone = std::find(std::begin(kControlWordAlone), std::end(kControlWordAlone), *control_word) !=
-                       std::end(kControlWordAlone);
-    if (!alone) return std::nullopt;
+    if (!profile::isControlWordAlone(series, *control_word)) return std::nullopt;
     return drive::UnexpectedSource{kControlWordSource, false, *control_word, false, true};
   }
   if (!setpoint || *setpoint == 0 || *setpoint == *control_word) return std::nullopt;

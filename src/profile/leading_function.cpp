@@ -5,6 +5,7 @@ namespace nord_driver::profile {
 namespace {
 
 constexpr std::int32_t kSystemBusBroadcast = 4, kCanBroadcast = 9, kCanopenBroadcast = 10;
+constexpr std::int32_t kDpControlWord = 9, kIbsControlWord = 13;
 
 }  // namespace
 
@@ -26,6 +27,11 @@ bool isBroadcastControlWord(Series series, std::int32_t source) noexcept {
 
 bool isBroadcastSetpoint(Series series, std::int32_t source) noexcept {
   return isBroadcastControlWord(series, source);  // the same numbers, as far as they are printed
+}
+
+bool isControlWordAlone(Series series, std::int32_t source) noexcept {
+  const bool is_older = series == Series::kSk300e || series == Series::kSk700e || series == Series::kSk750e;
+  return is_older && (source == kDpControlWord || source == kIbsControlWord);
 }
 
 bool isLed(Series series, std::optional<std::int32_t> control_word, std::optional<std::int32_t> setpoint) noexcept {

@@ -12,9 +12,6 @@
 
 namespace nord_driver::sim {
 
-/// What a referee reports who has nothing to report.
-constexpr char kNoRuleBroken[] = "no rule broken";
-
 class RunningBus {
  public:
   virtual ~RunningBus() = default;

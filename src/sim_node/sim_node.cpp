@@ -6,6 +6,8 @@
 #include <boost/function.hpp>
 #include <cmath>
 
+#include "sim/rule_counts.h"
+
 namespace nord_driver::sim_node {
 
 namespace {

@@ -8,12 +8,11 @@ namespace nord_driver::test {
 
 namespace {
 
-constexpr double kRounding = 0.15;  // Hz: a setpoint is a share of 16384, DeviceNet's of 1500 rpm or 0.1 Hz
-constexpr double kSpare = 0.02;     // of a ramp: time of the cycles against that of the inverter's own steps
-constexpr double kWheelRadius = 0.1, kSeparation = 0.5;  // m, of all robots
-constexpr double kPoseRounding = 1e-6;                   // m and rad, of one cycle
-constexpr double kFullHertz = 50.0;                      // at full_wheel_speed
-constexpr unsigned kMeasurements = 4;                    // until a pose goes on behind a gap
+constexpr double kRounding = 0.15;      // Hz: a setpoint is a share of 16384, DeviceNet's of 1500 rpm or 0.1 Hz
+constexpr double kSpare = 0.02;         // of a ramp: time of the cycles against that of the inverter's own steps
+constexpr double kPoseRounding = 1e-6;  // m and rad, of one cycle
+constexpr double kFullHertz = 50.0;     // at full_wheel_speed
+constexpr unsigned kMeasurements = 4;   // until a pose goes on behind a gap
 
 }  // namespace
 
@@ -106,11 +105,11 @@ std::optional<std::string> MotionToldAsItIs::look(const Moment& moment) {
     }
     const Span turned = track.turned.since(moment.now - within);
     track.fastest = std::max({track.fastest, speed_of * std::fabs(turned.least), speed_of * std::fabs(turned.most)});
-    std::ostringstream out;
     // Between two looks it may have been faster or slower.
     const double spare_speed = kRounding + std::max(drive.rise, drive.ramp) * toSeconds(moment.period);
     if (told.velocity < speed_of * (turned.least - spare_speed) ||
         told.velocity > speed_of * (turned.most + spare_speed)) {
+      std::ostringstream out;
       out << "joint " << i << " is told with " << told.velocity << " rad/s, its drive turned it with "
           << speed_of * turned.least << " to " << speed_of * turned.most << " rad/s";
       return out.str();
@@ -119,6 +118,7 @@ std::optional<std::string> MotionToldAsItIs::look(const Moment& moment) {
     const double spare =
         track.fastest * toSeconds(within) + speed_of * kRounding * track.answered * toSeconds(moment.period);
     if (std::fabs(way - track.way) > spare + kPoseRounding) {
+      std::ostringstream out;
       out << "joint " << i << " is told to have turned " << way << " rad, it has turned " << track.way << " rad";
       return out.str();
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "campaign/player.h"
-#include "system/fault_sequences.h"
+#include "support/dice.h"
 
 namespace nord_driver::test {
 
@@ -11,7 +11,7 @@ namespace {
 
 int draw(Dice& dice, Range range) {
   if (range.most <= range.least) return range.least;
-  return range.least + static_cast<int>(dice.below(static_cast<unsigned>(range.most - range.least + 1)));
+  return dice.from(range.least, range.most);
 }
 
 Layout drawLayout(Dice& dice, const CampaignBus& bus) {

@@ -2,6 +2,7 @@
 #include "campaign/axes.h"
 #include "campaign/rig.h"
 #include "campaign/wheels.h"
+#include "sim/rule_counts.h"
 #include "system/interbus_robot.h"
 
 namespace nord_driver::test {
@@ -15,7 +16,7 @@ class InterbusRig final : public CampaignRig {
   sim::SimulatedGateway& link() { return robot_.gateway(); }
   sim::DriveUnit& unit(DriveIndex drive) override { return robot_.unit(drive); }
   /// The referee of the ring knows no other rule than that of control words of zeros.
-  std::string referee(bool undisturbed) override { return undisturbed ? robot_.referee() : "no rule broken"; }
+  std::string referee(bool undisturbed) override { return undisturbed ? robot_.referee() : sim::kNoRuleBroken; }
   void passWithoutTheDriver(Duration span) override { robot_.gateway().run(span); }
   void endLosses() override {}
   const std::vector<Act>& acts() const override { return interbusCampaign().acts(); }

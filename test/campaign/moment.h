@@ -13,6 +13,8 @@
 
 namespace nord_driver::test {
 
+constexpr double kWheelRadius = 0.1, kSeparation = 0.5;  ///< m, of all robots here
+
 /// One inverter and its wheel, as they are.
 struct DriveTruth {
   sim::InverterState state = sim::InverterState::kOff;

@@ -43,7 +43,6 @@ class Player {
 
   static constexpr double kFullSpeed = 7.853981633974483;  ///< rad/s at the joint: 50 Hz, two pole pairs, 20:1
   static constexpr double kHertzPerSpeed = 50.0 / kFullSpeed;
-  static constexpr double kRadius = 0.1, kSeparation = 0.5;  ///< m, of all robots
 
   Outcome play();
 

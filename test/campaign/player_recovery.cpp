@@ -4,6 +4,7 @@
 
 #include "campaign/axes.h"
 #include "campaign/player.h"
+#include "sim/rule_counts.h"
 
 namespace nord_driver::test {
 
@@ -43,7 +44,7 @@ void Player::judgeWire() {
     undisturbed = undisturbed && act != nullptr && !act->disturbs && !holds;
   }
   const std::string report = rig_->referee(undisturbed);
-  if (report == "no rule broken") return;
+  if (report == sim::kNoRuleBroken) return;
   fail("RulesOfTheBusKept", "what the standard of the bus demands of a master (the rules in src/sim)", report);
 }
 
@@ -107,7 +108,7 @@ void Player::judgeRecovery() {
   for (int i = 0; i < kWordsPass && held; ++i) tick();
   if (!ask(RequestKind::kEnable, "it cannot be enabled")) return;
   base_command_.until = now() + milliseconds{300};
-  base_command_.linear = 0.5 * kFullSpeed * kRadius;
+  base_command_.linear = 0.5 * kFullSpeed * kWheelRadius;
   base_command_.angular = 0.0;
   for (Command& command : drive_commands_) {
     command.until = base_command_.until;

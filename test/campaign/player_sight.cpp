@@ -60,7 +60,7 @@ void Player::seeTruth() {
     const Command& command = wheel ? base_command_ : drive_commands_[i];
     const double side = i % 2 == 0 ? -1.0 : 1.0;
     const double speed =
-        wheel ? (command.linear + side * command.angular * kSeparation / 2.0) / kRadius : command.velocity;
+        wheel ? (command.linear + side * command.angular * kSeparation / 2.0) / kWheelRadius : command.velocity;
     moment_.wanted[i] = fresh(command) ? speed * kHertzPerSpeed : 0.0;
     moment_.renewed[i] = command.ever && moment_.driver_ran && command.given == moment_.began;
     moment_.cut[i] = false;

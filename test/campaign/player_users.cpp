@@ -48,8 +48,8 @@ void Player::beginUser(const Event& event) {
   const Duration patience = seconds{3};
   if (act == "drive") {
     base_command_.until = until;
-    base_command_.linear = 0.01 * event.amount * kFullSpeed * kRadius;
-    base_command_.angular = 0.01 * event.extra * kFullSpeed * kRadius * 2.0 / kSeparation;
+    base_command_.linear = 0.01 * event.amount * kFullSpeed * kWheelRadius;
+    base_command_.angular = 0.01 * event.extra * kFullSpeed * kWheelRadius * 2.0 / kSeparation;
   } else if (act == "turn") {
     drive_commands_[event.drive].until = until;
     drive_commands_[event.drive].velocity = 0.01 * event.amount * kFullSpeed;

@@ -8,8 +8,7 @@ namespace nord_driver::test {
 
 namespace {
 
-constexpr double kWheelRadius = 0.1, kSeparation = 0.5;  // m, of all robots
-constexpr double kSpare = 1.05;                          // a ratio measured may be a little beyond 100 %
+constexpr double kSpare = 1.05;  // a ratio measured may be a little beyond 100 %
 constexpr double kTiny = 1e-9;
 constexpr unsigned kSoon = 100;  // cycles
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "campaign/following_invariants.h"
+#include "campaign/two_wheels_moment.h"
 
 namespace nord_driver::test {
 namespace {
@@ -18,32 +19,9 @@ using ::testing::HasSubstr;
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kSpeedPerHertz = 7.854 / 50.0;  // rad/s at the joint
 
-/// Two wheels that are enabled and told so, at rest; a cycle is 10 ms, a word needs 50 ms, the ramps are 25 Hz/s.
-class FollowingInvariants : public ::testing::Test {
+/// Their ramps are 25 Hz/s.
+class FollowingInvariants : public TwoWheelsMoment {
  protected:
-  FollowingInvariants() : snapshot_(2) {
-    moment_.now = Instant{seconds{1000}};
-    moment_.period = milliseconds{10};
-    moment_.reaction = moment_.told_within = milliseconds{50};
-    moment_.drives.resize(2);
-    moment_.wanted.resize(2);
-    moment_.renewed = {true, true};
-    moment_.axes.resize(2);
-    moment_.cut.resize(2);
-    GroupWish base;
-    base.members = {0, 1};
-    base.is_base = base.asked = base.confirmed = true;
-    moment_.groups.push_back(base);
-    moment_.snapshot = &snapshot_;
-    for (DriveTruth& drive : moment_.drives) drive.state = sim::InverterState::kOperationEnabled;
-    for (cycle::DriveSnapshot& drive : snapshot_.drives) drive.online = drive.device.complete = true;
-    snapshot_.base.enabled = snapshot_.base.known = true;
-  }
-  std::string cycle(Invariant& invariant) {
-    moment_.now += moment_.period;
-    snapshot_.time = moment_.now;
-    return invariant.look(moment_).value_or("");
-  }
   /// The wheels go to `hertz` along their ramp meanwhile, and stay there.
   std::string ramp(Invariant& invariant, double hertz, Duration span) {
     for (const Instant end = moment_.now + span; moment_.now < end;) {
@@ -56,10 +34,6 @@ class FollowingInvariants : public ::testing::Test {
     }
     return "";
   }
-  void want(double hertz) { moment_.wanted = {hertz, hertz}; }
-
-  Moment moment_;
-  cycle::CycleSnapshot snapshot_;
 };
 
 TEST_F(FollowingInvariants, AWheelFollowsAlongItsRamp) {

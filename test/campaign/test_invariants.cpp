@@ -7,6 +7,7 @@
 #include "campaign/answer_invariants.h"
 #include "campaign/motion_invariants.h"
 #include "campaign/report_invariants.h"
+#include "campaign/two_wheels_moment.h"
 
 namespace nord_driver::test {
 namespace {
@@ -15,35 +16,15 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
 
-/// Two wheels that are enabled, at rest; a cycle is 10 ms, a stop takes 50 ms to reach them.
-class Invariants : public ::testing::Test {
+class Invariants : public TwoWheelsMoment {
  protected:
-  Invariants() : snapshot_(2) {
-    moment_.now = Instant{seconds{1000}};
-    moment_.period = milliseconds{10};
-    moment_.reaction = milliseconds{50};
-    moment_.drives.resize(2);
-    moment_.wanted.resize(2);
-    moment_.cut.resize(2);
-    GroupWish base;
-    base.members = {0, 1};
-    base.is_base = base.asked = base.confirmed = true;
-    moment_.groups.push_back(base);
-    moment_.snapshot = &snapshot_;
-    moment_.calls = &calls_;
-    for (DriveTruth& drive : moment_.drives) drive.state = sim::InverterState::kOperationEnabled;
-    for (cycle::DriveSnapshot& drive : snapshot_.drives) drive.online = true;
-    snapshot_.base.enabled = true;
-  }
+  Invariants() { moment_.calls = &calls_; }
   /// What it says in the cycles until `span` has passed; empty: nothing.
   std::string look(Invariant& invariant, Duration span = milliseconds{10}) {
     for (const Instant end = moment_.now + span; moment_.now < end;) {
-      moment_.began = moment_.now;
-      moment_.now += moment_.period;
-      snapshot_.time = moment_.now;
-      const auto wrong = invariant.look(moment_);
+      std::string wrong = cycle(invariant);
       moment_.answers.clear();
-      if (wrong) return *wrong;
+      if (!wrong.empty()) return wrong;
     }
     return "";
   }
@@ -53,7 +34,6 @@ class Invariants : public ::testing::Test {
       drive.setpoint = setpoint;
     }
   }
-  void want(double frequency) { moment_.wanted = {frequency, frequency}; }
   void ask(cycle::RequestKind kind, Duration patience) {
     Call call;
     call.request.id = static_cast<std::uint32_t>(calls_.size() + 1);
@@ -71,8 +51,6 @@ class Invariants : public ::testing::Test {
     if (id <= calls_.size()) calls_[id - 1].answered = true;
   }
 
-  Moment moment_;
-  cycle::CycleSnapshot snapshot_;
   std::vector<Call> calls_;
 };
 

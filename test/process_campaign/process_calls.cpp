@@ -19,11 +19,10 @@ void ProcessCalls::begin(const std::string& label, const std::string& service,
 
 void ProcessCalls::readOn(const std::string& drive, std::uint16_t number) {
   threads_.emplace_back([this, drive, number] {
-    const auto read = [number](const std::string& name) -> Answer {
+    const auto read = [number](const std::string& name) {
       ReadParameter service;
       service.request.number = number;
-      if (!carryOut(name, service)) return {};
-      return {service.response.success != 0, service.response.message};
+      return answerOf(name, service);
     };
     for (;;) {
       {

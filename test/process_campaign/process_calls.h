@@ -13,6 +13,13 @@
 
 namespace nord_driver::test {
 
+/// Without waiting for the service, and without a sentence where it was not carried out.
+template <typename Service>
+Answer answerOf(const std::string& name, Service& service) {
+  if (!carryOut(name, service)) return {};
+  return {service.response.success != 0, service.response.message};
+}
+
 class ProcessCalls {
  public:
   ProcessCalls() = default;

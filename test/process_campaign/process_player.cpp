@@ -27,14 +27,12 @@ constexpr double kTruthAge = 0.1;                     // s, of 50 Hz
 Answer setBool(const std::string& name, bool on) {
   std_srvs::SetBool service;
   service.request.data = on;
-  if (!carryOut(name, service)) return {};
-  return {service.response.success != 0, service.response.message};
+  return answerOf(name, service);
 }
 
 Answer trigger(const std::string& name) {
   std_srvs::Trigger service;
-  if (!carryOut(name, service)) return {};
-  return {service.response.success != 0, service.response.message};
+  return answerOf(name, service);
 }
 
 /// Of the simulator; what it answers.

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <iomanip>
 #include <iterator>
-#include <random>
 #include <sstream>
+
+#include "support/dice.h"
 
 namespace nord_driver::test {
 
@@ -41,17 +42,6 @@ constexpr Kind kKinds[] = {
     {ProcessAct::kCoast, "coast", 2, Place::kTerminals, 0.1, 1.0, 0, 0},
     {ProcessAct::kLateAnswers, "late_answers", 2, Place::kAnswers, 0.1, 1.0, 1, 20},
     {ProcessAct::kSilentParameters, "silent_parameters", 1, Place::kParameters, 0.2, 1.5, 0, 0},
-};
-
-class Dice {
- public:
-  explicit Dice(std::uint32_t seed) : random_{seed} {}
-  unsigned below(unsigned limit) { return static_cast<unsigned>(random_() % limit); }
-  int from(int least, int most) { return least + static_cast<int>(below(static_cast<unsigned>(most - least + 1))); }
-  double from(double least, double most) { return least + (most - least) * 0.001 * below(1001); }
-
- private:
-  std::mt19937 random_;
 };
 
 const Kind& kindOf(ProcessAct act) {

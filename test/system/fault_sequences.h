@@ -6,24 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <string>
 
 #include "sim/drive_unit.h"
+#include "support/dice.h"
 #include "system/driven_robot.h"
 
 namespace nord_driver::test {
-
-/// Seeded as test/profibus/test_fault_sequences.cpp.
-class Dice {
- public:
-  explicit Dice(std::uint32_t seed) : random_{seed} {}
-  unsigned below(unsigned limit) { return static_cast<unsigned>(random_() % limit); }
-  bool coin() { return below(2) == 0; }
-
- private:
-  std::mt19937 random_;
-};
 
 /// Steps under a command that goes on whatever happens, and looks at the motors after each.
 template <typename Robot>

@@ -1,8 +1,5 @@
 #include "sim/canopen/can_referee.h"
 
-#include <algorithm>
-#include <numeric>
-
 namespace nord_driver::sim {
 
 namespace {
@@ -111,21 +108,6 @@ void CanReferee::sdoRequest(std::uint8_t node, const CanFrame& frame, bool pendi
   const bool abort = frame.size > 0 && frame.data[0] == 0x80;
   if (pending && !abort) broken(CanRule::kSdoWhilePending);
   if (views_[node].stopped) broken(CanRule::kSdoToStopped);
-}
-
-std::uint64_t CanReferee::total() const noexcept {
-  return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
-}
-
-std::string CanReferee::report(std::initializer_list<CanRule> left_out) const {
-  std::string text;
-  for (std::size_t i = 0; i < counts_.size(); ++i) {
-    if (counts_[i] == 0) continue;
-    if (std::find(left_out.begin(), left_out.end(), static_cast<CanRule>(i)) != left_out.end()) continue;
-    if (!text.empty()) text += "; ";
-    text += std::to_string(counts_[i]) + " x " + toString(static_cast<CanRule>(i));
-  }
-  return text.empty() ? "no rule broken" : text;
 }
 
 }  // namespace nord_driver::sim

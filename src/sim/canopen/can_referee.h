@@ -7,11 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <initializer_list>
-#include <string>
 
 #include "core/can_frame.h"
 #include "sim/canopen/can_communication.h"
+#include "sim/rule_counts.h"
 
 namespace nord_driver::sim {
 
@@ -39,14 +38,12 @@ enum class CanRule : std::uint8_t {
 /// One sentence on the rule, with its source.
 const char* toString(CanRule rule) noexcept;
 
-class CanReferee {
+class CanReferee : public RuleCounts<CanRule> {
  public:
   static constexpr std::size_t kNodes = 128;
   /// RPDOs that may still follow the message that a node is no longer operational: they were on their way. Behind a
   /// gateway each inverter has one of its own in a cycle, so that as many may be.
   static constexpr unsigned kRpdoTolerance = 3;
-
-  void broken(CanRule rule) noexcept { ++counts_[static_cast<std::size_t>(rule)]; }
 
   /// There is a node of this number on the bus, powered or not, with so many inverters.
   void nodeExists(std::uint8_t node, std::size_t inverters) noexcept {
@@ -62,13 +59,6 @@ class CanReferee {
   /// An SDO request reached a server. `pending`: its last one is not answered yet.
   void sdoRequest(std::uint8_t node, const CanFrame& frame, bool pending) noexcept;
 
-  std::uint64_t count(CanRule rule) const noexcept { return counts_[static_cast<std::size_t>(rule)]; }
-  std::uint64_t total() const noexcept;
-  bool content() const noexcept { return total() == 0; }
-  /// "no rule broken", or each broken rule with its count.
-  std::string report(std::initializer_list<CanRule> left_out = {}) const;
-  void forget() noexcept { counts_.fill(0); }
-
  private:
   /// What the master can know of a node.
   struct View {
@@ -81,7 +71,6 @@ class CanReferee {
 
   void nmt(const CanFrame& frame) noexcept;
 
-  std::array<std::uint64_t, static_cast<std::size_t>(CanRule::kCount)> counts_{};
   std::array<View, kNodes> views_{};
 };
 

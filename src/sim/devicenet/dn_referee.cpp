@@ -1,8 +1,5 @@
 #include "sim/devicenet/dn_referee.h"
 
-#include <algorithm>
-#include <numeric>
-
 namespace nord_driver::sim {
 
 namespace {
@@ -353,21 +350,6 @@ void DnReferee::foreignFrame(const CanFrame& frame) noexcept {
   const bool asks_for_us = online_ && master_ && frame.id == dn::group2(dn::kDuplicateMac, *master_) && !frame.remote &&
                            frame.size == 7 && (frame.data[0] & dn::kAnswer) == 0;
   if (asks_for_us) answer_due_ = now_ + kAnswerTime;
-}
-
-std::uint64_t DnReferee::total() const noexcept {
-  return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
-}
-
-std::string DnReferee::report(std::initializer_list<DnRule> left_out) const {
-  std::string text;
-  for (std::size_t i = 0; i < counts_.size(); ++i) {
-    if (counts_[i] == 0) continue;
-    if (std::find(left_out.begin(), left_out.end(), static_cast<DnRule>(i)) != left_out.end()) continue;
-    if (!text.empty()) text += "; ";
-    text += std::to_string(counts_[i]) + " x " + toString(static_cast<DnRule>(i));
-  }
-  return text.empty() ? "no rule broken" : text;
 }
 
 }  // namespace nord_driver::sim

@@ -6,13 +6,12 @@
 
 #include <array>
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
-#include <string>
 
 #include "core/can_frame.h"
 #include "nord_driver/core/time.h"
 #include "sim/devicenet/dn_identifiers.h"
+#include "sim/rule_counts.h"
 
 namespace nord_driver::sim {
 
@@ -52,12 +51,10 @@ enum class DnRule : std::uint8_t {
 /// One sentence on the rule.
 const char* toString(DnRule rule) noexcept;
 
-class DnReferee {
+class DnReferee : public RuleCounts<DnRule> {
  public:
   /// I/O messages that may still follow what ends a connection: they were on their way.
   static constexpr unsigned kTolerance = 3;
-
-  void broken(DnRule rule) noexcept { ++counts_[static_cast<std::size_t>(rule)]; }
 
   void nodeExists(std::uint8_t mac) noexcept { views_[mac].exists = true; }
   /// The time of what is told next.
@@ -72,12 +69,6 @@ class DnReferee {
   void stoodStill() noexcept;
 
   std::optional<std::uint8_t> master() const noexcept { return master_; }
-  std::uint64_t count(DnRule rule) const noexcept { return counts_[static_cast<std::size_t>(rule)]; }
-  std::uint64_t total() const noexcept;
-  bool content() const noexcept { return total() == 0; }
-  /// "no rule broken", or each broken rule with its count.
-  std::string report(std::initializer_list<DnRule> left_out = {}) const;
-  void forget() noexcept { counts_.fill(0); }
 
  private:
   /// One I/O connection as the scanner knows it.
@@ -121,7 +112,6 @@ class DnReferee {
   static void begin(View& view, std::uint8_t choice) noexcept;
   static void end(View& view, std::uint8_t choice) noexcept;
 
-  std::array<std::uint64_t, static_cast<std::size_t>(DnRule::kCount)> counts_{};
   std::array<View, dn::kMacs> views_{};
   Instant now_{};
   std::optional<std::uint8_t> master_;

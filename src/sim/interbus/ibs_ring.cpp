@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "sim/running_bus.h"
+#include "sim/rule_counts.h"
 
 namespace nord_driver::sim {
 

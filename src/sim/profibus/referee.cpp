@@ -1,7 +1,5 @@
 #include "sim/profibus/referee.h"
 
-#include <algorithm>
-
 #include "sim/profibus/services.h"
 
 namespace nord_driver::sim {
@@ -206,23 +204,6 @@ void Referee::parameterChannel(std::uint8_t station, const PkwWords& order, bool
   unsigned& standing = stations_[station].standing[inverter];
   standing = answered && isWriteOrder(order.label()) ? standing + 1 : 0;
   if (standing == kStandingTolerance + 1) broken(Rule::kWriteOrderLeftStanding);
-}
-
-std::uint64_t Referee::total() const noexcept {
-  std::uint64_t sum = 0;
-  for (const std::uint64_t count : counts_) sum += count;
-  return sum;
-}
-
-std::string Referee::report(std::initializer_list<Rule> left_out) const {
-  std::string text;
-  for (std::size_t i = 0; i < counts_.size(); ++i) {
-    if (counts_[i] == 0) continue;
-    if (std::find(left_out.begin(), left_out.end(), static_cast<Rule>(i)) != left_out.end()) continue;
-    if (!text.empty()) text += "; ";
-    text += std::to_string(counts_[i]) + " x " + toString(static_cast<Rule>(i));
-  }
-  return text.empty() ? "no rule broken" : text;
 }
 
 }  // namespace nord_driver::sim

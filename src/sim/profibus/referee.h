@@ -6,12 +6,11 @@
 
 #include <array>
 #include <cstdint>
-#include <initializer_list>
-#include <string>
 
 #include "nord_driver/core/time.h"
 #include "sim/inverter/pkw_server.h"
 #include "sim/profibus/telegram.h"
+#include "sim/rule_counts.h"
 
 namespace nord_driver::sim {
 
@@ -43,15 +42,13 @@ enum class Rule : std::uint8_t {
 /// One sentence on the rule, with its source.
 const char* toString(Rule rule) noexcept;
 
-class Referee {
+class Referee : public RuleCounts<Rule> {
  public:
   static constexpr unsigned kStations = 128;
   static constexpr unsigned kInverters = 4;
   /// How often a parameter write order may still be seen after its answer: the master learns of the answer a cycle
   /// late.
   static constexpr unsigned kStandingTolerance = 3;
-
-  void broken(Rule rule) noexcept { ++counts_[static_cast<std::size_t>(rule)]; }
 
   /// A telegram of the master.
   void request(const Telegram& telegram) noexcept;
@@ -63,13 +60,6 @@ class Referee {
   }
   /// `answered`: this very order had been executed before it came once more. `inverter`: 0-3 behind one module.
   void parameterChannel(std::uint8_t station, const PkwWords& order, bool answered, unsigned inverter = 0) noexcept;
-
-  std::uint64_t count(Rule rule) const noexcept { return counts_[static_cast<std::size_t>(rule)]; }
-  std::uint64_t total() const noexcept;
-  bool content() const noexcept { return total() == 0; }
-  /// "no rule broken", or each broken rule with its count.
-  std::string report(std::initializer_list<Rule> left_out = {}) const;
-  void forget() noexcept { counts_.fill(0); }
 
  private:
   /// What the master can know of a station.
@@ -88,7 +78,6 @@ class Referee {
   bool frameCount(Station& station, const Telegram& telegram) noexcept;
   void service(Station& station, const Telegram& telegram, bool repeated) noexcept;
 
-  std::array<std::uint64_t, static_cast<std::size_t>(Rule::kCount)> counts_{};
   std::array<Station, kStations> stations_{};
   Telegram pending_;
   bool awaiting_ = false;
