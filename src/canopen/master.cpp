@@ -50,6 +50,7 @@ void Master::restart(Instant now) noexcept {
   now_ = now;
   given_ = Given{};
   process_.clear();
+  stuck_ = false;
   watch_.restart();
   next_server_ = 0;
   deadline_.reset();
@@ -67,6 +68,7 @@ void Master::restart(Instant now) noexcept {
 void Master::releaseAll(Instant now) noexcept {
   now_ = now;
   process_.clear();
+  stuck_ = false;
   for (const auto& node : nodes_) {
     node->release(now);
     touched(*node);
@@ -81,6 +83,7 @@ void Master::startCycle(Instant now) noexcept {
   now_ = now;
   ++counters_.cycles;
   dropProcessData();
+  stuck_ = false;
   bool any = false;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     nodes_[i]->handleCycle();
@@ -92,16 +95,27 @@ void Master::startCycle(Instant now) noexcept {
       if (pdos[pdo].ready()) process_.add({static_cast<std::uint8_t>(i), static_cast<std::uint16_t>(pdo)});
     }
   }
+  if (waits_) process_.beginWith(*waits_);
+  waits_.reset();
   if (any && config_.sync_cob_id) process_.addSync();
 }
 
 void Master::dropProcessData() noexcept {
-  while (process_.hasPdo()) {
-    ++counters_.superseded;
-    ++nodes_[process_.takePdo().node]->report().status().counters.superseded;
-  }
-  if (process_.syncDue()) ++counters_.superseded;
+  while (process_.hasPdo()) drop(process_.takePdo());
+  if (process_.syncDue()) dropSync();
   process_.clear();
+}
+
+void Master::drop(PdoReference pdo) noexcept {
+  ++counters_.superseded;
+  ++nodes_[pdo.node]->report().status().counters.superseded;
+  stuck_ = true;
+  if (!waits_) waits_ = pdo;
+}
+
+void Master::dropSync() noexcept {
+  ++counters_.superseded;
+  stuck_ = true;
 }
 
 void Master::handleFrame(const CanFrame& frame, Instant now) noexcept {
@@ -244,6 +258,7 @@ void Master::touched(const Node& node) noexcept {
 }
 
 bool Master::pollTransmit(CanFrame& frame) noexcept {
+  if (stuck_) return false;
   const bool given = pollNmt() || pollReceivePdo() || pollSync() || pollErrorControl() || pollSdoFrame();
   if (!given) {
     given_.kind = Given::Kind::kNothing;
@@ -341,12 +356,11 @@ void Master::notSent() noexcept {
       break;
     case Given::Kind::kReceivePdo:
       --node.report().status().counters.receive_pdos;
-      ++node.report().status().counters.superseded;
-      ++counters_.superseded;
+      drop({static_cast<std::uint8_t>(given.node), static_cast<std::uint16_t>(given.item)});
       break;
     case Given::Kind::kSync:
       --counters_.syncs;
-      ++counters_.superseded;
+      dropSync();
       break;
     case Given::Kind::kOwnHeartbeat:
       (given.item == 0 ? boot_up_due_ : heartbeat_due_) = true;

@@ -40,7 +40,9 @@ struct NodeSdoAnswer {
 /// when it is used and a node is operational: an RPDO of type 0..240 acts with the SYNC of the same cycle, one of type
 /// 254 or 255 at once. `pollTransmit()` gives out NMT first, then RPDOs and SYNC, error control, SDO.
 ///
-/// What the link did not take: NMT, error control and SDO frames are given out again, RPDOs and SYNC dropped.
+/// What the link did not take: NMT, error control and SDO frames are given out again, RPDOs and SYNC dropped. Where these
+/// found no place nothing else is given out until the next cycle, which begins with the RPDO that was the first to be
+/// dropped: error control alone would keep a node running that hears no process data.
 class Master final : public CanEngine {
  public:
   /// Throws std::invalid_argument with a sentence: see `checkConfig()`.
@@ -71,6 +73,9 @@ class Master final : public CanEngine {
   /// Kept, and sent in every cycle in which the node is operational; before the first call, and after a loss, nothing
   /// is sent. Cut or filled with zeros to the mapped length (when the mapping is configured).
   void setReceivePdo(std::size_t node, std::size_t pdo, ByteView bytes) noexcept;
+  /// What stops a drive of this node, which is lost, was not taken by the link: until it was, in full, the node is neither
+  /// asked nor reset.
+  void handleUntold(std::size_t node) noexcept { nodes_[node]->handleUntold(); }
   /// What it sent last while operational; `count` 0: nothing yet since it became so.
   const PdoValue& transmitPdo(std::size_t node, std::size_t pdo) const noexcept;
 
@@ -114,6 +119,8 @@ class Master final : public CanEngine {
   bool pollSdoFrame() noexcept;
   void give(Given::Kind kind, std::size_t node, std::size_t item, const CanFrame& frame) noexcept;
   void dropProcessData() noexcept;
+  void drop(PdoReference pdo) noexcept;
+  void dropSync() noexcept;
 
   MasterConfig config_;
   Counters counters_;
@@ -128,7 +135,9 @@ class Master final : public CanEngine {
   Instant now_{};
   std::optional<Instant> deadline_;  // not later than the earliest of all
   std::optional<Instant> next_heartbeat_;
-  bool boot_up_due_ = false;  // ours
+  bool stuck_ = false;                 // process data of this cycle found no place
+  std::optional<PdoReference> waits_;  // the first of them
+  bool boot_up_due_ = false;           // ours
   bool heartbeat_due_ = false;
   // False: nobody has anything of that kind to send. True: somebody may.
   bool nmt_maybe_ = false;

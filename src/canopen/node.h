@@ -45,6 +45,7 @@ class Node {
 
   std::uint8_t id() const noexcept { return config_.id; }
   void handleCycle() noexcept { boot_.handleCycle(); }
+  void handleUntold() noexcept { boot_.handleUntold(); }
   bool operational() const noexcept { return boot_.watch() == NodeBoot::Watch::kWatch; }
   /// Once a cycle while operational: whether it gets its RPDOs in this one. After its start not before the cycle that
   /// follows the first TPDOs, or `NodeConfig::first_answer_timeout`.

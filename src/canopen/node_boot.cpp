@@ -2,7 +2,6 @@
 
 #include <cstring>
 
-#include "canopen/boot_times.h"
 #include "canopen/error_control_objects.h"
 
 namespace nord_driver::canopen {

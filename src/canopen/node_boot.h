@@ -17,6 +17,7 @@
 #include <variant>
 
 #include "canopen/boot_script.h"
+#include "canopen/boot_times.h"
 #include "canopen/boot_up_watch.h"
 #include "canopen/double_id_watch.h"
 #include "canopen/nmt.h"
@@ -50,6 +51,10 @@ class NodeBoot {
   /// A bus cycle begins; what is sent to a node that is lost went out before.
   void handleCycle() noexcept {
     if (past_.cycles_to_tell > 0) --past_.cycles_to_tell;
+  }
+  /// What is sent to a node that is lost did not go out before the cycle that begins: all from the beginning.
+  void handleUntold() noexcept {
+    if (past_.cycles_to_tell > 0) past_.cycles_to_tell = kCyclesToTell + 1;
   }
   /// Lets the node go: a reset of its communication where the configuration allows one; otherwise it is told not to
   /// watch us any more, which takes a second at most, and led to pre-operational.

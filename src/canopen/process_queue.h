@@ -1,6 +1,7 @@
 // Which process data this cycle has still to send: at most each RPDO once, then SYNC. The values stay in their slots.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -10,6 +11,8 @@ namespace nord_driver::canopen {
 struct PdoReference {
   std::uint8_t node = 0;
   std::uint16_t pdo = 0;
+
+  bool operator==(const PdoReference& other) const noexcept { return node == other.node && pdo == other.pdo; }
 };
 
 class ProcessQueue {
@@ -28,6 +31,11 @@ class ProcessQueue {
     if (due_.size() < due_.capacity()) due_.push_back(pdo);
   }
   void addSync() noexcept { sync_ = true; }
+  /// The order stays, but this one is the first, if it is there: for one that found no place in the cycle before.
+  void beginWith(PdoReference pdo) noexcept {
+    const auto found = std::find(due_.begin(), due_.end(), pdo);
+    if (found != due_.end()) std::rotate(due_.begin(), found, due_.end());
+  }
 
   bool hasPdo() const noexcept { return next_ < due_.size(); }
   PdoReference takePdo() noexcept { return due_[next_++]; }

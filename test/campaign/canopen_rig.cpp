@@ -144,6 +144,17 @@ const std::vector<Act>& canopenActs() {
       {"queue_full", 2, "queue", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
        [](R& rig, const E&) { busOf(rig).setQueueFull(true); },
        [](R& rig, const E&) { busOf(rig).setQueueFull(false); }},
+      // amount: ms from one frame that finds a place to the next.
+      {"queue_slow",
+       2,
+       "queue",
+       Place::kBus,
+       Cuts::kAll,
+       kSpan,
+       {4, 150},
+       kNone,
+       [](R& rig, const E& event) { busOf(rig).setQueuePace(std::chrono::milliseconds{event.amount}); },
+       [](R& rig, const E&) { busOf(rig).setQueuePace({}); }},
       // amount: the product code of what stands there meanwhile.
       {"wrong_drive",
        2,

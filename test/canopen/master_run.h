@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,9 @@ class MasterRun {
   bool reaches(NodeState state, Duration limit, std::size_t node = 0) {
     return runUntil([&] { return master.status(node).state == state; }, limit);
   }
+  void runToNextCycle() {
+    while (steps_ % kStepsPerCycle != 0) step();
+  }
   void say(const std::string& candump) { master.handleFrame(frame(candump), now); }
 
   std::size_t count(CanopenEventKind kind) const {
@@ -107,6 +111,7 @@ class MasterRun {
   std::vector<std::string> sent;
   Instant now{std::chrono::hours{1}};
   bool link_full = false;
+  std::optional<std::size_t> room;             ///< frames the link takes in a cycle
   std::function<bool(const CanFrame&)> loses;  ///< of both directions
   /// What the master is given before each cycle: the idle control word for every node that has an RPDO.
   std::function<void(Master&)> before_cycle = [this](Master& to) {
@@ -115,6 +120,7 @@ class MasterRun {
 
  private:
   void cycle() {
+    taken_ = 0;
     before_cycle(master);
     master.startCycle(now);
   }
@@ -124,7 +130,8 @@ class MasterRun {
   void pump() {
     CanFrame frame;
     while (master.pollTransmit(frame)) {
-      if (link_full) return master.notSent();
+      if (link_full || (room && taken_ >= *room)) return master.notSent();
+      ++taken_;
       sent.push_back(text(frame));
       if (loses && loses(frame)) continue;
       for (auto& node : nodes) node->receive(frame, now);
@@ -133,6 +140,7 @@ class MasterRun {
 
   std::vector<std::size_t> with_receive_pdo_;
   int steps_ = 0;
+  std::size_t taken_ = 0;  // in this cycle
 };
 
 }  // namespace nord_driver::canopen

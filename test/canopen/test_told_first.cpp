@@ -103,6 +103,23 @@ TEST_F(ToldFirst, WaitsForATenthOfASecondToo) {
   EXPECT_GE(run_->now - lost, milliseconds{99});
 }
 
+// A word that the link did not take is not said: the two cycles begin anew.
+TEST_F(ToldFirst, WaitsUntilItsWordsLeave) {
+  start(busConfig(1));
+  run_->loses = [](const CanFrame& frame) { return frame.id == 0x701; };
+  lose();
+  run_->before_cycle = [](Master& master) { master.handleUntold(0); };
+  run_->run(seconds{2});
+  EXPECT_FALSE(hasSent("000#") || hasSent("601#"));
+  run_->runToNextCycle();
+  run_->before_cycle = [](Master&) {};
+  run_->run(milliseconds{20});
+  EXPECT_FALSE(hasSent("000#") || hasSent("601#")) << "two cycles";
+  run_->run(milliseconds{120});
+  EXPECT_TRUE(hasSent("601#"));
+  EXPECT_TRUE(hasSent("000#"));
+}
+
 // The adapter was unplugged and is back: the node has gone on meanwhile.
 TEST_F(ToldFirst, AsThereAfterTheInterfaceWasAway) {
   start(busConfig(1));

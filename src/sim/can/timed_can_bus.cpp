@@ -90,13 +90,19 @@ bool TimedCanBus::controllerOnBus() const noexcept {
   return present_ && up_ && state_ != link::CanState::kBusOff;
 }
 
+void TimedCanBus::setQueuePace(Duration pace) noexcept {
+  queue_pace_ = pace;
+  next_place_ = now_ + pace;
+}
+
 link::CanSend TimedCanBus::send(const CanFrame& frame) noexcept {
   if (!open_ || !controllerOnBus()) return link::CanSend::kFailed;
-  if (queue_full_ || queuedOfMaster() >= settings_.send_queue || waiting_.full()) {
+  if (queue_full_ || now_ < next_place_ || queuedOfMaster() >= settings_.send_queue || waiting_.full()) {
     ++counters_.queue_full;
     return link::CanSend::kQueueFull;
   }
   waiting_.push_back({frame, Sender::kMaster});
+  if (queue_pace_ > Duration::zero()) next_place_ = now_ + queue_pace_;
   return link::CanSend::kSent;
 }
 

@@ -70,6 +70,8 @@ class TimedCanBus : public link::CanLink, private CanSink {
   void restart() noexcept;
   /// Every `send()` finds the queue full.
   void setQueueFull(bool full) noexcept { queue_full_ = full; }
+  /// `send()` finds a place once in this time only, and the queue full otherwise; zero: as the bus is.
+  void setQueuePace(Duration pace) noexcept;
   void setDisturbance(const CanDisturbance& disturbance) noexcept;
   /// The next `count` frames of the master never reach the nodes.
   void loseRequests(unsigned count) noexcept { lose_requests_ = count; }
@@ -118,6 +120,8 @@ class TimedCanBus : public link::CanLink, private CanSink {
   bool present_ = true;
   bool up_ = true;
   bool queue_full_ = false;
+  Duration queue_pace_{};
+  Instant next_place_{};
   link::CanState state_ = link::CanState::kActive;
   link::CanCounters counters_;
   std::string last_error_;

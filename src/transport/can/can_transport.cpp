@@ -169,9 +169,10 @@ void CanTransport::send(Instant until) noexcept {
   }
 }
 
-void CanTransport::sendNow(const CanFrame& frame) noexcept {
-  if (link_->send(frame) != link::CanSend::kSent) return;
+bool CanTransport::sendNow(const CanFrame& frame) noexcept {
+  if (link_->send(frame) != link::CanSend::kSent) return false;
   trace_->record(TraceKind::kSent, toPacket(frame), link_->now());
+  return true;
 }
 
 void CanTransport::takeLineCounters() noexcept {

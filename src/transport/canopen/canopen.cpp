@@ -92,8 +92,14 @@ void CanopenTransport::putOutputs(const std::vector<profile::ProcessOutput>& out
 
 // Words that stop, as long as the drive layer gives any; never an old one.
 void CanopenTransport::commandUnheardNodes() noexcept {
-  for (const CanopenDriveState& drive : drives_) {
-    if (const auto frame = drive.unheardCommand(*master_)) sendNow(*frame);
+  const std::size_t first = next_unheard_;
+  for (std::size_t k = 0; k < drives_.size(); ++k) {
+    const std::size_t i = (first + k) % drives_.size();
+    const auto frame = drives_[i].unheardCommand(*master_);
+    if (!frame || sendNow(*frame)) continue;
+    // A full queue that takes one frame at a time must not take that of the same drive each time.
+    if (next_unheard_ == first) next_unheard_ = i;
+    master_->handleUntold(config_.drives[i].node);
   }
 }
 

@@ -69,6 +69,22 @@ TEST(SimulatedCanBus, QueueFull) {
   EXPECT_EQ(CanSend::kSent, bus.bus.send(frame));
 }
 
+TEST(SimulatedCanBus, QueueThatEmptiesSlowly) {
+  CanConversation bus;
+  bus.boot();
+  const CanFrame frame = nord_driver::frame("701#05");
+  bus.bus.setQueuePace(milliseconds(20));
+  EXPECT_EQ(CanSend::kQueueFull, bus.bus.send(frame));
+  bus.bus.run(milliseconds(20));
+  EXPECT_EQ(CanSend::kSent, bus.bus.send(frame));
+  bus.bus.run(milliseconds(19));
+  EXPECT_EQ(CanSend::kQueueFull, bus.bus.send(frame));
+  bus.bus.run(milliseconds(1));
+  EXPECT_EQ(CanSend::kSent, bus.bus.send(frame));
+  bus.bus.setQueuePace({});
+  EXPECT_EQ(CanSend::kSent, bus.bus.send(frame));
+}
+
 // Nobody acknowledges: the controller repeats the frame for ever, becomes error passive, the queue fills. It goes out
 // when a node is there again.
 TEST(SimulatedCanBus, NobodyAcknowledges) {
