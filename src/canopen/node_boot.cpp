@@ -115,9 +115,11 @@ void NodeBoot::submit(const SdoRequest& request, Instant now) noexcept {
 // Life guarding goes on in pre-operational and stopped (CiA 301 7.2.8.3.2), and a script may take longer than the life
 // time. One that was reset waits for its first question, which would begin a life time: it gets none.
 bool NodeBoot::missesQuestions() const noexcept {
+  if (config_.error_control.mode != ErrorControlMode::kGuarding) return false;
+  if (past_.repeats.started()) return true;
   const NmtState state = report_.status().nmt;
   const bool was_reset = state == NmtState::kUnknown || state == NmtState::kBootUp;
-  return config_.error_control.mode == ErrorControlMode::kGuarding && past_.was_operational && !was_reset;
+  return past_.was_operational && !was_reset;
 }
 
 void NodeBoot::handleBootUp(Instant now) noexcept {
@@ -141,6 +143,7 @@ void NodeBoot::handleBootUp(Instant now) noexcept {
     return refuse(why, now);
   }
   past_.fresh = true;
+  past_.repeats = ScriptRepeats{};
   past_.reset_due = false;
   refuse_pause_.reset();
   command_.reset();
@@ -236,10 +239,9 @@ void NodeBoot::handleDeadline(Instant now) noexcept {
   if (isIn<Running>()) report_.enter(NodeState::kBooting, doubleId(), now);
   Start* const started = std::get_if<Start>(&phase_);
   if (started == nullptr) return askAgain(now);
-  if (started->tries_left == 0) return diagnose(started->heard, now);
-  --started->tries_left;
-  command_ = NmtCommand::kStart;
-  timers_.set(NodeTimer::kBoot, now + startTimeout(config_));
+  if (!past_.repeats.forStart()) return diagnose(started->heard, now);
+  past_.fresh = false;  // it may have been asked for its state, and toggled
+  ask(now);
 }
 
 void NodeBoot::handleAnswer(const SdoAnswer& answer, Instant now) noexcept {
@@ -279,7 +281,8 @@ void NodeBoot::handleScriptAnswer(Script& script, const SdoAnswer& answer, Insta
     case Progress::kFailed:
       return refuse(script_.reason(), now);
     case Progress::kDone:
-      if (script.ids.mixed() && !script.ids.found() && !std::exchange(past_.checked, true)) return ask(now);
+      if (script.ids.mixed() && !script.ids.found() && past_.repeats.forSurplus()) return ask(now);
+      if (script.missed && past_.repeats.forMissed()) return ask(now);
       return start(script.ids.found(), now);
   }
 }
@@ -299,6 +302,7 @@ void NodeBoot::handleNoAnswer(Instant now) noexcept {
   Script* const script = std::get_if<Script>(&phase_);
   if (script == nullptr) return;
   script->ids.giveUp();  // some may come late
+  script->missed = script->answered;
   if (script->tries_left > 0) {
     --script->tries_left;
     return submit(request_, now);
@@ -327,13 +331,14 @@ void NodeBoot::found(Instant now) noexcept {
 
 void NodeBoot::silent(const Sentence& why, Instant now) noexcept {
   report_.enter(past_.was_operational ? NodeState::kLost : NodeState::kAbsent, why, now);
-  past_.fresh = past_.checked = false;
+  past_.fresh = false;
+  past_.repeats = ScriptRepeats{};
   phase_ = Phase{Silent{}};
   timers_.set(NodeTimer::kBoot, now + ask_pause_.next());
 }
 
 void NodeBoot::start(bool doubled, Instant now) noexcept {
-  past_.checked = false;
+  past_.repeats.forgetSurplus();
   past_.doubled = doubled;
   command_ = NmtCommand::kStart;
   if (config_.error_control.mode == ErrorControlMode::kNone) return run(now);
@@ -345,6 +350,7 @@ void NodeBoot::run(Instant now) noexcept {
   phase_ = Phase{Running{}};
   timers_.stop(NodeTimer::kBoot);
   past_.fresh = false;
+  past_.repeats = ScriptRepeats{};
   past_.was_operational = true;
   refuse_pause_.reset();
   ++report_.status().counters.boots;
@@ -357,6 +363,7 @@ void NodeBoot::run(Instant now) noexcept {
 void NodeBoot::leave(const Sentence& why, Instant now) noexcept {
   phase_ = Phase{Silent{}};
   past_.fresh = false;
+  past_.repeats = ScriptRepeats{};
   ask_pause_.reset();
   past_.lost_why = why;
   past_.lost_at = now;
@@ -379,7 +386,7 @@ void NodeBoot::refuseStart(const StartDiagnosis& diagnosis, Instant now) noexcep
 void NodeBoot::refuse(const Sentence& why, Instant now) noexcept {
   port_.cancel(SdoOwner::kBoot, now);
   past_.fresh = false;  // somebody may have started it meanwhile, which may be why
-  past_.checked = false;
+  past_.repeats = ScriptRepeats{};
   ++report_.status().counters.refusals;
   const NodeStatus& status = report_.status();
   const bool told = status.state == NodeState::kRefused && std::strcmp(status.reason.c_str(), why.c_str()) == 0;

@@ -25,6 +25,7 @@
 #include "canopen/node_report.h"
 #include "canopen/node_timers.h"
 #include "canopen/release_script.h"
+#include "canopen/script_repeats.h"
 #include "canopen/sdo_port.h"
 #include "canopen/start_diagnosis.h"
 #include "core/growing_pause.h"
@@ -92,10 +93,10 @@ class NodeBoot {
   struct Script {
     std::uint8_t tries_left = 0;
     bool answered = false;
+    bool missed = false;  // an answer, since the first one
     DoubleIdWatch ids;
   };
   struct Start {
-    std::uint8_t tries_left = 1;
     bool heard = false;
   };
   struct Running {};
@@ -111,8 +112,7 @@ class NodeBoot {
     bool reset_due = false;  // it was not reset since it was lost
     bool fresh = false;      // see fresh()
     bool was_operational = false;
-    /// The script runs once more, because there were answers nobody had asked for: one of them may have been taken.
-    bool checked = false;
+    ScriptRepeats repeats;
     bool doubled = false;             // two nodes answered: it was started all the same, to be stopped
     Sentence lost_why;                // empty once it was found again
     Instant lost_at{};                // or taken back last

@@ -297,15 +297,16 @@ TEST(StartUp, SendsTheStartAgain) {
 // Accesses of the set-up are compared first, too; lost answers are asked for again.
 TEST(StartUp, SetsUpAndRepeatsWhatWasLost) {
   MasterConfig config = busConfig(1, 0x32);
-  config.nodes[0].setup = {{0x2066, 1, 103, 2}, {0x2066, 1, 104, 2}};
+  config.nodes[0].setup = {{0x2066, 1, 103, 2}, {0x2067, 1, 104, 2}};
   MasterRun run{config};
+  run.nodes[0]->object(0x2067, 1) = {103, 2, false};
   int lost = 0;
   run.loses = [&lost](const CanFrame& frame) { return frame.id == 0x5B2 && frame.data[2] == 0x20 && lost++ < 2; };
   run.begin();
   ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{3}));
   EXPECT_EQ(2u, run.master.status(0).counters.sdo_timeouts);
-  EXPECT_EQ(104u, run.nodes[0]->object(0x2066, 1).value);
-  EXPECT_THAT(run.nodes[0]->writes, ElementsAre("2066:01=68", "1017:00=64"));
+  EXPECT_EQ(104u, run.nodes[0]->object(0x2067, 1).value);
+  EXPECT_THAT(run.nodes[0]->writes, ElementsAre("2067:01=68", "1017:00=64"));
 }
 
 // CiA 301 7.5.2.33: bits 0 to 29 do not change while the server exists; strict ones refuse it (0609 0030h).
