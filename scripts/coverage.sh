@@ -40,7 +40,7 @@ if ! $count_only; then
   cmake --build "$out" -j "$jobs" --target "${programs[@]}" >"$out/build.log" 2>&1 || { tail -n 40 "$out/build.log"; exit 1; }
   find "$out" -name '*.gcda' -delete
   run() {
-    if ! "$out/devel/lib/nord_driver/$1" --gtest_brief=1 >"$out/$1.log" 2>&1; then
+    if ! "$out/catkin_generated/env_cached.sh" "$out/devel/lib/nord_driver/$1" --gtest_brief=1 >"$out/$1.log" 2>&1; then
       echo "$1: FAILED, see $out/$1.log"
       return 1
     fi

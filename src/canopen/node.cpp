@@ -80,6 +80,7 @@ bool Node::acceptGuardAnswer(std::uint8_t value, Instant now) noexcept {
       told_toggle_ = false;
       return true;
     case GuardAnswer::kNotAsked:
+      if (guard_.answeredTwice()) boot_.handleDoubleAnswers(now);
       return false;
     case GuardAnswer::kWrongToggle:
       break;

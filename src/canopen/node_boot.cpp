@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "canopen/boot_sentences.h"
 #include "canopen/error_control_objects.h"
 
 namespace nord_driver::canopen {
@@ -9,10 +10,6 @@ namespace {
 
 constexpr std::uint16_t kErrorRegisterIndex = 0x1001;
 constexpr std::uint16_t kErrorFieldIndex = 0x1003;
-
-Sentence doubleId() noexcept {
-  return Sentence{"two nodes answer with this id: is it set twice, by switches or P515?"};
-}
 
 NmtCommand resetCommand(BootReset reset) noexcept {
   return reset == BootReset::kResetNode ? NmtCommand::kResetNode : NmtCommand::kResetCommunication;
@@ -129,15 +126,9 @@ void NodeBoot::handleBootUp(Instant now) noexcept {
   if (isIn<Off>()) return;
   // It has forgotten whom it watched.
   if (isIn<Release>()) return endRelease(NmtCommand::kEnterPreOperational, now);
-  Sentence why;
-  if (isIn<Running>()) {
-    why.format("has restarted by itself: it sent its boot-up");
-    leave(why, now);
-  }
+  if (isIn<Running>()) leave(restarted(), now);
   if (past_.boot_ups.handleBootUp(now)) {
-    why.format(
-        "sends its boot-up again and again: two nodes with this id, or a heartbeat that says 0, or a supply that "
-        "breaks down");
+    const Sentence why = restartsAgainAndAgain();
     if (report_.status().state != NodeState::kRefused) report_.tell(CanopenEventKind::kBootUpRepeated, why, 0, now);
     refuse_pause_.reset();
     return refuse(why, now);
@@ -158,9 +149,7 @@ void NodeBoot::handleState(NmtState state, Instant now) noexcept {
     started->heard = true;
     if (state == NmtState::kOperational) run(now);
   } else if (isIn<Running>() && state != NmtState::kOperational) {
-    Sentence why;
-    why.format("is %s now, which we did not tell it", toText(state));
-    leave(why, now);
+    leave(leftByItself(state), now);
     ask(now);
     leadBack();
   } else if (isIn<Silent>() || isIn<Script>()) {
@@ -180,6 +169,16 @@ void NodeBoot::handleStrayAnswer(bool again, Instant now) noexcept {
     report_.tell(CanopenEventKind::kDoubleId, doubleId(), 0, now);
   }
   if (!past_.was_operational || past_.doubled) refuseBoth(now);
+}
+
+// What stops them they hear in operation only, and so they are left there for as long as that takes.
+void NodeBoot::handleDoubleAnswers(Instant now) noexcept {
+  if (!isIn<Running>() || past_.doubled) return;
+  report_.tell(CanopenEventKind::kDoubleId, doubleId(), 0, now);
+  past_.doubled = true;
+  report_.status().doubled = true;
+  report_.status().reason = doubleId();
+  timers_.set(NodeTimer::kBoot, now + kStopBoth);
 }
 
 // Two nodes with one id take the same control words: they must not run. One that was in operation may turn, though, and
@@ -202,9 +201,7 @@ void NodeBoot::handleForeignCommand(NmtCommand command, Instant now) noexcept {
   if (command == NmtCommand::kStart || isIn<Off>() || isIn<Release>()) return;
   report_.status().nmt = stateAfter(command);
   if (isIn<Running>()) {
-    Sentence why;
-    why.format("was told \"%s\" by another master", toText(command));
-    leave(why, now);
+    leave(toldByAnother(command), now);
     ask(now);
   }
   leadBack();
@@ -307,16 +304,7 @@ void NodeBoot::handleNoAnswer(Instant now) noexcept {
     --script->tries_left;
     return submit(request_, now);
   }
-  Sentence why;
-  if (script->answered) {
-    why.format("stopped answering in its start-up (SDO %04Xh:%u)", unsigned{request_.index},
-               unsigned{request_.sub_index});
-  } else if (!past_.lost_why.empty()) {
-    why.format("%s; since then it does not answer: is it powered and connected?", past_.lost_why.c_str());
-  } else {
-    why.format("does not answer: is it powered, and are its node id and bit rate right?");
-  }
-  silent(why, now);
+  silent(script->answered ? stoppedAnswering(request_) : doesNotAnswer(past_.lost_why), now);
 }
 
 void NodeBoot::found(Instant now) noexcept {

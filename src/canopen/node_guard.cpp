@@ -21,6 +21,8 @@ void NodeGuard::start(bool fresh, Instant now) noexcept {
   over_ = false;
   due_ = true;
   open_ = false;
+  surplus_ = false;
+  doubled_ = 0;
   expected_toggle_.reset();
   if (fresh) expected_toggle_ = std::uint8_t{0};
 }
@@ -35,7 +37,8 @@ void NodeGuard::stop() noexcept {
 
 GuardAnswer NodeGuard::handle(std::uint8_t value, Instant now) noexcept {
   if (!open_) {
-    handleForeignQuestion();  // the node has toggled in an answer that was not for us
+    expected_toggle_.reset();  // the node has toggled in an answer that was not for us
+    surplus_ = true;
     return GuardAnswer::kNotAsked;
   }
   open_ = false;
@@ -73,6 +76,8 @@ bool NodeGuard::pollTransmit(CanFrame& frame) noexcept {
   if (!due_) return false;
   due_ = false;
   open_ = true;
+  doubled_ = surplus_ ? std::min<std::uint8_t>(doubled_ + 1u, kOfTwoNodes) : 0;
+  surplus_ = false;
   frame = remoteFrame(kErrorControlBase + node_, 1);
   return true;
 }

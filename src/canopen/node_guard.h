@@ -35,7 +35,13 @@ class NodeGuard {
   /// `value`: the data byte.
   GuardAnswer handle(std::uint8_t value, Instant now) noexcept;
   /// Another master asked: the node toggles in the answer to that as well.
-  void handleForeignQuestion() noexcept { expected_toggle_.reset(); }
+  void handleForeignQuestion() noexcept {
+    expected_toggle_.reset();
+    doubled_ = 0;
+  }
+  /// Some questions in a row had one answer more than they asked for, this one among them, and nobody else asked: two nodes
+  /// answer. A frame may be received twice (ISO 11898-1: an error in its last bit but one), but not so often.
+  bool answeredTwice() const noexcept { return surplus_ && doubled_ + 1 >= kOfTwoNodes; }
   /// Makes the next question due. True once for each question that stayed without an answer.
   bool poll(Instant now) noexcept;
   /// No good answer for the node life time, as `poll()` saw it.
@@ -51,6 +57,8 @@ class NodeGuard {
   bool due() const noexcept { return due_; }
 
  private:
+  static constexpr std::uint8_t kOfTwoNodes = 5;
+
   std::uint8_t node_;
   Duration guard_time_;
   Duration life_time_;
@@ -60,6 +68,8 @@ class NodeGuard {
   bool open_ = false;  // a question was sent and not answered
   bool half_ = false;  // the timer of the question is at half the guard time: it looks for the answer
   std::optional<std::uint8_t> expected_toggle_;
+  bool surplus_ = false;      // the question before had more than one answer
+  std::uint8_t doubled_ = 0;  // questions in a row, before this one, that had
 };
 
 }  // namespace nord_driver::canopen

@@ -16,7 +16,6 @@ void ExplicitChannel::endUser(ExplicitEnd end) noexcept {
 
 void ExplicitChannel::cancel() noexcept {
   client_.cancel();
-  put_back_.reset();
   owner_ = Owner::kNobody;
 }
 
@@ -71,7 +70,6 @@ void ExplicitChannel::poll(Instant now) noexcept {
 void ExplicitChannel::takeAnswer(Instant now) noexcept {
   const std::optional<ExplicitAnswer> answer = client_.takeAnswer();
   if (answer) {
-    put_back_.reset();  // of a request that has ended: nobody waits for what it would do
     if (owner_ == Owner::kEngine) own_answer_ = answer;
     if (owner_ == Owner::kUser) users_.finish(*answer);
     owner_ = Owner::kNobody;
@@ -111,13 +109,6 @@ void ExplicitChannel::startUser(Instant now) noexcept {
   } else {
     endUser(ExplicitEnd::kTooLong);
   }
-}
-
-bool ExplicitChannel::pollTransmit(CanFrame& frame, Instant now) noexcept {
-  if (!put_back_) return client_.pollTransmit(frame, now);
-  frame = *put_back_;
-  put_back_.reset();
-  return true;
 }
 
 }  // namespace nord_driver::devicenet

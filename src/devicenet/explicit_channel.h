@@ -44,10 +44,10 @@ class ExplicitChannel {
 
   Heard handle(const CanFrame& frame, Instant now) noexcept;
   void poll(Instant now) noexcept;
-  bool pollTransmit(CanFrame& frame, Instant now) noexcept;
-  /// The frame given out last was not sent: it comes again.
-  void notSent(const CanFrame& frame) noexcept { put_back_ = frame; }
+  bool pollTransmit(CanFrame& frame, Instant now) noexcept { return client_.pollTransmit(frame, now); }
+  void notSent(const CanFrame& frame) noexcept { client_.notSent(frame); }
   std::optional<Instant> nextDeadline() const noexcept { return client_.nextDeadline(); }
+  std::uint64_t repeated() const noexcept { return client_.repeated(); }
   /// Last time the device answered on the explicit connection: what keeps it alive.
   Instant usedAt() const noexcept { return used_at_; }
 
@@ -75,7 +75,6 @@ class ExplicitChannel {
   std::optional<Own> own_;
   std::optional<ExplicitAnswer> own_answer_;
   RequestQueue<ExplicitRequest, ExplicitAnswer, kRequestQueueLength> users_;
-  std::optional<CanFrame> put_back_;
   Instant used_at_{};
 };
 

@@ -88,6 +88,7 @@ CanFrame ExplicitClient::nextPiece() const noexcept {
 }
 
 bool ExplicitClient::pollTransmit(CanFrame& frame, Instant now) noexcept {
+  gave_acknowledge_ = acknowledge_.has_value();
   if (acknowledge_) {
     frame = *acknowledge_;
     acknowledge_.reset();
@@ -95,9 +96,19 @@ bool ExplicitClient::pollTransmit(CanFrame& frame, Instant now) noexcept {
   }
   if (phase_ != Phase::kToSend) return false;
   frame = nextPiece();
+  to_send_until_ = *timers_.at(Timer::kReply);
   phase_ = fragmented() ? Phase::kAwaitAcknowledge : Phase::kAwaitAnswer;
   timers_.set(Timer::kReply, now + (fragmented() ? kAcknowledgeTime : timeout_));
   return true;
+}
+
+void ExplicitClient::notSent(const CanFrame& frame) noexcept {
+  if (gave_acknowledge_) {
+    acknowledge_ = frame;
+  } else if (phase_ == Phase::kAwaitAcknowledge || phase_ == Phase::kAwaitAnswer) {
+    phase_ = Phase::kToSend;
+    timers_.set(Timer::kReply, to_send_until_);
+  }
 }
 
 Heard ExplicitClient::handle(const CanFrame& frame, Instant now) noexcept {
@@ -201,6 +212,7 @@ void ExplicitClient::poll(Instant now) noexcept {
   const bool asked = phase_ == Phase::kAwaitAcknowledge || (phase_ == Phase::kAwaitAnswer && !fragmented());
   if (!asked || repeats_ > 0 || body_[0] == service::kReset) return finish(ExplicitEnd::kTimedOut);
   ++repeats_;
+  ++repeated_;
   phase_ = Phase::kToSend;
   timers_.set(Timer::kReply, now + timeout_);
 }

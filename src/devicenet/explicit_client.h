@@ -50,8 +50,12 @@ class ExplicitClient {
   Heard handle(const CanFrame& frame, Instant now) noexcept;
   void poll(Instant now) noexcept;
   bool pollTransmit(CanFrame& frame, Instant now) noexcept;
+  /// The frame given out last was not sent: it comes again, and the time for its answer has not begun.
+  void notSent(const CanFrame& frame) noexcept;
   std::optional<ExplicitAnswer> takeAnswer() noexcept;
   std::optional<Instant> nextDeadline() const noexcept { return timers_.nextTimeout(); }
+  /// Times a frame was given out again because nobody answered, since construction.
+  std::uint64_t repeated() const noexcept { return repeated_; }
 
  private:
   enum class Phase : std::uint8_t {
@@ -80,6 +84,8 @@ class ExplicitClient {
   std::uint8_t own_, device_;
   Phase phase_ = Phase::kIdle;
   TimerTable<Timer> timers_;
+  bool gave_acknowledge_ = false;  // last
+  Instant to_send_until_{};        // the piece given out last
   ExplicitPort port_ = ExplicitPort::kConnected;
   bool xid_ = false;
   std::uint32_t id_ = 0;
@@ -87,6 +93,7 @@ class ExplicitClient {
   std::size_t offset_ = 0;    // of the fragment that is sent
   std::uint8_t count_ = 0;    // of that fragment
   std::uint8_t repeats_ = 0;  // of the frame that is unanswered
+  std::uint64_t repeated_ = 0;
   Duration timeout_{};
   ExplicitReceiver receiver_;
   std::size_t furthest_ = 0;  // bytes of a fragmented answer that were together, at most at once

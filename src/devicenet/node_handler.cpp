@@ -122,6 +122,7 @@ void NodeHandler::handleForeignRequest(const CanFrame& frame, Group2 message, In
 
 void NodeHandler::poll(Instant now) noexcept {
   channel_.poll(now);
+  report_.status().counters.repeated = channel_.repeated();
   if (!io_.poll(now)) connect_.handleLoss(io_.lossText(), now, NodeConnect::Loss::kSilent);
   settle(now);
 }

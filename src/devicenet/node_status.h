@@ -31,6 +31,7 @@ struct NodeCounters {
   std::uint64_t empty_inputs = 0;    ///< messages of no bytes: the device lives and has nothing to say
   std::uint64_t missed = 0;          ///< commands without an answer before the next cycle
   std::uint64_t unacknowledged = 0;  ///< change-of-state or cyclic data nobody acknowledged, repeated
+  std::uint64_t repeated = 0;        ///< explicit requests, or fragments of these, that were sent again
   std::uint64_t broken_inputs = 0;   ///< fragmented messages with a gap
   std::uint64_t malformed = 0;       ///< frames of a wrong length or with a value that does not exist
   std::uint64_t superseded = 0;      ///< messages that were not sent whole in their cycle; never sent later

@@ -123,12 +123,12 @@ const std::vector<Act>& devicenetActs() {
       {"queue_full", 2, "queue", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
        [](R& rig, const E&) { busOf(rig).setQueueFull(true); },
        [](R& rig, const E&) { busOf(rig).setQueueFull(false); }},
-      // amount: ms from one frame that finds a place to the next.
+      // amount: ms from one frame that finds a place to the next. Who hears a word now and then goes on.
       {"queue_slow",
        2,
        "queue",
        Place::kBus,
-       Cuts::kAll,
+       Cuts::kNothing,
        kSpan,
        {4, 150},
        kNone,

@@ -9,7 +9,8 @@ using std::chrono::milliseconds;
 namespace {
 
 constexpr Duration kTick = milliseconds{10};
-constexpr Duration kLossShows = milliseconds{500};
+// The longest time-out there is, of an explicit message (500 ms), which begins with a request that may come later.
+constexpr Duration kLossShows = milliseconds{600};
 constexpr Duration kCalm = milliseconds{1000};
 
 }  // namespace

@@ -170,5 +170,82 @@ TEST_F(Doubled, TheNextSetUpIsLookedAtOnceMoreToo) {
   EXPECT_EQ(4, looks) << "the next set-up, and the look at it";
 }
 
+// --- In operation, by guarding ---------------------------------------------------------------------------------------
+
+/// A node that is guarded, in operation, and from then on answers each question twice.
+struct DoubledInOperation : testing::Test {
+  void SetUp() override {
+    ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{1}));
+    run.run(seconds{1});
+    ASSERT_EQ(NodeState::kOperational, run.master.status(0).state);
+  }
+  static MasterConfig guarded() {
+    MasterConfig config = busConfig(1);
+    config.nodes[0].error_control.mode = ErrorControlMode::kGuarding;
+    return config;
+  }
+  /// Of each `every` questions the last has two answers, the second one with the other toggle bit or the same.
+  void answerTwice(bool same, int every = 1) {
+    run.loses = [this, same, every](const CanFrame& frame) {
+      if (frame.id != 0x701 || frame.remote || ++answers % every != 0) return false;
+      CanFrame other = frame;
+      other.data[0] = static_cast<std::uint8_t>(frame.data[0] ^ (same ? 0u : 0x80u));
+      run.master.handleFrame(frame, run.now);
+      run.master.handleFrame(other, run.now);
+      return true;
+    };
+  }
+  DoubledInOperation() : run{guarded()} { run.begin(); }
+
+  MasterRun run;
+  int answers = 0;
+};
+
+TEST_F(DoubledInOperation, IsToldAndLeftRunningToHearWhatStopsIt) {
+  for (const bool same : {false, true}) {
+    answerTwice(same);
+    ASSERT_TRUE(run.runUntil([this] { return run.master.status(0).doubled; }, seconds{1}));
+    EXPECT_EQ(NodeState::kOperational, run.master.status(0).state);
+    EXPECT_STREQ("two nodes answer with this id: is it set twice, by switches or P515?",
+                 run.master.status(0).reason.c_str());
+    run.sent.clear();
+    run.run(milliseconds{3900});
+    EXPECT_EQ(NodeState::kOperational, run.master.status(0).state);
+    EXPECT_GT(std::count(run.sent.begin(), run.sent.end(), "201#7E040000"), 300);
+    EXPECT_THAT(run.sent, testing::Not(testing::Contains("601#4000100000000000")));
+    run.run(milliseconds{200});
+    EXPECT_THAT(run.sent, testing::Contains("601#4000100000000000")) << "looked at from its beginning";
+    run.loses = nullptr;
+    EXPECT_TRUE(run.reaches(NodeState::kOperational, seconds{6}));
+    EXPECT_FALSE(run.master.status(0).doubled);
+  }
+  EXPECT_EQ(2u, run.count(CanopenEventKind::kDoubleId));
+}
+
+// Frames that are received twice now and then, three questions in a row among them, are none of a second node.
+TEST_F(DoubledInOperation, NotForSomeFrames) {
+  answerTwice(true, 2);
+  run.run(seconds{10});
+  EXPECT_FALSE(run.master.status(0).doubled);
+  for (int round = 0; round < 3; ++round) {
+    answerTwice(true);
+    const std::size_t before = run.master.status(0).counters.heartbeats;
+    ASSERT_TRUE(run.runUntil([&] { return run.master.status(0).counters.heartbeats >= before + 6; }, seconds{1}));
+    run.loses = nullptr;
+    run.run(milliseconds{300});
+  }
+  EXPECT_FALSE(run.master.status(0).doubled);
+}
+
+// Another master asks: its answers are none of a second node.
+TEST_F(DoubledInOperation, NotWhereAnotherMasterAsks) {
+  answerTwice(false);
+  for (int i = 0; i < 100; ++i) {
+    run.say("701#R1");
+    run.run(milliseconds{50});
+  }
+  EXPECT_FALSE(run.master.status(0).doubled);
+}
+
 }  // namespace
 }  // namespace nord_driver::canopen

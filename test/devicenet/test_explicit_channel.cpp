@@ -42,6 +42,46 @@ TEST(ExplicitChannel, NotSent) {
   EXPECT_FALSE(channel.pollTransmit(frame, now));
 }
 
+// The time for its answer begins when it has left: a request that waited is not repeated before the device can answer.
+TEST(ExplicitChannel, TheTimeOfARequestThatWaitedBeginsWhenItLeaves) {
+  ExplicitChannel channel{0, 5, milliseconds{100}};
+  Instant now{std::chrono::hours{1}};
+  channel.open();
+  channel.submit(getAttribute(1, 101, 1, 1), now);
+  CanFrame frame;
+  for (int i = 0; i < 9; ++i) {
+    ASSERT_TRUE(channel.pollTransmit(frame, now));
+    channel.notSent(frame);
+    now += milliseconds{10};
+    channel.poll(now);
+  }
+  ASSERT_TRUE(channel.pollTransmit(frame, now));
+  now += milliseconds{99};
+  channel.poll(now);
+  EXPECT_FALSE(channel.pollTransmit(frame, now));
+  now += milliseconds{1};
+  channel.poll(now);
+  EXPECT_TRUE(channel.pollTransmit(frame, now)) << "and is repeated then";
+  EXPECT_FALSE(channel.pollAnswer());
+}
+
+// An acknowledge comes again too, ahead of anything else.
+TEST(ExplicitChannel, AnAcknowledgeThatWasNotSentComesAgain) {
+  ExplicitChannel channel{0, 5, milliseconds{100}};
+  const Instant now{std::chrono::hours{1}};
+  channel.open();
+  channel.submit(getAttribute(1, 101, 1, 1), now);
+  CanFrame frame;
+  ASSERT_TRUE(channel.pollTransmit(frame, now));
+  channel.handle(nord_driver::frame("42B#C0008E"), now);
+  ASSERT_TRUE(channel.pollTransmit(frame, now));
+  EXPECT_EQ("42C#C0C000", text(frame));
+  channel.notSent(frame);
+  ASSERT_TRUE(channel.pollTransmit(frame, now));
+  EXPECT_EQ("42C#C0C000", text(frame));
+  EXPECT_FALSE(channel.pollTransmit(frame, now));
+}
+
 // What a device's format has no room for is answered at once, and holds nobody up.
 TEST(ExplicitChannel, WhatDoesNotFitIsTooLong) {
   ExplicitChannel channel{0, 5, milliseconds{100}};

@@ -138,6 +138,7 @@ TEST_F(ExplicitClientTest, RepeatsOnce) {
   pass(kTimeout);
   EXPECT_EQ("", sent());
   EXPECT_EQ(ExplicitEnd::kTimedOut, client.takeAnswer()->end);
+  EXPECT_EQ(1u, client.repeated());
 }
 
 // An answer that comes just before its question is repeated: the repetition is not sent.

@@ -101,9 +101,11 @@ TEST(Requests, NotConnected) {
 TEST(Requests, TimeOutBesideProcessData) {
   ScannerRun run{busConfig(1)};
   ASSERT_TRUE(run.starts());
+  EXPECT_EQ(0u, run.scanner.status(0).counters.repeated);
   run.devices[0]->deaf_to_explicit = true;
   ASSERT_TRUE(run.scanner.submit(0, getAttribute(1, 101, 1, 1)));
   const auto all = answers(run, seconds{9});
+  EXPECT_GE(run.scanner.status(0).counters.repeated, 1u) << "counted, as whatever is repeated";
   ASSERT_EQ(1u, all.size());
   EXPECT_EQ(ExplicitEnd::kTimedOut, all[0].answer.end);
   EXPECT_TRUE(run.allExchanging());

@@ -13,7 +13,6 @@ NORD_EXPLORE_MEMBER(channelOwnerOf, devicenet::ExplicitChannel, owner_)
 NORD_EXPLORE_MEMBER(channelLastOf, devicenet::ExplicitChannel, last_)
 NORD_EXPLORE_MEMBER(channelOwnOf, devicenet::ExplicitChannel, own_)
 NORD_EXPLORE_MEMBER(channelUsersOf, devicenet::ExplicitChannel, users_)
-NORD_EXPLORE_MEMBER(channelPutBackOf, devicenet::ExplicitChannel, put_back_)
 
 namespace {
 
@@ -130,11 +129,6 @@ class ExplicitChannelEvents {
         .add(channelOwnerOf(channel))
         .add(channelLastOf(channel))
         .add(channelOwnOf(channel).has_value());
-    key.add(channelPutBackOf(channel).has_value());
-    if (channelPutBackOf(channel)) {
-      const bool xid = (channelPutBackOf(channel)->data[0] & 0x40u) != 0;
-      key.add(xid == explicitXidOf(channelClientOf(channel)));
-    }
     key.add(static_cast<std::uint8_t>(channelUsersOf(channel).size()));
     key.add(world.users).add(world.own).add(world.user_waits).add(world.own_waits).add(world.turns);
   }

@@ -7,10 +7,11 @@ namespace nord_driver {
 // CAN repeats frames and checks them in the controller, which tells neither: there are no checksum errors here.
 BusCounters devicenetCounters(const devicenet::Scanner& scanner, const link::CanCounters& line) noexcept {
   const devicenet::Counters& from = scanner.counters();
-  std::uint64_t missed = 0, unacknowledged = 0, broken = 0, losses = 0, empty = 0, reopened = 0;
+  std::uint64_t missed = 0, repeated = 0, unacknowledged = 0, broken = 0, losses = 0, empty = 0, reopened = 0;
   for (std::size_t i = 0; i < scanner.nodeCount(); ++i) {
     const devicenet::NodeCounters& node = scanner.status(i).counters;
     missed += node.missed;
+    repeated += node.repeated;
     unacknowledged += node.unacknowledged;
     broken += node.broken_inputs;
     losses += node.losses;
@@ -22,7 +23,7 @@ BusCounters devicenetCounters(const devicenet::Scanner& scanner, const link::Can
   to.add(bus_counter::kCycles, from.cycles);
   to.add(bus_counter::kTelegramsSent, from.frames_sent);
   to.add(bus_counter::kTelegramsReceived, from.frames_received);
-  to.add(bus_counter::kRetries, unacknowledged);
+  to.add(bus_counter::kRetries, unacknowledged + repeated);
   to.add(bus_counter::kTimeouts, from.request_timeouts + missed);
   to.add({"explicit_timeouts", "explicit requests without an answer in time"}, from.request_timeouts);
   to.add({"missed_answers", "polls without an answer before the next cycle"}, missed);
