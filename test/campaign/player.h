@@ -62,6 +62,11 @@ class Player {
     std::string act;
   };
 
+  /// The first drive is not heard, as far as this act goes; a twin stands beside it and hides nothing.
+  static bool hidesTheFirst(const Active& active) {
+    const bool first = active.act->cuts == Cuts::kAll || active.event.drive == 0;
+    return first && active.act->cuts != Cuts::kNothing && active.event.act != "twin";
+  }
   Instant now() { return rig_->robot().transport().now(); }
   unsigned sinceStart() { return static_cast<unsigned>(toSeconds(now() - start_) * 1000.0 + 0.5); }
   bool goesOn() const { return !outcome_.violation; }
@@ -134,7 +139,8 @@ class Player {
   std::uint32_t next_id_ = 1;
   std::vector<Client> clients_;
   std::vector<Loss> losses_;
-  std::uint32_t dice_ = 1;  // for what clients ask
+  std::optional<Instant> first_hidden_at_;  // last
+  std::uint32_t dice_ = 1;                  // for what clients ask
   // The newest commands.
   struct Command {
     Instant until{};  // renewed until then

@@ -10,6 +10,13 @@ using cycle::RequestKind;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
+namespace {
+
+// Five questions of guarding (100 ms), and the stop words that follow.
+constexpr Duration kToldApart = seconds{1};
+
+}  // namespace
+
 Duration Player::byWords() {
   return 3 * rig_->robot().config().period() + rig_->wireLatency();
 }
@@ -48,8 +55,11 @@ void Player::seeTruth() {
     truth.along = unit.config().inverted ? -truth.frequency : truth.frequency;
   }
   if (const sim::DriveUnit* const twin = rig_->twin()) {
-    moment_.twin_enabled =
-        twin->inverter().state() == sim::InverterState::kOperationEnabled && twin->inverter().busControl();
+    if (std::any_of(active_.begin(), active_.end(), hidesTheFirst)) first_hidden_at_ = now();
+    // Heard alone it cannot be told from the drive that it stands in for.
+    const bool told_apart = !first_hidden_at_ || now() - *first_hidden_at_ > kToldApart;
+    moment_.twin_enabled = told_apart && twin->inverter().state() == sim::InverterState::kOperationEnabled &&
+                           twin->inverter().busControl();
     moment_.twin_position.reset();
     if (twin->plugged()) moment_.twin_position = twin->position() / kRevolutionsPerRadian;
   }
