@@ -301,7 +301,7 @@ void NodeConnect::handleSign(Instant now) noexcept {
 }
 
 Duration NodeConnect::retryPause() const noexcept {
-  const unsigned doublings = std::min(failures_ > 0 ? failures_ - 1 : 0u, kMostDoublings);
+  const unsigned doublings = std::min(failures_ - 1, kMostDoublings);
   return std::min(bus_.longest_retry, bus_.first_retry * (1 << doublings));
 }
 

@@ -18,7 +18,7 @@ using testing::Not;
 /// Nodes in operation, and a link that takes `room` frames a cycle.
 class FullQueue : public ::testing::Test {
  protected:
-  void start(MasterConfig config) {
+  void start(const MasterConfig& config) {
     run_ = std::make_unique<MasterRun>(config);
     run_->begin();
     ASSERT_TRUE(run_->runUntil([this] { return run_->allOperational(); }, seconds{2}));
@@ -61,7 +61,7 @@ TEST_F(FullQueue, EachPdoOfANodeGetsItsTurn) {
   config.nodes[0].receive_pdos.push_back(second);
   ASSERT_NO_FATAL_FAILURE(start(config));
   run_->before_cycle = [](Master& master) {
-    for (const std::size_t pdo : {0, 1}) master.setReceivePdo(0, pdo, fromHex("7E 04 00 00"));
+    for (const std::size_t pdo : {std::size_t{0}, std::size_t{1}}) master.setReceivePdo(0, pdo, fromHex("7E 04 00 00"));
   };
   EXPECT_THAT(cycle(1), ElementsAre("201#7E040000"));
   EXPECT_THAT(cycle(1), ElementsAre("301#7E040000"));

@@ -132,6 +132,27 @@ TEST(PdoConfigurator, MissingTimes) {
   }
 }
 
+TEST(PdoConfigurator, NamesWhichOfItsObjectsWasRefused) {
+  const std::pair<std::uint8_t, const char*> named[] = {{2, "transmission type of TPDO 1 (1800h:2)"},
+                                                        {3, "inhibit time of TPDO 1 (1800h:3)"},
+                                                        {5, "event timer of TPDO 1 (1800h:5)"}};
+  for (const auto& [sub_index, text] : named) {
+    for (const bool missing : {true, false}) {
+      MasterConfig config = bareConfig();
+      config.nodes[0].transmit_pdos = {pdo(1, 0x181, {})};
+      config.nodes[0].transmit_pdos[0].transmission_type = 1;
+      config.nodes[0].transmit_pdos[0].inhibit_time = std::uint16_t{20};
+      config.nodes[0].transmit_pdos[0].event_timer = std::uint16_t{10};
+      MasterRun run{config};
+      if (missing) run.nodes[0]->remove(0x1800, sub_index);
+      if (!missing) run.nodes[0]->object(0x1800, sub_index).read_only = true;
+      run.begin();
+      ASSERT_TRUE(run.reaches(NodeState::kRefused, seconds{1})) << text;
+      EXPECT_THAT(run.master.status(0).reason.str(), HasSubstr(text)) << missing;
+    }
+  }
+}
+
 // Whatever a device holds and whatever is wanted: the referee sees the order kept, the device ends as wanted, a second
 // start-up writes nothing.
 RC_GTEST_PROP(PdoConfiguratorProperty, EndsAsWantedInTheRightOrder, ()) {

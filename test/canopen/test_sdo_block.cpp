@@ -272,6 +272,16 @@ TEST_F(SdoBlockDownload, AnswersAgainstTheRules) {
   expectAborted(SdoEnd::kAbortedByUs, 0x05040002);
 }
 
+// The answer to a plain download is none to this one: it is waited on for.
+TEST_F(SdoBlockDownload, APlainAnswerIsStale) {
+  write(0x2FFF, 0, kName, true);
+  exchange("C6 FF 2F 00 14 00 00 00", "60 FF 2F 00 00 00 00 00");
+  EXPECT_EQ(1u, client.counters().stale);
+  EXPECT_EQ("", sent());
+  answer("A4 FF 2F 00 02 00 00 00");
+  EXPECT_EQ("01 4E 4F 52 44 20 53 4B", sent());
+}
+
 TEST_F(SdoBlockDownload, GivesUpWhenTheServerTakesNothing) {
   begin();
   for (int block = 0; block < 4; ++block) {

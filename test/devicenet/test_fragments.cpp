@@ -130,7 +130,11 @@ TEST(IoFragments, OverTheBus) {
   };
   run.devices[0]->input = Bytes(33, 0xAA);
   const auto inputs = run.scanner.status(0).counters.inputs;
+  const auto outputs = run.scanner.status(0).counters.outputs;
+  const auto cycles = run.scanner.counters().cycles;
   run.run(std::chrono::milliseconds{30});
+  EXPECT_EQ(outputs + 3, run.scanner.status(0).counters.outputs) << "messages, not fragments";
+  EXPECT_EQ(cycles + 3, run.scanner.counters().cycles);
   EXPECT_TRUE(lost);
   EXPECT_EQ(2u, run.scanner.status(0).counters.broken_inputs) << "the gap, and the last fragment behind it";
   EXPECT_EQ(inputs + 2, run.scanner.status(0).counters.inputs);

@@ -117,7 +117,9 @@ TEST(ProcessData, ABitStrobeThatWasNotSentIsCountedBack) {
   ASSERT_TRUE(run.scanner.pollTransmit(frame));
   ASSERT_EQ(0x400u, frame.id);
   EXPECT_EQ(strobes + 1, run.scanner.counters().strobes);
+  const std::uint64_t sent = run.scanner.counters().frames_sent;
   run.scanner.notSent();
+  EXPECT_EQ(sent - 1, run.scanner.counters().frames_sent);
   EXPECT_EQ(strobes, run.scanner.counters().strobes);
   EXPECT_EQ(superseded + 1, run.scanner.counters().superseded);
 }

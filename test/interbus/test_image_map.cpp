@@ -314,6 +314,8 @@ TEST(ImageMap, APlaceOutsideTheRingIsRefused) {
             refusal(settings({drive("left", 0)})));
   EXPECT_EQ("drives/left/address: 255, expected a position in the ring from 1 to 254",
             refusal(settings({drive("left", 255)})));
+  std::string reason;
+  for (const unsigned position : {1u, 254u}) EXPECT_TRUE(ImageMap::make(settings({drive("left", position)}), reason));
 }
 
 TEST(ImageMap, NoDriveIsRefused) {

@@ -188,6 +188,23 @@ TEST(Exchange, IgnoresEverythingThatIsNotTheAnswer) {
   }
 }
 
+// An answer with access points has both of them turned round.
+TEST(Exchange, IgnoresADiagnosisOfAnotherAccessPoint) {
+  for (const char* telegram : {"68 0B 0B 68 81 88 08 3E 3D 02 05 00 FF 75 31 38 16",   // to 62, from 61
+                               "68 0B 0B 68 81 88 08 3D 3C 02 05 00 FF 75 31 36 16"})  // to 61, from 60
+  {
+    NordWire wire;
+    wire.isFound();
+    wire.startCycle();
+    wire.sends(kDiag6D);
+    wire.receives(telegram);
+    EXPECT_FALSE(wire.master.cycleDone()) << telegram;
+    EXPECT_EQ(1u, wire.master.counters().unexpected) << telegram;
+    wire.receives(kWantsPrm);
+    wire.cycleEnds();
+  }
+}
+
 // Set_Prm and Chk_Cfg are answered by SC (or by OK without data), never with data.
 TEST(Exchange, TakesNoDataForAnAcknowledge) {
   NordWire wire;

@@ -279,6 +279,21 @@ TEST(GsdFile, ReferencesThatCannotBeFollowedAreNamed) {
   EXPECT_EQ("01", toHex(file.user_parameters));
 }
 
+// The least and the most of each type fit.
+TEST(GsdFile, DefaultsAtTheEndOfTheirType) {
+  for (const char* type : {"Unsigned8 255 0-255", "Unsigned8 0 0-255", "Signed8 127 -128-127", "Signed8 -128 -128-127",
+                           "Unsigned16 65535 0-65535", "Signed16 -32768 -32768-32767"}) {
+    EXPECT_EQ("", problems(parseGsd("#Profibus_DP\nIdent_Number=1\nExtUserPrmData=1 \"a\"\n" + std::string(type) +
+                                    "\nEndExtUserPrmData\n")))
+        << type;
+  }
+  for (const char* type : {"Unsigned8 256 0-256", "Signed8 128 0-128", "Signed8 -129 -129-0"}) {
+    EXPECT_NE("", problems(parseGsd("#Profibus_DP\nIdent_Number=1\nExtUserPrmData=1 \"a\"\n" + std::string(type) +
+                                    "\nEndExtUserPrmData\n")))
+        << type;
+  }
+}
+
 // As editors on Windows save it: three bytes before the text.
 TEST(GsdFile, AByteOrderMarkIsNoPartOfTheText) {
   const GsdFile file = parseGsd("\xEF\xBB\xBF#Profibus_DP\r\nIdent_Number=0x7531\r\n");

@@ -82,6 +82,29 @@ TEST(CanopenFrameTextTest, SdoAccessesNameTheirObject) {
   EXPECT_NE(std::string::npos, textOf(0x5B2, {0x80, 0x66, 0x20, 0x05, 0x11, 0, 0x09, 0x06}).find("abort 2066h:5"));
 }
 
+TEST(CanopenFrameTextTest, LongTransfersAreToldAsSuch) {
+  EXPECT_EQ("SDO 50 write 2066h:1 in segments", textOf(0x632, {0x21, 0x66, 0x20, 0x01, 9, 0, 0, 0}));
+  EXPECT_EQ("SDO 50 answer 2066h:1 in segments", textOf(0x5B2, {0x41, 0x66, 0x20, 0x01, 9, 0, 0, 0}));
+  EXPECT_EQ("SDO 50 answer 2066h:1 = 04030201h", textOf(0x5B2, {0x42, 0x66, 0x20, 0x01, 1, 2, 3, 4}))
+      << "no size is told";
+  EXPECT_EQ("SDO 50 segment", textOf(0x632, {0x00, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ("SDO 50 segment", textOf(0x632, {0x60, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ("SDO 50 segment", textOf(0x5B2, {0x00, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ("SDO 50 segment", textOf(0x5B2, {0x20, 1, 2, 3, 4, 5, 6, 7}));
+}
+
+// What a length forbids to read is not read.
+TEST(CanopenFrameTextTest, WrongLengthsAreNamed) {
+  const FixedBytes<3> three{1, 2, 3};
+  const auto said = [&three](std::uint32_t id) { return textOf(dataFrame(id, ByteView{three})); };
+  EXPECT_EQ("NMT of a wrong length", said(0x000));
+  EXPECT_EQ("EMCY of a wrong length", said(0x0B2));
+  EXPECT_EQ("error control of a wrong length, 50", said(0x732));
+  EXPECT_EQ("SDO 50 of a wrong length", said(0x632));
+  EXPECT_EQ("of no node of ours", said(0x700)) << "there is no node 0";
+  EXPECT_EQ("no frame", CanopenFrameText{config()}(TraceRecord{}));
+}
+
 TEST(CanopenFrameTextTest, WhatIsNotOursIsSaidToBeSo) {
   EXPECT_EQ("of no node of ours", textOf(0x1B9, {1, 2}));
   EXPECT_EQ("remote frame", textOf(remoteFrame(0x1B2, 4)));

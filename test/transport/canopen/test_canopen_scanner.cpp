@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <memory>
+#include <utility>
 
 #include "sim/canopen/can_config.h"
 #include "sim/canopen/simulated_can_bus.h"
@@ -103,6 +105,42 @@ TEST(CanopenScanner, EndsWhenAsked) {
   const std::atomic<bool> asked{true};
   EXPECT_EQ("ended before anybody was asked", scan(seen, {}, asked).trouble);
   EXPECT_THAT(seen.sent, IsEmpty());
+}
+
+/// What a scan says of an interface that `change` was done to before it is opened, or when the first frame leaves.
+std::string troubleWith(const std::function<void(sim::SimulatedCanBus&)>& change, bool at_first_frame) {
+  CanopenTransport transport{[&](const link::CanSettings&) {
+    auto bus = std::make_unique<sim::SimulatedCanBus>(twoNodes(250'000));
+    if (!at_first_frame) {
+      change(*bus);
+      return bus;
+    }
+    bus->setTap(
+        [&change, seen = false, to = bus.get()](const CanFrame&, sim::SimulatedCanBus::Sender sender, Instant) mutable {
+          if (sender == sim::SimulatedCanBus::Sender::kMaster && !std::exchange(seen, true)) change(*to);
+        });
+    return bus;
+  }};
+  return transport.scan(MapSettings{"~bus/", {{"interface", std::string{"can0"}}, {"bit_rate", 250'000}}}, kNotAsked)
+      .trouble;
+}
+
+TEST(CanopenScanner, SaysWhatIsWrongWithTheInterface) {
+  for (const bool later : {false, true}) {
+    EXPECT_THAT(troubleWith([](auto& bus) { bus.setInterfacePresent(false); }, later), HasSubstr("interface")) << later;
+  }
+  EXPECT_THAT(troubleWith([](auto& bus) { bus.setInterfaceUp(false); }, false), HasSubstr("the interface is down"));
+  EXPECT_THAT(troubleWith([](auto& bus) { bus.setBusOff(); }, false), HasSubstr("bus-off"));
+}
+
+// A queue that takes a frame now and then makes a scan longer, not poorer.
+TEST(CanopenScanner, WaitsForAQueueThatIsFull) {
+  EXPECT_THAT(troubleWith([](auto& bus) { bus.setQueuePace(std::chrono::milliseconds{3}); }, false), IsEmpty());
+}
+
+TEST(CanopenScanner, EndsWhenAnotherMasterBegins) {
+  const auto begin = [](auto& bus) { bus.inject(dataFrame(0x205, FixedBytes<2>{0x7E, 0x04})); };
+  EXPECT_EQ("another master began to work with the bus: 205h was seen; ended", troubleWith(begin, true));
 }
 
 }  // namespace

@@ -222,6 +222,19 @@ TEST(DevicenetConfigTest, ASeriesSitsWhereItCan) {
   EXPECT_EQ("accepted", bus.refusal());
   bus.drive().set("inverter", 2).set("assembly", 102);
   EXPECT_THAT(bus.refusal(), HasSubstr("SK TU1/2/3-DEV has one inverter"));
+  bus.drive().set("module", "sk_cu4");
+  EXPECT_THAT(bus.refusal(), HasSubstr("expected sk_tu1, sk_tu2 or sk_tu3: this series is only behind SK TU1/2/3-DEV"));
+}
+
+TEST(DevicenetConfigTest, AMacIdIsSharedBehindOneGatewayOnly) {
+  Bus bus{2};
+  bus.drive(0).set("series", "sk700e");
+  bus.drive(1).set("address", 5);
+  EXPECT_EQ(
+      "~drives/drive1/address: 5 is not valid, expected another MAC id than drive \"drive0\" has; only inverters "
+      "behind "
+      "one gateway share theirs",
+      bus.refusal());
 }
 
 TEST(DevicenetConfigTest, AnExpectedPacketRateTooShortForTheCycleIsRefused) {

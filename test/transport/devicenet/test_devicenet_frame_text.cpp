@@ -65,6 +65,34 @@ TEST(DevicenetFrameTextTest, TheDuplicateMacCheckIsTold) {
   EXPECT_EQ("MAC id 5 is taken, vendor 389 serial 00000001", textOf("42F#80850101000000"));
 }
 
+TEST(DevicenetFrameTextTest, EachChoiceOfAConnectionHasItsName) {
+  EXPECT_EQ("explicit 9 allocate multicast poll, change of state, cyclic, no acknowledges for MAC id 10",
+            textOf("44E#0A4B0301780A"));
+  EXPECT_EQ("explicit 9 release nothing", textOf("44E#0A4C030100"));
+  EXPECT_EQ("explicit 9 released", textOf("44B#0ACC"));
+}
+
+TEST(DevicenetFrameTextTest, WhatIsTooShortIsNotRead) {
+  EXPECT_EQ("explicit 9 too short", textOf("44C#0A"));
+  EXPECT_EQ("explicit 9 too short", textOf("44C#0A0E"));
+  EXPECT_EQ("explicit 9 service 75 class 3 instance 1", textOf("44E#0A4B0301"));
+  EXPECT_EQ("explicit 9 service 76 class 3 instance 1", textOf("44E#0A4C0301"));
+  EXPECT_EQ("explicit 9 read class 3 instance 1", textOf("44E#0A0E0301"));
+  EXPECT_EQ("explicit 9 answer 14h", textOf("44B#0A9414")) << "an error has two codes";
+  EXPECT_EQ("explicit 9 answer", textOf("44B#0A8E"));
+  EXPECT_EQ("duplicate-MAC message of a wrong length, 5", textOf("42F#8085"));
+  EXPECT_EQ("no frame", DevicenetFrameText{config()}(TraceRecord{}));
+}
+
+TEST(DevicenetFrameTextTest, OtherKindsOfMessagesAreNamed) {
+  EXPECT_EQ("strobe by MAC id 1", textOf("408#0000000000000000"));
+  EXPECT_EQ("multicast poll 1", textOf("409#00"));
+  EXPECT_EQ("strobe answer 9 ZSW 0B37 IW1 2000", textOf("389#00370B0020"));
+  EXPECT_EQ("explicit 9 fragment, the only one", textOf("44B#8A3F00"));
+  EXPECT_EQ("explicit 9 fragment 2, acknowledge", textOf("44B#8AC200"));
+  EXPECT_EQ("explicit 9 service 5 class 1 instance 1", textOf("44C#0A050101"));
+}
+
 TEST(DevicenetFrameTextTest, WhatIsNotOursIsSaidToBeSo) {
   EXPECT_EQ("poll 20 of no device of ours", textOf("4A5#00"));
   EXPECT_EQ("group 3 message 6: of no device of ours", textOf("785#00"));

@@ -275,7 +275,10 @@ TEST(InterbusConfig, PcpThatCannotBeIsRefused) {
           "~bus/pcp/invoke/address: 95 is not valid, expected registers outside the output image, which takes 100 "));
   EXPECT_THAT(refusal([](auto& s) { s.bus.set("pcp/invoke/address", 294); }), HasSubstr("that of the watchdog, 300"));
   EXPECT_THAT(refusal([](auto& s) { s.bus.set("pcp/result/address", 506); }), HasSubstr("outside the invoke block"));
-  EXPECT_THAT(refusal([](auto& s) { s.bus.set("pcp/result/address", 65530); }), HasSubstr("register 65535 at most"));
+  for (const char* key : {"pcp/invoke/address", "pcp/result/address"}) {
+    EXPECT_EQ("~bus/" + std::string(key) + ": 65530 is not valid, expected a block that ends at register 65535 at most",
+              refusal([key](auto& s) { s.bus.set(key, 65530); }));
+  }
   EXPECT_EQ("~bus/pcp/invoke/data: 3 lies in sub_index, expected a word of its own",
             refusal([](auto& s) { s.bus.set("pcp/invoke/data", 3); }));
   EXPECT_THAT(refusal([](auto& s) { s.bus.set("pcp/result/function", 16); }), StartsWith("~bus/pcp/result/function"));
