@@ -16,14 +16,6 @@ MasterConfig checked(const MasterConfig& config) {
 
 constexpr std::uint8_t kToggle = 0x80;
 
-bool isNmtCommand(const CanFrame& frame) noexcept {
-  constexpr std::array<NmtCommand, 5> kCommands{NmtCommand::kStart, NmtCommand::kStop, NmtCommand::kEnterPreOperational,
-                                                NmtCommand::kResetNode, NmtCommand::kResetCommunication};
-  bool known = false;
-  for (const NmtCommand command : kCommands) known = known || frame.data[0] == static_cast<std::uint8_t>(command);
-  return !frame.remote && frame.size == 2 && known && frame.data[1] <= kMaxNodeId;
-}
-
 std::size_t receivePdosOf(const MasterConfig& config) {
   std::size_t count = 0;
   for (const NodeConfig& node : config.nodes) count += node.receive_pdos.size();

@@ -72,4 +72,12 @@ CanFrame nmtFrame(NmtCommand command, std::uint8_t node) noexcept {
   return dataFrame(kNmtCobId, std::array<std::uint8_t, 2>{static_cast<std::uint8_t>(command), node});
 }
 
+bool isNmtCommand(const CanFrame& frame) noexcept {
+  constexpr std::array<NmtCommand, 5> kCommands{NmtCommand::kStart, NmtCommand::kStop, NmtCommand::kEnterPreOperational,
+                                                NmtCommand::kResetNode, NmtCommand::kResetCommunication};
+  bool known = false;
+  for (const NmtCommand command : kCommands) known = known || frame.data[0] == static_cast<std::uint8_t>(command);
+  return !frame.remote && frame.size == 2 && known && frame.data[1] <= kMaxNodeId;
+}
+
 }  // namespace nord_driver::canopen

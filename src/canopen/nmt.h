@@ -42,5 +42,7 @@ NmtState stateAfter(NmtCommand command) noexcept;
 
 /// 000#<command><node>; `node` 0 means all of them.
 CanFrame nmtFrame(NmtCommand command, std::uint8_t node) noexcept;
+/// Of a frame with that identifier: two bytes, a command that exists, and a node, or 0, that may exist.
+bool isNmtCommand(const CanFrame& frame) noexcept;
 
 }  // namespace nord_driver::canopen

@@ -49,7 +49,7 @@ std::optional<std::string> AnswersAreTrue::look(const Moment& moment) {
   rested_at_.resize(moment.drives.size(), Instant{});
   for (std::size_t i = 0; i < moment.drives.size(); ++i) {
     const DriveTruth& drive = moment.drives[i];
-    if (drive.turnsByBus()) enabled_at_[i] = moment.now;
+    if (drive.turnsByBus() || (i == 0 && moment.stand_in_enabled)) enabled_at_[i] = moment.now;
     if (std::fabs(drive.frequency) < kAtRest) rested_at_[i] = moment.now;
   }
   for (const cycle::Completion& answer : moment.answers) {

@@ -83,6 +83,8 @@ struct Moment {
   Duration told_within{};      ///< how old what the driver tells of a drive that answers may be, as things are
   /// One that stands at the address of a drive, and of which nobody knows, is "operation enabled" by the bus.
   bool twin_enabled = false;
+  /// The same, where nothing was heard of the first drive itself: what is said of it is said of this one.
+  bool stand_in_enabled = false;
   /// Where it is, rad: while it stands there, it answers in the name of the first drive.
   std::optional<double> twin_position;
   const cycle::CycleSnapshot* snapshot = nullptr;

@@ -58,8 +58,10 @@ void Player::seeTruth() {
     if (std::any_of(active_.begin(), active_.end(), hidesTheFirst)) first_hidden_at_ = now();
     // Heard alone it cannot be told from the drive that it stands in for.
     const bool told_apart = !first_hidden_at_ || now() - *first_hidden_at_ > kToldApart;
-    moment_.twin_enabled = told_apart && twin->inverter().state() == sim::InverterState::kOperationEnabled &&
-                           twin->inverter().busControl();
+    const bool enabled =
+        twin->inverter().state() == sim::InverterState::kOperationEnabled && twin->inverter().busControl();
+    moment_.twin_enabled = enabled && told_apart;
+    moment_.stand_in_enabled = enabled && !told_apart;
     moment_.twin_position.reset();
     if (twin->plugged()) moment_.twin_position = twin->position() / kRevolutionsPerRadian;
   }

@@ -48,6 +48,8 @@ class CanScanLine {
 
   Instant now() const noexcept { return link_.now(); }
   bool endAsked() const noexcept { return end_asked_; }
+  /// False: the interface is gone, and the scan with it.
+  bool isOpen() const noexcept { return link_.isOpen(); }
   /// What the interface has to say of itself: it is gone, or nobody acknowledges. Empty: nothing.
   std::string trouble() const;
 

@@ -188,7 +188,7 @@ ScanReport scanCanopen(const Settings& bus,
     report.stations.push_back(node.station());
     if (!node.answered()) report.stations.back().module = "does not answer SDO";
   }
-  if (report.trouble.empty() && report.stations.empty()) report.trouble = line.trouble();
+  if (report.trouble.empty() && (report.stations.empty() || !line.isOpen())) report.trouble = line.trouble();
   return report;
 }
 
