@@ -93,5 +93,24 @@ TEST(DevicenetScanner, SendsNothingBesideAnotherScanner) {
   EXPECT_THAT(sent, IsEmpty());
 }
 
+// Before it is opened, and when the first answer of a module has come.
+TEST(DevicenetScanner, SaysThatTheInterfaceIsGone) {
+  for (const bool later : {false, true}) {
+    DeviceNetTransport transport{[later](const link::CanSettings&) {
+      auto bus = std::make_unique<sim::SimulatedDnBus>(twoModules());
+      if (!later) bus->setInterfacePresent(false);
+      bus->setTap([later, to = bus.get()](const CanFrame& frame, sim::SimulatedDnBus::Sender sender, Instant) {
+        const auto id = devicenet::readIdentifier(frame.id);
+        const bool answer = sender == sim::SimulatedDnBus::Sender::kNode && id && id->group == 2 &&
+                            static_cast<Group2>(id->message) == Group2::kSlaveExplicit;
+        if (later && answer) to->setInterfacePresent(false);
+      });
+      return bus;
+    }};
+    const ScanReport report = transport.scan(MapSettings{"~bus/", {{"interface", std::string{"can0"}}}}, kNotAsked);
+    EXPECT_THAT(report.trouble, HasSubstr("interface")) << later;
+  }
+}
+
 }  // namespace
 }  // namespace nord_driver
