@@ -27,6 +27,10 @@ class CanopenRig final : public CampaignRig {
     using Rule = sim::CanRule;
     const sim::CanReferee& referee = robot_.bus().referee();
     if (undisturbed) return referee.report();
+    if (led_away_unheard_) {
+      return referee.report({Rule::kZeroControlWord, Rule::kUnknownId, Rule::kSdoWhilePending, Rule::kMappingOrder,
+                             Rule::kRpdoBeforeOperational});
+    }
     return referee.report({Rule::kZeroControlWord, Rule::kUnknownId, Rule::kSdoWhilePending, Rule::kMappingOrder});
   }
   void passWithoutTheDriver(Duration span) override { robot_.bus().run(span); }
@@ -50,6 +54,12 @@ class CanopenRig final : public CampaignRig {
     if (robot_.node(0).module() != nullptr)
       unwatched_until_ = robot_.transport().now() + 2 * (kOneAccess + kKeptFromIt);
   }
+  /// Another master commands the nodes, which this driver may be unable to hear: it then tells them what stops first.
+  void nodesLedAway() {
+    const link::CanState state = bus().state();
+    led_away_unheard_ =
+        led_away_unheard_ || !bus().isOpen() || state == link::CanState::kBusOff || state == link::CanState::kDown;
+  }
   Duration wireLatency() const override { return std::chrono::milliseconds{10}; }
   // And the life time (300 ms) until a loss is seen, a question that nobody answers with its repetitions, and the longest
   // pause after a set-up that was refused (NodeBoot, 4 s; after a silence it is 1 s).
@@ -65,6 +75,7 @@ class CanopenRig final : public CampaignRig {
 
   mutable CanRobot robot_;
   bool has_twin_;
+  bool led_away_unheard_ = false;
   Instant unwatched_until_{};
 };
 
@@ -88,6 +99,7 @@ void disturb(CampaignRig& rig, const Event& event) {
 void sayNmt(CampaignRig& rig, const Event& event) {
   constexpr std::uint8_t kCommands[] = {0x01, 0x02, 0x80, 0x81, 0x82};
   const std::uint8_t data[] = {kCommands[event.amount], 0};
+  static_cast<CanopenRig&>(rig).nodesLedAway();
   if (kCommands[event.amount] == 0x81) static_cast<CanopenRig&>(rig).nodeReset();
   busOf(rig).inject(dataFrame(0x000, ByteView{data, 2}));
 }
