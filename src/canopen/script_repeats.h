@@ -14,7 +14,11 @@ class ScriptRepeats {
   void forgetSurplus() noexcept { surplus_ = false; }
   /// Answers were missing: the node may have begun anew meanwhile, and its boot-up been lost, too. On a line on which each
   /// run has some it is started all the same.
-  bool forMissed() noexcept { return missed_ < kMostForMissed && ++missed_ > 0; }
+  bool forMissed() noexcept {
+    if (missed_ == kMostForMissed) return false;
+    ++missed_;
+    return true;
+  }
   /// It was started, and does not say that it is operational, perhaps for the same reason. Once.
   bool forStart() noexcept { return !std::exchange(started_, true); }
   bool started() const noexcept { return started_; }

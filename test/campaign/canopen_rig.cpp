@@ -27,11 +27,9 @@ class CanopenRig final : public CampaignRig {
     using Rule = sim::CanRule;
     const sim::CanReferee& referee = robot_.bus().referee();
     if (undisturbed) return referee.report();
-    if (led_away_unheard_) {
-      return referee.report({Rule::kZeroControlWord, Rule::kUnknownId, Rule::kSdoWhilePending, Rule::kMappingOrder,
-                             Rule::kRpdoBeforeOperational});
-    }
-    return referee.report({Rule::kZeroControlWord, Rule::kUnknownId, Rule::kSdoWhilePending, Rule::kMappingOrder});
+    const Rule led_away = led_away_unheard_ ? Rule::kRpdoBeforeOperational : Rule::kCount;  // the latter is none
+    return referee.report(
+        {Rule::kZeroControlWord, Rule::kUnknownId, Rule::kSdoWhilePending, Rule::kMappingOrder, led_away});
   }
   void passWithoutTheDriver(Duration span) override { robot_.bus().run(span); }
   void endLosses() override {

@@ -92,15 +92,16 @@ void CanopenTransport::putOutputs(const std::vector<profile::ProcessOutput>& out
 
 // Words that stop, as long as the drive layer gives any; never an old one.
 void CanopenTransport::commandUnheardNodes() noexcept {
-  const std::size_t first = next_unheard_;
+  std::optional<std::size_t> first_untold;
   for (std::size_t k = 0; k < drives_.size(); ++k) {
-    const std::size_t i = (first + k) % drives_.size();
+    const std::size_t i = (first_unheard_ + k) % drives_.size();
     const auto frame = drives_[i].unheardCommand(*master_);
     if (!frame || sendNow(*frame)) continue;
-    // A full queue that takes one frame at a time must not take that of the same drive each time.
-    if (next_unheard_ == first) next_unheard_ = i;
+    if (!first_untold) first_untold = i;
     master_->handleUntold(config_.drives[i].node);
   }
+  // A full queue that takes one frame at a time must not take that of the same drive each time.
+  first_unheard_ = first_untold.value_or(first_unheard_);
 }
 
 void CanopenTransport::takeInputs(Instant now, std::vector<DriveExchange>& inputs) noexcept {

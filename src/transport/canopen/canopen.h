@@ -64,7 +64,7 @@ class CanopenTransport final : public CanTransport, public BusScanner {
   std::optional<canopen::Master> master_;
   std::vector<CanopenDriveState> drives_;
   std::vector<std::uint64_t> answered_;  // TPDOs of each drive when the cycle began
-  std::size_t next_unheard_ = 0;         // the drive whose stop word found no place last
+  std::size_t first_unheard_ = 0;        // of the drives that fell silent the first to get its stop word
   ResultTurns result_turns_;
 };
 

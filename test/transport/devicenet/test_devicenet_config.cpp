@@ -232,8 +232,7 @@ TEST(DevicenetConfigTest, AMacIdIsSharedBehindOneGatewayOnly) {
   bus.drive(1).set("address", 5);
   EXPECT_EQ(
       "~drives/drive1/address: 5 is not valid, expected another MAC id than drive \"drive0\" has; only inverters "
-      "behind "
-      "one gateway share theirs",
+      "behind one gateway share theirs",
       bus.refusal());
 }
 
