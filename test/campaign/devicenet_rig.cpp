@@ -91,6 +91,11 @@ bool mayBeAsked(CampaignRig& rig, const Event& event) {
   return module.phase() == sim::DnModule::Phase::kOnline;
 }
 
+// What is said once may be lost: then the module goes on as if nobody had its id.
+bool mayBeTold(CampaignRig& rig, const Event&) {
+  return busOf(rig).disturbance().lose == 0.0;
+}
+
 const std::vector<Act>& devicenetActs() {
   using R = CampaignRig;
   using E = Event;
@@ -163,7 +168,7 @@ const std::vector<Act>& devicenetActs() {
       // He has the id of the module, which is off until its supply has been.
       {"mac_taken", 2, "power", Place::kStation, Cuts::kStation, kSpan, kNone, kNone,
        [](R& rig, const E& event) { checkMac(rig, macOf(rig, event), true); },
-       [](R& rig, const E& event) { changeWithoutSupply(rig, event, [] {}); }},
+       [](R& rig, const E& event) { changeWithoutSupply(rig, event, [] {}); }, false, true, mayBeTold},
       {"foreign_master", 4, "foreign", Place::kBus, Cuts::kNothing, kOnce, {0, 5}, {0, 3}, sayForeign, nullptr},
   };
   return acts;

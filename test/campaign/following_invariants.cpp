@@ -14,6 +14,14 @@ constexpr double kPoseRounding = 1e-6;  // m and rad, of one cycle
 constexpr double kFullHertz = 50.0;     // at full_wheel_speed
 constexpr unsigned kMeasurements = 4;   // until a pose goes on behind a gap
 
+// Without P105 of the set in use no speed can be told.
+bool isScaled(const Moment& moment, const cycle::DriveSnapshot& told) {
+  if (!told.online || !told.device.complete) return false;
+  const auto& maximum = told.device.max_frequency;
+  const unsigned set = told.parameter_set;
+  return !moment.reads_scale || (set >= 1 && set <= maximum.size() && maximum[set - 1]);
+}
+
 }  // namespace
 
 void RecentSpan::add(Instant now, Span value) {
@@ -44,7 +52,8 @@ std::optional<std::string> FollowsItsCommand::look(const Moment& moment) {
     // Beyond P105 the base is scaled, which is for other tests.
     const bool follows = group.asked && group.confirmed && told && moment.judged &&
                          std::all_of(group.members.begin(), group.members.end(), [&](DriveIndex i) {
-                           return moment.drives[i].turnsByBus() && std::fabs(moment.wanted[i]) <= moment.drives[i].full;
+                           return moment.drives[i].turnsByBus() && !(i == 0 && moment.stand_in_believed) &&
+                                  std::fabs(moment.wanted[i]) <= moment.drives[i].full;
                          });
     for (const DriveIndex i : group.members) {
       const DriveTruth& drive = moment.drives[i];
@@ -88,14 +97,14 @@ std::optional<std::string> MotionToldAsItIs::look(const Moment& moment) {
     const DriveTruth& drive = moment.drives[i];
     track.turned.add(moment.now, {drive.along, drive.along});
     track.way += drive.along * speed_of * dt;
-    // While another one stands at its address, that one may be told of.
-    const bool is_doubled = i == 0 && moment.twin_position.has_value();
+    // While another one stands at its address, that one may be told of; its P105 as long as nobody saw it leave.
+    const bool is_doubled = i == 0 && (moment.twin_position.has_value() || moment.stand_in_believed);
     if (!moment.driver_ran || !moment.judged || moment.axes[i].is_axis || is_doubled) {
       track.answered = 0;
       continue;
     }
     const cycle::DriveSnapshot& told = moment.snapshot->drives[i];
-    if (!told.online || !told.device.complete) {
+    if (!isScaled(moment, told)) {
       track.answered = 0;
       continue;
     }
@@ -137,9 +146,8 @@ std::optional<std::string> PoseAsTheWheels::look(const Moment& moment) {
   joints_.clear();
   for (const DriveIndex i : wheels) joints_.push_back(snapshot.drives[i].joint_position);
   const unsigned answered_before = answered_;
-  const bool all_answer = std::all_of(wheels.begin(), wheels.end(), [&](DriveIndex i) {
-    return snapshot.drives[i].online && snapshot.drives[i].device.complete;  // P105 is known
-  });
+  const bool all_answer =
+      std::all_of(wheels.begin(), wheels.end(), [&](DriveIndex i) { return isScaled(moment, snapshot.drives[i]); });
   answered_ = all_answer && snapshot.base.known ? answered_ + 1 : 0;
   // Behind a gap the pose begins anew.
   if (joints_before.empty() || moment.odometry_reset || answered_ == 0 || answered_before < kMeasurements)

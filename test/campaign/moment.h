@@ -85,6 +85,9 @@ struct Moment {
   bool twin_enabled = false;
   /// The same, where nothing was heard of the first drive itself: what is said of it is said of this one.
   bool stand_in_enabled = false;
+  /// The first drive was not heard while it stood there: what the driver has read of that one may be read of this one,
+  /// until the address falls silent.
+  bool stand_in_believed = false;
   /// Where it is, rad: while it stands there, it answers in the name of the first drive.
   std::optional<double> twin_position;
   const cycle::CycleSnapshot* snapshot = nullptr;
@@ -92,6 +95,7 @@ struct Moment {
   const std::vector<Call>* calls = nullptr;
   bool odometry_reset = false;      ///< asked for, and answered in this cycle or later
   double full_wheel_speed = 7.854;  ///< rad/s
+  bool reads_scale = false;         ///< P105 of each set is read, not typed: no speed can be told before
 };
 
 }  // namespace nord_driver::test

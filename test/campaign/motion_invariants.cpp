@@ -33,6 +33,8 @@ std::optional<std::string> TurnsOnlyAsCommanded::look(const Moment& moment) {
       // Terminals turn it as they like, and their ramp follows them down; until some time after the look before they did.
       const bool by_terminals = turnsByTerminals(drive);  // that is no stop of ours
       if (by_terminals || track.by_terminals) track.bound.raise(speed);
+      // Whose P105 is taken for its own it turns in proportion to that.
+      if (i == 0 && moment.stand_in_believed) track.bound.raise(speed);
       track.by_terminals = by_terminals;
       if (speed > track.bound.value() + kRounding) {
         std::ostringstream out;

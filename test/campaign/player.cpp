@@ -25,11 +25,7 @@ const Act* findAct(const CampaignBus& bus, const std::string& name) {
 }
 
 Player::Player(const Scenario& scenario, const CampaignBus& bus, const TransportWrap& wrap)
-    : scenario_(scenario),
-      bus_(bus),
-      rig_(bus.make(scenario.layout, wrap)),
-      invariants_(allInvariants()),
-      dice_(scenario.seed * 2 + 1) {
+    : scenario_(scenario), bus_(bus), rig_(makeRig(wrap)), invariants_(allInvariants()), dice_(scenario.seed * 2 + 1) {
   std::stable_sort(scenario_.events.begin(), scenario_.events.end(),
                    [](const Event& a, const Event& b) { return a.at < b.at; });
   const std::size_t drives = scenario.layout.drives();
@@ -43,6 +39,7 @@ Player::Player(const Scenario& scenario, const CampaignBus& bus, const Transport
   moment_.calls = &calls_;
   moment_.period = rig_->robot().config().period();
   moment_.full_wheel_speed = kFullSpeed;
+  moment_.reads_scale = rig_->readsScaling();
   if (scenario.layout.wheels != 0) {
     GroupWish base;
     base.is_base = true;
@@ -55,6 +52,14 @@ Player::Player(const Scenario& scenario, const CampaignBus& bus, const Transport
     single.is_axis = moment_.axes[i].is_axis = i >= scenario.layout.firstAxis();
     moment_.groups.push_back(single);
   }
+}
+
+std::unique_ptr<CampaignRig> Player::makeRig(const TransportWrap& wrap) {
+  return bus_.make(scenario_.layout, [this, &wrap](std::unique_ptr<Transport> inner) {
+    auto reborn = std::make_unique<RebornTransport>(wrap ? wrap(std::move(inner)) : std::move(inner));
+    reborn_ = reborn.get();
+    return reborn;
+  });
 }
 
 Outcome Player::play() {

@@ -10,6 +10,7 @@
 
 #include "campaign/invariant.h"
 #include "campaign/motion_invariants.h"
+#include "campaign/reborn_transport.h"
 #include "campaign/rig.h"
 #include "campaign/scenario.h"
 
@@ -122,8 +123,12 @@ class Player {
   bool ask(cycle::RequestKind kind, const char* expectation);
   void judgeAxes(Instant until);
 
+  /// The bus, with its transport behind one that the driver may begin anew with.
+  std::unique_ptr<CampaignRig> makeRig(const TransportWrap& wrap);
+
   Scenario scenario_;
   CampaignBus bus_;
+  RebornTransport* reborn_ = nullptr;  // the rig's
   std::unique_ptr<CampaignRig> rig_;
   std::vector<std::unique_ptr<Invariant>> invariants_;
   Moment moment_;

@@ -64,6 +64,8 @@ void Player::seeTruth() {
     moment_.stand_in_enabled = enabled && !told_apart;
     moment_.twin_position.reset();
     if (twin->plugged()) moment_.twin_position = twin->position() / kRevolutionsPerRadian;
+    const bool silent = moment_.driver_ran && moment_.snapshot != nullptr && !moment_.snapshot->drives[0].online;
+    moment_.stand_in_believed = (moment_.stand_in_believed && !silent) || (twin->plugged() && !told_apart);
   }
   const Duration timeout = rig_->robot().config().cmd_vel_timeout;
   const auto fresh = [&](const Command& command) { return command.ever && now() - command.given <= timeout; };

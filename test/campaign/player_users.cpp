@@ -142,6 +142,7 @@ void Player::respawn(Duration gone) {
   losses_.clear();
   pass(gone);
   disturbed_ = now();
+  reborn_->beginAnew();
   rig_->robot().restartDriver();
   began_ = now();
   moment_.snapshot = nullptr;

@@ -115,6 +115,47 @@ TEST_F(FollowingInvariants, ThePoseIsThatOfTheWheels) {
   EXPECT_THAT(cycle(invariant), HasSubstr("the pose goes"));
 }
 
+// Who stood in for the first drive may have told its P105 for that of the drive.
+TEST_F(FollowingInvariants, ADriveThatIsTakenForAnotherIsNotJudged) {
+  MotionToldAsItIs motion;
+  FollowsItsCommand follows;
+  EXPECT_EQ("", cycle(motion));
+  EXPECT_EQ("", cycle(follows));
+  moment_.stand_in_believed = true;
+  snapshot_.drives[0].velocity = 1.0;
+  want(20.0);
+  EXPECT_EQ("", cycle(motion));
+  for (int i = 0; i < 20; ++i) EXPECT_EQ("", cycle(follows));
+  moment_.stand_in_believed = false;
+  EXPECT_THAT(cycle(motion), HasSubstr("joint 0 is told with 1 rad/s"));
+}
+
+TEST_F(FollowingInvariants, TheVelocityOfAWheelWhoseP105IsNotKnownIsNotJudged) {
+  MotionToldAsItIs invariant;
+  moment_.reads_scale = true;
+  snapshot_.drives[1].parameter_set = 2;
+  snapshot_.drives[1].velocity = 1.0;
+  EXPECT_EQ("", cycle(invariant));
+  snapshot_.drives[1].device.max_frequency[0] = 50.0;
+  EXPECT_EQ("", cycle(invariant)) << "that of another set";
+  snapshot_.drives[1].device.max_frequency[1] = 50.0;
+  EXPECT_THAT(cycle(invariant), HasSubstr("joint 1 is told with 1 rad/s"));
+}
+
+TEST_F(FollowingInvariants, ThePoseOfAWheelWhoseP105IsNotKnownIsNotJudged) {
+  PoseAsTheWheels invariant;
+  moment_.reads_scale = true;
+  for (cycle::DriveSnapshot& drive : snapshot_.drives) drive.parameter_set = 2;
+  snapshot_.drives[0].device.max_frequency[1] = 50.0;
+  for (int i = 0; i < 6; ++i) EXPECT_EQ("", cycle(invariant));
+  snapshot_.drives[0].joint_position = 0.05;
+  EXPECT_EQ("", cycle(invariant));
+  snapshot_.drives[1].device.max_frequency[1] = 50.0;
+  for (int i = 0; i < 6; ++i) EXPECT_EQ("", cycle(invariant));
+  snapshot_.drives[0].joint_position = 0.10;
+  EXPECT_THAT(cycle(invariant), HasSubstr("the pose goes 0 m"));
+}
+
 TEST_F(FollowingInvariants, ThePoseOfADriveThatIsSilentIsNotJudged) {
   PoseAsTheWheels invariant;
   for (int i = 0; i < 5; ++i) EXPECT_EQ("", cycle(invariant));

@@ -25,6 +25,9 @@ class CanParticipants {
   virtual void advance(Instant now, CanSink& sink) noexcept = 0;
   /// A frame that reached the nodes at the time of the last `advance()`. `Judge::kYes`: it is the master's, unspoilt.
   virtual void receive(const CanFrame& frame, Judge judge, CanSink& sink) noexcept = 0;
+  /// When the master's next frame was given to its interface, which repeats it until somebody acknowledges: for a
+  /// referee that judges how long it has waited. A bus that does not know says nothing.
+  virtual void givenAt(Instant /*when*/) noexcept {}
   /// A frame of the master that reached nobody, for the referee.
   virtual void judgeOnly(const CanFrame& frame) noexcept = 0;
   /// A frame of a node reached the others, and perhaps the master.

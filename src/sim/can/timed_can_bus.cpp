@@ -101,7 +101,7 @@ link::CanSend TimedCanBus::send(const CanFrame& frame) noexcept {
     ++counters_.queue_full;
     return link::CanSend::kQueueFull;
   }
-  waiting_.push_back({frame, Sender::kMaster});
+  waiting_.push_back({frame, Sender::kMaster, now_});
   if (queue_pace_ > Duration::zero()) next_place_ = now_ + queue_pace_;
   return link::CanSend::kSent;
 }
@@ -223,6 +223,7 @@ void TimedCanBus::deliverFromMaster(const CanFrame& frame, unsigned times) noexc
     --lose_requests_;
     times = 0;
   }
+  stations_->givenAt(current_.given);
   if (times == 0) stations_->judgeOnly(frame);
   for (unsigned i = 0; i < times; ++i) stations_->receive(frame, i == 0 ? Judge::kYes : Judge::kNo, *this);
 }
@@ -261,12 +262,12 @@ bool TimedCanBus::toQueue(const CanFrame& frame) noexcept {
 }
 
 void TimedCanBus::transmit(const CanFrame& frame) noexcept {
-  waiting_.push_back({frame, Sender::kNode});  // a bus that cannot take it for so long is dead anyway
+  waiting_.push_back({frame, Sender::kNode, now_});  // a bus that cannot take it for so long is dead anyway
 }
 
 void TimedCanBus::inject(const CanFrame& frame) noexcept {
   foreign_ = true;
-  waiting_.push_back({frame, Sender::kForeign});
+  waiting_.push_back({frame, Sender::kForeign, now_});
 }
 
 void TimedCanBus::setDisturbance(const CanDisturbance& disturbance) noexcept {

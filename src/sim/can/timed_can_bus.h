@@ -73,6 +73,7 @@ class TimedCanBus : public link::CanLink, private CanSink {
   /// `send()` finds a place once in this time only, and the queue full otherwise; zero: as the bus is.
   void setQueuePace(Duration pace) noexcept;
   void setDisturbance(const CanDisturbance& disturbance) noexcept;
+  const CanDisturbance& disturbance() const noexcept { return disturbance_; }
   /// The next `count` frames of the master never reach the nodes.
   void loseRequests(unsigned count) noexcept { lose_requests_ = count; }
   /// The next `count` frames of the nodes never reach the master.
@@ -93,6 +94,7 @@ class TimedCanBus : public link::CanLink, private CanSink {
   struct Pending {
     CanFrame frame;
     Sender sender = Sender::kNode;
+    Instant given{};  ///< to the interface
   };
 
   void transmit(const CanFrame& frame) noexcept override;

@@ -57,6 +57,11 @@ void DnReferee::stoodStill() noexcept {
 }
 
 void DnReferee::masterFrame(const CanFrame& frame) noexcept {
+  judgeMaster(frame);
+  given_.reset();
+}
+
+void DnReferee::judgeMaster(const CanFrame& frame) noexcept {
   if (frame.extended) return broken(DnRule::kExtendedFrame);
   if (frame.remote) return broken(DnRule::kRemoteFrame);
   if (dn::isGroup2(frame.id) && dn::messageOfGroup2(frame.id) == dn::kDuplicateMac) return duplicateMac(frame);
@@ -160,7 +165,7 @@ void DnReferee::unconnected(View& view, const CanFrame& frame) noexcept {
   request.value = choice;
   request.unconnected = true;
   view.pending = request;
-  view.asked = now_;
+  view.asked = given_.value_or(now_);
 }
 
 void DnReferee::explicitMessage(View& view, const CanFrame& frame) noexcept {
@@ -199,7 +204,8 @@ void DnReferee::explicitMessage(View& view, const CanFrame& frame) noexcept {
   request.instance = at + 2 < frame.size ? frame.data[at + 2] : std::uint8_t{0};
   if (at + 3 < frame.size) request.attribute = frame.data[at + 3];
   if (at + 5 < frame.size) request.value = static_cast<std::uint16_t>(frame.data[at + 4] | frame.data[at + 5] << 8);
-  if (view.pending && !view.pending->unconnected && now_ - view.asked < kRequestTime) {
+  const Instant asked = given_.value_or(now_);
+  if (view.pending && !view.pending->unconnected && asked - view.asked < kRequestTime) {
     const bool same = view.pending->service == request.service && view.pending->class_id == request.class_id &&
                       view.pending->instance == request.instance && view.pending->attribute == request.attribute;
     if (!same || (header & dn::kFragmented) == 0) broken(DnRule::kExplicitWhilePending);
@@ -208,7 +214,7 @@ void DnReferee::explicitMessage(View& view, const CanFrame& frame) noexcept {
                        request.attribute == kPacketRate && request.instance > 1;
   if (io_rate && request.value == 0) broken(DnRule::kNoPacketRate);
   view.pending = request;
-  view.asked = now_;
+  view.asked = asked;
 }
 
 void DnReferee::strobe(const CanFrame& frame) noexcept {

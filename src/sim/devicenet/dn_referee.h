@@ -59,6 +59,8 @@ class DnReferee : public RuleCounts<DnRule> {
   void nodeExists(std::uint8_t mac) noexcept { views_[mac].exists = true; }
   /// The time of what is told next.
   void advance(Instant now) noexcept;
+  /// The scanner's next frame was given to its interface then, not now.
+  void givenAt(Instant when) noexcept { given_ = when; }
   /// A frame of the scanner, whether it reached anybody or not.
   void masterFrame(const CanFrame& frame) noexcept;
   /// A frame of a node that reached the scanner.
@@ -92,7 +94,7 @@ class DnReferee : public RuleCounts<DnRule> {
     std::uint8_t choice = 0;  ///< allocated
     unsigned on_their_way = 0;
     std::optional<Request> pending;
-    Instant asked{};
+    Instant asked{};                                ///< given to the interface
     std::optional<std::uint8_t> sent_fragment;      ///< not acknowledged yet
     std::optional<std::uint8_t> received_fragment;  ///< to be acknowledged
     Instant fragment_due{};
@@ -100,6 +102,7 @@ class DnReferee : public RuleCounts<DnRule> {
     std::array<Io, 3> io{};  ///< poll, strobe, change of state
   };
 
+  void judgeMaster(const CanFrame& frame) noexcept;
   void duplicateMac(const CanFrame& frame) noexcept;
   void judgeOnline(const CanFrame& frame) noexcept;
   void unconnected(View& view, const CanFrame& frame) noexcept;
@@ -114,6 +117,7 @@ class DnReferee : public RuleCounts<DnRule> {
 
   std::array<View, dn::kMacs> views_{};
   Instant now_{};
+  std::optional<Instant> given_;  ///< the frame that is judged next
   std::optional<std::uint8_t> master_;
   bool checked_ = false;       // there was a duplicate-MAC request of the master
   bool second_check_ = false;  // the last one came a second after the one before

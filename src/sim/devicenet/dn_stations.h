@@ -19,6 +19,7 @@ class DnStations final : public CanParticipants {
 
   void advance(Instant now, CanSink& sink) noexcept override;
   void receive(const CanFrame& frame, Judge judge, CanSink& sink) noexcept override;
+  void givenAt(Instant when) noexcept override { referee_.givenAt(when); }
   void judgeOnly(const CanFrame& frame) noexcept override { referee_.masterFrame(frame); }
   void delivered(const CanFrame& frame, bool to_master, CanSink& sink) noexcept override;
   void stoodStill() noexcept override;

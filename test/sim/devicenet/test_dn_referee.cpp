@@ -17,6 +17,17 @@ class DnRefereeTest : public testing::Test {
     bus.referee().forget();
     return count;
   }
+  /// Two of them, `pause` after each other, to a module that is off meanwhile.
+  std::uint64_t brokenByRequestsToNobody(Duration pause) {
+    bus.connect();
+    bus.module().setPowered(false);
+    bus.send("44C#0A 0E 65 01 05");
+    bus.bus.run(pause);
+    bus.send("44C#0A 0E 65 01 05");
+    bus.module().setPowered(true);
+    return only(DnRule::kExplicitWhilePending);
+  }
+
   DnConversation bus;
   std::string said;
 };
@@ -153,6 +164,15 @@ TEST_F(DnRefereeTest, ExplicitMessages) {
   bus.drive().setMute(true);
   for (const char* text : {"44C#8A 00 10 04 65 03 7E 04", "44C#8A 41 00 20 00 00 00 00"}) bus.send(text);
   EXPECT_EQ(1u, only(DnRule::kFragmentOrder)) << "not acknowledged yet: " << said;
+}
+
+// An interface repeats what nobody acknowledges: two requests that were given to it in time leave together.
+TEST_F(DnRefereeTest, RequestsThatLeaveTogether) {
+  EXPECT_EQ(0u, brokenByRequestsToNobody(milliseconds{200})) << said;
+}
+
+TEST_F(DnRefereeTest, RequestsThatWereGivenTooSoonAfterEachOther) {
+  EXPECT_EQ(1u, brokenByRequestsToNobody(milliseconds{50})) << said;
 }
 
 TEST_F(DnRefereeTest, ProcessData) {
