@@ -59,5 +59,5 @@ run() {
 }
 export -f run
 export hours programs logs
-printf '%s\n' Profibus Canopen Devicenet | xargs -n 1 -P "$jobs" bash -c 'run "$1"' soak || status=1
+printf '%s\n' Profibus Canopen Devicenet Interbus | xargs -n 1 -P "$jobs" bash -c 'run "$1"' soak || status=1
 exit "$status"

@@ -76,10 +76,11 @@ const std::vector<Act>& interbusActs() {
        },
        [](R& rig, const E&) {
          changeNetwork(rig, [](sim::NetworkState& to) { to.carries_requests = to.carries_answers = true; });
-       }},
+       },
+       true},
       {"half_open", 3, "cable", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
        [](R& rig, const E&) { changeNetwork(rig, [](sim::NetworkState& to) { to.carries_answers = false; }); },
-       [](R& rig, const E&) { changeNetwork(rig, [](sim::NetworkState& to) { to.carries_answers = true; }); }},
+       [](R& rig, const E&) { changeNetwork(rig, [](sim::NetworkState& to) { to.carries_answers = true; }); }, true},
       // amount: ms of a request and its answer.
       {"latency",
        4,
@@ -96,10 +97,10 @@ const std::vector<Act>& interbusActs() {
          changeNetwork(rig, [](sim::NetworkState& to) { to.latency = sim::NetworkState{}.latency; });
        }},
       {"reset", 3, "reset", Place::kBus, Cuts::kNothing, kOnce, kNone, kNone,
-       [](R& rig, const E&) { linkOf(rig).resetConnection(); }, nullptr},
+       [](R& rig, const E&) { linkOf(rig).resetConnection(); }, nullptr, true},
       {"gateway_silent", 3, "gateway", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
        [](R& rig, const E&) { changeGateway(rig, [](sim::GatewaySwitches& to) { to.silent = true; }); },
-       [](R& rig, const E&) { changeGateway(rig, [](sim::GatewaySwitches& to) { to.silent = false; }); }},
+       [](R& rig, const E&) { changeGateway(rig, [](sim::GatewaySwitches& to) { to.silent = false; }); }, true},
       // amount: the exception code.
       {"exceptions",
        3,
@@ -112,16 +113,17 @@ const std::vector<Act>& interbusActs() {
        [](R& rig, const E& event) {
          changeGateway(rig, [&](sim::GatewaySwitches& to) { to.exception = static_cast<std::uint8_t>(event.amount); });
        },
-       [](R& rig, const E&) { changeGateway(rig, [](sim::GatewaySwitches& to) { to.exception.reset(); }); }},
+       [](R& rig, const E&) { changeGateway(rig, [](sim::GatewaySwitches& to) { to.exception.reset(); }); },
+       true},
       {"wrong_transactions", 2, "gateway", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
        [](R& rig, const E&) { changeGateway(rig, [](sim::GatewaySwitches& to) { to.wrong_transaction = 1; }); },
-       [](R& rig, const E&) { changeGateway(rig, [](sim::GatewaySwitches& to) { to.wrong_transaction = 0; }); }},
+       [](R& rig, const E&) { changeGateway(rig, [](sim::GatewaySwitches& to) { to.wrong_transaction = 0; }); }, true},
       // P507 is another one when its mains come: the ring stands for a subscriber of another length (BU 0070 4.2).
       {"wrong_drive", 2, "power", Place::kStation, Cuts::kAll, kSpan, kNone, kNone,
        [](R& rig, const E& event) { begetWrong(rig, event); }, [](R& rig, const E& event) { begetWrong(rig, event); }},
       {"ring_cut", 3, "ring", Place::kBus, Cuts::kAll, kSpan, kNone, kNone,
        [](R& rig, const E&) { linkOf(rig).ring().setCut(true); },
-       [](R& rig, const E&) { linkOf(rig).ring().setCut(false); }},
+       [](R& rig, const E&) { linkOf(rig).ring().setCut(false); }, true},
   };
   return acts;
 }

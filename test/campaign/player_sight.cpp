@@ -3,6 +3,7 @@
 
 #include "campaign/axes.h"
 #include "campaign/player.h"
+#include "support/work_counters.h"
 
 namespace nord_driver::test {
 
@@ -174,8 +175,7 @@ void Player::sampleParameters() {
 std::uint64_t Player::counted() {
   std::uint64_t sum = 0;
   for (const NamedCounter& counter : rig_->robot().transport().counters()) {
-    const std::string name = counter.name;
-    if (name != "cycles" && name != "telegrams_sent" && name != "telegrams_received") sum += counter.value;
+    if (!countsWork(counter.name)) sum += counter.value;
   }
   return sum;
 }

@@ -14,7 +14,9 @@
 #include <string>
 
 #include "support/count_allocations.h"
+#include "support/work_counters.h"
 #include "system/every_robot.h"
+#include "system/interbus_robot.h"
 #include "trace/trace_feed.h"
 
 namespace nord_driver::test {
@@ -60,7 +62,7 @@ class Soak : public ::testing::Test {
   static typename Robot::Options options() {
     typename Robot::Options options;
     options.node = {{"cycle_rate", kRate}};
-    if constexpr (std::is_same_v<Robot, SimulatedRobot>) {
+    if constexpr (std::is_same_v<Robot, SimulatedRobot> || std::is_same_v<Robot, InterbusRobot>) {
       options.slip = kNoSlip;
     } else {
       options.simulate = [](sim::SimConfig& config) {
@@ -124,11 +126,23 @@ class Soak : public ::testing::Test {
   std::uint64_t cycles_ = 0, events_ = 0;
   double told_before_[2] = {}, true_before_[2] = {}, steady_drift_ = 0.0;
 };
-TYPED_TEST_SUITE(Soak, EveryRobot, BusName);
 
-/// What an undisturbed bus counts.
-bool countsWork(const std::string& name) {
-  return name == "cycles" || name == "telegrams_sent" || name == "telegrams_received";
+struct SoakBusName {
+  template <typename Robot>
+  static std::string GetName(int index) {
+    return std::is_same_v<Robot, InterbusRobot> ? "Interbus" : BusName::GetName<Robot>(index);
+  }
+};
+using SoakRobots = ::testing::Types<SimulatedRobot, CanRobot, DevicenetRobot, InterbusRobot>;
+TYPED_TEST_SUITE(Soak, SoakRobots, SoakBusName);
+
+template <typename Robot>
+std::string rulesBroken(Robot& robot) {
+  return busOf(robot).referee().report();
+}
+template <>
+std::string rulesBroken(InterbusRobot& robot) {
+  return robot.referee();
 }
 
 // Each round: 16 minutes of driving, in which nothing may be allocated, counted as an error or lost; then a drive goes
@@ -197,12 +211,12 @@ TYPED_TEST(Soak, NothingGrowsAndNothingDrifts) {
   EXPECT_LT(worst_yaw, 1e-6) << "rad between the pose and its wheels";
   EXPECT_EQ(trips_at_begin, robot.unit(0).counters().watchdog_trips) << "the left drive was never lost";
   for (const DriveIndex drive : {0u, 1u}) EXPECT_EQ(0u, robot.snapshot().drives[drive].eeprom_writes);
-  EXPECT_EQ("no rule broken", busOf(robot).referee().report());
+  EXPECT_EQ("no rule broken", rulesBroken(robot));
   std::printf(
       "soak: %s %.2f h simulated, %llu cycles, %lu allocations in the cycle, %ld kB more than after the first round, "
       "wheels off by at most %.3g rad of %.4g driven (by %.3g rad at a steady speed), pose off its wheels by at most "
       "%.3g rad\n",
-      BusName::GetName<TypeParam>(0).c_str(), toSeconds(robot.transport().now() - begin) / 3600.0,
+      SoakBusName::GetName<TypeParam>(0).c_str(), toSeconds(robot.transport().now() - begin) / 3600.0,
       static_cast<unsigned long long>(this->cycles_), allocated, grown, worst_angle, driven, this->steady_drift_,
       worst_yaw);
 }
