@@ -20,7 +20,8 @@ Node::Node(std::size_t index, const NodeConfig& config, std::uint8_t own_id, Dur
       report_(index, counters, events),
       ports_(portsOf(config)),
       boot_(config, own_id, ask_interval, report_, ports_.front(), timers_),
-      guard_(config.id, config.error_control.guard_time, config.error_control.life_time_factor, timers_) {
+      guard_(config.id, config.error_control.guard_time, config.error_control.life_time_factor, timers_),
+      pace_(config.error_control.heartbeat_time) {
   for (const PdoConfig& pdo : config.receive_pdos) receive_pdos_.emplace_back(pdo);
   for (const PdoConfig& pdo : config.transmit_pdos) transmit_pdos_.push_back({mappedLength(pdo), pdo.enabled, {}});
 }
@@ -70,6 +71,7 @@ void Node::handleStateByte(std::uint8_t value, Instant now) noexcept {
   if (!alive && !left) return;
   if (alive && timers_.isSet(NodeTimer::kHeartbeat)) {
     timers_.set(NodeTimer::kHeartbeat, now + config_.error_control.heartbeat_timeout);
+    if (pace_.handle(now)) boot_.handleDoubleAnswers(now);
   }
   boot_.handleState(nmtStateOf(value), now);
 }
@@ -193,6 +195,7 @@ void Node::followWatch(Instant now) noexcept {
   }
   if (watch == NodeBoot::Watch::kWatch && mode == ErrorControlMode::kHeartbeat) {
     timers_.set(NodeTimer::kHeartbeat, now + config_.error_control.heartbeat_timeout);
+    pace_.start();
   }
   if (watch == NodeBoot::Watch::kWatch && config_.silence > Duration::zero()) {
     timers_.set(NodeTimer::kSilence, now + config_.silence);

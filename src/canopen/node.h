@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "canopen/heartbeat_pace.h"
 #include "canopen/node_boot.h"
 #include "canopen/node_config.h"
 #include "canopen/node_guard.h"
@@ -39,7 +40,10 @@ class Node {
   void handleForeignCommand(NmtCommand command, Instant now) noexcept;
   /// Another master commanded this node by an RPDO, or asked it by SDO.
   void handleForeignPdo(Instant now) noexcept;
-  void handleForeignRequest() noexcept { boot_.handleForeignRequest(); }
+  void handleForeignRequest() noexcept {
+    boot_.handleForeignRequest();
+    pace_.giveUp();
+  }
   void poll(Instant now) noexcept;
   std::optional<Instant> nextDeadline() const noexcept;
 
@@ -79,6 +83,7 @@ class Node {
   NodeTimers timers_;
   NodeBoot boot_;
   NodeGuard guard_;
+  HeartbeatPace pace_;
   NodeBoot::Watch watch_ = NodeBoot::Watch::kOff;
   bool answered_ = false;  // its first TPDOs had come when a cycle began
   bool told_toggle_ = false;

@@ -74,7 +74,7 @@ class NodeBoot {
   void handleForeignRequest() noexcept;
   /// The node's first SDO server sent an answer nobody waits for; `again`: the same bytes as just before.
   void handleStrayAnswer(bool again, Instant now) noexcept;
-  /// In operation it answers each question twice.
+  /// In operation it answers each question twice, or sends twice as many heartbeats as one node does.
   void handleDoubleAnswers(Instant now) noexcept;
   /// Takes SDO answers, and does what is due by time.
   void poll(Instant now) noexcept;

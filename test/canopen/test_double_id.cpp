@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "canopen/master_run.h"
@@ -244,6 +245,76 @@ TEST_F(DoubledInOperation, NotWhereAnotherMasterAsks) {
     run.say("701#R1");
     run.run(milliseconds{50});
   }
+  EXPECT_FALSE(run.master.status(0).doubled);
+}
+
+// --- In operation, by heartbeats -------------------------------------------------------------------------------------
+
+/// A node that sends a heartbeat each 100 ms, in operation, and another one of the same id.
+struct DoubledHeartbeats : testing::Test {
+  void SetUp() override {
+    run.begin();
+    ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{1}));
+    run.run(seconds{1});
+  }
+  /// The other one sends `after` each of the first one's, for `span`.
+  void hearTheOther(Duration after, Duration span) {
+    const Instant end = run.now + span;
+    std::optional<Instant> due;
+    run.loses = [&](const CanFrame& frame) {
+      if (frame.id == 0x701 && !frame.remote) due = run.now + after;
+      return false;
+    };
+    while (run.now < end && !run.master.status(0).doubled) {
+      run.run(milliseconds{5});
+      if (!due || run.now < *due) continue;
+      due.reset();
+      run.say("701#05");
+    }
+    run.loses = nullptr;
+  }
+
+  MasterRun run{busConfig(1)};
+};
+
+TEST_F(DoubledHeartbeats, AreToldWhereverTheOtherOneSendsBetweenThem) {
+  for (const int after : {0, 5, 35, 50, 95}) {
+    hearTheOther(milliseconds{after}, seconds{1});
+    ASSERT_TRUE(run.master.status(0).doubled) << after << " ms";
+    EXPECT_EQ(NodeState::kOperational, run.master.status(0).state) << "left running to hear what stops it";
+    EXPECT_STREQ("two nodes answer with this id: is it set twice, by switches or P515?",
+                 run.master.status(0).reason.c_str());
+    run.run(seconds{5});
+    ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{6}));
+    EXPECT_FALSE(run.master.status(0).doubled);
+  }
+}
+
+TEST_F(DoubledHeartbeats, NotForSomeFramesThatComeTwice) {
+  for (int round = 0; round < 5; ++round) {
+    hearTheOther(milliseconds{0}, milliseconds{400});
+    run.run(milliseconds{300});
+  }
+  EXPECT_FALSE(run.master.status(0).doubled);
+  EXPECT_EQ(0u, run.count(CanopenEventKind::kDoubleId));
+}
+
+// A host that stood still gets those of seconds at once; one that is slow reads them in bundles.
+TEST_F(DoubledHeartbeats, NotForBundlesOfThem) {
+  for (const int gap : {0, 1, 20, 30}) {
+    for (int i = 0; i < 30; ++i) {
+      run.say("701#05");
+      run.now += milliseconds{gap};
+    }
+    run.run(milliseconds{500});
+    EXPECT_EQ(0u, run.count(CanopenEventKind::kDoubleId)) << gap << " ms";
+  }
+}
+
+// It may have told the node another time.
+TEST_F(DoubledHeartbeats, NotWhereAnotherMasterAsks) {
+  run.say("601#4017100000000000");
+  hearTheOther(milliseconds{50}, seconds{3});
   EXPECT_FALSE(run.master.status(0).doubled);
 }
 
