@@ -196,6 +196,10 @@ std::unique_ptr<CampaignRig> makeCanopen(const Layout& layout, const TransportWr
     options.each[i]["process_values"] = 3;
   }
   options.nodes = layout.drives();
+  // Of every other size of system the nodes send heartbeats, and watch ours; of the others they are guarded.
+  if (layout.drives() % 2 == 0) {
+    for (Values& values : options.each) values["error_control"] = std::string{"heartbeat"};
+  }
   if (layout.one_module) options.gateway_inverters = layout.drives();
   for (Values& values : options.each) {
     values["vendor_id"] = static_cast<int>(sim::CanIdentity{}.vendor);

@@ -76,6 +76,7 @@ void CanReferee::nmt(const CanFrame& frame) noexcept {
   for (std::size_t i = 1; i < kNodes; ++i) {
     if (node != 0 && i != node) continue;
     views_[i].started = command == kStart;
+    views_[i].says_so = false;
     views_[i].stopped = command == kStop;
     views_[i].since_told = 0;
   }
@@ -86,16 +87,19 @@ void CanReferee::delivered(const CanFrame& frame) noexcept {
   if (frame.size != 1) return;
   View& view = views_[frame.id - kErrorControl];
   const auto state = static_cast<NmtState>(frame.data[0] & ~unsigned{kToggleBit});
-  if (state == NmtState::kOperational) return;
+  if (state == NmtState::kOperational) {
+    view.says_so = true;
+    return;
+  }
   if (state != NmtState::kStopped) view.stopped = false;
-  if (view.started) view.since_told = view.tolerated;
-  view.started = false;
+  if (view.started || view.says_so) view.since_told = view.tolerated;
+  view.started = view.says_so = false;
 }
 
 void CanReferee::rpdo(std::uint8_t node, std::size_t length, std::size_t expected) noexcept {
   if (length != expected) broken(CanRule::kRpdoLength);
   View& view = views_[node];
-  if (view.started) return;
+  if (view.started || view.says_so) return;
   if (view.since_told > 0) {
     --view.since_told;
     return;

@@ -64,6 +64,7 @@ class CanReferee : public RuleCounts<CanRule> {
   struct View {
     bool exists = false;
     bool started = false;  ///< by an NMT command
+    bool says_so = false;  ///< that it is operational, since the last NMT command: somebody may have started it
     bool stopped = false;
     unsigned tolerated = kRpdoTolerance;
     unsigned since_told = 0;  ///< RPDOs still tolerated since the node told that it is not operational

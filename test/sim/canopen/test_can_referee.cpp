@@ -76,6 +76,19 @@ TEST_F(CanRefereeTest, RpdoAfterTheNodeHasTold) {
   EXPECT_EQ(1u, only(CanRule::kRpdoBeforeOperational));
 }
 
+// Somebody else has started it, or a command of ours was lost: it says itself what it hears.
+TEST_F(CanRefereeTest, RpdoToANodeThatSaysThatItIsOperational) {
+  bus.sdo("2B 17 10 00 0A 00 00 00");  // heartbeat every 10 ms
+  bus.bus.inject(nord_driver::frame("000#0132"));
+  bus.bus.run(milliseconds(50));
+  bus.send("232#7E040000");
+  bus.bus.run(milliseconds(20));
+  EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
+  bus.send("000#8032");
+  bus.send("232#7E040000");
+  EXPECT_EQ(1u, only(CanRule::kRpdoBeforeOperational)) << "not before it says so again";
+}
+
 // A node that was kept from running: the master's words of before, and those without bit 10 with which it begins anew,
 // are taken together; a tenth of a second later it must know.
 TEST_F(CanRefereeTest, ZeroControlWordAfterAStandstill) {
