@@ -52,12 +52,10 @@ void PkwChannel::startNext(Instant now) noexcept {
 void PkwChannel::pause() noexcept {
   phase_ = Phase::kPause;
   pause_sent_ = false;
-  pause_answered_ = false;
 }
 
 bool PkwChannel::mayStart() const noexcept {
-  if (pause_answered_) return true;
-  // The order before has its answer, and nobody can mistake that answer for the next one's.
+  // The order before has its answer or will have none, and nobody can mistake what came last for the next one's.
   return pause_sent_ && !last_unanswered_ && !answers(order_, toAnswer(last_words_));
 }
 
@@ -85,10 +83,7 @@ void PkwChannel::handleWords(const PkwWords& words, Instant now) noexcept {
   const PkwAnswer answer = toAnswer(words);
   const bool empty = answer.label == static_cast<std::uint8_t>(AnswerLabel::kNone);
   if (phase_ == Phase::kPause) {
-    if (pause_sent_ && empty) {
-      pause_answered_ = true;
-      last_unanswered_ = false;
-    }
+    if (pause_sent_ && empty) last_unanswered_ = false;
     return;
   }
   if (!answers(order_, answer)) {

@@ -66,8 +66,7 @@ class PkwChannel {
   bool prepared_ = false;        // order_ and deadline_ belong to the running request
   bool fell_back_ = false;       // the running request already uses its one fall-back
   bool pause_sent_ = false;      // at least one exchange asked "no order" since the last order
-  bool pause_answered_ = false;  // ... and was answered "no answer"
-  bool last_unanswered_ = true;  // the order before had no answer: it may still come
+  bool last_unanswered_ = true;  // the order before had no answer, nor the pause: it may still come
   PkwWords last_words_{};
   PkwWords stale_words_{};
   std::uint64_t stale_ = 0;

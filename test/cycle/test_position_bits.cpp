@@ -229,6 +229,16 @@ TEST_F(TaughtElement, IsComparedWithThePosition) {
   EXPECT_EQ("told, but P613[-03] is 70.012 and not 70.000 revolutions", answer.message.str());
 }
 
+// position/tolerance is one of the joint, P613 one of revolutions; either way round.
+TEST_F(TaughtElement, IsComparedWithTheToleranceOfTheJoint) {
+  setup_.axis.tolerance = 0.01;
+  for (const double revolutions : {5.0, -5.0}) {
+    setup_.axis.scale.revolutions_per_unit = revolutions;
+    EXPECT_TRUE(compared(true, 70'051).success);
+    EXPECT_FALSE(compared(true, 70'052).success);
+  }
+}
+
 TEST_F(TaughtElement, ThatCannotBeReadIsMentioned) {
   Completion answer = compared(false, 0);
   EXPECT_TRUE(answer.success);

@@ -71,6 +71,15 @@ TEST_F(PositionConfiguration, TakesTheNarrowerLimits) {
   EXPECT_EQ(2.0, lift.axis.upper) << "of the robot's description";
 }
 
+TEST_F(PositionConfiguration, TakesLimitsOfAMillion) {
+  drive_->set("position/lower", -1e6).set("position/upper", 1e6);
+  EXPECT_EQ("taken", refusal());
+  drive_->set("position/lower", -1.000001e6);
+  EXPECT_THAT(refusal(), HasSubstr("position/lower"));
+  drive_->set("position/lower", -1e6).set("position/upper", 1.000001e6);
+  EXPECT_THAT(refusal(), HasSubstr("position/upper"));
+}
+
 TEST_F(PositionConfiguration, RefusesWhatDoesNotFit) {
   EXPECT_THAT(refusal(kRobot), HasSubstr("~drives/lift/lead is missing: expected m per revolution"));
   drive_->set("joint", "mast_joint").set("lead", 0.2);

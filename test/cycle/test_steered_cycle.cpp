@@ -192,6 +192,22 @@ TEST(SteeredTurn, WaitsForTheWheelsAlsoDownALongRamp) {
   }
 }
 
+// Wheels that stand near the edge of their tolerance hold back a curve that leads further off, and nothing else.
+TEST(SteeredTurn, GoesFasterAlongTheSamePathWithWheelsThatAreALittleOff) {
+  SteeredMotion motion{steeredBase(), std::chrono::milliseconds{500}};
+  SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}};
+  Instant now{std::chrono::hours{1}};
+  const auto wheel = [&](double linear_x) {
+    now += CycleBench::kCycle;
+    TwistCommand command{{}, now, true};
+    command.twist.linear_x = linear_x;
+    return motion.poll(command, true, true, drives, now, CycleBench::kCycle).wheels[0];
+  };
+  EXPECT_NEAR(3.0, wheel(0.3), 1e-9);
+  drives.angles = {0.045, 0.045};
+  EXPECT_NEAR(5.0, wheel(0.5), 0.01);
+}
+
 // It is scaled into what its wheels can turn, and tells it.
 TEST(SteeredTurn, TellsThatItIsTooFastForItsWheels) {
   SteeredMotion motion{steeredBase(), std::chrono::milliseconds{500}};

@@ -15,7 +15,6 @@ NORD_EXPLORE_MEMBER(pkwDeadlineOf, profile::PkwChannel, deadline_)
 NORD_EXPLORE_MEMBER(pkwPreparedOf, profile::PkwChannel, prepared_)
 NORD_EXPLORE_MEMBER(pkwFellBackOf, profile::PkwChannel, fell_back_)
 NORD_EXPLORE_MEMBER(pkwPauseSentOf, profile::PkwChannel, pause_sent_)
-NORD_EXPLORE_MEMBER(pkwPauseAnsweredOf, profile::PkwChannel, pause_answered_)
 NORD_EXPLORE_MEMBER(pkwLastUnansweredOf, profile::PkwChannel, last_unanswered_)
 NORD_EXPLORE_MEMBER(pkwLastWordsOf, profile::PkwChannel, last_words_)
 
@@ -145,7 +144,7 @@ class PkwEvents {
       for (const Word word : four) key.add(word);
     };
     const bool prepared = pkwPreparedOf(channel);
-    key.add(pkwPhaseOf(channel)).add(prepared).add(pkwPauseSentOf(channel)).add(pkwPauseAnsweredOf(channel));
+    key.add(pkwPhaseOf(channel)).add(prepared).add(pkwPauseSentOf(channel));
     key.add(pkwLastUnansweredOf(channel));
     if (prepared)
       key.add(pkwFellBackOf(channel)).add(ticks(world.now, pkwDeadlineOf(channel), kExchange, kAnswerTimeout));

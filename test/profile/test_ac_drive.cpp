@@ -126,6 +126,20 @@ TEST(AcDrive, SpeedIsAShareOfP105) {
   EXPECT_EQ(-8192, scaling().fromAcDrive({0x68, 4, 750}).actual_values[0]) << "a speed without a sign";
 }
 
+// 48 000 rpm do not fit, nor do 2000 % of P105.
+TEST(AcDrive, WhatDoesNotFitIsTheMost) {
+  AcDriveScaling fast{AcDriveKind::kExtended, 1};
+  fast.setMaxFrequency(Hertz{400.0});
+  AcDriveOutput output = fast.toAcDrive({0x047F, {32767}});
+  EXPECT_EQ(0x61, output.control);
+  EXPECT_EQ(32767, output.speed);
+  output = fast.toAcDrive({0x047F, {-32767}});
+  EXPECT_EQ(0x62, output.control);
+  EXPECT_EQ(32767, output.speed);
+  EXPECT_EQ(32767, scaling().fromAcDrive({0x64, 4, 30000}).actual_values[0]);
+  EXPECT_EQ(-32767, scaling().fromAcDrive({0x68, 4, 30000}).actual_values[0]);
+}
+
 TEST(AcDrive, AllZeroIsNoInverter) {
   EXPECT_EQ(0, scaling().fromAcDrive({0, 0, 0}).status_word);
   EXPECT_EQ(DriveState::kReadyToSwitchOn, stateOf(AcDriveKind::kBasic, {0, 0, 0})) << "profile 1 does not tell";

@@ -101,6 +101,16 @@ TEST_F(PkwChannelTest, WritesDoubleWordsPersistently) {
   EXPECT_EQ(ParameterOutcome::kDone, channel_.pollResult()->outcome);
 }
 
+// The time of the first in the queue begins when it is submitted, whether or not words are exchanged.
+TEST_F(PkwChannelTest, TimePassesWithoutAnExchange) {
+  ASSERT_TRUE(channel_.submit(read(508, ParameterShape::kPlain), now_));
+  now_ += kTimeout;
+  EXPECT_EQ(kNothing, channel_.pollWords(now_));
+  const auto result = channel_.pollResult();
+  ASSERT_TRUE(result.has_value());
+  EXPECT_EQ(ParameterOutcome::kTimeout, result->outcome);
+}
+
 // What carries the words says no, or fails: that ends the request that runs, and the next one begins with a pause.
 TEST_F(PkwChannelTest, IsToldThatItsWordsAreNotCarried) {
   Sentence why;
