@@ -108,9 +108,7 @@ PcpResult fromBlock(const PcpBlock& block, const PcpResultLayout& layout) noexce
 PcpAnswer answerTo(const PcpInvocation& invocation, const PcpResult& result) noexcept {
   const auto asked = static_cast<std::uint16_t>(invocation.service);
   // The order itself is no confirmation: a gateway may show it until there is one.
-  if (result.service == 0 || result.service == asked || result.reference != invocation.reference) {
-    return PcpAnswer::kNotYet;
-  }
+  if (result.service == asked || result.reference != invocation.reference) return PcpAnswer::kNotYet;
   const auto number = static_cast<std::uint16_t>(result.service & kServiceMask);
   if (number == kAbort || result.service == kAbortIndication) return PcpAnswer::kAborted;
   if (number == (asked & kServiceMask)) return PcpAnswer::kHere;

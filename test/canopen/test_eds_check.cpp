@@ -86,6 +86,16 @@ TEST_F(EdsCheckTest, PdosThatAreNotThere) {
   EXPECT_THAT(check(), IsEmpty());
 }
 
+// All eleven bits of the identifier count, and none beside them.
+TEST_F(EdsCheckTest, AFixedCobIdIsComparedWithoutItsFlags) {
+  for (const std::uint32_t id : {0x000u, 0x001u, 0x555u, 0x7FFu}) {
+    config.receive_pdos.resize(1);
+    config.receive_pdos.push_back(pdo(2, static_cast<std::uint16_t>(id), {{0x3000, 0, 16}}));
+    object(0x1401, 1).value = EdsNumber{0x40000000 | id, false};
+    EXPECT_THAT(check(), IsEmpty()) << id;
+  }
+}
+
 // RPDO 2 of the sample cannot be changed; its COB-ID depends on the node id.
 TEST_F(EdsCheckTest, WhatIsFixed) {
   config.receive_pdos.push_back(pdo(2, 0x332, {{0x3000, 0, 16}}));

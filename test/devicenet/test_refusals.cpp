@@ -51,6 +51,7 @@ TEST(Refusals, WrongSizes) {
   EXPECT_EQ(4u, answer->answer.number());
   run.devices[0]->produced = run.devices[0]->consumed = 5;
   EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
+  EXPECT_EQ(0x02, run.devices[0]->released_last) << "its explicit connection was never let go";
 }
 
 // Refused, and switched off and on meanwhile: its explicit connection is gone, which is noticed without anybody asking.

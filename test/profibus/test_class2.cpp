@@ -47,6 +47,12 @@ TEST(Class2, OpensReadsStaysAndEnds) {
   EXPECT_EQ("", wire.trouble());
 }
 
+TEST(Class2, RefusesABusThatCannotBe) {
+  BusParameters bus;
+  bus.master_address = 200;
+  EXPECT_THROW(Class2Master(bus, {3}, Class2Times{}), std::invalid_argument);
+}
+
 // The next sign of life counts from the PDU sent last, record or idle, whatever polls came between.
 TEST(Class2, SignsOfLifeAreDueInThirdsOfTheSendTimeout) {
   Class2Wire wire;

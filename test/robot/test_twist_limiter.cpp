@@ -53,6 +53,26 @@ double besideThePath(const Twist2d& twist, const Twist2d& path) {
          size;
 }
 
+// To the left as to the right: limits that are equal both ways make equal ways, to the last bit.
+TEST(TwistLimiter, GoesOneWayAsTheOther) {
+  for (const double jerk : {0.7, 3.0, 50.0}) {
+    TwistLimits smooth = limits();
+    for (SpeedLimits* axis : {&smooth.linear_x, &smooth.angular_z}) {
+      axis->has_jerk_limits = true;
+      axis->max_jerk = jerk;
+    }
+    TwistLimiter one{smooth}, other{smooth};
+    for (int i = 0; i < 3000; ++i) {
+      const int leg = i / 250 % 6;
+      const Twist2d target{0.13 * leg, 0.29 * (3 - leg), 0.0};
+      const Twist2d there = one.limit(target, kCycle);
+      const Twist2d back = other.limit({-target.linear_x, -target.angular_z, 0.0}, kCycle);
+      ASSERT_EQ(there.linear_x, -back.linear_x) << i;
+      ASSERT_EQ(there.angular_z, -back.angular_z) << i;
+    }
+  }
+}
+
 // A command beyond the velocity limit of one axis is scaled as a whole: same circle, slower.
 TEST(TwistLimiter, ScalesBothAxesIntoTheVelocityLimits) {
   TwistLimits fast = limits();
