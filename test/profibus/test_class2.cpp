@@ -49,8 +49,8 @@ TEST(Class2, OpensReadsStaysAndEnds) {
 
 TEST(Class2, RefusesABusThatCannotBe) {
   BusParameters bus;
-  bus.master_address = 200;
-  EXPECT_THROW(Class2Master(bus, {3}, Class2Times{}), std::invalid_argument);
+  bus.max_retries = 16;
+  EXPECT_THROW(Class2Master(bus, std::vector<StationAddress>{}, Class2Times{}), std::invalid_argument);
 }
 
 // The next sign of life counts from the PDU sent last, record or idle, whatever polls came between.
