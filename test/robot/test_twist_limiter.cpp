@@ -53,6 +53,17 @@ double besideThePath(const Twist2d& twist, const Twist2d& path) {
          size;
 }
 
+// As far as the jerk limit lets it go in one step, to the last bit: rounding does not make two steps of it.
+TEST(TwistLimiter, GoesInOneStepWhereTheJerkLimitAllowsIt) {
+  TwistLimits smooth = limits();
+  smooth.linear_x.has_jerk_limits = true;
+  smooth.linear_x.max_jerk = 3.0;
+  for (const double target : {0.0003, -0.0003}) {
+    TwistLimiter limiter{smooth};
+    EXPECT_EQ(target, limiter.limit({target, 0.0, 0.0}, kCycle).linear_x);
+  }
+}
+
 // To the left as to the right: limits that are equal both ways make equal ways, to the last bit.
 TEST(TwistLimiter, GoesOneWayAsTheOther) {
   for (const double jerk : {0.7, 3.0, 50.0}) {
