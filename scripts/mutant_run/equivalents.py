@@ -32,7 +32,10 @@ def readEquivalents(path):
         missing = [key for key in ("file", "code", "edit", "reason") if not entry.get(key)]
         if missing:
             raise ValueError(f"{path}:{entry['line']}: this entry has no {', '.join(missing)}")
-        found["|".join([entry["file"], entry["code"], entry["edit"], entry.get("occurrence", "1")])] = entry["reason"]
+        key = "|".join([entry["file"], entry["code"], entry["edit"], entry.get("occurrence", "1")])
+        if key in found:
+            raise ValueError(f"{path}:{entry['line']}: this entry stands there twice")
+        found[key] = entry["reason"]
     return found
 
 
