@@ -271,6 +271,8 @@ bool Master::pollNmt() noexcept {
     std::optional<NmtCommand>& command = nodes_[i]->command();
     if (!command) continue;
     give(Given::Kind::kNmt, i, static_cast<std::size_t>(*command), nmtFrame(*command, nodes_[i]->id()));
+    // Whatever it has said while the command waited: it hears no RPDO any more.
+    if (stateAfter(*command) == NmtState::kUnknown) nodes_[i]->report().status().nmt = NmtState::kUnknown;
     command.reset();
     return true;
   }

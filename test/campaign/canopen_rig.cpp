@@ -10,7 +10,8 @@ namespace {
 
 class CanopenRig final : public CampaignRig {
  public:
-  CanopenRig(const CanRobot::Options& options, bool has_twin) : robot_(options), has_twin_(has_twin) {}
+  CanopenRig(const CanRobot::Options& options, bool has_twin, bool heartbeats)
+      : robot_(options), has_twin_(has_twin), heartbeats_(heartbeats) {}
 
   CanRobot& robot() override { return robot_; }
   sim::SimulatedCanBus& bus() { return robot_.bus(); }
@@ -27,9 +28,11 @@ class CanopenRig final : public CampaignRig {
     using Rule = sim::CanRule;
     const sim::CanReferee& referee = robot_.bus().referee();
     if (undisturbed) return referee.report();
-    const Rule led_away = led_away_unheard_ ? Rule::kRpdoBeforeOperational : Rule::kCount;  // the latter is none
+    // A heartbeat that crosses a reset says that the node is still operational: it is told to stop until its boot-up.
+    const bool believed = led_away_unheard_ || heartbeats_;
+    const Rule words = believed ? Rule::kRpdoBeforeOperational : Rule::kCount;  // the latter is none
     return referee.report(
-        {Rule::kZeroControlWord, Rule::kUnknownId, Rule::kSdoWhilePending, Rule::kMappingOrder, led_away});
+        {Rule::kZeroControlWord, Rule::kUnknownId, Rule::kSdoWhilePending, Rule::kMappingOrder, words});
   }
   void passWithoutTheDriver(Duration span) override { robot_.bus().run(span); }
   void endLosses() override {
@@ -54,6 +57,7 @@ class CanopenRig final : public CampaignRig {
   }
   /// Another master commands the nodes, which this driver may be unable to hear: it then tells them what stops first.
   void nodesLedAway() {
+    led_away_ = true;
     const link::CanState state = bus().state();
     led_away_unheard_ =
         led_away_unheard_ || !bus().isOpen() || state == link::CanState::kBusOff || state == link::CanState::kDown;
@@ -62,7 +66,10 @@ class CanopenRig final : public CampaignRig {
   // And the life time (300 ms) until a loss is seen, a question that nobody answers with its repetitions, and the longest
   // pause after a set-up that was refused (NodeBoot, 4 s; after a silence it is 1 s).
   Duration backWithin() const override {
-    return std::chrono::seconds{2} + std::chrono::milliseconds{300} + kOneAccess + std::chrono::seconds{4};
+    // A node that is not guarded, and was stopped by somebody nobody heard, is not asked for its state but taken back after
+    // a while (NodeConfig::only_asked).
+    const Duration taken_back = heartbeats_ && led_away_ ? std::chrono::seconds{15} : Duration::zero();
+    return std::chrono::seconds{2} + std::chrono::milliseconds{300} + kOneAccess + std::chrono::seconds{4} + taken_back;
   }
 
  private:
@@ -72,7 +79,8 @@ class CanopenRig final : public CampaignRig {
   static constexpr Duration kKeptFromIt = std::chrono::milliseconds{1500} + std::chrono::seconds{2};
 
   mutable CanRobot robot_;
-  bool has_twin_;
+  bool has_twin_, heartbeats_;
+  bool led_away_ = false;
   bool led_away_unheard_ = false;
   Instant unwatched_until_{};
 };
@@ -197,7 +205,8 @@ std::unique_ptr<CampaignRig> makeCanopen(const Layout& layout, const TransportWr
   }
   options.nodes = layout.drives();
   // Of every other size of system the nodes send heartbeats, and watch ours; of the others they are guarded.
-  if (layout.drives() % 2 == 0) {
+  const bool heartbeats = layout.drives() % 2 == 0;
+  if (heartbeats) {
     for (Values& values : options.each) values["error_control"] = std::string{"heartbeat"};
   }
   if (layout.one_module) options.gateway_inverters = layout.drives();
@@ -218,7 +227,7 @@ std::unique_ptr<CampaignRig> makeCanopen(const Layout& layout, const TransportWr
     config.drives.push_back(twin);
   };
   options.wrap = wrap;
-  return std::make_unique<CanopenRig>(options, has_twin);
+  return std::make_unique<CanopenRig>(options, has_twin, heartbeats);
 }
 
 }  // namespace

@@ -63,6 +63,20 @@ TEST_F(ToldFirst, AlsoWhereItsHeartbeatComesBackAtOnce) {
   EXPECT_TRUE(hasSent("000#"));
 }
 
+// Its heartbeat crosses the reset: what it says is over when that has left.
+TEST_F(ToldFirst, ANodeThatWasResetIsNotOperationalWhateverItHasSaidBefore) {
+  start(busConfig(1));
+  lose();
+  run_->loses = [this](const CanFrame& frame) {
+    if (frame.id != 0x581) return false;
+    run_->master.handleFrame(frame, run_->now);
+    run_->say("701#05");
+    return true;
+  };
+  ASSERT_TRUE(run_->runUntil([this] { return hasSent("000#8201"); }, seconds{1}));
+  EXPECT_EQ(NmtState::kUnknown, run_->master.status(0).nmt);
+}
+
 // Two cycles of the bus, however long they are: the first has learned of the loss, the second sends what stops.
 TEST_F(ToldFirst, WaitsForTwoCycles) {
   start(busConfig(1));
