@@ -204,7 +204,7 @@ std::unique_ptr<CampaignRig> makeCanopen(const Layout& layout, const TransportWr
     options.each[i]["process_values"] = 3;
   }
   options.nodes = layout.drives();
-  // Of every other size of system the nodes send heartbeats, and watch ours; of the others they are guarded.
+  // Of every other size of system the nodes send heartbeats; of the others they are guarded.
   const bool heartbeats = layout.drives() % 2 == 0;
   if (heartbeats) {
     for (Values& values : options.each) values["error_control"] = std::string{"heartbeat"};

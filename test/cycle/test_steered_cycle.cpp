@@ -134,45 +134,50 @@ TEST_F(SteeredCycleOfALongWindow, StandsStillInItsOdometryDuringAReferenceRun) {
   EXPECT_EQ(0.0, snapshot().base.velocity.linear_x);
 }
 
-// What stands still in the setpoint may roll in fact; what goes on at the same angles need not stand.
-TEST(SteeredTurn, WaitsForTheWheelsToStand) {
-  SteeredMotion motion{steeredBase(), std::chrono::milliseconds{500}};
-  SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}, true};
-  Instant now{std::chrono::hours{1}};
-  const auto poll = [&](double linear_x, double linear_y) {
+/// The motion of a steered base by itself: wheels at 0 rad that can turn with 10 rad/s, and a new command in each cycle.
+struct SteeredRun {
+  explicit SteeredRun(const BaseConfig& base = steeredBase()) : motion{base, std::chrono::milliseconds{500}} {}
+
+  robot::SteeredSetpoint poll(double linear_x, double linear_y = 0.0) {
     now += CycleBench::kCycle;
     TwistCommand command{{}, now, true};
     command.twist.linear_x = linear_x;
     command.twist.linear_y = linear_y;
     return motion.poll(command, true, true, drives, now, CycleBench::kCycle);
-  };
-  EXPECT_EQ((robot::SteeringAngles{0.0, 0.0}), poll(0.0, 0.5).angles);
-  EXPECT_EQ(SteeredWait::kAngles, motion.waitsFor());
-  EXPECT_NEAR(5.0, poll(0.5, 0.0).wheels[0], 1e-9);
-  EXPECT_EQ((robot::SteeringAngles{0.0, 0.0}), poll(0.0, 0.5).angles);
-  EXPECT_EQ((robot::SteeringAngles{0.0, 0.0}), poll(0.0, 0.5).angles);
-  drives.wheel_speed = 1.0;
-  for (double way = 0.0; way < 1.5; way += 0.01) {
-    drives.wheel_speed -= 0.005;
-    EXPECT_NEAR(0.0, poll(0.5 * std::cos(way), 0.5 * std::sin(way)).angles[0], 0.05) << "nor in small steps";
   }
-  poll(0.0, 0.0);
-  drives.wheels_turn = false;
-  EXPECT_NEAR(kQuarter, std::abs(poll(0.0, 0.5).angles[0]), 1e-9);
+
+  SteeredMotion motion;
+  SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}};
+  Instant now{std::chrono::hours{1}};
+};
+
+// What stands still in the setpoint may roll in fact; what goes on at the same angles need not stand.
+TEST(SteeredTurn, WaitsForTheWheelsToStand) {
+  SteeredRun run;
+  run.drives.wheels_turn = true;
+  EXPECT_EQ((robot::SteeringAngles{0.0, 0.0}), run.poll(0.0, 0.5).angles);
+  EXPECT_EQ(SteeredWait::kAngles, run.motion.waitsFor());
+  EXPECT_NEAR(5.0, run.poll(0.5, 0.0).wheels[0], 1e-9);
+  EXPECT_EQ((robot::SteeringAngles{0.0, 0.0}), run.poll(0.0, 0.5).angles);
+  EXPECT_EQ((robot::SteeringAngles{0.0, 0.0}), run.poll(0.0, 0.5).angles);
+  run.drives.wheel_speed = 1.0;
+  for (double way = 0.0; way < 1.5; way += 0.01) {
+    run.drives.wheel_speed -= 0.005;
+    EXPECT_NEAR(0.0, run.poll(0.5 * std::cos(way), 0.5 * std::sin(way)).angles[0], 0.05) << "nor in small steps";
+  }
+  run.poll(0.0, 0.0);
+  run.drives.wheels_turn = false;
+  EXPECT_NEAR(kQuarter, std::abs(run.poll(0.0, 0.5).angles[0]), 1e-9);
 }
 
 // On a slope a wheel may be told to turn all the time: what gets no slower for a second is not waited for any longer.
 TEST(SteeredTurn, WaitsForNoWheelThatGetsNoSlower) {
-  SteeredMotion motion{steeredBase(), std::chrono::milliseconds{500}};
-  SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}, true, 0.5};
-  Instant now{std::chrono::hours{1}};
-  const auto angle = [&] {
-    now += CycleBench::kCycle;
-    TwistCommand command{{}, now, true};
-    command.twist.linear_y = 0.5;
-    return std::abs(motion.poll(command, true, true, drives, now, CycleBench::kCycle).angles[0]);
-  };
-  for (; drives.wheel_speed > 0.02; drives.wheel_speed -= 0.002) EXPECT_EQ(0.0, angle()) << drives.wheel_speed;
+  SteeredRun run;
+  run.drives.wheels_turn = true;
+  run.drives.wheel_speed = 0.5;
+  const auto angle = [&run] { return std::abs(run.poll(0.0, 0.5).angles[0]); };
+  for (; run.drives.wheel_speed > 0.02; run.drives.wheel_speed -= 0.002)
+    EXPECT_EQ(0.0, angle()) << run.drives.wheel_speed;
   for (int i = 0; i < 90; ++i) EXPECT_EQ(0.0, angle()) << i;
   for (int i = 0; i < 20; ++i) angle();
   EXPECT_NEAR(kQuarter, angle(), 1e-9);
@@ -180,91 +185,57 @@ TEST(SteeredTurn, WaitsForNoWheelThatGetsNoSlower) {
 
 // A long P103: 125 s from 100 % down.
 TEST(SteeredTurn, WaitsForTheWheelsAlsoDownALongRamp) {
-  SteeredMotion motion{steeredBase(), std::chrono::milliseconds{500}};
-  SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}, true, 1.0};
-  Instant now{std::chrono::hours{1}};
-  for (int i = 0; i < 300; ++i, drives.wheel_speed -= 0.00008) {
-    now += CycleBench::kCycle;
-    TwistCommand command{{}, now, true};
-    command.twist.linear_y = 0.5;
-    const robot::SteeredSetpoint setpoint = motion.poll(command, true, true, drives, now, CycleBench::kCycle);
-    ASSERT_EQ(0.0, setpoint.angles[0]) << i;
+  SteeredRun run;
+  run.drives.wheels_turn = true;
+  run.drives.wheel_speed = 1.0;
+  for (int i = 0; i < 300; ++i, run.drives.wheel_speed -= 0.00008) {
+    ASSERT_EQ(0.0, run.poll(0.0, 0.5).angles[0]) << i;
   }
 }
 
 // Wheels that stand near the edge of their tolerance hold back a curve that leads further off, and nothing else.
 TEST(SteeredTurn, GoesFasterAlongTheSamePathWithWheelsThatAreALittleOff) {
-  SteeredMotion motion{steeredBase(), std::chrono::milliseconds{500}};
-  SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}};
-  Instant now{std::chrono::hours{1}};
-  const auto wheel = [&](double linear_x) {
-    now += CycleBench::kCycle;
-    TwistCommand command{{}, now, true};
-    command.twist.linear_x = linear_x;
-    return motion.poll(command, true, true, drives, now, CycleBench::kCycle).wheels[0];
-  };
+  SteeredRun run;
+  const auto wheel = [&run](double linear_x) { return run.poll(linear_x).wheels[0]; };
   EXPECT_NEAR(3.0, wheel(0.3), 1e-9);
-  drives.angles = {0.045, 0.045};
+  run.drives.angles = {0.045, 0.045};
   EXPECT_NEAR(5.0, wheel(0.5), 0.01);
 }
 
 // It is scaled into what its wheels can turn, and tells it.
 TEST(SteeredTurn, TellsThatItIsTooFastForItsWheels) {
-  SteeredMotion motion{steeredBase(), std::chrono::milliseconds{500}};
-  const SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}};
-  Instant now{std::chrono::hours{1}};
-  const auto wheel = [&](double linear_x) {
-    now += CycleBench::kCycle;
-    TwistCommand command{{}, now, true};
-    command.twist.linear_x = linear_x;
-    return motion.poll(command, true, true, drives, now, CycleBench::kCycle).wheels[0];
-  };
+  SteeredRun run;
+  const auto wheel = [&run](double linear_x) { return run.poll(linear_x).wheels[0]; };
   EXPECT_NEAR(10.0, wheel(2.0), 1e-9);
-  EXPECT_TRUE(motion.beyondFull());
+  EXPECT_TRUE(run.motion.beyondFull());
   EXPECT_NEAR(9.0, wheel(0.9), 1e-9);
-  EXPECT_FALSE(motion.beyondFull());
+  EXPECT_FALSE(run.motion.beyondFull());
 }
 
 // Slow, the way to another direction is a wide turn of the wheels: from its first step on the base slows down for it, and
 // does not drive on first.
 TEST(SteeredTurn, AWideOneIsBrakedForAtOnce) {
-  SteeredMotion motion{rampedBase(), std::chrono::milliseconds{500}};
-  const SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}};
-  Instant now{std::chrono::hours{1}};
-  const auto poll = [&](double linear_x, double linear_y) {
-    now += CycleBench::kCycle;
-    TwistCommand command{{}, now, true};
-    command.twist.linear_x = linear_x;
-    command.twist.linear_y = linear_y;
-    motion.poll(command, true, true, drives, now, CycleBench::kCycle);
-  };
-  for (int i = 0; i < 50; ++i) poll(0.05, 0.0);
-  ASSERT_NEAR(0.05, motion.limited().linear_x, 1e-9);
-  poll(0.0, 0.05);
-  EXPECT_NEAR(0.04, motion.limited().linear_x, 1e-9) << "1 m/s^2 for 10 ms";
-  EXPECT_EQ(0.0, motion.limited().linear_y);
-  EXPECT_EQ(SteeredWait::kAngles, motion.waitsFor());
+  SteeredRun run{rampedBase()};
+  for (int i = 0; i < 50; ++i) run.poll(0.05, 0.0);
+  ASSERT_NEAR(0.05, run.motion.limited().linear_x, 1e-9);
+  run.poll(0.0, 0.05);
+  EXPECT_NEAR(0.04, run.motion.limited().linear_x, 1e-9) << "1 m/s^2 for 10 ms";
+  EXPECT_EQ(0.0, run.motion.limited().linear_y);
+  EXPECT_EQ(SteeredWait::kAngles, run.motion.waitsFor());
 }
 
 // P104 > 0, from forward to backward: where it is too slow it rests, and gets faster the other way from there on. The rest of
 // the ramp down is not waited for.
 TEST(SteeredTurn, TheWayBackBeginsWhereItRests) {
-  SteeredMotion motion{rampedBase(), std::chrono::milliseconds{500}};
-  SteeredDrives drives{{10.0, 10.0}, {0.0, 0.0}, {}};
-  drives.minimum.wheels = {2.0, 2.0};
-  Instant now{std::chrono::hours{1}};
-  const auto wheel = [&](double linear_x) {
-    now += CycleBench::kCycle;
-    TwistCommand command{{}, now, true};
-    command.twist.linear_x = linear_x;
-    return motion.poll(command, true, true, drives, now, CycleBench::kCycle).wheels[0];
-  };
+  SteeredRun run{rampedBase()};
+  run.drives.minimum.wheels = {2.0, 2.0};
+  const auto wheel = [&run](double linear_x) { return run.poll(linear_x).wheels[0]; };
   for (int i = 0; i < 60; ++i) wheel(0.5);
-  ASSERT_NEAR(0.5, motion.limited().linear_x, 1e-9);
+  ASSERT_NEAR(0.5, run.motion.limited().linear_x, 1e-9);
   int at_rest = 0;
   for (int i = 0; i < 200; ++i) at_rest += wheel(-0.5) == 0.0 ? 1 : 0;
   EXPECT_NEAR(20, at_rest, 2) << "0.2 m/s at 1 m/s^2";
-  EXPECT_NEAR(-0.5, motion.limited().linear_x, 1e-9);
+  EXPECT_NEAR(-0.5, run.motion.limited().linear_x, 1e-9);
 }
 
 }  // namespace

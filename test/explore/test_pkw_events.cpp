@@ -144,8 +144,7 @@ class PkwEvents {
       for (const Word word : four) key.add(word);
     };
     const bool prepared = pkwPreparedOf(channel);
-    key.add(pkwPhaseOf(channel)).add(prepared).add(pkwPauseSentOf(channel));
-    key.add(pkwLastUnansweredOf(channel));
+    key.add(pkwPhaseOf(channel)).add(prepared).add(pkwPauseSentOf(channel)).add(pkwLastUnansweredOf(channel));
     if (prepared)
       key.add(pkwFellBackOf(channel)).add(ticks(world.now, pkwDeadlineOf(channel), kExchange, kAnswerTimeout));
     if (prepared || !world.waiting.empty()) words(toWords(pkwOrderOf(channel)));

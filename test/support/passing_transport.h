@@ -1,6 +1,7 @@
 // A transport that hands everything on to another one: what stands between the driver and its bus derives from it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -37,6 +38,7 @@ class PassingTransport : public Transport {
   }
 
   DriveIdentity identity(DriveIndex drive) const override { return inner_->identity(drive); }
+  std::uint32_t identNumber(DriveIndex drive) const noexcept override { return inner_->identNumber(drive); }
   bool connected() const noexcept override { return inner_->connected(); }
   BusCounters counters() const noexcept override { return inner_->counters(); }
   DriveNote note(DriveIndex drive) const noexcept override { return inner_->note(drive); }

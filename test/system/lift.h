@@ -12,19 +12,12 @@
 #include "sim/inverter/posicon.h"
 #include "support/map_settings.h"
 #include "system/every_robot.h"
-#include "system/interbus_robot.h"
 #include "system/lift_words.h"
 
 namespace nord_driver::test {
 
 /// Positions go over every bus; over InterBus with Compact PCP, which tells what the words mean.
-using EveryLift = ::testing::Types<SimulatedRobot, CanRobot, DevicenetRobot, InterbusRobot>;
-struct LiftBusName {
-  template <typename Robot>
-  static std::string GetName(int index) {
-    return std::is_same_v<Robot, InterbusRobot> ? "Interbus" : BusName::GetName<Robot>(index);
-  }
-};
+using EveryLift = EveryBusRobot;
 
 /// 0.2 m a turn, gear 20: 100 revolutions are a metre, 0.001 of one is 10 um.
 constexpr double kRevolutionsPerMetre = 100.0;

@@ -83,7 +83,7 @@ std::string refusalOf(Robot& robot, std::uint8_t element) {
 
 template <typename Robot>
 class ElementTargets : public ::testing::Test {};
-TYPED_TEST_SUITE(ElementTargets, EveryLift, LiftBusName);
+TYPED_TEST_SUITE(ElementTargets, EveryLift, BusName);
 
 TYPED_TEST(ElementTargets, AreChosenByTheirBits) {
   TypeParam robot{byBits<TypeParam>()};

@@ -17,6 +17,7 @@
 #include "sim/profibus/pty_bus.h"
 #include "support/count_allocations.h"
 #include "support/map_settings.h"
+#include "support/passing_transport.h"
 #include "trace/trace_feed.h"
 #include "transport/profibus/profibus_dp.h"
 
@@ -26,39 +27,23 @@ namespace {
 using std::chrono::seconds;
 
 /// Passes everything on; marks its thread as counted when told to.
-class CountingTransport final : public Transport {
+class CountingTransport final : public PassingTransport {
  public:
-  void configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) override {
-    inner_.configure(bus, drives, cycle_rate);
-  }
-  Instant now() const noexcept override { return inner_.now(); }
-  void sleepUntil(Instant when) noexcept override { inner_.sleepUntil(when); }
+  CountingTransport() : PassingTransport(std::make_unique<ProfibusDpTransport>()) {}
+
   void exchange(const std::vector<profile::ProcessOutput>& outputs,
                 std::vector<DriveExchange>& inputs) noexcept override {
     ++cycles;
     countThisThread(counting);
     if (spoil) spoiled_ = std::make_unique<int>(1);
-    inner_.exchange(outputs, inputs);
+    PassingTransport::exchange(outputs, inputs);
   }
-  bool submit(DriveIndex drive, const profile::ParameterRequest& request) noexcept override {
-    return inner_.submit(drive, request);
-  }
-  std::optional<profile::ParameterResult> pollResult() noexcept override { return inner_.pollResult(); }
-  bool connected() const noexcept override { return inner_.connected(); }
-  BusCounters counters() const noexcept override { return inner_.counters(); }
-  DriveNote note(DriveIndex drive) const noexcept override { return inner_.note(drive); }
-  std::uint32_t identNumber(DriveIndex drive) const noexcept override { return inner_.identNumber(drive); }
-  Sentence busText() const noexcept override { return inner_.busText(); }
-  DriveIdentity identity(DriveIndex drive) const override { return inner_.identity(drive); }
-  std::optional<BusEvent> pollEvent() noexcept override { return inner_.pollEvent(); }
-  void close() noexcept override { inner_.close(); }
 
   std::atomic<unsigned long> cycles{0};
   std::atomic<bool> counting{false};
   std::atomic<bool> spoil{false};
 
  private:
-  ProfibusDpTransport inner_;
   std::unique_ptr<int> spoiled_;
 };
 

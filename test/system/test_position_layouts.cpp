@@ -59,7 +59,7 @@ typename Robot::Options optionsOf(const LiftWords& words) {
 
 template <typename Robot>
 class PositionLayouts : public ::testing::Test {};
-TYPED_TEST_SUITE(PositionLayouts, EveryLift, LiftBusName);
+TYPED_TEST_SUITE(PositionLayouts, EveryLift, BusName);
 
 TYPED_TEST(PositionLayouts, EveryTargetArrivesWithinAThousandthOfARevolution) {
   for (const LiftWords& words : kLayouts) {

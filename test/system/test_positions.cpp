@@ -42,7 +42,7 @@ class Positions : public ::testing::Test {
     return liftOptions<Robot>(BusWords<Robot>::kWords, position);
   }
 };
-TYPED_TEST_SUITE(Positions, EveryLift, LiftBusName);
+TYPED_TEST_SUITE(Positions, EveryLift, BusName);
 
 /// Without a step, so that each can be looked at.
 template <typename Robot>

@@ -44,7 +44,7 @@ double shaftTurns(Robot& robot) {
 
 template <typename Robot>
 class ResetPosition : public ::testing::Test {};
-TYPED_TEST_SUITE(ResetPosition, EveryLift, LiftBusName);
+TYPED_TEST_SUITE(ResetPosition, EveryLift, BusName);
 
 TYPED_TEST(ResetPosition, IsZeroAfterwardsAndNothingMoves) {
   TypeParam robot{resetOptions<TypeParam>(61)};

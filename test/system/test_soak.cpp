@@ -16,7 +16,6 @@
 #include "support/count_allocations.h"
 #include "support/work_counters.h"
 #include "system/every_robot.h"
-#include "system/interbus_robot.h"
 #include "trace/trace_feed.h"
 
 namespace nord_driver::test {
@@ -126,23 +125,15 @@ class Soak : public ::testing::Test {
   std::uint64_t cycles_ = 0, events_ = 0;
   double told_before_[2] = {}, true_before_[2] = {}, steady_drift_ = 0.0;
 };
-
-struct SoakBusName {
-  template <typename Robot>
-  static std::string GetName(int index) {
-    return std::is_same_v<Robot, InterbusRobot> ? "Interbus" : BusName::GetName<Robot>(index);
-  }
-};
-using SoakRobots = ::testing::Types<SimulatedRobot, CanRobot, DevicenetRobot, InterbusRobot>;
-TYPED_TEST_SUITE(Soak, SoakRobots, SoakBusName);
+TYPED_TEST_SUITE(Soak, EveryBusRobot, BusName);
 
 template <typename Robot>
 std::string rulesBroken(Robot& robot) {
-  return busOf(robot).referee().report();
-}
-template <>
-std::string rulesBroken(InterbusRobot& robot) {
-  return robot.referee();
+  if constexpr (std::is_same_v<Robot, InterbusRobot>) {
+    return robot.referee();
+  } else {
+    return busOf(robot).referee().report();
+  }
 }
 
 // Each round: 16 minutes of driving, in which nothing may be allocated, counted as an error or lost; then a drive goes
@@ -216,7 +207,7 @@ TYPED_TEST(Soak, NothingGrowsAndNothingDrifts) {
       "soak: %s %.2f h simulated, %llu cycles, %lu allocations in the cycle, %ld kB more than after the first round, "
       "wheels off by at most %.3g rad of %.4g driven (by %.3g rad at a steady speed), pose off its wheels by at most "
       "%.3g rad\n",
-      SoakBusName::GetName<TypeParam>(0).c_str(), toSeconds(robot.transport().now() - begin) / 3600.0,
+      BusName::GetName<TypeParam>(0).c_str(), toSeconds(robot.transport().now() - begin) / 3600.0,
       static_cast<unsigned long long>(this->cycles_), allocated, grown, worst_angle, driven, this->steady_drift_,
       worst_yaw);
 }

@@ -35,7 +35,7 @@ class SteeredBase : public ::testing::Test {
 
   SteeredRobot<Bus> robot_;
 };
-TYPED_TEST_SUITE(SteeredBase, EveryLift, LiftBusName);
+TYPED_TEST_SUITE(SteeredBase, EveryLift, BusName);
 
 // Enabling moves nothing: neither a wheel nor a steering axis.
 TYPED_TEST(SteeredBase, EnablingMovesNothing) {
@@ -189,7 +189,7 @@ TYPED_TEST(SteeredBase, TellsTheAnglesOfItsJoints) {
 // Without acceleration limits the base is commanded to stand at once, and rolls on down P103: 1.5 s from 0.4 m/s.
 template <typename Bus>
 class SteeredBaseOnSlowRamps : public ::testing::Test {};
-TYPED_TEST_SUITE(SteeredBaseOnSlowRamps, EveryLift, LiftBusName);
+TYPED_TEST_SUITE(SteeredBaseOnSlowRamps, EveryLift, BusName);
 
 TYPED_TEST(SteeredBaseOnSlowRamps, SteersNoWheelWhileItRolls) {
   SteeredOptions options;
@@ -219,10 +219,10 @@ TYPED_TEST(SteeredBaseOnSlowRamps, SteersNoWheelWhileItRolls) {
 
 template <typename Bus>
 class SteeredBaseWithoutSlip : public ::testing::Test {};
-TYPED_TEST_SUITE(SteeredBaseWithoutSlip, EveryLift, LiftBusName);
+TYPED_TEST_SUITE(SteeredBaseWithoutSlip, EveryLift, BusName);
 template <typename Bus>
 class SteeredBaseInANarrowRange : public ::testing::Test {};
-TYPED_TEST_SUITE(SteeredBaseInANarrowRange, EveryLift, LiftBusName);
+TYPED_TEST_SUITE(SteeredBaseInANarrowRange, EveryLift, BusName);
 
 // Motors that hardly slip: what is left between the truth and odometry is how it adds up speeds and angles. With a slip of
 // 2 Hz at rated torque it is 2 cm, for P543 = 1 is the output frequency, without slip.

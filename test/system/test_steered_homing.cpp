@@ -36,7 +36,7 @@ class SteeredHoming : public ::testing::Test {
 
   SteeredRobot<Bus> robot_{options()};
 };
-TYPED_TEST_SUITE(SteeredHoming, EveryLift, LiftBusName);
+TYPED_TEST_SUITE(SteeredHoming, EveryLift, BusName);
 
 TYPED_TEST(SteeredHoming, IsRefusedWhileTheBaseIsNotEnabled) {
   auto& robot = this->robot_;

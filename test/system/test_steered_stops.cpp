@@ -96,7 +96,7 @@ class SteeredStops : public ::testing::Test {
     }
   }
 };
-TYPED_TEST_SUITE(SteeredStops, EveryLift, LiftBusName);
+TYPED_TEST_SUITE(SteeredStops, EveryLift, BusName);
 
 TYPED_TEST(SteeredStops, WhatStopsAWheelStopsTheWholeBase) {
   this->stopTheWholeBaseBy(kFront);
@@ -133,7 +133,7 @@ class SteeredAskedStops : public ::testing::Test {
 
   SteeredRobot<Bus> robot_;
 };
-TYPED_TEST_SUITE(SteeredAskedStops, EveryLift, LiftBusName);
+TYPED_TEST_SUITE(SteeredAskedStops, EveryLift, BusName);
 
 TYPED_TEST(SteeredAskedStops, Disable) {
   auto& robot = this->robot_;
@@ -175,7 +175,7 @@ TYPED_TEST(SteeredAskedStops, ShutDown) {
 
 template <typename Bus>
 class SteeredEnable : public ::testing::Test {};
-TYPED_TEST_SUITE(SteeredEnable, EveryLift, LiftBusName);
+TYPED_TEST_SUITE(SteeredEnable, EveryLift, BusName);
 
 // One that cannot be enabled keeps all of them disabled: all or none.
 TYPED_TEST(SteeredEnable, AllOrNone) {

@@ -63,7 +63,7 @@ std::vector<std::int32_t> array(Robot& robot) {
 
 template <typename Robot>
 class TeachPosition : public ::testing::Test {};
-TYPED_TEST_SUITE(TeachPosition, EveryLift, LiftBusName);
+TYPED_TEST_SUITE(TeachPosition, EveryLift, BusName);
 
 TYPED_TEST(TeachPosition, IsInTheArrayAfterwards) {
   TypeParam robot{teachOptions<TypeParam>()};

@@ -262,12 +262,12 @@ bool TimedCanBus::toQueue(const CanFrame& frame) noexcept {
 }
 
 void TimedCanBus::transmit(const CanFrame& frame) noexcept {
-  waiting_.push_back({frame, Sender::kNode, now_});  // a bus that cannot take it for so long is dead anyway
+  waiting_.push_back({frame, Sender::kNode});  // a bus that cannot take it for so long is dead anyway
 }
 
 void TimedCanBus::inject(const CanFrame& frame) noexcept {
   foreign_ = true;
-  waiting_.push_back({frame, Sender::kForeign, now_});
+  waiting_.push_back({frame, Sender::kForeign});
 }
 
 void TimedCanBus::setDisturbance(const CanDisturbance& disturbance) noexcept {

@@ -94,7 +94,7 @@ class TimedCanBus : public link::CanLink, private CanSink {
   struct Pending {
     CanFrame frame;
     Sender sender = Sender::kNode;
-    Instant given{};  ///< to the interface
+    Instant given{};  ///< to the interface, where it is the master's
   };
 
   void transmit(const CanFrame& frame) noexcept override;

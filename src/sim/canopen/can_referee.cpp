@@ -82,7 +82,7 @@ void CanReferee::nmt(const CanFrame& frame) noexcept {
   }
 }
 
-void CanReferee::delivered(const CanFrame& frame) noexcept {
+void CanReferee::delivered(const CanFrame& frame, bool is_operational) noexcept {
   if (frame.extended || frame.remote || frame.id <= kErrorControl || frame.id > kErrorControl + 127) return;
   if (frame.size != 1) return;
   View& view = views_[frame.id - kErrorControl];
@@ -91,6 +91,8 @@ void CanReferee::delivered(const CanFrame& frame) noexcept {
     view.says_so = true;
     return;
   }
+  // A state that waited for the bus may be over already: it is nothing to judge by.
+  if (is_operational) return;
   if (state != NmtState::kStopped) view.stopped = false;
   if (view.started || view.says_so) view.since_told = view.tolerated;
   view.started = view.says_so = false;

@@ -52,8 +52,8 @@ class CanReferee : public RuleCounts<CanRule> {
   }
   /// A frame of the master: what can be judged without the nodes.
   void masterFrame(const CanFrame& frame) noexcept;
-  /// A frame that reached the master.
-  void delivered(const CanFrame& frame) noexcept;
+  /// A frame that reached the master; `is_operational`: its sender is by now.
+  void delivered(const CanFrame& frame, bool is_operational) noexcept;
   /// An RPDO of `length` bytes reached a node that maps `expected`.
   void rpdo(std::uint8_t node, std::size_t length, std::size_t expected) noexcept;
   /// An SDO request reached a server. `pending`: its last one is not answered yet.

@@ -97,13 +97,10 @@ void CanStations::receive(const CanFrame& frame, Judge judge, CanSink& sink) noe
 }
 
 void CanStations::delivered(const CanFrame& frame, bool to_master, CanSink& sink) noexcept {
-  // A heartbeat that waited for the bus may tell what is over already: it is nothing to judge by.
   const CanNode* sender =
       frame.id > kErrorControl ? find(static_cast<std::uint8_t>(frame.id - kErrorControl)) : nullptr;
-  const bool says_operational =
-      frame.size == 1 && (frame.data[0] & 0x7Fu) == static_cast<unsigned>(NmtState::kOperational);
-  const bool stale = sender != nullptr && sender->state() == NmtState::kOperational && !says_operational;
-  if (to_master && !stale) referee_.delivered(frame);
+  const bool is_operational = sender != nullptr && sender->state() == NmtState::kOperational;
+  if (to_master) referee_.delivered(frame, is_operational);
   for (CanNode* node : nodes_) {
     if (node->claim(frame.id) != CanNode::Claim::kSends) node->receive(frame, false, sink);
   }
