@@ -201,8 +201,9 @@ void Scanner::touched(const NodeHandler& node) noexcept {
 }
 
 bool Scanner::pollTransmit(CanFrame& frame) noexcept {
+  // Outputs first: where the link takes a frame only now and then, a word that stops is what it takes.
   const bool given = pollDuplicateMac() || (bus_state_ == BusState::kOnline &&
-                                            (pollAcknowledge() || pollStrobe() || pollOutput() || pollExplicit()));
+                                            (pollOutput() || pollStrobe() || pollAcknowledge() || pollExplicit()));
   if (!given) {
     given_.kind = Given::Kind::kNothing;
     return false;

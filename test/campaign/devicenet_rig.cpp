@@ -21,7 +21,7 @@ class DevicenetRig final : public CampaignRig {
     if (undisturbed) return referee.report();
     return referee.report({Rule::kZeroControlWord, Rule::kDuplicateMacUnanswered, Rule::kBeforeDuplicateCheck,
                            Rule::kReleaseChoice, Rule::kExplicitBeforeAllocation, Rule::kIoBeforeAllocation,
-                           Rule::kIoAfterTimeout});
+                           Rule::kIoAfterTimeout, Rule::kChangeUnacknowledged});
   }
   void passWithoutTheDriver(Duration span) override { robot_.bus().run(span); }
   void endLosses() override {
@@ -174,6 +174,13 @@ const std::vector<Act>& devicenetActs() {
   return acts;
 }
 
+// The four kinds of I/O connection; a bit strobe brings back 8 bytes at most, which four inverters behind a module exceed.
+const char* ioOf(const Layout& layout) {
+  static constexpr const char* kKinds[] = {"poll", "cos", "cyclic", "strobe"};
+  const char* const kind = kKinds[layout.variant % 4];
+  return layout.one_module && kind == kKinds[3] ? kKinds[0] : kind;
+}
+
 std::unique_ptr<CampaignRig> makeDevicenet(const Layout& layout, const TransportWrap& wrap) {
   DevicenetRobot::Options options;
   options.base = layout.wheels != 0;
@@ -186,6 +193,7 @@ std::unique_ptr<CampaignRig> makeDevicenet(const Layout& layout, const Transport
   for (Values& values : options.each) {
     values["vendor_id"] = static_cast<int>(sim::DnIdentity{}.vendor);
     values["product_code"] = static_cast<int>(kProduct);
+    values["io"] = std::string{ioOf(layout)};
   }
   options.modules = layout.drives();
   if (layout.one_module) options.gateway_inverters = layout.drives();

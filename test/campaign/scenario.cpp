@@ -16,7 +16,9 @@ std::string toText(const Scenario& scenario) {
   out << "bus=" << scenario.bus << " seed=" << scenario.seed << " wheels=" << scenario.layout.wheels
       << " singles=" << scenario.layout.singles;
   if (scenario.layout.axes != 0) out << " axes=" << scenario.layout.axes;
-  out << " one_module=" << scenario.layout.one_module << " length=" << scenario.length;
+  out << " one_module=" << scenario.layout.one_module;
+  if (scenario.layout.variant != 0) out << " variant=" << scenario.layout.variant;
+  out << " length=" << scenario.length;
   for (const Event& event : scenario.events) out << "; " << toText(event);
   return out.str();
 }
@@ -45,9 +47,11 @@ std::optional<Scenario> scenarioFrom(const std::string& text) {
   std::istringstream in{head};
   unsigned seed = 0, one_module = 0;
   const bool with_axes = head.find(" axes=") != std::string::npos;
+  const bool with_variant = head.find(" variant=") != std::string::npos;
   if (!take(in, "bus", scenario.bus) || !take(in, "seed", seed) || !take(in, "wheels", scenario.layout.wheels) ||
       !take(in, "singles", scenario.layout.singles) || (with_axes && !take(in, "axes", scenario.layout.axes)) ||
-      !take(in, "one_module", one_module) || !take(in, "length", scenario.length)) {
+      !take(in, "one_module", one_module) || (with_variant && !take(in, "variant", scenario.layout.variant)) ||
+      !take(in, "length", scenario.length)) {
     return std::nullopt;
   }
   scenario.seed = seed;

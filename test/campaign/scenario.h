@@ -18,6 +18,7 @@ struct Layout {
   unsigned singles = 0;     ///< 1 to 8 drives in all
   unsigned axes = 0;        ///< `mode: position`; the first of them can be asked for a reference run
   bool one_module = false;  ///< all of them behind one bus module (up to four)
+  unsigned variant = 0;     ///< 0 to 3: which of its ways to exchange process data a bus with several takes
 
   std::size_t drives() const noexcept { return wheels + singles + axes; }
   DriveIndex firstAxis() const noexcept { return wheels + singles; }
@@ -41,8 +42,8 @@ struct Scenario {
   std::vector<Event> events;
 };
 
-/// "bus=profibus seed=17 wheels=2 singles=0 axes=1 one_module=0 length=6000; 1500+0 enable 0 0 0; ..."; no axes are left
-/// out.
+/// "bus=profibus seed=17 wheels=2 singles=0 axes=1 one_module=0 length=6000; 1500+0 enable 0 0 0; ..."; no axes and
+/// variant 0 are left out.
 std::string toText(const Scenario& scenario);
 std::string toText(const Event& event);
 /// Nothing when it is no such line.

@@ -42,6 +42,10 @@ TEST(Scenarios, WhatIsNoneIsNotRead) {
   ASSERT_TRUE(with_axis);
   EXPECT_EQ(2u, with_axis->layout.firstAxis());
   EXPECT_EQ(3u, with_axis->layout.drives());
+  EXPECT_EQ(0u, with_axis->layout.variant);
+  EXPECT_FALSE(scenarioFrom("bus=profibus seed=1 wheels=2 singles=0 one_module=0 variant=x length=100"));
+  EXPECT_EQ(3u,
+            scenarioFrom("bus=profibus seed=1 wheels=2 singles=0 one_module=0 variant=3 length=100")->layout.variant);
 }
 
 // Every act, and every size from one drive to eight.

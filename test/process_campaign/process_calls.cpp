@@ -13,7 +13,7 @@ ProcessCalls::~ProcessCalls() {
 }
 
 void ProcessCalls::begin(const std::string& label, const std::string& service,
-                         std::function<Answer(const std::string&)> call) {
+                         std::function<CallOutcome(const std::string&)> call) {
   threads_.emplace_back([this, label, service, call = std::move(call)] { carryOutOne(label, service, call); });
 }
 
@@ -22,7 +22,7 @@ void ProcessCalls::readOn(const std::string& drive, std::uint16_t number) {
     const auto read = [number](const std::string& name) {
       ReadParameter service;
       service.request.number = number;
-      return answerOf(name, service);
+      return outcomeOf(name, service);
     };
     for (;;) {
       {
@@ -37,7 +37,7 @@ void ProcessCalls::readOn(const std::string& drive, std::uint16_t number) {
 }
 
 void ProcessCalls::carryOutOne(const std::string& label, const std::string& service,
-                               const std::function<Answer(const std::string&)>& call) {
+                               const std::function<CallOutcome(const std::string&)>& call) {
   const std::string name = "nord_driver/" + service;
   if (!ros::service::exists(name, false)) return;
   Call* place = nullptr;
@@ -49,11 +49,12 @@ void ProcessCalls::carryOutOne(const std::string& label, const std::string& serv
     place->made.service = label;
     place->made.begin = ros::Time::now().toSec() - start_;
   }
-  const Answer answer = call(name);
+  const CallOutcome outcome = call(name);
   const std::lock_guard<std::mutex> lock{mutex_};
   place->made.end = ros::Time::now().toSec() - start_;
-  place->made.success = answer.success;
-  place->made.message = answer.message;
+  place->made.success = outcome.answer.success;
+  place->made.message = outcome.answer.message;
+  place->made.not_carried_out = outcome.not_carried_out;
 }
 
 void ProcessCalls::end() {

@@ -13,11 +13,19 @@
 
 namespace nord_driver::test {
 
-/// Without waiting for the service, and without a sentence where it was not carried out.
+/// What a call brought: `Answer`, and where there was none, why.
+struct CallOutcome {
+  Answer answer;
+  std::string not_carried_out;
+};
+
+/// Without waiting for the service.
 template <typename Service>
-Answer answerOf(const std::string& name, Service& service) {
-  if (!carryOut(name, service)) return {};
-  return {service.response.success != 0, service.response.message};
+CallOutcome outcomeOf(const std::string& name, Service& service) {
+  ros::ServiceClient client = connectTo<Service>(name);
+  if (!client.isValid()) return {{}, "no connection was made"};
+  if (client.call(service)) return {{service.response.success != 0, service.response.message}, ""};
+  return {{}, client.isValid() ? "its handler failed" : "its connection was lost"};
 }
 
 class ProcessCalls {
@@ -31,7 +39,7 @@ class ProcessCalls {
   void startAt(double time) { start_ = time; }
   /// Calls `service` of the driver, if there is one just now, under the name `label`; `call` carries it out. Comes back at
   /// once.
-  void begin(const std::string& label, const std::string& service, std::function<Answer(const std::string&)> call);
+  void begin(const std::string& label, const std::string& service, std::function<CallOutcome(const std::string&)> call);
   /// A user who reads a parameter of that drive again and again, until the end.
   void readOn(const std::string& drive, std::uint16_t number);
   /// No new ones; waits for those that run.
@@ -50,7 +58,7 @@ class ProcessCalls {
   };
 
   void carryOutOne(const std::string& label, const std::string& service,
-                   const std::function<Answer(const std::string&)>& call);
+                   const std::function<CallOutcome(const std::string&)>& call);
 
   mutable std::mutex mutex_;
   double start_ = 0.0;

@@ -24,15 +24,15 @@ constexpr double kLongestTimeout = 1.0;               // s, of cmd_vel, drives a
 constexpr double kSpare = 0.6;                        // s, for what passes between a call, a topic and the bus
 constexpr double kTruthAge = 0.1;                     // s, of 50 Hz
 
-Answer setBool(const std::string& name, bool on) {
+CallOutcome setBool(const std::string& name, bool on) {
   std_srvs::SetBool service;
   service.request.data = on;
-  return answerOf(name, service);
+  return outcomeOf(name, service);
 }
 
-Answer trigger(const std::string& name) {
+CallOutcome trigger(const std::string& name) {
   std_srvs::Trigger service;
-  return answerOf(name, service);
+  return outcomeOf(name, service);
 }
 
 /// Of the simulator; what it answers.

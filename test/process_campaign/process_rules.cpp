@@ -124,6 +124,11 @@ std::optional<std::string> unanswered(const std::vector<MadeCall>& calls, double
           << patience << " s";
       return out.str();
     }
+    if (!call.not_carried_out.empty()) {
+      out << call.service << ", called at " << call.begin << " s, brought no answer until " << *call.end
+          << " s: " << call.not_carried_out;
+      return out.str();
+    }
     if (!call.success && call.message.empty()) {
       out << call.service << ", called at " << call.begin << " s, was refused without a sentence";
       return out.str();

@@ -22,6 +22,7 @@ struct MadeCall {
   std::optional<double> end;
   bool success = false;
   std::string message;
+  std::string not_carried_out{};  ///< why it brought no answer of the driver; empty: it did
 };
 
 /// From, until, s.

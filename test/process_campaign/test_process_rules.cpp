@@ -97,6 +97,9 @@ TEST_F(ProcessRules, EveryCallEndsInTimeAndARefusalSaysWhy) {
   record_.enablings[0].success = false;
   record_.enablings[0].message.clear();
   EXPECT_THAT(unanswered(record_.enablings, 1.0).value_or(""), HasSubstr("without a sentence"));
+  record_.enablings[0].not_carried_out = "its connection was lost";
+  EXPECT_THAT(unanswered(record_.enablings, 1.0).value_or(""),
+              HasSubstr("brought no answer until 1.1 s: its connection was lost"));
   record_.enablings[0].end.reset();
   EXPECT_THAT(unanswered(record_.enablings, 1.0).value_or(""), HasSubstr("has not ended"));
 }

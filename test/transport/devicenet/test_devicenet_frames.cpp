@@ -137,8 +137,8 @@ TEST(DevicenetVariableAssembly, TheManualsExample) {
   EXPECT_THAT(rig.violations(), testing::IsEmpty());
 }
 
-// io: strobe as frames: the strobe of all, then a poll for each; the words that count are those of the strobe's answer.
-TEST(DevicenetStrobe, StrobeThenPolls) {
+// io: strobe as frames: a poll for each, then the strobe of all; the words that count are those of the strobe's answer.
+TEST(DevicenetStrobe, PollsThenStrobe) {
   DevicenetSettings settings{2};
   for (std::size_t i = 0; i < 2; ++i) settings.drive(i).set("io", "strobe");
   DevicenetRig rig{settings};
@@ -148,8 +148,8 @@ TEST(DevicenetStrobe, StrobeThenPolls) {
   const std::size_t first = rig.bus->seen.size();
   rig.cycle();
   const std::vector<std::string> cycle(rig.bus->seen.begin() + static_cast<std::ptrdiff_t>(first), rig.bus->seen.end());
-  EXPECT_THAT(cycle, ElementsAre("> 400#0000000000000000", "> 42D#007F040020", "> 435#007E040000", "< 385#00310B0000",
-                                 "< 3C5#00310B0000", "< 386#00310B0000", "< 3C6#00310B0000"));
+  EXPECT_THAT(cycle, ElementsAre("> 42D#007F040020", "> 435#007E040000", "> 400#0000000000000000", "< 3C5#00310B0000",
+                                 "< 385#00310B0000", "< 3C6#00310B0000", "< 386#00310B0000"));
   EXPECT_EQ(0x07, rig.device(0).held) << "explicit, polled, strobed";
   EXPECT_THAT(rig.violations(), testing::IsEmpty());
 }
