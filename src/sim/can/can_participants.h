@@ -28,6 +28,8 @@ class CanParticipants {
   /// When the master's next frame was given to its interface, which repeats it until somebody acknowledges: for a
   /// referee that judges how long it has waited. A bus that does not know says nothing.
   virtual void givenAt(Instant /*when*/) noexcept {}
+  /// Whether the master learns by its answer that this frame of its own has arrived: an acknowledge has none.
+  virtual bool isAnswered(const CanFrame& /*frame*/) const noexcept { return true; }
   /// A frame of the master that reached nobody, for the referee.
   virtual void judgeOnly(const CanFrame& frame) noexcept = 0;
   /// A frame of a node reached the others, and perhaps the master.

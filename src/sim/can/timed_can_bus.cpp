@@ -219,7 +219,7 @@ void TimedCanBus::endFrame() noexcept {
 }
 
 void TimedCanBus::deliverFromMaster(const CanFrame& frame, unsigned times) noexcept {
-  if (lose_requests_ > 0) {
+  if (lose_requests_ > 0 && stations_->isAnswered(frame)) {
     --lose_requests_;
     times = 0;
   }

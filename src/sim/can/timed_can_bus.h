@@ -74,7 +74,7 @@ class TimedCanBus : public link::CanLink, private CanSink {
   void setQueuePace(Duration pace) noexcept;
   void setDisturbance(const CanDisturbance& disturbance) noexcept;
   const CanDisturbance& disturbance() const noexcept { return disturbance_; }
-  /// The next `count` frames of the master never reach the nodes.
+  /// The next `count` frames of the master never reach the nodes; what nobody answers is no request.
   void loseRequests(unsigned count) noexcept { lose_requests_ = count; }
   /// The next `count` frames of the nodes never reach the master.
   void loseAnswers(unsigned count) noexcept { lose_answers_ = count; }

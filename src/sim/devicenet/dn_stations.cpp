@@ -119,6 +119,10 @@ void DnStations::delivered(const CanFrame& frame, bool to_master, CanSink& sink)
   }
 }
 
+bool DnStations::isAnswered(const CanFrame& frame) const noexcept {
+  return !dn::isGroup2(frame.id) || dn::messageOfGroup2(frame.id) != dn::kAcknowledge;
+}
+
 void DnStations::stoodStill() noexcept {
   referee_.stoodStill();
   for (DnModule* module : modules_) module->stoodStill();

@@ -20,6 +20,7 @@ class DnStations final : public CanParticipants {
   void advance(Instant now, CanSink& sink) noexcept override;
   void receive(const CanFrame& frame, Judge judge, CanSink& sink) noexcept override;
   void givenAt(Instant when) noexcept override { referee_.givenAt(when); }
+  bool isAnswered(const CanFrame& frame) const noexcept override;
   void judgeOnly(const CanFrame& frame) noexcept override { referee_.masterFrame(frame); }
   void delivered(const CanFrame& frame, bool to_master, CanSink& sink) noexcept override;
   void stoodStill() noexcept override;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/devicenet/dn_conversation.h"
+#include "sim/devicenet/dn_stations.h"
 
 namespace nord_driver::sim {
 namespace {
@@ -232,6 +233,15 @@ TEST(DnProcessData, CyclicWithoutAcknowledges) {
   }
   EXPECT_NEAR(10.0, answers, 1.0);
   EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
+}
+
+// "Lose the next requests" means what the scanner would miss an answer to.
+TEST(DnProcessData, NobodyAnswersAnAcknowledge) {
+  RobotSim robot{dnGateway()};
+  const DnStations stations{robot};
+  const auto isAnswered = [&](std::uint32_t id) { return stations.isAnswered(dataFrame(id, ByteView{})); };
+  EXPECT_FALSE(isAnswered(0x44A));
+  for (const std::uint32_t asked : {0x400u, 0x44Cu, 0x44Du, 0x44Eu}) EXPECT_TRUE(isAnswered(asked)) << asked;
 }
 
 }  // namespace
