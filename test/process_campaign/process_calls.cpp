@@ -8,21 +8,31 @@
 
 namespace nord_driver::test {
 
+namespace {
+
+constexpr char kNode[] = "nord_driver/";
+
+}  // namespace
+
 ProcessCalls::~ProcessCalls() {
   end();
 }
 
 void ProcessCalls::begin(const std::string& label, const std::string& service,
                          std::function<CallOutcome(const std::string&)> call) {
-  threads_.emplace_back([this, label, service, call = std::move(call)] { carryOutOne(label, service, call); });
+  threads_.emplace_back([this, label, service, call = std::move(call)] {
+    if (ros::service::exists(kNode + service, false)) carryOutOne(label, service, call);
+  });
 }
 
 void ProcessCalls::readOn(const std::string& drive, std::uint16_t number) {
   threads_.emplace_back([this, drive, number] {
-    const auto read = [number](const std::string& name) {
+    ros::ServiceClient client;
+    const auto read = [number, &client](const std::string& name) {
       ReadParameter service;
       service.request.number = number;
-      return outcomeOf(name, service);
+      if (!client.isValid()) client = connectTo<ReadParameter>(name);
+      return outcomeOf(client, service);
     };
     for (;;) {
       {
@@ -30,7 +40,7 @@ void ProcessCalls::readOn(const std::string& drive, std::uint16_t number) {
         if (ending_) return;
       }
       const std::string name = drive + "/read_parameter";
-      carryOutOne(name, name, read);
+      if (client.isValid() || ros::service::exists(kNode + name, false)) carryOutOne(name, name, read);
       ros::WallDuration(0.002).sleep();
     }
   });
@@ -38,8 +48,6 @@ void ProcessCalls::readOn(const std::string& drive, std::uint16_t number) {
 
 void ProcessCalls::carryOutOne(const std::string& label, const std::string& service,
                                const std::function<CallOutcome(const std::string&)>& call) {
-  const std::string name = "nord_driver/" + service;
-  if (!ros::service::exists(name, false)) return;
   Call* place = nullptr;
   {
     const std::lock_guard<std::mutex> lock{mutex_};
@@ -49,7 +57,7 @@ void ProcessCalls::carryOutOne(const std::string& label, const std::string& serv
     place->made.service = label;
     place->made.begin = ros::Time::now().toSec() - start_;
   }
-  const CallOutcome outcome = call(name);
+  const CallOutcome outcome = call(kNode + service);
   const std::lock_guard<std::mutex> lock{mutex_};
   place->made.end = ros::Time::now().toSec() - start_;
   place->made.success = outcome.answer.success;

@@ -19,13 +19,18 @@ struct CallOutcome {
   std::string not_carried_out;
 };
 
-/// Without waiting for the service.
 template <typename Service>
-CallOutcome outcomeOf(const std::string& name, Service& service) {
-  ros::ServiceClient client = connectTo<Service>(name);
+CallOutcome outcomeOf(ros::ServiceClient& client, Service& service) {
   if (!client.isValid()) return {{}, "no connection was made"};
   if (client.call(service)) return {{service.response.success != 0, service.response.message}, ""};
   return {{}, client.isValid() ? "its handler failed" : "its connection was lost"};
+}
+
+/// One call over a connection of its own, without waiting for the service.
+template <typename Service>
+CallOutcome outcomeOf(const std::string& name, Service& service) {
+  ros::ServiceClient client = connectTo<Service>(name);
+  return outcomeOf(client, service);
 }
 
 class ProcessCalls {
@@ -40,7 +45,8 @@ class ProcessCalls {
   /// Calls `service` of the driver, if there is one just now, under the name `label`; `call` carries it out. Comes back at
   /// once.
   void begin(const std::string& label, const std::string& service, std::function<CallOutcome(const std::string&)> call);
-  /// A user who reads a parameter of that drive again and again, until the end.
+  /// A user who reads a parameter of that drive again and again, until the end, over a connection that stays as long as
+  /// the driver.
   void readOn(const std::string& drive, std::uint16_t number);
   /// No new ones; waits for those that run.
   void end();

@@ -97,8 +97,9 @@ class DrivenRobot {
     cycle_ = std::make_unique<cycle::BusCycle>(config_, *transport_, *ports_, false);
   }
 
-  /// Every answer so far.
+  /// Every answer so far, or since they were forgotten.
   const std::vector<cycle::Completion>& completions() const { return completions_; }
+  void forgetCompletions() { completions_.clear(); }
   const cycle::CycleSnapshot& snapshot() { return ports_->readSnapshot(); }
   /// What left for a drive in the last cycle, and what came back.
   Word controlWord(DriveIndex drive) { return snapshot().drives[drive].output.control_word; }
