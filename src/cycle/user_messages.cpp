@@ -105,6 +105,12 @@ Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveRe
   if (refusal == Refusal::kUnexpectedSource && report.unexpected_source) {
     return sourceMessage(drive, *report.unexpected_source);
   }
+  if (refusal == Refusal::kStopped && report.refusal == refusal && report.stop_cause != StopCause::kNone) {
+    const char* const state = profile::toString(profile::StatusWord{report.stop_status_word}.state());
+    text.format("drive %s: %s: %s (status word %04X, %s)", drive, drive::toString(refusal),
+                drive::toString(report.stop_cause), report.stop_status_word, state);
+    return text;
+  }
   if (report.online && report.switch_on_reason) {
     const unsigned reason = *report.switch_on_reason;
     text.format("drive %s: %s%s (status word %04X, %s; the inverter's own reason, P700[-03], is %u.%u)", drive,

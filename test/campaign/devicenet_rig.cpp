@@ -177,7 +177,7 @@ const std::vector<Act>& devicenetActs() {
 // The four kinds of I/O connection; a bit strobe brings back 8 bytes at most, which four inverters behind a module exceed.
 const char* ioOf(const Layout& layout) {
   static constexpr const char* kKinds[] = {"poll", "cos", "cyclic", "strobe"};
-  const char* const kind = kKinds[layout.variant % 4];
+  const char* const kind = kKinds[layout.exchange()];
   return layout.one_module && kind == kKinds[3] ? kKinds[0] : kind;
 }
 

@@ -151,9 +151,13 @@ class Player {
     Instant until{};  // renewed until then
     Instant given{};
     bool ever = false;
+    bool followed = false;               // since its drives were enabled
     double linear = 0.0, angular = 0.0;  // base
     double velocity = 0.0;               // single drive
   };
+  bool isFresh(const Command& command);
+  /// A stop that takes another way than setpoint_zero ends disabled, and begins when a command that was followed grew old.
+  bool hasRunOut(const GroupWish& group);
   Command base_command_;
   std::vector<Command> drive_commands_;
   std::vector<double> places_;  // rad, where axes arrived last

@@ -15,6 +15,7 @@ using std::chrono::seconds;
 namespace {
 
 constexpr double kNextTarget = 1.5;  // rad
+constexpr double kStands = 0.1;      // Hz
 constexpr int kWordsPass = 5;  // cycles, until those of a module that was in its time-out have reached its inverters
 
 }  // namespace
@@ -104,6 +105,10 @@ void Player::judgeRecovery() {
   if (held) submit(RequestKind::kAcknowledge, cycle::kAllDrives, seconds{1});
   for (const Instant answered = now() + seconds{2}; held && goesOn() && now() < answered;) tick();
   if (!goesOn() || !ask(RequestKind::kDisable, "it cannot be disabled")) return;
+  // Who was told to coast turns on for a while, and an axis that does so leaves its place.
+  const auto coasts = [](const DriveTruth& drive) { return std::fabs(drive.rotor) > kStands; };
+  const Instant at_rest = now() + seconds{20};
+  while (goesOn() && now() < at_rest && std::any_of(moment_.drives.begin(), moment_.drives.end(), coasts)) tick();
   if (!ask(RequestKind::kAcknowledge, "faults cannot be acknowledged")) return;
   for (int i = 0; i < kWordsPass && held; ++i) tick();
   if (!ask(RequestKind::kEnable, "it cannot be enabled")) return;

@@ -68,15 +68,13 @@ void Player::seeTruth() {
     const bool silent = moment_.driver_ran && moment_.snapshot != nullptr && !moment_.snapshot->drives[0].online;
     moment_.stand_in_believed = (moment_.stand_in_believed && !silent) || (twin->plugged() && !told_apart);
   }
-  const Duration timeout = rig_->robot().config().cmd_vel_timeout;
-  const auto fresh = [&](const Command& command) { return command.ever && now() - command.given <= timeout; };
   for (DriveIndex i = 0; i < moment_.drives.size(); ++i) {
     const bool wheel = i < scenario_.layout.wheels;
     const Command& command = wheel ? base_command_ : drive_commands_[i];
     const double side = i % 2 == 0 ? -1.0 : 1.0;
     const double speed =
         wheel ? (command.linear + side * command.angular * kSeparation / 2.0) / kWheelRadius : command.velocity;
-    moment_.wanted[i] = fresh(command) ? speed * kHertzPerSpeed : 0.0;
+    moment_.wanted[i] = isFresh(command) ? speed * kHertzPerSpeed : 0.0;
     moment_.renewed[i] = command.ever && moment_.driver_ran && command.given == moment_.began;
     moment_.cut[i] = false;
   }
@@ -134,12 +132,25 @@ bool Player::asksToEnable(const GroupWish& group) const {
   });
 }
 
+bool Player::isFresh(const Command& command) {
+  return command.ever && now() - command.given <= rig_->robot().config().cmd_vel_timeout;
+}
+
+bool Player::hasRunOut(const GroupWish& group) {
+  Command& command = group.is_base ? base_command_ : drive_commands_[group.members.front()];
+  const bool fresh = isFresh(command);
+  const bool run_out = group.confirmed && command.followed && !fresh && scenario_.layout.ways() != 0;
+  command.followed = group.confirmed && fresh;
+  return run_out;
+}
+
 // What the driver has stopped by itself needs an enabling before it moves again.
 void Player::seeStops() {
   for (GroupWish& group : moment_.groups) {
     const auto& snapshot = *moment_.snapshot;
     const bool enabled = group.is_base ? snapshot.base.enabled : snapshot.drives[group.members.front()].enabled;
-    if (!group.confirmed || enabled) continue;
+    const bool runs = !hasRunOut(group) && enabled;
+    if (!group.confirmed || runs) continue;
     group.asked = group.confirmed = false;
     ++outcome_.stopped;
   }

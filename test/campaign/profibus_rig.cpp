@@ -3,6 +3,7 @@
 
 #include "campaign/axes.h"
 #include "campaign/rig.h"
+#include "campaign/wheels.h"
 #include "system/simulated_robot.h"
 
 namespace nord_driver::test {
@@ -120,6 +121,7 @@ const std::vector<Act>& profibusActs() {
 
 std::unique_ptr<CampaignRig> makeProfibus(const Layout& layout, const TransportWrap& wrap) {
   SimulatedRobot::Options options;
+  options.node = stopSettings(layout);
   options.base = layout.wheels != 0;
   options.wheels_a_side = layout.wheels == 4 ? 2 : 1;
   options.one_module = layout.one_module;

@@ -18,8 +18,12 @@ struct Layout {
   unsigned singles = 0;     ///< 1 to 8 drives in all
   unsigned axes = 0;        ///< `mode: position`; the first of them can be asked for a reference run
   bool one_module = false;  ///< all of them behind one bus module (up to four)
-  unsigned variant = 0;     ///< 0 to 3: which of its ways to exchange process data a bus with several takes
+  unsigned variant = 0;     ///< 0 to 15: how it is configured
 
+  /// 0 to 3: which of its ways to exchange process data a bus with several takes.
+  unsigned exchange() const noexcept { return variant % 4; }
+  /// 0 to 3: which ways its stops take; 0: those nobody has chosen.
+  unsigned ways() const noexcept { return variant / 4 % 4; }
   std::size_t drives() const noexcept { return wheels + singles + axes; }
   DriveIndex firstAxis() const noexcept { return wheels + singles; }
 };

@@ -1,4 +1,5 @@
-// The wheels of a layout as settings of a robot that knows a base of two: which joints, which way round, which body.
+// The wheels of a layout as settings of a robot that knows a base of two: which joints, which way round, which body,
+// and how it stops.
 #pragma once
 
 #include <map>
@@ -18,11 +19,29 @@ inline std::string nameOfDrive(std::size_t i) {
   return i == 0 ? "left" : i == 1 ? "right" : "extra" + std::to_string(i);
 }
 
+/// doc/safety.md, "The way of each stop".
+inline Values stopSettings(const Layout& layout) {
+  struct Ways {
+    const char *command_timeout, *disable, *drive_stopped;
+  };
+  static constexpr Ways kWays[] = {{"setpoint_zero", "off1", "setpoint_zero"},
+                                   {"off1", "quick_stop", "coast"},
+                                   {"quick_stop", "coast", "off1"},
+                                   {"coast", "off1", "quick_stop"}};
+  const Ways& ways = kWays[layout.ways()];
+  return {{"stop/command_timeout", std::string{ways.command_timeout}},
+          {"stop/disable", std::string{ways.disable}},
+          {"stop/drive_stopped", std::string{ways.drive_stopped}}};
+}
+
+/// Of the node.
 inline Values wheelSettings(const Layout& layout) {
-  if (layout.wheels != 4) return {};
+  Values node = stopSettings(layout);
+  if (layout.wheels != 4) return node;
   const auto joint = [](std::size_t i) { return nameOfDrive(i) + "_wheel_joint"; };
-  return {{"left_wheel", std::vector<std::string>{joint(0), joint(2)}},
-          {"right_wheel", std::vector<std::string>{joint(1), joint(3)}}};
+  node["left_wheel"] = std::vector<std::string>{joint(0), joint(2)};
+  node["right_wheel"] = std::vector<std::string>{joint(1), joint(3)};
+  return node;
 }
 
 /// Of each drive: a single drive turns as its motor does.

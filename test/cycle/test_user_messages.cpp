@@ -43,6 +43,19 @@ TEST(Sentences, AStopTellsTheStatusWordOfThatMoment) {
   EXPECT_TRUE(stopMessage("left", drive::StopCause::kNone, report).empty());
 }
 
+// "A stop" alone sends its reader looking for somebody who has pressed a button.
+TEST(Sentences, AnEnablingThatAStopEndedTellsWhatStoppedIt) {
+  drive::DriveReport report = onlineReport();
+  report.refusal = drive::Refusal::kStopped;
+  EXPECT_STREQ("drive left: a stop came before the inverter was enabled (status word 0B31, ready to switch on)",
+               refusalMessage("left", drive::Refusal::kStopped, report).c_str());
+  report.stop_cause = drive::StopCause::kFault;
+  report.stop_status_word = 0x0238;
+  EXPECT_STREQ(
+      "drive left: a stop came before the inverter was enabled: a fault of the inverter (status word 0238, fault)",
+      refusalMessage("left", drive::Refusal::kStopped, report).c_str());
+}
+
 TEST(Sentences, ARefusalTellsTheInvertersOwnReason) {
   drive::DriveReport report = onlineReport();
   report.status_word = 0x0B70;
