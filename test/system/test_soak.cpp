@@ -37,6 +37,8 @@ constexpr auto kRamp = seconds{10};
 constexpr int kRoundsAnHour = 3;
 constexpr int kRamps = 8;    // of a round
 constexpr int kReturns = 3;  // of a lost drive, in a round
+// B. A block is 16 longer than asked for where malloc could not use the rest; two blocks that stay would be 48.
+constexpr long kBlockSpare = 32;
 
 int wantedRounds() {
   const char* const given = std::getenv("NORD_SOAK_HOURS");
@@ -203,7 +205,7 @@ TYPED_TEST(Soak, NothingGrowsAndNothingDrifts) {
   }
   if (kCanCountAllocations) {
     EXPECT_EQ(0u, allocated) << "allocated in the cycle";
-    EXPECT_EQ(held, held_last) << "bytes of the heap, as after the first loss";
+    EXPECT_LE(std::abs(held_last - held), kBlockSpare) << "bytes of the heap beside what it held after the first loss";
   }
   const long grown = residentMemory() - memory;
   EXPECT_LE(grown, 256) << "kB more than after the first round";
