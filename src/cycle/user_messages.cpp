@@ -80,6 +80,10 @@ Sentence sourceMessage(const char* drive, const drive::UnexpectedSource& source)
   return text;
 }
 
+const char* stateAtStop(const drive::DriveReport& report) noexcept {
+  return profile::toString(profile::StatusWord{report.stop_status_word}.state());
+}
+
 }  // namespace
 
 Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveReport& report) noexcept {
@@ -106,9 +110,8 @@ Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveRe
     return sourceMessage(drive, *report.unexpected_source);
   }
   if (refusal == Refusal::kStopped && report.refusal == refusal && report.stop_cause != StopCause::kNone) {
-    const char* const state = profile::toString(profile::StatusWord{report.stop_status_word}.state());
     text.format("drive %s: %s: %s (status word %04X, %s)", drive, drive::toString(refusal),
-                drive::toString(report.stop_cause), report.stop_status_word, state);
+                drive::toString(report.stop_cause), report.stop_status_word, stateAtStop(report));
     return text;
   }
   if (report.online && report.switch_on_reason) {
@@ -128,7 +131,7 @@ Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveRe
 Sentence stopMessage(const char* drive, StopCause cause, const drive::DriveReport& report) noexcept {
   Sentence text;
   if (cause == StopCause::kNone) return text;
-  const char* const state = profile::toString(profile::StatusWord{report.stop_status_word}.state());
+  const char* const state = stateAtStop(report);
   if (report.online && report.switch_on_reason) {
     const unsigned reason = *report.switch_on_reason;
     text.format("drive %s stopped: %s (status word %04X, %s; the inverter's own reason, P700[-03], is %u.%u)", drive,

@@ -156,6 +156,7 @@ class Player {
     double velocity = 0.0;               // single drive
   };
   bool isFresh(const Command& command);
+  Command& commandOf(const GroupWish& group);
   /// A stop that takes another way than setpoint_zero ends disabled, and begins when a command that was followed grew old.
   bool hasRunOut(const GroupWish& group);
   Command base_command_;

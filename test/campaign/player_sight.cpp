@@ -136,12 +136,13 @@ bool Player::isFresh(const Command& command) {
   return command.ever && now() - command.given <= rig_->robot().config().cmd_vel_timeout;
 }
 
+Player::Command& Player::commandOf(const GroupWish& group) {
+  return group.is_base ? base_command_ : drive_commands_[group.members.front()];
+}
+
 bool Player::hasRunOut(const GroupWish& group) {
-  Command& command = group.is_base ? base_command_ : drive_commands_[group.members.front()];
-  const bool fresh = isFresh(command);
-  const bool run_out = group.confirmed && command.followed && !fresh && scenario_.layout.ways() != 0;
-  command.followed = group.confirmed && fresh;
-  return run_out;
+  const Command& command = commandOf(group);
+  return scenario_.layout.ways() != 0 && command.followed && !isFresh(command);
 }
 
 // What the driver has stopped by itself needs an enabling before it moves again.
@@ -149,7 +150,8 @@ void Player::seeStops() {
   for (GroupWish& group : moment_.groups) {
     const auto& snapshot = *moment_.snapshot;
     const bool enabled = group.is_base ? snapshot.base.enabled : snapshot.drives[group.members.front()].enabled;
-    const bool runs = !hasRunOut(group) && enabled;
+    const bool runs = enabled && !hasRunOut(group);
+    commandOf(group).followed = group.confirmed && runs && isFresh(commandOf(group));
     if (!group.confirmed || runs) continue;
     group.asked = group.confirmed = false;
     ++outcome_.stopped;

@@ -37,6 +37,11 @@ bool take(std::istream& in, const std::string& key, unsigned& value) {
   return take(in, key, text) && static_cast<bool>(std::istringstream{text} >> value);
 }
 
+/// False when it is there and no number.
+bool takeIfThere(std::istream& in, const std::string& head, const std::string& key, unsigned& value) {
+  return head.find(" " + key + "=") == std::string::npos || take(in, key, value);
+}
+
 }  // namespace
 
 std::optional<Scenario> scenarioFrom(const std::string& text) {
@@ -46,11 +51,9 @@ std::optional<Scenario> scenarioFrom(const std::string& text) {
   Scenario scenario;
   std::istringstream in{head};
   unsigned seed = 0, one_module = 0;
-  const bool with_axes = head.find(" axes=") != std::string::npos;
-  const bool with_variant = head.find(" variant=") != std::string::npos;
   if (!take(in, "bus", scenario.bus) || !take(in, "seed", seed) || !take(in, "wheels", scenario.layout.wheels) ||
-      !take(in, "singles", scenario.layout.singles) || (with_axes && !take(in, "axes", scenario.layout.axes)) ||
-      !take(in, "one_module", one_module) || (with_variant && !take(in, "variant", scenario.layout.variant)) ||
+      !take(in, "singles", scenario.layout.singles) || !takeIfThere(in, head, "axes", scenario.layout.axes) ||
+      !take(in, "one_module", one_module) || !takeIfThere(in, head, "variant", scenario.layout.variant) ||
       !take(in, "length", scenario.length)) {
     return std::nullopt;
   }

@@ -164,7 +164,6 @@ TYPED_TEST(Soak, NothingGrowsAndNothingDrifts) {
   ASSERT_TRUE(robot.bringUpAndEnable());
   this->drive(0.0, 0.0, seconds{1});
   const Instant begin = robot.transport().now();
-  const Counters at_begin = this->counters();
   const auto trips_at_begin = robot.unit(0).counters().watchdog_trips;
   this->cycles_ = 0;
   unsigned long allocated = 0;
