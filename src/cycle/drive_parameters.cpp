@@ -12,7 +12,7 @@ namespace nord_driver::cycle {
 
 namespace {
 
-// An id tells the drive, the asker and which question of the asker it is: sequence | asker | drive.
+// An id tells the drive, the asker and which question of the asker it is: sequence | asker + 1 | drive. None is 0.
 constexpr unsigned kDriveBits = 8, kAskerBits = 4;
 constexpr std::uint32_t kDriveMask = (1u << kDriveBits) - 1, kAskerMask = (1u << kAskerBits) - 1;
 
@@ -233,7 +233,7 @@ void DriveParameters::refuse(const Request& request, profile::ParameterOutcome o
 }
 
 std::optional<profile::ParameterRequest> DriveParameters::pollRequest(Instant now) noexcept {
-  static_assert(kAskers <= kAskerMask + 1, "an id has no room for so many askers: an answer would reach another one");
+  static_assert(kAskers <= kAskerMask, "an id has no room for so many askers: an answer would reach another one");
   for (std::size_t i = 0; i < kAskers; ++i) {
     if (open_ids_[i] != 0) continue;
     const auto asker = static_cast<Asker>(i);
@@ -241,8 +241,7 @@ std::optional<profile::ParameterRequest> DriveParameters::pollRequest(Instant no
     auto request = ask(asker, now);
     if (!request) continue;
     sequence_ += 1u << (kDriveBits + kAskerBits);
-    request->id = sequence_ | static_cast<std::uint32_t>(i) << kDriveBits | static_cast<std::uint32_t>(drive_);
-    if (request->id == 0) request->id = sequence_ += 1u << (kDriveBits + kAskerBits);
+    request->id = sequence_ | static_cast<std::uint32_t>(i + 1) << kDriveBits | static_cast<std::uint32_t>(drive_);
     open_ids_[i] = request->id;
     return request;
   }
@@ -298,7 +297,7 @@ void DriveParameters::askMissingAgain(Instant now) noexcept {
 
 bool DriveParameters::handleResult(const profile::ParameterResult& result) noexcept {
   if ((result.id & kDriveMask) != drive_) return false;
-  const std::size_t asker = result.id >> kDriveBits & kAskerMask;
+  const std::size_t asker = (result.id >> kDriveBits & kAskerMask) - 1u;
   // An answer from before a loss must not pass for the answer to the question after it.
   if (asker >= kAskers || open_ids_[asker] != result.id) return true;
   open_ids_[asker] = 0;

@@ -17,8 +17,7 @@ constexpr double kSlower = 0.001;
 constexpr double kLead = 0.75;
 constexpr double kTurnAtOnce = 0.5;
 
-bool allKnown(const robot::SteeringAngles& angles, std::size_t axles) noexcept {
-  if (angles.size() != axles) return false;
+bool allKnown(const robot::SteeringAngles& angles) noexcept {
   return std::all_of(angles.begin(), angles.end(), [](double angle) { return std::isfinite(angle); });
 }
 
@@ -39,7 +38,7 @@ robot::SteeredSetpoint SteeredMotion::poll(const TwistCommand& command, bool dri
                                            const SteeredDrives& drives, Instant now, Duration dt) noexcept {
   obeys_ = below_minimum_ = beyond_full_ = false;
   waits_for_ = SteeredWait::kNothing;
-  const bool known = allKnown(drives.angles, kinematics_.axleCount());
+  const bool known = allKnown(drives.angles);
   if (!driving || !known) {
     limiter_.reset();
     if (known) steered_ = drives.angles;

@@ -17,7 +17,7 @@ namespace nord_driver::cycle {
 /// What the drives of a steered base can do in this cycle, front axle first.
 struct SteeredDrives {
   robot::WheelSpeeds max_speeds;  ///< rad/s, what 100 % of the setpoint means at each wheel
-  /// rad, measured, NaN where a steering drive does not tell where it stands; no angle, no motion.
+  /// rad, of each axle, measured; NaN where a steering drive does not tell where it stands: no angle, no motion.
   robot::SteeringAngles angles;
   MinimumSpeeds minimum;
   bool wheels_turn = false;  ///< one of them was not seen near standstill: none is steered across the way it rolls

@@ -204,6 +204,8 @@ TEST(EdsFile, CompactArrays) {
   EXPECT_TRUE(file.problems.empty());
   EXPECT_EQ(3u, file.value(0x2700, 0, 0));
   EXPECT_FALSE(file.object(0x2700, 0)->writable());
+  EXPECT_EQ(5u, file.object(0x2700, 0)->line) << "of its section";
+  EXPECT_EQ(5u, file.object(0x2700, 3)->line);
   EXPECT_EQ(7u, file.value(0x2700, 1, 0));
   EXPECT_EQ(0x20u, file.value(0x2700, 2, 0));
   EXPECT_EQ(7u, file.value(0x2700, 3, 0));

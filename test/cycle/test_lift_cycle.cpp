@@ -68,6 +68,14 @@ TEST_F(LiftCycle, StandsNowhereBeforeItsPositionIsHeard) {
   EXPECT_NEAR(0.5, snapshot().drives[0].joint_position, 1e-9) << "the last one known";
 }
 
+// Its low word alone would be taken for a position of 16 bits, 65.536 revolutions away.
+TEST_F(LiftCycle, StandsNowhereWhileTheHighWordIsNotKnown) {
+  transport.parameters.erase(545);
+  run(80);
+  EXPECT_FALSE(snapshot().drives[0].joint_known);
+  EXPECT_FALSE(snapshot().drives[0].position);
+}
+
 TEST_F(LiftCycle, TellsThatItsCountWasSetAnew) {
   transport.parameters[480] = 61;  // each bit of P480
   run(80);

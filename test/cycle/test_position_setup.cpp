@@ -131,6 +131,7 @@ TEST_F(PositionConfiguration, NeedsWordsTheBusCarries) {
     return std::string{"taken"};
   };
   EXPECT_EQ("taken", carried(3));
+  EXPECT_EQ("taken", carried(2));
   EXPECT_THAT(carried(1), HasSubstr("~drives/lift/position/bits"));
   drive_->set("position/bits", 16);
   EXPECT_EQ("taken", carried(1));

@@ -78,7 +78,9 @@ void FakeDevice::unconnected(const CanFrame& frame, Instant now) {
   };
   const std::uint8_t service = frame.data[1];
   if (frame.data[2] != 3 || frame.data[3] != 1) return reply({0x94, 0x16, 0xFF});
-  if (service == 0x0E && frame.size == 5 && frame.data[4] == 5 && tells_owner) return reply({0x8E, held, master});
+  if (service == 0x0E && frame.size == 5 && frame.data[4] == 5 && tells_owner) {
+    return reply({0x8E, tells_choice ? held : std::uint8_t{0}, master});
+  }
   if (service == 0x4B && frame.size == 6) {
     const std::uint8_t choice = frame.data[4];
     if (frame.data[5] != from) violation("the MAC id in an allocation is not that of its header");

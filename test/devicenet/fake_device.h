@@ -29,6 +29,7 @@ class FakeDevice {
   unsigned rate_step = 10;   ///< ms: rounds the expected packet rate up to such steps
   bool answers_rate = true;  ///< to the write itself
   bool tells_owner = true;   ///< on the unconnected port
+  bool tells_choice = true;  ///< beside its owner; else that nothing is allocated
   bool strict_about_sizes = true;
   std::map<Address, Bytes> attributes;  ///< beside identity and connections
   std::uint8_t error = 0x14;            ///< to a question for an attribute it does not have

@@ -114,6 +114,16 @@ TEST(StartUp, TakesOverWhatIsOursFromBefore) {
   }
 }
 
+// Who has refused to allocate what it says nobody holds is told to release what would be ours.
+TEST(StartUp, TakesOverWhatIsOursThoughItIsToldToBeNobodys) {
+  ScannerRun run{busConfig(1)};
+  run.devices[0]->tells_choice = false;
+  run.devices[0]->explicit_rate = 30000;
+  run.devices[0]->belongsTo(0, 0x03, run.now);
+  ASSERT_TRUE(run.starts()) << run.scanner.status(0).reason.c_str();
+  EXPECT_EQ(0x03, run.devices[0]->released_last);
+}
+
 // The explicit connection died of idleness meanwhile, the one for process data is still there, timed out.
 TEST(StartUp, TakesOverWhatIsLeftOfIt) {
   ScannerRun run{busConfig(1)};

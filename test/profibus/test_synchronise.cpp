@@ -120,6 +120,22 @@ TEST(Synchronise, FreezeAndGroups) {
   wire.step("68 07 07 68 FF 81 46 3A 3E 28 01 67 16", kChkCfg7D, kShortAcknowledge);
 }
 
+// What was sent before it is not known to have come: the members act on what they hear next.
+TEST(Synchronise, EndsOnALineThatNeverFallsSilent) {
+  SyncWire wire;
+  wire.startsUpInGroup();
+  wire.exchange(kExchange7D, kUnsync);
+  ASSERT_TRUE(wire.master.setSynchronised(true));
+  wire.startCycle();
+  for (const Instant begin = wire.now; !wire.master.cycleDone() && wire.now < begin + std::chrono::seconds{1};) {
+    wire.advanceBits(11);
+    wire.arrives("FF");
+    if (!wire.master.cycleDone() && wire.now >= *wire.master.nextDeadline()) wire.master.handleTimeout(wire.now);
+  }
+  EXPECT_TRUE(wire.master.cycleDone());
+  EXPECT_FALSE(wire.master.isSynchronised());
+}
+
 TEST(Synchronise, EndsWithANewLink) {
   SyncWire wire;
   wire.startsUpInGroup();

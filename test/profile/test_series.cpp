@@ -23,7 +23,8 @@ TEST(Series, ReadsWhatTheNameplateSays) {
 }
 
 TEST(Series, TakesNoWordThatCouldMeanTwo) {
-  for (const char* word : {"sk", "SK 7x0E", "sk xxxe", "SK 550E", "SK 205", "SK 205EX", "5xxe", "sk+35e", "SK 170E"}) {
+  for (const char* word : {"sk", "SK 7x0E", "sk xxxe", "SK 550E", "SK 205", "SK 205EX", "5xxe", "sk+35e", "SK 170E",
+                           "xk535e", "sx535e", "sk535f"}) {
     EXPECT_EQ(std::nullopt, seriesFrom(word)) << word;
   }
 }
