@@ -22,6 +22,21 @@ bool isScaled(const Moment& moment, const cycle::DriveSnapshot& told) {
   return !moment.reads_scale || (set >= 1 && set <= maximum.size() && maximum[set - 1]);
 }
 
+// The base of a wheel, or the drive itself.
+bool isToldEnabled(const Moment& moment, std::size_t drive) {
+  const auto& base = moment.groups.front();
+  const bool wheel = base.is_base && drive < base.members.size();
+  return wheel ? moment.snapshot->base.enabled : moment.snapshot->drives[drive].enabled;
+}
+
+// What follows `goal` by `slow` to `fast` in this step.
+const Span& follow(Span& span, const Span& goal, double slow, double fast) {
+  span.least =
+      goal.least < span.least ? std::max(goal.least, span.least - fast) : std::min(goal.least, span.least + slow);
+  span.most = goal.most > span.most ? std::min(goal.most, span.most + fast) : std::max(goal.most, span.most - slow);
+  return span;
+}
+
 }  // namespace
 
 void RecentSpan::add(Instant now, Span value) {
@@ -46,9 +61,7 @@ std::optional<std::string> FollowsItsCommand::look(const Moment& moment) {
   last_ = moment.now;
   for (const GroupWish& group : moment.groups) {
     if (group.is_axis) continue;
-    const bool told =
-        moment.snapshot != nullptr &&
-        (group.is_base ? moment.snapshot->base.enabled : moment.snapshot->drives[group.members.front()].enabled);
+    const bool told = moment.snapshot != nullptr && isToldEnabled(moment, group.members.front());
     // Beyond P105 the base is scaled, which is for other tests.
     const bool follows = group.asked && group.confirmed && told && moment.judged &&
                          std::all_of(group.members.begin(), group.members.end(), [&](DriveIndex i) {
@@ -60,28 +73,63 @@ std::optional<std::string> FollowsItsCommand::look(const Moment& moment) {
       Track& track = tracks_[i];
       if (!follows) {
         track.speed = {drive.along, drive.along};
+        track.setpoint = {std::min(drive.along, drive.told), std::max(drive.along, drive.told)};
         track.wanted.forget();
-        track.wanted.add(moment.now, track.speed);
+        track.wanted.add(moment.now, track.setpoint);
+        track.sent.forget();
+        track.sent.add(moment.now, track.setpoint);
         continue;
       }
       // One that is not renewed may be one from before it was enabled, which is not obeyed.
       const double wanted = moment.wanted[i];
       track.wanted.add(moment.now,
                        moment.renewed[i] ? Span{wanted, wanted} : Span{std::min(wanted, 0.0), std::max(wanted, 0.0)});
-      const Span goal = track.wanted.since(moment.now - moment.reaction - moment.period);
-      const double fast = (1.0 + kSpare) * std::max(drive.rise, drive.ramp) * dt;
-      const double slow = (1.0 - kSpare) * std::min(drive.rise, drive.ramp) * dt;
-      Span& speed = track.speed;
-      speed.least = goal.least < speed.least ? std::max(goal.least, speed.least - fast)
-                                             : std::min(goal.least, speed.least + slow);
-      speed.most =
-          goal.most > speed.most ? std::min(goal.most, speed.most + fast) : std::max(goal.most, speed.most - slow);
+      // On the way of a base from one command to another each wheel is between its speeds of the two.
+      const Duration on_the_way = group.is_base ? moment.base_ramp : Duration{};
+      const Span goal = track.wanted.since(moment.now - on_the_way);
+      const SetpointRamp& ramp = moment.setpoint_ramps[i];
+      track.sent.add(moment.now, follow(track.setpoint, goal, (1.0 - kSpare) * ramp.slowest * dt,
+                                        (1.0 + kSpare) * ramp.fastest * dt));
+      const Span setpoint = track.sent.since(moment.now - moment.reaction - moment.period);
+      const Span& speed = follow(track.speed, setpoint, (1.0 - kSpare) * std::min(drive.rise, drive.ramp) * dt,
+                                 (1.0 + kSpare) * std::max(drive.rise, drive.ramp) * dt);
       if (drive.along >= speed.least - kRounding && drive.along <= speed.most + kRounding) continue;
       std::ostringstream out;
       out << "drive " << i << " turns its joint with " << drive.along << " Hz, commanded are " << wanted
           << " Hz: it is between " << speed.least << " and " << speed.most << " Hz";
       return out.str();
     }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> SetpointWithinRamp::look(const Moment& moment) {
+  if (moment.snapshot == nullptr) return std::nullopt;
+  tracks_.resize(moment.drives.size());
+  for (std::size_t i = 0; i < moment.drives.size(); ++i) {
+    const double fastest = moment.setpoint_ramps[i].fastest;
+    if (moment.axes[i].is_axis || fastest == SetpointRamp::kAtOnce) continue;
+    const DriveTruth& drive = moment.drives[i];
+    Track& track = tracks_[i];
+    const Track before = track;
+    // What P105 stands for is another one, as soon as another parameter set is used.
+    const bool scaled = drive.full == before.full && !(i == 0 && moment.stand_in_believed);
+    track.turned = drive.turnsByBus() && scaled;
+    track.full = drive.full;
+    if (track.turned && before.turned && drive.told == before.told) continue;
+    track.since = moment.now;
+    track.told = drive.told;
+    if (!track.turned || !before.turned) continue;
+    // The one before may have been on its way for as long as words take.
+    const double time = toSeconds(moment.now - before.since + moment.reaction);
+    const double change = std::fabs(drive.told - before.told);
+    if (change <= fastest * time + kRounding) continue;
+    // A group that the driver has stopped is told 0 at once, and follows the ramps of its drives.
+    if (drive.told == 0.0 && !isToldEnabled(moment, i)) continue;
+    std::ostringstream out;
+    out << "drive " << i << " is told " << drive.told << " Hz " << toSeconds(moment.now - before.since) << " s after "
+        << before.told << " Hz: its ramp is " << fastest << " Hz/s";
+    return out.str();
   }
   return std::nullopt;
 }

@@ -42,12 +42,36 @@ class FollowsItsCommand final : public Invariant {
 
  private:
   struct Track {
-    RecentSpan wanted;
-    Span speed;  // Hz, where it can be
+    RecentSpan wanted;  // Hz
+    Span setpoint;      // Hz, where the driver's own ramp can be
+    RecentSpan sent;    // Hz, the same
+    Span speed;         // Hz, where the drive can be
   };
 
   std::vector<Track> tracks_;
   std::optional<Instant> last_;
+};
+
+/// Setpoint 1 of a drive that stays enabled never changes faster than the limits of acceleration say, up and down, whatever
+/// has happened before: a stall of the host, a stop, a lost drive.
+class SetpointWithinRamp final : public Invariant {
+ public:
+  const char* name() const override { return "SetpointWithinRamp"; }
+  const char* sentence() const override {
+    return "max_acceleration: acceleration is limited; ramps of stops follow it, too (doc/parameters.md)";
+  }
+  std::optional<std::string> look(const Moment& moment) override;
+  void driverBegan() override { tracks_.clear(); }
+
+ private:
+  struct Track {
+    Instant since{};    // the setpoint is this one
+    double told = 0.0;  // Hz
+    double full = 0.0;  // Hz
+    bool turned = false;
+  };
+
+  std::vector<Track> tracks_;
 };
 
 /// Velocity and way of a joint, as told of a drive that answers, are those of its wheel.

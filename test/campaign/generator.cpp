@@ -95,7 +95,7 @@ Scenario makeScenario(const CampaignBus& bus, std::uint32_t seed) {
   scenario.bus = bus.name;
   scenario.seed = seed;
   scenario.layout = drawLayout(dice, bus);
-  scenario.layout.variant = seed % 16;  // not drawn: what a seed stands for otherwise stays as it is
+  scenario.layout.variant = seed % 64;  // not drawn: what a seed stands for otherwise stays as it is
 
   std::vector<const Act*> causes, users;
   for (const auto* acts : {&driveActs(), &bus.acts()}) {
@@ -109,7 +109,8 @@ Scenario makeScenario(const CampaignBus& bus, std::uint32_t seed) {
   }
 
   // Every fourth starts into the trouble.
-  unsigned at = scenario.layout.axes != 0 ? bus.axes_ready_at : bus.ready_at;
+  const unsigned ready_at = scenario.layout.axes != 0 ? bus.axes_ready_at : bus.ready_at;
+  const auto at = static_cast<unsigned>(ready_at * scenario.layout.slowness());
   const unsigned begin = dice.below(4) == 0 ? 0 : at + 300;
   const unsigned length = 1500 + dice.below(2000);
   scenario.length = at + length;

@@ -26,6 +26,7 @@ struct DriveTruth {
   double rise = 25.0;         ///< Hz/s, by P102 of that set
   double full = 50.0;         ///< Hz, P105 of that set
   double along = 0.0;         ///< Hz, `frequency` in the sense of its joint
+  double told = 0.0;          ///< Hz, `setpoint` in the sense of its joint
   double rotor = 0.0;         ///< Hz, the speed of the shaft
   double position = 0.0;      ///< rad of the joint, as the inverter counts
   double zero = 0.0;          ///< revolutions of the shaft since the start, where its count is 0
@@ -58,6 +59,14 @@ struct AxisWish {
   std::vector<AskedMove> asked;  ///< since the driver ran last, in order
 };
 
+/// How fast the driver itself changes the setpoint of a drive that is told speeds, Hz/s.
+struct SetpointRamp {
+  double slowest = kAtOnce;
+  double fastest = kAtOnce;
+
+  static constexpr double kAtOnce = 1e6;
+};
+
 /// One request, from when it was submitted to when it was answered.
 struct Call {
   cycle::Request request;
@@ -77,6 +86,9 @@ struct Moment {
   std::vector<GroupWish> groups;
   std::vector<double> wanted;  ///< Hz, of each drive: the newest command that is not too old, 0 without one
   std::vector<bool> renewed;   ///< of each drive: that command was given for this cycle
+  std::vector<SetpointRamp> setpoint_ramps;  ///< of each drive
+  /// The longest way of a base from one command to another, or to zero, where its acceleration is limited.
+  Duration base_ramp{};
   std::vector<AxisWish> axes;  ///< of each drive
   std::vector<bool> cut;       ///< of each drive: the exchange with it is interrupted by what happens
   Duration reaction{};         ///< how long a stop may take to reach the inverters, as things are

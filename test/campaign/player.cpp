@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "campaign/wheels.h"
+
 namespace nord_driver::test {
 
 using std::chrono::milliseconds;
@@ -12,6 +14,17 @@ constexpr Duration kTick = milliseconds{10};
 // The longest time-out there is, of an explicit message (500 ms), which begins with a request that may come later.
 constexpr Duration kLossShows = milliseconds{600};
 constexpr Duration kCalm = milliseconds{1000};
+// From half the full speed of a wheel to the same backward, along or around (wheels.h).
+constexpr double kFullWay = kWheelRadius * Player::kFullSpeed;  // m/s
+const Duration kLongestBaseRamp = std::max(nord_driver::seconds(kFullWay / kLinearLimit),
+                                           nord_driver::seconds(2.0 * kFullWay / kSeparation / kAngularLimit));
+
+// A wheel of a base has no slowest one: along and around may make up for each other.
+SetpointRamp setpointRamp(bool wheel) {
+  const double of_wheel = (kLinearLimit + kAngularLimit * kSeparation / 2.0) / kWheelRadius;
+  const double fastest = Player::kHertzPerSpeed * (wheel ? of_wheel : kJointLimit);
+  return {wheel ? SetpointRamp::kAtOnce : fastest, fastest};
+}
 
 }  // namespace
 
@@ -40,6 +53,13 @@ Player::Player(const Scenario& scenario, const CampaignBus& bus, const Transport
   moment_.period = rig_->robot().config().period();
   moment_.full_wheel_speed = kFullSpeed;
   moment_.reads_scale = rig_->readsScaling();
+  moment_.setpoint_ramps.resize(drives);
+  if (scenario.layout.limitsAcceleration()) {
+    for (DriveIndex i = 0; i < scenario.layout.firstAxis(); ++i) {
+      moment_.setpoint_ramps[i] = setpointRamp(i < scenario.layout.wheels);
+    }
+    moment_.base_ramp = kLongestBaseRamp;
+  }
   if (scenario.layout.wheels != 0) {
     GroupWish base;
     base.is_base = true;

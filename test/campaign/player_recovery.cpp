@@ -93,7 +93,7 @@ void Player::judgeRecovery() {
   };
   const auto open = [this] { return first_open_ < calls_.size(); };
   const Instant quiet = now() + milliseconds{600};
-  const Instant give_up = now() + seconds{13};
+  const Instant give_up = now() + nord_driver::seconds(13.0 * scenario_.layout.slowness());
   while (goesOn() && (now() < quiet || !complete() || open())) {
     tick();
     if (now() < give_up) continue;

@@ -15,6 +15,7 @@ namespace {
 
 // Five questions of guarding (100 ms), and the stop words that follow.
 constexpr Duration kToldApart = seconds{1};
+constexpr double kFullSetpoint = 16384.0;  // 100 %
 
 }  // namespace
 
@@ -53,7 +54,9 @@ void Player::seeTruth() {
     truth.full = unit.parameters().scaled(105, inverter.parameterSet());
     truth.ramp = ramp > 0.0 ? truth.full / ramp : 1e6;
     truth.rise = rise > 0.0 ? truth.full / rise : 1e6;
-    truth.along = unit.config().inverted ? -truth.frequency : truth.frequency;
+    const double sense = unit.config().inverted ? -1.0 : 1.0;
+    truth.along = sense * truth.frequency;
+    truth.told = sense * truth.full * truth.setpoint / kFullSetpoint;
   }
   if (const sim::DriveUnit* const twin = rig_->twin()) {
     if (std::any_of(active_.begin(), active_.end(), hidesTheFirst)) first_hidden_at_ = now();

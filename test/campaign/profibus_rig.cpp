@@ -121,11 +121,14 @@ const std::vector<Act>& profibusActs() {
 
 std::unique_ptr<CampaignRig> makeProfibus(const Layout& layout, const TransportWrap& wrap) {
   SimulatedRobot::Options options;
-  options.node = stopSettings(layout);
+  options.node = nodeSettings(layout);
   options.base = layout.wheels != 0;
   options.wheels_a_side = layout.wheels == 4 ? 2 : 1;
   options.one_module = layout.one_module;
   options.singles = layout.singles + layout.axes;
+  for (DriveIndex i = layout.wheels; i < layout.firstAxis(); ++i) {
+    options.of_drive["single" + std::to_string(i - layout.wheels)] = singleSettings(layout);
+  }
   for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
     Values& own = options.of_drive["single" + std::to_string(i - layout.wheels)];
     addAxisSettings(layout, i, own);

@@ -18,12 +18,19 @@ struct Layout {
   unsigned singles = 0;     ///< 1 to 8 drives in all
   unsigned axes = 0;        ///< `mode: position`; the first of them can be asked for a reference run
   bool one_module = false;  ///< all of them behind one bus module (up to four)
-  unsigned variant = 0;     ///< 0 to 15: how it is configured
+  unsigned variant = 0;     ///< 0 to 63: how it is configured
 
   /// 0 to 3: which of its ways to exchange process data a bus with several takes.
   unsigned exchange() const noexcept { return variant % 4; }
   /// 0 to 3: which ways its stops take; 0: those nobody has chosen.
   unsigned ways() const noexcept { return variant / 4 % 4; }
+  /// 0 to 3: how often it cycles, and whether it limits acceleration; 0: as nobody has chosen it.
+  unsigned pace() const noexcept { return variant / 16 % 4; }
+  bool limitsAcceleration() const noexcept { return pace() == 3; }
+  /// Hz; more than two drives at 200 Hz are too much for their buses.
+  double cycleRate() const noexcept { return pace() == 1 ? 50.0 : pace() != 2 ? 100.0 : drives() <= 2 ? 200.0 : 80.0; }
+  /// What takes 1 s at 100 Hz takes that long where each step waits for a cycle.
+  double slowness() const noexcept { return cycleRate() < 100.0 ? 100.0 / cycleRate() : 1.0; }
   std::size_t drives() const noexcept { return wheels + singles + axes; }
   DriveIndex firstAxis() const noexcept { return wheels + singles; }
 };

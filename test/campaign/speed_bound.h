@@ -1,4 +1,5 @@
 // How fast a drive may be at most: as fast as was allowed within the time a stop needs to reach it, less the ramp since.
+// On the way of a base from one command to another each wheel is between its speeds of the two.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +14,8 @@ namespace nord_driver::test {
 class SpeedBound {
  public:
   /// After each cycle, `dt` s after the one before. `allowed`: Hz, what users want now; `cut`: the exchange is
-  /// interrupted, it may follow new commands until the time-outs act.
-  void look(const Moment& moment, bool cut, double allowed, double ramp, double dt) {
+  /// interrupted, it may follow new commands until the time-outs act; `on_the_way`: how long it may take to another command.
+  void look(const Moment& moment, bool cut, double allowed, double ramp, double dt, Duration on_the_way = {}) {
     if (!cut) cut_since_.reset();
     if (cut && !cut_since_) cut_since_ = moment.now;
     const Instant heard = cut_since_.value_or(moment.now);
@@ -25,7 +26,7 @@ class SpeedBound {
     while (allowed_.size() > kRemembered) allowed_.pop_front();
     double recent = 0.0;
     for (const auto& [from, value] : allowed_) {
-      if (moment.now <= from + moment.reaction) recent = std::max(recent, value);
+      if (moment.now <= from + moment.reaction + on_the_way) recent = std::max(recent, value);
     }
     bound_ = std::max(recent, bound_ - ramp * dt);
   }

@@ -61,6 +61,69 @@ TEST_F(FollowingInvariants, AWheelThatTurnsTheWrongWayDoesNotFollow) {
   EXPECT_THAT(ramp(invariant, -20.0, milliseconds{50}), HasSubstr("commanded are 20 Hz"));
 }
 
+// The setpoint goes 10 Hz a second, along its own ramp: 1 s later it is where a ramp of 25 Hz/s is after 0.4 s.
+TEST_F(FollowingInvariants, AWheelThatIsToldARampFollowsThat) {
+  moment_.setpoint_ramps.assign(2, {10.0, 10.0});
+  FollowsItsCommand invariant;
+  EXPECT_EQ("", cycle(invariant));
+  want(20.0);
+  for (DriveTruth& drive : moment_.drives) drive.rise = drive.ramp = 25.0;
+  EXPECT_THAT(ramp(invariant, 20.0, seconds{1}), HasSubstr("commanded are 20 Hz: it is between"));
+  FollowsItsCommand slower;
+  want(0.0);
+  for (DriveTruth& drive : moment_.drives) drive.along = 0.0;
+  EXPECT_EQ("", cycle(slower));
+  want(20.0);
+  for (int i = 0; i < 200; ++i) {
+    for (DriveTruth& drive : moment_.drives) drive.along = drive.told = std::min(20.0, 0.1 * (i + 1));
+    ASSERT_EQ("", cycle(slower)) << i;
+  }
+}
+
+// On its way from one command to the other a wheel of a base may be anywhere between the two for as long as that takes.
+TEST_F(FollowingInvariants, AWheelOfABaseThatLimitsItsAccelerationHasItsTime) {
+  moment_.setpoint_ramps.assign(2, {SetpointRamp::kAtOnce, 30.0});
+  moment_.base_ramp = seconds{2};
+  FollowsItsCommand invariant;
+  EXPECT_EQ("", cycle(invariant));
+  want(20.0);
+  EXPECT_EQ("", ramp(invariant, 5.0, seconds{2}));
+  EXPECT_EQ("", ramp(invariant, 20.0, seconds{1}));
+  EXPECT_THAT(ramp(invariant, 15.0, seconds{1}), HasSubstr("commanded are 20 Hz"));
+}
+
+TEST_F(FollowingInvariants, ASetpointStaysWithinItsRamp) {
+  moment_.setpoint_ramps.assign(2, {10.0, 10.0});
+  SetpointWithinRamp invariant;
+  const auto tell = [&](double hertz) {
+    for (DriveTruth& drive : moment_.drives) drive.told = hertz;
+    return cycle(invariant);
+  };
+  EXPECT_EQ("", tell(0.0));
+  for (int i = 0; i < 100; ++i) ASSERT_EQ("", tell(0.1 * i));
+  // Words may have been under way for 50 ms.
+  EXPECT_EQ("", tell(10.5));
+  EXPECT_THAT(tell(9.0), HasSubstr("drive 0 is told 9 Hz 0.01 s after 10.5 Hz: its ramp is 10 Hz/s"));
+}
+
+TEST_F(FollowingInvariants, WhoIsStoppedIsToldZeroAtOnceAndNothingElse) {
+  moment_.setpoint_ramps.assign(2, {10.0, 10.0});
+  const auto jumps = [&](double hertz, bool enabled) {
+    SetpointWithinRamp invariant;
+    moment_.snapshot = &snapshot_;
+    snapshot_.base.enabled = true;
+    for (DriveTruth& drive : moment_.drives) drive.told = 20.0;
+    EXPECT_EQ("", cycle(invariant));
+    EXPECT_EQ("", cycle(invariant));
+    snapshot_.base.enabled = enabled;
+    for (DriveTruth& drive : moment_.drives) drive.told = hertz;
+    return cycle(invariant);
+  };
+  EXPECT_EQ("", jumps(0.0, false));
+  EXPECT_NE("", jumps(0.0, true));
+  EXPECT_NE("", jumps(1.0, false));
+}
+
 // From before it was enabled, it is not obeyed; and what is on its way down by its time-outs is no wheel that follows.
 TEST_F(FollowingInvariants, OnlyWhoIsEnabledByACommandFollows) {
   FollowsItsCommand invariant;

@@ -20,6 +20,7 @@ class TwoWheelsMoment : public ::testing::Test {
     moment_.drives.resize(2);
     moment_.wanted.resize(2);
     moment_.renewed = {true, true};
+    moment_.setpoint_ramps.resize(2);
     moment_.axes.resize(2);
     moment_.cut.resize(2);
     GroupWish base;

@@ -1,5 +1,5 @@
 // The wheels of a layout as settings of a robot that knows a base of two: which joints, which way round, which body,
-// and how it stops.
+// how often it cycles, how fast it changes its speed and how it stops.
 #pragma once
 
 #include <map>
@@ -34,9 +34,30 @@ inline Values stopSettings(const Layout& layout) {
           {"stop/drive_stopped", std::string{ways.drive_stopped}}};
 }
 
+/// Where acceleration is limited: m/s^2 and rad/s^2 of a base, rad/s^2 of the joint of a single drive. Together the ones
+/// of a base turn a wheel up faster than the 25 Hz/s of an inverter, each by itself more slowly.
+constexpr double kLinearLimit = 0.3, kAngularLimit = 0.8, kJointLimit = 2.0;
+
+/// Of the node, whatever its wheels are.
+inline Values nodeSettings(const Layout& layout) {
+  Values node = stopSettings(layout);
+  if (layout.pace() != 0) node["cycle_rate"] = layout.cycleRate();
+  if (!layout.limitsAcceleration() || layout.wheels == 0) return node;
+  node["linear/x/has_acceleration_limits"] = node["angular/z/has_acceleration_limits"] = true;
+  node["linear/x/max_acceleration"] = kLinearLimit;
+  node["angular/z/max_acceleration"] = kAngularLimit;
+  return node;
+}
+
+/// Of a drive that is told speeds and belongs to no base.
+inline Values singleSettings(const Layout& layout) {
+  if (!layout.limitsAcceleration()) return {};
+  return {{"max_acceleration", kJointLimit}};
+}
+
 /// Of the node.
 inline Values wheelSettings(const Layout& layout) {
-  Values node = stopSettings(layout);
+  Values node = nodeSettings(layout);
   if (layout.wheels != 4) return node;
   const auto joint = [](std::size_t i) { return nameOfDrive(i) + "_wheel_joint"; };
   node["left_wheel"] = std::vector<std::string>{joint(0), joint(2)};
@@ -47,7 +68,10 @@ inline Values wheelSettings(const Layout& layout) {
 /// Of each drive: a single drive turns as its motor does.
 inline std::vector<Values> driveSettingsOf(const Layout& layout) {
   std::vector<Values> each;
-  for (std::size_t i = 0; i < layout.drives(); ++i) each.push_back({{"inverted", i < layout.wheels && i % 2 == 1}});
+  for (std::size_t i = 0; i < layout.drives(); ++i) {
+    each.push_back(i >= layout.wheels && i < layout.firstAxis() ? singleSettings(layout) : Values{});
+    each.back()["inverted"] = i < layout.wheels && i % 2 == 1;
+  }
   return each;
 }
 
