@@ -19,6 +19,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 NOT_RUN, LEFT_OUT = 125, 126
+BESIDE = "beside a failure"
 MISSING = {126, 127}  # of the shell: no such program; 126 is told apart by what the part says
 
 
@@ -88,6 +89,21 @@ def fuzzTargets():
 LEAST = {"campaign": 4, "processes": 4, "explored": 14, "mutants": 8, "fuzz": fuzzTargets(), "soak": 5, "coverage": 13}
 
 
+def failedByItself(what, words):
+    """Whether the figures of a row say that it has failed, by whatever else its part has."""
+    numbers = {"fault campaign": r"(?<!\d)[1-9]\d* violations", "campaign with real processes": r"(?<!\d)[1-9]\d* failed"}
+    kind = what.split(",")[0]
+    if kind in numbers:
+        return re.search(numbers[kind], words) is not None
+    score = re.search(r": ([\d.]+) % \(goal (\d+) %\)", words)
+    if score:
+        return float(score.group(1)) < float(score.group(2))
+    covered = re.match(r"([\d.]+) % of lines, ([\d.]+) % of branches$", words)
+    if covered:
+        return float(covered.group(1)) < 95.0 or float(covered.group(2)) < 90.0
+    return words.endswith("FAILED")
+
+
 def rows_of(part, status, text):
     """[(what, figures, verdict)] of one part."""
     last = text.strip().splitlines()[-1] if text.strip() else "it said nothing"
@@ -98,11 +114,14 @@ def rows_of(part, status, text):
     figures = FIGURES[part](text)
     if not figures:
         return [(part, f"ended with {status} and no figures: {last}", "FAILED")]
+    missing = []
     if len(figures) < LEAST.get(part, 1):
-        figures.append((part, f"{len(figures)} rows where {LEAST[part]} or more were expected"))
-        status = status or 1
-    # Where one of several failed, the log says which.
-    return [(what, words, "passed" if status == 0 else "FAILED") for what, words in figures]
+        missing = [(part, f"{len(figures)} rows where {LEAST[part]} or more were expected", "FAILED")]
+    if status == 0 and not missing:
+        return [(what, words, "passed") for what, words in figures]
+    own = [failedByItself(what, words) for what, words in figures]
+    # Where no row tells what failed, the log does.
+    return [(what, words, "FAILED" if bad or not any(own) else BESIDE) for (what, words), bad in zip(figures, own)] + missing
 
 
 def commit():
@@ -142,6 +161,14 @@ def selfTest():
     assert rows_of("explored", 0, "")[0][2] == "FAILED", "without figures nothing is shown"
     assert all(verdict == "passed" for _, _, verdict in rows_of("explored", 0, "explored Drive: 12 states, 40 transitions\n" * 14))
     assert rows_of("explored", 1, "explored Drive: 12 states, 40 transitions\n")[0][2] == "FAILED"
+    two = "soak: pty 10 s, FAILED\nsoak: Canopen 1 h\nsoak: a 1\nsoak: b 1\nsoak: c 1\n"
+    assert [verdict for _, _, verdict in rows_of("soak", 1, two)][:2] == ["FAILED", BESIDE]
+    assert failedByItself("fault campaign, canopen", "10 scenarios, 10 violations, worst stop 1 s")
+    assert not failedByItself("fault campaign, canopen", "10 scenarios, 0 violations, worst stop 1 s")
+    assert failedByItself("mutants, cycle", "21 of 25 found: 84.0 % (goal 95 %)")
+    assert not failedByItself("mutants, drive", "25 of 25 found: 100.0 % (goal 95 %)")
+    assert failedByItself("coverage, can", "97.8 % of lines, 84.5 % of branches")
+    assert not failedByItself("coverage, drive", "98.0 % of lines, 96.0 % of branches")
     assert rows_of("fuzz", 0, "fuzz_sdo: 1200345 executions in 31 s\n")[-1][2] == "FAILED", "the other targets are missing"
     print("self-test: passed")
     return 0

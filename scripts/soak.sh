@@ -41,23 +41,34 @@ fi
 cmake --build "$out" -j "$jobs" --target test_soak test_real_time >"$logs/build.log" 2>&1 || { tail -n 40 "$logs/build.log"; exit 1; }
 programs=$out/devel/lib/nord_driver
 
-# The programs of the real time first and alone: they are about the time.
-status=0
-"$programs/test_real_time" "$seconds" --gtest_brief=1 >"$logs/real_time.log" 2>&1 || { status=1; tail -n 40 "$logs/real_time.log"; }
-grep -h '^soak:' "$logs/real_time.log" || true
-NORD_CAN_TIMEOUT=$((seconds * 2 + 600)) "$root/scripts/can_machine.sh" "$programs/test_real_time" "$seconds" vcan0 \
-  --gtest_brief=1 >"$logs/real_time_can.log" 2>&1 || { status=1; tail -n 40 "$logs/real_time_can.log"; }
-grep -h '^soak:\|^can_machine: \(on\|in\) ' "$logs/real_time_can.log" || true
-
-run() {
-  if NORD_SOAK_HOURS=$hours "$programs/test_soak" --gtest_brief=1 "--gtest_filter=*$1*" >"$logs/$1.log" 2>&1; then
-    grep -h '^soak:' "$logs/$1.log"
+# tell LOG STATUS: the lines of one program, and where it failed the others before them.
+tell() {
+  if (($2 == 0)); then
+    grep -h '^soak:' "$1"
   else
-    tail -n 40 "$logs/$1.log"
+    grep -v '^soak:' "$1" | tail -n 40
+    grep -h '^soak:' "$1" | sed 's/$/, FAILED/'
     return 1
   fi
 }
-export -f run
+
+# The programs of the real time first and alone: they are about the time.
+status=0
+ended=0
+"$programs/test_real_time" "$seconds" --gtest_brief=1 >"$logs/real_time.log" 2>&1 || ended=1
+tell "$logs/real_time.log" "$ended" || status=1
+ended=0
+NORD_CAN_TIMEOUT=$((seconds * 2 + 600)) "$root/scripts/can_machine.sh" "$programs/test_real_time" "$seconds" vcan0 \
+  --gtest_brief=1 >"$logs/real_time_can.log" 2>&1 || ended=1
+tell "$logs/real_time_can.log" "$ended" || status=1
+grep -h '^can_machine: \(on\|in\) ' "$logs/real_time_can.log" || true
+
+run() {
+  local ended=0
+  NORD_SOAK_HOURS=$hours "$programs/test_soak" --gtest_brief=1 "--gtest_filter=*$1*" >"$logs/$1.log" 2>&1 || ended=1
+  tell "$logs/$1.log" "$ended"
+}
+export -f run tell
 export hours programs logs
 printf '%s\n' Profibus Canopen Devicenet Interbus | xargs -n 1 -P "$jobs" bash -c 'run "$1"' soak || status=1
 exit "$status"

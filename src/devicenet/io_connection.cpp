@@ -75,12 +75,17 @@ bool IoConnection::outputDue(Instant now) const noexcept {
   return now + cycle_ > *sent_at_ + rate_;
 }
 
+bool IoConnection::pollUnanswered() const noexcept {
+  if (config_.io.kind == IoKind::kPoll) return timers_.isSet(Timer::kInput);
+  return isPolledBesideStrobe(config_.io) && timers_.isSet(Timer::kHeard);
+}
+
 void IoConnection::startCycle(Instant now) noexcept {
   if (!established_) return;
   // We were kept from running: the device has given up, and what comes now would come to nobody.
   overdue_ = sent_at_ && now - *sent_at_ >= kRatesUntilTimeout * rate_;
   if (overdue_) return timers_.set(Timer::kInput, now);
-  if (config_.io.kind == IoKind::kPoll && timers_.isSet(Timer::kInput)) ++report_.status().counters.missed;
+  if (pollUnanswered()) ++report_.status().counters.missed;
   if (!outputDue(now)) return;
   repeated_ = false;
   send();

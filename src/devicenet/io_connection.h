@@ -78,6 +78,7 @@ class IoConnection {
 
   bool byChange() const noexcept;
   bool outputDue(Instant now) const noexcept;
+  bool pollUnanswered() const noexcept;
   void send() noexcept;
   void countSuperseded() noexcept;
   void handleData(const CanFrame& frame, Instant now) noexcept;

@@ -10,7 +10,7 @@ namespace {
 
 class DevicenetRig final : public CampaignRig {
  public:
-  explicit DevicenetRig(const DevicenetRobot::Options& options) : robot_(options) {}
+  DevicenetRig(const DevicenetRobot::Options& options, bool by_change) : robot_(options), by_change_(by_change) {}
 
   DevicenetRobot& robot() override { return robot_; }
   sim::SimulatedDnBus& bus() { return robot_.bus(); }
@@ -31,6 +31,8 @@ class DevicenetRig final : public CampaignRig {
   }
   const std::vector<Act>& acts() const override { return devicenetCampaign().acts(); }
 
+  /// Change of state and cyclic data, which we acknowledge (ODVA Vol. 3, 2-3).
+  bool answersAreRepeated() const override { return by_change_; }
   /// A poll is answered in its cycle, what has not changed comes with the expected packet rate; two and a half cycles.
   Duration silence() const override { return std::max(robot_.config().period() * 5 / 2, kShortestRate); }
   /// Four times the expected packet rate, two cycles and at least 25 ms, in steps of 10 ms (ODVA Vol. 3, 2-3.4).
@@ -47,6 +49,7 @@ class DevicenetRig final : public CampaignRig {
   static constexpr Duration kShortestRate = std::chrono::milliseconds{25};
 
   DevicenetRobot robot_;
+  bool by_change_;
 };
 
 constexpr std::uint16_t kProduct = 2;  // of SK TU4-DEV in the simulator
@@ -212,7 +215,8 @@ std::unique_ptr<CampaignRig> makeDevicenet(const Layout& layout, const Transport
     simulateAxes(layout, kSk2xx, config);
   };
   options.wrap = wrap;
-  return std::make_unique<DevicenetRig>(options);
+  const bool by_change = layout.exchange() == 1 || layout.exchange() == 2;
+  return std::make_unique<DevicenetRig>(options, by_change);
 }
 
 }  // namespace

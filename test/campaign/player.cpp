@@ -171,7 +171,8 @@ void Player::begin(const Event& event) {
   // A loss has to be counted where nothing else keeps telegrams from being sent.
   const bool calm = !disturbed_ || now() - *disturbed_ > kCalm;
   losses_.clear();
-  if (act->counted && calm && active_.empty() && allOnline())
+  const bool unknown = rig_->answersAreRepeated() && event.act == "lose_answers";
+  if (act->counted && !unknown && calm && active_.empty() && allOnline())
     losses_.push_back({now() + kLossShows, counted(), act->name});
   act->begin(*rig_, event);
   if (act->disturbs) disturbed_ = now();

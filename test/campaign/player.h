@@ -63,10 +63,12 @@ class Player {
     std::string act;
   };
 
-  /// The first drive is not heard, as far as this act goes; a twin stands beside it and hides nothing.
+  /// The first drive is not heard, as far as this act goes, or so late that its answers tell nothing; a twin stands beside it
+  /// and hides nothing.
   static bool hidesTheFirst(const Active& active) {
     const bool first = active.act->cuts == Cuts::kAll || active.event.drive == 0;
-    return first && active.act->cuts != Cuts::kNothing && active.event.act != "twin";
+    const bool hides = active.act->cuts != Cuts::kNothing || active.event.act == "late_answers";
+    return first && hides && active.event.act != "twin";
   }
   Instant now() { return rig_->robot().transport().now(); }
   unsigned sinceStart() { return static_cast<unsigned>(toSeconds(now() - start_) * 1000.0 + 0.5); }

@@ -34,6 +34,8 @@ class CampaignRig {
   /// What may happen to this bus.
   virtual const std::vector<Act>& acts() const = 0;
 
+  /// Who sends an answer knows whether it came, and sends it again: nobody else can tell that it was lost.
+  virtual bool answersAreRepeated() const { return false; }
   /// Parameters can be read: P105 is, not typed.
   virtual bool readsParameters() const { return true; }
   /// And it may be any, and in each parameter set another one: it is not typed.

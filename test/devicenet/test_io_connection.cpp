@@ -175,6 +175,22 @@ TEST(IoConnection, TheAnswerToAPollBesideAStrobe) {
   EXPECT_EQ(0u, one.io.input().count);
 }
 
+// The strobe's answer brings the inputs, whether the one to the poll has come or not.
+TEST(IoConnection, AnAnswerThatIsMissingBesideAStrobeIsCounted) {
+  Connected one{IoKind::kStrobe};
+  one.establish();
+  for (const unsigned missed : {0u, 0u, 1u, 1u}) {
+    EXPECT_EQ(kSent, one.cycle());
+    EXPECT_EQ(missed, one.counted().missed);
+    one.io.noteStrobed(one.now);
+    one.hear(Group1::kStrobeResponse, "385#0102030405");
+    const bool is_lost = one.now == Instant{std::chrono::hours{1}} + kCycle;
+    if (!is_lost) one.hear(Group1::kPollResponse, "3C5#0102030405");
+    one.now += kCycle;
+  }
+  EXPECT_TRUE(one.io.poll(one.now));
+}
+
 // Ours goes out once for each message, and again when the link had no room for it.
 TEST(IoConnection, AcknowledgesWhatItHasTaken) {
   Connected one{IoKind::kChangeOfState};
