@@ -54,12 +54,14 @@ void Scanner::handleBusLost(const Sentence& why, Instant now) noexcept {
 
 void Scanner::stopNodes(const Sentence& why, Instant now) noexcept {
   deadline_.reset();
+  output_refused_ = false;
   dropStrobe();
   for (const auto& node : nodes_) node->stop(why, now);
 }
 
 void Scanner::releaseAll(Instant now) noexcept {
   now_ = now;
+  output_refused_ = false;
   dropStrobe();
   for (const auto& node : nodes_) {
     node->release(now);
@@ -106,6 +108,7 @@ void Scanner::startCycle(Instant now) noexcept {
     deadline_ = earlier(deadline_, node->io().nextDeadline());
   }
   output_maybe_ = true;
+  output_refused_ = false;
 }
 
 void Scanner::dropStrobe() noexcept {
@@ -201,9 +204,11 @@ void Scanner::touched(const NodeHandler& node) noexcept {
 }
 
 bool Scanner::pollTransmit(CanFrame& frame) noexcept {
-  // Outputs first: where the link takes a frame only now and then, a word that stops is what it takes.
-  const bool given = pollDuplicateMac() || (bus_state_ == BusState::kOnline &&
-                                            (pollOutput() || pollStrobe() || pollAcknowledge() || pollExplicit()));
+  // Outputs first: where the link takes a frame only now and then, a word that stops is what it takes. One that it has refused
+  // comes again with the next cycle, and nothing else takes its room until then.
+  const bool given = pollDuplicateMac() ||
+                     (bus_state_ == BusState::kOnline &&
+                      (pollOutput() || (!output_refused_ && (pollStrobe() || pollAcknowledge() || pollExplicit()))));
   if (!given) {
     given_.kind = Given::Kind::kNothing;
     return false;
@@ -260,7 +265,7 @@ bool Scanner::pollOutput() noexcept {
     }
     next_output_ = (next_output_ + 1) % nodes_.size();
   }
-  next_output_ = 0;
+  next_output_ = first_output_;
   output_maybe_ = false;
   return false;
 }
@@ -301,6 +306,9 @@ void Scanner::notSent() noexcept {
       break;
     case Given::Kind::kOutput:
       node.io().outputNotSent();
+      // It is the next one's turn: else the first device would have the room of all.
+      first_output_ = given.node;
+      output_refused_ = true;
       break;
     case Given::Kind::kExplicit:
       node.channel().notSent(given.frame);

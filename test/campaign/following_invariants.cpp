@@ -90,7 +90,7 @@ std::optional<std::string> FollowsItsCommand::look(const Moment& moment) {
       const SetpointRamp& ramp = moment.setpoint_ramps[i];
       track.sent.add(moment.now, follow(track.setpoint, goal, (1.0 - kSpare) * ramp.slowest * dt,
                                         (1.0 + kSpare) * ramp.fastest * dt));
-      const Span setpoint = track.sent.since(moment.now - moment.reaction - moment.period);
+      const Span setpoint = track.sent.since(moment.now - moment.heard_within - moment.period);
       const Span& speed = follow(track.speed, setpoint, (1.0 - kSpare) * std::min(drive.rise, drive.ramp) * dt,
                                  (1.0 + kSpare) * std::max(drive.rise, drive.ramp) * dt);
       if (drive.along >= speed.least - kRounding && drive.along <= speed.most + kRounding) continue;
@@ -121,7 +121,7 @@ std::optional<std::string> SetpointWithinRamp::look(const Moment& moment) {
     track.told = drive.told;
     if (!track.turned || !before.turned) continue;
     // The one before may have been on its way for as long as words take.
-    const double time = toSeconds(moment.now - before.since + moment.reaction);
+    const double time = toSeconds(moment.now - before.since + moment.heard_within);
     const double change = std::fabs(drive.told - before.told);
     if (change <= fastest * time + kRounding) continue;
     // A group that the driver has stopped is told 0 at once, and follows the ramps of its drives.

@@ -92,6 +92,7 @@ struct Moment {
   std::vector<AxisWish> axes;  ///< of each drive
   std::vector<bool> cut;       ///< of each drive: the exchange with it is interrupted by what happens
   Duration reaction{};         ///< how long a stop may take to reach the inverters, as things are
+  Duration heard_within{};     ///< how old the setpoint of a drive that turns may be, as things are
   Duration told_within{};      ///< how old what the driver tells of a drive that answers may be, as things are
   /// One that stands at the address of a drive, and of which nobody knows, is "operation enabled" by the bus.
   bool twin_enabled = false;

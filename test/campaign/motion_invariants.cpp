@@ -29,9 +29,9 @@ std::optional<std::string> TurnsOnlyAsCommanded::look(const Moment& moment) {
       const DriveTruth& drive = moment.drives[i];
       Track& track = tracks_[i];
       const double speed = std::fabs(drive.frequency);
-      const double ramp = group.is_base ? drive.ramp : std::min(drive.ramp, moment.setpoint_ramps[i].slowest);
       const double wanted = group.asked ? std::fabs(moment.wanted[i]) : 0.0;
-      track.bound.look(moment, cut, wanted, ramp, dt, group.is_base ? moment.base_ramp : Duration{});
+      track.told = std::max(wanted, track.told - moment.setpoint_ramps[i].slowest * dt);
+      track.bound.look(moment, cut, track.told, drive.ramp, dt, group.is_base ? moment.base_ramp : Duration{});
       // Terminals turn it as they like, and their ramp follows them down; until some time after the look before they did.
       const bool by_terminals = turnsByTerminals(drive);  // that is no stop of ours
       if (by_terminals || track.by_terminals) track.bound.raise(speed);
@@ -57,7 +57,7 @@ std::optional<std::string> TurnsOnlyAsCommanded::look(const Moment& moment) {
         // What happens meanwhile may prolong it. Between two looks nobody knows, and these may be a second apart: a
         // transport that closes.
         track.stop_took = toSeconds(moment.now - *track.ended);
-        track.stop_bound = std::max(track.stop_bound, track.stop_took + (track.bound.value() + kRounding) / ramp);
+        track.stop_bound = std::max(track.stop_bound, track.stop_took + (track.bound.value() + kRounding) / drive.ramp);
       }
     }
   }

@@ -31,6 +31,7 @@ class TurnsOnlyAsCommanded final : public Invariant {
 
  private:
   struct Track {
+    double told = 0.0;  // Hz, at most, by the driver's own ramp
     SpeedBound bound;
     bool by_terminals = false;
     std::optional<Instant> ended;  // when nothing allowed it any more

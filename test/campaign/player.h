@@ -119,6 +119,7 @@ class Player {
   Duration byWords();
   Duration byTimeouts();
   Duration reaction();
+  Duration slowestQueue();
   bool answered(std::uint32_t id, bool& success, std::string& message);
   bool allOnline();
   void fail(const char* invariant, const char* sentence, std::string what);
@@ -163,6 +164,8 @@ class Player {
   bool hasRunOut(const GroupWish& group);
   Command base_command_;
   std::vector<Command> drive_commands_;
+  Duration queue_turn_{};  // of an interface that takes a frame now and then
+  Instant queue_slow_until_{};
   std::vector<double> places_;  // rad, where axes arrived last
 };
 

@@ -35,6 +35,19 @@ Duration Player::reaction() {
   return disturbed_ && now() - *disturbed_ <= byTimeouts() ? byTimeouts() : byWords();
 }
 
+// An interface that takes a frame now and then: until each drive and the guarding had its turn. A module keeps its inverters
+// going meanwhile, whichever of them a frame is for.
+Duration Player::slowestQueue() {
+  for (const Active& active : active_) {
+    if (active.event.act != "queue_slow") continue;
+    const Duration turn = (moment_.drives.size() + 2) * milliseconds{active.event.amount};
+    queue_turn_ = std::max(queue_turn_, turn);
+    queue_slow_until_ = now() + queue_turn_;
+  }
+  if (now() >= queue_slow_until_) queue_turn_ = {};
+  return queue_turn_;
+}
+
 void Player::seeTruth() {
   for (DriveIndex i = 0; i < moment_.drives.size(); ++i) {
     sim::DriveUnit& unit = rig_->unit(i);
@@ -221,6 +234,7 @@ void Player::look(Instant began, bool driver_ran) {
   moment_.at = sinceStart();
   moment_.driver_ran = driver_ran;
   moment_.reaction = reaction();
+  moment_.heard_within = std::max(moment_.reaction, slowestQueue());
   moment_.told_within = std::max(moment_.reaction, byWords() + rig_->silence());
   moment_.odometry_reset = false;
   if (driver_ran) moment_.snapshot = &rig_->robot().snapshot();

@@ -34,6 +34,59 @@ TEST(FullQueue, OutputsLeaveBeforeAllElse) {
   EXPECT_THAT(idsOfACycle(), testing::ElementsAre(0x42Du, 0x435u, 0x400u, 0x432u));
 }
 
+// A link that takes one frame in a cycle: each device has its turn, none feeds the others' time-outs with its own.
+TEST(FullQueue, EachDeviceHasItsTurn) {
+  ScannerConfig config = busConfig(0);
+  config.nodes = {nodeConfig(5), nodeConfig(6), nodeConfig(7)};
+  ScannerRun run{config};
+  run.output = {0x01, 0x7F, 0x04, 0x00, 0x20};
+  ASSERT_TRUE(run.starts());
+  std::vector<std::uint32_t> taken;
+  for (int cycle = 0; cycle < 6; ++cycle) {
+    for (std::size_t i = 0; i < 3; ++i) run.scanner.setOutput(i, ByteView{run.output});
+    run.scanner.startCycle(run.now);
+    bool took = false;
+    for (CanFrame frame; run.scanner.pollTransmit(frame);) {
+      if (took) {
+        run.scanner.notSent();
+        continue;
+      }
+      taken.push_back(frame.id);
+      took = true;
+    }
+  }
+  EXPECT_THAT(taken, testing::ElementsAre(0x42Du, 0x435u, 0x43Du, 0x42Du, 0x435u, 0x43Du));
+}
+
+// There is room again within the cycle: it is for the word that stops, in the next one.
+TEST(FullQueue, NothingElseLeavesBeforeAnOutputThatWasRefused) {
+  ScannerConfig config = busConfig(0);
+  config.nodes = {nodeConfig(5), nodeConfig(6, IoKind::kChangeOfState)};
+  ScannerRun run{config};
+  run.output = {0x01, 0x7F, 0x04, 0x00, 0x20};
+  ASSERT_TRUE(run.starts());
+  CanFrame frame;
+  while (run.scanner.pollTransmit(frame)) {
+  }
+  for (std::size_t i = 0; i < 2; ++i) run.scanner.setOutput(i, ByteView{run.output});
+  run.scanner.startCycle(run.now);
+  ASSERT_TRUE(run.scanner.pollTransmit(frame));
+  run.scanner.notSent();
+  CanFrame data;
+  data.id = 0x346;
+  for (const std::uint8_t byte : run.devices[1]->input) data.data[data.size++] = byte;
+  run.scanner.handleFrame(data, run.now);
+  ASSERT_TRUE(run.scanner.submit(0, getAttribute(1, 1, 1, 1)));
+  EXPECT_FALSE(run.scanner.pollTransmit(frame)) << std::hex << frame.id;
+  for (std::size_t i = 0; i < 2; ++i) run.scanner.setOutput(i, ByteView{run.output});
+  run.scanner.startCycle(run.now);
+  std::vector<std::uint32_t> ids;
+  while (run.scanner.pollTransmit(frame)) ids.push_back(frame.id);
+  ASSERT_LE(3u, ids.size());
+  EXPECT_EQ(0x42Du, ids[0]);
+  EXPECT_THAT(ids, testing::IsSupersetOf({0x432u, 0x42Cu}));
+}
+
 // A strobe that the link did not take is none.
 TEST(FullQueue, ABitStrobeThatWasNotSentIsCountedBack) {
   ScannerConfig config = busConfig(0);

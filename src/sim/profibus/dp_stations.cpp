@@ -96,6 +96,15 @@ void DpStations::step(Duration span) noexcept {
   robot_.advance(now_);
 }
 
+bool DpStations::isAnswered(ByteView request) noexcept {
+  constexpr unsigned kSdnLow = 4, kSdnHigh = 6;
+  constexpr std::uint8_t kAll = 127;
+  Telegram telegram;
+  if (parseTelegram(request, telegram).kind != ParseKind::kTelegram) return false;
+  return telegram.isRequest() && telegram.destination != kAll && telegram.code() != kSdnLow &&
+         telegram.code() != kSdnHigh;
+}
+
 void DpStations::receive(ByteView bytes, Instant now, Judge judge, AnswerSink& sink) noexcept {
   advance(now);
   bool garbage = false;

@@ -34,6 +34,8 @@ class DpStations {
   void receive(ByteView bytes, Instant now, Judge judge, AnswerSink& sink) noexcept;
   /// What the master sent, when the line made something else of it.
   void judgeOnly(ByteView bytes) noexcept;
+  /// Whether the master waits for an answer to this: not to what goes to all, or is sent without acknowledge (EN 50170, SDN).
+  static bool isAnswered(ByteView request) noexcept;
   /// Forgets the beginning of a telegram whose rest never came.
   void forgetPartial() noexcept { input_.clear(); }
   bool hasPartial() const noexcept { return !input_.empty(); }

@@ -65,7 +65,7 @@ class SimulatedSegment : public link::ByteLink, private AnswerSink {
   void setDisturbance(const Disturbance& disturbance) noexcept;
   /// The next `count` answers never reach the master.
   void loseAnswers(unsigned count) noexcept { lose_answers_ = count; }
-  /// The next `count` requests never reach the stations.
+  /// The next `count` requests that somebody answers never reach the stations.
   void loseRequests(unsigned count) noexcept { lose_requests_ = count; }
   /// Somebody else's telegram: the master hears it from now on, the stations do not.
   void foreign(ByteView telegram) noexcept;

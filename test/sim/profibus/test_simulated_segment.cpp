@@ -53,6 +53,15 @@ TEST(SimulatedSegment, LosesAndSpoils) {
   EXPECT_TRUE(bus.referee().content()) << bus.referee().report();
 }
 
+// Global_Control (Operate) to all: nobody would miss what is lost of it.
+TEST(SimulatedSegment, LosesOfRequestsThoseThatAreAnswered) {
+  Conversation bus;
+  bus.segment.loseRequests(1);
+  EXPECT_EQ("", bus.ask("68 07 07 68 FF 81 46 3A 3E 00 00 3E 16"));
+  EXPECT_EQ("", bus.ask("10 08 01 49 52 16"));
+  EXPECT_EQ("10 01 08 00 09 16", bus.ask("10 08 01 49 52 16"));
+}
+
 // Disturbances are the line's fault, never the master's, and the same seed disturbs the same bytes.
 TEST(SimulatedSegment, DisturbsRepeatably) {
   Disturbance disturbance;
