@@ -61,6 +61,7 @@ class IoConnection {
   bool pollAcknowledge(CanFrame& frame) noexcept;
   void acknowledgeNotSent() noexcept { acknowledge_due_ = true; }
   bool pollOutput(CanFrame& frame, Instant now) noexcept;
+  bool hasBegunOutput() const noexcept { return sender_.hasBegun(); }
   /// The link did not take the last frame of `pollOutput()`: the message is dropped, as by `dropOutput()`.
   void outputNotSent() noexcept;
   /// What is not given out yet of this cycle's message is not sent any more. The next cycle sends, changed or not: the

@@ -31,6 +31,8 @@ class IoSender {
   void start(ByteView message) noexcept;
   void drop() noexcept { pending_ = false; }
   bool pending() const noexcept { return pending_; }
+  /// A part of the message is out, and a part is not.
+  bool hasBegun() const noexcept { return pending_ && sent_ > 0; }
   /// The data of its next frame.
   bool next(FramePayload& payload) noexcept;
 

@@ -259,6 +259,7 @@ bool Scanner::pollOutput() noexcept {
   if (!output_maybe_) return false;
   for (std::size_t tried = 0; tried < nodes_.size(); ++tried) {
     NodeHandler& node = *nodes_[next_output_];
+    given_.continues = node.io().hasBegunOutput();
     if (node.io().pollOutput(given_.frame, now_)) {
       deadline_ = earlier(deadline_, node.io().nextDeadline());
       return give(Given::Kind::kOutput, next_output_);
@@ -306,8 +307,9 @@ void Scanner::notSent() noexcept {
       break;
     case Given::Kind::kOutput:
       node.io().outputNotSent();
-      // It is the next one's turn: else the first device would have the room of all.
-      first_output_ = given.node;
+      // Its turn comes next, else the first device would have the room of all. A message of which only a part left has had
+      // its turn: another one may be shorter.
+      first_output_ = (given.node + (given.continues ? 1 : 0)) % nodes_.size();
       output_refused_ = true;
       break;
     case Given::Kind::kExplicit:

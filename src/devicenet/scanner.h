@@ -102,6 +102,7 @@ class Scanner final : public CanEngine {
     enum class Kind : std::uint8_t { kNothing, kDuplicateMac, kAcknowledge, kStrobe, kOutput, kExplicit };
     Kind kind = Kind::kNothing;
     std::size_t node = 0;
+    bool continues = false;  // of an output: a part of the same message was given before
     CanFrame frame;
   };
 

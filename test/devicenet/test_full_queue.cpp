@@ -34,16 +34,11 @@ TEST(FullQueue, OutputsLeaveBeforeAllElse) {
   EXPECT_THAT(idsOfACycle(), testing::ElementsAre(0x42Du, 0x435u, 0x400u, 0x432u));
 }
 
-// A link that takes one frame in a cycle: each device has its turn, none feeds the others' time-outs with its own.
-TEST(FullQueue, EachDeviceHasItsTurn) {
-  ScannerConfig config = busConfig(0);
-  config.nodes = {nodeConfig(5), nodeConfig(6), nodeConfig(7)};
-  ScannerRun run{config};
-  run.output = {0x01, 0x7F, 0x04, 0x00, 0x20};
-  ASSERT_TRUE(run.starts());
+/// What a link takes that has room for one frame in each cycle.
+std::vector<std::uint32_t> takenOneACycle(ScannerRun& run, int cycles) {
   std::vector<std::uint32_t> taken;
-  for (int cycle = 0; cycle < 6; ++cycle) {
-    for (std::size_t i = 0; i < 3; ++i) run.scanner.setOutput(i, ByteView{run.output});
+  for (int cycle = 0; cycle < cycles; ++cycle) {
+    for (std::size_t i = 0; i < run.scanner.nodeCount(); ++i) run.scanner.setOutput(i, ByteView{run.output});
     run.scanner.startCycle(run.now);
     bool took = false;
     for (CanFrame frame; run.scanner.pollTransmit(frame);) {
@@ -55,7 +50,27 @@ TEST(FullQueue, EachDeviceHasItsTurn) {
       took = true;
     }
   }
-  EXPECT_THAT(taken, testing::ElementsAre(0x42Du, 0x435u, 0x43Du, 0x42Du, 0x435u, 0x43Du));
+  return taken;
+}
+
+// Each device has its turn: none feeds the time-outs of one wheel alone.
+TEST(FullQueue, EachDeviceHasItsTurn) {
+  ScannerConfig config = busConfig(0);
+  config.nodes = {nodeConfig(5), nodeConfig(6), nodeConfig(7)};
+  ScannerRun run{config};
+  run.output = {0x01, 0x7F, 0x04, 0x00, 0x20};
+  ASSERT_TRUE(run.starts());
+  EXPECT_THAT(takenOneACycle(run, 6), testing::ElementsAre(0x42Du, 0x435u, 0x43Du, 0x42Du, 0x435u, 0x43Du));
+}
+
+// A message of two frames never gets through; the others' do.
+TEST(FullQueue, AMessageThatIsTooLongForItIsNoHindrance) {
+  ScannerConfig config = busConfig(0);
+  config.nodes = {nodeConfig(5, IoKind::kPoll, 9, 9), nodeConfig(6)};
+  ScannerRun run{config};
+  run.output = {0x01, 0x7F, 0x04, 0x00, 0x20};
+  ASSERT_TRUE(run.starts());
+  EXPECT_THAT(takenOneACycle(run, 4), testing::ElementsAre(0x42Du, 0x435u, 0x42Du, 0x435u));
 }
 
 // There is room again within the cycle: it is for the word that stops, in the next one.
