@@ -118,6 +118,7 @@ bool IoConnection::pollOutput(CanFrame& frame, Instant now) noexcept {
   } else if (!byChange()) {
     if (!timers_.isSet(Timer::kInput)) timers_.set(Timer::kInput, now + timeout_);
   } else if (config_.io.acknowledge) {
+    if (timers_.isSet(Timer::kAcknowledge)) ++report_.status().counters.missed;
     timers_.set(Timer::kAcknowledge, now + kAcknowledgeTime);
     if (!timers_.isSet(Timer::kHeard)) timers_.set(Timer::kHeard, now + timeout_);
   }

@@ -33,20 +33,20 @@ class DevicenetRig final : public CampaignRig {
 
   /// Change of state and cyclic data, which we acknowledge (ODVA Vol. 3, 2-3).
   bool answersAreRepeated() const override { return by_change_; }
-  /// A poll is answered in its cycle, what has not changed comes with the expected packet rate; two and a half cycles.
-  Duration silence() const override { return std::max(robot_.config().period() * 5 / 2, kShortestRate); }
-  /// Four times the expected packet rate, two cycles and at least 25 ms, in steps of 10 ms (ODVA Vol. 3, 2-3.4).
-  Duration driveSideTimeout() const override {
-    constexpr Duration kStep = std::chrono::milliseconds{10};
-    const Duration rate = std::max(2 * robot_.config().period(), kShortestRate);
-    return 4 * ((rate + kStep - Duration{1}) / kStep * kStep);
-  }
+  /// A poll is answered in its cycle, what has not changed comes with the rate of the module; two and a half cycles.
+  Duration silence() const override { return std::max(robot_.config().period() * 5 / 2, rate()); }
+  /// Four times the expected packet rate (ODVA Vol. 3, 2-3.4).
+  Duration driveSideTimeout() const override { return 4 * rate(); }
   Duration wireLatency() const override { return std::chrono::milliseconds{10}; }
   /// And two checks for a double MAC id of 2 s each, ours and that of the module (ODVA Vol. 3, 2-3.1).
   Duration backWithin() const override { return std::chrono::seconds{6}; }
 
  private:
-  static constexpr Duration kShortestRate = std::chrono::milliseconds{25};
+  /// Two cycles and at least 25 ms, in the steps of 10 ms of the module.
+  Duration rate() const {
+    constexpr Duration kStep = std::chrono::milliseconds{10}, kLeast = std::chrono::milliseconds{25};
+    return (std::max(2 * robot_.config().period(), kLeast) + kStep - Duration{1}) / kStep * kStep;
+  }
 
   DevicenetRobot robot_;
   bool by_change_;

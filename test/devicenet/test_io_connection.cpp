@@ -163,6 +163,21 @@ TEST(IoConnection, AnAcknowledgeHasNoData) {
   }
 }
 
+// What changes in each cycle is never repeated: the message before it is one nobody acknowledged all the same.
+TEST(IoConnection, AMessageThatANewerOneFollowsUnacknowledgedIsCounted) {
+  for (const bool acknowledged : {false, true}) {
+    Connected one{IoKind::kChangeOfState};
+    one.establish();
+    EXPECT_EQ(kSent, one.cycle());
+    if (acknowledged) one.hear(Group1::kPollResponse, "3C5#");
+    one.now += kCycle;
+    one.io.setOutput(std::array<std::uint8_t, 5>{1, 2, 3, 4, 6});
+    EXPECT_EQ("42D#0102030406", one.cycle());
+    EXPECT_EQ(acknowledged ? 0u : 1u, one.counted().missed);
+    EXPECT_EQ(0u, one.counted().unacknowledged);
+  }
+}
+
 // Beside a bit strobe: empty or as long as the inputs, which are those of the strobe.
 TEST(IoConnection, TheAnswerToAPollBesideAStrobe) {
   Connected one{IoKind::kStrobe};
