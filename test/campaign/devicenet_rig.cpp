@@ -33,8 +33,8 @@ class DevicenetRig final : public CampaignRig {
 
   /// Change of state and cyclic data, which we acknowledge (ODVA Vol. 3, 2-3).
   bool answersAreRepeated() const override { return by_change_; }
-  /// A poll is answered in its cycle, what has not changed comes with the rate of the module; two and a half cycles.
-  Duration silence() const override { return std::max(robot_.config().period() * 5 / 2, rate()); }
+  /// A poll is answered in its cycle, what has not changed comes with the rate of the module; two and a half of these.
+  Duration silence() const override { return (by_change_ ? rate() : robot_.config().period()) * 5 / 2; }
   /// Four times the expected packet rate (ODVA Vol. 3, 2-3.4).
   Duration driveSideTimeout() const override { return 4 * rate(); }
   Duration wireLatency() const override { return std::chrono::milliseconds{10}; }
