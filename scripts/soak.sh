@@ -41,34 +41,30 @@ fi
 cmake --build "$out" -j "$jobs" --target test_soak test_real_time >"$logs/build.log" 2>&1 || { tail -n 40 "$logs/build.log"; exit 1; }
 programs=$out/devel/lib/nord_driver
 
-# tell LOG STATUS: the lines of one program, and where it failed the others before them.
-tell() {
-  if (($2 == 0)); then
-    grep -h '^soak:' "$1"
+# watch LOG COMMAND...: the lines of one program, and where it failed the others before them.
+watch() {
+  local log=$1
+  shift
+  if "$@" >"$log" 2>&1; then
+    grep -h '^soak:' "$log"
   else
-    grep -v '^soak:' "$1" | tail -n 40
-    grep -h '^soak:' "$1" | sed 's/$/, FAILED/'
+    grep -v '^soak:' "$log" | tail -n 40
+    grep -h '^soak:' "$log" | sed 's/$/, FAILED/'
     return 1
   fi
 }
 
 # The programs of the real time first and alone: they are about the time.
 status=0
-ended=0
-"$programs/test_real_time" "$seconds" --gtest_brief=1 >"$logs/real_time.log" 2>&1 || ended=1
-tell "$logs/real_time.log" "$ended" || status=1
-ended=0
-NORD_CAN_TIMEOUT=$((seconds * 2 + 600)) "$root/scripts/can_machine.sh" "$programs/test_real_time" "$seconds" vcan0 \
-  --gtest_brief=1 >"$logs/real_time_can.log" 2>&1 || ended=1
-tell "$logs/real_time_can.log" "$ended" || status=1
+watch "$logs/real_time.log" "$programs/test_real_time" "$seconds" --gtest_brief=1 || status=1
+NORD_CAN_TIMEOUT=$((seconds * 2 + 600)) watch "$logs/real_time_can.log" "$root/scripts/can_machine.sh" \
+  "$programs/test_real_time" "$seconds" vcan0 --gtest_brief=1 || status=1
 grep -h '^can_machine: \(on\|in\) ' "$logs/real_time_can.log" || true
 
 run() {
-  local ended=0
-  NORD_SOAK_HOURS=$hours "$programs/test_soak" --gtest_brief=1 "--gtest_filter=*$1*" >"$logs/$1.log" 2>&1 || ended=1
-  tell "$logs/$1.log" "$ended"
+  NORD_SOAK_HOURS=$hours watch "$logs/$1.log" "$programs/test_soak" --gtest_brief=1 "--gtest_filter=*$1*"
 }
-export -f run tell
+export -f run watch
 export hours programs logs
 printf '%s\n' Profibus Canopen Devicenet Interbus | xargs -n 1 -P "$jobs" bash -c 'run "$1"' soak || status=1
 exit "$status"

@@ -266,7 +266,7 @@ bool Scanner::pollOutput() noexcept {
     }
     next_output_ = (next_output_ + 1) % nodes_.size();
   }
-  next_output_ = first_output_;
+  if (!output_refused_) next_output_ = 0;
   output_maybe_ = false;
   return false;
 }
@@ -307,9 +307,9 @@ void Scanner::notSent() noexcept {
       break;
     case Given::Kind::kOutput:
       node.io().outputNotSent();
-      // Its turn comes next, else the first device would have the room of all. A message of which only a part left has had
-      // its turn: another one may be shorter.
-      first_output_ = (given.node + (given.continues ? 1 : 0)) % nodes_.size();
+      // The next cycle begins here, else the first device would have the room of all. A message of which only a part left has
+      // had its turn: another one may be shorter.
+      if (given.continues) next_output_ = (given.node + 1) % nodes_.size();
       output_refused_ = true;
       break;
     case Given::Kind::kExplicit:

@@ -136,7 +136,6 @@ class Scanner final : public CanEngine {
   Instant now_{};
   std::optional<Instant> deadline_;  // not later than the earliest of all
   std::size_t next_output_ = 0;
-  std::size_t first_output_ = 0;  // of the next cycle
   std::size_t next_explicit_ = 0;
   std::size_t next_answer_ = 0;
   bool strobe_due_ = false;

@@ -3,6 +3,7 @@
 
 #include "campaign/axes.h"
 #include "campaign/player.h"
+#include "sim/inverter/words.h"
 #include "support/work_counters.h"
 
 namespace nord_driver::test {
@@ -15,7 +16,6 @@ namespace {
 
 // Five questions of guarding (100 ms), and the stop words that follow.
 constexpr Duration kToldApart = seconds{1};
-constexpr double kFullSetpoint = 16384.0;  // 100 %
 
 }  // namespace
 
@@ -69,7 +69,7 @@ void Player::seeTruth() {
     truth.rise = rise > 0.0 ? truth.full / rise : 1e6;
     const double sense = unit.config().inverted ? -1.0 : 1.0;
     truth.along = sense * truth.frequency;
-    truth.told = sense * truth.full * truth.setpoint / kFullSetpoint;
+    truth.told = sense * truth.full * truth.setpoint / sim::kFullScale;
   }
   if (const sim::DriveUnit* const twin = rig_->twin()) {
     if (std::any_of(active_.begin(), active_.end(), hidesTheFirst)) first_hidden_at_ = now();

@@ -101,27 +101,22 @@ TEST(StartUp, FindsWhatComesLater) {
   EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}, 1));
 }
 
-// A driver that was killed left its connections behind: they are ours, and released with the bits that are allocated.
+// A driver that was killed left its connections behind: they are ours, and released with the bits that are allocated; with those
+// that would be ours where the device does not tell, or says that nobody holds what it has refused to allocate.
 TEST(StartUp, TakesOverWhatIsOursFromBefore) {
-  for (const bool tells : {true, false}) {
+  struct Told {
+    bool owner, choice;
+  };
+  for (const Told tells : {Told{true, true}, Told{false, true}, Told{true, false}}) {
     ScannerRun run{busConfig(1)};
-    run.devices[0]->tells_owner = tells;
+    run.devices[0]->tells_owner = tells.owner;
+    run.devices[0]->tells_choice = tells.choice;
     run.devices[0]->explicit_rate = 30000;
     run.devices[0]->belongsTo(0, 0x03, run.now);
     ASSERT_TRUE(run.starts()) << run.scanner.status(0).reason.c_str();
     EXPECT_EQ(0x03, run.devices[0]->released_last);
     EXPECT_EQ(0u, run.scanner.status(0).counters.refusals);
   }
-}
-
-// Who has refused to allocate what it says nobody holds is told to release what would be ours.
-TEST(StartUp, TakesOverWhatIsOursThoughItIsToldToBeNobodys) {
-  ScannerRun run{busConfig(1)};
-  run.devices[0]->tells_choice = false;
-  run.devices[0]->explicit_rate = 30000;
-  run.devices[0]->belongsTo(0, 0x03, run.now);
-  ASSERT_TRUE(run.starts()) << run.scanner.status(0).reason.c_str();
-  EXPECT_EQ(0x03, run.devices[0]->released_last);
 }
 
 // The explicit connection died of idleness meanwhile, the one for process data is still there, timed out.

@@ -74,6 +74,15 @@ class NordWire : public Wire {
     }
     cycleEnds(file, line);
   }
+  /// Somebody sends on and on, until the cycle ends: nothing of ours goes out. The cycle has begun.
+  void neverFallsSilent() {
+    for (const Instant begin = now; !master.cycleDone() && now < begin + std::chrono::seconds{10};) {
+      advanceBits(11);
+      arrives("FF");
+      EXPECT_TRUE(master.pollTransmit(now).empty());
+      if (!master.cycleDone() && now >= *master.nextDeadline()) master.handleTimeout(now);
+    }
+  }
   /// Found before its watchdog has run out: it hears the next word, and is asked for its diagnosis. The next exchange
   /// carries FC 7D.
   void isGoneOnWith(const std::string& diagnosis = kReady, const char* file = __builtin_FILE(),

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim/profibus/dp_slave.h"
+#include "sim/profibus/services.h"
 
 namespace nord_driver::sim {
 
@@ -97,11 +98,9 @@ void DpStations::step(Duration span) noexcept {
 }
 
 bool DpStations::isAnswered(ByteView request) noexcept {
-  constexpr unsigned kSdnLow = 4, kSdnHigh = 6;
-  constexpr std::uint8_t kAll = 127;
   Telegram telegram;
   if (parseTelegram(request, telegram).kind != ParseKind::kTelegram) return false;
-  return telegram.isRequest() && telegram.destination != kAll && telegram.code() != kSdnLow &&
+  return telegram.isRequest() && telegram.destination != kBroadcast && telegram.code() != kSdnLow &&
          telegram.code() != kSdnHigh;
 }
 

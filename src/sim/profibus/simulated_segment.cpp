@@ -104,7 +104,7 @@ void SimulatedSegment::advanceTo(Instant when) noexcept {
 void SimulatedSegment::deliverRequest() noexcept {
   request_pending_ = false;
   stations_.advance(now_);
-  if (lose_requests_ > 0 && stations_.isAnswered(request_)) {
+  if (lose_requests_ > 0 && DpStations::isAnswered(request_)) {
     --lose_requests_;
     stations_.judgeOnly(request_);
     return;
