@@ -88,6 +88,12 @@ def imports_of(source):
             yield node.module
 
 
+def isBeside(file, package):
+    """Whether the interpreter finds this module in the script's own folder, or in scripts as mutant_run does."""
+    return any((folder / f"{package}.py").is_file() or (folder / package / "__init__.py").is_file()
+               for folder in ((ROOT / file).parent, ROOT / "scripts"))
+
+
 def python_uses():
     sources = files("scripts/**/*.py", "test/**/*.py", "cfg/*.cfg")
     for file, text in files("scripts/**/*.sh"):
@@ -95,7 +101,7 @@ def python_uses():
     for file, text in sources:
         for module in sorted(set(imports_of(text))):
             package = module.split(".")[0]
-            if package == OWN or (ROOT / "scripts" / package / "__init__.py").is_file():
+            if package == OWN or isBeside(file, package):
                 continue
             path = module_path(module)
             if path != "":
