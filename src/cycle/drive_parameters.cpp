@@ -216,7 +216,6 @@ void DriveParameters::endOverdue(Instant now) noexcept {
     const bool write = pending.request.kind == RequestKind::kWriteParameter;
     const bool withdrawn = session_.withdraw(pending.request.id);
     profile::ParameterResult overdue;
-    overdue.id = pending.request.id;
     overdue.outcome = profile::ParameterOutcome::kTimeout;
     overdue.text = "in the time it was given";
     overdue.eeprom_written = !withdrawn;
@@ -227,7 +226,6 @@ void DriveParameters::endOverdue(Instant now) noexcept {
 
 void DriveParameters::refuse(const Request& request, profile::ParameterOutcome outcome) noexcept {
   profile::ParameterResult result;
-  result.id = request.id;
   result.outcome = outcome;
   answer(request, result);
 }
@@ -341,16 +339,12 @@ void DriveParameters::answer(const Request& request, const profile::ParameterRes
 
 void DriveParameters::collect() noexcept {
   while (const auto result = session_.pollResult()) {
-    for (std::size_t i = 0; i < pending_.size(); ++i) {
-      if (pending_[i].request.id != result->id) continue;
-      if (!pending_[i].answered) answer(pending_[i].request, *result);
-      // Whatever became of it: a write without an answer may have been carried out.
-      if (changesProcessData(pending_[i].request)) readDeviceAgain();
-      readAgain(pending_[i].request);
-      for (std::size_t j = i + 1; j < pending_.size(); ++j) pending_[j - 1] = pending_[j];
-      pending_.resize(pending_.size() - 1);
-      break;
-    }
+    const auto finished = pending_.takeFront();  // the session answers in the order it was asked
+    if (!finished) continue;
+    if (!finished->answered) answer(finished->request, *result);
+    // Whatever became of it: a write without an answer may have been carried out.
+    if (changesProcessData(finished->request)) readDeviceAgain();
+    readAgain(finished->request);
   }
   // A question of the reader may have met the 0 that it was for a moment.
   if (switch_used_ && !session_.owesEepromSwitch()) {

@@ -1,8 +1,11 @@
 // The thread keeps the rate of its cycle by the transport's clock and ends when it is told to.
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <condition_variable>
+#include <fstream>
 #include <mutex>
+#include <string>
 
 #include "cycle/cycle_thread.h"
 #include "cycle/scripted_transport.h"
@@ -82,6 +85,29 @@ TEST(CycleThreadTest, EndsWhenItIsDestroyed) {
 
 TEST(CycleThreadTest, SaysWhatTheSystemRefused) {
   EXPECT_EQ("", Running{}.thread->refused());
+}
+
+/// kB of this process that stay in memory.
+long lockedMemory() {
+  std::ifstream status{"/proc/self/status"};
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind("VmLck:", 0) == 0) return std::stol(line.substr(6));
+  }
+  return -1;
+}
+
+// Whether it may is the system's to say: what this test may lock itself tells.
+TEST(CycleThreadTest, LocksTheMemoryOrSaysThatItCannot) {
+  const bool allowed = ::mlockall(MCL_CURRENT) == 0;
+  ::munlockall();
+  ASSERT_EQ(0, lockedMemory());
+  RealTimeOptions options;
+  options.lock_memory = true;
+  const std::string refused = Running{options}.thread->refused();
+  const long locked = lockedMemory();
+  ::munlockall();
+  EXPECT_EQ(allowed, refused.empty()) << refused;
+  EXPECT_EQ(allowed, locked > 0) << locked << " kB";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cycle/enable_refusal.h"
+#include "cycle/user_messages.h"
 
 namespace nord_driver::cycle {
 namespace {
@@ -23,6 +24,15 @@ std::string refusalOf(const std::vector<Refusal>& refusals) {
     drives.emplace_back(drive::DriveConfig{});
   }
   return enableRefusalMessage(names, drives, refusals, Sentence{}).str();
+}
+
+// A drive that is the only one to refuse has the whole sentence for itself, wherever it stands among them.
+TEST(EnableRefusal, OfOneDriveIsItsOwnSentence) {
+  const drive::Drive drive{drive::DriveConfig{}};
+  for (const Refusal refusal : {Refusal::kFault, Refusal::kFaultLatched, Refusal::kOffline, Refusal::kBusy}) {
+    EXPECT_EQ(refusalMessage("conveyor_0", refusal, drive.report()).str(), refusalOf({refusal, Refusal::kNone}));
+    EXPECT_EQ(refusalMessage("conveyor_1", refusal, drive.report()).str(), refusalOf({Refusal::kNone, refusal}));
+  }
 }
 
 // What is left out is said once, however much it is, and even where a shorter reason after it would find a place.

@@ -92,6 +92,13 @@ TEST_F(PositionConfiguration, RefusesWhatDoesNotFit) {
   EXPECT_THAT(refusal(), HasSubstr("position/speed"));
 }
 
+TEST_F(PositionConfiguration, CountsAtLeastOneStepInARevolution) {
+  drive_->set("position/steps_per_revolution", 1.0);
+  EXPECT_EQ(1.0, setup().axis.scale.steps_per_revolution);
+  drive_->set("position/steps_per_revolution", 0.99);
+  EXPECT_THAT(refusal(), HasSubstr("~drives/lift/position/steps_per_revolution"));
+}
+
 TEST_F(PositionConfiguration, RefusesSeriesThatDoNotPosition) {
   for (const char* series : {"sk300e", "sk1x0e"}) {
     drive_->set("series", series);
