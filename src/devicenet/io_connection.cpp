@@ -38,6 +38,7 @@ void IoConnection::close() noexcept {
   output_.clear();  // the bit of a strobe, too
   output_ready_ = false;
   sent_at_.reset();
+  polled_ = false;
   sender_.drop();
   due_ = false;
   receiver_.reset();
@@ -76,6 +77,7 @@ bool IoConnection::outputDue(Instant now) const noexcept {
 }
 
 bool IoConnection::pollUnanswered() const noexcept {
+  if (!polled_) return false;
   if (config_.io.kind == IoKind::kPoll) return timers_.isSet(Timer::kInput);
   return isPolledBesideStrobe(config_.io) && timers_.isSet(Timer::kHeard);
 }
@@ -86,6 +88,7 @@ void IoConnection::startCycle(Instant now) noexcept {
   overdue_ = sent_at_ && now - *sent_at_ >= kRatesUntilTimeout * rate_;
   if (overdue_) return timers_.set(Timer::kInput, now);
   if (pollUnanswered()) ++report_.status().counters.missed;
+  polled_ = false;
   if (!outputDue(now)) return;
   repeated_ = false;
   send();
@@ -97,7 +100,20 @@ void IoConnection::send() noexcept {
   sender_.start(ByteView{output_});
 }
 
+void IoConnection::remember() noexcept {
+  before_ = {timers_, sent_at_, polled_, report_.status().counters.missed};
+}
+
+// Nobody has got it: no answer to it is awaited, and none missed.
+void IoConnection::takeBack() noexcept {
+  timers_ = before_.timers;
+  sent_at_ = before_.sent_at;
+  polled_ = before_.polled;
+  report_.status().counters.missed = before_.missed;
+}
+
 void IoConnection::noteStrobed(Instant now) noexcept {
+  remember();
   if (timers_.isSet(Timer::kInput)) {
     ++report_.status().counters.missed;
   } else {
@@ -110,9 +126,11 @@ bool IoConnection::pollOutput(CanFrame& frame, Instant now) noexcept {
   if (!established_ || !sender_.next(payload)) return false;
   frame = dataFrame(identifier(Group2::kMasterIo, config_.mac), payload);
   if (sender_.pending()) return true;
+  remember();
   due_ = false;
   ++report_.status().counters.outputs;
   sent_at_ = now;
+  polled_ = true;
   if (isPolledBesideStrobe(config_.io)) {
     if (!timers_.isSet(Timer::kHeard)) timers_.set(Timer::kHeard, now + timeout_);
   } else if (!byChange()) {
@@ -126,7 +144,10 @@ bool IoConnection::pollOutput(CanFrame& frame, Instant now) noexcept {
 }
 
 void IoConnection::outputNotSent() noexcept {
-  if (!sender_.pending()) --report_.status().counters.outputs;
+  if (!sender_.pending()) {
+    --report_.status().counters.outputs;
+    takeBack();
+  }
   sender_.drop();
   due_ = true;
   countSuperseded();

@@ -47,6 +47,7 @@ class IoConnection {
     return !isPolledBesideStrobe(config_.io) && !output_.empty() && (output_[0] & 1u) != 0;
   }
   void noteStrobed(Instant now) noexcept;
+  void strobeNotSent() noexcept { takeBack(); }
 
   /// Whether this connection uses that message of the device.
   bool takes(Group1 message) const noexcept;
@@ -77,10 +78,20 @@ class IoConnection {
     kCount
   };
 
+  /// What stood before the message, or the strobe, that was given out last.
+  struct Before {
+    TimerTable<Timer> timers;
+    std::optional<Instant> sent_at;
+    bool polled = false;
+    std::uint64_t missed = 0;
+  };
+
   bool byChange() const noexcept;
   bool outputDue(Instant now) const noexcept;
   bool pollUnanswered() const noexcept;
   void send() noexcept;
+  void remember() noexcept;
+  void takeBack() noexcept;
   void countSuperseded() noexcept;
   void handleData(const CanFrame& frame, Instant now) noexcept;
   void handleAcknowledge(const CanFrame& frame, Instant now) noexcept;
@@ -98,6 +109,8 @@ class IoConnection {
   IoBytes output_;
   IoBytes sent_;
   std::optional<Instant> sent_at_;
+  bool polled_ = false;  // a poll has gone out since the cycle began
+  Before before_;
   bool due_ = false;      // whatever the rate: hurried, or the newest message has not gone out as a whole
   bool overdue_ = false;  // nothing was sent for so long that the device has given up
   bool repeated_ = false;

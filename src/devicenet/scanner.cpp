@@ -109,6 +109,7 @@ void Scanner::startCycle(Instant now) noexcept {
   }
   output_maybe_ = true;
   output_refused_ = false;
+  first_output_.reset();
 }
 
 void Scanner::dropStrobe() noexcept {
@@ -261,6 +262,7 @@ bool Scanner::pollOutput() noexcept {
     NodeHandler& node = *nodes_[next_output_];
     given_.continues = node.io().hasBegunOutput();
     if (node.io().pollOutput(given_.frame, now_)) {
+      if (!first_output_) first_output_ = next_output_;
       deadline_ = earlier(deadline_, node.io().nextDeadline());
       return give(Given::Kind::kOutput, next_output_);
     }
@@ -304,12 +306,15 @@ void Scanner::notSent() noexcept {
     case Given::Kind::kStrobe:
       --counters_.strobes;
       ++counters_.superseded;
+      for (const auto& each : nodes_) {
+        if (each->io().takesStrobe()) each->io().strobeNotSent();
+      }
       break;
     case Given::Kind::kOutput:
       node.io().outputNotSent();
-      // The next cycle begins here, else the first device would have the room of all. A message of which only a part left has
-      // had its turn: another one may be shorter.
-      if (given.continues) next_output_ = (given.node + 1) % nodes_.size();
+      // The next cycle begins here, else the first device would have the room of all. A message that began this one and of
+      // which only a part left has had its turn: another one may be shorter.
+      if (given.continues && given.node == first_output_) next_output_ = (given.node + 1) % nodes_.size();
       output_refused_ = true;
       break;
     case Given::Kind::kExplicit:

@@ -136,6 +136,7 @@ class Scanner final : public CanEngine {
   Instant now_{};
   std::optional<Instant> deadline_;  // not later than the earliest of all
   std::size_t next_output_ = 0;
+  std::optional<std::size_t> first_output_;  // whose message is the first of this cycle
   std::size_t next_explicit_ = 0;
   std::size_t next_answer_ = 0;
   bool strobe_due_ = false;

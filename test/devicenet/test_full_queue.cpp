@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -9,6 +11,8 @@
 
 namespace nord_driver::devicenet {
 namespace {
+
+using std::chrono::milliseconds;
 
 // What stops a drive leaves first where the link takes a frame only now and then: before a bit strobe, which would be a sign
 // of life for P151 besides, and before an acknowledge.
@@ -34,22 +38,26 @@ TEST(FullQueue, OutputsLeaveBeforeAllElse) {
   EXPECT_THAT(idsOfACycle(), testing::ElementsAre(0x42Du, 0x435u, 0x400u, 0x432u));
 }
 
-/// What a link takes that has room for one frame in each cycle.
-std::vector<std::uint32_t> takenOneACycle(ScannerRun& run, int cycles) {
-  std::vector<std::uint32_t> taken;
-  for (int cycle = 0; cycle < cycles; ++cycle) {
+/// What a link takes that has room for so many frames in each cycle: a list for each.
+std::vector<std::vector<std::uint32_t>> takenInEach(ScannerRun& run, int cycles, std::size_t room) {
+  std::vector<std::vector<std::uint32_t>> taken(static_cast<std::size_t>(cycles));
+  for (std::vector<std::uint32_t>& of_this : taken) {
     for (std::size_t i = 0; i < run.scanner.nodeCount(); ++i) run.scanner.setOutput(i, ByteView{run.output});
     run.scanner.startCycle(run.now);
-    bool took = false;
     for (CanFrame frame; run.scanner.pollTransmit(frame);) {
-      if (took) {
+      if (of_this.size() == room) {
         run.scanner.notSent();
-        continue;
+      } else {
+        of_this.push_back(frame.id);
       }
-      taken.push_back(frame.id);
-      took = true;
     }
   }
+  return taken;
+}
+
+std::vector<std::uint32_t> takenOneACycle(ScannerRun& run, int cycles) {
+  std::vector<std::uint32_t> taken;
+  for (const auto& of_one : takenInEach(run, cycles, 1)) taken.insert(taken.end(), of_one.begin(), of_one.end());
   return taken;
 }
 
@@ -71,6 +79,38 @@ TEST(FullQueue, AMessageThatIsTooLongForItIsNoHindrance) {
   run.output = {0x01, 0x7F, 0x04, 0x00, 0x20};
   ASSERT_TRUE(run.starts());
   EXPECT_THAT(takenOneACycle(run, 4), testing::ElementsAre(0x42Du, 0x435u, 0x42Du, 0x435u));
+}
+
+/// In how many of these cycles the message of a device, of so many frames, left as a whole.
+std::ptrdiff_t served(const std::vector<std::vector<std::uint32_t>>& taken, std::uint32_t id, std::ptrdiff_t frames) {
+  return std::count_if(taken.begin(), taken.end(), [=](const std::vector<std::uint32_t>& of_one) {
+    return std::count(of_one.begin(), of_one.end(), id) == frames;
+  });
+}
+
+// Behind another one a message does not fit that would alone: it begins the next cycle.
+TEST(FullQueue, AMessageThatWouldFitAloneHasItsTurn) {
+  struct Case {
+    std::vector<std::size_t> frames;  // of the message of each device
+    std::size_t room;
+  };
+  for (const Case& one : {Case{{3, 3}, 4}, Case{{3, 3}, 5}, Case{{1, 2}, 2}, Case{{2, 1}, 2}, Case{{1, 1, 3}, 4},
+                          Case{{3, 3, 3}, 8}, Case{{2, 3, 1}, 3}}) {
+    ScannerConfig config = busConfig(0);
+    for (std::size_t i = 0; i < one.frames.size(); ++i) {
+      const std::size_t bytes = one.frames[i] == 1 ? 5 : 7 * one.frames[i] - 2;
+      config.nodes.push_back(nodeConfig(static_cast<std::uint8_t>(5 + i), IoKind::kPoll, bytes, bytes));
+    }
+    ScannerRun run{config};
+    run.output = {0x01, 0x7F, 0x04, 0x00, 0x20};
+    ASSERT_TRUE(run.starts());
+    const auto taken = takenInEach(run, 12, one.room);
+    for (std::size_t i = 0; i < one.frames.size(); ++i) {
+      const auto id = static_cast<std::uint32_t>(0x42D + 8 * i);
+      EXPECT_GE(served(taken, id, static_cast<std::ptrdiff_t>(one.frames[i])), 3)
+          << "device " << i << " of " << one.frames.size() << ", room " << one.room;
+    }
+  }
 }
 
 // There is room again within the cycle: it is for the word that stops, in the next one.
@@ -120,6 +160,27 @@ TEST(FullQueue, ABitStrobeThatWasNotSentIsCountedBack) {
   EXPECT_EQ(sent - 1, run.scanner.counters().frames_sent);
   EXPECT_EQ(strobes, run.scanner.counters().strobes);
   EXPECT_EQ(superseded + 1, run.scanner.counters().superseded);
+}
+
+// The device was not asked: it has missed nothing, and is not lost for want of an answer.
+TEST(FullQueue, NobodyMissesAnAnswerToABitStrobeThatWasNotSent) {
+  ScannerConfig config = busConfig(0);
+  config.nodes = {nodeConfig(5, IoKind::kStrobe, 8, 0)};
+  ScannerRun run{config};
+  run.output = {0x01};
+  ASSERT_TRUE(run.starts());
+  const std::uint64_t missed = run.scanner.status(0).counters.missed;
+  for (int cycle = 0; cycle < 20; ++cycle) {
+    run.scanner.startCycle(run.now);
+    CanFrame frame;
+    ASSERT_TRUE(run.scanner.pollTransmit(frame));
+    ASSERT_EQ(0x400u, frame.id) << cycle;
+    run.scanner.notSent();
+    run.now += milliseconds{10};
+    run.scanner.poll(run.now);
+  }
+  EXPECT_EQ(missed, run.scanner.status(0).counters.missed);
+  EXPECT_EQ(NodeState::kExchanging, run.scanner.status(0).state);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // The process data of one device, beside its connecting: to the millisecond what is due, and what is not taken.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -241,6 +242,51 @@ TEST(IoConnection, AMessageThatWasNotSentIsCountedBack) {
   EXPECT_EQ(kSent, one.cycle());
   one.now += kCycle;
   EXPECT_EQ("", one.cycle()) << "unchanged";
+}
+
+// What was not sent needs no answer, and no acknowledge; what was sent before it still does.
+TEST(IoConnection, OfAMessageThatWasNotSentNoAnswerIsMissed) {
+  Connected polled{IoKind::kPoll};
+  polled.establish();
+  polled.cycle();
+  polled.now += kCycle;
+  polled.cycle();
+  ASSERT_EQ(1u, polled.counted().missed) << "of the first poll";
+  polled.io.outputNotSent();
+  polled.now += kCycle;
+  polled.cycle();
+  EXPECT_EQ(1u, polled.counted().missed);
+  polled.now += kCycle;
+  polled.cycle();
+  EXPECT_EQ(2u, polled.counted().missed) << "of the third";
+
+  Connected told{IoKind::kChangeOfState};
+  told.establish();
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_EQ(kSent, told.cycle());
+    told.io.outputNotSent();
+    told.now += kCycle;
+  }
+  EXPECT_EQ(0u, told.counted().missed);
+  told.io.poll(told.now + kRate);
+  EXPECT_EQ(0u, told.counted().unacknowledged);
+}
+
+// The device is not to be blamed for what did not reach it.
+TEST(IoConnection, WithoutRoomForItsMessagesItIsLostForThat) {
+  Connected one{IoKind::kPoll};
+  one.establish();
+  one.cycle();
+  one.hear(Group1::kPollResponse, "3C5#0102030405");
+  const Instant sent = one.now;
+  while (one.now - sent < 4 * kRate) {
+    one.now += kCycle;
+    ASSERT_TRUE(one.io.poll(one.now));
+    if (one.cycle() == kSent) one.io.outputNotSent();
+  }
+  EXPECT_EQ(0u, one.counted().missed);
+  ASSERT_FALSE(one.io.poll(one.now));
+  EXPECT_THAT(one.io.lossText().c_str(), testing::HasSubstr("was sent nothing"));
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
-// Which waits of a test program ended later than asked for: replaces ppoll() and clock_nanosleep() of the whole program. To be
-// included by one source of it.
+// Which waits of a test program ended later than asked for, or than what they waited for: replaces ppoll(), clock_nanosleep()
+// and write() of the whole program. To be included by one source of it.
 //
 // A wait for a pty ends after its time-out where the kernel's own worker that carries the bytes, a thread of ordinary
 // priority, is late: n_tty_poll() waits for it, whatever the time-out and the priority of who polls (Linux,
-// drivers/tty/n_tty.c, tty_buffer_flush_work()).
+// drivers/tty/n_tty.c, tty_buffer_flush_work()). By the same worker bytes come late to a wait that is not due yet: what one
+// thread has written before, another one that waits for a tty has to see at once. It has one sender at a time, as a bus of
+// one master has.
 #pragma once
 
 #include <poll.h>
@@ -24,7 +26,7 @@
 
 namespace nord_driver::test {
 
-/// From when a wait was due to when it ended.
+/// From when a wait was due, or its bytes were there to be carried, to when it ended.
 struct Overslept {
   Instant due{};
   Instant end{};
@@ -47,6 +49,20 @@ inline void noteWait(Instant due) noexcept {
   if (now - due <= kTimersPass) return;
   const std::size_t place = overslept_count++;
   if (place < kMostOverslept) overslept[place] = {due, now, thisThread()};
+}
+
+/// What was written to a tty last.
+struct Sent {
+  std::atomic<Instant::rep> when{0};  // after it was written
+  std::atomic<long> thread{0};
+};
+inline Sent last_sent;
+
+/// A wait for a tty, which began at `begin`, has bytes.
+inline void noteArrival(Instant begin) noexcept {
+  const Instant sent{Instant::duration{last_sent.when}};
+  const long by = last_sent.thread;
+  if (by != 0 && by != thisThread()) noteWait(std::max(begin, sent));
 }
 
 inline Duration spanOf(const timespec& time) noexcept {
@@ -81,10 +97,12 @@ inline __attribute__((used, visibility("default"))) int ppoll(pollfd* fds, nfds_
   using namespace nord_driver::test;
   timespec left{};  // the kernel writes to it
   if (timeout != nullptr) left = *timeout;
-  const auto due = std::chrono::steady_clock::now() + spanOf(left);
+  const nord_driver::Instant begin = std::chrono::steady_clock::now();
+  const nord_driver::Instant due = begin + spanOf(left);
   const long ready = ::syscall(SYS_ppoll, fds, count, timeout == nullptr ? nullptr : &left, mask, _NSIG / 8);
   const int error = errno;
   if (timeout != nullptr) noteWait(due);
+  if (ready > 0 && count == 1 && ::isatty(fds->fd) != 0) noteArrival(begin);
   errno = error;
   return static_cast<int>(ready);
 }
@@ -98,5 +116,17 @@ inline __attribute__((used, visibility("default"))) int clock_nanosleep(clockid_
   const int error = ended ? 0 : errno;
   if (clock == CLOCK_MONOTONIC) noteWait(due);
   return error;
+}
+
+inline __attribute__((used, visibility("default"))) ssize_t write(int descriptor, const void* bytes, size_t count) {
+  using namespace nord_driver::test;
+  const long written = ::syscall(SYS_write, descriptor, bytes, count);
+  const int error = errno;
+  if (written > 0 && ::isatty(descriptor) != 0) {
+    last_sent.when = std::chrono::steady_clock::now().time_since_epoch().count();
+    last_sent.thread = thisThread();
+  }
+  errno = error;
+  return written;
 }
 }
