@@ -16,12 +16,6 @@ MasterConfig checked(const MasterConfig& config) {
 
 constexpr std::uint8_t kToggle = 0x80;
 
-std::size_t receivePdosOf(const MasterConfig& config) {
-  std::size_t count = 0;
-  for (const NodeConfig& node : config.nodes) count += node.receive_pdos.size();
-  return count;
-}
-
 }  // namespace
 
 Master::Master(const MasterConfig& config)
@@ -79,12 +73,15 @@ void Master::startCycle(Instant now) noexcept {
   bool any = false;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     nodes_[i]->handleCycle();
+    const bool unheard = nodes_[i]->status().fellSilent();
     // SYNC is what a synchronous TPDO waits for, and an RPDO that stops a drive that is not heard.
-    any = any || nodes_[i]->operational() || nodes_[i]->status().fellSilent();
-    if (!nodes_[i]->operational() || !nodes_[i]->takesReceivePdos(now)) continue;
-    const std::vector<ReceivePdoSlot>& pdos = nodes_[i]->receivePdos();
+    any = any || nodes_[i]->operational() || unheard;
+    const bool heard = nodes_[i]->operational() && nodes_[i]->takesReceivePdos(now);
+    std::vector<ReceivePdoSlot>& pdos = nodes_[i]->receivePdos();
     for (std::size_t pdo = 0; pdo < pdos.size(); ++pdo) {
-      if (pdos[pdo].ready()) process_.add({static_cast<std::uint8_t>(i), static_cast<std::uint16_t>(pdo)});
+      const bool takes = pdos[pdo].takeTellUnheard() && unheard;
+      if (!pdos[pdo].ready() || (!heard && !takes)) continue;
+      process_.add({static_cast<std::uint8_t>(i), static_cast<std::uint16_t>(pdo), unheard});
     }
   }
   if (waits_) process_.beginWith(*waits_);
@@ -101,6 +98,7 @@ void Master::dropProcessData() noexcept {
 void Master::drop(PdoReference pdo) noexcept {
   ++counters_.superseded;
   ++nodes_[pdo.node]->report().status().counters.superseded;
+  if (pdo.unheard) nodes_[pdo.node]->handleUntold();
   stuck_ = true;
   if (!waits_) waits_ = pdo;
 }
@@ -262,7 +260,7 @@ bool Master::pollTransmit(CanFrame& frame) noexcept {
 }
 
 void Master::give(Given::Kind kind, std::size_t node, std::size_t item, const CanFrame& frame) noexcept {
-  given_ = {kind, node, item, frame};
+  given_ = {kind, node, item, false, frame};
 }
 
 bool Master::pollNmt() noexcept {
@@ -285,10 +283,11 @@ bool Master::pollReceivePdo() noexcept {
     const PdoReference due = process_.takePdo();
     Node& node = *nodes_[due.node];
     const ReceivePdoSlot& slot = node.receivePdos()[due.pdo];
-    // It may have been lost since the cycle began.
-    if (!node.operational() || !slot.ready()) continue;
+    // It may have been lost since the cycle began, or be back.
+    if (!(due.unheard ? node.status().fellSilent() : node.operational()) || !slot.ready()) continue;
     ++node.report().status().counters.receive_pdos;
     give(Given::Kind::kReceivePdo, due.node, due.pdo, slot.frame());
+    given_.unheard = due.unheard;
     return true;
   }
   return false;
@@ -350,7 +349,7 @@ void Master::notSent() noexcept {
       break;
     case Given::Kind::kReceivePdo:
       --node.report().status().counters.receive_pdos;
-      drop({static_cast<std::uint8_t>(given.node), static_cast<std::uint16_t>(given.item)});
+      drop({static_cast<std::uint8_t>(given.node), static_cast<std::uint16_t>(given.item), given.unheard});
       break;
     case Given::Kind::kSync:
       --counters_.syncs;

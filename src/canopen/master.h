@@ -73,9 +73,9 @@ class Master final : public CanEngine {
   /// Kept, and sent in every cycle in which the node is operational; before the first call, and after a loss, nothing
   /// is sent. Cut or filled with zeros to the mapped length (when the mapping is configured).
   void setReceivePdo(std::size_t node, std::size_t pdo, ByteView bytes) noexcept;
-  /// What stops a drive of this node, which is lost, was not taken by the link: until it was, in full, the node is neither
-  /// asked nor reset.
-  void handleUntold(std::size_t node) noexcept { nodes_[node]->handleUntold(); }
+  /// Its value stops a drive: in the next cycle it is sent even if the node has fallen silent, as it may hear it, in turn with what the
+  /// others are sent. Until the link has taken it for some cycles the node is neither asked nor reset.
+  void tellUnheard(std::size_t node, std::size_t pdo) noexcept { nodes_[node]->receivePdos()[pdo].tellUnheard(); }
   /// What it sent last while operational; `count` 0: nothing yet since it became so.
   const PdoValue& transmitPdo(std::size_t node, std::size_t pdo) const noexcept;
 
@@ -102,6 +102,7 @@ class Master final : public CanEngine {
     Kind kind = Kind::kNothing;
     std::size_t node = 0;
     std::size_t item = 0;
+    bool unheard = false;  // of an RPDO: for a node that fell silent
     CanFrame frame;
   };
 

@@ -179,4 +179,10 @@ MasterConfig completed(MasterConfig config) {
   return config;
 }
 
+std::size_t receivePdosOf(const MasterConfig& config) noexcept {
+  std::size_t count = 0;
+  for (const NodeConfig& node : config.nodes) count += node.receive_pdos.size();
+  return count;
+}
+
 }  // namespace nord_driver::canopen

@@ -24,4 +24,7 @@ void checkConfig(const MasterConfig& config);
 /// The configuration with everything filled in that was left to the predefined connection set.
 MasterConfig completed(MasterConfig config);
 
+/// Of all nodes together.
+std::size_t receivePdosOf(const MasterConfig& config) noexcept;
+
 }  // namespace nord_driver::canopen

@@ -11,6 +11,7 @@ namespace nord_driver::canopen {
 struct PdoReference {
   std::uint8_t node = 0;
   std::uint16_t pdo = 0;
+  bool unheard = false;  // for a node that fell silent
 
   bool operator==(const PdoReference& other) const noexcept { return node == other.node && pdo == other.pdo; }
 };

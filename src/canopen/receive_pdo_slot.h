@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #include "canopen/node_config.h"
 #include "core/can_frame.h"
@@ -22,6 +23,10 @@ class ReceivePdoSlot {
   void set(ByteView bytes) noexcept;
   /// Nothing is sent until the next `set()`.
   void forget() noexcept { known_ = false; }
+  /// The value stops a drive: in the next cycle it goes to a node that fell silent, too.
+  void tellUnheard() noexcept { tell_unheard_ = true; }
+  /// For this cycle.
+  bool takeTellUnheard() noexcept { return std::exchange(tell_unheard_, false); }
   bool ready() const noexcept { return known_ && enabled_; }
   CanFrame frame() const noexcept { return dataFrame(cob_id_, bytes_); }
 
@@ -31,6 +36,7 @@ class ReceivePdoSlot {
   std::size_t length_;
   FixedBytes<kCanDataLength> bytes_;
   bool known_ = false;
+  bool tell_unheard_ = false;
 };
 
 }  // namespace nord_driver::canopen

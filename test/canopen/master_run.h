@@ -111,8 +111,9 @@ class MasterRun {
   std::vector<std::string> sent;
   Instant now{std::chrono::hours{1}};
   bool link_full = false;
-  std::optional<std::size_t> room;             ///< frames the link takes in a cycle
-  std::function<bool(const CanFrame&)> loses;  ///< of both directions
+  std::optional<std::size_t> room;               ///< frames the link takes in a cycle
+  std::function<bool(const CanFrame&)> loses;    ///< of both directions
+  std::function<bool(const CanFrame&)> refuses;  ///< what the link does not take
   /// What the master is given before each cycle: the idle control word for every node that has an RPDO.
   std::function<void(Master&)> before_cycle = [this](Master& to) {
     for (const std::size_t node : with_receive_pdo_) to.setReceivePdo(node, 0, fromHex("7E 04 00 00"));
@@ -130,7 +131,7 @@ class MasterRun {
   void pump() {
     CanFrame frame;
     while (master.pollTransmit(frame)) {
-      if (link_full || (room && taken_ >= *room)) return master.notSent();
+      if (link_full || (room && taken_ >= *room) || (refuses && refuses(frame))) return master.notSent();
       ++taken_;
       sent.push_back(text(frame));
       if (loses && loses(frame)) continue;

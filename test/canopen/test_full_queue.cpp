@@ -52,6 +52,29 @@ TEST_F(FullQueue, EachNodeGetsItsTurn) {
   EXPECT_THAT(cycle(3), ElementsAre("203#7E040000", "201#7E040000", "202#7E040000"));
 }
 
+// What stops a drive that is not heard has its turn as well, and takes none from those that are heard.
+TEST_F(FullQueue, ANodeThatFellSilentGetsItsTurn) {
+  ASSERT_NO_FATAL_FAILURE(start(busConfig(3)));
+  run_->loses = [](const CanFrame& frame) { return frame.id == 0x701; };
+  ASSERT_TRUE(run_->reaches(NodeState::kLost, seconds{1}));
+  ASSERT_TRUE(run_->master.status(0).fellSilent());
+  run_->before_cycle = [](Master& master) {
+    for (std::size_t node = 0; node < 3; ++node) {
+      master.setReceivePdo(node, 0, fromHex("7E 04 00 00"));
+      master.tellUnheard(node, 0);
+    }
+  };
+  run_->runToNextCycle();
+  const std::uint64_t superseded = run_->master.status(0).counters.superseded;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_THAT(cycle(1), ElementsAre("201#7E040000")) << i;
+    EXPECT_THAT(cycle(1), ElementsAre("202#7E040000")) << i;
+    EXPECT_THAT(cycle(1), ElementsAre("203#7E040000")) << i;
+  }
+  EXPECT_EQ(superseded + 6, run_->master.status(0).counters.superseded);
+  EXPECT_EQ(NodeState::kLost, run_->master.status(0).state) << "nor asked as long as its words find no place";
+}
+
 // In place of the second PDO of a node the first would go out for ever.
 TEST_F(FullQueue, EachPdoOfANodeGetsItsTurn) {
   MasterConfig config = guarded(1);

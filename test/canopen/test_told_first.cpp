@@ -121,16 +121,39 @@ TEST_F(ToldFirst, WaitsForATenthOfASecondToo) {
 TEST_F(ToldFirst, WaitsUntilItsWordsLeave) {
   start(busConfig(1));
   lose();
-  run_->before_cycle = [](Master& master) { master.handleUntold(0); };
+  run_->before_cycle = [](Master& master) {
+    master.setReceivePdo(0, 0, fromHex("7E 04 00 00"));
+    master.tellUnheard(0, 0);
+  };
+  run_->refuses = [](const CanFrame& frame) { return frame.id == 0x201; };
   run_->run(seconds{2});
   EXPECT_FALSE(hasSent("000#") || hasSent("601#"));
   run_->runToNextCycle();
-  run_->before_cycle = [](Master&) {};
+  run_->refuses = nullptr;
   run_->run(milliseconds{20});
+  EXPECT_TRUE(hasSent("201#7E04"));
   EXPECT_FALSE(hasSent("000#") || hasSent("601#")) << "two cycles";
   run_->run(milliseconds{120});
   EXPECT_TRUE(hasSent("601#"));
   EXPECT_TRUE(hasSent("000#"));
+}
+
+// Said for a cycle, it does not count for those after it.
+TEST_F(ToldFirst, OnlyWhatIsSaidForTheCycle) {
+  start(busConfig(1));
+  run_->before_cycle = [](Master& master) { master.setReceivePdo(0, 0, fromHex("7F 04 00 10")); };
+  run_->runToNextCycle();
+  run_->master.tellUnheard(0, 0);  // heard as yet
+  lose();
+  run_->run(milliseconds{30});
+  EXPECT_FALSE(hasSent("201#"));
+  run_->runToNextCycle();
+  run_->sent.clear();
+  run_->master.setReceivePdo(0, 0, fromHex("7E 04 00 00"));
+  run_->before_cycle = [](Master&) {};
+  run_->master.tellUnheard(0, 0);
+  run_->run(milliseconds{30});
+  EXPECT_EQ(1, std::count(run_->sent.begin(), run_->sent.end(), "201#7E040000"));
 }
 
 // The adapter was unplugged and is back: the node has gone on meanwhile.

@@ -2,6 +2,8 @@
 // node. Every drive hears the newest word, or nobody guards it.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "system/can_robot.h"
 
 namespace nord_driver::test {
@@ -51,6 +53,27 @@ TEST_P(CanopenSlowQueue, ItIsLivedThrough) {
   robot_->bus().setQueuePace({});
   EXPECT_TRUE(comesToRest(0.0, kCoasting));
   EXPECT_TRUE(robot_->runUntil([this] { return robot_->online(0) && robot_->online(1); }));
+}
+
+// What stops a node that fell silent does not take the place of what stops the others.
+TEST(CanopenQueue, ThatIsSlowStopsTheOtherWheelOfOneThatFellSilent) {
+  CanRobot::Options options;
+  options.drives = {{"error_control", std::string{"heartbeat"}}, {"heartbeat_time", 0.02}};
+  CanRobot robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.drive(kHalfSpeed, 0.0, seconds{3});
+  robot.bus().setQueuePace(milliseconds{8});
+  robot.link().setDeaf(0x703);
+  const double frequency = std::abs(robot.unit(1).inverter().frequency());
+  ASSERT_GT(frequency, 20.0);
+  const Instant end = robot.transport().now() + seconds{1};
+  while (robot.transport().now() < end) {
+    robot.command(kHalfSpeed);
+    robot.step();
+  }
+  for (std::size_t wheel = 0; wheel < 2; ++wheel) {
+    EXPECT_LT(std::abs(robot.unit(wheel).inverter().frequency()), 0.8 * frequency) << "wheel " << wheel;
+  }
 }
 
 // One that takes all that is due in a cycle, one frame after the other, is none of these.

@@ -169,12 +169,6 @@ void CanTransport::send(Instant until) noexcept {
   }
 }
 
-bool CanTransport::sendNow(const CanFrame& frame) noexcept {
-  if (link_->send(frame) != link::CanSend::kSent) return false;
-  trace_->record(TraceKind::kSent, toPacket(frame), link_->now());
-  return true;
-}
-
 void CanTransport::takeLineCounters() noexcept {
   const Instant now = link_->now();
   if (now < next_line_counters_) return;

@@ -72,8 +72,6 @@ class CanTransport : public Transport {
   void watchController() noexcept;
   /// A frame was seen that only another master sends.
   void noteMaster(std::uint32_t id, Instant at) noexcept;
-  /// At once, past the engine; what the link does not take is dropped: then false.
-  bool sendNow(const CanFrame& frame) noexcept;
   /// Why none of the drives answers: the interface, or the silence of this transport; empty when neither is the reason.
   const char* linkNote() const noexcept;
   /// The same of the bus as a whole, in a sentence.

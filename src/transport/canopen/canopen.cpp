@@ -57,9 +57,7 @@ void CanopenTransport::configure(const Settings& bus, const std::vector<DriveSet
   drives_.clear();
   drives_.reserve(config_.drives.size());
   for (const CanopenDrive& drive : config_.drives) {
-    const canopen::NodeConfig& node = config_.master.nodes[drive.node];
-    drives_.emplace_back(drive, node.receive_pdos[drive.receive_pdo].cob_id,
-                         static_cast<std::uint16_t>(drives_.size()));
+    drives_.emplace_back(drive, static_cast<std::uint16_t>(drives_.size()));
   }
   answered_.assign(drives_.size(), 0);
   Setup setup;
@@ -87,21 +85,6 @@ void CanopenTransport::putOutputs(const std::vector<profile::ProcessOutput>& out
     drives_[i].putOutput(outputs[i], *master_);
     answered_[i] = master_->transmitPdo(config_.drives[i].node, config_.drives[i].transmit_pdo).count;
   }
-  if (!isSilent()) commandUnheardNodes();
-}
-
-// Words that stop, as long as the drive layer gives any; never an old one.
-void CanopenTransport::commandUnheardNodes() noexcept {
-  std::optional<std::size_t> first_untold;
-  for (std::size_t k = 0; k < drives_.size(); ++k) {
-    const std::size_t i = (first_unheard_ + k) % drives_.size();
-    const auto frame = drives_[i].unheardCommand(*master_);
-    if (!frame || sendNow(*frame)) continue;
-    if (!first_untold) first_untold = i;
-    master_->handleUntold(config_.drives[i].node);
-  }
-  // A full queue that takes one frame at a time must not take that of the same drive each time.
-  first_unheard_ = first_untold.value_or(first_unheard_);
 }
 
 void CanopenTransport::takeInputs(Instant now, std::vector<DriveExchange>& inputs) noexcept {

@@ -57,14 +57,11 @@ class CanopenTransport final : public CanTransport, public BusScanner {
   void restartDrives() noexcept override;
   void handleGone() noexcept override { restart(); }
   void handleWhileListening(const CanFrame& frame, Instant at) noexcept override;
-  /// To nodes that fell silent and may hear us all the same.
-  void commandUnheardNodes() noexcept;
 
   CanopenConfig config_;
   std::optional<canopen::Master> master_;
   std::vector<CanopenDriveState> drives_;
   std::vector<std::uint64_t> answered_;  // TPDOs of each drive when the cycle began
-  std::size_t first_unheard_ = 0;        // of the drives that fell silent the first to get its stop word
   ResultTurns result_turns_;
 };
 

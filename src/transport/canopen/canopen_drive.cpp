@@ -17,28 +17,23 @@ constexpr Word kRuns = 0x000F;
 
 }  // namespace
 
-CanopenDriveState::CanopenDriveState(const CanopenDrive& config, std::uint32_t receive_id, std::uint16_t tag)
-    : config_(config), receive_id_(receive_id), parameters_(config, tag), scaling_(config.scaling.pole_pairs) {
+CanopenDriveState::CanopenDriveState(const CanopenDrive& config, std::uint16_t tag)
+    : config_(config), parameters_(config, tag), scaling_(config.scaling.pole_pairs) {
   scaling_.setMaxFrequency(config.typed_max_frequency);
 }
 
-// In CiA 402 no word says "ignore me": then the master repeats what it was given before, or sends nothing yet.
+// In CiA 402 no word says "ignore me": then the master repeats what it was given before, or sends nothing yet. A node that
+// fell silent may hear words that stop its drive, as long as the drive layer gives any; never an old one.
 void CanopenDriveState::putOutput(const profile::ProcessOutput& output, canopen::Master& master) noexcept {
-  stops_ = (output.control_word & profile::control_bit::kDataValid) != 0 && (output.control_word & kRuns) != kRuns;
   if (config_.drive_profile == DriveProfile::kNord) {
-    output_ = packPdo(config_, output);
+    master.setReceivePdo(config_.node, config_.receive_pdo, packPdo(config_, output));
   } else if (const auto words = scaling_.toCia402(output)) {
-    output_ = packCia402(*words);
+    master.setReceivePdo(config_.node, config_.receive_pdo, packCia402(*words));
   } else {
     return;
   }
-  master.setReceivePdo(config_.node, config_.receive_pdo, output_);
-}
-
-std::optional<CanFrame> CanopenDriveState::unheardCommand(const canopen::Master& master) const noexcept {
-  const canopen::NodeStatus& status = master.status(config_.node);
-  if (!status.fellSilent() || !stops_) return std::nullopt;
-  return dataFrame(receive_id_, output_);
+  const bool valid = (output.control_word & profile::control_bit::kDataValid) != 0;
+  if (valid && (output.control_word & kRuns) != kRuns) master.tellUnheard(config_.node, config_.receive_pdo);
 }
 
 bool CanopenDriveState::decode(ByteView bytes, profile::ProcessInput& input) const noexcept {

@@ -17,13 +17,9 @@ namespace nord_driver {
 /// Each cycle: putOutput() before the exchange, takeInput() after it.
 class CanopenDriveState {
  public:
-  /// `receive_id`: COB-ID of its RPDO.
-  CanopenDriveState(const CanopenDrive& config, std::uint32_t receive_id, std::uint16_t tag);
+  CanopenDriveState(const CanopenDrive& config, std::uint16_t tag);
 
   void putOutput(const profile::ProcessOutput& output, canopen::Master& master) noexcept;
-  /// The RPDO for a node that has fallen silent while it was operational: it may hear us without being heard, and the
-  /// master sends it nothing any more. None when there is nothing to command.
-  std::optional<CanFrame> unheardCommand(const canopen::Master& master) const noexcept;
   /// `bus_works`: frames can come and go at all.
   void takeInput(const canopen::Master& master, bool bus_works, Instant now, DriveExchange& input) noexcept;
 
@@ -51,12 +47,9 @@ class CanopenDriveState {
   void explain(const canopen::NodeStatus& status, bool bus_works, bool ever_sent, bool overdue) noexcept;
 
   CanopenDrive config_;
-  std::uint32_t receive_id_ = 0;
   CanopenParameters parameters_;
   profile::Cia402Scaling scaling_;
   MaxFrequencyReads<CanopenParameters::kCapacity> max_frequency_reads_;
-  PdoBytes output_;                     // as of the last putOutput()
-  bool stops_ = false;                  // ... and it is a word that stops
   std::optional<std::uint64_t> start_;  // which start of the node it is operational from; none: it is not
   bool module_answers_ = false;
   bool inverter_answers_ = false;
