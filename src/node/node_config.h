@@ -48,7 +48,7 @@ struct NodeConfig {
   EepromSettings eeprom;
   PublishConfig publish;
   cycle::CycleConfig cycle;
-  std::optional<trace::TraceConfig> trace;
+  trace::TraceConfig trace;
   std::vector<DriveSettings> drives;
   /// One for each of `drives`: the parameters of `monitor`, as they are written there.
   std::vector<std::vector<std::string>> monitor;
