@@ -24,6 +24,18 @@ class Merger {
  public:
   explicit Merger(const std::string& place) : place_(place) {}
 
+  // Also in groups that another one takes the place of: rosparam refuses the file as a whole.
+  void check(const YAML::Node& node) const {
+    if (node.IsSequence()) {
+      for (const YAML::Node& item : node) check(item);
+    } else if (node.IsMap()) {
+      for (const auto& member : node) {
+        if (isMergeKey(member.first)) sourcesOf(member.first, member.second);
+        check(member.second);
+      }
+    }
+  }
+
   // Cloned throughout, so that what is done to one group is not done to another.
   YAML::Node merged(const YAML::Node& node) const {
     if (node.IsSequence()) {
@@ -92,7 +104,9 @@ bool isMergeKey(const YAML::Node& key) {
 }
 
 YAML::Node withKeysMerged(const YAML::Node& root, const std::string& place) {
-  return Merger{place}.merged(root);
+  const Merger merger{place};
+  merger.check(root);
+  return merger.merged(root);
 }
 
 }  // namespace nord_driver

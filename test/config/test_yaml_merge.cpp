@@ -102,6 +102,7 @@ TEST(YamlMerge, WhatIsNoGroupIsRefused) {
   EXPECT_EQ("a.yaml: line 1: <<: nothing" + expected, refusalOf("b: {<<: }"));
   EXPECT_EQ("a.yaml: line 3: <<: \"left\"" + expected, refusalOf("a: &a {x: 1}\nb:\n  <<: [*a, left]"));
   EXPECT_EQ("a.yaml: line 1: <<: a list in the list" + expected, refusalOf("b: {<<: [[{x: 1}]]}"));
+  EXPECT_EQ("a.yaml: line 1: <<: \"5\"" + expected, refusalOf("b: {<<: {g: {<<: 5}}, g: 1}")) << "not even taken";
 }
 
 // PyYAML takes this for {x: 1}; nobody means it.
