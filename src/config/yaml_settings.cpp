@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "config/yaml_merge.h"
 #include "config/yaml_number.h"
 #include "config/yaml_tree.h"
 
@@ -58,7 +59,7 @@ SettingValue wholeValue(const std::string& prefix, const YAML::Node& node) {
   const std::string why = whyNotWalkable(node);
   if (!why.empty())
     throw ConfigError((prefix.empty() ? "the file" : prefix) + ": " + why + ", expected groups of keys and values");
-  return valueOf(prefix, node);
+  return valueOf(prefix, withKeysMerged(node, prefix.empty() ? "the file" : prefix));
 }
 
 YAML::Node laidOver(const YAML::Node& lower, const YAML::Node& upper) {
@@ -87,7 +88,7 @@ YAML::Node readYamlFiles(const std::vector<std::string>& files) {
       if (!node.IsMap()) throw ConfigError("--config " + file + ": expected a file of keys and values");
       const std::string why = whyNotWalkable(node);
       if (!why.empty()) throw ConfigError("--config " + file + ": " + why + ", expected groups of keys and values");
-      all.reset(laidOver(all, node));
+      all.reset(laidOver(all, withKeysMerged(node, "--config " + file)));
     } catch (const YAML::BadFile&) {
       std::error_code unreadable;
       throw ConfigError(

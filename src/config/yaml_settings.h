@@ -11,7 +11,7 @@
 namespace nord_driver {
 
 /// Reads values as rosparam does, so that a file means here what it means to the node: what is quoted is a text, what
-/// looks like a number is none, and "linear/x" is the group "x" in the group "linear".
+/// looks like a number is none, "linear/x" is the group "x" in the group "linear", and merge keys ("<<") are resolved.
 class YamlSettings final : public TreeSettings {
  public:
   /// `node` is a map, or null for an absent group. Throws ConfigError when it is anything else.

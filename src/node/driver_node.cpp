@@ -310,8 +310,7 @@ void DriverNode::bringToRest() {
   };
   cycle::Request request;
   request.kind = cycle::RequestKind::kShutDown;
-  // OFF1 that does not end becomes a quick stop; that has a ramp of its own (P426).
-  request.patience = config_.cycle.shutdown_timeout + std::chrono::seconds{3};
+  request.patience = config_.cycle.shutdown_timeout + kQuickStopAtTheEnd;
   cycle::Completion answer = broker_->call(request, begun);
   // Services fill the queue at most for a moment; the stop must get through.
   for (int attempt = 0; attempt < kShutDownAttempts && answer.id == 0; ++attempt) {

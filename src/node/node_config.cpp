@@ -1,5 +1,7 @@
 #include "node/node_config.h"
 
+#include <cmath>
+
 #include "config/driver_settings.h"
 #include "config/setting_checks.h"
 
@@ -59,6 +61,21 @@ PublishConfig readPublish(const TreeSettings& settings) {
   return publish;
 }
 
+// What starts the node may kill it before its drives are at rest; by what it was started a node cannot know.
+void warnOfALongEnd(const TreeSettings& settings, NodeConfig& config) {
+  constexpr Duration kRoslaunchWaits =
+      std::chrono::seconds{15};   // from SIGINT to SIGTERM, by default; 2 s later SIGKILL
+  constexpr double kSpare = 1.0;  // s, to let go of ROS
+  const Duration end = config.cycle.shutdown_timeout + kQuickStopAtTheEnd;
+  if (config.read_only || end <= kRoslaunchWaits) return;
+  config.warnings.push_back(settings.fullName("shutdown_timeout") + ": with " +
+                            shortNumber(toSeconds(config.cycle.shutdown_timeout)) + " s the end of the node may take " +
+                            shortNumber(toSeconds(end)) + " s; roslaunch by default waits " +
+                            shortNumber(toSeconds(kRoslaunchWaits)) +
+                            " s, then kills it, and the drives coast: start it with roslaunch --sigint-timeout=" +
+                            shortNumber(std::ceil(toSeconds(end) + kSpare)));
+}
+
 }  // namespace
 
 NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot_description) {
@@ -92,6 +109,7 @@ NodeConfig readNodeConfig(const TreeSettings& settings, const std::string& robot
   if (config.read_only && config.cycle.acknowledge_bus_timeouts) {
     throw wrongSetting(settings, "read_only", "true", "false with acknowledge_at_start: bus_timeouts");
   }
+  warnOfALongEnd(settings, config);
   config.trace = trace::readTraceConfig(settings);
   return config;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,10 +14,15 @@
 #include "config/writable_parameters.h"
 #include "cycle/cycle_config.h"
 #include "nord_driver/config/settings.h"
+#include "nord_driver/core/time.h"
 #include "nord_driver/transport/transport.h"
 #include "trace/trace_config.h"
 
 namespace nord_driver::node {
+
+/// How much longer than shutdown_timeout the end of the node may take: OFF1 that does not end becomes a quick stop, which
+/// has a ramp of its own (P426).
+constexpr Duration kQuickStopAtTheEnd = std::chrono::seconds{3};
 
 struct PublishConfig {
   double publish_rate = 50.0;  ///< Hz: odom, tf, joint_states; 0: none
@@ -42,7 +48,7 @@ struct NodeConfig {
   EepromSettings eeprom;
   PublishConfig publish;
   cycle::CycleConfig cycle;
-  std::optional<trace::TraceConfig> trace;
+  trace::TraceConfig trace;
   std::vector<DriveSettings> drives;
   /// One for each of `drives`: the parameters of `monitor`, as they are written there.
   std::vector<std::vector<std::string>> monitor;

@@ -17,20 +17,18 @@ trace::TraceClock clockNow() {
 
 }  // namespace
 
-Tracing::Tracing(ros::NodeHandle& private_node, const std::optional<trace::TraceConfig>& config,
+Tracing::Tracing(ros::NodeHandle& private_node, const trace::TraceConfig& config,
                  const std::vector<trace::TracedDrive>& drives, const TelegramTrace* telegrams)
     : feed_(drives.size()) {
-  if (config) {
-    writer_ = std::make_unique<trace::TraceWriter>(*config, drives, telegrams, feed_.history());
+  const trace::TraceConfig by_hand = trace::byHand(config, std::getenv("ROS_HOME"), std::getenv("HOME"));
+  writer_ = std::make_unique<trace::TraceWriter>(by_hand, drives, telegrams, feed_.history());
+  if (config.withFaults()) {
     tracer_ = std::make_unique<trace::FaultTracer>(feed_, *writer_);
     told_ = writer_->whyNotWritable();
     if (!told_.empty()) ROS_WARN("nord_driver: %s", told_.c_str());
     thread_ = std::thread([this] { run(); });
   } else {
-    trace::TraceConfig by_hand;
-    by_hand.directory = trace::directoryByHand(std::getenv("ROS_HOME"), std::getenv("HOME"));
     by_hand_ = by_hand.directory;
-    writer_ = std::make_unique<trace::TraceWriter>(by_hand, drives, telegrams, feed_.history());
   }
   boost::function<bool(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&)> callback =
       [this](std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {

@@ -6,7 +6,6 @@
 
 #include <atomic>
 #include <memory>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,11 +18,11 @@
 
 namespace nord_driver::node {
 
-/// From construction to destruction. Without a configuration only the service writes, into the home of ROS.
+/// From construction to destruction. Without a directory only the service writes, into the home of ROS.
 class Tracing {
  public:
   /// `telegrams` (nullptr: none) must outlive it.
-  Tracing(ros::NodeHandle& private_node, const std::optional<trace::TraceConfig>& config,
+  Tracing(ros::NodeHandle& private_node, const trace::TraceConfig& config,
           const std::vector<trace::TracedDrive>& drives, const TelegramTrace* telegrams);
   ~Tracing();
   Tracing(const Tracing&) = delete;
@@ -39,7 +38,7 @@ class Tracing {
 
   trace::TraceFeed feed_;
   std::unique_ptr<trace::TraceWriter> writer_;
-  std::unique_ptr<trace::FaultTracer> tracer_;  // with a configuration
+  std::unique_ptr<trace::FaultTracer> tracer_;  // with a directory
   std::string by_hand_;                         // the directory without one
   std::string told_;                            // an unusable directory is named once, not with every fault
   ros::ServiceServer server_;

@@ -10,6 +10,7 @@
 #include "config/drive_common.h"
 #include "config/driver_settings.h"
 #include "config/text_file.h"
+#include "config/yaml_merge.h"
 #include "config/yaml_settings.h"
 #include "config/yaml_tree.h"
 #include "node/node_config.h"
@@ -64,9 +65,14 @@ YAML::Node load(const std::vector<std::string>& files, CheckedConfig& config) {
     try {
       const YAML::Node node = YAML::LoadFile(file);
       const std::string why = whyNotWalkable(node);
-      if (node.IsMap() && why.empty()) continue;
+      if (node.IsMap() && why.empty()) {
+        withKeysMerged(node, file);
+        continue;
+      }
       config.errors.push_back(
           {0, file + ": " + (why.empty() ? "" : why + ", ") + "expected a file of keys and values"});
+    } catch (const ConfigError& error) {
+      config.errors.push_back({0, error.what()});
     } catch (const YAML::Exception& error) {
       config.errors.push_back({error.mark.line + 1, error.msg + "; expected a readable YAML file"});
     }

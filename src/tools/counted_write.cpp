@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "nord_driver/profile/series.h"
 #include "state/state_file.h"
 
 namespace nord_driver::tools {
@@ -20,7 +21,9 @@ state::DrivePlace placeOf(const std::string& end_point, const std::string& trans
   place.end_point = end_point.empty() ? transport : end_point;
   place.address = drive.settings->integer("address").value_or(0);
   place.inverter = static_cast<unsigned>(drive.settings->integer("inverter").value_or(1));
-  place.series = drive.settings->text("series").value_or("");
+  const std::string written = drive.settings->text("series").value_or("");
+  const auto series = profile::seriesFrom(written);  // one drive, one count: not by how somebody wrote its series
+  place.series = series ? profile::toString(*series) : written;
   return place;
 }
 

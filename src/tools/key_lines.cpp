@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "config/yaml_merge.h"
+
 namespace nord_driver::tools {
 
 namespace {
@@ -9,7 +11,7 @@ namespace {
 void findTwice(const YAML::Node& group, const std::string& path, std::vector<std::string>& sentences) {
   std::set<std::string> seen;
   for (const auto& member : group) {
-    if (!member.first.IsScalar()) continue;
+    if (!member.first.IsScalar() || isMergeKey(member.first)) continue;  // of merge keys each counts
     const std::string key = path + member.first.Scalar();
     if (!seen.insert(key).second) {
       sentences.push_back(key + " is there twice, the second time in line " +

@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "config/yaml_merge.h"
 #include "config/yaml_tree.h"
 #include "sim/bus_kind.h"
 #include "sim/running_bus.h"
@@ -40,7 +41,7 @@ YAML::Node readFiles(const std::vector<std::string>& files) {
       if (!why.empty()) {
         throw nord_driver::sim::ConfigError("--config " + file + ": " + why + ", expected groups of keys and values");
       }
-      merged = nord_driver::sim::mergeYaml(merged, node);
+      merged = nord_driver::sim::mergeYaml(merged, nord_driver::withKeysMerged(node, "--config " + file));
     } catch (const YAML::Exception& error) {
       throw nord_driver::sim::ConfigError("--config " + file + ": " + error.what() + "; expected a readable YAML file");
     }

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
+#include <cstdlib>
 #include <string>
 
 #include "tools/program.h"
@@ -29,10 +31,52 @@ TEST(ServiceFiles, SystemdKnowsEveryKey) {
   }
 }
 
+std::string driverUnit() {
+  return shell(std::string{"cat "} + kInstall + "/systemd/nord_driver@.service").output;
+}
+
+/// What stands behind `begin` in the unit, up to the next blank or line end; -1: it is not there, or no number.
+double numberBehind(const std::string& begin) {
+  const std::string unit = driverUnit();
+  const std::size_t found = unit.find(begin);
+  if (found == std::string::npos) return -1.0;
+  const std::string rest = unit.substr(found + begin.size());
+  char* end = nullptr;
+  const double number = std::strtod(rest.c_str(), &end);
+  return end != rest.c_str() && std::isspace(static_cast<unsigned char>(*end)) != 0 ? number : -1.0;
+}
+
 // A name in a unit that is not there would show on the robot only.
 TEST(ServiceFiles, StartWhatThePackageHas) {
-  const Ended text = shell(std::string{"cat "} + kInstall + "/systemd/nord_driver@.service");
-  EXPECT_THAT(text.output, HasSubstr("roslaunch nord_driver service.launch config:=/etc/nord_driver/%i.yaml"));
+  EXPECT_THAT(driverUnit(), HasSubstr("roslaunch nord_driver service.launch config:=/etc/nord_driver/%i.yaml"));
+}
+
+// roslaunch ends with 0 when a required node dies, of whatever: to systemd no driver has ever failed.
+TEST(ServiceFiles, TheDriverIsStartedAgainHoweverRoslaunchEnded) {
+  EXPECT_THAT(driverUnit(), HasSubstr("\nRestart=always\n"));
+  EXPECT_THAT(driverUnit(), Not(HasSubstr("RestartPreventExitStatus")));
+  EXPECT_THAT(driverUnit(), Not(HasSubstr("SuccessExitStatus")));
+}
+
+// What ends at once is started StartLimitBurst times, all of them within the interval: else a wrong configuration would be
+// tried for ever. 8 s are a slow computer's for roslaunch, a master and a node that refuses.
+TEST(ServiceFiles, AWrongConfigurationIsTriedAFewTimesOnly) {
+  const double starts = numberBehind("\nStartLimitBurst="), pause = numberBehind("\nRestartSec=");
+  ASSERT_GT(starts, 0.0);
+  ASSERT_GT(pause, 0.0);
+  EXPECT_LT(starts * (8.0 + pause), numberBehind("\nStartLimitIntervalSec="));
+}
+
+// SIGINT, after the time-out SIGTERM, and 2 s after it SIGKILL: a node that still waits for its drives loses them. systemd
+// kills all that is left when its own time is over, so that must be longer than all of roslaunch's.
+TEST(ServiceFiles, RoslaunchWaitsForTheDrivesAndSystemdForRoslaunch) {
+  constexpr double kToKill = 2.0, kMasterEnds = 1.0;
+  const double patience = numberBehind(" --sigint-timeout=");
+  EXPECT_THAT(driverUnit(), Not(HasSubstr("--sigterm-timeout"))) << "kToKill is roslaunch's default";
+  EXPECT_GE(patience, 30.0) << "roslaunch alone gives 15 s";
+  EXPECT_GE(numberBehind("\nTimeoutStopSec="), patience + kToKill + kMasterEnds);
+  if (shell("command -v roslaunch").code != 0) GTEST_SKIP() << "roslaunch is not installed";
+  EXPECT_THAT(shell("roslaunch --help").output, HasSubstr("--sigint-timeout="));
 }
 
 // After a crash systemd starts the driver again: it does not enable by itself, whatever its file says.

@@ -175,6 +175,26 @@ TEST(NodeConfigTest, WarnsOfWhatTheRobotDescriptionDoesNotTell) {
                                            HasSubstr("robot_description: there is no joint")));
 }
 
+// roslaunch kills a node 17 s after SIGINT (15 s to SIGTERM, 2 s more), and the drives coast. The end takes shutdown_timeout,
+// and up to 3 s for a quick stop behind it.
+TEST(NodeConfigTest, WarnsOfAnEndThatRoslaunchDoesNotWaitFor) {
+  XmlRpcValue value = robotParameters();
+  const auto warnings = [&value] { return readNodeConfig(RosSettings{"~", value}).warnings; };
+  EXPECT_THAT(warnings(), IsEmpty()) << "10 s";
+  value["shutdown_timeout"] = 12;
+  EXPECT_THAT(warnings(), IsEmpty());
+  value["shutdown_timeout"] = 12.5;
+  EXPECT_THAT(
+      warnings(),
+      ElementsAre(
+          "~shutdown_timeout: with 12.5 s the end of the node may take 15.5 s; roslaunch by default waits 15 s, then "
+          "kills it, and the drives coast: start it with roslaunch --sigint-timeout=17"));
+  value["shutdown_timeout"] = 600;
+  EXPECT_THAT(warnings(), ElementsAre(AllOf(HasSubstr("with 600 s"), HasSubstr("--sigint-timeout=604"))));
+  value["read_only"] = true;
+  EXPECT_THAT(warnings(), IsEmpty()) << "it stops nothing";
+}
+
 // dynamic_reconfigure leaves what it is given on the parameter server, where a node that is started again finds it.
 TEST(NodeConfigTest, TakesEveryRateThatDynamicReconfigureOffers) {
   for (const double rate : {0.0, 1e-200, 0.05, 2000.0}) {

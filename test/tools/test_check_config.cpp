@@ -54,6 +54,23 @@ std::string complaintsOfTheSimulator(const std::string& file, const std::string&
   return ended.errors + (ended.code == 0 ? "" : "it ended with " + std::to_string(ended.code));
 }
 
+// As rosparam reads the file for the node.
+TEST_F(CheckConfig, ResolvesMergeKeys) {
+  const Ended merged = checkText(
+      "bus: {device: /dev/ttyUSB0}\n"
+      "drives:\n"
+      "  belt: &drive {address: 3, series: sk5xxe, joint: belt_joint, gear_ratio: 20.0, pole_pairs: 2, max_velocity: "
+      "6.0}\n"
+      "  door: {<<: *drive, address: 4, joint: door_joint}\n");
+  EXPECT_EQ(0, merged.code) << merged.errors;
+  EXPECT_THAT(merged.output, HasSubstr("door"));
+  EXPECT_THAT(merged.output + merged.errors, Not(HasSubstr("<<")));
+  const Ended wrong = checkText("bus: {device: /dev/ttyUSB0}\ndrives:\n  belt: {<<: 5, address: 3}\n");
+  EXPECT_EQ(1, wrong.code);
+  EXPECT_THAT(wrong.output + wrong.errors,
+              HasSubstr("line 3: <<: \"5\" is not valid, expected a group or a list of groups, whose keys are taken"));
+}
+
 // As every other command takes it.
 TEST_F(CheckConfig, TakesTheFileByItsOption) {
   const Ended by_word = checkText(kConveyor);

@@ -52,5 +52,11 @@ TEST_F(KeyLinesTest, NamesAKeyThatIsThereTwice) {
   EXPECT_THAT(lines.keysTwice(), ElementsAre(HasSubstr("drives/left is there twice, the second time in line 3")));
 }
 
+// Of two merge keys each counts; and what is merged is not there twice.
+TEST_F(KeyLinesTest, MergeKeysAreNotThereTwice) {
+  const KeyLines lines({write("a: &a {x: 1}\nb: &b {y: 1, y: 2}\nc: {<<: *a, <<: *b}\n")});
+  EXPECT_THAT(lines.keysTwice(), ElementsAre(HasSubstr("b/y is there twice")));
+}
+
 }  // namespace
 }  // namespace nord_driver::tools

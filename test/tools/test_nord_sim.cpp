@@ -65,6 +65,20 @@ TEST_F(NordSim, AFileThatHoldsItselfIsRefused) {
               StartsWith("nord_sim: --config " + config_ + ": it is more than 50 groups and lists deep"));
 }
 
+// As rosparam reads the file for the simulator's node: without the merge both drives would have the key "<<" and no address.
+TEST_F(NordSim, ResolvesMergeKeys) {
+  std::ofstream(config_) << "drives: {left: &wheel {address: 3, series: sk2xxe}, right: {<<: *wheel, address: 4}}\n";
+  const Ended done = run({"--duration", "0.01"});
+  EXPECT_EQ(0, done.code);
+  EXPECT_EQ("", done.errors);
+  std::ofstream(config_) << "drives: {left: {<<: wheel, address: 3}}\n";
+  const Ended refused = run({"--duration", "0.01"});
+  EXPECT_EQ(1, refused.code);
+  EXPECT_EQ("nord_sim: --config " + config_ +
+                ": line 1: <<: \"wheel\" is not valid, expected a group or a list of groups, whose keys are taken\n",
+            refused.errors);
+}
+
 // Shorter than a range with all its digits, and nan is no time.
 TEST_F(NordSim, ATimeThatIsNoneIsRefusedInShortWords) {
   for (const char* const wrong : {"-1", "0", "nan", "soon"}) {

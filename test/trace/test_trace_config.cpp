@@ -19,15 +19,15 @@ std::string refusal(const MapSettings& settings) {
 
 // Without a directory there is no trace.
 TEST(TraceConfig, IsOffByDefault) {
-  EXPECT_FALSE(readTraceConfig(MapSettings{"~"}));
-  EXPECT_FALSE(readTraceConfig(MapSettings{"~", {{"trace_directory", std::string{}}}}));
+  EXPECT_FALSE(readTraceConfig(MapSettings{"~"}).withFaults());
+  EXPECT_FALSE(readTraceConfig(MapSettings{"~", {{"trace_directory", std::string{}}}}).withFaults());
 }
 
 TEST(TraceConfig, KeepsTwentyByDefault) {
   const auto config = readTraceConfig(MapSettings{"~", {{"trace_directory", std::string{"/var/trace"}}}});
-  ASSERT_TRUE(config);
-  EXPECT_EQ("/var/trace", config->directory);
-  EXPECT_EQ(20u, config->keep);
+  EXPECT_TRUE(config.withFaults());
+  EXPECT_EQ("/var/trace", config.directory);
+  EXPECT_EQ(20u, config.keep);
 }
 
 // As ROS finds the folder of its logs.
@@ -36,6 +36,20 @@ TEST(TraceConfig, ATraceAskedForByHandGoesToTheHomeOfRos) {
   EXPECT_EQ("/home/robot/.ros", directoryByHand(nullptr, "/home/robot"));
   EXPECT_EQ("/home/robot/.ros", directoryByHand("", "/home/robot"));
   EXPECT_EQ("", directoryByHand(nullptr, nullptr));
+}
+
+// By hand as many are kept as trace_keep says, wherever they go.
+TEST(TraceConfig, WhatIsKeptCountsForTracesByHand) {
+  TraceConfig config = byHand(readTraceConfig(MapSettings{"~", {{"trace_keep", 3}}}), "/var/ros", nullptr);
+  EXPECT_EQ("/var/ros", config.directory);
+  EXPECT_EQ(3u, config.keep);
+  config = byHand(readTraceConfig(MapSettings{"~"}), nullptr, "/home/robot");
+  EXPECT_EQ("/home/robot/.ros", config.directory);
+  EXPECT_EQ(20u, config.keep);
+  const MapSettings both{"~", {{"trace_keep", 3}, {"trace_directory", std::string{"/var/trace"}}}};
+  config = byHand(readTraceConfig(both), "/var/ros", nullptr);
+  EXPECT_EQ("/var/trace", config.directory);
+  EXPECT_EQ(3u, config.keep);
 }
 
 // ROS expands no "~", and a relative path would lie wherever roslaunch was started.
