@@ -164,5 +164,20 @@ TEST_F(AutoEnabling, EnablesAllOrNone) {
   EXPECT_TRUE(supervisor.settled());
 }
 
+// However long a drive may take for it: nothing comes up by itself when nobody expects it any more.
+TEST_F(AutoEnabling, IsGivenUpAfterAMinute) {
+  CycleConfig patient = config();
+  for (DriveSetup& setup : patient.drives) setup.drive.enable_timeout = std::chrono::seconds{200};
+  DrivesUnderSupervision robot{patient, true};
+  robot.inverters[kLift].stuck = true;
+  robot.run(5900);
+  EXPECT_EQ(drive::Phase::kEnabled, robot.drives[kLeft].report().phase);
+  robot.run(200);
+  robot.inverters[kLift].stuck = false;
+  robot.run(50);
+  EXPECT_TRUE(robot.noneRuns());
+  EXPECT_TRUE(robot.supervisor.settled());
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle
