@@ -26,7 +26,7 @@ double JointMotion::pollVelocity(double target, bool driving, const JointBounds&
     return 0.0;
   }
   if (bounds.stops) limiter_.endAcceleration();
-  const double velocity = limiter_.limit({possible, 0.0}, dt).linear_x;
+  const double velocity = limiter_.limit({possible}, dt).linear_x;
   // On its way below P104 the motor would turn at P104: on the way up the ramp runs on alone until it is fast enough,
   // on the way down the joint has arrived. A target that is too slow itself goes out, and is told as saturated.
   if (velocity == possible || std::abs(velocity) >= bounds.min_speed) return velocity;

@@ -39,7 +39,7 @@ void StartAcknowledge::update(DriveIndex drive, std::uint16_t number, bool quiet
   } else if (!report.fault_latched) {
     state.step = Step::kDone;  // met without one, or somebody has acknowledged it
   } else if (state.step == Step::kAwaited) {
-    state = {Step::kJudging, now, false, {}, 0};  // not before the next cycle: what is known of its number is older
+    state = {Step::kJudging, now};  // not before the next cycle: what is known of its number is older
   } else {
     judge(drive, number, quiet, now);
   }
@@ -55,20 +55,13 @@ void StartAcknowledge::judge(DriveIndex drive, std::uint16_t number, bool quiet,
     state.step = Step::kDone;  // the log names it, with what to do
     return;
   }
-  if (!allOnline(drive)) {
-    state.rest_due = false;
-    return;
-  }
-  if (!state.rest_due) {
-    state.rest_due = true;
-    state.rest_due_since = now;
-  }
+  if (!state.rest_due || !allOnline(drive)) state.rest_due = now;
   if (quiet && allAtRest(drive)) {
     state.step = Step::kAsked;
     state.number = number;
     drives_[drive].requestAcknowledge(now, kToken);
     follow(drive);
-  } else if (now - state.rest_due_since >= kRestAwaited) {
+  } else if (now - *state.rest_due >= kRestAwaited) {
     giveUp(drive, quiet ? "a drive was not at rest" : "commands to move came all the time");
   }
 }
@@ -115,8 +108,7 @@ bool StartAcknowledge::allAtRest(DriveIndex drive) const noexcept {
 
 void StartAcknowledge::giveUp(DriveIndex drive, const char* why) noexcept {
   states_[drive].step = Step::kDone;
-  BusEvent event;
-  event.warning = true;
+  BusEvent event{true, {}};
   event.text.format("drive %s: its fault is not acknowledged at start: %s", names_[drive].c_str(), why);
   events_.push(event);
 }

@@ -46,9 +46,9 @@ class StartAcknowledge {
   };
   struct State {
     Step step = Step::kAwaited;
-    Instant since{};        // it was met
-    bool rest_due = false;  // its number is known, and every drive concerned is there
-    Instant rest_due_since{};
+    Instant since{};  ///< it was met
+    /// Since when its number is known, and every drive concerned is there.
+    std::optional<Instant> rest_due = std::nullopt;
     std::uint16_t number = 0;
   };
 

@@ -35,20 +35,20 @@ Supervisor::Supervisor(const CycleConfig& config, std::vector<drive::Drive>& dri
       auto_enable_(auto_enable),
       start_(start),
       watch_(watch) {
+  if (config.base) addGroup(config.base->drives(), config);
   for (const DriveSetup& setup : config.drives) {
+    const DriveIndex drive = names_.size();
+    if (group_of_[drive] == kNoGroup && !setup.leader) addGroup({drive}, config);
     names_.push_back(setup.name);
     leaders_.push_back(setup.leader);
-  }
-  if (config.base) addGroup(config.base->drives(), config);
-  for (DriveIndex i = 0; i < drives.size(); ++i) {
-    if (group_of_[i] == kNoGroup && !leaders_[i]) addGroup({i}, config);
   }
 }
 
 // With those that follow them: whoever leads them stops with them.
-void Supervisor::addGroup(std::vector<DriveIndex> members, const CycleConfig& config) {
-  for (std::size_t i = 0, leaders = members.size(); i < leaders; ++i) {
-    for (const DriveIndex follower : followersOf(config, members[i])) members.push_back(follower);
+void Supervisor::addGroup(const std::vector<DriveIndex>& leaders, const CycleConfig& config) {
+  std::vector<DriveIndex> members = leaders;
+  for (const DriveIndex leader : leaders) {
+    for (const DriveIndex follower : followersOf(config, leader)) members.push_back(follower);
   }
   std::vector<drive::Drive*> pointers;
   for (const DriveIndex member : members) {
@@ -66,8 +66,8 @@ bool Supervisor::enabledOrEnabling(const Group& group) noexcept {
   return phase == GroupPhase::kEnabled || phase == GroupPhase::kEnabling;
 }
 
-bool Supervisor::concerns(const Request& request, std::size_t group) const noexcept {
-  return request.drive == kAllDrives || group_of_[request.drive] == group;
+bool Supervisor::concerns(const Request& request, const Group& group) const noexcept {
+  return request.drive == kAllDrives || &groups_[group_of_[request.drive]] == &group;
 }
 
 void Supervisor::handleRequest(const Request& request, const CommandState& commands, Instant now) noexcept {
@@ -102,12 +102,12 @@ void Supervisor::stop(const Request& request, Instant now) noexcept {
   shutting_down_ = shutting_down_ || request.kind == RequestKind::kShutDown;
   auto_enable_ = false;  // who says stop before the drives were ready does not want them enabled when they are
   endWaitingEnables(request);
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    if (!concerns(request, i)) continue;
+  for (Group& group : groups_) {
+    if (!concerns(request, group)) continue;
     if (request.kind == RequestKind::kQuickStop) {
-      groups_[i].group.requestQuickStop(now);
+      group.group.requestQuickStop(now);
     } else {
-      groups_[i].group.requestDisable(now);
+      group.group.requestDisable(now);
     }
   }
   followUp(request, now);
@@ -117,8 +117,8 @@ void Supervisor::endWaitingEnables(const Request& stop) noexcept {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
     bool ends = false;
-    for (std::size_t group = 0; group < groups_.size() && !jobs_[i].begun; ++group) {
-      ends = ends || (concerns(stop, group) && concerns(jobs_[i].request, group));
+    for (const Group& group : groups_) {
+      ends = ends || (!jobs_[i].begun && concerns(stop, group) && concerns(jobs_[i].request, group));
     }
     if (ends) {
       completions_.answer(jobs_[i].request, false, kDisabledAgain);
@@ -140,21 +140,21 @@ void Supervisor::followUp(const Request& request, Instant now, bool begun, std::
 Supervisor::Groups Supervisor::groupsToEnable(const Request& request) const noexcept {
   Groups groups;
   for (std::size_t i = 0; i < groups_.size() && request.kind == RequestKind::kEnable; ++i) {
-    groups[i] = concerns(request, i) && !groups_[i].group.commandAllowed();
+    groups[i] = concerns(request, groups_[i]) && !groups_[i].group.commandAllowed();
   }
   return groups;
 }
 
 bool Supervisor::nothingToEnable(const Request& request) const noexcept {
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    if (concerns(request, i) && !enabledOrEnabling(groups_[i])) return false;
+  for (const Group& group : groups_) {
+    if (concerns(request, group) && !enabledOrEnabling(group)) return false;
   }
   return true;
 }
 
 bool Supervisor::isEnabled(const Request& request) const noexcept {
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    if (concerns(request, i) && !groups_[i].group.commandAllowed()) return false;
+  for (const Group& group : groups_) {
+    if (concerns(request, group) && !group.group.commandAllowed()) return false;
   }
   return true;
 }
@@ -183,10 +183,10 @@ void Supervisor::startEnable(const Request& request, const CommandState& command
 // Nothing else stands against it, and it takes a second as a rule; where the drive refuses for the moment, some more.
 bool Supervisor::awaitsParameters(const Request& request) const noexcept {
   bool awaits = false;
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    if (!concerns(request, i) || enabledOrEnabling(groups_[i])) continue;
-    if (groups_[i].group.report().phase != GroupPhase::kDisabled) return false;
-    for (const DriveIndex member : groups_[i].members) {
+  for (const Group& group : groups_) {
+    if (!concerns(request, group) || enabledOrEnabling(group)) continue;
+    if (group.group.report().phase != GroupPhase::kDisabled) return false;
+    for (const DriveIndex member : group.members) {
       const Refusal refusal = drives_[member].enableRefusal();
       if (refusal != Refusal::kNone && refusal != Refusal::kParametersAwaited) return false;
       awaits = awaits || refusal == Refusal::kParametersAwaited;
@@ -196,15 +196,15 @@ bool Supervisor::awaitsParameters(const Request& request) const noexcept {
 }
 
 Sentence Supervisor::reasonsAgainst(const Request& request, const Sentence& commands) noexcept {
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    const bool asked = concerns(request, i) && !enabledOrEnabling(groups_[i]);
-    bool stopping = asked && groups_[i].group.report().phase != GroupPhase::kDisabled;
-    for (const DriveIndex member : groups_[i].members) {
+  for (const Group& group : groups_) {
+    const bool asked = concerns(request, group) && !enabledOrEnabling(group);
+    bool stopping = asked && group.group.report().phase != GroupPhase::kDisabled;
+    for (const DriveIndex member : group.members) {
       Refusal& refusal = refusals_[member];
       refusal = asked ? drives_[member].enableRefusal() : Refusal::kNone;
       stopping = stopping && refusal == Refusal::kNone;
     }
-    if (stopping) refusals_[groups_[i].members.front()] = Refusal::kStopping;
+    if (stopping) refusals_[group.members.front()] = Refusal::kStopping;
   }
   return enableRefusalMessage(names_, drives_, refusals_, commands);
 }
@@ -215,16 +215,9 @@ bool Supervisor::enableAll(const Request& request, Instant now) noexcept {
     completions_.answer(request, false, reasons);
     return false;
   }
-  Groups begun;
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    Group& group = groups_[i];
-    if (!concerns(request, i) || enabledOrEnabling(group)) continue;
-    const drive::GroupRefusal refusal = group.group.requestEnable(now);
-    begun[i] = refusal.accepted();
-    if (refusal.accepted()) continue;
-    takeBack(begun, now);
-    completions_.answer(request, false, refusalOf(group, refusal));
-    return false;
+  // Whatever a group would refuse was among the reasons.
+  for (Group& group : groups_) {
+    if (concerns(request, group) && !enabledOrEnabling(group)) group.group.requestEnable(now);
   }
   return true;
 }
@@ -305,11 +298,11 @@ bool Supervisor::follow(Job& job, const CommandState& commands, Instant now) noe
 
 bool Supervisor::followEnable(const Job& job, Instant now) noexcept {
   bool all = true;
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    if (!concerns(job.request, i)) continue;
-    const drive::GroupReport& report = groups_[i].group.report();
+  for (const Group& group : groups_) {
+    if (!concerns(job.request, group)) continue;
+    const drive::GroupReport& report = group.group.report();
     if (report.phase == GroupPhase::kEnabled) {
-      for (const DriveIndex member : groups_[i].members) {
+      for (const DriveIndex member : group.members) {
         all = all && (!job.enabled_at || drives_[member].lastHeard() > *job.enabled_at);
       }
       continue;
@@ -318,7 +311,7 @@ bool Supervisor::followEnable(const Job& job, Instant now) noexcept {
     if (report.phase == GroupPhase::kEnabling) continue;
     takeBack(job.to_enable, now);
     completions_.answer(job.request, false,
-                        report.refusal.accepted() ? Sentence{kDisabledAgain} : refusalOf(groups_[i], report.refusal));
+                        report.refusal.accepted() ? Sentence{kDisabledAgain} : refusalOf(group, report.refusal));
     return true;
   }
   if (all) completions_.answer(job.request, true, job.enabled_at ? "already enabled" : "enabled");
@@ -326,8 +319,8 @@ bool Supervisor::followEnable(const Job& job, Instant now) noexcept {
 }
 
 bool Supervisor::followStop(const Job& job, Instant now) noexcept {
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    if (concerns(job.request, i) && !groups_[i].group.settled()) return false;
+  for (const Group& group : groups_) {
+    if (concerns(job.request, group) && !group.group.settled()) return false;
   }
   const Sentence silent = silentMembers(job.request);
   // Back before the deadline, maybe. The node's end waits for who was lost while it turned only: it may hear its stop.
@@ -348,7 +341,7 @@ Sentence Supervisor::silentMembers(const Request& request) const noexcept {
   Sentence who;
   int count = 0;
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
-    if (!concerns(request, group_of_[i]) || drives_[i].report().online) continue;
+    if (!concerns(request, groups_[group_of_[i]]) || drives_[i].report().online) continue;
     Sentence longer;
     longer.format("%.150s%s%s", who.c_str(), count == 0 ? "" : ", ", names_[i].c_str());
     who = longer;
@@ -361,11 +354,11 @@ Sentence Supervisor::silentMembers(const Request& request) const noexcept {
 }
 
 Sentence Supervisor::unsettled(const Request& request) const noexcept {
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    if (!concerns(request, i)) continue;
-    for (const DriveIndex member : groups_[i].members) {
+  for (const Group& group : groups_) {
+    if (!concerns(request, group)) continue;
+    for (const DriveIndex member : group.members) {
       const bool at_rest = drives_[member].report().online && drives_[member].isAtRest();
-      const bool done = request.kind == RequestKind::kEnable ? groups_[i].group.commandAllowed() : at_rest;
+      const bool done = request.kind == RequestKind::kEnable ? group.group.commandAllowed() : at_rest;
       if (done) continue;
       Sentence text;
       text.format("not confirmed in time: %s", stateMessage(names_[member].c_str(), drives_[member].report()).c_str());

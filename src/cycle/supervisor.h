@@ -61,8 +61,8 @@ class Supervisor {
     Groups to_enable = {};                   // what it brings up, and takes back when it fails
   };
 
-  void addGroup(std::vector<DriveIndex> members, const CycleConfig& config);
-  bool concerns(const Request& request, std::size_t group) const noexcept;
+  void addGroup(const std::vector<DriveIndex>& leaders, const CycleConfig& config);
+  bool concerns(const Request& request, const Group& group) const noexcept;
   void startEnable(const Request& request, const CommandState& commands, Instant now) noexcept;
   /// All drives of the request, or none: false when one refuses, and answered.
   bool enableAll(const Request& request, Instant now) noexcept;

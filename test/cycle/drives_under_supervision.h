@@ -15,7 +15,9 @@ class DrivesUnderSupervision {
   static constexpr Duration kCycle = std::chrono::milliseconds{10};
   static constexpr DriveIndex kLeft = 0, kRight = 1, kLift = 2;
 
-  explicit DrivesUnderSupervision(bool auto_enable = false) : supervisor{config(), drives, auto_enable} {}
+  explicit DrivesUnderSupervision(bool auto_enable = false) : DrivesUnderSupervision{config(), auto_enable} {}
+  explicit DrivesUnderSupervision(const CycleConfig& config, bool auto_enable = false)
+      : drives{makeDrives(config)}, supervisor{config, drives, auto_enable} {}
 
   static CycleConfig config() {
     CycleConfig config;
@@ -76,6 +78,14 @@ class DrivesUnderSupervision {
     return none;
   }
   void bringUp() { run(5); }
+  /// What this request was answered with so far.
+  std::vector<std::string> answersTo(std::uint32_t id) const {
+    std::vector<std::string> answers;
+    for (const Completion& completion : completions) {
+      if (completion.id == id) answers.push_back((completion.success ? "yes: " : "no: ") + completion.message.str());
+    }
+    return answers;
+  }
   bool allEnabled() const {
     for (const auto& drive : drives) {
       if (drive.report().phase != drive::Phase::kEnabled) return false;
@@ -89,12 +99,13 @@ class DrivesUnderSupervision {
     return true;
   }
 
-  std::vector<drive::Drive> drives = makeDrives();
+  std::vector<drive::Drive> drives;
   Supervisor supervisor;
   std::array<drive::FakeInverter, 3> inverters;
   std::array<profile::ProcessOutput, 3> outputs;
   std::vector<Completion> completions;
   Sentence moving;
+  Duration to_hear{};  ///< how much longer commands have to be listened to
   double velocity = 0.0;
   Instant now{std::chrono::hours{1}};
   std::uint32_t last_id = 1000;
@@ -103,12 +114,13 @@ class DrivesUnderSupervision {
   CommandState commands() const {
     CommandState state;
     state.moving = moving;
-    state.quiet = moving.empty();
+    state.to_hear = to_hear;
+    state.quiet = moving.empty() && to_hear == Duration::zero();
     return state;
   }
-  static std::vector<drive::Drive> makeDrives() {
+  static std::vector<drive::Drive> makeDrives(const CycleConfig& config) {
     std::vector<drive::Drive> drives;
-    for (const DriveSetup& setup : config().drives) drives.emplace_back(setup.drive);
+    for (const DriveSetup& setup : config.drives) drives.emplace_back(setup.drive);
     return drives;
   }
 };

@@ -101,6 +101,8 @@ class ScriptedTransport final : public Transport {
     DriveIdentity identity{"nowhere", process_values, "PKW", "nothing"};
     identity.shared_module = shared_module;
     identity.worst_cycle = worst_cycle;
+    identity.parameter_sets = parameter_sets;
+    identity.has_quick_stop = has_quick_stop;
     return identity;
   }
   void close() noexcept override {}
@@ -108,6 +110,8 @@ class ScriptedTransport final : public Transport {
   std::uint8_t process_values = 3;
   std::optional<std::size_t> shared_module;  ///< of all drives
   double worst_cycle = 0.0;                  ///< s
+  std::uint8_t parameter_sets = 4;           ///< that its control word can command
+  bool has_quick_stop = true;
   std::optional<Duration> told_drive_timeout;
   std::optional<Duration> told_shutdown_timeout;
   Instant time{std::chrono::hours{1}};

@@ -234,6 +234,7 @@ TEST(MinimumSpeedsTest, AskEachWheelThatIsToTurn) {
   EXPECT_FALSE(anyBelow({1.0, 1.0}, {}));
   EXPECT_FALSE(anyBelow({5.0, 1.0}, {2.0}));
   EXPECT_FALSE(anyBelow({0.001, 5.0}, {0.0, 2.0}));
+  EXPECT_FALSE(anyBelow({5.0}, {2.0, 2.0}));
 }
 
 }  // namespace

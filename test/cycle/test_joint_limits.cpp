@@ -72,6 +72,16 @@ TEST(JointLimits, WhatCannotBeIsNamed) {
   EXPECT_THAT(refusal(lift().set("max_jerk", "fast")), HasSubstr("~drives/lift/max_jerk"));
 }
 
+// It may be forbidden to turn backward, and then stands; but it has to be able to brake, and to end its acceleration.
+TEST(JointLimits, OnlyTheVelocityMayBeZeroTheOtherWay) {
+  EXPECT_THAT(refusal(lift().set("max_velocity", 6.0).set("min_velocity", 0.5)),
+              HasSubstr("~drives/lift/min_velocity: 0.5 is not valid"));
+  for (const std::string limit : {"acceleration", "jerk"}) {
+    EXPECT_THAT(refusal(lift().set("max_" + limit, 6.0).set("min_" + limit, 0.0)),
+                HasSubstr("~drives/lift/min_" + limit + ": 0 is not valid"));
+  }
+}
+
 // A limit that would limit nothing looks like one that does.
 TEST(JointLimits, ADriveOfTheBaseHasNone) {
   MapSettings node{

@@ -90,6 +90,14 @@ TEST(JointMotion, OnItsWayItStandsWhileItWouldBeTooSlow) {
   EXPECT_DOUBLE_EQ(5.0, motion.pollVelocity(10.0, true, slow, kStep));
 }
 
+// At P104 itself the motor turns as commanded.
+TEST(JointMotion, AtItsLeastSpeedItGoesOut) {
+  JointMotion motion{limits(0.0, 100.0)};
+  const JointBounds slow{kFull, 2.0, false};
+  EXPECT_EQ(0.0, motion.pollVelocity(10.0, true, slow, kStep));
+  EXPECT_EQ(2.0, motion.pollVelocity(10.0, true, slow, kStep));
+}
+
 TEST(JointMotion, JerkIsLimitedToo) {
   JointMotion motion{limits(0.0, 10.0, 100.0)};
   double last = 0.0, acceleration = 0.0;

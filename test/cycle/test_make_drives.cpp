@@ -37,6 +37,73 @@ TEST(MakeDrives, TwoCyclesWithASilentStationAreNoLoss) {
   EXPECT_EQ(seconds(0.03), driveTimeout(config, 0.04)) << "the shortest of all";
 }
 
+/// The first of two drives, of which `led` follows the other one.
+drive::Drive firstOf(const ScriptedTransport& like, bool led = false) {
+  CycleConfig config = CycleBench::config(50.0);
+  config.drives.resize(2);
+  for (DriveSetup& setup : config.drives) setup.drive.max_frequency.fill(Hertz{50.0});
+  if (led) config.drives[0].leader = 1;
+  ScriptedTransport transport{2};
+  transport.parameter_sets = like.parameter_sets;
+  transport.has_quick_stop = like.has_quick_stop;
+  return makeDrives(config, transport, false).front();
+}
+
+/// What it hears from now on is one status word; returns the control word it sends then.
+Word exchange(drive::Drive& drive, Word status_word, Instant& now) {
+  for (int i = 0; i < 3; ++i) {
+    now += CycleBench::kCycle;
+    drive.pollOutput(now);
+    profile::ProcessInput input;
+    input.status_word = status_word;
+    drive.handleInput(input, true, now);
+  }
+  return drive.pollOutput(now).control_word;
+}
+
+constexpr Word kReady = 0x0B31, kSwitchedOn = 0x0B33, kRunning = 0x0B37;
+
+// Its profile has no bits for parameter sets.
+TEST(MakeDrives, TellHowManyParameterSetsCanBeCommanded) {
+  ScriptedTransport transport{2};
+  for (const bool one : {false, true}) {
+    transport.parameter_sets = one ? 1 : 4;
+    drive::Drive drive = firstOf(transport);
+    Instant now{std::chrono::hours{1}};
+    exchange(drive, kReady, now);
+    drive.requestParameterSet(2, now);
+    EXPECT_EQ(one ? drive::Refusal::kOnlySet1 : drive::Refusal::kNone, drive.report().set_switch.refusal);
+  }
+}
+
+// Its profile has no OFF3: "ready to switch on" is where its stop ends, and nothing else would come.
+TEST(MakeDrives, TellWhetherThereIsAQuickStop) {
+  ScriptedTransport transport{2};
+  for (const bool there_is : {true, false}) {
+    transport.has_quick_stop = there_is;
+    drive::Drive drive = firstOf(transport);
+    Instant now{std::chrono::hours{1}};
+    exchange(drive, kReady, now);
+    drive.requestQuickStop(now);
+    exchange(drive, kReady, now);
+    EXPECT_EQ(there_is ? drive::Phase::kQuickStopping : drive::Phase::kIdle, drive.report().phase);
+  }
+}
+
+// Setpoint 0 of this bus would not bring it to rest: it hears its leader.
+TEST(MakeDrives, TellThatADriveFollowsAnother) {
+  for (const bool led : {false, true}) {
+    drive::Drive drive = firstOf(ScriptedTransport{2}, led);
+    Instant now{std::chrono::hours{1}};
+    exchange(drive, kReady, now);
+    drive.requestEnable(now);
+    for (const Word word : {kReady, kSwitchedOn, kRunning}) exchange(drive, word, now);
+    ASSERT_EQ(drive::Phase::kEnabled, drive.report().phase);
+    drive.requestSetpointZero(now);
+    EXPECT_EQ(led ? 0x047E : 0x047F, exchange(drive, kRunning, now));
+  }
+}
+
 // Which drives share a bus module is known to whoever acknowledges one of them.
 TEST(MakeDrives, TellWhichModuleTheyAreBehind) {
   ScriptedTransport transport{3};

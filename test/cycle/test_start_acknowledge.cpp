@@ -11,6 +11,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr std::uint16_t kMasterLost = 102, kMotorHot = 21;
 constexpr DriveIndex kLeft = CycleBench::kLeft, kRight = CycleBench::kRight, kLift = CycleBench::kLift;
@@ -174,6 +175,122 @@ TEST_F(StartAcknowledgeTest, AUsersAcknowledgingIsTheEndOfIt) {
   ASSERT_TRUE(bench_->ask(RequestKind::kAcknowledge).success);
   trip(kLeft, kMasterLost);
   EXPECT_EQ(0, edges(kLeft, 1000));
+}
+
+// Met when nobody has commanded anything for long: what follows is up to the number alone.
+TEST_F(StartAcknowledgeTest, LeavesEveryOtherFaultOfADriveThatComesLater) {
+  start();
+  bench_->transport.inverters[kLift].silent = true;
+  bench_->run(200);
+  trip(kLift, kMotorHot);
+  bench_->transport.inverters[kLift].silent = false;
+  EXPECT_EQ(0, edges(kLift, 500));
+  EXPECT_TRUE(latched(kLift));
+}
+
+// Its mains were switched off and on: the time in which its number has to be read begins anew.
+TEST_F(StartAcknowledgeTest, ADriveThatWasAwayIsMetAnew) {
+  start();
+  bench_->transport.inverters[kLift].fault = true;  // P700 is refused
+  bench_->run(500);
+  bench_->transport.inverters[kLift].silent = true;
+  bench_->run(800);
+  bench_->transport.inverters[kLift].silent = false;
+  bench_->run(500);
+  EXPECT_THAT(bench_->events(), Not(Contains(HasSubstr("its fault is not acknowledged"))));
+  bench_->transport.of_drive[kLift][700] = kMasterLost;
+  EXPECT_EQ(1, edges(kLift, 600));
+}
+
+TEST_F(StartAcknowledgeTest, WaitsTenSecondsForTheNumber) {
+  start();
+  bench_->transport.inverters[kLift].fault = true;  // P700 is refused
+  while (!latched(kLift)) bench_->step();
+  const Instant met = bench_->snapshot().time;
+  const auto givenUp = [this] {
+    for (const std::string& event : bench_->events()) {
+      if (event.find("its number (P700) could not be read") != std::string::npos) return true;
+    }
+    return false;
+  };
+  for (int i = 0; i < 2000 && !givenUp(); ++i) bench_->step();
+  EXPECT_EQ(StartAcknowledge::kNumberAwaited, bench_->snapshot().time - met);
+}
+
+// How long they were awaited does not count for how long they may turn.
+TEST_F(StartAcknowledgeTest, OnceAllAreThereTheyHaveTheTimeToComeToRest) {
+  startFaulted(kLeft, kMasterLost);
+  bench_->transport.inverters[kRight].silent = true;
+  EXPECT_EQ(0, edges(kLeft, 7000));
+  bench_->transport.inverters[kRight].terminals = true;
+  bench_->transport.inverters[kRight].silent = false;
+  EXPECT_EQ(0, edges(kLeft, 5900));
+  EXPECT_THAT(bench_->events(), Not(Contains(HasSubstr("its fault is not acknowledged"))));
+  bench_->transport.inverters[kRight].terminals = false;
+  EXPECT_EQ(1, edges(kLeft, 500));
+}
+
+TEST_F(StartAcknowledgeTest, GivesUpBesideADriveThatDoesNotComeToRest) {
+  startFaulted(kLeft, kMasterLost);
+  bench_->transport.inverters[kRight].terminals = true;
+  EXPECT_EQ(0, edges(kLeft, 6300));
+  EXPECT_THAT(bench_->events(),
+              Contains("warning: drive left: its fault is not acknowledged at start: a drive was not at "
+                       "rest"));
+  bench_->transport.inverters[kRight].terminals = false;
+  EXPECT_EQ(0, edges(kLeft, 500));
+}
+
+// Whichever of the base it is: turning, or enabled by its terminals and only just standing.
+TEST_F(StartAcknowledgeTest, WaitsForEachDriveOfTheBase) {
+  for (const DriveIndex faulty : {kLeft, kRight}) {
+    for (const bool turns : {true, false}) {
+      startFaulted(faulty, kMasterLost);
+      drive::FakeInverter& beside = bench_->transport.inverters[faulty == kLeft ? kRight : kLeft];
+      beside.terminals = true;
+      if (!turns) beside.ramp = 0;
+      EXPECT_EQ(0, edges(faulty, 500)) << faulty << turns;
+      beside.terminals = false;
+      beside.ramp = 0x400;
+      EXPECT_EQ(1, edges(faulty, 500)) << faulty << turns;
+    }
+    startFaulted(faulty, kMasterLost);
+    bench_->transport.inverters[faulty == kLeft ? kRight : kLeft].silent = true;
+    EXPECT_EQ(0, edges(faulty, 7000)) << faulty;
+    bench_->transport.inverters[faulty == kLeft ? kRight : kLeft].silent = false;
+    EXPECT_EQ(1, edges(faulty, 300)) << faulty;
+  }
+}
+
+// One that is being acknowledged is at rest: neither waits for the other.
+TEST_F(StartAcknowledgeTest, TheDrivesOfABaseAreAcknowledgedTogether) {
+  startFaulted(kLeft, kMasterLost);
+  trip(kRight, kMasterLost);
+  bool together = false;
+  for (int i = 0; i < 500; ++i) {
+    bench_->step();
+    together = together || (bench_->controlWord(kLeft) & bench_->controlWord(kRight) & kAcknowledgeBit) != 0;
+  }
+  EXPECT_TRUE(together);
+}
+
+// A fault that has gone by itself is taken away at once, and who acknowledges in the next moment changes nothing of it.
+TEST_F(StartAcknowledgeTest, WhatIsDoneAtOnceIsSaidAtOnce) {
+  const auto begin = [this] {
+    startFaulted(kLift, kMasterLost);
+    bench_->run(20);
+    bench_->transport.inverters[kLift].fault = false;
+  };
+  begin();
+  int cycles = 0;
+  for (; cycles < 300 && latched(kLift); ++cycles) bench_->step();
+  ASSERT_LT(cycles, 300);
+  begin();
+  bench_->run(cycles);
+  bench_->submit(RequestKind::kAcknowledge, kLift);
+  bench_->run(50);
+  EXPECT_THAT(bench_->events(), ElementsAre("info: drive lift: E10.2, which stood before this node started, is "
+                                            "acknowledged (acknowledge_at_start)"));
 }
 
 TEST_F(StartAcknowledgeTest, AutoEnableGoesOnAfterwards) {

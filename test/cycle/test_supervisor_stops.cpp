@@ -58,6 +58,7 @@ TEST_F(SupervisorStops, AStopActsHoweverManyRequestsAreUnderWay) {
   for (const auto& output : outputs) EXPECT_EQ(0x047B, output.control_word);
   ASSERT_FALSE(completions.empty());
   EXPECT_EQ(33u, completions.front().id);
+  EXPECT_FALSE(completions.front().success);
   EXPECT_THAT(completions.front().message.c_str(), HasSubstr("too many requests"));
   run(50);
   EXPECT_TRUE(supervisor.settled());

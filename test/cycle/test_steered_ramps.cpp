@@ -1,0 +1,108 @@
+// A steered base under way: its ramps, and how the path changes with them.
+#include <gtest/gtest.h>
+
+#include "cycle/steered_bench.h"
+
+namespace nord_driver::cycle {
+namespace {
+
+using namespace steered_bench;
+
+BaseConfig withJerk() {
+  BaseConfig jerky = config();
+  jerky.limits.linear_x.has_jerk_limits = true;
+  jerky.limits.linear_x.max_jerk = 2.0;
+  return jerky;
+}
+
+TEST(SteeredRamps, GainAccelerationWithAJerkLimitAndLoseItInAStop) {
+  for (const bool by_age : {false, true}) {
+    Base base{withJerk()};
+    base.command(1.0);
+    double before = 0.0, change = 0.0;
+    for (int i = 0; i < 20; ++i) {
+      base.poll();
+      EXPECT_GT(base.motion.limited().linear_x - before, change) << i;
+      change = base.motion.limited().linear_x - before;
+      before = base.motion.limited().linear_x;
+    }
+    base.follow = by_age;
+    if (by_age) {
+      base.keeps_commanding = false;
+      base.newest.received = base.now - kTimeout;
+    }
+    for (int i = 0; i < 5; ++i) {
+      base.poll();
+      EXPECT_LT(base.motion.limited().linear_x, before) << "a stop slows down from its first step on";
+      before = base.motion.limited().linear_x;
+    }
+  }
+}
+
+// P105 of another parameter set, say: the wheels cannot turn as fast any more.
+TEST(SteeredRamps, GoOnFromWhatTheWheelsCan) {
+  Base base;
+  base.command(1.0);
+  base.run(2.0);
+  base.full_speed = 5.0;
+  for (const double wheel : base.poll().wheels) EXPECT_NEAR(5.0, wheel, 1e-9);
+  EXPECT_NEAR(0.5, base.motion.limited().linear_x, 1e-9) << "what is told is what it drives";
+  base.command(0.0);
+  EXPECT_NEAR(4.9, base.poll().wheels[0], 1e-9) << "braking begins at once";
+}
+
+// 0.01 m/s sideways in the first cycle: at 0.5 m/s that is 0.02 rad, at 0.3 m/s 0.033 rad, more than half the tolerance.
+TEST(SteeredRamps, ATurnOfMoreThanHalfTheToleranceAtOnceIsNotDriven) {
+  for (const bool slow : {false, true}) {
+    const double speed = slow ? 0.3 : 0.5;
+    Base base;
+    base.command(speed);
+    base.run(1.0);
+    base.command(speed, 0.0, 0.4);
+    base.poll();
+    EXPECT_NEAR(slow ? 0.0 : 0.01, base.motion.limited().linear_y, 1e-9);
+    EXPECT_NEAR(slow ? speed - 0.01 : speed, base.motion.limited().linear_x, 1e-9);
+  }
+}
+
+// What is left of the tolerance is for how exactly the axes come to their angles.
+TEST(SteeredRamps, AStepMayLeadTheWheelsByThreeQuartersOfTheTolerance) {
+  BaseConfig exact = config();
+  exact.steered->angle_tolerance = 0.0625;
+  const auto sideways = [&exact](double off, double lead) {
+    Base base{exact};
+    base.command(0.5);
+    base.run(1.0);
+    base.command(0.5, 0.0, 0.4);
+    base.drives.angles = {off - lead, off - lead};
+    base.poll();
+    return base;
+  };
+  const double wanted = sideways(0.0, 0.0).setpoint.angles[0];
+  ASSERT_NEAR(0.02, wanted, 1e-4);
+  EXPECT_NEAR(0.01, sideways(wanted, 0.75 * 0.0625).motion.limited().linear_y, 1e-9);
+  EXPECT_EQ(0.0, sideways(wanted, 0.76 * 0.0625).motion.limited().linear_y) << "it waits for them";
+}
+
+// The axes do not follow into a curve: it goes on as it is for half a second, and then gets slower.
+TEST(SteeredRamps, APathIsHeldForHalfASecond) {
+  Base base;
+  base.command(0.5);
+  base.run(1.0);
+  base.steering_rate = 0.0;
+  base.command(0.5, 0.5);
+  int held = 0;
+  for (int i = 0; i < 200; ++i) {
+    const robot::Twist2d before = base.motion.limited();
+    base.poll();
+    if (base.motion.waitsFor() == SteeredWait::kAngles) break;
+    if (base.motion.limited() == before) ++held;
+  }
+  EXPECT_EQ(50, held);
+  const double before = base.motion.limited().linear_x;
+  base.poll();
+  EXPECT_LT(base.motion.limited().linear_x, before);
+}
+
+}  // namespace
+}  // namespace nord_driver::cycle
