@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "config/drive_common.h"
 #include "config/setting_checks.h"
@@ -61,14 +62,11 @@ DriveSetup readDrive(const DriveSettings& source, const CycleConfig& config, Dur
   return setup;
 }
 
-void refuseJointsUsedTwice(const std::vector<DriveSettings>& sources, const std::vector<DriveSetup>& drives) {
-  for (std::size_t i = 0; i < drives.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!drives[i].joint.empty() && drives[i].joint == drives[j].joint) {
-        throw wrongSetting(*sources[i].settings, "joint", "\"" + drives[i].joint + "\"",
-                           "a joint that drive \"" + drives[j].name + "\" does not turn already");
-      }
-    }
+void refuseJointUsedTwice(const Settings& settings, const DriveSetup& drive, const std::vector<DriveSetup>& others) {
+  for (const DriveSetup& other : others) {
+    if (drive.joint.empty() || drive.joint != other.joint) continue;
+    throw wrongSetting(settings, "joint", "\"" + drive.joint + "\"",
+                       "a joint that drive \"" + other.name + "\" does not turn already");
   }
 }
 
@@ -147,10 +145,11 @@ CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSetting
   }
   JointNames joints;
   for (const DriveSettings& source : drives) {
-    config.drives.push_back(readDrive(source, config, drive_timeout, robot_description));
-    joints.push_back(config.drives.back().joint);
+    DriveSetup drive = readDrive(source, config, drive_timeout, robot_description);
+    refuseJointUsedTwice(*source.settings, drive, config.drives);
+    joints.push_back(drive.joint);
+    config.drives.push_back(std::move(drive));
   }
-  refuseJointsUsedTwice(drives, config.drives);
   config.base = readBaseConfig(node, joints, robot_description, steeringRanges(config));
   readLimitsOfSingles(drives, config);
   readLeaders(drives, config, all_drives);

@@ -14,7 +14,7 @@ namespace {
 std::int16_t toWord(double share) noexcept {
   constexpr double kTwice = 2.0;  // the range of a word (BU 0020 7.3.6)
   const double raw = std::round(std::clamp(share, -kTwice, kTwice) * profile::kHundredPercent);
-  return static_cast<std::int16_t>(std::clamp(raw, -32768.0, 32767.0));
+  return static_cast<std::int16_t>(std::min(raw, 32767.0));  // 200 % is one step beyond it, -200 % is not
 }
 
 // Of P480, as read now: kUnknownFunction where it was not.
@@ -45,14 +45,11 @@ DriveWords::DriveWords(const WordSetup& setup, profile::Series series, std::size
 }
 
 void DriveWords::learn(const DeviceData& device) noexcept {
-  const auto keep = [](const auto& read, auto& known) {
-    for (std::size_t i = 0; i < read.size(); ++i) {
-      if (read[i] != kUnknownFunction) known[i] = read[i];
-    }
-  };
   for (std::size_t set = 0; set < known_.size(); ++set) {
-    keep(device.word_functions[set].setpoints, known_[set].setpoints);
-    keep(device.word_functions[set].actual_values, known_[set].actual_values);
+    const auto& read = device.word_functions[set].setpoints;
+    auto& known = known_[set].setpoints;
+    std::transform(read.begin(), read.end(), known.begin(), known.begin(),
+                   [](std::uint16_t now, std::uint16_t before) { return now == kUnknownFunction ? before : now; });
   }
 }
 
@@ -69,7 +66,6 @@ std::int16_t DriveWords::wordOf(const SetpointSetup& setpoint, const WordCommand
 
 void DriveWords::put(profile::ProcessOutput& output, const State& state, const DeviceData& device,
                      const WordCommands& commands, Instant now) noexcept {
-  if (empty()) return;
   learn(device);
   withdrawn_.update(state.stop, commands, now);
   putOutputs(output, state, device, commands, now);

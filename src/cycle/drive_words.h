@@ -63,7 +63,7 @@ class DriveWords {
   std::vector<SignalSetup> outputs_;
   WithdrawnBits withdrawn_;
   std::vector<std::uint16_t> told_;       // of each output, the function that was told as a reason
-  std::array<WordFunctions, 4> known_{};  // what each parameter set told last
+  std::array<WordFunctions, 4> known_{};  // what each parameter set told last of its setpoints
 };
 
 }  // namespace nord_driver::cycle

@@ -18,10 +18,10 @@ constexpr std::uint16_t kControlWordSource = 509, kSetpointSource = 510;
 constexpr std::int32_t kTerminalsOnly = 1;
 
 std::optional<DriveIndex> indexOf(const std::string& name, const CycleConfig& config) {
-  for (DriveIndex i = 0; i < config.drives.size(); ++i) {
-    if (config.drives[i].name == name) return i;
-  }
-  return std::nullopt;
+  const auto found = std::find_if(config.drives.begin(), config.drives.end(),
+                                  [&name](const DriveSetup& drive) { return drive.name == name; });
+  if (found == config.drives.end()) return std::nullopt;
+  return static_cast<DriveIndex>(found - config.drives.begin());
 }
 
 std::string otherDrives(const CycleConfig& config, DriveIndex drive) {

@@ -15,9 +15,8 @@ namespace {
 
 constexpr Choice<bool> kTargets[] = {{"words", false}, {"array", true}};
 
-/// "bus_in_bit_3": 3 after "bus_in_bit_"; none where the word begins otherwise or the number is none of `first` to `last`.
+/// "bus_in_bit_3": 3 after "bus_in_bit_"; none where it is another word or the number is none of `first` to `last`.
 std::optional<std::uint8_t> numberAfter(const std::string& word, const std::string& before, int first, int last) {
-  if (word.rfind(before, 0) != 0) return std::nullopt;
   for (int number = first; number <= last; ++number) {
     if (word == before + std::to_string(number)) return static_cast<std::uint8_t>(number);
   }
@@ -151,7 +150,6 @@ std::optional<SignalSetup> readReferenced(const Settings& drive) {
   const std::string word = wordOr(drive, "position/referenced", "", expected);
   if (word.empty()) return std::nullopt;
   SignalSetup bit;
-  bit.name = "referenced";
   if (const auto bus = numberAfter(word, "bus_out_bit_", 0, 7)) {
     bit.source = SignalSource::kBusOutBit;
     bit.number = *bus;

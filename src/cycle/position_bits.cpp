@@ -173,7 +173,7 @@ std::optional<bool> PositionBits::referenced(const profile::ProcessInput& input,
                                              std::uint8_t set) const noexcept {
   if (!referenced_ || !showsReference(device)) return std::nullopt;
   if (referenced_->source == SignalSource::kStatusBit) return (input.status_word >> referenced_->number & 1u) != 0;
-  const auto place = placeOf({true, profile::WordUse::kBusBits, 2, 3}, device, set);
+  const auto place = placeOf({true, profile::WordUse::kBusBits}, device, set);
   if (!place) return std::nullopt;
   return (toWord(input.actual_values[*place]) >> referenced_->number & 1u) != 0;
 }

@@ -106,8 +106,8 @@ PositionSetup readPositionSetup(const Settings& drive, const PositionContext& co
 }
 
 void refusePositionKeys(const Settings& drive) {
-  if (drive.has("lead")) {
-    throw wrongSetting(drive, "lead", shortNumber(drive.number("lead").value_or(0.0)), "mode: position beside it");
+  if (const auto lead = drive.number("lead")) {
+    throw wrongSetting(drive, "lead", shortNumber(*lead), "mode: position beside it");
   }
 }
 

@@ -19,7 +19,6 @@ std::uint16_t codeAt(bool actual_value, std::size_t place, const WordFunctions& 
 /// Third words are no words of their own where the 32 bits of the first take their place (BU 0020 6.1.2: P548 "is only present
 /// if P546 is neither 3 nor 6", 7.3.7: of the actual values then as well, if the first is a position).
 bool takesThirdPlace(bool actual_value, const WordFunctions& functions, Series series) noexcept {
-  if (!profile::thirdBeforeSecond(series)) return false;
   const profile::WordFunction* const setpoint = profile::findSetpointFunction(series, 1, functions.setpoints[0]);
   const bool wide =
       setpoint != nullptr && (setpoint->use == WordUse::kPosition32 || setpoint->use == WordUse::kIncrement32);
@@ -259,7 +258,7 @@ void addPositionNeeds(const PositionSetup& setup, Series series, WordNeeds& need
   }
   const bool by_element = setup.axis.by_element;
   if (by_element && setup.array && setup.array->carrier != PositionBit::Carrier::kControlBit) add(needOf(*setup.array));
-  if (setup.referenced && setup.referenced->source == SignalSource::kBusOutBit) add({true, WordUse::kBusBits, 2, 3});
+  if (setup.referenced && setup.referenced->source == SignalSource::kBusOutBit) add({true, WordUse::kBusBits});
   const bool wide = setup.bits == 32;
   if (profile::thirdBeforeSecond(series)) {
     // Setpoint 1 only (P546); of the actual values 32 bits are in IW1 only (BU 0020 6.1.2, 7.3.7).
@@ -273,8 +272,8 @@ void addPositionNeeds(const PositionSetup& setup, Series series, WordNeeds& need
   // In any words.
   for (const bool actual_value : {false, true}) {
     if (!actual_value && by_element) continue;
-    needs.list.push_back({actual_value, WordUse::kPositionLow, 1, 3});
-    if (wide) needs.list.push_back({actual_value, WordUse::kPositionHigh, 1, 3});
+    needs.list.push_back({actual_value, WordUse::kPositionLow, 1});
+    if (wide) needs.list.push_back({actual_value, WordUse::kPositionHigh, 1});
   }
   // The frequency keeps the first where the others suffice for all that is needed, the bits included.
   const auto needed = [&needs](bool actual_value) {

@@ -15,6 +15,8 @@ namespace {
 constexpr double kFull = 100.0;    // %
 constexpr double kTwice = 200.0;   // %, the range of a word (BU 0020 7.3.6)
 constexpr double kMostHz = 400.0;  // as max_frequency
+/// The place of a further setpoint, 2 or 3: both have the same functions.
+constexpr std::size_t kFurther = 2;
 
 /// What the driver knows of a function beside its number.
 struct SetpointKind {
@@ -41,12 +43,13 @@ const SetpointKind& readKind(const Settings& drive, const std::string& key, prof
   std::string words, all;
   for (const SetpointKind& kind : kKinds) {
     all += (all.empty() ? "" : ", ") + std::string(kind.word);
-    if (profile::setpointCode(series, 2, kind.use)) words += (words.empty() ? "" : ", ") + std::string(kind.word);
+    if (!profile::setpointCode(series, kFurther, kind.use)) continue;
+    words += (words.empty() ? "" : ", ") + std::string(kind.word);
   }
   noteSetting(drive, key, {"one of " + all, "", "", ""});
   const std::string word = requiredText(drive, key, "one of " + words);
   for (const SetpointKind& kind : kKinds) {
-    if (word == kind.word && profile::setpointCode(series, 2, kind.use)) return kind;
+    if (word == kind.word && profile::setpointCode(series, kFurther, kind.use)) return kind;
   }
   throw wrongSetting(drive, key, "\"" + word + "\"",
                      "a function that setpoint 2 of " + std::string(profile::toString(series)) + " has: " + words);
@@ -56,7 +59,8 @@ const SetpointKind& readKind(const Settings& drive, const std::string& key, prof
 std::optional<double> readNominal(const Settings& drive, const std::string& group, const SetpointKind& kind,
                                   profile::Series series) {
   if (!kind.in_hertz) return kFull;
-  const auto* function = profile::findSetpointFunction(series, 2, *profile::setpointCode(series, 2, kind.use));
+  const auto* function =
+      profile::findSetpointFunction(series, kFurther, *profile::setpointCode(series, kFurther, kind.use));
   const std::string key = group + "nominal";
   if (function->nominal != Nominal::kOwnFrequency) return std::nullopt;
   if (!drive.has(key)) {

@@ -105,6 +105,71 @@ TEST(CycleConfigTest, ATypedMaxFrequencyIsNotYetTheDrives) {
   EXPECT_FALSE(config.drives[1].typed_max_frequency.has_value());
 }
 
+// What stands in a drive's group is what the drive works by.
+TEST(CycleConfigTest, EachDriveHasWhatItsGroupSays) {
+  Configured robot;
+  robot.node.set("shutdown_timeout", 4.5);
+  robot.right->set("address", 7).set("rated_current", 3.5).set("gear_ratio", 20.5).set("inverted", true);
+  robot.right->set("pole_pairs", 3).set("allow_minimum_frequency", true);
+  const CycleConfig config = robot.read();
+  const DriveSetup& right = config.drives.at(1);
+  EXPECT_EQ(7, right.address);
+  EXPECT_EQ(3.5, right.rated_current);
+  EXPECT_EQ(20.5, right.drive.joint.gear_ratio);
+  EXPECT_TRUE(right.drive.joint.inverted);
+  EXPECT_EQ(3, right.drive.joint.pole_pairs);
+  EXPECT_TRUE(right.drive.allow_minimum_frequency);
+  EXPECT_FALSE(config.drives.at(0).drive.allow_minimum_frequency) << "nobody has accepted it";
+  EXPECT_EQ(milliseconds{4500}, right.drive.shutdown_timeout);
+}
+
+// A drive that positions does so by its own scale and limits.
+TEST(CycleConfigTest, ADriveThatPositionsHasItsAxis) {
+  Configured robot;
+  robot.right->set("mode", "position").set("position/lower", -1.5).set("gear_ratio", 20.0);
+  const CycleConfig config = robot.read();
+  ASSERT_TRUE(config.drives.at(1).drive.position);
+  EXPECT_EQ(-1.5, config.drives[1].drive.position->lower);
+  EXPECT_EQ(config.drives[1].position->axis.scale.revolutions_per_unit,
+            config.drives[1].drive.position->scale.revolutions_per_unit);
+  EXPECT_FALSE(config.drives.at(0).drive.position);
+}
+
+// The torque may stay on where a command grows old and where another drive stops, if somebody says so.
+TEST(CycleConfigTest, SetpointZeroIsAWayOfTheStopsThatKeepTheTorque) {
+  Configured robot;
+  robot.node.set("stop/command_timeout", "setpoint_zero").set("stop/drive_stopped", "setpoint_zero");
+  EXPECT_EQ(drive::StopWay::kSetpointZero, robot.read().stop_ways.command_timeout);
+  EXPECT_EQ(drive::StopWay::kSetpointZero, robot.read().stop_ways.drive_stopped);
+  robot.node.set("stop/drive_stopped", "none");
+  EXPECT_THAT(robot.refusal(), HasSubstr("~stop/drive_stopped: \"none\" is not valid, expected setpoint_zero, off1"));
+}
+
+// Faults are acknowledged by somebody who has looked, unless the configuration says otherwise.
+TEST(CycleConfigTest, BusTimeoutsAreAcknowledgedAtStartOnlyWhereItIsAskedFor) {
+  Configured robot;
+  EXPECT_FALSE(robot.read().acknowledge_bus_timeouts);
+  robot.node.set("acknowledge_at_start", "bus_timeouts");
+  EXPECT_TRUE(robot.read().acknowledge_bus_timeouts);
+  robot.node.set("acknowledge_at_start", "none");
+  EXPECT_FALSE(robot.read().acknowledge_bus_timeouts);
+}
+
+// One that is typed holds, one that is not follows what the bus needs.
+TEST(CycleConfigTest, ADriveTimeoutThatIsTypedIsTold) {
+  Configured robot;
+  EXPECT_FALSE(robot.read().drive_timeout_given);
+  robot.node.set("drive_timeout", 0.05);
+  EXPECT_TRUE(robot.read().drive_timeout_given);
+}
+
+TEST(CycleConfigTest, DrivesWithoutAJointShareNone) {
+  Configured robot;
+  robot.left->erase("joint");
+  robot.right->erase("joint");
+  EXPECT_EQ("accepted", robot.refusal());
+}
+
 struct Wrong {
   std::string key;
   MapSettings::Value value;

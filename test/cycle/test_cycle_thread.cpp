@@ -1,9 +1,18 @@
 // The thread keeps the rate of its cycle by the transport's clock and ends when it is told to.
 #include <gtest/gtest.h>
+#include <linux/capability.h>
+#include <pthread.h>
+#include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <condition_variable>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <mutex>
 #include <string>
 
@@ -108,6 +117,61 @@ TEST(CycleThreadTest, LocksTheMemoryOrSaysThatItCannot) {
   ::munlockall();
   EXPECT_EQ(allowed, refused.empty()) << refused;
   EXPECT_EQ(allowed, locked > 0) << locked << " kB";
+}
+
+/// The thread of this process with this name; 0: there is none.
+pid_t threadNamed(const std::string& name) {
+  for (const auto& task : std::filesystem::directory_iterator{"/proc/self/task"}) {
+    std::ifstream file{task.path() / "comm"};
+    std::string found;
+    if (std::getline(file, found) && found == name) return std::stoi(task.path().filename().string());
+  }
+  return 0;
+}
+
+/// Whether a thread of this process may have a priority, which is the system's to say.
+bool mayHavePriority() {
+  sched_param real_time{}, ordinary{};
+  real_time.sched_priority = 1;
+  const bool allowed = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &real_time) == 0;
+  ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &ordinary);
+  return allowed;
+}
+
+// Found by its name in `top -H`, by whoever looks after its priority.
+TEST(CycleThreadTest, TakesItsPriorityOrSaysThatItCannot) {
+  const bool allowed = mayHavePriority();
+  RealTimeOptions options;
+  options.priority = 3;
+  Running running{options};
+  running.transport.starts();
+  const pid_t thread = threadNamed("bus cycle");
+  ASSERT_NE(0, thread);
+  sched_param parameters{};
+  ASSERT_EQ(0, ::sched_getparam(thread, &parameters));
+  EXPECT_EQ(allowed, running.thread->refused().empty()) << running.thread->refused();
+  EXPECT_EQ(allowed ? SCHED_FIFO : SCHED_OTHER, ::sched_getscheduler(thread));
+  EXPECT_EQ(allowed ? 3 : 0, parameters.sched_priority);
+}
+
+/// Prints what a process without rights is refused, and ends.
+[[noreturn]] void printRefusalWithoutRights() {
+  constexpr rlimit kNone{0, 0};
+  ::setrlimit(RLIMIT_MEMLOCK, &kNone);
+  ::setrlimit(RLIMIT_RTPRIO, &kNone);
+  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+  __user_cap_data_struct none[_LINUX_CAPABILITY_U32S_3]{};
+  ::syscall(SYS_capset, &header, none);
+  RealTimeOptions options;
+  options.priority = 7;
+  options.lock_memory = true;
+  std::cerr << Running{options}.thread->refused() << std::endl;
+  std::_Exit(0);
+}
+
+TEST(CycleThreadDeathTest, SaysEachThingThatTheSystemRefuses) {
+  EXPECT_EXIT(printRefusalWithoutRights(), ::testing::ExitedWithCode(0),
+              "memory cannot be locked .*; SCHED_FIFO priority 7 is not allowed");
 }
 
 }  // namespace

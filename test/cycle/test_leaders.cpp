@@ -54,6 +54,42 @@ TEST(Leaders, RefuseWhatCannotBe) {
   EXPECT_THAT(errorOf({"b", "a"}), HasSubstr("a drive that follows no other one itself"));
 }
 
+TEST(Leaders, MayStandBehindTheirFollowers) {
+  const CycleConfig config = configured({"b", ""});
+  EXPECT_EQ(1u, config.drives[0].leader);
+  EXPECT_THAT(followersOf(config, 1), ElementsAre(0u));
+  EXPECT_THAT(errorOf({"b", "c", ""}),
+              HasSubstr("drives/a/follows: \"b\" is not valid, expected a drive that follows no other one itself"));
+}
+
+// Each wheel is commanded by the base: one that obeyed another drive would turn it.
+TEST(Leaders, LeadNoDriveOfTheBase) {
+  std::vector<DriveSettings> drives;
+  for (const std::string name : {"left", "right", "lift"}) {
+    auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
+    settings->set("series", "sk2xxe").set("pole_pairs", 2).set("joint", name);
+    drives.push_back({name, settings});
+  }
+  MapSettings node{"~"};
+  node.set("left_wheel", "left").set("right_wheel", "right").set("wheel_separation", 0.5).set("wheel_radius", 0.1);
+  const auto errorWith = [&](DriveIndex follower, const char* leader) {
+    auto settings = std::make_shared<MapSettings>(dynamic_cast<const MapSettings&>(*drives[follower].settings));
+    settings->set("follows", leader);
+    std::vector<DriveSettings> changed = drives;
+    changed[follower].settings = settings;
+    try {
+      readCycleConfig(node, changed, {}, true);
+    } catch (const ConfigError& error) {
+      return std::string{error.what()};
+    }
+    return std::string{"none"};
+  };
+  for (const DriveIndex wheel : {DriveIndex{0}, DriveIndex{1}}) {
+    EXPECT_THAT(errorWith(wheel, "lift"), HasSubstr("no such key of a drive of the base"));
+  }
+  EXPECT_EQ("none", errorWith(2, "left"));
+}
+
 // What a follower makes of a target nobody knows, and setpoint zero stops neither.
 TEST(Leaders, PositionNothing) {
   for (const char* const positioning : {"a", "b"}) {
@@ -126,6 +162,12 @@ TEST(SetpointSource, FromElsewhereThanTheControlWordIsUnexpected) {
   EXPECT_FALSE(unexpectedSource(device(0, 4), Series::kSk5xxe, false)) << "local control: status bit 9 tells it";
 }
 
+// 2 and more are buses; at 0 and 1, the terminals, status bit 9 refuses the drive.
+TEST(SetpointSource, CountsWhereTheControlWordIsOfABus) {
+  EXPECT_EQ(510, unexpectedSource(device(2, 1), Series::kSk5xxe, false)->number);
+  EXPECT_FALSE(unexpectedSource(device(1, 4), Series::kSk5xxe, false));
+}
+
 // BU 0020 6.1.2 and BU 0070 5.1: 9 and 13 are the control word alone; P510 is the auxiliary setpoint.
 TEST(SetpointSource, OfOlderSeriesIsToldByP509) {
   for (const Series series : {Series::kSk300e, Series::kSk700e, Series::kSk750e}) {
@@ -167,6 +209,25 @@ TEST(Leaders, AreToldInASentence) {
   EXPECT_STREQ("P509 = 10 (broadcast): its control word comes from another inverter",
                followsMessage(device(10, 0), Series::kSk5xxe).c_str());
   EXPECT_STREQ("", followsMessage(device(3, 0), Series::kSk2xxe).c_str());
+}
+
+// Led without being configured to be: it is to be set so that it obeys this bus.
+TEST(Leaders, NobodyConfiguredAreUnexpected) {
+  for (const auto& led : {device(4, 0), device(3, 4)}) {
+    const auto found = unexpectedSource(led, Series::kSk2xxe, false);
+    ASSERT_TRUE(found);
+    EXPECT_FALSE(found->should_follow);
+    EXPECT_FALSE(found->elsewhere);
+  }
+}
+
+// What was not read is no reason to refuse a follower; P510 of the older series is none of a source, and no array.
+TEST(Leaders, OfAFollowerThatTellsOnePartCount) {
+  EXPECT_FALSE(unexpectedSource(device({}, 3), Series::kSk2xxe, true));
+  EXPECT_FALSE(unexpectedSource(device(3, {}), Series::kSk2xxe, true));
+  const auto deaf = unexpectedSource(device(8, 0), Series::kSk700e, true);
+  ASSERT_TRUE(deaf);
+  EXPECT_FALSE(deaf->is_array);
 }
 
 }  // namespace

@@ -196,6 +196,90 @@ TEST_F(PositionBitsTest, OfAReferenceRunAreRefusedWithoutTheBitThatShowsIt) {
   EXPECT_EQ("", bits().homeRefusal("lift", device_, 1).str());
 }
 
+// --- each bit by its own number --------------------------------------------------------------------------------------
+
+TEST_F(PositionBitsTest, AskForAReferenceRun) {
+  bits().putHome(output_, device_, 1);
+  EXPECT_EQ((std::array<std::int16_t, 3>{1, 2, 0}), output_.setpoints) << "none is configured";
+  setup_.home = PositionBit{Carrier::kBusBit, 1, 25};
+  bits().putHome(output_, device_, 1);
+  EXPECT_EQ((std::array<std::int16_t, 3>{1, 2, 0x0002}), output_.setpoints);
+  setup_.home = PositionBit{Carrier::kControlBit, 9, 22};
+  bits().putHome(output_, device_, 1);
+  EXPECT_EQ(0x067E, output_.control_word);
+  setup_.home = PositionBit{Carrier::kPosicon, 0, 0};
+  device_.word_functions[0].setpoints = {3, 12, 0};
+  output_.setpoints = {};
+  bits(Series::kSk700e).putHome(output_, device_, 1);
+  EXPECT_EQ((std::array<std::int16_t, 3>{0, 0x0040, 0}), output_.setpoints) << "bit 6 (BU 0020 7.3.5)";
+}
+
+TEST_F(PositionBitsTest, ChooseTheFirstElementByItsBit) {
+  setup_.array = PositionBit{Carrier::kBusBit, 2, 55};
+  setup_.axis.by_element = true;
+  bits().putElement(1, output_, device_, 1);
+  EXPECT_EQ(0x0004, output_.setpoints[2]);
+}
+
+// --- what is refused -------------------------------------------------------------------------------------------------
+
+// A bit that does something else in the inverter would be asked for a reference run.
+TEST_F(PositionBitsTest, OfAReferenceRunAreRefusedWithAnotherFunction) {
+  setup_.home = PositionBit{Carrier::kBusBit, 0, 22};
+  EXPECT_EQ(
+      "drive lift: P480[-01] is 24; set it to 22 (reference run), or position/home_function to what its manual "
+      "says",
+      bits().homeRefusal("lift", device_, 1).str());
+}
+
+TEST_F(PositionBitsTest, OfAnElementAreRefusedWithAnotherFunction) {
+  setup_.array = PositionBit{Carrier::kBusBit, 2, 55};
+  setup_.elements = 7;
+  device_.bus_bit_functions[4] = 1;
+  EXPECT_EQ("", bits().elementRefusal("lift", 7, device_, 1).str()) << "targets stand in words";
+  setup_.axis.by_element = true;
+  EXPECT_EQ("", bits().elementRefusal("lift", 3, device_, 1).str());
+  EXPECT_THAT(bits().elementRefusal("lift", 7, device_, 1).str(),
+              HasSubstr("P480[-05] is 1; set it to 57 (bit 2 of the position array)"));
+}
+
+// P548 says what setpoint 3 is, and a short telegram does not carry it.
+TEST_F(PositionBitsTest, AreRefusedWhereTheTelegramEndsBeforeTheirWord) {
+  const PositionBits two{setup_, Series::kSk5xxe, 2};
+  EXPECT_THAT(two.teachRefusal("lift", device_, 1).str(), HasSubstr("no setpoint carries the bit"));
+  two.putTeach({true, false}, output_, device_, 1);
+  EXPECT_EQ((std::array<std::int16_t, 3>{1, 2, 0}), output_.setpoints);
+}
+
+TEST_F(PositionBitsTest, TellTheReferenceByTheSecondWordAsWell) {
+  setup_.referenced = SignalSetup{};
+  setup_.referenced->source = SignalSource::kBusOutBit;
+  setup_.referenced->number = 5;
+  device_.out_bit_function = 20;
+  device_.word_functions[0].actual_values = {1, 12, 10};
+  profile::ProcessInput input;
+  input.actual_values = {0, 0x0020, 0};
+  EXPECT_EQ(true, bits().referenced(input, device_, 1));
+}
+
+TEST_F(PositionBitsTest, KnowNoPlaceInTheArrayBeyondItsRange) {
+  setup_.axis.scale.revolutions_per_unit = 1.0;
+  EXPECT_EQ(0, bits().inArray(1e9));
+}
+
+// Whatever was there before.
+TEST_F(PositionBitsTest, OfADriveThatFollowsVelocitiesAreNone) {
+  setup_.home = PositionBit{Carrier::kControlBit, 8, 22};
+  std::optional<PositionSetup> none = setup_;
+  none.reset();
+  const PositionBits velocities{none, Series::kSk5xxe, 3};
+  velocities.putHome(output_, device_, 1);
+  EXPECT_EQ(0x047E, output_.control_word);
+  EXPECT_THAT(velocities.homeRefusal("lift", device_, 1).str(), HasSubstr("position/home is not configured"));
+  EXPECT_THAT(velocities.teachRefusal("lift", device_, 1).str(), HasSubstr("position/teach_in is not configured"));
+  EXPECT_FALSE(velocities.elementRefusal("lift", 1, device_, 1).empty()) << "it has no elements";
+}
+
 // --- what stands in the array afterwards ------------------------------------------------------------------------------
 
 class TaughtElement : public PositionBitsTest {

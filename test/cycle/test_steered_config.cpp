@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include "cycle/base_config.h"
+#include "cycle/cycle_config.h"
 #include "robot/urdf_robots.h"
 #include "support/map_settings.h"
 
@@ -145,6 +148,28 @@ TEST(SteeredConfig, RefusesADescriptionThatCannotBe) {
   crossed.set("steered/front/steering_joint", "rear_steering_joint");
   crossed.set("steered/rear/steering_joint", "front_steering_joint");
   EXPECT_THAT(refusal(crossed, urdf()), HasSubstr("does not carry joint"));
+}
+
+// A steering drive's own limits hold for the base: what it does not take must not be asked for. In m they are none.
+TEST(SteeredConfig, TheLimitsOfADriveThatTurnsAreASteeringRange) {
+  std::vector<DriveSettings> drives;
+  const auto add = [&drives](const std::string& name) {
+    auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
+    settings->set("series", "sk5xxe").set("pole_pairs", 2).set("joint", name + "_joint");
+    drives.push_back({name, settings});
+    return settings;
+  };
+  for (const char* const wheel : {"front_wheel", "rear_wheel"}) add(wheel);
+  add("rear_steering")->set("mode", "position").set("position/lower", -1.2).set("position/upper", 1.1);
+  const auto front = add("front_steering");
+  front->set("mode", "position").set("position/lower", -0.7).set("position/upper", 0.8);
+  const CycleConfig config = readCycleConfig(robot(), drives);
+  ASSERT_TRUE(config.base && config.base->steered);
+  EXPECT_EQ(-0.7, config.base->steered->axles[0].min_angle);
+  EXPECT_EQ(0.8, config.base->steered->axles[0].max_angle);
+  EXPECT_EQ(-1.2, config.base->steered->axles[1].min_angle);
+  front->set("lead", 0.2);
+  EXPECT_THROW(readCycleConfig(robot(), drives), ConfigError) << "it does not turn";
 }
 
 }  // namespace

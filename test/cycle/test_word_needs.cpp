@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 #include "cycle/word_needs.h"
 #include "profile/word_function.h"
@@ -113,6 +114,99 @@ TEST(WordNeeds, AFunctionThatTheSeriesHasNotIsNoNumber) {
   ASSERT_TRUE(missing);
   EXPECT_EQ(547, missing->number);
   EXPECT_EQ(0, missing->expected);
+}
+
+// P548 is not there beside 32 bits: told to be set it could not be found.
+TEST(WordNeeds, BesideA32BitTargetNoThirdWordIsNamed) {
+  const WordNeed torque{false, WordUse::kTorqueLimit}, bits{false, WordUse::kPosiconBits, 1, 3};
+  const auto missing = missingWord(needsOf(32, {bits, torque}), WordFunctions{{3, 12, 0}, {6, 0, 0}}, Series::kSk750e);
+  ASSERT_TRUE(missing);
+  EXPECT_EQ(547, missing->number);
+}
+
+// Without `mode: position` word 1 is the frequency; a number in no manual is none of a position.
+TEST(WordNeeds, TheFirstWordIsTheFrequencyUnlessThePositionTakesIt) {
+  EXPECT_FALSE(firstWordFits(WordNeeds{}, false, 21, Series::kSk5xxe));
+  EXPECT_FALSE(firstWordFits(WordNeeds{}, true, 10, Series::kSk5xxe));
+  const WordNeeds needs = needsOf(32, {}, Series::kSk5xxe);
+  EXPECT_TRUE(firstWordFits(needs, false, 21, Series::kSk5xxe));
+  EXPECT_FALSE(firstWordFits(needs, false, 250, Series::kSk5xxe));
+  EXPECT_FALSE(firstWordFits(needs, true, 250, Series::kSk5xxe));
+}
+
+// --- what is configured ----------------------------------------------------------------------------------------------
+
+WordSetup reading(std::initializer_list<SignalSetup> signals) {
+  WordSetup setup;
+  setup.signals = signals;
+  return setup;
+}
+
+SignalSetup signal(SignalSource source, std::uint8_t number) {
+  SignalSetup made;
+  made.source = source;
+  made.number = number;
+  return made;
+}
+
+std::string missing(const WordSetup& setup, const WordFunctions& functions, Series series = Series::kSk5xxe) {
+  const auto word = missingWord(wordNeeds(setup, 3), functions, series);
+  if (!word) return "none";
+  return "P" + std::to_string(word->number) + (word->is_array ? "[" + std::to_string(word->index) + "]" : "") + " = " +
+         std::to_string(word->expected);
+}
+
+TEST(WordNeeds, ASignalNeedsTheWordItIsReadFrom) {
+  const WordFunctions off{{1, 0, 0}, {1, 0, 0}};
+  EXPECT_EQ("P547 = 17", missing(reading({signal(SignalSource::kBusInBit, 0)}), off));
+  EXPECT_EQ("P544 = 12", missing(reading({signal(SignalSource::kBusOutBit, 0)}), off));
+  EXPECT_EQ("P544 = 5", missing(reading({signal(SignalSource::kDigitalInput, 1)}), off));
+  EXPECT_EQ("P544 = 5", missing(reading({signal(SignalSource::kRelay, 1)}), off));
+  EXPECT_EQ("P544 = 17", missing(reading({signal(SignalSource::kAnalogInput, 1)}), off));
+  EXPECT_EQ("P544 = 18", missing(reading({signal(SignalSource::kAnalogInput, 2)}), off));
+  for (const SignalSource source : {SignalSource::kControlBit, SignalSource::kStatusBit, SignalSource::kModuleInput}) {
+    EXPECT_EQ("none", missing(reading({signal(source, 8)}), off)) << "no setpoint and no actual value carries it";
+  }
+}
+
+TEST(WordNeeds, OfEachUseOneWordInEachDirection) {
+  const auto needed = [](std::initializer_list<SignalSetup> signals) {
+    return wordNeeds(reading(signals), 3).list.size();
+  };
+  EXPECT_EQ(1u, needed({signal(SignalSource::kBusInBit, 0), signal(SignalSource::kBusInBit, 1)}));
+  EXPECT_EQ(2u, needed({signal(SignalSource::kBusInBit, 0), signal(SignalSource::kBusOutBit, 0)}));
+  EXPECT_EQ(2u, needed({signal(SignalSource::kRelay, 1), signal(SignalSource::kAnalogInput, 1)}));
+}
+
+// Of a series whose words are set in an array, the element is a part of what has to be set.
+TEST(WordNeeds, TheParameterIsNamedAsTheSeriesHasIt) {
+  const WordFunctions off{{1, 0, 0}, {1, 0, 0}};
+  EXPECT_EQ("P543[2] = 12", missing(reading({signal(SignalSource::kBusOutBit, 0)}), off, Series::kSk2xxe));
+  EXPECT_EQ("P546[2] = 20", missing(reading({signal(SignalSource::kBusInBit, 0)}), off, Series::kSk2xxe));
+}
+
+// The effort of a joint is the torque current's.
+TEST(WordNeeds, ATorqueNeedsTheTorqueCurrent) {
+  WordSetup setup;
+  EXPECT_EQ("none", missing(setup, {{1, 0, 0}, {1, 0, 0}}));
+  setup.torque_at_limit = 10.0;
+  EXPECT_EQ("P544 = 4", missing(setup, {{1, 0, 0}, {1, 0, 0}}));
+  EXPECT_EQ("none", missing(setup, {{1, 0, 0}, {1, 0, 4}}));
+}
+
+// P480 counts where a bit of it is in use, carried by a word or not.
+TEST(WordNeeds, TheFunctionsOfBitsAreAskedForWhereOneIsInUse) {
+  EXPECT_TRUE(wordNeeds(reading({signal(SignalSource::kControlBit, 8)}), 1).bits);
+  EXPECT_TRUE(wordNeeds(reading({signal(SignalSource::kBusInBit, 0), signal(SignalSource::kRelay, 1)}), 3).bits);
+  EXPECT_FALSE(wordNeeds(reading({signal(SignalSource::kModuleOutput, 1), signal(SignalSource::kRelay, 1)}), 3).bits);
+}
+
+TEST(WordNeeds, WhoOnlyLooksOnNeedsWhatHeReads) {
+  const WordNeeds all =
+      wordNeeds(reading({signal(SignalSource::kBusInBit, 0), signal(SignalSource::kAnalogInput, 1)}), 3);
+  const WordNeeds inputs = onlyInputs(all);
+  ASSERT_EQ(1u, inputs.list.size());
+  EXPECT_EQ(WordUse::kAnalogInput1, inputs.list[0].use);
 }
 
 }  // namespace

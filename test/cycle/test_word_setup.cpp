@@ -121,5 +121,117 @@ TEST(WordSetupTest, RefusesWhatTheBusDoesNotCarry) {
   }
 }
 
+// --- ranges ----------------------------------------------------------------------------------------------------------
+
+std::string refusalOf(const char* function, const std::string& key, double value, Series series = Series::kSk5xxe) {
+  Configured config;
+  config.series = series;
+  config.drive.set("setpoints/one/function", function).set("setpoints/one/limit", 1.0);
+  config.drive.set("setpoints/one/nominal", 50.0).set("setpoints/one/" + key, value);
+  return config.refusal();
+}
+
+// Twice a word's 100 % is all it carries (BU 0020 7.3.6); a frequency goes as high as P105 may.
+TEST(WordSetupTest, LimitsWhatIsCommandedByWhatAWordCarries) {
+  EXPECT_EQ("accepted", refusalOf("torque_precontrol", "limit", 200.0));
+  EXPECT_THAT(refusalOf("torque_precontrol", "limit", 200.1), HasSubstr("one/limit: 200.1"));
+  EXPECT_EQ("accepted", refusalOf("frequency_addition", "limit", 400.0));
+  EXPECT_THAT(refusalOf("frequency_addition", "limit", 400.1), HasSubstr("one/limit: 400.1"));
+  EXPECT_EQ("accepted", refusalOf("torque_limit", "limit", 0.0)) << "no torque at all is a limit, too";
+  EXPECT_THAT(refusalOf("torque_limit", "limit", -0.1), HasSubstr("one/limit: -0.1"));
+}
+
+TEST(WordSetupTest, MayReturnToNothing) {
+  EXPECT_EQ("accepted", refusalOf("torque_limit", "neutral", 0.0));
+  EXPECT_THAT(refusalOf("torque_limit", "neutral", -0.1), HasSubstr("one/neutral: -0.1"));
+}
+
+TEST(WordSetupTest, TakesANominalFromATenthOfAHertzOn) {
+  for (const double inside : {0.1, 400.0}) {
+    EXPECT_EQ("accepted", refusalOf("frequency_addition", "nominal", inside, Series::kSk2xxe)) << inside;
+  }
+  for (const double outside : {0.09, 400.1}) {
+    EXPECT_THAT(refusalOf("frequency_addition", "nominal", outside, Series::kSk2xxe), HasSubstr("one/nominal"));
+  }
+}
+
+TEST(WordSetupTest, ALimitLastsAnHourAtMostOrForEver) {
+  for (const double inside : {0.0, 3600.0}) EXPECT_EQ("accepted", refusalOf("torque_limit", "timeout", inside));
+  EXPECT_THAT(refusalOf("torque_limit", "timeout", 3601.0), HasSubstr("one/timeout: 3601"));
+}
+
+// cmd_vel_timeout 0: the velocity command never grows old either.
+TEST(WordSetupTest, WhereNoCommandGrowsOldNoneHasTo) {
+  Configured config;
+  config.timeout = Duration::zero();
+  config.drive.set("setpoints/boost/function", "frequency_addition").set("setpoints/boost/limit", 5.0);
+  ASSERT_EQ("accepted", config.refusal());
+  EXPECT_EQ(Duration::zero(), config.read().setpoints.at(0).timeout);
+  config.drive.set("setpoints/boost/timeout", 3600.0);
+  EXPECT_EQ("accepted", config.refusal());
+}
+
+TEST(WordSetupTest, TakesATorqueOfAnyMotor) {
+  for (const double inside : {1e-3, 1e5}) {
+    Configured config;
+    config.drive.set("torque_at_limit", inside);
+    EXPECT_EQ(inside, config.read().torque_at_limit);
+  }
+  for (const double outside : {0.9e-3, 1.1e5}) {
+    Configured config;
+    config.drive.set("torque_at_limit", outside);
+    EXPECT_THAT(config.refusal(), HasSubstr("~drives/left/torque_at_limit")) << outside;
+  }
+}
+
+// --- what is read beside it ------------------------------------------------------------------------------------------
+
+TEST(WordSetupTest, OutputsGoOffWithTheVelocityCommand) {
+  EXPECT_EQ(kTimeout, Configured{}.read().release_after);
+}
+
+TEST(WordSetupTest, EachFunctionIsNamedAsConfigurationsWriteIt) {
+  EXPECT_STREQ("torque_limit", setpointWord(WordUse::kTorqueLimit));
+  EXPECT_STREQ("current_switch_off_limit", setpointWord(WordUse::kCurrentSwitchOff));
+  EXPECT_STREQ("torque_precontrol", setpointWord(WordUse::kTorquePrecontrol));
+  EXPECT_STREQ("", setpointWord(WordUse::kFrequency)) << "the velocity is no further setpoint";
+}
+
+// --- what the bus carries --------------------------------------------------------------------------------------------
+
+std::string carriedBy(std::uint8_t values, const Configured& config) {
+  DriveIdentity identity;
+  identity.process_values = values;
+  try {
+    checkWordsCarried(config.drive, config.read(), identity);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(WordSetupTest, TakesAsManySetpointsAsTheBusCarries) {
+  Configured config;
+  config.drive.set("setpoints/grip/function", "torque_limit");
+  EXPECT_EQ("accepted", carriedBy(2, config));
+  config.drive.set("setpoints/boost/function", "frequency_addition").set("setpoints/boost/limit", 5.0);
+  EXPECT_EQ("accepted", carriedBy(3, config));
+  EXPECT_THAT(carriedBy(2, config), HasSubstr("2 beside the velocity, but the bus carries 1 of them"));
+}
+
+TEST(WordSetupTest, RefusesASignalTheBusDoesNotCarry) {
+  Configured config;
+  config.drive.set("signals/bit/source", "bus_in_bit_1");
+  EXPECT_EQ("accepted", carriedBy(3, config));
+  EXPECT_THAT(carriedBy(1, config), AllOf(HasSubstr("signals/bit/source"), HasSubstr("longer telegram")));
+}
+
+TEST(WordSetupTest, RefusesATorqueTheBusDoesNotCarry) {
+  Configured config;
+  config.drive.set("torque_at_limit", 10.0);
+  EXPECT_EQ("accepted", carriedBy(2, config));
+  EXPECT_THAT(carriedBy(1, config), HasSubstr("~drives/left/torque_at_limit"));
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle
