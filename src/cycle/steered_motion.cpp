@@ -44,6 +44,7 @@ robot::SteeredSetpoint SteeredMotion::poll(const TwistCommand& command, bool dri
     if (known) steered_ = drives.angles;
     was_blind_ = !known;
     steers_ = false;
+    commands_angles_ = commands_angles_ && driving;
     if (driving) waits_for_ = SteeredWait::kNoPosition;
     return rest();
   }
@@ -106,6 +107,7 @@ bool SteeredMotion::readyToDriveOff(const robot::Twist2d& target, const SteeredD
     return false;
   }
   steered_ = wanted;
+  commands_angles_ = true;
   steers_ = robot::largestDifference(steered_, angles) > tolerance_;
   if (steers_) waits_for_ = SteeredWait::kAngles;
   return !steers_;

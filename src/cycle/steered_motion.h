@@ -51,6 +51,9 @@ class SteeredMotion {
   robot::SteeredSetpoint poll(const TwistCommand& command, bool driving, bool follow, const SteeredDrives& drives,
                               Instant now, Duration dt) noexcept;
   SteeredWait waitsFor() const noexcept { return waits_for_; }
+  /// A motion has been commanded since the drives follow: the angles of the setpoint are targets. Until then each axis holds the
+  /// place it was enabled at by itself, and is stopped when it leaves it (`position/stray`).
+  bool commandsAngles() const noexcept { return commands_angles_; }
   /// It rests although a velocity is commanded, for `MinimumSpeeds`.
   bool belowMinimum() const noexcept { return below_minimum_; }
   /// The command is beyond 100 % of the setpoint of a wheel: it is scaled down. Of a joint's own limit it does not tell.
@@ -95,7 +98,8 @@ class SteeredMotion {
   robot::SteeringAngles steered_;  // commanded last
   bool was_blind_ = false;         // an angle was not known
   bool steers_ = false;            // they may be far from where the wheels stand: steered at standstill
-  bool drives_ = false;            // the wheels were commanded to turn
+  bool commands_angles_ = false;
+  bool drives_ = false;  // the wheels were commanded to turn
   bool obeys_ = false;
   bool below_minimum_ = false;
   bool beyond_full_ = false;

@@ -47,11 +47,14 @@ void PositionReader::handleValues(const profile::PositionField& field, const pro
   const std::int32_t word = profile::getPosition(field, words);
   const double unseen = toSeconds(now - std::exchange(seen_, now));
   const std::int64_t value = field.bits == 16 && continued_ ? continued(steps_, word) : word;
-  if (known_ && isPossible(steps_, value, max_speed, now - at_)) return believe(value, now);
+  // What goes on from a value that was held back came with it, and had no more time to come.
+  // A count of 16 bits that does not go on from the last one has begun anew: it is what its word is.
+  const std::int64_t new_count = known_ ? word : value;
+  const Instant came = goesOnFromDoubtful(new_count, max_speed, now) ? doubtful_->since : now;
+  if (known_ && isPossible(steps_, value, max_speed, came - at_)) return believe(value, now);
   // Unseen for so long it may have gone further than two halves are apart: the last value tells nothing about this one.
   if (known_ && max_speed * kMargin * unseen > kMost) handleGap();
-  // A count of 16 bits that does not go on from the last one has begun anew: it is what its word is.
-  doubt(known_ ? word : value, max_speed, now);
+  doubt(known_ ? new_count : value, max_speed, now);
 }
 
 void PositionReader::handleNewZero(const profile::PositionField& field) noexcept {
@@ -61,8 +64,12 @@ void PositionReader::handleNewZero(const profile::PositionField& field) noexcept
   speed_from_ = {steps_, at_, at_};
 }
 
+bool PositionReader::goesOnFromDoubtful(std::int64_t steps, double max_speed, Instant now) const noexcept {
+  return doubtful_ && isPossible(doubtful_->steps, steps, max_speed, now - doubtful_->at);
+}
+
 void PositionReader::doubt(std::int64_t steps, double max_speed, Instant now) noexcept {
-  const bool agrees = doubtful_ && isPossible(doubtful_->steps, steps, max_speed, now - doubtful_->at);
+  const bool agrees = goesOnFromDoubtful(steps, max_speed, now);
   doubtful_ = Value{steps, now, agrees ? doubtful_->since : now};
   if (!agrees) return;
   if (now - doubtful_->since < (known_ ? kConfirm : kFirst)) return;

@@ -48,6 +48,7 @@ class PositionReader {
 
   void believe(std::int64_t steps, Instant now) noexcept;
   void doubt(std::int64_t steps, double max_speed, Instant now) noexcept;
+  bool goesOnFromDoubtful(std::int64_t steps, double max_speed, Instant now) const noexcept;
 
   bool known_ = false;
   bool jumped_ = false;

@@ -35,7 +35,8 @@ BaseConfig rampedBase() {
 /// Wheels 0 and 1 before and behind the middle, steered by drives 2 and 3, which stand at 0 whatever they are told.
 class SteeredCycle : public ::testing::Test, protected CycleBench {
  protected:
-  explicit SteeredCycle(std::size_t velocity_window = 10) : CycleBench{config(velocity_window)} {
+  explicit SteeredCycle(std::size_t velocity_window = 10) : SteeredCycle{config(velocity_window)} {}
+  explicit SteeredCycle(const CycleConfig& config) : CycleBench{config} {
     transport.parameters[600] = 1;
     for (const DriveIndex steering : {DriveIndex{2}, DriveIndex{3}}) {
       transport.of_drive[steering] = {{543, 1}, {544, 10}, {545, 15}, {546, 1}, {547, 21}, {548, 22}, {480, 22}};
@@ -109,6 +110,63 @@ TEST_F(SteeredCycle, StandsStillInItsOdometryWhileAnAngleIsUnknown) {
   run(3);
   EXPECT_EQ(lost, snapshot().base.pose.x);
   EXPECT_EQ(0.0, snapshot().base.velocity.linear_x);
+}
+
+/// Axes that may leave their place by 0.05 rad, 5000 steps, before their first target; from -1.6 to 1.6 rad.
+class SteeredCycleWithLimits : public SteeredCycle {
+ protected:
+  SteeredCycleWithLimits() : SteeredCycle{limited()} {}
+  static CycleConfig limited() {
+    CycleConfig config = SteeredCycle::config(10);
+    for (const std::size_t steering : {2, 3}) {
+      drive::PositionConfig& axis = *config.drives[steering].drive.position;
+      axis.stray = 0.05;
+      axis.lower = -1.6;
+      axis.upper = 1.6;
+    }
+    return config;
+  }
+};
+
+// Nobody has asked for an angle: an axis that turns all the same is not told where it is now, but stopped.
+TEST_F(SteeredCycleWithLimits, AnAxisThatLeavesItsPlaceUnaskedIsStopped) {
+  ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  for (int i = 0; i < 60; ++i) {
+    commandBase(0.0);
+    transport.inverters[2].second = static_cast<std::int16_t>(transport.inverters[2].second + 100);
+    step();
+  }
+  run(10);
+  EXPECT_EQ(drive::StopCause::kStrayed, snapshot().drives[2].stop_cause);
+  EXPECT_FALSE(snapshot().base.enabled);
+  EXPECT_EQ(0x047E, controlWord(2));
+  EXPECT_EQ(0x047E, controlWord(3));
+}
+
+// With a motion the angles are targets, on the way to which an axis is where it is.
+TEST_F(SteeredCycleWithLimits, OneThatWasGivenAnAngleMayTurn) {
+  ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  driveSideways(2);
+  for (int i = 0; i < 60; ++i) {
+    transport.inverters[2].second = static_cast<std::int16_t>(transport.inverters[2].second + 100);
+    driveSideways(1);
+  }
+  EXPECT_TRUE(snapshot().base.enabled) << snapshot().base.text.c_str();
+}
+
+// It rests a step beyond the end of its range, where its rounded target was.
+TEST_F(SteeredCycleWithLimits, AnAxisAtTheEndOfItsRangeIsToldNoAngleNobodyAskedFor) {
+  const std::int32_t steps = -160'001;
+  transport.inverters[2].second = toSigned(static_cast<Word>(static_cast<std::uint32_t>(steps) & 0xFFFF));
+  transport.inverters[2].third = toSigned(static_cast<Word>(static_cast<std::uint32_t>(steps) >> 16));
+  run(50);
+  ASSERT_NEAR(-1.6, snapshot().drives[2].joint_position, 1e-4);
+  const Completion enabled = ask(RequestKind::kEnable);
+  ASSERT_TRUE(enabled.success) << enabled.message.c_str();
+  events();
+  run(600);
+  EXPECT_EQ(std::vector<std::string>{}, events());
+  EXPECT_EQ("", snapshot().base.waits.str());
 }
 
 class SteeredCycleOfALongWindow : public SteeredCycle {

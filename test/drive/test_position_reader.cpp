@@ -143,6 +143,36 @@ TEST(PositionReader, BelievesANewZeroAfterATime) {
 }
 
 // 8192 increments, 25 revolutions a second: after 0.2 s without a telegram it is 40 960 steps further, by its own motion.
+// A new zero a few revolutions away: the time it was held back for is none in which the motor went there.
+TEST(PositionReader, ANewZeroNearbyIsOneAllTheSame) {
+  for (const std::int64_t jump : {2271, 5000, 6030, 7000, -5000}) {
+    Reading reading{kWide};
+    reading.settle(90'000);
+    int jumps = 0;
+    for (int i = 0; i < 20; ++i) {
+      reading.see(90'000 + jump);
+      if (!reading.reader.hasJumped()) continue;
+      ++jumps;
+      EXPECT_EQ(10, i) << "a tenth of a second after it was seen first";
+    }
+    EXPECT_EQ(1, jumps) << jump;
+    EXPECT_EQ(90'000 + jump, reading.reader.steps());
+  }
+}
+
+// Torn in one cycle, and of the true motion again after it.
+TEST(PositionReader, AfterATornValueTheMotionGoesOn) {
+  Reading reading{kWide};
+  std::int64_t at = 65'000;
+  reading.settle(at);
+  for (int i = 0; i < 30; ++i) {
+    at += 250;
+    reading.see(i % 2 == 0 ? at - 65'536 : at);
+    EXPECT_FALSE(reading.reader.hasJumped()) << i;
+  }
+  EXPECT_EQ(at, reading.reader.steps());
+}
+
 TEST(PositionReader, AHoldUpAtSpeedIsNoNewZero) {
   constexpr double kFast = 8192.0 * 25.0;
   PositionReader reader;
