@@ -21,14 +21,14 @@ Word shifted(Word pke, bool down) noexcept {
 unsigned numberIn(const profile::PkwWords& words) noexcept {
   return words[0] & kPnuMask;
 }
-unsigned answerLabelIn(const profile::PkwWords& words) noexcept {
+unsigned labelIn(const profile::PkwWords& words) noexcept {
   return unsigned{words[0]} >> 12;
 }
 
 /// An error by its parameter alone: no manual says whether it carries the index of its order.
 bool mayAnswer(const profile::PkwWords& order, const profile::PkwWords& answer) noexcept {
   if (numberIn(order) != numberIn(answer)) return false;
-  return answerLabelIn(answer) == static_cast<unsigned>(profile::AnswerLabel::kError) || order[1] == answer[1];
+  return labelIn(answer) == static_cast<unsigned>(profile::AnswerLabel::kError) || order[1] == answer[1];
 }
 
 std::optional<profile::PkwWords> recordWords(ByteView data) noexcept {
@@ -108,16 +108,16 @@ void RecordParameterChannel::handleRecord(const profibus::RecordResult& result, 
       pkw_.handleFailure(profile::ParameterOutcome::kTimeout, words);
       break;
     case profibus::RecordOutcome::kNotSupported:
-      pkw_.handleFailure(profile::ParameterOutcome::kNoChannel, "its bus module takes no acyclic requests (DP-V1)");
+      fail(profile::ParameterOutcome::kNoChannel, "its bus module takes no acyclic requests (DP-V1)");
       break;
     case profibus::RecordOutcome::kNotActivated:
       if (!words.empty()) {
-        pkw_.handleFailure(profile::ParameterOutcome::kNoChannel, words);
+        fail(profile::ParameterOutcome::kNoChannel, words);
         break;
       }
-      pkw_.handleFailure(profile::ParameterOutcome::kNoChannel,
-                         "its bus module refuses acyclic requests (DP-V1): it answers RS, not activated, at access "
-                         "point 51; PPO types 1 and 2 reach the inverter's parameters without them");
+      fail(profile::ParameterOutcome::kNoChannel,
+           "its bus module refuses acyclic requests (DP-V1): it answers RS, not activated, at access "
+           "point 51; PPO types 1 and 2 reach the inverter's parameters without them");
       break;
     case profibus::RecordOutcome::kOffline:
       if (words.empty()) {
@@ -142,8 +142,21 @@ bool RecordParameterChannel::handleRefusal(const profibus::RecordError& error) n
     step_ = Step::kWrite;
     return true;
   }
-  pkw_.handleRefusal(reasonOf(error), refusalText(error));
+  if (mayBeCarriedOut()) {
+    fail(profile::ParameterOutcome::kTimeout, refusalText(error));
+  } else {
+    pkw_.handleRefusal(reasonOf(error), refusalText(error));
+  }
   return false;
+}
+
+/// The order was taken, and what is refused is to tell what became of it.
+bool RecordParameterChannel::mayBeCarriedOut() const noexcept {
+  return step_ == Step::kRead && profile::isWrite(static_cast<profile::OrderLabel>(labelIn(order_)));
+}
+
+void RecordParameterChannel::fail(profile::ParameterOutcome outcome, const Sentence& words) noexcept {
+  pkw_.handleFailure(mayBeCarriedOut() ? profile::ParameterOutcome::kTimeout : outcome, words);
 }
 
 void RecordParameterChannel::handleDone(ByteView data, Instant now) noexcept {
@@ -170,7 +183,7 @@ void RecordParameterChannel::handleDone(ByteView data, Instant now) noexcept {
 void RecordParameterChannel::handleNone(ByteView data) noexcept {
   const auto words = recordWords(data);
   if (!words) return;  // read again
-  const bool none = answerLabelIn(*words) == static_cast<unsigned>(profile::AnswerLabel::kNone);
+  const bool none = labelIn(*words) == static_cast<unsigned>(profile::AnswerLabel::kNone);
   if (!none && numberIn(*words) != 0) return;
   forgetAnswers();
   pkw_.explainWait({});

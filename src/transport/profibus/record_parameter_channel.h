@@ -54,6 +54,8 @@ class RecordParameterChannel {
   void handleNone(ByteView data) noexcept;
   void handleAnswer(ByteView data, Instant now) noexcept;
   bool handleRefusal(const profibus::RecordError& error) noexcept;
+  void fail(profile::ParameterOutcome outcome, const Sentence& words) noexcept;
+  bool mayBeCarriedOut() const noexcept;
   void forgetAnswers() noexcept;
 
   std::uint8_t unit_;

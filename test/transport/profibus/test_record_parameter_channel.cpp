@@ -281,6 +281,45 @@ TEST_F(Records, TellsWhenTheRecordIsRefused) {
   EXPECT_EQ("DP-V1 error B0, invalid index (80 B0 00)", refused.text.str());
 }
 
+// The order was taken, and its answer cannot be read: what became of it nobody knows. Of a read nothing can have become.
+TEST_F(Records, OfAWriteWhoseAnswerIsRefusedNobodyKnows) {
+  for (const RecordOutcome outcome :
+       {RecordOutcome::kRefused, RecordOutcome::kNotActivated, RecordOutcome::kNotSupported}) {
+    for (const bool writes : {true, false}) {
+      RecordParameterChannel channel{RecordParameterChannel::kModule, {}, milliseconds{1000}};
+      profile::ParameterRequest request;
+      request.id = 7;
+      request.number = 151;
+      request.shape = profile::ParameterShape::kArray;
+      request.index = 1;
+      request.action = writes ? profile::ParameterAction::kWritePersistent : profile::ParameterAction::kRead;
+      request.raw = 200;
+      ASSERT_TRUE(channel.submit(request, now_));
+      const auto polled = [&] {
+        auto record = channel.pollRecord(now_);
+        for (int i = 0; i < 5 && !record; ++i) record = channel.pollRecord(now_ += milliseconds{10});
+        return record;
+      };
+      const auto order = polled();
+      ASSERT_TRUE(order && order->write);
+      RecordResult taken;
+      taken.write = true;
+      taken.outcome = RecordOutcome::kDone;
+      channel.handleRecord(taken, now_);
+      const auto read = polled();
+      ASSERT_TRUE(read && !read->write);
+      RecordResult refused;
+      refused.outcome = outcome;
+      refused.error = {0x80, 0xA2, 0};
+      channel.handleRecord(refused, now_);
+      const auto result = channel.pollResult();
+      ASSERT_TRUE(result);
+      EXPECT_EQ(writes, result->outcome == ParameterOutcome::kTimeout);
+      EXPECT_FALSE(result->text.empty());
+    }
+  }
+}
+
 // DF 80 B5: busy. Nothing was taken, so it is written again; not for ever.
 TEST_F(Records, ABusyModuleIsAskedAgainUntilTheTimeIsOver) {
   ASSERT_TRUE(submit(151));
