@@ -192,12 +192,16 @@ bool ModbusLink::exchangeOnce() noexcept {
 }
 
 bool ModbusLink::readRunning() noexcept {
+  if (diagnosis_ && !settings_.running) {
+    newest_.bus_runs = true;
+    return true;
+  }
   RunningState running;
   if (!diagnosis_ && !acyclic_.readRunning(running, stop_)) return false;
   if (diagnosis_) running = diagnosis_->state().running;
   newest_.bus_runs = running.known && running.bus_runs;
   newest_.running = running.value;
-  if (diagnosis_ && settings_.running) newest_.asked = std::min(newest_.asked, running.asked);
+  if (diagnosis_) newest_.asked = std::min(newest_.asked, running.asked);
   return true;
 }
 

@@ -218,6 +218,14 @@ TEST_F(Orders, ASecondConnectionThatIsSilentHoldsNothingUp) {
   EXPECT_LT(link->now() - before, kPatience / 4);
 }
 
+// Where no register tells whether the bus runs, the second connection says nothing of it: not reached either.
+TEST_F(Orders, WithoutARegisterThatTellsItTheBusRuns) {
+  second.shut();
+  startWithDiagnosis();
+  ASSERT_TRUE(waitFor([&] { return link->take().number >= 5; }));
+  EXPECT_TRUE(link->take().bus_runs);
+}
+
 /// Takes down what it hears.
 class Ear final : public TelegramListener {
  public:
