@@ -10,6 +10,12 @@ Word wordAt(const RegisterImage& image, std::size_t i) noexcept {
   return i < image.size() ? image[i] : Word{0};
 }
 
+/// The control word at this place ran, and runs no more.
+bool stopsAt(std::uint16_t word, Word run_bits, const RegisterImage& written, const RegisterImage& next) noexcept {
+  const auto runs = [&](const RegisterImage& image) { return (wordAt(image, word) & run_bits) == run_bits; };
+  return runs(written) && !runs(next);
+}
+
 WordRange registersOf(const RegisterBlock& block, std::size_t part) noexcept {
   return {static_cast<std::uint16_t>(block.address + block.parts[part].first), block.parts[part].count};
 }
@@ -20,11 +26,9 @@ PartOrder stopsFirst(const ModbusSettings& settings, const RegisterImage& writte
   const auto& parts = settings.outputs.parts;
   const auto stops = [&](std::uint8_t part) noexcept {
     const auto in_part = [&](std::uint16_t word) { return word >= parts[part].first && word < parts[part].end(); };
-    const auto runs = [&](const RegisterImage& image, std::uint16_t word) {
-      return (wordAt(image, word) & settings.run_bits) == settings.run_bits;
-    };
-    return std::count_if(settings.control_words.begin(), settings.control_words.end(),
-                         [&](std::uint16_t word) { return in_part(word) && runs(written, word) && !runs(next, word); });
+    return std::count_if(settings.control_words.begin(), settings.control_words.end(), [&](std::uint16_t word) {
+      return in_part(word) && stopsAt(word, settings.run_bits, written, next);
+    });
   };
   PartOrder order;
   for (std::size_t i = 0; i < parts.size(); ++i) order.push_back(static_cast<std::uint8_t>(i));
@@ -33,6 +37,11 @@ PartOrder stopsFirst(const ModbusSettings& settings, const RegisterImage& writte
     for (std::size_t k = i; k > 0 && stops(order[k]) > stops(order[k - 1]); --k) std::swap(order[k], order[k - 1]);
   }
   return order;
+}
+
+bool ModbusExchange::stops(const RegisterImage& next) const noexcept {
+  return std::any_of(settings_.control_words.begin(), settings_.control_words.end(),
+                     [&](std::uint16_t word) { return stopsAt(word, settings_.run_bits, written_, next); });
 }
 
 bool ModbusExchange::ask(const ModbusRequest& request, const Wakeup& stop) noexcept {

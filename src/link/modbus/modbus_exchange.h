@@ -26,6 +26,9 @@ class ModbusExchange {
   /// Writes `outputs`, reads `inputs`. False: `inputs` are of no use, `reason()`.
   bool run(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept;
 
+  /// A control word that was written as one that runs would stop.
+  bool stops(const RegisterImage& next) const noexcept;
+
   const Sentence& reason() const noexcept { return reason_; }
   std::uint64_t requests() const noexcept { return requests_; }
 

@@ -221,18 +221,26 @@ void ModbusLink::failed() noexcept {
     report_.text = connection_.reason();
     tell(LinkState::kPausing);
   }
-  pause(until);
   // A server that refuses in due form stays connected: it may have no room for a second connection.
   const bool is_usable = trouble == ModbusTrouble::kException || trouble == ModbusTrouble::kNone;
+  pause(until, started_ && is_usable);
   if (!is_usable) connection_.abandon();
   started_ = started_ && is_usable;
   if (started_) tell(LinkState::kConnected);
 }
 
-void ModbusLink::pause(Instant until) noexcept {
-  pollfd wait{stop_.descriptor(), POLLIN, 0};
-  const timespec left = toTimeout(until - now());
-  ::ppoll(&wait, 1, &left, nullptr);
+// It may refuse to be read, and take what stops a drive: that does not wait.
+void ModbusLink::pause(Instant until, bool is_kept) noexcept {
+  bool given = false;
+  while (!ending() && now() < until) {
+    pollfd waits[] = {{stop_.descriptor(), POLLIN, 0}, {fresh_.descriptor(), POLLIN, 0}};
+    const timespec left = toTimeout(until - now());
+    ::ppoll(waits, is_kept ? 2 : 1, &left, nullptr);
+    if (!is_kept || !fresh_.take()) continue;
+    given = true;
+    if (exchange_.stops(outputs_.read().words)) break;
+  }
+  if (given) fresh_.signal();
 }
 
 void ModbusLink::tell(LinkState state) noexcept {

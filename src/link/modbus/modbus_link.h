@@ -61,7 +61,7 @@ class ModbusLink final : public RegisterLink {
   bool readRunning() noexcept;
   void waitForOutputs() noexcept;
   void failed() noexcept;
-  void pause(Instant until) noexcept;
+  void pause(Instant until, bool is_kept) noexcept;
   void tell(LinkState state) noexcept;
   bool ending() const noexcept { return ending_.load(std::memory_order_relaxed); }
 

@@ -169,6 +169,28 @@ TEST_F(LinkFailures, OneExceptionCostsOneExchange) {
   EXPECT_EQ(0u, trouble().find("refuses function 16")) << "pauses";
 }
 
+// A gateway that refuses to be read takes words all the same: the one that stops does not wait for the end of a pause.
+TEST_F(LinkFailures, AWordThatStopsEndsThePauseOfAConnectionThatIsKept) {
+  ModbusSettings settings = fourWords(server.address());
+  settings.control_words = {0};
+  settings.run_bits = 0x007F;
+  settings.first_pause = settings.longest_pause = 2 * kPatience;
+  start(settings);
+  ASSERT_TRUE(waitConnected());
+  ASSERT_TRUE(exchange({0x047F, 2, 3, 4}));
+  for (unsigned i = 1; i <= 2; ++i) {
+    server.next({Reaction::kAnswer});  // the write
+    server.next({Reaction::kException, 6});
+    link->give({0x047F, 5, 3, 4});
+    ASSERT_TRUE(waitUntil([&] { return link->report().counters.exceptions == i; }));
+  }
+  ASSERT_TRUE(waitUntil([&] { return link->report().state == LinkState::kPausing; }));
+  link->give({0x047F, 6, 3, 4});
+  EXPECT_TRUE(exchange({0x047E, 0, 3, 4}));
+  EXPECT_EQ(0x047E, server.holding(100));
+  EXPECT_EQ(1u, server.connections());
+}
+
 TEST_F(LinkFailures, ClosesTheConnection) {
   start();
   server.next({Reaction::kClose});
