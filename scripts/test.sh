@@ -329,7 +329,7 @@ else
   else
     check "lint" finish_lint
     check "workspace" "$root/scripts/check_workspace.sh"
-    check "fuzz" "$root/scripts/fuzz.sh" "$($deep && echo 300 || echo 15)"
+    check "fuzz" "$root/scripts/fuzz.sh" "$($deep && echo 300 || echo 8)"
   fi
   finish_socketcan
   # Alone: how well the demo closes its square depends on what else the machine does.
