@@ -66,8 +66,10 @@ void BusCycle::commandSteered(Instant now, Duration dt) noexcept {
   for (std::size_t i = 0; i < wheels_.size(); ++i) setVelocity(wheels_[i], setpoint.wheels[i]);
   Sentence waits = clauseOf(steered_->waitsFor());
   bool passes = steered_->waitsFor() == SteeredWait::kAngles;
-  for (std::size_t i = 0; i < steering_.size() && driving && steered_->commandsAngles(); ++i) {
-    const drive::TargetRefusal refusal = drives_[steering_[i]].setPosition(setpoint.angles[i]);
+  for (std::size_t i = 0; i < steering_.size() && driving; ++i) {
+    drive::Drive& axis = drives_[steering_[i]];
+    if (!steered_->commandsAngles() && !axis.report().position.homing) continue;
+    const drive::TargetRefusal refusal = axis.setPosition(setpoint.angles[i]);
     // One that is on its way out of "operation enabled" stops the base by itself.
     if (refusal == drive::TargetRefusal::kNone || refusal == drive::TargetRefusal::kNotEnabled) continue;
     waits.format("drive %s does not take the steering angle %.4g: %s", names_[steering_[i]].c_str(), setpoint.angles[i],
