@@ -30,7 +30,10 @@ struct SlaveCounters {
   std::uint64_t unexpected = 0;  ///< telegrams in its slot that were no legal answer
   std::uint64_t exchanges = 0;
   std::uint64_t diagnoses = 0;
-  std::uint64_t losses = 0;    ///< times it left data exchange
+  std::uint64_t losses = 0;  ///< times it left data exchange, or fell silent there
+  /// Times its start-up began after it had exchanged data: it said that it is not in data exchange, was found again with
+  /// its watchdog run out, or was given up because of what it answered. Gone on with after a silence, it has not left.
+  std::uint64_t departures = 0;
   std::uint64_t refusals = 0;  ///< times its start-up ended in a fault
 };
 

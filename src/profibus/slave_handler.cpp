@@ -171,8 +171,12 @@ void SlaveHandler::fallSilent(Instant due, const char* note) noexcept {
 }
 
 // The only way into a start-up: the first request has FCV = 0 and FCB = 1 again.
-void SlaveHandler::startOver(const char* note) noexcept {
-  resuming_ = false;
+void SlaveHandler::startOver(const char* note, bool resumes) noexcept {
+  resuming_ = resumes;
+  if (exchanged_ && !resumes) {
+    exchanged_ = false;
+    ++status_.counters.departures;
+  }
   frame_count_.reset();
   diagnosis_due_ = false;
   timers_.stop(Timer::kUndiagnosedLimit);
@@ -187,6 +191,7 @@ void SlaveHandler::enterDataExchange(DpEvents& events) noexcept {
   // without being heard, is not announced again.
   diagnosis_due_ = resuming_ || status_.diagnosis.staticDiagnosis();
   resuming_ = false;
+  exchanged_ = true;
   status_.phase = SlavePhase::kDataExchange;
   status_.note = "";
   events.push(event(DpEventKind::kDataExchangeEntered, ""));

@@ -109,7 +109,7 @@ class SlaveHandler {
   void mayRunUntilWatchdogOf(Instant heard) noexcept;
   void waitForWatchdog() noexcept;
   void fallSilent(Instant due, const char* note) noexcept;
-  void startOver(const char* note) noexcept;
+  void startOver(const char* note, bool resumes = false) noexcept;
   void enterDataExchange(DpEvents& events) noexcept;
   void lose(LossCause cause, const char* text, Instant now, DpEvents& events) noexcept;
   void backOff(const Fault& fault, Instant now, DpEvents& events) noexcept;
@@ -128,6 +128,7 @@ class SlaveHandler {
   std::vector<std::uint8_t> outputs_, inputs_;  // sized once, in the constructor
   Service asked_ = Service::kFdlStatus;
   bool stepped_ = false;        // had its request of this cycle
+  bool exchanged_ = false;      // it was in data exchange, and no start-up has begun since
   bool resuming_ = false;       // in kFirstDiagnosis: first of all it is asked whether it is in data exchange still
   bool diagnosis_due_ = false;  // in data exchange: DH was seen
   TimerTable<Timer> timers_;

@@ -116,8 +116,7 @@ void SlaveHandler::onFdlStatus(const FdlAnswer& answer, Instant now, DpEvents& e
     return;
   }
   if (!exchanges) status_.ident.reset();
-  startOver(texts::kStarting);
-  resuming_ = exchanges;
+  startOver(texts::kStarting, exchanges);
 }
 
 void SlaveHandler::onDiagnosis(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept {

@@ -27,8 +27,10 @@ TEST(Loss, StartsAnewWith6D) {
   EXPECT_FALSE(wire.status().exchanged_this_cycle);
   EXPECT_EQ(LossCause::kSilence, wire.tells(DpEventKind::kSlaveLost).cause);
   EXPECT_EQ(1u, wire.status().counters.losses);
+  EXPECT_EQ(0u, wire.status().counters.departures) << "not known yet";
   wire.isFound();
   wire.tells(DpEventKind::kSlaveFound);
+  EXPECT_EQ(1u, wire.status().counters.departures);
   wire.cycle("68 05 05 68 88 81 6D 3C 3E F0 16", kWantsPrm);
   wire.takesParameters();
   wire.takesConfiguration();
@@ -36,6 +38,7 @@ TEST(Loss, StartsAnewWith6D) {
   wire.tells(DpEventKind::kDataExchangeEntered);
   wire.cycle(kExchange7D, kInputs);
   EXPECT_TRUE(wire.status().exchanged_this_cycle);
+  EXPECT_EQ(1u, wire.status().counters.departures);
 }
 
 // Found before its watchdog has run out, it is in data exchange still, and the wheel behind it may turn: the stop word is
@@ -54,6 +57,7 @@ TEST(Loss, FoundInTimeItHearsTheNextWordAtOnce) {
   wire.cycle(kExchange7D, kInputs);
   wire.tellsNothing();
   EXPECT_EQ(1u, wire.status().counters.losses);
+  EXPECT_EQ(0u, wire.status().counters.departures);
 }
 
 // Its Stat_Diag stood when it fell silent: whether it does still is asked, for its inputs do not count until then, and
@@ -274,11 +278,13 @@ TEST(Loss, StartsOverWhenTheSlaveLeftDataExchange) {
   EXPECT_EQ(SlavePhase::kFirstDiagnosis, wire.status().phase);
   EXPECT_FALSE(wire.status().exchanged_this_cycle);
   EXPECT_EQ(LossCause::kLeftDataExchange, wire.tells(DpEventKind::kSlaveLost).cause);
+  EXPECT_EQ(1u, wire.status().counters.departures);
   wire.isFree();
   wire.takesParameters();
   wire.takesConfiguration();
   wire.cycle(kDiag5D, kReady);
   wire.tells(DpEventKind::kDataExchangeEntered);
+  EXPECT_EQ(1u, wire.status().counters.departures);
 }
 
 // A diagnosis with Prm_Req in data exchange, or one of no owner: from the beginning.
@@ -295,6 +301,7 @@ TEST(Loss, StartsOverWhenTheDiagnosisAsksForParameters) {
     wire.cycleEnds();
     EXPECT_FALSE(wire.status().exchanged_this_cycle);
     EXPECT_EQ(LossCause::kParametersRequested, wire.tells(DpEventKind::kSlaveLost).cause);
+    EXPECT_EQ(1u, wire.status().counters.departures);
     wire.isFree();
   }
 }

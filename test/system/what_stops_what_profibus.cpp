@@ -10,6 +10,10 @@ namespace {
 constexpr std::uint8_t kFirstStation = 3;
 constexpr std::size_t kControlOffset = 15;  // SD2 head of 7 bytes, PKW of 8 (PPO 1)
 constexpr std::size_t kDataTelegram = 21;   // with PZD of 4, FCS and ED
+constexpr std::size_t kFunctionOffset = 3;  // SD1 telegram: an answer without data
+constexpr std::uint8_t kNotActivated = 0x03;
+constexpr char kInterrupted[] =
+    "drive right stopped: its connection to the bus was reset, or left operation, without being asked";
 
 class ProfibusStopRig final : public StopRig {
  public:
@@ -30,11 +34,20 @@ class ProfibusStopRig final : public StopRig {
       const std::vector<std::uint8_t> sent = fromHex(request), came = fromHex(answer);
       if (sent.size() == kDataTelegram) sawSent(i, wordAt(sent, 0), wordAt(sent, 2));
       if (came.size() == kDataTelegram) sawStatus(i, wordAt(came, 0), exchanged);
+      if (i == 1) tells_state_ = came.size() == 6 && came[kFunctionOffset] == kNotActivated;
     }
   }
+  /// RS is its answer to the exchange: it is in data exchange no longer.
+  bool sawUnaskedState() const override { return tells_state_; }
   void passWithoutTheDriver(Duration span) override { robot_.segment().run(span); }
 
   void setBusPresent(bool present) override { robot_.segment().setDevicePresent(present); }
+
+  /// The module of the right drive loses its supply for a moment; the inverter does not.
+  void restartRightModule() {
+    robot_.segment().station(1).setPowered(false);
+    robot_.segment().station(1).setPowered(true);
+  }
 
   /// Every cycle asks for an answer.
   Duration silenceCounts() const override { return Duration::zero(); }
@@ -52,6 +65,7 @@ class ProfibusStopRig final : public StopRig {
   }
 
   SimulatedRobot robot_;
+  bool tells_state_ = false;
 };
 
 template <int kCycleRate>
@@ -70,6 +84,19 @@ INSTANTIATE_TEST_SUITE_P(Profibus, NodeEnds,
                          ::testing::Combine(::testing::Values(StopBus{"100Hz", makeRig<100>}),
                                             ::testing::ValuesIn(endMoments())),
                          nameOfEnd);
+
+ProfibusStopRig& profibus(WhatStopsWhat& test) {
+  return static_cast<ProfibusStopRig&>(test.rig());
+}
+
+// At 200 cycles a second it is set up again in less than drive_timeout, 50 ms: without being told, its drive would run on.
+INSTANTIATE_TEST_SUITE_P(
+    ProfibusStation, WhatStopsWhat,
+    ::testing::Combine(::testing::Values(StopBus{"100Hz", makeRig<100>}, StopBus{"200Hz", makeRig<200>}),
+                       ::testing::Values(StopRow{"RestartsItself", Known::kNodeState, Reaction::kOneIsGone,
+                                                 After::kLatched, kInterrupted,
+                                                 [](WhatStopsWhat& test) { profibus(test).restartRightModule(); }})),
+    nameOfStop);
 
 }  // namespace
 }  // namespace nord_driver::test

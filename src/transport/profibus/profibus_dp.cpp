@@ -185,6 +185,7 @@ void ProfibusDpTransport::takeInputs(std::size_t station, std::vector<DriveExcha
   for (const std::size_t drive : members) {
     const std::size_t place = drives_[drive].place;
     inputs[drive] = {};
+    inputs[drive].interruption = takeInterruption(drive);
     if (answers) takeInverter(drive, master_->inputs(station), inputs[drive], pkw[place]);
     const ByteView own = master_->inputs(station);
     if (answers && config_.stations[station].io_byte && !own.empty())
@@ -214,6 +215,14 @@ void ProfibusDpTransport::takeInputs(std::size_t station, std::vector<DriveExcha
     if (!state.inverter_answers) inputs[drive].input = {};
     explain(drive);
   }
+}
+
+// Silence is the drive's own to judge, by drive_timeout: a station that has left, though, may be set up again within it, and
+// its first word would go on with a motion nobody knows the end of.
+Interruption ProfibusDpTransport::takeInterruption(DriveIndex drive) noexcept {
+  const std::uint64_t departures = master_->status(config_.drives[drive].slave).counters.departures;
+  const bool told = std::exchange(drives_[drive].departures_told, departures) == departures;
+  return told ? Interruption::kNone : Interruption::kUnasked;
 }
 
 void ProfibusDpTransport::takeInverter(DriveIndex drive, ByteView station_inputs, DriveExchange& input,

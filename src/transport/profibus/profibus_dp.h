@@ -67,7 +67,8 @@ class ProfibusDpTransport final : public Transport, public BusScanner {
   struct DriveState {
     bool module_answers = false;
     bool inverter_answers = false;
-    std::size_t place = 0;  ///< among the drives of its station
+    std::size_t place = 0;              ///< among the drives of its station
+    std::uint64_t departures_told = 0;  ///< of its station
     Sentence note;
   };
 
@@ -86,6 +87,7 @@ class ProfibusDpTransport final : public Transport, public BusScanner {
   void takeInputs(std::size_t station, std::vector<DriveExchange>& inputs) noexcept;
   void takeInverter(DriveIndex drive, ByteView station_inputs, DriveExchange& input,
                     profile::PkwWords& pkw) const noexcept;
+  Interruption takeInterruption(DriveIndex drive) noexcept;
   void askModule(std::size_t station) noexcept;
   void explain(DriveIndex drive) noexcept;
 
