@@ -1,5 +1,7 @@
 #include "cycle/guest_gate.h"
 
+#include <algorithm>
+
 namespace nord_driver::cycle {
 
 using profile::DriveState;
@@ -37,7 +39,8 @@ void GuestGate::handleInputs(std::vector<DriveExchange>& inputs) noexcept {
 
 void GuestGate::look(const std::vector<DriveExchange>& inputs) noexcept {
   heard_ = !heard_each_.empty() && inputs.size() >= heard_each_.size();
-  for (DriveIndex i = 0; i < inputs.size() && i < heard_each_.size(); ++i) {
+  const std::size_t seen = std::min(inputs.size(), heard_each_.size());
+  for (DriveIndex i = 0; i < seen; ++i) {
     heard_each_[i] = inputs[i].inverter_answers;
     heard_ = heard_ && heard_each_[i];
   }

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <map>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,7 @@ class ScriptedTransport final : public Transport {
   };
 
   explicit ScriptedTransport(std::size_t drives)
-      : inverters(drives), module_only(drives, false), interrupted(drives, false) {}
+      : inverters(drives), module_only(drives, false), missing(drives, false), interrupted(drives, false) {}
 
   void configure(const Settings&, const std::vector<DriveSettings>&, double) override {}
   Instant now() const noexcept override { return time; }
@@ -38,7 +39,9 @@ class ScriptedTransport final : public Transport {
       const profile::ProcessInput input = inverters[i].exchange(sent[i]);
       if (inverters[i].silent) continue;
       inputs[i].module_answers = true;
-      inputs[i].inverter_answers = !module_only[i];
+      inputs[i].module_inputs = module_inputs;
+      inputs[i].inverter_missing = missing[i];
+      inputs[i].inverter_answers = !module_only[i] && !missing[i];
       inputs[i].input = input;  // of a module alone it is an old one
     }
   }
@@ -97,8 +100,18 @@ class ScriptedTransport final : public Transport {
   DriveNote note(DriveIndex) const noexcept override { return {"the note of the bus"}; }
   std::uint32_t identNumber(DriveIndex) const noexcept override { return 0x7531; }
   Sentence busText() const noexcept override { return bus_text; }
-  DriveIdentity identity(DriveIndex) const override {
+  profile::ParameterCapabilities parameterCapabilities(DriveIndex) const noexcept override { return capabilities; }
+  std::optional<BusEvent> pollEvent() noexcept override {
+    if (events.empty()) return std::nullopt;
+    const BusEvent event = events.front();
+    events.pop_front();
+    return event;
+  }
+  DriveIdentity identity(DriveIndex drive) const override {
+    if (drive >= inverters.size()) throw std::out_of_range("there is no such drive");
     DriveIdentity identity{"nowhere", process_values, "PKW", "nothing"};
+    identity.timeout_owner = timeout_owner;
+    identity.sources_by_telegram = sources_by_telegram;
     identity.shared_module = shared_module;
     identity.worst_cycle = worst_cycle;
     identity.parameter_sets = parameter_sets;
@@ -112,12 +125,18 @@ class ScriptedTransport final : public Transport {
   double worst_cycle = 0.0;                  ///< s
   std::uint8_t parameter_sets = 4;           ///< that its control word can command
   bool has_quick_stop = true;
+  TimeoutOwner timeout_owner = TimeoutOwner::kInverter;
+  bool sources_by_telegram = false;
+  profile::ParameterCapabilities capabilities;
+  std::uint8_t module_inputs = 0;  ///< of each module
+  std::deque<BusEvent> events;
   std::optional<Duration> told_drive_timeout;
   std::optional<Duration> told_shutdown_timeout;
   Instant time{std::chrono::hours{1}};
   Duration exchange_time = std::chrono::milliseconds{2};
   std::vector<drive::FakeInverter> inverters;
   std::vector<bool> module_only;  ///< the bus module answers, its inverter is off
+  std::vector<bool> missing;      ///< the same, and the module says so
   std::vector<bool> interrupted;  ///< in the next cycle
   std::vector<profile::ProcessOutput> outputs;
   std::map<int, std::int32_t> parameters{{105, 500}};

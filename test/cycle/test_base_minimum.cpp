@@ -159,6 +159,24 @@ TEST_F(BaseMinimumWithRamps, TheRampGoesOnFromWhereTheWheelsAreFastEnough) {
   expectRest();
 }
 
+// While a wheel comes to rest by OFF1 it follows nothing: the ramp begins where it rests, and is no jump.
+TEST_F(BaseMinimumWithRamps, TheRampWaitsForAWheelThatComesToRest) {
+  begin(5.0, 5.0);
+  hold(4.0, 0.0, 60);
+  ASSERT_DOUBLE_EQ(4.0, snapshot().base.command.linear_x);
+  transport.inverters[kLeft].ramp = 16;  // a longer P103
+  hold(0.0, 0.0, 40);
+  ASSERT_EQ(0x047E, controlWord(kLeft));
+  int waits = 0;
+  while (controlWord(kLeft) == 0x047E && waits < 300) {
+    commandBase(4.0);
+    step();
+    ++waits;
+  }
+  EXPECT_GT(waits, 60) << "P103 takes longer than the limit";
+  EXPECT_LT(snapshot().base.command.linear_x, 2.0) << "10 m/s^2, from where it rests";
+}
+
 // Whatever is commanded, for whatever P104: the signs on the wire are those of the twist, and no wheel turns by its
 // P104.
 TEST(BaseMinimumProperty, NoWheelTurnsAgainstTheTwistOrAlone) {

@@ -181,6 +181,42 @@ TEST(CyclePorts, RemembersWhenSomethingWasToMove) {
   EXPECT_EQ(second, output.received);
 }
 
+// So does a velocity: whoever wants to enable the drive is told of it.
+TEST(CyclePorts, RemembersWhenADriveWasToTurn) {
+  CyclePorts ports{2};
+  const Instant first{std::chrono::hours{1}}, second{std::chrono::hours{2}};
+  ports.commandDrive(0, {0.0, first, true});
+  EXPECT_FALSE(ports.newestDriveCommand(0).moved);
+  ports.commandDrive(0, {1.0, first, true});
+  ports.commandDrive(0, {0.0, second, true});
+  EXPECT_EQ(first, ports.newestDriveCommand(0).moved);
+  EXPECT_EQ(second, ports.newestDriveCommand(0).received);
+  ports.commandDrive(1, {0.0, second, true});
+  EXPECT_FALSE(ports.newestDriveCommand(1).moved) << "the other one's";
+}
+
+TEST(CyclePorts, TheSizesOfTheBaseAreThoseGivenLast) {
+  CyclePorts ports{1};
+  EXPECT_FALSE(ports.newestBaseTuning().given);
+  ports.tuneBase({1.25, 1.0, 1.0, true});
+  ports.tuneBase({1.5, 0.9, 1.1, true});
+  EXPECT_TRUE(ports.newestBaseTuning().given);
+  EXPECT_EQ(1.5, ports.newestBaseTuning().wheel_separation_multiplier);
+  EXPECT_EQ(0.9, ports.newestBaseTuning().left_wheel_radius_multiplier);
+  EXPECT_EQ(1.1, ports.newestBaseTuning().right_wheel_radius_multiplier);
+}
+
+// Somebody whose time has run out still takes what is there.
+TEST(CyclePorts, NoTimeLeftIsALookAtWhatIsThere) {
+  CyclePorts ports{1};
+  ports.complete(completion(7));
+  ports.publish(CycleSnapshot{1});
+  const auto answer = ports.waitCompletion(-std::chrono::seconds{10});
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(7u, answer->id);
+  EXPECT_FALSE(ports.waitCompletion(-std::chrono::seconds{10}));
+}
+
 // As old as its time-out it still counts; without one for ever, and one that was never given never.
 TEST(Commands, GrowOldBehindTheirTimeOut) {
   const Instant now{std::chrono::hours{1}};

@@ -210,5 +210,39 @@ TEST(Gate, ADriveThatRanKeepsItClosed) {
   }
 }
 
+// Closed again it knows nothing: neither who was heard, nor the fault, nor the drive that ran.
+TEST(Gate, ForgetsWhatItSawWhenItIsClosedAgain) {
+  GuestGate gate{true};
+  hear(gate, {0x0238, 0x0B37}, 3);
+  ASSERT_TRUE(gate.heard() && gate.hears(0) && gate.faultSeen() && gate.running());
+  gate.close(2);
+  EXPECT_FALSE(gate.heard());
+  EXPECT_FALSE(gate.hears(0));
+  EXPECT_FALSE(gate.faultSeen());
+  EXPECT_FALSE(gate.running());
+  hear(gate, {0x0B31, 0x0B31}, 3);
+  EXPECT_TRUE(gate.isOpen());
+}
+
+// One that is not there at all is not waited for.
+TEST(Gate, OpensWithoutThoseThatAreNotAwaited) {
+  GuestGate gate{true};
+  hear(gate, {0x0B31, 0}, 3);
+  EXPECT_TRUE(gate.isOpen());
+}
+
+// Of an inverter that is off behind its module the module sends an old word.
+TEST(Gate, TakesNoOldWordForADriveThatRuns) {
+  GuestGate gate{true};
+  for (int i = 0; i < 3; ++i) {
+    auto inputs = heard({0x0B31, 0x0B37});
+    inputs[1].inverter_answers = false;
+    inputs[1].module_answers = true;
+    gate.handleInputs(inputs);
+  }
+  EXPECT_FALSE(gate.running());
+  EXPECT_TRUE(gate.isOpen());
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

@@ -3,26 +3,12 @@
 
 #include <cmath>
 
-#include "cycle/cycle_bench.h"
+#include "cycle/steered_cycle_bench.h"
 
 namespace nord_driver::cycle {
 namespace {
 
-constexpr double kQuarter = 1.57079632679489662;
-
-BaseConfig steeredBase() {
-  BaseConfig config;
-  config.kind = robot::BaseKind::kSteered;
-  SteeredConfig steered;
-  steered.wheels = {0, 1};
-  steered.steering = {2, 3};
-  steered.axles = {{0.5, 0.0, 0.1, -kQuarter, kQuarter}, {-0.5, 0.0, 0.1, -kQuarter, kQuarter}};
-  steered.angle_tolerance = 0.05;
-  config.steered = steered;
-  return config;
-}
-
-/// The same, 1 m/s^2 and 1 rad/s^2.
+/// steeredBase() with limits of 1 m/s^2 and 1 rad/s^2.
 BaseConfig rampedBase() {
   BaseConfig config = steeredBase();
   for (robot::SpeedLimits* axis : {&config.limits.linear_x, &config.limits.angular_z, &config.limits.linear_y}) {
@@ -32,46 +18,10 @@ BaseConfig rampedBase() {
   return config;
 }
 
-/// Wheels 0 and 1 before and behind the middle, steered by drives 2 and 3, which stand at 0 whatever they are told.
-class SteeredCycle : public ::testing::Test, protected CycleBench {
+class SteeredCycle : public ::testing::Test, protected SteeredBench {
  protected:
-  explicit SteeredCycle(std::size_t velocity_window = 10) : SteeredCycle{config(velocity_window)} {}
-  explicit SteeredCycle(const CycleConfig& config) : CycleBench{config} {
-    transport.parameters[600] = 1;
-    for (const DriveIndex steering : {DriveIndex{2}, DriveIndex{3}}) {
-      transport.of_drive[steering] = {{543, 1}, {544, 10}, {545, 15}, {546, 1}, {547, 21}, {548, 22}, {480, 22}};
-      transport.inverters[steering].ramp = 0;
-    }
-    run(100);
-  }
-  static CycleConfig config(std::size_t velocity_window) {
-    CycleConfig config = CycleBench::config();
-    config.cmd_vel_timeout = std::chrono::milliseconds{500};
-    config.drives.resize(2);
-    config.drives[0].name = "front";
-    config.drives[1].name = "rear";
-    for (const char* name : {"front_steering", "rear_steering"}) {
-      DriveSetup setup = config.drives[0];
-      setup.name = name;
-      setup.position = PositionSetup{};
-      setup.position->home = PositionBit{};
-      setup.position->axis.scale.revolutions_per_unit = 100.0;
-      setup.drive.position = setup.position->axis;
-      config.drives.push_back(setup);
-    }
-    config.base = steeredBase();
-    config.base->velocity_rolling_window_size = velocity_window;
-    return config;
-  }
-  /// A command to the left, for as many cycles, heard in each of them.
-  void driveSideways(int cycles) {
-    for (int i = 0; i < cycles; ++i) {
-      TwistCommand command{{}, transport.time, true};
-      command.twist.linear_y = 0.2;
-      ports.commandBase(command);
-      step();
-    }
-  }
+  explicit SteeredCycle(std::size_t velocity_window = 10) : SteeredBench{velocity_window} {}
+  explicit SteeredCycle(const CycleConfig& config) : SteeredBench{config} {}
 };
 
 // It passes as soon as the wheels are steered, so that it is told after 5 s of waiting, and every 5 s then.
@@ -117,7 +67,7 @@ class SteeredCycleWithLimits : public SteeredCycle {
  protected:
   SteeredCycleWithLimits() : SteeredCycle{limited()} {}
   static CycleConfig limited() {
-    CycleConfig config = SteeredCycle::config(10);
+    CycleConfig config = SteeredBench::config();
     for (const std::size_t steering : {2, 3}) {
       drive::PositionConfig& axis = *config.drives[steering].drive.position;
       axis.stray = 0.05;

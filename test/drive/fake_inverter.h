@@ -23,6 +23,7 @@ class FakeInverter {
   int set_delay = 0;           ///< cycles until it follows another parameter set
   std::int16_t second = 0;     ///< actual value 2, of a position its low word
   Word more = 0;               ///< bits of its status word besides, say bit 10
+  bool reached = true;         ///< status bit 8
   std::int16_t third = 0;      ///< actual value 3, of a position its high word
 
   /// Takes the telegram; the input is what the inverter says after it.
@@ -46,7 +47,7 @@ class FakeInverter {
       frequency_ = 0;
     }
     profile::ProcessInput input;
-    input.status_word = static_cast<Word>((local ? 0x0900 : 0x0B00) | low_ | set_ | more);
+    input.status_word = static_cast<Word>((local ? 0x0800 : 0x0A00) | (reached ? 0x0100 : 0) | low_ | set_ | more);
     input.actual_values = {frequency_, second, third};
     return input;
   }
