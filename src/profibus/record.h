@@ -25,10 +25,10 @@ struct RecordRequest {
 enum class RecordOutcome : std::uint8_t {
   kDone,
   kRefused,       ///< a negative response: see `error`
-  kTimedOut,      ///< no response in time, or busy all the time
+  kTimedOut,      ///< no response in time, or busy all the time; RS to a write that had been taken
   kNoAnswer,      ///< the access point did not answer at all, retries included
   kNotSupported,  ///< the slave is configured without DP-V1
-  kNotActivated,  ///< the slave answered RS: its access point is not active
+  kNotActivated,  ///< the slave answered RS: its access point is not active, and nothing was written
   kOffline        ///< the slave is not in data exchange, or left it
 };
 

@@ -64,7 +64,8 @@ void RecordChannel::handleAnswer(const FdlAnswer& answer, Instant now) noexcept 
       // No resource for the moment: once more, until the end.
       if (answer.code != ResponseCode::kNotActivated) return handleNoResource(now);
       given_up_ = false;
-      return end(RecordOutcome::kNotActivated);
+      // A write that was taken may have been carried out: it has no response, which says nothing of it.
+      return end(request_.write && state_ == State::kPolling ? RecordOutcome::kTimedOut : RecordOutcome::kNotActivated);
   }
 }
 

@@ -254,6 +254,19 @@ TEST(Records, InactiveAccessPoint) {
   wire.plainCycle();
 }
 
+// RS behind the acknowledgement of a write: whether it was carried out is not known, which "not activated" would deny.
+TEST(Records, AnAccessPointThatEndsBehindATakenWrite) {
+  RecordWire wire;
+  wire.startsUpModular();
+  ASSERT_TRUE(wire.master.submitRecord(0, writeOrder()));
+  wire.cycleWith(kWriteRequest, "E5");
+  wire.cycleWith(kPoll5C, kNotActivated);
+  EXPECT_EQ(RecordOutcome::kTimedOut, wire.result().outcome);
+  ASSERT_TRUE(wire.master.submitRecord(0, writeOrder()));
+  wire.cycleWith(kWriteRequest, kNotActivated);
+  EXPECT_EQ(RecordOutcome::kNotActivated, wire.result().outcome) << "not taken";
+}
+
 // RR: no resource for the moment. The request is sent again.
 TEST(Records, NoResourceIsTriedAgain) {
   RecordWire wire;

@@ -121,6 +121,21 @@ TEST_F(OnAModule, CarriesEachInverterItsOwnWordsAtOddOffsets) {
   EXPECT_EQ("no rule broken", segment_->referee().report());
 }
 
+// One module for all of them: with it, all have left.
+TEST_F(OnAModule, EachInverterIsToldThatTheModuleLeft) {
+  bringUp({1, 3});
+  segment_->station(0).setPowered(false);
+  segment_->station(0).setPowered(true);
+  int told = 0;
+  for (int i = 0; i < 100; ++i) {
+    step();
+    EXPECT_EQ(inputs_[0].interruption, inputs_[1].interruption);
+    if (inputs_[0].interruption == Interruption::kUnasked) ++told;
+  }
+  EXPECT_EQ(1, told);
+  EXPECT_TRUE(allAnswer());
+}
+
 // The driver owns the digital outputs of the module and switches nothing with them.
 TEST_F(OnAModule, TheIoByteIsZeroWhateverTheDrivesDo) {
   bringUp({3}, true);
