@@ -21,7 +21,10 @@ class CycleBench {
                       const drive::StopWays& ways = {})
       : CycleBench{config(typed_max_frequency, acceleration, ways)} {}
   explicit CycleBench(const CycleConfig& config, bool auto_enable = false)
-      : transport{config.drives.size()}, ports{config.drives.size()}, cycle{config, transport, ports, auto_enable} {}
+      : CycleBench{config, ScriptedTransport{config.drives.size()}, auto_enable} {}
+  /// `prepared`: what the cycle is told of the bus when it begins.
+  CycleBench(const CycleConfig& config, const ScriptedTransport& prepared, bool auto_enable = false)
+      : transport{prepared}, ports{config.drives.size()}, cycle{config, transport, ports, auto_enable} {}
 
   void step() {
     const Instant start = transport.time;

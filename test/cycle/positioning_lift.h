@@ -10,7 +10,9 @@ namespace nord_driver::cycle {
 /// It stands at 0.5 rad, held by a brake, whatever it is told. P546 to P548 = 1, 21, 22 and P543 to P545 = 1, 10, 15.
 class PositioningLift : public CycleBench {
  public:
-  explicit PositioningLift(const CycleConfig& config = PositioningLift::config()) : CycleBench{config} {
+  explicit PositioningLift(const CycleConfig& config = PositioningLift::config(),
+                           const ScriptedTransport& prepared = ScriptedTransport{1})
+      : CycleBench{config, prepared} {
     transport.parameters = {{105, 500}, {543, 1},  {544, 10}, {545, 15}, {546, 1},
                             {547, 21},  {548, 22}, {600, 1},  {610, 2}};
     transport.inverters[0].second = 500;

@@ -100,5 +100,42 @@ TEST(CycleStops, ABaseThatIsEnabledSoonAfterAStopBeginsFromStandstill) {
   }
 }
 
+// Within the jerk limit it would go on gaining speed: nobody asks for that any more.
+TEST(CycleStops, ADriveWhoseCommandGrewOldSlowsDownFromTheFirstStepOn) {
+  CycleConfig config = CycleBench::config();
+  robot::SpeedLimits& limits = config.drives[CycleBench::kLift].limits;
+  limits.has_acceleration_limits = limits.has_jerk_limits = true;
+  limits.max_acceleration = 20.0;
+  limits.max_jerk = 40.0;
+  CycleBench bench{config};
+  bench.run(80);
+  ASSERT_TRUE(bench.ask(RequestKind::kEnable, CycleBench::kLift).success);
+  bench.commandLift(100.0);
+  bench.run(50);
+  const int before = bench.setpoint(CycleBench::kLift);
+  bench.step();
+  ASSERT_GT(bench.setpoint(CycleBench::kLift), before) << "it still gets faster";
+  const int fastest = bench.setpoint(CycleBench::kLift);
+  bench.run(3);
+  EXPECT_LT(bench.setpoint(CycleBench::kLift), fastest);
+}
+
+TEST(CycleStops, ADriveThatIsCommandedToStandKeepsItsJerkLimit) {
+  CycleConfig config = CycleBench::config();
+  robot::SpeedLimits& limits = config.drives[CycleBench::kLift].limits;
+  limits.has_acceleration_limits = limits.has_jerk_limits = true;
+  limits.max_acceleration = 20.0;
+  limits.max_jerk = 40.0;
+  CycleBench bench{config};
+  bench.run(80);
+  ASSERT_TRUE(bench.ask(RequestKind::kEnable, CycleBench::kLift).success);
+  bench.commandLift(100.0);
+  bench.run(30);
+  const int before = bench.setpoint(CycleBench::kLift);
+  bench.commandLift(0.0);
+  bench.step();
+  EXPECT_GT(bench.setpoint(CycleBench::kLift), before);
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

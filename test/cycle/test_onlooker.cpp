@@ -14,16 +14,16 @@ namespace {
 using ::testing::HasSubstr;
 
 struct Onlooker {
-  explicit Onlooker(const std::vector<SignalSetup>& signals = {})
-      : transport{1}, ports{1}, cycle{config(signals), transport, ports, false, CycleRole::kOnlooker} {}
+  explicit Onlooker(const WordSetup& words = {})
+      : transport{1}, ports{1}, cycle{config(words), transport, ports, false, CycleRole::kOnlooker} {}
 
-  static CycleConfig config(const std::vector<SignalSetup>& signals) {
+  static CycleConfig config(const WordSetup& words) {
     CycleConfig config;
     config.service_timeout = std::chrono::seconds{1};
     DriveSetup setup;
     setup.name = "belt";
     setup.drive.joint.pole_pairs = 2;
-    setup.words.signals = signals;
+    setup.words = words;
     config.drives.push_back(setup);
     return config;
   }
@@ -71,7 +71,9 @@ TEST(Onlooker, TellsTheSignalsOfTheSetInForce) {
   door.name = "door";
   door.source = SignalSource::kDigitalInput;
   door.number = 3;
-  Onlooker onlooker{{door}};
+  WordSetup words;
+  words.signals = {door};
+  Onlooker onlooker{words};
   for (const int number : {543, 546}) onlooker.transport.parameters[number] = 1;
   for (const int number : {545, 547, 548}) onlooker.transport.parameters[number] = 0;
   onlooker.transport.parameters[544] = 5;  // state of the digital inputs and outputs
@@ -98,6 +100,41 @@ TEST(Onlooker, RefusesWhateverCommandsOrWrites) {
     EXPECT_THAT(answer.message.str(), HasSubstr("read_only is true")) << static_cast<int>(kind);
   }
   onlooker.run(50);
+}
+
+// What its setpoints would need, in each parameter set, nobody has to know: it sends none.
+TEST(Onlooker, ReadsNothingForWhatItDoesNotSend) {
+  const auto readsOfSetpoint3 = [](const WordSetup& words) {
+    Onlooker onlooker{words};
+    onlooker.transport.hold_answers = true;
+    int reads = 0;
+    for (int i = 0; i < 200; ++i) {
+      onlooker.run();
+      while (!onlooker.transport.submitted.empty()) {
+        reads += onlooker.transport.submitted.front().request.number == 548 ? 1 : 0;
+        onlooker.transport.answerFirst();
+      }
+    }
+    return reads;
+  };
+  WordSetup setpoint;
+  setpoint.setpoints.emplace_back();
+  setpoint.setpoints[0].use = profile::WordUse::kTorqueLimit;
+  EXPECT_EQ(1, readsOfSetpoint3(setpoint)) << "once, for /diagnostics";
+  WordSetup input;
+  input.signals.emplace_back();
+  input.signals[0].source = SignalSource::kDigitalInput;
+  input.signals[0].number = 1;
+  EXPECT_EQ(4, readsOfSetpoint3(input)) << "of each set";
+}
+
+// In the fields of a parameter's answer, too: no device was asked.
+TEST(Onlooker, TellsAWriteItRefusesApart) {
+  Onlooker onlooker;
+  onlooker.run(10);
+  const Completion answer = onlooker.ask(RequestKind::kWriteParameter);
+  EXPECT_EQ(profile::ParameterOutcome::kRefused, answer.parameter.outcome);
+  EXPECT_EQ(profile::ParameterReason::kDriver, answer.parameter.reason);
 }
 
 // What another master drives is nobody's ramp that does not end, and nobody's terminals.
