@@ -67,6 +67,11 @@ class ParametersBench {
     Result result;
     result.id = request.id;
     if (silent.count(request.number) != 0) return result;  // a time-out
+    if (not_now.count(request.number) != 0) {
+      result.outcome = profile::ParameterOutcome::kRefused;
+      result.reason = profile::ParameterReason::kNotNow;
+      return result;
+    }
     const auto own = values.find(request.number + 1000 * request.parameter_set);
     const auto value = own != values.end() ? own : values.find(request.number);
     if (value == values.end()) {
@@ -96,8 +101,9 @@ class ParametersBench {
   drive::FakeInverter inverter;
   std::optional<Word> says;  ///< the status word instead of the inverter's
   std::map<int, std::int32_t> values{{102, 100}, {105, 500}, {301, 0}, {513, 5}, {560, 1}};
-  std::set<int> held;    ///< these stay without an answer
-  std::set<int> silent;  ///< these time out
+  std::set<int> held;     ///< these stay without an answer
+  std::set<int> silent;   ///< these time out
+  std::set<int> not_now;  ///< these are refused for the moment
   std::vector<Request> open, asked;
   std::vector<Completion> completions;
   std::uint32_t last_id = 0;
