@@ -121,7 +121,7 @@ DriveParameters::DriveParameters(DriveIndex drive, std::string name, profile::Se
 // P105 as read; as typed where the drive does not tell it. What else could not be read refuses nothing: /diagnostics
 // tells it.
 void DriveParameters::scale(drive::Drive& drive) const noexcept {
-  for (std::uint8_t set = 1; set <= 4; ++set) {
+  for (std::uint8_t set = 1; set <= reader_.data().max_frequency.size(); ++set) {
     const auto& read = reader_.data().max_frequency[set - 1u];
     if (read) {
       drive.setMaxFrequency(set, Hertz{*read});
