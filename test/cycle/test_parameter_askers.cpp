@@ -224,6 +224,27 @@ TEST_F(BehindAModule, ItsTimeoutIsReadAgainWhenAnotherDriveHasWrittenIt) {
   EXPECT_EQ(0.5, parameters.device().module_timeout);
 }
 
+// On a silent channel once, however long the answer is awaited; what is missing meanwhile waits for it, and has its three
+// attempts for itself.
+TEST_F(BehindAModule, ItsTimeoutIsAskedForOnceWhileNothingIsAnswered) {
+  silent = {151, 510};
+  runUntilComplete();
+  asked.clear();
+  for (int i = 0; i < 250 && reads(510) < 3; ++i) step();
+  ASSERT_EQ(3, reads(510));
+  run(2);
+  held = {151};
+  parameters.readModuleAgain();
+  asked.clear();
+  run(300);
+  EXPECT_EQ(1u, open.size());
+  EXPECT_EQ(0, reads(510));
+  held.clear();
+  run(30);
+  EXPECT_EQ(1, reads(151));
+  EXPECT_EQ(3, reads(510));
+}
+
 TEST_F(BehindAModule, WhatAUserReadsIsNotReadAgain) {
   runUntilComplete();
   asked.clear();
