@@ -31,8 +31,8 @@ bool mayChange(const profile::ParameterResult& result) noexcept {
 DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool further_words, bool positions,
                            std::uint8_t out_bit) noexcept
     : series_(series) {
-  for (std::uint8_t set = 1; set <= kSets; ++set) add(kMaxFrequency, set, 1);
-  for (std::uint8_t set = 1; set <= kSets; ++set) add(kMinFrequency, set, 1);
+  for (std::uint8_t set = 1; set <= kSets; ++set) add({kMaxFrequency, set});
+  for (std::uint8_t set = 1; set <= kSets; ++set) add({kMinFrequency, set});
   for (std::uint8_t set = 1; set <= kSets; ++set) addFunction(kFirstActualValue, 0, set);
   for (std::uint8_t set = 1; set <= kSets; ++set) addFunction(kFirstSetpoint, 0, set);
   if (further_words) {
@@ -40,47 +40,52 @@ DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool furt
     addBusBits();
   }
   if (positions) {
-    for (std::uint8_t set = 1; set <= kSets; ++set) add(kPositionControl, set, 1);
-    add(kSetpointMode, 1, 1);
+    for (std::uint8_t set = 1; set <= kSets; ++set) add({kPositionControl, set});
+    add({kSetpointMode});
   }
-  if (out_bit != 0) add(kOutBits, 1, out_bit);
-  add(kControlWordSource, 1, 1);
-  add(kSetpointSource, 1, 1);
+  if (out_bit != 0) addElement(kOutBits, out_bit);
+  add({kControlWordSource});
+  add({kSetpointSource});
   motion_items_ = items_.size();
-  add(kTelegramTimeout, 1, 1);
+  add({kTelegramTimeout});
   if (owner == TimeoutOwner::kModule) {
-    add(kModuleTimeout, 1, 1);
-    add(kOptionMonitoring, 1, 1);
+    add({kModuleTimeout});
+    add({kOptionMonitoring});
   }
-  add(kEepromSwitch, 1, 1);
-  add(kSoftwareVersion, 1, 1);
-  add(kSoftwareVersion, 1, 2);
+  add({kEepromSwitch});
+  add({kSoftwareVersion});
+  addElement(kSoftwareVersion, 2);
   if (!further_words) {
     addFurtherFunctions(1);
     addBusBits();
   }
   for (std::uint8_t set = 1; set <= kSets && positions; ++set) {
-    add(kSpeedRatio, set, 1);
-    add(kReduction, set, 1);
+    add({kSpeedRatio, set});
+    add({kReduction, set});
   }
   for (std::uint8_t set = 1; set <= kSets; ++set) {
-    add(kAccelerationTime, set, 1);
-    add(kDecelerationTime, set, 1);
+    add({kAccelerationTime, set});
+    add({kDecelerationTime, set});
   }
 }
 
-void DeviceReader::add(std::uint16_t number, std::uint8_t set, std::uint8_t index) noexcept {
-  if (profile::findCycleParameter(number, series_) != nullptr) items_.push_back({number, set, index});
+void DeviceReader::add(const Item& item) noexcept {
+  if (profile::findCycleParameter(item.number, series_) != nullptr) items_.push_back(item);
+}
+
+void DeviceReader::addElement(std::uint16_t number, std::uint8_t index) noexcept {
+  Item item{number};
+  item.index = index;
+  add(item);
 }
 
 // Functions 1..3: three parameters on SK 500E-535E, one array on the others (BU 2700 6.4.4).
 void DeviceReader::addFunction(std::uint16_t first_number, std::uint8_t place, std::uint8_t set) noexcept {
   const profile::CycleParameter* info = profile::findCycleParameter(first_number, series_);
-  if (info == nullptr) return;
-  if (profile::isArray(info->shape)) {
-    add(first_number, set, static_cast<std::uint8_t>(place + 1));
+  if (info != nullptr && profile::isArray(info->shape)) {
+    add({first_number, set, static_cast<std::uint8_t>(place + 1)});
   } else {
-    add(static_cast<std::uint16_t>(first_number + place), set, 1);
+    add({static_cast<std::uint16_t>(first_number + place), set});
   }
 }
 
@@ -91,7 +96,7 @@ void DeviceReader::addFurtherFunctions(std::uint8_t set) noexcept {
 
 void DeviceReader::addBusBits() noexcept {
   const profile::CycleParameter* info = profile::findCycleParameter(kBusBits, series_);
-  for (std::uint8_t i = 1; info != nullptr && i <= info->elements; ++i) add(kBusBits, 1, i);
+  for (std::uint8_t i = 1; info != nullptr && i <= info->elements; ++i) addElement(kBusBits, i);
 }
 
 void DeviceReader::handleOffline() noexcept {
@@ -191,11 +196,7 @@ void DeviceReader::handleResult(const profile::ParameterResult& result) noexcept
   silent_ = timed_out;
   answered_ = answered_ || !mayChange(result);
   items_[asked_].due = mayChange(result) && asked_ < motion_items_;
-  if (result.outcome == profile::ParameterOutcome::kDone) {
-    store(items_[asked_], result.raw);
-  } else {
-    leaveOut(items_[asked_]);
-  }
+  if (result.outcome == profile::ParameterOutcome::kDone) store(items_[asked_], result.raw);
   attempts_ = 0;
   if (next_ == asked_) ++next_;  // set back meanwhile, it stays there
 }
@@ -242,16 +243,12 @@ void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
   }
 }
 
-void DeviceReader::leaveOut(const Item& item) noexcept {
-  storeFunction(item, kUnknownFunction);
-}
-
 void DeviceReader::storeFunction(const Item& item, std::uint16_t function) noexcept {
-  const bool actual_value = item.number >= kFirstActualValue && item.number < kFirstSetpoint;
-  if (!actual_value && (item.number < kFirstSetpoint || item.number >= kFirstSetpoint + 3)) return;
+  const bool actual_value = item.number < kFirstSetpoint;
   const unsigned parameter = item.number - unsigned{actual_value ? kFirstActualValue : kFirstSetpoint};
   const std::size_t place = parameter + item.index - 1u;
   WordFunctions& words = data_.word_functions[item.set - 1u];
+  // Whatever is read one day beside these: nothing is written beyond the places.
   if (place < words.setpoints.size()) (actual_value ? words.actual_values : words.setpoints)[place] = function;
 }
 

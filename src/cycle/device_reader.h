@@ -62,13 +62,13 @@ class DeviceReader {
     bool due = true;  // to be asked for, in this round or the next
   };
 
-  void add(std::uint16_t number, std::uint8_t set, std::uint8_t index) noexcept;
+  void add(const Item& item) noexcept;
+  void addElement(std::uint16_t number, std::uint8_t index) noexcept;
   void addFunction(std::uint16_t first_number, std::uint8_t place, std::uint8_t set) noexcept;
   void addFurtherFunctions(std::uint8_t set) noexcept;
   void addBusBits() noexcept;
   void store(const Item& item, std::int32_t raw) noexcept;
-  void leaveOut(const Item& item) noexcept;
-  /// Where a function P543 to P548 belongs; nullptr for all other parameters.
+  /// Of P543 to P548, as many of them as there are places.
   void storeFunction(const Item& item, std::uint16_t function) noexcept;
 
   profile::Series series_;

@@ -35,7 +35,7 @@ std::optional<profile::ParameterRequest> MonitorReader::pollRequest(std::uint8_t
     next_turn_ = now + kTurn;
     next_ = 0;
   }
-  for (; next_ < parameters_.size(); ++next_) {
+  for (; next_ != parameters_.size(); ++next_) {
     profile::ParameterRequest request = parameters_[next_];
     if (left_out_[next_] != 0) continue;
     if (profile::hasSets(request.shape) && request.parameter_set == 0) {
@@ -65,7 +65,7 @@ void MonitorReader::handleResult(const profile::ParameterResult& result, const c
     profile::ParameterResult told = result;
     told.refused_number = parameters_[next_].number;
     value.why.format("%s", parameterMessage(drive, told.refused_number, told).c_str());
-    left_out_[next_] = !timed_out_ && !mayPass(result.reason) ? 1 : 0;
+    left_out_[next_] = static_cast<std::uint8_t>(!timed_out_ && !mayPass(result.reason));
   }
   ++next_;
 }

@@ -85,5 +85,19 @@ TEST(ElementReaderTest, NamesItsParameterWhateverHappened) {
   EXPECT_EQ("drive lift does not answer", away->why.str());
 }
 
+// Its answer may be under way for long; the newest choice need not wait for it.
+TEST(ElementReaderTest, AsksForTheNewestChoiceAtOnce) {
+  ElementReader reader;
+  reader.ask(5);
+  reader.pollRequest();
+  reader.ask(6);
+  const auto request = reader.pollRequest();
+  ASSERT_TRUE(request);
+  EXPECT_EQ(6, request->index);
+  reader.handleResult(result(ParameterOutcome::kDone, 1), "lift");
+  reader.ask(7);
+  EXPECT_FALSE(reader.poll()) << "what was read of 6 is not chosen any more";
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

@@ -143,5 +143,25 @@ TEST_F(FaultHistoryTest, NothingIsReadOfNoFault) {
   EXPECT_EQ(1, poll()) << "it did not reach the drive";
 }
 
+// What was asked for of the fault before may be answered late: it is nothing of this one, whose elements have their own tries.
+TEST_F(FaultHistoryTest, OfANewFaultBeginsAnew) {
+  reader_.handleFault(true, kMotorHot);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(1, poll());
+    fail(ParameterOutcome::kTimeout);
+  }
+  EXPECT_EQ(1, poll());
+  reader_.handleFault(false, kMotorHot);
+  reader_.handleFault(true, kUnknown);
+  answer(40);
+  EXPECT_TRUE(reader_.history().numbers.empty());
+  reader_.handleFault(true, kMotorHot);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(1, poll());
+    fail(ParameterOutcome::kTimeout);
+  }
+  readAll(kMotorHot);
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

@@ -164,5 +164,31 @@ TEST(MonitorReader, AnAnswerNobodyWaitsForChangesNothing) {
   EXPECT_EQ(State::kNotRead, monitor.state(0));
 }
 
+TEST(MonitorReader, BeginsAgainWithTheFirstWhenTheDriveIsBack) {
+  Monitor monitor{{719, 728}};
+  ASSERT_TRUE(monitor.reader.pollRequest(1, monitor.now));
+  monitor.reader.handleResult(kDone7, "left");
+  monitor.reader.handleOffline();
+  EXPECT_THAT(monitor.asked(kSecond / 2, kDone7), ElementsAre(719, 728));
+}
+
+// The silence was that of the drive before it was away.
+TEST(MonitorReader, TheSilenceOfBeforeIsForgottenWhenTheDriveIsBack) {
+  Monitor monitor{{719, 728}};
+  EXPECT_THAT(monitor.asked(kSecond / 2, kTimeout), ElementsAre(719));
+  monitor.reader.handleOffline();
+  EXPECT_THAT(monitor.asked(kSecond / 2, kDone7), ElementsAre(719, 728));
+}
+
+TEST(MonitorReader, AValueThatIsKnownHasNoReasonNotToBe) {
+  Monitor monitor{{719}};
+  monitor.asked(kSecond, result(ParameterOutcome::kRefused, ParameterReason::kNotNow));
+  EXPECT_FALSE(monitor.reader.values()[0].why.empty());
+  monitor.asked(kSecond, kDone7);
+  EXPECT_TRUE(monitor.reader.values()[0].why.empty());
+  monitor.asked(kSecond, kTimeout);
+  EXPECT_EQ(0, monitor.reader.values()[0].raw) << "what was known is not";
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

@@ -126,6 +126,15 @@ TEST_F(MotionParameters, DecideThePositionToo) {
   for (const int number : {599, 613, 632}) EXPECT_FALSE(changesProcessData(write(number, 1))) << number;
 }
 
+// P543 to P548, not those beside them.
+TEST_F(MotionParameters, DecideWhatTheWordsMean) {
+  for (int number = 543; number <= 548; ++number) EXPECT_TRUE(changesProcessData(write(number, 1))) << number;
+  for (const int number : {542, 549}) {
+    EXPECT_FALSE(changesProcessData(write(number, 1))) << number;
+    EXPECT_FALSE(decidesMotion(write(number, 1))) << number;
+  }
+}
+
 TEST_F(MotionParameters, AMinimumFrequencyRefusesToEnable) {
   transport.parameters[1104] = 25;
   transport.parameters[2104] = 80;

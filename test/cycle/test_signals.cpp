@@ -240,5 +240,30 @@ TEST(SignalsTest, InputsAreReadFromTheWordThatCarriesThem) {
   EXPECT_EQ(1.0, value(SignalSource::kModuleInput, 4, kSk5)) << "its own supply";
 }
 
+// The words of each of the four sets; what a bus module or its drive does not tell, nobody knows.
+TEST(SignalsTest, InputsAreThoseOfTheSetInForce) {
+  DriveSnapshot drive;
+  drive.online = true;
+  drive.input.actual_values = {0, 1, 0};
+  drive.module_inputs = 0xFF;
+  const auto value = [&drive](SignalSource source) {
+    return signalValue(output(source, 1), profile::Series::kSk5xxe, drive);
+  };
+  for (std::uint8_t set = 1; set <= 4; ++set) {
+    drive.device = {};
+    drive.device.word_functions[set - 1u].actual_values = {1, 5, 0};
+    for (std::uint8_t in_force = 1; in_force <= 4; ++in_force) {
+      drive.parameter_set = in_force;
+      EXPECT_EQ(in_force == set, value(SignalSource::kDigitalInput).has_value()) << unsigned{set};
+    }
+  }
+  EXPECT_EQ(1.0, value(SignalSource::kDigitalInput));
+  drive.online = false;
+  EXPECT_EQ(std::nullopt, value(SignalSource::kDigitalInput));
+  EXPECT_EQ(std::nullopt, value(SignalSource::kModuleInput));
+  drive.module_answers = true;
+  EXPECT_EQ(1.0, value(SignalSource::kModuleInput));
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle
