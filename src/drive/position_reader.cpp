@@ -47,9 +47,9 @@ void PositionReader::handleValues(const profile::PositionField& field, const pro
   const std::int32_t word = profile::getPosition(field, words);
   const double unseen = toSeconds(now - std::exchange(seen_, now));
   const std::int64_t value = field.bits == 16 && continued_ ? continued(steps_, word) : word;
-  // What goes on from a value that was held back came with it, and had no more time to come.
   // A count of 16 bits that does not go on from the last one has begun anew: it is what its word is.
   const std::int64_t new_count = known_ ? word : value;
+  // What goes on from a value that was held back came with it, and had no more time to come.
   const Instant came = goesOnFromDoubtful(new_count, max_speed, now) ? doubtful_->since : now;
   if (known_ && isPossible(steps_, value, max_speed, came - at_)) return believe(value, now);
   // Unseen for so long it may have gone further than two halves are apart: the last value tells nothing about this one.

@@ -100,14 +100,19 @@ TEST(CycleStops, ABaseThatIsEnabledSoonAfterAStopBeginsFromStandstill) {
   }
 }
 
-// Within the jerk limit it would go on gaining speed: nobody asks for that any more.
-TEST(CycleStops, ADriveWhoseCommandGrewOldSlowsDownFromTheFirstStepOn) {
+/// The lift with 20 rad/s^2 and 40 rad/s^3.
+CycleConfig liftWithJerkLimit() {
   CycleConfig config = CycleBench::config();
   robot::SpeedLimits& limits = config.drives[CycleBench::kLift].limits;
   limits.has_acceleration_limits = limits.has_jerk_limits = true;
   limits.max_acceleration = 20.0;
   limits.max_jerk = 40.0;
-  CycleBench bench{config};
+  return config;
+}
+
+// Within the jerk limit it would go on gaining speed: nobody asks for that any more.
+TEST(CycleStops, ADriveWhoseCommandGrewOldSlowsDownFromTheFirstStepOn) {
+  CycleBench bench{liftWithJerkLimit()};
   bench.run(80);
   ASSERT_TRUE(bench.ask(RequestKind::kEnable, CycleBench::kLift).success);
   bench.commandLift(100.0);
@@ -121,12 +126,7 @@ TEST(CycleStops, ADriveWhoseCommandGrewOldSlowsDownFromTheFirstStepOn) {
 }
 
 TEST(CycleStops, ADriveThatIsCommandedToStandKeepsItsJerkLimit) {
-  CycleConfig config = CycleBench::config();
-  robot::SpeedLimits& limits = config.drives[CycleBench::kLift].limits;
-  limits.has_acceleration_limits = limits.has_jerk_limits = true;
-  limits.max_acceleration = 20.0;
-  limits.max_jerk = 40.0;
-  CycleBench bench{config};
+  CycleBench bench{liftWithJerkLimit()};
   bench.run(80);
   ASSERT_TRUE(bench.ask(RequestKind::kEnable, CycleBench::kLift).success);
   bench.commandLift(100.0);

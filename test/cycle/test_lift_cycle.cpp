@@ -2,33 +2,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cycle/cycle_bench.h"
+#include "cycle/positioning_lift.h"
 
 namespace nord_driver::cycle {
 namespace {
 
 using ::testing::HasSubstr;
 
-/// SK 53xE, P546 to P548 = 1, 21, 22 and P543 to P545 = 1, 10, 15: frequency, low word, high word. 1 rad is a revolution.
-class LiftCycle : public ::testing::Test, protected CycleBench {
+/// Whose count can be set anew by a bit.
+class LiftCycle : public ::testing::Test, protected PositioningLift {
  protected:
-  explicit LiftCycle(const CycleConfig& config = LiftCycle::config()) : CycleBench{config} {
-    transport.parameters = {{105, 500}, {543, 1},  {544, 10}, {545, 15}, {546, 1},
-                            {547, 21},  {548, 22}, {600, 1},  {610, 2}};
-    transport.inverters[0].second = 500;
-    transport.inverters[0].ramp = 0;  // a brake holds it
-  }
+  explicit LiftCycle(const CycleConfig& config = LiftCycle::config()) : PositioningLift{config} {}
   static CycleConfig config() {
-    CycleConfig config = CycleBench::config();
-    config.base.reset();
-    config.drives.resize(1);
-    config.drives[0].name = "lift";
-    PositionSetup position;
-    position.setpoint_mode = 2;
-    position.reset = PositionBit{PositionBit::Carrier::kControlBit, 9, 61};
-    position.axis.tolerance = 0.01;
-    config.drives[0].position = position;
-    config.drives[0].drive.position = position.axis;
+    CycleConfig config = PositioningLift::config();
+    config.drives[0].position->reset = PositionBit{PositionBit::Carrier::kControlBit, 9, 61};
     return config;
   }
   std::string enable() { return ask(RequestKind::kEnable, 0).message.str(); }
