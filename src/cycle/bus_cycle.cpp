@@ -231,20 +231,11 @@ void BusCycle::commandSingles(Instant now, Duration dt) noexcept {
     const bool fresh = !isStale(newest, cmd_vel_timeout_, now);
     group.commandIsFresh(fresh, now);
     const bool follow = group.commandAllowed();
-    const JointBounds bounds{drives_[i].maxVelocity().value_or(RadPerSec{}).value, drives_[i].minVelocity().value,
-                             drives_[i].comesToRest(), !(follow && fresh)};
-    const double velocity = axes_[i].motion.pollVelocity(follow && fresh ? newest.velocity : 0.0,
-                                                         follow || group.wantsZeroRamp(), bounds, dt);
+    const bool asked = follow && fresh;
+    const double velocity = axes_[i].motion.pollVelocity(asked ? newest.velocity : 0.0, follow || group.wantsZeroRamp(),
+                                                         boundsOf(i, !asked), dt);
     setVelocity(i, velocity);
     group.setpointIsZero(velocity == 0.0);
-  }
-}
-
-// Its followers hear their leader, not this; but they rest when it rests (P104), and go where it goes.
-void BusCycle::setVelocity(DriveIndex drive, double velocity) noexcept {
-  drives_[drive].setVelocity(RadPerSec{velocity});
-  for (DriveIndex i = 0; i < drives_.size(); ++i) {
-    if (leaders_[i] == drive) drives_[i].setVelocity(RadPerSec{velocity});
   }
 }
 
@@ -379,7 +370,7 @@ void BusCycle::tellChanges(Instant now) noexcept {
 
 void BusCycle::fill(DriveSnapshot& to, DriveIndex drive, Instant now) const noexcept {
   const Axis& axis = axes_[drive];
-  const bool beyond = supervisor_.inBase(drive) ? isSaturatedWheel(drive) : axis.motion.beyondFull();
+  const bool beyond = supervisor_.inBase(drive) ? isSaturatedWheel(drive) : axis.motion.isSaturated();
   to.module_inputs = inputs_[drive].module_inputs;
   fillDriveSnapshot(to,
                     {drive, names_[drive].c_str(), drives_[drive].report(), outputs_[drive], axis,

@@ -86,6 +86,14 @@ class BusCycle {
   void refuseElement(DriveIndex drive, std::uint8_t element, const Sentence& why, Instant now) noexcept;
   void tellTarget(DriveIndex drive, const AskedPosition& asked, drive::TargetRefusal refusal, Instant now) noexcept;
   void setVelocity(DriveIndex drive, double velocity) noexcept;
+  /// This drive, or one that follows it.
+  bool isOrFollows(DriveIndex drive, DriveIndex leader) const noexcept {
+    return drive == leader || leaders_[drive] == leader;
+  }
+  /// rad/s: the highest P104 of a drive and those that follow it.
+  double minSpeed(DriveIndex drive) const noexcept;
+  bool comesToRest(DriveIndex drive) const noexcept;
+  JointBounds boundsOf(DriveIndex drive, bool stops) const noexcept;
   void addAxis(const DriveSetup& setup, CycleRole role);
   void pollOutputs(Instant now) noexcept;
   void putWords(DriveIndex drive, Instant now) noexcept;

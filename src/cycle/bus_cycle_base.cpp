@@ -138,8 +138,8 @@ robot::WheelSpeeds BusCycle::maxWheelSpeeds() const noexcept {
 MinimumSpeeds BusCycle::minWheelSpeeds() const noexcept {
   MinimumSpeeds minimum;
   for (const DriveIndex i : wheels_) {
-    minimum.wheels.push_back(drives_[i].minVelocity().value);
-    minimum.coming_to_rest = minimum.coming_to_rest || drives_[i].comesToRest();
+    minimum.wheels.push_back(minSpeed(i));
+    minimum.coming_to_rest = minimum.coming_to_rest || comesToRest(i);
   }
   return minimum;
 }

@@ -13,6 +13,7 @@ struct JointBounds {
   double min_speed = 0.0;       ///< rad/s, P104 at the joint: below it the motor turns at it all the same; 0: none
   bool coming_to_rest = false;  ///< on its way to rest by OFF1, for P104: it would not follow yet
   bool stops = false;           ///< nobody asks for the target: it is 0, and approached from the first step on
+  double rests_below = 0.0;     ///< rad/s: a target that is slower is taken for 0, and told as saturated
 };
 
 /// A drive that is not driving forgets its velocity, so that the next start begins from standstill. The ramp is the
@@ -25,12 +26,12 @@ class JointMotion {
   /// The velocity in rad/s for this cycle, `dt` after the last. `driving`: the drive follows setpoints now. `target`: as
   /// commanded, 0 where no command may be followed; it is gone to along the limits.
   double pollVelocity(double target, bool driving, const JointBounds& bounds, Duration dt) noexcept;
-  /// The last target was beyond 100 % of the setpoint.
-  bool beyondFull() const noexcept { return beyond_full_; }
+  /// The last target was beyond 100 % of the setpoint, or too slow.
+  bool isSaturated() const noexcept { return saturated_; }
 
  private:
   robot::TwistLimiter limiter_;
-  bool beyond_full_ = false;
+  bool saturated_ = false;
 };
 
 }  // namespace nord_driver::cycle

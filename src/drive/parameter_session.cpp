@@ -177,14 +177,12 @@ void ParameterSession::handleValue(const ParameterResult& result) noexcept {
   if (!write || same) {
     run_.result.outcome = ParameterOutcome::kDone;
     if (same) run_.result.note = kSame;
+    if (same && persistent && request.number == kSaveInEeprom) switch_ = EepromSwitch::kNotOurs;
     return finish();
   }
-  if (persistent && request.number == kSaveInEeprom) {
-    switch_ = EepromSwitch::kNotOurs;  // the user decides over it now
-    step_ = Step::kWrite;
-  } else if (persistent) {
+  if (persistent) {
     // P560 is the inverter's: a module saves what it is not told otherwise (BU 0280 4.1.1).
-    step_ = isOfModule(request.number) ? Step::kWrite : Step::kReadSwitch;
+    step_ = request.number == kSaveInEeprom || isOfModule(request.number) ? Step::kWrite : Step::kReadSwitch;
   } else if (isOfModule(request.number) ? capabilities_.ram_writes : ram_writes_) {
     step_ = Step::kWriteRam;
   } else {
@@ -361,7 +359,12 @@ void ParameterSession::countWrite(const ParameterResult& result) noexcept {
 }
 
 void ParameterSession::countValueWrite(const ParameterResult& result) noexcept {
-  const bool saved = isOfModule(requests_.front().number) || (!owesEepromSwitch() && !run_.switch_was_off);
+  const ParameterRequest& request = requests_.front();
+  const bool is_switch = request.number == kSaveInEeprom;
+  const bool saved = is_switch || isOfModule(request.number) || (!owesEepromSwitch() && !run_.switch_was_off);
+  // P560 is the user's from then on: a 0 that may have arrived is not undone, a 1 that may not have is still owed.
+  const bool decided = isDone(result) || (request.raw == 0 && !surelyNotDone(result.outcome));
+  if (is_switch && decided) switch_ = EepromSwitch::kNotOurs;
   if (saved) return countWrite(result);
   if (!surelyNotDone(result.outcome)) ram_only_.mark(requests_.front(), run_.no_index);
 }

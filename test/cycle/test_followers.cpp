@@ -1,6 +1,8 @@
 // A drive that follows another one in the cycle: it has no command of its own, and goes where its leader goes.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "cycle/cycle_bench.h"
 
 namespace nord_driver::cycle {
@@ -50,6 +52,83 @@ TEST_F(FollowersInCycle, AreNotComparedWithACommand) {
   EXPECT_EQ(0.0, snapshot().drives[0].speed_deviation);
   EXPECT_FALSE(snapshot().drives[0].not_following);
   EXPECT_TRUE(snapshot().drives[kLift].at_speed);
+}
+
+// P104: a follower told to go slower than its own would run ahead of its leader, or against it.
+class FollowersWithMinimum : public ::testing::Test, protected CycleBench {
+ protected:
+  explicit FollowersWithMinimum(CycleConfig config = led()) : CycleBench{accepting(std::move(config))} {}
+
+  static CycleConfig accepting(CycleConfig config) {
+    for (DriveSetup& setup : config.drives) setup.drive.allow_minimum_frequency = true;
+    return config;
+  }
+  /// 5 Hz, 15.7 rad/s.
+  void begin(DriveIndex follower) {
+    transport.of_drive[follower][104] = 50;
+    transport.inverters[follower].minimum = 1638;
+    run(100);
+    const Completion answer = ask(RequestKind::kEnable);
+    ASSERT_TRUE(answer.success) << answer.message.c_str();
+  }
+};
+
+TEST_F(FollowersWithMinimum, RestTogetherWithALeaderThatIsTooSlowForThem) {
+  begin(0);
+  const auto drive = [this](double velocity) {
+    for (int i = 0; i < 60; ++i) {
+      commandLift(velocity);
+      step();
+    }
+  };
+  drive(15.0);
+  EXPECT_EQ(0, setpoint(kLift));
+  EXPECT_EQ(0.0, snapshot().drives[0].velocity_command);
+  EXPECT_TRUE(snapshot().drives[kLift].saturated);
+  drive(16.0);
+  EXPECT_NEAR(16.0, snapshot().drives[kLift].velocity_command, 0.02);
+  EXPECT_NEAR(16.0, snapshot().drives[0].velocity_command, 0.02);
+  EXPECT_FALSE(snapshot().drives[kLift].saturated);
+}
+
+// One that nobody follows turns at its own P104, as its inverter has it.
+TEST_F(FollowersWithMinimum, AreNotAskedByADriveThatIsAlone) {
+  begin(1);
+  for (int i = 0; i < 60; ++i) {
+    ports.commandDrive(1, {10.0, transport.time, true});
+    step();
+  }
+  EXPECT_NEAR(10.0, snapshot().drives[1].velocity_command, 0.02);
+  EXPECT_TRUE(snapshot().drives[1].saturated);
+}
+
+/// The left wheel leads the lift.
+CycleConfig ledByAWheel() {
+  CycleConfig config = CycleBench::config();
+  config.drives[CycleBench::kLift].follows = config.drives[CycleBench::kLeft].name;
+  config.drives[CycleBench::kLift].leader = CycleBench::kLeft;
+  return config;
+}
+
+class FollowersOfAWheelWithMinimum : public FollowersWithMinimum {
+ protected:
+  FollowersOfAWheelWithMinimum() : FollowersWithMinimum{ledByAWheel()} {}
+  void drive(double linear) {
+    for (int i = 0; i < 60; ++i) {
+      commandBase(linear);
+      step();
+    }
+  }
+};
+
+TEST_F(FollowersOfAWheelWithMinimum, RestWithTheWholeBase) {
+  begin(kLift);
+  drive(1.5);
+  for (const DriveIndex i : {kLeft, kRight}) EXPECT_EQ(0, setpoint(i)) << i;
+  EXPECT_TRUE(snapshot().drives[kLeft].saturated);
+  drive(1.6);
+  for (const DriveIndex i : {kLeft, kRight}) EXPECT_NE(0, setpoint(i)) << i;
+  EXPECT_FALSE(snapshot().drives[kLeft].saturated);
 }
 
 }  // namespace

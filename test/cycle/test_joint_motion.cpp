@@ -38,7 +38,7 @@ TEST(JointMotion, GoesToItsTargetAlongTheLimits) {
   EXPECT_DOUBLE_EQ(0.1, motion.pollVelocity(8.0, true, kFree, kStep));
   for (int i = 0; i < 100; ++i) motion.pollVelocity(8.0, true, kFree, kStep);
   EXPECT_EQ(5.0, motion.pollVelocity(8.0, true, kFree, kStep)) << "max_velocity";
-  EXPECT_FALSE(motion.beyondFull()) << "what is configured is no saturation";
+  EXPECT_FALSE(motion.isSaturated()) << "what is configured is no saturation";
   EXPECT_DOUBLE_EQ(4.9, motion.pollVelocity(0.0, true, kFree, kStep));
   for (int i = 0; i < 49; ++i) motion.pollVelocity(0.0, true, kFree, kStep);
   EXPECT_EQ(0.0, motion.pollVelocity(0.0, true, kFree, kStep)) << "exactly";
@@ -72,9 +72,9 @@ TEST(JointMotion, TheRampEndsAtFullSpeed) {
   JointMotion motion{limits(0.0, 1000.0)};
   for (int i = 0; i < 100; ++i) motion.pollVelocity(2.0 * kFull, true, kFree, kStep);
   EXPECT_EQ(kFull, motion.pollVelocity(2.0 * kFull, true, kFree, kStep));
-  EXPECT_TRUE(motion.beyondFull());
+  EXPECT_TRUE(motion.isSaturated());
   EXPECT_DOUBLE_EQ(kFull - 10.0, motion.pollVelocity(0.0, true, kFree, kStep));
-  EXPECT_FALSE(motion.beyondFull());
+  EXPECT_FALSE(motion.isSaturated());
 }
 
 // P104: on the way it is not touched, so that the motor does not turn faster than the ramp says.
@@ -96,6 +96,19 @@ TEST(JointMotion, AtItsLeastSpeedItGoesOut) {
   const JointBounds slow{kFull, 2.0, false};
   EXPECT_EQ(0.0, motion.pollVelocity(10.0, true, slow, kStep));
   EXPECT_EQ(2.0, motion.pollVelocity(10.0, true, slow, kStep));
+}
+
+// One that others follow: slower than the highest P104 of them all it stands.
+TEST(JointMotion, ATargetThatIsTooSlowForAFollowerIsNone) {
+  JointMotion motion{limits(0.0, 100.0)};
+  const JointBounds led{kFull, 4.5, false, false, 4.5};
+  EXPECT_EQ(0.0, motion.pollVelocity(-4.4, true, led, kStep));
+  EXPECT_TRUE(motion.isSaturated());
+  EXPECT_EQ(0.0, motion.pollVelocity(0.0, true, led, kStep));
+  EXPECT_FALSE(motion.isSaturated());
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(0.0, motion.pollVelocity(-4.5, true, led, kStep));
+  EXPECT_DOUBLE_EQ(-4.5, motion.pollVelocity(-4.5, true, led, kStep));
+  EXPECT_FALSE(motion.isSaturated());
 }
 
 TEST(JointMotion, JerkIsLimitedToo) {

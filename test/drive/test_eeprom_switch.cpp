@@ -229,6 +229,45 @@ TEST_F(EepromSwitchTest, OwedAndWrittenByAUserIsTheUsers) {
   EXPECT_FALSE(session_.owesEepromSwitch());
 }
 
+// Not by a write that may not have arrived: the session still puts it back to 1, as it owes.
+TEST_F(EepromSwitchTest, OwedAndAUsersOneIsLostIsPutBackAllTheSame) {
+  owe();
+  const std::uint64_t before = session_.eepromWrites();
+  const ParameterResult result =
+      resultOf(access(ParameterAction::kWritePersistent, 560, 1),
+               {{"P560?", kLost}, {"P560?", done(0)}, {"P560=1", kLost}, {"P560=1", done(1)}, {"P560?", done(1)}});
+  EXPECT_EQ(ParameterOutcome::kTimeout, result.outcome);
+  EXPECT_FALSE(session_.owesEepromSwitch());
+  EXPECT_EQ(before + 2, session_.eepromWrites());
+}
+
+TEST_F(EepromSwitchTest, OwedAndAUsersOneIsRefusedIsStillOwed) {
+  owe();
+  const ParameterResult busy = FakeParameters::failure(ParameterOutcome::kBusy);
+  resultOf(access(ParameterAction::kWritePersistent, 560, 1),
+           {{"P560?", kLost}, {"P560?", done(0)}, {"P560=1", busy}, {"P560=1", busy}, {"P560=1", busy}});
+  EXPECT_TRUE(session_.owesEepromSwitch());
+}
+
+// A user's 0 stays, whether it was there already or its answer is missing.
+TEST_F(EepromSwitchTest, OwedAndAUsersZeroStays) {
+  owe();
+  EXPECT_STREQ(
+      kSame, resultOf(access(ParameterAction::kWritePersistent, 560, 0), {{"P560?", kLost}, {"P560?", done(0)}}).note);
+  EXPECT_FALSE(session_.owesEepromSwitch());
+}
+
+TEST_F(EepromSwitchTest, AUsersZeroWhoseAnswerIsMissingIsNotUndone) {
+  owe();
+  session_.handleOffline();
+  ASSERT_TRUE(session_.submit(access(ParameterAction::kWritePersistent, 560, 0)));
+  answer({{"P560?", kLost}, {"P560?", done(1)}});
+  ASSERT_TRUE(session_.pollRequest().has_value());
+  session_.handleOffline();
+  EXPECT_STREQ(kWriteUnanswered, session_.pollResult().value().note);
+  EXPECT_FALSE(session_.owesEepromSwitch());
+}
+
 // Of a plain write as of one that spares the EEPROM: a parameter that has no sets here is written without one.
 TEST_F(EepromSwitchTest, APlainWriteIsRetriedWithoutASet) {
   ParameterRequest request = access(ParameterAction::kWritePersistent);
