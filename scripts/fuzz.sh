@@ -8,12 +8,19 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 usage() {
   cat <<'TEXT'
 usage: fuzz.sh [SECONDS [EXECUTIONS]]
+       fuzz.sh --build
   SECONDS     for each target, 30
   EXECUTIONS  a target ends earlier after so many; without it they go on until their time is up
+  --build     builds the targets and runs none
 The long form is fuzz.sh 1200 10000000: ten million executions of every target, or twenty minutes.
 TEXT
 }
 
+build_only=false
+if [[ $# == 1 && $1 == --build ]]; then
+  build_only=true
+  shift
+fi
 seconds=${1:-30}
 executions=${2:--1}
 if [[ ${1-} == -h || ${1-} == --help ]]; then usage; exit 0; fi
@@ -33,6 +40,7 @@ cmake --build "$out" -j "$jobs" --target fuzz_targets >"$out/build.log" 2>&1 || 
   tail -n 40 "$out/build.log"
   exit 1
 }
+if $build_only; then exit 0; fi
 
 # The words of the files that are read: bytes alone would find none of them.
 sed -nE 's/^ +([a-z_/]+):.*/"\1: "/p' "$root/doc/parameters.yaml" | sort -u >"$out/fuzz_config.dict"

@@ -265,13 +265,14 @@ configure_lint() {
     sed -i -E "s#(-I|-isystem )$out/lint/#\1$out/#g" "$out/lint/compile_commands.json"
 }
 
-# Takes what the tests leave of the processors: they wait for events most of the time. A session is scheduled as one group
+# Takes what the tests leave of the processors, and then builds what "fuzz" runs: they wait for events most of the time. A session is scheduled as one group
 # where the kernel has autogroups (sched(7)): `nice` counts inside it only, so the group gets the same.
 start_lint() {
   configure_lint || true # lint says so
   export -f lint lint_sources
   export out root jobs deep
-  beside lint nice -n 19 bash -o pipefail -c '{ echo 19 >/proc/self/autogroup; } 2>/dev/null || true; lint'
+  beside lint nice -n 19 bash -o pipefail -c '{ echo 19 >/proc/self/autogroup; } 2>/dev/null || true; lint; status=$?
+    "$root/scripts/fuzz.sh" --build >/dev/null 2>&1; exit "$status"' # what does not build there "fuzz" says
   linter=$!
 }
 
