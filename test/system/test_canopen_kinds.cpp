@@ -312,6 +312,24 @@ TEST(CanopenKinds, ArraysByTheTable) {
   EXPECT_TRUE(robot.runUntil([&] { return robot.snapshot().drives[1].fault_number == 30; }, std::chrono::seconds{1}));
 }
 
+// Nothing changes in a drive that is commanded nothing: one that says nothing by itself is never there, and the note tells
+// why, which event_time mends.
+TEST(CanopenKinds, WithoutAnEventTimeANodeMustSendOnceByItself) {
+  for (const double event_time : {0.0, 0.05}) {
+    CanRobot::Options options;
+    options.drives = {{"event_time", event_time}};
+    CanRobot robot{options};
+    robot.link().setDeaf(0x183);
+    ASSERT_TRUE(robot.runUntil([&] { return robot.online(1); }));
+    robot.run(std::chrono::seconds{1});
+    EXPECT_FALSE(robot.online(0));
+    EXPECT_THAT(robot.text(0), HasSubstr("the node is operational, but sends no process data: "));
+    EXPECT_THAT(robot.text(0), HasSubstr("is its mains supply on, does P509 select CANopen?"));
+    const auto told = HasSubstr("With event_time 0 it must send once when it becomes operational");
+    EXPECT_EQ(event_time == 0.0, ::testing::Value(robot.text(0), told)) << robot.text(0);
+  }
+}
+
 // Heartbeats both ways: the nodes watch ours (1016h) and stop their inverters when it ends.
 TEST(CanopenKinds, OurHeartbeatIsWatchedByTheNodes) {
   CanRobot::Options options;
