@@ -137,9 +137,10 @@ class EdsCheck {
     // A PDO without a time behaves as if it were 0.
     if (object == nullptr && *wanted == 0 && sub_index != kType) return;
     if (object == nullptr) return say("the EDS has no " + std::string{what} + " (" + place(index, sub_index) + ")");
-    if (mayWrite(*object) || !object->value || object->value->at(config_.id) == *wanted) return;
-    say(std::string{what} + " is fixed at " + std::to_string(object->value->at(config_.id)) + ", configured is " +
-        std::to_string(*wanted));
+    if (mayWrite(*object) || !object->value) return;
+    const std::uint64_t fixed = object->value->at(config_.id);
+    if (sub_index == kType ? isSameTransmissionType(fixed, *wanted) : fixed == *wanted) return;
+    say(std::string{what} + " is fixed at " + std::to_string(fixed) + ", configured is " + std::to_string(*wanted));
   }
 
   void mapping(const PdoConfig& pdo, std::uint16_t index, bool received) {

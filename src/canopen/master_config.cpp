@@ -16,7 +16,6 @@ namespace {
 constexpr std::uint16_t kMostPdos = 512;
 constexpr std::size_t kMostNodes = 126;
 constexpr std::uint8_t kLastSynchronous = 240;
-constexpr std::uint8_t kFirstAtOnce = 254;
 
 [[noreturn]] void refuse(const std::string& sentence) {
   throw std::invalid_argument(sentence);

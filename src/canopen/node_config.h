@@ -28,6 +28,14 @@ constexpr bool operator==(PdoMapping a, PdoMapping b) noexcept {
 
 constexpr std::size_t kMaxMappedObjects = 8;
 
+/// Transmission types from here on act at once, and in the same way (CiA 301 tables 66 and 69; BU 0060 p. 58).
+constexpr std::uint8_t kFirstAtOnce = 254;
+
+/// Whether a PDO of the one transmission type behaves as one of the other.
+constexpr bool isSameTransmissionType(std::uint64_t a, std::uint64_t b) noexcept {
+  return a == b || (a >= kFirstAtOnce && b >= kFirstAtOnce);
+}
+
 /// What a PDO shall be. It is compared with the node first; only what differs is written.
 struct PdoConfig {
   std::uint16_t number = 1;                   ///< 1..512: 1 is 1400h/1600h, or 1800h/1A00h

@@ -92,7 +92,7 @@ Progress PdoConfigurator::compare(const SdoAnswer& answer) noexcept {
       ++entry_;
       return Progress::kGoOn;
     default:
-      type_differs_ = *value != config_->transmission_type;
+      type_differs_ = !isSameTransmissionType(*value, config_->transmission_type);
       return afterType();
   }
 }

@@ -56,13 +56,22 @@ void StartAcknowledge::judge(DriveIndex drive, std::uint16_t number, bool quiet,
     return;
   }
   if (!state.rest_due || !allOnline(drive)) state.rest_due = now;
-  if (quiet && allAtRest(drive)) {
+  const std::optional<DriveIndex> unscaled = firstUnscaled(drive);
+  if (quiet && !unscaled && allAtRest(drive)) {
     state.step = Step::kAsked;
     state.number = number;
     drives_[drive].requestAcknowledge(now, kToken);
     follow(drive);
   } else if (now - *state.rest_due >= kRestAwaited) {
-    giveUp(drive, quiet ? "a drive was not at rest" : "commands to move came all the time");
+    Sentence why;
+    if (!quiet) {
+      why = "commands to move came all the time";
+    } else if (unscaled) {
+      why.format("the maximum frequency (P105) of drive %s is not known", names_[*unscaled].c_str());
+    } else {
+      why = "a drive was not at rest";
+    }
+    giveUp(drive, why.c_str());
   }
 }
 
@@ -94,6 +103,17 @@ bool StartAcknowledge::allOnline(DriveIndex drive) const noexcept {
     if (concerned(drive, i) && !drives_[i].report().online) return false;
   }
   return true;
+}
+
+// A profile with revolutions per minute tells every speed as 0 until P105 is known, and P700 is read before it. NORD's
+// words are shares of P105 and would not need it: but which words a bus has is not told here, and P105 comes soon, read or,
+// where there is no parameter channel (PPO 3 and 4), as typed. A drive with neither can never be enabled: when
+// kRestAwaited has passed it is named, and nothing is lost that could have moved.
+std::optional<DriveIndex> StartAcknowledge::firstUnscaled(DriveIndex drive) const noexcept {
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    if (concerned(drive, i) && !drives_[i].report().scaled) return i;
+  }
+  return std::nullopt;
 }
 
 // One that is being acknowledged is at rest, too.

@@ -56,6 +56,8 @@ class StartAcknowledge {
   void follow(DriveIndex drive) noexcept;
   bool concerned(DriveIndex drive, DriveIndex other) const noexcept;
   bool allOnline(DriveIndex drive) const noexcept;
+  /// Whose actual speed cannot be told yet.
+  std::optional<DriveIndex> firstUnscaled(DriveIndex drive) const noexcept;
   bool allAtRest(DriveIndex drive) const noexcept;
   void giveUp(DriveIndex drive, const char* why) noexcept;
 

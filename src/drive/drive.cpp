@@ -92,7 +92,7 @@ void Drive::handleInput(const profile::ProcessInput& input, bool fresh, Instant 
   } else {
     handleSilence(now);
   }
-  measure();
+  measure(fresh);
 }
 
 void Drive::handleModule(bool inverter_missing, Instant now) noexcept {
@@ -303,10 +303,12 @@ void Drive::tellSet() noexcept {
   report_.unexpected_function = set != nullptr ? set->unexpected_function : std::nullopt;
 }
 
-void Drive::measure() noexcept {
+// A word in revolutions per minute from before its transport knew P105 is 0, whatever the speed was: it does not begin
+// to count when P105 comes.
+void Drive::measure(bool fresh) noexcept {
   tellSet();
   const auto maximum = maxFrequency(report_.parameter_set);
-  report_.scaled = report_.online && maximum.has_value();
+  report_.scaled = report_.online && maximum.has_value() && (fresh || report_.scaled);
   report_.speed = speedWord();
   report_.frequency = {};
   report_.velocity = {};

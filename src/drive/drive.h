@@ -208,7 +208,7 @@ class Drive {
   Refusal setRefusal(std::uint8_t set) const noexcept;
   void breakOff(Refusal why) noexcept;
   static void end(RequestReport& request, Refusal refusal) noexcept;
-  void measure() noexcept;
+  void measure(bool fresh) noexcept;
   void measurePosition() noexcept;
   void handlePosition(Instant now) noexcept;
   void followHoming(Instant now) noexcept;

@@ -110,6 +110,18 @@ TEST_F(EdsCheckTest, WhatIsFixed) {
   EXPECT_THAT(check(), ElementsAre("node 50: RPDO 2: it is off and cannot be switched on"));
 }
 
+// CiA 301 tables 66 and 69.
+TEST_F(EdsCheckTest, AFixedTypeThatActsAtOnceTooIsFine) {
+  config.receive_pdos.push_back(pdo(2, 0x332, {{0x3000, 0, 16}}));
+  object(0x1401, 2).value = EdsNumber{254, false};
+  EXPECT_THAT(check(), IsEmpty());
+  config.receive_pdos[1].transmission_type = 254;
+  object(0x1401, 2).value = EdsNumber{255, false};
+  EXPECT_THAT(check(), IsEmpty());
+  object(0x1401, 2).value = EdsNumber{253, false};
+  EXPECT_THAT(check(), ElementsAre("node 50: RPDO 2: transmission type is fixed at 253, configured is 254"));
+}
+
 TEST_F(EdsCheckTest, MappedObjects) {
   config.receive_pdos[0].mapping = {{0x3001, 0, 16}, {0x3002, 1, 32}};
   config.transmit_pdos[0].mapping = {{0x3000, 0, 16}, {0x4000, 0, 16}};

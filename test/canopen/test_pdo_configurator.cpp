@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+
 #include "canopen/master_run.h"
 
 namespace nord_driver::canopen {
@@ -118,6 +120,37 @@ TEST(PdoConfigurator, SetsTheTypeOfAPdoThatCannotBeSwitchedOff) {
   EXPECT_EQ(1u, run.nodes[0]->object(0x1800, 2).value);
 }
 
+// 254 and 255 both act at once (CiA 301 tables 66 and 69; BU 0060 p. 58): neither is rewritten as the other.
+TEST(PdoConfigurator, LeavesTheOtherTypeThatActsAtOnce) {
+  const std::pair<std::uint8_t, std::uint8_t> held_and_wanted[] = {{254, 255}, {255, 254}};
+  for (const auto& [held, wanted] : held_and_wanted) {
+    for (const bool read_only : {true, false}) {
+      MasterConfig config = bareConfig();
+      config.nodes[0].transmit_pdos = {pdo(1, 0x181, {})};
+      config.nodes[0].transmit_pdos[0].transmission_type = wanted;
+      MasterRun run{config};
+      run.nodes[0]->object(0x1800, 2).value = held;
+      run.nodes[0]->object(0x1800, 2).read_only = read_only;
+      run.begin();
+      ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{1})) << int{held} << read_only;
+      EXPECT_THAT(run.nodes[0]->writes, IsEmpty()) << int{held};
+    }
+  }
+}
+
+// 253 waits for a remote frame, 240 for SYNC.
+TEST(PdoConfigurator, RewritesEveryOtherType) {
+  for (const std::uint32_t held : {0u, 1u, 240u, 252u, 253u}) {
+    MasterConfig config = bareConfig();
+    config.nodes[0].transmit_pdos = {pdo(1, 0x181, {})};
+    MasterRun run{config};
+    run.nodes[0]->object(0x1800, 2).value = held;
+    run.begin();
+    ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{1})) << held;
+    EXPECT_EQ(255u, run.nodes[0]->object(0x1800, 2).value) << held;
+  }
+}
+
 // A time the device has not is as good as 0, and nothing else.
 TEST(PdoConfigurator, MissingTimes) {
   for (const std::uint16_t wanted : {std::uint16_t{0}, std::uint16_t{10}}) {
@@ -171,6 +204,8 @@ RC_GTEST_PROP(PdoConfiguratorProperty, EndsAsWantedInTheRightOrder, ()) {
   ScriptedNode& node = *run.nodes[0];
   const bool off = *rc::gen::arbitrary<bool>();
   node.object(0x1800, 1).value = off ? 0xC0000181 : 0x40000181;
+  const std::uint32_t held_type = *rc::gen::element(1u, 254u, 255u);
+  node.object(0x1800, 2).value = held_type;
   node.object(0x1A00, 0).value = *rc::gen::inRange(0u, 5u);
   for (std::uint8_t sub = 1; sub <= 4; ++sub) {
     node.object(0x1A00, sub).value = pool[*rc::gen::inRange<std::size_t>(0, 4)].value();
@@ -179,7 +214,9 @@ RC_GTEST_PROP(PdoConfiguratorProperty, EndsAsWantedInTheRightOrder, ()) {
   RC_ASSERT(run.reaches(NodeState::kOperational, seconds{1}));
   RC_ASSERT(run.violations() == std::vector<std::string>{});
   RC_ASSERT(node.object(0x1800, 1).value == (0x40000000u | wanted.cob_id));
-  RC_ASSERT(node.object(0x1800, 2).value == wanted.transmission_type);
+  const std::uint32_t type = node.object(0x1800, 2).value;
+  RC_ASSERT(type == wanted.transmission_type ||
+            (type == held_type && std::min<std::uint32_t>(type, wanted.transmission_type) >= 254));
   RC_ASSERT(node.object(0x1A00, 0).value == wanted.mapping.size());
   for (std::size_t i = 0; i < wanted.mapping.size(); ++i) {
     RC_ASSERT(node.object(0x1A00, static_cast<std::uint8_t>(i + 1)).value == wanted.mapping[i].value());

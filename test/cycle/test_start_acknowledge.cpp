@@ -241,6 +241,35 @@ TEST_F(StartAcknowledgeTest, GivesUpBesideADriveThatDoesNotComeToRest) {
   EXPECT_EQ(0, edges(kLeft, 500));
 }
 
+// In revolutions per minute every actual value is 0 until P105 is known, whatever the wheels do.
+TEST_F(StartAcknowledgeTest, WaitsUntilTheSpeedsOfTheBaseCanBeTold) {
+  for (const DriveIndex unread : {kLeft, kRight}) {
+    startFaulted(kLeft, kMasterLost);
+    int& refusals = bench_->transport.not_now[{unread, 1105}];
+    refusals = 2;
+    for (int i = 0; refusals > 0 && i < 2000; ++i) ASSERT_EQ(0, edges(kLeft, 1)) << unread << ", " << i;
+    EXPECT_EQ(1, edges(kLeft, 500)) << unread;
+  }
+}
+
+TEST_F(StartAcknowledgeTest, GivesUpBesideADriveWhoseP105IsNeverKnown) {
+  startFaulted(kLeft, kMasterLost);
+  bench_->transport.parameters.erase(105);
+  bench_->transport.of_drive[kLeft][105] = 500;
+  EXPECT_EQ(0, edges(kLeft, 6300));
+  EXPECT_THAT(bench_->events(), Contains("warning: drive left: its fault is not acknowledged at start: the maximum "
+                                         "frequency (P105) of drive right is not known"));
+}
+
+TEST_F(StartAcknowledgeTest, ATypedP105IsAsGoodAsOneThatWasRead) {
+  CycleConfig typed = config(true);
+  for (DriveSetup& drive : typed.drives) drive.typed_max_frequency = 50.0;
+  bench_.emplace(typed);
+  trip(kLeft, kMasterLost);
+  bench_->transport.parameters.erase(105);
+  EXPECT_EQ(1, edges(kLeft, 500));
+}
+
 // Whichever of the base it is: turning, or enabled by its terminals and only just standing.
 TEST_F(StartAcknowledgeTest, WaitsForEachDriveOfTheBase) {
   for (const DriveIndex faulty : {kLeft, kRight}) {

@@ -131,6 +131,20 @@ TEST_F(RequestOutcomes, NothingIsLeftOfAMotionThatIsOver) {
   EXPECT_EQ(0, report().parameter_set);
 }
 
+// What reads revolutions per minute tells 0 as long as P105 is not known to it: such a word must not count afterwards.
+TEST_F(RequestOutcomes, AWordFromBeforeP105WasKnownIsNotScaledByIt) {
+  drive_.setMaxFrequency(1, Hertz{});
+  cycle(0x0B38);
+  ASSERT_TRUE(report().online);
+  drive_.setMaxFrequency(1, {50.0});
+  drive_.handleInput({}, false, now_);
+  EXPECT_FALSE(report().scaled);
+  cycle(0x0B38);
+  EXPECT_TRUE(report().scaled);
+  drive_.handleInput({}, false, now_);
+  EXPECT_TRUE(report().scaled);
+}
+
 TEST_F(RequestOutcomes, AnInvalidCommandIsForgottenWithTheNextEnable) {
   run();
   drive_.setVelocity({std::numeric_limits<double>::quiet_NaN()});

@@ -169,6 +169,24 @@ TEST(CanopenKinds, Cia402VelocityMode) {
   EXPECT_THAT(frames, ::testing::Contains("7F 00 EE 02"));
 }
 
+// A driver that died left E10.0 in drives that still roll: the next one cannot tell their speed before it knows P105.
+TEST(CanopenKinds, Cia402IsNotAcknowledgedAtStartWhileItRolls) {
+  CanRobot::Options options = cia402();
+  CanRobot died{options};
+  ASSERT_TRUE(died.bringUpAndEnable());
+  died.drive(kHalfSpeed, 0.0, std::chrono::seconds{3});
+  died.bus().run(milliseconds{400});
+  ASSERT_EQ(100, died.unit(0).inverter().faultNumber());
+  options.beside = &died.bus();
+  options.node = {{"acknowledge_at_start", std::string{"bus_timeouts"}}};
+  CanRobot next{options};
+  ASSERT_TRUE(next.runUntil([&] { return next.online(0); }));
+  ASSERT_GT(std::abs(died.unit(0).shaftSpeed()), 20.0) << "it must not have come to rest too early for this test";
+  ASSERT_TRUE(next.snapshot().drives[0].fault_latched);
+  ASSERT_TRUE(next.runUntil([&] { return !next.snapshot().drives[0].fault_latched; }));
+  EXPECT_LT(std::abs(died.unit(0).shaftSpeed()), 2.0) << "1 % of P105 are 1.6 rad/s";
+}
+
 // The shares the drive layer commands are of the P105 it has read: told as rpm by another one, they are another speed.
 TEST(CanopenKinds, Cia402IsNotScaledByAReadOfTheUser) {
   CanRobot robot{cia402()};
@@ -292,6 +310,24 @@ TEST(CanopenKinds, ArraysByTheTable) {
   ASSERT_TRUE(robot.bringUpAndEnable());
   robot.unit(1).inverter().trip(30, true);
   EXPECT_TRUE(robot.runUntil([&] { return robot.snapshot().drives[1].fault_number == 30; }, std::chrono::seconds{1}));
+}
+
+// Nothing changes in a drive that is commanded nothing: one that says nothing by itself is never there, and the note tells
+// why, which event_time mends.
+TEST(CanopenKinds, WithoutAnEventTimeANodeMustSendOnceByItself) {
+  for (const double event_time : {0.0, 0.05}) {
+    CanRobot::Options options;
+    options.drives = {{"event_time", event_time}};
+    CanRobot robot{options};
+    robot.link().setDeaf(0x183);
+    ASSERT_TRUE(robot.runUntil([&] { return robot.online(1); }));
+    robot.run(std::chrono::seconds{1});
+    EXPECT_FALSE(robot.online(0));
+    EXPECT_THAT(robot.text(0), HasSubstr("the node is operational, but sends no process data: "));
+    EXPECT_THAT(robot.text(0), HasSubstr("is its mains supply on, does P509 select CANopen?"));
+    const auto told = HasSubstr("With event_time 0 it must send once when it becomes operational");
+    EXPECT_EQ(event_time == 0.0, ::testing::Value(robot.text(0), told)) << robot.text(0);
+  }
 }
 
 // Heartbeats both ways: the nodes watch ours (1016h) and stop their inverters when it ends.

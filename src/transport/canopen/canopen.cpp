@@ -1,6 +1,7 @@
 #include "transport/canopen/canopen.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "config/setting_checks.h"
@@ -60,6 +61,8 @@ void CanopenTransport::configure(const Settings& bus, const std::vector<DriveSet
     drives_.emplace_back(drive, static_cast<std::uint16_t>(drives_.size()));
   }
   answered_.assign(drives_.size(), 0);
+  turns_.resize(drives_.size());
+  std::iota(turns_.begin(), turns_.end(), DriveIndex{0});
   Setup setup;
   setup.link = {config_.interface, master_->receivedIds(), config_.bit_rate, master_->receivedRemoteIds()};
   setup.period = seconds(1.0 / cycle_rate);
@@ -109,15 +112,26 @@ void CanopenTransport::restartDrives() noexcept {
   for (CanopenDriveState& drive : drives_) drive.handleRestart();
 }
 
+// One whose request was taken goes behind all others: a single place to begin at would mix up the turns of several
+// servers, and one drive could still wait for ever.
 void CanopenTransport::runRequests(Instant /*now*/) noexcept {
   while (const auto answer = master_->pollSdo()) {
     const DriveIndex drive = CanopenParameters::tagOf(answer->answer.id);
     if (drive < drives_.size()) drives_[drive].parameters().handleAnswer(answer->answer);
   }
-  for (CanopenDriveState& drive : drives_) {
+  std::size_t not_served = turns_.size();
+  for (std::size_t i = 0; i < not_served;) {
+    CanopenDriveState& drive = drives_[turns_[i]];
     const auto access = drive.parameters().pendingAccess();
     const CanopenDrive& config = drive.config();
-    if (access && master_->submitSdo(config.node, config.sdo_server, *access)) drive.parameters().handleStarted();
+    if (!access || !master_->submitSdo(config.node, config.sdo_server, *access)) {
+      ++i;
+      continue;
+    }
+    drive.parameters().handleStarted();
+    const auto served = turns_.begin() + static_cast<std::ptrdiff_t>(i);
+    std::rotate(served, served + 1, turns_.end());
+    --not_served;
   }
 }
 

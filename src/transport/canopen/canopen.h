@@ -62,6 +62,8 @@ class CanopenTransport final : public CanTransport, public BusScanner {
   std::optional<canopen::Master> master_;
   std::vector<CanopenDriveState> drives_;
   std::vector<std::uint64_t> answered_;  // TPDOs of each drive when the cycle began
+  /// In which order they may ask next: who was served last stands last.
+  std::vector<DriveIndex> turns_;
   ResultTurns result_turns_;
 };
 

@@ -41,6 +41,8 @@ enum class ParameterServers : std::uint8_t {
   kIndexOffset,  ///< one server, an own range of indices each, as on EtherCAT (BU 0270 p. 43)
 };
 
+constexpr std::uint16_t kParameterBase = 0x2000;  ///< index of parameter number 0 (BU 0060 p. 61)
+
 struct CanopenDrive : DriveCommon {
   CanopenDrive() = default;
   explicit CanopenDrive(const DriveCommon& common) : DriveCommon(common) {}
@@ -53,7 +55,7 @@ struct CanopenDrive : DriveCommon {
   std::uint8_t process_values = 1;  ///< setpoints and actual values in the PDO: 1 or 3
   bool third_before_second = false;
   std::size_t sdo_server = 0;
-  std::uint16_t parameter_base = 0x2000;  ///< index = base + parameter number (BU 0060 p. 61)
+  std::uint16_t parameter_base = kParameterBase;  ///< of the inverter's own parameters
   ArraySubIndex array_sub_index = ArraySubIndex::kElement;
   /// The longest pause between two TPDOs of a sound inverter; 0: it sends on change only, and silence says nothing.
   Duration transmit_limit{};

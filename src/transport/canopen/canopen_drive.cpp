@@ -142,8 +142,12 @@ void CanopenDriveState::explain(const canopen::NodeStatus& status, bool bus_work
             ? "the node is operational, but sends no process data: is its mains supply on, does P509 select "
               "CANopen?"
             : "the bus module answers, but the inverter behind it does not: is its mains supply on?";
+    // A drive that is not there is commanded nothing, so that nothing of what it could tell changes.
+    const char* only_on_change = !ever_sent && config_.transmit_limit == Duration::zero()
+                                     ? " With event_time 0 it must send once when it becomes operational."
+                                     : "";
     const char* joint = emergency_text_.empty() ? "" : " It reports ";
-    note_.format("%s%s%s", text, joint, emergency_text_.c_str());
+    note_.format("%s%s%s%s", text, only_on_change, joint, emergency_text_.c_str());
   }
 }
 

@@ -19,7 +19,6 @@ using std::chrono::milliseconds;
 
 // The inverters' addresses on the system bus, FI1 to FI4; the ids after them are encoders (BU 0200 p. 291, BU 0280).
 constexpr std::array<std::uint8_t, 4> kSystemBusIds{32, 34, 36, 38};
-constexpr std::uint16_t kParameters = 0x2000;         // BU 0060 p. 61
 constexpr std::uint16_t kOffsetPerInverter = 0x0800;  // BU 0270 p. 43
 constexpr Duration kMaxTime = milliseconds{65'535};   // 16 bits of milliseconds
 constexpr Duration kMinPause = milliseconds{10};
@@ -140,9 +139,8 @@ CanopenDrive readCanopenDrive(const DriveSettings& source) {
   drive.process_values = readProcessValues(settings, drive);
   drive.third_before_second = profile::thirdBeforeSecond(drive.series);
   drive.array_sub_index = choiceOr(settings, "array_sub_index", ArraySubIndex::kElement, kArraySubIndices);
-  drive.parameter_base = kParameters;
   if (readParameterServers(settings, drive) == ParameterServers::kIndexOffset) {
-    drive.parameter_base = static_cast<std::uint16_t>(kParameters + kOffsetPerInverter * drive.inverter);
+    drive.parameter_base = static_cast<std::uint16_t>(kParameterBase + kOffsetPerInverter * drive.inverter);
   }
   return drive;
 }

@@ -1,6 +1,7 @@
 #include "transport/canopen/canopen_map.h"
 
 #include "nord_driver/core/time.h"
+#include "profile/module_parameters.h"
 #include "profile/parameter_shape.h"
 
 namespace nord_driver {
@@ -166,8 +167,9 @@ std::optional<ObjectAddress> parameterObject(const CanopenDrive& drive,
       break;
   }
   if (sub_index > 255) return std::nullopt;
-  return ObjectAddress{static_cast<std::uint16_t>(drive.parameter_base + request.number),
-                       static_cast<std::uint8_t>(sub_index)};
+  // The module's own have no offset of an inverter (its EtherCAT sibling: BU 0570 p. 25).
+  const std::uint16_t base = profile::isOfModule(request.number) ? kParameterBase : drive.parameter_base;
+  return ObjectAddress{static_cast<std::uint16_t>(base + request.number), static_cast<std::uint8_t>(sub_index)};
 }
 
 }  // namespace nord_driver

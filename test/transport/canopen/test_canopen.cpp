@@ -1,7 +1,11 @@
-// The CANopen transport asks its interface no more than it must: what it has counted is a question to the kernel.
+// The CANopen transport asks its interface no more than it must: what it has counted is a question to the kernel. Drives
+// behind one SDO server have it in turn.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "sim/canopen/simulated_can_bus.h"
 #include "transport/canopen/canopen.h"
@@ -100,6 +104,94 @@ TEST_F(OnAnAskedBus, TheLastOnesBeforeItGoesAreCounted) {
   bus_->setInterfacePresent(false);
   run(seconds{1});
   EXPECT_EQ(2u, counters_.value(bus_counter::kOverruns));
+}
+
+/// `gateways` SK CU4-CAO with two inverters each, whose parameters one SDO server has (index_offset).
+class BehindOneServer {
+ public:
+  explicit BehindOneServer(std::size_t gateways) : outputs_(2 * gateways), inputs_(2 * gateways) {
+    test::CanopenSettings settings{2 * gateways};
+    for (std::size_t i = 0; i < settings.drives.size(); ++i) {
+      settings.drive(i).set("address", addressOf(i)).set("connection", "gateway").set("inverter", inverterOf(i));
+      settings.drive(i).set("parameter_servers", "index_offset");
+    }
+    transport_.configure(settings.bus, settings.drives, 100.0);
+    for (int i = 0; i < 300; ++i) cycle();
+  }
+  /// How often each drive was answered in `cycles`; those of `busy` always have as many requests waiting as there is room for.
+  std::vector<int> answers(const std::vector<DriveIndex>& busy, int cycles) {
+    std::vector<int> count(inputs_.size(), 0);
+    for (const DriveIndex drive : busy) {
+      for (std::size_t i = 0; i < CanopenParameters::kCapacity; ++i) ask(drive);
+    }
+    for (int i = 0; i < cycles; ++i) {
+      cycle();
+      while (const auto result = transport_.pollResult()) {
+        ++count[result->id];
+        ask(static_cast<DriveIndex>(result->id));
+      }
+    }
+    return count;
+  }
+  bool allAnswer() const {
+    return std::all_of(inputs_.begin(), inputs_.end(),
+                       [](const DriveExchange& input) { return input.inverter_answers; });
+  }
+
+ private:
+  static int addressOf(std::size_t drive) { return static_cast<int>(10 + drive / 2); }
+  static int inverterOf(std::size_t drive) { return static_cast<int>(1 + drive % 2); }
+  void ask(DriveIndex drive) {
+    profile::ParameterRequest request;
+    request.id = static_cast<std::uint32_t>(drive);
+    request.number = 102;
+    request.parameter_set = 1;
+    request.shape = profile::ParameterShape::kPerSet;
+    EXPECT_TRUE(transport_.submit(drive, request));
+  }
+  void cycle() {
+    const Instant start = transport_.now();
+    transport_.exchange(outputs_, inputs_);
+    transport_.sleepUntil(start + milliseconds{10});
+  }
+  sim::SimConfig simConfig() const {
+    sim::SimConfig config;
+    config.bus = sim::CanBusConfig{};
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+      sim::DriveConfig drive;
+      drive.name = "drive" + std::to_string(i);
+      drive.address = static_cast<std::uint8_t>(addressOf(i));
+      drive.place = static_cast<unsigned>(inverterOf(i));
+      drive.bus = sim::CanDriveConfig{};
+      drive.bus.as<sim::CanDriveConfig>().connection = sim::CanConnection::kGateway;
+      config.drives.push_back(drive);
+    }
+    return config;
+  }
+
+  std::vector<profile::ProcessOutput> outputs_;
+  std::vector<DriveExchange> inputs_;
+  CanopenTransport transport_{
+      [this](const link::CanSettings&) { return std::make_unique<sim::SimulatedCanBus>(simConfig()); }};
+};
+
+// One that has something to ask all the time leaves the others their turn.
+TEST(CanopenTurns, InvertersBehindOneServerAreServedInTurn) {
+  BehindOneServer robot{1};
+  ASSERT_TRUE(robot.allAnswer());
+  const std::vector<int> count = robot.answers({0, 1}, 100);
+  EXPECT_GE(count[0], 10);
+  EXPECT_NEAR(count[0], count[1], 1);
+}
+
+// A turn at one server is none at another: they do not take each other's, however they fall out of step.
+TEST(CanopenTurns, EachServerHasItsOwnTurns) {
+  BehindOneServer robot{2};
+  ASSERT_TRUE(robot.allAnswer());
+  const std::vector<int> count = robot.answers({0, 1, 2, 3}, 100);
+  for (const int of : count) EXPECT_GE(of, 10);
+  EXPECT_NEAR(count[0], count[1], 1);
+  EXPECT_NEAR(count[2], count[3], 1);
 }
 
 }  // namespace

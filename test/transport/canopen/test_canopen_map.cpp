@@ -234,6 +234,17 @@ TEST(CanopenMap, AnIndexOffsetIsAdded) {
   EXPECT_EQ(std::make_pair(0x2866, 1), object(request(102, ParameterShape::kPerSet, 1), config));
 }
 
+// The EtherCAT module's own parameters are at 2000h, without an offset (BU 0570 p. 25).
+TEST(CanopenMap, TheModulesOwnParametersHaveNoOffset) {
+  CanopenDrive config = behindGateway(2);
+  config.parameter_base = 0x3000;
+  EXPECT_EQ(std::make_pair(0x3000 + 149, 0), object(request(149, ParameterShape::kPlain), config));
+  EXPECT_EQ(std::make_pair(0x2000 + 150, 0), object(request(150, ParameterShape::kPlain), config));
+  EXPECT_EQ(std::make_pair(0x2000 + 173, 2), object(request(173, ParameterShape::kArray, 1, 2), config));
+  EXPECT_EQ(std::make_pair(0x2000 + 199, 0), object(request(199, ParameterShape::kPlain), config));
+  EXPECT_EQ(std::make_pair(0x3000 + 200, 0), object(request(200, ParameterShape::kPlain), config));
+}
+
 TEST(CanopenMap, WhatIsNoParameterHasNoObject) {
   EXPECT_EQ(-1, object(request(1000, ParameterShape::kPlain)).first);
   EXPECT_EQ(-1, object(request(102, ParameterShape::kPerSet, 0)).first);
