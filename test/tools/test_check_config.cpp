@@ -204,6 +204,13 @@ TEST_F(CheckConfig, WhatTheBusRefusesIsNamedBesideWhatTheBaseDoes) {
                                  HasSubstr("refused: 2 errors")));
 }
 
+TEST_F(CheckConfig, TheBusOptionIsAboveAllTheFileSays) {
+  const std::string text = "bus_end_point: /dev/ttyUSB1\n" + std::string(kConveyor);
+  EXPECT_THAT(checkText(text).output, HasSubstr("profibus_dp at /dev/ttyUSB1,"));
+  EXPECT_THAT(checkText(text, {"--bus", "/dev/ttyUSB2"}).output, HasSubstr("profibus_dp at /dev/ttyUSB2,"));
+  EXPECT_THAT(checkText(text, {"--device", "/dev/ttyUSB2"}).output, HasSubstr("profibus_dp at /dev/ttyUSB2,"));
+}
+
 TEST_F(CheckConfig, TellsProgramsTheSameAsJson) {
   const Ended ended = checkText(kConveyor, {"--json"});
   EXPECT_EQ(0, ended.code) << ended.errors;
