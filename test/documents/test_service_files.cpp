@@ -100,7 +100,7 @@ std::string replaced(std::string text, const std::string& part, const std::strin
   return text.replace(found, part.size(), by);
 }
 
-// Two nodes of one name throw each other off the master, and systemd starts each again, for ever. What the page says against it
+// Two nodes of one name throw each other off the master, and systemd starts each again. What the page says against it
 // is put where the unit puts it.
 TEST(ServiceFiles, TheSecondUnitsNodeGetsTheNameThePageGivesIt) {
   const std::string options = shell(std::string{"sed -n \"s/.*ROSLAUNCH_OPTIONS=\\([^']*name:=[a-z_]*\\).*/\\1/p\" "} +
@@ -132,6 +132,13 @@ TEST(ServiceFiles, SystemdKnowsThePagesUnitOfTheMaster) {
       page.substr(begin, end - begin) + "\nEND\n");
   EXPECT_EQ(0, verified.code);
   EXPECT_EQ("", verified.errors);
+}
+
+// systemd.exec, DynamicUser=: a /tmp of its own, and nothing else can be written but the folder of StateDirectory=.
+TEST(ServiceFiles, ThePagesTracesGoWhereTheServiceMayWrite) {
+  EXPECT_THAT(driverUnit(), HasSubstr("\nDynamicUser=yes\n"));
+  EXPECT_THAT(driverUnit(), HasSubstr("\nStateDirectory=nord_driver\n"));
+  EXPECT_THAT(installationPage(), HasSubstr("`trace_directory: /var/lib/nord_driver`"));
 }
 
 // udevadm verify came with systemd 254; before it, udevadm test reads the rules of /run/udev, here a folder of our own.
