@@ -4,7 +4,8 @@
 # tools. Ends with 0 when the robot's true pose has moved.
 set -euo pipefail
 package=$1
-export DEBIAN_FRONTEND=noninteractive LANG=C.UTF-8 ROS_HOSTNAME=localhost ROS_MASTER_URI=http://localhost:11311
+export DEBIAN_FRONTEND=noninteractive LANG=C.UTF-8 ROS_HOSTNAME=localhost
+unset ROS_MASTER_URI # as in a user's shell: Debian's ROS sets none
 
 fail() {
   echo "try_deb: $*" >&2
@@ -46,6 +47,9 @@ until rosservice call /nord_driver/enable true 2>/dev/null | grep -q 'success: T
   kill -0 "$launch" 2>/dev/null || fail "roslaunch has ended"
   ((SECONDS < deadline)) || fail "the drives were not enabled within 60 s"
 done
+said=$(nord_param --config "$config/demo.yaml" --bus /tmp/nord_driver_demo_bus read left P105 2>&1) ||
+  fail "nord_param does not read beside the driver: $said"
+[[ $said == *"through node /nord_driver"*"P105"* ]] || fail "nord_param beside the driver says $said"
 before=$(true_x) || fail "nothing comes on /nord_sim/truth/odom"
 timeout 60 rostopic pub -r 20 /cmd_vel geometry_msgs/Twist '{linear: {x: 0.3}}' >/dev/null 2>&1 &
 deadline=$((SECONDS + 60))

@@ -10,6 +10,7 @@
 #include "config/yaml_merge.h"
 #include "config/yaml_number.h"
 #include "config/yaml_tree.h"
+#include "core/units.h"
 
 namespace nord_driver {
 
@@ -28,10 +29,37 @@ SettingValue wholeNumber(const std::string& name, const YAML::Node& node) {
       (known ? "; write " + std::to_string(whole) + ".0" : ""));
 }
 
+/// "deg(90)" or "rad(1.5)" where rosparam takes the value for an angle, written as the tag `!degrees 90` as well; else
+/// empty.
+std::string angleText(const YAML::Node& node) {
+  const std::string& text = node.Scalar();
+  const bool begins = text.compare(0, 4, "deg(") == 0 || text.compare(0, 4, "rad(") == 0;
+  const bool in_brackets = begins && text.find(')') == text.size() - 1;
+  if (node.Tag() == "!degrees") return in_brackets ? text : "deg(" + text + ")";
+  if (node.Tag() == "!radians") return in_brackets ? text : "rad(" + text + ")";
+  return in_brackets && node.Tag() != "!" ? text : "";
+}
+
+// In rad() rosparam evaluates Python: rad(pi/2). Nobody does this here, so that only a number can be read.
+SettingValue angleValue(const std::string& name, const std::string& text) {
+  static const std::regex kNumberInBrackets(
+      R"(.{4} *([-+]?(0|[1-9][0-9]*|[0-9]+\.[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?) *\))");
+  constexpr std::size_t kLongest = 64;  // std::regex takes stack for each character
+  std::smatch parts;
+  double number = 0.0;
+  if (text.size() > kLongest || !std::regex_match(text, parts, kNumberInBrackets) ||
+      !YAML::convert<double>::decode(YAML::Node(parts[1].str()), number)) {
+    throw ConfigError(name + ": " + text + " is not valid, expected one number in the brackets: write the number");
+  }
+  return SettingValue::ofFraction(text[0] == 'd' ? number * kPi / 180.0 : number, text);
+}
+
 // YAML 1.1, as rosparam reads it. In its keys a slash begins a group: "linear/x: {...}".
 SettingValue scalarValue(const std::string& name, const YAML::Node& node) {
   static const std::regex kBooleans("true|True|TRUE|false|False|FALSE|yes|Yes|YES|no|No|NO|on|On|ON|off|Off|OFF");
   const std::string& text = node.Scalar();
+  const std::string angle = angleText(node);
+  if (!angle.empty()) return angleValue(name, angle);
   if (node.Tag() == "!") return SettingValue::ofText(text);  // quoted
   if (isYamlInteger(text)) return wholeNumber(name, node);
   if (isYamlFraction(text)) return SettingValue::ofFraction(node.as<double>(), text);

@@ -242,6 +242,7 @@ CheckedConfig checkConfig(const std::vector<std::string>& files, const std::stri
   const KeyLines lines(files);
   Findings findings(checked, lines);
   for (const std::string& twice : lines.keysTwice()) findings.warn(twice);
+  if (!findings.run([&] { YamlSettings("", file); })) return checked;  // a value that is of no kind
 
   std::shared_ptr<Transport> transport;
   findings.run([&] {

@@ -67,7 +67,12 @@ void choosePort(YAML::Node& file, const BusPort& port, const EndPoint& end_point
   const YamlSettings settings{"", file};
   std::string value = chosenPort(port, shortTransportName(readTransportName(settings)), end_point.key);
   settings.group("bus");  // refuses a value where the group belongs
-  if (value.empty()) value = settings.text("bus_end_point").value_or("");
+  const auto in_file = settings.text("bus_end_point");
+  if (value.empty()) {
+    value = in_file.value_or("");
+  } else if (in_file) {
+    file["bus_end_point"] = value;  // the node's reader takes this before the key of the bus
+  }
   if (!value.empty() && !end_point.isNone()) file["bus"][end_point.key] = value;
 }
 

@@ -31,7 +31,8 @@ struct ToolConfig {
 std::string transportOf(const YAML::Node& file);
 
 /// Puts the port, or the file's bus_end_point, in place of the file's bus/<key>, where the transport has its
-/// `end_point`. Throws UsageError when the port is one of another bus, and ConfigError as below.
+/// `end_point`; the port in place of bus_end_point as well, where the file has that. Throws UsageError when the port is
+/// one of another bus, and ConfigError as below.
 void choosePort(YAML::Node& file, const BusPort& port, const EndPoint& end_point);
 
 /// All drives of the file, to look at them: a file without a port is given one that means nothing. Throws ConfigError.

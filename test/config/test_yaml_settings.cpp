@@ -97,6 +97,48 @@ TEST(YamlSettings, TakesForNumbersWhatRosparamTakes) {
   }
 }
 
+// rosparam makes radians of them, as fractions; each as rosparam.load_str of Noetic has it.
+TEST(YamlSettings, AnglesAreRadiansAsRosparamMakesThem) {
+  const std::pair<const char*, double> angles[] = {{"deg(90)", 1.5707963267948966},
+                                                   {"deg(-90.0)", -1.5707963267948966},
+                                                   {"deg( 90 )", 1.5707963267948966},
+                                                   {"deg(1e2)", 1.7453292519943295},
+                                                   {"deg(.5)", 0.008726646259971648},
+                                                   {"rad(1.5)", 1.5},
+                                                   {"rad( 1.5 )", 1.5},
+                                                   {"rad(-1)", -1.0},
+                                                   {"rad(5.)", 5.0},
+                                                   {"rad(0)", 0.0},
+                                                   {"rad(08.5)", 8.5},
+                                                   {"!degrees 90", 1.5707963267948966},
+                                                   {"!degrees '90'", 1.5707963267948966},
+                                                   {"!degrees deg(90)", 1.5707963267948966},
+                                                   {"!radians 1.5", 1.5}};
+  for (const auto& [text, radians] : angles) {
+    EXPECT_EQ(radians, settings((std::string("{a: ") + text + "}").c_str()).number("a")) << text;
+  }
+  EXPECT_THAT(settings("a: [deg(0), deg(90)]").numbers("a").value(), ElementsAre(0.0, 1.5707963267948966));
+  EXPECT_EQ("a: deg(90) is not valid, expected a text", refusal([] { settings("a: deg(90)").text("a"); }));
+}
+
+TEST(YamlSettings, WhatRosparamTakesForATextIsNoAngle) {
+  for (const char* const text : {"'deg(90)'", "Deg(90)", "deg (90)", "-deg(90)", "deg(1)(2)", "degrees", "rad((1))"}) {
+    EXPECT_NO_THROW(settings((std::string("a: ") + text).c_str()).text("a")) << text;
+  }
+}
+
+// rosparam evaluates what is in rad(...), as Python does, and ends with what it cannot read.
+TEST(YamlSettings, AnAngleThatIsNoPlainNumberIsRefused) {
+  for (const std::string angle : {"rad(pi/2)", "rad(2*pi)", "rad()", "rad(0x10)", "rad(08)", "rad(1.5.)", "rad(1e999)",
+                                  "deg(pi)", "deg()", "deg(inf)", "deg(9O)", "deg(1_0)"}) {
+    EXPECT_EQ(
+        "~steered/front/max_angle: " + angle + " is not valid, expected one number in the brackets: write the number",
+        refusal([&] { YamlSettings("~", YAML::Load("steered: {front: {max_angle: " + angle + "}}")); }));
+  }
+  EXPECT_EQ("a: rad(2*pi) is not valid, expected one number in the brackets: write the number",
+            refusal([] { settings("a: !radians 2*pi"); }));
+}
+
 // rosparam itself would end with it, whoever reads that key.
 TEST(YamlSettings, AWholeNumberOfMoreThan32BitsIsRefused) {
   const auto refusalOf = [](const std::string& number) {

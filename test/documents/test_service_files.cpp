@@ -4,6 +4,7 @@
 
 #include <cctype>
 #include <cstdlib>
+#include <stdexcept>
 #include <string>
 
 #include "tools/program.h"
@@ -87,6 +88,57 @@ TEST(ServiceFiles, TheServiceTakesAutoEnableAway) {
   EXPECT_EQ("/nord_driver/auto_enable: false\n", dump.output) << dump.errors;
   const Ended launch = shell(std::string{"cat "} + kInstall + "/../launch/service.launch");
   EXPECT_THAT(launch.output, HasSubstr("required=\"true\"")) << "systemd would not see that the node has ended";
+}
+
+std::string installationPage() {
+  return shell(std::string{"cat "} + kInstall + "/../doc/installation.md").output;
+}
+
+std::string replaced(std::string text, const std::string& part, const std::string& by) {
+  const std::size_t found = text.find(part);
+  if (found == std::string::npos) throw std::runtime_error("no " + part + " in " + text);
+  return text.replace(found, part.size(), by);
+}
+
+// Two nodes of one name throw each other off the master, and systemd starts each again. What the page says against it
+// is put where the unit puts it.
+TEST(ServiceFiles, TheSecondUnitsNodeGetsTheNameThePageGivesIt) {
+  const std::string options = shell(std::string{"sed -n \"s/.*ROSLAUNCH_OPTIONS=\\([^']*name:=[a-z_]*\\).*/\\1/p\" "} +
+                                    kInstall + "/../doc/installation.md | tr -d '\\n'")
+                                  .output;
+  ASSERT_EQ("--wait name:=rear_driver", options);
+  EXPECT_THAT(driverUnit(), HasSubstr("name:=rear_driver"));
+  std::string start =
+      shell(std::string{"sed -n 's/^ExecStart=//p' "} + kInstall + "/systemd/nord_driver@.service").output;
+  start = replaced(start, "/usr/bin/roslaunch nord_driver service.launch",
+                   std::string{"roslaunch --dump-params "} + kInstall + "/../launch/service.launch");
+  start = replaced(start, "/etc/nord_driver/%i.yaml", "$file");
+  const Ended dump = shell("file=$(mktemp --suffix=.yaml); echo 'auto_enable: true' >$file; ROSLAUNCH_OPTIONS='" +
+                           options + "'; " + start + "rm $file");
+  EXPECT_THAT(dump.output, HasSubstr("/rear_driver/auto_enable: false\n")) << dump.errors;
+  EXPECT_THAT(dump.output, Not(HasSubstr("/nord_driver/")));
+}
+
+// roslaunch ends the master it has started with its node: neither of two drivers may be the one that has.
+TEST(ServiceFiles, SystemdKnowsThePagesUnitOfTheMaster) {
+  const std::string page = installationPage();
+  const std::size_t begin = page.find("    [Unit]\n    Description=ROS master\n"), end = page.find("\n\n", begin);
+  ASSERT_NE(std::string::npos, begin);
+  EXPECT_THAT(page, HasSubstr("    [Unit]\n    Requires=roscore.service\n    After=roscore.service\n"));
+  if (shell("command -v systemd-analyze && command -v roscore").code != 0) GTEST_SKIP() << "no systemd, or no roscore";
+  const Ended verified = shell(
+      "folder=$(mktemp -d) && sed 's/^    //' >$folder/roscore.service <<'END' && systemd-analyze verify "
+      "$folder/roscore.service; code=$?; rm -r $folder; exit $code\n" +
+      page.substr(begin, end - begin) + "\nEND\n");
+  EXPECT_EQ(0, verified.code);
+  EXPECT_EQ("", verified.errors);
+}
+
+// systemd.exec, DynamicUser=: a /tmp of its own, and nothing else can be written but the folder of StateDirectory=.
+TEST(ServiceFiles, ThePagesTracesGoWhereTheServiceMayWrite) {
+  EXPECT_THAT(driverUnit(), HasSubstr("\nDynamicUser=yes\n"));
+  EXPECT_THAT(driverUnit(), HasSubstr("\nStateDirectory=nord_driver\n"));
+  EXPECT_THAT(installationPage(), HasSubstr("`trace_directory: /var/lib/nord_driver`"));
 }
 
 // udevadm verify came with systemd 254; before it, udevadm test reads the rules of /run/udev, here a folder of our own.

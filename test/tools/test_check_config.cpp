@@ -204,6 +204,29 @@ TEST_F(CheckConfig, WhatTheBusRefusesIsNamedBesideWhatTheBaseDoes) {
                                  HasSubstr("refused: 2 errors")));
 }
 
+TEST_F(CheckConfig, TheBusOptionIsAboveAllTheFileSays) {
+  const std::string text = "bus_end_point: /dev/ttyUSB1\n" + std::string(kConveyor);
+  EXPECT_THAT(checkText(text).output, HasSubstr("profibus_dp at /dev/ttyUSB1,"));
+  EXPECT_THAT(checkText(text, {"--bus", "/dev/ttyUSB2"}).output, HasSubstr("profibus_dp at /dev/ttyUSB2,"));
+  EXPECT_THAT(checkText(text, {"--device", "/dev/ttyUSB2"}).output, HasSubstr("profibus_dp at /dev/ttyUSB2,"));
+}
+
+// What rosparam ends with, and what only it evaluates, is refused in the file as a whole, before anybody asks for the key.
+TEST_F(CheckConfig, NamesAValueOfNoKindWithItsLine) {
+  const Ended ended = checkText("cmd_vel_timeout: rad(pi/2)\n" + std::string(kConveyor));
+  EXPECT_EQ(1, ended.code);
+  EXPECT_EQ(file_ + "\n" + file_ +
+                ":1: error: cmd_vel_timeout: rad(pi/2) is not valid, expected one number in the brackets: write the "
+                "number\nrefused: 1 error\n",
+            ended.output);
+  const Ended too_long =
+      checkText("cmd_vel_timeout: 0.5\nbase_frame: 2147483648\n" + std::string(kConveyor), {"--json"});
+  EXPECT_EQ(1, too_long.code);
+  EXPECT_EQ(2, YAML::Load(too_long.output)["errors"][0]["line"].as<int>());
+  const Ended angle = checkText("cmd_vel_timeout: deg(45)\n" + std::string(kConveyor));
+  EXPECT_EQ(0, angle.code) << angle.output;
+}
+
 TEST_F(CheckConfig, TellsProgramsTheSameAsJson) {
   const Ended ended = checkText(kConveyor, {"--json"});
   EXPECT_EQ(0, ended.code) << ended.errors;

@@ -124,6 +124,22 @@ TEST(ToolConfig, TheBusOptionFitsEveryTransport) {
   EXPECT_EQ("gateway: z", portOf("{transport: a/b, bus_end_point: y}", {"", "", "z"}, gateway));
 }
 
+// The node's reader, which check-config runs, puts bus_end_point above the key of the bus.
+TEST(ToolConfig, ThePortOfTheCommandLineReplacesTheFilesBusEndPoint) {
+  const auto chosen = [](const char* file, const BusPort& port) {
+    YAML::Node node = YAML::Load(file);
+    choosePort(node, port, kDevice);
+    return node["bus_end_point"] ? node["bus_end_point"].Scalar() : "absent";
+  };
+  EXPECT_EQ("b", chosen("{bus_end_point: a, bus: {device: c}}", {"", "", "b"}));
+  EXPECT_EQ("b", chosen("bus_end_point: a", {"b", "", ""}));
+  EXPECT_EQ("a", chosen("bus_end_point: a", {}));
+  EXPECT_EQ("absent", chosen("bus: {device: a}", {"", "", "b"})) << "the file has no such key";
+  EXPECT_EQ("bus_end_point: 5 is not valid, expected a text", refusal([&] {
+              chosen("bus_end_point: 5", {"", "", "b"});
+            }));
+}
+
 // What would be ignored looks taken.
 TEST(ToolConfig, ThePortOfAnotherTransportIsRefused) {
   EXPECT_EQ("--device does not fit the transport canopen, expected --interface",

@@ -26,9 +26,10 @@ namespace {
 
 constexpr char kProgram[] = "nord_param";  // as the master knows it, with a number behind
 
+/// As roslaunch, rosservice and Debian's roscpp take it where the variable is not set: Debian's packages set none.
 std::string masterUri() {
   const char* uri = std::getenv("ROS_MASTER_URI");
-  return uri == nullptr ? "" : uri;
+  return uri == nullptr || *uri == '\0' ? "http://localhost:11311" : uri;
 }
 
 bool masterAnswers() {
@@ -86,9 +87,10 @@ RosDriveNodes::~RosDriveNodes() {
   if (begun_) ros::shutdown();
 }
 
-// The signals are this program's own.
+// The signals are this program's own. Without the variable upstream's roscpp aborts, Debian's does not.
 void RosDriveNodes::begin() {
   if (begun_) return;
+  ::setenv("ROS_MASTER_URI", masterUri().c_str(), 1);
   ros::init(ros::M_string{}, kProgram,
             ros::init_options::NoSigintHandler | ros::init_options::AnonymousName | ros::init_options::NoRosout);
   ros::start();
@@ -129,8 +131,7 @@ ScanReport RosDriveNodes::scan(const std::string& node) {
 
 void RosDriveNodes::beginFor(const std::string& node) {
   if (!begun_ && !masterAnswers()) {
-    throw Trouble("no ROS master answers at ROS_MASTER_URI (" + (masterUri().empty() ? "not set" : masterUri()) +
-                  "): node " + node + " cannot be asked");
+    throw Trouble("no ROS master answers at ROS_MASTER_URI (" + masterUri() + "): node " + node + " cannot be asked");
   }
   begin();
 }

@@ -1,4 +1,5 @@
-// The nodes of the driver that run, found through the ROS master of the environment (ROS_MASTER_URI).
+// The nodes of the driver that run, found through the ROS master of the environment (ROS_MASTER_URI; where this is not
+// set http://localhost:11311).
 #pragma once
 
 #include "tools/drive_nodes.h"
