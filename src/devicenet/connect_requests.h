@@ -30,7 +30,9 @@ constexpr std::uint8_t kExpectedPacketRate = 9;
 }  // namespace connection_attribute
 
 constexpr std::uint8_t kExplicitInstance = 1;
-constexpr std::uint8_t kEstablished = 3;  ///< of connection_attribute::kState
+// Of connection_attribute::kState.
+constexpr std::uint8_t kNonexistent = 0;
+constexpr std::uint8_t kEstablished = 3;
 
 /// Services 4Bh and 4Ch of the DeviceNet object, on the unconnected port.
 ConnectRequest allocateRequest(std::uint8_t choice, std::uint8_t own_mac) noexcept;

@@ -89,7 +89,7 @@ constexpr std::uint8_t ioChoice(const IoConfig& io) noexcept {
   return 0;
 }
 
-/// The instance of the connection object (class 5) by which the inputs come; BU 0280 4.3.4.
+/// The instance of the connection object (class 5) by which the inputs come; BU 0280 4.3.4 ("COS/Cyclic" is 4).
 constexpr std::uint8_t connectionInstance(IoKind kind) noexcept {
   switch (kind) {
     case IoKind::kNone:
@@ -103,6 +103,22 @@ constexpr std::uint8_t connectionInstance(IoKind kind) noexcept {
       return 4;
   }
   return 1;
+}
+
+/// "Poll or COS/cyclic consuming" (INFICON Composer Elite table 5-7, Eaton DX-NET-DEVICENET table 10, Rockwell 855T table
+/// B.14).
+constexpr std::uint8_t kConsumingInstance = connectionInstance(IoKind::kPoll);
+
+/// The instance that carries the outputs, before the device was asked.
+constexpr std::uint8_t outputsInstance(const IoConfig& io) noexcept {
+  return isPolledBesideStrobe(io) ? kConsumingInstance : connectionInstance(io.kind);
+}
+
+/// Change of state and cyclic: with some devices instance 4 produces the inputs and consumes acknowledges alone, of 0 bytes
+/// or, at Eaton, 8; the outputs are consumed by `kConsumingInstance`, which has a time-out of its own. With others (Rockwell
+/// 193-UM006A) 4 does both. The device tells.
+constexpr bool mayTakeBySecond(const IoConfig& io) noexcept {
+  return (io.kind == IoKind::kChangeOfState || io.kind == IoKind::kCyclic) && io.output_bytes > 0;
 }
 
 /// The bit strobe command carries one bit for each of the 64 MAC ids.

@@ -11,9 +11,9 @@ NodeConnect::NodeConnect(const NodeConfig& config, const ScannerConfig& bus, Nod
       report_(report),
       channel_(channel),
       io_choice_(ioChoice(config.io)),
-      two_connections_(isPolledBesideStrobe(config.io)),
-      first_instance_(connectionInstance(two_connections_ ? IoKind::kPoll : config.io.kind)),
-      instance_(first_instance_) {}
+      inputs_instance_(connectionInstance(config.io.kind)),
+      outputs_instance_(outputsInstance(config.io)),
+      instance_(outputs_instance_) {}
 
 void NodeConnect::start(Instant now) noexcept {
   failures_ = 0;
@@ -98,6 +98,8 @@ std::optional<ConnectRequest> NodeConnect::requestOf(Phase phase) const noexcept
       return releaseRequest(io_choice_ & choice::kConnections);
     case Phase::kProducedSize:
       return connectionRequest(instance_, connection_attribute::kProducedSize);
+    case Phase::kSecondState:
+      return connectionRequest(kConsumingInstance, connection_attribute::kState);
     case Phase::kConsumedSize:
       return connectionRequest(instance_, connection_attribute::kConsumedSize);
     case Phase::kWriteRate:
@@ -173,6 +175,8 @@ void NodeConnect::handleAnswer(const ExplicitAnswer& answer, Instant now) noexce
     case Phase::kProducedSize:
     case Phase::kConsumedSize:
       return handleSize(answer, now);
+    case Phase::kSecondState:
+      return handleSecondState(answer, now);
     case Phase::kWriteRate:
     case Phase::kReadRate:
       return handleRate(answer, now);

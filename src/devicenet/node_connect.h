@@ -1,7 +1,10 @@
 // How a device is brought to exchange, kept there and let go: allocate its explicit connection, read and compare its
 // identity, allocate its I/O connection, read and compare its sizes, write its expected packet rate and use what it
-// answers; keep the explicit connection alive; release what was allocated after a loss, and begin again. A bit strobe with
-// a poll beside it is two I/O connections, allocated together: the sizes of both, then the rates of both.
+// answers; keep the explicit connection alive; release what was allocated after a loss, and begin again.
+//
+// Inputs and outputs may go by two connection objects, allocated together: a bit strobe with a poll beside it, and change
+// of state or cyclic where the device answers so (makers print both layouts, see mayTakeBySecond()). The sizes of both are
+// compared, then the rates of both are written, that of the outputs last.
 #pragma once
 
 #include <cstdint>
@@ -73,6 +76,7 @@ class NodeConnect {
     kAllocateIo,
     kReleaseStaleIo,
     kProducedSize,
+    kSecondState,  ///< whether there is a second connection object, which takes the outputs
     kConsumedSize,
     kWriteRate,
     kReadRate,  ///< when it did not answer the write with its value
@@ -100,6 +104,7 @@ class NodeConnect {
   void handleExplicitRate(const ExplicitAnswer& answer, Instant now) noexcept;
   void handleIoAllocated(const ExplicitAnswer& answer, Instant now) noexcept;
   void handleSize(const ExplicitAnswer& answer, Instant now) noexcept;
+  void handleSecondState(const ExplicitAnswer& answer, Instant now) noexcept;
   void compareSizes(std::uint16_t consumed, Instant now) noexcept;
   void handleRate(const ExplicitAnswer& answer, Instant now) noexcept;
   void useRate(Duration rate, Instant now) noexcept;
@@ -127,11 +132,11 @@ class NodeConnect {
   NodeReport& report_;
   ExplicitChannel& channel_;
   std::uint8_t io_choice_;
-  bool two_connections_;         // bit strobe, and a poll beside it
-  std::uint8_t first_instance_;  // what carries the outputs: whose time-out stops the device
-  std::uint8_t instance_;        // the connection that is set up or asked for
-  std::uint16_t produced_ = 0;   // its size
-  bool let_go_first_ = false;    // a try that begins with a release
+  std::uint8_t inputs_instance_;   // the connection object by which the inputs come
+  std::uint8_t outputs_instance_;  // the one that carries the outputs: whose time-out stops the device
+  std::uint8_t instance_;          // the one that is set up or asked for
+  std::uint16_t produced_ = 0;     // its size
+  bool let_go_first_ = false;      // a try that begins with a release
   Phase phase_ = Phase::kOff;
   TimerTable<Timer> timers_;
   std::uint8_t held_ = 0;       // what the device may have allocated to us

@@ -133,7 +133,8 @@ void NodeConnect::handleExplicitRate(const ExplicitAnswer& answer, Instant now) 
 void NodeConnect::handleIoAllocated(const ExplicitAnswer& answer, Instant now) noexcept {
   if (answer.end == ExplicitEnd::kTimedOut) return fail("gave no answer to the allocation of its process data", now);
   if (answer.ok()) {
-    instance_ = first_instance_;
+    outputs_instance_ = outputsInstance(config_.io);
+    instance_ = outputs_instance_;
     return enter(Phase::kProducedSize, now);
   }
   // The explicit connection is ours: so is this one, from before.
@@ -157,27 +158,38 @@ void NodeConnect::handleSize(const ExplicitAnswer& answer, Instant now) noexcept
   const auto size = static_cast<std::uint16_t>(*answer.number());
   if (phase_ == Phase::kProducedSize) {
     produced_ = size;
-    return enter(Phase::kConsumedSize, now);
+    return enter(mayTakeBySecond(config_.io) ? Phase::kSecondState : Phase::kConsumedSize, now);
   }
-  if (instance_ == first_instance_) {
+  if (instance_ == outputs_instance_) {
     report_.status().produced_size = produced_;
     report_.status().consumed_size = size;
   }
   compareSizes(size, now);
 }
 
+// However it is refused: there is none, and then the first one must take the outputs, which its size tells.
+void NodeConnect::handleSecondState(const ExplicitAnswer& answer, Instant now) noexcept {
+  if (answer.end == ExplicitEnd::kTimedOut) {
+    return fail("does not tell whether it takes process data by connection object 2", now);
+  }
+  if (answer.ok() && answer.number().value_or(kNonexistent) != kNonexistent) outputs_instance_ = kConsumingInstance;
+  instance_ = outputs_instance_;
+  enter(Phase::kConsumedSize, now);
+}
+
 void NodeConnect::compareSizes(std::uint16_t consumed, Instant now) noexcept {
   const std::size_t expected = consumedSize(config_.io, instance_);
+  const bool polled_beside = isPolledBesideStrobe(config_.io) && instance_ == outputs_instance_;
   if (produced_ == config_.io.input_bytes && consumed == expected) {
-    const bool more = two_connections_ && instance_ == first_instance_;
     // A connection runs from its rate on: the rates of both come last, one right after the other.
-    if (two_connections_) instance_ = connectionInstance(IoKind::kStrobe);
-    return enter(more ? Phase::kProducedSize : Phase::kWriteRate, now);
+    instance_ = inputs_instance_;
+    return enter(polled_beside ? Phase::kProducedSize : Phase::kWriteRate, now);
   }
-  const IoKind kind = instance_ == connectionInstance(IoKind::kPoll) ? IoKind::kPoll : config_.io.kind;
+  const bool by_second = mayTakeBySecond(config_.io) && outputs_instance_ != inputs_instance_;
   Sentence why;
-  why.format("sends %u and takes %u bytes of process data by %s; %zu and %zu are configured", unsigned{produced_},
-             unsigned{consumed}, toText(kind), config_.io.input_bytes, expected);
+  why.format("sends %u and takes %u bytes of process data by %s%s; %zu and %zu are configured", unsigned{produced_},
+             unsigned{consumed}, toText(polled_beside ? IoKind::kPoll : config_.io.kind),
+             by_second ? " (connection objects 4 and 2)" : "", config_.io.input_bytes, expected);
   refuseIo(why, now);
 }
 
@@ -207,8 +219,8 @@ void NodeConnect::useRate(Duration rate, Instant now) noexcept {
         "we are gone",
         toSeconds(rate) * 1e3, toSeconds(*config_.io.expected_packet_rate) * 1e3,
         toSeconds(kRatesUntilTimeout * rate) * 1e3);
-  } else if (instance_ != first_instance_) {
-    instance_ = first_instance_;
+  } else if (instance_ != outputs_instance_) {
+    instance_ = outputs_instance_;
     return enter(Phase::kWriteRate, now);
   } else {
     return run(now);

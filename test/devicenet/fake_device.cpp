@@ -98,7 +98,7 @@ void FakeDevice::unconnected(const CanFrame& frame, Instant now) {
     if ((choice & 1) != 0) explicit_at_ = now;
     if ((choice & 0x3E) != 0) {
       established = timed_out = false;
-      rates_ = 0;
+      rated_ = {};
     }
     return reply({0xCB, 0x00});
   }
@@ -205,25 +205,37 @@ FakeDevice::Bytes FakeDevice::getAttribute(const Address& address) const {
   if (address == Address{3, 1, 5}) return found({held, master});
   if (address == Address{5, 1, 1}) return found({3});
   if (address == Address{5, 1, 9}) return found(word(explicit_rate));
-  if (std::get<0>(address) == 5 && heldBy(std::get<1>(address)) != 0) {
-    const unsigned attribute = std::get<2>(address);
+  const auto [object_class, instance, attribute] = address;
+  if (object_class == 5 && has(instance)) {
     if (attribute == 1) return found({static_cast<std::uint8_t>(established ? 3 : timed_out ? 4 : 1)});
-    if (attribute == 7) return found(word(static_cast<unsigned>(produced)));
-    if (attribute == 8) return found(word(static_cast<unsigned>(std::get<1>(address) == 3 ? 8 : consumed)));
+    if (attribute == 7) return found(word(producedBy(instance)));
+    if (attribute == 8) return found(word(consumedBy(instance)));
     if (attribute == 9) return found(word(rate));
   }
   const auto place = attributes.find(address);
   if (place != attributes.end()) return found(place->second);
-  return {0x94, std::get<0>(address) == 5 ? std::uint8_t{0x16} : error, 0xFF};
+  return {0x94, object_class == 5 ? std::uint8_t{0x16} : error, 0xFF};
+}
+
+// For change of state and cyclic, instance 2 produces the acknowledge of our data, which is of no bytes.
+unsigned FakeDevice::producedBy(unsigned instance) const {
+  return instance == 2 && (held & 2) == 0 ? 0 : static_cast<unsigned>(produced);
+}
+
+unsigned FakeDevice::consumedBy(unsigned instance) const {
+  const std::size_t of_the_fourth = consumes_at_2 ? acknowledge_size : consumed;
+  return static_cast<unsigned>(instance == 3 ? 8 : instance == 4 ? of_the_fourth : consumed);
 }
 
 FakeDevice::Bytes FakeDevice::setAttribute(const Address& address, const Bytes& data) {
-  if (std::get<0>(address) == 5 && heldBy(std::get<1>(address)) != 0 && std::get<2>(address) == 9) {
+  const unsigned instance = std::get<1>(address);
+  if (std::get<0>(address) == 5 && has(instance) && std::get<2>(address) == 9) {
     if (data.size() != 2) return {0x94, data.size() < 2 ? std::uint8_t{0x13} : std::uint8_t{0x15}, 0xFF};
     const unsigned asked = data[0] | static_cast<unsigned>(data[1]) << 8u;
     rate = (asked + rate_step - 1) / rate_step * rate_step;
-    rates_ |= heldBy(std::get<1>(address));
-    established = (rates_ & 0x36) == (held & 0x36);
+    rated_[instance] = true;
+    established = true;
+    for (const unsigned one : {2u, 3u, 4u}) established = established && (rated_[one] || !has(one));
     timed_out = false;
     io_at_ = strobe_at_ = produced_at_ = now_;
     io_count_ = -1;

@@ -3,6 +3,7 @@
 // and notes what a scanner must not do. It uses no encoder of the scanner.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -31,6 +32,10 @@ class FakeDevice {
   bool tells_owner = true;   ///< on the unconnected port
   bool tells_choice = true;  ///< beside its owner; else that nothing is allocated
   bool strict_about_sizes = true;
+  /// Change of state and cyclic: our data are consumed by connection object 2, and 4 consumes acknowledges alone (Eaton
+  /// DX-NET-DEVICENET table 10, INFICON Composer Elite tables 5-7 and 5-9); else 4 does both (Rockwell 193-UM006A).
+  bool consumes_at_2 = true;
+  std::size_t acknowledge_size = 0;     ///< what 4 then says that it consumes; at Eaton 8
   std::map<Address, Bytes> attributes;  ///< beside identity and connections
   std::uint8_t error = 0x14;            ///< to a question for an attribute it does not have
   // What goes wrong.
@@ -78,16 +83,19 @@ class FakeDevice {
   void put(std::uint32_t id, const Bytes& bytes);
   void violation(const std::string& what) { violations.push_back("MAC " + std::to_string(mac) + ": " + what); }
   bool byChange() const { return (held & 0x30) != 0; }
-  /// Bits of the choice of a connection object that there is; 0 without.
-  unsigned heldBy(unsigned instance) const {
-    return held & (instance == 2 ? 0x02u : instance == 3 ? 0x04u : instance == 4 ? 0x30u : 0u);
+  /// There is this connection object for process data.
+  bool has(unsigned instance) const {
+    const unsigned second = 0x02u | (consumes_at_2 ? 0x30u : 0u);
+    return (held & (instance == 2 ? second : instance == 3 ? 0x04u : instance == 4 ? 0x30u : 0u)) != 0;
   }
+  unsigned producedBy(unsigned instance) const;
+  unsigned consumedBy(unsigned instance) const;
 
   std::deque<CanFrame> out_;
   Instant now_{};
   Instant explicit_at_{}, io_at_{}, strobe_at_{}, produced_at_{}, answer_at_{};
-  unsigned rates_ = 0;  // allocation choice of what has its expected packet rate
-  Bytes request_;       // fragments of a request
+  std::array<bool, 5> rated_{};  // by instance: it has its expected packet rate
+  Bytes request_;                // fragments of a request
   int request_count_ = -1;
   Bytes answer_;  // fragmented answer under way
   std::size_t answer_offset_ = 0;

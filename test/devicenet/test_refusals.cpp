@@ -54,6 +54,45 @@ TEST(Refusals, WrongSizes) {
   EXPECT_EQ(0x02, run.devices[0]->released_last) << "its explicit connection was never let go";
 }
 
+// By change of state object 2 takes our data where there is one; 4 takes acknowledges, of 0 bytes or, at Eaton, 8.
+TEST(Refusals, SizesOfChangeOfState) {
+  ScannerConfig config = busConfig(1);
+  config.nodes[0].io.kind = IoKind::kChangeOfState;
+  for (const std::size_t size : {0u, 8u, 5u}) {
+    ScannerRun run{config};
+    run.devices[0]->acknowledge_size = size;
+    EXPECT_TRUE(run.starts()) << size << ": " << run.scanner.status(0).reason.str();
+  }
+  {
+    ScannerRun run{config};
+    run.devices[0]->acknowledge_size = 5;
+    run.devices[0]->consumed = 8;
+    EXPECT_EQ(
+        "sends 5 and takes 8 bytes of process data by change of state (connection objects 4 and 2); 5 and 5 are "
+        "configured",
+        refusal(run));
+    EXPECT_EQ(8, run.scanner.status(0).consumed_size);
+    EXPECT_EQ(0x10, run.devices[0]->released_last);
+  }
+  {
+    ScannerRun run{config};
+    run.devices[0]->produced = 8;
+    EXPECT_EQ(
+        "sends 8 and takes 5 bytes of process data by change of state (connection objects 4 and 2); 5 and 5 are "
+        "configured",
+        refusal(run));
+  }
+  for (const std::size_t size : {0u, 8u}) {
+    ScannerRun run{config};
+    run.devices[0]->consumes_at_2 = false;
+    run.devices[0]->consumed = size;
+    EXPECT_EQ("sends 5 and takes " + std::to_string(size) +
+                  " bytes of process data by change of state; 5 and 5 are configured",
+              refusal(run))
+        << "4 alone";
+  }
+}
+
 // Refused, and switched off and on meanwhile: its explicit connection is gone, which is noticed without anybody asking.
 TEST(Refusals, PowerCycleWhileRefused) {
   ScannerRun run{busConfig(1)};

@@ -209,18 +209,36 @@ TEST(DevicenetParameterAccess, ARamWriteGoesByP560) {
   }
 }
 
-// The computer dies: DeviceNet's own time-out stops the drives, E10.2, and the wheel coasts.
+/// At that address words of change of state and cyclic are taken by connection object 4, not by 2.
+sim::DnModuleSettings withObjectFourAlone(int address) {
+  sim::DnModuleSettings settings;
+  settings.mac = static_cast<std::uint8_t>(address);
+  settings.cos_instance_4_alone = true;
+  return settings;
+}
+
+// The computer dies: DeviceNet's own time-out stops the drives, E10.2, and the wheel coasts, by whichever connection object
+// the module takes the words.
 TEST(DevicenetStops, WhenTheComputerDies) {
-  for (const char* io : {"poll", "cos", "cyclic", "strobe"}) {
+  for (const auto& [io, alone] :
+       {std::make_pair("poll", false), std::make_pair("cos", false), std::make_pair("cos", true),
+        std::make_pair("cyclic", false), std::make_pair("cyclic", true), std::make_pair("strobe", false)}) {
     DevicenetRobot::Options options;
     options.drives = {{"io", std::string{io}}};
+    options.simulate = [only_four = alone](sim::SimConfig& config) {
+      if (!only_four) return;
+      for (const sim::DriveConfig& drive : config.drives) {
+        config.bus.as<sim::DnBusConfig>().modules.push_back(withObjectFourAlone(drive.address));
+      }
+    };
     DevicenetRobot robot{options};
-    ASSERT_TRUE(robot.bringUpAndEnable()) << io;
+    ASSERT_TRUE(robot.bringUpAndEnable()) << io << alone;
     robot.drive(kHalfSpeed, 0.0, seconds{3});
+    EXPECT_EQ("no rule broken", robot.bus().referee().report()) << io << alone;
     robot.bus().run(milliseconds{200});
-    EXPECT_EQ(102, robot.unit(0).parameters().value(700, 0, 0)) << "E10.2 in steps of 0.1, " << io;
+    EXPECT_EQ(102, robot.unit(0).parameters().value(700, 0, 0)) << "E10.2 in steps of 0.1, " << io << alone;
     robot.bus().run(seconds{10});
-    EXPECT_TRUE(robot.standsStill()) << io;
+    EXPECT_TRUE(robot.standsStill()) << io << alone;
   }
 }
 

@@ -135,6 +135,7 @@ DnModuleSettings readModule(const Group& group, const ParameterStore& catalogue)
                                          [](const std::string& name) { return !name.empty() && name.size() <= 32; });
   settings.inputs = static_cast<std::uint8_t>(group.integer("inputs", 0, 0, 15));
   settings.packet_rate_steps = static_cast<unsigned>(group.integer("packet_rate_steps", 10, 1, 1000));
+  settings.cos_instance_4_alone = group.get<bool>("cos_instance_4_alone", false, "true or false");
   DnIdentity& identity = settings.identity;
   identity.vendor = static_cast<std::uint16_t>(group.integer("vendor_id", identity.vendor, 0, 0xFFFF));
   identity.device_type = static_cast<std::uint16_t>(group.integer("device_type", identity.device_type, 0, 0xFFFF));
@@ -163,7 +164,7 @@ void readModules(const Group& root, SimConfig& config) {
     if (!used) refuse(group.keyName("address"), group["address"], "the address of a drive");
     warnOfUnknown(entry.second, path,
                   {"address", "product_name", "inputs", "packet_rate_steps", "vendor_id", "device_type", "product_code",
-                   "serial_number", "io_byte", "parameters"},
+                   "serial_number", "io_byte", "cos_instance_4_alone", "parameters"},
                   config.warnings);
     config.bus.as<DnBusConfig>().modules.push_back(settings);
   }

@@ -48,8 +48,12 @@ struct DnModuleSettings {
   std::string name = "SK TU3-DEV";  ///< class 1, attribute 7
   DnIdentity identity;
   std::uint32_t bit_rate = 500000;
-  std::uint8_t inputs = 0;                  ///< DIN1 to DIN4
-  unsigned packet_rate_steps = 10;          ///< ms; the expected packet rate is rounded up to them
+  std::uint8_t inputs = 0;          ///< DIN1 to DIN4
+  unsigned packet_rate_steps = 10;  ///< ms; the expected packet rate is rounded up to them
+  /// Change of state and cyclic: connection object 4 takes our data, too (Rockwell 193-UM006A); else it takes acknowledges
+  /// alone, and object 2 our data (Eaton DX-NET-DEVICENET table 10, INFICON Composer Elite tables 5-7 and 5-9). BU 0280
+  /// 4.3.4 says only that 4 is "COS/Cyclic".
+  bool cos_instance_4_alone = false;
   std::vector<ParameterPreset> parameters;  ///< P150 to P165
   /// Times of the simulator's choice.
   Duration parameter_time = std::chrono::milliseconds{5};

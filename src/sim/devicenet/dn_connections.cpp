@@ -10,29 +10,32 @@ constexpr std::uint8_t kConflict = 0x01;  // additional codes of a refused alloc
 constexpr std::uint8_t kInvalidChoice = 0x02;
 constexpr std::uint8_t kNoResource = 0x04;
 
-constexpr std::uint8_t kIo = dn::kChoicePoll | dn::kChoiceStrobe | dn::kChoiceChangeOfState | dn::kChoiceCyclic;
 constexpr std::uint8_t kProducesItself = dn::kChoiceChangeOfState | dn::kChoiceCyclic;
 constexpr std::size_t kMostOfStrobe = 8;
 constexpr unsigned kLongestPacketRate = 0xFFFF;
-
-constexpr std::uint8_t bitsOf(DnConnectionKind kind) noexcept {
-  switch (kind) {
-    case DnConnectionKind::kExplicit:
-      return dn::kChoiceExplicit;
-    case DnConnectionKind::kPoll:
-      return dn::kChoicePoll;
-    case DnConnectionKind::kStrobe:
-      return dn::kChoiceStrobe;
-    case DnConnectionKind::kChangeOfState:
-      break;
-  }
-  return kProducesItself | dn::kChoiceNoAcknowledge;
-}
 
 constexpr DnConnectionKind kIoKinds[]{DnConnectionKind::kPoll, DnConnectionKind::kStrobe,
                                       DnConnectionKind::kChangeOfState};
 
 }  // namespace
+
+std::uint8_t DnConnections::bitsOf(DnConnectionKind kind) const noexcept {
+  switch (kind) {
+    case DnConnectionKind::kExplicit:
+      return dn::kChoiceExplicit;
+    case DnConnectionKind::kPoll:
+      return change_of_state_alone_ ? dn::kChoicePoll : dn::kChoicePoll | kProducesItself;
+    case DnConnectionKind::kStrobe:
+      return dn::kChoiceStrobe;
+    case DnConnectionKind::kChangeOfState:
+      break;
+  }
+  return kProducesItself;
+}
+
+DnConnectionKind DnConnections::taking() const noexcept {
+  return change_of_state_alone_ && !has(dn::kChoicePoll) ? DnConnectionKind::kChangeOfState : DnConnectionKind::kPoll;
+}
 
 DnAllocation DnConnections::allocate(std::uint8_t choice, std::uint8_t master, std::size_t produced,
                                      std::size_t consumed) noexcept {
@@ -58,10 +61,15 @@ DnAllocation DnConnections::allocate(std::uint8_t choice, std::uint8_t master, s
                                        static_cast<std::uint16_t>(CipBytes::capacity()), Duration::zero()};
   }
   for (const DnConnectionKind kind : kIoKinds) {
-    if ((choice & bitsOf(kind) & kIo) == 0) continue;
+    if ((choice & bitsOf(kind)) == 0) continue;
+    DnConnection& connection = at(kind);
+    // One that a poll and change of state share may run already.
+    if (connection.state == DnConnectionState::kNone) connection.state = DnConnectionState::kConfiguring;
+    const bool acknowledges = kind == DnConnectionKind::kPoll && !has(dn::kChoicePoll);
+    const bool is_acknowledged = kind == DnConnectionKind::kChangeOfState && taking() != kind;
     const bool strobe = kind == DnConnectionKind::kStrobe;
-    at(kind) = {DnConnectionState::kConfiguring, 0, static_cast<std::uint16_t>(produced),
-                static_cast<std::uint16_t>(strobe ? kMostOfStrobe : consumed), Duration::zero()};
+    connection.produced = static_cast<std::uint16_t>(acknowledges ? 0 : produced);
+    connection.consumed = static_cast<std::uint16_t>(strobe ? kMostOfStrobe : is_acknowledged ? 0 : consumed);
   }
   return {};
 }
@@ -71,17 +79,18 @@ DnAllocation DnConnections::release(std::uint8_t choice) noexcept {
     return {CipStatus::kInvalidValue, kInvalidChoice};
   }
   if ((choice & choice_) == 0) return {CipStatus::kAlreadyInState, kInvalidChoice};
-  for (std::size_t i = 0; i < kDnConnections; ++i) {
-    const auto kind = static_cast<DnConnectionKind>(i);
-    if ((choice & choice_ & bitsOf(kind)) != 0) remove(kind);
-  }
+  drop(choice);
   if (choice_ == 0) forget();
   return {};
 }
 
-void DnConnections::remove(DnConnectionKind kind) noexcept {
-  at(kind) = DnConnection{};
-  choice_ = static_cast<std::uint8_t>(choice_ & ~unsigned{bitsOf(kind)});
+void DnConnections::drop(std::uint8_t choice) noexcept {
+  unsigned kept = choice_ & ~unsigned{choice};
+  if ((kept & kProducesItself) == 0) kept &= ~unsigned{dn::kChoiceNoAcknowledge};
+  choice_ = static_cast<std::uint8_t>(kept);
+  for (std::size_t i = 0; i < kDnConnections; ++i) {
+    if ((choice_ & bitsOf(static_cast<DnConnectionKind>(i))) == 0) connections_[i] = DnConnection{};
+  }
 }
 
 void DnConnections::forget() noexcept {
@@ -105,17 +114,23 @@ bool DnConnections::anyIoEstablished() const noexcept {
                      [&](DnConnectionKind kind) { return (*this)[kind].established(); });
 }
 
+// Neither data nor, being suppressed, acknowledges: then nothing is missed.
+bool DnConnections::hearsNothing(DnConnectionKind kind) const noexcept {
+  return kind == DnConnectionKind::kChangeOfState && taking() != kind && has(dn::kChoiceNoAcknowledge);
+}
+
 // An I/O connection that is over stays allocated until it is released; the explicit one is deleted (attribute 12), and
 // with it everything when no I/O runs any more.
 bool DnConnections::advance(Duration span) noexcept {
   bool io_over = false;
   for (std::size_t i = 0; i < kDnConnections; ++i) {
     DnConnection& connection = connections_[i];
-    if (!connection.established() || connection.packet_rate == 0) continue;
+    const auto kind = static_cast<DnConnectionKind>(i);
+    if (!connection.established() || connection.packet_rate == 0 || hearsNothing(kind)) continue;
     connection.idle += span;
     if (connection.idle < std::chrono::milliseconds{kTimeoutMultiplier * connection.packet_rate}) continue;
-    if (static_cast<DnConnectionKind>(i) == DnConnectionKind::kExplicit) {
-      remove(DnConnectionKind::kExplicit);
+    if (kind == DnConnectionKind::kExplicit) {
+      drop(dn::kChoiceExplicit);
     } else {
       connection.state = DnConnectionState::kTimedOut;
       io_over = true;

@@ -13,7 +13,8 @@
 
 namespace nord_driver::sim {
 
-/// Instances of class 5, less one.
+/// Instances of class 5, less one. That of the poll is that of the scanner's change of state and cyclic data, too ("poll or
+/// COS/cyclic consuming"), unless the module takes these by the one that produces them.
 enum class DnConnectionKind : std::uint8_t { kExplicit, kPoll, kStrobe, kChangeOfState };
 constexpr std::size_t kDnConnections = 4;
 
@@ -48,8 +49,10 @@ class DnConnections {
   static constexpr std::uint16_t kExplicitPacketRate = 2500;  ///< ms
   static constexpr unsigned kTimeoutMultiplier = 4;
 
-  /// `resolution`: devices round the expected packet rate up to their steps, ms.
-  explicit DnConnections(unsigned resolution) noexcept : resolution_(resolution == 0 ? 1 : resolution) {}
+  /// `resolution`: devices round the expected packet rate up to their steps, ms. `change_of_state_alone`: of change of state
+  /// and cyclic, both ways.
+  DnConnections(unsigned resolution, bool change_of_state_alone) noexcept
+      : resolution_(resolution == 0 ? 1 : resolution), change_of_state_alone_(change_of_state_alone) {}
 
   /// `produced` and `consumed`: bytes of the assembly that counts now.
   DnAllocation allocate(std::uint8_t choice, std::uint8_t master, std::size_t produced, std::size_t consumed) noexcept;
@@ -70,12 +73,18 @@ class DnConnections {
   std::uint8_t choice() const noexcept { return choice_; }
   bool has(std::uint8_t bits) const noexcept { return (choice_ & bits) == bits; }
   bool anyIoEstablished() const noexcept;
+  /// The one that takes the scanner's poll, change of state or cyclic data: message 5 of group 2.
+  DnConnectionKind taking() const noexcept;
 
  private:
   DnConnection& at(DnConnectionKind kind) noexcept { return connections_[static_cast<std::size_t>(kind)]; }
-  void remove(DnConnectionKind kind) noexcept;
+  /// Of the choice: there is this connection when one of them is allocated.
+  std::uint8_t bitsOf(DnConnectionKind kind) const noexcept;
+  bool hearsNothing(DnConnectionKind kind) const noexcept;
+  void drop(std::uint8_t choice) noexcept;
 
   unsigned resolution_;
+  bool change_of_state_alone_;
   std::uint8_t owner_ = dn::kNoMac;
   std::uint8_t choice_ = 0;
   std::array<DnConnection, kDnConnections> connections_{};

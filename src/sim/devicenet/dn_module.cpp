@@ -31,7 +31,7 @@ DnModule::DnModule(const DnModuleSettings& settings, DnReferee& referee)
       parameters_(dnModuleParameterDefinitions()),
       drive_objects_(process_),
       parameter_objects_(process_, settings.kind == DnModuleKind::kGateway ? &parameters_ : nullptr),
-      connections_(settings.packet_rate_steps) {
+      connections_(settings.packet_rate_steps, settings.cos_instance_4_alone) {
   for (const ParameterPreset& preset : settings_.parameters) {
     parameters_.preset(preset.number, preset.set, preset.element, preset.raw);
   }

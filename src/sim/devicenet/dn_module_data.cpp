@@ -39,7 +39,7 @@ DnLayout DnModule::layout() const noexcept {
 
 void DnModule::poll(const CanFrame& frame, bool judged, CanSink& sink) noexcept {
   const bool polled = connections_.has(dn::kChoicePoll);
-  const DnConnectionKind kind = polled ? DnConnectionKind::kPoll : DnConnectionKind::kChangeOfState;
+  const DnConnectionKind kind = connections_.taking();
   const DnConnection& connection = connections_[kind];
   if (!connection.established()) return;
   connections_.feed(kind);

@@ -206,6 +206,9 @@ CipStatus DnModule::getConnection(DnConnectionKind kind, std::uint8_t attribute,
   const bool is_explicit = kind == DnConnectionKind::kExplicit;
   const bool produces_itself = kind == DnConnectionKind::kChangeOfState;
   const bool strobe = kind == DnConnectionKind::kStrobe;
+  // Of change of state and cyclic: what acknowledges our data, and what takes acknowledges alone.
+  const bool acknowledges = kind == DnConnectionKind::kPoll && !connections_.has(dn::kChoicePoll);
+  const bool is_acknowledged = produces_itself && connections_.taking() != kind;
   const auto number = [&](std::uint32_t what, std::size_t size) {
     put(value, what, size);
     return CipStatus::kOk;
@@ -223,7 +226,8 @@ CipStatus DnModule::getConnection(DnConnectionKind kind, std::uint8_t attribute,
       const bool quiet = connections_.has(dn::kChoiceNoAcknowledge);
       const bool cyclic = connections_.has(dn::kChoiceCyclic);
       const unsigned client = (cyclic ? 0x00u : 0x10u) | (quiet ? 0x00u : 0x03u);
-      return number(is_explicit ? 0x83 : produces_itself ? client : 0x82, 1);
+      const unsigned server = acknowledges && quiet ? 0x80 : 0x82;
+      return number(is_explicit ? 0x83 : produces_itself ? client : server, 1);
     }
     case 4: {
       const unsigned message = strobe ? dn::kStrobeResponse : produces_itself ? dn::kChangeOfState : dn::kPollResponse;
@@ -231,7 +235,7 @@ CipStatus DnModule::getConnection(DnConnectionKind kind, std::uint8_t attribute,
     }
     case 5: {
       if (strobe) return number(dn::group2(dn::kStrobeCommand, connections_.owner()), 2);
-      const unsigned message = is_explicit ? dn::kMasterExplicit : produces_itself ? dn::kAcknowledge : dn::kPoll;
+      const unsigned message = is_explicit ? dn::kMasterExplicit : is_acknowledged ? dn::kAcknowledge : dn::kPoll;
       return number(dn::group2(message, mac()), 2);
     }
     case 6:
@@ -245,12 +249,13 @@ CipStatus DnModule::getConnection(DnConnectionKind kind, std::uint8_t attribute,
     case 12:  // auto delete; time out
       return number(is_explicit ? 1 : 0, 1);
     case 13:
-    case 15:
-      return number(is_explicit ? 0 : kPathLength, 2);
+      return number(is_explicit || acknowledges ? 0 : kPathLength, 2);
     case 14:
-      return is_explicit ? CipStatus::kOk : path(dnInputInstanceOf(running_layout_.instance));
+      return is_explicit || acknowledges ? CipStatus::kOk : path(dnInputInstanceOf(running_layout_.instance));
+    case 15:
+      return number(is_explicit || is_acknowledged ? 0 : kPathLength, 2);
     case 16:
-      return is_explicit ? CipStatus::kOk : path(running_layout_.instance);
+      return is_explicit || is_acknowledged ? CipStatus::kOk : path(running_layout_.instance);
     case 17:
       return number(0, 2);
     default:

@@ -17,6 +17,7 @@ constexpr unsigned kTimeoutMultiplier = 4;
 
 constexpr std::uint8_t kDeviceNetClass = 3;
 constexpr std::uint8_t kConnectionClass = 5;
+constexpr std::uint8_t kState = 1;
 constexpr std::uint8_t kPacketRate = 9;
 constexpr std::uint8_t kProducedSize = 7;
 constexpr std::uint8_t kConsumedSize = 8;
@@ -125,7 +126,7 @@ void DnReferee::judgeOnline(const CanFrame& frame) noexcept {
     case dn::kMasterExplicit:
       return explicitMessage(view, frame);
     case dn::kPoll:
-      return io(view, (view.choice & dn::kChoicePoll) != 0 ? kPollIo : kChangeIo, frame);
+      return io(view, frame);
     default:
       return unconnected(view, frame);
   }
@@ -228,24 +229,28 @@ void DnReferee::strobe(const CanFrame& frame) noexcept {
     Io& strobe = view.io[kStrobeIo];
     if (!strobe.running) continue;
     runs = true;
-    ioMessage(strobe, strobe.consumed.value_or(frame.size));
+    ioMessage(strobe, strobe, strobe.consumed.value_or(frame.size));
     const bool own_bit = frame.size == 8 && (frame.data[mac / 8] >> mac % 8 & 1u) != 0;
     if (own_bit && (view.choice & dn::kChoicePoll) != 0) broken(DnRule::kStrobeBit);
   }
   if (!runs) broken(any ? DnRule::kIoBeforePacketRate : DnRule::kIoBeforeAllocation);
 }
 
-void DnReferee::io(View& view, unsigned which, const CanFrame& frame) noexcept {
-  Io& io = view.io[which];
-  if ((view.choice & kBits[which]) == 0 || !io.running) {
+// Change of state and cyclic: by the instance of the poll, when the module has told that it is there without one.
+void DnReferee::io(View& view, const CanFrame& frame) noexcept {
+  const bool polled = (view.choice & dn::kChoicePoll) != 0;
+  const Io& inputs = view.io[polled ? kPollIo : kChangeIo];
+  Io& io = view.io[polled || view.io[kPollIo].told ? kPollIo : kChangeIo];
+  const bool allocated = polled || (view.choice & kProducesItself) != 0;
+  if (!allocated || !io.running) {
     if (view.on_their_way > 0) {
       --view.on_their_way;
       return;
     }
-    return broken((view.choice & kBits[which]) == 0 ? DnRule::kIoBeforeAllocation : DnRule::kIoBeforePacketRate);
+    return broken(allocated ? DnRule::kIoBeforePacketRate : DnRule::kIoBeforeAllocation);
   }
   const std::size_t expected = io.consumed.value_or(frame.size);
-  if (expected <= 8) return ioMessage(io, frame.size);
+  if (expected <= 8) return ioMessage(io, inputs, frame.size);
   if (frame.size < 2) return broken(DnRule::kIoFragments);
   const dn::Fragment kind = dn::kindOf(frame.data[0]);
   const std::uint8_t count = frame.data[0] & dn::kFragmentCount;
@@ -258,13 +263,13 @@ void DnReferee::io(View& view, unsigned which, const CanFrame& frame) noexcept {
   }
   io.next_fragment = (count + 1u) & dn::kFragmentCount;
   io.collected += frame.size - 1u;
-  if (kind == dn::Fragment::kLast || only) ioMessage(io, io.collected);
+  if (kind == dn::Fragment::kLast || only) ioMessage(io, inputs, io.collected);
 }
 
 // It must have read how long its data are, they must be so long, and come before four times the packet rate is over.
-void DnReferee::ioMessage(Io& io, std::size_t size) noexcept {
+void DnReferee::ioMessage(Io& io, const Io& inputs, std::size_t size) noexcept {
   const bool first = !io.last;
-  if (first && (!io.produced || !io.consumed)) broken(DnRule::kIoSizesUnread);
+  if (first && (!inputs.produced || !io.consumed)) broken(DnRule::kIoSizesUnread);
   if (io.consumed && size != *io.consumed) broken(DnRule::kIoSize);
   const Duration limit = milliseconds(kTimeoutMultiplier * io.packet_rate);
   if (!first && io.packet_rate > 0 && now_ - *io.last > limit) broken(DnRule::kIoAfterTimeout);
@@ -273,17 +278,21 @@ void DnReferee::ioMessage(Io& io, std::size_t size) noexcept {
 
 void DnReferee::begin(View& view, std::uint8_t choice) noexcept {
   view.choice = static_cast<std::uint8_t>(view.choice | choice);
-  for (std::size_t i = 0; i < kBits.size(); ++i) {
-    if ((choice & kBits[i]) != 0) view.io[i] = Io{};
-  }
+  clearIo(view, choice);
 }
 
 void DnReferee::end(View& view, std::uint8_t choice) noexcept {
   view.choice = static_cast<std::uint8_t>(view.choice & ~unsigned{choice});
+  clearIo(view, choice);
+  if ((choice & kProducesItself) != 0) view.change_due.reset();
+}
+
+// The instance of the poll goes with change of state, too, unless it is polled.
+void DnReferee::clearIo(View& view, std::uint8_t choice) noexcept {
   for (std::size_t i = 0; i < kBits.size(); ++i) {
     if ((choice & kBits[i]) != 0) view.io[i] = Io{};
   }
-  if ((choice & kProducesItself) != 0) view.change_due.reset();
+  if ((choice & kProducesItself) != 0 && (view.choice & dn::kChoicePoll) == 0) view.io[kPollIo] = Io{};
 }
 
 void DnReferee::delivered(const CanFrame& frame) noexcept {
@@ -346,6 +355,7 @@ void DnReferee::answered(View& view, const Request& request, ByteView data) noex
     io.running = true;
     io.last.reset();
   }
+  io.told = io.told || request.attribute != kState || (!data.empty() && data[0] != 0);
   if (request.service != dn::kGetSingle || !reader.ok()) return;
   if (request.attribute == kProducedSize) io.produced = value;
   if (request.attribute == kConsumedSize) io.consumed = value;

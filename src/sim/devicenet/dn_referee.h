@@ -77,6 +77,7 @@ class DnReferee : public RuleCounts<DnRule> {
   struct Io {
     std::uint16_t packet_rate = 0;  ///< ms, as answered
     bool running = false;           ///< the packet rate was answered
+    bool told = false;              ///< the module has answered that there is such a connection object
     std::optional<std::uint16_t> produced, consumed;
     std::optional<Instant> last;
     std::uint8_t next_fragment = 0;
@@ -107,13 +108,14 @@ class DnReferee : public RuleCounts<DnRule> {
   void judgeOnline(const CanFrame& frame) noexcept;
   void unconnected(View& view, const CanFrame& frame) noexcept;
   void explicitMessage(View& view, const CanFrame& frame) noexcept;
-  void io(View& view, unsigned which, const CanFrame& frame) noexcept;
-  void ioMessage(Io& io, std::size_t size) noexcept;
+  void io(View& view, const CanFrame& frame) noexcept;
+  void ioMessage(Io& io, const Io& inputs, std::size_t size) noexcept;
   void strobe(const CanFrame& frame) noexcept;
   void answer(View& view, const CanFrame& frame) noexcept;
   void answered(View& view, const Request& request, ByteView data) noexcept;
   static void begin(View& view, std::uint8_t choice) noexcept;
   static void end(View& view, std::uint8_t choice) noexcept;
+  static void clearIo(View& view, std::uint8_t choice) noexcept;
 
   std::array<View, dn::kMacs> views_{};
   Instant now_{};

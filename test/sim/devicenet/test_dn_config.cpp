@@ -23,12 +23,15 @@ drives:
   d: {address: 63, series: sk700e, module: sk_tu1, assembly: 21, value_order: in_order}
   e: {address: 7, series: sk5xxe, module: sk_tu4, assembly: 102}
 modules:
-  behind_b: {address: 5, io_byte: true, inputs: 5, packet_rate_steps: 2, vendor_id: 77, parameters: {P151: 500}}
+  behind_b: {address: 5, io_byte: true, inputs: 5, cos_instance_4_alone: true, packet_rate_steps: 2, vendor_id: 77, parameters: {P151: 500}}
 )");
   EXPECT_TRUE(config.warnings.empty()) << config.warnings.front();
   ASSERT_TRUE(config.bus.is<DnBusConfig>());
   EXPECT_EQ("virtual:demo", config.bus.as<DnBusConfig>().interface);
   EXPECT_EQ(125000u, config.bus.as<DnBusConfig>().bit_rate);
+  ASSERT_EQ(1u, config.bus.as<DnBusConfig>().modules.size());
+  EXPECT_TRUE(config.bus.as<DnBusConfig>().modules[0].cos_instance_4_alone);
+  EXPECT_FALSE(DnModuleSettings{}.cos_instance_4_alone);
   RobotSim robot{config};
   DnStations stations{robot};
   ASSERT_EQ(4u, stations.modules().size());

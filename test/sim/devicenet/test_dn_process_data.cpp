@@ -202,7 +202,8 @@ TEST(DnProcessData, ChangeOfState) {
   bus.goOnline();
   EXPECT_EQ("44B#0ACB00", bus.ask("44E#0A 4B 03 01 11 0A"));
   bus.request("0E 05 04 07");
-  bus.request("0E 05 04 08");
+  bus.request("0E 05 02 08");
+  bus.request("10 05 02 09 64 00");
   const Texts first = bus.askAll("44C#0A 10 05 04 09 64 00", milliseconds(10));
   EXPECT_THAT(first, ElementsAre("349#00700B0000", "44B#0A906400"));
   EXPECT_THAT(bus.takeAfter(milliseconds(20)), ElementsAre("349#00700B0000")) << "not acknowledged in 16 ms";
@@ -224,8 +225,9 @@ TEST(DnProcessData, CyclicWithoutAcknowledges) {
   bus.goOnline();
   EXPECT_EQ("44B#0ACB00", bus.ask("44E#0A 4B 03 01 61 0A"));
   bus.request("0E 05 04 07");
-  bus.request("0E 05 04 08");
+  bus.request("0E 05 02 08");
   bus.request("10 05 04 09 64 00");
+  bus.request("10 05 02 09 64 00");
   unsigned answers = 0;
   for (int i = 0; i < 10; ++i) {
     bus.send("44D#00 7E 04 00 00");
