@@ -4,15 +4,20 @@
 #include <regex>
 
 namespace nord_driver {
+namespace {
+
+constexpr std::size_t kLongest = 1000;  // characters: std::regex takes stack for each of them
+
+}  // namespace
 
 bool isYamlInteger(const std::string& text) {
   static const std::regex kIntegers("[-+]?(0[0-7]*|[1-9][0-9]*|0x[0-9a-fA-F]+)");
-  return std::regex_match(text, kIntegers);
+  return text.size() <= kLongest && std::regex_match(text, kIntegers);
 }
 
 bool isYamlFraction(const std::string& text) {
   static const std::regex kFractions(R"([-+]?[0-9]+\.[0-9]*([eE][-+][0-9]+)?|\.[0-9]+([eE][-+][0-9]+)?)");
-  return std::regex_match(text, kFractions);
+  return text.size() <= kLongest && std::regex_match(text, kFractions);
 }
 
 std::string yamlNumber(double value) {

@@ -241,5 +241,13 @@ TEST(YamlSettings, AKeyThatIsNoTextIsRefused) {
             refusal([] { settings("a:\n  [1, 2]: 3"); }));
 }
 
+// Digits without end are no number; they had been followed on the stack, a frame each.
+TEST(YamlSettings, AMillionDigitsAreNoNumber) {
+  const std::string digits(2'000'000, '7');
+  const YamlSettings settings{"", YAML::Load("a: " + digits + "\nb: 0." + digits)};
+  EXPECT_THROW(settings.number("a"), ConfigError);
+  EXPECT_THROW(settings.number("b"), ConfigError);
+}
+
 }  // namespace
 }  // namespace nord_driver
