@@ -83,6 +83,8 @@ ToolConfig readToolConfig(const YAML::Node& file, const std::string& name) {
 
 ToolConfig readToolConfig(const YAML::Node& file, const std::vector<std::string>& names) {
   const YamlSettings settings{"", file};
+  // InterBus counts places among the drives it is given, and writes no image for this program.
+  const bool ring = shortTransportName(readTransportName(settings)) == "interbus";
   const std::vector<DriveSettings> all = readDriveList(settings);
   std::vector<DriveSettings> stations;
   std::vector<std::optional<std::int64_t>> addresses;
@@ -93,11 +95,12 @@ ToolConfig readToolConfig(const YAML::Node& file, const std::vector<std::string>
   }
   for (const DriveSettings& drive : all) {
     const bool beside =
-        std::find(addresses.begin(), addresses.end(), drive.settings->integer("address")) != addresses.end();
+        ring || std::find(addresses.begin(), addresses.end(), drive.settings->integer("address")) != addresses.end();
     if (beside && !contains(stations, drive.name)) stations.push_back(drive);
   }
   ToolConfig config = read(file, settings, stations);
   config.asked = names.size();
+  config.reaches_others = !ring;
   return config;
 }
 

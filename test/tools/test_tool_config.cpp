@@ -59,6 +59,20 @@ TEST(ToolConfig, TakesSeveralDrivesAndTheirStations) {
   EXPECT_EQ("drive \"far\" is named twice", refusal([&] { asked({"far", "near", "far"}); }));
 }
 
+// Words and references in a ring follow from the places before them, whoever is asked for; no drive's words are written.
+TEST(ToolConfig, TakesTheWholeInterbusRing) {
+  const YAML::Node file = YAML::Load(
+      "{transport: interbus, drives: {left: {address: 1, series: sk5xxe, pole_pairs: 2},"
+      " right: {address: 2, series: sk5xxe, pole_pairs: 2}, lift: {address: 3, series: sk5xxe, pole_pairs: 2}}}");
+  const ToolConfig right = readToolConfig(file, "right");
+  EXPECT_THAT(namesOf(right), ElementsAre("right", "left", "lift"));
+  EXPECT_EQ(1u, right.asked);
+  EXPECT_FALSE(right.reaches_others);
+  EXPECT_THAT(namesOf(readToolConfig(file, std::vector<std::string>{"right", "lift"})),
+              ElementsAre("right", "lift", "left"));
+  EXPECT_TRUE(readToolConfig(YAML::Load(kFile), "mate").reaches_others) << "they are behind one module";
+}
+
 // The base's sizes may be in a URDF, which is not there.
 TEST(ToolConfig, NeedsNothingOfTheBase) {
   const ToolConfig config = readToolConfig(YAML::Load(kFile), "near");
