@@ -84,6 +84,17 @@ TEST(ToolConfig, NeedsNothingOfTheBase) {
   EXPECT_GE(config.cycle.drives.front().drive.drive_timeout, std::chrono::seconds{1});
 }
 
+// Setpoints of a drive are judged by the file's time, as the driver judges them.
+TEST(ToolConfig, JudgesSetpointsByTheFilesTimeout) {
+  YAML::Node file = YAML::Load(kFile);
+  file["drives"]["far"]["setpoints"] = YAML::Load("{boost: {function: frequency_addition, limit: 10.0, timeout: 0.8}}");
+  EXPECT_THAT(refusal([&] { readToolConfig(file, "far"); }),
+              HasSubstr("drives/far/setpoints/boost/timeout: 0.8 is not valid"));
+  file["cmd_vel_timeout"] = 1.0;
+  EXPECT_EQ("accepted", refusal([&] { readToolConfig(file, "far"); }));
+  EXPECT_EQ(std::chrono::seconds{1}, readToolConfig(file, "far").cycle.cmd_vel_timeout);
+}
+
 TEST(ToolConfig, TheTransportIsProfibusWhenNoneIsNamed) {
   YAML::Node file = YAML::Load(kFile);
   file.remove("transport");
