@@ -51,7 +51,7 @@ class BusCycle {
   /// A parameter that decides motion may be written.
   bool isAtRest(DriveIndex drive) noexcept;
   const GuestGate& gate() const noexcept { return gate_; }
-  void closeGate(std::size_t awaited = 1) { gate_.close(awaited); }
+  void closeGate(std::size_t awaited = 1, bool reaches_others = true) { gate_.close(awaited, reaches_others); }
 
  private:
   void takeRequests(Instant now) noexcept;

@@ -17,8 +17,9 @@ bool isAtRest(DriveState state) noexcept {
 
 }  // namespace
 
-void GuestGate::close(std::size_t awaited) {
+void GuestGate::close(std::size_t awaited, bool reaches_others) {
   open_ = false;
+  reaches_others_ = reaches_others;
   heard_each_.assign(awaited, false);
   heard_ = false;
   fault_seen_ = false;
@@ -45,7 +46,8 @@ void GuestGate::look(const std::vector<DriveExchange>& inputs) noexcept {
     heard_ = heard_ && heard_each_[i];
   }
   if (heard_) ++cycles_heard_;
-  for (DriveIndex i = 0; i < inputs.size() && !running_; ++i) {
+  const std::size_t reached = reaches_others_ ? inputs.size() : seen;
+  for (DriveIndex i = 0; i < reached && !running_; ++i) {
     if (!inputs[i].inverter_answers) continue;
     const DriveState state = profile::StatusWord{inputs[i].input.status_word}.state();
     if (i == 0 && state == DriveState::kFault) fault_seen_ = true;

@@ -24,7 +24,8 @@ class GuestGate {
   explicit GuestGate(bool guest) noexcept : open_(!guest) {}
 
   /// Begins anew: nothing is known of the drives any more. The first `awaited` of them, 1 at least, have to be heard.
-  void close(std::size_t awaited = 1);
+  /// `reaches_others`: the guest's words get to those behind them, too; where they do not, these may run.
+  void close(std::size_t awaited = 1, bool reaches_others = true);
   /// Before the exchange.
   void holdBack(std::vector<profile::ProcessOutput>& outputs) const noexcept;
   /// After it; while the gate is closed the drives look silent from here on.
@@ -44,6 +45,7 @@ class GuestGate {
   void look(const std::vector<DriveExchange>& inputs) noexcept;
 
   bool open_;
+  bool reaches_others_ = true;
   bool heard_ = false;
   std::vector<bool> heard_each_ = std::vector<bool>(1);  // of those that have to be
   bool fault_seen_ = false;

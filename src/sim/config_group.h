@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "sim/sim_config.h"
@@ -22,6 +24,20 @@ inline std::string asText(const YAML::Node& node) {
 
 [[noreturn]] inline void refuse(const std::string& key, const YAML::Node& node, const std::string& expected) {
   throw ConfigError(key + ": " + asText(node) + " is not valid; expected " + expected);
+}
+
+/// A whole number may be written as a fraction, 3.0, as the driver has it. Throws YAML::Exception.
+template <typename T>
+T valueOf(const YAML::Node& node) {
+  T value{};
+  if (YAML::convert<T>::decode(node, value)) return value;
+  if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+    static_assert(sizeof(T) < sizeof(double), "not every one is a double");
+    const auto number = node.as<double>();
+    const bool fits = number >= std::numeric_limits<T>::min() && number <= std::numeric_limits<T>::max();
+    if (fits && std::trunc(number) == number) return static_cast<T>(number);
+  }
+  throw YAML::TypedBadConversion<T>(node.Mark());
 }
 
 /// One map of the configuration with the name a user knows it by.
@@ -41,7 +57,7 @@ class Group {
     if (!has(key)) return fallback;
     T value{};
     try {
-      value = node_[key].as<T>();
+      value = valueOf<T>(node_[key]);
     } catch (const YAML::Exception&) {
       refuse(keyName(key), node_[key], expected);
     }

@@ -45,17 +45,18 @@ const std::vector<std::string>& driveKeys() {
   return kKeys;
 }
 
-// As the driver's file may have it: the series, or the type on the nameplate of one ("SK 535E-750-340-A").
+// As the driver's file may have it: the series, or the type on the nameplate of one ("SK 535E-750-340-A"), an x standing
+// for any of its figures.
 std::string seriesName(const std::string& written) {
   std::string name;
   for (const char c : written) {
     if (c == '-') break;
     if (c != ' ') name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
-  static const std::vector<std::pair<std::regex, std::string>> kPlates{{std::regex("sk1[89]0e"), "sk1x0e"},
-                                                                       {std::regex("sk2[0-3][0-9]e"), "sk2xxe"},
-                                                                       {std::regex("sk54[0-9]e"), "sk54xe"},
-                                                                       {std::regex("sk5[0-3][0-9]e"), "sk5xxe"}};
+  static const std::vector<std::pair<std::regex, std::string>> kPlates{{std::regex("sk1[89x]0e"), "sk1x0e"},
+                                                                       {std::regex("sk2[0-3x][0-9x]e"), "sk2xxe"},
+                                                                       {std::regex("sk54[0-9x]e"), "sk54xe"},
+                                                                       {std::regex("sk5[0-3x][0-9x]e"), "sk5xxe"}};
   for (const auto& [plate, series] : kPlates) {
     if (std::regex_match(name, plate)) return series;
   }

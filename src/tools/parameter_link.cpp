@@ -65,7 +65,7 @@ void ParameterLink::refuseRunning() const {
 
 void ParameterLink::connect(Duration limit, const std::atomic<bool>& end_asked) {
   const Instant end = transport_.now() + limit;
-  cycle_->closeGate(config_.asked);
+  cycle_->closeGate(config_.asked, config_.reaches_others);
   while (!cycle_->gate().isOpen()) {
     exchange();
     refuseRunning();

@@ -21,7 +21,7 @@ namespace nord_driver::tools {
 ///  - Until a status word has told state and parameter set, the word is 0000, which the inverter ignores (BU 2700 6.4.1
 ///    note 2). A drive that runs then is left alone: `connect` refuses. One at rest gets the idle word 047E with its
 ///    own set, so that P513 or P151 > 0 does not trip it (7.1.1).
-///  - The other drives of the bus are not talked to.
+///  - The other drives of the bus are not talked to. One of them that runs refuses only where the words get to it, too.
 ///  - Nothing in the module watches for the end of the program, and nothing is sent on the bus of another master: the
 ///    transport is told so (`serveParametersOnly()`).
 class ParameterLink final : public DriveParameters {

@@ -13,11 +13,14 @@ namespace {
 // A drive that is late is waited for: nothing turns that would have to be stopped.
 constexpr Duration kDriveTimeout = std::chrono::seconds{1};
 
-// Of the cycle only its rate counts. The base may need a URDF, which there is none of without a roscore.
-YamlSettings rateOf(const YAML::Node& file) {
-  YAML::Node rate{YAML::NodeType::Map};
-  if (file["cycle_rate"]) rate["cycle_rate"] = file["cycle_rate"];
-  return {"", rate};
+// Of the cycle its rate counts, and the time by which the setpoints of a drive are judged. The base may need a URDF,
+// which there is none of without a roscore.
+YamlSettings timesOf(const YAML::Node& file) {
+  YAML::Node times{YAML::NodeType::Map};
+  for (const char* key : {"cycle_rate", "cmd_vel_timeout"}) {
+    if (file[key]) times[key] = file[key];
+  }
+  return {"", times};
 }
 
 ToolConfig read(const YAML::Node& file, const YamlSettings& settings, const std::vector<DriveSettings>& drives) {
@@ -28,7 +31,7 @@ ToolConfig read(const YAML::Node& file, const YamlSettings& settings, const std:
   config.writable_parameters = readWritableParameters(settings);
   config.eeprom = readEepromSettings(settings);
   config.drives = drives;
-  config.cycle = cycle::readCycleConfig(rateOf(file), drives, {}, false);
+  config.cycle = cycle::readCycleConfig(timesOf(file), drives, {}, false);
   for (cycle::DriveSetup& setup : config.cycle.drives) {
     setup.drive.drive_timeout = std::max(setup.drive.drive_timeout, kDriveTimeout);
   }
@@ -88,6 +91,8 @@ ToolConfig readToolConfig(const YAML::Node& file, const std::string& name) {
 
 ToolConfig readToolConfig(const YAML::Node& file, const std::vector<std::string>& names) {
   const YamlSettings settings{"", file};
+  // InterBus counts places among the drives it is given, and writes no image for this program.
+  const bool ring = shortTransportName(readTransportName(settings)) == "interbus";
   const std::vector<DriveSettings> all = readDriveList(settings);
   std::vector<DriveSettings> stations;
   std::vector<std::optional<std::int64_t>> addresses;
@@ -98,11 +103,12 @@ ToolConfig readToolConfig(const YAML::Node& file, const std::vector<std::string>
   }
   for (const DriveSettings& drive : all) {
     const bool beside =
-        std::find(addresses.begin(), addresses.end(), drive.settings->integer("address")) != addresses.end();
+        ring || std::find(addresses.begin(), addresses.end(), drive.settings->integer("address")) != addresses.end();
     if (beside && !contains(stations, drive.name)) stations.push_back(drive);
   }
   ToolConfig config = read(file, settings, stations);
   config.asked = names.size();
+  config.reaches_others = !ring;
   return config;
 }
 

@@ -22,6 +22,7 @@ struct ToolConfig {
   std::vector<DriveSettings> drives;         ///< as the transport is told, in the order of `cycle.drives`
   cycle::CycleConfig cycle;                  ///< without a base
   std::size_t asked = 1;                     ///< so many of the first drives were asked for
+  bool reaches_others = true;                ///< what is sent to these gets to the further ones, too
   WritableParameters writable_parameters;    ///< by this program as by the node
   std::vector<std::string> parameter_files;  ///< of the user, laid over the project's
   EepromSettings eeprom;
@@ -38,9 +39,9 @@ void choosePort(YAML::Node& file, const BusPort& port, const EndPoint& end_point
 /// All drives of the file, to look at them: a file without a port is given one that means nothing. Throws ConfigError.
 ToolConfig readToolConfig(const YAML::Node& file, const EndPoint& end_point);
 
-/// The drive `name` first, and after it those behind the same bus module: its words are in the same telegrams. The
-/// other drives of the bus are not talked to. Throws ConfigError when there is no such drive, or its settings are
-/// wrong.
+/// The drive `name` first, and after it those behind the same bus module: its words are in the same telegrams. On
+/// InterBus all others: words and communication references follow from the places in the ring. The other drives of the
+/// bus are not talked to. Throws ConfigError when there is no such drive, or its settings are wrong.
 ToolConfig readToolConfig(const YAML::Node& file, const std::string& name);
 /// The same for several drives, these first and in this order. Throws ConfigError when one is named twice, too.
 ToolConfig readToolConfig(const YAML::Node& file, const std::vector<std::string>& names);

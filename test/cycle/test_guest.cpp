@@ -185,6 +185,23 @@ TEST(Gate, OpensWhenAllAwaitedWereHeardThreeTimes) {
   EXPECT_TRUE(gate.isOpen());
 }
 
+// A drive that no word of the guest gets to may run.
+TEST(Gate, JudgesThoseAloneThatAreReached) {
+  GuestGate gate{true};
+  gate.close(2, false);
+  hear(gate, {0x0B31, 0x0B31, 0x0B37}, 3);
+  EXPECT_FALSE(gate.running());
+  EXPECT_TRUE(gate.isOpen());
+  gate.close(2, false);
+  hear(gate, {0x0B31, 0x0B37, 0x0B31}, 3);
+  ASSERT_TRUE(gate.running());
+  EXPECT_EQ(1u, gate.running()->drive);
+  EXPECT_FALSE(gate.isOpen());
+  gate.close(2);
+  hear(gate, {0x0B31, 0x0B31, 0x0B37}, 3);
+  EXPECT_TRUE(gate.running()) << "its words get to the third again";
+}
+
 // A fault is rest. That of the first drive is told, since the words behind the gate may acknowledge it.
 TEST(Gate, AFaultOfTheFirstIsSeen) {
   GuestGate first{true}, second{true};

@@ -44,6 +44,36 @@ TEST(SimConfig, ReadsTheDriversFile) {
   EXPECT_EQ(0u, robot.drive(1).parameters().eepromWrites());
 }
 
+// As the driver reads it: x stands for any figure of the type, and a whole number may be written as a fraction.
+TEST(SimConfig, TakesTheDriversWaysOfWriting) {
+  const auto series = [](const std::string& written) {
+    return readSimConfig(YAML::Load("drives: {a: {address: 3, series: " + written + "}}")).drives[0].device.series;
+  };
+  for (const char* written : {"SK 53xE", "sk5x5e", "SK 500E", "sk5xxe"}) EXPECT_EQ(Series::kSk5xxe, series(written));
+  for (const char* written : {"SK 20xE", "sk2x5e", "SK 235E-750-340-A"}) EXPECT_EQ(Series::kSk2xxe, series(written));
+  for (const char* written : {"SK 54xE", "sk545e"}) EXPECT_EQ(Series::kSk54xe, series(written));
+  for (const char* written : {"SK 180E", "sk1x0e"}) EXPECT_EQ(Series::kSk1x0e, series(written));
+  EXPECT_THROW(series("SK 55xE"), ConfigError);
+  EXPECT_THROW(series("SK x00E"), ConfigError);
+
+  const SimConfig config = readSimConfig(
+      YAML::Load("{transport: canopen, bus: {bit_rate: 500000.0}, drives: {a: {address: 3.0, series: sk5xxe,"
+                 " vendor_id: 4294967295.0, product_code: 0x4E, device_type: 4294967295}}}"));
+  EXPECT_EQ(500000u, config.bus.as<CanBusConfig>().bit_rate);
+  EXPECT_EQ(3, config.drives[0].address);
+  const CanDriveConfig& can = config.drives[0].bus.as<CanDriveConfig>();
+  EXPECT_EQ(4294967295u, can.identity.vendor);
+  EXPECT_EQ(0x4Eu, can.identity.product);
+  EXPECT_EQ(4294967295u, can.device_type.value_or(0));
+  for (const char* wrong : {"4294967296.0", "2.5", ".nan", ".inf", "x", "[3]"}) {
+    EXPECT_THROW(readSimConfig(YAML::Load(std::string("{transport: canopen, drives: {a: {address: 3, vendor_id: ") +
+                                          wrong + "}}}")),
+                 ConfigError)
+        << wrong;
+  }
+  EXPECT_THROW(readSimConfig(YAML::Load("drives: {a: {address: 3.5}}")), ConfigError);
+}
+
 // A second file is laid over the first: its body is the true one.
 TEST(SimConfig, MergesFiles) {
   const YAML::Node merged =

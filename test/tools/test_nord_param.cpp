@@ -335,7 +335,7 @@ bus: {outputs: {address: 100}, running: {address: 200}, watchdog: {address: 300,
       pcp: {invoke: {address: 500}, result: {address: 600}}}
 drives:
   left:  {address: 1, series: sk5xxe, joint: left_wheel_joint,  gear_ratio: 20.0, pole_pairs: 2}
-  right: {address: 2, series: sk5xxe, joint: right_wheel_joint, gear_ratio: 20.0, pole_pairs: 2}
+  right: {address: 2, series: sk5xxe, joint: right_wheel_joint, gear_ratio: 20.0, pole_pairs: 2, parameters: {P105: 60.0}}
 )";
   Program simulator({NORD_SIM_PROGRAM, "--config", config, "--bus", "127.0.0.1:0"});
   ASSERT_TRUE(simulator.saysSomething(seconds{30})) << simulator.errors();
@@ -354,7 +354,10 @@ drives:
   EXPECT_THAT(many.output, HasSubstr("\"register\": 3")) << "up to the last word of a drive " << many.errors;
   const Ended read = run({"read", "right", "P105", "--set", "1"});
   EXPECT_EQ(0, read.code) << read.errors;
-  EXPECT_THAT(read.output, HasSubstr("P105 set 1 Maximum frequency = 50.0 Hz (raw 500)"));
+  EXPECT_THAT(read.output, HasSubstr("P105 set 1 Maximum frequency = 60.0 Hz (raw 600)"));
+  EXPECT_EQ(0, run({"write", "right", "P105", "55", "--set", "1"}).code);
+  EXPECT_THAT(run({"read", "left", "P105", "--set", "1"}).output, HasSubstr("= 50.0 Hz (raw 500)"));
+  EXPECT_THAT(run({"read", "right", "P105", "--set", "1"}).output, HasSubstr("= 55.0 Hz (raw 550)"));
   EXPECT_THAT(run({"read", "left", "P999"}).errors, HasSubstr("refuses P999: PCP error 6/7"));
   simulator.signal(SIGTERM);
   EXPECT_EQ(0, simulator.wait(seconds{30}));

@@ -59,6 +59,20 @@ TEST(ToolConfig, TakesSeveralDrivesAndTheirStations) {
   EXPECT_EQ("drive \"far\" is named twice", refusal([&] { asked({"far", "near", "far"}); }));
 }
 
+// Words and references in a ring follow from the places before them, whoever is asked for; no drive's words are written.
+TEST(ToolConfig, TakesTheWholeInterbusRing) {
+  const YAML::Node file = YAML::Load(
+      "{transport: interbus, drives: {left: {address: 1, series: sk5xxe, pole_pairs: 2},"
+      " right: {address: 2, series: sk5xxe, pole_pairs: 2}, lift: {address: 3, series: sk5xxe, pole_pairs: 2}}}");
+  const ToolConfig right = readToolConfig(file, "right");
+  EXPECT_THAT(namesOf(right), ElementsAre("right", "left", "lift"));
+  EXPECT_EQ(1u, right.asked);
+  EXPECT_FALSE(right.reaches_others);
+  EXPECT_THAT(namesOf(readToolConfig(file, std::vector<std::string>{"right", "lift"})),
+              ElementsAre("right", "lift", "left"));
+  EXPECT_TRUE(readToolConfig(YAML::Load(kFile), "mate").reaches_others) << "they are behind one module";
+}
+
 // The base's sizes may be in a URDF, which is not there.
 TEST(ToolConfig, NeedsNothingOfTheBase) {
   const ToolConfig config = readToolConfig(YAML::Load(kFile), "near");
@@ -68,6 +82,17 @@ TEST(ToolConfig, NeedsNothingOfTheBase) {
   EXPECT_FALSE(config.cycle.base);
   EXPECT_EQ(500'000, config.bus->integer("baud_rate"));
   EXPECT_GE(config.cycle.drives.front().drive.drive_timeout, std::chrono::seconds{1});
+}
+
+// Setpoints of a drive are judged by the file's time, as the driver judges them.
+TEST(ToolConfig, JudgesSetpointsByTheFilesTimeout) {
+  YAML::Node file = YAML::Load(kFile);
+  file["drives"]["far"]["setpoints"] = YAML::Load("{boost: {function: frequency_addition, limit: 10.0, timeout: 0.8}}");
+  EXPECT_THAT(refusal([&] { readToolConfig(file, "far"); }),
+              HasSubstr("drives/far/setpoints/boost/timeout: 0.8 is not valid"));
+  file["cmd_vel_timeout"] = 1.0;
+  EXPECT_EQ("accepted", refusal([&] { readToolConfig(file, "far"); }));
+  EXPECT_EQ(std::chrono::seconds{1}, readToolConfig(file, "far").cycle.cmd_vel_timeout);
 }
 
 TEST(ToolConfig, TheTransportIsProfibusWhenNoneIsNamed) {

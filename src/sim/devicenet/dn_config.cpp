@@ -90,15 +90,15 @@ void readDrive(const Group& group, DriveConfig& drive) {
   drive.bus = dn;
 }
 
-/// The first drive of a module by its name says it for those that do not, as the driver has it.
+/// Any drive of a module says it for those that do not, as the driver has it.
 void shareAssemblies(std::vector<DriveConfig>& drives) {
   for (DriveConfig& drive : drives) {
-    if (drive.bus.as<DnDriveConfig>().assembly_given) continue;
-    const DriveConfig* first = &drive;
+    DnDriveConfig& own = drive.bus.as<DnDriveConfig>();
     for (const DriveConfig& other : drives) {
-      if (other.address == drive.address && other.name < first->name) first = &other;
+      const DnDriveConfig& others = other.bus.as<DnDriveConfig>();
+      if (!own.assembly_given && others.assembly_given && other.address == drive.address)
+        own.assembly = others.assembly;
     }
-    drive.bus.as<DnDriveConfig>().assembly = first->bus.as<DnDriveConfig>().assembly;
   }
 }
 

@@ -66,12 +66,14 @@ class Reader {
  public:
   Reader(CanopenConfig& config, const CanopenBusDefaults& defaults) : config_(config), defaults_(defaults) {}
 
-  void add(const DriveSettings& source) {
+  /// `source` is one of `all`.
+  void add(const DriveSettings& source, const std::vector<DriveSettings>& all) {
     const Settings& settings = *source.settings;
     CanopenDrive drive = readCanopenDrive(source);
-    const canopen::NodeConfig node = readCanopenNode(source, drive, defaults_);
+    const ModuleSettings module{source, all};
+    const canopen::NodeConfig node = readCanopenNode(module, drive, defaults_);
     checkOwnId(settings, node);
-    drive.node = findOrAdd(settings, drive, node);
+    drive.node = findOrAdd(module, drive, node);
     canopen::NodeConfig& shared = config_.master.nodes[drive.node];
     addServer(settings, drive, shared);
     const CanopenPdoOptions pdo = readPdoOptions(settings, drive, defaults_);
@@ -89,7 +91,7 @@ class Reader {
                        "another node id than bus/node_id, which this computer's heartbeat bears");
   }
 
-  std::size_t findOrAdd(const Settings& settings, const CanopenDrive& drive, const canopen::NodeConfig& node) {
+  std::size_t findOrAdd(const ModuleSettings& settings, const CanopenDrive& drive, const canopen::NodeConfig& node) {
     std::vector<canopen::NodeConfig>& nodes = config_.master.nodes;
     for (const CanopenDrive& other : config_.drives) {
       if (nodes[other.node].id != node.id) continue;
@@ -103,7 +105,7 @@ class Reader {
         throw wrongSetting(settings, "inverter", std::to_string(drive.inverter),
                            "another one of 1 to 4 than drive \"" + other.name + "\" has behind the same gateway");
       }
-      checkSharedNode(settings, node, nodes[other.node], other.name);
+      checkSharedNode(settings, node, nodes[other.node]);
       return other.node;
     }
     nodes.push_back(node);
@@ -168,7 +170,7 @@ CanopenConfig readCanopenConfig(const Settings& bus, const std::vector<DriveSett
   if (defaults.sync) config.master.sync_cob_id = kSyncCobId;
 
   Reader reader{config, defaults};
-  for (const DriveSettings& source : drives) reader.add(source);
+  for (const DriveSettings& source : drives) reader.add(source, drives);
   // When all inverters behind a module have added theirs.
   for (std::size_t i = 0; i < drives.size(); ++i) {
     applyEds(*drives[i].settings, config.bit_rate, config.master.nodes[config.drives[i].node]);

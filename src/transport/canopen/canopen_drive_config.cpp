@@ -145,10 +145,9 @@ CanopenDrive readCanopenDrive(const DriveSettings& source) {
   return drive;
 }
 
-NodeConfig readCanopenNode(const DriveSettings& source, const CanopenDrive& drive, const CanopenBusDefaults& bus) {
-  const Settings& settings = *source.settings;
+NodeConfig readCanopenNode(const ModuleSettings& settings, const CanopenDrive& drive, const CanopenBusDefaults& bus) {
   NodeConfig node;
-  node.id = static_cast<std::uint8_t>(requiredAddress(source, 1, canopen::kMaxNodeId));
+  node.id = static_cast<std::uint8_t>(requiredInteger(settings, "address", 1, canopen::kMaxNodeId));
   const bool system_bus = drive.connection == CanopenConnection::kSystemBus;
   if (system_bus && std::find(kSystemBusIds.begin(), kSystemBusIds.end(), node.id) == kSystemBusIds.end()) {
     throw wrongSetting(settings, "address", std::to_string(node.id),
@@ -232,8 +231,7 @@ canopen::SdoChannel readSdoServer(const Settings& settings, const CanopenDrive& 
   return channel;
 }
 
-void checkSharedNode(const Settings& settings, const NodeConfig& node, const NodeConfig& first,
-                     const std::string& first_name) {
+void checkSharedNode(const ModuleSettings& settings, const NodeConfig& node, const NodeConfig& first) {
   const struct {
     const char* key;
     bool same;
@@ -252,9 +250,7 @@ void checkSharedNode(const Settings& settings, const NodeConfig& node, const Nod
       {"watch_master", node.error_control.master_timeout == first.error_control.master_timeout},
   };
   for (const auto& shared : kShared) {
-    if (shared.same || !settings.has(shared.key)) continue;
-    throw ConfigError(settings.fullName(shared.key) + " differs from that of drive \"" + first_name +
-                      "\", expected the same: both are inverters behind one module, which has it only once");
+    if (!shared.same) throw settings.differing(shared.key);
   }
 }
 

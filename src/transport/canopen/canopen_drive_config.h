@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "config/module_settings.h"
 #include "nord_driver/config/settings.h"
 #include "nord_driver/core/time.h"
 #include "transport/canopen/canopen_config.h"
@@ -21,11 +22,10 @@ struct CanopenBusDefaults {
 /// All but `node`, the PDOs and the SDO server. Throws ConfigError.
 CanopenDrive readCanopenDrive(const DriveSettings& source);
 /// The node below `address`. Throws ConfigError.
-canopen::NodeConfig readCanopenNode(const DriveSettings& source, const CanopenDrive& drive,
+canopen::NodeConfig readCanopenNode(const ModuleSettings& settings, const CanopenDrive& drive,
                                     const CanopenBusDefaults& bus);
-/// A further inverter behind a node that is there already: what it says of the module must be what the first one said.
-void checkSharedNode(const Settings& settings, const canopen::NodeConfig& node, const canopen::NodeConfig& first,
-                     const std::string& first_name);
+/// A further inverter behind a node that is there already: what it says of the module must be what the others said.
+void checkSharedNode(const ModuleSettings& settings, const canopen::NodeConfig& node, const canopen::NodeConfig& first);
 CanopenPdoOptions readPdoOptions(const Settings& settings, const CanopenDrive& drive, const CanopenBusDefaults& bus);
 /// The identifiers of the SDO server the drive's parameters are reached by. Throws ConfigError.
 canopen::SdoChannel readSdoServer(const Settings& settings, const CanopenDrive& drive, std::uint8_t node_id);

@@ -49,12 +49,13 @@ class Reader {
   Reader(const Settings& bus, DevicenetConfig& config, std::optional<Duration> packet_rate)
       : bus_(bus), config_(config), packet_rate_(packet_rate) {}
 
-  void add(const DriveSettings& source) {
+  /// `source` is one of `all`.
+  void add(const DriveSettings& source, const std::vector<DriveSettings>& all) {
     const Settings& settings = *source.settings;
     const auto mac = requiredAddress(source, 0, devicenet::kMacIds - 1);
     const DevicenetDrive* first = firstAt(mac);
-    const bool follows = first != nullptr && !settings.has("assembly");
-    const unsigned assembly = follows ? config_.modules[first->module].assembly : readAssembly(settings);
+    const ModuleSettings of_module{source, all};
+    const unsigned assembly = readAssembly(of_module);
     DevicenetDrive drive = readDevicenetDrive(source, assembly);
     if (drive.mac == config_.scanner.mac) {
       throw wrongSetting(settings, "address", std::to_string(drive.mac),
@@ -62,7 +63,7 @@ class Reader {
     }
     devicenet::NodeConfig node;
     node.io.expected_packet_rate = packet_rate_;
-    const DevicenetModule module = readDevicenetModule(settings, drive, assembly, node);
+    const DevicenetModule module = readDevicenetModule(of_module, drive, assembly, node);
     if (first == nullptr) {
       drive.module = config_.modules.size();
       config_.modules.push_back(module);
@@ -70,8 +71,7 @@ class Reader {
     } else {
       drive.module = first->module;
       checkNeighbours(settings, drive);
-      checkSharedModule(settings, module, node, config_.modules[drive.module], config_.scanner.nodes[drive.module],
-                        first->name);
+      checkSharedModule(of_module, module, node, config_.modules[drive.module], config_.scanner.nodes[drive.module]);
     }
     config_.modules[drive.module].drives.push_back(config_.drives.size());
     config_.drives.push_back(drive);
@@ -174,7 +174,7 @@ DevicenetConfig readDevicenetBus(const Settings& bus, double cycle_rate) {
 DevicenetConfig readDevicenetConfig(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) {
   DevicenetConfig config = readDevicenetBus(bus, cycle_rate);
   Reader reader{bus, config, readPacketRate(bus)};
-  for (const DriveSettings& source : drives) reader.add(source);
+  for (const DriveSettings& source : drives) reader.add(source, drives);
   layOut(config);
   checkSizes(bus, config, drives);
   applyEds(config, drives);

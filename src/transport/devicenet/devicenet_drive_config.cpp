@@ -178,9 +178,8 @@ DevicenetModule readDevicenetModule(const Settings& settings, const DevicenetDri
   return module;
 }
 
-void checkSharedModule(const Settings& settings, const DevicenetModule& module, const devicenet::NodeConfig& node,
-                       const DevicenetModule& first, const devicenet::NodeConfig& first_node,
-                       const std::string& first_name) {
+void checkSharedModule(const ModuleSettings& settings, const DevicenetModule& module, const devicenet::NodeConfig& node,
+                       const DevicenetModule& first, const devicenet::NodeConfig& first_node) {
   const struct {
     const char* key;
     bool same;
@@ -194,9 +193,7 @@ void checkSharedModule(const Settings& settings, const DevicenetModule& module, 
       {"product_code", node.product_code == first_node.product_code},
   };
   for (const auto& shared : kShared) {
-    if (shared.same || !settings.has(shared.key)) continue;
-    throw ConfigError(settings.fullName(shared.key) + " differs from that of drive \"" + first_name +
-                      "\", expected the same: both are inverters behind one module, which has it only once");
+    if (!shared.same) throw settings.differing(shared.key);
   }
 }
 

@@ -1,6 +1,7 @@
 // The settings of one drive of a DeviceNet bus, and of the module it sits behind.
 #pragma once
 
+#include "config/module_settings.h"
 #include "nord_driver/config/settings.h"
 #include "transport/devicenet/devicenet_config.h"
 
@@ -13,10 +14,8 @@ unsigned readAssembly(const Settings& settings);
 /// Its module but for the sizes of the assemblies; `node` gets what the scanner is told. Throws ConfigError.
 DevicenetModule readDevicenetModule(const Settings& settings, const DevicenetDrive& drive, unsigned assembly,
                                     devicenet::NodeConfig& node);
-/// A further inverter behind a module that is there already: what it says of the module must be what the first one
-/// said.
-void checkSharedModule(const Settings& settings, const DevicenetModule& module, const devicenet::NodeConfig& node,
-                       const DevicenetModule& first, const devicenet::NodeConfig& first_node,
-                       const std::string& first_name);
+/// A further inverter behind a module that is there already: what it says of the module must be what the others said.
+void checkSharedModule(const ModuleSettings& settings, const DevicenetModule& module, const devicenet::NodeConfig& node,
+                       const DevicenetModule& first, const devicenet::NodeConfig& first_node);
 
 }  // namespace nord_driver

@@ -163,6 +163,23 @@ TEST(CanopenConfigTest, AGatewaysParametersCanBeTold) {
   EXPECT_TRUE(config.master.nodes[0].setup.empty());
 }
 
+// Once is enough, at whichever inverter: a program for parameters has another one first than the driver.
+TEST(CanopenConfigTest, AnyInverterBehindAGatewaySaysWhatIsTheNodes) {
+  for (const std::size_t says : {0u, 1u}) {
+    Bus bus = Bus::gateway();
+    bus.drive(says).set("guard_time", 0.2).set("vendor_id", 0x4E).set("boot_reset", "node");
+    bus.drive(1 - says).set("life_time_factor", 5);
+    ASSERT_EQ("accepted", bus.refusal()) << says;
+    const canopen::NodeConfig node = bus.read().master.nodes.at(0);
+    EXPECT_EQ(milliseconds{200}, node.error_control.guard_time) << says;
+    EXPECT_EQ(5, node.error_control.life_time_factor) << says;
+    EXPECT_EQ(0x4Eu, node.vendor_id.value_or(0)) << says;
+    EXPECT_EQ(BootReset::kResetNode, node.reset) << says;
+    bus.drive(says).set("guard_time", 0.001);
+    EXPECT_THAT(bus.refusal(), HasSubstr("~drives/drive" + std::to_string(says) + "/guard_time: 0.001 is not valid"));
+  }
+}
+
 TEST(CanopenConfigTest, GatewayRulesAreHeld) {
   Bus twice = Bus::gateway();
   twice.drive(1).set("inverter", 1);
@@ -171,6 +188,7 @@ TEST(CanopenConfigTest, GatewayRulesAreHeld) {
   mixed.drive(1).set("connection", "option").set("series", "sk5xxe").set("inverter", 1);
   EXPECT_THAT(mixed.refusal(), AllOf(HasSubstr("~drives/drive1/address: 10"), HasSubstr("only inverters behind one")));
   Bus differs = Bus::gateway();
+  differs.drive(0).set("guard_time", 0.1);
   differs.drive(1).set("guard_time", 0.2);
   EXPECT_THAT(differs.refusal(), AllOf(HasSubstr("~drives/drive1/guard_time"), HasSubstr("drive0"), HasSubstr("same")));
   Bus one_value = Bus::gateway();

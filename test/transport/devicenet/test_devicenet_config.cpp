@@ -207,8 +207,32 @@ TEST(DevicenetConfigTest, OneModuleHasItsSettingsOnce) {
   Bus bus = Bus::gateway(2);
   bus.drive(1).erase("assembly");
   EXPECT_EQ("accepted", bus.refusal(50.0)) << "said once is enough";
+  bus.drive(0).set("io", "poll");
   bus.drive(1).set("io", "cos");
   EXPECT_THAT(bus.refusal(50.0), HasSubstr("~drives/drive1/io differs from that of drive \"drive0\""));
+}
+
+// A program for parameters has another one first than the driver.
+TEST(DevicenetConfigTest, AnyInverterBehindAModuleSaysWhatIsTheModules) {
+  for (const std::size_t says : {0u, 1u, 2u}) {
+    Bus bus = Bus::gateway(3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (i != says) bus.drive(i).erase("assembly");
+    }
+    bus.drive(says).set("io", "cos").set("product_code", 7);
+    ASSERT_EQ("accepted", bus.refusal(50.0)) << says;
+    const DevicenetConfig config = bus.read(50.0);
+    ASSERT_EQ(1u, config.modules.size());
+    EXPECT_EQ(102u, config.modules[0].assembly) << says;
+    EXPECT_EQ(IoKind::kChangeOfState, config.scanner.nodes[0].io.kind) << says;
+    EXPECT_EQ(7, config.scanner.nodes[0].product_code.value_or(0)) << says;
+    bus.drive(says).set("assembly", 99);
+    EXPECT_THAT(bus.refusal(50.0), HasSubstr("~drives/drive" + std::to_string(says) + "/assembly: 99 is not valid"));
+  }
+  Bus bus = Bus::gateway(3);
+  bus.drive(1).set("io", "cos");
+  bus.drive(2).set("io", "cyclic");
+  EXPECT_THAT(bus.refusal(50.0), HasSubstr("~drives/drive2/io differs from that of drive \"drive1\""));
 }
 
 TEST(DevicenetConfigTest, ASeriesSitsWhereItCan) {
