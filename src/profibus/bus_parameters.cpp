@@ -73,7 +73,7 @@ void BusParameters::validate() const {
   require(min_tsdr_bits >= 11 && min_tsdr_bits <= max_tsdr_bits, "min T_SDR is not between 11 bit times and max T_SDR");
   require(max_retries <= kMaxRetries, "more than 15 retries");
   require(probe_interval > Duration::zero(), "the probe interval is not positive");
-  require(listen_first >= Duration::zero() && listen_first <= std::chrono::seconds{10},
+  require(listen_first >= Duration::zero() && listen_first <= kLongestListening,
           "the time to listen first is not between 0 and 10 s");
   require(operate_interval >= Duration::zero(), "the interval of Global_Control is negative");
 }

@@ -10,6 +10,8 @@
 
 namespace nord_driver::profibus {
 
+constexpr Duration kLongestListening = std::chrono::seconds{10};
+
 struct BusParameters {
   BaudRate baud{19'200};
   StationAddress master;             ///< our own address, 0..125
@@ -26,8 +28,8 @@ struct BusParameters {
 
   Duration probe_interval = std::chrono::milliseconds{250};  ///< a silent slave is asked for no more often than this
   Duration operate_interval = std::chrono::seconds{1};       ///< Global_Control Operate, 0 = never
-  /// Before the first telegram, and for as long again whenever another master is heard meanwhile; 0 = do not listen. A
-  /// token comes round in far less than a second on any segment.
+  /// Before the first telegram, and for as long again whenever another master is heard meanwhile; 0 = do not listen, at
+  /// most kLongestListening. A token comes round in far less than a second on any segment.
   Duration listen_first{0};
 
   // Global_Control SYNC and FREEZE, off unless asked for: a slave in SYNC keeps its outputs, stop words included, and

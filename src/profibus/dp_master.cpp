@@ -121,10 +121,17 @@ bool DpMaster::askNext(Instant now) noexcept {
 
 bool DpMaster::askOperate(Instant now) noexcept {
   const bool wanted = bus_.operate_interval > Duration::zero();
-  if (!wanted || timers_.isRunning(Timer::kNextOperate, now)) return false;
+  if (!wanted || timers_.isRunning(Timer::kNextOperate, now) || !mayBroadcast()) return false;
   timers_.set(Timer::kNextOperate, now + bus_.operate_interval);
   requester_.begin(operate_, nullptr, now);
   return true;
+}
+
+// Whether a broadcast starts the watchdog of a slave anew no manual says. None is left to its own by a master that brings
+// watchdogs: a driver's UNSYNC is never held back.
+bool DpMaster::mayBroadcast() const noexcept {
+  return std::none_of(slaves_.begin(), slaves_.end(),
+                      [](const SlaveHandler& slave) { return slave.isLeftToItsWatchdog(); });
 }
 
 bool DpMaster::setSynchronised(bool on) noexcept {
@@ -143,7 +150,7 @@ bool DpMaster::groupExchanged() const noexcept {
 // SYNC is a broadcast nobody acknowledges: it comes in every cycle, and so does UNSYNC, so that a lost one does no
 // harm.
 bool DpMaster::askSynchronise(Instant now) noexcept {
-  if ((!bus_.sync_outputs && !bus_.freeze_inputs) || cursor_ != 0) return false;
+  if ((!bus_.sync_outputs && !bus_.freeze_inputs) || cursor_ != 0 || !mayBroadcast()) return false;
   cursor_ = slaves_.size() + 1;
   if (synchronised_ && !groupExchanged()) {
     synchronised_ = false;

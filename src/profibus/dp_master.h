@@ -124,6 +124,7 @@ class DpMaster {
   bool askNext(Instant now) noexcept;
   bool askSynchronise(Instant now) noexcept;
   bool groupExchanged() const noexcept;
+  bool mayBroadcast() const noexcept;
   bool askOperate(Instant now) noexcept;
   template <typename Wants>
   bool askFirst(Instant now, Wants&& wants) noexcept;

@@ -50,6 +50,10 @@ class SlaveHandler {
 
   /// Its request goes out: it has heard it by then, if at all.
   void handleSent(Instant heard_by) noexcept { last_request_ = heard_by; }
+  /// Its watchdog, which is not ours, is waited for: whatever a slave hears of its master may start it anew.
+  bool isLeftToItsWatchdog() const noexcept {
+    return status_.phase == SlavePhase::kBackOff && isLeftRunning(status_.diagnosis);
+  }
   void handleAnswer(const FdlAnswer& answer, Instant now, DpEvents& events) noexcept;
   /// The request was sent, retries included, and not answered.
   void handleNoAnswer(Mismatch mismatch, Instant now, DpEvents& events) noexcept;
@@ -105,6 +109,7 @@ class SlaveHandler {
   /// What makes data exchange impossible, as the diagnosis shows it; who it is and whose it is come first.
   std::optional<Fault> strangerIn(const Diagnosis& diagnosis) const noexcept;
   std::optional<Fault> faultIn(const Diagnosis& diagnosis) const noexcept;
+  bool isLeftRunning(const Diagnosis& diagnosis) const noexcept;
 
   void mayRunUntilWatchdogOf(Instant heard) noexcept;
   void waitForWatchdog() noexcept;

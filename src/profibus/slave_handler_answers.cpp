@@ -3,6 +3,7 @@
 
 #include "profibus/slave_handler.h"
 #include "profibus/slave_handler_texts.h"
+#include "profibus/watchdog_factors.h"
 
 namespace nord_driver::profibus {
 
@@ -19,8 +20,6 @@ constexpr Duration kAskRarely = 250ms;
 constexpr int kAskedPerWatchdog = 3;
 constexpr Duration kReadyLimit = 5s;
 constexpr Duration kOwnerLimit = 500ms;
-// What a slave's clock may be behind ours when its watchdog is waited for.
-constexpr Duration kWatchdogTolerance = 250ms;
 
 }  // namespace
 
@@ -230,8 +229,20 @@ std::optional<SlaveHandler::Fault> SlaveHandler::faultIn(const Diagnosis& diagno
   return std::nullopt;
 }
 
+// Of a master that brings no watchdog: one with our address, killed perhaps, has parameterised it, and the watchdog that
+// one has brought still runs. It is all that will stop the drive.
+bool SlaveHandler::isLeftRunning(const Diagnosis& diagnosis) const noexcept {
+  const bool ours = !diagnosis.parameterRequest() && diagnosis.owner() == master_;
+  return config_.watchdog == Duration::zero() && ours && diagnosis.watchdogOn();
+}
+
 // Faults shown here are those of an earlier start-up, perhaps of another master: Set_Prm takes them away.
 void SlaveHandler::judgeFirst(Instant now, DpEvents& events) noexcept {
+  if (isLeftRunning(status_.diagnosis)) {
+    backOff({DpEventKind::kLeftRunning, texts::kLeftRunning}, now, events);
+    // No diagnosis tells how long its watchdog is, and each request starts it anew.
+    return timers_.prolong(Timer::kNextRequest, last_request_ + kLongestWatchdog + kWatchdogTolerance);
+  }
   if (const auto stranger = strangerIn(status_.diagnosis)) return backOff(*stranger, now, events);
   const bool always = config_.configuration_check >= ConfigurationCheck::kTell;
   const bool doubted = configuration_doubted_ && config_.configuration_check == ConfigurationCheck::kAfterFault;

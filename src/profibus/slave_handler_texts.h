@@ -23,6 +23,8 @@ constexpr const char* kWrongLength =
     "exchanges data of another length than configured: the PPO type or module list set at the device differs";
 constexpr const char* kWrongIdent = "is another device than configured: its ident number differs";
 constexpr const char* kLocked = "is locked by another master";
+constexpr const char* kLeftRunning =
+    "was left in data exchange by its master, and its watchdog runs: wait until that has run out";
 constexpr const char* kPrmFault =
     "refuses its parameters (Prm_Fault): the ident number, the user parameters or the watchdog do not suit it";
 constexpr const char* kPrmNotSupported =

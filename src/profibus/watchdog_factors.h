@@ -8,6 +8,11 @@
 
 namespace nord_driver::profibus {
 
+/// The longest watchdog a slave can be told: both factors 255, in units of 10 ms (EN 50170-8, Set_Prm).
+constexpr Duration kLongestWatchdog = std::chrono::milliseconds{650'250};
+/// What a slave's clock may be behind ours when its watchdog is waited for.
+constexpr Duration kWatchdogTolerance = std::chrono::milliseconds{250};
+
 /// Set_Prm carries the watchdog time as f1 * f2 * 10 ms, both factors 1 to 255 (EN 50170-8, Set_Prm).
 struct WatchdogFactors {
   std::uint8_t f1 = 1;

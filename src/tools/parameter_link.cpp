@@ -1,5 +1,7 @@
 #include "tools/parameter_link.h"
 
+#include <algorithm>
+
 #include "config/driver_settings.h"
 #include "config/setting_checks.h"
 #include "cycle/drive_parameters.h"
@@ -18,6 +20,7 @@ constexpr Duration kReadyTime = std::chrono::seconds{1};
 constexpr Duration kPatience = std::chrono::seconds{20};  // every step of an access has its own, shorter one
 constexpr int kAttempts = 3;
 constexpr Duration kBackTime = std::chrono::seconds{2};  // a silent station is asked for more often than that
+constexpr double kLongestListening = 10.0;               // s, see listening_
 constexpr std::uint16_t kTelegramTimeout = 513, kModuleTimeout = 151;
 
 }  // namespace
@@ -30,6 +33,7 @@ ParameterLink::ParameterLink(const ToolConfig& config, Transport& transport, con
                   "the driver (~<drive>/read_parameter)");
   }
   transport.configure(*config.bus, config.drives, config.cycle.cycle_rate);
+  listening_ = seconds(std::min(transport.identity(0).protection_time, kLongestListening));
   for (DriveIndex i = 0; i < config.asked; ++i) {
     known_.push_back(catalogue::driveCatalogue(catalogues, config.cycle.drives[i].series,
                                                shortTransportName(config.transport),
@@ -64,7 +68,7 @@ void ParameterLink::refuseRunning() const {
 }
 
 void ParameterLink::connect(Duration limit, const std::atomic<bool>& end_asked) {
-  const Instant end = transport_.now() + limit;
+  const Instant end = transport_.now() + listening_ + limit;
   cycle_->closeGate(config_.asked, config_.reaches_others);
   while (!cycle_->gate().isOpen()) {
     exchange();
@@ -146,7 +150,7 @@ std::optional<cycle::Completion> ParameterLink::run(cycle::Request& request) {
 }
 
 bool ParameterLink::waitForDrive() noexcept {
-  const Instant end = transport_.now() + kBackTime;
+  const Instant end = transport_.now() + listening_ + kBackTime;
   do {
     exchange();
     if (snapshot().online) return true;

@@ -34,7 +34,8 @@ class ParameterLink final : public DriveParameters {
   ParameterLink(const ParameterLink&) = delete;
   ParameterLink& operator=(const ParameterLink&) = delete;
 
-  /// Looks for the drive until `limit`. Throws Trouble when it does not answer, or runs, or `end_asked`.
+  /// Looks for the drive until `limit`, which begins when what stops it without its master has had its time (10 s at
+  /// most): a transport may listen for that long. Throws Trouble when it does not answer, or runs, or `end_asked`.
   void connect(Duration limit, const std::atomic<bool>& end_asked);
 
   ParameterAnswer read(const catalogue::ParameterAddress& address) override;
@@ -101,6 +102,8 @@ class ParameterLink final : public DriveParameters {
   std::optional<cycle::BusCycle> cycle_;  // from the constructor on
   std::uint32_t last_id_ = 0;
   bool connected_ = false;
+  // Nothing is sent meanwhile, perhaps: what stops the drives of a driver that was killed acts first.
+  Duration listening_{};
 };
 
 }  // namespace nord_driver::tools

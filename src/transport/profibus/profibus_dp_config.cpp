@@ -54,7 +54,8 @@ void readSlotTime(const Settings& settings, const std::string& device, profibus:
 // 10 ms to 650 s: what two factors of Set_Prm can say (BU 2700 8.1.1).
 Duration readWatchdog(const Settings& settings) {
   const double value = numberOr(settings, "watchdog", 0.2, 0.01, 650.0, "s");
-  const Duration next = profibus::WatchdogFactors::representableFrom(seconds(value)).value_or(seconds(650.25));
+  const Duration next =
+      profibus::WatchdogFactors::representableFrom(seconds(value)).value_or(profibus::kLongestWatchdog);
   if (std::abs(toSeconds(next) - value) > 1e-6) {
     throw wrongSetting(settings, "watchdog", shortNumber(value),
                        "a time a slave can be told: " + shortNumber(toSeconds(next)) + " s is the next longer one");
@@ -98,9 +99,13 @@ void listenFirst(ProfibusDpConfig& config) {
 
 }  // namespace
 
+// A driver that was killed may have left a wheel turning, with the watchdog of the same configuration in its module: that
+// one is to run out before anything is sent. Set_Prm without a watchdog would stop it, and nothing the wheel.
 void endWithoutATrip(ProfibusDpConfig& config) {
   for (profibus::SlaveConfig& slave : config.slaves) slave.watchdog = Duration::zero();
   listenFirst(config);
+  const Duration run_out = config.watchdog + profibus::kWatchdogTolerance;
+  config.bus.listen_first = std::min(std::max(config.bus.listen_first, run_out), profibus::kLongestListening);
 }
 
 ProfibusDpConfig readProfibusDpConfig(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate,

@@ -10,6 +10,9 @@ constexpr std::uint8_t kFirstIndex = 100;  // 100 module, 101 to 104 inverters (
 // "4 bytes" and "four words" stand in one section (BU 0220 8.3.4.4): it is the PKW, eight bytes.
 constexpr std::uint8_t kLength = 8;
 constexpr unsigned kPnuMask = 0x07FF, kPnuOffset = 1000;
+constexpr Word kReadWithoutOrder = 9;  // PKW error: a READ came without a WRITE before it (BU 0220 7.2.3.1)
+// A unit may be busy with "no order" for so long; the rest of the time for an answer is left to the order.
+constexpr Duration kBusyTime = std::chrono::seconds{1};
 
 /// Moves the parameter number in a PKE, where the unit counts from 0.
 Word shifted(Word pke, bool down) noexcept {
@@ -61,7 +64,10 @@ std::optional<profibus::RecordRequest> RecordParameterChannel::pollRecord(Instan
     pkw_.handleWords({}, now);
     return std::nullopt;
   }
-  if (step_ == Step::kPause) step_ = mayBeMistaken() ? Step::kTakeBack : Step::kWrite;
+  if (step_ == Step::kPause) {
+    step_ = mayBeMistaken() ? Step::kTakeBack : Step::kWrite;
+    busy_end_ = now + kBusyTime;
+  }
   under_way_ = true;
   forgotten_ = false;
   return nextRecord();
@@ -98,9 +104,10 @@ void RecordParameterChannel::handleRecord(const profibus::RecordResult& result, 
     case profibus::RecordOutcome::kDone:
       return handleDone(result.data, now);
     case profibus::RecordOutcome::kRefused:
-      if (handleRefusal(result.error)) return;
+      if (handleRefusal(result.error, now)) return;
       break;
     case profibus::RecordOutcome::kTimedOut:
+      if (result.error.isBusy() && goOnToWrite(refusalText(result.error))) return;
       pkw_.handleFailure(profile::ParameterOutcome::kTimeout,
                          result.error.isBusy() ? refusalText(result.error) : words);
       break;
@@ -131,15 +138,11 @@ void RecordParameterChannel::handleRecord(const profibus::RecordResult& result, 
 }
 
 /// True when it goes on all the same.
-bool RecordParameterChannel::handleRefusal(const profibus::RecordError& error) noexcept {
+bool RecordParameterChannel::handleRefusal(const profibus::RecordError& error, Instant now) noexcept {
   if (step_ == Step::kWrite) unanswered_ = {};
+  if ((!error.isBusy() || now >= busy_end_) && goOnToWrite({})) return true;
   if (error.isBusy()) {  // not taken: the same once more, until the time for an answer is over
     pkw_.explainWait(refusalText(error));
-    return true;
-  }
-  if (step_ == Step::kTakeBack) {  // no manual says that "no order" is taken in a record: the order itself is
-    forgetAnswers();
-    step_ = Step::kWrite;
     return true;
   }
   if (mayBeCarriedOut()) {
@@ -148,6 +151,16 @@ bool RecordParameterChannel::handleRefusal(const profibus::RecordError& error) n
     pkw_.handleRefusal(reasonOf(error), refusalText(error));
   }
   return false;
+}
+
+/// While an answer is taken back: "no order" is not taken, or no answer is shown that could be mistaken. The order itself
+/// is next. `why`: told if the time for an answer is over by now.
+bool RecordParameterChannel::goOnToWrite(const Sentence& why) noexcept {
+  if (step_ != Step::kTakeBack && step_ != Step::kAwaitNone) return false;
+  forgetAnswers();
+  pkw_.explainWait(why);
+  step_ = Step::kWrite;
+  return true;
 }
 
 /// The order was taken, and what is refused is to tell what became of it.
@@ -172,6 +185,7 @@ void RecordParameterChannel::handleDone(ByteView data, Instant now) noexcept {
       break;
     case Step::kWrite:
       step_ = Step::kRead;
+      pkw_.explainWait({});
       break;
     case Step::kRead:
       handleAnswer(data, now);
@@ -179,24 +193,28 @@ void RecordParameterChannel::handleDone(ByteView data, Instant now) noexcept {
   }
 }
 
-// "No answer", or an error that names no parameter: it is the one to "no order".
+// "No answer", or an error that names no parameter: it is the one to "no order". A read without an order may name the last
+// one's parameter; where the last answer was just that, nobody could tell whether it is repeated.
 void RecordParameterChannel::handleNone(ByteView data) noexcept {
   const auto words = recordWords(data);
   if (!words) return;  // read again
   const bool none = labelIn(*words) == static_cast<unsigned>(profile::AnswerLabel::kNone);
-  if (!none && numberIn(*words) != 0) return;
-  forgetAnswers();
-  pkw_.explainWait({});
-  step_ = Step::kWrite;
+  const bool error = labelIn(*words) == static_cast<unsigned>(profile::AnswerLabel::kError);
+  const bool no_order = error && (*words)[3] == kReadWithoutOrder && inOurNumbers(*words) != last_answer_;
+  if (none || no_order || numberIn(*words) == 0) goOnToWrite({});
+}
+
+profile::PkwWords RecordParameterChannel::inOurNumbers(profile::PkwWords words) const noexcept {
+  if (!addressing_.number_offset && words[0] != 0) words[0] = shifted(words[0], false);
+  return words;
 }
 
 void RecordParameterChannel::handleAnswer(ByteView data, Instant now) noexcept {
-  auto words = recordWords(data);
+  const auto words = recordWords(data);
   if (!words) return;  // no answer: read again
-  if (!addressing_.number_offset && (*words)[0] != 0) (*words)[0] = shifted((*words)[0], false);
-  last_answer_ = *words;
+  last_answer_ = inOurNumbers(*words);
   if (mayAnswer(unanswered_, last_answer_)) unanswered_ = {};
-  pkw_.handleWords(*words, now);
+  pkw_.handleWords(last_answer_, now);
 }
 
 void RecordParameterChannel::forgetAnswers() noexcept {

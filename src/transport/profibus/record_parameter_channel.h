@@ -15,7 +15,8 @@ namespace nord_driver {
 /// here, BU 0220 8.3.4.4) or of one inverter. An order is written as a record of eight bytes laid out as a PKW; the
 /// answer is read as another, until it is the one to the order. Until the unit has executed an order it repeats its answer
 /// to the one before (BU 2700 6.5.1.1): where that could be taken for the new one's, "no order" is written and "no answer"
-/// read first. Sans-IO: `pollRecord()` when the station is free for a record, `handleRecord()` with its result.
+/// read first. No manual says how a unit tells in a record that it has no answer: whatever shows none will do.
+/// Sans-IO: `pollRecord()` when the station is free for a record, `handleRecord()` with its result.
 class RecordParameterChannel {
  public:
   static constexpr std::uint8_t kModule = 0;
@@ -53,7 +54,9 @@ class RecordParameterChannel {
   void handleDone(ByteView data, Instant now) noexcept;
   void handleNone(ByteView data) noexcept;
   void handleAnswer(ByteView data, Instant now) noexcept;
-  bool handleRefusal(const profibus::RecordError& error) noexcept;
+  bool handleRefusal(const profibus::RecordError& error, Instant now) noexcept;
+  bool goOnToWrite(const Sentence& why) noexcept;
+  profile::PkwWords inOurNumbers(profile::PkwWords words) const noexcept;
   void fail(profile::ParameterOutcome outcome, const Sentence& words) noexcept;
   bool mayBeCarriedOut() const noexcept;
   void forgetAnswers() noexcept;
@@ -65,6 +68,7 @@ class RecordParameterChannel {
   profile::PkwWords order_{};        // the one that runs; zeros: none
   profile::PkwWords last_answer_{};  // what the unit said last: it may say it again; zeros: nothing
   profile::PkwWords unanswered_{};   // the unit may have it, and its answer has not been seen; zeros: none
+  Instant busy_end_{};               // taking back, it may be busy until then
   bool under_way_ = false;
   bool forgotten_ = false;  // the record under way belongs to nobody any more
 };

@@ -286,6 +286,24 @@ TEST(ProfibusDpConfigTest, OptionsOfTheBusAreOffUnlessAskedFor) {
   EXPECT_FALSE(config.records.number_offset);
 }
 
+// A driver that was killed may have left a wheel turning: its watchdog, told by the same file, runs out while a guest
+// listens. No longer than the engine can, and no shorter than asked for.
+TEST(ProfibusDpConfigTest, AGuestListensForAsLongAsAWatchdogMayRun) {
+  struct Case {
+    double watchdog, listen_first, expected;
+  };
+  for (const Case& in : {Case{0.2, 0.0, 0.5}, Case{0.25, 0.0, 0.5}, Case{0.26, 0.0, 0.51}, Case{2.0, 0.0, 2.25},
+                         Case{2.0, 4.0, 4.0}, Case{9.75, 0.0, 10.0}, Case{9.8, 0.0, 10.0}, Case{60.0, 0.0, 10.0}}) {
+    Segment segment;
+    segment.bus.set("watchdog", in.watchdog).set("listen_first", in.listen_first);
+    ProfibusDpConfig config = segment.read();
+    endWithoutATrip(config);
+    EXPECT_NEAR(in.expected, toSeconds(config.bus.listen_first), 1e-9) << in.watchdog << " s";
+    EXPECT_EQ(Duration::zero(), config.slaves[1].watchdog);
+    EXPECT_NO_THROW(config.bus.validate());
+  }
+}
+
 TEST(ProfibusDpConfigTest, AnEmptyListOfGsdFilesIsFine) {
   Segment segment;
   segment.bus.set("gsd", std::vector<std::string>{});

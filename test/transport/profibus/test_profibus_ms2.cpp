@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "sim/profibus/simulated_segment.h"
 #include "support/map_settings.h"
@@ -38,6 +41,48 @@ class SegmentOfAnotherMaster final : public sim::SimulatedSegment {
 
  private:
   bool token_due_ = false;
+};
+
+/// A segment whose module takes "no order", and answers the read that follows with error 9 and the number of P741: a read
+/// without an order before it (BU 2700 6.5.1.1).
+class SegmentOfAModuleWithNothingToRead final : public sim::SimulatedSegment {
+ public:
+  using SimulatedSegment::SimulatedSegment;
+  bool write(ByteView telegram) noexcept override {
+    answer_.clear();
+    if (telegram.size() > kReadTelegram) {  // an order, or none: eight zeros
+      const auto none = fromHex("08 00 00 00 00 00 00 00 00");
+      taken_back_ = std::search(telegram.begin(), telegram.end(), none.begin(), none.end()) != telegram.end();
+      times_ += taken_back_ ? 1 : 0;
+    }
+    return SimulatedSegment::write(telegram);
+  }
+  std::size_t read(std::uint8_t* buffer, std::size_t capacity) noexcept override {
+    const std::size_t count = SimulatedSegment::read(buffer, capacity);
+    for (std::size_t i = 0; i < count; ++i) buffer[i] = changed(buffer[i]);
+    return count;
+  }
+  int timesTakenBack() const noexcept { return times_; }
+
+ private:
+  // SD2: 68 L L 68, DA SA FC DSAP SSAP, then function, slot, index, length and data of the record, FCS, 16.
+  static constexpr std::size_t kReadTelegram = 15, kFunction = 9, kData = 13, kChecksum = 21;
+
+  std::uint8_t changed(std::uint8_t byte) noexcept {
+    const std::size_t place = answer_.size();
+    answer_.push_back(byte);
+    if (!taken_back_ || place < kData || answer_[1] != 17 || answer_[kFunction] != 0x5E) return byte;
+    if (place > kChecksum) return byte;
+    const auto error = fromHex("76 CD 00 00 00 00 00 09");
+    if (place == kChecksum) return static_cast<std::uint8_t>(byte + std::exchange(added_, 0));
+    added_ += error[place - kData] - byte;
+    return error[place - kData];
+  }
+
+  std::vector<std::uint8_t> answer_;
+  int added_ = 0;  // to the sum of its bytes
+  bool taken_back_ = false;
+  int times_ = 0;
 };
 
 class ProfibusMs2 : public ::testing::Test {
@@ -130,6 +175,19 @@ TEST_F(ProfibusMs2, ParametersWithoutDataExchange) {
   EXPECT_EQ(0u, module().counters().data_exchanges);
   EXPECT_EQ(0x0000, segment_->drive(0).counters().last_control);
   EXPECT_TRUE(segment_->referee().content()) << segment_->referee().report();
+}
+
+// The status word is the same parameter again and again: before each "no order" is written, and read until it is gone.
+TEST_F(ProfibusMs2, StatusWordOfAModuleThatHasNothingToRead) {
+  open<SegmentOfAModuleWithNothingToRead>();
+  run(milliseconds{1500});
+  const Instant end = transport_->now() + milliseconds{6000};
+  while (transport_->now() < end) {
+    run(milliseconds{10});
+    ASSERT_TRUE(inputs_[0].inverter_answers) << note();
+    ASSERT_EQ(segment_->drive(0).inverter().statusWord(), inputs_[0].input.status_word);
+  }
+  EXPECT_GT(static_cast<SegmentOfAModuleWithNothingToRead*>(segment_)->timesTakenBack(), 10);
 }
 
 TEST_F(ProfibusMs2, IdentityOfADrive) {

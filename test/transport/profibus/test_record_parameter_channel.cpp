@@ -1,89 +1,12 @@
 // Parameters as records of eight bytes: written as an order, read as its answer.
 #include <gtest/gtest.h>
 
-#include "transport/profibus/record_parameter_channel.h"
+#include "transport/profibus/a_record_channel.h"
 
 namespace nord_driver {
 namespace {
 
-using profibus::RecordOutcome;
-using profibus::RecordRequest;
-using profibus::RecordResult;
-using profile::ParameterOutcome;
 using std::chrono::milliseconds;
-
-constexpr const char* kNone = "00 00 00 00 00 00 00 00";
-
-class Records : public ::testing::Test {
- protected:
-  RecordParameterChannel channel_{RecordParameterChannel::kModule, {}, std::chrono::seconds{2}};
-  Instant now_{std::chrono::seconds{100}};
-
-  bool submit(std::uint16_t number, std::uint32_t id = 7) {
-    profile::ParameterRequest request;
-    request.id = id;
-    request.number = number;
-    return channel_.submit(request, now_);
-  }
-  bool submitElement(std::uint16_t number, std::uint8_t element) {
-    profile::ParameterRequest request;
-    request.id = 7;
-    request.number = number;
-    request.shape = profile::ParameterShape::kArray;
-    request.index = element;
-    return channel_.submit(request, now_);
-  }
-  /// Polls cycle by cycle; none within five: no request.
-  std::optional<RecordRequest> next() {
-    for (int i = 0; i < 5; ++i, now_ += milliseconds{10}) {
-      if (auto request = channel_.pollRecord(now_)) return request;
-    }
-    return std::nullopt;
-  }
-  void expectWrite(const std::string& hex) {
-    const auto request = next();
-    ASSERT_TRUE(request);
-    EXPECT_TRUE(request->write);
-    EXPECT_EQ(hex, toHex(request->data));
-    last_ = *request;
-  }
-  void expectRead() {
-    const auto request = next();
-    ASSERT_TRUE(request);
-    EXPECT_FALSE(request->write);
-    EXPECT_EQ(8, request->length);
-    last_ = *request;
-  }
-  void answer(RecordOutcome outcome, const std::string& hex = "", std::uint8_t code1 = 0) {
-    RecordResult result;
-    result.write = last_.write;
-    result.outcome = outcome;
-    if (code1 != 0) result.error = {0x80, code1, 0};
-    for (const std::uint8_t byte : fromHex(hex)) result.data.push_back(byte);
-    channel_.handleRecord(result, now_);
-  }
-  /// Between two orders that could be taken for each other: eight zeros, and read until there is no answer any more.
-  void expectTakenBack(const std::string& stale_answer = "") {
-    expectWrite(kNone);
-    answer(RecordOutcome::kDone);
-    EXPECT_TRUE(channel_.holdsStation());
-    if (!stale_answer.empty()) {
-      expectRead();
-      answer(RecordOutcome::kDone, stale_answer);
-      EXPECT_TRUE(channel_.holdsStation());
-      EXPECT_FALSE(channel_.pollResult()) << "that was the answer to the order before";
-    }
-    expectRead();
-    answer(RecordOutcome::kDone, kNone);
-  }
-  profile::ParameterResult result() {
-    const auto result = channel_.pollResult();
-    EXPECT_TRUE(result) << "no result";
-    return result.value_or(profile::ParameterResult{});
-  }
-
-  RecordRequest last_;
-};
 
 // P151 of the module: slot 0, index 100 (BU 0220 4.2.1); order label 1, PNU 1151 = 47Fh; 200 ms = 00C8h.
 TEST_F(Records, ReadsAParameterOfTheModule) {
@@ -204,31 +127,6 @@ TEST_F(Records, AnOrderThatWasGivenUpIsTakenBackBeforeItsEqual) {
   ASSERT_TRUE(submit(173, 2));
   expectTakenBack("14 95 00 00 00 00 02 02");
   expectWrite("14 95 00 00 00 00 00 00");
-}
-
-// No manual says that a unit takes "no order" in a record. One that refuses it, or answers it with an error of no
-// parameter (an inverter that is not there: 101), is asked all the same.
-TEST_F(Records, AUnitThatRefusesToTakeBackIsAskedAllTheSame) {
-  for (const bool refused : {true, false}) {
-    channel_ = RecordParameterChannel{RecordParameterChannel::kModule, {}, std::chrono::seconds{2}};
-    ASSERT_TRUE(submit(173, 1));
-    ASSERT_TRUE(submit(173, 2));
-    expectWrite("14 95 00 00 00 00 00 00");
-    answer(RecordOutcome::kDone);
-    expectRead();
-    answer(RecordOutcome::kDone, "14 95 00 00 00 00 02 02");
-    EXPECT_EQ(0x0202, result().raw);
-    expectWrite(kNone);
-    if (refused) {
-      answer(RecordOutcome::kRefused, "", 0xB7);
-    } else {
-      answer(RecordOutcome::kDone);
-      expectRead();
-      answer(RecordOutcome::kDone, "70 00 00 00 00 00 00 65");
-    }
-    EXPECT_FALSE(channel_.pollResult());
-    expectWrite("14 95 00 00 00 00 00 00");
-  }
 }
 
 // One whose answer does not go is told, not believed.
