@@ -66,13 +66,18 @@ void DriveGroup::requestDisable(Instant now) noexcept {
       report_.refusal = {Refusal::kStopped, 0};
       down_since_ = now;
       return shutdownAll(StopCause::kNone, now);
-    case GroupPhase::kHalting:  // its bound runs on
-      return shutdownAll(StopCause::kNone, now);
+    case GroupPhase::kRampingDown:
+    case GroupPhase::kHalting:
+    case GroupPhase::kStopping:  // the bound of the way down runs on
+      if (config_.ways.disable == StopWay::kQuickStop) return quickStopAll(StopCause::kNone, now);
+      if (config_.ways.disable == StopWay::kCoast) return coastAll(StopCause::kNone, now);
+      if (report_.phase == GroupPhase::kHalting) shutdownAll(StopCause::kNone, now);
+      return;
     case GroupPhase::kDisabled:  // one may be taught its position
       ++stops_;
       for (Drive* member : members_) member->requestShutdown(now);
       return;
-    default:
+    case GroupPhase::kQuickStopping:
       return;
   }
 }
