@@ -60,11 +60,8 @@ void BusCycle::putWords(DriveIndex i, Instant now) noexcept {
   const drive::Phase phase = drives_[i].report().phase;
   const drive::DriveGroup& group = supervisor_.groupOf(i);
   const drive::GroupPhase group_phase = group.report().phase;
-  const profile::StatusWord status{drives_[i].report().status_word};
   state.stop.enabled = group.commandAllowed();
   state.stop.stops = group.stops();
-  state.stop.fault = status.fault();
-  state.stop.bus_control = status.busControl();
   state.stop.stopping = phase == drive::Phase::kStopping || phase == drive::Phase::kQuickStopping ||
                         phase == drive::Phase::kCoasting || phase == drive::Phase::kHoldingZero ||
                         phase == drive::Phase::kOffline || drive::isOnWayDown(group_phase);

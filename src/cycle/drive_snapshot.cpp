@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "cycle/user_messages.h"
+#include "profile/fault_number.h"
 
 namespace nord_driver::cycle {
 
@@ -48,15 +49,20 @@ void fillPosition(DriveSnapshot& to, const DrivePictured& from) noexcept {
   to.position_refused = from.axis.targets.refused();
 }
 
+// One that was lost may come back with another fault: nobody has seen the bit fall, and its number alone tells.
 void fillFault(DriveSnapshot& to, const Axis& axis) noexcept {
   to.fault_history = axis.parameters.faultHistory();
   if (!to.online) return;
   const bool fault = profile::StatusWord{to.input.status_word}.fault();
-  if (fault && !to.fault) {
+  const bool known = profile::isFaultNumber(to.fault_number);
+  const bool another =
+      known && profile::isFaultNumber(to.at_fault.fault_number) && to.fault_number != to.at_fault.fault_number;
+  if (fault && (!to.fault || another)) {
     ++to.faults;
     to.at_fault = to;
     axis.recorder.write(to.fault_record);
   }
+  if (fault && known) to.at_fault.fault_number = to.fault_number;
   to.fault = fault;
 }
 

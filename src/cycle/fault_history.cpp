@@ -11,10 +11,6 @@ namespace {
 constexpr std::uint16_t kLastFaults = 701;
 constexpr std::uint8_t kMaxAttempts = 3;
 
-bool isKnown(std::uint16_t number) noexcept {
-  return number != 0 && number != profile::kFaultNumberUnknown;
-}
-
 }  // namespace
 
 void FaultHistoryReader::handleFault(bool fault, std::uint16_t last_number) noexcept {
@@ -24,7 +20,7 @@ void FaultHistoryReader::handleFault(bool fault, std::uint16_t last_number) noex
     history_ = {};
   }
   fault_ = fault;
-  if (state_ != State::kNumberAwaited || !isKnown(last_number)) return;
+  if (state_ != State::kNumberAwaited || !profile::isFaultNumber(last_number)) return;
   state_ = State::kReading;
   attempts_ = 0;
 }

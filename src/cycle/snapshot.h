@@ -64,8 +64,8 @@ struct DriveSnapshot : DriveSample {
   std::optional<std::uint16_t> switch_on_reason;       ///< P700[-03] raw, while it keeps the drive from becoming ready
   bool fault_latched = false;                          ///< a fault was seen and not acknowledged since
   bool fault = false;                                  ///< the fault bit as seen last; a silent drive keeps it
-  std::uint64_t faults = 0;                            ///< how often it rose
-  DriveSample at_fault;                                ///< when it rose last: the first idle word may let it vanish
+  std::uint64_t faults = 0;                            ///< how often it rose, or came back as another one
+  DriveSample at_fault;                                ///< then, with its number: the first idle word may end it
   FaultRecord fault_record;                            ///< the cycles up to that moment
   FaultHistory fault_history;                          ///< what the inverter remembers, of that moment
   std::uint64_t eeprom_writes = 0;                     ///< of this node, of 100 000 the EEPROM endures (BU 2700 6.5)

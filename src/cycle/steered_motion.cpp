@@ -126,7 +126,8 @@ void SteeredMotion::step(const robot::Twist2d& target, const robot::SteeringAngl
   switch (way) {
     case Step::kGo:
       limiter_ = stepped;
-      if (kinematics_.isPossible(next)) steered_ = wanted;
+      // To zero each axis may go its own shortest way (TwistLimiter): what is left of the motion on it is no path.
+      if (target != robot::Twist2d{}) steered_ = wanted;
       break;
     case Step::kHold:
       limiter_.limit(limited_, dt);

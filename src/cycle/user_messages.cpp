@@ -109,7 +109,9 @@ Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveRe
   if (refusal == Refusal::kUnexpectedSource && report.unexpected_source) {
     return sourceMessage(drive, *report.unexpected_source);
   }
-  if (refusal == Refusal::kStopped && report.refusal == refusal && report.stop_cause != StopCause::kNone) {
+  const bool of_its_stop =
+      refusal == Refusal::kHomingStopped || (refusal == Refusal::kStopped && report.refusal == refusal);
+  if (of_its_stop && report.stop_cause != StopCause::kNone) {
     text.format("drive %s: %s: %s (status word %04X, %s)", drive, drive::toString(refusal),
                 drive::toString(report.stop_cause), report.stop_status_word, stateAtStop(report));
     return text;

@@ -20,8 +20,6 @@ class WithdrawnBits {
     bool stopping = false;    ///< it, or another drive of its group, is on its way to rest; or it is not heard
     bool enabled = false;     ///< its group is enabled
     std::uint32_t stops = 0;  ///< how often its group was stopped
-    bool fault = false;
-    bool bus_control = true;  ///< status bit 9
   };
 
   /// A stop that leaves no trace in the state: its connection ended, and it answers again.
@@ -33,7 +31,7 @@ class WithdrawnBits {
 
  private:
   std::vector<std::uint8_t> withdrawn_;  // of each output
-  State last_;
+  std::uint32_t stops_ = 0;              // in the last cycle
   bool stopped_ = false;
   Instant stopped_at_{};  // in the last cycle with a stop
 };

@@ -59,12 +59,12 @@ void Drive::enter(Phase phase, Instant now, RadPerSec wanted) noexcept {
   phase_ = PhaseData{};
   phase_.since = now;
   phase_.wanted = wanted;
+  const bool offline = phase == Phase::kOffline;
   if (axis_ && axis_->isHoming()) {
     axis_->endHoming();
-    end(report_.homing, Refusal::kStopped);
+    end(report_.homing, offline ? Refusal::kOffline : Refusal::kHomingStopped);
   }
   if (!isSettingUp()) return;
-  const bool offline = phase == Phase::kOffline;
   endSetup(offline ? Refusal::kOffline : Refusal::kTeachStopped, offline ? Refusal::kOffline : Refusal::kResetStopped);
 }
 

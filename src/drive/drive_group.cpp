@@ -24,7 +24,7 @@ bool isDown(const Drive& drive) noexcept {
 }  // namespace
 
 DriveGroup::DriveGroup(std::vector<Drive*> members, const GroupConfig& config)
-    : members_(std::move(members)), config_(config) {
+    : members_(std::move(members)), config_(config), heard_(members_.size(), 0) {
   if (members_.empty()) throw std::invalid_argument("a group of drives needs at least one drive");
   for (const Drive* member : members_) {
     if (member == nullptr) throw std::invalid_argument("a group of drives was given a null drive");
@@ -66,13 +66,18 @@ void DriveGroup::requestDisable(Instant now) noexcept {
       report_.refusal = {Refusal::kStopped, 0};
       down_since_ = now;
       return shutdownAll(StopCause::kNone, now);
-    case GroupPhase::kHalting:  // its bound runs on
-      return shutdownAll(StopCause::kNone, now);
+    case GroupPhase::kRampingDown:
+    case GroupPhase::kHalting:
+    case GroupPhase::kStopping:  // the bound of the way down runs on
+      if (config_.ways.disable == StopWay::kQuickStop) return quickStopAll(StopCause::kNone, now);
+      if (config_.ways.disable == StopWay::kCoast) return coastAll(StopCause::kNone, now);
+      if (report_.phase == GroupPhase::kHalting) shutdownAll(StopCause::kNone, now);
+      return;
     case GroupPhase::kDisabled:  // one may be taught its position
       ++stops_;
       for (Drive* member : members_) member->requestShutdown(now);
       return;
-    default:
+    case GroupPhase::kQuickStopping:
       return;
   }
 }
@@ -135,7 +140,21 @@ void DriveGroup::shutdownAll(StopCause cause, Instant now) noexcept {
   enter(GroupPhase::kStopping, now);
 }
 
+// The beginning counts: what turns the motor may be what acknowledges the fault, or ends local control (functions 12 and
+// 14 of P480). A member that is not heard keeps its last word.
+bool DriveGroup::stopBegan() noexcept {
+  bool began = false;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const profile::StatusWord before(heard_[i]), now(members_[i]->report().status_word);
+    heard_[i] = now.word();
+    began = began || (now.fault() && !before.fault()) || (!now.voltageEnabled() && before.voltageEnabled()) ||
+            (!now.quickStopInactive() && before.quickStopInactive()) || (!now.busControl() && before.busControl());
+  }
+  return began;
+}
+
 void DriveGroup::update(Instant now) noexcept {
+  if (stopBegan()) ++stops_;
   switch (report_.phase) {
     case GroupPhase::kDisabled:
       return;

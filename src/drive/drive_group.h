@@ -81,7 +81,8 @@ class DriveGroup {
   /// Disabled, and every member confirms rest by its state (or is offline: nothing reaches it).
   bool settled() const noexcept;
 
-  /// Counts each stop that was asked for or began, of a disabled group as well.
+  /// Counts each stop that was asked for or began, of a disabled group as well: a fault, OFF2, OFF3 or local control of
+  /// a member stops what turns past the group.
   std::uint32_t stops() const noexcept { return stops_; }
 
   const GroupReport& report() const noexcept { return report_; }
@@ -89,6 +90,8 @@ class DriveGroup {
 
  private:
   void enter(GroupPhase phase, Instant now) noexcept;
+  /// A fault, OFF2, OFF3 or local control has come to a member.
+  bool stopBegan() noexcept;
   bool haltIfAMemberStopped(Instant now) noexcept;
   void updateEnabling(Instant now) noexcept;
   void updateRampingDown(Instant now) noexcept;
@@ -117,7 +120,8 @@ class DriveGroup {
   bool bound_runs_on_ = false;  // of a way down that was asked for, into the halt behind it
   Instant zero_since_{};
   std::uint32_t stops_ = 0;
-  int halting_speed_ = 0;  // the least so far, of all that halt together
+  std::vector<Word> heard_;  // the status word of each member in the last cycle
+  int halting_speed_ = 0;    // the least so far, of all that halt together
   Instant slower_since_{};
   StopCause down_for_ = StopCause::kNone;  // why its members are ramped down; asked for, there is nothing to tell
   bool setpoint_is_zero_ = false;

@@ -81,6 +81,8 @@ const char* toString(Refusal refusal) noexcept {
       return "the inverter did not reach \"operation enabled\" in time";
     case Refusal::kStopped:
       return "a stop came before the inverter was enabled";
+    case Refusal::kRequestStopped:
+      return "a stop came before it was done";
     case Refusal::kCauseStands:
       return "the cause of the fault still stands";
     case Refusal::kNotDisabled:
@@ -101,6 +103,8 @@ const char* toString(Refusal refusal) noexcept {
       return "a reference run begins at standstill, and the motor turns";
     case Refusal::kHomingTimeout:
       return "the reference run did not end within position/homing_timeout, and the drive was stopped";
+    case Refusal::kHomingStopped:
+      return "the drive was stopped before the reference run had ended";
     case Refusal::kTeachNotDisabled:
       return "a position is taught, or reset, at standstill only, and the drive is enabled or being stopped: disable "
              "it first";

@@ -73,7 +73,8 @@ enum class Refusal : std::uint8_t {
   kUnexpectedFunction,   ///< setpoint 1 or actual value 1 of the set in force is no frequency
   kUnexpectedSource,     ///< it follows another inverter, or does not where it should (P509, P510)
   kEnableTimeout,        ///< the inverter did not follow within enable_timeout
-  kStopped,              ///< a stop came before the inverter had followed
+  kStopped,              ///< enabling: a stop came before the inverter had followed
+  kRequestStopped,       ///< acknowledging, or switching the set: a quick stop or OFF2 was asked for meanwhile
   kCauseStands,          ///< acknowledging: the fault is still there
   kNotDisabled,          ///< switching the set: the drive is enabled or being stopped
   kTurning,              ///< switching the set: actual value 1 is not near zero
@@ -84,6 +85,7 @@ enum class Refusal : std::uint8_t {
   kNotEnabled,           ///< a reference run: the drive is not enabled
   kHomingTurning,        ///< a reference run: the motor turns
   kHomingTimeout,        ///< a reference run did not end within position/homing_timeout
+  kHomingStopped,        ///< a reference run: the drive was stopped, or stopped by itself
   kTeachNotDisabled,     ///< teaching or resetting a position: the drive is enabled or being stopped
   kTeachTurning,         ///< teaching or resetting a position: the motor turns
   kTeachStopped,         ///< something else was asked of the drive while its position was taught

@@ -78,7 +78,7 @@ void Drive::requestSetpointZero(Instant now) noexcept {
 }
 
 void Drive::requestShutdown(Instant now, StopCause cause) noexcept {
-  if (isSettingUp()) endSetup(Refusal::kStopped, Refusal::kStopped);
+  if (isSettingUp()) endSetup(Refusal::kTeachStopped, Refusal::kResetStopped);
   if (!isRunning()) return;
   latch(cause);
   if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
@@ -87,7 +87,7 @@ void Drive::requestShutdown(Instant now, StopCause cause) noexcept {
 
 void Drive::requestQuickStop(Instant now, StopCause cause) noexcept {
   if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
-  breakOff(Refusal::kStopped);
+  breakOff(Refusal::kRequestStopped);
   latch(cause);
   if (report_.phase == Phase::kOffline) {
     unanswered_ = {Command::kQuickStop, now + config_.shutdown_timeout};
@@ -98,7 +98,7 @@ void Drive::requestQuickStop(Instant now, StopCause cause) noexcept {
 
 void Drive::requestCoast(Instant now, StopCause cause) noexcept {
   if (report_.phase == Phase::kEnabling) refuse(Refusal::kStopped);
-  breakOff(Refusal::kStopped);
+  breakOff(Refusal::kRequestStopped);
   latch(cause);
   if (report_.phase == Phase::kOffline) {
     unanswered_ = {Command::kDisableVoltage, now + config_.shutdown_timeout};

@@ -22,7 +22,7 @@ std::string FaultBoard::text(DriveIndex drive) const {
   std::string text;
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     const std::uint16_t number = numbers_[i];
-    if ((drive != cycle::kAllDrives && drive != i) || number == 0 || number == profile::kFaultNumberUnknown) continue;
+    if ((drive != cycle::kAllDrives && drive != i) || !profile::isFaultNumber(number)) continue;
     text += (text.empty() ? "drive " : "; drive ") + names_[i] + ": " + catalogue::FaultWords::label(number) + ", " +
             words_[i].name(number);
     if (!words_[i].remedy(number).empty()) text += "; remedy: " + words_[i].remedy(number);

@@ -15,10 +15,6 @@ using Level = LogLine::Level;
 // P700 is read within a few cycles; a drive that does not tell its number has a fault all the same.
 constexpr Duration kNumberAwaited = std::chrono::seconds{2};
 
-bool isKnown(std::uint16_t number) {
-  return number != 0 && number != profile::kFaultNumberUnknown;
-}
-
 }  // namespace
 
 StateLog::StateLog(LoggedDrives drives) : drives_(std::move(drives)), faults_(drives_.names.size()) {}
@@ -61,9 +57,10 @@ void StateLog::pollFault(const cycle::DriveSnapshot& drive, std::size_t index, I
   }
   state.met = state.met || drive.online;
   const std::uint16_t number = drive.fault_number != 0 ? drive.fault_number : drive.last_fault_number;
-  if (!state.due || (!isKnown(number) && now - state.since < kNumberAwaited)) return;
+  if (!state.due || (!profile::isFaultNumber(number) && now - state.since < kNumberAwaited)) return;
   state.due = false;
-  lines.push_back({Level::kError, faultSentence(index, isKnown(number) ? number : profile::kFaultNumberUnknown)});
+  lines.push_back(
+      {Level::kError, faultSentence(index, profile::isFaultNumber(number) ? number : profile::kFaultNumberUnknown)});
 }
 
 std::string StateLog::faultSentence(std::size_t index, std::uint16_t number) const {

@@ -8,4 +8,9 @@ namespace nord_driver::profile {
 /// The fault is there, but its number could not be read.
 constexpr std::uint16_t kFaultNumberUnknown = 65535;
 
+/// It names a fault.
+constexpr bool isFaultNumber(std::uint16_t raw) noexcept {
+  return raw != 0 && raw != kFaultNumberUnknown;
+}
+
 }  // namespace nord_driver::profile

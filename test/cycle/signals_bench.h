@@ -15,9 +15,9 @@ inline SignalSetup output(SignalSource source, std::uint8_t number) {
   return signal;
 }
 
-inline CycleConfig configured(const std::vector<SignalSetup>& signals) {
+inline CycleConfig configured(const std::vector<SignalSetup>& signals, DriveIndex drive) {
   CycleConfig config = CycleBench::config();
-  WordSetup& words = config.drives[CycleBench::kLift].words;
+  WordSetup& words = config.drives[drive].words;
   words.signals = signals;
   words.release_after = config.cmd_vel_timeout;
   return config;
@@ -26,13 +26,18 @@ inline CycleConfig configured(const std::vector<SignalSetup>& signals) {
 /// P547 = 17: setpoint 2 carries the bus bits.
 class Signals : public CycleBench {
  public:
-  explicit Signals(const std::vector<SignalSetup>& signals) : CycleBench{configured(signals)} {
+  /// `drive`: whose signals they are.
+  explicit Signals(const std::vector<SignalSetup>& signals, DriveIndex drive = kLift)
+      : CycleBench{configured(signals, drive)}, drive_{drive} {
     for (const int number : {543, 546}) transport.parameters[number] = 1;
     for (const int number : {480, 544, 545, 548}) transport.parameters[number] = 0;
     transport.parameters[547] = 17;
   }
-  void command(bool on, std::size_t index = 0) { ports.commandOutput(kLift, index, on, transport.time); }
-  const profile::ProcessOutput& sent() const { return transport.outputs[kLift]; }
+  void command(bool on, std::size_t index = 0) { ports.commandOutput(drive_, index, on, transport.time); }
+  const profile::ProcessOutput& sent() const { return transport.outputs[drive_]; }
+
+ private:
+  DriveIndex drive_;
 };
 
 }  // namespace nord_driver::cycle

@@ -58,5 +58,55 @@ TEST_F(FaultAfterLoss, IsReadAnewWhenOneStands) {
   EXPECT_EQ(30, snapshot().drives[kLeft].last_fault_number);
 }
 
+// It is logged, traced and stamped as what it is.
+TEST_F(FaultAfterLoss, AnotherOneIsCountedAsItsOwn) {
+  failAndVanish(21);
+  ASSERT_EQ(1u, snapshot().drives[kLeft].faults);
+  const Instant back = transport.time;
+  transport.inverters[kLeft].silent = false;
+  transport.parameters[700] = 30;
+  run(10);
+  const DriveSnapshot& drive = snapshot().drives[kLeft];
+  EXPECT_EQ(2u, drive.faults);
+  EXPECT_GE(drive.at_fault.time, back);
+  EXPECT_EQ(30, drive.at_fault.fault_number);
+  ASSERT_FALSE(drive.fault_record.empty());
+  EXPECT_EQ(drive.at_fault.time, drive.fault_record[drive.fault_record.size() - 1].time);
+  run(10);
+  EXPECT_EQ(2u, snapshot().drives[kLeft].faults) << "once";
+}
+
+TEST_F(FaultAfterLoss, TheSameOneIsNotCountedAgain) {
+  failAndVanish(21);
+  const Instant lost = transport.time;
+  transport.hold_answers = true;
+  transport.inverters[kLeft].silent = false;
+  run(10);
+  EXPECT_EQ(1u, snapshot().drives[kLeft].faults) << "its number is not known yet";
+  transport.answerAll();
+  run(200);
+  ASSERT_EQ(21, snapshot().drives[kLeft].fault_number);
+  EXPECT_EQ(1u, snapshot().drives[kLeft].faults);
+  EXPECT_LT(snapshot().drives[kLeft].at_fault.time, lost);
+}
+
+// Which one it was when it was lost, nobody had been told.
+TEST_F(FaultAfterLoss, OneThatWasNotKnownYetIsNotCountedAgain) {
+  run(100);
+  transport.hold_answers = true;
+  transport.parameters[700] = 21;
+  transport.inverters[kLeft].fault = true;
+  run(10);
+  transport.inverters[kLeft].silent = true;
+  run(10);
+  ASSERT_EQ(65535, snapshot().drives[kLeft].fault_number);
+  transport.inverters[kLeft].silent = false;
+  run(10);
+  transport.answerAll();
+  run(200);
+  ASSERT_EQ(21, snapshot().drives[kLeft].fault_number);
+  EXPECT_EQ(1u, snapshot().drives[kLeft].faults);
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

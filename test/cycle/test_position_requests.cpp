@@ -97,6 +97,47 @@ TEST_F(PositionRequestsInCycle, OneThatIsUnderWayIsNotBegunAgain) {
   EXPECT_EQ("none yet", answerOf(reset));
 }
 
+// Of an enabled drive, which a stop "before the inverter was enabled" is nothing of.
+TEST_F(PositionRequestsInCycle, AReferenceRunThatAStopEndsTellsWhatStoppedIt) {
+  const char* const kStopped = "drive lift: the drive was stopped before the reference run had ended";
+  const auto answerAfter = [this](auto&& happens) {
+    EXPECT_TRUE(ask(RequestKind::kEnable, 0).success);
+    const std::uint32_t home = submit(RequestKind::kHome, 0);
+    run(5);
+    EXPECT_TRUE(isHigh(8));
+    happens();
+    run(100);
+    EXPECT_FALSE(completions[home].success);
+    return answerOf(home);
+  };
+  ASSERT_TRUE(bringUpAndEnable());
+  EXPECT_EQ(std::string(kStopped) + " (status word 0B31, ready to switch on)",
+            answerAfter([this] { submit(RequestKind::kDisable, 0); }));
+  EXPECT_EQ(std::string(kStopped) + ": a quick stop was asked for (status word 0B37, operation enabled)",
+            answerAfter([this] { submit(RequestKind::kQuickStop, 0); }));
+  EXPECT_EQ("drive lift: the inverter does not answer", answerAfter([this] { transport.inverters[0].silent = true; }));
+  transport.inverters[0].silent = false;
+  run(100);
+  EXPECT_EQ(std::string(kStopped) + ": a fault of the inverter (status word 0B38, fault)",
+            answerAfter([this] { transport.inverters[0].fault = true; }));
+}
+
+// Of one that is disabled, and stays so.
+TEST_F(PositionRequestsInCycle, AStopOfATeachingOrAResetIsToldSo) {
+  run(80);
+  for (const RequestKind stop : {RequestKind::kDisable, RequestKind::kQuickStop}) {
+    for (const RequestKind kind : {RequestKind::kTeach, RequestKind::kResetPosition}) {
+      const std::uint32_t asked = submit(kind, 0);
+      run(3);
+      submit(stop, 0);
+      run(100);
+      EXPECT_FALSE(completions[asked].success);
+      EXPECT_THAT(answerOf(asked),
+                  HasSubstr("drive lift: something else was asked of the drive before its position was"));
+    }
+  }
+}
+
 TEST_F(PositionRequestsInCycle, ADriveThatDoesNotAnswerIsAskedForNothing) {
   run(80);
   transport.inverters[0].silent = true;

@@ -113,8 +113,8 @@ TEST_F(StandstillJobs, WhatAStopHasEndedIsToldSo) {
   drives_[0].requestQuickStop(now_);
   acknowledge(2, 0);
   run(100);
-  EXPECT_THAT(answers_[1],
-              ElementsAre(StartsWith(std::string("no: drive drive_0: ") + drive::toString(drive::Refusal::kStopped))));
+  EXPECT_THAT(answers_[1], ElementsAre(StartsWith(std::string("no: drive drive_0: ") +
+                                                  drive::toString(drive::Refusal::kRequestStopped))));
 }
 
 // One of them is done at once, and somebody asks for it again while the other one still takes its time.

@@ -164,5 +164,37 @@ TEST_F(StandstillRequestsTest, ADriveThatIsStoppedGoesOnStopping) {
   EXPECT_TRUE(latched(kRight));
 }
 
+// What it stopped for when it was enabled last has nothing to do with it.
+TEST_F(StandstillRequestsTest, WhatAStopEndsIsToldWithoutACauseOfBefore) {
+  for (const RequestKind kind : {RequestKind::kAcknowledge, RequestKind::kSelectParameterSet}) {
+    run(4);
+    drives_[kLeft].requestEnable(now_);
+    run(10);
+    ASSERT_EQ(Phase::kEnabled, drives_[kLeft].report().phase);
+    inverters_[kLeft].fault = true;
+    run(2);
+    ASSERT_TRUE(kind == RequestKind::kAcknowledge || acknowledge().success);
+    inverters_[kLeft].set_delay = 10;
+    Request request;
+    request.id = 7;
+    request.kind = kind;
+    request.drive = kLeft;
+    request.parameter_set = 2;
+    request.patience = std::chrono::seconds{3};
+    standstill_requests_.handleRequest(request, now_);
+    run(2);
+    ASSERT_FALSE(standstill_requests_.pollCompletion());
+    drives_[kLeft].requestQuickStop(now_);
+    run(10);
+    const auto answer = standstill_requests_.pollCompletion();
+    ASSERT_TRUE(answer);
+    EXPECT_FALSE(answer->success);
+    EXPECT_THAT(answer->message.str(),
+                ::testing::StartsWith("drive left: a stop came before it was done (status word"));
+    inverters_[kLeft].set_delay = 0;
+    ASSERT_TRUE(acknowledge().success);
+  }
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

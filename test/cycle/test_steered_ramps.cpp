@@ -39,6 +39,35 @@ TEST(SteeredRamps, GainAccelerationWithAJerkLimitAndLoseItInAStop) {
   }
 }
 
+// The axes come to zero at different times along their own jerk limits: what is left of the motion would turn the wheels on
+// after the base has come to rest.
+TEST(SteeredRamps, KeepTheAnglesInAStopWithJerkLimits) {
+  BaseConfig jerky = withJerk();
+  jerky.limits.angular_z.has_jerk_limits = true;
+  jerky.limits.angular_z.max_jerk = 8.0;
+  enum class Stop { kDisabled, kTooOld, kZero };
+  for (const Stop stop : {Stop::kDisabled, Stop::kTooOld, Stop::kZero}) {
+    for (const double seconds_on_the_curve : {1.5, 2.2, 3.0}) {
+      Base base{jerky};
+      base.command(1.0);
+      base.run(1.0);
+      base.command(1.0, 0.6);
+      base.run(seconds_on_the_curve);
+      ASSERT_GT(base.setpoint.angles[0], 0.01);
+      const robot::SteeringAngles held = base.setpoint.angles;
+      base.follow = stop != Stop::kDisabled;
+      base.keeps_commanding = stop != Stop::kTooOld;
+      base.newest.received = base.now - kTimeout;
+      if (stop == Stop::kZero) base.command(0.0);
+      for (int i = 0; i < 400; ++i) {
+        base.poll();
+        ASSERT_EQ(0.0, robot::largestDifference(held, base.setpoint.angles)) << seconds_on_the_curve << ", " << i;
+      }
+      EXPECT_EQ(robot::Twist2d{}, base.motion.limited());
+    }
+  }
+}
+
 // P105 of another parameter set, say: the wheels cannot turn as fast any more.
 TEST(SteeredRamps, GoOnFromWhatTheWheelsCan) {
   Base base;

@@ -59,7 +59,7 @@ TEST_F(TwoClients, AStopAndASecondRequestInOneCycleLeaveTheFirstItsOwnAnswer) {
   const auto second = submit(RequestKind::kSelectParameterSet, kLift, 3);
   runUntilAnswered(first);
   runUntilAnswered(second);
-  EXPECT_THAT(completions[first].message.c_str(), HasSubstr(drive::toString(drive::Refusal::kStopped)));
+  EXPECT_THAT(completions[first].message.c_str(), HasSubstr(drive::toString(drive::Refusal::kRequestStopped)));
   EXPECT_FALSE(completions[first].success || completions[second].success);
 }
 

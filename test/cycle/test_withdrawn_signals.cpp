@@ -8,10 +8,14 @@
 namespace nord_driver::cycle {
 namespace {
 
+// Bits of the control word that terminals can take away as well (BU 2700 6.4.1).
+constexpr Word kOff2 = 0x0002, kOff3 = 0x0004;
+
 /// Control bit 8 with P480 = 1, "enable right", accepted by may_move: at the standard rate of its publisher, 10 Hz.
 class MovingSignal : public Signals {
  public:
-  explicit MovingSignal(int function = 1, std::uint8_t signals = 1) : Signals{accepted(signals)} {
+  explicit MovingSignal(int function = 1, std::uint8_t signals = 1, DriveIndex drive = kLift)
+      : Signals{accepted(signals), drive} {
     transport.parameters[480] = function;
     run(120);
   }
@@ -84,6 +88,72 @@ TEST(WithdrawnSignalsTest, LocalControlTakesItAway) {
     bench.transport.inverters[CycleBench::kLift].local = false;
     EXPECT_EQ(0, bench.refresh(300)) << enabled;
     bench.expectOffAndOnBringItBack();
+  }
+}
+
+// Disabled, nothing but bits 4 and 5 of the status word tell of them: the drive has no motion of its own to stop.
+TEST(WithdrawnSignalsTest, Off2AndOff3AtTheTerminalsTakeItAway) {
+  for (const bool enabled : {true, false}) {
+    for (const Word bit : {kOff2, kOff3}) {
+      MovingSignal bench;
+      if (enabled) bench.drive();
+      ASSERT_GT(bench.refresh(20), 0);
+      bench.transport.inverters[CycleBench::kLift].taken = bit;
+      bench.step();
+      EXPECT_EQ(0, bench.refresh(20)) << enabled << bit;
+      bench.transport.inverters[CycleBench::kLift].taken = 0;
+      EXPECT_EQ(0, bench.refresh(300)) << enabled << bit;
+      bench.expectOffAndOnBringItBack();
+    }
+  }
+}
+
+/// What happens at an inverter by itself.
+struct Incident {
+  const char* name;
+  void (*begin)(drive::FakeInverter&);
+};
+const Incident kIncidents[] = {
+    {"fault", [](drive::FakeInverter& inverter) { inverter.fault = true; }},
+    {"local control", [](drive::FakeInverter& inverter) { inverter.local = true; }},
+    {"OFF2", [](drive::FakeInverter& inverter) { inverter.taken = kOff2; }},
+    {"OFF3", [](drive::FakeInverter& inverter) { inverter.taken = kOff3; }},
+};
+
+TEST(WithdrawnSignalsTest, WhatStopsAnotherDriveOfItsBaseTakesItAway) {
+  for (const Incident& incident : kIncidents) {
+    for (const bool enabled : {true, false}) {
+      MovingSignal bench{1, 1, CycleBench::kLeft};
+      ASSERT_TRUE(!enabled || bench.ask(RequestKind::kEnable).success);
+      ASSERT_EQ(20, bench.refresh(20));
+      incident.begin(bench.transport.inverters[CycleBench::kRight]);
+      bench.step();
+      EXPECT_EQ(0, bench.refresh(300)) << incident.name << enabled;
+      bench.expectOffAndOnBringItBack();
+    }
+  }
+}
+
+// Nor does one that another drive of the base has had all along hide its own.
+TEST(WithdrawnSignalsTest, EachIncidentOfABaseTakesItAwayAnew) {
+  for (const Incident& incident : kIncidents) {
+    MovingSignal bench{1, 1, CycleBench::kLeft};
+    incident.begin(bench.transport.inverters[CycleBench::kRight]);
+    bench.step();
+    bench.expectOffAndOnBringItBack();
+    incident.begin(bench.transport.inverters[CycleBench::kLeft]);
+    bench.step();
+    EXPECT_EQ(0, bench.refresh(100)) << incident.name;
+    bench.expectOffAndOnBringItBack();
+  }
+}
+
+TEST(WithdrawnSignalsTest, WhatStopsADriveBesideTheBaseLeavesIt) {
+  for (const Incident& incident : kIncidents) {
+    MovingSignal bench{1, 1, CycleBench::kLeft};
+    ASSERT_EQ(20, bench.refresh(20));
+    incident.begin(bench.transport.inverters[CycleBench::kLift]);
+    EXPECT_EQ(100, bench.refresh(100)) << incident.name;
   }
 }
 

@@ -23,6 +23,7 @@ class FakeInverter {
   int set_delay = 0;           ///< cycles until it follows another parameter set
   std::int16_t second = 0;     ///< actual value 2, of a position its low word
   Word more = 0;               ///< bits of its status word besides, say bit 10
+  Word taken = 0;              ///< bits of the control word its terminals take away: 0002h is OFF2 there, 0004h OFF3
   bool reached = true;         ///< status bit 8
   std::int16_t third = 0;      ///< actual value 3, of a position its high word
 
@@ -30,7 +31,7 @@ class FakeInverter {
   profile::ProcessInput exchange(const profile::ProcessOutput& output) {
     if ((output.control_word & 0x0400) != 0 && !local) {
       followSet(static_cast<Word>(output.control_word & 0xC000));
-      if (!terminals) obey(output.control_word, output.setpoints[0]);
+      if (!terminals) obey(static_cast<Word>(output.control_word & ~taken), output.setpoints[0]);
     }
     if (terminals) {
       low_ = 0x37;
@@ -48,6 +49,7 @@ class FakeInverter {
     }
     profile::ProcessInput input;
     input.status_word = static_cast<Word>((local ? 0x0800 : 0x0A00) | (reached ? 0x0100 : 0) | low_ | set_ | more);
+    input.status_word = static_cast<Word>(input.status_word & ~(taken << 3u));  // to bits 4 and 5
     input.actual_values = {frequency_, second, third};
     return input;
   }

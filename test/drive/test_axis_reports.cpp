@@ -147,7 +147,7 @@ TEST_F(AxisReports, AReferenceRunEndsWithEveryStop) {
   ASSERT_TRUE(report().position.homing);
   drive_.requestShutdown(now_);
   EXPECT_EQ(RequestState::kRefused, report().homing.state);
-  EXPECT_EQ(Refusal::kStopped, report().homing.refusal);
+  EXPECT_EQ(Refusal::kHomingStopped, report().homing.refusal);
   cycle(0x0A37, 200);
   EXPECT_FALSE(report().position.homing);
 }
@@ -248,7 +248,7 @@ TEST_F(AxisInAGroup, ADisableEndsItsTeaching) {
   drive_.requestTeaching(now_, 7);
   cycle();
   group_.requestDisable(now_);
-  EXPECT_EQ(Refusal::kStopped, report().teaching.refusal);
+  EXPECT_EQ(Refusal::kTeachStopped, report().teaching.refusal);
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ TEST_F(DriveTest, GivesUpTheAcknowledgingForAStop) {
   for (int i = 0; i < 4; ++i) cycle(0x0B38);
   drive_.requestQuickStop(now_);
   EXPECT_EQ(0x047B, cycle(0x0B38));
-  EXPECT_EQ(Refusal::kStopped, report().acknowledge.refusal);
+  EXPECT_EQ(Refusal::kRequestStopped, report().acknowledge.refusal);
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ TEST_F(DriveTest, StopsInTheSetInForce) {
   drive_.requestParameterSet(3, now_);
   cycle(0x0B31);
   drive_.requestQuickStop(now_);
-  EXPECT_EQ(Refusal::kStopped, report().set_switch.refusal);
+  EXPECT_EQ(Refusal::kRequestStopped, report().set_switch.refusal);
   EXPECT_EQ(0x047B, cycle(0x0B31));
 }
 

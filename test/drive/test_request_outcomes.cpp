@@ -42,8 +42,8 @@ TEST_F(RequestOutcomes, AHardStopEndsAnAcknowledging) {
     ASSERT_EQ(Phase::kAcknowledging, report().phase);
     stop(coast);
     EXPECT_EQ(RequestState::kRefused, report().acknowledge.state);
-    EXPECT_EQ(Refusal::kStopped, report().acknowledge.refusal);
-    EXPECT_EQ(Refusal::kStopped, report().refusal);
+    EXPECT_EQ(Refusal::kRequestStopped, report().acknowledge.refusal);
+    EXPECT_EQ(Refusal::kRequestStopped, report().refusal);
     EXPECT_EQ(coast ? 0x047D : 0x047B, cycle(0x0B38)) << "and its bit 7 is low";
     drive_ = Drive{config()};
   }
@@ -187,8 +187,8 @@ TEST_F(RequestOutcomes, AQuickStopEndsASwitchOfTheSet) {
   EXPECT_EQ(0x847E, cycle(0x0B31));
   drive_.requestQuickStop(now_);
   EXPECT_EQ(RequestState::kRefused, report().set_switch.state);
-  EXPECT_EQ(Refusal::kStopped, report().set_switch.refusal);
-  EXPECT_EQ(Refusal::kStopped, report().refusal);
+  EXPECT_EQ(Refusal::kRequestStopped, report().set_switch.refusal);
+  EXPECT_EQ(Refusal::kRequestStopped, report().refusal);
   EXPECT_EQ(0x047B, cycle(0x0B70)) << "in the set that is in force";
 }
 
@@ -235,7 +235,7 @@ TEST_F(TaughtMeanwhile, IsEndedByADisable) {
   teach();
   drive_.requestShutdown(now_);
   EXPECT_EQ(RequestState::kRefused, report().teaching.state);
-  EXPECT_EQ(Refusal::kStopped, report().teaching.refusal);
+  EXPECT_EQ(Refusal::kTeachStopped, report().teaching.refusal);
   send();
   EXPECT_FALSE(sent_axis_.teach.teach_in);
 }

@@ -139,6 +139,85 @@ TEST(Disable, MayQuickStopOrCoast) {
   EXPECT_EQ(StopCause::kNone, coast.group_.report().stop_cause) << "likewise";
 }
 
+/// The word of the way that disabling is to be.
+constexpr Word wordOf(StopWay way) {
+  return way == StopWay::kQuickStop ? 0x047B : 0x047D;
+}
+
+// Whoever asks for it does not want what is left of a ramp.
+TEST(Disable, QuickStopsOrCoastsWhatIsRampedDownAlready) {
+  for (const StopWay way : {StopWay::kQuickStop, StopWay::kCoast}) {
+    StopWays ways = commandTimeout(StopWay::kOff1);
+    ways.disable = way;
+    Group group{ways};
+    group.fresh_ = false;
+    group.cycles(2);
+    ASSERT_EQ(GroupPhase::kRampingDown, group.group_.report().phase);
+    group.group_.requestDisable(group.now_);
+    group.cycle();
+    EXPECT_EQ(wordOf(way), group.word(0));
+    EXPECT_EQ(wordOf(way), group.word(1));
+    EXPECT_EQ(StopCause::kCommandTimeout, group.group_.report().stop_cause) << "the first cause stays";
+    EXPECT_EQ(StopCause::kNone, group.drives_[0].report().stop_cause) << "it was asked for";
+    group.cycles(40);
+    EXPECT_EQ(GroupPhase::kDisabled, group.group_.report().phase);
+  }
+}
+
+TEST(Disable, QuickStopsOrCoastsWhatHaltsForAnother) {
+  for (const StopWay way : {StopWay::kQuickStop, StopWay::kCoast}) {
+    StopWays ways;
+    ways.disable = way;
+    Group group{ways};
+    group.inverters_[0].fault = true;
+    group.cycles(2);
+    ASSERT_EQ(GroupPhase::kHalting, group.group_.report().phase);
+    group.group_.requestDisable(group.now_);
+    group.cycle();
+    EXPECT_EQ(wordOf(way), group.word(1));
+    EXPECT_EQ(StopCause::kFault, group.group_.report().stop_cause);
+    group.cycles(40);
+    EXPECT_EQ(GroupPhase::kDisabled, group.group_.report().phase);
+  }
+}
+
+// A drive has stopped, and the other one is on the ramp of OFF1.
+TEST(Disable, QuickStopsOrCoastsWhatIsOnTheRampOfOff1) {
+  for (const StopWay way : {StopWay::kQuickStop, StopWay::kCoast}) {
+    StopWays ways;
+    ways.drive_stopped = StopWay::kOff1;
+    ways.disable = way;
+    Group group{ways};
+    group.inverters_[0].fault = true;
+    group.cycles(2);
+    ASSERT_EQ(GroupPhase::kStopping, group.group_.report().phase);
+    ASSERT_EQ(0x047E, group.word(1));
+    group.group_.requestDisable(group.now_);
+    group.cycle();
+    EXPECT_EQ(wordOf(way), group.word(1));
+    group.cycles(40);
+    EXPECT_EQ(GroupPhase::kDisabled, group.group_.report().phase);
+  }
+}
+
+// A ramp goes on as it is, and what halts gets OFF1.
+TEST(Disable, ByARampLeavesTheWayDownWhatItIs) {
+  StopWays ways = commandTimeout(StopWay::kOff1);
+  Group ramps{ways};
+  ramps.fresh_ = false;
+  ramps.cycles(2);
+  ramps.group_.requestDisable(ramps.now_);
+  ramps.cycle();
+  EXPECT_EQ(0x047F, ramps.word(0));
+  EXPECT_EQ(GroupPhase::kRampingDown, ramps.group_.report().phase);
+  Group halts{ways};
+  halts.inverters_[0].fault = true;
+  halts.cycles(2);
+  halts.group_.requestDisable(halts.now_);
+  halts.cycle();
+  EXPECT_EQ(0x047E, halts.word(1));
+}
+
 struct Case {
   StopWay way;
   Word word;
