@@ -240,6 +240,22 @@ TEST(CanopenKinds, Cia402RefusesSignalsThatItsWordsDoNotCarry) {
   }
 }
 
+// 6042h is rpm: 16 bits of position would be a speed there, without an end.
+TEST(CanopenKinds, Cia402RefusesToPosition) {
+  CanRobot::Options options = cia402();
+  options.base = false;
+  options.drives.insert({{"mode", std::string{"position"}}, {"position/bits", 16}});
+  CanRobot robot{options};
+  const cycle::DriveSetup& left = robot.config().drives[0];
+  try {
+    cycle::checkPositionCarried(MapSettings{"~drives/left/", options.drives}, *left.position, left.series,
+                                robot.transport().identity(0));
+    FAIL() << "taken";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("~drives/left/mode: \"position\" is not valid"));
+  }
+}
+
 // P551 off: the objects are not there, and the node says so at its start.
 TEST(CanopenKinds, Cia402WithoutP551IsNamed) {
   CanRobot::Options options = cia402();
