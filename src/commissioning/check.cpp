@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include "profile/cycle_parameters.h"
+
 namespace nord_driver::commissioning {
 
 namespace {
 
 constexpr std::uint16_t kOfTheDrive[] = {509, 510, 513, 560};
-constexpr std::uint16_t kOfPositioning[] = {600, 610, 607, 608};
+constexpr std::uint16_t kPositionControl = 600;
+constexpr std::uint16_t kOfPositioning[] = {kPositionControl, 610, 607, 608};
 /// Compared between the drives of a base, in the set in force.
 constexpr std::uint16_t kOfTheSet[] = {102, 103, 426, 300};
 
@@ -30,7 +33,9 @@ std::vector<ParameterKey> valuesToRead(const AskedDrive& asked, const catalogue:
   const bool behind_module = asked.identity.timeout_owner == TimeoutOwner::kModule;
   if (behind_module) add(drive.key(151));
   if (behind_module && isDescribed(120)) add(drive.key(120));
+  const bool may_position = profile::findCycleParameter(kPositionControl, asked.series) != nullptr;
   for (std::uint8_t set = 1; set <= 4; ++set) {
+    if (may_position) add(drive.key(kPositionControl, set));
     add(drive.key(105, set));
     add(drive.key(104, set));
     add(drive.functionKey(543, 0, set));

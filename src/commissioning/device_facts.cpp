@@ -51,6 +51,7 @@ void collectPerSet(const cycle::DeviceData& device, std::uint8_t set, Collector&
   to.store(drive.key(103, set), device.deceleration_time[i], kRampStep);
   to.storeFunction(drive.functionKey(543, 0, set), device.word_functions[i].actual_values[0]);
   to.storeFunction(drive.functionKey(546, 0, set), device.word_functions[i].setpoints[0]);
+  to.storeRaw(drive.key(600, set), device.position_control[i]);
 }
 
 }  // namespace
@@ -78,7 +79,6 @@ CommissioningFacts deviceFacts(const cycle::DeviceData& device, const AskedDrive
   to.storeRaw(drive.key(510), device.setpoint_source);
   to.storeRaw(drive.key(560), device.saves_in_eeprom);
   for (std::uint8_t set = 1; set <= kSets && asked.words.positions; ++set) {
-    to.storeRaw(drive.key(600, set), device.position_control[set - 1u]);
     to.storeRaw(drive.key(607, set), device.speed_ratio[set - 1u]);
     to.storeRaw(drive.key(608, set), device.reduction[set - 1u]);
   }

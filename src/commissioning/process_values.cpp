@@ -16,6 +16,7 @@ constexpr std::uint16_t kFirstActualValue = 543, kFirstSetpoint = 546;
 constexpr std::int32_t kFrequency = 1;  // in every series' tables of P543 and P546
 constexpr std::int32_t kCurrent = 3;    // P543
 constexpr std::uint16_t kPositionControl = 600, kSpeedRatio = 607, kReduction = 608, kSetpointMode = 610;
+constexpr char kPositionControlSource[] = "BU 0020, 7.3.5, p. 77";
 constexpr double kSameRatio = 1e-3;  // a gear as two whole numbers, beside one typed as a decimal fraction
 constexpr std::uint8_t kSets = 4, kPlaces = 3;
 
@@ -62,6 +63,17 @@ std::optional<std::uint8_t> freeActualValue(const DriveUnderCheck& drive, std::u
   return unneeded;
 }
 
+/// Of a value that keeps the drive from being enabled in its set, and nothing in another one.
+Finding refusing(const DriveUnderCheck& drive, const ParameterKey& key, std::int32_t right, const std::string& why,
+                 const std::string& source = {}) {
+  const bool in_force = key.set == drive.setInForce();
+  Finding finding =
+      drive.finding(key, in_force ? Severity::kError : Severity::kWarning,
+                    why + (in_force ? ": the drive is not enabled" : ": not enabled in this set"), source);
+  finding.remedy = drive.remedy(key, right);
+  return finding;
+}
+
 void expectFrequency(const DriveUnderCheck& drive, std::uint16_t first, const std::string& why, Findings& to) {
   for (std::uint8_t set = 1; set <= kSets; ++set) {
     const ParameterKey key = drive.functionKey(first, 0, set);
@@ -70,11 +82,16 @@ void expectFrequency(const DriveUnderCheck& drive, std::uint16_t first, const st
                                      drive.asked().series)) {
       continue;
     }
-    const bool in_force = set == drive.setInForce();
-    Finding finding = drive.finding(key, in_force ? Severity::kError : Severity::kWarning,
-                                    why + (in_force ? ": the drive is not enabled" : ": not enabled in this set"));
-    finding.remedy = drive.remedy(key, kFrequency);
-    to.push_back(finding);
+    to.push_back(refusing(drive, key, kFrequency, why));
+  }
+}
+
+void expectNoPositionControl(const DriveUnderCheck& drive, Findings& to) {
+  for (std::uint8_t set = 1; set <= kSets; ++set) {
+    const ParameterKey key = drive.key(kPositionControl, set);
+    if (drive.raw(key).value_or(0) == 0) continue;
+    to.push_back(refusing(drive, key, 0, "with position control on it follows no velocity, and mode is velocity",
+                          kPositionControlSource));
   }
 }
 
@@ -132,12 +149,12 @@ void furtherSetpointsAreFree(const Drives& drives, std::size_t index, Findings& 
 void drivePositions(const Drives& drives, std::size_t index, Findings& to) {
   const DriveUnderCheck& drive = drives[index];
   const cycle::WordNeeds& needs = drive.asked().words;
-  if (!needs.positions) return;
+  if (!needs.positions) return expectNoPositionControl(drive, to);
   const ParameterKey control = drive.key(kPositionControl);
   if (drive.raw(control) == 0) {
     Finding finding = drive.finding(control, Severity::kError,
                                     "with mode: position the drive has to position, and is not enabled as it is",
-                                    "BU 0020, 7.3.5, p. 77");
+                                    kPositionControlSource);
     // No number: what 1, 2 and so on do, and whether position/speed counts with them, stands in manuals not at hand.
     finding.advice = "set it to position control as BU 0510 or BU 0710 says";
     to.push_back(finding);

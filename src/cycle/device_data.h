@@ -38,9 +38,9 @@ struct DeviceData {
   std::optional<std::uint16_t> out_bit_function;     ///< P481 of the element that DeviceReader was told: what it shows
   std::optional<std::int32_t> control_word_source;   ///< P509: who commands the inverter
   std::optional<std::int32_t> setpoint_source;       ///< P510 (or [-01]): whose setpoint; 0 = as P509
-  /// P600 of parameter sets 1..4, of a drive that is to position: 0 = it does not.
+  /// P600 of parameter sets 1..4: 0 = it does not position.
   std::array<std::optional<std::int32_t>, 4> position_control;
-  std::optional<std::int32_t> setpoint_mode;  ///< of such a drive, P610: where its target comes from
+  std::optional<std::int32_t> setpoint_mode;  ///< of a drive that is to position, P610: where its target comes from
   /// P607 and P608 of parameter sets 1..4, likewise: a gear between motor and count (BU 2700 6.4.4). Which of them
   /// multiplies is not said.
   std::array<std::optional<std::int32_t>, 4> speed_ratio, reduction;

@@ -39,10 +39,8 @@ DeviceReader::DeviceReader(profile::Series series, TimeoutOwner owner, bool furt
     for (std::uint8_t set = 1; set <= kSets; ++set) addFurtherFunctions(set);
     addBusBits();
   }
-  if (positions) {
-    for (std::uint8_t set = 1; set <= kSets; ++set) add({kPositionControl, set});
-    add({kSetpointMode});
-  }
+  for (std::uint8_t set = 1; set <= kSets; ++set) add({kPositionControl, set});
+  if (positions) add({kSetpointMode});
   if (out_bit != 0) addElement(kOutBits, out_bit);
   add({kControlWordSource});
   add({kSetpointSource});

@@ -16,7 +16,7 @@ namespace nord_driver::cycle {
 /// Begins again whenever the drive has come back: it may have been exchanged. A parameter that times out is asked for
 /// three times (once, as long as nothing is answered at all), one the drive refuses is left out; a question that did
 /// not reach the drive is put again. First come those that decide motion: P105, without which nothing can be driven,
-/// P104, and the functions of setpoint 1 and actual value 1, of all parameter sets. One of these that timed out, or was
+/// P104, the functions of setpoint 1 and actual value 1, and P600, of all parameter sets. One of these that timed out, or was
 /// refused for the moment, is asked for again whenever the owner wants to.
 class DeviceReader {
  public:
@@ -25,7 +25,7 @@ class DeviceReader {
 
   /// `owner`: whose time-outs are read; those of a module by requests the transport passes on to it.
   /// `further_words`: setpoints 2 and 3 or actual values 2 and 3 are in use: what they are decides motion, too.
-  /// `positions`: so do P600 and P610, of a drive that positions. `out_bit`: the element of P481 whose function decides
+  /// `positions`: so does P610, of a drive that positions. `out_bit`: the element of P481 whose function decides
   /// what is told of its reference; 0: none. P607 and P608 of such a drive come later: they decide nothing.
   explicit DeviceReader(profile::Series series, TimeoutOwner owner = TimeoutOwner::kInverter,
                         bool further_words = false, bool positions = false, std::uint8_t out_bit = 0) noexcept;

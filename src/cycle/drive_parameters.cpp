@@ -34,7 +34,8 @@ bool saysWhatSetpointsMean(std::uint16_t number) noexcept {
   return number == 105 || (number >= 543 && number <= 548);
 }
 
-// P600 is 0 where the drive does not position. What else it can be stands in BU 0510, not at hand.
+// P600 is 0 where the drive does not position. What else it can be stands in BU 0510, not at hand. One that could not be
+// read refuses a drive that is to position, and no other: not every inverter has it.
 std::optional<drive::UnexpectedFunction> unexpectedPositionMode(const DeviceData& device, std::uint8_t set,
                                                                 const WordNeeds& needs) noexcept {
   const auto raw = [](const std::optional<std::int32_t>& read) {
@@ -44,12 +45,14 @@ std::optional<drive::UnexpectedFunction> unexpectedPositionMode(const DeviceData
   // No manual at hand says whether it has sets: where the others could not be read, it has one.
   const auto& own = device.position_control[set - 1u];
   const auto& control = own ? own : device.position_control[0];
-  if (control.value_or(0) == 0) {
+  const bool positions = control.value_or(0) != 0;
+  if (positions != needs.positions) {
     wrong.number = 600;
     wrong.found = raw(control);
+    wrong.surplus = positions;
     return wrong;
   }
-  if (needs.setpoint_mode < 0 || device.setpoint_mode == needs.setpoint_mode) return std::nullopt;
+  if (!positions || needs.setpoint_mode < 0 || device.setpoint_mode == needs.setpoint_mode) return std::nullopt;
   wrong.number = 610;
   wrong.found = raw(device.setpoint_mode);
   wrong.expected = static_cast<std::uint16_t>(needs.setpoint_mode);
@@ -72,7 +75,7 @@ std::optional<drive::UnexpectedFunction> unexpectedFunction(const DeviceData& de
   const auto setpoint = compare(546, words.setpoints[0]);
   if (setpoint) return setpoint;
   const auto missing = missingWord(needs, words, series);
-  return missing || !needs.positions ? missing : unexpectedPositionMode(device, set, needs);
+  return missing ? missing : unexpectedPositionMode(device, set, needs);
 }
 
 bool allKnown(const std::array<std::uint16_t, 3>& functions, std::size_t carried) noexcept {

@@ -113,6 +113,12 @@ void refusePositionKeys(const Settings& drive) {
 
 void checkPositionCarried(const Settings& drive, const PositionSetup& setup, profile::Series series,
                           const DriveIdentity& identity) {
+  // A profile without parameter sets (CiA 402, DRIVECOM, AC drive) takes setpoint 1 for a share of P105, and tells it as
+  // a speed: steps of a position would turn the motor without an end.
+  if (identity.parameter_sets == 1) {
+    throw wrongSetting(drive, "mode", "\"position\"",
+                       "velocity: the profile of this drive carries a speed, no position");
+  }
   // The field of SK 700E and 750E takes the places of setpoints 1 and 3 (BU 0020 7.3.1).
   const std::size_t needed = setup.bits == 16 ? 1 : profile::thirdBeforeSecond(series) ? 3 : 2;
   if (identity.process_values >= needed) return;

@@ -84,7 +84,7 @@ PositionSetup readPositionSetup(const Settings& drive, const PositionContext& co
 /// For a drive that follows velocities. Throws ConfigError naming the first of the keys above that is there.
 void refusePositionKeys(const Settings& drive);
 
-/// Throws ConfigError where the bus does not carry the words of the position.
+/// Throws ConfigError where the bus, or the profile of the drive, does not carry the words of the position.
 void checkPositionCarried(const Settings& drive, const PositionSetup& setup, profile::Series series,
                           const DriveIdentity& identity);
 

@@ -28,13 +28,18 @@ Sentence missingWordMessage(const char* drive, const drive::UnexpectedFunction& 
   return text;
 }
 
-// P600 and P610, of a drive that positions.
-Sentence positionModeMessage(const char* drive, const drive::UnexpectedFunction& function) noexcept {
+// P600, and P610 of a drive that positions.
+Sentence positionModeMessage(const char* drive, const drive::UnexpectedFunction& function, unsigned set) noexcept {
   constexpr unsigned kNotRead = 0xFFFF;
   FixedText<24> found;
   found.format(function.found == kNotRead ? "could not be read" : "is %u", unsigned{function.found});
   Sentence text;
-  if (function.number == 600) {
+  if (function.surplus) {
+    text.format(
+        "drive %s: P600 of parameter set %u %s: with position control on it follows no velocity, and mode is velocity; "
+        "set P600 to 0",
+        drive, set, found.c_str());
+  } else if (function.number == 600) {
     text.format(
         "drive %s: P600 %s: with 0 it does not position, and mode is position; set P600 to what its manual (BU 0510, "
         "BU 0710) says for position control",
@@ -98,7 +103,7 @@ Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveRe
   }
   if (refusal == Refusal::kUnexpectedFunction && report.unexpected_function) {
     const drive::UnexpectedFunction& function = *report.unexpected_function;
-    if (function.number >= 600) return positionModeMessage(drive, function);
+    if (function.number >= 600) return positionModeMessage(drive, function, report.commanded_set);
     if (function.wanted != nullptr) return missingWordMessage(drive, function, report.commanded_set);
     text.format("drive %s: P%u%s of parameter set %u is %u, so that %s 1 is not the frequency; set it to %u", drive,
                 unsigned{function.number}, function.is_array ? " [-01]" : "", unsigned{report.commanded_set},

@@ -137,13 +137,13 @@ class Drive {
   std::optional<Hertz> maxFrequency(std::uint8_t set) const noexcept;
   /// P104 of set 1..4, as read from the inverter; 0 or no number: nothing to heed, or not known.
   void setMinimumFrequency(std::uint8_t set, Hertz frequency) noexcept;
-  /// What P543 or P546 of set 1..4 should not be; none when both are as expected or not known.
+  /// What P543 to P548, P600 or P610 of set 1..4 should not be; none when all are as expected or not known.
   void setUnexpectedFunction(std::uint8_t set, const std::optional<UnexpectedFunction>& function) noexcept;
   /// What P509 or P510 should not be; none when both are as expected or not known.
   void setUnexpectedSource(const std::optional<UnexpectedSource>& source) noexcept {
     report_.unexpected_source = source;
   }
-  /// P104, P105, P509, P510, P543 and P546 have not been asked for yet: it is not enabled before.
+  /// P104, P105, P509, P510, P543, P546 and P600 have not been asked for yet: it is not enabled before.
   void setParametersAwaited(bool awaited) noexcept { parameters_awaited_ = awaited; }
   /// P700 [-03], why the inverter does not become ready to switch on, as read from it; none when it gives no reason.
   void setSwitchOnReason(std::optional<std::uint16_t> reason) noexcept { report_.switch_on_reason = reason; }

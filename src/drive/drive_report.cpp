@@ -68,13 +68,13 @@ const char* toString(Refusal refusal) noexcept {
     case Refusal::kMaxFrequencyUnknown:
       return "the maximum frequency (P105) of the parameter set in force is not known";
     case Refusal::kParametersAwaited:
-      return "its parameters P104, P105, P509, P510, P543 and P546 are still being read, or one that decides motion is "
-             "being written";
+      return "its parameters P104, P105, P509, P510, P543, P546 and P600 are still being read, or one that decides "
+             "motion is being written";
     case Refusal::kMinimumFrequency:
       return "P104 of the parameter set in force is above 0: enabled, the motor turns at setpoint 0";
     case Refusal::kUnexpectedFunction:
       return "P543 or P546 of the parameter set in force makes actual value 1 or setpoint 1 something else than the "
-             "frequency";
+             "frequency, or P600 does not fit the mode";
     case Refusal::kUnexpectedSource:
       return "its control word or setpoint does not come from where the configuration says (P509, P510)";
     case Refusal::kEnableTimeout:

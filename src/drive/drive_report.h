@@ -68,9 +68,9 @@ enum class Refusal : std::uint8_t {
   kWrongState,           ///< from this state no enabling starts
   kParameterSet,         ///< the set in force is not the one commanded
   kMaxFrequencyUnknown,  ///< P105 of the set in force: nobody could say what a setpoint means
-  kParametersAwaited,    ///< P104, P543 and P546 are being read: what they are is not known yet
+  kParametersAwaited,    ///< P104, P543, P546 and P600 are being read: what they are is not known yet
   kMinimumFrequency,     ///< P104 of the set in force is > 0, and nobody has accepted that
-  kUnexpectedFunction,   ///< setpoint 1 or actual value 1 of the set in force is no frequency
+  kUnexpectedFunction,   ///< setpoint 1 or actual value 1 of the set in force is no frequency, or P600 does not fit
   kUnexpectedSource,     ///< it follows another inverter, or does not where it should (P509, P510)
   kEnableTimeout,        ///< the inverter did not follow within enable_timeout
   kStopped,              ///< enabling: a stop came before the inverter had followed
@@ -107,13 +107,13 @@ struct RequestReport {
 /// A parameter P543 to P548 that gives a word another function than is needed: of setpoint 1 or actual value 1 the
 /// frequency, of the others what is configured.
 struct UnexpectedFunction {
-  std::uint16_t number = 0;      ///< 543 to 548; 600 or 610 of a drive that does not position, or not by the bus
+  std::uint16_t number = 0;      ///< 543 to 548; 600 or 610: it does not position, or not by the bus, or is not to
   bool is_array = false;         ///< the series has it as an array
   std::uint16_t found = 0;       ///< the value read; FFFFh: it could not be read
   std::uint16_t expected = 0;    ///< the value to be set
   std::uint8_t index = 1;        ///< of the array
   const char* wanted = nullptr;  ///< the name of the function that no word carries; nullptr: word 1 is no frequency
-  bool surplus = false;          ///< nothing is missing: what stands there must not, beside what another word carries
+  bool surplus = false;          ///< nothing is missing: what stands there must not, beside another word, or in P600
 };
 
 /// Control word or setpoint do not come from where the configuration says: from another inverter that leads by broadcast,

@@ -124,6 +124,7 @@ ParameterRequest ParameterSession::requestFor(Step step) const noexcept {
   request.shape = run_.no_index ? ParameterShape::kPlain : asked.shape;
   request.parameter_set = asked.parameter_set;
   request.index = asked.index;
+  request.scales = asked.scales;
   if (request.action != ParameterAction::kRead) {
     request.double_word = asked.double_word;
     request.raw = asked.raw;

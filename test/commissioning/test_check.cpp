@@ -19,30 +19,24 @@ using ::testing::Not;
 TEST(Check, ReadsWhatTheRulesLookAt) {
   const AskedDrive asked = askedDrive(Series::kSk5xxe);
   const std::vector<ParameterKey> keys = valuesToRead(asked, knownOf(asked), 2);
-  for (const ParameterKey& key : std::vector<ParameterKey>{{509},
-                                                           {510, 0, 1},
-                                                           {513},
-                                                           {560},
-                                                           {105, 1, 0},
-                                                           {105, 4, 0},
-                                                           {104, 3, 0},
-                                                           {543, 2, 0},
-                                                           {546, 2, 0},
-                                                           {544, 2, 0},
-                                                           {545, 2, 0},
-                                                           {547, 2, 0},
-                                                           {548, 2, 0},
-                                                           {480, 0, 1},
-                                                           {480, 0, 12},
-                                                           {102, 2, 0},
-                                                           {103, 2, 0},
-                                                           {426, 2, 0},
-                                                           {300, 2, 0}}) {
+  for (const ParameterKey& key : std::vector<ParameterKey>{
+           {509},       {510, 0, 1}, {513},        {560},       {105, 1, 0}, {105, 4, 0}, {104, 3, 0},
+           {543, 2, 0}, {546, 2, 0}, {544, 2, 0},  {545, 2, 0}, {547, 2, 0}, {548, 2, 0}, {600, 1, 0},
+           {600, 4, 0}, {480, 0, 1}, {480, 0, 12}, {102, 2, 0}, {103, 2, 0}, {426, 2, 0}, {300, 2, 0}}) {
     EXPECT_THAT(keys, Contains(key)) << key.number;
   }
   EXPECT_THAT(keys, Not(Contains(ParameterKey{151})));
+  EXPECT_THAT(keys, Not(Contains(ParameterKey{610}))) << "it is not to position";
   EXPECT_THAT(keys, Not(Contains(ParameterKey{544, 1, 0}))) << "of the set in force only";
   EXPECT_EQ((ParameterKey{509}), keys.front()) << "the first thing to be known";
+}
+
+// SK 1x0E and 300E would refuse each of the questions (BU 2700 6.4.4, BU 0020 7.3.5).
+TEST(Check, ReadsNoPositionControlOfASeriesWithoutOne) {
+  for (const Series series : {Series::kSk1x0e, Series::kSk300e}) {
+    const AskedDrive asked = askedDrive(series);
+    EXPECT_THAT(valuesToRead(asked, knownOf(asked), 1), Not(Contains(ParameterKey{600, 1, 0})));
+  }
 }
 
 TEST(Check, ReadsTheModule) {

@@ -84,6 +84,15 @@ TEST(DeviceFacts, HaveTheGearOfTheCount) {
   EXPECT_THAT(foundIn(device, asked), ElementsAre("position_gear warning P607 set 1"));
 }
 
+// Of one that is to follow velocities as well; what was not told is nobody's finding.
+TEST(DeviceFacts, HaveThePositionControl) {
+  const AskedDrive asked = askedDrive(Series::kSk5xxe);
+  cycle::DeviceData device = asRead(asked);
+  device.position_control = {1, std::nullopt, 0, 2};
+  EXPECT_THAT(foundIn(device, asked),
+              ElementsAre("position_control error P600 set 1 -> 0", "position_control warning P600 set 4 -> 0"));
+}
+
 TEST(DeviceFacts, TellWhatIsMissing) {
   const AskedDrive asked = askedDrive(Series::kSk5xxe);
   cycle::DeviceData device = asRead(asked);

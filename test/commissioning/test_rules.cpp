@@ -23,6 +23,7 @@ const std::vector<Series> kDecentral{Series::kSk1x0e, Series::kSk2xxe};
 const std::vector<Series> kOlder{Series::kSk300e, Series::kSk700e, Series::kSk750e};
 const std::vector<Series> kSk5{Series::kSk5xxe, Series::kSk54xe};
 const std::vector<Series> kSk511{Series::kSk5xxe}, kSk7{Series::kSk700e, Series::kSk750e};
+const std::vector<Series> kPosicon{Series::kSk2xxe, Series::kSk5xxe, Series::kSk54xe, Series::kSk700e, Series::kSk750e};
 const std::vector<Series> kAll(profile::kAllSeries.begin(), profile::kAllSeries.end());
 const std::vector<Series> kSeparate{Series::kSk5xxe, Series::kSk300e, Series::kSk700e, Series::kSk750e};
 const std::vector<Series> kArrays{Series::kSk54xe, Series::kSk1x0e, Series::kSk2xxe};
@@ -183,6 +184,9 @@ const std::vector<Row>& rows() {
        positions,
        {{{547, 1, 0}, 21}, {{548, 1, 0}, 22}, {{544, 1, 0}, 10}, {{545, 1, 0}, 15}, {{600, 1, 0}, 0}},
        {"position_control error P600 set 1"}},
+      {"positions", kPosicon, leave, {{{600, 1, 0}, 1}}, {"position_control error P600 set 1 -> 0"}},
+      {"positions in another set", kPosicon, leave, {{{600, 3, 0}, 2}}, {"position_control warning P600 set 3 -> 0"}},
+      {"positions, and is to", kSk511, positions, kPositioning, {}},
       {"bits of a position control",
        kSk511,
        hasPositionBits,
@@ -321,28 +325,6 @@ TEST(Rules, TellTheGearOfTheCount) {
       "the joint, and set position/gear_ratio to what is counted for one revolution of the joint's shaft, or both "
       "parameters to 1 (BU 2700, 6.4.4 (positions))",
       toText(findings[0]));
-}
-
-TEST(Rules, CompareDrivesOfABase) {
-  for (const Series series : kAll) {
-    AskedDrive left = askedDrive(series), right = askedDrive(series);
-    right.name = "right";
-    EXPECT_THAT(check({drive(left), drive(right)}), IsEmpty());
-    const Drives differ{drive(left), drive(right, {{{103, 1, 0}, 300}, {{105, 1, 0}, 600}, {{103, 2, 0}, 1}})};
-    const Findings findings = check(differ);
-    EXPECT_THAT(shortly(findings), ElementsAre("base_alike warning P103 set 1", "base_alike warning P105 set 1"));
-    EXPECT_EQ("right", findings.back().drive);
-    EXPECT_THAT(toText(findings.back()), HasSubstr("= 60.0 Hz: drive left of the same base has 50.0 Hz"));
-    right.of_base = false;
-    EXPECT_THAT(check({drive(left), drive(right, {{{103, 1, 0}, 300}})}), IsEmpty()) << "another machine";
-  }
-}
-
-TEST(Rules, CompareTheSetsOfABase) {
-  AskedDrive left = askedDrive(Series::kSk5xxe), right = left;
-  right.name = "right";
-  const Drives drives{drive(left), drive(right, {}, 2)};
-  EXPECT_THAT(shortly(check(drives)), ElementsAre("set_in_force note parameter", "base_alike warning parameter"));
 }
 
 TEST(Rules, TellWhatCouldNotBeRead) {

@@ -24,9 +24,9 @@ class SteeredBench : public CycleBench {
  public:
   explicit SteeredBench(std::size_t velocity_window = 10) : SteeredBench{config(velocity_window)} {}
   explicit SteeredBench(const CycleConfig& config) : CycleBench{config} {
-    transport.parameters[600] = 1;
     for (const DriveIndex steering : {DriveIndex{2}, DriveIndex{3}}) {
-      transport.of_drive[steering] = {{543, 1}, {544, 10}, {545, 15}, {546, 1}, {547, 21}, {548, 22}, {480, 22}};
+      transport.of_drive[steering] = {{543, 1},  {544, 10}, {545, 15}, {546, 1},
+                                      {547, 21}, {548, 22}, {480, 22}, {600, 1}};
       transport.inverters[steering].ramp = 0;
     }
     run(100);

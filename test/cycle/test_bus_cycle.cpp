@@ -240,7 +240,7 @@ TEST_F(BusCycleTest, NothingIsEnabledBeforeP105IsKnown) {
   run(10);
   const Completion answer = ask(RequestKind::kEnable);
   EXPECT_FALSE(answer.success);
-  EXPECT_THAT(answer.message.c_str(), HasSubstr("P104, P105, P509, P510, P543 and P546 are still being read"));
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("P104, P105, P509, P510, P543, P546 and P600 are still being read"));
 }
 
 // A typed max_frequency that is wrong would move the base at another speed until P105 is read, and then step.

@@ -112,15 +112,16 @@ TEST(DeviceReader, ReadsWhatDecidesMotionOfAllSetsFirst) {
     asked.emplace_back(request->number, request->parameter_set);
     reader.handleResult(done(10 * request->parameter_set + (request->number == 543 ? 1 : 0)));
   }
-  const std::vector<std::pair<int, int>> expected{{105, 1}, {105, 2}, {105, 3}, {105, 4}, {104, 1}, {104, 2},
-                                                  {104, 3}, {104, 4}, {543, 1}, {543, 2}, {543, 3}, {543, 4},
-                                                  {546, 1}, {546, 2}, {546, 3}, {546, 4}, {509, 1}, {510, 1}};
+  const std::vector<std::pair<int, int>> expected{
+      {105, 1}, {105, 2}, {105, 3}, {105, 4}, {104, 1}, {104, 2}, {104, 3}, {104, 4}, {543, 1}, {543, 2}, {543, 3},
+      {543, 4}, {546, 1}, {546, 2}, {546, 3}, {546, 4}, {600, 1}, {600, 2}, {600, 3}, {600, 4}, {509, 1}, {510, 1}};
   EXPECT_EQ(expected, asked);
   for (std::size_t set = 0; set < 4; ++set) {
     const double number = static_cast<double>(set) + 1.0;
     EXPECT_DOUBLE_EQ(number, reader.data().min_frequency[set].value_or(-1.0));
     EXPECT_EQ(10.0 * number + 1.0, reader.data().word_functions[set].actual_values[0]);
     EXPECT_EQ(10.0 * number, reader.data().word_functions[set].setpoints[0]);
+    EXPECT_EQ(10.0 * number, reader.data().position_control[set]);
   }
   reader.handleOffline();
   EXPECT_FALSE(reader.motionAsked());
@@ -185,7 +186,7 @@ TEST(DeviceReader, ReadsTheFunctionsOfTheBusBits) {
   }
 }
 
-// Eighteen questions of three attempts each would keep a drive with a typed P105 from being enabled for a minute.
+// Twenty-two questions of three attempts each would keep a drive with a typed P105 from being enabled for a minute.
 TEST(DeviceReader, AsksADeadChannelOnceForEachOfTheOthers) {
   DeviceReader reader{profile::Series::kSk5xxe};
   int asked = 0;
@@ -194,7 +195,7 @@ TEST(DeviceReader, AsksADeadChannelOnceForEachOfTheOthers) {
     reader.handleResult(failed(ParameterOutcome::kTimeout));
     ++asked;
   }
-  EXPECT_EQ(3 + 17, asked);
+  EXPECT_EQ(3 + 21, asked);
 }
 
 // The drive's ramps last: nothing waits for them. P103 comes in the steps of P102.
@@ -307,7 +308,7 @@ TEST(DeviceReader, ATypedMaximumFrequencyIsNotAskedForAgain) {
   while (reader.pollRequest()) reader.handleResult(failed(ParameterOutcome::kTimeout));
   ASSERT_TRUE(reader.missesMotion(false));
   reader.askMissingAgain(false);
-  for (int i = 0; i < 14; ++i) {
+  for (int i = 0; i < 18; ++i) {
     const auto request = reader.pollRequest();
     ASSERT_TRUE(request);
     EXPECT_NE(105, request->number);

@@ -193,12 +193,12 @@ TEST_F(FirstCommand, AStopEndsTheWaiting) {
 // Who cannot wait so long is told at once, with the time.
 TEST_F(FirstCommand, EnableIsRefusedAtOnceWhenTheTimeIsLongerThanItsPatience) {
   CycleBench robot{config(seconds(10.0)), false};
-  robot.run(20);
+  robot.run(30);  // all that decides motion was read
   robot.ports.submit(enableRequest(3.0));
   robot.step();
   ASSERT_EQ(1u, robot.completions.count(7));
   EXPECT_FALSE(robot.completions[7].success);
-  EXPECT_STREQ("cmd_vel has been listened to for 0.2 s only: ask again in 9.8 s", robot.completions[7].message.c_str());
+  EXPECT_STREQ("cmd_vel has been listened to for 0.3 s only: ask again in 9.7 s", robot.completions[7].message.c_str());
 }
 
 }  // namespace

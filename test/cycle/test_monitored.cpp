@@ -35,7 +35,7 @@ Request reading(std::uint16_t number) {
 TEST(Monitored, StandsInThePictureOfItsDrive) {
   CycleBench bench{monitoring(CycleBench::kLeft)};
   bench.transport.parameters[kCurrent] = 17;
-  bench.run(50);
+  bench.run(54);
   ASSERT_EQ(1u, bench.snapshot().drives[CycleBench::kLeft].monitored.size());
   EXPECT_EQ(MonitoredValue::State::kKnown, bench.snapshot().drives[CycleBench::kLeft].monitored[0].state);
   EXPECT_EQ(17, bench.snapshot().drives[CycleBench::kLeft].monitored[0].raw);

@@ -165,7 +165,7 @@ TEST_F(MotionParameters, NothingIsEnabledBeforeTheyHaveBeenAskedFor) {
   ASSERT_TRUE(snapshot().drives[kLift].device.max_frequency[3]);
   const Completion early = ask(RequestKind::kEnable, kLift);
   EXPECT_FALSE(early.success);
-  EXPECT_THAT(early.message.c_str(), HasSubstr("P104, P105, P509, P510, P543 and P546 are still being read"));
+  EXPECT_THAT(early.message.c_str(), HasSubstr("P104, P105, P509, P510, P543, P546 and P600 are still being read"));
   transport.answerAll();
   run(5);
   EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success);
@@ -282,7 +282,7 @@ TEST_F(MotionParameters, EnablingWaitsForWhatIsRefusedForTheMoment) {
 
 // Not for ever: what cannot be read refuses nothing. But what it turns out to be later stops the drive.
 TEST_F(MotionParameters, WhatIsReadLateStopsTheDrive) {
-  for (const int number : {104, 509, 543, 546}) {
+  for (const int number : {104, 509, 543, 546, 600}) {
     CycleBench bench;
     for (const int set : {0, 1000}) bench.transport.not_now[{kLift, number + set}] = 1000;
     bench.transport.of_drive[kLift][number] = number == 509 ? 9 : 50;

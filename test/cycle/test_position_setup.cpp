@@ -118,6 +118,25 @@ TEST_F(PositionConfiguration, NeedsWordsTheBusCarries) {
   EXPECT_THAT(carried(2), HasSubstr("need 3 setpoints"));
 }
 
+// Its one word is a speed: 16 bits of position in steps would be rpm, and the motor would turn for ever.
+TEST_F(PositionConfiguration, NeedsAProfileWithWordsForAPosition) {
+  DriveIdentity identity;
+  identity.process_values = 1;
+  identity.parameter_sets = 1;
+  for (const int bits : {16, 32}) {
+    drive_->set("position/bits", bits);
+    const CycleConfig config = read();
+    try {
+      checkPositionCarried(*drive_, *config.drives[0].position, config.drives[0].series, identity);
+      ADD_FAILURE() << bits << " bits are taken";
+    } catch (const ConfigError& error) {
+      EXPECT_THAT(error.what(),
+                  HasSubstr("~drives/lift/mode: \"position\" is not valid, expected velocity: the profile "
+                            "of this drive carries a speed, no position"));
+    }
+  }
+}
+
 // One end only is a limit as well.
 TEST_F(PositionConfiguration, TakesOneLimitWithoutTheOther) {
   drive_->set("position/lower", 0.5);

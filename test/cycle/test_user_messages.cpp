@@ -127,6 +127,17 @@ TEST(Sentences, AModeThatDoesNotPositionIsRefusedWithWhatToSet) {
   EXPECT_THAT(refusal(610, 0xFFFF, 2), ::testing::StartsWith("drive lift: P610 could not be read: "));
 }
 
+TEST(Sentences, AModeThatPositionsIsRefusedWhereVelocitiesAreFollowed) {
+  drive::DriveReport report = onlineReport();
+  report.commanded_set = 2;
+  report.unexpected_function = drive::UnexpectedFunction{600, false, 1, 0, 1, nullptr, true};
+  EXPECT_STREQ(
+      "drive left: P600 of parameter set 2 is 1: with position control on it follows no velocity, and mode is "
+      "velocity; "
+      "set P600 to 0",
+      refusalMessage("left", drive::Refusal::kUnexpectedFunction, report).c_str());
+}
+
 // Of an array (P546 [-01] to [-03]: BU 0280 5.1.2) the element is named as well, of single parameters there is none.
 TEST(Sentences, AMissingWordIsNamedWithItsElement) {
   drive::DriveReport report = onlineReport();

@@ -81,6 +81,17 @@ TEST(WhatIsRead, IsWhatTheInverterHasAndEachOnce) {
   }
 }
 
+// SK 1x0E and 300E have no POSICON (BU 2700 6.4.4, BU 0020 7.3.5); P610 decides nothing of a drive that is not to position.
+TEST(WhatIsRead, IsThePositionControlOfEverySeriesThatMayHaveIt) {
+  for (const Series series : kAllSeries) {
+    DeviceReader reader{series};
+    const std::vector<std::uint16_t> numbers = numbersOf(askAll(reader));
+    const int sets = series == Series::kSk1x0e || series == Series::kSk300e ? 0 : 4;
+    EXPECT_EQ(sets, std::count(numbers.begin(), numbers.end(), 600)) << profile::toString(series);
+    EXPECT_EQ(0, std::count(numbers.begin(), numbers.end(), 610)) << profile::toString(series);
+  }
+}
+
 // P120 [-01] is the watch over the first module, P510 [-01] the source of the main setpoint.
 TEST(WhatIsRead, OfAnArrayIsItsFirstElement) {
   DeviceReader reader{Series::kSk54xe, TimeoutOwner::kModule};

@@ -45,6 +45,42 @@ TEST_F(WordsOfSets, AnotherFunctionOfSetpoint1IsNamed) {
   EXPECT_EQ(Refusal::kNone, refusal());
 }
 
+// POSICON would hold it where it stands, whatever its setpoint says (BU 0020 7.3.5).
+TEST_F(WordsOfSets, FollowNoVelocityInASetThatPositions) {
+  values[600] = 0;
+  values[1600] = 2;
+  run(80);
+  EXPECT_EQ(Refusal::kUnexpectedFunction, refusal());
+  EXPECT_THAT(message(), HasSubstr("P600 of parameter set 1 is 2: "));
+  EXPECT_THAT(message(), HasSubstr("set P600 to 0"));
+  select(2);
+  EXPECT_EQ(Refusal::kNone, refusal()) << message();
+}
+
+// No manual at hand says whether P600 has sets: of an inverter that answers for set 1 alone it counts in each.
+TEST_F(WordsOfSets, FollowNoVelocityWhereTheOnlyP600Positions) {
+  values[1600] = 1;
+  run(80);
+  select(3);
+  EXPECT_EQ(Refusal::kUnexpectedFunction, refusal());
+  EXPECT_THAT(message(), HasSubstr("P600 of parameter set 3 is 1"));
+}
+
+// An inverter without POSICON has none, and a channel may be slow: that keeps nobody from driving.
+TEST_F(WordsOfSets, FollowVelocitiesWhereP600CannotBeRead) {
+  run(80);
+  ASSERT_GT(reads(600), 0);
+  EXPECT_EQ(Refusal::kNone, refusal()) << message();
+  for (std::set<int>* const unreadable : {&silent, &not_now}) {
+    unreadable->insert(600);
+    parameters.handleLoss(drive);
+    run(1000);
+    EXPECT_EQ(Refusal::kNone, refusal()) << message();
+    EXPECT_FALSE(parameters.device().position_control[0]);
+    unreadable->clear();
+  }
+}
+
 class WordsOfAnArray : public WordsOfSets {
  protected:
   WordsOfAnArray() : WordsOfSets{ParameterChannelUse{}, drive::DriveConfig{}, Series::kSk54xe} {}

@@ -33,6 +33,7 @@ struct SteeredOptions {
   bool limits = true;           ///< of the base's acceleration; false: the drives' ramps are the only ones
   /// Steering axes that may be asked for a reference run: bit 8 of the control word asks, bit 10 of the status word tells.
   bool homes = false;
+  bool sync = false;  ///< over CANopen: each cycle's values are of one moment
 };
 
 /// Four SK 53xE: each axle has a driven wheel of 0.1 m (20:1, 100 % is 0.785 m/s) half a metre before or behind the
@@ -187,6 +188,7 @@ class SteeredRobot : public Bus {
       bus.singles = kSteeredDrives;
     } else if constexpr (std::is_same_v<Bus, CanRobot>) {
       bus.nodes = kSteeredDrives;
+      bus.bus = {{"sync", options.sync}};
     } else {
       bus.modules = kSteeredDrives;
     }

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "cycle/parameter_requests.h"
+#include "cycle/position_setup.h"
+#include "cycle/signal_setup.h"
 #include "system/can_robot.h"
 
 namespace nord_driver::test {
@@ -215,6 +217,61 @@ TEST(CanopenKinds, Cia402IsNotScaledByAReadOfTheUser) {
   readWhileDriving(1);
   ASSERT_FALSE(frames.empty());
   EXPECT_THAT(frames, ::testing::Each("7F 00 EE 02"));
+}
+
+// With P551 on only set 1 counts (BU 0060 p. 57), and 6040h and 6041h have no bits for another one.
+TEST(CanopenKinds, Cia402HasParameterSet1Only) {
+  CanRobot robot{cia402()};
+  ASSERT_TRUE(robot.bringUp());
+  const auto select = [&](std::uint8_t set) {
+    cycle::Request request;
+    request.kind = cycle::RequestKind::kSelectParameterSet;
+    request.drive = 0;
+    request.parameter_set = set;
+    return robot.ask(request);
+  };
+  const Instant asked = robot.transport().now();
+  const cycle::Completion answer = select(2);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("drive left: its drive profile has parameter set 1 only"));
+  EXPECT_LE(robot.transport().now() - asked, milliseconds{20}) << "nothing was tried";
+  const cycle::Completion first = select(1);
+  EXPECT_TRUE(first.success) << first.message.c_str();
+  EXPECT_TRUE(robot.ask(cycle::RequestKind::kEnable).success);
+}
+
+// Nor are bits 8 and 9 of NORD's control word, 10 and 13 of its status word, in them.
+TEST(CanopenKinds, Cia402RefusesSignalsThatItsWordsDoNotCarry) {
+  CanRobot robot{cia402()};
+  const auto refusal = [&](const char* source) {
+    const MapSettings drive{"~drives/left/", {{"signals/lamp/source", std::string{source}}}};
+    try {
+      cycle::checkSignalsCarried(drive, cycle::readSignals(drive, profile::Series::kSk5xxe),
+                                 robot.transport().identity(0));
+    } catch (const ConfigError& error) {
+      return std::string{error.what()};
+    }
+    return std::string{"taken"};
+  };
+  for (const char* source : {"control_bit_8", "control_bit_9", "status_bit_10", "status_bit_13"}) {
+    EXPECT_THAT(refusal(source), HasSubstr(std::string{"~drives/left/signals/lamp/source: \""} + source)) << source;
+  }
+}
+
+// 6042h is rpm: 16 bits of position would be a speed there, without an end.
+TEST(CanopenKinds, Cia402RefusesToPosition) {
+  CanRobot::Options options = cia402();
+  options.base = false;
+  options.drives.insert({{"mode", std::string{"position"}}, {"position/bits", 16}});
+  CanRobot robot{options};
+  const cycle::DriveSetup& left = robot.config().drives[0];
+  try {
+    cycle::checkPositionCarried(MapSettings{"~drives/left/", options.drives}, *left.position, left.series,
+                                robot.transport().identity(0));
+    FAIL() << "taken";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("~drives/left/mode: \"position\" is not valid"));
+  }
 }
 
 // P551 off: the objects are not there, and the node says so at its start.

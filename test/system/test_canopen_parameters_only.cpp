@@ -10,6 +10,7 @@
 
 #include "catalogue/shipped.h"
 #include "sim/canopen/simulated_can_bus.h"
+#include "tools/drive_watch.h"
 #include "tools/parameter_link.h"
 #include "transport/canopen/canopen.h"
 
@@ -30,22 +31,23 @@ catalogue::ParameterAddress parameter(std::uint16_t number) {
   return address;
 }
 
-std::string configuration(bool set_free) {
+std::string configuration(bool set_free, bool cia402) {
+  const std::string drive = std::string("series: sk5xxe, pole_pairs: 2") + (cia402 ? ", profile: cia402" : "");
   return std::string("{transport: canopen, cycle_rate: 100, bus: {interface: can0") +
          (set_free ? ", set_free: true" : "") +
          "}, drives: {"
-         " left: {address: 3, series: sk5xxe, pole_pairs: 2, joint: l},"
-         " right: {address: 4, series: sk5xxe, pole_pairs: 2, joint: r}}}";
+         " left: {address: 3, joint: l, " +
+         drive + "}, right: {address: 4, joint: r, " + drive + "}}}";
 }
 
 /// Nodes 3 and 4, each an SK 5xxE behind its SK TU3-CAO; the program is linked to node 3.
 class CanTool {
  public:
-  explicit CanTool(const std::vector<sim::ParameterPreset>& parameters = {}, bool set_free = false)
-      : config_(tools::readToolConfig(YAML::Load(configuration(set_free)), "left")),
-        transport_([this, parameters](const link::CanSettings& settings) {
+  explicit CanTool(const std::vector<sim::ParameterPreset>& parameters = {}, bool set_free = false, bool cia402 = false)
+      : config_(tools::readToolConfig(YAML::Load(configuration(set_free, cia402)), "left")),
+        transport_([this, parameters, cia402](const link::CanSettings& settings) {
           ids_ = settings.ids;
-          auto made = std::make_unique<sim::SimulatedCanBus>(simulated(parameters));
+          auto made = std::make_unique<sim::SimulatedCanBus>(simulated(parameters, cia402));
           bus_ = made.get();
           return made;
         }),
@@ -93,7 +95,7 @@ class CanTool {
   const std::vector<std::uint32_t>& filteredIds() const { return ids_; }
 
  private:
-  static sim::SimConfig simulated(const std::vector<sim::ParameterPreset>& parameters) {
+  static sim::SimConfig simulated(const std::vector<sim::ParameterPreset>& parameters, bool cia402) {
     sim::SimConfig config;
     config.bus = sim::CanBusConfig{};
     for (const std::uint8_t address : {std::uint8_t{3}, std::uint8_t{4}}) {
@@ -101,6 +103,7 @@ class CanTool {
       drive.name = address == 3 ? "left" : "right";
       drive.address = address;
       drive.bus = sim::CanDriveConfig{};
+      drive.bus.as<sim::CanDriveConfig>().cia402 = cia402;
       drive.parameters = parameters;
       config.drives.push_back(drive);
     }
@@ -141,6 +144,25 @@ TEST(CanopenParametersOnly, ReadsAndWritesOnAQuietBus) {
   EXPECT_THAT(tool.link().finish(), IsEmpty());
   EXPECT_EQ(1, tool.bus().drive(0).parameters().value(560));
   EXPECT_EQ("no rule broken", tool.bus().referee().report());
+}
+
+// 6044h is rpm: without P105 nothing says which share of it that is. P105 may be among what is looked at, too.
+TEST(CanopenParametersOnly, TheFrequencyOfCia402IsByP105AsItWasRead) {
+  for (const std::vector<std::string>& looked_at : {std::vector<std::string>{}, {"P105"}}) {
+    CanTool tool{{{105, 0, 0, 600}}, false, true};
+    tool.connect();
+    tool.left().setLocalControl(true, 20.0);
+    tool.link().pass(seconds{3});
+    ASSERT_NEAR(20.0, tool.left().frequency(), 0.1);
+    tools::DriveWatch watch{tool.link(), looked_at};
+    for (int look = 0; look < 2; ++look) {
+      const std::vector<tools::WatchedDrive> seen = watch.look();
+      ASSERT_EQ(1u, seen.size());
+      ASSERT_TRUE(seen[0].frequency);
+      EXPECT_NEAR(20.0, *seen[0].frequency, 0.1) << "look " << look << ", values: " << looked_at.size();
+    }
+    EXPECT_THAT(tool.link().finish(), IsEmpty());
+  }
 }
 
 // 100Ch and 100Dh as a driver may have left them: the node watches from the first question on (CiA 301 7.2.8.3.2.1),

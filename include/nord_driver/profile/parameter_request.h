@@ -27,8 +27,8 @@ struct ParameterRequest {
   ParameterAction action = ParameterAction::kRead;
   bool double_word = false;  ///< 32 bit value (writes only; an answer tells its own width)
   std::int32_t raw = 0;      ///< value to write
-  /// A read of the drive layer itself: by this value it tells shares and speeds from each other from now on. A
-  /// transport that carries speeds, not shares, tells them by the same one and by no other.
+  /// A read of the drive layer itself, or of a guest that commands nothing: by this value it tells shares and speeds from
+  /// each other from now on. A transport that carries speeds, not shares, tells them by the same one and by no other.
   bool scales = false;
   /// kWritePersistent, for the drive layer: also when the inverter has the value already. It may have it in its RAM
   /// only, from somebody the driver does not know of. A transport always writes.

@@ -210,7 +210,10 @@ DriveIdentity CanopenTransport::identity(DriveIndex drive) const {
     identity.address = "NORD system bus id " + std::to_string(node.id) +
                        " (experimental: its objects are taken to be those of SK 5xxE)";
   }
-  if (config.drive_profile == DriveProfile::kCia402) identity.address += ", CiA 402";
+  if (config.drive_profile == DriveProfile::kCia402) {
+    identity.address += ", CiA 402";
+    identity.parameter_sets = 1;
+  }
   identity.process_values = config.process_values;
   identity.parameter_channel = "SDO";
   identity.protected_by = protectionOf(config, node.error_control);
