@@ -1,6 +1,8 @@
 // The whole driver below ROS on a simulated CAN bus, in simulated time.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -138,5 +140,18 @@ class CanRobot : public DrivenRobot {
   BesideCanLink* beside_ = nullptr;
   std::vector<std::uint32_t> ids_;
 };
+
+/// Enabled, forward at half speed, and disabled to rest, without a rule broken on the bus.
+inline void expectDrives(CanRobot& robot) {
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.drive(kHalfSpeed, 0.0, std::chrono::seconds{4});
+  EXPECT_NEAR(kHalfSpeed, robot.snapshot().base.velocity.linear_x, 2e-3);
+  EXPECT_NEAR(25.0, robot.unit(0).inverter().frequency(), 0.1);
+  EXPECT_NEAR(-25.0, robot.unit(1).inverter().frequency(), 0.1);
+  robot.run(std::chrono::milliseconds{600});
+  ASSERT_TRUE(robot.ask(cycle::RequestKind::kDisable).success);
+  EXPECT_TRUE(robot.runUntil([&] { return robot.standsStill(); }));
+  EXPECT_EQ("no rule broken", robot.bus().referee().report());
+}
 
 }  // namespace nord_driver::test
