@@ -12,10 +12,6 @@ namespace {
 /// No user's request has it: those are counted from 1 on.
 constexpr std::uint32_t kToken = 0xFFFFFFFF;
 
-bool isKnown(std::uint16_t number) noexcept {
-  return number != 0 && number != profile::kFaultNumberUnknown;
-}
-
 // E10.0 to E10.9: the communication with and behind the bus modules (BU 0020 8.1, BU 2700 8.3).
 bool isBusTimeout(std::uint16_t number) noexcept {
   return number >= 100 && number <= 109;
@@ -47,7 +43,7 @@ void StartAcknowledge::update(DriveIndex drive, std::uint16_t number, bool quiet
 
 void StartAcknowledge::judge(DriveIndex drive, std::uint16_t number, bool quiet, Instant now) noexcept {
   State& state = states_[drive];
-  if (!isKnown(number)) {
+  if (!profile::isFaultNumber(number)) {
     if (now - state.since >= kNumberAwaited) giveUp(drive, "its number (P700) could not be read");
     return;
   }

@@ -21,7 +21,7 @@ constexpr Duration kPatience = std::chrono::seconds{20};  // every step of an ac
 constexpr int kAttempts = 3;
 constexpr Duration kBackTime = std::chrono::seconds{2};  // a silent station is asked for more often than that
 constexpr double kLongestListening = 10.0;               // s, see listening_
-constexpr std::uint16_t kMaxFrequency = 105, kTelegramTimeout = 513, kModuleTimeout = 151;
+constexpr std::uint16_t kFullFrequency = 105, kTelegramTimeout = 513, kModuleTimeout = 151;
 
 }  // namespace
 
@@ -180,7 +180,7 @@ ParameterAnswer ParameterLink::carryOut(const catalogue::ParameterAccess& access
   if (kind == cycle::RequestKind::kReadParameter) {
     // Nothing is commanded that another scale would change, and nobody else reads P105 for a guest: a profile in rpm
     // could tell no frequency without it.
-    request.parameter.scales = access.request.number == kMaxFrequency;
+    request.parameter.scales = access.request.number == kFullFrequency;
     completion = runAndRepeat(request, attempts);
     if (request.parameter.scales) exchange();  // what came in the last cycle was told by the scale before
   } else {
