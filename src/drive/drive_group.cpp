@@ -69,10 +69,7 @@ void DriveGroup::requestDisable(Instant now) noexcept {
     case GroupPhase::kRampingDown:
     case GroupPhase::kHalting:
     case GroupPhase::kStopping:  // the bound of the way down runs on
-      if (config_.ways.disable == StopWay::kQuickStop) return quickStopAll(StopCause::kNone, now);
-      if (config_.ways.disable == StopWay::kCoast) return coastAll(StopCause::kNone, now);
-      if (report_.phase == GroupPhase::kHalting) shutdownAll(StopCause::kNone, now);
-      return;
+      return disableOnWayDown(now);
     case GroupPhase::kDisabled:  // one may be taught its position
       ++stops_;
       for (Drive* member : members_) member->requestShutdown(now);
@@ -80,6 +77,24 @@ void DriveGroup::requestDisable(Instant now) noexcept {
     case GroupPhase::kQuickStopping:
       return;
   }
+}
+
+// Who is on a ramp gets the way of a disable. Not who stands, which may be under local control and follow no word, nor who
+// stops at once already.
+void DriveGroup::disableOnWayDown(Instant now) noexcept {
+  const StopWay way = config_.ways.disable;
+  if (way != StopWay::kQuickStop && way != StopWay::kCoast) {
+    if (report_.phase == GroupPhase::kHalting) shutdownAll(StopCause::kNone, now);
+    return;
+  }
+  bool any = false;
+  for (Drive* member : members_) {
+    if (!runs(*member) && member->report().phase != Phase::kStopping) continue;
+    any = true;
+    way == StopWay::kQuickStop ? member->requestQuickStop(now, StopCause::kNone)
+                               : member->requestCoast(now, StopCause::kNone);
+  }
+  if (any) enter(way == StopWay::kQuickStop ? GroupPhase::kQuickStopping : GroupPhase::kStopping, now);
 }
 
 // From kEnabled, all members.

@@ -90,6 +90,7 @@ class DriveGroup {
 
  private:
   void enter(GroupPhase phase, Instant now) noexcept;
+  void disableOnWayDown(Instant now) noexcept;
   /// A fault, OFF2, OFF3 or local control has come to a member.
   bool stopBegan() noexcept;
   bool haltIfAMemberStopped(Instant now) noexcept;

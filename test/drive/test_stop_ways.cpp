@@ -200,6 +200,39 @@ TEST(Disable, QuickStopsOrCoastsWhatIsOnTheRampOfOff1) {
   }
 }
 
+// A quick stop brakes: it is not taken away by a call that would let the machine roll.
+TEST(Disable, DoesNotCoastWhatStopsQuicklyAlready) {
+  StopWays ways;
+  ways.drive_stopped = StopWay::kQuickStop;
+  ways.disable = StopWay::kCoast;
+  Group group{ways};
+  group.inverters_[0].fault = true;
+  group.cycles(2);
+  ASSERT_EQ(0x047B, group.word(1));
+  group.group_.requestDisable(group.now_);
+  group.cycle();
+  EXPECT_EQ(0x047B, group.word(1));
+  group.cycles(40);
+  EXPECT_EQ(GroupPhase::kDisabled, group.group_.report().phase);
+}
+
+// Under local control an inverter follows no word: one that stands so is not waited for.
+TEST(Disable, LeavesWhoStandsAlone) {
+  for (const StopWay way : {StopWay::kQuickStop, StopWay::kCoast}) {
+    StopWays ways;
+    ways.disable = way;
+    Group group{ways};
+    group.inverters_[0].local = true;
+    group.cycles(2);
+    ASSERT_EQ(GroupPhase::kHalting, group.group_.report().phase);
+    group.group_.requestDisable(group.now_);
+    group.cycle();
+    EXPECT_EQ(wordOf(way), group.word(1));
+    group.cycles(40);
+    EXPECT_EQ(GroupPhase::kDisabled, group.group_.report().phase);
+  }
+}
+
 // A ramp goes on as it is, and what halts gets OFF1.
 TEST(Disable, ByARampLeavesTheWayDownWhatItIs) {
   StopWays ways = commandTimeout(StopWay::kOff1);
