@@ -30,7 +30,7 @@ ParameterKey ownTimeout(const DriveUnderCheck& drive) {
   return drive.key(isBehindModule(drive) ? kModuleTimeout : kTelegramTimeout);
 }
 
-/// s; shorter ones trip without a reason (BU 0220 4.2.3.1).
+/// s; shorter ones trip without a reason (BU 0220 4.2.3.2).
 double shortestTimeout(const DriveUnderCheck& drive) {
   const DriveIdentity& identity = drive.asked().identity;
   return std::max({2.0 * drive.asked().period, identity.worst_cycle, 2.0 * identity.longest_pause});
@@ -96,7 +96,7 @@ void timeoutIsLongEnough(const Drives& drives, std::size_t index, Findings& to) 
   if (!timeout || *timeout <= 0.0 || *timeout >= shortestTimeout(drive)) return;
   Finding finding =
       drive.finding(key, Severity::kWarning, "shorter than the bus may be silent: it trips E10.x without a reason",
-                    "BU 0220, 4.2.3.1");
+                    "BU 0220, 4.2.3.2");
   finding.remedy = timeoutRemedy(drive, key);
   to.push_back(finding);
 }

@@ -27,7 +27,8 @@ constexpr SourceKind kSources[] = {
     {"control_bit_", SignalSource::kControlBit, 8, 9},
     {"module_output_", SignalSource::kModuleOutput, 1, 2},
     {"bus_out_bit_", SignalSource::kBusOutBit, 0, 7},
-    {"status_bit_", SignalSource::kStatusBit, 10, 13},
+    {"status_bit_", SignalSource::kStatusBit, 10, 10},  // 11 and 12 are the direction
+    {"status_bit_", SignalSource::kStatusBit, 13, 13},
     {"digital_input_", SignalSource::kDigitalInput, 1, 12},
     {"relay_", SignalSource::kRelay, 1, 4},
     {"module_input_", SignalSource::kModuleInput, 1, 4},
@@ -45,8 +46,8 @@ bool isOldSeries(Series series) noexcept {
 // What a series has no bit for is told at start, not by a signal that never changes.
 bool has(const SignalSetup& signal, Series series) noexcept {
   switch (signal.source) {
-    case SignalSource::kStatusBit:
-      return signal.number == 10 || signal.number == 13;
+    case SignalSource::kStatusBit:  // BU 0020 7.3.4: 13 in the older series is a relay of POSICON
+      return signal.number == 10 || series != Series::kSk300e;
     case SignalSource::kControlBit: {
       const auto* const bits = profile::findCycleParameter(480, series);
       return bits != nullptr && bits->elements >= *busBitElement(signal);
@@ -96,7 +97,7 @@ SignalSetup readSignal(const Settings& drive, const std::string& name, Series se
   noteSetting(drive, group + "source", {std::string("one of ") + kAllSources, "", "", ""});
   const std::string word = requiredText(drive, group + "source", std::string("one of ") + kAllSources);
   auto signal = parse(word);
-  if (!signal || (signal->source == SignalSource::kStatusBit && !has(*signal, series))) {
+  if (!signal) {
     throw wrongSetting(drive, group + "source", "\"" + word + "\"", std::string("one of ") + kAllSources);
   }
   if (!has(*signal, series)) {

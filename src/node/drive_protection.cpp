@@ -23,6 +23,13 @@ void sayUnknown(ProtectionReport& report, const cycle::DeviceData& device, const
   report.text += "; " + text;
 }
 
+// P151: BU 2700 8.3. P513: SK 300E, 7x0E by BU 0020 8.1, SK 1x0E, 2xxE by BU 0220 6.2.1; for SK 5xxE and 54xE, BU 2700 8.3
+// has E10.3 and BU 0020 8.1 E10.0.
+const char* faultOfTimeout(bool by_module, profile::Series series) noexcept {
+  if (by_module) return "E10.3";
+  return series == profile::Series::kSk5xxe || series == profile::Series::kSk54xe ? "E10" : "E10.0";
+}
+
 }  // namespace
 
 DriveProtection::DriveProtection(DriveIdentity identity, profile::Series series, Duration cmd_vel_timeout,
@@ -86,7 +93,9 @@ ProtectionReport DriveProtection::assess(const cycle::DeviceData& device) const 
   if (bus_acts) report.text = identity_.protected_by;
   if (own_acts) {
     report.text += std::string(bus_acts ? "; " : "") + name + " of " + shortNumber(*own) +
-                   (identity_.timeout_notices ? " s: the inverter trips E10.3 and the motor coasts" : " s after that");
+                   (identity_.timeout_notices ? std::string(" s: the inverter trips ") +
+                                                    faultOfTimeout(by_module, series_) + " and the motor coasts"
+                                              : " s after that");
   }
   if (!own) {
     const char* const matters =
@@ -108,7 +117,7 @@ ProtectionReport DriveProtection::assess(const cycle::DeviceData& device) const 
     warn(report, name + " is shorter than two pauses between telegrams, which may be " +
                      shortNumber(identity_.longest_pause) + " s long each: it trips without a reason");
   } else if (own_acts && seconds(*own) < 2 * period_) {
-    warn(report, name + " is shorter than two bus cycles: it trips without a reason (BU 0220 4.2.3.1)");
+    warn(report, name + " is shorter than two bus cycles: it trips without a reason (BU 0220 4.2.3.2)");
   }
   return report;
 }

@@ -13,7 +13,7 @@ std::vector<ParameterDefinition> moduleParameterDefinitions() {
       // The range is printed as 0...32767, with a meaning for -1 below it (BU 2700 7.1.1).
       {151, "Timeout for external bus", 1, -1, 32767, 0, false, 0, false},
       {152, "Factory setting", 1, 0, 1, 0, false, 0, false},
-      {153, "Min. system bus cycle", 1, 0, 250, 10, false, 2, false},
+      {153, "Min. system bus cycle", 1, 0, 250, 10, false, 2, false, false, {10, 5}, 2},  // ms: SDO, PDO
       {154, "TB-IO access", 1, 0, 5, 0, false, 2, false},
       {160, "Profibus address", 1, 3, 126, 126, false, 0, false},
       {170, "Actual error", 1, 0, 9999, 0, false, 2, kReadOnly},

@@ -75,13 +75,25 @@ TEST(SignalSetupTest, RefusesWhatThereIsNot) {
   EXPECT_THAT(absent.refusal(), HasSubstr("signals/one/source is missing"));
 }
 
-// SK 300E has six inputs, eight bus bits in P480 and no analogue actual values (BU 0020 6.1).
+// SK 300E has six inputs, eight bus bits in P480 and no analogue actual values (BU 0020 6.1), and no POSICON, whose relay 4
+// bit 13 would be (7.3.4).
 TEST(SignalSetupTest, RefusesWhatTheSeriesHasNot) {
-  for (const char* word : {"digital_input_7", "control_bit_8", "analog_input_1"}) {
+  for (const char* word : {"digital_input_7", "control_bit_8", "analog_input_1", "status_bit_13"}) {
     Configured config;
     config.series = Series::kSk300e;
     config.drive.set("signals/one/source", word);
     EXPECT_THAT(config.refusal(), HasSubstr("a source that sk300e has")) << word;
+  }
+}
+
+TEST(SignalSetupTest, TakesTheStatusBitsASeriesHas) {
+  for (const auto& [series, word] : {std::pair{Series::kSk300e, "status_bit_10"},
+                                     {Series::kSk700e, "status_bit_13"},
+                                     {Series::kSk750e, "status_bit_13"}}) {
+    Configured config;
+    config.series = series;
+    config.drive.set("signals/one/source", word);
+    EXPECT_EQ("accepted", config.refusal()) << profile::toString(series) << word;
   }
 }
 

@@ -1,5 +1,6 @@
 // What documents point to is there.
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cctype>
@@ -75,6 +76,25 @@ TEST(Links, LeadFromReadmeToEveryTemplate) {
     const std::string link = "](config/templates/" + entry.path().filename().string() + ")";
     EXPECT_NE(std::string::npos, readme.find(link)) << "README.md has no " << link;
   }
+}
+
+// The PPO type of a technology unit is P507 of its inverter (BU 0020 6.1.2, 6.2.2), from the factory 1; SK CU4/TU4 takes
+// the driver's.
+TEST(Templates, TellToSetP507WhereThePpoTypeIsNotThatOfTheFactory) {
+  std::size_t seen = 0;
+  for (const auto& entry : fs::directory_iterator{kSource / "config" / "templates"}) {
+    const std::string text = textOf(entry.path());
+    const YAML::Node file = YAML::Load(text);
+    if (file["transport"].as<std::string>() != "nord_driver/profibus_dp") continue;
+    for (const auto& drive : file["drives"]) {
+      const YAML::Node ppo_type = drive.second["ppo_type"];
+      if (!ppo_type || ppo_type.as<int>() == 1 || drive.second["inverter"]) continue;
+      const std::string asked = "P507 = " + ppo_type.as<std::string>();
+      EXPECT_NE(std::string::npos, text.find(asked)) << entry.path().filename() << " does not say " << asked;
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 1u);
 }
 
 }  // namespace

@@ -138,6 +138,23 @@ TEST(DriveProtection, BehindAModuleSk5xxeWatchesItByP513) {
   EXPECT_THAT(sk54xe.text, HasSubstr("P120 = 0"));
 }
 
+// P513: E10.0 in the tables of SK 300E, 7x0E (BU 0020 8.1) and SK 1x0E, 2xxE (BU 0220 6.2.1); for SK 5xxE BU 2700 8.3 has
+// E10.3 and BU 0020 8.1 E10.0. P151 is E10.3 (BU 2700 8.3).
+TEST(DriveProtection, TheFaultOfATimeoutIsThatOfSeriesAndOwner) {
+  const std::pair<profile::Series, const char*> kOfP513[] = {
+      {profile::Series::kSk1x0e, "E10.0"}, {profile::Series::kSk2xxe, "E10.0"}, {profile::Series::kSk300e, "E10.0"},
+      {profile::Series::kSk700e, "E10.0"}, {profile::Series::kSk750e, "E10.0"}, {profile::Series::kSk5xxe, "E10"},
+      {profile::Series::kSk54xe, "E10"}};
+  for (const auto& [series, fault] : kOfP513) {
+    const std::string expected = std::string("the inverter trips ") + fault + " and the motor coasts";
+    EXPECT_EQ("P513 of 0.3 s: " + expected,
+              assess(identity(TimeoutOwner::kInverter, "", 0.0), withP513(0.3), 0.5, series).text)
+        << profile::toString(series);
+    EXPECT_THAT(assess(identity(TimeoutOwner::kModule), behindModule(0.3, 1), 0.5, series).text,
+                HasSubstr("P151 of the bus module of 0.3 s: the inverter trips E10.3 and the motor coasts"));
+  }
+}
+
 // A bus without a watchdog of its own leaves all to the drive's time-out.
 TEST(DriveProtection, WithoutAWatchdogOnTheBusTheDrivesOwnTimeoutMustAct) {
   const DriveIdentity bare = identity(TimeoutOwner::kInverter, "", 0.0);
@@ -173,12 +190,12 @@ TEST(DriveProtection, LaterThanCmdVelTimeoutIsWarnedAbout) {
       << "when it acts is not known";
 }
 
-// P151 at least twice the bus cycle (BU 0220 4.2.3.1).
+// P151 at least twice the bus cycle (BU 0220 4.2.3.2).
 TEST(DriveProtection, ShorterThanTwoCyclesIsWarnedAbout) {
   EXPECT_EQ(Level::kFine, assess(identity(TimeoutOwner::kModule), behindModule(0.02, 1)).level);
   const ProtectionReport report = assess(identity(TimeoutOwner::kModule), behindModule(0.019, 1));
   EXPECT_EQ(Level::kWarning, report.level);
-  EXPECT_THAT(report.text, HasSubstr("shorter than two bus cycles"));
+  EXPECT_THAT(report.text, HasSubstr("shorter than two bus cycles: it trips without a reason (BU 0220 4.2.3.2)"));
 }
 
 // Not each cycle has a telegram.

@@ -52,15 +52,15 @@ void InverterModel::waitForStart() noexcept {
   if (in_state_ >= settings_.charging_time) enter(InverterState::kSwitchOnDisabled);  // 1
 }
 
-// P513 > 0: no control word with bit 10 = 1 for that long is E10.3 (BU 2700 7.1.1, 8.3). Behind SK CU4/TU4 it is P151
-// of the module that watches the field bus (8.1).
+// P513 > 0: no control word with bit 10 = 1 for that long is E10.3 (BU 2700 7.1.1, 8.3), in the older series E10.0
+// (BU 0020 8.1). Behind SK CU4/TU4 it is P151 of the module that watches the field bus (BU 2700 8.1).
 void InverterModel::watchTimeout(double dt) noexcept {
   if (wiring_.on_system_bus) return;
   since_valid_ += dt;
   const double limit = parameters_.scaled(513);
   if (!commanded_ || limit <= 0.0 || timed_out_ || since_valid_ < limit) return;
   timed_out_ = true;
-  trip(wiring_.timeout_fault, false);
+  trip(parameters_.device().isOlderSeries() ? fault::kBusTimeout : wiring_.timeout_fault, false);
 }
 
 bool InverterModel::ignoresBusErrors() const noexcept {

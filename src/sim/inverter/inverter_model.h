@@ -43,7 +43,7 @@ struct ProcessData {
 namespace fault {
 constexpr std::uint16_t kBusTimeout = 100;  ///< E10.0 bus time-out: P513, node guarding (BU 0020 8)
 constexpr std::uint16_t kMasterLost = 102;  ///< E10.2 PROFIBUS watchdog
-constexpr std::uint16_t kTimeout = 103;     ///< E10.3 time-out by P151/P513
+constexpr std::uint16_t kTimeout = 103;     ///< E10.3 time-out by P151/P513; not in the older series
 constexpr std::uint16_t kModuleLink = 108;  ///< E10.8 connection to the bus interface interrupted
 constexpr std::uint16_t kNoModule = 109;    ///< E10.9 the same with a module on the system bus, by P120
 }  // namespace fault
@@ -83,7 +83,7 @@ struct BusWiring {
   /// The value of P509 that gives control to this bus; nothing: PROFIBUS, as the series numbers it.
   std::optional<std::int32_t> source;
   std::uint16_t master_lost_fault = fault::kMasterLost;  ///< how a lost master shows
-  std::uint16_t timeout_fault = fault::kTimeout;         ///< how P513 shows
+  std::uint16_t timeout_fault = fault::kTimeout;         ///< how P513 shows, but in the older series
   WideField wide;
 };
 

@@ -132,10 +132,7 @@ PkwWords ModuleStation::executeRecord(unsigned device, const PkwWords& order) no
   }
   showStatus();
   const PkwWords answer = own_pkw_.executeNow(order);
-  if (parameters_.value(152) == 1) {  // goes back to 0 by itself
-    parameters_.resetToFactory();
-    parameters_.preset(153, 0, 1, 5);
-  }
+  if (parameters_.value(152) == 1) parameters_.resetToFactory();  // goes back to 0 by itself
   return answer;
 }
 

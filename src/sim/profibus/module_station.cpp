@@ -44,7 +44,6 @@ ModuleStation::ModuleStation(const ModuleSettings& settings, Referee* referee)
       own_pkw_(parameters_, PkwSettings{}),
       records_(*this, settings.records),
       class2_(*this, settings.records, settings.class2) {
-  parameters_.preset(153, 0, 1, 5);  // SDO 10 ms, PDO 5 ms
   parameters_.show(180, 0, settings.address);
   parameters_.show(181, 0, moduleBaudRateCode(settings.baud_rate));
   beginAsBuilt();

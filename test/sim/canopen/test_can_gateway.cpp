@@ -196,6 +196,12 @@ void enableAll(CanConversation& bus) {
   }
 }
 
+// P153 [-01] and [-02] of the sister module (BU 2700 7.1.1, BU 0220 5.2.1).
+TEST_F(CanGateway, PausesOnTheSystemBusAreThoseOfTheFactory) {
+  EXPECT_EQ(10, bus.node().module()->parameters().value(153, 0, 0)) << "ms, TxSDO";
+  EXPECT_EQ(5, bus.node().module()->parameters().value(153, 0, 1)) << "ms, TxPDO";
+}
+
 // P151 of the module: no valid control word for any of the inverters for that long, and all trip with E10.3; the module
 // stays in the time-out until each is acknowledged (BU 2700 7.1.1, BU 0220 4.2.3.2). P513 is not looked at.
 TEST_F(CanGateway, P151StopsAll) {

@@ -181,5 +181,25 @@ TEST_F(Inverter, TimeoutTable) {
   }
 }
 
+// E10.3 of SK 300E, 700E and 750E is a system error of the option; P513 is E10.0 (BU 0020 8.1), whatever the bus.
+TEST(InverterOfAnOlderSeries, ShowsP513AsABusTimeout) {
+  for (const Series series : {Series::kSk300e, Series::kSk700e, Series::kSk750e}) {
+    ParameterStore parameters{Device{series, 2.0}};
+    parameters.preset(509, 0, 0, 10);
+    parameters.preset(513, 0, 0, 10);
+    Motor motor{MotorSettings{}};
+    InverterModel model{parameters, motor};
+    model.setPowered(true);
+    model.advance(milliseconds(301));
+    ProcessData data;
+    data.control = 0x047E;
+    model.receive(data);
+    model.advance(milliseconds(990));
+    EXPECT_EQ(0, model.faultNumber());
+    model.advance(milliseconds(20));
+    EXPECT_EQ(100, model.faultNumber());
+  }
+}
+
 }  // namespace
 }  // namespace nord_driver::sim
