@@ -46,6 +46,13 @@ constexpr Duration kIntervalUnit = std::chrono::microseconds{100};
 constexpr Duration kTimeoutUnit = std::chrono::milliseconds{10};
 constexpr unsigned kMaxNumber = 1'000'000;
 
+/// Ext_User_Prm_Data_Const of a module, or of the station without one.
+struct Constants {
+  std::optional<std::size_t> module;
+  std::size_t offset = 0;
+  std::vector<std::uint8_t> bytes;
+};
+
 class GsdReader {
  public:
   GsdFile read(const std::string& text) {
@@ -115,16 +122,25 @@ class GsdReader {
     return file_.modules.size() - 1;
   }
 
-  /// Bytes from an offset on, over what is there.
+  /// Bytes from an offset on.
   void takeConstants(const GsdStatement& statement) {
     const auto offset = gsdNumber(statement.argument, kMaxUserParameters);
     std::vector<std::uint8_t> bytes;
     if (!offset || !gsdBytes(statement.value, bytes) || *offset + bytes.size() > kMaxUserParameters) {
       return problem(statement.line, "Ext_User_Prm_Data_Const needs (offset) = bytes, 237 at most");
     }
-    std::vector<std::uint8_t>& target = module_ ? file_.modules.back().user_parameters : file_.user_parameters;
-    if (target.size() < *offset + bytes.size()) target.resize(*offset + bytes.size(), 0);
-    std::copy(bytes.begin(), bytes.end(), target.begin() + static_cast<std::ptrdiff_t>(*offset));
+    constants_.push_back({moduleIndex(), *offset, std::move(bytes)});
+  }
+
+  /// The constants of `module` (or of the station) over `target`.
+  void layConstants(std::optional<std::size_t> module, std::vector<std::uint8_t>& target) const {
+    for (const Constants& constants : constants_) {
+      if (constants.module != module) continue;
+      const std::size_t end = constants.offset + constants.bytes.size();
+      if (target.size() < end) target.resize(end, 0);
+      std::copy(constants.bytes.begin(), constants.bytes.end(),
+                target.begin() + static_cast<std::ptrdiff_t>(constants.offset));
+    }
   }
 
   /// "19.2_supp" and "MaxTsdr_19.2".
@@ -234,12 +250,14 @@ class GsdReader {
     std::copy(bytes.begin(), bytes.end(), file_.user_parameters.begin());
   }
 
-  /// Defaults lie over constants. User_Prm_Data_Len and Ext_Module_Prm_Data_Len are lengths; bytes nobody gave are
-  /// zero.
+  /// Defaults lie over constants, and these over User_Prm_Data, wherever each stands. User_Prm_Data_Len and
+  /// Ext_Module_Prm_Data_Len are lengths; bytes nobody gave are zero.
   void finishParameters() {
+    layConstants(std::nullopt, file_.user_parameters);
     parameters_.lay(std::nullopt, file_.user_parameters);
     for (std::size_t i = 0; i < file_.modules.size(); ++i) {
       std::vector<std::uint8_t>& bytes = file_.modules[i].user_parameters;
+      layConstants(i, bytes);
       parameters_.lay(i, bytes);
       bytes.resize(std::max<std::size_t>(bytes.size(), module_lengths_[i]), 0);
     }
@@ -256,6 +274,7 @@ class GsdReader {
 
   GsdFile file_;
   GsdParameters parameters_{file_.problems};
+  std::vector<Constants> constants_;
   std::vector<unsigned> module_lengths_;  // Ext_Module_Prm_Data_Len
   bool seen_start_ = false;
   bool module_ = false;

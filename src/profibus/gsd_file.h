@@ -46,8 +46,8 @@ struct GsdFile {
   /// Bytes per exchange; 0: not told.
   unsigned max_input_length = 0, max_output_length = 0, max_data_length = 0;
   unsigned max_diagnosis_length = 0, max_user_parameters = 0;
-  /// User_Prm_Data, with Ext_User_Prm_Data_Const laid over it, and the defaults of Ext_User_Prm_Data_Ref over both.
-  /// With DP-V1 the first three are DPV1_Status_1 to 3.
+  /// User_Prm_Data, with Ext_User_Prm_Data_Const laid over it, and the defaults of Ext_User_Prm_Data_Ref over both,
+  /// wherever in the file each stands. With DP-V1 the first three are DPV1_Status_1 to 3.
   std::vector<std::uint8_t> user_parameters;
 
   bool dpv1 = false;  ///< DPV1_Slave

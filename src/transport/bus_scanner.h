@@ -21,7 +21,7 @@ struct ScanReport {
   std::string bus{};                     ///< "PROFIBUS", for "PROFIBUS station 3"
   std::string number_name{};             ///< "station", "node", "MAC id"
   std::vector<FoundStation> stations{};  ///< by number
-  std::string trouble{};                 ///< why the scan did not take place, or ended early, a sentence
+  std::string trouble{};                 ///< why the scan did not take place, or may have missed somebody, a sentence
   std::vector<std::string> notes{};      ///< on the bus as a whole, sentences
 };
 

@@ -4,6 +4,9 @@
 
 #include <cctype>
 #include <cstdlib>
+#include <iterator>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -157,6 +160,44 @@ TEST(ServiceFiles, UdevKnowsEveryKey) {
   if (read.code == 77) GTEST_SKIP() << "udevadm has no verify, and mounting is not allowed here: " << read.output;
   EXPECT_THAT(read.output, HasSubstr("Reading rules file: /run/udev/rules.d/70-nord-driver.rules"));
   EXPECT_THAT(read.output, Not(HasSubstr("70-nord-driver.rules:")));
+}
+
+/// The names that the rules give a port of which 60-serial.rules has found out `properties`: /dev/tty stands in for it, and
+/// a folder of our own for /dev. Nothing: udev cannot be asked here.
+std::string namesOf(const std::string& properties) {
+  const Ended tried = shell(
+      R"(exec 2>&1; unshare --mount bash -c '
+mkdir -p /run/udev && mount -t tmpfs none /run/udev && mount -t tmpfs none /dev && mkdir /run/udev/rules.d || exit 77
+cd /run/udev/rules.d && cat >69-properties.rules && sed s/ttyUSB.*ACM./tty/ )" +
+      std::string{kInstall} + R"(/udev/70-nord-driver.rules >70-nord-driver.rules
+udevadm test --action=add /sys/class/tty/tty' <<'END' || exit 77
+)" + properties +
+      "\nEND\n");
+  if (tried.code == 77) return {};
+  const std::string key = "\nDEVLINKS=";
+  const std::size_t found = tried.output.find(key);
+  if (found == std::string::npos) throw std::runtime_error("no DEVLINKS in " + tried.output);
+  const std::size_t begin = found + key.size();
+  std::istringstream line{tried.output.substr(begin, tried.output.find('\n', begin) - begin)};
+  const std::set<std::string> names{std::istream_iterator<std::string>{line}, {}};
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
+  return text;
+}
+
+// An adapter may have several ports on one USB interface: by serial number, interface and path they are the same. The only
+// port of an adapter is 0 with a driver of usb-serial, and has no number with cdc_acm.
+TEST(ServiceFiles, UdevGivesEveryPortOfAnAdapterItsOwnName) {
+  if (shell("command -v udevadm").code != 0) GTEST_SKIP() << "udevadm is not installed (udev)";
+  const std::string adapter = R"(ENV{ID_SERIAL_SHORT}="A5", ENV{ID_USB_INTERFACE_NUM}="00", ENV{ID_PATH}="pci-1")";
+  const std::string alone = namesOf(adapter);
+  if (alone.empty()) GTEST_SKIP() << "mounting is not allowed here";
+  EXPECT_EQ("/dev/nord/A5-00 /dev/nord/pci-1", alone);
+  EXPECT_EQ("/dev/nord/A5-00 /dev/nord/pci-1", namesOf(adapter + R"(, ENV{.ID_PORT}="0")"));
+  EXPECT_EQ("/dev/nord/A5-00-port1 /dev/nord/pci-1-port1", namesOf(adapter + R"(, ENV{.ID_PORT}="1")"));
+  EXPECT_EQ("/dev/nord/A5-00-port10 /dev/nord/pci-1-port10", namesOf(adapter + R"(, ENV{.ID_PORT}="10")"));
+  EXPECT_EQ("/dev/nord/pci-1-port3", namesOf(R"(ENV{ID_PATH}="pci-1", ENV{.ID_PORT}="3")"))
+      << "without a serial number";
 }
 
 }  // namespace

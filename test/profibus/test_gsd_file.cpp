@@ -199,6 +199,18 @@ TEST(GsdFile, DefaultsLieOverTheConstantBytes) {
       << "the reference wins wherever it stands";
 }
 
+// The older key has a general value for all bytes, the newer one those that must be as they are, in whatever order.
+TEST(GsdFile, ConstantBytesLieOverTheUserParametersWhereverTheyStand) {
+  const std::string data = "User_Prm_Data_Len = 5\nUser_Prm_Data = 0x11,0x12,0x13,0x14\n";
+  const std::string constants = "Ext_User_Prm_Data_Const(0) = 0x80\nExt_User_Prm_Data_Const(2) = 0xFF,0xFE\n";
+  EXPECT_EQ("80 12 FF FE 00", stationParameters(data + constants));
+  EXPECT_EQ("80 12 FF FE 00", stationParameters(constants + data));
+  EXPECT_EQ("80 2A FF FE 00", stationParameters(constants + "Ext_User_Prm_Data_Ref(1) = 3\n" + data))
+      << "and the defaults over both";
+  EXPECT_EQ("02", stationParameters("Ext_User_Prm_Data_Const(0) = 1\nExt_User_Prm_Data_Const(0) = 2\n"))
+      << "of two the one further below counts";
+}
+
 // Of a byte only the bits of the field are replaced.
 TEST(GsdFile, BitsAreLaidIntoTheirByte) {
   EXPECT_EQ("08", stationParameters("Ext_User_Prm_Data_Ref(0) = 1\n"));

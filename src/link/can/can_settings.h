@@ -22,7 +22,7 @@ constexpr std::size_t kLongestInterfaceName = 15;
 struct CanSettings {
   std::string interface;             ///< "can0", or "virtual:NAME"
   std::vector<std::uint32_t> ids{};  ///< 11 bit identifiers of data frames to receive; empty: every frame there is
-  std::uint32_t bit_rate = 0;        ///< bit/s the interface must run at; 0: whatever it runs at
+  std::uint32_t bit_rate = 0;        ///< bit/s the interface must run at, within 0.5 %; 0: whatever it runs at
   /// 11 bit identifiers of remote frames to receive beside `ids`; each takes a filter as well.
   std::vector<std::uint32_t> remote_ids{};
 };

@@ -34,23 +34,24 @@ class CanScanLine {
   void talk(Instant until, PollTransmit poll_transmit, Next next, const Handle& handle, Done done) {
     while (!end_asked_ && link_.isOpen() && !done() && link_.now() < until) {
       CanFrame frame;
-      while (!end_asked_ && !done() && poll_transmit(frame)) {
+      while (!end_asked_ && !done() && link_.now() < until && poll_transmit(frame)) {
         send(frame);  // it may wait for room
-        receive(handle);
+        take(handle);
       }
       const Instant seen = link_.now();
-      receive(handle);
+      take(handle);
       const Instant wait = std::min({until, next(seen), link_.now() + kSlice});
       link_.waitReadable(wait);
-      receive(handle);
+      take(handle);
     }
   }
 
   Instant now() const noexcept { return link_.now(); }
   bool endAsked() const noexcept { return end_asked_; }
-  /// False: the interface is gone, and the scan with it.
-  bool isOpen() const noexcept { return link_.isOpen(); }
-  /// What the interface has to say of itself: it is gone, or nobody acknowledges. Empty: nothing.
+  /// The interface was down, bus-off or gone at some time of a talk, or did not take a frame: somebody may not have been
+  /// asked, or not heard.
+  bool failed() const noexcept { return frame_lost_ || !failure_.empty(); }
+  /// What the interface has to say of itself: how it failed, or nobody acknowledges. Empty: nothing.
   std::string trouble() const;
 
  private:
@@ -58,9 +59,14 @@ class CanScanLine {
 
   void send(const CanFrame& frame) noexcept;
   void receive(const Handle& handle);
+  /// Of a talk: receives, and notes an interface that does not work. It may work again by the end.
+  void take(const Handle& handle);
+  std::string whyNotWorking() const;
 
   link::CanLink& link_;
   const std::atomic<bool>& end_asked_;
+  std::string failure_;  // why it did not work, when it did so first
+  bool frame_lost_ = false;
 };
 
 }  // namespace nord_driver

@@ -63,7 +63,7 @@ struct CanopenDrive : DriveCommon {
 
 struct CanopenConfig {
   std::string interface;       ///< "can0", "virtual:NAME"
-  std::uint32_t bit_rate = 0;  ///< bit/s, compared with the interface's; 0: not configured
+  std::uint32_t bit_rate = 0;  ///< bit/s, compared with the interface's (0.5 %); 0: not configured
   /// How long an exchange waits for the TPDOs of its cycle.
   Duration answer_window{};
   canopen::MasterConfig master;

@@ -181,14 +181,15 @@ ScanReport scanCanopen(const Settings& bus,
     };
     line.talk(line.now() + kLongest, next_frame, next_look, handle, all_done);
     report.trouble = other;
-    if (report.trouble.empty() && end_asked) report.trouble = "ended before every node was asked";
+    if (report.trouble.empty() && (line.failed() || (!all_done() && !end_asked))) report.trouble = line.trouble();
+    if (report.trouble.empty() && !all_done()) report.trouble = "ended before every node was asked";
   }
   for (const Node& node : nodes) {
     if (!node.answered() && !node.heard()) continue;
     report.stations.push_back(node.station());
     if (!node.answered()) report.stations.back().module = "does not answer SDO";
   }
-  if (report.trouble.empty() && (report.stations.empty() || !line.isOpen())) report.trouble = line.trouble();
+  if (report.trouble.empty() && report.stations.empty()) report.trouble = line.trouble();
   return report;
 }
 

@@ -69,7 +69,7 @@ struct DevicenetModule {
 
 struct DevicenetConfig {
   std::string interface;       ///< "can0", "virtual:NAME"
-  std::uint32_t bit_rate = 0;  ///< bit/s, compared with the interface's; 0: not configured
+  std::uint32_t bit_rate = 0;  ///< bit/s, compared with the interface's (0.5 %); 0: not configured
   /// How long an exchange waits for the answers of its cycle.
   Duration answer_window{};
   devicenet::ScannerConfig scanner;

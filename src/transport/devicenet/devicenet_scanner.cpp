@@ -149,7 +149,7 @@ ScanReport scanDevicenet(const Settings& bus,
   }
   if (!other.empty()) report.trouble = other;
   if (report.trouble.empty() && end_asked) report.trouble = "ended before every MAC id was asked";
-  if (report.trouble.empty() && (report.stations.empty() || !line.isOpen())) report.trouble = line.trouble();
+  if (report.trouble.empty() && (report.stations.empty() || line.failed())) report.trouble = line.trouble();
   return report;
 }
 

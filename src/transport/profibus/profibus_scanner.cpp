@@ -223,6 +223,11 @@ ScanReport scanProfibus(const Settings& bus,
     askTypePlate(talk, report.stations.back());
     for (const FoundStation& inverter : askInverters(talk, config, address)) report.stations.push_back(inverter);
     talk.close();
+    if (!link->isOpen()) {
+      report.trouble = link->lastError();
+    } else if (end_asked) {
+      report.trouble = "ended before every module was asked";
+    }
   }
   link->close();
   return report;

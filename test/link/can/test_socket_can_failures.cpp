@@ -65,6 +65,26 @@ TEST_F(SocketCanFailures, AnotherBitRateIsRefused) {
                               HasSubstr("type can bitrate 500000")));
 }
 
+// The kernel tells what the controller's clock makes of the rate: 38.4 MHz give 498701 bit/s for 500000.
+TEST_F(SocketCanFailures, WhatTheClockMakesOfTheBitRateIsTaken) {
+  const auto problem = [](std::uint32_t configured, std::uint32_t real) {
+    FakeCanSystem system;
+    system.interface.bit_rate = real;
+    CanSettings all;
+    all.interface = "can0";
+    all.bit_rate = configured;
+    SocketCan opened{all, system};
+    return opened.open() ? std::string{} : opened.lastError();
+  };
+  EXPECT_EQ("", problem(500'000, 498'701));
+  EXPECT_EQ("", problem(500'000, 502'500));
+  EXPECT_EQ("", problem(250'000, 249'350));
+  EXPECT_EQ("", problem(1'000'000, 997'402));
+  EXPECT_THAT(problem(500'000, 497'499), HasSubstr("runs at 497499 bit/s, and 500000 bit/s are configured"));
+  EXPECT_THAT(problem(500'000, 480'000), HasSubstr("runs at 480000 bit/s, and 500000 bit/s are configured"));
+  EXPECT_THAT(problem(500'000, 4'294'967'295), HasSubstr("runs at 4294967295 bit/s"));
+}
+
 TEST_F(SocketCanFailures, AnInterfaceWithoutBitRateIsTaken) {
   kernel.interface.bit_rate = 0;
   kernel.interface.has_controller = false;

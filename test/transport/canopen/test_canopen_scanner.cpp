@@ -143,5 +143,70 @@ TEST(CanopenScanner, EndsWhenAnotherMasterBegins) {
   EXPECT_EQ("another master began to work with the bus: 205h was seen; ended", troubleWith(begin, true));
 }
 
+/// An interface that stops to work at the third answer of a node, and works again after three frames it did not take, if
+/// `comes_back`.
+class InterruptedBus final : public sim::SimulatedCanBus {
+ public:
+  InterruptedBus(bool bus_off, bool comes_back) : SimulatedCanBus(twoNodes(250'000)), comes_back_(comes_back) {
+    setTap([this, bus_off, answers = 0](const CanFrame& frame, Sender, Instant) mutable {
+      if ((frame.id & 0x780u) != 0x580 || ++answers != 3) return;
+      bus_off ? setBusOff() : setInterfaceUp(false);
+    });
+  }
+  link::CanSend send(const CanFrame& frame) noexcept override {
+    const link::CanSend result = SimulatedCanBus::send(frame);
+    if (result == link::CanSend::kFailed && ++failed_ == 3 && comes_back_) {
+      setInterfaceUp(true);
+      restart();
+    }
+    return result;
+  }
+
+ private:
+  bool comes_back_;
+  unsigned failed_ = 0;
+};
+
+// Who was not asked, or not heard, looks like one who is not there.
+TEST(CanopenScanner, AnInterfaceThatFailedOnTheWayIsNamedWithWhoWasFound) {
+  for (const bool bus_off : {false, true}) {
+    for (const bool comes_back : {false, true}) {
+      CanopenTransport transport{
+          [&](const link::CanSettings&) { return std::make_unique<InterruptedBus>(bus_off, comes_back); }};
+      const ScanReport report =
+          transport.scan(MapSettings{"~bus/", {{"interface", std::string{"can0"}}, {"bit_rate", 250'000}}}, kNotAsked);
+      EXPECT_THAT(report.trouble, HasSubstr(bus_off ? "the controller is bus-off" : "the interface is down"))
+          << comes_back;
+      ASSERT_EQ(2u, report.stations.size()) << bus_off << comes_back;
+      EXPECT_THAT(report.stations[0].module, HasSubstr("device type"));
+      EXPECT_THAT(report.stations[1].module, HasSubstr(comes_back ? "NORD" : "does not answer SDO"));
+    }
+  }
+}
+
+// A cable that was pulled: the interface is well, and its queue stays full.
+TEST(CanopenScanner, SaysThatQuestionsDidNotLeave) {
+  EXPECT_EQ("frames did not leave the interface", troubleWith([](auto& bus) { bus.setQueueFull(true); }, true));
+}
+
+/// Gives a place in its queue every 0.2 s, and can be waited for.
+class SlowBus final : public sim::SimulatedCanBus {
+ public:
+  SlowBus() : SimulatedCanBus(twoNodes(250'000)) { setQueuePace(std::chrono::milliseconds{200}); }
+  bool waitWritable(Instant until) noexcept override {
+    sleepUntil(until);
+    return true;
+  }
+};
+
+// The whole scan has 20 s, and 127 questions take longer here.
+TEST(CanopenScanner, SaysThatTheTimeWasNotEnough) {
+  CanopenTransport transport{[](const link::CanSettings&) { return std::make_unique<SlowBus>(); }};
+  const ScanReport report =
+      transport.scan(MapSettings{"~bus/", {{"interface", std::string{"can0"}}, {"bit_rate", 250'000}}}, kNotAsked);
+  EXPECT_EQ("ended before every node was asked", report.trouble);
+  EXPECT_FALSE(report.stations.empty());
+}
+
 }  // namespace
 }  // namespace nord_driver

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <memory>
+#include <utility>
 
 #include "sim/profibus/simulated_segment.h"
 #include "support/map_settings.h"
@@ -114,6 +116,38 @@ TEST(ProfibusScanner, EndsWhenAsked) {
   ProfibusDpTransport transport{
       [](const link::SerialSettings&) { return std::make_unique<sim::SimulatedSegment>(threeStations()); }};
   EXPECT_EQ("ended before every address was asked", transport.scan(bus(), asked).trouble);
+}
+
+/// Calls `happens` when the first telegram of MS2 is to leave: to the resource manager, SAP 49, which has the question for the
+/// type plate behind it.
+class InterruptedSegment final : public sim::SimulatedSegment {
+ public:
+  explicit InterruptedSegment(std::function<void(sim::SimulatedSegment&)> happens)
+      : SimulatedSegment(threeStations()), happens_(std::move(happens)) {}
+  bool write(ByteView telegram) noexcept override {
+    constexpr std::size_t kDsap = 7;
+    if (telegram.size() > kDsap && telegram[0] == 0x68 && telegram[kDsap] == 49) happens_(*this);
+    return SimulatedSegment::write(telegram);
+  }
+
+ private:
+  std::function<void(sim::SimulatedSegment&)> happens_;
+};
+
+// All stations are known by then; what is missing are the type plates and the inverters behind them.
+TEST(ProfibusScanner, SaysThatTheModulesWereNotAskedToTheEnd) {
+  std::atomic<bool> asked{false};
+  const auto scan = [&](const std::function<void(sim::SimulatedSegment&)>& happens) {
+    ProfibusDpTransport transport{
+        [&](const link::SerialSettings&) { return std::make_unique<InterruptedSegment>(happens); }};
+    return transport.scan(bus(), asked);
+  };
+  const ScanReport gone = scan([](auto& segment) { segment.setDevicePresent(false); });
+  EXPECT_EQ("simulated segment: the device is gone", gone.trouble);
+  EXPECT_EQ(3u, gone.stations.size());
+  const ScanReport ended = scan([&](auto&) { asked = true; });
+  EXPECT_EQ("ended before every module was asked", ended.trouble);
+  EXPECT_EQ(3u, ended.stations.size());
 }
 
 }  // namespace
