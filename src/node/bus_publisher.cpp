@@ -1,5 +1,7 @@
 #include "node/bus_publisher.h"
 
+#include <diagnostic_msgs/DiagnosticStatus.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -59,6 +61,12 @@ bool busIsWell(const cycle::CycleSnapshot& snapshot) {
   return snapshot.connected && snapshot.bus_text.empty() &&
          std::all_of(snapshot.drives.begin(), snapshot.drives.end(),
                      [](const cycle::DriveSnapshot& drive) { return drive.online; });
+}
+
+unsigned char busLevel(const cycle::CycleSnapshot& snapshot) {
+  using diagnostic_msgs::DiagnosticStatus;
+  if (!snapshot.connected) return DiagnosticStatus::ERROR;
+  return busIsWell(snapshot) ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
 }
 
 }  // namespace nord_driver::node

@@ -18,6 +18,10 @@ std::string busSentence(const cycle::CycleSnapshot& snapshot, const std::vector<
 /// until drive_timeout has passed.
 bool busIsWell(const cycle::CycleSnapshot& snapshot);
 
+/// Of the sentence in /diagnostics, one of diagnostic_msgs::DiagnosticStatus: ERROR while the bus is lost, WARN for any
+/// other trouble, as in the log.
+unsigned char busLevel(const cycle::CycleSnapshot& snapshot);
+
 /// All of them by name, and those that have a field of their own there, too.
 void addCounters(const BusCounters& counters, BusStatus& status);
 

@@ -61,12 +61,7 @@ void Diagnostics::update(const cycle::CycleSnapshot& snapshot) {
 }
 
 void Diagnostics::reportBus(DiagnosticStatusWrapper& status) const {
-  bool all = true;
-  for (const auto& drive : snapshot_.drives) all = all && drive.online;
-  const auto level = !snapshot_.connected ? DiagnosticStatus::ERROR
-                     : all                ? DiagnosticStatus::OK
-                                          : DiagnosticStatus::WARN;
-  status.summary(level, busSentence(snapshot_, names_));
+  status.summary(busLevel(snapshot_), busSentence(snapshot_, names_));
   status.add("device", device_);
   status.add("cycle time mean (s)", snapshot_.times.mean);
   status.add("cycle time p99 (s)", snapshot_.times.p99);

@@ -287,9 +287,11 @@ LoggedDrives DriverNode::loggedDrives() const {
   drives.faults = faults_;
   drives.bus = where_;
   if (!where_.empty()) drives.bus_key = config_.bus->fullName(transport_->endPoint().key);
-  for (DriveIndex i = 0; i < config_.cycle.drives.size(); ++i) {
-    drives.names.push_back(config_.cycle.drives[i].name);
-    drives.in_base.push_back(cycle_->inBase(i));
+  drives.read_only = config_.read_only;
+  const auto& setups = config_.cycle.drives;
+  for (DriveIndex i = 0; i < setups.size(); ++i) {
+    drives.names.push_back(setups[i].name);
+    drives.enabled_as.push_back(cycle_->inBase(i) ? "" : setups[setups[i].leader.value_or(i)].name);
   }
   return drives;
 }

@@ -70,10 +70,12 @@ std::string StateLog::faultSentence(std::size_t index, std::uint16_t number) con
   if (faults_[index].stood) text += ", which stood before this node started";
   if (!faults.cause(number).empty()) text += "; likely cause: " + faults.cause(number);
   if (!faults.remedy(number).empty()) text += "; remedy: " + faults.remedy(number);
+  if (drives_.read_only) return text;
   const std::string call = "rosservice call " + drives_.node + "/";
-  const bool in_base = drives_.in_base[index];
+  const std::string& enabled_as = drives_.enabled_as[index];
+  const bool in_base = enabled_as.empty();
   text += "; then acknowledge it: " + call + (in_base ? "acknowledge_faults" : name + "/acknowledge_fault");
-  return text + " and enable: " + call + (in_base ? "" : name + "/") + "enable true";
+  return text + " and enable: " + call + (in_base ? "" : enabled_as + "/") + "enable true";
 }
 
 }  // namespace nord_driver::node

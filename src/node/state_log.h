@@ -22,10 +22,13 @@ struct LogLine {
 struct LoggedDrives {
   std::string node;  ///< its full name: "/nord_driver"
   std::vector<std::string> names;
-  std::vector<bool> in_base;                  ///< one per drive: acknowledged and enabled with the others
+  /// One per drive: whose ~<drive>/enable enables it, its own or that of the drive that it follows; empty: ~enable, the
+  /// base's, and the drives of the base are acknowledged together.
+  std::vector<std::string> enabled_as;
   std::vector<catalogue::FaultWords> faults;  ///< one per drive
   std::string bus = {};                       ///< what the transport opens, as configured; empty: nothing
   std::string bus_key = {};                   ///< where that is configured: "~bus/device"
+  bool read_only = false;                     ///< every call that acknowledges or enables is refused
 };
 
 /// Polled with the newest snapshot; what came and went between two of them is not lost where it is counted.

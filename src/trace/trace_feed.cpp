@@ -6,8 +6,15 @@ namespace {
 
 /// True for a stop nobody asked for.
 bool unasked(drive::StopCause cause) noexcept {
-  // OFF2 is the way of a stop, asked for or with a cause of its own.
-  return cause != drive::StopCause::kNone && cause != drive::StopCause::kQuickStop && cause != drive::StopCause::kCoast;
+  switch (cause) {
+    case drive::StopCause::kNone:
+    case drive::StopCause::kQuickStop:
+    case drive::StopCause::kCoast:           // the way of a stop, asked for or with a cause of its own
+    case drive::StopCause::kCommandTimeout:  // whoever ends the commands wants the stop that is configured for that
+      return false;
+    default:
+      return true;
+  }
 }
 
 /// Remembers `now` and tells whether it has just become true.

@@ -1,10 +1,13 @@
 // One sentence for a technician: what the bus waits for, or that all is well.
+#include <diagnostic_msgs/DiagnosticStatus.h>
 #include <gtest/gtest.h>
 
 #include "node/bus_publisher.h"
 
 namespace nord_driver::node {
 namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
 
 const std::vector<std::string> kNames{"left", "right"};
 
@@ -43,6 +46,21 @@ TEST(BusSentence, ALostBusIsNotWellWhileItsDrivesStillCountAsOnline) {
   snapshot.bus_text = "";
   snapshot.drives[1].online = false;
   EXPECT_FALSE(busIsWell(snapshot));
+}
+
+// /diagnostics shows no sentence of trouble as OK.
+TEST(BusSentence, ItsLevelFitsTheSentence) {
+  cycle::CycleSnapshot snapshot{2};
+  snapshot.bus_text = "no station answers";
+  EXPECT_EQ(DiagnosticStatus::ERROR, busLevel(snapshot));
+  snapshot.connected = true;
+  for (auto& drive : snapshot.drives) drive.online = true;
+  snapshot.bus_text = "another master is on this segment";
+  EXPECT_EQ(DiagnosticStatus::WARN, busLevel(snapshot));
+  snapshot.bus_text = "";
+  EXPECT_EQ(DiagnosticStatus::OK, busLevel(snapshot));
+  snapshot.drives[1].online = false;
+  EXPECT_EQ(DiagnosticStatus::WARN, busLevel(snapshot));
 }
 
 // Whatever a transport counts is there by its name; what has a field of its own fills that, too.

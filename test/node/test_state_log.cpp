@@ -11,6 +11,7 @@ namespace {
 using std::chrono::milliseconds;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Level = LogLine::Level;
 
 std::vector<catalogue::FaultWords> words(std::size_t drives) {
@@ -38,9 +39,11 @@ class StateLogTest : public ::testing::Test {
     snapshot_.drives[drive].fault_number = snapshot_.drives[drive].last_fault_number = number;
   }
 
-  cycle::CycleSnapshot snapshot_{3};
-  StateLog log_{
-      {"/nord_driver", {"left", "right", "lift"}, {true, true, false}, words(3), "/dev/ttyUSB0", "~bus/device"}};
+  cycle::CycleSnapshot snapshot_{4};
+  LoggedDrives drives_{"/nord_driver",           {"left", "right", "lift", "rear"},
+                       {"", "", "lift", "lift"}, words(4),
+                       "/dev/ttyUSB0",           "~bus/device"};
+  StateLog log_{drives_};
   Instant now_ = Instant{} + std::chrono::hours{1};
 };
 
@@ -85,10 +88,35 @@ TEST_F(StateLogTest, ADriveWithoutBaseHasItsOwnCalls) {
                                    HasSubstr("rosservice call /nord_driver/lift/enable true")));
 }
 
+// Its own ~<drive>/enable is refused: it is enabled with the drive that it follows.
+TEST_F(StateLogTest, ADriveThatFollowsAnotherIsEnabledWithThatOne) {
+  trip(3, 21);
+  const auto lines = during(milliseconds{100});
+  ASSERT_EQ(1u, lines.size());
+  EXPECT_THAT(lines[0].text,
+              AllOf(HasSubstr("drive rear: E2.1"), HasSubstr("rosservice call /nord_driver/rear/acknowledge_fault "),
+                    HasSubstr("rosservice call /nord_driver/lift/enable true")));
+}
+
+// A node that looks on refuses both calls: whoever commands the drive has them.
+TEST_F(StateLogTest, ANodeThatLooksOnNamesNoCall) {
+  drives_.read_only = true;
+  log_ = StateLog{drives_};
+  during(milliseconds{100});
+  trip(0, 21);
+  trip(2, 21);
+  const auto lines = during(milliseconds{100});
+  ASSERT_EQ(2u, lines.size());
+  for (const LogLine& line : lines) {
+    EXPECT_THAT(line.text, HasSubstr("; remedy: let it cool down"));
+    EXPECT_THAT(line.text, AllOf(Not(HasSubstr("acknowledge")), Not(HasSubstr("rosservice"))));
+  }
+}
+
 // The node before was killed: its drives are met with a time-out that stands.
 TEST(StateLogAtStart, AFaultThatStoodAlreadySaysSo) {
   cycle::CycleSnapshot snapshot{1};
-  StateLog log{{"/nord_driver", {"left"}, {true}, words(1)}};
+  StateLog log{{"/nord_driver", {"left"}, {""}, words(1)}};
   Instant now = Instant{} + std::chrono::hours{1};
   EXPECT_TRUE(log.poll(snapshot, now).empty());
   snapshot.connected = snapshot.drives[0].online = true;

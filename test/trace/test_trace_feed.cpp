@@ -65,5 +65,12 @@ TEST_F(TraceFeedTest, ADriveAsksWhenItStopsByItself) {
   EXPECT_EQ(0u, trigger->drive);
 }
 
+// With `stop/command_timeout` every end of the commands is a stop: their traces would push those of faults out.
+TEST_F(TraceFeedTest, CommandsThatEndAskForNoTrace) {
+  snapshot_.base.stop_cause = snapshot_.drives[0].stop_cause = drive::StopCause::kCommandTimeout;
+  cycle(0, kRunning, kRunning);
+  EXPECT_FALSE(feed_.pollTrigger());
+}
+
 }  // namespace
 }  // namespace nord_driver::trace

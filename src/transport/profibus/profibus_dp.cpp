@@ -371,9 +371,11 @@ DriveIdentity ProfibusDpTransport::identity(DriveIndex drive) const {
                                : config_.slaves[config.slave].dpv1 ? "DP-V1 records"
                                                                    : "none";
   identity.worst_cycle = toSeconds(config_.worst_cycle);
-  identity.protected_by = "PROFIBUS watchdog of " + shortNumber(toSeconds(config_.watchdog)) +
-                          " s: the inverter trips E10.2 and the motor coasts";
-  identity.protection_time = toSeconds(config_.watchdog);
+  if (!parameters_only_) {  // else endWithoutATrip() has switched it off
+    identity.protected_by = "PROFIBUS watchdog of " + shortNumber(toSeconds(config_.watchdog)) +
+                            " s: the inverter trips E10.2 and the motor coasts";
+  }
+  identity.protection_time = toSeconds(config_.watchdog);  // a driver that was killed may have left one behind
   return identity;
 }
 

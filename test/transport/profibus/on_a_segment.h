@@ -41,6 +41,7 @@ class OnASegment : public ::testing::Test {
       segment_ = segment.get();
       return segment;
     });
+    if (parameters_only_) transport_->serveParametersOnly();
     transport_->configure(test::MapSettings{"~bus/", {{"device", std::string{"/dev/ttyUSB0"}}, {"slot_time", 0.0005}}},
                           drives, 100.0);
     transport_->setDriveTimeout(std::chrono::milliseconds{50});
@@ -84,6 +85,7 @@ class OnASegment : public ::testing::Test {
   }
 
   std::function<void(sim::SimConfig&)> change_;  // of what is there, before it is built
+  bool parameters_only_ = false;                 // what the transport is told before it is configured
   sim::SimulatedSegment* segment_ = nullptr;
   std::unique_ptr<ProfibusDpTransport> transport_;
   std::vector<profile::ProcessOutput> outputs_{2};

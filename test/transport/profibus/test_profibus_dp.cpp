@@ -267,6 +267,14 @@ TEST_F(OnASegment, TellsWhereADriveIsAndWhatProtectsIt) {
   EXPECT_THAT(transport_->identity(1).protected_by, HasSubstr("watchdog of 0.2 s"));
 }
 
+// Set_Prm brings no watchdog then: nothing of this bus stops the drive. The watchdog a driver left behind still runs out.
+TEST_F(OnASegment, WhoServesParametersOnlyProtectsNothing) {
+  parameters_only_ = true;
+  open();
+  EXPECT_EQ("", transport_->identity(0).protected_by);
+  EXPECT_DOUBLE_EQ(0.2, transport_->identity(0).protection_time);
+}
+
 // After close() nothing is on the line any more.
 TEST_F(OnASegment, CloseEndsTheExchange) {
   bringUp();
