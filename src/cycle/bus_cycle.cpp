@@ -351,6 +351,11 @@ void BusCycle::tellChanges(Instant now) noexcept {
     enabled.text = "the base is enabled";
     ports_.tell(enabled);
   }
+  if (const auto why = supervisor_.takeAutoEnableFailure()) {
+    BusEvent failed{true, {}};
+    failed.text.format("auto_enable has enabled nobody, and does not try again: %s", why->c_str());
+    ports_.tell(failed);
+  }
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     const drive::DriveReport& report = drives_[i].report();
     if (!supervisor_.inBase(i) && drive::isEnabled(report.phase) && !snapshot_.drives[i].enabled) {

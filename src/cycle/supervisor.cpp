@@ -261,7 +261,9 @@ void Supervisor::autoEnable(const CommandState& commands, Instant now) noexcept 
   }
   if (!auto_enable_ || !commands.quiet || shutting_down_) return;
   for (const drive::Drive& drive : drives_) {
-    if (drive.enableRefusal() != Refusal::kNone) return;
+    // Idle it is sent OFF1, which leads out of "switch-on disabled": one that stays there is held, by a safe stop or without mains.
+    const bool held = drive.report().state == profile::DriveState::kSwitchOnDisabled;
+    if (held || drive.enableRefusal() != Refusal::kNone) return;
   }
   Request request;
   request.kind = RequestKind::kEnable;
@@ -290,10 +292,16 @@ bool Supervisor::follow(Job& job, const CommandState& commands, Instant now) noe
   if (!job.begun) return followWaiting(job, commands, now);
   if (job.request.kind == RequestKind::kEnable ? followEnable(job, now) : followStop(job, now)) return true;
   if (now < job.deadline) return false;
-  completions_.answer(job.request, false, unsettled(job.request));
+  endUndone(job.request, unsettled(job.request));
   // Told that it failed, its asker must not see it succeed later.
   takeBack(job.to_enable, now);
   return true;
+}
+
+// Of auto_enable nobody waits for the answer.
+void Supervisor::endUndone(const Request& request, const Sentence& why) noexcept {
+  completions_.answer(request, false, why);
+  if (request.id == 0 && request.kind == RequestKind::kEnable) auto_enable_failure_ = why;
 }
 
 bool Supervisor::followEnable(const Job& job, Instant now) noexcept {
@@ -310,8 +318,7 @@ bool Supervisor::followEnable(const Job& job, Instant now) noexcept {
     all = false;
     if (report.phase == GroupPhase::kEnabling) continue;
     takeBack(job.to_enable, now);
-    completions_.answer(job.request, false,
-                        report.refusal.accepted() ? Sentence{kDisabledAgain} : refusalOf(group, report.refusal));
+    endUndone(job.request, report.refusal.accepted() ? Sentence{kDisabledAgain} : refusalOf(group, report.refusal));
     return true;
   }
   if (all) completions_.answer(job.request, true, job.enabled_at ? "already enabled" : "enabled");

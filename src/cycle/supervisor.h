@@ -4,6 +4,7 @@
 #include <bitset>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cycle/command_watch.h"
@@ -46,6 +47,8 @@ class Supervisor {
   bool settled() const noexcept;
   /// Why the base stands still against its user's will; empty when it does not.
   Sentence baseStopSentence() const noexcept;
+  /// Why an enabling by auto_enable ended without success, once.
+  std::optional<Sentence> takeAutoEnableFailure() noexcept { return std::exchange(auto_enable_failure_, std::nullopt); }
 
  private:
   struct Group {
@@ -83,6 +86,7 @@ class Supervisor {
   bool follow(Job& job, const CommandState& commands, Instant now) noexcept;
   bool followWaiting(Job& job, const CommandState& commands, Instant now) noexcept;
   bool followEnable(const Job& job, Instant now) noexcept;
+  void endUndone(const Request& request, const Sentence& why) noexcept;
   bool followStop(const Job& job, Instant now) noexcept;
   void takeBack(const Groups& begun, Instant now) noexcept;
   Sentence refusalOf(const Group& group, const drive::GroupRefusal& refusal) const noexcept;
@@ -99,6 +103,7 @@ class Supervisor {
   std::vector<drive::Refusal> refusals_;  // one per drive, filled anew for each sentence
   bool has_base_ = false;
   bool auto_enable_;
+  std::optional<Sentence> auto_enable_failure_;
   const StartAcknowledge* start_;
   CommandWatch* watch_;
   bool shutting_down_ = false;

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "cycle/cycle_bench.h"
 
 namespace nord_driver::cycle {
@@ -44,6 +48,20 @@ TEST_F(FirstCommand, AutoEnableNeverStartsUnderACommanderThatIsTalkingAlready) {
     EXPECT_TRUE(robot.snapshot().base.enabled) << "it has been quiet for cmd_vel_timeout";
     EXPECT_FALSE(everMoved(robot));
   }
+}
+
+// An enabling that nobody has asked for is answered to nobody: the log tells why there was none.
+TEST_F(FirstCommand, AutoEnableThatEnablesNobodySaysWhy) {
+  CycleBench robot{config(seconds(0.5)), true};
+  robot.transport.inverters[CycleBench::kLift].stuck = true;
+  robot.run(1000);
+  EXPECT_FALSE(robot.snapshot().base.enabled);
+  const std::vector<std::string> told = robot.events();
+  EXPECT_EQ(1, std::count_if(told.begin(), told.end(), [](const std::string& line) {
+              return line.find(
+                         "warning: auto_enable has enabled nobody, and does not try again: drive lift: the inverter "
+                         "did not reach \"operation enabled\" in time") == 0;
+            }));
 }
 
 // Refused, it has not begun anything: what is to happen once by itself is still to come.

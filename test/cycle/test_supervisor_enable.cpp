@@ -256,6 +256,33 @@ TEST_F(AutoEnable, ActsWhenTheLastDriveHasBecomeReady) {
   EXPECT_TRUE(allEnabled());
 }
 
+// The emergency stop is pressed while the robot starts: nobody is enabled beside who is held, and all are when it is released.
+TEST_F(AutoEnable, WaitsForADriveThatIsHeldInSwitchOnDisabled) {
+  inverters[kRight].held = true;
+  for (int i = 0; i < 500; ++i) {
+    step();
+    ASSERT_TRUE(noneRuns());
+  }
+  EXPECT_FALSE(supervisor.takeAutoEnableFailure());
+  inverters[kRight].held = false;
+  run(20);
+  EXPECT_TRUE(allEnabled());
+}
+
+// Nobody waits for its answer: it is told by itself, and once.
+TEST_F(AutoEnable, SaysWhyItEnabledNobody) {
+  inverters[kLift].stuck = true;
+  run(60);
+  EXPECT_TRUE(noneRuns());
+  const auto why = supervisor.takeAutoEnableFailure();
+  ASSERT_TRUE(why);
+  EXPECT_THAT(why->c_str(), HasSubstr("drive lift"));
+  EXPECT_THAT(why->c_str(), HasSubstr("did not reach \"operation enabled\" in time"));
+  EXPECT_FALSE(supervisor.takeAutoEnableFailure());
+  ask(RequestKind::kEnable);
+  EXPECT_FALSE(supervisor.takeAutoEnableFailure()) << "whoever asked has the answer";
+}
+
 TEST_F(AutoEnable, WaitsWhileACommandMoves) {
   moving = "the newest cmd_vel is not zero";
   run(20);

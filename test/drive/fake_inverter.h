@@ -15,6 +15,7 @@ class FakeInverter {
   bool fault = false;
   bool cause = false;  ///< of the fault, still there: no acknowledging
   bool local = false;
+  bool held = false;           ///< never leaves "switch-on disabled": a safe stop, or no mains
   bool stuck = false;          ///< never leaves "ready to switch on" upwards
   bool endless = false;        ///< never comes down from an OFF1 ramp
   std::int16_t ramp = 0x0400;  ///< per cycle
@@ -86,7 +87,7 @@ class FakeInverter {
       low_ = running && frequency_ != 0 ? 0x17 : 0x70;
     } else if ((word & 0x01) == 0) {
       if (running && !endless) rampTo(0, ramp);
-      if (!running || frequency_ == 0) low_ = 0x31;
+      if ((!running || frequency_ == 0) && !(held && low_ == 0x70)) low_ = 0x31;
     } else if ((word & 0x7F) == 0x7F) {
       if (low_ == 0x33) {
         low_ = 0x37;
