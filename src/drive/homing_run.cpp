@@ -1,12 +1,15 @@
 #include "drive/homing_run.h"
 
+#include <algorithm>
+
 namespace nord_driver::drive {
 
-void HomingRun::start(Instant now, Duration timeout) noexcept {
+void HomingRun::start(Instant now, Duration timeout, Duration window) noexcept {
   running_ = true;
   settled_ = false;
   begun_ = false;
   quiet_since_.reset();
+  quiet_ = std::max(kQuiet, window);
   until_ = now + timeout;
 }
 
@@ -19,7 +22,7 @@ HomingRun::Outcome HomingRun::handleView(const HomingView& view, Instant now) no
   if (quiet && !quiet_since_) quiet_since_ = now;
   Outcome outcome = Outcome::kGoesOn;
   if (now >= until_) outcome = Outcome::kTimedOut;
-  if (quiet && now - *quiet_since_ >= kQuiet) outcome = Outcome::kDone;
+  if (quiet && now - *quiet_since_ >= quiet_) outcome = Outcome::kDone;
   if (outcome != Outcome::kGoesOn) running_ = false;
   return outcome;
 }

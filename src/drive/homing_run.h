@@ -18,12 +18,13 @@ struct HomingView {
 
 /// How a reference run ends is in the manuals of POSICON (BU 0510, BU 0710), not at hand. Here: it has begun when the
 /// drive turned, or its status bit 8 fell, and is over when bit 8 is high again and the shaft has stood still for
-/// kQuiet, with the bit that says "referenced" high where there is one.
+/// kQuiet, or for as long as its speed is told over, with the bit that says "referenced" high where there is one.
 class HomingRun {
  public:
   static constexpr Duration kQuiet = std::chrono::milliseconds{200};
 
-  void start(Instant now, Duration timeout) noexcept;
+  /// `window`: what `still` is told over; a longer one than kQuiet takes its place.
+  void start(Instant now, Duration timeout, Duration window = Duration{0}) noexcept;
   void end() noexcept { running_ = false; }
   /// The bit that asks for it is high.
   bool isRunning() const noexcept { return running_; }
@@ -37,6 +38,7 @@ class HomingRun {
   bool settled_ = false;  // it has been seen where it was held: what was before the run is over
   bool begun_ = false;
   std::optional<Instant> quiet_since_;
+  Duration quiet_ = kQuiet;
   Instant until_{};
 };
 

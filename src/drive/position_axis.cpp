@@ -96,7 +96,8 @@ void PositionAxis::follow(bool moves) noexcept {
 
 void PositionAxis::startHoming(Instant now) noexcept {
   homed_ = false;
-  homing_.start(now, config_.homing_timeout);
+  const Duration window = words(set_).speed_actual ? Duration{0} : reader_.speedWindow();
+  homing_.start(now, config_.homing_timeout, window);
 }
 
 void PositionAxis::endHoming() noexcept {

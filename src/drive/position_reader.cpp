@@ -1,5 +1,6 @@
 #include "drive/position_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
@@ -16,7 +17,8 @@ constexpr double kSlack = 20.0;  // steps
 constexpr double kMost = 32'768.0;
 // A first value and those that agree with it.
 constexpr Duration kFirst = std::chrono::milliseconds{20};
-constexpr Duration kSpeedWindow = std::chrono::milliseconds{40};
+// What the motor can do at most in a window: one of them is the 1 % that counts as standstill, with a little to spare.
+constexpr double kStepsInWindow = 102.0;
 
 bool isPossible(std::int64_t from, std::int64_t to, double max_speed, Duration dt) noexcept {
   const double allowed = max_speed * kMargin * (toSeconds(dt) + kLag) + kSlack;
@@ -29,6 +31,11 @@ std::int64_t continued(std::int64_t last, std::int32_t word) noexcept {
   const auto difference =
       static_cast<std::uint16_t>(static_cast<std::uint64_t>(word) - static_cast<std::uint64_t>(last));
   return last + static_cast<std::int16_t>(difference);
+}
+
+Duration windowFor(double max_speed) noexcept {
+  const Duration fine = seconds(std::min(kStepsInWindow / max_speed, toSeconds(PositionReader::kLongestWindow)));
+  return std::max(fine, PositionReader::kShortestWindow);
 }
 
 }  // namespace
@@ -44,6 +51,7 @@ void PositionReader::handleValues(const profile::PositionField& field, const pro
                                   double max_speed, Instant now) noexcept {
   jumped_ = false;
   if (!field.carried()) return handleGap();
+  window_ = windowFor(max_speed);
   const std::int32_t word = profile::getPosition(field, words);
   const double unseen = toSeconds(now - std::exchange(seen_, now));
   const std::int64_t value = field.bits == 16 && continued_ ? continued(steps_, word) : word;
@@ -60,8 +68,7 @@ void PositionReader::handleValues(const profile::PositionField& field, const pro
 void PositionReader::handleNewZero(const profile::PositionField& field) noexcept {
   if (!known_) return;
   if (field.bits == 16) steps_ = static_cast<std::int16_t>(static_cast<std::uint64_t>(steps_));
-  speed_ = 0.0;
-  speed_from_ = {steps_, at_, at_};
+  measureFrom(steps_, at_);
 }
 
 bool PositionReader::goesOnFromDoubtful(std::int64_t steps, double max_speed, Instant now) const noexcept {
@@ -75,8 +82,7 @@ void PositionReader::doubt(std::int64_t steps, double max_speed, Instant now) no
   if (now - doubtful_->since < (known_ ? kConfirm : kFirst)) return;
   jumped_ = known_;
   known_ = true;
-  speed_ = 0.0;
-  speed_from_ = {steps, now, now};
+  measureFrom(steps, now);
   believe(steps, now);
 }
 
@@ -85,9 +91,24 @@ void PositionReader::believe(std::int64_t steps, Instant now) noexcept {
   steps_ = steps;
   continued_ = true;
   at_ = now;
-  if (now - speed_from_.at < kSpeedWindow) return;
-  speed_ = static_cast<double>(steps - speed_from_.steps) / toSeconds(now - speed_from_.at);
-  speed_from_ = {steps, now, now};
+  if (now - samples_.front().at >= kShortestWindow) measure();
+}
+
+void PositionReader::measureFrom(std::int64_t steps, Instant at) noexcept {
+  speed_ = 0.0;
+  samples_.fill({steps, at});
+}
+
+// Before a whole window has passed a step may be a flicker; more than one is a motion already.
+void PositionReader::measure() noexcept {
+  const auto whole = std::find_if(samples_.begin(), samples_.end(),
+                                  [this](const Sample& sample) { return at_ - sample.at >= window_; });
+  const Sample& from = whole != samples_.end() ? *whole : samples_.back();
+  const std::int64_t distance = steps_ - from.steps;
+  const bool told = whole != samples_.end() || std::abs(distance) > 1;
+  speed_ = told ? static_cast<double>(distance) / toSeconds(at_ - from.at) : 0.0;
+  std::move_backward(samples_.begin(), samples_.end() - 1, samples_.end());
+  samples_.front() = {steps_, at_};
 }
 
 }  // namespace nord_driver::drive

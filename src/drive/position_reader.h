@@ -1,6 +1,8 @@
 // The position a drive tells in its actual values, as one count without jumps.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -17,6 +19,8 @@ namespace nord_driver::drive {
 class PositionReader {
  public:
   static constexpr Duration kConfirm = std::chrono::milliseconds{100};
+  static constexpr Duration kShortestWindow = std::chrono::milliseconds{40};
+  static constexpr Duration kLongestWindow = std::chrono::milliseconds{500};
 
   /// With every fresh telegram. `max_speed`: steps/s, the most the motor can do.
   void handleValues(const profile::PositionField& field, const profile::ProcessValues& words, double max_speed,
@@ -32,8 +36,11 @@ class PositionReader {
   bool isKnown() const noexcept { return known_; }
   /// Steps; the last one believed.
   std::int64_t steps() const noexcept { return steps_; }
-  /// Steps/s, over kSpeedWindow.
+  /// Steps/s, over speedWindow(), told anew every kShortestWindow.
   double speed() const noexcept { return speed_; }
+  /// 40 to 500 ms: long enough that one step in it, an encoder that flickers at rest, is no more than 1 % of the most
+  /// the motor can do. Where that is less than 200 steps/s, it is more all the same.
+  Duration speedWindow() const noexcept { return window_; }
   /// The newest value is held back.
   bool isHeldBack() const noexcept { return doubtful_.has_value(); }
   /// A value beyond what the speed allows has just been believed.
@@ -46,6 +53,15 @@ class PositionReader {
     Instant since{};  // of the doubt
   };
 
+  struct Sample {
+    std::int64_t steps = 0;
+    Instant at{};
+  };
+  // At least kShortestWindow apart, they go back kLongestWindow.
+  static constexpr std::size_t kSamples = (kLongestWindow + kShortestWindow - Duration{1}) / kShortestWindow;
+
+  void measureFrom(std::int64_t steps, Instant at) noexcept;
+  void measure() noexcept;
   void believe(std::int64_t steps, Instant now) noexcept;
   void doubt(std::int64_t steps, double max_speed, Instant now) noexcept;
   bool goesOnFromDoubtful(std::int64_t steps, double max_speed, Instant now) const noexcept;
@@ -57,7 +73,8 @@ class PositionReader {
   Instant at_{};
   Instant seen_{};  // the last telegram
   double speed_ = 0.0;
-  Value speed_from_;
+  Duration window_ = kShortestWindow;
+  std::array<Sample, kSamples> samples_{};  // the newest first
   std::optional<Value> doubtful_;
 };
 

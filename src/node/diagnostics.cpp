@@ -124,8 +124,8 @@ void Diagnostics::warn(std::size_t index, const ProtectionReport& protection, Di
     status.mergeSummary(DiagnosticStatus::WARN, "its newest position cannot be: the one before is told");
   }
   if (drive.direction_contradiction) {
-    status.mergeSummary(DiagnosticStatus::WARN,
-                        "actual value 1 and the direction bits of the status word contradict each other");
+    status.mergeSummaryf(DiagnosticStatus::WARN, "%s and the direction bits of the status word contradict each other",
+                         drive.position ? "its speed" : "actual value 1");
   }
   if (drive.owes_eeprom_switch) {
     status.mergeSummary(DiagnosticStatus::WARN,

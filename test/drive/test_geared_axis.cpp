@@ -31,13 +31,22 @@ class GearedAxis : public ::testing::Test {
     result.position = position;
     return result;
   }
+  GearedAxis() { withFrequency(); }
   /// All three words: frequency, low word, high word.
-  GearedAxis() {
+  void withFrequency() {
     drive_.setPositionWords(1, profile::positionWords(profile::Series::kSk5xxe, {1, 21, 22}, {1, 10, 15}, 3));
+    first_ = 1;
   }
   void withoutFrequency() {
     drive_.setPositionWords(1, profile::positionWords(profile::Series::kSk5xxe, {21, 22, 0}, {10, 15, 0}, 2));
     first_ = 0;
+  }
+  /// Without a frequency, and with an encoder that turns once while the motor turns so many times.
+  void makeCoarse(double turns) {
+    DriveConfig coarse = config();
+    coarse.position->revolutions_per_motor_turn = 1.0 / turns;
+    drive_ = Drive{coarse};
+    withoutFrequency();
   }
   void cycle(Word status_word, std::int32_t steps) {
     sent_ = drive_.pollOutput(now_);
@@ -59,6 +68,16 @@ class GearedAxis : public ::testing::Test {
     cycle(0x0B31, steps);
     cycle(0x0B37, steps);
     ASSERT_EQ(Phase::kEnabled, report().phase);
+  }
+  /// Of a reference run, from the end of its search to its own.
+  int cyclesOfQuiet() {
+    enable(600);
+    drive_.requestHoming(now_, 1);
+    for (int i = 0; i < 60; ++i) cycle(0x0B37, 600);
+    cycle(0x0A37, 600);
+    int cycles = 0;
+    for (; cycles < 100 && report().homing.state == RequestState::kRunning; ++cycles) cycle(0x0B37, 600);
+    return report().homing.state == RequestState::kDone ? cycles : 0;
   }
   std::int32_t target() const {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(toWord(sent_.setpoints[first_ + 1])) << 16 |
@@ -135,6 +154,40 @@ TEST_F(GearedAxis, DoesNotStrayOnTheWayToATarget) {
     ASSERT_EQ(Phase::kEnabled, report().phase) << at;
   }
   EXPECT_EQ(StopCause::kNone, report().stop_cause);
+}
+
+// The encoder turns once while the motor turns 50 times: 500 steps a second at P105, 5 % for each step in 40 ms.
+TEST_F(GearedAxis, ACoarseCountThatFlickersStands) {
+  makeCoarse(50.0);
+  for (const int period : {1, 3, 5, 30}) {
+    for (int i = 0; i < 300; ++i) {
+      cycle(0x0B31, 600 + i / period % 2);
+      ASSERT_TRUE(drive_.isNearStandstill()) << period << ", " << i;
+      ASSERT_FALSE(report().direction_contradiction) << period << ", " << i;
+    }
+  }
+}
+
+TEST_F(GearedAxis, ACoarseCountThatFlickersBeginsNoReferenceRun) {
+  makeCoarse(50.0);
+  enable(600);
+  drive_.requestHoming(now_, 1);
+  for (int i = 0; i < 300; ++i) {
+    cycle(0x0B37, 600 + i / 30 % 2);
+    ASSERT_EQ(RequestState::kRunning, report().homing.state) << i;
+  }
+}
+
+// What its speed is told over is half a second: it has to be quiet for as long.
+TEST_F(GearedAxis, AReferenceRunOfACoarseCountIsQuietForAWindow) {
+  makeCoarse(125.0);
+  EXPECT_EQ(51, cyclesOfQuiet());
+}
+
+TEST_F(GearedAxis, AReferenceRunIsQuietFor200MsWhereAWordTellsItsSpeed) {
+  makeCoarse(125.0);
+  withFrequency();
+  EXPECT_EQ(21, cyclesOfQuiet());
 }
 
 TEST_F(GearedAxis, TellsWhichTargetItRefused) {

@@ -42,6 +42,16 @@ TEST_F(HomingRunTest, IsOverWhenItHasTurnedAndStoodStillForATime) {
   EXPECT_FALSE(run_.isRunning());
 }
 
+// A speed told over more than 200 ms: a shaft that turned to and fro in this time would look still.
+TEST_F(HomingRunTest, StandsStillForAsLongAsItsSpeedIsToldOver) {
+  run_.start(now_, seconds(1.0), std::chrono::milliseconds{400});
+  see(kMoves);
+  EXPECT_EQ(41, cyclesUntilDone(kHeld));
+  run_.start(now_, seconds(1.0), std::chrono::milliseconds{40});
+  see(kMoves);
+  EXPECT_EQ(21, cyclesUntilDone(kHeld));
+}
+
 TEST_F(HomingRunTest, BeginsWithABit8ThatFallsAlsoWhereNothingTurned) {
   start();
   see(kHeld);

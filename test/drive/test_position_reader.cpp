@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <random>
 
@@ -26,10 +27,10 @@ ProcessValues wordsOf(std::int64_t steps) {
 
 class Reading {
  public:
-  explicit Reading(const PositionField& field) : field_(field) {}
+  explicit Reading(const PositionField& field, double max_speed = kMaxSpeed) : field_(field), max_speed_(max_speed) {}
   void see(const ProcessValues& words) {
     now_ += kCycle;
-    reader.handleValues(field_, words, kMaxSpeed, now_);
+    reader.handleValues(field_, words, max_speed_, now_);
   }
   void see(std::int64_t steps) { see(wordsOf(steps)); }
   void settle(std::int64_t steps) {
@@ -40,6 +41,7 @@ class Reading {
 
  private:
   PositionField field_;
+  double max_speed_;
   Instant now_{};
 };
 
@@ -250,6 +252,48 @@ TEST(PositionReader, TellsASpeed) {
   EXPECT_NEAR(10'000.0, reading.reader.speed(), 1.0);
   for (int i = 0; i < 10; ++i) reading.see(2000);
   EXPECT_EQ(0.0, reading.reader.speed());
+}
+
+// One step in 40 ms is 25 steps a second: 5 % of 500.
+TEST(PositionReader, AStepToAndFroIsNoMotionOfACoarseCount) {
+  for (const double max_speed : {200.0, 500.0, 1999.0}) {
+    for (const int period : {1, 3, 5, 30}) {
+      Reading reading{kWide, max_speed};
+      for (int i = 0; i < 300; ++i) {
+        reading.see(7 + i / period % 2);
+        ASSERT_LE(std::fabs(reading.reader.speed()), 0.01 * max_speed) << max_speed << ", " << period << ", " << i;
+      }
+    }
+  }
+}
+
+// 20 steps a second of 500.
+TEST(PositionReader, TellsACreepOfACoarseCount) {
+  Reading reading{kWide, 500.0};
+  for (int i = 0; i < 300; ++i) {
+    reading.see(i / 5);
+    if (i >= 40) {
+      ASSERT_NEAR(20.0, reading.reader.speed(), 5.0) << i;
+    }
+  }
+}
+
+// The time of a whole window is not waited for where the count goes on by more than a step.
+TEST(PositionReader, TellsAFastMotionOfACoarseCountAtOnce) {
+  Reading reading{kWide, 500.0};
+  for (int i = 0; i < 8; ++i) reading.see(5 * i);
+  EXPECT_NEAR(500.0, reading.reader.speed(), 1.0);
+}
+
+// Above 2550 steps a second a step is less than 1 % in 40 ms.
+TEST(PositionReader, TheSpeedOfAFineCountIsThatOf40Ms) {
+  Reading reading{kWide, 2560.0};
+  reading.settle(0);
+  for (int i = 0; i < 60; ++i) reading.see(10 * i);
+  EXPECT_NEAR(1000.0, reading.reader.speed(), 1.0);
+  for (int i = 0; i < 8; ++i) reading.see(600);
+  EXPECT_EQ(0.0, reading.reader.speed());
+  EXPECT_EQ(PositionReader::kShortestWindow, reading.reader.speedWindow());
 }
 
 // What a count that begins anew has jumped by was no motion: until a window has passed there is no speed, not that of before.
