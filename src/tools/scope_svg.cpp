@@ -160,7 +160,7 @@ class Drawing {
     return kBottom - (value - axis.low) / (axis.high - axis.low) * (kBottom - kTop);
   }
 
-  double scaled(std::int16_t word, const std::optional<double>& max_frequency) const {
+  static double scaled(std::int16_t word, const std::optional<double>& max_frequency) {
     return max_frequency.value_or(100.0) * word / profile::kHundredPercent;
   }
   std::string unit(bool is_frequency) const {
