@@ -20,6 +20,7 @@ struct DriveDescription {
   profile::Series series = profile::Series::kSk5xxe;
   DriveIdentity identity;
   catalogue::DriveCatalogue known;
+  bool positions = false;  ///< `mode: position`: its first words may be no frequencies
 };
 
 struct NodeQuery {

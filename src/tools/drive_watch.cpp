@@ -2,6 +2,7 @@
 
 #include "profile/scaling.h"
 #include "profile/status_word.h"
+#include "tools/first_words.h"
 
 namespace nord_driver::tools {
 
@@ -18,11 +19,11 @@ std::vector<const catalogue::DriveCatalogue*> knownOf(const ParameterLink& link)
 }  // namespace
 
 DriveWatch::DriveWatch(ParameterLink& link, const std::vector<std::string>& parameters)
-    : link_(link), list_(parameters, knownOf(link)), max_frequency_(link.driveCount()) {}
+    : link_(link), list_(parameters, knownOf(link)), scales_(link.driveCount()) {}
 
 std::vector<WatchedDrive> DriveWatch::look() {
   std::vector<WatchedDrive> seen;
-  for (DriveIndex i = 0; i < max_frequency_.size(); ++i) seen.push_back(look(i));
+  for (DriveIndex i = 0; i < scales_.size(); ++i) seen.push_back(look(i));
   return seen;
 }
 
@@ -53,15 +54,27 @@ WatchedDrive DriveWatch::look(DriveIndex drive) {
 }
 
 std::optional<double> DriveWatch::maxFrequency(DriveIndex drive, std::uint8_t set) {
-  auto& known = max_frequency_[drive];
+  auto& known = scales_[drive];
   if (set == 0 || set >= known.size() || link_.identity(drive).process_values == 0) return std::nullopt;
-  if (known[set] || !link_.snapshot(drive).online) return known[set];
+  if (!isFrequency(drive, set)) return std::nullopt;
+  auto& max_frequency = known[set].max_frequency;
+  if (max_frequency || !link_.snapshot(drive).online) return max_frequency;
   catalogue::ParameterAddress address;
   address.number = kMaxFrequency;
   address.parameter_set = set;
   const ParameterAnswer answer = link_.read(drive, address);
-  if (answer.success) known[set] = answer.value;
-  return known[set];
+  if (answer.success) max_frequency = answer.value;
+  return max_frequency;
+}
+
+bool DriveWatch::isFrequency(DriveIndex drive, std::uint8_t set) {
+  if (!link_.positions(drive)) return true;
+  auto& known = scales_[drive][set].is_frequency;
+  if (known || !link_.snapshot(drive).online) return known.value_or(false);
+  const profile::Series series = link_.known(drive).series();
+  const ParameterAnswer answer = link_.read(drive, firstWordFunction(series, true, set));
+  if (answer.success) known = saysFrequency(answer, series, true);
+  return known.value_or(false);
 }
 
 std::string DriveWatch::faultOf(DriveIndex drive) {

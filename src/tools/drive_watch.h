@@ -25,12 +25,20 @@ class DriveWatch {
 
  private:
   WatchedDrive look(DriveIndex drive);
+  /// What of one parameter set has been read.
+  struct Scale {
+    std::optional<double> max_frequency;  // Hz, P105
+    std::optional<bool> is_frequency;     // actual value 1 by P543, of a drive that positions
+  };
+
+  /// Hz, 100 % of actual value 1; nothing: not known, or it is no frequency.
   std::optional<double> maxFrequency(DriveIndex drive, std::uint8_t set);
+  bool isFrequency(DriveIndex drive, std::uint8_t set);
   std::string faultOf(DriveIndex drive);
 
   ParameterLink& link_;
   WatchList list_;
-  std::vector<std::array<std::optional<double>, 5>> max_frequency_;  // Hz, by drive and parameter set
+  std::vector<std::array<Scale, 5>> scales_;  // by drive and parameter set
 };
 
 }  // namespace nord_driver::tools

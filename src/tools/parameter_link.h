@@ -60,6 +60,8 @@ class ParameterLink final : public DriveParameters {
   const std::string& name(DriveIndex drive) const noexcept { return config_.cycle.drives[drive].name; }
   DriveIdentity identity(DriveIndex drive) const { return transport_.identity(drive); }
   const catalogue::DriveCatalogue& known(DriveIndex drive) const noexcept { return known_[drive]; }
+  /// `mode: position`: its first words may be no frequencies.
+  bool positions(DriveIndex drive) const noexcept { return config_.cycle.drives[drive].position.has_value(); }
   /// Of the last cycle; the reference holds until the next one.
   const cycle::DriveSnapshot& snapshot(DriveIndex drive) noexcept { return ports_.readSnapshot().drives[drive]; }
   /// Why nothing comes from it, a clause; may be empty.

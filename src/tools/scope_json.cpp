@@ -30,8 +30,8 @@ std::string scopeJson(const ScopeRecord& record) {
     for (std::size_t i = 0; i < 3; ++i) json.key("SW" + std::to_string(i + 1)).whole(sample.output.setpoints[i]);
     json.key("ZSW").text(hexText(sample.input.status_word));
     for (std::size_t i = 0; i < 3; ++i) json.key("IW" + std::to_string(i + 1)).whole(sample.input.actual_values[i]);
-    addFrequency(json, "setpoint_Hz", sample.output.setpoints[0], record.max_frequency);
-    addFrequency(json, "frequency_Hz", sample.input.actual_values[0], record.max_frequency);
+    addFrequency(json, "setpoint_Hz", sample.output.setpoints[0], record.setpointScale());
+    addFrequency(json, "frequency_Hz", sample.input.actual_values[0], record.actualValueScale());
     text += json.end('}').str() + "\n";
   }
   return text;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr char kColumns[] = "time_s,answered,STW,SW1,SW2,SW3,ZSW,IW1,IW2,IW3,setpoint_Hz,frequency_Hz";
 constexpr char kDrive[] = "# drive: ", kMaxFrequency[] = "# P105: ", kCurrent[] = "# current: IW";
+constexpr char kNoSetpoint[] = "# no frequency: SW1", kNoActualValue[] = "# no frequency: IW1";
 
 std::string frequencyText(std::int16_t word, const std::optional<double>& max_frequency) {
   if (!max_frequency) return "";
@@ -96,6 +97,8 @@ std::string scopeCsv(const ScopeRecord& record) {
     text += line;
   }
   if (record.current_word > 0) text += kCurrent + std::to_string(record.current_word) + "\n";
+  if (!record.setpoint_is_frequency) text += kNoSetpoint + std::string("\n");
+  if (!record.actual_value_is_frequency) text += kNoActualValue + std::string("\n");
   text += "# STW, ZSW: control and status word; SW, IW: setpoints and actual values, 16384 = 100 %\n";
   text += kColumns + std::string("\n");
   for (const ScopeSample& sample : record.samples) {
@@ -104,8 +107,8 @@ std::string scopeCsv(const ScopeRecord& record) {
     std::snprintf(line, sizeof line, "%.6f,%d,%04X,%d,%d,%d,%04X,%d,%d,%d,%s,%s\n", sample.time,
                   sample.answered ? 1 : 0, static_cast<unsigned>(sample.output.control_word), sw[0], sw[1], sw[2],
                   static_cast<unsigned>(sample.input.status_word), iw[0], iw[1], iw[2],
-                  frequencyText(sw[0], record.max_frequency).c_str(),
-                  frequencyText(iw[0], record.max_frequency).c_str());
+                  frequencyText(sw[0], record.setpointScale()).c_str(),
+                  frequencyText(iw[0], record.actualValueScale()).c_str());
     text += line;
   }
   return text;
@@ -121,6 +124,8 @@ ScopeRecord readScopeCsv(const std::string& text) {
     if (startsWith(line, kMaxFrequency)) record.max_frequency = catalogue::decimalNumber(behind(line, kMaxFrequency));
     if (startsWith(line, kCurrent))
       record.current_word = static_cast<int>(catalogue::wholeNumber(behind(line, kCurrent)).value_or(0));
+    if (line == kNoSetpoint) record.setpoint_is_frequency = false;
+    if (line == kNoActualValue) record.actual_value_is_frequency = false;
     if (line.empty() || line[0] == '#' || line == kColumns) continue;
     record.samples.push_back(sampleOf(line, number));
   }

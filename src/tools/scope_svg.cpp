@@ -160,8 +160,12 @@ class Drawing {
     return kBottom - (value - axis.low) / (axis.high - axis.low) * (kBottom - kTop);
   }
 
-  double scaled(std::int16_t word) const {
-    return record_.max_frequency.value_or(100.0) * word / profile::kHundredPercent;
+  static double scaled(std::int16_t word, const std::optional<double>& max_frequency) {
+    return max_frequency.value_or(100.0) * word / profile::kHundredPercent;
+  }
+  std::string unit(bool is_frequency) const {
+    if (!is_frequency) return "%";
+    return record_.max_frequency ? "Hz" : "% of P105";
   }
 
   using Value = std::function<double(const ScopeSample&)>;
@@ -184,11 +188,15 @@ class Drawing {
   }
 
   void addCurves() {
-    const std::string unit = record_.max_frequency ? "Hz" : "% of P105";
-    add("setpoint 1, " + unit, "#a85b00", "6 4", false, true,
-        [this](const ScopeSample& sample) { return scaled(sample.output.setpoints[0]); });
-    add((record_.max_frequency ? "frequency, " : "actual value 1, ") + unit, "#1d5fa8", "", false, false,
-        [this](const ScopeSample& sample) { return scaled(sample.input.actual_values[0]); });
+    // What is no frequency goes to the axis of the other words, where one of the two is.
+    const bool setpoint = record_.setpoint_is_frequency, actual = record_.actual_value_is_frequency;
+    add("setpoint 1, " + unit(setpoint), "#a85b00", "6 4", !setpoint && actual, true,
+        [this](const ScopeSample& sample) { return scaled(sample.output.setpoints[0], record_.setpointScale()); });
+    add((record_.actualValueScale() ? "frequency, " : "actual value 1, ") + unit(actual), "#1d5fa8", "",
+        !actual && setpoint, false, [this](const ScopeSample& sample) {
+          return scaled(sample.input.actual_values[0], record_.actualValueScale());
+        });
+    has_right_ = setpoint != actual;
     left_ = range(false);
     static constexpr const char* kColours[2] = {"#b91c1c", "#6d3fa0"};
     for (std::size_t i = 1; i < 3; ++i) {
@@ -231,7 +239,7 @@ class Drawing {
     text_ += line(kLeft, y(0.0, false), kRight, y(0.0, false), kMuted);
     text_ += line(kLeft, kTop, kLeft, kBottom, kMuted) + line(kRight, kTop, kRight, kBottom, kMuted);
     text_ += label((kLeft + kRight) / 2, kBottom + 42, "time in s", "middle");
-    text_ += upright(24, record_.max_frequency ? "Hz" : "% of P105");
+    text_ += upright(24, unit(record_.setpoint_is_frequency || record_.actual_value_is_frequency));
     if (has_right_) text_ += upright(kWidth - 14, "%");
     text_ += label(kLeft, 30, "Drive " + record_.drive, "start", kInk, " font-weight=\"bold\"");
   }

@@ -18,7 +18,7 @@ struct WatchedDrive {
   profile::ProcessOutput output;    ///< as sent last
   profile::ProcessInput input;      ///< as received last
   std::uint8_t process_values = 1;  ///< 0 to 3 setpoints and actual values are carried
-  std::optional<double> frequency;  ///< Hz, of actual value 1; nothing: P105 is not known, or nothing is carried
+  std::optional<double> frequency;  ///< Hz, of actual value 1; nothing: P105 is not known, or it carries none
   std::string fault;                ///< "none", "E10.2 bus timeout"
   std::vector<std::string> values;  ///< of the parameters that were asked for, each with its unit, or why not
 };

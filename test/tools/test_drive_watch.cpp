@@ -98,6 +98,26 @@ TEST(DriveWatch, WaitsForAllOfThem) {
   EXPECT_EQ(0x0000, drives.right().counters().last_control);
 }
 
+// The lift positions: its actual value 1 is what P543 says, 1 the frequency and 10 a position. A wheel's P543 nobody asks.
+std::optional<double> frequencyOfLift(std::int32_t p543) {
+  YAML::Node file = LinkedDrive::file(2);
+  file["drives"]["left"] = YAML::Load(
+      "{address: 3, series: sk5xxe, ppo_type: 2, pole_pairs: 2, joint: lift_joint, mode: position, lead: 0.2}");
+  LinkedDrive drives{file, {{543, 0, 0, p543}}, true, 2, {"left", "right"}};
+  drives.connect();
+  DriveWatch watch{drives.link(), {}};
+  const std::vector<WatchedDrive> seen = watch.look();
+  EXPECT_TRUE(seen[0].online);
+  EXPECT_EQ(0.0, seen[1].frequency);
+  EXPECT_EQ(seen[0].frequency, watch.look()[0].frequency) << "asked once, and kept";
+  return seen[0].frequency;
+}
+
+TEST(DriveWatch, TakesNoPositionForAFrequency) {
+  EXPECT_EQ(0.0, frequencyOfLift(1));
+  EXPECT_EQ(std::nullopt, frequencyOfLift(10));
+}
+
 TEST(DriveWatch, RefusesAParameterThatCannotBe) {
   Both drives;
   EXPECT_THROW((DriveWatch{drives.link(), {"Maximum frequenzy"}}), UsageError);

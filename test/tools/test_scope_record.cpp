@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "tools/first_words.h"
+#include "tools/restore/scripted_drive.h"
 #include "tools/scope_record.h"
 #include "tools/usage_error.h"
 
@@ -63,6 +65,67 @@ TEST(ScopeJson, HasTheCyclesOfTheCsv) {
       scopeJson(record));
   record.max_frequency = 70.0;
   EXPECT_THAT(scopeJson(record), HasSubstr(R"("IW3": 0, "setpoint_Hz": 35, "frequency_Hz": -70})"));
+}
+
+// A word that is a position has no frequency, in no form and when it is read again; the other one keeps its own.
+TEST(ScopeRecord, HasNoFrequencyOfAPosition) {
+  ScopeRecord record;
+  record.drive = "lift";
+  record.max_frequency = 70.0;
+  ScopeSample sample;
+  sample.output = {0x047F, {8192, 0, 0}};
+  sample.input = {0x0B37, {-16384, 0, 0}};
+  record.samples = {sample};
+  record.actual_value_is_frequency = false;
+  EXPECT_THAT(scopeCsv(record), HasSubstr(",0B37,-16384,0,0,35.000,\n"));
+  EXPECT_THAT(scopeJson(record), HasSubstr(R"("IW3": 0, "setpoint_Hz": 35})"));
+  const ScopeRecord read = readScopeCsv(scopeCsv(record));
+  EXPECT_TRUE(read.setpoint_is_frequency);
+  EXPECT_FALSE(read.actual_value_is_frequency);
+
+  record.setpoint_is_frequency = false;
+  record.actual_value_is_frequency = true;
+  EXPECT_THAT(scopeCsv(record), HasSubstr(",0B37,-16384,0,0,,-70.000\n"));
+  EXPECT_THAT(scopeJson(record), HasSubstr(R"("IW3": 0, "frequency_Hz": -70})"));
+  EXPECT_FALSE(readScopeCsv(scopeCsv(record)).setpoint_is_frequency);
+  EXPECT_TRUE(readScopeCsv(scopeCsv(record)).actual_value_is_frequency);
+}
+
+// An SK 5xxE: 23 and 10 are positions, 1 is the frequency. What cannot be read may be a position.
+TEST(ScopeRecord, TakesFromTheDriveWhatItsFirstWordsAre) {
+  ScopeRecord record;
+  ScriptedDrive lift{{{"P543", 1}, {"P546", 23}}};
+  readFirstWords(lift, record);
+  EXPECT_FALSE(record.setpoint_is_frequency);
+  EXPECT_TRUE(record.actual_value_is_frequency);
+  ScriptedDrive other{{{"P543", 10}, {"P546", 1}}};
+  readFirstWords(other, record);
+  EXPECT_TRUE(record.setpoint_is_frequency);
+  EXPECT_FALSE(record.actual_value_is_frequency);
+  ScriptedDrive silent{{{"P546", 1}}};
+  readFirstWords(silent, record);
+  EXPECT_FALSE(record.actual_value_is_frequency);
+}
+
+// SK 2xxE has both in arrays, and the codes of SK 700E are others: 3 and 6 the position, 10 one in increments.
+TEST(FirstWords, AreAskedForAsTheSeriesHasThem) {
+  const auto array = firstWordFunction(profile::Series::kSk2xxe, true, 2);
+  EXPECT_EQ(543, array.number);
+  EXPECT_EQ(1, array.index);
+  EXPECT_EQ(2, array.parameter_set);
+  EXPECT_EQ(546, firstWordFunction(profile::Series::kSk2xxe, false, 0).number);
+  EXPECT_EQ(0, firstWordFunction(profile::Series::kSk700e, true, 0).index);
+  ParameterAnswer answer;
+  answer.success = true;
+  for (const int code : {6, 10, 0, 99}) {
+    answer.raw = code;
+    EXPECT_FALSE(saysFrequency(answer, profile::Series::kSk700e, true)) << code;
+  }
+  answer.raw = 3;
+  EXPECT_FALSE(saysFrequency(answer, profile::Series::kSk700e, false));
+  answer.raw = 1;
+  EXPECT_TRUE(saysFrequency(answer, profile::Series::kSk700e, true));
+  EXPECT_TRUE(saysFrequency(answer, profile::Series::kSk700e, false));
 }
 
 TEST(ScopeCsv, NamesALineThatIsNoCycle) {

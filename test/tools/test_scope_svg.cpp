@@ -52,6 +52,25 @@ TEST(ScopeSvg, NamesWhatItShows) {
   EXPECT_EQ(6u, count(picture, "<polyline")) << "three curves, and three in the legend";
 }
 
+// Its words are shares of nothing in Hz: beside a frequency they are drawn on the axis of the other words.
+TEST(ScopeSvg, NamesNoPositionAFrequency) {
+  ScopeRecord record = ramp(200);
+  record.max_frequency = 50.0;
+  record.actual_value_is_frequency = false;
+  const std::string one = scopeSvg(record);
+  EXPECT_THAT(one, HasSubstr(">setpoint 1, Hz<"));
+  EXPECT_THAT(one, HasSubstr(">actual value 1, %<"));
+  EXPECT_THAT(one, Not(HasSubstr(">frequency, Hz<")));
+  EXPECT_THAT(one, HasSubstr(">Hz<"));
+  EXPECT_THAT(one, HasSubstr(">%<"));
+  record.setpoint_is_frequency = false;
+  const std::string both = scopeSvg(record);
+  EXPECT_THAT(both, HasSubstr(">setpoint 1, %<"));
+  EXPECT_THAT(both, HasSubstr(">actual value 1, %<"));
+  EXPECT_THAT(both, Not(HasSubstr("Hz<")));
+  EXPECT_EQ(1u, count(both, ">%<")) << "one axis";
+}
+
 // What nobody answered is no line; the band says so.
 TEST(ScopeSvg, LeavesAGapWhereNobodyAnswered) {
   ScopeRecord record = ramp(300);

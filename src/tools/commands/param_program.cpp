@@ -173,7 +173,8 @@ DriveDescription ParamProgram::describe(const ToolConfig& config, const catalogu
   const DriveIdentity identity = transport().identity(index);
   return {drive.name, drive.series, identity,
           catalogue::driveCatalogue(catalogues, drive.series, shortTransportName(config.transport),
-                                    identity.timeout_owner == TimeoutOwner::kModule)};
+                                    identity.timeout_owner == TimeoutOwner::kModule),
+          drive.position.has_value()};
 }
 
 int ParamProgram::throughNode(const std::string& node, const ToolConfig& config,

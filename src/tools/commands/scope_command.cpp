@@ -7,6 +7,7 @@
 
 #include "tools/commands/commands.h"
 #include "tools/commands/parameter_words.h"
+#include "tools/first_words.h"
 #include "tools/scope_cycles.h"
 #include "tools/scope_observer.h"
 #include "tools/scope_svg.h"
@@ -92,10 +93,15 @@ class ScopeCommand final : public ParamCommand {
     return answer.success ? std::optional<double>{answer.value} : std::nullopt;
   }
 
+  void readScale(DriveParameters& drive, bool positions, ScopeRecord& record) const {
+    record.max_frequency = maxFrequency(drive);
+    if (positions) readFirstWords(drive, record);
+  }
+
   ScopeRecord record(ParameterLink& link, const std::atomic<bool>& end_asked) const {
     ScopeRecord record;
     record.drive = drive_;
-    record.max_frequency = maxFrequency(link);
+    readScale(link, link.positions(0), record);
     ScopeObserver observer{static_cast<std::size_t>(std::ceil(duration_.value / toSeconds(link.period()))) + 10};
     link.setObserver(&observer);
     link.exchangeUntil(link.now() + seconds(duration_.value), end_asked);
@@ -108,7 +114,8 @@ class ScopeCommand final : public ParamCommand {
   int recordThrough(const NodeWithDrives& node, const std::atomic<bool>& end_asked) const {
     ScopeRecord record;
     record.drive = drive_;
-    record.max_frequency = maxFrequency(*node.nodes.open(node.name, node.drives.front()));
+    const DriveDescription& described = node.drives.front();
+    readScale(*node.nodes.open(node.name, described), described.positions, record);
     ScopeCycles cycles{duration_.value};
     const auto feed = node.nodes.cyclesOf(node.name, drive_);
     std::string ended;
