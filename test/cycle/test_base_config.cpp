@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cycle/base_config.h"
+#include "cycle/wheels_of_a_base.h"
 #include "support/map_settings.h"
 
 namespace nord_driver::cycle {
@@ -19,20 +20,11 @@ using ::testing::IsEmpty;
 const JointNames kJoints{"left_wheel_joint", "right_wheel_joint", "lift_joint"};
 
 MapSettings robot() {
-  MapSettings settings{"~"};
-  settings.set("left_wheel", "left_wheel_joint").set("right_wheel", "right_wheel_joint");
-  settings.set("wheel_separation", 0.5).set("wheel_radius", 0.1);
-  return settings;
+  return wheelsOfABase("left_wheel_joint", "right_wheel_joint");
 }
 
-/// The sentence a configuration is refused with.
 std::string refusal(const MapSettings& settings) {
-  try {
-    readBaseConfig(settings, kJoints);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusalOfABase(settings, kJoints);
 }
 
 TEST(BaseConfig, FindsTheDrivesOfTheWheels) {

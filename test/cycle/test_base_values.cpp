@@ -4,6 +4,7 @@
 
 #include "cycle/base_config.h"
 #include "cycle/listening_settings.h"
+#include "cycle/wheels_of_a_base.h"
 #include "support/map_settings.h"
 
 namespace nord_driver::cycle {
@@ -15,19 +16,11 @@ using ::testing::HasSubstr;
 const JointNames kJoints{"left", "right", "third"};
 
 MapSettings robot() {
-  MapSettings settings{"~"};
-  settings.set("left_wheel", "left").set("right_wheel", "right");
-  settings.set("wheel_separation", 0.5).set("wheel_radius", 0.1);
-  return settings;
+  return wheelsOfABase("left", "right");
 }
 
 std::string refusal(const MapSettings& settings) {
-  try {
-    readBaseConfig(settings, kJoints);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusalOfABase(settings, kJoints);
 }
 
 TEST(BaseValues, HoldWhereNothingIsWritten) {

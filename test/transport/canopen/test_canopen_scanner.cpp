@@ -9,11 +9,14 @@
 #include "sim/canopen/can_config.h"
 #include "sim/canopen/simulated_can_bus.h"
 #include "support/map_settings.h"
+#include "transport/can/interrupted_bus.h"
 #include "transport/canopen/canopen.h"
 
 namespace nord_driver {
 namespace {
 
+using test::InterruptedBus;
+using test::Interruption;
 using test::MapSettings;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -143,36 +146,18 @@ TEST(CanopenScanner, EndsWhenAnotherMasterBegins) {
   EXPECT_EQ("another master began to work with the bus: 205h was seen; ended", troubleWith(begin, true));
 }
 
-/// An interface that stops to work at the third answer of a node, and works again after three frames it did not take, if
-/// `comes_back`.
-class InterruptedBus final : public sim::SimulatedCanBus {
- public:
-  InterruptedBus(bool bus_off, bool comes_back) : SimulatedCanBus(twoNodes(250'000)), comes_back_(comes_back) {
-    setTap([this, bus_off, answers = 0](const CanFrame& frame, Sender, Instant) mutable {
-      if ((frame.id & 0x780u) != 0x580 || ++answers != 3) return;
-      bus_off ? setBusOff() : setInterfaceUp(false);
-    });
-  }
-  link::CanSend send(const CanFrame& frame) noexcept override {
-    const link::CanSend result = SimulatedCanBus::send(frame);
-    if (result == link::CanSend::kFailed && ++failed_ == 3 && comes_back_) {
-      setInterfaceUp(true);
-      restart();
-    }
-    return result;
-  }
-
- private:
-  bool comes_back_;
-  unsigned failed_ = 0;
-};
+bool isAnswerOfANode(const CanFrame& frame, sim::TimedCanBus::Sender) {
+  return (frame.id & 0x780u) == 0x580;
+}
 
 // Who was not asked, or not heard, looks like one who is not there.
 TEST(CanopenScanner, AnInterfaceThatFailedOnTheWayIsNamedWithWhoWasFound) {
   for (const bool bus_off : {false, true}) {
     for (const bool comes_back : {false, true}) {
-      CanopenTransport transport{
-          [&](const link::CanSettings&) { return std::make_unique<InterruptedBus>(bus_off, comes_back); }};
+      CanopenTransport transport{[&](const link::CanSettings&) {
+        return std::make_unique<InterruptedBus<sim::SimulatedCanBus>>(
+            twoNodes(250'000), Interruption{3, bus_off, comes_back}, isAnswerOfANode);
+      }};
       const ScanReport report =
           transport.scan(MapSettings{"~bus/", {{"interface", std::string{"can0"}}, {"bit_rate", 250'000}}}, kNotAsked);
       EXPECT_THAT(report.trouble, HasSubstr(bus_off ? "the controller is bus-off" : "the interface is down"))

@@ -9,12 +9,15 @@
 #include "sim/devicenet/dn_config.h"
 #include "sim/devicenet/simulated_dn_bus.h"
 #include "support/map_settings.h"
+#include "transport/can/interrupted_bus.h"
 #include "transport/devicenet/devicenet.h"
 
 namespace nord_driver {
 namespace {
 
 using devicenet::Group2;
+using test::InterruptedBus;
+using test::Interruption;
 using test::MapSettings;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -112,40 +115,22 @@ TEST(DevicenetScanner, SaysThatTheInterfaceIsGone) {
   }
 }
 
-/// An interface that stops to work at answer number `last` over an explicit connection, and works again after three frames it
-/// did not take, if `comes_back`.
-class InterruptedBus final : public sim::SimulatedDnBus {
- public:
-  InterruptedBus(unsigned last, bool bus_off, bool comes_back) : SimulatedDnBus(twoModules()), comes_back_(comes_back) {
-    setTap([this, last, bus_off, answers = 0u](const CanFrame& frame, Sender sender, Instant) mutable {
-      const auto id = devicenet::readIdentifier(frame.id);
-      const bool answer =
-          sender == Sender::kNode && id && id->group == 2 && static_cast<Group2>(id->message) == Group2::kSlaveExplicit;
-      if (!answer || ++answers != last) return;
-      bus_off ? setBusOff() : setInterfaceUp(false);
-    });
-  }
-  link::CanSend send(const CanFrame& frame) noexcept override {
-    const link::CanSend result = SimulatedDnBus::send(frame);
-    if (result == link::CanSend::kFailed && ++failed_ == 3 && comes_back_) {
-      setInterfaceUp(true);
-      restart();
-    }
-    return result;
-  }
-
- private:
-  bool comes_back_;
-  unsigned failed_ = 0;
-};
+/// Over its explicit connection.
+bool isAnswerOfAModule(const CanFrame& frame, sim::TimedCanBus::Sender sender) {
+  const auto id = devicenet::readIdentifier(frame.id);
+  return sender == sim::TimedCanBus::Sender::kNode && id && id->group == 2 &&
+         static_cast<Group2>(id->message) == Group2::kSlaveExplicit;
+}
 
 // Who was not asked, or not heard, looks like one who is not there; and of a module that was found parameters are missing.
 TEST(DevicenetScanner, AnInterfaceThatFailedOnTheWayIsNamedWithWhoWasFound) {
   for (const unsigned last : {6u, 20u}) {
     for (const bool bus_off : {false, true}) {
       for (const bool comes_back : {false, true}) {
-        DeviceNetTransport transport{
-            [&](const link::CanSettings&) { return std::make_unique<InterruptedBus>(last, bus_off, comes_back); }};
+        DeviceNetTransport transport{[&](const link::CanSettings&) {
+          return std::make_unique<InterruptedBus<sim::SimulatedDnBus>>(
+              twoModules(), Interruption{last, bus_off, comes_back}, isAnswerOfAModule);
+        }};
         const ScanReport report = transport.scan(MapSettings{"~bus/", {{"interface", std::string{"can0"}}}}, kNotAsked);
         EXPECT_THAT(report.trouble, HasSubstr(bus_off ? "the controller is bus-off" : "the interface is down"))
             << last << comes_back;
