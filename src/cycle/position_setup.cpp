@@ -113,9 +113,9 @@ void refusePositionKeys(const Settings& drive) {
 
 void checkPositionCarried(const Settings& drive, const PositionSetup& setup, profile::Series series,
                           const DriveIdentity& identity) {
-  // A profile without parameter sets (CiA 402, DRIVECOM, AC drive) takes setpoint 1 for a share of P105, and tells it as
+  // A profile of others (CiA 402, DRIVECOM, AC drive) takes setpoint 1 for a share of P105, and tells it as
   // a speed: steps of a position would turn the motor without an end.
-  if (identity.parameter_sets == 1) {
+  if (!identity.nord_profile) {
     throw wrongSetting(drive, "mode", "\"position\"",
                        "velocity: the profile of this drive carries a speed, no position");
   }

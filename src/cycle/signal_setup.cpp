@@ -142,7 +142,7 @@ void checkSignalsCarried(const Settings& drive, const std::vector<SignalSetup>& 
         break;
       case SignalSource::kControlBit:
       case SignalSource::kStatusBit:
-        if (identity.parameter_sets == 1) refuse(signal, "a source that the profile of this drive carries");
+        if (!identity.nord_profile) refuse(signal, "a source that the profile of this drive carries");
         break;
       case SignalSource::kBusInBit:
       case SignalSource::kBusOutBit:

@@ -122,7 +122,7 @@ TEST_F(PositionConfiguration, NeedsWordsTheBusCarries) {
 TEST_F(PositionConfiguration, NeedsAProfileWithWordsForAPosition) {
   DriveIdentity identity;
   identity.process_values = 1;
-  identity.parameter_sets = 1;
+  identity.nord_profile = false;
   for (const int bits : {16, 32}) {
     drive_->set("position/bits", bits);
     const CycleConfig config = read();

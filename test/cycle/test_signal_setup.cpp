@@ -131,7 +131,7 @@ TEST(SignalSetupTest, RefusesWhatTheBusDoesNotCarry) {
   Configured control;
   control.drive.set("signals/bit/source", "control_bit_8");
   EXPECT_EQ("accepted", control.refusal(identity));
-  identity.parameter_sets = 1;
+  identity.nord_profile = false;
   EXPECT_THAT(control.refusal(identity), HasSubstr("the profile of this drive"));
 }
 

@@ -41,6 +41,9 @@ struct DriveIdentity {
   /// the drive does not notice by itself that this computer is dead; `protected_by` has to end the words first.
   bool timeout_notices = true;
   bool timeout_needed = false;  ///< `protected_by` stops the drive only together with a time-out of the drive above 0
+  /// False: a profile of others (CiA 402, DRIVECOM, AC drive) has its one word for a speed, and no free control and
+  /// status bits.
+  bool nord_profile = true;
   /// How many parameter sets the control word of this drive can command: 4, or 1 where its profile has no bits for them.
   std::uint8_t parameter_sets = 4;
   /// False: its profile has no words for OFF2 and OFF3, an ordinary stop stands in their place.

@@ -212,6 +212,7 @@ DriveIdentity CanopenTransport::identity(DriveIndex drive) const {
   }
   if (config.drive_profile == DriveProfile::kCia402) {
     identity.address += ", CiA 402";
+    identity.nord_profile = false;
     identity.parameter_sets = 1;
   }
   identity.process_values = config.process_values;

@@ -247,6 +247,7 @@ DriveIdentity DeviceNetTransport::identity(DriveIndex drive) const {
   if (gateway) identity.address += ", inverter " + std::to_string(config.inverter);
   if (config.drive_profile != DevicenetProfile::kNord) {
     identity.address += ", AC drive profile";
+    identity.nord_profile = false;
     identity.parameter_sets = 1;
     identity.has_quick_stop = false;
   }

@@ -266,6 +266,7 @@ DriveIdentity InterbusTransport::identity(DriveIndex drive) const {
   identity.address = "InterBus position " + std::to_string(config.position);
   if (config.drive_profile == InterbusProfile::kDrivecom) {
     identity.address += ", DRIVECOM 21";
+    identity.nord_profile = false;
     identity.parameter_sets = 1;
   }
   identity.process_values = config.ppo_type == 1 ? 1 : 3;
