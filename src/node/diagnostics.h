@@ -30,7 +30,6 @@ class Diagnostics {
 
  private:
   void reportBus(diagnostic_updater::DiagnosticStatusWrapper& status) const;
-  void reportBase(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void reportDrive(std::size_t index, diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void summarize(std::size_t index, diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void warn(std::size_t index, const ProtectionReport& protection,
