@@ -155,6 +155,8 @@ ConfiguredTransport configureTransport(NodeConfig& config, Transport& transport)
 }
 
 std::vector<std::string> unknownKeys(const TreeSettings& settings, const NodeConfig& config, const std::string& node) {
+  // The search for a robot description begins with the node's own parameters.
+  if (!node.empty()) settings.accept("robot_description");
   std::vector<const TreeSettings*> groups{&settings, config.bus.get()};
   for (const DriveSettings& drive : config.drives) {
     groups.push_back(static_cast<const TreeSettings*>(drive.settings.get()));

@@ -71,7 +71,7 @@ struct ConfiguredTransport {
 ConfiguredTransport configureTransport(NodeConfig& config, Transport& transport);
 
 /// One sentence for each key nobody has asked for, once `config` was read from `settings` and a transport is
-/// configured. `node` as in TreeSettings::unknownKeys.
+/// configured. `node` as in TreeSettings::unknownKeys; a robot_description among a node's parameters is known.
 std::vector<std::string> unknownKeys(const TreeSettings& settings, const NodeConfig& config,
                                      const std::string& node = {});
 

@@ -12,9 +12,11 @@ namespace nord_driver::node {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using XmlRpc::XmlRpcValue;
 
 std::string refusal(const XmlRpcValue& value) {
@@ -173,6 +175,17 @@ TEST(NodeConfigTest, WarnsOfWhatTheRobotDescriptionDoesNotTell) {
       readNodeConfig(RosSettings{"~", robotParameters()}, "<robot name=\"arm\"><link name=\"base_link\"/></robot>");
   EXPECT_THAT(config.warnings, ElementsAre(HasSubstr("robot_description: there is no joint"),
                                            HasSubstr("robot_description: there is no joint")));
+}
+
+// The search for a robot description begins with the node's own parameters; a file of the configuration is not searched.
+TEST(NodeConfigTest, KnowsARobotDescriptionOfTheNodeItself) {
+  XmlRpcValue value = robotParameters();
+  value["robot_description"] = std::string{"<robot name=\"arm\"/>"};
+  const RosSettings of_file{"~", value}, of_node{"~", value};
+  const NodeConfig config = readNodeConfig(of_file);
+  EXPECT_THAT(unknownKeys(of_file, config), Contains(HasSubstr("~robot_description is not known and is ignored")));
+  EXPECT_THAT(unknownKeys(of_node, readNodeConfig(of_node), "/nord_driver"),
+              Not(Contains(HasSubstr("~robot_description"))));
 }
 
 // roslaunch kills a node 17 s after SIGINT (15 s to SIGTERM, 2 s more), and the drives coast. The end takes shutdown_timeout,
