@@ -14,6 +14,9 @@ using diagnostic_updater::DiagnosticStatusWrapper;
 
 namespace {
 
+// The updater asks for a diagnostic_period in each pass, takes any number and throws at infinity: here nobody sets one.
+constexpr const char* kUpdaterParameters = "~diagnostics";
+
 // "checksum_errors" as a line of /diagnostics.
 std::string inWords(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -31,7 +34,9 @@ Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdenti
       commissioning_(config, identities, known),
       device_(where),
       ignored_(ignored),
-      snapshot_(config.drives.size()) {
+      snapshot_(config.drives.size()),
+      updater_(ros::NodeHandle{}, ros::NodeHandle{kUpdaterParameters}),
+      period_(seconds(config.publish.diagnostic_period)) {
   updater_.setHardwareID(device_);
   updater_.add("bus", [this](DiagnosticStatusWrapper& status) { reportBus(status); });
   if (config.cycle.base) {
@@ -62,7 +67,7 @@ void Diagnostics::update(const cycle::CycleSnapshot& snapshot) {
     }
   }
   updater_.force_update();
-  next_update_ = now + seconds(updater_.getPeriod());
+  next_update_ = now + period_;
 }
 
 void Diagnostics::reportBus(DiagnosticStatusWrapper& status) const {

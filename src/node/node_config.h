@@ -25,8 +25,9 @@ namespace nord_driver::node {
 constexpr Duration kQuickStopAtTheEnd = std::chrono::seconds{3};
 
 struct PublishConfig {
-  double publish_rate = 50.0;  ///< Hz: odom, tf, joint_states; 0: none
-  double status_rate = 50.0;   ///< Hz: status of the drives
+  double publish_rate = 50.0;      ///< Hz: odom, tf, joint_states; 0: none
+  double status_rate = 50.0;       ///< Hz: status of the drives
+  double diagnostic_period = 1.0;  ///< s: /diagnostics
   std::string base_frame_id = "base_link";
   std::string odom_frame_id = "odom";
   bool enable_odom_tf = true;

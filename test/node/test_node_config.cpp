@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "node/node_config.h"
 #include "node/parameters.h"
 #include "node/ros_settings.h"
@@ -215,6 +217,23 @@ TEST(NodeConfigTest, TakesEveryRateThatDynamicReconfigureOffers) {
     value["publish_rate"] = rate;
     EXPECT_DOUBLE_EQ(rate, readNodeConfig(RosSettings{"~", value}).publish.publish_rate);
   }
+}
+
+// diagnostic_updater takes any number: infinity ends the node, 0 publishes in each pass.
+TEST(NodeConfigTest, TheDiagnosticPeriodIsCheckedAsAnyNumber) {
+  XmlRpcValue value = robotParameters();
+  const auto period = [&value] { return readNodeConfig(RosSettings{"~", value}).publish.diagnostic_period; };
+  EXPECT_DOUBLE_EQ(1.0, period());
+  value["diagnostic_period"] = 5;
+  EXPECT_DOUBLE_EQ(5.0, period());
+  for (const double wrong :
+       {0.0, -1.0, 1e10, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    value["diagnostic_period"] = wrong;
+    EXPECT_THAT(refusal(value), AllOf(HasSubstr("~diagnostic_period: "),
+                                      HasSubstr(" is not valid, expected a number from 0.1 to 3600 s")));
+  }
+  value["diagnostic_period"] = std::string{"often"};
+  EXPECT_THAT(refusal(value), HasSubstr("~diagnostic_period: \"often\" is not valid, expected a number"));
 }
 
 template <typename Value>
