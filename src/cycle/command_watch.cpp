@@ -6,6 +6,17 @@
 
 namespace nord_driver::cycle {
 
+namespace {
+
+constexpr const char* kOlderThanCmdVelTimeout = ", or wait until it is older than cmd_vel_timeout";
+
+/// `way`: out of a refusal, by waiting. None where commands never grow old.
+const char* orWait(Duration timeout, const char* way) noexcept {
+  return timeout > Duration::zero() ? way : "";
+}
+
+}  // namespace
+
 CommandWatch::CommandWatch(CyclePorts& ports, Duration cmd_vel_timeout, bool has_base, std::vector<std::string> names,
                            std::vector<bool> of_base)
     : ports_(ports),
@@ -65,10 +76,11 @@ Sentence CommandWatch::movingBase(Instant now) noexcept {
   Sentence text;
   const TwistCommand& base = ports_.newestBaseCommand();
   if (isStale(base, cmd_vel_timeout_, now) || base.twist == robot::Twist2d{}) return text;
-  text.format(
-      "the newest cmd_vel is not zero (%.3f m/s, %.3f rad/s, %.2f s old): send zero first, or wait until it "
-      "is older than cmd_vel_timeout",
-      base.twist.linear_x, base.twist.angular_z, toSeconds(now - base.received));
+  Sentence sideways;
+  if (base.twist.linear_y != 0.0) sideways.format("%.3f m/s to the left, ", base.twist.linear_y);
+  text.format("the newest cmd_vel is not zero (%.3f m/s, %s%.3f rad/s, %.2f s old): send zero first%s",
+              base.twist.linear_x, sideways.c_str(), base.twist.angular_z, toSeconds(now - base.received),
+              orWait(cmd_vel_timeout_, kOlderThanCmdVelTimeout));
   return text;
 }
 
@@ -76,10 +88,8 @@ Sentence CommandWatch::movingDrive(DriveIndex drive, Instant now) noexcept {
   Sentence text;
   const JointCommand& joint = ports_.newestDriveCommand(drive);
   if (of_base_[drive] || isStale(joint, cmd_vel_timeout_, now) || joint.velocity == 0.0) return text;
-  text.format(
-      "the newest command of drive %s is not zero (%.3f rad/s): send zero first, or wait until it is older "
-      "than cmd_vel_timeout",
-      names_[drive].c_str(), joint.velocity);
+  text.format("the newest command of drive %s is not zero (%.3f rad/s): send zero first%s", names_[drive].c_str(),
+              joint.velocity, orWait(cmd_vel_timeout_, kOlderThanCmdVelTimeout));
   return text;
 }
 
@@ -87,10 +97,9 @@ Sentence CommandWatch::movingSetpoint(const Watched& watched, Instant now) noexc
   Sentence text;
   const WordCommand& command = ports_.newestWords(watched.drive).setpoints[watched.index];
   if (isStale(command, watched.setup.timeout, now) || command.value == 0.0) return text;
-  text.format(
-      "the newest setpoint %s of drive %s is not zero (%.3f) and can turn its motor: send zero first, or wait until "
-      "it is older than its timeout",
-      watched.setup.name.c_str(), names_[watched.drive].c_str(), command.value);
+  text.format("the newest setpoint %s of drive %s is not zero (%.3f) and can turn its motor: send zero first%s",
+              watched.setup.name.c_str(), names_[watched.drive].c_str(), command.value,
+              orWait(watched.setup.timeout, ", or wait until it is older than its timeout"));
   return text;
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "cycle/leaders.h"
+#include "node/base_status.h"
 #include "node/bus_publisher.h"
-#include "node/recovery_hint.h"
 #include "nord_driver/core/bytes.h"
 
 namespace nord_driver::node {
@@ -13,6 +13,9 @@ using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
 
 namespace {
+
+// The updater asks for a diagnostic_period in each pass, takes any number and throws at infinity: here nobody sets one.
+constexpr const char* kUpdaterParameters = "~diagnostics";
 
 // "checksum_errors" as a line of /diagnostics.
 std::string inWords(std::string name) {
@@ -31,10 +34,17 @@ Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdenti
       commissioning_(config, identities, known),
       device_(where),
       ignored_(ignored),
-      snapshot_(config.drives.size()) {
+      snapshot_(config.drives.size()),
+      updater_(ros::NodeHandle{}, ros::NodeHandle{kUpdaterParameters}),
+      period_(seconds(config.publish.diagnostic_period)) {
   updater_.setHardwareID(device_);
   updater_.add("bus", [this](DiagnosticStatusWrapper& status) { reportBus(status); });
-  if (config.cycle.base) updater_.add("base", [this](DiagnosticStatusWrapper& status) { reportBase(status); });
+  if (config.cycle.base) {
+    const bool sideways = config.cycle.base->movesSideways();
+    updater_.add("base", [this, sideways](DiagnosticStatusWrapper& status) {
+      reportBase(snapshot_, names_, sideways, ignored_.ofBase(), status);
+    });
+  }
   for (std::size_t i = 0; i < config.cycle.drives.size(); ++i) {
     names_.push_back(config.cycle.drives[i].name);
     series_.push_back(config.cycle.drives[i].series);
@@ -57,7 +67,7 @@ void Diagnostics::update(const cycle::CycleSnapshot& snapshot) {
     }
   }
   updater_.force_update();
-  next_update_ = now + seconds(updater_.getPeriod());
+  next_update_ = now + period_;
 }
 
 void Diagnostics::reportBus(DiagnosticStatusWrapper& status) const {
@@ -67,21 +77,6 @@ void Diagnostics::reportBus(DiagnosticStatusWrapper& status) const {
   status.add("cycle time p99 (s)", snapshot_.times.p99);
   status.add("cycle time max (s)", snapshot_.times.max);
   for (const NamedCounter& counter : snapshot_.counters) status.add(inWords(counter.name), counter.value);
-}
-
-void Diagnostics::reportBase(DiagnosticStatusWrapper& status) const {
-  const cycle::BaseSnapshot& base = snapshot_.base;
-  if (base.stopped) {
-    status.summary(DiagnosticStatus::ERROR, base.text.str());
-    status.add("to go on", recoveryHint(snapshot_, names_));
-  } else if (base.enabled) {
-    status.summary(DiagnosticStatus::OK, base.waits.empty() ? "enabled" : "enabled: " + base.waits.str());
-  } else {
-    status.summary(DiagnosticStatus::OK, base.text.empty() ? "disabled" : base.text.str());
-  }
-  status.add("linear velocity (m/s)", base.velocity.linear_x);
-  status.add("angular velocity (rad/s)", base.velocity.angular_z);
-  status.add("commands ignored", ignored_.ofBase());
 }
 
 void Diagnostics::summarize(std::size_t index, DiagnosticStatusWrapper& status) const {

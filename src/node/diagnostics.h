@@ -19,7 +19,7 @@
 
 namespace nord_driver::node {
 
-/// Reports the snapshot it was given last. `update` runs the tasks when they are due (once a second).
+/// Reports the snapshot it was given last. `update` runs the tasks each PublishConfig::diagnostic_period.
 class Diagnostics {
  public:
   /// `known`, `values`: of each drive. `where`: what the transport opens, as configured. `ignored` must outlive it.
@@ -30,7 +30,6 @@ class Diagnostics {
 
  private:
   void reportBus(diagnostic_updater::DiagnosticStatusWrapper& status) const;
-  void reportBase(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void reportDrive(std::size_t index, diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void summarize(std::size_t index, diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void warn(std::size_t index, const ProtectionReport& protection,
@@ -49,6 +48,7 @@ class Diagnostics {
   const IgnoredCommands& ignored_;
   cycle::CycleSnapshot snapshot_;
   diagnostic_updater::Updater updater_;
+  Duration period_;
   Instant next_update_{};  // its own clock is ROS's, which may be set back or stand still
 };
 

@@ -217,7 +217,7 @@ void DriverNode::takeCommand(const geometry_msgs::Twist& twist) {
 
 void DriverNode::subscribeCommand(DriveIndex drive) {
   boost::function<void(const std_msgs::Float64&)> take = [this, drive](const std_msgs::Float64& command) {
-    countBadCommand(drive, "command", ports_->commandDrive(drive, {command.data, steadyNow(), true}));
+    countBadCommand(drive, "command", command.data, ports_->commandDrive(drive, {command.data, steadyNow(), true}));
   };
   const std::string topic = config_.cycle.drives[drive].name + "/command";
   subscribers_.push_back(private_commands_.handle().subscribe<std_msgs::Float64>(topic, 1, take));
@@ -228,11 +228,11 @@ void DriverNode::subscribePosition(DriveIndex drive) {
   ros::NodeHandle& node = private_commands_.handle();
   const std::string prefix = config_.cycle.drives[drive].name + "/";
   boost::function<void(const std_msgs::Float64&)> target = [this, drive](const std_msgs::Float64& command) {
-    countBadCommand(drive, "position command", ports_->commandPosition(drive, command.data));
+    countBadCommand(drive, "position command", command.data, ports_->commandPosition(drive, command.data));
   };
   subscribers_.push_back(node.subscribe<std_msgs::Float64>(prefix + "position_command", 1, target));
   boost::function<void(const std_msgs::Float64&)> increment = [this, drive](const std_msgs::Float64& command) {
-    countBadCommand(drive, "position increment", ports_->commandIncrement(drive, command.data));
+    countBadCommand(drive, "position increment", command.data, ports_->commandIncrement(drive, command.data));
   };
   subscribers_.push_back(node.subscribe<std_msgs::Float64>(prefix + "position_increment", kIncrementQueue, increment));
   boost::function<void(const std_msgs::UInt8&)> element = [this, drive](const std_msgs::UInt8& command) {
@@ -241,11 +241,11 @@ void DriverNode::subscribePosition(DriveIndex drive) {
   subscribers_.push_back(node.subscribe<std_msgs::UInt8>(prefix + "position_element", 1, element));
 }
 
-void DriverNode::countBadCommand(DriveIndex drive, const char* what, bool taken) {
+void DriverNode::countBadCommand(DriveIndex drive, const char* what, double command, bool taken) {
   if (taken) return;
   if (const auto count = ignored_.add(drive, steadyNow())) {
-    ROS_WARN("nord_driver: the %s of drive %s is not a number, or infinite, ignored (%lu so far)", what,
-             config_.cycle.drives[drive].name.c_str(), static_cast<unsigned long>(*count));
+    ROS_WARN("nord_driver: the %s of drive %s %s, ignored (%lu so far)", what, config_.cycle.drives[drive].name.c_str(),
+             whyIgnored(command).c_str(), static_cast<unsigned long>(*count));
   }
 }
 

@@ -65,8 +65,8 @@ class DriverNode {
   void takeCommand(const geometry_msgs::Twist& twist);
   void subscribeCommand(DriveIndex drive);
   void subscribePosition(DriveIndex drive);
-  /// `what`: "position command"; `taken`: it is a number.
-  void countBadCommand(DriveIndex drive, const char* what, bool taken);
+  /// `what`: "position command"; `taken`: by its port.
+  void countBadCommand(DriveIndex drive, const char* what, double command, bool taken);
   /// Whoever publishes commands and has just been connected is listened to before anything is enabled.
   void noteCommanders();
   void bringToRest();

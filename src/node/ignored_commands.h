@@ -1,15 +1,20 @@
-// Commands that are no numbers, or infinite: how many there were, and when it is time to say so again.
+// Commands that are no numbers, infinite or too large: how many there were, and when it is time to say so again.
 #pragma once
 
 #include <cstdint>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "nord_driver/core/time.h"
 #include "nord_driver/transport/transport.h"
 
 namespace nord_driver::node {
+
+/// What is wrong with a command of a drive that was not taken, to be written behind its name. Of those that are numbers
+/// only an increment may be too large.
+std::string whyIgnored(double command);
 
 /// At most one line in a second, by the steady clock: with /use_sim_time and nobody on /clock that of ROS stands still.
 class LogPause {

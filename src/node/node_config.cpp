@@ -29,11 +29,10 @@ std::array<double, 6> readCovariance(const TreeSettings& settings, const std::st
   return diagonal;
 }
 
-// What a controller file may hold that means nothing here; and what diagnostic_updater reads by itself.
+// What a controller file may hold that means nothing here.
 void acceptControllerKeys(const TreeSettings& settings) {
   settings.accept("type");                             // a plugin class
   settings.accept("estimate_velocity_from_position");  // older controllers; inverters tell velocities
-  settings.accept("diagnostic_period");                // s
 }
 
 std::string readFrame(const TreeSettings& settings, const char* key, const std::string& fallback) {
@@ -46,6 +45,7 @@ PublishConfig readPublish(const TreeSettings& settings) {
   PublishConfig publish;
   publish.publish_rate = numberOr(settings, "publish_rate", publish.publish_rate, 0.0, 2000.0, "Hz");
   publish.status_rate = numberOr(settings, "status_rate", publish.status_rate, 0.1, 1000.0, "Hz");
+  publish.diagnostic_period = numberOr(settings, "diagnostic_period", publish.diagnostic_period, 0.1, 3600.0, "s");
   publish.base_frame_id = readFrame(settings, "base_frame_id", publish.base_frame_id);
   publish.odom_frame_id = readFrame(settings, "odom_frame_id", publish.odom_frame_id);
   if (publish.odom_frame_id == publish.base_frame_id) {
@@ -155,6 +155,8 @@ ConfiguredTransport configureTransport(NodeConfig& config, Transport& transport)
 }
 
 std::vector<std::string> unknownKeys(const TreeSettings& settings, const NodeConfig& config, const std::string& node) {
+  // The search for a robot description begins with the node's own parameters.
+  if (!node.empty()) settings.accept("robot_description");
   std::vector<const TreeSettings*> groups{&settings, config.bus.get()};
   for (const DriveSettings& drive : config.drives) {
     groups.push_back(static_cast<const TreeSettings*>(drive.settings.get()));

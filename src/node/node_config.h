@@ -25,8 +25,9 @@ namespace nord_driver::node {
 constexpr Duration kQuickStopAtTheEnd = std::chrono::seconds{3};
 
 struct PublishConfig {
-  double publish_rate = 50.0;  ///< Hz: odom, tf, joint_states; 0: none
-  double status_rate = 50.0;   ///< Hz: status of the drives
+  double publish_rate = 50.0;      ///< Hz: odom, tf, joint_states; 0: none
+  double status_rate = 50.0;       ///< Hz: status of the drives
+  double diagnostic_period = 1.0;  ///< s: /diagnostics
   std::string base_frame_id = "base_link";
   std::string odom_frame_id = "odom";
   bool enable_odom_tf = true;
@@ -71,7 +72,7 @@ struct ConfiguredTransport {
 ConfiguredTransport configureTransport(NodeConfig& config, Transport& transport);
 
 /// One sentence for each key nobody has asked for, once `config` was read from `settings` and a transport is
-/// configured. `node` as in TreeSettings::unknownKeys.
+/// configured. `node` as in TreeSettings::unknownKeys; a robot_description among a node's parameters is known.
 std::vector<std::string> unknownKeys(const TreeSettings& settings, const NodeConfig& config,
                                      const std::string& node = {});
 

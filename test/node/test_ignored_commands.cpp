@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "node/ignored_commands.h"
 
 namespace nord_driver::node {
@@ -27,6 +29,15 @@ TEST(IgnoredCommandsTest, ADriveIsToldOfWhateverIsSaidOfTheOthers) {
   EXPECT_EQ(1u, ignored.ofBase());
   EXPECT_EQ(1u, ignored.of(0));
   EXPECT_EQ(2u, ignored.of(1));
+}
+
+// An increment may be a number and still be no command.
+TEST(IgnoredCommandsTest, WhatIsANumberIsNotToldToBeNone) {
+  for (const double value : {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ("is not a number, or infinite", whyIgnored(value));
+  }
+  EXPECT_EQ("is 2e+06, expected -1e+06 to 1e+06 rad or m", whyIgnored(2e6));
+  EXPECT_EQ("is -5e+07, expected -1e+06 to 1e+06 rad or m", whyIgnored(-5e7));
 }
 
 }  // namespace

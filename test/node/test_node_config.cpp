@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "node/node_config.h"
 #include "node/parameters.h"
 #include "node/ros_settings.h"
@@ -12,9 +14,11 @@ namespace nord_driver::node {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using XmlRpc::XmlRpcValue;
 
 std::string refusal(const XmlRpcValue& value) {
@@ -175,6 +179,17 @@ TEST(NodeConfigTest, WarnsOfWhatTheRobotDescriptionDoesNotTell) {
                                            HasSubstr("robot_description: there is no joint")));
 }
 
+// The search for a robot description begins with the node's own parameters; a file of the configuration is not searched.
+TEST(NodeConfigTest, KnowsARobotDescriptionOfTheNodeItself) {
+  XmlRpcValue value = robotParameters();
+  value["robot_description"] = std::string{"<robot name=\"arm\"/>"};
+  const RosSettings of_file{"~", value}, of_node{"~", value};
+  const NodeConfig config = readNodeConfig(of_file);
+  EXPECT_THAT(unknownKeys(of_file, config), Contains(HasSubstr("~robot_description is not known and is ignored")));
+  EXPECT_THAT(unknownKeys(of_node, readNodeConfig(of_node), "/nord_driver"),
+              Not(Contains(HasSubstr("~robot_description"))));
+}
+
 // roslaunch kills a node 17 s after SIGINT (15 s to SIGTERM, 2 s more), and the drives coast. The end takes shutdown_timeout,
 // and up to 3 s for a quick stop behind it.
 TEST(NodeConfigTest, WarnsOfAnEndThatRoslaunchDoesNotWaitFor) {
@@ -202,6 +217,23 @@ TEST(NodeConfigTest, TakesEveryRateThatDynamicReconfigureOffers) {
     value["publish_rate"] = rate;
     EXPECT_DOUBLE_EQ(rate, readNodeConfig(RosSettings{"~", value}).publish.publish_rate);
   }
+}
+
+// diagnostic_updater takes any number: infinity ends the node, 0 publishes in each pass.
+TEST(NodeConfigTest, TheDiagnosticPeriodIsCheckedAsAnyNumber) {
+  XmlRpcValue value = robotParameters();
+  const auto period = [&value] { return readNodeConfig(RosSettings{"~", value}).publish.diagnostic_period; };
+  EXPECT_DOUBLE_EQ(1.0, period());
+  value["diagnostic_period"] = 5;
+  EXPECT_DOUBLE_EQ(5.0, period());
+  for (const double wrong :
+       {0.0, -1.0, 1e10, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    value["diagnostic_period"] = wrong;
+    EXPECT_THAT(refusal(value), AllOf(HasSubstr("~diagnostic_period: "),
+                                      HasSubstr(" is not valid, expected a number from 0.1 to 3600 s")));
+  }
+  value["diagnostic_period"] = std::string{"often"};
+  EXPECT_THAT(refusal(value), HasSubstr("~diagnostic_period: \"often\" is not valid, expected a number"));
 }
 
 template <typename Value>
