@@ -120,7 +120,11 @@ std::string applyEndPoint(NodeConfig& config, const EndPoint& end_point) {
     throw ConfigError("~bus_end_point: \"" + config.bus_end_point + "\" is not valid, expected none: the transport " +
                       config.transport + " opens nothing");
   }
-  if (!config.bus_end_point.empty()) config.bus = config.bus->with(end_point.key, config.bus_end_point);
+  if (!config.bus_end_point.empty()) {
+    const bool second = *end_point.second_key != '\0' && config.bus->text(end_point.second_key);
+    config.bus = config.bus->with(end_point.key, config.bus_end_point);
+    if (second) config.bus = config.bus->with(end_point.second_key, config.bus_end_point);
+  }
   return config.bus->text(end_point.key).value_or("");  // whether it has to be there, the transport decides
 }
 

@@ -76,7 +76,9 @@ void choosePort(YAML::Node& file, const BusPort& port, const EndPoint& end_point
   } else if (in_file) {
     file["bus_end_point"] = value;  // the node's reader takes this before the key of the bus
   }
-  if (!value.empty() && !end_point.isNone()) file["bus"][end_point.key] = value;
+  if (value.empty() || end_point.isNone()) return;
+  file["bus"][end_point.key] = value;
+  if (*end_point.second_key != '\0' && file["bus"][end_point.second_key]) file["bus"][end_point.second_key] = value;
 }
 
 ToolConfig readToolConfig(const YAML::Node& file, const EndPoint& end_point) {

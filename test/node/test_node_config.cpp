@@ -113,6 +113,24 @@ TEST(NodeConfigTest, TheEndPointReplacesTheKeyOfTheTransport) {
   }
 }
 
+// Else the images would go to a simulator, and writes of parameters to the machine that the file names.
+TEST(NodeConfigTest, TheEndPointReplacesASecondWayToTheBusThatThereIs) {
+  const EndPoint two{"device", "Modbus/TCP server", "192.168.0.10:502", "diagnosis"};
+  XmlRpcValue value = robotParameters();
+  value["bus_end_point"] = std::string{"here"};
+  NodeConfig config = readNodeConfig(RosSettings{"~", value});
+  applyEndPoint(config, two);
+  EXPECT_EQ(std::nullopt, config.bus->text("diagnosis"));
+  value["bus"]["diagnosis"] = std::string{"there"};
+  config = readNodeConfig(RosSettings{"~", value});
+  EXPECT_EQ("here", applyEndPoint(config, two));
+  EXPECT_EQ("here", config.bus->text("diagnosis"));
+  value["bus_end_point"] = std::string{};
+  config = readNodeConfig(RosSettings{"~", value});
+  applyEndPoint(config, two);
+  EXPECT_EQ("there", config.bus->text("diagnosis"));
+}
+
 TEST(NodeConfigTest, TheEndPointNeedsNoGroupOfTheBus) {
   XmlRpcValue value = robotParameters();
   value["bus"] = XmlRpcValue{};

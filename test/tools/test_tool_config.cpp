@@ -149,6 +149,15 @@ TEST(ToolConfig, TheBusOptionFitsEveryTransport) {
   EXPECT_EQ("gateway: z", portOf("{transport: a/b, bus_end_point: y}", {"", "", "z"}, gateway));
 }
 
+// Else a write would go to another inverter than the one on the bus of the command line.
+TEST(ToolConfig, TheBusOptionReplacesASecondWayToTheBusThatThereIs) {
+  const EndPoint gateway{"gateway", "Modbus/TCP server", "192.168.0.10:502", "diagnosis"};
+  const char* const file = "{transport: a/b, bus: {gateway: x, diagnosis: x}}";
+  EXPECT_EQ("{gateway: z, diagnosis: z}", portOf(file, {"", "", "z"}, gateway));
+  EXPECT_EQ("{gateway: x, diagnosis: x}", portOf(file, {}, gateway));
+  EXPECT_EQ("{gateway: z}", portOf("{transport: a/b, bus: {gateway: x}}", {"", "", "z"}, gateway));
+}
+
 // The node's reader, which check-config runs, puts bus_end_point above the key of the bus.
 TEST(ToolConfig, ThePortOfTheCommandLineReplacesTheFilesBusEndPoint) {
   const auto chosen = [](const char* file, const BusPort& port) {

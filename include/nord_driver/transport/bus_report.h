@@ -19,6 +19,9 @@ struct EndPoint {
   const char* key = "";      ///< "device", "interface", "gateway", of a text; empty: this transport opens nothing
   const char* kind = "";     ///< in words: "serial device"
   const char* example = "";  ///< a value a configuration may have: "/dev/ttyUSB0"
+  /// Key of a second way to the same bus, which some configurations have; empty: there is none. Whoever is told another
+  /// bus than the configuration's takes this one there as well.
+  const char* second_key = "";
 
   bool isNone() const noexcept { return *key == '\0'; }
 };

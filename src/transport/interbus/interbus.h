@@ -45,7 +45,9 @@ class InterbusTransport final : public Transport, public ImageView, public BusSc
   /// To whatever the factory makes: a gateway in simulated time in tests.
   explicit InterbusTransport(LinkFactory make_link);
 
-  EndPoint endPoint() const noexcept override { return {"gateway", "Modbus/TCP gateway", "192.168.0.10:502"}; }
+  EndPoint endPoint() const noexcept override {
+    return {"gateway", "Modbus/TCP gateway", "192.168.0.10:502", "diagnosis"};
+  }
   void configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) override;
   void setDriveTimeout(Duration timeout) noexcept override { watch_.setTimeout(timeout); }
   Instant now() const noexcept override { return link_->now(); }
