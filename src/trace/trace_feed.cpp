@@ -17,6 +17,15 @@ bool unasked(drive::StopCause cause) noexcept {
   }
 }
 
+bool isCommand(Word control, profile::Command command) noexcept {
+  constexpr Word kCommandBits = 0x000F;
+  return (control & kCommandBits) == (static_cast<Word>(command) & kCommandBits);
+}
+
+bool turns(profile::DriveState state) noexcept {
+  return state == profile::DriveState::kOperationEnabled || state == profile::DriveState::kQuickStopActive;
+}
+
 /// Remembers `now` and tells whether it has just become true.
 bool rises(bool& before, bool now) noexcept {
   const bool rose = now && !before;
@@ -49,12 +58,25 @@ void TraceFeed::handleDrive(DriveIndex drive, const cycle::DriveSnapshot& snapsh
   const bool faulted = snapshot.faults != seen.faults;
   seen.faults = snapshot.faults;
   const bool stopped = rises(seen.stopped, unasked(snapshot.stop_cause));
-  if (!faulted && !stopped) return;
+  const bool fell_out = fallsOut(seen, snapshot);
+  if (!faulted && !stopped && !fell_out) return;
   trigger.kind = faulted ? TraceTrigger::Kind::kFault : TraceTrigger::Kind::kStop;
   trigger.drive = drive;
   trigger.status_word = snapshot.input.status_word;
   trigger.text = snapshot.text;
   triggers_.push(trigger);
+}
+
+// The stop of commands that ended stays the cause, whatever comes upon it on the way down.
+bool TraceFeed::fallsOut(Seen& seen, const cycle::DriveSnapshot& snapshot) noexcept {
+  const bool heeds = snapshot.online && profile::StatusWord{snapshot.input.status_word}.busControl();
+  const Word control = snapshot.output.control_word;
+  const bool off1_broken = seen.off1 && (isCommand(control, profile::Command::kQuickStop) ||
+                                         snapshot.state == profile::DriveState::kSwitchOnDisabled);
+  const bool out = seen.turned && (!heeds || off1_broken);
+  seen.turned = heeds && turns(snapshot.state);
+  seen.off1 = isCommand(control, profile::Command::kShutdown);
+  return out && snapshot.stop_cause == drive::StopCause::kCommandTimeout;
 }
 
 }  // namespace nord_driver::trace

@@ -44,9 +44,12 @@ class TraceFeed final : public cycle::CycleObserver {
   struct Seen {
     std::uint64_t faults = 0;
     bool stopped = false;
+    bool turned = false;  // enabled or in a quick stop, and heeding this bus
+    bool off1 = false;    // was sent it
   };
 
   void handleDrive(DriveIndex drive, const cycle::DriveSnapshot& snapshot, TraceTrigger& trigger) noexcept;
+  static bool fallsOut(Seen& seen, const cycle::DriveSnapshot& snapshot) noexcept;
 
   ProcessDataHistory history_;
   EventRing<TraceTrigger, 16> triggers_;

@@ -72,5 +72,62 @@ TEST_F(TraceFeedTest, CommandsThatEndAskForNoTrace) {
   EXPECT_FALSE(feed_.pollTrigger());
 }
 
+// The stop of commands that ended stays the cause: a machine that does not come to rest then is worth a trace.
+class OnTheWayDown : public TraceTest {
+ protected:
+  OnTheWayDown() {
+    drive_.stop_cause = drive::StopCause::kCommandTimeout;
+    told(true, profile::DriveState::kOperationEnabled, 0x047E);
+    cycle(0, kRunning, kRunning);
+  }
+
+  void told(bool online, profile::DriveState state, Word sent) {
+    drive_.online = online;
+    drive_.state = state;
+    drive_.output.control_word = sent;
+  }
+  bool asks(Word status) {
+    cycle(10, status, kRunning);
+    const auto trigger = feed_.pollTrigger();
+    cycle(20, status, kRunning);
+    EXPECT_FALSE(feed_.pollTrigger()) << "twice";
+    return trigger && trigger->kind == TraceTrigger::Kind::kStop && trigger->drive == 0;
+  }
+
+  cycle::DriveSnapshot& drive_ = snapshot_.drives[0];
+};
+
+TEST_F(OnTheWayDown, ItsEndAsksForNone) {
+  told(true, profile::DriveState::kReadyToSwitchOn, 0x047E);
+  EXPECT_FALSE(asks(0x0331));
+}
+
+TEST_F(OnTheWayDown, ADriveThatFallsSilentAsks) {
+  told(false, profile::DriveState::kUnknown, 0x047E);
+  EXPECT_TRUE(asks(0));
+}
+
+TEST_F(OnTheWayDown, ADriveThatIsTakenOverAsks) {
+  EXPECT_TRUE(asks(0x0137));
+}
+
+TEST_F(OnTheWayDown, AnOff1ThatBecomesAnOff3Asks) {
+  told(true, profile::DriveState::kQuickStopActive, 0x047B);
+  EXPECT_TRUE(asks(0x0317));
+}
+
+TEST_F(OnTheWayDown, Off2AtTheTerminalsAsks) {
+  told(true, profile::DriveState::kSwitchOnDisabled, 0x047E);
+  EXPECT_TRUE(asks(0x0340));
+}
+
+TEST_F(OnTheWayDown, AQuickStopThatIsTheStopAsksForNone) {
+  told(true, profile::DriveState::kQuickStopActive, 0x047B);
+  cycle(10, 0x0317, kRunning);
+  static_cast<void>(feed_.pollTrigger());
+  told(true, profile::DriveState::kSwitchOnDisabled, 0x047B);
+  EXPECT_FALSE(asks(0x0340));
+}
+
 }  // namespace
 }  // namespace nord_driver::trace
