@@ -73,7 +73,7 @@ class Reader {
     const ModuleSettings module{source, all};
     const canopen::NodeConfig node = readCanopenNode(module, drive, defaults_);
     checkOwnId(settings, node);
-    drive.node = findOrAdd(module, drive, node);
+    drive.node = findOrAdd(settings, module, drive, node);
     canopen::NodeConfig& shared = config_.master.nodes[drive.node];
     addServer(settings, drive, shared);
     const CanopenPdoOptions pdo = readPdoOptions(settings, drive, defaults_);
@@ -91,7 +91,9 @@ class Reader {
                        "another node id than bus/node_id, which this computer's heartbeat bears");
   }
 
-  std::size_t findOrAdd(const ModuleSettings& settings, const CanopenDrive& drive, const canopen::NodeConfig& node) {
+  // `settings`: of the drive itself, which has to be another one than those before it.
+  std::size_t findOrAdd(const Settings& settings, const ModuleSettings& module, const CanopenDrive& drive,
+                        const canopen::NodeConfig& node) {
     std::vector<canopen::NodeConfig>& nodes = config_.master.nodes;
     for (const CanopenDrive& other : config_.drives) {
       if (nodes[other.node].id != node.id) continue;
@@ -105,7 +107,7 @@ class Reader {
         throw wrongSetting(settings, "inverter", std::to_string(drive.inverter),
                            "another one of 1 to 4 than drive \"" + other.name + "\" has behind the same gateway");
       }
-      checkSharedNode(settings, node, nodes[other.node]);
+      checkSharedNode(module, node, nodes[other.node]);
       return other.node;
     }
     nodes.push_back(node);

@@ -184,6 +184,8 @@ TEST(CanopenConfigTest, GatewayRulesAreHeld) {
   Bus twice = Bus::gateway();
   twice.drive(1).set("inverter", 1);
   EXPECT_THAT(twice.refusal(), AllOf(HasSubstr("~drives/drive1/inverter: 1 is not valid"), HasSubstr("drive0")));
+  twice.drive(1).erase("inverter");
+  EXPECT_THAT(twice.refusal(), HasSubstr("~drives/drive1/inverter: 1 is not valid")) << "not the place of drive0";
   Bus mixed = Bus::gateway();
   mixed.drive(1).set("connection", "option").set("series", "sk5xxe").set("inverter", 1);
   EXPECT_THAT(mixed.refusal(), AllOf(HasSubstr("~drives/drive1/address: 10"), HasSubstr("only inverters behind one")));
