@@ -74,13 +74,13 @@ bool SerialPort::setUp() noexcept {
   Sentence reason;
   const LineDemand demand = is_pty_ ? LineDemand::kNone : LineDemand::kExact;
   if (!setUpLine(system_, descriptor_, settings_.baud_rate, demand, reason) ||
-      !setUpRs485(system_, descriptor_, settings_.rs485, reason)) {
+      (!is_pty_ && !setUpRs485(system_, descriptor_, settings_.rs485, reason))) {
     return fail(reason.c_str());
   }
   setUpLatency(system_, descriptor_, device_.c_str(), warning_);
   RawLineCounters counters;
   if (system_.readCounters(descriptor_, counters) == 0) errors_.begin(counters);
-  echo_.reset(settings_.echo);
+  echo_.reset(is_pty_ && settings_.echo == EchoMode::kOn ? EchoMode::kAuto : settings_.echo);
   discardInput();
   return true;
 }

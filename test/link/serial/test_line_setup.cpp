@@ -82,6 +82,16 @@ TEST_F(LineSetup, APtyIsNamedAndNotRefused) {
   EXPECT_FALSE(port.keepsBaudRate());
 }
 
+// A robot whose UART switches by the kernel is driven in the simulator with its own configuration.
+TEST_F(LineSetup, APtyHasNoRs485ToBeSwitched) {
+  system.devices["/dev/ttyUSB0"] = DeviceKind::kPty;
+  system.rs485_error = ENOTTY;
+  settings.rs485.enabled = true;
+  SerialPort port = makePort();
+  EXPECT_TRUE(port.open()) << port.lastError();
+  EXPECT_EQ(0, system.rs485_requests);
+}
+
 TEST_F(LineSetup, WhatIsNoSerialDeviceOrLockedIsRefused) {
   system.devices["/dev/ttyUSB0"] = DeviceKind::kNoSerialDevice;
   EXPECT_THAT(refusal(), HasSubstr("no serial device"));
