@@ -2,7 +2,8 @@
 """Makes one table of the logs that scripts/prove.sh has left; called by it.
 
 usage: proof_table.py LOGS PART...     prints the table of all parts that have run, and writes it as Markdown to LOGS/table.md
-       proof_table.py --ended LOGS PART quick|long STATUS SECONDS     notes that a part has run, and of which commit
+       proof_table.py --commit         prints the commit, and whether the tree has changes
+       proof_table.py --ended LOGS PART quick|long STATUS SECONDS COMMIT     notes that a part has run, which began at COMMIT
        proof_table.py --self-test      reads lines as the parts print them
 
 The first ends with 0 when each PART has run, has passed and has printed its figures. A part without figures has shown nothing: it
@@ -128,10 +129,10 @@ def rows_of(part, status, text):
 
 
 def commit():
-    """Of the project, and whether what was run is that."""
+    """Of the project, and whether the tree is that: a new file that git does not know yet is a change, too."""
     def git(*words):
         return subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True, check=False).stdout.strip()
-    return (git("rev-parse", "--short=12", "HEAD") or "unknown") + (" with changes" if git("status", "--porcelain", "--untracked-files=no") else "")
+    return (git("rev-parse", "--short=12", "HEAD") or "unknown") + (" with changes" if git("status", "--porcelain") else "")
 
 
 def machine():
@@ -141,8 +142,13 @@ def machine():
            f"{int(memory.group(1)) // 1048576 if memory else '?'} GiB, Linux {platform.release()}"
 
 
-def ended(logs, part, form, status, seconds):
-    run = {"status": int(status), "seconds": int(seconds), "form": form, "commit": commit(),
+def while_it_ran(before, after):
+    """What a part ran on, which has been built when it began."""
+    return before if before == after else f"{before}, changed to {after} while it ran"
+
+
+def ended(logs, part, form, status, seconds, before):
+    run = {"status": int(status), "seconds": int(seconds), "form": form, "commit": while_it_ran(before, commit()),
            "date": f"{datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d}"}
     (logs / f"{part}.status").write_text(json.dumps(run) + "\n")
     return 0
@@ -173,6 +179,8 @@ def selfTest():
     assert failedByItself("coverage, can", "97.8 % of lines, 84.5 % of branches")
     assert not failedByItself("coverage, drive", "98.0 % of lines, 96.0 % of branches")
     assert rows_of("fuzz", 0, "fuzz_sdo: 1200345 executions in 31 s\n")[-1][2] == "FAILED", "the other targets are missing"
+    assert while_it_ran("abc", "abc") == "abc"
+    assert while_it_ran("abc", "abd with changes") == "abc, changed to abd with changes while it ran"
     print("self-test: passed")
     return 0
 
@@ -180,7 +188,10 @@ def selfTest():
 def main():
     if sys.argv[1:] == ["--self-test"]:
         return selfTest()
-    if sys.argv[1:2] == ["--ended"] and len(sys.argv) == 7:
+    if sys.argv[1:] == ["--commit"]:
+        print(commit())
+        return 0
+    if sys.argv[1:2] == ["--ended"] and len(sys.argv) == 8:
         return ended(pathlib.Path(sys.argv[2]), *sys.argv[3:])
     if len(sys.argv) < 3 or sys.argv[1].startswith("-"):
         print(__doc__, file=sys.stderr)

@@ -97,8 +97,9 @@ for part in "${parts[@]}"; do
   rm -f "$logs/$part.status"
   start=$SECONDS
   status=0
+  before=$(/usr/bin/python3 "$root/scripts/proof_table.py" --commit)
   (set -e; $part) >"$logs/$part.log" 2>&1 || status=$?
-  /usr/bin/python3 "$root/scripts/proof_table.py" --ended "$logs" "$part" "$form" "$status" $((SECONDS - start))
+  /usr/bin/python3 "$root/scripts/proof_table.py" --ended "$logs" "$part" "$form" "$status" $((SECONDS - start)) "$before"
   echo "== $part: ended with $status after $((SECONDS - start)) s"
 done
 exec /usr/bin/python3 "$root/scripts/proof_table.py" "$logs" "${parts[@]}"

@@ -73,8 +73,18 @@ void readAssembly(const Group& group, DnDriveConfig& dn) {
   dn.profile = profile == "nord" ? 2 : profile == "ac_drive" ? 0 : 1;
 }
 
+std::optional<std::uint16_t> readWord(const Group& group, const char* key) {
+  if (!group.has(key)) return std::nullopt;
+  return static_cast<std::uint16_t>(group.integer(key, 0, 0, 0xFFFF));
+}
+
+DnGivenIdentity readIdentity(const Group& group) {
+  return {readWord(group, "vendor_id"), readWord(group, "device_type"), readWord(group, "product_code")};
+}
+
 void readDrive(const Group& group, DriveConfig& drive) {
   DnDriveConfig dn;
+  dn.identity = readIdentity(group);
   dn.kind = readKind(group, drive.device);
   if (dn.kind == DnModuleKind::kGateway) {
     drive.place = static_cast<unsigned>(group.integer("inverter", 1, 1, 4));
@@ -136,11 +146,8 @@ DnModuleSettings readModule(const Group& group, const ParameterStore& catalogue)
   settings.inputs = static_cast<std::uint8_t>(group.integer("inputs", 0, 0, 15));
   settings.packet_rate_steps = static_cast<unsigned>(group.integer("packet_rate_steps", 10, 1, 1000));
   settings.cos_instance_4_alone = group.get<bool>("cos_instance_4_alone", false, "true or false");
-  DnIdentity& identity = settings.identity;
-  identity.vendor = static_cast<std::uint16_t>(group.integer("vendor_id", identity.vendor, 0, 0xFFFF));
-  identity.device_type = static_cast<std::uint16_t>(group.integer("device_type", identity.device_type, 0, 0xFFFF));
-  identity.product = static_cast<std::uint16_t>(group.integer("product_code", 2, 0, 0xFFFF));
-  identity.serial = group.get<std::uint32_t>("serial_number", identity.serial, "a number of 32 bits");
+  settings.given = readIdentity(group);
+  settings.identity.serial = group.get<std::uint32_t>("serial_number", settings.identity.serial, "a number of 32 bits");
   if (group.get<bool>("io_byte", false, "true or false")) {
     settings.parameters.push_back({161, 0, 0, 1});
     settings.parameters.push_back({161, 0, 1, 1});

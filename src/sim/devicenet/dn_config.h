@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,11 @@ struct DnIdentity {
   std::uint32_t serial = 0;
 };
 
+/// What the configuration says of a module's identity: the driver's keys of one of its drives, or of the module itself.
+struct DnGivenIdentity {
+  std::optional<std::uint16_t> vendor, device_type, product;
+};
+
 /// `DriveConfig::bus` of a drive on DeviceNet. Its address is the MAC id, `DriveConfig::place` which one it is.
 struct DnDriveConfig {
   DnModuleKind kind = DnModuleKind::kOnInverter;
@@ -40,6 +46,7 @@ struct DnDriveConfig {
   /// Of SK 300E, 700E and 750E: setpoints and actual values 2 and 3 in order, and not 3 before 2 as the series has them
   /// on the other buses (BU 0020 7.3.6). Its own manual, BU 0080, is not at hand.
   bool values_in_order = false;
+  DnGivenIdentity identity;
 };
 
 struct DnModuleSettings {
@@ -47,6 +54,7 @@ struct DnModuleSettings {
   DnModuleKind kind = DnModuleKind::kOnInverter;
   std::string name = "SK TU3-DEV";  ///< class 1, attribute 7
   DnIdentity identity;
+  DnGivenIdentity given;  ///< of `identity`; what is not, its drives may give
   std::uint32_t bit_rate = 500000;
   std::uint8_t inputs = 0;          ///< DIN1 to DIN4
   unsigned packet_rate_steps = 10;  ///< ms; the expected packet rate is rounded up to them

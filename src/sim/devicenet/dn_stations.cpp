@@ -23,6 +23,20 @@ Commissioning commissioningOf(const DriveConfig& config) {
   return commissioning;
 }
 
+/// Any drive of a module says who it is for those that do not, as the driver has it; what is said of the module counts.
+void identify(DnModuleSettings& settings, const std::vector<DriveConfig>& drives) {
+  const auto take = [&](const DnGivenIdentity& given) {
+    settings.identity.vendor = given.vendor.value_or(settings.identity.vendor);
+    settings.identity.device_type = given.device_type.value_or(settings.identity.device_type);
+    settings.identity.product = given.product.value_or(settings.identity.product);
+  };
+  if (settings.kind == DnModuleKind::kGateway) settings.identity.product = 2;
+  for (const DriveConfig& drive : drives) {
+    if (drive.address == settings.mac) take(drive.bus.as<DnDriveConfig>().identity);
+  }
+  take(settings.given);
+}
+
 /// What the drives behind a module make of it.
 void describe(DnModuleSettings& settings, const DriveConfig& drive) {
   const DnDriveConfig& dn = drive.bus.as<DnDriveConfig>();
@@ -59,10 +73,8 @@ DnStations::DnStations(RobotSim& robot) : robot_(robot) {
       settings.mac = config.address;
       settings.kind = dn.kind;
       settings.bit_rate = bus.bit_rate;
-      if (dn.kind == DnModuleKind::kGateway && said == bus.modules.end()) {
-        settings.name = "SK TU4-DEV";
-        settings.identity.product = 2;
-      }
+      if (dn.kind == DnModuleKind::kGateway && said == bus.modules.end()) settings.name = "SK TU4-DEV";
+      identify(settings, robot_.config().drives);
       plan.push_back(settings);
       taken.push_back({});
       at = plan.end() - 1;

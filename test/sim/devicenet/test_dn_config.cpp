@@ -57,6 +57,30 @@ modules:
   EXPECT_EQ(6, robot.drive(4).parameters().value(509));
 }
 
+// The driver refuses a module that is another one than its configuration says: such a robot is simulated as it is.
+TEST(DnConfig, AModuleIsTheOneItsDrivesSay) {
+  RobotSim robot{read(R"(
+transport: devicenet
+drives:
+  a: {address: 3, series: sk5xxe, vendor_id: 283, device_type: 0, product_code: 9}
+  b: {address: 4, series: sk2xxe, inverter: 1}
+  c: {address: 4, series: sk2xxe, inverter: 2, vendor_id: 283, product_code: 8}
+  d: {address: 5, series: sk5xxe}
+modules:
+  of_b: {address: 4, vendor_id: 77}
+)")};
+  DnStations stations{robot};
+  const DnIdentity& single = stations.moduleOf(0).identity();
+  EXPECT_EQ(283, single.vendor);
+  EXPECT_EQ(0, single.device_type);
+  EXPECT_EQ(9, single.product);
+  const DnIdentity& gateway = stations.moduleOf(1).identity();
+  EXPECT_EQ(77, gateway.vendor) << "what is said of the module itself counts";
+  EXPECT_EQ(8, gateway.product);
+  EXPECT_EQ(2, gateway.device_type);
+  EXPECT_EQ(1, stations.moduleOf(3).identity().product);
+}
+
 // The driver's keys of the module's own byte, given with one of its drives, are P161 of the simulated one.
 TEST(DnConfig, TheModulesOwnByte) {
   const SimConfig config = read(R"(
