@@ -68,7 +68,7 @@ AcDriveOutput AcDriveScaling::toAcDrive(const ProcessOutput& output) const noexc
     const double share = (left ? -1.0 : 1.0) * output.setpoints[0] / kHundredPercent;
     const std::int16_t speed = symmetricInt16(atLeastOneRpm(rpmOfHundredPercent() * share));
     control |= extended && speed < 0 ? kRunReverse : kRunForward;
-    // Without a reverse the motor stands still rather than turning the wrong way.
+    // Without a reverse 0 rpm is nearest; where P104 > 0 would turn the motor at that, Drive stops it (DriveConfig).
     to.speed = speed >= 0 ? speed : extended ? static_cast<std::int16_t>(-speed) : std::int16_t{0};
   }
   to.control = static_cast<std::uint8_t>(control);
