@@ -29,10 +29,10 @@ robot::WheelSpeeds BaseMotion::pollWheels(const TwistCommand& command, bool driv
   beyond_full_ = robot::areBeyond(asked_wheels, max_speeds);
   robot::Twist2d target = robot::times(robot::factorInto(asked_wheels, limits), kinematics_->possible(asked));
   // Taken as zero at once, it is left along the limits.
-  below_minimum_ = anyBelow(kinematics_->wheels(target), minimum.wheels);
+  below_minimum_ = anyBelow(kinematics_->wheels(target), minimum);
   if (below_minimum_) target = {};
   const robot::WheelSpeeds wheels = ramp(target, limits, dt);
-  if (!anyBelow(wheels, minimum.wheels)) {
+  if (!anyBelow(wheels, minimum)) {
     drives_ = !robot::standsStill(wheels);
     return wheels;
   }

@@ -139,6 +139,7 @@ MinimumSpeeds BusCycle::minWheelSpeeds() const noexcept {
   MinimumSpeeds minimum;
   for (const DriveIndex i : wheels_) {
     minimum.wheels.push_back(minSpeed(i));
+    minimum.directions.push_back(onlyDirection(i));
     minimum.coming_to_rest = minimum.coming_to_rest || comesToRest(i);
   }
   return minimum;

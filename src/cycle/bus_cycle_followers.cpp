@@ -1,4 +1,5 @@
-// Drives that follow another one by broadcast: they get the same velocity, and their P104 bounds that of their leader.
+// Drives that follow another one by broadcast: they get the same velocity, and their P104 and their
+// directions bound that of their leader.
 #include <algorithm>
 
 #include "cycle/bus_cycle.h"
@@ -20,6 +21,15 @@ double BusCycle::minSpeed(DriveIndex drive) const noexcept {
   return speed;
 }
 
+// With P104 > 0 one that cannot turn that way rests by OFF1, and the others with it; without, it hears its leader.
+double BusCycle::onlyDirection(DriveIndex drive) const noexcept {
+  if (minSpeed(drive) <= 0.0) return drives_[drive].onlyDirection();
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    if (isOrFollows(i, drive) && drives_[i].onlyDirection() != 0.0) return drives_[i].onlyDirection();
+  }
+  return 0.0;
+}
+
 bool BusCycle::comesToRest(DriveIndex drive) const noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     if (isOrFollows(i, drive) && drives_[i].comesToRest()) return true;
@@ -31,8 +41,12 @@ bool BusCycle::comesToRest(DriveIndex drive) const noexcept {
 JointBounds BusCycle::boundsOf(DriveIndex drive, bool stops) const noexcept {
   const bool leads = std::find(leaders_.begin(), leaders_.end(), std::optional<DriveIndex>(drive)) != leaders_.end();
   const double least = minSpeed(drive);
-  return {drives_[drive].maxVelocity().value_or(RadPerSec{}).value, least, comesToRest(drive), stops,
-          leads ? least : 0.0};
+  return {drives_[drive].maxVelocity().value_or(RadPerSec{}).value,
+          least,
+          comesToRest(drive),
+          stops,
+          leads ? least : 0.0,
+          onlyDirection(drive)};
 }
 
 }  // namespace nord_driver::cycle

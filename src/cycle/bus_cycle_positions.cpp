@@ -1,12 +1,16 @@
 // The part of the bus cycle that hands targets to the drives that position.
+#include <algorithm>
+
 #include "cycle/bus_cycle.h"
 
 namespace nord_driver::cycle {
 
 namespace {
 
-// Longer than that after it was chosen nobody expects the axis to start.
+// Longer than that after it was chosen nobody expects the axis to start; but a slow cycle needs some of its own for the
+// answer.
 constexpr Duration kElementPatience = std::chrono::seconds{2};
+constexpr int kElementCycles = 10;
 
 }  // namespace
 
@@ -60,7 +64,7 @@ void BusCycle::chooseElement(DriveIndex drive, std::uint8_t element, Instant now
   }
   if (!refusal.empty()) return refuseElement(drive, element, refusal, now);
   axis.parameters.askElement(element);
-  axis.element_until = now + kElementPatience;
+  axis.element_until = now + std::max(kElementPatience, kElementCycles * period_);
 }
 
 // A stop meanwhile has taken the target away, as any other.

@@ -20,7 +20,7 @@ JointMotion::JointMotion(const robot::SpeedLimits& limits) : limiter_(oneAxis(li
 double JointMotion::pollVelocity(double target, bool driving, const JointBounds& bounds, Duration dt) noexcept {
   // Cut before the ramp, which must not run ahead of the joint: braking begins at once.
   double possible = std::max(-bounds.max_speed, std::min(bounds.max_speed, target));
-  if (std::abs(possible) < bounds.rests_below) possible = 0.0;
+  if (std::abs(possible) < bounds.rests_below || possible * bounds.only_direction < 0.0) possible = 0.0;
   saturated_ = driving && possible != target;
   if (!driving || bounds.coming_to_rest) {
     limiter_.reset();

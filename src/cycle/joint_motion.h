@@ -14,6 +14,7 @@ struct JointBounds {
   bool coming_to_rest = false;  ///< on its way to rest by OFF1, for P104: it would not follow yet
   bool stops = false;           ///< nobody asks for the target: it is 0, and approached from the first step on
   double rests_below = 0.0;     ///< rad/s: a target that is slower is taken for 0, and told as saturated
+  double only_direction = 0.0;  ///< +1 or -1: a target in the other direction is taken for 0, and told; 0: it has both
 };
 
 /// A drive that is not driving forgets its velocity, so that the next start begins from standstill. The ramp is the
@@ -26,7 +27,7 @@ class JointMotion {
   /// The velocity in rad/s for this cycle, `dt` after the last. `driving`: the drive follows setpoints now. `target`: as
   /// commanded, 0 where no command may be followed; it is gone to along the limits.
   double pollVelocity(double target, bool driving, const JointBounds& bounds, Duration dt) noexcept;
-  /// The last target was beyond 100 % of the setpoint, or too slow.
+  /// The last target was beyond 100 % of the setpoint, too slow, or in a direction that there is not.
   bool isSaturated() const noexcept { return saturated_; }
 
  private:

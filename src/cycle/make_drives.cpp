@@ -25,6 +25,7 @@ std::vector<drive::Drive> makeDrives(const CycleConfig& config, Transport& trans
     drive.setup_timeout = config.setupTimeout(setup);
     drive.parameter_sets = identity.parameter_sets;
     drive.has_quick_stop = identity.has_quick_stop;
+    drive.reverses = identity.reverses;
     drive.onlooker = onlooker;
     drive.led = setup.leader.has_value();
     shortest = std::min(shortest, drive.drive_timeout);

@@ -10,11 +10,12 @@ namespace nord_driver::cycle {
 /// drives as a whole or rests as a whole: while any such wheel would be slower than its P104, all wheels are commanded
 /// zero.
 struct MinimumSpeeds {
-  robot::WheelSpeeds wheels;    ///< rad/s of each wheel, 0: none; empty: of no wheel
-  bool coming_to_rest = false;  ///< a wheel has not come to rest yet: it would not follow
+  robot::WheelSpeeds wheels;           ///< rad/s of each wheel, 0: none; empty: of no wheel
+  bool coming_to_rest = false;         ///< a wheel has not come to rest yet: it would not follow
+  robot::WheelSpeeds directions = {};  ///< +1 or -1: the only direction in which a wheel turns; 0, or missing: both
 };
 
-/// A wheel that is to turn would be slower than it can.
-bool anyBelow(const robot::WheelSpeeds& wheels, const robot::WheelSpeeds& minimum) noexcept;
+/// A wheel with a P104 would be slower than it can turn, or is to turn in a direction that it does not have.
+bool anyBelow(const robot::WheelSpeeds& wheels, const MinimumSpeeds& minimum) noexcept;
 
 }  // namespace nord_driver::cycle

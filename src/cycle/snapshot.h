@@ -36,7 +36,7 @@ struct DriveSample {
   double velocity_command = 0.0;    ///< rad/s at the joint
   double velocity = 0.0;            ///< rad/s at the joint
   double frequency = 0.0;           ///< Hz
-  bool saturated = false;           ///< the velocity wanted is beyond P105, or not zero and below P104
+  bool saturated = false;           ///< the velocity wanted is beyond P105, not zero and below P104, or needs a reverse
   std::uint16_t fault_number = 0;   ///< P700 raw; 0 = none, 65535 = its number is not known (yet)
   std::optional<double> position;   ///< rad or m of the joint, of a drive that positions; none while it is not known
   bool position_reached = false;    ///< it is enabled, and at its target

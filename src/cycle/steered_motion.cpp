@@ -56,7 +56,7 @@ robot::SteeredSetpoint SteeredMotion::poll(const TwistCommand& command, bool dri
   if (!obeys_) limiter_.endAcceleration();
   robot::Twist2d target = targetOf(command, obeys_, limits, drives);
   // Taken as zero at once, it is left along the limits.
-  below_minimum_ = anyBelow(kinematics_.solve(target, drives.angles, steered_).wheels, drives.minimum.wheels);
+  below_minimum_ = anyBelow(kinematics_.solve(target, drives.angles, steered_).wheels, drives.minimum);
   if (below_minimum_) target = {};
   if (limited_ == robot::Twist2d{} && !readyToDriveOff(target, drives, now)) {
     obeys_ = obeys_ && target == robot::Twist2d{};
@@ -170,7 +170,7 @@ robot::SteeredSetpoint SteeredMotion::setpoint(const SteeredDrives& drives, cons
     limiter_.reset(limited_);
   }
   const robot::WheelSpeeds wheels = kinematics_.wheels(limited_, drives.angles);
-  if (!anyBelow(wheels, drives.minimum.wheels)) {
+  if (!anyBelow(wheels, drives.minimum)) {
     drives_ = !robot::standsStill(wheels);
     return {steered_, wheels};
   }

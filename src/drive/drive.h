@@ -55,6 +55,8 @@ struct DriveConfig {
   std::uint8_t parameter_sets = 4;
   /// False: its profile has no OFF2 and OFF3. An ordinary stop stands in their place, and ends as one.
   bool has_quick_stop = true;
+  /// False: its profile has no rotation to the left, a negative setpoint is 0: with P104 > 0 OFF1.
+  bool reverses = true;
   /// P104 > 0 is no reason to refuse enabling.
   bool allow_minimum_frequency = false;
   /// Cross-check the sign of actual value 1 with status bits 11 and 12. No manual defines that sign in left rotation.
@@ -152,6 +154,8 @@ class Drive {
   std::optional<RadPerSec> maxVelocity() const noexcept;
   /// The joint speed P104 of the commanded set stands for: below it the motor turns at it all the same. 0: none known.
   RadPerSec minVelocity() const noexcept;
+  /// +1 or -1: the only direction of the joint in which it can turn; 0: it turns in both.
+  double onlyDirection() const noexcept;
   /// On the way to rest by OFF1, for P104 > 0: a velocity would not be followed yet.
   bool comesToRest() const noexcept { return report_.phase == Phase::kResting && !phase_.ready_seen; }
 

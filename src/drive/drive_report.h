@@ -141,11 +141,11 @@ struct DriveReport {
   std::int16_t speed = 0;
   /// `frequency` and `velocity` can be told: online, and P105 of the set was known before the newest word came.
   bool scaled = false;
-  Hertz frequency;                       ///< from actual value 1
-  RadPerSec velocity;                    ///< of the joint, from `speed`; m/s of a prismatic one
-  RadPerSec velocity_command;            ///< of the joint, what setpoint 1 as sent stands for; m/s of a prismatic one
-  bool saturated = false;                ///< the wanted velocity is beyond P105, or below P104 and not zero
-  bool command_invalid = false;          ///< the wanted velocity was not a number: setpoint 0 was sent
+  Hertz frequency;               ///< from actual value 1
+  RadPerSec velocity;            ///< of the joint, from `speed`; m/s of a prismatic one
+  RadPerSec velocity_command;    ///< of the joint, what setpoint 1 as sent stands for; m/s of a prismatic one
+  bool saturated = false;        ///< the wanted velocity is beyond P105, below P104 and not zero, or needs a reverse
+  bool command_invalid = false;  ///< the wanted velocity was not a number: setpoint 0 was sent
   bool direction_contradiction = false;  ///< the sign of actual value 1 against status bits 11 and 12
 
   bool fault_latched = false;  ///< a fault was seen and not acknowledged since

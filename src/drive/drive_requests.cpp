@@ -216,6 +216,11 @@ RadPerSec Drive::minVelocity() const noexcept {
   return RadPerSec{std::fabs(profile::toRadPerSec(report_.minimum_frequency, config_.joint).value)};
 }
 
+double Drive::onlyDirection() const noexcept {
+  if (config_.reverses) return 0.0;
+  return config_.joint.inverted ? -1.0 : 1.0;
+}
+
 std::optional<RadPerSec> Drive::maxVelocity() const noexcept {
   const auto maximum = maxFrequency(report_.commanded_set);
   if (!maximum.has_value()) return std::nullopt;

@@ -66,9 +66,9 @@ AcDriveOutput AcDriveScaling::toAcDrive(const ProcessOutput& output) const noexc
   if (valid && (word & kRuns) == kRuns) {
     const bool left = (word & (control_bit::kRight | control_bit::kLeft)) == control_bit::kLeft;
     const double share = (left ? -1.0 : 1.0) * output.setpoints[0] / kHundredPercent;
-    const std::int16_t speed = symmetricInt16(rpmOfHundredPercent() * share);
+    const std::int16_t speed = symmetricInt16(atLeastOneRpm(rpmOfHundredPercent() * share));
     control |= extended && speed < 0 ? kRunReverse : kRunForward;
-    // Without a reverse the motor stands still rather than turning the wrong way.
+    // Without a reverse 0 rpm is nearest; where P104 > 0 would turn the motor at that, Drive stops it (DriveConfig).
     to.speed = speed >= 0 ? speed : extended ? static_cast<std::int16_t>(-speed) : std::int16_t{0};
   }
   to.control = static_cast<std::uint8_t>(control);

@@ -9,7 +9,8 @@
 //    P510 are not queried (BU 0280 4.2.3.1); assembly 70 has no such bit, and it is told as 1. An inverter
 //    that obeys its terminals or keypad is not recognized by either;
 //  - the bus bits 8 and 9, status bits 10 and 13 and the parameter set: read as 0 and set 1;
-//  - setpoints and actual values 2 and 3; the resolution of value 1, which is 1 rpm.
+//  - setpoints and actual values 2 and 3; the resolution of value 1, which is 1 rpm, and never less of a
+//    setpoint that is not 0.
 // Assembly 20/70 (profile 1) also has no reverse, tells neither warnings nor "setpoint reached", and its status byte is
 // zero at rest: whether there is an inverter it does not tell.
 #pragma once

@@ -35,7 +35,7 @@ std::optional<Cia402Output> Cia402Scaling::toCia402(const ProcessOutput& output)
   to.control_word = output.control_word & kCommonBits;
   const bool left = (output.control_word & (control_bit::kRight | control_bit::kLeft)) == control_bit::kLeft;
   if (left) to.control_word |= kControlLeft;
-  to.target_velocity = toInt16(rpmOfHundredPercent() * output.setpoints[0] / kHundredPercent);
+  to.target_velocity = toInt16(atLeastOneRpm(rpmOfHundredPercent() * output.setpoints[0] / kHundredPercent));
   return to;
 }
 

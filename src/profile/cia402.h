@@ -5,7 +5,8 @@
 //  - bit 10, "data valid": there is no such bit, and 0000 would be "disable voltage": where NORD's words ask to be
 //    ignored, nothing may be sent at all;
 //  - the bus bits 8 and 9, status bits 10 and 13 and the parameter set: read as 0 and set 1;
-//  - setpoints and actual values 2 and 3; the resolution of value 1, which is 1 rpm.
+//  - setpoints and actual values 2 and 3; the resolution of value 1, which is 1 rpm, and never less of a
+//    setpoint that is not 0.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 #include "profile/scaling.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nord_driver::profile {
@@ -35,6 +36,10 @@ Setpoint toSetpoint1(Hertz wanted, Hertz max_frequency) noexcept {
   const double held = result.saturated ? std::copysign(1.0, share) : share;
   result.word = static_cast<std::int16_t>(std::lround(held * kHundredPercent));
   return result;
+}
+
+double atLeastOneRpm(double rpm) noexcept {
+  return rpm == 0.0 ? 0.0 : std::copysign(std::max(1.0, std::fabs(rpm)), rpm);
 }
 
 Hertz fromActualValue1(std::int16_t word, Hertz max_frequency) noexcept {

@@ -33,4 +33,8 @@ Setpoint toSetpoint1(Hertz wanted, Hertz max_frequency) noexcept;
 /// The frequency an actual value 1 stands for, given P105 of the parameter set in force (BU 2700 6.4.4).
 Hertz fromActualValue1(std::int16_t word, Hertz max_frequency) noexcept;
 
+/// A speed for a word of whole rpm: one that is not 0 is at least 1, so that rounding does not take its direction away.
+/// At 0 rpm an enabled motor with P104 > 0 turns to the right.
+double atLeastOneRpm(double rpm) noexcept;
+
 }  // namespace nord_driver::profile

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -116,6 +117,7 @@ class ScriptedTransport final : public Transport {
     identity.worst_cycle = worst_cycle;
     identity.parameter_sets = parameter_sets;
     identity.has_quick_stop = has_quick_stop;
+    identity.reverses = forward_only.count(drive) == 0;
     return identity;
   }
   void close() noexcept override {}
@@ -125,6 +127,7 @@ class ScriptedTransport final : public Transport {
   double worst_cycle = 0.0;                  ///< s
   std::uint8_t parameter_sets = 4;           ///< that its control word can command
   bool has_quick_stop = true;
+  std::set<DriveIndex> forward_only;  ///< these have no reverse
   TimeoutOwner timeout_owner = TimeoutOwner::kInverter;
   bool sources_by_telegram = false;
   profile::ParameterCapabilities capabilities;

@@ -243,16 +243,27 @@ TEST(BaseMinimumProperty, NoWheelTurnsAgainstTheTwistOrAlone) {
 
 // P104 itself is not below it; a wheel that is to stand beside one that turns is. Of wheels without a P104 nothing is asked.
 TEST(MinimumSpeedsTest, AskEachWheelThatIsToTurn) {
-  const robot::WheelSpeeds minimum{2.0, 2.0};
+  const MinimumSpeeds minimum{{2.0, 2.0}};
   EXPECT_FALSE(anyBelow({2.0, -2.0}, minimum));
   EXPECT_TRUE(anyBelow({5.0, 1.999}, minimum));
   EXPECT_TRUE(anyBelow({-1.999, 5.0}, minimum));
   EXPECT_TRUE(anyBelow({0.0, 5.0}, minimum));
   EXPECT_FALSE(anyBelow({0.0, 0.0}, minimum));
   EXPECT_FALSE(anyBelow({1.0, 1.0}, {}));
-  EXPECT_FALSE(anyBelow({5.0, 1.0}, {2.0}));
-  EXPECT_FALSE(anyBelow({0.001, 5.0}, {0.0, 2.0}));
-  EXPECT_FALSE(anyBelow({5.0}, {2.0, 2.0}));
+  EXPECT_FALSE(anyBelow({5.0, 1.0}, {{2.0}}));
+  EXPECT_FALSE(anyBelow({0.001, 5.0}, {{0.0, 2.0}}));
+  EXPECT_FALSE(anyBelow({5.0}, {{2.0, 2.0}}));
+}
+
+// It would be commanded 0 and turn at its P104; without a P104 it stands.
+TEST(MinimumSpeedsTest, AWheelThatCannotTurnThatWayIsBelow) {
+  const MinimumSpeeds minimum{{2.0, 2.0}, false, {1.0, -1.0}};
+  EXPECT_FALSE(anyBelow({5.0, -5.0}, minimum));
+  EXPECT_TRUE(anyBelow({5.0, 5.0}, minimum));
+  EXPECT_TRUE(anyBelow({-5.0, -5.0}, minimum));
+  EXPECT_FALSE(anyBelow({0.0, 0.0}, minimum));
+  EXPECT_FALSE(anyBelow({-5.0, 5.0}, {{0.0, 0.0}, false, {1.0, -1.0}}));
+  EXPECT_FALSE(anyBelow({5.0, -5.0}, {{2.0, 2.0}, false, {1.0}}));
 }
 
 }  // namespace

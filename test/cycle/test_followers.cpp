@@ -57,7 +57,8 @@ TEST_F(FollowersInCycle, AreNotComparedWithACommand) {
 // P104: a follower told to go slower than its own would run ahead of its leader, or against it.
 class FollowersWithMinimum : public ::testing::Test, protected CycleBench {
  protected:
-  explicit FollowersWithMinimum(CycleConfig config = led()) : CycleBench{accepting(std::move(config))} {}
+  explicit FollowersWithMinimum(CycleConfig config = led(), const ScriptedTransport& prepared = ScriptedTransport{3})
+      : CycleBench{accepting(std::move(config)), prepared} {}
 
   static CycleConfig accepting(CycleConfig config) {
     for (DriveSetup& setup : config.drives) setup.drive.allow_minimum_frequency = true;
@@ -101,6 +102,46 @@ TEST_F(FollowersWithMinimum, AreNotAskedByADriveThatIsAlone) {
   EXPECT_NEAR(10.0, snapshot().drives[1].velocity_command, 0.02);
   EXPECT_TRUE(snapshot().drives[1].saturated);
 }
+
+/// One of the two has no reverse.
+class FollowersForwardOnly : public FollowersWithMinimum, public ::testing::WithParamInterface<DriveIndex> {
+ protected:
+  FollowersForwardOnly() : FollowersWithMinimum{led(), forwardOnly(GetParam())} {}
+  static ScriptedTransport forwardOnly(DriveIndex drive) {
+    ScriptedTransport transport{3};
+    transport.forward_only = {drive};
+    return transport;
+  }
+  void drive(double velocity) {
+    for (int i = 0; i < 200; ++i) {
+      commandLift(velocity);
+      step();
+    }
+  }
+};
+
+// It would rest by OFF1 while the other one drives on, or hold its leader at a setpoint of 0, at which that one turns.
+TEST_P(FollowersForwardOnly, WithMinimumRestTogetherWhereOneCannotReverse) {
+  begin(0);
+  drive(20.0);
+  for (const DriveIndex i : {DriveIndex{0}, kLift}) EXPECT_NEAR(20.0, snapshot().drives[i].velocity_command, 0.02);
+  EXPECT_FALSE(snapshot().drives[kLift].saturated);
+  drive(-20.0);
+  EXPECT_EQ(0x047E, controlWord(0));
+  EXPECT_EQ(0, transport.inverters[0].frequency());
+  for (const DriveIndex i : {DriveIndex{0}, kLift}) EXPECT_EQ(0, setpoint(i)) << i;
+  EXPECT_TRUE(snapshot().drives[kLift].saturated);
+}
+
+// It hears its leader, whatever its own words say.
+TEST_P(FollowersForwardOnly, WithoutMinimumOnlyItsOwnDirectionsBoundTheLeader) {
+  run(100);
+  ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  drive(-20.0);
+  EXPECT_EQ(GetParam() == kLift, setpoint(kLift) == 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, FollowersForwardOnly, ::testing::Values(0, CycleBench::kLift));
 
 /// The left wheel leads the lift.
 CycleConfig ledByAWheel() {

@@ -111,6 +111,20 @@ TEST(JointMotion, ATargetThatIsTooSlowForAFollowerIsNone) {
   EXPECT_FALSE(motion.isSaturated());
 }
 
+// The ramp would run on alone into the direction that there is not, and come back from there.
+TEST(JointMotion, ATargetInADirectionThatItDoesNotHaveIsNone) {
+  for (const double only : {1.0, -1.0}) {
+    JointMotion motion{limits(0.0, 100.0)};
+    JointBounds bounds = kFree;
+    bounds.only_direction = only;
+    EXPECT_EQ(only, motion.pollVelocity(5.0 * only, true, bounds, kStep));
+    EXPECT_FALSE(motion.isSaturated());
+    for (int i = 0; i < 20; ++i) EXPECT_EQ(0.0, motion.pollVelocity(-5.0 * only, true, bounds, kStep));
+    EXPECT_TRUE(motion.isSaturated());
+    EXPECT_EQ(only, motion.pollVelocity(5.0 * only, true, bounds, kStep)) << "at once";
+  }
+}
+
 TEST(JointMotion, JerkIsLimitedToo) {
   JointMotion motion{limits(0.0, 10.0, 100.0)};
   double last = 0.0, acceleration = 0.0;

@@ -46,6 +46,7 @@ drive::Drive firstOf(const ScriptedTransport& like, bool led = false) {
   ScriptedTransport transport{2};
   transport.parameter_sets = like.parameter_sets;
   transport.has_quick_stop = like.has_quick_stop;
+  transport.forward_only = like.forward_only;
   return makeDrives(config, transport, false).front();
 }
 
@@ -87,6 +88,21 @@ TEST(MakeDrives, TellWhetherThereIsAQuickStop) {
     drive.requestQuickStop(now);
     exchange(drive, kReady, now);
     EXPECT_EQ(there_is ? drive::Phase::kQuickStopping : drive::Phase::kIdle, drive.report().phase);
+  }
+}
+
+// Its profile has "run forward" alone.
+TEST(MakeDrives, TellWhetherTheyReverse) {
+  ScriptedTransport transport{2};
+  for (const bool reverses : {true, false}) {
+    if (!reverses) transport.forward_only = {0};
+    drive::Drive drive = firstOf(transport);
+    Instant now{std::chrono::hours{1}};
+    exchange(drive, kReady, now);
+    drive.requestEnable(now);
+    for (const Word word : {kReady, kSwitchedOn, kRunning}) exchange(drive, word, now);
+    drive.setVelocity({-1.0});
+    EXPECT_EQ(reverses, drive.pollOutput(now).setpoints[0] < 0);
   }
 }
 

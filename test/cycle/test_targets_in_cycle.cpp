@@ -143,6 +143,41 @@ TEST_F(TargetsInCycle, AnElementIsAwaitedForTwoSeconds) {
   EXPECT_EQ(500, sentTarget()) << "too late";
 }
 
+class TargetsOfASlowCycle : public TargetsInCycle {
+ protected:
+  TargetsOfASlowCycle() : TargetsInCycle{atOneHertz()} {}
+  static CycleConfig atOneHertz() {
+    CycleConfig config = PositioningLift::config();
+    config.cycle_rate = 1.0;
+    return config;
+  }
+  void slowSteps(int cycles) {
+    for (int i = 0; i < cycles; ++i) {
+      step();
+      transport.time += std::chrono::seconds{1} - kCycle;
+    }
+  }
+};
+
+// A parameter channel takes several cycles for an answer: longer than the 2 s that are enough at other rates.
+TEST_F(TargetsOfASlowCycle, AnElementIsAwaitedForTenCycles) {
+  ASSERT_TRUE(bringUpAndEnable());
+  slowSteps(3);
+  transport.hold_answers = true;
+  ports.commandElement(0, 3);
+  slowSteps(6);
+  EXPECT_THAT(events(), IsEmpty());
+  transport.answerAll();
+  slowSteps(2);
+  EXPECT_EQ(900, sentTarget());
+  transport.hold_answers = true;
+  ports.commandElement(0, 3);
+  slowSteps(10);
+  EXPECT_THAT(events(), IsEmpty());
+  slowSteps(1);
+  EXPECT_THAT(events(), ElementsAre(HasSubstr("P613[-03] was not read in time")));
+}
+
 TEST_F(TargetsInCycle, ANewTargetEndsTheWaitForAnElement) {
   ASSERT_TRUE(bringUpAndEnable());
   transport.hold_answers = true;

@@ -217,5 +217,66 @@ TEST_F(MinimumFrequency, ACommandBelowItIsTold) {
   EXPECT_FALSE(report().saturated);
 }
 
+class MinimumFrequencyForwardOnly : public MinimumFrequency {
+ protected:
+  void begin(double minimum, bool inverted) {
+    DriveConfig configuration = config();
+    configuration.allow_minimum_frequency = true;
+    configuration.reverses = false;
+    configuration.joint.inverted = inverted;
+    drive_ = Drive{configuration};
+    drive_.setMinimumFrequency(1, Hertz{minimum});
+  }
+};
+
+// At 0 rpm it would turn to the right, against the command.
+TEST_F(MinimumFrequencyForwardOnly, ReverseIsOff1) {
+  begin(5.0, false);
+  EXPECT_EQ(1.0, drive_.onlyDirection());
+  runAtHalf();
+  EXPECT_FALSE(report().saturated);
+  drive_.setVelocity({-kHalf});
+  EXPECT_EQ(0x047E, cycle(0x0B37, 0x2000));
+  EXPECT_EQ(0, setpoint_);
+  EXPECT_EQ(Phase::kResting, report().phase);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(0x047E, cycle(0x0B31));
+  EXPECT_TRUE(report().saturated);
+  EXPECT_EQ(0.0, report().velocity_command.value) << "what is on the wire";
+  drive_.setVelocity({kHalf});
+  EXPECT_EQ(0x047F, cycle(0x0B31));
+  EXPECT_EQ(0x2000, setpoint_);
+  EXPECT_FALSE(report().saturated);
+}
+
+TEST_F(MinimumFrequencyForwardOnly, OfAnInvertedJointForwardIsTheReverse) {
+  begin(5.0, true);
+  EXPECT_EQ(-1.0, drive_.onlyDirection());
+  enableAtRest();
+  drive_.setVelocity({kHalf});
+  EXPECT_EQ(0x047E, cycle(0x0B31));
+  EXPECT_TRUE(report().saturated);
+  drive_.setVelocity({-kHalf});
+  EXPECT_EQ(0x047F, cycle(0x0B31));
+  EXPECT_EQ(0x2000, setpoint_);
+}
+
+// Setpoint 0 is rest there, with torque.
+TEST_F(MinimumFrequencyForwardOnly, WithoutP104ReverseIsZero) {
+  begin(0.0, false);
+  run();
+  drive_.setVelocity({-kHalf});
+  EXPECT_EQ(0x047F, cycle(0x0B37, 0x2000));
+  EXPECT_EQ(0, setpoint_);
+  EXPECT_TRUE(report().saturated);
+  EXPECT_EQ(0.0, report().velocity_command.value);
+  drive_.setVelocity({0.0});
+  cycle(0x0B37);
+  EXPECT_FALSE(report().saturated);
+}
+
+TEST_F(MinimumFrequency, ADriveThatReversesHasBothDirections) {
+  EXPECT_EQ(0.0, drive_.onlyDirection());
+}
+
 }  // namespace
 }  // namespace nord_driver::drive

@@ -30,6 +30,23 @@ TEST(AcDrive, RunsForwardAndReverse) {
   EXPECT_EQ(0x62, output.control) << "rotation left, bit 12";
 }
 
+// With P104 > 0 an enabled motor turns at 0 rpm, to the right, and not where it was to turn.
+TEST(AcDrive, TheSmallestSetpointKeepsItsDirection) {
+  for (const std::int16_t share : std::initializer_list<std::int16_t>{1, 2, 5, 10}) {
+    AcDriveOutput output = scaling().toAcDrive({0x047F, {share}});
+    EXPECT_EQ(0x61, output.control) << share;
+    EXPECT_EQ(1, output.speed) << share;
+    output = scaling().toAcDrive({0x047F, {static_cast<std::int16_t>(-share)}});
+    EXPECT_EQ(0x62, output.control) << share;
+    EXPECT_EQ(1, output.speed) << share;
+    output = scaling().toAcDrive({0x147F, {share}});
+    EXPECT_EQ(0x62, output.control) << "rotation left, bit 12";
+    EXPECT_EQ(1, output.speed) << share;
+  }
+  EXPECT_EQ(2, scaling().toAcDrive({0x047F, {17}}).speed) << "1.56 rpm";
+  EXPECT_EQ(0, scaling().toAcDrive({0x147F, {0}}).speed);
+}
+
 // Whatever is not "operation enabled" is a ramp to 0 rpm, then off.
 TEST(AcDrive, EveryOtherWordStops) {
   for (const Word word : std::initializer_list<Word>{0x0000, 0x007F, 0x047E, 0x047B, 0x047D, 0x046F, 0x043F}) {
@@ -54,6 +71,7 @@ TEST(AcDrive, ProfileOneStandsStillWhereReverseIsCommanded) {
 TEST(AcDrive, WithoutAMaximumFrequencyThereIsNoSpeed) {
   const AcDriveScaling unscaled{AcDriveKind::kExtended, kPolePairs};
   EXPECT_EQ(0, unscaled.toAcDrive({0x047F, {16384}}).speed);
+  EXPECT_EQ(0, unscaled.toAcDrive({0x047F, {-16384}}).speed);
   EXPECT_EQ(0, unscaled.fromAcDrive({0xF4, 4, 1500}).actual_values[0]);
 }
 

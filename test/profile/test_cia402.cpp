@@ -58,10 +58,20 @@ TEST(Cia402, SetpointOneBecomesRpm) {
   EXPECT_EQ(0, output(0x047F, 0).target_velocity);
 }
 
+// With P104 > 0 an enabled motor turns at 0 rpm, to the right, and not where it was to turn.
+TEST(Cia402, TheSmallestSetpointKeepsItsDirection) {
+  for (const std::int16_t share : std::initializer_list<std::int16_t>{1, 2, 5, 10}) {
+    EXPECT_EQ(1, output(0x047F, share).target_velocity) << share;
+    EXPECT_EQ(-1, output(0x047F, static_cast<std::int16_t>(-share)).target_velocity) << share;
+  }
+  EXPECT_EQ(2, output(0x047F, 17).target_velocity) << "1.56 rpm";
+}
+
 // Nobody knows what a share of an unknown P105 is.
 TEST(Cia402, WithoutP105EverySpeedIsZero) {
   const Cia402Scaling scaling{2};
   EXPECT_EQ(0, scaling.toCia402({0x047F, {0x2000, 0, 0}}).value().target_velocity);
+  EXPECT_EQ(0, scaling.toCia402({0x047F, {-0x2000, 0, 0}}).value().target_velocity);
   EXPECT_EQ(0, scaling.fromCia402({0x0237, 750}).actual_values[0]);
 }
 

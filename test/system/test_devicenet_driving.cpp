@@ -139,6 +139,63 @@ TEST(DevicenetAcDrive, AQuickStopIsARampThatEnds) {
   }
 }
 
+DevicenetRobot::Options withoutReverse(bool base) {
+  DevicenetRobot::Options options;
+  options.assembly = 20;
+  options.base = base;
+  options.drives = {{"allow_minimum_frequency", true}};
+  options.simulate = [](sim::SimConfig& config) {
+    for (sim::DriveConfig& drive : config.drives) drive.parameters = {{104, 0, 0, 50}};  // 5 Hz
+  };
+  return options;
+}
+
+// Assembly 20 has "run forward" alone, and with P104 > 0 the motor would turn by it at 0 rpm.
+TEST(DevicenetAcDrive, ADriveWithoutReverseRestsWhereReverseIsCommanded) {
+  DevicenetRobot robot{withoutReverse(false)};
+  ASSERT_TRUE(robot.bringUp());
+  for (const DriveIndex drive : {0, 1}) ASSERT_TRUE(robot.ask(cycle::RequestKind::kEnable, drive).success);
+  const auto drive = [&robot](double velocity, Duration span) {
+    const Instant end = robot.transport().now() + span;
+    while (robot.transport().now() < end) {
+      for (const DriveIndex i : {0, 1}) robot.ports().commandDrive(i, {velocity, robot.transport().now(), true});
+      robot.step();
+    }
+  };
+  for (const bool right : {true, false}) {
+    const DriveIndex turns = right ? 0 : 1, rests = right ? 1 : 0;  // the second one is inverted
+    drive(right ? 4.0 : -4.0, seconds{4});
+    EXPECT_GT(robot.unit(turns).inverter().frequency(), 20.0);
+    EXPECT_FALSE(robot.snapshot().drives[turns].saturated);
+    EXPECT_EQ(0.0, robot.unit(rests).inverter().frequency());
+    const cycle::DriveSnapshot& resting = robot.snapshot().drives[rests];
+    EXPECT_TRUE(resting.enabled) << resting.text.c_str();
+    EXPECT_TRUE(resting.saturated);
+    EXPECT_EQ(0.0, resting.velocity_command);
+    EXPECT_EQ(0x047E, robot.controlWord(rests));
+  }
+  EXPECT_EQ("no rule broken", robot.bus().referee().report());
+}
+
+// The right wheel is mounted the other way round, so that a base of these two never has both of them forward.
+TEST(DevicenetAcDrive, ABaseWithAWheelThatCannotReverseRestsAsAWhole) {
+  DevicenetRobot robot{withoutReverse(true)};
+  ASSERT_TRUE(robot.bringUpAndEnable()) << robot.text(0) << " / " << robot.busText();
+  for (const double linear : {kHalfSpeed, -kHalfSpeed}) {
+    robot.drive(linear, 0.0, seconds{3});
+    for (const DriveIndex wheel : {0, 1}) {
+      EXPECT_EQ(0.0, robot.unit(wheel).inverter().frequency()) << linear;
+      EXPECT_TRUE(robot.snapshot().drives[wheel].saturated) << linear;
+    }
+    EXPECT_TRUE(robot.snapshot().base.enabled) << robot.snapshot().base.text.c_str();
+  }
+  robot.drive(0.0, -1.5, seconds{3});  // both motors forward
+  for (const DriveIndex wheel : {0, 1}) EXPECT_GT(robot.unit(wheel).inverter().frequency(), 20.0);
+  robot.drive(0.0, 1.5, seconds{6});
+  for (const DriveIndex wheel : {0, 1}) EXPECT_EQ(0.0, robot.unit(wheel).inverter().frequency());
+  EXPECT_EQ("no rule broken", robot.bus().referee().report());
+}
+
 /// One module, four inverters in 33 bytes.
 class DevicenetFourInverters : public ::testing::Test {
  protected:

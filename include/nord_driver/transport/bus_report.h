@@ -51,6 +51,8 @@ struct DriveIdentity {
   std::uint8_t parameter_sets = 4;
   /// False: its profile has no words for OFF2 and OFF3, an ordinary stop stands in their place.
   bool has_quick_stop = true;
+  /// False: its profile has no rotation to the left, a negative setpoint is 0.
+  bool reverses = true;
   std::uint8_t inverter = 1;  ///< 1..4 behind a bus module that serves several
   /// Drives with the same number are behind the same bus module; nothing: this one has a module of its own.
   std::optional<std::size_t> shared_module = std::nullopt;

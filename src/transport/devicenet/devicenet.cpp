@@ -251,6 +251,7 @@ DriveIdentity DeviceNetTransport::identity(DriveIndex drive) const {
     identity.parameter_sets = 1;
     identity.has_quick_stop = false;
   }
+  identity.reverses = config.drive_profile != DevicenetProfile::kAcDrive;
   identity.process_values = config.processValues();
   identity.parameter_channel = "explicit messages";
   identity.longest_pause = toSeconds(longestPause(config.module));
