@@ -214,6 +214,7 @@ Completion BusCycle::resetOdometry(const Request& request) noexcept {
 }
 
 void BusCycle::command(Instant now, Duration dt) noexcept {
+  shareRest();
   if (base_) commandBase(now, dt);
   if (steered_) commandSteered(now, dt);
   commandSingles(now, dt);

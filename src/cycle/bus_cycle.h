@@ -92,6 +92,7 @@ class BusCycle {
   }
   /// rad/s: the highest P104 of a drive and those that follow it.
   double minSpeed(DriveIndex drive) const noexcept;
+  void shareRest() noexcept;
   /// +1 or -1: the only direction in which these can turn; 0: both.
   double onlyDirection(DriveIndex drive) const noexcept;
   bool comesToRest(DriveIndex drive) const noexcept;

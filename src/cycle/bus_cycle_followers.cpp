@@ -21,6 +21,13 @@ double BusCycle::minSpeed(DriveIndex drive) const noexcept {
   return speed;
 }
 
+// A follower may hear its leader's control word, too (P509 as broadcast): one that is to rest by OFF1 rests with all.
+void BusCycle::shareRest() noexcept {
+  for (DriveIndex i = 0; i < drives_.size(); ++i) {
+    drives_[i].setRestsWithOthers(minSpeed(leaders_[i].value_or(i)) > 0.0);
+  }
+}
+
 // With P104 > 0 one that cannot turn that way rests by OFF1, and the others with it; without, it hears its leader.
 double BusCycle::onlyDirection(DriveIndex drive) const noexcept {
   if (minSpeed(drive) <= 0.0) return drives_[drive].onlyDirection();

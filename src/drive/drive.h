@@ -156,6 +156,8 @@ class Drive {
   RadPerSec minVelocity() const noexcept;
   /// +1 or -1: the only direction of the joint in which it can turn; 0: it turns in both.
   double onlyDirection() const noexcept;
+  /// Rests by OFF1 at a velocity of 0 as if P104 were above 0: that of a drive is which hears the same words.
+  void setRestsWithOthers(bool rests) noexcept { rests_with_others_ = rests; }
   /// On the way to rest by OFF1, for P104 > 0: a velocity would not be followed yet.
   bool comesToRest() const noexcept { return report_.phase == Phase::kResting && !phase_.ready_seen; }
 
@@ -230,7 +232,7 @@ class Drive {
   void tellSet() noexcept;
   /// Between resting and driving, by the velocity wanted.
   void restOrResume(const profile::Setpoint& setpoint, Instant now) noexcept;
-  bool restsAtZero() const noexcept { return !axis_ && report_.minimum_frequency.value > 0.0; }
+  bool restsAtZero() const noexcept { return !axis_ && (rests_with_others_ || report_.minimum_frequency.value > 0.0); }
   void enter(Phase phase, Instant now, RadPerSec wanted = {}) noexcept;
   void stop(StopCause cause, Instant now) noexcept;
   void latch(StopCause cause) noexcept;
@@ -244,6 +246,7 @@ class Drive {
   DriveConfig config_;
   std::array<ParameterSet, 4> sets_{};
   bool parameters_awaited_ = false;
+  bool rests_with_others_ = false;
   DriveReport report_;
   PhaseData phase_;  // of report_.phase
   UnansweredWord unanswered_;

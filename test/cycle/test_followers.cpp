@@ -92,6 +92,33 @@ TEST_F(FollowersWithMinimum, RestTogetherWithALeaderThatIsTooSlowForThem) {
   EXPECT_FALSE(snapshot().drives[kLift].saturated);
 }
 
+/// One of the two has P104 > 0.
+class FollowersThatShareTheirWords : public FollowersWithMinimum, public ::testing::WithParamInterface<DriveIndex> {
+ protected:
+  void expectWords(Word word) {
+    EXPECT_EQ(word, controlWord(0));
+    EXPECT_EQ(word, controlWord(kLift));
+  }
+};
+
+// A follower with P509 as broadcast obeys its leader's word: 047F to one and 047E to the other would turn it at its P104,
+// or leave it disabled.
+TEST_P(FollowersThatShareTheirWords, RestAndResumeInTheSameWords) {
+  begin(GetParam());
+  expectWords(0x047E);
+  for (const double velocity : {20.0, 0.0, -20.0}) {
+    for (int i = 0; i < 200; ++i) {
+      commandLift(velocity);
+      step();
+      ASSERT_EQ(controlWord(kLift), controlWord(0)) << velocity << " rad/s, cycle " << i;
+    }
+    expectWords(velocity == 0.0 ? 0x047E : 0x047F);
+    EXPECT_NEAR(velocity, snapshot().drives[kLift].velocity_command, 0.02);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, FollowersThatShareTheirWords, ::testing::Values(0, CycleBench::kLift));
+
 // One that nobody follows turns at its own P104, as its inverter has it.
 TEST_F(FollowersWithMinimum, AreNotAskedByADriveThatIsAlone) {
   begin(1);
