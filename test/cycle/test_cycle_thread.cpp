@@ -96,6 +96,12 @@ TEST(CycleThreadTest, SaysWhatTheSystemRefused) {
   EXPECT_EQ("", Running{}.thread->refused());
 }
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kCanLockMemory = false;
+#else
+constexpr bool kCanLockMemory = true;
+#endif
+
 /// kB of this process that stay in memory.
 long lockedMemory() {
   std::ifstream status{"/proc/self/status"};
@@ -107,6 +113,7 @@ long lockedMemory() {
 
 // Whether it may is the system's to say: what this test may lock itself tells.
 TEST(CycleThreadTest, LocksTheMemoryOrSaysThatItCannot) {
+  if (!kCanLockMemory) GTEST_SKIP() << "the sanitizers have replaced mlockall";
   const bool allowed = ::mlockall(MCL_CURRENT) == 0;
   ::munlockall();
   ASSERT_EQ(0, lockedMemory());
@@ -170,6 +177,7 @@ TEST(CycleThreadTest, TakesItsPriorityOrSaysThatItCannot) {
 }
 
 TEST(CycleThreadDeathTest, SaysEachThingThatTheSystemRefuses) {
+  if (!kCanLockMemory) GTEST_SKIP() << "the sanitizers have replaced mlockall";
   EXPECT_EXIT(printRefusalWithoutRights(), ::testing::ExitedWithCode(0),
               "memory cannot be locked .*; SCHED_FIFO priority 7 is not allowed");
 }
