@@ -14,7 +14,7 @@
 //  - The set is switched at standstill only: setpoint 1 is a share of P105 of the set in force (BU 0020 7.3.5).
 //  - With P104 > 0 the motor turns at setpoint 0. Such a drive is enabled only where the configuration accepts it; then
 //    a command of zero is OFF1 (kResting), and the next one that is not zero leads up again through "ready to switch
-//    on".
+//    on". With it do those that it leads or follows: they may hear one control word.
 //  - A drive that positions (`position`) goes to a target instead of following a velocity: see PositionAxis. Setpoint 1,
 //    where it is the frequency, is then the speed it travels at. Its way to rest is OFF1 from the first word on, for a
 //    setpoint of zero would not stop it where the drive travels at P105.
@@ -156,7 +156,7 @@ class Drive {
   RadPerSec minVelocity() const noexcept;
   /// +1 or -1: the only direction of the joint in which it can turn; 0: it turns in both.
   double onlyDirection() const noexcept;
-  /// Rests by OFF1 at a velocity of 0 as if P104 were above 0: that of a drive is which hears the same words.
+  /// True: a velocity of 0 is OFF1 although its own P104 may be 0, because that of one which it leads or follows is not.
   void setRestsWithOthers(bool rests) noexcept { rests_with_others_ = rests; }
   /// On the way to rest by OFF1, for P104 > 0: a velocity would not be followed yet.
   bool comesToRest() const noexcept { return report_.phase == Phase::kResting && !phase_.ready_seen; }

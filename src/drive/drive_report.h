@@ -25,7 +25,7 @@ enum class Phase : std::uint8_t {
   kQuickStopping,  ///< OFF3: 047B until "switch-on disabled"
   kSwitchingSet,   ///< 047E with another set, until the status word confirms it
   kCoasting,       ///< OFF2: 047D until "switch-on disabled"; the motor is not braked
-  kResting,        ///< enabled, P104 > 0 and no velocity wanted: OFF1, 047E and setpoint 0
+  kResting,        ///< enabled, P104 > 0 (see Drive) and no velocity wanted: OFF1, 047E and setpoint 0
   kResuming,       ///< enabled, from rest to the velocity wanted: 047F and the setpoint until "operation enabled"
 };
 

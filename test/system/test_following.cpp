@@ -18,10 +18,10 @@ const sim::ParameterPreset kSetpointFromLeader{510, 0, 0, kCanBroadcast}, kAllFr
 
 /// Two wheels, and behind the left one a drive that hears it.
 struct Rig {
-  explicit Rig(const std::vector<sim::ParameterPreset>& parameters, bool configured)
-      : robot(options(parameters, configured)) {
+  explicit Rig(const SimulatedRobot::Options& options) : robot(options) {
     robot.unit(kRearLeft).hear(&robot.unit(kLeft));
   }
+  Rig(const std::vector<sim::ParameterPreset>& parameters, bool configured) : Rig(options(parameters, configured)) {}
   static SimulatedRobot::Options options(const std::vector<sim::ParameterPreset>& parameters, bool configured) {
     SimulatedRobot::Options options;
     options.wheels_a_side = 2;
@@ -82,6 +82,31 @@ TEST(Following, AFollowerIsEnabledAndDrivenWithItsLeader) {
     ASSERT_TRUE(rig.robot.ask(cycle::RequestKind::kDisable).success);
     EXPECT_FALSE(rig.runs(kRearLeft));
     EXPECT_EQ("no rule broken", rig.robot.segment().referee().report());
+  }
+}
+
+// The follower obeys its leader's control word: sent 047F, a leader at rest would have it turn at its P104 unasked, and
+// sent 047E by its own P104 alone, would leave it disabled.
+TEST(Following, LeaderAndFollowerRestTogetherWhereOneHasAMinimumFrequency) {
+  for (const char* const with_minimum : {"left", "rear_left"}) {
+    SCOPED_TRACE(with_minimum);
+    SimulatedRobot::Options options = Rig::options({kAllFromLeader}, true);
+    options.drives = {{"allow_minimum_frequency", true}};
+    options.parameters_of[with_minimum].push_back({104, 0, 0, 50});  // 5 Hz
+    Rig rig{options};
+    ASSERT_TRUE(rig.robot.bringUp());
+    ASSERT_EQ("", rig.refusalOf(cycle::kAllDrives));
+    rig.robot.drive(0.0, 0.0, std::chrono::seconds{2});
+    for (const double velocity : {kHalfSpeed, -kHalfSpeed}) {
+      EXPECT_LT(std::fabs(rig.speed(kRearLeft)), 0.1);
+      EXPECT_FALSE(rig.runs(kLeft) || rig.runs(kRearLeft));
+      rig.robot.drive(velocity, 0.0, std::chrono::seconds{4});
+      EXPECT_GT(std::fabs(rig.speed(kLeft)), 50.0);
+      EXPECT_NEAR(rig.speed(kLeft), rig.speed(kRearLeft), 5.0);
+      rig.robot.drive(0.0, 0.0, std::chrono::seconds{4});
+    }
+    EXPECT_FALSE(rig.runs(kLeft) || rig.runs(kRearLeft));
+    EXPECT_TRUE(rig.robot.snapshot().base.enabled) << rig.robot.snapshot().base.text.c_str();
   }
 }
 
