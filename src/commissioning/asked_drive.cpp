@@ -44,7 +44,7 @@ void askForBase(const cycle::CycleConfig& config, std::vector<AskedDrive>& drive
 }  // namespace
 
 std::vector<AskedDrive> askedDrives(const cycle::CycleConfig& config, const std::vector<DriveIdentity>& identities,
-                                    const std::string& transport) {
+                                    const std::string& transport, bool looks_on) {
   std::vector<AskedDrive> drives;
   for (std::size_t i = 0; i < config.drives.size(); ++i) {
     const cycle::DriveSetup& setup = config.drives[i];
@@ -53,6 +53,7 @@ std::vector<AskedDrive> askedDrives(const cycle::CycleConfig& config, const std:
     drive.series = setup.series;
     drive.transport = shortTransportName(transport);
     drive.identity = identities[i];
+    drive.looks_on = looks_on;
     drive.period = toSeconds(config.period());
     drive.allows_minimum_frequency = setup.drive.allow_minimum_frequency;
     drive.typed_max_frequency = setup.typed_max_frequency;

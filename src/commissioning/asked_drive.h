@@ -20,7 +20,8 @@ struct AskedDrive {
   DriveIdentity identity;  ///< how it hangs on the bus, what protects it, how many process values it has
   double period = 0.01;    ///< s, of the bus cycle
   bool of_base = false;
-  bool follows = false;  ///< another inverter is to lead it
+  bool looks_on = false;  ///< the node commands nothing (`read_only`): its words are 0000, and its end changes nothing
+  bool follows = false;   ///< another inverter is to lead it
   bool allows_minimum_frequency = false;
   std::optional<double> typed_max_frequency;   ///< Hz
   std::optional<double> rated_current;         ///< A
@@ -35,8 +36,8 @@ struct AskedDrive {
 };
 
 /// One per drive of `config`. `identities`: of the transport as the driver itself configures it; `transport`: its name,
-/// with or without prefix.
+/// with or without prefix; `looks_on`: AskedDrive::looks_on of all.
 std::vector<AskedDrive> askedDrives(const cycle::CycleConfig& config, const std::vector<DriveIdentity>& identities,
-                                    const std::string& transport);
+                                    const std::string& transport, bool looks_on);
 
 }  // namespace nord_driver::commissioning

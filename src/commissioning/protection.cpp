@@ -1,4 +1,4 @@
-// P513, P151 and P120: whether the drive stops when this computer dies.
+// P513, P151 and P120: whether the drive stops when this computer dies. The end of a node that looks on changes nothing.
 #include <algorithm>
 #include <cmath>
 
@@ -61,10 +61,21 @@ Remedy otherRemedy(const DriveUnderCheck& drive, const ParameterKey& key) {
   return watches_module ? timeoutRemedy(drive, key) : drive.remedy(key, 0);
 }
 
+/// What the words 0000 of a node that looks on do (BU 2700, 7.1.1). Through a gateway it sends none.
+void assessLookingOn(const DriveUnderCheck& drive, const ParameterKey& key, double timeout, Findings& to) {
+  if (timeout <= 0.0 || !drive.asked().identity.timeout_notices) return;
+  Finding finding =
+      drive.finding(key, Severity::kWarning,
+                    "the words of a node that looks on (read_only) are 0000: it trips E10.x by them", "BU 2700, 7.1.1");
+  finding.advice = "set it to 0 while the node looks on";  // who drives later may need it
+  to.push_back(finding);
+}
+
 }  // namespace
 
 void busErrorsAreHeeded(const Drives& drives, std::size_t index, Findings& to) {
   const DriveUnderCheck& drive = drives[index];
+  if (drive.asked().looks_on) return;
   const char* const source = "BU 2700, 7.1.1 and 8.1";
   for (const std::uint16_t number : {kTelegramTimeout, kModuleTimeout}) {
     const ParameterKey key = drive.key(number);
@@ -93,7 +104,9 @@ void timeoutIsLongEnough(const Drives& drives, std::size_t index, Findings& to) 
   const DriveUnderCheck& drive = drives[index];
   const ParameterKey key = ownTimeout(drive);
   const auto timeout = timeoutOf(drive, key);
-  if (!timeout || *timeout <= 0.0 || *timeout >= shortestTimeout(drive)) return;
+  if (!timeout) return;
+  if (drive.asked().looks_on) return assessLookingOn(drive, key, *timeout, to);
+  if (*timeout <= 0.0 || *timeout >= shortestTimeout(drive)) return;
   Finding finding =
       drive.finding(key, Severity::kWarning, "shorter than the bus may be silent: it trips E10.x without a reason",
                     "BU 0220, 4.2.3.2");
@@ -104,7 +117,7 @@ void timeoutIsLongEnough(const Drives& drives, std::size_t index, Findings& to) 
 // "System bus timeout" in the table of BU 2700 8.1, columns SK CU4 and SK TU4.
 void moduleIsWatched(const Drives& drives, std::size_t index, Findings& to) {
   const DriveUnderCheck& drive = drives[index];
-  if (!isBehindModule(drive)) return;
+  if (!isBehindModule(drive) || drive.asked().looks_on) return;
   const bool by_telegrams = drive.asked().series == profile::Series::kSk5xxe;
   const ParameterKey key = drive.key(by_telegrams ? kTelegramTimeout : kOptionMonitoring);
   const auto raw = drive.raw(key);

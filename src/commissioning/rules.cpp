@@ -46,8 +46,10 @@ const std::vector<Rule>& rules() {
        "the motor runs on when this computer dies", "0, or 0.5 s where 0 is too little", "BU 2700, 7.1.1 and 8.1",
        busErrorsAreHeeded},
       {"timeout_long_enough", "P513, P151 of the module",
-       "two bus cycles, the longest cycle there may be, and two pauses between telegrams where not each cycle has one",
-       "E10.x without a reason", "0.5 s, or longer where the bus needs it", "BU 0220, 4.2.3.2", timeoutIsLongEnough},
+       "two bus cycles, the longest cycle there may be, and two pauses between telegrams where not each cycle has one; "
+       "with read_only not above 0",
+       "E10.x without a reason", "0.5 s, or longer where the bus needs it", "BU 0220, 4.2.3.2; BU 2700, 7.1.1",
+       timeoutIsLongEnough},
       {"module_watched", "P120 [-01]; P513 in SK 511E to 535E", "not 0 behind SK CU4/TU4",
        "the inverter does not notice a module that fails", "1, Auto; 0.5 s", "BU 2700, 8.1", moduleIsWatched},
       {"top_speed", "P105 of the set in force",

@@ -165,13 +165,18 @@ std::shared_ptr<TreeSettings> TreeSettings::group(const std::string& key) const 
   return std::make_shared<TreeSettings>(fullName(key), value == nullptr ? SettingValue{} : *value);
 }
 
-std::shared_ptr<TreeSettings> TreeSettings::with(const std::string& key, const std::string& text) const {
+std::shared_ptr<TreeSettings> TreeSettings::without(const std::string& key) const {
   SettingValue changed = SettingValue::group();
   for (std::size_t i = 0; i < value_.names.size(); ++i) {
     if (value_.names[i] != key) changed.add(value_.names[i], value_.items[i]);
   }
-  changed.add(key, SettingValue::ofText(text));
   return std::make_shared<TreeSettings>(prefix_, std::move(changed));
+}
+
+std::shared_ptr<TreeSettings> TreeSettings::with(const std::string& key, const std::string& text) const {
+  std::shared_ptr<TreeSettings> changed = without(key);
+  changed->value_.add(key, SettingValue::ofText(text));
+  return changed;
 }
 
 std::vector<std::string> TreeSettings::keys() const {

@@ -37,6 +37,8 @@ class TreeSettings : public Settings, public SettingGroups {
   virtual std::optional<std::vector<double>> numbers(const std::string& key) const;
   /// The group below `key`; an empty one when it is absent.
   virtual std::shared_ptr<TreeSettings> group(const std::string& key) const;
+  /// The same group without `key`, which is no path.
+  std::shared_ptr<TreeSettings> without(const std::string& key) const;
   /// The same group with `text` at `key`, which is no path.
   std::shared_ptr<TreeSettings> with(const std::string& key, const std::string& text) const;
   /// Marks a key as known without reading it.

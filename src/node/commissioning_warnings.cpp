@@ -44,7 +44,7 @@ commissioning::Findings withUnreadableAsOne(const commissioning::Findings& findi
 
 CommissioningWarnings::CommissioningWarnings(const NodeConfig& config, const std::vector<DriveIdentity>& identities,
                                              std::vector<catalogue::DriveCatalogue> known)
-    : asked_(commissioning::askedDrives(config.cycle, identities, config.transport)),
+    : asked_(commissioning::askedDrives(config.cycle, identities, config.transport, config.read_only)),
       known_(std::move(known)),
       found_(asked_.size()) {}
 

@@ -49,7 +49,7 @@ Diagnostics::Diagnostics(const NodeConfig& config, const std::vector<DriveIdenti
     names_.push_back(config.cycle.drives[i].name);
     series_.push_back(config.cycle.drives[i].series);
     protections_.emplace_back(identities[i], config.cycle.drives[i].series, config.cycle.cmd_vel_timeout,
-                              config.cycle.period());
+                              config.cycle.period(), config.read_only);
     ramps_.emplace_back(config.cycle, i);
     updater_.add("drive " + names_.back(), [this, i](DiagnosticStatusWrapper& status) { reportDrive(i, status); });
   }

@@ -33,8 +33,12 @@ const char* faultOfTimeout(bool by_module, profile::Series series) noexcept {
 }  // namespace
 
 DriveProtection::DriveProtection(DriveIdentity identity, profile::Series series, Duration cmd_vel_timeout,
-                                 Duration period)
-    : identity_(std::move(identity)), series_(series), cmd_vel_timeout_(cmd_vel_timeout), period_(period) {}
+                                 Duration period, bool looks_on)
+    : identity_(std::move(identity)),
+      series_(series),
+      cmd_vel_timeout_(cmd_vel_timeout),
+      period_(period),
+      looks_on_(looks_on) {}
 
 // "System bus timeout" in the table of BU 2700 8.1, columns SK CU4 and SK TU4.
 void DriveProtection::assessWayToModule(const cycle::DeviceData& device, ProtectionReport& report) const {
@@ -54,10 +58,22 @@ void DriveProtection::assessWayToModule(const cycle::DeviceData& device, Protect
   }
 }
 
+// Where the drive is told nothing (a gateway), no time-out judges the words of this node.
+ProtectionReport DriveProtection::assessLookingOn(const std::optional<double>& own, const std::string& name) const {
+  ProtectionReport report{Level::kFine, "this node looks on and commands nothing"};
+  if (own && *own > 0.0 && identity_.timeout_notices) {
+    const bool by_module = identity_.timeout_owner == TimeoutOwner::kModule;
+    warn(report, name + " of " + shortNumber(*own) + " s: by its words 0000 the inverter trips " +
+                     faultOfTimeout(by_module, series_) + " and the motor coasts; set it to 0 while it looks on");
+  }
+  return report;
+}
+
 ProtectionReport DriveProtection::assess(const cycle::DeviceData& device) const {
   const bool by_module = identity_.timeout_owner == TimeoutOwner::kModule;
   const std::optional<double>& own = by_module ? device.module_timeout : device.telegram_timeout;
   const std::string name = by_module ? "P151 of the bus module" : "P513";
+  if (looks_on_) return assessLookingOn(own, name);
   if (device.telegram_timeout && *device.telegram_timeout < 0.0) {
     return {Level::kError,
             "nothing: P513 = -0.1 lets the inverter ignore every bus error, it would run on; set P513 to 0 or more"};

@@ -165,10 +165,11 @@ void DriverNode::advertise() {
                           tools::placeOf(where_, shortTransportName(config_.transport), config_.drives[i]), setup.name,
                           transport_->parameterCapabilities(i).ram_writes);
     traced.push_back({setup.name, identities_[i].address});
-    drive_publishers_.emplace_back(private_node_, setup, identities_[i],
-                                   DriveProtection{identities_[i], config_.cycle.drives[i].series,
-                                                   config_.cycle.cmd_vel_timeout, config_.cycle.period()},
-                                   faults_[i], static_cast<std::uint16_t>(setup.address.value_or(0)));
+    drive_publishers_.emplace_back(
+        private_node_, setup, identities_[i],
+        DriveProtection{identities_[i], config_.cycle.drives[i].series, config_.cycle.cmd_vel_timeout,
+                        config_.cycle.period(), config_.read_only},
+        faults_[i], static_cast<std::uint16_t>(setup.address.value_or(0)));
     fault_publishers_.emplace_back(private_node_, setup.name, faults_[i]);
     values_publishers_.emplace_back(private_node_, setup.name, values_[i]);
     if (cycle_->inBase(i) || cycle_->isLed(i)) continue;

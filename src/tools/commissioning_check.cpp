@@ -34,7 +34,7 @@ std::vector<CommissionedDrive> drivesToCheck(const node::NodeConfig& config,
                                              const std::vector<DriveIdentity>& identities,
                                              const std::vector<std::string>& names,
                                              const catalogue::Catalogues& catalogues) {
-  const auto all = commissioning::askedDrives(config.cycle, identities, config.transport);
+  const auto all = commissioning::askedDrives(config.cycle, identities, config.transport, config.read_only);
   refuseUnknown(names, all);
   std::vector<CommissionedDrive> drives;
   for (const commissioning::AskedDrive& asked : all) {

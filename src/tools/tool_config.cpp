@@ -26,7 +26,8 @@ YamlSettings timesOf(const YAML::Node& file) {
 ToolConfig read(const YAML::Node& file, const YamlSettings& settings, const std::vector<DriveSettings>& drives) {
   ToolConfig config;
   config.transport = readTransportName(settings);
-  config.bus = settings.group("bus");
+  // Who comes for a parameter and goes would wait for the whole bus with each command.
+  config.bus = settings.group("bus")->without("scan");
   config.parameter_files = settings.texts("parameter_files").value_or(std::vector<std::string>{});
   config.writable_parameters = readWritableParameters(settings);
   config.eeprom = readEepromSettings(settings);

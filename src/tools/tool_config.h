@@ -17,8 +17,8 @@
 namespace nord_driver::tools {
 
 struct ToolConfig {
-  std::string transport;  ///< plugin name with its prefix
-  std::shared_ptr<const Settings> bus;
+  std::string transport;                     ///< plugin name with its prefix
+  std::shared_ptr<const Settings> bus;       ///< without `scan`, a driver's at its start
   std::vector<DriveSettings> drives;         ///< as the transport is told, in the order of `cycle.drives`
   cycle::CycleConfig cycle;                  ///< without a base
   std::size_t asked = 1;                     ///< so many of the first drives were asked for

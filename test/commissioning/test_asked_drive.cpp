@@ -22,7 +22,7 @@ std::vector<AskedDrive> asked(const std::string& text) {
   const YamlSettings settings{"", YAML::Load(text)};
   const auto drives = readDriveList(settings);
   return askedDrives(cycle::readCycleConfig(settings, drives), std::vector<DriveIdentity>(drives.size()),
-                     "nord_driver/profibus_dp");
+                     "nord_driver/profibus_dp", false);
 }
 
 const AskedDrive& find(const std::vector<AskedDrive>& drives, const std::string& name) {

@@ -40,6 +40,14 @@ void unprotected(AskedDrive& asked) {
 void needsTimeout(AskedDrive& asked) {
   asked.identity.timeout_needed = true;
 }
+void looksOn(AskedDrive& asked) {
+  unprotected(asked);
+  asked.looks_on = true;
+}
+void looksOnAtAGateway(AskedDrive& asked) {
+  looksOn(asked);
+  asked.identity.timeout_notices = false;
+}
 void onePair(AskedDrive& asked) {
   asked.identity.process_values = 1;
 }
@@ -234,6 +242,12 @@ const std::vector<Row>& rows() {
       {"too short", kSk5, slowBus, {{{513}, 5}}, {"timeout_long_enough warning P513 -> 6"}},
       {"too short", kDecentral, leave, {{{151}, 19}}, {"timeout_long_enough warning P151 -> 500"}},
       {"long enough", kDecentral, leave, {{{151}, 20}}, {}},
+      {"a node that looks on", kAll, looksOn, {}, {}},
+      {"errors ignored, looking on", kSk5, looksOn, {{{513}, -1}}, {}},
+      {"trips while it looks on", kSk5, looksOn, {{{513}, 5}}, {"timeout_long_enough warning P513"}},
+      {"trips while it looks on", kDecentral, looksOn, {{{151}, 500}}, {"timeout_long_enough warning P151"}},
+      {"sends no words", kOlder, looksOnAtAGateway, {{{513}, 5}}, {}},
+      {"module not watched, looking on", kDecentral, looksOn, {{{120, 0, 1}, 0}}, {}},
       {"module not watched", kDecentral, leave, {{{120, 0, 1}, 0}}, {"module_watched warning P120[-01] -> 1"}},
       {"module not watched", kSk511, behindModule, {{{509}, 6}, {{513}, 0}}, {"module_watched warning P513 -> 5"}},
 

@@ -42,6 +42,10 @@ ProtectionReport assess(const DriveIdentity& identity, const cycle::DeviceData& 
   return DriveProtection{identity, series, seconds(cmd_vel_timeout), seconds(0.01)}.assess(device);
 }
 
+ProtectionReport assessLookingOn(const DriveIdentity& identity, const cycle::DeviceData& device) {
+  return DriveProtection{identity, profile::Series::kSk2xxe, seconds(0.5), seconds(0.01), true}.assess(device);
+}
+
 // BU 2700 7.1.1: with 0 the inverter trips on a lost master, with -0.1 it runs on in every case.
 TEST(DriveProtection, P513OfMinusOneTenthRunsOn) {
   EXPECT_EQ(Level::kFine, assess(identity(), withP513(0.0)).level);
@@ -206,6 +210,35 @@ TEST(DriveProtection, ShorterThanTwoPausesIsWarnedAbout) {
   const ProtectionReport report = assess(cyclic, behindModule(0.199, 1));
   EXPECT_EQ(Level::kWarning, report.level);
   EXPECT_THAT(report.text, HasSubstr("shorter than two pauses between telegrams, which may be 0.1 s long each"));
+}
+
+// Its end takes no word away, and on PROFIBUS and CANopen no transport protects a drive then (safety.md, "Looking on").
+TEST(DriveProtection, ANodeThatLooksOnHasNothingToBeStopped) {
+  DriveIdentity gateway = identity(TimeoutOwner::kInverter, "", 0.0);
+  gateway.timeout_notices = false;
+  for (const auto p513 : {std::optional<double>{}, std::optional<double>{0.0}, std::optional<double>{-0.1}}) {
+    for (const DriveIdentity& of :
+         {identity(TimeoutOwner::kInverter, ""), identity(TimeoutOwner::kModule, ""), gateway}) {
+      const ProtectionReport report = assessLookingOn(of, withP513(p513));
+      EXPECT_EQ(Level::kFine, report.level);
+      EXPECT_EQ("this node looks on and commands nothing", report.text);
+    }
+  }
+  EXPECT_EQ(Level::kFine, assessLookingOn(gateway, withP513(0.5)).level) << "no words are written to a gateway";
+}
+
+// BU 2700 7.1.1: a control word without bit 10 throughout trips where P513, or P151 of the module, is above 0.
+TEST(DriveProtection, ATimeoutTripsOnTheWordsOfANodeThatLooksOn) {
+  const ProtectionReport inverter = assessLookingOn(identity(TimeoutOwner::kInverter, ""), withP513(0.5));
+  EXPECT_EQ(Level::kWarning, inverter.level);
+  EXPECT_EQ(
+      "this node looks on and commands nothing; P513 of 0.5 s: by its words 0000 the inverter trips E10.0 and the "
+      "motor "
+      "coasts; set it to 0 while it looks on",
+      inverter.text);
+  const ProtectionReport module = assessLookingOn(identity(TimeoutOwner::kModule, ""), behindModule(0.3, 0));
+  EXPECT_EQ(Level::kWarning, module.level);
+  EXPECT_THAT(module.text, HasSubstr("P151 of the bus module of 0.3 s: by its words 0000 the inverter trips E10.3"));
 }
 
 }  // namespace

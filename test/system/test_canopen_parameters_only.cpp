@@ -12,6 +12,8 @@
 #include "sim/canopen/simulated_can_bus.h"
 #include "tools/drive_watch.h"
 #include "tools/parameter_link.h"
+#include "tools/scope_observer.h"
+#include "tools/scope_scale.h"
 #include "transport/canopen/canopen.h"
 
 namespace nord_driver::test {
@@ -161,6 +163,28 @@ TEST(CanopenParametersOnly, TheFrequencyOfCia402IsByP105AsItWasRead) {
       ASSERT_TRUE(seen[0].frequency);
       EXPECT_NEAR(20.0, *seen[0].frequency, 0.1) << "look " << look << ", values: " << looked_at.size();
     }
+    EXPECT_THAT(tool.link().finish(), IsEmpty());
+  }
+}
+
+// What was typed in is for a P105 that cannot be read: actual value 1 tells a share of what was read.
+TEST(CanopenParametersOnly, AScopeOfCia402IsByP105AsItWasReadWhateverWasTypedIn) {
+  for (const std::optional<double> typed : {std::optional<double>{}, std::optional<double>{60.0}, {50.0}}) {
+    CanTool tool{{{105, 0, 0, 600}}, false, true};
+    tool.connect();
+    tools::ScopeRecord record;
+    tools::readScale(tool.link(), typed, false, record);
+    tool.left().setLocalControl(true, 20.0);
+    tool.link().pass(seconds{3});
+    ASSERT_NEAR(20.0, tool.left().frequency(), 0.1);
+    tools::ScopeObserver observer{10};
+    tool.link().setObserver(&observer);
+    tool.link().pass(milliseconds{50});
+    tool.link().setObserver(nullptr);
+    const std::vector<tools::ScopeSample> samples = observer.samples();
+    ASSERT_FALSE(samples.empty());
+    ASSERT_TRUE(record.actualValueScale());
+    EXPECT_NEAR(20.0, samples.back().input.actual_values[0] / 16384.0 * *record.actualValueScale(), 0.1);
     EXPECT_THAT(tool.link().finish(), IsEmpty());
   }
 }

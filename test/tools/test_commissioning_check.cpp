@@ -29,9 +29,10 @@ using ::testing::StartsWith;
 class DemoRobot {
  public:
   /// `parameters`: of both simulated drives, "P509: 0".
-  explicit DemoRobot(const std::string& series, const std::string& parameters) {
+  DemoRobot(const std::string& series, const std::string& parameters, bool read_only = false) {
     file_ = YAML::LoadFile(std::string(NORD_DRIVER_SOURCE_DIR) + "/config/demo.yaml");
     file_["bus"]["slot_time"] = 0.0005;
+    file_["read_only"] = read_only;
     for (const char* name : {"left", "right"}) {
       file_["drives"][name]["series"] = series;
       file_["drives"][name]["parameters"] = YAML::Load("{" + parameters + "}");
@@ -167,6 +168,20 @@ TEST(CommissioningCheck, FindsWhatSomebodyHasSet) {
   robot.fix(findings);
   EXPECT_THAT(shortly(robot.check()), ElementsAre("left top_speed 400", "right top_speed 400"))
       << "how fast the machine may be is for a person to decide";
+}
+
+// Its end changes nothing, and any time-out it would be told to set trips on its words 0000 (BU 2700 7.1.1).
+TEST(CommissioningCheck, AsksForNoTimeoutOfANodeThatLooksOn) {
+  DemoRobot right{"sk5xxe", "P513: 0", true};
+  EXPECT_THAT(shortly(right.check()), IsEmpty());
+  DemoRobot tripping{"sk5xxe", "P513: 0.5", true};
+  const commissioning::Findings findings = tripping.check();
+  EXPECT_THAT(shortly(findings), ElementsAre("left timeout_long_enough 5", "right timeout_long_enough 5"));
+  for (const CommissionedDrive& drive : tripping.drives()) EXPECT_THAT(fixesFor(drive, findings, false), IsEmpty());
+  EXPECT_THAT(
+      checkText(tripping.drives(), findings),
+      HasSubstr("= 0.5 s: the words of a node that looks on (read_only) are 0000: it trips E10.x by them; set it "
+                "to 0 while the node looks on (BU 2700, 7.1.1"));
 }
 
 TEST(CommissioningCheck, PutsTheBusFirst) {

@@ -22,11 +22,13 @@ using ::testing::IsEmpty;
 /// An SK 2xxE behind a module that has no address yet.
 class Ms2Link : public ::testing::Test {
  protected:
-  Ms2Link()
-      : config_(readToolConfig(YAML::Load("{transport: profibus_ms2, cycle_rate: 100, left_wheel: left_wheel_joint,"
-                                          " bus: {device: simulated, baud_rate: 500000, slot_time: 0.0005},"
-                                          " drives: {left: {address: 126, series: sk2xxe, pole_pairs: 2}}}"),
-                               "left")),
+  explicit Ms2Link(const std::string& more_of_bus = "")
+      : config_(readToolConfig(
+            YAML::Load(std::string("{transport: profibus_ms2, cycle_rate: 100, left_wheel: left_wheel_joint,") +
+                       " bus: {device: simulated, baud_rate: 500000, slot_time: 0.0005" + more_of_bus +
+                       "},"
+                       " drives: {left: {address: 126, series: sk2xxe, pole_pairs: 2}}}"),
+            "left")),
         transport_([this](const link::SerialSettings&) {
           sim::SimConfig config;
           config.bus.as<sim::DpBusConfig>().baud_rate = 500'000;
@@ -63,6 +65,17 @@ class Ms2Link : public ::testing::Test {
   ParameterLink link_;
   std::atomic<bool> not_asked_{false};
 };
+
+class Ms2LinkThatListens : public Ms2Link {
+ protected:
+  Ms2LinkThatListens() : Ms2Link(", listen_first: 8") {}
+};
+
+// Longer than it waits for an answer: nothing is sent meanwhile, and nobody can answer.
+TEST_F(Ms2LinkThatListens, IsWaitedFor) {
+  EXPECT_EQ("", trouble());
+  EXPECT_TRUE(link_.read(parameter(105)).success);
+}
 
 TEST_F(Ms2Link, ReadsAndWritesWithoutDataExchange) {
   ASSERT_EQ("", trouble());

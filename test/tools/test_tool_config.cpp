@@ -49,6 +49,15 @@ TEST(ToolConfig, TakesTheDriveAndItsStation) {
   EXPECT_THAT(namesOf(readToolConfig(file, kInterface)), ElementsAre("far", "mate", "near"));
 }
 
+// A driver asks every address at its start; a program that reads one parameter would wait for that each time.
+TEST(ToolConfig, TakesNoScanOfTheBus) {
+  YAML::Node file = YAML::Load(kFile);
+  file["bus"]["scan"] = true;
+  const ToolConfig config = readToolConfig(file, "far");
+  EXPECT_FALSE(config.bus->has("scan"));
+  EXPECT_EQ(500000, config.bus->integer("baud_rate"));
+}
+
 // These first, in the order they were asked for, and after them whoever shares their telegrams.
 TEST(ToolConfig, TakesSeveralDrivesAndTheirStations) {
   const YAML::Node file = YAML::Load(kFile);

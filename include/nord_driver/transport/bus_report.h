@@ -37,8 +37,10 @@ struct DriveIdentity {
   std::string address;                     ///< "PROFIBUS station 3"
   std::uint8_t process_values = 1;         ///< setpoints and actual values carried: 1 or 3; 0: no process data
   std::string parameter_channel = "none";  ///< "PKW", "SDO"; "none": the configuration has to name max_frequency
-  std::string protected_by;      ///< what of this bus stops the drive when this computer dies, in words; empty: nothing
-  double protection_time = 0.0;  ///< s until that, or what another driver left behind, acts; 0: not known
+  std::string protected_by;  ///< what of this bus stops the drive when this computer dies, in words; empty: nothing
+  /// s until that acts; 0: not known. Of a transport that serves parameters only: for how long it listens before it
+  /// sends anything, and what another driver may have left behind has acted by then.
+  double protection_time = 0.0;
   TimeoutOwner timeout_owner = TimeoutOwner::kInverter;
   /// False: something between this computer and the drive may repeat the last words for ever, so that the time-out of
   /// the drive does not notice by itself that this computer is dead; `protected_by` has to end the words first.

@@ -3,13 +3,14 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "tools/commands/commands.h"
 #include "tools/commands/parameter_words.h"
-#include "tools/first_words.h"
 #include "tools/scope_cycles.h"
 #include "tools/scope_observer.h"
+#include "tools/scope_scale.h"
 #include "tools/scope_svg.h"
 #include "tools/usage_error.h"
 
@@ -17,7 +18,6 @@ namespace nord_driver::tools {
 
 namespace {
 
-constexpr std::uint16_t kMaxFrequency = 105;
 constexpr double kLongest = 3600.0;  // s
 
 std::string contentsOf(const std::string& file) {
@@ -78,30 +78,21 @@ class ScopeCommand final : public ParamCommand {
       const bool is_csv = text.compare(0, 8, "# drive:") == 0;
       ScopeRecord record = is_csv ? readScopeCsv(text) : readScopeTrace(text, drive_);
       if (record.drive != drive_) throw UsageError("it is of drive \"" + record.drive + "\", not of " + drive_);
+      if (max_frequency_) record.max_frequency = *max_frequency_;
       return record;
     } catch (const UsageError& error) {
       throw UsageError(from_ + ": " + error.what());
     }
   }
 
-  /// Hz; what was typed in, otherwise P105; nothing where it cannot be read.
-  std::optional<double> maxFrequency(DriveParameters& drive) const {
-    if (max_frequency_) return *max_frequency_;
-    catalogue::ParameterAddress address;
-    address.number = kMaxFrequency;
-    const ParameterAnswer answer = drive.read(address);
-    return answer.success ? std::optional<double>{answer.value} : std::nullopt;
-  }
-
-  void readScale(DriveParameters& drive, bool positions, ScopeRecord& record) const {
-    record.max_frequency = maxFrequency(drive);
-    if (positions) readFirstWords(drive, record);
+  std::optional<double> typedFrequency() const {
+    return max_frequency_ ? std::optional<double>{*max_frequency_} : std::nullopt;
   }
 
   ScopeRecord record(ParameterLink& link, const std::atomic<bool>& end_asked) const {
     ScopeRecord record;
     record.drive = drive_;
-    readScale(link, link.positions(0), record);
+    readScale(link, typedFrequency(), link.positions(0), record);
     ScopeObserver observer{static_cast<std::size_t>(std::ceil(duration_.value / toSeconds(link.period()))) + 10};
     link.setObserver(&observer);
     link.exchangeUntil(link.now() + seconds(duration_.value), end_asked);
@@ -115,7 +106,7 @@ class ScopeCommand final : public ParamCommand {
     ScopeRecord record;
     record.drive = drive_;
     const DriveDescription& described = node.drives.front();
-    readScale(*node.nodes.open(node.name, described), described.positions, record);
+    readScale(*node.nodes.open(node.name, described), typedFrequency(), described.positions, record);
     ScopeCycles cycles{duration_.value};
     const auto feed = node.nodes.cyclesOf(node.name, drive_);
     std::string ended;
@@ -135,7 +126,6 @@ class ScopeCommand final : public ParamCommand {
   }
 
   int write(ScopeRecord record) const {
-    if (max_frequency_) record.max_frequency = *max_frequency_;
     if (current_.value > 0) record.current_word = current_.value;
     const std::string picture = svg_.empty() ? std::string{} : scopeSvg(record);
     if (!csv_.empty()) put(csv_, scopeCsv(record));

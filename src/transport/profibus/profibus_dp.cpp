@@ -371,11 +371,13 @@ DriveIdentity ProfibusDpTransport::identity(DriveIndex drive) const {
                                : config_.slaves[config.slave].dpv1 ? "DP-V1 records"
                                                                    : "none";
   identity.worst_cycle = toSeconds(config_.worst_cycle);
-  if (!parameters_only_) {  // else endWithoutATrip() has switched it off
+  if (parameters_only_) {  // endWithoutATrip() has switched it off
+    identity.protection_time = toSeconds(config_.bus.listen_first);
+  } else {
+    identity.protection_time = toSeconds(config_.watchdog);
     identity.protected_by = "PROFIBUS watchdog of " + shortNumber(toSeconds(config_.watchdog)) +
                             " s: the inverter trips E10.2 and the motor coasts";
   }
-  identity.protection_time = toSeconds(config_.watchdog);  // a driver that was killed may have left one behind
   return identity;
 }
 

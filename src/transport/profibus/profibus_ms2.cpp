@@ -201,6 +201,7 @@ DriveIdentity ProfibusMs2Transport::identity(DriveIndex drive) const {
   identity.address = addressText(config_, drive);
   identity.inverter = config.inverter;
   identity.process_values = 0;
+  identity.protection_time = toSeconds(config_.bus.listen_first);
   if (modular) {
     identity.shared_module = config.slave;
     identity.timeout_owner = TimeoutOwner::kModule;

@@ -42,8 +42,9 @@ class OnASegment : public ::testing::Test {
       return segment;
     });
     if (parameters_only_) transport_->serveParametersOnly();
-    transport_->configure(test::MapSettings{"~bus/", {{"device", std::string{"/dev/ttyUSB0"}}, {"slot_time", 0.0005}}},
-                          drives, 100.0);
+    const test::MapSettings bus{
+        "~bus/", {{"device", std::string{"/dev/ttyUSB0"}}, {"slot_time", 0.0005}, {"listen_first", listen_first_}}};
+    transport_->configure(bus, drives, 100.0);
     transport_->setDriveTimeout(std::chrono::milliseconds{50});
   }
   void step() {
@@ -85,6 +86,7 @@ class OnASegment : public ::testing::Test {
   }
 
   std::function<void(sim::SimConfig&)> change_;  // of what is there, before it is built
+  double listen_first_ = 0.0;                    // s
   bool parameters_only_ = false;                 // what the transport is told before it is configured
   sim::SimulatedSegment* segment_ = nullptr;
   std::unique_ptr<ProfibusDpTransport> transport_;

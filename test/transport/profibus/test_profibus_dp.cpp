@@ -267,12 +267,16 @@ TEST_F(OnASegment, TellsWhereADriveIsAndWhatProtectsIt) {
   EXPECT_THAT(transport_->identity(1).protected_by, HasSubstr("watchdog of 0.2 s"));
 }
 
-// Set_Prm brings no watchdog then: nothing of this bus stops the drive. The watchdog a driver left behind still runs out.
+// Set_Prm brings no watchdog then: nothing of this bus stops the drive. It is listened until one that a driver left behind
+// has run out (0.25 s are its tolerance), and for half a second at least, or longer where the configuration says so.
 TEST_F(OnASegment, WhoServesParametersOnlyProtectsNothing) {
   parameters_only_ = true;
   open();
   EXPECT_EQ("", transport_->identity(0).protected_by);
-  EXPECT_DOUBLE_EQ(0.2, transport_->identity(0).protection_time);
+  EXPECT_DOUBLE_EQ(0.5, transport_->identity(0).protection_time);
+  listen_first_ = 8.0;
+  open();
+  EXPECT_DOUBLE_EQ(8.0, transport_->identity(0).protection_time);
 }
 
 // After close() nothing is on the line any more.
