@@ -169,6 +169,21 @@ TEST_F(CheckConfig, SingleDrivesHaveTheirOwnLimits) {
                     HasSubstr("max_frequency of door 25 Hz, else with P105 = 50 Hz")));
 }
 
+// Accepted, it could never be enabled: the words would be asked for by turns.
+TEST_F(CheckConfig, RefusesMoreFunctionsThanTheTelegramHasWords) {
+  const std::string text =
+      "transport: canopen\n"
+      "bus: {interface: can0}\n"
+      "drives:\n"
+      "  lift: {address: 3, series: sk5xxe, process_values: 3, joint: lift_joint, pole_pairs: 2,\n"
+      "         setpoints: {grip: {function: torque_limit}, power: {function: current_limit}},\n"
+      "         signals: {horn: {source: bus_in_bit_0}}}\n";
+  const Ended ended = checkText(text);
+  EXPECT_EQ(1, ended.code);
+  EXPECT_THAT(ended.output, HasSubstr(":4: error: drives/lift: 3 functions of setpoints are needed"));
+  EXPECT_THAT(checkText(text + "read_only: true\n").output, EndsWith("\nfine\n")) << "who looks on sends none of them";
+}
+
 TEST_F(CheckConfig, NamesEveryErrorAndWarningWithItsLine) {
   const Ended ended = checkText(
       "bus:\n"
