@@ -5,6 +5,7 @@
 #include "config/nearest_name.h"
 #include "config/setting_checks.h"
 #include "config/setting_note.h"
+#include "cycle/joint_limits.h"
 #include "profile/cycle_parameters.h"
 #include "profile/leading_function.h"
 #include "profile/parameter_shape.h"
@@ -93,6 +94,7 @@ void readLeaders(const std::vector<DriveSettings>& sources, CycleConfig& config,
     if (drive.position || (drive.leader && config.drives[*drive.leader].position)) {
       throw wrongSetting(settings, kKey, found, "no such key where one of both is `mode: position`");
     }
+    refuseJointLimits(settings, "none: this drive follows " + found + ", whose limits count");
   }
   for (DriveIndex i = 0; i < sources.size(); ++i) {
     const auto leader = config.drives[i].leader;

@@ -169,6 +169,27 @@ TEST_F(CheckConfig, SingleDrivesHaveTheirOwnLimits) {
                     HasSubstr("max_frequency of door 25 Hz, else with P105 = 50 Hz")));
 }
 
+// It has no command of its own.
+TEST_F(CheckConfig, AFollowerFollows) {
+  const std::string text =
+      "bus: {device: /dev/ttyUSB0}\n"
+      "drives:\n"
+      "  front: {address: 3, series: sk5xxe, joint: front_joint, pole_pairs: 2, max_velocity: 6.0}\n"
+      "  rear: {address: 4, series: sk5xxe, joint: rear_joint, pole_pairs: 2, follows: front}\n";
+  const Ended ended = checkText(text);
+  EXPECT_EQ(0, ended.code) << ended.output;
+  EXPECT_THAT(ended.output,
+              AllOf(HasSubstr("~front/command, limits: 6 rad/s\n"),
+                    HasSubstr("rad/s at rear_joint\n|  |     `- follows front\n"), Not(HasSubstr("~rear/command"))));
+  const YAML::Node drives = YAML::Load(checkText(text, {"--json"}).output)["modules"];
+  EXPECT_EQ("front", drives[1]["drives"][0]["follows"].as<std::string>());
+  EXPECT_FALSE(drives[0]["drives"][0]["follows"]);
+  std::string limited = text;
+  limited.replace(limited.find("follows:"), 0, "max_velocity: 6.0, ");
+  EXPECT_THAT(checkText(limited).output,
+              HasSubstr(":4: error: drives/rear/max_velocity: 6 is not valid, expected none: this drive follows"));
+}
+
 // Accepted, it could never be enabled: the words would be asked for by turns.
 TEST_F(CheckConfig, RefusesMoreFunctionsThanTheTelegramHasWords) {
   const std::string text =
