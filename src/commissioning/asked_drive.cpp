@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "config/driver_settings.h"
+#include "cycle/word_places.h"
 #include "robot/base_kinematics.h"
 
 namespace nord_driver::commissioning {
@@ -59,9 +60,8 @@ std::vector<AskedDrive> askedDrives(const cycle::CycleConfig& config, const std:
     drive.typed_max_frequency = setup.typed_max_frequency;
     drive.follows = !setup.follows.empty();
     drive.rated_current = setup.rated_current;
-    drive.words = cycle::wordNeeds(setup.words, identities[i].process_values);
+    drive.words = cycle::driveNeeds(setup, identities[i].process_values, false);
     if (setup.position) {
-      cycle::addPositionNeeds(*setup.position, setup.series, drive.words);
       drive.position_bits = cycle::askedBits(*setup.position, setup.series);
       drive.counted_per_motor_turn = setup.position->axis.revolutions_per_motor_turn;
     }

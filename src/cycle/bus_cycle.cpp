@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cycle/drive_snapshot.h"
+#include "cycle/leaders.h"
 #include "cycle/make_drives.h"
 #include "cycle/user_messages.h"
 #include "profile/status_word.h"
@@ -52,7 +53,7 @@ BusCycle::BusCycle(const CycleConfig& config, Transport& transport, CyclePorts& 
       names_(namesOf(config)),
       drives_(makeDrives(config, transport, role == CycleRole::kOnlooker)),
       start_acknowledge_(config.acknowledge_bus_timeouts && role == CycleRole::kDriver, drives_, names_,
-                         membersOfBase(config)),
+                         groupsOf(config)),
       command_watch_(ports, config.cmd_vel_timeout, config.base.has_value(), names_, membersOfBase(config)),
       supervisor_(config, drives_, auto_enable, &start_acknowledge_, &command_watch_),
       standstill_requests_(drives_, names_, modulesOf(config, transport)),

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "cycle/bus_cycle.h"
+#include "cycle/word_places.h"
 
 namespace nord_driver::cycle {
 
@@ -16,12 +17,9 @@ void BusCycle::addAxis(const DriveSetup& setup, CycleRole role) {
   channel.told_by_telegram = identity.sources_by_telegram;
   channel.users_only = role == CycleRole::kGuest;
   drives_[drive].setParametersAwaited(!channel.users_only);
-  if (role != CycleRole::kGuest) channel.needs = wordNeeds(setup.words, identity.process_values);
-  if (role == CycleRole::kOnlooker) channel.needs = onlyInputs(channel.needs);
-  if (role != CycleRole::kGuest && setup.position) {
-    channel.field_order = setup.position->order;
-    channel.needs.words = std::max<std::size_t>(identity.process_values, 1);
-    addPositionNeeds(*setup.position, setup.series, channel.needs);
+  if (role != CycleRole::kGuest) {
+    channel.needs = driveNeeds(setup, identity.process_values, role == CycleRole::kOnlooker);
+    if (setup.position) channel.field_order = setup.position->order;
   }
   axes_.emplace_back(drive, setup, channel);
   for (std::size_t i = 0; i < setup.words.setpoints.size() && role == CycleRole::kDriver; ++i) {

@@ -90,6 +90,20 @@ void readLimitsOfSingles(const std::vector<DriveSettings>& sources, CycleConfig&
   }
 }
 
+// They follow a fresh velocity command; a steering drive follows what its base does.
+void refuseMovingSetpoints(const std::vector<DriveSettings>& sources, const CycleConfig& config) {
+  const std::vector<DriveIndex> of_base = config.base ? config.base->drives() : std::vector<DriveIndex>{};
+  for (DriveIndex i = 0; i < sources.size(); ++i) {
+    if (!config.drives[i].position || std::find(of_base.begin(), of_base.end(), i) != of_base.end()) continue;
+    for (const SetpointSetup& setpoint : config.drives[i].words.setpoints) {
+      if (!setpoint.moves) continue;
+      throw wrongSetting(*sources[i].settings, "setpoints/" + setpoint.name + "/function",
+                         "\"" + std::string(setpointWord(setpoint.use)) + "\"",
+                         "one that turns no motor: a drive with mode: position has no velocity command");
+    }
+  }
+}
+
 SteeringRanges steeringRanges(const CycleConfig& config) {
   SteeringRanges ranges;
   for (const DriveSetup& setup : config.drives) {
@@ -152,6 +166,7 @@ CycleConfig readCycleConfig(const Settings& node, const std::vector<DriveSetting
   }
   config.base = readBaseConfig(node, joints, robot_description, steeringRanges(config));
   readLimitsOfSingles(drives, config);
+  if (all_drives) refuseMovingSetpoints(drives, config);  // else the base may be unknown, and what it steers
   readLeaders(drives, config, all_drives);
   return config;
 }

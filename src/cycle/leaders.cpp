@@ -1,10 +1,12 @@
 #include "cycle/leaders.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "config/nearest_name.h"
 #include "config/setting_checks.h"
 #include "config/setting_note.h"
+#include "cycle/joint_limits.h"
 #include "profile/cycle_parameters.h"
 #include "profile/leading_function.h"
 #include "profile/parameter_shape.h"
@@ -93,6 +95,7 @@ void readLeaders(const std::vector<DriveSettings>& sources, CycleConfig& config,
     if (drive.position || (drive.leader && config.drives[*drive.leader].position)) {
       throw wrongSetting(settings, kKey, found, "no such key where one of both is `mode: position`");
     }
+    refuseJointLimits(settings, "none: this drive follows " + found + ", whose limits count");
   }
   for (DriveIndex i = 0; i < sources.size(); ++i) {
     const auto leader = config.drives[i].leader;
@@ -108,6 +111,17 @@ std::vector<DriveIndex> followersOf(const CycleConfig& config, DriveIndex leader
     if (config.drives[i].leader == leader) followers.push_back(i);
   }
   return followers;
+}
+
+std::vector<DriveIndex> groupsOf(const CycleConfig& config) {
+  std::vector<DriveIndex> groups(config.drives.size());
+  std::iota(groups.begin(), groups.end(), DriveIndex{0});
+  const std::vector<DriveIndex> of_base = config.base ? config.base->drives() : std::vector<DriveIndex>{};
+  for (const DriveIndex drive : of_base) groups[drive] = of_base.front();
+  for (DriveIndex i = 0; i < groups.size(); ++i) {
+    if (config.drives[i].leader) groups[i] = groups[*config.drives[i].leader];
+  }
+  return groups;
 }
 
 std::optional<drive::UnexpectedSource> unexpectedSource(const DeviceData& device, profile::Series series, bool follows,

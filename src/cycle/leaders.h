@@ -20,6 +20,10 @@ void readLeaders(const std::vector<DriveSettings>& sources, CycleConfig& config,
 /// The drives that follow this one.
 std::vector<DriveIndex> followersOf(const CycleConfig& config, DriveIndex leader);
 
+/// One number per drive, the same of those that are enabled and stopped together: the drives of the base, and every other
+/// one, each with its followers.
+std::vector<DriveIndex> groupsOf(const CycleConfig& config);
+
 /// What P509 or P510, as read, should not be: broadcast without `follows`, or this bus with it; and without `follows` a
 /// setpoint from elsewhere than the control word, unless `told_by_telegram`: each telegram says that both come from it.
 std::optional<drive::UnexpectedSource> unexpectedSource(const DeviceData& device, profile::Series series, bool follows,

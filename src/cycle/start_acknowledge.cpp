@@ -20,8 +20,8 @@ bool isBusTimeout(std::uint16_t number) noexcept {
 }  // namespace
 
 StartAcknowledge::StartAcknowledge(bool wanted, std::vector<drive::Drive>& drives, std::vector<std::string> names,
-                                   std::vector<bool> in_base)
-    : drives_(drives), names_(std::move(names)), in_base_(std::move(in_base)), states_(drives.size()) {
+                                   std::vector<DriveIndex> groups)
+    : drives_(drives), names_(std::move(names)), groups_(std::move(groups)), states_(drives.size()) {
   for (State& state : states_) state.step = wanted ? Step::kAwaited : Step::kDone;
 }
 
@@ -91,7 +91,7 @@ void StartAcknowledge::follow(DriveIndex drive) noexcept {
 }
 
 bool StartAcknowledge::concerned(DriveIndex drive, DriveIndex other) const noexcept {
-  return other == drive || (in_base_[drive] && in_base_[other]);
+  return groups_[other] == groups_[drive];
 }
 
 bool StartAcknowledge::allOnline(DriveIndex drive) const noexcept {

@@ -25,10 +25,10 @@ class StartAcknowledge {
   static constexpr Duration kNumberAwaited = std::chrono::seconds{10};
   static constexpr Duration kRestAwaited = std::chrono::seconds{60};
 
-  /// `drives` must outlive the object and not move. `in_base`: one per drive; those of a base wait for each other to be
-  /// there and at rest. Not `wanted`: nothing is ever done.
+  /// `drives` must outlive the object and not move. `groups`: one per drive; drives with the same number wait for
+  /// each other to be there and at rest. Not `wanted`: nothing is ever done.
   StartAcknowledge(bool wanted, std::vector<drive::Drive>& drives, std::vector<std::string> names,
-                   std::vector<bool> in_base);
+                   std::vector<DriveIndex> groups);
 
   /// `number`: P700 of the last fault, as FaultReader has it. `quiet`: no command but zero was heard for long enough.
   void update(DriveIndex drive, std::uint16_t number, bool quiet, Instant now) noexcept;
@@ -63,7 +63,7 @@ class StartAcknowledge {
 
   std::vector<drive::Drive>& drives_;
   std::vector<std::string> names_;
-  std::vector<bool> in_base_;
+  std::vector<DriveIndex> groups_;
   std::vector<State> states_;
   EventRing<BusEvent, 32> events_;
 };

@@ -4,6 +4,7 @@
 
 #include "config/driver_settings.h"
 #include "config/setting_checks.h"
+#include "cycle/word_places.h"
 
 namespace nord_driver::node {
 
@@ -149,6 +150,8 @@ ConfiguredTransport configureTransport(NodeConfig& config, Transport& transport)
       cycle::checkPositionCarried(*config.drives[i].settings, *config.cycle.drives[i].position,
                                   config.cycle.drives[i].series, configured.identities[i]);
     }
+    cycle::checkWordPlaces(*config.drives[i].settings, config.cycle.drives[i], configured.identities[i],
+                           config.read_only);
     // Without a parameter channel P105 cannot be read: nobody could say what a setpoint means.
     if (configured.identities[i].parameter_channel == "none" && !config.cycle.drives[i].typed_max_frequency) {
       throw missingSetting(*config.drives[i].settings, "max_frequency",

@@ -119,6 +119,7 @@ CheckedDrive driveOf(const node::NodeConfig& config, DriveIndex index, const Dri
   drive.max_frequency = setup.typed_max_frequency.value_or(kFactoryMaxFrequency);
   drive.max_velocity = std::abs(profile::toRadPerSec(Hertz{drive.max_frequency}, setup.drive.joint).value);
   drive.limits = setup.limits;
+  drive.leader = setup.follows;
   drive.positions = setup.position.has_value();
   if (setup.position) {
     const drive::PositionConfig& axis = setup.position->axis;

@@ -39,6 +39,7 @@ struct CheckedDrive {
   double max_velocity = 0.0;     ///< rad/s at the joint, at 100 %
   robot::SpeedLimits limits;
   bool of_base = false;
+  std::string leader;                  ///< the drive this one follows; empty: none
   bool positions = false;              ///< mode: position
   bool by_element = false;             ///< position/targets: array
   std::string unit;                    ///< "rad" or "m", of one that positions

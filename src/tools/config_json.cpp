@@ -37,6 +37,7 @@ void write(JsonText& json, const CheckedDrive& drive) {
   json.key("inverter").number(drive.inverter).key("joint").text(drive.joint);
   json.key("gear_ratio").number(drive.gear_ratio).key("pole_pairs").number(drive.pole_pairs);
   json.key("inverted").boolean(drive.inverted).key("of_base").boolean(drive.of_base);
+  if (!drive.leader.empty()) json.key("follows").text(drive.leader);
   json.key("max_frequency").number(drive.max_frequency).key("max_frequency_typed").boolean(drive.frequency_typed);
   json.key("max_velocity").number(drive.max_velocity);
   json.key("mode").text(drive.positions ? "position" : "velocity");

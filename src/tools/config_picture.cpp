@@ -62,6 +62,10 @@ Branch branchOf(const CheckedDrive& drive, bool shares) {
                 shortNumber(drive.gear_ratio) + (drive.inverted ? ", inverted: " : ": ") + number(drive.max_velocity) +
                 " rad/s at " + (drive.joint.empty() ? "its joint" : drive.joint);
   if (drive.of_base) return branch;
+  if (!drive.leader.empty()) {
+    branch.twigs.push_back({"follows " + drive.leader, {}});
+    return branch;
+  }
   const std::string limits = drive.positions ? drive.targets : limitsText(drive.limits, "rad");
   branch.twigs.push_back({"~" + drive.name + (drive.positions ? "/position_command, " : "/command, ") +
                               (limits.empty() ? "no limits" : "limits: " + limits),

@@ -25,15 +25,13 @@ class PositionConfiguration : public ::testing::Test {
     }
     return "taken";
   }
-
-  std::shared_ptr<test::MapSettings> drive_ = std::make_shared<test::MapSettings>("~drives/lift/");
-  test::MapSettings node_{"~", {}};
-
- private:
   void SetUp() override {
     drive_->set("address", 3).set("series", "sk5xxe").set("joint", "lift_joint");
     drive_->set("gear_ratio", 20.0).set("pole_pairs", 2).set("mode", "position");
   }
+
+  std::shared_ptr<test::MapSettings> drive_ = std::make_shared<test::MapSettings>("~drives/lift/");
+  test::MapSettings node_{"~", {}};
 };
 
 }  // namespace nord_driver::cycle

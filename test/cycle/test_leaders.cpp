@@ -54,6 +54,29 @@ TEST(Leaders, RefuseWhatCannotBe) {
   EXPECT_THAT(errorOf({"b", "a"}), HasSubstr("a drive that follows no other one itself"));
 }
 
+// Accepted, they would be held by nobody: a follower goes as fast as its leader.
+TEST(Leaders, HoldTheLimits) {
+  for (const bool all_drives : {true, false}) {
+    for (const char* const key : {"max_velocity", "max_acceleration", "max_jerk"}) {
+      std::vector<DriveSettings> drives;
+      for (const std::string name : {"front", "rear"}) {
+        auto settings = std::make_shared<MapSettings>("~drives/" + name + "/");
+        settings->set("series", "sk2xxe").set("pole_pairs", 2).set("address", name == "front" ? 3 : 4).set(key, 2.5);
+        if (name == "rear") settings->set("follows", "front");
+        drives.push_back({name, settings});
+      }
+      try {
+        readCycleConfig(MapSettings{"~"}, drives, {}, all_drives);
+        ADD_FAILURE() << key << " is taken";
+      } catch (const ConfigError& error) {
+        EXPECT_EQ(std::string("~drives/rear/") + key +
+                      ": 2.5 is not valid, expected none: this drive follows \"front\", whose limits count",
+                  error.what());
+      }
+    }
+  }
+}
+
 TEST(Leaders, MayStandBehindTheirFollowers) {
   const CycleConfig config = configured({"b", ""});
   EXPECT_EQ(1u, config.drives[0].leader);

@@ -92,6 +92,42 @@ TEST_F(PositionConfiguration, IsNoWheel) {
   }
 }
 
+// It follows a fresh velocity command, and a single drive that positions has none: always 0, it would only forbid enabling.
+TEST_F(PositionConfiguration, RefusesASetpointThatTurnsTheMotor) {
+  drive_->set("setpoints/push/function", "torque_precontrol").set("setpoints/push/limit", 20.0);
+  EXPECT_EQ(
+      "~drives/lift/setpoints/push/function: \"torque_precontrol\" is not valid, expected one that turns no motor: a "
+      "drive "
+      "with mode: position has no velocity command",
+      refusal());
+  EXPECT_NO_THROW(readCycleConfig(node_, {{"lift", drive_}}, {}, false))
+      << "what reads no base knows of none it steers";
+  drive_->erase("setpoints/push/limit").set("setpoints/push/function", "torque_limit");
+  EXPECT_EQ("taken", refusal());
+}
+
+// A steering drive follows what the base follows.
+TEST_F(PositionConfiguration, TakesASetpointThatTurnsTheMotorOfASteeringDrive) {
+  std::vector<DriveSettings> drives;
+  for (const std::string axle : {"front", "rear"}) {
+    for (const std::string kind : {"wheel", "steering"}) {
+      const std::string name = axle + "_" + kind;
+      auto drive = std::make_shared<test::MapSettings>("~drives/" + name + "/");
+      drive->set("address", 3 + static_cast<int>(drives.size())).set("series", "sk5xxe").set("pole_pairs", 2);
+      drive->set("joint", name + "_joint");
+      if (kind == "steering") {
+        drive->set("mode", "position").set("position/lower", -1.5).set("position/upper", 1.5);
+        drive->set("setpoints/push/function", "torque_precontrol").set("setpoints/push/limit", 20.0);
+      }
+      node_.set("steered/" + axle + "/" + kind + "_joint", name + "_joint");
+      drives.push_back({name, drive});
+    }
+    node_.set("steered/" + axle + "/x", axle == "front" ? 0.4 : -0.5).set("steered/" + axle + "/y", 0.0);
+  }
+  node_.set("base_type", "steered").set("wheel_radius", 0.1);
+  EXPECT_EQ(1u, readCycleConfig(node_, drives).drives[1].words.setpoints.size());
+}
+
 TEST_F(PositionConfiguration, RefusesALeadWithoutTheMode) {
   drive_->set("mode", "velocity").set("lead", 0.2);
   EXPECT_THAT(refusal(), HasSubstr("~drives/lift/lead"));

@@ -291,6 +291,46 @@ TEST_F(StartAcknowledgeTest, WaitsForEachDriveOfTheBase) {
   }
 }
 
+/// The lift follows `leader`.
+CycleConfig followed(DriveIndex leader, bool base) {
+  CycleConfig config = CycleBench::config();
+  config.acknowledge_bus_timeouts = true;
+  config.drives[kLift].follows = config.drives[leader].name;
+  config.drives[kLift].leader = leader;
+  if (!base) config.base.reset();
+  return config;
+}
+
+// It is enabled and stopped with its leader, and turns at the same load.
+TEST_F(StartAcknowledgeTest, WaitsForFollowers) {
+  struct Case {
+    DriveIndex faulty, beside;
+    bool base;
+  };
+  for (const Case& c : {Case{kLeft, kLift, true}, Case{kRight, kLift, true}, Case{kLift, kRight, true},
+                        Case{kLeft, kLift, false}, Case{kLift, kLeft, false}}) {
+    bench_.emplace(followed(kLeft, c.base));
+    trip(c.faulty, kMasterLost);
+    bench_->transport.inverters[c.beside].terminals = true;
+    EXPECT_EQ(0, edges(c.faulty, 500)) << c.faulty << c.beside << c.base;
+    bench_->transport.inverters[c.beside].terminals = false;
+    EXPECT_EQ(1, edges(c.faulty, 500)) << c.faulty << c.beside << c.base;
+    bench_.emplace(followed(kLeft, c.base));
+    trip(c.faulty, kMasterLost);
+    bench_->transport.inverters[c.beside].silent = true;
+    EXPECT_EQ(0, edges(c.faulty, 7000)) << c.faulty << c.beside << c.base;
+    bench_->transport.inverters[c.beside].silent = false;
+    EXPECT_EQ(1, edges(c.faulty, 300)) << c.faulty << c.beside << c.base;
+  }
+}
+
+TEST_F(StartAcknowledgeTest, WaitsForNoDriveOfAnotherGroup) {
+  bench_.emplace(followed(kLeft, false));
+  trip(kLeft, kMasterLost);
+  bench_->transport.inverters[kRight].terminals = true;
+  EXPECT_EQ(1, edges(kLeft, 500));
+}
+
 // One that is being acknowledged is at rest: neither waits for the other.
 TEST_F(StartAcknowledgeTest, TheDrivesOfABaseAreAcknowledgedTogether) {
   startFaulted(kLeft, kMasterLost);

@@ -169,6 +169,42 @@ TEST_F(CheckConfig, SingleDrivesHaveTheirOwnLimits) {
                     HasSubstr("max_frequency of door 25 Hz, else with P105 = 50 Hz")));
 }
 
+// It has no command of its own.
+TEST_F(CheckConfig, AFollowerFollows) {
+  const std::string text =
+      "bus: {device: /dev/ttyUSB0}\n"
+      "drives:\n"
+      "  front: {address: 3, series: sk5xxe, joint: front_joint, pole_pairs: 2, max_velocity: 6.0}\n"
+      "  rear: {address: 4, series: sk5xxe, joint: rear_joint, pole_pairs: 2, follows: front}\n";
+  const Ended ended = checkText(text);
+  EXPECT_EQ(0, ended.code) << ended.output;
+  EXPECT_THAT(ended.output,
+              AllOf(HasSubstr("~front/command, limits: 6 rad/s\n"),
+                    HasSubstr("rad/s at rear_joint\n|  |     `- follows front\n"), Not(HasSubstr("~rear/command"))));
+  const YAML::Node drives = YAML::Load(checkText(text, {"--json"}).output)["modules"];
+  EXPECT_EQ("front", drives[1]["drives"][0]["follows"].as<std::string>());
+  EXPECT_FALSE(drives[0]["drives"][0]["follows"]);
+  std::string limited = text;
+  limited.replace(limited.find("follows:"), 0, "max_velocity: 6.0, ");
+  EXPECT_THAT(checkText(limited).output,
+              HasSubstr(":4: error: drives/rear/max_velocity: 6 is not valid, expected none: this drive follows"));
+}
+
+// Accepted, it could never be enabled: the words would be asked for by turns.
+TEST_F(CheckConfig, RefusesMoreFunctionsThanTheTelegramHasWords) {
+  const std::string text =
+      "transport: canopen\n"
+      "bus: {interface: can0}\n"
+      "drives:\n"
+      "  lift: {address: 3, series: sk5xxe, process_values: 3, joint: lift_joint, pole_pairs: 2,\n"
+      "         setpoints: {grip: {function: torque_limit}, power: {function: current_limit}},\n"
+      "         signals: {horn: {source: bus_in_bit_0}}}\n";
+  const Ended ended = checkText(text);
+  EXPECT_EQ(1, ended.code);
+  EXPECT_THAT(ended.output, HasSubstr(":4: error: drives/lift: 3 functions of setpoints are needed"));
+  EXPECT_THAT(checkText(text + "read_only: true\n").output, EndsWith("\nfine\n")) << "who looks on sends none of them";
+}
+
 TEST_F(CheckConfig, NamesEveryErrorAndWarningWithItsLine) {
   const Ended ended = checkText(
       "bus:\n"
