@@ -58,6 +58,15 @@ void readBus(const Group& root, SimConfig& simulated) {
   simulated.bus = config;
 }
 
+/// What is not given stays.
+void readIdentity(const Group& group, CanDriveConfig& can) {
+  can.identity.vendor = group.get<std::uint32_t>("vendor_id", can.identity.vendor, "a number of 32 bits");
+  can.identity.product = group.get<std::uint32_t>("product_code", can.identity.product, "a number of 32 bits");
+  can.identity.revision = group.get<std::uint32_t>("revision_number", can.identity.revision, "a number of 32 bits");
+  can.identity.serial = group.get<std::uint32_t>("serial_number", can.identity.serial, "a number of 32 bits");
+  if (group.has("device_type")) can.device_type = group.get<std::uint32_t>("device_type", 0, "a number of 32 bits");
+}
+
 void readDrive(const Group& group, DriveConfig& drive) {
   CanDriveConfig can;
   can.connection = readConnection(group, drive.device);
@@ -83,11 +92,7 @@ void readDrive(const Group& group, DriveConfig& drive) {
   can.servers_set = group.get<bool>("sdo_servers_set", false, "true or false");
   can.identity.product = static_cast<std::uint32_t>(can.connection) + 1;
   can.identity.serial = drive.address;
-  can.identity.vendor = group.get<std::uint32_t>("vendor_id", can.identity.vendor, "a number of 32 bits");
-  can.identity.product = group.get<std::uint32_t>("product_code", can.identity.product, "a number of 32 bits");
-  can.identity.revision = group.get<std::uint32_t>("revision_number", can.identity.revision, "a number of 32 bits");
-  can.identity.serial = group.get<std::uint32_t>("serial_number", can.identity.serial, "a number of 32 bits");
-  if (group.has("device_type")) can.device_type = group.get<std::uint32_t>("device_type", 0, "a number of 32 bits");
+  readIdentity(group, can);
   drive.bus = can;
 }
 
@@ -96,8 +101,7 @@ bool behindGateway(const DriveConfig& drive) {
 }
 
 /// One node for each drive, or a place of its own behind a gateway.
-void checkNodes(const Group& /*root*/, SimConfig& config) {
-  const std::vector<DriveConfig>& drives = config.drives;
+void checkNodes(const std::vector<DriveConfig>& drives) {
   for (std::size_t i = 0; i < drives.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (drives[k].address != drives[i].address) continue;
@@ -113,6 +117,22 @@ void checkNodes(const Group& /*root*/, SimConfig& config) {
       }
     }
   }
+}
+
+/// Any drive behind a node says who it is for those that do not, as the driver has it; of several the first.
+void shareIdentities(const Group& root, std::vector<DriveConfig>& drives) {
+  for (DriveConfig& drive : drives) {
+    for (auto other = drives.rbegin(); other != drives.rend(); ++other) {
+      if (other->address != drive.address) continue;
+      const Group group(root["drives"][other->name], "drives/" + other->name);
+      readIdentity(group, drive.bus.as<CanDriveConfig>());
+    }
+  }
+}
+
+void readNodes(const Group& root, SimConfig& config) {
+  checkNodes(config.drives);
+  shareIdentities(root, config.drives);
 }
 
 std::unique_ptr<RunningBus> run(const SimConfig& config) {
@@ -148,7 +168,7 @@ BusKind canopenKind() {
                "fixed_mapping", "sdo_servers_set", "serial_number"};
   kind.readBus = readBus;
   kind.readDrive = readDrive;
-  kind.readModules = checkNodes;
+  kind.readModules = readNodes;
   kind.run = run;
   return kind;
 }

@@ -47,6 +47,23 @@ drives:
   EXPECT_EQ(1, robot.drive(5).parameters().value(551));
 }
 
+// The driver takes what is said of a node from any drive behind it: such a robot is simulated as it is.
+TEST(CanConfig, ANodeIsTheOneAnyOfItsDrivesSays) {
+  RobotSim robot{read(R"(
+bus: {transport: canopen, interface: "virtual:demo"}
+drives:
+  a: {address: 34, series: sk2xxe, connection: gateway, inverter: 1, product_code: 9}
+  b: {address: 34, series: sk2xxe, connection: gateway, inverter: 2, vendor_id: 0x12345678, device_type: 7}
+  c: {address: 35, series: sk2xxe, connection: gateway}
+)")};
+  CanStations stations{robot};
+  EXPECT_EQ(0x12345678u, stations.nodeOf(0).identity().vendor);
+  EXPECT_EQ(9u, stations.nodeOf(0).identity().product);
+  for (int drive : {0, 1}) EXPECT_EQ(7u, robot.config().drives[drive].bus.as<CanDriveConfig>().device_type);
+  EXPECT_EQ(CanIdentity{}.vendor, stations.nodeOf(2).identity().vendor) << "it is another node";
+  EXPECT_EQ(35u, stations.nodeOf(2).identity().serial);
+}
+
 // The driver's file names its transport at the top.
 TEST(CanConfig, TransportOfTheDriver) {
   EXPECT_TRUE(read("{transport: nord_driver/canopen, drives: {a: {address: 3}}}").bus.is<CanBusConfig>());
