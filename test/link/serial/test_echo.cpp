@@ -35,6 +35,16 @@ TEST_F(Echo, OffHandsEverythingOn) {
   EXPECT_EQ(0u, port.lineCounters().collisions);
 }
 
+// A simulated bus has none, whatever the robot's adapter does: no telegram is a collision there.
+TEST_F(Echo, OnExpectsNoneOfAPty) {
+  system.devices["/dev/ttyUSB0"] = DeviceKind::kPty;
+  SerialPort port = openPort(EchoMode::kOn);
+  ASSERT_TRUE(port.open());
+  EXPECT_EQ(kAnswer, exchange(port, {kAnswer}));
+  EXPECT_EQ(kAnswer, exchange(port, {kAnswer}));
+  EXPECT_EQ(0u, port.lineCounters().collisions);
+}
+
 // However the bytes come in, exactly the echo is taken out.
 TEST_F(Echo, OnTakesTheEchoOutHoweverItIsCut) {
   SerialPort port = openPort(EchoMode::kOn);

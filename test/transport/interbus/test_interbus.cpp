@@ -351,6 +351,7 @@ TEST_F(OnAGateway, IdentityNamesPlaceAndProtection) {
   EXPECT_FALSE(transport.identity(1).timeout_notices);
   EXPECT_TRUE(transport.identity(1).timeout_needed);
   EXPECT_STREQ("gateway", transport.endPoint().key);
+  EXPECT_STREQ("diagnosis", transport.endPoint().second_key);
 }
 
 TEST_F(OnAGateway, WarnsOfWhatIsNotWatched) {
