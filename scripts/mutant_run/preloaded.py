@@ -2,6 +2,7 @@
 one, so the test programs of a build that is there already are used as they are. No mutants in headers: tests hold what those say.
 """
 import concurrent.futures
+import hashlib
 import json
 import pathlib
 import shlex
@@ -44,10 +45,12 @@ class PreloadedSources:
         path = self.build / "compile_commands.json"
         if not path.is_file():
             raise BuildFailed(f"{path} is missing: build the tests there with -DCMAKE_EXPORT_COMPILE_COMMANDS=ON first")
-        self._commands = {}
-        for entry in json.loads(path.read_text()):
-            if str(entry["file"]).startswith(str(self._root) + "/src/"):
-                self._commands[str(pathlib.Path(entry["file"]).relative_to(self._root))] = entry
+        self.configureFor({str(pathlib.Path(entry["file"]).relative_to(self._root)): entry for entry in json.loads(path.read_text())
+                           if str(entry["file"]).startswith(str(self._root) + "/src/")})
+
+    def configureFor(self, commands):
+        """`commands`: entries of compile_commands.json by the source's path."""
+        self._commands = commands
 
     def _command(self, path):
         entry = self._commands[path]
@@ -61,6 +64,18 @@ class PreloadedSources:
 
     def _object(self, path):
         return self.tree / (path + ".o")
+
+    def forgetOthers(self):
+        """Removes objects of other headers, or of another command: they are of another driver than the test programs."""
+        whole = hashlib.sha1(json.dumps(self._commands, sort_keys=True).encode())
+        for name in sorted(self.names()):
+            if name.endswith(".h"):
+                whole.update(name.encode() + (self._root / name).read_bytes())
+        stamp = self.tree / "headers.sha1"
+        if not stamp.is_file() or stamp.read_text() != whole.hexdigest():
+            for made in self.tree.rglob("*.o"):
+                made.unlink()
+            stamp.write_text(whole.hexdigest())
 
     def make(self, targets, jobs, environment):
         """The output of the compiler when it failed, otherwise None."""
@@ -79,6 +94,7 @@ class PreloadedSources:
                 return done.stdout
             self._changed.discard(path)
             return ""
+        self.forgetOthers()
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             output = "".join(pool.map(compiled, self._sources))
         if output:

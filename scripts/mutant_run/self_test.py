@@ -7,6 +7,7 @@ from .cpp_tokens import tokens
 from .draw import drawn
 from .edits import editsOf
 from .equivalents import entryOf, readEquivalents
+from .preloaded import PreloadedSources
 from .programs import Program
 from .switch import HEADER, SOURCE, applied
 
@@ -68,6 +69,7 @@ def selfTest(say):
     _edits(check, edits)
     _equivalents(check, edits)
     _draw(check, edits)
+    _objects(check)
     _run(check, edits)
     return 1 if check.wrong else 0
 
@@ -113,6 +115,29 @@ def _draw(check, edits):
     check.that(len(few) == 5 and [edit.id for edit in many[:5]] == [edit.id for edit in few], "a larger draw begins as a smaller one")
     overlap = [(a, b) for a in many for b in many if a is not b and a.start < b.end and b.start < a.end]
     check.that(not overlap, "none is drawn within another")
+
+
+def _objects(check):
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        header, made = root / "include" / "limit.h", root / "out" / "sources" / "limit.cpp.o"
+        for file in (header, made):
+            file.parent.mkdir(parents=True)
+            file.write_text("")
+        objects = PreloadedSources(root, root / "out", root)
+        objects.configureFor({})
+        objects.forgetOthers()
+        check.that(not made.is_file(), "objects of headers that nobody has noted are made anew")
+        made.write_text("")
+        objects.forgetOthers()
+        check.that(made.is_file(), "those of the same headers are kept")
+        header.write_text("struct Larger {};")
+        objects.forgetOthers()
+        check.that(not made.is_file(), "those of other headers are made anew: they are of another driver than the tests")
+        made.write_text("")
+        objects.configureFor({"limit.cpp": {"command": "g++ -O2"}})
+        objects.forgetOthers()
+        check.that(not made.is_file(), "those of another command, too")
 
 
 def _run(check, edits):
