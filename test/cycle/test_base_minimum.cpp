@@ -126,6 +126,62 @@ TEST_F(BaseMinimum, ACommandThatGrewOldIsOff1AndTheNextOneGoesOn) {
   EXPECT_TRUE(ask(RequestKind::kDisable).success);
 }
 
+ScriptedTransport leftForwardOnly() {
+  ScriptedTransport transport{3};
+  transport.forward_only = {CycleBench::kLeft};
+  return transport;
+}
+
+class BaseForwardOnly : public ::testing::TestWithParam<double> {
+ protected:
+  void hold(double linear, double angular, int cycles) {
+    for (int i = 0; i < cycles; ++i) {
+      bench_.commandBase(linear, angular);
+      bench_.step();
+    }
+  }
+
+  CycleBench bench_{acceptingMinimumFrequency(GetParam()), leftForwardOnly()};
+};
+
+// P104 is 0. Told to reverse, the left wheel would stand under the torque of 0 Hz, and the right one alone turn the base about it.
+TEST_P(BaseForwardOnly, RestsAsAWholeWhereAWheelCannotReverse) {
+  bench_.run(80);
+  ASSERT_TRUE(bench_.ask(RequestKind::kEnable).success);
+  for (const double angular : {0.0, 16.0, 8.0}) {
+    hold(4.0, 0.0, 100);
+    ASSERT_GT(bench_.setpoint(CycleBench::kLeft), 0);
+    EXPECT_FALSE(bench_.snapshot().drives[CycleBench::kLeft].saturated);
+    hold(angular == 16.0 ? 0.0 : -4.0, angular, 100);
+    for (const DriveIndex i : {CycleBench::kLeft, CycleBench::kRight}) {
+      EXPECT_EQ(0, bench_.setpoint(i)) << angular;
+      EXPECT_EQ(0x047F, bench_.controlWord(i)) << "torque at 0 Hz";
+      EXPECT_TRUE(bench_.snapshot().drives[i].saturated) << angular;
+    }
+    EXPECT_EQ(robot::Twist2d{}, bench_.snapshot().base.command);
+    EXPECT_TRUE(bench_.snapshot().base.enabled);
+  }
+}
+
+// 0.583 m/s - 0.265 m * 2.2 rad/s is a little less than 0 in doubles.
+TEST(BaseForwardOnlyRounding, ItTurnsAboutAWheelThatIsCommandedToStand) {
+  CycleConfig config = acceptingMinimumFrequency(0.0);
+  config.base->geometry.wheel_separation = 0.53;
+  CycleBench bench{config, leftForwardOnly()};
+  bench.run(80);
+  ASSERT_TRUE(bench.ask(RequestKind::kEnable).success);
+  for (int i = 0; i < 20; ++i) {
+    bench.commandBase(0.583, 2.2);
+    bench.step();
+  }
+  ASSERT_LT(0.583 - 2.2 * 0.53 / 2.0, 0.0);
+  EXPECT_EQ(0, bench.setpoint(CycleBench::kLeft));
+  EXPECT_LT(bench.setpoint(CycleBench::kRight), 0);
+  EXPECT_FALSE(bench.snapshot().drives[CycleBench::kLeft].saturated);
+}
+
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutRamps, BaseForwardOnly, ::testing::Values(0.0, 10.0));
+
 class BaseMinimumWithRamps : public BaseMinimum {
  protected:
   BaseMinimumWithRamps() : BaseMinimum(10.0) {}
@@ -255,15 +311,20 @@ TEST(MinimumSpeedsTest, AskEachWheelThatIsToTurn) {
   EXPECT_FALSE(anyBelow({5.0}, {{2.0, 2.0}}));
 }
 
-// It would be commanded 0 and turn at its P104; without a P104 it stands.
+// It would be commanded 0 and turn at its P104; without a P104 it stands, and the other one alone would turn the base.
 TEST(MinimumSpeedsTest, AWheelThatCannotTurnThatWayIsBelow) {
   const MinimumSpeeds minimum{{2.0, 2.0}, false, {1.0, -1.0}};
   EXPECT_FALSE(anyBelow({5.0, -5.0}, minimum));
   EXPECT_TRUE(anyBelow({5.0, 5.0}, minimum));
   EXPECT_TRUE(anyBelow({-5.0, -5.0}, minimum));
   EXPECT_FALSE(anyBelow({0.0, 0.0}, minimum));
-  EXPECT_FALSE(anyBelow({-5.0, 5.0}, {{0.0, 0.0}, false, {1.0, -1.0}}));
   EXPECT_FALSE(anyBelow({5.0, -5.0}, {{2.0, 2.0}, false, {1.0}}));
+  const MinimumSpeeds none{{0.0, 0.0}, false, {1.0, -1.0}};
+  EXPECT_FALSE(anyBelow({5.0, -0.001}, none));
+  EXPECT_TRUE(anyBelow({-5.0, -5.0}, none));
+  EXPECT_TRUE(anyBelow({5.0, 0.001}, none));
+  EXPECT_FALSE(anyBelow({5.0, 1e-12}, none)) << "rounding: it stands, as commanded";
+  EXPECT_TRUE(anyBelow({5.0, 5.0}, {{}, false, {1.0, -1.0}}));
 }
 
 }  // namespace

@@ -237,5 +237,22 @@ TEST_F(SteeredMinimum, TellsThatItRestsForIt) {
   EXPECT_FALSE(base_.motion.belowMinimum()) << "nothing is commanded";
 }
 
+// Without a P104 as well: the rear wheel would stand, and the front one go on alone.
+TEST(SteeredForwardOnly, RestsAsAWholeWhereAWheelCannotReverse) {
+  Base base;
+  base.drives.minimum = {{0.0, 0.0}, false, {0.0, 1.0}};
+  base.command(0.5);
+  base.run(2.0);
+  EXPECT_GT(base.poll().wheels[1], 0.0);
+  EXPECT_FALSE(base.motion.belowMinimum());
+  base.command(-0.5);
+  base.poll();
+  EXPECT_NEAR(0.49, base.motion.limited().linear_x, 1e-9) << "left along the limits";
+  base.run(2.0);
+  EXPECT_TRUE(base.motion.belowMinimum());
+  for (const double speed : base.poll().wheels) EXPECT_EQ(0.0, speed);
+  EXPECT_EQ(kRest, base.motion.limited());
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

@@ -139,13 +139,14 @@ TEST(DevicenetAcDrive, AQuickStopIsARampThatEnds) {
   }
 }
 
-DevicenetRobot::Options withoutReverse(bool base) {
+/// `p104` in steps of 0.1 Hz.
+DevicenetRobot::Options withoutReverse(bool base, int p104 = 50) {
   DevicenetRobot::Options options;
   options.assembly = 20;
   options.base = base;
   options.drives = {{"allow_minimum_frequency", true}};
-  options.simulate = [](sim::SimConfig& config) {
-    for (sim::DriveConfig& drive : config.drives) drive.parameters = {{104, 0, 0, 50}};  // 5 Hz
+  options.simulate = [p104](sim::SimConfig& config) {
+    for (sim::DriveConfig& drive : config.drives) drive.parameters = {{104, 0, 0, p104}};
   };
   return options;
 }
@@ -179,21 +180,48 @@ TEST(DevicenetAcDrive, ADriveWithoutReverseRestsWhereReverseIsCommanded) {
 
 // The right wheel is mounted the other way round, so that a base of these two never has both of them forward.
 TEST(DevicenetAcDrive, ABaseWithAWheelThatCannotReverseRestsAsAWhole) {
-  DevicenetRobot robot{withoutReverse(true)};
-  ASSERT_TRUE(robot.bringUpAndEnable()) << robot.text(0) << " / " << robot.busText();
-  for (const double linear : {kHalfSpeed, -kHalfSpeed}) {
-    robot.drive(linear, 0.0, seconds{3});
-    for (const DriveIndex wheel : {0, 1}) {
-      EXPECT_EQ(0.0, robot.unit(wheel).inverter().frequency()) << linear;
-      EXPECT_TRUE(robot.snapshot().drives[wheel].saturated) << linear;
+  for (const int p104 : {50, 0}) {
+    DevicenetRobot robot{withoutReverse(true, p104)};
+    ASSERT_TRUE(robot.bringUpAndEnable()) << robot.text(0) << " / " << robot.busText();
+    for (const double linear : {kHalfSpeed, -kHalfSpeed}) {
+      robot.drive(linear, 0.0, seconds{3});
+      for (const DriveIndex wheel : {0, 1}) {
+        EXPECT_EQ(0.0, robot.unit(wheel).inverter().frequency()) << linear << " m/s, P104 " << p104;
+        EXPECT_TRUE(robot.snapshot().drives[wheel].saturated) << linear << " m/s, P104 " << p104;
+      }
+      EXPECT_TRUE(robot.snapshot().base.enabled) << robot.snapshot().base.text.c_str();
+      EXPECT_EQ(0.0, robot.snapshot().base.pose.heading) << "it has not turned about one wheel";
     }
-    EXPECT_TRUE(robot.snapshot().base.enabled) << robot.snapshot().base.text.c_str();
+    robot.drive(0.0, -1.5, seconds{3});  // both motors forward
+    for (const DriveIndex wheel : {0, 1}) EXPECT_GT(robot.unit(wheel).inverter().frequency(), 20.0);
+    robot.drive(0.0, 1.5, seconds{6});
+    for (const DriveIndex wheel : {0, 1}) EXPECT_EQ(0.0, robot.unit(wheel).inverter().frequency());
+    EXPECT_EQ("no rule broken", robot.bus().referee().report());
   }
-  robot.drive(0.0, -1.5, seconds{3});  // both motors forward
-  for (const DriveIndex wheel : {0, 1}) EXPECT_GT(robot.unit(wheel).inverter().frequency(), 20.0);
-  robot.drive(0.0, 1.5, seconds{6});
-  for (const DriveIndex wheel : {0, 1}) EXPECT_EQ(0.0, robot.unit(wheel).inverter().frequency());
-  EXPECT_EQ("no rule broken", robot.bus().referee().report());
+}
+
+// Both wheels forward: such a base goes on ahead and in curves; a curve whose inner wheel would go backwards brings it to rest.
+TEST(DevicenetAcDrive, ABaseThatOnlyGoesForwardRestsInATurnOnTheSpot) {
+  DevicenetRobot::Options options = withoutReverse(true, 0);
+  options.each = {{}, {{"inverted", false}}};
+  const auto simulate = options.simulate;
+  options.simulate = [simulate](sim::SimConfig& config) {
+    simulate(config);
+    config.drives[1].inverted = false;
+  };
+  DevicenetRobot robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable()) << robot.text(0) << " / " << robot.busText();
+  robot.drive(kHalfSpeed, 0.5, seconds{3});
+  for (const DriveIndex wheel : {0, 1}) EXPECT_GT(robot.unit(wheel).inverter().frequency(), 10.0);
+  for (const robot::Twist2d& twist : {robot::Twist2d{0.0, 1.5}, robot::Twist2d{0.1, -1.5}, robot::Twist2d{-0.2, 0.0}}) {
+    robot.drive(twist.linear_x, twist.angular_z, seconds{6});
+    for (const DriveIndex wheel : {0, 1}) {
+      EXPECT_EQ(0.0, robot.unit(wheel).inverter().frequency()) << twist.linear_x << " m/s, wheel " << wheel;
+      EXPECT_TRUE(robot.snapshot().drives[wheel].saturated);
+    }
+    robot.drive(kHalfSpeed, 0.0, seconds{3});
+    for (const DriveIndex wheel : {0, 1}) EXPECT_GT(robot.unit(wheel).inverter().frequency(), 10.0);
+  }
 }
 
 /// One module, four inverters in 33 bytes.
