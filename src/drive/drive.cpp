@@ -370,7 +370,8 @@ profile::ProcessOutput Drive::pollOutput(Instant now) noexcept {
     // Enabled without P105 cannot be; were it so, the setpoint would be 0.
     const Hertz maximum = maxFrequency(report_.commanded_set).value_or(Hertz{});
     profile::Setpoint setpoint = profile::toSetpoint1(profile::toHertz(phase_.wanted, config_.joint), maximum);
-    if (!config_.reverses && setpoint.word < 0) setpoint = {0, true, false};
+    // One that is led does not hear this setpoint: its inverter turns both ways, as its leader's says.
+    if (!config_.reverses && !config_.led && setpoint.word < 0) setpoint = {0, true, false};
     restOrResume(setpoint, now);
     if (report_.phase != Phase::kResting) output.setpoints[0] = setpoint.word;
     const double frequency = std::fabs(profile::fromActualValue1(setpoint.word, maximum).value);

@@ -160,12 +160,16 @@ TEST_P(FollowersForwardOnly, WithMinimumRestTogetherWhereOneCannotReverse) {
   EXPECT_TRUE(snapshot().drives[kLift].saturated);
 }
 
-// It hears its leader, whatever its own words say.
+// It hears its leader, whatever its own words say: turning with it, it is not saturated.
 TEST_P(FollowersForwardOnly, WithoutMinimumOnlyItsOwnDirectionsBoundTheLeader) {
   run(100);
   ASSERT_TRUE(ask(RequestKind::kEnable).success);
   drive(-20.0);
-  EXPECT_EQ(GetParam() == kLift, setpoint(kLift) == 0);
+  const bool leader = GetParam() == kLift;
+  EXPECT_EQ(leader, setpoint(kLift) == 0);
+  EXPECT_EQ(leader, snapshot().drives[kLift].saturated);
+  EXPECT_FALSE(snapshot().drives[0].saturated);
+  EXPECT_NEAR(leader ? 0.0 : -20.0, snapshot().drives[0].velocity_command, 0.02);
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, FollowersForwardOnly, ::testing::Values(0, CycleBench::kLift));

@@ -274,6 +274,20 @@ TEST_F(MinimumFrequencyForwardOnly, WithoutP104ReverseIsZero) {
   EXPECT_FALSE(report().saturated);
 }
 
+// Its own setpoint reaches nothing: what its inverter does its leader says, which may turn it to the left.
+TEST_F(MinimumFrequencyForwardOnly, OneThatIsLedTurnsBothWays) {
+  DriveConfig configuration = config();
+  configuration.reverses = false;
+  configuration.led = true;
+  drive_ = Drive{configuration};
+  drive_.setMinimumFrequency(1, Hertz{});
+  run();
+  drive_.setVelocity({-kHalf});
+  EXPECT_EQ(0x047F, cycle(0x0B37, -0x2000));
+  EXPECT_FALSE(report().saturated);
+  EXPECT_NEAR(-kHalf, report().velocity_command.value, 1e-9);
+}
+
 TEST_F(MinimumFrequency, ADriveThatReversesHasBothDirections) {
   EXPECT_EQ(0.0, drive_.onlyDirection());
 }
