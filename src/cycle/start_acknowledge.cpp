@@ -31,13 +31,26 @@ void StartAcknowledge::update(DriveIndex drive, std::uint16_t number, bool quiet
   const drive::DriveReport& report = drives_[drive].report();
   if (state.step == Step::kAsked) return follow(drive);
   if (!report.online) {
-    state.step = Step::kAwaited;
+    lose(drive, now);
   } else if (!report.fault_latched) {
     state.step = Step::kDone;  // met without one, or somebody has acknowledged it
   } else if (state.step == Step::kAwaited) {
     state = {Step::kJudging, now};  // not before the next cycle: what is known of its number is older
   } else {
     judge(drive, number, quiet, now);
+  }
+}
+
+// What it comes back with may have come meanwhile, and has not stood before this node. Before its number was read it may
+// just have been switched on: that is no meeting yet, unless it stays away.
+void StartAcknowledge::lose(DriveIndex drive, Instant now) noexcept {
+  State& state = states_[drive];
+  if (state.step == Step::kJudging) {
+    if (state.rest_due) return giveUp(drive, "it fell silent before that could be done");
+    state = {};
+    state.lost = now;
+  } else if (state.lost && now - *state.lost >= kNumberAwaited) {
+    giveUp(drive, "it fell silent before its number (P700) was read");
   }
 }
 

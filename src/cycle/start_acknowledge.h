@@ -2,8 +2,8 @@
 //
 // Where an exchange simply ends, and be it after a clean exit, the drives trip by the lost master (E10.2, BU 2700
 // 8.1.1). A node that is started again would find faults nobody needs to look at. Acknowledging moves nothing;
-// what still could go wrong is narrowed down all the same: only a fault the drive was met with, only with a number that
-// was read as E10.x, only at rest and without commands, and once.
+// what still could go wrong is narrowed down all the same: only a fault the drive was met with, and has not been away
+// since, only with a number that was read as E10.x, only at rest and without commands, and once.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ class StartAcknowledge {
 
  private:
   enum class Step : std::uint8_t {
-    kAwaited,  ///< the drive has not answered yet
+    kAwaited,  ///< the drive has not answered yet, or was lost again before its number was read
     kJudging,  ///< it was met with a fault
     kAsked,
     kDone,
@@ -50,8 +50,10 @@ class StartAcknowledge {
     /// Since when its number is known, and every drive concerned is there.
     std::optional<Instant> rest_due = std::nullopt;
     std::uint16_t number = 0;
+    std::optional<Instant> lost = std::nullopt;  ///< since when it is away again
   };
 
+  void lose(DriveIndex drive, Instant now) noexcept;
   void judge(DriveIndex drive, std::uint16_t number, bool quiet, Instant now) noexcept;
   void follow(DriveIndex drive) noexcept;
   bool concerned(DriveIndex drive, DriveIndex other) const noexcept;
