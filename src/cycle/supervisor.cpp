@@ -171,10 +171,8 @@ void Supervisor::startEnable(const Request& request, const CommandState& command
   if (commands.to_hear > request.patience) {
     return completions_.answer(request, false, reasonsAgainst(request, notHeardYet(commands, has_base_)));
   }
-  if (commands.to_hear > Duration::zero() || awaitsParameters(request)) {
-    auto_enable_ = false;
-    return followUp(request, now, false);
-  }
+  // It may still be refused: auto_enable_ stays what it is until it has begun.
+  if (commands.to_hear > Duration::zero() || awaitsParameters(request)) return followUp(request, now, false);
   if (!enableAll(request, now)) return;
   auto_enable_ = false;  // somebody has taken over
   followUp(request, now);
@@ -253,13 +251,13 @@ void Supervisor::update(const CommandState& commands, Instant now) noexcept {
 
 // Once, when every drive has first become ready and the commands are quiet: never over a fault nor after one (whoever
 // acknowledges it enables), never after a stop (a stop needs an enable before it). What StartAcknowledge takes away is
-// none of these.
+// none of these, nor is an enable that is refused. While one waits it is not known yet who enables, and how much.
 void Supervisor::autoEnable(const CommandState& commands, Instant now) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     const bool may_go = start_ != nullptr && start_->mayAcknowledge(i);
     if (drives_[i].report().fault_latched && !may_go) auto_enable_ = false;
   }
-  if (!auto_enable_ || !commands.quiet || shutting_down_) return;
+  if (!auto_enable_ || !commands.quiet || shutting_down_ || anyEnableWaits()) return;
   for (const drive::Drive& drive : drives_) {
     // Idle it is sent OFF1, which leads out of "switch-on disabled": one that stays there is held, by a safe stop or without mains.
     const bool held = drive.report().state == profile::DriveState::kSwitchOnDisabled;
@@ -269,6 +267,10 @@ void Supervisor::autoEnable(const CommandState& commands, Instant now) noexcept 
   request.kind = RequestKind::kEnable;
   request.patience = std::chrono::minutes{1};
   startEnable(request, commands, now);
+}
+
+bool Supervisor::anyEnableWaits() const noexcept {
+  return std::any_of(jobs_.begin(), jobs_.end(), [](const Job& job) { return !job.begun; });
 }
 
 bool Supervisor::followWaiting(Job& job, const CommandState& commands, Instant now) noexcept {
@@ -285,6 +287,7 @@ bool Supervisor::followWaiting(Job& job, const CommandState& commands, Instant n
   if (now < job.deadline && awaitsParameters(job.request)) return false;
   job.begun = enableAll(job.request, now);
   job.to_enable = groupsToEnable(job.request);
+  if (job.begun) auto_enable_ = false;  // as in startEnable()
   return !job.begun;
 }
 

@@ -80,6 +80,7 @@ class Supervisor {
   bool nothingToEnable(const Request& request) const noexcept;
   void stop(const Request& request, Instant now) noexcept;
   void endWaitingEnables(const Request& stop) noexcept;
+  bool anyEnableWaits() const noexcept;
   void followUp(const Request& request, Instant now, bool begun = true,
                 std::optional<Instant> enabled_at = std::nullopt) noexcept;
   /// These three: true when the job has ended.

@@ -14,6 +14,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
+Request enableRequest(double patience) {
+  Request request;
+  request.id = 7;
+  request.kind = RequestKind::kEnable;
+  request.patience = seconds(patience);
+  return request;
+}
+
 class FirstCommand : public ::testing::Test {
  protected:
   static CycleConfig config(Duration cmd_vel_timeout) {
@@ -82,6 +90,56 @@ TEST_F(FirstCommand, ARefusedEnableLeavesAutoEnableWhatItWas) {
   EXPECT_FALSE(stopped.snapshot().base.enabled) << "a stop is another thing";
 }
 
+// Neither when it had to wait before it was refused: right after the start, or after a publisher was connected.
+TEST_F(FirstCommand, AnEnableThatIsRefusedAfterWaitingLeavesAutoEnableWhatItWas) {
+  for (const bool at_start : {true, false}) {
+    CycleBench robot{config(seconds(0.5)), true};
+    for (auto& inverter : robot.transport.inverters) inverter.silent = true;
+    robot.run(at_start ? 5 : 100);
+    if (!at_start) robot.ports.commanderConnected(robot.transport.time);
+    robot.ports.submit(enableRequest(3.0));
+    robot.run(10);
+    ASSERT_EQ(0u, robot.completions.count(7)) << "it waits";
+    robot.run(60);
+    ASSERT_EQ(1u, robot.completions.count(7));
+    EXPECT_THAT(robot.completions[7].message.str(), HasSubstr("the inverter does not answer"));
+    for (auto& inverter : robot.transport.inverters) inverter.silent = false;
+    robot.run(200);
+    EXPECT_TRUE(robot.snapshot().base.enabled) << at_start;
+  }
+}
+
+// Whoever says stop meanwhile does not want it later either.
+TEST_F(FirstCommand, AStopWhileAnEnableWaitsIsTheEndOfAutoEnable) {
+  for (const RequestKind stop : {RequestKind::kDisable, RequestKind::kQuickStop}) {
+    CycleBench robot{config(seconds(0.5)), true};
+    robot.run(5);
+    robot.ports.submit(enableRequest(3.0));
+    robot.run(10);
+    ASSERT_EQ(0u, robot.completions.count(7)) << "it waits";
+    ASSERT_TRUE(robot.ask(stop).success);
+    EXPECT_FALSE(robot.completions[7].success);
+    robot.run(300);
+    EXPECT_FALSE(robot.snapshot().base.enabled);
+    EXPECT_FALSE(robot.snapshot().drives[CycleBench::kLift].enabled);
+  }
+}
+
+// It takes the place of what was to happen by itself: of one drive alone the others stay disabled.
+TEST_F(FirstCommand, AnEnableThatIsGrantedAfterWaitingIsTheEndOfAutoEnable) {
+  CycleBench robot{config(seconds(0.5)), true};
+  robot.run(5);
+  Request lift = enableRequest(3.0);
+  lift.drive = CycleBench::kLift;
+  robot.ports.submit(lift);
+  robot.run(10);
+  ASSERT_EQ(0u, robot.completions.count(7)) << "it waits";
+  robot.run(300);
+  EXPECT_STREQ("enabled", robot.completions[7].message.c_str());
+  EXPECT_TRUE(robot.snapshot().drives[CycleBench::kLift].enabled);
+  EXPECT_FALSE(robot.snapshot().base.enabled);
+}
+
 // Two publishers: nobody is followed; but it would be as soon as the other one is gone.
 TEST_F(FirstCommand, OneThatIsOnlyHeldIsACommandForWhoeverEnables) {
   CycleBench robot{config(seconds(0.5)), true};
@@ -141,14 +199,6 @@ TEST_F(FirstCommand, HalfASecondIsTheLeast) {
     robot.run(20);
     EXPECT_TRUE(robot.snapshot().base.enabled) << timeout;
   }
-}
-
-Request enableRequest(double patience) {
-  Request request;
-  request.id = 7;
-  request.kind = RequestKind::kEnable;
-  request.patience = seconds(patience);
-  return request;
 }
 
 TEST_F(FirstCommand, EnableRightAfterStartWaitsAndIsGranted) {

@@ -128,6 +128,33 @@ TEST_F(WaitingEnables, TakeBackOnlyWhatTheyHaveBegun) {
   EXPECT_TRUE(drives[kRight].isAtRest());
 }
 
+// Refused for parameters that did not come in its time, it has begun nothing; auto_enable goes on when they are there.
+TEST_F(WaitingEnables, LeaveAutoEnableWhatItWasWhenTheyAreRefused) {
+  DrivesUnderSupervision robot{true};
+  for (auto& drive : robot.drives) drive.setParametersAwaited(true);
+  robot.bringUp();
+  robot.request(1, RequestKind::kEnable, kLift, std::chrono::milliseconds{100});
+  robot.run(20);
+  ASSERT_EQ(1u, robot.answersTo(1).size());
+  EXPECT_THAT(robot.answersTo(1).front(), StartsWith("no: drive lift: "));
+  for (auto& drive : robot.drives) drive.setParametersAwaited(false);
+  robot.run(20);
+  EXPECT_TRUE(robot.allEnabled());
+}
+
+// While it waits for one drive, auto_enable does not bring up all of them.
+TEST_F(WaitingEnables, AreNotOvertakenByAutoEnable) {
+  DrivesUnderSupervision robot{true};
+  robot.drives[kLift].setParametersAwaited(true);
+  robot.bringUp();
+  robot.request(1, RequestKind::kEnable, kLift);
+  robot.step();
+  robot.drives[kLift].setParametersAwaited(false);
+  robot.run(30);
+  EXPECT_THAT(robot.answersTo(1), ElementsAre("yes: enabled"));
+  for (const DriveIndex wheel : {kLeft, kRight}) EXPECT_TRUE(robot.drives[wheel].isAtRest());
+}
+
 // Who does not wait is not sent away to wait for what has been heard.
 TEST_F(WaitingEnables, AreNotToldToAskAgainForWhatWasHeard) {
   EXPECT_THAT(ask(RequestKind::kEnable, kAllDrives, Duration::zero()).message.c_str(),
