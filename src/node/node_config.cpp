@@ -129,6 +129,16 @@ std::string applyEndPoint(NodeConfig& config, const EndPoint& end_point) {
   return config.bus->text(end_point.key).value_or("");  // whether it has to be there, the transport decides
 }
 
+// Steered, a wheel may be turned round.
+std::optional<DriveIndex> wheelAgainstForward(const cycle::CycleConfig& config,
+                                              const std::vector<DriveIdentity>& identities) {
+  if (!config.base || config.base->steered) return std::nullopt;
+  for (const DriveIndex i : config.base->wheels()) {
+    if (!identities[i].reverses && config.drives[i].drive.joint.inverted) return i;
+  }
+  return std::nullopt;
+}
+
 ConfiguredTransport configureTransport(NodeConfig& config, Transport& transport) {
   ConfiguredTransport configured;
   // Nothing in the modules is to trip when the one who looks on goes, and nothing is sent beside another master.
@@ -157,6 +167,13 @@ ConfiguredTransport configureTransport(NodeConfig& config, Transport& transport)
       throw missingSetting(*config.drives[i].settings, "max_frequency",
                            "P105 in Hz, because this drive has no parameter channel to read it from");
     }
+  }
+  if (const auto wheel = wheelAgainstForward(config.cycle, configured.identities)) {
+    configured.warnings.push_back(
+        config.drives[*wheel].settings->fullName("inverted") +
+        ": true keeps the base from ever driving forward, because this drive has no reverse as it is configured here, "
+        "and a base rests as a whole while one of its wheels cannot turn as commanded; expected a telegram with a "
+        "reverse, or false, with a motor that drives forward when it turns to the right");
   }
   return configured;
 }

@@ -68,6 +68,11 @@ struct ConfiguredTransport {
   std::vector<std::string> warnings;
 };
 
+/// The first wheel that cannot turn forward, since its drive has no reverse and is inverted: the base, which drives or
+/// rests as a whole, never goes straight ahead. None: there is no such wheel.
+std::optional<DriveIndex> wheelAgainstForward(const cycle::CycleConfig& config,
+                                              const std::vector<DriveIdentity>& identities);
+
 /// Throws ConfigError, also where a drive needs a max_frequency that is not given.
 ConfiguredTransport configureTransport(NodeConfig& config, Transport& transport);
 

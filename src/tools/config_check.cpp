@@ -191,6 +191,7 @@ void takeOver(const node::NodeConfig& config, const node::ConfiguredTransport& t
   checked.modules = modulesOf(config, transport.identities);
   if (!config.cycle.base) return;
   checked.base = baseOf(config.cycle);
+  if (node::wheelAgainstForward(config.cycle, transport.identities)) checked.base->linear_x = 0.0;
   std::vector<std::string> of_base;
   for (const DriveIndex i : config.cycle.base->drives()) of_base.push_back(config.cycle.drives[i].name);
   for (CheckedModule& module : checked.modules) {

@@ -66,7 +66,7 @@ struct CheckedBase {
   robot::BaseGeometry geometry;
   std::vector<CheckedAxle> axles;  ///< of a steered base, from front to rear, in place of the three above
   double angle_tolerance = 0.0;    ///< rad, likewise
-  double linear_x = 0.0;           ///< m/s straight on, where the first wheel is at 100 %
+  double linear_x = 0.0;           ///< m/s straight on, where the first wheel is at 100 %; 0: it cannot
   double linear_y = 0.0;           ///< m/s sideways; 0: it cannot
   double angular_z = 0.0;          ///< rad/s on the spot
   robot::TwistLimits limits;

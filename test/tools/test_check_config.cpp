@@ -190,6 +190,32 @@ TEST_F(CheckConfig, AFollowerFollows) {
               HasSubstr(":4: error: drives/rear/max_velocity: 6 is not valid, expected none: this drive follows"));
 }
 
+// DeviceNet's assembly 20 has no reverse: mounted the other way round, a wheel has no forward.
+TEST_F(CheckConfig, WarnsOfABaseThatNeverDrivesForward) {
+  const std::string text =
+      "transport: devicenet\n"
+      "bus: {interface: can0, bit_rate: 500000}\n"
+      "left_wheel: left_joint\n"
+      "right_wheel: right_joint\n"
+      "wheel_separation: 0.5\n"
+      "wheel_radius: 0.1\n"
+      "drives:\n"
+      "  left: {address: 5, series: sk2xxe, assembly: 20, joint: left_joint, gear_ratio: 20.0, pole_pairs: 2}\n"
+      "  right: {address: 6, series: sk2xxe, assembly: 20, joint: right_joint, gear_ratio: 20.0, pole_pairs: 2,\n"
+      "          inverted: true}\n";
+  const char* const warning = "warning: drives/right/inverted: true keeps the base from ever driving forward";
+  const Ended never = checkText(text);
+  EXPECT_EQ(0, never.code);
+  EXPECT_THAT(never.output, AllOf(HasSubstr(":10: "), HasSubstr(warning), HasSubstr("straight on: 0 m/s")));
+  std::string one_way = text;
+  one_way.replace(one_way.find("inverted: true"), 14, "inverted: false");
+  std::string both_ways = text;
+  for (int i = 0; i < 2; ++i) both_ways.replace(both_ways.find("assembly: 20"), 12, "assembly: 21");
+  for (const std::string& good : {one_way, both_ways}) {
+    EXPECT_THAT(checkText(good).output, AllOf(HasSubstr("straight on: 0.785 m/s"), Not(HasSubstr(warning))));
+  }
+}
+
 // Accepted, it could never be enabled: the words would be asked for by turns.
 TEST_F(CheckConfig, RefusesMoreFunctionsThanTheTelegramHasWords) {
   const std::string text =

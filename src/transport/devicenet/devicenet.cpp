@@ -166,7 +166,7 @@ std::vector<std::string> DeviceNetTransport::warnings() const {
     if (drive.drive_profile == DevicenetProfile::kAcDrive) {
       sentences.push_back("drive " + drive.name +
                           ": the AC drive profile of assembly 20/70 has no reverse: where one is commanded the motor "
-                          "stands still; 21/71 (P160 = 2) and 100/110 (P160 = 3) have it");
+                          "stands still, and a base as a whole; 21/71 (P160 = 2) and 100/110 (P160 = 3) have it");
     }
   }
   return sentences;
