@@ -60,7 +60,7 @@ std::vector<AskedDrive> askedDrives(const cycle::CycleConfig& config, const std:
     drive.typed_max_frequency = setup.typed_max_frequency;
     drive.follows = !setup.follows.empty();
     drive.rated_current = setup.rated_current;
-    drive.words = cycle::driveNeeds(setup, identities[i].process_values, false);
+    drive.words = cycle::driveNeeds(setup, identities[i].process_values, looks_on);
     if (setup.position) {
       drive.position_bits = cycle::askedBits(*setup.position, setup.series);
       drive.counted_per_motor_turn = setup.position->axis.revolutions_per_motor_turn;

@@ -61,9 +61,11 @@ Remedy otherRemedy(const DriveUnderCheck& drive, const ParameterKey& key) {
   return watches_module ? timeoutRemedy(drive, key) : drive.remedy(key, 0);
 }
 
-/// What the words 0000 of a node that looks on do (BU 2700, 7.1.1). Through a gateway it sends none.
+/// What the words 0000 of a node that looks on do (BU 2700, 7.1.1). Through a gateway it sends none, nor with a profile that
+/// has no word to be ignored by.
 void assessLookingOn(const DriveUnderCheck& drive, const ParameterKey& key, double timeout, Findings& to) {
-  if (timeout <= 0.0 || !drive.asked().identity.timeout_notices) return;
+  const DriveIdentity& identity = drive.asked().identity;
+  if (timeout <= 0.0 || !identity.timeout_notices || !identity.nord_profile) return;
   Finding finding =
       drive.finding(key, Severity::kWarning,
                     "the words of a node that looks on (read_only) are 0000: it trips E10.x by them", "BU 2700, 7.1.1");

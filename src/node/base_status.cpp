@@ -14,6 +14,8 @@ void reportBase(const cycle::CycleSnapshot& snapshot, const std::vector<std::str
     status.add("to go on", recoveryHint(snapshot, names));
   } else if (base.enabled) {
     status.summary(DiagnosticStatus::OK, base.waits.empty() ? "enabled" : "enabled: " + base.waits.str());
+  } else if (base.commanded) {
+    status.summary(DiagnosticStatus::WARN, "disabled, while cmd_vel asks for a motion: send zero, then call ~enable");
   } else {
     status.summary(DiagnosticStatus::OK, base.text.empty() ? "disabled" : base.text.str());
   }

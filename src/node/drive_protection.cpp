@@ -58,10 +58,11 @@ void DriveProtection::assessWayToModule(const cycle::DeviceData& device, Protect
   }
 }
 
-// Where the drive is told nothing (a gateway), no time-out judges the words of this node.
+// Where the drive is told nothing (a gateway, or a profile that has no word to be ignored by), no time-out judges the words of this
+// node.
 ProtectionReport DriveProtection::assessLookingOn(const std::optional<double>& own, const std::string& name) const {
   ProtectionReport report{Level::kFine, "this node looks on and commands nothing"};
-  if (own && *own > 0.0 && identity_.timeout_notices) {
+  if (own && *own > 0.0 && identity_.timeout_notices && identity_.nord_profile) {
     const bool by_module = identity_.timeout_owner == TimeoutOwner::kModule;
     warn(report, name + " of " + shortNumber(*own) + " s: by its words 0000 the inverter trips " +
                      faultOfTimeout(by_module, series_) + " and the motor coasts; set it to 0 while it looks on");

@@ -121,7 +121,8 @@ std::string applyEndPoint(NodeConfig& config, const EndPoint& end_point) {
     throw ConfigError("~bus_end_point: \"" + config.bus_end_point + "\" is not valid, expected none: the transport " +
                       config.transport + " opens nothing");
   }
-  if (!config.bus_end_point.empty()) {
+  // Who only repeats what the file says keeps its second way as well.
+  if (!config.bus_end_point.empty() && config.bus->text(end_point.key) != config.bus_end_point) {
     const bool second = *end_point.second_key != '\0' && config.bus->text(end_point.second_key);
     config.bus = config.bus->with(end_point.key, config.bus_end_point);
     if (second) config.bus = config.bus->with(end_point.second_key, config.bus_end_point);

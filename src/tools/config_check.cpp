@@ -126,6 +126,7 @@ CheckedDrive driveOf(const node::NodeConfig& config, DriveIndex index, const Dri
     drive.targets = targetsOf(axis);
     drive.by_element = axis.by_element;
     drive.unit = unitOf(axis);
+    drive.max_velocity *= axis.unit_per_radian;
     drive.lower = axis.lower;
     drive.upper = axis.upper;
   }

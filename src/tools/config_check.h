@@ -36,13 +36,13 @@ struct CheckedDrive {
   bool inverted = false;
   double max_frequency = 0.0;    ///< Hz, of 100 %
   bool frequency_typed = false;  ///< false: `max_frequency` is what P105 is from the factory
-  double max_velocity = 0.0;     ///< rad/s at the joint, at 100 %
+  double max_velocity = 0.0;     ///< `unit` per second at the joint, at 100 %
   robot::SpeedLimits limits;
   bool of_base = false;
   std::string leader;                  ///< the drive this one follows; empty: none
   bool positions = false;              ///< mode: position
   bool by_element = false;             ///< position/targets: array
-  std::string unit;                    ///< "rad" or "m", of one that positions
+  std::string unit = "rad";            ///< or "m": of one that positions a prismatic joint
   std::optional<double> lower, upper;  ///< of its targets
   std::string targets;                 ///< "0 to 2.5 m", of one that positions; empty: no target is refused for a limit
 };

@@ -60,7 +60,7 @@ Branch branchOf(const CheckedDrive& drive, bool shares) {
                 profile::toString(drive.series) + ", " +
                 counted(static_cast<std::size_t>(drive.pole_pairs), "pole pair") + ", gear ratio " +
                 shortNumber(drive.gear_ratio) + (drive.inverted ? ", inverted: " : ": ") + number(drive.max_velocity) +
-                " rad/s at " + (drive.joint.empty() ? "its joint" : drive.joint);
+                " " + drive.unit + "/s at " + (drive.joint.empty() ? "its joint" : drive.joint);
   if (drive.of_base) return branch;
   if (!drive.leader.empty()) {
     branch.twigs.push_back({"follows " + drive.leader, {}});

@@ -78,6 +78,7 @@ void choosePort(YAML::Node& file, const BusPort& port, const EndPoint& end_point
     file["bus_end_point"] = value;  // the node's reader takes this before the key of the bus
   }
   if (value.empty() || end_point.isNone()) return;
+  if (settings.group("bus")->text(end_point.key) == value) return;  // with its second way, as the file has them
   file["bus"][end_point.key] = value;
   if (*end_point.second_key != '\0' && file["bus"][end_point.second_key]) file["bus"][end_point.second_key] = value;
 }

@@ -140,7 +140,10 @@ std::string TraceWriter::removeOldest(const std::string& newest) const {
     if (std::regex_match(name, match, kOwn) && match[1] != newest) stems.insert(match[1]);
   }
   std::string warning;
-  for (auto stem = stems.begin(); stems.size() + 1 > config_.keep; stem = stems.erase(stem)) {
+  // What bears a later time than the newest is of before the clock was set back: older than all others.
+  auto stem = stems.upper_bound(newest);
+  for (; stems.size() + 1 > config_.keep; stem = stems.erase(stem)) {
+    if (stem == stems.end()) stem = stems.begin();
     for (const char* ending : {".txt", ".pcap", ".txt.part", ".pcap.part"}) {
       const fs::path path = fs::path(config_.directory) / (*stem + ending);
       fs::remove(path, error);

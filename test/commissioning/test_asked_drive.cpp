@@ -18,11 +18,11 @@ constexpr char kRobot[] =
     "3},"
     "  arm: {series: sk54xe, joint: a, gear_ratio: 10, pole_pairs: 3, max_velocity: 4, max_frequency: 70}}}";
 
-std::vector<AskedDrive> asked(const std::string& text) {
+std::vector<AskedDrive> asked(const std::string& text, bool looks_on = false) {
   const YamlSettings settings{"", YAML::Load(text)};
   const auto drives = readDriveList(settings);
   return askedDrives(cycle::readCycleConfig(settings, drives), std::vector<DriveIdentity>(drives.size()),
-                     "nord_driver/profibus_dp", false);
+                     "nord_driver/profibus_dp", looks_on);
 }
 
 const AskedDrive& find(const std::vector<AskedDrive>& drives, const std::string& name) {
@@ -52,6 +52,15 @@ TEST(AskedDrive, HasLimitsOfItsOwnOutsideABase) {
   EXPECT_NEAR(4.0 * 10 * 3 / (2 * 3.14159265), arm.top_frequency, 1e-3);
   EXPECT_EQ("drives/arm/max_velocity", arm.top_of);
   EXPECT_EQ(70.0, arm.typed_max_frequency);
+}
+
+// Its words are another master's: what they would send is asked of no drive.
+TEST(AskedDrive, OfANodeThatLooksOnIsNotAskedForWhatItWouldSend) {
+  const char* const text =
+      "{drives: {lift: {series: sk5xxe, pole_pairs: 2, gear_ratio: 20, setpoints: {grip: {function: torque_limit, "
+      "limit: 100}}}}}";
+  EXPECT_FALSE(asked(text)[0].words.list.empty());
+  EXPECT_TRUE(asked(text, true)[0].words.list.empty());
 }
 
 TEST(AskedDrive, CountsTheMotorUnlessConfiguredOtherwise) {

@@ -34,6 +34,21 @@ TEST_F(BaseInCycle, TakesTheSizesThatAreCorrectedOnceItStands) {
   EXPECT_NEAR(-2 * before, setpoint(kLeft), 1);
 }
 
+// Somebody who waits for a motion that does not come is told why, as long as he asks for it.
+TEST_F(BaseInCycle, IsToldToBeCommandedByTheNewestCommandAlone) {
+  EXPECT_FALSE(snapshot().base.commanded);
+  ASSERT_TRUE(ask(RequestKind::kDisable).success);
+  drive(0.5, 0.0, 2);
+  EXPECT_TRUE(snapshot().base.commanded);
+  EXPECT_FALSE(snapshot().base.enabled);
+  drive(0.0, 0.0, 2);
+  EXPECT_FALSE(snapshot().base.commanded);
+  drive(0.0, 0.5, 2);
+  EXPECT_TRUE(snapshot().base.commanded);
+  run(100);
+  EXPECT_FALSE(snapshot().base.commanded) << "older than cmd_vel_timeout";
+}
+
 TEST_F(BaseInCycle, ResettingTheOdometryMakesItsPoseZero) {
   drive(1.0, 1.0, 100);
   drive(0.0, 0.0, 50);

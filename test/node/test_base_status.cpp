@@ -42,6 +42,10 @@ TEST_F(BaseStatus, IsAnErrorWithTheWayOnAfterAStopOnly) {
   values(false);
   EXPECT_EQ(DiagnosticStatus::OK, status.level);
   EXPECT_EQ("disabled", status.message);
+  snapshot.base.commanded = true;
+  values(false);
+  EXPECT_EQ(DiagnosticStatus::WARN, status.level) << "somebody waits for a motion that does not come";
+  EXPECT_EQ("disabled, while cmd_vel asks for a motion: send zero, then call ~enable", status.message);
   snapshot.base.enabled = true;
   snapshot.base.waits = "the front wheel is steered";
   values(false);

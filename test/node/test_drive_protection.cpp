@@ -225,6 +225,9 @@ TEST(DriveProtection, ANodeThatLooksOnHasNothingToBeStopped) {
     }
   }
   EXPECT_EQ(Level::kFine, assessLookingOn(gateway, withP513(0.5)).level) << "no words are written to a gateway";
+  DriveIdentity foreign = identity(TimeoutOwner::kInverter, "");
+  foreign.nord_profile = false;
+  EXPECT_EQ(Level::kFine, assessLookingOn(foreign, withP513(0.5)).level) << "it has no word that is ignored";
 }
 
 // BU 2700 7.1.1: a control word without bit 10 throughout trips where P513, or P151 of the module, is above 0.

@@ -125,10 +125,13 @@ TEST(NodeConfigTest, TheEndPointReplacesASecondWayToTheBusThatThereIs) {
   config = readNodeConfig(RosSettings{"~", value});
   EXPECT_EQ("here", applyEndPoint(config, two));
   EXPECT_EQ("here", config.bus->text("diagnosis"));
-  value["bus_end_point"] = std::string{};
-  config = readNodeConfig(RosSettings{"~", value});
-  applyEndPoint(config, two);
-  EXPECT_EQ("there", config.bus->text("diagnosis"));
+  for (const char* none_else : {"", "/dev/ttyUSB0"}) {  // none, and the one of the file
+    value["bus"]["device"] = std::string{"/dev/ttyUSB0"};
+    value["bus_end_point"] = std::string{none_else};
+    config = readNodeConfig(RosSettings{"~", value});
+    EXPECT_EQ("/dev/ttyUSB0", applyEndPoint(config, two));
+    EXPECT_EQ("there", config.bus->text("diagnosis"));
+  }
 }
 
 TEST(NodeConfigTest, TheEndPointNeedsNoGroupOfTheBus) {

@@ -308,16 +308,23 @@ TEST_F(CheckConfig, TellsProgramsTheSameAsJson) {
   EXPECT_FALSE(YAML::Load(refused.output)["accepted"].as<bool>());
 }
 
+constexpr const char* kLift =
+    "bus: {device: /dev/ttyUSB0}\n"
+    "drives:\n"
+    "  lift: {address: 3, series: sk5xxe, ppo_type: 2, joint: lift_joint, pole_pairs: 2, mode: position, lead: 0.2,\n"
+    "         position: {lower: -0.5}}\n";
+
+// 1500 rpm, 0.2 m each: beside its limits in m a speed in rad/s would tell nobody what it can do.
+TEST_F(CheckConfig, ThePrismaticJointOfADriveThatPositionsIsToldInMetres) {
+  EXPECT_THAT(checkText(kLift).output, HasSubstr("gear ratio 1: 5 m/s at lift_joint"));
+}
+
 TEST_F(CheckConfig, TellsProgramsTheTargetsOfADriveThatPositions) {
-  const Ended ended = checkText(
-      "bus: {device: /dev/ttyUSB0}\n"
-      "drives:\n"
-      "  lift: {address: 3, series: sk5xxe, ppo_type: 2, joint: lift_joint, pole_pairs: 2, mode: position, lead: 0.2,\n"
-      "         position: {lower: -0.5}}\n",
-      {"--json"});
+  const Ended ended = checkText(kLift, {"--json"});
   EXPECT_EQ(0, ended.code) << ended.errors;
   const YAML::Node lift = YAML::Load(ended.output)["modules"][0]["drives"][0];
   EXPECT_EQ("position", lift["mode"].as<std::string>());
+  EXPECT_NEAR(5.0, lift["max_velocity"].as<double>(), 1e-9);
   EXPECT_EQ("words", lift["targets"]["by"].as<std::string>());
   EXPECT_EQ("m", lift["targets"]["unit"].as<std::string>());
   EXPECT_EQ(-0.5, lift["targets"]["lower"].as<double>());

@@ -164,6 +164,9 @@ TEST(ToolConfig, TheBusOptionReplacesASecondWayToTheBusThatThereIs) {
   const char* const file = "{transport: a/b, bus: {gateway: x, diagnosis: x}}";
   EXPECT_EQ("{gateway: z, diagnosis: z}", portOf(file, {"", "", "z"}, gateway));
   EXPECT_EQ("{gateway: x, diagnosis: x}", portOf(file, {}, gateway));
+  EXPECT_EQ("{gateway: x, diagnosis: y}",
+            portOf("{transport: a/b, bus: {gateway: x, diagnosis: y}}", {"", "", "x"}, gateway))
+      << "the bus of the file";
   EXPECT_EQ("{gateway: z}", portOf("{transport: a/b, bus: {gateway: x}}", {"", "", "z"}, gateway));
 }
 

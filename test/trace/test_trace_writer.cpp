@@ -4,6 +4,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
+
 #include "trace/trace_fixture.h"
 #include "trace/trace_writer.h"
 
@@ -79,6 +81,17 @@ TEST_F(TraceWriterTest, KeepsTheNewest) {
 }
 
 // A clock that was set back names it before all others: it is the newest all the same.
+// Else each new one would be the oldest but one, and removed by the next.
+TEST_F(TraceWriterTest, ThoseFromBeforeTheClockWasSetBackAreTheOldest) {
+  TraceWriter traces{{directory_, 2}, drives(), &trace_, feed_.history()};
+  for (const char* second : {"0", "1", "2"}) {
+    std::ofstream(directory_ + "/nord_driver_20990101T00000" + second + ".000Z_fault_left.txt") << "x";
+  }
+  for (int second = 0; second < 2; ++second) EXPECT_TRUE(traces.writeNow(clockAt(1000 * second)).written);
+  EXPECT_THAT(files(), ::testing::Each(HasSubstr("_2023")));
+  EXPECT_EQ(4u, files().size()) << "a text and a pcap each";
+}
+
 TEST_F(TraceWriterTest, KeepsTheOneThatWasJustWritten) {
   TraceWriter traces{{directory_, 2}, drives(), &trace_, feed_.history()};
   for (const int second : {5, 6, 0}) {

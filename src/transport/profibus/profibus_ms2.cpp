@@ -21,8 +21,8 @@ constexpr Duration kStatusInterval = std::chrono::milliseconds{500};
 constexpr Duration kAnswerTimeout = std::chrono::seconds{1};
 constexpr Duration kTimeToEnd = std::chrono::milliseconds{200};  // for an Abort to each station
 constexpr const char* kOnlyParameters =
-    "transport nord_driver/profibus_ms2 reads and writes parameters only (nord_param), and sends nothing here: "
-    "a driver needs nord_driver/profibus_dp";
+    "~transport: nord_driver/profibus_ms2 reads and writes parameters only (nord_param), expected "
+    "nord_driver/profibus_dp for a driver";
 
 }  // namespace
 
@@ -36,6 +36,8 @@ bool ProfibusMs2Transport::serveParametersOnly() noexcept {
 }
 
 void ProfibusMs2Transport::configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) {
+  // A driver would wait for ever, or worse, believe that it moves something.
+  if (!parameters_only_) throw ConfigError(kOnlyParameters);
   config_ = readProfibusDpConfig(bus, drives, cycle_rate, ProfibusUse::kRecordsOnly);
   period_ = seconds(1.0 / cycle_rate);
   std::vector<profibus::StationAddress> stations;
@@ -66,7 +68,6 @@ void ProfibusMs2Transport::sleepUntil(Instant when) noexcept {
 }
 
 bool ProfibusMs2Transport::linkReady() noexcept {
-  if (!parameters_only_) return false;
   if (link_->isOpen()) return true;
   const Instant now = link_->now();
   if (now < next_open_) return false;
@@ -138,9 +139,7 @@ void ProfibusMs2Transport::explain(DriveIndex drive) noexcept {
   DriveState& state = drives_[drive];
   const std::size_t station = config_.drives[drive].slave;
   const Sentence& trouble = master_->trouble(station);
-  if (!parameters_only_) {
-    state.note = kOnlyParameters;
-  } else if (!link_->isOpen()) {
+  if (!link_->isOpen()) {
     state.note = "the bus device is not open";
   } else if (!config_.slaves[station].dpv1) {
     state.note = "its bus module takes no acyclic requests (DP-V1): SK CU4/TU4-PBR do";
@@ -183,7 +182,6 @@ DriveNote ProfibusMs2Transport::note(DriveIndex drive) const noexcept {
 }
 
 Sentence ProfibusMs2Transport::busText() const noexcept {
-  if (!parameters_only_) return kOnlyParameters;
   if (!link_->isOpen()) {
     Sentence text;
     text.format("%s", link_->lastError().empty() ? "the bus device is not open yet" : link_->lastError().c_str());
@@ -211,9 +209,7 @@ DriveIdentity ProfibusMs2Transport::identity(DriveIndex drive) const {
 }
 
 std::vector<std::string> ProfibusMs2Transport::warnings() const {
-  std::vector<std::string> warnings = config_.warnings;
-  if (!parameters_only_) warnings.push_back(kOnlyParameters);
-  return warnings;
+  return config_.warnings;
 }
 
 // The modules need not wait for their time-out.

@@ -209,13 +209,14 @@ TEST_F(ProfibusMs2, ModuleWithoutAnAddress) {
 }
 
 // A driver would wait for ever, or worse, believe that it moves something.
-TEST_F(ProfibusMs2, SaysNothingForADriver) {
-  open(3, false);
-  run(milliseconds{1000});
-  EXPECT_EQ(0u, transport_->counters().value(bus_counter::kTelegramsSent));
-  EXPECT_FALSE(inputs_[0].inverter_answers);
-  EXPECT_THAT(note(), HasSubstr("reads and writes parameters only (nord_param)"));
-  EXPECT_THAT(transport_->warnings(), ::testing::Contains(HasSubstr("nord_driver/profibus_dp")));
+TEST_F(ProfibusMs2, IsRefusedForADriver) {
+  try {
+    open(3, false);
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("~transport: nord_driver/profibus_ms2 reads and writes parameters only"));
+    EXPECT_THAT(error.what(), HasSubstr("expected nord_driver/profibus_dp"));
+  }
 }
 
 TEST_F(ProfibusMs2, RefusesBesideAnotherMaster) {
