@@ -38,6 +38,19 @@ TEST(SdoBeside, WritesAParameter) {
   EXPECT_TRUE(run.master.submitSdo(0, 0, sdoRead(6, 0x2066, 1)));
 }
 
+// Its time begins with what was heard last: after a pause of the link it is not over before it was sent.
+TEST(SdoBeside, TheTimeOfARequestBeginsWithTheLastFrame) {
+  MasterRun run{busConfig(1, 0x32)};
+  run.begin();
+  ASSERT_TRUE(run.reaches(NodeState::kOperational, seconds{1}));
+  run.nodes[0]->hears_sdo = false;
+  run.now += seconds{1};
+  run.master.handleFrame(dataFrame(0x7FF, {}), run.now);
+  ASSERT_TRUE(run.master.submitSdo(0, 0, sdoRead(6, 0x2066, 1)));
+  run.master.poll(run.now);
+  EXPECT_FALSE(run.master.pollSdo());
+}
+
 // In the start-up of the node the two take turns; neither starves.
 TEST(SdoBeside, TakesTurnsWithTheStartUp) {
   MasterRun run{busConfig(1)};

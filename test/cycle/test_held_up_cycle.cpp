@@ -75,5 +75,26 @@ TEST_F(HeldUpCycle, IsNoWayOfTheBase) {
   EXPECT_NEAR(joint, snapshot().drives[kLeft].joint_position, 5.0);
 }
 
+// At 5 Hz three periods are longer than what a cycle may take otherwise: after more than these nobody knows the way.
+TEST(HeldUpSlowCycle, IsNoWayAfterThreePeriods) {
+  for (const auto& [held, known] :
+       {std::pair{std::chrono::milliseconds{590}, true}, {std::chrono::milliseconds{610}, false}}) {
+    CycleConfig config = CycleBench::config();
+    config.cycle_rate = 5.0;
+    CycleBench bench{config};
+    bench.run(30);
+    ASSERT_TRUE(bench.ask(RequestKind::kEnable).success);
+    for (int i = 0; i < 40; ++i) {
+      bench.commandBase(1.0);
+      bench.step();
+    }
+    const double before = bench.snapshot().drives[CycleBench::kLeft].joint_position;
+    bench.transport.time += held - CycleBench::kCycle;
+    bench.commandBase(1.0);
+    bench.step();
+    EXPECT_EQ(known, bench.snapshot().drives[CycleBench::kLeft].joint_position > before + 1.0) << held.count() << " ms";
+  }
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

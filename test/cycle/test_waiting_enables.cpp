@@ -114,6 +114,17 @@ TEST_F(WaitingEnables, AreRefusedWhenTheirTimeIsOver) {
   EXPECT_TRUE(noneRuns());
 }
 
+// ... so one that waits for parameters: in the cycle in which its time is over, not in the one after it.
+TEST_F(WaitingEnables, AreAnsweredWhenTheirTimeIsOverThoughParametersAreMissing) {
+  drives[kLeft].setParametersAwaited(true);
+  request(1, RequestKind::kEnable, kAllDrives, std::chrono::milliseconds{100});
+  run(9);
+  EXPECT_THAT(answersTo(1), IsEmpty());
+  step();
+  EXPECT_THAT(answersTo(1), ElementsAre(StartsWith("no: ")));
+  EXPECT_TRUE(noneRuns());
+}
+
 // A failed enabling takes back what it has begun. What somebody else has enabled while it waited goes on.
 TEST_F(WaitingEnables, TakeBackOnlyWhatTheyHaveBegun) {
   drives[kLeft].setParametersAwaited(true);

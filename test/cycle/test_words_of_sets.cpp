@@ -34,6 +34,14 @@ TEST_F(WordsOfSets, EachSetHasItsOwnMaximumFrequency) {
   }
 }
 
+// An inverter that does not tell P600 is taken for one that goes by speed: POSICON has to be switched on.
+TEST_F(WordsOfSets, PositionControlThatCannotBeReadForbidsNothing) {
+  ASSERT_EQ(0u, values.count(600));
+  run(80);
+  EXPECT_LT(0, reads(600));
+  EXPECT_EQ(Refusal::kNone, refusal());
+}
+
 // P546 of set 1 is "actual frequency PID": 100 % of setpoint 1 is no speed.
 TEST_F(WordsOfSets, AnotherFunctionOfSetpoint1IsNamed) {
   values[546] = 1;

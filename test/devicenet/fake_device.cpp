@@ -208,6 +208,7 @@ FakeDevice::Bytes FakeDevice::getAttribute(const Address& address) const {
   const auto [object_class, instance, attribute] = address;
   if (object_class == 5 && has(instance)) {
     if (attribute == 1) return found({static_cast<std::uint8_t>(established ? 3 : timed_out ? 4 : 1)});
+    if ((attribute == 7 || attribute == 8) && !tells_sizes) return {0x94, 0x14, 0xFF};
     if (attribute == 7) return found(word(producedBy(instance)));
     if (attribute == 8) return found(word(consumedBy(instance)));
     if (attribute == 9) return found(word(rate));

@@ -29,6 +29,7 @@ class FakeDevice {
   std::size_t produced = 5, consumed = 5;
   unsigned rate_step = 10;   ///< ms: rounds the expected packet rate up to such steps
   bool answers_rate = true;  ///< to the write itself
+  bool tells_sizes = true;
   bool tells_owner = true;   ///< on the unconnected port
   bool tells_choice = true;  ///< beside its owner; else that nothing is allocated
   bool strict_about_sizes = true;

@@ -105,6 +105,14 @@ TEST(EdsEntries, BackslashesInTexts) {
   EXPECT_EQ("a\\", firstField("[Device]\nProdName = \"a\\"));
 }
 
+// A section begins a line, spaces before it or not; a bracket within a line is a part of what stands there.
+TEST(EdsFile, WhatBeginsASection) {
+  const std::string indented = "[Device]\nVendCode = 389\n  [IO_Info]\nPollInfo = 7, 1, 1;\n";
+  EXPECT_THAT(problemsOf(indented), ElementsAre("2: \"VendCode\" does not end with a semicolon"));
+  EXPECT_EQ(7u, parseEds(indented).poll->value);
+  EXPECT_THAT(problemsOf("[Device]\nProdName = \"A\"\n,[ IO_Info ];\nVendCode = 389;\n"), IsEmpty());
+}
+
 TEST(EdsEntries, Numbers) {
   EXPECT_EQ(0u, edsNumber("0"));
   EXPECT_EQ(10u, edsNumber("010"));

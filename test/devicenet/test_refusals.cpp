@@ -54,6 +54,15 @@ TEST(Refusals, WrongSizes) {
   EXPECT_EQ(0x02, run.devices[0]->released_last) << "its explicit connection was never let go";
 }
 
+// A device without the sizes of its connection has nothing to be compared with what is configured.
+TEST(Refusals, OfItsSizes) {
+  ScannerRun run{busConfig(1)};
+  run.devices[0]->tells_sizes = false;
+  EXPECT_EQ("does not tell the sizes of its process data: refuses: the attribute is not supported (14h)", refusal(run));
+  run.devices[0]->tells_sizes = true;
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
+}
+
 // By change of state object 2 takes our data where there is one; 4 takes acknowledges, of 0 bytes or, at Eaton, 8.
 TEST(Refusals, SizesOfChangeOfState) {
   ScannerConfig config = busConfig(1);

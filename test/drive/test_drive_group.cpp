@@ -90,6 +90,16 @@ TEST_F(DriveGroupTest, EnablesAllAndFollowsCommandsOnlyThen) {
   EXPECT_EQ(0x047F, rightWord());
 }
 
+// Both wheels are lost: nothing of it moves, but it has not yet been told.
+TEST_F(DriveGroupTest, IsNotSettledBeforeItHasLookedAtItsDrives) {
+  run();
+  for (Drive* drive : {&left_, &right_}) {
+    drive->handleInput({}, false, now_ + std::chrono::seconds{1});
+    ASSERT_TRUE(drive->isAtRest());
+  }
+  EXPECT_FALSE(group_.settled());
+}
+
 // One that refuses: none is enabled, and the answer names it.
 TEST_F(DriveGroupTest, EnablesNoneWhenOneRefuses) {
   cycles(4);

@@ -249,6 +249,13 @@ TEST_F(EepromSwitchTest, OwedAndAUsersOneIsRefusedIsStillOwed) {
   EXPECT_TRUE(session_.owesEepromSwitch());
 }
 
+// To look at it is not to decide over it.
+TEST_F(EepromSwitchTest, OwedAndReadByAUserIsStillOwed) {
+  owe();
+  EXPECT_EQ(0, resultOf(access(ParameterAction::kRead, 560), {{"P560?", kLost}, {"P560?", done(0)}}).raw);
+  EXPECT_TRUE(session_.owesEepromSwitch());
+}
+
 // A user's 0 stays, whether it was there already or its answer is missing.
 TEST_F(EepromSwitchTest, OwedAndAUsersZeroStays) {
   owe();

@@ -294,7 +294,7 @@ TEST(GsdFile, ReferencesThatCannotBeFollowedAreNamed) {
 // The least and the most of each type fit.
 TEST(GsdFile, DefaultsAtTheEndOfTheirType) {
   for (const char* type : {"Unsigned8 255 0-255", "Unsigned8 0 0-255", "Signed8 127 -128-127", "Signed8 -128 -128-127",
-                           "Unsigned16 65535 0-65535", "Signed16 -32768 -32768-32767"}) {
+                           "Signed8 - 5 -10-10", "Unsigned16 65535 0-65535", "Signed16 -32768 -32768-32767"}) {
     EXPECT_EQ("", problems(parseGsd("#Profibus_DP\nIdent_Number=1\nExtUserPrmData=1 \"a\"\n" + std::string(type) +
                                     "\nEndExtUserPrmData\n")))
         << type;

@@ -40,6 +40,19 @@ TEST(Records, WriteThenRead) {
   wire.tellsNothing();
 }
 
+// Whatever it ended by, a result names what was asked for.
+TEST(Records, NameTheirSlotAndIndex) {
+  RecordWire wire;
+  RecordRequest request = readAnswer();
+  request.slot = 3;
+  ASSERT_TRUE(wire.master.submitRecord(0, request));
+  const RecordResult result = wire.result();
+  EXPECT_EQ(RecordOutcome::kOffline, result.outcome) << "it is not in data exchange";
+  EXPECT_EQ(3, result.slot);
+  EXPECT_EQ(request.index, result.index);
+  EXPECT_FALSE(result.write);
+}
+
 // A slave that is quick enough may answer the request itself with the response, at either priority.
 TEST(Records, ResponseAtOnce) {
   RecordWire wire;

@@ -120,6 +120,18 @@ TEST(Synchronise, FreezeAndGroups) {
   wire.step("68 07 07 68 FF 81 46 3A 3E 28 01 67 16", kChkCfg7D, kShortAcknowledge);
 }
 
+// Inputs alone: UNFREEZE, and Freeze_Req without Sync_Req.
+TEST(Synchronise, FreezeAlone) {
+  BusParameters bus = syncBus();
+  bus.sync_outputs = false;
+  bus.freeze_inputs = true;
+  SyncWire wire{bus};
+  constexpr const char* kUnfreeze = "68 07 07 68 FF 81 46 3A 3E 04 01 43 16";
+  wire.step(kUnfreeze, kFdlStatus8, kHere8);
+  wire.step(kUnfreeze, kDiag6D, kWantsPrm);
+  wire.step(kUnfreeze, "68 0C 0C 68 88 81 5D 3D 3E 98 0A 01 0B 75 31 01 36 16", kShortAcknowledge);
+}
+
 // What was sent before it is not known to have come: the members act on what they hear next.
 TEST(Synchronise, EndsOnALineThatNeverFallsSilent) {
   SyncWire wire;
