@@ -11,6 +11,13 @@ constexpr bool isHarmless(std::uint16_t function) noexcept {
   return function == 0;
 }
 
+/// It may be what ends OFF2, OFF3, a fault or local control of its drive: block voltage and quick stop, both while low,
+/// acknowledge, and remote control, which is local control while low (BU 0020 6, note). 12 and 14 stand in BU 0280
+/// (5.1.2), 10 and 11 only in the inverters' own manuals.
+constexpr bool mayEndStop(std::uint16_t function) noexcept {
+  return function == 10 || function == 11 || function == 12 || function == 14;
+}
+
 /// "enable right"; "not known by name" for one that none of the bus manuals names.
 constexpr const char* busBitName(std::uint16_t function) noexcept {
   switch (function) {

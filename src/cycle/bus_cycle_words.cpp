@@ -60,6 +60,7 @@ void BusCycle::putWords(DriveIndex i, Instant now) noexcept {
   const drive::GroupPhase group_phase = group.report().phase;
   state.stop.enabled = group.commandAllowed();
   state.stop.stops = group.stops();
+  state.stop.stands = group.stopStands();
   state.stop.stopping = phase == drive::Phase::kStopping || phase == drive::Phase::kQuickStopping ||
                         phase == drive::Phase::kCoasting || phase == drive::Phase::kHoldingZero ||
                         phase == drive::Phase::kOffline || drive::isOnWayDown(group_phase);

@@ -212,17 +212,18 @@ void DriveParameters::askElement(std::uint8_t element) noexcept {
 
 // Told that it failed, its asker must not see it succeed later: what has not begun to be written is not.
 void DriveParameters::endOverdue(Instant now) noexcept {
+  using Withdrawn = drive::ParameterSession::Withdrawn;
   for (Pending& pending : pending_) {
     if (!pending.until || now < *pending.until) continue;
     pending.until.reset();
     pending.answered = true;
     const bool write = pending.request.kind == RequestKind::kWriteParameter;
-    const bool withdrawn = session_.withdraw(pending.request.id);
+    const auto withdrawn = session_.withdraw(pending.request.id);
     profile::ParameterResult overdue;
     overdue.outcome = profile::ParameterOutcome::kTimeout;
     overdue.text = "in the time it was given";
-    overdue.eeprom_written = !withdrawn;
-    if (write) overdue.note = withdrawn ? drive::kWithdrawn : drive::kWriteUnanswered;
+    overdue.eeprom_written = withdrawn == Withdrawn::kMayBeSaved;
+    if (write) overdue.note = withdrawn == Withdrawn::kNothing ? drive::kWithdrawn : drive::kWriteUnanswered;
     answer(pending.request, overdue);
   }
 }

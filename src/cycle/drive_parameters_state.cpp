@@ -25,6 +25,8 @@ void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
 
 void DriveParameters::handleLoss(drive::Drive& drive) noexcept {
   scale_due_ = false;
+  held_since_.reset();
+  drive.setSwitchOnReason(std::nullopt);
   open_ids_ = {};
   faults_.handleOffline();
   reader_.handleOffline();
@@ -66,6 +68,7 @@ void DriveParameters::askForReason(drive::Drive& drive, Instant now) noexcept {
   }
   if (!held) {
     held_since_.reset();
+    faults_.forgetReason();
   } else if (!held_since_) {
     held_since_ = now;
   } else if (now - *held_since_ >= kReasonInterval) {

@@ -67,6 +67,9 @@ std::int16_t DriveWords::wordOf(const SetpointSetup& setpoint, const WordCommand
 void DriveWords::put(profile::ProcessOutput& output, const State& state, const DeviceData& device,
                      const WordCommands& commands, Instant now) noexcept {
   learn(device);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    withdrawn_.setMayEndStop(i, mayEndStop(functionOf(outputs_[i], device)));
+  }
   withdrawn_.update(state.stop, commands, now);
   putOutputs(output, state, device, commands, now);
   if (output.control_word == 0 || state.set < 1 || state.set > known_.size()) return;

@@ -41,6 +41,7 @@ struct Request {
 struct Completion {
   std::uint32_t id = 0;
   bool success = false;
+  bool unanswered = false;  ///< the cycle has not told what became of it: it may be carried out all the same
   Sentence message;
   profile::ParameterResult parameter;  ///< of an access; `message` says in a sentence what it says in clauses
 };

@@ -123,9 +123,8 @@ Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveRe
   }
   if (report.online && report.switch_on_reason) {
     const unsigned reason = *report.switch_on_reason;
-    text.format("drive %s: %s%s (status word %04X, %s; the inverter's own reason, P700[-03], is %u.%u)", drive,
-                drive::toString(refusal), nextCall(refusal), report.status_word, profile::toString(report.state),
-                reason / 10, reason % 10);
+    text.format("drive %s: %s%s (status word %04X, %s%s%u.%u)", drive, drive::toString(refusal), nextCall(refusal),
+                report.status_word, profile::toString(report.state), kOwnReason, reason / 10, reason % 10);
   } else if (report.online) {
     text.format("drive %s: %s%s (status word %04X, %s)", drive, drive::toString(refusal), nextCall(refusal),
                 report.status_word, profile::toString(report.state));
@@ -141,8 +140,8 @@ Sentence stopMessage(const char* drive, StopCause cause, const drive::DriveRepor
   const char* const state = stateAtStop(report);
   if (report.online && report.switch_on_reason) {
     const unsigned reason = *report.switch_on_reason;
-    text.format("drive %s stopped: %s (status word %04X, %s; the inverter's own reason, P700[-03], is %u.%u)", drive,
-                drive::toString(cause), report.stop_status_word, state, reason / 10, reason % 10);
+    text.format("drive %s stopped: %s (status word %04X, %s%s%u.%u)", drive, drive::toString(cause),
+                report.stop_status_word, state, kOwnReason, reason / 10, reason % 10);
   } else {
     text.format("drive %s stopped: %s (status word %04X, %s)", drive, drive::toString(cause), report.stop_status_word,
                 state);

@@ -9,6 +9,10 @@
 
 namespace nord_driver::cycle {
 
+/// Before P700[-03] in a sentence of a stop or a refusal: it is read later than the stop, may change and ends, while the
+/// stop is the same one.
+constexpr char kOwnReason[] = "; the inverter's own reason, P700[-03], is ";
+
 /// "drive left: the drive does not answer".
 Sentence refusalMessage(const char* drive, drive::Refusal refusal, const drive::DriveReport& report) noexcept;
 /// "drive left stopped: a fault (status word 0238, fault)"; empty for StopCause::kNone.

@@ -10,30 +10,39 @@
 namespace nord_driver::cycle {
 
 /// Whoever commands a signal repeats it: "on" may be as old as the stop. So a stop withdraws each signal that is
-/// commanded "on"; an "off" that came after the end of the stop gives it back, and so does enabling.
+/// commanded "on"; an "off" that came after the end of the stop gives it back, and so does enabling. What may end a stop
+/// that stands at a drive must not wait for its end: there the beginning counts.
 class WithdrawnBits {
  public:
-  explicit WithdrawnBits(std::size_t outputs) : withdrawn_(outputs, 0) {}
+  explicit WithdrawnBits(std::size_t outputs) : outputs_(outputs) {}
 
   /// What is true of the drive in this cycle.
   struct State {
     bool stopping = false;    ///< it, or another drive of its group, is on its way to rest; or it is not heard
+    bool stands = false;      ///< a fault, OFF2, OFF3 or local control, at it or at another drive of its group
     bool enabled = false;     ///< its group is enabled
     std::uint32_t stops = 0;  ///< how often its group was stopped
   };
 
   /// A stop that leaves no trace in the state: its connection ended, and it answers again.
   void handleStop() noexcept { stopped_ = true; }
+  /// What it does in the drive may end a fault, OFF2, OFF3 or local control.
+  void setMayEndStop(std::size_t output, bool may) noexcept { outputs_[output].may_end_stop = may; }
   /// Each cycle.
   void update(const State& state, const WordCommands& commands, Instant now) noexcept;
   /// `output`: in the order of WordCommands::outputs.
-  bool has(std::size_t output) const noexcept { return withdrawn_[output] != 0; }
+  bool has(std::size_t output) const noexcept { return outputs_[output].withdrawn; }
 
  private:
-  std::vector<std::uint8_t> withdrawn_;  // of each output
-  std::uint32_t stops_ = 0;              // in the last cycle
+  struct Output {
+    bool may_end_stop = false;
+    bool withdrawn = false;
+    Instant stopped_at{};  // in the last cycle with a stop
+  };
+
+  std::vector<Output> outputs_;
+  std::uint32_t stops_ = 0;  // in the last cycle
   bool stopped_ = false;
-  Instant stopped_at_{};  // in the last cycle with a stop
 };
 
 }  // namespace nord_driver::cycle

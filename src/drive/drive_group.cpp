@@ -155,8 +155,7 @@ void DriveGroup::shutdownAll(StopCause cause, Instant now) noexcept {
   enter(GroupPhase::kStopping, now);
 }
 
-// The beginning counts: what turns the motor may be what acknowledges the fault, or ends local control (functions 12 and
-// 14 of P480). A member that is not heard keeps its last word.
+// A member that is not heard keeps its last word.
 bool DriveGroup::stopBegan() noexcept {
   bool began = false;
   for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -166,6 +165,14 @@ bool DriveGroup::stopBegan() noexcept {
             (!now.quickStopInactive() && before.quickStopInactive()) || (!now.busControl() && before.busControl());
   }
   return began;
+}
+
+bool DriveGroup::stopStands() const noexcept {
+  return std::any_of(heard_.begin(), heard_.end(), [](Word word) {
+    const profile::StatusWord status(word);
+    return status.isUseful() &&
+           (status.fault() || !status.voltageEnabled() || !status.quickStopInactive() || !status.busControl());
+  });
 }
 
 void DriveGroup::update(Instant now) noexcept {

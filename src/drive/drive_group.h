@@ -84,6 +84,8 @@ class DriveGroup {
   /// Counts each stop that was asked for or began, of a disabled group as well: a fault, OFF2, OFF3 or local control of
   /// a member stops what turns past the group.
   std::uint32_t stops() const noexcept { return stops_; }
+  /// A fault, OFF2, OFF3 or local control stands at a member. One that is no longer heard keeps its last word.
+  bool stopStands() const noexcept;
 
   const GroupReport& report() const noexcept { return report_; }
   std::size_t size() const noexcept { return members_.size(); }

@@ -34,13 +34,16 @@ void FaultReader::handleOffline() noexcept {
   fault_ = false;
   same_fault_ = false;
   under_way_ = Item::kNone;
-  if (reason_state_ == ReasonState::kReading || reason_state_ == ReasonState::kNotAvailable) {
-    reason_state_ = ReasonState::kNotAsked;
-  }
+  reason_state_ = ReasonState::kNotAsked;
 }
 
 void FaultReader::requestReason() noexcept {
   if (reason_state_ != ReasonState::kNotAvailable) reason_state_ = ReasonState::kReading;
+}
+
+void FaultReader::forgetReason() noexcept {
+  same_hold_ = false;
+  if (reason_state_ != ReasonState::kNotAvailable) reason_state_ = ReasonState::kNotAsked;
 }
 
 FaultReader::Item FaultReader::nextItem(Instant now) const noexcept {
@@ -55,6 +58,7 @@ std::optional<profile::ParameterRequest> FaultReader::pollRequest(Instant now) n
   under_way_ = nextItem(now);
   if (under_way_ == Item::kNone) return std::nullopt;
   same_fault_ = fault_;
+  same_hold_ = true;
   retry_at_ = now + kRetryAfter;
   profile::ParameterRequest request;
   request.number = kCurrentFault;
@@ -82,12 +86,15 @@ void FaultReader::handleNumber(const profile::ParameterResult& result) noexcept 
 }
 
 void FaultReader::handleReason(const profile::ParameterResult& result) noexcept {
-  if (result.outcome == ParameterOutcome::kDone) {
+  const bool refused = result.outcome == ParameterOutcome::kRefused && !mayPass(result.reason);
+  if (refused || result.outcome == ParameterOutcome::kNoChannel) {
+    reason_state_ = ReasonState::kNotAvailable;
+    retry_at_ = {};
+  } else if (!same_hold_) {
+    retry_at_ = {};
+  } else if (result.outcome == ParameterOutcome::kDone) {
     reason_ = word(result.raw);
     reason_state_ = ReasonState::kKnown;
-    retry_at_ = {};
-  } else if (result.outcome == ParameterOutcome::kRefused || result.outcome == ParameterOutcome::kNoChannel) {
-    reason_state_ = ReasonState::kNotAvailable;
     retry_at_ = {};
   }
 }

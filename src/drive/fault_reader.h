@@ -19,7 +19,7 @@ enum class ReasonState : std::uint8_t {
   kNotAsked,
   kReading,
   kKnown,
-  kNotAvailable,  ///< this firmware has no P700 [-03], or there is no parameter channel
+  kNotAvailable,  ///< until the inverter is lost: this firmware has no P700 [-03], or there is no parameter channel
 };
 
 /// Each cycle with a useful status word: handleStatus(), then pollRequest(), and handleResult() when the transport has
@@ -31,6 +31,8 @@ class FaultReader {
   void handleOffline() noexcept;
   /// Asks for the reason of "switch-on disabled" as it is now.
   void requestReason() noexcept;
+  /// "Switch-on disabled" has ended: what was its reason says nothing about the next one. Also of an answer under way.
+  void forgetReason() noexcept;
 
   /// The next access, when none is under way; its id is for the caller to choose. What could not be read is asked for
   /// again every second.
@@ -60,6 +62,7 @@ class FaultReader {
   bool away_ = false;        // what the fault bit was counts no longer
   bool fault_ = false;       // the fault bit
   bool same_fault_ = false;  // ... has stood since the request that is under way
+  bool same_hold_ = false;   // nobody has forgotten the reason since then
   std::uint16_t number_ = 0;
   std::uint16_t last_number_ = 0;
   ReasonState reason_state_ = ReasonState::kNotAsked;

@@ -15,7 +15,6 @@ using profile::ParameterShape;
 
 namespace {
 
-constexpr std::uint16_t kSaveInEeprom = 560;
 constexpr std::uint8_t kSwitchTries = 2;
 
 // A word comes back with its high word 0 or, negative, FFFF; with anything else there the parameter is a double word.
@@ -228,7 +227,7 @@ void ParameterSession::handleSwitch(const ParameterResult& result) noexcept {
   const bool off = isDone(result) && result.raw == 0;
   if (isDone(result) && !off) switch_ = EepromSwitch::kNotOurs;
   if (isRefused(result, ParameterReason::kNoSuchParameter)) {
-    if (persistent) {
+    if (persistent && !run_.withdrawn) {
       run_.result.note = kNoSwitch;
       step_ = Step::kWrite;
       return;
@@ -240,7 +239,7 @@ void ParameterSession::handleSwitch(const ParameterResult& result) noexcept {
     fail(result, kSaveInEeprom, kSwitchUnread);
     return finish();
   }
-  if (persistent && off) {
+  if (run_.withdrawn || (persistent && off)) {
     refuse(owesEepromSwitch() ? kNotPutBack : kWouldBeLost);
     return finish();
   }
@@ -362,7 +361,7 @@ void ParameterSession::countWrite(const ParameterResult& result) noexcept {
 void ParameterSession::countValueWrite(const ParameterResult& result) noexcept {
   const ParameterRequest& request = requests_.front();
   const bool is_switch = request.number == kSaveInEeprom;
-  const bool saved = is_switch || isOfModule(request.number) || (!owesEepromSwitch() && !run_.switch_was_off);
+  const bool saved = isSaved();
   // P560 is the user's from then on: a 0 that may have arrived is not undone, a 1 that may not have is still owed.
   const bool decided = isDone(result) || (request.raw == 0 && !surelyNotDone(result.outcome));
   if (is_switch && decided) switch_ = EepromSwitch::kNotOurs;

@@ -39,15 +39,14 @@ class ParameterSession {
 
   /// A user's request, its set 1..4 where it has one. False: full.
   bool submit(const profile::ParameterRequest& request) noexcept;
-  /// Whoever asked waits no longer: what has not begun to be written is read only. False: a write that may have been
-  /// carried out, or will be.
-  bool withdraw(std::uint32_t id) noexcept {
-    profile::ParameterRequest* const request = requests_.find(id);
-    if (request == nullptr || request->action == profile::ParameterAction::kRead) return true;
-    const bool begun = request == &requests_.front() && !run_.recovery && step_ > Step::kReadValue;
-    if (!begun) request->action = profile::ParameterAction::kRead;
-    return !begun;
-  }
+  /// What a write that nobody waits for any more has done, or will do.
+  enum class Withdrawn : std::uint8_t {
+    kNothing,     ///< it had not begun, and is not carried out any more; or it is a read
+    kRamOnly,     ///< an order that spares the EEPROM is under way, or was answered: no other one follows
+    kMayBeSaved,  ///< the value, or P560, may reach the EEPROM
+  };
+  /// Whoever asked waits no longer: what has not begun to be written is not written.
+  Withdrawn withdraw(std::uint32_t id) noexcept;
   /// The next access, when this lane, below kLanes, is free and something may go out by it; its id is for the caller to
   /// choose.
   std::optional<profile::ParameterRequest> pollRequest(unsigned lane = 0) noexcept;
@@ -66,6 +65,8 @@ class ParameterSession {
   bool owesEepromSwitch() const noexcept { return switch_ != EepromSwitch::kNotOurs; }
 
  private:
+  static constexpr std::uint16_t kSaveInEeprom = 560;
+
   enum class Step : std::uint8_t {
     kNone,
     kReadValue,
@@ -88,6 +89,7 @@ class ParameterSession {
   struct Run {
     bool recovery = false;        // puts P560 back, for no request
     bool failed = false;          // only P560 is still to be put back
+    bool withdrawn = false;       // nobody waits for it any more
     bool no_index = false;        // the parameter turned out to have no sets
     bool switch_was_off = false;  // P560 = 0 was there before us
     std::uint8_t switch_tries = 0;
@@ -113,6 +115,8 @@ class ParameterSession {
   void handleSwitchOn(const profile::ParameterResult& result) noexcept;
   void handleReadBack(const profile::ParameterResult& result) noexcept;
   void writePlainly() noexcept;
+  /// Written by the plain orders, its value reaches the EEPROM.
+  bool isSaved() const noexcept;
   bool retryWithoutIndex(const profile::ParameterResult& result) noexcept;
   void putBackOrFinish() noexcept;
   void fail(const profile::ParameterResult& result, std::uint16_t number, const char* note) noexcept;

@@ -61,6 +61,8 @@ void PositionAxis::handleInput(const profile::ProcessInput& input, std::uint8_t 
   const double steps =
       max_speed * config_.revolutions_per_motor_turn * profile::stepsPerRevolution(config_.scale, field());
   reader_.handleValues(field(), input.actual_values, steps, now);
+  // What a run found is a place in the count before. The new zero of a run under way comes before its end.
+  if (reader_.hasJumped()) homed_ = false;
 }
 
 void PositionAxis::handleGap() noexcept {

@@ -126,7 +126,7 @@ class PositionAxis {
   TeachRun teaching_;
   ResetRun resetting_;
   std::optional<bool> referenced_;
-  bool homed_ = false;       // by a run asked for here, since the drive is back
+  bool homed_ = false;       // by a run asked for here, since the drive is back; in the count it has now
   std::uint8_t set_ = 1;     // in force
   std::int64_t target_ = 0;  // steps of the setpoint's field
   bool has_target_ = false;

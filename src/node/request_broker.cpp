@@ -79,6 +79,7 @@ cycle::Completion RequestBroker::call(cycle::Request request, const std::functio
       answer = *at->second.completion;
     } else {
       answer.id = request.id;
+      answer.unanswered = true;
       answer.message = ended_ ? kEnding : "the bus cycle did not answer";
       answer.parameter.eeprom_written = write;  // or will be
     }

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "cycle/user_messages.h"
 #include "node/bus_publisher.h"
 #include "node/recovery_hint.h"
 #include "profile/fault_number.h"
@@ -14,6 +15,13 @@ using Level = LogLine::Level;
 
 // P700 is read within a few cycles; a drive that does not tell its number has a fault all the same.
 constexpr Duration kNumberAwaited = std::chrono::seconds{2};
+
+// What tells one stop from another one. /diagnostics has the inverter's own reason as it is now.
+std::string incidentIn(std::string stop) {
+  const std::size_t at = stop.find(cycle::kOwnReason);
+  if (at != std::string::npos) stop.erase(at, stop.rfind(')') - at);
+  return stop;
+}
 
 }  // namespace
 
@@ -37,8 +45,9 @@ void StateLog::pollBus(const cycle::CycleSnapshot& snapshot, Instant now, std::v
 
 void StateLog::pollStop(const cycle::CycleSnapshot& snapshot, std::vector<LogLine>& lines) {
   const std::string stop = snapshot.base.text.str();
-  if (stop == last_stop_) return;
-  last_stop_ = stop;
+  const std::string incident = incidentIn(stop);
+  if (incident == last_stop_) return;
+  last_stop_ = incident;
   if (!snapshot.base.stopped) return;
   const bool asked = snapshot.base.stop_cause == drive::StopCause::kQuickStop;
   lines.push_back({asked ? Level::kInfo : Level::kError,

@@ -57,7 +57,7 @@ class StateLog {
   LoggedDrives drives_;
   std::vector<FaultState> faults_;
   BusLogDebouncer bus_;
-  std::string last_stop_;
+  std::string last_stop_;  // without what changes in its sentence
 };
 
 }  // namespace nord_driver::node

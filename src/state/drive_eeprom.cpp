@@ -49,13 +49,14 @@ DriveEeprom::Permission DriveEeprom::ask(Storage storage, WallTime now) {
 
 std::string DriveEeprom::settle(Storage storage, const Permission& permission, const Outcome& outcome, WallTime now) {
   try {
-    if (!outcome.eeprom_written) {
+    const bool costs_nothing = storage == Storage::kRam && !outcome.answered && ram_cost_ == RamCost::kNothing;
+    if (!outcome.eeprom_written || costs_nothing) {
       if (storage == Storage::kRam && outcome.success && outcome.by_ram_order) ram_cost_ = RamCost::kNothing;
       budget_.giveBack(place_, permission.reservation);
       return {};
     }
     if (storage == Storage::kEeprom) return {};
-    ram_cost_ = RamCost::kSwitch;
+    if (outcome.answered) ram_cost_ = RamCost::kSwitch;
     std::uint32_t more = outcome.success ? 0 : kRecoveryWrites;
     if (permission.reservation.writes == 0) more += kSwitchWrites;
     if (more != 0) budget_.add(place_, more, now);

@@ -25,7 +25,7 @@ std::string nameOf(const DrivePlace& place);
 /// A write to RAM costs nothing where the drive knows orders for that. Where it does not, P560 is switched off before
 /// and on again after, which may be EEPROM writes themselves (drive/parameter_session.h). Whether a drive knows them
 /// shows at the first write: until then each is counted before and given back after. A budget that is used up refuses
-/// them where they are known to cost; nothing else refuses a write to RAM.
+/// them where they are known to cost; nothing else refuses a write to RAM, and a write without an answer shows nothing.
 class DriveEeprom {
  public:
   enum class Storage : std::uint8_t { kRam, kEeprom };
@@ -38,6 +38,7 @@ class DriveEeprom {
     bool success = false;
     bool eeprom_written = false;  ///< or it may have been
     bool by_ram_order = false;    ///< with success: an order for the RAM did it, P560 had no part in it
+    bool answered = true;         ///< false: nobody told what became of it, and whether P560 had a part in it
   };
 
   /// `budget` must outlive it. `ram_is_free`: what the bus can do (ParameterCapabilities::ram_writes).

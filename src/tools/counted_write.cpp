@@ -39,6 +39,7 @@ CountedWrite countedWrite(DriveEeprom& eeprom, const profile::ParameterRequest& 
   result.completion = write();
   DriveEeprom::Outcome outcome;
   outcome.eeprom_written = !result.completion || result.completion->parameter.eeprom_written;
+  outcome.answered = result.completion && !result.completion->unanswered;
   if (result.completion) {
     const profile::ParameterResult& told = result.completion->parameter;
     outcome.success = result.completion->success;

@@ -103,14 +103,22 @@ TEST_F(OverdueParameters, NorIsOneOfWhichOnlyTheValueBeforeWasAskedFor) {
 }
 
 TEST_F(OverdueParameters, OfAWriteUnderWayNobodyKnows) {
-  submit(test::writeRequest(kLift, 102, 250), 501, milliseconds{200});
-  step();
-  transport.answerFirst();  // the value before
-  run(25);
-  ASSERT_EQ(1u, completions.count(501));
-  EXPECT_THAT(completions[501].message.c_str(), HasSubstr("whether the inverter carried the write out is not known"));
-  EXPECT_TRUE(completions[501].parameter.eeprom_written) << "or may have been";
-  EXPECT_TRUE(writes());
+  transport.parameters[560] = 1;
+  for (const bool persistent : {false, true}) {
+    const auto action = persistent ? profile::ParameterAction::kWritePersistent : profile::ParameterAction::kWriteRam;
+    const std::uint32_t id = persistent ? 502 : 501;
+    submit(test::writeRequest(kLift, 102, persistent ? 300 : 250, action), id, milliseconds{200});
+    for (int i = 0; i < 10 && !writes(); ++i) {
+      step();
+      if (!writes() && !transport.submitted.empty()) transport.answerFirst();
+    }
+    ASSERT_TRUE(writes());
+    run(25);
+    ASSERT_EQ(1u, completions.count(id));
+    EXPECT_THAT(completions[id].message.c_str(), HasSubstr("whether the inverter carried the write out is not known"));
+    EXPECT_EQ(persistent, completions[id].parameter.eeprom_written) << "or may have been";
+    answerAll();
+  }
 }
 
 // nord_param limits the time itself.

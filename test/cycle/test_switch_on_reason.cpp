@@ -87,6 +87,41 @@ TEST_F(SwitchOnReason, IsReadOfADriveThatIsBeingEnabled) {
   EXPECT_EQ(34, reason());
 }
 
+// The next one has a reason of its own, which is read half a second later, or cannot be read.
+TEST_F(SwitchOnReason, OfTheLastHoldIsNotToldOfTheNext) {
+  for (const bool lost : {false, true}) {
+    SCOPED_TRACE(lost);
+    says = kSwitchOnDisabled;
+    run(60);
+    ASSERT_EQ(34, reason());
+    inverter.silent = lost;
+    says = kReady;
+    run(100);
+    EXPECT_FALSE(reason());
+    inverter.silent = false;
+    says = kSwitchOnDisabled;
+    silent = {700};
+    for (int i = 0; i < 300; ++i) {
+      step();
+      ASSERT_FALSE(reason());
+    }
+    silent.clear();
+    run(110);
+    EXPECT_EQ(34, reason());
+  }
+}
+
+TEST_F(SwitchOnReason, IsReadThoughItWasRefusedForTheMoment) {
+  says = kSwitchOnDisabled;
+  not_now = {700};
+  run(60);
+  ASSERT_GE(reads(700), 1);
+  EXPECT_FALSE(reason());
+  not_now.clear();
+  run(110);
+  EXPECT_EQ(34, reason());
+}
+
 // 0: the inverter gives none.
 TEST_F(SwitchOnReason, IsNoneWhereTheInverterGivesNone) {
   values[700] = 0;

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "cycle/signals_bench.h"
 
 namespace nord_driver::cycle {
@@ -14,9 +16,11 @@ constexpr Word kOff2 = 0x0002, kOff3 = 0x0004;
 /// Control bit 8 with P480 = 1, "enable right", accepted by may_move: at the standard rate of its publisher, 10 Hz.
 class MovingSignal : public Signals {
  public:
-  explicit MovingSignal(int function = 1, std::uint8_t signals = 1, DriveIndex drive = kLift)
+  explicit MovingSignal(int function = 1, std::uint8_t signals = 1, DriveIndex drive = kLift,
+                        std::optional<DriveIndex> absent = std::nullopt)
       : Signals{accepted(signals), drive} {
     transport.parameters[480] = function;
+    if (absent) transport.inverters[*absent].silent = true;
     run(120);
   }
   static std::vector<SignalSetup> accepted(std::uint8_t count) {
@@ -53,6 +57,10 @@ class MovingSignal : public Signals {
     EXPECT_EQ(0, refresh(10, false));
     EXPECT_EQ(10, refresh(10));
   }
+  void expectOffAndOnInVain() {
+    EXPECT_EQ(0, refresh(10, false));
+    EXPECT_EQ(0, refresh(50));
+  }
   double velocity = 0.0;
 };
 
@@ -74,6 +82,9 @@ TEST(WithdrawnSignalsTest, AFaultOfADisabledDriveTakesItAway) {
   bench.transport.inverters[CycleBench::kLift].fault = true;
   bench.step();
   EXPECT_EQ(0, bench.refresh(50));
+  bench.expectOffAndOnInVain();
+  ASSERT_TRUE(bench.ask(RequestKind::kAcknowledge, CycleBench::kLift).success);
+  EXPECT_EQ(0, bench.refresh(300));
   bench.expectOffAndOnBringItBack();
 }
 
@@ -111,16 +122,30 @@ TEST(WithdrawnSignalsTest, Off2AndOff3AtTheTerminalsTakeItAway) {
 /// What happens at an inverter by itself.
 struct Incident {
   const char* name;
-  void (*begin)(drive::FakeInverter&);
+  void (*set)(drive::FakeInverter&, bool stands);
+  void begin(drive::FakeInverter& inverter) const { set(inverter, true); }
+  void end(drive::FakeInverter& inverter) const { set(inverter, false); }
 };
 const Incident kIncidents[] = {
-    {"fault", [](drive::FakeInverter& inverter) { inverter.fault = true; }},
-    {"local control", [](drive::FakeInverter& inverter) { inverter.local = true; }},
-    {"OFF2", [](drive::FakeInverter& inverter) { inverter.taken = kOff2; }},
-    {"OFF3", [](drive::FakeInverter& inverter) { inverter.taken = kOff3; }},
+    {"fault", [](drive::FakeInverter& inverter, bool stands) { inverter.fault = stands; }},
+    {"local control", [](drive::FakeInverter& inverter, bool stands) { inverter.local = stands; }},
+    {"OFF2", [](drive::FakeInverter& inverter, bool stands) { inverter.taken = stands ? kOff2 : Word{0}; }},
+    {"OFF3", [](drive::FakeInverter& inverter, bool stands) { inverter.taken = stands ? kOff3 : Word{0}; }},
 };
 
-TEST(WithdrawnSignalsTest, WhatStopsAnotherDriveOfItsBaseTakesItAway) {
+TEST(WithdrawnSignalsTest, OffAndOnDoNotBringItBackWhileAStopStands) {
+  for (const Incident& incident : kIncidents) {
+    MovingSignal bench;
+    incident.begin(bench.transport.inverters[CycleBench::kLift]);
+    bench.step();
+    bench.expectOffAndOnInVain();
+    incident.end(bench.transport.inverters[CycleBench::kLift]);
+    EXPECT_EQ(0, bench.refresh(300)) << incident.name;
+    bench.expectOffAndOnBringItBack();
+  }
+}
+
+TEST(WithdrawnSignalsTest, WhatStopsAnotherDriveOfItsBaseTakesItAwayUntilThatHasEnded) {
   for (const Incident& incident : kIncidents) {
     for (const bool enabled : {true, false}) {
       MovingSignal bench{1, 1, CycleBench::kLeft};
@@ -129,22 +154,59 @@ TEST(WithdrawnSignalsTest, WhatStopsAnotherDriveOfItsBaseTakesItAway) {
       incident.begin(bench.transport.inverters[CycleBench::kRight]);
       bench.step();
       EXPECT_EQ(0, bench.refresh(300)) << incident.name << enabled;
+      bench.expectOffAndOnInVain();
+      incident.end(bench.transport.inverters[CycleBench::kRight]);
+      EXPECT_EQ(0, bench.refresh(300)) << incident.name << enabled;
       bench.expectOffAndOnBringItBack();
     }
   }
 }
 
-// Nor does one that another drive of the base has had all along hide its own.
+// Nobody has told that it has ended.
+TEST(WithdrawnSignalsTest, AStopStandsWhereItsDriveIsNoLongerHeard) {
+  MovingSignal bench{1, 1, CycleBench::kLeft};
+  drive::FakeInverter& right = bench.transport.inverters[CycleBench::kRight];
+  right.taken = kOff3;
+  bench.step();
+  right.silent = true;
+  EXPECT_EQ(0, bench.refresh(50));
+  bench.expectOffAndOnInVain();
+}
+
+TEST(WithdrawnSignalsTest, ADriveThatWasNeverHeardStopsNoOther) {
+  MovingSignal bench{1, 1, CycleBench::kLeft, CycleBench::kRight};
+  EXPECT_EQ(50, bench.refresh(50));
+}
+
+// 10 and 11, low, are OFF2 and OFF3; 12 acknowledges; 14, low, is local control.
+constexpr int kEndStops[] = {10, 11, 12, 14};
+
+TEST(WithdrawnSignalsTest, OffAndOnBringBackWhatMayEndAStopThatStands) {
+  for (const int function : kEndStops) {
+    for (const Incident& incident : kIncidents) {
+      MovingSignal bench{function};
+      incident.begin(bench.transport.inverters[CycleBench::kLift]);
+      bench.step();
+      EXPECT_EQ(0, bench.refresh(50)) << function << incident.name;
+      bench.expectOffAndOnBringItBack();
+    }
+  }
+}
+
+// Nor does a stop that another drive of the base has had all along hide its own. Both may have to be ended by a signal of
+// their own.
 TEST(WithdrawnSignalsTest, EachIncidentOfABaseTakesItAwayAnew) {
-  for (const Incident& incident : kIncidents) {
-    MovingSignal bench{1, 1, CycleBench::kLeft};
-    incident.begin(bench.transport.inverters[CycleBench::kRight]);
-    bench.step();
-    bench.expectOffAndOnBringItBack();
-    incident.begin(bench.transport.inverters[CycleBench::kLeft]);
-    bench.step();
-    EXPECT_EQ(0, bench.refresh(100)) << incident.name;
-    bench.expectOffAndOnBringItBack();
+  for (const int function : kEndStops) {
+    for (const Incident& incident : kIncidents) {
+      MovingSignal bench{function, 1, CycleBench::kLeft};
+      incident.begin(bench.transport.inverters[CycleBench::kRight]);
+      bench.step();
+      bench.expectOffAndOnBringItBack();
+      incident.begin(bench.transport.inverters[CycleBench::kLeft]);
+      bench.step();
+      EXPECT_EQ(0, bench.refresh(100)) << function << incident.name;
+      bench.expectOffAndOnBringItBack();
+    }
   }
 }
 

@@ -116,6 +116,36 @@ TEST_F(AxisReports, WhatAReferenceRunFoundIsForgottenWithALoss) {
   EXPECT_FALSE(report().position.homed);
 }
 
+// What it found is a place in a count that is over. Where a bit of the drive tells, that counts.
+TEST_F(AxisReports, WhatAReferenceRunFoundIsForgottenWithANewZeroThatNobodyAskedFor) {
+  for (const bool enabled : {true, false}) {
+    SCOPED_TRACE(enabled);
+    enable();
+    drive_.requestHoming(now_);
+    for (int i = 0; i < 5; ++i) {
+      count_ -= 50;
+      cycle(0x0A37, -200);
+    }
+    for (int i = 0; i < 40; ++i) cycle(0x0B37);
+    ASSERT_TRUE(report().position.homed);
+    if (!enabled) {
+      drive_.requestShutdown(now_);
+      for (int i = 0; i < 40; ++i) cycle();
+      ASSERT_TRUE(report().position.homed);
+    }
+    count_ += 30'000;
+    for (int i = 0; i < 40; ++i) cycle(enabled ? 0x0B37 : 0x0B31);
+    ASSERT_EQ(enabled ? StopCause::kPositionJump : StopCause::kNone, report().stop_cause);
+    EXPECT_FALSE(report().position.homed);
+    for (int i = 0; i < 40; ++i) cycle();
+    EXPECT_FALSE(report().position.homed);
+    drive_.setReferenced(true);
+    cycle();
+    EXPECT_TRUE(report().position.homed);
+    drive_.setReferenced(std::nullopt);
+  }
+}
+
 TEST_F(AxisReports, AReferenceRunIsRefusedWhileItIsNotEnabled) {
   start();
   drive_.requestHoming(now_, 7);

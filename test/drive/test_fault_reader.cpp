@@ -163,6 +163,64 @@ TEST_F(FaultReaderTest, ReadsTheReasonOnRequest) {
   EXPECT_EQ(3, poll());
 }
 
+// What it was of the last hold says nothing about the next one; nor does an answer that comes late.
+TEST_F(FaultReaderTest, ForgetsTheReasonOfAHoldThatHasEnded) {
+  reader_.requestReason();
+  EXPECT_EQ(3, poll());
+  answer(7);
+  reader_.forgetReason();
+  EXPECT_EQ(ReasonState::kNotAsked, reader_.reasonState());
+  reader_.requestReason();
+  EXPECT_EQ(3, poll());
+  reader_.forgetReason();
+  answer(7);
+  EXPECT_EQ(ReasonState::kNotAsked, reader_.reasonState());
+  EXPECT_EQ(0, poll(seconds(5.0)));
+  reader_.requestReason();
+  EXPECT_EQ(3, poll());
+  reader_.forgetReason();
+  reader_.requestReason();
+  answer(7);
+  EXPECT_EQ(ReasonState::kReading, reader_.reasonState()) << "asked before the end of the last one";
+  EXPECT_EQ(3, poll(seconds(1.0)));
+  answer(8);
+  EXPECT_EQ(ReasonState::kKnown, reader_.reasonState());
+  EXPECT_EQ(8, reader_.reason());
+}
+
+TEST_F(FaultReaderTest, ThatThereIsNoReasonToReadStaysKnownUntilALoss) {
+  reader_.requestReason();
+  EXPECT_EQ(3, poll());
+  fail(ParameterOutcome::kNoChannel);
+  reader_.forgetReason();
+  EXPECT_EQ(ReasonState::kNotAvailable, reader_.reasonState());
+  reader_.handleOffline();
+  EXPECT_EQ(ReasonState::kNotAsked, reader_.reasonState());
+}
+
+TEST_F(FaultReaderTest, ForgetsTheReasonWithALoss) {
+  reader_.requestReason();
+  EXPECT_EQ(3, poll());
+  answer(7);
+  reader_.handleOffline();
+  EXPECT_EQ(ReasonState::kNotAsked, reader_.reasonState());
+}
+
+// Another participant may block it for a moment: it has the element all the same.
+TEST_F(FaultReaderTest, AsksAgainForAReasonThatWasRefusedForTheMoment) {
+  using profile::ParameterReason;
+  reader_.requestReason();
+  for (const auto reason : {ParameterReason::kNotNow, ParameterReason::kNoInverter, ParameterReason::kDeviceFailure}) {
+    EXPECT_EQ(3, poll(seconds(1.0)));
+    reader_.handleResult(FakeParameters::refusal(reason));
+    EXPECT_EQ(ReasonState::kReading, reader_.reasonState());
+    EXPECT_EQ(0, poll(seconds(0.9)));
+  }
+  EXPECT_EQ(3, poll(seconds(1.0)));
+  answer(7);
+  EXPECT_EQ(7, reader_.reason());
+}
+
 // The fault comes first: the reason can wait.
 TEST_F(FaultReaderTest, ReadsTheFaultBeforeTheReason) {
   reader_.requestReason();

@@ -88,9 +88,11 @@ TEST(RequestBrokerTest, ACallerGivesUpAndALateAnswerDisturbsNobody) {
   const cycle::Completion none = broker.call(request(0, std::chrono::seconds{-1}));
   EXPECT_FALSE(none.success);
   EXPECT_STREQ("the bus cycle did not answer", none.message.c_str());
+  EXPECT_TRUE(none.unanswered);
   Cycle cycle{ports};  // answers the forgotten request first
   const cycle::Completion answer = broker.call(request(3));
   EXPECT_TRUE(answer.success);
+  EXPECT_FALSE(answer.unanswered);
   EXPECT_STREQ("3", answer.message.c_str());
 }
 
@@ -161,6 +163,7 @@ TEST(RequestBrokerTest, RefusesWritesAndCountsThoseUnderWay) {
   EXPECT_FALSE(refused.success);
   EXPECT_STREQ("the node is ending", refused.message.c_str());
   EXPECT_FALSE(refused.parameter.eeprom_written);
+  EXPECT_FALSE(refused.unanswered) << "it is known not to be done";
   EXPECT_FALSE(ports.pollRequest()) << "the cycle does not get it";
   EXPECT_EQ(1u, broker.writesUnderWay());
   cycle::Completion completion;

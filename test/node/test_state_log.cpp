@@ -151,6 +151,36 @@ TEST_F(StateLogTest, AStopNobodyAskedForIsAnErrorThatLeadsOn) {
   EXPECT_THAT(lines[0].text, HasSubstr("to go on: remove the cause (see \"drive left\"), then ~acknowledge_faults"));
 }
 
+// The inverter's own reason is read half a second later, may change, and goes when the input is released: the stop is the
+// same one.
+TEST_F(StateLogTest, AStopIsToldOnceWhateverTheInvertersOwnReasonIs) {
+  const char* const kStop =
+      "drive left stopped: OFF3 at the inverter's terminals (status word 0B50, switch-on disabled";
+  for (int incident = 0; incident < 2; ++incident) {
+    snapshot_.base.stopped = true;
+    snapshot_.base.stop_cause = drive::StopCause::kOff3;
+    std::vector<LogLine> lines;
+    for (const char* reason :
+         {"", "; the inverter's own reason, P700[-03], is 0.1", "; the inverter's own reason, P700[-03], is 0.2", ""}) {
+      snapshot_.base.text.format("%s%s)", kStop, reason);
+      for (const LogLine& line : during(milliseconds{100})) lines.push_back(line);
+    }
+    ASSERT_EQ(1u, lines.size()) << incident;
+    EXPECT_THAT(lines[0].text, HasSubstr(kStop));
+    snapshot_.base = {};
+    EXPECT_TRUE(during(milliseconds{100}).empty()) << "enabled again";
+  }
+}
+
+TEST_F(StateLogTest, AnotherStopOfTheSameDriveIsTold) {
+  snapshot_.base.stopped = true;
+  for (const char* stop : {"drive left stopped: OFF2 (status word 0B60, switch-on disabled)",
+                           "drive left stopped: OFF3 (status word 0B50, switch-on disabled)"}) {
+    snapshot_.base.text = stop;
+    EXPECT_EQ(1u, during(milliseconds{100}).size()) << stop;
+  }
+}
+
 TEST_F(StateLogTest, TheLossOfTheWholeBusIsAWarning) {
   snapshot_.connected = false;
   snapshot_.bus_text = "/dev/ttyUSB0 is open, but no station answers";

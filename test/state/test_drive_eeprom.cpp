@@ -19,8 +19,10 @@ const DrivePlace kPlace{"can0", 5, 2, "sk2xxe"};
 constexpr char kName[] = "can0, address 5, inverter 2, sk2xxe";
 
 constexpr DriveEeprom::Outcome outcome(bool success, bool eeprom_written, bool by_ram_order = false) {
-  return {success, eeprom_written, by_ram_order};
+  return {success, eeprom_written, by_ram_order, true};
 }
+/// Nobody was told what became of it.
+constexpr DriveEeprom::Outcome kUnanswered{false, true, false, false};
 
 class OneDrive : public ::testing::Test {
  protected:
@@ -93,6 +95,32 @@ TEST_F(OneDrive, CountsWritesToRamThatGoThroughP560AndRefusesThemPastTheBudget) 
 TEST_F(OneDrive, CountsMoreOfASwitchThatFailed) {
   EXPECT_EQ("", write(Storage::kRam, outcome(false, true)));
   EXPECT_EQ(5u, count());
+}
+
+// No answer does not show that P560 had a part in it: the RAM is not refused for it.
+TEST_F(OneDrive, OfAWriteToRamWithoutAnswerCountsWhatItMayHaveWrittenAndRefusesNothing) {
+  budget_.add(kName, 5, kNow);
+  for (std::uint64_t i = 1; i <= 2; ++i) {
+    EXPECT_EQ("", write(Storage::kRam, kUnanswered));
+    EXPECT_EQ(5u + 5u * i, count());
+  }
+  EXPECT_EQ("", write(Storage::kRam, outcome(true, false, true)));
+}
+
+TEST_F(OneDrive, OfADriveThatTakesOrdersForTheRamAWriteWithoutAnswerCountsNothing) {
+  EXPECT_EQ("", write(Storage::kRam, outcome(true, false, true)));
+  EXPECT_EQ("", write(Storage::kRam, kUnanswered));
+  EXPECT_EQ(0u, count());
+  EXPECT_EQ("", write(Storage::kRam, outcome(true, false, true)));
+  EXPECT_EQ(0u, during_) << "it still takes them";
+}
+
+TEST_F(OneDrive, StillNeedsP560AfterAWriteWithoutAnswer) {
+  EXPECT_EQ("", write(Storage::kRam, outcome(true, true)));
+  EXPECT_EQ("", write(Storage::kEeprom, kUnanswered));
+  EXPECT_EQ(4u, count()) << "or it was written";
+  budget_.add(kName, 1, kNow);
+  EXPECT_THAT(write(Storage::kRam, kUnanswered), HasSubstr("P560"));
 }
 
 // Another inverter may have come in its place.
