@@ -21,7 +21,7 @@ const char* moduleName(Module module) noexcept {
 }  // namespace
 
 std::optional<Module> moduleOf(const std::string& transport) {
-  if (transport == "profibus_dp") return Module::kProfibus;
+  if (transport == "profibus_dp" || transport == "profibus_ms2") return Module::kProfibus;
   if (transport == "canopen") return Module::kCanopen;
   if (transport == "devicenet") return Module::kDevicenet;
   if (transport == "interbus") return Module::kInterbus;

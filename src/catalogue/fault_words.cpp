@@ -14,8 +14,8 @@ FaultWords::Words FaultWords::find(std::uint16_t raw) const {
   static const std::string kNothing;
   static const std::string kNone{"no fault"};
   static const std::string kUnknown{"fault; its number could not be read"};
-  static const std::string kUnknownCause{"the fault bit is set, but P700 gave no number"};
-  static const std::string kUnknownRemedy{"look at the inverter's display, or read P700 with NORD CON"};
+  static const std::string kUnknownCause{"the fault bit was seen, but P700 gave no number"};
+  static const std::string kUnknownRemedy{"look at the inverter's display, or read P700 and the last faults, P701"};
   static const std::string kUnlisted{"a fault number this driver does not list"};
   static const std::string kUnlistedCause{"not known to this driver"};
   static const std::string kUnlistedRemedy{"see the list of error messages in the inverter's manual"};

@@ -16,7 +16,7 @@ void DriveParameters::handleState(drive::Drive& drive, Instant now) noexcept {
   bus_control_ = status.busControl();
   parameter_set_ = report.parameter_set;
   faults_.handleStatus(status);
-  history_.handleFault(status.fault(), faults_.lastNumber());
+  history_.handleFault(status.fault(), faults_.lastNumber(), faults_.awaitsNumber());
   askForReason(drive, now);
   if (scale_due_ && !writesProcessData()) scale(drive);
   scale_due_ = false;

@@ -13,14 +13,16 @@ constexpr std::uint8_t kMaxAttempts = 3;
 
 }  // namespace
 
-void FaultHistoryReader::handleFault(bool fault, std::uint16_t last_number) noexcept {
+void FaultHistoryReader::handleFault(bool fault, std::uint16_t last_number, bool number_awaited) noexcept {
   if (fault && !fault_) {
     state_ = State::kNumberAwaited;
     waiting_ = false;
     history_ = {};
   }
   fault_ = fault;
-  if (state_ != State::kNumberAwaited || !profile::isFaultNumber(last_number)) return;
+  // Gone before P700 told it, which says "no fault" by now: only the history can tell it.
+  const bool untold = !fault && !number_awaited;
+  if (state_ != State::kNumberAwaited || !(profile::isFaultNumber(last_number) || untold)) return;
   state_ = State::kReading;
   attempts_ = 0;
 }

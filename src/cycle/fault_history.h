@@ -19,12 +19,14 @@ struct FaultHistory {
   bool asked = false;  ///< all that can be known of the fault there was last
 };
 
-/// Once per fault, when its number is known: the inverter has filled in P700 and P701 by then. An element that times
-/// out is asked for three times; one that is refused is the end.
+/// Once per fault, when its number is known: the inverter has filled in P700 and P701 by then. So it has when the fault
+/// has gone again, with a number that nobody has read. An element that times out is asked for three times; one that is
+/// refused is the end.
 class FaultHistoryReader {
  public:
-  /// Each cycle the drive is online. `fault`: its fault bit; `last_number`: of the last fault, as FaultReader has it.
-  void handleFault(bool fault, std::uint16_t last_number) noexcept;
+  /// Each cycle the drive is online. `fault`: its fault bit; `last_number`: of the last fault, as FaultReader has it;
+  /// `number_awaited`: P700 may tell it still.
+  void handleFault(bool fault, std::uint16_t last_number, bool number_awaited) noexcept;
   /// The drive went away; a fault it comes back with is a new one.
   void handleOffline() noexcept;
   /// The next access, when none is under way; its id is for the caller to choose.

@@ -295,7 +295,7 @@ bool Supervisor::follow(Job& job, const CommandState& commands, Instant now) noe
   if (!job.begun) return followWaiting(job, commands, now);
   if (job.request.kind == RequestKind::kEnable ? followEnable(job, now) : followStop(job, now)) return true;
   if (now < job.deadline) return false;
-  endUndone(job.request, unsettled(job.request));
+  endUndone(job.request, unsettled(job));
   // Told that it failed, its asker must not see it succeed later.
   takeBack(job.to_enable, now);
   return true;
@@ -363,13 +363,16 @@ Sentence Supervisor::silentMembers(const Request& request) const noexcept {
   return text;
 }
 
-Sentence Supervisor::unsettled(const Request& request) const noexcept {
+// The member that has not come: a group is enabled when all of its members are.
+Sentence Supervisor::unsettled(const Job& job) const noexcept {
+  const bool enable = job.request.kind == RequestKind::kEnable;
   for (const Group& group : groups_) {
-    if (!concerns(request, group)) continue;
+    if (!concerns(job.request, group)) continue;
     for (const DriveIndex member : group.members) {
-      const bool at_rest = drives_[member].report().online && drives_[member].isAtRest();
-      const bool done = request.kind == RequestKind::kEnable ? group.group.commandAllowed() : at_rest;
-      if (done) continue;
+      const drive::Drive& drive = drives_[member];
+      const bool heard = !job.enabled_at || drive.lastHeard() > *job.enabled_at;
+      const bool at_rest = drive.report().online && drive.isAtRest();
+      if (enable ? drive::isEnabled(drive.report().phase) && heard : at_rest) continue;
       Sentence text;
       text.format("not confirmed in time: %s", stateMessage(names_[member].c_str(), drives_[member].report()).c_str());
       return text;

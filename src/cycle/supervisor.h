@@ -93,7 +93,7 @@ class Supervisor {
   Sentence refusalOf(const Group& group, const drive::GroupRefusal& refusal) const noexcept;
   /// Names the drives the request concerns and that do not answer; empty when all do.
   Sentence silentMembers(const Request& request) const noexcept;
-  Sentence unsettled(const Request& request) const noexcept;
+  Sentence unsettled(const Job& job) const noexcept;
   void autoEnable(const CommandState& commands, Instant now) noexcept;
 
   std::vector<drive::Drive>& drives_;

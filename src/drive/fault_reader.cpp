@@ -46,6 +46,10 @@ void FaultReader::forgetReason() noexcept {
   if (reason_state_ != ReasonState::kNotAvailable) reason_state_ = ReasonState::kNotAsked;
 }
 
+bool FaultReader::awaitsNumber() const noexcept {
+  return under_way_ == Item::kFault || (fault_ && number_ == profile::kFaultNumberUnknown);
+}
+
 FaultReader::Item FaultReader::nextItem(Instant now) const noexcept {
   if (now < retry_at_) return Item::kNone;
   if (fault_ && number_ == profile::kFaultNumberUnknown) return Item::kFault;

@@ -45,6 +45,8 @@ class FaultReader {
   std::uint16_t number() const noexcept { return number_; }
   /// The number of the last fault, also after it has vanished; 0: none was seen yet.
   std::uint16_t lastNumber() const noexcept { return last_number_; }
+  /// P700 [-01] is being read, or to be: of a fault that has gone again, an answer under way may still tell it.
+  bool awaitsNumber() const noexcept;
 
   ReasonState reasonState() const noexcept { return reason_state_; }
   /// P700 [-03] as read, with kKnown.

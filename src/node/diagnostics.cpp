@@ -5,6 +5,7 @@
 #include "cycle/leaders.h"
 #include "node/base_status.h"
 #include "node/bus_publisher.h"
+#include "node/remembered_fault.h"
 #include "nord_driver/core/bytes.h"
 
 namespace nord_driver::node {
@@ -134,7 +135,7 @@ void Diagnostics::addFault(std::size_t index, DiagnosticStatusWrapper& status) c
   const std::uint16_t fault = drive.fault_number != 0 ? drive.fault_number : drive.last_fault_number;
   if (fault == 0) return;
   status.add(drive.fault_number != 0 ? "fault" : "last fault",
-             catalogue::FaultWords::label(fault) + ": " + words.name(fault));
+             catalogue::FaultWords::label(fault) + ": " + words.name(fault) + rememberedFault(drive, fault, words));
   if (!words.cause(fault).empty()) status.add("likely cause", words.cause(fault));
   if (!words.remedy(fault).empty()) status.add("remedy", words.remedy(fault));
 }

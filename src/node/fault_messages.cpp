@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "node/remembered_fault.h"
+
 namespace nord_driver::node {
 
 namespace {
@@ -61,7 +63,7 @@ Fault FaultMessages::fault(const cycle::DriveSnapshot& drive, std::uint16_t numb
   Fault message = begun_;
   message.number = number;
   message.active = drive.fault;
-  message.text = textOf(words_, number);
+  message.text = textOf(words_, number) + rememberedFault(drive, number, words_);
   message.cause = words_.cause(number);
   message.remedy = words_.remedy(number);
   for (const std::uint16_t past : drive.fault_history.numbers) {

@@ -5,6 +5,7 @@
 #include "cycle/user_messages.h"
 #include "node/bus_publisher.h"
 #include "node/recovery_hint.h"
+#include "node/remembered_fault.h"
 #include "profile/fault_number.h"
 
 namespace nord_driver::node {
@@ -68,14 +69,15 @@ void StateLog::pollFault(const cycle::DriveSnapshot& drive, std::size_t index, I
   const std::uint16_t number = drive.fault_number != 0 ? drive.fault_number : drive.last_fault_number;
   if (!state.due || (!profile::isFaultNumber(number) && now - state.since < kNumberAwaited)) return;
   state.due = false;
-  lines.push_back(
-      {Level::kError, faultSentence(index, profile::isFaultNumber(number) ? number : profile::kFaultNumberUnknown)});
+  const std::uint16_t told = profile::isFaultNumber(number) ? number : profile::kFaultNumberUnknown;
+  lines.push_back({Level::kError, faultSentence(index, told, rememberedFault(drive, told, drives_.faults[index]))});
 }
 
-std::string StateLog::faultSentence(std::size_t index, std::uint16_t number) const {
+std::string StateLog::faultSentence(std::size_t index, std::uint16_t number, const std::string& remembered) const {
   const std::string& name = drives_.names[index];
   const catalogue::FaultWords& faults = drives_.faults[index];
   std::string text = "drive " + name + ": " + catalogue::FaultWords::label(number) + ", " + faults.name(number);
+  text += remembered;
   if (faults_[index].stood) text += ", which stood before this node started";
   if (!faults.cause(number).empty()) text += "; likely cause: " + faults.cause(number);
   if (!faults.remedy(number).empty()) text += "; remedy: " + faults.remedy(number);

@@ -52,7 +52,7 @@ class StateLog {
   void pollBus(const cycle::CycleSnapshot& snapshot, Instant now, std::vector<LogLine>& lines);
   void pollFault(const cycle::DriveSnapshot& drive, std::size_t index, Instant now, std::vector<LogLine>& lines);
   void pollStop(const cycle::CycleSnapshot& snapshot, std::vector<LogLine>& lines);
-  std::string faultSentence(std::size_t index, std::uint16_t number) const;
+  std::string faultSentence(std::size_t index, std::uint16_t number, const std::string& remembered) const;
 
   LoggedDrives drives_;
   std::vector<FaultState> faults_;

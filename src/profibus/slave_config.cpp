@@ -37,7 +37,7 @@ void requireWatchdog(const SlaveConfig& slave) {
   if (slave.watchdog == Duration::zero() || WatchdogFactors::from(slave.watchdog)) return;
   std::string sentence =
       "a watchdog of " + number(toSeconds(slave.watchdog)) +
-      " s cannot be told to a slave: expected 0 (off) or 0.01 to 650 s as a product f1 * f2 * 0.01 s of "
+      " s cannot be told to a slave: expected 0 (off) or 0.01 to 650.25 s as a product f1 * f2 * 0.01 s of "
       "two factors up to 255";
   const auto next = WatchdogFactors::representableFrom(slave.watchdog);
   if (slave.watchdog > Duration::zero() && next)

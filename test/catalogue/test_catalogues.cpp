@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "catalogue/drive_catalogue.h"
 #include "catalogue/fault_words.h"
 #include "catalogue/shipped.h"
 #include "catalogue/temporary_file.h"
@@ -54,6 +55,16 @@ TEST(CatalogueFolder, IsThatOfThePackageInAWorkspace) {
 
 TEST(CatalogueFolder, TheRunningProgramIsKnown) {
   EXPECT_EQ("test_catalogue", fs::path(runningProgram()).filename());
+}
+
+// PROFIBUS has two ways to it: in data exchange, and without.
+TEST(Catalogues, AModuleIsTheSameOnEveryWayToIt) {
+  for (const char* transport : {"profibus_dp", "profibus_ms2"}) {
+    const DriveCatalogue known = driveCatalogue(shippedCatalogues(), Series::kSk2xxe, transport, true);
+    const ParameterEntry* const timeout = known.find(151);
+    ASSERT_NE(nullptr, timeout) << transport;
+    EXPECT_EQ("0.500 s", known.valueText(timeout, 500)) << transport;
+  }
 }
 
 TEST(Catalogues, MissingFilesAreToldInASentence) {

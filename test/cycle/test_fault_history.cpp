@@ -42,40 +42,63 @@ class FaultHistoryTest : public ::testing::Test {
     }
   }
 
+  void handleFault(bool fault, std::uint16_t last_number, bool number_awaited = true) {
+    reader_.handleFault(fault, last_number, number_awaited);
+  }
+
   FaultHistoryReader reader_;
 };
 
 TEST_F(FaultHistoryTest, IsReadOnceWhenTheNumberIsKnown) {
-  reader_.handleFault(false, 0);
+  handleFault(false, 0);
   EXPECT_EQ(0, poll());
-  reader_.handleFault(true, kUnknown);
+  handleFault(true, kUnknown);
   EXPECT_EQ(0, poll()) << "the inverter may not have filled it in yet";
-  reader_.handleFault(true, kMotorHot);
+  handleFault(true, kMotorHot);
   readAll(kMotorHot);
   EXPECT_TRUE(reader_.history().asked);
   ASSERT_EQ(5u, reader_.history().numbers.size());
   EXPECT_EQ(kMotorHot, reader_.history().numbers[0]);
   EXPECT_EQ(102, reader_.history().numbers[4]);
-  reader_.handleFault(true, kMotorHot);
-  reader_.handleFault(false, kMotorHot);
+  handleFault(true, kMotorHot);
+  handleFault(false, kMotorHot);
   EXPECT_EQ(0, poll());
-  reader_.handleFault(true, kUnknown);
+  handleFault(true, kUnknown);
   EXPECT_FALSE(reader_.history().asked);
   EXPECT_TRUE(reader_.history().numbers.empty());
 }
 
 // The first idle word may take it away at once.
 TEST_F(FaultHistoryTest, IsReadOfAFaultThatVanished) {
-  reader_.handleFault(true, kUnknown);
-  reader_.handleFault(false, kUnknown);
+  handleFault(true, kUnknown);
+  handleFault(false, kUnknown);
   EXPECT_EQ(0, poll());
-  reader_.handleFault(false, kMotorHot);
+  handleFault(false, kMotorHot);
   readAll(kMotorHot);
   EXPECT_TRUE(reader_.history().asked);
 }
 
+// The first idle word has taken it away, and P700 says "no fault" by now: its number stands in P701 only.
+TEST_F(FaultHistoryTest, IsReadOfAFaultThatVanishedWithoutANumber) {
+  handleFault(true, kUnknown, true);
+  handleFault(false, kUnknown, true);
+  EXPECT_EQ(0, poll()) << "the answer to P700 is under way";
+  handleFault(false, kUnknown, false);
+  readAll(102);
+  EXPECT_TRUE(reader_.history().asked);
+  handleFault(false, kUnknown, false);
+  EXPECT_EQ(0, poll());
+}
+
+// 0 with the fault bit set: P700 is not filled in yet, and so may be P701.
+TEST_F(FaultHistoryTest, IsNotReadWhileAFaultWithoutANumberStands) {
+  handleFault(true, kUnknown, false);
+  handleFault(true, kUnknown, true);
+  EXPECT_EQ(0, poll());
+}
+
 TEST_F(FaultHistoryTest, EndsWhereTheInverterRefuses) {
-  reader_.handleFault(true, kMotorHot);
+  handleFault(true, kMotorHot);
   EXPECT_EQ(1, poll());
   answer(kMotorHot);
   EXPECT_EQ(2, poll());
@@ -86,7 +109,7 @@ TEST_F(FaultHistoryTest, EndsWhereTheInverterRefuses) {
 }
 
 TEST_F(FaultHistoryTest, ATimeOutIsAskedForThreeTimes) {
-  reader_.handleFault(true, kMotorHot);
+  handleFault(true, kMotorHot);
   for (int i = 0; i < 3; ++i) {
     EXPECT_FALSE(reader_.history().asked);
     EXPECT_EQ(1, poll());
@@ -97,7 +120,7 @@ TEST_F(FaultHistoryTest, ATimeOutIsAskedForThreeTimes) {
 }
 
 TEST_F(FaultHistoryTest, WhatDidNotReachTheDriveIsAskedAgain) {
-  reader_.handleFault(true, kMotorHot);
+  handleFault(true, kMotorHot);
   for (int i = 0; i < 10; ++i) {
     EXPECT_EQ(1, poll());
     EXPECT_EQ(0, poll()) << "one at a time";
@@ -106,19 +129,19 @@ TEST_F(FaultHistoryTest, WhatDidNotReachTheDriveIsAskedAgain) {
 }
 
 TEST_F(FaultHistoryTest, ADriveThatIsAwayIsNotAsked) {
-  reader_.handleFault(true, kMotorHot);
+  handleFault(true, kMotorHot);
   EXPECT_EQ(1, poll());
   reader_.handleOffline();
   answer(40);
   EXPECT_EQ(0, poll());
   EXPECT_TRUE(reader_.history().numbers.empty());
-  reader_.handleFault(true, kMotorHot);
+  handleFault(true, kMotorHot);
   EXPECT_EQ(1, poll()) << "it comes back with one";
 }
 
 // Three tries for each element, not for all of them.
 TEST_F(FaultHistoryTest, EachElementIsAskedForThreeTimes) {
-  reader_.handleFault(true, kMotorHot);
+  handleFault(true, kMotorHot);
   for (int element = 1; element <= 5; ++element) {
     for (int i = 0; i < 2; ++i) {
       EXPECT_EQ(element, poll());
@@ -133,9 +156,9 @@ TEST_F(FaultHistoryTest, EachElementIsAskedForThreeTimes) {
 
 // 0 is no number of a fault, and an answer nobody waits for is none of P701.
 TEST_F(FaultHistoryTest, NothingIsReadOfNoFault) {
-  reader_.handleFault(true, 0);
+  handleFault(true, 0);
   EXPECT_EQ(0, poll());
-  reader_.handleFault(true, kMotorHot);
+  handleFault(true, kMotorHot);
   answer(40);
   EXPECT_TRUE(reader_.history().numbers.empty());
   EXPECT_EQ(1, poll());
@@ -145,17 +168,17 @@ TEST_F(FaultHistoryTest, NothingIsReadOfNoFault) {
 
 // What was asked for of the fault before may be answered late: it is nothing of this one, whose elements have their own tries.
 TEST_F(FaultHistoryTest, OfANewFaultBeginsAnew) {
-  reader_.handleFault(true, kMotorHot);
+  handleFault(true, kMotorHot);
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(1, poll());
     fail(ParameterOutcome::kTimeout);
   }
   EXPECT_EQ(1, poll());
-  reader_.handleFault(false, kMotorHot);
-  reader_.handleFault(true, kUnknown);
+  handleFault(false, kMotorHot);
+  handleFault(true, kUnknown);
   answer(40);
   EXPECT_TRUE(reader_.history().numbers.empty());
-  reader_.handleFault(true, kMotorHot);
+  handleFault(true, kMotorHot);
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(1, poll());
     fail(ParameterOutcome::kTimeout);

@@ -93,5 +93,21 @@ TEST_F(FaultRecordTest, TheInvertersOwnHistoryFollows) {
   EXPECT_EQ(102, left().fault_history.numbers[4]);
 }
 
+// The driver's own idle word may take a fault away before P700 is answered, which says "no fault" then.
+TEST_F(FaultRecordTest, TheInvertersOwnHistoryFollowsAFaultThatVanished) {
+  bench_.transport.parameters[700] = 0;
+  bench_.transport.parameters[701] = 102;
+  bench_.run(300);
+  bench_.transport.inverters[CycleBench::kLeft].fault = true;
+  bench_.step();
+  bench_.transport.inverters[CycleBench::kLeft].switchOffAndOn();
+  bench_.run(20);
+  EXPECT_FALSE(left().fault);
+  EXPECT_EQ(65535, left().last_fault_number);
+  EXPECT_TRUE(left().fault_history.asked);
+  ASSERT_EQ(5u, left().fault_history.numbers.size());
+  EXPECT_EQ(102, left().fault_history.numbers[0]);
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

@@ -23,6 +23,25 @@ TEST_F(SupervisorAnswers, AnEnableThatIsGivenUpIsAnsweredOnce) {
   EXPECT_THAT(answersTo(1), ElementsAre(StartsWith("no: not confirmed in time: drive lift is ")));
 }
 
+// Not the one of its base that is enabled and waits for it.
+TEST_F(SupervisorAnswers, AnEnableThatIsGivenUpNamesTheDriveThatHasNotCome) {
+  inverters[kRight].stuck = true;
+  request(1, RequestKind::kEnable, kAllDrives, std::chrono::milliseconds{100});
+  run(9);
+  ASSERT_EQ(drive::Phase::kEnabled, drives[kLeft].report().phase);
+  run(91);
+  EXPECT_THAT(answersTo(1), ElementsAre(StartsWith("no: not confirmed in time: drive right is ")));
+}
+
+// Enabled before, it is enabled as far as is known, and not heard since it was asked for.
+TEST_F(SupervisorAnswers, AnEnableOfWhatIsEnabledNamesTheDriveThatWasNotHeard) {
+  ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  inverters[kRight].silent = true;
+  request(1, RequestKind::kEnable, kAllDrives, std::chrono::milliseconds{30});
+  run(10);
+  EXPECT_THAT(answersTo(1), ElementsAre(StartsWith("no: not confirmed in time: drive right is ")));
+}
+
 TEST_F(SupervisorAnswers, TheEndBesideASilentDriveIsAnsweredOnce) {
   inverters[kLift].silent = true;
   run(150);

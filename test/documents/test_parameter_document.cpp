@@ -163,7 +163,7 @@ TEST(ParameterDocument, ShowsKindUnitRangeAndDefaultOfTheCode) {
   const auto meanings = YAML::Load(
       "{about: '', sections: [{title: T, bus: {watchdog: w, sync: s, echo: e, device: d}, drive: {pole_pairs: p}}]}");
   const std::string text = makeDocument(meanings, readAll(list)).text;
-  EXPECT_THAT(text, HasSubstr("| `bus/watchdog` | 0.01 to 650 s | 0.2 s | w |\n"));
+  EXPECT_THAT(text, HasSubstr("| `bus/watchdog` | 0.01 to 650.25 s | 0.2 s | w |\n"));
   EXPECT_THAT(text, HasSubstr("| `bus/sync` | true or false | false | s |\n"));
   EXPECT_THAT(text, HasSubstr("| `bus/echo` | `auto`, `off`, `on` | auto | e |\n"));
   EXPECT_THAT(text, HasSubstr("| `bus/device` | text | required | d |\n"));

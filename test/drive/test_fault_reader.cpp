@@ -105,6 +105,28 @@ TEST_F(FaultReaderTest, NamesAFaultThatVanishedBeforeItWasRead) {
   EXPECT_EQ(65535, reader_.lastNumber());
 }
 
+TEST_F(FaultReaderTest, TellsWhetherANumberMayStillCome) {
+  status(0x0B31);
+  EXPECT_FALSE(reader_.awaitsNumber());
+  status(0x0B38);
+  EXPECT_TRUE(reader_.awaitsNumber());
+  EXPECT_EQ(1, poll());
+  status(0x0B31);
+  EXPECT_TRUE(reader_.awaitsNumber()) << "the answer is under way";
+  answer(0);
+  EXPECT_FALSE(reader_.awaitsNumber());
+  status(0x0B38);
+  EXPECT_EQ(1, poll());
+  answer(0);
+  EXPECT_TRUE(reader_.awaitsNumber()) << "it is asked for again";
+  status(0x0B31);
+  EXPECT_FALSE(reader_.awaitsNumber());
+  status(0x0B38);
+  EXPECT_EQ(1, poll(seconds(1.0)));
+  answer(102);
+  EXPECT_FALSE(reader_.awaitsNumber());
+}
+
 TEST_F(FaultReaderTest, ReadsAnewWhatComesBackWithAFault) {
   status(0x0B38);
   EXPECT_EQ(1, poll());

@@ -149,5 +149,39 @@ TEST_F(FaultMessagesTest, ADriveThatAnswersWithoutOneSaysSoOnce) {
   EXPECT_THAT(messages.poll(drive_, stamps_), IsEmpty());
 }
 
+// P700 said "no fault" by then. The number stays unknown: nobody has seen that it is that one.
+TEST_F(FaultMessagesTest, AFaultWithoutANumberNamesTheNewestOfTheHistory) {
+  trip(kUnknown);
+  ASSERT_EQ(1u, poll().size());
+  vanish();
+  drive_.last_fault_number = kUnknown;
+  ASSERT_EQ(1u, poll().size());
+  drive_.fault_history.asked = true;
+  for (const int past : {102, 0}) drive_.fault_history.numbers.push_back(static_cast<std::uint16_t>(past));
+  const auto due = poll();
+  ASSERT_EQ(1u, due.size());
+  EXPECT_EQ(kUnknown, due[0].number);
+  EXPECT_FALSE(due[0].active);
+  EXPECT_THAT(due[0].text,
+              HasSubstr("; the newest of its last faults, P701[-01], is E10.2, bus timeout of the option"));
+  EXPECT_THAT(due[0].remedy, HasSubstr("P701"));
+  EXPECT_THAT(due[0].history_numbers, ElementsAre(102, 0));
+}
+
+TEST_F(FaultMessagesTest, AnEmptyHistoryNamesNothing) {
+  trip(kUnknown);
+  poll();
+  for (const bool empty : {true, false}) {
+    vanish();
+    drive_.fault_history = {};
+    if (!empty) drive_.fault_history.numbers.push_back(0);
+    poll();
+    drive_.fault_history.asked = true;
+    const auto due = poll();
+    ASSERT_EQ(1u, due.size());
+    EXPECT_EQ("fault of unknown number, fault; its number could not be read", due[0].text);
+  }
+}
+
 }  // namespace
 }  // namespace nord_driver::node

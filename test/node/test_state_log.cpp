@@ -71,6 +71,21 @@ TEST_F(StateLogTest, AFaultWhoseNumberIsNotToldIsToldWithoutIt) {
 }
 
 // The first idle word may let it vanish in the inverter before the log has looked (BU 0020 8).
+// It has gone with the first idle word: the inverter's own history tells more.
+TEST_F(StateLogTest, AFaultWithoutANumberIsToldWithTheNewestOfTheHistory) {
+  trip(0, 65535);
+  snapshot_.drives[0].fault = false;
+  snapshot_.drives[0].fault_number = 0;
+  snapshot_.drives[0].fault_history.asked = true;
+  snapshot_.drives[0].fault_history.numbers.push_back(102);
+  const auto lines = during(milliseconds{3000});
+  ASSERT_EQ(1u, lines.size());
+  EXPECT_THAT(
+      lines[0].text,
+      HasSubstr("drive left: fault of unknown number, fault; its number could not be read; the newest of its last "
+                "faults, P701[-01], is E10.2, bus timeout of the option; likely cause: "));
+}
+
 TEST_F(StateLogTest, AFaultThatVanishedIsToldAllTheSame) {
   trip(0, 102);
   snapshot_.drives[0].fault = false;

@@ -61,7 +61,7 @@ TEST(SlaveConfig, IsRefusedInWords) {
               slave.configuration = {0xF3, 0x40};
             }));
   EXPECT_EQ(
-      "station 8: a watchdog of 2.57 s cannot be told to a slave: expected 0 (off) or 0.01 to 650 s as a product "
+      "station 8: a watchdog of 2.57 s cannot be told to a slave: expected 0 (off) or 0.01 to 650.25 s as a product "
       "f1 * f2 * 0.01 s of two factors up to 255; the next longer one is 2.58 s",
       refusal([](SlaveConfig& slave) { slave.watchdog = 2570ms; }));
   for (const Duration watchdog : {Duration{-1s}, Duration{5ms}, Duration{15ms}, Duration{651s}}) {

@@ -51,9 +51,9 @@ void readSlotTime(const Settings& settings, const std::string& device, profibus:
   }
 }
 
-// 10 ms to 650 s: what two factors of Set_Prm can say (BU 2700 8.1.1).
+// 10 ms to 650.25 s: what two factors of Set_Prm can say (BU 2700 8.1.1). The longest is one that is advised.
 Duration readWatchdog(const Settings& settings) {
-  const double value = numberOr(settings, "watchdog", 0.2, 0.01, 650.0, "s");
+  const double value = numberOr(settings, "watchdog", 0.2, 0.01, toSeconds(profibus::kLongestWatchdog), "s");
   const Duration next =
       profibus::WatchdogFactors::representableFrom(seconds(value)).value_or(profibus::kLongestWatchdog);
   if (std::abs(toSeconds(next) - value) > 1e-6) {

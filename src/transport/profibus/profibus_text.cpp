@@ -82,8 +82,9 @@ Sentence ProfibusText::note(std::size_t station, const profibus::DpMaster& maste
                 *status.ident, moduleName(*status.ident), configured, moduleName(configured));
   } else if (status.diagnosis.configurationFault() && !status.configuration.empty()) {
     text.format("%s; %s", "refuses its configuration (Cfg_Fault)", master.configurationText(station).c_str());
-  } else if (status.diagnosis.owner() != profibus::kNoOwner && status.diagnosis.owner() != config_.bus.master.value()) {
-    text.format("%s: its address is %u", status.note, status.diagnosis.owner());
+  } else if (const profibus::Diagnosis& told = status.diagnosis;
+             !told.empty() && told.owner() != profibus::kNoOwner && told.owner() != config_.bus.master.value()) {
+    text.format("%s: its address is %u", status.note, told.owner());
   }
   return text;
 }

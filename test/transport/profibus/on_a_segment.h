@@ -36,7 +36,7 @@ class OnASegment : public ::testing::Test {
     if (change_) change_(config);
     transport_ = std::make_unique<ProfibusDpTransport>([&](const link::SerialSettings& serial) {
       EXPECT_EQ("/dev/ttyUSB0", serial.device);
-      auto segment = std::make_unique<sim::SimulatedSegment>(config);
+      auto segment = make_segment_(config);
       segment->setDevicePresent(device_present);
       segment_ = segment.get();
       return segment;
@@ -86,8 +86,10 @@ class OnASegment : public ::testing::Test {
   }
 
   std::function<void(sim::SimConfig&)> change_;  // of what is there, before it is built
-  double listen_first_ = 0.0;                    // s
-  bool parameters_only_ = false;                 // what the transport is told before it is configured
+  std::function<std::unique_ptr<sim::SimulatedSegment>(const sim::SimConfig&)> make_segment_ =
+      [](const sim::SimConfig& config) { return std::make_unique<sim::SimulatedSegment>(config); };
+  double listen_first_ = 0.0;     // s
+  bool parameters_only_ = false;  // what the transport is told before it is configured
   sim::SimulatedSegment* segment_ = nullptr;
   std::unique_ptr<ProfibusDpTransport> transport_;
   std::vector<profile::ProcessOutput> outputs_{2};

@@ -13,6 +13,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST_F(OnASegment, CarriesEachDriveItsOwnWords) {
   bringUp();
@@ -116,6 +117,33 @@ TEST_F(TrueReasons, LockedByAnotherMaster) {
     segment_->station(i).handle(lock);
   }
   expectReason("is locked by another master: its address is 9");
+}
+
+/// Its stations do not know Slave_Diag (SAP 60) and refuse it: what asks for it arrives at a SAP that they do not have.
+class SegmentWithoutDiagnosis final : public sim::SimulatedSegment {
+ public:
+  using SimulatedSegment::SimulatedSegment;
+  bool write(ByteView telegram) noexcept override {
+    constexpr std::size_t kLength = 11, kDestinationSap = 7, kCheckSum = 9;
+    constexpr std::uint8_t kSlaveDiag = 60, kUnknown = 20;
+    if (telegram.size() != kLength || telegram[kDestinationSap] != kSlaveDiag) return SimulatedSegment::write(telegram);
+    FixedBytes<kLength> changed;
+    for (const std::uint8_t byte : telegram) changed.push_back(byte);
+    changed[kDestinationSap] = kUnknown;
+    changed[kCheckSum] = static_cast<std::uint8_t>(changed[kCheckSum] - kSlaveDiag + kUnknown);
+    return SimulatedSegment::write(changed);
+  }
+};
+
+// Without a diagnosis nobody has said whose they are.
+TEST_F(TrueReasons, NoOwnerIsNamedThatNobodyTold) {
+  make_segment_ = [](const sim::SimConfig& config) { return std::make_unique<SegmentWithoutDiagnosis>(config); };
+  open();
+  run(milliseconds{500});
+  for (const std::string& sentence : told(seconds{5})) {
+    EXPECT_THAT(sentence, HasSubstr("PROFIBUS station 3 (left) refuses a service of its start-up"));
+    EXPECT_THAT(sentence, Not(HasSubstr("its address is")));
+  }
 }
 
 // And when they are silent, they are silent: the reason of before is no longer one.

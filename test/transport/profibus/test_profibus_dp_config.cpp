@@ -151,6 +151,14 @@ TEST(ProfibusDpConfigTest, AWatchdogShorterThanTwoCyclesIsRefused) {
   EXPECT_THAT(segment.refusal(5.0), HasSubstr("~bus/watchdog: 0.3 is not valid, expected at least 0.4 s"));
 }
 
+// 255 x 255 x 10 ms: what is advised of a time that no two factors make.
+TEST(ProfibusDpConfigTest, TheLongestWatchdogIsOneThatASlaveCanBeTold) {
+  Segment segment;
+  segment.bus.set("watchdog", 650.25);
+  EXPECT_EQ("accepted", segment.refusal());
+  EXPECT_EQ(milliseconds{650'250}, segment.read().watchdog);
+}
+
 // --- Refusals --------------------------------------------------------------------------------------------------------
 
 struct Wrong {
@@ -180,8 +188,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Wrong{"baud_rate", 0, "0 is not valid, expected a whole number from 1 to 12000000"},
                       Wrong{"master_address", 126, "126 is not valid, expected a whole number from 0 to 125"},
                       Wrong{"max_retries", 16, "16 is not valid, expected a whole number from 0 to 15"},
-                      Wrong{"watchdog", 0.0, "0 is not valid, expected a number from 0.01 to 650 s"},
-                      Wrong{"watchdog", 651.0, "651 is not valid, expected a number from 0.01 to 650 s"},
+                      Wrong{"watchdog", 0.0, "0 is not valid, expected a number from 0.01 to 650.25 s"},
+                      Wrong{"watchdog", 651.0, "651 is not valid, expected a number from 0.01 to 650.25 s"},
+                      Wrong{"watchdog", 650.0, "650.25 s is the next longer one"},
                       Wrong{"slot_time", 1.5, "1.5 is not valid, expected a number from 0 to 1 s"},
                       Wrong{"listen_first", 11.0, "11 is not valid, expected a number from 0 to 10 s"},
                       Wrong{"record_addressing", std::string{"both"}, "\"both\" is not valid, expected index or slot"},
