@@ -19,6 +19,7 @@ using profile::ParameterShape;
 namespace {
 
 constexpr unsigned kLastSubIndex = 255;
+constexpr unsigned kMostInitiations = 2;  // of one access
 
 // BU 0070 does not say what sub-index sets and elements have; taken from CANopen, whose objects are numbered alike
 // (BU 0060 p. 61): counted from 1, sets fastest.
@@ -77,6 +78,7 @@ bool InterbusParameters::startNext(Instant now) noexcept {
     running_ = drive;
     next_ = drive + 1;
     plain_ = false;
+    initiations_ = 0;
     trouble_.clear();
     deadline_ = now + map_.timeout;
     // One that belongs to nobody is not waited for: the next one takes its place.
@@ -133,6 +135,7 @@ std::optional<link::RegisterOrder> InterbusParameters::pollOrder(Instant now) no
     case Phase::kInvoke:
       if (running_) {
         invocation_ = invocation();
+        if (invocation_.service == PcpService::kInitiate) ++initiations_;
         invoked_ = true;
         return write(invocation_);
       }
@@ -221,23 +224,42 @@ void InterbusParameters::handleConfirmation(const PcpResult& result) noexcept {
   phase_ = Phase::kClear;  // whatever comes next
   if (invocation_.service == PcpService::kInitiate) {
     drive.initiated = result.good();
-    if (result.good()) return;
-    Sentence text;
-    text.format("its PCP connection (communication reference %u) was refused: %s", drive.reference,
-                pcpSentence(result.error).c_str());
-    drive.requests.fail(ParameterOutcome::kNoChannel, text);
-    return end();
-  }
-  if (result.good()) {
+    if (result.good() || initiations_ < kMostInitiations) return;
+    refuseConnection(result.error);
+  } else if (result.good()) {
     takeValue(result);
-  } else if (fallBack(result.error)) {
+  } else if (fallBack(result.error) || repeat(result.error)) {
     return;
+  } else if (isLost(result.error) && drive.requests.front().action != ParameterAction::kRead) {
+    // It may have been lost behind the write.
+    drive.requests.fail(ParameterOutcome::kTimeout, pcpSentence(result.error));
   } else {
-    // A connection that is gone has to be initiated again (class 1).
-    if (result.error.error_class == 1) drive.initiated = !map_.initiate;
     drive.requests.refuse(reasonOfPcp(result.error, drive.requests.front()), pcpSentence(result.error));
   }
   end();
+}
+
+// Another attempt may be granted: the device, or the gateway, may hold an earlier connection still. A write has surely not
+// been done.
+void InterbusParameters::refuseConnection(const interbus::PcpError& error) noexcept {
+  DriveQueue& drive = drives_[*running_];
+  Sentence text;
+  text.format("its PCP connection (communication reference %u) was refused: %s", drive.reference,
+              pcpSentence(error).c_str());
+  if (drive.requests.front().action == ParameterAction::kRead) {
+    drive.requests.fail(ParameterOutcome::kTimeout, text);
+  } else {
+    drive.requests.refuse(ParameterReason::kNotNow, text);
+  }
+}
+
+// A connection that is gone is initiated again, and a read asked for again behind that.
+bool InterbusParameters::repeat(const interbus::PcpError& error) noexcept {
+  if (!isLost(error)) return false;
+  DriveQueue& drive = drives_[*running_];
+  drive.initiated = !map_.initiate;
+  const bool read = drive.requests.front().action == ParameterAction::kRead;
+  return read && map_.initiate && initiations_ < kMostInitiations;
 }
 
 // As on PKW: a parameter without sets may be read without one, and so may the first element of what older firmware has

@@ -6,6 +6,9 @@
 //
 // Compact PCP has no write that spares the EEPROM: whether a write wears it is P560's to say. So a write to the RAM only
 // is none of its capabilities, and is refused without asking.
+//
+// A connection that was lost, or that is refused, is initiated again within the access, once or twice, and a read is asked
+// for again. What fails all the same may be granted later, and is told so.
 #pragma once
 
 #include <cstddef>
@@ -75,7 +78,9 @@ class InterbusParameters {
   void handleResult(const interbus::PcpResult& result) noexcept;
   void handleConfirmation(const interbus::PcpResult& result) noexcept;
   void takeValue(const interbus::PcpResult& result) noexcept;
+  void refuseConnection(const interbus::PcpError& error) noexcept;
   bool fallBack(const interbus::PcpError& error) noexcept;
+  bool repeat(const interbus::PcpError& error) noexcept;
   void end() noexcept;
 
   PcpMap map_;
@@ -83,10 +88,11 @@ class InterbusParameters {
   std::optional<std::size_t> running_;  // the drive whose request runs
   std::size_t next_ = 0;                // whose turn it is
   Phase phase_ = Phase::kClear;
-  bool invoked_ = false;    // since the block was last seen cleared
-  bool under_way_ = false;  // an order
-  bool foreign_ = false;    // it belongs to a request that has ended
-  bool plain_ = false;      // the running request is asked for with sub-index 0
+  bool invoked_ = false;      // since the block was last seen cleared
+  bool under_way_ = false;    // an order
+  bool foreign_ = false;      // it belongs to a request that has ended
+  unsigned initiations_ = 0;  // of the running request's connection
+  bool plain_ = false;        // the running request is asked for with sub-index 0
   Instant deadline_{};
   Sentence trouble_;  // why the last order of the running request was not carried out
   interbus::PcpInvocation invocation_;
