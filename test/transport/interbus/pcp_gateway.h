@@ -26,6 +26,7 @@ class PcpGateway {
   /// What becomes of the next services, each waiting for one of its kind; 0: it is granted.
   std::deque<Refusal> refusals;
   bool stalls = false;  ///< what it has taken is not confirmed
+  bool drops = false;   ///< service 0 ends what it has not confirmed
   /// All services confirmed: service, and the number of the parameter.
   std::vector<std::pair<Word, unsigned>> served;
 
@@ -51,7 +52,8 @@ class PcpGateway {
     if (!taken_) {
       if (invoke_[0] != 0) taken_ = invoke_;
     } else if (result_[0] == 0) {
-      if (!stalls) confirm();
+      if (drops && invoke_[0] == 0) taken_.reset();
+      if (taken_ && !stalls) confirm();
     } else if (invoke_[0] == 0) {
       result_ = {};
       taken_.reset();

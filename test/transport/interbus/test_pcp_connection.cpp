@@ -39,7 +39,10 @@ class PcpConnection : public ::testing::Test {
   void cycle() {
     now += milliseconds{10};
     gateway.advance();
-    if (const auto order = parameters.pollOrder(now)) parameters.handleAnswer(gateway.carryOut(*order));
+    const auto order = parameters.pollOrder(now);
+    if (!order) return;
+    ++orders;
+    parameters.handleAnswer(gateway.carryOut(*order));
   }
   void cycles(int count) {
     for (int i = 0; i < count; ++i) cycle();
@@ -57,6 +60,7 @@ class PcpConnection : public ::testing::Test {
   Instant now{std::chrono::hours{1}};
   PcpGateway gateway;
   InterbusParameters parameters;
+  int orders = 0;
 };
 
 class HeldPcpConnection : public PcpConnection {
@@ -126,6 +130,83 @@ TEST_F(HeldPcpConnection, WhatItsGatewayLosesMayPass) {
   EXPECT_TRUE(mayPass(result.reason));
   EXPECT_EQ(1040, ask(read(104)).raw);
   EXPECT_EQ(0, gateway.count(kPcpInitiate));
+}
+
+// --- A confirmation names the service and the drive, not the parameter ---
+
+TEST_F(HeldPcpConnection, ALateConfirmationIsNotThatOfTheNextParameter) {
+  gateway.stalls = true;
+  EXPECT_EQ(ParameterOutcome::kTimeout, ask(read(102)).outcome);
+  EXPECT_TRUE(parameters.submit(0, read(105)));
+  cycles(20);
+  gateway.stalls = false;
+  cycles(30);
+  const auto result = parameters.pollResult(0);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(1050, result->raw);
+  EXPECT_THAT(gateway.served, ElementsAre(Pair(kPcpRead, 102u), Pair(kPcpRead, 105u)));
+  cycles(10);
+  const int before = orders;
+  cycles(10);
+  EXPECT_EQ(before, orders) << "who asks nothing, asks nothing";
+}
+
+TEST_F(HeldPcpConnection, NorBehindADriveThatWasOffline) {
+  for (int at = 0; at < 10; ++at) {
+    gateway.stalls = true;
+    EXPECT_TRUE(parameters.submit(0, read(102)));
+    cycles(at);
+    parameters.handleOffline(0);
+    while (parameters.pollResult(0)) continue;
+    EXPECT_TRUE(parameters.submit(0, read(105)));
+    cycles(5);
+    gateway.stalls = false;
+    cycles(30);
+    const auto result = parameters.pollResult(0);
+    ASSERT_TRUE(result) << at;
+    EXPECT_EQ(1050, result->raw) << at;
+  }
+}
+
+// Its gateway has one pair of blocks for all drives: nor does another drive's service go out meanwhile.
+TEST_F(HeldPcpConnection, AnotherDriveWaitsForItToo) {
+  gateway.stalls = true;
+  EXPECT_EQ(ParameterOutcome::kTimeout, ask(read(102)).outcome);
+  const ParameterResult other = ask(read(104), 1);
+  EXPECT_EQ(ParameterOutcome::kTimeout, other.outcome);
+  EXPECT_STREQ("PCP service 0081h of the access before was not confirmed yet (communication reference 2)",
+               other.text.c_str());
+  gateway.stalls = false;
+  EXPECT_EQ(1040, ask(read(104), 1).raw);
+  EXPECT_EQ(1050, ask(read(105)).raw);
+}
+
+TEST_F(HeldPcpConnection, OneThatNeverComesIsNotWaitedForForEver) {
+  gateway.stalls = gateway.drops = true;
+  EXPECT_EQ(ParameterOutcome::kTimeout, ask(read(102)).outcome);
+  cycles(2900);
+  gateway.stalls = false;
+  gateway.served.clear();
+  cycles(200);
+  EXPECT_EQ(1050, ask(read(105)).raw);
+}
+
+TEST_F(HeldPcpConnection, AServiceThatNeverLeftIsNotWaitedFor) {
+  EXPECT_TRUE(parameters.submit(0, read(102)));
+  for (;;) {
+    now += milliseconds{10};
+    gateway.advance();
+    const auto order = parameters.pollOrder(now);
+    ASSERT_TRUE(order);
+    if (order->write && order->values[0] != 0) break;
+    parameters.handleAnswer(gateway.carryOut(*order));
+  }
+  parameters.handleOffline(0);
+  link::RegisterAnswer never_left;
+  never_left.not_taken = true;
+  parameters.handleAnswer(never_left);
+  EXPECT_EQ(ParameterOutcome::kOffline, parameters.pollResult(0)->outcome);
+  EXPECT_EQ(1050, ask(read(105)).raw);
 }
 
 }  // namespace
