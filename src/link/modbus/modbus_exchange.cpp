@@ -10,10 +10,14 @@ Word wordAt(const RegisterImage& image, std::size_t i) noexcept {
   return i < image.size() ? image[i] : Word{0};
 }
 
-/// The control word at this place ran, and runs no more.
+bool runsAt(std::uint16_t word, Word run_bits, const RegisterImage& image) noexcept {
+  return (wordAt(image, word) & run_bits) == run_bits;
+}
+
+/// The control word at this place does not run, and lacks a bit it had: that it runs no more, or stops quickly now.
 bool stopsAt(std::uint16_t word, Word run_bits, const RegisterImage& written, const RegisterImage& next) noexcept {
-  const auto runs = [&](const RegisterImage& image) { return (wordAt(image, word) & run_bits) == run_bits; };
-  return runs(written) && !runs(next);
+  const unsigned lost = static_cast<unsigned>(wordAt(written, word)) & ~static_cast<unsigned>(wordAt(next, word));
+  return !runsAt(word, run_bits, next) && (lost & run_bits) != 0;
 }
 
 WordRange registersOf(const RegisterBlock& block, std::size_t part) noexcept {
@@ -53,7 +57,8 @@ bool ModbusExchange::ask(const ModbusRequest& request, const Wakeup& stop) noexc
   return true;
 }
 
-void ModbusExchange::addWrite(std::size_t part, const RegisterImage& outputs, ModbusRequest& request) const noexcept {
+void ModbusExchange::addWrite(std::size_t part, const RegisterImage& outputs, ModbusRequest& request) noexcept {
+  noteRunning(part, outputs);
   request.function = settings_.outputs.function;
   request.write = registersOf(settings_.outputs, part);
   request.values = outputs.data() + settings_.outputs.parts[part].first;
@@ -62,6 +67,16 @@ void ModbusExchange::addWrite(std::size_t part, const RegisterImage& outputs, Mo
 void ModbusExchange::addRead(std::size_t part, ModbusRequest& request) const noexcept {
   request.function = settings_.inputs.function;
   request.read = registersOf(settings_.inputs, part);
+}
+
+// Before it is known whether it came through.
+void ModbusExchange::noteRunning(std::size_t part, const RegisterImage& outputs) noexcept {
+  const WordRange& range = settings_.outputs.parts[part];
+  written_.resize(std::max<std::size_t>(written_.size(), range.end()));
+  for (const std::uint16_t word : settings_.control_words) {
+    const bool in_part = word >= range.first && word < range.end();
+    if (in_part && runsAt(word, settings_.run_bits, outputs)) written_[word] = outputs[word];
+  }
 }
 
 void ModbusExchange::noteWritten(std::size_t part, const RegisterImage& outputs) noexcept {

@@ -21,12 +21,11 @@ class ModbusExchange {
   ModbusExchange(const ModbusSettings& settings, ModbusConnection& connection) noexcept
       : settings_(settings), connection_(connection) {}
 
-  /// Once on each connection, before anything else.
-  void start() noexcept { written_.clear(); }
   /// Writes `outputs`, reads `inputs`. False: `inputs` are of no use, `reason()`.
   bool run(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept;
 
-  /// A control word that was written as one that runs would stop.
+  /// A control word would allow no motion, and less than what the server may hold: one that ran stops, or one that goes
+  /// down the ramp stops quickly. What was written on earlier connections counts, too: the server may hold it still.
   bool stops(const RegisterImage& next) const noexcept;
 
   const Sentence& reason() const noexcept { return reason_; }
@@ -34,15 +33,16 @@ class ModbusExchange {
 
  private:
   bool ask(const ModbusRequest& request, const Wakeup& stop) noexcept;
-  void addWrite(std::size_t part, const RegisterImage& outputs, ModbusRequest& request) const noexcept;
+  void addWrite(std::size_t part, const RegisterImage& outputs, ModbusRequest& request) noexcept;
   void addRead(std::size_t part, ModbusRequest& request) const noexcept;
+  void noteRunning(std::size_t part, const RegisterImage& outputs) noexcept;
   void noteWritten(std::size_t part, const RegisterImage& outputs) noexcept;
   void takeRead(std::size_t part, RegisterInputs& inputs) noexcept;
   bool moveImages(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept;
 
   const ModbusSettings& settings_;
   ModbusConnection& connection_;
-  RegisterImage written_;
+  RegisterImage written_;  // as the server may hold it: an answer that was lost leaves the word that runs
   Sentence reason_;
   std::uint64_t requests_ = 0;
 };

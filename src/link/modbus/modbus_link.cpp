@@ -10,6 +10,13 @@
 
 namespace nord_driver::link {
 
+namespace {
+
+// How long a word that stops may wait for the second connection.
+constexpr std::chrono::milliseconds kStopLook{5};
+
+}  // namespace
+
 ModbusLink::ModbusLink(const ModbusSettings& settings, LookUp look_up)
     : settings_(settings),
       connection_(settings_, look_up),
@@ -120,14 +127,24 @@ bool ModbusLink::connect() noexcept {
     }
     ++report_.counters.connections;
   }
-  if (!startWatchdog()) return false;
-  exchange_.start();
+  if (!writeStop() || !startWatchdog()) return false;
   // What was meant for the time before is not sent.
   fresh_.take();
   last_outputs_ = outputs_.read().number;
   started_ = true;
   tell(LinkState::kConnected);
   return true;
+}
+
+// A word that stops does not wait for the watchdog: one that is refused for ever would leave the drives running. False:
+// the connection is of no use any more.
+bool ModbusLink::writeStop() noexcept {
+  const Outputs& outputs = outputs_.read();
+  if (outputs.number == last_outputs_ || outputs.words.empty() || !exchange_.stops(outputs.words)) return true;
+  last_outputs_ = outputs.number;
+  if (exchange_.run(outputs.words, unwatched_, stop_)) return true;
+  report_.text = exchange_.reason();
+  return connection_.trouble() == ModbusTrouble::kException;
 }
 
 bool ModbusLink::startWatchdog() noexcept {
@@ -148,7 +165,8 @@ bool ModbusLink::isWatchdogHeld() noexcept {
       if (!state.watchdog_held) report_.text = state.watchdog_text;
       return state.watchdog_held;
     }
-    diagnosis_->waitTold(until, stop_);
+    if (!writeStop()) return false;
+    diagnosis_->waitTold(std::min(until, now() + kStopLook), stop_);
   }
   report_.text.format("the watchdog of the gateway was not read back: %.200s", diagnosis_->state().text.c_str());
   return false;
@@ -223,7 +241,7 @@ void ModbusLink::failed() noexcept {
   }
   // A server that refuses in due form stays connected: it may have no room for a second connection.
   const bool is_usable = trouble == ModbusTrouble::kException || trouble == ModbusTrouble::kNone;
-  pause(until, started_ && is_usable);
+  pause(until, is_usable);
   if (!is_usable) connection_.abandon();
   started_ = started_ && is_usable;
   if (started_) tell(LinkState::kConnected);

@@ -21,6 +21,9 @@ namespace nord_driver::link {
 /// first_pause, doubled up to longest_pause, and first_pause again once an exchange was good. The first exception after a
 /// good exchange takes no pause, but counts as one: the next image is the next try.
 ///
+/// Before the watchdog is set, and read back, no image is written but one that stops what an earlier connection may have
+/// left running: a server that refuses its watchdog register may take words all the same.
+///
 /// With `settings.diagnosis` the running register, the read back of the watchdog and orders go over a second connection;
 /// without it they take turns with the images. The inputs are never younger than what is known of the running register,
 /// so a second connection that fails makes them old, too.
@@ -55,6 +58,7 @@ class ModbusLink final : public RegisterLink {
 
   void work() noexcept;
   bool connect() noexcept;
+  bool writeStop() noexcept;
   bool startWatchdog() noexcept;
   bool isWatchdogHeld() noexcept;
   bool exchangeOnce() noexcept;
@@ -89,6 +93,7 @@ class ModbusLink final : public RegisterLink {
 
   // Of the thread.
   RegisterInputs newest_;
+  RegisterInputs unwatched_;  // read behind words that stop, before the watchdog was set: nobody is told of them
   LinkReport report_;
   std::uint64_t last_outputs_ = 0;
   Backoff backoff_;

@@ -19,6 +19,10 @@ using profile::ParameterShape;
 namespace {
 
 constexpr unsigned kLastSubIndex = 255;
+constexpr unsigned kMostInitiations = 2;  // of one access
+// How long after the end of an access the gateway may still confirm its service: its own time-out is in no document, and
+// this is meant to be longer.
+constexpr std::chrono::seconds kLongestService{30};
 
 // BU 0070 does not say what sub-index sets and elements have; taken from CANopen, whose objects are numbered alike
 // (BU 0060 p. 61): counted from 1, sets fastest.
@@ -77,10 +81,11 @@ bool InterbusParameters::startNext(Instant now) noexcept {
     running_ = drive;
     next_ = drive + 1;
     plain_ = false;
+    initiations_ = 0;
     trouble_.clear();
     deadline_ = now + map_.timeout;
     // One that belongs to nobody is not waited for: the next one takes its place.
-    if (under_way_) phase_ = Phase::kClear;
+    if (under_way_) phase_ = late_ ? Phase::kLate : Phase::kClear;
     under_way_ = foreign_ = false;
     return true;
   }
@@ -126,17 +131,21 @@ std::optional<link::RegisterOrder> InterbusParameters::pollOrder(Instant now) no
   // Without a request only what was invoked is cleared: who asks nothing writes nothing.
   if (!running_ && !startNext(now) && (!invoked_ || !trouble_.empty())) return std::nullopt;
   if (under_way_) return std::nullopt;
+  if (late_ && now >= late_until_) forgetLate();
   under_way_ = true;
+  invoking_ = false;
   switch (phase_) {
     case Phase::kClear:
       return write({});
     case Phase::kInvoke:
       if (running_) {
         invocation_ = invocation();
-        invoked_ = true;
+        if (invocation_.service == PcpService::kInitiate) ++initiations_;
+        invoked_ = invoking_ = true;
         return write(invocation_);
       }
       [[fallthrough]];
+    case Phase::kLate:
     case Phase::kCleared:
     case Phase::kConfirmed:
       break;
@@ -149,6 +158,9 @@ void InterbusParameters::giveUp() noexcept {
   Sentence text;
   if (!trouble_.empty()) {
     text = trouble_;
+  } else if (phase_ == Phase::kLate) {
+    text.format("PCP service %04Xh of the access before was not confirmed yet (communication reference %u)",
+                static_cast<unsigned>(late_->service), unsigned{late_->reference});
   } else if (phase_ == Phase::kClear || phase_ == Phase::kCleared) {
     text.format("its gateway goes on showing the PCP result before it (register %u)",
                 map_.result_address + map_.result.service);
@@ -157,10 +169,10 @@ void InterbusParameters::giveUp() noexcept {
                 static_cast<unsigned>(invocation_.service), toSeconds(map_.timeout), drive.reference);
   }
   drive.initiated = !map_.initiate;
+  drive.requests.fail(ParameterOutcome::kTimeout, text);
+  endUnconfirmed();
   // An order that hangs in a connection that hangs is not waited for.
   under_way_ = false;
-  drive.requests.fail(ParameterOutcome::kTimeout, text);
-  end();
 }
 
 void InterbusParameters::end() noexcept {
@@ -169,11 +181,29 @@ void InterbusParameters::end() noexcept {
   phase_ = Phase::kClear;
 }
 
+// A confirmation names the service and the drive, not the parameter: that of a service the gateway still has would be
+// taken for the next one's. A connection that is initiated anew begins behind it.
+void InterbusParameters::endUnconfirmed() noexcept {
+  const bool invoked = phase_ == Phase::kConfirmed || (phase_ == Phase::kInvoke && under_way_ && invoking_);
+  if (invoked && !map_.initiate) {
+    late_ = invocation_;
+    late_until_ = deadline_ + kLongestService;
+  }
+  end();
+  if (late_) phase_ = Phase::kLate;
+}
+
+void InterbusParameters::forgetLate() noexcept {
+  late_.reset();
+  phase_ = Phase::kClear;
+}
+
 void InterbusParameters::handleAnswer(const link::RegisterAnswer& answer) noexcept {
   if (!under_way_) return;
   under_way_ = false;
   if (foreign_) {
     foreign_ = false;
+    if (invoking_ && answer.not_taken && late_) forgetLate();  // it never left
     return;
   }
   if (!answer.good) {
@@ -197,6 +227,10 @@ void InterbusParameters::handleAnswer(const link::RegisterAnswer& answer) noexce
 }
 
 void InterbusParameters::handleResult(const PcpResult& result) noexcept {
+  if (phase_ == Phase::kLate) {
+    if (answerTo(*late_, result) != PcpAnswer::kNotYet) forgetLate();
+    return;
+  }
   if (phase_ == Phase::kCleared) {
     if (result.service != 0) return;
     phase_ = Phase::kInvoke;
@@ -221,23 +255,42 @@ void InterbusParameters::handleConfirmation(const PcpResult& result) noexcept {
   phase_ = Phase::kClear;  // whatever comes next
   if (invocation_.service == PcpService::kInitiate) {
     drive.initiated = result.good();
-    if (result.good()) return;
-    Sentence text;
-    text.format("its PCP connection (communication reference %u) was refused: %s", drive.reference,
-                pcpSentence(result.error).c_str());
-    drive.requests.fail(ParameterOutcome::kNoChannel, text);
-    return end();
-  }
-  if (result.good()) {
+    if (result.good() || initiations_ < kMostInitiations) return;
+    refuseConnection(result.error);
+  } else if (result.good()) {
     takeValue(result);
-  } else if (fallBack(result.error)) {
+  } else if (fallBack(result.error) || repeat(result.error)) {
     return;
+  } else if (isLost(result.error) && drive.requests.front().action != ParameterAction::kRead) {
+    // It may have been lost behind the write.
+    drive.requests.fail(ParameterOutcome::kTimeout, pcpSentence(result.error));
   } else {
-    // A connection that is gone has to be initiated again (class 1).
-    if (result.error.error_class == 1) drive.initiated = !map_.initiate;
     drive.requests.refuse(reasonOfPcp(result.error, drive.requests.front()), pcpSentence(result.error));
   }
   end();
+}
+
+// Another attempt may be granted: the device, or the gateway, may hold an earlier connection still. A write has surely not
+// been done.
+void InterbusParameters::refuseConnection(const interbus::PcpError& error) noexcept {
+  DriveQueue& drive = drives_[*running_];
+  Sentence text;
+  text.format("its PCP connection (communication reference %u) was refused: %s", drive.reference,
+              pcpSentence(error).c_str());
+  if (drive.requests.front().action == ParameterAction::kRead) {
+    drive.requests.fail(ParameterOutcome::kTimeout, text);
+  } else {
+    drive.requests.refuse(ParameterReason::kNotNow, text);
+  }
+}
+
+// A connection that is gone is initiated again, and a read asked for again behind that.
+bool InterbusParameters::repeat(const interbus::PcpError& error) noexcept {
+  if (!isLost(error)) return false;
+  DriveQueue& drive = drives_[*running_];
+  drive.initiated = !map_.initiate;
+  const bool read = drive.requests.front().action == ParameterAction::kRead;
+  return read && map_.initiate && initiations_ < kMostInitiations;
 }
 
 // As on PKW: a parameter without sets may be read without one, and so may the first element of what older firmware has
@@ -269,7 +322,7 @@ void InterbusParameters::handleOffline(std::size_t drive) noexcept {
   drives_[drive].requests.failAll(ParameterOutcome::kOffline);
   if (running_ != drive) return;
   foreign_ = under_way_;
-  end();
+  endUnconfirmed();
 }
 
 }  // namespace nord_driver

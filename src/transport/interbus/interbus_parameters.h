@@ -4,8 +4,14 @@
 // service is written into the invoke block, and the result block is read until it confirms. Between two services the
 // block is cleared and the result seen gone, so that no result is taken for that of another service.
 //
+// A service that an access has left unconfirmed is waited for where the gateway holds the connections, and what comes is
+// dropped: its confirmation would be taken for that of the next one.
+//
 // Compact PCP has no write that spares the EEPROM: whether a write wears it is P560's to say. So a write to the RAM only
 // is none of its capabilities, and is refused without asking.
+//
+// A connection that was lost, or that is refused, is initiated again within the access, once or twice, and a read is asked
+// for again. What fails all the same may be granted later, and is told so.
 #pragma once
 
 #include <cstddef>
@@ -55,6 +61,7 @@ class InterbusParameters {
 
  private:
   enum class Phase : std::uint8_t {
+    kLate,       ///< until the result block confirms the service of an access that has ended
     kClear,      ///< the invoke block is to say "no order"
     kCleared,    ///< until the result block says so, too
     kInvoke,     ///< nothing under way
@@ -75,21 +82,29 @@ class InterbusParameters {
   void handleResult(const interbus::PcpResult& result) noexcept;
   void handleConfirmation(const interbus::PcpResult& result) noexcept;
   void takeValue(const interbus::PcpResult& result) noexcept;
+  void refuseConnection(const interbus::PcpError& error) noexcept;
   bool fallBack(const interbus::PcpError& error) noexcept;
+  bool repeat(const interbus::PcpError& error) noexcept;
   void end() noexcept;
+  void endUnconfirmed() noexcept;
+  void forgetLate() noexcept;
 
   PcpMap map_;
   std::vector<DriveQueue> drives_;
   std::optional<std::size_t> running_;  // the drive whose request runs
   std::size_t next_ = 0;                // whose turn it is
   Phase phase_ = Phase::kClear;
-  bool invoked_ = false;    // since the block was last seen cleared
-  bool under_way_ = false;  // an order
-  bool foreign_ = false;    // it belongs to a request that has ended
-  bool plain_ = false;      // the running request is asked for with sub-index 0
+  bool invoked_ = false;      // since the block was last seen cleared
+  bool under_way_ = false;    // an order
+  bool invoking_ = false;     // that order is the one that invokes
+  bool foreign_ = false;      // it belongs to a request that has ended
+  unsigned initiations_ = 0;  // of the running request's connection
+  bool plain_ = false;        // the running request is asked for with sub-index 0
   Instant deadline_{};
   Sentence trouble_;  // why the last order of the running request was not carried out
   interbus::PcpInvocation invocation_;
+  std::optional<interbus::PcpInvocation> late_;  // of an access that has ended, and the gateway may still confirm it
+  Instant late_until_{};
 };
 
 }  // namespace nord_driver

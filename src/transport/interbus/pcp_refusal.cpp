@@ -47,6 +47,7 @@ ParameterReason reasonOfDevice(unsigned additional) noexcept {
 
 ParameterReason reasonOfPcp(const interbus::PcpError& error, const profile::ParameterRequest& request) noexcept {
   ParameterReason reason = ParameterReason::kOther;
+  if (isLost(error)) reason = ParameterReason::kNotNow;
   if (error.error_class == 6) reason = reasonOfAccess(error);
   if (error.error_class == 8 && error.code == 0) reason = reasonOfDevice(error.additional);
   const bool only_sets = request.shape == profile::ParameterShape::kPerSet;

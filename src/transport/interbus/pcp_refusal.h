@@ -11,6 +11,11 @@ namespace nord_driver {
 profile::ParameterReason reasonOfPcp(const interbus::PcpError& error,
                                      const profile::ParameterRequest& request) noexcept;
 
+/// The connection to the device is not there any more (class 1).
+inline bool isLost(const interbus::PcpError& error) noexcept {
+  return error.error_class == 1;
+}
+
 /// "PCP error 6/7 (additional code 0000h), the inverter has no parameter of this number".
 Sentence pcpSentence(const interbus::PcpError& error) noexcept;
 

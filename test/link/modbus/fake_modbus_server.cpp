@@ -108,6 +108,11 @@ void FakeModbusServer::protect(std::size_t address) {
   protected_ = address;
 }
 
+void FakeModbusServer::refuse(std::size_t address) {
+  const Lock lock(mutex_);
+  refused_ = address;
+}
+
 std::vector<Bytes> FakeModbusServer::requests() const {
   const Lock lock(mutex_);
   return requests_;
@@ -274,6 +279,10 @@ Bytes FakeModbusServer::answerData(const Bytes& pdu) {
                       pdu.size() == write_at + 5 + 2 * writes));
   if (!good_counts) return refuse(3);
   if (address + count > kRegisters || write_address + writes > kRegisters) return refuse(2);
+  const auto touches = [&](std::size_t first, std::size_t words) {
+    return refused_ >= first && refused_ < first + words;
+  };
+  if (touches(address, count) || touches(write_address, writes)) return refuse(6);
   for (std::size_t i = 0; i < writes; ++i) {
     if (write_address + i != protected_) {
       holdings_[write_address + i] = static_cast<std::uint16_t>(u16(pdu, write_at + 5 + 2 * i));

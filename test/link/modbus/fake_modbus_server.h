@@ -68,6 +68,8 @@ class FakeModbusServer {
   std::uint16_t holding(std::size_t address) const;
   /// What is written there is not kept.
   void protect(std::size_t address);
+  /// Requests that touch this register get exception 6, server device busy, until another one is refused.
+  void refuse(std::size_t address);
 
   std::vector<Bytes> requests() const;
   std::size_t connections() const;
@@ -103,7 +105,7 @@ class FakeModbusServer {
   std::size_t connections_ = 0;
   bool ending_ = false, listening_ = true;
   std::array<std::uint16_t, kRegisters> inputs_{}, holdings_{};
-  std::size_t protected_ = kRegisters;
+  std::size_t protected_ = kRegisters, refused_ = kRegisters;
   Wakeup wakeup_;
   std::thread thread_;
 };

@@ -52,6 +52,13 @@ TEST(StopsFirst, AStandingDriveDoesNotHurry) {
   EXPECT_EQ((PartOrder{1, 0, 2}), stopsFirst(sixDrives(), before, next));
 }
 
+// Down the ramp it turns still.
+TEST(StopsFirst, AQuickStopBehindTheRampIsAStop) {
+  RegisterImage next = all(0x047E);
+  next[8] = 0x047B;
+  EXPECT_EQ((PartOrder{2, 0, 1}), stopsFirst(sixDrives(), all(0x047E), next));
+}
+
 // Nobody knows yet what the drives have been told.
 TEST(StopsFirst, TheFirstImageHasTheOrderOfTheParts) {
   EXPECT_EQ((PartOrder{0, 1, 2}), stopsFirst(sixDrives(), {}, all(0x047E)));

@@ -182,6 +182,7 @@ TEST_F(SwappedPcp, BytesAreTurnedInBothBlocks) {
 TEST_F(PcpWithoutInitiate, AGatewayThatKeepsNoConnectionsRefuses) {
   const ParameterResult result = ask(read(105, ParameterShape::kPerSet));
   EXPECT_EQ(ParameterOutcome::kRefused, result.outcome);
+  EXPECT_EQ(ParameterReason::kNotNow, result.reason);
   EXPECT_THAT(result.text.str(), StartsWith("PCP error 1/0"));
 }
 
@@ -282,7 +283,7 @@ TEST_F(Pcp, RegistersThatAreNotThereAreNamedWithTheGatewaysWords) {
 TEST_F(Pcp, AConnectionThatIsRefusedIsNamed) {
   parameters = InterbusParameters{mapOf(false), {9, 3}};
   const ParameterResult result = ask(read(105, ParameterShape::kPerSet));
-  EXPECT_EQ(ParameterOutcome::kNoChannel, result.outcome);
+  EXPECT_EQ(ParameterOutcome::kTimeout, result.outcome);
   EXPECT_THAT(result.text.str(),
               StartsWith("its PCP connection (communication reference 9) was refused: PCP error 1/0"));
 }
@@ -339,6 +340,7 @@ TEST(PcpRefusal, ReasonsTheDriverActsOn) {
                         static_cast<std::uint16_t>(additional)},
                        request);
   };
+  EXPECT_EQ(ParameterReason::kNotNow, reason(1, 1, 0));
   EXPECT_EQ(ParameterReason::kDeviceFailure, reason(6, 2, 0));
   EXPECT_EQ(ParameterReason::kWrongType, reason(6, 5, 0x12));
   EXPECT_EQ(ParameterReason::kWrongType, reason(6, 8, 0));
