@@ -28,13 +28,14 @@ namespace nord_driver::cycle {
 /// A write of P105 (100 % of setpoint 1 and actual value 1) or of P543 to P548 (which setpoints and actual values these
 /// are), afterwards the same process data are another speed; or of P104 or P480, which were read for the same reason.
 bool changesProcessData(const Request& request) noexcept;
-/// A write that decides whether and how the motor follows the process data, the ones above included: nothing that may
-/// be written while the drive is enabled.
+/// A write that decides whether and how the motor follows the process data, the ones above included, and whether they reach
+/// it or it trips without them: nothing that may be written while the drive is enabled.
 bool decidesMotion(const Request& request) noexcept;
-/// Whether all inverters behind a bus module share it, and it acts at once on each of them: the function of the module's
-/// relay, which may be a brake's (BU 0270 P150), and what connects its terminals with the inverters (BU 2700 7.1.1, P154).
+/// Whether all inverters behind a bus module share it, and it acts on each of them: the function of the module's relay, which
+/// may be a brake's (BU 0270 P150), its time-out, factory setting and system bus (P151 to P153), what connects its terminals
+/// with the inverters (BU 2700 7.1.1, P154); its address, and what its telegrams carry and how often (P160 to P169).
 constexpr bool isOfAllBehindModule(std::uint16_t number) noexcept {
-  return number == 150 || number == 154;
+  return (number >= 150 && number <= 154) || (number >= 160 && number <= 169);
 }
 
 /// The way to the parameters of one drive, and who uses it.

@@ -271,6 +271,7 @@ void Drive::followOff2OrOff3(DriveState state, Instant now) noexcept {
 }
 
 void Drive::followAcknowledging(StatusWord status, Instant now) noexcept {
+  edge_.handleAnswer();
   if (!status.fault()) {
     // The bit is dropped as soon as the fault is gone: left at 1, no further edge could follow (BU 2700 6.4.1 bit 7).
     report_.fault_latched = false;

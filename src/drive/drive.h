@@ -46,8 +46,8 @@ struct DriveConfig {
   Duration enable_timeout = seconds(2.0);     ///< from the request to "operation enabled", or to the new parameter set
   Duration setup_timeout = seconds(2.0);      ///< of teaching a position, and of a reset; at least 8 answers
   Duration shutdown_timeout = seconds(10.0);  ///< OFF1 until "ready to switch on", then quick stop
-  /// How long the acknowledge bit is held low and then high: longer than the slowest path to the inverter (the module's
-  /// own cycle adds 5 ms, P153).
+  /// How long the acknowledge bit is held low and then high at least: what comes behind the bus, where answers do not tell
+  /// it (the module's own cycle adds 5 ms, P153).
   Duration acknowledge_time = seconds(0.1);
   /// |actual value 1| that counts as standstill for switching the parameter set, of 16384.
   std::int16_t near_standstill = 164;

@@ -29,6 +29,18 @@ TEST_F(ModuleParameters, TheRelayIsLeftAloneWhileTheFirstDriveIsEnabled) {
   EXPECT_THAT(answer.message.str(), HasSubstr("disable drive left first"));
 }
 
+// A time-out of 5 ms, written for the drive that stands, and the others trip (E10.3).
+TEST_F(ModuleParameters, AreLeftAloneWhileAnyDriveIsEnabled) {
+  run(80);
+  ASSERT_TRUE(ask(RequestKind::kEnable).success);
+  ASSERT_TRUE(ask(RequestKind::kDisable, kLift).success);
+  run(20);
+  for (const int number : {150, 151, 152, 153, 154, 160, 161, 162, 163, 164, 165, 166, 167, 168, 169}) {
+    EXPECT_THAT(ask(write(kLift, number)).message.str(), HasSubstr("disable drive left first")) << number;
+  }
+  for (const int number : {149, 155, 159, 170}) EXPECT_FALSE(decidesMotion(write(kLift, number))) << number;
+}
+
 TEST_F(ModuleParameters, TheRelayIsWrittenWhileAllAreAtRest) {
   transport.parameters[kRelay] = 1;
   run(80);

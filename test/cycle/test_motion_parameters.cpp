@@ -107,17 +107,26 @@ TEST_F(MotionParameters, NoDriveIsEnabledWhileTheRelayOfAModuleIsWritten) {
   }
 }
 
+// A time-out shorter than the bus cycle, or another address: one wheel coasts.
+TEST_F(MotionParameters, AreWhatTheDriveIsReachedByAndWhenItTripsToo) {
+  bringUp();
+  ASSERT_TRUE(ask(RequestKind::kEnable, kLift).success);
+  for (const int number : {120, 502, 503, 508, 511, 512, 513, 514, 515, 523, 550, 552}) {
+    EXPECT_THAT(ask(write(number, 1)).message.c_str(), HasSubstr("disable drive lift first")) << number;
+  }
+  for (const int number : {121, 501, 504, 506, 516, 560}) EXPECT_FALSE(decidesMotion(write(number, 1))) << number;
+}
+
 // What stops the wheels when this computer dies is told as it is now, not as it was when the drive came.
 TEST_F(MotionParameters, TheTimeOutThatWasWrittenIsReadAgain) {
   transport.parameters[513] = 5;
   bringUp();
   EXPECT_DOUBLE_EQ(0.5, snapshot().drives[kLift].device.telegram_timeout.value());
-  ASSERT_TRUE(ask(RequestKind::kEnable, kLift).success);
   transport.parameters[513] = -1;  // the scripted inverter stores nothing
   ask(write(513, -1));
   run(5);
   EXPECT_DOUBLE_EQ(-0.1, snapshot().drives[kLift].device.telegram_timeout.value());
-  EXPECT_TRUE(snapshot().drives[kLift].enabled) << "it decides no motion";
+  EXPECT_TRUE(ask(RequestKind::kEnable, kLift).success) << "it waits for what decides motion alone";
 }
 
 // P600 to P631 but for the positions themselves (BU 0020 7.3.5: P613 is the array).

@@ -255,8 +255,8 @@ TEST_F(BehindAModule, WhatAUserReadsIsNotReadAgain) {
   }
 }
 
-// Only the relay and the terminals of the module are those of the others, too; to read them changes nothing.
-TEST_F(BehindAModule, HoldsTheOtherDrivesForAWriteOfItsRelayAlone) {
+// Only what the module has is that of the others, too; to read it changes nothing.
+TEST_F(BehindAModule, HoldsTheOtherDrivesForAWriteOfItsOwnAlone) {
   runUntilComplete();
   held = {150, 301};
   submit(read(150));

@@ -173,7 +173,7 @@ class MissingMotion : public ::testing::Test {
   DeviceReader reader_{Series::kSk5xxe};
 };
 
-// P510 is the last of those that decide motion: P513, which a user may write at any time, comes behind it.
+// P510 is the last of those that enabling waits for: P513, which refuses nothing, comes behind it.
 TEST_F(MissingMotion, IsAwaitedNoLongerWhenAnotherParameterIsReadAgain) {
   runRound(510);
   for (int again = 0; again < 3; ++again) {

@@ -1,6 +1,8 @@
 // Acknowledging a fault.
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "drive/drive_fixture.h"
 
 namespace nord_driver::drive {
@@ -56,25 +58,58 @@ TEST_F(DriveTest, HasNothingToAcknowledgeWithoutAFaultAndRunsOn) {
   EXPECT_EQ(0x047F, cycle(0x0B37, 0x2000));
 }
 
-// However slow the cycle, the inverter sees the bit low, high, and low again.
+// However slow the cycle, the inverter sees the bit low, high, and low again: two answers to each.
 TEST_F(DriveTest, GivesAnEdgeInCyclesLongerThanItsTimes) {
   start();
   cycle(0x0B38);
   drive_.requestAcknowledge(now_);
-  for (const int word : {0x047E, 0x04FE, 0x047E}) {
+  for (const int word : {0x047E, 0x047E, 0x04FE, 0x04FE, 0x047E, 0x047E}) {
+    EXPECT_EQ(RequestState::kRunning, report().acknowledge.state);
     now_ += seconds(0.2);
     EXPECT_EQ(word, cycle(0x0B38));
   }
+  EXPECT_EQ(Refusal::kCauseStands, report().acknowledge.refusal);
 }
 
-// The bit does not wait for answers to fall: cycles without one count as well.
-TEST_F(DriveTest, DropsTheAcknowledgeBitWithoutAnAnswer) {
+// A gateway that answers in every fourth cycle, longer than the time of a level: none comes and goes between two answers, and
+// the fault that the edge took away is seen to be gone. The first answer may be of an exchange from before the level.
+TEST_F(DriveTest, HoldsEachLevelUntilASlowBusHasCarriedIt) {
+  start();
+  cycle(0x0B38);
+  drive_.requestAcknowledge(now_);
+  std::vector<Word> words;
+  const auto answered = [&](Word status_word) {
+    for (int i = 0; i < 3; ++i) words.push_back(silence());
+    words.push_back(cycle(status_word));
+  };
+  for (int i = 0; i < 5; ++i) answered(0x0B38);
+  EXPECT_EQ(RequestState::kRunning, report().acknowledge.state) << "what the edge did is not told yet";
+  for (std::size_t i = 0; i < words.size(); ++i) EXPECT_EQ(i / 8 == 1 ? 0x04FE : 0x047E, words[i]) << i;
+  answered(0x0B31);
+  EXPECT_EQ(RequestState::kDone, report().acknowledge.state);
+  EXPECT_FALSE(report().fault_latched);
+}
+
+// Once it was answered the bit does not wait for more answers to fall: cycles without one count as well.
+TEST_F(DriveTest, DropsTheAcknowledgeBitWithoutAFurtherAnswer) {
   start();
   cycle(0x0B38);
   drive_.requestAcknowledge(now_);
   for (int i = 0; i < 5; ++i) cycle(0x0B38);
   EXPECT_EQ(0x04FE, silence());
   EXPECT_EQ(0x047E, silence());
+}
+
+// One that answers no more while the bit is high is lost, and the bit falls with it.
+TEST_F(DriveTest, DropsTheAcknowledgeBitOfADriveThatFallsSilent) {
+  start();
+  cycle(0x0B38);
+  drive_.requestAcknowledge(now_);
+  for (int i = 0; i < 3; ++i) cycle(0x0B38);
+  ASSERT_EQ(0x04FE, silence());
+  fallSilent();
+  EXPECT_EQ(0x047E, silence());
+  EXPECT_EQ(Refusal::kOffline, report().acknowledge.refusal);
 }
 
 TEST_F(DriveTest, EndsTheAcknowledgingOfASilentDrive) {

@@ -15,6 +15,7 @@ NORD_EXPLORE_MEMBER(missingOf, drive::Drive, missing_)
 NORD_EXPLORE_MEMBER(lastUsefulOf, drive::Drive, last_useful_)
 NORD_EXPLORE_MEMBER(edgeStageOf, drive::AcknowledgeEdge, stage_)
 NORD_EXPLORE_MEMBER(edgeBegunOf, drive::AcknowledgeEdge, begun_)
+NORD_EXPLORE_MEMBER(edgeAnswersOf, drive::AcknowledgeEdge, answers_)
 NORD_EXPLORE_MEMBER(edgeSinceOf, drive::AcknowledgeEdge, since_)
 NORD_EXPLORE_MEMBER(lastToldOf, drive::MissingInverter, last_told_)
 NORD_EXPLORE_MEMBER(moduleBackOf, drive::MissingInverter, module_back_)
@@ -63,7 +64,10 @@ inline void describeDrive(const drive::Drive& drive, Instant now, Key& key) {
   }
   if (report.phase == Phase::kAcknowledging) {
     const auto& edge = edgeOf(drive);
-    key.add(edgeStageOf(edge)).add(edgeBegunOf(edge)).add(since(edgeSinceOf(edge), kAcknowledgeTime));
+    key.add(edgeStageOf(edge))
+        .add(edgeBegunOf(edge))
+        .add(edgeAnswersOf(edge))
+        .add(since(edgeSinceOf(edge), kAcknowledgeTime));
   }
 }
 

@@ -217,8 +217,9 @@ class DriveEvents {
     drive.handleInput(input, event.status_word != 0, world.now);
     if (acknowledging && drive.report().acknowledge.state == RequestState::kDone) world.watch.acknowledged();
     world.watch.checkReport(drive.report(), event.ticks, verdict);
-    // Low, high and low again, and a cycle until each is seen to have passed.
-    checkEnd(drive.report().acknowledge, 3 * kAcknowledgeTime + 2, "acknowledging has no end", world.acknowledging,
+    // Low, high and low again, each until it was answered twice, and as long as that may be silent in between.
+    constexpr int kLevel = drive::AcknowledgeEdge::kAnswers * (kDriveTimeout + 1);
+    checkEnd(drive.report().acknowledge, 3 * kLevel + kAcknowledgeTime, "acknowledging has no end", world.acknowledging,
              verdict);
     checkEnd(drive.report().set_switch, kEnableTimeout + 1, "switching the set has no end", world.switching, verdict);
   }

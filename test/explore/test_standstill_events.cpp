@@ -21,7 +21,7 @@ using cycle::RequestKind;
 using cycle::StandstillRequests;
 using drive::Phase;
 
-constexpr int kLongPatience = 6;  // ticks: an acknowledging, from its first telegram to its last, takes five
+constexpr int kLongPatience = 8;  // ticks: an acknowledging whose telegrams are all answered takes six
 constexpr int kShortPatience = 2;
 constexpr int kAtOnce = 3;  // requests under way, at most
 

@@ -68,6 +68,7 @@ void readDrive(const Group& group, DriveConfig& drive) {
   IbsDriveConfig settings;
   settings.ppo_type = static_cast<unsigned>(group.integer("ppo_type", 1, 1, 2));
   settings.drivecom = chooses(group, "profile", "nord", "drivecom");
+  settings.array_sub_by_table = chooses(group, "array_sub_index", "element", "table");
   settings.input_offset = readOffset(group, "input_offset");
   settings.output_offset = readOffset(group, "output_offset");
   drive.bus = settings;
@@ -109,7 +110,7 @@ BusKind interbusKind() {
   kind.end_point = "gateway";
   kind.place = "127.0.0.1:15020";
   kind.highest_address = 254;
-  kind.keys = {"ppo_type", "profile", "input_offset", "output_offset", "communication_reference"};
+  kind.keys = {"ppo_type", "profile", "input_offset", "output_offset", "array_sub_index", "communication_reference"};
   kind.readBus = readBus;
   kind.readDrive = readDrive;
   kind.readModules = checkPlaces;

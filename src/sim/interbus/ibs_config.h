@@ -18,6 +18,7 @@ struct IbsDriveConfig {
   /// Words from the image's start; none: behind the drive before it in the ring.
   std::optional<unsigned> input_offset{};
   std::optional<unsigned> output_offset{};
+  bool array_sub_by_table = false;  ///< PCP sub-index 4 (n - 1) + 1 instead of n, of arrays without sets
 };
 
 /// A register that says whether the ring runs: `value` in the bits of `mask` while it does, and 0 otherwise.
@@ -52,7 +53,7 @@ struct IbsBusConfig {
 std::uint16_t gatewayPort(const std::string& gateway);
 
 /// The driver's own keys: `bus: {gateway: 127.0.0.1:1502, inputs: {address: 0}, ...}`, of a drive `ppo_type`,
-/// `profile`, `input_offset` and `output_offset`.
+/// `profile`, `array_sub_index`, `input_offset` and `output_offset`.
 BusKind interbusKind();
 
 }  // namespace nord_driver::sim

@@ -101,8 +101,11 @@ PcpServer::Error PcpServer::access(DriveUnit& drive, bool write) noexcept {
   if (indexed != (sub != 0)) return {kInvalidParameter, kBadSubIndex};
   const unsigned from_zero = indexed ? sub - 1 : 0;
   const unsigned set = definition->per_set ? from_zero % ParameterStore::kSets : 0;
-  const unsigned element = definition->per_set ? from_zero / ParameterStore::kSets : from_zero;
-  if (element >= std::max<unsigned>(definition->elements, 1)) return {kInvalidParameter, kBadSubIndex};
+  const bool by_table = drive.config().bus.as<IbsDriveConfig>().array_sub_by_table;
+  const bool steps = definition->per_set || by_table;
+  const unsigned element = steps ? from_zero / ParameterStore::kSets : from_zero;
+  const bool between = steps && !definition->per_set && from_zero % ParameterStore::kSets != 0;
+  if (between || element >= std::max<unsigned>(definition->elements, 1)) return {kInvalidParameter, kBadSubIndex};
   const unsigned length = definition->double_word ? 4 : 2;
   const auto wrong = [&](ParameterError error, std::int32_t raw) -> Error {
     switch (error) {

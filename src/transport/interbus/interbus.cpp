@@ -32,13 +32,13 @@ void InterbusTransport::configure(const Settings& bus, const std::vector<DriveSe
   trace_ = std::make_unique<ModbusTrace>(config_);
   config_.server.listener = trace_.get();
   drives_.clear();
-  std::vector<std::uint16_t> references;
+  std::vector<PcpDrive> partners;
   for (const InterbusDrive& drive : config_.drives) {
     drives_.emplace_back(drive);
-    references.push_back(drive.communication_reference);
+    partners.push_back({drive.communication_reference, drive.array_sub_by_table});
   }
   parameters_.reset();
-  if (config_.pcp) parameters_.emplace(*config_.pcp, references);
+  if (config_.pcp) parameters_.emplace(*config_.pcp, partners);
   order_ = 0;
   image_.resize(config_.map->outputWords());
   link_ = make_link_(config_.server);

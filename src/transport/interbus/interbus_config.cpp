@@ -130,6 +130,7 @@ InterbusDrive readDrive(const DriveSettings& source, bool has_parameters) {
     throw wrongSetting(settings, "ppo_type", std::to_string(drive.ppo_type),
                        "1: profile drivecom is effective with three words only (BU 0070 4.1)");
   }
+  drive.array_sub_by_table = isSecond(settings, "array_sub_index", "element", "table");
   if (!drive.typed_max_frequency && !has_parameters) {
     throw missingSetting(settings, "max_frequency",
                          "P105 in Hz, because without bus/pcp the gateway carries no parameter channel to read it by");

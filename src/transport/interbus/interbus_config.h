@@ -28,6 +28,7 @@ struct InterbusDrive : DriveCommon {
   unsigned ppo_type = 1;  ///< 1 or 2
   InterbusProfile drive_profile = InterbusProfile::kNord;
   std::uint16_t communication_reference = 2;  ///< of its PCP connection
+  bool array_sub_by_table = false;            ///< as PcpDrive has it
 };
 
 struct InterbusConfig {

@@ -25,15 +25,15 @@ constexpr unsigned kMostInitiations = 2;  // of one access
 constexpr std::chrono::seconds kLongestService{30};
 
 // BU 0070 does not say what sub-index sets and elements have; taken from CANopen, whose objects are numbered alike
-// (BU 0060 p. 61): counted from 1, sets fastest.
-unsigned subIndexOf(const ParameterRequest& request) noexcept {
+// (BU 0060 p. 61): counted from 1, sets fastest. Of arrays without sets that manual says two things (p. 54 and p. 61).
+unsigned subIndexOf(const ParameterRequest& request, const PcpDrive& drive) noexcept {
   switch (request.shape) {
     case ParameterShape::kPlain:
       return 0;
     case ParameterShape::kPerSet:
       return request.parameter_set;
     case ParameterShape::kArray:
-      return request.index;
+      return drive.array_sub_by_table ? 4u * (request.index - 1u) + 1u : request.index;
     case ParameterShape::kArrayPerSet:
       return 4u * (request.index - 1u) + request.parameter_set;
   }
@@ -46,10 +46,10 @@ Word turned(Word word, bool swapped) noexcept {
 
 }  // namespace
 
-InterbusParameters::InterbusParameters(const PcpMap& map, const std::vector<std::uint16_t>& references) : map_(map) {
-  for (const std::uint16_t reference : references) {
+InterbusParameters::InterbusParameters(const PcpMap& map, const std::vector<PcpDrive>& drives) : map_(map) {
+  for (const PcpDrive& drive : drives) {
     drives_.emplace_back();
-    drives_.back().reference = reference;
+    drives_.back().how = drive;
     drives_.back().initiated = !map.initiate;
   }
 }
@@ -66,7 +66,7 @@ void InterbusParameters::skipUnserved(DriveQueue& drive) noexcept {
     const ParameterRequest& request = drive.requests.front();
     if (request.action == ParameterAction::kWriteRam) {
       drive.requests.refuse(ParameterReason::kNotSupported, "PCP has no write that spares the EEPROM");
-    } else if (subIndexOf(request) > kLastSubIndex) {
+    } else if (subIndexOf(request, drive.how) > kLastSubIndex) {
       drive.requests.refuse(ParameterReason::kNoSuchElement, "no sub-index reaches this array element");
     } else {
       return;
@@ -96,11 +96,11 @@ PcpInvocation InterbusParameters::invocation() const noexcept {
   const DriveQueue& drive = drives_[*running_];
   const ParameterRequest& request = drive.requests.front();
   PcpInvocation order;
-  order.reference = drive.reference;
+  order.reference = drive.how.reference;
   order.service = PcpService::kInitiate;
   if (!drive.initiated) return order;
   order.index = static_cast<std::uint16_t>(interbus::kFirstParameterObject + request.number);
-  order.sub_index = static_cast<std::uint8_t>(plain_ ? 0 : subIndexOf(request));
+  order.sub_index = static_cast<std::uint8_t>(plain_ ? 0 : subIndexOf(request, drive.how));
   order.service = PcpService::kRead;
   if (request.action == ParameterAction::kRead) return order;
   order.service = PcpService::kWrite;
@@ -166,7 +166,7 @@ void InterbusParameters::giveUp() noexcept {
                 map_.result_address + map_.result.service);
   } else {
     text.format("PCP service %04Xh was not confirmed within %.1f s (communication reference %u)",
-                static_cast<unsigned>(invocation_.service), toSeconds(map_.timeout), drive.reference);
+                static_cast<unsigned>(invocation_.service), toSeconds(map_.timeout), drive.how.reference);
   }
   drive.initiated = !map_.initiate;
   drive.requests.fail(ParameterOutcome::kTimeout, text);

@@ -39,11 +39,16 @@ struct PcpMap {
   interbus::PcpResultLayout result{};
 };
 
+/// How a drive is asked.
+struct PcpDrive {
+  std::uint16_t reference = 2;      ///< communication reference of its connection
+  bool array_sub_by_table = false;  ///< element n of an array without sets: sub-index 4 (n - 1) + 1 instead of n
+};
+
 /// Sans-IO. Each cycle: pollOrder(), and handleAnswer() once its order has been carried out or given up.
 class InterbusParameters {
  public:
-  /// `references`: the communication reference of each drive.
-  InterbusParameters(const PcpMap& map, const std::vector<std::uint16_t>& references);
+  InterbusParameters(const PcpMap& map, const std::vector<PcpDrive>& drives);
 
   static constexpr profile::ParameterCapabilities capabilities() noexcept { return {false, false}; }
 
@@ -68,7 +73,7 @@ class InterbusParameters {
     kConfirmed,  ///< until the result block confirms
   };
   struct DriveQueue {
-    std::uint16_t reference = 2;
+    PcpDrive how;
     bool initiated = false;
     profile::ParameterQueue requests;
   };

@@ -27,7 +27,7 @@ bus:
   running: {address: 100, mask: 6, value: 4}
   watchdog: {address: 200, value: 500}
 drives:
-  left: {address: 2, series: sk5xxe, ppo_type: 1, profile: drivecom, max_frequency: 50.0}
+  left: {address: 2, series: sk5xxe, ppo_type: 1, profile: drivecom, max_frequency: 50.0, array_sub_index: table}
   right: {address: 254, series: sk700e, ppo_type: 2, input_offset: 8, output_offset: 16, max_frequency: 50.0}
 )");
   EXPECT_TRUE(config.warnings.empty()) << config.warnings.front();
@@ -46,6 +46,8 @@ drives:
   EXPECT_TRUE(config.drives[0].bus.as<IbsDriveConfig>().drivecom);
   EXPECT_EQ(2u, config.drives[1].bus.as<IbsDriveConfig>().ppo_type);
   EXPECT_EQ(8u, config.drives[1].bus.as<IbsDriveConfig>().input_offset.value());
+  EXPECT_TRUE(config.drives[0].bus.as<IbsDriveConfig>().array_sub_by_table);
+  EXPECT_FALSE(config.drives[1].bus.as<IbsDriveConfig>().array_sub_by_table);
   RobotSim robot{config};
   const IbsRing ring{robot};
   EXPECT_EQ(5, robot.drive(0).parameters().value(509));
@@ -79,6 +81,8 @@ TEST(IbsConfig, RefusesInWords) {
   EXPECT_THAT(refusal("a: {address: 255}"), HasSubstr("drives/a/address: 255 is not valid"));
   EXPECT_THAT(refusal("a: {address: 1, ppo_type: 3}"), HasSubstr("drives/a/ppo_type: 3 is not valid"));
   EXPECT_THAT(refusal("a: {address: 1, profile: cia402}"), HasSubstr("drives/a/profile: cia402 is not valid"));
+  EXPECT_THAT(refusal("a: {address: 1, array_sub_index: both}"),
+              HasSubstr("drives/a/array_sub_index: both is not valid"));
   EXPECT_THAT(refusal("a: {address: 1, series: sk2xxe}"), HasSubstr("drives/a/series: sk2xxe is not valid"));
   EXPECT_THAT(refusal("a: {address: 1}, b: {address: 1}"), HasSubstr("expected a place of its own in the ring"));
 }

@@ -49,7 +49,7 @@ TEST(InterbusConfig, TakesWhatIsGiven) {
   ring.bus.set("watchdog/address", 3000).set("watchdog/value", 500);
   ring.bus.set("answer_window", 0.001).set("response_timeout", 0.1);
   ring.drive(0).set("address", 4).set("ppo_type", 2).set("input_offset", 8).set("output_offset", 16);
-  ring.drive(1).set("address", 2).set("profile", "drivecom");
+  ring.drive(1).set("address", 2).set("profile", "drivecom").set("array_sub_index", "table");
   const InterbusConfig config = ring.read();
   EXPECT_EQ(7, config.server.unit);
   EXPECT_EQ(ModbusFunction::kReadHoldingRegisters, config.server.inputs.function);
@@ -69,6 +69,8 @@ TEST(InterbusConfig, TakesWhatIsGiven) {
   EXPECT_THAT(config.server.control_words, ElementsAre(17, 1));
   EXPECT_EQ(0x7F00, config.server.run_bits);
   EXPECT_EQ(InterbusProfile::kDrivecom, config.drives[1].drive_profile);
+  EXPECT_FALSE(config.drives[0].array_sub_by_table);
+  EXPECT_TRUE(config.drives[1].array_sub_by_table);
 }
 
 // SW1, SW3, SW2 on SK 300E, 700E and 750E (BU 0070 4.2.2), SW1, SW2, SW3 on SK 5xxE (6.1.5).
@@ -169,6 +171,8 @@ TEST(InterbusConfig, WrongValuesOfADriveAreRefusedByKeyAndValue) {
   EXPECT_THAT(refusal("ppo_type", 3), HasSubstr("~drives/drive1/ppo_type: 3 is not valid"));
   EXPECT_EQ("~drives/drive1/profile: \"cia402\" is not valid, expected nord or drivecom",
             refusal("profile", std::string{"cia402"}));
+  EXPECT_EQ("~drives/drive1/array_sub_index: \"both\" is not valid, expected element or table",
+            refusal("array_sub_index", std::string{"both"}));
   EXPECT_EQ(
       "~drives/drive1/series: \"sk2xxe\" is not valid, expected a series that takes an InterBus technology unit "
       "(sk300e, sk5xxe, sk700e, sk750e)",

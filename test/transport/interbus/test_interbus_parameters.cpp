@@ -21,7 +21,8 @@ using ::testing::StartsWith;
 
 constexpr std::uint16_t kInvoke = 500, kResult = 600;
 
-sim::SimConfig ringOfTwo(bool swapped) {
+// `by_table`: the first drive has arrays without sets by the table.
+sim::SimConfig ringOfTwo(bool swapped, bool by_table) {
   sim::IbsBusConfig bus;
   bus.output_address = 100;
   bus.swapped = swapped;
@@ -32,7 +33,9 @@ sim::SimConfig ringOfTwo(bool swapped) {
     sim::DriveConfig drive;
     drive.name = "drive" + std::to_string(place - 1);
     drive.address = place;
-    drive.bus = sim::IbsDriveConfig{};
+    sim::IbsDriveConfig settings;
+    settings.array_sub_by_table = by_table && place == 1;
+    drive.bus = settings;
     config.drives.push_back(drive);
   }
   return config;
@@ -50,8 +53,8 @@ PcpMap mapOf(bool swapped, bool initiate = true) {
 /// One cycle each 10 ms; an order is carried out in the same one.
 class Pcp : public ::testing::Test {
  protected:
-  explicit Pcp(bool swapped = false, bool initiate = true)
-      : config(ringOfTwo(swapped)), parameters(mapOf(swapped, initiate), {2, 3}) {
+  explicit Pcp(bool swapped = false, bool initiate = true, bool by_table = false)
+      : config(ringOfTwo(swapped, by_table)), parameters(mapOf(swapped, initiate), {{2, by_table}, {3}}) {
     sim.ring.advance(now);
     cycles(100);
   }
@@ -155,6 +158,10 @@ class PcpWithoutInitiate : public Pcp {
  protected:
   PcpWithoutInitiate() : Pcp(false, false) {}
 };
+class PcpByTable : public Pcp {
+ protected:
+  PcpByTable() : Pcp(false, true, true) {}
+};
 
 TEST_F(Pcp, ReadsAndWrites) {
   const ParameterResult p105 = ask(read(105, ParameterShape::kPerSet));
@@ -210,6 +217,22 @@ TEST_F(Pcp, EveryRefusalIsNamed) {
   ParameterRequest ram = write(105, 400);
   ram.action = ParameterAction::kWriteRam;
   EXPECT_EQ(ParameterReason::kNotSupported, ask(ram).reason);
+}
+
+// BU 0060 p. 54 and p. 61 contradict each other: the second element of an array without sets is 2, or 5. The drives beside
+// it keep theirs, and so does what has sets.
+TEST_F(PcpByTable, TheSecondElementOfAnArrayHasSubIndexFive) {
+  for (std::size_t drive = 0; drive < 2; ++drive) {
+    sim.robot.drive(drive).parameters().preset(613, 0, 1, 77);
+    const ParameterResult second = ask(read(613, ParameterShape::kArray, 2), drive);
+    EXPECT_EQ(77, second.raw) << drive << second.text.c_str();
+    EXPECT_EQ(500, ask(read(105, ParameterShape::kPerSet), drive).raw) << drive;
+  }
+  EXPECT_EQ(ParameterReason::kNoSuchElement, ask(read(613, ParameterShape::kArray, 65)).reason)
+      << "no sub-index is 257";
+  parameters = InterbusParameters{mapOf(false), {{2}, {3}}};
+  const ParameterResult by_element = ask(read(613, ParameterShape::kArray, 2));
+  EXPECT_EQ(ParameterReason::kNoSuchElement, by_element.reason) << by_element.text.c_str();
 }
 
 // A parameter without sets may be asked for with one (BU 0020 8).
@@ -274,14 +297,14 @@ TEST_F(Pcp, OrdersThatAreLostEndWithTheTimeOut) {
 TEST_F(Pcp, RegistersThatAreNotThereAreNamedWithTheGatewaysWords) {
   PcpMap map = mapOf(false);
   map.invoke_address = 900;
-  parameters = InterbusParameters{map, {2, 3}};
+  parameters = InterbusParameters{map, {{2}, {3}}};
   const ParameterResult result = ask(read(105, ParameterShape::kPerSet));
   EXPECT_EQ(ParameterOutcome::kTimeout, result.outcome);
   EXPECT_EQ("192.168.0.10:502 refuses it", result.text.str());
 }
 
 TEST_F(Pcp, AConnectionThatIsRefusedIsNamed) {
-  parameters = InterbusParameters{mapOf(false), {9, 3}};
+  parameters = InterbusParameters{mapOf(false), {{9}, {3}}};
   const ParameterResult result = ask(read(105, ParameterShape::kPerSet));
   EXPECT_EQ(ParameterOutcome::kTimeout, result.outcome);
   EXPECT_THAT(result.text.str(),
