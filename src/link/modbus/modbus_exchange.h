@@ -1,4 +1,4 @@
-// One exchange of images with the server: writes first, then reads, in as few requests as they fit into.
+// One exchange of images with the server: writes first, then reads, in as few requests as they fit into. Or it only reads.
 #pragma once
 
 #include <cstddef>
@@ -25,6 +25,8 @@ class ModbusExchange {
   void start() noexcept { written_.clear(); }
   /// Writes `outputs`, reads `inputs`. False: `inputs` are of no use, `reason()`.
   bool run(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept;
+  /// Reads `inputs` alone; by function 3 those that function 23 reads, which cannot read without writing.
+  bool look(RegisterInputs& inputs, const Wakeup& stop) noexcept;
 
   /// A control word that was written as one that runs would stop.
   bool stops(const RegisterImage& next) const noexcept;
@@ -38,6 +40,7 @@ class ModbusExchange {
   void addRead(std::size_t part, ModbusRequest& request) const noexcept;
   void noteWritten(std::size_t part, const RegisterImage& outputs) noexcept;
   void takeRead(std::size_t part, RegisterInputs& inputs) noexcept;
+  bool readImage(ModbusFunction function, RegisterInputs& inputs, const Wakeup& stop) noexcept;
   bool moveImages(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept;
 
   const ModbusSettings& settings_;
