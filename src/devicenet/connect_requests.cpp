@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::uint16_t kOneInstance = 1;
 constexpr std::uint8_t kAllocationInformation = 5;
+constexpr std::uint8_t kSupervisorState = 6;
 
 ConnectRequest deviceNetService(std::uint8_t code) noexcept {
   ConnectRequest made;
@@ -44,6 +45,10 @@ ConnectRequest identityRequest(std::uint8_t attribute) noexcept {
 
 ConnectRequest connectionRequest(std::uint8_t instance, std::uint8_t attribute) noexcept {
   return {getAttribute(0, object_class::kConnection, instance, attribute), ExplicitPort::kConnected};
+}
+
+ConnectRequest supervisorRequest(std::uint8_t instance) noexcept {
+  return {getAttribute(0, object_class::kControlSupervisor, instance, kSupervisorState), ExplicitPort::kConnected};
 }
 
 ConnectRequest rateRequest(std::uint8_t instance, std::uint16_t milliseconds) noexcept {

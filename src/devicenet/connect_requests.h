@@ -41,6 +41,8 @@ ConnectRequest releaseRequest(std::uint8_t choice) noexcept;
 ConnectRequest ownerRequest(ExplicitPort port) noexcept;
 ConnectRequest identityRequest(std::uint8_t attribute) noexcept;
 ConnectRequest connectionRequest(std::uint8_t instance, std::uint8_t attribute) noexcept;
+/// The state of a control supervisor (class 41, attribute 6; BU 0280 4.3.6).
+ConnectRequest supervisorRequest(std::uint8_t instance) noexcept;
 /// `milliseconds`: the expected packet rate of the connection.
 ConnectRequest rateRequest(std::uint8_t instance, std::uint16_t milliseconds) noexcept;
 

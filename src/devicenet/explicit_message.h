@@ -36,6 +36,7 @@ constexpr std::uint16_t kIdentity = 1;
 constexpr std::uint16_t kDeviceNet = 3;
 constexpr std::uint16_t kAssembly = 4;
 constexpr std::uint16_t kConnection = 5;
+constexpr std::uint16_t kControlSupervisor = 41;
 }  // namespace object_class
 
 /// Most bytes of data behind the service code, class and instance, each way.

@@ -53,9 +53,15 @@ struct IoConfig {
   std::optional<Duration> timeout;
 };
 
+/// Control supervisors of one device (class 41, instances 1 to 4).
+constexpr std::uint8_t kMostSupervisors = 4;
+
 struct NodeConfig {
   std::uint8_t mac = 0;
   IoConfig io;
+  /// Which of its control supervisors are asked for their state before process data can act: bit 0 is instance 1. For
+  /// process data whose first word would change what stands, so that it must be known before.
+  std::uint8_t asked_supervisors = 0;
   // The identity that is demanded; nothing: any.
   std::optional<std::uint16_t> vendor_id;     ///< class 1, attribute 1
   std::optional<std::uint16_t> device_type;   ///< attribute 2

@@ -102,6 +102,8 @@ std::optional<ConnectRequest> NodeConnect::requestOf(Phase phase) const noexcept
       return connectionRequest(kConsumingInstance, connection_attribute::kState);
     case Phase::kConsumedSize:
       return connectionRequest(instance_, connection_attribute::kConsumedSize);
+    case Phase::kSupervisor:
+      return supervisorRequest(supervisor_);
     case Phase::kWriteRate:
       return rateRequest(instance_,
                          static_cast<std::uint16_t>(*config_.io.expected_packet_rate / std::chrono::milliseconds{1}));
@@ -177,6 +179,8 @@ void NodeConnect::handleAnswer(const ExplicitAnswer& answer, Instant now) noexce
       return handleSize(answer, now);
     case Phase::kSecondState:
       return handleSecondState(answer, now);
+    case Phase::kSupervisor:
+      return handleSupervisor(answer, now);
     case Phase::kWriteRate:
     case Phase::kReadRate:
       return handleRate(answer, now);

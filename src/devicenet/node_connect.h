@@ -4,7 +4,8 @@
 //
 // Inputs and outputs may go by two connection objects, allocated together: a bit strobe with a poll beside it, and change
 // of state or cyclic where the device answers so (makers print both layouts, see mayTakeBySecond()). The sizes of both are
-// compared, then the rates of both are written, that of the outputs last.
+// compared, then the rates of both are written, that of the outputs last. Between the two the control supervisors are asked
+// for their state, where the configuration wants that: no time-out runs yet, and nothing of ours acts.
 #pragma once
 
 #include <cstdint>
@@ -78,6 +79,7 @@ class NodeConnect {
     kProducedSize,
     kSecondState,  ///< whether there is a second connection object, which takes the outputs
     kConsumedSize,
+    kSupervisor,  ///< its state, before anything of ours can change it
     kWriteRate,
     kReadRate,  ///< when it did not answer the write with its value
     kRunning,
@@ -106,6 +108,8 @@ class NodeConnect {
   void handleSize(const ExplicitAnswer& answer, Instant now) noexcept;
   void handleSecondState(const ExplicitAnswer& answer, Instant now) noexcept;
   void compareSizes(std::uint16_t consumed, Instant now) noexcept;
+  void askSupervisor(std::uint8_t first, Instant now) noexcept;
+  void handleSupervisor(const ExplicitAnswer& answer, Instant now) noexcept;
   void handleRate(const ExplicitAnswer& answer, Instant now) noexcept;
   void useRate(Duration rate, Instant now) noexcept;
   void handleState(const ExplicitAnswer& answer, Instant now) noexcept;
@@ -136,6 +140,7 @@ class NodeConnect {
   std::uint8_t outputs_instance_;  // the one that carries the outputs: whose time-out stops the device
   std::uint8_t instance_;          // the one that is set up or asked for
   std::uint16_t produced_ = 0;     // its size
+  std::uint8_t supervisor_ = 1;    // the instance that is asked for
   bool let_go_first_ = false;      // a try that begins with a release
   Phase phase_ = Phase::kOff;
   TimerTable<Timer> timers_;

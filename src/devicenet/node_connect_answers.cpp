@@ -183,7 +183,9 @@ void NodeConnect::compareSizes(std::uint16_t consumed, Instant now) noexcept {
   if (produced_ == config_.io.input_bytes && consumed == expected) {
     // A connection runs from its rate on: the rates of both come last, one right after the other.
     instance_ = inputs_instance_;
-    return enter(polled_beside ? Phase::kProducedSize : Phase::kWriteRate, now);
+    if (polled_beside) return enter(Phase::kProducedSize, now);
+    report_.status().supervisors = {};
+    return askSupervisor(1, now);
   }
   const bool by_second = mayTakeBySecond(config_.io) && outputs_instance_ != inputs_instance_;
   Sentence why;
@@ -191,6 +193,19 @@ void NodeConnect::compareSizes(std::uint16_t consumed, Instant now) noexcept {
              unsigned{consumed}, toText(polled_beside ? IoKind::kPoll : config_.io.kind),
              by_second ? " (connection objects 4 and 2)" : "", config_.io.input_bytes, expected);
   refuseIo(why, now);
+}
+
+void NodeConnect::askSupervisor(std::uint8_t first, Instant now) noexcept {
+  for (supervisor_ = first; supervisor_ <= kMostSupervisors; ++supervisor_) {
+    if ((config_.asked_supervisors >> (supervisor_ - 1) & 1u) != 0) return enter(Phase::kSupervisor, now);
+  }
+  enter(Phase::kWriteRate, now);
+}
+
+// Who does not tell it is connected all the same.
+void NodeConnect::handleSupervisor(const ExplicitAnswer& answer, Instant now) noexcept {
+  if (answer.ok() && !answer.data.empty()) report_.status().supervisors[supervisor_ - 1u] = answer.data[0];
+  askSupervisor(static_cast<std::uint8_t>(supervisor_ + 1), now);
 }
 
 void NodeConnect::handleRate(const ExplicitAnswer& answer, Instant now) noexcept {

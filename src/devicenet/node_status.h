@@ -1,9 +1,11 @@
 // What a DeviceNet scanner knows of one device.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
+#include "devicenet/node_config.h"
 #include "nord_driver/core/fixed_text.h"
 #include "nord_driver/core/time.h"
 
@@ -57,6 +59,9 @@ struct NodeStatus {
   std::uint16_t consumed_size = 0;  ///< attribute 8
   Duration packet_rate{};           ///< of the process data, as the device answered; it gives up after four times that
   Duration explicit_rate{};         ///< of the explicit connection
+  /// By instance, from 1: the state of the control supervisor (class 41, attribute 6) before the process data of this
+  /// connection began. None: not asked, or not told.
+  std::array<std::optional<std::uint8_t>, kMostSupervisors> supervisors{};
   /// Whose it is when it refused to be ours, where known (class 3, attribute 5).
   std::optional<std::uint8_t> owner;
   std::optional<std::uint8_t> device_state;  ///< of its last heartbeat message

@@ -3,7 +3,8 @@
 //
 // The drive layer speaks NORD's words only. The profile has one byte of bits and a speed in rpm each way. What gets lost:
 //  - bit 10, "data valid": there is no such bit, and the bytes go out in every poll. Where NORD's words ask to be
-//    ignored the idle byte goes out, which brings the motor down its ramp;
+//    ignored the idle byte goes out, which brings the motor down its ramp, and takes the enable away, which acknowledges
+//    a fault (BU 0020 8): whoever sends it first has asked for the state;
 //  - OFF2 and OFF3: whatever is not "operation enabled" is the ramp of OFF1. There is no quick stop;
 //  - status bit 9, "bus has control": "control from net" of assembly 71 is the bit the driver itself sends, and P509 and
 //    P510 are not queried (BU 0280 4.2.3.1); assembly 70 has no such bit, and it is told as 1. An inverter

@@ -5,8 +5,8 @@
 // 14 of the status word, "remote" and "setpoint reached" in bits 9 and 10, rpm, parameter set 1 only. So the
 // translation is that of profile/cia402.h, and what gets lost is told there. What is different: the words are on the
 // ring in every cycle. Where NORD's words ask to be ignored nothing could be left out, and 0000 would be "block
-// voltage", a coasting wheel; the idle word goes out instead. It can do so from the first telegram on, since there is
-// no parameter set to learn first.
+// voltage", a coasting wheel; the idle word goes out instead. There is no parameter set to learn before it; but it takes
+// the enable away, which acknowledges a fault (BU 0020 8): whoever sends it first has looked at the status word.
 #pragma once
 
 #include <cstdint>

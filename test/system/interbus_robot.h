@@ -15,6 +15,7 @@
 #include "sim/interbus/simulated_gateway.h"
 #include "support/map_settings.h"
 #include "system/driven_robot.h"
+#include "system/shared_link.h"
 #include "transport/interbus/interbus.h"
 
 namespace nord_driver::test {
@@ -43,7 +44,9 @@ class InterbusRobot : public DrivenRobot {
     int telegram_timeout = 2;                       ///< P513 in 0.1 s
     double slip = 2.0;                              ///< Hz at rated torque
     std::function<void(sim::SimConfig&)> simulate;  ///< changes of the simulated side
-    TransportWrap wrap;                             ///< stands between the driver and its transport
+    /// A second driver at this gateway, which outlives it, and which the first one has closed.
+    sim::SimulatedGateway* beside = nullptr;
+    TransportWrap wrap;  ///< stands between the driver and its transport
   };
   static constexpr int kOutputs = 100, kRunning = 200, kWatchdog = 300, kInvoke = 500, kResult = 600;
 
@@ -52,11 +55,16 @@ class InterbusRobot : public DrivenRobot {
     const auto drives = driveSettings(options);
     const MapSettings node{"~", nodeSettings(options)};
     const cycle::CycleConfig config = cycle::readCycleConfig(node, drives);
-    auto transport = std::make_unique<InterbusTransport>([this, options](const link::ModbusSettings& settings) {
-      auto link = std::make_unique<sim::SimulatedGateway>(simConfig(options), settings);
-      link_ = link.get();
-      return link;
-    });
+    auto transport = std::make_unique<InterbusTransport>(
+        [this, options](const link::ModbusSettings& settings) -> std::unique_ptr<link::RegisterLink> {
+          if (options.beside != nullptr) {
+            link_ = options.beside;
+            return std::make_unique<SharedRegisterLink<sim::SimulatedGateway>>(*options.beside);
+          }
+          auto link = std::make_unique<sim::SimulatedGateway>(simConfig(options), settings);
+          link_ = link.get();
+          return link;
+        });
     transport->configure(busSettings(options), drives, config.cycle_rate);
     start(config, std::move(transport), false, options.wrap);
   }

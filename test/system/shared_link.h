@@ -101,6 +101,7 @@ class SharedRegisterLink final : public link::RegisterLink {
   bool open() noexcept override { return gateway_.open(); }
   void close() noexcept override { gateway_.close(); }
   std::uint64_t give(const RegisterImage& outputs) noexcept override { return gateway_.give(outputs); }
+  std::uint64_t look() noexcept override { return gateway_.look(); }
   std::uint64_t order(const link::RegisterOrder& order) noexcept override { return gateway_.order(order); }
   const link::RegisterAnswer& answer() noexcept override { return gateway_.answer(); }
   const link::RegisterInputs& take() noexcept override { return gateway_.take(); }

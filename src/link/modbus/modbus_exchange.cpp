@@ -113,13 +113,27 @@ bool ModbusExchange::moveImages(const RegisterImage& outputs, RegisterInputs& in
     if (!ask(request, stop)) return false;
     noteWritten(part, outputs);
   }
+  return readImage(settings_.inputs.function, inputs, stop);
+}
+
+bool ModbusExchange::readImage(ModbusFunction function, RegisterInputs& inputs, const Wakeup& stop) noexcept {
   inputs.asked = std::chrono::steady_clock::now();
-  for (std::size_t part = 0; part < reads; ++part) {
+  for (std::size_t part = 0; part < settings_.inputs.parts.size(); ++part) {
     ModbusRequest request;
     addRead(part, request);
+    request.function = function;
     if (!ask(request, stop)) return false;
     takeRead(part, inputs);
   }
+  return true;
+}
+
+bool ModbusExchange::look(RegisterInputs& inputs, const Wakeup& stop) noexcept {
+  const ModbusFunction function = settings_.inputs.function;
+  const bool writes_too = function == ModbusFunction::kReadWriteRegisters;
+  inputs.words.clear();
+  if (!readImage(writes_too ? ModbusFunction::kReadHoldingRegisters : function, inputs, stop)) return false;
+  inputs.received = std::chrono::steady_clock::now();
   return true;
 }
 

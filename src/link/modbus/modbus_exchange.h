@@ -1,4 +1,4 @@
-// One exchange of images with the server: writes first, then reads, in as few requests as they fit into.
+// One exchange of images with the server: writes first, then reads, in as few requests as they fit into. Or it only reads.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +23,8 @@ class ModbusExchange {
 
   /// Writes `outputs`, reads `inputs`. False: `inputs` are of no use, `reason()`.
   bool run(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept;
+  /// Reads `inputs` alone; by function 3 those that function 23 reads, which cannot read without writing.
+  bool look(RegisterInputs& inputs, const Wakeup& stop) noexcept;
 
   /// A control word would allow no motion, and less than what the server may hold: one that ran stops, or one that goes
   /// down the ramp stops quickly. What was written on earlier connections counts, too: the server may hold it still.
@@ -38,6 +40,7 @@ class ModbusExchange {
   void noteRunning(std::size_t part, const RegisterImage& outputs) noexcept;
   void noteWritten(std::size_t part, const RegisterImage& outputs) noexcept;
   void takeRead(std::size_t part, RegisterInputs& inputs) noexcept;
+  bool readImage(ModbusFunction function, RegisterInputs& inputs, const Wakeup& stop) noexcept;
   bool moveImages(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept;
 
   const ModbusSettings& settings_;

@@ -64,7 +64,13 @@ void ModbusLink::close() noexcept {
 }
 
 std::uint64_t ModbusLink::give(const RegisterImage& outputs) noexcept {
-  outputs_.write({++given_, outputs});
+  outputs_.write({++given_, outputs, false});
+  fresh_.signal();
+  return given_;
+}
+
+std::uint64_t ModbusLink::look() noexcept {
+  outputs_.write({++given_, {}, true});
   fresh_.signal();
   return given_;
 }
@@ -184,7 +190,8 @@ bool ModbusLink::exchangeOnce() noexcept {
   report_.counters.skipped_outputs += outputs.number - last_outputs_ - 1;
   last_outputs_ = outputs.number;
   if (diagnosis_) diagnosis_->ask();
-  if (!exchange_.run(outputs.words, newest_, stop_)) {
+  const bool moved = outputs.only_reads ? exchange_.look(newest_, stop_) : exchange_.run(outputs.words, newest_, stop_);
+  if (!moved) {
     report_.text = exchange_.reason();
     failed();
     return false;
@@ -256,7 +263,8 @@ void ModbusLink::pause(Instant until, bool is_kept) noexcept {
     ::ppoll(waits, is_kept ? 2 : 1, &left, nullptr);
     if (!is_kept || !fresh_.take()) continue;
     given = true;
-    if (exchange_.stops(outputs_.read().words)) break;
+    const Outputs& next = outputs_.read();
+    if (!next.only_reads && exchange_.stops(next.words)) break;
   }
   if (given) fresh_.signal();
 }

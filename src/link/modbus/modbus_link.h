@@ -42,6 +42,7 @@ class ModbusLink final : public RegisterLink {
   void close() noexcept override;
   bool isOpen() const noexcept { return thread_.joinable(); }
   std::uint64_t give(const RegisterImage& outputs) noexcept override;
+  std::uint64_t look() noexcept override;
   std::uint64_t order(const RegisterOrder& order) noexcept override;
   const RegisterAnswer& answer() noexcept override { return diagnosis_ ? diagnosis_->answer() : desk_.answer(); }
   const RegisterInputs& take() noexcept override { return inputs_.read(); }
@@ -54,6 +55,7 @@ class ModbusLink final : public RegisterLink {
   struct Outputs {
     std::uint64_t number = 0;
     RegisterImage words;
+    bool only_reads = false;
   };
 
   void work() noexcept;

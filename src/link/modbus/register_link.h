@@ -66,6 +66,8 @@ class RegisterLink {
   /// Hands over the newest output image and asks for one exchange. Each image is written at most once: a cycle that
   /// hangs feeds no watchdog. One handed over before the connection stood is not written at all. Returns its number.
   virtual std::uint64_t give(const RegisterImage& outputs) noexcept = 0;
+  /// As give(), of an exchange that reads and writes nothing: the outputs of the server stay what they are.
+  virtual std::uint64_t look() noexcept = 0;
   /// Hands over an order, which takes the place of one that still waits; its number. It is carried out once, beside the
   /// images, and given up when the connection is not there. Default: 0, such a link carries none.
   virtual std::uint64_t order(const RegisterOrder& /*order*/) noexcept { return 0; }

@@ -51,6 +51,11 @@ void SimulatedGateway::close() noexcept {
 
 std::uint64_t SimulatedGateway::give(const RegisterImage& outputs) noexcept {
   given_image_ = outputs;
+  given_look_ = false;
+  return startGiven();
+}
+
+std::uint64_t SimulatedGateway::startGiven() noexcept {
   ++given_;
   if (doing_ == Doing::kIdle) startExchange();
   return given_;
@@ -199,9 +204,10 @@ void SimulatedGateway::startExchange() noexcept {
   report_.counters.skipped_outputs += given_ - last_outputs_ - 1;
   last_outputs_ = given_;
   sent_ = given_image_;
+  looks_ = given_look_;
   doing_ = Doing::kExchanges;
   if (!connected_) return fail(ModbusTrouble::kClosed, "has closed the connection");
-  part_order_ = link::stopsFirst(settings_, written_, sent_);
+  part_order_ = looks_ ? link::PartOrder{} : link::stopsFirst(settings_, written_, sent_);
   coming_.words.clear();
   coming_.bus_runs = true;
   coming_.asked = now_;
@@ -220,7 +226,7 @@ bool SimulatedGateway::makeWatchdogRequest(link::ModbusRequest& request) noexcep
 
 bool SimulatedGateway::makeImageRequest(link::ModbusRequest& request) noexcept {
   const std::size_t reads_left = settings_.inputs.parts.size();
-  const bool both = settings_.inputs.function == ModbusFunction::kReadWriteRegisters;
+  const bool both = doesBoth();
   const std::size_t writes = both ? std::max(part_order_.size(), reads_left) : part_order_.size();
   std::size_t step = step_;
   if (step < writes) {
@@ -235,6 +241,8 @@ bool SimulatedGateway::makeImageRequest(link::ModbusRequest& request) noexcept {
   if (!both && step < reads_left) {
     if (step == 0) coming_.asked = now_;
     request.function = settings_.inputs.function;
+    if (request.function == ModbusFunction::kReadWriteRegisters)
+      request.function = ModbusFunction::kReadHoldingRegisters;
     request.read = registersOf(settings_.inputs, step);
     return true;
   }
@@ -328,9 +336,8 @@ void SimulatedGateway::use(ByteView answer) noexcept {
   }
   if (!reads(request_.function)) return;
   const std::size_t writes_and_reads = step_ + 1;
-  const std::size_t parts = settings_.inputs.function == ModbusFunction::kReadWriteRegisters
-                                ? std::max(part_order_.size(), settings_.inputs.parts.size())
-                                : part_order_.size() + settings_.inputs.parts.size();
+  const std::size_t parts = doesBoth() ? std::max(part_order_.size(), settings_.inputs.parts.size())
+                                       : part_order_.size() + settings_.inputs.parts.size();
   if (writes_and_reads > parts) {
     coming_.running = link::answerRegister(answer, 0);
     coming_.bus_runs = (coming_.running & settings_.running->mask) == settings_.running->value;

@@ -44,6 +44,10 @@ class SimulatedGateway final : public link::RegisterLink {
   bool open() noexcept override;
   void close() noexcept override;
   std::uint64_t give(const RegisterImage& outputs) noexcept override;
+  std::uint64_t look() noexcept override {
+    given_look_ = true;
+    return startGiven();
+  }
   std::uint64_t order(const link::RegisterOrder& order) noexcept override;
   const link::RegisterAnswer& answer() noexcept override { return order_answer_; }
   const link::RegisterInputs& take() noexcept override { return newest_; }
@@ -80,7 +84,12 @@ class SimulatedGateway final : public link::RegisterLink {
   void handleConnect() noexcept;
   bool isAsking() const noexcept;
   void rest() noexcept;
+  std::uint64_t startGiven() noexcept;
   void startExchange() noexcept;
+  /// Each request of this exchange writes and reads.
+  bool doesBoth() const noexcept {
+    return !looks_ && settings_.inputs.function == link::ModbusFunction::kReadWriteRegisters;
+  }
   void startOrder() noexcept;
   bool ordersWait() const noexcept { return ordered_ != served_; }
   void answerOrder(const link::RegisterAnswer& answer) noexcept;
@@ -128,12 +137,14 @@ class SimulatedGateway final : public link::RegisterLink {
   link::RegisterAnswer order_answer_;
 
   // The exchange under way.
+  bool looks_ = false;  // it only reads
   link::PartOrder part_order_;
   RegisterImage sent_;     // the outputs of this exchange
   RegisterImage written_;  // what the gateway has of the exchanges before
   link::RegisterInputs coming_;
 
   RegisterImage given_image_;
+  bool given_look_ = false;  // in place of an image
   std::uint64_t given_ = 0;
   std::uint64_t last_outputs_ = 0;
   link::RegisterInputs newest_;

@@ -90,12 +90,19 @@ void DeviceNetTransport::putOutputs(const std::vector<profile::ProcessOutput>& o
     drives_[i].putOutput(outputs[i], *scanner_, outputs_[config_.drives[i].module]);
   }
   for (DriveIndex i = 0; i < drives_.size(); ++i) putModuleOutputs(config_.drives[i].module, outputs[i].module_outputs);
-  for (std::size_t i = 0; i < outputs_.size(); ++i) scanner_->setOutput(i, outputs_[i]);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    if (!holdsBack(config_.modules[i])) scanner_->setOutput(i, outputs_[i]);
+  }
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     if (isUrgent(given_[i], outputs[i])) scanner_->hurry(config_.drives[i].module);
     given_[i] = outputs[i];
   }
   for (DriveIndex i = 0; i < drives_.size(); ++i) answered_[i] = scanner_->input(config_.drives[i].module).count;
+}
+
+bool DeviceNetTransport::holdsBack(const DevicenetModule& module) const noexcept {
+  return std::any_of(module.drives.begin(), module.drives.end(),
+                     [this](std::size_t drive) { return drives_[drive].holdsBack(*scanner_); });
 }
 
 // Instance 100 and its like: bits 0 and 1 of the first byte (BU 0280 4.2.4).

@@ -56,6 +56,7 @@ class DeviceNetTransport final : public CanTransport, public BusScanner {
   void restartDrives() noexcept override;
   void handleGone() noexcept override;
   void handleController(bool works) noexcept override;
+  bool holdsBack(const DevicenetModule& module) const noexcept;
   void putModuleOutputs(std::size_t module, std::uint8_t bits) noexcept;
   bool busWorks() const noexcept;
   Duration longestPause(std::size_t module) const noexcept;

@@ -73,6 +73,11 @@ class Reader {
       checkNeighbours(settings, drive);
       checkSharedModule(of_module, module, node, config_.modules[drive.module], config_.scanner.nodes[drive.module]);
     }
+    // A module of one inverter has instance 1.
+    if (drive.drive_profile != DevicenetProfile::kNord) {
+      std::uint8_t& asked = config_.scanner.nodes[drive.module].asked_supervisors;
+      asked = static_cast<std::uint8_t>(asked | 1u << (drive.inverter - 1));
+    }
     config_.modules[drive.module].drives.push_back(config_.drives.size());
     config_.drives.push_back(drive);
   }

@@ -40,7 +40,8 @@ DevicenetDriveState::DevicenetDriveState(const DevicenetDrive& config, const dev
 
 // On a new connection the first words are 0000, which the inverter ignores: a stop word takes the enable away, and so
 // would acknowledge a fault that nobody has seen yet (BU 0020 8). A fault has to be told first: its status word may have
-// come between two cycles, or the inverter be asked yet whether it is there. The AC drive profile has no such word.
+// come between two cycles, or the inverter be asked yet whether it is there. The AC drive profile has no such word: see
+// faultFound().
 void DevicenetDriveState::putOutput(const profile::ProcessOutput& output, const devicenet::Scanner& scanner,
                                     devicenet::IoBytes& bytes) const noexcept {
   if (config_.drive_profile == DevicenetProfile::kNord) {
@@ -54,6 +55,23 @@ void DevicenetDriveState::putOutput(const profile::ProcessOutput& output, const 
 bool DevicenetDriveState::tellsFault(ByteView bytes) const noexcept {
   profile::ProcessInput input;
   return decode(bytes, input) && profile::StatusWord{input.status_word}.fault();
+}
+
+// What stood before the first word of the AC drive profile went out, which may have ended it. Once an inverter was met, a
+// lost connection is a loss to the layers above; its words do not wait, for they may be those that stop.
+std::optional<Word> DevicenetDriveState::faultFound(const NodeStatus& status) const noexcept {
+  const std::optional<std::uint8_t> state = status.supervisors[config_.inverter - 1u];
+  if (met_ || !state) return std::nullopt;
+  const Word word = profile::statusOfSupervisor(*state);
+  if (!profile::StatusWord{word}.fault()) return std::nullopt;
+  return word;
+}
+
+// For one cycle, whatever comes of it: without words the time-out of the connection runs out.
+bool DevicenetDriveState::holdsBack(const devicenet::Scanner& scanner) const noexcept {
+  const NodeStatus& status = scanner.status(config_.module);
+  const bool begins = status.state == NodeState::kExchanging && connection_ != status.counters.connections;
+  return begins && faultFound(status).has_value();
 }
 
 bool DevicenetDriveState::decode(ByteView bytes, profile::ProcessInput& input) const noexcept {
@@ -89,6 +107,9 @@ void DevicenetDriveState::takeInput(const devicenet::Scanner& scanner, bool bus_
     // there.
     const Word word = profile::statusOfSupervisor(probe_.state().value_or(1));
     if (inverter_answers_) input.input.status_word = word != 0 ? word : profile::statusOfSupervisor(1);
+  } else if (const auto found = connected && !contested_ ? faultFound(status) : std::nullopt) {
+    inverter_answers_ = true;
+    input.input.status_word = *found;
   } else if (connected) {
     module_answers_ = takeProcessData(scanner, status, now, input);
   }
@@ -97,6 +118,7 @@ void DevicenetDriveState::takeInput(const devicenet::Scanner& scanner, bool bus_
   // To a module that another scanner works with nothing is said that acts.
   input.inverter_missing = module_answers_ && !contested_ && !inverter_answers_;
   if (!inverter_answers_) input.input = {};
+  met_ = met_ || (inverter_answers_ && !guest_);
   told_ = connected && (told_ || inverter_answers_) && input.interruption == Interruption::kNone;
   explain(status, bus_works);
 }

@@ -30,6 +30,8 @@ class DevicenetDriveState {
   /// Into the outputs of its module, which are zeros.
   void putOutput(const profile::ProcessOutput& output, const devicenet::Scanner& scanner,
                  devicenet::IoBytes& bytes) const noexcept;
+  /// A fault was found that is told in this cycle: its number can be asked for before the first word ends it.
+  bool holdsBack(const devicenet::Scanner& scanner) const noexcept;
   /// `bus_works`: frames can come and go at all.
   void takeInput(const devicenet::Scanner& scanner, bool bus_works, Instant now, DriveExchange& input) noexcept;
   /// It has sent data since `count`, or none can be expected of it.
@@ -54,6 +56,7 @@ class DevicenetDriveState {
  private:
   bool decode(ByteView bytes, profile::ProcessInput& input) const noexcept;
   bool tellsFault(ByteView bytes) const noexcept;
+  std::optional<Word> faultFound(const devicenet::NodeStatus& status) const noexcept;
   bool takeProcessData(const devicenet::Scanner& scanner, const devicenet::NodeStatus& status, Instant now,
                        DriveExchange& input) noexcept;
   Interruption takeInterruption(const devicenet::NodeStatus& status, bool bus_works, Instant now) noexcept;
@@ -76,6 +79,7 @@ class DevicenetDriveState {
   bool module_answers_ = false;
   bool inverter_answers_ = false;
   bool told_ = false;  // on this connection it has answered to the layers above
+  bool met_ = false;   // on any
   Sentence note_;
 };
 

@@ -42,6 +42,11 @@ void InterbusTransport::configure(const Settings& bus, const std::vector<DriveSe
   order_ = 0;
   image_.resize(config_.map->outputWords());
   link_ = make_link_(config_.server);
+  const auto begins_with_a_stop = [](const InterbusDrive& drive) {
+    return drive.drive_profile == InterbusProfile::kDrivecom;
+  };
+  const bool looks = !read_only_ && std::any_of(config_.drives.begin(), config_.drives.end(), begins_with_a_stop);
+  first_look_ = looks ? FirstLook{config_.server.response_timeout} : FirstLook{};
 }
 
 // Without parts nothing is written, and function 23 has nothing to write with.
@@ -149,6 +154,10 @@ void InterbusTransport::takeAnswer() noexcept {
 }
 
 void InterbusTransport::giveOutputs(const std::vector<profile::ProcessOutput>& outputs) noexcept {
+  if (first_look_.isDue()) {
+    given_ = link_->look();
+    return;
+  }
   for (DriveIndex i = 0; i < drives_.size(); ++i) config_.map->put(i, drives_[i].toWords(outputs[i]), image_);
   given_ = link_->give(image_);
 }
@@ -171,6 +180,7 @@ void InterbusTransport::takeInputs(std::vector<DriveExchange>& inputs) noexcept 
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     drives_[i].takeInput(config_.map->get(i, newest.words), watch_, inputs[i]);
   }
+  first_look_.handle(watch_, report_, link_->now());
 }
 
 // A gateway that falls silent meanwhile says nothing of its ring.

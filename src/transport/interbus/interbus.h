@@ -14,6 +14,7 @@
 #include "nord_driver/transport/transport.h"
 #include "transport/bus_scanner.h"
 #include "transport/image_view.h"
+#include "transport/interbus/first_look.h"
 #include "transport/interbus/input_watch.h"
 #include "transport/interbus/interbus_config.h"
 #include "transport/interbus/interbus_counters.h"
@@ -101,7 +102,8 @@ class InterbusTransport final : public Transport, public ImageView, public BusSc
   RegisterImage newest_;  // the inputs, where they are shown
   std::uint64_t given_ = 0;
   InputWatch watch_;
-  Word running_ = 0;  // the register that says whether the ring runs
+  FirstLook first_look_;  // of a drive with DRIVECOM
+  Word running_ = 0;      // the register that says whether the ring runs
   bool ring_stood_ = false;
   link::LinkReport report_;
   Instant next_open_{};

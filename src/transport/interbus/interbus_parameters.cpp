@@ -275,7 +275,7 @@ void InterbusParameters::handleConfirmation(const PcpResult& result) noexcept {
 void InterbusParameters::refuseConnection(const interbus::PcpError& error) noexcept {
   DriveQueue& drive = drives_[*running_];
   Sentence text;
-  text.format("its PCP connection (communication reference %u) was refused: %s", drive.reference,
+  text.format("its PCP connection (communication reference %u) was refused: %s", drive.how.reference,
               pcpSentence(error).c_str());
   if (drive.requests.front().action == ParameterAction::kRead) {
     drive.requests.fail(ParameterOutcome::kTimeout, text);

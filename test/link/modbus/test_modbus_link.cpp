@@ -58,6 +58,23 @@ TEST_F(Link, FunctionTwentyThreeDoesBothInOneRequest) {
   EXPECT_EQ(23, server.requests()[0][7]);
 }
 
+// Function 23 cannot read without writing: function 3 reads the same registers.
+TEST_F(Link, ALookWritesNothing) {
+  ModbusSettings settings = fourWords(server.address());
+  settings.inputs.function = settings.outputs.function = ModbusFunction::kReadWriteRegisters;
+  settings.inputs.address = 100;
+  server.setHolding(101, 77);
+  start(settings);
+  ASSERT_TRUE(waitConnected());
+  const std::uint64_t number = link->look();
+  ASSERT_TRUE(waitUntil([&] { return link->take().outputs >= number; }));
+  EXPECT_EQ((RegisterImage{0, 77, 0, 0}), link->take().words);
+  ASSERT_EQ(1u, server.requests().size());
+  EXPECT_EQ(3, server.requests()[0][7]);
+  ASSERT_TRUE(exchange({1, 2, 3, 4}));
+  EXPECT_EQ((RegisterImage{1, 2, 3, 4}), link->take().words);
+}
+
 TEST_F(Link, TheUnitStandsInEachRequest) {
   ModbusSettings settings = fourWords(server.address());
   settings.unit = 17;

@@ -23,6 +23,7 @@ class FakeGateway {
   bool opens = true;
   link::LinkState state = link::LinkState::kConnected;  ///< only kConnected takes images
   Sentence text;                                        ///< of the link's report
+  std::uint64_t exceptions = 0;                         ///< of the link's report
   bool ring_runs = true;
   Word running = 1;
   /// What the ring answers to outputs.
@@ -30,13 +31,16 @@ class FakeGateway {
 
   // What was done with it.
   std::vector<Given> given;
+  unsigned looks = 0;  // exchanges that only read
   unsigned opened = 0;
   bool closed = false;
 
   Instant now() const noexcept { return now_; }
 
-  void give(std::uint64_t number, const RegisterImage& outputs) {
-    given.push_back({now_, outputs});
+  /// None: it only reads, and the ring answers to the outputs there are.
+  void give(std::uint64_t number, const std::optional<RegisterImage>& written) {
+    if (written) given.push_back({now_, *written});
+    const RegisterImage outputs = given.empty() ? RegisterImage{} : given.back().outputs;
     if (state != link::LinkState::kConnected) return;
     if (under_way_) {
       waiting_ = Order{number, now_, outputs};
@@ -94,10 +98,16 @@ class FakeRegisterLink final : public link::RegisterLink {
     gateway_.give(++number_, outputs);
     return number_;
   }
+  std::uint64_t look() noexcept override {
+    ++gateway_.looks;
+    gateway_.give(++number_, std::nullopt);
+    return number_;
+  }
   const link::RegisterInputs& take() noexcept override { return gateway_.newest(); }
   const link::LinkReport& report() noexcept override {
     report_.state = gateway_.state;
     report_.text = gateway_.text;
+    report_.counters.exceptions = gateway_.exceptions;
     return report_;
   }
   bool waitAnswers(Instant until) noexcept override {
