@@ -6,6 +6,14 @@ Sentence doubleId() noexcept {
   return Sentence{"two nodes answer with this id: is it set twice, by switches or P515?"};
 }
 
+Sentence stoppedFirst() noexcept {
+  return Sentence{"was found operational, with nobody who commands it: its drives are stopped before it is set up"};
+}
+
+Sentence askedBySync() noexcept {
+  return Sentence{"is asked by SYNC whether a drive of it is enabled, before it is set up"};
+}
+
 Sentence restarted() noexcept {
   return Sentence{"has restarted by itself: it sent its boot-up"};
 }

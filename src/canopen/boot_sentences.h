@@ -8,6 +8,8 @@
 namespace nord_driver::canopen {
 
 Sentence doubleId() noexcept;
+Sentence stoppedFirst() noexcept;
+Sentence askedBySync() noexcept;
 Sentence restarted() noexcept;
 Sentence restartsAgainAndAgain() noexcept;
 Sentence leftByItself(NmtState state) noexcept;

@@ -63,6 +63,9 @@ class Master final : public CanEngine {
   /// While nothing may be sent yet, in place of `handleFrame()`: whether only a master that works with our nodes sends
   /// such a frame (NMT, guarding, RPDOs, SDO requests, our SYNC), or a node answers to one. Counted and told.
   bool noteOtherMaster(const CanFrame& frame, Instant now) noexcept;
+  /// What was heard while nothing may be sent, see there, and from the TPDOs of a node that `stops_first`: one that is
+  /// driven gets, after `restart()`, nothing but the RPDOs of `tellUnheard()` (and SYNC) until it rests.
+  void setMotion(std::size_t node, FoundMotion motion) noexcept { nodes_[node]->handleMotion(motion); }
   void startCycle(Instant now) noexcept override;
   void handleFrame(const CanFrame& frame, Instant now) noexcept override;
   void poll(Instant now) noexcept override;
@@ -76,7 +79,8 @@ class Master final : public CanEngine {
   /// Its value stops a drive: in the next cycle it is sent even if the node has fallen silent, as it may hear it, in turn with what the
   /// others are sent. Until the link has taken it for some cycles the node is neither asked nor reset.
   void tellUnheard(std::size_t node, std::size_t pdo) noexcept { nodes_[node]->receivePdos()[pdo].tellUnheard(); }
-  /// What it sent last while operational; `count` 0: nothing yet since it became so.
+  /// What it sent last while operational; `count` 0: nothing yet since it became so. Before it was begun with: what was
+  /// heard of it.
   const PdoValue& transmitPdo(std::size_t node, std::size_t pdo) const noexcept;
 
   /// An access beside the start-up, in whatever state the node is. False when this server has one under way or an
@@ -119,6 +123,7 @@ class Master final : public CanEngine {
   bool pollErrorControl() noexcept;
   bool pollSdoFrame() noexcept;
   void give(Given::Kind kind, std::size_t node, std::size_t item, const CanFrame& frame) noexcept;
+  void addLastWords() noexcept;
   void dropProcessData() noexcept;
   void drop(PdoReference pdo) noexcept;
   void dropSync() noexcept;

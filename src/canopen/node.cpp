@@ -113,6 +113,7 @@ void Node::handleEmergency(const CanFrame& frame, Instant now) noexcept {
 
 void Node::handleTransmitPdo(std::size_t pdo, const CanFrame& frame, Instant now) noexcept {
   TransmitPdo& received = transmit_pdos_[pdo];
+  if (report_.status().stops_first) return keepTransmitPdo(pdo, frame, now);
   // What comes before the start may be laid out otherwise.
   if (watch_ == NodeBoot::Watch::kOff) return;
   const ByteView bytes = frame.bytes();
@@ -126,6 +127,15 @@ void Node::handleTransmitPdo(std::size_t pdo, const CanFrame& frame, Instant now
   ++received.value.count;
   ++report_.status().counters.transmit_pdos;
   if (timers_.isSet(NodeTimer::kSilence)) timers_.set(NodeTimer::kSilence, now + config_.silence);
+}
+
+// It may be mapped otherwise than it will be.
+void Node::keepTransmitPdo(std::size_t pdo, const CanFrame& frame, Instant now) noexcept {
+  PdoValue& value = transmit_pdos_[pdo].value;
+  value.bytes.clear();
+  for (const std::uint8_t byte : frame.bytes()) value.bytes.push_back(byte);
+  value.at = now;
+  ++value.count;
 }
 
 void Node::handleSdo(std::size_t server, const CanFrame& frame, Instant now) noexcept {

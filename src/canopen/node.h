@@ -36,6 +36,9 @@ class Node {
   void handleErrorControl(const CanFrame& frame, Instant now) noexcept;
   void handleEmergency(const CanFrame& frame, Instant now) noexcept;
   void handleTransmitPdo(std::size_t pdo, const CanFrame& frame, Instant now) noexcept;
+  /// It has come before the node was begun with.
+  void keepTransmitPdo(std::size_t pdo, const CanFrame& frame, Instant now) noexcept;
+  void handleMotion(FoundMotion motion) noexcept { boot_.handleMotion(motion); }
   void handleSdo(std::size_t server, const CanFrame& frame, Instant now) noexcept;
   void handleForeignCommand(NmtCommand command, Instant now) noexcept;
   /// Another master commanded this node by an RPDO, or asked it by SDO.

@@ -28,56 +28,6 @@ NodeBoot::NodeBoot(const NodeConfig& config, std::uint8_t own_id, Duration ask_i
       ask_pause_(kFirstAskPause, ask_interval),
       refuse_pause_(kFirstRefusePause, kLongestRefusePause) {}
 
-void NodeBoot::restart(Instant now) noexcept {
-  const bool may_run = past_.was_operational && report_.status().nmt == NmtState::kOperational;
-  report_.enter(may_run ? NodeState::kLost : NodeState::kAbsent, {}, now);
-  if (!may_run) report_.status().nmt = NmtState::kUnknown;
-  command_.reset();
-  past_ = Past{};
-  ask_pause_.reset();
-  refuse_pause_.reset();
-  if (may_run) {
-    past_.was_operational = true;
-    tellFirst(now);
-  } else if (config_.reset != BootReset::kNone) {
-    reset(now);
-  } else {
-    ask(now);
-  }
-}
-
-// It may hear us without being heard, or have been out of reach of a moment's bus: what stops its drive goes out before
-// anything that makes it deaf to that.
-void NodeBoot::tellFirst(Instant now) noexcept {
-  past_.reset_due = config_.reset != BootReset::kNone;
-  past_.lost_at = now;
-  past_.cycles_to_tell = kCyclesToTell;
-  phase_ = Phase{Silent{}};
-  port_.cancel(SdoOwner::kBoot, now);
-  timers_.set(NodeTimer::kBoot, now + kFirstAskPause);
-}
-
-void NodeBoot::release(Instant now) noexcept {
-  port_.cancel(SdoOwner::kBoot, now);
-  const bool ever_there = report_.status().state != NodeState::kAbsent;
-  report_.enter(NodeState::kReleased, {}, now);
-  if (config_.reset != BootReset::kNone) return endRelease(NmtCommand::kResetCommunication, now);
-  const Release release{watch() != Watch::kOff};
-  release_script_.begin();
-  if (!ever_there || release_script_.done()) return endRelease(NmtCommand::kEnterPreOperational, now);
-  phase_ = Phase{release};
-  command_.reset();
-  timers_.set(NodeTimer::kBoot, now + kLongestRelease);
-  submit(release_script_.request(), now);
-}
-
-void NodeBoot::endRelease(NmtCommand command, Instant now) noexcept {
-  port_.cancel(SdoOwner::kBoot, now);
-  phase_ = Phase{Off{}};
-  timers_.stop(NodeTimer::kBoot);
-  command_ = command;
-}
-
 NodeBoot::Watch NodeBoot::watch() const noexcept {
   if (isIn<Running>()) return Watch::kWatch;
   const Release* const release = std::get_if<Release>(&phase_);
@@ -124,6 +74,7 @@ void NodeBoot::handleBootUp(Instant now) noexcept {
   report_.status().nmt = NmtState::kBootUp;
   report_.status().booted_up_at = now;
   if (isIn<Off>()) return;
+  endStopFirst(now);
   // It has forgotten whom it watched.
   if (isIn<Release>()) return endRelease(NmtCommand::kEnterPreOperational, now);
   if (isIn<Running>()) leave(restarted(), now);
@@ -153,7 +104,7 @@ void NodeBoot::handleState(NmtState state, Instant now) noexcept {
     ask(now);
     leadBack();
   } else if (isIn<Silent>() || isIn<Script>()) {
-    if (isIn<Silent>() && past_.cycles_to_tell == 0) ask(now);
+    if (isIn<Silent>() && past_.cycles_to_tell == 0 && !report_.status().stops_first) ask(now);
     leadBack();
   }
 }
@@ -214,7 +165,8 @@ void NodeBoot::leadBack() noexcept {
 
 // Stopped by somebody unheard, or before we came, it answers no SDO. Whom we never started is led back at once.
 void NodeBoot::askAgain(Instant now) noexcept {
-  if (isIn<Silent>() && past_.cycles_to_tell > 0) return timers_.set(NodeTimer::kBoot, now + kFirstAskPause);
+  if (isIn<Silent>() && isTold(now)) return timers_.set(NodeTimer::kBoot, now + kFirstAskPause);
+  if (report_.status().stops_first) return begin(now);
   const bool take_back = isIn<Silent>() && now - past_.lost_at >= config_.only_asked;
   guard_question_ = isIn<Silent>() && config_.error_control.mode == ErrorControlMode::kGuarding;
   if (take_back) past_.lost_at = now;  // again after as long

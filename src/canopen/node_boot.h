@@ -8,7 +8,7 @@
 //                                                                           ask 1000h
 //
 // A boot-up frame leads to the script at once, from everywhere. It is never waited for without an end: a node whose
-// boot-up was missed is found by asking.
+// boot-up was missed is found by asking. One that is found with a drive enabled is stopped before all that.
 #pragma once
 
 #include <cstdint>
@@ -47,8 +47,11 @@ class NodeBoot {
   NodeBoot(const NodeConfig& config, std::uint8_t own_id, Duration ask_interval, NodeReport& report, SdoPort& port,
            NodeTimers& timers) noexcept;
 
-  /// One that may still be operational is first told what stops its drive, as after a loss.
+  /// One that may still be operational is first told what stops its drive, as after a loss; one that was found driven
+  /// until it rests, for `NodeConfig::only_asked` at most.
   void restart(Instant now) noexcept;
+  /// Before the `restart()` that begins, and while `NodeStatus::stops_first`.
+  void handleMotion(FoundMotion motion) noexcept { motion_ = motion; }
   /// A bus cycle begins; what is sent to a node that is lost went out before.
   void handleCycle() noexcept {
     if (past_.cycles_to_tell > 0) --past_.cycles_to_tell;
@@ -58,7 +61,8 @@ class NodeBoot {
     if (past_.cycles_to_tell > 0) past_.cycles_to_tell = kCyclesToTell + 1;
   }
   /// Lets the node go: a reset of its communication where the configuration allows one; otherwise it is told not to
-  /// watch us any more, which takes a second at most, and led to pre-operational.
+  /// watch us any more, which takes a second at most, and led to pre-operational. One that is driven by somebody else's
+  /// words, or may be, is left as it was found: who it watches may stop it, and it hears what stops it.
   void release(Instant now) noexcept;
   /// Nothing is to be sent to it any more.
   bool released() const noexcept { return isIn<Off>() && !command_; }
@@ -142,6 +146,11 @@ class NodeBoot {
   void run(Instant now) noexcept;
   void leadBack() noexcept;
   void tellFirst(Instant now) noexcept;
+  bool isTold(Instant now) const noexcept;
+  bool isStillDriven() const noexcept;
+  void begin(Instant now) noexcept;
+  void endStopFirst(Instant now) noexcept;
+  void leaveAsFound() noexcept;
   void askAgain(Instant now) noexcept;
   void leave(const Sentence& why, Instant now) noexcept;
   void diagnose(bool heard, Instant now) noexcept;
@@ -162,6 +171,7 @@ class NodeBoot {
   GrowingPause refuse_pause_;
   std::optional<NmtCommand> command_;
   bool guard_question_ = false;
+  FoundMotion motion_ = FoundMotion::kRests;
 };
 
 }  // namespace nord_driver::canopen

@@ -22,6 +22,13 @@ enum class NodeState : std::uint8_t {
 
 const char* toText(NodeState state) noexcept;
 
+/// What was heard of a node's drives before the node was begun with; the later ones matter more.
+enum class FoundMotion : std::uint8_t {
+  kRests,    ///< none is enabled, or nothing was heard that tells
+  kUnknown,  ///< nothing was heard, but its process data comes with the next SYNC
+  kDriven    ///< one is enabled, by control words nobody sends any more
+};
+
 /// Counted since construction.
 struct NodeCounters {
   std::uint64_t boot_ups = 0;  ///< boot-up frames
@@ -56,6 +63,8 @@ struct NodeStatus {
   EmergencyHistory emergencies;
   /// Operational, but two nodes have its id: only to be stopped.
   bool doubled = false;
+  /// It was found driven, and is given the words that stop its drives before anything else.
+  bool stops_first = false;
   Instant heard_at{};                        ///< last frame of error control
   std::optional<Instant> booted_up_at;       ///< last boot-up frame
   std::optional<Instant> other_commands_at;  ///< another master's last RPDO for it

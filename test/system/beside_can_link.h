@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <deque>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "link/can/can_link.h"
 #include "sim/can/timed_can_bus.h"
@@ -22,6 +24,8 @@ class BesideCanLink final : public link::CanLink {
   /// The interface is down: nothing is received or sent, and it says so.
   void setUp(bool up) noexcept { up_ = up; }
   std::size_t sent() const noexcept { return sent_; }
+  /// Told of each frame it sends, before that goes over the bus.
+  void setSees(std::function<void(const CanFrame&)> sees) { sees_ = std::move(sees); }
 
   bool open() noexcept override {
     open_ = true;
@@ -35,6 +39,7 @@ class BesideCanLink final : public link::CanLink {
   link::CanSend send(const CanFrame& frame) noexcept override {
     if (!up_) return link::CanSend::kFailed;
     ++sent_;
+    if (sees_) sees_(frame);
     bus_.inject(frame);
     return link::CanSend::kSent;
   }
@@ -63,6 +68,7 @@ class BesideCanLink final : public link::CanLink {
   bool deaf_ = false;
   bool up_ = true;
   std::size_t sent_ = 0;
+  std::function<void(const CanFrame&)> sees_;
   std::deque<link::ReceivedCanFrame> received_;
   std::string no_error_;
 };

@@ -84,10 +84,22 @@ void CanopenTransport::setShutdownTimeout(Duration timeout) noexcept {
 }
 
 void CanopenTransport::putOutputs(const std::vector<profile::ProcessOutput>& outputs) noexcept {
+  for (std::size_t node = 0; node < master_->nodeCount(); ++node) lookForMotion(node);
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     drives_[i].putOutput(outputs[i], *master_);
     answered_[i] = master_->transmitPdo(config_.drives[i].node, config_.drives[i].transmit_pdo).count;
   }
+}
+
+// Somebody who is gone may have left them turning.
+void CanopenTransport::lookForMotion(std::size_t node) noexcept {
+  if (parametersOnly() || !(isSilent() || master_->status(node).stops_first)) return;
+  const bool asked = config_.master.sync_cob_id.has_value();
+  canopen::FoundMotion motion = canopen::FoundMotion::kRests;
+  for (const CanopenDriveState& drive : drives_) {
+    if (drive.config().node == node) motion = std::max(motion, drive.foundMotion(*master_, asked, now()));
+  }
+  master_->setMotion(node, motion);
 }
 
 void CanopenTransport::takeInputs(Instant now, std::vector<DriveExchange>& inputs) noexcept {

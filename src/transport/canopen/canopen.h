@@ -23,6 +23,8 @@ namespace nord_driver {
 /// Before the first frame it listens: nodes that another master works with are not taken away from it, it is waited
 /// for. From then on it holds them, but a drive that somebody else commands as well does not count as answering.
 ///
+/// A drive that it has heard as enabled by then is stopped before its node is reset or set up.
+///
 /// For parameters only: nothing is reset and nothing watched, and nothing is sent on a bus that somebody else works
 /// with, whether it was heard before the first frame or came later.
 class CanopenTransport final : public CanTransport, public BusScanner {
@@ -49,6 +51,7 @@ class CanopenTransport final : public CanTransport, public BusScanner {
   const CanopenConfig& config() const noexcept { return config_; }
 
  private:
+  void lookForMotion(std::size_t node) noexcept;
   void putOutputs(const std::vector<profile::ProcessOutput>& outputs) noexcept override;
   void takeInputs(Instant now, std::vector<DriveExchange>& inputs) noexcept override;
   bool allAnswered() const noexcept override;

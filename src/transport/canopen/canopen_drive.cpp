@@ -15,6 +15,10 @@ constexpr Duration kContested = std::chrono::seconds{1};
 // Bits 0 to 3 of a word that keeps an inverter running; every one that stops has one of them at 0 (BU 2700 6.4.1).
 constexpr Word kRuns = 0x000F;
 
+// A drive found enabled that sends at intervals and was not heard for so long: its node is gone. Another driver may have
+// given it longer intervals than ours.
+constexpr Duration kFoundIsOld = std::chrono::seconds{1};
+
 }  // namespace
 
 CanopenDriveState::CanopenDriveState(const CanopenDrive& config, std::uint16_t tag)
@@ -24,7 +28,7 @@ CanopenDriveState::CanopenDriveState(const CanopenDrive& config, std::uint16_t t
 
 // In CiA 402 no word says "ignore me": then the master repeats what it was given before, or sends nothing yet. A node that
 // fell silent may hear words that stop its drive, as long as the drive layer gives any; never an old one.
-void CanopenDriveState::putOutput(const profile::ProcessOutput& output, canopen::Master& master) noexcept {
+void CanopenDriveState::put(const profile::ProcessOutput& output, canopen::Master& master) noexcept {
   if (config_.drive_profile == DriveProfile::kNord) {
     master.setReceivePdo(config_.node, config_.receive_pdo, packPdo(config_, output));
   } else if (const auto words = scaling_.toCia402(output)) {
@@ -34,6 +38,32 @@ void CanopenDriveState::putOutput(const profile::ProcessOutput& output, canopen:
   }
   const bool valid = (output.control_word & profile::control_bit::kDataValid) != 0;
   if (valid && (output.control_word & kRuns) != kRuns) master.tellUnheard(config_.node, config_.receive_pdo);
+}
+
+// Only an enabled one: the word that takes the enable away would acknowledge a fault that nobody has seen.
+void CanopenDriveState::putOutput(const profile::ProcessOutput& output, canopen::Master& master) noexcept {
+  if (!master.status(config_.node).stops_first) return put(output, master);
+  const profile::StatusWord status = foundStatus(master);
+  if (status.state() != profile::DriveState::kOperationEnabled) return;
+  profile::ProcessOutput stop;
+  stop.control_word = profile::controlWord(profile::Command::kShutdown, status.parameterSet());
+  put(stop, master);
+}
+
+canopen::FoundMotion CanopenDriveState::foundMotion(const canopen::Master& master, bool asked,
+                                                    Instant now) const noexcept {
+  const canopen::PdoValue& pdo = master.transmitPdo(config_.node, config_.transmit_pdo);
+  const bool old = config_.transmit_limit > Duration::zero() && now - pdo.at > kFoundIsOld;
+  if (pdo.count == 0 || old) return asked ? canopen::FoundMotion::kUnknown : canopen::FoundMotion::kRests;
+  const bool enabled = foundStatus(master).state() == profile::DriveState::kOperationEnabled;
+  return enabled ? canopen::FoundMotion::kDriven : canopen::FoundMotion::kRests;
+}
+
+// In every layout, of either profile, the status word comes first; what the rest is may be changed by the start-up.
+profile::StatusWord CanopenDriveState::foundStatus(const canopen::Master& master) const noexcept {
+  const ByteView bytes = master.transmitPdo(config_.node, config_.transmit_pdo).bytes;
+  if (bytes.size() < 2) return {};
+  return profile::StatusWord{static_cast<Word>(bytes[0] | bytes[1] << 8)};
 }
 
 bool CanopenDriveState::decode(ByteView bytes, profile::ProcessInput& input) const noexcept {

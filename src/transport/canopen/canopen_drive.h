@@ -7,6 +7,7 @@
 #include "canopen/master.h"
 #include "nord_driver/transport/transport.h"
 #include "profile/cia402.h"
+#include "profile/status_word.h"
 #include "transport/canopen/canopen_config.h"
 #include "transport/canopen/canopen_parameters.h"
 #include "transport/canopen/module_link.h"
@@ -19,7 +20,10 @@ class CanopenDriveState {
  public:
   CanopenDriveState(const CanopenDrive& config, std::uint16_t tag);
 
+  /// A drive that was found enabled gets the word that stops it, in its parameter set, whatever `output` is.
   void putOutput(const profile::ProcessOutput& output, canopen::Master& master) noexcept;
+  /// What its last TPDO tells of a drive whose node was not begun with; `asked`: by SYNC it would tell.
+  canopen::FoundMotion foundMotion(const canopen::Master& master, bool asked, Instant now) const noexcept;
   /// `bus_works`: frames can come and go at all.
   void takeInput(const canopen::Master& master, bool bus_works, Instant now, DriveExchange& input) noexcept;
 
@@ -38,6 +42,8 @@ class CanopenDriveState {
   const Sentence& emergency() const noexcept { return emergency_text_; }
 
  private:
+  profile::StatusWord foundStatus(const canopen::Master& master) const noexcept;
+  void put(const profile::ProcessOutput& output, canopen::Master& master) noexcept;
   bool decode(ByteView bytes, profile::ProcessInput& input) const noexcept;
   void takeEmergencies(const canopen::NodeStatus& status) noexcept;
   void forgetEmergency() noexcept;
