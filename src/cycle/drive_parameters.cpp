@@ -27,10 +27,10 @@ constexpr Duration kMissingInterval = std::chrono::seconds{2};
 constexpr std::uint16_t kDecideMotion[] = {113, 114, 300, 301, 325, 400, 405, 420, 421, 422, 423, 424,
                                            425, 434, 441, 443, 450, 455, 465, 470, 507, 541, 551};
 
-// What the drive is reached by, and when it trips because it is not: a time-out shorter than the bus cycle, or another address,
-// and this motor alone coasts (BU 2700 7.1.1). Monitoring of options, what a leader sends to its followers (P502, P503, P552),
-// addresses and baud rates (P508, P511, P512, P514, P515), the telegram time-out. No manual at hand describes P523 (factory setting) and
-// P550 (copy of a whole data set).
+// What the drive is reached by, and when it trips because it is not: a time-out shorter than the bus cycle, or another
+// address, and this motor alone coasts (BU 2700 7.1.1). Monitoring of options, what a leader sends to its followers
+// (P502, P503, P552), addresses and baud rates (P508, P511, P512, P514, P515), the telegram time-out. No manual at hand
+// describes P523 (factory setting) and P550 (copy of a whole data set).
 constexpr std::uint16_t kDecideReach[] = {120, 502, 503, 508, 511, 512, 513, 514, 515, 523, 550, 552};
 
 template <std::size_t kSize>
