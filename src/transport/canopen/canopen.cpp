@@ -137,7 +137,9 @@ void CanopenTransport::runRequests(Instant /*now*/) noexcept {
 
 void CanopenTransport::takeEvents() noexcept {
   while (const auto event = master_->pollEvent()) {
-    if (event->kind == canopen::CanopenEventKind::kSecondMaster) noteMaster(event->value, event->at);
+    const bool of_a_master = event->kind == canopen::CanopenEventKind::kSecondMaster ||
+                             event->kind == canopen::CanopenEventKind::kForeignCommand;
+    if (of_a_master) noteMaster(event->value, event->at);
     const bool of_a_node = event->node != canopen::kNoNode;
     takeEvent(*event, of_a_node ? config_.master.nodes[event->node].id : 0, events());
   }

@@ -4,6 +4,8 @@ namespace nord_driver {
 
 void takeEvent(const canopen::CanopenEvent& event, unsigned node_id, CanBusEvents& events) noexcept {
   using Kind = canopen::CanopenEventKind;
+  // Of nodes of others, by their own master: that is as it should be.
+  if (event.kind == Kind::kForeignCommand) return;
   Sentence text;
   if (event.node == canopen::kNoNode) {
     text = event.text;

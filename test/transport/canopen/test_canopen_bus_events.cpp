@@ -43,6 +43,13 @@ TEST(CanopenBusEventsTest, WhatADriveTellsItselfIsLeftOut) {
   EXPECT_STREQ("", events.text(kStart).c_str());
 }
 
+TEST(CanopenBusEventsTest, WhatOthersTellTheirOwnNodesIsLeftOut) {
+  CanBusEvents events;
+  takeEvent(event(CanopenEventKind::kForeignCommand, "NMT for node 33", kStart), kNodeId, events);
+  EXPECT_FALSE(events.poll());
+  EXPECT_STREQ("", events.text(kStart).c_str());
+}
+
 TEST(CanopenBusEventsTest, AnotherMasterIsShownRatherThanWhatComesOfIt) {
   CanBusEvents events;
   EXPECT_FALSE(events.isExplained(kStart));
