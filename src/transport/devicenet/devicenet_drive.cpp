@@ -72,6 +72,7 @@ bool DevicenetDriveState::answered(const devicenet::Scanner& scanner, std::uint6
 void DevicenetDriveState::takeInput(const devicenet::Scanner& scanner, bool bus_works, Instant now,
                                     DriveExchange& input) noexcept {
   const NodeStatus& status = scanner.status(config_.module);
+  const bool was_contested = contested_;
   watchOthers(status, now);
   input = {};
   input.interruption = takeInterruption(status, bus_works, now);
@@ -98,6 +99,9 @@ void DevicenetDriveState::takeInput(const devicenet::Scanner& scanner, bool bus_
   input.inverter_missing = module_answers_ && !contested_ && !inverter_answers_;
   if (!inverter_answers_) input.input = {};
   told_ = connected && (told_ || inverter_answers_) && input.interruption == Interruption::kNone;
+  if (contested_ && !was_contested && input.interruption == Interruption::kNone) {
+    input.interruption = Interruption::kContested;
+  }
   explain(status, bus_works);
 }
 
