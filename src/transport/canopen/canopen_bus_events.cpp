@@ -10,11 +10,13 @@ void takeEvent(const canopen::CanopenEvent& event, unsigned node_id, CanBusEvent
   if (event.node == canopen::kNoNode) {
     text = event.text;
   } else if (event.kind == Kind::kToggleError || event.kind == Kind::kBootUpRepeated || event.kind == Kind::kDoubleId ||
-             event.kind == Kind::kMalformed) {
+             event.kind == Kind::kMalformed || event.kind == Kind::kNodeRefused) {
     text.format("node %u: %s", node_id, event.text.c_str());
   } else {
     return;
   }
+  // Two nodes with one id have been told, and are refused for it.
+  if (event.kind == Kind::kNodeRefused) return events.mention(text, event.at);
   events.warn(text, event.at, event.kind == Kind::kSecondMaster || event.kind == Kind::kDoubleId);
 }
 

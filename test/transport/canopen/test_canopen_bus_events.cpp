@@ -62,6 +62,20 @@ TEST(CanopenBusEventsTest, AnotherMasterIsShownRatherThanWhatComesOfIt) {
   EXPECT_FALSE(events.isExplained(kStart + seconds{10}));
 }
 
+TEST(CanopenBusEventsTest, ARefusalIsToldAndLeftToTheDriveToShow) {
+  CanBusEvents events;
+  takeEvent(event(CanopenEventKind::kNodeRefused, "is another device", kStart, 0), kNodeId, events);
+  const auto told = events.poll();
+  ASSERT_TRUE(told);
+  EXPECT_TRUE(told->warning);
+  EXPECT_STREQ("node 50: is another device", told->text.c_str());
+  EXPECT_STREQ("", events.text(kStart).c_str());
+  takeEvent(event(CanopenEventKind::kDoubleId, "two nodes answer", kStart, 0), kNodeId, events);
+  EXPECT_TRUE(events.poll());
+  takeEvent(event(CanopenEventKind::kNodeRefused, "two nodes answer", kStart, 0), kNodeId, events);
+  EXPECT_FALSE(events.poll()) << "told once";
+}
+
 TEST(CanopenBusEventsTest, LostFramesAreToldOnceASecondWithTheirNumber) {
   CanBusEvents events;
   events.noteLostFrames("can0", 0, kStart);
