@@ -10,9 +10,20 @@ void BusWatch::foreignNode(std::uint8_t id, Instant now) noexcept {
   findings_.tell(CanopenEventKind::kForeignNode, text, id, now);
 }
 
+BusWatch::Finding BusWatch::findingOf(CobIdUse::Kind kind) noexcept {
+  switch (kind) {
+    case CobIdUse::Kind::kNmt:
+      return Finding::kSecondNmt;
+    case CobIdUse::Kind::kReceivePdo:
+      return Finding::kControlWord;
+    default:
+      return Finding::kSecondMaster;
+  }
+}
+
 void BusWatch::secondMaster(const CanFrame& frame, CobIdUse::Kind kind, Instant now) noexcept {
   ++counters_.second_master;
-  if (!findings_.mayTell(Finding::kSecondMaster, now)) return;
+  if (!findings_.mayTell(findingOf(kind), now)) return;
   Sentence text;
   if (kind == CobIdUse::Kind::kNmt) {
     FixedText<16> whom{"all nodes"};
@@ -23,6 +34,16 @@ void BusWatch::secondMaster(const CanFrame& frame, CobIdUse::Kind kind, Instant 
                 static_cast<unsigned>(frame.id));
   }
   findings_.tell(CanopenEventKind::kSecondMaster, text, frame.id, now);
+}
+
+// Masters may share a bus as long as their nodes differ.
+void BusWatch::foreignCommand(const CanFrame& frame, Instant now) noexcept {
+  ++counters_.foreign;
+  if (!findings_.mayTell(Finding::kForeignCommand, now)) return;
+  Sentence text;
+  text.format("another master sends NMT \"%s\" to node %u, which is not configured",
+              toText(static_cast<NmtCommand>(frame.data[0])), unsigned{frame.data[1]});
+  findings_.tell(CanopenEventKind::kForeignCommand, text, frame.id, now);
 }
 
 void BusWatch::ownIdUsed(const CanFrame& frame, Instant now) noexcept {

@@ -1,5 +1,5 @@
-// Others on the bus: nodes that are not configured, a second master, somebody with our own node id. Counted always,
-// told once per node or once per second.
+// Others on the bus: nodes that are not configured and their master, a second master of our nodes, somebody with our own
+// node id. Counted always, told once per node or once per second.
 #pragma once
 
 #include <cstdint>
@@ -23,13 +23,26 @@ class BusWatch {
   void restart() noexcept { findings_.restart(); }
   /// `id`: of a node that is not configured.
   void foreignNode(std::uint8_t id, Instant now) noexcept;
+  /// Of what a master says to our nodes.
   void secondMaster(const CanFrame& frame, CobIdUse::Kind kind, Instant now) noexcept;
+  /// NMT for a node that is not ours, by the master it has.
+  void foreignCommand(const CanFrame& frame, Instant now) noexcept;
   void ownIdUsed(const CanFrame& frame, Instant now) noexcept;
   /// An NMT frame that is none.
   void malformedNmt(const CanFrame& frame, Instant now) noexcept;
 
  private:
-  enum class Finding : std::uint8_t { kSecondMaster, kOwnIdUsed, kMalformedNmt, kCount };
+  /// What stops a drive is not hidden by what was told a moment ago: NMT and control words have a second of their own.
+  enum class Finding : std::uint8_t {
+    kSecondMaster,
+    kSecondNmt,
+    kControlWord,
+    kForeignCommand,
+    kOwnIdUsed,
+    kMalformedNmt,
+    kCount
+  };
+  static Finding findingOf(CobIdUse::Kind kind) noexcept;
 
   Counters& counters_;
   BusFindings<CanopenEvents, Finding> findings_;

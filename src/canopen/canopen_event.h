@@ -21,9 +21,10 @@ enum class CanopenEventKind : std::uint8_t {
   kDoubleId,         ///< more answers than questions: two nodes with one id
   kMalformed,        ///< a frame of a wrong length or an impossible value; `value`: its identifier
   // Not of a configured node: `node` is kNoNode.
-  kForeignNode,   ///< `value`: id of a node that is not configured; told once per node until `restart()`
-  kSecondMaster,  ///< somebody else sends NMT, SYNC, guarding, RPDOs or SDO requests; `value`: the identifier
-  kOwnIdUsed      ///< somebody else sends boot-up or heartbeat with our own node id
+  kForeignNode,     ///< `value`: id of a node that is not configured; told once per node until `restart()`
+  kForeignCommand,  ///< somebody else sends NMT to a node that is not configured: nothing to us; `value`: the identifier
+  kSecondMaster,    ///< somebody else sends NMT, SYNC, guarding, RPDOs or SDO requests; `value`: the identifier
+  kOwnIdUsed        ///< somebody else sends boot-up or heartbeat with our own node id
 };
 
 constexpr std::size_t kNoNode = static_cast<std::size_t>(-1);

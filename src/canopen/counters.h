@@ -13,8 +13,8 @@ struct Counters {
   std::uint64_t not_sent = 0;       ///< frames the link had no room for
   std::uint64_t superseded = 0;     ///< RPDOs and SYNCs that were not sent in their cycle
   std::uint64_t malformed = 0;      ///< of our nodes, and NMT commands of others
-  std::uint64_t foreign = 0;        ///< identifiers and nodes that are not configured
-  std::uint64_t second_master = 0;  ///< frames only a master sends
+  std::uint64_t foreign = 0;        ///< identifiers and nodes that are not configured, NMT for such nodes included
+  std::uint64_t second_master = 0;  ///< frames only a master of our nodes sends
   std::uint64_t own_id_used = 0;
   std::uint64_t sdo_timeouts = 0;
   std::uint64_t sdo_aborts = 0;

@@ -151,7 +151,8 @@ void Master::handleRemote(const CobIdUse& use, const CanFrame& frame, Instant no
 
 void Master::handleNmt(const CanFrame& frame, Instant now) noexcept {
   if (!isNmtCommand(frame)) return watch_.malformedNmt(frame, now);
-  watch_.secondMaster(frame, Kind::kNmt, now);
+  const bool to_us = isOfOtherMaster(uses_[frame.id], frame) || frame.data[1] == config_.own_id;
+  to_us ? watch_.secondMaster(frame, Kind::kNmt, now) : watch_.foreignCommand(frame, now);
   for (const auto& node : nodes_) {
     if (frame.data[1] != 0 && frame.data[1] != node->id()) continue;
     node->handleForeignCommand(static_cast<NmtCommand>(frame.data[0]), now);

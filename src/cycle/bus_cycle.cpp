@@ -36,6 +36,12 @@ std::vector<bool> membersOfBase(const CycleConfig& config) {
   return members;
 }
 
+drive::StopCause causeOf(Interruption interruption) noexcept {
+  if (interruption == Interruption::kSilent) return drive::StopCause::kSilent;
+  if (interruption == Interruption::kContested) return drive::StopCause::kContested;
+  return drive::StopCause::kInterrupted;
+}
+
 // Never too late.
 bool stops(RequestKind kind) noexcept {
   return kind == RequestKind::kDisable || kind == RequestKind::kQuickStop || kind == RequestKind::kShutDown;
@@ -245,8 +251,7 @@ void BusCycle::commandSingles(Instant now, Duration dt) noexcept {
 void BusCycle::handleInputs(Instant now) noexcept {
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     if (inputs_[i].interruption != Interruption::kNone) {
-      const bool silent = inputs_[i].interruption == Interruption::kSilent;
-      drives_[i].handleInterruption(silent ? drive::StopCause::kSilent : drive::StopCause::kInterrupted, now);
+      drives_[i].handleInterruption(causeOf(inputs_[i].interruption), now);
       axes_[i].words.handleInterruption();
       axes_[i].parameters.handleLoss(drives_[i]);
     }

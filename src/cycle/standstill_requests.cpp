@@ -75,7 +75,7 @@ void StandstillRequests::update(Instant now) noexcept {
 }
 
 bool StandstillRequests::follow(Job& job, Instant now) noexcept {
-  bool busy = false;
+  std::optional<DriveIndex> busy;
   Sentence refused = job.refusal;
   forEach(job.request, [&](DriveIndex i) {
     const drive::RequestReport& report = reportOf(job.request, i);
@@ -84,8 +84,8 @@ bool StandstillRequests::follow(Job& job, Instant now) noexcept {
     };
     const std::size_t bit = i % job.ended.size();
     if (report.token == job.token) {
-      busy = busy || report.state == drive::RequestState::kRunning;
       job.ended[bit] = report.state != drive::RequestState::kRunning;
+      if (!job.ended[bit] && !busy) busy = i;
       if (report.state == drive::RequestState::kRefused) {
         refuse(report.refusal);
         job.refusal = refused;
@@ -99,7 +99,7 @@ bool StandstillRequests::follow(Job& job, Instant now) noexcept {
   });
   if (busy && now < job.deadline) return false;
   if (busy) {
-    completions_.answer(job.request, false, "not confirmed in time");
+    completions_.answer(job.request, false, unconfirmed(job.request, *busy));
   } else if (job.request.kind == RequestKind::kAcknowledge) {
     const Sentence answer = refused.empty() ? acknowledged(job) : refused;
     const auto neighbour = faultedNeighbour(job.request);
@@ -113,6 +113,17 @@ bool StandstillRequests::follow(Job& job, Instant now) noexcept {
     completions_.answer(job.request, true, text);
   }
   return true;
+}
+
+Sentence StandstillRequests::unconfirmed(const Request& request, DriveIndex drive) const noexcept {
+  const drive::DriveReport& report = drives_[drive].report();
+  Sentence text;
+  text.format("not confirmed in time: %s", stateMessage(names_[drive].c_str(), report).c_str());
+  if (request.kind != RequestKind::kSelectParameterSet || !report.online) return text;
+  Sentence longer;
+  longer.format("%s; parameter set %u is in force, %u was asked for", text.c_str(), unsigned{report.parameter_set},
+                unsigned{request.parameter_set});
+  return longer;
 }
 
 const char* StandstillRequests::acknowledged(const Job& job) noexcept {

@@ -44,6 +44,8 @@ class StandstillRequests {
   void forEach(const Request& request, Action action) noexcept;
   /// True when the job has ended.
   bool follow(Job& job, Instant now) noexcept;
+  /// Its time is over, and `drive` is not done: what was seen of it last.
+  Sentence unconfirmed(const Request& request, DriveIndex drive) const noexcept;
   /// What to answer when no fault stands any more.
   const char* acknowledged(const Job& job) noexcept;
   /// A drive with a fault behind the same bus module as those of the request, and not one of them.

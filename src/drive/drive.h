@@ -79,7 +79,7 @@ class Drive {
   void handleInput(const profile::ProcessInput& input, bool fresh, Instant now) noexcept;
   /// Before handleInput() of a cycle in which the connection to this inverter ended: what it heard last is not known.
   /// As after silence, but without drive_timeout, and also when the inverter answers again in this cycle. `cause`:
-  /// kInterrupted, or kSilent where the bus has found it silent.
+  /// kInterrupted, kSilent where the bus has found it silent, or kContested.
   void handleInterruption(StopCause cause, Instant now) noexcept;
   /// Before handleInput(). `inverter_missing`: its bus module took part in this cycle, and says that the inverter
   /// behind it does not.

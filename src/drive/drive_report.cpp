@@ -20,6 +20,8 @@ const char* toString(StopCause cause) noexcept {
       return "the inverter fell silent";
     case StopCause::kInterrupted:
       return "its connection to the bus was reset, or left operation, without being asked";
+    case StopCause::kContested:
+      return "another master commands it, too";
     case StopCause::kParameterSet:
       return "another parameter set came into force without being asked for";
     case StopCause::kQuickStop:

@@ -44,6 +44,7 @@ enum class StopCause : std::uint8_t {
   kLocalControl,     ///< status bit 9 = 0: terminals have taken over
   kSilent,           ///< no fresh status word for drive_timeout
   kInterrupted,      ///< its connection to the bus was reset or left operation: by others, or by itself
+  kContested,        ///< another master commands it, too
   kParameterSet,     ///< another parameter set came into force without being asked for
   kQuickStop,        ///< the user's quick stop
   kShutdownTimeout,  ///< OFF1 did not end in shutdown_timeout: quick stop

@@ -69,6 +69,28 @@ TEST_F(Watched, SecondMaster) {
       << "there is no node 128";
 }
 
+// Masters may share a bus as long as their nodes differ: what another one tells its own nodes is nothing of ours.
+TEST_F(Watched, NmtForNodesOfOthers) {
+  EXPECT_EQ("another master sends NMT \"start\" to node 33, which is not configured",
+            told("000#0121", CanopenEventKind::kForeignCommand));
+  EXPECT_EQ("", told("000#8221", CanopenEventKind::kForeignCommand)) << "once per second";
+  EXPECT_EQ(0u, run.master.counters().second_master);
+  EXPECT_EQ(2u, run.master.counters().foreign);
+  EXPECT_TRUE(run.allOperational());
+}
+
+// What stops a drive is told at once, whatever was told a moment ago.
+TEST_F(Watched, WhatStopsADriveIsNotHiddenByWhatDoesNot) {
+  told("000#0121", CanopenEventKind::kForeignCommand);
+  EXPECT_EQ("another master is on the bus: it sends SDO request (601h), which only we should",
+            told("601#4000100000000000", CanopenEventKind::kSecondMaster));
+  EXPECT_EQ("another master is on the bus: it sends RPDO (202h), which only we should",
+            told("202#7F040010", CanopenEventKind::kSecondMaster));
+  EXPECT_EQ("another master sends NMT \"stop\" to node 2", told("000#0202", CanopenEventKind::kSecondMaster, 1));
+  EXPECT_EQ("", told("202#7F040010", CanopenEventKind::kSecondMaster)) << "once per second each";
+  EXPECT_EQ("", told("601#4000100000000000", CanopenEventKind::kSecondMaster));
+}
+
 // Before our first frame: who works with our nodes, and who does not. A node that was left operational is nobody's.
 TEST_F(Watched, SomebodyElseHasOurNodes) {
   const auto noted = [this](const CanFrame& frame) { return run.master.noteOtherMaster(frame, run.now); };

@@ -53,6 +53,16 @@ class StandstillJobs : public ::testing::Test {
     requests_->handleRequest(request, now_);
     collect();
   }
+  void select(std::uint32_t id, std::uint8_t set, Duration patience) {
+    Request request;
+    request.id = id;
+    request.kind = RequestKind::kSelectParameterSet;
+    request.drive = 0;
+    request.parameter_set = set;
+    request.patience = patience;
+    requests_->handleRequest(request, now_);
+    collect();
+  }
   void collect() {
     while (const auto answer = requests_->pollCompletion()) {
       answers_[answer->id].push_back((answer->success ? "yes: " : "no: ") + answer->message.str());
@@ -99,9 +109,19 @@ TEST_F(StandstillJobs, ARequestIsAnsweredWhenItsTimeIsOver) {
   run(4);
   EXPECT_THAT(answers_[1], IsEmpty());
   step();
-  EXPECT_THAT(answers_[1], ElementsAre("no: not confirmed in time"));
+  EXPECT_THAT(answers_[1], ElementsAre("no: not confirmed in time: drive drive_0 is fault, status word 0B38"));
   run(100);
   EXPECT_EQ(1u, answers_[1].size());
+}
+
+// The drive's own limit is later, or falls into the same cycle: what was seen last is told all the same.
+TEST_F(StandstillJobs, ASwitchThatIsNotSeenTellsTheSetInForce) {
+  inverters_[0].set_delay = 1000;
+  select(1, 2, 5 * kCycle);
+  run(5);
+  EXPECT_THAT(answers_[1],
+              ElementsAre("no: not confirmed in time: drive drive_0 is ready to switch on, status word 0B31; "
+                          "parameter set 1 is in force, 2 was asked for"));
 }
 
 // A stop has ended the first one, and in the same cycle somebody asks again.

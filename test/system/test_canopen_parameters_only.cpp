@@ -279,6 +279,15 @@ TEST(CanopenParametersOnly, ADriverThatStartsLaterIsGivenTheBus) {
   EXPECT_DOUBLE_EQ(25.0, tool.left().frequency());
 }
 
+// A guest keeps off any master, that of other nodes as well.
+TEST(CanopenParametersOnly, AMasterOfOtherNodesThatStartsLaterIsGivenTheBus) {
+  CanTool tool;
+  tool.connect();
+  tool.bus().inject(dataFrame(0x000, ByteView{FixedBytes<2>{0x01, 0x21}}));
+  EXPECT_FALSE(tool.link().read(parameter(105)).success);
+  EXPECT_THAT(tool.transport().busText().str(), HasSubstr("000h was seen"));
+}
+
 // P513 > 0 is the drive's own watch over control words: only the end of the program lets it act, and it is named.
 TEST(CanopenParametersOnly, NamesTheTelegramTimeout) {
   CanTool tool{{{513, 0, 0, 10}}};

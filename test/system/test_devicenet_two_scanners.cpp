@@ -74,6 +74,7 @@ TEST_F(DevicenetTwoScanners, OneThatComesSecondIsNamedAndNothingMoves) {
   EXPECT_GT(first_.module(kLeft).counters().polls, polls);
   ASSERT_NO_FATAL_FAILURE(expectRestForGood());
   EXPECT_TRUE(first_.snapshot().base.stopped);
+  EXPECT_THAT(first_.snapshot().base.text.c_str(), HasSubstr("another master commands it, too"));
 
   // It ends, and the first has its modules back, at rest.
   second_->transport().close();

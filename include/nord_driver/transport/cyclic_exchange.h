@@ -13,11 +13,12 @@ namespace nord_driver {
 /// A drive's place in the list that `configure()` was given.
 using DriveIndex = std::size_t;
 
-/// How the connection to an inverter ended, where the bus itself tells.
+/// How the connection to an inverter ended, where the bus itself tells. A drive that turned gets what stops it.
 enum class Interruption : std::uint8_t {
   kNone,
-  kUnasked,  ///< it was reset, or left the state in which data are exchanged, without being asked
-  kSilent,   ///< what watches it (guarding, heartbeat) has not heard it in time
+  kUnasked,    ///< it was reset, or left the state in which data are exchanged, without being asked
+  kSilent,     ///< what watches it (guarding, heartbeat) has not heard it in time
+  kContested,  ///< another master commands it, too: it answers, but does what the last word said, whoever sent it
 };
 
 /// What the last cycle brought from one inverter.

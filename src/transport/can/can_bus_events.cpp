@@ -1,5 +1,7 @@
 #include "transport/can/can_bus_events.h"
 
+#include <cstring>
+
 namespace nord_driver {
 
 namespace {
@@ -15,6 +17,10 @@ void CanBusEvents::warn(const Sentence& text, Instant at, bool explains) noexcep
   if (explains) explained_at_ = at;
   text_ = text;
   text_at_ = at;
+}
+
+void CanBusEvents::mention(const Sentence& text, Instant at) noexcept {
+  if (std::strcmp(text.c_str(), this->text(at).c_str()) != 0) tell(text, true);
 }
 
 void CanBusEvents::noteLostFrames(const char* interface, std::uint64_t lost, Instant now) noexcept {

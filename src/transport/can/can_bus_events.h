@@ -15,6 +15,8 @@ class CanBusEvents {
   /// `explains`: it tells of another master, or of two nodes with one id: the reason of most that the nodes do
   /// meanwhile, and not to be hidden by it.
   void warn(const Sentence& text, Instant at, bool explains) noexcept;
+  /// A warning of what the drives tell themselves: never the text of the bus. Left out where that text says it already.
+  void mention(const Sentence& text, Instant at) noexcept;
   /// For information.
   void inform(const Sentence& text) noexcept { tell(text, false); }
   /// `lost`: received frames this computer took too late, since the start. Told at most once a second: a computer that

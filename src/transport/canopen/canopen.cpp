@@ -49,6 +49,12 @@ std::string protectionOf(const CanopenDrive& drive, const canopen::ErrorControl&
          shortNumber(time) + " s: the inverter trips " + (gateway ? "E10" : "E10.0") + " and the motor coasts";
 }
 
+// One that answers and yet does not run says why, or is on its way: that is no matter of wires.
+bool answers(canopen::NodeState state) noexcept {
+  return state == canopen::NodeState::kBooting || state == canopen::NodeState::kOperational ||
+         state == canopen::NodeState::kRefused;
+}
+
 }  // namespace
 
 void CanopenTransport::configure(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) {
@@ -149,7 +155,9 @@ void CanopenTransport::runRequests(Instant /*now*/) noexcept {
 
 void CanopenTransport::takeEvents() noexcept {
   while (const auto event = master_->pollEvent()) {
-    if (event->kind == canopen::CanopenEventKind::kSecondMaster) noteMaster(event->value, event->at);
+    const bool of_a_master = event->kind == canopen::CanopenEventKind::kSecondMaster ||
+                             event->kind == canopen::CanopenEventKind::kForeignCommand;
+    if (of_a_master) noteMaster(event->value, event->at);
     const bool of_a_node = event->node != canopen::kNoNode;
     takeEvent(*event, of_a_node ? config_.master.nodes[event->node].id : 0, events());
   }
@@ -171,8 +179,9 @@ bool CanopenTransport::submit(DriveIndex drive, const profile::ParameterRequest&
 }
 
 bool CanopenTransport::connected() const noexcept {
-  return linkWorks() && std::any_of(drives_.begin(), drives_.end(),
-                                    [](const CanopenDriveState& drive) { return drive.moduleAnswers(); });
+  return linkWorks() && !isSilent() &&
+         std::any_of(config_.drives.begin(), config_.drives.end(),
+                     [this](const auto& it) { return answers(master_->status(it.node).state); });
 }
 
 BusCounters CanopenTransport::counters() const noexcept {
@@ -194,7 +203,8 @@ Sentence CanopenTransport::busText() const noexcept {
   if (!text.empty()) return text;
   if (!connected() && !events().isExplained(now())) {
     text.format(
-        "%s is open, but no node runs: are the drives powered, is the bit rate right (P514), are the two ends of the "
+        "%s is open, but no node answers: are the drives powered, is the bit rate right (P514), are the two ends of "
+        "the "
         "bus terminated?",
         config_.interface.c_str());
     return text;

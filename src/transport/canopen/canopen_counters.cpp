@@ -20,7 +20,8 @@ BusCounters canopenCounters(const canopen::Master& master, const link::CanCounte
   to.add({"missed_guards", "node guarding requests without an answer in time"}, missed_guards);
   to.add({"sdo_aborts", "SDO requests a node has refused"}, from.sdo_aborts);
   to.add(bus_counter::kUnexpected, from.foreign + from.malformed + from.second_master + from.own_id_used);
-  to.add({"foreign", "frames of identifiers and nodes that are not configured"}, from.foreign);
+  to.add({"foreign", "frames of identifiers and nodes that are not configured, and NMT commands for such nodes"},
+         from.foreign);
   to.add({"malformed", "frames of our nodes of a wrong length or content, and NMT commands of others"}, from.malformed);
   to.add({"second_master", "frames only another master sends"}, from.second_master);
   to.add({"own_id_used", "frames with this master's own node id"}, from.own_id_used);

@@ -83,7 +83,11 @@ void CanopenDriveState::takeInput(const canopen::Master& master, bool bus_works,
   input.interruption = takeInterruption(status, bus_works);
   module_answers_ = bus_works && status.state == canopen::NodeState::kOperational;
   const bool ever_sent = pdo.count != 0;
+  const bool was_contested = contested_;
   contested_ = status.other_commands_at && now - *status.other_commands_at < kContested;
+  if (contested_ && !was_contested && input.interruption == Interruption::kNone) {
+    input.interruption = Interruption::kContested;
+  }
   const bool overdue = config_.transmit_limit > Duration::zero() && now - pdo.at > config_.transmit_limit;
   inverter_answers_ = module_answers_ && !contested_ && !status.doubled && ever_sent && !overdue &&
                       decode(pdo.bytes, input.input) &&

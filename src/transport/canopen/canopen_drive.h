@@ -34,7 +34,6 @@ class CanopenDriveState {
   void handleRestart() noexcept;
 
   const CanopenDrive& config() const noexcept { return config_; }
-  bool moduleAnswers() const noexcept { return module_answers_; }
   bool inverterAnswers() const noexcept { return inverter_answers_; }
   /// Why it does not answer; lives as long as this.
   const char* note() const noexcept { return note_.c_str(); }

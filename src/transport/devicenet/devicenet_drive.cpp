@@ -90,6 +90,7 @@ bool DevicenetDriveState::answered(const devicenet::Scanner& scanner, std::uint6
 void DevicenetDriveState::takeInput(const devicenet::Scanner& scanner, bool bus_works, Instant now,
                                     DriveExchange& input) noexcept {
   const NodeStatus& status = scanner.status(config_.module);
+  const bool was_contested = contested_;
   watchOthers(status, now);
   input = {};
   input.interruption = takeInterruption(status, bus_works, now);
@@ -120,6 +121,9 @@ void DevicenetDriveState::takeInput(const devicenet::Scanner& scanner, bool bus_
   if (!inverter_answers_) input.input = {};
   met_ = met_ || (inverter_answers_ && !guest_);
   told_ = connected && (told_ || inverter_answers_) && input.interruption == Interruption::kNone;
+  if (contested_ && !was_contested && input.interruption == Interruption::kNone) {
+    input.interruption = Interruption::kContested;
+  }
   explain(status, bus_works);
 }
 

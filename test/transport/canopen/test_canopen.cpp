@@ -31,13 +31,9 @@ class AskedCanBus final : public sim::SimulatedCanBus {
 };
 
 /// Two drives a hundred times a second, and the counters copied in each cycle, as the driver does.
-class OnAnAskedBus : public ::testing::Test {
+class OnACanopenBus : public ::testing::Test {
  protected:
-  OnAnAskedBus() {
-    const test::CanopenSettings settings;
-    transport_.configure(settings.bus, settings.drives, 100.0);
-    run(seconds{3});
-  }
+  void begin() { transport_.configure(settings_.bus, settings_.drives, 100.0); }
   void run(Duration span) {
     const Instant end = transport_.now() + span;
     while (transport_.now() < end) {
@@ -60,6 +56,7 @@ class OnAnAskedBus : public ::testing::Test {
     return config;
   }
 
+  test::CanopenSettings settings_;
   AskedCanBus* bus_ = nullptr;
   CanopenTransport transport_{[this](const link::CanSettings&) {
     auto bus = std::make_unique<AskedCanBus>(simConfig());
@@ -69,6 +66,14 @@ class OnAnAskedBus : public ::testing::Test {
   std::vector<profile::ProcessOutput> outputs_{2};
   std::vector<DriveExchange> inputs_{2};
   BusCounters counters_;
+};
+
+class OnAnAskedBus : public OnACanopenBus {
+ protected:
+  OnAnAskedBus() {
+    begin();
+    run(seconds{3});
+  }
 };
 
 // On SocketCAN each question is a system call: a few in a second, however short the cycle is.
@@ -104,6 +109,49 @@ TEST_F(OnAnAskedBus, TheLastOnesBeforeItGoesAreCounted) {
   bus_->setInterfacePresent(false);
   run(seconds{1});
   EXPECT_EQ(2u, counters_.value(bus_counter::kOverruns));
+}
+
+// A node that answers has power and the right bit rate: why it is refused is told, of each node once, whatever the others do.
+TEST_F(OnACanopenBus, NodesThatAreRefusedAreNoMatterOfWires) {
+  for (const std::size_t drive : {0u, 1u}) settings_.drive(drive).set("vendor_id", 0x999);
+  begin();
+  std::vector<std::string> told;
+  for (int i = 0; i < 20; ++i) {
+    run(seconds{1});
+    while (const auto event = transport_.pollEvent()) told.push_back(event->text.str());
+    EXPECT_TRUE(transport_.connected()) << i;
+    EXPECT_STREQ("", transport_.busText().c_str()) << "the drives' notes are shown then";
+  }
+  const std::string note = transport_.note(0).text;
+  EXPECT_NE(std::string::npos, note.find("vendor id")) << note;
+  EXPECT_EQ((std::vector<std::string>{"node 3: " + note, "node 4: " + std::string{transport_.note(1).text}}), told);
+}
+
+// On its way to operation a node answers already.
+TEST_F(OnACanopenBus, ANodeThatIsBeingSetUpAnswers) {
+  begin();
+  int booting = 0;
+  for (int i = 0; i < 2000 && !inputs_[0].inverter_answers; ++i) {
+    run(milliseconds{1});
+    if (std::string{transport_.note(0).text} != "booting") continue;
+    ++booting;
+    EXPECT_TRUE(transport_.connected());
+    EXPECT_STREQ("", transport_.busText().c_str());
+  }
+  EXPECT_GT(booting, 0);
+  EXPECT_TRUE(inputs_[0].inverter_answers);
+}
+
+TEST_F(OnACanopenBus, NobodyAnswers) {
+  settings_.drive(0).set("address", 50);
+  settings_.drive(1).set("address", 51);
+  begin();
+  run(seconds{5});
+  EXPECT_FALSE(transport_.connected());
+  EXPECT_STREQ(
+      "can0 is open, but no node answers: are the drives powered, is the bit rate right (P514), are the two ends "
+      "of the bus terminated?",
+      transport_.busText().c_str());
 }
 
 /// `gateways` SK CU4-CAO with two inverters each, whose parameters one SDO server has (index_offset).

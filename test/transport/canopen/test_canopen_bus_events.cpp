@@ -43,6 +43,13 @@ TEST(CanopenBusEventsTest, WhatADriveTellsItselfIsLeftOut) {
   EXPECT_STREQ("", events.text(kStart).c_str());
 }
 
+TEST(CanopenBusEventsTest, WhatOthersTellTheirOwnNodesIsLeftOut) {
+  CanBusEvents events;
+  takeEvent(event(CanopenEventKind::kForeignCommand, "NMT for node 33", kStart), kNodeId, events);
+  EXPECT_FALSE(events.poll());
+  EXPECT_STREQ("", events.text(kStart).c_str());
+}
+
 TEST(CanopenBusEventsTest, AnotherMasterIsShownRatherThanWhatComesOfIt) {
   CanBusEvents events;
   EXPECT_FALSE(events.isExplained(kStart));
@@ -53,6 +60,20 @@ TEST(CanopenBusEventsTest, AnotherMasterIsShownRatherThanWhatComesOfIt) {
   events.poll();
   EXPECT_STREQ("node 50: toggles", events.poll()->text.c_str()) << "told all the same";
   EXPECT_FALSE(events.isExplained(kStart + seconds{10}));
+}
+
+TEST(CanopenBusEventsTest, ARefusalIsToldAndLeftToTheDriveToShow) {
+  CanBusEvents events;
+  takeEvent(event(CanopenEventKind::kNodeRefused, "is another device", kStart, 0), kNodeId, events);
+  const auto told = events.poll();
+  ASSERT_TRUE(told);
+  EXPECT_TRUE(told->warning);
+  EXPECT_STREQ("node 50: is another device", told->text.c_str());
+  EXPECT_STREQ("", events.text(kStart).c_str());
+  takeEvent(event(CanopenEventKind::kDoubleId, "two nodes answer", kStart, 0), kNodeId, events);
+  EXPECT_TRUE(events.poll());
+  takeEvent(event(CanopenEventKind::kNodeRefused, "two nodes answer", kStart, 0), kNodeId, events);
+  EXPECT_FALSE(events.poll()) << "told once";
 }
 
 TEST(CanopenBusEventsTest, LostFramesAreToldOnceASecondWithTheirNumber) {
