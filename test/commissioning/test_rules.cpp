@@ -48,7 +48,7 @@ void looksOnAtAGateway(AskedDrive& asked) {
   looksOn(asked);
   asked.identity.timeout_notices = false;
 }
-void looksOnWithAForeignProfile(AskedDrive& asked) {
+void looksOnAtCia402(AskedDrive& asked) {
   looksOn(asked);
   asked.identity.nord_profile = false;
 }
@@ -251,7 +251,7 @@ const std::vector<Row>& rows() {
       {"trips while it looks on", kSk5, looksOn, {{{513}, 5}}, {"timeout_long_enough warning P513"}},
       {"trips while it looks on", kDecentral, looksOn, {{{151}, 500}}, {"timeout_long_enough warning P151"}},
       {"sends no words", kOlder, looksOnAtAGateway, {{{513}, 5}}, {}},
-      {"has no word to be ignored by", kOlder, looksOnWithAForeignProfile, {{{513}, 5}}, {}},
+      {"CiA 402", kSk5, looksOnAtCia402, {{{513}, 5}}, {}},
       {"module not watched, looking on", kDecentral, looksOn, {{{120, 0, 1}, 0}}, {}},
       {"module not watched", kDecentral, leave, {{{120, 0, 1}, 0}}, {"module_watched warning P120[-01] -> 1"}},
       {"module not watched", kSk511, behindModule, {{{509}, 6}, {{513}, 0}}, {"module_watched warning P513 -> 5"}},
@@ -389,8 +389,8 @@ TEST(Rules, NameAManualWithEveryFinding) {
 }
 
 TEST(Rules, AreThoseOfTheDocument) {
-  std::ifstream file(std::string(NORD_DRIVER_SOURCE_DIR) + "/doc/commissioning.md");
   std::vector<std::string> written;
+  std::ifstream file(std::string(NORD_DRIVER_SOURCE_DIR) + "/doc/commissioning.md");
   for (std::string line; std::getline(file, line);) {
     if (line.rfind("| `", 0) == 0) written.push_back(line);
   }
