@@ -42,7 +42,7 @@ void NodeConnect::stop(const Sentence& why, Instant now) noexcept {
   timers_.stopAll();
   phase_ = Phase::kOff;
   if (was_exchanging) {
-    own_time_out_ = now + kRatesUntilTimeout * rate_;
+    awaitOwnTimeOut(now);
     ++report_.status().counters.losses;
     report_.tell(DevicenetEventKind::kNodeLost, why, 0, now);
   }

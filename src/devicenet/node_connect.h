@@ -126,6 +126,8 @@ class NodeConnect {
   /// Refused, but parameters stay in reach: the reason may be one of them.
   void refuseIo(const Sentence& why, Instant now) noexcept;
   void letGo(Instant now) noexcept;
+  /// Nothing is sent from now on that keeps it running: how long it may do so.
+  void awaitOwnTimeOut(Instant now) noexcept;
 
   const NodeConfig& config_;
   const ScannerConfig& bus_;

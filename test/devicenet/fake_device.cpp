@@ -317,8 +317,9 @@ void FakeDevice::tick(Instant now) {
     ++explicit_deaths;
     if (held == 0) master = 0xFF;
   }
-  const bool unfed = (held & 0x32) != 0 && !(byChange() && consumed == 0) && now - io_at_ >= milliseconds{4 * rate};
-  const bool unstrobed = (held & 4) != 0 && now - strobe_at_ >= milliseconds{4 * rate};
+  const Duration patience = milliseconds{4 * rate} + timeout_step;
+  const bool unfed = (held & 0x32) != 0 && !(byChange() && consumed == 0) && now - io_at_ >= patience;
+  const bool unstrobed = (held & 4) != 0 && now - strobe_at_ >= patience;
   if (established && rate > 0 && (unfed || unstrobed)) {
     established = false;
     timed_out = true;

@@ -28,6 +28,7 @@ class FakeDevice {
   std::uint16_t vendor = 389, type = 2, product = 7;
   std::size_t produced = 5, consumed = 5;
   unsigned rate_step = 10;   ///< ms: rounds the expected packet rate up to such steps
+  Duration timeout_step{};   ///< it notices its time-out so much later
   bool answers_rate = true;  ///< to the write itself
   bool tells_owner = true;   ///< on the unconnected port
   bool tells_choice = true;  ///< beside its owner; else that nothing is allocated
