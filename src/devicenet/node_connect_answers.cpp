@@ -299,6 +299,12 @@ void NodeConnect::handleLoss(const Sentence& why, Instant now, Loss loss) noexce
   // time-out comes first.
   timers_.stopAll();
   channel_.close();
+  phase_ = Phase::kLastOutputs;
+  if (loss == Loss::kSilent) endOutputs(now);
+}
+
+void NodeConnect::endOutputs(Instant now) noexcept {
+  if (phase_ != Phase::kLastOutputs) return;
   awaitOwnTimeOut(now);
   pause(own_time_out_ - now, now, Phase::kAwaitOwnTimeOut);
 }

@@ -42,6 +42,7 @@ void FakeDevice::put(std::uint32_t id, const Bytes& bytes) {
 }
 
 bool FakeDevice::next(CanFrame& frame) {
+  if (unheard) out_.clear();
   if (out_.empty()) return false;
   frame = out_.front();
   out_.pop_front();

@@ -43,6 +43,7 @@ class FakeDevice {
   bool powered = true;
   bool deaf_to_explicit = false;
   bool deaf_to_io = false;
+  bool unheard = false;            ///< it hears, and nothing it says arrives
   bool mute_acknowledges = false;  ///< of fragments and of change of state
 
   // What happened.

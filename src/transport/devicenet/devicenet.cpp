@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "config/setting_checks.h"
+#include "profile/control_word.h"
 #include "transport/devicenet/assembly.h"
 #include "transport/devicenet/devicenet_bus_events.h"
 #include "transport/devicenet/devicenet_counters.h"
@@ -22,6 +23,13 @@ constexpr int kRatesUntilTimeout = 4;
 
 const char* stateText(link::CanState state) noexcept {
   return state == link::CanState::kBusOff ? "the controller is bus-off" : "the interface is down";
+}
+
+// Any stop, also the word 0000, lacks one of them.
+bool letsMove(Word control_word) noexcept {
+  using namespace profile::control_bit;
+  constexpr Word kAll = kOn | kEnableVoltage | kNoQuickStop | kEnableOperation | kDataValid;
+  return (control_word & kAll) == kAll;
 }
 
 }  // namespace
@@ -91,6 +99,11 @@ void DeviceNetTransport::putOutputs(const std::vector<profile::ProcessOutput>& o
   }
   for (DriveIndex i = 0; i < drives_.size(); ++i) putModuleOutputs(config_.drives[i].module, outputs[i].module_outputs);
   for (std::size_t i = 0; i < outputs_.size(); ++i) scanner_->setOutput(i, outputs_[i]);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    const std::vector<std::size_t>& behind = config_.modules[i].drives;
+    scanner_->setMoves(i, std::any_of(behind.begin(), behind.end(),
+                                      [&outputs](std::size_t drive) { return letsMove(outputs[drive].control_word); }));
+  }
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     if (isUrgent(given_[i], outputs[i])) scanner_->hurry(config_.drives[i].module);
     given_[i] = outputs[i];
