@@ -19,6 +19,7 @@ namespace {
 
 constexpr Duration kLongestRelease = std::chrono::milliseconds{500};
 constexpr Duration kListenFirst = std::chrono::milliseconds{500};  // a scanner polls more often than that
+constexpr Duration kFirstAnswers = std::chrono::seconds{1};        // of modules that are there
 constexpr int kRatesUntilTimeout = 4;
 
 const char* stateText(link::CanState state) noexcept {
@@ -75,6 +76,7 @@ void DeviceNetTransport::handleGone() noexcept {
 }
 
 void DeviceNetTransport::restartDrives() noexcept {
+  online_at_.reset();
   for (DevicenetDriveState& drive : drives_) drive.handleRestart();
 }
 
@@ -156,6 +158,7 @@ void DeviceNetTransport::runRequests(Instant now) noexcept {
 void DeviceNetTransport::takeEvents() noexcept {
   while (const auto event = scanner_->pollEvent()) {
     if (event->kind == devicenet::DevicenetEventKind::kSecondScanner) noteMaster(event->value, event->at);
+    if (event->kind == devicenet::DevicenetEventKind::kOnline) online_at_ = event->at;
     const bool of_a_node = event->node != devicenet::kNoNode;
     takeEvent(*event, of_a_node ? config_.modules[event->node].mac : 0u, events());
   }
@@ -222,6 +225,10 @@ Sentence DeviceNetTransport::silenceText() const noexcept {
     const devicenet::NodeStatus& status = scanner_->status(i);
     if (status.state != devicenet::NodeState::kRefused) continue;
     text.format("MAC id %u %.220s", unsigned{config_.modules[i].mac}, status.reason.c_str());
+    return text;
+  }
+  if (!online_at_ || now() - *online_at_ < kFirstAnswers) {
+    text.format("%s is open, and the modules are asked for the first time", config_.interface.c_str());
     return text;
   }
   text.format(

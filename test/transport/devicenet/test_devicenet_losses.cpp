@@ -37,6 +37,18 @@ TEST(DeviceNetTransportTest, ASilentModuleIsNamedAndComesBack) {
   EXPECT_THAT(rig.violations(), IsEmpty());
 }
 
+// Nobody could have answered yet in the moment in which the duplicate-MAC check ends.
+TEST(DeviceNetTransportTest, WiresAreSuspectedOnlyWhenTheModulesHadTimeToAnswer) {
+  Rig rig;
+  rig.device().powerOff();
+  rig.until([&] { return rig.bus->sentTo("42E") > 0; });
+  EXPECT_STREQ("can0 is open, and the modules are asked for the first time", rig.transport.busText().c_str());
+  rig.run(milliseconds{900});
+  EXPECT_THAT(rig.transport.busText().str(), HasSubstr("for the first time"));
+  rig.run(milliseconds{150});
+  EXPECT_THAT(rig.transport.busText().str(), HasSubstr("no device answers: are the modules and the bus powered"));
+}
+
 // It hears us, and we do not hear it. The drive is judged by drive_timeout after the last of its data has grown old, which may
 // be later than the connection counts as lost: it gets its stop word all the same.
 TEST(DeviceNetTransportTest, AModuleThatIsNotHeardGetsItsStopWord) {
