@@ -79,8 +79,9 @@ void ExplicitChannel::takeAnswer(Instant now) noexcept {
 
 void ExplicitChannel::startNext(Instant now) noexcept {
   while (owner_ == Owner::kNobody && !client_.busy()) {
-    const bool user = isOpen() && !users_.empty();
-    if (own_ && (!user || last_ == Owner::kUser)) {
+    const bool user = isOpen() && !users_.empty() && !client_.mustWait(users_.front(), now);
+    const bool own = own_ && !client_.mustWait(own_->request, now);
+    if (own && (!user || last_ == Owner::kUser)) {
       startOwn(now);
     } else if (user) {
       startUser(now);
@@ -88,6 +89,12 @@ void ExplicitChannel::startNext(Instant now) noexcept {
       return;
     }
   }
+}
+
+// A request that waits for a transaction id has no time-out of its own yet.
+std::optional<Instant> ExplicitChannel::nextDeadline() const noexcept {
+  const bool waits = owner_ == Owner::kNobody && (own_ || (isOpen() && !users_.empty()));
+  return waits ? earlier(client_.nextDeadline(), client_.freeAt()) : client_.nextDeadline();
 }
 
 void ExplicitChannel::startOwn(Instant now) noexcept {

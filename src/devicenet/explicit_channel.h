@@ -46,7 +46,7 @@ class ExplicitChannel {
   void poll(Instant now) noexcept;
   bool pollTransmit(CanFrame& frame, Instant now) noexcept { return client_.pollTransmit(frame, now); }
   void notSent(const CanFrame& frame) noexcept { client_.notSent(frame); }
-  std::optional<Instant> nextDeadline() const noexcept { return client_.nextDeadline(); }
+  std::optional<Instant> nextDeadline() const noexcept;
   std::uint64_t repeated() const noexcept { return client_.repeated(); }
   /// Last time the device answered on the explicit connection: what keeps it alive.
   Instant usedAt() const noexcept { return used_at_; }

@@ -12,6 +12,15 @@ constexpr std::uint8_t kTooMuchData = 1;
 constexpr Duration kAcknowledgeTime = std::chrono::seconds{1};
 /// The device repeats a fragment whose acknowledge was lost after a second.
 constexpr Duration kFragmentTime = std::chrono::milliseconds{1200};
+/// After a request was given up its answer may come for so long.
+constexpr Duration kLongestLateness = std::chrono::seconds{5};
+/// The second answer to a request that was asked twice comes not much later than the first: so many of its time-outs.
+constexpr int kSecondAnswer = 4;
+constexpr int kMostOwed = 2;
+
+bool isValueless(const ExplicitRequest& request) noexcept {
+  return request.service == service::kAllocate || request.service == service::kRelease;
+}
 
 }  // namespace
 
@@ -21,7 +30,13 @@ bool ExplicitClient::start(const ExplicitRequest& request, ExplicitPort port, Bo
   if (!encode(request, port == ExplicitPort::kUnconnected ? BodyFormat::k8Over8 : format, body_)) return false;
   port_ = port;
   id_ = request.id;
-  xid_ = !xid_;
+  now_ = now;
+  if (owes(!xid_, now) && !owes(xid_, now)) {
+    receiver_.forget();  // fragments of the same transaction id are of another answer now
+  } else {
+    xid_ = !xid_;
+  }
+  asked_ = 0;
   offset_ = 0;
   count_ = 0;
   repeats_ = 0;
@@ -32,7 +47,28 @@ bool ExplicitClient::start(const ExplicitRequest& request, ExplicitPort port, Bo
   return true;
 }
 
+bool ExplicitClient::mustWait(const ExplicitRequest& request, Instant now) const noexcept {
+  return !isValueless(request) && owes(false, now) && owes(true, now);
+}
+
+void ExplicitClient::remember(bool answered, Instant now) noexcept {
+  if (phase_ == Phase::kIdle || asked_ == 0) return;
+  const int left = asked_ - (answered ? 1 : 0);
+  // What allocates or releases is no answer to anything else that waits for a value, and its own repetition may have it.
+  if (left == 0 || body_[0] == service::kAllocate || body_[0] == service::kRelease) return;
+  Owed& owed = owed_[xid_];
+  if (!owes(xid_, now)) owed = Owed{};
+  owed.answers = static_cast<std::uint8_t>(std::min(owed.answers + left, kMostOwed));
+  owed.until = std::max(owed.until, now + (answered ? kSecondAnswer * timeout_ : kLongestLateness));
+}
+
+Heard ExplicitClient::late(bool xid) noexcept {
+  if (owed_[xid].answers > 0) --owed_[xid].answers;
+  return Heard::kStale;
+}
+
 void ExplicitClient::cancel() noexcept {
+  remember(false, now_);
   phase_ = Phase::kIdle;
   timers_.stopAll();
   receiver_.reset();
@@ -97,6 +133,8 @@ bool ExplicitClient::pollTransmit(CanFrame& frame, Instant now) noexcept {
   if (phase_ != Phase::kToSend) return false;
   frame = nextPiece();
   to_send_until_ = *timers_.at(Timer::kReply);
+  now_ = now;
+  if (!fragmented() || (offset_ + kPerFragment >= body_.size() && asked_ == 0)) ++asked_;
   phase_ = fragmented() ? Phase::kAwaitAcknowledge : Phase::kAwaitAnswer;
   timers_.set(Timer::kReply, now + (fragmented() ? kAcknowledgeTime : timeout_));
   return true;
@@ -108,6 +146,7 @@ void ExplicitClient::notSent(const CanFrame& frame) noexcept {
   } else if (phase_ == Phase::kAwaitAcknowledge || phase_ == Phase::kAwaitAnswer) {
     phase_ = Phase::kToSend;
     timers_.set(Timer::kReply, to_send_until_);
+    if (asked_ > 0) --asked_;
   }
 }
 
@@ -116,8 +155,9 @@ Heard ExplicitClient::handle(const CanFrame& frame, Instant now) noexcept {
   if (bytes.size() < 2) return Heard::kMalformed;
   if ((bytes[0] & explicit_header::kMac) != own_) return Heard::kForeign;
   const bool xid = (bytes[0] & explicit_header::kTransaction) != 0;
+  now_ = now;
   if ((bytes[0] & explicit_header::kFragmented) == 0)
-    return awaitsAnswer(xid) ? handleBody(bytes.sub(1)) : Heard::kStale;
+    return awaitsAnswer(xid) ? handleBody(bytes.sub(1), xid) : late(xid);
   // Neither an acknowledge nor a part of a message is empty.
   if (bytes.size() < 3) return Heard::kMalformed;
   const Fragment fragment = Fragment::from(bytes[1]);
@@ -165,7 +205,7 @@ Heard ExplicitClient::handleFragment(bool xid, Fragment received, ByteView data,
       break;
   }
   acknowledge(xid, received, kAccepted);
-  return handleBody(ByteView{receiver_.body()});
+  return handleBody(ByteView{receiver_.body()}, xid);
 }
 
 // A device that begins its answer anew gets no new time before it has come further than ever: otherwise one that never
@@ -178,7 +218,7 @@ void ExplicitClient::comeFurther(Instant now) noexcept {
 }
 
 /// From the service code on.
-Heard ExplicitClient::handleBody(ByteView body) noexcept {
+Heard ExplicitClient::handleBody(ByteView body, bool xid) noexcept {
   if ((body[0] & service::kResponse) == 0) return Heard::kMalformed;
   ExplicitAnswer answer;
   if (body[0] == (service::kError | service::kResponse)) {
@@ -189,7 +229,7 @@ Heard ExplicitClient::handleBody(ByteView body) noexcept {
     finish(ExplicitEnd::kRefused);
     return Heard::kTaken;
   }
-  if (body[0] != (body_[0] | service::kResponse)) return Heard::kStale;
+  if (body[0] != (body_[0] | service::kResponse)) return late(xid);
   for (const std::uint8_t byte : body.sub(1)) {
     if (answer.data.push_back(byte)) continue;
     finish(ExplicitEnd::kTooLong);
@@ -207,6 +247,7 @@ void ExplicitClient::acknowledge(bool xid, Fragment received, std::uint8_t statu
 }
 
 void ExplicitClient::poll(Instant now) noexcept {
+  now_ = now;
   if (!timers_.takeDue(Timer::kReply, now)) return;
   // A request that the link never took is not repeated. A reset must not be done twice.
   const bool asked = phase_ == Phase::kAwaitAcknowledge || (phase_ == Phase::kAwaitAnswer && !fragmented());
@@ -218,6 +259,7 @@ void ExplicitClient::poll(Instant now) noexcept {
 }
 
 void ExplicitClient::finish(ExplicitEnd end) noexcept {
+  remember(end != ExplicitEnd::kTimedOut, now_);
   phase_ = Phase::kIdle;
   timers_.stopAll();
   receiver_.reset();

@@ -2,10 +2,14 @@
 // than a frame, repeated once, then given up.
 //
 // Deterministic: frames and the time go in, frames and answers come out. Nothing is allocated.
-// What the protocol cannot know: a transaction id is one bit. An answer that comes so late that the next but one request
-// is under way is taken for the answer to that, if it is of the same service.
+// A transaction id is one bit, and an answer names nothing else of its request but, unless it is an error, the service. So
+// the bit of a request is not given to another while an answer to the first may still come: one that was given up, or was
+// asked twice and answered once. Where both bits are owed an answer the next request waits; what allocates and releases
+// does not, for no value comes of it.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -39,6 +43,10 @@ class ExplicitClient {
   /// cancelled. `timeout`: for the answer, each time it is asked for.
   bool start(const ExplicitRequest& request, ExplicitPort port, BodyFormat format, Duration timeout,
              Instant now) noexcept;
+  /// Whether the request would have to share its transaction id with one whose late answer may still come: it has to wait, at
+  /// most until `freeAt()`.
+  bool mustWait(const ExplicitRequest& request, Instant now) const noexcept;
+  Instant freeAt() const noexcept { return std::min(owed_[0].until, owed_[1].until); }
   /// From `start()` until the answer was taken.
   bool busy() const noexcept { return phase_ != Phase::kIdle || answer_.has_value(); }
   /// Ends the request without an answer; an answer not taken is dropped.
@@ -67,6 +75,17 @@ class ExplicitClient {
   };
   enum class Timer : std::uint8_t { kReply, kCount };
 
+  /// Answers that may still come under one transaction id.
+  struct Owed {
+    std::uint8_t answers = 0;
+    Instant until{};
+  };
+  bool owes(bool xid, Instant now) const noexcept { return owed_[xid].answers > 0 && now < owed_[xid].until; }
+  /// The request ends; `answered`: by one of the answers it was asked for.
+  void remember(bool answered, Instant now) noexcept;
+  /// Nobody waits for it.
+  Heard late(bool xid) noexcept;
+
   bool fragmented() const noexcept;
   bool lastFragmentSent() const noexcept;
   bool awaitsAnswer(bool xid) const noexcept;
@@ -77,7 +96,7 @@ class ExplicitClient {
   Heard handleAcknowledge(bool xid, Fragment fragment, ByteView data, Instant now) noexcept;
   Heard handleFragment(bool xid, Fragment fragment, ByteView data, Instant now) noexcept;
   void comeFurther(Instant now) noexcept;
-  Heard handleBody(ByteView body) noexcept;
+  Heard handleBody(ByteView body, bool xid) noexcept;
   void acknowledge(bool xid, Fragment fragment, std::uint8_t status) noexcept;
   void finish(ExplicitEnd end) noexcept;
 
@@ -95,6 +114,9 @@ class ExplicitClient {
   std::uint8_t repeats_ = 0;  // of the frame that is unanswered
   std::uint64_t repeated_ = 0;
   Duration timeout_{};
+  std::uint8_t asked_ = 0;    // times the request went out as a whole
+  std::array<Owed, 2> owed_;  // by transaction id
+  Instant now_{};
   ExplicitReceiver receiver_;
   std::size_t furthest_ = 0;  // bytes of a fragmented answer that were together, at most at once
   std::optional<CanFrame> acknowledge_;

@@ -1,5 +1,7 @@
 #include "devicenet/io_connection.h"
 
+#include <algorithm>
+
 namespace nord_driver::devicenet {
 namespace {
 
@@ -34,6 +36,9 @@ void IoConnection::establish(Duration rate, Instant now) noexcept {
 void IoConnection::close() noexcept {
   established_ = false;
   overdue_ = false;
+  ending_ = false;
+  moves_ = moves_sending_ = false;
+  stops_sent_ = kEnoughStops;
   timers_.stopAll();
   output_.clear();  // the bit of a strobe, too
   output_ready_ = false;
@@ -86,7 +91,7 @@ void IoConnection::startCycle(Instant now) noexcept {
   if (!established_) return;
   // We were kept from running: the device has given up, and what comes now would come to nobody.
   overdue_ = sent_at_ && now - *sent_at_ >= kRatesUntilTimeout * rate_;
-  if (overdue_) return timers_.set(Timer::kInput, now);
+  if (overdue_) return timers_.set(ending_ ? Timer::kEnding : Timer::kInput, now);
   if (pollUnanswered()) ++report_.status().counters.missed;
   polled_ = false;
   if (!outputDue(now)) return;
@@ -97,11 +102,12 @@ void IoConnection::startCycle(Instant now) noexcept {
 void IoConnection::send() noexcept {
   dropOutput();
   if (config_.io.kind == IoKind::kChangeOfState) sent_ = output_;
+  moves_sending_ = moves_;
   sender_.start(ByteView{output_});
 }
 
 void IoConnection::remember() noexcept {
-  before_ = {timers_, sent_at_, polled_, report_.status().counters.missed};
+  before_ = {timers_, sent_at_, polled_, stops_sent_, report_.status().counters.missed};
 }
 
 // Nobody has got it: no answer to it is awaited, and none missed.
@@ -109,6 +115,7 @@ void IoConnection::takeBack() noexcept {
   timers_ = before_.timers;
   sent_at_ = before_.sent_at;
   polled_ = before_.polled;
+  stops_sent_ = before_.stops_sent;
   report_.status().counters.missed = before_.missed;
 }
 
@@ -131,6 +138,8 @@ bool IoConnection::pollOutput(CanFrame& frame, Instant now) noexcept {
   ++report_.status().counters.outputs;
   sent_at_ = now;
   polled_ = true;
+  stops_sent_ = moves_sending_ ? 0 : std::min(stops_sent_ + 1, kEnoughStops);
+  if (ending_ && !mustStop()) timers_.set(Timer::kEnding, now);
   if (isPolledBesideStrobe(config_.io)) {
     if (!timers_.isSet(Timer::kHeard)) timers_.set(Timer::kHeard, now + timeout_);
   } else if (!byChange()) {
@@ -190,7 +199,7 @@ bool IoConnection::takes(Group1 message) const noexcept {
 
 void IoConnection::handle(std::uint8_t message, const CanFrame& frame, Instant now) noexcept {
   // What comes before is of a connection that is none of ours any more.
-  if (!established_) return;
+  if (!established_ || ending_) return;
   if (frame.remote) return report_.malformed(frame, "DeviceNet has no remote frames", now);
   const auto group1 = static_cast<Group1>(message);
   if (!takes(group1)) return report_.malformed(frame, "of a connection that is not allocated", now);
@@ -248,8 +257,22 @@ void IoConnection::handlePollAnswer(const CanFrame& frame, Instant now) noexcept
   timers_.stop(Timer::kHeard);
 }
 
+void IoConnection::beginEnding(Instant now) noexcept {
+  ending_ = true;
+  receiver_.reset();
+  acknowledge_due_ = false;
+  timers_.stopAll();
+  timers_.set(Timer::kEnding, now + kLongestEnding);
+}
+
 bool IoConnection::poll(Instant now) noexcept {
   if (!established_) return true;
+  if (ending_) {
+    // It is lost already: nothing more is expected of it.
+    timers_.stop(Timer::kInput);
+    timers_.stop(Timer::kHeard);
+    if (timers_.takeDue(Timer::kEnding, now)) return false;
+  }
   if (timers_.takeDue(Timer::kInput, now)) {
     if (overdue_) {
       loss_.format("was sent nothing for more than %.0f ms, four times its expected packet rate",

@@ -34,6 +34,8 @@ class IoConnection {
 
   /// The newest outputs, cut or filled with zeros to their size.
   void setOutput(ByteView bytes) noexcept;
+  /// Whether what was set last lets the device move, as far as whoever sets it knows; see `mustStop()`.
+  void setMoves(bool moves) noexcept { moves_ = moves; }
   /// What was set last is not to wait for the rate of a cyclic connection: the device takes what comes earlier.
   void hurry() noexcept { due_ = established_; }
   const IoInput& input() const noexcept { return input_; }
@@ -53,7 +55,13 @@ class IoConnection {
   bool takes(Group1 message) const noexcept;
   /// Group 1 messages Dh (change of state, cyclic), Eh (strobe) or Fh (poll, or an acknowledge).
   void handle(std::uint8_t message, const CanFrame& frame, Instant now) noexcept;
-  /// False when the device is lost: `lossText()`.
+  /// It was sent outputs that let it move, and none since that stop it.
+  bool mustStop() const noexcept { return established_ && !overdue_ && stops_sent_ < kEnoughStops; }
+  /// The device fell silent, and may hear us all the same: its outputs go on until some that stop it were sent, but not for
+  /// longer than `kLongestEnding`. What it sends is not taken any more.
+  void beginEnding(Instant now) noexcept;
+  bool ending() const noexcept { return ending_; }
+  /// False when the device is lost: `lossText()`; of one that is `ending()`: when that is over.
   bool poll(Instant now) noexcept;
   const Sentence& lossText() const noexcept { return loss_; }
 
@@ -75,6 +83,7 @@ class IoConnection {
     kInput,        ///< data, or an answer to the oldest command without one
     kAcknowledge,  ///< of the message sent last
     kHeard,        ///< of the oldest message without one; beside a bit strobe: the answer to a poll
+    kEnding,       ///< the last outputs to a device that fell silent
     kCount
   };
 
@@ -83,8 +92,14 @@ class IoConnection {
     TimerTable<Timer> timers;
     std::optional<Instant> sent_at;
     bool polled = false;
+    unsigned stops_sent = 0;
     std::uint64_t missed = 0;
   };
+
+  /// One may be lost.
+  static constexpr unsigned kEnoughStops = 2;
+  /// Of a silent device's outputs: `drive_timeout` decides when they stop it, and a loose wire must not keep it going.
+  static constexpr Duration kLongestEnding = std::chrono::seconds{1};
 
   bool byChange() const noexcept;
   bool outputDue(Instant now) const noexcept;
@@ -109,7 +124,11 @@ class IoConnection {
   IoBytes output_;
   IoBytes sent_;
   std::optional<Instant> sent_at_;
-  bool polled_ = false;  // a poll has gone out since the cycle began
+  bool polled_ = false;                 // a poll has gone out since the cycle began
+  bool moves_ = false;                  // what was set last
+  bool moves_sending_ = false;          // what is sent
+  unsigned stops_sent_ = kEnoughStops;  // outputs that stop, since some that let it move
+  bool ending_ = false;
   Before before_;
   bool due_ = false;      // whatever the rate: hurried, or the newest message has not gone out as a whole
   bool overdue_ = false;  // nothing was sent for so long that the device has given up

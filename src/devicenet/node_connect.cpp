@@ -35,14 +35,14 @@ void NodeConnect::beginTry(Instant now) noexcept {
 }
 
 void NodeConnect::stop(const Sentence& why, Instant now) noexcept {
-  const bool was_exchanging = exchanging();
+  const bool was_exchanging = exchanging(), outputs_went = sendsOutputs();
   const NodeState state = report_.status().state;
   held_ = 0;
   channel_.silence();
   timers_.stopAll();
   phase_ = Phase::kOff;
+  if (outputs_went) awaitOwnTimeOut(now);
   if (was_exchanging) {
-    own_time_out_ = now + kRatesUntilTimeout * rate_;
     ++report_.status().counters.losses;
     report_.tell(DevicenetEventKind::kNodeLost, why, 0, now);
   }
@@ -54,7 +54,8 @@ void NodeConnect::release(Instant now) noexcept {
   timers_.stopAll();
   report_.enter(NodeState::kReleased, Sentence{}, now);
   // One that may still run on our last words stops by its own time-out, which a release would take away.
-  if (held_ == 0 || phase_ == Phase::kOff || phase_ == Phase::kAwaitOwnTimeOut) {
+  const bool may_run = phase_ == Phase::kAwaitOwnTimeOut || phase_ == Phase::kLastOutputs;
+  if (held_ == 0 || phase_ == Phase::kOff || may_run) {
     channel_.cancelOwn();
     phase_ = Phase::kReleased;
   } else {
@@ -116,6 +117,7 @@ std::optional<ConnectRequest> NodeConnect::requestOf(Phase phase) const noexcept
       return releaseRequest(held_ & choice::kConnections);
     case Phase::kOff:
     case Phase::kPause:
+    case Phase::kLastOutputs:
     case Phase::kAwaitOwnTimeOut:
     case Phase::kRunning:
     case Phase::kRefusedPause:
@@ -200,6 +202,7 @@ void NodeConnect::handleAnswer(const ExplicitAnswer& answer, Instant now) noexce
       return;
     case Phase::kOff:
     case Phase::kPause:
+    case Phase::kLastOutputs:
     case Phase::kAwaitOwnTimeOut:
     case Phase::kRunning:
     case Phase::kRefusedPause:

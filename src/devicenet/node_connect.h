@@ -37,11 +37,14 @@ class NodeConnect {
 
   /// How the exchange failed.
   enum class Loss : std::uint8_t {
-    kTold,   ///< the device said so: it is let go at once
-    kSilent  ///< it may hear us without being heard: its own time-out is waited for, then it is let go
+    kTold,         ///< the device said so: it is let go at once
+    kSilent,       ///< it may hear us without being heard: its own time-out is waited for, then it is let go
+    kSilentMoving  ///< the same, and its outputs go on before that, until `endOutputs()`
   };
   /// The exchange failed: what was allocated is released, and everything begins again.
   void handleLoss(const Sentence& why, Instant now, Loss loss = Loss::kTold) noexcept;
+  /// The outputs of a device that fell silent while it was moving have ended: its own time-out begins.
+  void endOutputs(Instant now) noexcept;
   /// Another master was heard to ask this device.
   void handleForeignMaster(std::uint8_t mac, Instant now) noexcept;
   /// The device gave a sign of life beside its connections: it is tried soon, but not before its own time-out after it
@@ -57,6 +60,8 @@ class NodeConnect {
   bool exchanging() const noexcept {
     return phase_ == Phase::kRunning || phase_ == Phase::kKeepAlive || phase_ == Phase::kReopen;
   }
+  /// Outputs are sent: it exchanges, or it fell silent while it was moving.
+  bool sendsOutputs() const noexcept { return exchanging() || phase_ == Phase::kLastOutputs; }
   /// Of the process data, as the device answered.
   Duration rate() const noexcept { return rate_; }
 
@@ -64,6 +69,7 @@ class NodeConnect {
   enum class Phase : std::uint8_t {
     kOff,
     kPause,            ///< before the next try
+    kLastOutputs,      ///< it fell silent, and is sent yet what stops it
     kAwaitOwnTimeOut,  ///< it fell silent and may still act on our last words: nothing shortens this pause
     kAllocateExplicit,
     kAskOwner,           ///< whose it is, on the unconnected port
@@ -130,6 +136,8 @@ class NodeConnect {
   /// Refused, but parameters stay in reach: the reason may be one of them.
   void refuseIo(const Sentence& why, Instant now) noexcept;
   void letGo(Instant now) noexcept;
+  /// Nothing is sent from now on that keeps it running: how long it may do so.
+  void awaitOwnTimeOut(Instant now) noexcept;
 
   const NodeConfig& config_;
   const ScannerConfig& bus_;

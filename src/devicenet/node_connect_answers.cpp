@@ -314,8 +314,20 @@ void NodeConnect::handleLoss(const Sentence& why, Instant now, Loss loss) noexce
   // time-out comes first.
   timers_.stopAll();
   channel_.close();
-  own_time_out_ = now + kRatesUntilTimeout * rate_;
-  pause(kRatesUntilTimeout * rate_, now, Phase::kAwaitOwnTimeOut);
+  phase_ = Phase::kLastOutputs;
+  if (loss == Loss::kSilent) endOutputs(now);
+}
+
+void NodeConnect::endOutputs(Instant now) noexcept {
+  if (phase_ != Phase::kLastOutputs) return;
+  awaitOwnTimeOut(now);
+  pause(own_time_out_ - now, now, Phase::kAwaitOwnTimeOut);
+}
+
+// Our last output may have gone out just now, or wait in the link yet, and the device counts in steps of its own: released
+// in the moment in which its time-out is due by our clock, it may go on without one.
+void NodeConnect::awaitOwnTimeOut(Instant now) noexcept {
+  own_time_out_ = now + kRatesUntilTimeout * rate_ + kCoarsestStep;
 }
 
 void NodeConnect::handleForeignMaster(std::uint8_t mac, Instant now) noexcept {

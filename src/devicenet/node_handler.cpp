@@ -123,14 +123,22 @@ void NodeHandler::handleForeignRequest(const CanFrame& frame, Group2 message, In
 void NodeHandler::poll(Instant now) noexcept {
   channel_.poll(now);
   report_.status().counters.repeated = channel_.repeated();
-  if (!io_.poll(now)) connect_.handleLoss(io_.lossText(), now, NodeConnect::Loss::kSilent);
+  if (!io_.poll(now)) handleSilence(now);
   settle(now);
+}
+
+// It may hear us all the same. One that was let move gets its outputs until they stop it.
+void NodeHandler::handleSilence(Instant now) noexcept {
+  if (io_.ending()) return connect_.endOutputs(now);
+  const bool must_stop = io_.mustStop();
+  connect_.handleLoss(io_.lossText(), now, must_stop ? NodeConnect::Loss::kSilentMoving : NodeConnect::Loss::kSilent);
+  if (must_stop) io_.beginEnding(now);
 }
 
 void NodeHandler::settle(Instant now) noexcept {
   connect_.poll(now);
-  if (config_.io.kind == IoKind::kNone || connect_.exchanging() == io_.established()) return;
-  if (connect_.exchanging()) {
+  if (config_.io.kind == IoKind::kNone || connect_.sendsOutputs() == io_.established()) return;
+  if (connect_.sendsOutputs()) {
     io_.establish(connect_.rate(), now);
   } else {
     io_.close();

@@ -50,6 +50,7 @@ class NodeHandler {
 
  private:
   void handleDeviceMessage(const CanFrame& frame, Instant now) noexcept;
+  void handleSilence(Instant now) noexcept;
   /// The connecting goes on with what came; the process data follow it.
   void settle(Instant now) noexcept;
 

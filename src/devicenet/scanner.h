@@ -47,8 +47,9 @@ enum class BusState : std::uint8_t {
 /// `pollTransmit()` gives out the duplicate-MAC check first, then acknowledges of process data, the bit strobe command
 /// and process data, then explicit messages. Frames of one fragmented message come in one piece.
 ///
-/// A device that fell silent is not released before its own time-out has run out: it may hear us without being heard, and
-/// released it would go on with the last words it has heard, and nobody to watch it.
+/// A device that fell silent while it was moving (`setMoves()`) is sent outputs until they stop it. None is released before
+/// its own time-out has run out: it may hear us without being heard, and released it would go on with the last words it has
+/// heard, and nobody to watch it.
 class Scanner final : public CanEngine {
  public:
   /// Throws std::invalid_argument with a sentence: see `checkConfig()`.
@@ -72,6 +73,10 @@ class Scanner final : public CanEngine {
   /// Kept, and sent in every cycle in which the device exchanges; before the first call, and after a loss, nothing is
   /// sent. Cut or filled with zeros to its size. Bit strobe without outputs: the lowest bit of the first byte is its bit.
   void setOutput(std::size_t node, ByteView bytes) noexcept { nodes_[node]->io().setOutput(bytes); }
+  /// Of setOutput(): whether what was set lets the device move; false until said. One that falls silent while the newest that
+  /// was sent does is told to be lost, and yet sent outputs until some that do not have gone out twice, for a second at most:
+  /// it may hear us without being heard.
+  void setMoves(std::size_t node, bool moves) noexcept { nodes_[node]->io().setMoves(moves); }
   /// Of setOutput(): what was set goes out in the next cycle, whatever the packet rate.
   void hurry(std::size_t node) noexcept { nodes_[node]->io().hurry(); }
   /// What it sent last while exchanging; `count` 0: nothing yet since it came to.

@@ -42,6 +42,7 @@ void FakeDevice::put(std::uint32_t id, const Bytes& bytes) {
 }
 
 bool FakeDevice::next(CanFrame& frame) {
+  if (unheard) out_.clear();
   if (out_.empty()) return false;
   frame = out_.front();
   out_.pop_front();
@@ -318,8 +319,9 @@ void FakeDevice::tick(Instant now) {
     ++explicit_deaths;
     if (held == 0) master = 0xFF;
   }
-  const bool unfed = (held & 0x32) != 0 && !(byChange() && consumed == 0) && now - io_at_ >= milliseconds{4 * rate};
-  const bool unstrobed = (held & 4) != 0 && now - strobe_at_ >= milliseconds{4 * rate};
+  const Duration patience = milliseconds{4 * rate} + timeout_step;
+  const bool unfed = (held & 0x32) != 0 && !(byChange() && consumed == 0) && now - io_at_ >= patience;
+  const bool unstrobed = (held & 4) != 0 && now - strobe_at_ >= patience;
   if (established && rate > 0 && (unfed || unstrobed)) {
     established = false;
     timed_out = true;

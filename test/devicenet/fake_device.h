@@ -28,6 +28,7 @@ class FakeDevice {
   std::uint16_t vendor = 389, type = 2, product = 7;
   std::size_t produced = 5, consumed = 5;
   unsigned rate_step = 10;   ///< ms: rounds the expected packet rate up to such steps
+  Duration timeout_step{};   ///< it notices its time-out so much later
   bool answers_rate = true;  ///< to the write itself
   bool tells_sizes = true;
   bool tells_owner = true;   ///< on the unconnected port
@@ -43,6 +44,7 @@ class FakeDevice {
   bool powered = true;
   bool deaf_to_explicit = false;
   bool deaf_to_io = false;
+  bool unheard = false;            ///< it hears, and nothing it says arrives
   bool mute_acknowledges = false;  ///< of fragments and of change of state
 
   // What happened.

@@ -27,6 +27,112 @@ TEST(ExplicitChannel, TakesTurns) {
   EXPECT_EQ("ueueue", asked);
 }
 
+// What the device answers, under the transaction id it was asked with.
+void answerWord(ExplicitChannel& channel, bool xid, std::uint8_t value, Instant now) {
+  channel.handle(frame(std::string{xid ? "42B#408E" : "42B#008E"} + (value == 1 ? "0100" : "0200")), now);
+}
+bool xidOfNext(ExplicitChannel& channel, Instant now) {
+  CanFrame asked;
+  EXPECT_TRUE(channel.pollTransmit(asked, now));
+  return (asked.data[0] & 0x40u) != 0;
+}
+// Asked twice and given up.
+bool giveUp(ExplicitChannel& channel, Instant& now) {
+  const bool xid = xidOfNext(channel, now);
+  for (int i = 0; i < 2; ++i) {
+    now += milliseconds{500};
+    channel.poll(now);
+    if (i == 0 && xid != xidOfNext(channel, now)) ADD_FAILURE() << "repeated under another transaction id";
+  }
+  const auto answer = channel.pollAnswer();
+  EXPECT_TRUE(answer && answer->end == ExplicitEnd::kTimedOut);
+  return xid;
+}
+
+// A parameter is given up, a keep-alive has its answer, and the answer to the parameter comes while the next one is asked for:
+// its value is not the next one's.
+TEST(ExplicitChannel, ALateAnswerIsNotTakenForAnotherRequest) {
+  for (const bool error : {false, true}) {
+    ExplicitChannel channel{0, 5, milliseconds{500}};
+    Instant now{std::chrono::hours{1}};
+    channel.open();
+    channel.submit(getAttribute(1, 101, 1, 4), now);
+    const bool first = giveUp(channel, now);
+    channel.ask(getAttribute(0, 5, 2, 1), ExplicitPort::kConnected, milliseconds{200}, now);
+    const bool alive = xidOfNext(channel, now);
+    channel.handle(frame(alive ? "42B#408E03" : "42B#008E03"), now);
+    ASSERT_TRUE(channel.takeOwnAnswer());
+    channel.submit(getAttribute(2, 101, 1, 3), now);
+    const bool second = xidOfNext(channel, now);
+    if (error) {
+      channel.handle(frame(first ? "42B#409414FF" : "42B#009414FF"), now);
+    } else {
+      answerWord(channel, first, 1, now);
+    }
+    EXPECT_FALSE(channel.pollAnswer()) << "the late answer, error " << error;
+    answerWord(channel, second, 2, now);
+    const auto answer = channel.pollAnswer();
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(2u, answer->number());
+  }
+}
+
+// Both transaction ids are owed an answer: the next request waits for one of them, or for the longest time.
+TEST(ExplicitChannel, WhereBothTransactionIdsAreOwedAnAnswerTheNextRequestWaits) {
+  for (const bool comes : {true, false}) {
+    ExplicitChannel channel{0, 5, milliseconds{500}};
+    Instant now{std::chrono::hours{1}};
+    channel.open();
+    channel.submit(getAttribute(1, 101, 1, 4), now);
+    const bool first = giveUp(channel, now);
+    const Instant given_up = now;
+    channel.submit(getAttribute(2, 101, 1, 3), now);
+    EXPECT_NE(first, giveUp(channel, now));
+    channel.submit(getAttribute(3, 101, 1, 2), now);
+    CanFrame asked;
+    EXPECT_FALSE(channel.pollTransmit(asked, now));
+    ASSERT_TRUE(channel.nextDeadline());
+    EXPECT_EQ(given_up + std::chrono::seconds{5}, *channel.nextDeadline());
+    if (comes) {
+      answerWord(channel, first, 1, now);
+      EXPECT_FALSE(channel.pollTransmit(asked, now)) << "it was asked twice";
+      answerWord(channel, first, 1, now);
+    } else {
+      now = given_up + std::chrono::seconds{5};
+      channel.poll(now);
+    }
+    EXPECT_EQ(first, xidOfNext(channel, now));
+    EXPECT_FALSE(channel.pollAnswer());
+    answerWord(channel, first, 2, now);
+    const auto answer = channel.pollAnswer();
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(2u, answer->number());
+  }
+}
+
+// Asked twice and answered twice: the second answer is not the next but one's.
+TEST(ExplicitChannel, TheSecondAnswerToARepeatedRequestIsNotTakenForAnother) {
+  ExplicitChannel channel{0, 5, milliseconds{500}};
+  Instant now{std::chrono::hours{1}};
+  channel.open();
+  for (std::uint8_t i = 1; i <= 3; ++i) channel.submit(getAttribute(i, 101, 1, i), now);
+  const bool first = xidOfNext(channel, now);
+  now += milliseconds{500};
+  channel.poll(now);
+  EXPECT_EQ(first, xidOfNext(channel, now));
+  answerWord(channel, first, 1, now);
+  answerWord(channel, xidOfNext(channel, now), 1, now);
+  ASSERT_TRUE(channel.pollAnswer());
+  ASSERT_TRUE(channel.pollAnswer());
+  const bool third = xidOfNext(channel, now);
+  answerWord(channel, first, 1, now);
+  EXPECT_FALSE(channel.pollAnswer());
+  answerWord(channel, third, 2, now);
+  const auto answer = channel.pollAnswer();
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(2u, answer->number());
+}
+
 // A frame the link did not take comes again, first of all.
 TEST(ExplicitChannel, NotSent) {
   ExplicitChannel channel{0, 5, milliseconds{100}};

@@ -22,9 +22,9 @@ TEST(NodeLoss, SilentProcessData) {
   EXPECT_LE(run.now - silent, milliseconds{135});
   EXPECT_EQ("gave no answer to our commands for 120 ms", run.eventText(DevicenetEventKind::kNodeLost));
   // Released at once it would have nobody who watches it, if it hears us: it gives up by itself first.
-  run.run(milliseconds{100});
+  run.run(milliseconds{210});
   EXPECT_EQ(0x00, run.devices[0]->released_last);
-  run.run(milliseconds{25});
+  run.run(milliseconds{20});
   EXPECT_EQ(0x03, run.devices[0]->released_last);
   EXPECT_EQ(NodeState::kExchanging, run.scanner.status(1).state) << "the other is not concerned";
   run.devices[0]->deaf_to_io = false;
@@ -74,6 +74,37 @@ TEST(NodeLoss, ASignOfLifeDoesNotReleaseADeviceThatMayStillRun) {
     EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
     EXPECT_THAT(run.violations(), testing::IsEmpty());
   }
+}
+
+// It is not heard, and counts its time-out from our last output in steps of its own: not released before it has given up,
+// wherever in our cycle it fell silent.
+TEST(NodeLoss, ADeviceThatCountsInStepsGivesUpBeforeItIsReleased) {
+  for (const unsigned step : {0u, 2u, 10u, 100u}) {
+    for (unsigned later = 0; later < 10; ++later) {
+      ScannerRun run{busConfig(1)};
+      run.devices[0]->timeout_step = milliseconds{step};
+      ASSERT_TRUE(run.starts());
+      run.run(milliseconds{later});
+      run.loses = [](const CanFrame& frame) { return frame.id == 0x3C5; };
+      ASSERT_TRUE(run.reaches(NodeState::kLost, seconds{2}));
+      ASSERT_TRUE(run.runUntil([&] { return run.devices[0]->released_last == 0x03; }, seconds{1}));
+      EXPECT_EQ(1u, run.devices[0]->io_deaths) << "steps of " << step << " ms, " << later << " ms later";
+    }
+  }
+}
+
+// The same where our bus was lost and came back.
+TEST(NodeLoss, ADeviceThatCountsInStepsGivesUpBeforeARestartReleasesIt) {
+  ScannerConfig config = busConfig(1);
+  config.nodes[0].io.expected_packet_rate = seconds{1};
+  ScannerRun run{config};
+  run.devices[0]->timeout_step = milliseconds{100};
+  ASSERT_TRUE(run.starts());
+  run.run(milliseconds{50});
+  run.scanner.handleBusLost("bus-off", run.now);
+  run.scanner.restart(run.now);
+  ASSERT_TRUE(run.reaches(NodeState::kExchanging, seconds{6}));
+  EXPECT_EQ(1u, run.devices[0]->io_deaths);
 }
 
 // The clean exit does not release it either: its own time-out stops it, which a release would take away.

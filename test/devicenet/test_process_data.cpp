@@ -228,7 +228,7 @@ TEST(ProcessData, AcknowledgeSuppressed) {
   run.devices[0]->deaf_to_io = true;
   ASSERT_TRUE(run.reaches(NodeState::kLost, milliseconds{200}));
   EXPECT_EQ("sent no data for 120 ms", run.eventText(DevicenetEventKind::kNodeLost));
-  run.run(milliseconds{125});
+  run.run(milliseconds{225});
   EXPECT_EQ(0x11, run.devices[0]->released_last) << "the bits that name connections";
 }
 

@@ -21,6 +21,7 @@ NORD_EXPLORE_MEMBER(explicitBodyOf, devicenet::ExplicitClient, body_)
 NORD_EXPLORE_MEMBER(explicitReceiverOf, devicenet::ExplicitClient, receiver_)
 NORD_EXPLORE_MEMBER(explicitFurthestOf, devicenet::ExplicitClient, furthest_)
 NORD_EXPLORE_MEMBER(explicitAcknowledgeOf, devicenet::ExplicitClient, acknowledge_)
+NORD_EXPLORE_MEMBER(explicitOwedOf, devicenet::ExplicitClient, owed_)
 NORD_EXPLORE_MEMBER(explicitAnswerOf, devicenet::ExplicitClient, answer_)
 NORD_EXPLORE_MEMBER(receiverAssemblingOf, devicenet::ExplicitReceiver, assembling_)
 NORD_EXPLORE_MEMBER(receiverLastOf, devicenet::ExplicitReceiver, last_)
@@ -32,6 +33,7 @@ constexpr Duration kWireStep = std::chrono::milliseconds{200};
 constexpr int kAnswerSteps = 3;       // the time-out the client is given
 constexpr int kAcknowledgeSteps = 5;  // its own, for the acknowledge of a fragment
 constexpr int kFragmentSteps = 6;     // its own, for the next fragment of an answer
+constexpr int kLatenessSteps = 25;    // its own, for the answer to a request that was given up
 
 /// A frame of the device. `xid`: its transaction bit.
 inline CanFrame explicitFrame(bool fragment, bool xid, std::vector<std::uint8_t> bytes, std::uint8_t to = kScanner) {
@@ -48,6 +50,11 @@ inline void describeClient(const devicenet::ExplicitClient& client, Instant now,
   key.add(explicitCountOf(client)).add(explicitRepeatsOf(client)).add(explicitAnswerOf(client).has_value());
   describeTimers(explicitTimersOf(client), now, kWireStep, kFragmentSteps, key);
   key.add(static_cast<std::uint8_t>(client.busy() ? explicitFurthestOf(client) : 0u));
+  // How many late answers are owed, and how long, is left out: the states would have no end.
+  for (const bool own : {true, false}) {
+    const auto& owed = explicitOwedOf(client)[own == xid];
+    key.add(owed.answers > 0 && now < owed.until);
+  }
   const bool assembling = receiverAssemblingOf(receiver);
   key.add(assembling);
   if (assembling) {

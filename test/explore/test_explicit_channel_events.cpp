@@ -22,6 +22,8 @@ using devicenet::ExplicitEnd;
 constexpr std::uint8_t kMostUsers = 2;
 // Given out, unanswered, given out again and unanswered.
 constexpr int kOneRequest = 4 * kAnswerSteps;
+// And before that both transaction ids may be owed a late answer, to be waited for.
+constexpr int kLongestWait = 2 * kOneRequest + 2 * kLatenessSteps;
 
 enum class Event : std::uint8_t {
   kSubmit,
@@ -160,7 +162,9 @@ class ExplicitChannelEvents {
   }
 
   void answerAll(World& world, Verdict& verdict) const {
-    for (int i = 0; i < 20 && (world.users > 0 || world.own); ++i) {
+    for (int i = 0; i < 20 + kLatenessSteps && (world.users > 0 || world.own); ++i) {
+      // One that waits for a transaction id.
+      if (!wantsFrame(world)) apply(world, static_cast<std::size_t>(Event::kPassTime), verdict);
       while (apply(world, static_cast<std::size_t>(Event::kTransmit), verdict)) {
       }
       apply(world, static_cast<std::size_t>(Event::kAnswer), verdict);
@@ -208,8 +212,8 @@ class ExplicitChannelEvents {
     verdict.require(!waits || world.channel.nextDeadline().has_value() || wantsFrame(world),
                     "a request waits, and neither a time-out nor a frame with it");
     // Its own, and one of the other asker before.
-    verdict.require(world.user_waits <= 2 * kOneRequest, "a request of the layer above comes no further");
-    verdict.require(world.own_waits <= 2 * kOneRequest, "a request of the engine has no end");
+    verdict.require(world.user_waits <= kLongestWait, "a request of the layer above comes no further");
+    verdict.require(world.own_waits <= kLongestWait, "a request of the engine has no end");
     verdict.require(world.turns <= 1, "the layer above goes before the engine twice");
   }
 

@@ -4,8 +4,9 @@
 // with the other one. That is more than a real device does, so what holds here holds for one; and it is what keeps the
 // states few, since neither the requests a device has still to answer nor the frames on their way are part of a state.
 // Of a long answer the fragments between the third and the last one that fits come in one event, each acknowledged.
-// Left out: what comes between those; and that an answer belongs to the request that caused it. One two requests late bears the bit of the request
-// that runs, and is taken for its answer: the protocol cannot know (explicit_client.h).
+// Left out: what comes between those; that an answer belongs to the request that caused it; and how many late answers are owed
+// and how long, of which a state knows only whether there are any: that these keep a transaction id from another request is
+// tested in test_explicit_channel.cpp.
 #include "explore/explicit_wire.h"
 
 namespace nord_driver::explore {

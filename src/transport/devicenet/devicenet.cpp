@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "config/setting_checks.h"
+#include "profile/control_word.h"
 #include "transport/devicenet/assembly.h"
 #include "transport/devicenet/devicenet_bus_events.h"
 #include "transport/devicenet/devicenet_counters.h"
@@ -18,10 +19,18 @@ namespace {
 
 constexpr Duration kLongestRelease = std::chrono::milliseconds{500};
 constexpr Duration kListenFirst = std::chrono::milliseconds{500};  // a scanner polls more often than that
+constexpr Duration kFirstAnswers = std::chrono::seconds{1};        // of modules that are there
 constexpr int kRatesUntilTimeout = 4;
 
 const char* stateText(link::CanState state) noexcept {
   return state == link::CanState::kBusOff ? "the controller is bus-off" : "the interface is down";
+}
+
+// Any stop, also the word 0000, lacks one of them.
+bool letsMove(Word control_word) noexcept {
+  using namespace profile::control_bit;
+  constexpr Word kAll = kOn | kEnableVoltage | kNoQuickStop | kEnableOperation | kDataValid;
+  return (control_word & kAll) == kAll;
 }
 
 }  // namespace
@@ -67,6 +76,7 @@ void DeviceNetTransport::handleGone() noexcept {
 }
 
 void DeviceNetTransport::restartDrives() noexcept {
+  online_at_.reset();
   for (DevicenetDriveState& drive : drives_) drive.handleRestart();
 }
 
@@ -91,7 +101,11 @@ void DeviceNetTransport::putOutputs(const std::vector<profile::ProcessOutput>& o
   }
   for (DriveIndex i = 0; i < drives_.size(); ++i) putModuleOutputs(config_.drives[i].module, outputs[i].module_outputs);
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
-    if (!holdsBack(config_.modules[i])) scanner_->setOutput(i, outputs_[i]);
+    if (holdsBack(config_.modules[i])) continue;
+    scanner_->setOutput(i, outputs_[i]);
+    const std::vector<std::size_t>& behind = config_.modules[i].drives;
+    scanner_->setMoves(i, std::any_of(behind.begin(), behind.end(),
+                                      [&outputs](std::size_t drive) { return letsMove(outputs[drive].control_word); }));
   }
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     if (isUrgent(given_[i], outputs[i])) scanner_->hurry(config_.drives[i].module);
@@ -150,6 +164,7 @@ void DeviceNetTransport::runRequests(Instant now) noexcept {
 void DeviceNetTransport::takeEvents() noexcept {
   while (const auto event = scanner_->pollEvent()) {
     if (event->kind == devicenet::DevicenetEventKind::kSecondScanner) noteMaster(event->value, event->at);
+    if (event->kind == devicenet::DevicenetEventKind::kOnline) online_at_ = event->at;
     const bool of_a_node = event->node != devicenet::kNoNode;
     takeEvent(*event, of_a_node ? config_.modules[event->node].mac : 0u, events());
   }
@@ -216,6 +231,10 @@ Sentence DeviceNetTransport::silenceText() const noexcept {
     const devicenet::NodeStatus& status = scanner_->status(i);
     if (status.state != devicenet::NodeState::kRefused) continue;
     text.format("MAC id %u %.220s", unsigned{config_.modules[i].mac}, status.reason.c_str());
+    return text;
+  }
+  if (!online_at_ || now() - *online_at_ < kFirstAnswers) {
+    text.format("%s is open, and the modules are asked for the first time", config_.interface.c_str());
     return text;
   }
   text.format(

@@ -68,6 +68,7 @@ class DeviceNetTransport final : public CanTransport, public BusScanner {
   std::vector<devicenet::IoBytes> outputs_;    // of each module
   std::vector<profile::ProcessOutput> given_;  // to each drive, in the cycle before
   std::vector<std::uint64_t> answered_;        // messages of each drive's module when the cycle began
+  std::optional<Instant> online_at_;           // the duplicate-MAC check had ended; none: it has not been told
   ResultTurns result_turns_;
 };
 

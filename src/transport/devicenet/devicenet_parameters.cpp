@@ -1,6 +1,7 @@
 #include "transport/devicenet/devicenet_parameters.h"
 
 #include <array>
+#include <limits>
 
 #include "devicenet/error_codes.h"
 #include "transport/devicenet/explicit_refusal.h"
@@ -23,6 +24,7 @@ constexpr unsigned kFirstClass = 100, kClassesPerInverter = 10, kModuleClasses =
 constexpr std::uint8_t kIndexClass = 199;
 constexpr std::uint8_t kNumberAttribute = 1, kIndexAttribute = 2, kWordAttribute = 3, kDoubleWordAttribute = 4;
 constexpr unsigned kLastInstance = 255;
+constexpr std::uint8_t kTooShort = 0x13, kTooLong = 0x15;  // general error codes: not enough, and too much data
 constexpr std::uint16_t kFaultNumber = 700;
 constexpr std::uint8_t kSupervisorClass = 41, kFaultCode = 13;
 
@@ -79,6 +81,7 @@ bool DevicenetParameters::submit(const ParameterRequest& request) noexcept {
 // The running request's turn. What no device need be asked for is answered here.
 void DevicenetParameters::next() noexcept {
   plain_ = false;
+  other_width_ = false;
   ++sequence_;
   while (!requests_.empty()) {
     const ParameterRequest& request = requests_.front();
@@ -119,7 +122,7 @@ ExplicitRequest DevicenetParameters::valueAccess(const ParameterObject& object) 
     return devicenet::getAttribute(accessId(), object.class_id, object.instance, object.attribute);
   }
   return devicenet::setAttribute(accessId(), object.class_id, object.instance, object.attribute,
-                                 valueBytes(request.raw, request.double_word));
+                                 valueBytes(request.raw, request.double_word != other_width_));
 }
 
 ExplicitRequest DevicenetParameters::indexAccess() const noexcept {
@@ -165,7 +168,7 @@ bool DevicenetParameters::handleAnswer(const ExplicitAnswer& answer) noexcept {
         refuse(refusal_);
         break;
       }
-      if (fallBack(answer.general) || askSupervisor(answer)) return false;
+      if (tryOtherWidth(answer.general) || fallBack(answer.general) || askSupervisor(answer)) return false;
       absent =
           answer.general == devicenet::general_error::kResourceUnavailable && !isOfModule(requests_.front().number);
       refuse({answer.general, answer.additional});
@@ -182,6 +185,20 @@ bool DevicenetParameters::handleAnswer(const ExplicitAnswer& answer) noexcept {
   }
   next();
   return absent;
+}
+
+// How wide a parameter is that no catalogue knows its value does not say. Refused so, it surely was not written.
+bool DevicenetParameters::tryOtherWidth(std::uint8_t general) noexcept {
+  const ParameterRequest& request = requests_.front();
+  if (request.action == ParameterAction::kRead || other_width_) return false;
+  if (step_ != Step::kValue && step_ != Step::kDoubleValue) return false;
+  // Narrower only where the word is the same value with a sign and without.
+  const bool fits = !request.double_word || (request.raw >= std::numeric_limits<std::int16_t>::min() &&
+                                             request.raw <= std::numeric_limits<std::int16_t>::max());
+  if (general != (request.double_word ? kTooLong : kTooShort) || !fits) return false;
+  other_width_ = true;
+  again(byIndexObject() && !request.double_word ? Step::kDoubleValue : Step::kValue);
+  return true;
 }
 
 // As on PKW: a parameter without sets may be read without one, and so may the first element of what older firmware has

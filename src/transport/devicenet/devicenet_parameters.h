@@ -69,6 +69,7 @@ class DevicenetParameters {
   bool byIndexObject() const noexcept;
   devicenet::ExplicitRequest indexAccess() const noexcept;
   devicenet::ExplicitRequest valueAccess(const ParameterObject& object) const noexcept;
+  bool tryOtherWidth(std::uint8_t general) noexcept;
   bool fallBack(std::uint8_t general) noexcept;
   bool askSupervisor(const devicenet::ExplicitAnswer& answer) noexcept;
   void refuse(const Refusal& refusal) noexcept;
@@ -80,7 +81,8 @@ class DevicenetParameters {
   std::uint16_t tag_;
   std::uint16_t sequence_ = 0;
   bool under_way_ = false;
-  bool plain_ = false;  // the running request is asked for with instance 1
+  bool other_width_ = false;  // of a write
+  bool plain_ = false;        // the running request is asked for with instance 1
   Step step_ = Step::kValue;
   Refusal refusal_;  // of the parameter itself, while the supervisor is asked
   profile::ParameterQueue requests_;

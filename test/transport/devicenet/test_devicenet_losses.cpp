@@ -37,6 +37,41 @@ TEST(DeviceNetTransportTest, ASilentModuleIsNamedAndComesBack) {
   EXPECT_THAT(rig.violations(), IsEmpty());
 }
 
+// Nobody could have answered yet in the moment in which the duplicate-MAC check ends.
+TEST(DeviceNetTransportTest, WiresAreSuspectedOnlyWhenTheModulesHadTimeToAnswer) {
+  Rig rig;
+  rig.device().powerOff();
+  rig.until([&] { return rig.bus->sentTo("42E") > 0; });
+  EXPECT_STREQ("can0 is open, and the modules are asked for the first time", rig.transport.busText().c_str());
+  rig.run(milliseconds{900});
+  EXPECT_THAT(rig.transport.busText().str(), HasSubstr("for the first time"));
+  rig.run(milliseconds{150});
+  EXPECT_THAT(rig.transport.busText().str(), HasSubstr("no device answers: are the modules and the bus powered"));
+}
+
+// It hears us, and we do not hear it. The drive is judged by drive_timeout after the last of its data has grown old, which may
+// be later than the connection counts as lost: it gets its stop word all the same.
+TEST(DeviceNetTransportTest, AModuleThatIsNotHeardGetsItsStopWord) {
+  for (const char* io : {"poll", "strobe", "cos", "cyclic"}) {
+    for (const Duration drive_timeout : {milliseconds{50}, milliseconds{250}}) {
+      test::DevicenetSettings settings{1};
+      settings.drive().set("io", std::string{io});
+      Rig rig{settings};
+      ASSERT_TRUE(rig.starts()) << io;
+      rig.outputs[0].control_word = 0x047F;
+      rig.run(milliseconds{200});
+      ASSERT_EQ(0x7F, rig.device().output[1]) << io;
+      rig.device().unheard = true;
+      rig.until([&] { return !rig.inputs[0].module_answers; });
+      rig.run(drive_timeout);
+      rig.outputs[0].control_word = 0x047E;
+      rig.run(milliseconds{40});
+      EXPECT_EQ(0x7E, rig.device().output[1]) << io << ", " << toSeconds(drive_timeout) << " s";
+      EXPECT_EQ(0u, rig.device().io_deaths) << io;
+    }
+  }
+}
+
 // The stop word takes the enable away and so acknowledges a fault (BU 0020 8). The first answer may come too late for its cycle
 // and before the next one: the fault in it is told before any word is sent that the inverter does not ignore.
 TEST(DeviceNetTransportTest, AFaultInTheFirstAnswerIsToldBeforeAStopWordIsSent) {

@@ -137,6 +137,43 @@ TEST(DevicenetParametersTest, AWriteIsAsWideAsItsValue) {
   EXPECT_EQ(-2, channel.result().raw);
 }
 
+// Of a parameter that is not in the catalogue only the value is known: refused for its length it was not written.
+TEST(DevicenetParametersTest, AWriteThatIsRefusedForItsLengthIsTriedWithTheOther) {
+  Channel channel;
+  channel.parameters.submit(requestOf(613, ParameterShape::kPlain, ParameterAction::kWritePersistent, 103));
+  EXPECT_EQ("10 106 1 13 = 67 00", channel.start());
+  channel.refuse(0x13);
+  EXPECT_EQ("10 106 1 13 = 67 00 00 00", channel.start());
+  channel.answer();
+  EXPECT_EQ(ParameterOutcome::kDone, channel.result().outcome);
+  ParameterRequest wide = requestOf(613, ParameterShape::kPlain, ParameterAction::kWritePersistent, -2);
+  wide.double_word = true;
+  channel.parameters.submit(wide);
+  EXPECT_EQ("10 106 1 13 = FE FF FF FF", channel.start());
+  channel.refuse(0x15);
+  EXPECT_EQ("10 106 1 13 = FE FF", channel.start());
+  channel.refuse(0x13);
+  EXPECT_EQ(ParameterOutcome::kRefused, channel.result().outcome) << "once";
+  wide.raw = 40000;
+  channel.parameters.submit(wide);
+  channel.start();
+  channel.refuse(0x15);
+  EXPECT_EQ(ParameterOutcome::kRefused, channel.result().outcome) << "16 bits may be another value";
+  channel.parameters.submit(requestOf(613, ParameterShape::kPlain, ParameterAction::kWritePersistent, 103));
+  channel.start();
+  channel.refuse(0x09);
+  EXPECT_EQ(ParameterOutcome::kRefused, channel.result().outcome) << "its value, not its length";
+  Channel index{driveOf(1, ParameterObjects::kIndexObject)};
+  index.parameters.submit(requestOf(613, ParameterShape::kPlain, ParameterAction::kWritePersistent, 103));
+  index.start();
+  index.answer();
+  index.start();
+  index.answer();
+  EXPECT_EQ("10 199 1 3 = 67 00", index.start());
+  index.refuse(0x13);
+  EXPECT_EQ("10 199 1 4 = 67 00 00 00", index.start());
+}
+
 // BU 0280 P560: what is written is written to the EEPROM, unless P560 = 0.
 TEST(DevicenetParametersTest, AWriteThatSparesTheEepromIsRefusedUnasked) {
   Channel channel;
