@@ -5,7 +5,6 @@
 #include <fstream>
 #include <functional>
 #include <set>
-#include <sstream>
 
 #include "commissioning/checked_drive.h"
 #include "commissioning/rules.h"
