@@ -22,7 +22,7 @@ constexpr Word kGone = 0x0101;
 /// One cycle each 10 ms.
 class PcpConnection : public ::testing::Test {
  protected:
-  explicit PcpConnection(bool initiate = true) : parameters(PcpGateway::map(initiate), {2, 3}) {}
+  explicit PcpConnection(bool initiate = true) : parameters(PcpGateway::map(initiate), {{2}, {3}}) {}
 
   static ParameterRequest read(std::uint16_t number) {
     ParameterRequest request;
