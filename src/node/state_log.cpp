@@ -18,10 +18,11 @@ using Level = LogLine::Level;
 constexpr Duration kNumberAwaited = std::chrono::seconds{2};
 
 // What tells one stop from another one. /diagnostics has the inverter's own reason as it is now.
-std::string incidentIn(std::string stop) {
+std::string incidentIn(const std::string& stop) {
   const std::size_t at = stop.find(cycle::kOwnReason);
-  if (at != std::string::npos) stop.erase(at, stop.rfind(')') - at);
-  return stop;
+  const std::size_t end = stop.rfind(')');
+  if (at == std::string::npos || end == std::string::npos || end < at) return stop;
+  return stop.substr(0, at) + stop.substr(end);
 }
 
 }  // namespace
