@@ -93,6 +93,8 @@ TEST_F(FoundTurning, AreStoppedBeforeTheirNodesAreReset) {
     EXPECT_GT(frequency(kRight), -24.0);
     EXPECT_TRUE(hasSent("203#7E040000") && hasSent("204#7E040000"));
     EXPECT_THAT(next_->text(kLeft), HasSubstr("stopped before it is set up"));
+    EXPECT_TRUE(next_->transport().connected());
+    EXPECT_EQ("", next_->busText()) << "they are heard: no matter of wires";
     expectTakenOver();
   }
 }

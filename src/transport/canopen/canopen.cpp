@@ -49,10 +49,11 @@ std::string protectionOf(const CanopenDrive& drive, const canopen::ErrorControl&
          shortNumber(time) + " s: the inverter trips " + (gateway ? "E10" : "E10.0") + " and the motor coasts";
 }
 
-// One that answers and yet does not run says why, or is on its way: that is no matter of wires.
-bool answers(canopen::NodeState state) noexcept {
-  return state == canopen::NodeState::kBooting || state == canopen::NodeState::kOperational ||
-         state == canopen::NodeState::kRefused;
+// One that answers and yet does not run says why, or is on its way, and one that was found driven is heard while it is
+// being stopped: that is no matter of wires.
+bool answers(const canopen::NodeStatus& status) noexcept {
+  return status.state == canopen::NodeState::kBooting || status.state == canopen::NodeState::kOperational ||
+         status.state == canopen::NodeState::kRefused || status.stops_first;
 }
 
 }  // namespace
@@ -181,7 +182,7 @@ bool CanopenTransport::submit(DriveIndex drive, const profile::ParameterRequest&
 bool CanopenTransport::connected() const noexcept {
   return linkWorks() && !isSilent() &&
          std::any_of(config_.drives.begin(), config_.drives.end(),
-                     [this](const auto& it) { return answers(master_->status(it.node).state); });
+                     [this](const auto& it) { return answers(master_->status(it.node)); });
 }
 
 BusCounters CanopenTransport::counters() const noexcept {
