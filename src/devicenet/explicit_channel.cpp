@@ -79,9 +79,8 @@ void ExplicitChannel::takeAnswer(Instant now) noexcept {
 
 void ExplicitChannel::startNext(Instant now) noexcept {
   while (owner_ == Owner::kNobody && !client_.busy()) {
-    const bool user = isOpen() && !users_.empty() && !client_.mustWait(users_.front(), now);
-    const bool own = own_ && !client_.mustWait(own_->request, now);
-    if (own && (!user || last_ == Owner::kUser)) {
+    const bool user = isOpen() && !users_.empty() && !client_.mustWait(now);
+    if (own_ && (!user || last_ == Owner::kUser)) {
       startOwn(now);
     } else if (user) {
       startUser(now);
@@ -93,7 +92,7 @@ void ExplicitChannel::startNext(Instant now) noexcept {
 
 // A request that waits for a transaction id has no time-out of its own yet.
 std::optional<Instant> ExplicitChannel::nextDeadline() const noexcept {
-  const bool waits = owner_ == Owner::kNobody && (own_ || (isOpen() && !users_.empty()));
+  const bool waits = owner_ == Owner::kNobody && isOpen() && !users_.empty();
   return waits ? earlier(client_.nextDeadline(), client_.freeAt()) : client_.nextDeadline();
 }
 

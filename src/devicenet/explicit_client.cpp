@@ -18,10 +18,6 @@ constexpr Duration kLongestLateness = std::chrono::seconds{5};
 constexpr int kSecondAnswer = 4;
 constexpr int kMostOwed = 2;
 
-bool isValueless(const ExplicitRequest& request) noexcept {
-  return request.service == service::kAllocate || request.service == service::kRelease;
-}
-
 }  // namespace
 
 bool ExplicitClient::start(const ExplicitRequest& request, ExplicitPort port, BodyFormat format, Duration timeout,
@@ -47,8 +43,8 @@ bool ExplicitClient::start(const ExplicitRequest& request, ExplicitPort port, Bo
   return true;
 }
 
-bool ExplicitClient::mustWait(const ExplicitRequest& request, Instant now) const noexcept {
-  return !isValueless(request) && owes(false, now) && owes(true, now);
+bool ExplicitClient::mustWait(Instant now) const noexcept {
+  return owes(false, now) && owes(true, now);
 }
 
 void ExplicitClient::remember(bool answered, Instant now) noexcept {

@@ -4,8 +4,8 @@
 // Deterministic: frames and the time go in, frames and answers come out. Nothing is allocated.
 // A transaction id is one bit, and an answer names nothing else of its request but, unless it is an error, the service. So
 // the bit of a request is not given to another while an answer to the first may still come: one that was given up, or was
-// asked twice and answered once. Where both bits are owed an answer the next request waits; what allocates and releases
-// does not, for no value comes of it.
+// asked twice and answered once. Where both bits are owed an answer a user's next request waits. What connects a device and
+// keeps its connection alive does not: it is done again where a late answer was taken for its own.
 #pragma once
 
 #include <algorithm>
@@ -43,9 +43,9 @@ class ExplicitClient {
   /// cancelled. `timeout`: for the answer, each time it is asked for.
   bool start(const ExplicitRequest& request, ExplicitPort port, BodyFormat format, Duration timeout,
              Instant now) noexcept;
-  /// Whether the request would have to share its transaction id with one whose late answer may still come: it has to wait, at
-  /// most until `freeAt()`.
-  bool mustWait(const ExplicitRequest& request, Instant now) const noexcept;
+  /// Whether a request would have to share its transaction id with one whose late answer may still come: one whose value
+  /// is told to somebody has to wait, at most until `freeAt()`.
+  bool mustWait(Instant now) const noexcept;
   Instant freeAt() const noexcept { return std::min(owed_[0].until, owed_[1].until); }
   /// From `start()` until the answer was taken.
   bool busy() const noexcept { return phase_ != Phase::kIdle || answer_.has_value(); }
