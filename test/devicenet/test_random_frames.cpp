@@ -14,8 +14,10 @@ constexpr std::uint32_t kSequences = 1500;
 /// The duplicate-MAC check, and a second of silence before it when it was in a communication fault.
 constexpr Duration kCheck = seconds{3};
 constexpr Duration kBack = seconds{2};
-/// A fragmented request that lost its acknowledge is asked for a second time after one second.
-constexpr Duration kPatience = seconds{3};
+/// A fragmented request that lost its acknowledge is asked for a second time after one second. Before that it may have to
+/// wait for a transaction id that is owed a late answer.
+constexpr Duration kLongestLateness = seconds{5};
+constexpr Duration kPatience = seconds{3} + kLongestLateness;
 
 ScannerConfig mixed(std::uint32_t seed) {
   ScannerConfig config = busConfig(0);
