@@ -323,6 +323,8 @@ void DnReferee::delivered(const CanFrame& frame) noexcept {
 
 void DnReferee::answer(View& view, const CanFrame& frame) noexcept {
   if (frame.size < 2) return;
+  // What another scanner is answered, refused or not, is no answer to the request that is under way.
+  if (master_ && (frame.data[0] & dn::kMacMask) != *master_) return;
   if ((frame.data[0] & dn::kFragmented) != 0) {
     const dn::Fragment kind = dn::kindOf(frame.data[1]);
     const std::uint8_t count = frame.data[1] & dn::kFragmentCount;

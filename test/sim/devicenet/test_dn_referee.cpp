@@ -175,6 +175,28 @@ TEST_F(DnRefereeTest, RequestsThatWereGivenTooSoonAfterEachOther) {
   EXPECT_EQ(1u, brokenByRequestsToNobody(milliseconds{50})) << said;
 }
 
+// Its refusal names its MAC id, and comes while a request of ours is under way.
+TEST(DnReferee, WhatAnotherScannerIsAnsweredIsNoAnswerToOurs) {
+  DnReferee referee;
+  referee.nodeExists(9);
+  Instant now{};
+  for (int i = 0; i < 2; ++i) {
+    referee.masterFrame(frame("457#00 FF FF 01 00 00 00"));
+    referee.advance(now += milliseconds(1010));
+  }
+  const auto ask = [&referee](const char* request, const char* answer) {
+    referee.masterFrame(frame(request));
+    referee.delivered(frame(answer));
+  };
+  ask("44E#0A 4B 03 01 03 0A", "44B#0A CB 00");
+  ask("44C#0A 0E 05 02 07", "44B#0A 8E 05 00");
+  ask("44C#0A 0E 05 02 08", "44B#0A 8E 05 00");
+  ask("44C#0A 10 05 02 09 64 00", "44B#11 94 0C 01");
+  referee.delivered(frame("44B#0A 90 64 00"));
+  referee.masterFrame(frame("44D#00 7E 04 00 00"));
+  EXPECT_TRUE(referee.content()) << referee.report();
+}
+
 TEST_F(DnRefereeTest, ProcessData) {
   bus.goOnline();
   bus.send("44D#00 7E 04 00 00");
