@@ -72,10 +72,14 @@ Sentence CommandWatch::movingOf(const std::vector<DriveIndex>& drives, bool base
   return {};
 }
 
+bool CommandWatch::moves(const TwistCommand& base, Instant now) const noexcept {
+  return !isStale(base, cmd_vel_timeout_, now) && !(base.twist == robot::Twist2d{});
+}
+
 Sentence CommandWatch::movingBase(Instant now) noexcept {
   Sentence text;
   const TwistCommand& base = ports_.newestBaseCommand();
-  if (isStale(base, cmd_vel_timeout_, now) || base.twist == robot::Twist2d{}) return text;
+  if (!moves(base, now)) return text;
   Sentence sideways;
   if (base.twist.linear_y != 0.0) sideways.format("%.3f m/s to the left, ", base.twist.linear_y);
   text.format("the newest cmd_vel is not zero (%.3f m/s, %s%.3f rad/s, %.2f s old): send zero first%s",

@@ -36,6 +36,8 @@ class CommandWatch {
   void watch(DriveIndex drive, std::size_t index, const SetpointSetup& setpoint);
   /// Each cycle; the first call begins the listening.
   CommandState look(Instant now) noexcept;
+  /// The newest cmd_vel is not zero, and not stale.
+  bool baseMoves(Instant now) const noexcept { return has_base_ && moves(ports_.newestBaseCommand(), now); }
   /// As CommandState::moving, of these drives alone; `base`: and of the base.
   Sentence movingOf(const std::vector<DriveIndex>& drives, bool base, Instant now) noexcept;
 
@@ -46,6 +48,7 @@ class CommandWatch {
     SetpointSetup setup;
   };
 
+  bool moves(const TwistCommand& base, Instant now) const noexcept;
   bool movedWithin(Duration span, Instant now) noexcept;
   Sentence movingBase(Instant now) noexcept;
   Sentence movingDrive(DriveIndex drive, Instant now) noexcept;

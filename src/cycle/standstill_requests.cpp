@@ -117,8 +117,7 @@ bool StandstillRequests::follow(Job& job, Instant now) noexcept {
 
 Sentence StandstillRequests::unconfirmed(const Request& request, DriveIndex drive) const noexcept {
   const drive::DriveReport& report = drives_[drive].report();
-  Sentence text;
-  text.format("not confirmed in time: %s", stateMessage(names_[drive].c_str(), report).c_str());
+  const Sentence text = unconfirmedMessage(names_[drive].c_str(), report);
   if (request.kind != RequestKind::kSelectParameterSet || !report.online) return text;
   Sentence longer;
   longer.format("%s; parameter set %u is in force, %u was asked for", text.c_str(), unsigned{report.parameter_set},

@@ -373,9 +373,7 @@ Sentence Supervisor::unsettled(const Job& job) const noexcept {
       const bool heard = !job.enabled_at || drive.lastHeard() > *job.enabled_at;
       const bool at_rest = drive.report().online && drive.isAtRest();
       if (enable ? drive::isEnabled(drive.report().phase) && heard : at_rest) continue;
-      Sentence text;
-      text.format("not confirmed in time: %s", stateMessage(names_[member].c_str(), drives_[member].report()).c_str());
-      return text;
+      return unconfirmedMessage(names_[member].c_str(), drive.report());
     }
   }
   return "not confirmed in time";

@@ -159,6 +159,12 @@ Sentence stateMessage(const char* drive, const drive::DriveReport& report) noexc
   return text;
 }
 
+Sentence unconfirmedMessage(const char* drive, const drive::DriveReport& report) noexcept {
+  Sentence text;
+  text.format("not confirmed in time: %s", stateMessage(drive, report).c_str());
+  return text;
+}
+
 Sentence terminalMessage(const char* drive, TerminalFinding finding, const drive::DriveReport& report) noexcept {
   Sentence text;
   switch (finding) {

@@ -19,6 +19,8 @@ Sentence refusalMessage(const char* drive, drive::Refusal refusal, const drive::
 Sentence stopMessage(const char* drive, drive::StopCause cause, const drive::DriveReport& report) noexcept;
 /// "drive left is operation enabled (status word 0B37)".
 Sentence stateMessage(const char* drive, const drive::DriveReport& report) noexcept;
+/// "not confirmed in time: " and stateMessage().
+Sentence unconfirmedMessage(const char* drive, const drive::DriveReport& report) noexcept;
 /// "drive left is under local control ..."; empty for TerminalFinding::kNone.
 Sentence terminalMessage(const char* drive, TerminalFinding finding, const drive::DriveReport& report) noexcept;
 /// Why the access to parameter `number` failed, or what was done besides; empty when there is nothing to say.

@@ -9,7 +9,6 @@ namespace {
 
 constexpr std::uint16_t kOneInstance = 1;
 constexpr std::uint8_t kAllocationInformation = 5;
-constexpr std::uint8_t kSupervisorState = 6;
 
 ConnectRequest deviceNetService(std::uint8_t code) noexcept {
   ConnectRequest made;
@@ -48,7 +47,8 @@ ConnectRequest connectionRequest(std::uint8_t instance, std::uint8_t attribute) 
 }
 
 ConnectRequest supervisorRequest(std::uint8_t instance) noexcept {
-  return {getAttribute(0, object_class::kControlSupervisor, instance, kSupervisorState), ExplicitPort::kConnected};
+  return {getAttribute(0, object_class::kControlSupervisor, instance, supervisor_attribute::kState),
+          ExplicitPort::kConnected};
 }
 
 ConnectRequest rateRequest(std::uint8_t instance, std::uint16_t milliseconds) noexcept {

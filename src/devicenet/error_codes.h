@@ -12,6 +12,8 @@ namespace general_error {
 constexpr std::uint8_t kResourceUnavailable = 0x02;
 constexpr std::uint8_t kAlreadyInState = 0x0B;
 constexpr std::uint8_t kStateConflict = 0x0C;
+constexpr std::uint8_t kNotEnoughData = 0x13;
+constexpr std::uint8_t kTooMuchData = 0x15;
 constexpr std::uint8_t kNoObject = 0x16;
 }  // namespace general_error
 

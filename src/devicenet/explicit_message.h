@@ -39,6 +39,12 @@ constexpr std::uint16_t kConnection = 5;
 constexpr std::uint16_t kControlSupervisor = 41;
 }  // namespace object_class
 
+/// Of a control supervisor (BU 0280 4.3.6).
+namespace supervisor_attribute {
+constexpr std::uint8_t kState = 6;
+constexpr std::uint8_t kFaultCode = 13;
+}  // namespace supervisor_attribute
+
 /// Most bytes of data behind the service code, class and instance, each way.
 constexpr std::size_t kExplicitData = 128;
 using ExplicitData = FixedBytes<kExplicitData>;

@@ -21,6 +21,12 @@ bool isDown(const Drive& drive) noexcept {
          phase == Phase::kSwitchingSet;
 }
 
+/// A bit for each of what stops a motor past its group: fault, OFF2, OFF3, local control.
+unsigned stopsIn(profile::StatusWord status) noexcept {
+  return (status.fault() ? 1u : 0u) | (status.voltageEnabled() ? 0u : 2u) | (status.quickStopInactive() ? 0u : 4u) |
+         (status.busControl() ? 0u : 8u);
+}
+
 }  // namespace
 
 DriveGroup::DriveGroup(std::vector<Drive*> members, const GroupConfig& config)
@@ -161,8 +167,7 @@ bool DriveGroup::stopBegan() noexcept {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const profile::StatusWord before(heard_[i]), now(members_[i]->report().status_word);
     heard_[i] = now.word();
-    began = began || (now.fault() && !before.fault()) || (!now.voltageEnabled() && before.voltageEnabled()) ||
-            (!now.quickStopInactive() && before.quickStopInactive()) || (!now.busControl() && before.busControl());
+    began = began || (stopsIn(now) & ~stopsIn(before)) != 0;
   }
   return began;
 }
@@ -170,8 +175,7 @@ bool DriveGroup::stopBegan() noexcept {
 bool DriveGroup::stopStands() const noexcept {
   return std::any_of(heard_.begin(), heard_.end(), [](Word word) {
     const profile::StatusWord status(word);
-    return status.isUseful() &&
-           (status.fault() || !status.voltageEnabled() || !status.quickStopInactive() || !status.busControl());
+    return status.isUseful() && stopsIn(status) != 0;
   });
 }
 

@@ -146,7 +146,7 @@ bool ModbusLink::connect() noexcept {
 // the connection is of no use any more.
 bool ModbusLink::writeStop() noexcept {
   const Outputs& outputs = outputs_.read();
-  if (outputs.number == last_outputs_ || outputs.words.empty() || !exchange_.stops(outputs.words)) return true;
+  if (outputs.number == last_outputs_ || !stops(outputs)) return true;
   last_outputs_ = outputs.number;
   if (exchange_.run(outputs.words, unwatched_, stop_)) return true;
   report_.text = exchange_.reason();
@@ -263,8 +263,7 @@ void ModbusLink::pause(Instant until, bool is_kept) noexcept {
     ::ppoll(waits, is_kept ? 2 : 1, &left, nullptr);
     if (!is_kept || !fresh_.take()) continue;
     given = true;
-    const Outputs& next = outputs_.read();
-    if (!next.only_reads && exchange_.stops(next.words)) break;
+    if (stops(outputs_.read())) break;
   }
   if (given) fresh_.signal();
 }

@@ -60,6 +60,8 @@ class ModbusLink final : public RegisterLink {
 
   void work() noexcept;
   bool connect() noexcept;
+  /// Not a look, which has no words.
+  bool stops(const Outputs& outputs) const noexcept { return !outputs.only_reads && exchange_.stops(outputs.words); }
   bool writeStop() noexcept;
   bool startWatchdog() noexcept;
   bool isWatchdogHeld() noexcept;

@@ -205,8 +205,7 @@ Sentence CanopenTransport::busText() const noexcept {
   if (!connected() && !events().isExplained(now())) {
     text.format(
         "%s is open, but no node answers: are the drives powered, is the bit rate right (P514), are the two ends of "
-        "the "
-        "bus terminated?",
+        "the bus terminated?",
         config_.interface.c_str());
     return text;
   }

@@ -11,6 +11,7 @@ namespace nord_driver {
 using devicenet::ExplicitAnswer;
 using devicenet::ExplicitEnd;
 using devicenet::ExplicitRequest;
+namespace general_error = devicenet::general_error;
 using profile::ParameterAction;
 using profile::ParameterOutcome;
 using profile::ParameterReason;
@@ -24,9 +25,7 @@ constexpr unsigned kFirstClass = 100, kClassesPerInverter = 10, kModuleClasses =
 constexpr std::uint8_t kIndexClass = 199;
 constexpr std::uint8_t kNumberAttribute = 1, kIndexAttribute = 2, kWordAttribute = 3, kDoubleWordAttribute = 4;
 constexpr unsigned kLastInstance = 255;
-constexpr std::uint8_t kTooShort = 0x13, kTooLong = 0x15;  // general error codes: not enough, and too much data
 constexpr std::uint16_t kFaultNumber = 700;
-constexpr std::uint8_t kSupervisorClass = 41, kFaultCode = 13;
 
 // As on PKW (BU 0020 7.5.2): sets count fastest, then the elements.
 unsigned subIndexOf(const ParameterRequest& request) noexcept {
@@ -108,7 +107,8 @@ bool DevicenetParameters::byIndexObject() const noexcept {
 std::optional<ExplicitRequest> DevicenetParameters::pendingAccess() const noexcept {
   if (under_way_ || requests_.empty()) return std::nullopt;
   if (step_ == Step::kSupervisor) {
-    return devicenet::getAttribute(accessId(), kSupervisorClass, drive_.inverter, kFaultCode);
+    return devicenet::getAttribute(accessId(), devicenet::object_class::kControlSupervisor, drive_.inverter,
+                                   devicenet::supervisor_attribute::kFaultCode);
   }
   if (byIndexObject()) return indexAccess();
   ParameterObject object = *parameterObject(drive_, requests_.front());
@@ -169,8 +169,7 @@ bool DevicenetParameters::handleAnswer(const ExplicitAnswer& answer) noexcept {
         break;
       }
       if (tryOtherWidth(answer.general) || fallBack(answer.general) || askSupervisor(answer)) return false;
-      absent =
-          answer.general == devicenet::general_error::kResourceUnavailable && !isOfModule(requests_.front().number);
+      absent = answer.general == general_error::kResourceUnavailable && !isOfModule(requests_.front().number);
       refuse({answer.general, answer.additional});
       break;
     case ExplicitEnd::kTimedOut:
@@ -195,7 +194,8 @@ bool DevicenetParameters::tryOtherWidth(std::uint8_t general) noexcept {
   // Narrower only where the word is the same value with a sign and without.
   const bool fits = !request.double_word || (request.raw >= std::numeric_limits<std::int16_t>::min() &&
                                              request.raw <= std::numeric_limits<std::int16_t>::max());
-  if (general != (request.double_word ? kTooLong : kTooShort) || !fits) return false;
+  const std::uint8_t wrong_size = request.double_word ? general_error::kTooMuchData : general_error::kNotEnoughData;
+  if (general != wrong_size || !fits) return false;
   other_width_ = true;
   again(byIndexObject() && !request.double_word ? Step::kDoubleValue : Step::kValue);
   return true;
@@ -205,9 +205,9 @@ bool DevicenetParameters::tryOtherWidth(std::uint8_t general) noexcept {
 // as a plain parameter (P700: BU 0020 8). In the index object the width has to be tried.
 bool DevicenetParameters::fallBack(std::uint8_t general) noexcept {
   const ParameterRequest& request = requests_.front();
-  if (request.action != ParameterAction::kRead || general == devicenet::general_error::kResourceUnavailable)
-    return false;
-  const bool wrong_size = general == 0x11 || general == 0x13 || general == 0x15 || general == 0x1F;
+  if (request.action != ParameterAction::kRead || general == general_error::kResourceUnavailable) return false;
+  const bool wrong_size = general == 0x11 || general == general_error::kNotEnoughData ||
+                          general == general_error::kTooMuchData || general == 0x1F;
   if (byIndexObject() && step_ == Step::kValue && wrong_size) {
     again(Step::kDoubleValue);
     return true;
@@ -224,8 +224,7 @@ bool DevicenetParameters::fallBack(std::uint8_t general) noexcept {
 bool DevicenetParameters::askSupervisor(const ExplicitAnswer& answer) noexcept {
   const ParameterRequest& request = requests_.front();
   const bool fault = request.action == ParameterAction::kRead && request.number == kFaultNumber;
-  if (!fault || subIndexOf(request) != 0 || answer.general == devicenet::general_error::kResourceUnavailable)
-    return false;
+  if (!fault || subIndexOf(request) != 0 || answer.general == general_error::kResourceUnavailable) return false;
   refusal_ = {answer.general, answer.additional};
   again(Step::kSupervisor);
   return true;

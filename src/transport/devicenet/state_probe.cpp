@@ -6,15 +6,10 @@ namespace nord_driver {
 
 using devicenet::ExplicitEnd;
 
-namespace {
-
-constexpr std::uint8_t kState = 6;
-
-}  // namespace
-
 std::optional<devicenet::ExplicitRequest> StateProbe::pendingRequest(Instant now) const noexcept {
   if (under_way_ || now < next_ || (!always_ && !absent_)) return std::nullopt;
-  return devicenet::getAttribute(id(), devicenet::object_class::kControlSupervisor, inverter_, kState);
+  return devicenet::getAttribute(id(), devicenet::object_class::kControlSupervisor, inverter_,
+                                 devicenet::supervisor_attribute::kState);
 }
 
 void StateProbe::handleAnswer(const devicenet::ExplicitAnswer& answer, Instant now) noexcept {
