@@ -3,6 +3,7 @@
 #include <rosgraph_msgs/Log.h>
 
 #include "rostest/robot_under_test.h"
+#include "support/second_try.h"
 
 namespace nord_driver::test {
 namespace {
@@ -10,9 +11,11 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr std::uint16_t kMotorHot = 21;  // E2.1 as P700 shows it
-constexpr std::size_t kLongEnough = 25;  // messages in which a drive that wanted to move would have
-constexpr Seconds kAcknowledged{5.0};    // the longest answer: service_timeout of robot.yaml
+constexpr std::uint16_t kMotorHot = 21;    // E2.1 as P700 shows it
+constexpr std::size_t kLongEnough = 25;    // messages in which a drive that wanted to move would have
+constexpr Seconds kAcknowledged{5.0};      // the longest answer: service_timeout of robot.yaml
+constexpr Seconds kLateForReaction{0.01};  // what holds the simulator up that long may spoil its 5 ms of fault reaction
+const Seconds kVanished{1.0 * timeFactor()};
 
 class Faults : public RobotTest {
  protected:
@@ -106,10 +109,23 @@ TEST_F(Faults, AFaultStopsTheBaseAndIsAcknowledgedOnceItsCauseIsGone) {
 // Dropping the enable acknowledges in the inverter (BU 0020 8): without a standing cause the driver's own idle word
 // lets the fault vanish. It is kept until the user has acknowledged it.
 TEST_F(Faults, AFaultThatVanishesByItselfStaysLatched) {
-  const std::size_t from = robot().left.status.mark();
-  ASSERT_TRUE(robot().trip("left", kMotorHot, false).success);
-  ASSERT_TRUE(robot().left.status.waitFrom(from, [](const DriveStatus& status) { return status.fault != 0; }));
-  ASSERT_TRUE(robot().left.truth.waitNext([](const SimDrive& truth) { return truth.fault_number == 0; }));
+  bool vanished = false;
+  const auto attempt = [&] {
+    const std::size_t from = robot().left.status.mark();
+    ASSERT_TRUE(robot().trip("left", kMotorHot, false).success);
+    ASSERT_TRUE(robot().left.status.waitFrom(from, [](const DriveStatus& status) { return status.fault != 0; }));
+    const auto none = [](const SimDrive& truth) { return truth.fault_number == 0; };
+    vanished = robot().left.truth.waitNext(none, kVanished) != nullptr;
+  };
+  const auto driveAgain = [this] {
+    ASSERT_TRUE(robot().trigger("acknowledge_faults").success);
+    enableAndDrive(0.4);
+  };
+  // A simulator that was held up takes the idle word before its "fault reaction active" is over: it ends nothing then.
+  tryAgainOnlyIfStoodStill(
+      kLateForReaction, attempt, [&] { return vanished; }, driveAgain);
+  ASSERT_FALSE(HasFatalFailure());
+  ASSERT_TRUE(vanished) << "in truth, by the idle word";
   EXPECT_TRUE(robot().waitForStandstill());
   robot().drive(0.0);
   ASSERT_TRUE(robot().waitForRest());
