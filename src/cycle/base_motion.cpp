@@ -31,7 +31,7 @@ robot::WheelSpeeds BaseMotion::pollWheels(const TwistCommand& command, bool driv
   // Taken as zero at once, it is left along the limits.
   below_minimum_ = anyBelow(kinematics_->wheels(target), minimum);
   if (below_minimum_) target = {};
-  const robot::WheelSpeeds wheels = ramp(target, limits, dt);
+  const robot::WheelSpeeds wheels = ramp(target, limits, minimum, dt);
   if (!anyBelow(wheels, minimum)) {
     drives_ = !robot::standsStill(wheels);
     return wheels;
@@ -48,9 +48,18 @@ robot::WheelSpeeds BaseMotion::rest() noexcept {
   return kinematics_->wheels(limited_);
 }
 
+// Independent axes and jerk limits lead off the straight line between two twists. Where only that line is possible for
+// the wheels, it is kept: to rest at once would be a step of every wheel, and so would be what the limiter has come to
+// meanwhile.
 robot::WheelSpeeds BaseMotion::ramp(const robot::Twist2d& target, const robot::WheelSpeeds& limits,
-                                    Duration dt) noexcept {
-  limited_ = limiter_.limit(target, dt);
+                                    const MinimumSpeeds& minimum, Duration dt) noexcept {
+  robot::TwistLimiter limiter = limiter_;
+  if (anyBelow(kinematics_->wheels(limiter.limit(target, dt)), minimum)) {
+    limiter = limiter_;
+    limiter.limitOnLine(target, dt);
+  }
+  limiter_ = limiter;
+  limited_ = limiter_.twist();
   const robot::WheelSpeeds wanted = kinematics_->wheels(limited_);
   const double factor = robot::factorInto(wanted, limits);
   if (factor != 1.0) {

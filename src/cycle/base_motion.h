@@ -49,7 +49,8 @@ class BaseMotion {
   const robot::Odometry& odometry() const noexcept { return odometry_; }
 
  private:
-  robot::WheelSpeeds ramp(const robot::Twist2d& target, const robot::WheelSpeeds& limits, Duration dt) noexcept;
+  robot::WheelSpeeds ramp(const robot::Twist2d& target, const robot::WheelSpeeds& limits, const MinimumSpeeds& minimum,
+                          Duration dt) noexcept;
   robot::WheelSpeeds rest() noexcept;
 
   robot::BaseGeometry geometry_;

@@ -64,7 +64,7 @@ robot::SteeredSetpoint SteeredMotion::poll(const TwistCommand& command, bool dri
     return rest();
   }
   rolling_.reset();
-  step(target, drives.angles, now, dt);
+  step(target, drives, now, dt);
   return setpoint(drives, limits, target == robot::Twist2d{});
 }
 
@@ -113,27 +113,36 @@ bool SteeredMotion::readyToDriveOff(const robot::Twist2d& target, const SteeredD
   return !steers_;
 }
 
-void SteeredMotion::step(const robot::Twist2d& target, const robot::SteeringAngles& angles, Instant now,
-                         Duration dt) noexcept {
-  robot::TwistLimiter stepped = limiter_;
-  const robot::Twist2d next = stepped.limit(target, dt);
-  const robot::SteeringAngles wanted = kinematics_.solve(next, angles, steered_).angles;
-  Step way = target == robot::Twist2d{} ? Step::kGo : stepTo(next, wanted, angles);
+// As BaseMotion::ramp.
+robot::TwistLimiter SteeredMotion::stepped(const robot::Twist2d& target, const SteeredDrives& drives,
+                                           Duration dt) const noexcept {
+  robot::TwistLimiter limiter = limiter_;
+  if (!anyBelow(kinematics_.wheels(limiter.limit(target, dt), drives.angles), drives.minimum)) return limiter;
+  limiter = limiter_;
+  limiter.limitOnLine(target, dt);
+  return limiter;
+}
+
+void SteeredMotion::step(const robot::Twist2d& target, const SteeredDrives& drives, Instant now, Duration dt) noexcept {
+  const robot::SteeringAngles& angles = drives.angles;
+  const robot::TwistLimiter next = stepped(target, drives, dt);
+  const robot::SteeringAngles wanted = kinematics_.solve(next.twist(), angles, steered_).angles;
+  Step way = target == robot::Twist2d{} ? Step::kGo : stepTo(next.twist(), wanted, angles);
   if (way != Step::kHold) holding_since_.reset();
   if (way == Step::kHold && now - holding_since_.emplace(holding_since_.value_or(now)) >= kLongestHold) {
     way = Step::kBrake;
   }
   switch (way) {
     case Step::kGo:
-      limiter_ = stepped;
+      limiter_ = next;
       // To zero each axis may go its own shortest way (TwistLimiter): what is left of the motion on it is no path.
       if (target != robot::Twist2d{}) steered_ = wanted;
       break;
     case Step::kHold:
-      limiter_.limit(limited_, dt);
+      limiter_ = stepped(limited_, drives, dt);
       break;
     case Step::kBrake:
-      limiter_.limit({}, dt);
+      limiter_ = stepped({}, drives, dt);
       waits_for_ = SteeredWait::kAngles;
       break;
   }

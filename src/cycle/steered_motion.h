@@ -80,7 +80,8 @@ class SteeredMotion {
   bool readyToDriveOff(const robot::Twist2d& target, const SteeredDrives& drives, Instant now) noexcept;
   /// Commanded to stand, the wheels still get slower.
   bool rollsOut(const SteeredDrives& drives, Instant now) noexcept;
-  void step(const robot::Twist2d& target, const robot::SteeringAngles& angles, Instant now, Duration dt) noexcept;
+  robot::TwistLimiter stepped(const robot::Twist2d& target, const SteeredDrives& drives, Duration dt) const noexcept;
+  void step(const robot::Twist2d& target, const SteeredDrives& drives, Instant now, Duration dt) noexcept;
   Step stepTo(const robot::Twist2d& next, const robot::SteeringAngles& wanted,
               const robot::SteeringAngles& angles) const noexcept;
   robot::SteeredSetpoint rest() noexcept;

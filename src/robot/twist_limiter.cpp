@@ -40,6 +40,18 @@ Twist2d TwistLimiter::limit(const Twist2d& target, Duration dt) noexcept {
   return twist();
 }
 
+Twist2d TwistLimiter::limitOnLine(const Twist2d& target, Duration dt) noexcept {
+  const double time = toSeconds(dt);
+  if (!(time > 0.0)) return twist();
+  TwistLimiter line = *this;
+  line.independent_ = line.ended_ = false;
+  for (SpeedLimiter& axis : line.axes_) axis.forgetJerk();
+  line.limit(target, dt);
+  for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i].takeStep(line.axes_[i].velocity_, time);
+  ended_ = false;
+  return twist();
+}
+
 void TwistLimiter::reset(const Twist2d& twist) noexcept {
   const Values values = valuesOf(twist);
   for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i].reset(values[i]);

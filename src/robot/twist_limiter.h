@@ -33,6 +33,9 @@ class TwistLimiter {
   /// The twist after a step of `dt` towards `target`; a `dt` that is not positive changes nothing.
   /// A target with a value that is not finite brakes every axis to zero.
   Twist2d limit(const Twist2d& target, Duration dt) noexcept;
+  /// As limit(), but on the straight line to the target in any case: all axes together, without their jerk limits. For
+  /// whom a twist beside that line is not possible.
+  Twist2d limitOnLine(const Twist2d& target, Duration dt) noexcept;
   /// For a stop: see SpeedLimiter.
   void endAcceleration() noexcept {
     for (SpeedLimiter& axis : axes_) axis.endAcceleration();

@@ -1,6 +1,10 @@
 // A steered base under way: its ramps, and how the path changes with them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+
 #include "cycle/steered_bench.h"
 
 namespace nord_driver::cycle {
@@ -131,6 +135,36 @@ TEST(SteeredRamps, APathIsHeldForHalfASecond) {
   const double before = base.motion.limited().linear_x;
   base.poll();
   EXPECT_LT(base.motion.limited().linear_x, before);
+}
+
+// Beside the straight line between two velocities a wheel may have to turn back: of a drive without a reverse that would be
+// a rest of the whole base, at once.
+TEST(SteeredRamps, ADriveWithoutAReverseMakesNoWheelLeap) {
+  BaseConfig jerky = withJerk();
+  for (robot::SpeedLimits* axis : {&jerky.limits.angular_z, &jerky.limits.linear_y}) {
+    axis->has_jerk_limits = true;
+    axis->max_jerk = 2.0;
+  }
+  Base base{jerky};
+  base.drives.minimum = {{0.0, 0.0}, false, {1.0, 1.0}};
+  std::mt19937 random{5};
+  std::uniform_real_distribution<double> any{-1.0, 1.0};
+  std::uniform_int_distribution<int> cycles{1, 300};
+  robot::WheelSpeeds before{0.0, 0.0};
+  double fastest = 0.0;
+  for (int command = 0; command < 600; ++command) {
+    base.command(0.9 * std::abs(any(random)), 0.8 * any(random), command % 3 == 0 ? 0.3 * any(random) : 0.0);
+    for (int i = cycles(random); i > 0; --i) {
+      base.poll();
+      for (const std::size_t wheel : {0, 1}) {
+        // 1 m/s^2, and 1 rad/s^2 half a metre from the middle, on wheels of 0.1 m; more by the turning of the axes.
+        ASSERT_NEAR(before[wheel], base.setpoint.wheels[wheel], 0.2) << "command " << command;
+      }
+      before = base.setpoint.wheels;
+      fastest = std::max(fastest, before[0]);
+    }
+  }
+  EXPECT_GT(fastest, 5.0) << "it was driven";
 }
 
 }  // namespace

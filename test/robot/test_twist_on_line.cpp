@@ -1,0 +1,83 @@
+// A step on the straight line to the target, whatever the limiter is set to.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "robot/twist_limiter.h"
+
+namespace nord_driver::robot {
+namespace {
+
+constexpr Duration kCycle = std::chrono::milliseconds{10};
+
+struct Mode {
+  const char* name;
+  bool independent;
+  bool jerk;
+};
+
+/// 0.5 m/s^2 and 4 rad/s^2.
+TwistLimits limitsOf(const Mode& mode) {
+  TwistLimits limits;
+  limits.linear_x.has_acceleration_limits = limits.angular_z.has_acceleration_limits = true;
+  limits.linear_x.max_acceleration = 0.5;
+  limits.angular_z.max_acceleration = 4.0;
+  limits.linear_x.has_jerk_limits = limits.angular_z.has_jerk_limits = mode.jerk;
+  limits.linear_x.max_jerk = 2.0;
+  limits.angular_z.max_jerk = 16.0;
+  limits.limit_axes_independently = mode.independent;
+  return limits;
+}
+
+class OnLine : public ::testing::TestWithParam<Mode> {
+ protected:
+  OnLine() {
+    for (int i = 0; i < 20; ++i) limiter_.limit({1.0, 3.0}, kCycle);  // it gains speed on another path
+    from_ = limiter_.twist();
+  }
+
+  TwistLimiter limiter_{limitsOf(GetParam())};
+  const Twist2d to_{0.6, -1.0};
+  Twist2d from_;
+};
+
+TEST_P(OnLine, EachStepIsOnTheLineAndInsideTheAccelerationLimits) {
+  Twist2d before = from_;
+  int steps = 0;
+  for (; limiter_.twist() != to_ && steps < 200; ++steps) {
+    const Twist2d now = limiter_.limitOnLine(to_, kCycle);
+    EXPECT_NEAR((now.linear_x - from_.linear_x) * (to_.angular_z - from_.angular_z),
+                (now.angular_z - from_.angular_z) * (to_.linear_x - from_.linear_x), 1e-12);
+    EXPECT_LE(std::abs(now.linear_x - before.linear_x), 0.005 + 1e-12);
+    EXPECT_LE(std::abs(now.angular_z - before.angular_z), 0.04 + 1e-12);
+    before = now;
+  }
+  EXPECT_EQ(to_, limiter_.twist());
+  const double longest = std::max((to_.linear_x - from_.linear_x) / 0.5, (from_.angular_z - to_.angular_z) / 4.0);
+  EXPECT_EQ(std::ceil(longest / 0.01), steps) << "at the pace of the axis that needs longer";
+}
+
+// Who goes on along the jerk limits does not begin at rest.
+TEST(OnLineWithJerk, TheAccelerationOfThatStepGoesOn) {
+  for (const bool independent : {false, true}) {
+    TwistLimiter limiter{limitsOf({"", independent, true})};
+    const Twist2d first = limiter.limitOnLine({0.6, -1.0}, kCycle);
+    const Twist2d second = limiter.limit({0.6, -1.0}, kCycle);
+    EXPECT_NEAR(first.linear_x, second.linear_x - first.linear_x, 0.0002 + 1e-12);
+    EXPECT_NEAR(first.angular_z, second.angular_z - first.angular_z, 0.0016 + 1e-12);
+  }
+}
+
+TEST_P(OnLine, NoTimeNoChange) {
+  EXPECT_EQ(from_, limiter_.limitOnLine(to_, Duration::zero()));
+  EXPECT_EQ(from_, limiter_.limitOnLine(to_, -kCycle));
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTheLimiter, OnLine,
+                         ::testing::Values(Mode{"together", false, false}, Mode{"together_with_jerk", false, true},
+                                           Mode{"independent", true, false}, Mode{"independent_with_jerk", true, true}),
+                         [](const auto& mode) { return mode.param.name; });
+
+}  // namespace
+}  // namespace nord_driver::robot
