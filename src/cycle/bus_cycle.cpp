@@ -96,7 +96,7 @@ void BusCycle::runOnce() noexcept {
   const Instant after = transport_.now();
   handleInputs(after);
   const CommandState commands = command_watch_.look(after);
-  snapshot_.base.commanded = command_watch_.baseMoves(after);
+  snapshot_.base.commanded = role_ == CycleRole::kDriver && command_watch_.baseMoves(after);
   acknowledgeAtStart(commands.quiet, after);
   supervisor_.update(commands, after);
   standstill_requests_.update(after);

@@ -67,9 +67,6 @@ std::int16_t DriveWords::wordOf(const SetpointSetup& setpoint, const WordCommand
 void DriveWords::put(profile::ProcessOutput& output, const State& state, const DeviceData& device,
                      const WordCommands& commands, Instant now) noexcept {
   learn(device);
-  for (std::size_t i = 0; i < outputs_.size(); ++i) {
-    withdrawn_.setMayEndStop(i, mayEndStop(functionOf(outputs_[i], device)));
-  }
   withdrawn_.update(state.stop, commands, now);
   putOutputs(output, state, device, commands, now);
   if (output.control_word == 0 || state.set < 1 || state.set > known_.size()) return;
@@ -101,7 +98,7 @@ void DriveWords::putOutputs(profile::ProcessOutput& output, const State& state, 
     }
     const std::uint16_t function = functionOf(signal, device);
     const bool held_back = isRefused(signal, function) || state.in_doubt ||
-                           (!isHarmless(function) && (state.stop.stopping || withdrawn_.has(i)));
+                           (!isHarmless(function) && (state.stop.stopping || withdrawn_.has(i, mayEndStop(function))));
     if (held_back || output.control_word == 0) continue;
     if (signal.source == SignalSource::kControlBit) {
       output.control_word = static_cast<Word>(output.control_word | 1u << signal.number);

@@ -84,7 +84,8 @@ struct BaseSnapshot {
   robot::Twist2d velocity;  ///< measured
   robot::Twist2d command;   ///< after limiting
   bool enabled = false;
-  bool commanded = false;  ///< the newest cmd_vel is not zero, and not older than cmd_vel_timeout
+  /// The newest cmd_vel is not zero, and not older than cmd_vel_timeout; never of a node that looks on.
+  bool commanded = false;
   bool stopped = false;
   drive::StopCause stop_cause = drive::StopCause::kNone;
   Sentence text;

@@ -11,7 +11,8 @@ namespace nord_driver::cycle {
 
 /// Whoever commands a signal repeats it: "on" may be as old as the stop. So a stop withdraws each signal that is
 /// commanded "on"; an "off" that came after the end of the stop gives it back, and so does enabling. What may end a stop
-/// that stands at a drive must not wait for its end: there the beginning counts.
+/// that stands at a drive must not wait for its end: there the beginning counts. Which of them a signal is may be known
+/// only later than its stop, and later than the end of that: it is followed as both.
 class WithdrawnBits {
  public:
   explicit WithdrawnBits(std::size_t outputs) : outputs_(outputs) {}
@@ -26,18 +27,23 @@ class WithdrawnBits {
 
   /// A stop that leaves no trace in the state: its connection ended, and it answers again.
   void handleStop() noexcept { stopped_ = true; }
-  /// What it does in the drive may end a fault, OFF2, OFF3 or local control.
-  void setMayEndStop(std::size_t output, bool may) noexcept { outputs_[output].may_end_stop = may; }
   /// Each cycle.
   void update(const State& state, const WordCommands& commands, Instant now) noexcept;
-  /// `output`: in the order of WordCommands::outputs.
-  bool has(std::size_t output) const noexcept { return outputs_[output].withdrawn; }
+  /// `output`: in the order of WordCommands::outputs; `may_end_stop`: what it does in the drive may end a fault, OFF2,
+  /// OFF3 or local control.
+  bool has(std::size_t output, bool may_end_stop) const noexcept {
+    return may_end_stop ? outputs_[output].by_beginning.stands : outputs_[output].by_whole_stop.stands;
+  }
 
  private:
-  struct Output {
-    bool may_end_stop = false;
-    bool withdrawn = false;
+  struct Withdrawal {
+    bool stands = false;
     Instant stopped_at{};  // in the last cycle with a stop
+    void update(bool stop, bool enabled, const BitCommand& command, Instant now) noexcept;
+  };
+  struct Output {
+    Withdrawal by_whole_stop;
+    Withdrawal by_beginning;  // of one that may end the stop
   };
 
   std::vector<Output> outputs_;

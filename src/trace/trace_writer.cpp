@@ -32,7 +32,15 @@ std::string fileTime(std::chrono::microseconds since_1970) {
   return text + "Z";
 }
 
+/// What the names of files begin with; in the order of time.
+std::string timedName(std::chrono::microseconds since_1970) {
+  return "nord_driver_" + fileTime(since_1970);
+}
+
 constexpr const char* kUnfinished = ".part";
+
+/// Two threads may write in another order than they read the clock, which is adjusted a little at any time.
+constexpr std::chrono::microseconds kAheadOfTheClock = std::chrono::seconds{10};
 
 /// Empty when all is on the disk; otherwise why not, and no file is left. Whatever ends the program meanwhile, a file of
 /// this name is whole: it gets the name when it is.
@@ -100,7 +108,7 @@ TraceResult TraceWriter::write(const TraceCause& cause, const TraceClock& clock)
   result.written = error.empty();
   result.message =
       error.empty() ? stem + ".txt" : "no trace can be written: trace_directory " + config_.directory + ": " + error;
-  if (result.written) result.warning = removeOldest(fs::path(stem).filename().string());
+  if (result.written) result.warning = removeOldest(fs::path(stem).filename().string(), clock.wallTime(clock.bus));
   return result;
 }
 
@@ -114,7 +122,7 @@ std::string TraceWriter::freeStem(const TraceCause& cause, const TraceClock& clo
   std::string stem;
   std::chrono::microseconds time = clock.wallTime(cause.time);
   do {
-    stem = (fs::path(config_.directory) / ("nord_driver_" + fileTime(time) + "_" + cause.tag)).string();
+    stem = (fs::path(config_.directory) / (timedName(time) + "_" + cause.tag)).string();
     time += std::chrono::milliseconds{1};
   } while (isTaken(stem));
   return stem;
@@ -130,7 +138,7 @@ std::string TraceWriter::pcapBytes(const std::vector<TraceRecord>& telegrams, co
 }
 
 // Only what bears our own names is ever removed.
-std::string TraceWriter::removeOldest(const std::string& newest) const {
+std::string TraceWriter::removeOldest(const std::string& newest, std::chrono::microseconds now) const {
   static const std::regex kOwn(R"((nord_driver_\d{8}T\d{6}\.\d{3}Z_\w+)\.(txt|pcap)(\.part)?)");
   std::set<std::string> stems;
   std::error_code error;
@@ -140,8 +148,8 @@ std::string TraceWriter::removeOldest(const std::string& newest) const {
     if (std::regex_match(name, match, kOwn) && match[1] != newest) stems.insert(match[1]);
   }
   std::string warning;
-  // What bears a later time than the newest is of before the clock was set back: older than all others.
-  auto stem = stems.upper_bound(newest);
+  // What bears a time that has yet to come is of before the clock was set back: older than all others.
+  auto stem = stems.upper_bound(timedName(now + kAheadOfTheClock));
   for (; stems.size() + 1 > config_.keep; stem = stems.erase(stem)) {
     if (stem == stems.end()) stem = stems.begin();
     for (const char* ending : {".txt", ".pcap", ".txt.part", ".pcap.part"}) {

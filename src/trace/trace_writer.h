@@ -1,6 +1,7 @@
 // Writes traces into a directory: a text and, for the telegrams, a pcap file; and removes the oldest.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <string>
@@ -47,7 +48,7 @@ class TraceWriter {
   std::string freeStem(const TraceCause& cause, const TraceClock& clock) const;
   std::string pcapBytes(const std::vector<TraceRecord>& telegrams, const TraceClock& clock) const;
   /// Never `newest`, whatever the clock made of its name.
-  std::string removeOldest(const std::string& newest) const;
+  std::string removeOldest(const std::string& newest, std::chrono::microseconds now) const;
 
   TraceConfig config_;
   std::vector<TracedDrive> drives_;

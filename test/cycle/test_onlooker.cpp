@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cycle/bus_cycle.h"
+#include "cycle/cycle_bench.h"
 #include "cycle/cycle_ports.h"
 #include "cycle/scripted_transport.h"
 #include "cycle/signal_values.h"
@@ -160,6 +161,18 @@ TEST(Onlooker, HasNoFaultThatTheDriveDoesNotTell) {
   onlooker.transport.inverters[0].switchOffAndOn();
   onlooker.run(2);
   EXPECT_FALSE(onlooker.ports.readSnapshot().drives[0].fault_latched);
+}
+
+// It can never be enabled, and ~enable refuses: nobody is to be told to call it.
+TEST(Onlooker, HasNoBaseThatWaitsForACommand) {
+  for (const CycleRole role : {CycleRole::kDriver, CycleRole::kOnlooker}) {
+    ScriptedTransport transport{3};
+    CyclePorts ports{3};
+    BusCycle cycle{CycleBench::config(), transport, ports, false, role};
+    ports.commandBase({{0.5, 0.0}, transport.time, true});
+    cycle.runOnce();
+    EXPECT_EQ(role == CycleRole::kDriver, ports.readSnapshot().base.commanded);
+  }
 }
 
 // A drive that others let run has no rest to be brought to.

@@ -13,6 +13,20 @@ namespace {
 // Bits of the control word that terminals can take away as well (BU 2700 6.4.1).
 constexpr Word kOff2 = 0x0002, kOff3 = 0x0004;
 
+/// What happens at an inverter by itself.
+struct Incident {
+  const char* name;
+  void (*set)(drive::FakeInverter&, bool stands);
+  void begin(drive::FakeInverter& inverter) const { set(inverter, true); }
+  void end(drive::FakeInverter& inverter) const { set(inverter, false); }
+};
+const Incident kIncidents[] = {
+    {"fault", [](drive::FakeInverter& inverter, bool stands) { inverter.fault = stands; }},
+    {"local control", [](drive::FakeInverter& inverter, bool stands) { inverter.local = stands; }},
+    {"OFF2", [](drive::FakeInverter& inverter, bool stands) { inverter.taken = stands ? kOff2 : Word{0}; }},
+    {"OFF3", [](drive::FakeInverter& inverter, bool stands) { inverter.taken = stands ? kOff3 : Word{0}; }},
+};
+
 /// Control bit 8 with P480 = 1, "enable right", accepted by may_move: at the standard rate of its publisher, 10 Hz.
 class MovingSignal : public Signals {
  public:
@@ -45,6 +59,15 @@ class MovingSignal : public Signals {
     ASSERT_TRUE(ask(RequestKind::kEnable, kLift).success);
     velocity = 50.0;
     ASSERT_GT(refresh(30), 25);
+  }
+  /// It is lost and comes back with the incident; what P480 says is not read before answerAll().
+  void comeBackUnread(const Incident& incident) {
+    transport.inverters[kLift].silent = true;
+    run(50);
+    transport.hold_answers = true;
+    transport.inverters[kLift].silent = false;
+    incident.begin(transport.inverters[kLift]);
+    run(10);
   }
   void submit(RequestKind kind, DriveIndex drive = kLift) {
     Request request;
@@ -119,20 +142,6 @@ TEST(WithdrawnSignalsTest, Off2AndOff3AtTheTerminalsTakeItAway) {
   }
 }
 
-/// What happens at an inverter by itself.
-struct Incident {
-  const char* name;
-  void (*set)(drive::FakeInverter&, bool stands);
-  void begin(drive::FakeInverter& inverter) const { set(inverter, true); }
-  void end(drive::FakeInverter& inverter) const { set(inverter, false); }
-};
-const Incident kIncidents[] = {
-    {"fault", [](drive::FakeInverter& inverter, bool stands) { inverter.fault = stands; }},
-    {"local control", [](drive::FakeInverter& inverter, bool stands) { inverter.local = stands; }},
-    {"OFF2", [](drive::FakeInverter& inverter, bool stands) { inverter.taken = stands ? kOff2 : Word{0}; }},
-    {"OFF3", [](drive::FakeInverter& inverter, bool stands) { inverter.taken = stands ? kOff3 : Word{0}; }},
-};
-
 TEST(WithdrawnSignalsTest, OffAndOnDoNotBringItBackWhileAStopStands) {
   for (const Incident& incident : kIncidents) {
     MovingSignal bench;
@@ -190,6 +199,38 @@ TEST(WithdrawnSignalsTest, OffAndOnBringBackWhatMayEndAStopThatStands) {
       EXPECT_EQ(0, bench.refresh(50)) << function << incident.name;
       bench.expectOffAndOnBringItBack();
     }
+  }
+}
+
+// A drive that comes online with one, say under local control for this very bit: nobody knows at first what the bit is.
+TEST(WithdrawnSignalsTest, WhatMayEndAStopThatStandsNeedsNoSecondOnOnceItsFunctionIsRead) {
+  for (const int function : kEndStops) {
+    for (const Incident& incident : kIncidents) {
+      for (const bool on_before : {false, true}) {
+        MovingSignal bench{function};
+        if (on_before) bench.refresh(10);
+        bench.comeBackUnread(incident);
+        if (on_before) bench.refresh(10, false);
+        EXPECT_EQ(0, bench.refresh(20)) << "not known";
+        bench.transport.answerAll();
+        bench.refresh(100);
+        EXPECT_EQ(10, bench.refresh(10)) << function << incident.name << on_before;
+      }
+    }
+  }
+}
+
+// What was told before its end is no order for afterwards, though the stop ends before anybody knows the function.
+TEST(WithdrawnSignalsTest, AStopThatEndsBeforeTheFunctionIsReadTakesItAwayAllTheSame) {
+  for (const Incident& incident : kIncidents) {
+    MovingSignal bench;
+    bench.comeBackUnread(incident);
+    bench.expectOffAndOnInVain();
+    incident.end(bench.transport.inverters[CycleBench::kLift]);
+    EXPECT_EQ(0, bench.refresh(20));
+    bench.transport.answerAll();
+    EXPECT_EQ(0, bench.refresh(300)) << incident.name;
+    bench.expectOffAndOnBringItBack();
   }
 }
 

@@ -365,30 +365,5 @@ drives:
   ::unlink(config.c_str());
 }
 
-// A PROFIBUS module as it comes from the factory: nobody can exchange data with the address 126.
-TEST(NordParamOverMs2, ReadsFromAModuleWithoutAnAddress) {
-  const std::string base = ::testing::TempDir() + "nord_param_ms2_" + std::to_string(::getpid());
-  const std::string config = base + ".yaml", over_ms2 = base + "_over.yaml", device = base + "_bus";
-  std::ofstream(config)
-      << "cycle_rate: 100.0\nbus: {baud_rate: 500000, slot_time: 0.05}\n"
-      << "drives: {left: {address: 126, series: sk2xxe, joint: l, gear_ratio: 20.0, pole_pairs: 2}}\n";
-  std::ofstream(over_ms2) << "transport: profibus_ms2\n";
-  Program simulator({NORD_SIM_PROGRAM, "--config", config, "--device", device});
-  ASSERT_TRUE(simulator.saysSomething(seconds{30})) << simulator.errors();
-  const std::vector<std::string> words{"--device", device, "--timeout", "20", "read", "left", "P105"};
-  std::vector<std::string> command{NORD_PARAM_PROGRAM, "--config", config};
-  command.insert(command.end(), words.begin(), words.end());
-  EXPECT_THAT(runProgram(command).errors, HasSubstr("126 is what a module has from the factory"));
-  command.insert(command.begin() + 3, {"--config", over_ms2});
-  const Ended read = runProgram(command);
-  EXPECT_EQ(0, read.code) << read.errors;
-  EXPECT_EQ("P105 set 1 Maximum frequency = 50.0 Hz (raw 500)\n", read.output);
-  simulator.signal(SIGTERM);
-  EXPECT_EQ(0, simulator.wait(seconds{30}));
-  EXPECT_THAT(simulator.output(), HasSubstr("referee: no rule broken"));
-  ::unlink(config.c_str());
-  ::unlink(over_ms2.c_str());
-}
-
 }  // namespace
 }  // namespace nord_driver::test

@@ -92,6 +92,26 @@ TEST_F(TraceWriterTest, ThoseFromBeforeTheClockWasSetBackAreTheOldest) {
   EXPECT_EQ(4u, files().size()) << "a text and a pcap each";
 }
 
+// A fault is named by its own time and written 200 ms later: what was asked for in between bears a later name, and no clock
+// was set back.
+TEST_F(TraceWriterTest, AFaultThatIsWrittenLaterRemovesNoneOfTheNewest) {
+  TraceWriter traces{{directory_, 3}, drives(), nullptr, feed_.history()};
+  for (const int second : {1, 2, 3}) EXPECT_TRUE(traces.writeNow(clockAt(1000 * second)).written);
+  EXPECT_TRUE(traces.writeNow(clockAt(10'100)).written);
+  EXPECT_TRUE(traces.write({"fault_left", {}, at(10'000), 0}, clockAt(10'200)).written);
+  EXPECT_THAT(files(), ElementsAre("nord_driver_20231114T221323.000Z_request.txt",
+                                   "nord_driver_20231114T221330.000Z_fault_left.txt",
+                                   "nord_driver_20231114T221330.100Z_request.txt"));
+}
+
+// Who asked first may write last: the one that is there has a later time than the clock that was read for this one.
+TEST_F(TraceWriterTest, TwoThatAreWrittenInTheOtherOrderRemoveNoneOfTheNewest) {
+  TraceWriter traces{{directory_, 2}, drives(), nullptr, feed_.history()};
+  for (const int milliseconds : {1000, 10'100, 10'000}) EXPECT_TRUE(traces.writeNow(clockAt(milliseconds)).written);
+  EXPECT_THAT(files(), ElementsAre("nord_driver_20231114T221330.000Z_request.txt",
+                                   "nord_driver_20231114T221330.100Z_request.txt"));
+}
+
 TEST_F(TraceWriterTest, KeepsTheOneThatWasJustWritten) {
   TraceWriter traces{{directory_, 2}, drives(), &trace_, feed_.history()};
   for (const int second : {5, 6, 0}) {

@@ -61,11 +61,19 @@ ParamProgram::ParamProgram(CommandLine& line)
       "none of them says that its drive runs");
 }
 
+// Whether it serves them is asked where its bus is opened (ParameterLink): a list, or a node, needs no more of it than
+// its configuration.
+boost::shared_ptr<Transport> ParamProgram::loadTransport(const std::string& name) {
+  auto transport = loader_.load(name);
+  transport->serveParametersOnly();
+  return transport;
+}
+
 void ParamProgram::load() {
   if (transport_) return;
   if (files_.empty()) throw UsageError("the option '--config' is required but missing");
   file_ = readYamlFiles(files_);
-  auto transport = loader_.load(transportOf(file_));
+  auto transport = loadTransport(transportOf(file_));
   choosePort(file_, port_, transport->endPoint());
   if (set_free_) setNodesFree(file_);
   transport_ = transport;
@@ -114,7 +122,7 @@ int ParamProgram::onDrive(const std::string& drive,
   const catalogue::Catalogues catalogues = cataloguesFor(config);
   if (served_) {
     transport_.reset();  // configured for another drive; the library does not like two of them
-    transport_ = loader_.load(config.transport);
+    transport_ = loadTransport(config.transport);
   }
   served_ = true;
   const std::string node = nodeFor(*config.bus, config.drives.front().name);

@@ -59,7 +59,7 @@ class ParamProgram {
 
   /// The configuration of --config, one file over the other, with the port chosen. Throws UsageError and ConfigError.
   const YAML::Node& file();
-  /// As the configuration names it; not configured. Throws as file().
+  /// As the configuration names it, for parameters only; not configured. Throws as file().
   Transport& transport();
   /// Its name without prefix; empty without --config. Throws as file().
   std::string transportName();
@@ -93,6 +93,7 @@ class ParamProgram {
 
  private:
   void load();
+  boost::shared_ptr<Transport> loadTransport(const std::string& name);
   /// The node to ask; empty: none, the bus is opened here.
   std::string nodeFor(const Settings& bus, const std::string& drive);
   /// Of one of the drives of the configuration the transport was configured with.
