@@ -4,8 +4,9 @@
 // Deterministic: frames and the time go in, frames and answers come out. Nothing is allocated.
 // A transaction id is one bit, and an answer names nothing else of its request but, unless it is an error, the service. So
 // the bit of a request is not given to another while an answer to the first may still come: one that was given up, or was
-// asked twice and answered once. Where both bits are owed an answer a user's next request waits. What connects a device and
-// keeps its connection alive does not: it is done again where a late answer was taken for its own.
+// asked twice and answered once, over a connection that still is. Where both bits are owed an answer a user's next request
+// waits. What connects a device and keeps its connection alive does not: it is done again where a late answer was taken for
+// its own.
 #pragma once
 
 #include <algorithm>
@@ -47,6 +48,8 @@ class ExplicitClient {
   /// is told to somebody has to wait, at most until `freeAt()`.
   bool mustWait(Instant now) const noexcept;
   Instant freeAt() const noexcept { return std::min(owed_[0].until, owed_[1].until); }
+  /// The device has a new explicit connection with us: what it was asked over another one it does not answer any more.
+  void forgetOwed() noexcept { owed_ = {}; }
   /// From `start()` until the answer was taken.
   bool busy() const noexcept { return phase_ != Phase::kIdle || answer_.has_value(); }
   /// Ends the request without an answer; an answer not taken is dropped.

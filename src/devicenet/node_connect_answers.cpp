@@ -42,6 +42,7 @@ void NodeConnect::handleAllocated(const ExplicitAnswer& answer, Instant now) noe
     return refuse(why, now);
   }
   channel_.setFormat(static_cast<BodyFormat>(answer.data[0]));
+  channel_.handleNewConnection(now);
   NodeStatus& status = report_.status();
   ++status.counters.allocations;
   status.owner.reset();
@@ -298,7 +299,10 @@ void NodeConnect::handleState(const ExplicitAnswer& answer, Instant now) noexcep
 void NodeConnect::handleReopened(const ExplicitAnswer& answer, Instant now) noexcept {
   const bool there = answer.ok() || saysAllocated(answer);
   if (!there && config_.io.kind == IoKind::kNone) return handleLoss("does not answer", now);
-  if (answer.ok()) ++report_.status().counters.reopened;
+  if (answer.ok()) {
+    ++report_.status().counters.reopened;
+    channel_.handleNewConnection(now);
+  }
   phase_ = Phase::kRunning;
   timers_.set(Timer::kKeepAlive, now + report_.status().explicit_rate);
 }
@@ -328,15 +332,6 @@ void NodeConnect::endOutputs(Instant now) noexcept {
 // in the moment in which its time-out is due by our clock, it may go on without one.
 void NodeConnect::awaitOwnTimeOut(Instant now) noexcept {
   own_time_out_ = now + kRatesUntilTimeout * rate_ + kCoarsestStep;
-}
-
-void NodeConnect::handleForeignMaster(std::uint8_t mac, Instant now) noexcept {
-  foreign_mac_ = mac;
-  foreign_at_ = now;
-}
-
-void NodeConnect::handleSign(Instant now) noexcept {
-  if (phase_ == Phase::kPause && report_.status().state != NodeState::kRefused) timers_.set(Timer::kRetry, now);
 }
 
 Duration NodeConnect::retryPause() const noexcept {

@@ -236,6 +236,20 @@ TEST(DeviceNetGuestTest, ReadsWithoutExchangingProcessData) {
   EXPECT_EQ(0x00, rig.device().held) << "released";
 }
 
+// What a module was asked before it was switched off it does not answer afterwards: nothing is waited for.
+TEST(DeviceNetGuestTest, AnInverterIsThereSoonAfterItsModule) {
+  for (const Duration off : {milliseconds{1000}, milliseconds{1500}, milliseconds{2000}, milliseconds{3000}}) {
+    Rig rig{test::DevicenetSettings{1}, true};
+    ASSERT_TRUE(rig.starts());
+    rig.run(seconds{1});
+    rig.device().powerOff();
+    rig.run(off);
+    rig.device().powerOn();
+    EXPECT_LE(rig.until([&] { return rig.inputs[0].module_answers; }), seconds{1}) << toSeconds(off) << " s";
+    EXPECT_LE(rig.until([&] { return rig.allAnswer(); }), seconds{1}) << toSeconds(off) << " s";
+  }
+}
+
 TEST(DeviceNetGuestTest, KeepsOffABusThatIsInUse) {
   Rig rig{test::DevicenetSettings{1}, true};
   rig.run(milliseconds{100});
