@@ -5,8 +5,8 @@
 // A transaction id is one bit, and an answer names nothing else of its request but, unless it is an error, the service. So
 // the bit of a request is not given to another while an answer to the first may still come: one that was given up, or was
 // asked twice and answered once, over a connection that still is. Where both bits are owed an answer a user's next request
-// waits. What connects a device and keeps its connection alive does not: it is done again where a late answer was taken for
-// its own.
+// waits. What connects a device and keeps its connection alive does not, and is told that what it gets may be such a late
+// answer: what connects is done again where it was, and no loss is believed of it.
 #pragma once
 
 #include <algorithm>
@@ -110,6 +110,7 @@ class ExplicitClient {
   Instant to_send_until_{};        // the piece given out last
   ExplicitPort port_ = ExplicitPort::kConnected;
   bool xid_ = false;
+  bool shares_xid_ = false;  // with a request whose late answer may still come
   std::uint32_t id_ = 0;
   ExplicitBody body_;         // of the request
   std::size_t offset_ = 0;    // of the fragment that is sent

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "devicenet/error_codes.h"
 #include "devicenet/node_connect.h"
 
 namespace nord_driver::devicenet {
@@ -284,11 +283,11 @@ void NodeConnect::checkSoon(Instant now) noexcept {
 
 void NodeConnect::handleState(const ExplicitAnswer& answer, Instant now) noexcept {
   if (answer.end == ExplicitEnd::kTimedOut) return enter(Phase::kReopen, now);
-  const bool gone = answer.end == ExplicitEnd::kRefused && answer.general == general_error::kNoObject;
-  if (gone || (answer.ok() && answer.number().value_or(kEstablished) != kEstablished)) {
+  const char* const lost = lostStateText(answer);
+  // One that may be another request's lets go of nothing: it is asked again, and process data have a time-out of their own.
+  if (lost != nullptr && !answer.may_be_late) {
     Sentence why;
-    why.format("says that its connection for %s is %s", toText(config_.io.kind),
-               gone ? "gone" : connectionStateText(static_cast<std::uint8_t>(*answer.number())));
+    why.format("says that its connection for %s is %s", toText(config_.io.kind), lost);
     return handleLoss(why, now);
   }
   phase_ = Phase::kRunning;
