@@ -49,8 +49,8 @@ TEST(DeviceNetTransportTest, WiresAreSuspectedOnlyWhenTheModulesHadTimeToAnswer)
   EXPECT_THAT(rig.transport.busText().str(), HasSubstr("no device answers: are the modules and the bus powered"));
 }
 
-// It hears us, and we do not hear it. The drive is judged by drive_timeout after the last of its data has grown old, which may
-// be later than the connection counts as lost: it gets its stop word all the same.
+// It hears us, and we do not hear it. Where what stops it is set only after the connection counts as lost, it gets that stop
+// word all the same.
 TEST(DeviceNetTransportTest, AModuleThatIsNotHeardGetsItsStopWord) {
   for (const char* io : {"poll", "strobe", "cos", "cyclic"}) {
     for (const Duration drive_timeout : {milliseconds{50}, milliseconds{250}}) {
