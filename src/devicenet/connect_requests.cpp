@@ -64,9 +64,15 @@ bool saysAllocated(const ExplicitAnswer& answer) noexcept {
          answer.general == general_error::kStateConflict;
 }
 
+const char* lostStateText(const ExplicitAnswer& answer) noexcept {
+  if (answer.end == ExplicitEnd::kRefused && answer.general == general_error::kNoObject) return "gone";
+  const bool tells = answer.ok() && answer.data.size() == 1 && answer.data[0] < kConnectionStates;
+  return tells && answer.data[0] != kEstablished ? connectionStateText(answer.data[0]) : nullptr;
+}
+
 const char* connectionStateText(std::uint8_t state) noexcept {
-  constexpr std::array<const char*, 6> kTexts{"nonexistent", "configuring", "waiting for its identifier",
-                                              "established", "timed out",   "deferred for deletion"};
+  constexpr std::array<const char*, kConnectionStates> kTexts{
+      "nonexistent", "configuring", "waiting for its identifier", "established", "timed out", "deferred for deletion"};
   return state < kTexts.size() ? kTexts[state] : "unknown";
 }
 

@@ -33,6 +33,7 @@ constexpr std::uint8_t kExplicitInstance = 1;
 // Of connection_attribute::kState.
 constexpr std::uint8_t kNonexistent = 0;
 constexpr std::uint8_t kEstablished = 3;
+constexpr std::uint8_t kConnectionStates = 6;
 
 /// Services 4Bh and 4Ch of the DeviceNet object, on the unconnected port.
 ConnectRequest allocateRequest(std::uint8_t choice, std::uint8_t own_mac) noexcept;
@@ -48,6 +49,9 @@ ConnectRequest rateRequest(std::uint8_t instance, std::uint16_t milliseconds) no
 
 /// Whether a refused allocation says that the connections are allocated already, to whomever.
 bool saysAllocated(const ExplicitAnswer& answer) noexcept;
+/// What an answer to the question for the state of a connection says of it, where that is not "established": "timed out",
+/// "gone", ... nullptr where it is, and of what is no state.
+const char* lostStateText(const ExplicitAnswer& answer) noexcept;
 /// "configuring", "timed out", ...
 const char* connectionStateText(std::uint8_t state) noexcept;
 

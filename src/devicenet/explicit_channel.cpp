@@ -2,6 +2,11 @@
 
 namespace nord_driver::devicenet {
 
+void ExplicitChannel::handleNewConnection(Instant now) noexcept {
+  client_.forgetOwed();
+  startNext(now);
+}
+
 void ExplicitChannel::close() noexcept {
   open_ = false;
   if (owner_ == Owner::kUser) cancel();

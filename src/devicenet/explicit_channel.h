@@ -24,6 +24,8 @@ class ExplicitChannel {
 
   /// Of the explicit connection, as the device chose when it was allocated.
   void setFormat(BodyFormat format) noexcept { format_ = format; }
+  /// The device had no explicit connection with us, and was allocated one.
+  void handleNewConnection(Instant now) noexcept;
   /// Whether requests of the layer above are taken. Otherwise each is answered kNotConnected: while a device is being
   /// connected they would hold it up.
   void open() noexcept { open_ = true; }

@@ -32,6 +32,7 @@ bool ExplicitClient::start(const ExplicitRequest& request, ExplicitPort port, Bo
   } else {
     xid_ = !xid_;
   }
+  shares_xid_ = owes(xid_, now);
   asked_ = 0;
   offset_ = 0;
   count_ = 0;
@@ -262,6 +263,7 @@ void ExplicitClient::finish(ExplicitEnd end) noexcept {
   if (!answer_) answer_ = ExplicitAnswer{};
   answer_->id = id_;
   answer_->end = end;
+  answer_->may_be_late = shares_xid_;
 }
 
 std::optional<ExplicitAnswer> ExplicitClient::takeAnswer() noexcept {

@@ -4,8 +4,9 @@
 // Deterministic: frames and the time go in, frames and answers come out. Nothing is allocated.
 // A transaction id is one bit, and an answer names nothing else of its request but, unless it is an error, the service. So
 // the bit of a request is not given to another while an answer to the first may still come: one that was given up, or was
-// asked twice and answered once. Where both bits are owed an answer a user's next request waits. What connects a device and
-// keeps its connection alive does not: it is done again where a late answer was taken for its own.
+// asked twice and answered once, over a connection that still is. Where both bits are owed an answer a user's next request
+// waits. What connects a device and keeps its connection alive does not, and is told that what it gets may be such a late
+// answer: what connects is done again where it was, and no loss is believed of it.
 #pragma once
 
 #include <algorithm>
@@ -47,6 +48,8 @@ class ExplicitClient {
   /// is told to somebody has to wait, at most until `freeAt()`.
   bool mustWait(Instant now) const noexcept;
   Instant freeAt() const noexcept { return std::min(owed_[0].until, owed_[1].until); }
+  /// The device has a new explicit connection with us: what it was asked over another one it does not answer any more.
+  void forgetOwed() noexcept { owed_ = {}; }
   /// From `start()` until the answer was taken.
   bool busy() const noexcept { return phase_ != Phase::kIdle || answer_.has_value(); }
   /// Ends the request without an answer; an answer not taken is dropped.
@@ -107,6 +110,7 @@ class ExplicitClient {
   Instant to_send_until_{};        // the piece given out last
   ExplicitPort port_ = ExplicitPort::kConnected;
   bool xid_ = false;
+  bool shares_xid_ = false;  // with a request whose late answer may still come
   std::uint32_t id_ = 0;
   ExplicitBody body_;         // of the request
   std::size_t offset_ = 0;    // of the fragment that is sent

@@ -88,7 +88,8 @@ struct ExplicitAnswer {
   ExplicitEnd end = ExplicitEnd::kDone;
   std::uint8_t general = 0;
   std::uint8_t additional = kNoAdditionalCode;
-  ExplicitData data;  ///< of kDone: behind the service code
+  bool may_be_late = false;  ///< it may be the answer to an earlier request, of the same transaction id
+  ExplicitData data;         ///< of kDone: behind the service code
 
   bool ok() const noexcept { return end == ExplicitEnd::kDone; }
   /// The number in 1 to 4 bytes, least significant first, without sign. Nothing for other sizes or when not `ok()`.

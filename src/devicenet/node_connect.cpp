@@ -63,6 +63,15 @@ void NodeConnect::release(Instant now) noexcept {
   }
 }
 
+void NodeConnect::handleForeignMaster(std::uint8_t mac, Instant now) noexcept {
+  foreign_mac_ = mac;
+  foreign_at_ = now;
+}
+
+void NodeConnect::handleSign(Instant now) noexcept {
+  if (phase_ == Phase::kPause && report_.status().state != NodeState::kRefused) timers_.set(Timer::kRetry, now);
+}
+
 void NodeConnect::enter(Phase phase, Instant now) noexcept {
   phase_ = phase;
   if (phase == Phase::kAllocateExplicit) held_ |= choice::kExplicit;

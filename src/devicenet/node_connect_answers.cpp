@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "devicenet/error_codes.h"
 #include "devicenet/node_connect.h"
 
 namespace nord_driver::devicenet {
@@ -42,6 +41,7 @@ void NodeConnect::handleAllocated(const ExplicitAnswer& answer, Instant now) noe
     return refuse(why, now);
   }
   channel_.setFormat(static_cast<BodyFormat>(answer.data[0]));
+  channel_.handleNewConnection(now);
   NodeStatus& status = report_.status();
   ++status.counters.allocations;
   status.owner.reset();
@@ -283,11 +283,11 @@ void NodeConnect::checkSoon(Instant now) noexcept {
 
 void NodeConnect::handleState(const ExplicitAnswer& answer, Instant now) noexcept {
   if (answer.end == ExplicitEnd::kTimedOut) return enter(Phase::kReopen, now);
-  const bool gone = answer.end == ExplicitEnd::kRefused && answer.general == general_error::kNoObject;
-  if (gone || (answer.ok() && answer.number().value_or(kEstablished) != kEstablished)) {
+  const char* const lost = lostStateText(answer);
+  // One that may be another request's lets go of nothing: it is asked again, and process data have a time-out of their own.
+  if (lost != nullptr && !answer.may_be_late) {
     Sentence why;
-    why.format("says that its connection for %s is %s", toText(config_.io.kind),
-               gone ? "gone" : connectionStateText(static_cast<std::uint8_t>(*answer.number())));
+    why.format("says that its connection for %s is %s", toText(config_.io.kind), lost);
     return handleLoss(why, now);
   }
   phase_ = Phase::kRunning;
@@ -298,7 +298,10 @@ void NodeConnect::handleState(const ExplicitAnswer& answer, Instant now) noexcep
 void NodeConnect::handleReopened(const ExplicitAnswer& answer, Instant now) noexcept {
   const bool there = answer.ok() || saysAllocated(answer);
   if (!there && config_.io.kind == IoKind::kNone) return handleLoss("does not answer", now);
-  if (answer.ok()) ++report_.status().counters.reopened;
+  if (answer.ok()) {
+    ++report_.status().counters.reopened;
+    channel_.handleNewConnection(now);
+  }
   phase_ = Phase::kRunning;
   timers_.set(Timer::kKeepAlive, now + report_.status().explicit_rate);
 }
@@ -328,15 +331,6 @@ void NodeConnect::endOutputs(Instant now) noexcept {
 // in the moment in which its time-out is due by our clock, it may go on without one.
 void NodeConnect::awaitOwnTimeOut(Instant now) noexcept {
   own_time_out_ = now + kRatesUntilTimeout * rate_ + kCoarsestStep;
-}
-
-void NodeConnect::handleForeignMaster(std::uint8_t mac, Instant now) noexcept {
-  foreign_mac_ = mac;
-  foreign_at_ = now;
-}
-
-void NodeConnect::handleSign(Instant now) noexcept {
-  if (phase_ == Phase::kPause && report_.status().state != NodeState::kRefused) timers_.set(Timer::kRetry, now);
 }
 
 Duration NodeConnect::retryPause() const noexcept {

@@ -93,6 +93,27 @@ TEST(ErrorCodes, StatesOfAConnection) {
   EXPECT_STREQ("unknown", connectionStateText(0xFF));
 }
 
+// One byte that is a state, or that there is no such object: nothing else tells that a connection is lost.
+TEST(ErrorCodes, WhatSaysThatAConnectionIsLost) {
+  const auto says = [](ExplicitEnd end, std::uint8_t general, const ExplicitData& data) {
+    ExplicitAnswer answer;
+    answer.end = end;
+    answer.general = general;
+    answer.data = data;
+    return lostStateText(answer);
+  };
+  EXPECT_STREQ("nonexistent", says(ExplicitEnd::kDone, 0, {0}));
+  EXPECT_STREQ("timed out", says(ExplicitEnd::kDone, 0, {4}));
+  EXPECT_STREQ("deferred for deletion", says(ExplicitEnd::kDone, 0, {5}));
+  EXPECT_STREQ("gone", says(ExplicitEnd::kRefused, 0x16, {}));
+  EXPECT_EQ(nullptr, says(ExplicitEnd::kDone, 0, {3}));
+  EXPECT_EQ(nullptr, says(ExplicitEnd::kDone, 0, {6}));
+  EXPECT_EQ(nullptr, says(ExplicitEnd::kDone, 0, {}));
+  EXPECT_EQ(nullptr, says(ExplicitEnd::kDone, 0, {4, 0}));
+  EXPECT_EQ(nullptr, says(ExplicitEnd::kRefused, 0x14, {}));
+  EXPECT_EQ(nullptr, says(ExplicitEnd::kTimedOut, 0x16, {}));
+}
+
 // Additional code 01h, or the two general ones of an object that is not in the state for it; only in a refusal.
 TEST(ErrorCodes, WhatSaysThatItIsAllocated) {
   const auto says = [](ExplicitEnd end, std::uint8_t general, std::uint8_t additional) {

@@ -110,6 +110,23 @@ TEST(ExplicitChannel, WhereBothTransactionIdsAreOwedAnAnswerTheNextRequestWaits)
   }
 }
 
+// What was asked over a connection that is gone is not answered over the one that takes its place: nothing waits for it.
+TEST(ExplicitChannel, WithANewConnectionNothingIsOwedAnyMore) {
+  ExplicitChannel channel{0, 5, milliseconds{500}};
+  Instant now{std::chrono::hours{1}};
+  channel.open();
+  for (std::uint8_t i = 1; i <= 3; ++i) channel.submit(getAttribute(i, 101, 1, i), now);
+  giveUp(channel, now);
+  giveUp(channel, now);
+  CanFrame asked;
+  ASSERT_FALSE(channel.pollTransmit(asked, now));
+  channel.handleNewConnection(now);
+  answerWord(channel, xidOfNext(channel, now), 2, now);
+  const auto answer = channel.pollAnswer();
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(2u, answer->number());
+}
+
 // Asked twice and answered twice: the second answer is not the next but one's.
 TEST(ExplicitChannel, TheSecondAnswerToARepeatedRequestIsNotTakenForAnother) {
   ExplicitChannel channel{0, 5, milliseconds{500}};

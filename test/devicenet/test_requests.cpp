@@ -118,6 +118,25 @@ TEST(Requests, TimeOutBesideProcessData) {
   EXPECT_EQ(389u, again[0].answer.number());
 }
 
+// Two are given up, and their answers may be late: the third waits where the explicit connection is that of before, and not
+// where the device had lost it.
+TEST(Requests, WaitForLateAnswersOnlyOfTheConnectionOfBefore) {
+  for (const bool survives : {false, true}) {
+    ScannerRun run{busConfig(1)};
+    run.devices[0]->attributes[{101, 1, 1}] = {1, 0};
+    ASSERT_TRUE(run.starts());
+    const std::size_t allocations = run.sentTo("42E");
+    run.loses = [](const CanFrame& frame) { return frame.id == 0x42C; };
+    for (std::uint8_t i = 1; i <= 3; ++i) ASSERT_TRUE(run.scanner.submit(0, getAttribute(i, 101, 1, 1)));
+    if (!survives) run.devices[0]->held &= 0xFE;
+    ASSERT_TRUE(run.runUntil([&] { return run.sentTo("42E") > allocations; }, seconds{4}));
+    run.loses = nullptr;
+    EXPECT_EQ(survives ? 2u : 3u, answers(run, milliseconds{100}).size()) << survives;
+    EXPECT_EQ(survives ? 1u : 0u, answers(run, seconds{5}).size()) << survives;
+    EXPECT_TRUE(run.allExchanging());
+  }
+}
+
 // Requests without end do not starve the keep-alive of process data, nor the other way round.
 TEST(Requests, BesideTheEngine) {
   ScannerRun run{busConfig(1)};

@@ -191,9 +191,9 @@ bool DevicenetParameters::tryOtherWidth(std::uint8_t general) noexcept {
   const ParameterRequest& request = requests_.front();
   if (request.action == ParameterAction::kRead || other_width_) return false;
   if (step_ != Step::kValue && step_ != Step::kDoubleValue) return false;
-  // Narrower only where the word is the same value with a sign and without.
-  const bool fits = !request.double_word || (request.raw >= std::numeric_limits<std::int16_t>::min() &&
-                                             request.raw <= std::numeric_limits<std::int16_t>::max());
+  // Narrower only where the word is the same value with a sign and without: it is read back as one without.
+  const bool fits =
+      !request.double_word || (request.raw >= 0 && request.raw <= std::numeric_limits<std::int16_t>::max());
   const std::uint8_t wrong_size = request.double_word ? general_error::kTooMuchData : general_error::kNotEnoughData;
   if (general != wrong_size || !fits) return false;
   other_width_ = true;

@@ -49,8 +49,8 @@ TEST(DeviceNetTransportTest, WiresAreSuspectedOnlyWhenTheModulesHadTimeToAnswer)
   EXPECT_THAT(rig.transport.busText().str(), HasSubstr("no device answers: are the modules and the bus powered"));
 }
 
-// It hears us, and we do not hear it. The drive is judged by drive_timeout after the last of its data has grown old, which may
-// be later than the connection counts as lost: it gets its stop word all the same.
+// It hears us, and we do not hear it. Where what stops it is set only after the connection counts as lost, it gets that stop
+// word all the same.
 TEST(DeviceNetTransportTest, AModuleThatIsNotHeardGetsItsStopWord) {
   for (const char* io : {"poll", "strobe", "cos", "cyclic"}) {
     for (const Duration drive_timeout : {milliseconds{50}, milliseconds{250}}) {
@@ -234,6 +234,20 @@ TEST(DeviceNetGuestTest, ReadsWithoutExchangingProcessData) {
   EXPECT_EQ("", rig.transport.identity(0).protected_by);
   rig.transport.close();
   EXPECT_EQ(0x00, rig.device().held) << "released";
+}
+
+// What a module was asked before it was switched off it does not answer afterwards: nothing is waited for.
+TEST(DeviceNetGuestTest, AnInverterIsThereSoonAfterItsModule) {
+  for (const Duration off : {milliseconds{1000}, milliseconds{1500}, milliseconds{2000}, milliseconds{3000}}) {
+    Rig rig{test::DevicenetSettings{1}, true};
+    ASSERT_TRUE(rig.starts());
+    rig.run(seconds{1});
+    rig.device().powerOff();
+    rig.run(off);
+    rig.device().powerOn();
+    EXPECT_LE(rig.until([&] { return rig.inputs[0].module_answers; }), seconds{1}) << toSeconds(off) << " s";
+    EXPECT_LE(rig.until([&] { return rig.allAnswer(); }), seconds{1}) << toSeconds(off) << " s";
+  }
 }
 
 TEST(DeviceNetGuestTest, KeepsOffABusThatIsInUse) {

@@ -146,19 +146,23 @@ TEST(DevicenetParametersTest, AWriteThatIsRefusedForItsLengthIsTriedWithTheOther
   EXPECT_EQ("10 106 1 13 = 67 00 00 00", channel.start());
   channel.answer();
   EXPECT_EQ(ParameterOutcome::kDone, channel.result().outcome);
-  ParameterRequest wide = requestOf(613, ParameterShape::kPlain, ParameterAction::kWritePersistent, -2);
+  ParameterRequest wide = requestOf(613, ParameterShape::kPlain, ParameterAction::kWritePersistent, 32767);
   wide.double_word = true;
   channel.parameters.submit(wide);
-  EXPECT_EQ("10 106 1 13 = FE FF FF FF", channel.start());
+  EXPECT_EQ("10 106 1 13 = FF 7F 00 00", channel.start());
   channel.refuse(0x15);
-  EXPECT_EQ("10 106 1 13 = FE FF", channel.start());
+  EXPECT_EQ("10 106 1 13 = FF 7F", channel.start());
   channel.refuse(0x13);
   EXPECT_EQ(ParameterOutcome::kRefused, channel.result().outcome) << "once";
-  wide.raw = 40000;
-  channel.parameters.submit(wide);
-  channel.start();
-  channel.refuse(0x15);
-  EXPECT_EQ(ParameterOutcome::kRefused, channel.result().outcome) << "16 bits may be another value";
+  // Read back, FE FF is 65534 to who expects 32 bits: it would be said to differ, though it was written.
+  for (const std::int32_t other_in_a_word : {-2, 32768, 65536}) {
+    wide.raw = other_in_a_word;
+    channel.parameters.submit(wide);
+    channel.start();
+    channel.refuse(0x15);
+    EXPECT_EQ("nothing", channel.start()) << other_in_a_word;
+    EXPECT_EQ(ParameterOutcome::kRefused, channel.result().outcome) << other_in_a_word;
+  }
   channel.parameters.submit(requestOf(613, ParameterShape::kPlain, ParameterAction::kWritePersistent, 103));
   channel.start();
   channel.refuse(0x09);
