@@ -84,6 +84,24 @@ TEST_F(UnwatchedStops, AWordThatStopsEndsThePause) {
   EXPECT_LT(link->now() - before, milliseconds{500});
 }
 
+// The words that stop are refused in due form as the watchdog is: one image is tried once, and does not end the pauses.
+TEST_F(UnwatchedStops, AWordThatStopsAndIsRefusedWaitsForThePauses) {
+  startWatched([](ModbusSettings& settings) { settings.first_pause = settings.longest_pause = milliseconds{40}; });
+  ASSERT_TRUE(exchange({kRuns, 7, kRuns, 7}));
+  loseWith({kRuns, 8, kRuns, 8});
+  server.always({Reaction::kException, 6});
+  const std::uint64_t exceptions = link->report().counters.exceptions;
+  const Instant before = link->now();
+  link->give({kDownTheRamp, 0, kDownTheRamp, 0});
+  ASSERT_TRUE(waitUntil([&] { return link->report().counters.exceptions >= exceptions + 8; }));
+  // Two of them need no pause: what waited before, and the stop.
+  EXPECT_GE(link->now() - before, milliseconds{5 * 40});
+  // The next image is tried at once.
+  server.always({Reaction::kAnswer});
+  link->give({kQuickStop, 0, kQuickStop, 0});
+  EXPECT_TRUE(waitHeld(kQuickStop, kQuickStop));
+}
+
 // The image that ran was taken, and its answer lost: the server moves the drives, whatever was answered before.
 TEST_F(UnwatchedStops, AnImageWhoseAnswerWasLostMayRun) {
   startWatched();
