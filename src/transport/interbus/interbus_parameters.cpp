@@ -242,9 +242,7 @@ void InterbusParameters::handleResult(const PcpResult& result) noexcept {
     case PcpAnswer::kNotYet:
       return;
     case PcpAnswer::kAborted:
-      drives_[*running_].initiated = !map_.initiate;
-      drives_[*running_].requests.fail(ParameterOutcome::kTimeout, "its PCP connection was aborted");
-      return end();
+      return handleAbort();
     case PcpAnswer::kHere:
       return handleConfirmation(result);
   }
@@ -270,18 +268,26 @@ void InterbusParameters::handleConfirmation(const PcpResult& result) noexcept {
   end();
 }
 
-// Another attempt may be granted: the device, or the gateway, may hold an earlier connection still. A write has surely not
-// been done.
+void InterbusParameters::handleAbort() noexcept {
+  DriveQueue& drive = drives_[*running_];
+  drive.initiated = !map_.initiate;
+  const Sentence text = "its PCP connection was aborted";
+  if (invocation_.service == PcpService::kWrite) {
+    drive.requests.fail(ParameterOutcome::kTimeout, text);  // the write may have been done before
+  } else {
+    drive.requests.refuse(ParameterReason::kNotNow, text);
+  }
+  end();
+}
+
+// Another attempt may be granted: the device, or the gateway, may hold an earlier connection still. It is a refusal, not
+// silence: what decides motion may be told later, and is waited for. A write has surely not been done.
 void InterbusParameters::refuseConnection(const interbus::PcpError& error) noexcept {
   DriveQueue& drive = drives_[*running_];
   Sentence text;
   text.format("its PCP connection (communication reference %u) was refused: %s", drive.how.reference,
               pcpSentence(error).c_str());
-  if (drive.requests.front().action == ParameterAction::kRead) {
-    drive.requests.fail(ParameterOutcome::kTimeout, text);
-  } else {
-    drive.requests.refuse(ParameterReason::kNotNow, text);
-  }
+  drive.requests.refuse(ParameterReason::kNotNow, text);
 }
 
 // A connection that is gone is initiated again, and a read asked for again behind that.

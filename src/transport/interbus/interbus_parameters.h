@@ -87,6 +87,7 @@ class InterbusParameters {
   void handleResult(const interbus::PcpResult& result) noexcept;
   void handleConfirmation(const interbus::PcpResult& result) noexcept;
   void takeValue(const interbus::PcpResult& result) noexcept;
+  void handleAbort() noexcept;
   void refuseConnection(const interbus::PcpError& error) noexcept;
   bool fallBack(const interbus::PcpError& error) noexcept;
   bool repeat(const interbus::PcpError& error) noexcept;

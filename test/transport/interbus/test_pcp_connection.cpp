@@ -111,7 +111,8 @@ TEST_F(PcpConnection, OneThatIsRefusedIsInitiatedAgain) {
 TEST_F(PcpConnection, ARefusalThatStaysIsNoFinalNo) {
   gateway.refusals = {{kPcpInitiate, 0x0003}, {kPcpInitiate, 0x0003}};
   const ParameterResult result = ask(read(105));
-  EXPECT_EQ(ParameterOutcome::kTimeout, result.outcome);
+  EXPECT_EQ(ParameterOutcome::kRefused, result.outcome) << "in words: the channel lives";
+  EXPECT_EQ(ParameterReason::kNotNow, result.reason);
   EXPECT_THAT(result.text.str(),
               StartsWith("its PCP connection (communication reference 2) was refused: PCP error 0/3"));
   EXPECT_EQ(2, gateway.count(kPcpInitiate));
@@ -120,6 +121,22 @@ TEST_F(PcpConnection, ARefusalThatStaysIsNoFinalNo) {
   EXPECT_EQ(ParameterOutcome::kRefused, written.outcome) << "surely not done";
   EXPECT_EQ(ParameterReason::kNotNow, written.reason);
   EXPECT_EQ(0, gateway.count(kPcpWrite));
+  EXPECT_EQ(1050, ask(read(105)).raw);
+}
+
+// Nor is an abort. Behind a write nobody knows whether it was done.
+TEST_F(PcpConnection, AnAbortIsNoFinalNo) {
+  ASSERT_EQ(1050, ask(read(105)).raw);
+  gateway.aborts = true;
+  const ParameterResult written = ask(write(102));
+  EXPECT_EQ(ParameterOutcome::kTimeout, written.outcome);
+  EXPECT_STREQ("its PCP connection was aborted", written.text.c_str());
+  for (const ParameterRequest& request : {read(105), write(102)}) {
+    const ParameterResult result = ask(request);
+    EXPECT_EQ(ParameterOutcome::kRefused, result.outcome) << "of the initiation";
+    EXPECT_EQ(ParameterReason::kNotNow, result.reason);
+  }
+  gateway.aborts = false;
   EXPECT_EQ(1050, ask(read(105)).raw);
 }
 
