@@ -84,12 +84,17 @@ bool InterbusParameters::startNext(Instant now) noexcept {
     initiations_ = 0;
     trouble_.clear();
     deadline_ = now + map_.timeout;
-    // One that belongs to nobody is not waited for: the next one takes its place.
     if (under_way_) phase_ = late_ ? Phase::kLate : Phase::kClear;
-    under_way_ = foreign_ = false;
+    leaveOrder();
     return true;
   }
   return false;
+}
+
+// An order that belongs to nobody, or hangs in a connection that hangs, is not waited for: the next one takes its place.
+// But one that invokes, because its answer tells whether its service can be in the gateway at all.
+void InterbusParameters::leaveOrder() noexcept {
+  under_way_ = foreign_ = under_way_ && invoking_ && late_;
 }
 
 PcpInvocation InterbusParameters::invocation() const noexcept {
@@ -130,8 +135,8 @@ std::optional<link::RegisterOrder> InterbusParameters::pollOrder(Instant now) no
   if (running_ && now >= deadline_) giveUp();
   // Without a request only what was invoked is cleared: who asks nothing writes nothing.
   if (!running_ && !startNext(now) && (!invoked_ || !trouble_.empty())) return std::nullopt;
+  if (late_ && now >= late_until_ && (foreign_ || !under_way_)) forgetLate();
   if (under_way_) return std::nullopt;
-  if (late_ && now >= late_until_) forgetLate();
   under_way_ = true;
   invoking_ = false;
   switch (phase_) {
@@ -171,8 +176,7 @@ void InterbusParameters::giveUp() noexcept {
   drive.initiated = !map_.initiate;
   drive.requests.fail(ParameterOutcome::kTimeout, text);
   endUnconfirmed();
-  // An order that hangs in a connection that hangs is not waited for.
-  under_way_ = false;
+  leaveOrder();
 }
 
 void InterbusParameters::end() noexcept {
@@ -195,6 +199,7 @@ void InterbusParameters::endUnconfirmed() noexcept {
 
 void InterbusParameters::forgetLate() noexcept {
   late_.reset();
+  leaveOrder();
   phase_ = Phase::kClear;
 }
 

@@ -94,6 +94,7 @@ class InterbusParameters {
   void end() noexcept;
   void endUnconfirmed() noexcept;
   void forgetLate() noexcept;
+  void leaveOrder() noexcept;
 
   PcpMap map_;
   std::vector<DriveQueue> drives_;

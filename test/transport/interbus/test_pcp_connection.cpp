@@ -13,6 +13,7 @@ using profile::ParameterReason;
 using profile::ParameterRequest;
 using profile::ParameterResult;
 using std::chrono::milliseconds;
+using std::chrono::seconds;
 using ::testing::ElementsAre;
 using ::testing::Pair;
 using ::testing::StartsWith;
@@ -66,6 +67,23 @@ class PcpConnection : public ::testing::Test {
 class HeldPcpConnection : public PcpConnection {
  protected:
   HeldPcpConnection() : PcpConnection(false) {}
+  /// Its order is under way then.
+  void runUntilInvoked() {
+    for (int i = 0; i < 100; ++i) {
+      now += milliseconds{10};
+      gateway.advance();
+      const auto order = parameters.pollOrder(now);
+      ASSERT_TRUE(order);
+      if (order->write && order->values[0] != 0) return;
+      parameters.handleAnswer(gateway.carryOut(*order));
+    }
+    FAIL() << "nothing is invoked";
+  }
+  static link::RegisterAnswer neverLeft() {
+    link::RegisterAnswer answer;
+    answer.not_taken = true;
+    return answer;
+  }
 };
 
 TEST_F(PcpConnection, AReadIsAskedForAgainOnANewOne) {
@@ -210,19 +228,45 @@ TEST_F(HeldPcpConnection, OneThatNeverComesIsNotWaitedForForEver) {
 
 TEST_F(HeldPcpConnection, AServiceThatNeverLeftIsNotWaitedFor) {
   EXPECT_TRUE(parameters.submit(0, read(102)));
-  for (;;) {
-    now += milliseconds{10};
-    gateway.advance();
-    const auto order = parameters.pollOrder(now);
-    ASSERT_TRUE(order);
-    if (order->write && order->values[0] != 0) break;
-    parameters.handleAnswer(gateway.carryOut(*order));
-  }
+  runUntilInvoked();
   parameters.handleOffline(0);
-  link::RegisterAnswer never_left;
-  never_left.not_taken = true;
-  parameters.handleAnswer(never_left);
+  parameters.handleAnswer(neverLeft());
   EXPECT_EQ(ParameterOutcome::kOffline, parameters.pollResult(0)->outcome);
+  EXPECT_EQ(1050, ask(read(105)).raw);
+}
+
+// Whether it leaves is not known yet when another drive is to be asked: an order more would take its place.
+TEST_F(HeldPcpConnection, NorBeforeAnotherDriveIsAsked) {
+  EXPECT_TRUE(parameters.submit(0, read(102)));
+  runUntilInvoked();
+  parameters.handleOffline(0);
+  EXPECT_TRUE(parameters.submit(1, read(104)));
+  EXPECT_FALSE(parameters.pollOrder(now));
+  parameters.handleAnswer(neverLeft());
+  cycles(20);
+  const auto result = parameters.pollResult(1);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(1040, result->raw);
+}
+
+// The time of an access is shorter than a request to the gateway may take.
+TEST_F(HeldPcpConnection, NorBehindATimeOut) {
+  EXPECT_TRUE(parameters.submit(0, read(102)));
+  runUntilInvoked();
+  now += seconds{3};
+  EXPECT_FALSE(parameters.pollOrder(now));
+  EXPECT_EQ(ParameterOutcome::kTimeout, parameters.pollResult(0)->outcome);
+  parameters.handleAnswer(neverLeft());
+  EXPECT_EQ(1050, ask(read(105)).raw);
+}
+
+TEST_F(HeldPcpConnection, AnOrderThatIsNeverAnsweredIsNotWaitedForForEver) {
+  EXPECT_TRUE(parameters.submit(0, read(102)));
+  runUntilInvoked();
+  parameters.handleOffline(0);
+  EXPECT_EQ(ParameterOutcome::kOffline, parameters.pollResult(0)->outcome);
+  EXPECT_EQ(ParameterOutcome::kTimeout, ask(read(105)).outcome);
+  now += seconds{40};
   EXPECT_EQ(1050, ask(read(105)).raw);
 }
 
