@@ -192,7 +192,7 @@ void DeviceReader::handleResult(const profile::ParameterResult& result) noexcept
   const bool timed_out = result.outcome == profile::ParameterOutcome::kTimeout;
   if (timed_out && ++attempts_ < (silent_ ? 1 : kMaxAttempts)) return;
   silent_ = timed_out;
-  answered_ = answered_ || !mayChange(result);
+  answered_ = answered_ || !timed_out;
   items_[asked_].due = mayChange(result) && asked_ < motion_items_;
   if (result.outcome == profile::ParameterOutcome::kDone) store(items_[asked_], result.raw);
   attempts_ = 0;

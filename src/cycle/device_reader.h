@@ -42,8 +42,8 @@ class DeviceReader {
   bool maxFrequenciesAsked() const noexcept;
   /// The same of all parameters that decide motion.
   bool motionAsked() const noexcept;
-  /// And what was refused for the moment, or timed out beside others that were answered, was asked for again often enough
-  /// (kAwaitedRounds): what is absent then refuses nothing.
+  /// And what was refused for the moment, or timed out beside others that were answered or refused, was asked for again
+  /// often enough (kAwaitedRounds): what is absent then refuses nothing.
   bool motionKnown() const noexcept;
   /// All has been asked for, and one that decides motion has only timed out, or was refused for the moment;
   /// `max_frequencies`: P105 counts, too.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "nord_driver/config/settings.h"
+#include "tools/patient_access.h"
 
 namespace nord_driver::tools {
 
@@ -57,7 +58,7 @@ void readFacts(CommissionedDrive& drive, DriveParameters& parameters, const std:
   for (const commissioning::ParameterKey& key :
        commissioning::valuesToRead(drive.asked, drive.known, drive.set_in_force)) {
     if (end_asked) throw Trouble("ended before everything was read");
-    const ParameterAnswer answer = parameters.read(addressOf(key));
+    const ParameterAnswer answer = askPatiently(parameters, [&] { return parameters.read(addressOf(key)); });
     if (answer.success) {
       facts.store(key, answer.raw);
     } else if (answer.refused) {

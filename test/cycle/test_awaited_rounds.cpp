@@ -36,5 +36,33 @@ TEST(AwaitedRounds, ThreeMoreAfterTheFirst) {
   EXPECT_TRUE(reader.motionKnown());
 }
 
+/// All questions of a round have this outcome.
+void runRound(DeviceReader& reader, const profile::ParameterResult& result) {
+  for (int questions = 0; questions < 500 && reader.pollRequest(); ++questions) reader.handleResult(result);
+}
+
+// Whatever refuses for the moment, in words, is no channel that is dead: it may tell of P104 when it is asked again.
+TEST(AwaitedRounds, AreThoseOfAChannelThatOnlyRefusesForTheMoment) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  profile::ParameterResult not_now;
+  not_now.outcome = ParameterOutcome::kRefused;
+  not_now.reason = profile::ParameterReason::kNotNow;
+  runRound(reader, not_now);
+  for (unsigned again = 0; again < DeviceReader::kAwaitedRounds; ++again) {
+    EXPECT_FALSE(reader.motionKnown()) << again;
+    ASSERT_TRUE(reader.missesMotion());
+    reader.askMissingAgain();
+    runRound(reader, not_now);
+  }
+  EXPECT_TRUE(reader.motionKnown());
+}
+
+// Nothing carries parameters there: nothing is awaited.
+TEST(AwaitedRounds, AreNoneOfASilentChannel) {
+  DeviceReader reader{profile::Series::kSk5xxe};
+  runRound(reader, {});
+  EXPECT_TRUE(reader.motionKnown());
+}
+
 }  // namespace
 }  // namespace nord_driver::cycle

@@ -12,6 +12,7 @@
 #include "tools/commissioning_check.h"
 #include "tools/commissioning_text.h"
 #include "tools/parameter_link.h"
+#include "tools/restore/scripted_drive.h"
 #include "transport/profibus/profibus_dp.h"
 
 namespace nord_driver::tools {
@@ -217,6 +218,19 @@ TEST(CommissioningCheck, IsToldDriveByDrive) {
   EXPECT_EQ(560, finding["number"].as<int>());
   EXPECT_EQ(1, finding["remedy_raw"].as<int>());
   EXPECT_EQ("warning", finding["severity"].as<std::string>());
+}
+
+// That says nothing of the parameter: neither that it is unreadable nor that the rest may be judged without it.
+TEST(CommissioningCheck, AsksAgainForWhatIsRefusedForTheMoment) {
+  const DemoRobot robot{"sk5xxe", ""};
+  const std::atomic<bool> not_asked{false};
+  CommissionedDrive drive = robot.drives()[0];
+  ScriptedDrive parameters{{{"P509", 4}}};
+  parameters.blocked["P509"] = 2;
+  readFacts(drive, parameters, not_asked);
+  EXPECT_EQ(4, drive.facts.value().raw({509}));
+  parameters.blocked["P509"] = -1;
+  EXPECT_THROW(readFacts(drive, parameters, not_asked), Trouble);
 }
 
 TEST(CommissioningCheck, SaysOfADriveThatItCouldNotBeAsked) {

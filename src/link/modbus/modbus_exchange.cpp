@@ -14,8 +14,15 @@ bool runsAt(std::uint16_t word, Word run_bits, const RegisterImage& image) noexc
   return (wordAt(image, word) & run_bits) == run_bits;
 }
 
+/// NORD's 0000 orders nothing: without bit 10 no drive takes the word, and goes on as it was told before (BU 2700 7.1.1).
+/// To a drive with DRIVECOM, which would coast, it is not sent.
+bool ordersAt(std::uint16_t word, const RegisterImage& image) noexcept {
+  return wordAt(image, word) != 0;
+}
+
 /// The control word at this place does not run, and lacks a bit it had: that it runs no more, or stops quickly now.
 bool stopsAt(std::uint16_t word, Word run_bits, const RegisterImage& written, const RegisterImage& next) noexcept {
+  if (!ordersAt(word, next)) return false;
   const unsigned lost = static_cast<unsigned>(wordAt(written, word)) & ~static_cast<unsigned>(wordAt(next, word));
   return !runsAt(word, run_bits, next) && (lost & run_bits) != 0;
 }
@@ -58,7 +65,7 @@ bool ModbusExchange::ask(const ModbusRequest& request, const Wakeup& stop) noexc
 }
 
 void ModbusExchange::addWrite(std::size_t part, const RegisterImage& outputs, ModbusRequest& request) noexcept {
-  noteRunning(part, outputs);
+  note(part, outputs, false);
   request.function = settings_.outputs.function;
   request.write = registersOf(settings_.outputs, part);
   request.values = outputs.data() + settings_.outputs.parts[part].first;
@@ -69,20 +76,14 @@ void ModbusExchange::addRead(std::size_t part, ModbusRequest& request) const noe
   request.read = registersOf(settings_.inputs, part);
 }
 
-// Before it is known whether it came through.
-void ModbusExchange::noteRunning(std::size_t part, const RegisterImage& outputs) noexcept {
+void ModbusExchange::note(std::size_t part, const RegisterImage& outputs, bool answered) noexcept {
   const WordRange& range = settings_.outputs.parts[part];
   written_.resize(std::max<std::size_t>(written_.size(), range.end()));
   for (const std::uint16_t word : settings_.control_words) {
     const bool in_part = word >= range.first && word < range.end();
-    if (in_part && runsAt(word, settings_.run_bits, outputs)) written_[word] = outputs[word];
+    const bool counts = answered ? ordersAt(word, outputs) : runsAt(word, settings_.run_bits, outputs);
+    if (in_part && counts) written_[word] = outputs[word];
   }
-}
-
-void ModbusExchange::noteWritten(std::size_t part, const RegisterImage& outputs) noexcept {
-  const WordRange& range = settings_.outputs.parts[part];
-  written_.resize(std::max<std::size_t>(written_.size(), range.end()));
-  std::copy(outputs.begin() + range.first, outputs.begin() + range.end(), written_.begin() + range.first);
 }
 
 void ModbusExchange::takeRead(std::size_t part, RegisterInputs& inputs) noexcept {
@@ -102,7 +103,7 @@ bool ModbusExchange::moveImages(const RegisterImage& outputs, RegisterInputs& in
       addWrite(write_part, outputs, request);
       addRead(read_part, request);
       if (!ask(request, stop)) return false;
-      noteWritten(write_part, outputs);
+      note(write_part, outputs, true);
       takeRead(read_part, inputs);
     }
     return true;
@@ -111,7 +112,7 @@ bool ModbusExchange::moveImages(const RegisterImage& outputs, RegisterInputs& in
     ModbusRequest request;
     addWrite(part, outputs, request);
     if (!ask(request, stop)) return false;
-    noteWritten(part, outputs);
+    note(part, outputs, true);
   }
   return readImage(settings_.inputs.function, inputs, stop);
 }

@@ -27,7 +27,7 @@ class ModbusExchange {
   bool look(RegisterInputs& inputs, const Wakeup& stop) noexcept;
 
   /// A control word would allow no motion, and less than what the server may hold: one that ran stops, or one that goes
-  /// down the ramp stops quickly. What was written on earlier connections counts, too: the server may hold it still.
+  /// down the ramp stops quickly; 0000 does not. What was written on earlier connections counts, too: the server may hold it still.
   bool stops(const RegisterImage& next) const noexcept;
 
   const Sentence& reason() const noexcept { return reason_; }
@@ -37,15 +37,17 @@ class ModbusExchange {
   bool ask(const ModbusRequest& request, const Wakeup& stop) noexcept;
   void addWrite(std::size_t part, const RegisterImage& outputs, ModbusRequest& request) noexcept;
   void addRead(std::size_t part, ModbusRequest& request) const noexcept;
-  void noteRunning(std::size_t part, const RegisterImage& outputs) noexcept;
-  void noteWritten(std::size_t part, const RegisterImage& outputs) noexcept;
+  /// What was written, or while nobody knows whether it came through (`answered` is false), of that what runs.
+  void note(std::size_t part, const RegisterImage& outputs, bool answered) noexcept;
   void takeRead(std::size_t part, RegisterInputs& inputs) noexcept;
   bool readImage(ModbusFunction function, RegisterInputs& inputs, const Wakeup& stop) noexcept;
   bool moveImages(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept;
 
   const ModbusSettings& settings_;
   ModbusConnection& connection_;
-  RegisterImage written_;  // as the server may hold it: an answer that was lost leaves the word that runs
+  // Control words alone, the last that order something, as the server may hold them: an answer that was lost leaves the
+  // word that runs.
+  RegisterImage written_;
   Sentence reason_;
   std::uint64_t requests_ = 0;
 };

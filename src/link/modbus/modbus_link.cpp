@@ -146,7 +146,7 @@ bool ModbusLink::connect() noexcept {
 // the connection is of no use any more.
 bool ModbusLink::writeStop() noexcept {
   const Outputs& outputs = outputs_.read();
-  if (outputs.number == last_outputs_ || !stops(outputs)) return true;
+  if (!stops(outputs)) return true;
   last_outputs_ = outputs.number;
   if (exchange_.run(outputs.words, unwatched_, stop_)) return true;
   report_.text = exchange_.reason();
@@ -234,6 +234,7 @@ void ModbusLink::failed() noexcept {
   if (ending()) return;
   const ModbusTrouble trouble = connection_.trouble();
   countTrouble(trouble, report_.counters);
+  if (started_ && trouble == ModbusTrouble::kException) ++report_.counters.refused_exchanges;
   desk_.refuse(report_.text);
   // "Busy" (5, 6) asks for a later try, and one is no reason to have the drives wait for their words: the next cycle's
   // are that try.
@@ -254,7 +255,8 @@ void ModbusLink::failed() noexcept {
   if (started_) tell(LinkState::kConnected);
 }
 
-// It may refuse to be read, and take what stops a drive: that does not wait.
+// It may refuse to be read, and take what stops a drive: that does not wait. An image that was itself refused is not
+// tried again.
 void ModbusLink::pause(Instant until, bool is_kept) noexcept {
   bool given = false;
   while (!ending() && now() < until) {

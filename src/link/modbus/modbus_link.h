@@ -60,8 +60,10 @@ class ModbusLink final : public RegisterLink {
 
   void work() noexcept;
   bool connect() noexcept;
-  /// Not a look, which has no words.
-  bool stops(const Outputs& outputs) const noexcept { return !outputs.only_reads && exchange_.stops(outputs.words); }
+  /// An image that was not tried yet. Not a look, which has no words.
+  bool stops(const Outputs& outputs) const noexcept {
+    return outputs.number != last_outputs_ && !outputs.only_reads && exchange_.stops(outputs.words);
+  }
   bool writeStop() noexcept;
   bool startWatchdog() noexcept;
   bool isWatchdogHeld() noexcept;

@@ -44,7 +44,8 @@ struct LinkCounters {
   std::uint64_t unasked = 0;
   std::uint64_t bad_answers = 0;
   std::uint64_t exceptions = 0;
-  std::uint64_t skipped_outputs = 0;  ///< output images a newer one took the place of
+  std::uint64_t skipped_outputs = 0;    ///< output images a newer one took the place of
+  std::uint64_t refused_exchanges = 0;  ///< of the exceptions, those that ended an exchange of images, or a look
 };
 
 struct LinkReport {

@@ -370,6 +370,7 @@ void SimulatedGateway::finish() noexcept {
 
 void SimulatedGateway::fail(ModbusTrouble trouble, const char* what) noexcept {
   countTrouble(trouble, report_.counters);
+  if (watchdog_set_ && trouble == ModbusTrouble::kException) ++report_.counters.refused_exchanges;
   arrives_.reset();
   answered_.reset();
   report_.text.format("%s %s", settings_.server.c_str(), what);

@@ -23,10 +23,10 @@ class FirstLook {
   /// After each cycle, when the drives were told what came.
   void handle(const InputWatch& watch, const link::LinkReport& report, Instant now) noexcept {
     if (!due_) return;
-    if (report.state == link::LinkState::kConnecting) refused_before_ = report.counters.exceptions;
     if (report.state == link::LinkState::kConnected && !since_) since_ = now;
     const bool seen = watch.isFresh() || watch.worth() == InputWorth::kRingStands;
-    const bool refused = since_ && report.counters.exceptions > refused_before_;
+    // The register of the watchdog may have been refused before, and a second connection what it asks for.
+    const bool refused = report.counters.refused_exchanges > 0;
     const bool overdue = since_ && now - *since_ >= longest_;
     due_ = !seen && !refused && !overdue;
   }
@@ -35,7 +35,6 @@ class FirstLook {
   bool due_ = false;
   Duration longest_{};
   std::optional<Instant> since_;
-  std::uint64_t refused_before_ = 0;  // of the watchdog
 };
 
 }  // namespace nord_driver

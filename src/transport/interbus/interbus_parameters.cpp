@@ -84,12 +84,17 @@ bool InterbusParameters::startNext(Instant now) noexcept {
     initiations_ = 0;
     trouble_.clear();
     deadline_ = now + map_.timeout;
-    // One that belongs to nobody is not waited for: the next one takes its place.
     if (under_way_) phase_ = late_ ? Phase::kLate : Phase::kClear;
-    under_way_ = foreign_ = false;
+    leaveOrder();
     return true;
   }
   return false;
+}
+
+// An order that belongs to nobody, or hangs in a connection that hangs, is not waited for: the next one takes its place.
+// But one that invokes, because its answer tells whether its service can be in the gateway at all.
+void InterbusParameters::leaveOrder() noexcept {
+  under_way_ = foreign_ = under_way_ && invoking_ && late_;
 }
 
 PcpInvocation InterbusParameters::invocation() const noexcept {
@@ -130,8 +135,8 @@ std::optional<link::RegisterOrder> InterbusParameters::pollOrder(Instant now) no
   if (running_ && now >= deadline_) giveUp();
   // Without a request only what was invoked is cleared: who asks nothing writes nothing.
   if (!running_ && !startNext(now) && (!invoked_ || !trouble_.empty())) return std::nullopt;
+  if (late_ && now >= late_until_ && (foreign_ || !under_way_)) forgetLate();
   if (under_way_) return std::nullopt;
-  if (late_ && now >= late_until_) forgetLate();
   under_way_ = true;
   invoking_ = false;
   switch (phase_) {
@@ -171,8 +176,7 @@ void InterbusParameters::giveUp() noexcept {
   drive.initiated = !map_.initiate;
   drive.requests.fail(ParameterOutcome::kTimeout, text);
   endUnconfirmed();
-  // An order that hangs in a connection that hangs is not waited for.
-  under_way_ = false;
+  leaveOrder();
 }
 
 void InterbusParameters::end() noexcept {
@@ -195,6 +199,7 @@ void InterbusParameters::endUnconfirmed() noexcept {
 
 void InterbusParameters::forgetLate() noexcept {
   late_.reset();
+  leaveOrder();
   phase_ = Phase::kClear;
 }
 
@@ -242,9 +247,7 @@ void InterbusParameters::handleResult(const PcpResult& result) noexcept {
     case PcpAnswer::kNotYet:
       return;
     case PcpAnswer::kAborted:
-      drives_[*running_].initiated = !map_.initiate;
-      drives_[*running_].requests.fail(ParameterOutcome::kTimeout, "its PCP connection was aborted");
-      return end();
+      return handleAbort();
     case PcpAnswer::kHere:
       return handleConfirmation(result);
   }
@@ -270,18 +273,26 @@ void InterbusParameters::handleConfirmation(const PcpResult& result) noexcept {
   end();
 }
 
-// Another attempt may be granted: the device, or the gateway, may hold an earlier connection still. A write has surely not
-// been done.
+void InterbusParameters::handleAbort() noexcept {
+  DriveQueue& drive = drives_[*running_];
+  drive.initiated = !map_.initiate;
+  const Sentence text = "its PCP connection was aborted";
+  if (invocation_.service == PcpService::kWrite) {
+    drive.requests.fail(ParameterOutcome::kTimeout, text);  // the write may have been done before
+  } else {
+    drive.requests.refuse(ParameterReason::kNotNow, text);
+  }
+  end();
+}
+
+// Another attempt may be granted: the device, or the gateway, may hold an earlier connection still. It is a refusal, not
+// silence: what decides motion may be told later, and is waited for. A write has surely not been done.
 void InterbusParameters::refuseConnection(const interbus::PcpError& error) noexcept {
   DriveQueue& drive = drives_[*running_];
   Sentence text;
   text.format("its PCP connection (communication reference %u) was refused: %s", drive.how.reference,
               pcpSentence(error).c_str());
-  if (drive.requests.front().action == ParameterAction::kRead) {
-    drive.requests.fail(ParameterOutcome::kTimeout, text);
-  } else {
-    drive.requests.refuse(ParameterReason::kNotNow, text);
-  }
+  drive.requests.refuse(ParameterReason::kNotNow, text);
 }
 
 // A connection that is gone is initiated again, and a read asked for again behind that.

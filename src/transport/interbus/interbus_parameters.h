@@ -87,12 +87,14 @@ class InterbusParameters {
   void handleResult(const interbus::PcpResult& result) noexcept;
   void handleConfirmation(const interbus::PcpResult& result) noexcept;
   void takeValue(const interbus::PcpResult& result) noexcept;
+  void handleAbort() noexcept;
   void refuseConnection(const interbus::PcpError& error) noexcept;
   bool fallBack(const interbus::PcpError& error) noexcept;
   bool repeat(const interbus::PcpError& error) noexcept;
   void end() noexcept;
   void endUnconfirmed() noexcept;
   void forgetLate() noexcept;
+  void leaveOrder() noexcept;
 
   PcpMap map_;
   std::vector<DriveQueue> drives_;

@@ -169,6 +169,23 @@ TEST_F(LinkFailures, OneExceptionCostsOneExchange) {
   EXPECT_EQ(0u, trouble().find("refuses function 16")) << "pauses";
 }
 
+// Who only reads has to know what of it was refused.
+TEST_F(LinkFailures, ARefusedExchangeIsToldFromARefusedWatchdog) {
+  ModbusSettings settings = fourWords(server.address());
+  settings.watchdog = WatchdogRegister{300, 500};
+  settings.first_pause = settings.longest_pause = milliseconds{1};
+  server.next({Reaction::kException, 6});
+  server.next({Reaction::kException, 6});
+  start(settings);
+  ASSERT_TRUE(waitConnected()) << link->report().text.c_str();
+  EXPECT_EQ(2u, link->report().counters.exceptions);
+  EXPECT_EQ(0u, link->report().counters.refused_exchanges);
+  server.next({Reaction::kException, 6});
+  link->look();
+  ASSERT_TRUE(waitUntil([&] { return link->report().counters.exceptions == 3; }));
+  EXPECT_EQ(1u, link->report().counters.refused_exchanges);
+}
+
 // A gateway that refuses to be read takes words all the same: the one that stops does not wait for the end of a pause.
 TEST_F(LinkFailures, AWordThatStopsEndsThePauseOfAConnectionThatIsKept) {
   ModbusSettings settings = fourWords(server.address());

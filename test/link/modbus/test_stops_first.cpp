@@ -30,11 +30,18 @@ TEST(StopsFirst, WithoutAStopTheOrderIsThatOfTheParts) {
 }
 
 TEST(StopsFirst, EveryStopWordCounts) {
-  for (const Word stop : std::initializer_list<Word>{0x047E, 0x047B, 0x047D, 0x0000, 0x046F, 0x007E}) {
+  for (const Word stop : std::initializer_list<Word>{0x047E, 0x047B, 0x047D, 0x046F, 0x007E}) {
     RegisterImage next = all(0x047F);
     next[10] = stop;
     EXPECT_EQ((PartOrder{2, 0, 1}), stopsFirst(sixDrives(), all(0x047F), next)) << stop;
   }
+}
+
+// Its bit 10 says "no valid data" (BU 2700 7.1.1).
+TEST(StopsFirst, AWordThatIsIgnoredIsNoStop) {
+  RegisterImage next = all(0x047F);
+  next[10] = 0x0000;
+  EXPECT_EQ((PartOrder{0, 1, 2}), stopsFirst(sixDrives(), all(0x047F), next));
 }
 
 TEST(StopsFirst, ThePartWithMoreStopsComesBeforeTheOther) {

@@ -26,11 +26,13 @@ class UnwatchedStops : public ModbusLinkTest {
   /// The server ends the connection instead of answering `outputs`, which it has taken, and then says "busy" for its
   /// watchdog register.
   void loseWith(const RegisterImage& outputs) {
+    const LinkCounters before = link->report().counters;
     server.refuse(kWatchdog);
     server.next({Reaction::kClose});
     link->give(outputs);
-    ASSERT_TRUE(waitUntil([&] { return link->report().counters.connections >= 2; }));
-    ASSERT_TRUE(waitUntil([&] { return link->report().counters.exceptions >= 1; })) << link->report().text.c_str();
+    ASSERT_TRUE(waitUntil([&] { return link->report().counters.connections > before.connections; }));
+    ASSERT_TRUE(waitUntil([&] { return link->report().counters.exceptions > before.exceptions; }))
+        << link->report().text.c_str();
   }
   bool waitHeld(Word left, Word right) {
     return waitUntil([&] { return server.holding(100) == left && server.holding(102) == right; });
@@ -84,12 +86,57 @@ TEST_F(UnwatchedStops, AWordThatStopsEndsThePause) {
   EXPECT_LT(link->now() - before, milliseconds{500});
 }
 
+// The words that stop are refused in due form as the watchdog is: one image is tried once, and does not end the pauses.
+TEST_F(UnwatchedStops, AWordThatStopsAndIsRefusedWaitsForThePauses) {
+  startWatched([](ModbusSettings& settings) { settings.first_pause = settings.longest_pause = milliseconds{40}; });
+  ASSERT_TRUE(exchange({kRuns, 7, kRuns, 7}));
+  loseWith({kRuns, 8, kRuns, 8});
+  server.always({Reaction::kException, 6});
+  const std::uint64_t exceptions = link->report().counters.exceptions;
+  const Instant before = link->now();
+  link->give({kDownTheRamp, 0, kDownTheRamp, 0});
+  ASSERT_TRUE(waitUntil([&] { return link->report().counters.exceptions >= exceptions + 8; }));
+  // Two of them need no pause: what waited before, and the stop.
+  EXPECT_GE(link->now() - before, milliseconds{5 * 40});
+  // The next image is tried at once.
+  server.always({Reaction::kAnswer});
+  link->give({kQuickStop, 0, kQuickStop, 0});
+  EXPECT_TRUE(waitHeld(kQuickStop, kQuickStop));
+}
+
 // The image that ran was taken, and its answer lost: the server moves the drives, whatever was answered before.
 TEST_F(UnwatchedStops, AnImageWhoseAnswerWasLostMayRun) {
   startWatched();
   ASSERT_TRUE(exchange({kDownTheRamp, 0, kDownTheRamp, 0}));
   loseWith({kRuns, 8, kRuns, 8});
   ASSERT_EQ(kRuns, server.holding(100));
+  link->give({kDownTheRamp, 0, kDownTheRamp, 0});
+  EXPECT_TRUE(waitHeld(kDownTheRamp, kDownTheRamp)) << link->report().text.c_str();
+}
+
+// NORD's 0000 is ignored by a drive that moves, and counts as no valid telegram to one at rest (P513).
+TEST_F(UnwatchedStops, AWordThatIsIgnoredIsNoStop) {
+  startWatched();
+  for (const Word word : {kRuns, kDownTheRamp}) {
+    ASSERT_TRUE(waitConnected());
+    ASSERT_TRUE(exchange({word, 7, word, 7}));
+    loseWith({word, 8, word, 8});
+    const std::uint64_t exceptions = link->report().counters.exceptions;
+    link->give({0, 0, 0, 0});
+    ASSERT_TRUE(waitUntil([&] { return link->report().counters.exceptions >= exceptions + 3; }));
+    EXPECT_EQ(word, server.holding(100));
+    EXPECT_EQ(word, server.holding(102));
+    server.refuse(FakeModbusServer::kRegisters);
+  }
+}
+
+// It goes out beside another drive's stop, and leaves the drive moving.
+TEST_F(UnwatchedStops, BehindAWordThatIsIgnoredTheDriveIsStillStopped) {
+  startWatched();
+  ASSERT_TRUE(exchange({kRuns, 7, kRuns, 7}));
+  loseWith({kRuns, 8, kRuns, 8});
+  link->give({kDownTheRamp, 0, 0, 0});
+  ASSERT_TRUE(waitHeld(kDownTheRamp, 0));
   link->give({kDownTheRamp, 0, kDownTheRamp, 0});
   EXPECT_TRUE(waitHeld(kDownTheRamp, kDownTheRamp)) << link->report().text.c_str();
 }

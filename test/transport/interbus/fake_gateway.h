@@ -24,6 +24,7 @@ class FakeGateway {
   link::LinkState state = link::LinkState::kConnected;  ///< only kConnected takes images
   Sentence text;                                        ///< of the link's report
   std::uint64_t exceptions = 0;                         ///< of the link's report
+  std::uint64_t refused_exchanges = 0;                  ///< of the link's report
   bool ring_runs = true;
   Word running = 1;
   /// What the ring answers to outputs.
@@ -108,6 +109,7 @@ class FakeRegisterLink final : public link::RegisterLink {
     report_.state = gateway_.state;
     report_.text = gateway_.text;
     report_.counters.exceptions = gateway_.exceptions;
+    report_.counters.refused_exchanges = gateway_.refused_exchanges;
     return report_;
   }
   bool waitAnswers(Instant until) noexcept override {

@@ -14,7 +14,7 @@
 
 namespace nord_driver::test {
 
-constexpr Word kPcpRead = 0x0081, kPcpWrite = 0x0082, kPcpInitiate = 0x008B;
+constexpr Word kPcpRead = 0x0081, kPcpWrite = 0x0082, kPcpInitiate = 0x008B, kPcpAborted = 0x01AD;
 
 class PcpGateway {
  public:
@@ -26,6 +26,7 @@ class PcpGateway {
   /// What becomes of the next services, each waiting for one of its kind; 0: it is granted.
   std::deque<Refusal> refusals;
   bool stalls = false;  ///< what it has taken is not confirmed
+  bool aborts = false;  ///< what it has taken is answered with an abort of the connection
   bool drops = false;   ///< service 0 ends what it has not confirmed
   /// All services confirmed: service, and the number of the parameter.
   std::vector<std::pair<Word, unsigned>> served;
@@ -74,6 +75,10 @@ class PcpGateway {
     served.emplace_back(order[0], number);
     result_[0] = static_cast<Word>(order[0] + 0x0100u);
     result_[1] = order[1];
+    if (aborts) {
+      result_[0] = kPcpAborted;
+      return;
+    }
     if (!refusals.empty() && refusals.front().service == order[0]) {
       result_[2] = refusals.front().class_and_code;
       refusals.pop_front();

@@ -98,9 +98,26 @@ TEST_F(FirstLookTest, AGatewayThatRefusesToBeReadIsWrittenTo) {
   cycle();
   EXPECT_EQ(3u, gateway.looks);
   gateway.exceptions = 2;
+  gateway.refused_exchanges = 1;
   cycle();
   cycle();
   EXPECT_EQ(4u, gateway.looks);
+  EXPECT_EQ(1u, gateway.given.size());
+}
+
+// The register of the watchdog was busy: no cycle sees the link connect, which takes a moment, but the pauses and then the
+// connection that stands.
+TEST_F(FirstLookTest, ARefusedWatchdogIsNoRefusedLook) {
+  words[0] = kFault;
+  start();
+  gateway.state = link::LinkState::kPausing;
+  for (gateway.exceptions = 1; gateway.exceptions < 3; ++gateway.exceptions) cycle();
+  gateway.state = link::LinkState::kConnected;
+  cycle();
+  cycle();
+  EXPECT_TRUE(gateway.given.empty());
+  EXPECT_TRUE(profile::StatusWord{inputs[0].input.status_word}.fault());
+  cycle();
   EXPECT_EQ(1u, gateway.given.size());
 }
 

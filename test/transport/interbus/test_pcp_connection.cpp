@@ -13,6 +13,7 @@ using profile::ParameterReason;
 using profile::ParameterRequest;
 using profile::ParameterResult;
 using std::chrono::milliseconds;
+using std::chrono::seconds;
 using ::testing::ElementsAre;
 using ::testing::Pair;
 using ::testing::StartsWith;
@@ -66,6 +67,23 @@ class PcpConnection : public ::testing::Test {
 class HeldPcpConnection : public PcpConnection {
  protected:
   HeldPcpConnection() : PcpConnection(false) {}
+  /// Its order is under way then.
+  void runUntilInvoked() {
+    for (int i = 0; i < 100; ++i) {
+      now += milliseconds{10};
+      gateway.advance();
+      const auto order = parameters.pollOrder(now);
+      ASSERT_TRUE(order);
+      if (order->write && order->values[0] != 0) return;
+      parameters.handleAnswer(gateway.carryOut(*order));
+    }
+    FAIL() << "nothing is invoked";
+  }
+  static link::RegisterAnswer neverLeft() {
+    link::RegisterAnswer answer;
+    answer.not_taken = true;
+    return answer;
+  }
 };
 
 TEST_F(PcpConnection, AReadIsAskedForAgainOnANewOne) {
@@ -111,7 +129,8 @@ TEST_F(PcpConnection, OneThatIsRefusedIsInitiatedAgain) {
 TEST_F(PcpConnection, ARefusalThatStaysIsNoFinalNo) {
   gateway.refusals = {{kPcpInitiate, 0x0003}, {kPcpInitiate, 0x0003}};
   const ParameterResult result = ask(read(105));
-  EXPECT_EQ(ParameterOutcome::kTimeout, result.outcome);
+  EXPECT_EQ(ParameterOutcome::kRefused, result.outcome) << "in words: the channel lives";
+  EXPECT_EQ(ParameterReason::kNotNow, result.reason);
   EXPECT_THAT(result.text.str(),
               StartsWith("its PCP connection (communication reference 2) was refused: PCP error 0/3"));
   EXPECT_EQ(2, gateway.count(kPcpInitiate));
@@ -120,6 +139,22 @@ TEST_F(PcpConnection, ARefusalThatStaysIsNoFinalNo) {
   EXPECT_EQ(ParameterOutcome::kRefused, written.outcome) << "surely not done";
   EXPECT_EQ(ParameterReason::kNotNow, written.reason);
   EXPECT_EQ(0, gateway.count(kPcpWrite));
+  EXPECT_EQ(1050, ask(read(105)).raw);
+}
+
+// Nor is an abort. Behind a write nobody knows whether it was done.
+TEST_F(PcpConnection, AnAbortIsNoFinalNo) {
+  ASSERT_EQ(1050, ask(read(105)).raw);
+  gateway.aborts = true;
+  const ParameterResult written = ask(write(102));
+  EXPECT_EQ(ParameterOutcome::kTimeout, written.outcome);
+  EXPECT_STREQ("its PCP connection was aborted", written.text.c_str());
+  for (const ParameterRequest& request : {read(105), write(102)}) {
+    const ParameterResult result = ask(request);
+    EXPECT_EQ(ParameterOutcome::kRefused, result.outcome) << "of the initiation";
+    EXPECT_EQ(ParameterReason::kNotNow, result.reason);
+  }
+  gateway.aborts = false;
   EXPECT_EQ(1050, ask(read(105)).raw);
 }
 
@@ -193,19 +228,45 @@ TEST_F(HeldPcpConnection, OneThatNeverComesIsNotWaitedForForEver) {
 
 TEST_F(HeldPcpConnection, AServiceThatNeverLeftIsNotWaitedFor) {
   EXPECT_TRUE(parameters.submit(0, read(102)));
-  for (;;) {
-    now += milliseconds{10};
-    gateway.advance();
-    const auto order = parameters.pollOrder(now);
-    ASSERT_TRUE(order);
-    if (order->write && order->values[0] != 0) break;
-    parameters.handleAnswer(gateway.carryOut(*order));
-  }
+  runUntilInvoked();
   parameters.handleOffline(0);
-  link::RegisterAnswer never_left;
-  never_left.not_taken = true;
-  parameters.handleAnswer(never_left);
+  parameters.handleAnswer(neverLeft());
   EXPECT_EQ(ParameterOutcome::kOffline, parameters.pollResult(0)->outcome);
+  EXPECT_EQ(1050, ask(read(105)).raw);
+}
+
+// Whether it leaves is not known yet when another drive is to be asked: an order more would take its place.
+TEST_F(HeldPcpConnection, NorBeforeAnotherDriveIsAsked) {
+  EXPECT_TRUE(parameters.submit(0, read(102)));
+  runUntilInvoked();
+  parameters.handleOffline(0);
+  EXPECT_TRUE(parameters.submit(1, read(104)));
+  EXPECT_FALSE(parameters.pollOrder(now));
+  parameters.handleAnswer(neverLeft());
+  cycles(20);
+  const auto result = parameters.pollResult(1);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(1040, result->raw);
+}
+
+// The time of an access is shorter than a request to the gateway may take.
+TEST_F(HeldPcpConnection, NorBehindATimeOut) {
+  EXPECT_TRUE(parameters.submit(0, read(102)));
+  runUntilInvoked();
+  now += seconds{3};
+  EXPECT_FALSE(parameters.pollOrder(now));
+  EXPECT_EQ(ParameterOutcome::kTimeout, parameters.pollResult(0)->outcome);
+  parameters.handleAnswer(neverLeft());
+  EXPECT_EQ(1050, ask(read(105)).raw);
+}
+
+TEST_F(HeldPcpConnection, AnOrderThatIsNeverAnsweredIsNotWaitedForForEver) {
+  EXPECT_TRUE(parameters.submit(0, read(102)));
+  runUntilInvoked();
+  parameters.handleOffline(0);
+  EXPECT_EQ(ParameterOutcome::kOffline, parameters.pollResult(0)->outcome);
+  EXPECT_EQ(ParameterOutcome::kTimeout, ask(read(105)).outcome);
+  now += seconds{40};
   EXPECT_EQ(1050, ask(read(105)).raw);
 }
 
