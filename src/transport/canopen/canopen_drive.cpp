@@ -41,6 +41,8 @@ void CanopenDriveState::put(const profile::ProcessOutput& output, canopen::Maste
 }
 
 // Only an enabled one: the word that takes the enable away would acknowledge a fault that nobody has seen.
+// Setpoints 2 and 3 are 0, a limit among them, too: nobody has read yet which function they have, and bits could start a
+// motor.
 void CanopenDriveState::putOutput(const profile::ProcessOutput& output, canopen::Master& master) noexcept {
   if (!master.status(config_.node).stops_first) return put(output, master);
   const profile::StatusWord status = foundStatus(master);
