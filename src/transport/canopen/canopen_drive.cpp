@@ -16,7 +16,7 @@ constexpr Duration kContested = std::chrono::seconds{1};
 constexpr Word kRuns = 0x000F;
 
 // A drive found enabled that sends at intervals and was not heard for so long: its node is gone. Another driver may have
-// given it longer intervals than ours.
+// given it longer intervals than ours; one with still longer ones counts as gone while its words do not change.
 constexpr Duration kFoundIsOld = std::chrono::seconds{1};
 
 }  // namespace
