@@ -51,7 +51,7 @@ class NodeBoot {
   /// until it rests, for `NodeConfig::only_asked` at most.
   void restart(Instant now) noexcept;
   /// Before the `restart()` that begins, and while `NodeStatus::stops_first`.
-  void handleMotion(FoundMotion motion) noexcept { motion_ = motion; }
+  void handleMotion(FoundMotion motion) noexcept;
   /// A bus cycle begins; what is sent to a node that is lost went out before.
   void handleCycle() noexcept {
     if (past_.cycles_to_tell > 0) --past_.cycles_to_tell;

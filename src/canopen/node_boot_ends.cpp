@@ -14,6 +14,14 @@ Sentence foundSentence(FoundMotion motion) noexcept {
 
 }  // namespace
 
+// One that rests now keeps the reason until it is begun with.
+void NodeBoot::handleMotion(FoundMotion motion) noexcept {
+  if (motion == motion_) return;
+  motion_ = motion;
+  NodeStatus& status = report_.status();
+  if (status.stops_first && motion != FoundMotion::kRests) status.reason = foundSentence(motion);
+}
+
 void NodeBoot::restart(Instant now) noexcept {
   NodeStatus& status = report_.status();
   const bool found = motion_ != FoundMotion::kRests;

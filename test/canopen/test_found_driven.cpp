@@ -52,6 +52,7 @@ TEST_F(FoundDriven, IsNeitherResetNorAskedUntilItRests) {
     EXPECT_TRUE(run_->master.status(0).stops_first);
     EXPECT_THAT(run_->master.status(0).reason.c_str(), HasSubstr("stopped before it is set up"));
     run_->master.setMotion(0, FoundMotion::kRests);
+    EXPECT_FALSE(run_->master.status(0).reason.empty()) << "until it is begun with";
     ASSERT_TRUE(run_->reaches(NodeState::kOperational, seconds{2})) << run_->master.status(0).reason.c_str();
     EXPECT_FALSE(run_->master.status(0).stops_first);
     EXPECT_THAT(run_->violations(), testing::IsEmpty());
@@ -135,9 +136,11 @@ TEST_F(FoundDriven, AskedBySync) {
   run_->run(milliseconds{95});
   EXPECT_GE(count("080#"), 9);
   EXPECT_EQ(0, resets());
+  EXPECT_THAT(run_->master.status(0).reason.c_str(), HasSubstr("is asked by SYNC"));
   run_->say("181#370B0020");
   EXPECT_EQ(1u, run_->master.transmitPdo(0, 0).count);
   run_->master.setMotion(0, FoundMotion::kDriven);
+  EXPECT_THAT(run_->master.status(0).reason.c_str(), HasSubstr("its drives are stopped before it is set up"));
   run_->run(seconds{1});
   EXPECT_EQ(0, resets());
 

@@ -23,12 +23,19 @@ class BesideCanLink final : public link::CanLink {
   void setDeaf(bool deaf) noexcept { deaf_ = deaf; }
   /// The interface is down: nothing is received or sent, and it says so.
   void setUp(bool up) noexcept { up_ = up; }
+  /// Unplugged: the link closes, and opens again once it is back.
+  void setPresent(bool present) noexcept {
+    present_ = present;
+    open_ = open_ && present;
+  }
   std::size_t sent() const noexcept { return sent_; }
   /// Told of each frame it sends, before that goes over the bus.
   void setSees(std::function<void(const CanFrame&)> sees) { sees_ = std::move(sees); }
 
   bool open() noexcept override {
+    if (!present_) return false;
     open_ = true;
+    received_.clear();
     bus_.setTap([this](const CanFrame& frame, sim::TimedCanBus::Sender sender, Instant at) {
       if (open_ && up_ && !deaf_ && sender != sim::TimedCanBus::Sender::kForeign) received_.push_back({frame, at});
     });
@@ -67,6 +74,7 @@ class BesideCanLink final : public link::CanLink {
   bool open_ = false;
   bool deaf_ = false;
   bool up_ = true;
+  bool present_ = true;
   std::size_t sent_ = 0;
   std::function<void(const CanFrame&)> sees_;
   std::deque<link::ReceivedCanFrame> received_;

@@ -104,6 +104,8 @@ TEST_F(FoundTurning, WithSyncTheyAreAsked) {
   options.bus = {{"sync", true}};
   drive(options);
   startNext();
+  next_->run(milliseconds{700});
+  EXPECT_THAT(next_->text(kLeft), HasSubstr("its drives are stopped before it is set up")) << "they have answered";
   expectTakenOver();
   EXPECT_TRUE(hasSent("203#7E040000"));
 }

@@ -121,6 +121,26 @@ TEST_F(TwoMasters, ListensOnceTheInterfaceIsUp) {
   EXPECT_TRUE(first_.snapshot().base.enabled) << first_.snapshot().base.text.str();
 }
 
+// It has never had the nodes: what was heard before its adapter was unplugged, or not heard, says nothing of now.
+TEST_F(TwoMasters, ListensAnewWhenItsAdapterIsBack) {
+  driveFirst();
+  for (const milliseconds before : {milliseconds{100}, milliseconds{3000}}) {
+    SCOPED_TRACE(before.count());
+    const std::uint64_t boot_ups = first_.node(kLeft).counters().boot_ups;
+    second_.reset();
+    startSecond();
+    run(before);
+    second_->beside().setPresent(false);
+    run(seconds{3});
+    second_->beside().setPresent(true);
+    run(seconds{3});
+    EXPECT_EQ(0u, second_->beside().sent());
+    EXPECT_THAT(second_->busText(), HasSubstr("another master"));
+    EXPECT_EQ(boot_ups, first_.node(kLeft).counters().boot_ups);
+    EXPECT_TRUE(first_.snapshot().base.enabled) << first_.snapshot().base.text.str();
+  }
+}
+
 // Nodes that a driver has left operational when it died are nobody's: they are taken over at once.
 TEST_F(TwoMasters, ADriverThatDiedIsNotWaitedFor) {
   driveFirst();

@@ -5,6 +5,7 @@
 namespace nord_driver {
 
 void CanListenFirst::restart(Instant now) noexcept {
+  if (who_ == CanListener::kDriver) return postpone(now);
   heard_.reset();
   end_ = now + time_;
   listening_ = true;

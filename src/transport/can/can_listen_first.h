@@ -26,7 +26,7 @@ enum class CanListener : std::uint8_t {
   kDriver  ///< of these nodes: waits until another master has ended, and then holds them against everybody
 };
 
-/// Silent from `restart()` on for as long as it listens, and for as long as somebody else has the bus.
+/// Silent from the first `restart()` on for as long as it listens, and for as long as somebody else has the bus.
 class CanListenFirst {
  public:
   /// A driver's other master has ended when it was silent for so long: an RPDO or a question each second at least is
@@ -36,15 +36,17 @@ class CanListenFirst {
   CanListenFirst(const ListenRules& rules, Duration time, CanListener who = CanListener::kGuest) noexcept
       : rules_(rules), time_(time), who_(who) {}
 
-  /// The bus was opened.
+  /// The bus was opened. A driver that has begun to talk goes on: it has had the nodes, which may turn, and must hear
+  /// from it at once.
   void restart(Instant now) noexcept;
   /// A guest, while it listens: whatever was received.
   void handle(const CanFrame& frame) noexcept;
   /// At any time: a frame that only a master sends. A driver that has begun to talk does not mind.
   void handleMaster(std::uint32_t id, Instant at) noexcept;
-  /// The interface is down or bus-off: nobody can be heard, so that this time does not count as listening.
+  /// The interface is away, down or bus-off: nobody can be heard, so that this time does not count as listening.
   void postpone(Instant now) noexcept;
-  /// After everything received until `now` was handled. Once true, it stays so until a master is heard or `restart()`.
+  /// After everything received until `now` was handled. Once true, it stays so; for a guest until a master is heard or
+  /// `restart()`.
   bool mayTalk(Instant now) noexcept;
 
   CanListener who() const noexcept { return who_; }

@@ -68,9 +68,7 @@ bool CanTransport::linkReady() noexcept {
 void CanTransport::restart() noexcept {
   const Instant now = link_->now();
   engine_->restart(now);
-  // A driver whose interface was away has had the nodes: they may turn, and must hear from this driver at once.
-  if (listen_first_ && (parameters_only_ || !opened_)) listen_first_->restart(now);
-  opened_ = true;
+  if (listen_first_) listen_first_->restart(now);
   restartDrives();
 }
 

@@ -115,7 +115,6 @@ class CanTransport : public Transport {
   std::optional<CanListenFirst> listen_first_;
   std::optional<TelegramTrace> trace_;
   CanBusEvents events_;
-  bool opened_ = false;           // ever
   bool controller_works_ = true;  // as it was looked at last
   Instant cycle_start_{};
   Instant next_open_{};

@@ -16,7 +16,7 @@ constexpr Duration kContested = std::chrono::seconds{1};
 constexpr Word kRuns = 0x000F;
 
 // A drive found enabled that sends at intervals and was not heard for so long: its node is gone. Another driver may have
-// given it longer intervals than ours.
+// given it longer intervals than ours; one with still longer ones counts as gone while its words do not change.
 constexpr Duration kFoundIsOld = std::chrono::seconds{1};
 
 }  // namespace
@@ -41,6 +41,8 @@ void CanopenDriveState::put(const profile::ProcessOutput& output, canopen::Maste
 }
 
 // Only an enabled one: the word that takes the enable away would acknowledge a fault that nobody has seen.
+// Setpoints 2 and 3 are 0, a limit among them, too: nobody has read yet which function they have, and bits could start a
+// motor.
 void CanopenDriveState::putOutput(const profile::ProcessOutput& output, canopen::Master& master) noexcept {
   if (!master.status(config_.node).stops_first) return put(output, master);
   const profile::StatusWord status = foundStatus(master);

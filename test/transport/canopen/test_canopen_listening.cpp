@@ -128,6 +128,23 @@ TEST(CanListenFirst, TimeInWhichNobodyCanBeHeardDoesNotCount) {
   EXPECT_TRUE(driver.mayTalk(kStart + milliseconds{3000}));
 }
 
+// A driver that has only waited has not had the nodes; one that talks goes on, since its drives may turn.
+TEST(CanListenFirst, ADriverThatIsSilentStaysSoWhenTheInterfaceIsBack) {
+  CanListenFirst alone{kCanopenListening, milliseconds{500}, CanListener::kDriver};
+  CanListenFirst waits = alone;
+  for (CanListenFirst* const listen : {&alone, &waits}) listen->restart(kStart);
+  waits.handleMaster(0x203, kStart + milliseconds{100});
+  for (CanListenFirst* const listen : {&alone, &waits}) listen->restart(kStart + milliseconds{4000});
+  EXPECT_FALSE(alone.mayTalk(kStart + milliseconds{4499}));
+  EXPECT_FALSE(waits.mayTalk(kStart + milliseconds{5999})) << "the other one need not be heard more often";
+  EXPECT_EQ(0x203u, waits.heard());
+  for (CanListenFirst* const listen : {&alone, &waits}) {
+    EXPECT_TRUE(listen->mayTalk(kStart + milliseconds{6000}));
+    listen->restart(kStart + milliseconds{9000});
+    EXPECT_TRUE(listen->mayTalk(kStart + milliseconds{9000}));
+  }
+}
+
 // The interface was opened anew.
 TEST(CanListenFirst, ListensAnewAfterARestart) {
   Listener listener;
