@@ -31,6 +31,10 @@ robot::WheelSpeeds BaseMotion::pollWheels(const TwistCommand& command, bool driv
   // Taken as zero at once, it is left along the limits.
   below_minimum_ = anyBelow(kinematics_->wheels(target), minimum);
   if (below_minimum_) target = {};
+  if (target == robot::Twist2d{} && !drives_) {  // what the limiter has come to alone is no motion that has to be ended
+    limiter_.reset();
+    return rest();
+  }
   const robot::WheelSpeeds wheels = ramp(target, limits, minimum, dt);
   if (!anyBelow(wheels, minimum)) {
     drives_ = !robot::standsStill(wheels);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace nord_driver::robot {
@@ -31,13 +30,6 @@ double SpeedLimiter::limit(double target, Duration dt) noexcept {
 
 void SpeedLimiter::reset(double velocity) noexcept {
   velocity_ = std::isfinite(velocity) ? velocity : 0.0;
-  acceleration_ = 0.0;
-}
-
-void SpeedLimiter::forgetJerk() noexcept {
-  limits_.has_jerk_limits = false;
-  ramp_.min_jerk = -std::numeric_limits<double>::infinity();
-  ramp_.max_jerk = std::numeric_limits<double>::infinity();
   acceleration_ = 0.0;
 }
 
@@ -79,12 +71,9 @@ void SpeedLimiter::step(double velocity, double target, double dt) noexcept {
   // A stop ends in standstill: the jerk limit must not carry a heavy base through zero and back.
   const bool passes_zero = velocity_ == 0.0 || std::signbit(velocity_) != std::signbit(next);
   if (target == 0.0 && passes_zero) next = 0.0;
-  takeStep(std::isfinite(next) ? next : 0.0, dt);
-}
-
-void SpeedLimiter::takeStep(double velocity, double dt) noexcept {
-  if (limits_.has_jerk_limits) acceleration_ = (velocity - velocity_) / dt;
-  velocity_ = velocity;
+  if (!std::isfinite(next)) next = 0.0;
+  if (limits_.has_jerk_limits) acceleration_ = (next - velocity_) / dt;
+  velocity_ = next;
 }
 
 }  // namespace nord_driver::robot

@@ -35,8 +35,6 @@ class SpeedLimiter {
  private:
   friend class TwistLimiter;
 
-  /// As if it had no jerk limit, from now on.
-  void forgetJerk() noexcept;
   /// The target, cut at the velocity limits.
   double clampVelocity(double target) const noexcept;
   /// True when one step inside the limits ends at `target`, and the step after it can stay there.
@@ -45,8 +43,6 @@ class SpeedLimiter {
   bool canStepBy(double change, double dt) const noexcept;
   /// Takes `velocity` as the next one, cut where a limit forbids it, and remembers the acceleration it takes.
   void step(double velocity, double target, double dt) noexcept;
-  /// The same for one that is inside the limits of velocity and acceleration.
-  void takeStep(double velocity, double dt) noexcept;
 
   SpeedLimits limits_;
   RampLimits ramp_;

@@ -19,6 +19,11 @@ void narrow(RampLimits& common, const RampLimits& axis, double distance) noexcep
   common.max_jerk = std::min(common.max_jerk, high(axis.min_jerk, axis.max_jerk));
 }
 
+/// Of the longest of them.
+double sizeOf(const std::array<double, 3>& way) noexcept {
+  return std::max({std::abs(way[0]), std::abs(way[1]), std::abs(way[2])});
+}
+
 }  // namespace
 
 TwistLimiter::TwistLimiter(const TwistLimits& limits)
@@ -33,7 +38,7 @@ Twist2d TwistLimiter::limit(const Twist2d& target, Duration dt) noexcept {
   if (independent_) {
     for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i].limit(wanted[i], dt);
   } else {
-    followTogether(wanted, time);
+    followTogether(scaledIntoLimits(wanted), time);
   }
   // Nothing after this line computes.
   if (!isFinite(twist())) reset();
@@ -43,12 +48,10 @@ Twist2d TwistLimiter::limit(const Twist2d& target, Duration dt) noexcept {
 Twist2d TwistLimiter::limitOnLine(const Twist2d& target, Duration dt) noexcept {
   const double time = toSeconds(dt);
   if (!(time > 0.0)) return twist();
-  TwistLimiter line = *this;
-  line.independent_ = line.ended_ = false;
-  for (SpeedLimiter& axis : line.axes_) axis.forgetJerk();
-  line.limit(target, dt);
-  for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i].takeStep(line.axes_[i].velocity_, time);
-  ended_ = false;
+  const Values wanted = scaledIntoLimits(valuesOf(isFinite(target) ? target : Twist2d{}));
+  keepOnLine(wanted);
+  followTogether(wanted, time);
+  if (!isFinite(twist())) reset();
   return twist();
 }
 
@@ -58,14 +61,59 @@ void TwistLimiter::reset(const Twist2d& twist) noexcept {
   ended_ = false;
 }
 
-void TwistLimiter::followTogether(Values target, double dt) noexcept {
+TwistLimiter::Values TwistLimiter::scaledIntoLimits(Values target) const noexcept {
   double scale = 1.0;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const double allowed = axes_[i].clampVelocity(target[i]);
     if (allowed != target[i]) scale = std::min(scale, allowed / target[i]);
   }
   for (double& value : target) value *= scale;
+  return target;
+}
 
+// The way to the target counts from 0 to 1 on the straight line between the two twists.
+TwistLimiter::Values TwistLimiter::wayTo(const Values& target) const noexcept {
+  Values way{};
+  for (std::size_t i = 0; i < axes_.size(); ++i) way[i] = target[i] - axes_[i].velocity_;
+  return way;
+}
+
+RampLimits TwistLimiter::commonRamp(const Values& way) const noexcept {
+  RampLimits common;
+  for (std::size_t i = 0; i < axes_.size(); ++i) narrow(common, axes_[i].ramp_, way[i]);
+  return common;
+}
+
+// The part of the present acceleration that points along the line; divided by `size` first, against overflow. Only the axes
+// with a jerk limit remember theirs: the others would count as if they stood, and hold these back.
+double TwistLimiter::accelerationAlong(const Values& way) const noexcept {
+  const double size = sizeOf(way);
+  double along = 0.0;
+  double square = 0.0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (!axes_[i].limits_.has_jerk_limits) continue;
+    const double part = way[i] / size;
+    along += axes_[i].acceleration_ * part;
+    square += part * part;
+  }
+  return square > 0.0 ? along / square / size : 0.0;
+}
+
+// What is left of the acceleration is along the line, inside the limits there, and can be wound down before its end.
+void TwistLimiter::keepOnLine(const Values& target) noexcept {
+  const Values way = wayTo(target);
+  double along = 0.0;
+  if (sizeOf(way) > 0.0) {
+    const RampLimits common = commonRamp(way);
+    const double most = std::min(common.max_acceleration, std::sqrt(-2.0 * common.min_jerk));
+    along = std::clamp(accelerationAlong(way), 0.0, most);
+  }
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    axes_[i].acceleration_ = axes_[i].limits_.has_jerk_limits ? along * way[i] : 0.0;
+  }
+}
+
+void TwistLimiter::followTogether(const Values& target, double dt) noexcept {
   // There the acceleration has one step to end in, as planned, also when this step is shorter than the last.
   const auto at_target = [&](std::size_t i) { return axes_[i].velocity_ == target[i]; };
   if (ended_ && at_target(0) && at_target(1) && at_target(2)) {
@@ -83,30 +131,9 @@ void TwistLimiter::followTogether(Values target, double dt) noexcept {
     return;
   }
 
-  // The way to the target counts from 0 to 1 on the straight line between the two twists.
-  Values way{};
-  double size = 0.0;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    way[i] = target[i] - axes_[i].velocity_;
-    size = std::max(size, std::abs(way[i]));
-  }
+  const Values way = wayTo(target);
   double progress = 0.0;
-  if (size > 0.0) {
-    RampLimits common;
-    // The part of the present acceleration that points along the line; divided by `size` first, against overflow. Only
-    // the axes with a jerk limit remember theirs: the others would count as if they stood, and hold these back.
-    double along = 0.0;
-    double square = 0.0;
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-      narrow(common, axes_[i].ramp_, way[i]);
-      if (!axes_[i].limits_.has_jerk_limits) continue;
-      const double part = way[i] / size;
-      along += axes_[i].acceleration_ * part;
-      square += part * part;
-    }
-    const double acceleration = square > 0.0 ? along / square / size : 0.0;
-    progress = nextAcceleration(1.0, acceleration, common, dt) * dt;
-  }
+  if (sizeOf(way) > 0.0) progress = nextAcceleration(1.0, accelerationAlong(way), commonRamp(way), dt) * dt;
   // An acceleration from before that points elsewhere can only be wound down; until it is, each axis goes its own
   // shortest way, so that no axis waits for another.
   bool possible = true;

@@ -33,8 +33,8 @@ class TwistLimiter {
   /// The twist after a step of `dt` towards `target`; a `dt` that is not positive changes nothing.
   /// A target with a value that is not finite brakes every axis to zero.
   Twist2d limit(const Twist2d& target, Duration dt) noexcept;
-  /// As limit(), but on the straight line to the target in any case: all axes together, without their jerk limits. For
-  /// whom a twist beside that line is not possible.
+  /// As limit(), but on the straight line to the target in any case, all axes together: an acceleration that leads beside
+  /// it, or past its end, is dropped at once, whatever the jerk limit. For whom a twist beside that line is not possible.
   Twist2d limitOnLine(const Twist2d& target, Duration dt) noexcept;
   /// For a stop: see SpeedLimiter.
   void endAcceleration() noexcept {
@@ -49,7 +49,12 @@ class TwistLimiter {
   using Values = std::array<double, 3>;  // in the order of Twist2d's fields
 
   static Values valuesOf(const Twist2d& twist) noexcept { return {twist.linear_x, twist.angular_z, twist.linear_y}; }
-  void followTogether(Values target, double dt) noexcept;
+  Values scaledIntoLimits(Values target) const noexcept;
+  Values wayTo(const Values& target) const noexcept;
+  RampLimits commonRamp(const Values& way) const noexcept;
+  double accelerationAlong(const Values& way) const noexcept;
+  void keepOnLine(const Values& target) noexcept;
+  void followTogether(const Values& target, double dt) noexcept;
 
   std::array<SpeedLimiter, 3> axes_;
   bool independent_;

@@ -101,6 +101,64 @@ TEST_P(Steps, AWheelWithAMinimumBeginsTheCurveWhereThatIs) {
   EXPECT_DOUBLE_EQ(1.5, motion_.limited().angular_z);
 }
 
+// Neither on the way to a first command nor between two of them is a velocity faster than both.
+TEST_P(Steps, NoVelocityIsBeyondTheOneThatIsCommanded) {
+  for (const MinimumSpeeds& minimum : {MinimumSpeeds{{1.0, 1.0}}, MinimumSpeeds{{0.0, 0.0}, false, {1.0, 1.0}}}) {
+    minimum_ = minimum;
+    for (const robot::Twist2d& twist : {robot::Twist2d{0.12, 0.0}, {0.3, 0.3}, {0.12, 0.0}, {1.0, 1.5}, {0.3, 0.3}}) {
+      const robot::Twist2d before = motion_.limited();
+      for (int i = 0; i < 400; ++i) {
+        greatestStep(twist, 1);
+        EXPECT_LE(motion_.limited().linear_x, std::max(before.linear_x, twist.linear_x) + 1e-3);
+        EXPECT_LE(motion_.limited().angular_z, std::max(before.angular_z, twist.angular_z) + 1e-2);
+      }
+      EXPECT_DOUBLE_EQ(twist.linear_x, motion_.limited().linear_x);
+    }
+    greatestStep({}, 400);
+  }
+}
+
+// Below P104 the ramp runs on alone: what it has come to is not begun with by a stop.
+TEST_P(Steps, AStopBeforeTheWheelsTurnTurnsNone) {
+  minimum_ = {{1.0, 1.0}};
+  for (int stop = 1; stop < 300; ++stop) {
+    BaseMotion motion{configOf(GetParam()), std::chrono::milliseconds{500}};
+    bool turned = false;
+    for (int i = 0; i < 200 && !turned; ++i) {
+      now_ += kCycle;
+      const robot::Twist2d twist = i < stop ? robot::Twist2d{0.6, 1.5} : robot::Twist2d{};
+      const bool turns = motion.pollWheels({twist, now_, true}, true, true, {100.0, 100.0}, now_, kCycle, minimum_) !=
+                         robot::WheelSpeeds{0.0, 0.0};
+      EXPECT_FALSE(turns && i >= stop) << "in cycle " << i << ", stopped in " << stop;
+      turned = turns;
+    }
+    if (turned) return;  // from here on it is a stop of wheels that turn
+  }
+  FAIL() << "it never drove";
+}
+
+// A jerk limit without a limit of acceleration is a configuration, too.
+TEST(StepsWithJerkAlone, TheBaseIsNoFasterThanItsCommand) {
+  BaseConfig config = configOf({"", false, true});
+  config.limits.linear_x.has_acceleration_limits = config.limits.angular_z.has_acceleration_limits = false;
+  for (const bool independent : {false, true}) {
+    config.limits.limit_axes_independently = independent;
+    for (const MinimumSpeeds& minimum : {MinimumSpeeds{{1.0, 1.0}}, MinimumSpeeds{{0.0, 0.0}, false, {1.0, 1.0}}}) {
+      BaseMotion motion{config, std::chrono::milliseconds{500}};
+      Instant now{std::chrono::hours{1}};
+      double fastest = 0.0;
+      for (int i = 0; i < 600; ++i) {
+        now += kCycle;
+        motion.pollWheels({{0.3, 0.45}, now, true}, true, true, {100.0, 100.0}, now, kCycle, minimum);
+        fastest = std::max(fastest, motion.limited().linear_x);
+      }
+      EXPECT_NEAR(0.3, fastest, 1e-3);
+      EXPECT_DOUBLE_EQ(0.3, motion.limited().linear_x);
+      EXPECT_DOUBLE_EQ(0.45, motion.limited().angular_z);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(OfTheLimiter, Steps,
                          ::testing::Values(Mode{"together", false, false}, Mode{"together_with_jerk", false, true},
                                            Mode{"independent", true, false}, Mode{"independent_with_jerk", true, true}),
