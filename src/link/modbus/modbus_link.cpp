@@ -234,7 +234,8 @@ void ModbusLink::failed() noexcept {
   if (ending()) return;
   const ModbusTrouble trouble = connection_.trouble();
   countTrouble(trouble, report_.counters);
-  if (started_ && trouble == ModbusTrouble::kException) ++report_.counters.refused_exchanges;
+  const bool is_refused = trouble == ModbusTrouble::kException && connection_.exception() != kServerBusy;
+  if (started_ && is_refused) ++report_.counters.refused_exchanges;
   desk_.refuse(report_.text);
   // "Busy" (5, 6) asks for a later try, and one is no reason to have the drives wait for their words: the next cycle's
   // are that try.

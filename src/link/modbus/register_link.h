@@ -45,7 +45,7 @@ struct LinkCounters {
   std::uint64_t bad_answers = 0;
   std::uint64_t exceptions = 0;
   std::uint64_t skipped_outputs = 0;    ///< output images a newer one took the place of
-  std::uint64_t refused_exchanges = 0;  ///< of the exceptions, those that ended an exchange of images, or a look
+  std::uint64_t refused_exchanges = 0;  ///< of images, and looks, by exceptions other than "server device busy"
 };
 
 struct LinkReport {
