@@ -29,7 +29,7 @@ robot::WheelSpeeds BaseMotion::pollWheels(const TwistCommand& command, bool driv
   beyond_full_ = robot::areBeyond(asked_wheels, max_speeds);
   robot::Twist2d target = robot::times(robot::factorInto(asked_wheels, limits), kinematics_->possible(asked));
   // Taken as zero at once, it is left along the limits.
-  below_minimum_ = anyBelow(kinematics_->wheels(target), minimum);
+  below_minimum_ = anyBelow(kinematics_->wheels(limiter_.allowed(target)), minimum);
   if (below_minimum_) target = {};
   if (target == robot::Twist2d{} && !drives_) {  // what the limiter has come to alone is no motion that has to be ended
     limiter_.reset();
@@ -58,7 +58,10 @@ robot::WheelSpeeds BaseMotion::rest() noexcept {
 robot::WheelSpeeds BaseMotion::ramp(const robot::Twist2d& target, const robot::WheelSpeeds& limits,
                                     const MinimumSpeeds& minimum, Duration dt) noexcept {
   robot::TwistLimiter limiter = limiter_;
-  if (anyBelow(kinematics_->wheels(limiter.limit(target, dt)), minimum)) {
+  const robot::WheelSpeeds before = kinematics_->wheels(limiter.twist());
+  const robot::WheelSpeeds next = kinematics_->wheels(limiter.limit(target, dt));
+  const robot::WheelSpeeds end = kinematics_->wheels(limiter.allowed(target));
+  if (anyBelow(next, minimum) || anyTurnsAway(before, next, end, minimum)) {
     limiter = limiter_;
     limiter.limitOnLine(target, dt);
   }

@@ -29,4 +29,12 @@ bool anyBelow(const robot::WheelSpeeds& wheels, const MinimumSpeeds& minimum) no
   return false;
 }
 
+bool anyTurnsAway(const robot::WheelSpeeds& before, const robot::WheelSpeeds& next, const robot::WheelSpeeds& target,
+                  const MinimumSpeeds& minimum) noexcept {
+  for (std::size_t i = 0; i < minimum.wheels.size() && i < next.size(); ++i) {
+    if (minimum.wheels[i] > 0.0 && before[i] * target[i] >= 0.0 && next[i] * target[i] < 0.0) return true;
+  }
+  return false;
+}
+
 }  // namespace nord_driver::cycle

@@ -19,4 +19,9 @@ struct MinimumSpeeds {
 /// A wheel would be slower than its P104, or is to turn in a direction that it does not have.
 bool anyBelow(const robot::WheelSpeeds& wheels, const MinimumSpeeds& minimum) noexcept;
 
+/// From `before` a wheel with a P104 would come to turn against the direction that it has at the target. It would have to
+/// come back through standstill.
+bool anyTurnsAway(const robot::WheelSpeeds& before, const robot::WheelSpeeds& next, const robot::WheelSpeeds& target,
+                  const MinimumSpeeds& minimum) noexcept;
+
 }  // namespace nord_driver::cycle

@@ -48,11 +48,15 @@ Twist2d TwistLimiter::limit(const Twist2d& target, Duration dt) noexcept {
 Twist2d TwistLimiter::limitOnLine(const Twist2d& target, Duration dt) noexcept {
   const double time = toSeconds(dt);
   if (!(time > 0.0)) return twist();
-  const Values wanted = scaledIntoLimits(valuesOf(isFinite(target) ? target : Twist2d{}));
+  const Values wanted = valuesOf(allowed(target));
   keepOnLine(wanted);
   followTogether(wanted, time);
   if (!isFinite(twist())) reset();
   return twist();
+}
+
+Twist2d TwistLimiter::allowed(const Twist2d& target) const noexcept {
+  return isFinite(target) ? twistOf(intoLimits(valuesOf(target))) : Twist2d{};
 }
 
 void TwistLimiter::reset(const Twist2d& twist) noexcept {
@@ -68,6 +72,12 @@ TwistLimiter::Values TwistLimiter::scaledIntoLimits(Values target) const noexcep
     if (allowed != target[i]) scale = std::min(scale, allowed / target[i]);
   }
   for (double& value : target) value *= scale;
+  return target;
+}
+
+TwistLimiter::Values TwistLimiter::intoLimits(Values target) const noexcept {
+  if (!independent_) return scaledIntoLimits(target);
+  for (std::size_t i = 0; i < axes_.size(); ++i) target[i] = axes_[i].clampVelocity(target[i]);
   return target;
 }
 

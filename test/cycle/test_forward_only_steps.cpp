@@ -159,6 +159,65 @@ TEST(StepsWithJerkAlone, TheBaseIsNoFasterThanItsCommand) {
   }
 }
 
+/// The cycles in which it drove, and how often it began to.
+struct Ride {
+  int cycles = 0;
+  int starts = 0;
+  robot::Twist2d end;
+  bool below_minimum = false;
+};
+
+Ride rideOf(const BaseConfig& config, const MinimumSpeeds& minimum, const robot::Twist2d& twist) {
+  BaseMotion motion{config, std::chrono::milliseconds{500}};
+  Instant now{std::chrono::hours{1}};
+  Ride ride;
+  bool drove = false;
+  for (int i = 0; i < 1000; ++i) {
+    now += kCycle;
+    motion.pollWheels({twist, now, true}, true, true, {100.0, 100.0}, now, kCycle, minimum);
+    const bool drives = motion.limited() != robot::Twist2d{};
+    if (drives) ++ride.cycles;
+    if (drives && !drove) ++ride.starts;
+    drove = drives;
+  }
+  ride.end = motion.limited();
+  ride.below_minimum = motion.belowMinimum();
+  return ride;
+}
+
+// Each axis is cut for itself then: the line leads to that velocity, and it is that one which has to be possible.
+TEST(StepsOfIndependentAxes, TheLineLeadsWhereTheVelocityLimitsLeadTo) {
+  for (const bool jerk : {false, true}) {
+    BaseConfig config = configOf({"", true, jerk});
+    config.limits.angular_z.has_velocity_limits = true;
+    config.limits.angular_z.max_velocity = 1.0;
+    for (const double linear : {0.5, 0.45}) {
+      const Ride ride = rideOf(config, {{1.0, 1.0}}, {linear, 3.0});
+      EXPECT_EQ(1, ride.starts);
+      EXPECT_DOUBLE_EQ(linear, ride.end.linear_x);
+      EXPECT_DOUBLE_EQ(1.0, ride.end.angular_z);
+    }
+    config.limits.angular_z.has_velocity_limits = false;
+    config.limits.linear_x.has_velocity_limits = true;
+    config.limits.linear_x.max_velocity = 0.5;
+    const Ride ride = rideOf(config, {{0.0, 0.0}, false, {1.0, 1.0}}, {2.0, 4.0});
+    EXPECT_EQ(0, ride.cycles) << "0.5 m/s and 4 rad/s would turn a wheel back";
+    EXPECT_TRUE(ride.below_minimum);
+  }
+}
+
+// Without a limit angular/z is there at once, and would turn the inner wheel back until linear/x has followed.
+TEST(StepsOfIndependentAxes, NoWheelIsTurnedAgainstItsWay) {
+  for (const bool jerk : {false, true}) {
+    BaseConfig config = configOf({"", true, jerk});
+    config.limits.angular_z = {};
+    const Ride ride = rideOf(config, {{1.0, 1.0}}, {1.0, 2.0});
+    EXPECT_EQ(1, ride.starts);
+    EXPECT_DOUBLE_EQ(1.0, ride.end.linear_x);
+    EXPECT_DOUBLE_EQ(2.0, ride.end.angular_z);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(OfTheLimiter, Steps,
                          ::testing::Values(Mode{"together", false, false}, Mode{"together_with_jerk", false, true},
                                            Mode{"independent", true, false}, Mode{"independent_with_jerk", true, true}),
