@@ -81,6 +81,10 @@ def reasons():
         for line in REASONS.read_text().splitlines():
             if line.strip() and not line.startswith("#"):
                 path, _, reason = line.partition(": ")
+                if reason.startswith("'") and reason.endswith("'"):
+                    reason = reason[1:-1].replace("''", "'")
+                elif ": " in reason or " #" in reason:
+                    raise ValueError(f"{REASONS}: '{reason}' has a colon or a number sign: YAML wants it in single quotes")
                 known[path] = reason
     return known
 

@@ -26,6 +26,8 @@ def readEquivalents(path):
             value = match.group(3).strip()
             if value.startswith("'") and value.endswith("'") and len(value) > 1:
                 value = value[1:-1].replace("''", "'")
+            elif ": " in value or " #" in value:
+                raise ValueError(f"{path}:{number}: '{value}' has a colon or a number sign: YAML wants it in single quotes")
             entries[-1][match.group(2)] = value
     found = {}
     for entry in entries:
