@@ -20,8 +20,8 @@ class DevicenetRig final : public CampaignRig {
     const sim::DnReferee& referee = robot_.bus().referee();
     if (undisturbed) return referee.report();
     return referee.report({Rule::kZeroControlWord, Rule::kDuplicateMacUnanswered, Rule::kBeforeDuplicateCheck,
-                           Rule::kReleaseChoice, Rule::kExplicitBeforeAllocation, Rule::kIoBeforeAllocation,
-                           Rule::kIoAfterTimeout, Rule::kChangeUnacknowledged});
+                           Rule::kReleaseChoice, Rule::kAllocateWithoutExplicit, Rule::kExplicitBeforeAllocation,
+                           Rule::kIoBeforeAllocation, Rule::kIoAfterTimeout, Rule::kChangeUnacknowledged});
   }
   void passWithoutTheDriver(Duration span) override { robot_.bus().run(span); }
   void endLosses() override {

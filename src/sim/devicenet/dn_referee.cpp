@@ -157,7 +157,9 @@ void DnReferee::unconnected(View& view, const CanFrame& frame) noexcept {
   } else {
     if (master_ && frame.data[5] != *master_) broken(DnRule::kSecondMaster);
     const bool without_explicit = ((choice | view.choice) & dn::kChoiceExplicit) == 0;
-    if (choice == 0 || reserved || both || suppresses_nothing || without_explicit) broken(DnRule::kChoice);
+    const bool impossible = choice == 0 || reserved || both || suppresses_nothing;
+    if (impossible) broken(DnRule::kChoice);
+    if (!impossible && without_explicit) broken(DnRule::kAllocateWithoutExplicit);
   }
   Request request;
   request.service = service;

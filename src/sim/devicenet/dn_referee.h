@@ -27,6 +27,7 @@ enum class DnRule : std::uint8_t {
   kHeaderMac,
   kUnconnectedService,
   kChoice,
+  kAllocateWithoutExplicit,
   kReleaseChoice,
   kExplicitBeforeAllocation,
   kExplicitLength,

@@ -29,7 +29,9 @@ const char* toString(DnRule rule) noexcept {
       return "something else than allocate or release of class 3, instance 1, on the unconnected port";
     case DnRule::kChoice:
       return "an allocation with choice bits that cannot be: none, reserved ones, change of state with cyclic, "
-             "acknowledge suppression without them, no explicit connection (group 2 only)";
+             "acknowledge suppression without them";
+    case DnRule::kAllocateWithoutExplicit:
+      return "an allocation of process data of a slave that has no explicit connection (group 2 only)";
     case DnRule::kReleaseChoice:
       return "a release with choice bits that were not allocated";
     case DnRule::kExplicitBeforeAllocation:

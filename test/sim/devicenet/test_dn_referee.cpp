@@ -108,9 +108,10 @@ TEST_F(DnRefereeTest, Identifiers) {
 
 TEST_F(DnRefereeTest, Allocation) {
   bus.goOnline();
-  for (const char* choice : {"00", "09", "81", "31", "41", "02"})
-    bus.send(std::string("44E#0A 4B 03 01 ") + choice + " 0A");
-  EXPECT_EQ(6u, only(DnRule::kChoice)) << said;
+  for (const char* choice : {"00", "09", "81", "31", "41"}) bus.send(std::string("44E#0A 4B 03 01 ") + choice + " 0A");
+  EXPECT_EQ(5u, only(DnRule::kChoice)) << said;
+  bus.send("44E#0A 4B 03 01 02 0A");
+  EXPECT_EQ(1u, only(DnRule::kAllocateWithoutExplicit)) << said;
   bus.send("44E#0B 4B 03 01 01 0A");
   EXPECT_EQ(1u, only(DnRule::kHeaderMac)) << said;
   bus.send("44E#0A 4C 03 01 01");
