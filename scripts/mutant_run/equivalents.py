@@ -6,6 +6,8 @@ its indentation: an entry goes on holding when lines move, and ends when the lin
 """
 import re
 
+from yaml_line import valueOf
+
 KEYS = ("file", "code", "edit", "occurrence", "reason")
 
 
@@ -23,12 +25,7 @@ def readEquivalents(path):
                 entries.append({"line": number})
             if not entries:
                 raise ValueError(f"{path}:{number}: the first entry has to begin with '- file: ...'")
-            value = match.group(3).strip()
-            if value.startswith("'") and value.endswith("'") and len(value) > 1:
-                value = value[1:-1].replace("''", "'")
-            elif ": " in value or " #" in value:
-                raise ValueError(f"{path}:{number}: '{value}' has a colon or a number sign: YAML wants it in single quotes")
-            entries[-1][match.group(2)] = value
+            entries[-1][match.group(2)] = valueOf(match.group(3).strip(), f"{path}:{number}")
     found = {}
     for entry in entries:
         missing = [key for key in ("file", "code", "edit", "reason") if not entry.get(key)]
