@@ -57,16 +57,13 @@ robot::WheelSpeeds BaseMotion::rest() noexcept {
 // meanwhile.
 robot::WheelSpeeds BaseMotion::ramp(const robot::Twist2d& target, const robot::WheelSpeeds& limits,
                                     const MinimumSpeeds& minimum, Duration dt) noexcept {
-  robot::TwistLimiter limiter = limiter_;
-  const robot::WheelSpeeds before = kinematics_->wheels(limiter.twist());
-  const robot::WheelSpeeds next = kinematics_->wheels(limiter.limit(target, dt));
-  const robot::WheelSpeeds end = kinematics_->wheels(limiter.allowed(target));
-  if (anyBelow(next, minimum) || anyTurnsAway(before, next, end, minimum)) {
-    limiter = limiter_;
-    limiter.limitOnLine(target, dt);
-  }
-  limiter_ = limiter;
-  limited_ = limiter_.twist();
+  const robot::WheelSpeeds before = kinematics_->wheels(limiter_.twist());
+  const robot::WheelSpeeds end = kinematics_->wheels(limiter_.allowed(target));
+  const auto isPossible = [&](const robot::Twist2d& twist) {
+    const robot::WheelSpeeds next = kinematics_->wheels(twist);
+    return !anyBelow(next, minimum) && !anyTurnsAway(before, next, end, minimum);
+  };
+  limited_ = limiter_.limitWhere(isPossible, target, dt);
   const robot::WheelSpeeds wanted = kinematics_->wheels(limited_);
   const double factor = robot::factorInto(wanted, limits);
   if (factor != 1.0) {

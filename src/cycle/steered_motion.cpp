@@ -116,10 +116,11 @@ bool SteeredMotion::readyToDriveOff(const robot::Twist2d& target, const SteeredD
 // As BaseMotion::ramp.
 robot::TwistLimiter SteeredMotion::stepped(const robot::Twist2d& target, const SteeredDrives& drives,
                                            Duration dt) const noexcept {
+  const auto isPossible = [&](const robot::Twist2d& twist) {
+    return !anyBelow(kinematics_.wheels(twist, drives.angles), drives.minimum);
+  };
   robot::TwistLimiter limiter = limiter_;
-  if (!anyBelow(kinematics_.wheels(limiter.limit(target, dt), drives.angles), drives.minimum)) return limiter;
-  limiter = limiter_;
-  limiter.limitOnLine(target, dt);
+  limiter.limitWhere(isPossible, target, dt);
   return limiter;
 }
 

@@ -263,7 +263,7 @@ void ExplicitClient::finish(ExplicitEnd end) noexcept {
   if (!answer_) answer_ = ExplicitAnswer{};
   answer_->id = id_;
   answer_->end = end;
-  answer_->may_be_late = shares_xid_;
+  answer_->may_be_late = shares_xid_ && end != ExplicitEnd::kTimedOut;
 }
 
 std::optional<ExplicitAnswer> ExplicitClient::takeAnswer() noexcept {

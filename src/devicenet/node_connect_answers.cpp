@@ -297,8 +297,7 @@ void NodeConnect::handleState(const ExplicitAnswer& answer, Instant now) noexcep
 // The explicit connection can be gone while process data are exchanged: those have a time-out of their own.
 void NodeConnect::handleReopened(const ExplicitAnswer& answer, Instant now) noexcept {
   const bool there = answer.ok() || saysAllocated(answer);
-  const bool late = answer.may_be_late && answer.end != ExplicitEnd::kTimedOut;
-  if (!there && !late && config_.io.kind == IoKind::kNone) return handleLoss("does not answer", now);
+  if (!there && !answer.may_be_late && config_.io.kind == IoKind::kNone) return handleLoss("does not answer", now);
   if (answer.ok()) {
     ++report_.status().counters.reopened;
     channel_.handleNewConnection(now);

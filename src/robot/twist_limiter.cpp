@@ -38,7 +38,7 @@ Twist2d TwistLimiter::limit(const Twist2d& target, Duration dt) noexcept {
   if (independent_) {
     for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i].limit(wanted[i], dt);
   } else {
-    followTogether(scaledIntoLimits(wanted), time);
+    followTogether(intoLimits(wanted), time);
   }
   // Nothing after this line computes.
   if (!isFinite(twist())) reset();
@@ -65,19 +65,17 @@ void TwistLimiter::reset(const Twist2d& twist) noexcept {
   ended_ = false;
 }
 
-TwistLimiter::Values TwistLimiter::scaledIntoLimits(Values target) const noexcept {
+TwistLimiter::Values TwistLimiter::intoLimits(Values target) const noexcept {
+  if (independent_) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) target[i] = axes_[i].clampVelocity(target[i]);
+    return target;
+  }
   double scale = 1.0;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const double allowed = axes_[i].clampVelocity(target[i]);
     if (allowed != target[i]) scale = std::min(scale, allowed / target[i]);
   }
   for (double& value : target) value *= scale;
-  return target;
-}
-
-TwistLimiter::Values TwistLimiter::intoLimits(Values target) const noexcept {
-  if (!independent_) return scaledIntoLimits(target);
-  for (std::size_t i = 0; i < axes_.size(); ++i) target[i] = axes_[i].clampVelocity(target[i]);
   return target;
 }
 

@@ -36,6 +36,14 @@ class TwistLimiter {
   /// As limit(), but on the straight line to the target in any case, all axes together: an acceleration that leads beside
   /// it, or past its end, is dropped at once, whatever the jerk limit. For whom a twist beside that line is not possible.
   Twist2d limitOnLine(const Twist2d& target, Duration dt) noexcept;
+  /// The step of limit() where `isPossible(twist)` says so of it, and that of limitOnLine() otherwise.
+  template <typename IsPossible>
+  Twist2d limitWhere(const IsPossible& isPossible, const Twist2d& target, Duration dt) noexcept {
+    const TwistLimiter before = *this;
+    if (isPossible(limit(target, dt))) return twist();
+    *this = before;
+    return limitOnLine(target, dt);
+  }
   /// Where limit() leads to: the target inside the velocity limits.
   Twist2d allowed(const Twist2d& target) const noexcept;
   /// For a stop: see SpeedLimiter.
@@ -52,7 +60,6 @@ class TwistLimiter {
 
   static Values valuesOf(const Twist2d& twist) noexcept { return {twist.linear_x, twist.angular_z, twist.linear_y}; }
   static Twist2d twistOf(const Values& values) noexcept { return {values[0], values[1], values[2]}; }
-  Values scaledIntoLimits(Values target) const noexcept;
   Values intoLimits(Values target) const noexcept;
   Values wayTo(const Values& target) const noexcept;
   RampLimits commonRamp(const Values& way) const noexcept;
