@@ -44,6 +44,12 @@ class AnyLink final : public link::RegisterLink {
   void close() noexcept override { report_.state = link::LinkState::kClosed; }
   std::uint64_t give(const RegisterImage& outputs) noexcept override {
     image_ = outputs;
+    ++images_;
+    return ++given_;
+  }
+  // Inputs alone are asked for at a start only.
+  std::uint64_t look() noexcept override {
+    require(images_ == 0);
     return ++given_;
   }
   std::uint64_t order(const link::RegisterOrder& order) noexcept override {
@@ -100,6 +106,7 @@ class AnyLink final : public link::RegisterLink {
   const link::RegisterInputs& inputs() const noexcept { return inputs_; }
   const link::LinkCounters& counters() const noexcept { return report_.counters; }
   std::uint64_t given() const noexcept { return given_; }
+  std::uint64_t images() const noexcept { return images_; }
   std::uint64_t ordered() const noexcept { return ordered_; }
 
  private:
@@ -110,8 +117,9 @@ class AnyLink final : public link::RegisterLink {
   }
   void anyReport() noexcept {
     report_.state = static_cast<link::LinkState>(choices_.below(4));
-    report_.text = choices_.below(2) == 0 ? "the gateway says no" : "";
-    ++report_.counters.timeouts;
+    const bool refused = choices_.below(2) == 0;
+    report_.text = refused ? "the gateway says no" : "";
+    ++(refused ? report_.counters.refused_exchanges : report_.counters.timeouts);
   }
   void anyAnswer() noexcept {
     answer_.number = ordered_ - choices_.below(2);
@@ -140,7 +148,8 @@ class AnyLink final : public link::RegisterLink {
   Instant now_{std::chrono::hours{1}};
   bool opens_ = false;
   RegisterImage image_;
-  std::uint64_t given_ = 0;
+  std::uint64_t given_ = 0;  // images and looks
+  std::uint64_t images_ = 0;
   std::uint64_t ordered_ = 0;
   std::array<Word, link::RegisterOrder::kMostWords> invoked_{};
   link::RegisterInputs inputs_;
@@ -218,12 +227,14 @@ class Game {
 
   void cycle() {
     const bool was_good = transport_.connected();
-    const std::uint64_t given = link_->given(), missed = counter("without_inputs"), stops = counter("ring_stops");
+    const std::uint64_t given = link_->given(), images = link_->images(), missed = counter("without_inputs"),
+                        stops = counter("ring_stops");
     const Instant begin = link_->now();
     transport_.exchange(outputs_, inputs_);
     require(link_->now() - begin <= transport_.config().answer_window);
     checkInputs(was_good);
-    if (link_->given() != given) checkImage();
+    if (link_->images() != images) checkImage();
+    require(drivecom_ || link_->given() - given == link_->images() - images);
     const bool fresh = transport_.connected() && link_->inputs().number != last_number_;
     last_number_ = link_->inputs().number;
     checkCounters(fresh, missed, stops);
