@@ -72,11 +72,11 @@ explored() {
 }
 address() {
   if $quick; then echo "--quick"; return 126; fi
-  "$root/scripts/test.sh" --sanitize
+  "$root/scripts/test.sh" --sanitize --merged
 }
 thread() {
   if $quick; then echo "--quick"; return 126; fi
-  "$root/scripts/test.sh" --sanitize=thread
+  "$root/scripts/test.sh" --sanitize=thread --merged
 }
 fuzz() {
   if $quick; then "$root/scripts/fuzz.sh" 15; else "$root/scripts/fuzz.sh" 1200 10000000; fi
