@@ -85,6 +85,8 @@ std::optional<std::string> AnswersAreTrue::judge(const Moment& moment, const cyc
       return asked(call) + " says that drive " + std::to_string(i) + " is enabled, and it is not";
     }
     if (stops && !moment.drives[i].bus_control) continue;
+    // The rest of the one that stood in for it.
+    if (stops && i == 0 && moment.stand_in_believed) continue;
     if (stops && moment.now - rested_at_[i] > moment.reaction) {
       return asked(call) + " says that drive " + std::to_string(i) + " is at rest, and it turns";
     }

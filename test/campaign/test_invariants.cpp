@@ -230,6 +230,22 @@ TEST_F(Invariants, AnswersTellTheTruth) {
   EXPECT_THAT(look(invariant), HasSubstr("says that drive 0 is enabled, and it is not"));
 }
 
+// Nobody can say more of a drive than the one that answers in its name.
+TEST_F(Invariants, AStopIsToldOfTheOneThatStandsIn) {
+  AnswersAreTrue invariant;
+  turn(20.0, 6554);
+  EXPECT_EQ("", look(invariant, seconds{1}));
+  for (int i = 0; i < 2; ++i) ask(cycle::RequestKind::kDisable, seconds{1});
+  moment_.drives[1].frequency = 0.0;
+  moment_.stand_in_believed = true;
+  answer(1, true, "disabled");
+  EXPECT_EQ("", look(invariant));
+  moment_.drives[1].frequency = 20.0;
+  EXPECT_EQ("", look(invariant, seconds{1}));
+  answer(2, true, "disabled");
+  EXPECT_THAT(look(invariant), HasSubstr("says that drive 1 is at rest, and it turns"));
+}
+
 TEST_F(Invariants, AValueReadWasThere) {
   AnswersAreTrue invariant;
   ask(cycle::RequestKind::kReadParameter, seconds{1});
