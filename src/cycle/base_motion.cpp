@@ -19,17 +19,14 @@ robot::WheelSpeeds BaseMotion::pollWheels(const TwistCommand& command, bool driv
     limiter_.reset();
     return rest();
   }
-  // Beyond 100 % of P105, or a joint's limit, the whole base is scaled: a wheel cut alone would bend the path. The
-  // target is scaled first, so that the limiter never runs ahead of the wheels and braking begins at once.
   const robot::WheelSpeeds limits = robot::tighterOf(max_speeds, joint_limits_);
   obeys_ = follow && !minimum.coming_to_rest && !command.held && !isStale(command, timeout_, now);
   if (!obeys_) limiter_.endAcceleration();
   const robot::Twist2d asked = obeys_ ? command.twist : robot::Twist2d{};
-  const robot::WheelSpeeds asked_wheels = kinematics_->wheels(asked);
-  beyond_full_ = robot::areBeyond(asked_wheels, max_speeds);
-  robot::Twist2d target = robot::times(robot::factorInto(asked_wheels, limits), kinematics_->possible(asked));
+  beyond_full_ = robot::areBeyond(kinematics_->wheels(asked), max_speeds);
+  robot::Twist2d target = targetOf(asked, limits);
   // Taken as zero at once, it is left along the limits.
-  below_minimum_ = anyBelow(kinematics_->wheels(limiter_.allowed(target)), minimum);
+  below_minimum_ = anyBelow(kinematics_->wheels(target), minimum);
   if (below_minimum_) target = {};
   if (target == robot::Twist2d{} && !drives_) {  // what the limiter has come to alone is no motion that has to be ended
     limiter_.reset();
@@ -46,6 +43,16 @@ robot::WheelSpeeds BaseMotion::pollWheels(const TwistCommand& command, bool driv
   return rest();
 }
 
+// Beyond 100 % of P105, or a joint's limit, the whole base is scaled: a wheel cut alone would bend the path. The target is
+// scaled first, so that the limiter never runs ahead of the wheels and braking begins at once. Where each axis is cut at
+// a limit of its own, that bends the path, and a wheel may be beyond its limit again.
+robot::Twist2d BaseMotion::targetOf(const robot::Twist2d& asked, const robot::WheelSpeeds& limits) const noexcept {
+  const auto into = [&](const robot::Twist2d& twist) {
+    return robot::times(robot::factorInto(kinematics_->wheels(twist), limits), twist);
+  };
+  return into(limiter_.allowed(into(kinematics_->possible(asked))));
+}
+
 robot::WheelSpeeds BaseMotion::rest() noexcept {
   limited_ = {};
   drives_ = false;
@@ -54,19 +61,19 @@ robot::WheelSpeeds BaseMotion::rest() noexcept {
 
 // Independent axes and jerk limits lead off the straight line between two twists. Where only that line is possible for
 // the wheels, it is kept: to rest at once would be a step of every wheel, and so would be what the limiter has come to
-// meanwhile.
+// meanwhile; and scaled in each step, beyond its limits, the base would lose in each what it has gained of acceleration.
 robot::WheelSpeeds BaseMotion::ramp(const robot::Twist2d& target, const robot::WheelSpeeds& limits,
                                     const MinimumSpeeds& minimum, Duration dt) noexcept {
   const robot::WheelSpeeds before = kinematics_->wheels(limiter_.twist());
-  const robot::WheelSpeeds end = kinematics_->wheels(limiter_.allowed(target));
+  const robot::WheelSpeeds end = kinematics_->wheels(target);
   const auto isPossible = [&](const robot::Twist2d& twist) {
     const robot::WheelSpeeds next = kinematics_->wheels(twist);
-    return !anyBelow(next, minimum) && !anyTurnsAway(before, next, end, minimum);
+    return robot::areWithin(next, limits) && !anyBelow(next, minimum) && !anyTurnsAway(before, next, end, minimum);
   };
   limited_ = limiter_.limitWhere(isPossible, target, dt);
   const robot::WheelSpeeds wanted = kinematics_->wheels(limited_);
   const double factor = robot::factorInto(wanted, limits);
-  if (factor != 1.0) {
+  if (!robot::areWithin(wanted, limits)) {  // the limits have become tighter
     limited_ = robot::times(factor, limited_);
     limiter_.reset(limited_);
   }

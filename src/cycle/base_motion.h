@@ -49,6 +49,8 @@ class BaseMotion {
   const robot::Odometry& odometry() const noexcept { return odometry_; }
 
  private:
+  /// Where the limiter leads to, inside the limits of the axes and of the wheels.
+  robot::Twist2d targetOf(const robot::Twist2d& asked, const robot::WheelSpeeds& limits) const noexcept;
   robot::WheelSpeeds ramp(const robot::Twist2d& target, const robot::WheelSpeeds& limits, const MinimumSpeeds& minimum,
                           Duration dt) noexcept;
   robot::WheelSpeeds rest() noexcept;

@@ -21,6 +21,11 @@ double factorInto(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept {
   return factor;
 }
 
+bool areWithin(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept {
+  constexpr double kRounding = 1e-9;
+  return factorInto(wanted, max) >= 1.0 - kRounding;
+}
+
 WheelSpeeds times(double factor, const WheelSpeeds& wheels) noexcept {
   WheelSpeeds scaled;
   scaled.resize(wheels.size());

@@ -34,6 +34,9 @@ inline bool areBeyond(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcep
   return factor > 0.0 && factor < 1.0;
 }
 
+/// None of them is beyond its limit by more than rounding. Where nothing may move they are not, be they standing.
+bool areWithin(const WheelSpeeds& wanted, const WheelSpeeds& max) noexcept;
+
 /// The tighter of two limits, wheel by wheel; none (so that nothing moves) when they are not of one base.
 WheelSpeeds tighterOf(const WheelSpeeds& a, const WheelSpeeds& b) noexcept;
 

@@ -106,6 +106,79 @@ TEST_F(BaseRamps, GainAccelerationWithAJerkLimit) {
   }
 }
 
+BaseConfig turning(bool independently) {
+  BaseConfig turning = config(2.0);
+  turning.geometry.wheel_separation = 0.53;
+  turning.geometry.left_wheel_radius = turning.geometry.right_wheel_radius = 0.11;
+  turning.limits.angular_z = turning.limits.linear_x;
+  turning.limits.angular_z.max_acceleration = 2.0;
+  turning.limits.angular_z.max_jerk = 40.0;
+  turning.limits.limit_axes_independently = independently;
+  return turning;
+}
+
+/// Cycles until a base that drives at `from` has come to `to`.
+int cyclesToTurnIn(const BaseConfig& config, const robot::Twist2d& from, const robot::Twist2d& to, double full_speed) {
+  BaseMotion motion{config, kTimeout};
+  Instant now{std::chrono::hours{1}};
+  const auto poll = [&](const robot::Twist2d& twist) {
+    now += kCycle;
+    const robot::WheelSpeeds wheels =
+        motion.pollWheels({twist, now, true}, true, true, {full_speed, full_speed}, now, kCycle);
+    for (const double wheel : wheels) EXPECT_LE(std::abs(wheel), full_speed * (1.0 + 1e-12));
+    return motion.limited();
+  };
+  for (int i = 0; i < 1000; ++i) poll(from);
+  int cycles = 0, arrived = 0;
+  for (robot::Twist2d before = motion.limited(); cycles < 2000; ++cycles) {
+    const robot::Twist2d next = poll(to);
+    if (std::abs(next.linear_x - before.linear_x) + std::abs(next.angular_z - before.angular_z) > 1e-7) {
+      arrived = cycles;
+    }
+    before = next;
+  }
+  return arrived;
+}
+
+// The faster wheel stays at 100 %. Scaled for a rest of rounding, the base would begin to gain acceleration in each cycle.
+TEST(BaseAtFullSpeed, TurnsInAsFastAsItsLimitsAllow) {
+  for (const bool independently : {false, true}) {
+    for (const double full_speed : {10.0, 7.3, 9.7}) {
+      for (const double turn : {0.5, 1.0, 3.0, -2.0}) {
+        const double fastest = 0.11 * full_speed;
+        const double part = fastest / (fastest + 0.265 * std::abs(turn));
+        const robot::Twist2d end{part * fastest, part * turn};
+        const int free = cyclesToTurnIn(turning(independently), {fastest, 0.0}, end, 100.0);
+        const int bound = cyclesToTurnIn(turning(independently), {fastest, 0.0}, {fastest, turn}, full_speed);
+        EXPECT_LE(bound, free + free / 10) << independently << ", " << full_speed << ", " << turn;
+      }
+    }
+  }
+}
+
+// Each axis cut at a limit of its own, the left wheel would be asked for more than before that: -5.4 rad/s.
+TEST(BaseAtFullSpeed, TheRampOfIndependentAxesEndsInsideTheLimitsOfTheWheels) {
+  BaseConfig slow = config(2.0);
+  slow.limits.angular_z = slow.limits.linear_x;
+  slow.limits.linear_x.has_velocity_limits = true;
+  slow.limits.linear_x.max_velocity = 0.2;
+  slow.limits.limit_axes_independently = true;
+  BaseMotion motion{slow, kTimeout};
+  Instant now{std::chrono::hours{1}};
+  robot::Twist2d before, change;
+  for (int i = 0; i < 500; ++i) {
+    now += kCycle;
+    const robot::WheelSpeeds wheels = motion.pollWheels({{1.0, 3.0}, now, true}, true, true, {5.0, 100.0}, now, kCycle);
+    ASSERT_GE(wheels[0], -5.0 - 1e-12);
+    const robot::Twist2d next = motion.limited();
+    ASSERT_NEAR(change.angular_z, next.angular_z - before.angular_z, 2.0 * 0.01 * 0.01 + 1e-9) << "jerk, cycle " << i;
+    change.angular_z = next.angular_z - before.angular_z;
+    before = next;
+  }
+  EXPECT_NEAR(0.0, change.angular_z, 1e-9);
+  EXPECT_GT(before.angular_z, 2.7);
+}
+
 /// Of a base that stands, without limits.
 class BaseTunings : public ::testing::Test {
  protected:

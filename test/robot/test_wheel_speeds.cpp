@@ -58,6 +58,16 @@ TEST(WheelSpeeds, TheTighterLimitCounts) {
   EXPECT_EQ((WheelSpeeds{0.0, 0.0}), scaleInto({1.0, 1.0}, tighterOf({7.0, 9.0}, {kNan, 9.0})));
 }
 
+// What rounding makes of a wheel at its limit is no reason to slow the base; where nothing may move, nothing is inside.
+TEST(WheelSpeeds, ARestOfRoundingIsInsideTheLimits) {
+  EXPECT_TRUE(areWithin({10.0, -4.0}, {10.0, 4.0}));
+  EXPECT_TRUE(areWithin({10.0 * (1.0 + 1e-10), -4.0}, {10.0, 4.0}));
+  EXPECT_FALSE(areWithin({10.0, -4.0 * (1.0 + 1e-8)}, {10.0, 4.0}));
+  EXPECT_FALSE(areWithin({0.0, 0.0}, {0.0, 4.0}));
+  EXPECT_FALSE(areWithin({1.0, 1.0}, {4.0}));
+  EXPECT_FALSE(areWithin({std::numeric_limits<double>::quiet_NaN(), 1.0}, {4.0, 4.0}));
+}
+
 TEST(WheelSpeeds, StandsStillWhenEveryWheelDoes) {
   EXPECT_TRUE(standsStill({0.0, -0.0, 0.0}));
   EXPECT_FALSE(standsStill({0.0, 1e-9, 0.0}));
