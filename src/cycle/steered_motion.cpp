@@ -41,6 +41,7 @@ robot::SteeredSetpoint SteeredMotion::poll(const TwistCommand& command, bool dri
   const bool known = allKnown(drives.angles);
   if (!driving || !known) {
     limiter_.reset();
+    rolling_.reset();
     if (known) steered_ = drives.angles;
     was_blind_ = !known;
     steers_ = false;
@@ -58,7 +59,7 @@ robot::SteeredSetpoint SteeredMotion::poll(const TwistCommand& command, bool dri
   // Taken as zero at once, it is left along the limits.
   below_minimum_ = anyBelow(kinematics_.solve(target, drives.angles, steered_).wheels, drives.minimum);
   if (below_minimum_) target = {};
-  if (limited_ == robot::Twist2d{} && !readyToDriveOff(target, drives, now)) {
+  if (limited_ == robot::Twist2d{} && !readyToDriveOff(target, drives, dt)) {
     obeys_ = obeys_ && target == robot::Twist2d{};
     limiter_.reset();
     return rest();
@@ -81,18 +82,19 @@ robot::Twist2d SteeredMotion::targetOf(const TwistCommand& command, bool obey, c
   return robot::times(robot::factorInto(wheels, limits), possible);
 }
 
-bool SteeredMotion::rollsOut(const SteeredDrives& drives, Instant now) noexcept {
+bool SteeredMotion::rollsOut(const SteeredDrives& drives, Duration dt) noexcept {
   if (!drives.wheels_turn) {
     rolling_.reset();
     return false;
   }
-  if (!rolling_ || drives.wheel_speed < rolling_->slowest - kSlower) rolling_ = Rolling{drives.wheel_speed, now};
-  return now - rolling_->since < kNoSlower;
+  const bool slower = !rolling_ || drives.wheel_speed < rolling_->slowest - kSlower;
+  rolling_ = slower ? Rolling{drives.wheel_speed} : Rolling{rolling_->slowest, rolling_->lasts + dt};
+  return rolling_->lasts < kNoSlower;
 }
 
-bool SteeredMotion::readyToDriveOff(const robot::Twist2d& target, const SteeredDrives& drives, Instant now) noexcept {
+bool SteeredMotion::readyToDriveOff(const robot::Twist2d& target, const SteeredDrives& drives, Duration dt) noexcept {
   const robot::SteeringAngles& angles = drives.angles;
-  const bool rolls = rollsOut(drives, now);
+  const bool rolls = rollsOut(drives, dt);
   if (target == robot::Twist2d{}) {
     // A way to steer that is not asked for any more ends where it is; wheels that have arrived keep their angle.
     if (steers_ && robot::largestDifference(steered_, angles) > tolerance_) steered_ = angles;

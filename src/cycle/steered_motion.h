@@ -77,9 +77,9 @@ class SteeredMotion {
   robot::Twist2d targetOf(const TwistCommand& command, bool obey, const robot::WheelSpeeds& limits,
                           const SteeredDrives& drives) noexcept;
   /// Steers at standstill; true: the base may drive off.
-  bool readyToDriveOff(const robot::Twist2d& target, const SteeredDrives& drives, Instant now) noexcept;
+  bool readyToDriveOff(const robot::Twist2d& target, const SteeredDrives& drives, Duration dt) noexcept;
   /// Commanded to stand, the wheels still get slower.
-  bool rollsOut(const SteeredDrives& drives, Instant now) noexcept;
+  bool rollsOut(const SteeredDrives& drives, Duration dt) noexcept;
   robot::TwistLimiter stepped(const robot::Twist2d& target, const SteeredDrives& drives, Duration dt) const noexcept;
   void step(const robot::Twist2d& target, const SteeredDrives& drives, Instant now, Duration dt) noexcept;
   Step stepTo(const robot::Twist2d& next, const robot::SteeringAngles& wanted,
@@ -108,9 +108,9 @@ class SteeredMotion {
   std::optional<Instant> holding_since_;
   struct Rolling {
     double slowest = 0.0;
-    Instant since{};
+    Duration lasts{};  // as a ramp counts it: a cycle that comes late has seen nothing of the time before
   };
-  std::optional<Rolling> rolling_;  // at rest by its setpoint
+  std::optional<Rolling> rolling_;  // at rest by its setpoint, and driving
 };
 
 }  // namespace nord_driver::cycle

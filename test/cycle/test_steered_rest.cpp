@@ -189,6 +189,34 @@ TEST_F(SteeredRolling, WaitsAnewForWheelsThatTurnAgain) {
   EXPECT_EQ(100, cyclesUntilItSteers());
 }
 
+// How they rolled before says nothing of how they roll now: pushed, or on a slope, while it was disabled.
+TEST_F(SteeredRolling, WaitsAnewAfterItWasDisabled) {
+  base_.command(0.0);
+  base_.run(1.5);
+  base_.driving = false;
+  base_.poll();
+  base_.driving = true;
+  base_.command(0.0, 0.0, 0.4);
+  EXPECT_EQ(100, cyclesUntilItSteers());
+}
+
+TEST_F(SteeredRolling, WaitsAnewWhereAnAngleWasNotKnown) {
+  base_.command(0.0);
+  base_.run(1.5);
+  base_.drives.angles[1] = std::numeric_limits<double>::quiet_NaN();
+  base_.poll();
+  base_.drives.angles[1] = 0.0;
+  base_.command(0.0, 0.0, 0.4);
+  EXPECT_EQ(100, cyclesUntilItSteers());
+}
+
+// What the wheels did while the bus cycle stood still nobody has seen: of that the second has what a ramp has.
+TEST_F(SteeredRolling, WaitsOnBehindACycleThatCameLate) {
+  base_.run(0.5);
+  base_.now += std::chrono::seconds{2};
+  EXPECT_EQ(50, cyclesUntilItSteers());
+}
+
 /// P104: the wheels turn at 1.95 rad/s or not at all, 0.195 m/s.
 class SteeredMinimum : public ::testing::Test {
  protected:
