@@ -27,7 +27,8 @@ class JointMotion {
   /// The velocity in rad/s for this cycle, `dt` after the last. `driving`: the drive follows setpoints now. `target`: as
   /// commanded, 0 where no command may be followed; it is gone to along the limits.
   double pollVelocity(double target, bool driving, const JointBounds& bounds, Duration dt) noexcept;
-  /// The last target was beyond 100 % of the setpoint, too slow, or in a direction that there is not.
+  /// The last target was beyond 100 % of the setpoint, too slow, in a direction that there is not, or in one that is
+  /// limited to less than P104.
   bool isSaturated() const noexcept { return saturated_; }
 
  private:

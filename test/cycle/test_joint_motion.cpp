@@ -98,6 +98,55 @@ TEST(JointMotion, AtItsLeastSpeedItGoesOut) {
   EXPECT_EQ(2.0, motion.pollVelocity(10.0, true, slow, kStep));
 }
 
+// The motor would turn at P104, faster than it may, where the command itself is slower than its limit.
+TEST(JointMotion, AVelocityLimitBelowItsLeastSpeedLetsItStand) {
+  robot::SpeedLimits forward = limits(5.0, 100.0);
+  forward.min_velocity = -2.0;
+  const JointBounds slow{kFull, 4.5, false};
+  for (const double target : {-1.0, -2.0, -4.5, -10.0, -2.0 * kFull}) {
+    JointMotion motion{forward};
+    for (int i = 0; i < 20; ++i) {
+      EXPECT_EQ(0.0, motion.pollVelocity(target, true, slow, kStep)) << target << ", " << i;
+      EXPECT_TRUE(motion.isSaturated()) << target;
+    }
+    EXPECT_EQ(0.0, motion.pollVelocity(10.0, true, slow, kStep)) << "from standstill, " << target;
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(0.0, motion.pollVelocity(10.0, true, slow, kStep)) << target;
+    EXPECT_DOUBLE_EQ(5.0, motion.pollVelocity(10.0, true, slow, kStep));
+    EXPECT_FALSE(motion.isSaturated()) << "what is configured is no saturation";
+    EXPECT_EQ(5.0, motion.pollVelocity(10.0, true, slow, kStep));
+    EXPECT_EQ(0.0, motion.pollVelocity(target, true, slow, kStep)) << "reversed, it has arrived below P104";
+  }
+}
+
+TEST(JointMotion, AVelocityLimitAtItsLeastSpeedIsDriven) {
+  for (const double limit : {4.5, 4.5 * (1.0 - 1e-15), 4.5 * (1.0 + 1e-15)}) {
+    for (const double target : {4.5, 10.0, 7.3, -9.7}) {
+      JointMotion motion{limits(limit, 100.0)};
+      double velocity = 0.0;
+      for (int i = 0; i < 20; ++i) velocity = motion.pollVelocity(target, true, {kFull, 4.5, false}, kStep);
+      EXPECT_NEAR(std::copysign(4.5, target), velocity, 1e-12) << limit - 4.5 << ", " << target;
+      EXPECT_FALSE(motion.isSaturated());
+    }
+  }
+}
+
+// `min_velocity: 0` is a direction that is not asked for: no saturation, as without a P104.
+TEST(JointMotion, ADirectionThatIsLimitedToZeroIsLeftAtRest) {
+  robot::SpeedLimits forward = limits(50.0, 100.0);
+  forward.min_velocity = 0.0;
+  for (const double least : {0.0, 4.5}) {
+    JointMotion motion{forward};
+    const JointBounds slow{kFull, least, false};
+    for (int i = 0; i < 20; ++i) motion.pollVelocity(10.0, true, slow, kStep);
+    for (int i = 0; i < (least > 0.0 ? 6 : 10); ++i) motion.pollVelocity(-10.0, true, slow, kStep);
+    EXPECT_EQ(0.0, motion.pollVelocity(-10.0, true, slow, kStep));
+    EXPECT_FALSE(motion.isSaturated());
+    double velocity = 0.0;
+    for (int i = 0; i < 5; ++i) velocity = motion.pollVelocity(10.0, true, slow, kStep);
+    EXPECT_DOUBLE_EQ(5.0, velocity) << "from standstill";
+  }
+}
+
 // One that others follow: slower than the highest P104 of them all it stands.
 TEST(JointMotion, ATargetThatIsTooSlowForAFollowerIsNone) {
   JointMotion motion{limits(0.0, 100.0)};
@@ -217,6 +266,28 @@ TEST_F(SingleDriveLimits, AQuickStopDoesNotWaitForTheRamp) {
   ports.submit(stop);
   run(2);
   EXPECT_EQ(0x047B, controlWord(kLift));
+}
+
+// 5 Hz are 15.7 rad/s: faster than the limit, whatever is commanded.
+TEST(SingleDriveMinimum, ALimitBelowP104LetsTheDriveRest) {
+  for (const double limit : {10.0, 20.0}) {
+    CycleConfig config = liftWith(limits(limit, 10.0 * kFull));
+    config.drives[CycleBench::kLift].drive.allow_minimum_frequency = true;
+    CycleBench bench{config};
+    bench.transport.of_drive[CycleBench::kLift][104] = 50;  // 0.1 Hz
+    bench.transport.inverters[CycleBench::kLift].minimum = 1638;
+    bench.run(80);
+    ASSERT_TRUE(bench.ask(RequestKind::kEnable, CycleBench::kLift).success);
+    for (const double velocity : {8.0, -8.0, 18.0, -157.0}) {
+      for (int i = 0; i < 200; ++i) {
+        bench.commandLift(velocity);
+        bench.step();
+        ASSERT_TRUE(limit > 15.0 || bench.transport.inverters[CycleBench::kLift].frequency() == 0) << velocity;
+      }
+      EXPECT_EQ(limit < 15.0 || std::abs(velocity) < 15.0, bench.snapshot().drives[CycleBench::kLift].saturated);
+      EXPECT_EQ(limit < 15.0, bench.controlWord(CycleBench::kLift) == 0x047E) << limit << ", " << velocity;
+    }
+  }
 }
 
 TEST_F(SingleDriveLimits, BeyondFullSpeedIsToldOfADriveWithoutVelocityLimit) {
