@@ -75,6 +75,7 @@ function(nord_gtest name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   catkin_add_gtest(${name} ${ARG_SOURCES})
   nord_test_settings(${name} ${ARG_LIBS})
+  nord_merge_tests(${name})
   add_dependencies(unit_tests ${name})
 endfunction()
 
