@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/can_text.h"
 #include "system/can_robot.h"
 
 namespace nord_driver::test {
@@ -88,6 +89,31 @@ TEST_P(DoubleId, ThatComesLaterStopsTheBase) {
   robot_.unit(kTwin).setPlugged(false);
   ASSERT_TRUE(robot_.runUntil([this] { return robot_.online(kRight); }, seconds{8}));
   expectNothingMoves(seconds{3});
+}
+
+// One of them was not heard in the start-up. What stops the base is that they are noticed, not `drive_timeout`.
+TEST(DoubleIdInOperation, StopsTheBaseAtOnce) {
+  CanRobot::Options options;
+  options.node = {{"drive_timeout", 10.0}};
+  options.drives = {{"error_control", std::string{"heartbeat"}}, {"heartbeat_time", 0.1}};
+  CanRobot robot{options};
+  ASSERT_TRUE(robot.bringUpAndEnable());
+  robot.drive(kHalfSpeed, 0.0, seconds{3});
+  const auto noticed = [&robot] { return robot.busText().find("two nodes") != std::string::npos; };
+  for (int cycles = 0; cycles < 300 && !noticed(); ++cycles) {
+    if (cycles % 10 == 0) robot.bus().inject(frame("704#05"));
+    robot.command(kHalfSpeed);
+    robot.step();
+  }
+  ASSERT_TRUE(noticed());
+  ASSERT_NEAR(25.0, robot.unit(kLeft).inverter().frequency(), 0.5);
+  robot.drive(kHalfSpeed, 0.0, milliseconds{20});
+  EXPECT_FALSE(robot.snapshot().base.enabled);
+  EXPECT_FALSE(robot.online(kRight));
+  EXPECT_THAT(robot.text(kRight), HasSubstr("two nodes"));
+  robot.drive(kHalfSpeed, 0.0, milliseconds{300});
+  EXPECT_LT(robot.unit(kLeft).inverter().frequency(), 24.0);
+  EXPECT_GT(robot.unit(kRight).inverter().frequency(), -24.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(ErrorControl, DoubleId, ::testing::Values("guarding", "heartbeat", "none"));

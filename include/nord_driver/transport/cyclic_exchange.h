@@ -16,7 +16,7 @@ using DriveIndex = std::size_t;
 /// How the connection to an inverter ended, where the bus itself tells. A drive that turned gets what stops it.
 enum class Interruption : std::uint8_t {
   kNone,
-  kUnasked,    ///< it was reset, or left the state in which data are exchanged, without being asked
+  kUnasked,    ///< it was reset, or left the exchange of data, without being asked; or two answer in its place
   kSilent,     ///< what watches it (guarding, heartbeat) has not heard it in time
   kContested,  ///< another master commands it, too: it answers, but does what the last word said, whoever sent it
 };

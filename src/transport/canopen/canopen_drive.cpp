@@ -148,11 +148,11 @@ bool CanopenDriveState::moduleMissesInverter(const canopen::NodeStatus& status, 
   return module_link_.missing() && !profile::StatusWord{status_word}.fault();
 }
 
-// Said once, when a start the drive layer has seen is over.
+// Said once, when a start the drive layer has seen is over, or two nodes turn out to answer: no silence to be waited out.
 Interruption CanopenDriveState::takeInterruption(const canopen::NodeStatus& status, bool bus_works) noexcept {
   const std::optional<std::uint64_t> before = start_;
   start_.reset();
-  if (status.state == canopen::NodeState::kOperational) start_ = status.counters.boots;
+  if (status.state == canopen::NodeState::kOperational && !status.doubled) start_ = status.counters.boots;
   if (!before || start_ == before) return Interruption::kNone;
   // Without a bus nothing is known of the node, and nobody has asked it for anything.
   return status.fellSilent() || !bus_works ? Interruption::kSilent : Interruption::kUnasked;

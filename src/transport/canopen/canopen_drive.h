@@ -55,7 +55,7 @@ class CanopenDriveState {
   CanopenParameters parameters_;
   profile::Cia402Scaling scaling_;
   MaxFrequencyReads<CanopenParameters::kCapacity> max_frequency_reads_;
-  std::optional<std::uint64_t> start_;  // which start of the node it is operational from; none: it is not
+  std::optional<std::uint64_t> start_;  // which start of the node it is operational from; none: it is not, or twice
   bool module_answers_ = false;
   bool inverter_answers_ = false;
   bool contested_ = false;  // another master commands it, too
