@@ -209,8 +209,10 @@ void Node::followWatch(Instant now) noexcept {
   }
   if (watch == NodeBoot::Watch::kWatch && config_.silence > Duration::zero()) {
     timers_.set(NodeTimer::kSilence, now + config_.silence);
-    // Taken for granted without error control: once lost it may still hear what stops its drive.
-    if (mode == ErrorControlMode::kNone) report_.status().nmt = NmtState::kOperational;
+  }
+  // Taken for granted: once lost, by its silence or with the interface, it may still hear what stops its drive.
+  if (watch == NodeBoot::Watch::kWatch && mode == ErrorControlMode::kNone) {
+    report_.status().nmt = NmtState::kOperational;
   }
   if (watch != NodeBoot::Watch::kOff) return;
   timers_.stop(NodeTimer::kHeartbeat);

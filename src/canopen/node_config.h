@@ -57,7 +57,7 @@ enum class BootReset : std::uint8_t {
 enum class ErrorControlMode : std::uint8_t {
   kHeartbeat,  ///< the node sends its state by itself (1017h)
   kGuarding,   ///< the node is asked for it by remote frames (100Ch, 100Dh); it watches the master by the same frames
-  kNone        ///< nothing but `NodeConfig::silence` tells that the node is lost; its start is taken for granted
+  kNone        ///< nothing but `NodeConfig::silence` tells that the node is lost; operational from its start on
 };
 
 /// Times are in whole milliseconds, 1..65535 ms.
@@ -100,8 +100,7 @@ struct NodeConfig {
   /// may acknowledge a fault that nobody has seen yet. 0: it gets them at once.
   Duration first_answer_timeout{};
   /// An operational node that sends no TPDO for so long is lost. 0: its TPDOs say nothing of it. For one without error
-  /// control, which would else wait for ever to be started again when its boot-up was not heard; it counts as
-  /// operational from its start on.
+  /// control, which would else wait for ever to be started again when its boot-up was not heard.
   Duration silence{};
   std::vector<SdoChannel> sdo_servers;  ///< empty: the one of the predefined connection set (600h + id, 580h + id)
   std::vector<SetupWrite> setup;

@@ -50,7 +50,7 @@ struct NodeCounters {
 
 struct NodeStatus {
   NodeState state = NodeState::kAbsent;
-  /// As it last reported itself, or was told by another master; see `NodeConfig::silence`, too.
+  /// As it last reported itself, or was told by another master; see `ErrorControlMode::kNone`, too.
   NmtState nmt = NmtState::kUnknown;
   /// Why it does not run: one sentence for a technician without the node's name; empty while all is well. The memory
   /// is the node's for ever, and never moves.

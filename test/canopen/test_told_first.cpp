@@ -169,6 +169,26 @@ TEST_F(ToldFirst, AsThereAfterTheInterfaceWasAway) {
   EXPECT_TRUE(run_->reaches(NodeState::kOperational, seconds{2})) << run_->master.status(0).reason.c_str();
 }
 
+// Also where nothing would ever tell that it is gone.
+TEST_F(ToldFirst, AsThereAfterTheInterfaceWasAwayWithoutErrorControl) {
+  MasterConfig config = busConfig(1);
+  config.nodes[0].error_control.mode = ErrorControlMode::kNone;
+  ASSERT_EQ(Duration::zero(), config.nodes[0].silence);
+  start(config);
+  run_->loses = nullptr;
+  for (int i = 0; i < 2; ++i) run_->master.restart(run_->now);  // gone, and back
+  run_->sent.clear();
+  EXPECT_TRUE(run_->master.status(0).fellSilent());
+  run_->before_cycle = [](Master& master) {
+    master.setReceivePdo(0, 0, fromHex("7E 04 00 00"));
+    master.tellUnheard(0, 0);
+  };
+  run_->run(milliseconds{95});
+  EXPECT_FALSE(hasSent("000#") || hasSent("601#"));
+  EXPECT_TRUE(hasSent("201#7E04"));
+  EXPECT_TRUE(run_->reaches(NodeState::kOperational, seconds{2})) << run_->master.status(0).reason.c_str();
+}
+
 // One that was not in operation hears no RPDO: it is led up at once.
 TEST_F(ToldFirst, NotWhatWasNotInOperation) {
   MasterRun run{busConfig(1)};
