@@ -194,7 +194,7 @@ void Master::touched(const Node& node) noexcept {
 
 bool Master::pollTransmit(CanFrame& frame) noexcept {
   if (stuck_) return false;
-  const bool given = pollNmt() || pollReceivePdo() || pollSync() || pollErrorControl() || pollSdoFrame();
+  const bool given = pollNmt() || pollProcessData() || pollErrorControl() || pollSdoFrame();
   if (!given) {
     given_.kind = Given::Kind::kNothing;
     return false;
@@ -276,7 +276,7 @@ void Master::notSent() noexcept {
       break;
     case Given::Kind::kSync:
       --counters_.syncs;
-      dropSync();
+      drop(kSyncOfCycle);
       break;
     case Given::Kind::kOwnHeartbeat:
       (given.item == 0 ? boot_up_due_ : heartbeat_due_) = true;

@@ -37,12 +37,13 @@ struct NodeSdoAnswer {
 /// Calling order: see `CanEngine`.
 ///
 /// `startCycle()` makes due the newest value of every enabled RPDO of every operational node, and behind them SYNC,
-/// when it is used and a node is operational: an RPDO of type 0..240 acts with the SYNC of the same cycle, one of type
-/// 254 or 255 at once. `pollTransmit()` gives out NMT first, then RPDOs and SYNC, error control, SDO.
+/// when it is used and a node is operational: an RPDO of type 0..240 acts with the SYNC of the same cycle, where all found
+/// a place, one of type 254 or 255 at once. `pollTransmit()` gives out NMT first, then RPDOs and SYNC, error control, SDO.
 ///
 /// What the link did not take: NMT, error control and SDO frames are given out again, RPDOs and SYNC dropped. Where these
-/// found no place nothing else is given out until the next cycle, which begins with the RPDO that was the first to be
-/// dropped: error control alone would keep a node running that hears no process data.
+/// found no place nothing else is given out until the next cycle, which begins with what was the first of them to be
+/// dropped, be it SYNC: error control alone would keep a node running that hears no process data, and without SYNC no
+/// RPDO that waits for it would ever act.
 class Master final : public CanEngine {
  public:
   /// Throws std::invalid_argument with a sentence: see `checkConfig()`.
@@ -118,15 +119,15 @@ class Master final : public CanEngine {
   void touched(const Node& node) noexcept;
   void expect(std::optional<Instant> deadline) noexcept;
   bool pollNmt() noexcept;
-  bool pollReceivePdo() noexcept;
-  bool pollSync() noexcept;
+  bool pollProcessData() noexcept;
+  bool giveSync() noexcept;
+  bool giveReceivePdo(ProcessFrame pdo) noexcept;
   bool pollErrorControl() noexcept;
   bool pollSdoFrame() noexcept;
   void give(Given::Kind kind, std::size_t node, std::size_t item, const CanFrame& frame) noexcept;
   void addLastWords() noexcept;
   void dropProcessData() noexcept;
-  void drop(PdoReference pdo) noexcept;
-  void dropSync() noexcept;
+  void drop(ProcessFrame frame) noexcept;
 
   MasterConfig config_;
   Counters counters_;
@@ -142,7 +143,7 @@ class Master final : public CanEngine {
   std::optional<Instant> deadline_;  // not later than the earliest of all
   std::optional<Instant> next_heartbeat_;
   bool stuck_ = false;                 // process data of this cycle found no place
-  std::optional<PdoReference> waits_;  // the first of them
+  std::optional<ProcessFrame> waits_;  // the first of them
   bool boot_up_due_ = false;           // ours
   bool heartbeat_due_ = false;
   // False: nobody has anything of that kind to send. True: somebody may.

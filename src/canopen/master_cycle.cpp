@@ -18,19 +18,21 @@ void Master::releaseAll(Instant now) noexcept {
 
 // A node that is left as it was found, driven: what stops it once more, whatever has gone out before.
 void Master::addLastWords() noexcept {
+  bool any = false;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (!nodes_[i]->status().stops_first || !nodes_[i]->status().fellSilent()) continue;
     const std::vector<ReceivePdoSlot>& pdos = nodes_[i]->receivePdos();
     for (std::size_t pdo = 0; pdo < pdos.size(); ++pdo) {
       if (!pdos[pdo].ready()) continue;
       process_.add({static_cast<std::uint8_t>(i), static_cast<std::uint16_t>(pdo), true});
-      if (config_.sync_cob_id) process_.addSync();
+      any = true;
     }
   }
+  if (any && config_.sync_cob_id) process_.add(kSyncOfCycle);
 }
 
 bool Master::released() const noexcept {
-  return !process_.hasPdo() && !process_.syncDue() &&
+  return process_.empty() &&
          std::all_of(nodes_.begin(), nodes_.end(), [](const auto& node) { return node->released(); });
 }
 
@@ -53,49 +55,47 @@ void Master::startCycle(Instant now) noexcept {
       process_.add({static_cast<std::uint8_t>(i), static_cast<std::uint16_t>(pdo), unheard});
     }
   }
+  if (any && config_.sync_cob_id) process_.add(kSyncOfCycle);
   if (waits_) process_.beginWith(*waits_);
   waits_.reset();
-  if (any && config_.sync_cob_id) process_.addSync();
 }
 
 void Master::dropProcessData() noexcept {
-  while (process_.hasPdo()) drop(process_.takePdo());
-  if (process_.syncDue()) dropSync();
+  while (!process_.empty()) drop(process_.take());
   process_.clear();
 }
 
-void Master::drop(PdoReference pdo) noexcept {
-  ++counters_.superseded;
-  ++nodes_[pdo.node]->report().status().counters.superseded;
-  if (pdo.unheard) nodes_[pdo.node]->handleUntold();
-  stuck_ = true;
-  if (!waits_) waits_ = pdo;
-}
-
-void Master::dropSync() noexcept {
+void Master::drop(ProcessFrame frame) noexcept {
   ++counters_.superseded;
   stuck_ = true;
+  if (!waits_) waits_ = frame;
+  if (frame.sync) return;
+  ++nodes_[frame.node]->report().status().counters.superseded;
+  if (frame.unheard) nodes_[frame.node]->handleUntold();
 }
 
-bool Master::pollReceivePdo() noexcept {
-  while (process_.hasPdo()) {
-    const PdoReference due = process_.takePdo();
-    Node& node = *nodes_[due.node];
-    const ReceivePdoSlot& slot = node.receivePdos()[due.pdo];
-    // It may have been lost since the cycle began, or be back.
-    if (!(due.unheard ? node.status().fellSilent() : node.operational()) || !slot.ready()) continue;
-    ++node.report().status().counters.receive_pdos;
-    give(Given::Kind::kReceivePdo, due.node, due.pdo, slot.frame());
-    given_.unheard = due.unheard;
-    return true;
+bool Master::pollProcessData() noexcept {
+  while (!process_.empty()) {
+    const ProcessFrame due = process_.take();
+    if (due.sync ? giveSync() : giveReceivePdo(due)) return true;
   }
   return false;
 }
 
-bool Master::pollSync() noexcept {
-  if (!process_.takeSync()) return false;
+bool Master::giveSync() noexcept {
   ++counters_.syncs;
   give(Given::Kind::kSync, 0, 0, dataFrame(*config_.sync_cob_id, ByteView{}));
+  return true;
+}
+
+// It may have been lost since the cycle began, or be back.
+bool Master::giveReceivePdo(ProcessFrame pdo) noexcept {
+  Node& node = *nodes_[pdo.node];
+  const ReceivePdoSlot& slot = node.receivePdos()[pdo.pdo];
+  if (!(pdo.unheard ? node.status().fellSilent() : node.operational()) || !slot.ready()) return false;
+  ++node.report().status().counters.receive_pdos;
+  give(Given::Kind::kReceivePdo, pdo.node, pdo.pdo, slot.frame());
+  given_.unheard = pdo.unheard;
   return true;
 }
 

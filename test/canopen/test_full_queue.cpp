@@ -118,8 +118,38 @@ TEST_F(FullQueue, ASyncWithoutAPlaceIsProcessDataLost) {
   MasterConfig config = guarded(1);
   config.sync_cob_id = 0x80;
   ASSERT_NO_FATAL_FAILURE(start(config));
-  for (int i = 0; i < 25; ++i) EXPECT_THAT(cycle(1), ElementsAre("201#7E040000"));
+  for (int i = 0; i < 25; ++i) EXPECT_THAT(cycle(1), Not(Contains(testing::HasSubstr("#R"))));
+  cycle(2);
   EXPECT_THAT(cycle(2), ElementsAre("201#7E040000", "080#"));
+}
+
+// Behind the RPDOs it would find no place for ever, and none of them would act: it has its turn as each of them has.
+TEST_F(FullQueue, SyncGetsItsTurn) {
+  MasterConfig config = guarded(2);
+  config.sync_cob_id = 0x80;
+  ASSERT_NO_FATAL_FAILURE(start(config));
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_THAT(cycle(1), ElementsAre("201#7E040000")) << i;
+    EXPECT_THAT(cycle(1), ElementsAre("202#7E040000")) << i;
+    EXPECT_THAT(cycle(1), ElementsAre("080#")) << i;
+  }
+  EXPECT_THAT(cycle(2), ElementsAre("201#7E040000", "202#7E040000"));
+  EXPECT_THAT(cycle(2), ElementsAre("080#", "201#7E040000"));
+  EXPECT_THAT(cycle(2), ElementsAre("202#7E040000", "080#"));
+  EXPECT_THAT(cycle(2), ElementsAre("201#7E040000", "202#7E040000"));
+  EXPECT_THAT(cycle(3), ElementsAre("080#", "201#7E040000", "202#7E040000"));
+  EXPECT_THAT(cycle(3), ElementsAre("201#7E040000", "202#7E040000", "080#")) << "behind what it makes act";
+}
+
+// A cycle without any place, which they all miss, takes nobody's turn.
+TEST_F(FullQueue, WithLessThanOnePlaceInACycleEachGetsItsTurn) {
+  MasterConfig config = guarded(2);
+  config.sync_cob_id = 0x80;
+  ASSERT_NO_FATAL_FAILURE(start(config));
+  for (const char* const next : {"201#7E040000", "202#7E040000", "080#", "201#7E040000", "202#7E040000", "080#"}) {
+    EXPECT_THAT(cycle(0), IsEmpty());
+    EXPECT_THAT(cycle(1), ElementsAre(next));
+  }
 }
 
 // Also where something else found no place and process data were dropped for its sake.

@@ -188,8 +188,8 @@ TEST(NotSent, OnlyWhatWasGivenOutComesBack) {
   EXPECT_EQ(node.receive_pdos + 1, run.master.status(0).counters.receive_pdos);
   EXPECT_EQ("", nextFrame(run.master));
   run.master.startCycle(run.now);
+  ASSERT_EQ("080#", nextFrame(run.master)) << "it found no place";
   ASSERT_EQ("201#7E040000", nextFrame(run.master));
-  ASSERT_EQ("080#", nextFrame(run.master));
   EXPECT_EQ(before.syncs + 1, run.master.counters().syncs);
 }
 

@@ -18,12 +18,13 @@ using std::chrono::seconds;
 class CanopenSlowQueue : public ::testing::TestWithParam<milliseconds> {
  protected:
   void SetUp() override {
-    robot_ = std::make_unique<CanRobot>(CanRobot::Options{});
+    robot_ = std::make_unique<CanRobot>(options());
     ASSERT_TRUE(robot_->bringUpAndEnable());
     robot_->drive(kHalfSpeed, 0.0, seconds{3});
     ASSERT_FALSE(robot_->standsStill());
     robot_->bus().setQueuePace(GetParam());
   }
+  virtual CanRobot::Options options() const { return {}; }
   /// Whether the wheels come to rest within `limit`; commanded as before, or 0.
   bool comesToRest(double speed, Duration limit) {
     const Instant end = robot_->transport().now() + limit;
@@ -53,6 +54,26 @@ TEST_P(CanopenSlowQueue, ItIsLivedThrough) {
   robot_->bus().setQueuePace({});
   EXPECT_TRUE(comesToRest(0.0, kCoasting));
   EXPECT_TRUE(robot_->runUntil([this] { return robot_->online(0) && robot_->online(1); }));
+}
+
+/// What stops a drive acts with SYNC only.
+class CanopenSlowQueueWithSync : public CanopenSlowQueue {
+ protected:
+  CanRobot::Options options() const override {
+    CanRobot::Options options;
+    options.bus = {{"sync", true}};
+    options.drives = {{"error_control", std::string{"none"}}};  // nothing else stops an inverter
+    return options;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Pace, CanopenSlowQueueWithSync,
+                         ::testing::Values(milliseconds{5}, milliseconds{7}, milliseconds{10}, milliseconds{12},
+                                           milliseconds{20}, milliseconds{50}, milliseconds{100}),
+                         [](const auto& pace) { return std::to_string(pace.param.count()) + "ms"; });
+
+TEST_P(CanopenSlowQueueWithSync, EveryWheelIsStoppedByWords) {
+  EXPECT_TRUE(comesToRest(0.0, seconds{3})) << "three places for two words and their SYNC, and a ramp of a second";
 }
 
 // What stops a node that fell silent does not take the place of what stops the others.
