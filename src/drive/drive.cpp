@@ -131,11 +131,11 @@ void Drive::handleInterruption(StopCause cause, Instant now) noexcept {
 }
 
 void Drive::goOffline(StopCause cause, Instant now) noexcept {
-  unanswered_.until = now;
+  unanswered_ = UnansweredWord{};
   breakOff(Refusal::kOffline);
   if (!isAtRest() && report_.phase != Phase::kSwitchingSet) {
     // It may hear us without being heard: with 0000 it would carry on at its last setpoint, or trip by its time-out.
-    unanswered_ = {isRunning() ? Command::kShutdown : command(now), now + config_.shutdown_timeout};
+    unanswered_ = {isRunning() ? Command::kShutdown : command(now), true, now + config_.shutdown_timeout};
     if (report_.phase != Phase::kIdle && report_.phase != Phase::kAcknowledging) latch(cause);
   }
   const bool was_enabling = report_.phase == Phase::kEnabling;
@@ -329,7 +329,7 @@ Command Drive::command(Instant now) const noexcept {
   switch (report_.phase) {
     case Phase::kOffline:
       if (report_.commanded_set == 0) return Command::kIgnored;
-      if (now < unanswered_.until) return unanswered_.command;
+      if (unanswered_.due || now < unanswered_.until) return unanswered_.command;
       return missing_.isCertain(now) ? Command::kShutdown : Command::kIgnored;
     case Phase::kEnabling:
       return phase_.ready_seen ? Command::kEnableOperation : Command::kShutdown;
@@ -383,6 +383,7 @@ profile::ProcessOutput Drive::pollOutput(Instant now) noexcept {
         profile::toRadPerSec(profile::fromActualValue1(output.setpoints[0], maximum), config_.joint);
   }
   const Command word = command(now);
+  unanswered_.due = false;
   if (word != Command::kIgnored) output.control_word = profile::controlWord(word, report_.commanded_set);
   if (report_.phase == Phase::kAcknowledging && edge_.poll(now)) {
     output.control_word |= profile::control_bit::kAcknowledge;

@@ -6,7 +6,8 @@
 //  - 047E alone also says "parameter set 1". So 0000, which the inverter ignores, is sent until a status word has told
 //    the set in force; from then on never again while it is online.
 //  - An inverter that falls silent while it was not at rest may still hear us: the stop word is sent on unanswered, for
-//    shutdown_timeout; then the set is learned anew. When it answers it is idle, in the set it then reports.
+//    shutdown_timeout, and once at least; then the set is learned anew. When it answers it is idle, in the set it then
+//    reports.
 //  - One that is off behind a bus module that lives gets the idle word with the last set known of it: the module's P151
 //    runs out when all its control words are invalid (BU 0220 4.2.3.2). Never known: 0000, which does not start P151.
 //  - Whatever ends "operation enabled" without being asked ends in the idle word and stays so until the next enable.
@@ -186,9 +187,10 @@ class Drive {
     bool ready_seen = false;  // enabling, resting: "ready to switch on" was seen after the request
     RadPerSec wanted{};       // enabled: the velocity
   };
-  /// Offline: the word that stops goes on without an answer.
+  /// Offline: the word that stops goes on without an answer, once at least.
   struct UnansweredWord {
     profile::Command command = profile::Command::kIgnored;
+    bool due = false;  // it has not gone out yet
     Instant until{};
   };
 

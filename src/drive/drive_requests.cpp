@@ -90,7 +90,7 @@ void Drive::requestQuickStop(Instant now, StopCause cause) noexcept {
   breakOff(Refusal::kRequestStopped);
   latch(cause);
   if (report_.phase == Phase::kOffline) {
-    unanswered_ = {Command::kQuickStop, now + config_.shutdown_timeout};
+    unanswered_ = {Command::kQuickStop, true, now + config_.shutdown_timeout};
   } else if (report_.phase != Phase::kQuickStopping && report_.phase != Phase::kCoasting) {
     enter(Phase::kQuickStopping, now);
   }
@@ -101,7 +101,7 @@ void Drive::requestCoast(Instant now, StopCause cause) noexcept {
   breakOff(Refusal::kRequestStopped);
   latch(cause);
   if (report_.phase == Phase::kOffline) {
-    unanswered_ = {Command::kDisableVoltage, now + config_.shutdown_timeout};
+    unanswered_ = {Command::kDisableVoltage, true, now + config_.shutdown_timeout};
   } else if (report_.phase != Phase::kCoasting) {
     enter(Phase::kCoasting, now);
   }

@@ -93,6 +93,26 @@ TEST_F(StopsWhileSilent, WhoWasOnlyLostRampsDown) {
   EXPECT_FALSE(drive_.stopsUnheard(now_));
 }
 
+// Also where that is shorter than a cycle.
+TEST_F(StopsWhileSilent, OnceAtLeastHoweverShortShutdownTimeoutIs) {
+  DriveConfig short_time = config();
+  short_time.shutdown_timeout = kCycle / 2;
+  drive_ = Drive{short_time};
+  run();
+  fallSilent();
+  now_ += kCycle;
+  EXPECT_EQ(0x047E, silence());
+  EXPECT_EQ(0x0000, silence());
+  drive_.requestQuickStop(now_);
+  now_ += kCycle;
+  EXPECT_EQ(0x047B, silence());
+  EXPECT_EQ(0x0000, silence());
+  drive_.requestCoast(now_);
+  now_ += kCycle;
+  EXPECT_EQ(0x047D, silence());
+  EXPECT_EQ(0x0000, silence());
+}
+
 TEST_F(StopsWhileSilent, AStopAskedForLongAgoIsForgotten) {
   run();
   fallSilent();
