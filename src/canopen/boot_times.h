@@ -16,8 +16,9 @@ constexpr Duration kLongestRefusePause = std::chrono::seconds{4};
 /// Two nodes with one id get stop words for so long.
 constexpr Duration kStopBoth = std::chrono::seconds{4};
 
-/// Of the bus cycle, after a loss: in the first the drive layer learns of it, with the next goes its word that stops.
-constexpr std::uint8_t kCyclesToTell = 2;
+/// Of the bus cycle, after a loss: in the first the drive layer learns of it, with the two after it goes its word that
+/// stops, of which one may be lost.
+constexpr std::uint8_t kCyclesToTell = 3;
 
 /// Bounds the end of a driver whose node does not answer.
 constexpr Duration kLongestRelease = std::chrono::seconds{1};

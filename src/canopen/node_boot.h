@@ -58,7 +58,7 @@ class NodeBoot {
   }
   /// What is sent to a node that is lost did not go out before the cycle that begins: all from the beginning.
   void handleUntold() noexcept {
-    if (past_.cycles_to_tell > 0) past_.cycles_to_tell = kCyclesToTell + 1;
+    if (past_.cycles_to_tell > 0) past_.cycles_to_tell = kCyclesToTell;
   }
   /// Lets the node go: a reset of its communication where the configuration allows one; otherwise it is told not to
   /// watch us any more, which takes a second at most, and led to pre-operational. One that is driven by somebody else's

@@ -77,35 +77,49 @@ TEST_F(ToldFirst, ANodeThatWasResetIsNotOperationalWhateverItHasSaidBefore) {
   EXPECT_EQ(NmtState::kUnknown, run_->master.status(0).nmt);
 }
 
-// Two cycles of the bus, however long they are: the first has learned of the loss, the second sends what stops.
-TEST_F(ToldFirst, WaitsForTwoCycles) {
+// Cycles of the bus, however long they are: in the first the drive layer learns of the loss, in the two after it its word
+// that stops goes out.
+TEST_F(ToldFirst, WaitsForTwoWordsThatStop) {
   start(busConfig(1));
   Master& master = run_->master;
   lose();
+  std::size_t words = 0;
   const auto asks = [&] {
     bool asked = false;
     for (int i = 0; i < 300; ++i) {
       run_->now += milliseconds{1};
       master.poll(run_->now);
       CanFrame frame;
-      while (master.pollTransmit(frame)) asked = asked || frame.id == 0x601;
+      while (master.pollTransmit(frame)) {
+        words += frame.id == 0x201 ? 1 : 0;
+        asked = asked || frame.id == 0x601;
+      }
     }
     return asked;
   };
+  const auto cycle = [&](bool knows) {
+    if (knows) {
+      master.setReceivePdo(0, 0, fromHex("7E 04 00 00"));
+      master.tellUnheard(0, 0);
+    }
+    master.startCycle(run_->now);
+    return asks();
+  };
   EXPECT_FALSE(asks());
-  master.startCycle(run_->now);
-  EXPECT_FALSE(asks());
-  master.startCycle(run_->now);
-  EXPECT_TRUE(asks());
+  EXPECT_FALSE(cycle(false));
+  EXPECT_FALSE(cycle(true));
+  EXPECT_EQ(1u, words);
+  EXPECT_TRUE(cycle(true));
+  EXPECT_EQ(2u, words);
 }
 
-// Cycles that come one right after the other are two cycles, but a tenth of a second is left to it all the same.
+// Cycles that come one right after the other count as well, but a tenth of a second is left to it all the same.
 TEST_F(ToldFirst, WaitsForATenthOfASecondToo) {
   start(busConfig(1));
   Master& master = run_->master;
   lose();
   const Instant lost = run_->now;
-  for (int i = 0; i < 3; ++i) master.startCycle(run_->now);
+  for (int i = 0; i < 4; ++i) master.startCycle(run_->now);
   bool asked = false;
   while (!asked && run_->now < lost + seconds{1}) {
     master.poll(run_->now);
@@ -117,7 +131,7 @@ TEST_F(ToldFirst, WaitsForATenthOfASecondToo) {
   EXPECT_GE(run_->now - lost, milliseconds{99});
 }
 
-// A word that the link did not take is not said: the two cycles begin anew.
+// A word that the link did not take is not said: the cycles begin anew.
 TEST_F(ToldFirst, WaitsUntilItsWordsLeave) {
   start(busConfig(1));
   lose();
