@@ -36,8 +36,8 @@ class FoundTurning : public ::testing::Test {
     for (const auto& [key, value] : drives) options.drives[key] = value;
     options.beside = &died_->bus();
     next_ = std::make_unique<CanRobot>(options);
-    step();  // it opens
     next_->beside().setSees([this](const CanFrame& frame) { watch(frame); });
+    step();  // it opens
   }
   void step() { next_->step(); }
   // A reset, or a way out of operation, takes a node the ear for what stops its drive.
@@ -108,6 +108,44 @@ TEST_F(FoundTurning, WithSyncTheyAreAsked) {
   EXPECT_THAT(next_->text(kLeft), HasSubstr("its drives are stopped before it is set up")) << "they have answered";
   expectTakenOver();
   EXPECT_TRUE(hasSent("203#7E040000"));
+}
+
+// Listening ends in the middle of a cycle, and what was heard in it counts.
+TEST_F(FoundTurning, AlsoInACycleLongerThanTheListening) {
+  for (const double rate : {1.0, 1.5}) {
+    SCOPED_TRACE(rate);
+    next_.reset();
+    sent_.clear();
+    deafened_ = false;
+    drive();
+    options_.node["cycle_rate"] = rate;
+    startNext();
+    next_->run(seconds{2});
+    EXPECT_TRUE(hasSent("203#7E040000") && hasSent("204#7E040000"));
+    EXPECT_LT(frequency(kLeft), 24.0);
+    EXPECT_GT(frequency(kRight), -24.0);
+    ASSERT_TRUE(next_->runUntil([this] { return online(); }, seconds{30})) << next_->text(kLeft);
+    EXPECT_FALSE(deafened_);
+    EXPECT_TRUE(stands());
+    for (std::size_t i = 0; i < count(); ++i) EXPECT_EQ(0, fault(i)) << "on the ramp";
+  }
+}
+
+// Each cycle begins a little late: what SYNC has brought in the one before still counts.
+TEST_F(FoundTurning, WithSyncAlsoInLongCycles) {
+  CanRobot::Options options;
+  options.bus = {{"sync", true}};
+  drive(options);
+  options_.node["cycle_rate"] = 1.0;
+  startNext();
+  for (int cycles = 0; cycles < 20 && !online(); ++cycles) {
+    died_->bus().run(milliseconds{10});
+    step();
+  }
+  EXPECT_TRUE(hasSent("203#7E040000") && hasSent("204#7E040000"));
+  ASSERT_TRUE(online()) << next_->text(kLeft);
+  EXPECT_FALSE(deafened_);
+  EXPECT_TRUE(stands());
 }
 
 TEST_F(FoundTurning, InCia402) {

@@ -89,7 +89,9 @@ bool CanTransport::mayTalk(Instant now) noexcept {
   const bool listened = isSilent();
   if (listened && !linkWorks()) listen_first_->postpone(now);
   if (!listen_first_->mayTalk(now)) return false;
-  if (listened) engine_->restart(now);
+  if (!listened) return true;
+  handleListened();
+  engine_->restart(now);
   return true;
 }
 

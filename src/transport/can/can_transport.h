@@ -91,6 +91,8 @@ class CanTransport : public Transport {
   virtual void handleGone() noexcept = 0;
   /// A driver has received a frame while it listens.
   virtual void handleWhileListening(const CanFrame& /*frame*/, Instant /*at*/) noexcept {}
+  /// Listening is over, and the engine is about to begin.
+  virtual void handleListened() noexcept {}
   /// The interface works again, or does not any more.
   virtual void handleController(bool /*works*/) noexcept {}
 

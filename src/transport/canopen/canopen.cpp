@@ -91,7 +91,9 @@ void CanopenTransport::setShutdownTimeout(Duration timeout) noexcept {
 }
 
 void CanopenTransport::putOutputs(const std::vector<profile::ProcessOutput>& outputs) noexcept {
-  for (std::size_t node = 0; node < master_->nodeCount(); ++node) lookForMotion(node);
+  for (std::size_t node = 0; node < master_->nodeCount(); ++node) {
+    if (master_->status(node).stops_first) lookForMotion(node);
+  }
   for (DriveIndex i = 0; i < drives_.size(); ++i) {
     drives_[i].putOutput(outputs[i], *master_);
     answered_[i] = master_->transmitPdo(config_.drives[i].node, config_.drives[i].transmit_pdo).count;
@@ -100,7 +102,7 @@ void CanopenTransport::putOutputs(const std::vector<profile::ProcessOutput>& out
 
 // Somebody who is gone may have left them turning.
 void CanopenTransport::lookForMotion(std::size_t node) noexcept {
-  if (parametersOnly() || !(isSilent() || master_->status(node).stops_first)) return;
+  if (parametersOnly()) return;
   const bool asked = config_.master.sync_cob_id.has_value();
   canopen::FoundMotion motion = canopen::FoundMotion::kRests;
   for (const CanopenDriveState& drive : drives_) {
@@ -125,6 +127,11 @@ bool CanopenTransport::allAnswered() const noexcept {
 
 void CanopenTransport::handleWhileListening(const CanFrame& frame, Instant at) noexcept {
   if (master_->noteOtherMaster(frame, at)) noteMaster(frame.id, at);
+}
+
+// Not before: a cycle may be longer than the listening.
+void CanopenTransport::handleListened() noexcept {
+  for (std::size_t node = 0; node < master_->nodeCount(); ++node) lookForMotion(node);
 }
 
 void CanopenTransport::restartDrives() noexcept {

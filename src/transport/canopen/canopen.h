@@ -60,6 +60,7 @@ class CanopenTransport final : public CanTransport, public BusScanner {
   void restartDrives() noexcept override;
   void handleGone() noexcept override { restart(); }
   void handleWhileListening(const CanFrame& frame, Instant at) noexcept override;
+  void handleListened() noexcept override;
 
   CanopenConfig config_;
   std::optional<canopen::Master> master_;

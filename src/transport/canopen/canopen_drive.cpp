@@ -1,5 +1,7 @@
 #include "transport/canopen/canopen_drive.h"
 
+#include <algorithm>
+
 #include "profile/control_word.h"
 #include "profile/status_word.h"
 #include "transport/canopen/canopen_map.h"
@@ -15,8 +17,9 @@ constexpr Duration kContested = std::chrono::seconds{1};
 // Bits 0 to 3 of a word that keeps an inverter running; every one that stops has one of them at 0 (BU 2700 6.4.1).
 constexpr Word kRuns = 0x000F;
 
-// A drive found enabled that sends at intervals and was not heard for so long: its node is gone. Another driver may have
-// given it longer intervals than ours; one with still longer ones counts as gone while its words do not change.
+// A drive found enabled that sends at intervals and was not heard for so long, or for as long as ours may be: its node is
+// gone. Another driver may have given it longer intervals than ours; one with still longer ones counts as gone while its
+// words do not change.
 constexpr Duration kFoundIsOld = std::chrono::seconds{1};
 
 }  // namespace
@@ -55,7 +58,8 @@ void CanopenDriveState::putOutput(const profile::ProcessOutput& output, canopen:
 canopen::FoundMotion CanopenDriveState::foundMotion(const canopen::Master& master, bool asked,
                                                     Instant now) const noexcept {
   const canopen::PdoValue& pdo = master.transmitPdo(config_.node, config_.transmit_pdo);
-  const bool old = config_.transmit_limit > Duration::zero() && now - pdo.at > kFoundIsOld;
+  const Duration limit = config_.transmit_limit;
+  const bool old = limit > Duration::zero() && now - pdo.at > std::max<Duration>(kFoundIsOld, limit);
   if (pdo.count == 0 || old) return asked ? canopen::FoundMotion::kUnknown : canopen::FoundMotion::kRests;
   const bool enabled = foundStatus(master).state() == profile::DriveState::kOperationEnabled;
   return enabled ? canopen::FoundMotion::kDriven : canopen::FoundMotion::kRests;
