@@ -27,6 +27,15 @@ bool stopsAt(std::uint16_t word, Word run_bits, const RegisterImage& written, co
   return !runsAt(word, run_bits, next) && (lost & run_bits) != 0;
 }
 
+/// How many control words of a part do.
+std::ptrdiff_t stopsIn(const ModbusSettings& settings, std::size_t part, const RegisterImage& written,
+                       const RegisterImage& next) noexcept {
+  const WordRange& range = settings.outputs.parts[part];
+  return std::count_if(settings.control_words.begin(), settings.control_words.end(), [&](std::uint16_t word) {
+    return word >= range.first && word < range.end() && stopsAt(word, settings.run_bits, written, next);
+  });
+}
+
 WordRange registersOf(const RegisterBlock& block, std::size_t part) noexcept {
   return {static_cast<std::uint16_t>(block.address + block.parts[part].first), block.parts[part].count};
 }
@@ -34,15 +43,9 @@ WordRange registersOf(const RegisterBlock& block, std::size_t part) noexcept {
 }  // namespace
 
 PartOrder stopsFirst(const ModbusSettings& settings, const RegisterImage& written, const RegisterImage& next) noexcept {
-  const auto& parts = settings.outputs.parts;
-  const auto stops = [&](std::uint8_t part) noexcept {
-    const auto in_part = [&](std::uint16_t word) { return word >= parts[part].first && word < parts[part].end(); };
-    return std::count_if(settings.control_words.begin(), settings.control_words.end(), [&](std::uint16_t word) {
-      return in_part(word) && stopsAt(word, settings.run_bits, written, next);
-    });
-  };
+  const auto stops = [&](std::uint8_t part) noexcept { return stopsIn(settings, part, written, next); };
   PartOrder order;
-  for (std::size_t i = 0; i < parts.size(); ++i) order.push_back(static_cast<std::uint8_t>(i));
+  for (std::size_t i = 0; i < settings.outputs.parts.size(); ++i) order.push_back(static_cast<std::uint8_t>(i));
   // Insertion: stable, and without the memory std::stable_sort takes.
   for (std::size_t i = 1; i < order.size(); ++i) {
     for (std::size_t k = i; k > 0 && stops(order[k]) > stops(order[k - 1]); --k) std::swap(order[k], order[k - 1]);
@@ -56,12 +59,15 @@ bool ModbusExchange::stops(const RegisterImage& next) const noexcept {
 }
 
 bool ModbusExchange::ask(const ModbusRequest& request, const Wakeup& stop) noexcept {
-  if (!connection_.exchange(request, stop)) {
-    reason_ = connection_.reason();
-    return false;
+  if (connection_.exchange(request, stop)) {
+    ++requests_;
+    return true;
   }
-  ++requests_;
-  return true;
+  reason_ = connection_.reason();
+  trouble_ = connection_.trouble();
+  exception_ = connection_.exception();
+  if (trouble_ == ModbusTrouble::kException) ++refusals_;
+  return false;
 }
 
 void ModbusExchange::addWrite(std::size_t part, const RegisterImage& outputs, ModbusRequest& request) noexcept {
@@ -92,29 +98,31 @@ void ModbusExchange::takeRead(std::size_t part, RegisterInputs& inputs) noexcept
   for (std::size_t i = 0; i < range.count; ++i) inputs.words[range.first + i] = connection_.answered(i);
 }
 
+// Behind a part that was refused only what stops is written: a drive hears that whatever another one's registers do. More
+// would feed the server's watchdog, which is what stops the drives of the part that was refused.
+bool ModbusExchange::mayWrite(std::size_t part, const RegisterImage& outputs) const noexcept {
+  return refusals_ == 0 || stopsIn(settings_, part, written_, outputs) > 0;
+}
+
 bool ModbusExchange::moveImages(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept {
   const PartOrder order = stopsFirst(settings_, written_, outputs);
   const std::size_t reads = settings_.inputs.parts.size();
-  if (settings_.inputs.function == ModbusFunction::kReadWriteRegisters) {
-    // Each request does both: the shorter image's last part is moved again, which changes nothing.
-    for (std::size_t i = 0; i < std::max(order.size(), reads); ++i) {
-      const std::size_t write_part = order[std::min(i, order.size() - 1)], read_part = std::min(i, reads - 1);
-      ModbusRequest request;
-      addWrite(write_part, outputs, request);
-      addRead(read_part, request);
-      if (!ask(request, stop)) return false;
-      note(write_part, outputs, true);
-      takeRead(read_part, inputs);
-    }
-    return true;
-  }
-  for (const std::uint8_t part : order) {
+  const bool both = settings_.inputs.function == ModbusFunction::kReadWriteRegisters;
+  // Where each request does both, the shorter image's last part is moved again, which changes nothing.
+  for (std::size_t i = 0; i < (both ? std::max(order.size(), reads) : order.size()); ++i) {
+    const std::size_t part = order[std::min(i, order.size() - 1)], read_part = std::min(i, reads - 1);
+    if (!mayWrite(part, outputs)) continue;
     ModbusRequest request;
     addWrite(part, outputs, request);
-    if (!ask(request, stop)) return false;
-    note(part, outputs, true);
+    if (both) addRead(read_part, request);
+    if (ask(request, stop)) {
+      note(part, outputs, true);
+      if (both) takeRead(read_part, inputs);
+    } else if (trouble_ != ModbusTrouble::kException) {
+      return false;
+    }
   }
-  return readImage(settings_.inputs.function, inputs, stop);
+  return refusals_ == 0 && (both || readImage(settings_.inputs.function, inputs, stop));
 }
 
 bool ModbusExchange::readImage(ModbusFunction function, RegisterInputs& inputs, const Wakeup& stop) noexcept {
@@ -132,6 +140,7 @@ bool ModbusExchange::readImage(ModbusFunction function, RegisterInputs& inputs, 
 bool ModbusExchange::look(RegisterInputs& inputs, const Wakeup& stop) noexcept {
   const ModbusFunction function = settings_.inputs.function;
   const bool writes_too = function == ModbusFunction::kReadWriteRegisters;
+  refusals_ = 0;
   inputs.words.clear();
   if (!readImage(writes_too ? ModbusFunction::kReadHoldingRegisters : function, inputs, stop)) return false;
   inputs.received = std::chrono::steady_clock::now();
@@ -139,8 +148,10 @@ bool ModbusExchange::look(RegisterInputs& inputs, const Wakeup& stop) noexcept {
 }
 
 bool ModbusExchange::run(const RegisterImage& outputs, RegisterInputs& inputs, const Wakeup& stop) noexcept {
+  refusals_ = 0;
   for (const WordRange& part : settings_.outputs.parts) {
     if (part.end() <= outputs.size()) continue;
+    trouble_ = ModbusTrouble::kNone;
     reason_.format("the output image has %zu words, expected %u", outputs.size(), part.end());
     return false;
   }

@@ -150,7 +150,7 @@ bool ModbusLink::writeStop() noexcept {
   last_outputs_ = outputs.number;
   if (exchange_.run(outputs.words, unwatched_, stop_)) return true;
   report_.text = exchange_.reason();
-  return connection_.trouble() == ModbusTrouble::kException;
+  return exchange_.trouble() == ModbusTrouble::kException;
 }
 
 bool ModbusLink::startWatchdog() noexcept {
@@ -192,8 +192,11 @@ bool ModbusLink::exchangeOnce() noexcept {
   if (diagnosis_) diagnosis_->ask();
   const bool moved = outputs.only_reads ? exchange_.look(newest_, stop_) : exchange_.run(outputs.words, newest_, stop_);
   if (!moved) {
+    const ModbusTrouble trouble = exchange_.trouble();
     report_.text = exchange_.reason();
-    failed();
+    // One refusal counts as what the exchange has failed by.
+    report_.counters.exceptions += exchange_.refusals() - (trouble == ModbusTrouble::kException ? 1 : 0);
+    failed(trouble, exchange_.exception());
     return false;
   }
   // Last: whether the bus ran is to be known of the time in which the inputs were read.
@@ -230,11 +233,10 @@ bool ModbusLink::readRunning() noexcept {
   return true;
 }
 
-void ModbusLink::failed() noexcept {
+void ModbusLink::failed(ModbusTrouble trouble, unsigned exception) noexcept {
   if (ending()) return;
-  const ModbusTrouble trouble = connection_.trouble();
   countTrouble(trouble, report_.counters);
-  const bool is_refused = trouble == ModbusTrouble::kException && connection_.exception() != kServerBusy;
+  const bool is_refused = trouble == ModbusTrouble::kException && exception != kServerBusy;
   if (started_ && is_refused) ++report_.counters.refused_exchanges;
   desk_.refuse(report_.text);
   // "Busy" (5, 6) asks for a later try, and one is no reason to have the drives wait for their words: the next cycle's

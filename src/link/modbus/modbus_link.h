@@ -70,7 +70,8 @@ class ModbusLink final : public RegisterLink {
   bool exchangeOnce() noexcept;
   bool readRunning() noexcept;
   void waitForOutputs() noexcept;
-  void failed() noexcept;
+  void failed() noexcept { failed(connection_.trouble(), connection_.exception()); }
+  void failed(ModbusTrouble trouble, unsigned exception) noexcept;
   void pause(Instant until, bool is_kept) noexcept;
   void tell(LinkState state) noexcept;
   bool ending() const noexcept { return ending_.load(std::memory_order_relaxed); }
