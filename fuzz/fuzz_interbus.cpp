@@ -120,6 +120,7 @@ class AnyLink final : public link::RegisterLink {
     const bool refused = choices_.below(2) == 0;
     report_.text = refused ? "the gateway says no" : "";
     ++(refused ? report_.counters.refused_exchanges : report_.counters.timeouts);
+    if (!refused && report_.state != link::LinkState::kConnected) ++report_.counters.lost;
   }
   void anyAnswer() noexcept {
     answer_.number = ordered_ - choices_.below(2);

@@ -46,6 +46,7 @@ struct LinkCounters {
   std::uint64_t exceptions = 0;
   std::uint64_t skipped_outputs = 0;    ///< output images a newer one took the place of
   std::uint64_t refused_exchanges = 0;  ///< of images, and looks, by exceptions other than "server device busy"
+  std::uint64_t lost = 0;               ///< `closed` and `connect_failures` of the images' connection alone
 };
 
 struct LinkReport {

@@ -6,9 +6,11 @@ void countTrouble(ModbusTrouble trouble, LinkCounters& counters) noexcept {
   switch (trouble) {
     case ModbusTrouble::kNoConnection:
       ++counters.connect_failures;
+      ++counters.lost;
       break;
     case ModbusTrouble::kClosed:
       ++counters.closed;
+      ++counters.lost;
       break;
     case ModbusTrouble::kSilent:
       ++counters.timeouts;

@@ -7,7 +7,7 @@
 namespace nord_driver::link {
 
 void countTrouble(ModbusTrouble trouble, LinkCounters& counters) noexcept;
-/// Adds what happened on a second connection; exchanges, those refused, and skipped outputs are of images and stay.
+/// Adds what happened on a second connection; exchanges, those refused, skipped outputs and losses are of images and stay.
 void addConnection(const LinkCounters& second, LinkCounters& to) noexcept;
 
 }  // namespace nord_driver::link

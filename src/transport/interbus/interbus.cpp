@@ -46,7 +46,11 @@ void InterbusTransport::configure(const Settings& bus, const std::vector<DriveSe
     return drive.drive_profile == InterbusProfile::kDrivecom;
   };
   const bool looks = !read_only_ && std::any_of(config_.drives.begin(), config_.drives.end(), begins_with_a_stop);
-  first_look_ = looks ? FirstLook{config_.server.response_timeout} : FirstLook{};
+  const link::ModbusSettings& server = config_.server;
+  // Without what comes over the second connection there are no inputs, and it may have to be made first.
+  const bool waits_for_second = server.running && !server.diagnosis.empty();
+  const Duration longest = server.response_timeout + (waits_for_second ? server.connect_timeout : Duration::zero());
+  first_look_ = looks ? FirstLook{longest} : FirstLook{};
 }
 
 // Without parts nothing is written, and function 23 has nothing to write with.

@@ -37,6 +37,7 @@ TEST_F(LinkFailures, Refused) {
   EXPECT_EQ(server.address() + " refuses the connection: is its Modbus/TCP server switched on, and is this its port?",
             link->report().text.str());
   EXPECT_EQ(1u, link->report().counters.connect_failures);
+  EXPECT_EQ(1u, link->report().counters.lost);
   server.listenAgain();
   expectComesBack();
 }
@@ -88,6 +89,7 @@ TEST_F(LinkFailures, AnswersAnotherTransaction) {
   start();
   EXPECT_EQ("answers transaction 2, expected 1: an answer to another request", trouble());
   EXPECT_EQ(1u, link->report().counters.bad_answers);
+  EXPECT_EQ(0u, link->report().counters.lost) << "it was given up here";
   expectComesBack();
 }
 
@@ -229,6 +231,7 @@ TEST_F(LinkFailures, ResetsTheConnection) {
   start();
   server.next({Reaction::kReset});
   EXPECT_EQ(0u, trouble().find("has closed the connection instead of answering"));
+  EXPECT_EQ(1u, link->report().counters.lost);
   expectComesBack();
 }
 

@@ -185,6 +185,7 @@ TEST_F(Orders, ASecondConnectionThatFailsMakesTheInputsOld) {
   ASSERT_TRUE(waitFor([&] { return link->take().number > number + 5; })) << "the images go on";
   EXPECT_EQ(asked, link->take().asked);
   EXPECT_THAT(link->report().text.str(), StartsWith("diagnosis: " + second.address() + " refuses the connection"));
+  EXPECT_EQ(0u, link->report().counters.lost) << "of the images' connection";
   second.listenAgain();
   EXPECT_TRUE(waitFor([&] { return link->take().asked > asked; }));
 }

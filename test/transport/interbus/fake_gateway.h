@@ -25,6 +25,7 @@ class FakeGateway {
   Sentence text;                                        ///< of the link's report
   std::uint64_t exceptions = 0;                         ///< of the link's report
   std::uint64_t refused_exchanges = 0;                  ///< of the link's report
+  std::uint64_t lost = 0;                               ///< of the link's report
   bool ring_runs = true;
   Word running = 1;
   /// What the ring answers to outputs.
@@ -110,6 +111,7 @@ class FakeRegisterLink final : public link::RegisterLink {
     report_.text = gateway_.text;
     report_.counters.exceptions = gateway_.exceptions;
     report_.counters.refused_exchanges = gateway_.refused_exchanges;
+    report_.counters.lost = gateway_.lost;
     return report_;
   }
   bool waitAnswers(Instant until) noexcept override {

@@ -147,6 +147,67 @@ TEST_F(FirstLookTest, WaitsForAConnection) {
   EXPECT_EQ(1u, gateway.given.size());
 }
 
+// Nobody can be read while it is gone, and no word would go out: the time begins anew with the next connection.
+TEST_F(FirstLookTest, AConnectionThatWasClosedIsLookedAtAnew) {
+  start();
+  gateway.stalled = true;
+  for (int i = 0; i < 20; ++i) cycle();
+  gateway.state = link::LinkState::kPausing;
+  gateway.lost = 1;
+  for (int i = 0; i < 50; ++i) cycle();
+  gateway.lost = 20;  // attempts to connect that were refused
+  cycle();
+  gateway.state = link::LinkState::kConnected;
+  for (int i = 0; i < 20; ++i) cycle();
+  EXPECT_TRUE(gateway.given.empty());
+  gateway.stalled = false;
+  words[0] = kFault;
+  for (int i = 0; i < 3 && !inputs[0].inverter_answers; ++i) cycle();
+  EXPECT_TRUE(gateway.given.empty());
+  EXPECT_TRUE(profile::StatusWord{inputs[0].input.status_word}.fault());
+  cycle();
+  EXPECT_EQ(1u, gateway.given.size());
+}
+
+// It may close each connection because of the look.
+TEST_F(FirstLookTest, AGatewayThatClosesEachConnectionIsWrittenTo) {
+  start();
+  gateway.stalled = true;
+  for (int i = 0; i < 100 && gateway.given.empty(); ++i) {
+    gateway.lost = static_cast<unsigned>(i / 10);
+    gateway.state = i % 10 < 2 ? link::LinkState::kPausing : link::LinkState::kConnected;
+    cycle();
+  }
+  EXPECT_TRUE(gateway.given.empty()) << "ten times it is looked at anew";
+  for (int i = 100; i < 150 && gateway.given.empty(); ++i) {
+    gateway.lost = static_cast<unsigned>(i / 10);
+    gateway.state = i % 10 < 2 ? link::LinkState::kPausing : link::LinkState::kConnected;
+    cycle();
+  }
+  EXPECT_FALSE(gateway.given.empty());
+}
+
+// The register of `running` comes over it, and without it there are no inputs: it is waited for, not for ever.
+TEST_F(FirstLookTest, ASecondConnectionMayHaveToBeMadeFirst) {
+  settings.bus.set("diagnosis", "192.168.0.10:502").set("running/address", 200);
+  start();
+  gateway.stalled = true;
+  const Instant begun = transport.now();
+  for (int i = 0; i < 2; ++i) cyclesUntilWritten();
+  // `response_timeout` and the 0.8 s an attempt to connect takes.
+  EXPECT_GE(gateway.given.at(0).at - begun, milliseconds{1100});
+  EXPECT_LE(gateway.given.at(0).at - begun, milliseconds{1130});
+}
+
+TEST_F(FirstLookTest, ASecondConnectionThatSaysNothingOfTheRingIsNotWaitedFor) {
+  settings.bus.set("diagnosis", "192.168.0.10:502");
+  start();
+  gateway.stalled = true;
+  const Instant begun = transport.now();
+  cyclesUntilWritten();
+  EXPECT_LE(gateway.given.at(0).at - begun, milliseconds{330});
+}
+
 // A ring that stands shows nothing, and the word that stops lies ready for the moment it runs.
 TEST_F(FirstLookTest, ARingThatStandsIsWrittenTo) {
   start();
