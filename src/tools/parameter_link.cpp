@@ -215,8 +215,13 @@ ParameterAnswer ParameterLink::carryOut(const catalogue::ParameterAccess& access
   return answer;
 }
 
+bool ParameterLink::sendsWords(DriveIndex drive) const {
+  const DriveIdentity found = identity(drive);
+  return found.sends_words && found.process_values > 0;
+}
+
 std::string ParameterLink::changedByReading() {
-  if (!cycle_->gate().faultSeen() || !snapshot().online || snapshot().fault) return {};
+  if (!sendsWords(0) || !cycle_->gate().faultSeen() || !snapshot().online || snapshot().fault) return {};
   return "drive " + drive().name +
          " was in fault when this program came: its idle word 047E took the enable away, which acknowledges a fault "
          "whose cause is gone";
@@ -233,9 +238,7 @@ std::vector<std::string> ParameterLink::finish() {
       // Any further access also tries again to put P560 back.
       answer = i == 0 ? read(timeout) : read(i, timeout);
     }
-    // Where no process data are exchanged there were no words that could be missed.
-    const bool words_were_sent = identity(i).process_values > 0;
-    if (words_were_sent && answer.success && answer.entry != nullptr && answer.value > 0.0) {
+    if (sendsWords(i) && answer.success && answer.entry != nullptr && answer.value > 0.0) {
       sentences.push_back("drive " + name(i) + " has P" + std::to_string(answer.entry->number) + " = " +
                           shortNumber(answer.value) +
                           " s: that long after this it trips (E10.x), because nobody sends it words any more; "

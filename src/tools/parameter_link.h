@@ -81,6 +81,8 @@ class ParameterLink final : public DriveParameters {
 
  private:
   const cycle::DriveSetup& drive() const noexcept { return config_.cycle.drives.front(); }
+  /// False: no word of this program gets to the drive, so that none acknowledges and none is missed after its end.
+  bool sendsWords(DriveIndex drive) const;
   void exchange() noexcept;
   /// Of the last cycle.
   const cycle::DriveSnapshot& snapshot() noexcept { return snapshot(0); }

@@ -99,5 +99,28 @@ TEST_F(RingedDrive, TheOneThatIsNamedMayNot) {
   }
 }
 
+// Nothing watches for words that were never sent.
+TEST_F(RingedDrive, ItsEndTripsNothing) {
+  connect();
+  catalogue::ParameterAddress timeout;
+  timeout.number = 513;
+  catalogue::ParameterWrite write;
+  write.value = 1.0;
+  const ParameterAnswer written = writeValue(link_, timeout, write);
+  ASSERT_TRUE(written.success) << written.message;
+  EXPECT_THAT(link_.finish(), ::testing::IsEmpty());
+  EXPECT_EQ(0u, sim_.withGateway([](sim::IbsRing&, sim::RegisterGateway& gateway) { return gateway.watchdogTrips(); }));
+}
+
+// Somebody else has: the driver that has the gateway's outputs, or whoever stands before the drive.
+TEST_F(RingedDrive, AFaultThatEndedMeanwhileWasNotAcknowledgedByThisProgram) {
+  sim_.withModel([](sim::RobotSim& robot) { robot.drive(2).inverter().trip(41, false); });
+  connect();
+  sim_.withModel([](sim::RobotSim& robot) { EXPECT_TRUE(robot.drive(2).inverter().acknowledge()); });
+  link_.exchangeUntil(link_.now() + milliseconds{300}, not_asked_);
+  ASSERT_FALSE(link_.snapshot(0).fault);
+  EXPECT_EQ("", link_.changedByReading());
+}
+
 }  // namespace
 }  // namespace nord_driver::tools

@@ -20,6 +20,7 @@ class Bare final : public Transport {
 TEST(TransportDefaults, EveryParameterRequestIsAnsweredWithNoChannel) {
   Bare transport;
   EXPECT_EQ("none", transport.identity(0).parameter_channel);
+  EXPECT_TRUE(transport.identity(0).sends_words);
   EXPECT_FALSE(transport.pollResult());
   for (const std::uint32_t id : {7u, 9u}) {
     profile::ParameterRequest request;

@@ -69,6 +69,8 @@ struct DriveIdentity {
   bool module_saves = false;
   /// Each telegram says that control word and setpoint come from this bus, and P509 and P510 are not asked for that.
   bool sources_by_telegram = false;
+  /// False: of a transport that serves parameters only, and sends no control words then: none end with the program.
+  bool sends_words = true;
 };
 
 /// Something that happened on the bus, told once: a sentence for a technician.

@@ -286,6 +286,7 @@ DriveIdentity InterbusTransport::identity(DriveIndex drive) const {
   identity.process_values = config.ppo_type == 1 ? 1 : 3;
   if (parameters_) identity.parameter_channel = "PCP (experimental)";
   identity.timeout_notices = false;
+  identity.sends_words = !read_only_;
   if (config_.server.watchdog) {
     const bool drivecom = config.drive_profile == InterbusProfile::kDrivecom;
     identity.timeout_needed = !drivecom;

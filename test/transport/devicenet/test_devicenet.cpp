@@ -232,7 +232,9 @@ TEST(DeviceNetTransportTest, TellsTheLongestPauseBetweenItsTelegrams) {
   test::DevicenetSettings settings{1};
   settings.drive().set("io", "cos");
   for (const bool guest : {false, true}) {
-    EXPECT_DOUBLE_EQ(0.125, (Rig{settings, guest}.transport.identity(0).longest_pause)) << guest;
+    const DriveIdentity identity = Rig{settings, guest}.transport.identity(0);
+    EXPECT_DOUBLE_EQ(0.125, identity.longest_pause) << guest;
+    EXPECT_EQ(!guest, identity.sends_words) << guest;
   }
 }
 

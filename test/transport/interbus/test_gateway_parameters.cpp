@@ -30,6 +30,7 @@ TEST_F(GatewayParameters, PcpIsAParameterChannelAndCalledExperimental) {
   withPcp();
   start();
   EXPECT_EQ("PCP (experimental)", transport.identity(0).parameter_channel);
+  EXPECT_TRUE(transport.identity(0).sends_words);
   EXPECT_THAT(transport.warnings(), Contains(HasSubstr("Compact PCP is experimental")));
   EXPECT_FALSE(transport.parameterCapabilities(0).ram_writes);
   ASSERT_TRUE(allAnswer()) << transport.busText().c_str();
@@ -105,6 +106,7 @@ TEST_F(GatewayParameters, WhoServesParametersOnlyWritesNoImage) {
     return std::string(transport.busText().c_str()).find("exception 2") != std::string::npos;
   })) << transport.busText().c_str();
   EXPECT_EQ(0u, writes());
+  EXPECT_FALSE(transport.identity(0).sends_words);
   EXPECT_THAT(transport.warnings(), Not(Contains(HasSubstr("watchdog"))));
 }
 
