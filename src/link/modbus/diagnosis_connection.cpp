@@ -72,6 +72,8 @@ void DiagnosisConnection::work() noexcept {
   while (!ending()) {
     const bool good = (connection_.isOpen() || connect()) && serve();
     if (!good && pausedAfterFailure()) continue;
+    // The images wait for its answer, so that no exchange of theirs asks anew.
+    if (!good && state_.watchdog_read != watchdog_asked_) continue;
     waitFor(asked_, stop_, std::nullopt);
     asked_.take();
   }

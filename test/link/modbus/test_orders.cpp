@@ -171,6 +171,31 @@ TEST_F(Orders, AWatchdogTheSecondConnectionDoesNotFindKeepsTheLinkAway) {
   ASSERT_TRUE(waitFor([&] { return link->take().number > 0; })) << link->report().text.c_str();
 }
 
+// The images wait for the answer, and nobody else asks: not even those of a cycle, which go out behind it.
+TEST_F(Orders, ARefusedReadBackIsAskedForAgain) {
+  second.setHolding(300, 250);
+  second.setHolding(400, 1);
+  second.next({Reaction::kException, 6});
+  startWithDiagnosis([](ModbusSettings& settings) {
+    settings.watchdog = WatchdogRegister{300, 250};
+    settings.running = RunningFlag{ModbusFunction::kReadHoldingRegisters, 400, 1, 1};
+    settings.longest_pause = milliseconds{1};
+  });
+  ASSERT_TRUE(waitConnected()) << link->report().text.c_str();
+  EXPECT_EQ(1u, link->report().counters.exceptions);
+  // The same of a new connection, where the register of the watchdog is busy and nothing else is.
+  second.refuse(300);
+  server.next({Reaction::kClose});
+  link->give({1, 2, 3, 4});
+  ASSERT_TRUE(server.waitForConnections(2));
+  ASSERT_TRUE(second.waitForRequests(second.requests().size() + 6))
+      << "it is asked, and the register of `running` before";
+  second.refuse(FakeModbusServer::kRegisters);
+  ASSERT_TRUE(waitConnected()) << link->report().text.c_str();
+  EXPECT_EQ(2u, server.connections());
+  EXPECT_EQ(2, countOf(server.requests(), 16, 300)) << "written once over each connection";
+}
+
 // Whether the ring runs is then not known any more: the inputs grow old with it.
 TEST_F(Orders, ASecondConnectionThatFailsMakesTheInputsOld) {
   second.setHolding(400, 1);
