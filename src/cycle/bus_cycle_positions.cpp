@@ -19,7 +19,11 @@ void BusCycle::commandPosition(DriveIndex drive, Instant now) noexcept {
   Axis& axis = axes_[drive];
   drive::Drive& to = drives_[drive];
   while (const auto asked = axis.targets.poll(ports_.newestPosition(drive))) {
-    axis.parameters.elements().forget();
+    ElementReader& elements = axis.parameters.elements();
+    // The one that is read already: begun anew with each choice, the reading of one chosen all the time would never end.
+    if (asked->kind == AskedPosition::Kind::kElement && elements.isAsked() && elements.asked() == asked->element)
+      continue;
+    elements.forget();
     switch (asked->kind) {
       case AskedPosition::Kind::kTarget:
         tellTarget(drive, *asked, to.setPosition(asked->value), now);

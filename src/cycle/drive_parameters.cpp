@@ -216,9 +216,9 @@ void DriveParameters::handleRequest(const Request& request, drive::Drive& drive,
   if (decidesMotion(request)) drive.setParametersAwaited(awaitsMotion());
 }
 
-// The answer to an earlier question must not be taken for another element.
+// The answer to an earlier question, which the reader does not wait for any more, comes first: asked for beside it, choices
+// many times in a second would take the places of all other requests.
 void DriveParameters::askElement(std::uint8_t element) noexcept {
-  open_ids_[static_cast<std::size_t>(Asker::kElement)] = 0;
   elements_.ask(element);
 }
 

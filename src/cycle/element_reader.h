@@ -17,7 +17,8 @@ struct ReadElement {
   Sentence why;
 };
 
-/// One at a time, asked for anew with each choice: others may have taught it another position since.
+/// One at a time, asked for anew with each choice: others may have taught it another position since. An answer to what was
+/// asked for before is not taken; its caller puts the next question behind it.
 class ElementReader {
  public:
   /// `element`: of P613, from 1. What was asked for before is forgotten.

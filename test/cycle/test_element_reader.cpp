@@ -85,7 +85,7 @@ TEST(ElementReaderTest, NamesItsParameterWhateverHappened) {
   EXPECT_EQ("drive lift does not answer", away->why.str());
 }
 
-// Its answer may be under way for long; the newest choice need not wait for it.
+// What it has asked for before is over; whether that has to be answered first is for its caller to know.
 TEST(ElementReaderTest, AsksForTheNewestChoiceAtOnce) {
   ElementReader reader;
   reader.ask(5);

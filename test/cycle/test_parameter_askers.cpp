@@ -53,7 +53,8 @@ TEST_F(ParameterAskers, HaveOneQuestionUnderWay) {
   EXPECT_EQ(1, reads(701));
 }
 
-// The answer to an earlier choice, which comes late, is not what stands in the element chosen last.
+// The answer to an earlier choice, which comes late, is not what stands in the element chosen last. That is asked for
+// behind it: choices many times in a second must not take the places of all other requests.
 TEST_F(ParameterAskers, AskForTheElementThatWasChosenLast) {
   runUntilComplete();
   held = {613};
@@ -61,15 +62,20 @@ TEST_F(ParameterAskers, AskForTheElementThatWasChosenLast) {
   step();
   ASSERT_EQ(1u, open.size());
   EXPECT_EQ(5, open[0].index);
-  parameters.askElement(6);
-  step();
-  ASSERT_EQ(2u, open.size());
-  EXPECT_EQ(6, open[1].index);
+  for (const std::uint8_t element : {std::uint8_t{7}, std::uint8_t{6}}) {
+    parameters.askElement(element);
+    step();
+    ASSERT_EQ(1u, open.size()) << unsigned{element};
+  }
   values[613] = 5000;
   EXPECT_TRUE(parameters.handleResult(resultOf(open[0])));
   EXPECT_FALSE(parameters.elements().poll());
+  open.clear();
+  step();
+  ASSERT_EQ(1u, open.size());
+  EXPECT_EQ(6, open[0].index);
   values[613] = 6000;
-  EXPECT_TRUE(parameters.handleResult(resultOf(open[1])));
+  EXPECT_TRUE(parameters.handleResult(resultOf(open[0])));
   const auto element = parameters.elements().poll();
   ASSERT_TRUE(element);
   EXPECT_EQ(6, element->element);

@@ -143,6 +143,75 @@ TEST_F(TargetsInCycle, AnElementIsAwaitedForTwoSeconds) {
   EXPECT_EQ(500, sentTarget()) << "too late";
 }
 
+/// Whose parameters are answered in every fifth cycle only.
+class ElementsOfASlowChannel : public TargetsInCycle {
+ protected:
+  /// Returns how often an element was asked for.
+  int stepAndCount() {
+    const auto others = transport.submitted.size();
+    step();
+    int asked = 0;
+    for (auto i = others; i < transport.submitted.size(); ++i) asked += transport.submitted[i].request.number == 613;
+    if (++cycles_ % 5 == 0) {
+      while (!transport.submitted.empty()) transport.answerFirst();
+    }
+    return asked;
+  }
+
+ private:
+  int cycles_ = 0;
+};
+
+// As a topic that is published in every cycle does.
+TEST_F(ElementsOfASlowChannel, AnElementChosenInEachCycleIsReadOnceInFiveAndGoneTo) {
+  ASSERT_TRUE(bringUpAndEnable());
+  transport.hold_answers = true;
+  int asked = 0;
+  for (int i = 0; i < 20; ++i) {
+    ports.commandElement(0, 3);
+    asked += stepAndCount();
+  }
+  EXPECT_EQ(900, sentTarget());
+  EXPECT_LE(asked, 5);
+  transport.parameters[613] = 800;  // taught another position
+  for (int i = 0; i < 20; ++i) {
+    ports.commandElement(0, 3);
+    stepAndCount();
+  }
+  EXPECT_EQ(800, sentTarget());
+  EXPECT_THAT(events(), IsEmpty());
+}
+
+TEST_F(ElementsOfASlowChannel, AnotherElementChosenMeanwhileIsTheOneGoneTo) {
+  ASSERT_TRUE(bringUpAndEnable());
+  transport.hold_answers = true;
+  ports.commandElement(0, 3);
+  stepAndCount();
+  ports.commandElement(0, 4);
+  for (int i = 0; i < 4; ++i) stepAndCount();
+  transport.parameters[613] = 700;  // of element 4
+  for (int i = 0; i < 3; ++i) {
+    stepAndCount();
+    EXPECT_EQ(500, sentTarget()) << "what was read of element 3 is not wanted any more";
+  }
+  for (int i = 0; i < 5; ++i) stepAndCount();
+  EXPECT_EQ(700, sentTarget());
+  EXPECT_THAT(events(), IsEmpty());
+}
+
+// The time it is awaited for begins with the first choice.
+TEST_F(TargetsInCycle, AnElementChosenAgainAndAgainIsNotAwaitedForever) {
+  ASSERT_TRUE(bringUpAndEnable());
+  transport.hold_answers = true;
+  for (int i = 0; i < 200; ++i) {
+    ports.commandElement(0, 3);
+    step();
+  }
+  EXPECT_THAT(events(), IsEmpty());
+  run(1);
+  EXPECT_THAT(events(), ElementsAre(HasSubstr("P613[-03] was not read in time")));
+}
+
 class TargetsOfASlowCycle : public TargetsInCycle {
  protected:
   TargetsOfASlowCycle() : TargetsInCycle{atOneHertz()} {}
