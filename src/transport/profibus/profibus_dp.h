@@ -103,7 +103,8 @@ class ProfibusDpTransport final : public Transport, public BusScanner {
   std::optional<ProfibusRecorder> recorder_;
   std::vector<DriveState> drives_;
   std::vector<InverterPresence> presence_;  // of the stations
-  EventRing<BusEvent, 16> own_events_;      // beside the master's
+  // Beside the master's: of a scan that finds all.
+  EventRing<BusEvent, profibus::BusScan::kAddresses + 1> own_events_;
   Sentence live_list_;
   Instant next_open_{};
   std::uint64_t foreign_seen_ = 0, busy_seen_ = 0;

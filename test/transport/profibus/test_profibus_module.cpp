@@ -39,6 +39,7 @@ class OnAModule : public ::testing::Test {
       drive.place = static_cast<unsigned>(i + 1);
       config.drives.push_back(drive);
     }
+    config.drives.insert(config.drives.end(), beside_.begin(), beside_.end());
     outputs_.resize(ppo_types.size());
     inputs_.resize(ppo_types.size());
     transport_ = std::make_unique<ProfibusDpTransport>([&](const link::SerialSettings&) {
@@ -88,6 +89,7 @@ class OnAModule : public ::testing::Test {
 
   MapSettings bus_{"~bus/"};
   std::string user_parameters_;
+  std::vector<sim::DriveConfig> beside_;  ///< of other stations
   sim::SimulatedSegment* segment_ = nullptr;
   std::unique_ptr<ProfibusDpTransport> transport_;
   std::vector<profile::ProcessOutput> outputs_;
@@ -284,6 +286,25 @@ TEST_F(OnAModule, AScanNamesTheStationWithoutAnAddress) {
       events_,
       Contains("PROFIBUS station 126 is a slave with the ident number 0BA8h, not addressed yet: set its address "
                "to 3 to 125"));
+}
+
+// Each one, however many there are.
+TEST_F(OnAModule, AScanNamesEveryStation) {
+  constexpr int kFirst = 4, kLast = 125;
+  for (int address = kFirst; address <= kLast; ++address) {
+    sim::DriveConfig drive;
+    drive.name = "beside" + std::to_string(address);
+    drive.address = static_cast<std::uint8_t>(address);
+    beside_.push_back(drive);
+  }
+  bus_.set("scan", true);
+  open({1});
+  run(seconds{5});
+  EXPECT_THAT(events_, Contains("PROFIBUS station 3 is a slave with the ident number 0BA8h"));
+  for (int address = kFirst; address <= kLast; ++address) {
+    EXPECT_THAT(events_,
+                Contains("PROFIBUS station " + std::to_string(address) + " is a slave with the ident number 7531h"));
+  }
 }
 
 TEST_F(OnAModule, ListensFirstWhenAskedTo) {
