@@ -36,6 +36,7 @@ BusParameters bus(std::uint8_t options) {
   parameters.freeze_inputs = (options & 2u) != 0;
   parameters.sync_groups = 1;
   if ((options & 4u) != 0) parameters.listen_first = std::chrono::milliseconds{5};
+  parameters.gives_way = (options & 0x44u) == 0x44u;  // and listens first
   if ((options & 8u) != 0) parameters.operate_interval = Duration::zero();
   parameters.send_sd3 = (options & 16u) != 0;
   parameters.max_retries = static_cast<std::uint8_t>(options >> 6);

@@ -75,6 +75,7 @@ void BusParameters::validate() const {
   require(probe_interval > Duration::zero(), "the probe interval is not positive");
   require(listen_first >= Duration::zero() && listen_first <= kLongestListening,
           "the time to listen first is not between 0 and 10 s");
+  require(!gives_way || listen_first > Duration::zero(), "who gives way to another master has to listen first");
   require(operate_interval >= Duration::zero(), "the interval of Global_Control is negative");
 }
 

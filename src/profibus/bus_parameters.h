@@ -31,6 +31,9 @@ struct BusParameters {
   /// Before the first telegram, and for as long again whenever another master is heard meanwhile; 0 = do not listen, at
   /// most kLongestListening. A token comes round in far less than a second on any segment.
   Duration listen_first{0};
+  /// Another master that is heard while we lead gets the bus: nothing more is sent until it has been silent for
+  /// `listen_first`. For who only looks on and brings no watchdog: a driver does not leave its drives to anybody.
+  bool gives_way = false;
 
   // Global_Control SYNC and FREEZE, off unless asked for: a slave in SYNC keeps its outputs, stop words included, and
   // data exchange feeds its watchdog all the same (BU 2700 6.3; BU 0020 5.3). So a master that uses them sends SYNC in

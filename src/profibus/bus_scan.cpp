@@ -51,7 +51,7 @@ void BusScan::start(Instant now) noexcept {
 void BusScan::handleBytes(ByteView bytes, Instant now) noexcept {
   requester_.handleBytes(
       bytes, now, [&](const FdlAnswer& answer) { onAnswer(answer, now); },
-      [&](std::uint8_t master, bool certain) { onForeign(master, certain, now); });
+      [&](std::uint8_t master, bool certain, bool) { onForeign(master, certain, now); });
 }
 
 void BusScan::handleTimeout(Instant now) noexcept {

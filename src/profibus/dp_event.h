@@ -37,7 +37,8 @@ enum class LossCause : std::uint8_t {
   kRefused,              ///< answered each exchange for as long, and took no outputs or gave no inputs
   kLeftDataExchange,     ///< answered RS: its watchdog ran out, or it was switched off and on
   kParametersRequested,  ///< Slave_Diag shows Prm_Req, or is that of another master, or of another device
-  kLinkRestarted         ///< `DpMaster::restart()`
+  kLinkRestarted,        ///< `DpMaster::restart()`
+  kGivenWay              ///< to another master: see `BusParameters::gives_way`
 };
 
 constexpr std::size_t kNoSlave = static_cast<std::size_t>(-1);

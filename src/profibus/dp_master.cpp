@@ -11,6 +11,7 @@ constexpr int kRestAfterProbe = 9;        // slots without a probe after one tha
 constexpr int kRestAfterUrgentProbe = 1;  // likewise, for a slave whose watchdog still runs
 constexpr Duration kTellForeignAgain = std::chrono::seconds{10};
 constexpr const char* kForeign = "another master is on this segment: this driver must be the only one";
+constexpr const char* kLeads = "another master leads this segment: nothing is sent for as long as it is heard";
 constexpr const char* kOwnAddress =
     "a second master has our address, or the adapter hands our own bytes back: switch its echo off";
 constexpr const char* kReleased = "a slave of the synchronised group did not exchange: SYNC and FREEZE are taken back";
@@ -39,6 +40,7 @@ void DpMaster::restart(Instant now) noexcept {
   told_busy_ = false;
   synchronised_ = false;
   listen_.restart(now);
+  given_way_ = false;
 }
 
 void DpMaster::startCycle(Instant now) noexcept {
@@ -54,7 +56,8 @@ void DpMaster::startCycle(Instant now) noexcept {
 void DpMaster::handleBytes(ByteView bytes, Instant now) noexcept {
   requester_.handleBytes(
       bytes, now, [&](const FdlAnswer& answer) { slaves_[asked_].handleAnswer(answer, now, events_); },
-      [&](std::uint8_t master, bool certain) { onForeign(master, certain, now); });
+      [&](std::uint8_t master, bool certain, bool echo) { onForeign(master, certain, echo, now); });
+  if (yield_due_) giveWay(now);
   advance(now);
 }
 
@@ -242,7 +245,21 @@ void DpMaster::abandonCycle() noexcept {
   events_.push(busy);
 }
 
-void DpMaster::onForeign(std::uint8_t master, bool certain, Instant now) noexcept {
+// What was to be sent is not, and each slave is begun with anew once the line has been listened to.
+void DpMaster::giveWay(Instant now) noexcept {
+  yield_due_ = false;
+  given_way_ = true;
+  requester_.restart(now);
+  for (SlaveHandler& slave : slaves_) slave.giveWay(now, events_);
+  turn_ = Turn::kDone;
+  timers_.stop(Timer::kNextOperate);
+  synchronised_ = false;
+  listen_.restart(now);
+}
+
+void DpMaster::onForeign(std::uint8_t master, bool certain, bool echo, Instant now) noexcept {
+  const bool yields = bus_.gives_way && certain && !echo;
+  yield_due_ = yield_due_ || (yields && !listen_.isListening());
   listen_.handleForeign(master, certain, now);
   if (!certain) return;
   if (foreign_ == master && timers_.isRunning(Timer::kTellForeignAgain, now)) return;
@@ -251,7 +268,7 @@ void DpMaster::onForeign(std::uint8_t master, bool certain, Instant now) noexcep
   DpEvent foreign;
   foreign.kind = DpEventKind::kForeignMaster;
   foreign.master = master;
-  foreign.text = master == bus_.master.value() ? kOwnAddress : kForeign;
+  foreign.text = yields ? kLeads : master == bus_.master.value() ? kOwnAddress : kForeign;
   events_.push(foreign);
 }
 

@@ -90,6 +90,8 @@ class DpMaster {
 
   /// Nothing has been sent yet: the line is listened to (`BusParameters::listen_first`).
   bool isListening() const noexcept { return listen_.isListening(); }
+  /// Likewise, after it has led: for another master (`BusParameters::gives_way`).
+  bool hasGivenWay() const noexcept { return given_way_ && isListening(); }
 
   std::size_t slaveCount() const noexcept { return slaves_.size(); }
   /// Kept, and sent with every exchange from now on. Cut or filled with zeros to the configured length.
@@ -134,7 +136,8 @@ class DpMaster {
   void ask(std::size_t slave, Instant now) noexcept;
   void nextTurn() noexcept;
   void abandonCycle() noexcept;
-  void onForeign(std::uint8_t master, bool certain, Instant now) noexcept;
+  void onForeign(std::uint8_t master, bool certain, bool echo, Instant now) noexcept;
+  void giveWay(Instant now) noexcept;
 
   BusParameters bus_;
   Requester requester_;
@@ -153,6 +156,8 @@ class DpMaster {
   std::size_t probe_cursor_ = 0;   // silent slaves take turns
   std::uint8_t foreign_ = kNoOwner;
   bool told_busy_ = false;
+  bool yield_due_ = false;  // when what was received has been looked at
+  bool given_way_ = false;
 };
 
 }  // namespace nord_driver::profibus

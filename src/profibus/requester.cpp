@@ -10,6 +10,7 @@ void Requester::restart(Instant now) noexcept {
   slave_ = nullptr;
   receiver_.discard();
   tokens_.forget();
+  echo_.forget();
   takeReceiverCounters();
   timers_.set(Timer::kLineIdle, now + bus_.idleTime());
 }
@@ -35,6 +36,7 @@ ByteView Requester::pollTransmit(Instant now) noexcept {
   receiver_.discard();
   takeReceiverCounters();
 
+  echo_.handleSent(request_->frame);
   ++sendings_;
   ++counters_.telegrams_sent;
   if (sendings_ > 1) ++counters_.retries;
@@ -120,6 +122,7 @@ bool Requester::accept(const Telegram& telegram, FdlAnswer& answer) noexcept {
     if (slave_ != nullptr) ++slave_->unexpected;
     return false;
   }
+  echo_.forget();
   state_ = State::kIdle;
   if (slave_ != nullptr) ++slave_->answers;
   return true;

@@ -10,6 +10,7 @@
 #include "nord_driver/core/time.h"
 #include "profibus/bus_parameters.h"
 #include "profibus/counters.h"
+#include "profibus/echo_watch.h"
 #include "profibus/fdl_request.h"
 #include "profibus/telegram_receiver.h"
 #include "profibus/token_watch.h"
@@ -40,8 +41,8 @@ class Requester {
   Outcome handleTimeout(Instant now) noexcept;
 
   /// Calls `on_answer(const FdlAnswer&)` for the answer to the outstanding request, at most once per request, and
-  /// `on_foreign(std::uint8_t master, bool certain)` for every token and every request that somebody else sent; not
-  /// certain: three bytes that look like a token, and may be noise.
+  /// `on_foreign(std::uint8_t master, bool certain, bool echo)` for every token and every request that somebody else sent;
+  /// not certain: three bytes that look like a token, and may be noise; echo: it may be our own, handed back.
   template <typename OnAnswer, typename OnForeign>
   void handleBytes(ByteView bytes, Instant now, OnAnswer&& on_answer, OnForeign&& on_foreign) noexcept {
     if (bytes.empty()) return;
@@ -51,7 +52,7 @@ class Requester {
       if (isForeign(telegram)) {
         const bool certain = isCertain(telegram, now);
         if (certain) ++counters_.foreign_telegrams;
-        on_foreign(telegram.sa, certain);
+        on_foreign(telegram.sa, certain, echo_.takes(telegram));
       }
       FdlAnswer answer;
       if (accept(telegram, answer)) on_answer(answer);
@@ -85,6 +86,7 @@ class Requester {
   BusParameters bus_;
   TelegramReceiver receiver_;
   TokenWatch tokens_;
+  EchoWatch echo_;
   std::uint64_t discarded_ = 0;  // before the bytes that came last
   Counters counters_;
   State state_ = State::kIdle;

@@ -42,6 +42,18 @@ void SlaveHandler::restart(Instant now, DpEvents& events) noexcept {
   fallSilent(now, texts::kNoAnswer);
 }
 
+// What it is told from now on is not known: nothing is gone on with afterwards. Who is left to its watchdog is so still.
+void SlaveHandler::giveWay(Instant now, DpEvents& events) noexcept {
+  if (isLeftToItsWatchdog()) return;
+  if (status_.phase == SlavePhase::kDataExchange) lose(LossCause::kGivenWay, texts::kGivenWay, now, events);
+  timers_.stop(Timer::kWatchdog);
+  timers_.stop(Timer::kHaste);
+  forgetFaults();
+  told_found_ = false;
+  startCycle();
+  fallSilent(now, texts::kGivenWay);
+}
+
 void SlaveHandler::startCycle() noexcept {
   stepped_ = false;
   status_.exchanged_this_cycle = false;

@@ -29,6 +29,8 @@ class SlaveHandler {
 
   /// The line was opened anew: from the beginning.
   void restart(Instant now, DpEvents& events) noexcept;
+  /// Another master leads the segment: from the beginning, once that one has gone.
+  void giveWay(Instant now, DpEvents& events) noexcept;
   void startCycle() noexcept;
 
   // What this slave wants of the current cycle; asked once for each, in this order. A request is prepared where one
@@ -110,6 +112,7 @@ class SlaveHandler {
   std::optional<Fault> strangerIn(const Diagnosis& diagnosis) const noexcept;
   std::optional<Fault> faultIn(const Diagnosis& diagnosis) const noexcept;
   bool isLeftRunning(const Diagnosis& diagnosis) const noexcept;
+  void leaveRunning(Instant now, DpEvents& events) noexcept;
 
   void mayRunUntilWatchdogOf(Instant heard) noexcept;
   void waitForWatchdog() noexcept;

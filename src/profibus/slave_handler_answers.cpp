@@ -229,20 +229,22 @@ std::optional<SlaveHandler::Fault> SlaveHandler::faultIn(const Diagnosis& diagno
   return std::nullopt;
 }
 
-// Of a master that brings no watchdog: one with our address, killed perhaps, has parameterised it, and the watchdog that
-// one has brought still runs. It is all that will stop the drive.
+// Of a master that brings no watchdog: another one with our address has parameterised it, was killed perhaps, and the
+// watchdog that one has brought still runs. It is all that will stop the drive.
 bool SlaveHandler::isLeftRunning(const Diagnosis& diagnosis) const noexcept {
   const bool ours = !diagnosis.parameterRequest() && diagnosis.owner() == master_;
   return config_.watchdog == Duration::zero() && ours && diagnosis.watchdogOn();
 }
 
+void SlaveHandler::leaveRunning(Instant now, DpEvents& events) noexcept {
+  backOff({DpEventKind::kLeftRunning, texts::kLeftRunning}, now, events);
+  // No diagnosis tells how long its watchdog is, and each request starts it anew.
+  timers_.prolong(Timer::kNextRequest, last_request_ + kLongestWatchdog + kWatchdogTolerance);
+}
+
 // Faults shown here are those of an earlier start-up, perhaps of another master: Set_Prm takes them away.
 void SlaveHandler::judgeFirst(Instant now, DpEvents& events) noexcept {
-  if (isLeftRunning(status_.diagnosis)) {
-    backOff({DpEventKind::kLeftRunning, texts::kLeftRunning}, now, events);
-    // No diagnosis tells how long its watchdog is, and each request starts it anew.
-    return timers_.prolong(Timer::kNextRequest, last_request_ + kLongestWatchdog + kWatchdogTolerance);
-  }
+  if (isLeftRunning(status_.diagnosis)) return leaveRunning(now, events);
   if (const auto stranger = strangerIn(status_.diagnosis)) return backOff(*stranger, now, events);
   const bool always = config_.configuration_check >= ConfigurationCheck::kTell;
   const bool doubted = configuration_doubted_ && config_.configuration_check == ConfigurationCheck::kAfterFault;
@@ -251,6 +253,7 @@ void SlaveHandler::judgeFirst(Instant now, DpEvents& events) noexcept {
 
 void SlaveHandler::judgeReady(Instant now, DpEvents& events) noexcept {
   const Diagnosis& diagnosis = status_.diagnosis;
+  if (isLeftRunning(diagnosis)) return leaveRunning(now, events);
   if (const auto fault = faultIn(diagnosis)) return backOff(*fault, now, events);
   const bool ours = !diagnosis.parameterRequest() && diagnosis.owner() == master_;
   if (ours && !diagnosis.notReady() && !diagnosis.staticDiagnosis()) return enterDataExchange(events);
@@ -270,6 +273,10 @@ void SlaveHandler::judgeReady(Instant now, DpEvents& events) noexcept {
 void SlaveHandler::judgeInExchange(Instant now, DpEvents& events) noexcept {
   const Diagnosis& diagnosis = status_.diagnosis;
   const bool left = diagnosis.parameterRequest() || diagnosis.owner() != master_;
+  if (isLeftRunning(diagnosis)) {
+    lose(LossCause::kParametersRequested, texts::kTaken, now, events);
+    return leaveRunning(now, events);
+  }
   if (const auto fault = faultIn(diagnosis)) {
     lose(LossCause::kParametersRequested, fault->text, now, events);
     backOff(*fault, now, events);

@@ -19,6 +19,9 @@ constexpr const char* kRefusesExchange =
 constexpr const char* kLeft = "left data exchange by itself: its watchdog ran out, or it was switched off and on";
 constexpr const char* kAsksAgain = "asks for its parameters again: it was restarted, or another master took it";
 constexpr const char* kLinkOpened = "was lost with the bus device, which is opened anew";
+constexpr const char* kGivenWay =
+    "is left to another master, which leads this segment: nothing is sent for as long as that one is heard";
+constexpr const char* kTaken = "was set up by another master meanwhile: a watchdog runs that is not ours";
 constexpr const char* kWrongLength =
     "exchanges data of another length than configured: the PPO type or module list set at the device differs";
 constexpr const char* kWrongIdent = "is another device than configured: its ident number differs";

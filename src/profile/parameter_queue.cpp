@@ -60,8 +60,8 @@ void ParameterQueue::fail(ParameterOutcome outcome, const Sentence& text) noexce
   requests_.finish(result);
 }
 
-void ParameterQueue::failAll(ParameterOutcome outcome) noexcept {
-  while (!empty()) fail(outcome);
+void ParameterQueue::failAll(ParameterOutcome outcome, const Sentence& text) noexcept {
+  while (!empty()) fail(outcome, text);
 }
 
 }  // namespace nord_driver::profile

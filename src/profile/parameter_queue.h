@@ -33,7 +33,7 @@ class ParameterQueue {
   /// With an outcome that is neither kDone nor kRefused.
   void fail(ParameterOutcome outcome, const Sentence& text = {}) noexcept;
   /// Ends all that wait or run.
-  void failAll(ParameterOutcome outcome) noexcept;
+  void failAll(ParameterOutcome outcome, const Sentence& text = {}) noexcept;
 
   std::optional<ParameterResult> pollResult() noexcept { return requests_.pollResult(); }
 

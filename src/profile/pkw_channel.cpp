@@ -138,9 +138,9 @@ void PkwChannel::handleFailure(ParameterOutcome outcome, const Sentence& text) n
   handleEnd();
 }
 
-void PkwChannel::handleOffline(Instant) noexcept {
+void PkwChannel::handleOffline(Instant, const Sentence& why) noexcept {
   last_unanswered_ = true;
-  requests_.failAll(ParameterOutcome::kOffline);
+  requests_.failAll(ParameterOutcome::kOffline, why);
   prepared_ = false;
   pause();
 }

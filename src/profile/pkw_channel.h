@@ -38,8 +38,8 @@ class PkwChannel {
   void handleFailure(ParameterOutcome outcome, const Sentence& text = {}) noexcept;
   /// Why what carries the words has brought no answer to the running request yet: told when its time is over.
   void explainWait(const Sentence& text) noexcept { wait_text_ = text; }
-  /// Ends all pending requests as offline.
-  void handleOffline(Instant now) noexcept;
+  /// Ends all pending requests as offline; `why`: nothing to say.
+  void handleOffline(Instant now, const Sentence& why = {}) noexcept;
   std::optional<ParameterResult> pollResult() noexcept { return requests_.pollResult(); }
   /// Answers seen while an order ran that belong to no order of ours: another master's, or nonsense. The "no answer" of
   /// the pause and the answer to the order before only mean that the inverter has not executed this one yet.

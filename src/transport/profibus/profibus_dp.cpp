@@ -194,9 +194,10 @@ void ProfibusDpTransport::takeInputs(std::size_t station, std::vector<DriveExcha
     useful[place] = answers && profile::StatusWord{inputs[drive].input.status_word}.isUseful();
   }
   if (answers) presence.handleExchange(slave.inverterLinkBroken(), useful, now);
+  const Sentence why = master_->hasGivenWay() ? slave.note : "";
   if (!exchanging) {
     presence.handleSilence();
-    parameters_->handleStationOffline(station, now);
+    parameters_->handleStationOffline(station, why, now);
   }
   askModule(station);
 
@@ -208,7 +209,7 @@ void ProfibusDpTransport::takeInputs(std::size_t station, std::vector<DriveExcha
       parameters_->handleWords(drive, pkw[state.place], now);
     }
     // An inverter that is off has forgotten its order, whether its module answers or not: no answer is waited for.
-    if (!exchanging || (answers && !state.inverter_answers)) parameters_->handleInverterOffline(drive, now);
+    if (!exchanging || (answers && !state.inverter_answers)) parameters_->handleInverterOffline(drive, why, now);
     inputs[drive].module_answers = state.module_answers;
     inputs[drive].inverter_answers = state.inverter_answers;
     inputs[drive].inverter_missing = state.module_answers && !state.inverter_answers;

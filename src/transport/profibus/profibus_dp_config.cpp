@@ -104,6 +104,7 @@ void listenFirst(ProfibusDpConfig& config) {
 void endWithoutATrip(ProfibusDpConfig& config) {
   for (profibus::SlaveConfig& slave : config.slaves) slave.watchdog = Duration::zero();
   listenFirst(config);
+  config.bus.gives_way = true;
   const Duration run_out = config.watchdog + profibus::kWatchdogTolerance;
   config.bus.listen_first = std::min(std::max(config.bus.listen_first, run_out), profibus::kLongestListening);
 }

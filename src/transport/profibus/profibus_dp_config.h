@@ -76,7 +76,7 @@ ProfibusDpConfig readProfibusDpConfig(const Settings& bus, const std::vector<Dri
 
 /// For a program that reads and writes parameters in data exchange and then ends: without a watchdog its end is no
 /// E10.2 in the inverters (BU 2700 8.1.1), they keep the idle word; and it listens first, until the configured watchdog
-/// would have run out, for at most 10 s.
+/// would have run out, for at most 10 s. A master that comes later, a driver, finds it silent: see BusParameters::gives_way.
 void endWithoutATrip(ProfibusDpConfig& config);
 
 }  // namespace nord_driver

@@ -96,13 +96,13 @@ std::uint64_t ProfibusParameters::stale() const noexcept {
   return stale;
 }
 
-void ProfibusParameters::handleInverterOffline(DriveIndex drive, Instant now) noexcept {
-  drives_[drive].pkw.handleOffline(now);
-  if (drives_[drive].records) drives_[drive].records->handleOffline(now);
+void ProfibusParameters::handleInverterOffline(DriveIndex drive, const Sentence& why, Instant now) noexcept {
+  drives_[drive].pkw.handleOffline(now, why);
+  if (drives_[drive].records) drives_[drive].records->handleOffline(now, why);
 }
 
-void ProfibusParameters::handleStationOffline(std::size_t station, Instant now) noexcept {
-  if (stations_[station].module) stations_[station].module->handleOffline(now);
+void ProfibusParameters::handleStationOffline(std::size_t station, const Sentence& why, Instant now) noexcept {
+  if (stations_[station].module) stations_[station].module->handleOffline(now, why);
   stations_[station].status.reset();
 }
 
@@ -167,7 +167,8 @@ void ProfibusParameters::submitTo(Master& master, Instant now) noexcept {
 void ProfibusParameters::takeRecords(profibus::DpMaster& master, Instant now) noexcept {
   while (const auto result = master.pollRecord()) {
     StationChannels& station = stations_[result->slave];
-    if (!station.users.empty()) station.users[station.user]->handleRecord(*result, now);
+    const Sentence why = master.hasGivenWay() ? master.status(result->slave).note : "";
+    if (!station.users.empty()) station.users[station.user]->handleRecord(*result, now, why);
   }
 }
 

@@ -35,8 +35,9 @@ class ProfibusParameters {
   void handleWords(DriveIndex drive, const profile::PkwWords& words, Instant now) noexcept {
     drives_[drive].pkw.handleWords(words, now);
   }
-  void handleInverterOffline(DriveIndex drive, Instant now) noexcept;
-  void handleStationOffline(std::size_t station, Instant now) noexcept;
+  /// `why`: for who waits for a parameter; empty: it does not answer.
+  void handleInverterOffline(DriveIndex drive, const Sentence& why, Instant now) noexcept;
+  void handleStationOffline(std::size_t station, const Sentence& why, Instant now) noexcept;
 
   /// Before a cycle: what is to go beside it. After it: what came of it.
   void submitRecords(profibus::DpMaster& master, Instant now) noexcept;

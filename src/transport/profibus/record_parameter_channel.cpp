@@ -222,8 +222,8 @@ void RecordParameterChannel::forgetAnswers() noexcept {
   unanswered_ = {};
 }
 
-void RecordParameterChannel::handleOffline(Instant now) noexcept {
-  pkw_.handleOffline(now);
+void RecordParameterChannel::handleOffline(Instant now, const Sentence& why) noexcept {
+  pkw_.handleOffline(now, why);
   step_ = Step::kPause;
   forgotten_ = under_way_;
 }

@@ -34,7 +34,7 @@ class RecordParameterChannel {
   /// `words`: what the channel has to say of a failure of its own; empty: the words of MS1.
   void handleRecord(const profibus::RecordResult& result, Instant now, const Sentence& words = {}) noexcept;
   /// The station, or the inverter, is gone: all requests end as offline. A record under way still brings its result.
-  void handleOffline(Instant now) noexcept;
+  void handleOffline(Instant now, const Sentence& why = {}) noexcept;
   /// An order was written and has no answer yet: nobody else should use the station's records.
   bool holdsStation() const noexcept { return under_way_ || step_ == Step::kAwaitNone || step_ == Step::kRead; }
 
