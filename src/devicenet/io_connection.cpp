@@ -7,8 +7,6 @@ namespace {
 
 /// Of the acknowledge handler (class 2Bh, attribute 1); 16 to 20 ms are usual.
 constexpr Duration kAcknowledgeTime = std::chrono::milliseconds{20};
-/// A device gives up after so many times the expected packet rate.
-constexpr int kRatesUntilTimeout = 4;
 
 }  // namespace
 

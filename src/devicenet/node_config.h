@@ -36,6 +36,14 @@ constexpr std::uint8_t kConnections = 0x3F;            ///< the bits that name a
 /// configured rate is refused.
 constexpr Duration kCoarsestStep = std::chrono::milliseconds{100};
 
+/// A device gives up after so many times the expected packet rate.
+constexpr int kRatesUntilTimeout = 4;
+
+/// After which one has given up that was asked for `rate`, however it rounds and counts.
+constexpr Duration longestOwnTimeOut(Duration rate) noexcept {
+  return kRatesUntilTimeout * (rate + kCoarsestStep) + kCoarsestStep;
+}
+
 /// Directions are ours: outputs go to the device.
 struct IoConfig {
   IoKind kind = IoKind::kPoll;
@@ -46,7 +54,7 @@ struct IoConfig {
   /// Change of state and cyclic: each side acknowledges what it gets.
   bool acknowledge = true;
   /// Written to the device, whole milliseconds; it gives up after four times what it answers. Nothing: two cycles, at
-  /// least 25 ms.
+  /// least 25 ms. With kNone: what a driver of the device has written.
   std::optional<Duration> expected_packet_rate;
   /// Our patience: for an answer to a poll or strobe command, for data or an acknowledge otherwise. Nothing: four times
   /// the expected packet rate the device answered.

@@ -21,9 +21,9 @@ void NodeConnect::start(Instant now) noexcept {
   channel_.close();
   timers_.stopAll();
   report_.status().owner.reset();
-  report_.enter(NodeState::kAbsent, Sentence{}, now);
   // The try begins with a release of what is ours from before.
-  if (now < own_time_out_) return pause(own_time_out_ - now, now, Phase::kAwaitOwnTimeOut);
+  if (now < own_time_out_) return awaitOwnTimeOutOfBefore(now);
+  report_.enter(NodeState::kAbsent, Sentence{}, now);
   beginTry(now);
 }
 
@@ -42,6 +42,8 @@ void NodeConnect::stop(const Sentence& why, Instant now) noexcept {
   timers_.stopAll();
   phase_ = Phase::kOff;
   if (outputs_went) awaitOwnTimeOut(now);
+  // Who has no words that stop a motor leaves it to what a driver that was killed has told its device.
+  if (config_.io.kind == IoKind::kNone) own_time_out_ = now + longestOwnTimeOut(*config_.io.expected_packet_rate);
   if (was_exchanging) {
     ++report_.status().counters.losses;
     report_.tell(DevicenetEventKind::kNodeLost, why, 0, now);
@@ -61,11 +63,6 @@ void NodeConnect::release(Instant now) noexcept {
   } else {
     enter(Phase::kReleasing, now);
   }
-}
-
-void NodeConnect::handleForeignMaster(std::uint8_t mac, Instant now) noexcept {
-  foreign_mac_ = mac;
-  foreign_at_ = now;
 }
 
 void NodeConnect::handleSign(Instant now) noexcept {

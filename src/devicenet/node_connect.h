@@ -29,7 +29,8 @@ class NodeConnect {
 
   /// We are on-line: from the beginning, but not before the own time-out of a device that `stop()` left running.
   void start(Instant now) noexcept;
-  /// Nothing may be sent any more, until `start()`.
+  /// Nothing may be sent any more, until `start()`; without process data of our own not before the time-out has run out
+  /// that a driver may have left it with.
   void stop(const Sentence& why, Instant now) noexcept;
   /// Lets go what is allocated, but nothing of a device whose own time-out is awaited; then nothing, until `start()`.
   void release(Instant now) noexcept;
@@ -62,6 +63,8 @@ class NodeConnect {
   }
   /// Outputs are sent: it exchanges, or it fell silent while it was moving.
   bool sendsOutputs() const noexcept { return exchanging() || phase_ == Phase::kLastOutputs; }
+  /// Nothing is sent to it: its own time-out is awaited.
+  bool awaitsOwnTimeOut() const noexcept { return phase_ == Phase::kAwaitOwnTimeOut; }
   /// Of the process data, as the device answered.
   Duration rate() const noexcept { return rate_; }
 
@@ -97,8 +100,6 @@ class NodeConnect {
     kReleasing,   ///< for good
     kReleased
   };
-  /// A device gives up after so many times the expected packet rate.
-  static constexpr int kRatesUntilTimeout = 4;
   enum class Timer : std::uint8_t { kRetry, kKeepAlive, kCount };
 
   void enter(Phase phase, Instant now) noexcept;
@@ -138,6 +139,7 @@ class NodeConnect {
   void letGo(Instant now) noexcept;
   /// Nothing is sent from now on that keeps it running: how long it may do so.
   void awaitOwnTimeOut(Instant now) noexcept;
+  void awaitOwnTimeOutOfBefore(Instant now) noexcept;
 
   const NodeConfig& config_;
   const ScannerConfig& bus_;

@@ -7,10 +7,6 @@
 namespace nord_driver::devicenet {
 namespace {
 
-/// The master's MAC id of a device that has none.
-constexpr std::uint8_t kNobody = 0xFF;
-/// So long after a frame of another master the device is taken to be its.
-constexpr Duration kForeignMemory = std::chrono::seconds{5};
 /// Of an explicit connection, unless the device says otherwise.
 constexpr Duration kUsualExplicitRate = std::chrono::milliseconds{2500};
 /// Without process data the questions are all that tells whether the device is there.
@@ -51,30 +47,6 @@ void NodeConnect::handleAllocated(const ExplicitAnswer& answer, Instant now) noe
     report_.enter(NodeState::kConnecting, Sentence{}, now);
   }
   enter(Phase::kVendorId, now);
-}
-
-void NodeConnect::handleOwner(const ExplicitAnswer& answer, Instant now) noexcept {
-  const bool foreign = foreign_mac_ && now - foreign_at_ < kForeignMemory;
-  if (!answer.ok() || answer.data.size() != 2) {
-    if (foreign) {
-      report_.status().owner = foreign_mac_;
-    } else if (phase_ == Phase::kAskOwner) {
-      return enter(Phase::kAskOwnerConnected, now);
-    }
-  } else if (answer.data[1] != kNobody) {
-    report_.status().owner = answer.data[1];
-  }
-  const std::optional<std::uint8_t> owner = report_.status().owner;
-  if (owner && *owner != bus_.mac) {
-    Sentence why;
-    why.format("is allocated to another master, MAC id %u", unsigned{*owner});
-    return refuse(why, now);
-  }
-  // Ours from before, as far as anybody knows: released with the bits that are allocated.
-  const bool told = answer.ok() && answer.data.size() == 2 && (answer.data[0] & choice::kConnections) != 0;
-  stale_ = told ? static_cast<std::uint8_t>(answer.data[0] & choice::kConnections)
-                : static_cast<std::uint8_t>((io_choice_ & choice::kConnections) | choice::kExplicit);
-  enter(Phase::kReleaseStale, now);
 }
 
 void NodeConnect::handleIdentity(const ExplicitAnswer& answer, Instant now) noexcept {

@@ -28,6 +28,7 @@ class NodeHandler {
   void stop(const Sentence& why, Instant now) noexcept;
   void release(Instant now) noexcept;
   bool released() const noexcept { return connect_.released(); }
+  bool isLeftAlone() const noexcept { return connect_.awaitsOwnTimeOut(); }
 
   /// Group 1 messages Dh, Eh, Fh.
   void handleIo(std::uint8_t message, const CanFrame& frame, Instant now) noexcept;

@@ -92,6 +92,8 @@ class Scanner final : public CanEngine {
   const Sentence& busReason() const noexcept { return bus_reason_; }
   std::size_t nodeCount() const noexcept { return nodes_.size(); }
   const NodeStatus& status(std::size_t node) const noexcept { return nodes_[node]->status(); }
+  /// Nothing is sent to it for now: its own time-out is awaited.
+  bool isLeftAlone(std::size_t node) const noexcept { return nodes_[node]->isLeftAlone(); }
   std::optional<DevicenetEvent> pollEvent() noexcept { return events_.pop(); }
   const Counters& counters() const noexcept { return counters_; }
   /// The identifiers that should reach `handleFrame()`, for the filters of the interface: sorted, at most kMostIds. Those

@@ -161,9 +161,7 @@ ScannerConfig completed(ScannerConfig config) {
   const Duration wanted = std::max<Duration>(2 * config.cycle_time, kShortestRate);
   const auto whole = (wanted + std::chrono::milliseconds{1} - Duration{1}) / std::chrono::milliseconds{1};
   for (NodeConfig& node : config.nodes) {
-    if (node.io.kind != IoKind::kNone && !node.io.expected_packet_rate) {
-      node.io.expected_packet_rate = std::chrono::milliseconds{whole};
-    }
+    if (!node.io.expected_packet_rate) node.io.expected_packet_rate = std::chrono::milliseconds{whole};
   }
   return config;
 }

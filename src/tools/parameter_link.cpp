@@ -20,7 +20,6 @@ constexpr Duration kReadyTime = std::chrono::seconds{1};
 constexpr Duration kPatience = std::chrono::seconds{20};  // every step of an access has its own, shorter one
 constexpr int kAttempts = 3;
 constexpr Duration kBackTime = std::chrono::seconds{2};  // a silent station is asked for more often than that
-constexpr double kLongestListening = 10.0;               // s, see listening_
 constexpr std::uint16_t kFullFrequency = 105, kTelegramTimeout = 513, kModuleTimeout = 151;
 
 }  // namespace
@@ -33,7 +32,7 @@ ParameterLink::ParameterLink(const ToolConfig& config, Transport& transport, con
                   "the driver (~<drive>/read_parameter)");
   }
   transport.configure(*config.bus, config.drives, config.cycle.cycle_rate);
-  listening_ = seconds(std::min(transport.identity(0).protection_time, kLongestListening));
+  listening_ = seconds(transport.identity(0).protection_time);
   for (DriveIndex i = 0; i < config.asked; ++i) {
     known_.push_back(catalogue::driveCatalogue(catalogues, config.cycle.drives[i].series,
                                                shortTransportName(config.transport),

@@ -34,8 +34,8 @@ class ParameterLink final : public DriveParameters {
   ParameterLink(const ParameterLink&) = delete;
   ParameterLink& operator=(const ParameterLink&) = delete;
 
-  /// Looks for the drive until `limit`, which begins when the transport has listened (DriveIdentity::protection_time,
-  /// 10 s at most). Throws Trouble when it does not answer, or runs, or `end_asked`.
+  /// Looks for the drive until `limit`, which begins when the transport has listened (DriveIdentity::protection_time).
+  /// Throws Trouble when it does not answer, or runs, or `end_asked`.
   void connect(Duration limit, const std::atomic<bool>& end_asked);
 
   ParameterAnswer read(const catalogue::ParameterAddress& address) override;

@@ -23,6 +23,13 @@ void FakeDevice::belongsTo(std::uint8_t whom, std::uint8_t choice, Instant now) 
   explicit_at_ = now;
 }
 
+void FakeDevice::wasPolledBy(std::uint8_t whom, unsigned packet_rate, Instant now) {
+  belongsTo(whom, 0x03, now);
+  rate = packet_rate;
+  established = true;
+  io_at_ = now;
+}
+
 void FakeDevice::powerOff() {
   powered = false;
   out_.clear();
@@ -104,7 +111,7 @@ void FakeDevice::unconnected(const CanFrame& frame, Instant now) {
     return reply({0xCB, 0x00});
   }
   if (service == 0x4C && frame.size == 5) {
-    if (held != 0 && master != from) return reply({0x94, 0x02, 0x01});
+    if (held != 0 && master != from && !obeys_anybody) return reply({0x94, 0x02, 0x01});
     if ((held & frame.data[4]) == 0) return reply({0x94, 0x0B, 0x02});
     released_last = frame.data[4];
     held = static_cast<std::uint8_t>(held & ~frame.data[4]);

@@ -34,6 +34,7 @@ class FakeDevice {
   bool tells_owner = true;   ///< on the unconnected port
   bool tells_choice = true;  ///< beside its owner; else that nothing is allocated
   bool strict_about_sizes = true;
+  bool obeys_anybody = false;  ///< a release, whoever's it is
   /// Change of state and cyclic: our data are consumed by connection object 2, and 4 consumes acknowledges alone (Eaton
   /// DX-NET-DEVICENET table 10, INFICON Composer Elite tables 5-7 and 5-9); else 4 does both (Rockwell 193-UM006A).
   bool consumes_at_2 = true;
@@ -62,6 +63,8 @@ class FakeDevice {
 
   /// Was allocated before, by whom.
   void belongsTo(std::uint8_t whom, std::uint8_t choice, Instant now);
+  /// And was polled just now, for the last time: it goes on with what it was told until its time-out has run out.
+  void wasPolledBy(std::uint8_t whom, unsigned packet_rate, Instant now);
   void powerOff();
   void powerOn();
   void receive(const CanFrame& frame, Instant now);

@@ -20,7 +20,6 @@ namespace {
 constexpr Duration kLongestRelease = std::chrono::milliseconds{500};
 constexpr Duration kListenFirst = std::chrono::milliseconds{500};  // a scanner polls more often than that
 constexpr Duration kFirstAnswers = std::chrono::seconds{1};        // of modules that are there
-constexpr int kRatesUntilTimeout = 4;
 
 const char* stateText(link::CanState state) noexcept {
   return state == link::CanState::kBusOff ? "the controller is bus-off" : "the interface is down";
@@ -224,12 +223,14 @@ std::uint32_t DeviceNetTransport::identNumber(DriveIndex drive) const noexcept {
   return std::uint32_t{status.vendor_id} << 16 | status.product_code;
 }
 
-// No device is connected. One that answers all the same says why, and that is no matter of wires.
+// No device is connected. One that answers all the same says why, and that is no matter of wires; nor is one that is not
+// asked.
 Sentence DeviceNetTransport::silenceText() const noexcept {
   Sentence text;
   for (std::size_t i = 0; i < config_.modules.size(); ++i) {
     const devicenet::NodeStatus& status = scanner_->status(i);
-    if (status.state != devicenet::NodeState::kRefused) continue;
+    const bool not_asked = status.state == devicenet::NodeState::kAbsent && scanner_->isLeftAlone(i);
+    if (status.state != devicenet::NodeState::kRefused && !not_asked) continue;
     text.format("MAC id %u %.220s", unsigned{config_.modules[i].mac}, status.reason.c_str());
     return text;
   }
@@ -286,9 +287,11 @@ DriveIdentity DeviceNetTransport::identity(DriveIndex drive) const {
   // NetCtrl and NetRef (BU 0280 4.2.3.1), which assembly 20 does not have.
   identity.sources_by_telegram = config.drive_profile == DevicenetProfile::kAcDriveExtended;
   identity.module_io = config_.modules[config.module].output_byte && config_.modules[config.module].input_byte;
-  if (!parametersOnly()) {
-    const double rate = toSeconds(io.expected_packet_rate.value_or(Duration::zero()));
-    identity.protection_time = kRatesUntilTimeout * rate;
+  const Duration rate = io.expected_packet_rate.value_or(Duration::zero());
+  if (parametersOnly()) {
+    identity.protection_time = toSeconds(devicenet::longestOwnTimeOut(rate));
+  } else {
+    identity.protection_time = toSeconds(devicenet::kRatesUntilTimeout * rate);
     identity.protected_by =
         "DeviceNet time-out of " + shortNumber(identity.protection_time) +
         " s, four times the expected packet rate, which the module may round up: the inverter trips " +

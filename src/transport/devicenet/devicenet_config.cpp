@@ -37,13 +37,6 @@ void readOwn(const Settings& bus, devicenet::ScannerConfig& scanner) {
                                   : machineSerialNumber();
 }
 
-std::optional<Duration> readPacketRate(const Settings& bus) {
-  using std::chrono::milliseconds;
-  if (numberOr(bus, "expected_packet_rate", 0.0, 0.0, 65.535, "s") == 0.0) return std::nullopt;
-  return wholeMillisecondsOr(bus, "expected_packet_rate", Duration::zero(), milliseconds{1}, milliseconds{65'535},
-                             "0.025 s: the modules count them");
-}
-
 class Reader {
  public:
   Reader(const Settings& bus, DevicenetConfig& config, std::optional<Duration> packet_rate)
@@ -174,6 +167,13 @@ DevicenetConfig readDevicenetBus(const Settings& bus, double cycle_rate) {
   config.scanner.cycle_time = seconds(1.0 / cycle_rate);
   readOwn(bus, config.scanner);
   return config;
+}
+
+std::optional<Duration> readPacketRate(const Settings& bus) {
+  using std::chrono::milliseconds;
+  if (numberOr(bus, "expected_packet_rate", 0.0, 0.0, 65.535, "s") == 0.0) return std::nullopt;
+  return wholeMillisecondsOr(bus, "expected_packet_rate", Duration::zero(), milliseconds{1}, milliseconds{65'535},
+                             "0.025 s: the modules count them");
 }
 
 DevicenetConfig readDevicenetConfig(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate) {

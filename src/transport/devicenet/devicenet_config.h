@@ -81,6 +81,9 @@ struct DevicenetConfig {
 /// The interface, its bit rate and this computer on it, without any device. Throws ConfigError.
 DevicenetConfig readDevicenetBus(const Settings& bus, double cycle_rate);
 
+/// `bus/expected_packet_rate`; none: left to the cycle. Throws ConfigError.
+std::optional<Duration> readPacketRate(const Settings& bus);
+
 /// Throws ConfigError naming key, value and what was expected.
 DevicenetConfig readDevicenetConfig(const Settings& bus, const std::vector<DriveSettings>& drives, double cycle_rate);
 

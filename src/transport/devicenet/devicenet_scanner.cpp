@@ -1,5 +1,6 @@
 #include "transport/devicenet/devicenet_scanner.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <optional>
@@ -66,16 +67,17 @@ FoundStation stationOf(std::uint8_t mac, const NodeStatus& status) {
   return station;
 }
 
-devicenet::ScannerConfig everyMac(devicenet::ScannerConfig config) {
+devicenet::ScannerConfig everyMac(devicenet::ScannerConfig config, std::optional<Duration> packet_rate) {
   config.nodes.clear();
   for (std::uint8_t mac = 0; mac < devicenet::kMacIds; ++mac) {
     if (mac == config.mac) continue;
     devicenet::NodeConfig node;
     node.mac = mac;
     node.io.kind = devicenet::IoKind::kNone;
+    node.io.expected_packet_rate = packet_rate;
     config.nodes.push_back(node);
   }
-  return config;
+  return devicenet::completed(config);
 }
 
 }  // namespace
@@ -92,7 +94,10 @@ ScanReport scanDevicenet(const Settings& bus,
   report.trouble = line.open(kDevicenetListening, [](const CanFrame&, Instant) {});
   if (!report.trouble.empty()) return report;
 
-  devicenet::Scanner scanner{everyMac(config.scanner)};
+  const devicenet::ScannerConfig every = everyMac(config.scanner, readPacketRate(bus));
+  devicenet::Scanner scanner{every};
+  // Before that no device is asked, see NodeConnect.
+  const Instant asked_from = line.now() + devicenet::longestOwnTimeOut(*every.nodes.front().io.expected_packet_rate);
   scanner.restart(line.now());
   std::string other;
   const auto next_frame = [&](CanFrame& frame) { return scanner.pollTransmit(frame); };
@@ -113,7 +118,7 @@ ScanReport scanDevicenet(const Settings& bus,
   talk(kCheck, [&] { return scanner.busState() != devicenet::BusState::kCheckingMac; });
   if (scanner.busState() == devicenet::BusState::kOnline) {
     // A device that is absent is never settled: the time ends it.
-    talk(kAnswer, [] { return false; });
+    talk(std::max(asked_from - line.now(), Duration::zero()) + kAnswer, [] { return false; });
     std::size_t awaited = 0;
     for (std::size_t i = 0; i < scanner.nodeCount(); ++i) {
       for (std::size_t k = 0; scanner.status(i).state == NodeState::kExchanging && k < kParameters.size(); ++k) {

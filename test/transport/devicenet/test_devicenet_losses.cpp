@@ -250,6 +250,25 @@ TEST(DeviceNetGuestTest, AnInverterIsThereSoonAfterItsModule) {
   }
 }
 
+// A driver that was killed may have left it turning: until its own time-out has stopped it, it is asked for nothing, and wires
+// are not suspected.
+TEST(DeviceNetGuestTest, SaysThatAModuleIsLeftToItsOwnTimeOut) {
+  test::DevicenetSettings settings{1};
+  settings.bus.set("expected_packet_rate", 1.0);
+  Rig rig{settings, true};
+  EXPECT_DOUBLE_EQ(4.5, rig.transport.identity(0).protection_time);
+  rig.run(seconds{1});
+  rig.device().wasPolledBy(0, 1000, rig.transport.now());
+  rig.run(milliseconds{3500});
+  EXPECT_THAT(rig.transport.busText().str(), HasSubstr("MAC id 5 is asked for nothing before its own time-out"));
+  EXPECT_THAT(rig.transport.note(0).text, HasSubstr("is asked for nothing before its own time-out"));
+  EXPECT_EQ(0u, rig.bus->sentTo("42E"));
+  EXPECT_LT(rig.until([&] { return rig.allAnswer(); }), seconds{1});
+  EXPECT_EQ(1u, rig.device().io_deaths);
+  rig.transport.close();
+  EXPECT_EQ(0x02, rig.device().held) << "its process data are not ours";
+}
+
 TEST(DeviceNetGuestTest, KeepsOffABusThatIsInUse) {
   Rig rig{test::DevicenetSettings{1}, true};
   rig.run(milliseconds{100});

@@ -96,6 +96,26 @@ TEST(DevicenetScanner, SendsNothingBesideAnotherScanner) {
   EXPECT_THAT(sent, IsEmpty());
 }
 
+// What a driver that was killed has left turning stops by its own time-out before it is asked for anything.
+TEST(DevicenetScanner, LeavesTheModulesToTheirOwnTimeOutFirst) {
+  std::optional<Instant> first, asked;
+  DeviceNetTransport transport{[&](const link::CanSettings&) {
+    auto bus = std::make_unique<sim::SimulatedDnBus>(twoModules());
+    bus->setTap([&](const CanFrame& frame, sim::SimulatedDnBus::Sender sender, Instant at) {
+      const auto id = devicenet::readIdentifier(frame.id);
+      if (sender != sim::SimulatedDnBus::Sender::kMaster || !id || id->group != 2) return;
+      if (!first) first = at;
+      if (!asked && static_cast<Group2>(id->message) == Group2::kUnconnected) asked = at;
+    });
+    return bus;
+  }};
+  const MapSettings bus{"~bus/", {{"interface", std::string{"can0"}}, {"expected_packet_rate", 1.5}}};
+  const ScanReport report = transport.scan(bus, kNotAsked);
+  EXPECT_EQ(2u, report.stations.size());
+  ASSERT_TRUE(first && asked);
+  EXPECT_GE(*asked - *first, std::chrono::milliseconds{6490});
+}
+
 // Before it is opened, and when the first answer of a module has come.
 TEST(DevicenetScanner, SaysThatTheInterfaceIsGone) {
   for (const bool later : {false, true}) {
