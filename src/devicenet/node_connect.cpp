@@ -17,7 +17,6 @@ NodeConnect::NodeConnect(const NodeConfig& config, const ScannerConfig& bus, Nod
 
 void NodeConnect::start(Instant now) noexcept {
   failures_ = 0;
-  foreign_mac_.reset();
   channel_.close();
   timers_.stopAll();
   report_.status().owner.reset();
@@ -57,7 +56,7 @@ void NodeConnect::release(Instant now) noexcept {
   report_.enter(NodeState::kReleased, Sentence{}, now);
   // One that may still run on our last words stops by its own time-out, which a release would take away.
   const bool may_run = phase_ == Phase::kAwaitOwnTimeOut || phase_ == Phase::kLastOutputs;
-  if (held_ == 0 || phase_ == Phase::kOff || may_run) {
+  if (held_ == 0 || phase_ == Phase::kOff || may_run || isPolledByAnother(now)) {
     channel_.cancelOwn();
     phase_ = Phase::kReleased;
   } else {
@@ -140,8 +139,8 @@ void NodeConnect::poll(Instant now) noexcept {
       channel_.close();
       conflicts_ = 0;
       enter(Phase::kVendorId, now);
-    } else if (held_ != 0) {
-      // It may be held, and nobody has said so: what was asked for last was not answered.
+    } else if (held_ != 0 && !isPolledByAnother(now)) {
+      // It was held when it fell silent, or was allocated in a way that is not spoken here.
       let_go_first_ = true;
       letGo(now);
     } else {

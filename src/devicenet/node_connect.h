@@ -48,6 +48,11 @@ class NodeConnect {
   void endOutputs(Instant now) noexcept;
   /// Another master was heard to ask this device.
   void handleForeignMaster(std::uint8_t mac, Instant now) noexcept;
+  /// Another master was heard to send it process data: for some time nothing of it is released, unless it says that it is
+  /// ours.
+  void handleForeignIo(Instant now) noexcept;
+  /// It was heard to let another master allocate it: nothing of it is ours.
+  void handleForeignGrant(Instant now) noexcept;
   /// The device gave a sign of life beside its connections: it is tried soon, but not before its own time-out after it
   /// fell silent.
   void handleSign(Instant now) noexcept;
@@ -137,6 +142,12 @@ class NodeConnect {
   /// Refused, but parameters stay in reach: the reason may be one of them.
   void refuseIo(const Sentence& why, Instant now) noexcept;
   void letGo(Instant now) noexcept;
+  bool isPolledByAnother(Instant now) const noexcept;
+  /// Another one's connections would be released: what is under way is not sent again.
+  void stopReleasing(Instant now) noexcept;
+  /// As it is, and begins again.
+  void leave(Instant now) noexcept;
+  Duration pauseAfterRelease() const noexcept;
   /// Nothing is sent from now on that keeps it running: how long it may do so.
   void awaitOwnTimeOut(Instant now) noexcept;
   void awaitOwnTimeOutOfBefore(Instant now) noexcept;
@@ -163,6 +174,7 @@ class NodeConnect {
   Instant own_time_out_{};  // until then it may run on the last words it heard of us
   std::optional<std::uint8_t> foreign_mac_;
   Instant foreign_at_{};
+  std::optional<Instant> polled_at_;  // by another master
 };
 
 }  // namespace nord_driver::devicenet

@@ -319,8 +319,11 @@ void NodeConnect::fail(const Sentence& why, Instant now) noexcept {
   const NodeState state = report_.status().state;
   ++failures_;
   report_.enter(state == NodeState::kAbsent ? state : NodeState::kLost, why, now);
-  if (!explicitHeld()) return pause(retryPause(), now);
-  letGo(now);
+  if (explicitHeld()) return letGo(now);
+  // What was asked for last may have been done, and nobody has said so. The next try asks whose it is then: released unasked,
+  // it may be another master's by now.
+  held_ = 0;
+  pause(retryPause(), now);
 }
 
 void NodeConnect::tellRefused(const Sentence& why, Instant now) noexcept {
@@ -346,12 +349,6 @@ void NodeConnect::refuseIo(const Sentence& why, Instant now) noexcept {
   timers_.set(Timer::kRetry, now + bus_.longest_retry);
 }
 
-void NodeConnect::letGo(Instant now) noexcept {
-  timers_.stopAll();
-  channel_.close();
-  enter(Phase::kReleaseAll, now);
-}
-
 void NodeConnect::handleLetGo(const ExplicitAnswer& answer, Instant now) noexcept {
   held_ = 0;
   if (answer.end == ExplicitEnd::kTimedOut) {
@@ -360,7 +357,7 @@ void NodeConnect::handleLetGo(const ExplicitAnswer& answer, Instant now) noexcep
   }
   // It is there. After a loss there is nothing to wait for.
   if (failures_ == 0 || let_go_first_) return beginTry(now);
-  pause(report_.status().state == NodeState::kRefused ? bus_.longest_retry : bus_.first_retry, now);
+  pause(pauseAfterRelease(), now);
 }
 
 }  // namespace nord_driver::devicenet

@@ -5,6 +5,11 @@
 namespace nord_driver::devicenet {
 namespace {
 
+bool isGrant(const CanFrame& response) noexcept {
+  const bool whole = response.size > 1 && (response.data[0] & explicit_header::kFragmented) == 0;
+  return whole && response.data[1] == (service::kAllocate | service::kResponse);
+}
+
 bool isRefusal(const CanFrame& response) noexcept {
   const bool whole = response.size > 1 && (response.data[0] & explicit_header::kFragmented) == 0;
   return whole && response.data[1] == (service::kError | service::kResponse);
@@ -64,6 +69,7 @@ void NodeHandler::handleExplicit(const CanFrame& frame, Instant now) noexcept {
       ++report_.status().counters.foreign_requests;
       if (!isRefusal(frame)) ++report_.status().counters.foreign_use;
       connect_.handleForeignMaster(static_cast<std::uint8_t>(frame.data[0] & explicit_header::kMac), now);
+      if (isGrant(frame)) connect_.handleForeignGrant(now);
       break;
     case Heard::kMalformed:
       report_.malformed(frame, "no explicit response", now);
@@ -115,6 +121,7 @@ void NodeHandler::handleForeignRequest(const CanFrame& frame, Group2 message, In
   if (is_explicit && frame.size > 0) {
     connect_.handleForeignMaster(static_cast<std::uint8_t>(frame.data[0] & explicit_header::kMac), now);
   }
+  if (message == Group2::kMasterIo || message == Group2::kMasterAcknowledge) connect_.handleForeignIo(now);
   // It may have taken our connection away.
   if (message == Group2::kUnconnected) connect_.checkSoon(now);
   settle(now);
