@@ -46,7 +46,9 @@ void DevicenetDriveState::putOutput(const profile::ProcessOutput& output, const 
                                     devicenet::IoBytes& bytes) const noexcept {
   if (config_.drive_profile == DevicenetProfile::kNord) {
     const devicenet::IoInput& data = scanner.input(config_.module);
-    if (data.count != 0 && (told_ || !tellsFault(data.bytes))) packWords(config_, output, bytes);
+    // It may be another connection by now than the one on which it was told.
+    const bool told = told_ && connection_ == scanner.status(config_.module).counters.connections;
+    if (data.count != 0 && (told || !tellsFault(data.bytes))) packWords(config_, output, bytes);
   } else {
     packAcDrive(config_, scaling_.toAcDrive(output), bytes);
   }

@@ -91,6 +91,35 @@ TEST(DeviceNetTransportTest, AFaultInTheFirstAnswerIsToldBeforeAStopWordIsSent) 
   EXPECT_THAT(rig.bus->seen, Contains("> 42D#007E040000"));
 }
 
+// The same of a connection that was lost and came back between two cycles: what was told on the one before does not count.
+TEST(DeviceNetTransportTest, AFaultInTheFirstDataOfAConnectionThatCameBackAtOnceIsToldBeforeAStopWordIsSent) {
+  for (const char* io : {"cos", "cyclic"}) {
+    test::DevicenetSettings settings{1};
+    settings.drive().set("io", std::string{io});
+    Rig rig{settings};
+    ASSERT_TRUE(rig.starts()) << io;
+    rig.run(milliseconds{200});
+    const Instant start = rig.transport.now();
+    rig.transport.exchange(rig.outputs, rig.inputs);
+    ASSERT_TRUE(rig.inputs[0].inverter_answers) << io;
+    rig.device().input = {0x00, 0x38, 0x0B, 0x00, 0x00};
+    rig.bus->say("42B#05CE010001000300");
+    const bool cyclic = rig.device().held == 0x21;
+    rig.transport.sleepUntil(start + milliseconds{10});
+    if (cyclic) rig.bus->say("345#00380B0000");
+    ASSERT_TRUE(rig.device().established) << io;
+    rig.bus->seen.clear();
+    rig.cycle();
+    EXPECT_THAT(rig.bus->seen, Contains("> 42D#0000000000")) << io;
+    EXPECT_EQ(0, std::count(rig.bus->seen.begin(), rig.bus->seen.end(), "> 42D#007E040000")) << io;
+    EXPECT_LT(rig.until([&] { return rig.inputs[0].inverter_answers; }), milliseconds{300}) << io;
+    EXPECT_EQ(0, std::count(rig.bus->seen.begin(), rig.bus->seen.end(), "> 42D#007E040000")) << io;
+    EXPECT_TRUE(profile::StatusWord{rig.inputs[0].input.status_word}.fault()) << io;
+    rig.run(milliseconds{40});
+    EXPECT_THAT(rig.bus->seen, Contains("> 42D#007E040000")) << io;
+  }
+}
+
 TEST(DeviceNetTransportTest, AConnectionReleasedByOthersIsUnasked) {
   Rig rig;
   ASSERT_TRUE(rig.starts());
