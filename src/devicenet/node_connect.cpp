@@ -17,6 +17,7 @@ NodeConnect::NodeConnect(const NodeConfig& config, const ScannerConfig& bus, Nod
 
 void NodeConnect::start(Instant now) noexcept {
   failures_ = 0;
+  foreign_mac_.reset();
   channel_.close();
   timers_.stopAll();
   report_.status().owner.reset();

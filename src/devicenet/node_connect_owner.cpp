@@ -70,12 +70,11 @@ void NodeConnect::letGo(Instant now) noexcept {
 
 void NodeConnect::handleOwner(const ExplicitAnswer& answer, Instant now) noexcept {
   report_.status().owner.reset();
-  const bool polled = isPolledByAnother(now);
   const bool foreign = foreign_mac_ && now - foreign_at_ < kForeignMemory;
   if (!answer.ok() || answer.data.size() != 2) {
     if (foreign) {
       report_.status().owner = foreign_mac_;
-    } else if (!polled && phase_ == Phase::kAskOwner) {
+    } else if (phase_ == Phase::kAskOwner) {
       return enter(Phase::kAskOwnerConnected, now);
     }
   } else if (answer.data[1] != kNobody) {
@@ -87,7 +86,7 @@ void NodeConnect::handleOwner(const ExplicitAnswer& answer, Instant now) noexcep
     why.format("is allocated to another master, MAC id %u", unsigned{*owner});
     return refuse(why, now);
   }
-  if (!owner && polled) return refuse("is polled by another master", now);
+  if (!owner && isPolledByAnother(now)) return refuse("is polled by another master", now);
   // Ours from before, as far as anybody knows: released with the bits that are allocated. Without process data of our own
   // those that are there are left alone: their time-out may be all that stops the device.
   const bool told = answer.ok() && answer.data.size() == 2 && (answer.data[0] & choice::kConnections) != 0;
