@@ -12,8 +12,9 @@ constexpr std::uint8_t kTooMuchData = 1;
 constexpr Duration kAcknowledgeTime = std::chrono::seconds{1};
 /// The device repeats a fragment whose acknowledge was lost after a second.
 constexpr Duration kFragmentTime = std::chrono::milliseconds{1200};
-/// After a request was given up its answer may come for so long.
+/// After a request was given up its answer may come for so long; on the unconnected port, where no inverter is asked for it.
 constexpr Duration kLongestLateness = std::chrono::seconds{5};
+constexpr Duration kLongestUnconnected = std::chrono::seconds{1};
 /// The second answer to a request that was asked twice comes not much later than the first: so many of its time-outs.
 constexpr int kSecondAnswer = 4;
 constexpr int kMostOwed = 2;
@@ -51,16 +52,32 @@ bool ExplicitClient::mustWait(Instant now) const noexcept {
 void ExplicitClient::remember(bool answered, Instant now) noexcept {
   if (phase_ == Phase::kIdle || asked_ == 0) return;
   const int left = asked_ - (answered ? 1 : 0);
-  // What allocates or releases is no answer to anything else that waits for a value, and its own repetition may have it.
-  if (left == 0 || body_[0] == service::kAllocate || body_[0] == service::kRelease) return;
-  Owed& owed = owed_[xid_];
-  if (!owes(xid_, now)) owed = Owed{};
+  if (left == 0) return;
+  Owed& owed = owedOn(port_)[xid_];
+  if (now >= owed.until) owed = Owed{};
   owed.answers = static_cast<std::uint8_t>(std::min(owed.answers + left, kMostOwed));
-  owed.until = std::max(owed.until, now + (answered ? kSecondAnswer * timeout_ : kLongestLateness));
+  const Duration longest = port_ == ExplicitPort::kUnconnected ? kLongestUnconnected : kLongestLateness;
+  owed.until = std::max(owed.until, now + (answered ? kSecondAnswer * timeout_ : longest));
 }
 
-Heard ExplicitClient::late(bool xid) noexcept {
-  if (owed_[xid].answers > 0) --owed_[xid].answers;
+Instant ExplicitClient::owedUntil(bool xid) const noexcept {
+  Instant until{};
+  for (const OwedByXid& owed : owed_) {
+    if (owed[xid].answers > 0) until = std::max(until, owed[xid].until);
+  }
+  return until;
+}
+
+// An error names no service: it may be that of an allocation.
+Heard ExplicitClient::late(std::uint8_t code, bool xid) noexcept {
+  Owed& connected = owedOn(ExplicitPort::kConnected)[xid];
+  Owed& unconnected = owedOn(ExplicitPort::kUnconnected)[xid];
+  const bool allocates =
+      code == (service::kAllocate | service::kResponse) || code == (service::kRelease | service::kResponse);
+  const bool may_allocate =
+      code == (service::kError | service::kResponse) && unconnected.answers > 0 && now_ < unconnected.until;
+  Owed& owed = allocates || may_allocate || connected.answers == 0 ? unconnected : connected;
+  if (owed.answers > 0) --owed.answers;
   return Heard::kStale;
 }
 
@@ -154,7 +171,7 @@ Heard ExplicitClient::handle(const CanFrame& frame, Instant now) noexcept {
   const bool xid = (bytes[0] & explicit_header::kTransaction) != 0;
   now_ = now;
   if ((bytes[0] & explicit_header::kFragmented) == 0)
-    return awaitsAnswer(xid) ? handleBody(bytes.sub(1), xid) : late(xid);
+    return awaitsAnswer(xid) ? handleBody(bytes.sub(1), xid) : late(bytes[1], xid);
   // Neither an acknowledge nor a part of a message is empty.
   if (bytes.size() < 3) return Heard::kMalformed;
   const Fragment fragment = Fragment::from(bytes[1]);
@@ -184,7 +201,9 @@ Heard ExplicitClient::handleAcknowledge(bool xid, Fragment acknowledged, ByteVie
 }
 
 Heard ExplicitClient::handleFragment(bool xid, Fragment received, ByteView data, Instant now) noexcept {
-  switch (receiver_.handle(xid, received, data, awaitsAnswer(xid))) {
+  // What allocates or releases is answered within one frame: whatever else comes does not prolong the wait for it.
+  const bool awaited = awaitsAnswer(xid) && port_ == ExplicitPort::kConnected;
+  switch (receiver_.handle(xid, received, data, awaited)) {
     case ExplicitReceiver::Result::kStray:
       return Heard::kStale;
     case ExplicitReceiver::Result::kRepeated:
@@ -226,7 +245,7 @@ Heard ExplicitClient::handleBody(ByteView body, bool xid) noexcept {
     finish(ExplicitEnd::kRefused);
     return Heard::kTaken;
   }
-  if (body[0] != (body_[0] | service::kResponse)) return late(xid);
+  if (body[0] != (body_[0] | service::kResponse)) return late(body[0], xid);
   for (const std::uint8_t byte : body.sub(1)) {
     if (answer.data.push_back(byte)) continue;
     finish(ExplicitEnd::kTooLong);

@@ -4,8 +4,8 @@
 // Deterministic: frames and the time go in, frames and answers come out. Nothing is allocated.
 // A transaction id is one bit, and an answer names nothing else of its request but, unless it is an error, the service. So
 // the bit of a request is not given to another while an answer to the first may still come: one that was given up, or was
-// asked twice and answered once, over a connection that still is. Where both bits are owed an answer a user's next request
-// waits. What connects a device and keeps its connection alive does not, and is told that what it gets may be such a late
+// asked twice and answered once, over a connection that still is, or on the unconnected port: a refused allocation, too, may
+// come late and is taken for any refusal. Where both bits are owed an answer a user's next request waits. What connects a device and keeps its connection alive does not, and is told that what it gets may be such a late
 // answer: what connects is done again where it was, and no loss is believed of it.
 #pragma once
 
@@ -47,9 +47,9 @@ class ExplicitClient {
   /// Whether a request would have to share its transaction id with one whose late answer may still come: one whose value
   /// is told to somebody has to wait, at most until `freeAt()`.
   bool mustWait(Instant now) const noexcept;
-  Instant freeAt() const noexcept { return std::min(owed_[0].until, owed_[1].until); }
+  Instant freeAt() const noexcept { return std::min(owedUntil(false), owedUntil(true)); }
   /// The device has a new explicit connection with us: what it was asked over another one it does not answer any more.
-  void forgetOwed() noexcept { owed_ = {}; }
+  void forgetOwed() noexcept { owedOn(ExplicitPort::kConnected) = {}; }
   /// From `start()` until the answer was taken.
   bool busy() const noexcept { return phase_ != Phase::kIdle || answer_.has_value(); }
   /// Ends the request without an answer; an answer not taken is dropped.
@@ -83,11 +83,14 @@ class ExplicitClient {
     std::uint8_t answers = 0;
     Instant until{};
   };
-  bool owes(bool xid, Instant now) const noexcept { return owed_[xid].answers > 0 && now < owed_[xid].until; }
+  using OwedByXid = std::array<Owed, 2>;
+  OwedByXid& owedOn(ExplicitPort port) noexcept { return owed_[static_cast<std::size_t>(port)]; }
+  Instant owedUntil(bool xid) const noexcept;
+  bool owes(bool xid, Instant now) const noexcept { return now < owedUntil(xid); }
   /// The request ends; `answered`: by one of the answers it was asked for.
   void remember(bool answered, Instant now) noexcept;
-  /// Nobody waits for it.
-  Heard late(bool xid) noexcept;
+  /// Nobody waits for it; `code`: its service.
+  Heard late(std::uint8_t code, bool xid) noexcept;
 
   bool fragmented() const noexcept;
   bool lastFragmentSent() const noexcept;
@@ -118,8 +121,8 @@ class ExplicitClient {
   std::uint8_t repeats_ = 0;  // of the frame that is unanswered
   std::uint64_t repeated_ = 0;
   Duration timeout_{};
-  std::uint8_t asked_ = 0;    // times the request went out as a whole
-  std::array<Owed, 2> owed_;  // by transaction id
+  std::uint8_t asked_ = 0;         // times the request went out as a whole
+  std::array<OwedByXid, 2> owed_;  // by port
   Instant now_{};
   ExplicitReceiver receiver_;
   std::size_t furthest_ = 0;  // bytes of a fragmented answer that were together, at most at once

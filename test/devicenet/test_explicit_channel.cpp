@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "devicenet/connect_requests.h"
 #include "devicenet/explicit_channel.h"
 #include "support/can_text.h"
 
@@ -148,6 +149,94 @@ TEST(ExplicitChannel, TheSecondAnswerToARepeatedRequestIsNotTakenForAnother) {
   const auto answer = channel.pollAnswer();
   ASSERT_TRUE(answer);
   EXPECT_EQ(2u, answer->number());
+}
+
+/// The engine allocates the explicit connection anew, and asks twice for the answer; its transaction id.
+bool askTwiceToReopen(ExplicitChannel& channel, Instant& now) {
+  const ConnectRequest reopen = allocateRequest(0x01, 0);
+  channel.ask(reopen.request, reopen.port, milliseconds{200}, now);
+  const bool xid = xidOfNext(channel, now);
+  now += milliseconds{200};
+  channel.poll(now);
+  EXPECT_EQ(xid, xidOfNext(channel, now));
+  return xid;
+}
+void answerReopening(ExplicitChannel& channel, bool xid, const char* what, Instant now) {
+  channel.handle(frame(std::string{xid ? "42B#40" : "42B#00"} + what), now);
+}
+
+// An error names no service. That of an allocation may come after the allocation was given up, or after the second time it was
+// asked for was answered: it is not the answer to what the layer above has asked since, over the new connection or that of before.
+TEST(ExplicitChannel, ALateRefusalOfAnAllocationIsNotTakenForTheAnswerToAnotherRequest) {
+  for (const bool reopened : {false, true}) {
+    ExplicitChannel channel{0, 5, milliseconds{500}};
+    Instant now{std::chrono::hours{1}};
+    channel.open();
+    const bool first = askTwiceToReopen(channel, now);
+    if (reopened) {
+      answerReopening(channel, first, "CB00", now);
+      channel.handleNewConnection(now);
+    } else {
+      now += milliseconds{200};
+      channel.poll(now);
+    }
+    ASSERT_TRUE(channel.takeOwnAnswer());
+    for (std::uint8_t i = 1; i <= 3; ++i) channel.submit(getAttribute(i, 101, 1, i), now);
+    answerWord(channel, xidOfNext(channel, now), 1, now);
+    ASSERT_TRUE(channel.pollAnswer());
+    const bool second = xidOfNext(channel, now);
+    now += milliseconds{50};
+    answerReopening(channel, first, "940B02", now);
+    EXPECT_FALSE(channel.pollAnswer()) << reopened;
+    answerWord(channel, second, 2, now);
+    const auto answer = channel.pollAnswer();
+    ASSERT_TRUE(answer) << reopened;
+    EXPECT_EQ(2u, answer->number()) << reopened;
+  }
+}
+
+// The module itself answers an allocation: it is not awaited for as long as a value of an inverter.
+TEST(ExplicitChannel, ALateRefusalOfAnAllocationIsAwaitedForASecond) {
+  ExplicitChannel channel{0, 5, milliseconds{500}};
+  Instant now{std::chrono::hours{1}};
+  channel.open();
+  channel.submit(getAttribute(1, 101, 1, 4), now);
+  const bool parameter = giveUp(channel, now);
+  EXPECT_NE(parameter, askTwiceToReopen(channel, now));
+  now += milliseconds{200};
+  channel.poll(now);
+  const Instant given_up = now;
+  ASSERT_TRUE(channel.takeOwnAnswer());
+  channel.submit(getAttribute(2, 101, 1, 3), now);
+  CanFrame asked;
+  EXPECT_FALSE(channel.pollTransmit(asked, now));
+  ASSERT_TRUE(channel.nextDeadline());
+  EXPECT_EQ(given_up + std::chrono::seconds{1}, *channel.nextDeadline());
+  channel.poll(given_up + std::chrono::seconds{1});
+  EXPECT_NE(parameter, xidOfNext(channel, given_up + std::chrono::seconds{1}));
+}
+
+// Both answers of it have come: its transaction id is free, and that of a parameter that was given up is not.
+TEST(ExplicitChannel, AnAnswerToAnAllocationFreesNoOtherRequest) {
+  for (const char* late : {"CB00", "940B02"}) {
+    ExplicitChannel channel{0, 5, milliseconds{500}};
+    Instant now{std::chrono::hours{1}};
+    channel.open();
+    for (std::uint8_t i = 1; i <= 3; ++i) channel.submit(getAttribute(i, 101, 1, i), now);
+    giveUp(channel, now);
+    giveUp(channel, now);
+    const bool shared = askTwiceToReopen(channel, now);
+    now += milliseconds{200};
+    channel.poll(now);
+    ASSERT_TRUE(channel.takeOwnAnswer());
+    answerReopening(channel, shared, late, now);
+    answerReopening(channel, shared, late, now);
+    CanFrame asked;
+    EXPECT_FALSE(channel.pollTransmit(asked, now)) << late << ": both are owed the answers of the parameters yet";
+    answerWord(channel, shared, 1, now);
+    answerWord(channel, shared, 1, now);
+    EXPECT_EQ(shared, xidOfNext(channel, now)) << late;
+  }
 }
 
 // A frame the link did not take comes again, first of all.

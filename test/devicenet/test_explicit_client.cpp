@@ -266,6 +266,19 @@ TEST_F(ExplicitClientTest, AnswerThatNeverEnds) {
   EXPECT_FALSE(client.busy());
 }
 
+// The answer to an allocation has no fragments: what looks like one does not prolong the wait for it.
+TEST_F(ExplicitClientTest, AnAllocationIsNotAnsweredInFragments) {
+  ASSERT_TRUE(ask(allocate(), ExplicitPort::kUnconnected));
+  EXPECT_EQ("44E#4A4B0301070A", sent());
+  EXPECT_EQ(Heard::kStale, hear("44B#CA00CB0000000000"));
+  pass(kTimeout);
+  EXPECT_EQ("44E#4A4B0301070A", sent());
+  pass(kTimeout);
+  const auto answer = client.takeAnswer();
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(ExplicitEnd::kTimedOut, answer->end);
+}
+
 // Empty fragments could go on for ever without filling anything.
 TEST_F(ExplicitClientTest, EmptyFragmentsKeepNothingAlive) {
   ASSERT_TRUE(ask(getAttribute(0, 1, 1, 7)));
