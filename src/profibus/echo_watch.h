@@ -9,11 +9,11 @@
 
 namespace nord_driver::profibus {
 
-/// What comes back is what was sent, once for each sending, in this order, and before the answer. The link takes echoes
+/// What comes back is what was sent, once for each sending, in this order, and before its answer. The link takes echoes
 /// out; some pass it: a late one, or those of an adapter that is said to have none.
 class EchoWatch {
  public:
-  /// The line was opened anew, or a request was answered: what has not come back by then does not.
+  /// The line was opened anew, or a request that was sent once was answered: what has not come back by then does not.
   void forget() noexcept { sent_.clear(); }
   void handleSent(ByteView frame) noexcept {
     if (sent_.full()) sent_.eraseFront(1);

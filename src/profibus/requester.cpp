@@ -122,7 +122,8 @@ bool Requester::accept(const Telegram& telegram, FdlAnswer& answer) noexcept {
     if (slave_ != nullptr) ++slave_->unexpected;
     return false;
   }
-  echo_.forget();
+  // Late, it is the answer to the first sending: the repetition comes back behind it.
+  if (sendings_ <= 1) echo_.forget();
   state_ = State::kIdle;
   if (slave_ != nullptr) ++slave_->answers;
   return true;

@@ -216,6 +216,26 @@ TEST(GivesWay, NotToTelegramsHandedBackLate) {
   EXPECT_FALSE(wire.master.isListening());
 }
 
+// Nor behind an answer that came late, when its request was sent again already: the second one comes back after it, to an
+// echo filter as well, which has taken the answer for a collision.
+TEST(GivesWay, NotToARepetitionHandedBackBehindALateAnswer) {
+  Looker looker;
+  looker.startCycle();
+  looker.sends(kExchange7D);
+  looker.arrives(kExchange7D);
+  looker.staysSilent();
+  looker.sends(kExchange7D);
+  looker.receives(std::string{kInputs} + " " + kExchange7D + " " + kInputs);
+  looker.cycleEnds();
+  EXPECT_FALSE(looker.master.hasGivenWay());
+  EXPECT_TRUE(looker.status().exchanged_this_cycle);
+  looker.advance(2ms);
+  looker.cycle(kExchange5D, kInputs);
+  // Each one once, as ever.
+  looker.arrives(kExchange7D);
+  looker.expectGivenWay();
+}
+
 // A driver does not leave its drives to anybody: it goes on, and tells.
 TEST(GivesWay, NotAsADriver) {
   BusParameters bus = quietBus();
