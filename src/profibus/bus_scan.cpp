@@ -51,7 +51,8 @@ void BusScan::start(Instant now) noexcept {
 void BusScan::handleBytes(ByteView bytes, Instant now) noexcept {
   requester_.handleBytes(
       bytes, now, [&](const FdlAnswer& answer) { onAnswer(answer, now); },
-      [&](std::uint8_t master, bool certain, bool) { onForeign(master, certain, now); });
+      [&](std::uint8_t master, bool certain, bool echo) { onForeign(master, certain, echo, now); });
+  if (done() && requester_.busy()) requester_.restart(now);  // what was to be sent is not
 }
 
 void BusScan::handleTimeout(Instant now) noexcept {
@@ -111,6 +112,7 @@ void BusScan::askNext(Instant now) noexcept {
 }
 
 void BusScan::onAnswer(const FdlAnswer& answer, Instant now) noexcept {
+  if (done()) return;  // another master was heard in the same bytes
   ScannedStation& station = stations_[address_];
   found_ = true;
   if (step_ == Step::kDiagnosis) {
@@ -131,9 +133,10 @@ void BusScan::onAnswer(const FdlAnswer& answer, Instant now) noexcept {
   requester_.begin(request_, &slave_counters_, now);
 }
 
-void BusScan::onForeign(std::uint8_t master, bool certain, Instant now) noexcept {
+void BusScan::onForeign(std::uint8_t master, bool certain, bool echo, Instant now) noexcept {
   listen_.handleForeign(master, certain, now);
-  if (step_ != Step::kListen || !certain) return;
+  const bool yields = bus_.gives_way && !echo && !done();
+  if (!certain || (step_ != Step::kListen && !yields)) return;
   refused_by_ = master;
   step_ = Step::kDone;
 }

@@ -46,10 +46,11 @@ class BusScan {
   /// Throws std::invalid_argument with a sentence when a value is out of range.
   explicit BusScan(const BusParameters& bus);
 
-  /// Listens first when `BusParameters::listen_first` says so; another master ends the scan before its first telegram.
+  /// Listens first when `BusParameters::listen_first` says so; another master ends the scan before its first telegram;
+  /// and one that comes later, where `BusParameters::gives_way` does.
   void start(Instant now) noexcept;
   bool done() const noexcept { return step_ == Step::kDone; }
-  /// The master that was heard: nothing was asked.
+  /// The master that was heard: nothing was asked, or nothing more.
   std::optional<std::uint8_t> refusedBy() const noexcept { return refused_by_; }
   /// The line never fell silent: the scan ended at once.
   bool lineBusy() const noexcept { return line_busy_; }
@@ -71,7 +72,7 @@ class BusScan {
   void endRound(Instant now) noexcept;
   void askNext(Instant now) noexcept;
   void onAnswer(const FdlAnswer& answer, Instant now) noexcept;
-  void onForeign(std::uint8_t master, bool certain, Instant now) noexcept;
+  void onForeign(std::uint8_t master, bool certain, bool echo, Instant now) noexcept;
 
   BusParameters bus_;
   Requester requester_;

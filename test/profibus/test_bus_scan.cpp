@@ -134,6 +134,36 @@ TEST(BusScan, RefusesBesideAnotherMaster) {
   EXPECT_GE(line.requests.size(), 2u * 126u);
 }
 
+// Who only looks on ends it for another master that comes later, and not for its own telegram that an adapter hands back;
+// a driver does not end it.
+TEST(BusScan, GivesWayToAnotherMaster) {
+  constexpr const char* kOfMaster3 = "10 08 03 49 54 16";
+  for (const bool looks_on : {true, false}) {
+    BusParameters bus = quietBus();
+    bus.listen_first = 200ms;
+    bus.gives_way = looks_on;
+    BusScan scan{bus};
+    Instant now{1h};
+    scan.start(now);
+    now += 200ms;
+    scan.handleTimeout(now);
+    now += 10ms;
+    const std::string first = toHex(scan.pollTransmit(now));
+    EXPECT_EQ("10 00 01 49 4A 16", first);
+    now += 5ms;
+    scan.handleBytes(fromHex(first), now);
+    EXPECT_FALSE(scan.done());
+    scan.handleBytes(fromHex(std::string{kOfMaster3} + " 10 01 00 00 01 16"), now);
+    EXPECT_EQ(looks_on, scan.done());
+    EXPECT_EQ(looks_on ? 3 : 255, scan.refusedBy().value_or(255));
+    now += 1s;
+    scan.handleTimeout(now);
+    EXPECT_EQ(looks_on, scan.done());
+    EXPECT_EQ(looks_on, scan.pollTransmit(now).empty());
+    EXPECT_EQ(looks_on, !scan.nextDeadline());
+  }
+}
+
 // A line that never falls silent ends the scan instead of holding it up.
 TEST(BusScan, BabblingLine) {
   BusScan scan{quietBus()};

@@ -199,7 +199,9 @@ ScanReport scanProfibus(const Settings& bus,
     return report;
   }
   Line line{*link, end_asked};
-  BusScan scan{config.bus};
+  profibus::BusParameters looking = config.bus;
+  looking.gives_way = true;
+  BusScan scan{looking};
   scan.start(link->now());
   line.talk(scan, [&] { return scan.done(); });
   if (!link->isOpen()) {

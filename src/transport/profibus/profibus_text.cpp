@@ -98,7 +98,8 @@ Sentence ProfibusText::named(std::size_t station, const char* what) const noexce
 Sentence ProfibusText::liveList(const profibus::BusScan& scan) noexcept {
   Sentence text;
   if (const auto master = scan.refusedBy()) {
-    text.format("nobody was asked: the master %u is on this segment", *master);
+    const bool asked = scan.counters().telegrams_sent > 0;
+    text.format("%s: the master %u is on this segment", asked ? "it was broken off" : "nobody was asked", *master);
     return text;
   }
   char list[200] = {};
