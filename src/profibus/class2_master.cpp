@@ -54,7 +54,7 @@ void Class2Master::handleBytes(ByteView bytes, Instant now) noexcept {
         frame_counts_[asked_].answered();
         connections_[asked_].handleAnswer(answer, now);
       },
-      [&](std::uint8_t master, bool certain, bool) { onForeign(master, certain, now); });
+      [&](std::uint8_t master, bool certain, bool echo) { onForeign(master, certain && !echo, now); });
   if (refused_by_ && requester_.busy()) requester_.restart(now);  // what was to be sent is not
   advance(now);
 }

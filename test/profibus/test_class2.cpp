@@ -294,6 +294,23 @@ TEST(Class2, GivesWayToAMasterThatComesLater) {
   wire.sends(kInitiate6C);
 }
 
+// What an adapter hands back is not another master's; of a request that was sent again behind a late answer, too.
+TEST(Class2, DoesNotGiveWayToItsOwnTelegramsHandedBack) {
+  Class2Wire wire;
+  ASSERT_TRUE(wire.master.submitRecord(0, writeOrder()));
+  wire.sends(kInitiate6C);
+  wire.arrives(kInitiate6C);
+  wire.staysSilent();
+  wire.sends(kInitiate6C);
+  wire.receives(std::string{"E5 "} + kInitiate6C + " E5");
+  EXPECT_FALSE(wire.master.refusedBy());
+  wire.asks(kManagerPoll5C, kGrant);
+  wire.asks(kServerPoll7C, kAccepted);
+  EXPECT_TRUE(wire.master.isConnected(0));
+  wire.arrives(kServerPoll7C);
+  EXPECT_EQ(1, wire.master.refusedBy().value_or(255)) << "it was answered: somebody else has sent this";
+}
+
 TEST(Class2, ListensBeforeItTalks) {
   Class2Wire wire{listening()};
   ASSERT_TRUE(wire.master.submitRecord(0, readAnswer()));
