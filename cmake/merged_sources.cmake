@@ -52,23 +52,23 @@ set(nord_unmerged_tests
   drive/test_reset_run.cpp explore/test_class2_events.cpp explore/test_drive_events.cpp
   explore/test_explicit_channel_events.cpp explore/test_explicit_client_events.cpp explore/test_pkw_events.cpp
   explore/test_record_events.cpp explore/test_sdo_events.cpp explore/test_supervisor_events.cpp
-  link/can/test_can_settings.cpp link/test_no_allocation.cpp node/test_bus_sentence.cpp node/test_drive_protection.cpp
-  node/test_node_config.cpp profibus/test_fault_sequences.cpp profibus/test_gsd_file.cpp
-  profibus/test_identification.cpp profibus/test_left_running.cpp profibus/test_listen_first.cpp
-  profibus/test_saved_watchdog.cpp profile/test_ac_drive.cpp profile/test_cia402.cpp profile/test_pkw_channel.cpp
-  robot/test_diff_drive_kinematics.cpp robot/test_mecanum_kinematics.cpp robot/test_odometry.cpp
-  robot/test_speed_limiter.cpp robot/test_twist_limiter.cpp robot/test_urdf_geometry.cpp rules/build_rules.cpp
-  rules/dependency_rules.cpp rules/test_document_rules.cpp sim/canopen/test_can_config.cpp
-  sim/canopen/test_can_gateway.cpp sim/canopen/test_can_node.cpp sim/canopen/test_can_pdo.cpp
-  sim/canopen/test_can_positions.cpp sim/canopen/test_can_sdo.cpp sim/canopen/test_cia402_node.cpp
-  sim/devicenet/test_dn_change_connections.cpp sim/devicenet/test_dn_config.cpp sim/devicenet/test_dn_positions.cpp
-  sim/interbus/test_pcp_server.cpp sim/inverter/test_posicon.cpp sim/profibus/test_module_timeouts.cpp
-  state/test_budget_of_processes.cpp system/stop_rows.cpp system/test_canopen_causes.cpp
-  system/test_canopen_clean_exit.cpp system/test_canopen_double_id.cpp system/test_canopen_found_driven.cpp
-  system/test_canopen_four_inverters.cpp system/test_canopen_parameters_only.cpp system/test_canopen_silent_node.cpp
-  system/test_canopen_slow_queue.cpp system/test_canopen_two_masters.cpp system/test_canopen_unasked_state.cpp
-  system/test_causes_at_a_drive.cpp system/test_codes_told_profibus.cpp system/test_devicenet_driving.cpp
-  system/test_devicenet_fault_sequences.cpp system/test_devicenet_found_faults.cpp
+  link/can/test_can_settings.cpp link/modbus/test_refused_parts.cpp link/test_no_allocation.cpp
+  node/test_bus_sentence.cpp node/test_drive_protection.cpp node/test_node_config.cpp
+  profibus/test_fault_sequences.cpp profibus/test_gsd_file.cpp profibus/test_identification.cpp
+  profibus/test_left_running.cpp profibus/test_listen_first.cpp profibus/test_saved_watchdog.cpp
+  profile/test_ac_drive.cpp profile/test_cia402.cpp profile/test_pkw_channel.cpp robot/test_diff_drive_kinematics.cpp
+  robot/test_mecanum_kinematics.cpp robot/test_odometry.cpp robot/test_speed_limiter.cpp robot/test_twist_limiter.cpp
+  robot/test_urdf_geometry.cpp rules/build_rules.cpp rules/dependency_rules.cpp rules/test_document_rules.cpp
+  sim/canopen/test_can_config.cpp sim/canopen/test_can_gateway.cpp sim/canopen/test_can_node.cpp
+  sim/canopen/test_can_pdo.cpp sim/canopen/test_can_positions.cpp sim/canopen/test_can_sdo.cpp
+  sim/canopen/test_cia402_node.cpp sim/devicenet/test_dn_change_connections.cpp sim/devicenet/test_dn_config.cpp
+  sim/devicenet/test_dn_positions.cpp sim/interbus/test_pcp_server.cpp sim/inverter/test_posicon.cpp
+  sim/profibus/test_module_timeouts.cpp state/test_budget_of_processes.cpp system/stop_rows.cpp
+  system/test_canopen_causes.cpp system/test_canopen_clean_exit.cpp system/test_canopen_double_id.cpp
+  system/test_canopen_found_driven.cpp system/test_canopen_four_inverters.cpp system/test_canopen_parameters_only.cpp
+  system/test_canopen_silent_node.cpp system/test_canopen_slow_queue.cpp system/test_canopen_two_masters.cpp
+  system/test_canopen_unasked_state.cpp system/test_causes_at_a_drive.cpp system/test_codes_told_profibus.cpp
+  system/test_devicenet_driving.cpp system/test_devicenet_fault_sequences.cpp system/test_devicenet_found_faults.cpp
   system/test_devicenet_protection.cpp system/test_devicenet_slow_queue.cpp system/test_devicenet_two_scanners.cpp
   system/test_element_targets.cpp system/test_fault_sequences.cpp system/test_following.cpp
   system/test_four_inverters.cpp system/test_gateway_network.cpp system/test_interbus_driving.cpp

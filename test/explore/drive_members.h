@@ -58,7 +58,8 @@ inline void describeDrive(const drive::Drive& drive, Instant now, Key& key) {
   if (report.phase == Phase::kOffline) {
     const auto& unanswered = unansweredOf(drive);
     const std::uint8_t left = ticks(now, unanswered.until, kTick, kShutdownTimeout);
-    key.add(left).add(left == 0 ? profile::Command::kIgnored : unanswered.command);
+    const bool over = left == 0 && !unanswered.due;
+    key.add(left).add(unanswered.due).add(over ? profile::Command::kIgnored : unanswered.command);
   } else {
     key.add(report.state).add(status.fault()).add(status.busControl()).add(report.input.actual_values[0]);
   }

@@ -51,9 +51,11 @@ inline void describeClient(const devicenet::ExplicitClient& client, Instant now,
   describeTimers(explicitTimersOf(client), now, kWireStep, kFragmentSteps, key);
   key.add(static_cast<std::uint8_t>(client.busy() ? explicitFurthestOf(client) : 0u));
   // How many late answers are owed, and how long, is left out: the states would have no end.
-  for (const bool own : {true, false}) {
-    const auto& owed = explicitOwedOf(client)[own == xid];
-    key.add(owed.answers > 0 && now < owed.until);
+  for (const auto& on_port : explicitOwedOf(client)) {
+    for (const bool own : {true, false}) {
+      const auto& owed = on_port[own == xid];
+      key.add(owed.answers > 0 && now < owed.until);
+    }
   }
   const bool assembling = receiverAssemblingOf(receiver);
   key.add(assembling);
