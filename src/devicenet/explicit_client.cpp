@@ -17,7 +17,8 @@ constexpr Duration kLongestLateness = std::chrono::seconds{5};
 constexpr Duration kLongestUnconnected = std::chrono::seconds{1};
 /// The second answer to a request that was asked twice comes not much later than the first: so many of its time-outs.
 constexpr int kSecondAnswer = 4;
-constexpr int kMostOwed = 2;
+/// A keep-alive may share a transaction id with what was given up before: more than the two answers of one request.
+constexpr int kMostOwed = 0xFF;
 
 }  // namespace
 

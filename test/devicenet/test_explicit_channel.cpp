@@ -111,6 +111,41 @@ TEST(ExplicitChannel, WhereBothTransactionIdsAreOwedAnAnswerTheNextRequestWaits)
   }
 }
 
+// A keep-alive that shares its transaction id with a request that was given up, and is given up as well: four answers may come.
+TEST(ExplicitChannel, AsManyAnswersAreAwaitedAsWereAskedFor) {
+  ExplicitChannel channel{0, 5, milliseconds{500}};
+  Instant now{std::chrono::hours{1}};
+  channel.open();
+  for (std::uint8_t i = 1; i <= 3; ++i) channel.submit(getAttribute(i, 101, 1, i), now);
+  giveUp(channel, now);
+  giveUp(channel, now);
+  channel.ask(getAttribute(0, 5, 2, 1), ExplicitPort::kConnected, milliseconds{200}, now);
+  const bool shared = xidOfNext(channel, now);
+  for (int i = 0; i < 2; ++i) {
+    now += milliseconds{200};
+    channel.poll(now);
+    if (i == 0) {
+      EXPECT_EQ(shared, xidOfNext(channel, now));
+    }
+  }
+  ASSERT_TRUE(channel.takeOwnAnswer());
+  CanFrame asked;
+  for (int i = 0; i < 2; ++i) {
+    answerWord(channel, shared, 1, now);
+    EXPECT_FALSE(channel.pollTransmit(asked, now));
+  }
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_FALSE(channel.pollTransmit(asked, now));
+    channel.handle(frame(shared ? "42B#408E03" : "42B#008E03"), now);
+    EXPECT_FALSE(channel.pollAnswer()) << "the state of the connection is no value of a parameter";
+  }
+  EXPECT_EQ(shared, xidOfNext(channel, now));
+  answerWord(channel, shared, 2, now);
+  const auto answer = channel.pollAnswer();
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(2u, answer->number());
+}
+
 // What was asked over a connection that is gone is not answered over the one that takes its place: nothing waits for it.
 TEST(ExplicitChannel, WithANewConnectionNothingIsOwedAnyMore) {
   ExplicitChannel channel{0, 5, milliseconds{500}};
