@@ -94,22 +94,22 @@ set(nord_unmerged_tests
   transport/profibus/test_profibus_dp.cpp transport/profibus/test_profibus_gives_way.cpp
   transport/profibus/test_profibus_module.cpp transport/profibus/test_profibus_recorder.cpp)
 
-# To be called where `target` is made: a property of a source is known to the targets of its folder only.
-function(nord_merge_sources target)
+# Sources of `folder` (src, test), `batch` at a time, but those that follow. To be called where `target` is made: a property of a
+# source is known to the targets of its folder only.
+function(nord_merge target folder batch)
   if(NORD_DRIVER_MERGE_SOURCES)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
-    foreach(source ${nord_unmerged})
-      set_source_files_properties(${PROJECT_SOURCE_DIR}/src/${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
+    foreach(source ${ARGN})
+      set_source_files_properties(${PROJECT_SOURCE_DIR}/${folder}/${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endforeach()
   endif()
 endfunction()
 
-# Likewise for a program of unit tests, where it is made.
+function(nord_merge_sources target)
+  nord_merge(${target} src 12 ${nord_unmerged})
+endfunction()
+
+# A program of unit tests.
 function(nord_merge_tests target)
-  if(NORD_DRIVER_MERGE_SOURCES)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-    foreach(source ${nord_unmerged_tests})
-      set_source_files_properties(${PROJECT_SOURCE_DIR}/test/${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-    endforeach()
-  endif()
+  nord_merge(${target} test 8 ${nord_unmerged_tests})
 endfunction()

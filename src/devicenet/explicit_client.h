@@ -5,8 +5,9 @@
 // A transaction id is one bit, and an answer names nothing else of its request but, unless it is an error, the service. So
 // the bit of a request is not given to another while an answer to the first may still come: one that was given up, or was
 // asked twice and answered once, over a connection that still is, or on the unconnected port: a refused allocation, too, may
-// come late and is taken for any refusal. Where both bits are owed an answer a user's next request waits. What connects a device and keeps its connection alive does not, and is told that what it gets may be such a late
-// answer: what connects is done again where it was, and no loss is believed of it.
+// come late and is taken for any refusal. Where both bits are owed an answer a user's next request waits. What connects a
+// device and keeps its connection alive does not, and is told that what it gets may be such a late answer: what connects is
+// done again where it was, and no loss is believed of it.
 #pragma once
 
 #include <algorithm>

@@ -5,14 +5,9 @@
 namespace nord_driver::devicenet {
 namespace {
 
-bool isGrant(const CanFrame& response) noexcept {
+bool answersBy(std::uint8_t code, const CanFrame& response) noexcept {
   const bool whole = response.size > 1 && (response.data[0] & explicit_header::kFragmented) == 0;
-  return whole && response.data[1] == (service::kAllocate | service::kResponse);
-}
-
-bool isRefusal(const CanFrame& response) noexcept {
-  const bool whole = response.size > 1 && (response.data[0] & explicit_header::kFragmented) == 0;
-  return whole && response.data[1] == (service::kError | service::kResponse);
+  return whole && response.data[1] == (code | service::kResponse);
 }
 
 }  // namespace
@@ -67,9 +62,9 @@ void NodeHandler::handleExplicit(const CanFrame& frame, Instant now) noexcept {
       // The header names whom it answers.
       ++report_.busCounters().second_scanner;
       ++report_.status().counters.foreign_requests;
-      if (!isRefusal(frame)) ++report_.status().counters.foreign_use;
+      if (!answersBy(service::kError, frame)) ++report_.status().counters.foreign_use;
       connect_.handleForeignMaster(static_cast<std::uint8_t>(frame.data[0] & explicit_header::kMac), now);
-      if (isGrant(frame)) connect_.handleForeignGrant(now);
+      if (answersBy(service::kAllocate, frame)) connect_.handleForeignGrant(now);
       break;
     case Heard::kMalformed:
       report_.malformed(frame, "no explicit response", now);

@@ -50,6 +50,14 @@ bool giveUp(ExplicitChannel& channel, Instant& now) {
   return xid;
 }
 
+// The third waits: both transaction ids are owed answers.
+void giveUpTwoOfThree(ExplicitChannel& channel, Instant& now) {
+  channel.open();
+  for (std::uint8_t i = 1; i <= 3; ++i) channel.submit(getAttribute(i, 101, 1, i), now);
+  giveUp(channel, now);
+  giveUp(channel, now);
+}
+
 // A parameter is given up, a keep-alive has its answer, and the answer to the parameter comes while the next one is asked for:
 // its value is not the next one's.
 TEST(ExplicitChannel, ALateAnswerIsNotTakenForAnotherRequest) {
@@ -115,10 +123,7 @@ TEST(ExplicitChannel, WhereBothTransactionIdsAreOwedAnAnswerTheNextRequestWaits)
 TEST(ExplicitChannel, AsManyAnswersAreAwaitedAsWereAskedFor) {
   ExplicitChannel channel{0, 5, milliseconds{500}};
   Instant now{std::chrono::hours{1}};
-  channel.open();
-  for (std::uint8_t i = 1; i <= 3; ++i) channel.submit(getAttribute(i, 101, 1, i), now);
-  giveUp(channel, now);
-  giveUp(channel, now);
+  giveUpTwoOfThree(channel, now);
   channel.ask(getAttribute(0, 5, 2, 1), ExplicitPort::kConnected, milliseconds{200}, now);
   const bool shared = xidOfNext(channel, now);
   for (int i = 0; i < 2; ++i) {
@@ -150,10 +155,7 @@ TEST(ExplicitChannel, AsManyAnswersAreAwaitedAsWereAskedFor) {
 TEST(ExplicitChannel, WithANewConnectionNothingIsOwedAnyMore) {
   ExplicitChannel channel{0, 5, milliseconds{500}};
   Instant now{std::chrono::hours{1}};
-  channel.open();
-  for (std::uint8_t i = 1; i <= 3; ++i) channel.submit(getAttribute(i, 101, 1, i), now);
-  giveUp(channel, now);
-  giveUp(channel, now);
+  giveUpTwoOfThree(channel, now);
   CanFrame asked;
   ASSERT_FALSE(channel.pollTransmit(asked, now));
   channel.handleNewConnection(now);
