@@ -5,11 +5,26 @@ import concurrent.futures
 import hashlib
 import json
 import pathlib
+import re
 import shlex
 import subprocess
 
 from .refusals import BuildFailed, refusedBy
 from .switch import HEADER, SOURCE, applied
+
+
+def commandsBySource(entries, root):
+    """{path below `root`: its entry of compile_commands.json}, for what is below src/. Of a source that is merged with others
+    (NORD_DRIVER_MERGE_SOURCES) it is the entry of the file that CMake made of them.
+    """
+    commands = {}
+    for entry in entries:
+        file = pathlib.Path(entry["file"])
+        merged = re.findall(r'^#include "(.+\.cpp)"$', file.read_text(), re.M) if file.parent.name == "Unity" else []
+        for source in map(pathlib.Path, merged or [file]):
+            if root / "src" in source.parents:
+                commands.setdefault(str(source.relative_to(root)), entry)
+    return commands
 
 
 class PreloadedSources:
@@ -45,8 +60,7 @@ class PreloadedSources:
         path = self.build / "compile_commands.json"
         if not path.is_file():
             raise BuildFailed(f"{path} is missing: build the tests there with -DCMAKE_EXPORT_COMPILE_COMMANDS=ON first")
-        self.configureFor({str(pathlib.Path(entry["file"]).relative_to(self._root)): entry for entry in json.loads(path.read_text())
-                           if str(entry["file"]).startswith(str(self._root) + "/src/")})
+        self.configureFor(commandsBySource(json.loads(path.read_text()), self._root))
 
     def configureFor(self, commands):
         """`commands`: entries of compile_commands.json by the source's path."""
@@ -56,7 +70,7 @@ class PreloadedSources:
         entry = self._commands[path]
         words = shlex.split(entry["command"])
         words[words.index("-o") + 1] = str(self._object(path))
-        words[words.index("-c") + 1] = str(self.tree / path)
+        words[words.index("-c") + 1] = str(self.tree / path)  # itself, also where it is one of several that are merged
         for flag in ("-MT", "-MF"):
             if flag in words:
                 del words[words.index(flag):words.index(flag) + 2]

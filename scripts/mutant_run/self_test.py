@@ -7,7 +7,7 @@ from .cpp_tokens import tokens
 from .draw import drawn
 from .edits import editsOf
 from .equivalents import entryOf, readEquivalents
-from .preloaded import PreloadedSources
+from .preloaded import PreloadedSources, commandsBySource
 from .programs import Program
 from .switch import HEADER, SOURCE, applied
 
@@ -70,6 +70,7 @@ def selfTest(say):
     _equivalents(check, edits)
     _draw(check, edits)
     _objects(check)
+    _commands(check)
     _run(check, edits)
     return 1 if check.wrong else 0
 
@@ -138,6 +139,19 @@ def _objects(check):
         objects.configureFor({"limit.cpp": {"command": "g++ -O2"}})
         objects.forgetOthers()
         check.that(not made.is_file(), "those of another command, too")
+
+
+def _commands(check):
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        merged = root / "out" / "Unity" / "unity_0_cxx.cxx"
+        merged.parent.mkdir(parents=True)
+        merged.write_text(f'#include "{root}/src/a.cpp"\n\n#include "{root}/src/b.cpp"\n')
+        entries = [{"file": str(merged), "command": "merged"}, {"file": f"{root}/src/c.cpp", "command": "alone"},
+                   {"file": f"{root}/test/c.cpp", "command": "a test"}]
+        commands = {path: entry["command"] for path, entry in commandsBySource(entries, root).items()}
+        check.that(commands == {"src/a.cpp": "merged", "src/b.cpp": "merged", "src/c.cpp": "alone"},
+                   "sources are found alone and merged with others, tests are not")
 
 
 def _run(check, edits):

@@ -88,8 +88,10 @@ std::optional<std::string> FollowsItsCommand::look(const Moment& moment) {
       const Duration on_the_way = group.is_base ? moment.base_ramp : Duration{};
       const Span goal = track.wanted.since(moment.now - on_the_way);
       const SetpointRamp& ramp = moment.setpoint_ramps[i];
-      track.sent.add(moment.now, follow(track.setpoint, goal, (1.0 - kSpare) * ramp.slowest * dt,
-                                        (1.0 + kSpare) * ramp.fastest * dt));
+      // A driver that is held up need not catch up with its ramp: it goes on from where it was (SetpointWithinRamp).
+      const double slowest = moment.driver_ran ? ramp.slowest : 0.0;
+      track.sent.add(moment.now,
+                     follow(track.setpoint, goal, (1.0 - kSpare) * slowest * dt, (1.0 + kSpare) * ramp.fastest * dt));
       const Span setpoint = track.sent.since(moment.now - moment.heard_within - moment.period);
       const Span& speed = follow(track.speed, setpoint, (1.0 - kSpare) * std::min(drive.rise, drive.ramp) * dt,
                                  (1.0 + kSpare) * std::max(drive.rise, drive.ramp) * dt);

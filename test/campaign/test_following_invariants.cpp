@@ -80,6 +80,31 @@ TEST_F(FollowingInvariants, AWheelThatIsToldARampFollowsThat) {
   }
 }
 
+// A driver that was held up on its way down, and is told to go up again, goes on from where it was.
+TEST_F(FollowingInvariants, ARampIsNotCaughtUpWithBehindAStall) {
+  moment_.setpoint_ramps.assign(2, {10.0, 10.0});
+  FollowsItsCommand invariant;
+  const auto turn = [&](double hertz) {
+    for (DriveTruth& drive : moment_.drives) drive.along = drive.told = hertz;
+    return cycle(invariant);
+  };
+  want(20.0);
+  for (int i = 0; i <= 200; ++i) ASSERT_EQ("", turn(0.1 * i)) << i;
+  want(10.0);
+  for (int i = 0; i < 10; ++i) ASSERT_EQ("", turn(20.0 - 0.1 * i)) << i;
+  moment_.driver_ran = false;
+  for (int i = 0; i < 50; ++i) ASSERT_EQ("", turn(19.0)) << i;
+  moment_.driver_ran = true;
+  want(20.0);
+  for (int i = 0; i < 10; ++i) ASSERT_EQ("", turn(19.0 + 0.1 * i)) << i;
+  for (int i = 0; i < 20; ++i) ASSERT_EQ("", turn(20.0)) << i;
+  // Once it runs again it has its ramp: one that stays is told of.
+  want(0.0);
+  std::string told;
+  for (int i = 0; i < 200 && told.empty(); ++i) told = turn(20.0);
+  EXPECT_THAT(told, HasSubstr("commanded are 0 Hz"));
+}
+
 // On its way from one command to the other a wheel of a base may be anywhere between the two for as long as that takes.
 TEST_F(FollowingInvariants, AWheelOfABaseThatLimitsItsAccelerationHasItsTime) {
   moment_.setpoint_ramps.assign(2, {SetpointRamp::kAtOnce, 30.0});
