@@ -101,6 +101,38 @@ TEST(StartUp, FindsWhatComesLater) {
   EXPECT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}, 1));
 }
 
+// Another time on-line is a first one: who had failed often is asked as soon again, and is absent until he answers.
+TEST(StartUp, AnotherOneBeginsAsTheFirst) {
+  ScannerRun run{busConfig(1)};
+  const auto asked = [&] {
+    run.devices[0]->powerOff();
+    run.begin();
+    const Instant began = run.now;
+    std::vector<Duration> times;
+    run.on_sent = [&](const CanFrame& frame) {
+      if (frame.id == 0x42E) times.push_back(run.now - began);
+    };
+    run.run(seconds{6});
+    run.on_sent = nullptr;
+    return times;
+  };
+  const std::vector<Duration> first = asked();
+  ASSERT_LT(3u, first.size());
+  EXPECT_LT(first[1] - first[0], first[2] - first[1]) << "the pauses grow";
+  EXPECT_EQ(first, asked());
+
+  run.devices[0]->powerOn();
+  ASSERT_TRUE(run.reaches(NodeState::kExchanging, seconds{2}));
+  run.scanner.handleBusLost("can0: bus-off", run.now);
+  EXPECT_EQ(NodeState::kLost, run.scanner.status(0).state);
+  run.run(seconds{1});
+  run.devices[0]->powerOff();
+  run.begin();
+  ASSERT_TRUE(run.runUntil([&] { return run.scanner.busState() == BusState::kOnline; }, seconds{4}));
+  EXPECT_EQ(NodeState::kAbsent, run.scanner.status(0).state);
+  EXPECT_STREQ("", run.scanner.status(0).reason.c_str());
+}
+
 // A driver that was killed left its connections behind: they are ours, and released with the bits that are allocated; with those
 // that would be ours where the device does not tell, or says that nobody holds what it has refused to allocate.
 TEST(StartUp, TakesOverWhatIsOursFromBefore) {

@@ -287,6 +287,21 @@ TEST(Loss, StartsOverWhenTheSlaveLeftDataExchange) {
   EXPECT_EQ(1u, wire.status().counters.departures);
 }
 
+// Until it is in data exchange again it cannot leave it a second time.
+TEST(Loss, LeavesDataExchangeOnce) {
+  NordWire wire;
+  wire.startsUp();
+  wire.cycle(kExchange7D, kNotActivated);
+  ASSERT_EQ(1u, wire.status().counters.departures);
+  wire.isFree();
+  wire.cycle(kSetPrm5D, kNotActivated);
+  EXPECT_EQ(SlavePhase::kBackOff, wire.status().phase);
+  wire.advance(1s);
+  wire.isFree();
+  EXPECT_EQ(SlavePhase::kParameters, wire.status().phase);
+  EXPECT_EQ(1u, wire.status().counters.departures);
+}
+
 // A diagnosis with Prm_Req in data exchange, or one of no owner: from the beginning.
 TEST(Loss, StartsOverWhenTheDiagnosisAsksForParameters) {
   for (const char* diagnosis :

@@ -113,6 +113,22 @@ TEST(UrdfGeometry, RefusesWheelsOfASideThatDisagree) {
               AllOf(HasSubstr("\"left_joint\" has a radius of 0.1 m"), HasSubstr("\"rear_joint\" of 0.11 m")));
 }
 
+// 0.1 mm is told as the same: twice as much as 0.1 mm is so to the last bit.
+TEST(UrdfGeometry, WheelsOfASideMayDifferByATenthOfAMillimetre) {
+  const auto radius = [](const char* first, const char* second) {
+    const auto sphere = [](const char* size) {
+      return urdfShape("collision", std::string("<sphere radius=\"") + size + "\"/>");
+    };
+    const UrdfGeometry sizes(urdfRobot(urdfLink("base_link") +
+                                       urdfWheel("left", "0 0.25 0", "base_link", sphere(first)) +
+                                       urdfWheel("rear", "-1 0.25 0", "base_link", sphere(second))));
+    return sizes.wheelRadius({"left_joint", "rear_joint"});
+  };
+  EXPECT_EQ(0.0001, radius("0.0001", "0.0002"));
+  EXPECT_EQ(0.0002, radius("0.0002", "0.0001"));
+  EXPECT_THAT(refusalOf([&] { radius("0.1", "0.10011"); }), HasSubstr("a radius of 0.1 m"));
+}
+
 // Mecanum: the front wheel first, as far apart on both sides.
 TEST(UrdfGeometry, RefusesAWheelBaseThatIsNone) {
   const UrdfGeometry askew(fourWheels("-0.4 0.25 0"));

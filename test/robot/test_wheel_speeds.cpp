@@ -62,6 +62,7 @@ TEST(WheelSpeeds, TheTighterLimitCounts) {
 TEST(WheelSpeeds, ARestOfRoundingIsInsideTheLimits) {
   EXPECT_TRUE(areWithin({10.0, -4.0}, {10.0, 4.0}));
   EXPECT_TRUE(areWithin({10.0 * (1.0 + 1e-10), -4.0}, {10.0, 4.0}));
+  EXPECT_TRUE(areWithin({1.0, -1.0}, {1.0, 1.0 - 1e-9})) << "so much is a rest";
   EXPECT_FALSE(areWithin({10.0, -4.0 * (1.0 + 1e-8)}, {10.0, 4.0}));
   EXPECT_FALSE(areWithin({0.0, 0.0}, {0.0, 4.0}));
   EXPECT_FALSE(areWithin({1.0, 1.0}, {4.0}));
