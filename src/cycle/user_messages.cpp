@@ -10,6 +10,8 @@ namespace {
 const char* nextCall(Refusal refusal) noexcept {
   if (refusal == Refusal::kFaultLatched) return "; call ~acknowledge_faults";
   if (refusal == Refusal::kFault) return "; when its cause is gone, call ~acknowledge_faults";
+  if (refusal == Refusal::kLocalControl)
+    return ": does P509 select this bus, or is an input with \"remote control\" low?";
   return "";
 }
 
