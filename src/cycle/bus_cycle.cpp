@@ -264,7 +264,7 @@ void BusCycle::handleInputs(Instant now) noexcept {
     drives_[i].handleModule(inputs_[i].inverter_missing, now);
     drives_[i].handleInput(inputs_[i].input, inputs_[i].inverter_answers, now);
     axes_[i].known = axes_[i].known || drives_[i].report().online;
-    if (role_ != CycleRole::kOnlooker) axes_[i].terminals.update(drives_[i].report());
+    if (role_ != CycleRole::kOnlooker) axes_[i].terminals.update(drives_[i].report(), now);
     axes_[i].recorder.handleCycle({now, inputs_[i].inverter_answers, outputs_[i], inputs_[i].input});
   }
 }
@@ -370,12 +370,14 @@ void BusCycle::tellChanges(Instant now) noexcept {
       enabled.text.format("drive %s is enabled", names_[i].c_str());
       ports_.tell(enabled);
     }
-    const auto finding = axes_[i].terminals.poll(now);
-    if (!finding) continue;
-    BusEvent event{true, terminalMessage(names_[i].c_str(), *finding, report)};
-    if (*finding == TerminalFinding::kNone) {
+    const auto news = axes_[i].terminals.poll(now);
+    if (!news) continue;
+    BusEvent event{true, terminalMessage(names_[i].c_str(), news->finding, report)};
+    if (news->finding == TerminalFinding::kNone) {
       event.warning = false;
-      event.text.format("drive %s: the bus has control of it again", names_[i].c_str());
+      event.text.format(news->before == TerminalFinding::kHeld ? "drive %s is not held at its terminals any more"
+                                                               : "drive %s: the bus has control of it again",
+                        names_[i].c_str());
     }
     ports_.tell(event);
   }

@@ -373,6 +373,10 @@ Sentence Supervisor::unsettled(const Job& job) const noexcept {
       const bool heard = !job.enabled_at || drive.lastHeard() > *job.enabled_at;
       const bool at_rest = drive.report().online && drive.isAtRest();
       if (enable ? drive::isEnabled(drive.report().phase) && heard : at_rest) continue;
+      // Its own time for it may end in this very cycle, or later: what is told is the same.
+      if (enable && drive.report().phase == drive::Phase::kEnabling) {
+        return refusalMessage(names_[member].c_str(), Refusal::kEnableTimeout, drive.report());
+      }
       return unconfirmedMessage(names_[member].c_str(), drive.report());
     }
   }

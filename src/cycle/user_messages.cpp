@@ -10,6 +10,8 @@ namespace {
 const char* nextCall(Refusal refusal) noexcept {
   if (refusal == Refusal::kFaultLatched) return "; call ~acknowledge_faults";
   if (refusal == Refusal::kFault) return "; when its cause is gone, call ~acknowledge_faults";
+  if (refusal == Refusal::kLocalControl)
+    return ": does P509 select this bus, or is an input with \"remote control\" low?";
   return "";
 }
 
@@ -85,6 +87,14 @@ Sentence sourceMessage(const char* drive, const drive::UnexpectedSource& source)
   return text;
 }
 
+// What keeps an inverter from becoming ready that was told to, as far as its status word tells (BU 2700 6.4.2).
+const char* heldBy(Word status_word) noexcept {
+  const profile::StatusWord status{status_word};
+  if (!status.voltageEnabled()) return ", bit 4 = 0: OFF2 or safe stop (STO) at its terminals, or no mains";
+  if (!status.quickStopInactive()) return ", bit 5 = 0: OFF3 (quick stop, emergency stop) at its terminals";
+  return "";
+}
+
 const char* stateAtStop(const drive::DriveReport& report) noexcept {
   return profile::toString(profile::StatusWord{report.stop_status_word}.state());
 }
@@ -121,13 +131,14 @@ Sentence refusalMessage(const char* drive, Refusal refusal, const drive::DriveRe
                 drive::toString(report.stop_cause), report.stop_status_word, stateAtStop(report));
     return text;
   }
+  const char* const held = refusal == Refusal::kEnableTimeout ? heldBy(report.status_word) : "";
   if (report.online && report.switch_on_reason) {
     const unsigned reason = *report.switch_on_reason;
-    text.format("drive %s: %s%s (status word %04X, %s%s%u.%u)", drive, drive::toString(refusal), nextCall(refusal),
-                report.status_word, profile::toString(report.state), kOwnReason, reason / 10, reason % 10);
+    text.format("drive %s: %s%s (status word %04X, %s%s%s%u.%u)", drive, drive::toString(refusal), nextCall(refusal),
+                report.status_word, profile::toString(report.state), held, kOwnReason, reason / 10, reason % 10);
   } else if (report.online) {
-    text.format("drive %s: %s%s (status word %04X, %s)", drive, drive::toString(refusal), nextCall(refusal),
-                report.status_word, profile::toString(report.state));
+    text.format("drive %s: %s%s (status word %04X, %s%s)", drive, drive::toString(refusal), nextCall(refusal),
+                report.status_word, profile::toString(report.state), held);
   } else {
     text.format("drive %s: %s", drive, drive::toString(refusal));
   }
@@ -169,6 +180,10 @@ Sentence terminalMessage(const char* drive, TerminalFinding finding, const drive
   Sentence text;
   switch (finding) {
     case TerminalFinding::kNone:
+      break;
+    case TerminalFinding::kHeld:
+      text.format("drive %s is held in \"%s\" (status word %04X%s)", drive, profile::toString(report.state),
+                  report.status_word, heldBy(report.status_word));
       break;
     case TerminalFinding::kLocalControl:
       text.format(

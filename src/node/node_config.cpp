@@ -5,6 +5,7 @@
 #include "config/driver_settings.h"
 #include "config/setting_checks.h"
 #include "cycle/word_places.h"
+#include "node/late_protection.h"
 
 namespace nord_driver::node {
 
@@ -169,6 +170,8 @@ ConfiguredTransport configureTransport(NodeConfig& config, Transport& transport)
                            "P105 in Hz, because this drive has no parameter channel to read it from");
     }
   }
+  const std::vector<std::string> late = lateProtection(*config.bus, configured.identities);
+  configured.warnings.insert(configured.warnings.end(), late.begin(), late.end());
   if (const auto wheel = wheelAgainstForward(config.cycle, configured.identities)) {
     configured.warnings.push_back(
         config.drives[*wheel].settings->fullName("inverted") +

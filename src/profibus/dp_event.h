@@ -21,8 +21,8 @@ enum class DpEventKind : std::uint8_t {
   kConfigurationRead,     ///< Get_Cfg on demand was answered, or was refused: see `text`
   kServiceRefused,        ///< a negative answer to a service of the start-up, or to data exchange for too long
   kNotReady,              ///< parameterised and configured, but does not become ready
-  kLeftRunning,           ///< its master has left it with a running watchdog, and we have none: asked again when that,
-                          ///< however long, has run out
+  kLeftRunning,           ///< a watchdog runs in it that is not ours, left by its master or unexplained, and we have
+                          ///< none: asked again when that, however long, has run out
   // Not of one slave: `slave` is kNoSlave.
   kForeignMaster,  ///< `master` sent a token or a request. Our own address: a second master has it, or an adapter
                    ///< echoes

@@ -146,6 +146,7 @@ class SlaveHandler {
   GrowingPause back_off_;
   bool configuration_wanted_ = false;   // by requestConfiguration()
   bool configuration_doubted_ = false;  // Cfg_Fault was seen
+  bool watchdog_unasked_ = false;       // WD_On was seen behind our own Set_Prm, which brings none, and stands
   bool told_configuration_ = false;
   bool told_found_ = false;
   std::optional<DpEventKind> told_fault_;

@@ -237,7 +237,7 @@ bool SlaveHandler::isLeftRunning(const Diagnosis& diagnosis) const noexcept {
 }
 
 void SlaveHandler::leaveRunning(Instant now, DpEvents& events) noexcept {
-  backOff({DpEventKind::kLeftRunning, texts::kLeftRunning}, now, events);
+  backOff({DpEventKind::kLeftRunning, watchdog_unasked_ ? texts::kWatchdogUnasked : texts::kLeftRunning}, now, events);
   // No diagnosis tells how long its watchdog is, and each request starts it anew.
   timers_.prolong(Timer::kNextRequest, last_request_ + kLongestWatchdog + kWatchdogTolerance);
 }
@@ -245,6 +245,7 @@ void SlaveHandler::leaveRunning(Instant now, DpEvents& events) noexcept {
 // Faults shown here are those of an earlier start-up, perhaps of another master: Set_Prm takes them away.
 void SlaveHandler::judgeFirst(Instant now, DpEvents& events) noexcept {
   if (isLeftRunning(status_.diagnosis)) return leaveRunning(now, events);
+  watchdog_unasked_ = false;
   if (const auto stranger = strangerIn(status_.diagnosis)) return backOff(*stranger, now, events);
   const bool always = config_.configuration_check >= ConfigurationCheck::kTell;
   const bool doubted = configuration_doubted_ && config_.configuration_check == ConfigurationCheck::kAfterFault;
@@ -253,7 +254,11 @@ void SlaveHandler::judgeFirst(Instant now, DpEvents& events) noexcept {
 
 void SlaveHandler::judgeReady(Instant now, DpEvents& events) noexcept {
   const Diagnosis& diagnosis = status_.diagnosis;
-  if (isLeftRunning(diagnosis)) return leaveRunning(now, events);
+  if (isLeftRunning(diagnosis)) {
+    // None ran before our own Set_Prm. Going on might feed another master's, which has our address, all the same.
+    watchdog_unasked_ = true;
+    return leaveRunning(now, events);
+  }
   if (const auto fault = faultIn(diagnosis)) return backOff(*fault, now, events);
   const bool ours = !diagnosis.parameterRequest() && diagnosis.owner() == master_;
   if (ours && !diagnosis.notReady() && !diagnosis.staticDiagnosis()) return enterDataExchange(events);

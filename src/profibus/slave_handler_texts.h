@@ -28,6 +28,9 @@ constexpr const char* kWrongIdent = "is another device than configured: its iden
 constexpr const char* kLocked = "is locked by another master";
 constexpr const char* kLeftRunning =
     "was left in data exchange by its master, and its watchdog runs: wait until that has run out";
+constexpr const char* kWatchdogUnasked =
+    "shows a running watchdog (WD_On) though it was told none: another master has our address (bus/master_address), or "
+    "the module brings its own: ask it through the running driver";
 constexpr const char* kPrmFault =
     "refuses its parameters (Prm_Fault): the ident number, the user parameters or the watchdog do not suit it";
 constexpr const char* kPrmNotSupported =

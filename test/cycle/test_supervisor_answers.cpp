@@ -20,7 +20,8 @@ TEST_F(SupervisorAnswers, AnEnableThatIsGivenUpIsAnsweredOnce) {
   inverters[kLift].stuck = true;
   request(1, RequestKind::kEnable, kAllDrives, std::chrono::milliseconds{100});
   run(100);
-  EXPECT_THAT(answersTo(1), ElementsAre(StartsWith("no: not confirmed in time: drive lift is ")));
+  EXPECT_THAT(answersTo(1), ElementsAre("no: drive lift: the inverter did not reach \"operation enabled\" in time "
+                                        "(status word 0B31, ready to switch on)"));
 }
 
 // Not the one of its base that is enabled and waits for it.
@@ -30,7 +31,37 @@ TEST_F(SupervisorAnswers, AnEnableThatIsGivenUpNamesTheDriveThatHasNotCome) {
   run(9);
   ASSERT_EQ(drive::Phase::kEnabled, drives[kLeft].report().phase);
   run(91);
-  EXPECT_THAT(answersTo(1), ElementsAre(StartsWith("no: not confirmed in time: drive right is ")));
+  EXPECT_THAT(answersTo(1), ElementsAre(StartsWith("no: drive right: the inverter did not reach ")));
+}
+
+// Whichever time ends first, the request's or the drive's own: an emergency stop is told as one.
+TEST_F(SupervisorAnswers, AnEnableOfADriveHeldByItsTerminalsNamesWhatHoldsIt) {
+  const struct {
+    Word taken;
+    const char* expected;
+  } cases[] = {{0x0002,
+                "(status word 0B60, switch-on disabled, bit 4 = 0: OFF2 or safe stop (STO) at its terminals, or no "
+                "mains)"},
+               {0x0004,
+                "(status word 0B50, switch-on disabled, bit 5 = 0: OFF3 (quick stop, emergency stop) at its "
+                "terminals)"},
+               {0x0006,
+                "(status word 0B40, switch-on disabled, bit 4 = 0: OFF2 or safe stop (STO) at its terminals, or no "
+                "mains)"}};
+  std::uint32_t id = 0;
+  for (const auto& held : cases) {
+    for (const int patience : {100, 190, 200, 210, 3000}) {
+      SCOPED_TRACE(patience);
+      inverters[kRight].taken = held.taken;
+      request(++id, RequestKind::kEnable, kAllDrives, std::chrono::milliseconds{patience});
+      run(100);
+      EXPECT_THAT(answersTo(id), ElementsAre(std::string("no: drive right: the inverter did not reach \"operation "
+                                                         "enabled\" in time ") +
+                                             held.expected));
+      inverters[kRight].taken = 0;
+      run(50);
+    }
+  }
 }
 
 // Enabled before, it is enabled as far as is known, and not heard since it was asked for.

@@ -53,7 +53,8 @@ TEST_F(SupervisorEnable, AnEnableThatIsGivenUpIsTakenBack) {
   inverters[kLift].stuck = true;
   const Completion answer = ask(RequestKind::kEnable, kAllDrives, std::chrono::milliseconds{100});
   EXPECT_FALSE(answer.success);
-  EXPECT_THAT(answer.message.c_str(), StartsWith("not confirmed in time: drive lift is "));
+  EXPECT_THAT(answer.message.c_str(),
+              StartsWith("drive lift: the inverter did not reach \"operation enabled\" in time "));
   inverters[kLift].stuck = false;  // now it would follow
   for (int i = 0; i < 50; ++i) {
     step();

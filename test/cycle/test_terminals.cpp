@@ -94,6 +94,47 @@ TEST_F(Terminals, AFlickeringBitIsToldOnceASecondAtMost) {
   EXPECT_LE(told, 4u);
 }
 
+// An emergency stop that was pressed while nothing runs, or before this driver was started.
+TEST_F(Terminals, ADriveThatItsTerminalsHoldWhileIdleIsTold) {
+  constexpr const char* kHeld =
+      "warning: drive left is held in \"switch-on disabled\" (status word 0B60, bit 4 = 0: OFF2 or safe stop (STO) at "
+      "its "
+      "terminals, or no mains)";
+  transport.inverters[kLeft].taken = 0x0002;
+  run(49);
+  EXPECT_THAT(events(), IsEmpty());
+  run(3);
+  EXPECT_THAT(events(), ElementsAre(kHeld));
+  EXPECT_EQ(TerminalFinding::kHeld, snapshot().drives[kLeft].terminals);
+  EXPECT_EQ(kHeld, "warning: " + snapshot().drives[kLeft].terminals_text.str());
+  EXPECT_EQ(TerminalFinding::kNone, snapshot().drives[kRight].terminals);
+  run(500);
+  EXPECT_THAT(events(), IsEmpty()) << "once";
+  transport.inverters[kLeft].taken = 0;
+  step();
+  EXPECT_THAT(events(), ElementsAre("info: drive left is not held at its terminals any more"));
+}
+
+TEST_F(Terminals, AQuickStopAtTheTerminalsIsToldAsOne) {
+  transport.inverters[kLeft].taken = 0x0004;
+  run(60);
+  EXPECT_THAT(events(),
+              ElementsAre("warning: drive left is held in \"switch-on disabled\" (status word 0B50, bit 5 = 0: "
+                          "OFF3 (quick stop, emergency stop) at its terminals)"));
+}
+
+// Without control no word is evaluated, and bits 4 and 5 say nothing of what would be with it.
+TEST_F(Terminals, LocalControlIsToldInPlaceOfAHold) {
+  transport.inverters[kLeft].taken = 0x0002;
+  transport.inverters[kLeft].local = true;
+  run(200);
+  EXPECT_EQ(TerminalFinding::kLocalControl, snapshot().drives[kLeft].terminals);
+  events();
+  transport.inverters[kLeft].local = false;
+  run(150);
+  EXPECT_EQ(TerminalFinding::kHeld, snapshot().drives[kLeft].terminals);
+}
+
 // What the driver itself commands is not told: the way up, driving, and the ramp down.
 TEST_F(Terminals, NothingIsToldOfMotionThatWasAskedFor) {
   ASSERT_TRUE(ask(RequestKind::kEnable).success);

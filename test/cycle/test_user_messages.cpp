@@ -17,7 +17,9 @@ drive::DriveReport onlineReport() {
 
 TEST(Sentences, ARefusalNamesDriveReasonAndStatusWord) {
   EXPECT_STREQ(
-      "drive left: the inverter is under local control (status bit 9 = 0) (status word 0B31, ready to switch on)",
+      "drive left: the inverter is under local control (status bit 9 = 0): does P509 select this bus, or is an input "
+      "with \"remote "
+      "control\" low? (status word 0B31, ready to switch on)",
       refusalMessage("left", drive::Refusal::kLocalControl, onlineReport()).c_str());
   EXPECT_STREQ("drive left: the inverter does not answer",
                refusalMessage("left", drive::Refusal::kOffline, drive::DriveReport{}).c_str());

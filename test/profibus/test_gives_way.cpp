@@ -303,7 +303,7 @@ TEST(GivesWay, AWatchdogThatIsNotOursIsNotBegunWith) {
   wire.takesConfiguration();
   wire.cycle(kDiag5D, kWatched);
   EXPECT_EQ(SlavePhase::kBackOff, wire.status().phase);
-  EXPECT_THAT(wire.status().note, HasSubstr("its watchdog runs: wait until that has run out"));
+  EXPECT_THAT(wire.status().note, HasSubstr("another master has our address"));
 }
 
 }  // namespace

@@ -55,6 +55,31 @@ TEST(LeftRunning, IsLeftToItsWatchdog) {
   wire.tellsNothing();
 }
 
+// It wanted parameters, and took ours without a watchdog: what runs now is no killed master's. Going on would feed it.
+TEST(LeftRunning, AWatchdogBehindOurOwnParametersIsNamedAsOne) {
+  NordWire wire{quietBus(), guest()};
+  wire.isFound();
+  wire.isFree();
+  wire.cycle(kSetPrmUnwatched, kShortAcknowledge);
+  wire.takesConfiguration();
+  wire.forgetEvents();
+  wire.cycle(kDiag5D, kWatched);
+  const Instant asked = wire.now;
+  EXPECT_EQ(SlavePhase::kBackOff, wire.status().phase);
+  EXPECT_THAT(wire.status().note, HasSubstr("shows a running watchdog (WD_On) though it was told none"));
+  EXPECT_STREQ(wire.status().note, wire.tells(DpEventKind::kLeftRunning).text);
+  expectSilence(wire, asked + kLeftAlone - 1s);
+  // Later, too, it was not left by a master: it may show that bit for ever.
+  wire.now = asked + kLeftAlone;
+  wire.cycle(kDiag6D, kWatched);
+  EXPECT_THAT(wire.status().note, HasSubstr("though it was told none"));
+  expectSilence(wire, wire.now + kLeftAlone - 1s);
+  // Run out.
+  wire.advance(kLeftAlone);
+  wire.cycle(kDiag6D, kWantsPrm);
+  wire.cycle(kSetPrmUnwatched, kShortAcknowledge);
+}
+
 // One that still runs then has been fed by somebody else: once more, and told once.
 TEST(LeftRunning, IsLeftAloneAgain) {
   NordWire wire{quietBus(), guest()};

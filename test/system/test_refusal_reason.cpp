@@ -24,9 +24,12 @@ TYPED_TEST(RefusalReason, IsReadBeforeAnybodyAsksAndToldWithTheRefusal) {
     robot.step();
     ASSERT_TRUE(robot.snapshot().drives[0].switch_on_reason) << "kept while it is read again";
   }
+  EXPECT_EQ(cycle::TerminalFinding::kHeld, robot.snapshot().drives[0].terminals);
+  EXPECT_THAT(robot.snapshot().drives[0].terminals_text.str(), HasSubstr("bit 4 = 0: OFF2 or safe stop (STO)"));
   const cycle::Completion answer = robot.ask(cycle::RequestKind::kEnable);
   EXPECT_FALSE(answer.success);
   EXPECT_THAT(answer.message.c_str(), HasSubstr("drive left"));
+  EXPECT_THAT(answer.message.c_str(), HasSubstr("bit 4 = 0: OFF2 or safe stop (STO)"));
   EXPECT_THAT(answer.message.c_str(), HasSubstr("P700[-03]"));
 
   robot.unit(0).inverter().setTerminals({});

@@ -54,6 +54,27 @@ std::string complaintsOfTheSimulator(const std::string& file, const std::string&
   return ended.errors + (ended.code == 0 ? "" : "it ended with " + std::to_string(ended.code));
 }
 
+// By the same limit on each bus that knows how long its drives run on.
+TEST_F(CheckConfig, WarnsOfDrivesThatRunOnForLong) {
+  const std::string drive = "drives: {belt: {address: 5, series: sk2xxe, joint: a, gear_ratio: 1, pole_pairs: 2}}\n";
+  const std::string device_net =
+      checkText("transport: devicenet\nbus: {interface: can0, bit_rate: 500000, expected_packet_rate: 65}\n" + drive)
+          .output;
+  EXPECT_THAT(device_net,
+              HasSubstr("warning: bus: a drive runs on for 260 s when this computer dies (DeviceNet time-out "
+                        "of 260 s"));
+  const std::string profibus = checkText("bus: {device: /dev/ttyUSB0, watchdog: 60}\n" + drive).output;
+  EXPECT_THAT(profibus,
+              HasSubstr("warning: bus: a drive runs on for 60 s when this computer dies (PROFIBUS watchdog of 60 "
+                        "s)"));
+  const std::string canopen = checkText(
+                                  "transport: canopen\nbus: {interface: can0}\ndrives: {belt: {address: 5, series: "
+                                  "sk5xxe, joint: a, gear_ratio: 1, "
+                                  "pole_pairs: 2, guard_time: 1, life_time_factor: 4}}\n")
+                                  .output;
+  EXPECT_THAT(canopen, HasSubstr("warning: bus: a drive runs on for 4 s when this computer dies (node guarding, 4 s)"));
+}
+
 // As rosparam reads the file for the node.
 TEST_F(CheckConfig, ResolvesMergeKeys) {
   const Ended merged = checkText(

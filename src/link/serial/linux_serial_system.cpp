@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "link/serial/adapter_identity.h"
+#include "link/serial/lock_owner.h"
 #include "link/serial/serial_devices.h"
 #include "link/serial/serial_system.h"
 #include "link/serial/uart_requests.h"
@@ -76,6 +77,10 @@ class LinuxSerialSystem final : public SerialSystem {
     return link::adapterLink(DeviceTree{}, device, link);
   }
   int latencyTimer(const char* device) noexcept override { return link::latencyTimer(DeviceTree{}, device); }
+  Sentence lockOwner(const char* device) noexcept override {
+    const auto owner = link::lockOwner(device);
+    return owner ? toText(*owner) : Sentence{};
+  }
 };
 
 }  // namespace

@@ -68,10 +68,13 @@ bool SerialPort::setUp() noexcept {
   const DeviceKind kind = system_.kind(descriptor_);
   if (kind == DeviceKind::kNoSerialDevice) return fail("is no serial device");
   is_pty_ = kind == DeviceKind::kPty;
-  if (const int result = system_.lock(descriptor_)) {
-    return result == -EWOULDBLOCK ? fail("is in use by another process") : fail("cannot be locked", -result);
-  }
   Sentence reason;
+  if (const int result = system_.lock(descriptor_)) {
+    if (result != -EWOULDBLOCK) return fail("cannot be locked", -result);
+    const Sentence owner = system_.lockOwner(device_.c_str());
+    reason.format("is in use by %s", owner.empty() ? "another process" : owner.c_str());
+    return fail(reason.c_str());
+  }
   const LineDemand demand = is_pty_ ? LineDemand::kNone : LineDemand::kExact;
   if (!setUpLine(system_, descriptor_, settings_.baud_rate, demand, reason) ||
       (!is_pty_ && !setUpRs485(system_, descriptor_, settings_.rs485, reason))) {

@@ -81,6 +81,8 @@ class SerialSystem {
   virtual int adapterLink(const char* device, DevicePath& link) noexcept = 0;
   /// How long an FTDI adapter holds received bytes back, in ms. -ENOENT where the driver has no such timer.
   virtual int latencyTimer(const char* device) noexcept = 0;
+  /// Who has locked it, see toText(LockOwner); empty where nobody can tell.
+  virtual Sentence lockOwner(const char* device) noexcept = 0;
 };
 
 /// Linux' own.

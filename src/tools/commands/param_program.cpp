@@ -5,9 +5,9 @@
 
 #include "config/driver_settings.h"
 #include "config/yaml_settings.h"
+#include "link/serial/lock_owner.h"
 #include "tools/end_signals.h"
 #include "tools/installed_catalogues.h"
-#include "tools/lock_owner.h"
 #include "tools/usage_error.h"
 
 namespace nord_driver::tools {
@@ -202,10 +202,10 @@ void ParamProgram::refuseBusInUse(const Settings& bus, const std::string& instea
   const EndPoint end_point = transport().endPoint();
   if (end_point.isNone()) return;
   const std::string where = bus.text(end_point.key).value_or("");
-  const auto owner = lockOwner(where);
+  const auto owner = link::lockOwner(where.c_str());
   if (!owner) return;
-  throw Trouble(where + " is in use by " + (owner->name.empty() ? "a program" : owner->name) + " (process " +
-                std::to_string(owner->process) + "): end it first; or ask the driver while it runs: " + instead);
+  throw Trouble(where + " is in use by " + link::toText(*owner).str() +
+                ": end it first; or ask the driver while it runs: " + instead);
 }
 
 }  // namespace nord_driver::tools

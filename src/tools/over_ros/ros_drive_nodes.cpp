@@ -14,7 +14,7 @@
 #include <system_error>
 #include <vector>
 
-#include "tools/lock_owner.h"
+#include "link/serial/lock_owner.h"
 #include "tools/over_ros/node_feeds.h"
 #include "tools/over_ros/node_life.h"
 #include "tools/over_ros/node_parameters.h"
@@ -73,7 +73,7 @@ std::string portOf(const std::string& node, const std::string& key) {
 /// The id of its process, when it answers and runs here; the same device of another machine is another bus.
 std::optional<int> processHere(const std::string& node) {
   const auto process = processOf(node);
-  if (!process || programOf(*process) != "nord_driver_node") return std::nullopt;
+  if (!process || link::programOf(*process).str() != "nord_driver_node") return std::nullopt;
   return process;
 }
 
@@ -100,7 +100,7 @@ void RosDriveNodes::begin() {
 std::optional<std::string> RosDriveNodes::find(const NodeQuery& query) {
   if (query.port_key.empty() || query.port.empty() || !masterAnswers()) return std::nullopt;
   begin();
-  const auto owner = lockOwner(query.port);
+  const auto owner = link::lockOwner(query.port.c_str());
   for (const std::string& node : nodesWith(query.drive)) {
     if (behindLinks(portOf(node, query.port_key)) != behindLinks(query.port)) continue;
     const auto process = processHere(node);

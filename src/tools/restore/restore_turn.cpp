@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "link/serial/lock_owner.h"
 #include "tools/drive_parameters.h"
-#include "tools/lock_owner.h"
 
 namespace nord_driver::tools {
 
@@ -26,7 +26,7 @@ RestoreTurn::RestoreTurn(const std::string& journal, const std::string& drive) {
   const int why = errno;
   if (file_ >= 0) ::close(file_);
   if (file_ >= 0 && why == EWOULDBLOCK) {
-    const auto owner = lockOwner(path);
+    const auto owner = link::lockOwner(path.c_str());
     throw Trouble("another nord_param" + (owner ? " (process " + std::to_string(owner->process) + ")" : std::string()) +
                   " restores drive " + drive + " now: nothing was written");
   }

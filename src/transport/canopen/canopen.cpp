@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "config/setting_checks.h"
+#include "transport/addresses_asked.h"
 #include "transport/canopen/canopen_bus_events.h"
 #include "transport/canopen/canopen_counters.h"
 #include "transport/canopen/canopen_frame_text.h"
@@ -210,10 +211,12 @@ Sentence CanopenTransport::busText() const noexcept {
   Sentence text = linkText();
   if (!text.empty()) return text;
   if (!connected() && !events().isExplained(now())) {
+    const auto& nodes = config_.master.nodes;
+    const auto asked = addressesAsked(nodes.size(), [&nodes](std::size_t node) { return nodes[node].id; });
     text.format(
-        "%s is open, but no node answers: are the drives powered, is the bit rate right (P514), are the two ends of "
-        "the bus terminated?",
-        config_.interface.c_str());
+        "%s is open, but no node answers (asked: %s): power, address and bit rate (P515, P514, or the module's "
+        "switches), termination? nord_param scan finds who is there",
+        config_.interface.c_str(), asked.c_str());
     return text;
   }
   text = events().text(now());

@@ -6,6 +6,7 @@
 
 #include "config/setting_checks.h"
 #include "profile/control_word.h"
+#include "transport/addresses_asked.h"
 #include "transport/devicenet/assembly.h"
 #include "transport/devicenet/devicenet_bus_events.h"
 #include "transport/devicenet/devicenet_counters.h"
@@ -238,11 +239,12 @@ Sentence DeviceNetTransport::silenceText() const noexcept {
     text.format("%s is open, and the modules are asked for the first time", config_.interface.c_str());
     return text;
   }
+  const auto asked =
+      addressesAsked(config_.modules.size(), [this](std::size_t module) { return config_.modules[module].mac; });
   text.format(
-      "%s is open, but no device answers: are the modules and the bus powered (24 V), do MAC ids and bit rate agree "
-      "with "
-      "their switches, are the two ends of the bus terminated?",
-      config_.interface.c_str());
+      "%s is open, but no device answers (asked: %s): are the modules and the bus powered (24 V), do MAC ids and bit "
+      "rate agree with their switches, are the two ends of the bus terminated? nord_param scan finds who is there",
+      config_.interface.c_str(), asked.c_str());
   return text;
 }
 

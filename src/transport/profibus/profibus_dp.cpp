@@ -6,6 +6,7 @@
 
 #include "config/setting_checks.h"
 #include "profile/status_word.h"
+#include "transport/addresses_asked.h"
 #include "transport/profibus/profibus_counters.h"
 #include "transport/profibus/profibus_line.h"
 #include "transport/profibus/profibus_scanner.h"
@@ -323,10 +324,13 @@ Sentence ProfibusDpTransport::silenceText() const noexcept {
     if (master_->status(station).heard) return text_->named(station, text_->note(station, *master_).c_str());
   }
   Sentence text;
+  const auto asked = addressesAsked(config_.slaves.size(),
+                                    [this](std::size_t station) { return config_.slaves[station].address.value(); });
   text.format(
-      "%s is open, but no station answers: power, baud rate, wires A and B the right way round, "
+      "%s is open, but no station answers (asked: %s): power, address, baud rate, wires A and B the right way round, "
       "termination?%s%s",
-      config_.device.c_str(), live_list_.empty() ? "" : "; scan: ", live_list_.c_str());
+      config_.device.c_str(), asked.c_str(),
+      live_list_.empty() ? " nord_param scan finds who is there" : " Scan: ", live_list_.c_str());
   return text;
 }
 

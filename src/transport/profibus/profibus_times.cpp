@@ -8,7 +8,6 @@ namespace nord_driver {
 
 namespace {
 
-constexpr Duration kLongWatchdog = std::chrono::seconds{3};
 constexpr std::uint32_t kFrameOverhead = 9;               // SD2: 68 LE LE 68 DA SA FC ... FCS 16
 constexpr std::uint32_t kRecordTelegram = 9 + 2 + 4 + 8;  // with two access points, the PDU's head and a PKW
 
@@ -86,10 +85,6 @@ void checkTimes(const Settings& bus, double cycle_rate, ProfibusDpConfig& config
                               " is shorter than a cycle in which all stations but one are silent (" +
                               inSeconds(lengths.one_left) + " for " + std::to_string(config.slaves.size()) +
                               " stations): the inverter behind that one would trip, too");
-  }
-  if (config.watchdog > kLongWatchdog) {
-    config.warnings.push_back(bus.fullName("watchdog") + ": a drive runs on for " + inSeconds(config.watchdog) +
-                              " when this computer dies");
   }
 }
 

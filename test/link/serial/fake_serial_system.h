@@ -30,6 +30,7 @@ class FakeSerialSystem final : public SerialSystem {
   bool has_low_latency = true;
   int set_line_error = 0;
   int lock_error = 0;
+  std::string lock_owner;
   int rs485_error = 0;
   Rs485Settings rs485_mask{true, true, true, true, 100, 100};  ///< what it can take at most
   int counters_error = 0;
@@ -158,6 +159,7 @@ class FakeSerialSystem final : public SerialSystem {
     const auto at = latency_timers.find(device);
     return at != latency_timers.end() ? at->second : -ENOENT;
   }
+  Sentence lockOwner(const char*) noexcept override { return lock_owner.c_str(); }
 
   /// An adapter with a serial number is plugged in: device, and udev's link.
   void plugIn(const std::string& device, const std::string& link) {

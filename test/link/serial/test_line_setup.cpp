@@ -97,7 +97,9 @@ TEST_F(LineSetup, WhatIsNoSerialDeviceOrLockedIsRefused) {
   EXPECT_THAT(refusal(), HasSubstr("no serial device"));
   system.devices["/dev/ttyUSB0"] = DeviceKind::kSerial;
   system.lock_error = EWOULDBLOCK;
-  EXPECT_THAT(refusal(), HasSubstr("in use by another process"));
+  EXPECT_THAT(refusal(), HasSubstr("is in use by another process"));
+  system.lock_owner = "nord_driver_node (process 4242)";
+  EXPECT_THAT(refusal(), HasSubstr("is in use by nord_driver_node (process 4242)"));
 }
 
 // Low latency is asked for at every opening; a driver without the knob is no worse for it.

@@ -149,8 +149,8 @@ TEST_F(OnACanopenBus, NobodyAnswers) {
   run(seconds{5});
   EXPECT_FALSE(transport_.connected());
   EXPECT_STREQ(
-      "can0 is open, but no node answers: are the drives powered, is the bit rate right (P514), are the two ends "
-      "of the bus terminated?",
+      "can0 is open, but no node answers (asked: 50, 51): power, address and bit rate (P515, P514, or the module's "
+      "switches), termination? nord_param scan finds who is there",
       transport_.busText().c_str());
 }
 

@@ -46,7 +46,9 @@ TEST(DeviceNetTransportTest, WiresAreSuspectedOnlyWhenTheModulesHadTimeToAnswer)
   rig.run(milliseconds{900});
   EXPECT_THAT(rig.transport.busText().str(), HasSubstr("for the first time"));
   rig.run(milliseconds{150});
-  EXPECT_THAT(rig.transport.busText().str(), HasSubstr("no device answers: are the modules and the bus powered"));
+  EXPECT_THAT(rig.transport.busText().str(),
+              HasSubstr("no device answers (asked: 5): are the modules and the bus powered"));
+  EXPECT_THAT(rig.transport.busText().str(), HasSubstr("terminated? nord_param scan finds who is there"));
 }
 
 // It hears us, and we do not hear it. Where what stops it is set only after the connection counts as lost, it gets that stop

@@ -60,7 +60,10 @@ TEST_F(OnASegment, SaysWhichDriveIsMissingAndWhatToLookAt) {
   segment_->drive(0).setPlugged(false);
   run(seconds{1});
   EXPECT_FALSE(transport_->connected());
-  EXPECT_THAT(transport_->busText().c_str(), HasSubstr("/dev/ttyUSB0 is open, but no station answers"));
+  EXPECT_STREQ(
+      "/dev/ttyUSB0 is open, but no station answers (asked: 3, 4): power, address, baud rate, wires A and B the right "
+      "way round, termination? nord_param scan finds who is there",
+      transport_->busText().c_str());
 }
 
 // A station that answers and refuses has been told by its reason: "no station answers" would send the technician to the

@@ -257,16 +257,6 @@ TEST(ProfibusDpConfigTest, EveryMultipleOf10MsUpTo2550MsCanBeTold) {
   }
 }
 
-// For as long as the watchdog runs nobody stops the drives of a dead computer.
-TEST(ProfibusDpConfigTest, AWatchdogAboveThreeSecondsIsWarnedOf) {
-  Segment segment;
-  segment.bus.set("watchdog", 3.0);
-  EXPECT_TRUE(segment.read().warnings.empty());
-  segment.bus.set("watchdog", 3.01);
-  ASSERT_EQ(1u, segment.read().warnings.size());
-  EXPECT_THAT(segment.read().warnings[0], HasSubstr("~bus/watchdog: a drive runs on for 3.01 s"));
-}
-
 // The figures behind a refusal: 0.2 s at 19.2 kbit/s with 8 slaves.
 TEST(ProfibusDpConfigTest, AWatchdogThatDoesNotFitIsRefusedWithTheFigures) {
   Segment segment{8};
