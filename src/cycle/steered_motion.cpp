@@ -131,8 +131,8 @@ void SteeredMotion::step(const robot::Twist2d& target, const SteeredDrives& driv
   const robot::TwistLimiter next = stepped(target, drives, dt);
   const robot::SteeringAngles wanted = kinematics_.solve(next.twist(), angles, steered_).angles;
   Step way = target == robot::Twist2d{} ? Step::kGo : stepTo(next.twist(), wanted, angles);
-  // An axis with a jerk limit begins to brake so slowly that the step after the first would be possible again, and lead
-  // back: a stop that was begun for a wheel that is to reverse is not decided on anew.
+  // A stop that was begun for a wheel that is to reverse is not decided on anew: where one axis has a jerk limit and
+  // begins to brake more slowly than the others, the next step would be possible again, and lead back.
   turns_about_ = (turns_about_ || way == Step::kTurnAbout) && anyReverses(target, angles);
   if (turns_about_) way = Step::kTurnAbout;
   if (way != Step::kHold) holding_since_.reset();

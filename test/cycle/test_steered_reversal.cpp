@@ -123,6 +123,26 @@ TEST(SteeredReversal, ATurnTooLargeForOneStepIsNoStop) {
   EXPECT_FALSE(base.waits());
 }
 
+// Sideways and a little back is a way through the curves between, although from standstill a wheel would reverse for it.
+TEST(SteeredReversal, AWheelThatIsOffForAMomentIsNoStop) {
+  BaseConfig slow = config(3.0);
+  for (robot::SpeedLimits* axis : {&slow.limits.linear_x, &slow.limits.linear_y}) axis->max_acceleration = 0.5;
+  for (const bool off : {false, true}) {
+    Reversing base{slow, {0.8, 0.0, 0.0}};
+    base.order({-0.2, 0.0, 0.7});
+    base.run(0.1);
+    ASSERT_FALSE(base.waits());
+    if (off) base.drives.angles[0] += 2.0 * kTolerance;
+    base.poll();
+    EXPECT_EQ(off, base.waits());
+    for (int i = 0; i < 600; ++i) {
+      base.poll();
+      ASSERT_FALSE(base.stands()) << i;
+    }
+    EXPECT_TRUE(isNear({-0.2, 0.0, 0.7}, base.motion.limited(), 1e-6));
+  }
+}
+
 // A stop that is commanded meanwhile is as short as any.
 TEST(SteeredReversal, IsNotInTheWayOfAStop) {
   Reversing base{jerkOfYaw(0.5)};
