@@ -131,6 +131,10 @@ void SteeredMotion::step(const robot::Twist2d& target, const SteeredDrives& driv
   const robot::TwistLimiter next = stepped(target, drives, dt);
   const robot::SteeringAngles wanted = kinematics_.solve(next.twist(), angles, steered_).angles;
   Step way = target == robot::Twist2d{} ? Step::kGo : stepTo(next.twist(), wanted, angles);
+  // A stop that was begun for a wheel that is to reverse is not decided on anew: where one axis has a jerk limit and
+  // begins to brake more slowly than the others, the next step would be possible again, and lead back.
+  turns_about_ = (turns_about_ || way == Step::kTurnAbout) && anyReverses(target, angles);
+  if (turns_about_) way = Step::kTurnAbout;
   if (way != Step::kHold) holding_since_.reset();
   if (way == Step::kHold && now - holding_since_.emplace(holding_since_.value_or(now)) >= kLongestHold) {
     way = Step::kBrake;
@@ -145,6 +149,7 @@ void SteeredMotion::step(const robot::Twist2d& target, const SteeredDrives& driv
       limiter_ = stepped(limited_, drives, dt);
       break;
     case Step::kBrake:
+    case Step::kTurnAbout:
       limiter_ = stepped({}, drives, dt);
       waits_for_ = SteeredWait::kAngles;
       break;
@@ -156,12 +161,21 @@ SteeredMotion::Step SteeredMotion::stepTo(const robot::Twist2d& next, const robo
                                           const robot::SteeringAngles& angles) const noexcept {
   constexpr double kRounding = 1e-9;
   const double off = robot::largestDifference(steered_, angles);
-  if (off > tolerance_ || !kinematics_.isPossible(next)) return Step::kBrake;
+  if (off > tolerance_) return Step::kBrake;
   const double turn = robot::largestDifference(wanted, steered_);
-  if (turn > kTurnAtOnce * tolerance_) return Step::kBrake;
+  if (!kinematics_.isPossible(next) || turn > kTurnAtOnce * tolerance_) return Step::kTurnAbout;
   const double lead = robot::largestDifference(wanted, angles);
   const bool not_further = lead <= off + kRounding && lead <= tolerance_;
   return lead <= kLead * tolerance_ || not_further ? Step::kGo : Step::kHold;
+}
+
+bool SteeredMotion::anyReverses(const robot::Twist2d& target, const robot::SteeringAngles& angles) const noexcept {
+  const robot::WheelSpeeds present = kinematics_.wheels(limited_, steered_);
+  const robot::WheelSpeeds wanted = kinematics_.solve(target, angles, steered_).wheels;
+  for (std::size_t i = 0; i < present.size(); ++i) {
+    if (present[i] * wanted[i] < 0.0) return true;
+  }
+  return false;
 }
 
 robot::SteeredSetpoint SteeredMotion::rest() noexcept {

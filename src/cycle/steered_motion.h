@@ -37,7 +37,7 @@ enum class SteeredWait : std::uint8_t {
 /// While it drives, the path changes only as fast as the steering axes follow: a step along the limits is taken when
 /// all wheels stand near enough to the angles it asks for; else the base goes on as it is, and gets slower where that
 /// lasts or a wheel is out of tolerance. A wheel that has to be turned about (a new direction, the end of a range) lets
-/// the base come to a stop.
+/// the base come to a stop, to which it goes on until the command lets no wheel turn the other way round any more.
 ///
 /// Each wheel turns with the part of the motion that lies along where it really stands.
 class SteeredMotion {
@@ -72,7 +72,7 @@ class SteeredMotion {
   const robot::Odometry& odometry() const noexcept { return odometry_; }
 
  private:
-  enum class Step : std::uint8_t { kGo, kHold, kBrake };
+  enum class Step : std::uint8_t { kGo, kHold, kBrake, kTurnAbout };
 
   robot::Twist2d targetOf(const TwistCommand& command, bool obey, const robot::WheelSpeeds& limits,
                           const SteeredDrives& drives) noexcept;
@@ -84,6 +84,8 @@ class SteeredMotion {
   void step(const robot::Twist2d& target, const SteeredDrives& drives, Instant now, Duration dt) noexcept;
   Step stepTo(const robot::Twist2d& next, const robot::SteeringAngles& wanted,
               const robot::SteeringAngles& angles) const noexcept;
+  /// A wheel would turn the other way round on the path of the target.
+  bool anyReverses(const robot::Twist2d& target, const robot::SteeringAngles& angles) const noexcept;
   robot::SteeredSetpoint rest() noexcept;
   robot::SteeredSetpoint setpoint(const SteeredDrives& drives, const robot::WheelSpeeds& limits, bool braking) noexcept;
 
@@ -106,6 +108,7 @@ class SteeredMotion {
   bool beyond_full_ = false;
   SteeredWait waits_for_ = SteeredWait::kNothing;
   std::optional<Instant> holding_since_;
+  bool turns_about_ = false;  // it comes to a stop for a wheel that is to reverse
   struct Rolling {
     double slowest = 0.0;
     Duration lasts{};  // as a ramp counts it: a cycle that comes late has seen nothing of the time before
