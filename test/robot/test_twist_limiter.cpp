@@ -53,24 +53,6 @@ double besideThePath(const Twist2d& twist, const Twist2d& path) {
          size;
 }
 
-// What an axis cannot do in one step because of its jerk limit is not begun by the other one either.
-TEST(TwistLimiter, ASmallJerkLimitHoldsTheOtherAxisBack) {
-  TwistLimits smooth = limits();
-  smooth.linear_x.has_jerk_limits = true;
-  smooth.linear_x.max_jerk = 0.001;
-  smooth.angular_z.has_jerk_limits = true;
-  smooth.angular_z.max_jerk = 5.0;
-  TwistLimiter limiter{smooth};
-  const Twist2d target{1e-5, 2e-4};
-  for (int i = 0; i < 200; ++i) {
-    const Twist2d twist = limiter.limit(target, kCycle);
-    ASSERT_LE(twist.linear_x, target.linear_x) << i;
-    ASSERT_LE(twist.angular_z, target.angular_z) << i;
-    ASSERT_NEAR(twist.linear_x * target.angular_z, twist.angular_z * target.linear_x, 1e-18) << i;
-  }
-  EXPECT_EQ(target, limiter.twist());
-}
-
 // As far as the jerk limit lets it go in one step, to the last bit: rounding does not make two steps of it.
 TEST(TwistLimiter, GoesInOneStepWhereTheJerkLimitAllowsIt) {
   TwistLimits smooth = limits();

@@ -97,5 +97,21 @@ INSTANTIATE_TEST_SUITE_P(OfTheLimiter, OnLine,
                                            Mode{"independent", true, false}, Mode{"independent_with_jerk", true, true}),
                          [](const auto& mode) { return mode.param.name; });
 
+// limit(): what an axis cannot do in one step because of its jerk limit is not begun by the other one either.
+TEST(OnLineWithJerk, ASmallLimitHoldsTheOtherAxisBack) {
+  TwistLimits smooth = limitsOf({"", false, true});
+  smooth.linear_x.max_jerk = 0.001;
+  smooth.angular_z.max_jerk = 5.0;
+  TwistLimiter limiter{smooth};
+  const Twist2d target{1e-5, 2e-4};
+  for (int i = 0; i < 200; ++i) {
+    const Twist2d twist = limiter.limit(target, kCycle);
+    ASSERT_LE(twist.linear_x, target.linear_x) << i;
+    ASSERT_LE(twist.angular_z, target.angular_z) << i;
+    ASSERT_NEAR(twist.linear_x * target.angular_z, twist.angular_z * target.linear_x, 1e-18) << i;
+  }
+  EXPECT_EQ(target, limiter.twist());
+}
+
 }  // namespace
 }  // namespace nord_driver::robot
