@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "devicenet/scanner_run.h"
 
 namespace nord_driver::devicenet {
@@ -185,6 +187,43 @@ TEST(TakenOver, AnExplicitConnectionOfBeforeThatDoesNotAnswer) {
   ASSERT_TRUE(run.reaches(NodeState::kExchanging, milliseconds{400})) << run.scanner.status(0).reason.c_str();
   EXPECT_EQ(1u, device.io_deaths);
   EXPECT_THAT(run.violations(), testing::IsEmpty());
+}
+
+// An answer may be one to an earlier request, and tell of another connection: it is asked by a new explicit connection, which
+// owes none.
+TEST(TakenOver, AnswersThatMayBeLate) {
+  ScannerRun run{slowConfig()};
+  FakeDevice& device = *run.devices[0];
+  beginsBehind(run);
+  // Of two requests the first answer is lost: with both transaction ids one is owed.
+  std::array<std::size_t, 10> answers{};
+  std::uint8_t asked = 0;
+  run.loses = [&](const CanFrame& frame) {
+    for (const std::uint8_t attribute : {std::uint8_t{1}, std::uint8_t{9}}) {
+      if (asks(frame, 5, 2, attribute)) asked = attribute;
+    }
+    return frame.id == 0x42B && asked != 0 && answers[asked]++ == 0;
+  };
+  EXPECT_EQ(0, releasedBeforeItStopped(run, milliseconds{3990}));
+  EXPECT_EQ(0x01, device.released_last);
+  EXPECT_EQ(1u, run.scanner.status(0).counters.allocations);
+  ASSERT_TRUE(run.reaches(NodeState::kExchanging, milliseconds{400})) << run.scanner.status(0).reason.c_str();
+  EXPECT_EQ(1u, device.io_deaths);
+}
+
+// One that runs has a time-out, whether or not it tells how long that is.
+TEST(TakenOver, OneThatDoesNotTellItsTimeOut) {
+  ScannerRun run{slowConfig()};
+  FakeDevice& device = *run.devices[0];
+  beginsBehind(run);
+  run.loses = [&](const CanFrame& frame) {
+    if (!asks(frame, 5, 2, 9)) return false;
+    device.say(dataFrame(0x42B, FixedBytes<8>{static_cast<std::uint8_t>(frame.data[0]), 0x94, 0x14, 0xFF}));
+    return true;
+  };
+  EXPECT_EQ(0, releasedBeforeItStopped(run, milliseconds{3990}));
+  ASSERT_TRUE(run.reaches(NodeState::kExchanging, milliseconds{400})) << run.scanner.status(0).reason.c_str();
+  EXPECT_EQ(1u, device.io_deaths);
 }
 
 // Neither does it tell whether they run, nor is anything else to be had: words stop it then.
