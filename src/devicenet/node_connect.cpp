@@ -17,6 +17,7 @@ NodeConnect::NodeConnect(const NodeConfig& config, const ScannerConfig& bus, Nod
 
 void NodeConnect::start(Instant now) noexcept {
   failures_ = 0;
+  shortened_ = 0;
   foreign_mac_.reset();
   channel_.close();
   timers_.stopAll();
@@ -113,6 +114,8 @@ std::optional<ConnectRequest> NodeConnect::requestOf(Phase phase) const noexcept
     case Phase::kWriteRate:
       return rateRequest(instance_,
                          static_cast<std::uint16_t>(*config_.io.expected_packet_rate / std::chrono::milliseconds{1}));
+    case Phase::kShortenIoRate:
+      return rateRequest(instance_, kShortRateOfBefore);
     case Phase::kReadRate:
     case Phase::kIoRate:
       return connectionRequest(instance_, connection_attribute::kExpectedPacketRate);
@@ -169,6 +172,8 @@ void NodeConnect::handleAnswer(const ExplicitAnswer& answer, Instant now) noexce
       return handleIoState(answer, now);
     case Phase::kIoRate:
       return handleIoRate(answer, now);
+    case Phase::kShortenIoRate:
+      return enter(Phase::kIoRate, now);  // whatever has come of it
     case Phase::kReleaseStale:
       if (answer.end == ExplicitEnd::kTimedOut) return fail("gave no answer to a release", now);
       if (answer.end == ExplicitEnd::kRefused && answer.additional == allocate_error::kConflict) {

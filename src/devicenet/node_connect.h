@@ -89,6 +89,7 @@ class NodeConnect {
     kAskOwnerConnected,  ///< the same on the explicit connection, which may be ours from before
     kIoState,            ///< whether process data of before run yet
     kIoRate,             ///< and whether they have a time-out
+    kShortenIoRate,      ///< which is brought forward
     kAwaitIoOfBefore,    ///< until it has run out
     kReleaseStale,       ///< what is ours from before
     kVendorId,
@@ -124,9 +125,11 @@ class NodeConnect {
   void askIoState(std::uint8_t instance, Instant now) noexcept;
   void handleIoState(const ExplicitAnswer& answer, Instant now) noexcept;
   void handleIoRate(const ExplicitAnswer& answer, Instant now) noexcept;
+  void awaitIoOfBefore(Duration rate, Instant now) noexcept;
   void handleNoIoState(const ExplicitAnswer& answer, Instant now) noexcept;
   bool asksForIoOfBefore() const noexcept {
-    return phase_ == Phase::kIoState || phase_ == Phase::kIoRate || phase_ == Phase::kAwaitIoOfBefore;
+    return phase_ == Phase::kIoState || phase_ == Phase::kIoRate || phase_ == Phase::kShortenIoRate ||
+           phase_ == Phase::kAwaitIoOfBefore;
   }
   void handleIdentity(const ExplicitAnswer& answer, Instant now) noexcept;
   void compareIdentity(Instant now) noexcept;
@@ -182,6 +185,7 @@ class NodeConnect {
   TimerTable<Timer> timers_;
   std::uint8_t held_ = 0;       // what the device may have allocated to us
   std::uint8_t stale_ = 0;      // what is to be released of before
+  std::uint8_t shortened_ = 0;  // instances of before whose rate was written, a bit each
   unsigned failures_ = 0;       // tries without success, since it last ran
   unsigned conflicts_ = 0;      // of this try
   unsigned lost_explicit_ = 0;  // tries that ended so, since it last ran

@@ -118,12 +118,24 @@ void NodeConnect::handleIoState(const ExplicitAnswer& answer, Instant now) noexc
   handleNoIoState(answer, now);
 }
 
-// What has no time-out is stopped by words alone: nothing is waited for.
+// What has no time-out, or a long one, is given a short one: the motor stops by that, whatever comes of our start. What has
+// none and takes none is stopped by words alone: nothing is waited for.
 void NodeConnect::handleIoRate(const ExplicitAnswer& answer, Instant now) noexcept {
   if (answer.may_be_late) return handleNoIoState(answer, now);
   if (answer.end == ExplicitEnd::kTimedOut) return handleNoIoState(answer, now);
   const Duration rate = std::chrono::milliseconds{answer.number().value_or(kLongestPacketRate)};
+  // Once only: each writing begins the time-out anew, and a device may round what is written.
+  const auto bit = static_cast<std::uint8_t>(1u << instance_);
+  const bool is_short = rate > Duration::zero() && rate <= std::chrono::milliseconds{kShortRateOfBefore};
+  if (!is_short && (shortened_ & bit) == 0) {
+    shortened_ |= bit;
+    return enter(Phase::kShortenIoRate, now);
+  }
   if (rate == Duration::zero()) return askIoState(static_cast<std::uint8_t>(instance_ + 1), now);
+  awaitIoOfBefore(rate, now);
+}
+
+void NodeConnect::awaitIoOfBefore(Duration rate, Instant now) noexcept {
   Sentence why;
   why.format(
       "has process data of ours from before, with a time-out of %.1f s: they are not released before that has run out, "

@@ -24,9 +24,11 @@ ScannerConfig slowConfig(IoKind kind = IoKind::kPoll) {
   return config;
 }
 
-/// The time-out of a second's rate begins when the driver does: it is over two seconds after the check for its MAC id.
+/// The time-out of a second's rate begins when the driver does: it is over two seconds after the check for its MAC id. The module
+/// does not take a shorter one.
 void beginsBehind(ScannerRun& run) {
   run.begin();
+  run.devices[0]->keeps_rate = true;
   run.devices[0]->wasPolledBy(0, 1000, run.now);
 }
 
@@ -78,6 +80,37 @@ TEST(TakenOver, ItsOwnTimeOutStopsItFirst) {
     EXPECT_EQ(1u, device.io_deaths);
     EXPECT_THAT(run.violations(), testing::IsEmpty());
   }
+}
+
+// A long time-out, or none, is brought forward: the motor does not turn for as long as the driver before was allowed to be silent.
+TEST(TakenOver, ItsOwnTimeOutIsBroughtForward) {
+  for (const unsigned before : {0u, 1000u, 65535u}) {
+    for (const std::uint8_t held : {kExplicitAndPoll, kPollAlone}) {
+      ScannerRun run{slowConfig()};
+      FakeDevice& device = *run.devices[0];
+      run.begin();
+      device.wasPolledBy(0, before, run.now);
+      device.held = held;
+      EXPECT_EQ(0, releasedBeforeItStopped(run, milliseconds{2800})) << before;
+      EXPECT_EQ(1u, device.io_deaths) << before;
+      ASSERT_TRUE(run.reaches(NodeState::kExchanging, milliseconds{200})) << run.scanner.status(0).reason.c_str();
+      run.run(seconds{10});
+      EXPECT_EQ(1u, device.io_deaths) << before;
+      EXPECT_TRUE(run.allExchanging());
+      EXPECT_THAT(run.violations(), testing::IsEmpty());
+    }
+  }
+}
+
+// Each writing begins the time-out anew: a module that makes a long one of a short one would never stop.
+TEST(TakenOver, ItIsWrittenOnce) {
+  ScannerRun run{slowConfig()};
+  FakeDevice& device = *run.devices[0];
+  device.rate_step = 1000;
+  run.begin();
+  device.wasPolledBy(0, 10000, run.now);
+  EXPECT_EQ(0, releasedBeforeItStopped(run, milliseconds{6300}));
+  EXPECT_EQ(1u, device.io_deaths);
 }
 
 // Another device than configured, other sizes, a rate that does not protect: said when it has stopped.
@@ -243,7 +276,7 @@ TEST(TakenOver, OneThatDoesNotTellTheStateOfItsConnections) {
 // One without a time-out is not waited for: words are all that stops it.
 TEST(TakenOver, OneThatHasNoTimeOut) {
   ScannerRun run{slowConfig()};
-  beginsBehind(run);
+  beginsBehind(run);  // and takes none
   run.devices[0]->rate = 0;
   EXPECT_TRUE(run.reaches(NodeState::kExchanging, milliseconds{2300})) << run.scanner.status(0).reason.c_str();
 }
