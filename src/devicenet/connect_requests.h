@@ -30,6 +30,9 @@ constexpr std::uint8_t kExpectedPacketRate = 9;
 }  // namespace connection_attribute
 
 constexpr std::uint8_t kExplicitInstance = 1;
+constexpr std::uint8_t kFirstIoInstance = 2, kLastIoInstance = 4;
+/// ms: the expected packet rate that process data of before are left to run on with.
+constexpr std::uint16_t kShortRateOfBefore = 100;
 // Of connection_attribute::kState.
 constexpr std::uint8_t kNonexistent = 0;
 constexpr std::uint8_t kEstablished = 3;

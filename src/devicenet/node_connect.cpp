@@ -17,6 +17,7 @@ NodeConnect::NodeConnect(const NodeConfig& config, const ScannerConfig& bus, Nod
 
 void NodeConnect::start(Instant now) noexcept {
   failures_ = 0;
+  shortened_ = 0;
   foreign_mac_.reset();
   channel_.close();
   timers_.stopAll();
@@ -72,7 +73,6 @@ void NodeConnect::handleSign(Instant now) noexcept {
 void NodeConnect::enter(Phase phase, Instant now) noexcept {
   phase_ = phase;
   if (phase == Phase::kAllocateExplicit) held_ |= choice::kExplicit;
-  if (phase == Phase::kAllocateIo) held_ |= io_choice_;
   const std::optional<ConnectRequest> asked = requestOf(phase);
   if (asked) channel_.ask(asked->request, asked->port, config_.connect_timeout, now);
 }
@@ -87,6 +87,7 @@ std::optional<ConnectRequest> NodeConnect::requestOf(Phase phase) const noexcept
     case Phase::kAskOwnerConnected:
       return ownerRequest(ExplicitPort::kConnected);
     case Phase::kReleaseStale:
+    case Phase::kReleaseStaleIo:
       return releaseRequest(stale_);
     case Phase::kVendorId:
       return identityRequest(identity_attribute::kVendorId);
@@ -100,7 +101,6 @@ std::optional<ConnectRequest> NodeConnect::requestOf(Phase phase) const noexcept
       return connectionRequest(kExplicitInstance, connection_attribute::kExpectedPacketRate);
     case Phase::kAllocateIo:
       return allocateRequest(io_choice_, bus_.mac);
-    case Phase::kReleaseStaleIo:
     case Phase::kReleaseIo:
       return releaseRequest(io_choice_ & choice::kConnections);
     case Phase::kProducedSize:
@@ -114,9 +114,13 @@ std::optional<ConnectRequest> NodeConnect::requestOf(Phase phase) const noexcept
     case Phase::kWriteRate:
       return rateRequest(instance_,
                          static_cast<std::uint16_t>(*config_.io.expected_packet_rate / std::chrono::milliseconds{1}));
+    case Phase::kShortenIoRate:
+      return rateRequest(instance_, kShortRateOfBefore);
     case Phase::kReadRate:
+    case Phase::kIoRate:
       return connectionRequest(instance_, connection_attribute::kExpectedPacketRate);
     case Phase::kKeepAlive:
+    case Phase::kIoState:
       return connectionRequest(instance_, connection_attribute::kState);
     case Phase::kReleaseAll:
     case Phase::kReleasing:
@@ -125,6 +129,7 @@ std::optional<ConnectRequest> NodeConnect::requestOf(Phase phase) const noexcept
     case Phase::kPause:
     case Phase::kLastOutputs:
     case Phase::kAwaitOwnTimeOut:
+    case Phase::kAwaitIoOfBefore:
     case Phase::kRunning:
     case Phase::kRefusedPause:
     case Phase::kReleased:
@@ -140,6 +145,8 @@ void NodeConnect::poll(Instant now) noexcept {
       channel_.close();
       conflicts_ = 0;
       enter(Phase::kVendorId, now);
+    } else if (phase_ == Phase::kAwaitIoOfBefore) {
+      askIoState(kFirstIoInstance, now);
     } else if (held_ != 0 && !isPolledByAnother(now)) {
       // It was held when it fell silent, or was allocated in a way that is not spoken here.
       let_go_first_ = true;
@@ -161,6 +168,12 @@ void NodeConnect::handleAnswer(const ExplicitAnswer& answer, Instant now) noexce
     case Phase::kAskOwner:
     case Phase::kAskOwnerConnected:
       return handleOwner(answer, now);
+    case Phase::kIoState:
+      return handleIoState(answer, now);
+    case Phase::kIoRate:
+      return handleIoRate(answer, now);
+    case Phase::kShortenIoRate:
+      return enter(Phase::kIoRate, now);  // whatever has come of it
     case Phase::kReleaseStale:
       if (answer.end == ExplicitEnd::kTimedOut) return fail("gave no answer to a release", now);
       if (answer.end == ExplicitEnd::kRefused && answer.additional == allocate_error::kConflict) {
@@ -210,6 +223,7 @@ void NodeConnect::handleAnswer(const ExplicitAnswer& answer, Instant now) noexce
     case Phase::kPause:
     case Phase::kLastOutputs:
     case Phase::kAwaitOwnTimeOut:
+    case Phase::kAwaitIoOfBefore:
     case Phase::kRunning:
     case Phase::kRefusedPause:
     case Phase::kReleased:

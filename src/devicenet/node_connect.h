@@ -2,6 +2,9 @@
 // identity, allocate its I/O connection, read and compare its sizes, write its expected packet rate and use what it
 // answers; keep the explicit connection alive; release what was allocated after a loss, and begin again.
 //
+// Process data of before that run yet, as a killed driver leaves them, are released after their own time-out only: it may be
+// all that stops a motor, and whether words of ours would follow is not known before everything has been compared.
+//
 // Inputs and outputs may go by two connection objects, allocated together: a bit strobe with a poll beside it, and change
 // of state or cyclic where the device answers so (makers print both layouts, see mayTakeBySecond()). The sizes of both are
 // compared, then the rates of both are written, that of the outputs last. Between the two the control supervisors are asked
@@ -68,8 +71,10 @@ class NodeConnect {
   }
   /// Outputs are sent: it exchanges, or it fell silent while it was moving.
   bool sendsOutputs() const noexcept { return exchanging() || phase_ == Phase::kLastOutputs; }
-  /// Nothing is sent to it: its own time-out is awaited.
-  bool awaitsOwnTimeOut() const noexcept { return phase_ == Phase::kAwaitOwnTimeOut; }
+  /// Its own time-out is awaited: nothing is sent to it, or nothing but whether that has run out.
+  bool awaitsOwnTimeOut() const noexcept {
+    return phase_ == Phase::kAwaitOwnTimeOut || (asksForIoOfBefore() && !report_.status().reason.empty());
+  }
   /// Of the process data, as the device answered.
   Duration rate() const noexcept { return rate_; }
 
@@ -82,6 +87,10 @@ class NodeConnect {
     kAllocateExplicit,
     kAskOwner,           ///< whose it is, on the unconnected port
     kAskOwnerConnected,  ///< the same on the explicit connection, which may be ours from before
+    kIoState,            ///< whether process data of before run yet
+    kIoRate,             ///< and whether they have a time-out
+    kShortenIoRate,      ///< which is brought forward
+    kAwaitIoOfBefore,    ///< until it has run out
     kReleaseStale,       ///< what is ours from before
     kVendorId,
     kDeviceType,
@@ -113,6 +122,15 @@ class NodeConnect {
   void handleAnswer(const ExplicitAnswer& answer, Instant now) noexcept;
   void handleAllocated(const ExplicitAnswer& answer, Instant now) noexcept;
   void handleOwner(const ExplicitAnswer& answer, Instant now) noexcept;
+  void askIoState(std::uint8_t instance, Instant now) noexcept;
+  void handleIoState(const ExplicitAnswer& answer, Instant now) noexcept;
+  void handleIoRate(const ExplicitAnswer& answer, Instant now) noexcept;
+  void awaitIoOfBefore(Duration rate, Instant now) noexcept;
+  void handleNoIoState(const ExplicitAnswer& answer, Instant now) noexcept;
+  bool asksForIoOfBefore() const noexcept {
+    return phase_ == Phase::kIoState || phase_ == Phase::kIoRate || phase_ == Phase::kShortenIoRate ||
+           phase_ == Phase::kAwaitIoOfBefore;
+  }
   void handleIdentity(const ExplicitAnswer& answer, Instant now) noexcept;
   void compareIdentity(Instant now) noexcept;
   void handleExplicitRate(const ExplicitAnswer& answer, Instant now) noexcept;
@@ -167,6 +185,7 @@ class NodeConnect {
   TimerTable<Timer> timers_;
   std::uint8_t held_ = 0;       // what the device may have allocated to us
   std::uint8_t stale_ = 0;      // what is to be released of before
+  std::uint8_t shortened_ = 0;  // instances of before whose rate was written, a bit each
   unsigned failures_ = 0;       // tries without success, since it last ran
   unsigned conflicts_ = 0;      // of this try
   unsigned lost_explicit_ = 0;  // tries that ended so, since it last ran

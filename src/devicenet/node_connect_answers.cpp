@@ -38,6 +38,7 @@ void NodeConnect::handleAllocated(const ExplicitAnswer& answer, Instant now) noe
   }
   channel_.setFormat(static_cast<BodyFormat>(answer.data[0]));
   channel_.handleNewConnection(now);
+  conflicts_ = 0;
   NodeStatus& status = report_.status();
   ++status.counters.allocations;
   status.owner.reset();
@@ -105,18 +106,20 @@ void NodeConnect::handleExplicitRate(const ExplicitAnswer& answer, Instant now) 
 void NodeConnect::handleIoAllocated(const ExplicitAnswer& answer, Instant now) noexcept {
   if (answer.end == ExplicitEnd::kTimedOut) return fail("gave no answer to the allocation of its process data", now);
   if (answer.ok()) {
+    held_ |= io_choice_;
     outputs_instance_ = outputsInstance(config_.io);
     instance_ = outputs_instance_;
     return enter(Phase::kProducedSize, now);
   }
   // The explicit connection is ours: so is this one, from before.
-  if (saysAllocated(answer) && conflicts_ == 0) return enter(Phase::kReleaseStaleIo, now);
+  if (saysAllocated(answer) && conflicts_ == 0) {
+    stale_ = io_choice_ & choice::kConnections;
+    return askIoState(kFirstIoInstance, now);
+  }
   // Without an explicit connection there is none for process data: it may have started anew in between.
   if (saysAllocated(answer) && lost_explicit_++ < kMostLostExplicit) {
-    held_ = static_cast<std::uint8_t>(held_ & ~io_choice_);
     return fail(sentence("lost its explicit connection", answer, service::kAllocate), now);
   }
-  held_ = static_cast<std::uint8_t>(held_ & ~io_choice_);
   Sentence what;
   what.format("does not exchange process data by %s", toText(config_.io.kind));
   refuseIo(sentence(what.c_str(), answer, service::kAllocate), now);

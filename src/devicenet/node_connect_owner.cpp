@@ -1,4 +1,5 @@
 // Whose a device is, and what of before is let go.
+#include "devicenet/error_codes.h"
 #include "devicenet/node_connect.h"
 
 namespace nord_driver::devicenet {
@@ -8,6 +9,8 @@ namespace {
 constexpr std::uint8_t kNobody = 0xFF;
 /// So long after a frame of another master the device is taken to be its.
 constexpr Duration kForeignMemory = std::chrono::seconds{5};
+/// ms: of one that does not tell it.
+constexpr std::uint32_t kLongestPacketRate = 0xFFFF;
 
 }  // namespace
 
@@ -33,6 +36,7 @@ void NodeConnect::handleForeignIo(Instant now) noexcept {
 
 void NodeConnect::handleForeignGrant(Instant now) noexcept {
   held_ = 0;
+  if (asksForIoOfBefore()) return leave(now);
   stopReleasing(now);
 }
 
@@ -93,7 +97,65 @@ void NodeConnect::handleOwner(const ExplicitAnswer& answer, Instant now) noexcep
   stale_ = told && config_.io.kind != IoKind::kNone
                ? static_cast<std::uint8_t>(answer.data[0] & choice::kConnections)
                : static_cast<std::uint8_t>((io_choice_ & choice::kConnections) | choice::kExplicit);
-  enter(Phase::kReleaseStale, now);
+  if (config_.io.kind == IoKind::kNone) return enter(Phase::kReleaseStale, now);
+  if (answer.end == ExplicitEnd::kTimedOut) return handleNoIoState(answer, now);
+  askIoState(kFirstIoInstance, now);
+}
+
+// On the explicit connection of before, or on a new one where that was gone already.
+void NodeConnect::askIoState(std::uint8_t instance, Instant now) noexcept {
+  instance_ = instance;
+  if (instance <= kLastIoInstance) return enter(Phase::kIoState, now);
+  enter(held_ == 0 ? Phase::kReleaseStale : Phase::kReleaseStaleIo, now);
+}
+
+void NodeConnect::handleIoState(const ExplicitAnswer& answer, Instant now) noexcept {
+  const bool is_state = answer.ok() && answer.data.size() == 1;
+  const bool is_none = answer.end == ExplicitEnd::kRefused && answer.general == general_error::kNoObject;
+  if (answer.may_be_late) return handleNoIoState(answer, now);
+  if (is_state && answer.data[0] == kEstablished) return enter(Phase::kIoRate, now);
+  if (is_state || is_none) return askIoState(static_cast<std::uint8_t>(instance_ + 1), now);
+  handleNoIoState(answer, now);
+}
+
+// What has no time-out, or a long one, is given a short one: the motor stops by that, whatever comes of our start. What has
+// none and takes none is stopped by words alone: nothing is waited for.
+void NodeConnect::handleIoRate(const ExplicitAnswer& answer, Instant now) noexcept {
+  if (answer.may_be_late) return handleNoIoState(answer, now);
+  if (answer.end == ExplicitEnd::kTimedOut) return handleNoIoState(answer, now);
+  const Duration rate = std::chrono::milliseconds{answer.number().value_or(kLongestPacketRate)};
+  // Once only: each writing begins the time-out anew, and a device may round what is written.
+  const auto bit = static_cast<std::uint8_t>(1u << instance_);
+  const bool is_short = rate > Duration::zero() && rate <= std::chrono::milliseconds{kShortRateOfBefore};
+  if (!is_short && (shortened_ & bit) == 0) {
+    shortened_ |= bit;
+    return enter(Phase::kShortenIoRate, now);
+  }
+  if (rate == Duration::zero()) return askIoState(static_cast<std::uint8_t>(instance_ + 1), now);
+  awaitIoOfBefore(rate, now);
+}
+
+void NodeConnect::awaitIoOfBefore(Duration rate, Instant now) noexcept {
+  Sentence why;
+  why.format(
+      "has process data of ours from before, with a time-out of %.1f s: they are not released before that has run out, "
+      "since it may be all that stops the motor",
+      toSeconds(kRatesUntilTimeout * rate));
+  report_.enter(report_.status().state == NodeState::kLost ? NodeState::kLost : NodeState::kAbsent, why, now);
+  pause(bus_.first_retry, now, Phase::kAwaitIoOfBefore);
+}
+
+// The explicit connection of before may be gone, or another one's, or its answers are those of before: a new one is asked by,
+// and process data stay as they are. Who tells it there neither is taken to have none that run.
+void NodeConnect::handleNoIoState(const ExplicitAnswer& answer, Instant now) noexcept {
+  if (held_ == 0 || answer.may_be_late) {
+    stale_ = choice::kExplicit;
+    return enter(Phase::kReleaseStale, now);
+  }
+  if (answer.end != ExplicitEnd::kTimedOut) return askIoState(static_cast<std::uint8_t>(instance_ + 1), now);
+  // Most likely it has started anew since.
+  if (failures_++ == 0) return beginTry(now);
+  fail("does not tell whether process data of before run yet", now);
 }
 
 }  // namespace nord_driver::devicenet

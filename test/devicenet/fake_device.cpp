@@ -240,6 +240,7 @@ FakeDevice::Bytes FakeDevice::setAttribute(const Address& address, const Bytes& 
   const unsigned instance = std::get<1>(address);
   if (std::get<0>(address) == 5 && has(instance) && std::get<2>(address) == 9) {
     if (data.size() != 2) return {0x94, data.size() < 2 ? std::uint8_t{0x13} : std::uint8_t{0x15}, 0xFF};
+    if (keeps_rate && established) return {0x94, 0x0C, 0xFF};
     const unsigned asked = data[0] | static_cast<unsigned>(data[1]) << 8u;
     rate = (asked + rate_step - 1) / rate_step * rate_step;
     rated_[instance] = true;

@@ -30,6 +30,7 @@ class FakeDevice {
   unsigned rate_step = 10;   ///< ms: rounds the expected packet rate up to such steps
   Duration timeout_step{};   ///< it notices its time-out so much later
   bool answers_rate = true;  ///< to the write itself
+  bool keeps_rate = false;   ///< of process data that run
   bool tells_sizes = true;
   bool tells_owner = true;   ///< on the unconnected port
   bool tells_choice = true;  ///< beside its owner; else that nothing is allocated

@@ -80,16 +80,5 @@ TEST(LeftRunning, TheReasonIsTold) {
   EXPECT_STREQ("", run.scanner.status(0).reason.c_str());
 }
 
-// A driver stops what it finds turning by words, and does not wait.
-TEST(LeftRunning, ADriverHasWordsThatStopIt) {
-  ScannerConfig config = busConfig(1);
-  config.nodes[0].io.expected_packet_rate = seconds{1};
-  ScannerRun run{config};
-  run.begin();
-  run.devices[0]->wasPolledBy(0, 1000, run.now);
-  ASSERT_TRUE(run.reaches(NodeState::kExchanging, milliseconds{2300}));
-  EXPECT_EQ(0u, run.devices[0]->io_deaths);
-}
-
 }  // namespace
 }  // namespace nord_driver::devicenet
