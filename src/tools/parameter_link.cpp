@@ -130,6 +130,7 @@ ParameterAnswer ParameterLink::write(const catalogue::ParameterAccess& access) {
     throw Trouble("P" + std::to_string(access.request.number) + " decides how the motor follows setpoints, and drive " +
                   drive().name + " is not at rest");
   }
+  if (std::string unknown = notAtRest(); cycle::decidesMotion(request) && !unknown.empty()) throw Trouble(unknown);
   return carryOut(access, cycle::RequestKind::kWriteParameter, 0, kAttempts);
 }
 
@@ -212,6 +213,17 @@ ParameterAnswer ParameterLink::carryOut(const catalogue::ParameterAccess& access
   answer.entry = access.entry;
   answer.set = profile::hasSets(access.request.shape) ? request.parameter.parameter_set : std::uint8_t{0};
   return answer;
+}
+
+bool ParameterLink::isStateKnown(DriveIndex drive) {
+  return identity(drive).tells_words || snapshot(drive).state != DriveState::kNotReadyToSwitchOn;
+}
+
+// That it is not known whether it turns is enough.
+std::string ParameterLink::notAtRest() {
+  if (!snapshot().online || isStateKnown(0)) return {};
+  return "whether drive " + drive().name +
+         " is at rest is not known: its bus module does not tell the state (class 41); ask the driver's node instead";
 }
 
 bool ParameterLink::sendsWords(DriveIndex drive) const {

@@ -64,6 +64,8 @@ class ParameterLink final : public DriveParameters {
   bool positions(DriveIndex drive) const noexcept { return config_.cycle.drives[drive].position.has_value(); }
   /// Of the last cycle; the reference holds until the next one.
   const cycle::DriveSnapshot& snapshot(DriveIndex drive) noexcept { return ports_.readSnapshot().drives[drive]; }
+  /// False: its bus module does not tell whether it is at rest.
+  bool isStateKnown(DriveIndex drive);
   /// Why nothing comes from it, a clause; may be empty.
   std::string note(DriveIndex drive) const { return transport_.note(drive).text; }
 
@@ -76,6 +78,7 @@ class ParameterLink final : public DriveParameters {
   DriveIdentity identity() const override { return transport_.identity(0); }
   const catalogue::DriveCatalogue& known() const noexcept override { return known_.front(); }
   std::string whyNotWritten(std::uint16_t number) const override { return config_.writable_parameters.refusal(number); }
+  std::string notAtRest() override;
   /// A fault that the first idle word has acknowledged: it takes the enable away (BU 0020 8).
   std::string changedByReading() override;
 
