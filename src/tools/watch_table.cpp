@@ -24,29 +24,29 @@ std::string percentText(std::int16_t word) {
   return text;
 }
 
-constexpr char kNotKnown[] = "not known";
+constexpr char kUntold[] = "not known";
 
 std::string frequencyText(const WatchedDrive& drive) {
-  if (!drive.frequency) return kNotKnown;
+  if (!drive.frequency) return kUntold;
   char text[32];
   std::snprintf(text, sizeof text, "%.2f Hz", *drive.frequency);
   return text;
 }
 
 std::string setpointText(const WatchedDrive& drive, std::size_t i) {
-  return drive.commands_known ? percentText(drive.output.setpoints[i]) : kNotKnown;
+  return drive.commands_known ? percentText(drive.output.setpoints[i]) : kUntold;
 }
 
 std::string actualValueText(const WatchedDrive& drive, std::size_t i) {
-  return drive.words_known ? percentText(drive.input.actual_values[i]) : kNotKnown;
+  return drive.words_known ? percentText(drive.input.actual_values[i]) : kUntold;
 }
 
 std::string statusText(const WatchedDrive& drive) {
-  return drive.words_known ? toHexWord(drive.input.status_word) : kNotKnown;
+  return drive.words_known ? toHexWord(drive.input.status_word) : kUntold;
 }
 
 const char* stateText(const WatchedDrive& drive) {
-  if (!drive.state_known) return kNotKnown;
+  if (!drive.state_known) return kUntold;
   return profile::toString(profile::StatusWord{drive.input.status_word}.state());
 }
 
@@ -64,12 +64,12 @@ std::vector<Row> rowsOf(std::size_t process_values, const std::vector<std::strin
   rows.push_back({"status word", statusText});
   rows.push_back({"state", stateText});
   rows.push_back({"parameter set", [](const WatchedDrive& drive) {
-                    if (!drive.words_known) return std::string{kNotKnown};
+                    if (!drive.words_known) return std::string{kUntold};
                     return std::to_string(profile::StatusWord{drive.input.status_word}.parameterSet());
                   }});
   if (process_values > 0) {
     rows.push_back({"control word", [](const WatchedDrive& drive) {
-                      return drive.commands_known ? toHexWord(drive.output.control_word) : kNotKnown;
+                      return drive.commands_known ? toHexWord(drive.output.control_word) : kUntold;
                     }});
   }
   for (std::size_t i = 0; i < process_values; ++i) {
