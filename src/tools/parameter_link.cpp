@@ -1,6 +1,7 @@
 #include "tools/parameter_link.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "config/driver_settings.h"
 #include "config/setting_checks.h"
@@ -19,7 +20,8 @@ constexpr int kCyclesToEndOrders = 5;  // "no order" has reached the inverter (B
 constexpr Duration kReadyTime = std::chrono::seconds{1};
 constexpr Duration kPatience = std::chrono::seconds{20};  // every step of an access has its own, shorter one
 constexpr int kAttempts = 3;
-constexpr Duration kBackTime = std::chrono::seconds{2};  // a silent station is asked for more often than that
+constexpr Duration kQuietTime = std::chrono::seconds{3};  // a check for a MAC id alone takes more than two
+constexpr Duration kBackTime = std::chrono::seconds{2};   // a silent station is asked for more often than that
 constexpr std::uint16_t kFullFrequency = 105, kTelegramTimeout = 513, kModuleTimeout = 151;
 
 }  // namespace
@@ -49,14 +51,22 @@ ParameterLink::~ParameterLink() {
   transport_.close();
 }
 
+DriveIndex ParameterLink::silent() const {
+  DriveIndex silent = 0;
+  while (silent + 1 < config_.asked && cycle_->gate().hears(silent)) ++silent;
+  return silent;
+}
+
+std::string ParameterLink::whySilent() const {
+  const std::string bus = transport_.busText().str();
+  const std::string why = !bus.empty() && !transport_.connected() ? bus : note(silent());
+  return (why.empty() ? "" : ": ") + why;
+}
+
 std::string ParameterLink::silence() const {
   std::string bus = transport_.busText().str();
   if (!bus.empty() && !transport_.connected()) return bus;
-  DriveIndex silent = 0;
-  while (silent + 1 < config_.asked && cycle_->gate().hears(silent)) ++silent;
-  const std::string why = note(silent);
-  return "drive " + name(silent) + " (" + identity(silent).address + ") does not answer" +
-         (why.empty() ? "" : ": " + why);
+  return "drive " + name(silent()) + " (" + identity(silent()).address + ") does not answer" + whySilent();
 }
 
 void ParameterLink::refuseRunning() const {
@@ -66,14 +76,21 @@ void ParameterLink::refuseRunning() const {
                 profile::toString(running->state) + "): it was left as it is; disable it first");
 }
 
-void ParameterLink::connect(Duration limit, const std::atomic<bool>& end_asked) {
-  const Instant end = transport_.now() + listening_ + limit;
+void ParameterLink::connect(Duration limit, const std::atomic<bool>& end_asked,
+                            const std::function<void(const std::string&)>& tell) {
+  const Instant begun = transport_.now();
+  const Instant end = begun + listening_ + limit;
+  bool told = !tell;
   cycle_->closeGate(config_.asked, config_.reaches_others);
   while (!cycle_->gate().isOpen()) {
     exchange();
     refuseRunning();
-    if (end_asked) throw Trouble("ended before drive " + drive().name + " answered");
+    if (end_asked) throw Trouble("ended before drive " + name(silent()) + " answered" + whySilent());
     if (!cycle_->gate().heard() && transport_.now() >= end) throw Trouble(silence());
+    if (told || transport_.now() - begun < kQuietTime) continue;
+    told = true;
+    tell("waiting for drive " + name(silent()) + " (" + identity(silent()).address + "), at most " +
+         shortNumber(std::ceil(toSeconds(end - transport_.now()))) + " s more" + whySilent());
   }
   connected_ = true;
   // Some parameters are written to a drive only that is seen at rest.

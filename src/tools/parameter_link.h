@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,8 +36,10 @@ class ParameterLink final : public DriveParameters {
   ParameterLink& operator=(const ParameterLink&) = delete;
 
   /// Looks for the drive until `limit`, which begins when the transport has listened (DriveIdentity::protection_time).
-  /// Throws Trouble when it does not answer, or runs, or `end_asked`.
-  void connect(Duration limit, const std::atomic<bool>& end_asked);
+  /// Throws Trouble when it does not answer, or runs, or `end_asked`. `tell` is told once, in a sentence, when this takes
+  /// long: whom it waits for, how long at most, and why.
+  void connect(Duration limit, const std::atomic<bool>& end_asked,
+               const std::function<void(const std::string&)>& tell = {});
 
   ParameterAnswer read(const catalogue::ParameterAddress& address) override;
   /// Of one of the drives that were asked for, in this order; asked once, so that the others need not wait for one that
@@ -91,8 +94,11 @@ class ParameterLink final : public DriveParameters {
   const cycle::DriveSnapshot& snapshot() noexcept { return snapshot(0); }
   void idle(int cycles) noexcept;
   void refuseRunning() const;
-  /// What to say of the first drive that was asked for and does not answer.
+  /// The first drive that was asked for and does not answer.
+  DriveIndex silent() const;
+  /// What to say of it; and ": " with why it does not, a clause, may be empty.
   std::string silence() const;
+  std::string whySilent() const;
   std::optional<cycle::Completion> run(cycle::Request& request);
   /// Again where only the line was lost, `attempts` times in all.
   std::optional<cycle::Completion> runAndRepeat(cycle::Request& request, int attempts);

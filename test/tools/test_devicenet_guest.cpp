@@ -27,7 +27,12 @@ class DevicenetGuest : public ::testing::Test {
   devicenet::FakeDevice& device() { return *bus_->devices.front(); }
   void connect() {
     link_ = std::make_unique<ParameterLink>(config_, transport_, catalogue::shippedCatalogues());
-    link_->connect(std::chrono::seconds{5}, end_asked_);
+    begun_ = link_->now();
+    link_->connect(std::chrono::seconds{5}, end_asked_, [this](const std::string& wait) {
+      told_.push_back(wait);
+      told_after_ = link_->now() - begun_;
+      end_asked_ = ends_then_;
+    });
   }
   void run(Duration span) { link_->exchangeUntil(link_->now() + span, end_asked_); }
   WatchedDrive look() { return DriveWatch{*link_, {}}.look().front(); }
@@ -44,10 +49,15 @@ class DevicenetGuest : public ::testing::Test {
     }
   }
 
-  const ToolConfig config_ =
-      readToolConfig(YAML::Load("{cycle_rate: 100, left_wheel: left_wheel_joint, bus: {interface: can0},"
-                                " drives: {left: {address: 5, series: sk2xxe, pole_pairs: 2}}}"),
-                     std::vector<std::string>{"left"});
+  static ToolConfig config(const char* bus = "{interface: can0}") {
+    YAML::Node file = YAML::Load(
+        "{cycle_rate: 100, left_wheel: left_wheel_joint,"
+        " drives: {left: {address: 5, series: sk2xxe, pole_pairs: 2}}}");
+    file["bus"] = YAML::Load(bus);
+    return readToolConfig(file, std::vector<std::string>{"left"});
+  }
+
+  ToolConfig config_ = config();
   test::FakeDevicenetBus* bus_ = nullptr;
   bool tells_state_ = true;
   DeviceNetTransport transport_{[this](const link::CanSettings&) {
@@ -61,8 +71,40 @@ class DevicenetGuest : public ::testing::Test {
     return made;
   }};
   std::atomic<bool> end_asked_{false};
+  bool ends_then_ = false;  // Ctrl-C when it is told
+  std::vector<std::string> told_;
+  Instant begun_{};
+  Duration told_after_{};
   std::unique_ptr<ParameterLink> link_;
 };
+
+// A module is asked for nothing before its own time-out: whoever waits is told why, once.
+TEST_F(DevicenetGuest, TellsWhyItWaitsForLong) {
+  config_ = config("{interface: can0, expected_packet_rate: 2.0}");
+  connect();
+  ASSERT_EQ(1u, told_.size());
+  EXPECT_LT(told_after_, std::chrono::seconds{4});
+  EXPECT_THAT(told_[0],
+              ::testing::StartsWith("waiting for drive left (DeviceNet MAC id 5, inverter 1), at most 11 s more: "));
+  EXPECT_THAT(told_[0], HasSubstr("asked for nothing before its own time-out"));
+}
+
+TEST_F(DevicenetGuest, TellsNothingWhereItTakesNoLonger) {
+  connect();
+  EXPECT_EQ(std::vector<std::string>{}, told_);
+}
+
+TEST_F(DevicenetGuest, ItsEndHasTheReason) {
+  config_ = config("{interface: can0, expected_packet_rate: 65.0}");
+  ends_then_ = true;
+  try {
+    connect();
+    FAIL();
+  } catch (const Trouble& trouble) {
+    EXPECT_THAT(trouble.what(), ::testing::StartsWith("ended before drive left answered: "));
+    EXPECT_THAT(trouble.what(), HasSubstr("asked for nothing before its own time-out"));
+  }
+}
 
 // The motor turns at its terminals, and nothing of that but the state is told.
 TEST_F(DevicenetGuest, ShowsTheStateAndNoWords) {
