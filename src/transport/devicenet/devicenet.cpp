@@ -309,4 +309,8 @@ ScanReport DeviceNetTransport::scan(const Settings& bus, const std::atomic<bool>
   return scanDevicenet(bus, linkFactory(), end_asked);
 }
 
+std::string DeviceNetTransport::quiet(const Settings& bus) const {
+  return devicenetScanIsQuiet(bus);
+}
+
 }  // namespace nord_driver
