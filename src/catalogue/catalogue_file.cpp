@@ -174,6 +174,7 @@ ParameterEntry readEntry(const std::string& file, const YAML::Node& node) {
   entry.unit = map.text("unit");
   entry.resolution = map.number("resolution");
   if (entry.resolution && *entry.resolution <= 0.0) throw map.wrong("resolution", "a number above 0");
+  entry.unit_unknown = map.flag("unit_unknown");
   entry.range = readRange(map);
   entry.default_value = map.number("default");
   entry.per_set = map.flag("per_set");

@@ -81,23 +81,35 @@ ParameterAccess accessTo(const ParameterAddress& address, const DriveCatalogue& 
   return access;
 }
 
-std::string whyNotRaw(std::uint16_t number) {
-  return nameOf(number) +
-         " is not in the catalogue: its unit is not known, and raw values need allow_raw_parameters: true";
+std::string whyUnitUnknown(const ParameterAccess& access) {
+  const ParameterEntry* entry = access.entry;
+  if (entry == nullptr) return nameOf(access) + " is not in the catalogue: its unit is not known";
+  if (!entry->isUnitUnknown(access.request.index)) return {};
+  return nameOf(access) + " " + entry->title() + ": its unit is not known";
+}
+
+std::string whyNotRaw(const ParameterAccess& access) {
+  const std::string why = whyUnitUnknown(access);
+  return why.empty() ? "" : why + ", and raw values need allow_raw_parameters: true";
 }
 
 std::string setValue(ParameterAccess& access, const ParameterWrite& write_as) {
   if (std::string why = whyNot(access); !why.empty()) return why;
-  if (access.entry == nullptr && !write_as.allow_raw) return whyNotRaw(access.request.number);
-  const double raw = access.entry != nullptr ? std::round(write_as.value / access.entry->step()) : write_as.value;
+  if (std::string why = whyNotRaw(access); !why.empty() && !write_as.allow_raw) return why;
+  const double steps = access.entry != nullptr ? write_as.value / access.entry->step() : write_as.value;
   constexpr double kBeyondAll = 1e12;
-  if (!(std::abs(raw) < kBeyondAll) || raw != std::trunc(raw)) return beyond(access, write_as.value);
+  if (!(std::abs(steps) < kBeyondAll)) return beyond(access, write_as.value);
+  const double raw = std::round(steps);
+  if (access.entry == nullptr && raw != steps) return beyond(access, write_as.value);
+  if (access.entry != nullptr && !isWholeStep(steps)) {
+    return notWhole(*access.entry, shortNumber(write_as.value), access.request.index);
+  }
   return write(access, static_cast<std::int64_t>(raw), write_as.value, write_as.persistent);
 }
 
 std::string setText(ParameterAccess& access, const std::string& text, bool persistent) {
   if (std::string why = whyNot(access); !why.empty()) return why;
-  if (access.entry == nullptr) return nameOf(access) + " is not in the catalogue: its unit is not known";
+  if (std::string why = whyUnitUnknown(access); !why.empty()) return why;
   const RawValue typed = rawFrom(*access.entry, text, access.request.index);
   if (typed.raw) return write(access, *typed.raw, access.entry->valueOf(*typed.raw, access.request.index), persistent);
   // The same sentence as for the same value by a service.

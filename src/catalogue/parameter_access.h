@@ -16,9 +16,9 @@ struct ParameterAddress {
 };
 
 struct ParameterWrite {
-  double value = 0.0;       ///< in the parameter's unit; raw where it is not in the catalogue
+  double value = 0.0;       ///< in the parameter's unit; raw where that is not known
   bool persistent = false;  ///< EEPROM; otherwise RAM, lost at power off
-  bool allow_raw = false;   ///< parameters that are not in the catalogue may be written
+  bool allow_raw = false;   ///< parameters whose unit is not known may be written
 };
 
 struct ParameterAccess {
@@ -32,9 +32,12 @@ ParameterAccess accessTo(const ParameterAddress& address, const DriveCatalogue& 
 // Each makes it an access to write and returns what is wrong, a sentence; empty when nothing is. What can only be read
 // and what resets a device is refused, whatever the value.
 
-/// Why a parameter that is not in the catalogue is not written where raw values are not allowed: a sentence.
-std::string whyNotRaw(std::uint16_t number);
-/// The nearest raw value of `write`.
+/// Why a value of this parameter means nothing, "P426: its unit is not known": it is not in the catalogue, or a quantity of
+/// unknown unit. Empty when it has a meaning.
+std::string whyUnitUnknown(const ParameterAccess& access);
+/// The same for where raw values are not allowed, with what allows them.
+std::string whyNotRaw(const ParameterAccess& access);
+/// A value finer than the resolution is refused, not rounded: 0.1 could become 0.
 std::string setValue(ParameterAccess& access, const ParameterWrite& write);
 /// What somebody typed, as rawFrom() takes it; of parameters in the catalogue only.
 std::string setText(ParameterAccess& access, const std::string& text, bool persistent);

@@ -116,6 +116,10 @@ std::string ParameterEntry::unitOf(unsigned index) const {
   return own != nullptr && own->unit ? *own->unit : unit.value_or("");
 }
 
+bool ParameterEntry::isUnitUnknown(unsigned index) const {
+  return unit_unknown.value_or(false) && !resolution && unitOf(index).empty();
+}
+
 unsigned ParameterEntry::sizeOf(unsigned index) const {
   const Element* own = element(index);
   return own != nullptr && own->size ? *own->size : size.value_or(16);
@@ -168,6 +172,7 @@ ParameterEntry laidOver(ParameterEntry lower, const ParameterEntry& upper) {
   replace(lower.name, upper.name);
   replace(lower.unit, upper.unit);
   replace(lower.resolution, upper.resolution);
+  replace(lower.unit_unknown, upper.unit_unknown);
   replace(lower.range, upper.range);
   replace(lower.default_value, upper.default_value);
   replace(lower.per_set, upper.per_set);

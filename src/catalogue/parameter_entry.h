@@ -78,6 +78,7 @@ struct ParameterEntry {
   std::optional<bool> read_only;
   std::optional<bool> never_write;
   std::optional<bool> supervisor;
+  std::optional<bool> unit_unknown;  ///< a quantity whose unit and resolution no source names
   std::optional<std::string> note;
   std::optional<std::string> erratum;
   std::vector<std::string> source;
@@ -94,6 +95,9 @@ struct ParameterEntry {
 
   const Element* element(unsigned index) const;
   std::string unitOf(unsigned index) const;
+  /// Its raw values have no known meaning: nobody can write a value, only a raw one. A unit or a resolution that a file
+  /// lays over the entry ends that.
+  bool isUnitUnknown(unsigned index) const;
   unsigned sizeOf(unsigned index) const;
   std::optional<Limits> rangeOf(unsigned index) const;
   std::optional<double> defaultOf(unsigned index) const;

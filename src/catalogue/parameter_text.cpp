@@ -192,9 +192,7 @@ RawValue rawFrom(const ParameterEntry& entry, const std::string& typed, unsigned
   const auto value = decimalNumber(number);
   if (!value) return fromName(entry, text, index);
   const double steps = *value / entry.step();
-  if (std::abs(steps - std::round(steps)) > 1e-6) {
-    return refused(entry, index, text, "a multiple of " + shortNumber(entry.step()) + (unit.empty() ? "" : " " + unit));
-  }
+  if (!isWholeStep(steps)) return {std::nullopt, notWhole(entry, text, index)};
   if (std::abs(steps) > 1e12) return refused(entry, index, text, rangeText(entry, index));
   RawValue result = checked(entry, text, std::llround(steps), index);
   if (!result.raw || rest.empty() || rest == unit) return result;
@@ -203,6 +201,16 @@ RawValue rawFrom(const ParameterEntry& entry, const std::string& typed, unsigned
   const std::string* name = nameOf(entry.valuesOf(index), *result.raw);
   if (name != nullptr && lowerCase(*name) == lowerCase(rest)) return result;
   return refused(entry, index, text, "\"" + full + "\", or the number alone");
+}
+
+bool isWholeStep(double steps) {
+  return std::abs(steps - std::round(steps)) <= 1e-6;
+}
+
+std::string notWhole(const ParameterEntry& entry, const std::string& text, unsigned index) {
+  const std::string unit = entry.unitOf(index);
+  return refused(entry, index, text, "a multiple of " + shortNumber(entry.step()) + (unit.empty() ? "" : " " + unit))
+      .error;
 }
 
 std::string whyNotWritable(const ParameterEntry& entry) {
@@ -220,6 +228,7 @@ std::string kindText(const ParameterEntry& entry) {
   if (entry.elements) add("array of " + std::to_string(*entry.elements));
   if (profile::hasSets(entry.shape())) add(entry.per_set ? "sets 1 to 4" : "perhaps sets 1 to 4");
   if (!entry.mayWrite()) add(entry.read_only.value_or(false) ? "read only" : "never written");
+  if (entry.isUnitUnknown(1)) add("unit not known");
   return text;
 }
 

@@ -31,10 +31,16 @@ struct RawValue {
 /// resolution; one beyond the range that has no name.
 RawValue rawFrom(const ParameterEntry& entry, const std::string& text, unsigned index = 1);
 
+/// Whether so many steps of the resolution are a raw value, but for the rest of a division.
+bool isWholeStep(double steps);
+/// Why a value finer than the resolution is refused.
+std::string notWhole(const ParameterEntry& entry, const std::string& text, unsigned index);
+
 /// Why nobody may write the parameter; empty when it may be written.
 std::string whyNotWritable(const ParameterEntry& entry);
 
-/// How it is accessed: "array of 3, sets 1 to 4, read only"; "perhaps sets 1 to 4" where no manual says. May be empty.
+/// How it is accessed: "array of 3, sets 1 to 4, read only"; "perhaps sets 1 to 4" where no manual says,
+/// "unit not known". May be empty.
 std::string kindText(const ParameterEntry& entry);
 
 /// The resolution with the unit: "0.01 s".

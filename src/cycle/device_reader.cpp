@@ -17,8 +17,6 @@ constexpr std::uint16_t kMinFrequency = 104, kMaxFrequency = 105, kOptionMonitor
                         kReduction = 608, kSetpointMode = 610, kSoftwareVersion = 707;
 constexpr std::uint8_t kSets = 4;
 constexpr std::uint16_t kAccelerationTime = 102, kDecelerationTime = 103;
-// s: the bus manuals name no unit of P103, which is set in the steps of P102 on the inverter.
-constexpr double kRampStep = 0.01;
 
 // Another answer may come later: the inverter was off for a moment, and its module is there.
 bool mayChange(const profile::ParameterResult& result) noexcept {
@@ -235,7 +233,7 @@ void DeviceReader::store(const Item& item, std::int32_t raw) noexcept {
   } else if (item.number == kAccelerationTime) {
     data_.acceleration_time[item.set - 1u] = value;
   } else if (item.number == kDecelerationTime) {
-    data_.deceleration_time[item.set - 1u] = raw * kRampStep;
+    data_.deceleration_time[item.set - 1u] = value;
   } else {
     storeFunction(item, static_cast<std::uint16_t>(raw));
   }

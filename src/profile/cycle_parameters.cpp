@@ -36,7 +36,7 @@ constexpr CycleParameter kParameters[] = {
     // clang-format off
     // number, series, name, resolution, signed, shape, elements
     {102, kAll, "Acceleration time", 0.01, false, kPerSet, 1},
-    {103, kAll, "Deceleration time", 1.0, false, kPerSet, 1},
+    {103, kAll, "Deceleration time", 0.01, false, kPerSet, 1},
     {104, kAll, "Minimum frequency", 0.1, false, kPerSet, 1},
     {105, kAll, "Maximum frequency", 0.1, false, kPerSet, 1},  // 100 % of frequencies, BU 2700 6.4.4
     {120, kSk12 | kSk54, "Option monitoring", 1.0, false, kArray, 4},

@@ -30,7 +30,10 @@ std::vector<WatchedDrive> DriveWatch::look() {
 WatchedDrive DriveWatch::look(DriveIndex drive) {
   WatchedDrive seen;
   seen.name = link_.name(drive);
-  seen.process_values = link_.identity(drive).process_values;
+  const DriveIdentity identity = link_.identity(drive);
+  seen.process_values = identity.process_values;
+  seen.commands_known = identity.sends_words;
+  seen.words_known = identity.tells_words;
   seen.values.assign(labels().size(), "not read");
   if (link_.snapshot(drive).online) {
     for (std::size_t i = 0; i < seen.values.size(); ++i) {
@@ -46,6 +49,7 @@ WatchedDrive DriveWatch::look(DriveIndex drive) {
   seen.online = now.online;
   seen.output = now.output;
   seen.input = now.input;
+  seen.state_known = link_.isStateKnown(drive);
   if (!seen.online) seen.silence = link_.note(drive);
   if (max_frequency && seen.process_values > 0 && now.parameter_set == set) {
     seen.frequency = profile::fromActualValue1(now.input.actual_values[0], Hertz{*max_frequency}).value;
@@ -55,7 +59,8 @@ WatchedDrive DriveWatch::look(DriveIndex drive) {
 
 std::optional<double> DriveWatch::maxFrequency(DriveIndex drive, std::uint8_t set) {
   auto& known = scales_[drive];
-  if (set == 0 || set >= known.size() || link_.identity(drive).process_values == 0) return std::nullopt;
+  const DriveIdentity identity = link_.identity(drive);
+  if (set == 0 || set >= known.size() || identity.process_values == 0 || !identity.tells_words) return std::nullopt;
   if (!isFrequency(drive, set)) return std::nullopt;
   auto& max_frequency = known[set].max_frequency;
   if (max_frequency || !link_.snapshot(drive).online) return max_frequency;

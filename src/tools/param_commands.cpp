@@ -68,10 +68,9 @@ catalogue::ParameterAccess checkedWrite(const WriteOptions& write, const catalog
                                         const catalogue::DriveCatalogue& known) {
   catalogue::ParameterAccess access = catalogue::accessTo(address, known);
   if (!access.error.empty()) throw UsageError(access.error);
-  if (!write.raw && access.entry == nullptr && !catalogue::resetsDevice(address.number)) {
-    throw UsageError(parameterName(address) +
-                     " is not in the catalogue, its unit is not known: write the raw value with --raw");
-  }
+  const bool may_be = access.entry != nullptr ? access.entry->mayWrite() : !catalogue::resetsDevice(address.number);
+  const std::string unknown = catalogue::whyUnitUnknown(access);
+  if (!write.raw && may_be && !unknown.empty()) throw UsageError(unknown + ", write the raw value with --raw");
   if (write.raw) {
     const auto raw = catalogue::wholeNumber(write.value);
     if (!raw) throw UsageError("--raw: " + write.value + " is no whole number");

@@ -1,6 +1,7 @@
 #include "tools/parameter_link.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "config/driver_settings.h"
 #include "config/setting_checks.h"
@@ -19,7 +20,8 @@ constexpr int kCyclesToEndOrders = 5;  // "no order" has reached the inverter (B
 constexpr Duration kReadyTime = std::chrono::seconds{1};
 constexpr Duration kPatience = std::chrono::seconds{20};  // every step of an access has its own, shorter one
 constexpr int kAttempts = 3;
-constexpr Duration kBackTime = std::chrono::seconds{2};  // a silent station is asked for more often than that
+constexpr Duration kQuietTime = std::chrono::seconds{3};  // a check for a MAC id alone takes more than two
+constexpr Duration kBackTime = std::chrono::seconds{2};   // a silent station is asked for more often than that
 constexpr std::uint16_t kFullFrequency = 105, kTelegramTimeout = 513, kModuleTimeout = 151;
 
 }  // namespace
@@ -49,14 +51,22 @@ ParameterLink::~ParameterLink() {
   transport_.close();
 }
 
+DriveIndex ParameterLink::silent() const {
+  DriveIndex silent = 0;
+  while (silent + 1 < config_.asked && cycle_->gate().hears(silent)) ++silent;
+  return silent;
+}
+
+std::string ParameterLink::whySilent() const {
+  const std::string bus = transport_.busText().str();
+  const std::string why = !bus.empty() && !transport_.connected() ? bus : note(silent());
+  return (why.empty() ? "" : ": ") + why;
+}
+
 std::string ParameterLink::silence() const {
   std::string bus = transport_.busText().str();
   if (!bus.empty() && !transport_.connected()) return bus;
-  DriveIndex silent = 0;
-  while (silent + 1 < config_.asked && cycle_->gate().hears(silent)) ++silent;
-  const std::string why = note(silent);
-  return "drive " + name(silent) + " (" + identity(silent).address + ") does not answer" +
-         (why.empty() ? "" : ": " + why);
+  return "drive " + name(silent()) + " (" + identity(silent()).address + ") does not answer" + whySilent();
 }
 
 void ParameterLink::refuseRunning() const {
@@ -66,14 +76,21 @@ void ParameterLink::refuseRunning() const {
                 profile::toString(running->state) + "): it was left as it is; disable it first");
 }
 
-void ParameterLink::connect(Duration limit, const std::atomic<bool>& end_asked) {
-  const Instant end = transport_.now() + listening_ + limit;
+void ParameterLink::connect(Duration limit, const std::atomic<bool>& end_asked,
+                            const std::function<void(const std::string&)>& tell) {
+  const Instant begun = transport_.now();
+  const Instant end = begun + listening_ + limit;
+  bool told = !tell;
   cycle_->closeGate(config_.asked, config_.reaches_others);
   while (!cycle_->gate().isOpen()) {
     exchange();
     refuseRunning();
-    if (end_asked) throw Trouble("ended before drive " + drive().name + " answered");
+    if (end_asked) throw Trouble("ended before drive " + name(silent()) + " answered" + whySilent());
     if (!cycle_->gate().heard() && transport_.now() >= end) throw Trouble(silence());
+    if (told || transport_.now() - begun < kQuietTime) continue;
+    told = true;
+    tell("waiting for drive " + name(silent()) + " (" + identity(silent()).address + "), at most " +
+         shortNumber(std::ceil(toSeconds(end - transport_.now()))) + " s more" + whySilent());
   }
   connected_ = true;
   // Some parameters are written to a drive only that is seen at rest.
@@ -130,6 +147,7 @@ ParameterAnswer ParameterLink::write(const catalogue::ParameterAccess& access) {
     throw Trouble("P" + std::to_string(access.request.number) + " decides how the motor follows setpoints, and drive " +
                   drive().name + " is not at rest");
   }
+  if (std::string unknown = notAtRest(); cycle::decidesMotion(request) && !unknown.empty()) throw Trouble(unknown);
   return carryOut(access, cycle::RequestKind::kWriteParameter, 0, kAttempts);
 }
 
@@ -212,6 +230,17 @@ ParameterAnswer ParameterLink::carryOut(const catalogue::ParameterAccess& access
   answer.entry = access.entry;
   answer.set = profile::hasSets(access.request.shape) ? request.parameter.parameter_set : std::uint8_t{0};
   return answer;
+}
+
+bool ParameterLink::isStateKnown(DriveIndex drive) {
+  return identity(drive).tells_words || snapshot(drive).state != DriveState::kNotReadyToSwitchOn;
+}
+
+// That it is not known whether it turns is enough.
+std::string ParameterLink::notAtRest() {
+  if (!snapshot().online || isStateKnown(0)) return {};
+  return "whether drive " + drive().name +
+         " is at rest is not known: its bus module does not tell the state (class 41); ask the driver's node instead";
 }
 
 bool ParameterLink::sendsWords(DriveIndex drive) const {

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,8 +36,10 @@ class ParameterLink final : public DriveParameters {
   ParameterLink& operator=(const ParameterLink&) = delete;
 
   /// Looks for the drive until `limit`, which begins when the transport has listened (DriveIdentity::protection_time).
-  /// Throws Trouble when it does not answer, or runs, or `end_asked`.
-  void connect(Duration limit, const std::atomic<bool>& end_asked);
+  /// Throws Trouble when it does not answer, or runs, or `end_asked`. `tell` is told once, in a sentence, when this takes
+  /// long: whom it waits for, how long at most, and why.
+  void connect(Duration limit, const std::atomic<bool>& end_asked,
+               const std::function<void(const std::string&)>& tell = {});
 
   ParameterAnswer read(const catalogue::ParameterAddress& address) override;
   /// Of one of the drives that were asked for, in this order; asked once, so that the others need not wait for one that
@@ -64,6 +67,8 @@ class ParameterLink final : public DriveParameters {
   bool positions(DriveIndex drive) const noexcept { return config_.cycle.drives[drive].position.has_value(); }
   /// Of the last cycle; the reference holds until the next one.
   const cycle::DriveSnapshot& snapshot(DriveIndex drive) noexcept { return ports_.readSnapshot().drives[drive]; }
+  /// False: its bus module does not tell whether it is at rest.
+  bool isStateKnown(DriveIndex drive);
   /// Why nothing comes from it, a clause; may be empty.
   std::string note(DriveIndex drive) const { return transport_.note(drive).text; }
 
@@ -76,6 +81,7 @@ class ParameterLink final : public DriveParameters {
   DriveIdentity identity() const override { return transport_.identity(0); }
   const catalogue::DriveCatalogue& known() const noexcept override { return known_.front(); }
   std::string whyNotWritten(std::uint16_t number) const override { return config_.writable_parameters.refusal(number); }
+  std::string notAtRest() override;
   /// A fault that the first idle word has acknowledged: it takes the enable away (BU 0020 8).
   std::string changedByReading() override;
 
@@ -88,8 +94,11 @@ class ParameterLink final : public DriveParameters {
   const cycle::DriveSnapshot& snapshot() noexcept { return snapshot(0); }
   void idle(int cycles) noexcept;
   void refuseRunning() const;
-  /// What to say of the first drive that was asked for and does not answer.
+  /// The first drive that was asked for and does not answer.
+  DriveIndex silent() const;
+  /// What to say of it; and ": " with why it does not, a clause, may be empty.
   std::string silence() const;
+  std::string whySilent() const;
   std::optional<cycle::Completion> run(cycle::Request& request);
   /// Again where only the line was lost, `attempts` times in all.
   std::optional<cycle::Completion> runAndRepeat(cycle::Request& request, int attempts);

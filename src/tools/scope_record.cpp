@@ -16,12 +16,27 @@ namespace {
 constexpr char kColumns[] = "time_s,answered,STW,SW1,SW2,SW3,ZSW,IW1,IW2,IW3,setpoint_Hz,frequency_Hz";
 constexpr char kDrive[] = "# drive: ", kMaxFrequency[] = "# P105: ", kCurrent[] = "# current: IW";
 constexpr char kNoSetpoint[] = "# no frequency: SW1", kNoActualValue[] = "# no frequency: IW1";
+constexpr char kNoCommands[] = "# not known: STW, SW";
+constexpr char kNoWords[] = "# not known: IW, and of ZSW all but the state";
+constexpr unsigned kStateBits = 0x006F;  // of a status word
 
 std::string frequencyText(std::int16_t word, const std::optional<double>& max_frequency) {
   if (!max_frequency) return "";
   char text[32];
   std::snprintf(text, sizeof text, "%.3f", profile::fromActualValue1(word, Hertz{*max_frequency}).value);
   return text;
+}
+
+std::string valuesText(bool known, const std::array<std::int16_t, 3>& words) {
+  if (!known) return ",,";
+  return std::to_string(words[0]) + "," + std::to_string(words[1]) + "," + std::to_string(words[2]);
+}
+
+std::string commandText(const ScopeRecord& record, const ScopeSample& sample) {
+  if (!record.commands_known) return "," + valuesText(false, {});
+  char text[8];
+  std::snprintf(text, sizeof text, "%04X,", static_cast<unsigned>(sample.output.control_word));
+  return text + valuesText(true, sample.output.setpoints);
 }
 
 bool startsWith(const std::string& line, const std::string& start) {
@@ -42,14 +57,18 @@ class Cells {
 
   bool good() const { return good_; }
   double time() { return valueOr(catalogue::decimalNumber(next()), 0.0); }
-  std::int16_t value() {
-    const std::int64_t number = valueOr(catalogue::wholeNumber(next()), std::int64_t{0});
+  /// Where it is not known, it is empty, and 0.
+  std::int16_t value(bool known = true) {
+    const std::string text = next();
+    if (!known && text.empty()) return 0;
+    const std::int64_t number = valueOr(catalogue::wholeNumber(text), std::int64_t{0});
     good_ = good_ && number >= -32768 && number <= 32767;
     return static_cast<std::int16_t>(number);
   }
   /// Four hexadecimal digits.
-  Word word() {
+  Word word(bool known = true) {
     const std::string text = next();
+    if (!known && text.empty()) return 0;
     good_ = good_ && text.size() == 4 && text.find_first_not_of("0123456789ABCDEFabcdef") == std::string::npos;
     return good_ ? static_cast<Word>(std::strtoul(text.c_str(), nullptr, 16)) : Word{0};
   }
@@ -69,15 +88,15 @@ class Cells {
   bool good_;
 };
 
-ScopeSample sampleOf(const std::string& line, int number) {
+ScopeSample sampleOf(const ScopeRecord& record, const std::string& line, int number) {
   ScopeSample sample;
   Cells cells{line};
   sample.time = cells.time();
   sample.answered = cells.value() != 0;
-  sample.output.control_word = cells.word();
-  for (std::size_t i = 0; i < 3; ++i) sample.output.setpoints[i] = cells.value();
+  sample.output.control_word = cells.word(record.commands_known);
+  for (std::size_t i = 0; i < 3; ++i) sample.output.setpoints[i] = cells.value(record.commands_known);
   sample.input.status_word = cells.word();
-  for (std::size_t i = 0; i < 3; ++i) sample.input.actual_values[i] = cells.value();
+  for (std::size_t i = 0; i < 3; ++i) sample.input.actual_values[i] = cells.value(record.words_known);
   if (cells.good()) return sample;
   throw UsageError("line " + std::to_string(number) + ": \"" + line + "\" is no cycle, expected " + kColumns);
 }
@@ -99,14 +118,16 @@ std::string scopeCsv(const ScopeRecord& record) {
   if (record.current_word > 0) text += kCurrent + std::to_string(record.current_word) + "\n";
   if (!record.setpoint_is_frequency) text += kNoSetpoint + std::string("\n");
   if (!record.actual_value_is_frequency) text += kNoActualValue + std::string("\n");
+  if (!record.commands_known) text += kNoCommands + std::string("\n");
+  if (!record.words_known) text += kNoWords + std::string("\n");
   text += "# STW, ZSW: control and status word; SW, IW: setpoints and actual values, 16384 = 100 %\n";
   text += kColumns + std::string("\n");
   for (const ScopeSample& sample : record.samples) {
     const auto& sw = sample.output.setpoints;
     const auto& iw = sample.input.actual_values;
-    std::snprintf(line, sizeof line, "%.6f,%d,%04X,%d,%d,%d,%04X,%d,%d,%d,%s,%s\n", sample.time,
-                  sample.answered ? 1 : 0, static_cast<unsigned>(sample.output.control_word), sw[0], sw[1], sw[2],
-                  static_cast<unsigned>(sample.input.status_word), iw[0], iw[1], iw[2],
+    const unsigned status = sample.input.status_word & (record.words_known ? 0xFFFFu : kStateBits);
+    std::snprintf(line, sizeof line, "%.6f,%d,%s,%04X,%s,%s,%s\n", sample.time, sample.answered ? 1 : 0,
+                  commandText(record, sample).c_str(), status, valuesText(record.words_known, iw).c_str(),
                   frequencyText(sw[0], record.setpointScale()).c_str(),
                   frequencyText(iw[0], record.actualValueScale()).c_str());
     text += line;
@@ -125,9 +146,11 @@ ScopeRecord readScopeCsv(const std::string& text) {
     if (startsWith(line, kCurrent))
       record.current_word = static_cast<int>(catalogue::wholeNumber(behind(line, kCurrent)).value_or(0));
     if (line == kNoSetpoint) record.setpoint_is_frequency = false;
+    if (line == kNoCommands) record.commands_known = false;
+    if (line == kNoWords) record.words_known = false;
     if (line == kNoActualValue) record.actual_value_is_frequency = false;
     if (line.empty() || line[0] == '#' || line == kColumns) continue;
-    record.samples.push_back(sampleOf(line, number));
+    record.samples.push_back(sampleOf(record, line, number));
   }
   return record;
 }

@@ -27,11 +27,17 @@ struct ScopeRecord {
   // False: by P546 or P543 this word of a drive that positions is something else, or they could not be read.
   bool setpoint_is_frequency = true;      ///< setpoint 1
   bool actual_value_is_frequency = true;  ///< actual value 1
+  bool commands_known = true;             ///< false: nothing is sent, and nobody knows what another sends
+  bool words_known = true;                ///< false: no process data came, of the status word the state alone is known
 
   /// Hz, 100 % of setpoint 1; nothing: not known, or it is no frequency.
-  std::optional<double> setpointScale() const { return setpoint_is_frequency ? max_frequency : std::nullopt; }
+  std::optional<double> setpointScale() const {
+    return setpoint_is_frequency && commands_known ? max_frequency : std::nullopt;
+  }
   /// The same of actual value 1.
-  std::optional<double> actualValueScale() const { return actual_value_is_frequency ? max_frequency : std::nullopt; }
+  std::optional<double> actualValueScale() const {
+    return actual_value_is_frequency && words_known ? max_frequency : std::nullopt;
+  }
 };
 
 /// One line per cycle. Comments ("# drive: left") tell what the columns do not.

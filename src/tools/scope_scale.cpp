@@ -18,6 +18,9 @@ std::optional<double> maxFrequency(DriveParameters& drive, std::optional<double>
 }  // namespace
 
 void readScale(DriveParameters& drive, std::optional<double> typed, bool positions, ScopeRecord& record) {
+  const DriveIdentity identity = drive.identity();
+  record.commands_known = identity.sends_words;
+  record.words_known = identity.tells_words;
   record.max_frequency = maxFrequency(drive, typed);
   if (positions) readFirstWords(drive, record);
 }

@@ -190,14 +190,22 @@ class Drawing {
   void addCurves() {
     // What is no frequency goes to the axis of the other words, where one of the two is.
     const bool setpoint = record_.setpoint_is_frequency, actual = record_.actual_value_is_frequency;
-    add("setpoint 1, " + unit(setpoint), "#a85b00", "6 4", !setpoint && actual, true,
-        [this](const ScopeSample& sample) { return scaled(sample.output.setpoints[0], record_.setpointScale()); });
+    if (record_.commands_known) {
+      add("setpoint 1, " + unit(setpoint), "#a85b00", "6 4", !setpoint && actual, true,
+          [this](const ScopeSample& sample) { return scaled(sample.output.setpoints[0], record_.setpointScale()); });
+    }
+    has_right_ = setpoint != actual;
+    if (record_.words_known) addActualValues();
+    left_ = range(false);
+    if (has_right_) right_ = range(true);
+  }
+
+  void addActualValues() {
+    const bool setpoint = record_.setpoint_is_frequency, actual = record_.actual_value_is_frequency;
     add((record_.actualValueScale() ? "frequency, " : "actual value 1, ") + unit(actual), "#1d5fa8", "",
         !actual && setpoint, false, [this](const ScopeSample& sample) {
           return scaled(sample.input.actual_values[0], record_.actualValueScale());
         });
-    has_right_ = setpoint != actual;
-    left_ = range(false);
     static constexpr const char* kColours[2] = {"#b91c1c", "#6d3fa0"};
     for (std::size_t i = 1; i < 3; ++i) {
       const bool is_current = record_.current_word == static_cast<int>(i) + 1;
@@ -209,7 +217,6 @@ class Drawing {
           [i](const ScopeSample& sample) { return 100.0 * sample.input.actual_values[i] / profile::kHundredPercent; });
       has_right_ = true;
     }
-    if (has_right_) right_ = range(true);
   }
 
   Axis range(bool right) const {

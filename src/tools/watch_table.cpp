@@ -24,14 +24,29 @@ std::string percentText(std::int16_t word) {
   return text;
 }
 
+constexpr char kUntold[] = "not known";
+
 std::string frequencyText(const WatchedDrive& drive) {
-  if (!drive.frequency) return "not known";
+  if (!drive.frequency) return kUntold;
   char text[32];
   std::snprintf(text, sizeof text, "%.2f Hz", *drive.frequency);
   return text;
 }
 
+std::string setpointText(const WatchedDrive& drive, std::size_t i) {
+  return drive.commands_known ? percentText(drive.output.setpoints[i]) : kUntold;
+}
+
+std::string actualValueText(const WatchedDrive& drive, std::size_t i) {
+  return drive.words_known ? percentText(drive.input.actual_values[i]) : kUntold;
+}
+
+std::string statusText(const WatchedDrive& drive) {
+  return drive.words_known ? toHexWord(drive.input.status_word) : kUntold;
+}
+
 const char* stateText(const WatchedDrive& drive) {
+  if (!drive.state_known) return kUntold;
   return profile::toString(profile::StatusWord{drive.input.status_word}.state());
 }
 
@@ -46,22 +61,25 @@ std::string numbered(const char* label, std::size_t number) {
 
 std::vector<Row> rowsOf(std::size_t process_values, const std::vector<std::string>& parameters) {
   std::vector<Row> rows;
-  rows.push_back({"status word", [](const WatchedDrive& drive) { return toHexWord(drive.input.status_word); }});
+  rows.push_back({"status word", statusText});
   rows.push_back({"state", stateText});
   rows.push_back({"parameter set", [](const WatchedDrive& drive) {
+                    if (!drive.words_known) return std::string{kUntold};
                     return std::to_string(profile::StatusWord{drive.input.status_word}.parameterSet());
                   }});
   if (process_values > 0) {
-    rows.push_back({"control word", [](const WatchedDrive& drive) { return toHexWord(drive.output.control_word); }});
+    rows.push_back({"control word", [](const WatchedDrive& drive) {
+                      return drive.commands_known ? toHexWord(drive.output.control_word) : kUntold;
+                    }});
   }
   for (std::size_t i = 0; i < process_values; ++i) {
     rows.push_back({numbered("setpoint ", i), [i](const WatchedDrive& drive) {
-                      return i < drive.process_values ? percentText(drive.output.setpoints[i]) : std::string{};
+                      return i < drive.process_values ? setpointText(drive, i) : std::string{};
                     }});
   }
   for (std::size_t i = 0; i < process_values; ++i) {
     rows.push_back({numbered("actual value ", i), [i](const WatchedDrive& drive) {
-                      return i < drive.process_values ? percentText(drive.input.actual_values[i]) : std::string{};
+                      return i < drive.process_values ? actualValueText(drive, i) : std::string{};
                     }});
   }
   if (process_values > 0) rows.push_back({"frequency", frequencyText});
@@ -114,12 +132,13 @@ std::string watchLine(double time, const WatchedDrive& drive, const std::vector<
   std::snprintf(start, sizeof start, "%9.3f s  ", time);
   std::string text = start + drive.name + "  ";
   if (!drive.online) return text + silenceOf(drive) + "\n";
-  text += toHexWord(drive.input.status_word) + " " + stateText(drive);
+  if (drive.words_known) text += toHexWord(drive.input.status_word) + " ";
+  text += drive.state_known || drive.words_known ? stateText(drive) : "state not known";
   for (std::size_t i = 0; i < drive.process_values; ++i) {
-    text += "  SW" + std::to_string(i + 1) + " " + percentText(drive.output.setpoints[i]);
+    text += "  SW" + std::to_string(i + 1) + " " + setpointText(drive, i);
   }
   for (std::size_t i = 0; i < drive.process_values; ++i) {
-    text += "  IW" + std::to_string(i + 1) + " " + percentText(drive.input.actual_values[i]);
+    text += "  IW" + std::to_string(i + 1) + " " + actualValueText(drive, i);
   }
   if (drive.process_values > 0) text += "  frequency " + frequencyText(drive);
   text += "  fault " + drive.fault;
@@ -138,13 +157,18 @@ std::string watchJson(double time, const WatchedDrive& drive, const std::vector<
     json.end('}');
     return json.str() + "\n";
   }
-  json.key("status_word").number(drive.input.status_word);
+  const auto known = [](bool told, double value) { return told ? value : std::numeric_limits<double>::quiet_NaN(); };
+  json.key("status_word").number(known(drive.words_known, drive.input.status_word));
   json.key("state").text(stateText(drive));
   json.key("setpoints").begin('[');
-  for (std::size_t i = 0; i < drive.process_values; ++i) json.number(percent(drive.output.setpoints[i]));
+  for (std::size_t i = 0; i < drive.process_values; ++i) {
+    json.number(known(drive.commands_known, percent(drive.output.setpoints[i])));
+  }
   json.end(']');
   json.key("actual_values").begin('[');
-  for (std::size_t i = 0; i < drive.process_values; ++i) json.number(percent(drive.input.actual_values[i]));
+  for (std::size_t i = 0; i < drive.process_values; ++i) {
+    json.number(known(drive.words_known, percent(drive.input.actual_values[i])));
+  }
   json.end(']');
   json.key("frequency").number(drive.frequency.value_or(std::numeric_limits<double>::quiet_NaN()));
   json.key("fault").text(drive.fault);

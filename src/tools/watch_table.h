@@ -20,6 +20,9 @@ struct WatchedDrive {
   std::uint8_t process_values = 1;  ///< 0 to 3 setpoints and actual values are carried
   std::optional<double> frequency;  ///< Hz, of actual value 1; nothing: P105 is not known, or it carries none
   std::string fault;                ///< "none", "E10.2 bus timeout"
+  bool commands_known = true;       ///< false: nothing is sent, and nobody knows what another sends
+  bool words_known = true;          ///< false: no process data come, `input` has the state alone
+  bool state_known = true;          ///< false: not even that
   std::vector<std::string> values;  ///< of the parameters that were asked for, each with its unit, or why not
 };
 

@@ -34,6 +34,10 @@ class BusScanner {
   /// somebody else works with the bus, nothing is sent. Nobody's outputs are touched, and nobody is led to another
   /// state. Ends early when `end_asked`. Throws ConfigError.
   virtual ScanReport scan(const Settings& bus, const std::atomic<bool>& end_asked) = 0;
+
+  /// Why a scan by these settings asks nobody for longer than 3 s, and for how long, a sentence; empty: it does not.
+  /// Throws ConfigError.
+  virtual std::string quiet(const Settings& /*bus*/) const { return {}; }
 };
 
 }  // namespace nord_driver

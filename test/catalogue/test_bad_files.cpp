@@ -86,7 +86,8 @@ TEST(BadParameterFiles, TheFileItself) {
 
 TEST(BadParameterFiles, UnknownKeys) {
   EXPECT_EQ(
-      "4: number 509: titel is not a key of this file, expected one of number, name, unit, resolution, range, "
+      "4: number 509: titel is not a key of this file, expected one of number, name, unit, resolution, unit_unknown, "
+      "range, "
       "default, per_set, elements, values, other_values, bits, format, signed, size, read_only, never_write, "
       "supervisor, note, erratum, source",
       aboutEntry("  - number: 509\n    titel: X\n    source: BU 0020\n"));

@@ -33,6 +33,15 @@ TEST(Overlay, CorrectsKeyByKey) {
   EXPECT_EQ(1000, own.find(Series::kSk54xe, 513)->rawRange(1).second);
 }
 
+// Who has measured what a step of it is, writes it in that.
+TEST(Overlay, NamesAnUnknownUnit) {
+  const Catalogue own = with("devices: [sk5xxe]\nparameters:\n  - number: 426\n    unit: s\n    resolution: 0.01\n");
+  EXPECT_FALSE(own.find(Series::kSk5xxe, 426)->isUnitUnknown(1));
+  EXPECT_EQ(10, rawFrom(*own.find(Series::kSk5xxe, 426), "0.1").raw);
+  EXPECT_TRUE(own.find(Series::kSk54xe, 426)->isUnitUnknown(1));
+  EXPECT_FALSE(own.find(Series::kSk54xe, 301) != nullptr && own.find(Series::kSk54xe, 301)->isUnitUnknown(1));
+}
+
 // Named values, elements and bits are corrected and added one by one.
 TEST(Overlay, CorrectsNamesOneByOne) {
   const Catalogue own = with(

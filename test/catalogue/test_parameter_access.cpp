@@ -50,14 +50,55 @@ TEST(ParameterAccess, TheFilesSayHowAParameterIsIndexed) {
   EXPECT_EQ(ParameterShape::kArrayPerSet, access(210, 1, 2).request.shape) << "as it was asked for";
 }
 
-// The nearest value the inverter can hold.
 TEST(ParameterAccess, AValueBecomesWhatTheInverterStores) {
   ParameterAccess ramp = access(102, 1);
-  EXPECT_EQ("", setValue(ramp, {2.503, true, false}));
+  EXPECT_EQ("", setValue(ramp, {2.5, true, false}));
   EXPECT_EQ(250, ramp.request.raw);
   EXPECT_EQ(ParameterAction::kWritePersistent, ramp.request.action);
   EXPECT_FALSE(ramp.request.double_word);
   EXPECT_DOUBLE_EQ(2.5, valueOf(ramp.entry, 250, 1));
+}
+
+// Rounded, 0.1 of a raw value would be 0, and nobody would hear of it.
+TEST(ParameterAccess, AValueFinerThanTheResolutionIsRefused) {
+  EXPECT_EQ("P102: \"2.503\" is not valid, expected a multiple of 0.01 s", refusal(102, 2.503));
+  EXPECT_EQ("P509: \"0.4\" is not valid, expected a multiple of 1", refusal(509, 0.4));
+  for (std::int32_t raw = 0; raw <= 65'535; ++raw) {
+    ParameterAccess ramp = access(102);
+    ASSERT_EQ("", setValue(ramp, {raw * 0.01, false, false})) << raw;
+    ASSERT_EQ(raw, ramp.request.raw);
+  }
+}
+
+// 2 is two seconds, as for P102: taken for the raw value it would be a ramp of 0.02 s.
+TEST(ParameterAccess, TheDecelerationTimeIsInSeconds) {
+  for (const Series series : profile::kAllSeries) {
+    ParameterAccess ramp = accessTo({103, 1, 0}, drive(series));
+    EXPECT_EQ("", setValue(ramp, {2.0, false, false}));
+    EXPECT_EQ(200, ramp.request.raw) << profile::toString(series);
+    EXPECT_EQ("", setText(ramp, "0.4 s", false));
+    EXPECT_EQ(40, ramp.request.raw);
+    EXPECT_EQ("", setRaw(ramp, 70, false));
+    EXPECT_EQ(70, ramp.request.raw) << "as dumps hold it";
+    EXPECT_EQ("P103 = 2.00 s", valueSentence(ramp, 200, drive(series)));
+  }
+}
+
+// A quantity of a unit that no source names is written as one that is in no catalogue.
+TEST(ParameterAccess, AQuantityOfUnknownUnitIsARawValue) {
+  ParameterAccess quick_stop = access(426);
+  EXPECT_EQ("P426 Quick stop time: its unit is not known, and raw values need allow_raw_parameters: true",
+            setValue(quick_stop, {10.0, false, false}));
+  EXPECT_EQ("P426 Quick stop time: its unit is not known", setText(quick_stop, "10", false));
+  EXPECT_EQ("P426: \"0.1\" is not valid, expected a multiple of 1", refusal(426, 0.1, true));
+  EXPECT_EQ("", setValue(quick_stop, {10.0, false, true}));
+  EXPECT_EQ(10, quick_stop.request.raw);
+  EXPECT_EQ("", setRaw(quick_stop, 12, false));
+  EXPECT_EQ("P426 = 12", valueSentence(quick_stop, 12, drive()));
+  for (const std::uint16_t number : {112, 114, 214, 310, 311, 327, 536}) EXPECT_NE("", refusal(number, 1.0)) << number;
+  for (const std::uint16_t number : {301, 418, 420, 502, 506, 508, 509, 513, 600, 607}) {
+    EXPECT_EQ("", refusal(number, 1.0)) << number << " is a number or a choice";
+  }
 }
 
 TEST(ParameterAccess, AValueOutOfRangeIsRefused) {

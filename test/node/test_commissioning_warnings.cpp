@@ -121,7 +121,7 @@ TEST_F(CommissioningWarningsTest, CompareTheDrivesOfTheBase) {
   snapshot_.drives[1].device.deceleration_time[0] = 3.0;
   update();
   EXPECT_THAT(ofLeft(), IsEmpty());
-  EXPECT_THAT(warnings_->of(1).warnings, ElementsAre(HasSubstr("P103 set 1 Deceleration time = 300")));
+  EXPECT_THAT(warnings_->of(1).warnings, ElementsAre(HasSubstr("P103 set 1 Deceleration time = 3.00 s")));
 }
 
 TEST_F(CommissioningWarningsTest, KeepNotesApart) {

@@ -140,7 +140,7 @@ TEST_F(NordParamBesideTheDriver, LeavesOutOfARestoreWhatTheNodeDoesNotWrite) {
   EXPECT_EQ(0, restored.code) << restored.errors;
   EXPECT_THAT(restored.output, AllOf(HasSubstr("P103 may not be written: writable_parameters allows P102, P105"),
                                      HasSubstr("1 written and read back")));
-  EXPECT_THAT(run({"read", "left", "P103"}).output, HasSubstr("Deceleration time = 50"));
+  EXPECT_THAT(run({"read", "left", "P103"}).output, HasSubstr("Deceleration time = 0.50 s"));
   EXPECT_EQ(0, run({"restore", "left", "--take-back", "--yes", "--journal", file + ".journal"}).code);
   ::unlink(file.c_str());
   ::unlink((file + ".journal").c_str());

@@ -233,6 +233,9 @@ TEST_F(ParameterService, RefusesToWriteAnUnknownParameter) {
   EXPECT_FALSE(p113.success);
   EXPECT_THAT(p113.message, AllOf(HasSubstr("P113 is not in the catalogue"), HasSubstr("allow_raw_parameters: true")));
   EXPECT_EQ(read("left", 113, 1).response.raw, 0);
+  const Written quick_stop = write("left", 426, 0.1, false, 1);
+  EXPECT_FALSE(quick_stop.success);
+  EXPECT_THAT(quick_stop.message, AllOf(HasSubstr("P426 Quick stop time"), HasSubstr("allow_raw_parameters: true")));
 }
 
 TEST_F(RawParameters, WritesAnUnknownParameterWhereItIsAllowed) {

@@ -216,10 +216,11 @@ TEST_F(NordParam, DumpsAndCompares) {
   const Ended same = run({"compare", "left", dump_});
   EXPECT_EQ(0, same.code) << same.output << same.errors;
   EXPECT_THAT(same.output, StartsWith("0 of "));
-  ASSERT_EQ(0, run({"write", "left", "P103", "150", "--set", "3"}).code);
+  ASSERT_EQ(0, run({"write", "left", "P103", "1.5", "--set", "3"}).code);
   const Ended different = run({"compare", "left", dump_});
   EXPECT_EQ(1, different.code);
-  EXPECT_THAT(different.output, StartsWith("P103 set 3 Deceleration time: 200 in the file, 150 in the drive\n1 of "));
+  EXPECT_THAT(different.output,
+              StartsWith("P103 set 3 Deceleration time: 2.00 s in the file, 1.50 s in the drive\n1 of "));
 }
 
 /// One node on a CAN bus between processes.

@@ -60,6 +60,17 @@ TEST(ParamCommands, WritesWhatTheCatalogueDoesNotKnowOnlyRaw) {
   EXPECT_THROW(checked("P210", write("5000000000", true)), Trouble);
 }
 
+TEST(ParamCommands, WritesAQuantityOfUnknownUnitOnlyRaw) {
+  EXPECT_EQ(200, checked("P103", write("2")));
+  try {
+    checked("P426", write("0.1"));
+    ADD_FAILURE();
+  } catch (const UsageError& error) {
+    EXPECT_STREQ("P426 Quick stop time: its unit is not known, write the raw value with --raw", error.what());
+  }
+  EXPECT_EQ(10, checked("P426", write("10", true)));
+}
+
 // Whatever is typed: the drive is not asked.
 TEST(ParamCommands, RefusesWhatIsNotToBeWritten) {
   for (const char* name : {"P707", "P152", "P970"}) {

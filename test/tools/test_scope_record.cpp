@@ -67,6 +67,33 @@ TEST(ScopeJson, HasTheCyclesOfTheCsv) {
   EXPECT_THAT(scopeJson(record), HasSubstr(R"("IW3": 0, "setpoint_Hz": 35, "frequency_Hz": -70})"));
 }
 
+// Over DeviceNet nothing is exchanged: what nobody has told is no 0, in no form and when it is read again.
+TEST(ScopeRecord, HasNoWordsWhereNoneAreExchanged) {
+  ScopeRecord record;
+  record.drive = "left";
+  record.max_frequency = 50.0;
+  record.commands_known = record.words_known = false;
+  ScopeSample sample;
+  sample.time = 0.01;
+  sample.answered = true;
+  sample.output.control_word = 0x047E;
+  sample.input.status_word = 0x0237;
+  record.samples = {ScopeSample{}, sample};
+  const std::string csv = scopeCsv(record);
+  EXPECT_THAT(csv, HasSubstr("\n0.010000,1,,,,,0027,,,,,\n"));
+  const ScopeRecord read = readScopeCsv(csv);
+  EXPECT_EQ(csv, scopeCsv(read));
+  EXPECT_FALSE(read.commands_known || read.words_known);
+  EXPECT_EQ(0x0027, read.samples.at(1).input.status_word);
+  EXPECT_THAT(
+      scopeJson(record),
+      HasSubstr(
+          R"("answered": true, "STW": null, "SW1": null, "SW2": null, "SW3": null, "ZSW": null, "IW1": null, "IW2": null, "IW3": null, "state": "operation enabled"})"));
+  record.words_known = true;  // on InterBus words come, and none are sent
+  EXPECT_THAT(scopeCsv(record), HasSubstr("\n0.010000,1,,,,,0237,0,0,0,,0.000\n"));
+  EXPECT_EQ(scopeCsv(record), scopeCsv(readScopeCsv(scopeCsv(record))));
+}
+
 // A word that is a position has no frequency, in no form and when it is read again; the other one keeps its own.
 TEST(ScopeRecord, HasNoFrequencyOfAPosition) {
   ScopeRecord record;

@@ -63,6 +63,38 @@ TEST(WatchTable, SaysWhatIsNotKnown) {
   EXPECT_NE(std::string::npos, watchTable({drive}, {}).find("frequency       not known\n"));
 }
 
+// Over DeviceNet as a guest; over InterBus as one, only what is sent is not known.
+TEST(WatchTable, ShowsNoProcessDataThatNobodyExchanges) {
+  WatchedDrive drive = left();
+  drive.commands_known = drive.words_known = false;
+  drive.frequency.reset();
+  EXPECT_EQ(
+      "                left\n"
+      "status word     not known\n"
+      "state           ready to switch on\n"
+      "parameter set   not known\n"
+      "control word    not known\n"
+      "setpoint 1      not known\n"
+      "actual value 1  not known\n"
+      "frequency       not known\n"
+      "fault           none\n",
+      watchTable({drive}, {}));
+  EXPECT_EQ("    0.500 s  left  ready to switch on  SW1 not known  IW1 not known  frequency not known  fault none\n",
+            watchLine(0.5, drive, {}));
+  EXPECT_EQ(R"({"time": 0.5, "drive": "left", "online": true, "status_word": null, "state": "ready to switch on", )"
+            R"("setpoints": [null], "actual_values": [null], "frequency": null, "fault": "none", "parameters": {}})"
+            "\n",
+            watchJson(0.5, drive, {}));
+  drive.state_known = false;
+  EXPECT_NE(std::string::npos, watchTable({drive}, {}).find("state           not known\n"));
+  EXPECT_NE(std::string::npos, watchLine(0.5, drive, {}).find("left  state not known  SW1"));
+  drive = left();
+  drive.commands_known = false;
+  EXPECT_EQ(
+      "    0.500 s  left  0B31 ready to switch on  SW1 not known  IW1 25.0 % (1000)  frequency 12.50 Hz  fault none\n",
+      watchLine(0.5, drive, {}));
+}
+
 TEST(WatchTable, IsALineWhereNobodyLooks) {
   EXPECT_EQ(
       "    0.500 s  left  0B31 ready to switch on  SW1 -50.0 % (E000)  IW1 25.0 % (1000)  frequency 12.50 Hz  fault "

@@ -71,6 +71,9 @@ struct DriveIdentity {
   bool sources_by_telegram = false;
   /// False: of a transport that serves parameters only, and sends no control words then: none end with the program.
   bool sends_words = true;
+  /// False: of a transport that serves parameters only, exchanges no process data then and asks for the state alone. Its
+  /// status words are made of that, "not ready to switch on" where it is not told either, and it has no actual values.
+  bool tells_words = true;
 };
 
 /// Something that happened on the bus, told once: a sentence for a technician.

@@ -17,7 +17,9 @@ namespace po = boost::program_options;
 namespace {
 
 int carryOut(ParameterLink& link, Duration timeout, const LinkTask& task, const std::atomic<bool>& end_asked) {
-  link.connect(timeout, end_asked);
+  // On stdout it would be in the middle of what programs read.
+  link.connect(timeout, end_asked,
+               [](const std::string& wait) { std::fprintf(stderr, "nord_param: %s\n", wait.c_str()); });
   bool done = false;
   std::exception_ptr stopped;
   try {

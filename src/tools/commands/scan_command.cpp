@@ -36,6 +36,8 @@ class ScanCommand final : public ParamCommand {
       throw Trouble("transport " + program.transportName() + " cannot tell who is on its bus");
     }
     program.refuseBusInUse(bus, "rostopic echo /nord_driver/<drive>/device_info, or bus_status");
+    if (const std::string why = scanner->quiet(bus); !why.empty())
+      std::fprintf(stderr, "nord_param: %s\n", why.c_str());
     return scanner->scan(bus, program.endAsked());
   }
 

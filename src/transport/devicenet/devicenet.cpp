@@ -285,7 +285,7 @@ DriveIdentity DeviceNetTransport::identity(DriveIndex drive) const {
   identity.parameter_channel = "explicit messages";
   identity.longest_pause = toSeconds(longestPause(config.module));
   identity.module_saves = true;
-  identity.sends_words = !parametersOnly();
+  identity.sends_words = identity.tells_words = !parametersOnly();
   // NetCtrl and NetRef (BU 0280 4.2.3.1), which assembly 20 does not have.
   identity.sources_by_telegram = config.drive_profile == DevicenetProfile::kAcDriveExtended;
   identity.module_io = config_.modules[config.module].output_byte && config_.modules[config.module].input_byte;
@@ -309,6 +309,10 @@ DriveIdentity DeviceNetTransport::identity(DriveIndex drive) const {
 
 ScanReport DeviceNetTransport::scan(const Settings& bus, const std::atomic<bool>& end_asked) {
   return scanDevicenet(bus, linkFactory(), end_asked);
+}
+
+std::string DeviceNetTransport::quiet(const Settings& bus) const {
+  return devicenetScanIsQuiet(bus);
 }
 
 }  // namespace nord_driver

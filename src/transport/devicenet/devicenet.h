@@ -43,6 +43,7 @@ class DeviceNetTransport final : public CanTransport, public BusScanner {
   DriveIdentity identity(DriveIndex drive) const override;
   std::vector<std::string> warnings() const override;
   ScanReport scan(const Settings& bus, const std::atomic<bool>& end_asked) override;
+  std::string quiet(const Settings& bus) const override;
 
   const DevicenetConfig& config() const noexcept { return config_; }
 

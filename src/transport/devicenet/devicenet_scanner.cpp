@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "config/setting_checks.h"
 #include "devicenet/scanner.h"
 #include "transport/can/can_scan_line.h"
 #include "transport/devicenet/devicenet_config.h"
@@ -81,6 +82,17 @@ devicenet::ScannerConfig everyMac(devicenet::ScannerConfig config, std::optional
 }
 
 }  // namespace
+
+std::string devicenetScanIsQuiet(const Settings& bus) {
+  constexpr Duration kQuiet = std::chrono::seconds{3};
+  const devicenet::ScannerConfig every = everyMac(readDevicenetBus(bus, 100.0).scanner, readPacketRate(bus));
+  const Duration own = devicenet::longestOwnTimeOut(*every.nodes.front().io.expected_packet_rate);
+  if (own <= kQuiet) return {};
+  return "no device is asked for " + shortNumber(toSeconds(own)) +
+         " s: by expected_packet_rate its own time-out must have run out, whoever had it before may have left its "
+         "motor "
+         "turning";
+}
 
 ScanReport scanDevicenet(const Settings& bus,
                          const std::function<std::unique_ptr<link::CanLink>(const link::CanSettings&)>& make_link,

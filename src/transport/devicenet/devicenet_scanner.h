@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "link/can/can_link.h"
 #include "link/can/can_settings.h"
@@ -16,5 +17,8 @@ namespace nord_driver {
 ScanReport scanDevicenet(const Settings& bus,
                          const std::function<std::unique_ptr<link::CanLink>(const link::CanSettings&)>& make_link,
                          const std::atomic<bool>& end_asked);
+
+/// See BusScanner::quiet().
+std::string devicenetScanIsQuiet(const Settings& bus);
 
 }  // namespace nord_driver

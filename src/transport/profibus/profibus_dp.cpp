@@ -394,4 +394,8 @@ ScanReport ProfibusDpTransport::scan(const Settings& bus, const std::atomic<bool
   return scanProfibus(bus, make_link_, end_asked);
 }
 
+std::string ProfibusDpTransport::quiet(const Settings& bus) const {
+  return profibusScanIsQuiet(bus);
+}
+
 }  // namespace nord_driver

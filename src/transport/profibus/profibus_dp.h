@@ -60,6 +60,7 @@ class ProfibusDpTransport final : public Transport, public BusScanner {
   const TelegramTrace* trace() const noexcept override { return trace_ ? &*trace_ : nullptr; }
   void close() noexcept override;
   ScanReport scan(const Settings& bus, const std::atomic<bool>& end_asked) override;
+  std::string quiet(const Settings& bus) const override;
 
   const ProfibusDpConfig& config() const noexcept { return config_; }
 

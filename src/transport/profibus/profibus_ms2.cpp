@@ -228,4 +228,8 @@ ScanReport ProfibusMs2Transport::scan(const Settings& bus, const std::atomic<boo
   return scanProfibus(bus, make_link_, end_asked);
 }
 
+std::string ProfibusMs2Transport::quiet(const Settings& bus) const {
+  return profibusScanIsQuiet(bus);
+}
+
 }  // namespace nord_driver

@@ -57,6 +57,7 @@ class ProfibusMs2Transport final : public Transport, public BusScanner {
   const TelegramTrace* trace() const noexcept override { return trace_ ? &*trace_ : nullptr; }
   void close() noexcept override;
   ScanReport scan(const Settings& bus, const std::atomic<bool>& end_asked) override;
+  std::string quiet(const Settings& bus) const override;
 
  private:
   struct DriveState {

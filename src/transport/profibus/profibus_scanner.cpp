@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "config/setting_checks.h"
 #include "nord_driver/trace/telegram_trace.h"
 #include "profibus/bus_scan.h"
 #include "profibus/class2_master.h"
@@ -185,6 +186,14 @@ std::vector<FoundStation> askInverters(ModuleTalk& talk, const ProfibusDpConfig&
 }
 
 }  // namespace
+
+std::string profibusScanIsQuiet(const Settings& bus) {
+  constexpr Duration kQuiet = std::chrono::seconds{3};
+  const Duration listens = readProfibusDpConfig(bus, {}, 100.0, ProfibusUse::kRecordsOnly).bus.listen_first;
+  if (listens <= kQuiet) return {};
+  return "listens for other masters for " + shortNumber(toSeconds(listens)) +
+         " s before it sends anything (listen_first)";
+}
 
 ScanReport scanProfibus(const Settings& bus,
                         const std::function<std::unique_ptr<link::ByteLink>(const link::SerialSettings&)>& make_link,

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "link/serial/byte_link.h"
 #include "link/serial/serial_settings.h"
@@ -16,5 +17,8 @@ namespace nord_driver {
 ScanReport scanProfibus(const Settings& bus,
                         const std::function<std::unique_ptr<link::ByteLink>(const link::SerialSettings&)>& make_link,
                         const std::atomic<bool>& end_asked);
+
+/// See BusScanner::quiet().
+std::string profibusScanIsQuiet(const Settings& bus);
 
 }  // namespace nord_driver

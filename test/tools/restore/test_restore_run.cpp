@@ -141,8 +141,9 @@ TEST_F(RestoreRunTest, LeavesAloneWhatSomebodyElseHasChanged) {
   drive_.values["P103 set 1"] = 999;
   EXPECT_EQ(RestoreEnd::kTakenBackInPart, restore.takeBack());
   EXPECT_EQ(valuesWith({{"P103 set 1", 999}}), drive_.values);
-  EXPECT_THAT(restore.notes(), ElementsAre("P103 set 1 Deceleration time is 999, which this restore has not written: "
-                                           "it is left as it is"));
+  EXPECT_THAT(restore.notes(),
+              ElementsAre("P103 set 1 Deceleration time is 9.99 s, which this restore has not written: "
+                          "it is left as it is"));
   forget();
   EXPECT_FALSE(record_.isUnfinished()) << "there is nothing to try again";
 }
@@ -257,7 +258,7 @@ TEST_F(RestoreRunTest, NoticesADriveThatWasSwitchedOff) {
   EXPECT_THAT(restore.notes(),
               ElementsAre("P102 set 1 Acceleration time was written as 2.50 s and is 2.00 s as before: was the drive "
                           "switched off?",
-                          "P103 set 1 Deceleration time was written as 300 and is 200 as before: was the drive "
+                          "P103 set 1 Deceleration time was written as 3.00 s and is 2.00 s as before: was the drive "
                           "switched off?"));
   drive_.before_write = nullptr;
   forget();

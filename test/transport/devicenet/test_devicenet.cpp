@@ -235,6 +235,7 @@ TEST(DeviceNetTransportTest, TellsTheLongestPauseBetweenItsTelegrams) {
     const DriveIdentity identity = Rig{settings, guest}.transport.identity(0);
     EXPECT_DOUBLE_EQ(0.125, identity.longest_pause) << guest;
     EXPECT_EQ(!guest, identity.sends_words) << guest;
+    EXPECT_EQ(!guest, identity.tells_words) << guest;
   }
 }
 

@@ -160,5 +160,19 @@ TEST(DevicenetScanner, AnInterfaceThatFailedOnTheWayIsNamedWithWhoWasFound) {
   }
 }
 
+// So long nothing is said on the bus, and nobody could tell why.
+TEST(DevicenetScanner, TellsThatItAsksNobodyForLong) {
+  const DeviceNetTransport transport{};
+  const auto quiet = [&](double rate) {
+    return transport.quiet(MapSettings{"~bus/", {{"interface", std::string{"can0"}}, {"expected_packet_rate", rate}}});
+  };
+  EXPECT_EQ(
+      "no device is asked for 8.5 s: by expected_packet_rate its own time-out must have run out, whoever had it before "
+      "may have left its motor turning",
+      quiet(2.0));
+  EXPECT_EQ("", quiet(0.5));
+  EXPECT_EQ("", transport.quiet(MapSettings{"~bus/", {{"interface", std::string{"can0"}}}}));
+}
+
 }  // namespace
 }  // namespace nord_driver

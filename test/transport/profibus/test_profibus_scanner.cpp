@@ -150,5 +150,14 @@ TEST(ProfibusScanner, SaysThatTheModulesWereNotAskedToTheEnd) {
   EXPECT_EQ(3u, ended.stations.size());
 }
 
+TEST(ProfibusScanner, TellsThatItListensForLong) {
+  const ProfibusDpTransport transport;
+  const auto quiet = [&](double seconds) {
+    return transport.quiet(MapSettings{"~bus/", {{"device", std::string{"/dev/null"}}, {"listen_first", seconds}}});
+  };
+  EXPECT_EQ("listens for other masters for 8 s before it sends anything (listen_first)", quiet(8.0));
+  EXPECT_EQ("", quiet(1.0));
+}
+
 }  // namespace
 }  // namespace nord_driver
