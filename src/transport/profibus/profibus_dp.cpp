@@ -186,6 +186,7 @@ void ProfibusDpTransport::takeInputs(std::size_t station, std::vector<DriveExcha
     const std::size_t place = drives_[drive].place;
     inputs[drive] = {};
     inputs[drive].interruption = takeInterruption(drive);
+    inputs[drive].given_way = master_->hasGivenWay();
     if (answers) takeInverter(drive, master_->inputs(station), inputs[drive], pkw[place]);
     const ByteView own = master_->inputs(station);
     if (answers && config_.stations[station].io_byte && !own.empty())
