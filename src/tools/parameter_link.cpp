@@ -223,6 +223,10 @@ bool ParameterLink::sendsWords(DriveIndex drive) const {
   return found.sends_words && found.process_values > 0;
 }
 
+std::string ParameterLink::changedByReading() {
+  return changedByReading(0);
+}
+
 std::string ParameterLink::changedByReading(DriveIndex drive) {
   if (!sendsWords(drive) || !cycle_->gate().faultSeen(drive)) return {};
   if (!snapshot(drive).online || snapshot(drive).fault) return {};

@@ -78,7 +78,7 @@ class ParameterLink final : public DriveParameters {
   const catalogue::DriveCatalogue& known() const noexcept override { return known_.front(); }
   std::string whyNotWritten(std::uint16_t number) const override { return config_.writable_parameters.refusal(number); }
   /// A fault that the first idle word has acknowledged: it takes the enable away (BU 0020 8).
-  std::string changedByReading() override { return changedByReading(0); }
+  std::string changedByReading() override;
   std::string changedByReading(DriveIndex drive);
 
  private:
