@@ -3,9 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include "profibus/listen_first.h"
 #include "profibus/nord_wire.h"
 
 namespace nord_driver::profibus {
@@ -104,54 +101,6 @@ TEST(GivesWay, ForAsLongAsThatOneIsHeard) {
   looker.isFound();
   EXPECT_FALSE(looker.master.hasGivenWay());
   looker.isFree();
-}
-
-// Two that began in the same moment would do so again and again, and two that gave way in the same moment, too.
-TEST(GivesWay, WhoMeetsAnotherAgainListensLongerByChance) {
-  int apart = 0;
-  Duration shortest = 1h, longest{};
-  for (int i = 0; i < 200; ++i) {
-    const Instant begin{i * 7s};
-    const Instant met = begin + 101ms, now = met + 200ms;
-    ListenFirst one{100ms}, other{100ms};
-    one.restart(begin);
-    other.restart(begin + 1ms);
-    for (ListenFirst* who : {&one, &other}) {
-      ASSERT_TRUE(who->mayTalk(met));
-      who->giveWay(met);
-      EXPECT_EQ(met + 100ms, who->end()) << "a single time costs nothing";
-      ASSERT_TRUE(who->mayTalk(now));
-    }
-    one.giveWay(now - 1ns);
-    other.giveWay(now - 1ns);
-    EXPECT_TRUE(one.isListening());
-    for (const Duration listens : {one.end() - now, other.end() - now}) {
-      shortest = std::min(shortest, listens + 1ns);
-      longest = std::max(longest, listens + 1ns);
-    }
-    if (one.end() - other.end() > 10ms || other.end() - one.end() > 10ms) ++apart;
-    const Duration listens = one.end() - (now - 1ns);
-    one.handleForeign(3, true, now + 50ms);
-    EXPECT_EQ(now + 50ms + listens, one.end());
-  }
-  EXPECT_GE(apart, 150);
-  EXPECT_GE(shortest, 100ms);
-  EXPECT_LT(shortest, 105ms);
-  EXPECT_GT(longest, 195ms);
-  EXPECT_LT(longest, 200ms);
-}
-
-// It is no meeting: who has led for a while comes back after the time it listens at its start.
-TEST(GivesWay, WhoHasLedForAWhileListensForItsTime) {
-  ListenFirst listen{100ms};
-  const Instant begin{1h};
-  listen.restart(begin);
-  ASSERT_TRUE(listen.mayTalk(begin + 100ms));
-  listen.giveWay(begin + 150ms);
-  const Instant led = begin + 350ms;
-  ASSERT_TRUE(listen.mayTalk(led));
-  listen.giveWay(led);
-  EXPECT_EQ(led + 100ms, listen.end());
 }
 
 // A second master with our address, whose answer follows in the same bytes, must not be taken for ours.
