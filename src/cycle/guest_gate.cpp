@@ -18,11 +18,16 @@ bool isAtRest(DriveState state) noexcept {
 }  // namespace
 
 void GuestGate::close(std::size_t awaited, bool reaches_others) {
-  open_ = false;
   reaches_others_ = reaches_others;
   heard_each_.assign(awaited, false);
+  fault_seen_.assign(awaited, false);
+  closeAgain();
+}
+
+// What was acknowledged before stays to be told.
+void GuestGate::closeAgain() noexcept {
+  open_ = false;
   heard_ = false;
-  fault_seen_ = false;
   cycles_heard_ = 0;
   running_.reset();
 }
@@ -33,6 +38,9 @@ void GuestGate::holdBack(std::vector<profile::ProcessOutput>& outputs) const noe
 }
 
 void GuestGate::handleInputs(std::vector<DriveExchange>& inputs) noexcept {
+  const bool left =
+      guest_ && std::any_of(inputs.begin(), inputs.end(), [](const DriveExchange& input) { return input.given_way; });
+  if (left) closeAgain();
   if (open_) return;
   look(inputs);
   for (DriveExchange& input : inputs) input = {};
@@ -50,7 +58,7 @@ void GuestGate::look(const std::vector<DriveExchange>& inputs) noexcept {
   for (DriveIndex i = 0; i < reached && !running_; ++i) {
     if (!inputs[i].inverter_answers) continue;
     const DriveState state = profile::StatusWord{inputs[i].input.status_word}.state();
-    if (i == 0 && state == DriveState::kFault) fault_seen_ = true;
+    if (i < seen && state == DriveState::kFault) fault_seen_[i] = true;
     if (!isAtRest(state)) running_ = Running{i, state};
   }
   open_ = cycles_heard_ >= kCyclesToSeeAll && !running_;

@@ -32,7 +32,8 @@ struct BusParameters {
   /// most kLongestListening. A token comes round in far less than a second on any segment.
   Duration listen_first{0};
   /// Another master that is heard while we lead gets the bus: nothing more is sent until it has been silent for
-  /// `listen_first`. For who only looks on and brings no watchdog: a driver does not leave its drives to anybody.
+  /// `listen_first`, or up to twice as long where it has given way again at once. For who only looks on and brings no
+  /// watchdog: a driver does not leave its drives to anybody.
   bool gives_way = false;
 
   // Global_Control SYNC and FREEZE, off unless asked for: a slave in SYNC keeps its outputs, stop words included, and

@@ -254,7 +254,7 @@ void DpMaster::giveWay(Instant now) noexcept {
   turn_ = Turn::kDone;
   timers_.stop(Timer::kNextOperate);
   synchronised_ = false;
-  listen_.restart(now);
+  listen_.giveWay(now);
 }
 
 void DpMaster::onForeign(std::uint8_t master, bool certain, bool echo, Instant now) noexcept {

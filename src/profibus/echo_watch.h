@@ -15,6 +15,12 @@ class EchoWatch {
  public:
   /// The line was opened anew, or a request that was sent once was answered: what has not come back by then does not.
   void forget() noexcept { sent_.clear(); }
+  /// The answer may be one to an earlier request: what was sent last may come back still.
+  void forgetAllButLast() noexcept {
+    if (sent_.size() > 1) sent_.eraseFront(sent_.size() - 1);
+  }
+  /// Nothing is to come back any more.
+  bool empty() const noexcept { return sent_.empty(); }
   void handleSent(ByteView frame) noexcept {
     if (sent_.full()) sent_.eraseFront(1);
     Frame kept;

@@ -11,6 +11,7 @@ void Requester::restart(Instant now) noexcept {
   receiver_.discard();
   tokens_.forget();
   echo_.forget();
+  may_be_late_ = false;
   takeReceiverCounters();
   timers_.set(Timer::kLineIdle, now + bus_.idleTime());
 }
@@ -75,6 +76,7 @@ Requester::Outcome Requester::handleTimeout(Instant now) noexcept {
   if (state_ == State::kToSend && timers_.isOver(Timer::kGiveUp, now) && timers_.isRunning(Timer::kLineIdle, now)) {
     state_ = State::kIdle;
     ++counters_.busy;
+    may_be_late_ = may_be_late_ || sendings_ > 0;
     return sendings_ == 0 ? Outcome::kLineBusy : Outcome::kNoAnswer;
   }
   if (state_ != State::kAwaitAnswer || timers_.isRunning(Timer::kSlot, now)) return Outcome::kNone;
@@ -88,6 +90,7 @@ Requester::Outcome Requester::handleTimeout(Instant now) noexcept {
     return Outcome::kNone;
   }
   state_ = State::kIdle;
+  may_be_late_ = true;
   return Outcome::kNoAnswer;
 }
 
@@ -110,6 +113,13 @@ bool Requester::isCertain(const Telegram& telegram, Instant now) noexcept {
   return tokens_.believes(telegram, receiver_.counters().bytes_discarded == discarded_, now);
 }
 
+// What comes back behind its answer shows that this was none: every answer since then is late by as much.
+bool Requester::isEcho(const Telegram& telegram) noexcept {
+  if (!echo_.takes(telegram)) return false;
+  may_be_late_ = may_be_late_ || state_ != State::kAwaitAnswer || !echo_.empty();
+  return true;
+}
+
 bool Requester::accept(const Telegram& telegram, FdlAnswer& answer) noexcept {
   if (state_ != State::kAwaitAnswer) {
     ++counters_.unexpected;
@@ -123,7 +133,12 @@ bool Requester::accept(const Telegram& telegram, FdlAnswer& answer) noexcept {
     return false;
   }
   // Late, it is the answer to the first sending: the repetition comes back behind it.
-  if (sendings_ <= 1) echo_.forget();
+  if (sendings_ <= 1 && may_be_late_) {
+    echo_.forgetAllButLast();
+  } else if (sendings_ <= 1) {
+    echo_.forget();
+  }
+  may_be_late_ = sendings_ > 1;
   state_ = State::kIdle;
   if (slave_ != nullptr) ++slave_->answers;
   return true;

@@ -52,7 +52,7 @@ class Requester {
       if (isForeign(telegram)) {
         const bool certain = isCertain(telegram, now);
         if (certain) ++counters_.foreign_telegrams;
-        on_foreign(telegram.sa, certain, echo_.takes(telegram));
+        on_foreign(telegram.sa, certain, isEcho(telegram));
       }
       FdlAnswer answer;
       if (accept(telegram, answer)) on_answer(answer);
@@ -79,6 +79,7 @@ class Requester {
   void noteActivity(Instant now) noexcept;
   bool isForeign(const Telegram& telegram) const noexcept;
   bool isCertain(const Telegram& telegram, Instant now) noexcept;
+  bool isEcho(const Telegram& telegram) noexcept;
   bool accept(const Telegram& telegram, FdlAnswer& answer) noexcept;
   void queue(Instant now) noexcept;
   void takeReceiverCounters() noexcept;
@@ -87,6 +88,7 @@ class Requester {
   TelegramReceiver receiver_;
   TokenWatch tokens_;
   EchoWatch echo_;
+  bool may_be_late_ = false;     // the next answer: to an earlier sending
   std::uint64_t discarded_ = 0;  // before the bytes that came last
   Counters counters_;
   State state_ = State::kIdle;

@@ -130,8 +130,11 @@ ParameterAnswer ParameterLink::read(DriveIndex drive, const catalogue::Parameter
   return carryOut(access, cycle::RequestKind::kReadParameter, drive, 1);
 }
 
-void ParameterLink::exchangeUntil(Instant when, const std::atomic<bool>& end_asked) noexcept {
-  while (!end_asked && transport_.now() < when) exchange();
+void ParameterLink::exchangeUntil(Instant when, const std::atomic<bool>& end_asked) {
+  while (!end_asked && transport_.now() < when) {
+    exchange();
+    refuseRunning();
+  }
 }
 
 ParameterAnswer ParameterLink::write(const catalogue::ParameterAccess& access) {
@@ -166,11 +169,12 @@ std::optional<cycle::Completion> ParameterLink::run(cycle::Request& request) {
   return std::nullopt;
 }
 
-bool ParameterLink::waitForDrive() noexcept {
+bool ParameterLink::waitForDrive() {
   const Instant end = transport_.now() + listening_ + kBackTime;
   do {
     exchange();
     if (snapshot().online) return true;
+    refuseRunning();
   } while (transport_.now() < end);
   return false;
 }
@@ -249,8 +253,13 @@ bool ParameterLink::sendsWords(DriveIndex drive) const {
 }
 
 std::string ParameterLink::changedByReading() {
-  if (!sendsWords(0) || !cycle_->gate().faultSeen() || !snapshot().online || snapshot().fault) return {};
-  return "drive " + drive().name +
+  return changedByReading(0);
+}
+
+std::string ParameterLink::changedByReading(DriveIndex drive) {
+  if (!sendsWords(drive) || !cycle_->gate().faultSeen(drive)) return {};
+  if (!snapshot(drive).online || snapshot(drive).fault) return {};
+  return "drive " + name(drive) +
          " was in fault when this program came: its idle word 047E took the enable away, which acknowledges a fault "
          "whose cause is gone";
 }

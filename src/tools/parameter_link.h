@@ -21,7 +21,7 @@ namespace nord_driver::tools {
 /// stops nothing:
 ///  - Until a status word has told state and parameter set, the word is 0000, which the inverter ignores (BU 2700 6.4.1
 ///    note 2). A drive that runs then is left alone: `connect` refuses. One at rest gets the idle word 047E with its
-///    own set, so that P513 or P151 > 0 does not trip it (7.1.1).
+///    own set, so that P513 or P151 > 0 does not trip it (7.1.1). Likewise when the bus was left to another master.
 ///  - The other drives of the bus are not talked to. One of them that runs refuses only where the words get to it, too.
 ///  - Nothing in the module watches for the end of the program, and nothing is sent on the bus of another master: the
 ///    transport is told so (`serveParametersOnly()`).
@@ -51,8 +51,9 @@ class ParameterLink final : public DriveParameters {
   /// The bus cycle goes on: a drive with P513 > 0 would trip without its words.
   void pass(Duration time) noexcept override;
 
-  /// Goes on with the exchange until `when`, or `end_asked`.
-  void exchangeUntil(Instant when, const std::atomic<bool>& end_asked) noexcept;
+  /// Goes on with the exchange until `when`, or `end_asked`. Throws Trouble as `connect` does when a drive runs that another
+  /// master has had meanwhile; so do the accesses.
+  void exchangeUntil(Instant when, const std::atomic<bool>& end_asked);
   Instant now() const noexcept { return transport_.now(); }
   Duration period() const noexcept { return cycle_->period(); }  ///< of a cycle
   /// Looks on at every cycle from now on; must outlive the link.
@@ -84,6 +85,7 @@ class ParameterLink final : public DriveParameters {
   std::string notAtRest() override;
   /// A fault that the first idle word has acknowledged: it takes the enable away (BU 0020 8).
   std::string changedByReading() override;
+  std::string changedByReading(DriveIndex drive);
 
  private:
   const cycle::DriveSetup& drive() const noexcept { return config_.cycle.drives.front(); }
@@ -102,7 +104,7 @@ class ParameterLink final : public DriveParameters {
   std::optional<cycle::Completion> run(cycle::Request& request);
   /// Again where only the line was lost, `attempts` times in all.
   std::optional<cycle::Completion> runAndRepeat(cycle::Request& request, int attempts);
-  bool waitForDrive() noexcept;
+  bool waitForDrive();
   ParameterAnswer carryOut(const catalogue::ParameterAccess& access, cycle::RequestKind kind, DriveIndex drive,
                            int attempts);
 

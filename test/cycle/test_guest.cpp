@@ -202,7 +202,7 @@ TEST(Gate, JudgesThoseAloneThatAreReached) {
   EXPECT_TRUE(gate.running()) << "its words get to the third again";
 }
 
-// A fault is rest. That of the first drive is told, since the words behind the gate may acknowledge it.
+// A fault is rest. That of an awaited drive is told, since the words behind the gate may acknowledge it.
 TEST(Gate, AFaultOfTheFirstIsSeen) {
   GuestGate first{true}, second{true};
   hear(first, {0x0238, 0x0B31}, 3);
@@ -239,6 +239,37 @@ TEST(Gate, ForgetsWhatItSawWhenItIsClosedAgain) {
   EXPECT_FALSE(gate.running());
   hear(gate, {0x0B31, 0x0B31}, 3);
   EXPECT_TRUE(gate.isOpen());
+}
+
+// Left to another master, the drives may have come into any state: all is looked at again, and a fault stays to be told.
+TEST(Gate, ClosesAgainWhenTheBusWasLeftToAnotherMaster) {
+  GuestGate gate{true};
+  gate.close(2);
+  hear(gate, {0x0B31, 0x0238}, 3);
+  ASSERT_TRUE(gate.isOpen());
+  EXPECT_FALSE(gate.faultSeen(0));
+  EXPECT_TRUE(gate.faultSeen(1));
+  auto inputs = heard({0, 0});
+  inputs[0].given_way = inputs[1].given_way = true;
+  gate.handleInputs(inputs);
+  EXPECT_FALSE(gate.isOpen());
+  EXPECT_TRUE(gate.faultSeen(1));
+  hear(gate, {0, 0x0B31}, 5);
+  EXPECT_FALSE(gate.isOpen()) << "both are awaited";
+  hear(gate, {0x0238, 0x0B31}, 3);
+  EXPECT_TRUE(gate.isOpen());
+  EXPECT_TRUE(gate.faultSeen(0));
+
+  inputs[0].given_way = inputs[1].given_way = true;
+  gate.handleInputs(inputs);
+  hear(gate, {0x0B31, 0x0B37}, 3);
+  EXPECT_FALSE(gate.isOpen());
+  ASSERT_TRUE(gate.running());
+  EXPECT_EQ(1u, gate.running()->drive);
+
+  GuestGate of_a_driver{false};
+  of_a_driver.handleInputs(inputs);
+  EXPECT_TRUE(of_a_driver.isOpen());
 }
 
 // One that is not there at all is not waited for.

@@ -236,6 +236,56 @@ TEST(GivesWay, NotToARepetitionHandedBackBehindALateAnswer) {
   looker.expectGivenWay();
 }
 
+// Nor behind an answer to the request before, which was given up by then: the echo of this one comes after it.
+TEST(GivesWay, NotToARequestHandedBackBehindTheAnswerToTheOneBefore) {
+  Looker looker;
+  looker.master.setSilenceLimit(0, 400ms);
+  looker.startCycle();
+  for (int i = 0; i < 2; ++i) {
+    looker.sends(kExchange7D);
+    looker.staysSilent();
+  }
+  looker.cycleEnds();
+  looker.advance(5ms);
+  looker.startCycle();
+  looker.sends(kExchange6D);
+  looker.receives(std::string{kInputs} + " " + kExchange6D + " " + kInputs);
+  looker.cycleEnds();
+  EXPECT_FALSE(looker.master.hasGivenWay());
+  EXPECT_EQ(SlavePhase::kDataExchange, looker.status().phase);
+  // No more than that: what comes behind an answer was sent by somebody else.
+  for (const char* next : {kExchange5D, kExchange7D}) {
+    looker.advance(2ms);
+    looker.cycle(next, kInputs);
+  }
+  looker.arrives(kExchange7D);
+  looker.expectGivenWay();
+}
+
+// Nor while an adapter goes on to be late by a request: each answer is taken for that to the next one.
+TEST(GivesWay, NotToAnAdapterThatIsLateByARequest) {
+  Looker looker;
+  looker.startCycle();
+  looker.sends(kExchange7D);
+  looker.staysSilent();
+  looker.sends(kExchange7D);
+  looker.receives(kInputs);
+  looker.cycleEnds();
+  looker.advance(2ms);
+  looker.cycle(kExchange5D, kInputs);
+  for (int i = 0; i < 3; ++i) {
+    looker.advance(2ms);
+    looker.cycle(kExchange7D, std::string{kExchange5D} + " " + kInputs);
+    looker.advance(2ms);
+    looker.cycle(kExchange5D, std::string{kExchange7D} + " " + kInputs);
+    EXPECT_FALSE(looker.master.hasGivenWay()) << i;
+  }
+  looker.arrives(kExchange5D);
+  EXPECT_FALSE(looker.master.hasGivenWay());
+  looker.arrives(kExchange5D);
+  looker.expectGivenWay();
+}
+
 // A driver does not leave its drives to anybody: it goes on, and tells.
 TEST(GivesWay, NotAsADriver) {
   BusParameters bus = quietBus();

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "profibus/listen_first.h"
 #include "profibus/nord_wire.h"
 
 namespace nord_driver::profibus {
@@ -98,6 +101,54 @@ TEST(ListenFirst, RangeOfTheTime) {
   BusParameters bus = listening();
   bus.listen_first = 11s;
   EXPECT_THROW(bus.validate(), std::invalid_argument);
+}
+
+// Two that began in the same moment would do so again and again, and two that gave way in the same moment, too.
+TEST(ListenFirst, WhoMeetsAnotherAgainListensLongerByChance) {
+  int apart = 0;
+  Duration shortest = 1h, longest{};
+  for (int i = 0; i < 200; ++i) {
+    const Instant begin{i * 7s};
+    const Instant met = begin + 101ms, now = met + 200ms;
+    ListenFirst one{100ms}, other{100ms};
+    one.restart(begin);
+    other.restart(begin + 1ms);
+    for (ListenFirst* who : {&one, &other}) {
+      ASSERT_TRUE(who->mayTalk(met));
+      who->giveWay(met);
+      EXPECT_EQ(met + 100ms, who->end()) << "a single time costs nothing";
+      ASSERT_TRUE(who->mayTalk(now));
+    }
+    one.giveWay(now - 1ns);
+    other.giveWay(now - 1ns);
+    EXPECT_TRUE(one.isListening());
+    for (const Duration listens : {one.end() - now, other.end() - now}) {
+      shortest = std::min(shortest, listens + 1ns);
+      longest = std::max(longest, listens + 1ns);
+    }
+    if (one.end() - other.end() > 10ms || other.end() - one.end() > 10ms) ++apart;
+    const Duration listens = one.end() - (now - 1ns);
+    one.handleForeign(3, true, now + 50ms);
+    EXPECT_EQ(now + 50ms + listens, one.end());
+  }
+  EXPECT_GE(apart, 150);
+  EXPECT_GE(shortest, 100ms);
+  EXPECT_LT(shortest, 105ms);
+  EXPECT_GT(longest, 195ms);
+  EXPECT_LT(longest, 200ms);
+}
+
+// It is no meeting: who has led for a while comes back after the time it listens at its start.
+TEST(ListenFirst, WhoHasLedForAWhileListensForItsTime) {
+  ListenFirst listen{100ms};
+  const Instant begin{1h};
+  listen.restart(begin);
+  ASSERT_TRUE(listen.mayTalk(begin + 100ms));
+  listen.giveWay(begin + 150ms);
+  const Instant led = begin + 350ms;
+  ASSERT_TRUE(listen.mayTalk(led));
+  listen.giveWay(led);
+  EXPECT_EQ(led + 100ms, listen.end());
 }
 
 }  // namespace

@@ -2,11 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "tools/linked_drive.h"
 
 namespace nord_driver::tools {
 namespace {
 
+using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
 
@@ -41,7 +44,7 @@ TEST(DriverThatComes, EndsAnAccessWithASentence) {
   ASSERT_EQ("", drive.trouble());
   const auto exchanges = [&] { return drive.left().counters().data_exchanges; };
   AnotherDriver other{drive};
-  drive.link().pass(std::chrono::milliseconds{20});
+  drive.link().pass(milliseconds{20});
   const std::uint64_t before = exchanges();
   const ParameterAnswer answer = drive.link().read(acceleration());
   EXPECT_FALSE(answer.success);
@@ -52,6 +55,55 @@ TEST(DriverThatComes, EndsAnAccessWithASentence) {
   other.there = false;
   drive.link().pass(seconds{3});
   EXPECT_TRUE(drive.link().read(acceleration()).success);
+}
+
+/// Such a driver has led the drives, has let this one run, and is gone.
+void wasLedByAnother(LinkedDrive& drive, sim::DriveUnit& unit) {
+  AnotherDriver other{drive};
+  drive.link().pass(milliseconds{200});
+  sim::ProcessData word;
+  word.control = 0x047E;
+  unit.inverter().receive(word);
+  drive.segment().run(milliseconds{100});
+  word.control = 0x047F;
+  word.setpoints[0] = 0x2000;
+  unit.inverter().receive(word);
+  drive.segment().run(seconds{4});
+  ASSERT_DOUBLE_EQ(25.0, unit.inverter().frequency());
+  drive.link().pass(milliseconds{200});
+}
+
+// The idle word would acknowledge it: it is looked at first, and told.
+TEST(DriverThatComes, AFaultItHasLeftIsTold) {
+  LinkedDrive drive{{}, true, 1, {"left", "right"}};
+  ASSERT_EQ("", drive.trouble());
+  ASSERT_EQ(0x047E, drive.left().counters().last_control);
+  wasLedByAnother(drive, drive.right());
+  drive.right().inverter().trip(30, false);
+  EXPECT_EQ("", drive.link().changedByReading(1)) << "it has not been looked at";
+  drive.link().exchangeUntil(drive.link().now() + seconds{3}, drive.notAsked());
+  ASSERT_TRUE(drive.link().snapshot(1).online);
+  EXPECT_FALSE(drive.link().snapshot(1).fault);
+  EXPECT_EQ("", drive.link().changedByReading(0));
+  EXPECT_THAT(drive.link().changedByReading(1), HasSubstr("drive right was in fault when this program came"));
+}
+
+// One that runs is left as it is, as it is at the first look.
+TEST(DriverThatComes, ADriveItHasLeftRunningIsRefused) {
+  LinkedDrive drive;
+  ASSERT_EQ("", drive.trouble());
+  wasLedByAnother(drive, drive.left());
+  std::string refusal;
+  try {
+    drive.link().exchangeUntil(drive.link().now() + seconds{10}, drive.notAsked());
+  } catch (const Trouble& trouble) {
+    refusal = trouble.what();
+  }
+  EXPECT_EQ("drive left is not at rest (operation enabled): it was left as it is; disable it first", refusal);
+  EXPECT_THROW(drive.link().read(acceleration()), Trouble);
+  drive.segment().run(seconds{10});
+  EXPECT_DOUBLE_EQ(25.0, drive.left().inverter().frequency());
+  EXPECT_EQ(0x0000, drive.left().counters().last_control);
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ struct DriveExchange {
   Interruption interruption = Interruption::kNone;
   std::uint8_t module_inputs = 0;  ///< digital inputs of its bus module, DI1 in bit 0; fresh with `module_answers`
   bool inverter_missing = false;   ///< the bus module answers, and the inverter behind it does not: it hears nothing
+  bool given_way = false;          ///< another master leads the bus, and nothing is sent for as long
 };
 
 /// Called by the thread of the bus cycle alone. Nothing throws; after the first cycles nothing allocates.

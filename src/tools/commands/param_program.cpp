@@ -142,7 +142,15 @@ int ParamProgram::onDrives(const std::vector<std::string>& drives, const std::st
   ParameterLink link{config, transport(), catalogues};
   const LinkTask task = prepare(link);
   refuseBusInUse(*config.bus, instead);
-  return carryOut(link, timeout(), task, end_asked_);
+  const LinkTask and_tell = [&task](ParameterLink& connected) {
+    const bool done = task(connected);
+    for (DriveIndex i = 0; i < connected.driveCount(); ++i) {
+      const std::string changed = connected.changedByReading(i);
+      if (!changed.empty()) std::fprintf(stderr, "nord_param: %s\n", changed.c_str());
+    }
+    return done;
+  };
+  return carryOut(link, timeout(), and_tell, end_asked_);
 }
 
 std::optional<NodeWithDrives> ParamProgram::nodeWith(const std::vector<std::string>& drives) {

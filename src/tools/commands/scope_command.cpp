@@ -66,7 +66,7 @@ class ScopeCommand final : public ParamCommand {
     return program.onDrives({drive_}, "rosservice call /nord_driver/write_trace, and look at its file with --from",
                             [this, &program](ParameterLink&) -> LinkTask {
                               return [this, &program](ParameterLink& link) {
-                                return write(record(link, program.endAsked())) == kDone;
+                                return recordOver(link, program.endAsked()) == kDone;
                               };
                             });
   }
@@ -89,16 +89,24 @@ class ScopeCommand final : public ParamCommand {
     return max_frequency_ ? std::optional<double>{*max_frequency_} : std::nullopt;
   }
 
-  ScopeRecord record(ParameterLink& link, const std::atomic<bool>& end_asked) const {
+  /// What came before a drive was refused is written all the same.
+  int recordOver(ParameterLink& link, const std::atomic<bool>& end_asked) const {
     ScopeRecord record;
     record.drive = drive_;
     readScale(link, typedFrequency(), link.positions(0), record);
     ScopeObserver observer{static_cast<std::size_t>(std::ceil(duration_.value / toSeconds(link.period()))) + 10};
     link.setObserver(&observer);
-    link.exchangeUntil(link.now() + seconds(duration_.value), end_asked);
+    std::string ended;
+    try {
+      link.exchangeUntil(link.now() + seconds(duration_.value), end_asked);
+    } catch (const Trouble& trouble) {
+      ended = trouble.what();
+    }
     link.setObserver(nullptr);
     record.samples = observer.samples();
-    return record;
+    const int done = write(record);
+    if (!ended.empty()) throw Trouble(ended);
+    return done;
   }
 
   /// What came before the node ended is written all the same.

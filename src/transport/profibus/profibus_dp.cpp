@@ -187,6 +187,7 @@ void ProfibusDpTransport::takeInputs(std::size_t station, std::vector<DriveExcha
     const std::size_t place = drives_[drive].place;
     inputs[drive] = {};
     inputs[drive].interruption = takeInterruption(drive);
+    inputs[drive].given_way = master_->hasGivenWay();
     if (answers) takeInverter(drive, master_->inputs(station), inputs[drive], pkw[place]);
     const ByteView own = master_->inputs(station);
     if (answers && config_.stations[station].io_byte && !own.empty())
@@ -323,9 +324,9 @@ Sentence ProfibusDpTransport::silenceText() const noexcept {
   for (std::size_t station = 0; station < presence_.size(); ++station) {
     if (master_->status(station).heard) return text_->named(station, text_->note(station, *master_).c_str());
   }
+  const auto& slaves = config_.slaves;
+  const auto asked = addressesAsked(slaves.size(), [&slaves](std::size_t i) { return slaves[i].address.value(); });
   Sentence text;
-  const auto asked = addressesAsked(config_.slaves.size(),
-                                    [this](std::size_t station) { return config_.slaves[station].address.value(); });
   text.format(
       "%s is open, but no station answers (asked: %s): power, address, baud rate, wires A and B the right way round, "
       "termination?%s%s",

@@ -80,6 +80,10 @@ FoundStation stationOf(std::uint8_t address, const ScannedStation& scanned) {
   return station;
 }
 
+std::string besideMaster(std::uint8_t master) {
+  return "master " + std::to_string(master) + " was heard: nothing is sent on the bus of another master; end it first";
+}
+
 // A station that a master has keeps its time for that one.
 bool mayHaveTypePlate(const ScannedStation& scanned) {
   return scanned.kind == ScannedStation::Kind::kSlave && scanned.ident == kSkCu4 && scanned.owner == profibus::kNoOwner;
@@ -110,7 +114,9 @@ class ModuleTalk {
     line_.talk(master_, [&] { return !master_.wantsBus(now()) || now() >= closed; });
   }
   Instant now() const { return line_.link().now(); }
-  bool goesOn() const { return line_.link().isOpen(); }
+  bool goesOn() const { return line_.link().isOpen() && !refusedBy(); }
+  /// The master that was heard: nothing more is sent.
+  std::optional<std::uint8_t> refusedBy() const { return master_.refusedBy(); }
 
  private:
   Line& line_;
@@ -216,8 +222,7 @@ ScanReport scanProfibus(const Settings& bus,
   if (!link->isOpen()) {
     report.trouble = link->lastError();
   } else if (scan.refusedBy()) {
-    report.trouble = "master " + std::to_string(*scan.refusedBy()) +
-                     " was heard: nothing is sent on the bus of another master; end it first";
+    report.trouble = besideMaster(*scan.refusedBy());
   } else if (scan.lineBusy()) {
     report.trouble = "the line never falls silent: another baud rate, or noise?";
   } else if (!scan.done()) {
@@ -236,6 +241,8 @@ ScanReport scanProfibus(const Settings& bus,
     talk.close();
     if (!link->isOpen()) {
       report.trouble = link->lastError();
+    } else if (talk.refusedBy()) {
+      report.trouble = besideMaster(*talk.refusedBy());
     } else if (end_asked) {
       report.trouble = "ended before every module was asked";
     }

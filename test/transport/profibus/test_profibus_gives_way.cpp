@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <memory>
@@ -23,11 +24,16 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-/// The line between two adapters: each hears what the other one sends, and every answer.
+/// The line between two adapters: each hears what the other one sends, and every answer, `latency` later.
 struct SharedLine {
   explicit SharedLine(const sim::SimConfig& config) : segment(config) { segment.open(); }
   sim::SimulatedSegment segment;
-  std::array<std::deque<std::uint8_t>, 2> heard;
+  struct Heard {
+    std::uint8_t byte;
+    Instant at;
+  };
+  std::array<std::deque<Heard>, 2> heard;
+  Duration latency{};
   std::array<std::size_t, 2> sent{};  ///< telegrams
 };
 
@@ -48,8 +54,8 @@ class AdapterOnALine final : public link::ByteLink {
   }
   std::size_t read(std::uint8_t* buffer, std::size_t capacity) noexcept override {
     std::size_t count = 0;
-    for (; count < capacity && !heard().empty(); ++count) {
-      buffer[count] = heard().front();
+    for (; count < capacity && hasHeard(); ++count) {
+      buffer[count] = heard().front().byte;
       heard().pop_front();
     }
     if (count > 0) return count;
@@ -58,16 +64,21 @@ class AdapterOnALine final : public link::ByteLink {
     return count;
   }
   void discardInput() noexcept override { heard().clear(); }
-  bool waitReadable(Instant until) noexcept override { return !heard().empty() || line_.segment.waitReadable(until); }
+  bool waitReadable(Instant until) noexcept override {
+    if (hasHeard()) return true;
+    const Instant next = heard().empty() ? until : std::min(until, heard().front().at);
+    return line_.segment.waitReadable(next) || hasHeard();
+  }
   void sleepUntil(Instant when) noexcept override { line_.segment.sleepUntil(when); }
   Instant now() const noexcept override { return line_.segment.now(); }
   bool keepsBaudRate() const noexcept override { return true; }
   const std::string& lastError() const noexcept override { return no_error_; }
 
  private:
-  std::deque<std::uint8_t>& heard() noexcept { return line_.heard[which_]; }
+  std::deque<SharedLine::Heard>& heard() noexcept { return line_.heard[which_]; }
+  bool hasHeard() noexcept { return !heard().empty() && heard().front().at <= now(); }
   void tellOther(ByteView bytes) noexcept {
-    for (const std::uint8_t byte : bytes) line_.heard[1 - which_].push_back(byte);
+    for (const std::uint8_t byte : bytes) line_.heard[1 - which_].push_back({byte, now() + line_.latency});
   }
 
   SharedLine& line_;
@@ -138,6 +149,12 @@ class ProfibusGivesWay : public ::testing::TestWithParam<int> {
       line_.segment.sleepUntil(start + milliseconds{10});
     }
   }
+  // Both begin in the same moment, and hear each other too late.
+  void runTwoThatLookOn(Duration latency) {
+    line_.latency = latency;
+    driver_ = std::make_unique<Program>(line_, 1, true, GetParam());
+    run(seconds{10});
+  }
   void startDriver() { driver_ = std::make_unique<Program>(line_, 1, false, GetParam()); }
   sim::InverterState state() { return line_.segment.drive(0).inverter().state(); }
   std::uint64_t trips() { return line_.segment.station(0).counters().watchdog_trips; }
@@ -194,6 +211,17 @@ TEST_P(ProfibusGivesWay, WhoWaitsForAParameterIsToldWhy) {
     EXPECT_THAT(result->text.str(), HasSubstr("is left to another master, which leads this segment")) << ended;
   }
   EXPECT_EQ(4, ended);
+}
+
+// Behind adapters that hand over late, who looks on sends before it hears that another one does: they do not meet for ever.
+TEST_P(ProfibusGivesWay, TwoThatLookOnDoNotMeetForEver) {
+  for (const int latency : {4, 16}) {
+    SCOPED_TRACE(latency);
+    runTwoThatLookOn(milliseconds{latency});
+    EXPECT_NE(looker_.drives(), driver_->drives());
+    EXPECT_LE(looker_.events().size(), 20u);
+    driver_.reset();
+  }
 }
 
 // By PKW, and by records.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <utility>
 
@@ -58,20 +59,25 @@ class BusyToken final : public sim::SimulatedSegment {
   bool due_ = false;
 };
 
-sim::SimConfig threeStations() {
+/// Those at 12 and 13 are of the kind that has a type plate.
+sim::SimConfig stationsAt(std::initializer_list<int> addresses) {
   sim::SimConfig config;
   config.bus.as<sim::DpBusConfig>().baud_rate = 500'000;
-  for (const int address : {3, 12, 126}) {
+  for (const int address : addresses) {
     sim::DriveConfig drive;
     drive.name = "drive" + std::to_string(address);
     drive.address = static_cast<std::uint8_t>(address);
-    if (address == 12) {
+    if (address == 12 || address == 13) {
       drive.device.series = sim::Series::kSk2xxe;
       drive.place = 1;
     }
     config.drives.push_back(drive);
   }
   return config;
+}
+
+sim::SimConfig threeStations() {
+  return stationsAt({3, 12, 126});
 }
 
 MapSettings bus() {
@@ -122,8 +128,9 @@ TEST(ProfibusScanner, EndsWhenAsked) {
 /// type plate behind it.
 class InterruptedSegment final : public sim::SimulatedSegment {
  public:
-  explicit InterruptedSegment(std::function<void(sim::SimulatedSegment&)> happens)
-      : SimulatedSegment(threeStations()), happens_(std::move(happens)) {}
+  explicit InterruptedSegment(std::function<void(sim::SimulatedSegment&)> happens,
+                              const sim::SimConfig& config = threeStations())
+      : SimulatedSegment(config), happens_(std::move(happens)) {}
   bool write(ByteView telegram) noexcept override {
     constexpr std::size_t kDsap = 7;
     if (telegram.size() > kDsap && telegram[0] == 0x68 && telegram[kDsap] == 49) happens_(*this);
@@ -157,6 +164,23 @@ TEST(ProfibusScanner, TellsThatItListensForLong) {
   };
   EXPECT_EQ("listens for other masters for 8 s before it sends anything (listen_first)", quiet(8.0));
   EXPECT_EQ("", quiet(1.0));
+}
+
+// It gets the bus: no further module is asked, and the list is not taken for a whole one.
+TEST(ProfibusScanner, AsksNoFurtherModuleBesideADriverThatBegins) {
+  constexpr std::uint8_t kOfMaster5[] = {0x10, 9, 5, 0x49, 0x57, 0x16};
+  int asked = 0;
+  const auto driver_begins = [&](sim::SimulatedSegment& segment) {
+    ++asked;
+    segment.foreign({kOfMaster5, sizeof kOfMaster5});
+  };
+  ProfibusDpTransport transport{[&](const link::SerialSettings&) {
+    return std::make_unique<InterruptedSegment>(driver_begins, stationsAt({3, 12, 13}));
+  }};
+  const ScanReport report = transport.scan(bus(), kNotAsked);
+  EXPECT_EQ("master 5 was heard: nothing is sent on the bus of another master; end it first", report.trouble);
+  EXPECT_EQ(3u, report.stations.size());
+  EXPECT_EQ(1, asked);
 }
 
 }  // namespace
