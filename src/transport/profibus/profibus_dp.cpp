@@ -324,8 +324,8 @@ Sentence ProfibusDpTransport::silenceText() const noexcept {
   for (std::size_t station = 0; station < presence_.size(); ++station) {
     if (master_->status(station).heard) return text_->named(station, text_->note(station, *master_).c_str());
   }
-  const auto& slaves = config_.slaves;
-  const auto asked = addressesAsked(slaves.size(), [&slaves](std::size_t i) { return slaves[i].address.value(); });
+  const auto asked =
+      addressesAsked(config_.slaves.size(), [this](auto i) { return config_.slaves[i].address.value(); });
   Sentence text;
   text.format(
       "%s is open, but no station answers (asked: %s): power, address, baud rate, wires A and B the right way round, "
