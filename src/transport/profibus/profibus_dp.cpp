@@ -6,7 +6,6 @@
 
 #include "config/setting_checks.h"
 #include "profile/status_word.h"
-#include "transport/addresses_asked.h"
 #include "transport/profibus/profibus_counters.h"
 #include "transport/profibus/profibus_line.h"
 #include "transport/profibus/profibus_scanner.h"
@@ -324,15 +323,7 @@ Sentence ProfibusDpTransport::silenceText() const noexcept {
   for (std::size_t station = 0; station < presence_.size(); ++station) {
     if (master_->status(station).heard) return text_->named(station, text_->note(station, *master_).c_str());
   }
-  const auto asked =
-      addressesAsked(config_.slaves.size(), [this](auto i) { return config_.slaves[i].address.value(); });
-  Sentence text;
-  text.format(
-      "%s is open, but no station answers (asked: %s): power, address, baud rate, wires A and B the right way round, "
-      "termination?%s%s",
-      config_.device.c_str(), asked.c_str(),
-      live_list_.empty() ? " nord_param scan finds who is there" : " Scan: ", live_list_.c_str());
-  return text;
+  return text_->silence(live_list_);
 }
 
 Sentence ProfibusDpTransport::busText() const noexcept {

@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "transport/addresses_asked.h"
+
 namespace nord_driver {
 
 namespace {
@@ -92,6 +94,18 @@ Sentence ProfibusText::note(std::size_t station, const profibus::DpMaster& maste
 Sentence ProfibusText::named(std::size_t station, const char* what) const noexcept {
   Sentence text;
   text.format("%s %s", names_[station].c_str(), what);
+  return text;
+}
+
+Sentence ProfibusText::silence(const Sentence& live_list) const noexcept {
+  const auto asked =
+      addressesAsked(config_.slaves.size(), [this](auto i) { return config_.slaves[i].address.value(); });
+  Sentence text;
+  text.format(
+      "%s is open, but no station answers (asked: %s): power, address, baud rate, wires A and B the right way round, "
+      "termination?%s%s",
+      config_.device.c_str(), asked.c_str(),
+      live_list.empty() ? " nord_param scan finds who is there" : " Scan: ", live_list.c_str());
   return text;
 }
 

@@ -26,6 +26,8 @@ class ProfibusText {
   Sentence note(std::size_t station, const profibus::DpMaster& master) const noexcept;
   /// "PROFIBUS station 3 (left, right) ", and what there is to say of it.
   Sentence named(std::size_t station, const char* what) const noexcept;
+  /// Nobody answers, and what that may come of. `live_list`: who was found, if anybody has looked.
+  Sentence silence(const Sentence& live_list) const noexcept;
   /// "stations 3, 126 (not addressed yet) answered"; "no station answered".
   static Sentence liveList(const profibus::BusScan& scan) noexcept;
 
