@@ -44,7 +44,7 @@ set(nord_unmerged_tests
   cycle/test_cycle_config.cpp cycle/test_cycle_picture.cpp cycle/test_device_reader.cpp cycle/test_drive_words.cpp
   cycle/test_forward_only_steps.cpp cycle/test_further_setpoints.cpp cycle/test_joint_limits.cpp
   cycle/test_make_drives.cpp cycle/test_module_parameters.cpp cycle/test_monitor_reader.cpp cycle/test_read_again.cpp
-  cycle/test_standstill_jobs.cpp cycle/test_start_acknowledge.cpp cycle/test_steered_motion.cpp
+  cycle/test_standstill_jobs.cpp cycle/test_start_acknowledge.cpp cycle/test_steered_motion.cpp cycle/test_steered_reversal.cpp
   cycle/test_word_needs.cpp cycle/test_word_setup.cpp devicenet/test_process_data.cpp
   documents/test_catalogue_tables.cpp drive/test_eeprom_switch.cpp drive/test_element_target.cpp
   drive/test_geared_axis.cpp drive/test_homing_run.cpp drive/test_parameter_read_ahead.cpp

@@ -37,7 +37,8 @@ std::uint8_t releasedBeforeItStopped(ScannerRun& run, Duration span) {
   std::uint8_t released = 0;
   run.on_sent = [&](const CanFrame& frame) {
     const bool releases = frame.id == 0x42E && frame.size == 5 && frame.data[1] == 0x4C;
-    if (releases && run.devices[0]->io_deaths == 0) released |= frame.data[4] & 0x3E;
+    if (releases && run.devices[0]->io_deaths == 0)
+      released = static_cast<std::uint8_t>(released | (frame.data[4] & 0x3E));
   };
   run.run(span);
   run.on_sent = nullptr;
