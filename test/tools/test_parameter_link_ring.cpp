@@ -45,6 +45,15 @@ class RingedDrive : public ::testing::Test {
   sim::InverterState stateOf(DriveIndex drive) {
     return sim_.withModel([drive](sim::RobotSim& robot) { return robot.drive(drive).inverter().state(); });
   }
+  /// Until the reaction is over: before that it is not at rest.
+  void trip(DriveIndex drive) {
+    sim_.withModel([drive](sim::RobotSim& robot) { robot.drive(drive).inverter().trip(41, false); });
+    const Instant end = transport_.now() + seconds{10};
+    while (stateOf(drive) != sim::InverterState::kFault && transport_.now() < end) {
+      transport_.sleepUntil(transport_.now() + milliseconds{1});
+    }
+    ASSERT_EQ(sim::InverterState::kFault, stateOf(drive));
+  }
   /// By its terminals, as somebody beside this program does.
   void turn(DriveIndex drive) {
     sim_.withModel([drive](sim::RobotSim& robot) { robot.drive(drive).inverter().setLocalControl(true, 0.0); });
@@ -114,7 +123,7 @@ TEST_F(RingedDrive, ItsEndTripsNothing) {
 
 // Somebody else has: the driver that has the gateway's outputs, or whoever stands before the drive.
 TEST_F(RingedDrive, AFaultThatEndedMeanwhileWasNotAcknowledgedByThisProgram) {
-  sim_.withModel([](sim::RobotSim& robot) { robot.drive(2).inverter().trip(41, false); });
+  trip(2);
   connect();
   sim_.withModel([](sim::RobotSim& robot) { EXPECT_TRUE(robot.drive(2).inverter().acknowledge()); });
   link_.exchangeUntil(link_.now() + milliseconds{300}, not_asked_);
