@@ -95,8 +95,10 @@ TEST(ParameterAccess, AQuantityOfUnknownUnitIsARawValue) {
   EXPECT_EQ(10, quick_stop.request.raw);
   EXPECT_EQ("", setRaw(quick_stop, 12, false));
   EXPECT_EQ("P426 = 12", valueSentence(quick_stop, 12, drive()));
-  for (const std::uint16_t number : {112, 114, 214, 310, 311, 327, 536}) EXPECT_NE("", refusal(number, 1.0)) << number;
-  for (const std::uint16_t number : {301, 418, 420, 502, 506, 508, 509, 513, 600, 607}) {
+  for (const std::uint16_t number : std::initializer_list<std::uint16_t>{112, 114, 214, 310, 311, 327, 536})
+    EXPECT_NE("", refusal(number, 1.0)) << number;
+  for (const std::uint16_t number :
+       std::initializer_list<std::uint16_t>{301, 418, 420, 502, 506, 508, 509, 513, 600, 607}) {
     EXPECT_EQ("", refusal(number, 1.0)) << number << " is a number or a choice";
   }
 }
