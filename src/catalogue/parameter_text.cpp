@@ -203,8 +203,9 @@ RawValue rawFrom(const ParameterEntry& entry, const std::string& typed, unsigned
   return refused(entry, index, text, "\"" + full + "\", or the number alone");
 }
 
+// A value may come from a float, which is exact to 6e-8 of itself; a hundredth of a step is no other value.
 bool isWholeStep(double steps) {
-  return std::abs(steps - std::round(steps)) <= 1e-6;
+  return std::abs(steps - std::round(steps)) <= 1e-6 + std::min(1e-7 * std::abs(steps), 0.01);
 }
 
 std::string notWhole(const ParameterEntry& entry, const std::string& text, unsigned index) {

@@ -41,8 +41,12 @@ class TerminalWatch {
     // On the way down it is not enabled any more; one that had come to rest before turns by somebody else still.
     const bool goes_down = report.phase == drive::Phase::kStopping || report.phase == drive::Phase::kQuickStopping ||
                            report.phase == drive::Phase::kCoasting;
+    const bool local = !profile::StatusWord{report.status_word}.busControl();
+    // In vain it may be enabled meanwhile, or trip: nobody has released it.
+    const bool held_on = finding_ == TerminalFinding::kHeld && !local && isHeld(report);
     if (!report.online || (!idle && !goes_down)) {
       rested_ = false;
+      if (held_on) return;
       held_since_.reset();
       finding_ = TerminalFinding::kNone;
       return;
@@ -51,8 +55,7 @@ class TerminalWatch {
         report.state == profile::DriveState::kOperationEnabled || std::abs(int{report.speed}) > kNearStandstill;
     // What a stop has left of a motion is not somebody else's.
     rested_ = rested_ || (idle && !turns);
-    const bool local = !profile::StatusWord{report.status_word}.busControl();
-    if (!idle || local || !isHeldBack(report)) {
+    if (!held_on && (!idle || local || !isHeldBack(report))) {
       held_since_.reset();
     } else if (!held_since_) {
       held_since_ = now;
@@ -80,8 +83,11 @@ class TerminalWatch {
   static bool isHeldBack(const drive::DriveReport& report) noexcept {
     const bool not_ready = report.state == profile::DriveState::kSwitchOnDisabled ||
                            report.state == profile::DriveState::kNotReadyToSwitchOn;
+    return not_ready && isHeld(report);
+  }
+  static bool isHeld(const drive::DriveReport& report) noexcept {
     const profile::StatusWord status{report.status_word};
-    return not_ready && (!status.voltageEnabled() || !status.quickStopInactive());
+    return !status.voltageEnabled() || !status.quickStopInactive();
   }
 
   std::optional<Instant> held_since_;

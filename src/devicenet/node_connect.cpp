@@ -17,7 +17,7 @@ NodeConnect::NodeConnect(const NodeConfig& config, const ScannerConfig& bus, Nod
 
 void NodeConnect::start(Instant now) noexcept {
   failures_ = 0;
-  shortened_ = 0;
+  of_before_ = {};
   foreign_mac_.reset();
   channel_.close();
   timers_.stopAll();
@@ -173,6 +173,7 @@ void NodeConnect::handleAnswer(const ExplicitAnswer& answer, Instant now) noexce
     case Phase::kIoRate:
       return handleIoRate(answer, now);
     case Phase::kShortenIoRate:
+      ofBefore().written = answer.end != ExplicitEnd::kTimedOut;
       return enter(Phase::kIoRate, now);  // whatever has come of it
     case Phase::kReleaseStale:
       if (answer.end == ExplicitEnd::kTimedOut) return fail("gave no answer to a release", now);

@@ -11,6 +11,7 @@
 // for their state, where the configuration wants that: no time-out runs yet, and nothing of ours acts.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -79,6 +80,12 @@ class NodeConnect {
   Duration rate() const noexcept { return rate_; }
 
  private:
+  /// A connection for process data of before, while its time-out is awaited.
+  struct OfBefore {
+    int writings = 0;             // of its rate
+    bool written = false;         // answered, be it refused
+    std::optional<Instant> over;  // later than this its time-out is not to come
+  };
   enum class Phase : std::uint8_t {
     kOff,
     kPause,            ///< before the next try
@@ -126,6 +133,7 @@ class NodeConnect {
   void handleIoState(const ExplicitAnswer& answer, Instant now) noexcept;
   void handleIoRate(const ExplicitAnswer& answer, Instant now) noexcept;
   void awaitIoOfBefore(Duration rate, Instant now) noexcept;
+  OfBefore& ofBefore() noexcept { return of_before_[instance_ - kFirstIoInstance]; }
   void handleNoIoState(const ExplicitAnswer& answer, Instant now) noexcept;
   bool asksForIoOfBefore() const noexcept {
     return phase_ == Phase::kIoState || phase_ == Phase::kIoRate || phase_ == Phase::kShortenIoRate ||
@@ -183,9 +191,9 @@ class NodeConnect {
   bool let_go_first_ = false;      // a try that begins with a release
   Phase phase_ = Phase::kOff;
   TimerTable<Timer> timers_;
-  std::uint8_t held_ = 0;       // what the device may have allocated to us
-  std::uint8_t stale_ = 0;      // what is to be released of before
-  std::uint8_t shortened_ = 0;  // instances of before whose rate was written, a bit each
+  std::uint8_t held_ = 0;   // what the device may have allocated to us
+  std::uint8_t stale_ = 0;  // what is to be released of before
+  std::array<OfBefore, kLastIoInstance - kFirstIoInstance + 1> of_before_{};
   unsigned failures_ = 0;       // tries without success, since it last ran
   unsigned conflicts_ = 0;      // of this try
   unsigned lost_explicit_ = 0;  // tries that ended so, since it last ran

@@ -107,6 +107,7 @@ void NodeConnect::handleIoAllocated(const ExplicitAnswer& answer, Instant now) n
   if (answer.end == ExplicitEnd::kTimedOut) return fail("gave no answer to the allocation of its process data", now);
   if (answer.ok()) {
     held_ |= io_choice_;
+    of_before_ = {};
     outputs_instance_ = outputsInstance(config_.io);
     instance_ = outputs_instance_;
     return enter(Phase::kProducedSize, now);

@@ -9,6 +9,8 @@ namespace {
 constexpr std::uint8_t kNobody = 0xFF;
 /// So long after a frame of another master the device is taken to be its.
 constexpr Duration kForeignMemory = std::chrono::seconds{5};
+/// Of a short rate, where nobody answers.
+constexpr int kMostWritings = 3;
 /// ms: of one that does not tell it.
 constexpr std::uint32_t kLongestPacketRate = 0xFFFF;
 
@@ -124,14 +126,18 @@ void NodeConnect::handleIoRate(const ExplicitAnswer& answer, Instant now) noexce
   if (answer.may_be_late) return handleNoIoState(answer, now);
   if (answer.end == ExplicitEnd::kTimedOut) return handleNoIoState(answer, now);
   const Duration rate = std::chrono::milliseconds{answer.number().value_or(kLongestPacketRate)};
-  // Once only: each writing begins the time-out anew, and a device may round what is written.
-  const auto bit = static_cast<std::uint8_t>(1u << instance_);
+  OfBefore& before = ofBefore();
   const bool is_short = rate > Duration::zero() && rate <= std::chrono::milliseconds{kShortRateOfBefore};
-  if (!is_short && (shortened_ & bit) == 0) {
-    shortened_ |= bit;
+  // Once only: each writing begins the time-out anew, and a device may round what is written.
+  if (!is_short && !before.written && before.writings < kMostWritings) {
+    ++before.writings;
     return enter(Phase::kShortenIoRate, now);
   }
   if (rate == Duration::zero()) return askIoState(static_cast<std::uint8_t>(instance_ + 1), now);
+  // What runs on is fed by somebody, as by our bit strobe for other devices, or begins anew by itself.
+  const Instant over = now + kRatesUntilTimeout * rate + kCoarsestStep + bus_.first_retry;
+  if (!before.over || over < *before.over) before.over = over;
+  if (now >= *before.over) return askIoState(static_cast<std::uint8_t>(instance_ + 1), now);
   awaitIoOfBefore(rate, now);
 }
 

@@ -61,6 +61,9 @@ TEST(ParameterAccess, AValueBecomesWhatTheInverterStores) {
 
 // Rounded, 0.1 of a raw value would be 0, and nobody would hear of it.
 TEST(ParameterAccess, AValueFinerThanTheResolutionIsRefused) {
+  for (int raw = 1; raw <= 65535; ++raw) {
+    ASSERT_EQ("", refusal(102, static_cast<float>(0.01 * raw))) << "0.01 s times " << raw << ", as a float";
+  }
   EXPECT_EQ("P102: \"2.503\" is not valid, expected a multiple of 0.01 s", refusal(102, 2.503));
   EXPECT_EQ("P509: \"0.4\" is not valid, expected a multiple of 1", refusal(509, 0.4));
   for (std::int32_t raw = 0; raw <= 65'535; ++raw) {

@@ -8,7 +8,9 @@ namespace nord_driver::cycle {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr const char* kLocal =
     "warning: drive left is under local control (status bit 9 = 0, status word 0931): its terminals may turn it "
@@ -113,6 +115,23 @@ TEST_F(Terminals, ADriveThatItsTerminalsHoldWhileIdleIsTold) {
   transport.inverters[kLeft].taken = 0;
   step();
   EXPECT_THAT(events(), ElementsAre("info: drive left is not held at its terminals any more"));
+}
+
+// Who tries to enable it in vain has not released it, nor has a fault.
+TEST_F(Terminals, ADriveThatIsHeldIsSoUntilItIsReleased) {
+  transport.inverters[kLeft].taken = 0x0004;
+  run(60);
+  ASSERT_EQ(1u, events().size());
+  const auto answer = ask(RequestKind::kEnable);
+  EXPECT_FALSE(answer.success);
+  EXPECT_EQ(TerminalFinding::kHeld, snapshot().drives[kLeft].terminals);
+  transport.inverters[kLeft].fault = true;
+  run(30);
+  EXPECT_EQ(TerminalFinding::kHeld, snapshot().drives[kLeft].terminals);
+  for (const std::string& event : events()) EXPECT_THAT(event, Not(HasSubstr("held")));
+  transport.inverters[kLeft].taken = 0;
+  run(120);
+  EXPECT_EQ(TerminalFinding::kNone, snapshot().drives[kLeft].terminals);
 }
 
 TEST_F(Terminals, AQuickStopAtTheTerminalsIsToldAsOne) {

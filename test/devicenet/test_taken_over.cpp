@@ -114,6 +114,40 @@ TEST(TakenOver, ItIsWrittenOnce) {
   EXPECT_EQ(1u, device.io_deaths);
 }
 
+// The answers to two writings are lost, and so is what they were to bring about.
+TEST(TakenOver, AWritingThatIsLostIsRepeated) {
+  for (const unsigned before : {0u, 65535u}) {
+    ScannerRun run{slowConfig()};
+    FakeDevice& device = *run.devices[0];
+    run.begin();
+    device.wasPolledBy(0, before, run.now);
+    int writings = 0;
+    run.loses = [&](const CanFrame& frame) {
+      const bool writes = frame.id == 0x42C && frame.size == 7 && frame.data[1] == 0x10 && frame.data[2] == 5;
+      return writes && ++writings <= 2;
+    };
+    EXPECT_EQ(0, releasedBeforeItStopped(run, seconds{5})) << before;
+    EXPECT_EQ(1u, device.io_deaths) << before;
+    EXPECT_TRUE(run.allExchanging()) << run.scanner.status(0).reason.c_str();
+  }
+}
+
+// As by a bit strobe for others, or by itself: its time-out never comes, and is not waited for without an end.
+TEST(TakenOver, OneThatIsFed) {
+  ScannerRun run{slowConfig()};
+  FakeDevice& device = *run.devices[0];
+  run.begin();
+  device.wasPolledBy(0, 1000, run.now);
+  run.before_cycle = [&] {
+    const bool is_of_before = device.released_last == 0;
+    if (is_of_before) device.receive(frame("42D#007E040000"), run.now);
+  };
+  run.run(milliseconds{2600});
+  EXPECT_EQ(0, device.released_last);
+  EXPECT_TRUE(run.reaches(NodeState::kExchanging, milliseconds{600})) << run.scanner.status(0).reason.c_str();
+  EXPECT_EQ(0u, device.io_deaths);
+}
+
 // Another device than configured, other sizes, a rate that does not protect: said when it has stopped.
 TEST(TakenOver, ARefusalDoesNotLetItRunOn) {
   ScannerConfig identity = slowConfig(), sizes = slowConfig(), rate = slowConfig();
