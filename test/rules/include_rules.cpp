@@ -38,7 +38,8 @@ const std::map<std::string, Names>& table() {
       {"devicenet", {"core"}},
       {"interbus", {"core"}},
       {"link", {"core"}},
-      {"link/serial", {"core", "link"}},
+      {"link/serial", {"core", "link", "link/serial/lock_owner"}},
+      {"link/serial/lock_owner", {"core"}},  // which process has a device: for the programs, too
       {"link/can", {"core", "link"}},
       {"link/modbus", {"core", "link"}},
       {"state", {"core"}},
@@ -68,20 +69,22 @@ const std::map<std::string, Names>& table() {
       {"sim/interbus", simulatorWith({"link/modbus"})},
       {"sim_node", {"core", "sim", "ros_support"}},
       {"tools",
-       {"core", "state", "config", "catalogue", "commissioning", "profile", "transport", "robot", "drive", "cycle",
-        "sim", "node/node_config"}},
+       {"core", "link/serial/lock_owner", "state", "config", "catalogue", "commissioning", "profile", "transport",
+        "robot", "drive", "cycle", "sim", "node/node_config"}},
       {"tools/nord_param", {"core", "config", "tools/commands", "tools", "tools/over_ros"}},
-      {"tools/restore", {"core", "config", "state", "catalogue", "profile", "cycle", "tools"}},
+      {"tools/restore",
+       {"core", "config", "link/serial/lock_owner", "state", "catalogue", "profile", "cycle", "tools"}},
       {"tools/over_ros",  // the way through a running node
-       {"core", "config", "catalogue", "profile", "transport", "link/modbus", "tools"}},
+       {"core", "config", "catalogue", "profile", "transport", "link/modbus", "link/serial/lock_owner", "tools"}},
       {"tools/commands",  // of nord_param, one file each
-       {"core", "config", "catalogue", "commissioning", "profile", "transport", "robot", "drive", "cycle",
-        "node/node_config", "tools/*"}},
+       {"core", "config", "link/serial/lock_owner", "catalogue", "commissioning", "profile", "transport", "robot",
+        "drive", "cycle", "node/node_config", "tools/*"}},
       {"node/node_config",  // what a file says, for the node and for the programs
-       {"core", "config", "profile", "transport", "robot", "drive", "cycle", "trace"}},
+       {"core", "config", "profile", "transport", "robot", "drive", "cycle", "trace", "node/late_protection"}},
+      {"node/late_protection", {"core", "config", "transport"}},  // what of it is warned of
       {"node",
        {"core", "state", "config", "catalogue", "commissioning", "profile", "transport", "robot", "drive", "cycle",
-        "trace/*", "tools", "node/node_config", "ros_support"}},
+        "trace/*", "tools", "node/node_config", "node/late_protection", "ros_support"}},
       {"system", {"*"}},                             // tests of the whole stack, without ROS
       {"explore", {"*"}},                            // every order of events, at one object or few
       {"campaign", {"*"}},                           // generated faults, on every bus
