@@ -105,7 +105,7 @@ Sentence ProfibusText::silence(const Sentence& live_list) const noexcept {
       "%s is open, but no station answers (asked: %s): power, address, baud rate, wires A and B the right way round, "
       "termination?%s%s",
       config_.device.c_str(), asked.c_str(),
-      live_list.empty() ? " nord_param scan finds who is there" : " Scan: ", live_list.c_str());
+      live_list.empty() ? " nord_param scan finds who is there" : "; scan: ", live_list.c_str());
   return text;
 }
 
