@@ -1,6 +1,7 @@
 #include "link/serial/lock_owner.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
@@ -41,9 +42,10 @@ std::optional<LockOwner> lockOwner(const char* path) noexcept {
   const ProcFile locks = openedProc("/proc/locks");
   char line[256];
   while (locks && ::fgets(line, sizeof line, locks.get()) != nullptr) {
-    char kind[16] = {}, where[64] = {};
+    char kind[16] = {}, process[16] = {}, where[64] = {};
+    if (::sscanf(line, "%*s %15s %*s %*s %15s %63s", kind, process, where) != 3) continue;
     LockOwner owner;
-    if (::sscanf(line, "%*s %15s %*s %*s %d %63s", kind, &owner.process, where) != 3) continue;
+    owner.process = static_cast<int>(::strtol(process, nullptr, 10));
     if (::strcmp(kind, "FLOCK") != 0 || ::strcmp(where, wanted.c_str()) != 0 || owner.process <= 0) continue;
     owner.name = programOf(owner.process);
     return owner;

@@ -102,7 +102,7 @@ NodeParameters::Fence NodeParameters::fence() const {
 // Refused by the node in the middle, it would take the whole restore back.
 std::string NodeParameters::whyNotWritten(std::uint16_t number) const {
   if (!fence_) fence_ = fence();
-  const std::string raw = catalogue::whyNotRaw(catalogue::accessTo({number, 0, 0}, known()));
+  std::string raw = catalogue::whyNotRaw(catalogue::accessTo({number, 0, 0}, known()));
   if (!raw.empty() && !fence_->raw) return raw;
   return fence_->writable.refusal(number);
 }
