@@ -81,7 +81,9 @@ std::optional<std::string> AnswersAreTrue::judge(const Moment& moment, const cyc
       return asked(call) + " says that the reference run has ended, and drive " + std::to_string(i) + " is not there";
     }
     const bool stops = kind == Kind::kDisable || kind == Kind::kQuickStop || kind == Kind::kShutDown;
-    if (kind == Kind::kEnable && moment.now - enabled_at_[i] > moment.reaction) {
+    // With P104 above 0 the motor gets no voltage before the first command (doc/safety.md).
+    const bool waits = moment.drives[i].slowest > 0.0;
+    if (kind == Kind::kEnable && !waits && moment.now - enabled_at_[i] > moment.reaction) {
       return asked(call) + " says that drive " + std::to_string(i) + " is enabled, and it is not";
     }
     if (stops && !moment.drives[i].bus_control) continue;

@@ -197,7 +197,7 @@ const std::vector<Act>& canopenActs() {
 std::unique_ptr<CampaignRig> makeCanopen(const Layout& layout, const TransportWrap& wrap) {
   CanRobot::Options options;
   options.base = layout.wheels != 0;
-  options.node = wheelSettings(layout);
+  options.node = baseSettings(layout);
   options.each = driveSettingsOf(layout);
   for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
     addAxisSettings(layout, i, options.each[i]);
@@ -209,6 +209,7 @@ std::unique_ptr<CampaignRig> makeCanopen(const Layout& layout, const TransportWr
   if (heartbeats) {
     for (Values& values : options.each) values["error_control"] = std::string{"heartbeat"};
   }
+  if (layout.otherProfile()) options.drives["profile"] = std::string{"cia402"};
   if (layout.one_module) options.gateway_inverters = layout.drives();
   for (Values& values : options.each) {
     values["vendor_id"] = static_cast<int>(sim::CanIdentity{}.vendor);
@@ -219,6 +220,7 @@ std::unique_ptr<CampaignRig> makeCanopen(const Layout& layout, const TransportWr
   options.simulate = [layout, has_twin](sim::SimConfig& config) {
     simulateWheels(layout, config);
     simulateAxes(layout, kSk53x, config);
+    for (sim::DriveConfig& drive : config.drives) drive.bus.as<sim::CanDriveConfig>().cia402 = layout.otherProfile();
     if (!has_twin) return;
     sim::DriveConfig twin = config.drives.front();
     twin.name = "twin";

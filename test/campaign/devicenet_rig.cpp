@@ -8,9 +8,19 @@
 namespace nord_driver::test {
 namespace {
 
+// Every other system of single drives has none, in the AC drive profile: assembly 20 has "run forward" alone.
+bool hasReverse(const Layout& layout) {
+  return !layout.otherProfile() || layout.wheels != 0 || layout.exchange() % 2 == 1;
+}
+
 class DevicenetRig final : public CampaignRig {
  public:
-  DevicenetRig(const DevicenetRobot::Options& options, bool by_change) : robot_(options), by_change_(by_change) {}
+  DevicenetRig(const DevicenetRobot::Options& options, const Layout& layout)
+      : robot_(options),
+        by_change_(layout.exchange() == 1 || layout.exchange() == 2),
+        cyclic_(layout.exchange() == 2),
+        reverses_(hasReverse(layout)),
+        ac_drive_(layout.otherProfile()) {}
 
   DevicenetRobot& robot() override { return robot_; }
   sim::SimulatedDnBus& bus() { return robot_.bus(); }
@@ -33,8 +43,13 @@ class DevicenetRig final : public CampaignRig {
 
   /// Change of state and cyclic data, which we acknowledge (ODVA Vol. 3, 2-3).
   bool answersAreRepeated() const override { return by_change_; }
+  bool reverses() const override { return reverses_; }
+  /// "Ctrl From Net" is NetCtrl, sent back: P509 and P510 are not queried (BU 0280 4.2.3.1).
+  bool tellsLocalControl() const override { return !ac_drive_; }
   /// A poll is answered in its cycle, what has not changed comes with the rate of the module; two and a half of these.
   Duration silence() const override { return (by_change_ ? rate() : robot_.config().period()) * 5 / 2; }
+  /// With the next of its data, where these are cyclic.
+  Duration toldLate() const override { return cyclic_ ? rate() : Duration::zero(); }
   /// Four times the expected packet rate (ODVA Vol. 3, 2-3.4).
   Duration driveSideTimeout() const override { return 4 * rate(); }
   Duration wireLatency() const override { return std::chrono::milliseconds{10}; }
@@ -50,6 +65,9 @@ class DevicenetRig final : public CampaignRig {
 
   DevicenetRobot robot_;
   bool by_change_;
+  bool cyclic_;
+  bool reverses_;
+  bool ac_drive_;
 };
 
 constexpr std::uint16_t kProduct = 2;  // of SK TU4-DEV in the simulator
@@ -193,7 +211,7 @@ const char* ioOf(const Layout& layout) {
 std::unique_ptr<CampaignRig> makeDevicenet(const Layout& layout, const TransportWrap& wrap) {
   DevicenetRobot::Options options;
   options.base = layout.wheels != 0;
-  options.node = wheelSettings(layout);
+  options.node = baseSettings(layout);
   options.each = driveSettingsOf(layout);
   for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
     addAxisSettings(layout, i, options.each[i]);
@@ -207,6 +225,7 @@ std::unique_ptr<CampaignRig> makeDevicenet(const Layout& layout, const Transport
   options.modules = layout.drives();
   if (layout.one_module) options.gateway_inverters = layout.drives();
   if (layout.one_module) options.assembly = 102;  // four inverters, two bytes each and the control byte
+  if (layout.otherProfile()) options.assembly = hasReverse(layout) ? 21 : 20;
   options.simulate = [layout](sim::SimConfig& config) {
     simulateWheels(layout, config);
     for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
@@ -215,8 +234,7 @@ std::unique_ptr<CampaignRig> makeDevicenet(const Layout& layout, const Transport
     simulateAxes(layout, kSk2xx, config);
   };
   options.wrap = wrap;
-  const bool by_change = layout.exchange() == 1 || layout.exchange() == 2;
-  return std::make_unique<DevicenetRig>(options, by_change);
+  return std::make_unique<DevicenetRig>(options, layout);
 }
 
 }  // namespace

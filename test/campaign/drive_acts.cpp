@@ -9,6 +9,10 @@ sim::DriveUnit& unitOf(CampaignRig& rig, const Event& event) {
   return rig.unit(event.drive);
 }
 
+bool tellsLocalControl(CampaignRig& rig, const Event&) {
+  return rig.tellsLocalControl();
+}
+
 void setTerminals(CampaignRig& rig, const Event& event, bool coast, bool quick_stop) {
   sim::Terminals terminals;
   terminals.coast = coast;
@@ -108,7 +112,8 @@ const std::vector<Act>& driveActs() {
        },
        [](R& rig, const E& event) { unitOf(rig, event).inverter().setLocalControl(false, 0.0); },
        false,
-       false},
+       false,
+       tellsLocalControl},
       // Their inputs choose the parameter set, too. amount: as `local`; extra: the set, from 0.
       {"local_set",
        2,
@@ -131,7 +136,8 @@ const std::vector<Act>& driveActs() {
          unitOf(rig, event).inverter().setTerminals({});
        },
        false,
-       false},
+       false,
+       tellsLocalControl},
       {"off2", 2, "terminals", Place::kDrive, Cuts::kNothing, kLong, kNone, kNone,
        [](R& rig, const E& event) { setTerminals(rig, event, true, false); },
        [](R& rig, const E& event) { setTerminals(rig, event, false, false); }, false, false},

@@ -39,22 +39,6 @@ const Span& follow(Span& span, const Span& goal, double slow, double fast) {
 
 }  // namespace
 
-void RecentSpan::add(Instant now, Span value) {
-  const bool same =
-      !values_.empty() && values_.back().second.least == value.least && values_.back().second.most == value.most;
-  if (!same) values_.emplace_back(now, value);
-}
-
-Span RecentSpan::since(Instant from) {
-  while (values_.size() > 1 && values_[1].first <= from) values_.pop_front();
-  Span all = values_.front().second;
-  for (const auto& [since, value] : values_) {
-    all.least = std::min(all.least, value.least);
-    all.most = std::max(all.most, value.most);
-  }
-  return all;
-}
-
 std::optional<std::string> FollowsItsCommand::look(const Moment& moment) {
   tracks_.resize(moment.drives.size());
   const double dt = last_ ? toSeconds(moment.now - *last_) : 0.0;
@@ -65,7 +49,8 @@ std::optional<std::string> FollowsItsCommand::look(const Moment& moment) {
     // Beyond P105 the base is scaled, which is for other tests.
     const bool follows = group.asked && group.confirmed && told && moment.judged &&
                          std::all_of(group.members.begin(), group.members.end(), [&](DriveIndex i) {
-                           return moment.drives[i].turnsByBus() && !(i == 0 && moment.stand_in_believed) &&
+                           return moment.drives[i].turnsByBus() && moment.drives[i].slowest == 0.0 &&
+                                  !(i == 0 && moment.stand_in_believed) &&
                                   std::fabs(moment.wanted[i]) <= moment.drives[i].full;
                          });
     for (const DriveIndex i : group.members) {
@@ -81,13 +66,11 @@ std::optional<std::string> FollowsItsCommand::look(const Moment& moment) {
         continue;
       }
       // One that is not renewed may be one from before it was enabled, which is not obeyed.
-      const double wanted = moment.wanted[i];
+      const Span wanted = moment.wantedOf(i);
       track.wanted.add(moment.now,
-                       moment.renewed[i] ? Span{wanted, wanted} : Span{std::min(wanted, 0.0), std::max(wanted, 0.0)});
-      // On the way of a base from one command to another each wheel is between its speeds of the two.
-      const Duration on_the_way = group.is_base ? moment.base_ramp : Duration{};
-      const Span goal = track.wanted.since(moment.now - on_the_way);
+                       moment.renewed[i] ? wanted : Span{std::min(wanted.least, 0.0), std::max(wanted.most, 0.0)});
       const SetpointRamp& ramp = moment.setpoint_ramps[i];
+      const Span goal = track.wanted.since(moment.now - ramp.longest);
       // A driver that is held up need not catch up with its ramp: it goes on from where it was (SetpointWithinRamp).
       const double slowest = moment.driver_ran ? ramp.slowest : 0.0;
       track.sent.add(moment.now,
@@ -97,7 +80,7 @@ std::optional<std::string> FollowsItsCommand::look(const Moment& moment) {
                                  (1.0 + kSpare) * std::max(drive.rise, drive.ramp) * dt);
       if (drive.along >= speed.least - kRounding && drive.along <= speed.most + kRounding) continue;
       std::ostringstream out;
-      out << "drive " << i << " turns its joint with " << drive.along << " Hz, commanded are " << wanted
+      out << "drive " << i << " turns its joint with " << drive.along << " Hz, commanded are " << moment.wanted[i]
           << " Hz: it is between " << speed.least << " and " << speed.most << " Hz";
       return out.str();
     }
@@ -126,6 +109,8 @@ std::optional<std::string> SetpointWithinRamp::look(const Moment& moment) {
     const double time = toSeconds(moment.now - before.since + moment.heard_within);
     const double change = std::fabs(drive.told - before.told);
     if (change <= fastest * time + kRounding) continue;
+    // Below its slowest speed it rests, by OFF1.
+    if (drive.slowest > 0.0 && (drive.told == 0.0 || before.told == 0.0)) continue;
     // A group that the driver has stopped is told 0 at once, and follows the ramps of its drives.
     if (drive.told == 0.0 && !isToldEnabled(moment, i)) continue;
     std::ostringstream out;
@@ -145,8 +130,8 @@ std::optional<std::string> MotionToldAsItIs::look(const Moment& moment) {
   for (std::size_t i = 0; i < moment.drives.size(); ++i) {
     Track& track = tracks_[i];
     const DriveTruth& drive = moment.drives[i];
-    track.turned.add(moment.now, {drive.along, drive.along});
-    track.way += drive.along * speed_of * dt;
+    track.turned.add(moment.now, {drive.actual(), drive.actual()});
+    track.way += drive.actual() * speed_of * dt;
     // While another one stands at its address, that one may be told of; its P105 as long as nobody saw it leave.
     const bool is_doubled = i == 0 && (moment.twin_position.has_value() || moment.stand_in_believed);
     if (!moment.driver_ran || !moment.judged || moment.axes[i].is_axis || is_doubled) {

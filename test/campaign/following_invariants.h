@@ -2,38 +2,18 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "campaign/invariant.h"
+#include "campaign/recent_span.h"
 #include "robot/odometry.h"
 
 namespace nord_driver::test {
 
-/// From the least to the most of a value.
-struct Span {
-  double least = 0.0;
-  double most = 0.0;
-};
-
-/// What a value has been within some time.
-class RecentSpan {
- public:
-  void add(Instant now, Span value);
-  void forget() { values_.clear(); }
-  bool empty() const noexcept { return values_.empty(); }
-  /// Since `from`, what was so at that time included.
-  Span since(Instant from);
-
- private:
-  std::deque<std::pair<Instant, Span>> values_;  // from when on
-};
-
 /// A wheel or single drive that is enabled turns as fast as commanded, and that way round: what TurnsOnlyAsCommanded
-/// allows it does.
+/// allows it does. One that has a slowest speed rests below it, which this does not tell from one that does not follow.
 class FollowsItsCommand final : public Invariant {
  public:
   const char* name() const override { return "FollowsItsCommand"; }

@@ -95,7 +95,7 @@ Scenario makeScenario(const CampaignBus& bus, std::uint32_t seed) {
   scenario.bus = bus.name;
   scenario.seed = seed;
   scenario.layout = drawLayout(dice, bus);
-  scenario.layout.variant = seed % 64;  // not drawn: what a seed stands for otherwise stays as it is
+  scenario.layout.variant = seed % 512;  // not drawn: what a seed stands for otherwise stays as it is
 
   std::vector<const Act*> causes, users;
   for (const auto* acts : {&driveActs(), &bus.acts()}) {

@@ -131,13 +131,14 @@ const std::vector<Act>& interbusActs() {
 std::unique_ptr<CampaignRig> makeInterbus(const Layout& layout, const TransportWrap& wrap) {
   InterbusRobot::Options options;
   options.base = layout.wheels != 0;
-  options.node = wheelSettings(layout);
+  options.node = baseSettings(layout);
   options.each = driveSettingsOf(layout);
   for (DriveIndex i = layout.firstAxis(); i < layout.drives(); ++i) {
     addAxisSettings(layout, i, options.each[i]);
     options.each[i]["ppo_type"] = 2;
   }
   options.modules = layout.drives();
+  options.drivecom = layout.otherProfile();
   // All share one PCP channel: with many drives it takes longer than a scenario until each has told its parameters.
   options.pcp = layout.drives() <= 2;
   options.simulate = [layout](sim::SimConfig& config) {

@@ -15,6 +15,7 @@ std::vector<std::unique_ptr<Invariant>> allInvariants() {
   all.push_back(std::make_unique<NobodyUnknownEnabled>());
   all.push_back(std::make_unique<TurnsOnlyAsCommanded>());
   all.push_back(std::make_unique<FollowsItsCommand>());
+  all.push_back(std::make_unique<TurnsTheCommandedWay>());
   all.push_back(std::make_unique<SetpointWithinRamp>());
   all.push_back(std::make_unique<AxisMovesOnlyAsAsked>());
   all.push_back(std::make_unique<AxisWithinItsLimits>());

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "campaign/recent_span.h"
 #include "cycle/request.h"
 #include "cycle/snapshot.h"
 #include "nord_driver/core/time.h"
@@ -25,11 +26,16 @@ struct DriveTruth {
   double ramp = 25.0;         ///< Hz/s, by P103 of the set in force
   double rise = 25.0;         ///< Hz/s, by P102 of that set
   double full = 50.0;         ///< Hz, P105 of that set
+  double slowest = 0.0;       ///< Hz, P104 of that set
   double along = 0.0;         ///< Hz, `frequency` in the sense of its joint
   double told = 0.0;          ///< Hz, `setpoint` in the sense of its joint
   double rotor = 0.0;         ///< Hz, the speed of the shaft
-  double position = 0.0;      ///< rad of the joint, as the inverter counts
-  double zero = 0.0;          ///< revolutions of the shaft since the start, where its count is 0
+  /// Hz, in the sense of its joint, where its actual value is that of the shaft, not that of the field.
+  std::optional<double> shaft_along;
+
+  double actual() const noexcept { return shaft_along.value_or(along); }
+  double position = 0.0;  ///< rad of the joint, as the inverter counts
+  double zero = 0.0;      ///< revolutions of the shaft since the start, where its count is 0
 
   bool turnsByBus() const noexcept { return state == sim::InverterState::kOperationEnabled && bus_control; }
 };
@@ -63,6 +69,9 @@ struct AxisWish {
 struct SetpointRamp {
   double slowest = kAtOnce;
   double fastest = kAtOnce;
+  /// Where its slowest says nothing, the longest way from one command to another, or to zero. The setpoint is between the
+  /// two meanwhile.
+  Duration longest{};
 
   static constexpr double kAtOnce = 1e6;
 };
@@ -87,11 +96,13 @@ struct Moment {
   std::vector<double> wanted;  ///< Hz, of each drive: the newest command that is not too old, 0 without one
   std::vector<bool> renewed;   ///< of each drive: that command was given for this cycle
   std::vector<SetpointRamp> setpoint_ramps;  ///< of each drive
-  /// The longest way of a base from one command to another, or to zero, where its acceleration is limited.
-  Duration base_ramp{};
+  /// Hz, of each drive, where not empty: between which setpoints the one that is wanted may be, for a base whose axes
+  /// go from one command to another each in its own time.
+  std::vector<Span> between;
   std::vector<AxisWish> axes;  ///< of each drive
   std::vector<bool> cut;       ///< of each drive: the exchange with it is interrupted by what happens
   Duration reaction{};         ///< how long a stop may take to reach the inverters, as things are
+  Duration noticed_within{};   ///< the same of one that begins with what an inverter does by itself
   Duration heard_within{};     ///< how old the setpoint of a drive that turns may be, as things are
   Duration told_within{};      ///< how old what the driver tells of a drive that answers may be, as things are
   /// One that stands at the address of a drive, and of which nobody knows, is "operation enabled" by the bus.
@@ -109,6 +120,10 @@ struct Moment {
   bool odometry_reset = false;      ///< asked for, and answered in this cycle or later
   double full_wheel_speed = 7.854;  ///< rad/s
   bool reads_scale = false;         ///< P105 of each set is read, not typed: no speed can be told before
+
+  Span wantedOf(std::size_t drive) const {
+    return between.empty() ? Span{wanted[drive], wanted[drive]} : between[drive];
+  }
 };
 
 }  // namespace nord_driver::test

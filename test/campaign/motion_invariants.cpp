@@ -29,9 +29,13 @@ std::optional<std::string> TurnsOnlyAsCommanded::look(const Moment& moment) {
       const DriveTruth& drive = moment.drives[i];
       Track& track = tracks_[i];
       const double speed = std::fabs(drive.frequency);
-      const double wanted = group.asked ? std::fabs(moment.wanted[i]) : 0.0;
-      track.told = std::max(wanted, track.told - moment.setpoint_ramps[i].slowest * dt);
-      track.bound.look(moment, cut, track.told, drive.ramp, dt, group.is_base ? moment.base_ramp : Duration{});
+      const SetpointRamp& ramp = moment.setpoint_ramps[i];
+      const Span goal = moment.wantedOf(i);
+      double wanted = group.asked ? std::max(-goal.least, goal.most) : 0.0;
+      // A single drive follows the sign; a base rests as a whole (doc/safety.md, "P104 above 0").
+      if (wanted > 0.0 && !group.is_base) wanted = std::max(wanted, drive.slowest);
+      track.told = std::max(wanted, track.told - ramp.slowest * dt);
+      track.bound.look(moment, cut, track.told, drive.ramp, dt, ramp.longest);
       // Terminals turn it as they like, and their ramp follows them down; until some time after the look before they did.
       const bool by_terminals = turnsByTerminals(drive);  // that is no stop of ours
       if (by_terminals || track.by_terminals) track.bound.raise(speed);
@@ -64,9 +68,46 @@ std::optional<std::string> TurnsOnlyAsCommanded::look(const Moment& moment) {
   return std::nullopt;
 }
 
+std::optional<std::string> TurnsTheCommandedWay::look(const Moment& moment) {
+  tracks_.resize(moment.drives.size());
+  const double dt = last_ ? toSeconds(moment.now - *last_) : 0.0;
+  last_ = moment.now;
+  for (const GroupWish& group : moment.groups) {
+    if (group.is_axis) continue;
+    const bool cut =
+        std::any_of(group.members.begin(), group.members.end(), [&](DriveIndex i) { return moment.cut[i]; });
+    for (const DriveIndex i : group.members) {
+      const DriveTruth& drive = moment.drives[i];
+      const SetpointRamp& ramp = moment.setpoint_ramps[i];
+      const Span goal = group.asked ? moment.wantedOf(i) : Span{};
+      Track& track = tracks_[i];
+      const bool by_terminals = turnsByTerminals(drive);
+      const bool somebody_elses = by_terminals || track.by_terminals || (i == 0 && moment.stand_in_believed);
+      track.by_terminals = by_terminals;
+      for (const std::size_t way : {0u, 1u}) {
+        const double sense = way == 0 ? 1.0 : -1.0;
+        double wanted = std::max(way == 0 ? goal.most : -goal.least, 0.0);
+        if (wanted > 0.0 && !group.is_base) wanted = std::max(wanted, drive.slowest);
+        track.told[way] = std::max(wanted, track.told[way] - ramp.slowest * dt);
+        SpeedBound& bound = track.bounds[way];
+        bound.look(moment, cut, track.told[way], drive.ramp, dt, ramp.longest);
+        const double speed = sense * drive.along;
+        if (somebody_elses) bound.raise(speed);
+        if (speed <= bound.value() + kRounding) continue;
+        std::ostringstream out;
+        out << "drive " << i << " turns its joint " << (way == 0 ? "forward" : "backward") << " at " << speed
+            << " Hz, no more than " << bound.value() << " Hz is commanded that way";
+        return out.str();
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<std::string> NothingEnabledUnasked::look(const Moment& moment) {
   enabled_.resize(moment.drives.size());
   asked_.resize(moment.drives.size(), Instant{});
+  unasked_.resize(moment.drives.size());
   for (const GroupWish& group : moment.groups) {
     for (const DriveIndex i : group.members) {
       if (group.asked && !group.interrupted) asked_[i] = moment.now;
@@ -75,7 +116,10 @@ std::optional<std::string> NothingEnabledUnasked::look(const Moment& moment) {
       const bool before = enabled_[i];
       enabled_[i] = enabled;
       const bool by_bus = enabled && moment.drives[i].bus_control;
-      if (!by_bus || before || moment.now - asked_[i] <= moment.reaction) continue;
+      if (!enabled || asked_[i] == moment.now) unasked_[i] = false;
+      if (by_bus && !before && asked_[i] != moment.now) unasked_[i] = true;
+      // By a word that was on its way: the next one takes it back.
+      if (!by_bus || !unasked_[i] || moment.now - asked_[i] <= moment.reaction) continue;
       return "drive " + std::to_string(i) + " is \"operation enabled\", and nobody has asked for it";
     }
   }
@@ -100,7 +144,7 @@ std::optional<std::string> NeverOneWheelAlone::look(const Moment& moment) {
       continue;
     }
     if (!since_[g]) since_[g] = moment.now;
-    if (moment.now - *since_[g] <= moment.reaction) continue;
+    if (moment.now - *since_[g] <= moment.noticed_within) continue;
     std::ostringstream out;
     out << "drive " << *moving << " is told to turn for " << toSeconds(moment.now - *since_[g])
         << " s while another wheel of its base is not enabled";

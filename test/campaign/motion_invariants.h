@@ -1,6 +1,7 @@
 // The invariants of motion, judged on the true speeds.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,26 @@ class TurnsOnlyAsCommanded final : public Invariant {
   Stop worst_;
 };
 
+/// The same of each direction: nobody turns the way that was not wanted within that time.
+class TurnsTheCommandedWay final : public Invariant {
+ public:
+  const char* name() const override { return "TurnsTheCommandedWay"; }
+  const char* sentence() const override {
+    return "P104 above 0: no wheel turns against the commanded motion (doc/safety.md)";
+  }
+  std::optional<std::string> look(const Moment& moment) override;
+
+ private:
+  struct Track {
+    std::array<SpeedBound, 2> bounds;  // forward, backward
+    std::array<double, 2> told{};      // Hz, as `TurnsOnlyAsCommanded`
+    bool by_terminals = false;
+  };
+
+  std::vector<Track> tracks_;
+  std::optional<Instant> last_;
+};
+
 /// An inverter becomes "operation enabled" by the bus only after somebody has asked for it.
 class NothingEnabledUnasked final : public Invariant {
  public:
@@ -55,6 +76,7 @@ class NothingEnabledUnasked final : public Invariant {
 
  private:
   std::vector<bool> enabled_;
+  std::vector<bool> unasked_;   // it became so while nobody asked for it
   std::vector<Instant> asked_;  // when each drive was asked for last
 };
 

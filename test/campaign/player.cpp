@@ -16,14 +16,20 @@ constexpr Duration kLossShows = milliseconds{600};
 constexpr Duration kCalm = milliseconds{1000};
 // From half the full speed of a wheel to the same backward, along or around (wheels.h).
 constexpr double kFullWay = kWheelRadius * Player::kFullSpeed;  // m/s
-const Duration kLongestBaseRamp = std::max(nord_driver::seconds(kFullWay / kLinearLimit),
-                                           nord_driver::seconds(2.0 * kFullWay / kSeparation / kAngularLimit));
+const double kLongestBaseRamp = std::max(kFullWay / kLinearLimit, 2.0 * kFullWay / kSeparation / kAngularLimit);
+constexpr double kChangesOfAcceleration = 3.0 * kTimeToLimit;  // s: to none, to its limit, and to none again
+// From 90 % to the same backward.
+constexpr double kLongestJointRamp = 1.8 * Player::kFullSpeed / kJointLimit;
 
-// A wheel of a base has no slowest one: along and around may make up for each other.
-SetpointRamp setpointRamp(bool wheel) {
+// A wheel of a base has no slowest one: along and around may make up for each other. Nor has what limits its jerk, which
+// lets go of one acceleration and takes up another one.
+SetpointRamp setpointRamp(const Layout& layout, bool wheel) {
   const double of_wheel = (kLinearLimit + kAngularLimit * kSeparation / 2.0) / kWheelRadius;
   const double fastest = Player::kHertzPerSpeed * (wheel ? of_wheel : kJointLimit);
-  return {wheel ? SetpointRamp::kAtOnce : fastest, fastest};
+  if (!wheel && !layout.limitsJerk()) return {fastest, fastest, {}};
+  const double longest = wheel ? kLongestBaseRamp : kLongestJointRamp;
+  return {SetpointRamp::kAtOnce, fastest,
+          nord_driver::seconds(longest + (layout.limitsJerk() ? kChangesOfAcceleration : 0.0))};
 }
 
 }  // namespace
@@ -56,10 +62,10 @@ Player::Player(const Scenario& scenario, const CampaignBus& bus, const Transport
   moment_.setpoint_ramps.resize(drives);
   if (scenario.layout.limitsAcceleration()) {
     for (DriveIndex i = 0; i < scenario.layout.firstAxis(); ++i) {
-      moment_.setpoint_ramps[i] = setpointRamp(i < scenario.layout.wheels);
+      moment_.setpoint_ramps[i] = setpointRamp(scenario.layout, i < scenario.layout.wheels);
     }
-    moment_.base_ramp = kLongestBaseRamp;
   }
+  if (scenario.layout.limitsJerk() && scenario.layout.wheels != 0) moment_.between.resize(drives);
   if (scenario.layout.wheels != 0) {
     GroupWish base;
     base.is_base = true;
@@ -82,10 +88,18 @@ std::unique_ptr<CampaignRig> Player::makeRig(const TransportWrap& wrap) {
   });
 }
 
+void Player::presetSlowest(sim::DriveUnit& unit) {
+  for (unsigned set = 0; set < 4; ++set) unit.parameters().preset(104, set, 0, kSlowest);
+}
+
 Outcome Player::play() {
   rig_->robot().step();  // the bus is made with the first cycle
   start_ = now();
   rig_->setUp();
+  if (scenario_.layout.hasSlowest() && rig_->readsParameters()) {
+    for (DriveIndex i = 0; i < scenario_.layout.firstAxis(); ++i) presetSlowest(rig_->unit(i));
+    if (rig_->twin() != nullptr && scenario_.layout.firstAxis() != 0) presetSlowest(*rig_->twin());
+  }
   for (DriveIndex i = 0; i < moment_.drives.size(); ++i) {
     // Each drive and set has a value of its own: an answer to somebody else's question shows.
     for (unsigned set = 0; set < 4; ++set) {

@@ -126,6 +126,8 @@ class Player {
   bool ask(cycle::RequestKind kind, const char* expectation);
   void judgeAxes(Instant until);
 
+  static void presetSlowest(sim::DriveUnit& unit);
+  void seeWanted();
   /// The bus, with its transport behind one that the driver may begin anew with.
   std::unique_ptr<CampaignRig> makeRig(const TransportWrap& wrap);
 
@@ -163,6 +165,7 @@ class Player {
   /// A stop that takes another way than setpoint_zero ends disabled, and begins when a command that was followed grew old.
   bool hasRunOut(const GroupWish& group);
   Command base_command_;
+  RecentSpan linear_, angular_;  // commanded
   std::vector<Command> drive_commands_;
   Duration queue_turn_{};  // of an interface that takes a frame now and then
   Instant queue_slow_until_{};

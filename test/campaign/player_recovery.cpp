@@ -112,7 +112,9 @@ void Player::judgeRecovery() {
   if (!ask(RequestKind::kAcknowledge, "faults cannot be acknowledged")) return;
   for (int i = 0; i < kWordsPass && held; ++i) tick();
   if (!ask(RequestKind::kEnable, "it cannot be enabled")) return;
-  base_command_.until = now() + milliseconds{300};
+  // Up to a slowest speed, along the limits of a base.
+  const bool bounded = scenario_.layout.bounds() != 0;
+  base_command_.until = now() + milliseconds{bounded ? 1500 : 300};
   base_command_.linear = 0.5 * kFullSpeed * kWheelRadius;
   base_command_.angular = 0.0;
   for (Command& command : drive_commands_) {
@@ -123,9 +125,15 @@ void Player::judgeRecovery() {
     const double from = std::clamp(moment_.drives[i].position, -kAxisLimit, kAxisLimit);
     move(i, {false, from > 0.0 ? from - kNextTarget : from + kNextTarget});
   }
-  while (goesOn() && now() < base_command_.until) tick();
-  for (DriveIndex i = 0; i < moment_.drives.size() && goesOn(); ++i) {
-    if (std::fabs(moment_.drives[i].frequency) > 1.0) continue;
+  std::vector<bool> turned(moment_.drives.size());
+  while (goesOn() && now() < base_command_.until) {
+    tick();
+    for (DriveIndex i = 0; i < turned.size(); ++i) {
+      if (std::fabs(moment_.drives[i].frequency) > 1.0) turned[i] = true;
+    }
+  }
+  for (DriveIndex i = 0; i < turned.size() && goesOn(); ++i) {
+    if (turned[i]) continue;
     fail("BackInService", "back in service", "drive " + std::to_string(i) + " does not turn");
   }
   judgeAxes(now() + seconds{10});

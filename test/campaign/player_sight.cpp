@@ -65,10 +65,14 @@ void Player::seeTruth() {
     truth.zero = shaft - unit.position();
     const double rise = unit.parameters().scaled(102, inverter.parameterSet());
     truth.full = unit.parameters().scaled(105, inverter.parameterSet());
+    truth.slowest = unit.parameters().scaled(104, inverter.parameterSet());
     truth.ramp = ramp > 0.0 ? truth.full / ramp : 1e6;
     truth.rise = rise > 0.0 ? truth.full / rise : 1e6;
     const double sense = unit.config().inverted ? -1.0 : 1.0;
     truth.along = sense * truth.frequency;
+    // Without its mains it has none to tell.
+    if (scenario_.layout.otherProfile() && rig_->tellsShaft())
+      truth.shaft_along = inverter.powered() ? sense * truth.rotor : 0.0;
     truth.told = sense * truth.full * truth.setpoint / sim::kFullScale;
   }
   if (const sim::DriveUnit* const twin = rig_->twin()) {
@@ -84,16 +88,8 @@ void Player::seeTruth() {
     const bool silent = moment_.driver_ran && moment_.snapshot != nullptr && !moment_.snapshot->drives[0].online;
     moment_.stand_in_believed = (moment_.stand_in_believed && !silent) || (twin->plugged() && !told_apart);
   }
-  for (DriveIndex i = 0; i < moment_.drives.size(); ++i) {
-    const bool wheel = i < scenario_.layout.wheels;
-    const Command& command = wheel ? base_command_ : drive_commands_[i];
-    const double side = i % 2 == 0 ? -1.0 : 1.0;
-    const double speed =
-        wheel ? (command.linear + side * command.angular * kSeparation / 2.0) / kWheelRadius : command.velocity;
-    moment_.wanted[i] = isFresh(command) ? speed * kHertzPerSpeed : 0.0;
-    moment_.renewed[i] = command.ever && moment_.driver_ran && command.given == moment_.began;
-    moment_.cut[i] = false;
-  }
+  seeWanted();
+  moment_.cut.assign(moment_.cut.size(), false);
   for (DriveIndex i = scenario_.layout.firstAxis(); i < moment_.axes.size(); ++i) {
     const auto runs = [&](const Call& call) {
       return !call.answered && call.request.kind == RequestKind::kHome && call.request.drive == i;
@@ -106,6 +102,37 @@ void Player::seeTruth() {
       const bool cut = active.act->cuts == Cuts::kAll || (active.act->cuts == Cuts::kStation && station) ||
                        (active.act->cuts == Cuts::kDrive && active.event.drive == i);
       if (cut) moment_.cut[i] = true;
+    }
+  }
+}
+
+void Player::seeWanted() {
+  const auto of_wheel = [](DriveIndex i, double linear, double angular) {
+    const double side = i % 2 == 0 ? -1.0 : 1.0;
+    return (linear + side * angular * kSeparation / 2.0) / kWheelRadius * kHertzPerSpeed;
+  };
+  for (DriveIndex i = 0; i < moment_.drives.size(); ++i) {
+    const bool wheel = i < scenario_.layout.wheels;
+    const Command& command = wheel ? base_command_ : drive_commands_[i];
+    const double speed = wheel ? of_wheel(i, command.linear, command.angular) : command.velocity * kHertzPerSpeed;
+    moment_.wanted[i] = isFresh(command) && (speed > 0.0 || rig_->reverses()) ? speed : 0.0;
+    moment_.renewed[i] = command.ever && moment_.driver_ran && command.given == moment_.began;
+  }
+  if (moment_.between.empty()) return;
+  const double linear = isFresh(base_command_) ? base_command_.linear : 0.0;
+  const double angular = isFresh(base_command_) ? base_command_.angular : 0.0;
+  linear_.add(now(), {linear, linear});
+  angular_.add(now(), {angular, angular});
+  const Instant from = now() - moment_.setpoint_ramps.front().longest;
+  const Span along = linear_.since(from), around = angular_.since(from);
+  for (DriveIndex i = 0; i < moment_.drives.size(); ++i) {
+    moment_.between[i] = {moment_.wanted[i], moment_.wanted[i]};
+    if (i >= scenario_.layout.wheels) continue;
+    for (const double v : {along.least, along.most}) {
+      for (const double w : {around.least, around.most}) {
+        moment_.between[i].least = std::min(moment_.between[i].least, of_wheel(i, v, w));
+        moment_.between[i].most = std::max(moment_.between[i].most, of_wheel(i, v, w));
+      }
     }
   }
 }
@@ -176,7 +203,10 @@ void Player::seeStops() {
 
 void Player::seeInterruptions() {
   for (GroupWish& group : moment_.groups) {
-    if (!group.confirmed || asksToEnable(group)) continue;
+    // Who is held up sees it when it runs again, and a word from before may be on its way until then.
+    if (!moment_.driver_ran || !group.confirmed || asksToEnable(group)) continue;
+    // It rests by OFF1 between two commands.
+    if (scenario_.layout.hasSlowest() && !group.is_axis) continue;
     const auto turns = [this](DriveIndex i) { return moment_.drives[i].turnsByBus(); };
     if (!std::all_of(group.members.begin(), group.members.end(), turns)) group.interrupted = true;
   }
@@ -234,6 +264,7 @@ void Player::look(Instant began, bool driver_ran) {
   moment_.at = sinceStart();
   moment_.driver_ran = driver_ran;
   moment_.reaction = reaction();
+  moment_.noticed_within = moment_.reaction + rig_->toldLate();
   moment_.heard_within = std::max(moment_.reaction, slowestQueue());
   moment_.told_within = std::max(moment_.reaction, byWords() + rig_->silence());
   moment_.odometry_reset = false;

@@ -31,6 +31,8 @@ class ProfibusRig final : public CampaignRig {
   }
   const std::vector<Act>& acts() const override { return profibusCampaign().acts(); }
 
+  /// It has no other profile.
+  bool tellsShaft() const override { return false; }
   /// Each answer brings a status word.
   Duration silence() const override { return Duration::zero(); }
   /// The watchdog of the slave, `bus/watchdog`.
@@ -126,6 +128,8 @@ std::unique_ptr<CampaignRig> makeProfibus(const Layout& layout, const TransportW
   options.wheels_a_side = layout.wheels == 4 ? 2 : 1;
   options.one_module = layout.one_module;
   options.singles = layout.singles + layout.axes;
+  for (const char* wheel : {"left", "right", "rear_left", "rear_right"})
+    options.of_drive[wheel] = wheelSettings(layout);
   for (DriveIndex i = layout.wheels; i < layout.firstAxis(); ++i) {
     options.of_drive["single" + std::to_string(i - layout.wheels)] = singleSettings(layout);
   }

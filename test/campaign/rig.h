@@ -40,10 +40,18 @@ class CampaignRig {
   virtual bool readsParameters() const { return true; }
   /// And it may be any, and in each parameter set another one: it is not typed.
   virtual bool readsScaling() const { return true; }
+  /// In its other profile an actual value is the speed of the shaft.
+  virtual bool tellsShaft() const { return true; }
+  /// Its words say whether the terminals have control.
+  virtual bool tellsLocalControl() const { return true; }
+  /// Its drives can turn backward; where not, that is a command to rest.
+  virtual bool reverses() const { return true; }
   /// Stands at the address of a drive, and nobody knows of it; null: there is none.
   virtual sim::DriveUnit* twin() { return nullptr; }
   /// How old the last status word may be before the bus takes it for missing; drive_timeout counts from there.
   virtual Duration silence() const = 0;
+  /// How much later than a cycle a change of its state is told.
+  virtual Duration toldLate() const { return Duration::zero(); }
   /// The longest time from the last word of a master to the trip of the inverter.
   virtual Duration driveSideTimeout() const = 0;
   /// From the driver's decision to the inverter that has its word, beyond the cycle it is sent in.

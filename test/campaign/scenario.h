@@ -18,7 +18,7 @@ struct Layout {
   unsigned singles = 0;     ///< 1 to 8 drives in all
   unsigned axes = 0;        ///< `mode: position`; the first of them can be asked for a reference run
   bool one_module = false;  ///< all of them behind one bus module (up to four)
-  unsigned variant = 0;     ///< 0 to 63: how it is configured
+  unsigned variant = 0;     ///< 0 to 511: how it is configured
 
   /// 0 to 3: which of its ways to exchange process data a bus with several takes.
   unsigned exchange() const noexcept { return variant % 4; }
@@ -26,7 +26,15 @@ struct Layout {
   unsigned ways() const noexcept { return variant / 4 % 4; }
   /// 0 to 3: how often it cycles, and whether it limits acceleration; 0: as nobody has chosen it.
   unsigned pace() const noexcept { return variant / 16 % 4; }
-  bool limitsAcceleration() const noexcept { return pace() == 3; }
+  /// 0 to 3: what else bounds its speeds; 0: nothing.
+  unsigned bounds() const noexcept { return variant / 64 % 4; }
+  bool limitsJerk() const noexcept { return bounds() % 2 == 1; }
+  /// P104 of drives that are told speeds is above 0, and accepted.
+  bool hasSlowest() const noexcept { return bounds() / 2 == 1; }
+  /// Its words are those of the other profile of its bus, where that has one: CiA 402, the AC drive profile, DRIVECOM.
+  /// They know no positions, and one drive for each module.
+  bool otherProfile() const noexcept { return variant / 256 % 2 == 1 && axes == 0 && !one_module; }
+  bool limitsAcceleration() const noexcept { return pace() == 3 || limitsJerk(); }
   /// Hz; more than two drives at 200 Hz are too much for their buses.
   double cycleRate() const noexcept { return pace() == 1 ? 50.0 : pace() != 2 ? 100.0 : drives() <= 2 ? 200.0 : 80.0; }
   /// What takes 1 s at 100 Hz takes that long where each step waits for a cycle.

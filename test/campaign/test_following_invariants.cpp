@@ -63,7 +63,7 @@ TEST_F(FollowingInvariants, AWheelThatTurnsTheWrongWayDoesNotFollow) {
 
 // The setpoint goes 10 Hz a second, along its own ramp: 1 s later it is where a ramp of 25 Hz/s is after 0.4 s.
 TEST_F(FollowingInvariants, AWheelThatIsToldARampFollowsThat) {
-  moment_.setpoint_ramps.assign(2, {10.0, 10.0});
+  moment_.setpoint_ramps.assign(2, {10.0, 10.0, {}});
   FollowsItsCommand invariant;
   EXPECT_EQ("", cycle(invariant));
   want(20.0);
@@ -82,7 +82,7 @@ TEST_F(FollowingInvariants, AWheelThatIsToldARampFollowsThat) {
 
 // A driver that was held up on its way down, and is told to go up again, goes on from where it was.
 TEST_F(FollowingInvariants, ARampIsNotCaughtUpWithBehindAStall) {
-  moment_.setpoint_ramps.assign(2, {10.0, 10.0});
+  moment_.setpoint_ramps.assign(2, {10.0, 10.0, {}});
   FollowsItsCommand invariant;
   const auto turn = [&](double hertz) {
     for (DriveTruth& drive : moment_.drives) drive.along = drive.told = hertz;
@@ -107,8 +107,7 @@ TEST_F(FollowingInvariants, ARampIsNotCaughtUpWithBehindAStall) {
 
 // On its way from one command to the other a wheel of a base may be anywhere between the two for as long as that takes.
 TEST_F(FollowingInvariants, AWheelOfABaseThatLimitsItsAccelerationHasItsTime) {
-  moment_.setpoint_ramps.assign(2, {SetpointRamp::kAtOnce, 30.0});
-  moment_.base_ramp = seconds{2};
+  moment_.setpoint_ramps.assign(2, {SetpointRamp::kAtOnce, 30.0, seconds{2}});
   FollowsItsCommand invariant;
   EXPECT_EQ("", cycle(invariant));
   want(20.0);
@@ -118,7 +117,7 @@ TEST_F(FollowingInvariants, AWheelOfABaseThatLimitsItsAccelerationHasItsTime) {
 }
 
 TEST_F(FollowingInvariants, ASetpointStaysWithinItsRamp) {
-  moment_.setpoint_ramps.assign(2, {10.0, 10.0});
+  moment_.setpoint_ramps.assign(2, {10.0, 10.0, {}});
   SetpointWithinRamp invariant;
   const auto tell = [&](double hertz) {
     for (DriveTruth& drive : moment_.drives) drive.told = hertz;
@@ -132,7 +131,7 @@ TEST_F(FollowingInvariants, ASetpointStaysWithinItsRamp) {
 }
 
 TEST_F(FollowingInvariants, WhoIsStoppedIsToldZeroAtOnceAndNothingElse) {
-  moment_.setpoint_ramps.assign(2, {10.0, 10.0});
+  moment_.setpoint_ramps.assign(2, {10.0, 10.0, {}});
   const auto jumps = [&](double hertz, bool enabled) {
     SetpointWithinRamp invariant;
     moment_.snapshot = &snapshot_;
@@ -147,6 +146,22 @@ TEST_F(FollowingInvariants, WhoIsStoppedIsToldZeroAtOnceAndNothingElse) {
   EXPECT_EQ("", jumps(0.0, false));
   EXPECT_NE("", jumps(0.0, true));
   EXPECT_NE("", jumps(1.0, false));
+}
+
+// It rests by OFF1 below its slowest speed: whether it follows cannot be told then, and its setpoint comes and goes at once.
+TEST_F(FollowingInvariants, WhoCannotTurnSlowlyIsToldZeroAtOnce) {
+  moment_.setpoint_ramps.assign(2, {10.0, 10.0, {}});
+  for (DriveTruth& drive : moment_.drives) drive.slowest = 3.0;
+  FollowsItsCommand follows;
+  want(20.0);
+  EXPECT_EQ("", ramp(follows, 0.0, seconds{1}));
+  SetpointWithinRamp within;
+  for (const double hertz : {0.0, 3.5, 0.0, 3.5}) {
+    for (DriveTruth& drive : moment_.drives) drive.told = hertz;
+    EXPECT_EQ("", cycle(within));
+  }
+  for (DriveTruth& drive : moment_.drives) drive.told = 5.5;
+  EXPECT_THAT(cycle(within), HasSubstr("is told 5.5 Hz"));
 }
 
 // From before it was enabled, it is not obeyed; and what is on its way down by its time-outs is no wheel that follows.
@@ -172,6 +187,16 @@ TEST_F(FollowingInvariants, TheVelocityToldIsThatOfTheWheel) {
   moment_.drives[1].along = 10.0;
   for (int i = 0; i < 6; ++i) EXPECT_EQ("", cycle(invariant)) << "it is told a little later";
   EXPECT_THAT(ramp(invariant, 10.0, milliseconds{50}), HasSubstr("joint 1 is told with 0 rad/s"));
+}
+
+TEST_F(FollowingInvariants, TheVelocityToldMayBeThatOfTheShaft) {
+  for (DriveTruth& drive : moment_.drives) drive.shaft_along = 20.0;
+  for (cycle::DriveSnapshot& drive : snapshot_.drives) drive.velocity = 20.0 * kSpeedPerHertz;
+  MotionToldAsItIs of_shaft;
+  EXPECT_EQ("", cycle(of_shaft));
+  moment_.drives[1].shaft_along.reset();
+  MotionToldAsItIs of_field;
+  EXPECT_THAT(cycle(of_field), HasSubstr("joint 1 is told with 3.1416 rad/s"));
 }
 
 TEST_F(FollowingInvariants, TheWayToldIsThatOfTheWheel) {

@@ -107,6 +107,62 @@ TEST_F(Invariants, WhoIsNotReachedStopsByItsTimeOuts) {
   EXPECT_THAT(look(invariant, milliseconds{30}), HasSubstr("is commanded"));
 }
 
+// A slowest speed is that of a single drive which is told to turn; a base rests below it.
+TEST_F(Invariants, WhoCannotTurnSlowlyTurnsAtItsSlowest) {
+  for (DriveTruth& drive : moment_.drives) drive.slowest = 3.0;
+  const auto turns_at = [&](double wanted, double hertz) {
+    TurnsOnlyAsCommanded invariant;
+    want(wanted);
+    turn(hertz, 983);
+    return look(invariant);
+  };
+  EXPECT_THAT(turns_at(1.0, 3.0), HasSubstr("no more than 1 Hz"));
+  moment_.groups[0].is_base = false;
+  EXPECT_EQ("", turns_at(1.0, 3.0));
+  EXPECT_EQ("", turns_at(-1.0, -3.0));
+  EXPECT_THAT(turns_at(0.0, 3.0), HasSubstr("no more than 0 Hz"));
+}
+
+TEST_F(Invariants, NobodyTurnsAgainstTheCommand) {
+  for (const double sense : {1.0, -1.0}) {
+    TurnsTheCommandedWay invariant;
+    const auto turns_at = [&](double hertz) {
+      for (DriveTruth& drive : moment_.drives) drive.along = sense * hertz;
+      return look(invariant);
+    };
+    want(sense * 20.0);
+    EXPECT_EQ("", turns_at(20.0));
+    EXPECT_THAT(turns_at(-0.2),
+                HasSubstr(sense > 0.0 ? "drive 0 turns its joint backward at 0.2 Hz, no more than 0 Hz"
+                                      : "drive 0 turns its joint forward at 0.2 Hz, no more than 0 Hz"));
+    EXPECT_THAT(turns_at(20.2), HasSubstr("at 20.2 Hz, no more than 20 Hz"));
+    for (DriveTruth& drive : moment_.drives) drive.bus_control = false;
+    EXPECT_EQ("", turns_at(-20.0)) << "by its terminals";
+    for (DriveTruth& drive : moment_.drives) drive.bus_control = true;
+    EXPECT_EQ("", turns_at(-20.0)) << "it was before this look";
+    EXPECT_EQ("", turns_at(-19.8)) << "and comes down its ramp";
+    EXPECT_THAT(turns_at(-19.8), HasSubstr("is commanded that way"));
+  }
+}
+
+// The axes of a base with limits of jerk have times of their own: a wheel may be beyond both of its speeds.
+TEST_F(Invariants, AWheelIsWhereItsBaseMayBe) {
+  moment_.between = {{-5.0, 25.0}, {-5.0, 25.0}};
+  want(10.0);
+  const auto turns_at = [&](double hertz) {
+    TurnsOnlyAsCommanded speed;
+    TurnsTheCommandedWay way;
+    turn(hertz, 983);
+    for (DriveTruth& drive : moment_.drives) drive.along = hertz;
+    const std::string wrong = look(speed);
+    return wrong.empty() ? look(way) : wrong;
+  };
+  EXPECT_EQ("", turns_at(25.0));
+  EXPECT_EQ("", turns_at(-5.0));
+  EXPECT_THAT(turns_at(25.2), HasSubstr("no more than 25 Hz"));
+  EXPECT_THAT(turns_at(-5.2), HasSubstr("backward at 5.2 Hz, no more than 5 Hz"));
+}
+
 TEST_F(Invariants, NobodyIsEnabledUnasked) {
   NothingEnabledUnasked invariant;
   EXPECT_EQ("", look(invariant));
@@ -126,6 +182,20 @@ TEST_F(Invariants, NobodyWhoWasInterruptedIsEnabledUnasked) {
   EXPECT_EQ("", look(invariant, seconds{1}));
   moment_.drives[1].state = sim::InverterState::kOperationEnabled;
   EXPECT_THAT(look(invariant), HasSubstr("drive 1 is \"operation enabled\", and nobody has asked"));
+}
+
+// A word on its way may enable it for as long as words take, and no longer.
+TEST_F(Invariants, WhoIsEnabledByAWordFromBeforeIsTakenBack) {
+  NothingEnabledUnasked invariant;
+  moment_.drives[1].state = sim::InverterState::kReadyToSwitchOn;
+  EXPECT_EQ("", look(invariant));
+  moment_.groups[0].asked = false;
+  EXPECT_EQ("", look(invariant, milliseconds{20}));
+  moment_.drives[1].state = sim::InverterState::kOperationEnabled;
+  EXPECT_EQ("", look(invariant, milliseconds{30}));
+  EXPECT_THAT(look(invariant), HasSubstr("drive 1 is \"operation enabled\", and nobody has asked"));
+  moment_.drives[1].state = sim::InverterState::kReadyToSwitchOn;
+  EXPECT_EQ("", look(invariant));
 }
 
 TEST_F(Invariants, ASecondDriveAtAnAddressIsNotEnabled) {

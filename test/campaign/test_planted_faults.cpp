@@ -35,6 +35,8 @@ Scenario driving(const char* bus, const char* layout, const std::string& events)
 }
 
 constexpr const char* kTwoWheels = "wheels=2 singles=0";
+constexpr const char* kOneSingle = "wheels=0 singles=1";
+constexpr unsigned kWithSlowest = 128;  // Layout::variant
 constexpr const char* kOneAxis = "wheels=0 singles=0 axes=1";
 
 /// The position of an axis on every bus here: setpoint 2 has its low word, setpoint 3 its high one; actual values likewise.
@@ -53,6 +55,7 @@ struct PlantedFault {
   const char* events;  ///< what brings it to light, after "enable" at 1500 (DeviceNet 4500)
   Plant (*make)();
   const char* layout = kTwoWheels;
+  unsigned variant = 0;
 };
 
 void PrintTo(const PlantedFault& fault, std::ostream* out) {
@@ -209,6 +212,28 @@ const PlantedFault kFaults[] = {
        return plant;
      },
      kOneAxis},
+    // With P104 above 0 a motor without a setpoint turns.
+    {"ZeroKeepsItEnabled", "TurnsOnlyAsCommanded", "5400+600 drive 0 40 10",
+     [] {
+       const auto ran = std::make_shared<bool>(false);
+       Plant plant;
+       plant.outputs = [ran](Outputs& outputs) {
+         *ran = *ran || runs(outputs[0]);
+         if (*ran && (outputs[0].control_word & kSets) == 0x047E) outputs[0].control_word |= 0x0001;
+       };
+       return plant;
+     },
+     kTwoWheels, kWithSlowest},
+    // And one that has lost its sign turns the other way.
+    {"SignLost", "TurnsTheCommandedWay", "5400+600 turn 0 -40 0",
+     [] {
+       Plant plant;
+       plant.outputs = [](Outputs& outputs) {
+         outputs[0].setpoints[0] = static_cast<std::int16_t>(std::abs(outputs[0].setpoints[0]));
+       };
+       return plant;
+     },
+     kOneSingle, kWithSlowest},
 };
 
 CampaignBus busOf(const char* name) {
@@ -222,8 +247,10 @@ CampaignBus busOf(const char* name) {
 // Something beside it, which the fault does not need. An axis over PROFIBUS would be stopped by it on its way.
 Scenario scenarioOf(const char* bus, const PlantedFault& fault) {
   const std::string beside =
-      fault.layout == kOneAxis ? "; 8800+100 late_answers 0 1 0" : "; 6300+100 late_answers 1 1 0";
-  return driving(bus, fault.layout, "4800+0 enable 0 1 0; " + std::string{fault.events} + beside);
+      fault.layout == kTwoWheels ? "; 6300+100 late_answers 1 1 0" : "; 8800+100 late_answers 0 1 0";
+  Scenario scenario = driving(bus, fault.layout, "4800+0 enable 0 1 0; " + std::string{fault.events} + beside);
+  scenario.layout.variant = fault.variant;
+  return scenario;
 }
 
 class PlantedFaults : public ::testing::TestWithParam<std::tuple<const char*, PlantedFault>> {};

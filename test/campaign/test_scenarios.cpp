@@ -48,21 +48,24 @@ TEST(Scenarios, WhatIsNoneIsNotRead) {
             scenarioFrom("bus=profibus seed=1 wheels=2 singles=0 one_module=0 variant=3 length=100")->layout.variant);
 }
 
-// Each kind of exchange with each way of stops and each pace; a bus that is half as fast is ready later.
+// Each kind of exchange with each way of stops, each pace and each bound of speeds, in both profiles; a bus that is half as fast is ready later.
 TEST(Scenarios, HaveEveryVariant) {
   for (const CampaignBus& bus : campaignBuses()) {
     std::set<unsigned> variants;
     std::set<double> rates;
-    for (std::uint32_t seed = 1; seed <= 64; ++seed) {
+    unsigned of_other_profile = 0;
+    for (std::uint32_t seed = 1; seed <= 512; ++seed) {
       const Scenario scenario = makeScenario(bus, seed);
       const Layout& layout = scenario.layout;
-      variants.insert(layout.exchange() + 4 * layout.ways() + 16 * layout.pace());
+      variants.insert(layout.exchange() + 4 * layout.ways() + 16 * layout.pace() + 64 * layout.bounds());
       rates.insert(layout.cycleRate());
       const unsigned ready_at = layout.axes != 0 ? bus.axes_ready_at : bus.ready_at;
       EXPECT_GT(scenario.length, layout.pace() == 1 ? 2 * ready_at : ready_at);
-      EXPECT_EQ(layout.pace() == 3, layout.limitsAcceleration());
+      of_other_profile += layout.otherProfile() ? 1 : 0;
+      EXPECT_EQ(layout.pace() == 3 || layout.limitsJerk(), layout.limitsAcceleration());
     }
-    EXPECT_EQ(64u, variants.size()) << bus.name;
+    EXPECT_EQ(256u, variants.size()) << bus.name;
+    EXPECT_GT(of_other_profile, 64u) << bus.name;
     EXPECT_EQ((std::set<double>{50.0, 80.0, 100.0, 200.0}), rates) << bus.name;
   }
 }

@@ -16,7 +16,8 @@ class TwoWheelsMoment : public ::testing::Test {
   TwoWheelsMoment() : snapshot_(2) {
     moment_.now = Instant{std::chrono::seconds{1000}};
     moment_.period = std::chrono::milliseconds{10};
-    moment_.reaction = moment_.heard_within = moment_.told_within = std::chrono::milliseconds{50};
+    moment_.reaction = moment_.noticed_within = moment_.heard_within = moment_.told_within =
+        std::chrono::milliseconds{50};
     moment_.drives.resize(2);
     moment_.wanted.resize(2);
     moment_.renewed = {true, true};

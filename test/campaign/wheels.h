@@ -2,6 +2,7 @@
 // how often it cycles, how fast it changes its speed and how it stops.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -37,6 +38,11 @@ inline Values stopSettings(const Layout& layout) {
 /// Where acceleration is limited: m/s^2 and rad/s^2 of a base, rad/s^2 of the joint of a single drive. Together the ones
 /// of a base turn a wheel up faster than the 25 Hz/s of an inverter, each by itself more slowly.
 constexpr double kLinearLimit = 0.3, kAngularLimit = 0.8, kJointLimit = 2.0;
+/// Where jerk is limited: m/s^3, rad/s^3, rad/s^3. From rest it takes that long to the limit of acceleration.
+constexpr double kTimeToLimit = 0.3;  // s
+constexpr double kLinearJerk = kLinearLimit / kTimeToLimit, kAngularJerk = kAngularLimit / kTimeToLimit,
+                 kJointJerk = kJointLimit / kTimeToLimit;
+constexpr std::int32_t kSlowest = 30;  ///< P104, 0.1 Hz
 
 /// Of the node, whatever its wheels are.
 inline Values nodeSettings(const Layout& layout) {
@@ -46,17 +52,29 @@ inline Values nodeSettings(const Layout& layout) {
   node["linear/x/has_acceleration_limits"] = node["angular/z/has_acceleration_limits"] = true;
   node["linear/x/max_acceleration"] = kLinearLimit;
   node["angular/z/max_acceleration"] = kAngularLimit;
+  if (!layout.limitsJerk()) return node;
+  node["linear/x/has_jerk_limits"] = node["angular/z/has_jerk_limits"] = true;
+  node["linear/x/max_jerk"] = kLinearJerk;
+  node["angular/z/max_jerk"] = kAngularJerk;
   return node;
 }
 
-/// Of a drive that is told speeds and belongs to no base.
-inline Values singleSettings(const Layout& layout) {
-  if (!layout.limitsAcceleration()) return {};
-  return {{"max_acceleration", kJointLimit}};
+/// Of a drive that is told speeds.
+inline Values wheelSettings(const Layout& layout) {
+  if (!layout.hasSlowest()) return {};
+  return {{"allow_minimum_frequency", true}};
 }
 
-/// Of the node.
-inline Values wheelSettings(const Layout& layout) {
+/// Of one of them that belongs to no base.
+inline Values singleSettings(const Layout& layout) {
+  Values single = wheelSettings(layout);
+  if (layout.limitsAcceleration()) single["max_acceleration"] = kJointLimit;
+  if (layout.limitsJerk()) single["max_jerk"] = kJointJerk;
+  return single;
+}
+
+/// Of the node, with four wheels as well.
+inline Values baseSettings(const Layout& layout) {
   Values node = nodeSettings(layout);
   if (layout.wheels != 4) return node;
   const auto joint = [](std::size_t i) { return nameOfDrive(i) + "_wheel_joint"; };
@@ -69,7 +87,9 @@ inline Values wheelSettings(const Layout& layout) {
 inline std::vector<Values> driveSettingsOf(const Layout& layout) {
   std::vector<Values> each;
   for (std::size_t i = 0; i < layout.drives(); ++i) {
-    each.push_back(i >= layout.wheels && i < layout.firstAxis() ? singleSettings(layout) : Values{});
+    each.push_back(i < layout.wheels        ? wheelSettings(layout)
+                   : i < layout.firstAxis() ? singleSettings(layout)
+                                            : Values{});
     each.back()["inverted"] = i < layout.wheels && i % 2 == 1;
   }
   return each;
