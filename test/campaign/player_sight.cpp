@@ -70,9 +70,9 @@ void Player::seeTruth() {
     truth.rise = rise > 0.0 ? truth.full / rise : 1e6;
     const double sense = unit.config().inverted ? -1.0 : 1.0;
     truth.along = sense * truth.frequency;
-    // Without its mains it has none to tell.
-    if (scenario_.layout.otherProfile() && rig_->tellsShaft())
-      truth.shaft_along = inverter.powered() ? sense * truth.rotor : 0.0;
+    // Without its mains, or where its module does not reach it, there is none to tell: the basic AC drive profile has 0 then.
+    const bool tells = inverter.powered() && unit.inverterLink();
+    if (scenario_.layout.otherProfile() && rig_->tellsShaft()) truth.shaft_along = tells ? sense * truth.rotor : 0.0;
     truth.told = sense * truth.full * truth.setpoint / sim::kFullScale;
   }
   if (const sim::DriveUnit* const twin = rig_->twin()) {
