@@ -15,7 +15,7 @@
 namespace nord_driver::test {
 namespace {
 
-constexpr unsigned kScenarios = 2000;  // 140 s of one processor; scripts/prove.sh plays 20 000
+constexpr unsigned kScenarios = 2000;  // some 7 minutes of one processor; scripts/prove.sh plays 20 000
 constexpr std::size_t kShown = 3;      // violations of a bus that are shrunk and printed
 
 std::string setting(const char* name) {
