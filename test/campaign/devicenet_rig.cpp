@@ -15,12 +15,7 @@ bool hasReverse(const Layout& layout) {
 
 class DevicenetRig final : public CampaignRig {
  public:
-  DevicenetRig(const DevicenetRobot::Options& options, const Layout& layout)
-      : robot_(options),
-        by_change_(layout.exchange() == 1 || layout.exchange() == 2),
-        cyclic_(layout.exchange() == 2),
-        reverses_(hasReverse(layout)),
-        ac_drive_(layout.otherProfile()) {}
+  DevicenetRig(const DevicenetRobot::Options& options, const Layout& layout) : robot_(options), layout_(layout) {}
 
   DevicenetRobot& robot() override { return robot_; }
   sim::SimulatedDnBus& bus() { return robot_.bus(); }
@@ -42,14 +37,14 @@ class DevicenetRig final : public CampaignRig {
   const std::vector<Act>& acts() const override { return devicenetCampaign().acts(); }
 
   /// Change of state and cyclic data, which we acknowledge (ODVA Vol. 3, 2-3).
-  bool answersAreRepeated() const override { return by_change_; }
-  bool reverses() const override { return reverses_; }
+  bool answersAreRepeated() const override { return byChange(); }
+  bool reverses() const override { return hasReverse(layout_); }
   /// "Ctrl From Net" is NetCtrl, sent back: P509 and P510 are not queried (BU 0280 4.2.3.1).
-  bool tellsLocalControl() const override { return !ac_drive_; }
+  bool tellsLocalControl() const override { return !layout_.otherProfile(); }
   /// A poll is answered in its cycle, what has not changed comes with the rate of the module; two and a half of these.
-  Duration silence() const override { return (by_change_ ? rate() : robot_.config().period()) * 5 / 2; }
+  Duration silence() const override { return (byChange() ? rate() : robot_.config().period()) * 5 / 2; }
   /// With the next of its data, where these are cyclic.
-  Duration toldLate() const override { return cyclic_ ? rate() : Duration::zero(); }
+  Duration toldLate() const override { return isCyclic() ? rate() : Duration::zero(); }
   /// Four times the expected packet rate (ODVA Vol. 3, 2-3.4).
   Duration driveSideTimeout() const override { return 4 * rate(); }
   Duration wireLatency() const override { return std::chrono::milliseconds{10}; }
@@ -57,6 +52,8 @@ class DevicenetRig final : public CampaignRig {
   Duration backWithin() const override { return std::chrono::seconds{6}; }
 
  private:
+  bool isCyclic() const { return layout_.exchange() == 2; }  // ioOf
+  bool byChange() const { return layout_.exchange() == 1 || isCyclic(); }
   /// Two cycles and at least 25 ms, in the steps of 10 ms of the module.
   Duration rate() const {
     constexpr Duration kStep = std::chrono::milliseconds{10}, kLeast = std::chrono::milliseconds{25};
@@ -64,10 +61,7 @@ class DevicenetRig final : public CampaignRig {
   }
 
   DevicenetRobot robot_;
-  bool by_change_;
-  bool cyclic_;
-  bool reverses_;
-  bool ac_drive_;
+  Layout layout_;
 };
 
 constexpr std::uint16_t kProduct = 2;  // of SK TU4-DEV in the simulator

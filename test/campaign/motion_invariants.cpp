@@ -17,31 +17,37 @@ bool turnsByTerminals(const DriveTruth& drive) {
 
 }  // namespace
 
+void CommandedSpeed::look(const Moment& moment, const GroupWish& group, DriveIndex drive, double wanted, double speed,
+                          double dt) {
+  const DriveTruth& truth = moment.drives[drive];
+  const SetpointRamp& ramp = moment.setpoint_ramps[drive];
+  const bool cut = std::any_of(group.members.begin(), group.members.end(), [&](DriveIndex i) { return moment.cut[i]; });
+  if (!group.asked) wanted = 0.0;
+  // A single drive follows the sign; a base rests as a whole (doc/safety.md, "P104 above 0").
+  if (wanted > 0.0 && !group.is_base) wanted = std::max(wanted, truth.slowest);
+  told_ = std::max(wanted, told_ - ramp.slowest * dt);
+  bound_.look(moment, cut, told_, truth.ramp, dt, ramp.longest);
+  // Terminals turn it as they like, and their ramp follows them down; until some time after the look before they did.
+  const bool by_terminals = turnsByTerminals(truth);
+  if (by_terminals || by_terminals_) bound_.raise(speed);
+  // Whose P105 is taken for its own it turns in proportion to that.
+  if (drive == 0 && moment.stand_in_believed) bound_.raise(speed);
+  by_terminals_ = by_terminals;
+}
+
 std::optional<std::string> TurnsOnlyAsCommanded::look(const Moment& moment) {
   tracks_.resize(moment.drives.size());
   const double dt = last_ ? toSeconds(moment.now - *last_) : 0.0;
   last_ = moment.now;
   for (const GroupWish& group : moment.groups) {
     if (group.is_axis) continue;
-    const bool cut =
-        std::any_of(group.members.begin(), group.members.end(), [&](DriveIndex i) { return moment.cut[i]; });
     for (const DriveIndex i : group.members) {
       const DriveTruth& drive = moment.drives[i];
       Track& track = tracks_[i];
       const double speed = std::fabs(drive.frequency);
-      const SetpointRamp& ramp = moment.setpoint_ramps[i];
-      const Span goal = moment.wantedOf(i);
-      double wanted = group.asked ? std::max(-goal.least, goal.most) : 0.0;
-      // A single drive follows the sign; a base rests as a whole (doc/safety.md, "P104 above 0").
-      if (wanted > 0.0 && !group.is_base) wanted = std::max(wanted, drive.slowest);
-      track.told = std::max(wanted, track.told - ramp.slowest * dt);
-      track.bound.look(moment, cut, track.told, drive.ramp, dt, ramp.longest);
-      // Terminals turn it as they like, and their ramp follows them down; until some time after the look before they did.
       const bool by_terminals = turnsByTerminals(drive);  // that is no stop of ours
-      if (by_terminals || track.by_terminals) track.bound.raise(speed);
-      // Whose P105 is taken for its own it turns in proportion to that.
-      if (i == 0 && moment.stand_in_believed) track.bound.raise(speed);
-      track.by_terminals = by_terminals;
+      const Span goal = moment.wantedOf(i);
+      track.bound.look(moment, group, i, std::max(-goal.least, goal.most), speed, dt);
       if (speed > track.bound.value() + kRounding) {
         std::ostringstream out;
         out << "drive " << i << ": " << drive.frequency << " Hz, no more than " << track.bound.value()
@@ -69,33 +75,20 @@ std::optional<std::string> TurnsOnlyAsCommanded::look(const Moment& moment) {
 }
 
 std::optional<std::string> TurnsTheCommandedWay::look(const Moment& moment) {
-  tracks_.resize(moment.drives.size());
+  bounds_.resize(moment.drives.size());
   const double dt = last_ ? toSeconds(moment.now - *last_) : 0.0;
   last_ = moment.now;
   for (const GroupWish& group : moment.groups) {
     if (group.is_axis) continue;
-    const bool cut =
-        std::any_of(group.members.begin(), group.members.end(), [&](DriveIndex i) { return moment.cut[i]; });
     for (const DriveIndex i : group.members) {
-      const DriveTruth& drive = moment.drives[i];
-      const SetpointRamp& ramp = moment.setpoint_ramps[i];
-      const Span goal = group.asked ? moment.wantedOf(i) : Span{};
-      Track& track = tracks_[i];
-      const bool by_terminals = turnsByTerminals(drive);
-      const bool somebody_elses = by_terminals || track.by_terminals || (i == 0 && moment.stand_in_believed);
-      track.by_terminals = by_terminals;
-      for (const std::size_t way : {0u, 1u}) {
-        const double sense = way == 0 ? 1.0 : -1.0;
-        double wanted = std::max(way == 0 ? goal.most : -goal.least, 0.0);
-        if (wanted > 0.0 && !group.is_base) wanted = std::max(wanted, drive.slowest);
-        track.told[way] = std::max(wanted, track.told[way] - ramp.slowest * dt);
-        SpeedBound& bound = track.bounds[way];
-        bound.look(moment, cut, track.told[way], drive.ramp, dt, ramp.longest);
-        const double speed = sense * drive.along;
-        if (somebody_elses) bound.raise(speed);
+      const Span goal = moment.wantedOf(i);
+      for (const bool forward : {true, false}) {
+        const double speed = forward ? moment.drives[i].along : -moment.drives[i].along;
+        CommandedSpeed& bound = bounds_[i][forward ? 0 : 1];
+        bound.look(moment, group, i, std::max(forward ? goal.most : -goal.least, 0.0), speed, dt);
         if (speed <= bound.value() + kRounding) continue;
         std::ostringstream out;
-        out << "drive " << i << " turns its joint " << (way == 0 ? "forward" : "backward") << " at " << speed
+        out << "drive " << i << " turns its joint " << (forward ? "forward" : "backward") << " at " << speed
             << " Hz, no more than " << bound.value() << " Hz is commanded that way";
         return out.str();
       }

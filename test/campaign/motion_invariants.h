@@ -11,6 +11,21 @@
 
 namespace nord_driver::test {
 
+/// How fast a drive that is told speeds may be: what is wanted of it, along the driver's own ramp, and its own down.
+class CommandedSpeed {
+ public:
+  /// After each cycle, `dt` s after the one before. `wanted`: Hz, at least 0; `speed`: Hz, how fast it is.
+  void look(const Moment& moment, const GroupWish& group, DriveIndex drive, double wanted, double speed, double dt);
+
+  double value() const noexcept { return bound_.value(); }            ///< Hz
+  double allowedNow() const noexcept { return bound_.allowedNow(); }  ///< Hz
+
+ private:
+  double told_ = 0.0;  // Hz, at most, by the driver's own ramp
+  SpeedBound bound_;
+  bool by_terminals_ = false;
+};
+
 /// The field of an inverter is never faster than what was wanted within the time a stop needs to reach it, less the
 /// ramp since.
 class TurnsOnlyAsCommanded final : public Invariant {
@@ -32,9 +47,7 @@ class TurnsOnlyAsCommanded final : public Invariant {
 
  private:
   struct Track {
-    double told = 0.0;  // Hz, at most, by the driver's own ramp
-    SpeedBound bound;
-    bool by_terminals = false;
+    CommandedSpeed bound;
     std::optional<Instant> ended;  // when nothing allowed it any more
     double stop_took = 0.0;
     double stop_bound = 0.0;
@@ -55,13 +68,7 @@ class TurnsTheCommandedWay final : public Invariant {
   std::optional<std::string> look(const Moment& moment) override;
 
  private:
-  struct Track {
-    std::array<SpeedBound, 2> bounds;  // forward, backward
-    std::array<double, 2> told{};      // Hz, as `TurnsOnlyAsCommanded`
-    bool by_terminals = false;
-  };
-
-  std::vector<Track> tracks_;
+  std::vector<std::array<CommandedSpeed, 2>> bounds_;  // of each drive: forward, backward
   std::optional<Instant> last_;
 };
 
